@@ -1702,6 +1702,7 @@ static bool slrt_text_start(const sl_runtime *rt, uint32_t start, sl_runtime_vie
 /// What is checked of the map's things when a file is opened: doors, starts, objects, paths,
 /// mirrors.
 
+/// As bits, which no fast-math option changes.
 static bool slrt_is_finite(double value) {
     uint64_t bits;
     memcpy(&bits, &value, sizeof bits);
@@ -2152,14 +2153,18 @@ SL_RUNTIME_API uint32_t sl_runtime_row_count(const sl_runtime *runtime, uint32_t
     return count;
 }
 
+/// Adds a row to bits.
+static void slrt_unpack(const sl_runtime *rows, uint32_t row, unsigned char *bits) {
+    sl_runtime_run run = sl_runtime_row(rows, row);
+    uint32_t i;
+    while (sl_runtime_next(&run))
+        for (i = run.first; i < run.end; i++) bits[i / 8] |= (unsigned char)(1 << i % 8);
+}
+
 SL_RUNTIME_API void sl_runtime_row_bits(const sl_runtime *runtime, uint32_t cell,
                                         unsigned char *bits) {
-    sl_runtime_run run = sl_runtime_row(runtime, cell);
     memset(bits, 0, ((size_t)runtime->cell_count + 7) / 8);
-    while (sl_runtime_next(&run)) {
-        uint32_t i;
-        for (i = run.first; i < run.end; i++) bits[i / 8] |= (unsigned char)(1 << i % 8);
-    }
+    slrt_unpack(runtime, cell, bits);
 }
 
 /// Adds the row of a cell. Returns how many cells are new.
@@ -2249,11 +2254,7 @@ SL_RUNTIME_API void sl_runtime_view_bits(const sl_runtime *runtime, uint32_t vie
     const sl_runtime rows = slrt_view_rows(runtime);
     memset(bits, 0, ((size_t)runtime->cell_count + 7) / 8);
     while (node != SL_RUNTIME_NO_CELL) {
-        sl_runtime_run run = sl_runtime_row(&rows, node);
-        while (sl_runtime_next(&run)) {
-            uint32_t i;
-            for (i = run.first; i < run.end; i++) bits[i / 8] |= (unsigned char)(1 << i % 8);
-        }
+        slrt_unpack(&rows, node, bits);
         node = slrt_u32(runtime->view_parents + (size_t)node * 4);
     }
 }
@@ -2646,17 +2647,23 @@ SL_RUNTIME_API uint32_t sl_runtime_box_cells(const sl_runtime *runtime, double m
 
 // --- Portals on seams, and what walls stop that do not stop all
 
-/// The first entry of a portal among the portals on seams, or where it would be.
-static uint32_t slrt_first_seam(const sl_runtime *rt, uint32_t portal) {
-    uint32_t low = 0, high = rt->seam_portal_count;
+/// The first of items whose first number, by which they ascend, is not below `number`.
+static uint32_t slrt_first_item(const unsigned char *items, uint32_t count, size_t item_bytes,
+                                uint32_t number) {
+    uint32_t low = 0, high = count;
     while (low < high) {
         const uint32_t middle = low + (high - low) / 2;
-        if (slrt_u32(rt->seam_portals + (size_t)middle * 12) < portal)
+        if (slrt_u32(items + middle * item_bytes) < number)
             low = middle + 1;
         else
             high = middle;
     }
     return low;
+}
+
+/// The first entry of a portal among the portals on seams, or where it would be.
+static uint32_t slrt_first_seam(const sl_runtime *rt, uint32_t portal) {
+    return slrt_first_item(rt->seam_portals, rt->seam_portal_count, 12, portal);
 }
 
 /// What a seam stops; 0 for most.
@@ -2666,15 +2673,7 @@ static uint32_t slrt_seam_stops(const sl_runtime *rt, uint32_t seam) {
 
 /// The first passage of a cell, or where it would be.
 static uint32_t slrt_first_passage(const sl_runtime *rt, uint32_t cell) {
-    uint32_t low = 0, high = rt->passage_count;
-    while (low < high) {
-        const uint32_t middle = low + (high - low) / 2;
-        if (slrt_u32(rt->passages + (size_t)middle * SLRT_PASSAGE_BYTES) < cell)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low;
+    return slrt_first_item(rt->passages, rt->passage_count, SLRT_PASSAGE_BYTES, cell);
 }
 
 /// The next passage of a cell that steps take, from a number on; passage_count for none.
@@ -3310,9 +3309,8 @@ static int slrt_meet_sign(const slrt_search *search, const slrt_arm *u, const do
     const double three = s_x * u->y, four = s_y * u->x;
     const double part = axis ? u->y : u->x, away = value - (axis ? search->y : search->x);
     const double sum = part * (one - two) - (three - four) * away;
-    const double bound =
-        4e-15 * (slrt_larger(part, 0) + (part < 0 ? -part : 0)) * (slrt_size(one, two)) +
-        4e-15 * slrt_size(three, four) * (away < 0 ? -away : away) + 1e-150;
+    const double bound = 4e-15 * slrt_larger(part, 0) * slrt_size(one, two) +
+                         4e-15 * slrt_size(three, four) * (away < 0 ? -away : away) + 1e-150;
     if (sum > bound) return 1;
     if (-sum > bound) return -1;
     return slrt_meet_sign_exact(search, u, a, b, axis, value);
@@ -4640,15 +4638,9 @@ static slrt_arm slrt_arm_to(const slrt_polygon *p, const double *point) {
 }
 
 /// If a damaged file has corners far outside its bounds, a point may be no number: then there is no
-/// polygon. As bits, which no fast-math option changes.
-static bool slrt_is_number(double value) {
-    uint64_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    return (bits >> 52 & 0x7ff) != 0x7ff;
-}
-
+/// polygon.
 static void slrt_put(slrt_polygon *p, const double *point) {
-    p->broken = p->broken || !slrt_is_number(point[0]) || !slrt_is_number(point[1]);
+    p->broken = p->broken || !slrt_is_finite(point[0]) || !slrt_is_finite(point[1]);
     if (p->written < p->room) memcpy(p->points + 2 * (size_t)p->written, point, 2 * sizeof *point);
     p->written++;
 }
@@ -5157,10 +5149,6 @@ static slrt_touch slrt_touch_of(slrt_polygon *p, uint32_t cell) {
     return touch;
 }
 
-static uint32_t slrt_cell_behind(const slrt_polygon *p, uint32_t directed) {
-    return slrt_u32(p->s.rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 4);
-}
-
 /// Finds where the way around the eye starts: clockwise as far as portals lead, or once around. A
 /// wall that ends at the eye is seen edge-on, and hides nothing.
 static void slrt_find_fan(slrt_polygon *p) {
@@ -5170,13 +5158,13 @@ static void slrt_find_fan(slrt_polygon *p) {
     p->fan_is_closed = p->inside;
     if (p->inside) return;
     while (touch.behind != SLRT_NONE && !p->broken) {
-        p->fan_first = slrt_cell_behind(p, touch.behind);
+        p->fan_first = slrt_cell_across(p->s.rt, touch.behind);
         p->fan_is_closed = p->fan_first == p->s.eye_cell;
         if (p->fan_is_closed) return;
         touch = slrt_touch_of(p, p->fan_first);
     }
     while (last.before != SLRT_NONE && !p->broken)
-        last = slrt_touch_of(p, slrt_cell_behind(p, last.before));
+        last = slrt_touch_of(p, slrt_cell_across(p->s.rt, last.before));
     memcpy(p->fan_right, touch.behind_end, sizeof p->fan_right);
     memcpy(p->fan_left, last.before_end, sizeof p->fan_left);
     {
@@ -5193,7 +5181,7 @@ static void slrt_see_fan(slrt_polygon *p) {
     while (!p->inside && !p->broken) {
         const uint32_t before = slrt_touch_of(p, cell).before;
         if (before == SLRT_NONE) return;
-        cell = slrt_cell_behind(p, before);
+        cell = slrt_cell_across(p->s.rt, before);
         if (p->fan_is_closed && cell == p->fan_first) return;
         slrt_see_fan_cell(p, cell);
     }

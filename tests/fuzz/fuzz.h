@@ -53,6 +53,7 @@ static inline char *fuzz_round_trip(sl_context *context, const sl_map *map) {
     for (size_t i = 0; i < map->wall_count; i++) marked |= map->walls[i].ground != 0;
     sl_map was = *map, is = back;
     if (marked) was.wall_count = is.wall_count = 0;
+    FUZZ_CHECK(was.seam_count == is.seam_count);
     if (sl_map_partial_walls(map))
         was.seam_count = is.seam_count = 0; // these come by what they stop
     FUZZ_CHECK(map_same(&was, &is));

@@ -106,9 +106,8 @@ static int slrt_meet_sign(const slrt_search *search, const slrt_arm *u, const do
     const double three = s_x * u->y, four = s_y * u->x;
     const double part = axis ? u->y : u->x, away = value - (axis ? search->y : search->x);
     const double sum = part * (one - two) - (three - four) * away;
-    const double bound =
-        4e-15 * (slrt_larger(part, 0) + (part < 0 ? -part : 0)) * (slrt_size(one, two)) +
-        4e-15 * slrt_size(three, four) * (away < 0 ? -away : away) + 1e-150;
+    const double bound = 4e-15 * slrt_larger(part, 0) * slrt_size(one, two) +
+                         4e-15 * slrt_size(three, four) * (away < 0 ? -away : away) + 1e-150;
     if (sum > bound) return 1;
     if (-sum > bound) return -1;
     return slrt_meet_sign_exact(search, u, a, b, axis, value);

@@ -1,6 +1,7 @@
 /// What is checked of the map's things when a file is opened: doors, starts, objects, paths,
 /// mirrors.
 
+/// As bits, which no fast-math option changes.
 static bool slrt_is_finite(double value) {
     uint64_t bits;
     memcpy(&bits, &value, sizeof bits);

@@ -199,10 +199,6 @@ static slrt_touch slrt_touch_of(slrt_polygon *p, uint32_t cell) {
     return touch;
 }
 
-static uint32_t slrt_cell_behind(const slrt_polygon *p, uint32_t directed) {
-    return slrt_u32(p->s.rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 4);
-}
-
 /// Finds where the way around the eye starts: clockwise as far as portals lead, or once around. A
 /// wall that ends at the eye is seen edge-on, and hides nothing.
 static void slrt_find_fan(slrt_polygon *p) {
@@ -212,13 +208,13 @@ static void slrt_find_fan(slrt_polygon *p) {
     p->fan_is_closed = p->inside;
     if (p->inside) return;
     while (touch.behind != SLRT_NONE && !p->broken) {
-        p->fan_first = slrt_cell_behind(p, touch.behind);
+        p->fan_first = slrt_cell_across(p->s.rt, touch.behind);
         p->fan_is_closed = p->fan_first == p->s.eye_cell;
         if (p->fan_is_closed) return;
         touch = slrt_touch_of(p, p->fan_first);
     }
     while (last.before != SLRT_NONE && !p->broken)
-        last = slrt_touch_of(p, slrt_cell_behind(p, last.before));
+        last = slrt_touch_of(p, slrt_cell_across(p->s.rt, last.before));
     memcpy(p->fan_right, touch.behind_end, sizeof p->fan_right);
     memcpy(p->fan_left, last.before_end, sizeof p->fan_left);
     {
@@ -235,7 +231,7 @@ static void slrt_see_fan(slrt_polygon *p) {
     while (!p->inside && !p->broken) {
         const uint32_t before = slrt_touch_of(p, cell).before;
         if (before == SLRT_NONE) return;
-        cell = slrt_cell_behind(p, before);
+        cell = slrt_cell_across(p->s.rt, before);
         if (p->fan_is_closed && cell == p->fan_first) return;
         slrt_see_fan_cell(p, cell);
     }

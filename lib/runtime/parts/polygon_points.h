@@ -5,15 +5,9 @@ static slrt_arm slrt_arm_to(const slrt_polygon *p, const double *point) {
 }
 
 /// If a damaged file has corners far outside its bounds, a point may be no number: then there is no
-/// polygon. As bits, which no fast-math option changes.
-static bool slrt_is_number(double value) {
-    uint64_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    return (bits >> 52 & 0x7ff) != 0x7ff;
-}
-
+/// polygon.
 static void slrt_put(slrt_polygon *p, const double *point) {
-    p->broken = p->broken || !slrt_is_number(point[0]) || !slrt_is_number(point[1]);
+    p->broken = p->broken || !slrt_is_finite(point[0]) || !slrt_is_finite(point[1]);
     if (p->written < p->room) memcpy(p->points + 2 * (size_t)p->written, point, 2 * sizeof *point);
     p->written++;
 }

@@ -115,14 +115,18 @@ SL_RUNTIME_API uint32_t sl_runtime_row_count(const sl_runtime *runtime, uint32_t
     return count;
 }
 
+/// Adds a row to bits.
+static void slrt_unpack(const sl_runtime *rows, uint32_t row, unsigned char *bits) {
+    sl_runtime_run run = sl_runtime_row(rows, row);
+    uint32_t i;
+    while (sl_runtime_next(&run))
+        for (i = run.first; i < run.end; i++) bits[i / 8] |= (unsigned char)(1 << i % 8);
+}
+
 SL_RUNTIME_API void sl_runtime_row_bits(const sl_runtime *runtime, uint32_t cell,
                                         unsigned char *bits) {
-    sl_runtime_run run = sl_runtime_row(runtime, cell);
     memset(bits, 0, ((size_t)runtime->cell_count + 7) / 8);
-    while (sl_runtime_next(&run)) {
-        uint32_t i;
-        for (i = run.first; i < run.end; i++) bits[i / 8] |= (unsigned char)(1 << i % 8);
-    }
+    slrt_unpack(runtime, cell, bits);
 }
 
 /// Adds the row of a cell. Returns how many cells are new.
@@ -212,11 +216,7 @@ SL_RUNTIME_API void sl_runtime_view_bits(const sl_runtime *runtime, uint32_t vie
     const sl_runtime rows = slrt_view_rows(runtime);
     memset(bits, 0, ((size_t)runtime->cell_count + 7) / 8);
     while (node != SL_RUNTIME_NO_CELL) {
-        sl_runtime_run run = sl_runtime_row(&rows, node);
-        while (sl_runtime_next(&run)) {
-            uint32_t i;
-            for (i = run.first; i < run.end; i++) bits[i / 8] |= (unsigned char)(1 << i % 8);
-        }
+        slrt_unpack(&rows, node, bits);
         node = slrt_u32(runtime->view_parents + (size_t)node * 4);
     }
 }

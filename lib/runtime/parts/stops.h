@@ -1,16 +1,22 @@
 /// Portals on seams, and what walls stop that do not stop all.
 
-/// The first entry of a portal among the portals on seams, or where it would be.
-static uint32_t slrt_first_seam(const sl_runtime *rt, uint32_t portal) {
-    uint32_t low = 0, high = rt->seam_portal_count;
+/// The first of items whose first number, by which they ascend, is not below `number`.
+static uint32_t slrt_first_item(const unsigned char *items, uint32_t count, size_t item_bytes,
+                                uint32_t number) {
+    uint32_t low = 0, high = count;
     while (low < high) {
         const uint32_t middle = low + (high - low) / 2;
-        if (slrt_u32(rt->seam_portals + (size_t)middle * 12) < portal)
+        if (slrt_u32(items + middle * item_bytes) < number)
             low = middle + 1;
         else
             high = middle;
     }
     return low;
+}
+
+/// The first entry of a portal among the portals on seams, or where it would be.
+static uint32_t slrt_first_seam(const sl_runtime *rt, uint32_t portal) {
+    return slrt_first_item(rt->seam_portals, rt->seam_portal_count, 12, portal);
 }
 
 /// What a seam stops; 0 for most.
@@ -20,15 +26,7 @@ static uint32_t slrt_seam_stops(const sl_runtime *rt, uint32_t seam) {
 
 /// The first passage of a cell, or where it would be.
 static uint32_t slrt_first_passage(const sl_runtime *rt, uint32_t cell) {
-    uint32_t low = 0, high = rt->passage_count;
-    while (low < high) {
-        const uint32_t middle = low + (high - low) / 2;
-        if (slrt_u32(rt->passages + (size_t)middle * SLRT_PASSAGE_BYTES) < cell)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low;
+    return slrt_first_item(rt->passages, rt->passage_count, SLRT_PASSAGE_BYTES, cell);
 }
 
 /// The next passage of a cell that steps take, from a number on; passage_count for none.

@@ -82,7 +82,6 @@ EXPORT(int, may_mirror, double x, double y, uint32_t to, const unsigned char *sh
     if (!slrt_start_search(&s, &level, &eye, shut, 0, scratch)) return false;
     if (level.mirrors == SL_RUNTIME_MIRRORS_NOT_BAKED || !sl_runtime_has_row(&level, s.eye_cell))
         return true;
-    memset(s.marks, 0, level.cell_count);
     slrt_follow(&s, NULL);
     for (uint32_t i = 0; i < s.own_count; i++)
         if (sl_runtime_can_see_past(&rows, s.path[i], to, shut)) return true;
