@@ -318,11 +318,8 @@ static sl_status check_all(checker *c) {
     return check_seams(c);
 }
 
-sl_status sl_space_check(sl_context *context, const sl_space *space) {
+static sl_status check_tree_space(sl_context *context, const sl_space *space) {
     checker c = {.context = context, .space = space};
-    SL_TRY(check_ranges(&c));
-    if (space->passage_count) SL_TRY(sli_passages_check(context, space));
-    if (space->neighbour) return sli_check_mesh(context, space);
     if (space->loose)
         return sl_fail(context, SL_BAD_INPUT, "a loose space that does not know its sides");
     const size_t places = (size_t)space->node_count + space->cell_count;
@@ -336,4 +333,11 @@ sl_status sl_space_check(sl_context *context, const sl_space *space) {
     sl_free(context, c.led_to);
     sl_free(context, c.directed_found);
     return status;
+}
+
+sl_status sl_space_check(sl_context *context, const sl_space *space) {
+    const checker c = {.context = context, .space = space};
+    SL_TRY(check_ranges(&c));
+    SL_TRY(space->neighbour ? sli_check_mesh(context, space) : check_tree_space(context, space));
+    return sli_passages_check(context, space); // of cells that are sound
 }
