@@ -1,5 +1,5 @@
 /// Questions to baked maps and files: all else is the query's.
-#include "query/query.h"
+#include "sight/query.h"
 
 #include "sightline/bake.h"
 #include "sightline/support.h"

@@ -3,8 +3,8 @@
 /// no tree in memory. EXPORT.md describes them. Numbers have 17 digits, and read back to the same
 /// double.
 #include "bake/export.h"
+#include "bake/view_rows.h"
 #include "base/base.h"
-#include "cell_to_cell/view_rows.h"
 #include "sightline/json.h"
 #include "sightline/support.h"
 #include "space/kd_tree.h"

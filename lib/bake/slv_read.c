@@ -1,10 +1,10 @@
 /// Reading a baked file: nothing in it is believed before it is checked.
 #include "bake/slv.h"
+#include "bake/view_rows.h"
 #include "base/base.h"
 #include "base/bits.h"
 #include "base/size.h"
 #include "cell_to_cell/pvs_rows.h"
-#include "cell_to_cell/view_rows.h"
 #include "effects/mirrors.h"
 #include "map/scan.h"
 #include "space/index.h"

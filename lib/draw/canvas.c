@@ -4,7 +4,7 @@
 /// reaches that, so all paths are cut to the guard: the frame and a margin as wide as the widest
 /// line. Segments are cut after Liang and Barsky (1984), polygons after Sutherland and Hodgman
 /// (1974): corners stream through the four sides of the guard, with no array between them.
-#include "draw/plan.h"
+#include "draw/draw_plan.h"
 
 #include <math.h>
 

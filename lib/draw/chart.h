@@ -3,7 +3,7 @@
 #ifndef SL_DRAW_CHART_H
 #define SL_DRAW_CHART_H
 
-#include "draw/plan.h"
+#include "draw/draw_plan.h"
 
 // --- axes
 

@@ -2,7 +2,7 @@
 #ifndef SL_DRAW_MARKS_H
 #define SL_DRAW_MARKS_H
 
-#include "draw/plan.h"
+#include "draw/draw_plan.h"
 
 #define SLI_FULL_TURN 6.283185307179586 ///< in radians
 

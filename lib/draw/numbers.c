@@ -6,7 +6,7 @@
 /// read as that of a neighbour, and a plan of tiny cells has none. Zooming in brings them.
 ///
 /// Time: cells and portals in the frame, times the numbers that found room.
-#include "draw/plan.h"
+#include "draw/draw_plan.h"
 #include "sightline/support.h"
 
 #include <math.h>

@@ -3,7 +3,7 @@
 #ifndef SL_DRAW_PAGE_H
 #define SL_DRAW_PAGE_H
 
-#include "draw/plan.h"
+#include "draw/draw_plan.h"
 #include "sightline/support.h"
 
 // --- files

@@ -8,8 +8,8 @@
 /// stay as they are. Without that, the polygons `solids` add their sides as walls, also along the
 /// border of the map.
 #include "geometry/orient.h"
-#include "io/document.h"
 #include "io/formats.h"
+#include "io/parts/document.h"
 #include "map/ground.h"
 #include "map/scan.h"
 #include "map/source.h"

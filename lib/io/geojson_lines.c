@@ -5,7 +5,7 @@
 /// follow each other; rings of polygons are their outlines. Points are passed over, and so are
 /// properties, heights, and features without a geometry. Coordinates are taken as they are, in a
 /// plane.
-#include "io/document.h"
+#include "io/parts/document.h"
 #include "sightline/io.h"
 
 #include <string.h>

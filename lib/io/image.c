@@ -3,9 +3,9 @@
 /// where it lies, and from which occupancy a pixel is an obstacle. Walls run along the edges
 /// between solid pixels and others.
 #include "io/formats.h"
-#include "io/limits.h"
-#include "io/names.h"
-#include "io/shapes.h"
+#include "io/parts/limits.h"
+#include "io/parts/names.h"
+#include "io/parts/shapes.h"
 #include "map/grid.h"
 #include "map/scan.h"
 #include "map/source.h"

@@ -1,8 +1,8 @@
 /// The formats of sightline_io, and how a file of each is known by its first bytes.
 #include "sightline/io.h"
 
+#include "io/doom/wad.h"
 #include "io/formats.h"
-#include "io/wad.h"
 #include "map/scan.h"
 
 #include <string.h>

@@ -1,10 +1,10 @@
 /// LDtk projects and separate level files: JSON (https://ldtk.io/json). Of a level's layers those
 /// of type IntGrid give walls: a whole number a cell, 0 for none. Entities give starts and doors.
-#include "io/document.h"
 #include "io/formats.h"
-#include "io/names.h"
-#include "io/shapes.h"
-#include "io/things.h"
+#include "io/parts/document.h"
+#include "io/parts/names.h"
+#include "io/parts/shapes.h"
+#include "io/parts/things.h"
 #include "map/source.h"
 #include "sightline/io.h"
 

@@ -5,8 +5,8 @@
 //                                    of that it shows which DEEPEST reflections show, images
 //                                    rounded
 #include "bench.h"
-#include "eye_to_cell/eye_search.h"
-#include "eye_to_cell/region.h"
+#include "sight/eye_search.h"
+#include "sight/region.h"
 #include "space/outline.h"
 
 #include "sightline/draw.h"

@@ -7,7 +7,7 @@
 // times by both, in turn, and the least counts. Exits with 1 if polygons differ.
 #include "bench.h"
 #include "effects/filtered.h"
-#include "eye_to_cell/region.h"
+#include "sight/region.h"
 #include "space/outline.h"
 
 #include "polygon_same.h"

@@ -7,7 +7,7 @@
 #include "bench.h"
 #include "space/outline.h"
 
-#include "eye_to_cell/region.h"
+#include "sight/region.h"
 #include "sightline/sightline.h"
 #include "sightline/support.h"
 

@@ -5,7 +5,7 @@
 // CSV, a line a figure: machine, map, sight, what, value, unit.
 #include "bench.h"
 
-#include "cell_to_cell/sweep.h"
+#include "cell_to_cell/sweep/sweep.h"
 #include "geometry/orient.h"
 #include "sightline/sightline.h"
 

@@ -1,6 +1,6 @@
 """maps/FORMAT.md says what the readers of map text and of ASCII plans do.
 
-Its table of statements is that of lib/map/text.c. Each example is read and baked. Each message in
+Its table of statements is that of lib/map/map_text.c. Each example is read and baked. Each message in
 its tables of errors is what the program says.
 
 test_map_format.py PROGRAM

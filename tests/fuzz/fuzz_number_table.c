@@ -2,7 +2,7 @@
 // order of their lines, and reads back the same from its own numbers.
 #include "fuzz.h"
 
-#include "../tools/number_table.h"
+#include "../../tools/inputs/number_table.h"
 
 #include <math.h>
 

@@ -3,7 +3,7 @@
 #ifndef SECTORS_H
 #define SECTORS_H
 
-#include "io/wad.h"
+#include "io/doom/wad.h"
 #include "oracle/blockers.h"
 
 typedef struct sector_finder sector_finder;

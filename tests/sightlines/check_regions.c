@@ -8,8 +8,8 @@
 // Prints a line of CSV with its heading: regions compared, the largest difference of their areas as
 // a share of the larger one, and how many differ by more than 1e-9. Exit status: 0 none does, 1
 // some do (the first few are named on stderr), 2 wrong arguments or files.
-#include "eye_to_cell/region.h"
 #include "oracle/blockers.h"
+#include "sight/region.h"
 #include "space/outline.h"
 
 #include "sightline/sightline.h"

@@ -12,7 +12,7 @@
 // or 2 for wrong arguments or files.
 #include "oracle/sectors.h"
 
-#include "io/wad.h"
+#include "io/doom/wad.h"
 #include "sightline/io.h"
 #include "sightline/sightline.h"
 #include "sightline/support.h"

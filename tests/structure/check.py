@@ -1,7 +1,7 @@
 """Checks of the source tree: check.py SUBJECT ROOT.
 
-layers   a folder of lib/ includes only from itself and from folders before it; tools and viewer include
-         public headers alone; private names begin with sli_; and lib/README.md
+layers   a folder of lib/ or tools/ includes only from itself and from folders before it; tools and viewer
+         include public headers of lib/ alone; private names begin with sli_; and lib/README.md
          has a line for each
 table    lib/README.md has a line for each public header, and no other
 sources  lib/CMakeLists.txt names every source of lib/
@@ -27,9 +27,13 @@ import sys
 import tempfile
 
 # The stages, in order. Data goes one way: each knows those before it and nothing of those after it.
-FOLDERS = ["base", "geometry", "json", "map", "generate", "space", "effects", "stab", "cell_to_cell",
-           "from_region", "eye_to_cell", "query", "walk", "view_cells", "bake", "visibility_graph",
-           "axial", "io", "runtime", "draw"]
+FOLDERS = ["base", "geometry", "json", "map", "space", "effects", "stab",
+           "cell_to_cell", "cell_to_cell/search", "cell_to_cell/sweep", "cell_to_cell/explain",
+           "sight", "bake", "analysis/visibility_graph", "analysis/axial",
+           "study/generate", "study/from_region", "study/walk", "study/view_cells",
+           "io", "runtime", "draw"]
+# The folders of the command, in order, too.
+COMMAND_FOLDERS = ["system", "arguments", "inputs", "reports", "studies", "commands"]
 # Used by games with no other part of the library beside it.
 ALONE = {"runtime"}
 # Of that, what the library has in common with it: parts that include nothing.
@@ -41,10 +45,12 @@ HEADERS = {"context": "base", "measures": "base", "support": "base", "version": 
            "dual": "stab", "glpk": "stab", "solvers": "stab",
            "doors": "cell_to_cell", "explain": "cell_to_cell", "pvs": "cell_to_cell",
            "steps": "cell_to_cell",
-           "mirrored": "eye_to_cell", "moving": "eye_to_cell", "overlay": "eye_to_cell",
-           "region": "eye_to_cell", "sees": "eye_to_cell", "view": "eye_to_cell",
-           "vga": "visibility_graph",
-           "explained": "bake"}
+           "mirrored": "sight", "moving": "sight", "overlay": "sight", "query": "sight",
+           "region": "sight", "sees": "sight", "view": "sight",
+           "explained": "bake",
+           "axial": "analysis/axial", "vga": "analysis/visibility_graph",
+           "from_region": "study/from_region", "generate": "study/generate",
+           "view_cells": "study/view_cells", "walk": "study/walk"}
 # For users: it includes the others, and no part of the library includes it.
 ALL_HEADERS = "sightline"
 # Other versions lay out a few things differently.
@@ -83,6 +89,12 @@ def header_folder(name):
     return name if name in FOLDERS else None
 
 
+def folder_of(name):
+    """The folder of FOLDERS that a path of lib lies in, the innermost one; else its first part."""
+    around = [folder for folder in FOLDERS if name.startswith(folder + "/")]
+    return max(around, key=len, default=pathlib.PurePosixPath(name).parts[0])
+
+
 def public_header(name):
     """The name of a public header without its path and ending; None for other includes."""
     path = pathlib.PurePosixPath(name)
@@ -96,7 +108,7 @@ def include_fault(owner, how, name):
         return None
     if public == ALL_HEADERS:
         return f"{name} is for users of the library"
-    used = header_folder(public) if public else pathlib.PurePosixPath(name).parts[0]
+    used = header_folder(public) if public else folder_of(name)
     if used not in FOLDERS:
         return f'"{name}" is in no folder of lib; say folder/file.h or sightline/file.h'
     if owner in ALONE:
@@ -110,17 +122,20 @@ def include_fault(owner, how, name):
 
 def check_layers(root):
     lib = root / "lib"
-    there = sorted(path.parent.name for path in lib.glob("*/*") if path.suffix in {".c", ".h"})
-    there = list(dict.fromkeys(there))
-    for folder in there:
+    there = set()
+    for path in library_sources(root, ["lib"], {".c", ".h"}):
+        name = path.relative_to(lib).as_posix()
+        if name.startswith(("include/", "bindings/")):
+            continue
+        folder = folder_of(name)
+        there.add(folder)
         if folder not in FOLDERS:
-            yield f"lib/{folder}: unknown to check.py: give it its place in FOLDERS"
-    for folder in filter(FOLDERS.__contains__, there):
-        for path in library_sources(lib, [folder], {".c", ".h"}):
-            for line, how, name in includes(path):
-                fault = include_fault(folder, how, name)
-                if fault:
-                    yield f"{path.relative_to(root)}:{line}: {fault}"
+            yield f"lib/{name}: unknown to check.py: give its folder a place in FOLDERS"
+            continue
+        for line, how, used in includes(path):
+            fault = include_fault(folder, how, used)
+            if fault:
+                yield f"{path.relative_to(root)}:{line}: {fault}"
     for path in sorted((lib / "include/sightline").glob("*.h")):
         if path.stem == ALL_HEADERS:
             continue
@@ -137,18 +152,30 @@ def check_layers(root):
     for path in sources(root, ["tools", "viewer"], {".c", ".h"}):
         lines = path.read_text(encoding="utf-8").splitlines()
         for line, how, name in includes(path):
-            folder = pathlib.PurePosixPath(name).parts[0]
-            if how == '"' and folder in FOLDERS and "// private" not in lines[line - 1]:
+            if how == '"' and folder_of(name) in FOLDERS and "// private" not in lines[line - 1]:
                 yield (f"{path.relative_to(root)}:{line}: {name} is private to lib; a lesson that shows "
                        "the library's inside says so behind it: // private: why")
+    yield from check_command_layers(root)
     yield from check_names(root)
     yield from check_map_of_the_house(lib, [name for name in FOLDERS if name in there])
 
 
+def check_command_layers(root):
+    for path in sources(root, ["tools"], {".c", ".h"}):
+        owner = path.parent.name
+        if owner not in COMMAND_FOLDERS:
+            yield f"{path.relative_to(root)}: its folder is none of {', '.join(COMMAND_FOLDERS)}"
+            continue
+        for line, _, name in includes(path):
+            used = pathlib.PurePosixPath(name).parts[0]
+            if used in COMMAND_FOLDERS[COMMAND_FOLDERS.index(owner) + 1:]:
+                yield f"{path.relative_to(root)}:{line}: {owner}/ comes before {used}/ and must not include {name}"
+
+
 def check_names(root):
     """What a private header declares begins with sli_, so that a reader sees what is public."""
-    for path in sorted((root / "lib").glob("*/*.h")):
-        if path.parent.name in ALONE:
+    for path in sorted((root / "lib").rglob("*.h")):
+        if folder_of(path.relative_to(root / "lib").as_posix()) not in set(FOLDERS) - ALONE:
             continue
         text = path.read_text(encoding="utf-8")
         for declared in DECLARATION.finditer(text):
@@ -160,7 +187,7 @@ def check_names(root):
 def check_map_of_the_house(lib, there):
     """lib/README.md has a line for each folder that is there, in the order of the stages."""
     text = (lib / "README.md").read_text(encoding="utf-8")
-    told = re.findall(r"^\| `([a-z_]+)/`", text, re.MULTILINE)
+    told = re.findall(r"^\| `([a-z_/]+)/`", text, re.MULTILINE)
     if told != there:
         yield f"lib/README.md: tells of {told}, but lib/ has {there}"
 

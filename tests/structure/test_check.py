@@ -54,9 +54,21 @@ class CheckTest(unittest.TestCase):
         self.assert_one(self.layers("lib/base/b.h", '# include "map/m.h"\n'), "lib/base/b.h:1")
 
     def test_private_include_of_an_application(self):
-        self.assert_one(self.layers("tools/t.c", '#include "base/a.h"\n'), "tools/t.c:1", "private")
-        self.assertEqual(self.layers("tools/t.c", '#include "base/a.h" // private: a lesson\n'), [])
+        self.assert_one(self.layers("tools/system/t.c", '#include "base/a.h"\n'), "tools/system/t.c:1", "private")
+        self.assertEqual(self.layers("tools/system/t.c", '#include "base/a.h" // private: a lesson\n'), [])
         self.assertEqual(self.layers("viewer/v.c", '#include "sightline/map.h"\n#include "v.h"\n'), [])
+
+    def test_folders_in_folders(self):
+        readme = {"lib/README.md": GOOD["lib/README.md"] + "| `cell_to_cell/search/` | four |\n"}
+        later = {"lib/cell_to_cell/search/s.c": '#include "cell_to_cell/sweep/x.h"\n', **readme}
+        self.assert_one(self.faults(check.check_layers, later), "comes before cell_to_cell/sweep/")
+        earlier = {"lib/cell_to_cell/search/s.c": '#include "cell_to_cell/x.h"\n#include "base/a.h"\n', **readme}
+        self.assertEqual(self.faults(check.check_layers, earlier), [])
+
+    def test_folders_of_the_command(self):
+        self.assert_one(self.layers("tools/inputs/i.c", '#include "reports/r.h"\n'), "before reports/")
+        self.assertEqual(self.layers("tools/reports/r.c", '#include "inputs/i.h"\n'), [])
+        self.assert_one(self.layers("tools/t.c", ""), "none of")
 
     def test_private_name_that_looks_public(self):
         self.assert_one(self.layers("lib/base/b.h", "int sl_get(int i);\n"), "lib/base/b.h:1", "sl_get")

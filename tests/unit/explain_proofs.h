@@ -4,7 +4,7 @@
 
 #include "testing.h"
 
-#include "cell_to_cell/directions.h"
+#include "cell_to_cell/search/directions.h"
 #include "geometry/orient.h"
 
 #include <math.h>

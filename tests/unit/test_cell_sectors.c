@@ -1,7 +1,7 @@
 // Which sectors a cell is in, where the lines about it are in awkward places.
 #include "testing.h"
 
-#include "io/wad.h"
+#include "io/doom/wad.h"
 
 /// The sectors of a cell of four corners.
 static uint32_t find_in(sli_doom_line *lines, size_t count, sl_point corners[4],

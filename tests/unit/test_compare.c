@@ -4,7 +4,7 @@
 #include "cell_to_cell/pvs_rows.h"
 
 // The program has no library of its own: what is tested is the file.
-#include "../../tools/compare_judge.c"
+#include "studies/compare_judge.c"
 
 enum { CELLS = 130 }; // three words of bits, the last one not full
 

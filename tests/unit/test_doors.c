@@ -5,7 +5,7 @@
 #include "effects/filtered.h"
 #include "runtime_maps.h"
 
-#include "cell_to_cell/door_table.h"
+#include "cell_to_cell/search/door_table.h"
 #include "doors_plan.h"
 #include "sightline/support.h"
 #include "space/subdivide.h"

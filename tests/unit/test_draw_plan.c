@@ -3,7 +3,7 @@
 
 #include "test_draw_map.h"
 
-#include "draw/plan.h"
+#include "draw/draw_plan.h"
 #include "map/scan.h"
 
 #include <cairo.h>

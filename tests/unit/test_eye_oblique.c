@@ -1,7 +1,7 @@
 /// What one viewpoint sees among oblique walls, by all that tells of it, beside sightlines that
 /// touch no wall: none may be lost, and the answers go together.
-#include "eye_to_cell/eye_search.h"
-#include "eye_to_cell/region.h"
+#include "sight/eye_search.h"
+#include "sight/region.h"
 #include "space/outline.h"
 #include "space/subdivide.h"
 #include "testing.h"

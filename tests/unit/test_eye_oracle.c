@@ -1,7 +1,7 @@
 // Exact eye-to-cell culling against brute force on random maps, cell by cell: closed and open
 // sight, with visible sets, with stab trees and without either, eyes on all places that are
 // special. SIGHTLINE_SEEDS in the environment: how many maps (60 by default).
-#include "eye_to_cell/eye_search.h"
+#include "sight/eye_search.h"
 #include "space/subdivide.h"
 #include "testing.h"
 

@@ -1,7 +1,7 @@
 // Eye-to-cell culling: each method within the one before, on every map of maps/ and on random ones,
 // for eyes and cones of all kinds; what an eye on a portal, a wall, a corner sees; what is refused.
-#include "eye_to_cell/eye_search.h"
 #include "map_files.h"
+#include "sight/eye_search.h"
 #include "space/subdivide.h"
 
 #include "oracle/random_map.h"

@@ -5,7 +5,7 @@
 #include "testing.h"
 
 #include "geometry/orient.h"
-#include "io/shapes.h"
+#include "io/parts/shapes.h"
 #include "map/grid.h"
 #include "map/scan.h"
 #include "sightline/bake.h"

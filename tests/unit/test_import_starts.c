@@ -4,7 +4,7 @@
 
 #include "import_check.h"
 #include "io/formats.h"
-#include "io/names.h"
+#include "io/parts/names.h"
 #include "map/scan.h"
 #include "sightline/io.h"
 

@@ -4,7 +4,7 @@
 
 #include "import_check.h"
 #include "io/formats.h"
-#include "io/names.h"
+#include "io/parts/names.h"
 #include "sightline/io.h"
 #include "sightline/space.h"
 #include "space/subdivide.h"

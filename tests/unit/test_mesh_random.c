@@ -1,8 +1,8 @@
 /// Meshes of random maps, oblique, degenerate, turned and moved: cells tile the bounds, exact
 /// methods agree, no free sightline is lost, and what is set among walls is as tight as they are.
 #include "effects/filtered.h"
-#include "eye_to_cell/eye_search.h"
-#include "eye_to_cell/region.h"
+#include "sight/eye_search.h"
+#include "sight/region.h"
 #include "space/outline.h"
 #include "space/subdivide.h"
 #include "unit/grid_walls.h"

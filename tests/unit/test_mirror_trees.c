@@ -1,7 +1,7 @@
 /// Stab trees of maps with mirrors: what they hold, that eyes are not misled by them, and their
 /// baked file.
 #include "baked_bytes.h"
-#include "eye_to_cell/eye_search.h"
+#include "sight/eye_search.h"
 #include "slv_file.h"
 #include "space/subdivide.h"
 

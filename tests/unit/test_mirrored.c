@@ -3,9 +3,9 @@
 /// they are not. SIGHTLINE_SEEDS in the environment: how many maps (96 by default).
 #include "cell_to_cell/pvs_rows.h"
 #include "effects/filtered.h"
-#include "eye_to_cell/eye_search.h"
-#include "eye_to_cell/moving.h"
-#include "eye_to_cell/region.h"
+#include "sight/eye_search.h"
+#include "sight/moving.h"
+#include "sight/region.h"
 #include "space/outline.h"
 #include "space/subdivide.h"
 #include "testing.h"
@@ -13,7 +13,7 @@
 #include "oracle/mirrored.h"
 #include "oracle/random_effects.h"
 
-#include "eye_to_cell/region.h"
+#include "sight/region.h"
 
 #include <math.h>
 

@@ -5,10 +5,10 @@
 /// walls, mirrors and one-way glass in any direction. SIGHTLINE_SEEDS in the environment: how many
 /// maps (60 by default).
 #include "effects/filtered.h"
-#include "eye_to_cell/eye_search.h"
-#include "eye_to_cell/moving.h"
-#include "eye_to_cell/region.h"
 #include "mirror_rays.h"
+#include "sight/eye_search.h"
+#include "sight/moving.h"
+#include "sight/region.h"
 #include "space/outline.h"
 #include "space/subdivide.h"
 #include "testing.h"

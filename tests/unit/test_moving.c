@@ -1,9 +1,9 @@
 /// Boxes that move, against brute force on spaces that are subdivided anew with the boxes in them,
 /// on random maps; and by hand where they touch, overlap, hold the eye or have no area.
 /// SIGHTLINE_SEEDS in the environment: how many maps (16 by default).
-#include "eye_to_cell/cone.h"
-#include "eye_to_cell/moving.h"
-#include "eye_to_cell/region.h"
+#include "sight/cone.h"
+#include "sight/moving.h"
+#include "sight/region.h"
 #include "space/subdivide.h"
 #include "testing.h"
 

@@ -6,8 +6,8 @@
 /// is held against brute force in integers. And where walls as they are and walls as bent agree on
 /// what is free or hidden between two points, by rationals, so must the space. SIGHTLINE_SEEDS in
 /// the environment: how many maps (50 by default).
-#include "eye_to_cell/moving.h"
-#include "eye_to_cell/region.h"
+#include "sight/moving.h"
+#include "sight/region.h"
 #include "space/subdivide.h"
 #include "testing.h"
 

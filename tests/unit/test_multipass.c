@@ -2,7 +2,7 @@
 // sectors and their orders themselves; and lines of a sector alone, by each solver that tells them.
 #include "map_files.h"
 
-#include "cell_to_cell/sectors.h"
+#include "cell_to_cell/search/sectors.h"
 #include "oracle/convex_space.h"
 #include "oracle/random_map.h"
 #include "sightline/glpk.h"

@@ -1,10 +1,10 @@
 // What fails once in what compares, measures, draws up and converts, at any allocation.
-#include "eye_to_cell/eye_search.h"
 #include "one_failure.h"
+#include "sight/eye_search.h"
 #include "space/outline.h"
 
-#include "eye_to_cell/region.h"
 #include "map_same.h"
+#include "sight/region.h"
 #include "sightline/axial.h"
 #include "sightline/explain.h"
 #include "sightline/from_region.h"

@@ -2,11 +2,11 @@
 #include "space/outline.h"
 #include "testing.h"
 
-#include "eye_to_cell/region.h"
 #include "geometry/length.h"
 #include "geometry/orient.h"
 #include "oracle/random_map.h"
 #include "oracle/random_oblique.h"
+#include "sight/region.h"
 #include "sightline/overlay.h"
 #include "space/subdivide.h"
 

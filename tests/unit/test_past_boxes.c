@@ -3,9 +3,9 @@
 /// boxes are cut into. Boxes touch walls, each other and the eye's lines; some are huge or tiny.
 #include "box_scene.h"
 
-#include "eye_to_cell/moving.h"
-#include "eye_to_cell/region.h"
 #include "oracle/isovist.h"
+#include "sight/moving.h"
+#include "sight/region.h"
 
 static void assert_near(const scene *s, const char *what, double found, double expected,
                         double reach, const sl_view *view) {

@@ -1,8 +1,8 @@
 /// The search that all methods over portal sequences share, by visitors of this test.
 #include "testing.h"
 
-#include "cell_to_cell/directions.h"
-#include "cell_to_cell/portal_search.h"
+#include "cell_to_cell/search/directions.h"
+#include "cell_to_cell/search/portal_search.h"
 
 static const char *const hall = "walls 0 0 12 0 12 8 0 8 0 0\n"
                                 "wall 4 0 4 3\nwall 4 4 4 8\nwall 8 0 8 5\nwall 8 6 8 8\n"

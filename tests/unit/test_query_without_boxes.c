@@ -1,7 +1,7 @@
 // A query of a build without boxes (SIGHTLINE_BOXES): it refuses boxes and answers all else. The
 // query is compiled here, without them.
 #define SLI_WITHOUT_BOXES
-#include "query/query.c" // NOLINT(bugprone-suspicious-include)
+#include "sight/query.c" // NOLINT(bugprone-suspicious-include)
 
 #include "testing.h"
 

@@ -1,6 +1,6 @@
 /// The visible region where the answer is known: measures, range, cones, eyes in odd places,
 /// memory.
-#include "eye_to_cell/region.h"
+#include "sight/region.h"
 #include "space/outline.h"
 #include "testing.h"
 

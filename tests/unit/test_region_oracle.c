@@ -1,7 +1,7 @@
 /// The visible region against a brute-force sweep in rationals, on random maps with every way to
 /// place an eye: anywhere, in line with walls, on walls, on their ends, on portals and on corners
 /// of cells, on the border.
-#include "eye_to_cell/region.h"
+#include "sight/region.h"
 #include "space/outline.h"
 #include "testing.h"
 

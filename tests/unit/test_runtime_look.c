@@ -1,8 +1,8 @@
 // Eye-to-cell of the runtime against an oracle: what one eye sees is told by its lines through the
 // ends of portals and along the cone's borders, each followed by itself through the cells.
 #define SIGHTLINE_RUNTIME_IMPLEMENTATION
-#include "eye_to_cell/cone.h"
 #include "runtime_maps.h"
+#include "sight/cone.h"
 
 #include "geometry/orient.h"
 #include "sightline/support.h"

@@ -2,9 +2,9 @@
 /// walls in those doors and against the visible region.
 #define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "effects/filtered.h"
-#include "eye_to_cell/eye_search.h"
-#include "eye_to_cell/region.h"
 #include "runtime_maps.h"
+#include "sight/eye_search.h"
+#include "sight/region.h"
 #include "space/outline.h"
 
 #include "sightline/support.h"

@@ -3,9 +3,9 @@
 //   test_runtime_polygon [EYES]    so many eyes instead of ten thousand
 #define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "effects/filtered.h"
-#include "eye_to_cell/region.h"
 #include "polygon_same.h"
 #include "runtime_maps.h"
+#include "sight/region.h"
 #include "space/outline.h"
 
 #include "sightline/support.h"

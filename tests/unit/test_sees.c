@@ -2,9 +2,9 @@
 #include "space/outline.h"
 #include "testing.h"
 
-#include "eye_to_cell/region.h"
 #include "oracle/random_map.h"
 #include "oracle/random_oblique.h"
+#include "sight/region.h"
 #include "space/subdivide.h"
 
 #include <math.h>

@@ -6,8 +6,8 @@
 // runtime's look is the library's culling, and has those of the eye's cells that the cone leads
 // into. SIGHTLINE_SEEDS in the environment: how many maps (200 by default).
 #define SIGHTLINE_RUNTIME_IMPLEMENTATION
-#include "eye_to_cell/eye_search.h"
 #include "runtime_maps.h"
+#include "sight/eye_search.h"
 
 #include "oracle/two_points.h"
 #include "sightline/bake.h"

@@ -2,7 +2,7 @@
 /// rationals; and the rule of crossings, against all directions there are to try.
 #include "testing.h"
 
-#include "cell_to_cell/directions.h"
+#include "cell_to_cell/search/directions.h"
 #include "sightline/support.h"
 
 #include <gmp.h>

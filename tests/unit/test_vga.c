@@ -3,14 +3,14 @@
 #include "space/outline.h"
 #include "testing.h"
 
-#include "eye_to_cell/region.h"
+#include "analysis/visibility_graph/graph_paths.h"
 #include "map/scan.h"
 #include "oracle/random_map.h"
 #include "oracle/random_oblique.h"
+#include "sight/region.h"
 #include "sightline/effects.h"
 #include "sightline/vga.h"
 #include "space/subdivide.h"
-#include "visibility_graph/paths.h"
 
 #include <math.h>
 #include <string.h>

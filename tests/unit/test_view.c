@@ -1,5 +1,5 @@
 /// The view cone: which points it holds, at every width.
-#include "eye_to_cell/cone.h"
+#include "sight/cone.h"
 #include "testing.h"
 
 #include "sightline/view.h"

@@ -4,14 +4,14 @@
 ///   test_view_hybrid [FILE ...]    these maps instead, and more of each
 #include "view_cells_maps.h"
 
-#include "cell_to_cell/directions.h"
+#include "cell_to_cell/search/directions.h"
 #include "map_files.h"
 #include "oracle/random_map.h"
 #include "sightline/bake.h"
 #include "sightline/stab.h"
 #include "sightline/support.h"
 #include "space/subdivide.h"
-#include "view_cells/pieces.h"
+#include "study/view_cells/pieces.h"
 
 enum { RANDOM_MAPS = 40, DEEPEST = 64 };
 

@@ -1,6 +1,6 @@
 /// Exact sets of view cells: location beside the tree's own, rows beside the union of what their
 /// cells see, compressed and not.
-#include "cell_to_cell/view_rows.h"
+#include "bake/view_rows.h"
 #include "view_cells_maps.h"
 
 #include "cell_to_cell/pvs_rows.h"

@@ -1,7 +1,7 @@
 /// Walks on random maps: nothing that is seen is missed, by any method with any test, and those
 /// that should agree do.
-#include "eye_to_cell/eye_search.h"
-#include "eye_to_cell/region.h"
+#include "sight/eye_search.h"
+#include "sight/region.h"
 #include "space/outline.h"
 #include "space/subdivide.h"
 #include "testing.h"

@@ -4,7 +4,7 @@
 
 #include "oracle/random_map.h"
 #include "sightline/walk.h"
-#include "walk/shape.h"
+#include "study/walk/shape.h"
 
 #include <math.h>
 

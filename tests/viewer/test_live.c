@@ -2,7 +2,7 @@
 // culling of a fresh bake of the map as it is then. Jobs end when they are told to.
 #include "viewer_app.h"
 
-#include "edit.h"
+#include "plan/edit.h"
 #include "sightline/bake.h"
 #include "sightline/generate.h"
 

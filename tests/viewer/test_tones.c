@@ -1,6 +1,6 @@
 /// Contrasts of the colours of the plan, in both themes, as common eyes see them and as eyes
 /// without red or without green cones do.
-#include "tones.h"
+#include "ui/tones.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -4,11 +4,11 @@
 
 #include "testing.h"
 
-#include "actions.h"
-#include "app.h"
-#include "files.h"
-#include "input.h"
-#include "script.h"
+#include "app/actions.h"
+#include "app/app.h"
+#include "app/input.h"
+#include "app/script.h"
+#include "document/files.h"
 #include "sightline/io.h"
 
 #ifndef MAPS

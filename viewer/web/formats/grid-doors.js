@@ -1,7 +1,7 @@
 /**
  * Where a door stands among the squares of a map: from a solid square to the opposite one, with open
  * squares at both sides. The box of an object says roughly where, the squares say the rest. Where a
- * door is drawn on solid squares, they are opened. lib/io/things_place.c does the same.
+ * door is drawn on solid squares, they are opened. lib/io/parts/things_place.c does the same.
  */
 
 /**

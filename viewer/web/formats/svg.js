@@ -64,7 +64,7 @@ function weightOf(selector) {
     return count(/#/g) * 2 ** 16 + count(/\./g) * 2 ** 8 + count(/(^|\s)[^\s.#*]/g);
 }
 
-/** Whether attributes, the style or style sheets hide an element, as lib/io/svg_style.c reads them. */
+/** Whether attributes, the style or style sheets hide an element, as lib/io/svg/svg_style.c reads them. */
 function isHidden(node, rules) {
     const styles = rules.filter(({ selector }) => node.matches(selector)).map(({ style }) => style);
     const own = node.getAttribute('style');

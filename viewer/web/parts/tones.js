@@ -1,7 +1,7 @@
 /**
  * The colours of the project, on a light and on a dark page.
  *
- * They are those of lib/draw and viewer/tones.c, whose contrast tests/viewer/test_tones.c checks.
+ * They are those of lib/draw and viewer/ui/tones.c, whose contrast tests/viewer/test_tones.c checks.
  * test/tones.test.mjs compares them.
  */
 

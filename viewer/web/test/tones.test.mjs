@@ -28,19 +28,19 @@ test('the palette is that of the library', () => {
 });
 
 test('from and to are those of the viewer', () => {
-    for (const [, name, light, dark] of source('viewer/tones.c').matchAll(/\[TONE_\w+\] = \{"(from|to)", \w+, \w+, 0x(\w{6}), 0x(\w{6})/g))
+    for (const [, name, light, dark] of source('viewer/ui/tones.c').matchAll(/\[TONE_\w+\] = \{"(from|to)", \w+, \w+, 0x(\w{6}), 0x(\w{6})/g))
         assert.deepEqual(themes.map(([, tones]) => tones[name]), [`#${light}`, `#${dark}`], name);
 });
 
 test('left and right ends have the colours of an explanation', () => {
-    const ends = [...source('lib/draw/explain.c').matchAll(/pic->(left|right) = palette->(\w+);/g)];
+    const ends = [...source('lib/draw/draw_explain.c').matchAll(/pic->(left|right) = palette->(\w+);/g)];
     assert.equal(ends.length, 2);
     for (const [, end, name] of ends) for (const [theme, tones] of themes) assert.equal(tones[end], tones[camel(name)], `${theme}: ${end}`);
 });
 
 test('guarantees have the colours of the chart of compare', () => {
     const colours = [...source('lib/draw/chart_paint.c').matchAll(/case (\d):\s*return palette->(\w+);/g)].map(([, , name]) => name);
-    const chosen = /\.colour = guarantee == SL_EXACT\s*\? (\d)\s*: guarantee == SL_ROUNDED\s*\? (\d)\s*: guarantee == SL_CONSERVATIVE\s*\? (\d)\s*: (\d)/.exec(source('tools/compare_chart.c'));
+    const chosen = /\.colour = guarantee == SL_EXACT\s*\? (\d)\s*: guarantee == SL_ROUNDED\s*\? (\d)\s*: guarantee == SL_CONSERVATIVE\s*\? (\d)\s*: (\d)/.exec(source('tools/studies/compare_chart.c'));
     const places = { exact: chosen[1], rounded: chosen[2], conservative: chosen[3], aggressive: chosen[4] };
     for (const [theme, tones] of themes)
         for (const [guarantee, place] of Object.entries(places))

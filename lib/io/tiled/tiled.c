@@ -1,0 +1,691 @@
+/// Tiled's maps, TMX and JSON, as Tiled's manual has them. Both come here as one JSON tree.
+///
+/// First it is decided what is solid: the layers that the user asks for; else what layers, tiles
+/// and objects say of themselves; else a guess, which is reported. Then solid tiles are gathered
+/// grid by grid, and shapes are drawn by the pen. Maps of diamonds are read in the plan, where
+/// diamonds are squares (tiled_lattice.c), and projected onto the screen at the end.
+#include "io/tiled/tiled.h"
+#include "geometry/length.h"
+#include "io/formats.h"
+#include "io/parts/layers.h"
+#include "io/parts/names.h"
+#include "io/parts/shapes.h"
+#include "map/source.h"
+#include "sightline/io.h"
+
+// --- the layers asked for: NAME takes all tiles of a layer, or all layers of a group;
+// --- NAME:28+33-35 the tiles of these numbers
+
+/// Whether a word of the list is a layer's name, with its tiles or without.
+static bool names(sli_word word, const char *layer, sli_word *gids) {
+    const size_t length = strlen(layer);
+    *gids = (sli_word){word.at + word.length, 0};
+    if (sli_word_is(word, layer)) return true;
+    if (word.length <= length || word.at[length] != ':' || memcmp(word.at, layer, length) != 0)
+        return false;
+    *gids = (sli_word){word.at + length + 1, word.length - length - 1};
+    return true;
+}
+
+/// Whether a layer of this name is in the list; `*gids` gets its tiles' numbers, of no length for
+/// all.
+static bool tiled_asked_for(const char *list, const char *layer, sli_word *gids) {
+    for (sli_word word; sli_layers_next(&list, &word);)
+        if (names(word, layer, gids)) return true;
+    return false;
+}
+
+/// A number at the start of the word, cut off from it.
+static bool next_number(sli_word *word, uint64_t *number) {
+    size_t length = 0;
+    for (*number = 0; length < word->length && *number <= UINT32_MAX; length++) {
+        const char c = word->at[length];
+        if (c < '0' || c > '9') break;
+        *number = 10 * *number + (uint64_t)(c - '0');
+    }
+    *word = (sli_word){word->at + length, word->length - length};
+    return length > 0 && *number <= UINT32_MAX;
+}
+
+/// The next "28" or "33-35" of numbers with + between; false at the end, and where there is none.
+static bool next_range(sli_word *gids, uint64_t *low, uint64_t *high) {
+    if (!next_number(gids, low)) return false;
+    *high = *low;
+    if (gids->length && gids->at[0] == '-') {
+        *gids = (sli_word){gids->at + 1, gids->length - 1};
+        if (!next_number(gids, high)) return false;
+    }
+    if (gids->length && gids->at[0] == '+')
+        *gids = (sli_word){gids->at + 1, gids->length - 1};
+    else if (gids->length)
+        return false;
+    return true;
+}
+
+bool sli_tiled_among(sli_word gids, uint32_t gid) {
+    if (!gids.length) return true;
+    for (uint64_t low, high; gids.length && next_range(&gids, &low, &high);)
+        if (gid >= low && gid <= high) return true;
+    return false;
+}
+
+static bool are_numbers(sli_word gids) {
+    for (uint64_t low, high; gids.length;)
+        if (!next_range(&gids, &low, &high)) return false;
+    return true;
+}
+
+/// Looks for a layer in a list of layers and in its groups.
+static bool find_layer(const sli_json *layers, sli_word word, sli_word *gids) {
+    for (size_t i = 0; i < json_array_size(layers->value); i++) {
+        const sli_json layer = sli_json_item(layers, i), inner = sli_json_member(&layer, "layers");
+        if (names(word, sli_json_text_of(&layer, "name"), gids)) return true;
+        if (find_layer(&inner, word, gids)) return true;
+    }
+    return false;
+}
+
+/// Lists the layers that can be asked for: those of tiles and objects, and their groups.
+static void name_layers(const sli_json *parent, sli_name_list *out) {
+    const sli_json layers = sli_json_member(parent, "layers");
+    for (size_t i = 0; i < json_array_size(layers.value); i++) {
+        const sli_json layer = sli_json_item(&layers, i);
+        const char *name = sli_json_text_of(&layer, "name");
+        if (*name) sli_name_list_add(out, (sli_word){name, strlen(name)});
+        name_layers(&layer, out);
+    }
+}
+
+/// SL_BAD_ARGUMENT where the list names a layer that `map` has not, or its numbers are none.
+static sl_status tiled_check_choice(const sli_json *map, const char *list) {
+    const sli_json layers = sli_json_member(map, "layers");
+    for (sli_word word; list && sli_layers_next(&list, &word);) {
+        sli_word gids;
+        if (!find_layer(&layers, word, &gids)) {
+            sli_name_list there = {.full = false};
+            name_layers(map, &there);
+            return sli_fail_layer(map->file->context, map->file->name, word, "map", &there);
+        }
+        if (!are_numbers(gids))
+            return sl_fail(map->file->context, SL_BAD_ARGUMENT,
+                           "%s: layer '%s': expected tile numbers such as 28+33-35 behind the ':'",
+                           map->file->name, sli_show(word).text);
+    }
+    return SL_OK;
+}
+
+// --- reading a map
+
+/// Where a layer lies in its group's place, and whether it is solid.
+static sl_status find_place(const sli_tiled_reader *reader, const sli_json *layer,
+                            const sli_tiled_place *outer, sli_tiled_place *own) {
+    const sli_json x = sli_json_member(layer, "offsetx"), y = sli_json_member(layer, "offsety");
+    const char *name = sli_json_text_of(layer, "name");
+    sl_point offset = {0};
+    SL_TRY(sli_json_number_if(&x, &offset.x));
+    SL_TRY(sli_json_number_if(&y, &offset.y));
+    *own = *outer;
+    own->offset = (sl_point){outer->offset.x + offset.x, outer->offset.y + offset.y};
+    if (reader->options->layers) {
+        sli_word gids;
+        if (tiled_asked_for(reader->options->layers, name, &gids)) {
+            own->asked = true;
+            own->gids = gids;
+        }
+        own->word = own->asked ? SLI_TILED_SOLID : SLI_TILED_OPEN;
+        return SL_OK;
+    }
+    const sli_tiled_word said = sli_tiled_word_of(layer, "class");
+    if (said != SLI_TILED_UNSAID)
+        own->word = said;
+    else if (sli_says_solid(name))
+        own->word = SLI_TILED_SOLID;
+    return SL_OK;
+}
+
+// --- objects
+
+sl_status sli_tiled_name_shape(sli_tiled_reader *reader, const char *label) {
+    reader->pen.map->source.lines_are_items = true;
+    return sli_map_add_label(reader->context, reader->pen.map, ++reader->pen.item, label);
+}
+
+/// "layer Walls, object 12 'crate', line 40"
+static sl_status name_object(sli_tiled_reader *reader, const sli_json *layer,
+                             const sli_json *object, const sli_tiled_shape *shape) {
+    const char *const names[] = {sli_json_text_of(layer, "name"), sli_json_text_of(object, "name")};
+    const sli_json number = sli_json_member(object, "id");
+    int64_t id = 0;
+    char label[SL_LINE_TEXT];
+    SL_TRY(sli_json_whole_if(&number, INT32_MIN, INT32_MAX, &id));
+    int used = snprintf(label, sizeof label, "layer %s, object %d",
+                        sli_show((sli_word){names[0], strlen(names[0])}).text, (int)id);
+    if (*names[1])
+        used += snprintf(label + used, sizeof label - (size_t)used, " '%s'",
+                         sli_show((sli_word){names[1], strlen(names[1])}).text);
+    if (shape->line)
+        snprintf(label + used, sizeof label - (size_t)used, ", line %u", (unsigned)shape->line);
+    return sli_tiled_name_shape(reader, label);
+}
+
+static sli_tiled_word word_of_object(const sli_tiled_reader *reader, const sli_json *object,
+                                     const sli_tiled_shape *shape) {
+    const sli_tiled_word word = sli_tiled_word_of(object, "type");
+    if (word != SLI_TILED_UNSAID) return word;
+    if (sli_says_solid(sli_json_text_of(object, "name"))) return SLI_TILED_SOLID;
+    const uint32_t gid = shape->gid & SLI_TILED_TILE;
+    const sli_tiled_set *set = gid ? sli_tiled_find_set(&reader->sets, gid) : NULL;
+    return set ? sli_tiled_word_of_tile(set, sli_tiled_find_tile(set, gid)) : SLI_TILED_UNSAID;
+}
+
+/// Reads an object. In an isometric map it lies in the plan, but turns on the screen. A tile as an
+/// object stands upright there: on the diamond as wide as itself whose lowest corner is its place.
+static sl_status read_shape(const sli_tiled_reader *reader, const sli_json *object,
+                            sli_tiled_shape *shape) {
+    const sli_tiled_lattice *lattice = &reader->lattice;
+    SL_TRY(sli_tiled_read_shape(object, shape));
+    if (lattice->orientation != SLI_TILED_ISOMETRIC) return SL_OK;
+    if (shape->kind == SLI_TILED_PICTURE) {
+        const uint32_t gid = shape->gid & SLI_TILED_TILE;
+        const sli_tiled_set *set = sli_tiled_find_set(&reader->sets, gid);
+        const double own = shape->width != 0 ? shape->width : set ? set->width : 0;
+        const double width = own * lattice->tile.y / lattice->tile.x;
+        shape->kind = SLI_TILED_RECTANGLE;
+        shape->x -= width;
+        shape->y -= width;
+        shape->width = shape->height = width;
+        return SL_OK;
+    }
+    if (shape->rotation == 0) return SL_OK;
+    sli_affine to_screen = sli_tiled_to_screen(lattice), to_plan = reader->to_plan;
+    to_screen.x0 = to_plan.x0 = to_plan.y0 = 0;
+    shape->turn = sli_affine_after(to_plan, sli_affine_after(shape->turn, to_screen));
+    return SL_OK;
+}
+
+/// From the objects of a layer to the plan.
+static sli_affine affine_of_layer(const sli_tiled_reader *reader, const sli_tiled_place *at) {
+    const sli_affine move = {.xx = 1, .yy = 1, .x0 = at->offset.x, .y0 = at->offset.y};
+    if (reader->lattice.orientation != SLI_TILED_ISOMETRIC)
+        return sli_affine_after(reader->to_plan, move);
+    sli_affine to_plan = reader->to_plan;
+    to_plan.x0 = to_plan.y0 = 0;
+    const sl_point offset = sli_affine_apply(to_plan, at->offset);
+    return (sli_affine){.xx = 1, .yy = 1, .x0 = offset.x, .y0 = offset.y};
+}
+
+/// An object of a start or a door: `*taken` where it is one.
+static sl_status take_thing(sli_tiled_reader *reader, const sli_json *object,
+                            const sli_tiled_place *at, bool *taken) {
+    sli_tiled_shape shape;
+    SL_TRY(read_shape(reader, object, &shape));
+    const char *class = sli_json_text_of(object, "type");
+    const uint32_t gid = shape.gid & SLI_TILED_TILE;
+    const sli_tiled_set *set = gid ? sli_tiled_find_set(&reader->sets, gid) : NULL;
+    const sli_tiled_tile *tile = set ? sli_tiled_find_tile(set, gid) : NULL;
+    sli_says says = sli_tiled_says_of(object, "type");
+    if (!says.kind && tile) says = tile->says;
+    SL_TRY(sli_things_ask(&reader->things, sli_json_text_of(object, "name"),
+                          *class ? class : sli_json_text_of(object, "class"), &says));
+    *taken = says.kind != SLI_THING_NONE;
+    if (!*taken) return SL_OK;
+    if (set && shape.width == 0 && shape.height == 0) {
+        shape.width = set->width;
+        shape.height = set->height;
+    }
+    return sli_tiled_take_thing(&reader->things, &says, &shape, affine_of_layer(reader, at),
+                                at->word == SLI_TILED_SOLID && shape.kind != SLI_TILED_OTHER);
+}
+
+/// The same for an instance of a template too.
+static sl_status look_for_thing(sli_tiled_reader *reader, const sli_json *object,
+                                const sli_tiled_place *at, bool *taken) {
+    sli_json_file file;
+    sl_status status = sli_tiled_instance(&reader->templates, object, &file);
+    const sli_json whole = sli_json_root(&file);
+    if (status == SL_OK) status = take_thing(reader, file.root ? &whole : object, at, taken);
+    sli_json_close(&file);
+    return status;
+}
+
+// --- layers that say what they hold
+
+/// Reads an object of such a layer.
+static sl_status read_item(sli_tiled_reader *reader, const sli_json *layer, const sli_json *object,
+                           const sli_tiled_place *at, sli_layer_item item) {
+    sl_map drawn = {0}, *map = reader->pen.map;
+    sli_tiled_shape shape;
+    SL_TRY(read_shape(reader, object, &shape));
+    SL_TRY(name_object(reader, layer, object, &shape));
+    const sli_affine outer = reader->pen.affine;
+    const sli_affine place = sli_affine_after(outer, affine_of_layer(reader, at));
+    const sl_point start = sli_affine_apply(place, (sl_point){shape.x, shape.y});
+    const char *name = sli_json_text_of(object, "name");
+    if (item.layer == SLI_LAYER_DOOR)
+        item.open = sli_tiled_says_of(object, "type").state != SLI_DOOR_SHUT;
+    item.name = *name ? name : NULL;
+    item.heading = -shape.rotation + 0.0;
+    item.points = &start;
+    item.count = 1;
+    reader->pen.map = &drawn;
+    reader->pen.affine = place;
+    const sl_status drawing = sli_tiled_draw_shape(&reader->pen, &shape);
+    reader->pen.map = map;
+    reader->pen.affine = outer;
+    const sl_status status = drawing == SL_OK
+                                 ? sli_layer_take(reader->context, reader->map->file->name, map,
+                                                  &item, &drawn, reader->pen.item)
+                                 : drawing;
+    sl_map_destroy(reader->context, &drawn);
+    reader->objects += item.layer >= SLI_LAYER_WALL && item.layer <= SLI_LAYER_WALL_SOLID;
+    return status;
+}
+
+/// What a layer holds by its name. Diamonds and hexagons are moved once all is read, so that such a
+/// layer is one of the map's own. With --start-names the names of objects decide what is a start.
+static sli_layer kind_of_layer(const sli_tiled_reader *reader, const sli_json *layer) {
+    const char *name = sli_json_text_of(layer, "name");
+    const sli_layer kind = reader->lattice.orientation == SLI_TILED_ORTHOGONAL
+                               ? sli_layer_of((sli_word){name, strlen(name)}, NULL)
+                               : SLI_LAYER_NONE;
+    return kind == SLI_LAYER_START && reader->options->start_names ? SLI_LAYER_NONE : kind;
+}
+
+/// Reads the objects of such a layer. Doors and starts are taken whatever --layers says.
+static sl_status read_items(sli_tiled_reader *reader, const sli_json *layer,
+                            const sli_tiled_place *at, sli_layer kind) {
+    const sli_json objects = sli_json_member(layer, "objects");
+    size_t count = 0;
+    if (objects.value) SL_TRY(sli_json_array(&objects, &count));
+    if (reader->options->layers && !at->asked && kind != SLI_LAYER_DOOR && kind != SLI_LAYER_START)
+        return SL_OK;
+    for (size_t i = 0; i < count; i++) {
+        const sli_json object = sli_json_item(&objects, i);
+        if (i % 256 == 0) SL_TRY(sl_check_cancelled(reader->context));
+        SL_TRY(read_item(reader, layer, &object, at, (sli_layer_item){.layer = kind}));
+    }
+    return SL_OK;
+}
+
+/// What a file of our own says of the whole map.
+static sl_status read_marks(sli_tiled_reader *reader) {
+    sl_map *map = reader->pen.map;
+    sli_tiled_properties at = sli_tiled_properties_of(reader->map);
+    const char *name;
+    for (sli_json value; sli_tiled_next_property(&at, &name, &value);) {
+        double *to = !name                                  ? NULL
+                     : strcmp(name, "sightline-range") == 0 ? &map->range
+                     : strcmp(name, "sightline-snap") == 0  ? &map->snap
+                     : strcmp(name, "sightline-y0") == 0    ? &reader->lattice.height
+                                                            : NULL;
+        if (!to) continue;
+        SL_TRY(sli_json_number(&value, to));
+        if (to != &reader->lattice.height && !(*to > 0))
+            return sli_json_fail(&value, "%s: expected a number greater than 0", name);
+    }
+    return SL_OK;
+}
+
+/// What walls of an object or a layer stop, by its property `stops`, a text; else
+/// *stops stays.
+static sl_status read_stops(const sli_json *thing, uint32_t *stops) {
+    sli_tiled_properties at = sli_tiled_properties_of(thing);
+    const char *name;
+    for (sli_json value; sli_tiled_next_property(&at, &name, &value);) {
+        const char *text = json_string_value(value.value);
+        if (!text || !name || strcmp(name, "stops") != 0) continue;
+        if (!sl_stops_read(text, strlen(text), stops))
+            return sli_json_fail(&value, "stops: expected sight, steps, sound or several joined by "
+                                         "commas");
+    }
+    return SL_OK;
+}
+
+/// Tiles are joined over all layers, and stop all.
+static sl_status note_stops_of_tiles(const sli_tiled_reader *reader, const sli_json *layer) {
+    const char *name = sli_json_text_of(layer, "name");
+    uint32_t stops = 0;
+    SL_TRY(read_stops(layer, &stops));
+    if (stops && !reader->guess)
+        sl_note(reader->context,
+                "%s: layer %s: the property 'stops' is for objects; tiles stop all",
+                layer->file->name, sli_show((sli_word){name, strlen(name)}).text);
+    return SL_OK;
+}
+
+/// The objects of a layer: starts and doors, and walls where the layer is not said to be open.
+static sl_status read_objects(sli_tiled_reader *reader, const sli_json *layer,
+                              const sli_tiled_place *at) {
+    const sli_json objects = sli_json_member(layer, "objects");
+    const sli_layer kind = kind_of_layer(reader, layer);
+    size_t count = 0;
+    if (kind) return read_items(reader, layer, at, kind);
+    if (objects.value) SL_TRY(sli_json_array(&objects, &count));
+    const sli_affine outer = reader->pen.affine;
+    const sli_affine move = affine_of_layer(reader, at);
+    uint32_t of_layer = 0;
+    SL_TRY(read_stops(layer, &of_layer));
+    reader->solid_layers += at->word == SLI_TILED_SOLID;
+    sl_status status = SL_OK;
+    for (size_t i = 0; status == SL_OK && i < count; i++) {
+        const sli_json object = sli_json_item(&objects, i);
+        sli_tiled_shape shape;
+        bool is_thing;
+        if (i % 256 == 0) SL_TRY(sl_check_cancelled(reader->context));
+        SL_TRY(read_shape(reader, &object, &shape));
+        SL_TRY(look_for_thing(reader, &object, at, &is_thing));
+        if (is_thing || at->word == SLI_TILED_OPEN) continue;
+        const sli_tiled_word word = word_of_object(reader, &object, &shape);
+        uint32_t stops = of_layer;
+        SL_TRY(read_stops(&object, &stops));
+        const bool taken =
+            at->word == SLI_TILED_SOLID || stops ? word != SLI_TILED_OPEN : word == SLI_TILED_SOLID;
+        size_t *counted = !taken                          ? &reader->other_objects
+                          : shape.kind == SLI_TILED_OTHER ? &reader->other_shapes
+                                                          : &reader->objects;
+        ++*counted;
+        if (counted == &reader->other_objects) {
+            const char *name = sli_json_text_of(&object, "name");
+            sli_things_leave(&reader->things, *name ? name : sli_json_text_of(&object, "class"));
+        }
+        if (!taken || shape.kind == SLI_TILED_OTHER) continue;
+        SL_TRY(name_object(reader, layer, &object, &shape));
+        reader->pen.affine = sli_affine_after(outer, move);
+        const size_t first = reader->pen.map->wall_count;
+        status = sli_tiled_draw_shape(&reader->pen, &shape);
+        if (status == SL_OK && stops)
+            status = sl_map_walls_stop(reader->context, reader->pen.map, first, stops);
+        reader->pen.affine = outer;
+    }
+    return status;
+}
+
+// --- layers
+
+static sl_status read_layers(sli_tiled_reader *reader, const sli_json *parent,
+                             const sli_tiled_place *outer) {
+    const sli_json layers = sli_json_member(parent, "layers");
+    size_t count = 0;
+    if (layers.value) SL_TRY(sli_json_array(&layers, &count));
+    for (size_t i = 0; i < count; i++) {
+        const sli_json layer = sli_json_item(&layers, i);
+        SL_TRY(sli_json_object(&layer));
+        const char *type = sli_json_text_of(&layer, "type");
+        sli_tiled_place own;
+        SL_TRY(find_place(reader, &layer, outer, &own));
+        if (strcmp(type, "group") == 0)
+            SL_TRY(read_layers(reader, &layer, &own));
+        else if (own.word != SLI_TILED_OPEN && strcmp(type, "tilelayer") == 0) {
+            SL_TRY(note_stops_of_tiles(reader, &layer));
+            SL_TRY(sli_tiled_read_tile_layer(reader, &layer, &own));
+        } else if (strcmp(type, "objectgroup") == 0 && !reader->guess)
+            SL_TRY(read_objects(reader, &layer, &own));
+        if (strcmp(type, "group") != 0 && !reader->guess)
+            reader->other_layers +=
+                own.word == SLI_TILED_OPEN ||
+                (strcmp(type, "tilelayer") != 0 && strcmp(type, "objectgroup") != 0);
+    }
+    return SL_OK;
+}
+
+static sl_status read_head(sli_tiled_reader *reader) {
+    sli_tiled_lattice *lattice = &reader->lattice;
+    SL_TRY(sli_tiled_read_lattice(reader->map, lattice));
+    const double height = lattice->height;
+    if (lattice->orientation == SLI_TILED_ORTHOGONAL) {
+        const sli_json columns = sli_json_member(reader->map, "width");
+        const double width = sli_json_number_or_0(&columns);
+        SL_TRY(read_marks(reader));
+        reader->pen.map->source.page =
+            (sl_box){{0, lattice->height - height}, {width * lattice->tile.x, lattice->height}};
+        reader->pen.map->source.pixels = 1;
+    }
+    const bool plan = sli_tiled_has_plan(lattice);
+    reader->to_plan = sli_tiled_to_plan(lattice);
+    reader->top = plan ? 0 : lattice->height;
+    reader->pen.affine = (sli_affine){.xx = 1, .yy = -1, .y0 = reader->top};
+    reader->pen.map->source.transform = sli_y_down(lattice->height, 1);
+    if (plan) {
+        const sli_affine to_screen = sli_tiled_to_screen(lattice);
+        reader->things.shown = to_screen;
+        // No vector grows by more than this factor.
+        reader->pen.tolerance /= sli_length(sli_length(to_screen.xx, to_screen.xy),
+                                            sli_length(to_screen.yx, to_screen.yy));
+    }
+    return tiled_check_choice(reader->map, reader->options->layers);
+}
+
+/// The names of the layers, for messages: 'Ground', 'Objects' (objects).
+typedef struct layer_text {
+    char text[320];
+    size_t count, length;
+} layer_text;
+
+static void add_layers(const sli_json *parent, layer_text *out) {
+    const sli_json layers = sli_json_member(parent, "layers");
+    for (size_t i = 0; i < json_array_size(layers.value); i++) {
+        const sli_json layer = sli_json_item(&layers, i);
+        const char *name = sli_json_text_of(&layer, "name"),
+                   *type = sli_json_text_of(&layer, "type");
+        const bool objects = strcmp(type, "objectgroup") == 0;
+        if (strcmp(type, "group") == 0) add_layers(&layer, out);
+        if (!objects && strcmp(type, "tilelayer") != 0) continue;
+        char own[96];
+        const int length =
+            snprintf(own, sizeof own, "%s'%s'%s", out->count++ ? ", " : "",
+                     sli_show((sli_word){name, strlen(name)}).text, objects ? " (objects)" : "");
+        // Once a name does not fit, all later ones are left out too.
+        if (out->length + (size_t)length + sizeof ", ..." > sizeof out->text) {
+            if (out->length < sizeof out->text) strcpy(out->text + out->length, ", ...");
+            out->length = sizeof out->text;
+            continue;
+        }
+        memcpy(out->text + out->length, own, (size_t)length + 1);
+        out->length += (size_t)length;
+    }
+}
+
+static layer_text list_layers(const sli_tiled_reader *reader) {
+    layer_text out = {.count = 0};
+    add_layers(reader->map, &out);
+    return out;
+}
+
+/// Nothing says what is solid: the lowest tile layer is looked at once more.
+static sl_status guess(sli_tiled_reader *reader) {
+    sli_tiles_destroy(reader->context, &reader->tiles);
+    reader->guess = true;
+    SL_TRY(read_layers(reader, reader->map, &(sli_tiled_place){0}));
+    if (!*reader->guessed_of) return SL_OK;
+    char tile[48] = "its empty squares are";
+    layer_text layers = list_layers(reader);
+    if (reader->guessed)
+        snprintf(tile, sizeof tile, "its most frequent tile, %u, is", (unsigned)reader->guessed);
+    sl_note(reader->context,
+            "%s: nothing in it says what is solid: layer %s is the lowest, and %s taken as solid; "
+            "--layers NAME or NAME:TILE+TILE-TILE chooses; layers: %s",
+            reader->map->file->name, reader->guessed_of, tile, layers.text);
+    return SL_OK;
+}
+
+/// A start on a tile that is guessed to be solid says that the guess is wrong.
+static void check_guess(const sli_tiled_reader *reader) {
+    bool stands = false;
+    for (size_t i = 0; reader->guess && i < reader->things.items.count; i++) {
+        const sli_thing *thing = &reader->things.items.items[i];
+        stands |= thing->kind == SLI_THING_START && thing->solid;
+    }
+    if (stands)
+        sl_note(reader->context,
+                "%s: a start stands on what is guessed to be solid, so the guess is wrong; "
+                "--layers NAME or NAME:TILE+TILE-TILE chooses",
+                reader->map->file->name);
+}
+
+static sl_status fail_no_walls(const sli_tiled_reader *reader) {
+    const layer_text layers = list_layers(reader);
+    const bool said = reader->options->layers || !reader->guess;
+    return sli_json_fail(
+        reader->map, "%s; %s%s",
+        said ? "what it says is solid gives no walls" : "nothing in it says what is solid",
+        layers.count ? "--layers NAME chooses; layers: " : "it has no layers", layers.text);
+}
+
+static void give_account(const sli_tiled_reader *reader) {
+    char top[SL_NUMBER_TEXT];
+    sl_number_write(reader->lattice.height, top);
+    const sli_tally taken[] = {{reader->solid_layers, "solid layer", "solid layers"},
+                               {reader->solid_tiles, "solid tile", "solid tiles"},
+                               {reader->shapes, "shape of a tile", "shapes of tiles"},
+                               {reader->objects, "object", "objects"}};
+    const sli_tally left[] = {
+        {reader->other_layers, "layer", "layers"},
+        {reader->other_objects, "object", "objects"},
+        {reader->other_shapes, "shape of another kind", "shapes of other kinds"},
+        {reader->pen.points, "line of no length", "lines of no length"},
+        {reader->sets.missing, "tileset that is missing", "tilesets that are missing"}};
+    char from[SLI_TALLY_TEXT], without[SLI_TALLY_TEXT];
+    sl_note(reader->context, "%s: %zu walls%s%s; unit: pixels, y = %s - the file's y",
+            reader->map->file->name, reader->pen.map->wall_count,
+            sli_tally_write(" from ", taken, 4, from),
+            sli_tally_write("; left out: ", left, 5, without), top);
+    if (reader->doors_left_out)
+        sl_note(reader->context,
+                "%s: left out: %zu tile%s of doors; in hexagonal maps only objects are doors",
+                reader->map->file->name, reader->doors_left_out,
+                reader->doors_left_out == 1 ? "" : "s");
+}
+
+/// A layer that is not solid as a whole has tiles of a tileset that cannot be read.
+static sl_status fail_missing(const sli_tiled_reader *reader) {
+    const char *missing = NULL;
+    for (size_t i = reader->sets.sets.count; i-- > 0;)
+        if (reader->sets.sets.items[i].missing) missing = reader->sets.sets.items[i].missing;
+    return sli_json_fail(reader->map,
+                         "its tileset '%s' cannot be read, and no layer says that it is solid; "
+                         "--layers NAME chooses",
+                         sli_show((sli_word){missing, strlen(missing)}).text);
+}
+
+/// Whether nothing that was read is solid by what the map itself says.
+static bool says_nothing(const sli_tiled_reader *reader) {
+    return !reader->solid_layers && !reader->solid_tiles && !reader->shapes && !reader->objects;
+}
+
+static sl_status read_map(sli_tiled_reader *reader) {
+    SL_TRY(read_head(reader));
+    SL_TRY(sli_tiled_read_sets(reader->map, &reader->sets));
+    SL_TRY(read_layers(reader, reader->map, &(sli_tiled_place){0}));
+    if (!reader->solid_layers && !reader->options->layers) {
+        if (reader->unknown_tiles) return fail_missing(reader);
+        if (says_nothing(reader)) SL_TRY(guess(reader));
+    }
+    SL_TRY(sli_tiled_add_tile_walls(reader));
+    const sl_map *map = reader->pen.map;
+    if (!map->wall_count && !sl_map_partial_walls(map)) return fail_no_walls(reader);
+    check_guess(reader);
+    strcpy(reader->pen.map->unit, "px");
+    give_account(reader);
+    sli_layers_note(reader->context, reader->map->file->name, reader->pen.map);
+    SL_TRY(sli_things_finish(&reader->things, reader->pen.map));
+    return sli_tiled_project(reader->map, &reader->lattice, reader->pen.map);
+}
+
+static sli_tiled_reader begin_reader(sl_context *context, const sli_json *root,
+                                     const sl_import_options *options, sl_map *map) {
+    const char *name = root->file->name;
+    return (sli_tiled_reader){
+        .context = context,
+        .options = options,
+        .map = root,
+        .things = {.context = context, .file = name, .options = options},
+        .pen = {.context = context, .name = name, .map = map, .tolerance = options->tolerance}};
+}
+
+static void end_reader(sl_context *context, sli_tiled_reader *reader) {
+    sli_tiles_destroy(context, &reader->tiles);
+    sli_tiled_destroy_sets(context, &reader->sets);
+    sli_tiled_destroy_templates(context, &reader->templates);
+    sli_things_destroy(&reader->things);
+}
+
+/// Reads a tree, and closes its file.
+static sl_status read_tree(sl_context *context, sli_json_file *file,
+                           const sl_import_options *options, sl_map *map) {
+    sl_map read = {0};
+    const sli_json root = sli_json_root(file);
+    sli_tiled_reader reader = begin_reader(context, &root, options, &read);
+    const sl_status status = read_map(&reader);
+    end_reader(context, &reader);
+    sli_json_close(file);
+    // The map's lines are numbers of shapes, if it has any: doors and starts are none of them.
+    for (size_t i = 0; i < read.door_count && read.source.lines_are_items; i++)
+        read.doors[i].line = 0;
+    for (size_t i = 0; i < read.start_count && read.source.lines_are_items; i++)
+        read.starts[i].line = 0;
+    if (status == SL_OK)
+        *map = read;
+    else
+        sl_map_destroy(context, &read);
+    return status;
+}
+
+static sl_status list_names(sl_context *context, const sli_json *parent, sl_map_list *list) {
+    const sli_json layers = sli_json_member(parent, "layers");
+    for (size_t i = 0; i < json_array_size(layers.value); i++) {
+        const sli_json layer = sli_json_item(&layers, i);
+        const char *name = sli_json_text_of(&layer, "name"),
+                   *type = sli_json_text_of(&layer, "type");
+        if (strcmp(type, "group") == 0) SL_TRY(list_names(context, &layer, list));
+        if (strcmp(type, "objectgroup") == 0 || strcmp(type, "tilelayer") == 0)
+            SL_TRY(sl_map_list_add(context, list, name, strlen(name)));
+    }
+    return SL_OK;
+}
+
+/// Lists the layers of a tree, reads it to find out what it says is solid, and closes its file.
+static sl_status list_tree(sl_context *context, sli_json_file *file, sl_map_list *list,
+                           bool *unsaid) {
+    sl_map read = {0};
+    const sl_import_options options = sl_import_options_default();
+    const sli_json root = sli_json_root(file);
+    sli_tiled_reader reader = begin_reader(context, &root, &options, &read);
+    sl_status status = read_head(&reader);
+    if (status == SL_OK) status = sli_tiled_read_sets(reader.map, &reader.sets);
+    if (status == SL_OK) status = read_layers(&reader, reader.map, &(sli_tiled_place){0});
+    if (status == SL_OK) status = list_names(context, &root, list);
+    if (status != SL_OK) sl_map_list_destroy(context, list);
+    *unsaid = !reader.solid_layers && (reader.unknown_tiles || says_nothing(&reader));
+    end_reader(context, &reader);
+    sl_map_destroy(context, &read);
+    sli_json_close(file);
+    return status;
+}
+
+sl_status sli_map_read_tmx(sl_context *context, const char *name, const char *text, size_t size,
+                           const sl_import_options *options, sl_map *map) {
+    sli_json_file file;
+    SL_TRY(sli_tiled_from_xml(context, name, "map", text, size, &file));
+    return read_tree(context, &file, options, map);
+}
+
+sl_status sli_map_read_tmj(sl_context *context, const char *name, const char *text, size_t size,
+                           const sl_import_options *options, sl_map *map) {
+    sli_json_file file;
+    SL_TRY(sli_json_open(context, name, text, size, &file));
+    return read_tree(context, &file, options, map);
+}
+
+sl_status sli_map_layers_tmx(sl_context *context, const char *name, const char *text, size_t size,
+                             sl_map_list *list, bool *unsaid) {
+    sli_json_file file;
+    SL_TRY(sli_tiled_from_xml(context, name, "map", text, size, &file));
+    return list_tree(context, &file, list, unsaid);
+}
+
+sl_status sli_map_layers_tmj(sl_context *context, const char *name, const char *text, size_t size,
+                             sl_map_list *list, bool *unsaid) {
+    sli_json_file file;
+    SL_TRY(sli_json_open(context, name, text, size, &file));
+    return list_tree(context, &file, list, unsaid);
+}

@@ -1,0 +1,257 @@
+/// The parts of the reader of Tiled maps: notations, lattices, tilesets, shapes.
+#ifndef SL_TILED_H
+#define SL_TILED_H
+
+#include "io/parts/document.h"
+#include "io/parts/shapes.h"
+#include "io/parts/things.h"
+
+// --- XML in the shape of JSON, so that one reader reads both
+
+/// Reads a document whose root element has this name ("map", "tileset"). Numbers stay text, a
+/// polygon's points too; every object knows its line. SL_BAD_INPUT with the line where it is no
+/// such document. sli_json_close is the caller's.
+sl_status sli_tiled_from_xml(sl_context *context, const char *name, const char *root,
+                             const char *text, size_t size, sli_json_file *file);
+
+// --- the tiles of a layer, in all the ways that they are written
+
+/// A tile's number in a layer has these bits for how it is turned; the rest is the tile.
+#define SLI_TILED_ACROSS   0x80000000u ///< mirrored left to right, after the next two
+#define SLI_TILED_DOWN     0x40000000u ///< mirrored top to bottom
+#define SLI_TILED_DIAGONAL 0x20000000u ///< x and y exchanged
+#define SLI_TILED_TILE     0x0fffffffu
+/// In hexagonal maps this bit is a turn by 120 degrees, and the one of x and y a turn by 60.
+#define SLI_TILED_HEXAGON_120 0x10000000u
+
+/// Reads `count` numbers: an array, or text by the layer's "encoding" (csv, base64) and
+/// "compression" (none, zlib, gzip, zstd). sl_free(*gids) is the caller's. SL_BAD_INPUT where there
+/// are more or fewer, or the text is damaged.
+sl_status sli_tiled_read_data(const sli_json *layer, const sli_json *data, size_t count,
+                              uint32_t **gids);
+
+// --- how tiles lie on the screen, and the plan where diamonds are squares. Both have y down
+
+typedef enum sli_tiled_orientation {
+    SLI_TILED_ORTHOGONAL,
+    SLI_TILED_ISOMETRIC,
+    SLI_TILED_STAGGERED,
+    SLI_TILED_HEXAGONAL,
+} sli_tiled_orientation;
+
+typedef struct sli_tiled_lattice {
+    sli_tiled_orientation orientation;
+    sl_point tile;                ///< the size of the box of a tile, pixels
+    sl_point step;                ///< the size of a square of the plan; 1 x 1 for hexagons
+    bool stagger_x, stagger_even; ///< columns (else rows) are moved: the even ones, else the odd
+    double side, slope;           ///< the length of a hexagon's straight sides, and of its points
+    double left;                  ///< the plan's origin on the screen
+    double height;                ///< the screen's y that is 0 in the map
+} sli_tiled_lattice;
+
+/// Reads the head of a map: its orientation, its size, that of its tiles.
+sl_status sli_tiled_read_lattice(const sli_json *map, sli_tiled_lattice *lattice);
+
+/// Whether the plan is another than the screen: tiles are diamonds.
+bool sli_tiled_has_plan(const sli_tiled_lattice *lattice);
+/// From the screen to the plan, and back.
+sli_affine sli_tiled_to_plan(const sli_tiled_lattice *lattice);
+sli_affine sli_tiled_to_screen(const sli_tiled_lattice *lattice);
+
+/// The upper left corner of a tile's box on the screen.
+sl_point sli_tiled_tile_at(const sli_tiled_lattice *lattice, int64_t column, int64_t row);
+
+/// From the numbers of a tile to those of its square in the plan.
+void sli_tiled_square_of(const sli_tiled_lattice *lattice, int64_t *column, int64_t *row);
+
+/// Tiles or squares from `left` and `top` to before `right` and `bottom`.
+typedef struct sli_tiled_range {
+    int64_t left, top, right, bottom;
+} sli_tiled_range;
+/// The squares of the plan that a block of tiles lies in; a staggered block fills about half of it.
+void sli_tiled_plan_range(const sli_tiled_lattice *lattice, const sli_tiled_range *tiles,
+                          sli_tiled_range *squares);
+
+/// Moves walls, doors and starts from the plan to the screen, both with y up. SL_BAD_INPUT where a
+/// coordinate is not usable then.
+sl_status sli_tiled_project(const sli_json *json, const sli_tiled_lattice *lattice, sl_map *map);
+
+/// Adds the sides between solid and open hexagons as walls with their ground. The grid's places are
+/// numbers of columns and rows; `offset` is the layer's, pixels.
+sl_status sli_tiled_add_hexagons(sl_context *context, const sli_tiled_lattice *lattice,
+                                 sl_point offset, const sli_grid *grid, sl_map *map);
+/// Whether a place on the screen lies in a hexagon or on its border.
+bool sli_tiled_in_hexagon(const sli_tiled_lattice *lattice, int64_t column, int64_t row,
+                          sl_point at);
+
+// --- tilesets, as far as they say what is solid
+
+/// What a layer, a tile or an object says of itself.
+typedef enum sli_tiled_word { SLI_TILED_UNSAID, SLI_TILED_OPEN, SLI_TILED_SOLID } sli_tiled_word;
+
+/// By a property whose name is a word for solid (solid.h) and whose value is true or false; else by
+/// the class (member `class_key`, or "class"), where that is such a word.
+sli_tiled_word sli_tiled_word_of(const sli_json *thing, const char *class_key);
+
+/// A walk over the properties of a layer, a tile or an object: newer files have a list, the older
+/// ones an object of names and values.
+typedef struct sli_tiled_properties {
+    sli_json all;
+    size_t next;
+    void *at;
+} sli_tiled_properties;
+
+/// The thing must outlive the walk.
+sli_tiled_properties sli_tiled_properties_of(const sli_json *thing);
+/// False at the end. The name is NULL for a property without one.
+bool sli_tiled_next_property(sli_tiled_properties *walk, const char **name, sli_json *value);
+
+bool sli_tiled_looks_like_xml(const sl_bytes *bytes);
+
+/// A tile that says something of itself, or has shapes to collide with.
+typedef struct sli_tiled_tile {
+    uint32_t id;
+    sli_tiled_word word;
+    sli_says says;  ///< by its class and its properties
+    json_t *shapes; ///< an array of objects; NULL for none
+    uint32_t item;  ///< of the first shape's name in the map; 0 before the tile is drawn
+    uint64_t drawn; ///< the shapes that are drawn for each such tile,
+    uint64_t walls; ///< and their walls
+} sli_tiled_tile;
+
+typedef struct sli_tiled_set {
+    uint32_t first;                 ///< the number of its first tile in the layers
+    double width, height;           ///< of its tiles, pixels
+    double x, y;                    ///< how far its tiles are drawn from their place
+    sl_point diamond;               ///< the tiles' shapes are drawn in this one; 0 for in pixels
+    sli_tiled_word word;            ///< of all tiles that say nothing
+    SL_ARRAY(sli_tiled_tile) tiles; ///< by id, ascending
+    sli_json_file file;             ///< where it is in a file of its own
+    char *path;                     ///< that file; NULL for none
+    const char *missing;            ///< that file as the map calls it, where it cannot be read
+} sli_tiled_set;
+
+typedef struct sli_tiled_sets {
+    SL_ARRAY(sli_tiled_set) sets; ///< by first number, ascending
+    size_t missing;
+} sli_tiled_sets;
+
+/// Reads the map's tilesets, those in files beside it too. A file that cannot be read is no
+/// failure: its set is marked. The map's tree must outlive the sets.
+sl_status sli_tiled_read_sets(const sli_json *map, sli_tiled_sets *sets);
+void sli_tiled_destroy_sets(sl_context *context, sli_tiled_sets *sets);
+
+/// The set of a tile, by its number without the bits of turning; NULL where no set has it.
+const sli_tiled_set *sli_tiled_find_set(const sli_tiled_sets *sets, uint32_t gid);
+/// What the tile says, or NULL for nothing.
+sli_tiled_tile *sli_tiled_find_tile(const sli_tiled_set *set, uint32_t gid);
+
+// --- objects as walls: rectangles, ellipses, polygons, polylines
+
+typedef enum sli_tiled_kind {
+    SLI_TILED_RECTANGLE,
+    SLI_TILED_ELLIPSE,
+    SLI_TILED_POLYGON,
+    SLI_TILED_POLYLINE,
+    SLI_TILED_PICTURE, ///< a tile as an object: a rectangle that stands on its place
+    SLI_TILED_OTHER,   ///< a point, a text, a capsule, an instance of a template
+} sli_tiled_kind;
+
+typedef struct sli_tiled_shape {
+    sli_tiled_kind kind;
+    double x, y, width, height; ///< pixels, y down
+    double rotation;            ///< degrees, clockwise on the screen, about x, y
+    sli_affine turn;            ///< by that; in a plan, what the screen's turn is there
+    uint32_t gid;               ///< of a picture
+    uint32_t line;              ///< 0 where there is none
+    sli_json points;            ///< of a polygon or polyline, from x, y
+} sli_tiled_shape;
+
+/// Reads what an object is; `object` must outlive the shape.
+sl_status sli_tiled_read_shape(const sli_json *object, sli_tiled_shape *shape);
+
+/// The walls that drawing the shape gives, without those of no length. With a tolerance an ellipse
+/// counts as 4.
+uint64_t sli_tiled_shape_walls(const sli_pen *pen, const sli_tiled_shape *shape);
+
+/// Draws the outline. The pen's affine leads from the object's layer to the map.
+sl_status sli_tiled_draw_shape(sli_pen *pen, const sli_tiled_shape *shape);
+
+// --- starts and doors
+
+/// What an object or a tile says by its name, its class (member `class_key`, or "class"), and its
+/// properties.
+sli_says sli_tiled_says_of(const sli_json *thing, const char *class_key);
+
+typedef struct sli_tiled_template sli_tiled_template;
+/// Zero it to start.
+typedef struct sli_tiled_templates {
+    sli_tiled_template *items;
+    size_t count, capacity;
+} sli_tiled_templates;
+
+void sli_tiled_destroy_templates(sl_context *context, sli_tiled_templates *templates);
+
+/// An instance of a template with all that the template says; `file` has no root for an object that
+/// is no instance. sli_json_close is the caller's, on failure too. A template that cannot be read
+/// is noted, and the instance stands for itself.
+sl_status sli_tiled_instance(sli_tiled_templates *templates, const sli_json *object,
+                             sli_json_file *file);
+
+/// Adds an object that is a start or a door; `place` leads from its layer to the file's places, and
+/// it would be a wall else if `is_wall`.
+sl_status sli_tiled_take_thing(sli_things *things, const sli_says *says,
+                               const sli_tiled_shape *shape, sli_affine place, bool is_wall);
+
+// --- reading a map: what its parts share
+
+typedef struct sli_tiled_reader {
+    sl_context *context;
+    const sl_import_options *options;
+    const sli_json *map;
+    sli_tiled_lattice lattice;
+    double top;          ///< the plan's y that is 0 for the pen, which has y up
+    sli_affine to_plan;  ///< from the screen
+    sl_point offset;     ///< staggered and hexagonal: of the layers with tiles
+    sli_tiled_range all; ///< and their tiles
+    sli_tiled_sets sets;
+    sli_tiles tiles;
+    sli_pen pen;
+    bool guess;          ///< nothing says what is solid: the first tile layer is guessed from
+    uint32_t guessed;    ///< the tile that is taken as solid, 0 where the empty squares are
+    char guessed_of[64]; ///< and its layer
+    uint64_t tile_shapes, tile_walls;                  ///< that the layers' tiles draw
+    size_t solid_layers, solid_tiles, shapes, objects; ///< taken
+    size_t other_layers, other_objects, other_shapes;  ///< left out
+    size_t unknown_tiles;                              ///< of tilesets that cannot be read
+    size_t doors_left_out;                             ///< tiles that are doors and hexagons
+    sli_things things;
+    sli_tiled_templates templates;
+} sli_tiled_reader;
+
+/// A layer's place, and what is said of it, its groups included.
+typedef struct sli_tiled_place {
+    sl_point offset; ///< pixels, y down
+    sli_tiled_word word;
+    sli_word gids; ///< the tiles that are asked for; of no length for all
+    bool asked;
+} sli_tiled_place;
+
+/// Whether a tile is among the numbers that are asked for; any tile is among none.
+bool sli_tiled_among(sli_word gids, uint32_t gid);
+
+/// What a tile's set says of it; both may be NULL.
+sli_tiled_word sli_tiled_word_of_tile(const sli_tiled_set *set, const sli_tiled_tile *tile);
+
+/// Gives the next shape of the pen a number and a name. Shapes of tilesets stand in other files
+/// than the map, so that a line of its own would say nothing.
+sl_status sli_tiled_name_shape(sli_tiled_reader *reader, const char *label);
+
+/// Reads the tiles of a layer: solid squares, doors, shapes of tiles.
+sl_status sli_tiled_read_tile_layer(sli_tiled_reader *reader, const sli_json *layer,
+                                    const sli_tiled_place *at);
+
+/// Makes walls of all solid tiles that were read, in the plan.
+sl_status sli_tiled_add_tile_walls(sli_tiled_reader *reader);
+
+#endif

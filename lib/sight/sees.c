@@ -1,0 +1,234 @@
+/// Single lines of sight: do two points see each other, and what does a ray hit?
+///
+/// sli_sees follows the segment between two points from room to room. Nearly always it leaves each
+/// room within one side, and the other point lies before that side or behind it:
+///
+///     +--------+---------+     first the side by which the segment leaves a room, as for a ray;
+///     | eye *--|----* .. |     then on which side of it the point is: before it, it is seen;
+///     +--------+---------+     behind it, the segment goes on through a portal or ends at a wall
+///
+/// Where the segment touches a corner, or an end lies on a side, it may go on in several rooms.
+/// Then all rooms are tried that it comes to by portals that it meets. It is seen where one of them
+/// holds the point; with open sight it must touch no wall.
+///
+/// sli_ray_cast starts at the side of the fan (region.c) that the ray meets and goes from room to
+/// room to the first side that is no portal. Both decide by exact predicates alone; only the point
+/// where the ray hits is rounded. Cost: O(sides of the rooms on the way).
+#include "sight/region.h"
+
+#include "sight/region_parts.h"
+#include "sightline/support.h"
+
+#include <math.h>
+
+// --- two points, where nothing is touched
+
+typedef enum finding { HIDDEN, SEEN, TOUCHES } finding;
+
+/// Finds the side by which a ray leaves the room that its eye is in. False where the eye is not
+/// within the room, or the ray's line touches a corner of it.
+static bool leave_start(const sl_outline *o, const sli_eye_place *eye, const sli_eye_ray *ray,
+                        double limit, uint32_t room, uint32_t *at) {
+    const sl_side *sides = o->sides;
+    uint32_t i = o->first[room];
+    sl_point a = sides[i].start;
+    int turn = sli_eye_turn_to(eye, ray, a, sli_eye_offset(eye, a), limit);
+    bool found = false;
+    do {
+        const uint32_t next = sides[i].next;
+        const sl_point b = sides[next].start;
+        const int next_turn = sli_eye_turn_to(eye, ray, b, sli_eye_offset(eye, b), limit);
+        if (next_turn == 0 || sli_orient(a, b, eye->point.at) <= 0) return false;
+        if (turn < 0 && next_turn > 0) {
+            *at = i;
+            found = true;
+        }
+        turn = next_turn;
+        a = b;
+        i = next;
+    } while (i != o->first[room]);
+    return found;
+}
+
+/// Follows the segment as long as it passes within sides.
+static finding follow_within(const sl_outline *o, uint32_t room, sl_point eye, sl_point point) {
+    const sl_side *sides = o->sides;
+    const sli_eye_place place = sli_eye_place_at(eye);
+    const sli_eye_ray ray = sli_eye_ray_through(&place, point);
+    const sl_view view = {.eye = eye, .left = point, .right = point};
+    const double limit = sli_eye_limit(o->space, &view);
+    uint32_t at;
+    if (!leave_start(o, &place, &ray, limit, room, &at)) return TOUCHES;
+    for (bool within = true;;) {
+        const int before = sli_orient(sides[at].start, sides[sides[at].next].start, point);
+        if (before) {
+            if (before > 0) return SEEN;
+            if (!sl_side_is_portal(&sides[at])) return HIDDEN;
+        }
+        if (!before ||
+            !sli_region_find_first(o, &place, limit, sides[at].neighbour, &ray, &at, &within) ||
+            !within)
+            return TOUCHES;
+    }
+}
+
+// --- two points, all rooms that the segment may go to
+
+typedef struct seer {
+    const sl_outline *outline;
+    sl_point eye, point;
+    uint32_t cell; ///< the eye's
+    bool touches;  ///< a wall, somewhere
+    SL_ARRAY(uint32_t) waiting;
+    sl_bits *entered; ///< by room
+} seer;
+
+/// Whether two segments in one line have a point in common.
+static bool overlap(sl_point a, sl_point b, sl_point c, sl_point d) {
+    return fmax(fmin(a.x, b.x), fmin(c.x, d.x)) <= fmin(fmax(a.x, b.x), fmax(c.x, d.x)) &&
+           fmax(fmin(a.y, b.y), fmin(c.y, d.y)) <= fmin(fmax(a.y, b.y), fmax(c.y, d.y));
+}
+
+/// Whether the segment and a side have a point in common.
+static bool meets(const seer *s, sl_point a, sl_point b) {
+    const int ea = sli_orient(s->eye, s->point, a), eb = sli_orient(s->eye, s->point, b);
+    const int from = sli_orient(a, b, s->eye), to = sli_orient(a, b, s->point);
+    if (ea == 0 && eb == 0) return from == 0 && overlap(s->eye, s->point, a, b);
+    return ea * eb <= 0 && from * to <= 0;
+}
+
+static bool room_holds(const seer *s, uint32_t room, sl_point point) {
+    const sl_side *sides = s->outline->sides;
+    for (uint32_t i = s->outline->first[room]; i < s->outline->first[room + 1]; i++)
+        if (sli_orient(sides[i].start, sides[sides[i].next].start, point) < 0) return false;
+    return true;
+}
+
+static uint32_t room_of(const sl_outline *o, uint32_t side) {
+    uint32_t low = 0, high = o->room_count;
+    while (high - low > 1) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (o->first[middle] <= side)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+static sl_status enter(sl_context *context, seer *s, uint32_t room) {
+    if (sl_bits_has(s->entered, room)) return SL_OK;
+    sl_bits_add(s->entered, room);
+    SL_TRY(SL_ARRAY_ROOM(context, &s->waiting, 1));
+    s->waiting.items[s->waiting.count++] = room;
+    return SL_OK;
+}
+
+/// Enters all rooms that the segment leads to, and finds whether one of them holds the point.
+static sl_status follow(sl_context *context, seer *s, bool *arrives) {
+    const sl_outline *o = s->outline;
+    while (s->waiting.count) {
+        const uint32_t room = s->waiting.items[--s->waiting.count];
+        *arrives = *arrives || room_holds(s, room, s->point);
+        for (uint32_t i = o->first[room]; i < o->first[room + 1]; i++) {
+            const sl_side *side = &o->sides[i];
+            const bool open = sli_region_leads_on(o, i, s->cell, s->eye);
+            if (side->neighbour >= SL_SIDE_BORDER || (s->touches && !open) ||
+                !meets(s, side->start, o->sides[side->next].start))
+                continue;
+            if (open)
+                SL_TRY(enter(context, s, room_of(o, sli_region_across(o, i))));
+            else
+                s->touches = true;
+        }
+    }
+    return SL_OK;
+}
+
+static bool in_bounds(const sl_space *space, sl_point p) {
+    const sl_box *b = &space->bounds;
+    return p.x >= b->min.x && p.x <= b->max.x && p.y >= b->min.y && p.y <= b->max.y;
+}
+
+sl_status sli_sees(sl_context *context, const sl_outline *outline, sl_point eye, sl_point point,
+                   sl_sight sight, bool *out) {
+    const sl_space *space = outline->space;
+    const uint32_t start = sli_eye_cell(space, eye);
+    *out = false;
+    if (start == SL_NO_CELL || !in_bounds(space, point)) return SL_OK;
+    const uint32_t room = sl_outline_room(outline, start, eye);
+    const finding found = space->loose ? TOUCHES : follow_within(outline, room, eye, point);
+    *out = found == SEEN;
+    if (found != TOUCHES || sl_space_locate(space, point) == SL_NO_CELL) return SL_OK;
+    seer s = {.outline = outline, .eye = eye, .point = point, .cell = start};
+    bool arrives = false;
+    s.entered = sl_alloc_array(context, sl_bits_words(outline->room_count), sizeof *s.entered);
+    sl_status status = s.entered ? enter(context, &s, room) : SL_NO_MEMORY;
+    if (status == SL_OK) status = follow(context, &s, &arrives);
+    sl_free(context, s.entered);
+    sl_free(context, s.waiting.items);
+    if (status == SL_OK) *out = arrives && (sight == SL_CLOSED || !s.touches);
+    return status;
+}
+
+// --- rays
+
+/// Finds the wall or border that the ray meets, starting at a side of the fan. False where the
+/// boundary of a room is not closed, by rounding.
+static bool walk(const sl_outline *o, const sli_eye_place *eye, const sli_eye_ray *ray,
+                 uint32_t *at, bool *within) {
+    const sl_view view = {.eye = eye->point.at, .left = ray->at, .right = ray->at};
+    const double limit = sli_eye_limit(o->space, &view);
+    while (sl_side_is_portal(&o->sides[*at])) {
+        const uint32_t entry = o->sides[*at].neighbour;
+        if (!sli_region_find_first(o, eye, limit, entry, ray, at, within)) return false;
+    }
+    return true;
+}
+
+static void write_hit(const sl_outline *o, sl_point eye, const sli_eye_ray *ray, uint32_t at,
+                      bool within, sl_hit *out) {
+    const sl_side *side = &o->sides[at];
+    // An eye on glass may have the lit side there.
+    const uint32_t neighbour =
+        sl_side_is_portal(side) ? o->sides[side->neighbour].neighbour : side->neighbour;
+    out->wall = neighbour >= SL_SIDE_BORDER ? UINT32_MAX : neighbour - SL_SIDE_WALL;
+    out->point = side->start;
+    if (!within) return;
+    const sl_point a = side->start, b = o->sides[side->next].start;
+    const sl_point offset = sli_region_meet(eye, ray, a, b);
+    out->point.x = fmin(fmax(eye.x + offset.x, fmin(a.x, b.x)), fmax(a.x, b.x));
+    out->point.y = fmin(fmax(eye.y + offset.y, fmin(a.y, b.y)), fmax(a.y, b.y));
+}
+
+sl_status sli_ray_cast(sl_context *context, const sl_outline *outline, sl_point eye,
+                       sl_point through, sl_hit *out) {
+    struct sli_region_memory memory = {0};
+    sl_region region = {.view = sl_view_all_round(eye), .memory = &memory};
+    region.cell = sli_eye_cell(outline->space, eye);
+    if (region.cell == SL_NO_CELL)
+        return sl_fail(context, SL_BAD_ARGUMENT, "the eye is outside the map or in solid ground");
+    if (!isfinite(through.x) || !isfinite(through.y) || (through.x == eye.x && through.y == eye.y))
+        return sl_fail(context, SL_BAD_ARGUMENT, "a ray needs a second point");
+    const sli_eye_place place = sli_eye_place_at(eye);
+    const sli_eye_ray ray = sli_eye_ray_through(&place, through);
+    memory.eye = place;
+    sl_status status = sli_region_gather_fan(context, outline, &region);
+    if (status == SL_OK) {
+        const uint32_t k = sli_region_find_side(outline, &region, &ray, true);
+        uint32_t at = k == UINT32_MAX ? memory.left : memory.fan.items[k];
+        sl_hit hit = {0};
+        bool within = true;
+        if (k != UINT32_MAX) {
+            const sli_eye_ray start = sli_eye_ray_through(&place, outline->sides[at].start);
+            within = sli_eye_turn(&place, &ray, &start) != 0;
+        }
+        if (k != UINT32_MAX && !walk(outline, &place, &ray, &at, &within))
+            status = sl_fail(context, SL_BAD_ARGUMENT, "the outline of a room is not closed");
+        write_hit(outline, eye, &ray, at, within && k != UINT32_MAX, &hit);
+        if (k == UINT32_MAX) hit.point = eye;
+        if (status == SL_OK) *out = hit;
+    }
+    sl_free(context, memory.fan.items);
+    return status;
+}

@@ -1,0 +1,88 @@
+/// From a map's file to its space, and the options for it. All commands that subdivide a map share
+/// them.
+#ifndef PIPELINE_H
+#define PIPELINE_H
+
+#include "inputs/inputs.h"
+
+/// How a map is read, cleaned and subdivided.
+typedef struct map_pipeline {
+    const char *path; ///< the map's file
+    input_options input;
+    sl_bake_options bake;   ///< the method is the command's
+    sl_point start;         ///< beside the map's own, where `start_text` is not NULL
+    const char *start_text; ///< as it is given
+    size_t stops;           ///< which walls count, as stops_table()
+    const char *stops_text; ///< as it is given; NULL: those of `channel`
+    uint32_t channel;       ///< as sl_map.channel
+    options_given given;    ///< all options of the command, for commands to run next
+    unsigned without;       ///< effects to leave out: bits of sl_effects()
+    bool settles_doors;     ///< the command takes doors as they stand (sl_effects_settle_doors)
+
+    // What the options of the subdivision say. pipeline_plan() puts it into `bake`.
+    size_t subdivide;           ///< of sl_subdivisions()
+    const char *subdivide_text; ///< NULL where it is not given
+    unsigned kd_rules;          ///< bits
+    const char *kd_rules_given, *kd_obscured_given;
+} map_pipeline;
+
+map_pipeline pipeline_default(void);
+
+/// The command-line options that fill it, with those of its input.
+option_table pipeline_option_table(map_pipeline *pipeline);
+/// The option --without alone.
+option_table pipeline_without_table(map_pipeline *pipeline);
+
+/// Call it after the options are read and before anything else.
+sl_status pipeline_plan(sl_context *context, const char *path, map_pipeline *pipeline);
+
+/// Adds the start of --start to a map, drops the effects of --without and may settle doors.
+sl_status pipeline_prepare(sl_context *context, const map_pipeline *pipeline, sl_map *map);
+
+/// Reads the map, adds the start of --start and drops the effects of --without.
+sl_status pipeline_read(sl_context *context, const map_pipeline *pipeline, sl_map *map);
+
+/// Cleans a map and finds what is inside. `account` may be NULL.
+sl_status pipeline_clean(sl_context *context, const map_pipeline *pipeline, sl_map *map,
+                         sl_clean_account *account);
+
+/// Reads the map as pipeline_read() does, and cleans it. `account` may be NULL.
+sl_status pipeline_read_clean(sl_context *context, const map_pipeline *pipeline, sl_map *map,
+                              sl_clean_account *account);
+
+/// Subdivides a clean map. Checks the space if asked to, and always for a mesh.
+sl_status pipeline_subdivide(sl_context *context, const map_pipeline *pipeline, const sl_map *map,
+                             sl_space *space);
+
+/// The space of a map, or of a baked file (by its name or its first bytes). Fails where the map has
+/// effects other than `effects`, those that the command `user` supports; `reason`: why no others,
+/// NULL for no need to say.
+sl_status pipeline_read_space(sl_context *context, const map_pipeline *pipeline, const char *user,
+                              unsigned effects, const char *reason, sl_baked *baked);
+
+/// A word for the shell: in quotes if it is not made of plain characters. Cut to fit `size`, and
+/// gives the length as that does.
+size_t pipeline_shell_word(const char *word, char *text, size_t size);
+
+/// Refuses a map of which walls enclose next to nothing, where no start says what is inside: most
+/// of a grid would be missing. `or_else`: what else than a start helps; "" for nothing. Else as
+/// pipeline_note_inside().
+sl_status pipeline_need_inside(sl_context *context, const map_pipeline *pipeline, const sl_map *map,
+                               const sl_space *space, const char *or_else);
+
+/// Notes how much is inside if that is in doubt, and what to run next.
+sl_status pipeline_note_inside(sl_context *context, const map_pipeline *pipeline, const sl_map *map,
+                               const sl_space *space);
+
+/// Gives the status of laying a grid over a space. Where the grid is refused as too large and
+/// strays make the map large, the message names the first of them.
+sl_status pipeline_name_stray(sl_context *context, const char *path, const sl_map *map,
+                              const sl_space *space, sl_status status);
+
+/// For --help: the names that the options take.
+void pipeline_print_subdivisions(void);
+void pipeline_print_effects(void);
+/// Methods and solvers.
+void pipeline_print_methods(void);
+
+#endif

@@ -1,0 +1,44 @@
+#include "reports/summary.h"
+
+#include <math.h>
+#include <stdio.h>
+
+bool summary_mean(const summary_values *values, double *mean, double *deviation) {
+    double sum = 0, squares = 0, count = 0;
+    for (size_t i = 0; i < values->count; i++) {
+        const double value = values->at(values->of, i);
+        if (isnan(value)) continue;
+        sum += value;
+        count++;
+    }
+    *mean = sum / count;
+    for (size_t i = 0; i < values->count; i++) {
+        const double value = values->at(values->of, i);
+        if (!isnan(value)) squares += (value - *mean) * (value - *mean);
+    }
+    *deviation = sqrt(squares / count);
+    return count > 0;
+}
+
+void summary_print_mean(const char *name, const summary_values *values) {
+    double mean, deviation;
+    if (summary_mean(values, &mean, &deviation))
+        printf("  %-36s %12.6g %12.6g\n", name, mean, deviation);
+    else
+        printf("  %-36s %12s\n", name, "not defined");
+}
+
+size_t summary_best(const summary_values *values, size_t best[SUMMARY_BEST]) {
+    size_t count = 0;
+    for (size_t i = 0; i < values->count; i++) {
+        const double value = values->at(values->of, i);
+        size_t at = count;
+        if (isnan(value)) continue;
+        while (at && value > values->at(values->of, best[at - 1])) at--;
+        if (at == SUMMARY_BEST) continue;
+        if (count < SUMMARY_BEST) count++;
+        for (size_t k = count - 1; k > at; k--) best[k] = best[k - 1];
+        best[at] = i;
+    }
+    return count;
+}

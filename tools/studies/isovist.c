@@ -1,0 +1,378 @@
+#include "studies/isovist.h"
+
+#include "inputs/inputs.h"
+#include "inputs/within.h"
+#include "reports/fields.h"
+#include "sightline/support.h"
+#include "studies/eye_run.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+
+// --- eyes
+
+enum { MOST_SQUARES = 1 << 26 };
+
+void eyes_destroy(sl_context *context, eye_places *eyes) {
+    sl_free(context, eyes->list.items);
+    sl_free(context, eyes->squares.items);
+    *eyes = (eye_places){0};
+}
+
+sl_status eyes_add(sl_context *context, eye_places *eyes, eye_place eye) {
+    SL_TRY(SL_ARRAY_ROOM(context, &eyes->list, 1));
+    eyes->list.items[eyes->list.count++] = eye;
+    return SL_OK;
+}
+
+sl_status eyes_add_grid(sl_context *context, const sl_space *space, double step, eye_place like,
+                        eye_places *eyes) {
+    const sl_box *b = &space->bounds;
+    const double columns = ceil((b->max.x - b->min.x) / step);
+    const double rows = ceil((b->max.y - b->min.y) / step);
+    if (!(columns * rows <= MOST_SQUARES))
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "a grid of step %g has %.0f squares; at most %d can be", step,
+                       columns * rows, MOST_SQUARES);
+    eyes->corner = b->min;
+    eyes->step = step;
+    eyes->columns = (size_t)columns;
+    eyes->rows = (size_t)rows;
+    for (size_t i = 0; i < eyes->columns * eyes->rows; i++) {
+        if (i % 65536 == 0) SL_TRY(sl_check_cancelled(context));
+        like.at.x = b->min.x + step * ((double)(i % eyes->columns) + 0.5);
+        like.at.y = b->min.y + step * ((double)(i / eyes->columns) + 0.5);
+        const uint32_t cell = sl_space_locate(space, like.at);
+        if (cell == SL_NO_CELL || !space->cells[cell].inside) continue;
+        SL_TRY(SL_ARRAY_ROOM(context, &eyes->squares, 1));
+        eyes->squares.items[eyes->squares.count++] = i;
+        SL_TRY(eyes_add(context, eyes, like));
+    }
+    if (eyes->list.count) return SL_OK;
+    return sl_fail(context, SL_BAD_ARGUMENT,
+                   "a grid of step %.9g has no point inside the map; choose a smaller step", step);
+}
+
+void eyes_keep_within(const sl_map *outlines, eye_places *eyes) {
+    size_t kept = 0;
+    for (size_t i = 0; i < eyes->list.count; i++) {
+        if (!within_has(outlines, eyes->list.items[i].at)) continue;
+        eyes->list.items[kept] = eyes->list.items[i];
+        eyes->squares.items[kept++] = eyes->squares.items[i];
+    }
+    eyes->list.count = eyes->squares.count = kept;
+}
+
+sl_status eyes_add_path(sl_context *context, const sl_path *path, double step, eye_place like,
+                        eye_places *eyes) {
+    double over = 0; // from the last eye to the point reached
+    for (size_t i = 0; i < path->count; i++) {
+        const sl_point to = path->points[i];
+        if (i == 0 || step == 0) {
+            like.at = to;
+            SL_TRY(eyes_add(context, eyes, like));
+            continue;
+        }
+        const sl_point from = path->points[i - 1];
+        const double length = hypot(to.x - from.x, to.y - from.y);
+        if (length / step > MOST_SQUARES)
+            return sl_fail(context, SL_BAD_ARGUMENT, "--step %g: too small for path '%s'", step,
+                           path->name);
+        double along = step - over;
+        for (; along <= length; along += step) {
+            like.at = (sl_point){from.x + along / length * (to.x - from.x),
+                                 from.y + along / length * (to.y - from.y)};
+            SL_TRY(eyes_add(context, eyes, like));
+        }
+        over = length - (along - step);
+    }
+    return SL_OK;
+}
+
+/// What a table has of an eye, and in which columns: those of the names in the first line, or the
+/// first ones.
+enum { EYE_FIELDS = 4 };
+typedef struct eye_columns {
+    bool named;
+    size_t at[EYE_FIELDS]; ///< SIZE_MAX: none
+} eye_columns;
+
+/// The next field of a line, without blanks around it. False behind the last.
+static bool next_field(const char *line, size_t length, size_t *at, const char **field,
+                       size_t *wide) {
+    if (*at > length) return false;
+    const char *comma = memchr(line + *at, ',', length - *at);
+    size_t end = comma ? (size_t)(comma - line) : length, start = *at;
+    *at = end + 1;
+    while (start < end && (line[start] == ' ' || line[start] == '\t')) start++;
+    while (start < end && (line[end - 1] == ' ' || line[end - 1] == '\t')) end--;
+    *field = line + start;
+    *wide = end - start;
+    return true;
+}
+
+/// Names of columns: x and y, with others in any order. Where none is known, the first columns
+/// count. SL_BAD_INPUT where one is known without these two, or there is one column alone.
+static sl_status find_columns(sl_context *context, const char *path, unsigned number,
+                              const char *line, size_t length, eye_columns *out) {
+    static const char *const names[EYE_FIELDS][3] = {
+        {"x", "", ""}, {"y", "", ""}, {"heading", "angle", "look"}, {"fov", "", ""}};
+    eye_columns columns = {.at = {SIZE_MAX, SIZE_MAX, SIZE_MAX, SIZE_MAX}};
+    const char *field;
+    size_t wide, place = 0;
+    for (size_t at = 0; next_field(line, length, &at, &field, &wide); place++)
+        for (size_t k = 0; k < EYE_FIELDS; k++)
+            for (size_t n = 0; n < 3; n++)
+                if (wide && wide == strlen(names[k][n]) && memcmp(field, names[k][n], wide) == 0)
+                    columns.at[k] = place;
+    columns.named = columns.at[0] != SIZE_MAX && columns.at[1] != SIZE_MAX;
+    bool known = place < 2;
+    for (size_t k = 0; k < EYE_FIELDS; k++) known |= columns.at[k] != SIZE_MAX;
+    if (known && !columns.named)
+        return sl_fail_at(context, path, number, "the columns x,y are needed");
+    if (columns.named) *out = columns;
+    return SL_OK;
+}
+
+/// Reads the fields of an eye. An empty one that the eye need not have leaves it as it is.
+static bool read_fields(const char *line, size_t length, const eye_columns *columns,
+                        double fields[EYE_FIELDS]) {
+    const char *field;
+    size_t wide, place = 0, count = 0;
+    for (size_t at = 0; next_field(line, length, &at, &field, &wide); place++) {
+        size_t k = 0;
+        while (k < EYE_FIELDS && columns->at[k] != place) k++;
+        if (k == EYE_FIELDS && columns->named) continue;
+        if (k >= 2 && columns->named && !wide) continue;
+        if (k == EYE_FIELDS || !sl_number_read(field, wide, &fields[k]) || !isfinite(fields[k]))
+            return false;
+        count += k < 2;
+    }
+    return count == 2;
+}
+
+static bool is_blank(const char *line, size_t length) {
+    for (size_t i = 0; i < length; i++)
+        if (line[i] != ' ' && line[i] != '\t') return false;
+    return true;
+}
+
+/// A line without a digit: it cannot hold numbers.
+static bool is_header(const char *line, size_t length) {
+    for (size_t i = 0; i < length; i++)
+        if (line[i] >= '0' && line[i] <= '9') return false;
+    return true;
+}
+
+static sl_status read_line(sl_context *context, const char *path, unsigned number, const char *line,
+                           size_t length, const eye_columns *columns, const sl_space *space,
+                           eye_place like, eye_places *eyes) {
+    double fields[EYE_FIELDS] = {0, 0, like.heading, like.fov};
+    if (!read_fields(line, length, columns, fields))
+        return sl_fail_at(context, path, number,
+                          "two to four finite numbers are needed: x, y, heading, fov");
+    const eye_place eye = {{fields[0], fields[1]}, fields[2], fields[3]};
+    if (!(eye.fov >= 0 && eye.fov <= 360))
+        return sl_fail_at(context, path, number, "fov must be 0 to 360 degrees");
+    SL_TRY(input_check_place(context, path, number, space, eye.at));
+    return eyes_add(context, eyes, eye);
+}
+
+sl_status eyes_read_csv(sl_context *context, const char *path, const sl_space *space,
+                        eye_place like, eye_places *eyes) {
+    sl_bytes text;
+    SL_TRY(sl_file_read(context, path, &text));
+    sl_status status = SL_OK;
+    unsigned number = 0;
+    eye_columns columns = {.at = {0, 1, 2, 3}};
+    for (size_t at = 0; at < text.size && status == SL_OK;) {
+        const char *line = text.data + at, *end = memchr(line, '\n', text.size - at);
+        size_t length = end ? (size_t)(end - line) : text.size - at;
+        at += length + 1;
+        if (length && line[length - 1] == '\r') length--;
+        number++;
+        if (is_blank(line, length)) continue;
+        if (number == 1 && is_header(line, length))
+            status = find_columns(context, path, number, line, length, &columns);
+        else
+            status = read_line(context, path, number, line, length, &columns, space, like, eyes);
+    }
+    sl_free(context, text.data);
+    if (status == SL_OK && !eyes->list.count)
+        status = sl_fail(context, SL_BAD_INPUT, "%s: there is no point in it", path);
+    return status;
+}
+
+// --- parts
+
+static uint32_t root_of(uint32_t *parent, uint32_t at) {
+    while (parent[at] != at) at = parent[at] = parent[parent[at]];
+    return at;
+}
+
+sl_status isovist_part_sizes(sl_context *context, sl_query *query, const eye_places *eyes,
+                             uint32_t *sizes) {
+    const sl_space *space;
+    SL_TRY(sl_query_space(context, query, &space, NULL));
+    const uint32_t cells = space->cell_count;
+    const size_t count = eyes->list.count;
+    uint32_t *parent = sl_alloc_array(context, (size_t)cells + 1, sizeof *parent);
+    uint32_t *points = sl_alloc_array(context, (size_t)cells + 1, sizeof *points);
+    const bool room = parent && points;
+    for (uint32_t c = 0; room && c < cells; c++) parent[c] = c;
+    for (uint32_t c = 0; room && c < cells; c++) {
+        const sl_directed_portal *directed = &space->directed[space->cells[c].first_directed];
+        for (uint32_t i = 0; i < space->cells[c].directed_count; i++)
+            parent[root_of(parent, c)] = root_of(parent, directed[i].cell);
+    }
+    for (size_t i = 0; room && i < count; i++) {
+        const uint32_t cell = sl_query_locate(query, eyes->list.items[i].at);
+        sizes[i] = cell == SL_NO_CELL ? cells : root_of(parent, cell);
+        points[sizes[i]]++;
+    }
+    for (size_t i = 0; room && i < count; i++) sizes[i] = points[sizes[i]];
+    sl_free(context, parent);
+    sl_free(context, points);
+    return room ? SL_OK : SL_NO_MEMORY;
+}
+
+// --- measures
+
+enum { EYES_A_BUNDLE = 64 };
+
+void isovist_put_measures(sl_geojson_writer *out, const sl_region_measures *all) {
+    size_t count;
+    const sl_measure *measures = sl_measures(SL_ISOVIST, &count);
+    for (size_t i = 0; i < count; i++)
+        sl_geojson_add_real(out, measures[i].name, sl_measure_value(&measures[i], all));
+}
+
+sl_view eye_view(const sl_space *space, const eye_place *eye) {
+    const sl_box *b = &space->bounds;
+    const double reach = fmax(b->max.x - b->min.x, b->max.y - b->min.y);
+    return sl_view_cone(eye->at, eye->heading, eye->fov, reach);
+}
+
+sl_status isovist_look(sl_context *context, const isovist_scene *scene, const sl_view *view,
+                       sl_mirrored_region *out) {
+    return scene->mirrored ? sl_query_mirrored_region(context, scene->query, view, out)
+                           : sl_query_region(context, scene->query, view, &out->direct);
+}
+
+typedef struct job {
+    const isovist_scene *scene;
+    const eye_places *eyes;
+    isovist_result *out;
+} job;
+
+static sl_status begin(sl_context *context, void *all, void **state) {
+    (void)all;
+    *state = sl_alloc_array(context, 1, sizeof(sl_mirrored_region));
+    return *state ? SL_OK : SL_NO_MEMORY;
+}
+
+static sl_status measure_bundle(sl_context *context, void *all, void *state, size_t bundle) {
+    const job *j = all;
+    sl_mirrored_region *region = state;
+    const sl_space *space = j->scene->space;
+    const size_t first = bundle * EYES_A_BUNDLE, count = j->eyes->list.count;
+    for (size_t i = first; i < count && i < first + EYES_A_BUNDLE; i++) {
+        const sl_view view = eye_view(space, &j->eyes->list.items[i]);
+        SL_TRY(sl_check_cancelled(context));
+        SL_TRY(isovist_look(context, j->scene, &view, region));
+        j->out[i] = (isovist_result){sl_region_measure(&region->direct),
+                                     sl_region_corners(&region->direct, space, NULL, 0),
+                                     sl_mirrored_area(region), region->part_count};
+    }
+    return SL_OK;
+}
+
+static void end(sl_context *context, void *all, void *state) {
+    (void)all;
+    sl_mirrored_region_destroy(context, state);
+    sl_free(context, state);
+}
+
+sl_status isovist_run(sl_context *context, const isovist_scene *scene, const eye_places *eyes,
+                      unsigned threads, isovist_result *out) {
+    job j = {scene, eyes, out};
+    const sl_work work = {.job = &j,
+                          .begin = begin,
+                          .unit = measure_bundle,
+                          .end = end,
+                          .stage = "isovist",
+                          .units = "bundles of eyes"};
+    const size_t bundles = (eyes->list.count + EYES_A_BUNDLE - 1) / EYES_A_BUNDLE;
+    return sl_work_run(context, &work, bundles, threads);
+}
+
+/// What the table is of.
+typedef struct isovist_rows {
+    bool mirrored;
+    const eye_places *eyes;
+    const isovist_result *isovists;
+} isovist_rows;
+
+/// The columns of the table, and the properties of the region.
+static size_t list_fields(const void *of, size_t row, table_field fields[FIELDS_MOST]) {
+    const isovist_rows *rows = of;
+    const eye_place *eye = &rows->eyes->list.items[row];
+    const isovist_result *isovist = &rows->isovists[row];
+    size_t measure_count, count = 0;
+    const sl_measure *measures = sl_measures(SL_ISOVIST, &measure_count);
+    fields[count++] = field_real("x", eye->at.x);
+    fields[count++] = field_real("y", eye->at.y);
+    fields[count++] = field_real("heading", eye->heading);
+    fields[count++] = field_real("fov", eye->fov);
+    for (size_t k = 0; k < measure_count; k++)
+        fields[count++] =
+            field_real(measures[k].name, sl_measure_value(&measures[k], &isovist->measures));
+    fields[count++] = field_count("corners", isovist->corners);
+    if (rows->mirrored) fields[count++] = field_real("mirrored_area", isovist->mirrored_area);
+    if (rows->mirrored) fields[count++] = field_count("parts", isovist->parts);
+    return count;
+}
+
+static sl_status put_eye(sl_context *context, sl_geojson_writer *out, const isovist_scene *scene,
+                         const field_rows *rows, size_t row, sl_mirrored_region *region) {
+    const isovist_rows *of = rows->of;
+    const sl_view view = eye_view(scene->space, &of->eyes->list.items[row]);
+    seen_parts parts = {0};
+    SL_TRY(isovist_look(context, scene, &view, region));
+    const sl_status status = seen_parts_add(context, scene->space, region, true, &parts);
+    if (status == SL_OK) {
+        sl_geojson_put_polygon(out, "isovist", parts.items[0].points, parts.items[0].count);
+        fields_add_properties(out, rows, row);
+        sl_geojson_end_feature(out);
+        seen_parts_put_mirrored(out, region, parts.items + 1);
+    }
+    seen_parts_destroy(context, &parts);
+    return status;
+}
+
+/// Regions are found anew: those of all eyes at once may take much memory.
+static sl_status write_places(sl_context *context, const isovist_scene *scene,
+                              const field_rows *rows, FILE *file) {
+    sl_geojson_writer out = sl_geojson_begin(file);
+    sl_mirrored_region region = {0};
+    sl_status status = SL_OK;
+    for (size_t i = 0; i < rows->count && status == SL_OK && !ferror(file); i++) {
+        status = sl_check_cancelled(context);
+        if (status == SL_OK) status = put_eye(context, &out, scene, rows, i, &region);
+        sl_report(context, "write", "regions", i + 1, rows->count);
+    }
+    sl_mirrored_region_destroy(context, &region);
+    sl_geojson_end(&out);
+    return status;
+}
+
+sl_status isovist_write(sl_context *context, const isovist_scene *scene, const eye_places *eyes,
+                        const isovist_result *isovists, const char *path) {
+    const isovist_rows of = {scene->mirrored, eyes, isovists};
+    const field_rows rows = {list_fields, &of, eyes->list.count};
+    if (!name_ends_with(path, ".geojson")) return fields_write_csv(context, &rows, path);
+    sl_output output;
+    SL_TRY(sl_output_open(context, path, &output));
+    return sl_output_close(context, &output, write_places(context, scene, &rows, output.stream));
+}

@@ -1,0 +1,123 @@
+#include "studies/vga_table.h"
+
+#include "inputs/inputs.h"
+#include "reports/fields.h"
+#include "reports/summary.h"
+#include "sightline/support.h"
+
+#include <inttypes.h>
+#include <math.h>
+
+/// Groups as they can be chosen, in the order of the bits.
+static const sl_measure_group groups[] = {SL_GROUP_LOCAL, SL_GROUP_THROUGH, SL_GROUP_METRIC,
+                                          SL_GROUP_ANGULAR, SL_GROUP_ISOVIST};
+enum { GROUPS = sizeof groups / sizeof *groups };
+
+static const char *part_name(size_t index) {
+    return index < GROUPS ? sl_measure_group_name(groups[index]) : "all";
+}
+
+name_table vga_parts(void) {
+    return (name_table){.kind = "group of measures", .count = GROUPS + 1, .at = part_name};
+}
+
+static const sl_measure *columns(size_t *count) {
+    return sl_measures(SL_VGA, count);
+}
+
+unsigned vga_measure_part(size_t measure) {
+    const sl_measure *m = &columns(&(size_t){0})[measure];
+    if (m->of == SL_OF_AGENTS) return VGA_PART_AGENTS;
+    unsigned part = VGA_PART_VISUAL; // of local and global ones
+    for (size_t i = 0; i < GROUPS; i++)
+        if (groups[i] == m->group) part = 1u << i;
+    return m->of == SL_OF_DEPTH ? part * VGA_PART_STEPS : part;
+}
+
+double vga_value(const vga_table *table, size_t measure, uint32_t point) {
+    const sl_measure *m = &columns(&(size_t){0})[measure];
+    if (m->of == SL_OF_AGENTS) return (double)table->gates[point];
+    const unsigned part = vga_measure_part(measure);
+    const bool path = part & (VGA_PART_METRIC | VGA_PART_ANGULAR);
+    const bool path_from = part & (VGA_PART_STEP_LENGTHS | VGA_PART_STEP_TURNS);
+    if (path && table->walked) return sl_measure_value(m, &table->walked[point]);
+    if (path_from && table->walked_depths) return sl_measure_value(m, &table->walked_depths[point]);
+    if (m->of == SL_OF_DEPTH) return sl_measure_value(m, &table->depths[point]);
+    if (m->of == SL_OF_REGION) return sl_measure_value(m, &table->isovists[point].measures);
+    return sl_measure_value(m, &table->measures[point]);
+}
+
+// --- files
+
+/// The point, and then its measures.
+static size_t list_fields(const void *of, size_t point, table_field fields[FIELDS_MOST]) {
+    const vga_table *table = of;
+    size_t measure_count, count = 0;
+    const sl_measure *measures = columns(&measure_count);
+    fields[count++] = field_real("x", table->grid.points[point].x);
+    fields[count++] = field_real("y", table->grid.points[point].y);
+    for (size_t k = 0; k < measure_count; k++)
+        if (table->parts & vga_measure_part(k))
+            fields[count++] = field_real(measures[k].name, vga_value(table, k, (uint32_t)point));
+    return count;
+}
+
+static sl_status write_geojson(sl_context *context, const vga_table *table, FILE *out) {
+    table_field fields[FIELDS_MOST];
+    fputs("{\"type\": \"FeatureCollection\", \"features\": [", out);
+    for (uint32_t p = 0; p < table->grid.count; p++) {
+        if (p % 4096 == 0) SL_TRY(sl_check_cancelled(context));
+        fprintf(out, "%s\n{\"type\": \"Feature\", \"geometry\": {\"type\": \"Point\", ",
+                p ? "," : "");
+        fputs("\"coordinates\": [", out);
+        csv_put(out, table->grid.points[p].x, ", ");
+        csv_put(out, table->grid.points[p].y, "");
+        fputs("]}, \"properties\": {", out);
+        const size_t count = list_fields(table, p, fields);
+        for (size_t k = 2; k < count; k++) {
+            fprintf(out, "%s\"%s\": ", k > 2 ? ", " : "", fields[k].key);
+            csv_put(out, fields[k].real, fields[k].kind == FIELD_NONE ? "null" : "");
+        }
+        fputs("}}", out);
+    }
+    fputs("\n]}\n", out);
+    return SL_OK;
+}
+
+sl_status vga_write(sl_context *context, const vga_table *table, const char *path) {
+    const field_rows rows = {list_fields, table, table->grid.count};
+    if (!name_ends_with(path, ".geojson")) return fields_write_csv(context, &rows, path);
+    sl_output output;
+    SL_TRY(sl_output_open(context, path, &output));
+    return sl_output_close(context, &output, write_geojson(context, table, output.stream));
+}
+
+// --- the summary
+
+typedef struct table_measure {
+    const vga_table *table;
+    size_t measure;
+} table_measure;
+
+static double value_at(const void *of, size_t index) {
+    const table_measure *m = of;
+    return vga_value(m->table, m->measure, (uint32_t)index);
+}
+
+void vga_print_summary(const vga_table *table, size_t measure) {
+    size_t best[SUMMARY_BEST], columns_count;
+    const sl_measure *measures = columns(&columns_count);
+    table_measure of = {table, measure};
+    const summary_values values = {value_at, &of, table->grid.count};
+    const size_t count = summary_best(&values, best);
+    printf("%" PRIu32 " points\n  %-36s %12s %12s\n", table->grid.count, "measure", "mean",
+           "deviation");
+    for (of.measure = 0; of.measure < columns_count; of.measure++)
+        if (table->parts & vga_measure_part(of.measure))
+            summary_print_mean(measures[of.measure].name, &values);
+    if (!count) return;
+    printf("highest %s:\n  %12s %12s %12s\n", measures[measure].name, "x", "y", "value");
+    for (size_t k = 0; k < count; k++)
+        printf("  %12.6g %12.6g %12.6g\n", table->grid.points[best[k]].x,
+               table->grid.points[best[k]].y, vga_value(table, measure, (uint32_t)best[k]));
+}

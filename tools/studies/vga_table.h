@@ -1,0 +1,43 @@
+/// The measures of `sightline vga` as a table: its columns, the files that it is written to, and a
+/// summary of it.
+#ifndef VGA_TABLE_H
+#define VGA_TABLE_H
+
+#include "sightline/vga.h"
+#include "studies/isovist.h"
+
+/// What is measured of each point. A group of measures is a bit by its place in vga_parts().
+typedef struct vga_table {
+    sl_vga_grid grid;
+    sl_vga_measures *measures;
+    sl_vga_measures *walked;      ///< those of paths, where they go by steps; else NULL
+    isovist_result *isovists;     ///< NULL where they are not measured
+    sl_vga_depths *depths;        ///< from chosen points; NULL where there are none
+    sl_vga_depths *walked_depths; ///< those of paths, likewise
+    uint64_t *gates;              ///< steps of agents; NULL where there are none
+    unsigned parts;
+} vga_table;
+
+enum { VGA_PART_VISUAL = 1, VGA_PART_THROUGH = 2, VGA_PART_METRIC = 4, VGA_PART_ANGULAR = 8 };
+enum { VGA_PART_ISOVIST = 16, VGA_PART_ALL = 32 };
+/// What is measured from chosen points: the groups from this bit on.
+enum { VGA_PART_STEPS = 64, VGA_PART_STEP_LENGTHS = VGA_PART_STEPS * VGA_PART_METRIC };
+enum { VGA_PART_STEP_TURNS = VGA_PART_STEPS * VGA_PART_ANGULAR, VGA_PART_AGENTS = 1024 };
+
+/// The groups that can be chosen, numbered as the bits are; the last is "all".
+name_table vga_parts(void);
+
+/// The group of a measure, by its place in the table of SL_VGA.
+unsigned vga_measure_part(size_t measure);
+
+/// NAN where the measure is not defined.
+double vga_value(const vga_table *table, size_t measure, uint32_t point);
+
+/// Writes the columns of the table's groups: GeoJSON where the name ends so, else CSV. "-" is
+/// stdout.
+sl_status vga_write(sl_context *context, const vga_table *table, const char *path);
+
+/// Prints mean and standard deviation of each column, and the ten highest values of one.
+void vga_print_summary(const vga_table *table, size_t measure);
+
+#endif

@@ -1,0 +1,469 @@
+#include "app/app.h"
+
+#include "app/modes.h"
+#include "document/document.h"
+#include "document/files.h"
+#include "document/recovery.h"
+#include "lessons/quiz.h"
+#include "plan/effects.h"
+#include "plan/view.h"
+#include "sightline/support.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/// A frame of a drag takes this long, where its space does not come sooner.
+#define DRAG_FRAME_SECONDS 0.014
+/// It waits at least this long: small maps are never late.
+#define DRAG_WAIT_SECONDS 0.003
+
+void app_init(app_state *app, sl_context *context) {
+    size_t count;
+    sl_eye_methods(&count);
+    *app = (app_state){
+        .context = context,
+        .document = {.mirror_depth = 1},
+        .view = {.fitted = true,
+                 .eye = {.fov = 90},
+                 .show =
+                     SHOW_CELLS | SHOW_PORTALS | SHOW_CULL | SHOW_REGION | SHOW_STARTS | SHOW_NAMES,
+                 .filled = {[LAYER_CULL] = 1},
+                 .last_filled = 1,
+                 .split_depth = 6,
+                 .tree_depth = 64,
+                 .method = count - 1},
+        .tool = {.pointer = {-1, -1}, .chosen = UINT32_MAX, .quiz = {.random = 1}},
+        .ui = {.bar_rows = 1,
+               .time_lines = 1,
+               .scrolling = -1,
+               .legend = true,
+               .side_panel = true,
+               .effects = true,
+               .text_scale = 1,
+               .density = 1,
+               .width = 1200,
+               .height = 760,
+               .window_width = 1200,
+               .window_height = 760},
+    };
+}
+
+static void drop_scenes(app_state *app) {
+    sl_scene_destroy(app->context, app->view.scene);
+    sl_scene_destroy(app->context, app->view.tree);
+    app->view.scene = app->view.tree = NULL;
+}
+
+void app_destroy(app_state *app) {
+    // All jobs are told before any of them is waited for.
+    document_stop_soon(&app->document);
+    export_stop(app);
+    view_layer_stop(app);
+    heat_layer_stop(app);
+    drop_scenes(app);
+    if (app->view.under.surface) cairo_surface_destroy(app->view.under.surface);
+    if (app->view.over.surface) cairo_surface_destroy(app->view.over.surface);
+    sl_free(app->context, app->view.under.items.items);
+    sl_free(app->context, app->view.over.items.items);
+    if (app->view.account.surface) cairo_surface_destroy(app->view.account.surface);
+    node_layer_destroy(app->context, app->view.nodes);
+    view_layer_destroy(app->context, app->view.views);
+    heat_layer_destroy(app->context, app->view.heat);
+    watch_layer_destroy(app->context, app->view.watch);
+    seen_destroy(app->context, &app->view.seen);
+    present_drop(app->context, &app->view.present);
+    lesson_destroy(app->context, &app->tool.lesson);
+    map_file_destroy(app);
+    dialog_destroy(app);
+    history_clear(app->context, &app->document.history);
+    record_destroy(app->context, &app->tool.recorder);
+    sl_free(app->context, app->tool.ends.items);
+    sl_explanation_destroy(app->context, &app->tool.quiz.explanation);
+    document_close(app->context, &app->document);
+}
+
+void app_check(app_state *app, sl_status status) {
+    if (status != SL_OK && status != SL_CANCELLED)
+        ui_say(&app->ui, true, "%s", sl_context_message(app->context));
+}
+
+bool app_is_solid(const app_state *app, sl_point at) {
+    if (!app->document.baked) return false;
+    const sl_space *space = &app->document.baked->space;
+    const uint32_t cell = sl_space_locate(space, at);
+    return cell != SL_NO_CELL && space->cells[cell].solid;
+}
+
+uint32_t app_eye_cell(const app_state *app) {
+    const sl_point eye = app->view.eye.at;
+    return app->document.baked && !app_is_solid(app, eye)
+               ? sl_space_locate(&app->document.baked->space, eye)
+               : SL_NO_CELL;
+}
+
+static sl_view eye_view(const app_state *app) {
+    const sl_box b = app->document.baked->space.bounds;
+    const double reach = hypot(b.max.x - b.min.x, b.max.y - b.min.y);
+    return app->view.eye.fov >= 360
+               ? sl_view_all_round(app->view.eye.at)
+               : sl_view_cone(app->view.eye.at, app->view.eye.heading, app->view.eye.fov, reach);
+}
+
+/// Drops what was made of the document before its last change.
+static void drop_made(app_state *app) {
+    drop_scenes(app);
+    app->view.seen.valid = false;
+}
+
+/// Says what was read.
+static void say_document(app_state *app) {
+    const sl_space *space = &app->document.baked->space;
+    char name[TITLE_TEXT], calls[CALLS_TEXT], partial[SL_PARTIAL_TEXT];
+    map_file_name(app, name);
+    effects_in_words(&app->document.map, calls);
+    sl_baked_say_partial(app->document.baked, partial);
+    char inside[SL_INSIDE_TEXT + 2] = "";
+    if (*app->document.inside) snprintf(inside, sizeof inside, "; %s", app->document.inside);
+    if (partial[0])
+        ui_say(&app->ui, false, "%s is %s", name, partial);
+    else
+        ui_say(&app->ui, false, "%s: %u cells, %u portals, %u walls%s%s%s", name, space->cell_count,
+               space->portal_count, space->wall_count, *calls ? "; " : "", calls,
+               *inside                ? inside
+               : *app->document.notes ? "; Ctrl+J: what was read"
+                                      : "");
+}
+
+/// A wall may change how the whole map is cut into cells. That is said, as all cells are others.
+static void say_subdivision(app_state *app, bool was_mesh) {
+    const bool mesh = app->document.baked->space.neighbour != NULL;
+    if (mesh && !was_mesh)
+        ui_say(&app->ui, false,
+               "A wall is oblique now: the cells are those of a mesh, no longer of a kd-tree");
+    if (!mesh && was_mesh)
+        ui_say(&app->ui, false,
+               "All walls are axial now: the cells are those of a kd-tree, no longer of a mesh");
+}
+
+/// A map that was opened starts from its own start. After a change by hand the eye stays.
+static void take_document(app_state *app, bool opened) {
+    drop_made(app);
+    quiz_forget(app);
+    const bool was_mesh = app->view.mesh;
+    if (app->document.baked) app->view.mesh = app->document.baked->space.neighbour != NULL;
+    if (!opened && app->document.baked && app->view.mesh != was_mesh)
+        say_subdivision(app, was_mesh);
+    if (!opened || !app->document.baked) return;
+    app->tool.chosen = UINT32_MAX;
+    app->view.fitted = true;
+    app->tool.drag = (drag_state){0};
+    app->document.stale = false;
+    history_clear(app->context, &app->document.history);
+    app->tool.recorder.records = app->tool.recorder.plays = false;
+    app->tool.recorder.frames.count = 0;
+    walk_home(app);
+    map_file_taken(app);
+    say_document(app);
+}
+
+void app_take_opened(app_state *app) {
+    take_document(app, true);
+}
+
+/// Follows the document and the eye; drops words about what was seen before.
+static void follow(app_state *app) {
+    const uint32_t before = app->view.present.version;
+    app_check(app,
+              present_update(app->context, &app->view.present, &app->document, app->view.eye.at));
+    if (app->view.present.version != before && app->tool.quiz.answered) quiz_forget(app);
+}
+
+/// While something is dragged, a new space starts only after the last one is there. Jobs that start
+/// at each step would never get that far.
+static void keep_up(app_state *app) {
+    if (!app->document.stale || document_awaits_space(&app->document)) return;
+    app->document.stale = false;
+    app_check(app, document_rebuild(app->context, &app->document, true));
+}
+
+/// A frame of a drag waits for its space if that comes soon. So the plan is mostly not late at all,
+/// and else by one frame.
+static void wait_for_drag(const app_state *app) {
+    const double spare = DRAG_FRAME_SECONDS - app->view.draw_seconds;
+    if (app->tool.drag.changed && document_awaits_space(&app->document))
+        document_wait_space(&app->document, fmax(spare, DRAG_WAIT_SECONDS));
+}
+
+/// Takes over what the background has made.
+static void take_results(app_state *app, bool wait) {
+    const uint32_t before = app->document.opened, version = app->document.version;
+    const uint32_t read = app->document.read;
+    char opening[PATH_TEXT] = "";
+    const char *file = document_opening(&app->document);
+    if (file) snprintf(opening, sizeof opening, "%s", file);
+    bool changed = false;
+    const sl_status status = wait ? document_wait(app->context, &app->document, &changed)
+                                  : document_poll(app->context, &app->document, &changed);
+    if (status == SL_CANCELLED) ui_say(&app->ui, false, "stopped");
+    if (changed) drop_made(app);
+    if (read != app->document.read) app->tool.drag = (drag_state){0}; // of another map
+    if (version != app->document.version) {
+        take_document(app, before != app->document.opened);
+        // What was said before was of the map before.
+        const bool again = before == app->document.opened && *opening;
+        if (status == SL_OK && again && app->document.baked) say_document(app);
+    }
+    follow(app);
+    if (*opening)
+        files_check(app, opening, status);
+    else
+        app_check(app, status);
+}
+
+static void poll(app_state *app, bool wait) {
+    do {
+        keep_up(app);
+        if (!wait) wait_for_drag(app);
+        take_results(app, wait);
+    } while (wait && app->document.stale);
+    keep_up(app);
+    view_layer_update(app, wait);
+    heat_layer_update(app, wait);
+    map_file_tick(app, wait);
+    recovery_tick(app);
+}
+
+job_progress app_progress(const app_state *app) {
+    const job_progress document = document_progress(&app->document);
+    if (document.running) return document;
+    const job_progress file = map_file_progress(app), pictures = export_progress(app->exports);
+    if (file.running) return file;
+    if (pictures.running) return pictures;
+    const job_progress views = view_layer_progress(app->view.views);
+    return views.running ? views : heat_layer_progress(app->view.heat);
+}
+
+static void look(app_state *app) {
+    if (!app->document.baked) return;
+    follow(app);
+    app->view.seen.patient = app->steady;
+    const sl_view view = eye_view(app);
+    app_check(
+        app, seen_update(app->context, &app->view.seen, &app->document, &app->view.present, &view));
+    if (app->tool.mode == MODE_LEARN)
+        app_check(
+            app, lesson_update(app->context, &app->tool.lesson, &app->document, app_eye_cell(app)));
+    quiz_follow_lesson(app);
+}
+
+void app_settle(app_state *app) {
+    poll(app, true);
+    look(app);
+}
+
+#define STALE_SECONDS 20
+
+/// After a while the line says again what is open. Errors stay.
+static void tidy_message(app_state *app) {
+    const ui_state *ui = &app->ui;
+    if (app->steady || ui->message_is_error || !*ui->message) return;
+    if (ui->message_seconds < STALE_SECONDS || app_progress(app).running) return;
+    if (app->document.baked) say_document(app);
+}
+
+void app_tick(app_state *app, double seconds) {
+    poll(app, app->steady);
+    ui_tick(&app->ui, seconds);
+    tidy_message(app);
+    app->view.motion = fmax(app->view.motion - seconds, 0);
+    record_frame frame;
+    if (record_play(&app->tool.recorder, seconds, &frame)) {
+        app->view.eye.at = frame.at;
+        app->view.eye.heading = frame.heading;
+    } else {
+        walk_tick(app, fmin(seconds, 0.1));
+    }
+    app_check(app, record_tick(app->context, &app->tool.recorder, seconds,
+                               (record_frame){app->view.eye.at, app->view.eye.heading}));
+    if (app->document.baked) lesson_tick(&app->tool.lesson, &app->document, seconds);
+    export_move(app);
+    look(app);
+    export_take(app);
+}
+
+void app_keep(app_state *app) {
+    app_check(app, history_keep(app->context, &app->document.history, &app->document.map));
+}
+
+void app_after_touch(app_state *app) {
+    document_touch(&app->document);
+    follow(app);
+}
+
+void app_before_edit(app_state *app) {
+    app->view.fitted = false; // the plan stays where it is, whatever the map becomes
+    app_keep(app);
+    sl_map_drop_cells(app->context, &app->document.map); // the file's own do not know other walls
+}
+
+void app_after_edit(app_state *app) {
+    app->document.stale = false;
+    app_check(app, document_rebuild(app->context, &app->document, false));
+}
+
+void app_after_step(app_state *app) {
+    app->document.stale = true;
+    keep_up(app);
+}
+
+// --- the frame
+
+static sl_box box(double left, double top, double right, double bottom) {
+    return (sl_box){{left, top}, {fmax(right, left + 1), fmax(bottom, top + 1)}};
+}
+
+/// In a presentation the plan has the window to itself, but for what was opened since.
+bool app_has_panel(const app_state *app) {
+    return app->ui.side_panel && !app->ui.presents;
+}
+
+static double side_width(const app_state *app) {
+    const ui_state *ui = &app->ui;
+    const double t = ui_text_size(ui), chosen = ui->edges[EDGE_SIDE];
+    if (!app_has_panel(app)) return 0;
+    return fmin(fmax(chosen > 0 ? chosen : 26, 8) * t, 0.55 * ui->width);
+}
+
+static void place_below(const app_state *app, window_layout *l, double right, double *bottom) {
+    int shown = 0, before = 0;
+    const double t = ui_text_size(&app->ui), chosen = app->ui.edges[EDGE_BELOW];
+    const double room = *bottom - l->bar.max.y;
+    double high = 0;
+    for (int i = 0; i < PANES_BELOW; i++) {
+        const pane_below *pane = &panes_below()[i];
+        if (!pane->shown(app)) continue;
+        high =
+            fmax(high, pane->lines ? fmin(1.4 * t * pane->lines(app), 0.42 * room) : 0.42 * room);
+        shown++;
+    }
+    if (!shown) return;
+    if (chosen > 0) high = fmin(fmax(chosen, 0.1), 0.8) * room;
+    const double top = round(*bottom - high);
+    for (int i = 0; i < PANES_BELOW; i++) {
+        if (!panes_below()[i].shown(app)) continue;
+        const double left = right * before / shown;
+        l->below[i] = box(left, top, right * ++before / shown, *bottom);
+    }
+    *bottom = top;
+}
+
+window_layout app_layout(const app_state *app) {
+    const double t = ui_text_size(&app->ui), w = app->ui.width, h = app->ui.height;
+    window_layout l = {.plan_count = 1};
+    const double bar = (0.3 + 2 * app->ui.bar_rows) * t, status = 1.9 * t;
+    l.bar = box(0, 0, w, bar);
+    l.status = box(0, h - status, w, h);
+    double bottom = h - status;
+    if (pane_time_shown(app)) {
+        l.time =
+            box(0, fmax(bottom - pane_time_height(app), bar + 0.3 * (bottom - bar)), w, bottom);
+        bottom = l.time.min.y;
+    }
+    const double right = round(w - side_width(app));
+    l.side = box(right, bar, w, bottom);
+    place_below(app, &l, right, &bottom);
+    l.plan[0] = box(0, bar, right, bottom);
+    if (app->view.compare == COMPARE_PANES && app->tool.mode == MODE_EXPLORE) {
+        l.plan_count = 2;
+        l.plan[0].max.x = floor(right / 2);
+        l.plan[1] = box(l.plan[0].max.x, bar, right, bottom);
+    }
+    return l;
+}
+
+void app_drag_edge(app_state *app, int edge, double by) {
+    const window_layout l = app_layout(app);
+    if (edge == EDGE_SIDE) {
+        app->ui.edges[edge] = fmax(side_width(app) + by, 1) / ui_text_size(&app->ui);
+        return;
+    }
+    double high = 0, bottom = l.plan[0].max.y;
+    for (int i = 0; i < PANES_BELOW; i++) high = fmax(high, box_height(l.below[i]));
+    const double room = bottom + high - l.bar.max.y;
+    app->ui.edges[edge] = fmin(fmax((high + by) / room, 0.1), 0.8);
+}
+
+/// The borders that can be dragged: over all panes, as they are narrow.
+static void draw_edges(app_state *app, const window_layout *l) {
+    ui_state *ui = &app->ui;
+    const double wide = fmax(0.35 * ui->text, 4);
+    if (side_width(app) > 0)
+        ui_edge(ui, EDGE_SIDE,
+                (sl_box){{l->side.min.x - wide / 2, l->side.min.y},
+                         {l->side.min.x + wide / 2, l->side.max.y}});
+    for (int i = 0; i < PANES_BELOW; i++)
+        if (box_width(l->below[i]) > 0) {
+            ui_edge(ui, EDGE_BELOW,
+                    (sl_box){{0, l->below[i].min.y - wide / 2},
+                             {l->side.min.x, l->below[i].min.y + wide / 2}});
+            break;
+        }
+}
+
+void app_open_help(app_state *app) {
+    app->ui.help = true;
+    field_set(&app->ui.filter, "");
+    app->ui.field = &app->ui.filter;
+    app->ui.scrolls[SCROLL_HELP] = (ui_scroll){0};
+    app->ui.focus = (ui_focus){0};
+}
+
+void app_shut_help(app_state *app) {
+    app->ui.help = false;
+    if (app->ui.field == &app->ui.filter) app->ui.field = NULL;
+}
+
+void app_fit(app_state *app, sl_box plan) {
+    if (app->view.fitted && app->document.baked)
+        app->view.camera =
+            camera_fit(app->document.baked->space.bounds, box_width(plan), box_height(plan));
+}
+
+/// On a projector pale tones vanish.
+static sl_palette palette_of(const ui_state *ui) {
+    sl_palette p = sl_palette_make(ui->dark);
+    if (!ui->presents) return p;
+    p.faint = sl_colour_mix(p.faint, p.ink, 0.6);
+    p.outline = sl_colour_mix(p.outline, p.ink, 0.4);
+    for (int i = 0; i < SL_TONES; i++) p.floor[i] = sl_colour_mix(p.floor[i], p.floor[0], 0.7);
+    return p;
+}
+
+void app_draw(app_state *app, cairo_t *cairo) {
+    const double before = sl_seconds();
+    app->ui.cairo = cairo;
+    app->ui.palette = palette_of(&app->ui);
+    app->ui.text = ui_text_size(&app->ui);
+    app->ui.pointer = app->tool.pointer;
+    app->ui.over = ui_find(&app->ui, app->tool.pointer);
+    ui_begin(&app->ui);
+    pane_bar_measure(app);
+    pane_time_measure(app);
+    const window_layout l = app_layout(app);
+    app_fit(app, l.plan[0]);
+    heat_layer_follow(app);
+    pane_dual_hover(app);
+    for (int i = 0; i < l.plan_count; i++) pane_plan(app, l.plan[i], i, false);
+    for (int i = 0; i < PANES_BELOW; i++)
+        if (box_width(l.below[i]) > 0) panes_below()[i].draw(app, l.below[i]);
+    if (side_width(app) > 0) mode_table()[app->tool.mode].panel(app, l.side);
+    draw_edges(app, &l);
+    if (box_width(l.time) > 0) pane_time(app, l.time);
+    pane_bar(app, l.bar);
+    pane_status(app, l.status);
+    if (app->ui.help) pane_help(app);
+    dialog_draw(app);
+    pane_tip(app);
+    app->view.draw_seconds = 0.8 * app->view.draw_seconds + 0.2 * (sl_seconds() - before);
+}

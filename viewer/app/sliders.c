@@ -1,0 +1,192 @@
+#include "app/sliders.h"
+
+#include "document/files.h"
+#include "plan/effects.h"
+#include "plan/layers.h"
+
+#include <math.h>
+#include <stdio.h>
+
+// --- the view cone: finer where it is narrow
+
+static bool always(const app_state *app) {
+    (void)app;
+    return true;
+}
+
+static double cone_share(const app_state *app) {
+    return sqrt((app->view.eye.fov - 1) / 359);
+}
+
+static void cone_text(const app_state *app, char text[SLIDER_TEXT]) {
+    snprintf(text, SLIDER_TEXT, "%.0f\xc2\xb0", app->view.eye.fov);
+}
+
+static void set_cone(app_state *app, double share) {
+    app->view.eye.fov = round(1 + 359 * share * share);
+}
+
+// --- the height at which a 3D model is cut
+
+static bool is_model(const app_state *app) {
+    return app->document.source.highest > app->document.source.lowest;
+}
+
+static double cut_share(const app_state *app) {
+    const document_source *s = &app->document.source;
+    return (s->options.slice - s->lowest) / (s->highest - s->lowest);
+}
+
+static void cut_text(const app_state *app, char text[SLIDER_TEXT]) {
+    snprintf(text, SLIDER_TEXT, "%.5g", app->document.source.options.slice);
+}
+
+static void set_cut(app_state *app, double share) {
+    const document_source *source = &app->document.source;
+    sl_import_options options = source->options;
+    options.slice = source->lowest + share * (source->highest - source->lowest);
+    if (options.slice != source->options.slice) files_open_again(app, &options);
+}
+
+// --- how deep splits are shown
+
+static bool has_splits(const app_state *app) {
+    return app->document.baked && layers_shows(app, LAYER_SPLITS);
+}
+
+static double deepest_split(const app_state *app) {
+    return fmax(app->document.baked->space.tree_depth, 1);
+}
+
+static double split_share(const app_state *app) {
+    return app->view.split_depth / deepest_split(app);
+}
+
+static void split_text(const app_state *app, char text[SLIDER_TEXT]) {
+    snprintf(text, SLIDER_TEXT, "%.0f", fmin(app->view.split_depth, deepest_split(app)));
+}
+
+static void set_split(app_state *app, double share) {
+    app->view.split_depth = (uint32_t)fmax(1, round(share * deepest_split(app)));
+}
+
+// --- how far the stab tree is grown
+
+static bool has_tree(const app_state *app) {
+    return app->view.show & SHOW_TREE && app->view.tree;
+}
+
+static double tree_share(const app_state *app) {
+    return app->view.tree_depth / fmax(sl_scene_tree_depth(app->view.tree), 1);
+}
+
+static void tree_text(const app_state *app, char text[SLIDER_TEXT]) {
+    snprintf(text, SLIDER_TEXT, "%.0f",
+             fmin(app->view.tree_depth, sl_scene_tree_depth(app->view.tree)));
+}
+
+static void set_tree(app_state *app, double share) {
+    app->view.tree_depth = (uint32_t)round(share * sl_scene_tree_depth(app->view.tree));
+}
+
+// --- the walk through the merge history: from one view cell to all elementary ones, finer where
+// there are few
+
+static bool has_views(const app_state *app) {
+    return app->view.show & SHOW_VIEWS && view_layer_most(app->view.views) > 1;
+}
+
+static double views_share(const app_state *app) {
+    return log(view_layer_shown(app->view.views)) / log(view_layer_most(app->view.views));
+}
+
+static void views_text(const app_state *app, char text[SLIDER_TEXT]) {
+    snprintf(text, SLIDER_TEXT, "%u", view_layer_shown(app->view.views));
+}
+
+static void set_views(app_state *app, double share) {
+    const double most = view_layer_most(app->view.views);
+    view_layer_go(app, (uint32_t)round(pow(most, share)));
+}
+
+// --- the grid of the heat map, from coarse to fine
+
+static bool has_heat(const app_state *app) {
+    return app->document.baked && layers_shows(app, LAYER_HEAT);
+}
+
+static double heat_share(const app_state *app) {
+    int last;
+    const int place = heat_step_place(app, &last);
+    return (double)place / fmax(last, 1);
+}
+
+static void heat_text(const app_state *app, char text[SLIDER_TEXT]) {
+    snprintf(text, SLIDER_TEXT, "%.3g", heat_step(app));
+}
+
+static void set_heat(app_state *app, double share) {
+    int last;
+    heat_step_place(app, &last);
+    heat_set_step(app, (int)round(share * last));
+}
+
+// --- the view range, finer where it is short
+
+static bool has_range(const app_state *app) {
+    return app->document.baked && app->document.map.range > 0;
+}
+
+static double range_share(const app_state *app) {
+    return sqrt(fmin(app->document.map.range / range_most(&app->document), 1));
+}
+
+static void range_text(const app_state *app, char text[SLIDER_TEXT]) {
+    snprintf(text, SLIDER_TEXT, "%.3g", app->document.map.range);
+}
+
+static void set_range(app_state *app, double share) {
+    range_set(app, share * share * range_most(&app->document));
+}
+
+// --- how often a sightline is reflected
+
+static bool has_mirrors(const app_state *app) {
+    return app->document.baked && app->document.map.mirror_count;
+}
+
+static double depth_share(const app_state *app) {
+    return (double)app->document.mirror_depth / MIRROR_DEPTH_MOST;
+}
+
+static void depth_text(const app_state *app, char text[SLIDER_TEXT]) {
+    snprintf(text, SLIDER_TEXT, "%u", app->document.mirror_depth);
+}
+
+static void set_depth(app_state *app, double share) {
+    mirror_set_depth(app, (uint32_t)round(share * MIRROR_DEPTH_MOST));
+}
+
+static const slider_row sliders[] = {
+    {"View cone", always, cone_share, cone_text, set_cone, NULL, NULL,
+     "How wide the eye sees (, and .)"},
+    {"View range", has_range, range_share, range_text, set_range, app_keep, range_settle,
+     "Nothing farther than this is seen (Ctrl+R sets and lifts it)"},
+    {"Reflections", has_mirrors, depth_share, depth_text, set_depth, NULL, mirror_settle_depth,
+     "How often a sightline is reflected at most"},
+    {"Cut at", is_model, cut_share, cut_text, set_cut, NULL, NULL,
+     "The height at which the model is cut (Ctrl+Up, Ctrl+Down)"},
+    {"Split depth", has_splits, split_share, split_text, set_split, NULL, NULL,
+     "Splits of the tree down to this depth ([ and ])"},
+    {"Tree grown", has_tree, tree_share, tree_text, set_tree, NULL, NULL,
+     "Sequences of the stab tree up to this many portals (- and =)"},
+    {"View cells", has_views, views_share, views_text, set_views, NULL, NULL,
+     "From one view cell to all elementary ones (Ctrl+Left, Ctrl+Right)"},
+    {"Grid step", has_heat, heat_share, heat_text, set_heat, NULL, NULL,
+     "From point to point of the heat map (4 coarser, 5 finer)"},
+};
+
+const slider_row *slider_table(size_t *count) {
+    *count = sizeof sliders / sizeof *sliders;
+    return sliders;
+}

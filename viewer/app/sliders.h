@@ -1,0 +1,23 @@
+/// The table of sliders in the panel.
+#ifndef VIEWER_SLIDERS_H
+#define VIEWER_SLIDERS_H
+
+#include "app/app.h"
+
+enum { SLIDER_TEXT = 32 };
+
+typedef struct slider_row {
+    const char *label;
+    bool (*shown)(const app_state *app);
+    double (*share)(const app_state *app);                      ///< where it stands, 0 to 1
+    void (*text)(const app_state *app, char text[SLIDER_TEXT]); ///< its value
+    void (*set)(app_state *app, double share);
+    /// Called when the pointer takes hold of it and when it lets go; NULL: nothing.
+    void (*begin)(app_state *app);
+    void (*end)(app_state *app);
+    const char *help;
+} slider_row;
+
+const slider_row *slider_table(size_t *count);
+
+#endif

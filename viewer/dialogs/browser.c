@@ -1,0 +1,493 @@
+/// The dialog that opens and saves files.
+///
+/// The field holds a path. The list follows it: it shows the folder of the path, and chooses the
+/// first entry that begins as the name does. A choice in the list goes into the field. So there is
+/// one thing to act on, the path in the field, however it came there.
+#include "dialogs/browser.h"
+
+#include "dialogs/folder_list.h"
+#include "dialogs/question.h"
+#include "document/files.h"
+#include "document/map_file.h"
+#include "sightline/draw.h"
+#include "sightline/support.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+typedef enum browser_place { PLACE_FOLDER, PLACE_RECENT, PLACE_SAMPLES } browser_place;
+
+typedef struct browser_state {
+    bool saves;
+    browser_place place;
+    char folder[PATH_TEXT]; ///< that is listed; where there is none, that names begin from
+    text_field path;
+    folder_list files;
+    dialog_list list;
+    folder_sort sort;
+    bool down, all;
+    char problem[256]; ///< "" for none
+} browser_state;
+
+enum {
+    PATH_FIELD = DIALOG_OWN,
+    LIST,
+    RECENT,
+    SAMPLES,
+    HOME,
+    PARENT,
+    HEAD_NAME,
+    HEAD_SIZE,
+    HEAD_CHANGED,
+    ALL_FILES,
+    OPTIONS,
+};
+
+static browser_state *state_of(app_state *app) {
+    if (!app->dialog.browser)
+        app->dialog.browser = sl_alloc_array(app->context, 1, sizeof(browser_state));
+    return app->dialog.browser;
+}
+
+void browser_destroy(app_state *app) {
+    if (!app->dialog.browser) return;
+    folder_list_clear(app->context, &app->dialog.browser->files);
+    sl_free(app->context, app->dialog.browser);
+    app->dialog.browser = NULL;
+}
+
+// --- the list
+
+static bool is_folder(const char *path) {
+    struct stat info;
+    return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
+}
+
+static bool is_there(const char *path) {
+    struct stat info;
+    return stat(path, &info) == 0;
+}
+
+static const char *base_of(const char *path) {
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
+static sl_status add_recent(app_state *app, browser_state *b) {
+    sl_map_list recent = {0};
+    sl_status status = recent_list(app->context, &recent);
+    for (size_t i = 0; i < recent.count && status == SL_OK; i++)
+        status =
+            folder_list_add(app->context, &b->files, recent.names[i], base_of(recent.names[i]));
+    sl_map_list_destroy(app->context, &recent);
+    return status;
+}
+
+static void refill(app_state *app, browser_state *b) {
+    char samples[PATH_TEXT];
+    sl_status status = SL_OK;
+    folder_list_clear(app->context, &b->files);
+    if (b->place == PLACE_RECENT)
+        status = add_recent(app, b);
+    else if (b->place == PLACE_SAMPLES && folder_of_samples(samples, sizeof samples))
+        status = folder_list_add_all(app->context, &b->files, samples);
+    else if (b->place == PLACE_FOLDER)
+        status = folder_list_read(app->context, &b->files, b->folder,
+                                  b->all     ? FILTER_ALL
+                                  : b->saves ? FILTER_SAVED
+                                             : FILTER_READABLE);
+    b->problem[0] = '\0';
+    if (status != SL_OK)
+        snprintf(b->problem, sizeof b->problem, "%s", sl_context_message(app->context));
+    // What was opened last stays in that order until a head is clicked.
+    if (b->place != PLACE_RECENT || b->sort != SORT_NAME || b->down)
+        folder_list_sort(&b->files, b->sort, b->down);
+    b->list = (dialog_list){.at = SIZE_MAX, .count = b->files.entries.count, .page = b->list.page};
+}
+
+/// Puts a folder in front of a name.
+static void set_path(browser_state *b, const char *folder, const char *name) {
+    char path[PATH_TEXT + 300];
+    snprintf(path, sizeof path, "%s%s%s", folder, folder[1] ? "/" : "", name);
+    field_set(&b->path, path);
+}
+
+/// Lists a folder; the field has it, with the name that is to be saved.
+static void enter(app_state *app, browser_state *b, const char *folder) {
+    char name[TITLE_TEXT] = "";
+    char *full = realpath(folder, NULL);
+    if (b->saves) snprintf(name, sizeof name, "%.300s", base_of(b->path.text));
+    if (full && strlen(full) < PATH_TEXT) snprintf(b->folder, sizeof b->folder, "%s", full);
+    free(full);
+    b->place = PLACE_FOLDER;
+    refill(app, b);
+    set_path(b, b->folder, name);
+}
+
+// --- the path
+
+/// The field's path as the system needs it: "~/" is the home folder, other names begin from the
+/// folder that is listed.
+static void resolve(const browser_state *b, const char *text, char path[2 * PATH_TEXT]) {
+    const char *home = getenv("HOME");
+    if (text[0] == '~' && (text[1] == '/' || !text[1]) && home)
+        snprintf(path, 2 * PATH_TEXT, "%s%s", home, text + 1);
+    else if (text[0] == '/')
+        snprintf(path, 2 * PATH_TEXT, "%s", text);
+    else
+        snprintf(path, 2 * PATH_TEXT, "%s/%s", b->folder, text);
+}
+
+/// The first entry whose name begins so; SIZE_MAX for none.
+static size_t find_name(const browser_state *b, const char *name) {
+    const size_t length = strlen(name);
+    if (!length) return SIZE_MAX;
+    for (size_t i = 0; i < b->files.entries.count; i++)
+        if (strncmp(b->files.entries.items[i].name, name, length) == 0) return i;
+    for (size_t i = 0; i < b->files.entries.count; i++)
+        if (strncasecmp(b->files.entries.items[i].name, name, length) == 0) return i;
+    return SIZE_MAX;
+}
+
+/// The list follows the field.
+static void follow(app_state *app, browser_state *b) {
+    char path[2 * PATH_TEXT];
+    resolve(b, b->path.text, path);
+    char *slash = strrchr(path, '/');
+    char name[PATH_TEXT];
+    snprintf(name, sizeof name, "%s", slash + 1);
+    slash[slash == path] = '\0';
+    char *folder = realpath(path, NULL);
+    const bool other = folder && strlen(folder) < PATH_TEXT && is_folder(folder) &&
+                       (b->place != PLACE_FOLDER || strcmp(folder, b->folder) != 0);
+    if (other && strchr(b->path.text, '/')) {
+        snprintf(b->folder, sizeof b->folder, "%s", folder);
+        b->place = PLACE_FOLDER;
+        refill(app, b);
+    }
+    free(folder);
+    b->problem[0] = '\0';
+    b->list.at = SIZE_MAX;
+    // Samples have names with folders.
+    const size_t found = find_name(b, b->place == PLACE_SAMPLES ? b->path.text : name);
+    if (found != SIZE_MAX) dialog_list_go(&b->list, found);
+}
+
+void browser_edited(app_state *app, int id) {
+    browser_state *b = app->dialog.browser;
+    if (id == PATH_FIELD) follow(app, b);
+    if (id != LIST || b->list.at >= b->files.entries.count) return;
+    const folder_entry *entry = &b->files.entries.items[b->list.at];
+    b->problem[0] = '\0';
+    field_set(&b->path, entry->path);
+    if (entry->folder) field_insert(&b->path, "/");
+}
+
+/// Adds to the name what all entries that begin so have in common. False where that is nothing.
+static bool complete(app_state *app, browser_state *b) {
+    follow(app, b);
+    const char *name = base_of(b->path.text);
+    const size_t typed = strlen(name), first = find_name(b, name);
+    if (first == SIZE_MAX || b->place != PLACE_FOLDER) return false;
+    const folder_entry *found = &b->files.entries.items[first];
+    size_t same = strlen(found->name), count = 0;
+    for (size_t i = 0; i < b->files.entries.count; i++) {
+        const char *other = b->files.entries.items[i].name;
+        size_t k = 0;
+        if (strncmp(other, found->name, typed) != 0) continue;
+        while (k < same && other[k] == found->name[k]) k++;
+        same = k;
+        count++;
+    }
+    while (same > typed && ((unsigned char)found->name[same] & 0xc0) == 0x80) same--;
+    const bool folder = count == 1 && found->folder;
+    if (same <= typed && !folder) return false;
+    char whole[2 * PATH_TEXT];
+    const size_t before = strlen(b->path.text) - typed;
+    snprintf(whole, sizeof whole, "%.*s%.*s%s", (int)before, b->path.text, (int)same, found->name,
+             folder ? "/" : "");
+    field_set(&b->path, whole);
+    follow(app, b);
+    return true;
+}
+
+bool browser_key(app_state *app, const char *key) {
+    browser_state *b = app->dialog.browser;
+    const int focus = app->dialog.focus[app->dialog.depth - 1];
+    if (strcmp(key, "Tab") == 0 && focus == PATH_FIELD) return complete(app, b);
+    if (strcmp(key, "Ctrl+Up") != 0) return false;
+    browser_act(app, PARENT);
+    return true;
+}
+
+// --- what it does
+
+static void save_now(app_state *app, const char *path) {
+    dialog_pop(app);
+    map_file_save_to(app, path);
+}
+
+/// The file is there: the dialog is still open below the question.
+static void take_replace(app_state *app, int answer) {
+    char path[2 * PATH_TEXT];
+    if (answer != 0) return;
+    resolve(app->dialog.browser, app->dialog.browser->path.text, path);
+    if (!strchr(base_of(path), '.')) strcat(path, ".map");
+    save_now(app, path);
+}
+
+static void save_as(app_state *app, browser_state *b, char path[2 * PATH_TEXT]) {
+    static const char *const answers[] = {"R:Replace", "C:Cancel"};
+    char text[2 * PATH_TEXT];
+    const char *name = base_of(path), *dot = strrchr(name, '.');
+    if (!*name) {
+        snprintf(b->problem, sizeof b->problem, "A name is needed.");
+        return;
+    }
+    if (strlen(path) + 8 > PATH_TEXT) return;
+    if (!dot) strcat(path, ".map");
+    if (dot && strcasecmp(dot, ".map") != 0 && strcasecmp(dot, ".slv") != 0) {
+        snprintf(b->problem, sizeof b->problem, "Names end in .map (map text) or .slv (baked).");
+        return;
+    }
+    if (!is_there(path)) {
+        save_now(app, path);
+        return;
+    }
+    snprintf(text, sizeof text, "%s is there already.", path);
+    question_ask(app, "Replace the file?", text, answers, 2, take_replace);
+}
+
+static void open_file(app_state *app, browser_state *b, const char *path, bool ask) {
+    if (!is_there(path)) {
+        snprintf(b->problem, sizeof b->problem, "There is no such file: %.200s", base_of(path));
+        return;
+    }
+    char copy[2 * PATH_TEXT];
+    snprintf(copy, sizeof copy, "%s", path);
+    dialog_pop(app);
+    files_open(app, copy, ask);
+}
+
+/// What the field names; a beginning of a name stands for the entry that the list has chosen.
+static void go(app_state *app, browser_state *b, bool ask) {
+    char path[2 * PATH_TEXT];
+    resolve(b, b->path.text, path);
+    if (!b->saves && b->list.at < b->files.entries.count && !is_there(path))
+        snprintf(path, sizeof path, "%s", b->files.entries.items[b->list.at].path);
+    if (is_folder(path))
+        enter(app, b, path);
+    else if (b->saves)
+        save_as(app, b, path);
+    else
+        open_file(app, b, path, ask);
+}
+
+static void go_to_place(app_state *app, browser_state *b, browser_place place) {
+    b->place = place;
+    b->sort = SORT_NAME;
+    b->down = false;
+    if (!b->saves) set_path(b, b->folder, "");
+    refill(app, b);
+}
+
+static void sort_by(app_state *app, browser_state *b, folder_sort sort) {
+    b->down = b->sort == sort ? !b->down : sort != SORT_NAME; // largest and newest first
+    b->sort = sort;
+    refill(app, b);
+}
+
+static void go_up(app_state *app, browser_state *b) {
+    char parent[PATH_TEXT];
+    snprintf(parent, sizeof parent, "%.*s", PATH_TEXT - 1, b->folder);
+    char *slash = strrchr(parent, '/');
+    if (slash) slash[slash == parent] = '\0';
+    enter(app, b, b->place == PLACE_FOLDER ? parent : b->folder);
+}
+
+void browser_act(app_state *app, int id) {
+    browser_state *b = app->dialog.browser;
+    switch (id) {
+    case DIALOG_CANCEL:
+        app->file.pending = PENDING_NONE;
+        dialog_pop(app);
+        break;
+    case DIALOG_MAIN:
+    case LIST:
+        go(app, b, false);
+        break;
+    case OPTIONS:
+        go(app, b, true);
+        break;
+    case RECENT:
+        go_to_place(app, b, PLACE_RECENT);
+        break;
+    case SAMPLES:
+        go_to_place(app, b, PLACE_SAMPLES);
+        break;
+    case HOME:
+        if (getenv("HOME")) enter(app, b, getenv("HOME"));
+        break;
+    case PARENT:
+        go_up(app, b);
+        break;
+    case ALL_FILES:
+        b->all = !b->all;
+        refill(app, b);
+        break;
+    default:
+        if (id >= HEAD_NAME && id <= HEAD_CHANGED) sort_by(app, b, (folder_sort)(id - HEAD_NAME));
+        break;
+    }
+}
+
+static browser_state *begin(app_state *app, bool saves) {
+    browser_state *b = state_of(app);
+    if (!b) return NULL;
+    b->saves = saves;
+    const char *path = app->document.source.path;
+    char folder[PATH_TEXT] = ".";
+    const char *slash = path ? strrchr(path, '/') : NULL;
+    if (slash)
+        snprintf(folder, sizeof folder, "%.*s", slash == path ? 1 : (int)(slash - path), path);
+    if (b->folder[0]) snprintf(folder, sizeof folder, "%s", b->folder);
+    field_set(&b->path, "");
+    enter(app, b, folder);
+    dialog_push(app, DIALOG_BROWSER, PATH_FIELD);
+    return b;
+}
+
+void browser_open(app_state *app) {
+    browser_state *b = begin(app, false);
+    sl_map_list recent = {0};
+    if (!b) return;
+    // At first there is no folder of the user's: what he had last, or the samples.
+    const bool any = recent_list(app->context, &recent) == SL_OK && recent.count;
+    if (!app->document.source.path && !app->steady)
+        go_to_place(app, b, any ? PLACE_RECENT : PLACE_SAMPLES);
+    sl_map_list_destroy(app->context, &recent);
+}
+
+void browser_save(app_state *app) {
+    char name[TITLE_TEXT];
+    browser_state *b = begin(app, true);
+    if (!b) return;
+    const document_source *source = &app->document.source;
+    if (access(b->folder, W_OK) != 0) enter(app, b, getenv("HOME") ? getenv("HOME") : ".");
+    if (source->options.map && !app->file.path)
+        snprintf(name, sizeof name, "%.200s", source->options.map);
+    else
+        map_file_name(app, name);
+    char *dot = strrchr(name, '.');
+    if (dot && !(app->file.path && document_is_baked(app->file.path))) *dot = '\0';
+    for (char *at = name; *at; at++)
+        if (*at == '/' || *at == ' ') *at = '-';
+    if (!strchr(name, '.')) snprintf(name + strlen(name), sizeof name - strlen(name), ".map");
+    set_path(b, b->folder, name);
+}
+
+void browser_save_to(app_state *app, const char *path) {
+    browser_state *b = begin(app, true);
+    if (!b) return;
+    field_set(&b->path, path);
+    follow(app, b);
+}
+
+// --- the picture
+
+static void write_size(double bytes, char text[32]) {
+    static const char *const units[] = {"B", "kB", "MB", "GB", "TB"};
+    int unit = 0;
+    while (bytes >= 1000 && unit < 4) {
+        bytes /= 1000;
+        unit++;
+    }
+    snprintf(text, 32, bytes < 10 && unit ? "%.1f %s" : "%.0f %s", bytes, units[unit]);
+}
+
+static void draw_entry(app_state *app, sl_box row, const folder_entry *entry) {
+    ui_state *ui = &app->ui;
+    const double t = ui->text, base = row.min.y + 1.2 * t;
+    char text[320], when[32] = "";
+    struct tm local;
+    const time_t changed = (time_t)entry->changed;
+    snprintf(text, sizeof text, "%.300s%s", entry->name, entry->folder ? "/" : "");
+    sl_text_show_within(ui->cairo, entry->folder ? ui->palette.glass : ui->palette.ink,
+                        row.min.x + 0.5 * t, base, box_width(row) - 19 * t, t, entry->folder, text);
+    if (!entry->folder) {
+        write_size(entry->size, text);
+        ui_text_right(ui, row.max.x - 11 * t, base, 0.95, ui->palette.faint, text);
+    }
+    if (localtime_r(&changed, &local)) strftime(when, sizeof when, "%Y-%m-%d %H:%M", &local);
+    ui_text_right(ui, row.max.x - 0.6 * t, base, 0.95, ui->palette.faint, when);
+}
+
+static void draw_list(app_state *app, browser_state *b, sl_box box) {
+    ui_state *ui = &app->ui;
+    const double t = ui->text;
+    static const char *const heads[] = {"Name", "Size", "Changed"};
+    const double ends[] = {box_width(box) - 17.5 * t, box_width(box) - 11 * t, box_width(box)};
+    double left = box.min.x;
+    for (int i = 0; i < 3; i++) {
+        char text[32];
+        snprintf(text, sizeof text, "%s%s", heads[i],
+                 (int)b->sort != i ? ""
+                 : b->down         ? " \xe2\x96\xbe"
+                                   : " \xe2\x96\xb4");
+        const sl_box head = {{left, box.min.y}, {box.min.x + ends[i], box.min.y + 1.5 * t}};
+        dialog_head(app, HEAD_NAME + i, head, text);
+        left = head.max.x;
+    }
+    const sl_box frame = {{box.min.x, box.min.y + 1.5 * t}, box.max};
+    dialog_list_frame(app, LIST, frame, &b->list);
+    if (!b->list.count)
+        ui_text(ui, frame.min.x + 0.6 * t, frame.min.y + 1.4 * t, 1, false, ui->palette.faint,
+                b->place == PLACE_RECENT    ? "No file was opened yet."
+                : b->place == PLACE_SAMPLES ? "The samples are not installed."
+                : b->all                    ? "The folder is empty."
+                                            : "No map in this folder. 'All files' shows the rest.");
+    for (size_t i = b->list.first; i < b->list.count && i < b->list.first + b->list.page; i++)
+        draw_entry(app, dialog_list_row(app, LIST, frame, &b->list, i), &b->files.entries.items[i]);
+}
+
+void browser_draw(app_state *app) {
+    static const dialog_label places[] = {
+        {RECENT, "Recent files"}, {SAMPLES, "Samples"}, {HOME, "Home"}, {PARENT, "Folder above"}};
+    ui_state *ui = &app->ui;
+    browser_state *b = app->dialog.browser;
+    // With large text the sheet has fewer rows, and text stays large.
+    const double wide = fmin(fmax((ui->width - 12) / ui->text, 44), 58);
+    const double text = fmin(ui->text, (ui->width - 12) / wide);
+    const double high = fmin(fmax((ui->height - 12) / text, 24), 40);
+    const sl_box box = dialog_begin(app, wide, high, b->saves ? "Save the map" : "Open a map");
+    const double t = ui->text, x0 = box.min.x, x1 = box.max.x;
+    const dialog_label ends[] = {{OPTIONS, "Options..."},
+                                 {DIALOG_CANCEL, "Cancel"},
+                                 {DIALOG_MAIN, b->saves ? "Save" : "Open"}};
+    double y = box.min.y;
+    dialog_field(app, PATH_FIELD, (sl_box){{x0, y}, {x1, y + 1.9 * t}}, &b->path,
+                 "A path; Tab completes it");
+    y += 2.6 * t;
+    dialog_buttons(app, x0 + dialog_buttons_width(app, places, 4), y, places, 4);
+    y += 2.3 * t;
+    draw_list(app, b, (sl_box){{x0, y}, {x1, box.max.y - 4.2 * t}});
+    y = box.max.y - 1.8 * t;
+    const char *note = b->place == PLACE_RECENT    ? "The files that were opened last"
+                       : b->place == PLACE_SAMPLES ? "The maps that come with Sightline"
+                                                   : "Ctrl+Up: the folder above";
+    if (b->problem[0])
+        dialog_problem(app, (sl_point){x0, y - 0.9 * t}, x1 - x0, b->problem);
+    else
+        ui_text(ui, x0, y - 0.9 * t, 1, false, ui->palette.faint, note);
+    const int from = b->saves ? 1 : 0;
+    const double left = dialog_buttons(app, x1, y, ends + from, 3 - from);
+    if (b->place == PLACE_FOLDER)
+        dialog_check(app, ALL_FILES, (sl_box){{x0, y}, {fmin(x0 + 22 * t, left - t), y + 1.8 * t}},
+                     "All files", b->all);
+    dialog_end(app);
+}

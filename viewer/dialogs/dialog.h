@@ -1,0 +1,125 @@
+/// Dialogs: sheets over the window that take all keys and clicks, one over the other. Each kind is
+/// a row of a table: what draws it, and what its buttons do.
+///
+/// A sheet is drawn anew in each frame, by its widgets one after the other. The frame keeps their
+/// places, numbers and order. Keys and clicks go by those of the last frame.
+#ifndef VIEWER_DIALOG_H
+#define VIEWER_DIALOG_H
+
+#include "ui/ui.h"
+
+typedef struct app_state app_state;
+
+typedef enum dialog_kind {
+    DIALOG_NONE,
+    DIALOG_MENU,
+    DIALOG_BROWSER,
+    DIALOG_IMPORT,
+    DIALOG_QUESTION,
+} dialog_kind;
+
+/// Numbers of widgets that all dialogs share; a dialog's own begin at DIALOG_OWN and are below 256.
+enum { DIALOG_CANCEL = 1, DIALOG_MAIN, DIALOG_OWN };
+
+/// Where a list stands.
+typedef struct dialog_list {
+    size_t at;          ///< the row that is chosen; SIZE_MAX: none
+    size_t first, page; ///< the first row that is shown, and how many are
+    size_t count;
+    bool acts;  ///< a click acts at once; else the second one on a row
+    bool marks; ///< to act on a row marks it: Return does the main thing
+} dialog_list;
+
+typedef enum item_kind { ITEM_BUTTON, ITEM_CHECK, ITEM_FIELD, ITEM_LIST } item_kind;
+
+typedef struct dialog_item {
+    item_kind kind;
+    int id;
+    text_field *field;
+    dialog_list *list;
+    sl_box box;
+} dialog_item;
+
+enum { DIALOGS_MOST = 4, ITEMS_MOST = 40, ANSWERS_MOST = 3 };
+
+/// A question, or a message where it has one answer.
+typedef struct question_state {
+    char title[96], text[2048];
+    const char *answers[ANSWERS_MOST]; ///< a letter of the keyboard leads each: "S:Save"
+    int count;
+    void (*then)(app_state *app, int answer); ///< NULL: nothing
+} question_state;
+
+/// Zeroed, none is open.
+typedef struct dialog_state {
+    dialog_kind stack[DIALOGS_MOST];
+    int focus[DIALOGS_MOST]; ///< the number of a widget
+    question_state questions[DIALOGS_MOST];
+    int depth;
+    dialog_item items[ITEMS_MOST]; ///< of the last frame
+    int item_count;
+    char deaf[48];                 ///< the key that opened the dialog: its letter is no text
+    char title[320], problem[512]; ///< as shown in the last frame
+    double text;                   ///< the size of text outside of the sheet
+    dialog_list menu;
+    struct browser_state *browser; ///< NULL: never opened
+    struct import_state *import;   ///< likewise
+} dialog_state;
+
+/// The uppermost one.
+dialog_kind dialog_open_now(const app_state *app);
+
+void dialog_push(app_state *app, dialog_kind kind, int focus);
+void dialog_pop(app_state *app);
+/// Closes all but a question, which waits for its answer; false where there is one.
+bool dialog_clear(app_state *app);
+void dialog_destroy(app_state *app);
+
+void dialog_draw(app_state *app);
+
+/// Whether the uppermost one was not drawn yet: keys find no widgets in it.
+bool dialog_is_unseen(const app_state *app);
+
+// --- input: each is for an open dialog
+
+void dialog_key(app_state *app, const char *key, bool down);
+void dialog_text(app_state *app, const char *text);
+void dialog_press(app_state *app, const hit_area *hit, sl_point at);
+void dialog_wheel(app_state *app, double steps);
+
+// --- for those that draw: sizes are in units of plain text, boxes in pixels
+
+/// Begins a sheet. It is made to fit the window: text gets smaller where there is no room. Returns
+/// the box below the title.
+sl_box dialog_begin(app_state *app, double width, double height, const char *title);
+void dialog_end(app_state *app);
+
+/// A line that says what is wrong; nothing for "".
+void dialog_problem(app_state *app, sl_point at, double width, const char *text);
+
+/// The height of a row of widgets, in units of plain text.
+#define DIALOG_ROW 2.1
+
+/// A button on a sheet.
+typedef struct dialog_label {
+    int id;
+    const char *label;
+} dialog_label;
+
+/// Buttons side by side, the last one ending at x; returns where the first one begins.
+double dialog_buttons(app_state *app, double x, double y, const dialog_label *buttons, int count);
+/// How wide they are together.
+double dialog_buttons_width(app_state *app, const dialog_label *buttons, int count);
+/// A button without a ground, such as the head of a column.
+void dialog_head(app_state *app, int id, sl_box box, const char *label);
+void dialog_check(app_state *app, int id, sl_box row, const char *label, bool on);
+void dialog_field(app_state *app, int id, sl_box box, text_field *field, const char *hint);
+/// A frame for rows; says which are to be drawn: list->first up to list->first + list->page.
+void dialog_list_frame(app_state *app, int id, sl_box box, dialog_list *list);
+/// A row of the list that was begun last; returns its box.
+sl_box dialog_list_row(app_state *app, int id, sl_box box, const dialog_list *list, size_t row);
+
+/// Moves the choice of a list, and shows it.
+void dialog_list_go(dialog_list *list, size_t row);
+
+#endif

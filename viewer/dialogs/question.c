@@ -1,0 +1,147 @@
+#include "dialogs/question.h"
+
+#include "app/actions.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+// --- questions
+
+void question_ask(app_state *app, const char *title, const char *text, const char *const *answers,
+                  int count, void (*then)(app_state *app, int answer)) {
+    dialog_push(app, DIALOG_QUESTION, DIALOG_OWN);
+    question_state *q = &app->dialog.questions[app->dialog.depth - 1];
+    *q = (question_state){.count = count, .then = then};
+    snprintf(q->title, sizeof q->title, "%s", title);
+    snprintf(q->text, sizeof q->text, "%s", text);
+    for (int i = 0; i < count && i < ANSWERS_MOST; i++) q->answers[i] = answers[i];
+}
+
+void question_tell(app_state *app, const char *title, const char *text) {
+    static const char *const close[] = {"C:Close"};
+    question_ask(app, title, text, close, 1, NULL);
+}
+
+static const question_state *question_now(const app_state *app) {
+    return &app->dialog.questions[app->dialog.depth - 1];
+}
+
+const char *question_text(const app_state *app) {
+    return dialog_open_now(app) == DIALOG_QUESTION ? question_now(app)->text : "";
+}
+
+static void answer(app_state *app, int number) {
+    void (*const then)(app_state * app, int answer) = question_now(app)->then;
+    dialog_pop(app);
+    if (then) then(app, number);
+}
+
+void question_act(app_state *app, int id) {
+    if (id == DIALOG_MAIN)
+        answer(app, 0);
+    else if (id == DIALOG_CANCEL)
+        answer(app, question_now(app)->count - 1);
+    else
+        answer(app, id - DIALOG_OWN);
+}
+
+bool question_key(app_state *app, const char *key) {
+    const question_state *q = question_now(app);
+    for (int i = 0; i < q->count; i++) {
+        if (key[0] != q->answers[i][0] || key[1]) continue;
+        answer(app, i);
+        return true;
+    }
+    return false;
+}
+
+enum { LINES_MOST = 40, LINE_TEXT = 256 };
+
+/// Breaks a text into lines of a width. A word that is wider than that is cut.
+static int break_lines(ui_state *ui, const char *text, double width,
+                       char lines[LINES_MOST][LINE_TEXT]) {
+    int count = 0;
+    while (*text && count < LINES_MOST) {
+        size_t kept = 0, length = 0;
+        char *line = lines[count];
+        while (text[length] && text[length] != '\n' && length < LINE_TEXT - 1) {
+            size_t next = length + 1;
+            while (((unsigned char)text[next] & 0xc0) == 0x80 && next < LINE_TEXT - 1) next++;
+            memcpy(line, text, next);
+            line[next] = '\0';
+            if (length && ui_text_width(ui, 1, false, line) > width) break;
+            length = next;
+            if (text[length] == ' ' || text[length] == '\n' || !text[length]) kept = length;
+        }
+        if (kept) length = kept;
+        line[length] = '\0';
+        text += length;
+        if (*text == '\n')
+            text++;
+        else
+            while (*text == ' ') text++;
+        count++;
+    }
+    return count;
+}
+
+void question_draw(app_state *app) {
+    ui_state *ui = &app->ui;
+    const question_state *q = question_now(app);
+    char lines[LINES_MOST][LINE_TEXT];
+    const double width = fmin(fmax((ui->width - 12) / ui->text, 30), 48);
+    const int count = break_lines(ui, q->text, (width - 3) * ui->text, lines);
+    const sl_box box = dialog_begin(app, width, 3.5 + 1.5 * count + 4.2, q->title);
+    const double t = ui->text;
+    double y = box.min.y + 1.2 * t;
+    for (int i = 0; i < count; i++, y += 1.5 * t)
+        ui_text(ui, box.min.x, y, 1, false, ui->palette.ink, lines[i]);
+    dialog_label buttons[ANSWERS_MOST];
+    for (int i = 0; i < q->count; i++)
+        buttons[i] = (dialog_label){DIALOG_OWN + i, q->answers[i] + 2};
+    dialog_buttons(app, box.max.x, box.max.y - 1.8 * t, buttons, q->count);
+    dialog_end(app);
+}
+
+// --- the menu
+
+static const char *const rows[] = {
+    "new",      "open",     "import",   "notes",         "save", "save_as",
+    "save_png", "save_svg", "save_pdf", "export_series", "quit",
+};
+enum { ROWS = sizeof rows / sizeof *rows };
+
+void menu_open(app_state *app) {
+    app->dialog.menu = (dialog_list){.count = ROWS, .acts = true};
+    dialog_push(app, DIALOG_MENU, DIALOG_OWN);
+}
+
+void menu_draw(app_state *app) {
+    ui_state *ui = &app->ui;
+    dialog_list *list = &app->dialog.menu;
+    const sl_box box = dialog_begin(app, 34, 4.5 + 1.7 * ROWS, "File");
+    const double t = ui->text;
+    const sl_box frame = {box.min, {box.max.x, box.min.y + 1.7 * ROWS * t + 2}};
+    dialog_list_frame(app, DIALOG_OWN, frame, list);
+    for (size_t i = list->first; i < list->count && i < list->first + list->page; i++) {
+        size_t count;
+        const action_row *action = &action_table(&count)[action_find(rows[i])];
+        const sl_box row = dialog_list_row(app, DIALOG_OWN, frame, list, i);
+        char label[96];
+        snprintf(label, sizeof label, "%s", action->help);
+        label[0] = (char)toupper((unsigned char)label[0]);
+        ui_text(ui, row.min.x + 0.6 * t, row.min.y + 1.2 * t, 1, false, ui->palette.ink, label);
+        if (action->key)
+            ui_text_right(ui, row.max.x - 0.6 * t, row.min.y + 1.2 * t, 0.95, ui->palette.faint,
+                          action->key);
+    }
+    dialog_end(app);
+}
+
+void menu_act(app_state *app, int id) {
+    const size_t row = app->dialog.menu.at;
+    dialog_pop(app);
+    if (id != DIALOG_CANCEL && row < ROWS) action_run(app, action_find(rows[row]));
+}

@@ -1,0 +1,13 @@
+/// The account, live: what each culling method keeps of the view, and what it costs.
+#ifndef VIEWER_ACCOUNT_H
+#define VIEWER_ACCOUNT_H
+
+#include "app/app.h"
+
+/// Draws the chart into a box of the page.
+void account_draw(app_state *app, cairo_t *cairo, sl_box box);
+
+/// Saves the chart: .png, .svg or .pdf.
+sl_status account_save(app_state *app, const char *path);
+
+#endif
