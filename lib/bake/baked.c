@@ -1,3 +1,4 @@
+/// A baked file in memory: what it holds, whether its space is that of a map, and its end.
 #include "sightline/bake.h"
 
 #include "bake/slv.h"

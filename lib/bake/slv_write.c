@@ -1,3 +1,4 @@
+/// Writes baked files: which sections there are, their order, and the bytes, read back once.
 #include "bake/slv.h"
 #include "base/base.h"
 #include "base/file_system.h"

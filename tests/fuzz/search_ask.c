@@ -1,3 +1,4 @@
+/// What a search asks of one sequence: do all solvers agree, and with the oracle?
 #include "search.h"
 
 #include <math.h>

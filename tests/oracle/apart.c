@@ -1,3 +1,4 @@
+/// Distances by GMP.
 #include "oracle/apart.h"
 
 #include "oracle/blockers.h"

@@ -1,3 +1,4 @@
+/// A grid of walls, and signs that ask rationals where doubles cannot tell.
 #include "oracle/blockers.h"
 #include "oracle/must.h"
 

@@ -1,3 +1,4 @@
+/// A ray between each two neighbouring directions, in 64-bit integers.
 #include "oracle/box_rays.h"
 
 #include "oracle/must.h"

@@ -1,3 +1,4 @@
+/// Random triangulations of a small grid, joined and given walls.
 #include "oracle/convex_space.h"
 #include "oracle/must.h"
 

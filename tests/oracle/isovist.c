@@ -1,3 +1,4 @@
+/// Vectors from the eye to walls, sorted by rationals.
 #include "isovist.h"
 
 #include <gmp.h>

@@ -1,3 +1,4 @@
+/// A ray in rationals, from one wall to the next.
 #include "oracle/mirror_ray.h"
 
 #include <gmp.h>

@@ -1,3 +1,4 @@
+/// Neighbours by their boxes are compared in rationals.
 #include "oracle/planar_graph.h"
 
 #include "oracle/apart.h"

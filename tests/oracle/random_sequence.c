@@ -1,3 +1,4 @@
+/// Kinds of sequences, and how each is made degenerate.
 #include "oracle/random_sequence.h"
 
 #include <math.h>

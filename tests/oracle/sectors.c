@@ -1,3 +1,4 @@
+/// A point is in the sector on its side of the first line in each of four directions, if all agree.
 #include "oracle/sectors.h"
 
 #include <math.h>

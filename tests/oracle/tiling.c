@@ -1,3 +1,4 @@
+/// The areas add up to that of the bounds, and no two cells overlap: in rationals.
 #include "oracle/tiling.h"
 
 #include "oracle/blockers.h"

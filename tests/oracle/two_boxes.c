@@ -1,3 +1,4 @@
+/// Each line through two corners is walked, by integers and fractions of them.
 #include "oracle/two_boxes.h"
 
 #include "oracle/must.h"

@@ -1,3 +1,4 @@
+/// A program that leaks: the sanitizer must say so.
 #include <stdlib.h>
 
 // Volatile, so that no compiler takes the unused block away.

@@ -1,3 +1,4 @@
+/// Help as text for people, as a manual page, and as words for the completion of shells.
 #include "arguments/help.h"
 
 #include "sightline/support.h"

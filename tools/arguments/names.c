@@ -1,3 +1,4 @@
+/// Tables of names, and the name that a misspelt one most likely means.
 #include "arguments/names.h"
 
 #include "sightline/cell_to_cell.h"

@@ -1,3 +1,4 @@
+/// Takes the words of the command line by getopt, reads their values, and checks the outputs.
 #include "arguments/options.h"
 
 #include "arguments/help.h"

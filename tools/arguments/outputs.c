@@ -1,3 +1,4 @@
+/// Checks the names of outputs, and writes folders of files all or none.
 #include "arguments/outputs.h"
 
 #include "sightline/support.h"

@@ -1,3 +1,4 @@
+/// Registers what commands use of sightline_draw.
 #include "commands/commands.h"
 #include "system/built.h"
 

@@ -1,3 +1,4 @@
+/// Registers the solvers of sightline_glpk.
 #include "sightline/glpk.h"
 #include "system/built.h"
 

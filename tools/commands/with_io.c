@@ -1,3 +1,4 @@
+/// Registers the formats of sightline_io, and the commands that need them.
 #include "commands/commands.h"
 #include "system/built.h"
 

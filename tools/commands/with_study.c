@@ -1,3 +1,4 @@
+/// Registers the commands that need sightline_study.
 #include "commands/commands.h"
 #include "system/built.h"
 

@@ -1,3 +1,4 @@
+/// Options of how files are read, and files of maps and bakes; places to look from; doors by name.
 #include "inputs/inputs.h"
 
 #include "arguments/help.h"

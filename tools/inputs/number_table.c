@@ -1,3 +1,4 @@
+/// Reads a table line by line: the first line may name the columns.
 #include "inputs/number_table.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/// A map is read, cleaned and subdivided; and what is said on the way, with the next step.
 #include "inputs/pipeline.h"
 
 #include "arguments/help.h"

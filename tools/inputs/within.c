@@ -1,3 +1,4 @@
+/// Cuts a plan, or a space, to what lies within outlines.
 #include "inputs/within.h"
 
 #include "sightline/support.h"

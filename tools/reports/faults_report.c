@@ -1,3 +1,4 @@
+/// Prints each fault, and works out the command that mends the map.
 #include "reports/faults_report.h"
 
 #include "sightline/support.h"

@@ -1,3 +1,4 @@
+/// One list of fields, printed three ways.
 #include "reports/fields.h"
 
 #include "sightline/support.h"

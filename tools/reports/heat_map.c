@@ -1,3 +1,4 @@
+/// The title, the scale and the squares of a heat map.
 #include "reports/heat_map.h"
 
 #include "reports/fields.h"

@@ -1,3 +1,4 @@
+/// JSON is gathered in memory, and printed when the command has succeeded.
 #include "reports/json_print.h"
 
 #include "sightline/support.h"

@@ -1,3 +1,4 @@
+/// Tables of lines, written and drawn; and lines out of drawings and tables.
 #include "reports/line_table.h"
 
 #include "inputs/number_table.h"

@@ -1,3 +1,4 @@
+/// Parts of reports, each as text and as JSON.
 #include "reports/report.h"
 
 #include "sightline/faults.h"

@@ -1,3 +1,4 @@
+/// Means, deviations and the best value of a column, where some values may be missing.
 #include "reports/summary.h"
 
 #include <math.h>

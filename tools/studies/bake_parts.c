@@ -1,3 +1,4 @@
+/// What a bake takes over, which part of it is done now, and when it stops.
 #include "studies/bake_parts.h"
 
 #include "sightline/support.h"

@@ -1,3 +1,4 @@
+/// Asks each culling method in turn, and gathers what is seen as polygons.
 #include "studies/eye_run.h"
 
 #include "arguments/names.h"

@@ -1,3 +1,4 @@
+/// Eyes from points, grids, paths and tables; a region and its measures for each, thread by thread.
 #include "studies/isovist.h"
 
 #include "inputs/inputs.h"

@@ -1,3 +1,4 @@
+/// The union of regions, by the library, and its pieces as GeoJSON.
 #include "studies/isovist_union.h"
 
 #include "inputs/inputs.h"

@@ -1,3 +1,4 @@
+/// Each place is located; ways are followed from place to place.
 #include "studies/places.h"
 
 #include "inputs/inputs.h"

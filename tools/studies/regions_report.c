@@ -1,3 +1,4 @@
+/// The table of from-region methods, and its two charts: refinement, and work by output.
 #include "studies/regions_report.h"
 
 #include "sightline/draw.h"

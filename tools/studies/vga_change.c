@@ -1,3 +1,4 @@
+/// Squares of two grids that lie at one place are compared, measure by measure.
 #include "studies/vga_change.h"
 
 #include "inputs/inputs.h"

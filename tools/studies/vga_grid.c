@@ -1,3 +1,4 @@
+/// Points out of options and files, found in the grid; links as pairs of points.
 #include "studies/vga_grid.h"
 
 #include "inputs/number_table.h"

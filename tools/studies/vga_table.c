@@ -1,3 +1,4 @@
+/// The columns of the table follow the parts that are asked for.
 #include "studies/vga_table.h"
 
 #include "inputs/inputs.h"

@@ -1,3 +1,4 @@
+/// Sampling, subdivision, merging and cutting in turn, with what each costs.
 #include "studies/view_run.h"
 
 #include "sightline/stab.h"

@@ -1,3 +1,4 @@
+/// Ways out of files and by tour, cut into frames; each frame is culled and drawn by each method.
 #include "studies/walk_run.h"
 
 #include "inputs/inputs.h"

@@ -1,3 +1,4 @@
+/// The register of parts that are linked, and the refusal by name of those that are not.
 #include "system/built.h"
 
 #include "built_with.h"

@@ -1,3 +1,4 @@
+/// Notes, progress and interruptions of the one context that a command has.
 #include "system/console.h"
 
 #include "sightline/support.h"

@@ -1,3 +1,4 @@
+/// The one process of `sightline` shares with nobody.
 #include "system/crew.h"
 
 void crew_begin(int *argc, char ***argv) {

@@ -1,3 +1,4 @@
+/// What actions do, by topic, and the table that names them.
 #include "app/actions.h"
 
 #include "app/modes.h"

@@ -1,3 +1,4 @@
+/// The turn of a frame: results are taken, what follows is made anew, the page is drawn.
 #include "app/app.h"
 
 #include "app/modes.h"

@@ -1,3 +1,4 @@
+/// Who gets a key or a click: a dialog, the widget with the focus, the plan.
 #include "app/input.h"
 
 #include "app/actions.h"

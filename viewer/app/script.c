@@ -1,3 +1,4 @@
+/// The commands of scripts, one function each, and the loop over the lines.
 #include "app/script.h"
 
 #include "app/actions.h"

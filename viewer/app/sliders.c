@@ -1,3 +1,4 @@
+/// The share, the words and the setting of each slider.
 #include "app/sliders.h"
 
 #include "document/files.h"

@@ -1,3 +1,4 @@
+/// SDL's window, its density of pixels, and the loop of events.
 #include "app/window.h"
 
 #include "app/input.h"

@@ -1,3 +1,4 @@
+/// Reads, filters and sorts the files of a folder.
 #include "dialogs/folder_list.h"
 
 #include "sightline/import.h"

@@ -1,3 +1,4 @@
+/// A question at the top of the stack of dialogs, and the menu, which is one too.
 #include "dialogs/question.h"
 
 #include "app/actions.h"

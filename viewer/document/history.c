@@ -1,3 +1,4 @@
+/// Two stacks of maps; and whether a change needs a new bake.
 #include "document/history.h"
 
 #include "sightline/support.h"

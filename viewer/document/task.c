@@ -1,3 +1,4 @@
+/// One thread a task. Its notes and progress are read by the thread that draws.
 #include "document/task.h"
 
 #include "sightline/io.h"

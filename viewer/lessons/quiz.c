@@ -1,3 +1,4 @@
+/// The question, the answer and its reason, as words and as marks over the plan.
 #include "lessons/quiz.h"
 
 #include "sightline/draw.h"

@@ -1,3 +1,4 @@
+/// What the pointer holds, where it may go, and what a drag makes of it.
 #include "plan/edit.h"
 
 #include "plan/effects.h"

@@ -1,3 +1,4 @@
+/// The table of layers and what each draws: sets of cells, regions, portals, the stab tree.
 #include "plan/layers.h"
 
 #include "app/modes.h"

@@ -1,3 +1,4 @@
+/// The query is brought up to date, each part only where it has changed.
 #include "plan/present.h"
 
 #include "sightline/support.h"

@@ -1,3 +1,4 @@
+/// Each thing takes its height off the top of the column.
 #include "ui/column.h"
 
 #include "app/actions.h"

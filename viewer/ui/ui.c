@@ -1,3 +1,4 @@
+/// Text, boxes, and one function a widget, which draws it and registers its place.
 #include "ui/ui.h"
 
 #include "sightline/draw.h"

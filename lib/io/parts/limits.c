@@ -1,3 +1,4 @@
+/// The one message for files that ask for too much.
 #include "io/parts/limits.h"
 
 #include "base/base.h"

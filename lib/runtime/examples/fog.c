@@ -1,3 +1,4 @@
+/// Fog of war: what an eye sees of a level, drawn as SVG by the runtime header alone.
 /* Fog of war in C: what an eye sees of a baked level, with doors opened and shut by name.
  *
  *     cc fog.c -I.. -o fog

@@ -1,3 +1,4 @@
+/// A class of Godot 3 over the level library: GDNative's calls become those of sl_level_*.
 /* Baked levels in Godot 3: the class SightlineLevel for GDScript, by GDNative.
  *
  *     cc -shared -fPIC level.c -I GODOT-HEADERS -I ../.. -L DIR -lsightline_level -o liblevel.so
