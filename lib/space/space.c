@@ -1,4 +1,4 @@
-/// The space: it is made from a kd-tree or a mesh, it locates points, and it is destroyed.
+/// The space: its bounds, where a point is in it, and its end.
 ///
 /// The kd-tree finds the cell of a point from the root down: at each node, below or above the
 /// split. A mesh looks into the one bucket of its grid, and asks each cell there for the exact side
@@ -12,18 +12,8 @@
 #include "map/source.h"
 #include "sightline/support.h"
 #include "space/index.h"
-#include "space/kd_tree.h"
-#include "space/seams.h"
-#include "space/subdivide.h"
-#include "space/walled.h"
 
 #include <math.h>
-#include <string.h>
-
-sl_subdivide_options sl_subdivide_options_default(void) {
-    return (sl_subdivide_options){
-        .spanning = true, .obscured = 0.2, .cleaving = true, .median = true};
-}
 
 void sl_space_destroy(sl_context *context, sl_space *space) {
     sl_free(context, space->nodes);
@@ -68,37 +58,6 @@ static sl_box padded(sl_box box) {
     return box;
 }
 
-static sl_status copy_cells(sl_context *context, const sli_kd_tree *tree, sl_space *space) {
-    const size_t count = tree->cells.count;
-    if (count > UINT32_MAX / 4) return sl_fail_memory(context);
-    space->cell_count = (uint32_t)count;
-    space->vertex_count = (uint32_t)count * 4;
-    space->cells = sl_alloc_array(context, count, sizeof *space->cells);
-    space->vertices = sl_alloc_array(context, count * 4, sizeof *space->vertices);
-    if (!space->cells || !space->vertices) return SL_NO_MEMORY;
-    for (uint32_t i = 0; i < space->cell_count; i++) {
-        const sl_box *box = &tree->cells.items[i];
-        space->cells[i] = (sl_cell){.first_vertex = 4 * i, .vertex_count = 4};
-        const sl_point corners[4] = {
-            box->min, {box->max.x, box->min.y}, box->max, {box->min.x, box->max.y}};
-        memcpy(&space->vertices[(size_t)4 * i], corners, sizeof corners);
-    }
-    return SL_OK;
-}
-
-/// The tree over the walls and the parts of seams.
-static sl_status build_tree(sl_context *context, const sli_piece *walls, size_t count,
-                            const sli_seam_parts *seams, const sl_subdivide_options *options,
-                            sl_box bounds, sli_kd_tree *tree) {
-    if (!seams->parts.count) return sli_kd_build(context, walls, count, bounds, options, tree);
-    sli_piece *all = NULL;
-    sl_status status = sli_seam_lines(context, walls, count, seams, &all);
-    if (status == SL_OK)
-        status = sli_kd_build(context, all, count + seams->parts.count, bounds, options, tree);
-    sl_free(context, all);
-    return status;
-}
-
 static bool on_border(const sl_box *b, sl_segment at) {
     return (at.a.x == at.b.x && (at.a.x == b->min.x || at.a.x == b->max.x)) ||
            (at.a.y == at.b.y && (at.a.y == b->min.y || at.a.y == b->max.y));
@@ -115,52 +74,6 @@ sl_box sli_space_bounds(const sl_map *map) {
                      fmin(box.min.y - more, nextafter(box.min.y, -INFINITY))},
                     {fmax(box.max.x + more, nextafter(box.max.x, INFINITY)),
                      fmax(box.max.y + more, nextafter(box.max.y, INFINITY))}};
-}
-
-static sl_status fill_space(sl_context *context, const sl_map *map, const sli_piece *walls,
-                            const sli_seam_parts *seams, const sl_subdivide_options *options,
-                            sli_kd_tree *tree, sl_space *space) {
-    SL_TRY(build_tree(context, walls, map->wall_count, seams, options, space->bounds, tree));
-    SL_TRY(copy_cells(context, tree, space));
-    space->walls = sl_alloc_array(context, map->wall_count, sizeof *space->walls);
-    if (!space->walls) return SL_NO_MEMORY;
-    if (map->wall_count) memcpy(space->walls, map->walls, map->wall_count * sizeof *space->walls);
-    space->wall_count = (uint32_t)map->wall_count;
-    SL_TRY(sli_make_portals(context, tree, space));
-    if (space->seam_count) SL_TRY(sli_seams_tag_axial(context, seams, space));
-    space->root = tree->root;
-    space->tree_depth = tree->depth;
-    space->node_count = (uint32_t)tree->nodes.count;
-    space->nodes = tree->nodes.items;
-    tree->nodes.items = NULL;
-    SL_TRY(sli_mark_inside(context, map, walls, space));
-    SL_TRY(sli_walled_by_channel(context, map, space));
-    sl_report(context, "subdivide", "cells", space->cell_count, space->cell_count);
-    return SL_OK;
-}
-
-sl_status sli_subdivide_kd(sl_context *context, const sl_map *map,
-                           const sl_subdivide_options *options, sl_space *out) {
-    if (!(options->obscured >= 0 && options->obscured <= 1))
-        return sl_fail(context, SL_BAD_ARGUMENT, "the obscured share must lie between 0 and 1");
-    SL_TRY(sli_check_has_walls(context, map));
-    if (map->wall_count > INT32_MAX) return sl_fail_memory(context);
-    sl_space space = {.bounds = sli_space_bounds(map)};
-    sli_kd_tree tree = {0};
-    sli_piece *walls = NULL;
-    sli_seam_parts seams = {0};
-    sl_status status = sli_wall_lines(context, map, map->walls, map->wall_count, &walls);
-    if (status == SL_OK) status = sli_seams_of_map(context, map, true, &space);
-    if (status == SL_OK && space.seam_count) status = sli_seams_part(context, &space, &seams);
-    if (status == SL_OK) status = fill_space(context, map, walls, &seams, options, &tree, &space);
-    sli_seam_parts_destroy(context, &seams);
-    sl_free(context, walls);
-    sli_kd_destroy(context, &tree);
-    if (status == SL_OK)
-        *out = space;
-    else
-        sl_space_destroy(context, &space);
-    return status;
 }
 
 bool sli_cell_holds(const sl_space *space, uint32_t number, sl_point point) {
@@ -244,50 +157,6 @@ sl_point sl_space_middle(const sl_space *space, uint32_t cell) {
         sum.y += (corners[i].y - base.y) / c->vertex_count;
     }
     return (sl_point){base.x + sum.x, base.y + sum.y};
-}
-
-// --- the table of subdivisions
-
-static sl_status by_kd(sl_context *context, const sl_map *map, const sl_subdivide_options *rules,
-                       sl_space *out) {
-    const sl_subdivide_options usual = sl_subdivide_options_default();
-    return sli_subdivide_kd(context, map, rules ? rules : &usual, out);
-}
-
-static sl_status by_mesh(sl_context *context, const sl_map *map, const sl_subdivide_options *rules,
-                         sl_space *out) {
-    (void)rules;
-    return sli_subdivide_mesh(context, map, out);
-}
-
-static sl_status as_given(sl_context *context, const sl_map *map, const sl_subdivide_options *rules,
-                          sl_space *out) {
-    (void)rules;
-    return sli_subdivide_given(context, map, out);
-}
-
-static const sl_subdivision subdivisions[] = {
-    {.name = "kd",
-     .what = "kd-tree on the walls' own lines; walls must be axial",
-     .takes_rules = true,
-     .subdivide = by_kd},
-    {.name = "mesh",
-     .what = "constrained triangulation, triangles merged to convex cells; walls may be oblique",
-     .subdivide = by_mesh},
-    {.name = "given",
-     .what = "the cells that the file brings: 'cell' of a map text, GL nodes of a WAD",
-     .takes_cells = true,
-     .subdivide = as_given},
-};
-enum { KD, MESH, GIVEN };
-
-const sl_subdivision *sl_subdivisions(size_t *count) {
-    *count = sizeof subdivisions / sizeof *subdivisions;
-    return subdivisions;
-}
-
-const sl_subdivision *sl_subdivision_for(const sl_map *map) {
-    return &subdivisions[map->cell_count ? GIVEN : sl_map_is_axial(map) ? KD : MESH];
 }
 
 // --- places that are inside
