@@ -3,7 +3,7 @@
 ///
 /// A map with mirrors takes two bits per pixel: black is seen directly, dark grey directly and by
 /// mirror, light grey by mirror alone, white not at all.
-#include "io/formats.h"
+#include "io/io_formats.h"
 #include "sightline/io.h"
 #include "sightline/support.h"
 

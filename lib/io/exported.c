@@ -8,7 +8,7 @@
 /// stay as they are. Without that, the polygons `solids` add their sides as walls, also along the
 /// border of the map.
 #include "geometry/orient.h"
-#include "io/formats.h"
+#include "io/io_formats.h"
 #include "io/parts/document.h"
 #include "map/ground.h"
 #include "map/scan.h"

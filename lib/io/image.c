@@ -2,7 +2,7 @@
 /// numbers, and the map.yaml of ROS' map_server, which names a picture, the size of its pixels,
 /// where it lies, and from which occupancy a pixel is an obstacle. Walls run along the edges
 /// between solid pixels and others.
-#include "io/formats.h"
+#include "io/io_formats.h"
 #include "io/parts/limits.h"
 #include "io/parts/names.h"
 #include "io/parts/shapes.h"

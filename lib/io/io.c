@@ -2,7 +2,7 @@
 #include "sightline/io.h"
 
 #include "io/doom/wad.h"
-#include "io/formats.h"
+#include "io/io_formats.h"
 #include "map/scan.h"
 
 #include <string.h>

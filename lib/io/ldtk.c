@@ -1,6 +1,6 @@
 /// LDtk projects and separate level files: JSON (https://ldtk.io/json). Of a level's layers those
 /// of type IntGrid give walls: a whole number a cell, 0 for none. Entities give starts and doors.
-#include "io/formats.h"
+#include "io/io_formats.h"
 #include "io/parts/document.h"
 #include "io/parts/names.h"
 #include "io/parts/shapes.h"

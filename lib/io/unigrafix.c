@@ -1,6 +1,6 @@
 // UniGrafix text (Séquin & Smith, U.C. Berkeley): "v name x y z ;", "f name (v v v) ... colour ;",
 // comments in nested braces.
-#include "io/formats.h"
+#include "io/io_formats.h"
 #include "map/scan.h"
 #include "map/source.h"
 #include "sightline/io.h"

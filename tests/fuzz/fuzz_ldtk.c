@@ -1,7 +1,7 @@
 // LDtk: each map that is listed is read or refused; what is read is written as map text and read
 // back the same.
 #include "fuzz.h"
-#include "io/formats.h"
+#include "io/io_formats.h"
 
 static void read_one(sl_context *context, const uint8_t *data, size_t size, const char *name) {
     sl_import_options options = sl_import_options_default();

@@ -1,6 +1,6 @@
 // ROS' map.yaml: what names a picture that is not there is refused, all else too.
 #include "fuzz.h"
-#include "io/formats.h"
+#include "io/io_formats.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     sl_context *context = fuzz_context();

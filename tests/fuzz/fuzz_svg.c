@@ -1,6 +1,6 @@
 // SVG: whatever is drawn is written as map text and read back the same.
 #include "fuzz.h"
-#include "io/formats.h"
+#include "io/io_formats.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     sl_context *context = fuzz_context();

@@ -1,6 +1,6 @@
 // UniGrafix: whatever is cut is written as map text and read back the same, notes included.
 #include "fuzz.h"
-#include "io/formats.h"
+#include "io/io_formats.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     // The seeds lie about these heights.

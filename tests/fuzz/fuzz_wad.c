@@ -1,7 +1,7 @@
 // Doom WADs: every map listed is read or refused by name; whatever is read is written as map text
 // and read back the same; GL nodes make a space or are refused.
 #include "fuzz.h"
-#include "io/formats.h"
+#include "io/io_formats.h"
 
 static void read_one(sl_context *context, const uint8_t *data, size_t size, const char *name,
                      bool doors) {

@@ -8,7 +8,7 @@
 #include "testing.h"
 
 #include "bake/export.h"
-#include "io/formats.h"
+#include "io/io_formats.h"
 #include "map/scan.h"
 #include "sightline/bake.h"
 #include "sightline/io.h"

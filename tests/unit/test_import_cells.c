@@ -1,7 +1,7 @@
 // GL nodes of a WAD as cells: each version, and each way in which they can be broken.
 #include "testing.h"
 
-#include "io/formats.h"
+#include "io/io_formats.h"
 #include "sightline/io.h"
 #include "sightline/space.h"
 #include "space/subdivide.h"

@@ -2,7 +2,7 @@
 #include "testing.h"
 
 #include "import_check.h"
-#include "io/formats.h"
+#include "io/io_formats.h"
 #include "sightline/io.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 // Drawings whose corners miss each other by their last digit are closed; honest gaps stay.
 #include "testing.h"
 
-#include "io/formats.h"
+#include "io/io_formats.h"
 #include "sightline/io.h"
 #include "sightline/support.h"
 

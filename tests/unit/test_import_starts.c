@@ -3,7 +3,7 @@
 #include "testing.h"
 
 #include "import_check.h"
-#include "io/formats.h"
+#include "io/io_formats.h"
 #include "io/parts/names.h"
 #include "map/scan.h"
 #include "sightline/io.h"

@@ -3,7 +3,7 @@
 #include "testing.h"
 
 #include "import_check.h"
-#include "io/formats.h"
+#include "io/io_formats.h"
 #include "sightline/io.h"
 
 static const sl_import_options with_doors = {.doors = true};

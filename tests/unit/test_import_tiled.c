@@ -3,7 +3,7 @@
 #include "testing.h"
 
 #include "import_check.h"
-#include "io/formats.h"
+#include "io/io_formats.h"
 #include "io/parts/names.h"
 #include "sightline/io.h"
 #include "sightline/space.h"

@@ -1,7 +1,7 @@
 // UniGrafix: what is cut, what is kept, what is refused and where.
 #include "testing.h"
 
-#include "io/formats.h"
+#include "io/io_formats.h"
 #include "map/scan.h"
 #include "map_same.h"
 #include "sightline/io.h"

@@ -2,7 +2,7 @@
 // text format; and each way in which a WAD can be broken.
 #include "testing.h"
 
-#include "io/formats.h"
+#include "io/io_formats.h"
 #include "sightline/io.h"
 #include "unit/map_same.h"
 #include "wad_make.h"

@@ -1,7 +1,7 @@
 // Readers, the cleaning and the writers, with an allocator that gives out after N calls.
 #include "testing.h"
 
-#include "io/formats.h"
+#include "io/io_formats.h"
 #include "map/scan.h"
 #include "map/source.h"
 #include "map_same.h"

@@ -3,7 +3,7 @@
 // the WAD that it goes into is otherwise the same.
 #include "testing.h"
 
-#include "io/formats.h"
+#include "io/io_formats.h"
 #include "oracle/sectors.h"
 #include "sightline/io.h"
 #include "sightline/support.h"

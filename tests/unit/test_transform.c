@@ -2,7 +2,7 @@
 #define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "runtime_maps.h"
 
-#include "io/formats.h"
+#include "io/io_formats.h"
 #include "sightline/io.h"
 
 typedef sl_status reader(sl_context *context, const char *name, const char *text, size_t size,

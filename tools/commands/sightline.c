@@ -133,7 +133,9 @@ static sl_status run_in_crew(command_console *console, int argc, char **argv) {
 }
 
 int main(int argc, char **argv) {
+    static const built_part *const parts[] = {BUILT_PARTS NULL};
     command_console console;
+    built_register(parts);
     system_begin(&argc, &argv);
     // First the console: from then on a signal stops all processes, and no longer just this one.
     if (!console_open(&console)) return 1;

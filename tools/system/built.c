@@ -1,13 +1,17 @@
 /// The register of parts that are linked, and the refusal by name of those that are not.
 #include "system/built.h"
 
-#include "built_with.h"
 #include "sightline/stab.h"
 #include "sightline/support.h"
 
 #include <string.h>
 
-static const built_part *const parts[] = {BUILT_PARTS NULL};
+static const built_part *const no_parts[] = {NULL};
+static const built_part *const *parts = no_parts;
+
+void built_register(const built_part *const *linked) {
+    parts = linked;
+}
 
 // --- commands
 

@@ -1,6 +1,6 @@
 /// What a build may leave out: the libraries SIGHTLINE_IO, SIGHTLINE_STUDY, SIGHTLINE_GLPK and
-/// SIGHTLINE_DRAW. Each that is linked registers what commands use of it, in with_NAME.c. Commands
-/// look it up here, and refuse by name what is not there.
+/// SIGHTLINE_DRAW. What commands use of each that is linked stands in commands/with_NAME.c.
+/// Commands look it up here, and refuse by name what is not there.
 #ifndef BUILT_H
 #define BUILT_H
 
@@ -59,6 +59,9 @@ typedef struct built_part {
 } built_part;
 
 extern const built_part with_io, with_study, with_glpk, with_draw;
+
+/// Says which parts are linked, the last NULL, before anything else is asked. They are kept.
+void built_register(const built_part *const *linked);
 
 /// Runs a command of a part, by its name, argv[0]. SL_UNSUPPORTED where the part is off.
 sl_status built_run(command_console *console, int argc, char **argv);

@@ -16,7 +16,7 @@
 /// Cost: O(pairs that see each other, from points beside walls) for each start. Invariant: lengths
 /// leave the heap in ascending order.
 #include "analysis/visibility_graph/graph_measures.h"
-#include "analysis/visibility_graph/heap.h"
+#include "analysis/visibility_graph/path_heap.h"
 #include "base/bits.h"
 #include "geometry/length.h"
 

@@ -3,7 +3,7 @@
 #define SL_VGA_PATHS_H
 
 #include "analysis/visibility_graph/graph_measures.h"
-#include "analysis/visibility_graph/heap.h"
+#include "analysis/visibility_graph/path_heap.h"
 #include "analysis/visibility_graph/tiles.h"
 
 #include <math.h>

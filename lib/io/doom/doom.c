@@ -7,7 +7,7 @@
 /// tree of GL_NODES is not needed).
 #include "geometry/orient.h"
 #include "io/doom/wad.h"
-#include "io/formats.h"
+#include "io/io_formats.h"
 #include "map/source.h"
 #include "sightline/io.h"
 

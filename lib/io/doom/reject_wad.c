@@ -3,7 +3,7 @@
 /// to one thread at the end.
 #include "base/base.h"
 #include "io/doom/wad.h"
-#include "io/formats.h"
+#include "io/io_formats.h"
 #include "sightline/io.h"
 
 #include <stdlib.h>

@@ -4,7 +4,7 @@
 /// say what was taken.
 #include "io/dxf/dxf.h"
 
-#include "io/formats.h"
+#include "io/io_formats.h"
 #include "map/source.h"
 #include "map/unit.h"
 

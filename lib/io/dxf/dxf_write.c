@@ -3,7 +3,7 @@
 /// "sightline-door-open-NAME", "sightline-path-NAME". A start is a POINT, its heading the angle of
 /// the point's axis (group 50). The last entity is followed by a comment with the sum of all
 /// digits, by which the reader sees that nobody has edited the numbers. y is as in the map.
-#include "io/formats.h"
+#include "io/io_formats.h"
 #include "io/parts/layers.h"
 #include "map/unit.h"
 #include "sightline/io.h"

@@ -3,7 +3,7 @@
 /// out. A use draws another element once more, so depth and work are bounded. Groups whose names
 /// begin with "sightline-" hold doors, solid ground and so on (layers.h).
 #include "base/base.h"
-#include "io/formats.h"
+#include "io/io_formats.h"
 #include "io/parts/document.h"
 #include "io/parts/layers.h"
 #include "io/parts/names.h"

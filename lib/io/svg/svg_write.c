@@ -7,7 +7,7 @@
 ///     cells data-sightline-digits                of the last element: the sum of all digits, by
 ///     which the
 ///                                          reader sees that nobody has edited the numbers
-#include "io/formats.h"
+#include "io/io_formats.h"
 #include "io/parts/layers.h"
 #include "sightline/io.h"
 

@@ -2,7 +2,7 @@
 /// and the scenes of Foundry Virtual Tabletop. Files of our own have members of their own, as
 /// tabletop_write.c says.
 #include "geometry/orient.h"
-#include "io/formats.h"
+#include "io/io_formats.h"
 #include "io/parts/document.h"
 #include "io/parts/names.h"
 #include "io/parts/shapes.h"

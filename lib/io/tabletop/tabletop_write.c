@@ -5,7 +5,7 @@
 /// a scene, where Foundry keeps what modules add. They say which y is 0 in the map, the names of
 /// doors, and the sum of all digits, by which the reader sees that nobody has edited the numbers.
 /// In a scene, walls also say whether they are mirrors or seams, and starts are friendly tokens.
-#include "io/formats.h"
+#include "io/io_formats.h"
 #include "io/parts/layers.h"
 #include "sightline/io.h"
 #include "sightline/json.h"

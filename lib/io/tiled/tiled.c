@@ -6,7 +6,7 @@
 /// diamonds are squares (tiled_lattice.c), and projected onto the screen at the end.
 #include "io/tiled/tiled.h"
 #include "geometry/length.h"
-#include "io/formats.h"
+#include "io/io_formats.h"
 #include "io/parts/layers.h"
 #include "io/parts/names.h"
 #include "io/parts/shapes.h"

@@ -5,7 +5,7 @@
 ///
 /// An object has a place, and points from there. The place is the first point where all points read
 /// back exactly so, else 0,0.
-#include "io/formats.h"
+#include "io/io_formats.h"
 #include "io/parts/layers.h"
 #include "sightline/io.h"
 
