@@ -1,5 +1,5 @@
 /// The picture of an explanation: why one cell sees another or does not. It has a heading, the
-/// plan with its marks (explain_plan.c), a key, and a caption.
+/// plan with its marks (draw_explain_plan.c), a key, and a caption.
 #include "draw/draw_explain.h"
 
 #include "sightline/support.h"

@@ -1,5 +1,5 @@
-/// What the two files of the picture of an explanation share: explain.c has the page,
-/// explain_plan.c what is drawn over the plan.
+/// What the two files of the picture of an explanation share: draw_explain.c has the page,
+/// draw_explain_plan.c what is drawn over the plan.
 #ifndef SL_DRAW_EXPLAIN_H
 #define SL_DRAW_EXPLAIN_H
 

@@ -13,7 +13,7 @@ import sandbox
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 DOCUMENT = (ROOT / "maps" / "FORMAT.md").read_text(encoding="utf-8")
-READER = (ROOT / "lib" / "map" / "text.c").read_text(encoding="utf-8")
+READER = (ROOT / "lib/map/map_text.c").read_text(encoding="utf-8")
 ENDINGS = {"sightline": "map", "plan": "txt"}
 # What `info --json` counts of a statement.
 COUNTS = {"wall": "walls", "walls": "walls", "solid": "walls", "open": "walls", "door": "doors",

@@ -9,7 +9,7 @@
 ///
 /// A search from each segment (Dijkstra 1959) starts in both directions. A segment is as far as the
 /// nearer of its states. Choice is betweenness (Brandes 2001) on the states: the paths to both
-/// states of a segment share its 1 where they tie. Sums are whole numbers, as in measures.c.
+/// states of a segment share its 1 where they tie. Sums are whole numbers, as in axial_measures.c.
 ///
 /// Cost: O(n * pairs of segments that meet * log) for n segments. Threads take segments one by one.
 #include "base/heap.h"

@@ -2,13 +2,13 @@
 ///
 /// Linked points are one place, as merged points of depthmapX are: who comes to one of them has
 /// come to all, at the same depth, and goes on from each. The place counts once. Steps of sight
-/// follow from that alone: the graph is contracted, and searched as any other (measures.c).
+/// follow from that alone: the graph is contracted, and searched as any other (graph_measures.c).
 ///
 ///      floor 1    o--o--A        A and B are linked.      o--o--AB--o--o
 ///      floor 2          B--o--o                           steps: 0 1  2  3  4
 ///
 /// Paths cannot be contracted, as they turn where their points are. They are found by a plain
-/// search (Dijkstra 1959) that keeps the rules of paths.c: lengths in squares and single precision,
+/// search (Dijkstra 1959) that keeps the rules of graph_paths.c: lengths in squares and single precision,
 /// ties to the lower number, turns at points beside walls. Paths also go on from each linked point.
 /// A link itself has no length, and the direction before it is forgotten, as in depthmapX
 /// (vgametric.cpp, vgaangular.cpp of its salalib).

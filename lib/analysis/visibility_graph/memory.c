@@ -2,7 +2,7 @@
 ///
 /// One pass over the graph counts what the measures will keep:
 ///
-///     words:   64 points near each other, of which a point sees some (paths.c)
+///     words:   64 points near each other, of which a point sees some (graph_paths.c)
 ///     tiles:   64 points, of which one of 64 others sees some (tiles.c)
 ///     ways on: points within two steps of points beside walls (metric.c)
 ///

@@ -146,7 +146,7 @@ sli_view_split sli_view_split_along(const sl_wall *wall);
 sl_status sli_view_walls_within(sli_view_divider *d, const sli_view_part *part, uint32_t most,
                                 sli_view_numbers *out);
 
-// --- geometry of parts (parts.c)
+// --- geometry of parts (view_cell_parts.c)
 
 static inline double sli_along(sl_point p, int axis) {
     return axis ? p.y : p.x;

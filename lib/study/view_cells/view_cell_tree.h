@@ -60,7 +60,7 @@ typedef SL_ARRAY(sli_view_pair) sli_view_pairs;
 /// Pieces of oblique splits overlap within rounding.
 sl_status sli_view_neighbours(sl_context *context, const sl_view_tree *tree, sli_view_pairs *out);
 
-// --- render costs (scene.c)
+// --- render costs (view_cell_scene.c)
 
 typedef struct sli_view_render {
     const sl_view_scene *scene;

@@ -84,7 +84,7 @@ void sli_chooser_destroy(sl_context *context, sli_chooser *chooser);
 sl_status sli_chooser_choose(sl_context *context, sl_walk *walk, const sl_view *view);
 
 /// How far the eye may move, in any direction, before an invisible node can be seen; 0 where that
-/// is not known (bounds.c).
+/// is not known (walk_bounds.c).
 double sli_walk_hidden_bound(sl_walk *walk, const sli_node_view *seen);
 /// How far before the occluders of this frame can hide something of a node.
 double sli_walk_whole_bound(sl_walk *walk, const sli_node_view *seen);
