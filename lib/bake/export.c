@@ -1,7 +1,7 @@
 /// Exports of a baked file as JSON and CSV, and the table of all exports that need no other library
-/// (GeoJSON: export_geojson.c, C: export_source.c). Each is printed piece by piece, so that a large map needs
-/// no tree in memory. EXPORT.md describes them. Numbers have 17 digits, and read back to the same
-/// double.
+/// (GeoJSON: export_geojson.c, C: export_source.c). Each is printed piece by piece, so that a large
+/// map needs no tree in memory. EXPORT.md describes them. Numbers have 17 digits, and read back to
+/// the same double.
 #include "bake/export.h"
 #include "bake/view_rows.h"
 #include "base/base.h"

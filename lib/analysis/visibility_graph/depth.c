@@ -8,10 +8,10 @@
 ///      floor 2          B--o--o                           steps: 0 1  2  3  4
 ///
 /// Paths cannot be contracted, as they turn where their points are. They are found by a plain
-/// search (Dijkstra 1959) that keeps the rules of graph_paths.c: lengths in squares and single precision,
-/// ties to the lower number, turns at points beside walls. Paths also go on from each linked point.
-/// A link itself has no length, and the direction before it is forgotten, as in depthmapX
-/// (vgametric.cpp, vgaangular.cpp of its salalib).
+/// search (Dijkstra 1959) that keeps the rules of graph_paths.c: lengths in squares and single
+/// precision, ties to the lower number, turns at points beside walls. Paths also go on from each
+/// linked point. A link itself has no length, and the direction before it is forgotten, as in
+/// depthmapX (vgametric.cpp, vgaangular.cpp of its salalib).
 ///
 /// Cost: O(pairs that see each other, from points beside walls) for each start. Invariant: lengths
 /// leave the heap in ascending order.

@@ -4,7 +4,7 @@
 /// All divide view space from the top (divide.c). They differ in the split that a part gets and in
 /// its place in the queue:
 ///
-///   av-m, av-s   the split that gains most; parts by gain. av-m then merges (view_cell_hierarchy.c).
+///   av-m, av-s   the split that gains most; parts by gain. av-m merges then.
 ///   hybrid       the same by exact sets of pieces (pieces.c) in place of samples.
 ///   kd-*         in the middle; breadth first, or until little is seen.
 ///   bsp          along the line of a wall, until no wall is inside (Teller 1992).

@@ -9,7 +9,7 @@
 ///   updating     skips the test of nodes that the last frame opened; states are pulled up
 ///   propagation  takes a node's state from the neighbours that its ropes lead to
 ///   skipping     takes what was drawn in the last frame as visible, by chance
-///   bounded      tests nothing before the eye has moved far enough to change its state (walk_bounds.c)
+///   bounded      tests nothing before the eye has moved far enough for a change (walk_bounds.c)
 ///
 /// Invariant: no method draws less than what is seen. Where methods differ, walk.h says how.
 /// Cost of a frame: one node visibility test for each node reached and not skipped; a test takes
