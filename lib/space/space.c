@@ -12,6 +12,7 @@
 #include "map/source.h"
 #include "sightline/support.h"
 #include "space/index.h"
+#include "space/kd_tree.h"
 
 #include <math.h>
 
