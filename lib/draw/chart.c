@@ -117,7 +117,7 @@ typedef struct tick_list {
     size_t count;
 } tick_list;
 
-static void add(tick_list *list, long long digits, int power, int unit_power, bool minor) {
+static void add_tick(tick_list *list, long long digits, int power, int unit_power, bool minor) {
     const sli_axis *axis = list->axis;
     const double value = decimal(digits, power), at = scaled(axis->what->scale, value);
     if (!(at >= axis->low && at <= axis->high) || list->count == SLI_TICKS_MOST) return;
@@ -135,7 +135,7 @@ static void add_decades(tick_list *list, double low, double high, int sign) {
         for (int m = 1; m <= 9; m++) {
             const int digit = sign > 0 ? m : 10 - m;
             const bool major = digit == 1 ? power % step == 0 : few && (digit == 2 || digit == 5);
-            if (major || fine) add(list, sign * digit, power, power, !major);
+            if (major || fine) add_tick(list, sign * digit, power, power, !major);
         }
     }
 }
@@ -144,7 +144,7 @@ static void add_symlog(tick_list *list) {
     const sli_axis *axis = list->axis;
     if (axis->low < -LINEAR_PART)
         add_decades(list, fmax(-axis->high - LINEAR_PART, 0), -axis->low - LINEAR_PART, -1);
-    add(list, 0, 0, 0, false);
+    add_tick(list, 0, 0, 0, false);
     if (axis->high > LINEAR_PART)
         add_decades(list, fmax(axis->low - LINEAR_PART, 0), axis->high - LINEAR_PART, 1);
 }
@@ -162,7 +162,7 @@ static void add_linear(tick_list *list) {
     const double step = leads[i] * pow(10, power);
     const long long last = (long long)floor(axis->high / step);
     for (long long n = (long long)ceil(axis->low / step); n <= last; n++)
-        add(list, n * leads[i], power, unit_power, false);
+        add_tick(list, n * leads[i], power, unit_power, false);
 }
 
 size_t sli_axis_ticks(const sli_axis *axis, sli_tick ticks[SLI_TICKS_MOST]) {

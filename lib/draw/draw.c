@@ -42,8 +42,9 @@ typedef struct key {
     size_t count;
 } key;
 
-static entry *add(key *k, void (*swatch)(cairo_t *, const sl_scene *, const sli_pens *, sl_box),
-                  const char *text) {
+static entry *add_key_entry(key *k,
+                            void (*swatch)(cairo_t *, const sl_scene *, const sli_pens *, sl_box),
+                            const char *text) {
     entry *e = &k->entries[k->count++];
     *e = (entry){.swatch = swatch, .width = SWATCH_WIDTH};
     snprintf(e->text, sizeof e->text, "%s", text);
@@ -54,7 +55,7 @@ static void add_count(key *k, void (*swatch)(cairo_t *, const sl_scene *, const 
                       uint64_t count, const char *unit) {
     char text[SL_COUNT_TEXT];
     sl_text_count(count, unit, text);
-    add(k, swatch, text);
+    add_key_entry(k, swatch, text);
 }
 
 static void fill_box(cairo_t *cairo, sl_colour colour, double left, double right, sl_box box) {
@@ -250,22 +251,22 @@ static void add_seen(key *k, const sl_scene *scene) {
         const size_t length = strlen(text);
         snprintf(text + length, sizeof text - length, ", and %s", of);
     }
-    add(k, swatch_seen, text);
+    add_key_entry(k, swatch_seen, text);
     if (!scene->doubtful) return;
     sl_text_count(scene->doubtful, "cell", of);
     snprintf(text, sizeof text, "%s decided by rounding", of);
-    add(k, swatch_doubtful, text);
+    add_key_entry(k, swatch_doubtful, text);
 }
 
 static void add_tree(key *k, const sl_scene *scene) {
     char text[TEXT_MAX], nodes[SL_COUNT_TEXT];
     sl_text_count(scene->tree_nodes, "node", nodes);
     snprintf(text, sizeof text, "stab tree: %s, %u deep", nodes, scene->tree_depth);
-    add(k, swatch_tree, scene->tree_nodes ? text : "stab tree: not kept");
+    add_key_entry(k, swatch_tree, scene->tree_nodes ? text : "stab tree: not kept");
     if (!scene->mirrored_nodes) return;
     sl_text_count(scene->mirrored_nodes, "node", nodes);
     snprintf(text, sizeof text, "%s of it by mirror", nodes);
-    add(k, swatch_mirrored, text);
+    add_key_entry(k, swatch_mirrored, text);
 }
 
 static void add_heat(key *k, const sl_scene *scene) {
@@ -273,7 +274,7 @@ static void add_heat(key *k, const sl_scene *scene) {
     sl_text_percent(scene->most, most);
     sl_text_percent(scene->mean, mean);
     snprintf(text, sizeof text, "%s of the area seen, %s on average", most, mean);
-    entry *e = add(k, swatch_ramp, text);
+    entry *e = add_key_entry(k, swatch_ramp, text);
     e->width = RAMP_WIDTH;
     sl_text_percent(scene->least, e->lead);
 }
@@ -293,9 +294,9 @@ static void add_cells(key *k, const sl_scene *scene) {
         sl_text_count(scene->hatched, "", count);
         snprintf(text, sizeof text, "%s of the cells %s outside", count,
                  scene->hatched == 1 ? "is" : "are");
-        add(k, swatch_outside, text);
+        add_key_entry(k, swatch_outside, text);
     }
-    if (scene->solid) add(k, swatch_solid, "solid ground");
+    if (scene->solid) add_key_entry(k, swatch_solid, "solid ground");
 }
 
 /// Walls that do not stop all, as the space has them.
@@ -308,16 +309,16 @@ static void add_partial_walls(key *k, const sl_map *map) {
     }
     sl_stops_write(sl_map_channel(map), stops);
     snprintf(text, sizeof text, "wall that does not stop %s", stops);
-    if (open) add(k, swatch_open_wall, text);
+    if (open) add_key_entry(k, swatch_open_wall, text);
     snprintf(text, sizeof text, "wall that stops %s, but not all", stops);
-    if (walls) add(k, swatch_passage, text);
+    if (walls) add_key_entry(k, swatch_passage, text);
 }
 
 static void add_effects(key *k, const sl_map *map) {
     add_partial_walls(k, map);
-    if (map->door_count) add(k, swatch_door, "door, shut and open");
-    if (map->mirror_count) add(k, swatch_mirror, "mirror");
-    if (map->oneway_count) add(k, swatch_oneway, "one-way glass");
+    if (map->door_count) add_key_entry(k, swatch_door, "door, shut and open");
+    if (map->mirror_count) add_key_entry(k, swatch_mirror, "mirror");
+    if (map->oneway_count) add_key_entry(k, swatch_oneway, "one-way glass");
 }
 
 /// Adds the entries in order of importance.
@@ -330,18 +331,18 @@ static void fill_key(key *k, const sl_scene *scene) {
     if (scene->chosen) {
         char text[SL_COUNT_TEXT];
         snprintf(text, sizeof text, "cell %u", scene->options.cell);
-        add(k, swatch_source, text);
+        add_key_entry(k, swatch_source, text);
         if (scene->shows_seen) add_seen(k, scene);
         if (layers & SL_LAYER_STAB_TREE) add_tree(k, scene);
     }
     if (layers & SL_LAYER_STARTS && map->start_count)
-        add(k, swatch_start, map->start_count > 1 ? "starts" : "start");
+        add_key_entry(k, swatch_start, map->start_count > 1 ? "starts" : "start");
     if (layers & SL_LAYER_WALLS) add_count(k, swatch_wall, space->wall_count, "wall");
     add_cells(k, scene);
     if (layers & SL_LAYER_PORTALS) add_count(k, swatch_portal, scene->portals, "portal");
     if (layers & SL_LAYER_WALLS) add_effects(k, map);
     if (layers & SL_LAYER_STARTS && map->path_count)
-        add(k, swatch_path, map->path_count > 1 ? "paths" : "path");
+        add_key_entry(k, swatch_path, map->path_count > 1 ? "paths" : "path");
     if (layers & SL_LAYER_STARTS && map->object_count)
         add_count(k, swatch_object, map->object_count, "object");
 }
@@ -446,10 +447,10 @@ double sli_draw_ground_key(cairo_t *cairo, const sl_scene *scene, sl_point at, d
     const sli_pens pens = {.outline = 0.06 * size};
     key k = {0};
     if (!scene->solid && !scene->hatched) return 0;
-    if (scene->hatched) add(&k, swatch_outside, "outside");
+    if (scene->hatched) add_key_entry(&k, swatch_outside, "outside");
     if (!scene->hatched && hidden_count(scene))
-        add(&k, swatch_hidden, scene->outside ? "inside" : "outside");
-    if (scene->solid) add(&k, swatch_solid, "solid ground");
+        add_key_entry(&k, swatch_hidden, scene->outside ? "inside" : "outside");
+    if (scene->solid) add_key_entry(&k, swatch_solid, "solid ground");
     sl_text_font(cairo, size, false);
     for (size_t i = 0; i < k.count && paint; i++) {
         draw_entry(cairo, scene, &pens, &k.entries[i], at.x, at.y + 0.8 * size, size);

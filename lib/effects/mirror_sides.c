@@ -74,7 +74,7 @@ typedef struct finder {
     SL_ARRAY(sli_mirror_side) sides;
 } finder;
 
-static sl_status add(finder *f, const side *s, uint32_t number) {
+static sl_status add_mirror_side(finder *f, const side *s, uint32_t number) {
     sli_mirror_side found;
     if (!reflects(f->space, f->map, s, number, &found)) return SL_OK;
     SL_TRY(SL_ARRAY_ROOM(f->context, &f->sides, 1));
@@ -88,7 +88,7 @@ static sl_status find(finder *f, uint32_t *first) {
         if (i % 256 == 0) SL_TRY(sl_check_cancelled(f->context));
         for (uint32_t k = 0; k < f->space->cells[i].vertex_count; k++) {
             const side s = side_of(f->space, i, k);
-            for (uint32_t m = 0; m < f->map->mirror_count; m++) SL_TRY(add(f, &s, m));
+            for (uint32_t m = 0; m < f->map->mirror_count; m++) SL_TRY(add_mirror_side(f, &s, m));
         }
     }
     first[f->space->cell_count] = (uint32_t)f->sides.count;

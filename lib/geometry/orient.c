@@ -49,7 +49,7 @@ static product multiply(double a, double b, bool negative) {
 enum { LIMBS = (2148 + 1942 + 106 + 8) / 64 + 2 };
 
 /// Adds a product, shifted to start at bit `shift`, to a number in two's complement.
-static void add(uint64_t *limbs, int count, const product *p, int shift) {
+static void add_product(uint64_t *limbs, int count, const product *p, int shift) {
     const sli_wide low = sli_wide_shifted(p->magnitude, shift % 64);
     const uint64_t top = shift % 64 ? p->magnitude.high >> (64 - shift % 64) : 0;
     const uint64_t parts[3] = {low.low, low.high, top};
@@ -74,7 +74,7 @@ static int sign_of_sum(const product *products, int product_count) {
     const int count = (highest - lowest + 106 + 8) / 64 + 1;
     for (int i = 0; i < product_count; i++)
         if (!sli_wide_is_0(products[i].magnitude))
-            add(limbs, count, &products[i], products[i].exponent - lowest);
+            add_product(limbs, count, &products[i], products[i].exponent - lowest);
     if (limbs[count - 1] >> 63) return -1;
     for (int i = 0; i < count; i++)
         if (limbs[i]) return 1;

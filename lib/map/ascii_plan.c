@@ -400,7 +400,7 @@ static void mark_walls(const plan_maker *maker) {
 
 typedef SL_ARRAY(uint32_t) squares;
 
-static sl_status push(sl_context *context, squares *list, size_t square) {
+static sl_status push_square(sl_context *context, squares *list, size_t square) {
     SL_TRY(SL_ARRAY_ROOM(context, list, 1));
     list->items[list->count++] = (uint32_t)square;
     return SL_OK;
@@ -420,11 +420,11 @@ static sl_status flood(const plan_maker *maker, squares *now, squares *next) {
             // A wall is marked in the right or upper one of the two squares.
             const size_t marked = to[side] > at ? to[side] : at;
             if (all[marked] & (side < 2 ? WALL_LEFT : WALL_BELOW)) {
-                SL_TRY(push(maker->context, next, to[side]));
+                SL_TRY(push_square(maker->context, next, to[side]));
                 continue;
             }
             all[to[side]] |= KNOWN | (all[at] & OPEN);
-            SL_TRY(push(maker->context, now, to[side]));
+            SL_TRY(push_square(maker->context, now, to[side]));
         }
     }
     return SL_OK;
@@ -435,14 +435,14 @@ static sl_status flood(const plan_maker *maker, squares *now, squares *next) {
 static sl_status find_open(const plan_maker *maker) {
     squares now = {0}, next = {0};
     maker->squares[0] |= KNOWN;
-    sl_status status = push(maker->context, &now, 0);
+    sl_status status = push_square(maker->context, &now, 0);
     for (unsigned char side = OPEN; status == SL_OK && now.count; side ^= OPEN) {
         status = flood(maker, &now, &next);
         for (size_t i = 0; status == SL_OK && i < next.count; i++) {
             unsigned char *mark = &maker->squares[next.items[i]];
             if (*mark & KNOWN) continue;
             *mark |= KNOWN | side;
-            status = push(maker->context, &now, next.items[i]);
+            status = push_square(maker->context, &now, next.items[i]);
         }
         next.count = 0;
     }

@@ -526,12 +526,12 @@ static void print_comments(text_writer *writer, uint32_t line, bool behind) {
 }
 
 /// Begins a statement; things that are not from the file have line 0.
-static void begin(text_writer *writer, uint32_t line, const char *word) {
+static void begin_statement(text_writer *writer, uint32_t line, const char *word) {
     if (line && writer->map->source.comment_count) print_comments(writer, line, false);
     fputs(word, writer->stream);
 }
 
-static void end(text_writer *writer, uint32_t line) {
+static void end_statement(text_writer *writer, uint32_t line) {
     if (writer->stops) {
         char stops[SL_STOPS_TEXT];
         sl_stops_write(writer->stops, stops);
@@ -590,62 +590,62 @@ static void print_others(text_writer *writer) {
     FILE *stream = writer->stream;
     for (size_t i = 0; i < map->door_count; i++) {
         const sl_door *door = &map->doors[i];
-        begin(writer, door->line, "door ");
+        begin_statement(writer, door->line, "door ");
         fputs(door->name, stream);
         print_ends(stream, door->segment.a, door->segment.b);
         fputs(door->open ? " open" : " shut", stream);
-        end(writer, door->line);
+        end_statement(writer, door->line);
     }
     for (size_t i = 0; i < map->mirror_count; i++) {
-        begin(writer, map->mirrors[i].line, "mirror");
+        begin_statement(writer, map->mirrors[i].line, "mirror");
         print_ends(stream, map->mirrors[i].segment.a, map->mirrors[i].segment.b);
         fputs(map->mirrors[i].one_sided ? " one" : "", stream);
-        end(writer, map->mirrors[i].line);
+        end_statement(writer, map->mirrors[i].line);
     }
     for (size_t i = 0; i < map->oneway_count; i++) {
-        begin(writer, map->oneways[i].line, "oneway");
+        begin_statement(writer, map->oneways[i].line, "oneway");
         print_ends(stream, map->oneways[i].segment.a, map->oneways[i].segment.b);
-        end(writer, map->oneways[i].line);
+        end_statement(writer, map->oneways[i].line);
     }
     for (size_t i = 0; i < map->seam_count; i++) {
         if (map->seams[i].stops) continue;
-        begin(writer, map->seams[i].line, "seam");
+        begin_statement(writer, map->seams[i].line, "seam");
         print_ends(stream, map->seams[i].segment.a, map->seams[i].segment.b);
-        end(writer, map->seams[i].line);
+        end_statement(writer, map->seams[i].line);
     }
     for (size_t i = 0; i < map->start_count; i++) {
-        begin(writer, map->starts[i].line, "start");
+        begin_statement(writer, map->starts[i].line, "start");
         print_point(stream, map->starts[i].at);
         print_number(stream, map->starts[i].heading);
-        end(writer, map->starts[i].line);
+        end_statement(writer, map->starts[i].line);
     }
     for (size_t i = 0; i < map->path_count; i++) {
-        begin(writer, map->paths[i].line, "path ");
+        begin_statement(writer, map->paths[i].line, "path ");
         fputs(map->paths[i].name, stream);
         for (size_t k = 0; k < map->paths[i].count; k++)
             print_point(stream, map->paths[i].points[k]);
-        end(writer, map->paths[i].line);
+        end_statement(writer, map->paths[i].line);
     }
     for (size_t i = 0; i < map->object_count; i++) {
-        begin(writer, map->objects[i].line, "object ");
+        begin_statement(writer, map->objects[i].line, "object ");
         fputs(map->objects[i].name, stream);
         print_ends(stream, map->objects[i].box.min, map->objects[i].box.max);
-        end(writer, map->objects[i].line);
+        end_statement(writer, map->objects[i].line);
     }
 }
 
 static void print_cells(text_writer *writer) {
     const sl_map *map = writer->map;
     if (map->snap > 0) {
-        begin(writer, map->snap_line, "snap");
+        begin_statement(writer, map->snap_line, "snap");
         print_number(writer->stream, map->snap);
-        end(writer, map->snap_line);
+        end_statement(writer, map->snap_line);
     }
     for (size_t i = 0; i < map->cell_count; i++) {
-        begin(writer, map->cells[i].line, "cell");
+        begin_statement(writer, map->cells[i].line, "cell");
         for (uint32_t k = 0; k < map->cells[i].count; k++)
             print_point(writer->stream, map->corners[map->cells[i].first + k]);
-        end(writer, map->cells[i].line);
+        end_statement(writer, map->cells[i].line);
     }
 }
 
@@ -665,26 +665,26 @@ static sl_status print_polygon(void *user, const sl_point *corners, size_t count
             SL_TRY(print_solid_wall(user, corners[i], corners[(i + 1) % count], line));
         return SL_OK;
     }
-    begin(writer, line, solid ? "solid" : "open");
+    begin_statement(writer, line, solid ? "solid" : "open");
     for (size_t i = 0; i < count; i++) print_point(writer->stream, corners[i]);
-    end(writer, line);
+    end_statement(writer, line);
     return check_cancelled(writer);
 }
 
 static sl_status print_solid_wall(void *user, sl_point from, sl_point to, uint32_t line) {
     text_writer *writer = user;
-    begin(writer, line, "wall");
+    begin_statement(writer, line, "wall");
     print_ends(writer->stream, from, to);
     fputs(" solid", writer->stream);
-    end(writer, line);
+    end_statement(writer, line);
     return check_cancelled(writer);
 }
 
 static sl_status print_plain_wall(void *user, sl_point from, sl_point to, uint32_t line) {
     text_writer *writer = user;
-    begin(writer, line, "wall");
+    begin_statement(writer, line, "wall");
     print_ends(writer->stream, from, to);
-    end(writer, line);
+    end_statement(writer, line);
     return check_cancelled(writer);
 }
 
@@ -734,19 +734,19 @@ static sl_status print_map(text_writer *writer) {
     putc('\n', writer->stream);
     if (map->source.notes) print_notes(writer->stream, map->source.notes);
     if (map->unit_line || sli_unit_metres(map->unit) > 0) {
-        begin(writer, map->unit_line, "unit ");
+        begin_statement(writer, map->unit_line, "unit ");
         fputs(map->unit, writer->stream);
-        end(writer, map->unit_line);
+        end_statement(writer, map->unit_line);
     }
     if (map->entrance > 0) {
-        begin(writer, map->entrance_line, "entrance");
+        begin_statement(writer, map->entrance_line, "entrance");
         print_number(writer->stream, map->entrance);
-        end(writer, map->entrance_line);
+        end_statement(writer, map->entrance_line);
     }
     if (map->range > 0) {
-        begin(writer, map->range_line, "range");
+        begin_statement(writer, map->range_line, "range");
         print_number(writer->stream, map->range);
-        end(writer, map->range_line);
+        end_statement(writer, map->range_line);
     }
     if (map->precision > 0) {
         fputs("precision", writer->stream);

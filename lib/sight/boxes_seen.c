@@ -79,7 +79,7 @@ typedef struct gatherer {
     SL_ARRAY(int32_t) stack;
 } gatherer;
 
-static sl_status add(gatherer *g, uint32_t cell, uint32_t box, sl_box at) {
+static sl_status add_box_piece(gatherer *g, uint32_t cell, uint32_t box, sl_box at) {
     if (g->last[cell] == box + 1) return SL_OK;
     g->last[cell] = box + 1;
     if (!reaches_into(g->space, cell, at)) return SL_OK;
@@ -94,7 +94,7 @@ static sl_status add_down_tree(gatherer *g, uint32_t box, sl_box at) {
     while (g->stack.count) {
         const int32_t child = g->stack.items[--g->stack.count];
         if (child < 0) {
-            SL_TRY(add(g, (uint32_t)~child, box, at));
+            SL_TRY(add_box_piece(g, (uint32_t)~child, box, at));
             continue;
         }
         const sl_node *node = &g->space->nodes[child];
@@ -118,7 +118,7 @@ static sl_status gather(gatherer *g, const sl_moving_box *boxes, size_t count) {
         }
         sli_cell_grid_range r = sli_cell_grid_range_of(s, boxes[i].box);
         for (uint32_t cell; sli_cell_grid_next(&s->grid, &r, &cell);)
-            SL_TRY(add(g, cell, i, boxes[i].box));
+            SL_TRY(add_box_piece(g, cell, i, boxes[i].box));
     }
     return SL_OK;
 }

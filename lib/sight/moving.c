@@ -98,7 +98,8 @@ static sl_status list_dark(gatherer *g, const sl_space *ground) {
 }
 
 /// Adds a piece of a cell's boundary, but for what dark glass covers. `left_high`: as for `dark`.
-static sl_status add(gatherer *g, uint32_t cell, uint32_t box, sli_piece piece, bool left_high) {
+static sl_status add_moving_piece(gatherer *g, uint32_t cell, uint32_t box, sli_piece piece,
+                                  bool left_high) {
     g->lit.count = 0;
     SL_TRY(sli_piece_add_free(g->context, g->dark[left_high].items, g->dark[left_high].count, piece,
                               &g->lit));
@@ -124,8 +125,9 @@ static sl_status add_on_boundary(gatherer *g, uint32_t cell, const sli_piece *si
     const double hi = fmin(side->hi, side->axis ? max.x : max.y);
     if (!(below || above) || lo >= hi) return SL_OK;
     // Going up in the line's coordinate, the left hand is at high y (axis 0) or at low x (axis 1).
-    return add(g, cell, box, (sli_piece){.at = side->at, .lo = lo, .hi = hi, .axis = side->axis},
-               below == !side->axis);
+    return add_moving_piece(g, cell, box,
+                            (sli_piece){.at = side->at, .lo = lo, .hi = hi, .axis = side->axis},
+                            below == !side->axis);
 }
 
 /// Adds a piece to all cells that it lies on the boundary of.
@@ -157,8 +159,9 @@ static sl_status add_along(gatherer *g, uint32_t number, const sli_piece *piece,
     const double from = along(piece, p), to = along(piece, q);
     const double lo = fmax(piece->lo, fmin(from, to)), hi = fmin(piece->hi, fmax(from, to));
     if (across(piece, p) != piece->at || across(piece, q) != piece->at || lo >= hi) return SL_OK;
-    return add(g, number, box,
-               (sli_piece){.at = piece->at, .lo = lo, .hi = hi, .axis = piece->axis}, from < to);
+    return add_moving_piece(g, number, box,
+                            (sli_piece){.at = piece->at, .lo = lo, .hi = hi, .axis = piece->axis},
+                            from < to);
 }
 
 /// Adds a piece to all cells that it lies on the boundary of.

@@ -228,7 +228,7 @@ typedef struct wide_sum {
     double high, low;
 } wide_sum;
 
-static void add(wide_sum *sum, double value) {
+static void add_to_sum(wide_sum *sum, double value) {
     double rest;
     sum->high = sli_two_sum(sum->high, value, &rest);
     sum->low += rest;
@@ -236,8 +236,8 @@ static void add(wide_sum *sum, double value) {
 
 static void add_product(wide_sum *sum, double a, double b) {
     const double product = a * b;
-    add(sum, product);
-    add(sum, fma(a, b, -product));
+    add_to_sum(sum, product);
+    add_to_sum(sum, fma(a, b, -product));
 }
 
 static sl_status add_areas(overlayer *o) {
@@ -255,7 +255,7 @@ static sl_status add_areas(overlayer *o) {
     }
     for (size_t k = o->count + 1; k-- > 0;) {
         if (k < o->count) {
-            add(&twice[k], twice[k + 1].high);
+            add_to_sum(&twice[k], twice[k + 1].high);
             twice[k].low += twice[k + 1].low;
         }
         o->out->areas[k] = (twice[k].high + twice[k].low) / 2;

@@ -248,7 +248,7 @@ static bool runs_through(const sli_piece *side, const sl_box *box) {
     return at_lo < side->at && side->at < at_hi && side->lo < hi && side->hi > lo;
 }
 
-static sl_status push(maker *m, int32_t child) {
+static sl_status push_child(maker *m, int32_t child) {
     SL_TRY(SL_ARRAY_ROOM(m->context, &m->stack, 1));
     m->stack.items[m->stack.count++] = child;
     return SL_OK;
@@ -268,8 +268,8 @@ static sl_status find_cells(maker *m, sl_box box) {
             const double lo = n->axis ? box.min.y : box.min.x;
             const double hi = n->axis ? box.max.y : box.max.x;
             // The stack has 2 * node + 1 for the child above, 2 * node for the child below.
-            if (lo <= n->position) SL_TRY(push(m, 2 * child));
-            if (hi >= n->position) SL_TRY(push(m, 2 * child + 1));
+            if (lo <= n->position) SL_TRY(push_child(m, 2 * child));
+            if (hi >= n->position) SL_TRY(push_child(m, 2 * child + 1));
         } else {
             const uint32_t cell = (uint32_t)~child;
             m->touched[cell] = true;
@@ -609,7 +609,7 @@ static sl_status write_nodes(maker *m) {
     return SL_OK;
 }
 
-static sl_status begin(maker *m) {
+static sl_status begin_cutting(maker *m) {
     const sl_space *f = m->from;
     m->out->space = (sl_space){.bounds = f->bounds, .root = f->root};
     m->first_part = sl_alloc_array(m->context, f->cell_count, sizeof *m->first_part);
@@ -632,7 +632,7 @@ static sl_status begin(maker *m) {
 }
 
 static sl_status make(maker *m, const sl_moving_box *boxes, size_t count) {
-    SL_TRY(begin(m));
+    SL_TRY(begin_cutting(m));
     SL_TRY(sli_box_sides_put(m->context, m->ground, boxes, count, true, &m->blocking));
     for (size_t i = 0; i < count; i++) SL_TRY(find_cells(m, boxes[i].box));
     SL_TRY(cut_cells(m));

@@ -40,7 +40,7 @@ static sl_point start_of(const sli_clearance *c, uint32_t half) {
     return t->points.items[t->halves.items[half].from];
 }
 
-static sl_status push(sli_clearance *c, uint32_t half) {
+static sl_status push_half_edge(sli_clearance *c, uint32_t half) {
     SL_TRY(SL_ARRAY_ROOM(c->context, &c->stack, 1));
     c->stack.items[c->stack.count++] = half;
     return SL_OK;
@@ -53,7 +53,7 @@ static sl_status clearance_at(sli_clearance *c, uint32_t half, sl_point point, d
     const sli_triangulation *t = &c->channels->triangles;
     double best = most;
     c->stamp++;
-    SL_TRY(push(c, half));
+    SL_TRY(push_half_edge(c, half));
     while (c->stack.count) {
         uint32_t side = c->stack.items[--c->stack.count];
         if (c->seen[side] == c->stamp) continue;
@@ -65,7 +65,7 @@ static sl_status clearance_at(sli_clearance *c, uint32_t half, sl_point point, d
             if (c->channels->label[side / 2] == SLI_WALL)
                 best = distance;
             else if (!sli_half_is_outside(t, twin) && c->seen[twin] != c->stamp)
-                SL_TRY(push(c, twin));
+                SL_TRY(push_half_edge(c, twin));
         }
     }
     *out = best;

@@ -739,7 +739,7 @@ static sl_status find_by(finder *f, sl_entrance by, double width, double most, b
     return status;
 }
 
-static sl_status begin(finder *f, sl_context *context, sl_map *map) {
+static sl_status begin_search_of_entrances(finder *f, sl_context *context, sl_map *map) {
     *f = (finder){.context = context, .map = map, .bounds = sl_map_bounds(map)};
     f->weld = sli_planar_tolerance(&f->bounds);
     return SL_OK;
@@ -786,7 +786,7 @@ static sl_status find_roomiest(finder *f, double most) {
 static sl_status try_by(sl_context *context, sl_map *map, sl_entrance by, double width, double most,
                         bool *found) {
     finder f;
-    SL_TRY(begin(&f, context, map));
+    SL_TRY(begin_search_of_entrances(&f, context, map));
     const bool axial = sl_map_is_axial(map);
     sl_status status = find_by(&f, by, width, most, found);
     if (status == SL_OK && *found) status = add_seams(&f, axial);

@@ -30,7 +30,7 @@ typedef struct place_list {
     uint32_t things;
 } place_list;
 
-static sl_status add(place_list *list, const sl_point *points, size_t count, uint32_t line) {
+static sl_status add_places(place_list *list, const sl_point *points, size_t count, uint32_t line) {
     SL_TRY(SL_ARRAY_ROOM(list->context, &list->places, count));
     for (size_t i = 0; i < count; i++)
         list->places.items[list->places.count++] = (place){points[i], list->things, line};
@@ -41,7 +41,7 @@ static sl_status add(place_list *list, const sl_point *points, size_t count, uin
 static sl_status add_glass(place_list *list, const sl_glass *glass, size_t count) {
     for (size_t i = 0; i < count; i++) {
         const sl_point ends[2] = {glass[i].segment.a, glass[i].segment.b};
-        SL_TRY(add(list, ends, 2, glass[i].line));
+        SL_TRY(add_places(list, ends, 2, glass[i].line));
     }
     return SL_OK;
 }
@@ -50,26 +50,26 @@ static sl_status add_glass(place_list *list, const sl_glass *glass, size_t count
 static sl_status list_places(place_list *list, const sl_map *map) {
     for (size_t i = 0; i < map->wall_count; i++) {
         const sl_point ends[2] = {map->walls[i].a, map->walls[i].b};
-        SL_TRY(add(list, ends, 2, map->walls[i].line));
+        SL_TRY(add_places(list, ends, 2, map->walls[i].line));
     }
     for (size_t i = 0; i < map->door_count; i++) {
         const sl_point ends[2] = {map->doors[i].segment.a, map->doors[i].segment.b};
-        SL_TRY(add(list, ends, 2, map->doors[i].line));
+        SL_TRY(add_places(list, ends, 2, map->doors[i].line));
     }
     SL_TRY(add_glass(list, map->mirrors, map->mirror_count));
     SL_TRY(add_glass(list, map->oneways, map->oneway_count));
     SL_TRY(add_glass(list, map->seams, map->seam_count));
     for (size_t i = 0; i < map->start_count; i++)
-        SL_TRY(add(list, &map->starts[i].at, 1, map->starts[i].line));
+        SL_TRY(add_places(list, &map->starts[i].at, 1, map->starts[i].line));
     for (size_t i = 0; i < map->path_count; i++)
-        SL_TRY(add(list, map->paths[i].points, map->paths[i].count, map->paths[i].line));
+        SL_TRY(add_places(list, map->paths[i].points, map->paths[i].count, map->paths[i].line));
     for (size_t i = 0; i < map->object_count; i++) {
         const sl_point corners[2] = {map->objects[i].box.min, map->objects[i].box.max};
-        SL_TRY(add(list, corners, 2, map->objects[i].line));
+        SL_TRY(add_places(list, corners, 2, map->objects[i].line));
     }
     for (size_t i = 0; i < map->cell_count; i++)
-        SL_TRY(
-            add(list, map->corners + map->cells[i].first, map->cells[i].count, map->cells[i].line));
+        SL_TRY(add_places(list, map->corners + map->cells[i].first, map->cells[i].count,
+                          map->cells[i].line));
     return SL_OK;
 }
 

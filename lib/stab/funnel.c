@@ -311,8 +311,8 @@ static inline void inherit(level *l) {
     l->verdict = l[-1].verdict;
 }
 
-static sl_status push(sl_context *context, void *state, sl_point left, sl_point right,
-                      sl_stab_verdict *verdict) {
+static sl_status funnel_push(sl_context *context, void *state, sl_point left, sl_point right,
+                             sl_stab_verdict *verdict) {
     funnel *f = state;
     SL_TRY(make_room(context, f));
     const pair l = {left.x, left.y}, r = {right.x, right.y};
@@ -475,7 +475,7 @@ const sl_solver *sl_funnel(void) {
         .guarantee = SL_EXACT,
         .create = create,
         .destroy = destroy,
-        .push = push,
+        .push = funnel_push,
         .pop = pop,
         .toward = toward,
         .witness = witness,

@@ -155,8 +155,8 @@ static bool solve(program *p, double *margin) {
     return solved;
 }
 
-static sl_status push(sl_context *context, void *state, sl_point left, sl_point right,
-                      sl_stab_verdict *verdict) {
+static sl_status exact_push(sl_context *context, void *state, sl_point left, sl_point right,
+                            sl_stab_verdict *verdict) {
     program *p = state;
     SL_TRY(SL_ARRAY_ROOM(context, &p->portals, 1));
     p->portals.items[p->portals.count++] = (sl_portal_ends){left, right};
@@ -250,7 +250,7 @@ const sl_solver *sl_glpk_exact(void) {
         .guarantee = SL_EXACT,
         .create = create,
         .destroy = destroy,
-        .push = push,
+        .push = exact_push,
         .pop = pop,
         .toward = toward,
         .witness = witness,

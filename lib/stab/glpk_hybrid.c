@@ -91,8 +91,8 @@ static sl_status few_are_hidden(sl_context *context, hybrid *h, bool *hidden) {
     return SL_OK;
 }
 
-static sl_status push(sl_context *context, void *state, sl_point left, sl_point right,
-                      sl_stab_verdict *verdict) {
+static sl_status hybrid_push(sl_context *context, void *state, sl_point left, sl_point right,
+                             sl_stab_verdict *verdict) {
     hybrid *h = state;
     SL_TRY(SL_ARRAY_ROOM(context, &h->portals, 1));
     SL_TRY(SL_ARRAY_ROOM(context, &h->answers, 1));
@@ -163,7 +163,7 @@ const sl_solver *sl_glpk_hybrid(void) {
         .guarantee = SL_EXACT,
         .create = create,
         .destroy = destroy,
-        .push = push,
+        .push = hybrid_push,
         .pop = pop,
         .toward = toward,
         .witness = witness,

@@ -219,8 +219,8 @@ static bool grazes_across(const simplex *s, const level *l) {
     return false;
 }
 
-static sl_status push(sl_context *context, void *state, sl_point left, sl_point right,
-                      sl_stab_verdict *verdict) {
+static sl_status simplex_push(sl_context *context, void *state, sl_point left, sl_point right,
+                              sl_stab_verdict *verdict) {
     simplex *s = state;
     if (!s->problem) return sl_fail(context, SL_NO_MEMORY, "GLPK gave up earlier");
     SL_TRY(SL_ARRAY_ROOM(context, &s->levels, 1));
@@ -351,7 +351,7 @@ const sl_solver *sl_glpk_simplex(void) {
         .guarantee = SL_ROUNDED,
         .create = create,
         .destroy = destroy,
-        .push = push,
+        .push = simplex_push,
         .pop = pop,
         .toward = toward,
         .witness = witness,
@@ -418,7 +418,7 @@ sl_status sl_program_make(sl_context *context, const sl_portal_ends *portals, ui
     SL_TRY(create(context, bounds, &state));
     sl_status status = SL_OK;
     for (uint32_t i = 0; i < count && status == SL_OK; i++)
-        status = push(context, state, portals[i].left, portals[i].right, &verdict);
+        status = simplex_push(context, state, portals[i].left, portals[i].right, &verdict);
     if (status == SL_OK) status = read_program(context, state, &made);
     destroy(context, state);
     if (status == SL_OK)

@@ -393,8 +393,8 @@ static size_t drop_needless(sl_point *points, size_t count, double rounding) {
     return count;
 }
 
-static sl_status add(sl_context *context, const sl_space *space, const sl_region *region,
-                     sl_point eye, uint32_t depth, seen_parts *parts) {
+static sl_status add_seen_part(sl_context *context, const sl_space *space, const sl_region *region,
+                               sl_point eye, uint32_t depth, seen_parts *parts) {
     const sl_box *b = &space->bounds;
     const double tolerance = (b->max.x - b->min.x + b->max.y - b->min.y) * TOLERANCE;
     const double largest =
@@ -413,15 +413,16 @@ static sl_status add(sl_context *context, const sl_space *space, const sl_region
 sl_status seen_parts_add(sl_context *context, const sl_space *space,
                          const sl_mirrored_region *region, bool direct, seen_parts *parts) {
     const sl_point eye = region->direct.view.eye;
-    if (direct) SL_TRY(add(context, space, &region->direct, eye, 0, parts));
+    if (direct) SL_TRY(add_seen_part(context, space, &region->direct, eye, 0, parts));
     for (size_t i = 0; i < region->part_count; i++)
-        SL_TRY(add(context, space, &region->parts[i].region, eye, region->parts[i].depth, parts));
+        SL_TRY(add_seen_part(context, space, &region->parts[i].region, eye, region->parts[i].depth,
+                             parts));
     return SL_OK;
 }
 
 sl_status seen_parts_add_region(sl_context *context, const sl_space *space, const sl_region *region,
                                 seen_parts *parts) {
-    return add(context, space, region, region->view.eye, 0, parts);
+    return add_seen_part(context, space, region, region->view.eye, 0, parts);
 }
 
 void seen_parts_put_mirrored(sl_geojson_writer *out, const sl_mirrored_region *region,

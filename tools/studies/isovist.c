@@ -267,7 +267,7 @@ typedef struct job {
     isovist_result *out;
 } job;
 
-static sl_status begin(sl_context *context, void *all, void **state) {
+static sl_status begin_isovist_worker(sl_context *context, void *all, void **state) {
     (void)all;
     *state = sl_alloc_array(context, 1, sizeof(sl_mirrored_region));
     return *state ? SL_OK : SL_NO_MEMORY;
@@ -289,7 +289,7 @@ static sl_status measure_bundle(sl_context *context, void *all, void *state, siz
     return SL_OK;
 }
 
-static void end(sl_context *context, void *all, void *state) {
+static void end_isovist_worker(sl_context *context, void *all, void *state) {
     (void)all;
     sl_mirrored_region_destroy(context, state);
     sl_free(context, state);
@@ -299,9 +299,9 @@ sl_status isovist_run(sl_context *context, const isovist_scene *scene, const eye
                       unsigned threads, isovist_result *out) {
     job j = {scene, eyes, out};
     const sl_work work = {.job = &j,
-                          .begin = begin,
+                          .begin = begin_isovist_worker,
                           .unit = measure_bundle,
-                          .end = end,
+                          .end = end_isovist_worker,
                           .stage = "isovist",
                           .units = "bundles of eyes"};
     const size_t bundles = (eyes->list.count + EYES_A_BUNDLE - 1) / EYES_A_BUNDLE;

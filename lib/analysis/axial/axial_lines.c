@@ -518,7 +518,7 @@ typedef struct job {
     found *found; ///< by corner
 } job;
 
-static sl_status begin(sl_context *context, void *all, void **state) {
+static sl_status begin_axial_worker(sl_context *context, void *all, void **state) {
     finder *f = sl_alloc_array(context, 1, sizeof *f);
     if (!f) return SL_NO_MEMORY;
     f->plan = &((job *)all)->plan;
@@ -526,7 +526,7 @@ static sl_status begin(sl_context *context, void *all, void **state) {
     return SL_OK;
 }
 
-static void end(sl_context *context, void *all, void *state) {
+static void end_axial_worker(sl_context *context, void *all, void *state) {
     (void)all;
     sl_free(context, ((finder *)state)->events.items);
     sl_free(context, state);
@@ -652,9 +652,9 @@ sl_status sl_axial_all_lines(sl_context *context, const sl_outline *outline, uns
         if (!j.found) status = SL_NO_MEMORY;
     }
     const sl_work work = {.job = &j,
-                          .begin = begin,
+                          .begin = begin_axial_worker,
                           .unit = look_from,
-                          .end = end,
+                          .end = end_axial_worker,
                           .stage = "axial lines",
                           .units = "corners"};
     if (status == SL_OK) status = sl_work_run(context, &work, j.plan.count, threads);

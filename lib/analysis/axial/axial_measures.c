@@ -137,7 +137,7 @@ typedef struct scratch {
     uint32_t mark;
 } scratch;
 
-static void end(sl_context *context, void *all, void *state) {
+static void end_measure_worker(sl_context *context, void *all, void *state) {
     const job *j = all;
     scratch *s = state;
     for (uint32_t i = 0; i < j->graph->count && s->choice; i++)
@@ -151,7 +151,7 @@ static void end(sl_context *context, void *all, void *state) {
     sl_free(context, s);
 }
 
-static sl_status begin(sl_context *context, void *all, void **state) {
+static sl_status begin_measure_worker(sl_context *context, void *all, void **state) {
     const size_t count = (size_t)((const job *)all)->graph->count + 1;
     scratch *s = sl_alloc_array(context, 1, sizeof *s);
     if (!s) return SL_NO_MEMORY;
@@ -162,7 +162,7 @@ static sl_status begin(sl_context *context, void *all, void **state) {
     s->depends = sl_alloc_array(context, count, sizeof *s->depends);
     s->choice = sl_alloc_array(context, count, sizeof *s->choice);
     if (!s->depth || !s->queue || !s->marks || !s->paths || !s->depends || !s->choice) {
-        end(context, all, s);
+        end_measure_worker(context, all, s);
         return SL_NO_MEMORY;
     }
     *state = s;
@@ -271,9 +271,9 @@ sl_status sl_axial_measure(sl_context *context, const sl_segment *lines, const s
     if (!block) return SL_NO_MEMORY;
     job j = {lines, graph, options, measures, block};
     const sl_work work = {.job = &j,
-                          .begin = begin,
+                          .begin = begin_measure_worker,
                           .unit = measure_line,
-                          .end = end,
+                          .end = end_measure_worker,
                           .stage = "axial measures",
                           .units = "lines"};
     const sl_status status = sl_work_run(context, &work, graph->count, options->threads);

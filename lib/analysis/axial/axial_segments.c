@@ -301,7 +301,7 @@ static sl_status measure_segment(sl_context *context, void *all, void *state, si
 
 // --- all segments
 
-static void end(sl_context *context, void *all, void *state) {
+static void end_segment_worker(sl_context *context, void *all, void *state) {
     const job *j = all;
     scratch *s = state;
     for (uint32_t i = 0; i < j->net.count && s->choice; i++)
@@ -318,7 +318,7 @@ static void end(sl_context *context, void *all, void *state) {
     sl_free(context, s);
 }
 
-static sl_status begin(sl_context *context, void *all, void **state) {
+static sl_status begin_segment_worker(sl_context *context, void *all, void **state) {
     const network *n = &((const job *)all)->net;
     const size_t states = 2 * (size_t)n->count + 1;
     scratch *s = sl_alloc_array(context, 1, sizeof *s);
@@ -333,7 +333,7 @@ static sl_status begin(sl_context *context, void *all, void **state) {
     s->choice = sl_alloc_array(context, states, sizeof *s->choice);
     if (!s->keys || !s->paths || !s->depends || !s->order || !s->far || !s->done || !s->wanted ||
         !s->choice) {
-        end(context, all, s);
+        end_segment_worker(context, all, s);
         return SL_NO_MEMORY;
     }
     *state = s;
@@ -342,9 +342,9 @@ static sl_status begin(sl_context *context, void *all, void **state) {
 
 static sl_status measure_all(sl_context *context, job *j) {
     const sl_work work = {.job = j,
-                          .begin = begin,
+                          .begin = begin_segment_worker,
                           .unit = measure_segment,
-                          .end = end,
+                          .end = end_segment_worker,
                           .stage = "segment measures",
                           .units = "segments"};
     SL_TRY(sl_work_run(context, &work, j->net.count, j->options->threads));

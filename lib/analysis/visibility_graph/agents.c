@@ -117,12 +117,12 @@ static void walk(const crowd *c, size_t agent, uint64_t *counts) {
 
 // --- all agents
 
-static sl_status begin(sl_context *context, void *all, void **state) {
+static sl_status begin_agent_worker(sl_context *context, void *all, void **state) {
     *state = sl_alloc_array(context, ((const crowd *)all)->graph->count, sizeof(uint64_t));
     return *state ? SL_OK : SL_NO_MEMORY;
 }
 
-static void end(sl_context *context, void *all, void *state) {
+static void end_agent_worker(sl_context *context, void *all, void *state) {
     const crowd *c = all;
     const uint64_t *counts = state;
     for (uint32_t p = 0; p < c->graph->count; p++)
@@ -159,9 +159,9 @@ sl_status sl_vga_walk_agents(sl_context *context, const sl_vga_grid *grid,
         for (size_t i = 0; i < squares; i++) c.points[i] = UINT32_MAX;
         for (uint32_t p = 0; p < graph->count; p++) c.points[grid->squares[p]] = p;
         const sl_work work = {.job = &c,
-                              .begin = begin,
+                              .begin = begin_agent_worker,
                               .unit = walk_unit,
-                              .end = end,
+                              .end = end_agent_worker,
                               .stage = "agents",
                               .units = "agents"};
         status = sl_work_run(context, &work, options->agents, options->threads);

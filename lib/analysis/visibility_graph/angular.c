@@ -101,7 +101,7 @@ typedef struct walker {
 
 // --- the queue: buckets of keys, and a small heap for the one that is reached
 
-static sl_status push(sl_context *context, walker *w, entry e) {
+static sl_status push_turn(sl_context *context, walker *w, entry e) {
     const uint64_t bucket = (uint64_t)(e.key * PARTS);
     if (bucket == w->reached) return sli_vga_heap_push(context, &w->heap, e);
     SL_TRY(SL_ARRAY_ROOM(context, &w->entries, 1));
@@ -198,7 +198,7 @@ static sl_status reach(sl_context *context, walker *w, uint32_t q, uint32_t at, 
     w->last[q] = at;
     // Only straight ahead, and beside walls, are points expanded.
     if (turn > 0 && q >= s->turning_count) return SL_OK;
-    return push(context, w, (entry){turn, s->points[q], q, at, SLI_VGA_NONE});
+    return push_turn(context, w, (entry){turn, s->points[q], q, at, SLI_VGA_NONE});
 }
 
 /// Tries the ways on to a word. Sets the least of their turns.
@@ -358,7 +358,7 @@ static sl_status expect(sl_context *context, walker *w, uint32_t from) {
         const float turn = w->turn[at] + SLACK;
         w->turn[q] = turn + turn_between(direction(w, at, q), w->heading[at]);
         if (q < s->turning_count)
-            SL_TRY(push(context, w, (entry){w->turn[q], s->points[q], q, SLI_VGA_NONE, 0}));
+            SL_TRY(push_turn(context, w, (entry){w->turn[q], s->points[q], q, SLI_VGA_NONE, 0}));
     }
     return SL_OK;
 }
@@ -461,7 +461,7 @@ static sl_status measure(sl_context *context, void *state, uint32_t from) {
 
 // --- all points
 
-static void end(sl_context *context, void *state) {
+static void end_angular_search(sl_context *context, void *state) {
     walker *w = state;
     void *parts[] = {w->turn,        w->last,       w->hint,          w->heading,
                      w->rank,        w->kept,       w->ways,          w->fresh,
@@ -470,7 +470,8 @@ static void end(sl_context *context, void *state) {
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) sl_free(context, parts[i]);
 }
 
-static sl_status begin(sl_context *context, const sli_vga_searches *searches, void **state) {
+static sl_status begin_angular_search(sl_context *context, const sli_vga_searches *searches,
+                                      void **state) {
     const sli_vga_sights *s = searches->sights;
     const size_t slots = s->bundles * 64;
     walker *w = sl_alloc_array(context, 1, sizeof *w);
@@ -491,7 +492,7 @@ static sl_status begin(sl_context *context, const sli_vga_searches *searches, vo
     w->done = sl_alloc_array(context, s->bundles, sizeof *w->done);
     if (!w->turn || !w->last || !w->hint || !w->heading || !w->rank || !w->kept || !w->ways ||
         !w->fresh || !w->most || !w->sight || !w->hidden || !w->done) {
-        end(context, w);
+        end_angular_search(context, w);
         return SL_NO_MEMORY;
     }
     memset(w->last, 0xff, slots * sizeof *w->last); // none
@@ -534,7 +535,8 @@ static sl_status compass_make(sl_context *context, const sli_vga_sights *s, comp
 
 sl_status sli_vga_measure_angular(sl_context *context, const sli_vga_sights *sights) {
     compass shared;
-    const sli_vga_searches searches = {sights, &shared, begin, measure, end, "straightest paths"};
+    const sli_vga_searches searches = {
+        sights, &shared, begin_angular_search, measure, end_angular_search, "straightest paths"};
     sl_status status = compass_make(context, sights, &shared);
     if (status == SL_OK) status = sli_vga_search_all(context, &searches);
     sl_free(context, shared.directions);

@@ -73,7 +73,8 @@ typedef struct walker {
     sli_vga_heap heap;
 } walker;
 
-static sl_status push(sl_context *context, walker *w, float key, uint32_t point, uint32_t before) {
+static sl_status push_reached(sl_context *context, walker *w, float key, uint32_t point,
+                              uint32_t before) {
     return sli_vga_heap_push(context, &w->heap, (entry){key, point, point, before, SLI_VGA_NONE});
 }
 
@@ -103,7 +104,7 @@ static sl_status try_length(sl_context *context, walker *w, entry at, uint32_t t
     w->length[to] = at.key + (float)step;
     w->turn[to] = w->turn[at.at] + turn_at(w, at.before, at.at, to);
     if (w->length[to] == old || !leads_on(w, to)) return SL_OK;
-    return push(context, w, w->length[to], to, at.at);
+    return push_reached(context, w, w->length[to], to, at.at);
 }
 
 static sl_status try_turn(sl_context *context, walker *w, entry at, uint32_t to) {
@@ -112,7 +113,7 @@ static sl_status try_turn(sl_context *context, walker *w, entry at, uint32_t to)
     if (turn >= w->length[to]) return SL_OK;
     w->length[to] = turn;
     if (turn > 0 && !leads_on(w, to)) return SL_OK;
-    return push(context, w, turn, to, at.at);
+    return push_reached(context, w, turn, to, at.at);
 }
 
 typedef sl_status try_way(sl_context *context, walker *w, entry at, uint32_t to);
@@ -151,7 +152,7 @@ static sl_status search(sl_context *context, walker *w, try_way *try, const uint
     for (uint32_t p = 0; p < graph->count; p++) w->length[p] = w->turn[p] = INFINITY;
     for (size_t i = 0; i < from_count; i++) {
         w->length[from[i]] = w->turn[from[i]] = 0;
-        SL_TRY(push(context, w, 0, from[i], SLI_VGA_NONE));
+        SL_TRY(push_reached(context, w, 0, from[i], SLI_VGA_NONE));
     }
     while (w->heap.count) {
         const entry e = sli_vga_heap_pop(&w->heap);
@@ -293,7 +294,7 @@ typedef struct path_job {
     places places;
 } path_job;
 
-static sl_status begin(sl_context *context, void *all, void **state) {
+static sl_status begin_depth_worker(sl_context *context, void *all, void **state) {
     const path_job *j = all;
     walker *w = sl_alloc_array(context, 1, sizeof *w);
     if (!w) return SL_NO_MEMORY;
@@ -305,7 +306,7 @@ static sl_status begin(sl_context *context, void *all, void **state) {
     return status;
 }
 
-static void end(sl_context *context, void *all, void *state) {
+static void end_depth_worker(sl_context *context, void *all, void *state) {
     (void)all;
     walker_end(context, state);
     sl_free(context, state);
@@ -361,9 +362,9 @@ static sl_status measure_point(sl_context *context, void *all, void *state, size
 
 static sl_status measure_paths(sl_context *context, path_job *job) {
     const sl_work work = {.job = job,
-                          .begin = begin,
+                          .begin = begin_depth_worker,
                           .unit = measure_point,
-                          .end = end,
+                          .end = end_depth_worker,
                           .stage = "paths",
                           .units = "points"};
     return sl_work_run(context, &work, job->all.graph->count, job->all.options->threads);

@@ -48,7 +48,7 @@ typedef struct searcher {
 
 // --- numbers of points
 
-static void add(searcher *s, uint64_t depth, int64_t points) {
+static void add_depth(searcher *s, uint64_t depth, int64_t points) {
     s->common[depth < SLI_VGA_DEPTHS ? depth : SLI_VGA_DEPTHS - 1] += points;
 }
 
@@ -154,7 +154,7 @@ static bool count_level(const sli_vga_tiles *t, searcher *s, uint64_t depth) {
         }
         partial = true;
     }
-    add(s, depth, (int64_t)full);
+    add_depth(s, depth, (int64_t)full);
     return full || partial;
 }
 
@@ -183,8 +183,8 @@ static void search(const sli_vga_tiles *t, searcher *s, size_t bundle, uint64_t 
                    uint32_t radius) {
     uint64_t depth = 1;
     see_first(t, s, bundle, group);
-    add(s, 0, 1);
-    add(s, 1, __builtin_popcountll(group) - 1);
+    add_depth(s, 0, 1);
+    add_depth(s, 1, __builtin_popcountll(group) - 1);
     for (; count_level(t, s, depth) && depth != radius; depth++) next_level(t, s, group);
     s->deepest = (uint32_t)(depth + 1 < SLI_VGA_DEPTHS ? depth + 1 : SLI_VGA_DEPTHS - 1);
 }
@@ -237,14 +237,14 @@ static void measure_group(const global_job *g, searcher *s, size_t bundle, uint6
 
 // --- all points
 
-static void end(sl_context *context, void *all, void *state) {
+static void end_global_worker(sl_context *context, void *all, void *state) {
     (void)all;
     searcher *s = state;
     void *parts[] = {s->seen, s->full, s->partial, s->next, s->next_full, s->masks, s->any, s};
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) sl_free(context, parts[i]);
 }
 
-static sl_status begin(sl_context *context, void *all, void **state) {
+static sl_status begin_global_worker(sl_context *context, void *all, void **state) {
     const size_t words = ((const global_job *)all)->tiles->bundles;
     searcher *s = sl_alloc_array(context, 1, sizeof *s);
     if (!s) return SL_NO_MEMORY;
@@ -254,7 +254,7 @@ static sl_status begin(sl_context *context, void *all, void **state) {
     for (size_t i = 0; i < sizeof sets / sizeof *sets; i++)
         room &= (*sets[i] = sl_alloc_array(context, words, sizeof **sets[i])) != NULL;
     if (!room) {
-        end(context, all, s);
+        end_global_worker(context, all, s);
         return SL_NO_MEMORY;
     }
     *state = s;
@@ -296,9 +296,9 @@ sl_status sli_vga_measure_global(sl_context *context, const sli_vga_job *job,
                                  const sli_vga_tiles *tiles) {
     global_job mine = {job, tiles, is_mutual(job)};
     const sl_work work = {.job = &mine,
-                          .begin = begin,
+                          .begin = begin_global_worker,
                           .unit = measure_unit,
-                          .end = end,
+                          .end = end_global_worker,
                           .stage = "depths",
                           .units = "bundles of points"};
     return sl_work_run(context, &work, tiles->bundles, job->options->threads);

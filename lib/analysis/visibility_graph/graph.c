@@ -277,7 +277,7 @@ typedef struct job {
     sl_vga_graph *graph;
 } job;
 
-static sl_status begin(sl_context *context, void *all, void **state) {
+static sl_status begin_graph_worker(sl_context *context, void *all, void **state) {
     looker *l = sl_alloc_array(context, 1, sizeof *l);
     if (!l) return SL_NO_MEMORY;
     *l = ((job *)all)->like;
@@ -285,7 +285,7 @@ static sl_status begin(sl_context *context, void *all, void **state) {
     return SL_OK;
 }
 
-static void end(sl_context *context, void *all, void *state) {
+static void end_graph_worker(sl_context *context, void *all, void *state) {
     (void)all;
     looker *l = state;
     sl_free(context, l->frames.items);
@@ -319,9 +319,9 @@ static sl_status look_from_unit(sl_context *context, void *all, void *state, siz
 
 static sl_status connect(sl_context *context, job *j, unsigned threads) {
     const sl_work work = {.job = j,
-                          .begin = begin,
+                          .begin = begin_graph_worker,
                           .unit = look_from_unit,
-                          .end = end,
+                          .end = end_graph_worker,
                           .stage = "visibility graph",
                           .units = "bundles of points"};
     return sl_work_run(context, &work, (j->graph->count + EYES_A_UNIT - 1) / EYES_A_UNIT, threads);

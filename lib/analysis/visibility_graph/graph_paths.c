@@ -177,12 +177,12 @@ sl_status sli_vga_sights_make(sl_context *context, const sli_vga_job *job, sli_v
 
 // --- searches from all points
 
-static sl_status begin(sl_context *context, void *all, void **walker) {
+static sl_status begin_path_worker(sl_context *context, void *all, void **walker) {
     const sli_vga_searches *searches = all;
     return searches->begin(context, searches, walker);
 }
 
-static void end(sl_context *context, void *all, void *walker) {
+static void end_path_worker(sl_context *context, void *all, void *walker) {
     ((const sli_vga_searches *)all)->end(context, walker);
 }
 
@@ -200,9 +200,9 @@ sl_status sli_vga_search_all(sl_context *context, const sli_vga_searches *search
     const sli_vga_sights *s = searches->sights;
     sli_vga_searches mine = *searches;
     const sl_work work = {.job = &mine,
-                          .begin = begin,
+                          .begin = begin_path_worker,
                           .unit = measure_unit,
-                          .end = end,
+                          .end = end_path_worker,
                           .stage = searches->stage,
                           .units = "bundles of points"};
     return sl_work_run(context, &work, s->bundles, s->job->options->threads);

@@ -100,7 +100,7 @@ typedef struct walker {
 // --- buckets
 
 /// There is room for the entry.
-static inline void push(walker *w, entry e) {
+static inline void push_way(walker *w, entry e) {
     uint32_t *bucket = &w->buckets[(uint64_t)(e.key * PARTS) & w->bucket_mask];
     e.number = w->sights->points[e.slot];
     e.next = *bucket;
@@ -169,7 +169,7 @@ static inline void try_way(walker *w, const entry *at, way_on way) {
     w->last[way.slot] = at->slot;
     // A path that is shorter by less than a float tells is there already, with its way so far.
     if (length == old || way.slot >= w->sights->turning_count) return;
-    push(w, (entry){.key = length, .slot = way.slot, .before = at->slot, .step = way.step});
+    push_way(w, (entry){.key = length, .slot = way.slot, .before = at->slot, .step = way.step});
 }
 
 /// Tries all ways on.
@@ -250,7 +250,7 @@ static sl_status find_shortest(sl_context *context, walker *w, uint32_t from) {
     w->old_from = from;
     w->length[from] = w->turn[from] = 0;
     SL_TRY(SL_ARRAY_ROOM(context, &w->entries, 1));
-    push(w, (entry){.slot = from, .before = SLI_VGA_NONE, .step = SLI_VGA_NONE});
+    push_way(w, (entry){.slot = from, .before = SLI_VGA_NONE, .step = SLI_VGA_NONE});
     bool within = true;
     for (uint64_t parts = 0; w->waiting; parts++) {
         if (w->buckets[parts & w->bucket_mask] == SLI_VGA_NONE) continue;
@@ -532,11 +532,12 @@ static sl_status ways_make(sl_context *context, const sli_vga_sights *s, all_way
 
 // --- all points
 
-static void end(sl_context *context, void *state) {
+static void end_metric_search(sl_context *context, void *state) {
     walker_destroy(context, state);
 }
 
-static sl_status begin(sl_context *context, const sli_vga_searches *searches, void **state) {
+static sl_status begin_metric_search(sl_context *context, const sli_vga_searches *searches,
+                                     void **state) {
     walker *w;
     SL_TRY(walker_make(context, searches->sights, searches->shared, &w));
     *state = w;
@@ -545,7 +546,8 @@ static sl_status begin(sl_context *context, const sli_vga_searches *searches, vo
 
 sl_status sli_vga_measure_metric(sl_context *context, const sli_vga_sights *sights) {
     all_ways ways;
-    const sli_vga_searches searches = {sights, &ways, begin, measure, end, "shortest paths"};
+    const sli_vga_searches searches = {
+        sights, &ways, begin_metric_search, measure, end_metric_search, "shortest paths"};
     sl_status status = ways_make(context, sights, &ways);
     if (status == SL_OK) status = sli_vga_search_all(context, &searches);
     ways_destroy(context, &ways);

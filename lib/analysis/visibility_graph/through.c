@@ -35,13 +35,13 @@ static void pass(uint64_t *counts, int64_t from, int64_t rows, int64_t dx, int64
     }
 }
 
-static sl_status begin(sl_context *context, void *all, void **state) {
+static sl_status begin_through_worker(sl_context *context, void *all, void **state) {
     const sl_vga_grid *grid = ((const passing *)all)->job->grid;
     *state = sl_alloc_array(context, (size_t)grid->columns * grid->rows, sizeof(uint64_t));
     return *state ? SL_OK : SL_NO_MEMORY;
 }
 
-static void end(sl_context *context, void *all, void *state) {
+static void end_through_worker(sl_context *context, void *all, void *state) {
     const passing *p = all;
     const uint64_t *counts = state;
     const size_t squares = (size_t)p->job->grid->columns * p->job->grid->rows;
@@ -77,9 +77,9 @@ sl_status sli_vga_measure_through(sl_context *context, const sli_vga_job *job) {
     if (!block) return SL_NO_MEMORY;
     passing p = {job, block};
     const sl_work work = {.job = &p,
-                          .begin = begin,
+                          .begin = begin_through_worker,
                           .unit = pass_unit,
-                          .end = end,
+                          .end = end_through_worker,
                           .stage = "through vision",
                           .units = "bundles of points"};
     const sl_status status = sl_work_run(

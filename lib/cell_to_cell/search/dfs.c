@@ -223,7 +223,7 @@ static sl_status search_unit(sl_context *context, void *job, void *state, size_t
     return SL_OK;
 }
 
-static void end(sl_context *context, void *job, void *state) {
+static void end_dfs_worker(sl_context *context, void *job, void *state) {
     sli_dfs *all = job;
     sli_dfs_thread *me = state;
     const sl_solver *solver = all->options->solver;
@@ -241,7 +241,7 @@ static void end(sl_context *context, void *job, void *state) {
     sl_free(context, me);
 }
 
-static sl_status begin(sl_context *context, void *job, void **state) {
+static sl_status begin_dfs_worker(sl_context *context, void *job, void **state) {
     sli_dfs *all = job;
     sli_dfs_thread *me = sl_alloc_array(context, 1, sizeof *me);
     if (!me) return SL_NO_MEMORY;
@@ -256,7 +256,7 @@ static sl_status begin(sl_context *context, void *job, void **state) {
     if (status == SL_OK)
         *state = me;
     else
-        end(context, job, me);
+        end_dfs_worker(context, job, me);
     return status;
 }
 
@@ -272,9 +272,9 @@ static void sum_accounts(const sli_dfs *all, sl_see_account *sum) {
 
 static sl_status run_search(sl_context *context, sli_dfs *all) {
     const sl_work work = {.job = all,
-                          .begin = begin,
+                          .begin = begin_dfs_worker,
                           .unit = search_unit,
-                          .end = end,
+                          .end = end_dfs_worker,
                           .leave_thread = all->options->solver->leave_thread,
                           .stage = "cell_to_cell",
                           .units = "cells"};

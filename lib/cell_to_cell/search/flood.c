@@ -74,7 +74,7 @@ typedef struct flooder {
     sli_word_set row; ///< of them through all directed portals
 } flooder;
 
-static void end(sl_context *context, void *job, void *state) {
+static void end_flood_worker(sl_context *context, void *job, void *state) {
     (void)job;
     flooder *me = state;
     sl_free(context, me->found);
@@ -83,7 +83,7 @@ static void end(sl_context *context, void *job, void *state) {
     sl_free(context, me);
 }
 
-static sl_status begin(sl_context *context, void *job, void **state) {
+static sl_status begin_flood_worker(sl_context *context, void *job, void **state) {
     const flood *all = job;
     flooder *me = sl_alloc_array(context, 1, sizeof *me);
     if (!me) return SL_NO_MEMORY;
@@ -94,7 +94,7 @@ static sl_status begin(sl_context *context, void *job, void **state) {
         *state = me;
         return SL_OK;
     }
-    end(context, job, me);
+    end_flood_worker(context, job, me);
     return SL_NO_MEMORY;
 }
 
@@ -122,9 +122,9 @@ static sl_status flood_unit(sl_context *context, void *job, void *state, size_t 
 static sl_status flood_all(sl_context *context, flood *all, sl_visibility *out) {
     SL_TRY(sli_bit_rows_create(context, all->space->cell_count, all->options, &all->rows));
     const sl_work work = {.job = all,
-                          .begin = begin,
+                          .begin = begin_flood_worker,
                           .unit = flood_unit,
-                          .end = end,
+                          .end = end_flood_worker,
                           .stage = "cell_to_cell",
                           .units = "cells"};
     SL_TRY(sl_work_run(context, &work, all->space->cell_count, all->options->threads));

@@ -83,9 +83,9 @@ static void enter(searcher *me) {
 
 /// The verdict on the sequence with one more portal, for lines of the sector. SL_HIDDEN: it must
 /// be popped.
-static sl_status push(sl_context *context, const multipass *all, searcher *me,
-                      const sl_directed_portal *directed, const sli_direction_sector *cone,
-                      sl_stab_verdict *verdict) {
+static sl_status push_step(sl_context *context, const multipass *all, searcher *me,
+                           const sl_directed_portal *directed, const sli_direction_sector *cone,
+                           sl_stab_verdict *verdict) {
     const sl_solver *solver = all->options->solver;
     if (++me->account.tests % 64 == 0) SL_TRY(sl_check_cancelled(context));
     SL_TRY(sli_portal_search_push(context, &me->search, directed->left, directed->right, verdict));
@@ -136,7 +136,7 @@ SLI_VISIT sl_status cross(sl_context *context, void *job, const void *last, void
     if (!something) return SL_OK;
 
     sl_stab_verdict verdict;
-    SL_TRY(push(context, all, me, directed, &to->cone, &verdict));
+    SL_TRY(push_step(context, all, me, directed, &to->cone, &verdict));
     to->grazing = verdict == SL_GRAZING || from->grazing;
     if (verdict == SL_HIDDEN || (to->grazing && all->options->sight == SL_OPEN && !all->rounded)) {
         sli_portal_search_pop(&me->search);
@@ -158,7 +158,7 @@ static sl_status search_face(sl_context *context, const multipass *all, const ru
     (void)sli_direction_sector_cut(&first->cone,
                                    directed); // it has some: else the portal were no face
     sl_stab_verdict verdict;
-    SL_TRY(push(context, all, me, directed, &first->cone, &verdict));
+    SL_TRY(push_step(context, all, me, directed, &first->cone, &verdict));
     sli_word_set_add(&me->sure, directed->cell);
     SL_TRY(sli_prune_start_among(context, &me->wanted, &me->candidates));
     enter(me);
@@ -259,7 +259,7 @@ static void free_sets(sl_context *context, searcher *me) {
     for (size_t i = 0; i < sizeof sets / sizeof *sets; i++) sli_word_set_destroy(context, sets[i]);
 }
 
-static void end(sl_context *context, void *job, void *state) {
+static void end_multipass_worker(sl_context *context, void *job, void *state) {
     multipass *all = job;
     searcher *me = state;
     const sl_solver *solver = all->options->solver;
@@ -294,7 +294,7 @@ static sl_status make_sets(sl_context *context, const multipass *all, searcher *
     return me->search.solver->create(context, all->space->bounds, &me->search.solver_state);
 }
 
-static sl_status begin(sl_context *context, void *job, void **state) {
+static sl_status begin_multipass_worker(sl_context *context, void *job, void **state) {
     multipass *all = job;
     searcher *me = sl_alloc_array(context, 1, sizeof *me);
     if (!me) return SL_NO_MEMORY;
@@ -302,7 +302,7 @@ static sl_status begin(sl_context *context, void *job, void **state) {
     if (status == SL_OK)
         *state = me;
     else
-        end(context, job, me);
+        end_multipass_worker(context, job, me);
     return status;
 }
 
@@ -370,9 +370,9 @@ static sl_status list_units(sl_context *context, multipass *all) {
 static sl_status run_passes(sl_context *context, multipass *all) {
     SL_TRY(list_units(context, all));
     const sl_work work = {.job = all,
-                          .begin = begin,
+                          .begin = begin_multipass_worker,
                           .unit = search_unit,
-                          .end = end,
+                          .end = end_multipass_worker,
                           .leave_thread = all->options->solver->leave_thread,
                           .stage = "cell_to_cell",
                           .units = "cells",

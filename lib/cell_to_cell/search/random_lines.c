@@ -48,7 +48,7 @@ typedef struct sampler {
     SL_ARRAY(stretch) way; ///< the cells of a line
 } sampler;
 
-static void end(sl_context *context, void *job, void *state) {
+static void end_lines_worker(sl_context *context, void *job, void *state) {
     sampling *all = job;
     sampler *me = state;
     pthread_mutex_lock(&all->lock);
@@ -59,7 +59,7 @@ static void end(sl_context *context, void *job, void *state) {
     sl_free(context, me);
 }
 
-static sl_status begin(sl_context *context, void *job, void **state) {
+static sl_status begin_lines_worker(sl_context *context, void *job, void **state) {
     const sampling *all = job;
     sampler *me = sl_alloc_array(context, 1, sizeof *me);
     if (!me) return SL_NO_MEMORY;
@@ -69,7 +69,7 @@ static sl_status begin(sl_context *context, void *job, void **state) {
     if (status == SL_OK)
         *state = me;
     else
-        end(context, job, me);
+        end_lines_worker(context, job, me);
     return status;
 }
 
@@ -277,9 +277,9 @@ static sl_status sample_all(sl_context *context, sampling *all, sl_visibility *o
     SL_TRY(sli_bit_rows_create(context, all->space->cell_count, all->options, &all->rows));
     SL_TRY(find_mirrors(context, all));
     const sl_work work = {.job = all,
-                          .begin = begin,
+                          .begin = begin_lines_worker,
                           .unit = sample_unit,
-                          .end = end,
+                          .end = end_lines_worker,
                           .stage = "cell_to_cell",
                           .units = "cells"};
     SL_TRY(sl_work_run(context, &work, all->space->cell_count, all->options->threads));

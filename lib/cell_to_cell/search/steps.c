@@ -28,7 +28,7 @@ sl_steps_options sl_steps_options_default(void) {
 }
 
 /// Records a step. The search stops where there are enough of them.
-static sl_status add(sl_context *context, recorder *r, sl_step step) {
+static sl_status add_step(sl_context *context, recorder *r, sl_step step) {
     SL_TRY(SL_ARRAY_ROOM(context, &r->steps, 1));
     step.node = r->node_count;
     step.seen = r->seen_count;
@@ -45,7 +45,7 @@ static sl_status enter(sl_context *context, recorder *r, place *to, sl_step step
     r->node_count++;
     to->step = (uint32_t)r->steps.count;
     r->search.count++;
-    return add(context, r, step);
+    return add_step(context, r, step);
 }
 
 static sl_status cross(sl_context *context, void *job, const void *last, void *next,
@@ -63,7 +63,7 @@ static sl_status cross(sl_context *context, void *job, const void *last, void *n
     if (r->options->inside_only && !space->cells[directed->cell].inside) return SL_OK;
     if (!sli_directions_add(space, &to->directions, number)) {
         step.kind = SL_STEP_BACKWARDS;
-        return add(context, r, step);
+        return add_step(context, r, step);
     }
     sl_stab_verdict verdict;
     SL_TRY(sli_portal_search_push(context, &r->search, directed->left, directed->right, &verdict));
@@ -71,7 +71,7 @@ static sl_status cross(sl_context *context, void *job, const void *last, void *n
     if (verdict == SL_HIDDEN || (verdict == SL_GRAZING && r->options->sight == SL_OPEN)) {
         sli_portal_search_pop(&r->search);
         step.kind = SL_STEP_HIDDEN;
-        return add(context, r, step);
+        return add_step(context, r, step);
     }
     return enter(context, r, to, step);
 }
@@ -79,12 +79,12 @@ static sl_status cross(sl_context *context, void *job, const void *last, void *n
 static sl_status leave(sl_context *context, void *job, const void *left) {
     recorder *r = job;
     const place *last = left;
-    return add(context, r,
-               (sl_step){.kind = SL_STEP_LEAVE,
-                         .directed = last->directed,
-                         .cell = last->at.cell,
-                         .parent = last->step,
-                         .depth = (uint32_t)r->search.count});
+    return add_step(context, r,
+                    (sl_step){.kind = SL_STEP_LEAVE,
+                              .directed = last->directed,
+                              .cell = last->at.cell,
+                              .parent = last->step,
+                              .depth = (uint32_t)r->search.count});
 }
 
 static sl_status record(sl_context *context, recorder *r, uint32_t source) {

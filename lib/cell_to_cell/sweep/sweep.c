@@ -27,7 +27,7 @@
 /// Fans that a thread takes at once.
 enum { FANS_AT_ONCE = 32 };
 
-static void end(sl_context *context, void *job, void *state) {
+static void end_sweep_worker(sl_context *context, void *job, void *state) {
     sli_sweep *all = job;
     sli_sweeper *me = state;
     pthread_mutex_lock(&all->lock);
@@ -40,7 +40,7 @@ static void end(sl_context *context, void *job, void *state) {
     sl_free(context, me);
 }
 
-static sl_status begin(sl_context *context, void *job, void **state) {
+static sl_status begin_sweep_worker(sl_context *context, void *job, void **state) {
     sli_sweep *all = job;
     sli_sweeper *me = sl_alloc_array(context, 1, sizeof *me);
     if (!me) return SL_NO_MEMORY;
@@ -50,7 +50,7 @@ static sl_status begin(sl_context *context, void *job, void **state) {
     if (status == SL_OK)
         *state = me;
     else
-        end(context, job, me);
+        end_sweep_worker(context, job, me);
     return status;
 }
 
@@ -78,9 +78,9 @@ static sl_status sweep_unit(sl_context *context, void *job, void *state, size_t 
 
 sl_status sli_sweep_run(sl_context *context, sli_sweep *all) {
     const sl_work work = {.job = all,
-                          .begin = begin,
+                          .begin = begin_sweep_worker,
                           .unit = sweep_unit,
-                          .end = end,
+                          .end = end_sweep_worker,
                           .stage = "cell_to_cell",
                           .units = "corners"};
     const size_t units = (count_fans(all) + FANS_AT_ONCE - 1) / FANS_AT_ONCE;

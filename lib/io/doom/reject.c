@@ -51,7 +51,7 @@ static cell_view view_of(const sl_space *space, uint32_t cell) {
     return view;
 }
 
-static sl_status add(finder *find, uint32_t sector) {
+static sl_status add_sector(finder *find, uint32_t sector) {
     if (sector == SLI_NO_SECTOR) return SL_OK;
     for (size_t i = find->begin; i < find->found.count; i++)
         if (find->found.items[i] == sector) return SL_OK;
@@ -93,8 +93,8 @@ static sl_status ask_line(finder *find, const cell_view *view, const sli_doom_li
     }
     const bool passes = at_left && at_right && !is_parted_by_an_edge(view, line);
     if (!passes && !runs_along) return SL_OK;
-    if (at_left) SL_TRY(add(find, line->left));
-    return at_right ? add(find, line->right) : SL_OK;
+    if (at_left) SL_TRY(add_sector(find, line->left));
+    return at_right ? add_sector(find, line->right) : SL_OK;
 }
 
 /// A line to the right of a point, at its height.
@@ -172,7 +172,7 @@ static sl_status find_cell(finder *find, const sl_space *space, uint32_t cell) {
     }
     uint32_t sector;
     SL_TRY(find_left_of_nearest(find, view.middle, &sector));
-    SL_TRY(add(find, sector));
+    SL_TRY(add_sector(find, sector));
     if (find->found.count > UINT32_MAX)
         return sl_fail(find->context, SL_UNSUPPORTED,
                        "more cells with sectors than can be counted");

@@ -55,7 +55,7 @@ static sl_status check_cancelled(tabletop_writer *writer) {
     return ++writer->written % 1024 ? SL_OK : sl_check_cancelled(writer->context);
 }
 
-static void begin(tabletop_writer *writer, const char *key, char bracket) {
+static void begin_json_part(tabletop_writer *writer, const char *key, char bracket) {
     if (key) sl_json_put_key(&writer->json, key);
     if (bracket == '{')
         sl_json_put_object(&writer->json);
@@ -63,7 +63,7 @@ static void begin(tabletop_writer *writer, const char *key, char bracket) {
         sl_json_put_list(&writer->json);
 }
 
-static void end(tabletop_writer *writer, char bracket) {
+static void end_json_part(tabletop_writer *writer, char bracket) {
     sl_json_put_end(&writer->json, bracket);
 }
 
@@ -80,7 +80,7 @@ static void put_marks(tabletop_writer *writer) {
 
 static void put_point(tabletop_writer *writer, const char *key, sl_point point, bool counts) {
     const double y = sli_turned_y(writer->top, point.y);
-    begin(writer, key, '{');
+    begin_json_part(writer, key, '{');
     sl_json_put_key(&writer->json, "x");
     if (counts)
         put_place(writer, point.x);
@@ -91,78 +91,78 @@ static void put_point(tabletop_writer *writer, const char *key, sl_point point, 
         put_place(writer, y);
     else
         sl_json_put_real(&writer->json, y);
-    end(writer, '}');
+    end_json_part(writer, '}');
 }
 
 static void put_ends(tabletop_writer *writer, const char *key, sl_point a, sl_point b) {
-    begin(writer, key, '[');
+    begin_json_part(writer, key, '[');
     put_point(writer, NULL, a, true);
     put_point(writer, NULL, b, true);
-    end(writer, ']');
+    end_json_part(writer, ']');
 }
 
 static void put_resolution(tabletop_writer *writer) {
     const sl_box page = sli_page_of(writer->map);
     const double sizes[2] = {page.max.x - page.min.x, page.max.y - page.min.y};
-    begin(writer, "resolution", '{');
+    begin_json_part(writer, "resolution", '{');
     put_point(writer, "map_origin", (sl_point){page.min.x, page.max.y}, false);
-    begin(writer, "map_size", '{');
+    begin_json_part(writer, "map_size", '{');
     put_real(writer, "x", sizes[0]);
     put_real(writer, "y", sizes[1]);
-    end(writer, '}');
+    end_json_part(writer, '}');
     const double pixels = rint(writer->map->source.pixels);
     put_whole(writer, "pixels_per_grid", pixels > 1 && pixels <= 65536 ? (int64_t)pixels : 64);
-    end(writer, '}');
+    end_json_part(writer, '}');
 }
 
 static sl_status put_lines(tabletop_writer *writer) {
     const sl_map *map = writer->map;
-    begin(writer, "line_of_sight", '[');
+    begin_json_part(writer, "line_of_sight", '[');
     for (size_t i = 0; i < map->wall_count; i++) {
         put_ends(writer, NULL, map->walls[i].a, map->walls[i].b);
         SL_TRY(check_cancelled(writer));
     }
     for (size_t i = 0; i < map->mirror_count; i++)
         put_ends(writer, NULL, map->mirrors[i].segment.a, map->mirrors[i].segment.b);
-    end(writer, ']');
-    begin(writer, "objects_line_of_sight", '[');
-    end(writer, ']');
+    end_json_part(writer, ']');
+    begin_json_part(writer, "objects_line_of_sight", '[');
+    end_json_part(writer, ']');
     return SL_OK;
 }
 
 static sl_status put_portals(tabletop_writer *writer) {
     const sl_map *map = writer->map;
-    begin(writer, "portals", '[');
+    begin_json_part(writer, "portals", '[');
     for (size_t i = 0; i < map->door_count; i++) {
         const sl_door *door = &map->doors[i];
         const sl_segment at = door->segment;
         const sl_point middle = {at.a.x / 2 + at.b.x / 2, at.a.y / 2 + at.b.y / 2};
-        begin(writer, NULL, '{');
+        begin_json_part(writer, NULL, '{');
         put_point(writer, "position", middle, false);
         put_ends(writer, "bounds", at.a, at.b);
         put_real(writer, "rotation", atan2(at.a.y - at.b.y, at.b.x - at.a.x));
         put_flag(writer, "closed", !door->open);
         put_flag(writer, "freestanding", false);
-        begin(writer, "sightline", '{');
+        begin_json_part(writer, "sightline", '{');
         put_text(writer, "name", door->name);
-        end(writer, '}');
-        end(writer, '}');
+        end_json_part(writer, '}');
+        end_json_part(writer, '}');
         SL_TRY(check_cancelled(writer));
     }
-    end(writer, ']');
+    end_json_part(writer, ']');
     return SL_OK;
 }
 
 static void put_starts(tabletop_writer *writer) {
     const sl_map *map = writer->map;
-    begin(writer, "starts", '[');
+    begin_json_part(writer, "starts", '[');
     for (size_t i = 0; i < map->start_count; i++) {
-        begin(writer, NULL, '{');
+        begin_json_part(writer, NULL, '{');
         put_point(writer, "at", map->starts[i].at, true);
         put_real(writer, "heading", map->starts[i].heading);
-        end(writer, '}');
+        end_json_part(writer, '}');
     }
-    end(writer, ']');
+    end_json_part(writer, ']');
 }
 
 static tabletop_writer writer_of(sl_context *context, const sl_map *map, FILE *stream) {
@@ -178,24 +178,24 @@ sl_status sli_map_print_uvtt(sl_context *context, const sl_map *map, FILE *strea
         "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAAAAAA6fptVAAAACklEQVR4nGP4DwABAQEA"
         "sTj2FAAAAABJRU5ErkJggg==";
     tabletop_writer writer = writer_of(context, map, stream);
-    begin(&writer, NULL, '{');
+    begin_json_part(&writer, NULL, '{');
     sl_json_put_key(&writer.json, "format");
     sl_json_put_written(&writer.json, "0.3", 3);
     put_resolution(&writer);
     SL_TRY(put_lines(&writer));
     SL_TRY(put_portals(&writer));
-    begin(&writer, "environment", '{');
+    begin_json_part(&writer, "environment", '{');
     put_flag(&writer, "baked_lighting", false);
     put_text(&writer, "ambient_light", "ffffffff");
-    end(&writer, '}');
-    begin(&writer, "lights", '[');
-    end(&writer, ']');
-    begin(&writer, "sightline", '{');
+    end_json_part(&writer, '}');
+    begin_json_part(&writer, "lights", '[');
+    end_json_part(&writer, ']');
+    begin_json_part(&writer, "sightline", '{');
     put_starts(&writer);
     put_marks(&writer);
-    end(&writer, '}');
+    end_json_part(&writer, '}');
     put_text(&writer, "image", picture);
-    end(&writer, '}');
+    end_json_part(&writer, '}');
     putc('\n', stream);
     sl_note(context, "the Universal VTT file has a blank picture of one pixel");
     return SL_OK;
@@ -233,13 +233,13 @@ typedef struct foundry_wall {
 
 static void put_wall_flags(tabletop_writer *writer, const foundry_wall *wall) {
     if (!wall->door && !wall->seam && !wall->mirror) return;
-    begin(writer, "flags", '{');
-    begin(writer, "sightline", '{');
+    begin_json_part(writer, "flags", '{');
+    begin_json_part(writer, "sightline", '{');
     if (wall->door) put_text(writer, "name", wall->door->name);
     if (wall->seam) put_flag(writer, "seam", true);
     if (wall->mirror) put_text(writer, "mirror", wall->mirror);
-    end(writer, '}');
-    end(writer, '}');
+    end_json_part(writer, '}');
+    end_json_part(writer, '}');
 }
 
 static void put_id(tabletop_writer *writer, const char *kind, size_t number) {
@@ -255,14 +255,14 @@ static sl_status put_wall(tabletop_writer *writer, sl_point a, sl_point b, found
     const uint32_t stops = wall.seam ? 0 : wall.stops ? wall.stops : SL_STOPS_ALL;
     const int64_t sight = stops & SL_STOPS_SIGHT ? SIGHT_NORMAL : SIGHT_NONE;
     bool whole = true;
-    begin(writer, NULL, '{');
+    begin_json_part(writer, NULL, '{');
     put_id(writer, "wall0", writer->written);
-    begin(writer, "c", '[');
+    begin_json_part(writer, "c", '[');
     for (int i = 0; i < 4; i++) {
         put_place(writer, c[i]);
         whole &= c[i] == rint(c[i]);
     }
-    end(writer, ']');
+    end_json_part(writer, ']');
     put_whole(writer, "light", sight);
     put_whole(writer, "move", stops & SL_STOPS_STEPS ? SIGHT_NORMAL : SIGHT_NONE);
     put_whole(writer, "sight", sight);
@@ -271,14 +271,14 @@ static sl_status put_wall(tabletop_writer *writer, sl_point a, sl_point b, found
     put_whole(writer, "door", wall.door ? DOOR_PLAIN : 0);
     put_whole(writer, "ds", wall.door && wall.door->open);
     put_wall_flags(writer, &wall);
-    end(writer, '}');
+    end_json_part(writer, '}');
     writer->between += !whole;
     return check_cancelled(writer);
 }
 
 static sl_status put_walls(tabletop_writer *writer) {
     const sl_map *map = writer->map;
-    begin(writer, "walls", '[');
+    begin_json_part(writer, "walls", '[');
     for (size_t i = 0; i < map->wall_count; i++)
         SL_TRY(put_wall(writer, map->walls[i].a, map->walls[i].b, (foundry_wall){0}));
     for (size_t i = 0; i < map->door_count; i++)
@@ -294,7 +294,7 @@ static sl_status put_walls(tabletop_writer *writer) {
         SL_TRY(
             put_wall(writer, map->seams[i].segment.a, map->seams[i].segment.b,
                      (foundry_wall){.seam = !map->seams[i].stops, .stops = map->seams[i].stops}));
-    end(writer, ']');
+    end_json_part(writer, ']');
     return SL_OK;
 }
 
@@ -314,7 +314,7 @@ static void put_token(tabletop_writer *writer, const sl_start *start, size_t num
     const double exact = size_of_token(writer, at), size = exact > 0 ? exact : 1;
     const double half = size * square_of(writer->pixels) / 2;
     writer->rounded += exact == 0;
-    begin(writer, NULL, '{');
+    begin_json_part(writer, NULL, '{');
     put_id(writer, "start", number);
     put_text(writer, "name", "start");
     put_real(writer, "x", at.x - half);
@@ -324,7 +324,7 @@ static void put_token(tabletop_writer *writer, const sl_start *start, size_t num
     // Turned by 0 degrees a token faces down; it turns clockwise.
     put_real(writer, "rotation", fmod(630 - fmod(start->heading, 360), 360));
     put_whole(writer, "disposition", 1);
-    end(writer, '}');
+    end_json_part(writer, '}');
 }
 
 static void tell_rounding(const tabletop_writer *writer) {
@@ -342,26 +342,26 @@ sl_status sli_map_print_foundry(sl_context *context, const sl_map *map, FILE *st
     const sl_box page = sli_page_of(map);
     tabletop_writer writer = writer_of(context, map, stream);
     writer.pixels = pixels_of(map);
-    begin(&writer, NULL, '{');
+    begin_json_part(&writer, NULL, '{');
     put_text(&writer, "name", "Sightline");
     put_real(&writer, "width", fmax(ceil(page.max.x * writer.pixels), 1));
     put_real(&writer, "height", fmax(ceil((writer.top - page.min.y) * writer.pixels), 1));
     put_whole(&writer, "padding", 0);
-    begin(&writer, "grid", '{');
+    begin_json_part(&writer, "grid", '{');
     put_whole(&writer, "type", 1);
     put_real(&writer, "size", square_of(writer.pixels));
-    end(&writer, '}');
+    end_json_part(&writer, '}');
     SL_TRY(put_walls(&writer));
-    begin(&writer, "tokens", '[');
+    begin_json_part(&writer, "tokens", '[');
     for (size_t i = 0; i < map->start_count; i++) put_token(&writer, &map->starts[i], i);
-    end(&writer, ']');
-    begin(&writer, "flags", '{');
-    begin(&writer, "sightline", '{');
+    end_json_part(&writer, ']');
+    begin_json_part(&writer, "flags", '{');
+    begin_json_part(&writer, "sightline", '{');
     if (writer.pixels != 1) put_real(&writer, "pixels", writer.pixels);
     put_marks(&writer);
-    end(&writer, '}');
-    end(&writer, '}');
-    end(&writer, '}');
+    end_json_part(&writer, '}');
+    end_json_part(&writer, '}');
+    end_json_part(&writer, '}');
     putc('\n', stream);
     tell_rounding(&writer);
     return SL_OK;

@@ -76,7 +76,7 @@ static sl_status solve_face(sl_context *context, const region_work *work, region
     return SL_OK;
 }
 
-static void end(sl_context *context, void *job, void *state) {
+static void end_region_worker(sl_context *context, void *job, void *state) {
     region_work *work = job;
     region_thread *me = state;
     pthread_mutex_lock(&work->lock);
@@ -91,7 +91,7 @@ static void end(sl_context *context, void *job, void *state) {
     sl_free(context, me);
 }
 
-static sl_status begin(sl_context *context, void *job, void **state) {
+static sl_status begin_region_worker(sl_context *context, void *job, void **state) {
     region_work *work = job;
     region_thread *me = sl_alloc_array(context, 1, sizeof *me);
     if (!me) return SL_NO_MEMORY;
@@ -102,7 +102,7 @@ static sl_status begin(sl_context *context, void *job, void **state) {
     if (status == SL_OK)
         *state = me;
     else
-        end(context, job, me);
+        end_region_worker(context, job, me);
     return status;
 }
 
@@ -116,9 +116,9 @@ static sl_status run_units(sl_context *context, region_work *work, size_t count,
                            const size_t *after) {
     const sl_work threads = {
         .job = work,
-        .begin = begin,
+        .begin = begin_region_worker,
         .unit = run_unit,
-        .end = end,
+        .end = end_region_worker,
         .leave_thread = work->options->solver->stabs ? work->options->stab->leave_thread : NULL,
         .stage = "from_region",
         .units = "steps",

@@ -58,9 +58,9 @@ static sl_status create(sl_context *context, const sl_from_region_scene *scene,
 }
 
 /// Whether the sequence with one more portal counts as seen; if not, it is popped.
-static sl_status push(sl_context *context, searcher *s, sl_portal_ends ends,
-                      const sli_direction_sector *cone, bool grazing_before, bool *seen,
-                      bool *grazing) {
+static sl_status push_portal(sl_context *context, searcher *s, sl_portal_ends ends,
+                             const sli_direction_sector *cone, bool grazing_before, bool *seen,
+                             bool *grazing) {
     const sl_solver *solver = s->search.solver;
     sl_stab_verdict verdict;
     SL_TRY(sli_portal_search_push(context, &s->search, ends.left, ends.right, &verdict));
@@ -86,7 +86,7 @@ static sl_status try_items(sl_context *context, searcher *s, const step *at) {
         if (!sli_direction_sector_cut(&cone, &as_portal)) continue;
         bool stabbed, grazing;
         s->account->rays++;
-        SL_TRY(push(context, s, ends, &cone, at->grazing, &stabbed, &grazing));
+        SL_TRY(push_portal(context, s, ends, &cone, at->grazing, &stabbed, &grazing));
         if (!stabbed) continue;
         sli_portal_search_pop(&s->search);
         s->left[item->object / 64] &= ~((sl_bits)1 << (item->object % 64));
@@ -110,8 +110,8 @@ static sl_status cross(sl_context *context, void *job, const void *last, void *n
     bool stabbed;
     if (!sli_direction_sector_cut(&to->cone, directed)) return SL_OK;
     if (++s->account->rays % 64 == 0) SL_TRY(sl_check_cancelled(context));
-    SL_TRY(push(context, s, (sl_portal_ends){directed->left, directed->right}, &to->cone,
-                from->grazing, &stabbed, &to->grazing));
+    SL_TRY(push_portal(context, s, (sl_portal_ends){directed->left, directed->right}, &to->cone,
+                       from->grazing, &stabbed, &to->grazing));
     if (!stabbed) return SL_OK;
     s->search.count++;
     return try_items(context, s, to);

@@ -221,8 +221,8 @@ static sl_status add_room(search *s, uint32_t room) {
 }
 
 /// Whether lines of the sequence and the sector pass a side too. The caller pops it after SL_OK.
-static sl_status push(search *s, const sli_room_side *side, const sli_direction_sector *cone,
-                      bool *seen) {
+static sl_status push_side(search *s, const sli_room_side *side, const sli_direction_sector *cone,
+                           bool *seen) {
     sl_context *context = s->me->context;
     sl_stab_verdict verdict;
     if (++s->me->work.tests % 64 == 0) SL_TRY(sl_check_cancelled(context));
@@ -263,7 +263,7 @@ static sl_status try_side(search *s, const sli_room_side *side) {
     }
     if (!sli_direction_sector_cut(&to.cone, &portal)) return SL_OK;
     bool seen;
-    SL_TRY(push(s, side, &to.cone, &seen));
+    SL_TRY(push_side(s, side, &to.cone, &seen));
     if (seen && side->object != SLI_NO_OBJECT) SL_TRY(add_object(s, side->object));
     if (!seen || side->room == SLI_NO_ROOM) {
         sl_funnel()->pop(me->solver);

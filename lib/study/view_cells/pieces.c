@@ -289,14 +289,14 @@ static sl_status pass(sl_context *context, sli_view_pieces *pieces, sli_view_sea
     return status;
 }
 
-static sl_status begin(sl_context *context, void *job, void **state) {
+static sl_status begin_piece_worker(sl_context *context, void *job, void **state) {
     sli_view_searcher *searcher;
     SL_TRY(sli_view_searcher_take(context, job, &searcher));
     *state = searcher;
     return SL_OK;
 }
 
-static void end(sl_context *context, void *job, void *state) {
+static void end_piece_worker(sl_context *context, void *job, void *state) {
     (void)context;
     sli_view_pieces *pieces = job;
     const sl_view_work work = sli_view_searcher_work(state);
@@ -330,9 +330,9 @@ sl_status sli_view_pieces_create(sl_context *context, const sl_view_scene *scene
     for (uint32_t i = 0; i < pieces->rooms.count; i++) SL_TRY(take_room(pieces, i));
     pieces->work.rooms = pieces->rooms.count;
     const sl_work work = {.job = pieces,
-                          .begin = begin,
+                          .begin = begin_piece_worker,
                           .unit = pass_quadrant,
-                          .end = end,
+                          .end = end_piece_worker,
                           .stage = "look",
                           .units = "quadrants"};
     return sl_work_run(context, &work, SLI_VIEW_QUADRANTS, threads);

@@ -158,7 +158,7 @@ static sl_status merge_all(merger *m) {
     return SL_OK;
 }
 
-static sl_status begin(merger *m, const sl_view_scene *scene, const sl_view_sets *sets) {
+static sl_status begin_merging(merger *m, const sl_view_scene *scene, const sl_view_sets *sets) {
     const size_t count = m->cell_count, all = 2 * count;
     SL_TRY(sli_view_render_make(m->context, scene, &m->render));
     SL_TRY(sli_view_sets_create(m->context, sets->count, sets->object_count, &m->sets));
@@ -222,7 +222,7 @@ static void destroy(merger *m) {
 static sl_status merge(sl_context *context, const sl_view_scene *scene, const sl_view_tree *tree,
                        const sl_view_sets *sets, sl_view_hierarchy *out) {
     merger m = {.context = context, .tree = tree, .cell_count = tree->cell_count};
-    sl_status status = begin(&m, scene, sets);
+    sl_status status = begin_merging(&m, scene, sets);
     if (status == SL_OK) status = start_queue(&m);
     if (status == SL_OK) status = merge_all(&m);
     if (status == SL_OK) {

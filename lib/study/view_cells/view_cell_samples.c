@@ -310,7 +310,7 @@ enum { SEGMENTS_A_UNIT = 16384 };
 /// The most bytes for sets where each thread has its own.
 #define MOST_SET_BYTES (UINT64_C(1) << 30)
 
-static sl_status begin(sl_context *context, void *job, void **state) {
+static sl_status begin_sample_worker(sl_context *context, void *job, void **state) {
     const gathering *g = job;
     gatherer *me = sl_alloc_array(context, 1, sizeof *me);
     if (!me) return SL_NO_MEMORY;
@@ -322,7 +322,7 @@ static sl_status begin(sl_context *context, void *job, void **state) {
     return SL_OK;
 }
 
-static void end(sl_context *context, void *job, void *state) {
+static void end_sample_worker(sl_context *context, void *job, void *state) {
     gathering *g = job;
     gatherer *me = state;
     pthread_mutex_lock(&g->lock);
@@ -397,9 +397,9 @@ sl_status sl_view_sets_sample(sl_context *context, const sl_view_scene *scene,
     if (threads > MOST_SET_BYTES / bytes) threads = (unsigned)(MOST_SET_BYTES / bytes);
     pthread_mutex_init(&g.lock, NULL);
     const sl_work work = {.job = &g,
-                          .begin = begin,
+                          .begin = begin_sample_worker,
                           .unit = gather_unit,
-                          .end = end,
+                          .end = end_sample_worker,
                           .stage = "see",
                           .units = "bundles of lines"};
     const size_t units = (segments->count + (size_t)SEGMENTS_A_UNIT) / SEGMENTS_A_UNIT;

@@ -26,8 +26,8 @@ typedef struct gathered {
 } gathered;
 
 /// Adds a place; one without mass counts for nothing.
-static sl_status add(sl_context *context, gathered *g, const sl_point *points, uint32_t count,
-                     double mass) {
+static sl_status add_outline(sl_context *context, gathered *g, const sl_point *points,
+                             uint32_t count, double mass) {
     if (!(mass > 0)) return SL_OK;
     if (g->points.count + count > UINT32_MAX) return sl_fail_memory(context);
     SL_TRY(SL_ARRAY_ROOM(context, &g->points, count));
@@ -72,8 +72,8 @@ sl_status sl_view_places_inside(sl_context *context, const sl_space *space, sl_v
     for (uint32_t i = 0; i < space->cell_count && status == SL_OK; i++) {
         const sl_cell *c = &space->cells[i];
         if (c->inside)
-            status = add(context, &g, space->vertices + c->first_vertex, c->vertex_count,
-                         sl_space_area(space, i));
+            status = add_outline(context, &g, space->vertices + c->first_vertex, c->vertex_count,
+                                 sl_space_area(space, i));
     }
     return finish(context, &g, status, "nothing of the map is inside: no place for viewpoints",
                   out);
@@ -93,7 +93,7 @@ static sl_status add_piece(sl_context *context, gathered *g, const sl_space *spa
         if (i % 4096 == 0) SL_TRY(sl_check_cancelled(context));
         const double t = length > 0 ? at / length : 0;
         const sl_point p = {from.x + t * (to.x - from.x), from.y + t * (to.y - from.y)};
-        if (is_inside(space, p)) SL_TRY(add(context, g, &p, 1, 1));
+        if (is_inside(space, p)) SL_TRY(add_outline(context, g, &p, 1, 1));
     }
     *before = length - (at - step);
     return SL_OK;
@@ -151,7 +151,7 @@ sl_status sl_view_places_density(sl_context *context, const sl_space *space, con
             const double y0 = b->min.y + height * j / rows;
             const double y1 = b->min.y + height * (j + 1) / rows;
             const sl_point corners[4] = {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
-            status = add(context, &g, corners, 4, values[(size_t)j * columns + i]);
+            status = add_outline(context, &g, corners, 4, values[(size_t)j * columns + i]);
         }
     return finish(context, &g, status, "the density is nowhere over 0", out);
 }

@@ -102,7 +102,7 @@ static double node_size(const sli_chooser *c, uint32_t node) {
     return length > 0 ? -cosine * fabs(cosine) : -2;
 }
 
-static sl_status push(sl_context *context, sli_chooser *c, candidate what) {
+static sl_status push_candidate(sl_context *context, sli_chooser *c, candidate what) {
     return what.size >= -1 ? queue_push(context, &c->queue, what) : SL_OK;
 }
 
@@ -111,7 +111,7 @@ static sl_point toward(const sli_chooser *c, sl_point at) {
 }
 
 static sl_status push_node(sl_context *context, sli_chooser *c, uint32_t node) {
-    return push(context, c, (candidate){node_size(c, node), node, true});
+    return push_candidate(context, c, (candidate){node_size(c, node), node, true});
 }
 
 /// Puts the contents of a node on the heap, unless it is hidden.
@@ -124,7 +124,7 @@ static sl_status open_node(sl_context *context, sli_chooser *c, sl_walk *w, uint
     for (uint32_t i = h->first_occluder[node]; i < h->first_occluder[node + 1]; i++) {
         const sl_segment *s = &h->occluders[i];
         const double size = wall_size(c, toward(c, s->a), toward(c, s->b));
-        SL_TRY(push(context, c, (candidate){size, i, false}));
+        SL_TRY(push_candidate(context, c, (candidate){size, i, false}));
     }
     if (n->cell != SL_NO_CELL) return SL_OK;
     SL_TRY(push_node(context, c, (uint32_t)n->child[0]));

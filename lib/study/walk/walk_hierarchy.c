@@ -232,7 +232,7 @@ typedef struct making {
     uint32_t *cells; ///< of a mesh, in the order of the leaves
 } making;
 
-static sl_status push(making *m, waiting w) {
+static sl_status push_node(making *m, waiting w) {
     SL_TRY(SL_ARRAY_ROOM(m->context, &m->stack, 1));
     m->stack.items[m->stack.count++] = w;
     return SL_OK;
@@ -290,8 +290,8 @@ static sl_status take_node(making *m, const waiting *w) {
     const int32_t id = add_node(m, w, SL_NO_CELL);
     m->h->nodes[id].axis = node->axis;
     m->h->nodes[id].position = node->position;
-    SL_TRY(push(m, (waiting){.what = node->above, .parent = id, .side = 1}));
-    return push(m, (waiting){.what = node->below, .parent = id, .side = 0});
+    SL_TRY(push_node(m, (waiting){.what = node->above, .parent = id, .side = 1}));
+    return push_node(m, (waiting){.what = node->below, .parent = id, .side = 0});
 }
 
 // --- boxes over the cells of a mesh: halved by number, along the longer side of their middles
@@ -351,9 +351,9 @@ static sl_status take_cells(making *m, const waiting *w) {
     part_at(m, axis, cells, w->count, half);
     m->h->nodes[id].axis = axis;
     m->h->nodes[id].position = middle(&m->boxes[cells[half]], axis);
-    SL_TRY(push(
+    SL_TRY(push_node(
         m, (waiting){.parent = id, .side = 1, .first = w->first + half, .count = w->count - half}));
-    return push(m, (waiting){.parent = id, .side = 0, .first = w->first, .count = half});
+    return push_node(m, (waiting){.parent = id, .side = 0, .first = w->first, .count = half});
 }
 
 static sl_status make_nodes(making *m) {
@@ -368,7 +368,7 @@ static sl_status make_nodes(making *m) {
         m->boxes[i] = cell_box(h->space, i);
         m->cells[i] = i;
     }
-    SL_TRY(push(m, (waiting){.what = h->space->root, .parent = -1, .count = count}));
+    SL_TRY(push_node(m, (waiting){.what = h->space->root, .parent = -1, .count = count}));
     while (m->stack.count) {
         const waiting w = m->stack.items[--m->stack.count];
         SL_TRY(h->tiles ? take_node(m, &w) : take_cells(m, &w));
