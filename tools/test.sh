@@ -10,12 +10,13 @@ tell_skipped() {
     awk '/^[0-9]+\/[0-9]+ Testing: / { name = $3 }
          /^([a-z]+: )?skipped[:,] / {
              sub(/^([a-z]+: )?skipped[:,] /, "")
-             tests[$0] = tests[$0] (tests[$0] ? ", " : "") name
+             if (!told[$0, name]++) tests[$0] = tests[$0] (tests[$0] ? ", " : "") name
          }
          END {
              for (why in tests) line = line (line ? "; " : "") tests[why] " (" why ")"
              print "skipped: " (line ? line : "nothing")
-         }' "build/$1/Testing/Temporary/LastTest.log"
+             print "left out: the long tests; ctest --preset " preset " -L long runs them"
+         }' preset="$1" "build/$1/Testing/Temporary/LastTest.log"
 }
 
 sh tools/setup.sh
