@@ -1,5 +1,5 @@
 /// From a map to a baked result, in the order of the stages: clean, subdivide, see.
-#include "sightline/bake.h"
+#include "bake/cells.h"
 
 #include "sightline/stab.h"
 #include "sightline/support.h"
@@ -14,23 +14,6 @@ sl_bake_options sl_bake_options_default(void) {
                                .door_limit = 16};
     options.see.row_bytes = sl_machine_memory() / 2;
     return options;
-}
-
-/// Seconds since *last, which is set to now.
-static double lap(double *last) {
-    const double before = *last;
-    *last = sl_seconds();
-    return *last - before;
-}
-
-/// What a baked result keeps of the map: all but walls and cells, which the space has.
-static void keep_rest_of_map(sl_context *context, sl_map *map, sl_baked *baked) {
-    sl_free(context, map->walls);
-    map->walls = NULL;
-    map->wall_count = map->wall_room = 0;
-    sl_map_drop_cells(context, map);
-    baked->map = *map;
-    *map = (sl_map){0};
 }
 
 /// Takes doors as they stand where a method is asked for that knows no doors.
@@ -48,30 +31,14 @@ static sl_status choose(sl_context *context, const sl_map *map, sl_bake_options 
     return sl_see_check(context, options->method, options->see.solver, map);
 }
 
-static sl_status make_space(sl_context *context, const sl_map *map, const sl_bake_options *options,
-                            sl_space *space, sl_bake_account *account, double *time) {
-    account->subdivision = options->subdivision ? options->subdivision : sl_subdivision_for(map);
-    SL_TRY(account->subdivision->subdivide(context, map, &options->rules, space));
-    account->seconds.subdivide = lap(time);
-    account->checked = options->check || space->neighbour;
-    const sl_status status = account->checked ? sl_space_check(context, space) : SL_OK;
-    account->seconds.check = lap(time);
-    if (status != SL_OK) sl_space_destroy(context, space);
-    return status;
-}
-
 sl_status sl_bake_space(sl_context *context, sl_map *map, sl_bake_options *options, sl_baked *out,
                         sl_bake_account *account) {
     sl_bake_account unwanted = {0};
-    double time = sl_seconds();
     if (!account) account = &unwanted;
     SL_TRY(settle_doors(context, map, options));
-    SL_TRY(sl_map_clean(context, map, &options->clean, &account->cleaning));
-    SL_TRY(sl_map_find_inside(context, map, &options->clean, &account->cleaning));
+    SL_TRY(sli_bake_clean(context, map, options, account));
     SL_TRY(choose(context, map, options));
-    account->seconds.clean = lap(&time);
-    SL_TRY(make_space(context, map, options, &out->space, account, &time));
-    keep_rest_of_map(context, map, out);
+    SL_TRY(sli_bake_cut(context, map, options, out, account));
     snprintf(out->method, sizeof out->method, "%s", options->method->name);
     if (options->see.solver)
         snprintf(out->solver, sizeof out->solver, "%s", options->see.solver->name);
@@ -120,7 +87,7 @@ static sl_status find_sets(sl_context *context, sl_bake_options *options, sl_bak
         status = options->by_units ? see_by_units(context, options, &partial, baked, account)
                                    : options->method->see(context, &baked->space, &options->see,
                                                           &baked->visibility);
-    account->seconds.see = lap(&time);
+    account->seconds.see = sl_seconds() - time;
     sl_partial_destroy(context, &partial);
     return status;
 }

@@ -8,7 +8,6 @@
 #include "sightline/support.h"
 #include "studies/vga_change.h"
 #include "studies/vga_grid.h"
-#include "studies/vga_steps.h"
 #include "studies/vga_table.h"
 #include "system/built.h"
 
@@ -43,7 +42,7 @@ typedef struct vga_work {
     sl_baked baked;
     sl_query *query;
     const sl_outline *outline; ///< the query's
-    vga_steps steps;
+    sl_vga_steps *steps;       ///< NULL where steps go as sight does
     sl_vga_graph graph;
     sl_vga_link *links;
     size_t link_count;
@@ -206,17 +205,9 @@ static sl_status find_depths(sl_context *context, const vga_plan *plan, vga_work
     sl_status status = from && w->table.depths ? SL_OK : SL_NO_MEMORY;
     if (status == SL_OK) status = vga_grid_find(context, grid, "--from", &plan->from, from);
     if (status == SL_OK)
-        status = sl_vga_depth(context, w->outline, grid, &w->graph, w->links, w->link_count, parts,
-                              from, plan->from.count, w->table.depths);
-    // Paths again, by steps.
-    if (status == SL_OK && w->steps.graph.rows) {
-        w->table.walked_depths = sl_alloc_array(context, grid->count, sizeof *w->table.depths);
-        status = w->table.walked_depths ? SL_OK : SL_NO_MEMORY;
-    }
-    if (status == SL_OK && w->table.walked_depths)
-        status = sl_vga_depth(context, w->steps.outline, grid, &w->steps.graph, w->links,
-                              w->link_count, parts & ~(unsigned)SL_VGA_GLOBAL, from,
-                              plan->from.count, w->table.walked_depths);
+        status = sl_vga_depth_walked(context, w->outline, grid, &w->graph, w->steps, w->links,
+                                     w->link_count, parts, from, plan->from.count,
+                                     plan->options.threads, w->table.depths);
     sl_free(context, from);
     return status;
 }
@@ -237,9 +228,9 @@ static sl_status walk_agents(sl_context *context, const vga_plan *plan, vga_work
     if (status == SL_OK)
         status = vga_grid_find(context, grid, "--agents-from", &plan->agents_from, starts);
     sl_vga_graph both = {0};
-    if (status == SL_OK && w->steps.outline)
-        status = vga_steps_connect(context, &w->steps, grid, &w->graph, agents.threads, &both);
-    const sl_vga_graph *graph = w->steps.outline ? &both : &w->graph;
+    if (status == SL_OK && w->steps)
+        status = sl_vga_steps_connect(context, w->steps, grid, &w->graph, agents.threads, &both);
+    const sl_vga_graph *graph = w->steps ? &both : &w->graph;
     if (status == SL_OK) status = sl_vga_walk_agents(context, grid, graph, &agents, w->table.gates);
     sl_vga_graph_destroy(context, &both);
     sl_free(context, starts);
@@ -283,18 +274,6 @@ static sl_status write_pairs(sl_context *context, const vga_plan *plan, const vg
     return sl_output_close(context, &output, put_pairs(context, w, output.stream));
 }
 
-/// Measures paths where they go by steps.
-static sl_status measure_walked(sl_context *context, const vga_plan *plan, vga_work *w) {
-    const sl_vga_grid *grid = &w->table.grid;
-    sl_vga_options options = plan->options;
-    options.parts &= SL_VGA_METRIC | SL_VGA_ANGULAR;
-    if (!w->steps.graph.rows || !options.parts) return SL_OK;
-    w->table.walked = sl_alloc_array(context, grid->count, sizeof *w->table.walked);
-    if (!w->table.walked) return SL_NO_MEMORY;
-    return sl_vga_measure_linked(context, w->steps.outline, grid, &w->steps.graph, w->links,
-                                 w->link_count, &options, w->table.walked);
-}
-
 static sl_status measure(sl_context *context, vga_plan *plan, vga_work *w) {
     vga_table *table = &w->table;
     const sl_vga_grid *grid = &table->grid;
@@ -313,17 +292,12 @@ static sl_status measure(sl_context *context, vga_plan *plan, vga_work *w) {
                           (of_graph & VGA_PART_METRIC ? SL_VGA_METRIC : 0u) |
                           (of_graph & VGA_PART_ANGULAR ? SL_VGA_ANGULAR : 0u);
     if (plan->options.parts) SL_TRY(check_measures(context, plan, w));
-    if (w->steps.outline && of_graph & (VGA_PART_METRIC | VGA_PART_ANGULAR))
-        SL_TRY(vga_steps_connect(context, &w->steps, grid, NULL, plan->options.threads,
-                                 &w->steps.graph));
     if (plan->from.count) SL_TRY(find_depths(context, plan, w));
     if (plan->agents_given) SL_TRY(walk_agents(context, plan, w));
-    sl_vga_options by_sight = plan->options;
-    if (w->steps.graph.rows) by_sight.parts &= ~(unsigned)(SL_VGA_METRIC | SL_VGA_ANGULAR);
-    if (by_sight.parts)
-        SL_TRY(sl_vga_measure_linked(context, w->outline, grid, &w->graph, w->links, w->link_count,
-                                     &by_sight, table->measures));
-    SL_TRY(measure_walked(context, plan, w));
+    if (plan->options.parts)
+        SL_TRY(sl_vga_measure_walked_linked(context, w->outline, grid, &w->graph, w->steps,
+                                            w->links, w->link_count, &plan->options,
+                                            table->measures));
     return plan->parts & VGA_PART_ISOVIST ? measure_regions(context, plan, w) : SL_OK;
 }
 
@@ -406,6 +380,22 @@ static sl_status note_inside(sl_context *context, const vga_plan *plan, const vg
                                 ", or fill the grid from a point: --at X,Y");
 }
 
+/// The plan of steps, from that of sight before its doors are shut.
+static sl_status make_steps(sl_context *context, const vga_plan *plan, vga_work *w) {
+    const sl_map *map = &w->baked.map;
+    sl_query *doors = NULL;
+    bool *shut = sl_alloc_array(context, map->door_count + 1, sizeof *shut);
+    sl_status status = shut ? doors_read(context, &plan->doors, map, shut) : SL_NO_MEMORY;
+    if (status == SL_OK) status = sl_query_over(context, &w->baked.space, map, NULL, &doors);
+    for (size_t i = 0; i < map->door_count && status == SL_OK; i++)
+        sl_query_set_door_at(context, doors, i, !shut[i]);
+    if (status == SL_OK)
+        status = sl_vga_steps_create(context, &w->baked, doors, &plan->pipeline.bake, &w->steps);
+    sl_query_destroy(context, doors);
+    sl_free(context, shut);
+    return status;
+}
+
 /// From the map to its measures.
 static sl_status compute(sl_context *context, vga_plan *plan, vga_work *w) {
     SL_TRY(pipeline_read_space(context, &plan->pipeline, "vga", ~(unsigned)SL_EFFECT_MIRROR,
@@ -414,7 +404,7 @@ static sl_status compute(sl_context *context, vga_plan *plan, vga_work *w) {
     SL_TRY(check_units(context, plan, &w->baked.map));
     SL_TRY(check_direction(context, plan, w));
     if (!name_ends_with(plan->input, ".slv")) SL_TRY(note_inside(context, plan, w));
-    SL_TRY(vga_steps_make(context, &w->baked, &plan->doors, &w->steps));
+    SL_TRY(make_steps(context, plan, w));
     SL_TRY(doors_shut(context, &plan->doors, &w->baked));
     if (!plan->range_given) plan->range = w->baked.map.range;
     SL_TRY(make_outline(context, w));
@@ -422,7 +412,7 @@ static sl_status compute(sl_context *context, vga_plan *plan, vga_work *w) {
     status = pipeline_name_stray(context, plan->input, &w->baked.map, &w->baked.space, status);
     if (status == SL_OK)
         status = vga_grid_choose(context, &plan->points, &plan->pipeline, &w->baked.map,
-                                 w->steps.outline ? w->steps.outline : w->outline, &w->table.grid);
+                                 sl_vga_steps_outline(w->steps, w->outline), &w->table.grid);
     SL_TRY(name_unit(context, plan, &w->baked.map, &w->baked.space, status));
     if (plan->points.links)
         SL_TRY(vga_grid_read_links(context, plan->points.links, &w->table.grid, &w->links,
@@ -435,9 +425,7 @@ static void work_destroy(sl_context *context, vga_work *w) {
     sl_free(context, w->table.measures);
     sl_free(context, w->table.isovists);
     sl_free(context, w->table.depths);
-    sl_free(context, w->table.walked);
-    sl_free(context, w->table.walked_depths);
-    vga_steps_destroy(context, &w->steps);
+    sl_vga_steps_destroy(context, w->steps);
     sl_free(context, w->table.gates);
     sl_free(context, w->links);
     sl_vga_grid_destroy(context, &w->table.grid);

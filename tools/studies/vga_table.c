@@ -38,11 +38,6 @@ unsigned vga_measure_part(size_t measure) {
 double vga_value(const vga_table *table, size_t measure, uint32_t point) {
     const sl_measure *m = &columns(&(size_t){0})[measure];
     if (m->of == SL_OF_AGENTS) return (double)table->gates[point];
-    const unsigned part = vga_measure_part(measure);
-    const bool path = part & (VGA_PART_METRIC | VGA_PART_ANGULAR);
-    const bool path_from = part & (VGA_PART_STEP_LENGTHS | VGA_PART_STEP_TURNS);
-    if (path && table->walked) return sl_measure_value(m, &table->walked[point]);
-    if (path_from && table->walked_depths) return sl_measure_value(m, &table->walked_depths[point]);
     if (m->of == SL_OF_DEPTH) return sl_measure_value(m, &table->depths[point]);
     if (m->of == SL_OF_REGION) return sl_measure_value(m, &table->isovists[point].measures);
     return sl_measure_value(m, &table->measures[point]);

@@ -10,11 +10,9 @@
 typedef struct vga_table {
     sl_vga_grid grid;
     sl_vga_measures *measures;
-    sl_vga_measures *walked;      ///< those of paths, where they go by steps; else NULL
-    isovist_result *isovists;     ///< NULL where they are not measured
-    sl_vga_depths *depths;        ///< from chosen points; NULL where there are none
-    sl_vga_depths *walked_depths; ///< those of paths, likewise
-    uint64_t *gates;              ///< steps of agents; NULL where there are none
+    isovist_result *isovists; ///< NULL where they are not measured
+    sl_vga_depths *depths;    ///< from chosen points; NULL where there are none
+    uint64_t *gates;          ///< steps of agents; NULL where there are none
     unsigned parts;
 } vga_table;
 

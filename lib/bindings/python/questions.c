@@ -358,8 +358,8 @@ static sl_status check_measures(sl_context *context, const sl_outline *outline,
         grid->step, (double)bytes / 1073741824.0);
 }
 
-static sl_status measure_grid(slp_level *level, const sl_outline *outline, const slp_vga *given,
-                              const double *from, size_t from_count) {
+static sl_status measure_grid(slp_level *level, const sl_outline *outline, sl_vga_steps *steps,
+                              const slp_vga *given, const double *from, size_t from_count) {
     sl_context *context = level->base.context;
     sl_vga_graph graph = {0};
     sl_vga_options options = sl_vga_options_default();
@@ -379,26 +379,28 @@ static sl_status measure_grid(slp_level *level, const sl_outline *outline, const
     if (status == SL_OK && given->parts)
         status = check_measures(context, outline, &level->grid, &graph, &options);
     if (status == SL_OK && given->parts)
-        status = sl_vga_measure(context, outline, &level->grid, &graph, &options, level->measures);
+        status = sl_vga_measure_walked(context, outline, &level->grid, &graph, steps, &options,
+                                       level->measures);
     if (status == SL_OK && from_count) status = find_depths(level, &graph, from, from_count);
     sl_vga_graph_destroy(context, &graph);
     return status;
 }
 
-static sl_status fill_and_measure(slp_level *level, const sl_outline *outline, const slp_vga *given,
-                                  const double *seeds, size_t seed_count, const double *from,
-                                  size_t from_count) {
+static sl_status fill_and_measure(slp_level *level, const sl_outline *outline, sl_vga_steps *steps,
+                                  const slp_vga *given, const double *seeds, size_t seed_count,
+                                  const double *from, size_t from_count) {
     sl_context *context = level->base.context;
     sl_point *places = copy_points(context, seeds, seed_count);
     if (!places) return SL_NO_MEMORY;
     sl_status status = seed_count ? SL_OK : check_area(level, given->step);
     if (status == SL_OK)
-        status = sl_vga_grid_make(context, outline, given->step, places, seed_count, &level->grid);
+        status = sl_vga_grid_make(context, sl_vga_steps_outline(steps, outline), given->step,
+                                  places, seed_count, &level->grid);
     if (status == SL_OK && !level->grid.count)
         status = sl_fail(context, SL_BAD_ARGUMENT,
                          "no point of a grid of step %.9g is inside the map", given->step);
     if (status == SL_OK && (given->parts || from_count))
-        status = measure_grid(level, outline, given, from, from_count);
+        status = measure_grid(level, outline, steps, given, from, from_count);
     sl_free(context, places);
     return status;
 }
@@ -410,12 +412,15 @@ int slp_level_vga(slp_level *level, const slp_vga *given, const double *seeds, s
     slp_level_forget(level);
     SL_TRY(sl_effects_check(context, &level->baked.map, "vga", ~(unsigned)SL_EFFECT_MIRROR,
                             "steps and paths lead straight to points, not to mirror images"));
-    if (sl_map_steps_differ(&level->baked.map))
-        sl_note(context, "some walls stop steps and not sight, or sight and not steps: vga() goes "
-                         "by sight in all measures; 'sightline vga' has paths by steps");
     SL_TRY(slp_level_queries(level, 1));
-    SL_TRY(sl_query_outline(context, level->queries.items[0], &outline));
-    return fill_and_measure(level, outline, given, seeds, seed_count, from, from_count);
+    sl_query *query = level->queries.items[0];
+    sl_vga_steps *steps = NULL;
+    SL_TRY(sl_query_outline(context, query, &outline));
+    SL_TRY(sl_vga_steps_create(context, &level->baked, query, NULL, &steps));
+    const sl_status status =
+        fill_and_measure(level, outline, steps, given, seeds, seed_count, from, from_count);
+    sl_vga_steps_destroy(context, steps);
+    return status;
 }
 
 size_t slp_level_vga_copy(const slp_level *level, double *points, double *measures,

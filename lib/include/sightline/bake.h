@@ -94,6 +94,15 @@ SL_API sl_status sl_bake(sl_context *context, sl_map *map, const sl_bake_options
 SL_API sl_status sl_bake_space(sl_context *context, sl_map *map, sl_bake_options *options,
                                sl_baked *out, sl_bake_account *account);
 
+/// The same for questions that need no method: only `clean`, `subdivision`, `rules` and `check` of
+/// the options count; NULL: the defaults. Takes the map over, as sl_bake does.
+SL_API sl_status sl_bake_cells(sl_context *context, sl_map *map, const sl_bake_options *options,
+                               sl_baked *out);
+/// The cells of steps of what was cut for sight, where some walls stop the one and not the other
+/// (sl_map_steps_differ); else `out` stays zeroed. Doors stand as those of `sight`.
+SL_API sl_status sl_bake_steps(sl_context *context, const sl_baked *sight,
+                               const sl_bake_options *options, sl_baked *out);
+
 /// The map that a baked file was made from, but for comments, cells of its own and what else map
 /// text alone keeps. `out` must be empty, and stays so on failure.
 SL_API sl_status sl_baked_copy_map(sl_context *context, const sl_baked *baked, sl_map *out);

@@ -16,7 +16,9 @@
 #ifndef SIGHTLINE_VGA_H
 #define SIGHTLINE_VGA_H
 
+#include "sightline/bake.h"
 #include "sightline/measures.h"
+#include "sightline/query.h"
 #include "sightline/space.h"
 
 #ifdef __cplusplus
@@ -149,6 +151,44 @@ SL_API sl_status sl_vga_depth(sl_context *context, const sl_outline *outline,
                               const sl_vga_grid *grid, const sl_vga_graph *graph,
                               const sl_vga_link *links, size_t link_count, unsigned parts,
                               const uint32_t *from, size_t from_count, sl_vga_depths *depths);
+
+/// How one steps in a map where some walls stop steps and not sight, or sight and not steps: a low
+/// wall, a window, a curtain (sl_map_steps_differ). The grid, paths and agents go by steps, all else
+/// by sight. NULL stands for a map where both are the same.
+typedef struct sl_vga_steps sl_vga_steps;
+
+/// Makes it, with a note; *out stays NULL where both are the same. `sight`: what was cut for sight,
+/// or read. `doors`: a query over it, whose doors stand as they shall; NULL: as the map has them.
+/// `options`: how its walls were cleaned and cut; NULL: the defaults. Cost: as sl_bake_cells.
+SL_API sl_status sl_vga_steps_create(sl_context *context, const sl_baked *sight,
+                                     const sl_query *doors, const sl_bake_options *options,
+                                     sl_vga_steps **out);
+SL_API void sl_vga_steps_destroy(sl_context *context, sl_vga_steps *steps); ///< NULL: nothing
+/// The outline that the grid is filled in; `sight` where `steps` is NULL.
+SL_API const sl_outline *sl_vga_steps_outline(const sl_vga_steps *steps, const sl_outline *sight);
+/// Connects points that see each other and between which one steps straight, for agents. `sights`:
+/// which see each other.
+SL_API sl_status sl_vga_steps_connect(sl_context *context, const sl_vga_steps *steps,
+                                      const sl_vga_grid *grid, const sl_vga_graph *sights,
+                                      unsigned threads, sl_vga_graph *out);
+/// sl_vga_measure, but that shortest and straightest paths go by steps. The graph of these is made
+/// once and kept. Memory: with `steps`, that graph and a second `measures`.
+SL_API sl_status sl_vga_measure_walked(sl_context *context, const sl_outline *outline,
+                                       const sl_vga_grid *grid, const sl_vga_graph *graph,
+                                       sl_vga_steps *steps, const sl_vga_options *options,
+                                       sl_vga_measures *measures);
+/// sl_vga_measure_linked, likewise.
+SL_API sl_status sl_vga_measure_walked_linked(sl_context *context, const sl_outline *outline,
+                                              const sl_vga_grid *grid, const sl_vga_graph *graph,
+                                              sl_vga_steps *steps, const sl_vga_link *links,
+                                              size_t link_count, const sl_vga_options *options,
+                                              sl_vga_measures *measures);
+/// sl_vga_depth, likewise. `threads` make the graph of steps.
+SL_API sl_status sl_vga_depth_walked(sl_context *context, const sl_outline *outline,
+                                     const sl_vga_grid *grid, const sl_vga_graph *graph,
+                                     sl_vga_steps *steps, const sl_vga_link *links,
+                                     size_t link_count, unsigned parts, const uint32_t *from,
+                                     size_t from_count, unsigned threads, sl_vga_depths *depths);
 
 /// The number of points in the part of each point: all that steps join to it, in either direction,
 /// and links. `sizes` has an entry for each point. Cost: O(points^2 / 64).

@@ -14,17 +14,12 @@
 #include <math.h>
 #include <string.h>
 
-/// One of the two spaces of a map.
-typedef struct plan {
+typedef struct graph {
     sl_baked baked; ///< its space alone, where it comes from a map
     sl_query *query;
     const sl_outline *outline; ///< of the query
-    sl_vga_graph graph;
-} plan;
-
-typedef struct graph {
-    plan sight;
-    plan steps; ///< for the grid and for paths; empty where steps go as sight does
+    sl_vga_graph sights;
+    sl_vga_steps *steps; ///< NULL where steps go as sight does
     sl_vga_grid grid;
     sl_vga_measures *measures; ///< by point, of the last group
     sl_vga_depths *depths;     ///< by point
@@ -34,74 +29,37 @@ static sl_context *context(void) {
     return sli_module.context;
 }
 
-static void close_plan(plan *p) {
-    sl_vga_graph_destroy(context(), &p->graph);
-    sl_query_destroy(context(), p->query);
-    sl_baked_destroy(context(), &p->baked);
-}
-
 SLI_EXPORT(void, graph_close, graph *g) {
     if (!g) return;
     sl_free(context(), g->measures);
     sl_free(context(), g->depths);
     sl_vga_grid_destroy(context(), &g->grid);
-    close_plan(&g->steps);
-    close_plan(&g->sight);
+    sl_vga_steps_destroy(context(), g->steps);
+    sl_vga_graph_destroy(context(), &g->sights);
+    sl_query_destroy(context(), g->query);
+    sl_baked_destroy(context(), &g->baked);
     sl_free(context(), g);
 }
 
 // --- the map
 
-/// The first half of a bake: no more is needed, and no method.
-static sl_status subdivide(plan *p, sl_map *map) {
-    const sl_clean_options clean = sl_clean_options_default();
-    const sl_subdivide_options rules = sl_subdivide_options_default();
-    sl_clean_account account = {0};
-    SL_TRY(sl_map_clean(context(), map, &clean, &account));
-    SL_TRY(sl_map_find_inside(context(), map, &clean, &account));
-    SL_TRY(sl_subdivision_for(map)->subdivide(context(), map, &rules, &p->baked.space));
-    if (p->baked.space.neighbour) SL_TRY(sl_space_check(context(), &p->baked.space));
-    p->baked.map = *map;
-    *map = (sl_map){0};
-    return SL_OK;
-}
-
-static sl_status make_space(plan *p, const char *name, const char *text, size_t size,
+static sl_status make_space(graph *g, const char *name, const char *text, size_t size,
                             double entrance) {
     const sl_import_options import = {.entrance = entrance};
     sl_map map = {0};
     sl_status status = sl_map_parse(context(), name, text, size, &import, &map);
-    if (status == SL_OK) status = subdivide(p, &map);
+    if (status == SL_OK) status = sl_bake_cells(context(), &map, NULL, &g->baked);
     sl_map_destroy(context(), &map);
     return status;
 }
 
-static sl_status make_query(plan *p) {
-    return sl_query_over(context(), &p->baked.space, &p->baked.map, NULL, &p->query);
-}
-
-/// As `sightline vga`: the grid and paths go by steps, all else by sight.
-static sl_status make_steps(graph *g, int baked) {
-    const sl_baked *sight = &g->sight.baked;
-    sl_map map = {0};
-    if (!sl_map_steps_differ(&sight->map)) return SL_OK;
-    SL_TRY(baked ? sl_baked_copy_map(context(), sight, &map)
-                 : sl_map_copy(context(), &sight->map, &map));
-    map.channel = SL_STOPS_STEPS;
-    const sl_status status = subdivide(&g->steps, &map);
-    sl_map_destroy(context(), &map);
-    return status == SL_OK ? make_query(&g->steps) : status;
-}
-
 static sl_status open_map(graph *g, const char *name, const char *bytes, size_t size, int baked,
                           double entrance) {
-    plan *sight = &g->sight;
-    SL_TRY(baked ? sl_baked_parse(context(), name, bytes, size, &sight->baked)
-                 : make_space(sight, name, bytes, size, entrance));
-    SL_TRY(sl_effects_check(context(), &sight->baked.map, "graph", ~(unsigned)SL_EFFECT_MIRROR,
+    SL_TRY(baked ? sl_baked_parse(context(), name, bytes, size, &g->baked)
+                 : make_space(g, name, bytes, size, entrance));
+    SL_TRY(sl_effects_check(context(), &g->baked.map, "graph", ~(unsigned)SL_EFFECT_MIRROR,
                             "steps and paths lead straight to points, not to mirror images"));
-    SL_TRY(make_query(sight));
-    return make_steps(g, baked);
+    return sl_query_over(context(), &g->baked.space, &g->baked.map, NULL, &g->query);
 }
 
 /// Reads a map, or with `baked` a baked file. `entrance` is the width of entrances; 0: as the map
@@ -116,8 +74,7 @@ SLI_EXPORT(graph *, graph_open, const char *name, const char *bytes, size_t size
 
 /// Before graph_make(): opens or shuts a door.
 SLI_EXPORT(int, graph_set_door, graph *g, const char *name, int open) {
-    if (sli_done(sl_query_set_door(context(), g->sight.query, name, open)) && g->steps.query)
-        sli_done(sl_query_set_door(context(), g->steps.query, name, open));
+    sli_done(sl_query_set_door(context(), g->query, name, open));
     return (int)sli_module.status;
 }
 
@@ -131,8 +88,8 @@ static sl_status refuse_step(double step, double points, double most) {
 
 /// The area is asked first: a grid that is far too large is not filled.
 static sl_status fill(graph *g, double step, double most) {
-    const sl_space *space = &g->sight.baked.space;
-    const sl_outline *outline = g->steps.query ? g->steps.outline : g->sight.outline;
+    const sl_space *space = &g->baked.space;
+    const sl_outline *outline = sl_vga_steps_outline(g->steps, g->outline);
     double area = 0;
     if (!(step > 0) || isinf(step))
         return sl_fail(context(), SL_BAD_ARGUMENT, "grid: a step over 0 is needed");
@@ -148,12 +105,11 @@ static sl_status fill(graph *g, double step, double most) {
 }
 
 static sl_status make(graph *g, double step, double range, double most) {
-    plan *sight = &g->sight, *steps = &g->steps;
-    SL_TRY(sl_query_outline(context(), sight->query, &sight->outline));
-    if (steps->query) SL_TRY(sl_query_outline(context(), steps->query, &steps->outline));
+    SL_TRY(sl_query_outline(context(), g->query, &g->outline));
+    SL_TRY(sl_vga_steps_create(context(), &g->baked, g->query, NULL, &g->steps));
     SL_TRY(fill(g, step, most));
-    return sl_vga_graph_make(context(), sight->outline, &g->grid,
-                             range < 0 ? sight->baked.map.range : range, 1, &sight->graph);
+    return sl_vga_graph_make(context(), g->outline, &g->grid,
+                             range < 0 ? g->baked.map.range : range, 1, &g->sights);
 }
 
 /// Makes the graph, of no more than `most` points. A range below 0 is the map's own. integers:
@@ -167,9 +123,9 @@ SLI_EXPORT(int, graph_make, graph *g, double step, double range, double most) {
                               grid->columns,
                               grid->rows,
                               (uint32_t)(uintptr_t)grid->squares,
-                              (uint32_t)(uintptr_t)g->sight.graph.rows,
-                              (uint32_t)(2 * g->sight.graph.words),
-                              g->sight.baked.map.oneway_count > 0};
+                              (uint32_t)(uintptr_t)g->sights.rows,
+                              (uint32_t)(2 * g->sights.words),
+                              g->baked.map.oneway_count > 0};
     memcpy(sli_module.integers, table, sizeof table);
     sli_module.numbers[0] = (double)grid->left;
     sli_module.numbers[1] = (double)grid->bottom;
@@ -195,26 +151,14 @@ SLI_EXPORT(const char *, depth_rows, void) {
 static const uint8_t graph_parts[] = {SL_GRAPH_MEASURES(PART) SL_GRAPH_COUNTS(PART)};
 static const uint8_t depth_parts[] = {SL_DEPTH_MEASURES(PART)};
 
-/// The plan by which a group is measured, with its graph.
-static sl_status choose(graph *g, unsigned part, plan **out) {
-    plan *steps = &g->steps;
-    *out = &g->sight;
-    if (!steps->query || !(part & (SL_VGA_METRIC | SL_VGA_ANGULAR))) return SL_OK;
-    *out = steps;
-    return steps->graph.rows
-               ? SL_OK
-               : sl_vga_graph_make(context(), steps->outline, &g->grid, 0, 1, &steps->graph);
-}
-
 static sl_status measure(graph *g, unsigned part) {
     sl_vga_options options = sl_vga_options_default();
-    plan *p;
     options.parts = part;
     options.threads = 1;
     if (!g->measures) g->measures = sl_alloc_array(context(), g->grid.count, sizeof *g->measures);
     if (!g->measures) return SL_NO_MEMORY;
-    SL_TRY(choose(g, part, &p));
-    return sl_vga_measure(context(), p->outline, &g->grid, &p->graph, &options, g->measures);
+    return sl_vga_measure_walked(context(), g->outline, &g->grid, &g->sights, g->steps, &options,
+                                 g->measures);
 }
 
 /// Measures the group of a measure, by its row. integers[0]: the place of the sl_vga_measures.
@@ -230,12 +174,10 @@ SLI_EXPORT(uint32_t, graph_find, const graph *g, double x, double y) {
 }
 
 static sl_status find_depths(graph *g, unsigned part, uint32_t from) {
-    plan *p;
     if (!g->depths) g->depths = sl_alloc_array(context(), g->grid.count, sizeof *g->depths);
     if (!g->depths) return SL_NO_MEMORY;
-    SL_TRY(choose(g, part, &p));
-    return sl_vga_depth(context(), p->outline, &g->grid, &p->graph, NULL, 0, part, &from, 1,
-                        g->depths);
+    return sl_vga_depth_walked(context(), g->outline, &g->grid, &g->sights, g->steps, NULL, 0, part,
+                               &from, 1, 1, g->depths);
 }
 
 /// Depths of all points from one, of the group of a row. integers[0]: the place of the
