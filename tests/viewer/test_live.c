@@ -113,14 +113,14 @@ static int drag(app_state *app, sl_point from, double dx, double dy, bool releas
         if (app->document.edit == edit) continue;
         edit = app->document.edit;
         changes++;
-        if (app->steady) {
+        if (app->ui.steady) {
             assert_fresh(app, false);
             script_frame(app);
         }
     }
     if (!release) return changes;
-    input_release(app, app->tool.pointer);
-    if (app->steady)
+    input_release(app, app->ui.pointer);
+    if (app->ui.steady)
         app_settle(app);
     else
         wait_for_all(app);
@@ -309,7 +309,8 @@ static void test_door_in_the_open(void **state) {
     assert_int_equal(map->door_count, doors + 1);
     assert_int_equal(map->wall_count, walls);
     const sl_segment door = map->doors[doors].segment;
-    assert_true(edit_snap(app, door.a).x == door.a.x && edit_snap(app, door.b).y == door.b.y);
+    assert_true(edit_snap(&app->view, door.a).x == door.a.x &&
+                edit_snap(&app->view, door.b).y == door.b.y);
     drag(app, middle(door.a, door.b), 0, 0, true);
     viewer_press(app, "Delete");
     app_settle(app);
@@ -331,7 +332,7 @@ static void test_door_that_rests(void **state) {
     const sl_point low = on_page(app, from), high = on_page(app, wall.b);
     assert_true(drag(app, from, 0.5 * (high.x - low.x), 0.5 * (high.y - low.y), false) > 0);
     const uint32_t edit = app->document.edit;
-    const sl_point at = app->tool.pointer;
+    const sl_point at = app->ui.pointer;
     input_move(app, (sl_point){at.x + 0.25, at.y + 0.25});
     app_tick(app, 1.0 / 60);
     assert_int_equal(app->document.edit, edit);
@@ -396,10 +397,10 @@ static void test_taken_back(void **state) {
             i < 2 ? middle(was[1].a, was[1].b) : (sl_point){was[1].a.x, was[1].a.y};
         assert_true(drag(app, from, 30, 25, false) > 0);
         viewer_press(app, keys[i % 2]);
-        assert_int_equal(app->tool.drag.kind, DRAG_NONE);
+        assert_int_equal(app->view.drag.kind, DRAG_NONE);
         input_move(app, (sl_point){5, 5});
         input_release(app, (sl_point){5, 5});
-        if (app->steady) app_settle(app);
+        if (app->ui.steady) app_settle(app);
         wait_for_all(app);
         assert_int_equal(app->document.map.wall_count, count);
         assert_memory_equal(app->document.map.walls, before, count * sizeof *before);
@@ -482,7 +483,7 @@ static void test_stopped(void **state) {
     open_map(app, MAPS "/office.map");
     const uint32_t cells = app->document.baked->space.cell_count;
     const uint32_t version = app->document.version;
-    app->steady = false;
+    app->ui.steady = false;
     files_open(app, "large.map", false);
     assert_non_null(app->document.job);
     for (int i = 0; i < 3; i++) app_tick(app, 0.001);
@@ -623,7 +624,7 @@ static void test_message(void **state) {
     (void)state;
     app_state *app = viewer_start(true);
     open_map(app, MAPS "/office.map");
-    app->steady = false;
+    app->ui.steady = false;
     ui_say(&app->ui, false, "done");
     app_tick(app, 5);
     assert_string_equal(app->ui.message, "done");

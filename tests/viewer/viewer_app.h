@@ -24,7 +24,7 @@ static inline app_state *viewer_start(bool steady) {
     assert_int_equal(sl_io_use(context), SL_OK);
     app_init(app, context);
     app->options = sl_import_options_default();
-    app->steady = steady;
+    app->ui.steady = steady;
     return app;
 }
 

@@ -12,8 +12,9 @@
 #include "lessons/why.h"
 #include "plan/edit.h"
 #include "plan/effects.h"
-#include "plan/layers.h"
+#include "plan/heat.h"
 #include "plan/view.h"
+#include "plan/view_cells.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -40,9 +41,9 @@ enum {
 
 // --- modes
 
-static void set_mode(app_state *app, app_mode mode) {
-    app->tool.mode = mode;
-    app->tool.held = 0;
+static void set_mode(app_state *app, view_mode mode) {
+    app->view.mode = mode;
+    app->view.held = 0;
     app->tool.lesson.plays = false;
     quiz_forget(app);
     if (mode == MODE_QUIZ) quiz_ask(app);
@@ -52,7 +53,7 @@ static void set_mode(app_state *app, app_mode mode) {
 
 #define MODE(name, value)                                                                          \
     DO(name, set_mode(app, value))                                                                 \
-    IS(name, app->tool.mode == (value))
+    IS(name, app->view.mode == (value))
 MODE(explore, MODE_EXPLORE)
 MODE(learn, MODE_LEARN)
 MODE(draw, MODE_DRAW)
@@ -63,7 +64,7 @@ MODE(quiz, MODE_QUIZ)
 #define TOGGLE(NAME, ...)                                                                          \
     static void toggle_##NAME(app_state *app) {                                                    \
         app->view.show ^= SHOW_##NAME;                                                             \
-        if (app->view.show & SHOW_FILLS & SHOW_##NAME) layers_set_fill(app, LAYER_##NAME);         \
+        if (app->view.show & SHOW_FILLS & SHOW_##NAME) layers_set_fill(&app->view, LAYER_##NAME);  \
     }                                                                                              \
     static bool is_##NAME(const app_state *app) {                                                  \
         return (app->view.show & SHOW_##NAME) != 0;                                                \
@@ -98,14 +99,14 @@ IS(present, app->ui.presents)
 
 static void help(app_state *app) {
     if (app->ui.help)
-        app_shut_help(app);
+        ui_shut_help(&app->ui);
     else
-        app_open_help(app);
+        ui_open_help(&app->ui);
 }
 
 IS(help, app->ui.help)
 SWITCH(fly, view.eye.flies)
-DO(range, range_toggle(app))
+DO(range, range_toggle(&app->view))
 IS(range, app->document.map.range > 0)
 
 static void split_less(app_state *app) {
@@ -129,26 +130,26 @@ static void tree_more(app_state *app) {
 
 static void views_merge(app_state *app) {
     const uint32_t shown = view_layer_shown(app->view.views);
-    if (shown > 1) view_layer_go(app, shown - 1);
+    if (shown > 1) view_layer_go(&app->view, shown - 1);
 }
 
-DO(views_split, view_layer_go(app, view_layer_shown(app->view.views) + 1))
-DO(views_largest, view_layer_mark_next(app))
-DO(heat_next, heat_choose(app, 1))
-DO(heat_back, heat_choose(app, -1))
-DO(heat_steps, heat_toggle_steps(app))
+DO(views_split, view_layer_go(&app->view, view_layer_shown(app->view.views) + 1))
+DO(views_largest, view_layer_mark_next(&app->view))
+DO(heat_next, heat_choose(&app->view, 1))
+DO(heat_back, heat_choose(&app->view, -1))
+DO(heat_steps, heat_toggle_steps(&app->view))
 
 static bool is_heat_steps(const app_state *app) {
     return !heat_measure_part(heat_measure(app->view.heat_choice.measure));
 }
 
-DO(heat_hold, heat_toggle_held(app))
+DO(heat_hold, heat_toggle_held(&app->view))
 IS(heat_hold, app->view.heat_choice.held)
 
 static void heat_step_by(app_state *app, int by) {
     int last;
-    heat_set_step(app, heat_step_place(app, &last) + by);
-    ui_say(&app->ui, false, "heat map: %.3g from point to point", heat_step(app));
+    heat_set_step(&app->view, heat_step_place(&app->view, &last) + by);
+    ui_say(&app->ui, false, "heat map: %.3g from point to point", heat_step(&app->view));
 }
 
 DO(heat_coarser, heat_step_by(app, -1))
@@ -159,7 +160,7 @@ DO(heat_finer, heat_step_by(app, 1))
 /// Shows what lies beside the part of the map that is shown, an eighth of the plan further.
 static void pan(app_state *app, int x, int y) {
     const sl_box plan = app_layout(app).plan[0];
-    view_pan(app, -box_width(plan) / 8 * x, -box_height(plan) / 8 * y);
+    view_pan(&app->view, -box_width(plan) / 8 * x, -box_height(plan) / 8 * y);
 }
 
 DO(pan_left, pan(app, -1, 0))
@@ -168,8 +169,8 @@ DO(pan_up, pan(app, 0, -1))
 DO(pan_down, pan(app, 0, 1))
 
 DO(fit, app->view.fitted = true)
-DO(zoom_in, view_zoom(app, 1.25, (sl_point){0, 0}))
-DO(zoom_out, view_zoom(app, 1 / 1.25, (sl_point){0, 0}))
+DO(zoom_in, view_zoom(&app->view, 1.25, (sl_point){0, 0}))
+DO(zoom_out, view_zoom(&app->view, 1 / 1.25, (sl_point){0, 0}))
 
 /// Goes to the next size of text, or back.
 static void text_step(app_state *app, bool larger) {
@@ -198,7 +199,7 @@ static void wider(app_state *app) {
 }
 
 DO(all_round, app->view.eye.fov = app->view.eye.fov >= 360 ? 90 : 360)
-DO(home, walk_home(app))
+DO(home, walk_home(&app->view))
 
 // --- methods
 
@@ -290,7 +291,7 @@ DO(why_step, why_go_to_step(app))
 /// From elsewhere it begins with the subdivision: F2 begins with the search.
 static void subject(app_state *app) {
     lesson_state *lesson = &app->tool.lesson;
-    if (app->tool.mode == MODE_LEARN) {
+    if (app->view.mode == MODE_LEARN) {
         lesson_next_subject(app->context, lesson, &app->document);
         app_tick(app, 0);
         return;
@@ -304,24 +305,24 @@ static void subject(app_state *app) {
 static void travel(app_state *app, bool redo) {
     sl_status status = SL_OK;
     bool bake = false;
-    if (edit_cancel(app)) return;
+    if (edit_cancel(&app->view)) return;
     if (!history_undo(app->context, &app->document.history, &app->document.map, redo, &bake,
                       &status)) {
         ui_say(&app->ui, false,
                redo ? "nothing to redo in this map" : "nothing to undo in this map");
         return;
     }
-    app_check(app, status);
+    view_check(&app->view, status);
     ui_say(&app->ui, false, redo ? "redone" : "undone");
-    app->tool.chosen = UINT32_MAX;
+    app->view.edit.chosen = UINT32_MAX;
     if (bake)
-        app_after_edit(app);
+        view_after_edit(&app->view);
     else
-        app_after_touch(app);
+        view_after_touch(&app->view);
 }
 
 static void undo(app_state *app) {
-    const bool learns = app->tool.mode == MODE_LEARN;
+    const bool learns = app->view.mode == MODE_LEARN;
     if (learns && lesson_undo(&app->tool.lesson))
         ui_say(&app->ui, false, "undone in the lesson");
     else
@@ -329,20 +330,20 @@ static void undo(app_state *app) {
 }
 
 DO(redo, travel(app, true))
-DO(delete_chosen, edit_delete(app))
+DO(delete_chosen, edit_delete(&app->view))
 
 static void draw_doors(app_state *app) {
-    app->tool.draws_doors = !app->tool.draws_doors;
+    app->view.edit.draws_doors = !app->view.edit.draws_doors;
     ui_say(&app->ui, false, "%s",
-           app->tool.draws_doors ? "drag along a wall, or across a gap: a new door"
-                                 : "drag on free ground: a new wall");
+           app->view.edit.draws_doors ? "drag along a wall, or across a gap: a new door"
+                                      : "drag on free ground: a new wall");
 }
 
-IS(draw_doors, app->tool.draws_doors)
+IS(draw_doors, app->view.edit.draws_doors)
 
 // --- doors
 
-DO(nearest_door, door_toggle_nearest(app))
+DO(nearest_door, door_toggle_nearest(&app->view))
 
 // --- the quiz
 
@@ -368,8 +369,8 @@ static void play(app_state *app) {
     path_recorder *r = &app->tool.recorder;
     r->records = false;
     if (!r->frames.count && app->document.baked && app->document.baked->map.path_count)
-        app_check(app, record_path(app->context, r, &app->document.baked->map.paths[0],
-                                   walk_speed(&app->document)));
+        view_check(&app->view, record_path(app->context, r, &app->document.baked->map.paths[0],
+                                           walk_speed(&app->document)));
     if (!r->frames.count) {
         ui_say(&app->ui, false, "nothing was recorded, and the map has no path");
         return;
@@ -383,8 +384,8 @@ IS(play, app->tool.recorder.plays)
 
 static void take_export(app_state *app, int answer) {
     if (answer == 0 && !app->file.locked)
-        app_check(
-            app, (app->steady ? save_series : export_series)(app, "sightline-frames", SERIES_STEP));
+        view_check(&app->view, (app->ui.steady ? save_series : export_series)(
+                                   app, "sightline-frames", SERIES_STEP));
 }
 
 static void export_frames(app_state *app) {
@@ -443,21 +444,21 @@ DO(quit, map_file_quit(app))
 
 static void escape(app_state *app) {
     if (app->ui.help)
-        app_shut_help(app);
+        ui_shut_help(&app->ui);
     else if (map_file_stop(app))
         ui_say(&app->ui, false, "stopped; the map is not saved");
-    else if (edit_cancel(app))
+    else if (edit_cancel(&app->view))
         ;
     else if (app->document.job) {
         document_cancel(app->context, &app->document);
         ui_say(&app->ui, false, "stopped; what is there stays");
     } else if (export_stop(app))
         ui_say(&app->ui, false, "stopped; the pictures that are written stay");
-    else if (view_layer_stop(app))
+    else if (view_layer_stop(&app->view))
         ui_say(&app->ui, false, "stopped; F5 twice makes view cells again");
-    else if (heat_layer_stop(app))
+    else if (heat_layer_stop(&app->view))
         ui_say(&app->ui, false, "stopped; 1 twice makes the heat map again");
-    else if (app->tool.mode == MODE_LEARN && app->tool.lesson.chosen_next)
+    else if (app->view.mode == MODE_LEARN && app->tool.lesson.chosen_next)
         app->tool.lesson.chosen_next = 0;
     else if (app->tool.recorder.plays)
         app->tool.recorder.plays = false;
@@ -470,7 +471,7 @@ static void escape(app_state *app) {
 #define HOLD(name, key, what, modes, bit)                                                          \
     { name, key, NULL, what, modes, bit, NULL, NULL }
 
-#define LAYER_ROW(NAME, name, key, label, help, modes, calls, draw)                                \
+#define LAYER_ROW(NAME, name, key, label, help, modes, calls)                                      \
     {name, key, label, "layer: " help, modes, 0, toggle_##NAME, is_##NAME},
 
 static const action_row actions[] = {
@@ -610,7 +611,7 @@ int action_find(const char *name) {
     return -1;
 }
 
-int action_of_key(const char *key, app_mode mode) {
+int action_of_key(const char *key, view_mode mode) {
     for (int i = 0; i < COUNT; i++)
         if (actions[i].key && strcmp(actions[i].key, key) == 0 &&
             (!actions[i].modes || actions[i].modes & 1u << mode))
@@ -623,5 +624,5 @@ void action_run(app_state *app, int action) {
     if (actions[action].run)
         actions[action].run(app);
     else
-        app->tool.held |= actions[action].hold;
+        app->view.held |= actions[action].hold;
 }

@@ -25,7 +25,11 @@ void app_init(app_state *app, sl_context *context) {
     *app = (app_state){
         .context = context,
         .document = {.mirror_depth = 1},
-        .view = {.fitted = true,
+        .view = {.context = context,
+                 .ui = &app->ui,
+                 .document = &app->document,
+                 .edit = {.chosen = UINT32_MAX},
+                 .fitted = true,
                  .eye = {.fov = 90},
                  .show =
                      SHOW_CELLS | SHOW_PORTALS | SHOW_CULL | SHOW_REGION | SHOW_STARTS | SHOW_NAMES,
@@ -34,8 +38,9 @@ void app_init(app_state *app, sl_context *context) {
                  .split_depth = 6,
                  .tree_depth = 64,
                  .method = count - 1},
-        .tool = {.pointer = {-1, -1}, .chosen = UINT32_MAX, .quiz = {.random = 1}},
-        .ui = {.bar_rows = 1,
+        .tool = {.quiz = {.random = 1}},
+        .ui = {.pointer = {-1, -1},
+               .bar_rows = 1,
                .time_lines = 1,
                .scrolling = -1,
                .legend = true,
@@ -60,8 +65,8 @@ void app_destroy(app_state *app) {
     // All jobs are told before any of them is waited for.
     document_stop_soon(&app->document);
     export_stop(app);
-    view_layer_stop(app);
-    heat_layer_stop(app);
+    view_layer_stop(&app->view);
+    heat_layer_stop(&app->view);
     drop_scenes(app);
     if (app->view.under.surface) cairo_surface_destroy(app->view.under.surface);
     if (app->view.over.surface) cairo_surface_destroy(app->view.over.surface);
@@ -79,28 +84,9 @@ void app_destroy(app_state *app) {
     dialog_destroy(app);
     history_clear(app->context, &app->document.history);
     record_destroy(app->context, &app->tool.recorder);
-    sl_free(app->context, app->tool.ends.items);
+    sl_free(app->context, app->view.edit.ends.items);
     sl_explanation_destroy(app->context, &app->tool.quiz.explanation);
     document_close(app->context, &app->document);
-}
-
-void app_check(app_state *app, sl_status status) {
-    if (status != SL_OK && status != SL_CANCELLED)
-        ui_say(&app->ui, true, "%s", sl_context_message(app->context));
-}
-
-bool app_is_solid(const app_state *app, sl_point at) {
-    if (!app->document.baked) return false;
-    const sl_space *space = &app->document.baked->space;
-    const uint32_t cell = sl_space_locate(space, at);
-    return cell != SL_NO_CELL && space->cells[cell].solid;
-}
-
-uint32_t app_eye_cell(const app_state *app) {
-    const sl_point eye = app->view.eye.at;
-    return app->document.baked && !app_is_solid(app, eye)
-               ? sl_space_locate(&app->document.baked->space, eye)
-               : SL_NO_CELL;
 }
 
 static sl_view eye_view(const app_state *app) {
@@ -156,14 +142,14 @@ static void take_document(app_state *app, bool opened) {
     if (!opened && app->document.baked && app->view.mesh != was_mesh)
         say_subdivision(app, was_mesh);
     if (!opened || !app->document.baked) return;
-    app->tool.chosen = UINT32_MAX;
+    app->view.edit.chosen = UINT32_MAX;
     app->view.fitted = true;
-    app->tool.drag = (drag_state){0};
+    app->view.drag = (drag_state){0};
     app->document.stale = false;
     history_clear(app->context, &app->document.history);
     app->tool.recorder.records = app->tool.recorder.plays = false;
     app->tool.recorder.frames.count = 0;
-    walk_home(app);
+    walk_home(&app->view);
     map_file_taken(app);
     say_document(app);
 }
@@ -174,25 +160,16 @@ void app_take_opened(app_state *app) {
 
 /// Follows the document and the eye; drops words about what was seen before.
 static void follow(app_state *app) {
-    const uint32_t before = app->view.present.version;
-    app_check(app,
-              present_update(app->context, &app->view.present, &app->document, app->view.eye.at));
-    if (app->view.present.version != before && app->tool.quiz.answered) quiz_forget(app);
-}
-
-/// While something is dragged, a new space starts only after the last one is there. Jobs that start
-/// at each step would never get that far.
-static void keep_up(app_state *app) {
-    if (!app->document.stale || document_awaits_space(&app->document)) return;
-    app->document.stale = false;
-    app_check(app, document_rebuild(app->context, &app->document, true));
+    const quiz_state *quiz = &app->tool.quiz;
+    view_follow(&app->view);
+    if (quiz->answered && quiz->version != app->view.present.version) quiz_forget(app);
 }
 
 /// A frame of a drag waits for its space if that comes soon. So the plan is mostly not late at all,
 /// and else by one frame.
 static void wait_for_drag(const app_state *app) {
     const double spare = DRAG_FRAME_SECONDS - app->view.draw_seconds;
-    if (app->tool.drag.changed && document_awaits_space(&app->document))
+    if (app->view.drag.changed && document_awaits_space(&app->document))
         document_wait_space(&app->document, fmax(spare, DRAG_WAIT_SECONDS));
 }
 
@@ -208,7 +185,7 @@ static void take_results(app_state *app, bool wait) {
                                   : document_poll(app->context, &app->document, &changed);
     if (status == SL_CANCELLED) ui_say(&app->ui, false, "stopped");
     if (changed) drop_made(app);
-    if (read != app->document.read) app->tool.drag = (drag_state){0}; // of another map
+    if (read != app->document.read) app->view.drag = (drag_state){0}; // of another map
     if (version != app->document.version) {
         take_document(app, before != app->document.opened);
         // What was said before was of the map before.
@@ -219,18 +196,26 @@ static void take_results(app_state *app, bool wait) {
     if (*opening)
         files_check(app, opening, status);
     else
-        app_check(app, status);
+        view_check(&app->view, status);
+}
+
+/// The view knows where the plans are on the page.
+static window_layout place_plans(app_state *app) {
+    const window_layout l = app_layout(app);
+    memcpy(app->view.plan, l.plan, sizeof l.plan);
+    app->view.plan_count = l.plan_count;
+    return l;
 }
 
 static void poll(app_state *app, bool wait) {
     do {
-        keep_up(app);
+        view_check(&app->view, document_keep_up(app->context, &app->document));
         if (!wait) wait_for_drag(app);
         take_results(app, wait);
     } while (wait && app->document.stale);
-    keep_up(app);
-    view_layer_update(app, wait);
-    heat_layer_update(app, wait);
+    view_check(&app->view, document_keep_up(app->context, &app->document));
+    view_layer_update(&app->view, wait);
+    heat_layer_update(&app->view, wait);
     map_file_tick(app, wait);
     recovery_tick(app);
 }
@@ -248,17 +233,18 @@ job_progress app_progress(const app_state *app) {
 static void look(app_state *app) {
     if (!app->document.baked) return;
     follow(app);
-    app->view.seen.patient = app->steady;
+    app->view.seen.patient = app->ui.steady;
     const sl_view view = eye_view(app);
-    app_check(
-        app, seen_update(app->context, &app->view.seen, &app->document, &app->view.present, &view));
-    if (app->tool.mode == MODE_LEARN)
-        app_check(
-            app, lesson_update(app->context, &app->tool.lesson, &app->document, app_eye_cell(app)));
+    view_check(&app->view, seen_update(app->context, &app->view.seen, &app->document,
+                                       &app->view.present, &view));
+    if (app->view.mode == MODE_LEARN)
+        view_check(&app->view, lesson_update(app->context, &app->tool.lesson, &app->document,
+                                             view_eye_cell(&app->view)));
     quiz_follow_lesson(app);
 }
 
 void app_settle(app_state *app) {
+    place_plans(app);
     poll(app, true);
     look(app);
 }
@@ -268,13 +254,14 @@ void app_settle(app_state *app) {
 /// After a while the line says again what is open. Errors stay.
 static void tidy_message(app_state *app) {
     const ui_state *ui = &app->ui;
-    if (app->steady || ui->message_is_error || !*ui->message) return;
+    if (app->ui.steady || ui->message_is_error || !*ui->message) return;
     if (ui->message_seconds < STALE_SECONDS || app_progress(app).running) return;
     if (app->document.baked) say_document(app);
 }
 
 void app_tick(app_state *app, double seconds) {
-    poll(app, app->steady);
+    place_plans(app);
+    poll(app, app->ui.steady);
     ui_tick(&app->ui, seconds);
     tidy_message(app);
     app->view.motion = fmax(app->view.motion - seconds, 0);
@@ -283,39 +270,14 @@ void app_tick(app_state *app, double seconds) {
         app->view.eye.at = frame.at;
         app->view.eye.heading = frame.heading;
     } else {
-        walk_tick(app, fmin(seconds, 0.1));
+        walk_tick(&app->view, fmin(seconds, 0.1));
     }
-    app_check(app, record_tick(app->context, &app->tool.recorder, seconds,
-                               (record_frame){app->view.eye.at, app->view.eye.heading}));
+    view_check(&app->view, record_tick(app->context, &app->tool.recorder, seconds,
+                                       (record_frame){app->view.eye.at, app->view.eye.heading}));
     if (app->document.baked) lesson_tick(&app->tool.lesson, &app->document, seconds);
     export_move(app);
     look(app);
     export_take(app);
-}
-
-void app_keep(app_state *app) {
-    app_check(app, history_keep(app->context, &app->document.history, &app->document.map));
-}
-
-void app_after_touch(app_state *app) {
-    document_touch(&app->document);
-    follow(app);
-}
-
-void app_before_edit(app_state *app) {
-    app->view.fitted = false; // the plan stays where it is, whatever the map becomes
-    app_keep(app);
-    sl_map_drop_cells(app->context, &app->document.map); // the file's own do not know other walls
-}
-
-void app_after_edit(app_state *app) {
-    app->document.stale = false;
-    app_check(app, document_rebuild(app->context, &app->document, false));
-}
-
-void app_after_step(app_state *app) {
-    app->document.stale = true;
-    keep_up(app);
 }
 
 // --- the frame
@@ -324,15 +286,10 @@ static sl_box box(double left, double top, double right, double bottom) {
     return (sl_box){{left, top}, {fmax(right, left + 1), fmax(bottom, top + 1)}};
 }
 
-/// In a presentation the plan has the window to itself, but for what was opened since.
-bool app_has_panel(const app_state *app) {
-    return app->ui.side_panel && !app->ui.presents;
-}
-
 static double side_width(const app_state *app) {
     const ui_state *ui = &app->ui;
     const double t = ui_text_size(ui), chosen = ui->edges[EDGE_SIDE];
-    if (!app_has_panel(app)) return 0;
+    if (!ui_has_panel(&app->ui)) return 0;
     return fmin(fmax(chosen > 0 ? chosen : 26, 8) * t, 0.55 * ui->width);
 }
 
@@ -375,7 +332,7 @@ window_layout app_layout(const app_state *app) {
     l.side = box(right, bar, w, bottom);
     place_below(app, &l, right, &bottom);
     l.plan[0] = box(0, bar, right, bottom);
-    if (app->view.compare == COMPARE_PANES && app->tool.mode == MODE_EXPLORE) {
+    if (app->view.compare == COMPARE_PANES && app->view.mode == MODE_EXPLORE) {
         l.plan_count = 2;
         l.plan[0].max.x = floor(right / 2);
         l.plan[1] = box(l.plan[0].max.x, bar, right, bottom);
@@ -412,19 +369,6 @@ static void draw_edges(app_state *app, const window_layout *l) {
         }
 }
 
-void app_open_help(app_state *app) {
-    app->ui.help = true;
-    field_set(&app->ui.filter, "");
-    app->ui.field = &app->ui.filter;
-    app->ui.scrolls[SCROLL_HELP] = (ui_scroll){0};
-    app->ui.focus = (ui_focus){0};
-}
-
-void app_shut_help(app_state *app) {
-    app->ui.help = false;
-    if (app->ui.field == &app->ui.filter) app->ui.field = NULL;
-}
-
 void app_fit(app_state *app, sl_box plan) {
     if (app->view.fitted && app->document.baked)
         app->view.camera =
@@ -446,19 +390,18 @@ void app_draw(app_state *app, cairo_t *cairo) {
     app->ui.cairo = cairo;
     app->ui.palette = palette_of(&app->ui);
     app->ui.text = ui_text_size(&app->ui);
-    app->ui.pointer = app->tool.pointer;
-    app->ui.over = ui_find(&app->ui, app->tool.pointer);
+    app->ui.over = ui_find(&app->ui, app->ui.pointer);
     ui_begin(&app->ui);
     pane_bar_measure(app);
     pane_time_measure(app);
-    const window_layout l = app_layout(app);
+    const window_layout l = place_plans(app);
     app_fit(app, l.plan[0]);
-    heat_layer_follow(app);
+    heat_layer_follow(&app->view);
     pane_dual_hover(app);
     for (int i = 0; i < l.plan_count; i++) pane_plan(app, l.plan[i], i, false);
     for (int i = 0; i < PANES_BELOW; i++)
         if (box_width(l.below[i]) > 0) panes_below()[i].draw(app, l.below[i]);
-    if (side_width(app) > 0) mode_table()[app->tool.mode].panel(app, l.side);
+    if (side_width(app) > 0) mode_table()[app->view.mode].panel(app, l.side);
     draw_edges(app, &l);
     if (box_width(l.time) > 0) pane_time(app, l.time);
     pane_bar(app, l.bar);

@@ -75,7 +75,7 @@ static sl_point grip_of_wall(const app_state *app, bool corner) {
         const sl_point a = map->walls[i].a, b = map->walls[i].b;
         const double off = edit_distance(app->view.eye.at, a, b);
         // Longer than the room that its corners take.
-        if (off >= nearest || hypot(b.x - a.x, b.y - a.y) < 4 * edit_reach(app)) continue;
+        if (off >= nearest || hypot(b.x - a.x, b.y - a.y) < 4 * edit_reach(&app->view)) continue;
         nearest = off;
         at = corner ? a : (sl_point){(a.x + b.x) / 2, (a.y + b.y) / 2};
     }
@@ -87,9 +87,9 @@ static sl_point grip_of_wall(const app_state *app, bool corner) {
 /// another place.
 static void drag_on(app_state *app, bool corner, unsigned frame) {
     static const double radius = 25;
-    drag_state *drag = &app->tool.drag;
+    drag_state *drag = &app->view.drag;
     if (frame == 0) {
-        app->tool.mode = MODE_DRAW;
+        app->view.mode = MODE_DRAW;
         app->view.eye.flies = true;
         input_press(app, BUTTON_LEFT, grip_of_wall(app, corner));
     }
@@ -108,18 +108,18 @@ static void move(app_state *app, int part, unsigned frame) {
     }
     app->ui.first_person = app->ui.accounts = part == 3;
     if (part == 0 || part == 3) { // walks, and turns away from walls
-        app->tool.held = HOLD_FORWARD | (frame / 20 % 3 == 0 ? HOLD_TURN_LEFT : 0u);
+        app->view.held = HOLD_FORWARD | (frame / 20 % 3 == 0 ? HOLD_TURN_LEFT : 0u);
     } else if (part == 1) { // looks round
         app->view.eye.heading = fmod(app->view.eye.heading + 2, 360);
     } else { // pans and zooms
-        view_pan(app, 4 * cos(frame * 0.05), 4 * sin(frame * 0.05));
-        view_zoom(app, frame / 60 % 2 ? 1 / 1.02 : 1.02, (sl_point){0, 0});
+        view_pan(&app->view, 4 * cos(frame * 0.05), 4 * sin(frame * 0.05));
+        view_zoom(&app->view, frame / 60 % 2 ? 1 / 1.02 : 1.02, (sl_point){0, 0});
     }
 }
 
 /// What is dragged is what one sees of the whole map.
 static void begin_part(app_state *app, int part) {
-    app->tool.held = 0;
+    app->view.held = 0;
     if (part < 4) return;
     app->ui.first_person = app->ui.accounts = false;
     app->view.fitted = true;
@@ -128,7 +128,7 @@ static void begin_part(app_state *app, int part) {
 /// The map is as it was, and nothing works beside what is measured next.
 static void end_part(app_state *app, int part) {
     if (part < 4) return;
-    edit_cancel(app);
+    edit_cancel(&app->view);
     while (app->document.job) app_tick(app, 0);
 }
 
@@ -145,7 +145,7 @@ sl_status bench_run(app_state *app, unsigned frames) {
     SL_TRY(window_open(app, true, &window));
     frame_meter *meter = sl_alloc_array(app->context, 1, sizeof *meter);
     sl_status status = meter ? SL_OK : SL_NO_MEMORY;
-    app->steady = false;
+    app->ui.steady = false;
     puts("map,cells,walls,part,frames,mean_ms,median_ms,p95_ms,worst_ms,processor_ms,late,machine");
     for (int part = 0; part < count && status == SL_OK; part++) {
         double processor = 0;
@@ -225,7 +225,7 @@ static void random_drag(app_state *app, sl_random *random) {
         script_frame(app);
         input_move(app, random_place(&app->ui, random));
     }
-    input_release(app, app->tool.pointer);
+    input_release(app, app->ui.pointer);
 }
 
 static void random_dialog(app_state *app, sl_random *random) {
@@ -255,7 +255,7 @@ static bool random_grip(const app_state *app, sl_random *random, sl_point *at) {
 /// Drags a wall, a corner or a door by hand, frame by frame. Keys may come between: Esc, or others.
 static void random_edit(app_state *app, sl_random *random) {
     sl_point at;
-    if (app->tool.mode != MODE_DRAW) input_key(app, "F3", true);
+    if (app->view.mode != MODE_DRAW) input_key(app, "F3", true);
     if (app->ui.help || dialog_open_now(app) != DIALOG_NONE || !random_grip(app, random, &at))
         return;
     if (ui_find(&app->ui, at).kind != HIT_PLAN) return;
@@ -290,7 +290,7 @@ static void random_event(app_state *app, sl_random *random) {
         app->ui.height = 240 + (int)sl_random_below(random, 700);
         break;
     case 1:
-        app->tool.held = 0;
+        app->view.held = 0;
         break;
     case 2:
         random_dialog(app, random);

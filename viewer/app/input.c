@@ -24,7 +24,7 @@ static sl_point middle_of(sl_box box) {
 
 /// The pointer stays where it is if it is in the plan; else it goes to the eye, or to the middle.
 static void cursor_begin(app_state *app, sl_box plan) {
-    if (box_has(plan, app->tool.pointer)) return;
+    if (box_has(plan, app->ui.pointer)) return;
     const sl_frame frame = camera_frame(&app->view.camera, plan, 1);
     const sl_point eye = sl_frame_point(&frame, app->view.eye.at);
     input_point(app, box_has(plan, eye) ? eye : middle_of(plan));
@@ -34,34 +34,34 @@ static void cursor_begin(app_state *app, sl_box plan) {
 static void cursor_move(app_state *app, sl_box plan, sl_point to) {
     const sl_point at = {fmin(fmax(to.x, plan.min.x), plan.max.x - 1),
                          fmin(fmax(to.y, plan.min.y), plan.max.y - 1)};
-    if (at.x != to.x || at.y != to.y) view_pan(app, at.x - to.x, at.y - to.y);
+    if (at.x != to.x || at.y != to.y) view_pan(&app->view, at.x - to.x, at.y - to.y);
     input_point(app, at);
 }
 
 /// A step of the cursor. In Draw mode it goes from one place of the grid to the next.
 static sl_point cursor_step(const app_state *app, sl_box plan, int x, int y, bool fine) {
-    const sl_point at = app->tool.pointer;
+    const sl_point at = app->ui.pointer;
     const double step = fine ? 1 : 10 * ui_scale(&app->ui);
-    if (fine || app->tool.mode != MODE_DRAW || !app->document.baked)
+    if (fine || app->view.mode != MODE_DRAW || !app->document.baked)
         return (sl_point){at.x + step * x, at.y + step * y};
     const sl_frame frame = camera_frame(&app->view.camera, plan, 1);
-    sl_point place = edit_snap(app, camera_point(&app->view.camera, plan, at));
-    place.x += edit_step(app) * x;
-    place.y -= edit_step(app) * y;
+    sl_point place = edit_snap(&app->view, camera_point(&app->view.camera, plan, at));
+    place.x += edit_step(&app->view) * x;
+    place.y -= edit_step(&app->view) * y;
     return sl_frame_point(&frame, place);
 }
 
 /// Takes hold of what is under the cursor, or lets it go.
 static void cursor_hold(app_state *app) {
-    if (app->tool.drag.kind == DRAG_NONE)
-        input_press_at(app, BUTTON_LEFT, app->tool.pointer);
+    if (app->view.drag.kind == DRAG_NONE)
+        input_press_at(app, BUTTON_LEFT, app->ui.pointer);
     else
-        input_release(app, app->tool.pointer);
+        input_release(app, app->ui.pointer);
 }
 
 static void cursor_click(app_state *app, button_kind button) {
-    input_press_at(app, button, app->tool.pointer);
-    input_release(app, app->tool.pointer);
+    input_press_at(app, button, app->ui.pointer);
+    input_release(app, app->ui.pointer);
 }
 
 static bool cursor_key(app_state *app, const char *key, sl_box plan) {
@@ -99,9 +99,9 @@ static bool slider_key(app_state *app, const hit_area *hit, const char *key) {
     const double by = strcmp(key, "Left") == 0 ? -0.02 : strcmp(key, "Right") == 0 ? 0.02 : 0;
     const slider_row *slider = slider_of(hit);
     if (by == 0) return false;
-    if (slider->begin) slider->begin(app);
+    if (slider->begin) slider->begin(&app->view);
     slider->set(app, fmin(fmax(slider->share(app) + by, 0), 1));
-    if (slider->end) slider->end(app);
+    if (slider->end) slider->end(&app->view);
     return true;
 }
 
@@ -124,8 +124,8 @@ static bool focus_key(app_state *app, const char *key) {
         return true;
     }
     if (hit.kind == HIT_NONE) return false;
-    if (strcmp(key, "Escape") == 0 && app->tool.drag.kind != DRAG_NONE) {
-        if (!edit_cancel(app)) app->tool.drag = (drag_state){0};
+    if (strcmp(key, "Escape") == 0 && app->view.drag.kind != DRAG_NONE) {
+        if (!edit_cancel(&app->view)) app->view.drag = (drag_state){0};
         return true;
     }
     if (strcmp(key, "Escape") == 0 && !app->ui.help) {
@@ -163,7 +163,7 @@ static bool lesson_key(app_state *app, const char *key) {
         const char *key;
         int x, y;
     } arrows[] = {{"Left", -1, 0}, {"Right", 1, 0}, {"Up", 0, 1}, {"Down", 0, -1}};
-    if (app->tool.mode != MODE_LEARN || lesson_chosen(&app->tool.lesson) == CHOSEN_NONE)
+    if (app->view.mode != MODE_LEARN || lesson_chosen(&app->tool.lesson) == CHOSEN_NONE)
         return false;
     for (size_t i = 0; i < sizeof arrows / sizeof *arrows; i++) {
         if (strcmp(key, arrows[i].key) != 0) continue;
@@ -202,11 +202,11 @@ void input_key(app_state *app, const char *key, bool down) {
     if (own_key(app, key, down)) return;
     if (strcmp(key, "Backspace") == 0) key = "Delete";
     const action_row *actions = action_table(&count);
-    const int number = action_of_key(key, app->tool.mode);
+    const int number = action_of_key(key, app->view.mode);
     if (number < 0) return;
     const action_row *action = &actions[number];
     if (action->hold) {
-        app->tool.held = down ? app->tool.held | action->hold : app->tool.held & ~action->hold;
+        app->view.held = down ? app->view.held | action->hold : app->view.held & ~action->hold;
         if (down) app->tool.recorder.plays = false;
         return;
     }
@@ -224,7 +224,7 @@ bool input_takes(const char *key) {
     for (size_t i = 0; i < sizeof own / sizeof *own; i++)
         if (strcmp(own[i], key) == 0) return true;
     for (int mode = MODE_EXPLORE; mode <= MODE_QUIZ; mode++)
-        if (action_of_key(key, (app_mode)mode) >= 0) return true;
+        if (action_of_key(key, (view_mode)mode) >= 0) return true;
     return false;
 }
 
@@ -288,32 +288,32 @@ static bool near_line(const app_state *app, sl_point at) {
 }
 
 static drag_kind plan_drag(app_state *app, drag_state *drag) {
-    const bool searches = app->tool.mode == MODE_LEARN && app->tool.lesson.end_count > 0 &&
+    const bool searches = app->view.mode == MODE_LEARN && app->tool.lesson.end_count > 0 &&
                           !app->tool.quiz.answered; // whose picture has no ends to drag
     if (searches) drag->index = pane_plan_end_at(app, drag->at);
     if (searches && drag->index != UINT32_MAX) return DRAG_END;
     if (searches && near_line(app, drag->at)) return DRAG_LINE;
-    const bool moves = app->tool.mode == MODE_EXPLORE || app->tool.mode == MODE_DRAW;
-    if (moves && mirror_take(app, drag)) return DRAG_MIRROR;
-    if (app->tool.mode == MODE_EXPLORE && object_take(app, drag)) return DRAG_OBJECT;
-    if (app->tool.mode != MODE_DRAW) return DRAG_PAN;
-    return edit_take(app, drag);
+    const bool moves = app->view.mode == MODE_EXPLORE || app->view.mode == MODE_DRAW;
+    if (moves && mirror_take(&app->view, drag)) return DRAG_MIRROR;
+    if (app->view.mode == MODE_EXPLORE && object_take(&app->view, drag)) return DRAG_OBJECT;
+    if (app->view.mode != MODE_DRAW) return DRAG_PAN;
+    return edit_take(&app->view, drag);
 }
 
 static void click(app_state *app, const hit_area *hit) {
     if (hit->kind == HIT_ACTION) {
         const bool from_help = app->ui.help;
-        app_shut_help(app);
+        ui_shut_help(&app->ui);
         if (!from_help || hit->value != action_find("help")) action_run(app, hit->value);
     } else if (hit->kind == HIT_METHOD) {
         if (app->view.compare && (size_t)hit->value != app->view.method)
             app->view.other = app->view.method;
         app->view.method = (size_t)hit->value;
     } else if (hit->kind == HIT_PANEL && hit->value == PANEL_SHEET) {
-        app_shut_help(app);
+        ui_shut_help(&app->ui);
     } else if (hit->kind == HIT_FIELD && app->ui.field) {
         app->ui.field->clicked = true;
-        app->ui.field->click_x = app->tool.pointer.x;
+        app->ui.field->click_x = app->ui.pointer.x;
         app->ui.field->chosen = false;
     } else if (hit->kind == HIT_SUBJECT) {
         lesson_set_subject(app->context, &app->tool.lesson, (size_t)hit->value);
@@ -331,20 +331,20 @@ static void keep_once(app_state *app, drag_state *drag, uint32_t what) {
 
 static void explain_to(app_state *app, sl_point at) {
     if (!app->document.baked) return;
-    if (app_is_solid(app, at) || app_is_solid(app, app->view.eye.at)) {
+    if (view_is_solid(&app->view, at) || view_is_solid(&app->view, app->view.eye.at)) {
         ui_say(&app->ui, false,
                "%s solid ground, from where nobody looks: choose a place in a room",
-               app_is_solid(app, at) ? "this is" : "the eye is in");
+               view_is_solid(&app->view, at) ? "this is" : "the eye is in");
         return;
     }
     const uint32_t to = sl_space_locate(&app->document.baked->space, at);
-    const uint32_t from = app_eye_cell(app);
+    const uint32_t from = view_eye_cell(&app->view);
     if (to == SL_NO_CELL || from == SL_NO_CELL) return;
     quiz_explain(app, from, to);
     if (!app->tool.quiz.answered) return;
     app->ui.side_panel = true;
     ui_say(&app->ui, false, "why: see the %s; Ctrl+T shows the step that decides",
-           app_has_panel(app) ? "panel" : "sentence above");
+           ui_has_panel(&app->ui) ? "panel" : "sentence above");
 }
 
 void input_press(app_state *app, button_kind button, sl_point at) {
@@ -355,9 +355,9 @@ void input_press(app_state *app, button_kind button, sl_point at) {
 }
 
 static void input_press_at(app_state *app, button_kind button, sl_point at) {
-    app->tool.pointer = at;
+    app->ui.pointer = at;
     const hit_area hit = ui_find(&app->ui, at);
-    drag_state *drag = &app->tool.drag;
+    drag_state *drag = &app->view.drag;
     *drag = (drag_state){.hit = hit, .from = at, .last = at, .index = UINT32_MAX};
     if (dialog_open_now(app) != DIALOG_NONE) {
         if (button == BUTTON_LEFT) dialog_press(app, &hit, at);
@@ -366,7 +366,7 @@ static void input_press_at(app_state *app, button_kind button, sl_point at) {
     if (hit.kind != HIT_PLAN) {
         if (button != BUTTON_LEFT) return;
         drag->kind = DRAG_HIT;
-        if (hit.kind == HIT_SLIDER && slider_of(&hit)->begin) slider_of(&hit)->begin(app);
+        if (hit.kind == HIT_SLIDER && slider_of(&hit)->begin) slider_of(&hit)->begin(&app->view);
         if (hit.kind == HIT_DUAL) keep_once(app, drag, CHOSEN_LINE);
         click(app, &hit);
         follow(app, &hit, at);
@@ -374,7 +374,7 @@ static void input_press_at(app_state *app, button_kind button, sl_point at) {
     }
     if (!app->document.baked) return;
     drag->at = to_map(app, hit.value, at);
-    if (button == BUTTON_RIGHT && app->tool.mode != MODE_DRAW)
+    if (button == BUTTON_RIGHT && app->view.mode != MODE_DRAW)
         explain_to(app, drag->at);
     else if (button == BUTTON_LEFT)
         drag->kind = plan_drag(app, drag);
@@ -388,8 +388,8 @@ void input_move(app_state *app, sl_point to) {
 }
 
 static void input_point(app_state *app, sl_point to) {
-    drag_state *drag = &app->tool.drag;
-    app->tool.pointer = to;
+    drag_state *drag = &app->view.drag;
+    app->ui.pointer = to;
     if (drag->kind == DRAG_NONE) return;
     const double dx = to.x - drag->last.x, dy = to.y - drag->last.y;
     if (hypot(to.x - drag->from.x, to.y - drag->from.y) > 3) drag->moved = true;
@@ -398,7 +398,7 @@ static void input_point(app_state *app, sl_point to) {
     switch (drag->kind) {
     case DRAG_PAN:
         if (!drag->moved) return;
-        view_pan(app, dx, dy);
+        view_pan(&app->view, dx, dy);
         break;
     case DRAG_LOOK:
         app->view.eye.heading = fmod(app->view.eye.heading - 0.4 * dx + 720, 360);
@@ -419,17 +419,17 @@ static void input_point(app_state *app, sl_point to) {
         if (drag->moved) lesson_move_end(&app->tool.lesson, drag->index, now);
         break;
     case DRAG_MIRROR:
-        if (drag->moved) mirror_move(app, drag, now);
+        if (drag->moved) mirror_move(&app->view, drag, now);
         break;
     case DRAG_OBJECT:
-        if (drag->moved) object_move(app, drag, now);
+        if (drag->moved) object_move(&app->view, drag, now);
         break;
     case DRAG_NEW_WALL:
     case DRAG_NEW_DOOR:
     case DRAG_WALL:
     case DRAG_CORNER:
     case DRAG_DOOR:
-        if (drag->moved) edit_drag(app, drag, now);
+        if (drag->moved) edit_drag(&app->view, drag, now);
         break;
     case DRAG_NONE:
         break;
@@ -442,28 +442,29 @@ static bool is_edit(drag_kind kind) {
 }
 
 void input_release(app_state *app, sl_point at) {
-    if (is_edit(app->tool.drag.kind)) input_move(app, at);
-    const drag_state drag = app->tool.drag;
-    app->tool.drag = (drag_state){0};
-    app->tool.pointer = at;
-    if (is_edit(drag.kind)) edit_drop(app, &drag);
+    if (is_edit(app->view.drag.kind)) input_move(app, at);
+    const drag_state drag = app->view.drag;
+    app->view.drag = (drag_state){0};
+    app->ui.pointer = at;
+    if (is_edit(drag.kind)) edit_drop(&app->view, &drag);
     if (!app->document.baked) return;
-    if (drag.hit.kind == HIT_SLIDER && slider_of(&drag.hit)->end) slider_of(&drag.hit)->end(app);
+    if (drag.hit.kind == HIT_SLIDER && slider_of(&drag.hit)->end)
+        slider_of(&drag.hit)->end(&app->view);
     const sl_point now = to_map(app, drag.hit.value, at);
-    if (drag.kind == DRAG_MIRROR) mirror_drop(app, &drag);
-    if (drag.kind == DRAG_OBJECT && !drag.moved) object_toggle(app, drag.index);
+    if (drag.kind == DRAG_MIRROR) mirror_drop(&app->view, &drag);
+    if (drag.kind == DRAG_OBJECT && !drag.moved) object_toggle(&app->view, drag.index);
     const bool holds =
-        drag.kind == DRAG_PAN || (drag.kind == DRAG_MIRROR && app->tool.mode == MODE_EXPLORE);
-    const bool puts = holds && !drag.moved && app->tool.mode != MODE_QUIZ;
-    const uint32_t door = puts ? door_at(app, now) : UINT32_MAX;
+        drag.kind == DRAG_PAN || (drag.kind == DRAG_MIRROR && app->view.mode == MODE_EXPLORE);
+    const bool puts = holds && !drag.moved && app->view.mode != MODE_QUIZ;
+    const uint32_t door = puts ? door_at(&app->view, now) : UINT32_MAX;
     if (door != UINT32_MAX) {
-        door_toggle(app, door);
-    } else if (puts && app_is_solid(app, now)) {
+        door_toggle(&app->view, door);
+    } else if (puts && view_is_solid(&app->view, now)) {
         ui_say(&app->ui, false, "this is solid ground: the eye stays; click in a room");
     } else if (puts && sl_space_locate(&app->document.baked->space, now) != SL_NO_CELL) {
         app->view.eye.at = now;
         app->tool.recorder.plays = false;
-        if (app->tool.mode == MODE_EXPLORE) quiz_forget(app);
+        if (app->view.mode == MODE_EXPLORE) quiz_forget(app);
     }
 }
 
@@ -472,15 +473,15 @@ void input_wheel(app_state *app, double steps) {
         dialog_wheel(app, steps);
         return;
     }
-    const int area = ui_scroll_at(&app->ui, app->tool.pointer);
+    const int area = ui_scroll_at(&app->ui, app->ui.pointer);
     if (area >= 0) ui_scroll_by(&app->ui.scrolls[area], -3 * steps * ui_text_size(&app->ui));
     if (area >= 0 || app->ui.help) return;
     const window_layout l = app_layout(app);
     for (int i = 0; i < l.plan_count; i++) {
-        if (!box_has(l.plan[i], app->tool.pointer)) continue;
+        if (!box_has(l.plan[i], app->ui.pointer)) continue;
         const sl_point middle = {(l.plan[i].min.x + l.plan[i].max.x) / 2,
                                  (l.plan[i].min.y + l.plan[i].max.y) / 2};
-        view_zoom(app, pow(1.2, steps),
-                  (sl_point){app->tool.pointer.x - middle.x, app->tool.pointer.y - middle.y});
+        view_zoom(&app->view, pow(1.2, steps),
+                  (sl_point){app->ui.pointer.x - middle.x, app->ui.pointer.y - middle.y});
     }
 }

@@ -238,7 +238,7 @@ static sl_status open_map(app_state *app, const arguments *a, bool ask) {
 
 /// Without a window a map that cannot be opened ends the program.
 static sl_status run_headless(app_state *app, const arguments *a) {
-    app->steady = true;
+    app->ui.steady = true;
     SL_TRY(open_map(app, a, false));
     bool changed;
     SL_TRY(document_wait(app->context, &app->document, &changed));
@@ -247,7 +247,7 @@ static sl_status run_headless(app_state *app, const arguments *a) {
     if (a->script) SL_TRY(script_run(app, a->script, NULL, NULL));
     if (a->bench) SL_TRY(bench_run(app, (unsigned)a->frames));
     if (a->soak > 0) {
-        app->steady = false;
+        app->ui.steady = false;
         SL_TRY(soak_run(app, a->soak, a->seed));
     }
     return a->screenshot ? save_window(app, a->screenshot) : SL_OK;

@@ -5,7 +5,7 @@
 #include "lessons/quiz.h"
 #include "plan/edit.h"
 #include "plan/effects.h"
-#include "plan/layers.h"
+#include "plan/layer_draw.h"
 #include "sightline/draw.h"
 
 #include <math.h>
@@ -41,7 +41,7 @@ static void draw_lesson_marks(app_state *app, const sl_frame *frame) {
     sl_status status;
     sl_stab_end end;
     const sl_conflict *conflict = lesson_conflict(app->context, lesson, &status);
-    app_check(app, status);
+    view_check(&app->view, status);
     // With open sight a line that only grazes is no sightline.
     const bool rejected = subject->rejects && subject->rejects(lesson, lesson->at);
     if (conflict->verdict == SL_HIDDEN || (conflict->verdict == SL_GRAZING && rejected))
@@ -68,6 +68,10 @@ static void lesson_above(app_state *app, const sl_frame *frame) {
     draw_lesson_marks(app, frame);
 }
 
+static void edit_above(app_state *app, const sl_frame *frame) {
+    edit_draw(&app->view, frame);
+}
+
 static const mode_row modes[] = {
     [MODE_EXPLORE] = {"W A S D and arrows walk, a click puts the eye, the wheel zooms", pane_side,
                       quiz_draw_below, quiz_draw_above, true, true},
@@ -75,7 +79,7 @@ static const mode_row modes[] = {
                     lesson_below, lesson_above, true, false},
     [MODE_DRAW] =
         {"Drag to draw a wall, or to move a wall, a corner or a door; X draws doors; Ctrl+Z undoes",
-         pane_draw, NULL, edit_draw, true, false},
+         pane_draw, NULL, edit_above, true, false},
     [MODE_QUIZ] = {"Y or N answers, Space asks again", pane_quiz, quiz_draw_below, quiz_draw_above,
                    false, false},
 };
@@ -85,8 +89,8 @@ const mode_row *mode_table(void) {
 }
 
 void modes_draw_below(app_state *app, const sl_frame *frame, int index) {
-    const mode_row *mode = &modes[app->tool.mode];
-    layers_draw(app, frame, index);
+    const mode_row *mode = &modes[app->view.mode];
+    layers_draw(&app->view, frame, index);
     if (mode->below) mode->below(app, frame);
 }
 
@@ -106,26 +110,26 @@ static void draw_rock_note(app_state *app, const sl_frame *frame) {
 }
 
 void modes_draw_above(app_state *app, const sl_frame *frame) {
-    const mode_row *mode = &modes[app->tool.mode];
+    const mode_row *mode = &modes[app->view.mode];
     const sl_palette *palette = &app->ui.palette;
     if (mode->above) mode->above(app, frame);
     draw_kept(app, frame);
     if (mode->cone)
         sl_draw_cone(app->ui.cairo, frame, app->view.eye.at, app->view.eye.heading,
                      app->view.eye.fov, 78 * ui_scale(&app->ui), palette->start);
-    if (mode->eye) range_draw(app, frame);
-    if (mode->eye) mirror_draw(app, frame);
-    if (app->tool.mode == MODE_EXPLORE) object_draw(app, frame);
+    if (mode->eye) range_draw(&app->view, frame);
+    if (mode->eye) mirror_draw(&app->view, frame);
+    if (app->view.mode == MODE_EXPLORE) object_draw(&app->view, frame);
     if (mode->eye)
         sl_draw_eye_mark(app->ui.cairo, palette, frame, app->view.eye.at, app->view.eye.heading,
                          6.5 * ui_scale(&app->ui));
-    if (mode->eye && app_is_solid(app, app->view.eye.at)) draw_rock_note(app, frame);
+    if (mode->eye && view_is_solid(&app->view, app->view.eye.at)) draw_rock_note(app, frame);
 }
 
 // --- panes below the plan
 
 static bool dual_shown(const app_state *app) {
-    return app->tool.mode == MODE_LEARN && lesson_subject(&app->tool.lesson)->sequence;
+    return app->view.mode == MODE_LEARN && lesson_subject(&app->tool.lesson)->sequence;
 }
 
 static bool program_shown(const app_state *app) {
@@ -142,7 +146,7 @@ static bool account_shown(const app_state *app) {
 
 /// A first door that is drawn must not move the plan, so not in Draw mode.
 static bool effects_shown(const app_state *app) {
-    const bool looks = app->tool.mode == MODE_EXPLORE || app->tool.mode == MODE_QUIZ;
+    const bool looks = app->view.mode == MODE_EXPLORE || app->view.mode == MODE_QUIZ;
     return app->ui.effects && looks && app->document.baked &&
            sl_plan_make(&app->document.map).effects;
 }
@@ -151,12 +155,16 @@ static double effects_lines(const app_state *app) {
     return 4.5 + 1.5 * __builtin_popcount(sl_plan_make(&app->document.map).effects);
 }
 
+static void draw_effects(app_state *app, sl_box box) {
+    pane_effects(&app->view, box);
+}
+
 static const pane_below panes[PANES_BELOW] = {
     [PANE_DUAL] = {dual_shown, pane_dual, NULL},
     [PANE_PROGRAM] = {program_shown, pane_program, NULL},
     [PANE_FIRST_PERSON] = {first_person_shown, pane_first_person, NULL},
     [PANE_ACCOUNT] = {account_shown, pane_account, NULL},
-    [PANE_EFFECTS] = {effects_shown, pane_effects, effects_lines},
+    [PANE_EFFECTS] = {effects_shown, draw_effects, effects_lines},
 };
 
 const pane_below *panes_below(void) {

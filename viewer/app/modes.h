@@ -21,7 +21,7 @@ void pane_dual(app_state *app, sl_box box);         ///< lines as points
 void pane_program(app_state *app, sl_box box);      ///< the linear program of the lesson's portals
 void pane_first_person(app_state *app, sl_box box); ///< what the eye sees
 void pane_account(app_state *app, sl_box box);      ///< what accuracy costs
-void pane_effects(app_state *app, sl_box box);      ///< what the map calls for
+void pane_effects(view_state *view, sl_box box);    ///< what the map calls for
 void pane_help(app_state *app);                     ///< over all
 void pane_tip(app_state *app);                      ///< over all: what the pointer is over
 
@@ -69,7 +69,7 @@ typedef struct mode_row {
     bool eye, cone;                                       ///< whether those are marked
 } mode_row;
 
-/// By app_mode.
+/// By view_mode.
 const mode_row *mode_table(void);
 
 /// Draws what changes in the plan from frame to frame: cells and regions. `index` as in pane_plan.

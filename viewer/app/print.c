@@ -125,15 +125,15 @@ static void print_heat(app_state *app, FILE *out) {
     double least, most;
     legend_key key;
     char text[64];
-    heat_say_measure(app, text);
+    heat_say_measure(&app->view, text);
     fprintf(out, "heat map: %s\n", text);
-    fprintf(out, "step: %.9g\n", heat_step(app));
-    const double *values = heat_layer_values(app, &graph);
-    if (!values || !heat_layer_key(app, &key)) {
+    fprintf(out, "step: %.9g\n", heat_step(&app->view));
+    const double *values = heat_layer_values(&app->view, &graph);
+    if (!values || !heat_layer_key(&app->view, &key)) {
         fputs("values: none\n", out);
         return;
     }
-    heat_layer_scale(app, &least, &most);
+    heat_layer_scale(&app->view, &least, &most);
     fprintf(out, "scale: %.9g to %.9g\n", least, most);
     fprintf(out, "pointer: %s\n", key.rows[1].text);
     for (uint32_t p = 0; p < graph->grid.count; p++)

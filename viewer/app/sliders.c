@@ -52,7 +52,7 @@ static void set_cut(app_state *app, double share) {
 // --- how deep splits are shown
 
 static bool has_splits(const app_state *app) {
-    return app->document.baked && layers_shows(app, LAYER_SPLITS);
+    return app->document.baked && layers_shows(&app->view, LAYER_SPLITS);
 }
 
 static double deepest_split(const app_state *app) {
@@ -107,29 +107,29 @@ static void views_text(const app_state *app, char text[SLIDER_TEXT]) {
 
 static void set_views(app_state *app, double share) {
     const double most = view_layer_most(app->view.views);
-    view_layer_go(app, (uint32_t)round(pow(most, share)));
+    view_layer_go(&app->view, (uint32_t)round(pow(most, share)));
 }
 
 // --- the grid of the heat map, from coarse to fine
 
 static bool has_heat(const app_state *app) {
-    return app->document.baked && layers_shows(app, LAYER_HEAT);
+    return app->document.baked && layers_shows(&app->view, LAYER_HEAT);
 }
 
 static double heat_share(const app_state *app) {
     int last;
-    const int place = heat_step_place(app, &last);
+    const int place = heat_step_place(&app->view, &last);
     return (double)place / fmax(last, 1);
 }
 
 static void heat_text(const app_state *app, char text[SLIDER_TEXT]) {
-    snprintf(text, SLIDER_TEXT, "%.3g", heat_step(app));
+    snprintf(text, SLIDER_TEXT, "%.3g", heat_step(&app->view));
 }
 
 static void set_heat(app_state *app, double share) {
     int last;
-    heat_step_place(app, &last);
-    heat_set_step(app, (int)round(share * last));
+    heat_step_place(&app->view, &last);
+    heat_set_step(&app->view, (int)round(share * last));
 }
 
 // --- the view range, finer where it is short
@@ -147,7 +147,7 @@ static void range_text(const app_state *app, char text[SLIDER_TEXT]) {
 }
 
 static void set_range(app_state *app, double share) {
-    range_set(app, share * share * range_most(&app->document));
+    range_set(&app->view, share * share * range_most(&app->document));
 }
 
 // --- how often a sightline is reflected
@@ -165,13 +165,13 @@ static void depth_text(const app_state *app, char text[SLIDER_TEXT]) {
 }
 
 static void set_depth(app_state *app, double share) {
-    mirror_set_depth(app, (uint32_t)round(share * MIRROR_DEPTH_MOST));
+    mirror_set_depth(&app->view, (uint32_t)round(share * MIRROR_DEPTH_MOST));
 }
 
 static const slider_row sliders[] = {
     {"View cone", always, cone_share, cone_text, set_cone, NULL, NULL,
      "How wide the eye sees (, and .)"},
-    {"View range", has_range, range_share, range_text, set_range, app_keep, range_settle,
+    {"View range", has_range, range_share, range_text, set_range, view_keep, range_settle,
      "Nothing farther than this is seen (Ctrl+R sets and lifts it)"},
     {"Reflections", has_mirrors, depth_share, depth_text, set_depth, NULL, mirror_settle_depth,
      "How often a sightline is reflected at most"},

@@ -13,8 +13,8 @@ typedef struct slider_row {
     void (*text)(const app_state *app, char text[SLIDER_TEXT]); ///< its value
     void (*set)(app_state *app, double share);
     /// Called when the pointer takes hold of it and when it lets go; NULL: nothing.
-    void (*begin)(app_state *app);
-    void (*end)(app_state *app);
+    void (*begin)(view_state *view);
+    void (*end)(view_state *view);
     const char *help;
 } slider_row;
 

@@ -139,7 +139,7 @@ static sl_status fit_texture(app_window *w) {
         w->app->ui.window_width = width;
         w->app->ui.window_height = height;
     }
-    if (!w->app->steady) w->app->ui.density = find_density(w);
+    if (!w->app->ui.steady) w->app->ui.density = find_density(w);
     w->surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height);
     w->texture = SDL_CreateTexture(w->renderer, SDL_PIXELFORMAT_RGB888, SDL_TEXTUREACCESS_STREAMING,
                                    width, height);
@@ -250,7 +250,7 @@ static void take_event(app_window *w, const SDL_Event *e) {
         SDL_free(e->drop.file);
         break;
     case SDL_WINDOWEVENT:
-        if (e->window.event == SDL_WINDOWEVENT_FOCUS_LOST) w->app->tool.held = 0;
+        if (e->window.event == SDL_WINDOWEVENT_FOCUS_LOST) w->app->view.held = 0;
         break;
     default:
         break;
@@ -259,7 +259,7 @@ static void take_event(app_window *w, const SDL_Event *e) {
 
 /// Whether something moves without input.
 static bool is_lively(const app_state *app) {
-    return app->tool.held || app->document.job || app_progress(app).running ||
+    return app->view.held || app->document.job || app_progress(app).running ||
            app->tool.recorder.plays || app->tool.recorder.records || app->tool.lesson.plays ||
            app->view.motion > 0;
 }

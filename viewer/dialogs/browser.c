@@ -368,7 +368,7 @@ void browser_open(app_state *app) {
     if (!b) return;
     // At first there is no folder of the user's: what he had last, or the samples.
     const bool any = recent_list(app->context, &recent) == SL_OK && recent.count;
-    if (!app->document.source.path && !app->steady)
+    if (!app->document.source.path && !app->ui.steady)
         go_to_place(app, b, any ? PLACE_RECENT : PLACE_SAMPLES);
     sl_map_list_destroy(app->context, &recent);
 }

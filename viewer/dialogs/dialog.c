@@ -36,8 +36,8 @@ dialog_kind dialog_open_now(const app_state *app) {
 
 void dialog_push(app_state *app, dialog_kind kind, int focus) {
     dialog_state *d = &app->dialog;
-    app_shut_help(app);
-    app->tool.held = 0;
+    ui_shut_help(&app->ui);
+    app->view.held = 0;
     d->item_count = 0;
     if (d->depth == DIALOGS_MOST) d->depth--;
     d->stack[d->depth] = kind;
@@ -398,7 +398,7 @@ void dialog_wheel(app_state *app, double steps) {
     dialog_state *d = &app->dialog;
     dialog_list *list = NULL;
     for (int i = 0; i < d->item_count; i++)
-        if (d->items[i].kind == ITEM_LIST && (!list || box_has(d->items[i].box, app->tool.pointer)))
+        if (d->items[i].kind == ITEM_LIST && (!list || box_has(d->items[i].box, app->ui.pointer)))
             list = d->items[i].list;
     if (!list) return;
     const double to = (double)list->first - round(3 * fmin(fmax(steps, -5), 5));

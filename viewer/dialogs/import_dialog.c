@@ -274,7 +274,7 @@ static void suggest(app_state *app, import_state *s) {
 
 /// Takes over what was found.
 static void take_weld(app_state *app, import_state *s) {
-    if (!s->task || (!app->steady && !task_done(s->task))) return;
+    if (!s->task || (!app->ui.steady && !task_done(s->task))) return;
     const sl_status status = task_end(app->context, s->task);
     s->task = NULL;
     if (status != SL_OK)

@@ -291,6 +291,12 @@ bool document_has_rows(const document_state *document) {
     return document->has_visibility && (baked == 0 || (now > 0 && now <= baked));
 }
 
+sl_status document_keep_up(sl_context *context, document_state *document) {
+    if (!document->stale || document_awaits_space(document)) return SL_OK;
+    document->stale = false;
+    return document_rebuild(context, document, true);
+}
+
 bool document_is_late(const document_state *document) {
     return document->baked && (document->stale || document->shown != document->edit);
 }

@@ -90,6 +90,10 @@ const char *document_opening(const document_state *document);
 /// Starts to bake the map as it is now. `live`: only its space, for the next frame of a drag.
 sl_status document_rebuild(sl_context *context, document_state *document, bool live);
 
+/// Starts the space of a drag that has changed the map, once the last one is there: jobs that start
+/// at each step would never get that far.
+sl_status document_keep_up(sl_context *context, document_state *document);
+
 /// Whether the space that is shown is not that of the map as it is now.
 bool document_is_late(const document_state *document);
 

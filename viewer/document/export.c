@@ -120,7 +120,7 @@ static sl_status start(app_state *app, export_job **out) {
 bool export_is_free(app_state *app) {
     if (!app->exports) return true;
     if (is_series(app->exports)) return false;
-    app_check(app, end(app));
+    view_check(&app->view, end(app));
     return true;
 }
 
@@ -205,7 +205,7 @@ void export_take(app_state *app) {
     } else {
         status = end(app);
         if (status == SL_OK) ui_say(&app->ui, false, "%s", said);
-        app_check(app, status);
+        view_check(&app->view, status);
     }
 }
 

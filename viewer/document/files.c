@@ -88,7 +88,7 @@ static void describe(const app_state *app, setting list[SETTINGS]) {
         [FIRST_PERSON] = {"first_person", 0, 1, app->ui.first_person},
         [ACCOUNT] = {"account", 0, 1, app->ui.accounts},
         [EFFECTS] = {"effects", 0, 1, app->ui.effects},
-        [FILL] = {"filled", 0, LAYER_COUNT, layers_fill(app)},
+        [FILL] = {"filled", 0, LAYER_COUNT, layers_fill(&app->view)},
         [LEGEND] = {"legend", 0, 1, app->ui.legend},
         [SIDE] = {"side", 0, 200, app->ui.edges[EDGE_SIDE]},
         [BELOW] = {"below", 0, 1, app->ui.edges[EDGE_BELOW]},
@@ -126,7 +126,7 @@ void settings_load(app_state *app) {
     app->ui.first_person = list[FIRST_PERSON].value != 0;
     app->ui.accounts = list[ACCOUNT].value != 0;
     app->ui.effects = list[EFFECTS].value != 0;
-    layers_set_fill(app, (unsigned)list[FILL].value);
+    layers_set_fill(&app->view, (unsigned)list[FILL].value);
     app->ui.legend = list[LEGEND].value != 0;
     app->ui.edges[EDGE_SIDE] = list[SIDE].value;
     app->ui.edges[EDGE_BELOW] = list[BELOW].value;
@@ -169,7 +169,7 @@ void recent_add(app_state *app, const char *name) {
     char *full = realpath(name, NULL);
     sl_map_list before = {0};
     sl_output output;
-    if (!app->steady && !app->file.locked && full && !strchr(full, '\n') &&
+    if (!app->ui.steady && !app->file.locked && full && !strchr(full, '\n') &&
         find_path("recent", path, true) && recent_list(app->context, &before) == SL_OK &&
         sl_output_open(app->context, path, &output) == SL_OK) {
         fprintf(output.stream, "%s\n", full);

@@ -79,12 +79,12 @@ static void begin_new(app_state *app) {
     sl_map map = {0};
     sl_status status = make_new(app->context, &map);
     if (status == SL_OK) status = document_begin(app->context, &app->document, &map);
-    app_check(app, status);
+    view_check(&app->view, status);
 }
 
 static void begin_open(app_state *app, document_source *source) {
     document_source_destroy(app->context, &app->file.tried);
-    app_check(app, document_source_copy(app->context, source, &app->file.tried));
+    view_check(&app->view, document_source_copy(app->context, source, &app->file.tried));
     const sl_status status = document_open(app->context, &app->document, source);
     if (status == SL_OK) {
         if (source->again) history_clear(app->context, &app->document.history);
@@ -144,7 +144,7 @@ void map_file_quit(app_state *app) {
 void map_file_start(app_state *app, const document_source *source) {
     document_source copy;
     const sl_status status = document_source_copy(app->context, source, &copy);
-    app_check(app, status);
+    view_check(&app->view, status);
     if (status != SL_OK) return;
     document_source_destroy(app->context, &app->file.source);
     app->file.source = copy;
@@ -252,14 +252,14 @@ static void fail_save(app_state *app, const char *path) {
     snprintf(text, sizeof text, "%s", sl_context_message(app->context));
     app->file.pending = PENDING_NONE;
     ui_say(&app->ui, true, "%s was not saved", base_of(path));
-    app_check(app, set_text(app, &app->file.failed, path));
+    view_check(&app->view, set_text(app, &app->file.failed, path));
     question_ask(app, "The map was not saved", text, answers, 2, try_again);
 }
 
 static void take_saved(app_state *app, const save_job *job) {
     const sl_status status = set_text(app, &app->file.path, job->path);
     if (status != SL_OK) {
-        app_check(app, status);
+        view_check(&app->view, status);
         return;
     }
     app->file.saved = job->state;
@@ -347,16 +347,16 @@ void map_file_recover(app_state *app, sl_map *map, const char *of) {
     sl_status status = set_text(app, &app->file.of, of);
     if (status == SL_OK) status = document_begin(app->context, &app->document, map);
     if (status != SL_OK) app->file.recovered = false;
-    app_check(app, status);
+    view_check(&app->view, status);
 }
 
 void map_file_taken(app_state *app) {
     file_state *file = &app->file;
     const char *path = file->recovered ? file->of : app->document.source.path;
-    app_check(app, set_text(app, &file->path, path && is_savable(path) ? path : NULL));
+    view_check(&app->view, set_text(app, &file->path, path && is_savable(path) ? path : NULL));
     if (!file->recovered) {
         recovery_forget(app);
-        app_check(app, set_text(app, &file->of, NULL));
+        view_check(&app->view, set_text(app, &file->of, NULL));
     }
     file->saved = file->recovered ? UINT64_MAX : app->document.history.state;
     file->recovered = false;

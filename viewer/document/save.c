@@ -115,7 +115,7 @@ void save_numbered(app_state *app, const char *ending) {
     if (app->file.locked) return;
     // Lines are drawn straight into their file; only pixels can be drawn here and written
     // elsewhere.
-    const bool now = app->steady || strcmp(ending, "png") != 0;
+    const bool now = app->ui.steady || strcmp(ending, "png") != 0;
     if (!export_is_free(app)) {
         ui_say(&app->ui, true, "pictures are being written; Esc stops that");
         return;
@@ -129,7 +129,7 @@ void save_numbered(app_state *app, const char *ending) {
         sl_status status = app->ui.accounts ? account_save(app, chart) : SL_OK;
         if (status == SL_OK) status = now ? save_plan(app, path) : export_plan(app, path, said);
         if (status == SL_OK && now) ui_say(&app->ui, false, "%s", said);
-        app_check(app, status);
+        view_check(&app->view, status);
         return;
     }
     ui_say(&app->ui, true, "no free name for a picture in this folder");

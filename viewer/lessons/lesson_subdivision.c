@@ -169,8 +169,8 @@ static void draw_mesh(app_state *app, const sl_frame *frame) {
     if (at == DELAUNAY) sli_draw_mesh_delaunay(cairo, palette, frame, mesh);
     if (at == TRIANGLES) sli_draw_mesh_triangles(cairo, palette, frame, mesh);
     if (at >= FIRST_SIDE)
-        app_check(app,
-                  sli_draw_mesh_side(app->context, cairo, palette, frame, mesh, at - FIRST_SIDE));
+        view_check(&app->view,
+                   sli_draw_mesh_side(app->context, cairo, palette, frame, mesh, at - FIRST_SIDE));
 }
 
 // --- all of it

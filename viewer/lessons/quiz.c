@@ -50,13 +50,14 @@ void quiz_explain(app_state *app, uint32_t from, uint32_t to) {
         status =
             sl_explain_by_mirror(app->context, space, &d->baked->map, &options, d->mirror_depth, e);
     app->tool.quiz.answered = status == SL_OK;
-    app_check(app, status);
+    app->tool.quiz.version = app->view.present.version;
+    view_check(&app->view, status);
 }
 
 void quiz_follow_lesson(app_state *app) {
     const quiz_state *q = &app->tool.quiz;
     const lesson_state *lesson = &app->tool.lesson;
-    if (app->tool.mode != MODE_LEARN || !q->answered) return;
+    if (app->view.mode != MODE_LEARN || !q->answered) return;
     if (lesson->at != q->step || lesson->subject != q->subject || lesson->plays) quiz_forget(app);
 }
 
@@ -67,7 +68,7 @@ void quiz_ask(app_state *app) {
     quiz_forget(app);
     if (!d->baked || !document_has_rows(d) || d->counted < 2) return;
     const sl_space *space = &d->baked->space;
-    if (!app->steady && !app->tool.quiz.seeded) {
+    if (!app->ui.steady && !app->tool.quiz.seeded) {
         app->tool.quiz.random ^= (uint64_t)time(NULL) * 0x9e3779b97f4a7c15u;
         app->tool.quiz.seeded = true;
     }
@@ -189,9 +190,9 @@ void quiz_draw_below(app_state *app, const sl_frame *frame) {
     const quiz_state *q = &app->tool.quiz;
     if (!q->asked) return;
     // In other modes the colours of what is kept stay.
-    if (app->tool.mode == MODE_QUIZ) {
-        layers_draw_cell(app, frame, q->from, TONE_FROM);
-        layers_draw_cell(app, frame, q->to, TONE_TO);
+    if (app->view.mode == MODE_QUIZ) {
+        layers_draw_cell(&app->view, frame, q->from, TONE_FROM);
+        layers_draw_cell(&app->view, frame, q->to, TONE_TO);
         return;
     }
     const sl_space *space = &app->document.baked->space;

@@ -66,7 +66,7 @@ void why_go_to_step(app_state *app) {
     }
     const sl_space *space = &app->document.baked->space;
     const wanted w = wanted_of(app);
-    if (app_eye_cell(app) != w.from) app->view.eye.at = sl_space_middle(space, w.from);
+    if (view_eye_cell(&app->view) != w.from) app->view.eye.at = sl_space_middle(space, w.from);
     lesson_set_subject(app->context, lesson, subject_find(&lesson_search));
     action_run(app, action_find("learn"));
     if (!lesson_shows(lesson, &app->document)) return;

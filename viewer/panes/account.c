@@ -23,11 +23,11 @@ typedef struct account {
 
 /// Scripts count tests in place of time, so that pictures are the same each time.
 static double cost_of(const app_state *app, double seconds, uint64_t tests) {
-    return app->steady ? fmax((double)tests, 1) : fmax(seconds, 1e-8);
+    return app->ui.steady ? fmax((double)tests, 1) : fmax(seconds, 1e-8);
 }
 
 static void write_cost(const app_state *app, double cost, char text[32]) {
-    if (app->steady)
+    if (app->ui.steady)
         snprintf(text, 32, "%.0f test%s", cost, cost == 1 ? "" : "s");
     else if (cost < 1e-3)
         snprintf(text, 32, "%.3g \xc2\xb5s", 1e6 * cost);
@@ -101,9 +101,9 @@ static void make(const app_state *app, account *a, bool small) {
     a->chart = (sl_chart){
         .title = small ? NULL : a->title,
         .subtitle = small ? a->title : NULL,
-        .x = {.label = app->steady ? "tests" : "time of a query",
+        .x = {.label = app->ui.steady ? "tests" : "time of a query",
               .scale = SL_CHART_LOG,
-              .seconds = !app->steady},
+              .seconds = !app->ui.steady},
         .y = {.label = "% of the area", .scale = area_scale(a, marks)},
         .series = a->series,
         .series_count = 2,
@@ -115,7 +115,8 @@ static void make(const app_state *app, account *a, bool small) {
 void account_draw(app_state *app, cairo_t *cairo, sl_box box) {
     account a;
     make(app, &a, true);
-    app_check(app, sl_draw_chart_onto(app->context, cairo, &a.chart, box, 0.92 * app->ui.text));
+    view_check(&app->view,
+               sl_draw_chart_onto(app->context, cairo, &a.chart, box, 0.92 * app->ui.text));
 }
 
 sl_status account_save(app_state *app, const char *path) {
@@ -129,7 +130,7 @@ sl_status account_save(app_state *app, const char *path) {
 #define SECONDS_BETWEEN 0.25
 
 static bool is_stale(const app_state *app, const account_picture *kept, int width, int height) {
-    if (!kept->surface || app->steady || kept->version != app->document.version ||
+    if (!kept->surface || app->ui.steady || kept->version != app->document.version ||
         kept->dark != app->ui.dark || kept->text != app->ui.text ||
         cairo_image_surface_get_width(kept->surface) != width ||
         cairo_image_surface_get_height(kept->surface) != height)

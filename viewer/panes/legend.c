@@ -1,10 +1,11 @@
 /// The legend: what the plan shows now, each row with a sample that is drawn as in the plan. It
 /// stands in the panel; over the plan where there is no panel.
+#include "panes/legend.h"
+
 #include "app/actions.h"
-#include "app/app.h"
-#include "app/modes.h"
 #include "draw/marks.h" // private: samples are the marks of the plan
-#include "plan/layers.h"
+#include "plan/heat.h"
+#include "plan/view_cells.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -18,40 +19,40 @@ static legend_row tone_row_of(tone which, bool fills) {
                         .which = which};
 }
 
-static int add_culling(const app_state *app, legend_row *rows, bool fills) {
+static int add_culling(const view_state *view, legend_row *rows, bool fills) {
     size_t count;
     const sl_eye_method *methods = sl_eye_methods(&count);
     int at = 0;
     rows[at] = tone_row_of(TONE_KEPT, fills);
-    snprintf(rows[at].value, sizeof rows[at].value, "%.20s", methods[app->view.method].name);
+    snprintf(rows[at].value, sizeof rows[at].value, "%.20s", methods[view->method].name);
     for (char *c = rows[at].value; *c; c++)
         if (*c == '_') *c = ' ';
     at++;
-    if (app->view.compare == COMPARE_DIFFERENCE)
+    if (view->compare == COMPARE_DIFFERENCE)
         rows[at++] = tone_row_of(TONE_ADDED, fills);
-    else if (fills && app->view.compare == COMPARE_OFF && app->view.method > 0)
-        rows[at++] = tone_row_of(layers_method_tone(0, app->view.method), fills);
-    if (app->document.map.mirror_count) rows[at++] = tone_row_of(TONE_KEPT_MIRRORED, fills);
+    else if (fills && view->compare == COMPARE_OFF && view->method > 0)
+        rows[at++] = tone_row_of(layers_method_tone(0, view->method), fills);
+    if (view->document->map.mirror_count) rows[at++] = tone_row_of(TONE_KEPT_MIRRORED, fills);
     return at;
 }
 
 /// Layers whose rows follow from what they show.
-static int add_layers(const app_state *app, legend_row *rows) {
-    const unsigned fill = layers_fill(app);
-    const bool mirrors = app->document.map.mirror_count > 0;
+static int add_layers(const view_state *view, legend_row *rows) {
+    const unsigned fill = layers_fill(view);
+    const bool mirrors = view->document->map.mirror_count > 0;
     int at = 0;
-    if (!app->view.seen.valid) return 0;
-    if (layers_shows(app, LAYER_CULL)) at += add_culling(app, rows + at, fill == LAYER_CULL);
-    if (layers_shows(app, LAYER_PVS)) {
+    if (!view->seen.valid) return 0;
+    if (layers_shows(view, LAYER_CULL)) at += add_culling(view, rows + at, fill == LAYER_CULL);
+    if (layers_shows(view, LAYER_PVS)) {
         rows[at++] = tone_row_of(TONE_SET, fill == LAYER_PVS);
         if (mirrors) rows[at++] = tone_row_of(TONE_SET_MIRRORED, fill == LAYER_PVS);
     }
-    if (layers_shows(app, LAYER_REGION)) {
+    if (layers_shows(view, LAYER_REGION)) {
         rows[at++] = tone_row_of(TONE_REGION, fill == LAYER_REGION);
         if (mirrors) rows[at++] = tone_row_of(TONE_REGION_MIRRORED, fill == LAYER_REGION);
     }
-    if (layers_shows(app, LAYER_NODES)) at += layer_nodes_legend(app, rows + at);
-    if (layers_shows(app, LAYER_WATCH)) at += layer_watch_legend(app, rows + at);
+    if (layers_shows(view, LAYER_NODES)) at += layer_nodes_legend(view, rows + at);
+    if (layers_shows(view, LAYER_WATCH)) at += layer_watch_legend(view, rows + at);
     return at;
 }
 
@@ -61,44 +62,44 @@ static legend_row stroke(const char *label, sl_colour colour, bool dashed) {
 }
 
 /// Whether cells are neither inside nor solid ground: they are hatched.
-static bool has_outside(const app_state *app) {
-    const sl_space *space = &app->document.baked->space;
-    return space->inside_count + app->document.solid < space->cell_count;
+static bool has_outside(const view_state *view) {
+    const sl_space *space = &view->document->baked->space;
+    return space->inside_count + view->document->solid < space->cell_count;
 }
 
-int layers_legend(const app_state *app, legend_row rows[LEGEND_MOST]) {
-    const sl_palette *palette = &app->ui.palette;
-    const sl_map *map = &app->document.map;
-    if (!app->document.baked) return 0;
-    int at = add_layers(app, rows);
-    if (layers_shows(app, LAYER_VIEWS) && view_layer_shown(app->view.views))
+int layers_legend(const view_state *view, legend_row rows[LEGEND_MOST]) {
+    const sl_palette *palette = &view->ui->palette;
+    const sl_map *map = &view->document->map;
+    if (!view->document->baked) return 0;
+    int at = add_layers(view, rows);
+    if (layers_shows(view, LAYER_VIEWS) && view_layer_shown(view->views))
         rows[at++] = stroke("border of a view cell", palette->wall, false);
     const heat_graph *graph;
-    if (heat_layer_values(app, &graph) && layers_fill(app) != LAYER_HEAT)
+    if (heat_layer_values(view, &graph) && layers_fill(view) != LAYER_HEAT)
         rows[at++] = stroke("between levels of the heat map", palette->wall, false);
-    if (layers_shows(app, LAYER_SPLITS)) rows[at++] = stroke("split", palette->path, false);
-    if (layers_shows(app, LAYER_TREE) && app->view.seen.valid)
+    if (layers_shows(view, LAYER_SPLITS)) rows[at++] = stroke("split", palette->path, false);
+    if (layers_shows(view, LAYER_TREE) && view->seen.valid)
         rows[at++] = stroke("stab tree", palette->tree, false);
-    if (layers_shows(app, LAYER_PORTALS)) rows[at++] = stroke("portal", palette->portal, true);
-    if (layers_shows(app, LAYER_STARTS) && map->path_count)
+    if (layers_shows(view, LAYER_PORTALS)) rows[at++] = stroke("portal", palette->portal, true);
+    if (layers_shows(view, LAYER_STARTS) && map->path_count)
         rows[at++] = stroke("path", palette->path, true);
-    if (map->range > 0 && mode_table()[app->tool.mode].eye)
+    if (map->range > 0 && view->mode != MODE_QUIZ)
         rows[at++] = stroke("view range", palette->start, true);
     const struct {
         const char *label;
         bool shown;
         enum legend_mark mark;
-    } marks[] = {{"start", layers_shows(app, LAYER_STARTS) && map->start_count, LEGEND_START},
-                 {"the eye", app->tool.mode != MODE_QUIZ, LEGEND_EYE},
+    } marks[] = {{"start", layers_shows(view, LAYER_STARTS) && map->start_count, LEGEND_START},
+                 {"the eye", view->mode != MODE_QUIZ, LEGEND_EYE},
                  {"door", map->door_count > 0, LEGEND_DOOR},
                  {"mirror", map->mirror_count > 0, LEGEND_MIRROR},
                  {"one-way glass", map->oneway_count > 0, LEGEND_ONEWAY},
-                 {"object", layers_shows(app, LAYER_STARTS) && map->object_count, LEGEND_OBJECT},
-                 {"outside", has_outside(app), LEGEND_OUTSIDE}};
+                 {"object", layers_shows(view, LAYER_STARTS) && map->object_count, LEGEND_OBJECT},
+                 {"outside", has_outside(view), LEGEND_OUTSIDE}};
     for (size_t i = 0; i < sizeof marks / sizeof *marks; i++)
         if (marks[i].shown)
             rows[at++] = (legend_row){.label = marks[i].label, .mark = marks[i].mark};
-    if (app->document.solid)
+    if (view->document->solid)
         rows[at++] =
             (legend_row){.label = "solid ground", .mark = LEGEND_PLAIN, .colour = palette->solid};
     return at;
@@ -209,28 +210,14 @@ double layers_legend_row(ui_state *ui, double left, double right, double y, cons
 
 // --- keys of layers that are coloured by values
 
-int ramp_step(double value, double least, double most) {
-    const double share = most > least ? (value - least) / (most - least) : 0;
-    return (int)fmin(fmax(share, 0) * RAMP_STEPS, RAMP_STEPS - 1);
-}
-
-sl_colour ramp_colour(const ui_state *ui, int step) {
-    return sl_palette_ramp(ui->dark, (step + 0.5) / RAMP_STEPS);
-}
-
-void legend_key_add(legend_key *key, const char *label, const char *text) {
-    snprintf(key->rows[key->count].label, sizeof key->rows->label, "%s", label);
-    snprintf(key->rows[key->count++].text, sizeof key->rows->text, "%s", text);
-}
-
 enum { KEYS_MOST = 2 };
 
 /// The keys of the layers that are shown.
-static int list_keys(const app_state *app, legend_key keys[KEYS_MOST]) {
+static int list_keys(const view_state *view, legend_key keys[KEYS_MOST]) {
     int count = 0;
-    if (!app->view.seen.valid) return 0;
-    count += view_layer_key(app, &keys[count]);
-    count += heat_layer_key(app, &keys[count]);
+    if (!view->seen.valid) return 0;
+    count += view_layer_key(view, &keys[count]);
+    count += heat_layer_key(view, &keys[count]);
     return count;
 }
 
@@ -268,11 +255,11 @@ static double put_key(ui_state *ui, const legend_key *key, double left, double r
     return y + (key->ramp ? 1.6 : 0.2) * t;
 }
 
-double layers_key_column(app_state *app, double left, double right, double y) {
+double layers_key_column(view_state *view, double left, double right, double y) {
     legend_key keys[KEYS_MOST];
-    const int count = list_keys(app, keys);
+    const int count = list_keys(view, keys);
     for (int i = 0; i < count; i++)
-        y = put_key(&app->ui, &keys[i], left, right, y + 0.4 * app->ui.text, true);
+        y = put_key(view->ui, &keys[i], left, right, y + 0.4 * view->ui->text, true);
     return y;
 }
 
@@ -286,8 +273,8 @@ static void fill_framed(ui_state *ui, sl_box box) {
 // --- over the plan
 
 /// Whether a box of the page has something of the map below it.
-static bool covers_map(const app_state *app, const sl_frame *frame, sl_box box) {
-    const sl_box bounds = app->document.baked->space.bounds;
+static bool covers_map(const view_state *view, const sl_frame *frame, sl_box box) {
+    const sl_box bounds = view->document->baked->space.bounds;
     const sl_point low = sl_frame_point(frame, bounds.min);
     const sl_point high = sl_frame_point(frame, bounds.max);
     return box.min.x < high.x && box.max.x > low.x && box.min.y < low.y && box.max.y > high.y;
@@ -295,8 +282,8 @@ static bool covers_map(const app_state *app, const sl_frame *frame, sl_box box) 
 
 /// A presentation has the map free: a legend that would cover it is a button, until that is
 /// pressed.
-static void fold(app_state *app, double left, double bottom) {
-    ui_state *ui = &app->ui;
+static void fold(view_state *view, double left, double bottom) {
+    ui_state *ui = view->ui;
     ui->legend_folded = true;
     ui_button(ui, left, bottom - 1.6 * ui->text, 1.6 * ui->text, "Legend (F7)", false,
               action_find("legend"));
@@ -304,10 +291,10 @@ static void fold(app_state *app, double left, double bottom) {
 
 /// A legend that is higher than three quarters of the plan is left to the panel. Returns its box;
 /// one without a size where it is not drawn.
-static sl_box draw_over_plan(app_state *app, const sl_frame *frame, bool vector) {
-    ui_state *ui = &app->ui;
+static sl_box draw_over_plan(view_state *view, const sl_frame *frame, bool vector) {
+    ui_state *ui = view->ui;
     legend_row rows[LEGEND_MOST];
-    const int count = layers_legend(app, rows);
+    const int count = layers_legend(view, rows);
     const double t = ui->text, gap = 0.6 * t;
     const double wide = fmin(20 * t, frame->width - 2 * gap);
     double high = gap;
@@ -318,8 +305,8 @@ static sl_box draw_over_plan(app_state *app, const sl_frame *frame, bool vector)
     const double left = frame->left + gap, bottom = frame->top + frame->height - gap;
     double y = bottom - high;
     if (ui->presents && !ui->legend_over &&
-        covers_map(app, frame, (sl_box){{left, y}, {left + wide, bottom}})) {
-        if (!vector) fold(app, left, bottom);
+        covers_map(view, frame, (sl_box){{left, y}, {left + wide, bottom}})) {
+        if (!vector) fold(view, left, bottom);
         return none;
     }
     fill_framed(ui, (sl_box){{left, y}, {left + wide, bottom}});
@@ -331,10 +318,10 @@ static sl_box draw_over_plan(app_state *app, const sl_frame *frame, bool vector)
 
 /// The keys at the lower right, one over the other, as far as they have room: beside the legend, or
 /// over it.
-static void draw_keys_over_plan(app_state *app, const sl_frame *frame, const sl_box *legend) {
-    ui_state *ui = &app->ui;
+static void draw_keys_over_plan(view_state *view, const sl_frame *frame, const sl_box *legend) {
+    ui_state *ui = view->ui;
     legend_key keys[KEYS_MOST];
-    const int count = list_keys(app, keys);
+    const int count = list_keys(view, keys);
     const double t = ui->text, wide = 19 * t, right = frame->left + frame->width - t;
     const bool beside = right - wide > legend->max.x + 0.5 * t;
     double bottom = beside ? frame->top + frame->height - t : legend->min.y - 0.5 * t;
@@ -349,11 +336,11 @@ static void draw_keys_over_plan(app_state *app, const sl_frame *frame, const sl_
     }
 }
 
-void layers_draw_keys(app_state *app, const sl_frame *frame, bool vector) {
-    app->ui.legend_folded = false;
-    if (app_has_panel(app)) return;
+void layers_draw_keys(view_state *view, const sl_frame *frame, bool vector) {
+    view->ui->legend_folded = false;
+    if (ui_has_panel(view->ui)) return;
     const double lowest = frame->top + frame->height;
     sl_box legend = {{frame->left, lowest}, {frame->left, lowest}};
-    if (app->tool.mode != MODE_QUIZ && app->ui.legend) legend = draw_over_plan(app, frame, vector);
-    draw_keys_over_plan(app, frame, &legend);
+    if (view->mode != MODE_QUIZ && view->ui->legend) legend = draw_over_plan(view, frame, vector);
+    draw_keys_over_plan(view, frame, &legend);
 }

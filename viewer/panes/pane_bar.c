@@ -56,7 +56,7 @@ static int bar_buttons(app_state *app, double right, bool draw) {
     x += 0.8 * t;
     for (int i = 0; i < OTHERS; i++) {
         const double wide = ui_button_width(&app->ui, row_of(others[i])->label);
-        if (app->tool.mode != MODE_EXPLORE && strcmp(others[i], "compare") == 0) continue;
+        if (app->view.mode != MODE_EXPLORE && strcmp(others[i], "compare") == 0) continue;
         if (app->ui.presents && strcmp(others[i], "side_panel") == 0) continue;
         if (app->ui.presents && strcmp(others[i], "present") == 0) continue;
         if (x + wide > right) continue;
@@ -108,9 +108,10 @@ static double draw_progress(app_state *app, sl_box box) {
 static void write_place(const app_state *app, char text[64]) {
     const sl_box plan = app_layout(app).plan[0];
     text[0] = '\0';
-    if (app->tool.mode != MODE_DRAW || !app->document.baked || !box_has(plan, app->tool.pointer))
+    if (app->view.mode != MODE_DRAW || !app->document.baked || !box_has(plan, app->ui.pointer))
         return;
-    const sl_point at = edit_snap(app, camera_point(&app->view.camera, plan, app->tool.pointer));
+    const sl_point at =
+        edit_snap(&app->view, camera_point(&app->view.camera, plan, app->ui.pointer));
     snprintf(text, 64, "at %.10g, %.10g   ", at.x, at.y);
 }
 
@@ -125,7 +126,7 @@ static double draw_doing(app_state *app, sl_box box) {
                                                    : "";
     char place[64], text[160];
     write_place(app, place);
-    if (app->steady || app->ui.frame_seconds <= 0)
+    if (app->ui.steady || app->ui.frame_seconds <= 0)
         snprintf(text, sizeof text, "%s%s", place, doing);
     else
         snprintf(text, sizeof text, "%s%s   %.1f ms a frame", place, doing,
@@ -186,12 +187,12 @@ void pane_status(app_state *app, sl_box box) {
 /// plan shows it.
 static bool says_pair(const app_state *app) {
     const quiz_state *q = &app->tool.quiz;
-    if (app->tool.mode == MODE_LEARN) return q->answered;
-    return !app_has_panel(app) && (q->answered || app->tool.mode == MODE_QUIZ);
+    if (app->view.mode == MODE_LEARN) return q->answered;
+    return !ui_has_panel(&app->ui) && (q->answered || app->view.mode == MODE_QUIZ);
 }
 
 bool pane_time_shown(const app_state *app) {
-    return app->tool.mode == MODE_LEARN || says_pair(app);
+    return app->view.mode == MODE_LEARN || says_pair(app);
 }
 
 void pane_time_sentence(const app_state *app, char text[BAR_TEXT]) {
@@ -200,7 +201,7 @@ void pane_time_sentence(const app_state *app, char text[BAR_TEXT]) {
         lesson_sentence(&app->tool.lesson, &app->document, text);
         return;
     }
-    if (app->tool.mode == MODE_QUIZ)
+    if (app->view.mode == MODE_QUIZ)
         quiz_question(app, text, BAR_TEXT);
     else
         snprintf(text, BAR_TEXT, "From cell %u to cell %u:", q->from, q->to);
@@ -217,8 +218,8 @@ static const char *const *time_buttons(const app_state *app) {
     static const char *const answers[] = {"answer_yes", "answer_no", NULL};
     static const char *const next[] = {"next_question", "why_step", NULL};
     static const char *const why[] = {"why_step", NULL};
-    if (app->tool.mode == MODE_LEARN) return steps;
-    if (app->tool.mode != MODE_QUIZ) return why;
+    if (app->view.mode == MODE_LEARN) return steps;
+    if (app->view.mode != MODE_QUIZ) return why;
     return app->tool.quiz.asked && !app->tool.quiz.answered ? answers : next;
 }
 
@@ -241,7 +242,7 @@ static void draw_ticks(app_state *app, sl_box line) {
     const subject_row *subject = lesson_subject(lesson);
     const size_t length = lesson_length(lesson);
     if (!subject->cell || length < 2 || app->ui.over.kind != HIT_PLAN) return;
-    const sl_point at = camera_point(&app->view.camera, app_layout(app).plan[0], app->tool.pointer);
+    const sl_point at = camera_point(&app->view.camera, app_layout(app).plan[0], app->ui.pointer);
     const uint32_t cell = sl_space_locate(&app->document.baked->space, at);
     int ticks = 0;
     for (size_t i = 0; i < length && cell != SL_NO_CELL && ticks < TICKS_MOST; i++) {
@@ -261,7 +262,7 @@ void pane_time_measure(app_state *app) {
     pane_time_sentence(app, text);
     const double high = ui_lines_height(ui, ui->width - 1.8 * ui->text, SENTENCE_SIZE, false, text);
     ui->time_lines = (int)fmax(round(high / (1.4 * SENTENCE_SIZE * ui->text)), 1);
-    const bool has_line = app->tool.mode == MODE_LEARN;
+    const bool has_line = app->view.mode == MODE_LEARN;
     ui->time_rows = has_line && buttons_width(app) + 14 * ui->text > ui->width ? 2 : 1;
 }
 
@@ -310,7 +311,7 @@ void pane_time(app_state *app, sl_box box) {
     double x = box.min.x + 0.7 * t;
     for (const char *const *name = time_buttons(app); *name; name++)
         x = put_button(app, x, y, *name);
-    if (app->tool.mode == MODE_LEARN) y = draw_time_line(app, box, x, y);
+    if (app->view.mode == MODE_LEARN) y = draw_time_line(app, box, x, y);
     ui_end_scroll(ui, room, y + 1.9 * t);
     ui_end_area(ui);
 }

@@ -14,7 +14,7 @@ static sl_dual_frame frame_of(app_state *app, sl_box box) {
     const double t = ui_text_size(&app->ui);
     sl_status status;
     const sl_conflict *conflict = lesson_conflict(app->context, lesson, &status);
-    app_check(app, status);
+    view_check(&app->view, status);
     return sl_dual_frame_fit(&lesson->dual, &lesson->before, lesson->ends, conflict,
                              box.min.x + 0.9 * t, box.min.y + 2.2 * t,
                              fmax(box_width(box) - 1.8 * t, 8), fmax(box_height(box) - 4.1 * t, 8),
@@ -189,12 +189,12 @@ static size_t step_at(const app_state *app, const hit_area *hit, sl_point at) {
 void pane_dual_hover(app_state *app) {
     lesson_state *lesson = &app->tool.lesson;
     const hit_area *over = &app->ui.over;
-    const sl_point at = app->tool.pointer;
+    const sl_point at = app->ui.pointer;
     const window_layout l = app_layout(app);
     uint32_t end = UINT32_MAX;
     lesson->hovered = 0;
     lesson->hovered_step = 0;
-    if (app->tool.mode != MODE_LEARN || !lesson_shows(lesson, &app->document)) return;
+    if (app->view.mode != MODE_LEARN || !lesson_shows(lesson, &app->document)) return;
     if (over->kind == HIT_TIME) lesson->hovered_step = step_at(app, over, at);
     if (!lesson->end_count) return;
     if (over->kind == HIT_END) end = (uint32_t)over->value;

@@ -421,7 +421,7 @@ static void draw_count(app_state *app, const viewer *v, sl_box box) {
     snprintf(text, sizeof text, "%u of %u wall pieces drawn, %.1f %% culled by %s", v->pieces,
              walls, walls ? 100.0 * (walls - v->pieces) / walls : 0,
              sl_eye_methods(&count)[app->view.method].name);
-    if (app_is_solid(app, app->view.eye.at))
+    if (view_is_solid(&app->view, app->view.eye.at))
         snprintf(text, sizeof text, "The eye is in solid ground and sees nothing.");
     const double t = app->ui.text;
     const double width = fmin(ui_text_width(&app->ui, 0.95, false, text), box_width(box) - 2.6 * t);

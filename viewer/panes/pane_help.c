@@ -232,7 +232,7 @@ static void write_tip(const app_state *app, const hit_area *hit, char text[UI_TI
 void pane_tip(app_state *app) {
     const hit_area hit = ui_tip_of(&app->ui);
     char text[UI_TIP_TEXT];
-    if (hit.kind == HIT_NONE || app->tool.drag.kind != DRAG_NONE) return;
+    if (hit.kind == HIT_NONE || app->view.drag.kind != DRAG_NONE) return;
     write_tip(app, &hit, text);
     if (*text) ui_tip(&app->ui, hit.box, text);
 }

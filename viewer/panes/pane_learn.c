@@ -102,7 +102,7 @@ static void write_conflict(app_state *app, char *text, size_t room) {
     char ends[128];
     sl_status status;
     const sl_conflict *conflict = lesson_conflict(app->context, lesson, &status);
-    app_check(app, status);
+    view_check(&app->view, status);
     text[0] = '\0';
     if (conflict->verdict == SL_STABBED || !conflict->end_count) return;
     list_ends(conflict, ends, sizeof ends);

@@ -1,5 +1,6 @@
 /// The plan: pictures that are kept from frame to frame, and over them what changes.
 #include "app/modes.h"
+#include "panes/legend.h"
 
 #include "draw/draw_lesson.h" // private: the layer of splits shows the inside of the library
 #include "sightline/draw.h"
@@ -17,9 +18,9 @@ static unsigned scene_layers(const app_state *app) {
     const view_state *view = &app->view;
     // A subdivision in the making has no cells to be named yet.
     const bool named =
-        layers_shows(app, LAYER_NAMES) &&
-        !(app->tool.mode == MODE_LEARN && lesson_subject(&app->tool.lesson) == &lesson_subdivision);
-    const bool numbers = layers_shows(app, LAYER_NUMBERS) || named;
+        layers_shows(&app->view, LAYER_NAMES) &&
+        !(app->view.mode == MODE_LEARN && lesson_subject(&app->tool.lesson) == &lesson_subdivision);
+    const bool numbers = layers_shows(&app->view, LAYER_NUMBERS) || named;
     return SL_LAYER_WALLS | (view->show & SHOW_CELLS ? SL_LAYER_CELLS : 0u) |
            (view->show & SHOW_PORTALS ? SL_LAYER_PORTALS : 0u) | (numbers ? SL_LAYER_NUMBERS : 0u) |
            (view->show & SHOW_STARTS ? SL_LAYER_STARTS : 0u);
@@ -39,7 +40,7 @@ static bool make_scene(app_state *app) {
     options.dark = app->ui.dark;
     const sl_status status =
         sl_scene_create(app->context, app->document.baked, &options, NULL, &app->view.scene);
-    app_check(app, status);
+    view_check(&app->view, status);
     if (!app->document.live) app->view.pen_size = 0;
     if (status == SL_OK)
         plan_keep_pens(app->view.scene, &app->view.pen_size, ui_strength(&app->ui));
@@ -62,11 +63,11 @@ static bool draw_under(app_state *app, cairo_t *cairo, const sl_frame *frame) {
     sl_set_colour(cairo, app->ui.palette.page);
     cairo_paint(cairo);
     if (sl_draw_plan(drawing(app), cairo, app->view.scene, layers, frame) != SL_OK) return false;
-    if (layers_shows(app, LAYER_VIEWS)) view_layer_draw(app, cairo, frame);
-    heat_layer_draw(app, cairo, frame);
-    const unsigned fill = layers_fill(app);
-    if ((fill == LAYER_VIEWS || fill == LAYER_HEAT) && layers_shows(app, LAYER_PORTALS))
-        layers_draw_portals(app, cairo, frame, NULL, NULL);
+    if (layers_shows(&app->view, LAYER_VIEWS)) view_layer_draw(&app->view, cairo, frame);
+    heat_layer_draw(&app->view, cairo, frame);
+    const unsigned fill = layers_fill(&app->view);
+    if ((fill == LAYER_VIEWS || fill == LAYER_HEAT) && layers_shows(&app->view, LAYER_PORTALS))
+        layers_draw_portals(&app->view, cairo, frame, NULL, NULL);
     if (app->view.show & SHOW_SPLITS)
         sli_draw_splits(cairo, &app->ui.palette, frame, app->document.splits,
                         app->document.baked->space.node_count, app->view.split_depth);
@@ -162,9 +163,9 @@ static bool remake(app_state *app, kept_picture *kept, bool over, const sl_frame
     cairo_destroy(cairo);
     kept->items.count = 0;
     if (!good) kept->key.version = app->document.version - 1; // it is drawn again
-    if (good && app->tool.drag.changed)
-        app_check(app, plan_items_list(app->context, app->document.baked, app->view.scene, over,
-                                       &kept->items));
+    if (good && app->view.drag.changed)
+        view_check(&app->view, plan_items_list(app->context, app->document.baked, app->view.scene,
+                                               over, &kept->items));
     kept->seconds = sl_seconds() - before;
     return good;
 }
@@ -203,11 +204,13 @@ static void show_kept(app_state *app, kept_picture *kept, bool over, const sl_fr
     now.key.show = scene_layers(app) | (app->view.show & SHOW_SPLITS && !over ? 2048u : 0u);
     now.key.depth = app->view.show & SHOW_SPLITS && !over ? app->view.split_depth : 0;
     now.key.dark = app->ui.dark;
-    if (!over && layers_shows(app, LAYER_VIEWS)) {
-        now.key.views = view_layer_shown(app->view.views) << 1 | (layers_fill(app) == LAYER_VIEWS);
+    if (!over && layers_shows(&app->view, LAYER_VIEWS)) {
+        now.key.views =
+            view_layer_shown(app->view.views) << 1 | (layers_fill(&app->view) == LAYER_VIEWS);
         now.key.mark = view_layer_marked(app->view.views);
     }
-    if (!over && layers_fill(app) == LAYER_HEAT) now.key.heat = app->view.heat_choice.stamp + 1;
+    if (!over && layers_fill(&app->view) == LAYER_HEAT)
+        now.key.heat = app->view.heat_choice.stamp + 1;
     now.key.frame = at_origin(*frame);
     const bool same = kept->surface && memcmp(&kept->key, &now.key, sizeof now.key) == 0;
     if (!same) {
@@ -325,8 +328,8 @@ void pane_plan(app_state *app, sl_box box, int index, bool vector) {
     else
         show_kept(app, &app->view.over, true, &frame);
     modes_draw_above(app, &frame);
-    if (!index) layers_draw_keys(app, &frame, vector);
-    const bool panes = app->view.compare == COMPARE_PANES && app->tool.mode == MODE_EXPLORE;
+    if (!index) layers_draw_keys(&app->view, &frame, vector);
+    const bool panes = app->view.compare == COMPARE_PANES && app->view.mode == MODE_EXPLORE;
     draw_name(app, box, index, panes ? 2 : 1);
     if (!vector && focused) draw_cursor(app, box);
     draw_late(app, box);

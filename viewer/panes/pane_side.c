@@ -3,6 +3,7 @@
 #include "app/actions.h"
 #include "app/modes.h"
 #include "lessons/quiz.h"
+#include "panes/legend.h"
 #include "plan/effects.h"
 #include "sightline/draw.h"
 #include "ui/column.h"
@@ -22,7 +23,7 @@ static void write_area(double area, char text[SL_COUNT_TEXT]) {
 }
 
 static void write_seconds(const app_state *app, double seconds, char text[32]) {
-    if (app->steady)
+    if (app->ui.steady)
         snprintf(text, 32, "\xe2\x80\x93");
     else if (seconds < 1e-3)
         snprintf(text, 32, "%.0f \xc2\xb5s", 1e6 * seconds);
@@ -69,7 +70,7 @@ static void draw_figures(app_state *app, column *c, const method_row *row, doubl
         if (row->counts_cells) sl_text_count(row->cells, "cell", cells);
         sl_text_count(row->tests, "test", tests);
         snprintf(line, sizeof line, "%s%s%s, %s%s%s", cells, *cells ? ", " : "", area, tests,
-                 app->steady ? "" : ", ", app->steady ? "" : time);
+                 app->ui.steady ? "" : ", ", app->ui.steady ? "" : time);
         c->y = ui_lines(ui, c->left + 1.3 * ui->text, base + 1.35 * ui->text,
                         column_width(c) - 1.3 * ui->text, 0.9, false, ui->palette.ink, line) -
                0.8 * ui->text;
@@ -128,7 +129,7 @@ static uint32_t cell_under_pointer(const app_state *app) {
     const sl_box plan = app_layout(app).plan[0];
     if (!app->document.baked || app->ui.over.kind != HIT_PLAN) return SL_NO_CELL;
     return sl_space_locate(&app->document.baked->space,
-                           camera_point(&app->view.camera, plan, app->tool.pointer));
+                           camera_point(&app->view.camera, plan, app->ui.pointer));
 }
 
 static void draw_methods(app_state *app, column *c) {
@@ -204,7 +205,7 @@ static void draw_difference(app_state *app, column *c) {
     char share[SL_COUNT_TEXT], text[256], cost[80] = "";
     sl_text_percent(app->document.area > 0 ? (more->area - less->area) / app->document.area : 0,
                     share);
-    if (!app->steady && more->seconds > 0)
+    if (!app->ui.steady && more->seconds > 0)
         snprintf(cost, sizeof cost, ", which takes %.2g times as long",
                  less->seconds / more->seconds);
     snprintf(text, sizeof text, "%s adds %u cells, %s of the area, to %s%s.", methods[loose].name,
@@ -264,18 +265,18 @@ void pane_words(app_state *app, column *c) {
     char text[512];
     const window_layout l = app_layout(app);
     sl_point at = app->view.eye.at;
-    const bool over = box_has(l.plan[0], app->tool.pointer);
-    if (over) at = camera_point(&app->view.camera, l.plan[0], app->tool.pointer);
-    const bool explores = over && app->tool.mode == MODE_EXPLORE;
-    const uint32_t object = explores ? object_at(app, at) : UINT32_MAX;
-    const uint32_t door = over ? door_at(app, at) : UINT32_MAX;
+    const bool over = box_has(l.plan[0], app->ui.pointer);
+    if (over) at = camera_point(&app->view.camera, l.plan[0], app->ui.pointer);
+    const bool explores = over && app->view.mode == MODE_EXPLORE;
+    const uint32_t object = explores ? object_at(&app->view, at) : UINT32_MAX;
+    const uint32_t door = over ? door_at(&app->view, at) : UINT32_MAX;
     if (door != UINT32_MAX)
         snprintf(text, sizeof text, "Door %s, which is %s: a click %s it.",
                  app->document.map.doors[door].name,
                  app->document.map.doors[door].open ? "open" : "shut",
                  app->document.map.doors[door].open ? "shuts" : "opens");
     else if (object != UINT32_MAX)
-        object_describe(app, object, text, sizeof text);
+        object_describe(&app->view, object, text, sizeof text);
     else
         pane_describe(app, at, text, sizeof text);
     column_heading(&app->ui, c, over ? "Under the pointer" : "Under the eye", NULL);
@@ -311,7 +312,7 @@ void pane_side(app_state *app, sl_box box) {
     if (app->view.show & SHOW_VIEWS && view_layer_shown(app->view.views))
         column_buttons(app, &c, views);
     static const char *const heat[] = {"heat_back", "heat_next", "heat_steps", "heat_hold", NULL};
-    if (layers_shows(app, LAYER_HEAT)) column_buttons(app, &c, heat);
+    if (layers_shows(&app->view, LAYER_HEAT)) column_buttons(app, &c, heat);
     draw_methods(app, &c);
     draw_mirrored(app, &c);
     draw_difference(app, &c);
@@ -332,7 +333,7 @@ static void rule(ui_state *ui, column *c, const char *text) {
 
 void pane_draw(app_state *app, sl_box box) {
     column c = column_begin(&app->ui, box);
-    const bool doors = app->tool.draws_doors;
+    const bool doors = app->view.edit.draws_doors;
     char walls[SL_COUNT_TEXT], steps[SL_COUNT_TEXT], text[160];
     column_heading(&app->ui, &c, "Walls and doors", "key");
     column_check(app, &c, "draw_doors");

@@ -3,6 +3,7 @@
 
 #include "app/actions.h"
 #include "app/sliders.h"
+#include "panes/legend.h"
 
 #include <math.h>
 
@@ -72,19 +73,20 @@ void column_buttons(app_state *app, column *c, const char *const *names) {
 void column_legend(app_state *app, column *c) {
     legend_row rows[LEGEND_MOST];
     char text[96];
-    const int count = layers_legend(app, rows);
+    const int count = layers_legend(&app->view, rows);
     if (!count) return;
     column_heading(&app->ui, c, "Legend", NULL);
     for (int i = 0; i < count; i++)
         c->y = layers_legend_row(&app->ui, c->left, c->right, c->y, &rows[i]);
-    c->y = layers_key_column(app, c->left, c->right, c->y);
-    if (layer_nodes_words(app, text)) column_words(&app->ui, c, 0.9, app->ui.palette.faint, text);
+    c->y = layers_key_column(&app->view, c->left, c->right, c->y);
+    if (layer_nodes_words(&app->view, text))
+        column_words(&app->ui, c, 0.9, app->ui.palette.faint, text);
 }
 
 void column_layers(app_state *app, column *c) {
     column_heading(&app->ui, c, "Layers", "key");
     for (unsigned i = 0; i < LAYER_COUNT; i++)
-        if (layers_lists(app, i)) column_check(app, c, layer_table()[i].name);
+        if (layers_lists(&app->view, i)) column_check(app, c, layer_table()[i].name);
 }
 
 void column_sliders(app_state *app, column *c) {

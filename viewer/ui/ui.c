@@ -28,6 +28,24 @@ void ui_say_working(ui_state *ui, const char *format, ...) {
     ui->message_seconds = 0;
 }
 
+void ui_report(ui_state *ui, const sl_context *context, sl_status status) {
+    if (status != SL_OK && status != SL_CANCELLED)
+        ui_say(ui, true, "%s", sl_context_message(context));
+}
+
+void ui_open_help(ui_state *ui) {
+    ui->help = true;
+    field_set(&ui->filter, "");
+    ui->field = &ui->filter;
+    ui->scrolls[SCROLL_HELP] = (ui_scroll){0};
+    ui->focus = (ui_focus){0};
+}
+
+void ui_shut_help(ui_state *ui) {
+    ui->help = false;
+    if (ui->field == &ui->filter) ui->field = NULL;
+}
+
 void ui_fill(ui_state *ui, sl_box box, sl_colour colour) {
     sl_set_colour(ui->cairo, colour);
     cairo_rectangle(ui->cairo, box.min.x, box.min.y, box_width(box), box_height(box));

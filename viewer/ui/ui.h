@@ -4,6 +4,7 @@
 
 #include "sightline/draw.h"
 #include "sightline/geometry.h"
+#include "sightline/support.h"
 #include "ui/text_field.h"
 
 #include <cairo.h>
@@ -87,6 +88,7 @@ typedef struct ui_state {
     double text_scale;               ///< chosen by the user
     double density;                  ///< of the screen: pixels where a common one has 1
     bool dark;
+    bool steady; ///< under a script: no clock shows, nothing is remembered
     bool fullscreen;
     bool presents; ///< for a projector: large text, strong lines, no panel at the right
     bool legend;   ///< over the plan, where there is no panel
@@ -132,12 +134,25 @@ static inline double ui_text_size(const ui_state *ui) {
     return 13 * ui->density * (ui->presents ? larger : ui->text_scale);
 }
 
+/// Whether there is a panel at the right: in a presentation the plan has the window to itself, but
+/// for what was opened since.
+static inline bool ui_has_panel(const ui_state *ui) {
+    return ui->side_panel && !ui->presents;
+}
+
+/// Opens the help, with nothing searched for, and shuts it.
+void ui_open_help(ui_state *ui);
+void ui_shut_help(ui_state *ui);
+
 /// Begins a frame: no hits, no clip.
 void ui_begin(ui_state *ui);
 
 /// Shows a message in the status line.
 void ui_say(ui_state *ui, bool error, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
+
+/// Shows the message of a failure; nothing for SL_OK, and where one was told to stop.
+void ui_report(ui_state *ui, const sl_context *context, sl_status status);
 
 /// The same for work that goes on: its end is to say something else.
 void ui_say_working(ui_state *ui, const char *format, ...) __attribute__((format(printf, 2, 3)));
