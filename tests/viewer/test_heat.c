@@ -4,6 +4,7 @@
 #include "space/outline.h"
 #include "viewer_app.h"
 
+#include "plan/heat.h"
 #include "sightline/bake.h"
 
 #include <math.h>

@@ -558,7 +558,7 @@ static void test_exported(void **state) {
     viewer_press(app, "F9");
     for (int i = 0; i < 20; i++) app_tick(app, 1.0 / 60);
     viewer_press(app, "F9");
-    const size_t frames = app->tool.recorder.frames.count;
+    const size_t frames = app->recorder.frames.count;
     assert_true(frames > 10);
     save_way(app);
     assert_non_null(app->exports);

@@ -1,7 +1,6 @@
 /// What actions do, by topic, and the table that names them.
 #include "app/actions.h"
 
-#include "app/modes.h"
 #include "dialogs/browser.h"
 #include "dialogs/import_dialog.h"
 #include "dialogs/question.h"
@@ -10,6 +9,7 @@
 #include "document/save.h"
 #include "lessons/quiz.h"
 #include "lessons/why.h"
+#include "panes/modes.h"
 #include "plan/edit.h"
 #include "plan/effects.h"
 #include "plan/heat.h"
@@ -44,9 +44,9 @@ enum {
 static void set_mode(app_state *app, view_mode mode) {
     app->view.mode = mode;
     app->view.held = 0;
-    app->tool.lesson.plays = false;
-    quiz_forget(app);
-    if (mode == MODE_QUIZ) quiz_ask(app);
+    app->learn.lesson.plays = false;
+    quiz_forget(&app->learn);
+    if (mode == MODE_QUIZ) quiz_ask(&app->learn);
     ui_say(&app->ui, false, "%s", mode_table()[mode].hint);
     app_tick(app, 0);
 }
@@ -226,22 +226,23 @@ IS(compare, app->view.compare != COMPARE_OFF)
 
 // --- the lesson
 
-DO(step_next, lesson_go(&app->tool.lesson, &app->document, app->tool.lesson.at + 1))
+DO(step_next, lesson_go(&app->learn.lesson, &app->document, app->learn.lesson.at + 1))
 
 static void step_back(app_state *app) {
-    if (app->tool.lesson.at) lesson_go(&app->tool.lesson, &app->document, app->tool.lesson.at - 1);
+    if (app->learn.lesson.at)
+        lesson_go(&app->learn.lesson, &app->document, app->learn.lesson.at - 1);
 }
 
-DO(step_first, lesson_go(&app->tool.lesson, &app->document, 0))
-DO(step_last, lesson_go(&app->tool.lesson, &app->document, SIZE_MAX))
-SWITCH(play_steps, tool.lesson.plays)
+DO(step_first, lesson_go(&app->learn.lesson, &app->document, 0))
+DO(step_last, lesson_go(&app->learn.lesson, &app->document, SIZE_MAX))
+SWITCH(play_steps, learn.lesson.plays)
 
 /// Goes to the next step of a kind, or says that there is none.
 static void seek(app_state *app, bool rejects, bool back) {
-    const subject_row *subject = lesson_subject(&app->tool.lesson);
+    const subject_row *subject = lesson_subject(&app->learn.lesson);
     const char *name = rejects ? subject->rejected : subject->found;
-    app->tool.lesson.plays = false;
-    if (lesson_seek(&app->tool.lesson, &app->document, rejects, back)) return;
+    app->learn.lesson.plays = false;
+    if (lesson_seek(&app->learn.lesson, &app->document, rejects, back)) return;
     if (name)
         ui_say(&app->ui, false, "no %s step \"%s\"", back ? "earlier" : "later", name);
     else
@@ -253,7 +254,7 @@ DO(found_back, seek(app, false, true))
 DO(rejected_next, seek(app, true, false))
 
 static void set_speed(app_state *app, int by) {
-    lesson_state *lesson = &app->tool.lesson;
+    lesson_state *lesson = &app->learn.lesson;
     lesson_set_speed(lesson, lesson->speed + by);
     ui_say(&app->ui, false, "%g steps a second", ldexp(2, lesson->speed));
 }
@@ -263,7 +264,7 @@ DO(faster, set_speed(app, 1))
 SWITCH(program, ui.program)
 
 static void choose_end(app_state *app, bool back) {
-    lesson_state *lesson = &app->tool.lesson;
+    lesson_state *lesson = &app->learn.lesson;
     char name[48] = "the line";
     if (!lesson->end_count) {
         ui_say(&app->ui, false, "this step has no portals to choose from");
@@ -282,15 +283,20 @@ DO(choose_next, choose_end(app, false))
 DO(choose_back, choose_end(app, true))
 
 static void reset_ends(app_state *app) {
-    lesson_reset(&app->tool.lesson, &app->document);
+    lesson_reset(&app->learn.lesson, &app->document);
     ui_say(&app->ui, false, "the portal ends and the line are where they were");
 }
 
-DO(why_step, why_go_to_step(app))
+static void why_step(app_state *app) {
+    why_pair pair;
+    if (!why_take(&app->learn, &pair)) return;
+    set_mode(app, MODE_LEARN);
+    why_show(&app->learn, &pair);
+}
 
 /// From elsewhere it begins with the subdivision: F2 begins with the search.
 static void subject(app_state *app) {
-    lesson_state *lesson = &app->tool.lesson;
+    lesson_state *lesson = &app->learn.lesson;
     if (app->view.mode == MODE_LEARN) {
         lesson_next_subject(app->context, lesson, &app->document);
         app_tick(app, 0);
@@ -323,7 +329,7 @@ static void travel(app_state *app, bool redo) {
 
 static void undo(app_state *app) {
     const bool learns = app->view.mode == MODE_LEARN;
-    if (learns && lesson_undo(&app->tool.lesson))
+    if (learns && lesson_undo(&app->learn.lesson))
         ui_say(&app->ui, false, "undone in the lesson");
     else
         travel(app, false);
@@ -347,14 +353,14 @@ DO(nearest_door, door_toggle_nearest(&app->view))
 
 // --- the quiz
 
-DO(answer_yes, quiz_answer(app, true))
-DO(answer_no, quiz_answer(app, false))
-DO(next_question, quiz_ask(app))
+DO(answer_yes, quiz_answer(&app->learn, true))
+DO(answer_no, quiz_answer(&app->learn, false))
+DO(next_question, quiz_ask(&app->learn))
 
 // --- recording
 
 static void record(app_state *app) {
-    path_recorder *r = &app->tool.recorder;
+    path_recorder *r = &app->recorder;
     r->plays = false;
     r->waited = 0;
     if (!r->records) r->frames.count = 0;
@@ -362,11 +368,11 @@ static void record(app_state *app) {
     ui_say(&app->ui, false, r->records ? "recording the eye's way" : "recorded");
 }
 
-IS(record, app->tool.recorder.records)
+IS(record, app->recorder.records)
 
 /// Without a recording the map's first path is walked.
 static void play(app_state *app) {
-    path_recorder *r = &app->tool.recorder;
+    path_recorder *r = &app->recorder;
     r->records = false;
     if (!r->frames.count && app->document.baked && app->document.baked->map.path_count)
         view_check(&app->view, record_path(app->context, r, &app->document.baked->map.paths[0],
@@ -380,7 +386,7 @@ static void play(app_state *app) {
     r->waited = 0;
 }
 
-IS(play, app->tool.recorder.plays)
+IS(play, app->recorder.plays)
 
 static void take_export(app_state *app, int answer) {
     if (answer == 0 && !app->file.locked)
@@ -390,7 +396,7 @@ static void take_export(app_state *app, int answer) {
 
 static void export_frames(app_state *app) {
     static const char *const answers[] = {"S:Save", "C:Cancel"};
-    const size_t count = (app->tool.recorder.frames.count + SERIES_STEP - 1) / SERIES_STEP;
+    const size_t count = (app->recorder.frames.count + SERIES_STEP - 1) / SERIES_STEP;
     char text[160];
     if (!count) {
         ui_say(&app->ui, false, "no way was recorded: record one, or play the map's path");
@@ -458,12 +464,12 @@ static void escape(app_state *app) {
         ui_say(&app->ui, false, "stopped; F5 twice makes view cells again");
     else if (heat_layer_stop(&app->view))
         ui_say(&app->ui, false, "stopped; 1 twice makes the heat map again");
-    else if (app->view.mode == MODE_LEARN && app->tool.lesson.chosen_next)
-        app->tool.lesson.chosen_next = 0;
-    else if (app->tool.recorder.plays)
-        app->tool.recorder.plays = false;
-    else if (app->tool.quiz.asked || app->tool.quiz.answered)
-        quiz_forget(app);
+    else if (app->view.mode == MODE_LEARN && app->learn.lesson.chosen_next)
+        app->learn.lesson.chosen_next = 0;
+    else if (app->recorder.plays)
+        app->recorder.plays = false;
+    else if (app->learn.quiz.asked || app->learn.quiz.answered)
+        quiz_forget(&app->learn);
     else
         app->ui.presents = false;
 }
@@ -599,6 +605,7 @@ static const action_row actions[] = {
     {"quit", "Ctrl+Q", NULL, "quit", 0, 0, quit, NULL},
 };
 enum { COUNT = sizeof actions / sizeof *actions };
+_Static_assert((int)COUNT <= (int)ACTIONS_MOST, "the page has room for all");
 
 const action_row *action_table(size_t *count) {
     *count = COUNT;
@@ -617,6 +624,15 @@ int action_of_key(const char *key, view_mode mode) {
             (!actions[i].modes || actions[i].modes & 1u << mode))
             return i;
     return -1;
+}
+
+void actions_show(app_state *app) {
+    app->ui.action_count = COUNT;
+    for (int i = 0; i < COUNT; i++) {
+        const action_row *a = &actions[i];
+        app->ui.actions[i] =
+            (ui_action){a->name, a->key, a->label, a->help, a->on && a->on(app), a->hold != 0};
+    }
 }
 
 void action_run(app_state *app, int action) {

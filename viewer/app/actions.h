@@ -17,6 +17,9 @@ typedef struct action_row {
 
 const action_row *action_table(size_t *count);
 
+/// Has the page show the actions as they are now.
+void actions_show(app_state *app);
+
 /// The number of an action; -1 for an unknown name.
 int action_find(const char *name);
 /// The number of the action of a key in a mode; -1 for none.

@@ -1,13 +1,18 @@
 /// The turn of a frame: results are taken, what follows is made anew, the page is drawn.
 #include "app/app.h"
 
-#include "app/modes.h"
+#include "app/actions.h"
+#include "app/sliders.h"
 #include "document/document.h"
 #include "document/files.h"
 #include "document/recovery.h"
 #include "lessons/quiz.h"
+#include "panes/modes.h"
+#include "panes/panes.h"
 #include "plan/effects.h"
+#include "plan/heat.h"
 #include "plan/view.h"
+#include "plan/view_cells.h"
 #include "sightline/support.h"
 
 #include <math.h>
@@ -38,7 +43,11 @@ void app_init(app_state *app, sl_context *context) {
                  .split_depth = 6,
                  .tree_depth = 64,
                  .method = count - 1},
-        .tool = {.quiz = {.random = 1}},
+        .learn = {.context = context,
+                  .ui = &app->ui,
+                  .document = &app->document,
+                  .view = &app->view,
+                  .quiz = {.random = 1}},
         .ui = {.pointer = {-1, -1},
                .bar_rows = 1,
                .time_lines = 1,
@@ -79,13 +88,13 @@ void app_destroy(app_state *app) {
     watch_layer_destroy(app->context, app->view.watch);
     seen_destroy(app->context, &app->view.seen);
     present_drop(app->context, &app->view.present);
-    lesson_destroy(app->context, &app->tool.lesson);
+    lesson_destroy(app->context, &app->learn.lesson);
     map_file_destroy(app);
     dialog_destroy(app);
     history_clear(app->context, &app->document.history);
-    record_destroy(app->context, &app->tool.recorder);
+    record_destroy(app->context, &app->recorder);
     sl_free(app->context, app->view.edit.ends.items);
-    sl_explanation_destroy(app->context, &app->tool.quiz.explanation);
+    sl_explanation_destroy(app->context, &app->learn.quiz.explanation);
     document_close(app->context, &app->document);
 }
 
@@ -136,7 +145,7 @@ static void say_subdivision(app_state *app, bool was_mesh) {
 /// A map that was opened starts from its own start. After a change by hand the eye stays.
 static void take_document(app_state *app, bool opened) {
     drop_made(app);
-    quiz_forget(app);
+    quiz_forget(&app->learn);
     const bool was_mesh = app->view.mesh;
     if (app->document.baked) app->view.mesh = app->document.baked->space.neighbour != NULL;
     if (!opened && app->document.baked && app->view.mesh != was_mesh)
@@ -147,8 +156,8 @@ static void take_document(app_state *app, bool opened) {
     app->view.drag = (drag_state){0};
     app->document.stale = false;
     history_clear(app->context, &app->document.history);
-    app->tool.recorder.records = app->tool.recorder.plays = false;
-    app->tool.recorder.frames.count = 0;
+    app->recorder.records = app->recorder.plays = false;
+    app->recorder.frames.count = 0;
     walk_home(&app->view);
     map_file_taken(app);
     say_document(app);
@@ -160,9 +169,9 @@ void app_take_opened(app_state *app) {
 
 /// Follows the document and the eye; drops words about what was seen before.
 static void follow(app_state *app) {
-    const quiz_state *quiz = &app->tool.quiz;
+    const quiz_state *quiz = &app->learn.quiz;
     view_follow(&app->view);
-    if (quiz->answered && quiz->version != app->view.present.version) quiz_forget(app);
+    if (quiz->answered && quiz->version != app->view.present.version) quiz_forget(&app->learn);
 }
 
 /// A frame of a drag waits for its space if that comes soon. So the plan is mostly not late at all,
@@ -238,9 +247,9 @@ static void look(app_state *app) {
     view_check(&app->view, seen_update(app->context, &app->view.seen, &app->document,
                                        &app->view.present, &view));
     if (app->view.mode == MODE_LEARN)
-        view_check(&app->view, lesson_update(app->context, &app->tool.lesson, &app->document,
+        view_check(&app->view, lesson_update(app->context, &app->learn.lesson, &app->document,
                                              view_eye_cell(&app->view)));
-    quiz_follow_lesson(app);
+    quiz_follow_lesson(&app->learn);
 }
 
 void app_settle(app_state *app) {
@@ -266,15 +275,15 @@ void app_tick(app_state *app, double seconds) {
     tidy_message(app);
     app->view.motion = fmax(app->view.motion - seconds, 0);
     record_frame frame;
-    if (record_play(&app->tool.recorder, seconds, &frame)) {
+    if (record_play(&app->recorder, seconds, &frame)) {
         app->view.eye.at = frame.at;
         app->view.eye.heading = frame.heading;
     } else {
         walk_tick(&app->view, fmin(seconds, 0.1));
     }
-    view_check(&app->view, record_tick(app->context, &app->tool.recorder, seconds,
+    view_check(&app->view, record_tick(app->context, &app->recorder, seconds,
                                        (record_frame){app->view.eye.at, app->view.eye.heading}));
-    if (app->document.baked) lesson_tick(&app->tool.lesson, &app->document, seconds);
+    if (app->document.baked) lesson_tick(&app->learn.lesson, &app->document, seconds);
     export_move(app);
     look(app);
     export_take(app);
@@ -300,16 +309,16 @@ static void place_below(const app_state *app, window_layout *l, double right, do
     double high = 0;
     for (int i = 0; i < PANES_BELOW; i++) {
         const pane_below *pane = &panes_below()[i];
-        if (!pane->shown(app)) continue;
-        high =
-            fmax(high, pane->lines ? fmin(1.4 * t * pane->lines(app), 0.42 * room) : 0.42 * room);
+        if (!pane->shown(&app->learn)) continue;
+        high = fmax(high, pane->lines ? fmin(1.4 * t * pane->lines(&app->learn), 0.42 * room)
+                                      : 0.42 * room);
         shown++;
     }
     if (!shown) return;
     if (chosen > 0) high = fmin(fmax(chosen, 0.1), 0.8) * room;
     const double top = round(*bottom - high);
     for (int i = 0; i < PANES_BELOW; i++) {
-        if (!panes_below()[i].shown(app)) continue;
+        if (!panes_below()[i].shown(&app->learn)) continue;
         const double left = right * before / shown;
         l->below[i] = box(left, top, right * ++before / shown, *bottom);
     }
@@ -323,9 +332,9 @@ window_layout app_layout(const app_state *app) {
     l.bar = box(0, 0, w, bar);
     l.status = box(0, h - status, w, h);
     double bottom = h - status;
-    if (pane_time_shown(app)) {
-        l.time =
-            box(0, fmax(bottom - pane_time_height(app), bar + 0.3 * (bottom - bar)), w, bottom);
+    if (pane_time_shown(&app->learn)) {
+        l.time = box(0, fmax(bottom - pane_time_height(&app->learn), bar + 0.3 * (bottom - bar)), w,
+                     bottom);
         bottom = l.time.min.y;
     }
     const double right = round(w - side_width(app));
@@ -392,22 +401,28 @@ void app_draw(app_state *app, cairo_t *cairo) {
     app->ui.text = ui_text_size(&app->ui);
     app->ui.over = ui_find(&app->ui, app->ui.pointer);
     ui_begin(&app->ui);
-    pane_bar_measure(app);
-    pane_time_measure(app);
+    actions_show(app);
+    pane_bar_measure(&app->learn);
+    pane_time_measure(&app->learn);
     const window_layout l = place_plans(app);
     app_fit(app, l.plan[0]);
     heat_layer_follow(&app->view);
-    pane_dual_hover(app);
-    for (int i = 0; i < l.plan_count; i++) pane_plan(app, l.plan[i], i, false);
+    pane_dual_hover(&app->learn, l.below[PANE_DUAL]);
+    for (int i = 0; i < l.plan_count; i++) pane_plan(&app->learn, l.plan[i], i, false);
     for (int i = 0; i < PANES_BELOW; i++)
-        if (box_width(l.below[i]) > 0) panes_below()[i].draw(app, l.below[i]);
-    if (side_width(app) > 0) mode_table()[app->view.mode].panel(app, l.side);
+        if (box_width(l.below[i]) > 0) panes_below()[i].draw(&app->learn, l.below[i]);
+    sliders_show(app);
+    if (side_width(app) > 0) mode_table()[app->view.mode].panel(&app->learn, l.side);
     draw_edges(app, &l);
-    if (box_width(l.time) > 0) pane_time(app, l.time);
-    pane_bar(app, l.bar);
-    pane_status(app, l.status);
-    if (app->ui.help) pane_help(app);
+    if (box_width(l.time) > 0) pane_time(&app->learn, l.time);
+    pane_bar(&app->learn, l.bar);
+    const job_progress work = app_progress(app);
+    pane_status(&app->learn, l.status, &work,
+                app->recorder.records ? "recording"
+                : app->recorder.plays ? "playing"
+                                      : "");
+    if (app->ui.help) pane_help(&app->ui);
     dialog_draw(app);
-    pane_tip(app);
+    if (app->view.drag.kind == DRAG_NONE) pane_tip(&app->ui);
     app->view.draw_seconds = 0.8 * app->view.draw_seconds + 0.2 * (sl_seconds() - before);
 }

@@ -8,10 +8,9 @@
 #include "document/export.h"
 #include "document/map_file.h"
 #include "document/save.h"
-#include "lessons/lesson.h"
+#include "lessons/learn.h"
+#include "panes/modes.h"
 #include "plan/changes.h"
-#include "plan/heat.h"
-#include "plan/layers.h"
 #include "plan/present.h"
 #include "plan/seen.h"
 #include "plan/view.h"
@@ -20,41 +19,19 @@
 #include "sightline/explain.h"
 #include "ui/ui.h"
 
-typedef struct quiz_state {
-    uint32_t from, to;
-    uint32_t version; ///< of what was present when the answer was found
-    bool asked, answered, right;
-    bool judged; ///< answered by the user, who said `said`; else only explained
-    bool said;
-    bool seeded; ///< by the clock; under scripts questions are always the same
-    unsigned asked_count, right_count;
-    size_t subject, step; ///< of the lesson, while the pair was explained
-    uint64_t random;
-    sl_explanation explanation; ///< once answered
-} quiz_state;
-
-/// What the user does: the mode, keys and pointer, the selection, and the exercises.
-typedef struct tool_state {
-    lesson_state lesson;
-    quiz_state quiz;
-    path_recorder recorder;
-} tool_state;
-
-struct app_state {
+typedef struct app_state {
     sl_context *context;
     document_state document;
     view_state view;
-    tool_state tool;
+    learn_state learn;
+    path_recorder recorder;
     ui_state ui;
     dialog_state dialog;
     file_state file;
     export_job *exports;       ///< NULL: no pictures are being written
     sl_import_options options; ///< the command line's, for files opened later too
-    /// For pictures that may take longer than a frame has: the window stops them for keys that must
-    /// not wait. NULL: they are drawn to their end.
-    sl_context *drawing;
     bool quit;
-};
+} app_state;
 
 void app_init(app_state *app, sl_context *context);
 void app_destroy(app_state *app);
@@ -76,9 +53,6 @@ void app_draw(app_state *app, cairo_t *cairo);
 
 /// Fits the map into a plan of that size, if the camera is to fit.
 void app_fit(app_state *app, sl_box plan);
-
-/// The panes below the plan, side by side: rows of the table in modes.c.
-enum { PANE_DUAL, PANE_PROGRAM, PANE_FIRST_PERSON, PANE_ACCOUNT, PANE_EFFECTS, PANES_BELOW };
 
 /// Where things are on the page.
 typedef struct window_layout {

@@ -2,9 +2,9 @@
 #include "app/input.h"
 
 #include "app/actions.h"
-#include "app/modes.h"
 #include "app/sliders.h"
 #include "lessons/quiz.h"
+#include "panes/panes.h"
 #include "plan/edit.h"
 #include "plan/effects.h"
 
@@ -163,11 +163,11 @@ static bool lesson_key(app_state *app, const char *key) {
         const char *key;
         int x, y;
     } arrows[] = {{"Left", -1, 0}, {"Right", 1, 0}, {"Up", 0, 1}, {"Down", 0, -1}};
-    if (app->view.mode != MODE_LEARN || lesson_chosen(&app->tool.lesson) == CHOSEN_NONE)
+    if (app->view.mode != MODE_LEARN || lesson_chosen(&app->learn.lesson) == CHOSEN_NONE)
         return false;
     for (size_t i = 0; i < sizeof arrows / sizeof *arrows; i++) {
         if (strcmp(key, arrows[i].key) != 0) continue;
-        pane_dual_nudge(app, arrows[i].x, arrows[i].y);
+        pane_dual_nudge(&app->learn, app_layout(app).below[PANE_DUAL], arrows[i].x, arrows[i].y);
         return true;
     }
     return false;
@@ -207,7 +207,7 @@ void input_key(app_state *app, const char *key, bool down) {
     const action_row *action = &actions[number];
     if (action->hold) {
         app->view.held = down ? app->view.held | action->hold : app->view.held & ~action->hold;
-        if (down) app->tool.recorder.plays = false;
+        if (down) app->recorder.plays = false;
         return;
     }
     if (down) action->run(app);
@@ -254,18 +254,18 @@ static double slider_share(const hit_area *hit, const app_state *app, sl_point a
 /// Sliders, the time line and the dual plane follow the pointer.
 static void follow(app_state *app, const hit_area *hit, sl_point at) {
     const double share = slider_share(hit, app, at);
-    const size_t length = lesson_length(&app->tool.lesson);
+    const size_t length = lesson_length(&app->learn.lesson);
     switch (hit->kind) {
     case HIT_SLIDER:
         slider_of(hit)->set(app, share);
         break;
     case HIT_TIME:
         if (length)
-            lesson_go(&app->tool.lesson, &app->document,
+            lesson_go(&app->learn.lesson, &app->document,
                       (size_t)round(share * (double)(length - 1)));
         break;
     case HIT_DUAL:
-        pane_dual_drag(app, app_layout(app).below[PANE_DUAL], at);
+        pane_dual_drag(&app->learn, app_layout(app).below[PANE_DUAL], at);
         break;
     case HIT_BAR:
         app->ui.scrolls[hit->value].at =
@@ -279,7 +279,7 @@ static void follow(app_state *app, const hit_area *hit, sl_point at) {
 }
 
 static bool near_line(const app_state *app, sl_point at) {
-    const lesson_state *lesson = &app->tool.lesson;
+    const lesson_state *lesson = &app->learn.lesson;
     if (!lesson->end_count) return false;
     const sl_point p = sl_dual_point(&lesson->dual, at);
     const double off =
@@ -288,9 +288,9 @@ static bool near_line(const app_state *app, sl_point at) {
 }
 
 static drag_kind plan_drag(app_state *app, drag_state *drag) {
-    const bool searches = app->view.mode == MODE_LEARN && app->tool.lesson.end_count > 0 &&
-                          !app->tool.quiz.answered; // whose picture has no ends to drag
-    if (searches) drag->index = pane_plan_end_at(app, drag->at);
+    const bool searches = app->view.mode == MODE_LEARN && app->learn.lesson.end_count > 0 &&
+                          !app->learn.quiz.answered; // whose picture has no ends to drag
+    if (searches) drag->index = pane_plan_end_at(&app->learn, drag->at);
     if (searches && drag->index != UINT32_MAX) return DRAG_END;
     if (searches && near_line(app, drag->at)) return DRAG_LINE;
     const bool moves = app->view.mode == MODE_EXPLORE || app->view.mode == MODE_DRAW;
@@ -316,16 +316,16 @@ static void click(app_state *app, const hit_area *hit) {
         app->ui.field->click_x = app->ui.pointer.x;
         app->ui.field->chosen = false;
     } else if (hit->kind == HIT_SUBJECT) {
-        lesson_set_subject(app->context, &app->tool.lesson, (size_t)hit->value);
+        lesson_set_subject(app->context, &app->learn.lesson, (size_t)hit->value);
         app_tick(app, 0);
     } else if (hit->kind == HIT_END) {
-        app->tool.lesson.chosen_next = (uint32_t)hit->value + 2;
+        app->learn.lesson.chosen_next = (uint32_t)hit->value + 2;
     }
 }
 
 /// The first move of a drag in the lesson is kept for undo.
 static void keep_once(app_state *app, drag_state *drag, uint32_t what) {
-    if (!drag->changed && app->tool.lesson.end_count) lesson_keep(&app->tool.lesson, what);
+    if (!drag->changed && app->learn.lesson.end_count) lesson_keep(&app->learn.lesson, what);
     drag->changed = true;
 }
 
@@ -340,8 +340,8 @@ static void explain_to(app_state *app, sl_point at) {
     const uint32_t to = sl_space_locate(&app->document.baked->space, at);
     const uint32_t from = view_eye_cell(&app->view);
     if (to == SL_NO_CELL || from == SL_NO_CELL) return;
-    quiz_explain(app, from, to);
-    if (!app->tool.quiz.answered) return;
+    quiz_explain(&app->learn, from, to);
+    if (!app->learn.quiz.answered) return;
     app->ui.side_panel = true;
     ui_say(&app->ui, false, "why: see the %s; Ctrl+T shows the step that decides",
            ui_has_panel(&app->ui) ? "panel" : "sentence above");
@@ -412,11 +412,11 @@ static void input_point(app_state *app, sl_point to) {
         break;
     case DRAG_LINE:
         keep_once(app, drag, CHOSEN_LINE);
-        pane_plan_drag_line(app, before, now);
+        pane_plan_drag_line(&app->learn, before, now);
         break;
     case DRAG_END:
         if (drag->moved) keep_once(app, drag, drag->index);
-        if (drag->moved) lesson_move_end(&app->tool.lesson, drag->index, now);
+        if (drag->moved) lesson_move_end(&app->learn.lesson, drag->index, now);
         break;
     case DRAG_MIRROR:
         if (drag->moved) mirror_move(&app->view, drag, now);
@@ -463,8 +463,8 @@ void input_release(app_state *app, sl_point at) {
         ui_say(&app->ui, false, "this is solid ground: the eye stays; click in a room");
     } else if (puts && sl_space_locate(&app->document.baked->space, now) != SL_NO_CELL) {
         app->view.eye.at = now;
-        app->tool.recorder.plays = false;
-        if (app->view.mode == MODE_EXPLORE) quiz_forget(app);
+        app->recorder.plays = false;
+        if (app->view.mode == MODE_EXPLORE) quiz_forget(&app->learn);
     }
 }
 

@@ -204,7 +204,7 @@ static sl_status do_save(reader *r, const words *w) {
 
 static sl_status do_account(reader *r, const words *w) {
     app_tick(r->app, 0);
-    return account_save(r->app, w->rest);
+    return account_save(&r->app->view, w->rest);
 }
 
 static sl_status do_export(reader *r, const words *w) {

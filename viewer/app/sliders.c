@@ -3,7 +3,9 @@
 
 #include "document/files.h"
 #include "plan/effects.h"
+#include "plan/heat.h"
 #include "plan/layers.h"
+#include "plan/view_cells.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -190,4 +192,18 @@ static const slider_row sliders[] = {
 const slider_row *slider_table(size_t *count) {
     *count = sizeof sliders / sizeof *sliders;
     return sliders;
+}
+
+void sliders_show(app_state *app) {
+    enum { COUNT = sizeof sliders / sizeof *sliders };
+    _Static_assert((int)COUNT <= (int)SLIDERS_MOST, "the page has room for all");
+    app->ui.slider_count = COUNT;
+    for (int i = 0; i < COUNT; i++) {
+        const slider_row *s = &sliders[i];
+        ui_slider_row *row = &app->ui.sliders[i];
+        *row = (ui_slider_row){.label = s->label, .help = s->help, .shown = s->shown(app)};
+        if (!row->shown) continue;
+        row->share = s->share(app);
+        s->text(app, row->text);
+    }
 }

@@ -4,7 +4,7 @@
 
 #include "app/app.h"
 
-enum { SLIDER_TEXT = 32 };
+enum { SLIDER_TEXT = sizeof((ui_slider_row *)0)->text };
 
 typedef struct slider_row {
     const char *label;
@@ -19,5 +19,8 @@ typedef struct slider_row {
 } slider_row;
 
 const slider_row *slider_table(size_t *count);
+
+/// Has the page show the sliders as they are now.
+void sliders_show(app_state *app);
 
 #endif

@@ -103,7 +103,7 @@ sl_status window_open(app_state *app, bool hidden, app_window **out) {
     if (!w) return SL_NO_MEMORY;
     const sl_hooks hooks = {.cancelled = is_called_away};
     w->app = app;
-    if (!hidden) app->drawing = sl_context_create(&hooks);
+    if (!hidden) app->view.drawing = sl_context_create(&hooks);
     const sl_status status = open_window(w, hidden);
     if (status == SL_OK)
         *out = w;
@@ -118,8 +118,8 @@ void window_close(app_window *w) {
     if (w->renderer) SDL_DestroyRenderer(w->renderer);
     if (w->window) SDL_DestroyWindow(w->window);
     SDL_Quit();
-    sl_context_destroy(w->app->drawing);
-    w->app->drawing = NULL;
+    sl_context_destroy(w->app->view.drawing);
+    w->app->view.drawing = NULL;
     sl_free(w->app->context, w);
 }
 
@@ -164,7 +164,7 @@ sl_status window_show(app_window *w) {
     cairo_t *cairo = cairo_create(w->surface);
     app_draw(w->app, cairo);
     cairo_destroy(cairo);
-    if (w->app->drawing && is_called_away(w)) return SL_OK; // it may be half a picture
+    if (w->app->view.drawing && is_called_away(w)) return SL_OK; // it may be half a picture
     cairo_surface_flush(w->surface);
     SDL_UpdateTexture(w->texture, NULL, cairo_image_surface_get_data(w->surface),
                       cairo_image_surface_get_stride(w->surface));
@@ -260,7 +260,7 @@ static void take_event(app_window *w, const SDL_Event *e) {
 /// Whether something moves without input.
 static bool is_lively(const app_state *app) {
     return app->view.held || app->document.job || app_progress(app).running ||
-           app->tool.recorder.plays || app->tool.recorder.records || app->tool.lesson.plays ||
+           app->recorder.plays || app->recorder.records || app->learn.lesson.plays ||
            app->view.motion > 0;
 }
 

@@ -58,11 +58,11 @@ static sl_status begin(app_state *app, writer *w, const char *path, int width, i
     snprintf(w->path, sizeof w->path, "%s", path);
     w->surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height);
     cairo_t *cairo = cairo_create(w->surface);
-    sl_context *const drawing = app->drawing;
+    sl_context *const drawing = app->view.drawing;
     job->draws = true;
-    app->drawing = NULL; // it is drawn to its end
+    app->view.drawing = NULL; // it is drawn to its end
     draw(app, cairo);
-    app->drawing = drawing;
+    app->view.drawing = drawing;
     job->draws = false;
     const cairo_status_t drawn = cairo_status(cairo);
     cairo_destroy(cairo);
@@ -139,7 +139,7 @@ sl_status export_plan(app_state *app, const char *path, const char *said) {
 }
 
 sl_status export_series(app_state *app, const char *folder, unsigned every) {
-    path_recorder *r = &app->tool.recorder;
+    path_recorder *r = &app->recorder;
     export_job *job;
     if (!export_is_free(app))
         return sl_fail(app->context, SL_BAD_ARGUMENT, "pictures are being written; Esc stops that");
@@ -157,7 +157,7 @@ sl_status export_series(app_state *app, const char *folder, unsigned every) {
 
 void export_move(app_state *app) {
     export_job *job = app->exports;
-    const path_recorder *r = &app->tool.recorder;
+    const path_recorder *r = &app->recorder;
     if (!job) return;
     job->free = -1;
     if (!is_series(job) || job->next >= r->frames.count || r->records) return;
@@ -188,7 +188,7 @@ void export_take(app_state *app) {
         if (w->task && task_done(w->task) && status == SL_OK) status = finish(app->context, w);
         any |= w->task != NULL;
     }
-    const path_recorder *r = &app->tool.recorder;
+    const path_recorder *r = &app->recorder;
     const bool more = is_series(job) && job->next < r->frames.count && !r->records;
     if (status == SL_OK && (any || more)) return;
     char said[sizeof job->said + sizeof job->folder];

@@ -3,9 +3,9 @@
 #include "document/save.h"
 
 #include "app/app.h"
-#include "app/modes.h"
 #include "document/export.h"
 #include "panes/account.h"
+#include "panes/panes.h"
 #include "sightline/draw.h"
 #include "sightline/support.h"
 
@@ -92,7 +92,7 @@ void save_draw_plan(void *user, cairo_t *cairo) {
     app->ui.palette = sl_palette_make(app->ui.dark);
     app->ui.text = ui_text_size(&app->ui);
     app_fit(app, plan);
-    pane_plan(app, (sl_box){{0, 0}, {box_width(plan), box_height(plan)}}, 0, true);
+    pane_plan(&app->learn, (sl_box){{0, 0}, {box_width(plan), box_height(plan)}}, 0, true);
     app->ui.cairo = before;
     app->ui.palette = palette;
     app->ui.text = text;
@@ -126,7 +126,7 @@ void save_numbered(app_state *app, const char *ending) {
         if (access(path, F_OK) == 0 || access(chart, F_OK) == 0) continue;
         snprintf(said, sizeof said, "saved %s%s%s", path, app->ui.accounts ? " and " : "",
                  app->ui.accounts ? chart : "");
-        sl_status status = app->ui.accounts ? account_save(app, chart) : SL_OK;
+        sl_status status = app->ui.accounts ? account_save(&app->view, chart) : SL_OK;
         if (status == SL_OK) status = now ? save_plan(app, path) : export_plan(app, path, said);
         if (status == SL_OK && now) ui_say(&app->ui, false, "%s", said);
         view_check(&app->view, status);
@@ -139,7 +139,7 @@ sl_status save_series(app_state *app, const char *folder, unsigned every) {
     if (app->file.locked) return SL_OK;
     if (mkdir(folder, 0777) != 0 && errno != EEXIST)
         return sl_fail(app->context, SL_IO, "%s: %s", folder, strerror(errno));
-    path_recorder *r = &app->tool.recorder;
+    path_recorder *r = &app->recorder;
     if (!r->frames.count)
         return sl_fail(app->context, SL_BAD_ARGUMENT, "nothing was recorded to be exported");
     char path[4096];

@@ -14,7 +14,7 @@
 #include "sightline/support.h"
 #include "space/mesh.h" // private, likewise
 
-typedef struct app_state app_state;
+typedef struct learn_state learn_state;
 typedef struct lesson_state lesson_state;
 
 enum { SENTENCE = 512, PASSES = 4, UNDO_MOST = 64 };
@@ -46,8 +46,8 @@ typedef struct subject_row {
     bool (*finds)(const lesson_state *lesson, size_t step);
     bool (*rejects)(const lesson_state *lesson, size_t step);
     const char *found, *rejected;
-    void (*below)(app_state *app, const sl_frame *frame); ///< drawn below the walls
-    void (*above)(app_state *app, const sl_frame *frame); ///< and above them
+    void (*below)(learn_state *learn, const sl_frame *frame); ///< drawn below the walls
+    void (*above)(learn_state *learn, const sl_frame *frame); ///< and above them
 } subject_row;
 
 extern const subject_row lesson_search, lesson_subdivision, lesson_pass, lesson_effects;

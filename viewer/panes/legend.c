@@ -2,7 +2,8 @@
 /// stands in the panel; over the plan where there is no panel.
 #include "panes/legend.h"
 
-#include "app/actions.h"
+#include "panes/panel.h"
+
 #include "draw/marks.h" // private: samples are the marks of the plan
 #include "plan/heat.h"
 #include "plan/view_cells.h"
@@ -286,7 +287,7 @@ static void fold(view_state *view, double left, double bottom) {
     ui_state *ui = view->ui;
     ui->legend_folded = true;
     ui_button(ui, left, bottom - 1.6 * ui->text, 1.6 * ui->text, "Legend (F7)", false,
-              action_find("legend"));
+              ui_action_find(ui, "legend"));
 }
 
 /// A legend that is higher than three quarters of the plan is left to the panel. Returns its box;
@@ -343,4 +344,25 @@ void layers_draw_keys(view_state *view, const sl_frame *frame, bool vector) {
     sl_box legend = {{frame->left, lowest}, {frame->left, lowest}};
     if (view->mode != MODE_QUIZ && view->ui->legend) legend = draw_over_plan(view, frame, vector);
     draw_keys_over_plan(view, frame, &legend);
+}
+
+// --- in a panel
+
+void column_legend(view_state *view, column *c) {
+    legend_row rows[LEGEND_MOST];
+    char text[96];
+    const int count = layers_legend(view, rows);
+    if (!count) return;
+    column_heading(view->ui, c, "Legend", NULL);
+    for (int i = 0; i < count; i++)
+        c->y = layers_legend_row(view->ui, c->left, c->right, c->y, &rows[i]);
+    c->y = layers_key_column(view, c->left, c->right, c->y);
+    if (layer_nodes_words(view, text))
+        column_words(view->ui, c, 0.9, view->ui->palette.faint, text);
+}
+
+void column_layers(view_state *view, column *c) {
+    column_heading(view->ui, c, "Layers", "key");
+    for (unsigned i = 0; i < LAYER_COUNT; i++)
+        if (layers_lists(view, i)) column_check(view->ui, c, layer_table()[i].name);
 }

@@ -1,12 +1,12 @@
 /// What the map calls for, and what the bake did for it.
-#include "app/modes.h"
+#include "panes/panes.h"
 #include "plan/effects.h"
 
 #include <math.h>
 #include <stdio.h>
 
 /// Lists the effects, each with the stages that it adds; returns the base line below.
-static double draw_found(view_state *view, sl_box box, double y) {
+static double draw_found(const view_state *view, sl_box box, double y) {
     ui_state *ui = view->ui;
     const sl_map *map = &view->document->map;
     const double t = ui->text, left = box.min.x + 1.1 * t, right = box.max.x - t;
@@ -52,7 +52,8 @@ static void write_work(const document_state *document, char text[256]) {
     snprintf(text + length, 256 - (size_t)length, ".");
 }
 
-void pane_effects(view_state *view, sl_box box) {
+void pane_effects(learn_state *learn, sl_box box) {
+    const view_state *view = learn->view;
     ui_state *ui = view->ui;
     const double t = ui->text, left = box.min.x + 1.1 * t, wide = box_width(box) - 2.2 * t;
     ui_begin_area(ui, box);

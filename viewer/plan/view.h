@@ -145,6 +145,9 @@ struct view_state {
     sl_context *context;
     ui_state *ui;
     document_state *document;
+    /// For pictures that may take longer than a frame has: the window stops them for keys that must
+    /// not wait. NULL: they are drawn to their end.
+    sl_context *drawing;
     view_mode mode;
     unsigned held;  ///< keys, of hold_key
     sl_box plan[2]; ///< where the plans are on the page, and how many

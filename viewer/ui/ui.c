@@ -33,6 +33,12 @@ void ui_report(ui_state *ui, const sl_context *context, sl_status status) {
         ui_say(ui, true, "%s", sl_context_message(context));
 }
 
+int ui_action_find(const ui_state *ui, const char *name) {
+    for (int i = 0; i < ui->action_count; i++)
+        if (strcmp(ui->actions[i].name, name) == 0) return i;
+    return -1;
+}
+
 void ui_open_help(ui_state *ui) {
     ui->help = true;
     field_set(&ui->filter, "");

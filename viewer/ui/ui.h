@@ -72,6 +72,26 @@ typedef struct text_spot {
     char text[48];
 } text_spot;
 
+/// An action, as buttons, rows and the help show it.
+typedef struct ui_action {
+    const char *name;  ///< for scripts: "fit"
+    const char *key;   ///< "F", "Ctrl+Z", "Left"; NULL for none
+    const char *label; ///< on its button
+    const char *help;
+    bool on;   ///< it is a switch, and is switched on
+    bool held; ///< it lasts while its key is down
+} ui_action;
+
+/// A slider of the panel.
+typedef struct ui_slider_row {
+    const char *label, *help;
+    bool shown;
+    double share;  ///< where it stands, 0 to 1
+    char text[32]; ///< its value
+} ui_slider_row;
+
+enum { ACTIONS_MOST = 160, SLIDERS_MOST = 12 };
+
 /// The page and its widgets: what a frame is drawn with, panels, messages. A frame starts without
 /// hits.
 typedef struct ui_state {
@@ -115,6 +135,10 @@ typedef struct ui_state {
     bool hover_is_focus;
     int bar_rows, time_lines, time_rows; ///< of buttons; of the lesson's sentence and its buttons
 
+    ui_action actions[ACTIONS_MOST]; ///< these two: filled in by the app for each frame
+    ui_slider_row sliders[SLIDERS_MOST];
+    int action_count, slider_count;
+
     text_spot *spots; ///< NULL: texts are not kept
     int spot_count;
 } ui_state;
@@ -143,6 +167,9 @@ static inline bool ui_has_panel(const ui_state *ui) {
 /// Opens the help, with nothing searched for, and shuts it.
 void ui_open_help(ui_state *ui);
 void ui_shut_help(ui_state *ui);
+
+/// The number of an action; -1 for an unknown name.
+int ui_action_find(const ui_state *ui, const char *name);
 
 /// Begins a frame: no hits, no clip.
 void ui_begin(ui_state *ui);
