@@ -4,6 +4,8 @@
 #include "space/outline.h"
 #include "viewer_app.h"
 
+#include "app/layout.h"
+#include "app/turn.h"
 #include "plan/heat.h"
 #include "sightline/bake.h"
 

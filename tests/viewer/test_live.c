@@ -2,6 +2,9 @@
 // culling of a fresh bake of the map as it is then. Jobs end when they are told to.
 #include "viewer_app.h"
 
+#include "app/layout.h"
+#include "app/turn.h"
+#include "dialogs/opening.h"
 #include "plan/edit.h"
 #include "sightline/bake.h"
 #include "sightline/generate.h"
@@ -484,7 +487,7 @@ static void test_stopped(void **state) {
     const uint32_t cells = app->document.baked->space.cell_count;
     const uint32_t version = app->document.version;
     app->ui.steady = false;
-    files_open(app, "large.map", false);
+    files_open(&app->desk, "large.map", false);
     assert_non_null(app->document.job);
     for (int i = 0; i < 3; i++) app_tick(app, 0.001);
     // Whatever stage it is in: it ends, and the map that was open stays.
@@ -506,7 +509,7 @@ static void test_closed(void **state) {
     for (int waits = 0; waits < 40; waits += 13) {
         app_state *app = viewer_start(false);
         viewer_press(app, "F5"); // view cells as well
-        files_open(app, "large.map", false);
+        files_open(&app->desk, "large.map", false);
         for (int i = 0; i < waits; i++) {
             const struct timespec pause = {0, 20000000};
             nanosleep(&pause, NULL);
@@ -537,12 +540,12 @@ static size_t take_away(const char *folder) {
 }
 
 static void wait_for_pictures(app_state *app) {
-    for (int i = 0; i < 60000 && app->exports; i++) {
+    for (int i = 0; i < 60000 && app->exports.job; i++) {
         const struct timespec pause = {0, 1000000};
         nanosleep(&pause, NULL);
         app_tick(app, 0.001);
     }
-    assert_null(app->exports);
+    assert_null(app->exports.job);
 }
 
 /// Saves the way, and answers the question of how many pictures that are.
@@ -561,14 +564,14 @@ static void test_exported(void **state) {
     const size_t frames = app->recorder.frames.count;
     assert_true(frames > 10);
     save_way(app);
-    assert_non_null(app->exports);
+    assert_non_null(app->exports.job);
     wait_for_pictures(app);
     assert_int_equal(take_away("sightline-frames"), (frames + 1) / 2);
     // Stopped: each picture is whole or not there.
     save_way(app);
     for (int i = 0; i < 3; i++) app_tick(app, 0.001);
     viewer_press(app, "Escape");
-    assert_null(app->exports);
+    assert_null(app->exports.job);
     assert_true(take_away("sightline-frames") <= 3);
     static const char *const keys[] = {"Ctrl+E", "Ctrl+G", "Ctrl+P"};
     for (int i = 0; i < 3; i++) {

@@ -1,12 +1,15 @@
 /// What actions do, by topic, and the table that names them.
 #include "app/actions.h"
 
+#include "app/layout.h"
+#include "app/pictures.h"
+#include "app/turn.h"
 #include "dialogs/browser.h"
 #include "dialogs/import_dialog.h"
+#include "dialogs/map_file.h"
+#include "dialogs/opening.h"
 #include "dialogs/question.h"
 #include "document/export.h"
-#include "document/files.h"
-#include "document/save.h"
 #include "lessons/quiz.h"
 #include "lessons/why.h"
 #include "panes/modes.h"
@@ -388,10 +391,8 @@ static void play(app_state *app) {
 
 IS(play, app->recorder.plays)
 
-static void take_export(app_state *app, int answer) {
-    if (answer == 0 && !app->file.locked)
-        view_check(&app->view, (app->ui.steady ? save_series : export_series)(
-                                   app, "sightline-frames", SERIES_STEP));
+static void take_export(desk_state *desk, int answer) {
+    desk->agreed = answer == 0;
 }
 
 static void export_frames(app_state *app) {
@@ -404,21 +405,22 @@ static void export_frames(app_state *app) {
     }
     snprintf(text, sizeof text, "%zu picture%s of %d x %d pixels, in the folder sightline-frames",
              count, count == 1 ? "" : "s", app->ui.width, app->ui.height);
-    question_ask(app, "Save pictures of the way?", text, answers, 2, take_export);
+    question_ask(&app->desk, "Save pictures of the way?", text, answers, 2, take_export);
 }
 
 // --- files
 
-DO(file_menu, menu_open(app))
-DO(file_new, map_file_new(app))
-DO(file_open, browser_open(app))
-DO(file_import, import_open_again(app))
-DO(file_save, map_file_save(app))
-DO(file_save_as, map_file_save_as(app))
+DO(file_menu, menu_open(&app->desk))
+DO(file_new, map_file_new(&app->desk))
+DO(file_open, files_browse(&app->desk))
+DO(file_import, files_import_again(&app->desk))
+DO(file_save, map_file_save(&app->desk))
+DO(file_save_as, map_file_save_as(&app->desk))
 
 static void file_notes(app_state *app) {
     const char *notes = app->document.notes;
-    question_tell(app, "What was read", *notes ? notes : "The reader of this file has no notes.");
+    question_tell(&app->desk, "What was read",
+                  *notes ? notes : "The reader of this file has no notes.");
 }
 
 IS(doors, app->document.source.options.doors)
@@ -430,7 +432,7 @@ static void doors(app_state *app) {
         return;
     }
     options.doors = !options.doors;
-    files_open_again(app, &options);
+    files_open_again(&app->desk, &options);
 }
 
 static void cut_by(app_state *app, double share) {
@@ -438,7 +440,7 @@ static void cut_by(app_state *app, double share) {
     sl_import_options options = source->options;
     const double by = share * (source->highest - source->lowest);
     options.slice = fmin(fmax(options.slice + by, source->lowest), source->highest);
-    if (options.slice != source->options.slice) files_open_again(app, &options);
+    if (options.slice != source->options.slice) files_open_again(&app->desk, &options);
 }
 
 DO(cut_lower, cut_by(app, -0.02))
@@ -446,19 +448,19 @@ DO(cut_higher, cut_by(app, 0.02))
 DO(save_png, save_numbered(app, "png"))
 DO(save_svg, save_numbered(app, "svg"))
 DO(save_pdf, save_numbered(app, "pdf"))
-DO(quit, map_file_quit(app))
+DO(quit, map_file_quit(&app->desk))
 
 static void escape(app_state *app) {
     if (app->ui.help)
         ui_shut_help(&app->ui);
-    else if (map_file_stop(app))
+    else if (map_file_stop(&app->desk))
         ui_say(&app->ui, false, "stopped; the map is not saved");
     else if (edit_cancel(&app->view))
         ;
     else if (app->document.job) {
         document_cancel(app->context, &app->document);
         ui_say(&app->ui, false, "stopped; what is there stays");
-    } else if (export_stop(app))
+    } else if (export_stop(&app->exports))
         ui_say(&app->ui, false, "stopped; the pictures that are written stay");
     else if (view_layer_stop(&app->view))
         ui_say(&app->ui, false, "stopped; F5 twice makes view cells again");
@@ -633,6 +635,15 @@ void actions_show(app_state *app) {
         app->ui.actions[i] =
             (ui_action){a->name, a->key, a->label, a->help, a->on && a->on(app), a->hold != 0};
     }
+}
+
+void actions_answered(app_state *app) {
+    const char *chosen = app->desk.dialog.chosen;
+    const bool agreed = app->desk.agreed;
+    app->desk.dialog.chosen = NULL;
+    app->desk.agreed = false;
+    if (chosen) action_run(app, action_find(chosen));
+    if (agreed) view_check(&app->view, save_series(app, "sightline-frames", SERIES_STEP));
 }
 
 void action_run(app_state *app, int action) {

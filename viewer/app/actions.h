@@ -25,6 +25,9 @@ int action_find(const char *name);
 /// The number of the action of a key in a mode; -1 for none.
 int action_of_key(const char *key, view_mode mode);
 
+/// Call after each key and click that a dialog took: does what was chosen in it.
+void actions_answered(app_state *app);
+
 /// Runs an action. One that is held stays on until app_release.
 void action_run(app_state *app, int action);
 

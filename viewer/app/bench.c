@@ -3,9 +3,10 @@
 
 #include "app/actions.h"
 #include "app/input.h"
+#include "app/layout.h"
 #include "app/script.h"
+#include "app/turn.h"
 #include "app/window.h"
-#include "document/files.h"
 #include "plan/edit.h"
 #include "sightline/support.h"
 
@@ -232,7 +233,7 @@ static void random_dialog(app_state *app, sl_random *random) {
     static const char *const keys[] = {"Return", "Escape",    "Tab",  "Shift+Tab",
                                        "Space",  "Down",      "Up",   "Left",
                                        "Right",  "Backspace", "Home", "PageDown"};
-    if (dialog_open_now(app) == DIALOG_NONE) return;
+    if (dialog_open_now(&app->desk.dialog) == DIALOG_NONE) return;
     if (sl_random_below(random, 4) == 0) input_text(app, "ma\xc3\xa4");
     input_key(app, keys[sl_random_below(random, sizeof keys / sizeof *keys)], true);
 }
@@ -256,7 +257,8 @@ static bool random_grip(const app_state *app, sl_random *random, sl_point *at) {
 static void random_edit(app_state *app, sl_random *random) {
     sl_point at;
     if (app->view.mode != MODE_DRAW) input_key(app, "F3", true);
-    if (app->ui.help || dialog_open_now(app) != DIALOG_NONE || !random_grip(app, random, &at))
+    if (app->ui.help || dialog_open_now(&app->desk.dialog) != DIALOG_NONE ||
+        !random_grip(app, random, &at))
         return;
     if (ui_find(&app->ui, at).kind != HIT_PLAN) return;
     input_press(app, BUTTON_LEFT, at);
@@ -329,7 +331,7 @@ sl_status soak_run(app_state *app, double seconds, uint64_t seed) {
     sl_random random = {seed};
     const double end = sl_seconds() + seconds;
     uint64_t events = 0;
-    app->file.locked = true;
+    app->desk.file.locked = true;
     while (sl_seconds() < end) {
         random_event(app, &random);
         app_tick(app, 1.0 / 30);

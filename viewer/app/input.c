@@ -2,7 +2,9 @@
 #include "app/input.h"
 
 #include "app/actions.h"
+#include "app/layout.h"
 #include "app/sliders.h"
+#include "app/turn.h"
 #include "lessons/quiz.h"
 #include "panes/panes.h"
 #include "plan/edit.h"
@@ -194,8 +196,9 @@ static bool own_key(app_state *app, const char *key, bool down) {
 void input_key(app_state *app, const char *key, bool down) {
     size_t count;
     const text_field *before = app->ui.field;
-    if (dialog_open_now(app) != DIALOG_NONE) {
-        dialog_key(app, key, down);
+    if (dialog_open_now(&app->desk.dialog) != DIALOG_NONE) {
+        dialog_key(&app->desk.dialog, key, down);
+        actions_answered(app);
         return;
     }
     if (!down) app->ui.field_mutes = false;
@@ -213,8 +216,8 @@ void input_key(app_state *app, const char *key, bool down) {
     if (down) action->run(app);
     if (down && !before && app->ui.field) app->ui.field_mutes = true;
     // A letter that opens a dialog comes as text too, which is not meant for the dialog.
-    if (down && dialog_open_now(app) != DIALOG_NONE)
-        snprintf(app->dialog.deaf, sizeof app->dialog.deaf, "%s", key);
+    if (down && dialog_open_now(&app->desk.dialog) != DIALOG_NONE)
+        snprintf(app->desk.dialog.deaf, sizeof app->desk.dialog.deaf, "%s", key);
 }
 
 bool input_takes(const char *key) {
@@ -229,8 +232,8 @@ bool input_takes(const char *key) {
 }
 
 void input_text(app_state *app, const char *text) {
-    if (dialog_open_now(app) != DIALOG_NONE) {
-        dialog_text(app, text);
+    if (dialog_open_now(&app->desk.dialog) != DIALOG_NONE) {
+        dialog_text(&app->desk.dialog, text);
         return;
     }
     if (!app->ui.field || app->ui.field_mutes) return;
@@ -359,8 +362,9 @@ static void input_press_at(app_state *app, button_kind button, sl_point at) {
     const hit_area hit = ui_find(&app->ui, at);
     drag_state *drag = &app->view.drag;
     *drag = (drag_state){.hit = hit, .from = at, .last = at, .index = UINT32_MAX};
-    if (dialog_open_now(app) != DIALOG_NONE) {
-        if (button == BUTTON_LEFT) dialog_press(app, &hit, at);
+    if (dialog_open_now(&app->desk.dialog) != DIALOG_NONE) {
+        if (button == BUTTON_LEFT) dialog_press(&app->desk.dialog, &hit, at);
+        actions_answered(app);
         return;
     }
     if (hit.kind != HIT_PLAN) {
@@ -469,8 +473,8 @@ void input_release(app_state *app, sl_point at) {
 }
 
 void input_wheel(app_state *app, double steps) {
-    if (dialog_open_now(app) != DIALOG_NONE) {
-        dialog_wheel(app, steps);
+    if (dialog_open_now(&app->desk.dialog) != DIALOG_NONE) {
+        dialog_wheel(&app->desk.dialog, steps);
         return;
     }
     const int area = ui_scroll_at(&app->ui, app->ui.pointer);

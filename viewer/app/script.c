@@ -2,11 +2,14 @@
 #include "app/script.h"
 
 #include "app/actions.h"
+#include "app/frame.h"
 #include "app/input.h"
+#include "app/pictures.h"
 #include "app/print.h"
+#include "app/turn.h"
+#include "dialogs/map_file.h"
+#include "dialogs/opening.h"
 #include "dialogs/question.h"
-#include "document/files.h"
-#include "document/save.h"
 #include "panes/account.h"
 #include "sightline/support.h"
 
@@ -50,8 +53,8 @@ static void frame(reader *r, double seconds) {
 // --- commands
 
 static sl_status do_open(reader *r, const words *w) {
-    map_file_give_up(r->app);
-    files_open(r->app, w->rest, false);
+    map_file_give_up(&r->app->desk);
+    files_open(&r->app->desk, w->rest, false);
     app_settle(r->app);
     if (r->app->ui.message_is_error)
         return sl_fail_at(r->app->context, r->file, r->line, "%s", r->app->ui.message);
@@ -59,7 +62,7 @@ static sl_status do_open(reader *r, const words *w) {
 }
 
 static sl_status do_drop(reader *r, const words *w) {
-    files_drop(r->app, w->rest);
+    files_drop(&r->app->desk, w->rest);
     app_settle(r->app);
     frame(r, 0);
     return SL_OK;
@@ -74,11 +77,11 @@ static sl_status do_type(reader *r, const words *w) {
 /// A script goes wrong where it does not find what it expects.
 static sl_status do_expect(reader *r, const words *w) {
     char title[TITLE_TEXT];
-    const dialog_state *dialog = &r->app->dialog;
+    const dialog_state *dialog = &r->app->desk.dialog;
     script_frame(r->app);
-    map_file_title(r->app, title);
+    map_file_title(&r->app->desk, title);
     const char *const shown[] = {title, r->app->ui.message, dialog->title, dialog->problem,
-                                 question_text(r->app)};
+                                 question_text(&r->app->desk)};
     for (size_t i = 0; i < sizeof shown / sizeof *shown; i++)
         if (strstr(shown[i], w->rest)) return SL_OK;
     return sl_fail_at(r->app->context, r->file, r->line,
@@ -89,7 +92,7 @@ static sl_status do_expect(reader *r, const words *w) {
 
 static sl_status check_key(reader *r, const char *key) {
     // A dialog and a field have keys of their own.
-    const bool typed = dialog_open_now(r->app) != DIALOG_NONE || r->app->ui.field;
+    const bool typed = dialog_open_now(&r->app->desk.dialog) != DIALOG_NONE || r->app->ui.field;
     if (typed || input_takes(key)) return SL_OK;
     return sl_fail_at(r->app->context, r->file, r->line, "no action has the key '%s'", key);
 }

@@ -1,7 +1,7 @@
 /// The share, the words and the setting of each slider.
 #include "app/sliders.h"
 
-#include "document/files.h"
+#include "dialogs/opening.h"
 #include "plan/effects.h"
 #include "plan/heat.h"
 #include "plan/layers.h"
@@ -48,7 +48,7 @@ static void set_cut(app_state *app, double share) {
     const document_source *source = &app->document.source;
     sl_import_options options = source->options;
     options.slice = source->lowest + share * (source->highest - source->lowest);
-    if (options.slice != source->options.slice) files_open_again(app, &options);
+    if (options.slice != source->options.slice) files_open_again(&app->desk, &options);
 }
 
 // --- how deep splits are shown

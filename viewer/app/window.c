@@ -1,8 +1,11 @@
 /// SDL's window, its density of pixels, and the loop of events.
 #include "app/window.h"
 
+#include "app/frame.h"
 #include "app/input.h"
-#include "document/files.h"
+#include "app/turn.h"
+#include "dialogs/map_file.h"
+#include "dialogs/opening.h"
 #include "sightline/support.h"
 
 #include <SDL.h>
@@ -148,7 +151,7 @@ static sl_status fit_texture(app_window *w) {
 
 static void show_title(app_window *w) {
     char title[TITLE_TEXT];
-    map_file_title(w->app, title);
+    map_file_title(&w->app->desk, title);
     if (strcmp(title, w->title) == 0) return;
     memcpy(w->title, title, sizeof title);
     SDL_SetWindowTitle(w->window, title);
@@ -224,7 +227,7 @@ static void take_event(app_window *w, const SDL_Event *e) {
     char name[48];
     switch (e->type) {
     case SDL_QUIT:
-        map_file_quit(w->app);
+        map_file_quit(&w->app->desk);
         break;
     case SDL_KEYDOWN:
     case SDL_KEYUP:
@@ -246,7 +249,7 @@ static void take_event(app_window *w, const SDL_Event *e) {
         input_wheel(w->app, e->wheel.y);
         break;
     case SDL_DROPFILE:
-        files_drop(w->app, e->drop.file);
+        files_drop(&w->app->desk, e->drop.file);
         SDL_free(e->drop.file);
         break;
     case SDL_WINDOWEVENT:
@@ -267,18 +270,18 @@ static bool is_lively(const app_state *app) {
 sl_status window_run(app_window *w) {
     app_state *app = w->app;
     double last = sl_seconds();
-    while (!app->quit) {
+    while (!app->desk.quit) {
         SDL_Event event;
         // Nothing is drawn again while nothing happens.
         const bool any = is_lively(app) ? SDL_PollEvent(&event) : SDL_WaitEventTimeout(&event, 250);
         bool more = any;
         for (bool stale = false; more; stale = true, more = SDL_PollEvent(&event)) {
             // A click meant what is there after the key before it, and a key the dialog that opens.
-            if ((stale && event.type == SDL_MOUSEBUTTONDOWN) || dialog_is_unseen(app))
+            if ((stale && event.type == SDL_MOUSEBUTTONDOWN) || dialog_is_unseen(&app->desk.dialog))
                 SL_TRY(window_show(w));
             take_event(w, &event);
         }
-        if (app->quit) break;
+        if (app->desk.quit) break;
         const double now = sl_seconds();
         const bool lively = is_lively(app);
         app_tick(app, lively ? now - last : 0);

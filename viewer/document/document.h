@@ -4,6 +4,7 @@
 #define VIEWER_DOCUMENT_H
 
 #include "document/history.h"
+#include "document/task.h"
 #include "sightline/bake.h"
 #include "sightline/faults.h"
 #include "sightline/import.h"
@@ -65,13 +66,6 @@ typedef struct document_state {
     uint32_t edit, shown; ///< number of the last change that needs a bake, and of the one shown
     double weld;          ///< ends of walls this near to each other are one corner
 } document_state;
-
-/// The progress of the work in the background.
-typedef struct job_progress {
-    bool running;
-    const char *stage;
-    double share; ///< 0 to 1; negative where it is not known
-} job_progress;
 
 /// Whether a file has the name of a baked map.
 bool document_is_baked(const char *path);

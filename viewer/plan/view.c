@@ -63,6 +63,12 @@ void view_follow(view_state *view) {
     view_check(view, present_update(view->context, &view->present, view->document, view->eye.at));
 }
 
+void view_drop_scenes(view_state *view) {
+    sl_scene_destroy(view->context, view->scene);
+    sl_scene_destroy(view->context, view->tree);
+    view->scene = view->tree = NULL;
+}
+
 bool view_is_solid(const view_state *view, sl_point at) {
     if (!view->document->baked) return false;
     const sl_space *space = &view->document->baked->space;

@@ -195,6 +195,9 @@ static inline void view_check(view_state *view, sl_status status) {
 /// Follows the document and the eye.
 void view_follow(view_state *view);
 
+/// Drops the scenes of the plan and of the stab tree.
+void view_drop_scenes(view_state *view);
+
 /// Whether a point of the map is in solid ground, from where nobody looks.
 bool view_is_solid(const view_state *view, sl_point at);
 

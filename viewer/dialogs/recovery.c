@@ -4,8 +4,10 @@
 /// the copy, and unsaved-ID.of, the name of the file that the map is of. The system drops the lock
 /// when the program ends, however it ends. A lock that can be taken is of a session that is over:
 /// a copy beside it was never saved. The lock comes first and goes last.
-#include "document/recovery.h"
+#include "dialogs/recovery.h"
 
+#include "dialogs/map_file.h"
+#include "dialogs/opening.h"
 #include "dialogs/question.h"
 #include "document/files.h"
 #include "sightline/import.h"
@@ -44,7 +46,7 @@ static void remove_session(const char *session, int lock) {
 // --- this session's copy
 
 /// A new lock in the folder; false without one.
-static bool begin_session(app_state *app) {
+static bool begin_session(desk_state *desk) {
     char folder[PATH_TEXT], session[SESSION_TEXT], path[PATH_TEXT];
     if (!files_folder("XDG_STATE_HOME", ".local/state", folder, true)) return false;
     for (int i = 0; i < 100; i++) {
@@ -54,13 +56,13 @@ static bool begin_session(app_state *app) {
         name_file(path, session, ".lock");
         const int lock = open(path, O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC, 0600);
         if (lock < 0) continue;
-        char *copy = sl_copy_text(app->context, session, strlen(session));
+        char *copy = sl_copy_text(desk->context, session, strlen(session));
         if (copy && flock(lock, LOCK_EX | LOCK_NB) == 0) {
-            app->file.copy = copy;
-            app->file.lock = lock;
+            desk->file.copy = copy;
+            desk->file.lock = lock;
             return true;
         }
-        sl_free(app->context, copy);
+        sl_free(desk->context, copy);
         close(lock);
         unlink(path);
         return false;
@@ -69,61 +71,61 @@ static bool begin_session(app_state *app) {
 }
 
 /// Notes which file the map is of. Nothing for one that is in no file.
-static void write_of(app_state *app) {
+static void write_of(desk_state *desk) {
     char path[PATH_TEXT], full[PATH_TEXT];
-    const char *of = app->file.path ? app->file.path
-                     : app->file.of ? app->file.of
-                                    : app->document.source.path;
+    const char *of = desk->file.path ? desk->file.path
+                     : desk->file.of ? desk->file.of
+                                     : desk->document->source.path;
     sl_output output;
     if (!of || !realpath(of, full)) return;
-    name_file(path, app->file.copy, ".of");
-    if (sl_output_open(app->context, path, &output) != SL_OK) return;
+    name_file(path, desk->file.copy, ".of");
+    if (sl_output_open(desk->context, path, &output) != SL_OK) return;
     fputs(full, output.stream);
-    sl_output_close(app->context, &output, SL_OK);
+    sl_output_close(desk->context, &output, SL_OK);
 }
 
-void recovery_tick(app_state *app) {
-    file_state *file = &app->file;
-    if (!file->copies || file->task || !map_file_changed(app)) return;
-    if (file->copy && file->copy_state == app->document.history.state) return;
+void recovery_tick(desk_state *desk) {
+    file_state *file = &desk->file;
+    if (!file->copies || file->task || !map_file_changed(desk)) return;
+    if (file->copy && file->copy_state == desk->document->history.state) return;
     if (sl_seconds() < file->copy_next) return;
     file->copy_next = sl_seconds() + COPY_STEP;
     if (!file->copy) {
-        if (!begin_session(app)) {
+        if (!begin_session(desk)) {
             file->copies = false;
-            ui_say(&app->ui, true, "changes are not kept for a crash: no folder for them");
+            ui_say(desk->ui, true, "changes are not kept for a crash: no folder for them");
             return;
         }
-        write_of(app);
+        write_of(desk);
     }
     char path[PATH_TEXT];
     name_file(path, file->copy, ".map");
-    map_file_copy_to(app, path);
+    map_file_copy_to(desk, path);
 }
 
-void recovery_take(app_state *app, sl_status status, uint64_t state) {
+void recovery_take(desk_state *desk, sl_status status, uint64_t state) {
     if (status == SL_CANCELLED) return;
-    app->file.copy_state = state;
+    desk->file.copy_state = state;
     if (status == SL_OK) return;
-    app->file.copies = false;
-    ui_say(&app->ui, true, "changes are not kept for a crash: %s",
-           sl_context_message(app->context));
+    desk->file.copies = false;
+    ui_say(desk->ui, true, "changes are not kept for a crash: %s",
+           sl_context_message(desk->context));
 }
 
-void recovery_forget(app_state *app) {
-    file_state *file = &app->file;
+void recovery_forget(desk_state *desk) {
+    file_state *file = &desk->file;
     if (!file->copy) return;
     remove_session(file->copy, file->lock);
-    sl_free(app->context, file->copy);
+    sl_free(desk->context, file->copy);
     file->copy = NULL;
 }
 
 // --- what earlier sessions have left
 
-static void offer_next(app_state *app, const char *after);
+static void offer_next(desk_state *desk, const char *after);
 
-static void take_answer(app_state *app, int answer) {
-    file_state *file = &app->file;
+static void take_answer(desk_state *desk, int answer) {
+    file_state *file = &desk->file;
     char path[PATH_TEXT];
     sl_bytes of = {0};
     sl_map map = {0};
@@ -132,53 +134,53 @@ static void take_answer(app_state *app, int answer) {
     if (answer != 0) {
         char last[SESSION_TEXT];
         snprintf(last, sizeof last, "%s", file->offer);
-        sl_free(app->context, file->offer);
+        sl_free(desk->context, file->offer);
         file->offer = NULL;
-        offer_next(app, last);
+        offer_next(desk, last);
         return;
     }
     name_file(path, file->offer, ".of");
-    const bool known = sl_file_read(app->context, path, &of) == SL_OK;
+    const bool known = sl_file_read(desk->context, path, &of) == SL_OK;
     name_file(path, file->offer, ".map");
-    const sl_status status = sl_map_read(app->context, path, NULL, &map);
+    const sl_status status = sl_map_read(desk->context, path, NULL, &map);
     if (status == SL_OK) {
         // The copy is this session's from now on.
-        recovery_forget(app);
+        recovery_forget(desk);
         file->copy = file->offer;
         file->lock = file->offer_lock;
-        map_file_recover(app, &map, known ? of.data : NULL);
+        map_file_recover(desk, &map, known ? of.data : NULL);
     } else {
         close(file->offer_lock);
-        sl_free(app->context, file->offer);
+        sl_free(desk->context, file->offer);
     }
     file->offer = NULL;
-    files_check(app, path, status);
-    sl_free(app->context, of.data);
+    files_check(desk, path, status);
+    sl_free(desk->context, of.data);
 }
 
 /// Asks about a session that is over. Its lock is ours until there is an answer.
-static void offer(app_state *app, const char *session, int lock) {
+static void offer(desk_state *desk, const char *session, int lock) {
     static const char *const answers[] = {"R:Recover", "D:Discard", "L:Later"};
     char path[PATH_TEXT], when[64] = "", text[PATH_TEXT + 128];
     struct stat info;
     struct tm local;
     sl_bytes of;
-    app->file.offer = sl_copy_text(app->context, session, strlen(session));
-    if (!app->file.offer) {
+    desk->file.offer = sl_copy_text(desk->context, session, strlen(session));
+    if (!desk->file.offer) {
         close(lock);
         return;
     }
-    app->file.offer_lock = lock;
+    desk->file.offer_lock = lock;
     name_file(path, session, ".map");
     if (stat(path, &info) == 0 && localtime_r(&info.st_mtime, &local))
         strftime(when, sizeof when, "%Y-%m-%d %H:%M", &local);
     name_file(path, session, ".of");
-    const bool known = sl_file_read(app->context, path, &of) == SL_OK;
+    const bool known = sl_file_read(desk->context, path, &of) == SL_OK;
     snprintf(text, sizeof text,
              "Sightline ended before changes were saved.\n%.1500s, changed on %s.",
              known ? of.data : "A map without a name", when);
-    if (known) sl_free(app->context, of.data);
-    question_ask(app, "Recover unsaved changes?", text, answers, 3, take_answer);
+    if (known) sl_free(desk->context, of.data);
+    question_ask(desk, "Recover unsaved changes?", text, answers, 3, take_answer);
 }
 
 /// Whether a session is over and has left a copy: then its lock is open. Without a copy its files
@@ -226,14 +228,14 @@ static bool next_session(const char *folder, const char *after, char session[SES
     return *session != '\0';
 }
 
-static void offer_next(app_state *app, const char *after) {
+static void offer_next(desk_state *desk, const char *after) {
     char folder[PATH_TEXT], session[SESSION_TEXT];
     int lock;
     if (!files_folder("XDG_STATE_HOME", ".local/state", folder, false)) return;
-    if (next_session(folder, after, session, &lock)) offer(app, session, lock);
+    if (next_session(folder, after, session, &lock)) offer(desk, session, lock);
 }
 
-void recovery_begin(app_state *app) {
-    app->file.copies = true;
-    offer_next(app, "");
+void recovery_begin(desk_state *desk) {
+    desk->file.copies = true;
+    offer_next(desk, "");
 }

@@ -1,0 +1,50 @@
+/// What dialogs work on: the document, its file, and the questions about both.
+#ifndef VIEWER_DESK_H
+#define VIEWER_DESK_H
+
+#include "dialogs/dialog.h"
+#include "document/document.h"
+
+typedef enum pending_kind { PENDING_NONE, PENDING_QUIT, PENDING_NEW, PENDING_OPEN } pending_kind;
+
+typedef struct save_job save_job;
+
+/// Zeroed, the map is in no file.
+typedef struct file_state {
+    char *path;     ///< what Save writes to; NULL: it asks for a name
+    uint64_t saved; ///< the state of the map that the file has; UINT64_MAX: none
+    bool recovered; ///< the map that is being opened is one that was never saved
+    char *of;       ///< the file that it is of, then; NULL: none
+
+    pending_kind pending;   ///< what waits until changes are saved or given up
+    document_source source; ///< to be opened
+    document_source tried;  ///< that was opened last
+
+    task *task; ///< NULL: nothing is being saved
+    save_job *job;
+    bool locked; ///< nothing may be written: events are random
+
+    char *copy;          ///< recovery: the file of unsaved changes; NULL: none yet
+    int lock;            ///< of it, open while we run
+    uint64_t copy_state; ///< the state of the map that it has
+    double copy_next;    ///< the clock's time of the next copy
+    bool copies;         ///< whether copies are kept at all
+    char *failed;        ///< the path that was not saved to; NULL: none
+    char *offer;         ///< the copy of an earlier session that is asked about; NULL: none
+    int offer_lock;
+} file_state;
+
+struct desk_state {
+    sl_context *context;
+    ui_state *ui;
+    document_state *document;
+    dialog_state dialog;
+    file_state file;
+    sl_import_options options; ///< the command line's, for files opened later too
+    bool quit;
+    bool agreed; ///< to what the app asked for itself: it does that next
+};
+
+enum { TITLE_TEXT = 320 };
+
+#endif
