@@ -5,7 +5,7 @@
 #include "app/layout.h"
 #include "app/turn.h"
 #include "dialogs/opening.h"
-#include "plan/edit.h"
+#include "plan/grid.h"
 #include "sightline/bake.h"
 #include "sightline/generate.h"
 
@@ -312,8 +312,8 @@ static void test_door_in_the_open(void **state) {
     assert_int_equal(map->door_count, doors + 1);
     assert_int_equal(map->wall_count, walls);
     const sl_segment door = map->doors[doors].segment;
-    assert_true(edit_snap(&app->view, door.a).x == door.a.x &&
-                edit_snap(&app->view, door.b).y == door.b.y);
+    assert_true(grid_snap(&app->view, door.a).x == door.a.x &&
+                grid_snap(&app->view, door.b).y == door.b.y);
     drag(app, middle(door.a, door.b), 0, 0, true);
     viewer_press(app, "Delete");
     app_settle(app);

@@ -8,6 +8,7 @@
 #include "app/turn.h"
 #include "app/window.h"
 #include "plan/edit.h"
+#include "plan/grid.h"
 #include "sightline/support.h"
 
 #include <math.h>
@@ -74,9 +75,9 @@ static sl_point grip_of_wall(const app_state *app, bool corner) {
     sl_point at = middle;
     for (size_t i = 0; i < map->wall_count; i++) {
         const sl_point a = map->walls[i].a, b = map->walls[i].b;
-        const double off = edit_distance(app->view.eye.at, a, b);
+        const double off = grid_distance(app->view.eye.at, a, b);
         // Longer than the room that its corners take.
-        if (off >= nearest || hypot(b.x - a.x, b.y - a.y) < 4 * edit_reach(&app->view)) continue;
+        if (off >= nearest || hypot(b.x - a.x, b.y - a.y) < 4 * grid_reach(&app->view)) continue;
         nearest = off;
         at = corner ? a : (sl_point){(a.x + b.x) / 2, (a.y + b.y) / 2};
     }

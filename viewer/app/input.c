@@ -9,6 +9,7 @@
 #include "panes/panes.h"
 #include "plan/edit.h"
 #include "plan/effects.h"
+#include "plan/grid.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -47,9 +48,9 @@ static sl_point cursor_step(const app_state *app, sl_box plan, int x, int y, boo
     if (fine || app->view.mode != MODE_DRAW || !app->document.baked)
         return (sl_point){at.x + step * x, at.y + step * y};
     const sl_frame frame = camera_frame(&app->view.camera, plan, 1);
-    sl_point place = edit_snap(&app->view, camera_point(&app->view.camera, plan, at));
-    place.x += edit_step(&app->view) * x;
-    place.y -= edit_step(&app->view) * y;
+    sl_point place = grid_snap(&app->view, camera_point(&app->view.camera, plan, at));
+    place.x += grid_step(&app->view) * x;
+    place.y -= grid_step(&app->view) * y;
     return sl_frame_point(&frame, place);
 }
 

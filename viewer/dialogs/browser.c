@@ -74,17 +74,12 @@ static bool is_there(const char *path) {
     return stat(path, &info) == 0;
 }
 
-static const char *base_of(const char *path) {
-    const char *slash = strrchr(path, '/');
-    return slash ? slash + 1 : path;
-}
-
 static sl_status add_recent(desk_state *desk, browser_state *b) {
     sl_map_list recent = {0};
     sl_status status = recent_list(desk->context, &recent);
     for (size_t i = 0; i < recent.count && status == SL_OK; i++)
         status =
-            folder_list_add(desk->context, &b->files, recent.names[i], base_of(recent.names[i]));
+            folder_list_add(desk->context, &b->files, recent.names[i], files_base(recent.names[i]));
     sl_map_list_destroy(desk->context, &recent);
     return status;
 }
@@ -122,7 +117,7 @@ static void set_path(browser_state *b, const char *folder, const char *name) {
 static void enter(desk_state *desk, browser_state *b, const char *folder) {
     char name[TITLE_TEXT] = "";
     char *full = realpath(folder, NULL);
-    if (b->saves) snprintf(name, sizeof name, "%.300s", base_of(b->path.text));
+    if (b->saves) snprintf(name, sizeof name, "%.300s", files_base(b->path.text));
     if (full && strlen(full) < PATH_TEXT) snprintf(b->folder, sizeof b->folder, "%s", full);
     free(full);
     b->place = PLACE_FOLDER;
@@ -192,7 +187,7 @@ void browser_edited(desk_state *desk, int id) {
 /// Adds to the name what all entries that begin so have in common. False where that is nothing.
 static bool complete(desk_state *desk, browser_state *b) {
     follow(desk, b);
-    const char *name = base_of(b->path.text);
+    const char *name = files_base(b->path.text);
     const size_t typed = strlen(name), first = find_name(b, name);
     if (first == SIZE_MAX || b->place != PLACE_FOLDER) return false;
     const folder_entry *found = &b->files.entries.items[first];
@@ -238,14 +233,14 @@ static void take_replace(desk_state *desk, int answer) {
     char path[2 * PATH_TEXT];
     if (answer != 0) return;
     resolve(desk->dialog.browser, desk->dialog.browser->path.text, path);
-    if (!strchr(base_of(path), '.')) strcat(path, ".map");
+    if (!strchr(files_base(path), '.')) strcat(path, ".map");
     save_now(desk, path);
 }
 
 static void save_as(desk_state *desk, browser_state *b, char path[2 * PATH_TEXT]) {
     static const char *const answers[] = {"R:Replace", "C:Cancel"};
     char text[2 * PATH_TEXT];
-    const char *name = base_of(path), *dot = strrchr(name, '.');
+    const char *name = files_base(path), *dot = strrchr(name, '.');
     if (!*name) {
         snprintf(b->problem, sizeof b->problem, "A name is needed.");
         return;
@@ -266,7 +261,7 @@ static void save_as(desk_state *desk, browser_state *b, char path[2 * PATH_TEXT]
 
 static void open_file(desk_state *desk, browser_state *b, const char *path, bool ask) {
     if (!is_there(path)) {
-        snprintf(b->problem, sizeof b->problem, "There is no such file: %.200s", base_of(path));
+        snprintf(b->problem, sizeof b->problem, "There is no such file: %.200s", files_base(path));
         return;
     }
     char copy[2 * PATH_TEXT];

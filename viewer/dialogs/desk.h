@@ -3,11 +3,9 @@
 #define VIEWER_DESK_H
 
 #include "dialogs/dialog.h"
-#include "document/document.h"
+#include "document/save_job.h"
 
 typedef enum pending_kind { PENDING_NONE, PENDING_QUIT, PENDING_NEW, PENDING_OPEN } pending_kind;
-
-typedef struct save_job save_job;
 
 /// Zeroed, the map is in no file.
 typedef struct file_state {
@@ -20,9 +18,8 @@ typedef struct file_state {
     document_source source; ///< to be opened
     document_source tried;  ///< that was opened last
 
-    task *task; ///< NULL: nothing is being saved
-    save_job *job;
-    bool locked; ///< nothing may be written: events are random
+    save_job *job; ///< NULL: nothing is being saved
+    bool locked;   ///< nothing may be written: events are random
 
     char *copy;          ///< recovery: the file of unsaved changes; NULL: none yet
     int lock;            ///< of it, open while we run

@@ -2,7 +2,7 @@
 /// field stands for the usual, which it shows in grey.
 #include "dialogs/import_dialog.h"
 
-#include "document/task.h"
+#include "document/files.h"
 #include "sightline/draw.h"
 #include "sightline/faults.h"
 #include "sightline/support.h"
@@ -415,8 +415,7 @@ void import_draw(desk_state *desk) {
     ui_state *ui = desk->ui;
     char title[320];
     take_weld(desk, s);
-    const char *slash = strrchr(s->source.path, '/');
-    snprintf(title, sizeof title, "Open %.300s", slash ? slash + 1 : s->source.path);
+    snprintf(title, sizeof title, "Open %.300s", files_base(s->source.path));
     const int rows = count_rows(s);
     // Lists have 4 to 12 rows, as there is room.
     const double lists = asks_map(s) + asks_layers(s), rest = 8.8 + DIALOG_ROW * rows;

@@ -1,8 +1,7 @@
 /// The file of the map that is open.
 ///
 /// The history of changes numbers each state of the map. The map is unsaved where its state is not
-/// the one that the file has, so undoing all changes makes it saved again. Saving works on a copy
-/// of the map, in a thread: the map may change meanwhile.
+/// the one that the file has, so undoing all changes makes it saved again.
 #include "dialogs/map_file.h"
 
 #include "dialogs/browser.h"
@@ -14,23 +13,8 @@
 
 #include <stdio.h>
 #include <string.h>
-#include <strings.h>
 
 // --- names
-
-static bool ends_in(const char *path, const char *ending) {
-    const size_t length = strlen(path), more = strlen(ending);
-    return length > more && strcasecmp(path + length - more, ending) == 0;
-}
-
-static bool is_savable(const char *path) {
-    return ends_in(path, ".map") || ends_in(path, ".slv");
-}
-
-static const char *base_of(const char *path) {
-    const char *slash = strrchr(path, '/');
-    return slash ? slash + 1 : path;
-}
 
 void map_file_name(const desk_state *desk, char text[TITLE_TEXT]) {
     const document_source *source = &desk->document->source;
@@ -38,8 +22,8 @@ void map_file_name(const desk_state *desk, char text[TITLE_TEXT]) {
                        : desk->file.of ? desk->file.of
                                        : source->path;
     const char *map = desk->file.path ? NULL : source->options.map;
-    snprintf(text, TITLE_TEXT, "%.200s%s%.100s", path ? base_of(path) : "Untitled", map ? " " : "",
-             map ? map : "");
+    snprintf(text, TITLE_TEXT, "%.200s%s%.100s", path ? files_base(path) : "Untitled",
+             map ? " " : "", map ? map : "");
 }
 
 void map_file_title(const desk_state *desk, char text[TITLE_TEXT]) {
@@ -54,14 +38,6 @@ void map_file_title(const desk_state *desk, char text[TITLE_TEXT]) {
 
 bool map_file_changed(const desk_state *desk) {
     return desk->document->baked && desk->document->history.state != desk->file.saved;
-}
-
-static sl_status set_text(desk_state *desk, char **to, const char *text) {
-    char *copy = text ? sl_copy_text(desk->context, text, strlen(text)) : NULL;
-    if (text && !copy) return SL_NO_MEMORY;
-    sl_free(desk->context, *to);
-    *to = copy;
-    return SL_OK;
 }
 
 // --- what loses changes
@@ -92,7 +68,7 @@ static void start_open(desk_state *desk, document_source *source) {
     if (status == SL_OK) {
         if (source->again) history_clear(desk->context, &desk->document->history);
         if (source->again) desk->file.saved = desk->document->history.state;
-        ui_say_working(desk->ui, "reading %s", base_of(source->path));
+        ui_say_working(desk->ui, "reading %s", files_base(source->path));
     }
     files_check(desk, source->path, status);
 }
@@ -160,89 +136,12 @@ void map_file_give_up(desk_state *desk) {
 
 // --- saving
 
-struct save_job {
-    sl_map map;
-    char *path;
-    char *from;   ///< a baked file that has not changed: it is copied; NULL: none
-    bool recover; ///< a copy of unsaved changes
-    double weld;  ///< negative: the usual
-    bool welds;   ///< the map is welded otherwise than its text says: its walls are saved welded
-    uint32_t mirror_depth;
-    uint64_t state;
-};
-
-static sl_status copy_file(sl_context *context, const save_job *job) {
-    sl_bytes bytes;
-    sl_output output;
-    SL_TRY(sl_file_read(context, job->from, &bytes));
-    sl_status status = sl_output_open(context, job->path, &output);
-    if (status == SL_OK) {
-        const bool whole = fwrite(bytes.data, 1, bytes.size, output.stream) == bytes.size;
-        if (!whole) status = sl_fail(context, SL_IO, "%s: not written", job->path);
-        status = sl_output_close(context, &output, status);
-    }
-    sl_free(context, bytes.data);
-    return status;
-}
-
-static sl_status write_baked(sl_context *context, save_job *job) {
-    sl_bake_options options = sl_bake_options_default();
-    sl_baked baked = {0};
-    options.mirror_depth = job->mirror_depth;
-    options.clean.weld = job->weld;
-    SL_TRY(sl_bake(context, &job->map, &options, &baked, NULL));
-    const sl_status status = sl_baked_write(context, &baked, job->path);
-    sl_baked_destroy(context, &baked);
-    return status;
-}
-
-static sl_status write_file(sl_context *context, void *data) {
-    save_job *job = data;
-    if (job->from) return copy_file(context, job);
-    if (!job->recover && ends_in(job->path, ".slv")) return write_baked(context, job);
-    const sl_clean_options clean = {.weld = job->weld};
-    if (job->welds) SL_TRY(sl_map_clean(context, &job->map, &clean, NULL));
-    SL_TRY(sl_map_settle_ground(context, &job->map));
-    return sl_map_write(context, &job->map, NULL, job->path);
-}
-
-static void free_job(desk_state *desk, save_job *job) {
-    if (!job) return;
-    sl_map_destroy(desk->context, &job->map);
-    sl_free(desk->context, job->path);
-    sl_free(desk->context, job->from);
-    sl_free(desk->context, job);
-}
-
-static sl_status fill_job(desk_state *desk, save_job *job, const char *path, bool recover) {
-    const document_state *document = desk->document;
-    const document_source *source = &document->source;
-    job->recover = recover;
-    job->weld = source->has_weld ? source->weld : sl_clean_options_default().weld;
-    job->welds = source->has_weld || document->map.precision > 0;
-    job->mirror_depth = document->mirror_depth;
-    job->state = document->history.state;
-    SL_TRY(set_text(desk, &job->path, path));
-    if (ends_in(path, ".slv") && !map_file_changed(desk) && source->path &&
-        document_is_baked(source->path))
-        return set_text(desk, &job->from, source->path);
-    return sl_map_copy(desk->context, &document->map, &job->map);
-}
-
 static sl_status start_job(desk_state *desk, const char *path, bool recover) {
     if (desk->file.locked)
         return sl_fail(desk->context, SL_IO, "%s: nothing is written while events are random",
                        path);
-    save_job *job = sl_alloc_array(desk->context, 1, sizeof *job);
-    if (!job) return SL_NO_MEMORY;
-    sl_status status = fill_job(desk, job, path, recover);
-    if (status == SL_OK)
-        status = task_start(desk->context, write_file, job, NULL, NULL, &desk->file.task);
-    if (status == SL_OK)
-        desk->file.job = job;
-    else
-        free_job(desk, job);
-    return status;
+    return save_start(desk->context, desk->document, path, !map_file_changed(desk), recover,
+                      &desk->file.job);
 }
 
 /// The path that was typed is not lost.
@@ -256,8 +155,8 @@ static void fail_save(desk_state *desk, const char *path) {
     char text[1200];
     snprintf(text, sizeof text, "%s", sl_context_message(desk->context));
     desk->file.pending = PENDING_NONE;
-    ui_say(desk->ui, true, "%s was not saved", base_of(path));
-    ui_report(desk->ui, desk->context, set_text(desk, &desk->file.failed, path));
+    ui_say(desk->ui, true, "%s was not saved", files_base(path));
+    ui_report(desk->ui, desk->context, files_set_text(desk->context, &desk->file.failed, path));
     question_ask(desk, "The map was not saved", text, answers, 2, try_again);
 }
 
@@ -266,7 +165,7 @@ static void note_recent(desk_state *desk, const char *path) {
 }
 
 static void take_saved(desk_state *desk, const save_job *job) {
-    const sl_status status = set_text(desk, &desk->file.path, job->path);
+    const sl_status status = files_set_text(desk->context, &desk->file.path, job->path);
     if (status != SL_OK) {
         ui_report(desk->ui, desk->context, status);
         return;
@@ -275,7 +174,8 @@ static void take_saved(desk_state *desk, const save_job *job) {
     note_recent(desk, job->path);
     recovery_forget(desk);
     ui_say(desk->ui, false, "saved %s%s", job->path,
-           job->welds && !ends_in(job->path, ".slv") ? "; its walls are welded, as shown" : "");
+           job->welds && !files_end_in(job->path, ".slv") ? "; its walls are welded, as shown"
+                                                          : "");
     if (desk->file.pending == PENDING_NONE) return;
     const pending_kind pending = desk->file.pending;
     desk->file.pending = PENDING_NONE;
@@ -284,8 +184,7 @@ static void take_saved(desk_state *desk, const save_job *job) {
 
 static void end_job(desk_state *desk) {
     save_job *job = desk->file.job;
-    const sl_status status = task_end(desk->context, desk->file.task);
-    desk->file.task = NULL;
+    const sl_status status = save_end(desk->context, job);
     desk->file.job = NULL;
     if (job->recover)
         recovery_take(desk, status, job->state);
@@ -295,40 +194,40 @@ static void end_job(desk_state *desk) {
         desk->file.pending = PENDING_NONE;
     else
         fail_save(desk, job->path);
-    free_job(desk, job);
+    save_free(desk->context, job);
 }
 
 void map_file_tick(desk_state *desk, bool wait) {
     // What is saved may start something that is saved too.
-    for (int i = 0; i < 4 && desk->file.task && (wait || task_done(desk->file.task)); i++)
+    for (int i = 0; i < 4 && desk->file.job && (wait || task_done(desk->file.job->task)); i++)
         end_job(desk);
 }
 
 job_progress map_file_progress(const desk_state *desk) {
-    const bool shown = desk->file.task && !desk->file.job->recover;
-    return shown ? task_progress(desk->file.task) : (job_progress){0};
+    const bool shown = desk->file.job && !desk->file.job->recover;
+    return shown ? task_progress(desk->file.job->task) : (job_progress){0};
 }
 
 bool map_file_stop(desk_state *desk) {
     if (!map_file_progress(desk).running) return false;
-    task_cancel(desk->file.task);
+    task_cancel(desk->file.job->task);
     return true;
 }
 
 void map_file_save_to(desk_state *desk, const char *path) {
     char name[PATH_TEXT];
-    const char *base = base_of(path);
+    const char *base = files_base(path);
     snprintf(name, sizeof name, "%s%s", path, strchr(base, '.') ? "" : ".map");
-    if (desk->file.task) end_job(desk); // one at a time
+    if (desk->file.job) end_job(desk); // one at a time
     sl_status status = SL_OK;
-    if (!is_savable(name))
+    if (!files_savable(name))
         status = sl_fail(desk->context, SL_BAD_ARGUMENT,
                          "%s: a map is saved as map text (.map) or baked (.slv)", name);
     if (status == SL_OK) status = start_job(desk, name, false);
     if (status != SL_OK)
         fail_save(desk, name);
     else
-        ui_say_working(desk->ui, "saving %s", base_of(name));
+        ui_say_working(desk->ui, "saving %s", files_base(name));
 }
 
 void map_file_save(desk_state *desk) {
@@ -355,7 +254,7 @@ void map_file_save_as(desk_state *desk) {
 }
 
 void map_file_copy_to(desk_state *desk, const char *path) {
-    if (desk->file.task) return;
+    if (desk->file.job) return;
     const sl_status status = start_job(desk, path, true);
     if (status != SL_OK) recovery_take(desk, status, desk->document->history.state);
 }
@@ -364,7 +263,7 @@ void map_file_copy_to(desk_state *desk, const char *path) {
 
 void map_file_recover(desk_state *desk, sl_map *map, const char *of) {
     desk->file.recovered = true;
-    sl_status status = set_text(desk, &desk->file.of, of);
+    sl_status status = files_set_text(desk->context, &desk->file.of, of);
     if (status == SL_OK) status = document_begin(desk->context, desk->document, map);
     if (status != SL_OK) desk->file.recovered = false;
     ui_report(desk->ui, desk->context, status);
@@ -373,11 +272,12 @@ void map_file_recover(desk_state *desk, sl_map *map, const char *of) {
 void map_file_taken(desk_state *desk) {
     file_state *file = &desk->file;
     const char *path = file->recovered ? file->of : desk->document->source.path;
-    ui_report(desk->ui, desk->context,
-              set_text(desk, &file->path, path && is_savable(path) ? path : NULL));
+    ui_report(
+        desk->ui, desk->context,
+        files_set_text(desk->context, &file->path, path && files_savable(path) ? path : NULL));
     if (!file->recovered) {
         recovery_forget(desk);
-        ui_report(desk->ui, desk->context, set_text(desk, &file->of, NULL));
+        ui_report(desk->ui, desk->context, files_set_text(desk->context, &file->of, NULL));
     }
     file->saved = file->recovered ? UINT64_MAX : desk->document->history.state;
     file->recovered = false;
@@ -386,11 +286,8 @@ void map_file_taken(desk_state *desk) {
 
 void map_file_destroy(desk_state *desk) {
     file_state *file = &desk->file;
-    if (file->task) {
-        task_drop(desk->context, file->task);
-        free_job(desk, file->job);
-        file->task = NULL;
-    }
+    save_free(desk->context, file->job);
+    file->job = NULL;
     // A session that fails leaves its copy.
     if (desk->quit || !map_file_changed(desk)) recovery_forget(desk);
     sl_free(desk->context, file->copy);

@@ -88,9 +88,8 @@ void files_check(desk_state *desk, const char *path, sl_status status) {
     const bool again =
         tried && strcmp(tried, path) == 0 && desk->file.tried.takes & ~(unsigned)SL_TAKES_CELLS;
     char text[1200];
-    const char *slash = strrchr(path, '/');
     snprintf(text, sizeof text, "%s", sl_context_message(desk->context));
-    ui_say(desk->ui, true, "%s was not opened", slash ? slash + 1 : path);
+    ui_say(desk->ui, true, "%s was not opened", files_base(path));
     if (!again) {
         question_tell(desk, "The file was not opened", text);
         return;

@@ -86,7 +86,7 @@ static void write_of(desk_state *desk) {
 
 void recovery_tick(desk_state *desk) {
     file_state *file = &desk->file;
-    if (!file->copies || file->task || !map_file_changed(desk)) return;
+    if (!file->copies || file->job || !map_file_changed(desk)) return;
     if (file->copy && file->copy_state == desk->document->history.state) return;
     if (sl_seconds() < file->copy_next) return;
     file->copy_next = sl_seconds() + COPY_STEP;

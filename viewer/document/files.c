@@ -12,6 +12,28 @@
 #include <strings.h>
 #include <sys/stat.h>
 
+const char *files_base(const char *path) {
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
+bool files_end_in(const char *path, const char *ending) {
+    const size_t length = strlen(path), more = strlen(ending);
+    return length > more && strcasecmp(path + length - more, ending) == 0;
+}
+
+bool files_savable(const char *path) {
+    return files_end_in(path, ".map") || files_end_in(path, ".slv");
+}
+
+sl_status files_set_text(sl_context *context, char **to, const char *text) {
+    char *copy = text ? sl_copy_text(context, text, strlen(text)) : NULL;
+    if (text && !copy) return SL_NO_MEMORY;
+    sl_free(context, *to);
+    *to = copy;
+    return SL_OK;
+}
+
 bool files_folder(const char *variable, const char *beside_home, char path[PATH_TEXT], bool make) {
     const char *given = getenv(variable), *home = getenv("HOME");
     char folder[PATH_TEXT - 64];

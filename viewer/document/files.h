@@ -7,6 +7,16 @@
 
 enum { PATH_TEXT = 4096 };
 
+/// The name of a file without its folders.
+const char *files_base(const char *path);
+/// Whether a path ends so, in any case of letters.
+bool files_end_in(const char *path, const char *ending);
+/// Whether a map can be saved there: by the ending.
+bool files_savable(const char *path);
+
+/// Replaces a text by a copy of another one; NULL: none.
+sl_status files_set_text(sl_context *context, char **to, const char *text);
+
 /// The program's own folder in that of a variable ("XDG_STATE_HOME") or, where it is not set, of
 /// the home folder (".local/state"). False where there is neither. Makes it if `make` is set.
 bool files_folder(const char *variable, const char *beside_home, char path[PATH_TEXT], bool make);

@@ -1,7 +1,7 @@
 /// The bars at the top and at the bottom, and the time line of the lesson.
 #include "lessons/quiz.h"
 #include "panes/panes.h"
-#include "plan/edit.h"
+#include "plan/grid.h"
 #include "sightline/draw.h"
 
 #include <math.h>
@@ -108,7 +108,7 @@ static void write_place(const learn_state *learn, char text[64]) {
         !box_has(plan, learn->ui->pointer))
         return;
     const sl_point at =
-        edit_snap(learn->view, camera_point(&learn->view->camera, plan, learn->ui->pointer));
+        grid_snap(learn->view, camera_point(&learn->view->camera, plan, learn->ui->pointer));
     snprintf(text, 64, "at %.10g, %.10g   ", at.x, at.y);
 }
 

@@ -1,5 +1,6 @@
 /// What the pointer holds, where it may go, and what a drag makes of it.
 #include "plan/edit.h"
+#include "plan/grid.h"
 
 #include "plan/effects.h"
 #include "sightline/draw.h"
@@ -9,37 +10,14 @@
 #include <stdio.h>
 #include <string.h>
 
-double edit_step(const view_state *view) {
-    const double wanted = 11 * view->ui->density / view->camera.scale;
-    double step = pow(10, floor(log10(wanted)));
-    if (step * 2 >= wanted) return step * 2;
-    return step * 5 >= wanted ? step * 5 : step * 10;
-}
-
-sl_point edit_snap(const view_state *view, sl_point at) {
-    const double step = edit_step(view);
-    return (sl_point){step * round(at.x / step), step * round(at.y / step)};
-}
-
-double edit_distance(sl_point p, sl_point a, sl_point b) {
-    const double dx = b.x - a.x, dy = b.y - a.y, length = dx * dx + dy * dy;
-    const double along = length > 0 ? ((p.x - a.x) * dx + (p.y - a.y) * dy) / length : 0;
-    const double t = fmin(fmax(along, 0), 1);
-    return hypot(p.x - a.x - t * dx, p.y - a.y - t * dy);
-}
-
-double edit_reach(const view_state *view) {
-    return 7 * view->ui->density / view->camera.scale;
-}
-
 /// The wall that is near to both places; UINT32_MAX for none.
 static uint32_t pick_along(const view_state *view, sl_point from, sl_point to) {
     const sl_map *map = &view->document->map;
-    double nearest = edit_reach(view);
+    double nearest = grid_reach(view);
     uint32_t found = UINT32_MAX;
     for (size_t i = 0; i < map->wall_count; i++) {
         const sl_wall *w = &map->walls[i];
-        const double off = fmax(edit_distance(from, w->a, w->b), edit_distance(to, w->a, w->b));
+        const double off = fmax(grid_distance(from, w->a, w->b), grid_distance(to, w->a, w->b));
         if (off > nearest) continue;
         nearest = off;
         found = (uint32_t)i;
@@ -91,7 +69,7 @@ static bool find_corner(const view_state *view, sl_point at, sl_point *found) {
         for (size_t i = 0; i < count_of(map, kind); i++) {
             const sl_point ends[2] = {*end_of(map, kind, i, false), *end_of(map, kind, i, true)};
             const double length = hypot(ends[1].x - ends[0].x, ends[1].y - ends[0].y);
-            const double room = fmin(1.2 * edit_reach(view), length / 4);
+            const double room = fmin(1.2 * grid_reach(view), length / 4);
             for (int k = 0; k < 2; k++) {
                 const double off = hypot(at.x - ends[k].x, at.y - ends[k].y);
                 if (off > room || off >= nearest) continue;
@@ -149,8 +127,8 @@ static bool is_usable(sl_point p) {
 /// Where a held end is when the drag is at a place: corners on the grid, the rest by whole steps.
 static sl_point place_of(const view_state *view, const drag_state *drag, const held_end *end,
                          sl_point now) {
-    const double step = edit_step(view);
-    if (drag->kind == DRAG_CORNER || drag->kind == DRAG_NEW_WALL) return edit_snap(view, now);
+    const double step = grid_step(view);
+    if (drag->kind == DRAG_CORNER || drag->kind == DRAG_NEW_WALL) return grid_snap(view, now);
     return (sl_point){end->was.x + step * round((now.x - drag->at.x) / step),
                       end->was.y + step * round((now.y - drag->at.y) / step)};
 }
@@ -180,7 +158,7 @@ static void begin_change(view_state *view, drag_state *drag) {
 
 /// A new wall begins where the pointer was pressed. Its second end is held.
 static bool begin_wall(view_state *view, drag_state *drag, sl_point now) {
-    const sl_point from = edit_snap(view, drag->at), to = edit_snap(view, now);
+    const sl_point from = grid_snap(view, drag->at), to = grid_snap(view, now);
     if (is_same(from, to) || !is_usable(from) || !is_usable(to)) return false;
     begin_change(view, drag);
     const sl_status status = sl_map_add_wall(view->context, &view->document->map, from, to, 0);
@@ -192,11 +170,11 @@ static bool begin_wall(view_state *view, drag_state *drag, sl_point now) {
 
 /// The place of a wall nearest to a place of the grid; near an end of the wall, that end.
 static sl_point place_on(const view_state *view, const sl_wall *wall, sl_point at) {
-    const sl_point a = wall->a, b = wall->b, to = edit_snap(view, at);
+    const sl_point a = wall->a, b = wall->b, to = grid_snap(view, at);
     const double dx = b.x - a.x, dy = b.y - a.y;
     const double share = ((to.x - a.x) * dx + (to.y - a.y) * dy) / (dx * dx + dy * dy);
-    if (share <= 0 || hypot(at.x - a.x, at.y - a.y) <= edit_reach(view)) return a;
-    if (share >= 1 || hypot(at.x - b.x, at.y - b.y) <= edit_reach(view)) return b;
+    if (share <= 0 || hypot(at.x - a.x, at.y - a.y) <= grid_reach(view)) return a;
+    if (share >= 1 || hypot(at.x - b.x, at.y - b.y) <= grid_reach(view)) return b;
     if (dx == 0) return (sl_point){a.x, to.y};
     if (dy == 0) return (sl_point){to.x, a.y};
     return (sl_point){a.x + share * dx, a.y + share * dy};
@@ -205,7 +183,7 @@ static sl_point place_on(const view_state *view, const sl_wall *wall, sl_point a
 /// The place of a corner that is near, else of the grid.
 static sl_point place_at(const view_state *view, sl_point at) {
     sl_point corner;
-    return find_corner(view, at, &corner) ? corner : edit_snap(view, at);
+    return find_corner(view, at, &corner) ? corner : grid_snap(view, at);
 }
 
 /// Along a wall a door lies in that wall; UINT32_MAX: along none.
@@ -387,7 +365,7 @@ void edit_delete(view_state *view) {
 }
 
 static void draw_grid(view_state *view, const sl_frame *frame) {
-    const double step = edit_step(view), size = fmax(frame->unit, 1);
+    const double step = grid_step(view), size = fmax(frame->unit, 1);
     const double x0 = step * ceil(frame->corner.x / step);
     const double y0 = step * ceil(frame->corner.y / step);
     const int columns = (int)(frame->width / frame->scale / step) + 1;

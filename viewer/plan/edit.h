@@ -4,11 +4,6 @@
 
 #include "plan/view.h"
 
-/// The grid's step at the present zoom: 1, 2 or 5 times a power of ten.
-double edit_step(const view_state *view);
-/// The grid's point nearest to a place.
-sl_point edit_snap(const view_state *view, sl_point at);
-
 void edit_delete(view_state *view);
 
 /// What is under the pointer is held from now on: a corner with all ends there, a door, a wall; on
@@ -24,11 +19,5 @@ bool edit_cancel(view_state *view);
 
 /// Draws the grid, the chosen wall, and what is held or could be.
 void edit_draw(view_state *view, const sl_frame *frame);
-
-/// How far a point is from a segment.
-double edit_distance(sl_point p, sl_point a, sl_point b);
-
-/// The distance, in the map, within which the pointer takes hold of something.
-double edit_reach(const view_state *view);
 
 #endif

@@ -3,7 +3,7 @@
 /// background.
 #include "plan/effects.h"
 
-#include "plan/edit.h"
+#include "plan/grid.h"
 #include "sightline/draw.h"
 
 #include <math.h>
@@ -45,7 +45,7 @@ static uint32_t nearest_door(const document_state *document, sl_point at, double
     const sl_map *map = &document->map;
     uint32_t found = UINT32_MAX;
     for (size_t i = 0; i < map->door_count; i++) {
-        const double distance = edit_distance(at, map->doors[i].segment.a, map->doors[i].segment.b);
+        const double distance = grid_distance(at, map->doors[i].segment.a, map->doors[i].segment.b);
         if (distance > within) continue;
         within = distance;
         found = (uint32_t)i;
@@ -54,7 +54,7 @@ static uint32_t nearest_door(const document_state *document, sl_point at, double
 }
 
 uint32_t door_at(const view_state *view, sl_point at) {
-    return nearest_door(view->document, at, edit_reach(view));
+    return nearest_door(view->document, at, grid_reach(view));
 }
 
 void door_toggle(view_state *view, uint32_t door) {
@@ -91,16 +91,16 @@ static double distance(sl_point a, sl_point b) {
 
 uint32_t mirror_at(const view_state *view, sl_point at, grip *part) {
     const sl_map *map = &view->document->map;
-    double within = edit_reach(view);
+    double within = grid_reach(view);
     uint32_t found = UINT32_MAX;
     for (size_t i = 0; i < map->mirror_count; i++) {
         const sl_segment s = map->mirrors[i].segment;
-        const double off = edit_distance(at, s.a, s.b);
+        const double off = grid_distance(at, s.a, s.b);
         if (off > within) continue;
         within = off;
         found = (uint32_t)i;
         // An end has more room around it, but no more than a quarter of the mirror.
-        const double room = fmin(1.5 * edit_reach(view), distance(s.a, s.b) / 4);
+        const double room = fmin(1.5 * grid_reach(view), distance(s.a, s.b) / 4);
         *part = distance(at, s.a) <= room   ? GRIP_A
                 : distance(at, s.b) <= room ? GRIP_B
                                             : GRIP_WHOLE;
@@ -126,12 +126,12 @@ static bool usable(sl_segment s) {
 void mirror_move(view_state *view, drag_state *drag, sl_point now) {
     sl_map *map = &view->document->map;
     if (drag->index >= map->mirror_count) return;
-    const double step = edit_step(view);
+    const double step = grid_step(view);
     const double dx = step * round((now.x - drag->at.x) / step);
     const double dy = step * round((now.y - drag->at.y) / step);
     sl_segment to = drag->segment;
-    if (drag->part == GRIP_A) to.a = edit_snap(view, now);
-    if (drag->part == GRIP_B) to.b = edit_snap(view, now);
+    if (drag->part == GRIP_A) to.a = grid_snap(view, now);
+    if (drag->part == GRIP_B) to.b = grid_snap(view, now);
     if (drag->part == GRIP_WHOLE) {
         to.a = (sl_point){to.a.x + dx, to.a.y + dy};
         to.b = (sl_point){to.b.x + dx, to.b.y + dy};
@@ -194,13 +194,13 @@ static double distance_to_border(sl_box b, sl_point at) {
     const sl_point corners[4] = {b.min, {b.max.x, b.min.y}, b.max, {b.min.x, b.max.y}};
     double nearest = INFINITY;
     for (int i = 0; i < 4; i++)
-        nearest = fmin(nearest, edit_distance(at, corners[i], corners[(i + 1) % 4]));
+        nearest = fmin(nearest, grid_distance(at, corners[i], corners[(i + 1) % 4]));
     return nearest;
 }
 
 uint32_t object_at(const view_state *view, sl_point at) {
     const sl_map *map = &view->document->map;
-    double within = edit_reach(view);
+    double within = grid_reach(view);
     uint32_t found = UINT32_MAX;
     if (!(view->show & SHOW_STARTS)) return UINT32_MAX;
     for (size_t i = 0; i < map->object_count && i < view->document->object_count; i++) {
@@ -223,7 +223,7 @@ bool object_take(view_state *view, drag_state *drag) {
 void object_move(view_state *view, drag_state *drag, sl_point now) {
     sl_map *map = &view->document->map;
     if (drag->index >= map->object_count) return;
-    const double step = edit_step(view);
+    const double step = grid_step(view);
     const double dx = step * round((now.x - drag->at.x) / step);
     const double dy = step * round((now.y - drag->at.y) / step);
     const sl_box to = {{drag->segment.a.x + dx, drag->segment.a.y + dy},
