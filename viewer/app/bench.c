@@ -20,7 +20,18 @@
 
 // --- meter
 
-void meter_add(frame_meter *meter, double seconds) {
+enum { METER_MOST = 20000 };
+
+typedef struct frame_meter {
+    double seconds[METER_MOST];
+    size_t count;
+} frame_meter;
+
+typedef struct meter_summary {
+    double mean, median, p95, worst; ///< seconds
+} meter_summary;
+
+static void meter_add(frame_meter *meter, double seconds) {
     if (meter->count < METER_MOST) meter->seconds[meter->count++] = seconds;
 }
 
@@ -29,7 +40,8 @@ static int by_value(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-meter_summary meter_sum_up(frame_meter *meter) {
+/// Sorts what was measured.
+static meter_summary meter_sum_up(frame_meter *meter) {
     meter_summary sum = {0};
     if (!meter->count) return sum;
     qsort(meter->seconds, meter->count, sizeof *meter->seconds, by_value);

@@ -398,8 +398,7 @@ static void write_size(double bytes, char text[32]) {
     snprintf(text, 32, bytes < 10 && unit ? "%.1f %s" : "%.0f %s", bytes, units[unit]);
 }
 
-static void draw_entry(desk_state *desk, sl_box row, const folder_entry *entry) {
-    ui_state *ui = desk->ui;
+static void draw_entry(ui_state *ui, sl_box row, const folder_entry *entry) {
     const double t = ui->text, base = row.min.y + 1.2 * t;
     char text[320], when[32] = "";
     struct tm local;
@@ -440,7 +439,7 @@ static void draw_list(desk_state *desk, browser_state *b, sl_box box) {
                 : b->all                    ? "The folder is empty."
                                             : "No map in this folder. 'All files' shows the rest.");
     for (size_t i = b->list.first; i < b->list.count && i < b->list.first + b->list.page; i++)
-        draw_entry(desk, dialog_list_row(&desk->dialog, LIST, frame, &b->list, i),
+        draw_entry(desk->ui, dialog_list_row(&desk->dialog, LIST, frame, &b->list, i),
                    &b->files.entries.items[i]);
 }
 

@@ -144,10 +144,11 @@ static sl_status start_job(desk_state *desk, const char *path, bool recover) {
                       &desk->file.job);
 }
 
+static void save_to(desk_state *desk, const char *path);
+
 /// The path that was typed is not lost.
 static void try_again(desk_state *desk, int answer) {
-    if (answer == 0 && desk->file.failed)
-        browser_save_to(desk, desk->file.failed, map_file_save_to);
+    if (answer == 0 && desk->file.failed) browser_save_to(desk, desk->file.failed, save_to);
 }
 
 static void fail_save(desk_state *desk, const char *path) {
@@ -214,7 +215,9 @@ bool map_file_stop(desk_state *desk) {
     return true;
 }
 
-void map_file_save_to(desk_state *desk, const char *path) {
+/// Saves under a name, which becomes the map's. Without an ending it gets ".map". A failure gets a
+/// dialog.
+static void save_to(desk_state *desk, const char *path) {
     char name[PATH_TEXT];
     const char *base = files_base(path);
     snprintf(name, sizeof name, "%s%s", path, strchr(base, '.') ? "" : ".map");
@@ -232,7 +235,7 @@ void map_file_save_to(desk_state *desk, const char *path) {
 
 void map_file_save(desk_state *desk) {
     if (desk->document->baked && desk->file.path)
-        map_file_save_to(desk, desk->file.path);
+        save_to(desk, desk->file.path);
     else
         map_file_save_as(desk);
 }
@@ -250,7 +253,7 @@ void map_file_save_as(desk_state *desk) {
     for (char *at = name; *at; at++)
         if (*at == '/' || *at == ' ') *at = '-';
     if (!strchr(name, '.')) snprintf(name + strlen(name), sizeof name - strlen(name), ".map");
-    browser_save(desk, name, map_file_save_to);
+    browser_save(desk, name, save_to);
 }
 
 void map_file_copy_to(desk_state *desk, const char *path) {

@@ -25,9 +25,6 @@ void map_file_give_up(desk_state *desk);
 void map_file_save(desk_state *desk);
 /// Asks for a name.
 void map_file_save_as(desk_state *desk);
-/// Saves under a name, which becomes the map's. Without an ending it gets ".map". A failure gets a
-/// dialog.
-void map_file_save_to(desk_state *desk, const char *path);
 
 /// A map was opened: its file is known from now on.
 void map_file_taken(desk_state *desk);

@@ -26,7 +26,7 @@ const subject_row *lesson_subject(const lesson_state *lesson) {
     return subjects[lesson->subject];
 }
 
-void lesson_forget(sl_context *context, lesson_state *lesson) {
+static void forget_record(sl_context *context, lesson_state *lesson) {
     sl_steps_destroy(context, &lesson->steps);
     sli_mesh_steps_destroy(context, &lesson->mesh);
     sl_free(context, lesson->effects.items);
@@ -44,7 +44,7 @@ void lesson_forget(sl_context *context, lesson_state *lesson) {
 }
 
 void lesson_destroy(sl_context *context, lesson_state *lesson) {
-    lesson_forget(context, lesson);
+    forget_record(context, lesson);
     *lesson = (lesson_state){0};
 }
 
@@ -67,10 +67,10 @@ sl_status lesson_update(sl_context *context, lesson_state *lesson, const documen
     if (!lesson_fits(lesson->subject, document)) lesson_next_subject(context, lesson, document);
     const subject_row *subject = lesson_subject(lesson);
     const bool same_document = lesson->made && lesson->version == document->version;
-    if (lesson->made && !same_document) lesson_forget(context, lesson);
+    if (lesson->made && !same_document) forget_record(context, lesson);
     if (!document->baked || (subject->of_eye && source == SL_NO_CELL)) return SL_OK;
     if (lesson->made && (!subject->of_eye || lesson->source == source)) return SL_OK;
-    lesson_forget(context, lesson);
+    forget_record(context, lesson);
     SL_TRY(subject->record(context, lesson, document, source));
     lesson->made = true;
     find_kinds(lesson);
@@ -90,7 +90,7 @@ bool lesson_shows(const lesson_state *lesson, const document_state *document) {
 }
 
 void lesson_set_subject(sl_context *context, lesson_state *lesson, size_t subject) {
-    lesson_forget(context, lesson);
+    forget_record(context, lesson);
     lesson->subject = subject;
     lesson->plays = false;
     lesson->at = 0;

@@ -26,7 +26,7 @@ typedef struct subject_row {
     const char *title;
     bool (*fits)(const document_state *document); ///< whether it has a place there; NULL: always
     bool of_eye; ///< recorded anew where the eye's cell is another; needs one
-    /// Records all steps. lesson_forget() drops the record.
+    /// Records all steps.
     sl_status (*record)(sl_context *context, lesson_state *lesson, const document_state *document,
                         uint32_t source);
     size_t (*length)(const lesson_state *lesson);
@@ -133,8 +133,6 @@ bool lesson_shows(const lesson_state *lesson, const document_state *document);
 /// Records again where the document, the source or the subject changed.
 sl_status lesson_update(sl_context *context, lesson_state *lesson, const document_state *document,
                         uint32_t source);
-/// Drops the record.
-void lesson_forget(sl_context *context, lesson_state *lesson);
 void lesson_destroy(sl_context *context, lesson_state *lesson);
 
 size_t lesson_length(const lesson_state *lesson);

@@ -142,21 +142,21 @@ static void say_cells(const sli_mesh_steps *mesh, const document_state *document
 }
 
 /// Covers the final cells of the plan.
-static void draw_ground(learn_state *learn, const sl_frame *frame) {
-    const sl_box b = learn->document->baked->space.bounds;
+static void draw_ground(view_state *view, const sl_frame *frame) {
+    const sl_box b = view->document->baked->space.bounds;
     const sl_point corners[4] = {b.min, {b.max.x, b.min.y}, b.max, {b.min.x, b.max.y}};
-    sl_path_polygon(learn->ui->cairo, frame, corners, 4);
-    sl_set_colour(learn->ui->cairo, learn->ui->palette.floor[0]);
-    cairo_fill(learn->ui->cairo);
-    const sl_space *space = &learn->document->baked->space;
-    for (uint32_t cell = 0; cell < space->cell_count && learn->document->solid; cell++) {
+    sl_path_polygon(view->ui->cairo, frame, corners, 4);
+    sl_set_colour(view->ui->cairo, view->ui->palette.floor[0]);
+    cairo_fill(view->ui->cairo);
+    const sl_space *space = &view->document->baked->space;
+    for (uint32_t cell = 0; cell < space->cell_count && view->document->solid; cell++) {
         const sl_cell *c = &space->cells[cell];
         if (c->solid)
-            sl_path_polygon(learn->ui->cairo, frame, space->vertices + c->first_vertex,
+            sl_path_polygon(view->ui->cairo, frame, space->vertices + c->first_vertex,
                             c->vertex_count);
     }
-    sl_set_colour(learn->ui->cairo, learn->ui->palette.solid);
-    cairo_fill(learn->ui->cairo);
+    sl_set_colour(view->ui->cairo, view->ui->palette.solid);
+    cairo_fill(view->ui->cairo);
 }
 
 static void draw_mesh(learn_state *learn, const sl_frame *frame) {
@@ -165,7 +165,7 @@ static void draw_mesh(learn_state *learn, const sl_frame *frame) {
     cairo_t *cairo = learn->ui->cairo;
     const size_t at = learn->lesson.at;
     if (at == FIRST_SIDE + mesh->sides.count) return;
-    draw_ground(learn, frame);
+    draw_ground(learn->view, frame);
     if (at == DELAUNAY) sli_draw_mesh_delaunay(cairo, palette, frame, mesh);
     if (at == TRIANGLES) sli_draw_mesh_triangles(cairo, palette, frame, mesh);
     if (at >= FIRST_SIDE)

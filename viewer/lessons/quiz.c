@@ -19,8 +19,8 @@ void quiz_forget(learn_state *learn) {
 }
 
 /// Whether the sightline by mirror is looked for. Past one-way glass it depends on the way there.
-static bool explains_mirrors(const learn_state *learn, const sl_explanation *e) {
-    const sl_map *map = &learn->document->baked->map;
+static bool explains_mirrors(const view_state *view, const sl_explanation *e) {
+    const sl_map *map = &view->document->baked->map;
     return e->verdict == SL_HIDDEN && e->complete && map->mirror_count && !map->oneway_count;
 }
 
@@ -47,7 +47,7 @@ void quiz_explain(learn_state *learn, uint32_t from, uint32_t to) {
     sl_status status = present_space(learn->context, &learn->view->present);
     const sl_space *space = learn->view->present.space;
     if (status == SL_OK) status = sl_explain(learn->context, space, &options, from, to, e);
-    if (status == SL_OK && explains_mirrors(learn, e))
+    if (status == SL_OK && explains_mirrors(learn->view, e))
         status = sl_explain_by_mirror(learn->context, space, &d->baked->map, &options,
                                       d->mirror_depth, e);
     learn->quiz.answered = status == SL_OK;

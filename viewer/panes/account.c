@@ -22,12 +22,12 @@ typedef struct account {
 } account;
 
 /// Scripts count tests in place of time, so that pictures are the same each time.
-static double cost_of(const view_state *view, double seconds, uint64_t tests) {
-    return view->ui->steady ? fmax((double)tests, 1) : fmax(seconds, 1e-8);
+static double cost_of(const ui_state *ui, double seconds, uint64_t tests) {
+    return ui->steady ? fmax((double)tests, 1) : fmax(seconds, 1e-8);
 }
 
-static void write_cost(const view_state *view, double cost, char text[32]) {
-    if (view->ui->steady)
+static void write_cost(const ui_state *ui, double cost, char text[32]) {
+    if (ui->steady)
         snprintf(text, 32, "%.0f test%s", cost, cost == 1 ? "" : "s");
     else if (cost < 1e-3)
         snprintf(text, 32, "%.3g \xc2\xb5s", 1e6 * cost);
@@ -48,12 +48,11 @@ static size_t add_methods(const view_state *view, account *a) {
         const seen_method *m = &view->seen.methods[i];
         if (!m->known) continue;
         char cost[32];
-        const double spent = cost_of(view, m->seconds, m->account.orientations);
+        const double spent = cost_of(view->ui, m->seconds, m->account.orientations);
         const double share = view->document->area > 0 ? m->area / view->document->area : 0;
-        write_cost(view, spent, cost);
+        write_cost(view->ui, spent, cost);
         snprintf(a->labels[marks], sizeof a->labels[marks], "%s", methods[i].name);
-        for (char *at = a->labels[marks]; *at; at++)
-            if (*at == '_') *at = ' ';
+        ui_spaces(a->labels[marks]);
         snprintf(a->notes[marks], TEXT, "%u cells, %.1f %% in %s", m->count, 100 * share, cost);
         add_mark(a, marks++, spent, share);
     }
@@ -62,10 +61,11 @@ static size_t add_methods(const view_state *view, account *a) {
 
 static void add_region(const view_state *view, account *a, size_t i) {
     char cost[32];
-    const double spent = cost_of(view, view->seen.region_seconds, view->seen.region.portals_passed);
+    const double spent =
+        cost_of(view->ui, view->seen.region_seconds, view->seen.region.portals_passed);
     const double share =
         view->document->area > 0 ? view->seen.region_area / view->document->area : 0;
-    write_cost(view, spent, cost);
+    write_cost(view->ui, spent, cost);
     snprintf(a->labels[i], sizeof a->labels[i], "visible region");
     snprintf(a->notes[i], TEXT, "%.1f %% in %s", 100 * share, cost);
     add_mark(a, i, spent, share);
@@ -111,7 +111,8 @@ static void make(const view_state *view, account *a, bool small) {
     };
 }
 
-void account_draw(view_state *view, cairo_t *cairo, sl_box box) {
+/// Draws the chart into a box of the page.
+static void draw_chart(view_state *view, cairo_t *cairo, sl_box box) {
     account a;
     make(view, &a, true);
     view_check(view,
@@ -145,7 +146,7 @@ static void remake(view_state *view, account_picture *kept, int width, int heigh
     kept->text = view->ui->text;
     kept->made = sl_seconds();
     cairo_t *cairo = cairo_create(kept->surface);
-    account_draw(view, cairo, (sl_box){{0, 0}, {width, height}});
+    draw_chart(view, cairo, (sl_box){{0, 0}, {width, height}});
     cairo_destroy(cairo);
 }
 

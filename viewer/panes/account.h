@@ -4,9 +4,6 @@
 
 #include "plan/view.h"
 
-/// Draws the chart into a box of the page.
-void account_draw(view_state *view, cairo_t *cairo, sl_box box);
-
 /// Saves the chart: .png, .svg or .pdf.
 sl_status account_save(view_state *view, const char *path);
 

@@ -1,8 +1,8 @@
 /// The legend: what the plan shows now, each row with a sample that is drawn as in the plan. It
 /// stands in the panel; over the plan where there is no panel.
-#include "panes/legend.h"
 
 #include "panes/panel.h"
+#include "panes/panes.h"
 
 #include "draw/marks.h" // private: samples are the marks of the plan
 #include "plan/heat.h"
@@ -11,6 +11,8 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+
+enum { LEGEND_MOST = 32 };
 
 // --- rows
 
@@ -26,8 +28,7 @@ static int add_culling(const view_state *view, legend_row *rows, bool fills) {
     int at = 0;
     rows[at] = tone_row_of(TONE_KEPT, fills);
     snprintf(rows[at].value, sizeof rows[at].value, "%.20s", methods[view->method].name);
-    for (char *c = rows[at].value; *c; c++)
-        if (*c == '_') *c = ' ';
+    ui_spaces(rows[at].value);
     at++;
     if (view->compare == COMPARE_DIFFERENCE)
         rows[at++] = tone_row_of(TONE_ADDED, fills);
@@ -68,7 +69,8 @@ static bool has_outside(const view_state *view) {
     return space->inside_count + view->document->solid < space->cell_count;
 }
 
-int layers_legend(const view_state *view, legend_row rows[LEGEND_MOST]) {
+/// Writes what is shown now, and how. Returns the number of rows.
+static int list_rows(const view_state *view, legend_row rows[LEGEND_MOST]) {
     const sl_palette *palette = &view->ui->palette;
     const sl_map *map = &view->document->map;
     if (!view->document->baked) return 0;
@@ -150,7 +152,7 @@ static void draw_mark(ui_state *ui, sl_box box, enum legend_mark mark) {
         sli_mark_oneway(ui->cairo, &ui->palette, &pens, a, b);
 }
 
-void layers_swatch(ui_state *ui, sl_box box, const legend_row *row) {
+void legend_swatch(ui_state *ui, sl_box box, const legend_row *row) {
     cairo_t *cairo = ui->cairo;
     const double middle = (box.min.y + box.max.y) / 2, unit = ui_scale(ui);
     cairo_save(cairo);
@@ -195,12 +197,13 @@ static double legend_row_height(ui_state *ui, double width, const legend_row *ro
            (beside ? 0 : ui_lines_height(ui, room, 0.95, false, row->value));
 }
 
-double layers_legend_row(ui_state *ui, double left, double right, double y, const legend_row *row) {
+/// A row with its sample; returns the lower edge.
+static double draw_row(ui_state *ui, double left, double right, double y, const legend_row *row) {
     double value;
     const bool beside = is_beside(ui, right - left, row, &value);
     const double t = ui->text, words = left + LABEL_LEFT * t;
     const double room = right - words - (beside ? value : 0);
-    layers_swatch(ui, (sl_box){{left, y + 0.25 * t}, {left + 2.2 * t, y + 1.3 * t}}, row);
+    legend_swatch(ui, (sl_box){{left, y + 0.25 * t}, {left + 2.2 * t, y + 1.3 * t}}, row);
     double end = ui_lines(ui, words, y + 1.1 * t, room, 0.95, false, ui->palette.ink, row->label);
     if (value > 0 && beside)
         ui_text_right(ui, right, y + 1.1 * t, 0.95, ui->palette.faint, row->value);
@@ -256,7 +259,8 @@ static double put_key(ui_state *ui, const legend_key *key, double left, double r
     return y + (key->ramp ? 1.6 : 0.2) * t;
 }
 
-double layers_key_column(view_state *view, double left, double right, double y) {
+/// Draws the keys of such layers in a column; returns the lower edge.
+static double draw_key_column(view_state *view, double left, double right, double y) {
     legend_key keys[KEYS_MOST];
     const int count = list_keys(view, keys);
     for (int i = 0; i < count; i++)
@@ -283,8 +287,7 @@ static bool covers_map(const view_state *view, const sl_frame *frame, sl_box box
 
 /// A presentation has the map free: a legend that would cover it is a button, until that is
 /// pressed.
-static void fold(view_state *view, double left, double bottom) {
-    ui_state *ui = view->ui;
+static void fold(ui_state *ui, double left, double bottom) {
     ui->legend_folded = true;
     ui_button(ui, left, bottom - 1.6 * ui->text, 1.6 * ui->text, "Legend (F7)", false,
               ui_action_find(ui, "legend"));
@@ -295,7 +298,7 @@ static void fold(view_state *view, double left, double bottom) {
 static sl_box draw_over_plan(view_state *view, const sl_frame *frame, bool vector) {
     ui_state *ui = view->ui;
     legend_row rows[LEGEND_MOST];
-    const int count = layers_legend(view, rows);
+    const int count = list_rows(view, rows);
     const double t = ui->text, gap = 0.6 * t;
     const double wide = fmin(20 * t, frame->width - 2 * gap);
     double high = gap;
@@ -307,13 +310,12 @@ static sl_box draw_over_plan(view_state *view, const sl_frame *frame, bool vecto
     double y = bottom - high;
     if (ui->presents && !ui->legend_over &&
         covers_map(view, frame, (sl_box){{left, y}, {left + wide, bottom}})) {
-        if (!vector) fold(view, left, bottom);
+        if (!vector) fold(view->ui, left, bottom);
         return none;
     }
     fill_framed(ui, (sl_box){{left, y}, {left + wide, bottom}});
     y += 0.1 * t;
-    for (int i = 0; i < count; i++)
-        y = layers_legend_row(ui, left + gap, left + wide - gap, y, &rows[i]);
+    for (int i = 0; i < count; i++) y = draw_row(ui, left + gap, left + wide - gap, y, &rows[i]);
     return (sl_box){{left, bottom - high}, {left + wide, bottom}};
 }
 
@@ -337,7 +339,7 @@ static void draw_keys_over_plan(view_state *view, const sl_frame *frame, const s
     }
 }
 
-void layers_draw_keys(view_state *view, const sl_frame *frame, bool vector) {
+void legend_over_plan(view_state *view, const sl_frame *frame, bool vector) {
     view->ui->legend_folded = false;
     if (ui_has_panel(view->ui)) return;
     const double lowest = frame->top + frame->height;
@@ -351,12 +353,11 @@ void layers_draw_keys(view_state *view, const sl_frame *frame, bool vector) {
 void column_legend(view_state *view, column *c) {
     legend_row rows[LEGEND_MOST];
     char text[96];
-    const int count = layers_legend(view, rows);
+    const int count = list_rows(view, rows);
     if (!count) return;
     column_heading(view->ui, c, "Legend", NULL);
-    for (int i = 0; i < count; i++)
-        c->y = layers_legend_row(view->ui, c->left, c->right, c->y, &rows[i]);
-    c->y = layers_key_column(view, c->left, c->right, c->y);
+    for (int i = 0; i < count; i++) c->y = draw_row(view->ui, c->left, c->right, c->y, &rows[i]);
+    c->y = draw_key_column(view, c->left, c->right, c->y);
     if (layer_nodes_words(view, text))
         column_words(view->ui, c, 0.9, view->ui->palette.faint, text);
 }

@@ -14,14 +14,14 @@
 // --- modes
 
 /// Outlines the cells that a method keeps, while the pointer is over its row of the table.
-static void draw_kept(learn_state *learn, const sl_frame *frame) {
-    const hit_area *over = &learn->ui->over;
-    const sl_space *space = &learn->document->baked->space;
-    if (over->kind != HIT_METHOD || !learn->view->seen.valid) return;
-    const seen_method *method = &learn->view->seen.methods[over->value];
+static void draw_kept(view_state *view, const sl_frame *frame) {
+    const hit_area *over = &view->ui->over;
+    const sl_space *space = &view->document->baked->space;
+    if (over->kind != HIT_METHOD || !view->seen.valid) return;
+    const seen_method *method = &view->seen.methods[over->value];
     for (uint32_t cell = 0; method->known && cell < space->cell_count; cell++)
         if (sl_eye_sees(method->cells, cell))
-            sl_draw_cell(learn->ui->cairo, space, frame, cell, learn->ui->palette.start, 0,
+            sl_draw_cell(view->ui->cairo, space, frame, cell, view->ui->palette.start, 0,
                          2.2 * frame->unit);
 }
 
@@ -96,9 +96,8 @@ void modes_draw_below(learn_state *learn, const sl_frame *frame, int index) {
 }
 
 /// Says why an eye in solid ground sees nothing.
-static void draw_rock_note(learn_state *learn, const sl_frame *frame) {
+static void draw_rock_note(ui_state *ui, const sl_frame *frame) {
     static const char text[] = "The eye is in solid ground and sees nothing. Click in a room.";
-    ui_state *ui = learn->ui;
     const double t = ui->text, middle = frame->left + frame->width / 2;
     const double wide = fmin(ui_text_width(ui, 1, true, text) + 1, frame->width - 3 * t);
     const double high = ui_lines_height(ui, wide, 1, true, text);
@@ -111,20 +110,21 @@ static void draw_rock_note(learn_state *learn, const sl_frame *frame) {
 }
 
 void modes_draw_above(learn_state *learn, const sl_frame *frame) {
-    const mode_row *mode = &modes[learn->view->mode];
-    const sl_palette *palette = &learn->ui->palette;
+    view_state *view = learn->view;
+    ui_state *ui = view->ui;
+    const mode_row *mode = &modes[view->mode];
     if (mode->above) mode->above(learn, frame);
-    draw_kept(learn, frame);
+    draw_kept(view, frame);
     if (mode->cone)
-        sl_draw_cone(learn->ui->cairo, frame, learn->view->eye.at, learn->view->eye.heading,
-                     learn->view->eye.fov, 78 * ui_scale(learn->ui), palette->start);
-    if (mode->eye) range_draw(learn->view, frame);
-    if (mode->eye) mirror_draw(learn->view, frame);
-    if (learn->view->mode == MODE_EXPLORE) object_draw(learn->view, frame);
+        sl_draw_cone(ui->cairo, frame, view->eye.at, view->eye.heading, view->eye.fov,
+                     78 * ui_scale(ui), ui->palette.start);
+    if (mode->eye) range_draw(view, frame);
+    if (mode->eye) mirror_draw(view, frame);
+    if (view->mode == MODE_EXPLORE) object_draw(view, frame);
     if (mode->eye)
-        sl_draw_eye_mark(learn->ui->cairo, palette, frame, learn->view->eye.at,
-                         learn->view->eye.heading, 6.5 * ui_scale(learn->ui));
-    if (mode->eye && view_is_solid(learn->view, learn->view->eye.at)) draw_rock_note(learn, frame);
+        sl_draw_eye_mark(ui->cairo, &ui->palette, frame, view->eye.at, view->eye.heading,
+                         6.5 * ui_scale(ui));
+    if (mode->eye && view_is_solid(view, view->eye.at)) draw_rock_note(ui, frame);
 }
 
 // --- panes below the plan

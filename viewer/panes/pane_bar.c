@@ -14,11 +14,10 @@ static const ui_action *row_of(const ui_state *ui, const char *name) {
     return &ui->actions[ui_action_find(ui, name)];
 }
 
-static double put_button(learn_state *learn, double x, double y, const char *name) {
-    const ui_action *a = row_of(learn->ui, name);
-    const double t = learn->ui->text;
-    return ui_button(learn->ui, x, y, 1.6 * t, a->label, a->on, (int)(a - learn->ui->actions)) +
-           0.35 * t;
+static double put_button(ui_state *ui, double x, double y, const char *name) {
+    const ui_action *a = row_of(ui, name);
+    const double t = ui->text;
+    return ui_button(ui, x, y, 1.6 * t, a->label, a->on, (int)(a - ui->actions)) + 0.35 * t;
 }
 
 /// Modes and help are always there. The rest has the room that is left in their lines: what finds
@@ -41,38 +40,38 @@ static void flow(double *x, int *line, double wide, double left, double right) {
 }
 
 /// Lays out the buttons, and draws them with `draw`. Returns the number of lines.
-static int bar_buttons(learn_state *learn, double right, bool draw) {
-    const double t = learn->ui->text, left = 0.6 * t, gap = 0.35 * t;
+static int bar_buttons(view_state *view, double right, bool draw) {
+    const double t = view->ui->text, left = 0.6 * t, gap = 0.35 * t;
     double x = left;
     int line = 0;
-    for (int i = 0; i < NEEDED - !learn->ui->presents; i++) {
-        const double wide = ui_button_width(learn->ui, row_of(learn->ui, needed[i])->label);
+    for (int i = 0; i < NEEDED - !view->ui->presents; i++) {
+        const double wide = ui_button_width(view->ui, row_of(view->ui, needed[i])->label);
         flow(&x, &line, wide, left, right);
-        if (draw) put_button(learn, x, (0.35 + 2 * line) * t, needed[i]);
+        if (draw) put_button(view->ui, x, (0.35 + 2 * line) * t, needed[i]);
         x += wide + gap;
     }
     x += 0.8 * t;
     for (int i = 0; i < OTHERS; i++) {
-        const double wide = ui_button_width(learn->ui, row_of(learn->ui, others[i])->label);
-        if (learn->view->mode != MODE_EXPLORE && strcmp(others[i], "compare") == 0) continue;
-        if (learn->ui->presents && strcmp(others[i], "side_panel") == 0) continue;
-        if (learn->ui->presents && strcmp(others[i], "present") == 0) continue;
+        const double wide = ui_button_width(view->ui, row_of(view->ui, others[i])->label);
+        if (view->mode != MODE_EXPLORE && strcmp(others[i], "compare") == 0) continue;
+        if (view->ui->presents && strcmp(others[i], "side_panel") == 0) continue;
+        if (view->ui->presents && strcmp(others[i], "present") == 0) continue;
         if (x + wide > right) continue;
-        if (draw) put_button(learn, x, (0.35 + 2 * line) * t, others[i]);
+        if (draw) put_button(view->ui, x, (0.35 + 2 * line) * t, others[i]);
         x += wide + gap;
     }
     return line + 1;
 }
 
 void pane_bar_measure(learn_state *learn) {
-    learn->ui->bar_rows = bar_buttons(learn, learn->ui->width - 0.4 * learn->ui->text, false);
+    learn->ui->bar_rows = bar_buttons(learn->view, learn->ui->width - 0.4 * learn->ui->text, false);
 }
 
 void pane_bar(learn_state *learn, sl_box box) {
     ui_state *ui = learn->ui;
     ui_begin_area(ui, box);
     ui_line(ui, box.min.x, box.max.y - 0.5, box.max.x, box.max.y - 0.5, ui->palette.outline);
-    bar_buttons(learn, box.max.x - 0.4 * ui->text, true);
+    bar_buttons(learn->view, box.max.x - 0.4 * ui->text, true);
     ui_end_area(ui);
 }
 
@@ -82,8 +81,7 @@ static double draw_progress(ui_state *ui, sl_box box, const job_progress *p) {
     const char *label = "Stop (Esc)";
     char text[96];
     snprintf(text, sizeof text, "%s%s", p->stage ? p->stage : "", p->share >= 0 ? "" : " ...");
-    for (char *at = text; *at; at++)
-        if (*at == '_') *at = ' ';
+    ui_spaces(text);
     const double middle = (box.min.y + box.max.y) / 2;
     const double stop = box.max.x - ui_button_width(ui, label) - 0.4 * t;
     ui_button(ui, stop, box.min.y + 0.15 * t, 1.6 * t, label, false, ui_action_find(ui, "escape"));
@@ -101,30 +99,27 @@ static double draw_progress(ui_state *ui, sl_box box, const job_progress *p) {
 }
 
 /// In Draw mode: the place of the grid under the pointer.
-static void write_place(const learn_state *learn, char text[64]) {
-    const sl_box plan = learn->view->plan[0];
+static void write_place(const view_state *view, char text[64]) {
+    sl_point at;
     text[0] = '\0';
-    if (learn->view->mode != MODE_DRAW || !learn->document->baked ||
-        !box_has(plan, learn->ui->pointer))
-        return;
-    const sl_point at =
-        grid_snap(learn->view, camera_point(&learn->view->camera, plan, learn->ui->pointer));
+    if (view->mode != MODE_DRAW || !view->document->baked || !view_pointed(view, &at)) return;
+    at = grid_snap(view, at);
     snprintf(text, 64, "at %.10g, %.10g   ", at.x, at.y);
 }
 
 /// What the viewer does, at the right end of the line. Returns its left end.
-static double draw_doing(learn_state *learn, sl_box box, const char *doing) {
-    ui_state *ui = learn->ui;
-    const sl_baked *baked = learn->document->baked;
+static double draw_doing(view_state *view, sl_box box, const char *doing) {
+    ui_state *ui = view->ui;
+    const sl_baked *baked = view->document->baked;
     const bool partial = baked && sl_partial_begun(&baked->partial);
     if (!*doing && partial) doing = "a partial bake";
     char place[64], text[160];
-    write_place(learn, place);
-    if (learn->ui->steady || learn->ui->frame_seconds <= 0)
+    write_place(view, place);
+    if (view->ui->steady || view->ui->frame_seconds <= 0)
         snprintf(text, sizeof text, "%s%s", place, doing);
     else
         snprintf(text, sizeof text, "%s%s   %.1f ms a frame", place, doing,
-                 1e3 * learn->ui->frame_seconds);
+                 1e3 * view->ui->frame_seconds);
     const double t = ui->text, right = box.max.x - 0.8 * t;
     ui_text_right(ui, right, box.max.y - 0.62 * t, 0.95, ui->palette.faint, text);
     return right - ui_text_width(ui, 0.95, false, text);
@@ -134,8 +129,7 @@ static double draw_doing(learn_state *learn, sl_box box, const char *doing) {
 
 /// A message that is longer than the line grows upwards, over the panes. After some seconds it is
 /// cut to the line, unless it is an error; the tooltip has all of it.
-static void draw_message(learn_state *learn, sl_box box, double right) {
-    ui_state *ui = learn->ui;
+static void draw_message(ui_state *ui, sl_box box, double right) {
     const double t = ui->text, left = 0.8 * t, size = 0.95;
     const sl_colour colour = ui->message_is_error     ? ui->palette.start
                              : ui->message_is_working ? ui->palette.faint
@@ -169,9 +163,9 @@ void pane_status(learn_state *learn, sl_box box, const job_progress *work, const
     ui_hit(ui, HIT_PANEL, PANEL_STATUS, box);
     ui_line(ui, box.min.x, box.min.y + 0.5, box.max.x, box.min.y + 0.5, ui->palette.outline);
     const double left =
-        work->running ? draw_progress(ui, box, work) : draw_doing(learn, box, doing);
+        work->running ? draw_progress(ui, box, work) : draw_doing(learn->view, box, doing);
     ui_end_area(ui);
-    draw_message(learn, box, left - 0.8 * ui->text);
+    draw_message(ui, box, left - 0.8 * ui->text);
 }
 
 // --- the time line
@@ -307,7 +301,7 @@ void pane_time(learn_state *learn, sl_box box) {
         0.8 * t;
     double x = box.min.x + 0.7 * t;
     for (const char *const *name = time_buttons(learn); *name; name++)
-        x = put_button(learn, x, y, *name);
+        x = put_button(ui, x, y, *name);
     if (learn->view->mode == MODE_LEARN) y = draw_time_line(learn, box, x, y);
     ui_end_scroll(ui, room, y + 1.9 * t);
     ui_end_area(ui);

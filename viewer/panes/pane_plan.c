@@ -1,7 +1,6 @@
 /// The plan: pictures that are kept from frame to frame, and over them what changes.
 #include "panes/panes.h"
 
-#include "panes/legend.h"
 #include "panes/modes.h"
 #include "plan/heat.h"
 #include "plan/view_cells.h"
@@ -18,71 +17,63 @@
 
 // --- scenes
 
-static unsigned scene_layers(const learn_state *learn) {
-    const view_state *view = learn->view;
-    // A subdivision in the making has no cells to be named yet.
-    const bool named =
-        layers_shows(learn->view, LAYER_NAMES) &&
-        !(learn->view->mode == MODE_LEARN && lesson_subject(&learn->lesson) == &lesson_subdivision);
-    const bool numbers = layers_shows(learn->view, LAYER_NUMBERS) || named;
+static unsigned scene_layers(const view_state *view) {
+    const bool named = layers_shows(view, LAYER_NAMES) && !view->in_the_making;
+    const bool numbers = layers_shows(view, LAYER_NUMBERS) || named;
     return SL_LAYER_WALLS | (view->show & SHOW_CELLS ? SL_LAYER_CELLS : 0u) |
            (view->show & SHOW_PORTALS ? SL_LAYER_PORTALS : 0u) | (numbers ? SL_LAYER_NUMBERS : 0u) |
            (view->show & SHOW_STARTS ? SL_LAYER_STARTS : 0u);
 }
 
-static bool make_scene(learn_state *learn) {
-    const unsigned layers = scene_layers(learn);
-    const uint32_t key =
-        layers | (learn->ui->dark ? 1024u : 0u) | (learn->ui->presents ? 2048u : 0u);
-    if (learn->view->scene && learn->view->scene_version == learn->document->version &&
-        learn->view->scene_show == key)
+static bool make_scene(view_state *view) {
+    const unsigned layers = scene_layers(view);
+    const uint32_t key = layers | (view->ui->dark ? 1024u : 0u) | (view->ui->presents ? 2048u : 0u);
+    if (view->scene && view->scene_version == view->document->version && view->scene_show == key)
         return true;
-    sl_scene_destroy(learn->context, learn->view->scene);
-    learn->view->scene = NULL;
+    sl_scene_destroy(view->context, view->scene);
+    view->scene = NULL;
     sl_draw_options options = sl_draw_options_default();
     options.layers = layers;
     options.cell = SL_NO_CELL;
-    options.dark = learn->ui->dark;
-    const sl_status status = sl_scene_create(learn->context, learn->document->baked, &options, NULL,
-                                             &learn->view->scene);
-    view_check(learn->view, status);
-    if (!learn->document->live) learn->view->pen_size = 0;
-    if (status == SL_OK)
-        plan_keep_pens(learn->view->scene, &learn->view->pen_size, ui_strength(learn->ui));
-    learn->view->scene_version = learn->document->version;
-    learn->view->scene_show = key;
+    options.dark = view->ui->dark;
+    const sl_status status =
+        sl_scene_create(view->context, view->document->baked, &options, NULL, &view->scene);
+    view_check(view, status);
+    if (!view->document->live) view->pen_size = 0;
+    if (status == SL_OK) plan_keep_pens(view->scene, &view->pen_size, ui_strength(view->ui));
+    view->scene_version = view->document->version;
+    view->scene_show = key;
     return status == SL_OK;
 }
 
 // --- pictures that are kept
 
-static sl_context *drawing(const learn_state *learn) {
-    return learn->view->drawing ? learn->view->drawing : learn->context;
+static sl_context *drawing(const view_state *view) {
+    return view->drawing ? view->drawing : view->context;
 }
 
 /// Draws what is below all that changes: cells, portals, view cells, splits. False if it was
 /// stopped.
-static bool draw_under(learn_state *learn, cairo_t *cairo, const sl_frame *frame) {
+static bool draw_under(view_state *view, cairo_t *cairo, const sl_frame *frame) {
     const unsigned layers =
-        scene_layers(learn) & ~(unsigned)(SL_LAYER_WALLS | SL_LAYER_STARTS | SL_LAYER_NUMBERS);
-    sl_set_colour(cairo, learn->ui->palette.page);
+        scene_layers(view) & ~(unsigned)(SL_LAYER_WALLS | SL_LAYER_STARTS | SL_LAYER_NUMBERS);
+    sl_set_colour(cairo, view->ui->palette.page);
     cairo_paint(cairo);
-    if (sl_draw_plan(drawing(learn), cairo, learn->view->scene, layers, frame) != SL_OK)
-        return false;
-    if (layers_shows(learn->view, LAYER_VIEWS)) view_layer_draw(learn->view, cairo, frame);
-    heat_layer_draw(learn->view, cairo, frame);
-    const unsigned fill = layers_fill(learn->view);
-    if ((fill == LAYER_VIEWS || fill == LAYER_HEAT) && layers_shows(learn->view, LAYER_PORTALS))
-        layers_draw_portals(learn->view, cairo, frame, NULL, NULL);
-    if (learn->view->show & SHOW_SPLITS)
-        sli_draw_splits(cairo, &learn->ui->palette, frame, learn->document->splits,
-                        learn->document->baked->space.node_count, learn->view->split_depth);
+    if (sl_draw_plan(drawing(view), cairo, view->scene, layers, frame) != SL_OK) return false;
+    if (layers_shows(view, LAYER_VIEWS)) view_layer_draw(view, cairo, frame);
+    heat_layer_draw(view, cairo, frame);
+    const unsigned fill = layers_fill(view);
+    if ((fill == LAYER_VIEWS || fill == LAYER_HEAT) && layers_shows(view, LAYER_PORTALS))
+        layers_draw_portals(view, cairo, frame, NULL, NULL);
+    if (view->show & SHOW_SPLITS)
+        sli_draw_splits(cairo, &view->ui->palette, frame, view->document->splits,
+                        view->document->baked->space.node_count, view->split_depth);
     return true;
 }
 
 /// Draws what is over it: walls and other things of the map.
-static bool draw_over(learn_state *learn, cairo_t *cairo, const sl_frame *frame) {
-    return sl_draw_walls(drawing(learn), cairo, learn->view->scene, frame) == SL_OK;
+static bool draw_over(view_state *view, cairo_t *cairo, const sl_frame *frame) {
+    return sl_draw_walls(drawing(view), cairo, view->scene, frame) == SL_OK;
 }
 
 /// The frame of a pane with its upper left at the origin.
@@ -92,15 +83,15 @@ static sl_frame at_origin(sl_frame frame) {
 }
 
 /// Draws a picture where it is clipped to.
-static bool paint(learn_state *learn, cairo_t *cairo, bool over, const sl_frame *frame) {
+static bool paint(view_state *view, cairo_t *cairo, bool over, const sl_frame *frame) {
     bool whole;
     if (over) {
         cairo_set_operator(cairo, CAIRO_OPERATOR_CLEAR);
         cairo_paint(cairo);
         cairo_set_operator(cairo, CAIRO_OPERATOR_OVER);
-        whole = draw_over(learn, cairo, frame);
+        whole = draw_over(view, cairo, frame);
     } else {
-        whole = draw_under(learn, cairo, frame);
+        whole = draw_under(view, cairo, frame);
     }
     return whole && cairo_status(cairo) == CAIRO_STATUS_SUCCESS;
 }
@@ -125,18 +116,18 @@ static void part_of_frame(const sl_frame *frame, const sl_box *box, sl_frame *pa
 #define AROUND 200
 
 /// Draws what differs from the picture, which was drawn for the same frame. False if that is much.
-static bool mend(learn_state *learn, kept_picture *kept, bool over, const sl_frame *local) {
-    const document_state *document = learn->document;
+static bool mend(view_state *view, kept_picture *kept, bool over, const sl_frame *local) {
+    const document_state *document = view->document;
     plan_items now = {0};
     sl_box boxes[CHANGES_MOST];
     sl_frame parts[CHANGES_MOST];
     if (!kept->items.count ||
-        plan_items_list(learn->context, document->baked, learn->view->scene, over, &now) != SL_OK) {
-        sl_free(learn->context, now.items);
+        plan_items_list(view->context, document->baked, view->scene, over, &now) != SL_OK) {
+        sl_free(view->context, now.items);
         return false;
     }
     const int count = plan_items_compare(&kept->items, &now, boxes);
-    sl_free(learn->context, kept->items.items);
+    sl_free(view->context, kept->items.items);
     kept->items = now;
     double area = 0;
     for (int i = 0; i < count; i++) {
@@ -149,13 +140,13 @@ static bool mend(learn_state *learn, kept_picture *kept, bool over, const sl_fra
         cairo_t *cairo = cairo_create(kept->surface);
         cairo_rectangle(cairo, parts[i].left, parts[i].top, parts[i].width, parts[i].height);
         cairo_clip(cairo);
-        good = paint(learn, cairo, over, &parts[i]);
+        good = paint(view, cairo, over, &parts[i]);
         cairo_destroy(cairo);
     }
     return good;
 }
 
-static bool remake(learn_state *learn, kept_picture *kept, bool over, const sl_frame *local) {
+static bool remake(view_state *view, kept_picture *kept, bool over, const sl_frame *local) {
     const int width = (int)ceil(local->width), height = (int)ceil(local->height);
     const double before = sl_seconds();
     if (!kept->surface || cairo_image_surface_get_width(kept->surface) != width ||
@@ -165,13 +156,13 @@ static bool remake(learn_state *learn, kept_picture *kept, bool over, const sl_f
                                                    width, height);
     }
     cairo_t *cairo = cairo_create(kept->surface);
-    const bool good = paint(learn, cairo, over, local);
+    const bool good = paint(view, cairo, over, local);
     cairo_destroy(cairo);
     kept->items.count = 0;
-    if (!good) kept->key.version = learn->document->version - 1; // it is drawn again
-    if (good && learn->view->drag.changed)
-        view_check(learn->view, plan_items_list(learn->context, learn->document->baked,
-                                                learn->view->scene, over, &kept->items));
+    if (!good) kept->key.version = view->document->version - 1; // it is drawn again
+    if (good && view->drag.changed)
+        view_check(view, plan_items_list(view->context, view->document->baked, view->scene, over,
+                                         &kept->items));
     kept->seconds = sl_seconds() - before;
     return good;
 }
@@ -202,21 +193,19 @@ static void blit(cairo_t *cairo, const kept_picture *kept, const sl_frame *frame
     cairo_restore(cairo);
 }
 
-static void show_kept(learn_state *learn, kept_picture *kept, bool over, const sl_frame *frame) {
+static void show_kept(view_state *view, kept_picture *kept, bool over, const sl_frame *frame) {
     kept_picture now;
     memset(&now.key, 0, sizeof now.key);
-    now.key.version = learn->document->version;
-    now.key.touched = over ? learn->document->touched : 0;
-    now.key.show = scene_layers(learn) | (learn->view->show & SHOW_SPLITS && !over ? 2048u : 0u);
-    now.key.depth = learn->view->show & SHOW_SPLITS && !over ? learn->view->split_depth : 0;
-    now.key.dark = learn->ui->dark;
-    if (!over && layers_shows(learn->view, LAYER_VIEWS)) {
-        now.key.views =
-            view_layer_shown(learn->view->views) << 1 | (layers_fill(learn->view) == LAYER_VIEWS);
-        now.key.mark = view_layer_marked(learn->view->views);
+    now.key.version = view->document->version;
+    now.key.touched = over ? view->document->touched : 0;
+    now.key.show = scene_layers(view) | (view->show & SHOW_SPLITS && !over ? 2048u : 0u);
+    now.key.depth = view->show & SHOW_SPLITS && !over ? view->split_depth : 0;
+    now.key.dark = view->ui->dark;
+    if (!over && layers_shows(view, LAYER_VIEWS)) {
+        now.key.views = view_layer_shown(view->views) << 1 | (layers_fill(view) == LAYER_VIEWS);
+        now.key.mark = view_layer_marked(view->views);
     }
-    if (!over && layers_fill(learn->view) == LAYER_HEAT)
-        now.key.heat = learn->view->heat_choice.stamp + 1;
+    if (!over && layers_fill(view) == LAYER_HEAT) now.key.heat = view->heat_choice.stamp + 1;
     now.key.frame = at_origin(*frame);
     const bool same = kept->surface && memcmp(&kept->key, &now.key, sizeof now.key) == 0;
     if (!same) {
@@ -225,47 +214,46 @@ static void show_kept(learn_state *learn, kept_picture *kept, bool over, const s
         const bool only_moved =
             kept->surface && memcmp(&other.key, &now.key, sizeof now.key) == 0 &&
             kept->key.frame.width == frame->width && kept->key.frame.height == frame->height;
-        const bool wait = only_moved && learn->view->motion > 0 && kept->seconds > SLOW_SECONDS;
+        const bool wait = only_moved && view->motion > 0 && kept->seconds > SLOW_SECONDS;
         other = *kept;
         other.key.version = now.key.version;
         other.key.touched = now.key.touched;
-        const bool only_dragged = kept->surface && learn->document->live &&
+        const bool only_dragged = kept->surface && view->document->live &&
                                   memcmp(&other.key, &now.key, sizeof now.key) == 0;
-        const bool mended = only_dragged && mend(learn, kept, over, &now.key.frame);
-        if (mended || (!wait && remake(learn, kept, over, &now.key.frame)))
+        const bool mended = only_dragged && mend(view, kept, over, &now.key.frame);
+        if (mended || (!wait && remake(view, kept, over, &now.key.frame)))
             memcpy(&kept->key, &now.key, sizeof now.key);
     }
-    if (kept->surface) blit(learn->ui->cairo, kept, frame, learn->ui->palette.page, over);
+    if (kept->surface) blit(view->ui->cairo, kept, frame, view->ui->palette.page, over);
 }
 
 // --- the pane
 
-static void draw_empty(learn_state *learn, sl_box box) {
-    ui_state *ui = learn->ui;
+static void draw_empty(view_state *view, sl_box box) {
+    ui_state *ui = view->ui;
     const double t = ui->text, gap = fmin(3 * t, 0.08 * box_width(box));
     const double x = box.min.x + gap, wide = box_width(box) - 2 * gap;
     ui_fill(ui, box, ui->palette.ground);
     const double y =
         ui_lines(ui, x, fmax((box.min.y + box.max.y) / 2 - 2 * t, box.min.y + 2.5 * t), wide, 1.6,
-                 true, ui->palette.ink, learn->document->job ? "Opening ..." : "No map is open");
+                 true, ui->palette.ink, view->document->job ? "Opening ..." : "No map is open");
     ui_lines(ui, x, y, wide, 1, false, ui->palette.faint,
              "Drop a map or a .slv file here, or press O for the maps at hand.");
 }
 
-static void draw_name(learn_state *learn, sl_box box, int index, int count) {
+static void draw_name(view_state *view, sl_box box, int index, int count) {
     if (count < 2) return;
-    ui_state *ui = learn->ui;
+    ui_state *ui = view->ui;
     if (index) ui_line(ui, box.min.x, box.min.y, box.min.x, box.max.y, ui->palette.faint);
     size_t methods;
-    const size_t method = index ? learn->view->other : learn->view->method;
+    const size_t method = index ? view->other : view->method;
     const char *name = sl_eye_methods(&methods)[method].name;
     char text[96];
-    const seen_method *seen = &learn->view->seen.methods[method];
+    const seen_method *seen = &view->seen.methods[method];
     char words[64];
     snprintf(words, sizeof words, "%s", name);
-    for (char *at = words; *at; at++)
-        if (*at == '_') *at = ' ';
-    snprintf(text, sizeof text, "%s: %u cells", words, learn->view->seen.valid ? seen->count : 0);
+    ui_spaces(words);
+    snprintf(text, sizeof text, "%s: %u cells", words, view->seen.valid ? seen->count : 0);
     const double t = ui->text, gap = fmin(t, 0.04 * box_width(box));
     const double wide =
         fmin(ui_text_width(ui, 1, true, text) + 1, box_width(box) - 2 * gap - 1.2 * t);
@@ -279,8 +267,7 @@ static void draw_name(learn_state *learn, sl_box box, int index, int count) {
 }
 
 /// The cursor that keys move: a cross with a rim, over any ground.
-static void draw_cursor(learn_state *learn, sl_box box) {
-    ui_state *ui = learn->ui;
+static void draw_cursor(ui_state *ui, sl_box box) {
     const sl_point at = ui->pointer;
     const double arm = 9 * ui_scale(ui), gap = 2.5 * ui_scale(ui);
     ui_mark_focus(ui, box);
@@ -295,11 +282,11 @@ static void draw_cursor(learn_state *learn, sl_box box) {
 }
 
 /// Says that the plan is not that of the map as it is now.
-static void draw_late(learn_state *learn, sl_box box) {
-    if (!document_is_late(learn->document)) return;
-    ui_state *ui = learn->ui;
+static void draw_late(view_state *view, sl_box box) {
+    if (!document_is_late(view->document)) return;
+    ui_state *ui = view->ui;
     const double t = ui->text;
-    const char *text = learn->document->stale || learn->document->job
+    const char *text = view->document->stale || view->document->job
                            ? "Updating ..."
                            : "The plan does not show the last change.";
     const double half = fmin(ui_text_width(ui, 1, true, text), box_width(box) - 3 * t) / 2;
@@ -312,32 +299,35 @@ static void draw_late(learn_state *learn, sl_box box) {
 }
 
 void pane_plan(learn_state *learn, sl_box box, int index, bool vector) {
-    cairo_t *cairo = learn->ui->cairo;
-    ui_hit(learn->ui, HIT_PLAN, index, box);
-    const bool focused = ui_has_focus(learn->ui);
-    learn->ui->area = box;
-    if (!learn->document->baked || !make_scene(learn)) {
-        draw_empty(learn, box);
+    view_state *view = learn->view;
+    ui_state *ui = view->ui;
+    ui_hit(ui, HIT_PLAN, index, box);
+    const bool focused = ui_has_focus(ui);
+    ui->area = box;
+    view->in_the_making =
+        view->mode == MODE_LEARN && lesson_subject(&learn->lesson) == &lesson_subdivision;
+    if (!view->document->baked || !make_scene(view)) {
+        draw_empty(view, box);
         return;
     }
-    const sl_frame frame = camera_frame(&learn->view->camera, box, ui_scale(learn->ui));
-    cairo_save(cairo);
-    cairo_rectangle(cairo, box.min.x, box.min.y, box_width(box), box_height(box));
-    cairo_clip(cairo);
+    const sl_frame frame = camera_frame(&view->camera, box, ui_scale(ui));
+    cairo_save(ui->cairo);
+    cairo_rectangle(ui->cairo, box.min.x, box.min.y, box_width(box), box_height(box));
+    cairo_clip(ui->cairo);
     if (vector)
-        draw_under(learn, cairo, &frame);
+        draw_under(view, ui->cairo, &frame);
     else
-        show_kept(learn, &learn->view->under, false, &frame);
+        show_kept(view, &view->under, false, &frame);
     modes_draw_below(learn, &frame, index);
     if (vector)
-        draw_over(learn, cairo, &frame);
+        draw_over(view, ui->cairo, &frame);
     else
-        show_kept(learn, &learn->view->over, true, &frame);
+        show_kept(view, &view->over, true, &frame);
     modes_draw_above(learn, &frame);
-    if (!index) layers_draw_keys(learn->view, &frame, vector);
-    const bool panes = learn->view->compare == COMPARE_PANES && learn->view->mode == MODE_EXPLORE;
-    draw_name(learn, box, index, panes ? 2 : 1);
-    if (!vector && focused) draw_cursor(learn, box);
-    draw_late(learn, box);
-    cairo_restore(cairo);
+    if (!index) legend_over_plan(view, &frame, vector);
+    const bool panes = view->compare == COMPARE_PANES && view->mode == MODE_EXPLORE;
+    draw_name(view, box, index, panes ? 2 : 1);
+    if (!vector && focused) draw_cursor(ui, box);
+    draw_late(view, box);
+    cairo_restore(ui->cairo);
 }

@@ -1,7 +1,6 @@
 /// The panel at the right: layers, what each method keeps, what the pointer is over, and why a cell
 /// is seen or not. To draw, it shows what can be drawn; in the quiz the question.
 #include "lessons/quiz.h"
-#include "panes/legend.h"
 #include "panes/panel.h"
 #include "panes/panes.h"
 #include "plan/effects.h"
@@ -22,8 +21,8 @@ static void write_area(double area, char text[SL_COUNT_TEXT]) {
         snprintf(text, SL_COUNT_TEXT, "%.4g", area);
 }
 
-static void write_seconds(const learn_state *learn, double seconds, char text[32]) {
-    if (learn->ui->steady)
+static void write_seconds(const ui_state *ui, double seconds, char text[32]) {
+    if (ui->steady)
         snprintf(text, 32, "\xe2\x80\x93");
     else if (seconds < 1e-3)
         snprintf(text, 32, "%.0f \xc2\xb5s", 1e6 * seconds);
@@ -59,18 +58,18 @@ typedef struct method_row {
 } method_row;
 
 /// The numbers of a row, in columns or, in a narrow panel, as words below the name.
-static void draw_figures(learn_state *learn, column *c, const method_row *row, double base,
+static void draw_figures(view_state *view, column *c, const method_row *row, double base,
                          bool narrow) {
-    ui_state *ui = learn->ui;
+    ui_state *ui = view->ui;
     char area[SL_COUNT_TEXT], time[32];
-    sl_text_percent(learn->document->area > 0 ? row->area / learn->document->area : 0, area);
-    write_seconds(learn, row->seconds, time);
+    sl_text_percent(view->document->area > 0 ? row->area / view->document->area : 0, area);
+    write_seconds(view->ui, row->seconds, time);
     if (narrow) {
         char cells[SL_COUNT_TEXT] = "", tests[SL_COUNT_TEXT], line[256];
         if (row->counts_cells) sl_text_count(row->cells, "cell", cells);
         sl_text_count(row->tests, "test", tests);
         snprintf(line, sizeof line, "%s%s%s, %s%s%s", cells, *cells ? ", " : "", area, tests,
-                 learn->ui->steady ? "" : ", ", learn->ui->steady ? "" : time);
+                 view->ui->steady ? "" : ", ", view->ui->steady ? "" : time);
         c->y = ui_lines(ui, c->left + 1.3 * ui->text, base + 1.35 * ui->text,
                         column_width(c) - 1.3 * ui->text, 0.9, false, ui->palette.ink, line) -
                0.8 * ui->text;
@@ -87,8 +86,8 @@ static double method_height(const ui_state *ui, bool narrow) {
     return (narrow ? 2.8 : 1.55) * ui->text;
 }
 
-static void draw_method(learn_state *learn, column *c, const method_row *row, int number) {
-    ui_state *ui = learn->ui;
+static void draw_method(view_state *view, column *c, const method_row *row, int number) {
+    ui_state *ui = view->ui;
     const bool narrow = column_is_narrow(ui, c);
     const double t = ui->text, base = c->y + 1.12 * t, out = fmin(0.4 * t, c->left - c->box.min.x);
     const sl_box box = {{c->left - out, c->y},
@@ -99,18 +98,17 @@ static void draw_method(learn_state *learn, column *c, const method_row *row, in
                                     row->chosen ? ui->palette.glass : ui->palette.ink,
                                     row->chosen ? 0.2 : 0.08));
     const sl_box swatch = {{c->left, c->y + 0.25 * t}, {c->left + 1.05 * t, c->y + 1.3 * t}};
-    layers_swatch(ui, swatch, &(legend_row){.mark = LEGEND_AREA, .which = row->which});
+    legend_swatch(ui, swatch, &(legend_row){.mark = LEGEND_AREA, .which = row->which});
     if (row->keeps) ui_outline(ui, swatch, 0.18 * t, ui->palette.ink);
     char name[64];
     snprintf(name, sizeof name, "%s", row->name);
-    for (char *at = name; *at; at++)
-        if (*at == '_') *at = ' ';
+    ui_spaces(name);
     const double room = narrow ? column_width(c) - 1.3 * t
                                : figure_end(c, 0) - c->left - (1.3 + 2.2 * figure_size(ui, c)) * t;
     ui_text_within(ui, c->left + 1.3 * t, base, room, 0.95, ui->palette.ink, name);
     if (number >= 0) ui_hit_focus(ui, HIT_METHOD, number, box);
     c->y = box.max.y;
-    if (row->known) draw_figures(learn, c, row, base, narrow);
+    if (row->known) draw_figures(view, c, row, base, narrow);
     c->y = fmax(c->y, box.max.y);
 }
 
@@ -125,35 +123,35 @@ static void draw_method_titles(ui_state *ui, column *c) {
 }
 
 /// The cell of the plan under the pointer; SL_NO_CELL for none.
-static uint32_t cell_under_pointer(const learn_state *learn) {
-    const sl_box plan = learn->view->plan[0];
-    if (!learn->document->baked || learn->ui->over.kind != HIT_PLAN) return SL_NO_CELL;
-    return sl_space_locate(&learn->document->baked->space,
-                           camera_point(&learn->view->camera, plan, learn->ui->pointer));
+static uint32_t cell_under_pointer(const view_state *view) {
+    const sl_box plan = view->plan[0];
+    if (!view->document->baked || view->ui->over.kind != HIT_PLAN) return SL_NO_CELL;
+    return sl_space_locate(&view->document->baked->space,
+                           camera_point(&view->camera, plan, view->ui->pointer));
 }
 
-static void draw_methods(learn_state *learn, column *c) {
-    ui_state *ui = learn->ui;
-    const seen_state *seen = &learn->view->seen;
+static void draw_methods(view_state *view, column *c) {
+    ui_state *ui = view->ui;
+    const seen_state *seen = &view->seen;
     size_t count;
     const sl_eye_method *methods = sl_eye_methods(&count);
-    const uint32_t cell = cell_under_pointer(learn);
+    const uint32_t cell = cell_under_pointer(view);
     draw_method_titles(ui, c);
     for (size_t i = 0; i < count && i < SEEN_MOST; i++) {
         const seen_method *m = &seen->methods[i];
         const method_row row = {.name = methods[i].name,
-                                .which = layers_method_tone(i, learn->view->method),
+                                .which = layers_method_tone(i, view->method),
                                 .known = seen->valid && m->known,
                                 .counts_cells = true,
-                                .chosen = i == learn->view->method,
-                                .other = learn->view->compare && i == learn->view->other,
-                                .keeps = learn->view->seen.valid && m->known &&
-                                         cell != SL_NO_CELL && sl_eye_sees(m->cells, cell),
+                                .chosen = i == view->method,
+                                .other = view->compare && i == view->other,
+                                .keeps = view->seen.valid && m->known && cell != SL_NO_CELL &&
+                                         sl_eye_sees(m->cells, cell),
                                 .cells = m->count,
                                 .area = m->area,
                                 .seconds = m->seconds,
                                 .tests = m->account.orientations};
-        draw_method(learn, c, &row, (int)i);
+        draw_method(view, c, &row, (int)i);
     }
     const method_row region = {.name = "visible region",
                                .which = TONE_REGION,
@@ -161,66 +159,62 @@ static void draw_methods(learn_state *learn, column *c) {
                                .area = seen->region_area,
                                .seconds = seen->region_seconds,
                                .tests = seen->region.portals_passed};
-    draw_method(learn, c, &region, -1);
+    draw_method(view, c, &region, -1);
     if (!seen->valid) return;
     char area[SL_COUNT_TEXT], line[160];
     write_area(seen->region_area, area);
     const int length = snprintf(line, sizeof line, "The visible region has an area of %s.", area);
-    const seen_method *method = &seen->methods[learn->view->method];
-    if (method->known && !learn->view->compare && seen->region_area > 0)
+    const seen_method *method = &seen->methods[view->method];
+    if (method->known && !view->compare && seen->region_area > 0)
         snprintf(line + length, sizeof line - (size_t)length,
                  " The cells kept have %.1f times that.", method->area / seen->region_area);
     column_words(ui, c, 0.9, ui->palette.faint, line);
 }
 
 /// What mirrors add.
-static void draw_mirrored(learn_state *learn, column *c) {
-    const seen_state *seen = &learn->view->seen;
-    const uint32_t cells = seen->methods[learn->view->method].mirrored_count;
+static void draw_mirrored(view_state *view, column *c) {
+    const seen_state *seen = &view->seen;
+    const uint32_t cells = seen->methods[view->method].mirrored_count;
     char share[SL_COUNT_TEXT], text[160];
-    if (!learn->document->map.mirror_count || !seen->valid) return;
-    sl_text_percent(learn->document->area > 0 ? seen->mirrored_area / learn->document->area : 0,
+    if (!view->document->map.mirror_count || !seen->valid) return;
+    sl_text_percent(view->document->area > 0 ? seen->mirrored_area / view->document->area : 0,
                     share);
     const size_t parts = seen->in_mirrors.part_count;
     const int length =
         snprintf(text, sizeof text, "In mirrors: %u cell%s more, and %s of the area in %zu part%s.",
                  cells, cells == 1 ? "" : "s", share, parts, parts == 1 ? "" : "s");
-    if (seen->depth < learn->document->mirror_depth)
+    if (seen->depth < view->document->mirror_depth)
         snprintf(text + length, sizeof text - (size_t)length,
                  " Parts to %u reflection%s: more take too long.", seen->depth,
                  seen->depth == 1 ? "" : "s");
-    column_words(learn->ui, c, 0.9, learn->ui->palette.ink, text);
+    column_words(view->ui, c, 0.9, view->ui->palette.ink, text);
 }
 
 /// What the looser of the two methods compared adds.
-static void draw_difference(learn_state *learn, column *c) {
+static void draw_difference(view_state *view, column *c) {
     size_t count;
     const sl_eye_method *methods = sl_eye_methods(&count);
-    const size_t loose =
-        learn->view->other < learn->view->method ? learn->view->other : learn->view->method;
-    const size_t tight =
-        learn->view->other < learn->view->method ? learn->view->method : learn->view->other;
-    const seen_method *more = &learn->view->seen.methods[loose],
-                      *less = &learn->view->seen.methods[tight];
-    if (!learn->view->compare || loose == tight || !learn->view->seen.valid || !more->known ||
-        !less->known)
+    const size_t loose = view->other < view->method ? view->other : view->method;
+    const size_t tight = view->other < view->method ? view->method : view->other;
+    const seen_method *more = &view->seen.methods[loose], *less = &view->seen.methods[tight];
+    if (!view->compare || loose == tight || !view->seen.valid || !more->known || !less->known)
         return;
     char share[SL_COUNT_TEXT], text[256], cost[80] = "";
-    sl_text_percent(
-        learn->document->area > 0 ? (more->area - less->area) / learn->document->area : 0, share);
-    if (!learn->ui->steady && more->seconds > 0)
+    sl_text_percent(view->document->area > 0 ? (more->area - less->area) / view->document->area : 0,
+                    share);
+    if (!view->ui->steady && more->seconds > 0)
         snprintf(cost, sizeof cost, ", which takes %.2g times as long",
                  less->seconds / more->seconds);
     snprintf(text, sizeof text, "%s adds %u cells, %s of the area, to %s%s.", methods[loose].name,
              more->count - less->count, share, methods[tight].name, cost);
-    for (char *at = text; *at; at++)
-        if (*at == '_') *at = ' ';
-    column_words(learn->ui, c, 0.95, learn->ui->palette.ink, text);
+    ui_spaces(text);
+    column_words(view->ui, c, 0.95, view->ui->palette.ink, text);
 }
 
 // --- words
 
-void pane_describe(const view_state *view, sl_point at, char *text, size_t room) {
+/// Describes the cell under a point. The caller breaks the text into lines.
+static void describe_place(const view_state *view, sl_point at, char *text, size_t room) {
     text[0] = '\0';
     if (!view->document->baked) return;
     const sl_space *space = &view->document->baked->space;
@@ -265,9 +259,9 @@ void pane_describe(const view_state *view, sl_point at, char *text, size_t room)
 
 void pane_words(learn_state *learn, column *c) {
     char text[512];
-    sl_point at = learn->view->eye.at;
-    const bool over = box_has(learn->view->plan[0], learn->ui->pointer);
-    if (over) at = camera_point(&learn->view->camera, learn->view->plan[0], learn->ui->pointer);
+    sl_point at;
+    const bool over = view_pointed(learn->view, &at);
+    if (!over) at = learn->view->eye.at;
     const bool explores = over && learn->view->mode == MODE_EXPLORE;
     const uint32_t object = explores ? object_at(learn->view, at) : UINT32_MAX;
     const uint32_t door = over ? door_at(learn->view, at) : UINT32_MAX;
@@ -279,7 +273,7 @@ void pane_words(learn_state *learn, column *c) {
     else if (object != UINT32_MAX)
         object_describe(learn->view, object, text, sizeof text);
     else
-        pane_describe(learn->view, at, text, sizeof text);
+        describe_place(learn->view, at, text, sizeof text);
     column_heading(learn->ui, c, over ? "Under the pointer" : "Under the eye", NULL);
     c->y = ui_paragraph(learn->ui, c->left, c->y + 0.7 * learn->ui->text, c->right - c->left, 0.95,
                         learn->ui->palette.ink, text);
@@ -314,9 +308,9 @@ void pane_side(learn_state *learn, sl_box box) {
         column_buttons(learn->ui, &c, views);
     static const char *const heat[] = {"heat_back", "heat_next", "heat_steps", "heat_hold", NULL};
     if (layers_shows(learn->view, LAYER_HEAT)) column_buttons(learn->ui, &c, heat);
-    draw_methods(learn, &c);
-    draw_mirrored(learn, &c);
-    draw_difference(learn, &c);
+    draw_methods(learn->view, &c);
+    draw_mirrored(learn->view, &c);
+    draw_difference(learn->view, &c);
     pane_words(learn, &c);
     static const char *const rows[][5] = {{"home", "fly", "method", "other", NULL},
                                           {"record", "play", "export_series", NULL},
@@ -355,7 +349,7 @@ void pane_draw(learn_state *learn, sl_box box) {
     rule(learn->ui, &c, text);
     column_layers(learn->view, &c);
     column_legend(learn->view, &c);
-    draw_methods(learn, &c);
+    draw_methods(learn->view, &c);
     pane_words(learn, &c);
     column_end(learn->ui, &c);
 }

@@ -3,8 +3,11 @@
 #define VIEWER_PANEL_H
 
 #include "lessons/learn.h"
+#include "plan/layers.h"
 #include "ui/column.h"
 
+/// A sample of a tone in a box, as it looks on a cell.
+void legend_swatch(ui_state *ui, sl_box box, const legend_row *row);
 /// What the plan shows, and how.
 void column_legend(view_state *view, column *c);
 /// The layers that belong to the present mode.

@@ -34,9 +34,6 @@ enum { BAR_TEXT = 1280 };
 void pane_time_sentence(const learn_state *learn, char text[BAR_TEXT]);
 double pane_time_height(const learn_state *learn);
 
-/// Describes the cell under a point. The caller breaks the text into lines.
-void pane_describe(const view_state *view, sl_point at, char *text, size_t room);
-
 /// Drags the lesson's line, in the dual plane or in the plan.
 void pane_dual_drag(learn_state *learn, sl_box box, sl_point to);
 void pane_plan_drag_line(learn_state *learn, sl_point from, sl_point to);
@@ -46,5 +43,8 @@ void pane_dual_nudge(learn_state *learn, sl_box box, int x, int y);
 uint32_t pane_plan_end_at(const learn_state *learn, sl_point at);
 /// Finds what is under the pointer in one pane and is to be marked in the others.
 void pane_dual_hover(learn_state *learn, sl_box box);
+
+/// Draws the legend over the plan, where no panel has it; and the keys.
+void legend_over_plan(view_state *view, const sl_frame *frame, bool vector);
 
 #endif

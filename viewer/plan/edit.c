@@ -233,8 +233,8 @@ static void drag_door(view_state *view, drag_state *drag, sl_point now) {
     view_after_step(view);
 }
 
-static void say_last_wall(view_state *view) {
-    ui_say(view->ui, true, "the last wall stays: a map without walls has no cells");
+static void say_last_wall(ui_state *ui) {
+    ui_say(ui, true, "the last wall stays: a map without walls has no cells");
 }
 
 /// Leaves of a wall what is beside the door in it; false if that is the last wall and nothing is.
@@ -309,7 +309,7 @@ void edit_drop(view_state *view, const drag_state *drag) {
         if (moved) say_moved(view, drag);
         if (drag->kind == DRAG_NEW_DOOR && drag->index < map->wall_count &&
             !cut_wall(view, drag->index, map->doors[view->edit.ends.items[0].index].segment)) {
-            say_last_wall(view);
+            say_last_wall(view->ui);
             moved = false;
         }
         if (!moved) history_take_back(view->context, &view->document->history, map);
@@ -350,7 +350,7 @@ void edit_delete(view_state *view) {
         return;
     }
     if (!door && map->wall_count == 1) {
-        say_last_wall(view);
+        say_last_wall(view->ui);
         return;
     }
     view_before_edit(view);
@@ -419,6 +419,6 @@ void edit_draw(view_state *view, const sl_frame *frame) {
         sl_draw_line(view->ui->cairo, frame, *end_of(map, kind, view->edit.chosen, false),
                      *end_of(map, kind, view->edit.chosen, true), colour, 5 * frame->unit);
     draw_held(view, frame);
-    if (box_has(view->plan[0], view->ui->pointer))
-        draw_corner(view, frame, camera_point(&view->camera, view->plan[0], view->ui->pointer));
+    sl_point at;
+    if (view_pointed(view, &at)) draw_corner(view, frame, at);
 }

@@ -89,7 +89,8 @@ static double distance(sl_point a, sl_point b) {
     return hypot(a.x - b.x, a.y - b.y);
 }
 
-uint32_t mirror_at(const view_state *view, sl_point at, grip *part) {
+/// The mirror under a place of the plan, and which part of it; UINT32_MAX for none.
+static uint32_t mirror_at(const view_state *view, sl_point at, grip *part) {
     const sl_map *map = &view->document->map;
     double within = grid_reach(view);
     uint32_t found = UINT32_MAX;
@@ -172,9 +173,9 @@ void mirror_draw(view_state *view, const sl_frame *frame) {
     const bool held = view->drag.kind == DRAG_MIRROR;
     grip part;
     uint32_t mirror = held ? view->drag.index : UINT32_MAX;
-    if (view->drag.kind == DRAG_NONE && box_has(view->plan[0], view->ui->pointer))
-        mirror =
-            mirror_at(view, camera_point(&view->camera, view->plan[0], view->ui->pointer), &part);
+    sl_point pointed;
+    if (view->drag.kind == DRAG_NONE && view_pointed(view, &pointed))
+        mirror = mirror_at(view, pointed, &part);
     if (mirror >= map->mirror_count) return;
     const sl_segment s = map->mirrors[mirror].segment;
     sl_draw_line(view->ui->cairo, frame, s.a, s.b, view->ui->palette.start, 4 * frame->unit);
@@ -273,8 +274,8 @@ void object_draw(view_state *view, const sl_frame *frame) {
     cairo_t *cairo = view->ui->cairo;
     const sl_palette *palette = &view->ui->palette;
     uint32_t held = view->drag.kind == DRAG_OBJECT ? view->drag.index : UINT32_MAX;
-    if (view->drag.kind == DRAG_NONE && box_has(view->plan[0], view->ui->pointer))
-        held = object_at(view, camera_point(&view->camera, view->plan[0], view->ui->pointer));
+    sl_point at;
+    if (view->drag.kind == DRAG_NONE && view_pointed(view, &at)) held = object_at(view, at);
     if (!view->seen.valid || !(view->show & SHOW_STARTS)) return;
     for (size_t i = 0; i < map->object_count && i < view->seen.object_count; i++) {
         const sl_box b = map->objects[i].box;

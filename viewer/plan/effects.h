@@ -31,9 +31,6 @@ void door_toggle_nearest(view_state *view);
 
 typedef enum grip { GRIP_A, GRIP_B, GRIP_WHOLE } grip;
 
-/// The mirror under a place of the plan, and which part of it; UINT32_MAX for none.
-uint32_t mirror_at(const view_state *view, sl_point at, grip *part);
-
 /// Takes hold of the mirror under the pointer; false for none.
 bool mirror_take(view_state *view, drag_state *drag);
 /// Moves the mirror that is held. Ends move on the grid.

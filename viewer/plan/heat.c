@@ -321,8 +321,7 @@ void heat_layer_scale(const view_state *view, double *least, double *most) {
 
 void heat_say_measure(const view_state *view, char text[64]) {
     snprintf(text, 64, "%s", chosen(view)->name);
-    for (char *at = text; *at; at++)
-        if (*at == '_') *at = ' ';
+    ui_spaces(text);
 }
 
 static void choose(view_state *view, size_t measure) {

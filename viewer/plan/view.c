@@ -63,6 +63,11 @@ void view_follow(view_state *view) {
     view_check(view, present_update(view->context, &view->present, view->document, view->eye.at));
 }
 
+bool view_pointed(const view_state *view, sl_point *at) {
+    *at = camera_point(&view->camera, view->plan[0], view->ui->pointer);
+    return box_has(view->plan[0], view->ui->pointer);
+}
+
 void view_drop_scenes(view_state *view) {
     sl_scene_destroy(view->context, view->scene);
     sl_scene_destroy(view->context, view->tree);

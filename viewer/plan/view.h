@@ -162,6 +162,7 @@ struct view_state {
     unsigned last_filled;         ///< the largest of them
     uint32_t split_depth, tree_depth;
     size_t method, other; ///< of sl_eye_methods: chosen, and compared with
+    bool in_the_making;   ///< the lesson of the subdivision: cells have no numbers yet
     bool mesh;            ///< the cells are those of a mesh
     comparison compare;
     double motion; ///< seconds for which a moving plan may be drawn by moving the kept picture
@@ -191,6 +192,9 @@ struct view_state {
 static inline void view_check(view_state *view, sl_status status) {
     ui_report(view->ui, view->context, status);
 }
+
+/// The place of the map under the pointer; false: it is not over the first plan.
+bool view_pointed(const view_state *view, sl_point *at);
 
 /// Follows the document and the eye.
 void view_follow(view_state *view);

@@ -404,11 +404,12 @@ void view_layer_draw(const view_state *view, cairo_t *cairo, const sl_frame *fra
 /// Writes the cost of the view cell under the pointer; a dash where there is none.
 static void write_pointed(const view_state *view, char *text, size_t room) {
     const sl_view_tree *tree = &view->views->history.tree;
-    const sl_point at = camera_point(&view->camera, view->plan[0], view->ui->pointer);
+    sl_point at;
+    const bool over = view_pointed(view, &at);
     const uint32_t leaf = sl_view_tree_locate(tree, at);
     char cost[32];
     snprintf(text, room, "\xe2\x80\x93");
-    if (!box_has(view->plan[0], view->ui->pointer) || leaf >= tree->cell_count) return;
+    if (!over || leaf >= tree->cell_count) return;
     write_cost(cost_of(view->views, view->views->view_cells[leaf]), cost);
     snprintf(text, room, "%s walls", cost);
 }

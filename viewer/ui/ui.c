@@ -33,6 +33,11 @@ void ui_report(ui_state *ui, const sl_context *context, sl_status status) {
         ui_say(ui, true, "%s", sl_context_message(context));
 }
 
+void ui_spaces(char *text) {
+    for (; *text; text++)
+        if (*text == '_') *text = ' ';
+}
+
 int ui_action_find(const ui_state *ui, const char *name) {
     for (int i = 0; i < ui->action_count; i++)
         if (strcmp(ui->actions[i].name, name) == 0) return i;

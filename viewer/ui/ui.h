@@ -168,6 +168,9 @@ static inline bool ui_has_panel(const ui_state *ui) {
 void ui_open_help(ui_state *ui);
 void ui_shut_help(ui_state *ui);
 
+/// Writes a name as words: '_' becomes a space.
+void ui_spaces(char *text);
+
 /// The number of an action; -1 for an unknown name.
 int ui_action_find(const ui_state *ui, const char *name);
 
