@@ -81,8 +81,7 @@ static sl_point grip_of_wall(const app_state *app, bool corner) {
     const sl_map *map = &app->document.map;
     const window_layout l = app_layout(app);
     const plan_camera *camera = &app->view.camera;
-    const sl_point middle = {(l.plan[0].min.x + l.plan[0].max.x) / 2,
-                             (l.plan[0].min.y + l.plan[0].max.y) / 2};
+    const sl_point middle = box_middle(l.plan[0]);
     double nearest = INFINITY;
     sl_point at = middle;
     for (size_t i = 0; i < map->wall_count; i++) {
@@ -115,7 +114,7 @@ static void drag_on(app_state *app, bool corner, unsigned frame) {
 }
 
 /// One frame of a part of the benchmark.
-static void move(app_state *app, int part, unsigned frame) {
+static void move_frame(app_state *app, int part, unsigned frame) {
     if (part >= 4) {
         drag_on(app, part == 5, frame);
         return;
@@ -170,7 +169,7 @@ sl_status bench_run(app_state *app, unsigned frames) {
         for (unsigned i = 0; i < frames + 5 && status == SL_OK; i++) {
             if (i == 5) processor = processor_seconds();
             const double before = sl_seconds();
-            move(app, part, i);
+            move_frame(app, part, i);
             app_tick(app, 1.0 / 60);
             status = window_show(window);
             // The first frames make what is kept from then on.

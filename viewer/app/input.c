@@ -15,22 +15,18 @@
 #include <stdio.h>
 #include <string.h>
 
-static void click(app_state *app, const hit_area *hit);
+static void click_widget(app_state *app, const hit_area *hit);
 static void input_press_at(app_state *app, button_kind button, sl_point at);
 static void input_point(app_state *app, sl_point to);
 
 // --- the cursor in the plan, moved by keys
-
-static sl_point middle_of(sl_box box) {
-    return (sl_point){(box.min.x + box.max.x) / 2, (box.min.y + box.max.y) / 2};
-}
 
 /// The pointer stays where it is if it is in the plan; else it goes to the eye, or to the middle.
 static void cursor_begin(app_state *app, sl_box plan) {
     if (box_has(plan, app->ui.pointer)) return;
     const sl_frame frame = camera_frame(&app->view.camera, plan, 1);
     const sl_point eye = sl_frame_point(&frame, app->view.eye.at);
-    input_point(app, box_has(plan, eye) ? eye : middle_of(plan));
+    input_point(app, box_has(plan, eye) ? eye : box_middle(plan));
 }
 
 /// At the border of the plan the plan moves instead.
@@ -141,7 +137,7 @@ static bool focus_key(app_state *app, const char *key) {
     if (strcmp(key, "Return") != 0 && strcmp(key, "Space") != 0) return false;
     if (hit.kind == HIT_SLIDER || hit.kind == HIT_TIME || hit.kind == HIT_EDGE) return false;
     if (hit.kind == HIT_DUAL) return false;
-    click(app, &hit);
+    click_widget(app, &hit);
     return true;
 }
 
@@ -249,15 +245,9 @@ static sl_point to_map(const app_state *app, int plan, sl_point at) {
     return camera_point(&app->view.camera, l.plan[plan < l.plan_count ? plan : 0], at);
 }
 
-static double slider_share(const hit_area *hit, const app_state *app, sl_point at) {
-    const double margin = 0.5 * app->ui.text;
-    const double low = hit->box.min.x + margin, high = hit->box.max.x - margin;
-    return high > low ? fmin(fmax((at.x - low) / (high - low), 0), 1) : 0;
-}
-
 /// Sliders, the time line and the dual plane follow the pointer.
-static void follow(app_state *app, const hit_area *hit, sl_point at) {
-    const double share = slider_share(hit, app, at);
+static void follow_pointer(app_state *app, const hit_area *hit, sl_point at) {
+    const double share = ui_slider_at(&app->ui, hit->box, at);
     const size_t length = lesson_length(&app->learn.lesson);
     switch (hit->kind) {
     case HIT_SLIDER:
@@ -304,7 +294,7 @@ static drag_kind plan_drag(app_state *app, drag_state *drag) {
     return edit_take(&app->view, drag);
 }
 
-static void click(app_state *app, const hit_area *hit) {
+static void click_widget(app_state *app, const hit_area *hit) {
     if (hit->kind == HIT_ACTION) {
         const bool from_help = app->ui.help;
         ui_shut_help(&app->ui);
@@ -373,8 +363,8 @@ static void input_press_at(app_state *app, button_kind button, sl_point at) {
         drag->kind = DRAG_HIT;
         if (hit.kind == HIT_SLIDER && slider_of(&hit)->begin) slider_of(&hit)->begin(&app->view);
         if (hit.kind == HIT_DUAL) keep_once(app, drag, CHOSEN_LINE);
-        click(app, &hit);
-        follow(app, &hit, at);
+        click_widget(app, &hit);
+        follow_pointer(app, &hit, at);
         return;
     }
     if (!app->document.baked) return;
@@ -413,7 +403,7 @@ static void input_point(app_state *app, sl_point to) {
         if (drag->hit.kind == HIT_EDGE)
             app_drag_edge(app, drag->hit.value, drag->hit.value == EDGE_SIDE ? -dx : -dy);
         else
-            follow(app, &drag->hit, to);
+            follow_pointer(app, &drag->hit, to);
         break;
     case DRAG_LINE:
         keep_once(app, drag, CHOSEN_LINE);
@@ -484,8 +474,7 @@ void input_wheel(app_state *app, double steps) {
     const window_layout l = app_layout(app);
     for (int i = 0; i < l.plan_count; i++) {
         if (!box_has(l.plan[i], app->ui.pointer)) continue;
-        const sl_point middle = {(l.plan[i].min.x + l.plan[i].max.x) / 2,
-                                 (l.plan[i].min.y + l.plan[i].max.y) / 2};
+        const sl_point middle = box_middle(l.plan[i]);
         view_zoom(&app->view, pow(1.2, steps),
                   (sl_point){app->ui.pointer.x - middle.x, app->ui.pointer.y - middle.y});
     }

@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-static sl_box box(double left, double top, double right, double bottom) {
+static sl_box box_of(double left, double top, double right, double bottom) {
     return (sl_box){{left, top}, {fmax(right, left + 1), fmax(bottom, top + 1)}};
 }
 
@@ -36,7 +36,7 @@ static void place_below(const app_state *app, window_layout *l, double right, do
     for (int i = 0; i < PANES_BELOW; i++) {
         if (!panes_below()[i].shown(&app->learn)) continue;
         const double left = right * before / shown;
-        l->below[i] = box(left, top, right * ++before / shown, *bottom);
+        l->below[i] = box_of(left, top, right * ++before / shown, *bottom);
     }
     *bottom = top;
 }
@@ -45,22 +45,22 @@ window_layout app_layout(const app_state *app) {
     const double t = ui_text_size(&app->ui), w = app->ui.width, h = app->ui.height;
     window_layout l = {.plan_count = 1};
     const double bar = (0.3 + 2 * app->ui.bar_rows) * t, status = 1.9 * t;
-    l.bar = box(0, 0, w, bar);
-    l.status = box(0, h - status, w, h);
+    l.bar = box_of(0, 0, w, bar);
+    l.status = box_of(0, h - status, w, h);
     double bottom = h - status;
     if (pane_time_shown(&app->learn)) {
-        l.time = box(0, fmax(bottom - pane_time_height(&app->learn), bar + 0.3 * (bottom - bar)), w,
-                     bottom);
+        l.time = box_of(0, fmax(bottom - pane_time_height(&app->learn), bar + 0.3 * (bottom - bar)),
+                        w, bottom);
         bottom = l.time.min.y;
     }
     const double right = round(w - side_width(app));
-    l.side = box(right, bar, w, bottom);
+    l.side = box_of(right, bar, w, bottom);
     place_below(app, &l, right, &bottom);
-    l.plan[0] = box(0, bar, right, bottom);
+    l.plan[0] = box_of(0, bar, right, bottom);
     if (app->view.compare == COMPARE_PANES && app->view.mode == MODE_EXPLORE) {
         l.plan_count = 2;
         l.plan[0].max.x = floor(right / 2);
-        l.plan[1] = box(l.plan[0].max.x, bar, right, bottom);
+        l.plan[1] = box_of(l.plan[0].max.x, bar, right, bottom);
     }
     return l;
 }

@@ -42,7 +42,7 @@ void script_frame(app_state *app) {
     cairo_surface_destroy(surface);
 }
 
-static void frame(reader *r, double seconds) {
+static void show_frame(reader *r, double seconds) {
     app_tick(r->app, seconds);
     if (r->after)
         r->after(r->user, r->app);
@@ -64,13 +64,13 @@ static sl_status do_open(reader *r, const words *w) {
 static sl_status do_drop(reader *r, const words *w) {
     files_drop(&r->app->desk, w->rest);
     app_settle(r->app);
-    frame(r, 0);
+    show_frame(r, 0);
     return SL_OK;
 }
 
 static sl_status do_type(reader *r, const words *w) {
     input_text(r->app, w->rest);
-    frame(r, 0);
+    show_frame(r, 0);
     return SL_OK;
 }
 
@@ -99,9 +99,9 @@ static sl_status check_key(reader *r, const char *key) {
 
 static sl_status do_key(reader *r, const words *w) {
     SL_TRY(check_key(r, w->rest));
-    if (!r->app->ui.hit_count) frame(r, 0); // keys act on what was drawn
+    if (!r->app->ui.hit_count) show_frame(r, 0); // keys act on what was drawn
     input_key(r->app, w->rest, true);
-    frame(r, 1.0 / 60);
+    show_frame(r, 1.0 / 60);
     input_key(r->app, w->rest, false);
     return SL_OK;
 }
@@ -123,7 +123,7 @@ static sl_status do_action(reader *r, const words *w) {
     if (number < 0)
         return sl_fail_at(r->app->context, r->file, r->line, "no action is called '%s'", w->rest);
     action_run(r->app, number);
-    frame(r, 0);
+    show_frame(r, 0);
     return SL_OK;
 }
 
@@ -132,8 +132,8 @@ static sl_status do_move(reader *r, const words *w) {
     return SL_OK;
 }
 
-static void press(reader *r, button_kind button, sl_point from, sl_point to) {
-    frame(r, 0);
+static void press_and_drag(reader *r, button_kind button, sl_point from, sl_point to) {
+    show_frame(r, 0);
     input_move(r->app, from);
     input_press(r->app, button, from);
     if (to.x != from.x || to.y != from.y)
@@ -141,24 +141,24 @@ static void press(reader *r, button_kind button, sl_point from, sl_point to) {
             input_move(r->app, (sl_point){from.x + (to.x - from.x) * i / 4,
                                           from.y + (to.y - from.y) * i / 4});
     input_release(r->app, to);
-    frame(r, 0);
+    show_frame(r, 0);
 }
 
 static sl_status do_click(reader *r, const words *w) {
     const sl_point at = {w->numbers[0], w->numbers[1]};
-    press(r, BUTTON_LEFT, at, at);
+    press_and_drag(r, BUTTON_LEFT, at, at);
     return SL_OK;
 }
 
 static sl_status do_right(reader *r, const words *w) {
     const sl_point at = {w->numbers[0], w->numbers[1]};
-    press(r, BUTTON_RIGHT, at, at);
+    press_and_drag(r, BUTTON_RIGHT, at, at);
     return SL_OK;
 }
 
 static sl_status do_drag(reader *r, const words *w) {
-    press(r, BUTTON_LEFT, (sl_point){w->numbers[0], w->numbers[1]},
-          (sl_point){w->numbers[2], w->numbers[3]});
+    press_and_drag(r, BUTTON_LEFT, (sl_point){w->numbers[0], w->numbers[1]},
+                   (sl_point){w->numbers[2], w->numbers[3]});
     return SL_OK;
 }
 
@@ -168,7 +168,7 @@ static sl_status do_wheel(reader *r, const words *w) {
 }
 
 static sl_status do_wait(reader *r, const words *w) {
-    for (double i = 0; i < fmin(w->numbers[0], 1e5); i++) frame(r, 1.0 / 60);
+    for (double i = 0; i < fmin(w->numbers[0], 1e5); i++) show_frame(r, 1.0 / 60);
     return SL_OK;
 }
 

@@ -34,7 +34,7 @@ enum {
     SETTINGS
 };
 
-static void describe(const app_state *app, setting list[SETTINGS]) {
+static void describe_all(const app_state *app, setting list[SETTINGS]) {
     size_t count;
     sl_eye_methods(&count);
     const setting all[SETTINGS] = {
@@ -63,7 +63,7 @@ void settings_load(app_state *app) {
     if (!files_kept("view.conf", path, false) || sl_file_read(app->context, path, &bytes) != SL_OK)
         return;
     setting list[SETTINGS];
-    describe(app, list);
+    describe_all(app, list);
     for (char *line = bytes.data, *next; line && *line; line = next) {
         next = strchr(line, '\n');
         if (next) *next++ = '\0';
@@ -100,7 +100,7 @@ void settings_save(app_state *app) {
         sl_output_open(app->context, path, &output) != SL_OK)
         return;
     setting list[SETTINGS];
-    describe(app, list);
+    describe_all(app, list);
     for (int i = 0; i < SETTINGS; i++)
         fprintf(output.stream, "%s %.6g\n", list[i].name, list[i].value);
     sl_output_close(app->context, &output, SL_OK);

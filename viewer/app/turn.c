@@ -90,7 +90,7 @@ void app_take_opened(app_state *app) {
 }
 
 /// Follows the document and the eye; drops words about what was seen before.
-static void follow(app_state *app) {
+static void follow_document(app_state *app) {
     const quiz_state *quiz = &app->learn.quiz;
     view_follow(&app->view);
     if (quiz->answered && quiz->version != app->view.present.version) quiz_forget(&app->learn);
@@ -123,14 +123,14 @@ static void take_results(app_state *app, bool wait) {
         const bool again = before == app->document.opened && *opening;
         if (status == SL_OK && again && app->document.baked) say_document(app);
     }
-    follow(app);
+    follow_document(app);
     if (*opening)
         files_check(&app->desk, opening, status);
     else
         view_check(&app->view, status);
 }
 
-static void poll(app_state *app, bool wait) {
+static void poll_all(app_state *app, bool wait) {
     do {
         view_check(&app->view, document_keep_up(app->context, &app->document));
         if (!wait) wait_for_drag(app);
@@ -154,9 +154,9 @@ job_progress app_progress(const app_state *app) {
     return views.running ? views : heat_layer_progress(app->view.heat);
 }
 
-static void look(app_state *app) {
+static void look_again(app_state *app) {
     if (!app->document.baked) return;
-    follow(app);
+    follow_document(app);
     app->view.seen.patient = app->ui.steady;
     const sl_view view = eye_view(app);
     view_check(&app->view, seen_update(app->context, &app->view.seen, &app->document,
@@ -169,8 +169,8 @@ static void look(app_state *app) {
 
 void app_settle(app_state *app) {
     app_place(app);
-    poll(app, true);
-    look(app);
+    poll_all(app, true);
+    look_again(app);
 }
 
 #define STALE_SECONDS 20
@@ -190,7 +190,7 @@ static void put_eye(app_state *app, const record_frame *frame) {
 
 void app_tick(app_state *app, double seconds) {
     app_place(app);
-    poll(app, app->ui.steady);
+    poll_all(app, app->ui.steady);
     ui_tick(&app->ui, seconds);
     tidy_message(app);
     app->view.motion = fmax(app->view.motion - seconds, 0);
@@ -205,6 +205,6 @@ void app_tick(app_state *app, double seconds) {
                                        (record_frame){app->view.eye.at, app->view.eye.heading}));
     if (app->document.baked) lesson_tick(&app->learn.lesson, &app->document, seconds);
     if (export_move(&app->exports, &frame)) put_eye(app, &frame);
-    look(app);
+    look_again(app);
     export_take(&app->exports);
 }

@@ -24,7 +24,7 @@ struct app_window {
     bool fullscreen;
 };
 
-static sl_status fail(sl_context *context, const char *what) {
+static sl_status fail_with(sl_context *context, const char *what) {
     return sl_fail(context, SL_IO, "%s: %s", what, SDL_GetError());
 }
 
@@ -56,7 +56,7 @@ static sl_status open_window(app_window *w, bool hidden) {
     sl_context *context = w->app->context;
     if (hidden) SDL_SetHint(SDL_HINT_VIDEODRIVER, "dummy");
     SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "0");
-    if (SDL_Init(SDL_INIT_VIDEO) != 0) return fail(context, "no display");
+    if (SDL_Init(SDL_INIT_VIDEO) != 0) return fail_with(context, "no display");
     const char *driver = SDL_GetCurrentVideoDriver();
     if (!hidden && is_unseen(driver))
         return sl_fail(context, SL_IO,
@@ -73,12 +73,12 @@ static sl_status open_window(app_window *w, bool hidden) {
     }
     w->window = SDL_CreateWindow("Sightline", SDL_WINDOWPOS_UNDEFINED, SDL_WINDOWPOS_UNDEFINED,
                                  width, height, SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
-    if (!w->window) return fail(context, "no window");
+    if (!w->window) return fail_with(context, "no window");
     SDL_SetWindowMinimumSize(w->window, 640, 480);
     const Uint32 wanted = hidden ? SDL_RENDERER_SOFTWARE : SDL_RENDERER_PRESENTVSYNC;
     w->renderer = SDL_CreateRenderer(w->window, -1, wanted);
     if (!w->renderer) w->renderer = SDL_CreateRenderer(w->window, -1, SDL_RENDERER_SOFTWARE);
-    if (!w->renderer) return fail(context, "no renderer");
+    if (!w->renderer) return fail_with(context, "no renderer");
     SDL_EventState(SDL_DROPFILE, SDL_ENABLE);
     return SL_OK;
 }
@@ -130,7 +130,7 @@ void window_close(app_window *w) {
 static sl_status fit_texture(app_window *w) {
     int width, height;
     if (SDL_GetRendererOutputSize(w->renderer, &width, &height) != 0)
-        return fail(w->app->context, "no size");
+        return fail_with(w->app->context, "no size");
     if (w->texture && width == w->width && height == w->height) return SL_OK;
     if (w->texture) SDL_DestroyTexture(w->texture);
     if (w->surface) cairo_surface_destroy(w->surface);
@@ -146,7 +146,7 @@ static sl_status fit_texture(app_window *w) {
     w->surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height);
     w->texture = SDL_CreateTexture(w->renderer, SDL_PIXELFORMAT_RGB888, SDL_TEXTUREACCESS_STREAMING,
                                    width, height);
-    return w->texture ? SL_OK : fail(w->app->context, "no texture");
+    return w->texture ? SL_OK : fail_with(w->app->context, "no texture");
 }
 
 static void show_title(app_window *w) {
@@ -217,7 +217,7 @@ static void take_button(app_window *w, const SDL_MouseButtonEvent *e) {
                 at);
 }
 
-static void paste(app_state *app) {
+static void paste_text(app_state *app) {
     char *text = SDL_GetClipboardText();
     if (text) input_text(app, text);
     SDL_free(text);
@@ -232,7 +232,7 @@ static void take_event(app_window *w, const SDL_Event *e) {
     case SDL_KEYDOWN:
     case SDL_KEYUP:
         key_name(&e->key.keysym, name);
-        if (e->type == SDL_KEYDOWN && strcmp(name, "Ctrl+V") == 0) paste(w->app);
+        if (e->type == SDL_KEYDOWN && strcmp(name, "Ctrl+V") == 0) paste_text(w->app);
         input_key(w->app, name, e->type == SDL_KEYDOWN);
         break;
     case SDL_TEXTINPUT:

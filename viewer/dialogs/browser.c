@@ -84,7 +84,7 @@ static sl_status add_recent(desk_state *desk, browser_state *b) {
     return status;
 }
 
-static void refill(desk_state *desk, browser_state *b) {
+static void refill_list(desk_state *desk, browser_state *b) {
     char samples[PATH_TEXT];
     sl_status status = SL_OK;
     folder_list_clear(desk->context, &b->files);
@@ -114,14 +114,14 @@ static void set_path(browser_state *b, const char *folder, const char *name) {
 }
 
 /// Lists a folder; the field has it, with the name that is to be saved.
-static void enter(desk_state *desk, browser_state *b, const char *folder) {
+static void enter_folder(desk_state *desk, browser_state *b, const char *folder) {
     char name[TITLE_TEXT] = "";
     char *full = realpath(folder, NULL);
     if (b->saves) snprintf(name, sizeof name, "%.300s", files_base(b->path.text));
     if (full && strlen(full) < PATH_TEXT) snprintf(b->folder, sizeof b->folder, "%s", full);
     free(full);
     b->place = PLACE_FOLDER;
-    refill(desk, b);
+    refill_list(desk, b);
     set_path(b, b->folder, name);
 }
 
@@ -129,7 +129,7 @@ static void enter(desk_state *desk, browser_state *b, const char *folder) {
 
 /// The field's path as the system needs it: "~/" is the home folder, other names begin from the
 /// folder that is listed.
-static void resolve(const browser_state *b, const char *text, char path[2 * PATH_TEXT]) {
+static void resolve_path(const browser_state *b, const char *text, char path[2 * PATH_TEXT]) {
     const char *home = getenv("HOME");
     if (text[0] == '~' && (text[1] == '/' || !text[1]) && home)
         snprintf(path, 2 * PATH_TEXT, "%s%s", home, text + 1);
@@ -151,9 +151,9 @@ static size_t find_name(const browser_state *b, const char *name) {
 }
 
 /// The list follows the field.
-static void follow(desk_state *desk, browser_state *b) {
+static void follow_field(desk_state *desk, browser_state *b) {
     char path[2 * PATH_TEXT];
-    resolve(b, b->path.text, path);
+    resolve_path(b, b->path.text, path);
     char *slash = strrchr(path, '/');
     char name[PATH_TEXT];
     snprintf(name, sizeof name, "%s", slash + 1);
@@ -164,7 +164,7 @@ static void follow(desk_state *desk, browser_state *b) {
     if (other && strchr(b->path.text, '/')) {
         snprintf(b->folder, sizeof b->folder, "%s", folder);
         b->place = PLACE_FOLDER;
-        refill(desk, b);
+        refill_list(desk, b);
     }
     free(folder);
     b->problem[0] = '\0';
@@ -176,7 +176,7 @@ static void follow(desk_state *desk, browser_state *b) {
 
 void browser_edited(desk_state *desk, int id) {
     browser_state *b = desk->dialog.browser;
-    if (id == PATH_FIELD) follow(desk, b);
+    if (id == PATH_FIELD) follow_field(desk, b);
     if (id != LIST || b->list.at >= b->files.entries.count) return;
     const folder_entry *entry = &b->files.entries.items[b->list.at];
     b->problem[0] = '\0';
@@ -185,8 +185,8 @@ void browser_edited(desk_state *desk, int id) {
 }
 
 /// Adds to the name what all entries that begin so have in common. False where that is nothing.
-static bool complete(desk_state *desk, browser_state *b) {
-    follow(desk, b);
+static bool complete_name(desk_state *desk, browser_state *b) {
+    follow_field(desk, b);
     const char *name = files_base(b->path.text);
     const size_t typed = strlen(name), first = find_name(b, name);
     if (first == SIZE_MAX || b->place != PLACE_FOLDER) return false;
@@ -208,14 +208,14 @@ static bool complete(desk_state *desk, browser_state *b) {
     snprintf(whole, sizeof whole, "%.*s%.*s%s", (int)before, b->path.text, (int)same, found->name,
              folder ? "/" : "");
     field_set(&b->path, whole);
-    follow(desk, b);
+    follow_field(desk, b);
     return true;
 }
 
 bool browser_key(desk_state *desk, const char *key) {
     browser_state *b = desk->dialog.browser;
     const int focus = desk->dialog.focus[desk->dialog.depth - 1];
-    if (strcmp(key, "Tab") == 0 && focus == PATH_FIELD) return complete(desk, b);
+    if (strcmp(key, "Tab") == 0 && focus == PATH_FIELD) return complete_name(desk, b);
     if (strcmp(key, "Ctrl+Up") != 0) return false;
     browser_act(desk, PARENT);
     return true;
@@ -232,7 +232,7 @@ static void save_now(desk_state *desk, const char *path) {
 static void take_replace(desk_state *desk, int answer) {
     char path[2 * PATH_TEXT];
     if (answer != 0) return;
-    resolve(desk->dialog.browser, desk->dialog.browser->path.text, path);
+    resolve_path(desk->dialog.browser, desk->dialog.browser->path.text, path);
     if (!strchr(files_base(path), '.')) strcat(path, ".map");
     save_now(desk, path);
 }
@@ -271,13 +271,13 @@ static void open_file(desk_state *desk, browser_state *b, const char *path, bool
 }
 
 /// What the field names; a beginning of a name stands for the entry that the list has chosen.
-static void go(desk_state *desk, browser_state *b, bool ask) {
+static void go_to_path(desk_state *desk, browser_state *b, bool ask) {
     char path[2 * PATH_TEXT];
-    resolve(b, b->path.text, path);
+    resolve_path(b, b->path.text, path);
     if (!b->saves && b->list.at < b->files.entries.count && !is_there(path))
         snprintf(path, sizeof path, "%s", b->files.entries.items[b->list.at].path);
     if (is_folder(path))
-        enter(desk, b, path);
+        enter_folder(desk, b, path);
     else if (b->saves)
         save_as(desk, b, path);
     else
@@ -289,13 +289,13 @@ static void go_to_place(desk_state *desk, browser_state *b, browser_place place)
     b->sort = SORT_NAME;
     b->down = false;
     if (!b->saves) set_path(b, b->folder, "");
-    refill(desk, b);
+    refill_list(desk, b);
 }
 
 static void sort_by(desk_state *desk, browser_state *b, folder_sort sort) {
     b->down = b->sort == sort ? !b->down : sort != SORT_NAME; // largest and newest first
     b->sort = sort;
-    refill(desk, b);
+    refill_list(desk, b);
 }
 
 static void go_up(desk_state *desk, browser_state *b) {
@@ -303,7 +303,7 @@ static void go_up(desk_state *desk, browser_state *b) {
     snprintf(parent, sizeof parent, "%.*s", PATH_TEXT - 1, b->folder);
     char *slash = strrchr(parent, '/');
     if (slash) slash[slash == parent] = '\0';
-    enter(desk, b, b->place == PLACE_FOLDER ? parent : b->folder);
+    enter_folder(desk, b, b->place == PLACE_FOLDER ? parent : b->folder);
 }
 
 void browser_act(desk_state *desk, int id) {
@@ -315,10 +315,10 @@ void browser_act(desk_state *desk, int id) {
         break;
     case DIALOG_MAIN:
     case LIST:
-        go(desk, b, false);
+        go_to_path(desk, b, false);
         break;
     case OPTIONS:
-        go(desk, b, true);
+        go_to_path(desk, b, true);
         break;
     case RECENT:
         go_to_place(desk, b, PLACE_RECENT);
@@ -327,14 +327,14 @@ void browser_act(desk_state *desk, int id) {
         go_to_place(desk, b, PLACE_SAMPLES);
         break;
     case HOME:
-        if (getenv("HOME")) enter(desk, b, getenv("HOME"));
+        if (getenv("HOME")) enter_folder(desk, b, getenv("HOME"));
         break;
     case PARENT:
         go_up(desk, b);
         break;
     case ALL_FILES:
         b->all = !b->all;
-        refill(desk, b);
+        refill_list(desk, b);
         break;
     default:
         if (id >= HEAD_NAME && id <= HEAD_CHANGED) sort_by(desk, b, (folder_sort)(id - HEAD_NAME));
@@ -353,7 +353,7 @@ static browser_state *show_browser(desk_state *desk, bool saves) {
         snprintf(folder, sizeof folder, "%.*s", slash == path ? 1 : (int)(slash - path), path);
     if (b->folder[0]) snprintf(folder, sizeof folder, "%s", b->folder);
     field_set(&b->path, "");
-    enter(desk, b, folder);
+    enter_folder(desk, b, folder);
     dialog_push(&desk->dialog, DIALOG_BROWSER, PATH_FIELD);
     return b;
 }
@@ -374,7 +374,7 @@ void browser_save(desk_state *desk, const char *name, browser_save_file *then) {
     browser_state *b = show_browser(desk, true);
     if (!b) return;
     b->save = then;
-    if (access(b->folder, W_OK) != 0) enter(desk, b, getenv("HOME") ? getenv("HOME") : ".");
+    if (access(b->folder, W_OK) != 0) enter_folder(desk, b, getenv("HOME") ? getenv("HOME") : ".");
     set_path(b, b->folder, name);
 }
 
@@ -383,7 +383,7 @@ void browser_save_to(desk_state *desk, const char *path, browser_save_file *then
     if (!b) return;
     b->save = then;
     field_set(&b->path, path);
-    follow(desk, b);
+    follow_field(desk, b);
 }
 
 // --- the picture

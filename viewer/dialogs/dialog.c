@@ -237,7 +237,7 @@ static dialog_item *find_list(dialog_state *d) {
     return NULL;
 }
 
-static void edited(dialog_state *d, int id) {
+static void tell_edited(dialog_state *d, int id) {
     const dialog_row *row = row_now(d);
     if (row->edited) row->edited(d->desk, id);
 }
@@ -267,7 +267,7 @@ static bool list_key(dialog_state *d, const char *key, bool focused) {
     // Return means the row now, and no longer the button that was in focus.
     const dialog_item *before = find_item(d, *focus_of(d));
     if (!before || before->kind != ITEM_FIELD) *focus_of(d) = item->id;
-    edited(d, item->id);
+    tell_edited(d, item->id);
     return true;
 }
 
@@ -305,7 +305,7 @@ static bool widget_key(dialog_state *d, const char *key) {
     dialog_item *focused = find_item(d, *focus_of(d));
     bool changed = false;
     if (focused && focused->kind == ITEM_FIELD && field_key(focused->field, key, &changed)) {
-        if (changed) edited(d, focused->id);
+        if (changed) tell_edited(d, focused->id);
         return true;
     }
     if (strcmp(key, "Space") == 0) {
@@ -336,7 +336,7 @@ void dialog_text(dialog_state *d, const char *text) {
     dialog_item *focused = find_item(d, *focus_of(d));
     if (d->deaf[0] || !focused || focused->kind != ITEM_FIELD) return;
     field_insert(focused->field, text);
-    edited(d, focused->id);
+    tell_edited(d, focused->id);
 }
 
 static void press_row(dialog_state *d, dialog_item *item, size_t row) {
@@ -346,7 +346,7 @@ static void press_row(dialog_state *d, dialog_item *item, size_t row) {
     if (again)
         row_now(d)->act(d->desk, id);
     else
-        edited(d, id);
+        tell_edited(d, id);
 }
 
 void dialog_press(dialog_state *d, const hit_area *hit, sl_point at) {

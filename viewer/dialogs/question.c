@@ -31,7 +31,7 @@ const char *question_text(const desk_state *desk) {
     return dialog_open_now(&desk->dialog) == DIALOG_QUESTION ? question_now(desk)->text : "";
 }
 
-static void answer(desk_state *desk, int number) {
+static void give_answer(desk_state *desk, int number) {
     void (*const then)(desk_state * desk, int answer) = question_now(desk)->then;
     dialog_pop(&desk->dialog);
     if (then) then(desk, number);
@@ -39,18 +39,18 @@ static void answer(desk_state *desk, int number) {
 
 void question_act(desk_state *desk, int id) {
     if (id == DIALOG_MAIN)
-        answer(desk, 0);
+        give_answer(desk, 0);
     else if (id == DIALOG_CANCEL)
-        answer(desk, question_now(desk)->count - 1);
+        give_answer(desk, question_now(desk)->count - 1);
     else
-        answer(desk, id - DIALOG_OWN);
+        give_answer(desk, id - DIALOG_OWN);
 }
 
 bool question_key(desk_state *desk, const char *key) {
     const question_state *q = question_now(desk);
     for (int i = 0; i < q->count; i++) {
         if (key[0] != q->answers[i][0] || key[1]) continue;
-        answer(desk, i);
+        give_answer(desk, i);
         return true;
     }
     return false;

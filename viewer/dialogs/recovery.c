@@ -159,7 +159,7 @@ static void take_answer(desk_state *desk, int answer) {
 }
 
 /// Asks about a session that is over. Its lock is ours until there is an answer.
-static void offer(desk_state *desk, const char *session, int lock) {
+static void offer_session(desk_state *desk, const char *session, int lock) {
     static const char *const answers[] = {"R:Recover", "D:Discard", "L:Later"};
     char path[PATH_TEXT], when[64] = "", text[PATH_TEXT + 128];
     struct stat info;
@@ -232,7 +232,7 @@ static void offer_next(desk_state *desk, const char *after) {
     char folder[PATH_TEXT], session[SESSION_TEXT];
     int lock;
     if (!files_folder("XDG_STATE_HOME", ".local/state", folder, false)) return;
-    if (next_session(folder, after, session, &lock)) offer(desk, session, lock);
+    if (next_session(folder, after, session, &lock)) offer_session(desk, session, lock);
 }
 
 void recovery_begin(desk_state *desk) {

@@ -36,7 +36,7 @@ struct export_job {
 
 // --- in the thread
 
-static void paint(void *user, cairo_t *cairo) {
+static void paint_surface(void *user, cairo_t *cairo) {
     cairo_set_source_surface(cairo, ((writer *)user)->surface, 0, 0);
     cairo_paint(cairo);
 }
@@ -44,7 +44,7 @@ static void paint(void *user, cairo_t *cairo) {
 static sl_status write_picture(sl_context *context, void *data) {
     writer *w = data;
     SL_TRY(sl_check_cancelled(context));
-    return sl_draw_page_file(context, w->path, w->width, w->height, "Sightline", paint, w);
+    return sl_draw_page_file(context, w->path, w->width, w->height, "Sightline", paint_surface, w);
 }
 
 // --- a picture
@@ -71,7 +71,7 @@ static sl_status draw_picture(export_state *e, writer *w, const char *path, int 
 }
 
 /// Waits for a picture.
-static sl_status finish(sl_context *context, writer *w) {
+static sl_status finish_picture(sl_context *context, writer *w) {
     if (!w->task) return SL_OK;
     const sl_status status = task_end(context, w->task);
     cairo_surface_destroy(w->surface);
@@ -90,7 +90,7 @@ static sl_status end_job(export_state *e) {
     export_job *job = e->job;
     sl_status status = SL_OK;
     for (int i = 0; i < WRITERS; i++) {
-        const sl_status one = finish(e->context, &job->writers[i]);
+        const sl_status one = finish_picture(e->context, &job->writers[i]);
         if (status == SL_OK) status = one;
     }
     e->job = NULL;
@@ -180,7 +180,8 @@ void export_take(export_state *e) {
     bool any = false;
     for (int i = 0; i < WRITERS; i++) {
         writer *w = &job->writers[i];
-        if (w->task && task_done(w->task) && status == SL_OK) status = finish(e->context, w);
+        if (w->task && task_done(w->task) && status == SL_OK)
+            status = finish_picture(e->context, w);
         any |= w->task != NULL;
     }
     const path_recorder *r = e->recorder;

@@ -112,7 +112,7 @@ void lesson_sentence(const lesson_state *lesson, const document_state *document,
 }
 
 /// The ends changed: computes the lines again.
-static void refresh(lesson_state *lesson) {
+static void refresh_lines(lesson_state *lesson) {
     lesson->conflict_known = lesson->program_known = false;
     if (!lesson->end_count) return;
     const uint32_t count = lesson->end_count;
@@ -129,7 +129,7 @@ static void take_sequence(lesson_state *lesson, const sl_space *space) {
     lesson->changes_dropped = false;
     lesson->hovered = 0;
     if (lesson->chosen_next > 2 * lesson->end_count + 1) lesson->chosen_next = 0;
-    refresh(lesson);
+    refresh_lines(lesson);
     if (lesson->end_count) lesson->line = lesson->dual.best;
 }
 
@@ -186,7 +186,7 @@ bool lesson_undo(lesson_state *lesson) {
     if (!lesson->change_count) return false;
     const lesson_change *change = &lesson->changes[--lesson->change_count];
     if (change->what != CHOSEN_LINE) lesson->ends[change->what / 2] = change->ends;
-    refresh(lesson);
+    refresh_lines(lesson);
     lesson->line = change->line;
     bool moved = false;
     for (size_t i = 0; i < lesson->change_count; i++)
@@ -206,7 +206,7 @@ void lesson_move_end(lesson_state *lesson, uint32_t end, sl_point to) {
     *(end % 2 ? &ends->right : &ends->left) = to;
     if (ends->left.x == ends->right.x && ends->left.y == ends->right.y) *ends = before;
     lesson->dragged = true;
-    refresh(lesson);
+    refresh_lines(lesson);
     if (lesson->dual.corner_count) lesson->line = lesson->dual.best;
 }
 

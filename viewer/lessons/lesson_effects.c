@@ -101,7 +101,7 @@ static const char *const *code(const lesson_state *lesson, const document_state 
     return effects_code;
 }
 
-static void append(char text[DOORS_TEXT], const char *between, const char *more) {
+static void append_words(char text[DOORS_TEXT], const char *between, const char *more) {
     const size_t used = strlen(text);
     snprintf(text + used, DOORS_TEXT - used, "%s%s", used ? between : "", more);
 }
@@ -112,7 +112,7 @@ static void name_doors(const sl_map *map, const bool *doors, char text[DOORS_TEX
     *open = true;
     for (size_t i = 0; i < map->door_count; i++) {
         if (!doors[i]) continue;
-        append(text, " and ", map->doors[i].name);
+        append_words(text, " and ", map->doors[i].name);
         *open &= map->doors[i].open;
     }
 }
@@ -132,7 +132,7 @@ static void name_alternatives(const document_state *document, uint32_t source, u
         char one[DOORS_TEXT];
         bool open;
         name_doors(map, doors, one, &open);
-        append(text, ", or ", one);
+        append_words(text, ", or ", one);
         *now |= open;
         memset(doors, 0, sizeof doors);
     }

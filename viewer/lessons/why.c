@@ -20,7 +20,7 @@ static why_pair pair_of(const learn_state *learn) {
     return w;
 }
 
-static bool same(sl_point a, sl_point b) {
+static bool is_same(sl_point a, sl_point b) {
     return a.x == b.x && a.y == b.y;
 }
 
@@ -31,7 +31,8 @@ static bool is_sequence(const lesson_state *lesson, const sl_space *space, size_
     sl_steps_sequence(&lesson->steps, step, directed, SL_DUAL_PORTALS_MOST);
     for (uint32_t i = 0; i < w->count; i++) {
         const sl_directed_portal *at = &space->directed[directed[i]];
-        if (!same(at->left, w->ends[i].left) || !same(at->right, w->ends[i].right)) return false;
+        if (!is_same(at->left, w->ends[i].left) || !is_same(at->right, w->ends[i].right))
+            return false;
     }
     return true;
 }

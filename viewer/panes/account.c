@@ -79,7 +79,7 @@ static sl_chart_scale area_scale(const account *a, size_t marks) {
 }
 
 /// Where there is little room the title is a line of plain size.
-static void make(const view_state *view, account *a, bool small) {
+static void make_chart(const view_state *view, account *a, bool small) {
     const size_t methods = view->seen.valid ? add_methods(view, a) : 0;
     if (view->seen.valid) add_region(view, a, methods);
     const size_t marks = view->seen.valid ? methods + 1 : 0;
@@ -114,14 +114,14 @@ static void make(const view_state *view, account *a, bool small) {
 /// Draws the chart into a box of the page.
 static void draw_chart(view_state *view, cairo_t *cairo, sl_box box) {
     account a;
-    make(view, &a, true);
+    make_chart(view, &a, true);
     view_check(view,
                sl_draw_chart_onto(view->context, cairo, &a.chart, box, 0.92 * view->ui->text));
 }
 
 sl_status account_save(view_state *view, const char *path) {
     account a;
-    make(view, &a, false);
+    make_chart(view, &a, false);
     return sl_draw_chart_file(view->context, &a.chart, path);
 }
 
@@ -138,7 +138,7 @@ static bool is_stale(const view_state *view, const account_picture *kept, int wi
     return sl_seconds() - kept->made > SECONDS_BETWEEN;
 }
 
-static void remake(view_state *view, account_picture *kept, int width, int height) {
+static void remake_picture(view_state *view, account_picture *kept, int width, int height) {
     if (kept->surface) cairo_surface_destroy(kept->surface);
     kept->surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height);
     kept->version = view->document->version;
@@ -155,7 +155,8 @@ void pane_account(learn_state *learn, sl_box box) {
     ui_state *ui = view->ui;
     const int width = (int)ceil(box_width(box)), height = (int)ceil(box_height(box));
     ui_hit(ui, HIT_PANEL, 0, box);
-    if (is_stale(view, &view->account, width, height)) remake(view, &view->account, width, height);
+    if (is_stale(view, &view->account, width, height))
+        remake_picture(view, &view->account, width, height);
     cairo_save(ui->cairo);
     cairo_rectangle(ui->cairo, box.min.x, box.min.y, box_width(box), box_height(box));
     cairo_clip(ui->cairo);

@@ -58,7 +58,7 @@ static int add_layers(const view_state *view, legend_row *rows) {
     return at;
 }
 
-static legend_row stroke(const char *label, sl_colour colour, bool dashed) {
+static legend_row stroke_row(const char *label, sl_colour colour, bool dashed) {
     return (legend_row){
         .label = label, .mark = dashed ? LEGEND_DASHED : LEGEND_STROKE, .colour = colour};
 }
@@ -76,18 +76,18 @@ static int list_rows(const view_state *view, legend_row rows[LEGEND_MOST]) {
     if (!view->document->baked) return 0;
     int at = add_layers(view, rows);
     if (layers_shows(view, LAYER_VIEWS) && view_layer_shown(view->views))
-        rows[at++] = stroke("border of a view cell", palette->wall, false);
+        rows[at++] = stroke_row("border of a view cell", palette->wall, false);
     const heat_graph *graph;
     if (heat_layer_values(view, &graph) && layers_fill(view) != LAYER_HEAT)
-        rows[at++] = stroke("between levels of the heat map", palette->wall, false);
-    if (layers_shows(view, LAYER_SPLITS)) rows[at++] = stroke("split", palette->path, false);
+        rows[at++] = stroke_row("between levels of the heat map", palette->wall, false);
+    if (layers_shows(view, LAYER_SPLITS)) rows[at++] = stroke_row("split", palette->path, false);
     if (layers_shows(view, LAYER_TREE) && view->seen.valid)
-        rows[at++] = stroke("stab tree", palette->tree, false);
-    if (layers_shows(view, LAYER_PORTALS)) rows[at++] = stroke("portal", palette->portal, true);
+        rows[at++] = stroke_row("stab tree", palette->tree, false);
+    if (layers_shows(view, LAYER_PORTALS)) rows[at++] = stroke_row("portal", palette->portal, true);
     if (layers_shows(view, LAYER_STARTS) && map->path_count)
-        rows[at++] = stroke("path", palette->path, true);
+        rows[at++] = stroke_row("path", palette->path, true);
     if (map->range > 0 && view->mode != MODE_QUIZ)
-        rows[at++] = stroke("view range", palette->start, true);
+        rows[at++] = stroke_row("view range", palette->start, true);
     const struct {
         const char *label;
         bool shown;
@@ -287,7 +287,7 @@ static bool covers_map(const view_state *view, const sl_frame *frame, sl_box box
 
 /// A presentation has the map free: a legend that would cover it is a button, until that is
 /// pressed.
-static void fold(ui_state *ui, double left, double bottom) {
+static void fold_to_button(ui_state *ui, double left, double bottom) {
     ui->legend_folded = true;
     ui_button(ui, left, bottom - 1.6 * ui->text, 1.6 * ui->text, "Legend (F7)", false,
               ui_action_find(ui, "legend"));
@@ -310,7 +310,7 @@ static sl_box draw_over_plan(view_state *view, const sl_frame *frame, bool vecto
     double y = bottom - high;
     if (ui->presents && !ui->legend_over &&
         covers_map(view, frame, (sl_box){{left, y}, {left + wide, bottom}})) {
-        if (!vector) fold(view->ui, left, bottom);
+        if (!vector) fold_to_button(view->ui, left, bottom);
         return none;
     }
     fill_framed(ui, (sl_box){{left, y}, {left + wide, bottom}});

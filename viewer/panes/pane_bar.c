@@ -32,7 +32,7 @@ enum {
 };
 
 /// The place of the next button of a width, on this line or the next.
-static void flow(double *x, int *line, double wide, double left, double right) {
+static void flow_on(double *x, int *line, double wide, double left, double right) {
     if (*x > left && *x + wide > right) {
         *x = left;
         ++*line;
@@ -46,7 +46,7 @@ static int bar_buttons(view_state *view, double right, bool draw) {
     int line = 0;
     for (int i = 0; i < NEEDED - !view->ui->presents; i++) {
         const double wide = ui_button_width(view->ui, row_of(view->ui, needed[i])->label);
-        flow(&x, &line, wide, left, right);
+        flow_on(&x, &line, wide, left, right);
         if (draw) put_button(view->ui, x, (0.35 + 2 * line) * t, needed[i]);
         x += wide + gap;
     }

@@ -179,10 +179,8 @@ static uint32_t border_at(learn_state *learn, sl_box box, sl_point at) {
 /// The step under a place of the time line, from 1.
 static size_t step_at(const learn_state *learn, const hit_area *hit, sl_point at) {
     const size_t length = lesson_length(&learn->lesson);
-    const double margin = 0.5 * learn->ui->text;
-    const double low = hit->box.min.x + margin, high = hit->box.max.x - margin;
-    if (!length || !(high > low)) return 0;
-    const double share = fmin(fmax((at.x - low) / (high - low), 0), 1);
+    if (!length) return 0;
+    const double share = ui_slider_at(learn->ui, hit->box, at);
     return 1 + (size_t)round(share * (double)(length - 1));
 }
 

@@ -70,7 +70,7 @@ typedef struct span {
 // --- columns
 
 /// Depth and slope (to the right) of a point.
-static sl_point turn(const viewer *v, sl_point p) {
+static sl_point turned_to_eye(const viewer *v, sl_point p) {
     const double x = p.x - v->eye.x, y = p.y - v->eye.y;
     return (sl_point){x * v->c + y * v->s, x * v->s - y * v->c};
 }
@@ -83,7 +83,7 @@ static void cut_near(sl_point *a, sl_point b, double near) {
 
 /// False for a segment that is behind the eye.
 static bool find_span(const viewer *v, sl_point from, sl_point to, span *out) {
-    sl_point a = turn(v, from), b = turn(v, to);
+    sl_point a = turned_to_eye(v, from), b = turned_to_eye(v, to);
     if (a.x < v->near && b.x < v->near) return false;
     cut_near(&a, b, v->near);
     cut_near(&b, a, v->near);
@@ -173,7 +173,7 @@ typedef struct look {
     int level;
 } look;
 
-static sl_segment place(const look *l, sl_segment s) {
+static sl_segment mirrored_place(const look *l, sl_segment s) {
     const sl_map *map = sl_query_map(l->view->present.query);
     const sl_mirrored_region *seen = &l->view->seen.in_mirrors;
     if (l->part == SL_NO_PART) return s;
@@ -199,23 +199,24 @@ static void add_overlay(viewer *v, const look *l, sl_segment at, bool glass) {
     for (int x = s.first; x <= s.last && !shown; x++)
         shown = is_open_to(v, l->level, l->part, x, (float)nearness_at(&s, x + 0.5) * BEFORE);
     if (!shown) return;
-    v->overlays[v->overlay_count++] = (overlay){.from = at.a,
-                                                .to = at.b,
-                                                .part = l->part,
-                                                .level = l->level,
-                                                .glass = glass,
-                                                .nearness = 1 / fmax(turn(v, middle).x, v->near)};
+    v->overlays[v->overlay_count++] =
+        (overlay){.from = at.a,
+                  .to = at.b,
+                  .part = l->part,
+                  .level = l->level,
+                  .glass = glass,
+                  .nearness = 1 / fmax(turned_to_eye(v, middle).x, v->near)};
 }
 
 static void add_effects(viewer *v, const sl_map *map, const look *l) {
     for (size_t i = 0; i < map->mirror_count; i++)
         if (!map->mirrors[i].one_sided || side_of(map->mirrors[i].segment, l->eye) > 0) {
-            const sl_segment at = place(l, map->mirrors[i].segment);
+            const sl_segment at = mirrored_place(l, map->mirrors[i].segment);
             add_surface(v, l->level, at.a, at.b,
                         (column){.wall = (uint32_t)i, .part = l->part, .surface = SURFACE_MIRROR});
         }
     for (size_t i = 0; i < map->door_count; i++) {
-        const sl_segment at = place(l, map->doors[i].segment);
+        const sl_segment at = mirrored_place(l, map->doors[i].segment);
         if (map->doors[i].open)
             add_overlay(v, l, at, false);
         else
@@ -223,7 +224,7 @@ static void add_effects(viewer *v, const sl_map *map, const look *l) {
                         (column){.wall = (uint32_t)i, .part = l->part, .surface = SURFACE_LEAF});
     }
     for (size_t i = 0; i < map->oneway_count; i++) {
-        const sl_segment at = place(l, map->oneways[i].segment);
+        const sl_segment at = mirrored_place(l, map->oneways[i].segment);
         if (side_of(map->oneways[i].segment, l->eye) > 0)
             add_surface(v, l->level, at.a, at.b,
                         (column){.wall = (uint32_t)i, .part = l->part, .surface = SURFACE_DARK});
@@ -280,7 +281,7 @@ static void set_faded(cairo_t *cairo, sl_colour c, double opacity) {
 }
 
 /// The farther, the more a colour fades into the ground's.
-static sl_colour dim(const page *p, sl_colour colour, double nearness) {
+static sl_colour dimmed(const page *p, sl_colour colour, double nearness) {
     const double far = fmin(fmax(1 - 5 * p->high * nearness / box_height(p->box), 0), 1);
     return sl_colour_mix(colour, p->view->ui->palette.ground, 0.75 * far);
 }
@@ -325,7 +326,7 @@ static void draw_level(const page *p, const viewer *v, int level) {
         if (!(seen[first].nearness > 0)) continue;
         const double a = seen[first].nearness, b = seen[end - 1].nearness;
         add_shape(p, first, end, a, b, -1, 1);
-        const sl_colour colour = dim(p, colour_of(p, &seen[first]), (a + b) / 2);
+        const sl_colour colour = dimmed(p, colour_of(p, &seen[first]), (a + b) / 2);
         // What a mirror shows is drawn already: the mirror only tints it.
         if (image)
             set_faded(cairo, palette->seen[0], 0.22);
@@ -363,7 +364,8 @@ static void draw_run(const page *p, const span *s, int first, int end, bool glas
     add_shape(p, first, end, na, nb, 0.72, 1);
     if (left > first) add_shape(p, first, left, na, nearness_at(s, left), -1, 1);
     if (right < end) add_shape(p, right, end, nearness_at(s, right), nb, -1, 1);
-    sl_set_colour(cairo, dim(p, sl_colour_mix(palette->door, palette->wall, 0.25), (na + nb) / 2));
+    sl_set_colour(cairo,
+                  dimmed(p, sl_colour_mix(palette->door, palette->wall, 0.25), (na + nb) / 2));
     cairo_fill(cairo);
 }
 

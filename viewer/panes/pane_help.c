@@ -55,7 +55,7 @@ static int topic_start(const ui_state *ui, int topic) {
     return ui->action_count;
 }
 
-static bool has(const char *text, const char *part) {
+static bool has_words(const char *text, const char *part) {
     const size_t length = strlen(part);
     for (; text && *text; text++) {
         size_t i = 0;
@@ -110,7 +110,7 @@ static void help_topic(help_column *c, int topic, const char *filter) {
     int first = 0, end = BY_HAND;
     const ui_action *actions = c->ui->actions;
     const char *title = topic < TOPICS ? topics[topic].title : "Mouse, and keys in its place";
-    const bool all = has(title, filter);
+    const bool all = has_words(title, filter);
     bool titled = false;
     if (topic < TOPICS) {
         first = topic_start(c->ui, topic);
@@ -119,7 +119,7 @@ static void help_topic(help_column *c, int topic, const char *filter) {
     for (int i = first; i < end; i++) {
         const char *key = topic < TOPICS ? actions[i].key : by_hand[i][0];
         const char *help = topic < TOPICS ? actions[i].help : by_hand[i][1];
-        if (!all && !has(key, filter) && !has(help, filter)) continue;
+        if (!all && !has_words(key, filter) && !has_words(help, filter)) continue;
         if (!titled) help_title(c, title);
         titled = true;
         help_row(c, key ? key : "\xe2\x80\x93", help, topic < TOPICS && !actions[i].held ? i : -1);

@@ -148,6 +148,6 @@ void pane_learn(learn_state *learn, sl_box box) {
     column_layers(learn->view, &c);
     column_check(learn->ui, &c, "first_person");
     column_legend(learn->view, &c);
-    pane_words(learn, &c);
+    pane_words(learn->view, &c);
     column_end(learn->ui, &c);
 }

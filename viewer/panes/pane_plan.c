@@ -83,7 +83,7 @@ static sl_frame at_origin(sl_frame frame) {
 }
 
 /// Draws a picture where it is clipped to.
-static bool paint(view_state *view, cairo_t *cairo, bool over, const sl_frame *frame) {
+static bool paint_picture(view_state *view, cairo_t *cairo, bool over, const sl_frame *frame) {
     bool whole;
     if (over) {
         cairo_set_operator(cairo, CAIRO_OPERATOR_CLEAR);
@@ -116,7 +116,7 @@ static void part_of_frame(const sl_frame *frame, const sl_box *box, sl_frame *pa
 #define AROUND 200
 
 /// Draws what differs from the picture, which was drawn for the same frame. False if that is much.
-static bool mend(view_state *view, kept_picture *kept, bool over, const sl_frame *local) {
+static bool mend_picture(view_state *view, kept_picture *kept, bool over, const sl_frame *local) {
     const document_state *document = view->document;
     plan_items now = {0};
     sl_box boxes[CHANGES_MOST];
@@ -140,13 +140,13 @@ static bool mend(view_state *view, kept_picture *kept, bool over, const sl_frame
         cairo_t *cairo = cairo_create(kept->surface);
         cairo_rectangle(cairo, parts[i].left, parts[i].top, parts[i].width, parts[i].height);
         cairo_clip(cairo);
-        good = paint(view, cairo, over, &parts[i]);
+        good = paint_picture(view, cairo, over, &parts[i]);
         cairo_destroy(cairo);
     }
     return good;
 }
 
-static bool remake(view_state *view, kept_picture *kept, bool over, const sl_frame *local) {
+static bool remake_picture(view_state *view, kept_picture *kept, bool over, const sl_frame *local) {
     const int width = (int)ceil(local->width), height = (int)ceil(local->height);
     const double before = sl_seconds();
     if (!kept->surface || cairo_image_surface_get_width(kept->surface) != width ||
@@ -156,7 +156,7 @@ static bool remake(view_state *view, kept_picture *kept, bool over, const sl_fra
                                                    width, height);
     }
     cairo_t *cairo = cairo_create(kept->surface);
-    const bool good = paint(view, cairo, over, local);
+    const bool good = paint_picture(view, cairo, over, local);
     cairo_destroy(cairo);
     kept->items.count = 0;
     if (!good) kept->key.version = view->document->version - 1; // it is drawn again
@@ -168,8 +168,8 @@ static bool remake(view_state *view, kept_picture *kept, bool over, const sl_fra
 }
 
 /// Shows the picture at the present frame: moves and scales it if it was drawn for another one.
-static void blit(cairo_t *cairo, const kept_picture *kept, const sl_frame *frame, sl_colour page,
-                 bool over) {
+static void show_picture(cairo_t *cairo, const kept_picture *kept, const sl_frame *frame,
+                         sl_colour page, bool over) {
     const sl_frame *old = &kept->key.frame;
     const double s = frame->scale / old->scale;
     const double x = (old->corner.x - frame->corner.x) * frame->scale;
@@ -220,11 +220,11 @@ static void show_kept(view_state *view, kept_picture *kept, bool over, const sl_
         other.key.touched = now.key.touched;
         const bool only_dragged = kept->surface && view->document->live &&
                                   memcmp(&other.key, &now.key, sizeof now.key) == 0;
-        const bool mended = only_dragged && mend(view, kept, over, &now.key.frame);
-        if (mended || (!wait && remake(view, kept, over, &now.key.frame)))
+        const bool mended = only_dragged && mend_picture(view, kept, over, &now.key.frame);
+        if (mended || (!wait && remake_picture(view, kept, over, &now.key.frame)))
             memcpy(&kept->key, &now.key, sizeof now.key);
     }
-    if (kept->surface) blit(view->ui->cairo, kept, frame, view->ui->palette.page, over);
+    if (kept->surface) show_picture(view->ui->cairo, kept, frame, view->ui->palette.page, over);
 }
 
 // --- the pane

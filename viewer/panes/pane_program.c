@@ -29,8 +29,8 @@ static void write_number(double value, char text[NUMBER]) {
     snprintf(text, NUMBER, "%s%.3g", value < 0 ? "\xe2\x88\x92" : "", fabs(value));
 }
 
-static void cell(const table *at, int column, double y, bool bold, sl_colour colour,
-                 const char *text) {
+static void draw_cell(const table *at, int column, double y, bool bold, sl_colour colour,
+                      const char *text) {
     if (at->places[column] != OUT)
         ui_text(at->ui, at->left + at->places[column] * at->ui->text, y, 0.85, bold, colour, text);
 }
@@ -46,20 +46,20 @@ static void draw_row(const table *at, double y, const sl_program *program,
         snprintf(text, sizeof text, "|u|");
     else
         snprintf(text, sizeof text, "%c%u", row->left ? 'L' : 'R', row->portal + 1);
-    cell(at, 0, y, held, colour, text);
+    draw_cell(at, 0, y, held, colour, text);
     for (int i = 0; i < SL_PROGRAM_COLUMNS; i++) {
         write_number(row->coefficients[i], text);
-        if (row->coefficients[i] != 0) cell(at, i + 1, y, held, palette->ink, text);
+        if (row->coefficients[i] != 0) draw_cell(at, i + 1, y, held, palette->ink, text);
     }
-    cell(at, 5, y, held, palette->ink,
-         fixed       ? "= 1"
-         : row->left ? "\xe2\x89\xa5 0"
-                     : "\xe2\x89\xa4 0");
+    draw_cell(at, 5, y, held, palette->ink,
+              fixed       ? "= 1"
+              : row->left ? "\xe2\x89\xa5 0"
+                          : "\xe2\x89\xa4 0");
     if (!program->solved) return;
     write_number(row->value, text);
-    cell(at, 6, y, held, palette->ink, text);
+    draw_cell(at, 6, y, held, palette->ink, text);
     write_number(row->price, text);
-    cell(at, 7, y, held, held ? palette->ink : palette->faint, held ? text : "basis");
+    draw_cell(at, 7, y, held, held ? palette->ink : palette->faint, held ? text : "basis");
 }
 
 /// "maximise d; d = 0.12, margin 1.5; the basis holds ux, uy, c, d".
@@ -102,7 +102,7 @@ static double draw_table(learn_state *learn, sl_box box, double y, const sl_prog
     write_optimum(program, text, sizeof text);
     y = ui_paragraph(ui, left, y, box_width(box) - 1.8 * t, 0.9, ui->palette.ink, text) + 0.2 * t;
     const table rows = {ui, left, box_width(box) < 31 * t ? narrow : wide};
-    for (int i = 0; i < COLUMNS; i++) cell(&rows, i, y, false, ui->palette.faint, titles[i]);
+    for (int i = 0; i < COLUMNS; i++) draw_cell(&rows, i, y, false, ui->palette.faint, titles[i]);
     sl_stab_end marked = {0};
     const bool any = lesson_marked(lesson, &marked);
     for (size_t i = 0; i < program->row_count; i++) {

@@ -257,26 +257,26 @@ static void describe_place(const view_state *view, sl_point at, char *text, size
                      : "does not see");
 }
 
-void pane_words(learn_state *learn, column *c) {
+void pane_words(view_state *view, column *c) {
     char text[512];
     sl_point at;
-    const bool over = view_pointed(learn->view, &at);
-    if (!over) at = learn->view->eye.at;
-    const bool explores = over && learn->view->mode == MODE_EXPLORE;
-    const uint32_t object = explores ? object_at(learn->view, at) : UINT32_MAX;
-    const uint32_t door = over ? door_at(learn->view, at) : UINT32_MAX;
+    const bool over = view_pointed(view, &at);
+    if (!over) at = view->eye.at;
+    const bool explores = over && view->mode == MODE_EXPLORE;
+    const uint32_t object = explores ? object_at(view, at) : UINT32_MAX;
+    const uint32_t door = over ? door_at(view, at) : UINT32_MAX;
     if (door != UINT32_MAX)
         snprintf(text, sizeof text, "Door %s, which is %s: a click %s it.",
-                 learn->document->map.doors[door].name,
-                 learn->document->map.doors[door].open ? "open" : "shut",
-                 learn->document->map.doors[door].open ? "shuts" : "opens");
+                 view->document->map.doors[door].name,
+                 view->document->map.doors[door].open ? "open" : "shut",
+                 view->document->map.doors[door].open ? "shuts" : "opens");
     else if (object != UINT32_MAX)
-        object_describe(learn->view, object, text, sizeof text);
+        object_describe(view, object, text, sizeof text);
     else
-        describe_place(learn->view, at, text, sizeof text);
-    column_heading(learn->ui, c, over ? "Under the pointer" : "Under the eye", NULL);
-    c->y = ui_paragraph(learn->ui, c->left, c->y + 0.7 * learn->ui->text, c->right - c->left, 0.95,
-                        learn->ui->palette.ink, text);
+        describe_place(view, at, text, sizeof text);
+    column_heading(view->ui, c, over ? "Under the pointer" : "Under the eye", NULL);
+    c->y = ui_paragraph(view->ui, c->left, c->y + 0.7 * view->ui->text, c->right - c->left, 0.95,
+                        view->ui->palette.ink, text);
 }
 
 void pane_why(learn_state *learn, column *c) {
@@ -311,7 +311,7 @@ void pane_side(learn_state *learn, sl_box box) {
     draw_methods(learn->view, &c);
     draw_mirrored(learn->view, &c);
     draw_difference(learn->view, &c);
-    pane_words(learn, &c);
+    pane_words(learn->view, &c);
     static const char *const rows[][5] = {{"home", "fly", "method", "other", NULL},
                                           {"record", "play", "export_series", NULL},
                                           {"save_svg", "save_pdf", "doors", NULL}};
@@ -321,7 +321,7 @@ void pane_side(learn_state *learn, sl_box box) {
 
 // --- drawing walls
 
-static void rule(ui_state *ui, column *c, const char *text) {
+static void draw_rule(ui_state *ui, column *c, const char *text) {
     c->y = ui_paragraph(ui, c->left, c->y + 0.35 * ui->text, c->right - c->left, 0.95,
                         ui->palette.ink, text);
 }
@@ -333,24 +333,24 @@ void pane_draw(learn_state *learn, sl_box box) {
     column_heading(learn->ui, &c, "Walls and doors", "key");
     column_check(learn->ui, &c, "draw_doors");
     c.y += 0.8 * learn->ui->text;
-    rule(learn->ui, &c,
-         doors ? "Drag along a wall, or across a gap: a new door. It cuts the wall."
-               : "Drag on free ground: a new wall, in any direction, its ends on the grid.");
-    rule(learn->ui, &c,
-         doors ? "Drag a door: moves it. Esc takes that back."
-               : "Drag a wall, a corner or a door: moves it. Esc takes that back.");
-    rule(learn->ui, &c,
-         doors ? "Click a door: chooses it. Delete: deletes it."
-               : "Click a wall or a door: chooses it. Delete: deletes it.");
+    draw_rule(learn->ui, &c,
+              doors ? "Drag along a wall, or across a gap: a new door. It cuts the wall."
+                    : "Drag on free ground: a new wall, in any direction, its ends on the grid.");
+    draw_rule(learn->ui, &c,
+              doors ? "Drag a door: moves it. Esc takes that back."
+                    : "Drag a wall, a corner or a door: moves it. Esc takes that back.");
+    draw_rule(learn->ui, &c,
+              doors ? "Click a door: chooses it. Delete: deletes it."
+                    : "Click a wall or a door: chooses it. Delete: deletes it.");
     sl_text_count(learn->document->map.wall_count, "wall", walls);
     sl_text_count(learn->document->history.done.count, "step", steps);
     snprintf(text, sizeof text, "%s; %s to undo, %zu to redo.", walls, steps,
              learn->document->history.undone.count);
-    rule(learn->ui, &c, text);
+    draw_rule(learn->ui, &c, text);
     column_layers(learn->view, &c);
     column_legend(learn->view, &c);
     draw_methods(learn->view, &c);
-    pane_words(learn, &c);
+    pane_words(learn->view, &c);
     column_end(learn->ui, &c);
 }
 

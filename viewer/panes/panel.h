@@ -13,7 +13,7 @@ void column_legend(view_state *view, column *c);
 /// The layers that belong to the present mode.
 void column_layers(view_state *view, column *c);
 /// What is under the pointer, or else under the eye.
-void pane_words(learn_state *learn, column *c);
+void pane_words(view_state *view, column *c);
 /// Why the cell that was asked about is seen or not.
 void pane_why(learn_state *learn, column *c);
 

@@ -46,7 +46,7 @@ static sl_point *end_of(const sl_map *map, int kind, size_t index, bool second) 
     return second ? &at->b : &at->a;
 }
 
-static bool hold(view_state *view, int kind, size_t index, bool second) {
+static bool hold_end(view_state *view, int kind, size_t index, bool second) {
     const sl_status status = SL_ARRAY_ROOM(view->context, &view->edit.ends, 1);
     view_check(view, status);
     if (status != SL_OK) return false;
@@ -88,7 +88,7 @@ static void hold_corner(view_state *view, sl_point at) {
             for (int k = 0; k < 2; k++) {
                 const sl_point end = *end_of(map, kind, i, k);
                 if (hypot(end.x - at.x, end.y - at.y) <= view->document->weld)
-                    hold(view, kind, i, k);
+                    hold_end(view, kind, i, k);
             }
 }
 
@@ -111,8 +111,8 @@ drag_kind edit_take(view_state *view, drag_state *drag) {
     view->edit.chosen_kind = kind;
     view->edit.chosen = kind == WALLS ? pick_along(view, drag->at, drag->at) : door;
     if (view->edit.chosen == UINT32_MAX) return DRAG_NEW_WALL;
-    hold(view, kind, view->edit.chosen, false);
-    hold(view, kind, view->edit.chosen, true);
+    hold_end(view, kind, view->edit.chosen, false);
+    hold_end(view, kind, view->edit.chosen, true);
     return kind == WALLS ? DRAG_WALL : DRAG_DOOR;
 }
 
@@ -127,10 +127,9 @@ static bool is_usable(sl_point p) {
 /// Where a held end is when the drag is at a place: corners on the grid, the rest by whole steps.
 static sl_point place_of(const view_state *view, const drag_state *drag, const held_end *end,
                          sl_point now) {
-    const double step = grid_step(view);
     if (drag->kind == DRAG_CORNER || drag->kind == DRAG_NEW_WALL) return grid_snap(view, now);
-    return (sl_point){end->was.x + step * round((now.x - drag->at.x) / step),
-                      end->was.y + step * round((now.y - drag->at.y) / step)};
+    const sl_point by = grid_moved(view, drag->at, now);
+    return (sl_point){end->was.x + by.x, end->was.y + by.y};
 }
 
 /// Whether all ends can go there, and one of them is not there yet. No segment may lose its length.
@@ -163,7 +162,7 @@ static bool begin_wall(view_state *view, drag_state *drag, sl_point now) {
     begin_change(view, drag);
     const sl_status status = sl_map_add_wall(view->context, &view->document->map, from, to, 0);
     view_check(view, status);
-    return status == SL_OK && hold(view, WALLS, view->document->map.wall_count - 1, true);
+    return status == SL_OK && hold_end(view, WALLS, view->document->map.wall_count - 1, true);
 }
 
 // --- new doors
@@ -211,8 +210,8 @@ static bool begin_door(view_state *view, drag_state *drag, sl_segment at) {
     name_door(map, name);
     const sl_status status = sl_map_add_door(view->context, map, name, at, true, 0);
     view_check(view, status);
-    return status == SL_OK && hold(view, DOORS, map->door_count - 1, false) &&
-           hold(view, DOORS, map->door_count - 1, true);
+    return status == SL_OK && hold_end(view, DOORS, map->door_count - 1, false) &&
+           hold_end(view, DOORS, map->door_count - 1, true);
 }
 
 /// The drag's index is the wall that the door lies in.
@@ -383,7 +382,7 @@ static void draw_grid(view_state *view, const sl_frame *frame) {
 /// Marks the corner that is held, or the one under the pointer.
 static void draw_corner(view_state *view, const sl_frame *frame, sl_point pointer) {
     const drag_state *drag = &view->drag;
-    sl_point corner, at;
+    sl_point corner;
     if (drag->kind == DRAG_CORNER || (drag->kind == DRAG_NEW_WALL && drag->changed)) {
         const held_end *e = view->edit.ends.items;
         if (!view->edit.ends.count || e->index >= count_of(&view->document->map, e->kind)) return;
@@ -391,11 +390,7 @@ static void draw_corner(view_state *view, const sl_frame *frame, sl_point pointe
     } else if (drag->kind != DRAG_NONE || !find_corner(view, pointer, &corner)) {
         return;
     }
-    if (!sl_frame_holds(frame, corner, &at)) return;
-    cairo_new_path(view->ui->cairo);
-    cairo_arc(view->ui->cairo, at.x, at.y, 5 * frame->unit, 0, 6.283185307179586);
-    sl_set_colour(view->ui->cairo, view->ui->palette.start);
-    cairo_fill(view->ui->cairo);
+    view_mark(view, frame, corner);
 }
 
 /// Draws each segment of which an end is held where it is now, however late the plan is.

@@ -12,7 +12,7 @@
 
 // --- in words
 
-static void append(char text[CALLS_TEXT], const char *before, const char *more) {
+static void append_words(char text[CALLS_TEXT], const char *before, const char *more) {
     const size_t used = strlen(text);
     snprintf(text + used, CALLS_TEXT - used, "%s%s", before, more);
 }
@@ -23,7 +23,7 @@ void effects_left_out(const sl_map *map, char text[CALLS_TEXT]) {
     const unsigned called_for = sl_plan_make(map).effects;
     text[0] = '\0';
     for (size_t i = 0; i < count; i++)
-        if (!(called_for >> i & 1)) append(text, *text ? ", " : "", effects[i]->several);
+        if (!(called_for >> i & 1)) append_words(text, *text ? ", " : "", effects[i]->several);
 }
 
 void effects_in_words(const sl_map *map, char text[CALLS_TEXT]) {
@@ -35,7 +35,7 @@ void effects_in_words(const sl_map *map, char text[CALLS_TEXT]) {
         char counted[64];
         if (!(called_for >> i & 1)) continue;
         snprintf(counted, sizeof counted, "%s (%zu)", effects[i]->several, effects[i]->count(map));
-        append(text, *text ? ", " : "calls for ", counted);
+        append_words(text, *text ? ", " : "calls for ", counted);
     }
 }
 
@@ -118,7 +118,7 @@ bool mirror_take(view_state *view, drag_state *drag) {
     return true;
 }
 
-static bool usable(sl_segment s) {
+static bool is_usable(sl_segment s) {
     return sl_coordinate_usable(s.a.x) && sl_coordinate_usable(s.a.y) &&
            sl_coordinate_usable(s.b.x) && sl_coordinate_usable(s.b.y) &&
            (s.a.x != s.b.x || s.a.y != s.b.y);
@@ -127,19 +127,17 @@ static bool usable(sl_segment s) {
 void mirror_move(view_state *view, drag_state *drag, sl_point now) {
     sl_map *map = &view->document->map;
     if (drag->index >= map->mirror_count) return;
-    const double step = grid_step(view);
-    const double dx = step * round((now.x - drag->at.x) / step);
-    const double dy = step * round((now.y - drag->at.y) / step);
+    const sl_point by = grid_moved(view, drag->at, now);
     sl_segment to = drag->segment;
     if (drag->part == GRIP_A) to.a = grid_snap(view, now);
     if (drag->part == GRIP_B) to.b = grid_snap(view, now);
     if (drag->part == GRIP_WHOLE) {
-        to.a = (sl_point){to.a.x + dx, to.a.y + dy};
-        to.b = (sl_point){to.b.x + dx, to.b.y + dy};
+        to.a = (sl_point){to.a.x + by.x, to.a.y + by.y};
+        to.b = (sl_point){to.b.x + by.x, to.b.y + by.y};
     }
     const sl_segment is = map->mirrors[drag->index].segment;
     const bool same = to.a.x == is.a.x && to.a.y == is.a.y && to.b.x == is.b.x && to.b.y == is.b.y;
-    if (same || !usable(to)) return;
+    if (same || !is_usable(to)) return;
     if (view->document->source.path && document_is_baked(view->document->source.path)) {
         ui_say(view->ui, true, "mirrors of a baked file stay: open the map that it was made from");
         return;
@@ -179,14 +177,8 @@ void mirror_draw(view_state *view, const sl_frame *frame) {
     if (mirror >= map->mirror_count) return;
     const sl_segment s = map->mirrors[mirror].segment;
     sl_draw_line(view->ui->cairo, frame, s.a, s.b, view->ui->palette.start, 4 * frame->unit);
-    for (int i = 0; i < 2; i++) {
-        sl_point at;
-        if (!sl_frame_holds(frame, i ? s.b : s.a, &at)) continue;
-        cairo_new_path(view->ui->cairo);
-        cairo_arc(view->ui->cairo, at.x, at.y, 5 * frame->unit, 0, 6.283185307179586);
-        sl_set_colour(view->ui->cairo, view->ui->palette.start);
-        cairo_fill(view->ui->cairo);
-    }
+    view_mark(view, frame, s.a);
+    view_mark(view, frame, s.b);
 }
 
 // --- objects
@@ -224,11 +216,9 @@ bool object_take(view_state *view, drag_state *drag) {
 void object_move(view_state *view, drag_state *drag, sl_point now) {
     sl_map *map = &view->document->map;
     if (drag->index >= map->object_count) return;
-    const double step = grid_step(view);
-    const double dx = step * round((now.x - drag->at.x) / step);
-    const double dy = step * round((now.y - drag->at.y) / step);
-    const sl_box to = {{drag->segment.a.x + dx, drag->segment.a.y + dy},
-                       {drag->segment.b.x + dx, drag->segment.b.y + dy}};
+    const sl_point by = grid_moved(view, drag->at, now);
+    const sl_box to = {{drag->segment.a.x + by.x, drag->segment.a.y + by.y},
+                       {drag->segment.b.x + by.x, drag->segment.b.y + by.y}};
     sl_box *box = &map->objects[drag->index].box;
     if (to.min.x == box->min.x && to.min.y == box->min.y) return;
     if (!sl_coordinate_usable(to.min.x) || !sl_coordinate_usable(to.min.y) ||

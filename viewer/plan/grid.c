@@ -15,6 +15,10 @@ sl_point grid_snap(const view_state *view, sl_point at) {
     return (sl_point){step * round(at.x / step), step * round(at.y / step)};
 }
 
+sl_point grid_moved(const view_state *view, sl_point from, sl_point to) {
+    return grid_snap(view, (sl_point){to.x - from.x, to.y - from.y});
+}
+
 double grid_distance(sl_point p, sl_point a, sl_point b) {
     const double dx = b.x - a.x, dy = b.y - a.y, length = dx * dx + dy * dy;
     const double along = length > 0 ? ((p.x - a.x) * dx + (p.y - a.y) * dy) / length : 0;

@@ -9,6 +9,9 @@ double grid_step(const view_state *view);
 /// The grid's point nearest to a place.
 sl_point grid_snap(const view_state *view, sl_point at);
 
+/// From one place to another, in whole steps of the grid.
+sl_point grid_moved(const view_state *view, sl_point from, sl_point to);
+
 /// How far a point is from a segment.
 double grid_distance(sl_point p, sl_point a, sl_point b);
 

@@ -105,7 +105,7 @@ void heat_layer_destroy(sl_context *context, heat_layer *layer) {
     sl_free(context, layer);
 }
 
-static void drop(view_state *view) {
+static void drop_layer(view_state *view) {
     heat_layer_destroy(view->context, view->heat);
     view->heat = NULL;
     view->heat_choice.stamp++;
@@ -123,15 +123,15 @@ static bool is_old(const view_state *view, const heat_layer *layer) {
     return !same;
 }
 
-static const sl_measure *chosen(const view_state *view) {
+static const sl_measure *chosen_measure(const view_state *view) {
     return heat_measure(view->heat_choice.measure);
 }
 
 static unsigned chosen_part(const view_state *view) {
-    return heat_measure_part(chosen(view));
+    return heat_measure_part(chosen_measure(view));
 }
 
-static sl_status start(view_state *view, heat_layer *layer) {
+static sl_status start_work(view_state *view, heat_layer *layer) {
     layer->graph.wanted = chosen_part(view);
     layer->stopped = true; // where it fails too, so that it is not tried again and again
     SL_TRY(task_start(view->context, heat_graph_work, &layer->graph, NULL, NULL, &layer->job));
@@ -141,7 +141,7 @@ static sl_status start(view_state *view, heat_layer *layer) {
 }
 
 /// Takes a copy of what is asked.
-static sl_status begin(view_state *view) {
+static sl_status begin_layer(view_state *view) {
     const document_state *document = view->document;
     const sl_map *map = &document->baked->map;
     heat_layer *layer = sl_alloc_array(view->context, 1, sizeof *layer);
@@ -163,10 +163,10 @@ static sl_status begin(view_state *view) {
                 "some walls stop steps and not sight, or sight and not steps: the heat map goes "
                 "by sight in all measures; 'sightline vga' has paths by steps");
     SL_TRY(sl_query_copy(view->context, view->present.query, &layer->graph.query));
-    return start(view, layer);
+    return start_work(view, layer);
 }
 
-static sl_status take(view_state *view, heat_layer *layer) {
+static sl_status take_work(view_state *view, heat_layer *layer) {
     const sl_status status = task_end(view->context, layer->job);
     layer->job = NULL;
     layer->made = layer->graph.made;
@@ -252,8 +252,8 @@ static sl_status find_sizes(sl_context *context, heat_layer *layer) {
     return status;
 }
 
-static sl_status evaluate(view_state *view, heat_layer *layer) {
-    const sl_measure *measure = chosen(view);
+static sl_status evaluate_measure(view_state *view, heat_layer *layer) {
+    const sl_measure *measure = chosen_measure(view);
     const uint32_t count = layer->graph.grid.count;
     if (layer->measure != view->heat_choice.measure) layer->valued = false;
     layer->measure = view->heat_choice.measure;
@@ -275,31 +275,31 @@ static sl_status evaluate(view_state *view, heat_layer *layer) {
 
 void heat_layer_update(view_state *view, bool wait) {
     const unsigned part = chosen_part(view);
-    if (view->heat && is_old(view, view->heat)) drop(view);
+    if (view->heat && is_old(view, view->heat)) drop_layer(view);
     if (!layers_shows(view, LAYER_HEAT) || !view->document->baked) {
         // What is there waits for the next time. What is not starts anew then.
-        if (view->heat && (view->heat->job || view->heat->stopped)) drop(view);
+        if (view->heat && (view->heat->job || view->heat->stopped)) drop_layer(view);
         return;
     }
     const bool settled =
         view->document->has_visibility || !(view->document->job || view->document->live);
-    if (!view->heat && settled && view->present.query) view_check(view, begin(view));
+    if (!view->heat && settled && view->present.query) view_check(view, begin_layer(view));
     heat_layer *layer = view->heat;
     if (!layer) return;
     if (layer->job && layer->made && !(part & ~layer->has)) end_job(view->context, layer);
     if (!layer->job && layer->made && part & ~layer->has &&
         (!layer->stopped || layer->measure != view->heat_choice.measure)) {
         layer->valued = false;
-        view_check(view, start(view, layer));
+        view_check(view, start_work(view, layer));
     }
-    if (layer->job && (wait || task_done(layer->job))) view_check(view, take(view, layer));
+    if (layer->job && (wait || task_done(layer->job))) view_check(view, take_work(view, layer));
     if (!layer->job && layer->made && !(part & ~layer->has))
-        view_check(view, evaluate(view, layer));
+        view_check(view, evaluate_measure(view, layer));
 }
 
 void heat_layer_follow(view_state *view) {
     const heat_graph *graph;
-    if (heat_layer_values(view, &graph)) view_check(view, evaluate(view, view->heat));
+    if (heat_layer_values(view, &graph)) view_check(view, evaluate_measure(view, view->heat));
 }
 
 const double *heat_layer_values(const view_state *view, const heat_graph **graph) {
@@ -320,11 +320,11 @@ void heat_layer_scale(const view_state *view, double *least, double *most) {
 // --- choices
 
 void heat_say_measure(const view_state *view, char text[64]) {
-    snprintf(text, 64, "%s", chosen(view)->name);
+    snprintf(text, 64, "%s", chosen_measure(view)->name);
     ui_spaces(text);
 }
 
-static void choose(view_state *view, size_t measure) {
+static void choose_measure(view_state *view, size_t measure) {
     char text[64];
     view->heat_choice.measure = measure;
     view->heat_choice.held = false;
@@ -335,7 +335,7 @@ static void choose(view_state *view, size_t measure) {
 
 void heat_choose(view_state *view, int by) {
     const size_t count = heat_measure_count();
-    choose(view, (view->heat_choice.measure + count + (size_t)(by + (int)count)) % count);
+    choose_measure(view, (view->heat_choice.measure + count + (size_t)(by + (int)count)) % count);
 }
 
 void heat_toggle_steps(view_state *view) {
@@ -344,7 +344,7 @@ void heat_toggle_steps(view_state *view) {
     const bool on = choice->measure == steps;
     const size_t next = on ? choice->before : steps;
     if (!on) choice->before = choice->measure;
-    choose(view, next == choice->measure ? 0 : next);
+    choose_measure(view, next == choice->measure ? 0 : next);
 }
 
 void heat_toggle_held(view_state *view) {

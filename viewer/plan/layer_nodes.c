@@ -45,7 +45,7 @@ static const sl_walk_method *find_method(const char *name) {
     return &methods[i];
 }
 
-static sl_status fill(sl_context *context, present_state *present, node_layer *layer) {
+static sl_status fill_layer(sl_context *context, present_state *present, node_layer *layer) {
     SL_TRY(present_space(context, present));
     const sl_space *space = present->space;
     const sl_walk_options options = sl_walk_options_default();
@@ -61,13 +61,13 @@ static sl_status fill(sl_context *context, present_state *present, node_layer *l
 }
 
 /// Makes the layer for the present space, if it is not there.
-static sl_status prepare(view_state *view) {
+static sl_status prepare_layer(view_state *view) {
     if (view->nodes && view->nodes->version == view->present.version) return SL_OK;
     node_layer_destroy(view->context, view->nodes);
     view->nodes = NULL;
     node_layer *layer = sl_alloc_array(view->context, 1, sizeof *layer);
     if (!layer) return SL_NO_MEMORY;
-    const sl_status status = fill(view->context, &view->present, layer);
+    const sl_status status = fill_layer(view->context, &view->present, layer);
     if (status == SL_OK)
         view->nodes = layer;
     else
@@ -98,8 +98,8 @@ static void sort_cells(node_layer *layer) {
 }
 
 /// Walks one frame if the eye moved since the last one.
-static sl_status step(view_state *view) {
-    SL_TRY(prepare(view));
+static sl_status step_walk(view_state *view) {
+    SL_TRY(prepare_layer(view));
     node_layer *layer = view->nodes;
     if (layer->stepped && seen_same_view(&layer->view, &view->seen.view)) return SL_OK;
     SL_TRY(sl_walk_step(view->context, layer->walk, &view->seen.view, &layer->frame));
@@ -132,7 +132,7 @@ const char *layer_nodes_words(const view_state *view, char text[96]) {
 }
 
 void layer_nodes(view_state *view, const sl_frame *frame, int index) {
-    const sl_status status = step(view);
+    const sl_status status = step_walk(view);
     const bool fills = layers_fill(view) == LAYER_NODES;
     (void)index;
     view_check(view, status);

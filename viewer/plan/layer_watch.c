@@ -62,7 +62,7 @@ static void sort_cells(const view_state *view, watch_layer *layer) {
     }
 }
 
-static sl_status make(view_state *view, watch_layer *layer) {
+static sl_status make_layer(view_state *view, watch_layer *layer) {
     sl_context *context = view->context;
     const sl_view all_round = sl_view_all_round(view->eye.at);
     const bool turns = view->document->baked->map.oneway_count;
@@ -78,7 +78,7 @@ static sl_status make(view_state *view, watch_layer *layer) {
     return SL_OK;
 }
 
-static sl_status follow(view_state *view) {
+static sl_status follow_eye(view_state *view) {
     if (!view->watch) {
         view->watch = sl_alloc_array(view->context, 1, sizeof *view->watch);
         if (!view->watch) return SL_NO_MEMORY;
@@ -89,7 +89,7 @@ static sl_status follow(view_state *view) {
         layer->eye.y == view->eye.at.y && layer->range == view->document->map.range)
         return SL_OK;
     layer->made = false;
-    return make(view, layer);
+    return make_layer(view, layer);
 }
 
 static const tone tones[KINDS] = {
@@ -98,7 +98,7 @@ static const tone tones[KINDS] = {
 void layer_watch(view_state *view, const sl_frame *frame, int index) {
     const bool fills = layers_fill(view) == LAYER_WATCH;
     (void)index;
-    const sl_status status = follow(view);
+    const sl_status status = follow_eye(view);
     view_check(view, status);
     if (status != SL_OK) return;
     for (kind k = 0; k < KINDS; k++)

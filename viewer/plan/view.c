@@ -68,6 +68,16 @@ bool view_pointed(const view_state *view, sl_point *at) {
     return box_has(view->plan[0], view->ui->pointer);
 }
 
+void view_mark(const view_state *view, const sl_frame *frame, sl_point place) {
+    cairo_t *cairo = view->ui->cairo;
+    sl_point at;
+    if (!sl_frame_holds(frame, place, &at)) return;
+    cairo_new_path(cairo);
+    cairo_arc(cairo, at.x, at.y, 5 * frame->unit, 0, 6.283185307179586);
+    sl_set_colour(cairo, view->ui->palette.start);
+    cairo_fill(cairo);
+}
+
 void view_drop_scenes(view_state *view) {
     sl_scene_destroy(view->context, view->scene);
     sl_scene_destroy(view->context, view->tree);
@@ -127,7 +137,7 @@ static bool spans(double a, double b, double low, double high) {
 }
 
 /// Whether two closed segments have a point in common. Exact.
-static bool meet(sl_point a, sl_point b, sl_point p, sl_point q) {
+static bool segments_meet(sl_point a, sl_point b, sl_point p, sl_point q) {
     if (!spans(a.x, b.x, fmin(p.x, q.x), fmax(p.x, q.x)) ||
         !spans(a.y, b.y, fmin(p.y, q.y), fmax(p.y, q.y)))
         return false;
@@ -138,7 +148,7 @@ static bool meet(sl_point a, sl_point b, sl_point p, sl_point q) {
 /// The wall in the way; wall_count for none.
 static uint32_t first_wall(const sl_space *space, sl_point from, sl_point to) {
     for (uint32_t i = 0; i < space->wall_count; i++)
-        if (meet(from, to, space->walls[i].a, space->walls[i].b)) return i;
+        if (segments_meet(from, to, space->walls[i].a, space->walls[i].b)) return i;
     return space->wall_count;
 }
 
@@ -161,7 +171,7 @@ static bool try_move(view_state *view, double dx, double dy, double body, uint32
 }
 
 /// Moves by the part of a step that is along the wall.
-static void slide(view_state *view, double dx, double dy, double body, uint32_t wall) {
+static void slide_along(view_state *view, double dx, double dy, double body, uint32_t wall) {
     const sl_space *space = view->present.space;
     if (wall >= space->wall_count) return;
     const sl_wall *w = &space->walls[wall];
@@ -187,7 +197,7 @@ void walk_tick(view_state *view, double seconds) {
     uint32_t wall;
     view_check(view, present_space(view->context, &view->present));
     if (!view->present.space) return;
-    if (!try_move(view, dx, dy, body, &wall)) slide(view, dx, dy, body, wall);
+    if (!try_move(view, dx, dy, body, &wall)) slide_along(view, dx, dy, body, wall);
 }
 
 void walk_home(view_state *view) {

@@ -196,6 +196,9 @@ static inline void view_check(view_state *view, sl_status status) {
 /// The place of the map under the pointer; false: it is not over the first plan.
 bool view_pointed(const view_state *view, sl_point *at);
 
+/// Marks a place of the map by a disc.
+void view_mark(const view_state *view, const sl_frame *frame, sl_point place);
+
 /// Follows the document and the eye.
 void view_follow(view_state *view);
 

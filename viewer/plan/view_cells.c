@@ -46,7 +46,7 @@ static const sl_view_method *method_that_merges(void) {
     return &methods[i];
 }
 
-static sl_status merge(sl_context *context, const sl_view_scene *scene, view_job *job) {
+static sl_status merge_cells(sl_context *context, const sl_view_scene *scene, view_job *job) {
     sl_view_sets sets = {0};
     SL_TRY(sl_view_sets_sample(context, scene, &job->history.tree, &job->segments, 0, &sets));
     const sl_status status =
@@ -56,7 +56,7 @@ static sl_status merge(sl_context *context, const sl_view_scene *scene, view_job
 }
 
 /// Uses other lines: the cells fit the lines that made them too well.
-static sl_status tell(sl_context *context, const sl_view_scene *scene, view_job *job) {
+static sl_status tell_costs(sl_context *context, const sl_view_scene *scene, view_job *job) {
     sl_view_sampling sampling = sl_view_sampling_default();
     sampling.samples *= TELLING;
     sampling.seed = ~sampling.seed;
@@ -70,7 +70,7 @@ static sl_status tell(sl_context *context, const sl_view_scene *scene, view_job 
 }
 
 /// With as many lines and elementary view cells as `sightline viewcells` takes by default.
-static sl_status work(sl_context *context, void *data) {
+static sl_status make_history(sl_context *context, void *data) {
     view_job *job = data;
     const sl_view_sampling sampling = sl_view_sampling_default();
     sl_view_subdivision subdivision = sl_view_subdivision_default();
@@ -85,8 +85,8 @@ static sl_status work(sl_context *context, void *data) {
     SL_TRY(sl_view_sample(context, job->outline, &sampling, &job->segments));
     SL_TRY(method_that_merges()->divide(context, &scene, &job->segments, &subdivision,
                                         &job->history.tree, NULL));
-    SL_TRY(merge(context, &scene, job));
-    return tell(context, &scene, job);
+    SL_TRY(merge_cells(context, &scene, job));
+    return tell_costs(context, &scene, job);
 }
 
 static void free_job(sl_context *context, view_job *job) {
@@ -105,7 +105,8 @@ static sl_status start_job(sl_context *context, const sl_map *map, view_job **ou
     view_job *job = sl_alloc_array(context, 1, sizeof *job);
     if (!job) return SL_NO_MEMORY;
     sl_status status = sl_map_copy(context, map, &job->map);
-    if (status == SL_OK) status = task_start(context, work, job, "sample", NULL, &job->task);
+    if (status == SL_OK)
+        status = task_start(context, make_history, job, "sample", NULL, &job->task);
     if (status == SL_OK)
         *out = job;
     else
@@ -167,7 +168,7 @@ static double cost_of(const view_layer *layer, uint32_t view_cell) {
 }
 
 /// Shows the cut with this number of view cells.
-static sl_status cut(sl_context *context, view_layer *layer, uint32_t cells) {
+static sl_status show_cut(sl_context *context, view_layer *layer, uint32_t cells) {
     const view_history *h = &layer->history;
     sl_segment *borders = NULL;
     size_t count = 0;
@@ -188,7 +189,7 @@ static sl_status cut(sl_context *context, view_layer *layer, uint32_t cells) {
     return SL_OK;
 }
 
-static sl_status take(sl_context *context, view_layer *layer) {
+static sl_status take_history(sl_context *context, view_layer *layer) {
     view_job *job = layer->job;
     layer->job = NULL;
     const sl_status status = task_end(context, job->task);
@@ -212,10 +213,10 @@ static sl_status take(sl_context *context, view_layer *layer) {
     sl_view_curve(h, layer->costs, layer->bytes);
     uint32_t cells;
     SL_TRY(sl_view_cut_by_cost(context, h, TOLERANCE, &cells));
-    return cut(context, layer, cells);
+    return show_cut(context, layer, cells);
 }
 
-static sl_status begin(view_state *view) {
+static sl_status begin_layer(view_state *view) {
     view_layer *layer = sl_alloc_array(view->context, 1, sizeof *layer);
     if (!layer) return SL_NO_MEMORY;
     layer->version = view->document->version;
@@ -224,24 +225,24 @@ static sl_status begin(view_state *view) {
     return start_job(view->context, &view->document->map, &layer->job);
 }
 
-static void drop(view_state *view) {
+static void drop_layer(view_state *view) {
     view_layer_destroy(view->context, view->views);
     view->views = NULL;
 }
 
 void view_layer_update(view_state *view, bool wait) {
     const bool wanted = view->show & SHOW_VIEWS && view->document->baked;
-    if (view->views && view->views->version != view->document->version) drop(view);
+    if (view->views && view->views->version != view->document->version) drop_layer(view);
     // Switched off, what is there waits for the next time; what is not starts anew then.
-    if (!wanted && view->views && !view->views->cells) drop(view);
+    if (!wanted && view->views && !view->views->cells) drop_layer(view);
     if (!wanted) return;
     // The document's version has settled once its cells are seen.
     const bool settled =
         view->document->has_visibility || !(view->document->job || view->document->live);
-    if (!view->views && settled) view_check(view, begin(view));
+    if (!view->views && settled) view_check(view, begin_layer(view));
     view_layer *layer = view->views;
     if (layer && layer->job && (wait || task_done(layer->job->task)))
-        view_check(view, take(view->context, layer));
+        view_check(view, take_history(view->context, layer));
 }
 
 bool view_layer_stop(view_state *view) {
@@ -272,7 +273,7 @@ void view_layer_go(view_state *view, uint32_t cells) {
     const uint32_t most = view_layer_most(view->views);
     if (cells > most) cells = most;
     if (cells && cells != view->views->cells)
-        view_check(view, cut(view->context, view->views, cells));
+        view_check(view, show_cut(view->context, view->views, cells));
 }
 
 /// The next view cell by falling cost, equal ones by number; the first one after the last.
@@ -291,7 +292,7 @@ static uint32_t next_by_cost(const view_layer *layer) {
 }
 
 /// Finds the border of the marked view cell, and the middle of its largest elementary cell.
-static sl_status outline(sl_context *context, view_layer *layer, sl_point *middle) {
+static sl_status outline_marked(sl_context *context, view_layer *layer, sl_point *middle) {
     const sl_view_tree *tree = &layer->history.tree;
     uint32_t largest = SL_NO_VIEW_CELL;
     uint32_t *mine = sl_alloc_array(context, tree->cell_count, sizeof *mine);
@@ -339,7 +340,7 @@ void view_layer_mark_next(view_state *view) {
     sl_point middle;
     drop_mark(view->context, layer);
     layer->mark = mark;
-    const sl_status status = outline(view->context, layer, &middle);
+    const sl_status status = outline_marked(view->context, layer, &middle);
     view_check(view, status);
     if (status != SL_OK) return;
     if (!view->fitted) view->camera.middle = middle;

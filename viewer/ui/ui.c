@@ -248,6 +248,11 @@ double ui_check(ui_state *ui, sl_box row, const char *label, const char *key, bo
     return row.max.y;
 }
 
+double ui_slider_at(const ui_state *ui, sl_box box, sl_point at) {
+    const double margin = 0.5 * ui->text, low = box.min.x + margin, high = box.max.x - margin;
+    return high > low ? fmin(fmax((at.x - low) / (high - low), 0), 1) : 0;
+}
+
 void ui_slider(ui_state *ui, sl_box track, double value, hit_kind kind, int number) {
     const double t = ui->text, y = (track.min.y + track.max.y) / 2;
     const double x = track.min.x + fmin(fmax(value, 0), 1) * box_width(track);

@@ -205,6 +205,10 @@ static inline double box_height(sl_box box) {
     return box.max.y - box.min.y;
 }
 
+static inline sl_point box_middle(sl_box box) {
+    return (sl_point){(box.min.x + box.max.x) / 2, (box.min.y + box.max.y) / 2};
+}
+
 // --- shapes and text
 
 void ui_fill(ui_state *ui, sl_box box, sl_colour colour);
@@ -271,6 +275,8 @@ double ui_button_width(ui_state *ui, const char *label);
 double ui_check(ui_state *ui, sl_box row, const char *label, const char *key, bool on, int action);
 /// A slider with its value from 0 to 1.
 void ui_slider(ui_state *ui, sl_box track, double value, hit_kind kind, int number);
+/// Its value for a place over its box.
+double ui_slider_at(const ui_state *ui, sl_box box, sl_point at);
 /// A text field with its cursor, where typing goes to it; `empty` stands there before (NULL:
 /// nothing). A click places the cursor. The caller finds the clicks.
 void ui_text_field(ui_state *ui, sl_box box, text_field *field, const char *empty, bool typed);
