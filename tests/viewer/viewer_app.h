@@ -8,6 +8,7 @@
 #include "app/app.h"
 #include "app/input.h"
 #include "app/script.h"
+#include "app/start.h"
 #include "app/turn.h"
 #include "dialogs/opening.h"
 #include "sightline/io.h"

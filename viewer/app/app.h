@@ -19,7 +19,4 @@ typedef struct app_state {
     desk_state desk;
 } app_state;
 
-void app_init(app_state *app, sl_context *context);
-void app_destroy(app_state *app);
-
 #endif

@@ -29,12 +29,6 @@ static void draw_edges(app_state *app, const window_layout *l) {
         }
 }
 
-void app_fit(app_state *app, sl_box plan) {
-    if (app->view.fitted && app->document.baked)
-        app->view.camera =
-            camera_fit(app->document.baked->space.bounds, box_width(plan), box_height(plan));
-}
-
 /// On a projector pale tones vanish.
 static sl_palette palette_of(const ui_state *ui) {
     sl_palette p = sl_palette_make(ui->dark);
@@ -76,4 +70,8 @@ void app_draw(app_state *app, cairo_t *cairo) {
     dialog_draw(&app->desk.dialog);
     if (app->view.drag.kind == DRAG_NONE) pane_tip(&app->ui);
     app->view.draw_seconds = 0.8 * app->view.draw_seconds + 0.2 * (sl_seconds() - before);
+}
+
+void frame_draw(void *user, cairo_t *cairo) {
+    app_draw(user, cairo);
 }

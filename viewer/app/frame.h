@@ -6,8 +6,7 @@
 
 /// Draws the whole window of width x height.
 void app_draw(app_state *app, cairo_t *cairo);
-
-/// Fits the map into a plan of that size, if the camera is to fit.
-void app_fit(app_state *app, sl_box plan);
+/// The same; `user` is the app.
+void frame_draw(void *user, cairo_t *cairo);
 
 #endif

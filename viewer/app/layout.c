@@ -83,3 +83,9 @@ window_layout app_place(app_state *app) {
     app->view.plan_count = l.plan_count;
     return l;
 }
+
+void app_fit(app_state *app, sl_box plan) {
+    if (app->view.fitted && app->document.baked)
+        app->view.camera =
+            camera_fit(app->document.baked->space.bounds, box_width(plan), box_height(plan));
+}

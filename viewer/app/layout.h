@@ -19,4 +19,7 @@ window_layout app_place(app_state *app);
 /// Moves a border between panels, of ui_edges, by pixels; positive: the panel grows.
 void app_drag_edge(app_state *app, int edge, double by);
 
+/// Fits the map into a plan of that size, if the camera is to fit.
+void app_fit(app_state *app, sl_box plan);
+
 #endif

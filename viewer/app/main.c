@@ -6,10 +6,12 @@
 #include "app/print.h"
 #include "app/script.h"
 #include "app/settings.h"
+#include "app/start.h"
 #include "app/turn.h"
 #include "app/window.h"
 #include "dialogs/browser.h"
 #include "dialogs/dialog.h"
+#include "dialogs/map_file.h"
 #include "dialogs/opening.h"
 #include "dialogs/recovery.h"
 #include "sightline/io.h"
@@ -263,7 +265,7 @@ static sl_status run_window(app_state *app, const arguments *a) {
     if (!a->map && dialog_open_now(&app->desk.dialog) == DIALOG_NONE) files_browse(&app->desk);
     sl_status status = window_show(window);
     if (status == SL_OK) {
-        files_check(&app->desk, a->map ? a->map : "", open_map(app, a, true));
+        map_file_check(&app->desk, a->map ? a->map : "", open_map(app, a, true));
         status = window_run(window);
     }
     window_close(window);

@@ -1,7 +1,6 @@
 /// Pictures of the window and of the plan, as files.
 #include "app/pictures.h"
 
-#include "app/frame.h"
 #include "app/layout.h"
 #include "app/turn.h"
 #include "document/export.h"
@@ -21,7 +20,7 @@ static void draw_window(void *user, cairo_t *cairo) {
     app_state *app = user;
     sl_context *const drawing = app->view.drawing;
     app->view.drawing = NULL;
-    app_draw(app, cairo);
+    app->exports.draw_window(app, cairo);
     app->view.drawing = drawing;
 }
 

@@ -125,7 +125,7 @@ static void take_results(app_state *app, bool wait) {
     }
     follow_document(app);
     if (*opening)
-        files_check(&app->desk, opening, status);
+        map_file_check(&app->desk, opening, status);
     else
         view_check(&app->view, status);
 }

@@ -4,6 +4,7 @@
 
 #include "dialogs/dialog.h"
 #include "document/save_job.h"
+#include "document/session.h"
 
 typedef enum pending_kind { PENDING_NONE, PENDING_QUIT, PENDING_NEW, PENDING_OPEN } pending_kind;
 
@@ -21,14 +22,12 @@ typedef struct file_state {
     save_job *job; ///< NULL: nothing is being saved
     bool locked;   ///< nothing may be written: events are random
 
-    char *copy;          ///< recovery: the file of unsaved changes; NULL: none yet
-    int lock;            ///< of it, open while we run
+    session copy;        ///< of unsaved changes
     uint64_t copy_state; ///< the state of the map that it has
     double copy_next;    ///< the clock's time of the next copy
     bool copies;         ///< whether copies are kept at all
     char *failed;        ///< the path that was not saved to; NULL: none
-    char *offer;         ///< the copy of an earlier session that is asked about; NULL: none
-    int offer_lock;
+    session offer;       ///< an earlier one that is asked about
 } file_state;
 
 struct desk_state {

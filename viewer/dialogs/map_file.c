@@ -5,9 +5,8 @@
 #include "dialogs/map_file.h"
 
 #include "dialogs/browser.h"
-#include "dialogs/opening.h"
+#include "dialogs/import_dialog.h"
 #include "dialogs/question.h"
-#include "dialogs/recovery.h"
 #include "document/files.h"
 #include "sightline/support.h"
 
@@ -40,6 +39,37 @@ bool map_file_changed(const desk_state *desk) {
     return desk->document->baked && desk->document->history.state != desk->file.saved;
 }
 
+// --- what is not opened
+
+/// Another try with other options.
+static void take_options(desk_state *desk, int answer) {
+    document_source source = desk->file.tried;
+    sl_map_choice choice = {0};
+    if (answer != 0) return;
+    sl_status status = files_look(desk->context, &source, &choice);
+    if (status == SL_OK) status = import_open(desk, &source, &choice, true, map_file_start);
+    map_file_check(desk, source.path, status);
+    sl_map_choice_destroy(desk->context, &choice);
+}
+
+void map_file_check(desk_state *desk, const char *path, sl_status status) {
+    static const char *const answers[] = {"O:Options...", "C:Close"};
+    if (status == SL_OK || status == SL_CANCELLED) return;
+    // Options help where the file can be read at all.
+    const char *tried = desk->file.tried.path;
+    const bool again =
+        tried && strcmp(tried, path) == 0 && desk->file.tried.takes & ~(unsigned)SL_TAKES_CELLS;
+    char text[1200];
+    snprintf(text, sizeof text, "%s", sl_context_message(desk->context));
+    ui_say(desk->ui, true, "%s was not opened", files_base(path));
+    if (!again) {
+        question_tell(desk, "The file was not opened", text);
+        return;
+    }
+    question_ask(desk, "The file was not opened", text, answers, 2, take_options);
+    desk->dialog.focus[desk->dialog.depth - 1] = DIALOG_OWN + 1;
+}
+
 // --- what loses changes
 
 /// The frame of a new map: 40 by 30, with a start in its middle.
@@ -70,7 +100,7 @@ static void start_open(desk_state *desk, document_source *source) {
         if (source->again) desk->file.saved = desk->document->history.state;
         ui_say_working(desk->ui, "reading %s", files_base(source->path));
     }
-    files_check(desk, source->path, status);
+    map_file_check(desk, source->path, status);
 }
 
 /// Does what has waited.
@@ -173,7 +203,7 @@ static void take_saved(desk_state *desk, const save_job *job) {
     }
     desk->file.saved = job->state;
     note_recent(desk, job->path);
-    recovery_forget(desk);
+    session_remove(desk->context, &desk->file.copy);
     ui_say(desk->ui, false, "saved %s%s", job->path,
            job->welds && !files_end_in(job->path, ".slv") ? "; its walls are welded, as shown"
                                                           : "");
@@ -183,12 +213,22 @@ static void take_saved(desk_state *desk, const save_job *job) {
     start_pending(desk, pending);
 }
 
+/// A copy was written, or not.
+static void take_copied(desk_state *desk, sl_status status, uint64_t state) {
+    if (status == SL_CANCELLED) return;
+    desk->file.copy_state = state;
+    if (status == SL_OK) return;
+    desk->file.copies = false;
+    ui_say(desk->ui, true, "changes are not kept for a crash: %s",
+           sl_context_message(desk->context));
+}
+
 static void end_job(desk_state *desk) {
     save_job *job = desk->file.job;
     const sl_status status = save_end(desk->context, job);
     desk->file.job = NULL;
     if (job->recover)
-        recovery_take(desk, status, job->state);
+        take_copied(desk, status, job->state);
     else if (status == SL_OK)
         take_saved(desk, job);
     else if (status == SL_CANCELLED)
@@ -259,7 +299,7 @@ void map_file_save_as(desk_state *desk) {
 void map_file_copy_to(desk_state *desk, const char *path) {
     if (desk->file.job) return;
     const sl_status status = start_job(desk, path, true);
-    if (status != SL_OK) recovery_take(desk, status, desk->document->history.state);
+    if (status != SL_OK) take_copied(desk, status, desk->document->history.state);
 }
 
 // --- what is open
@@ -279,7 +319,7 @@ void map_file_taken(desk_state *desk) {
         desk->ui, desk->context,
         files_set_text(desk->context, &file->path, path && files_savable(path) ? path : NULL));
     if (!file->recovered) {
-        recovery_forget(desk);
+        session_remove(desk->context, &desk->file.copy);
         ui_report(desk->ui, desk->context, files_set_text(desk->context, &file->of, NULL));
     }
     file->saved = file->recovered ? UINT64_MAX : desk->document->history.state;
@@ -292,9 +332,9 @@ void map_file_destroy(desk_state *desk) {
     save_free(desk->context, file->job);
     file->job = NULL;
     // A session that fails leaves its copy.
-    if (desk->quit || !map_file_changed(desk)) recovery_forget(desk);
-    sl_free(desk->context, file->copy);
-    sl_free(desk->context, file->offer);
+    if (desk->quit || !map_file_changed(desk)) session_remove(desk->context, &desk->file.copy);
+    session_leave(desk->context, &file->copy);
+    session_leave(desk->context, &file->offer);
     document_source_destroy(desk->context, &file->source);
     document_source_destroy(desk->context, &file->tried);
     sl_free(desk->context, file->path);

@@ -40,6 +40,9 @@ bool map_file_stop(desk_state *desk);
 /// Stops what is being saved. Removes the copy for recovery: what is not saved was given up.
 void map_file_destroy(desk_state *desk);
 
+/// Shows a dialog with the message of a file that was not opened; nothing for SL_OK.
+void map_file_check(desk_state *desk, const char *path, sl_status status);
+
 // --- for recovery.c
 
 /// Starts to write a copy of the map. Nothing while something is being saved.

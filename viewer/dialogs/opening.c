@@ -37,7 +37,7 @@ void files_open(desk_state *desk, const char *path, bool ask) {
         status = import_open(desk, &source, &choice, ask, map_file_start);
     else if (status == SL_OK)
         map_file_start(desk, &source);
-    files_check(desk, path, status);
+    map_file_check(desk, path, status);
     sl_map_choice_destroy(desk->context, &choice);
 }
 
@@ -69,35 +69,6 @@ void files_open_again(desk_state *desk, const sl_import_options *options) {
     map_file_start(desk, &source);
 }
 
-/// Another try with other options.
-static void take_answer(desk_state *desk, int answer) {
-    document_source source = desk->file.tried;
-    sl_map_choice choice = {0};
-    if (answer != 0) return;
-    sl_status status = files_look(desk->context, &source, &choice);
-    if (status == SL_OK) status = import_open(desk, &source, &choice, true, map_file_start);
-    files_check(desk, source.path, status);
-    sl_map_choice_destroy(desk->context, &choice);
-}
-
-void files_check(desk_state *desk, const char *path, sl_status status) {
-    static const char *const answers[] = {"O:Options...", "C:Close"};
-    if (status == SL_OK || status == SL_CANCELLED) return;
-    // Options help where the file can be read at all.
-    const char *tried = desk->file.tried.path;
-    const bool again =
-        tried && strcmp(tried, path) == 0 && desk->file.tried.takes & ~(unsigned)SL_TAKES_CELLS;
-    char text[1200];
-    snprintf(text, sizeof text, "%s", sl_context_message(desk->context));
-    ui_say(desk->ui, true, "%s was not opened", files_base(path));
-    if (!again) {
-        question_tell(desk, "The file was not opened", text);
-        return;
-    }
-    question_ask(desk, "The file was not opened", text, answers, 2, take_answer);
-    desk->dialog.focus[desk->dialog.depth - 1] = DIALOG_OWN + 1;
-}
-
 void files_import_again(desk_state *desk) {
     document_source source = desk->document->source;
     sl_map_choice choice = {0};
@@ -107,7 +78,7 @@ void files_import_again(desk_state *desk) {
     }
     sl_status status = files_look(desk->context, &source, &choice);
     if (status == SL_OK) status = import_open(desk, &source, &choice, true, map_file_start);
-    files_check(desk, source.path, status);
+    map_file_check(desk, source.path, status);
     sl_map_choice_destroy(desk->context, &choice);
 }
 

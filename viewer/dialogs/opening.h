@@ -20,9 +20,6 @@ sl_status files_open_source(desk_state *desk, const document_source *source, boo
 /// Opens the same file again with other options. The eye stays where it is.
 void files_open_again(desk_state *desk, const sl_import_options *options);
 
-/// Shows a dialog with the message of a file that was not opened; nothing for SL_OK.
-void files_check(desk_state *desk, const char *path, sl_status status);
-
 /// The dialog that opens files.
 void files_browse(desk_state *desk);
 

@@ -16,7 +16,8 @@ typedef struct export_state {
     ui_state *ui;
     path_recorder *recorder;
     void *user;
-    export_job *job; ///< NULL: no pictures are being written
+    export_draw *draw_window; ///< as on the screen
+    export_job *job;          ///< NULL: no pictures are being written
 } export_state;
 
 /// Draws a picture of that size now, and writes it in the background. `said` is the message once it

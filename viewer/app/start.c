@@ -1,6 +1,7 @@
-/// The state of the viewer: how it begins and ends.
-#include "app/app.h"
+/// How the state of the viewer starts and ends.
+#include "app/start.h"
 
+#include "app/frame.h"
 #include "dialogs/browser.h"
 #include "dialogs/import_dialog.h"
 #include "dialogs/map_file.h"
@@ -43,7 +44,11 @@ void app_init(app_state *app, sl_context *context) {
                  .ui = &app->ui,
                  .document = &app->document,
                  .dialog = {.desk = &app->desk, .ui = &app->ui, .rows = dialogs}},
-        .exports = {.context = context, .ui = &app->ui, .recorder = &app->recorder, .user = app},
+        .exports = {.context = context,
+                    .ui = &app->ui,
+                    .recorder = &app->recorder,
+                    .user = app,
+                    .draw_window = frame_draw},
         .ui = {.pointer = {-1, -1},
                .bar_rows = 1,
                .time_lines = 1,
