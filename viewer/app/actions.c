@@ -4,8 +4,6 @@
 #include "app/layout.h"
 #include "app/pictures.h"
 #include "app/turn.h"
-#include "dialogs/browser.h"
-#include "dialogs/import_dialog.h"
 #include "dialogs/map_file.h"
 #include "dialogs/opening.h"
 #include "dialogs/question.h"

@@ -9,7 +9,6 @@
 #include "app/start.h"
 #include "app/turn.h"
 #include "app/window.h"
-#include "dialogs/browser.h"
 #include "dialogs/dialog.h"
 #include "dialogs/map_file.h"
 #include "dialogs/opening.h"

@@ -3,7 +3,6 @@
 
 #include "app/layout.h"
 #include "dialogs/map_file.h"
-#include "dialogs/opening.h"
 #include "dialogs/recovery.h"
 #include "document/files.h"
 #include "lessons/quiz.h"

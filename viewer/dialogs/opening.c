@@ -4,7 +4,6 @@
 #include "dialogs/browser.h"
 #include "dialogs/import_dialog.h"
 #include "dialogs/map_file.h"
-#include "dialogs/question.h"
 #include "document/files.h"
 
 #include <stdio.h>
