@@ -1,8 +1,8 @@
 """Checks of the source tree: check.py SUBJECT ROOT.
 
-layers   a folder of lib/ or tools/ includes only from itself and from folders before it; tools and viewer
-         include public headers of lib/ alone; private names begin with sli_; and lib/README.md
-         has a line for each
+layers   a folder of lib/, tools/ or viewer/ includes only from itself and from folders before it; tools and
+         viewer include public headers of lib/ alone; private names begin with sli_; and the README
+         of lib/ and that of viewer/ have a line for each folder
 table    lib/README.md has a line for each public header, and no other
 sources  lib/CMakeLists.txt names every source of lib/
 headers  every public header compiles alone, as C11 and as C++
@@ -34,6 +34,10 @@ FOLDERS = ["base", "geometry", "json", "map", "space", "effects", "stab",
            "io", "runtime", "draw"]
 # The folders of the command, in order, too.
 COMMAND_FOLDERS = ["system", "arguments", "inputs", "reports", "studies", "commands"]
+# Those of the viewer, in order, each with those that it may include from beside itself.
+VIEWER_FOLDERS = {"ui": [], "document": ["ui"], "plan": ["ui", "document"], "lessons": ["ui", "document", "plan"],
+                  "panes": ["ui", "document", "plan", "lessons"], "dialogs": ["ui", "document"],
+                  "app": ["ui", "document", "plan", "lessons", "panes", "dialogs"]}
 # Used by games with no other part of the library beside it.
 ALONE = {"runtime"}
 # Of that, what the library has in common with it: parts that include nothing.
@@ -156,8 +160,9 @@ def check_layers(root):
                 yield (f"{path.relative_to(root)}:{line}: {name} is private to lib; a lesson that shows "
                        "the library's inside says so behind it: // private: why")
     yield from check_command_layers(root)
+    yield from check_viewer_layers(root)
     yield from check_names(root)
-    yield from check_map_of_the_house(lib, [name for name in FOLDERS if name in there])
+    yield from check_map_of_the_house(root, "lib", [name for name in FOLDERS if name in there])
 
 
 def check_command_layers(root):
@@ -172,6 +177,22 @@ def check_command_layers(root):
                 yield f"{path.relative_to(root)}:{line}: {owner}/ comes before {used}/ and must not include {name}"
 
 
+def check_viewer_layers(root):
+    there = set()
+    for path in sources(root, ["viewer"], {".c", ".h"}):
+        owner = path.parent.name
+        if owner not in VIEWER_FOLDERS:
+            yield f"{path.relative_to(root)}: its folder is none of {', '.join(VIEWER_FOLDERS)}"
+            continue
+        there.add(owner)
+        for line, _, name in includes(path):
+            used = pathlib.PurePosixPath(name).parts[0]
+            if used in VIEWER_FOLDERS and used not in [owner, *VIEWER_FOLDERS[owner]]:
+                yield f"{path.relative_to(root)}:{line}: {owner}/ knows nothing of {used}/ and must not include {name}"
+    if there:
+        yield from check_map_of_the_house(root, "viewer", [name for name in VIEWER_FOLDERS if name in there])
+
+
 def check_names(root):
     """What a private header declares begins with sli_, so that a reader sees what is public."""
     for path in sorted((root / "lib").rglob("*.h")):
@@ -184,12 +205,12 @@ def check_names(root):
                 yield f"{path.relative_to(root)}:{line}: {declared[1]}: a private name begins with sli_"
 
 
-def check_map_of_the_house(lib, there):
-    """lib/README.md has a line for each folder that is there, in the order of the stages."""
-    text = (lib / "README.md").read_text(encoding="utf-8")
+def check_map_of_the_house(root, house, there):
+    """The README of a house has a line for each folder that is there, in their order."""
+    text = (root / house / "README.md").read_text(encoding="utf-8")
     told = re.findall(r"^\| `([a-z_/]+)/`", text, re.MULTILINE)
     if told != there:
-        yield f"lib/README.md: tells of {told}, but lib/ has {there}"
+        yield f"{house}/README.md: tells of {told}, but {house}/ has {there}"
 
 
 def check_table(root):

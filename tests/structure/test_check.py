@@ -56,7 +56,7 @@ class CheckTest(unittest.TestCase):
     def test_private_include_of_an_application(self):
         self.assert_one(self.layers("tools/system/t.c", '#include "base/a.h"\n'), "tools/system/t.c:1", "private")
         self.assertEqual(self.layers("tools/system/t.c", '#include "base/a.h" // private: a lesson\n'), [])
-        self.assertEqual(self.layers("viewer/v.c", '#include "sightline/map.h"\n#include "v.h"\n'), [])
+        self.assertEqual(self.viewer("ui/v.c", '#include "sightline/map.h"\n#include "ui/v.h"\n'), [])
 
     def test_folders_in_folders(self):
         readme = {"lib/README.md": GOOD["lib/README.md"] + "| `cell_to_cell/search/` | four |\n"}
@@ -69,6 +69,17 @@ class CheckTest(unittest.TestCase):
         self.assert_one(self.layers("tools/inputs/i.c", '#include "reports/r.h"\n'), "before reports/")
         self.assertEqual(self.layers("tools/reports/r.c", '#include "inputs/i.h"\n'), [])
         self.assert_one(self.layers("tools/t.c", ""), "none of")
+
+    def viewer(self, name, text, folders=None):
+        rows = "".join(f"| `{folder}/` | one |\n" for folder in folders or [name.split("/")[0]])
+        return self.faults(check.check_layers, {f"viewer/{name}": text, "viewer/README.md": rows})
+
+    def test_folders_of_the_viewer(self):
+        self.assert_one(self.viewer("panes/p.c", '#include "app/app.h"\n'), "viewer/panes/p.c:1", "nothing of app/")
+        self.assert_one(self.viewer("dialogs/d.c", '#include "plan/view.h"\n'), "nothing of plan/")
+        self.assertEqual(self.viewer("app/a.c", '#include "panes/p.h"\n#include "app/a.h"\n'), [])
+        self.assert_one(self.viewer("v.c", "", ["ui"]), "none of")
+        self.assert_one(self.viewer("ui/u.c", "", ["ui", "document"]), "viewer/README.md", "tells of")
 
     def test_private_name_that_looks_public(self):
         self.assert_one(self.layers("lib/base/b.h", "int sl_get(int i);\n"), "lib/base/b.h:1", "sl_get")

@@ -4,6 +4,9 @@
 #include "space/outline.h"
 #include "viewer_app.h"
 
+#include "app/layout.h"
+#include "app/turn.h"
+#include "plan/heat.h"
 #include "sightline/bake.h"
 
 #include <math.h>
@@ -53,8 +56,8 @@ static void make_fresh(app_state *app, sl_context *context, unsigned part, fresh
     free(shut);
     sl_map_destroy(context, &map);
     assert_int_equal(sli_outline_make(context, &f->space, &f->outline), SL_OK);
-    assert_int_equal(sl_vga_grid_make(context, &f->outline, heat_step(app), NULL, 0, &f->grid),
-                     SL_OK);
+    assert_int_equal(
+        sl_vga_grid_make(context, &f->outline, heat_step(&app->view), NULL, 0, &f->grid), SL_OK);
     assert_int_equal(
         sl_vga_graph_make(context, &f->outline, &f->grid, app->document.map.range, 1, &f->graph),
         SL_OK);
@@ -76,7 +79,7 @@ static void drop_fresh(sl_context *context, fresh *f) {
 
 /// The values that are shown; there must be some.
 static const double *shown(app_state *app, const heat_graph **graph) {
-    const double *values = heat_layer_values(app, graph);
+    const double *values = heat_layer_values(&app->view, graph);
     if (!values) fail_msg("no heat map: %s", app->ui.message);
     return values;
 }
@@ -103,7 +106,7 @@ static void assert_fresh(app_state *app) {
     uint32_t *sizes = calloc(f.grid.count, sizeof *sizes);
     assert_int_equal(sl_vga_part_sizes(context, &f.graph, NULL, 0, sizes), SL_OK);
     const sl_vga_scale scale = sl_vga_scale_of(values, sizes, f.grid.count);
-    heat_layer_scale(app, &low, &high);
+    heat_layer_scale(&app->view, &low, &high);
     assert_true(low == scale.least && high == scale.most);
     free(sizes);
     drop_fresh(context, &f);
@@ -133,7 +136,7 @@ static void test_measures(void **state) {
     (void)state;
     for (size_t m = 0; m < sizeof maps / sizeof *maps; m++) {
         app_state *app = start(maps[m]);
-        heat_set_step(app, 0);
+        heat_set_step(&app->view, 0);
         press_key(app, "4");
         press_key(app, "1");
         for (size_t k = 0; k + 1 < count; k++) {
@@ -169,9 +172,9 @@ static void test_changes(void **state) {
     assert_true((shown(app, &graph), graph->grid.count) > points);
     press_key(app, "4");
     const sl_wall wall = {.a = {2, 2}, .b = {8, 7}};
-    app_before_edit(app);
+    view_before_edit(&app->view);
     assert_int_equal(sl_map_add_walls(app->context, &app->document.map, &wall, 1), SL_OK);
-    app_after_edit(app);
+    view_after_edit(&app->view);
     app_tick(app, 0);
     assert_fresh(app);
     assert_true((shown(app, &graph), graph->graph.edges) < before);
@@ -184,14 +187,14 @@ static void test_kept_scale(void **state) {
     app_state *app = start(MAPS "/effects/doors.map");
     double least, most, low, high;
     press_key(app, "1");
-    heat_layer_scale(app, &least, &most);
+    heat_layer_scale(&app->view, &least, &most);
     press_key(app, "7");
     press_key(app, "N");
-    heat_layer_scale(app, &low, &high);
+    heat_layer_scale(&app->view, &low, &high);
     assert_true(low == least && high == most);
     press_key(app, "7");
     assert_fresh(app);
-    heat_layer_scale(app, &low, &high);
+    heat_layer_scale(&app->view, &low, &high);
     assert_true(low != least || high != most);
     press_key(app, "7");
     press_key(app, "2");
@@ -228,7 +231,7 @@ static void test_steps(void **state) {
                 hypot(f.grid.points[from].x - places[i].x, f.grid.points[from].y - places[i].y))
                 from = p;
         assert_int_equal(sl_vga_step_depth(context, &f.graph, &from, 1, steps), SL_OK);
-        heat_layer_scale(app, &least, &most);
+        heat_layer_scale(&app->view, &least, &most);
         for (uint32_t p = 0; p < f.grid.count; p++) {
             assert_true(steps[p] == UINT32_MAX ? isnan(values[p]) : values[p] == steps[p]);
             assert_true(isnan(values[p]) || (least <= values[p] && values[p] <= most));
@@ -255,7 +258,7 @@ static void test_refused(void **state) {
     assert_non_null(strstr(app->ui.message, "heat map"));
     assert_non_null(strstr(app->ui.message, "mirror"));
     assert_non_null(strstr(app->ui.message, "not to mirror images"));
-    assert_null(heat_layer_values(app, &graph));
+    assert_null(heat_layer_values(&app->view, &graph));
     viewer_end(app);
 }
 
@@ -293,7 +296,7 @@ static void test_stopped(void **state) {
     for (int waits = 0; waits < 4; waits++) {
         const heat_graph *graph;
         app_state *app = start(MAPS "/office.map");
-        app->steady = false;
+        app->ui.steady = false;
         app->view.heat_choice.step = 0.25; // the finest grid: it takes a while
         press_key(app, "1");
         assert_true(heat_layer_progress(app->view.heat).running);
@@ -301,15 +304,15 @@ static void test_stopped(void **state) {
         const struct timespec pause = {0, 30000000L * waits};
         nanosleep(&pause, NULL);
         press_key(app, "Escape");
-        if (waits == 0) assert_null(heat_layer_values(app, &graph));
+        if (waits == 0) assert_null(heat_layer_values(&app->view, &graph));
         assert_false(heat_layer_progress(app->view.heat).running);
         app->view.heat_choice.step = 5;
-        app->steady = true;
+        app->ui.steady = true;
         press_key(app, "1");
         press_key(app, "1");
         assert_fresh(app);
         // Closed at any time.
-        app->steady = false;
+        app->ui.steady = false;
         app->view.heat_choice.step = 0.25;
         app_tick(app, 0);
         nanosleep(&pause, NULL);
@@ -350,13 +353,13 @@ static void test_no_value(void **state) {
         fprintf(stream, "sightline 1\nwalls 0 0 4 0 4 4 0 4 0 0\n%s", starts[i]);
         assert_int_equal(fclose(stream), 0);
         app_state *app = start(path);
-        heat_set_step(app, 0);
+        heat_set_step(&app->view, 0);
         press_key(app, "1");
         size_t k = 0;
         while (!strstr(heat_measure(k)->name, "integration")) k++;
         while (app->view.heat_choice.measure != k) press_key(app, "2");
         legend_key key;
-        assert_true(heat_layer_key(app, &key));
+        assert_true(heat_layer_key(&app->view, &key));
         assert_string_equal(key.least, "\xe2\x80\x93");
         assert_string_equal(key.most, "\xe2\x80\x93");
         assert_string_equal(key.rows[key.count - 1].text, told[i]);
@@ -370,17 +373,17 @@ static void test_no_value(void **state) {
 static void test_fills(void **state) {
     (void)state;
     app_state *app = start(MAPS "/office.map");
-    assert_int_equal(layers_fill(app), LAYER_CULL);
+    assert_int_equal(layers_fill(&app->view), LAYER_CULL);
     press_key(app, "1");
-    assert_int_equal(layers_fill(app), LAYER_HEAT);
+    assert_int_equal(layers_fill(&app->view), LAYER_HEAT);
     press_key(app, "V");
-    assert_int_equal(layers_fill(app), LAYER_PVS);
+    assert_int_equal(layers_fill(&app->view), LAYER_PVS);
     press_key(app, "V");
-    assert_int_equal(layers_fill(app), LAYER_HEAT);
+    assert_int_equal(layers_fill(&app->view), LAYER_HEAT);
     press_key(app, "1");
-    assert_int_equal(layers_fill(app), LAYER_CULL);
+    assert_int_equal(layers_fill(&app->view), LAYER_CULL);
     press_key(app, "M");
-    assert_int_equal(layers_fill(app), LAYER_REGION);
+    assert_int_equal(layers_fill(&app->view), LAYER_REGION);
     viewer_end(app);
 }
 

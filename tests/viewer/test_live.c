@@ -2,7 +2,10 @@
 // culling of a fresh bake of the map as it is then. Jobs end when they are told to.
 #include "viewer_app.h"
 
-#include "plan/edit.h"
+#include "app/layout.h"
+#include "app/turn.h"
+#include "dialogs/opening.h"
+#include "plan/grid.h"
 #include "sightline/bake.h"
 #include "sightline/generate.h"
 
@@ -113,14 +116,14 @@ static int drag(app_state *app, sl_point from, double dx, double dy, bool releas
         if (app->document.edit == edit) continue;
         edit = app->document.edit;
         changes++;
-        if (app->steady) {
+        if (app->ui.steady) {
             assert_fresh(app, false);
             script_frame(app);
         }
     }
     if (!release) return changes;
-    input_release(app, app->tool.pointer);
-    if (app->steady)
+    input_release(app, app->ui.pointer);
+    if (app->ui.steady)
         app_settle(app);
     else
         wait_for_all(app);
@@ -309,7 +312,8 @@ static void test_door_in_the_open(void **state) {
     assert_int_equal(map->door_count, doors + 1);
     assert_int_equal(map->wall_count, walls);
     const sl_segment door = map->doors[doors].segment;
-    assert_true(edit_snap(app, door.a).x == door.a.x && edit_snap(app, door.b).y == door.b.y);
+    assert_true(grid_snap(&app->view, door.a).x == door.a.x &&
+                grid_snap(&app->view, door.b).y == door.b.y);
     drag(app, middle(door.a, door.b), 0, 0, true);
     viewer_press(app, "Delete");
     app_settle(app);
@@ -331,7 +335,7 @@ static void test_door_that_rests(void **state) {
     const sl_point low = on_page(app, from), high = on_page(app, wall.b);
     assert_true(drag(app, from, 0.5 * (high.x - low.x), 0.5 * (high.y - low.y), false) > 0);
     const uint32_t edit = app->document.edit;
-    const sl_point at = app->tool.pointer;
+    const sl_point at = app->ui.pointer;
     input_move(app, (sl_point){at.x + 0.25, at.y + 0.25});
     app_tick(app, 1.0 / 60);
     assert_int_equal(app->document.edit, edit);
@@ -396,10 +400,10 @@ static void test_taken_back(void **state) {
             i < 2 ? middle(was[1].a, was[1].b) : (sl_point){was[1].a.x, was[1].a.y};
         assert_true(drag(app, from, 30, 25, false) > 0);
         viewer_press(app, keys[i % 2]);
-        assert_int_equal(app->tool.drag.kind, DRAG_NONE);
+        assert_int_equal(app->view.drag.kind, DRAG_NONE);
         input_move(app, (sl_point){5, 5});
         input_release(app, (sl_point){5, 5});
-        if (app->steady) app_settle(app);
+        if (app->ui.steady) app_settle(app);
         wait_for_all(app);
         assert_int_equal(app->document.map.wall_count, count);
         assert_memory_equal(app->document.map.walls, before, count * sizeof *before);
@@ -482,8 +486,8 @@ static void test_stopped(void **state) {
     open_map(app, MAPS "/office.map");
     const uint32_t cells = app->document.baked->space.cell_count;
     const uint32_t version = app->document.version;
-    app->steady = false;
-    files_open(app, "large.map", false);
+    app->ui.steady = false;
+    files_open(&app->desk, "large.map", false);
     assert_non_null(app->document.job);
     for (int i = 0; i < 3; i++) app_tick(app, 0.001);
     // Whatever stage it is in: it ends, and the map that was open stays.
@@ -505,7 +509,7 @@ static void test_closed(void **state) {
     for (int waits = 0; waits < 40; waits += 13) {
         app_state *app = viewer_start(false);
         viewer_press(app, "F5"); // view cells as well
-        files_open(app, "large.map", false);
+        files_open(&app->desk, "large.map", false);
         for (int i = 0; i < waits; i++) {
             const struct timespec pause = {0, 20000000};
             nanosleep(&pause, NULL);
@@ -536,12 +540,12 @@ static size_t take_away(const char *folder) {
 }
 
 static void wait_for_pictures(app_state *app) {
-    for (int i = 0; i < 60000 && app->exports; i++) {
+    for (int i = 0; i < 60000 && app->exports.job; i++) {
         const struct timespec pause = {0, 1000000};
         nanosleep(&pause, NULL);
         app_tick(app, 0.001);
     }
-    assert_null(app->exports);
+    assert_null(app->exports.job);
 }
 
 /// Saves the way, and answers the question of how many pictures that are.
@@ -557,17 +561,17 @@ static void test_exported(void **state) {
     viewer_press(app, "F9");
     for (int i = 0; i < 20; i++) app_tick(app, 1.0 / 60);
     viewer_press(app, "F9");
-    const size_t frames = app->tool.recorder.frames.count;
+    const size_t frames = app->recorder.frames.count;
     assert_true(frames > 10);
     save_way(app);
-    assert_non_null(app->exports);
+    assert_non_null(app->exports.job);
     wait_for_pictures(app);
     assert_int_equal(take_away("sightline-frames"), (frames + 1) / 2);
     // Stopped: each picture is whole or not there.
     save_way(app);
     for (int i = 0; i < 3; i++) app_tick(app, 0.001);
     viewer_press(app, "Escape");
-    assert_null(app->exports);
+    assert_null(app->exports.job);
     assert_true(take_away("sightline-frames") <= 3);
     static const char *const keys[] = {"Ctrl+E", "Ctrl+G", "Ctrl+P"};
     for (int i = 0; i < 3; i++) {
@@ -623,7 +627,7 @@ static void test_message(void **state) {
     (void)state;
     app_state *app = viewer_start(true);
     open_map(app, MAPS "/office.map");
-    app->steady = false;
+    app->ui.steady = false;
     ui_say(&app->ui, false, "done");
     app_tick(app, 5);
     assert_string_equal(app->ui.message, "done");

@@ -8,7 +8,9 @@
 #include "app/app.h"
 #include "app/input.h"
 #include "app/script.h"
-#include "document/files.h"
+#include "app/start.h"
+#include "app/turn.h"
+#include "dialogs/opening.h"
 #include "sightline/io.h"
 
 #ifndef MAPS
@@ -23,13 +25,13 @@ static inline app_state *viewer_start(bool steady) {
     assert_non_null(app);
     assert_int_equal(sl_io_use(context), SL_OK);
     app_init(app, context);
-    app->options = sl_import_options_default();
-    app->steady = steady;
+    app->desk.options = sl_import_options_default();
+    app->ui.steady = steady;
     return app;
 }
 
 static inline void viewer_open(app_state *app, const char *map) {
-    files_open(app, map, false);
+    files_open(&app->desk, map, false);
     app_settle(app);
     if (!app->document.baked) fail_msg("%s: %s", map, app->ui.message);
 }

@@ -1,19 +1,21 @@
 /// What actions do, by topic, and the table that names them.
 #include "app/actions.h"
 
-#include "app/modes.h"
-#include "dialogs/browser.h"
-#include "dialogs/import_dialog.h"
+#include "app/layout.h"
+#include "app/pictures.h"
+#include "app/turn.h"
+#include "dialogs/map_file.h"
+#include "dialogs/opening.h"
 #include "dialogs/question.h"
 #include "document/export.h"
-#include "document/files.h"
-#include "document/save.h"
 #include "lessons/quiz.h"
 #include "lessons/why.h"
+#include "panes/modes.h"
 #include "plan/edit.h"
 #include "plan/effects.h"
-#include "plan/layers.h"
+#include "plan/heat.h"
 #include "plan/view.h"
+#include "plan/view_cells.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -40,19 +42,19 @@ enum {
 
 // --- modes
 
-static void set_mode(app_state *app, app_mode mode) {
-    app->tool.mode = mode;
-    app->tool.held = 0;
-    app->tool.lesson.plays = false;
-    quiz_forget(app);
-    if (mode == MODE_QUIZ) quiz_ask(app);
+static void set_mode(app_state *app, view_mode mode) {
+    app->view.mode = mode;
+    app->view.held = 0;
+    app->learn.lesson.plays = false;
+    quiz_forget(&app->learn);
+    if (mode == MODE_QUIZ) quiz_ask(&app->learn);
     ui_say(&app->ui, false, "%s", mode_table()[mode].hint);
     app_tick(app, 0);
 }
 
 #define MODE(name, value)                                                                          \
     DO(name, set_mode(app, value))                                                                 \
-    IS(name, app->tool.mode == (value))
+    IS(name, app->view.mode == (value))
 MODE(explore, MODE_EXPLORE)
 MODE(learn, MODE_LEARN)
 MODE(draw, MODE_DRAW)
@@ -63,7 +65,7 @@ MODE(quiz, MODE_QUIZ)
 #define TOGGLE(NAME, ...)                                                                          \
     static void toggle_##NAME(app_state *app) {                                                    \
         app->view.show ^= SHOW_##NAME;                                                             \
-        if (app->view.show & SHOW_FILLS & SHOW_##NAME) layers_set_fill(app, LAYER_##NAME);         \
+        if (app->view.show & SHOW_FILLS & SHOW_##NAME) layers_set_fill(&app->view, LAYER_##NAME);  \
     }                                                                                              \
     static bool is_##NAME(const app_state *app) {                                                  \
         return (app->view.show & SHOW_##NAME) != 0;                                                \
@@ -98,14 +100,14 @@ IS(present, app->ui.presents)
 
 static void help(app_state *app) {
     if (app->ui.help)
-        app_shut_help(app);
+        ui_shut_help(&app->ui);
     else
-        app_open_help(app);
+        ui_open_help(&app->ui);
 }
 
 IS(help, app->ui.help)
 SWITCH(fly, view.eye.flies)
-DO(range, range_toggle(app))
+DO(range, range_toggle(&app->view))
 IS(range, app->document.map.range > 0)
 
 static void split_less(app_state *app) {
@@ -129,26 +131,26 @@ static void tree_more(app_state *app) {
 
 static void views_merge(app_state *app) {
     const uint32_t shown = view_layer_shown(app->view.views);
-    if (shown > 1) view_layer_go(app, shown - 1);
+    if (shown > 1) view_layer_go(&app->view, shown - 1);
 }
 
-DO(views_split, view_layer_go(app, view_layer_shown(app->view.views) + 1))
-DO(views_largest, view_layer_mark_next(app))
-DO(heat_next, heat_choose(app, 1))
-DO(heat_back, heat_choose(app, -1))
-DO(heat_steps, heat_toggle_steps(app))
+DO(views_split, view_layer_go(&app->view, view_layer_shown(app->view.views) + 1))
+DO(views_largest, view_layer_mark_next(&app->view))
+DO(heat_next, heat_choose(&app->view, 1))
+DO(heat_back, heat_choose(&app->view, -1))
+DO(heat_steps, heat_toggle_steps(&app->view))
 
 static bool is_heat_steps(const app_state *app) {
     return !heat_measure_part(heat_measure(app->view.heat_choice.measure));
 }
 
-DO(heat_hold, heat_toggle_held(app))
+DO(heat_hold, heat_toggle_held(&app->view))
 IS(heat_hold, app->view.heat_choice.held)
 
 static void heat_step_by(app_state *app, int by) {
     int last;
-    heat_set_step(app, heat_step_place(app, &last) + by);
-    ui_say(&app->ui, false, "heat map: %.3g from point to point", heat_step(app));
+    heat_set_step(&app->view, heat_step_place(&app->view, &last) + by);
+    ui_say(&app->ui, false, "heat map: %.3g from point to point", heat_step(&app->view));
 }
 
 DO(heat_coarser, heat_step_by(app, -1))
@@ -159,7 +161,7 @@ DO(heat_finer, heat_step_by(app, 1))
 /// Shows what lies beside the part of the map that is shown, an eighth of the plan further.
 static void pan(app_state *app, int x, int y) {
     const sl_box plan = app_layout(app).plan[0];
-    view_pan(app, -box_width(plan) / 8 * x, -box_height(plan) / 8 * y);
+    view_pan(&app->view, -box_width(plan) / 8 * x, -box_height(plan) / 8 * y);
 }
 
 DO(pan_left, pan(app, -1, 0))
@@ -168,8 +170,8 @@ DO(pan_up, pan(app, 0, -1))
 DO(pan_down, pan(app, 0, 1))
 
 DO(fit, app->view.fitted = true)
-DO(zoom_in, view_zoom(app, 1.25, (sl_point){0, 0}))
-DO(zoom_out, view_zoom(app, 1 / 1.25, (sl_point){0, 0}))
+DO(zoom_in, view_zoom(&app->view, 1.25, (sl_point){0, 0}))
+DO(zoom_out, view_zoom(&app->view, 1 / 1.25, (sl_point){0, 0}))
 
 /// Goes to the next size of text, or back.
 static void text_step(app_state *app, bool larger) {
@@ -198,7 +200,7 @@ static void wider(app_state *app) {
 }
 
 DO(all_round, app->view.eye.fov = app->view.eye.fov >= 360 ? 90 : 360)
-DO(home, walk_home(app))
+DO(home, walk_home(&app->view))
 
 // --- methods
 
@@ -225,22 +227,23 @@ IS(compare, app->view.compare != COMPARE_OFF)
 
 // --- the lesson
 
-DO(step_next, lesson_go(&app->tool.lesson, &app->document, app->tool.lesson.at + 1))
+DO(step_next, lesson_go(&app->learn.lesson, &app->document, app->learn.lesson.at + 1))
 
 static void step_back(app_state *app) {
-    if (app->tool.lesson.at) lesson_go(&app->tool.lesson, &app->document, app->tool.lesson.at - 1);
+    if (app->learn.lesson.at)
+        lesson_go(&app->learn.lesson, &app->document, app->learn.lesson.at - 1);
 }
 
-DO(step_first, lesson_go(&app->tool.lesson, &app->document, 0))
-DO(step_last, lesson_go(&app->tool.lesson, &app->document, SIZE_MAX))
-SWITCH(play_steps, tool.lesson.plays)
+DO(step_first, lesson_go(&app->learn.lesson, &app->document, 0))
+DO(step_last, lesson_go(&app->learn.lesson, &app->document, SIZE_MAX))
+SWITCH(play_steps, learn.lesson.plays)
 
 /// Goes to the next step of a kind, or says that there is none.
 static void seek(app_state *app, bool rejects, bool back) {
-    const subject_row *subject = lesson_subject(&app->tool.lesson);
+    const subject_row *subject = lesson_subject(&app->learn.lesson);
     const char *name = rejects ? subject->rejected : subject->found;
-    app->tool.lesson.plays = false;
-    if (lesson_seek(&app->tool.lesson, &app->document, rejects, back)) return;
+    app->learn.lesson.plays = false;
+    if (lesson_seek(&app->learn.lesson, &app->document, rejects, back)) return;
     if (name)
         ui_say(&app->ui, false, "no %s step \"%s\"", back ? "earlier" : "later", name);
     else
@@ -252,7 +255,7 @@ DO(found_back, seek(app, false, true))
 DO(rejected_next, seek(app, true, false))
 
 static void set_speed(app_state *app, int by) {
-    lesson_state *lesson = &app->tool.lesson;
+    lesson_state *lesson = &app->learn.lesson;
     lesson_set_speed(lesson, lesson->speed + by);
     ui_say(&app->ui, false, "%g steps a second", ldexp(2, lesson->speed));
 }
@@ -262,7 +265,7 @@ DO(faster, set_speed(app, 1))
 SWITCH(program, ui.program)
 
 static void choose_end(app_state *app, bool back) {
-    lesson_state *lesson = &app->tool.lesson;
+    lesson_state *lesson = &app->learn.lesson;
     char name[48] = "the line";
     if (!lesson->end_count) {
         ui_say(&app->ui, false, "this step has no portals to choose from");
@@ -281,16 +284,21 @@ DO(choose_next, choose_end(app, false))
 DO(choose_back, choose_end(app, true))
 
 static void reset_ends(app_state *app) {
-    lesson_reset(&app->tool.lesson, &app->document);
+    lesson_reset(&app->learn.lesson, &app->document);
     ui_say(&app->ui, false, "the portal ends and the line are where they were");
 }
 
-DO(why_step, why_go_to_step(app))
+static void why_step(app_state *app) {
+    why_pair pair;
+    if (!why_take(&app->learn, &pair)) return;
+    set_mode(app, MODE_LEARN);
+    why_show(&app->learn, &pair);
+}
 
 /// From elsewhere it begins with the subdivision: F2 begins with the search.
 static void subject(app_state *app) {
-    lesson_state *lesson = &app->tool.lesson;
-    if (app->tool.mode == MODE_LEARN) {
+    lesson_state *lesson = &app->learn.lesson;
+    if (app->view.mode == MODE_LEARN) {
         lesson_next_subject(app->context, lesson, &app->document);
         app_tick(app, 0);
         return;
@@ -304,56 +312,56 @@ static void subject(app_state *app) {
 static void travel(app_state *app, bool redo) {
     sl_status status = SL_OK;
     bool bake = false;
-    if (edit_cancel(app)) return;
+    if (edit_cancel(&app->view)) return;
     if (!history_undo(app->context, &app->document.history, &app->document.map, redo, &bake,
                       &status)) {
         ui_say(&app->ui, false,
                redo ? "nothing to redo in this map" : "nothing to undo in this map");
         return;
     }
-    app_check(app, status);
+    view_check(&app->view, status);
     ui_say(&app->ui, false, redo ? "redone" : "undone");
-    app->tool.chosen = UINT32_MAX;
+    app->view.edit.chosen = UINT32_MAX;
     if (bake)
-        app_after_edit(app);
+        view_after_edit(&app->view);
     else
-        app_after_touch(app);
+        view_after_touch(&app->view);
 }
 
 static void undo(app_state *app) {
-    const bool learns = app->tool.mode == MODE_LEARN;
-    if (learns && lesson_undo(&app->tool.lesson))
+    const bool learns = app->view.mode == MODE_LEARN;
+    if (learns && lesson_undo(&app->learn.lesson))
         ui_say(&app->ui, false, "undone in the lesson");
     else
         travel(app, false);
 }
 
 DO(redo, travel(app, true))
-DO(delete_chosen, edit_delete(app))
+DO(delete_chosen, edit_delete(&app->view))
 
 static void draw_doors(app_state *app) {
-    app->tool.draws_doors = !app->tool.draws_doors;
+    app->view.edit.draws_doors = !app->view.edit.draws_doors;
     ui_say(&app->ui, false, "%s",
-           app->tool.draws_doors ? "drag along a wall, or across a gap: a new door"
-                                 : "drag on free ground: a new wall");
+           app->view.edit.draws_doors ? "drag along a wall, or across a gap: a new door"
+                                      : "drag on free ground: a new wall");
 }
 
-IS(draw_doors, app->tool.draws_doors)
+IS(draw_doors, app->view.edit.draws_doors)
 
 // --- doors
 
-DO(nearest_door, door_toggle_nearest(app))
+DO(nearest_door, door_toggle_nearest(&app->view))
 
 // --- the quiz
 
-DO(answer_yes, quiz_answer(app, true))
-DO(answer_no, quiz_answer(app, false))
-DO(next_question, quiz_ask(app))
+DO(answer_yes, quiz_answer(&app->learn, true))
+DO(answer_no, quiz_answer(&app->learn, false))
+DO(next_question, quiz_ask(&app->learn))
 
 // --- recording
 
 static void record(app_state *app) {
-    path_recorder *r = &app->tool.recorder;
+    path_recorder *r = &app->recorder;
     r->plays = false;
     r->waited = 0;
     if (!r->records) r->frames.count = 0;
@@ -361,15 +369,15 @@ static void record(app_state *app) {
     ui_say(&app->ui, false, r->records ? "recording the eye's way" : "recorded");
 }
 
-IS(record, app->tool.recorder.records)
+IS(record, app->recorder.records)
 
 /// Without a recording the map's first path is walked.
 static void play(app_state *app) {
-    path_recorder *r = &app->tool.recorder;
+    path_recorder *r = &app->recorder;
     r->records = false;
     if (!r->frames.count && app->document.baked && app->document.baked->map.path_count)
-        app_check(app, record_path(app->context, r, &app->document.baked->map.paths[0],
-                                   walk_speed(&app->document)));
+        view_check(&app->view, record_path(app->context, r, &app->document.baked->map.paths[0],
+                                           walk_speed(&app->document)));
     if (!r->frames.count) {
         ui_say(&app->ui, false, "nothing was recorded, and the map has no path");
         return;
@@ -379,17 +387,15 @@ static void play(app_state *app) {
     r->waited = 0;
 }
 
-IS(play, app->tool.recorder.plays)
+IS(play, app->recorder.plays)
 
-static void take_export(app_state *app, int answer) {
-    if (answer == 0 && !app->file.locked)
-        app_check(
-            app, (app->steady ? save_series : export_series)(app, "sightline-frames", SERIES_STEP));
+static void take_export(desk_state *desk, int answer) {
+    desk->agreed = answer == 0;
 }
 
 static void export_frames(app_state *app) {
     static const char *const answers[] = {"S:Save", "C:Cancel"};
-    const size_t count = (app->tool.recorder.frames.count + SERIES_STEP - 1) / SERIES_STEP;
+    const size_t count = (app->recorder.frames.count + SERIES_STEP - 1) / SERIES_STEP;
     char text[160];
     if (!count) {
         ui_say(&app->ui, false, "no way was recorded: record one, or play the map's path");
@@ -397,21 +403,22 @@ static void export_frames(app_state *app) {
     }
     snprintf(text, sizeof text, "%zu picture%s of %d x %d pixels, in the folder sightline-frames",
              count, count == 1 ? "" : "s", app->ui.width, app->ui.height);
-    question_ask(app, "Save pictures of the way?", text, answers, 2, take_export);
+    question_ask(&app->desk, "Save pictures of the way?", text, answers, 2, take_export);
 }
 
 // --- files
 
-DO(file_menu, menu_open(app))
-DO(file_new, map_file_new(app))
-DO(file_open, browser_open(app))
-DO(file_import, import_open_again(app))
-DO(file_save, map_file_save(app))
-DO(file_save_as, map_file_save_as(app))
+DO(file_menu, menu_open(&app->desk))
+DO(file_new, map_file_new(&app->desk))
+DO(file_open, files_browse(&app->desk))
+DO(file_import, files_import_again(&app->desk))
+DO(file_save, map_file_save(&app->desk))
+DO(file_save_as, map_file_save_as(&app->desk))
 
 static void file_notes(app_state *app) {
     const char *notes = app->document.notes;
-    question_tell(app, "What was read", *notes ? notes : "The reader of this file has no notes.");
+    question_tell(&app->desk, "What was read",
+                  *notes ? notes : "The reader of this file has no notes.");
 }
 
 IS(doors, app->document.source.options.doors)
@@ -423,7 +430,7 @@ static void doors(app_state *app) {
         return;
     }
     options.doors = !options.doors;
-    files_open_again(app, &options);
+    files_open_again(&app->desk, &options);
 }
 
 static void cut_by(app_state *app, double share) {
@@ -431,7 +438,7 @@ static void cut_by(app_state *app, double share) {
     sl_import_options options = source->options;
     const double by = share * (source->highest - source->lowest);
     options.slice = fmin(fmax(options.slice + by, source->lowest), source->highest);
-    if (options.slice != source->options.slice) files_open_again(app, &options);
+    if (options.slice != source->options.slice) files_open_again(&app->desk, &options);
 }
 
 DO(cut_lower, cut_by(app, -0.02))
@@ -439,30 +446,30 @@ DO(cut_higher, cut_by(app, 0.02))
 DO(save_png, save_numbered(app, "png"))
 DO(save_svg, save_numbered(app, "svg"))
 DO(save_pdf, save_numbered(app, "pdf"))
-DO(quit, map_file_quit(app))
+DO(quit, map_file_quit(&app->desk))
 
 static void escape(app_state *app) {
     if (app->ui.help)
-        app_shut_help(app);
-    else if (map_file_stop(app))
+        ui_shut_help(&app->ui);
+    else if (map_file_stop(&app->desk))
         ui_say(&app->ui, false, "stopped; the map is not saved");
-    else if (edit_cancel(app))
+    else if (edit_cancel(&app->view))
         ;
     else if (app->document.job) {
         document_cancel(app->context, &app->document);
         ui_say(&app->ui, false, "stopped; what is there stays");
-    } else if (export_stop(app))
+    } else if (export_stop(&app->exports))
         ui_say(&app->ui, false, "stopped; the pictures that are written stay");
-    else if (view_layer_stop(app))
+    else if (view_layer_stop(&app->view))
         ui_say(&app->ui, false, "stopped; F5 twice makes view cells again");
-    else if (heat_layer_stop(app))
+    else if (heat_layer_stop(&app->view))
         ui_say(&app->ui, false, "stopped; 1 twice makes the heat map again");
-    else if (app->tool.mode == MODE_LEARN && app->tool.lesson.chosen_next)
-        app->tool.lesson.chosen_next = 0;
-    else if (app->tool.recorder.plays)
-        app->tool.recorder.plays = false;
-    else if (app->tool.quiz.asked || app->tool.quiz.answered)
-        quiz_forget(app);
+    else if (app->view.mode == MODE_LEARN && app->learn.lesson.chosen_next)
+        app->learn.lesson.chosen_next = 0;
+    else if (app->recorder.plays)
+        app->recorder.plays = false;
+    else if (app->learn.quiz.asked || app->learn.quiz.answered)
+        quiz_forget(&app->learn);
     else
         app->ui.presents = false;
 }
@@ -470,7 +477,7 @@ static void escape(app_state *app) {
 #define HOLD(name, key, what, modes, bit)                                                          \
     { name, key, NULL, what, modes, bit, NULL, NULL }
 
-#define LAYER_ROW(NAME, name, key, label, help, modes, calls, draw)                                \
+#define LAYER_ROW(NAME, name, key, label, help, modes, calls)                                      \
     {name, key, label, "layer: " help, modes, 0, toggle_##NAME, is_##NAME},
 
 static const action_row actions[] = {
@@ -598,6 +605,7 @@ static const action_row actions[] = {
     {"quit", "Ctrl+Q", NULL, "quit", 0, 0, quit, NULL},
 };
 enum { COUNT = sizeof actions / sizeof *actions };
+_Static_assert((int)COUNT <= (int)ACTIONS_MOST, "the page has room for all");
 
 const action_row *action_table(size_t *count) {
     *count = COUNT;
@@ -610,7 +618,7 @@ int action_find(const char *name) {
     return -1;
 }
 
-int action_of_key(const char *key, app_mode mode) {
+int action_of_key(const char *key, view_mode mode) {
     for (int i = 0; i < COUNT; i++)
         if (actions[i].key && strcmp(actions[i].key, key) == 0 &&
             (!actions[i].modes || actions[i].modes & 1u << mode))
@@ -618,10 +626,28 @@ int action_of_key(const char *key, app_mode mode) {
     return -1;
 }
 
+void actions_show(app_state *app) {
+    app->ui.action_count = COUNT;
+    for (int i = 0; i < COUNT; i++) {
+        const action_row *a = &actions[i];
+        app->ui.actions[i] =
+            (ui_action){a->name, a->key, a->label, a->help, a->on && a->on(app), a->hold != 0};
+    }
+}
+
+void actions_answered(app_state *app) {
+    const char *chosen = app->desk.dialog.chosen;
+    const bool agreed = app->desk.agreed;
+    app->desk.dialog.chosen = NULL;
+    app->desk.agreed = false;
+    if (chosen) action_run(app, action_find(chosen));
+    if (agreed) view_check(&app->view, save_series(app, "sightline-frames", SERIES_STEP));
+}
+
 void action_run(app_state *app, int action) {
     if (action < 0 || action >= COUNT) return;
     if (actions[action].run)
         actions[action].run(app);
     else
-        app->tool.held |= actions[action].hold;
+        app->view.held |= actions[action].hold;
 }

@@ -9,7 +9,7 @@ typedef struct action_row {
     const char *key;   ///< "F", "Ctrl+Z", "Left"; NULL for none
     const char *label; ///< on its button
     const char *help;
-    unsigned modes; ///< bits 1 << app_mode in which its key counts; 0: all
+    unsigned modes; ///< bits 1 << view_mode in which its key counts; 0: all
     unsigned hold;  ///< hold_key: while the key is down; `run` is NULL
     void (*run)(app_state *app);
     bool (*on)(const app_state *app); ///< whether it is switched on; NULL for what is no switch
@@ -17,10 +17,16 @@ typedef struct action_row {
 
 const action_row *action_table(size_t *count);
 
+/// Has the page show the actions as they are now.
+void actions_show(app_state *app);
+
 /// The number of an action; -1 for an unknown name.
 int action_find(const char *name);
 /// The number of the action of a key in a mode; -1 for none.
-int action_of_key(const char *key, app_mode mode);
+int action_of_key(const char *key, view_mode mode);
+
+/// Call after each key and click that a dialog took: does what was chosen in it.
+void actions_answered(app_state *app);
 
 /// Runs an action. One that is held stays on until app_release.
 void action_run(app_state *app, int action);

@@ -3,10 +3,12 @@
 
 #include "app/actions.h"
 #include "app/input.h"
+#include "app/layout.h"
 #include "app/script.h"
+#include "app/turn.h"
 #include "app/window.h"
-#include "document/files.h"
 #include "plan/edit.h"
+#include "plan/grid.h"
 #include "sightline/support.h"
 
 #include <math.h>
@@ -18,7 +20,18 @@
 
 // --- meter
 
-void meter_add(frame_meter *meter, double seconds) {
+enum { METER_MOST = 20000 };
+
+typedef struct frame_meter {
+    double seconds[METER_MOST];
+    size_t count;
+} frame_meter;
+
+typedef struct meter_summary {
+    double mean, median, p95, worst; ///< seconds
+} meter_summary;
+
+static void meter_add(frame_meter *meter, double seconds) {
     if (meter->count < METER_MOST) meter->seconds[meter->count++] = seconds;
 }
 
@@ -27,7 +40,8 @@ static int by_value(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-meter_summary meter_sum_up(frame_meter *meter) {
+/// Sorts what was measured.
+static meter_summary meter_sum_up(frame_meter *meter) {
     meter_summary sum = {0};
     if (!meter->count) return sum;
     qsort(meter->seconds, meter->count, sizeof *meter->seconds, by_value);
@@ -67,15 +81,14 @@ static sl_point grip_of_wall(const app_state *app, bool corner) {
     const sl_map *map = &app->document.map;
     const window_layout l = app_layout(app);
     const plan_camera *camera = &app->view.camera;
-    const sl_point middle = {(l.plan[0].min.x + l.plan[0].max.x) / 2,
-                             (l.plan[0].min.y + l.plan[0].max.y) / 2};
+    const sl_point middle = box_middle(l.plan[0]);
     double nearest = INFINITY;
     sl_point at = middle;
     for (size_t i = 0; i < map->wall_count; i++) {
         const sl_point a = map->walls[i].a, b = map->walls[i].b;
-        const double off = edit_distance(app->view.eye.at, a, b);
+        const double off = grid_distance(app->view.eye.at, a, b);
         // Longer than the room that its corners take.
-        if (off >= nearest || hypot(b.x - a.x, b.y - a.y) < 4 * edit_reach(app)) continue;
+        if (off >= nearest || hypot(b.x - a.x, b.y - a.y) < 4 * grid_reach(&app->view)) continue;
         nearest = off;
         at = corner ? a : (sl_point){(a.x + b.x) / 2, (a.y + b.y) / 2};
     }
@@ -87,9 +100,9 @@ static sl_point grip_of_wall(const app_state *app, bool corner) {
 /// another place.
 static void drag_on(app_state *app, bool corner, unsigned frame) {
     static const double radius = 25;
-    drag_state *drag = &app->tool.drag;
+    drag_state *drag = &app->view.drag;
     if (frame == 0) {
-        app->tool.mode = MODE_DRAW;
+        app->view.mode = MODE_DRAW;
         app->view.eye.flies = true;
         input_press(app, BUTTON_LEFT, grip_of_wall(app, corner));
     }
@@ -101,25 +114,25 @@ static void drag_on(app_state *app, bool corner, unsigned frame) {
 }
 
 /// One frame of a part of the benchmark.
-static void move(app_state *app, int part, unsigned frame) {
+static void move_frame(app_state *app, int part, unsigned frame) {
     if (part >= 4) {
         drag_on(app, part == 5, frame);
         return;
     }
     app->ui.first_person = app->ui.accounts = part == 3;
     if (part == 0 || part == 3) { // walks, and turns away from walls
-        app->tool.held = HOLD_FORWARD | (frame / 20 % 3 == 0 ? HOLD_TURN_LEFT : 0u);
+        app->view.held = HOLD_FORWARD | (frame / 20 % 3 == 0 ? HOLD_TURN_LEFT : 0u);
     } else if (part == 1) { // looks round
         app->view.eye.heading = fmod(app->view.eye.heading + 2, 360);
     } else { // pans and zooms
-        view_pan(app, 4 * cos(frame * 0.05), 4 * sin(frame * 0.05));
-        view_zoom(app, frame / 60 % 2 ? 1 / 1.02 : 1.02, (sl_point){0, 0});
+        view_pan(&app->view, 4 * cos(frame * 0.05), 4 * sin(frame * 0.05));
+        view_zoom(&app->view, frame / 60 % 2 ? 1 / 1.02 : 1.02, (sl_point){0, 0});
     }
 }
 
 /// What is dragged is what one sees of the whole map.
 static void begin_part(app_state *app, int part) {
-    app->tool.held = 0;
+    app->view.held = 0;
     if (part < 4) return;
     app->ui.first_person = app->ui.accounts = false;
     app->view.fitted = true;
@@ -128,7 +141,7 @@ static void begin_part(app_state *app, int part) {
 /// The map is as it was, and nothing works beside what is measured next.
 static void end_part(app_state *app, int part) {
     if (part < 4) return;
-    edit_cancel(app);
+    edit_cancel(&app->view);
     while (app->document.job) app_tick(app, 0);
 }
 
@@ -145,7 +158,7 @@ sl_status bench_run(app_state *app, unsigned frames) {
     SL_TRY(window_open(app, true, &window));
     frame_meter *meter = sl_alloc_array(app->context, 1, sizeof *meter);
     sl_status status = meter ? SL_OK : SL_NO_MEMORY;
-    app->steady = false;
+    app->ui.steady = false;
     puts("map,cells,walls,part,frames,mean_ms,median_ms,p95_ms,worst_ms,processor_ms,late,machine");
     for (int part = 0; part < count && status == SL_OK; part++) {
         double processor = 0;
@@ -156,7 +169,7 @@ sl_status bench_run(app_state *app, unsigned frames) {
         for (unsigned i = 0; i < frames + 5 && status == SL_OK; i++) {
             if (i == 5) processor = processor_seconds();
             const double before = sl_seconds();
-            move(app, part, i);
+            move_frame(app, part, i);
             app_tick(app, 1.0 / 60);
             status = window_show(window);
             // The first frames make what is kept from then on.
@@ -225,14 +238,14 @@ static void random_drag(app_state *app, sl_random *random) {
         script_frame(app);
         input_move(app, random_place(&app->ui, random));
     }
-    input_release(app, app->tool.pointer);
+    input_release(app, app->ui.pointer);
 }
 
 static void random_dialog(app_state *app, sl_random *random) {
     static const char *const keys[] = {"Return", "Escape",    "Tab",  "Shift+Tab",
                                        "Space",  "Down",      "Up",   "Left",
                                        "Right",  "Backspace", "Home", "PageDown"};
-    if (dialog_open_now(app) == DIALOG_NONE) return;
+    if (dialog_open_now(&app->desk.dialog) == DIALOG_NONE) return;
     if (sl_random_below(random, 4) == 0) input_text(app, "ma\xc3\xa4");
     input_key(app, keys[sl_random_below(random, sizeof keys / sizeof *keys)], true);
 }
@@ -255,8 +268,9 @@ static bool random_grip(const app_state *app, sl_random *random, sl_point *at) {
 /// Drags a wall, a corner or a door by hand, frame by frame. Keys may come between: Esc, or others.
 static void random_edit(app_state *app, sl_random *random) {
     sl_point at;
-    if (app->tool.mode != MODE_DRAW) input_key(app, "F3", true);
-    if (app->ui.help || dialog_open_now(app) != DIALOG_NONE || !random_grip(app, random, &at))
+    if (app->view.mode != MODE_DRAW) input_key(app, "F3", true);
+    if (app->ui.help || dialog_open_now(&app->desk.dialog) != DIALOG_NONE ||
+        !random_grip(app, random, &at))
         return;
     if (ui_find(&app->ui, at).kind != HIT_PLAN) return;
     input_press(app, BUTTON_LEFT, at);
@@ -290,7 +304,7 @@ static void random_event(app_state *app, sl_random *random) {
         app->ui.height = 240 + (int)sl_random_below(random, 700);
         break;
     case 1:
-        app->tool.held = 0;
+        app->view.held = 0;
         break;
     case 2:
         random_dialog(app, random);
@@ -329,7 +343,7 @@ sl_status soak_run(app_state *app, double seconds, uint64_t seed) {
     sl_random random = {seed};
     const double end = sl_seconds() + seconds;
     uint64_t events = 0;
-    app->file.locked = true;
+    app->desk.file.locked = true;
     while (sl_seconds() < end) {
         random_event(app, &random);
         app_tick(app, 1.0 / 30);

@@ -5,24 +5,6 @@
 
 #include "app/app.h"
 
-#include <stddef.h>
-
-enum { METER_MOST = 20000 };
-
-typedef struct frame_meter {
-    double seconds[METER_MOST];
-    size_t count;
-} frame_meter;
-
-void meter_add(frame_meter *meter, double seconds);
-
-typedef struct meter_summary {
-    double mean, median, p95, worst; ///< seconds
-} meter_summary;
-
-/// Sorts what was measured.
-meter_summary meter_sum_up(frame_meter *meter);
-
 /// Walks, turns and pans through the open map. Prints one CSV line for each part:
 /// map,cells,walls,part,frames,mean_ms,median_ms,p95_ms,worst_ms,processor_ms,late,machine
 sl_status bench_run(app_state *app, unsigned frames);

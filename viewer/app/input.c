@@ -2,66 +2,65 @@
 #include "app/input.h"
 
 #include "app/actions.h"
-#include "app/modes.h"
+#include "app/layout.h"
 #include "app/sliders.h"
+#include "app/turn.h"
 #include "lessons/quiz.h"
+#include "panes/panes.h"
 #include "plan/edit.h"
 #include "plan/effects.h"
+#include "plan/grid.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-static void click(app_state *app, const hit_area *hit);
+static void click_widget(app_state *app, const hit_area *hit);
 static void input_press_at(app_state *app, button_kind button, sl_point at);
 static void input_point(app_state *app, sl_point to);
 
 // --- the cursor in the plan, moved by keys
 
-static sl_point middle_of(sl_box box) {
-    return (sl_point){(box.min.x + box.max.x) / 2, (box.min.y + box.max.y) / 2};
-}
-
 /// The pointer stays where it is if it is in the plan; else it goes to the eye, or to the middle.
 static void cursor_begin(app_state *app, sl_box plan) {
-    if (box_has(plan, app->tool.pointer)) return;
+    if (box_has(plan, app->ui.pointer)) return;
     const sl_frame frame = camera_frame(&app->view.camera, plan, 1);
     const sl_point eye = sl_frame_point(&frame, app->view.eye.at);
-    input_point(app, box_has(plan, eye) ? eye : middle_of(plan));
+    input_point(app, box_has(plan, eye) ? eye : box_middle(plan));
 }
 
 /// At the border of the plan the plan moves instead.
 static void cursor_move(app_state *app, sl_box plan, sl_point to) {
     const sl_point at = {fmin(fmax(to.x, plan.min.x), plan.max.x - 1),
                          fmin(fmax(to.y, plan.min.y), plan.max.y - 1)};
-    if (at.x != to.x || at.y != to.y) view_pan(app, at.x - to.x, at.y - to.y);
+    if (at.x != to.x || at.y != to.y) view_pan(&app->view, at.x - to.x, at.y - to.y);
     input_point(app, at);
 }
 
 /// A step of the cursor. In Draw mode it goes from one place of the grid to the next.
 static sl_point cursor_step(const app_state *app, sl_box plan, int x, int y, bool fine) {
-    const sl_point at = app->tool.pointer;
+    const sl_point at = app->ui.pointer;
     const double step = fine ? 1 : 10 * ui_scale(&app->ui);
-    if (fine || app->tool.mode != MODE_DRAW || !app->document.baked)
+    if (fine || app->view.mode != MODE_DRAW || !app->document.baked)
         return (sl_point){at.x + step * x, at.y + step * y};
     const sl_frame frame = camera_frame(&app->view.camera, plan, 1);
-    sl_point place = edit_snap(app, camera_point(&app->view.camera, plan, at));
-    place.x += edit_step(app) * x;
-    place.y -= edit_step(app) * y;
+    sl_point place = grid_snap(&app->view, camera_point(&app->view.camera, plan, at));
+    place.x += grid_step(&app->view) * x;
+    place.y -= grid_step(&app->view) * y;
     return sl_frame_point(&frame, place);
 }
 
 /// Takes hold of what is under the cursor, or lets it go.
 static void cursor_hold(app_state *app) {
-    if (app->tool.drag.kind == DRAG_NONE)
-        input_press_at(app, BUTTON_LEFT, app->tool.pointer);
+    if (app->view.drag.kind == DRAG_NONE)
+        input_press_at(app, BUTTON_LEFT, app->ui.pointer);
     else
-        input_release(app, app->tool.pointer);
+        input_release(app, app->ui.pointer);
 }
 
 static void cursor_click(app_state *app, button_kind button) {
-    input_press_at(app, button, app->tool.pointer);
-    input_release(app, app->tool.pointer);
+    input_press_at(app, button, app->ui.pointer);
+    input_release(app, app->ui.pointer);
 }
 
 static bool cursor_key(app_state *app, const char *key, sl_box plan) {
@@ -99,9 +98,9 @@ static bool slider_key(app_state *app, const hit_area *hit, const char *key) {
     const double by = strcmp(key, "Left") == 0 ? -0.02 : strcmp(key, "Right") == 0 ? 0.02 : 0;
     const slider_row *slider = slider_of(hit);
     if (by == 0) return false;
-    if (slider->begin) slider->begin(app);
+    if (slider->begin) slider->begin(&app->view);
     slider->set(app, fmin(fmax(slider->share(app) + by, 0), 1));
-    if (slider->end) slider->end(app);
+    if (slider->end) slider->end(&app->view);
     return true;
 }
 
@@ -124,8 +123,8 @@ static bool focus_key(app_state *app, const char *key) {
         return true;
     }
     if (hit.kind == HIT_NONE) return false;
-    if (strcmp(key, "Escape") == 0 && app->tool.drag.kind != DRAG_NONE) {
-        if (!edit_cancel(app)) app->tool.drag = (drag_state){0};
+    if (strcmp(key, "Escape") == 0 && app->view.drag.kind != DRAG_NONE) {
+        if (!edit_cancel(&app->view)) app->view.drag = (drag_state){0};
         return true;
     }
     if (strcmp(key, "Escape") == 0 && !app->ui.help) {
@@ -138,7 +137,7 @@ static bool focus_key(app_state *app, const char *key) {
     if (strcmp(key, "Return") != 0 && strcmp(key, "Space") != 0) return false;
     if (hit.kind == HIT_SLIDER || hit.kind == HIT_TIME || hit.kind == HIT_EDGE) return false;
     if (hit.kind == HIT_DUAL) return false;
-    click(app, &hit);
+    click_widget(app, &hit);
     return true;
 }
 
@@ -163,11 +162,11 @@ static bool lesson_key(app_state *app, const char *key) {
         const char *key;
         int x, y;
     } arrows[] = {{"Left", -1, 0}, {"Right", 1, 0}, {"Up", 0, 1}, {"Down", 0, -1}};
-    if (app->tool.mode != MODE_LEARN || lesson_chosen(&app->tool.lesson) == CHOSEN_NONE)
+    if (app->view.mode != MODE_LEARN || lesson_chosen(&app->learn.lesson) == CHOSEN_NONE)
         return false;
     for (size_t i = 0; i < sizeof arrows / sizeof *arrows; i++) {
         if (strcmp(key, arrows[i].key) != 0) continue;
-        pane_dual_nudge(app, arrows[i].x, arrows[i].y);
+        pane_dual_nudge(&app->learn, app_layout(app).below[PANE_DUAL], arrows[i].x, arrows[i].y);
         return true;
     }
     return false;
@@ -194,27 +193,28 @@ static bool own_key(app_state *app, const char *key, bool down) {
 void input_key(app_state *app, const char *key, bool down) {
     size_t count;
     const text_field *before = app->ui.field;
-    if (dialog_open_now(app) != DIALOG_NONE) {
-        dialog_key(app, key, down);
+    if (dialog_open_now(&app->desk.dialog) != DIALOG_NONE) {
+        dialog_key(&app->desk.dialog, key, down);
+        actions_answered(app);
         return;
     }
     if (!down) app->ui.field_mutes = false;
     if (own_key(app, key, down)) return;
     if (strcmp(key, "Backspace") == 0) key = "Delete";
     const action_row *actions = action_table(&count);
-    const int number = action_of_key(key, app->tool.mode);
+    const int number = action_of_key(key, app->view.mode);
     if (number < 0) return;
     const action_row *action = &actions[number];
     if (action->hold) {
-        app->tool.held = down ? app->tool.held | action->hold : app->tool.held & ~action->hold;
-        if (down) app->tool.recorder.plays = false;
+        app->view.held = down ? app->view.held | action->hold : app->view.held & ~action->hold;
+        if (down) app->recorder.plays = false;
         return;
     }
     if (down) action->run(app);
     if (down && !before && app->ui.field) app->ui.field_mutes = true;
     // A letter that opens a dialog comes as text too, which is not meant for the dialog.
-    if (down && dialog_open_now(app) != DIALOG_NONE)
-        snprintf(app->dialog.deaf, sizeof app->dialog.deaf, "%s", key);
+    if (down && dialog_open_now(&app->desk.dialog) != DIALOG_NONE)
+        snprintf(app->desk.dialog.deaf, sizeof app->desk.dialog.deaf, "%s", key);
 }
 
 bool input_takes(const char *key) {
@@ -224,13 +224,13 @@ bool input_takes(const char *key) {
     for (size_t i = 0; i < sizeof own / sizeof *own; i++)
         if (strcmp(own[i], key) == 0) return true;
     for (int mode = MODE_EXPLORE; mode <= MODE_QUIZ; mode++)
-        if (action_of_key(key, (app_mode)mode) >= 0) return true;
+        if (action_of_key(key, (view_mode)mode) >= 0) return true;
     return false;
 }
 
 void input_text(app_state *app, const char *text) {
-    if (dialog_open_now(app) != DIALOG_NONE) {
-        dialog_text(app, text);
+    if (dialog_open_now(&app->desk.dialog) != DIALOG_NONE) {
+        dialog_text(&app->desk.dialog, text);
         return;
     }
     if (!app->ui.field || app->ui.field_mutes) return;
@@ -245,27 +245,21 @@ static sl_point to_map(const app_state *app, int plan, sl_point at) {
     return camera_point(&app->view.camera, l.plan[plan < l.plan_count ? plan : 0], at);
 }
 
-static double slider_share(const hit_area *hit, const app_state *app, sl_point at) {
-    const double margin = 0.5 * app->ui.text;
-    const double low = hit->box.min.x + margin, high = hit->box.max.x - margin;
-    return high > low ? fmin(fmax((at.x - low) / (high - low), 0), 1) : 0;
-}
-
 /// Sliders, the time line and the dual plane follow the pointer.
-static void follow(app_state *app, const hit_area *hit, sl_point at) {
-    const double share = slider_share(hit, app, at);
-    const size_t length = lesson_length(&app->tool.lesson);
+static void follow_pointer(app_state *app, const hit_area *hit, sl_point at) {
+    const double share = ui_slider_at(&app->ui, hit->box, at);
+    const size_t length = lesson_length(&app->learn.lesson);
     switch (hit->kind) {
     case HIT_SLIDER:
         slider_of(hit)->set(app, share);
         break;
     case HIT_TIME:
         if (length)
-            lesson_go(&app->tool.lesson, &app->document,
+            lesson_go(&app->learn.lesson, &app->document,
                       (size_t)round(share * (double)(length - 1)));
         break;
     case HIT_DUAL:
-        pane_dual_drag(app, app_layout(app).below[PANE_DUAL], at);
+        pane_dual_drag(&app->learn, app_layout(app).below[PANE_DUAL], at);
         break;
     case HIT_BAR:
         app->ui.scrolls[hit->value].at =
@@ -279,7 +273,7 @@ static void follow(app_state *app, const hit_area *hit, sl_point at) {
 }
 
 static bool near_line(const app_state *app, sl_point at) {
-    const lesson_state *lesson = &app->tool.lesson;
+    const lesson_state *lesson = &app->learn.lesson;
     if (!lesson->end_count) return false;
     const sl_point p = sl_dual_point(&lesson->dual, at);
     const double off =
@@ -288,63 +282,63 @@ static bool near_line(const app_state *app, sl_point at) {
 }
 
 static drag_kind plan_drag(app_state *app, drag_state *drag) {
-    const bool searches = app->tool.mode == MODE_LEARN && app->tool.lesson.end_count > 0 &&
-                          !app->tool.quiz.answered; // whose picture has no ends to drag
-    if (searches) drag->index = pane_plan_end_at(app, drag->at);
+    const bool searches = app->view.mode == MODE_LEARN && app->learn.lesson.end_count > 0 &&
+                          !app->learn.quiz.answered; // whose picture has no ends to drag
+    if (searches) drag->index = pane_plan_end_at(&app->learn, drag->at);
     if (searches && drag->index != UINT32_MAX) return DRAG_END;
     if (searches && near_line(app, drag->at)) return DRAG_LINE;
-    const bool moves = app->tool.mode == MODE_EXPLORE || app->tool.mode == MODE_DRAW;
-    if (moves && mirror_take(app, drag)) return DRAG_MIRROR;
-    if (app->tool.mode == MODE_EXPLORE && object_take(app, drag)) return DRAG_OBJECT;
-    if (app->tool.mode != MODE_DRAW) return DRAG_PAN;
-    return edit_take(app, drag);
+    const bool moves = app->view.mode == MODE_EXPLORE || app->view.mode == MODE_DRAW;
+    if (moves && mirror_take(&app->view, drag)) return DRAG_MIRROR;
+    if (app->view.mode == MODE_EXPLORE && object_take(&app->view, drag)) return DRAG_OBJECT;
+    if (app->view.mode != MODE_DRAW) return DRAG_PAN;
+    return edit_take(&app->view, drag);
 }
 
-static void click(app_state *app, const hit_area *hit) {
+static void click_widget(app_state *app, const hit_area *hit) {
     if (hit->kind == HIT_ACTION) {
         const bool from_help = app->ui.help;
-        app_shut_help(app);
+        ui_shut_help(&app->ui);
         if (!from_help || hit->value != action_find("help")) action_run(app, hit->value);
     } else if (hit->kind == HIT_METHOD) {
         if (app->view.compare && (size_t)hit->value != app->view.method)
             app->view.other = app->view.method;
         app->view.method = (size_t)hit->value;
     } else if (hit->kind == HIT_PANEL && hit->value == PANEL_SHEET) {
-        app_shut_help(app);
+        ui_shut_help(&app->ui);
     } else if (hit->kind == HIT_FIELD && app->ui.field) {
         app->ui.field->clicked = true;
-        app->ui.field->click_x = app->tool.pointer.x;
+        app->ui.field->click_x = app->ui.pointer.x;
         app->ui.field->chosen = false;
     } else if (hit->kind == HIT_SUBJECT) {
-        lesson_set_subject(app->context, &app->tool.lesson, (size_t)hit->value);
+        lesson_set_subject(app->context, &app->learn.lesson, (size_t)hit->value);
         app_tick(app, 0);
     } else if (hit->kind == HIT_END) {
-        app->tool.lesson.chosen_next = (uint32_t)hit->value + 2;
+        app->learn.lesson.chosen_next = (uint32_t)hit->value + 2;
     }
 }
 
 /// The first move of a drag in the lesson is kept for undo.
 static void keep_once(app_state *app, drag_state *drag, uint32_t what) {
-    if (!drag->changed && app->tool.lesson.end_count) lesson_keep(&app->tool.lesson, what);
+    if (!drag->changed && app->learn.lesson.end_count) lesson_keep(&app->learn.lesson, what);
     drag->changed = true;
 }
 
 static void explain_to(app_state *app, sl_point at) {
     if (!app->document.baked) return;
-    if (app_is_solid(app, at) || app_is_solid(app, app->view.eye.at)) {
+    if (view_is_solid(&app->view, at) || view_is_solid(&app->view, app->view.eye.at)) {
         ui_say(&app->ui, false,
                "%s solid ground, from where nobody looks: choose a place in a room",
-               app_is_solid(app, at) ? "this is" : "the eye is in");
+               view_is_solid(&app->view, at) ? "this is" : "the eye is in");
         return;
     }
     const uint32_t to = sl_space_locate(&app->document.baked->space, at);
-    const uint32_t from = app_eye_cell(app);
+    const uint32_t from = view_eye_cell(&app->view);
     if (to == SL_NO_CELL || from == SL_NO_CELL) return;
-    quiz_explain(app, from, to);
-    if (!app->tool.quiz.answered) return;
+    quiz_explain(&app->learn, from, to);
+    if (!app->learn.quiz.answered) return;
     app->ui.side_panel = true;
     ui_say(&app->ui, false, "why: see the %s; Ctrl+T shows the step that decides",
-           app_has_panel(app) ? "panel" : "sentence above");
+           ui_has_panel(&app->ui) ? "panel" : "sentence above");
 }
 
 void input_press(app_state *app, button_kind button, sl_point at) {
@@ -355,26 +349,27 @@ void input_press(app_state *app, button_kind button, sl_point at) {
 }
 
 static void input_press_at(app_state *app, button_kind button, sl_point at) {
-    app->tool.pointer = at;
+    app->ui.pointer = at;
     const hit_area hit = ui_find(&app->ui, at);
-    drag_state *drag = &app->tool.drag;
+    drag_state *drag = &app->view.drag;
     *drag = (drag_state){.hit = hit, .from = at, .last = at, .index = UINT32_MAX};
-    if (dialog_open_now(app) != DIALOG_NONE) {
-        if (button == BUTTON_LEFT) dialog_press(app, &hit, at);
+    if (dialog_open_now(&app->desk.dialog) != DIALOG_NONE) {
+        if (button == BUTTON_LEFT) dialog_press(&app->desk.dialog, &hit, at);
+        actions_answered(app);
         return;
     }
     if (hit.kind != HIT_PLAN) {
         if (button != BUTTON_LEFT) return;
         drag->kind = DRAG_HIT;
-        if (hit.kind == HIT_SLIDER && slider_of(&hit)->begin) slider_of(&hit)->begin(app);
+        if (hit.kind == HIT_SLIDER && slider_of(&hit)->begin) slider_of(&hit)->begin(&app->view);
         if (hit.kind == HIT_DUAL) keep_once(app, drag, CHOSEN_LINE);
-        click(app, &hit);
-        follow(app, &hit, at);
+        click_widget(app, &hit);
+        follow_pointer(app, &hit, at);
         return;
     }
     if (!app->document.baked) return;
     drag->at = to_map(app, hit.value, at);
-    if (button == BUTTON_RIGHT && app->tool.mode != MODE_DRAW)
+    if (button == BUTTON_RIGHT && app->view.mode != MODE_DRAW)
         explain_to(app, drag->at);
     else if (button == BUTTON_LEFT)
         drag->kind = plan_drag(app, drag);
@@ -388,8 +383,8 @@ void input_move(app_state *app, sl_point to) {
 }
 
 static void input_point(app_state *app, sl_point to) {
-    drag_state *drag = &app->tool.drag;
-    app->tool.pointer = to;
+    drag_state *drag = &app->view.drag;
+    app->ui.pointer = to;
     if (drag->kind == DRAG_NONE) return;
     const double dx = to.x - drag->last.x, dy = to.y - drag->last.y;
     if (hypot(to.x - drag->from.x, to.y - drag->from.y) > 3) drag->moved = true;
@@ -398,7 +393,7 @@ static void input_point(app_state *app, sl_point to) {
     switch (drag->kind) {
     case DRAG_PAN:
         if (!drag->moved) return;
-        view_pan(app, dx, dy);
+        view_pan(&app->view, dx, dy);
         break;
     case DRAG_LOOK:
         app->view.eye.heading = fmod(app->view.eye.heading - 0.4 * dx + 720, 360);
@@ -408,28 +403,28 @@ static void input_point(app_state *app, sl_point to) {
         if (drag->hit.kind == HIT_EDGE)
             app_drag_edge(app, drag->hit.value, drag->hit.value == EDGE_SIDE ? -dx : -dy);
         else
-            follow(app, &drag->hit, to);
+            follow_pointer(app, &drag->hit, to);
         break;
     case DRAG_LINE:
         keep_once(app, drag, CHOSEN_LINE);
-        pane_plan_drag_line(app, before, now);
+        pane_plan_drag_line(&app->learn, before, now);
         break;
     case DRAG_END:
         if (drag->moved) keep_once(app, drag, drag->index);
-        if (drag->moved) lesson_move_end(&app->tool.lesson, drag->index, now);
+        if (drag->moved) lesson_move_end(&app->learn.lesson, drag->index, now);
         break;
     case DRAG_MIRROR:
-        if (drag->moved) mirror_move(app, drag, now);
+        if (drag->moved) mirror_move(&app->view, drag, now);
         break;
     case DRAG_OBJECT:
-        if (drag->moved) object_move(app, drag, now);
+        if (drag->moved) object_move(&app->view, drag, now);
         break;
     case DRAG_NEW_WALL:
     case DRAG_NEW_DOOR:
     case DRAG_WALL:
     case DRAG_CORNER:
     case DRAG_DOOR:
-        if (drag->moved) edit_drag(app, drag, now);
+        if (drag->moved) edit_drag(&app->view, drag, now);
         break;
     case DRAG_NONE:
         break;
@@ -442,45 +437,45 @@ static bool is_edit(drag_kind kind) {
 }
 
 void input_release(app_state *app, sl_point at) {
-    if (is_edit(app->tool.drag.kind)) input_move(app, at);
-    const drag_state drag = app->tool.drag;
-    app->tool.drag = (drag_state){0};
-    app->tool.pointer = at;
-    if (is_edit(drag.kind)) edit_drop(app, &drag);
+    if (is_edit(app->view.drag.kind)) input_move(app, at);
+    const drag_state drag = app->view.drag;
+    app->view.drag = (drag_state){0};
+    app->ui.pointer = at;
+    if (is_edit(drag.kind)) edit_drop(&app->view, &drag);
     if (!app->document.baked) return;
-    if (drag.hit.kind == HIT_SLIDER && slider_of(&drag.hit)->end) slider_of(&drag.hit)->end(app);
+    if (drag.hit.kind == HIT_SLIDER && slider_of(&drag.hit)->end)
+        slider_of(&drag.hit)->end(&app->view);
     const sl_point now = to_map(app, drag.hit.value, at);
-    if (drag.kind == DRAG_MIRROR) mirror_drop(app, &drag);
-    if (drag.kind == DRAG_OBJECT && !drag.moved) object_toggle(app, drag.index);
+    if (drag.kind == DRAG_MIRROR) mirror_drop(&app->view, &drag);
+    if (drag.kind == DRAG_OBJECT && !drag.moved) object_toggle(&app->view, drag.index);
     const bool holds =
-        drag.kind == DRAG_PAN || (drag.kind == DRAG_MIRROR && app->tool.mode == MODE_EXPLORE);
-    const bool puts = holds && !drag.moved && app->tool.mode != MODE_QUIZ;
-    const uint32_t door = puts ? door_at(app, now) : UINT32_MAX;
+        drag.kind == DRAG_PAN || (drag.kind == DRAG_MIRROR && app->view.mode == MODE_EXPLORE);
+    const bool puts = holds && !drag.moved && app->view.mode != MODE_QUIZ;
+    const uint32_t door = puts ? door_at(&app->view, now) : UINT32_MAX;
     if (door != UINT32_MAX) {
-        door_toggle(app, door);
-    } else if (puts && app_is_solid(app, now)) {
+        door_toggle(&app->view, door);
+    } else if (puts && view_is_solid(&app->view, now)) {
         ui_say(&app->ui, false, "this is solid ground: the eye stays; click in a room");
     } else if (puts && sl_space_locate(&app->document.baked->space, now) != SL_NO_CELL) {
         app->view.eye.at = now;
-        app->tool.recorder.plays = false;
-        if (app->tool.mode == MODE_EXPLORE) quiz_forget(app);
+        app->recorder.plays = false;
+        if (app->view.mode == MODE_EXPLORE) quiz_forget(&app->learn);
     }
 }
 
 void input_wheel(app_state *app, double steps) {
-    if (dialog_open_now(app) != DIALOG_NONE) {
-        dialog_wheel(app, steps);
+    if (dialog_open_now(&app->desk.dialog) != DIALOG_NONE) {
+        dialog_wheel(&app->desk.dialog, steps);
         return;
     }
-    const int area = ui_scroll_at(&app->ui, app->tool.pointer);
+    const int area = ui_scroll_at(&app->ui, app->ui.pointer);
     if (area >= 0) ui_scroll_by(&app->ui.scrolls[area], -3 * steps * ui_text_size(&app->ui));
     if (area >= 0 || app->ui.help) return;
     const window_layout l = app_layout(app);
     for (int i = 0; i < l.plan_count; i++) {
-        if (!box_has(l.plan[i], app->tool.pointer)) continue;
-        const sl_point middle = {(l.plan[i].min.x + l.plan[i].max.x) / 2,
-                                 (l.plan[i].min.y + l.plan[i].max.y) / 2};
-        view_zoom(app, pow(1.2, steps),
-                  (sl_point){app->tool.pointer.x - middle.x, app->tool.pointer.y - middle.y});
+        if (!box_has(l.plan[i], app->ui.pointer)) continue;
+        const sl_point middle = box_middle(l.plan[i]);
+        view_zoom(&app->view, pow(1.2, steps),
+                  (sl_point){app->ui.pointer.x - middle.x, app->ui.pointer.y - middle.y});
     }
 }

@@ -2,14 +2,17 @@
 /// the arguments are wrong, or without a window an input file is. A window opens at once, whatever
 /// the map; what is wrong with the file is told in it.
 #include "app/bench.h"
+#include "app/pictures.h"
 #include "app/print.h"
 #include "app/script.h"
+#include "app/settings.h"
+#include "app/start.h"
+#include "app/turn.h"
 #include "app/window.h"
-#include "dialogs/browser.h"
 #include "dialogs/dialog.h"
-#include "document/files.h"
-#include "document/recovery.h"
-#include "document/save.h"
+#include "dialogs/map_file.h"
+#include "dialogs/opening.h"
+#include "dialogs/recovery.h"
 #include "sightline/io.h"
 #include "sightline/support.h"
 
@@ -233,12 +236,12 @@ static sl_status open_map(app_state *app, const arguments *a, bool ask) {
                                     .options = a->options,
                                     .has_start = a->has_start,
                                     .start = a->start};
-    return files_open_source(app, &source, ask);
+    return files_open_source(&app->desk, &source, ask);
 }
 
 /// Without a window a map that cannot be opened ends the program.
 static sl_status run_headless(app_state *app, const arguments *a) {
-    app->steady = true;
+    app->ui.steady = true;
     SL_TRY(open_map(app, a, false));
     bool changed;
     SL_TRY(document_wait(app->context, &app->document, &changed));
@@ -247,7 +250,7 @@ static sl_status run_headless(app_state *app, const arguments *a) {
     if (a->script) SL_TRY(script_run(app, a->script, NULL, NULL));
     if (a->bench) SL_TRY(bench_run(app, (unsigned)a->frames));
     if (a->soak > 0) {
-        app->steady = false;
+        app->ui.steady = false;
         SL_TRY(soak_run(app, a->soak, a->seed));
     }
     return a->screenshot ? save_window(app, a->screenshot) : SL_OK;
@@ -257,11 +260,11 @@ static sl_status run_window(app_state *app, const arguments *a) {
     app_window *window;
     settings_load(app);
     SL_TRY(window_open(app, false, &window));
-    recovery_begin(app);
-    if (!a->map && dialog_open_now(app) == DIALOG_NONE) browser_open(app);
+    recovery_begin(&app->desk);
+    if (!a->map && dialog_open_now(&app->desk.dialog) == DIALOG_NONE) files_browse(&app->desk);
     sl_status status = window_show(window);
     if (status == SL_OK) {
-        files_check(app, a->map ? a->map : "", open_map(app, a, true));
+        map_file_check(&app->desk, a->map ? a->map : "", open_map(app, a, true));
         status = window_run(window);
     }
     window_close(window);
@@ -281,7 +284,7 @@ static sl_status run(sl_context *context, int argc, char **argv) {
     app_state *app = sl_alloc_array(context, 1, sizeof *app);
     if (!app) return SL_NO_MEMORY;
     app_init(app, context);
-    app->options = a.options;
+    app->desk.options = a.options;
     const bool headless = a.script || a.screenshot || a.bench || a.soak > 0;
     const sl_status status = headless ? run_headless(app, &a) : run_window(app, &a);
     app_destroy(app);

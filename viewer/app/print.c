@@ -1,8 +1,9 @@
 /// What a script can have printed: the state that pictures show, a fact a line, the name first.
 #include "app/print.h"
 
-#include "app/modes.h"
 #include "lessons/quiz.h"
+#include "panes/panes.h"
+#include "plan/heat.h"
 
 #include <math.h>
 #include <string.h>
@@ -26,7 +27,7 @@ static void print_chosen(const char *name, uint32_t chosen, FILE *out) {
 }
 
 static void print_lesson(app_state *app, FILE *out) {
-    lesson_state *lesson = &app->tool.lesson;
+    lesson_state *lesson = &app->learn.lesson;
     char text[SENTENCE];
     sl_status status;
     fprintf(out, "lesson: %s\n", lesson_subject(lesson)->title);
@@ -49,7 +50,7 @@ static void print_lesson(app_state *app, FILE *out) {
 }
 
 static void print_program(app_state *app, FILE *out) {
-    lesson_state *lesson = &app->tool.lesson;
+    lesson_state *lesson = &app->learn.lesson;
     sl_status status = SL_OK;
     const sl_program *p = lesson->end_count ? lesson_program(app->context, lesson, &status) : NULL;
     if (!p) {
@@ -72,14 +73,14 @@ static void print_program(app_state *app, FILE *out) {
 }
 
 static void print_why(app_state *app, FILE *out) {
-    const quiz_state *q = &app->tool.quiz;
+    const quiz_state *q = &app->learn.quiz;
     const sl_explanation *e = &q->explanation;
     char text[1024];
     if (!q->answered) {
         fputs("why: nothing was asked\n", out);
         return;
     }
-    quiz_words(app, text, sizeof text);
+    quiz_words(&app->learn, text, sizeof text);
     fprintf(out, "why: cell %u to cell %u\n", q->from, q->to);
     fprintf(out, "words: %s\n", text);
     if (!e->miss_count) return;
@@ -91,14 +92,14 @@ static void print_why(app_state *app, FILE *out) {
 }
 
 static void print_quiz(app_state *app, FILE *out) {
-    const quiz_state *q = &app->tool.quiz;
+    const quiz_state *q = &app->learn.quiz;
     fprintf(out, "quiz: cell %u to cell %u\n", q->from, q->to);
     fprintf(out, "answers: %u of %u right\n", q->right_count, q->asked_count);
 }
 
 static void print_bar(app_state *app, FILE *out) {
     char text[BAR_TEXT] = "nothing";
-    if (pane_time_shown(app)) pane_time_sentence(app, text);
+    if (pane_time_shown(&app->learn)) pane_time_sentence(&app->learn, text);
     fprintf(out, "bar: %s\n", text);
 }
 
@@ -125,15 +126,15 @@ static void print_heat(app_state *app, FILE *out) {
     double least, most;
     legend_key key;
     char text[64];
-    heat_say_measure(app, text);
+    heat_say_measure(&app->view, text);
     fprintf(out, "heat map: %s\n", text);
-    fprintf(out, "step: %.9g\n", heat_step(app));
-    const double *values = heat_layer_values(app, &graph);
-    if (!values || !heat_layer_key(app, &key)) {
+    fprintf(out, "step: %.9g\n", heat_step(&app->view));
+    const double *values = heat_layer_values(&app->view, &graph);
+    if (!values || !heat_layer_key(&app->view, &key)) {
         fputs("values: none\n", out);
         return;
     }
-    heat_layer_scale(app, &least, &most);
+    heat_layer_scale(&app->view, &least, &most);
     fprintf(out, "scale: %.9g to %.9g\n", least, most);
     fprintf(out, "pointer: %s\n", key.rows[1].text);
     for (uint32_t p = 0; p < graph->grid.count; p++)

@@ -2,11 +2,14 @@
 #include "app/script.h"
 
 #include "app/actions.h"
+#include "app/frame.h"
 #include "app/input.h"
+#include "app/pictures.h"
 #include "app/print.h"
+#include "app/turn.h"
+#include "dialogs/map_file.h"
+#include "dialogs/opening.h"
 #include "dialogs/question.h"
-#include "document/files.h"
-#include "document/save.h"
 #include "panes/account.h"
 #include "sightline/support.h"
 
@@ -39,7 +42,7 @@ void script_frame(app_state *app) {
     cairo_surface_destroy(surface);
 }
 
-static void frame(reader *r, double seconds) {
+static void show_frame(reader *r, double seconds) {
     app_tick(r->app, seconds);
     if (r->after)
         r->after(r->user, r->app);
@@ -50,8 +53,8 @@ static void frame(reader *r, double seconds) {
 // --- commands
 
 static sl_status do_open(reader *r, const words *w) {
-    map_file_give_up(r->app);
-    files_open(r->app, w->rest, false);
+    map_file_give_up(&r->app->desk);
+    files_open(&r->app->desk, w->rest, false);
     app_settle(r->app);
     if (r->app->ui.message_is_error)
         return sl_fail_at(r->app->context, r->file, r->line, "%s", r->app->ui.message);
@@ -59,26 +62,26 @@ static sl_status do_open(reader *r, const words *w) {
 }
 
 static sl_status do_drop(reader *r, const words *w) {
-    files_drop(r->app, w->rest);
+    files_drop(&r->app->desk, w->rest);
     app_settle(r->app);
-    frame(r, 0);
+    show_frame(r, 0);
     return SL_OK;
 }
 
 static sl_status do_type(reader *r, const words *w) {
     input_text(r->app, w->rest);
-    frame(r, 0);
+    show_frame(r, 0);
     return SL_OK;
 }
 
 /// A script goes wrong where it does not find what it expects.
 static sl_status do_expect(reader *r, const words *w) {
     char title[TITLE_TEXT];
-    const dialog_state *dialog = &r->app->dialog;
+    const dialog_state *dialog = &r->app->desk.dialog;
     script_frame(r->app);
-    map_file_title(r->app, title);
+    map_file_title(&r->app->desk, title);
     const char *const shown[] = {title, r->app->ui.message, dialog->title, dialog->problem,
-                                 question_text(r->app)};
+                                 question_text(&r->app->desk)};
     for (size_t i = 0; i < sizeof shown / sizeof *shown; i++)
         if (strstr(shown[i], w->rest)) return SL_OK;
     return sl_fail_at(r->app->context, r->file, r->line,
@@ -89,16 +92,16 @@ static sl_status do_expect(reader *r, const words *w) {
 
 static sl_status check_key(reader *r, const char *key) {
     // A dialog and a field have keys of their own.
-    const bool typed = dialog_open_now(r->app) != DIALOG_NONE || r->app->ui.field;
+    const bool typed = dialog_open_now(&r->app->desk.dialog) != DIALOG_NONE || r->app->ui.field;
     if (typed || input_takes(key)) return SL_OK;
     return sl_fail_at(r->app->context, r->file, r->line, "no action has the key '%s'", key);
 }
 
 static sl_status do_key(reader *r, const words *w) {
     SL_TRY(check_key(r, w->rest));
-    if (!r->app->ui.hit_count) frame(r, 0); // keys act on what was drawn
+    if (!r->app->ui.hit_count) show_frame(r, 0); // keys act on what was drawn
     input_key(r->app, w->rest, true);
-    frame(r, 1.0 / 60);
+    show_frame(r, 1.0 / 60);
     input_key(r->app, w->rest, false);
     return SL_OK;
 }
@@ -120,7 +123,7 @@ static sl_status do_action(reader *r, const words *w) {
     if (number < 0)
         return sl_fail_at(r->app->context, r->file, r->line, "no action is called '%s'", w->rest);
     action_run(r->app, number);
-    frame(r, 0);
+    show_frame(r, 0);
     return SL_OK;
 }
 
@@ -129,8 +132,8 @@ static sl_status do_move(reader *r, const words *w) {
     return SL_OK;
 }
 
-static void press(reader *r, button_kind button, sl_point from, sl_point to) {
-    frame(r, 0);
+static void press_and_drag(reader *r, button_kind button, sl_point from, sl_point to) {
+    show_frame(r, 0);
     input_move(r->app, from);
     input_press(r->app, button, from);
     if (to.x != from.x || to.y != from.y)
@@ -138,24 +141,24 @@ static void press(reader *r, button_kind button, sl_point from, sl_point to) {
             input_move(r->app, (sl_point){from.x + (to.x - from.x) * i / 4,
                                           from.y + (to.y - from.y) * i / 4});
     input_release(r->app, to);
-    frame(r, 0);
+    show_frame(r, 0);
 }
 
 static sl_status do_click(reader *r, const words *w) {
     const sl_point at = {w->numbers[0], w->numbers[1]};
-    press(r, BUTTON_LEFT, at, at);
+    press_and_drag(r, BUTTON_LEFT, at, at);
     return SL_OK;
 }
 
 static sl_status do_right(reader *r, const words *w) {
     const sl_point at = {w->numbers[0], w->numbers[1]};
-    press(r, BUTTON_RIGHT, at, at);
+    press_and_drag(r, BUTTON_RIGHT, at, at);
     return SL_OK;
 }
 
 static sl_status do_drag(reader *r, const words *w) {
-    press(r, BUTTON_LEFT, (sl_point){w->numbers[0], w->numbers[1]},
-          (sl_point){w->numbers[2], w->numbers[3]});
+    press_and_drag(r, BUTTON_LEFT, (sl_point){w->numbers[0], w->numbers[1]},
+                   (sl_point){w->numbers[2], w->numbers[3]});
     return SL_OK;
 }
 
@@ -165,7 +168,7 @@ static sl_status do_wheel(reader *r, const words *w) {
 }
 
 static sl_status do_wait(reader *r, const words *w) {
-    for (double i = 0; i < fmin(w->numbers[0], 1e5); i++) frame(r, 1.0 / 60);
+    for (double i = 0; i < fmin(w->numbers[0], 1e5); i++) show_frame(r, 1.0 / 60);
     return SL_OK;
 }
 
@@ -204,7 +207,7 @@ static sl_status do_save(reader *r, const words *w) {
 
 static sl_status do_account(reader *r, const words *w) {
     app_tick(r->app, 0);
-    return account_save(r->app, w->rest);
+    return account_save(&r->app->view, w->rest);
 }
 
 static sl_status do_export(reader *r, const words *w) {

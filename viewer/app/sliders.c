@@ -1,9 +1,11 @@
 /// The share, the words and the setting of each slider.
 #include "app/sliders.h"
 
-#include "document/files.h"
+#include "dialogs/opening.h"
 #include "plan/effects.h"
+#include "plan/heat.h"
 #include "plan/layers.h"
+#include "plan/view_cells.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -46,13 +48,13 @@ static void set_cut(app_state *app, double share) {
     const document_source *source = &app->document.source;
     sl_import_options options = source->options;
     options.slice = source->lowest + share * (source->highest - source->lowest);
-    if (options.slice != source->options.slice) files_open_again(app, &options);
+    if (options.slice != source->options.slice) files_open_again(&app->desk, &options);
 }
 
 // --- how deep splits are shown
 
 static bool has_splits(const app_state *app) {
-    return app->document.baked && layers_shows(app, LAYER_SPLITS);
+    return app->document.baked && layers_shows(&app->view, LAYER_SPLITS);
 }
 
 static double deepest_split(const app_state *app) {
@@ -107,29 +109,29 @@ static void views_text(const app_state *app, char text[SLIDER_TEXT]) {
 
 static void set_views(app_state *app, double share) {
     const double most = view_layer_most(app->view.views);
-    view_layer_go(app, (uint32_t)round(pow(most, share)));
+    view_layer_go(&app->view, (uint32_t)round(pow(most, share)));
 }
 
 // --- the grid of the heat map, from coarse to fine
 
 static bool has_heat(const app_state *app) {
-    return app->document.baked && layers_shows(app, LAYER_HEAT);
+    return app->document.baked && layers_shows(&app->view, LAYER_HEAT);
 }
 
 static double heat_share(const app_state *app) {
     int last;
-    const int place = heat_step_place(app, &last);
+    const int place = heat_step_place(&app->view, &last);
     return (double)place / fmax(last, 1);
 }
 
 static void heat_text(const app_state *app, char text[SLIDER_TEXT]) {
-    snprintf(text, SLIDER_TEXT, "%.3g", heat_step(app));
+    snprintf(text, SLIDER_TEXT, "%.3g", heat_step(&app->view));
 }
 
 static void set_heat(app_state *app, double share) {
     int last;
-    heat_step_place(app, &last);
-    heat_set_step(app, (int)round(share * last));
+    heat_step_place(&app->view, &last);
+    heat_set_step(&app->view, (int)round(share * last));
 }
 
 // --- the view range, finer where it is short
@@ -147,7 +149,7 @@ static void range_text(const app_state *app, char text[SLIDER_TEXT]) {
 }
 
 static void set_range(app_state *app, double share) {
-    range_set(app, share * share * range_most(&app->document));
+    range_set(&app->view, share * share * range_most(&app->document));
 }
 
 // --- how often a sightline is reflected
@@ -165,13 +167,13 @@ static void depth_text(const app_state *app, char text[SLIDER_TEXT]) {
 }
 
 static void set_depth(app_state *app, double share) {
-    mirror_set_depth(app, (uint32_t)round(share * MIRROR_DEPTH_MOST));
+    mirror_set_depth(&app->view, (uint32_t)round(share * MIRROR_DEPTH_MOST));
 }
 
 static const slider_row sliders[] = {
     {"View cone", always, cone_share, cone_text, set_cone, NULL, NULL,
      "How wide the eye sees (, and .)"},
-    {"View range", has_range, range_share, range_text, set_range, app_keep, range_settle,
+    {"View range", has_range, range_share, range_text, set_range, view_keep, range_settle,
      "Nothing farther than this is seen (Ctrl+R sets and lifts it)"},
     {"Reflections", has_mirrors, depth_share, depth_text, set_depth, NULL, mirror_settle_depth,
      "How often a sightline is reflected at most"},
@@ -190,4 +192,18 @@ static const slider_row sliders[] = {
 const slider_row *slider_table(size_t *count) {
     *count = sizeof sliders / sizeof *sliders;
     return sliders;
+}
+
+void sliders_show(app_state *app) {
+    enum { COUNT = sizeof sliders / sizeof *sliders };
+    _Static_assert((int)COUNT <= (int)SLIDERS_MOST, "the page has room for all");
+    app->ui.slider_count = COUNT;
+    for (int i = 0; i < COUNT; i++) {
+        const slider_row *s = &sliders[i];
+        ui_slider_row *row = &app->ui.sliders[i];
+        *row = (ui_slider_row){.label = s->label, .help = s->help, .shown = s->shown(app)};
+        if (!row->shown) continue;
+        row->share = s->share(app);
+        s->text(app, row->text);
+    }
 }

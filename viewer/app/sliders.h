@@ -4,7 +4,7 @@
 
 #include "app/app.h"
 
-enum { SLIDER_TEXT = 32 };
+enum { SLIDER_TEXT = sizeof((ui_slider_row *)0)->text };
 
 typedef struct slider_row {
     const char *label;
@@ -13,11 +13,14 @@ typedef struct slider_row {
     void (*text)(const app_state *app, char text[SLIDER_TEXT]); ///< its value
     void (*set)(app_state *app, double share);
     /// Called when the pointer takes hold of it and when it lets go; NULL: nothing.
-    void (*begin)(app_state *app);
-    void (*end)(app_state *app);
+    void (*begin)(view_state *view);
+    void (*end)(view_state *view);
     const char *help;
 } slider_row;
 
 const slider_row *slider_table(size_t *count);
+
+/// Has the page show the sliders as they are now.
+void sliders_show(app_state *app);
 
 #endif

@@ -1,8 +1,11 @@
 /// SDL's window, its density of pixels, and the loop of events.
 #include "app/window.h"
 
+#include "app/frame.h"
 #include "app/input.h"
-#include "document/files.h"
+#include "app/turn.h"
+#include "dialogs/map_file.h"
+#include "dialogs/opening.h"
 #include "sightline/support.h"
 
 #include <SDL.h>
@@ -21,7 +24,7 @@ struct app_window {
     bool fullscreen;
 };
 
-static sl_status fail(sl_context *context, const char *what) {
+static sl_status fail_with(sl_context *context, const char *what) {
     return sl_fail(context, SL_IO, "%s: %s", what, SDL_GetError());
 }
 
@@ -53,7 +56,7 @@ static sl_status open_window(app_window *w, bool hidden) {
     sl_context *context = w->app->context;
     if (hidden) SDL_SetHint(SDL_HINT_VIDEODRIVER, "dummy");
     SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "0");
-    if (SDL_Init(SDL_INIT_VIDEO) != 0) return fail(context, "no display");
+    if (SDL_Init(SDL_INIT_VIDEO) != 0) return fail_with(context, "no display");
     const char *driver = SDL_GetCurrentVideoDriver();
     if (!hidden && is_unseen(driver))
         return sl_fail(context, SL_IO,
@@ -70,12 +73,12 @@ static sl_status open_window(app_window *w, bool hidden) {
     }
     w->window = SDL_CreateWindow("Sightline", SDL_WINDOWPOS_UNDEFINED, SDL_WINDOWPOS_UNDEFINED,
                                  width, height, SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
-    if (!w->window) return fail(context, "no window");
+    if (!w->window) return fail_with(context, "no window");
     SDL_SetWindowMinimumSize(w->window, 640, 480);
     const Uint32 wanted = hidden ? SDL_RENDERER_SOFTWARE : SDL_RENDERER_PRESENTVSYNC;
     w->renderer = SDL_CreateRenderer(w->window, -1, wanted);
     if (!w->renderer) w->renderer = SDL_CreateRenderer(w->window, -1, SDL_RENDERER_SOFTWARE);
-    if (!w->renderer) return fail(context, "no renderer");
+    if (!w->renderer) return fail_with(context, "no renderer");
     SDL_EventState(SDL_DROPFILE, SDL_ENABLE);
     return SL_OK;
 }
@@ -103,7 +106,7 @@ sl_status window_open(app_state *app, bool hidden, app_window **out) {
     if (!w) return SL_NO_MEMORY;
     const sl_hooks hooks = {.cancelled = is_called_away};
     w->app = app;
-    if (!hidden) app->drawing = sl_context_create(&hooks);
+    if (!hidden) app->view.drawing = sl_context_create(&hooks);
     const sl_status status = open_window(w, hidden);
     if (status == SL_OK)
         *out = w;
@@ -118,8 +121,8 @@ void window_close(app_window *w) {
     if (w->renderer) SDL_DestroyRenderer(w->renderer);
     if (w->window) SDL_DestroyWindow(w->window);
     SDL_Quit();
-    sl_context_destroy(w->app->drawing);
-    w->app->drawing = NULL;
+    sl_context_destroy(w->app->view.drawing);
+    w->app->view.drawing = NULL;
     sl_free(w->app->context, w);
 }
 
@@ -127,7 +130,7 @@ void window_close(app_window *w) {
 static sl_status fit_texture(app_window *w) {
     int width, height;
     if (SDL_GetRendererOutputSize(w->renderer, &width, &height) != 0)
-        return fail(w->app->context, "no size");
+        return fail_with(w->app->context, "no size");
     if (w->texture && width == w->width && height == w->height) return SL_OK;
     if (w->texture) SDL_DestroyTexture(w->texture);
     if (w->surface) cairo_surface_destroy(w->surface);
@@ -139,16 +142,16 @@ static sl_status fit_texture(app_window *w) {
         w->app->ui.window_width = width;
         w->app->ui.window_height = height;
     }
-    if (!w->app->steady) w->app->ui.density = find_density(w);
+    if (!w->app->ui.steady) w->app->ui.density = find_density(w);
     w->surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height);
     w->texture = SDL_CreateTexture(w->renderer, SDL_PIXELFORMAT_RGB888, SDL_TEXTUREACCESS_STREAMING,
                                    width, height);
-    return w->texture ? SL_OK : fail(w->app->context, "no texture");
+    return w->texture ? SL_OK : fail_with(w->app->context, "no texture");
 }
 
 static void show_title(app_window *w) {
     char title[TITLE_TEXT];
-    map_file_title(w->app, title);
+    map_file_title(&w->app->desk, title);
     if (strcmp(title, w->title) == 0) return;
     memcpy(w->title, title, sizeof title);
     SDL_SetWindowTitle(w->window, title);
@@ -164,7 +167,7 @@ sl_status window_show(app_window *w) {
     cairo_t *cairo = cairo_create(w->surface);
     app_draw(w->app, cairo);
     cairo_destroy(cairo);
-    if (w->app->drawing && is_called_away(w)) return SL_OK; // it may be half a picture
+    if (w->app->view.drawing && is_called_away(w)) return SL_OK; // it may be half a picture
     cairo_surface_flush(w->surface);
     SDL_UpdateTexture(w->texture, NULL, cairo_image_surface_get_data(w->surface),
                       cairo_image_surface_get_stride(w->surface));
@@ -214,7 +217,7 @@ static void take_button(app_window *w, const SDL_MouseButtonEvent *e) {
                 at);
 }
 
-static void paste(app_state *app) {
+static void paste_text(app_state *app) {
     char *text = SDL_GetClipboardText();
     if (text) input_text(app, text);
     SDL_free(text);
@@ -224,12 +227,12 @@ static void take_event(app_window *w, const SDL_Event *e) {
     char name[48];
     switch (e->type) {
     case SDL_QUIT:
-        map_file_quit(w->app);
+        map_file_quit(&w->app->desk);
         break;
     case SDL_KEYDOWN:
     case SDL_KEYUP:
         key_name(&e->key.keysym, name);
-        if (e->type == SDL_KEYDOWN && strcmp(name, "Ctrl+V") == 0) paste(w->app);
+        if (e->type == SDL_KEYDOWN && strcmp(name, "Ctrl+V") == 0) paste_text(w->app);
         input_key(w->app, name, e->type == SDL_KEYDOWN);
         break;
     case SDL_TEXTINPUT:
@@ -246,11 +249,11 @@ static void take_event(app_window *w, const SDL_Event *e) {
         input_wheel(w->app, e->wheel.y);
         break;
     case SDL_DROPFILE:
-        files_drop(w->app, e->drop.file);
+        files_drop(&w->app->desk, e->drop.file);
         SDL_free(e->drop.file);
         break;
     case SDL_WINDOWEVENT:
-        if (e->window.event == SDL_WINDOWEVENT_FOCUS_LOST) w->app->tool.held = 0;
+        if (e->window.event == SDL_WINDOWEVENT_FOCUS_LOST) w->app->view.held = 0;
         break;
     default:
         break;
@@ -259,26 +262,26 @@ static void take_event(app_window *w, const SDL_Event *e) {
 
 /// Whether something moves without input.
 static bool is_lively(const app_state *app) {
-    return app->tool.held || app->document.job || app_progress(app).running ||
-           app->tool.recorder.plays || app->tool.recorder.records || app->tool.lesson.plays ||
+    return app->view.held || app->document.job || app_progress(app).running ||
+           app->recorder.plays || app->recorder.records || app->learn.lesson.plays ||
            app->view.motion > 0;
 }
 
 sl_status window_run(app_window *w) {
     app_state *app = w->app;
     double last = sl_seconds();
-    while (!app->quit) {
+    while (!app->desk.quit) {
         SDL_Event event;
         // Nothing is drawn again while nothing happens.
         const bool any = is_lively(app) ? SDL_PollEvent(&event) : SDL_WaitEventTimeout(&event, 250);
         bool more = any;
         for (bool stale = false; more; stale = true, more = SDL_PollEvent(&event)) {
             // A click meant what is there after the key before it, and a key the dialog that opens.
-            if ((stale && event.type == SDL_MOUSEBUTTONDOWN) || dialog_is_unseen(app))
+            if ((stale && event.type == SDL_MOUSEBUTTONDOWN) || dialog_is_unseen(&app->desk.dialog))
                 SL_TRY(window_show(w));
             take_event(w, &event);
         }
-        if (app->quit) break;
+        if (app->desk.quit) break;
         const double now = sl_seconds();
         const bool lively = is_lively(app);
         app_tick(app, lively ? now - last : 0);

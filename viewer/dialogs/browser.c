@@ -8,7 +8,6 @@
 #include "dialogs/folder_list.h"
 #include "dialogs/question.h"
 #include "document/files.h"
-#include "document/map_file.h"
 #include "sightline/draw.h"
 #include "sightline/support.h"
 
@@ -24,6 +23,8 @@ typedef enum browser_place { PLACE_FOLDER, PLACE_RECENT, PLACE_SAMPLES } browser
 
 typedef struct browser_state {
     bool saves;
+    browser_open_file *open; ///< these two: what is done with the path
+    browser_save_file *save;
     browser_place place;
     char folder[PATH_TEXT]; ///< that is listed; where there is none, that names begin from
     text_field path;
@@ -48,17 +49,17 @@ enum {
     OPTIONS,
 };
 
-static browser_state *state_of(app_state *app) {
-    if (!app->dialog.browser)
-        app->dialog.browser = sl_alloc_array(app->context, 1, sizeof(browser_state));
-    return app->dialog.browser;
+static browser_state *state_of(desk_state *desk) {
+    if (!desk->dialog.browser)
+        desk->dialog.browser = sl_alloc_array(desk->context, 1, sizeof(browser_state));
+    return desk->dialog.browser;
 }
 
-void browser_destroy(app_state *app) {
-    if (!app->dialog.browser) return;
-    folder_list_clear(app->context, &app->dialog.browser->files);
-    sl_free(app->context, app->dialog.browser);
-    app->dialog.browser = NULL;
+void browser_destroy(desk_state *desk) {
+    if (!desk->dialog.browser) return;
+    folder_list_clear(desk->context, &desk->dialog.browser->files);
+    sl_free(desk->context, desk->dialog.browser);
+    desk->dialog.browser = NULL;
 }
 
 // --- the list
@@ -73,37 +74,32 @@ static bool is_there(const char *path) {
     return stat(path, &info) == 0;
 }
 
-static const char *base_of(const char *path) {
-    const char *slash = strrchr(path, '/');
-    return slash ? slash + 1 : path;
-}
-
-static sl_status add_recent(app_state *app, browser_state *b) {
+static sl_status add_recent(desk_state *desk, browser_state *b) {
     sl_map_list recent = {0};
-    sl_status status = recent_list(app->context, &recent);
+    sl_status status = recent_list(desk->context, &recent);
     for (size_t i = 0; i < recent.count && status == SL_OK; i++)
         status =
-            folder_list_add(app->context, &b->files, recent.names[i], base_of(recent.names[i]));
-    sl_map_list_destroy(app->context, &recent);
+            folder_list_add(desk->context, &b->files, recent.names[i], files_base(recent.names[i]));
+    sl_map_list_destroy(desk->context, &recent);
     return status;
 }
 
-static void refill(app_state *app, browser_state *b) {
+static void refill_list(desk_state *desk, browser_state *b) {
     char samples[PATH_TEXT];
     sl_status status = SL_OK;
-    folder_list_clear(app->context, &b->files);
+    folder_list_clear(desk->context, &b->files);
     if (b->place == PLACE_RECENT)
-        status = add_recent(app, b);
+        status = add_recent(desk, b);
     else if (b->place == PLACE_SAMPLES && folder_of_samples(samples, sizeof samples))
-        status = folder_list_add_all(app->context, &b->files, samples);
+        status = folder_list_add_all(desk->context, &b->files, samples);
     else if (b->place == PLACE_FOLDER)
-        status = folder_list_read(app->context, &b->files, b->folder,
+        status = folder_list_read(desk->context, &b->files, b->folder,
                                   b->all     ? FILTER_ALL
                                   : b->saves ? FILTER_SAVED
                                              : FILTER_READABLE);
     b->problem[0] = '\0';
     if (status != SL_OK)
-        snprintf(b->problem, sizeof b->problem, "%s", sl_context_message(app->context));
+        snprintf(b->problem, sizeof b->problem, "%s", sl_context_message(desk->context));
     // What was opened last stays in that order until a head is clicked.
     if (b->place != PLACE_RECENT || b->sort != SORT_NAME || b->down)
         folder_list_sort(&b->files, b->sort, b->down);
@@ -118,14 +114,14 @@ static void set_path(browser_state *b, const char *folder, const char *name) {
 }
 
 /// Lists a folder; the field has it, with the name that is to be saved.
-static void enter(app_state *app, browser_state *b, const char *folder) {
+static void enter_folder(desk_state *desk, browser_state *b, const char *folder) {
     char name[TITLE_TEXT] = "";
     char *full = realpath(folder, NULL);
-    if (b->saves) snprintf(name, sizeof name, "%.300s", base_of(b->path.text));
+    if (b->saves) snprintf(name, sizeof name, "%.300s", files_base(b->path.text));
     if (full && strlen(full) < PATH_TEXT) snprintf(b->folder, sizeof b->folder, "%s", full);
     free(full);
     b->place = PLACE_FOLDER;
-    refill(app, b);
+    refill_list(desk, b);
     set_path(b, b->folder, name);
 }
 
@@ -133,7 +129,7 @@ static void enter(app_state *app, browser_state *b, const char *folder) {
 
 /// The field's path as the system needs it: "~/" is the home folder, other names begin from the
 /// folder that is listed.
-static void resolve(const browser_state *b, const char *text, char path[2 * PATH_TEXT]) {
+static void resolve_path(const browser_state *b, const char *text, char path[2 * PATH_TEXT]) {
     const char *home = getenv("HOME");
     if (text[0] == '~' && (text[1] == '/' || !text[1]) && home)
         snprintf(path, 2 * PATH_TEXT, "%s%s", home, text + 1);
@@ -155,9 +151,9 @@ static size_t find_name(const browser_state *b, const char *name) {
 }
 
 /// The list follows the field.
-static void follow(app_state *app, browser_state *b) {
+static void follow_field(desk_state *desk, browser_state *b) {
     char path[2 * PATH_TEXT];
-    resolve(b, b->path.text, path);
+    resolve_path(b, b->path.text, path);
     char *slash = strrchr(path, '/');
     char name[PATH_TEXT];
     snprintf(name, sizeof name, "%s", slash + 1);
@@ -168,7 +164,7 @@ static void follow(app_state *app, browser_state *b) {
     if (other && strchr(b->path.text, '/')) {
         snprintf(b->folder, sizeof b->folder, "%s", folder);
         b->place = PLACE_FOLDER;
-        refill(app, b);
+        refill_list(desk, b);
     }
     free(folder);
     b->problem[0] = '\0';
@@ -178,9 +174,9 @@ static void follow(app_state *app, browser_state *b) {
     if (found != SIZE_MAX) dialog_list_go(&b->list, found);
 }
 
-void browser_edited(app_state *app, int id) {
-    browser_state *b = app->dialog.browser;
-    if (id == PATH_FIELD) follow(app, b);
+void browser_edited(desk_state *desk, int id) {
+    browser_state *b = desk->dialog.browser;
+    if (id == PATH_FIELD) follow_field(desk, b);
     if (id != LIST || b->list.at >= b->files.entries.count) return;
     const folder_entry *entry = &b->files.entries.items[b->list.at];
     b->problem[0] = '\0';
@@ -189,9 +185,9 @@ void browser_edited(app_state *app, int id) {
 }
 
 /// Adds to the name what all entries that begin so have in common. False where that is nothing.
-static bool complete(app_state *app, browser_state *b) {
-    follow(app, b);
-    const char *name = base_of(b->path.text);
+static bool complete_name(desk_state *desk, browser_state *b) {
+    follow_field(desk, b);
+    const char *name = files_base(b->path.text);
     const size_t typed = strlen(name), first = find_name(b, name);
     if (first == SIZE_MAX || b->place != PLACE_FOLDER) return false;
     const folder_entry *found = &b->files.entries.items[first];
@@ -212,39 +208,39 @@ static bool complete(app_state *app, browser_state *b) {
     snprintf(whole, sizeof whole, "%.*s%.*s%s", (int)before, b->path.text, (int)same, found->name,
              folder ? "/" : "");
     field_set(&b->path, whole);
-    follow(app, b);
+    follow_field(desk, b);
     return true;
 }
 
-bool browser_key(app_state *app, const char *key) {
-    browser_state *b = app->dialog.browser;
-    const int focus = app->dialog.focus[app->dialog.depth - 1];
-    if (strcmp(key, "Tab") == 0 && focus == PATH_FIELD) return complete(app, b);
+bool browser_key(desk_state *desk, const char *key) {
+    browser_state *b = desk->dialog.browser;
+    const int focus = desk->dialog.focus[desk->dialog.depth - 1];
+    if (strcmp(key, "Tab") == 0 && focus == PATH_FIELD) return complete_name(desk, b);
     if (strcmp(key, "Ctrl+Up") != 0) return false;
-    browser_act(app, PARENT);
+    browser_act(desk, PARENT);
     return true;
 }
 
 // --- what it does
 
-static void save_now(app_state *app, const char *path) {
-    dialog_pop(app);
-    map_file_save_to(app, path);
+static void save_now(desk_state *desk, const char *path) {
+    dialog_pop(&desk->dialog);
+    desk->dialog.browser->save(desk, path);
 }
 
 /// The file is there: the dialog is still open below the question.
-static void take_replace(app_state *app, int answer) {
+static void take_replace(desk_state *desk, int answer) {
     char path[2 * PATH_TEXT];
     if (answer != 0) return;
-    resolve(app->dialog.browser, app->dialog.browser->path.text, path);
-    if (!strchr(base_of(path), '.')) strcat(path, ".map");
-    save_now(app, path);
+    resolve_path(desk->dialog.browser, desk->dialog.browser->path.text, path);
+    if (!strchr(files_base(path), '.')) strcat(path, ".map");
+    save_now(desk, path);
 }
 
-static void save_as(app_state *app, browser_state *b, char path[2 * PATH_TEXT]) {
+static void save_as(desk_state *desk, browser_state *b, char path[2 * PATH_TEXT]) {
     static const char *const answers[] = {"R:Replace", "C:Cancel"};
     char text[2 * PATH_TEXT];
-    const char *name = base_of(path), *dot = strrchr(name, '.');
+    const char *name = files_base(path), *dot = strrchr(name, '.');
     if (!*name) {
         snprintf(b->problem, sizeof b->problem, "A name is needed.");
         return;
@@ -256,146 +252,138 @@ static void save_as(app_state *app, browser_state *b, char path[2 * PATH_TEXT]) 
         return;
     }
     if (!is_there(path)) {
-        save_now(app, path);
+        save_now(desk, path);
         return;
     }
     snprintf(text, sizeof text, "%s is there already.", path);
-    question_ask(app, "Replace the file?", text, answers, 2, take_replace);
+    question_ask(desk, "Replace the file?", text, answers, 2, take_replace);
 }
 
-static void open_file(app_state *app, browser_state *b, const char *path, bool ask) {
+static void open_file(desk_state *desk, browser_state *b, const char *path, bool ask) {
     if (!is_there(path)) {
-        snprintf(b->problem, sizeof b->problem, "There is no such file: %.200s", base_of(path));
+        snprintf(b->problem, sizeof b->problem, "There is no such file: %.200s", files_base(path));
         return;
     }
     char copy[2 * PATH_TEXT];
     snprintf(copy, sizeof copy, "%s", path);
-    dialog_pop(app);
-    files_open(app, copy, ask);
+    dialog_pop(&desk->dialog);
+    b->open(desk, copy, ask);
 }
 
 /// What the field names; a beginning of a name stands for the entry that the list has chosen.
-static void go(app_state *app, browser_state *b, bool ask) {
+static void go_to_path(desk_state *desk, browser_state *b, bool ask) {
     char path[2 * PATH_TEXT];
-    resolve(b, b->path.text, path);
+    resolve_path(b, b->path.text, path);
     if (!b->saves && b->list.at < b->files.entries.count && !is_there(path))
         snprintf(path, sizeof path, "%s", b->files.entries.items[b->list.at].path);
     if (is_folder(path))
-        enter(app, b, path);
+        enter_folder(desk, b, path);
     else if (b->saves)
-        save_as(app, b, path);
+        save_as(desk, b, path);
     else
-        open_file(app, b, path, ask);
+        open_file(desk, b, path, ask);
 }
 
-static void go_to_place(app_state *app, browser_state *b, browser_place place) {
+static void go_to_place(desk_state *desk, browser_state *b, browser_place place) {
     b->place = place;
     b->sort = SORT_NAME;
     b->down = false;
     if (!b->saves) set_path(b, b->folder, "");
-    refill(app, b);
+    refill_list(desk, b);
 }
 
-static void sort_by(app_state *app, browser_state *b, folder_sort sort) {
+static void sort_by(desk_state *desk, browser_state *b, folder_sort sort) {
     b->down = b->sort == sort ? !b->down : sort != SORT_NAME; // largest and newest first
     b->sort = sort;
-    refill(app, b);
+    refill_list(desk, b);
 }
 
-static void go_up(app_state *app, browser_state *b) {
+static void go_up(desk_state *desk, browser_state *b) {
     char parent[PATH_TEXT];
     snprintf(parent, sizeof parent, "%.*s", PATH_TEXT - 1, b->folder);
     char *slash = strrchr(parent, '/');
     if (slash) slash[slash == parent] = '\0';
-    enter(app, b, b->place == PLACE_FOLDER ? parent : b->folder);
+    enter_folder(desk, b, b->place == PLACE_FOLDER ? parent : b->folder);
 }
 
-void browser_act(app_state *app, int id) {
-    browser_state *b = app->dialog.browser;
+void browser_act(desk_state *desk, int id) {
+    browser_state *b = desk->dialog.browser;
     switch (id) {
     case DIALOG_CANCEL:
-        app->file.pending = PENDING_NONE;
-        dialog_pop(app);
+        desk->file.pending = PENDING_NONE;
+        dialog_pop(&desk->dialog);
         break;
     case DIALOG_MAIN:
     case LIST:
-        go(app, b, false);
+        go_to_path(desk, b, false);
         break;
     case OPTIONS:
-        go(app, b, true);
+        go_to_path(desk, b, true);
         break;
     case RECENT:
-        go_to_place(app, b, PLACE_RECENT);
+        go_to_place(desk, b, PLACE_RECENT);
         break;
     case SAMPLES:
-        go_to_place(app, b, PLACE_SAMPLES);
+        go_to_place(desk, b, PLACE_SAMPLES);
         break;
     case HOME:
-        if (getenv("HOME")) enter(app, b, getenv("HOME"));
+        if (getenv("HOME")) enter_folder(desk, b, getenv("HOME"));
         break;
     case PARENT:
-        go_up(app, b);
+        go_up(desk, b);
         break;
     case ALL_FILES:
         b->all = !b->all;
-        refill(app, b);
+        refill_list(desk, b);
         break;
     default:
-        if (id >= HEAD_NAME && id <= HEAD_CHANGED) sort_by(app, b, (folder_sort)(id - HEAD_NAME));
+        if (id >= HEAD_NAME && id <= HEAD_CHANGED) sort_by(desk, b, (folder_sort)(id - HEAD_NAME));
         break;
     }
 }
 
-static browser_state *begin(app_state *app, bool saves) {
-    browser_state *b = state_of(app);
+static browser_state *show_browser(desk_state *desk, bool saves) {
+    browser_state *b = state_of(desk);
     if (!b) return NULL;
     b->saves = saves;
-    const char *path = app->document.source.path;
+    const char *path = desk->document->source.path;
     char folder[PATH_TEXT] = ".";
     const char *slash = path ? strrchr(path, '/') : NULL;
     if (slash)
         snprintf(folder, sizeof folder, "%.*s", slash == path ? 1 : (int)(slash - path), path);
     if (b->folder[0]) snprintf(folder, sizeof folder, "%s", b->folder);
     field_set(&b->path, "");
-    enter(app, b, folder);
-    dialog_push(app, DIALOG_BROWSER, PATH_FIELD);
+    enter_folder(desk, b, folder);
+    dialog_push(&desk->dialog, DIALOG_BROWSER, PATH_FIELD);
     return b;
 }
 
-void browser_open(app_state *app) {
-    browser_state *b = begin(app, false);
+void browser_open(desk_state *desk, browser_open_file *then) {
+    browser_state *b = show_browser(desk, false);
     sl_map_list recent = {0};
     if (!b) return;
+    b->open = then;
     // At first there is no folder of the user's: what he had last, or the samples.
-    const bool any = recent_list(app->context, &recent) == SL_OK && recent.count;
-    if (!app->document.source.path && !app->steady)
-        go_to_place(app, b, any ? PLACE_RECENT : PLACE_SAMPLES);
-    sl_map_list_destroy(app->context, &recent);
+    const bool any = recent_list(desk->context, &recent) == SL_OK && recent.count;
+    if (!desk->document->source.path && !desk->ui->steady)
+        go_to_place(desk, b, any ? PLACE_RECENT : PLACE_SAMPLES);
+    sl_map_list_destroy(desk->context, &recent);
 }
 
-void browser_save(app_state *app) {
-    char name[TITLE_TEXT];
-    browser_state *b = begin(app, true);
+void browser_save(desk_state *desk, const char *name, browser_save_file *then) {
+    browser_state *b = show_browser(desk, true);
     if (!b) return;
-    const document_source *source = &app->document.source;
-    if (access(b->folder, W_OK) != 0) enter(app, b, getenv("HOME") ? getenv("HOME") : ".");
-    if (source->options.map && !app->file.path)
-        snprintf(name, sizeof name, "%.200s", source->options.map);
-    else
-        map_file_name(app, name);
-    char *dot = strrchr(name, '.');
-    if (dot && !(app->file.path && document_is_baked(app->file.path))) *dot = '\0';
-    for (char *at = name; *at; at++)
-        if (*at == '/' || *at == ' ') *at = '-';
-    if (!strchr(name, '.')) snprintf(name + strlen(name), sizeof name - strlen(name), ".map");
+    b->save = then;
+    if (access(b->folder, W_OK) != 0) enter_folder(desk, b, getenv("HOME") ? getenv("HOME") : ".");
     set_path(b, b->folder, name);
 }
 
-void browser_save_to(app_state *app, const char *path) {
-    browser_state *b = begin(app, true);
+void browser_save_to(desk_state *desk, const char *path, browser_save_file *then) {
+    browser_state *b = show_browser(desk, true);
     if (!b) return;
+    b->save = then;
     field_set(&b->path, path);
-    follow(app, b);
+    follow_field(desk, b);
 }
 
 // --- the picture
@@ -410,8 +398,7 @@ static void write_size(double bytes, char text[32]) {
     snprintf(text, 32, bytes < 10 && unit ? "%.1f %s" : "%.0f %s", bytes, units[unit]);
 }
 
-static void draw_entry(app_state *app, sl_box row, const folder_entry *entry) {
-    ui_state *ui = &app->ui;
+static void draw_entry(ui_state *ui, sl_box row, const folder_entry *entry) {
     const double t = ui->text, base = row.min.y + 1.2 * t;
     char text[320], when[32] = "";
     struct tm local;
@@ -427,8 +414,8 @@ static void draw_entry(app_state *app, sl_box row, const folder_entry *entry) {
     ui_text_right(ui, row.max.x - 0.6 * t, base, 0.95, ui->palette.faint, when);
 }
 
-static void draw_list(app_state *app, browser_state *b, sl_box box) {
-    ui_state *ui = &app->ui;
+static void draw_list(desk_state *desk, browser_state *b, sl_box box) {
+    ui_state *ui = desk->ui;
     const double t = ui->text;
     static const char *const heads[] = {"Name", "Size", "Changed"};
     const double ends[] = {box_width(box) - 17.5 * t, box_width(box) - 11 * t, box_width(box)};
@@ -440,11 +427,11 @@ static void draw_list(app_state *app, browser_state *b, sl_box box) {
                  : b->down         ? " \xe2\x96\xbe"
                                    : " \xe2\x96\xb4");
         const sl_box head = {{left, box.min.y}, {box.min.x + ends[i], box.min.y + 1.5 * t}};
-        dialog_head(app, HEAD_NAME + i, head, text);
+        dialog_head(&desk->dialog, HEAD_NAME + i, head, text);
         left = head.max.x;
     }
     const sl_box frame = {{box.min.x, box.min.y + 1.5 * t}, box.max};
-    dialog_list_frame(app, LIST, frame, &b->list);
+    dialog_list_frame(&desk->dialog, LIST, frame, &b->list);
     if (!b->list.count)
         ui_text(ui, frame.min.x + 0.6 * t, frame.min.y + 1.4 * t, 1, false, ui->palette.faint,
                 b->place == PLACE_RECENT    ? "No file was opened yet."
@@ -452,42 +439,46 @@ static void draw_list(app_state *app, browser_state *b, sl_box box) {
                 : b->all                    ? "The folder is empty."
                                             : "No map in this folder. 'All files' shows the rest.");
     for (size_t i = b->list.first; i < b->list.count && i < b->list.first + b->list.page; i++)
-        draw_entry(app, dialog_list_row(app, LIST, frame, &b->list, i), &b->files.entries.items[i]);
+        draw_entry(desk->ui, dialog_list_row(&desk->dialog, LIST, frame, &b->list, i),
+                   &b->files.entries.items[i]);
 }
 
-void browser_draw(app_state *app) {
+void browser_draw(desk_state *desk) {
     static const dialog_label places[] = {
         {RECENT, "Recent files"}, {SAMPLES, "Samples"}, {HOME, "Home"}, {PARENT, "Folder above"}};
-    ui_state *ui = &app->ui;
-    browser_state *b = app->dialog.browser;
+    ui_state *ui = desk->ui;
+    browser_state *b = desk->dialog.browser;
     // With large text the sheet has fewer rows, and text stays large.
     const double wide = fmin(fmax((ui->width - 12) / ui->text, 44), 58);
     const double text = fmin(ui->text, (ui->width - 12) / wide);
     const double high = fmin(fmax((ui->height - 12) / text, 24), 40);
-    const sl_box box = dialog_begin(app, wide, high, b->saves ? "Save the map" : "Open a map");
+    const sl_box box =
+        dialog_begin(&desk->dialog, wide, high, b->saves ? "Save the map" : "Open a map");
     const double t = ui->text, x0 = box.min.x, x1 = box.max.x;
     const dialog_label ends[] = {{OPTIONS, "Options..."},
                                  {DIALOG_CANCEL, "Cancel"},
                                  {DIALOG_MAIN, b->saves ? "Save" : "Open"}};
     double y = box.min.y;
-    dialog_field(app, PATH_FIELD, (sl_box){{x0, y}, {x1, y + 1.9 * t}}, &b->path,
+    dialog_field(&desk->dialog, PATH_FIELD, (sl_box){{x0, y}, {x1, y + 1.9 * t}}, &b->path,
                  "A path; Tab completes it");
     y += 2.6 * t;
-    dialog_buttons(app, x0 + dialog_buttons_width(app, places, 4), y, places, 4);
+    dialog_buttons(&desk->dialog, x0 + dialog_buttons_width(&desk->dialog, places, 4), y, places,
+                   4);
     y += 2.3 * t;
-    draw_list(app, b, (sl_box){{x0, y}, {x1, box.max.y - 4.2 * t}});
+    draw_list(desk, b, (sl_box){{x0, y}, {x1, box.max.y - 4.2 * t}});
     y = box.max.y - 1.8 * t;
     const char *note = b->place == PLACE_RECENT    ? "The files that were opened last"
                        : b->place == PLACE_SAMPLES ? "The maps that come with Sightline"
                                                    : "Ctrl+Up: the folder above";
     if (b->problem[0])
-        dialog_problem(app, (sl_point){x0, y - 0.9 * t}, x1 - x0, b->problem);
+        dialog_problem(&desk->dialog, (sl_point){x0, y - 0.9 * t}, x1 - x0, b->problem);
     else
         ui_text(ui, x0, y - 0.9 * t, 1, false, ui->palette.faint, note);
     const int from = b->saves ? 1 : 0;
-    const double left = dialog_buttons(app, x1, y, ends + from, 3 - from);
+    const double left = dialog_buttons(&desk->dialog, x1, y, ends + from, 3 - from);
     if (b->place == PLACE_FOLDER)
-        dialog_check(app, ALL_FILES, (sl_box){{x0, y}, {fmin(x0 + 22 * t, left - t), y + 1.8 * t}},
-                     "All files", b->all);
-    dialog_end(app);
+        dialog_check(&desk->dialog, ALL_FILES,
+                     (sl_box){{x0, y}, {fmin(x0 + 22 * t, left - t), y + 1.8 * t}}, "All files",
+                     b->all);
+    dialog_end(&desk->dialog);
 }

@@ -3,18 +3,22 @@
 #ifndef VIEWER_BROWSER_H
 #define VIEWER_BROWSER_H
 
-#include "app/app.h"
+#include "dialogs/desk.h"
 
-void browser_open(app_state *app);
-/// Asks for the name to save the map under.
-void browser_save(app_state *app);
+typedef void browser_open_file(desk_state *desk, const char *path, bool ask);
+typedef void browser_save_file(desk_state *desk, const char *path);
+
+/// `then` opens the file that is chosen; `ask`: all its options are to be asked for.
+void browser_open(desk_state *desk, browser_open_file *then);
+/// Asks for the path to save the map under; at first it has this name.
+void browser_save(desk_state *desk, const char *name, browser_save_file *then);
 /// The same with this path in the field.
-void browser_save_to(app_state *app, const char *path);
+void browser_save_to(desk_state *desk, const char *path, browser_save_file *then);
 
-void browser_draw(app_state *app);
-void browser_act(app_state *app, int id);
-void browser_edited(app_state *app, int id);
-bool browser_key(app_state *app, const char *key);
-void browser_destroy(app_state *app);
+void browser_draw(desk_state *desk);
+void browser_act(desk_state *desk, int id);
+void browser_edited(desk_state *desk, int id);
+bool browser_key(desk_state *desk, const char *key);
+void browser_destroy(desk_state *desk);
 
 #endif

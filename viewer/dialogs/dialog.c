@@ -3,10 +3,6 @@
 /// the wheel move in lists.
 #include "dialogs/dialog.h"
 
-#include "app/app.h"
-#include "dialogs/browser.h"
-#include "dialogs/import_dialog.h"
-#include "dialogs/question.h"
 #include "sightline/draw.h"
 
 #include <math.h>
@@ -14,61 +10,47 @@
 #include <stdio.h>
 #include <string.h>
 
-/// What a dialog is made of. Functions but `draw` and `act` may be NULL.
-typedef struct dialog_row {
-    void (*draw)(app_state *app);
-    void (*act)(app_state *app, int id);          ///< a button, a check, a row twice
-    void (*edited)(app_state *app, int id);       ///< a field, or the choice of a list
-    bool (*key)(app_state *app, const char *key); ///< before all others; false: not its own
-    void (*destroy)(app_state *app);              ///< at the end of the program
-} dialog_row;
-
-static const dialog_row dialogs[] = {
-    [DIALOG_MENU] = {menu_draw, menu_act, NULL, NULL, NULL},
-    [DIALOG_BROWSER] = {browser_draw, browser_act, browser_edited, browser_key, browser_destroy},
-    [DIALOG_IMPORT] = {import_draw, import_act, import_edited, NULL, import_destroy},
-    [DIALOG_QUESTION] = {question_draw, question_act, NULL, question_key, NULL},
-};
-
-dialog_kind dialog_open_now(const app_state *app) {
-    return app->dialog.depth ? app->dialog.stack[app->dialog.depth - 1] : DIALOG_NONE;
+dialog_kind dialog_open_now(const dialog_state *d) {
+    return d->depth ? d->stack[d->depth - 1] : DIALOG_NONE;
 }
 
-void dialog_push(app_state *app, dialog_kind kind, int focus) {
-    dialog_state *d = &app->dialog;
-    app_shut_help(app);
-    app->tool.held = 0;
+static const dialog_row *row_now(const dialog_state *d) {
+    return &d->rows[dialog_open_now(d)];
+}
+
+void dialog_push(dialog_state *d, dialog_kind kind, int focus) {
+    ui_shut_help(d->ui);
     d->item_count = 0;
     if (d->depth == DIALOGS_MOST) d->depth--;
     d->stack[d->depth] = kind;
     d->focus[d->depth++] = focus;
 }
 
-void dialog_pop(app_state *app) {
-    if (app->dialog.depth) app->dialog.depth--;
-    app->dialog.item_count = 0;
+void dialog_pop(dialog_state *d) {
+    if (d->depth) d->depth--;
+    d->item_count = 0;
 }
 
-bool dialog_clear(app_state *app) {
-    while (app->dialog.depth && dialog_open_now(app) != DIALOG_QUESTION)
-        dialogs[dialog_open_now(app)].act(app, DIALOG_CANCEL);
-    return app->dialog.depth == 0;
+bool dialog_clear(dialog_state *d) {
+    while (d->depth && dialog_open_now(d) != DIALOG_QUESTION)
+        row_now(d)->act(d->desk, DIALOG_CANCEL);
+    return d->depth == 0;
 }
 
-void dialog_destroy(app_state *app) {
-    for (size_t i = 1; i < sizeof dialogs / sizeof *dialogs; i++)
-        if (dialogs[i].destroy) dialogs[i].destroy(app);
+void dialog_destroy(dialog_state *d) {
+    for (int i = 1; i < DIALOG_KINDS; i++)
+        if (d->rows[i].destroy) d->rows[i].destroy(d->desk);
 }
 
 /// Only the uppermost one is drawn.
-void dialog_draw(app_state *app) {
-    app->dialog.item_count = 0;
-    app->dialog.title[0] = app->dialog.problem[0] = '\0';
-    if (app->dialog.depth) dialogs[dialog_open_now(app)].draw(app);
+void dialog_draw(dialog_state *d) {
+    d->item_count = 0;
+    d->title[0] = d->problem[0] = '\0';
+    if (d->depth) row_now(d)->draw(d->desk);
 }
 
-bool dialog_is_unseen(const app_state *app) {
-    return app->dialog.depth && !app->dialog.item_count;
+bool dialog_is_unseen(const dialog_state *d) {
+    return d->depth && !d->item_count;
 }
 
 // --- widgets
@@ -77,17 +59,16 @@ static int *focus_of(dialog_state *d) {
     return &d->focus[d->depth ? d->depth - 1 : 0];
 }
 
-static void add_item(app_state *app, dialog_item item) {
-    dialog_state *d = &app->dialog;
+static void add_item(dialog_state *d, dialog_item item) {
     if (d->item_count < ITEMS_MOST) d->items[d->item_count++] = item;
 }
 
-sl_box dialog_begin(app_state *app, double width, double height, const char *title) {
-    ui_state *ui = &app->ui;
+sl_box dialog_begin(dialog_state *d, double width, double height, const char *title) {
+    ui_state *ui = d->ui;
     const sl_box all = {{0, 0}, {ui->width, ui->height}};
     const double room = fmin((ui->width - 12) / width, (ui->height - 12) / height);
-    app->dialog.text = ui->text;
-    snprintf(app->dialog.title, sizeof app->dialog.title, "%s", title);
+    d->text = ui->text;
+    snprintf(d->title, sizeof d->title, "%s", title);
     ui->text = fmin(ui->text, room);
     ui_hit(ui, HIT_DIALOG, 0, all);
     const sl_colour dim = ui->palette.dark ? ui->palette.page : ui->palette.ink;
@@ -106,22 +87,22 @@ sl_box dialog_begin(app_state *app, double width, double height, const char *tit
                     {sheet.max.x - 1.3 * t, sheet.max.y - 1.1 * t}};
 }
 
-void dialog_end(app_state *app) {
-    ui_end_area(&app->ui);
-    app->ui.text = app->dialog.text;
+void dialog_end(dialog_state *d) {
+    ui_end_area(d->ui);
+    d->ui->text = d->text;
 }
 
-void dialog_problem(app_state *app, sl_point at, double width, const char *text) {
-    ui_state *ui = &app->ui;
-    snprintf(app->dialog.problem, sizeof app->dialog.problem, "%s", text);
+void dialog_problem(dialog_state *d, sl_point at, double width, const char *text) {
+    ui_state *ui = d->ui;
+    snprintf(d->problem, sizeof d->problem, "%s", text);
     if (*text)
         sl_text_show_within(ui->cairo, ui->palette.start, at.x, at.y, width, ui->text, false, text);
 }
 
 /// A frame about what is in focus.
-static void draw_focus(app_state *app, int id, sl_box box) {
-    ui_state *ui = &app->ui;
-    if (*focus_of(&app->dialog) != id) return;
+static void draw_focus(dialog_state *d, int id, sl_box box) {
+    ui_state *ui = d->ui;
+    if (*focus_of(d) != id) return;
     const double line = fmax(2, 0.13 * ui->text);
     cairo_rectangle(ui->cairo, box.min.x - line / 2, box.min.y - line / 2, box_width(box) + line,
                     box_height(box) + line);
@@ -139,65 +120,65 @@ static double button_width(ui_state *ui, const char *label) {
     return ui_text_width(ui, 1, false, label) + 1.6 * ui->text;
 }
 
-static void draw_button(app_state *app, double x, double y, const dialog_label *button) {
-    ui_state *ui = &app->ui;
+static void draw_button(dialog_state *d, double x, double y, const dialog_label *button) {
+    ui_state *ui = d->ui;
     const double t = ui->text;
     const sl_box box = {{x, y}, {x + button_width(ui, button->label), y + 1.8 * t}};
     ui_fill_round(ui, box, 0.3 * t, ground(ui, box, 0.1));
     ui_text(ui, x + 0.8 * t, y + 1.25 * t, 1, false, ui->palette.ink, button->label);
-    draw_focus(app, button->id, box);
+    draw_focus(d, button->id, box);
     ui_hit(ui, HIT_DIALOG, button->id, box);
-    add_item(app, (dialog_item){.kind = ITEM_BUTTON, .id = button->id, .box = box});
+    add_item(d, (dialog_item){.kind = ITEM_BUTTON, .id = button->id, .box = box});
 }
 
-double dialog_buttons_width(app_state *app, const dialog_label *buttons, int count) {
-    double wide = -0.6 * app->ui.text;
+double dialog_buttons_width(dialog_state *d, const dialog_label *buttons, int count) {
+    double wide = -0.6 * d->ui->text;
     for (int i = 0; i < count; i++)
-        wide += button_width(&app->ui, buttons[i].label) + 0.6 * app->ui.text;
+        wide += button_width(d->ui, buttons[i].label) + 0.6 * d->ui->text;
     return wide;
 }
 
-void dialog_head(app_state *app, int id, sl_box box, const char *label) {
-    ui_state *ui = &app->ui;
+void dialog_head(dialog_state *d, int id, sl_box box, const char *label) {
+    ui_state *ui = d->ui;
     if (box_has(box, ui->pointer)) ui_fill(ui, box, ground(ui, box, 0));
     ui_text(ui, box.min.x + 0.5 * ui->text, box.max.y - 0.45 * ui->text, 0.95, false,
             ui->palette.faint, label);
-    draw_focus(app, id, box);
+    draw_focus(d, id, box);
     ui_hit(ui, HIT_DIALOG, id, box);
-    add_item(app, (dialog_item){.kind = ITEM_BUTTON, .id = id, .box = box});
+    add_item(d, (dialog_item){.kind = ITEM_BUTTON, .id = id, .box = box});
 }
 
-double dialog_buttons(app_state *app, double x, double y, const dialog_label *buttons, int count) {
-    const double gap = 0.6 * app->ui.text;
-    const double first = x -= dialog_buttons_width(app, buttons, count);
+double dialog_buttons(dialog_state *d, double x, double y, const dialog_label *buttons, int count) {
+    const double gap = 0.6 * d->ui->text;
+    const double first = x -= dialog_buttons_width(d, buttons, count);
     for (int i = 0; i < count; i++) {
-        draw_button(app, x, y, &buttons[i]);
-        x += button_width(&app->ui, buttons[i].label) + gap;
+        draw_button(d, x, y, &buttons[i]);
+        x += button_width(d->ui, buttons[i].label) + gap;
     }
     return first;
 }
 
-void dialog_check(app_state *app, int id, sl_box row, const char *label, bool on) {
-    ui_state *ui = &app->ui;
+void dialog_check(dialog_state *d, int id, sl_box row, const char *label, bool on) {
+    ui_state *ui = d->ui;
     // The widget of the panel registers an action: the hit that follows lies over it.
     ui_check(ui, row, label, NULL, on, -1);
-    draw_focus(app, id, row);
+    draw_focus(d, id, row);
     ui_hit(ui, HIT_DIALOG, id, row);
-    add_item(app, (dialog_item){.kind = ITEM_CHECK, .id = id, .box = row});
+    add_item(d, (dialog_item){.kind = ITEM_CHECK, .id = id, .box = row});
 }
 
-void dialog_field(app_state *app, int id, sl_box box, text_field *field, const char *hint) {
-    ui_text_field(&app->ui, box, field, hint, *focus_of(&app->dialog) == id);
-    ui_hit(&app->ui, HIT_DIALOG, id, box);
-    add_item(app, (dialog_item){.kind = ITEM_FIELD, .id = id, .field = field, .box = box});
+void dialog_field(dialog_state *d, int id, sl_box box, text_field *field, const char *hint) {
+    ui_text_field(d->ui, box, field, hint, *focus_of(d) == id);
+    ui_hit(d->ui, HIT_DIALOG, id, box);
+    add_item(d, (dialog_item){.kind = ITEM_FIELD, .id = id, .field = field, .box = box});
 }
 
 static double row_height(const ui_state *ui) {
     return 1.7 * ui->text;
 }
 
-void dialog_list_frame(app_state *app, int id, sl_box box, dialog_list *list) {
-    ui_state *ui = &app->ui;
+void dialog_list_frame(dialog_state *d, int id, sl_box box, dialog_list *list) {
+    ui_state *ui = d->ui;
     const double high = row_height(ui);
     ui_fill(ui, box, ui->palette.outline);
     ui_fill(ui, (sl_box){{box.min.x + 1, box.min.y + 1}, {box.max.x - 1, box.max.y - 1}},
@@ -215,12 +196,12 @@ void dialog_list_frame(app_state *app, int id, sl_box box, dialog_list *list) {
                          {box.max.x - 1, fmin(top + share * (double)list->page, box.max.y)}},
                 ui->palette.faint);
     }
-    draw_focus(app, id, box);
-    add_item(app, (dialog_item){.kind = ITEM_LIST, .id = id, .list = list, .box = box});
+    draw_focus(d, id, box);
+    add_item(d, (dialog_item){.kind = ITEM_LIST, .id = id, .list = list, .box = box});
 }
 
-sl_box dialog_list_row(app_state *app, int id, sl_box box, const dialog_list *list, size_t row) {
-    ui_state *ui = &app->ui;
+sl_box dialog_list_row(dialog_state *d, int id, sl_box box, const dialog_list *list, size_t row) {
+    ui_state *ui = d->ui;
     const double high = row_height(ui), y = box.min.y + 1 + high * (double)(row - list->first);
     const double right = list->count > list->page ? 0.6 * ui->text : 0;
     const sl_box place = {{box.min.x + 1, y}, {box.max.x - 1 - right, y + high}};
@@ -256,13 +237,13 @@ static dialog_item *find_list(dialog_state *d) {
     return NULL;
 }
 
-static void edited(app_state *app, int id) {
-    const dialog_row *row = &dialogs[dialog_open_now(app)];
-    if (row->edited) row->edited(app, id);
+static void tell_edited(dialog_state *d, int id) {
+    const dialog_row *row = row_now(d);
+    if (row->edited) row->edited(d->desk, id);
 }
 
-static bool list_key(app_state *app, const char *key, bool focused) {
-    dialog_item *item = find_list(&app->dialog);
+static bool list_key(dialog_state *d, const char *key, bool focused) {
+    dialog_item *item = find_list(d);
     if (!item || !item->list->count) return false;
     dialog_list *list = item->list;
     const size_t last = list->count - 1, page = list->page ? list->page : 1;
@@ -284,9 +265,9 @@ static bool list_key(app_state *app, const char *key, bool focused) {
         return false;
     dialog_list_go(list, to);
     // Return means the row now, and no longer the button that was in focus.
-    const dialog_item *before = find_item(&app->dialog, *focus_of(&app->dialog));
-    if (!before || before->kind != ITEM_FIELD) *focus_of(&app->dialog) = item->id;
-    edited(app, item->id);
+    const dialog_item *before = find_item(d, *focus_of(d));
+    if (!before || before->kind != ITEM_FIELD) *focus_of(d) = item->id;
+    tell_edited(d, item->id);
     return true;
 }
 
@@ -299,10 +280,10 @@ static void move_focus(dialog_state *d, int by) {
     *focus_of(d) = d->items[at].id;
 }
 
-static void press_return(app_state *app, const dialog_item *focused) {
+static void press_return(dialog_state *d, const dialog_item *focused) {
     const bool own = focused && focused->kind != ITEM_FIELD && focused->kind != ITEM_CHECK &&
                      !(focused->list && focused->list->marks);
-    dialogs[dialog_open_now(app)].act(app, own ? focused->id : DIALOG_MAIN);
+    row_now(d)->act(d->desk, own ? focused->id : DIALOG_MAIN);
 }
 
 /// Where the focus goes by a key: 1 on, -1 back, 0 nowhere. Arrows count where nothing else takes
@@ -320,66 +301,61 @@ static int focus_step(const char *key, bool arrows) {
 }
 
 /// The keys of the widget in focus, and those of the list; false for others.
-static bool widget_key(app_state *app, const char *key) {
-    dialog_state *d = &app->dialog;
+static bool widget_key(dialog_state *d, const char *key) {
     dialog_item *focused = find_item(d, *focus_of(d));
     bool changed = false;
     if (focused && focused->kind == ITEM_FIELD && field_key(focused->field, key, &changed)) {
-        if (changed) edited(app, focused->id);
+        if (changed) tell_edited(d, focused->id);
         return true;
     }
     if (strcmp(key, "Space") == 0) {
-        if (focused && focused->kind != ITEM_FIELD)
-            dialogs[dialog_open_now(app)].act(app, focused->id);
+        if (focused && focused->kind != ITEM_FIELD) row_now(d)->act(d->desk, focused->id);
         return true;
     }
-    return list_key(app, key, focused && focused->kind == ITEM_LIST);
+    return list_key(d, key, focused && focused->kind == ITEM_LIST);
 }
 
-void dialog_key(app_state *app, const char *key, bool down) {
-    dialog_state *d = &app->dialog;
+void dialog_key(dialog_state *d, const char *key, bool down) {
     if (!down || strcmp(key, d->deaf) != 0) d->deaf[0] = '\0';
     if (!down) return;
-    const dialog_row *row = &dialogs[dialog_open_now(app)];
+    const dialog_row *row = row_now(d);
     if (strcmp(key, "Escape") == 0) {
-        row->act(app, DIALOG_CANCEL);
+        row->act(d->desk, DIALOG_CANCEL);
         return;
     }
-    if (row->key && row->key(app, key)) return;
+    if (row->key && row->key(d->desk, key)) return;
     if (strcmp(key, "Return") == 0)
-        press_return(app, find_item(d, *focus_of(d)));
+        press_return(d, find_item(d, *focus_of(d)));
     else if (focus_step(key, false))
         move_focus(d, focus_step(key, false));
-    else if (!widget_key(app, key) && focus_step(key, true))
+    else if (!widget_key(d, key) && focus_step(key, true))
         move_focus(d, focus_step(key, true));
 }
 
-void dialog_text(app_state *app, const char *text) {
-    dialog_state *d = &app->dialog;
+void dialog_text(dialog_state *d, const char *text) {
     dialog_item *focused = find_item(d, *focus_of(d));
     if (d->deaf[0] || !focused || focused->kind != ITEM_FIELD) return;
     field_insert(focused->field, text);
-    edited(app, focused->id);
+    tell_edited(d, focused->id);
 }
 
-static void press_row(app_state *app, dialog_item *item, size_t row) {
+static void press_row(dialog_state *d, dialog_item *item, size_t row) {
     const bool again = item->list->at == row || item->list->acts;
     const int id = item->id;
     dialog_list_go(item->list, row);
     if (again)
-        dialogs[dialog_open_now(app)].act(app, id);
+        row_now(d)->act(d->desk, id);
     else
-        edited(app, id);
+        tell_edited(d, id);
 }
 
-void dialog_press(app_state *app, const hit_area *hit, sl_point at) {
-    dialog_state *d = &app->dialog;
+void dialog_press(dialog_state *d, const hit_area *hit, sl_point at) {
     if (hit->kind != HIT_DIALOG) return;
     const int id = hit->value & 255, row = (hit->value >> 8) - 1;
     dialog_item *item = find_item(d, id);
     if (!item) {
         // Beside the sheet: a menu goes away.
-        if (hit->value == 0 && dialog_open_now(app) == DIALOG_MENU) dialog_pop(app);
+        if (hit->value == 0 && dialog_open_now(d) == DIALOG_MENU) dialog_pop(d);
         return;
     }
     *focus_of(d) = id;
@@ -388,17 +364,16 @@ void dialog_press(app_state *app, const hit_area *hit, sl_point at) {
         item->field->chosen = false;
         item->field->click_x = at.x;
     } else if (item->kind != ITEM_LIST) {
-        dialogs[dialog_open_now(app)].act(app, id);
+        row_now(d)->act(d->desk, id);
     } else if (row >= 0) {
-        press_row(app, item, (size_t)row);
+        press_row(d, item, (size_t)row);
     }
 }
 
-void dialog_wheel(app_state *app, double steps) {
-    dialog_state *d = &app->dialog;
+void dialog_wheel(dialog_state *d, double steps) {
     dialog_list *list = NULL;
     for (int i = 0; i < d->item_count; i++)
-        if (d->items[i].kind == ITEM_LIST && (!list || box_has(d->items[i].box, app->tool.pointer)))
+        if (d->items[i].kind == ITEM_LIST && (!list || box_has(d->items[i].box, d->ui->pointer)))
             list = d->items[i].list;
     if (!list) return;
     const double to = (double)list->first - round(3 * fmin(fmax(steps, -5), 5));

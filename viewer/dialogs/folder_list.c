@@ -85,8 +85,8 @@ static bool is_listed(const sl_context *context, const char *path, const char *n
 
 // --- reading
 
-static sl_status add(sl_context *context, folder_list *list, const char *path, const char *name,
-                     const struct stat *info) {
+static sl_status add_entry(sl_context *context, folder_list *list, const char *path,
+                           const char *name, const struct stat *info) {
     if (list->entries.count >= ENTRIES_MOST) return SL_OK;
     SL_TRY(SL_ARRAY_ROOM(context, &list->entries, 1));
     folder_entry entry = {.name = sl_copy_text(context, name, strlen(name)),
@@ -106,7 +106,7 @@ static sl_status add(sl_context *context, folder_list *list, const char *path, c
 sl_status folder_list_add(sl_context *context, folder_list *list, const char *path,
                           const char *name) {
     struct stat info;
-    return stat(path, &info) == 0 ? add(context, list, path, name, &info) : SL_OK;
+    return stat(path, &info) == 0 ? add_entry(context, list, path, name, &info) : SL_OK;
 }
 
 sl_status folder_list_read(sl_context *context, folder_list *list, const char *folder,
@@ -123,7 +123,7 @@ sl_status folder_list_read(sl_context *context, folder_list *list, const char *f
         if (entry->d_name[0] == '.' || length >= PATH_ROOM || stat(path, &info) != 0) continue;
         const bool plain = S_ISREG(info.st_mode);
         if (S_ISDIR(info.st_mode) || (plain && is_listed(context, path, entry->d_name, filter)))
-            status = add(context, list, path, entry->d_name, &info);
+            status = add_entry(context, list, path, entry->d_name, &info);
     }
     closedir(dir);
     return status;
@@ -171,7 +171,7 @@ static int by_changed(const void *a, const void *b) {
     return one->changed < other->changed ? -1 : 1;
 }
 
-static void turn(folder_entry *entries, size_t count) {
+static void reverse_order(folder_entry *entries, size_t count) {
     for (size_t i = 0; i < count / 2; i++) {
         const folder_entry swap = entries[i];
         entries[i] = entries[count - 1 - i];
@@ -189,8 +189,8 @@ void folder_list_sort(folder_list *list, folder_sort by, bool down) {
                             : by_changed);
     while (folders < count && list->entries.items[folders].folder) folders++;
     if (!down) return;
-    turn(list->entries.items, folders);
-    turn(list->entries.items + folders, count - folders);
+    reverse_order(list->entries.items, folders);
+    reverse_order(list->entries.items + folders, count - folders);
 }
 
 // --- samples

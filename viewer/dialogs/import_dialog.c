@@ -2,9 +2,7 @@
 /// field stands for the usual, which it shows in grey.
 #include "dialogs/import_dialog.h"
 
-#include "dialogs/question.h"
 #include "document/files.h"
-#include "document/map_file.h"
 #include "sightline/draw.h"
 #include "sightline/faults.h"
 #include "sightline/support.h"
@@ -26,6 +24,7 @@ typedef enum field_name {
 } field_name;
 
 typedef struct import_state {
+    void (*then)(desk_state *desk, const document_source *source);
     document_source source;
     sl_map_choice choice;
     dialog_list maps, layers;
@@ -59,19 +58,19 @@ static const struct {
     [FIELD_ENTRANCE] = {"Widest entrance", "the map's own, or found from the plan", 0},
 };
 
-void import_destroy(app_state *app) {
-    import_state *s = app->dialog.import;
+void import_destroy(desk_state *desk) {
+    import_state *s = desk->dialog.import;
     if (!s) return;
     if (s->task) {
-        task_drop(app->context, s->task);
-        document_source_destroy(app->context, &s->weld->source);
-        sl_free(app->context, s->weld);
+        task_drop(desk->context, s->task);
+        document_source_destroy(desk->context, &s->weld->source);
+        sl_free(desk->context, s->weld);
     }
-    document_source_destroy(app->context, &s->source);
-    sl_map_choice_destroy(app->context, &s->choice);
-    sl_free(app->context, s->taken);
-    sl_free(app->context, s);
-    app->dialog.import = NULL;
+    document_source_destroy(desk->context, &s->source);
+    sl_map_choice_destroy(desk->context, &s->choice);
+    sl_free(desk->context, s->taken);
+    sl_free(desk->context, s);
+    desk->dialog.import = NULL;
 }
 
 static void set_number(text_field *field, bool given, double value) {
@@ -125,17 +124,18 @@ static bool asks_layers(const import_state *s) {
     return s->choice.layers.count > 0 && (s->more || s->choice.layers_unsaid);
 }
 
-sl_status import_open(app_state *app, const document_source *source, sl_map_choice *choice,
-                      bool all) {
-    import_destroy(app);
-    import_state *s = sl_alloc_array(app->context, 1, sizeof *s);
+sl_status import_open(desk_state *desk, const document_source *source, sl_map_choice *choice,
+                      bool all, void (*then)(desk_state *desk, const document_source *source)) {
+    import_destroy(desk);
+    import_state *s = sl_alloc_array(desk->context, 1, sizeof *s);
     if (!s) return SL_NO_MEMORY;
-    app->dialog.import = s;
-    s->taken = sl_alloc_array(app->context, choice->layers.count, sizeof *s->taken);
+    desk->dialog.import = s;
+    s->taken = sl_alloc_array(desk->context, choice->layers.count, sizeof *s->taken);
     SL_TRY(s->taken ? SL_OK : SL_NO_MEMORY);
-    SL_TRY(document_source_copy(app->context, source, &s->source));
+    SL_TRY(document_source_copy(desk->context, source, &s->source));
     s->choice = *choice;
     *choice = (sl_map_choice){.format = choice->format};
+    s->then = then;
     s->more = all;
     s->maps = (dialog_list){.count = s->choice.maps.count};
     for (size_t i = 0; source->options.map && i < s->maps.count; i++)
@@ -143,24 +143,11 @@ sl_status import_open(app_state *app, const document_source *source, sl_map_choi
     s->layers = (dialog_list){.count = s->choice.layers.count, .acts = true, .marks = true};
     fill_fields(s);
     fill_layers(s);
-    dialog_push(app, DIALOG_IMPORT,
+    dialog_push(&desk->dialog, DIALOG_IMPORT,
                 asks_map(s)      ? MAPS
                 : asks_layers(s) ? LAYERS_LIST
                                  : DIALOG_MAIN);
     return SL_OK;
-}
-
-void import_open_again(app_state *app) {
-    document_source source = app->document.source;
-    sl_map_choice choice = {0};
-    if (!source.path || document_is_baked(source.path)) {
-        ui_say(&app->ui, false, "this map was not read from a file that has options");
-        return;
-    }
-    sl_status status = files_look(app->context, &source, &choice);
-    if (status == SL_OK) status = import_open(app, &source, &choice, true);
-    files_check(app, source.path, status);
-    sl_map_choice_destroy(app->context, &choice);
 }
 
 // --- from the fields to the source
@@ -256,60 +243,60 @@ static sl_status find_weld(sl_context *context, void *data) {
     return status;
 }
 
-static void suggest(app_state *app, import_state *s) {
+static void suggest(desk_state *desk, import_state *s) {
     document_source source;
     char layers[FIELD_TEXT];
     if (s->task || !read_source(s, &source, layers)) return;
-    s->weld = sl_alloc_array(app->context, 1, sizeof *s->weld);
+    s->weld = sl_alloc_array(desk->context, 1, sizeof *s->weld);
     sl_status status =
-        s->weld ? document_source_copy(app->context, &source, &s->weld->source) : SL_NO_MEMORY;
+        s->weld ? document_source_copy(desk->context, &source, &s->weld->source) : SL_NO_MEMORY;
     if (status == SL_OK)
-        status = task_start(app->context, find_weld, s->weld, NULL, NULL, &s->task);
+        status = task_start(desk->context, find_weld, s->weld, NULL, NULL, &s->task);
     if (status == SL_OK) return;
-    snprintf(s->problem, sizeof s->problem, "%s", sl_context_message(app->context));
-    if (s->weld) document_source_destroy(app->context, &s->weld->source);
-    sl_free(app->context, s->weld);
+    snprintf(s->problem, sizeof s->problem, "%s", sl_context_message(desk->context));
+    if (s->weld) document_source_destroy(desk->context, &s->weld->source);
+    sl_free(desk->context, s->weld);
     s->weld = NULL;
 }
 
 /// Takes over what was found.
-static void take_weld(app_state *app, import_state *s) {
-    if (!s->task || (!app->steady && !task_done(s->task))) return;
-    const sl_status status = task_end(app->context, s->task);
+static void take_weld(desk_state *desk, import_state *s) {
+    if (!s->task || (!desk->ui->steady && !task_done(s->task))) return;
+    const sl_status status = task_end(desk->context, s->task);
     s->task = NULL;
     if (status != SL_OK)
-        snprintf(s->problem, sizeof s->problem, "%s", sl_context_message(app->context));
+        snprintf(s->problem, sizeof s->problem, "%s", sl_context_message(desk->context));
     else if (s->weld->weld > 0) {
         set_number(&s->fields[FIELD_WELD], true, s->weld->weld);
-        app->dialog.focus[app->dialog.depth - 1] = DIALOG_MAIN;
+        desk->dialog.focus[desk->dialog.depth - 1] = DIALOG_MAIN;
     } else
         snprintf(s->problem, sizeof s->problem, "No gaps of rounding were found.");
-    document_source_destroy(app->context, &s->weld->source);
-    sl_free(app->context, s->weld);
+    document_source_destroy(desk->context, &s->weld->source);
+    sl_free(desk->context, s->weld);
     s->weld = NULL;
 }
 
 // --- what it does
 
-static void accept(app_state *app, import_state *s) {
+static void accept(desk_state *desk, import_state *s) {
     document_source source;
     char layers[FIELD_TEXT];
     if (!read_source(s, &source, layers)) return;
-    dialog_pop(app);
-    map_file_start(app, &source);
-    import_destroy(app);
+    dialog_pop(&desk->dialog);
+    s->then(desk, &source);
+    import_destroy(desk);
 }
 
-void import_act(app_state *app, int id) {
-    import_state *s = app->dialog.import;
+void import_act(desk_state *desk, int id) {
+    import_state *s = desk->dialog.import;
     switch (id) {
     case DIALOG_CANCEL:
-        dialog_pop(app);
-        import_destroy(app);
+        dialog_pop(&desk->dialog);
+        import_destroy(desk);
         break;
     case DIALOG_MAIN:
     case MAPS:
-        accept(app, s);
+        accept(desk, s);
         break;
     case LAYERS_LIST:
         if (s->layers.at < s->layers.count) s->taken[s->layers.at] ^= true;
@@ -322,19 +309,19 @@ void import_act(app_state *app, int id) {
         break;
     case MORE:
         s->more = true;
-        app->dialog.focus[app->dialog.depth - 1] = DIALOG_MAIN;
+        desk->dialog.focus[desk->dialog.depth - 1] = DIALOG_MAIN;
         break;
     case SUGGEST:
-        suggest(app, s);
+        suggest(desk, s);
         break;
     default:
         break;
     }
 }
 
-void import_edited(app_state *app, int id) {
+void import_edited(desk_state *desk, int id) {
     (void)id;
-    app->dialog.import->problem[0] = '\0';
+    desk->dialog.import->problem[0] = '\0';
 }
 
 // --- the picture
@@ -352,44 +339,44 @@ static int count_rows(const import_state *s) {
     return rows;
 }
 
-static double draw_maps(app_state *app, import_state *s, sl_box box, double y, double high) {
-    ui_state *ui = &app->ui;
+static double draw_maps(desk_state *desk, import_state *s, sl_box box, double y, double high) {
+    ui_state *ui = desk->ui;
     const double t = ui->text;
     const sl_box frame = {{box.min.x, y + 1.8 * t}, {box.max.x, y + 1.8 * t + high}};
     ui_text(ui, box.min.x, y + 1.2 * t, 1, false, ui->palette.ink, "Which of its maps?");
-    dialog_list_frame(app, MAPS, frame, &s->maps);
+    dialog_list_frame(&desk->dialog, MAPS, frame, &s->maps);
     for (size_t i = s->maps.first; i < s->maps.count && i < s->maps.first + s->maps.page; i++) {
-        const sl_box row = dialog_list_row(app, MAPS, frame, &s->maps, i);
+        const sl_box row = dialog_list_row(&desk->dialog, MAPS, frame, &s->maps, i);
         ui_text(ui, row.min.x + 0.6 * t, row.min.y + 1.2 * t, 1, false, ui->palette.ink,
                 s->choice.maps.names[i]);
     }
     return frame.max.y + 0.7 * t;
 }
 
-static double draw_layers(app_state *app, import_state *s, sl_box box, double y, double high) {
-    ui_state *ui = &app->ui;
+static double draw_layers(desk_state *desk, import_state *s, sl_box box, double y, double high) {
+    ui_state *ui = desk->ui;
     const double t = ui->text;
     const sl_box frame = {{box.min.x, y + 1.8 * t}, {box.max.x, y + 1.8 * t + high}};
     ui_text(ui, box.min.x, y + 1.2 * t, 1, false, ui->palette.ink,
             s->choice.layers_unsaid
                 ? "Which layers are solid? The file does not say. None: a guess from the lowest"
                 : "Solid layers; none: those that the file marks");
-    dialog_list_frame(app, LAYERS_LIST, frame, &s->layers);
+    dialog_list_frame(&desk->dialog, LAYERS_LIST, frame, &s->layers);
     for (size_t i = s->layers.first; i < s->layers.count && i < s->layers.first + s->layers.page;
          i++) {
-        const sl_box row = dialog_list_row(app, LAYERS_LIST, frame, &s->layers, i);
+        const sl_box row = dialog_list_row(&desk->dialog, LAYERS_LIST, frame, &s->layers, i);
         ui_check(ui, row, s->choice.layers.names[i], NULL, s->taken[i], -1);
         ui_hit(ui, HIT_DIALOG, LAYERS_LIST | ((int)i + 1) << 8, row);
     }
     return frame.max.y + 0.7 * t;
 }
 
-static double draw_field(app_state *app, import_state *s, sl_box box, double y, field_name name) {
-    ui_state *ui = &app->ui;
+static double draw_field(desk_state *desk, import_state *s, sl_box box, double y, field_name name) {
+    ui_state *ui = desk->ui;
     const double t = ui->text, left = box.min.x + 12 * t;
     const bool weld = name == FIELD_WELD;
     const dialog_label button = {SUGGEST, s->task ? "Looking ..." : "Suggest"};
-    const double wide = weld ? dialog_buttons_width(app, &button, 1) + 0.6 * t : 0;
+    const double wide = weld ? dialog_buttons_width(&desk->dialog, &button, 1) + 0.6 * t : 0;
     char hint[160], label[96];
     snprintf(hint, sizeof hint, "%s", fields[name].hint);
     snprintf(label, sizeof label, "%s", fields[name].label);
@@ -398,38 +385,37 @@ static double draw_field(app_state *app, import_state *s, sl_box box, double y, 
     if (name == FIELD_SLICE)
         snprintf(label, sizeof label, "Cut, %.5g to %.5g", s->source.lowest, s->source.highest);
     ui_text(ui, box.min.x, y + 1.25 * t, 1, false, ui->palette.ink, label);
-    dialog_field(app, FIRST_FIELD + name, (sl_box){{left, y}, {box.max.x - wide, y + 1.8 * t}},
-                 &s->fields[name], hint);
-    if (weld) dialog_buttons(app, box.max.x, y, &button, 1);
+    dialog_field(&desk->dialog, FIRST_FIELD + name,
+                 (sl_box){{left, y}, {box.max.x - wide, y + 1.8 * t}}, &s->fields[name], hint);
+    if (weld) dialog_buttons(&desk->dialog, box.max.x, y, &button, 1);
     return y + DIALOG_ROW * t;
 }
 
-static double draw_options(app_state *app, import_state *s, sl_box box, double y) {
-    const double t = app->ui.text;
+static double draw_options(desk_state *desk, import_state *s, sl_box box, double y) {
+    const double t = desk->ui->text;
     for (int i = 0; i < FIELDS; i++)
-        if (is_shown(s, (field_name)i)) y = draw_field(app, s, box, y, (field_name)i);
+        if (is_shown(s, (field_name)i)) y = draw_field(desk, s, box, y, (field_name)i);
     if (s->more && s->source.takes & SL_TAKES_DOORS) {
-        dialog_check(app, DOORS, (sl_box){{box.min.x, y}, {box.max.x, y + 1.8 * t}},
+        dialog_check(&desk->dialog, DOORS, (sl_box){{box.min.x, y}, {box.max.x, y + 1.8 * t}},
                      "Doors as doors; else as they are when the map begins", s->doors);
         y += DIALOG_ROW * t;
     }
     if (s->more && s->source.takes & SL_TAKES_CELLS) {
-        dialog_check(app, CELLS, (sl_box){{box.min.x, y}, {box.max.x, y + 1.8 * t}},
+        dialog_check(&desk->dialog, CELLS, (sl_box){{box.min.x, y}, {box.max.x, y + 1.8 * t}},
                      "The cells that the file brings along", s->cells);
         y += DIALOG_ROW * t;
     }
     return y;
 }
 
-void import_draw(app_state *app) {
+void import_draw(desk_state *desk) {
     static const dialog_label buttons[] = {
         {MORE, "More options"}, {DIALOG_CANCEL, "Cancel"}, {DIALOG_MAIN, "Open"}};
-    import_state *s = app->dialog.import;
-    ui_state *ui = &app->ui;
+    import_state *s = desk->dialog.import;
+    ui_state *ui = desk->ui;
     char title[320];
-    take_weld(app, s);
-    const char *slash = strrchr(s->source.path, '/');
-    snprintf(title, sizeof title, "Open %.300s", slash ? slash + 1 : s->source.path);
+    take_weld(desk, s);
+    snprintf(title, sizeof title, "Open %.300s", files_base(s->source.path));
     const int rows = count_rows(s);
     // Lists have 4 to 12 rows, as there is room.
     const double lists = asks_map(s) + asks_layers(s), rest = 8.8 + DIALOG_ROW * rows;
@@ -439,14 +425,15 @@ void import_draw(app_state *app) {
     const double list_rows =
         fmin(fmax(fmax((double)s->maps.count, (double)s->layers.count), 3), most);
     const double high = 1.7 * list_rows + 0.2;
-    const sl_box box = dialog_begin(app, 50, rest + lists * (high + 2.5), title);
+    const sl_box box = dialog_begin(&desk->dialog, 50, rest + lists * (high + 2.5), title);
     const double t = ui->text;
     double y = box.min.y;
-    if (asks_map(s)) y = draw_maps(app, s, box, y, high * t);
-    if (asks_layers(s)) y = draw_layers(app, s, box, y, high * t);
-    draw_options(app, s, box, y);
-    dialog_problem(app, (sl_point){box.min.x, box.max.y - 2.5 * t}, box_width(box), s->problem);
+    if (asks_map(s)) y = draw_maps(desk, s, box, y, high * t);
+    if (asks_layers(s)) y = draw_layers(desk, s, box, y, high * t);
+    draw_options(desk, s, box, y);
+    dialog_problem(&desk->dialog, (sl_point){box.min.x, box.max.y - 2.5 * t}, box_width(box),
+                   s->problem);
     const int from = s->more ? 1 : 0;
-    dialog_buttons(app, box.max.x, box.max.y - 1.8 * t, buttons + from, 3 - from);
-    dialog_end(app);
+    dialog_buttons(&desk->dialog, box.max.x, box.max.y - 1.8 * t, buttons + from, 3 - from);
+    dialog_end(&desk->dialog);
 }

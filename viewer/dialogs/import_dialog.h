@@ -3,19 +3,16 @@
 #ifndef VIEWER_IMPORT_DIALOG_H
 #define VIEWER_IMPORT_DIALOG_H
 
-#include "app/app.h"
+#include "dialogs/desk.h"
 
 /// Opens it. Copies the source, and takes the lists out of `choice`. Without `all` it shows what
-/// the file leaves open, and the rest on demand.
-sl_status import_open(app_state *app, const document_source *source, sl_map_choice *choice,
-                      bool all);
+/// the file leaves open, and the rest on demand. `then` opens it.
+sl_status import_open(desk_state *desk, const document_source *source, sl_map_choice *choice,
+                      bool all, void (*then)(desk_state *desk, const document_source *source));
 
-/// Opens it for the file that is open.
-void import_open_again(app_state *app);
-
-void import_draw(app_state *app);
-void import_act(app_state *app, int id);
-void import_edited(app_state *app, int id);
-void import_destroy(app_state *app);
+void import_draw(desk_state *desk);
+void import_act(desk_state *desk, int id);
+void import_edited(desk_state *desk, int id);
+void import_destroy(desk_state *desk);
 
 #endif

@@ -1,8 +1,6 @@
 /// A question at the top of the stack of dialogs, and the menu, which is one too.
 #include "dialogs/question.h"
 
-#include "app/actions.h"
-
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
@@ -10,49 +8,49 @@
 
 // --- questions
 
-void question_ask(app_state *app, const char *title, const char *text, const char *const *answers,
-                  int count, void (*then)(app_state *app, int answer)) {
-    dialog_push(app, DIALOG_QUESTION, DIALOG_OWN);
-    question_state *q = &app->dialog.questions[app->dialog.depth - 1];
+void question_ask(desk_state *desk, const char *title, const char *text, const char *const *answers,
+                  int count, void (*then)(desk_state *desk, int answer)) {
+    dialog_push(&desk->dialog, DIALOG_QUESTION, DIALOG_OWN);
+    question_state *q = &desk->dialog.questions[desk->dialog.depth - 1];
     *q = (question_state){.count = count, .then = then};
     snprintf(q->title, sizeof q->title, "%s", title);
     snprintf(q->text, sizeof q->text, "%s", text);
     for (int i = 0; i < count && i < ANSWERS_MOST; i++) q->answers[i] = answers[i];
 }
 
-void question_tell(app_state *app, const char *title, const char *text) {
+void question_tell(desk_state *desk, const char *title, const char *text) {
     static const char *const close[] = {"C:Close"};
-    question_ask(app, title, text, close, 1, NULL);
+    question_ask(desk, title, text, close, 1, NULL);
 }
 
-static const question_state *question_now(const app_state *app) {
-    return &app->dialog.questions[app->dialog.depth - 1];
+static const question_state *question_now(const desk_state *desk) {
+    return &desk->dialog.questions[desk->dialog.depth - 1];
 }
 
-const char *question_text(const app_state *app) {
-    return dialog_open_now(app) == DIALOG_QUESTION ? question_now(app)->text : "";
+const char *question_text(const desk_state *desk) {
+    return dialog_open_now(&desk->dialog) == DIALOG_QUESTION ? question_now(desk)->text : "";
 }
 
-static void answer(app_state *app, int number) {
-    void (*const then)(app_state * app, int answer) = question_now(app)->then;
-    dialog_pop(app);
-    if (then) then(app, number);
+static void give_answer(desk_state *desk, int number) {
+    void (*const then)(desk_state * desk, int answer) = question_now(desk)->then;
+    dialog_pop(&desk->dialog);
+    if (then) then(desk, number);
 }
 
-void question_act(app_state *app, int id) {
+void question_act(desk_state *desk, int id) {
     if (id == DIALOG_MAIN)
-        answer(app, 0);
+        give_answer(desk, 0);
     else if (id == DIALOG_CANCEL)
-        answer(app, question_now(app)->count - 1);
+        give_answer(desk, question_now(desk)->count - 1);
     else
-        answer(app, id - DIALOG_OWN);
+        give_answer(desk, id - DIALOG_OWN);
 }
 
-bool question_key(app_state *app, const char *key) {
-    const question_state *q = question_now(app);
+bool question_key(desk_state *desk, const char *key) {
+    const question_state *q = question_now(desk);
     for (int i = 0; i < q->count; i++) {
         if (key[0] != q->answers[i][0] || key[1]) continue;
-        answer(app, i);
+        give_answer(desk, i);
         return true;
     }
     return false;
@@ -88,13 +86,13 @@ static int break_lines(ui_state *ui, const char *text, double width,
     return count;
 }
 
-void question_draw(app_state *app) {
-    ui_state *ui = &app->ui;
-    const question_state *q = question_now(app);
+void question_draw(desk_state *desk) {
+    ui_state *ui = desk->ui;
+    const question_state *q = question_now(desk);
     char lines[LINES_MOST][LINE_TEXT];
     const double width = fmin(fmax((ui->width - 12) / ui->text, 30), 48);
     const int count = break_lines(ui, q->text, (width - 3) * ui->text, lines);
-    const sl_box box = dialog_begin(app, width, 3.5 + 1.5 * count + 4.2, q->title);
+    const sl_box box = dialog_begin(&desk->dialog, width, 3.5 + 1.5 * count + 4.2, q->title);
     const double t = ui->text;
     double y = box.min.y + 1.2 * t;
     for (int i = 0; i < count; i++, y += 1.5 * t)
@@ -102,8 +100,8 @@ void question_draw(app_state *app) {
     dialog_label buttons[ANSWERS_MOST];
     for (int i = 0; i < q->count; i++)
         buttons[i] = (dialog_label){DIALOG_OWN + i, q->answers[i] + 2};
-    dialog_buttons(app, box.max.x, box.max.y - 1.8 * t, buttons, q->count);
-    dialog_end(app);
+    dialog_buttons(&desk->dialog, box.max.x, box.max.y - 1.8 * t, buttons, q->count);
+    dialog_end(&desk->dialog);
 }
 
 // --- the menu
@@ -114,22 +112,21 @@ static const char *const rows[] = {
 };
 enum { ROWS = sizeof rows / sizeof *rows };
 
-void menu_open(app_state *app) {
-    app->dialog.menu = (dialog_list){.count = ROWS, .acts = true};
-    dialog_push(app, DIALOG_MENU, DIALOG_OWN);
+void menu_open(desk_state *desk) {
+    desk->dialog.menu = (dialog_list){.count = ROWS, .acts = true};
+    dialog_push(&desk->dialog, DIALOG_MENU, DIALOG_OWN);
 }
 
-void menu_draw(app_state *app) {
-    ui_state *ui = &app->ui;
-    dialog_list *list = &app->dialog.menu;
-    const sl_box box = dialog_begin(app, 34, 4.5 + 1.7 * ROWS, "File");
+void menu_draw(desk_state *desk) {
+    ui_state *ui = desk->ui;
+    dialog_list *list = &desk->dialog.menu;
+    const sl_box box = dialog_begin(&desk->dialog, 34, 4.5 + 1.7 * ROWS, "File");
     const double t = ui->text;
     const sl_box frame = {box.min, {box.max.x, box.min.y + 1.7 * ROWS * t + 2}};
-    dialog_list_frame(app, DIALOG_OWN, frame, list);
+    dialog_list_frame(&desk->dialog, DIALOG_OWN, frame, list);
     for (size_t i = list->first; i < list->count && i < list->first + list->page; i++) {
-        size_t count;
-        const action_row *action = &action_table(&count)[action_find(rows[i])];
-        const sl_box row = dialog_list_row(app, DIALOG_OWN, frame, list, i);
+        const ui_action *action = &ui->actions[ui_action_find(ui, rows[i])];
+        const sl_box row = dialog_list_row(&desk->dialog, DIALOG_OWN, frame, list, i);
         char label[96];
         snprintf(label, sizeof label, "%s", action->help);
         label[0] = (char)toupper((unsigned char)label[0]);
@@ -138,11 +135,11 @@ void menu_draw(app_state *app) {
             ui_text_right(ui, row.max.x - 0.6 * t, row.min.y + 1.2 * t, 0.95, ui->palette.faint,
                           action->key);
     }
-    dialog_end(app);
+    dialog_end(&desk->dialog);
 }
 
-void menu_act(app_state *app, int id) {
-    const size_t row = app->dialog.menu.at;
-    dialog_pop(app);
-    if (id != DIALOG_CANCEL && row < ROWS) action_run(app, action_find(rows[row]));
+void menu_act(desk_state *desk, int id) {
+    const size_t row = desk->dialog.menu.at;
+    dialog_pop(&desk->dialog);
+    if (id != DIALOG_CANCEL && row < ROWS) desk->dialog.chosen = rows[row];
 }

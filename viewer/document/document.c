@@ -111,8 +111,8 @@ static sl_status read_map(sl_context *context, bake_job *job) {
 
 /// Finds what `options` ask for. It uses a map of the job, since the baked map belongs to the main
 /// thread by now.
-static sl_status see(sl_context *context, const bake_job *job, sl_bake_options *options,
-                     sl_visibility *out) {
+static sl_status find_visibility(sl_context *context, const bake_job *job, sl_bake_options *options,
+                                 sl_visibility *out) {
     sl_plan plan = sl_plan_make(&job->clean);
     plan.mirror_depth = job->mirror_depth;
     options->see.plan = &plan;
@@ -126,12 +126,12 @@ static sl_status see_with_trees(sl_context *context, bake_job *job, sl_bake_opti
     options.see.trees = true;
     options.see.tree_bytes = TREE_BYTES;
     job->until = sl_seconds() + TREE_SECONDS;
-    const sl_status status = see(context, job, &options, &job->with_trees);
+    const sl_status status = find_visibility(context, job, &options, &job->with_trees);
     job->until = 0;
     return status == SL_CANCELLED ? sl_check_cancelled(context) : status;
 }
 
-static sl_status bake(sl_context *context, bake_job *job) {
+static sl_status bake_map(sl_context *context, bake_job *job) {
     sl_bake_options options = sl_bake_options_default();
     sl_bake_account account = {0};
     sl_map map = {0};
@@ -148,16 +148,16 @@ static sl_status bake(sl_context *context, bake_job *job) {
     if (!job->live) SL_TRY(sl_map_copy(context, &job->baked->map, &job->clean));
     atomic_store(&job->space_ready, true);
     if (job->live) return SL_OK;
-    SL_TRY(see(context, job, &options, &job->visibility));
+    SL_TRY(find_visibility(context, job, &options, &job->visibility));
     atomic_store(&job->seen_ready, true);
     return see_with_trees(context, job, options);
 }
 
-static sl_status work(sl_context *context, void *data) {
+static sl_status run_job(sl_context *context, void *data) {
     bake_job *job = data;
     if (job->source.path && document_is_baked(job->source.path)) return read_baked(context, job);
     if (job->source.path) SL_TRY(read_map(context, job));
-    return bake(context, job);
+    return bake_map(context, job);
 }
 
 static void free_job(sl_context *context, bake_job *job) {
@@ -184,7 +184,7 @@ static sl_status bake_job_start(sl_context *context, bake_job *job) {
     job->started = sl_seconds();
     job->baked = sl_alloc_array(context, 1, sizeof *job->baked);
     const sl_status status =
-        job->baked ? task_start(context, work, job, "read", &hooks, &job->task) : SL_NO_MEMORY;
+        job->baked ? task_start(context, run_job, job, "read", &hooks, &job->task) : SL_NO_MEMORY;
     if (status != SL_OK) free_job(context, job);
     return status;
 }
@@ -226,7 +226,7 @@ sl_status document_source_copy(sl_context *context, const document_source *from,
     return status;
 }
 
-static sl_status start(sl_context *context, document_state *document, bake_job *job) {
+static sl_status start_job(sl_context *context, document_state *document, bake_job *job) {
     document_cancel(context, document);
     SL_TRY(bake_job_start(context, job));
     document->job = job;
@@ -256,7 +256,7 @@ sl_status document_open(sl_context *context, document_state *document,
         sl_free(context, job);
         return status;
     }
-    return start(context, document, job);
+    return start_job(context, document, job);
 }
 
 sl_status document_begin(sl_context *context, document_state *document, sl_map *map) {
@@ -265,7 +265,7 @@ sl_status document_begin(sl_context *context, document_state *document, sl_map *
     job->begins = true;
     job->map = *map;
     *map = (sl_map){0};
-    return start(context, document, job);
+    return start_job(context, document, job);
 }
 
 const char *document_opening(const document_state *document) {
@@ -283,12 +283,18 @@ sl_status document_rebuild(sl_context *context, document_state *document, bool l
         sl_free(context, job);
         return status;
     }
-    return start(context, document, job);
+    return start_job(context, document, job);
 }
 
 bool document_has_rows(const document_state *document) {
     const double now = document->map.range, baked = document->baked->map.range;
     return document->has_visibility && (baked == 0 || (now > 0 && now <= baked));
+}
+
+sl_status document_keep_up(sl_context *context, document_state *document) {
+    if (!document->stale || document_awaits_space(document)) return SL_OK;
+    document->stale = false;
+    return document_rebuild(context, document, true);
 }
 
 bool document_is_late(const document_state *document) {
@@ -404,7 +410,7 @@ static void take_visibility(sl_context *context, document_state *document, sl_vi
     document->sets++;
 }
 
-static sl_status finish(sl_context *context, document_state *document) {
+static sl_status take_job(sl_context *context, document_state *document) {
     bake_job *job = document->job;
     const sl_status status = task_end(context, job->task);
     if (status == SL_OK && job->with_trees.pvs.cell_count)
@@ -434,7 +440,7 @@ sl_status document_poll(sl_context *context, document_state *document, bool *cha
     }
     if (!done) return SL_OK;
     *changed = true;
-    return finish(context, document);
+    return take_job(context, document);
 }
 
 void document_wait_space(const document_state *document, double seconds) {

@@ -4,6 +4,7 @@
 #define VIEWER_DOCUMENT_H
 
 #include "document/history.h"
+#include "document/task.h"
 #include "sightline/bake.h"
 #include "sightline/faults.h"
 #include "sightline/import.h"
@@ -66,13 +67,6 @@ typedef struct document_state {
     double weld;          ///< ends of walls this near to each other are one corner
 } document_state;
 
-/// The progress of the work in the background.
-typedef struct job_progress {
-    bool running;
-    const char *stage;
-    double share; ///< 0 to 1; negative where it is not known
-} job_progress;
-
 /// Whether a file has the name of a baked map.
 bool document_is_baked(const char *path);
 
@@ -89,6 +83,10 @@ const char *document_opening(const document_state *document);
 
 /// Starts to bake the map as it is now. `live`: only its space, for the next frame of a drag.
 sl_status document_rebuild(sl_context *context, document_state *document, bool live);
+
+/// Starts the space of a drag that has changed the map, once the last one is there: jobs that start
+/// at each step would never get that far.
+sl_status document_keep_up(sl_context *context, document_state *document);
 
 /// Whether the space that is shown is not that of the map as it is now.
 bool document_is_late(const document_state *document);

@@ -5,12 +5,12 @@
 
 #include <string.h>
 
-static void clear(sl_context *context, kept_maps *list) {
+static void clear_list(sl_context *context, kept_maps *list) {
     while (list->count) sl_map_destroy(context, &list->items[--list->count].map);
 }
 
 /// The oldest change is dropped for a new one.
-static sl_status push(sl_context *context, kept_maps *list, const sl_map *map, uint64_t state) {
+static sl_status push_map(sl_context *context, kept_maps *list, const sl_map *map, uint64_t state) {
     sl_map copy = {0};
     SL_TRY(sl_map_copy(context, map, &copy));
     if (list->count == HISTORY_MOST) {
@@ -22,7 +22,7 @@ static sl_status push(sl_context *context, kept_maps *list, const sl_map *map, u
 }
 
 /// The last one of a list takes the map's place.
-static void pop(sl_context *context, edit_history *history, kept_maps *list, sl_map *map) {
+static void pop_map(sl_context *context, edit_history *history, kept_maps *list, sl_map *map) {
     const kept_map last = list->items[--list->count];
     sl_map_destroy(context, map);
     *map = last.map;
@@ -30,8 +30,8 @@ static void pop(sl_context *context, edit_history *history, kept_maps *list, sl_
 }
 
 sl_status history_keep(sl_context *context, edit_history *history, const sl_map *map) {
-    clear(context, &history->undone);
-    SL_TRY(push(context, &history->done, map, history->state));
+    clear_list(context, &history->undone);
+    SL_TRY(push_map(context, &history->done, map, history->state));
     history->state = ++history->last_state;
     return SL_OK;
 }
@@ -39,13 +39,13 @@ sl_status history_keep(sl_context *context, edit_history *history, const sl_map 
 void history_forget_last(sl_context *context, edit_history *history) {
     sl_map unused = {0};
     if (!history->done.count) return;
-    pop(context, history, &history->done, &unused);
+    pop_map(context, history, &history->done, &unused);
     sl_map_destroy(context, &unused);
 }
 
 bool history_take_back(sl_context *context, edit_history *history, sl_map *map) {
     if (!history->done.count) return false;
-    pop(context, history, &history->done, map);
+    pop_map(context, history, &history->done, map);
     return true;
 }
 
@@ -79,15 +79,15 @@ bool history_undo(sl_context *context, edit_history *history, sl_map *map, bool 
     kept_maps *from = redo ? &history->undone : &history->done;
     kept_maps *to = redo ? &history->done : &history->undone;
     if (!from->count) return false;
-    *status = push(context, to, map, history->state);
+    *status = push_map(context, to, map, history->state);
     if (*status != SL_OK) return true;
     *bake = !same_bake(map, &from->items[from->count - 1].map);
-    pop(context, history, from, map);
+    pop_map(context, history, from, map);
     return true;
 }
 
 void history_clear(sl_context *context, edit_history *history) {
-    clear(context, &history->done);
-    clear(context, &history->undone);
+    clear_list(context, &history->done);
+    clear_list(context, &history->undone);
     history->state = ++history->last_state;
 }

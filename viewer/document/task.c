@@ -36,7 +36,7 @@ static void take_progress(void *user, const sl_progress *progress) {
     atomic_store(&t->total, progress->total);
 }
 
-static void *run(void *user) {
+static void *run_task(void *user) {
     task *t = user;
     const sl_hooks hooks = {
         .user = t, .progress = take_progress, .note = take_note, .cancelled = is_cancelled};
@@ -58,7 +58,7 @@ sl_status task_start(sl_context *context, sl_status (*work)(sl_context *context,
     t->data = data;
     if (hooks) t->hooks = *hooks;
     atomic_store(&t->stage, stage);
-    if (pthread_create(&t->thread, NULL, run, t) != 0) {
+    if (pthread_create(&t->thread, NULL, run_task, t) != 0) {
         sl_free(context, t);
         return sl_fail(context, SL_NO_MEMORY, "no thread for the work in the background");
     }

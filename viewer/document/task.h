@@ -2,9 +2,18 @@
 #ifndef VIEWER_TASK_H
 #define VIEWER_TASK_H
 
-#include "document/document.h"
+#include "sightline/context.h"
+
+#include <stdbool.h>
 
 typedef struct task task;
+
+/// The progress of the work in the background.
+typedef struct job_progress {
+    bool running;
+    const char *stage;
+    double share; ///< 0 to 1; negative where it is not known
+} job_progress;
 
 /// What else the thread calls, with the data of the work. Each may be NULL.
 typedef struct task_hooks {

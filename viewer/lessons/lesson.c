@@ -26,7 +26,7 @@ const subject_row *lesson_subject(const lesson_state *lesson) {
     return subjects[lesson->subject];
 }
 
-void lesson_forget(sl_context *context, lesson_state *lesson) {
+static void forget_record(sl_context *context, lesson_state *lesson) {
     sl_steps_destroy(context, &lesson->steps);
     sli_mesh_steps_destroy(context, &lesson->mesh);
     sl_free(context, lesson->effects.items);
@@ -44,7 +44,7 @@ void lesson_forget(sl_context *context, lesson_state *lesson) {
 }
 
 void lesson_destroy(sl_context *context, lesson_state *lesson) {
-    lesson_forget(context, lesson);
+    forget_record(context, lesson);
     *lesson = (lesson_state){0};
 }
 
@@ -67,10 +67,10 @@ sl_status lesson_update(sl_context *context, lesson_state *lesson, const documen
     if (!lesson_fits(lesson->subject, document)) lesson_next_subject(context, lesson, document);
     const subject_row *subject = lesson_subject(lesson);
     const bool same_document = lesson->made && lesson->version == document->version;
-    if (lesson->made && !same_document) lesson_forget(context, lesson);
+    if (lesson->made && !same_document) forget_record(context, lesson);
     if (!document->baked || (subject->of_eye && source == SL_NO_CELL)) return SL_OK;
     if (lesson->made && (!subject->of_eye || lesson->source == source)) return SL_OK;
-    lesson_forget(context, lesson);
+    forget_record(context, lesson);
     SL_TRY(subject->record(context, lesson, document, source));
     lesson->made = true;
     find_kinds(lesson);
@@ -90,7 +90,7 @@ bool lesson_shows(const lesson_state *lesson, const document_state *document) {
 }
 
 void lesson_set_subject(sl_context *context, lesson_state *lesson, size_t subject) {
-    lesson_forget(context, lesson);
+    forget_record(context, lesson);
     lesson->subject = subject;
     lesson->plays = false;
     lesson->at = 0;
@@ -112,7 +112,7 @@ void lesson_sentence(const lesson_state *lesson, const document_state *document,
 }
 
 /// The ends changed: computes the lines again.
-static void refresh(lesson_state *lesson) {
+static void refresh_lines(lesson_state *lesson) {
     lesson->conflict_known = lesson->program_known = false;
     if (!lesson->end_count) return;
     const uint32_t count = lesson->end_count;
@@ -129,7 +129,7 @@ static void take_sequence(lesson_state *lesson, const sl_space *space) {
     lesson->changes_dropped = false;
     lesson->hovered = 0;
     if (lesson->chosen_next > 2 * lesson->end_count + 1) lesson->chosen_next = 0;
-    refresh(lesson);
+    refresh_lines(lesson);
     if (lesson->end_count) lesson->line = lesson->dual.best;
 }
 
@@ -186,7 +186,7 @@ bool lesson_undo(lesson_state *lesson) {
     if (!lesson->change_count) return false;
     const lesson_change *change = &lesson->changes[--lesson->change_count];
     if (change->what != CHOSEN_LINE) lesson->ends[change->what / 2] = change->ends;
-    refresh(lesson);
+    refresh_lines(lesson);
     lesson->line = change->line;
     bool moved = false;
     for (size_t i = 0; i < lesson->change_count; i++)
@@ -206,7 +206,7 @@ void lesson_move_end(lesson_state *lesson, uint32_t end, sl_point to) {
     *(end % 2 ? &ends->right : &ends->left) = to;
     if (ends->left.x == ends->right.x && ends->left.y == ends->right.y) *ends = before;
     lesson->dragged = true;
-    refresh(lesson);
+    refresh_lines(lesson);
     if (lesson->dual.corner_count) lesson->line = lesson->dual.best;
 }
 

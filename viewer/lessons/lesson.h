@@ -14,7 +14,7 @@
 #include "sightline/support.h"
 #include "space/mesh.h" // private, likewise
 
-typedef struct app_state app_state;
+typedef struct learn_state learn_state;
 typedef struct lesson_state lesson_state;
 
 enum { SENTENCE = 512, PASSES = 4, UNDO_MOST = 64 };
@@ -26,7 +26,7 @@ typedef struct subject_row {
     const char *title;
     bool (*fits)(const document_state *document); ///< whether it has a place there; NULL: always
     bool of_eye; ///< recorded anew where the eye's cell is another; needs one
-    /// Records all steps. lesson_forget() drops the record.
+    /// Records all steps.
     sl_status (*record)(sl_context *context, lesson_state *lesson, const document_state *document,
                         uint32_t source);
     size_t (*length)(const lesson_state *lesson);
@@ -46,8 +46,8 @@ typedef struct subject_row {
     bool (*finds)(const lesson_state *lesson, size_t step);
     bool (*rejects)(const lesson_state *lesson, size_t step);
     const char *found, *rejected;
-    void (*below)(app_state *app, const sl_frame *frame); ///< drawn below the walls
-    void (*above)(app_state *app, const sl_frame *frame); ///< and above them
+    void (*below)(learn_state *learn, const sl_frame *frame); ///< drawn below the walls
+    void (*above)(learn_state *learn, const sl_frame *frame); ///< and above them
 } subject_row;
 
 extern const subject_row lesson_search, lesson_subdivision, lesson_pass, lesson_effects;
@@ -133,8 +133,6 @@ bool lesson_shows(const lesson_state *lesson, const document_state *document);
 /// Records again where the document, the source or the subject changed.
 sl_status lesson_update(sl_context *context, lesson_state *lesson, const document_state *document,
                         uint32_t source);
-/// Drops the record.
-void lesson_forget(sl_context *context, lesson_state *lesson);
 void lesson_destroy(sl_context *context, lesson_state *lesson);
 
 size_t lesson_length(const lesson_state *lesson);

@@ -1,6 +1,6 @@
 /// The lesson of effects: cell by cell what the eye's cell sees, and which doors, mirrors and glass
 /// decide that.
-#include "app/app.h"
+#include "lessons/learn.h"
 #include "sightline/draw.h"
 #include "sightline/support.h"
 
@@ -101,7 +101,7 @@ static const char *const *code(const lesson_state *lesson, const document_state 
     return effects_code;
 }
 
-static void append(char text[DOORS_TEXT], const char *between, const char *more) {
+static void append_words(char text[DOORS_TEXT], const char *between, const char *more) {
     const size_t used = strlen(text);
     snprintf(text + used, DOORS_TEXT - used, "%s%s", used ? between : "", more);
 }
@@ -112,7 +112,7 @@ static void name_doors(const sl_map *map, const bool *doors, char text[DOORS_TEX
     *open = true;
     for (size_t i = 0; i < map->door_count; i++) {
         if (!doors[i]) continue;
-        append(text, " and ", map->doors[i].name);
+        append_words(text, " and ", map->doors[i].name);
         *open &= map->doors[i].open;
     }
 }
@@ -132,7 +132,7 @@ static void name_alternatives(const document_state *document, uint32_t source, u
         char one[DOORS_TEXT];
         bool open;
         name_doors(map, doors, one, &open);
-        append(text, ", or ", one);
+        append_words(text, ", or ", one);
         *now |= open;
         memset(doors, 0, sizeof doors);
     }
@@ -222,61 +222,60 @@ static sl_colour colour_of(const sl_palette *palette, effect_fact fact) {
     }
 }
 
-static void below(app_state *app, const sl_frame *frame) {
-    const lesson_state *lesson = &app->tool.lesson;
-    const sl_space *space = &app->document.baked->space;
-    const sl_palette *palette = &app->ui.palette;
+static void below(learn_state *learn, const sl_frame *frame) {
+    const lesson_state *lesson = &learn->lesson;
+    const sl_space *space = &learn->document->baked->space;
+    const sl_palette *palette = &learn->ui->palette;
     for (size_t i = 0; i <= lesson->at; i++) {
         const effect_step *s = &lesson->effects.items[i];
         const bool here = i == lesson->at;
-        sl_draw_cell(app->ui.cairo, space, frame, s->cell, colour_of(palette, s->fact),
+        sl_draw_cell(learn->ui->cairo, space, frame, s->cell, colour_of(palette, s->fact),
                      here ? 0.7 : 0.3, here ? 3 * frame->unit : frame->unit);
     }
-    sl_draw_cell(app->ui.cairo, space, frame, lesson->source, palette->source_edge, 0.55,
+    sl_draw_cell(learn->ui->cairo, space, frame, lesson->source, palette->source_edge, 0.55,
                  2 * frame->unit);
 }
 
 /// Draws the doors of all alternatives. A shut door is drawn as what stops the line.
-static void draw_doors(app_state *app, const sl_frame *frame, uint32_t cell) {
-    const sl_map *map = &app->document.map;
-    const sl_door_sets *sets = &app->document.baked->visibility.doors;
+static void draw_doors(learn_state *learn, const sl_frame *frame, uint32_t cell) {
+    const sl_map *map = &learn->document->map;
+    const sl_door_sets *sets = &learn->document->baked->visibility.doors;
     bool doors[DOORS_MOST] = {false};
     if (map->door_count > DOORS_MOST) return;
-    for (uint32_t i = 0; sl_door_sets_alternative(sets, app->tool.lesson.source, cell, i, doors);)
-        i++;
+    for (uint32_t i = 0; sl_door_sets_alternative(sets, learn->lesson.source, cell, i, doors);) i++;
     for (size_t i = 0; i < map->door_count; i++)
         if (doors[i])
-            sl_draw_line(app->ui.cairo, frame, map->doors[i].segment.a, map->doors[i].segment.b,
-                         map->doors[i].open ? app->ui.palette.portal : app->ui.palette.start,
+            sl_draw_line(learn->ui->cairo, frame, map->doors[i].segment.a, map->doors[i].segment.b,
+                         map->doors[i].open ? learn->ui->palette.portal : learn->ui->palette.start,
                          7 * frame->unit);
 }
 
 /// Draws the line of a search past walls alone.
-static void draw_line(app_state *app, const sl_frame *frame, const effect_step *s) {
-    const sl_space *space = &app->document.baked->space;
+static void draw_line(learn_state *learn, const sl_frame *frame, const effect_step *s) {
+    const sl_space *space = &learn->document->baked->space;
     uint32_t directed[SL_DUAL_PORTALS_MOST];
     sl_portal_ends ends[SL_DUAL_PORTALS_MOST];
     sl_dual dual;
     const uint32_t count =
-        sl_steps_sequence(&app->tool.lesson.steps, s->entry, directed, SL_DUAL_PORTALS_MOST);
+        sl_steps_sequence(&learn->lesson.steps, s->entry, directed, SL_DUAL_PORTALS_MOST);
     if (!count || count > SL_DUAL_PORTALS_MOST) return;
     for (uint32_t i = 0; i < count; i++)
         ends[i] =
             (sl_portal_ends){space->directed[directed[i]].left, space->directed[directed[i]].right};
     const bool stops =
-        !present_sees(app->context, &app->view.present, app->tool.lesson.source, s->cell);
-    sl_draw_portal_ends(app->ui.cairo, &app->ui.palette, frame, ends, count, stops);
+        !present_sees(learn->context, &learn->view->present, learn->lesson.source, s->cell);
+    sl_draw_portal_ends(learn->ui->cairo, &learn->ui->palette, frame, ends, count, stops);
     sl_dual_make(ends, count, count, &dual);
     if (!dual.corner_count) return;
     const sl_line line = sl_dual_line_at(&dual, dual.best, -3, 3);
-    sl_draw_line(app->ui.cairo, frame, line.a, line.b,
-                 stops ? app->ui.palette.start : app->ui.palette.ink, 2 * frame->unit);
+    sl_draw_line(learn->ui->cairo, frame, line.a, line.b,
+                 stops ? learn->ui->palette.start : learn->ui->palette.ink, 2 * frame->unit);
 }
 
-static void above(app_state *app, const sl_frame *frame) {
-    const effect_step *s = &app->tool.lesson.effects.items[app->tool.lesson.at];
-    if (s->entry) draw_line(app, frame, s);
-    if (s->fact == FACT_DOORS) draw_doors(app, frame, s->cell);
+static void above(learn_state *learn, const sl_frame *frame) {
+    const effect_step *s = &learn->lesson.effects.items[learn->lesson.at];
+    if (s->entry) draw_line(learn, frame, s);
+    if (s->fact == FACT_DOORS) draw_doors(learn, frame, s->cell);
 }
 
 const subject_row lesson_effects = {

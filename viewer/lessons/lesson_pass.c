@@ -1,6 +1,6 @@
 /// The lesson of multipass: quadrant by quadrant of directions, the cells in the order in which
 /// they are done, and what depends on what.
-#include "app/app.h"
+#include "lessons/learn.h"
 #include "sightline/draw.h"
 #include "sightline/support.h"
 
@@ -95,25 +95,25 @@ static void account(const lesson_state *lesson, char text[SENTENCE]) {
 }
 
 /// Draws the cells that are done, the present one, and those behind its faces.
-static void below(app_state *app, const sl_frame *frame) {
-    const sl_space *space = &app->document.baked->space;
-    const sl_palette *palette = &app->ui.palette;
-    const sli_pass *pass = pass_of(&app->tool.lesson);
-    const uint32_t place = place_of(&app->tool.lesson), cell = pass->order.nodes[place];
+static void below(learn_state *learn, const sl_frame *frame) {
+    const sl_space *space = &learn->document->baked->space;
+    const sl_palette *palette = &learn->ui->palette;
+    const sli_pass *pass = pass_of(&learn->lesson);
+    const uint32_t place = place_of(&learn->lesson), cell = pass->order.nodes[place];
     for (uint32_t i = 0; i < place; i++)
-        sl_draw_cell(app->ui.cairo, space, frame, pass->order.nodes[i], palette->glass, 0.18,
+        sl_draw_cell(learn->ui->cairo, space, frame, pass->order.nodes[i], palette->glass, 0.18,
                      frame->unit);
     for (uint32_t face = pass->first[cell]; face < pass->first[cell + 1]; face++)
-        sl_draw_cell(app->ui.cairo, space, frame, pass->to[face], palette->source, 0.45,
+        sl_draw_cell(learn->ui->cairo, space, frame, pass->to[face], palette->source, 0.45,
                      2 * frame->unit);
-    sl_draw_cell(app->ui.cairo, space, frame, cell, palette->source_edge, 0.55, 2 * frame->unit);
+    sl_draw_cell(learn->ui->cairo, space, frame, cell, palette->source_edge, 0.55, 2 * frame->unit);
 }
 
 /// From a cell through the middle of each of its faces to the cell behind.
-static void draw_dependences(app_state *app, const sl_frame *frame, uint32_t cell, sl_colour colour,
-                             double width) {
-    const sl_space *space = &app->document.baked->space;
-    const sli_pass *pass = pass_of(&app->tool.lesson);
+static void draw_dependences(learn_state *learn, const sl_frame *frame, uint32_t cell,
+                             sl_colour colour, double width) {
+    const sl_space *space = &learn->document->baked->space;
+    const sli_pass *pass = pass_of(&learn->lesson);
     const sl_cell *c = &space->cells[cell];
     const sl_point from = sl_space_middle(space, cell);
     for (uint32_t i = c->first_directed; i < c->first_directed + c->directed_count; i++) {
@@ -121,20 +121,20 @@ static void draw_dependences(app_state *app, const sl_frame *frame, uint32_t cel
         const sl_directed_portal *directed = &space->directed[i];
         const sl_point through = {(directed->left.x + directed->right.x) / 2,
                                   (directed->left.y + directed->right.y) / 2};
-        sl_draw_line(app->ui.cairo, frame, from, through, colour, width);
-        sl_draw_line(app->ui.cairo, frame, through, sl_space_middle(space, directed->cell), colour,
-                     width);
+        sl_draw_line(learn->ui->cairo, frame, from, through, colour, width);
+        sl_draw_line(learn->ui->cairo, frame, through, sl_space_middle(space, directed->cell),
+                     colour, width);
     }
 }
 
-static void above(app_state *app, const sl_frame *frame) {
-    const sl_palette *palette = &app->ui.palette;
-    const sli_pass *pass = pass_of(&app->tool.lesson);
-    const uint32_t place = place_of(&app->tool.lesson);
+static void above(learn_state *learn, const sl_frame *frame) {
+    const sl_palette *palette = &learn->ui->palette;
+    const sli_pass *pass = pass_of(&learn->lesson);
+    const uint32_t place = place_of(&learn->lesson);
     for (uint32_t i = 0; i < pass->order.count; i++)
-        draw_dependences(app, frame, pass->order.nodes[i],
+        draw_dependences(learn, frame, pass->order.nodes[i],
                          i < place ? palette->glass : palette->faint, 0.8 * frame->unit);
-    draw_dependences(app, frame, pass->order.nodes[place], palette->start, 2.5 * frame->unit);
+    draw_dependences(learn, frame, pass->order.nodes[place], palette->start, 2.5 * frame->unit);
 }
 
 static uint32_t cell_of(const lesson_state *lesson, size_t step) {

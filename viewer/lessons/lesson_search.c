@@ -1,6 +1,6 @@
 /// The lesson of the depth-first search from the eye's cell: which portals it tries, and why it
 /// goes on or back.
-#include "app/app.h"
+#include "lessons/learn.h"
 #include "sightline/draw.h"
 
 #include <stdio.h>
@@ -156,11 +156,11 @@ static bool rejects(const lesson_state *lesson, size_t step) {
 // --- drawing
 
 /// Draws the cells that the search has entered, and the way between their portals.
-static void draw_entered(app_state *app, const sl_frame *frame) {
-    const lesson_state *lesson = &app->tool.lesson;
-    const sl_space *space = &app->document.baked->space;
-    const sl_palette *palette = &app->ui.palette;
-    cairo_t *cairo = app->ui.cairo;
+static void draw_entered(learn_state *learn, const sl_frame *frame) {
+    const lesson_state *lesson = &learn->lesson;
+    const sl_space *space = &learn->document->baked->space;
+    const sl_palette *palette = &learn->ui->palette;
+    cairo_t *cairo = learn->ui->cairo;
     for (size_t i = 0; i <= lesson->at; i++) {
         const sl_step *s = &lesson->steps.steps[i];
         if (s->kind != SL_STEP_ENTER || !s->first) continue;
@@ -177,17 +177,17 @@ static sl_point portal_middle(const sl_space *space, uint32_t directed, sl_point
     return (sl_point){(e->left.x + e->right.x) / 2, (e->left.y + e->right.y) / 2};
 }
 
-static void draw_branches(app_state *app, const sl_frame *frame) {
-    const lesson_state *lesson = &app->tool.lesson;
-    const sl_space *space = &app->document.baked->space;
-    const sl_palette *palette = &app->ui.palette;
-    cairo_t *cairo = app->ui.cairo;
+static void draw_branches(learn_state *learn, const sl_frame *frame) {
+    const lesson_state *lesson = &learn->lesson;
+    const sl_space *space = &learn->document->baked->space;
+    const sl_palette *palette = &learn->ui->palette;
+    cairo_t *cairo = learn->ui->cairo;
     for (size_t i = 1; i <= lesson->at; i++) {
         const sl_step *s = &lesson->steps.steps[i];
         if (s->kind != SL_STEP_ENTER) continue;
         const sl_step *from = &lesson->steps.steps[s->parent];
-        sl_path_segment(cairo, frame, portal_middle(space, from->directed, app->view.eye.at),
-                        portal_middle(space, s->directed, app->view.eye.at));
+        sl_path_segment(cairo, frame, portal_middle(space, from->directed, learn->view->eye.at),
+                        portal_middle(space, s->directed, learn->view->eye.at));
     }
     cairo_set_source_rgba(cairo, palette->tree.red, palette->tree.green, palette->tree.blue, 0.45);
     cairo_set_line_width(cairo, 1.5 * frame->unit);
@@ -195,32 +195,33 @@ static void draw_branches(app_state *app, const sl_frame *frame) {
     cairo_stroke(cairo);
 }
 
-static void below(app_state *app, const sl_frame *frame) {
-    const lesson_state *lesson = &app->tool.lesson;
-    const sl_space *space = &app->document.baked->space;
-    const sl_palette *palette = &app->ui.palette;
+static void below(learn_state *learn, const sl_frame *frame) {
+    const lesson_state *lesson = &learn->lesson;
+    const sl_space *space = &learn->document->baked->space;
+    const sl_palette *palette = &learn->ui->palette;
     const sl_step *now = &lesson->steps.steps[lesson->at];
     const uint32_t here = now->kind == SL_STEP_ENTER || now->kind == SL_STEP_LEAVE
                               ? now->cell
                               : lesson->steps.steps[now->parent].cell;
-    draw_entered(app, frame);
-    sl_draw_cell(app->ui.cairo, space, frame, here, palette->source_edge, 0.55, 2 * frame->unit);
+    draw_entered(learn, frame);
+    sl_draw_cell(learn->ui->cairo, space, frame, here, palette->source_edge, 0.55, 2 * frame->unit);
     if (now->kind == SL_STEP_HIDDEN || now->kind == SL_STEP_BACKWARDS)
-        sl_draw_cell(app->ui.cairo, space, frame, now->cell, palette->start, 0.25, 2 * frame->unit);
+        sl_draw_cell(learn->ui->cairo, space, frame, now->cell, palette->start, 0.25,
+                     2 * frame->unit);
 }
 
-static void above(app_state *app, const sl_frame *frame) {
-    const lesson_state *lesson = &app->tool.lesson;
+static void above(learn_state *learn, const sl_frame *frame) {
+    const lesson_state *lesson = &learn->lesson;
     const sl_step_kind kind = lesson->steps.steps[lesson->at].kind;
-    draw_branches(app, frame);
-    sl_draw_portal_ends(app->ui.cairo, &app->ui.palette, frame, lesson->ends, lesson->end_count,
-                        kind == SL_STEP_HIDDEN || kind == SL_STEP_BACKWARDS);
+    draw_branches(learn, frame);
+    sl_draw_portal_ends(learn->ui->cairo, &learn->ui->palette, frame, lesson->ends,
+                        lesson->end_count, kind == SL_STEP_HIDDEN || kind == SL_STEP_BACKWARDS);
     if (!lesson->end_count) return;
     const sl_line line = sl_dual_line_at(&lesson->dual, lesson->line, -3, 3);
     const bool good =
         sl_dual_margin(&lesson->dual, lesson->ends, lesson->end_count, lesson->line) >= 0;
-    sl_draw_line(app->ui.cairo, frame, line.a, line.b,
-                 good ? app->ui.palette.ink : app->ui.palette.start, 2 * frame->unit);
+    sl_draw_line(learn->ui->cairo, frame, line.a, line.b,
+                 good ? learn->ui->palette.ink : learn->ui->palette.start, 2 * frame->unit);
 }
 
 const subject_row lesson_search = {

@@ -1,7 +1,7 @@
 /// The lesson of the subdivision: the splits of a kd-tree in the order in which they are made; for
 /// a mesh the triangulation, and the sides that are taken out or have to stay.
-#include "app/app.h"
 #include "draw/draw_lesson.h" // private: the lesson shows the inside of the library
+#include "lessons/learn.h"
 #include "sightline/draw.h"
 
 #include <math.h>
@@ -142,35 +142,35 @@ static void say_cells(const sli_mesh_steps *mesh, const document_state *document
 }
 
 /// Covers the final cells of the plan.
-static void draw_ground(app_state *app, const sl_frame *frame) {
-    const sl_box b = app->document.baked->space.bounds;
+static void draw_ground(view_state *view, const sl_frame *frame) {
+    const sl_box b = view->document->baked->space.bounds;
     const sl_point corners[4] = {b.min, {b.max.x, b.min.y}, b.max, {b.min.x, b.max.y}};
-    sl_path_polygon(app->ui.cairo, frame, corners, 4);
-    sl_set_colour(app->ui.cairo, app->ui.palette.floor[0]);
-    cairo_fill(app->ui.cairo);
-    const sl_space *space = &app->document.baked->space;
-    for (uint32_t cell = 0; cell < space->cell_count && app->document.solid; cell++) {
+    sl_path_polygon(view->ui->cairo, frame, corners, 4);
+    sl_set_colour(view->ui->cairo, view->ui->palette.floor[0]);
+    cairo_fill(view->ui->cairo);
+    const sl_space *space = &view->document->baked->space;
+    for (uint32_t cell = 0; cell < space->cell_count && view->document->solid; cell++) {
         const sl_cell *c = &space->cells[cell];
         if (c->solid)
-            sl_path_polygon(app->ui.cairo, frame, space->vertices + c->first_vertex,
+            sl_path_polygon(view->ui->cairo, frame, space->vertices + c->first_vertex,
                             c->vertex_count);
     }
-    sl_set_colour(app->ui.cairo, app->ui.palette.solid);
-    cairo_fill(app->ui.cairo);
+    sl_set_colour(view->ui->cairo, view->ui->palette.solid);
+    cairo_fill(view->ui->cairo);
 }
 
-static void draw_mesh(app_state *app, const sl_frame *frame) {
-    const sl_palette *palette = &app->ui.palette;
-    const sli_mesh_steps *mesh = &app->tool.lesson.mesh;
-    cairo_t *cairo = app->ui.cairo;
-    const size_t at = app->tool.lesson.at;
+static void draw_mesh(learn_state *learn, const sl_frame *frame) {
+    const sl_palette *palette = &learn->ui->palette;
+    const sli_mesh_steps *mesh = &learn->lesson.mesh;
+    cairo_t *cairo = learn->ui->cairo;
+    const size_t at = learn->lesson.at;
     if (at == FIRST_SIDE + mesh->sides.count) return;
-    draw_ground(app, frame);
+    draw_ground(learn->view, frame);
     if (at == DELAUNAY) sli_draw_mesh_delaunay(cairo, palette, frame, mesh);
     if (at == TRIANGLES) sli_draw_mesh_triangles(cairo, palette, frame, mesh);
     if (at >= FIRST_SIDE)
-        app_check(app,
-                  sli_draw_mesh_side(app->context, cairo, palette, frame, mesh, at - FIRST_SIDE));
+        view_check(learn->view, sli_draw_mesh_side(learn->context, cairo, palette, frame, mesh,
+                                                   at - FIRST_SIDE));
 }
 
 // --- all of it
@@ -213,21 +213,21 @@ static void say(const lesson_state *lesson, const document_state *document, char
         say_cells(&lesson->mesh, document, text);
 }
 
-static void below(app_state *app, const sl_frame *frame) {
-    if (is_mesh(&app->document))
-        draw_mesh(app, frame);
+static void below(learn_state *learn, const sl_frame *frame) {
+    if (is_mesh(learn->document))
+        draw_mesh(learn, frame);
     else
-        sli_draw_split(app->ui.cairo, &app->ui.palette, frame, app->document.splits,
-                       (uint32_t)app->tool.lesson.at);
+        sli_draw_split(learn->ui->cairo, &learn->ui->palette, frame, learn->document->splits,
+                       (uint32_t)learn->lesson.at);
 }
 
-static void above(app_state *app, const sl_frame *frame) {
-    const lesson_state *lesson = &app->tool.lesson;
-    if (!is_mesh(&app->document)) return;
+static void above(learn_state *learn, const sl_frame *frame) {
+    const lesson_state *lesson = &learn->lesson;
+    if (!is_mesh(learn->document)) return;
     if (lesson->at == POINTS)
-        sli_draw_mesh_points(app->ui.cairo, &app->ui.palette, frame, &lesson->mesh);
+        sli_draw_mesh_points(learn->ui->cairo, &learn->ui->palette, frame, &lesson->mesh);
     if (lesson->at >= FIRST_SIDE)
-        sli_draw_mesh_corner(app->ui.cairo, &app->ui.palette, frame, &lesson->mesh,
+        sli_draw_mesh_corner(learn->ui->cairo, &learn->ui->palette, frame, &lesson->mesh,
                              lesson->at - FIRST_SIDE);
 }
 

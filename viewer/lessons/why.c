@@ -5,48 +5,40 @@
 /// tries the last one too: that step is found by the places of the portal ends.
 #include "lessons/why.h"
 
-#include "app/actions.h"
 #include "sightline/support.h"
 
-/// The pair, and the sequence that stops, kept while the mode changes.
-typedef struct wanted {
-    uint32_t from, to;
-    bool seen;
-    uint32_t count;
-    sl_portal_ends ends[SL_DUAL_PORTALS_MOST];
-} wanted;
-
-static wanted wanted_of(const app_state *app) {
-    const sl_explanation *e = &app->tool.quiz.explanation;
-    wanted w = {.from = e->from, .to = e->to, .seen = e->verdict != SL_HIDDEN};
+static why_pair pair_of(const learn_state *learn) {
+    const sl_explanation *e = &learn->quiz.explanation;
+    why_pair w = {.from = e->from, .to = e->to, .seen = e->verdict != SL_HIDDEN};
     const sl_sequence *sequence = e->miss_count ? &e->misses[0].sequence : NULL;
     if (w.seen || !sequence || sequence->directed_count > SL_DUAL_PORTALS_MOST) return w;
     for (; w.count < sequence->directed_count; w.count++) {
         const sl_directed_portal *at =
-            &app->view.present.space->directed[sequence->directed[w.count]];
+            &learn->view->present.space->directed[sequence->directed[w.count]];
         w.ends[w.count] = (sl_portal_ends){at->left, at->right};
     }
     return w;
 }
 
-static bool same(sl_point a, sl_point b) {
+static bool is_same(sl_point a, sl_point b) {
     return a.x == b.x && a.y == b.y;
 }
 
 static bool is_sequence(const lesson_state *lesson, const sl_space *space, size_t step,
-                        const wanted *w) {
+                        const why_pair *w) {
     uint32_t directed[SL_DUAL_PORTALS_MOST];
     if (!w->count || lesson->steps.steps[step].depth != w->count) return false;
     sl_steps_sequence(&lesson->steps, step, directed, SL_DUAL_PORTALS_MOST);
     for (uint32_t i = 0; i < w->count; i++) {
         const sl_directed_portal *at = &space->directed[directed[i]];
-        if (!same(at->left, w->ends[i].left) || !same(at->right, w->ends[i].right)) return false;
+        if (!is_same(at->left, w->ends[i].left) || !is_same(at->right, w->ends[i].right))
+            return false;
     }
     return true;
 }
 
 /// The step that decides; SIZE_MAX where the record does not reach it.
-static size_t find_step(const lesson_state *lesson, const sl_space *space, const wanted *w) {
+static size_t find_step(const lesson_state *lesson, const sl_space *space, const why_pair *w) {
     for (size_t i = 0; i < lesson->steps.count; i++) {
         const sl_step *s = &lesson->steps.steps[i];
         const bool rejected = s->kind == SL_STEP_HIDDEN || s->kind == SL_STEP_BACKWARDS;
@@ -58,23 +50,26 @@ static size_t find_step(const lesson_state *lesson, const sl_space *space, const
     return SIZE_MAX;
 }
 
-void why_go_to_step(app_state *app) {
-    lesson_state *lesson = &app->tool.lesson;
-    if (!app->tool.quiz.answered || !app->document.baked) {
-        ui_say(&app->ui, false, "a right click on a cell asks why it is seen or not");
-        return;
+bool why_take(learn_state *learn, why_pair *pair) {
+    if (!learn->quiz.answered || !learn->document->baked) {
+        ui_say(learn->ui, false, "a right click on a cell asks why it is seen or not");
+        return false;
     }
-    const sl_space *space = &app->document.baked->space;
-    const wanted w = wanted_of(app);
-    if (app_eye_cell(app) != w.from) app->view.eye.at = sl_space_middle(space, w.from);
-    lesson_set_subject(app->context, lesson, subject_find(&lesson_search));
-    action_run(app, action_find("learn"));
-    if (!lesson_shows(lesson, &app->document)) return;
-    const size_t step = find_step(lesson, space, &w);
+    *pair = pair_of(learn);
+    if (view_eye_cell(learn->view) != pair->from)
+        learn->view->eye.at = sl_space_middle(&learn->document->baked->space, pair->from);
+    lesson_set_subject(learn->context, &learn->lesson, subject_find(&lesson_search));
+    return true;
+}
+
+void why_show(learn_state *learn, const why_pair *pair) {
+    lesson_state *lesson = &learn->lesson;
+    if (!lesson_shows(lesson, learn->document)) return;
+    const size_t step = find_step(lesson, &learn->document->baked->space, pair);
     if (step == SIZE_MAX) {
-        ui_say(&app->ui, false, "no step of the search decides on cell %u", w.to);
+        ui_say(learn->ui, false, "no step of the search decides on cell %u", pair->to);
         return;
     }
-    lesson_go(lesson, &app->document, step);
-    ui_say(&app->ui, false, "step %zu decides on cell %u", step + 1, w.to);
+    lesson_go(lesson, learn->document, step);
+    ui_say(learn->ui, false, "step %zu decides on cell %u", step + 1, pair->to);
 }

@@ -2,12 +2,9 @@
 #ifndef VIEWER_ACCOUNT_H
 #define VIEWER_ACCOUNT_H
 
-#include "app/app.h"
-
-/// Draws the chart into a box of the page.
-void account_draw(app_state *app, cairo_t *cairo, sl_box box);
+#include "plan/view.h"
 
 /// Saves the chart: .png, .svg or .pdf.
-sl_status account_save(app_state *app, const char *path);
+sl_status account_save(view_state *view, const char *path);
 
 #endif

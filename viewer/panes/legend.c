@@ -1,14 +1,18 @@
 /// The legend: what the plan shows now, each row with a sample that is drawn as in the plan. It
 /// stands in the panel; over the plan where there is no panel.
-#include "app/actions.h"
-#include "app/app.h"
-#include "app/modes.h"
+
+#include "panes/panel.h"
+#include "panes/panes.h"
+
 #include "draw/marks.h" // private: samples are the marks of the plan
-#include "plan/layers.h"
+#include "plan/heat.h"
+#include "plan/view_cells.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+
+enum { LEGEND_MOST = 32 };
 
 // --- rows
 
@@ -18,87 +22,87 @@ static legend_row tone_row_of(tone which, bool fills) {
                         .which = which};
 }
 
-static int add_culling(const app_state *app, legend_row *rows, bool fills) {
+static int add_culling(const view_state *view, legend_row *rows, bool fills) {
     size_t count;
     const sl_eye_method *methods = sl_eye_methods(&count);
     int at = 0;
     rows[at] = tone_row_of(TONE_KEPT, fills);
-    snprintf(rows[at].value, sizeof rows[at].value, "%.20s", methods[app->view.method].name);
-    for (char *c = rows[at].value; *c; c++)
-        if (*c == '_') *c = ' ';
+    snprintf(rows[at].value, sizeof rows[at].value, "%.20s", methods[view->method].name);
+    ui_spaces(rows[at].value);
     at++;
-    if (app->view.compare == COMPARE_DIFFERENCE)
+    if (view->compare == COMPARE_DIFFERENCE)
         rows[at++] = tone_row_of(TONE_ADDED, fills);
-    else if (fills && app->view.compare == COMPARE_OFF && app->view.method > 0)
-        rows[at++] = tone_row_of(layers_method_tone(0, app->view.method), fills);
-    if (app->document.map.mirror_count) rows[at++] = tone_row_of(TONE_KEPT_MIRRORED, fills);
+    else if (fills && view->compare == COMPARE_OFF && view->method > 0)
+        rows[at++] = tone_row_of(layers_method_tone(0, view->method), fills);
+    if (view->document->map.mirror_count) rows[at++] = tone_row_of(TONE_KEPT_MIRRORED, fills);
     return at;
 }
 
 /// Layers whose rows follow from what they show.
-static int add_layers(const app_state *app, legend_row *rows) {
-    const unsigned fill = layers_fill(app);
-    const bool mirrors = app->document.map.mirror_count > 0;
+static int add_layers(const view_state *view, legend_row *rows) {
+    const unsigned fill = layers_fill(view);
+    const bool mirrors = view->document->map.mirror_count > 0;
     int at = 0;
-    if (!app->view.seen.valid) return 0;
-    if (layers_shows(app, LAYER_CULL)) at += add_culling(app, rows + at, fill == LAYER_CULL);
-    if (layers_shows(app, LAYER_PVS)) {
+    if (!view->seen.valid) return 0;
+    if (layers_shows(view, LAYER_CULL)) at += add_culling(view, rows + at, fill == LAYER_CULL);
+    if (layers_shows(view, LAYER_PVS)) {
         rows[at++] = tone_row_of(TONE_SET, fill == LAYER_PVS);
         if (mirrors) rows[at++] = tone_row_of(TONE_SET_MIRRORED, fill == LAYER_PVS);
     }
-    if (layers_shows(app, LAYER_REGION)) {
+    if (layers_shows(view, LAYER_REGION)) {
         rows[at++] = tone_row_of(TONE_REGION, fill == LAYER_REGION);
         if (mirrors) rows[at++] = tone_row_of(TONE_REGION_MIRRORED, fill == LAYER_REGION);
     }
-    if (layers_shows(app, LAYER_NODES)) at += layer_nodes_legend(app, rows + at);
-    if (layers_shows(app, LAYER_WATCH)) at += layer_watch_legend(app, rows + at);
+    if (layers_shows(view, LAYER_NODES)) at += layer_nodes_legend(view, rows + at);
+    if (layers_shows(view, LAYER_WATCH)) at += layer_watch_legend(view, rows + at);
     return at;
 }
 
-static legend_row stroke(const char *label, sl_colour colour, bool dashed) {
+static legend_row stroke_row(const char *label, sl_colour colour, bool dashed) {
     return (legend_row){
         .label = label, .mark = dashed ? LEGEND_DASHED : LEGEND_STROKE, .colour = colour};
 }
 
 /// Whether cells are neither inside nor solid ground: they are hatched.
-static bool has_outside(const app_state *app) {
-    const sl_space *space = &app->document.baked->space;
-    return space->inside_count + app->document.solid < space->cell_count;
+static bool has_outside(const view_state *view) {
+    const sl_space *space = &view->document->baked->space;
+    return space->inside_count + view->document->solid < space->cell_count;
 }
 
-int layers_legend(const app_state *app, legend_row rows[LEGEND_MOST]) {
-    const sl_palette *palette = &app->ui.palette;
-    const sl_map *map = &app->document.map;
-    if (!app->document.baked) return 0;
-    int at = add_layers(app, rows);
-    if (layers_shows(app, LAYER_VIEWS) && view_layer_shown(app->view.views))
-        rows[at++] = stroke("border of a view cell", palette->wall, false);
+/// Writes what is shown now, and how. Returns the number of rows.
+static int list_rows(const view_state *view, legend_row rows[LEGEND_MOST]) {
+    const sl_palette *palette = &view->ui->palette;
+    const sl_map *map = &view->document->map;
+    if (!view->document->baked) return 0;
+    int at = add_layers(view, rows);
+    if (layers_shows(view, LAYER_VIEWS) && view_layer_shown(view->views))
+        rows[at++] = stroke_row("border of a view cell", palette->wall, false);
     const heat_graph *graph;
-    if (heat_layer_values(app, &graph) && layers_fill(app) != LAYER_HEAT)
-        rows[at++] = stroke("between levels of the heat map", palette->wall, false);
-    if (layers_shows(app, LAYER_SPLITS)) rows[at++] = stroke("split", palette->path, false);
-    if (layers_shows(app, LAYER_TREE) && app->view.seen.valid)
-        rows[at++] = stroke("stab tree", palette->tree, false);
-    if (layers_shows(app, LAYER_PORTALS)) rows[at++] = stroke("portal", palette->portal, true);
-    if (layers_shows(app, LAYER_STARTS) && map->path_count)
-        rows[at++] = stroke("path", palette->path, true);
-    if (map->range > 0 && mode_table()[app->tool.mode].eye)
-        rows[at++] = stroke("view range", palette->start, true);
+    if (heat_layer_values(view, &graph) && layers_fill(view) != LAYER_HEAT)
+        rows[at++] = stroke_row("between levels of the heat map", palette->wall, false);
+    if (layers_shows(view, LAYER_SPLITS)) rows[at++] = stroke_row("split", palette->path, false);
+    if (layers_shows(view, LAYER_TREE) && view->seen.valid)
+        rows[at++] = stroke_row("stab tree", palette->tree, false);
+    if (layers_shows(view, LAYER_PORTALS)) rows[at++] = stroke_row("portal", palette->portal, true);
+    if (layers_shows(view, LAYER_STARTS) && map->path_count)
+        rows[at++] = stroke_row("path", palette->path, true);
+    if (map->range > 0 && view->mode != MODE_QUIZ)
+        rows[at++] = stroke_row("view range", palette->start, true);
     const struct {
         const char *label;
         bool shown;
         enum legend_mark mark;
-    } marks[] = {{"start", layers_shows(app, LAYER_STARTS) && map->start_count, LEGEND_START},
-                 {"the eye", app->tool.mode != MODE_QUIZ, LEGEND_EYE},
+    } marks[] = {{"start", layers_shows(view, LAYER_STARTS) && map->start_count, LEGEND_START},
+                 {"the eye", view->mode != MODE_QUIZ, LEGEND_EYE},
                  {"door", map->door_count > 0, LEGEND_DOOR},
                  {"mirror", map->mirror_count > 0, LEGEND_MIRROR},
                  {"one-way glass", map->oneway_count > 0, LEGEND_ONEWAY},
-                 {"object", layers_shows(app, LAYER_STARTS) && map->object_count, LEGEND_OBJECT},
-                 {"outside", has_outside(app), LEGEND_OUTSIDE}};
+                 {"object", layers_shows(view, LAYER_STARTS) && map->object_count, LEGEND_OBJECT},
+                 {"outside", has_outside(view), LEGEND_OUTSIDE}};
     for (size_t i = 0; i < sizeof marks / sizeof *marks; i++)
         if (marks[i].shown)
             rows[at++] = (legend_row){.label = marks[i].label, .mark = marks[i].mark};
-    if (app->document.solid)
+    if (view->document->solid)
         rows[at++] =
             (legend_row){.label = "solid ground", .mark = LEGEND_PLAIN, .colour = palette->solid};
     return at;
@@ -148,7 +152,7 @@ static void draw_mark(ui_state *ui, sl_box box, enum legend_mark mark) {
         sli_mark_oneway(ui->cairo, &ui->palette, &pens, a, b);
 }
 
-void layers_swatch(ui_state *ui, sl_box box, const legend_row *row) {
+void legend_swatch(ui_state *ui, sl_box box, const legend_row *row) {
     cairo_t *cairo = ui->cairo;
     const double middle = (box.min.y + box.max.y) / 2, unit = ui_scale(ui);
     cairo_save(cairo);
@@ -193,12 +197,13 @@ static double legend_row_height(ui_state *ui, double width, const legend_row *ro
            (beside ? 0 : ui_lines_height(ui, room, 0.95, false, row->value));
 }
 
-double layers_legend_row(ui_state *ui, double left, double right, double y, const legend_row *row) {
+/// A row with its sample; returns the lower edge.
+static double draw_row(ui_state *ui, double left, double right, double y, const legend_row *row) {
     double value;
     const bool beside = is_beside(ui, right - left, row, &value);
     const double t = ui->text, words = left + LABEL_LEFT * t;
     const double room = right - words - (beside ? value : 0);
-    layers_swatch(ui, (sl_box){{left, y + 0.25 * t}, {left + 2.2 * t, y + 1.3 * t}}, row);
+    legend_swatch(ui, (sl_box){{left, y + 0.25 * t}, {left + 2.2 * t, y + 1.3 * t}}, row);
     double end = ui_lines(ui, words, y + 1.1 * t, room, 0.95, false, ui->palette.ink, row->label);
     if (value > 0 && beside)
         ui_text_right(ui, right, y + 1.1 * t, 0.95, ui->palette.faint, row->value);
@@ -209,28 +214,14 @@ double layers_legend_row(ui_state *ui, double left, double right, double y, cons
 
 // --- keys of layers that are coloured by values
 
-int ramp_step(double value, double least, double most) {
-    const double share = most > least ? (value - least) / (most - least) : 0;
-    return (int)fmin(fmax(share, 0) * RAMP_STEPS, RAMP_STEPS - 1);
-}
-
-sl_colour ramp_colour(const ui_state *ui, int step) {
-    return sl_palette_ramp(ui->dark, (step + 0.5) / RAMP_STEPS);
-}
-
-void legend_key_add(legend_key *key, const char *label, const char *text) {
-    snprintf(key->rows[key->count].label, sizeof key->rows->label, "%s", label);
-    snprintf(key->rows[key->count++].text, sizeof key->rows->text, "%s", text);
-}
-
 enum { KEYS_MOST = 2 };
 
 /// The keys of the layers that are shown.
-static int list_keys(const app_state *app, legend_key keys[KEYS_MOST]) {
+static int list_keys(const view_state *view, legend_key keys[KEYS_MOST]) {
     int count = 0;
-    if (!app->view.seen.valid) return 0;
-    count += view_layer_key(app, &keys[count]);
-    count += heat_layer_key(app, &keys[count]);
+    if (!view->seen.valid) return 0;
+    count += view_layer_key(view, &keys[count]);
+    count += heat_layer_key(view, &keys[count]);
     return count;
 }
 
@@ -268,11 +259,12 @@ static double put_key(ui_state *ui, const legend_key *key, double left, double r
     return y + (key->ramp ? 1.6 : 0.2) * t;
 }
 
-double layers_key_column(app_state *app, double left, double right, double y) {
+/// Draws the keys of such layers in a column; returns the lower edge.
+static double draw_key_column(view_state *view, double left, double right, double y) {
     legend_key keys[KEYS_MOST];
-    const int count = list_keys(app, keys);
+    const int count = list_keys(view, keys);
     for (int i = 0; i < count; i++)
-        y = put_key(&app->ui, &keys[i], left, right, y + 0.4 * app->ui.text, true);
+        y = put_key(view->ui, &keys[i], left, right, y + 0.4 * view->ui->text, true);
     return y;
 }
 
@@ -286,8 +278,8 @@ static void fill_framed(ui_state *ui, sl_box box) {
 // --- over the plan
 
 /// Whether a box of the page has something of the map below it.
-static bool covers_map(const app_state *app, const sl_frame *frame, sl_box box) {
-    const sl_box bounds = app->document.baked->space.bounds;
+static bool covers_map(const view_state *view, const sl_frame *frame, sl_box box) {
+    const sl_box bounds = view->document->baked->space.bounds;
     const sl_point low = sl_frame_point(frame, bounds.min);
     const sl_point high = sl_frame_point(frame, bounds.max);
     return box.min.x < high.x && box.max.x > low.x && box.min.y < low.y && box.max.y > high.y;
@@ -295,19 +287,18 @@ static bool covers_map(const app_state *app, const sl_frame *frame, sl_box box) 
 
 /// A presentation has the map free: a legend that would cover it is a button, until that is
 /// pressed.
-static void fold(app_state *app, double left, double bottom) {
-    ui_state *ui = &app->ui;
+static void fold_to_button(ui_state *ui, double left, double bottom) {
     ui->legend_folded = true;
     ui_button(ui, left, bottom - 1.6 * ui->text, 1.6 * ui->text, "Legend (F7)", false,
-              action_find("legend"));
+              ui_action_find(ui, "legend"));
 }
 
 /// A legend that is higher than three quarters of the plan is left to the panel. Returns its box;
 /// one without a size where it is not drawn.
-static sl_box draw_over_plan(app_state *app, const sl_frame *frame, bool vector) {
-    ui_state *ui = &app->ui;
+static sl_box draw_over_plan(view_state *view, const sl_frame *frame, bool vector) {
+    ui_state *ui = view->ui;
     legend_row rows[LEGEND_MOST];
-    const int count = layers_legend(app, rows);
+    const int count = list_rows(view, rows);
     const double t = ui->text, gap = 0.6 * t;
     const double wide = fmin(20 * t, frame->width - 2 * gap);
     double high = gap;
@@ -318,23 +309,22 @@ static sl_box draw_over_plan(app_state *app, const sl_frame *frame, bool vector)
     const double left = frame->left + gap, bottom = frame->top + frame->height - gap;
     double y = bottom - high;
     if (ui->presents && !ui->legend_over &&
-        covers_map(app, frame, (sl_box){{left, y}, {left + wide, bottom}})) {
-        if (!vector) fold(app, left, bottom);
+        covers_map(view, frame, (sl_box){{left, y}, {left + wide, bottom}})) {
+        if (!vector) fold_to_button(view->ui, left, bottom);
         return none;
     }
     fill_framed(ui, (sl_box){{left, y}, {left + wide, bottom}});
     y += 0.1 * t;
-    for (int i = 0; i < count; i++)
-        y = layers_legend_row(ui, left + gap, left + wide - gap, y, &rows[i]);
+    for (int i = 0; i < count; i++) y = draw_row(ui, left + gap, left + wide - gap, y, &rows[i]);
     return (sl_box){{left, bottom - high}, {left + wide, bottom}};
 }
 
 /// The keys at the lower right, one over the other, as far as they have room: beside the legend, or
 /// over it.
-static void draw_keys_over_plan(app_state *app, const sl_frame *frame, const sl_box *legend) {
-    ui_state *ui = &app->ui;
+static void draw_keys_over_plan(view_state *view, const sl_frame *frame, const sl_box *legend) {
+    ui_state *ui = view->ui;
     legend_key keys[KEYS_MOST];
-    const int count = list_keys(app, keys);
+    const int count = list_keys(view, keys);
     const double t = ui->text, wide = 19 * t, right = frame->left + frame->width - t;
     const bool beside = right - wide > legend->max.x + 0.5 * t;
     double bottom = beside ? frame->top + frame->height - t : legend->min.y - 0.5 * t;
@@ -349,11 +339,31 @@ static void draw_keys_over_plan(app_state *app, const sl_frame *frame, const sl_
     }
 }
 
-void layers_draw_keys(app_state *app, const sl_frame *frame, bool vector) {
-    app->ui.legend_folded = false;
-    if (app_has_panel(app)) return;
+void legend_over_plan(view_state *view, const sl_frame *frame, bool vector) {
+    view->ui->legend_folded = false;
+    if (ui_has_panel(view->ui)) return;
     const double lowest = frame->top + frame->height;
     sl_box legend = {{frame->left, lowest}, {frame->left, lowest}};
-    if (app->tool.mode != MODE_QUIZ && app->ui.legend) legend = draw_over_plan(app, frame, vector);
-    draw_keys_over_plan(app, frame, &legend);
+    if (view->mode != MODE_QUIZ && view->ui->legend) legend = draw_over_plan(view, frame, vector);
+    draw_keys_over_plan(view, frame, &legend);
+}
+
+// --- in a panel
+
+void column_legend(view_state *view, column *c) {
+    legend_row rows[LEGEND_MOST];
+    char text[96];
+    const int count = list_rows(view, rows);
+    if (!count) return;
+    column_heading(view->ui, c, "Legend", NULL);
+    for (int i = 0; i < count; i++) c->y = draw_row(view->ui, c->left, c->right, c->y, &rows[i]);
+    c->y = draw_key_column(view, c->left, c->right, c->y);
+    if (layer_nodes_words(view, text))
+        column_words(view->ui, c, 0.9, view->ui->palette.faint, text);
+}
+
+void column_layers(view_state *view, column *c) {
+    column_heading(view->ui, c, "Layers", "key");
+    for (unsigned i = 0; i < LAYER_COUNT; i++)
+        if (layers_lists(view, i)) column_check(view->ui, c, layer_table()[i].name);
 }

@@ -1,8 +1,7 @@
 /// The bars at the top and at the bottom, and the time line of the lesson.
-#include "app/actions.h"
-#include "app/modes.h"
 #include "lessons/quiz.h"
-#include "plan/edit.h"
+#include "panes/panes.h"
+#include "plan/grid.h"
 #include "sightline/draw.h"
 
 #include <math.h>
@@ -11,16 +10,14 @@
 
 // --- bars
 
-static const action_row *row_of(const char *name) {
-    size_t count;
-    return &action_table(&count)[action_find(name)];
+static const ui_action *row_of(const ui_state *ui, const char *name) {
+    return &ui->actions[ui_action_find(ui, name)];
 }
 
-static double put_button(app_state *app, double x, double y, const char *name) {
-    const action_row *a = row_of(name);
-    const double t = app->ui.text;
-    return ui_button(&app->ui, x, y, 1.6 * t, a->label, a->on && a->on(app), action_find(name)) +
-           0.35 * t;
+static double put_button(ui_state *ui, double x, double y, const char *name) {
+    const ui_action *a = row_of(ui, name);
+    const double t = ui->text;
+    return ui_button(ui, x, y, 1.6 * t, a->label, a->on, (int)(a - ui->actions)) + 0.35 * t;
 }
 
 /// Modes and help are always there. The rest has the room that is left in their lines: what finds
@@ -35,7 +32,7 @@ enum {
 };
 
 /// The place of the next button of a width, on this line or the next.
-static void flow(double *x, int *line, double wide, double left, double right) {
+static void flow_on(double *x, int *line, double wide, double left, double right) {
     if (*x > left && *x + wide > right) {
         *x = left;
         ++*line;
@@ -43,60 +40,57 @@ static void flow(double *x, int *line, double wide, double left, double right) {
 }
 
 /// Lays out the buttons, and draws them with `draw`. Returns the number of lines.
-static int bar_buttons(app_state *app, double right, bool draw) {
-    const double t = app->ui.text, left = 0.6 * t, gap = 0.35 * t;
+static int bar_buttons(view_state *view, double right, bool draw) {
+    const double t = view->ui->text, left = 0.6 * t, gap = 0.35 * t;
     double x = left;
     int line = 0;
-    for (int i = 0; i < NEEDED - !app->ui.presents; i++) {
-        const double wide = ui_button_width(&app->ui, row_of(needed[i])->label);
-        flow(&x, &line, wide, left, right);
-        if (draw) put_button(app, x, (0.35 + 2 * line) * t, needed[i]);
+    for (int i = 0; i < NEEDED - !view->ui->presents; i++) {
+        const double wide = ui_button_width(view->ui, row_of(view->ui, needed[i])->label);
+        flow_on(&x, &line, wide, left, right);
+        if (draw) put_button(view->ui, x, (0.35 + 2 * line) * t, needed[i]);
         x += wide + gap;
     }
     x += 0.8 * t;
     for (int i = 0; i < OTHERS; i++) {
-        const double wide = ui_button_width(&app->ui, row_of(others[i])->label);
-        if (app->tool.mode != MODE_EXPLORE && strcmp(others[i], "compare") == 0) continue;
-        if (app->ui.presents && strcmp(others[i], "side_panel") == 0) continue;
-        if (app->ui.presents && strcmp(others[i], "present") == 0) continue;
+        const double wide = ui_button_width(view->ui, row_of(view->ui, others[i])->label);
+        if (view->mode != MODE_EXPLORE && strcmp(others[i], "compare") == 0) continue;
+        if (view->ui->presents && strcmp(others[i], "side_panel") == 0) continue;
+        if (view->ui->presents && strcmp(others[i], "present") == 0) continue;
         if (x + wide > right) continue;
-        if (draw) put_button(app, x, (0.35 + 2 * line) * t, others[i]);
+        if (draw) put_button(view->ui, x, (0.35 + 2 * line) * t, others[i]);
         x += wide + gap;
     }
     return line + 1;
 }
 
-void pane_bar_measure(app_state *app) {
-    app->ui.bar_rows = bar_buttons(app, app->ui.width - 0.4 * app->ui.text, false);
+void pane_bar_measure(learn_state *learn) {
+    learn->ui->bar_rows = bar_buttons(learn->view, learn->ui->width - 0.4 * learn->ui->text, false);
 }
 
-void pane_bar(app_state *app, sl_box box) {
-    ui_state *ui = &app->ui;
+void pane_bar(learn_state *learn, sl_box box) {
+    ui_state *ui = learn->ui;
     ui_begin_area(ui, box);
     ui_line(ui, box.min.x, box.max.y - 0.5, box.max.x, box.max.y - 0.5, ui->palette.outline);
-    bar_buttons(app, box.max.x - 0.4 * ui->text, true);
+    bar_buttons(learn->view, box.max.x - 0.4 * ui->text, true);
     ui_end_area(ui);
 }
 
 /// The work in the background, at the right end of the line. Returns its left end.
-static double draw_progress(app_state *app, sl_box box) {
-    ui_state *ui = &app->ui;
-    const job_progress p = app_progress(app);
+static double draw_progress(ui_state *ui, sl_box box, const job_progress *p) {
     const double t = ui->text, wide = fmin(11 * t, 0.2 * box_width(box));
     const char *label = "Stop (Esc)";
     char text[96];
-    snprintf(text, sizeof text, "%s%s", p.stage ? p.stage : "", p.share >= 0 ? "" : " ...");
-    for (char *at = text; *at; at++)
-        if (*at == '_') *at = ' ';
+    snprintf(text, sizeof text, "%s%s", p->stage ? p->stage : "", p->share >= 0 ? "" : " ...");
+    ui_spaces(text);
     const double middle = (box.min.y + box.max.y) / 2;
     const double stop = box.max.x - ui_button_width(ui, label) - 0.4 * t;
-    ui_button(ui, stop, box.min.y + 0.15 * t, 1.6 * t, label, false, action_find("escape"));
+    ui_button(ui, stop, box.min.y + 0.15 * t, 1.6 * t, label, false, ui_action_find(ui, "escape"));
     const double x = stop - wide - 0.6 * t;
     ui_fill_round(ui, (sl_box){{x, middle - 0.3 * t}, {x + wide, middle + 0.3 * t}}, 0.3 * t,
                   ui->palette.outline);
-    if (p.share > 0.05)
+    if (p->share > 0.05)
         ui_fill_round(
-            ui, (sl_box){{x, middle - 0.3 * t}, {x + wide * fmin(p.share, 1), middle + 0.3 * t}},
+            ui, (sl_box){{x, middle - 0.3 * t}, {x + wide * fmin(p->share, 1), middle + 0.3 * t}},
             0.3 * t, ui->palette.glass);
     const double left = x - 0.6 * t - ui_text_width(ui, 0.95, false, text);
     if (left < box.min.x + 0.4 * t) return x;
@@ -105,31 +99,27 @@ static double draw_progress(app_state *app, sl_box box) {
 }
 
 /// In Draw mode: the place of the grid under the pointer.
-static void write_place(const app_state *app, char text[64]) {
-    const sl_box plan = app_layout(app).plan[0];
+static void write_place(const view_state *view, char text[64]) {
+    sl_point at;
     text[0] = '\0';
-    if (app->tool.mode != MODE_DRAW || !app->document.baked || !box_has(plan, app->tool.pointer))
-        return;
-    const sl_point at = edit_snap(app, camera_point(&app->view.camera, plan, app->tool.pointer));
+    if (view->mode != MODE_DRAW || !view->document->baked || !view_pointed(view, &at)) return;
+    at = grid_snap(view, at);
     snprintf(text, 64, "at %.10g, %.10g   ", at.x, at.y);
 }
 
 /// What the viewer does, at the right end of the line. Returns its left end.
-static double draw_doing(app_state *app, sl_box box) {
-    ui_state *ui = &app->ui;
-    const sl_baked *baked = app->document.baked;
+static double draw_doing(view_state *view, sl_box box, const char *doing) {
+    ui_state *ui = view->ui;
+    const sl_baked *baked = view->document->baked;
     const bool partial = baked && sl_partial_begun(&baked->partial);
-    const char *doing = app->tool.recorder.records ? "recording"
-                        : app->tool.recorder.plays ? "playing"
-                        : partial                  ? "a partial bake"
-                                                   : "";
+    if (!*doing && partial) doing = "a partial bake";
     char place[64], text[160];
-    write_place(app, place);
-    if (app->steady || app->ui.frame_seconds <= 0)
+    write_place(view, place);
+    if (view->ui->steady || view->ui->frame_seconds <= 0)
         snprintf(text, sizeof text, "%s%s", place, doing);
     else
         snprintf(text, sizeof text, "%s%s   %.1f ms a frame", place, doing,
-                 1e3 * app->ui.frame_seconds);
+                 1e3 * view->ui->frame_seconds);
     const double t = ui->text, right = box.max.x - 0.8 * t;
     ui_text_right(ui, right, box.max.y - 0.62 * t, 0.95, ui->palette.faint, text);
     return right - ui_text_width(ui, 0.95, false, text);
@@ -139,8 +129,7 @@ static double draw_doing(app_state *app, sl_box box) {
 
 /// A message that is longer than the line grows upwards, over the panes. After some seconds it is
 /// cut to the line, unless it is an error; the tooltip has all of it.
-static void draw_message(app_state *app, sl_box box, double right) {
-    ui_state *ui = &app->ui;
+static void draw_message(ui_state *ui, sl_box box, double right) {
     const double t = ui->text, left = 0.8 * t, size = 0.95;
     const sl_colour colour = ui->message_is_error     ? ui->palette.start
                              : ui->message_is_working ? ui->palette.faint
@@ -168,14 +157,15 @@ static void draw_message(app_state *app, sl_box box, double right) {
     ui_end_area(ui);
 }
 
-void pane_status(app_state *app, sl_box box) {
-    ui_state *ui = &app->ui;
+void pane_status(learn_state *learn, sl_box box, const job_progress *work, const char *doing) {
+    ui_state *ui = learn->ui;
     ui_begin_area(ui, box);
     ui_hit(ui, HIT_PANEL, PANEL_STATUS, box);
     ui_line(ui, box.min.x, box.min.y + 0.5, box.max.x, box.min.y + 0.5, ui->palette.outline);
-    const double left = app_progress(app).running ? draw_progress(app, box) : draw_doing(app, box);
+    const double left =
+        work->running ? draw_progress(ui, box, work) : draw_doing(learn->view, box, doing);
     ui_end_area(ui);
-    draw_message(app, box, left - 0.8 * ui->text);
+    draw_message(ui, box, left - 0.8 * ui->text);
 }
 
 // --- the time line
@@ -184,42 +174,42 @@ void pane_status(app_state *app, sl_box box) {
 
 /// What is said of a pair stands here where there is no panel. In lessons it always does, as the
 /// plan shows it.
-static bool says_pair(const app_state *app) {
-    const quiz_state *q = &app->tool.quiz;
-    if (app->tool.mode == MODE_LEARN) return q->answered;
-    return !app_has_panel(app) && (q->answered || app->tool.mode == MODE_QUIZ);
+static bool says_pair(const learn_state *learn) {
+    const quiz_state *q = &learn->quiz;
+    if (learn->view->mode == MODE_LEARN) return q->answered;
+    return !ui_has_panel(learn->ui) && (q->answered || learn->view->mode == MODE_QUIZ);
 }
 
-bool pane_time_shown(const app_state *app) {
-    return app->tool.mode == MODE_LEARN || says_pair(app);
+bool pane_time_shown(const learn_state *learn) {
+    return learn->view->mode == MODE_LEARN || says_pair(learn);
 }
 
-void pane_time_sentence(const app_state *app, char text[BAR_TEXT]) {
-    const quiz_state *q = &app->tool.quiz;
-    if (!says_pair(app)) {
-        lesson_sentence(&app->tool.lesson, &app->document, text);
+void pane_time_sentence(const learn_state *learn, char text[BAR_TEXT]) {
+    const quiz_state *q = &learn->quiz;
+    if (!says_pair(learn)) {
+        lesson_sentence(&learn->lesson, learn->document, text);
         return;
     }
-    if (app->tool.mode == MODE_QUIZ)
-        quiz_question(app, text, BAR_TEXT);
+    if (learn->view->mode == MODE_QUIZ)
+        quiz_question(learn, text, BAR_TEXT);
     else
         snprintf(text, BAR_TEXT, "From cell %u to cell %u:", q->from, q->to);
     const size_t used = strlen(text);
     if (!q->answered) return;
     text[used] = ' ';
-    quiz_words(app, text + used + 1, BAR_TEXT - used - 1);
+    quiz_words(learn, text + used + 1, BAR_TEXT - used - 1);
 }
 
 /// Names of actions, with NULL at the end.
-static const char *const *time_buttons(const app_state *app) {
+static const char *const *time_buttons(const learn_state *learn) {
     static const char *const steps[] = {"step_first", "step_back", "play_steps",
                                         "step_next",  "step_last", NULL};
     static const char *const answers[] = {"answer_yes", "answer_no", NULL};
     static const char *const next[] = {"next_question", "why_step", NULL};
     static const char *const why[] = {"why_step", NULL};
-    if (app->tool.mode == MODE_LEARN) return steps;
-    if (app->tool.mode != MODE_QUIZ) return why;
-    return app->tool.quiz.asked && !app->tool.quiz.answered ? answers : next;
+    if (learn->view->mode == MODE_LEARN) return steps;
+    if (learn->view->mode != MODE_QUIZ) return why;
+    return learn->quiz.asked && !learn->quiz.answered ? answers : next;
 }
 
 static void write_count(const lesson_state *lesson, char text[48]) {
@@ -227,54 +217,56 @@ static void write_count(const lesson_state *lesson, char text[48]) {
     snprintf(text, 48, "%zu of %zu", length ? lesson->at + 1 : 0, length);
 }
 
-static double buttons_width(app_state *app) {
-    double wide = 0.7 * app->ui.text;
-    for (const char *const *name = time_buttons(app); *name; name++)
-        wide += ui_button_width(&app->ui, row_of(*name)->label) + 0.35 * app->ui.text;
+static double buttons_width(learn_state *learn) {
+    double wide = 0.7 * learn->ui->text;
+    for (const char *const *name = time_buttons(learn); *name; name++)
+        wide +=
+            ui_button_width(learn->ui, row_of(learn->ui, *name)->label) + 0.35 * learn->ui->text;
     return wide;
 }
 
 /// Marks the steps about the cell under the pointer, if not too many are.
-static void draw_ticks(app_state *app, sl_box line) {
+static void draw_ticks(learn_state *learn, sl_box line) {
     enum { TICKS_MOST = 400 };
-    const lesson_state *lesson = &app->tool.lesson;
+    const lesson_state *lesson = &learn->lesson;
     const subject_row *subject = lesson_subject(lesson);
     const size_t length = lesson_length(lesson);
-    if (!subject->cell || length < 2 || app->ui.over.kind != HIT_PLAN) return;
-    const sl_point at = camera_point(&app->view.camera, app_layout(app).plan[0], app->tool.pointer);
-    const uint32_t cell = sl_space_locate(&app->document.baked->space, at);
+    if (!subject->cell || length < 2 || learn->ui->over.kind != HIT_PLAN) return;
+    const sl_point at =
+        camera_point(&learn->view->camera, learn->view->plan[0], learn->ui->pointer);
+    const uint32_t cell = sl_space_locate(&learn->document->baked->space, at);
     int ticks = 0;
     for (size_t i = 0; i < length && cell != SL_NO_CELL && ticks < TICKS_MOST; i++) {
         if (subject->cell(lesson, i) != cell) continue;
         const double x = line.min.x + (double)i / (double)(length - 1) * (line.max.x - line.min.x);
-        ui_fill(&app->ui, (sl_box){{x - 1, line.min.y + 1}, {x + 1, line.max.y - 1}},
-                app->ui.palette.start);
+        ui_fill(learn->ui, (sl_box){{x - 1, line.min.y + 1}, {x + 1, line.max.y - 1}},
+                learn->ui->palette.start);
         ticks++;
     }
 }
 
 /// The line stands beside the buttons where it has room there, else below them.
-void pane_time_measure(app_state *app) {
-    ui_state *ui = &app->ui;
+void pane_time_measure(learn_state *learn) {
+    ui_state *ui = learn->ui;
     char text[BAR_TEXT];
-    if (!pane_time_shown(app)) return;
-    pane_time_sentence(app, text);
+    if (!pane_time_shown(learn)) return;
+    pane_time_sentence(learn, text);
     const double high = ui_lines_height(ui, ui->width - 1.8 * ui->text, SENTENCE_SIZE, false, text);
     ui->time_lines = (int)fmax(round(high / (1.4 * SENTENCE_SIZE * ui->text)), 1);
-    const bool has_line = app->tool.mode == MODE_LEARN;
-    ui->time_rows = has_line && buttons_width(app) + 14 * ui->text > ui->width ? 2 : 1;
+    const bool has_line = learn->view->mode == MODE_LEARN;
+    ui->time_rows = has_line && buttons_width(learn) + 14 * ui->text > ui->width ? 2 : 1;
 }
 
-double pane_time_height(const app_state *app) {
-    return (0.9 + 1.4 * SENTENCE_SIZE * app->ui.time_lines + 2 * fmax(app->ui.time_rows, 1)) *
-           ui_text_size(&app->ui);
+double pane_time_height(const learn_state *learn) {
+    return (0.9 + 1.4 * SENTENCE_SIZE * learn->ui->time_lines + 2 * fmax(learn->ui->time_rows, 1)) *
+           ui_text_size(learn->ui);
 }
 
 /// Draws the line right of the buttons or below them, from `y` down. Returns its upper edge.
-static double draw_time_line(app_state *app, sl_box box, double x, double y) {
-    ui_state *ui = &app->ui;
+static double draw_time_line(learn_state *learn, sl_box box, double x, double y) {
+    ui_state *ui = learn->ui;
     const double t = ui->text;
-    const lesson_state *lesson = &app->tool.lesson;
+    const lesson_state *lesson = &learn->lesson;
     const size_t length = lesson_length(lesson);
     char count[48];
     if (ui->time_rows > 1) {
@@ -288,29 +280,29 @@ static double draw_time_line(app_state *app, sl_box box, double x, double y) {
                   ui->palette.faint, count);
     const sl_box line = {{x + t, y}, {left - 1.1 * t, y + 1.6 * t}};
     if (box_width(line) > 2 * t) {
-        draw_ticks(app, line);
+        draw_ticks(learn, line);
         ui_slider(ui, line, length > 1 ? (double)lesson->at / (double)(length - 1) : 0, HIT_TIME,
                   0);
     }
     return y;
 }
 
-void pane_time(app_state *app, sl_box box) {
-    ui_state *ui = &app->ui;
+void pane_time(learn_state *learn, sl_box box) {
+    ui_state *ui = learn->ui;
     const double t = ui->text;
     ui_begin_area(ui, box);
     ui_line(ui, box.min.x, box.min.y + 0.5, box.max.x, box.min.y + 0.5, ui->palette.outline);
     char text[BAR_TEXT];
-    pane_time_sentence(app, text);
+    pane_time_sentence(learn, text);
     const sl_box room = {{box.min.x, box.min.y + 1}, box.max};
     double y = ui_begin_scroll(ui, SCROLL_TIME, room);
     y = ui_lines(ui, box.min.x + 0.9 * t, y + 1.6 * t, box_width(box) - 1.8 * t, SENTENCE_SIZE,
                  false, ui->palette.ink, text) -
         0.8 * t;
     double x = box.min.x + 0.7 * t;
-    for (const char *const *name = time_buttons(app); *name; name++)
-        x = put_button(app, x, y, *name);
-    if (app->tool.mode == MODE_LEARN) y = draw_time_line(app, box, x, y);
+    for (const char *const *name = time_buttons(learn); *name; name++)
+        x = put_button(ui, x, y, *name);
+    if (learn->view->mode == MODE_LEARN) y = draw_time_line(learn, box, x, y);
     ui_end_scroll(ui, room, y + 1.9 * t);
     ui_end_area(ui);
 }

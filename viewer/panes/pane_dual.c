@@ -3,22 +3,22 @@
 /// An end under the pointer is marked here, in the plan and in the linear program alike: its
 /// border, the end itself, its row. Where nothing is left, the half-planes that contradict each
 /// other are marked, as are their ends in the plan.
-#include "app/modes.h"
+#include "panes/panes.h"
 #include "sightline/draw.h"
 
 #include <math.h>
 #include <stdio.h>
 
-static sl_dual_frame frame_of(app_state *app, sl_box box) {
-    lesson_state *lesson = &app->tool.lesson;
-    const double t = ui_text_size(&app->ui);
+static sl_dual_frame frame_of(learn_state *learn, sl_box box) {
+    lesson_state *lesson = &learn->lesson;
+    const double t = ui_text_size(learn->ui);
     sl_status status;
-    const sl_conflict *conflict = lesson_conflict(app->context, lesson, &status);
-    app_check(app, status);
+    const sl_conflict *conflict = lesson_conflict(learn->context, lesson, &status);
+    view_check(learn->view, status);
     return sl_dual_frame_fit(&lesson->dual, &lesson->before, lesson->ends, conflict,
                              box.min.x + 0.9 * t, box.min.y + 2.2 * t,
                              fmax(box_width(box) - 1.8 * t, 8), fmax(box_height(box) - 4.1 * t, 8),
-                             ui_scale(&app->ui));
+                             ui_scale(learn->ui));
 }
 
 /// The line as an equation: "y = 0.31 x - 0.05".
@@ -28,10 +28,10 @@ static void write_line(sl_dual_line line, char text[64]) {
 }
 
 /// The title, then the line, then the words, as far as each has room.
-static void draw_heading(app_state *app, sl_box box) {
-    ui_state *ui = &app->ui;
+static void draw_heading(learn_state *learn, sl_box box) {
+    ui_state *ui = learn->ui;
     const double t = ui->text, y = box.min.y + 1.5 * t;
-    const lesson_state *lesson = &app->tool.lesson;
+    const lesson_state *lesson = &learn->lesson;
     char text[160], line[64] = "";
     const double left = box.min.x + 0.9 * t, right = box.max.x - 0.9 * t;
     const double x = left + ui_text_width(ui, 1, true, "Lines as points") + 0.8 * t;
@@ -52,18 +52,18 @@ static void draw_heading(app_state *app, sl_box box) {
         ui_text(ui, x, y, 0.95, false, ui->palette.faint, text);
 }
 
-static void draw_dual(app_state *app, sl_box box) {
-    ui_state *ui = &app->ui;
+static void draw_dual(learn_state *learn, sl_box box) {
+    ui_state *ui = learn->ui;
     const double t = ui->text;
-    lesson_state *lesson = &app->tool.lesson;
+    lesson_state *lesson = &learn->lesson;
     if (box_height(box) < 3 * t) return; // too low for anything
-    draw_heading(app, box);
+    draw_heading(learn, box);
     if (!lesson->end_count) return;
-    const sl_dual_frame frame = frame_of(app, box);
+    const sl_dual_frame frame = frame_of(learn, box);
     const double least = fmin(frame.height, 0.5 * frame.width); // labels leave room for the lines
     sl_status status;
     sl_stab_end end;
-    sl_dual_marks marks = {.conflict = lesson_conflict(app->context, lesson, &status),
+    sl_dual_marks marks = {.conflict = lesson_conflict(learn->context, lesson, &status),
                            .text = fmin(0.85 * t, fmax(least / 9, 8))};
     if (lesson_marked(lesson, &end)) marks.end = &end;
     sl_draw_dual(ui->cairo, &ui->palette, &frame, &lesson->dual, lesson->ends, lesson->end_count,
@@ -88,23 +88,23 @@ static void draw_dual(app_state *app, sl_box box) {
         (sl_box){{frame.left, frame.top}, {frame.left + frame.width, frame.top + frame.height}});
 }
 
-void pane_dual(app_state *app, sl_box box) {
-    ui_state *ui = &app->ui;
+void pane_dual(learn_state *learn, sl_box box) {
+    ui_state *ui = learn->ui;
     ui_begin_area(ui, box);
     ui_line(ui, box.min.x, box.min.y + 0.5, box.max.x, box.min.y + 0.5, ui->palette.outline);
-    draw_dual(app, box);
+    draw_dual(learn, box);
     ui_end_area(ui);
 }
 
-void pane_dual_drag(app_state *app, sl_box box, sl_point to) {
-    if (!app->tool.lesson.end_count) return;
-    const sl_dual_frame frame = frame_of(app, box);
-    lesson_move_line(&app->tool.lesson, sl_dual_frame_line(&frame, to));
+void pane_dual_drag(learn_state *learn, sl_box box, sl_point to) {
+    if (!learn->lesson.end_count) return;
+    const sl_dual_frame frame = frame_of(learn, box);
+    lesson_move_line(&learn->lesson, sl_dual_frame_line(&frame, to));
 }
 
 /// Near an end of the shown line it turns about the other end; between the ends it is shifted.
-void pane_plan_drag_line(app_state *app, sl_point from, sl_point to) {
-    lesson_state *lesson = &app->tool.lesson;
+void pane_plan_drag_line(learn_state *learn, sl_point from, sl_point to) {
+    lesson_state *lesson = &learn->lesson;
     if (!lesson->end_count) return;
     const sl_point a = sl_dual_point(&lesson->dual, from), b = sl_dual_point(&lesson->dual, to);
     sl_dual_line line = lesson->line;
@@ -122,14 +122,14 @@ void pane_plan_drag_line(app_state *app, sl_point from, sl_point to) {
 /// Pixels of the plan or of the dual plane for one press of an arrow.
 #define NUDGE 4
 
-void pane_dual_nudge(app_state *app, int x, int y) {
-    lesson_state *lesson = &app->tool.lesson;
+void pane_dual_nudge(learn_state *learn, sl_box box, int x, int y) {
+    lesson_state *lesson = &learn->lesson;
     const uint32_t chosen = lesson_chosen(lesson);
-    const double step = NUDGE * ui_scale(&app->ui);
-    if (chosen == CHOSEN_NONE || !(app->view.camera.scale > 0)) return;
+    const double step = NUDGE * ui_scale(learn->ui);
+    if (chosen == CHOSEN_NONE || !(learn->view->camera.scale > 0)) return;
     lesson_keep(lesson, chosen);
     if (chosen == CHOSEN_LINE) {
-        const sl_dual_frame f = frame_of(app, app_layout(app).below[PANE_DUAL]);
+        const sl_dual_frame f = frame_of(learn, box);
         lesson_move_line(
             lesson,
             (sl_dual_line){lesson->line.slope + x * step * (f.high.slope - f.low.slope) / f.width,
@@ -139,13 +139,13 @@ void pane_dual_nudge(app_state *app, int x, int y) {
     }
     const sl_portal_ends *ends = &lesson->ends[chosen / 2];
     const sl_point at = chosen % 2 ? ends->right : ends->left;
-    const double by = step / app->view.camera.scale;
+    const double by = step / learn->view->camera.scale;
     lesson_move_end(lesson, chosen, (sl_point){at.x + x * by, at.y + y * by});
 }
 
-uint32_t pane_plan_end_at(const app_state *app, sl_point at) {
-    const lesson_state *lesson = &app->tool.lesson;
-    double nearest = 8 * ui_scale(&app->ui) / app->view.camera.scale;
+uint32_t pane_plan_end_at(const learn_state *learn, sl_point at) {
+    const lesson_state *lesson = &learn->lesson;
+    double nearest = 8 * ui_scale(learn->ui) / learn->view->camera.scale;
     uint32_t found = UINT32_MAX;
     for (uint32_t i = 0; i < 2 * lesson->end_count; i++) {
         const sl_point p = i % 2 ? lesson->ends[i / 2].right : lesson->ends[i / 2].left;
@@ -158,9 +158,9 @@ uint32_t pane_plan_end_at(const app_state *app, sl_point at) {
 }
 
 /// The end whose border is under a place of the dual plane.
-static uint32_t border_at(app_state *app, sl_box box, sl_point at) {
-    const lesson_state *lesson = &app->tool.lesson;
-    const sl_dual_frame f = frame_of(app, box);
+static uint32_t border_at(learn_state *learn, sl_box box, sl_point at) {
+    const lesson_state *lesson = &learn->lesson;
+    const sl_dual_frame f = frame_of(learn, box);
     const sl_dual_line line = sl_dual_frame_line(&f, at);
     double nearest = 6 * f.unit;
     uint32_t found = UINT32_MAX;
@@ -177,29 +177,26 @@ static uint32_t border_at(app_state *app, sl_box box, sl_point at) {
 }
 
 /// The step under a place of the time line, from 1.
-static size_t step_at(const app_state *app, const hit_area *hit, sl_point at) {
-    const size_t length = lesson_length(&app->tool.lesson);
-    const double margin = 0.5 * app->ui.text;
-    const double low = hit->box.min.x + margin, high = hit->box.max.x - margin;
-    if (!length || !(high > low)) return 0;
-    const double share = fmin(fmax((at.x - low) / (high - low), 0), 1);
+static size_t step_at(const learn_state *learn, const hit_area *hit, sl_point at) {
+    const size_t length = lesson_length(&learn->lesson);
+    if (!length) return 0;
+    const double share = ui_slider_at(learn->ui, hit->box, at);
     return 1 + (size_t)round(share * (double)(length - 1));
 }
 
-void pane_dual_hover(app_state *app) {
-    lesson_state *lesson = &app->tool.lesson;
-    const hit_area *over = &app->ui.over;
-    const sl_point at = app->tool.pointer;
-    const window_layout l = app_layout(app);
+void pane_dual_hover(learn_state *learn, sl_box box) {
+    lesson_state *lesson = &learn->lesson;
+    const hit_area *over = &learn->ui->over;
+    const sl_point at = learn->ui->pointer;
     uint32_t end = UINT32_MAX;
     lesson->hovered = 0;
     lesson->hovered_step = 0;
-    if (app->tool.mode != MODE_LEARN || !lesson_shows(lesson, &app->document)) return;
-    if (over->kind == HIT_TIME) lesson->hovered_step = step_at(app, over, at);
+    if (learn->view->mode != MODE_LEARN || !lesson_shows(lesson, learn->document)) return;
+    if (over->kind == HIT_TIME) lesson->hovered_step = step_at(learn, over, at);
     if (!lesson->end_count) return;
     if (over->kind == HIT_END) end = (uint32_t)over->value;
-    if (over->kind == HIT_DUAL) end = border_at(app, l.below[PANE_DUAL], at);
+    if (over->kind == HIT_DUAL) end = border_at(learn, box, at);
     if (over->kind == HIT_PLAN)
-        end = pane_plan_end_at(app, camera_point(&app->view.camera, l.plan[0], at));
+        end = pane_plan_end_at(learn, camera_point(&learn->view->camera, learn->view->plan[0], at));
     if (end < 2 * lesson->end_count) lesson->hovered = end + 1;
 }

@@ -6,7 +6,7 @@
 /// first, and the mirror over them. So there is one row of columns for each number of reflections.
 /// A shut door is a leaf, an open one a frame. One-way glass is dark from its dark side, and tinted
 /// from the other.
-#include "app/modes.h"
+#include "panes/panes.h"
 #include "plan/effects.h"
 
 #include "sightline/draw.h"
@@ -70,7 +70,7 @@ typedef struct span {
 // --- columns
 
 /// Depth and slope (to the right) of a point.
-static sl_point turn(const viewer *v, sl_point p) {
+static sl_point turned_to_eye(const viewer *v, sl_point p) {
     const double x = p.x - v->eye.x, y = p.y - v->eye.y;
     return (sl_point){x * v->c + y * v->s, x * v->s - y * v->c};
 }
@@ -83,7 +83,7 @@ static void cut_near(sl_point *a, sl_point b, double near) {
 
 /// False for a segment that is behind the eye.
 static bool find_span(const viewer *v, sl_point from, sl_point to, span *out) {
-    sl_point a = turn(v, from), b = turn(v, to);
+    sl_point a = turned_to_eye(v, from), b = turned_to_eye(v, to);
     if (a.x < v->near && b.x < v->near) return false;
     cut_near(&a, b, v->near);
     cut_near(&b, a, v->near);
@@ -173,7 +173,7 @@ typedef struct look {
     int level;
 } look;
 
-static sl_segment place(const look *l, sl_segment s) {
+static sl_segment mirrored_place(const look *l, sl_segment s) {
     const sl_map *map = sl_query_map(l->view->present.query);
     const sl_mirrored_region *seen = &l->view->seen.in_mirrors;
     if (l->part == SL_NO_PART) return s;
@@ -199,23 +199,24 @@ static void add_overlay(viewer *v, const look *l, sl_segment at, bool glass) {
     for (int x = s.first; x <= s.last && !shown; x++)
         shown = is_open_to(v, l->level, l->part, x, (float)nearness_at(&s, x + 0.5) * BEFORE);
     if (!shown) return;
-    v->overlays[v->overlay_count++] = (overlay){.from = at.a,
-                                                .to = at.b,
-                                                .part = l->part,
-                                                .level = l->level,
-                                                .glass = glass,
-                                                .nearness = 1 / fmax(turn(v, middle).x, v->near)};
+    v->overlays[v->overlay_count++] =
+        (overlay){.from = at.a,
+                  .to = at.b,
+                  .part = l->part,
+                  .level = l->level,
+                  .glass = glass,
+                  .nearness = 1 / fmax(turned_to_eye(v, middle).x, v->near)};
 }
 
 static void add_effects(viewer *v, const sl_map *map, const look *l) {
     for (size_t i = 0; i < map->mirror_count; i++)
         if (!map->mirrors[i].one_sided || side_of(map->mirrors[i].segment, l->eye) > 0) {
-            const sl_segment at = place(l, map->mirrors[i].segment);
+            const sl_segment at = mirrored_place(l, map->mirrors[i].segment);
             add_surface(v, l->level, at.a, at.b,
                         (column){.wall = (uint32_t)i, .part = l->part, .surface = SURFACE_MIRROR});
         }
     for (size_t i = 0; i < map->door_count; i++) {
-        const sl_segment at = place(l, map->doors[i].segment);
+        const sl_segment at = mirrored_place(l, map->doors[i].segment);
         if (map->doors[i].open)
             add_overlay(v, l, at, false);
         else
@@ -223,7 +224,7 @@ static void add_effects(viewer *v, const sl_map *map, const look *l) {
                         (column){.wall = (uint32_t)i, .part = l->part, .surface = SURFACE_LEAF});
     }
     for (size_t i = 0; i < map->oneway_count; i++) {
-        const sl_segment at = place(l, map->oneways[i].segment);
+        const sl_segment at = mirrored_place(l, map->oneways[i].segment);
         if (side_of(map->oneways[i].segment, l->eye) > 0)
             add_surface(v, l->level, at.a, at.b,
                         (column){.wall = (uint32_t)i, .part = l->part, .surface = SURFACE_DARK});
@@ -256,7 +257,7 @@ static void add_parts(viewer *v, const view_state *view, const sl_map *map) {
 // --- drawing
 
 typedef struct page {
-    app_state *app;
+    view_state *view;
     sl_box box;
     double high; ///< half the height of a wall at depth 1
     double wide; ///< pixels for a column
@@ -265,7 +266,7 @@ typedef struct page {
 /// A shape over columns, from a share of the height below the middle to one above it.
 static void add_shape(const page *p, double first, double end, double na, double nb, double low,
                       double top) {
-    cairo_t *cairo = p->app->ui.cairo;
+    cairo_t *cairo = p->view->ui->cairo;
     const double middle = (p->box.min.y + p->box.max.y) / 2;
     const double x0 = p->box.min.x + first * p->wide, x1 = p->box.min.x + end * p->wide;
     cairo_move_to(cairo, x0, middle - top * p->high * na);
@@ -280,13 +281,13 @@ static void set_faded(cairo_t *cairo, sl_colour c, double opacity) {
 }
 
 /// The farther, the more a colour fades into the ground's.
-static sl_colour dim(const page *p, sl_colour colour, double nearness) {
+static sl_colour dimmed(const page *p, sl_colour colour, double nearness) {
     const double far = fmin(fmax(1 - 5 * p->high * nearness / box_height(p->box), 0), 1);
-    return sl_colour_mix(colour, p->app->ui.palette.ground, 0.75 * far);
+    return sl_colour_mix(colour, p->view->ui->palette.ground, 0.75 * far);
 }
 
 static sl_colour colour_of(const page *p, const column *c) {
-    const sl_palette *palette = &p->app->ui.palette;
+    const sl_palette *palette = &p->view->ui->palette;
     if (c->surface == SURFACE_LEAF) return sl_colour_mix(palette->door, palette->wall, 0.25);
     if (c->surface == SURFACE_DARK) return sl_colour_mix(palette->wall, palette->glass, 0.25);
     if (c->surface == SURFACE_MIRROR) return palette->seen[0];
@@ -295,14 +296,14 @@ static sl_colour colour_of(const page *p, const column *c) {
 
 /// A door's leaf has two panels, if it is wide enough to show them.
 static void draw_panels(const page *p, int first, int end, double na, double nb) {
-    const sl_palette *palette = &p->app->ui.palette;
+    const sl_palette *palette = &p->view->ui->palette;
     const double inset = 0.14 * (end - first);
     if ((end - first) * p->wide < 14) return;
     const double step = (nb - na) / (end - first), n0 = na + inset * step, n1 = nb - inset * step;
     add_shape(p, first + inset, end - inset, n0, n1, -0.8, -0.1);
     add_shape(p, first + inset, end - inset, n0, n1, 0.1, 0.85);
-    set_faded(p->app->ui.cairo, palette->page, 0.3);
-    cairo_fill(p->app->ui.cairo);
+    set_faded(p->view->ui->cairo, palette->page, 0.3);
+    cairo_fill(p->view->ui->cairo);
 }
 
 /// Whether something is seen in the mirror at a column.
@@ -312,8 +313,8 @@ static bool shows_image(const viewer *v, int level, int x) {
 
 /// Columns of one wall make one shape: its upper and lower edges are straight.
 static void draw_level(const page *p, const viewer *v, int level) {
-    cairo_t *cairo = p->app->ui.cairo;
-    const sl_palette *palette = &p->app->ui.palette;
+    cairo_t *cairo = p->view->ui->cairo;
+    const sl_palette *palette = &p->view->ui->palette;
     const column *seen = v->levels[level];
     for (int first = 0, end; first < v->columns; first = end) {
         const bool image = shows_image(v, level, first);
@@ -325,7 +326,7 @@ static void draw_level(const page *p, const viewer *v, int level) {
         if (!(seen[first].nearness > 0)) continue;
         const double a = seen[first].nearness, b = seen[end - 1].nearness;
         add_shape(p, first, end, a, b, -1, 1);
-        const sl_colour colour = dim(p, colour_of(p, &seen[first]), (a + b) / 2);
+        const sl_colour colour = dimmed(p, colour_of(p, &seen[first]), (a + b) / 2);
         // What a mirror shows is drawn already: the mirror only tints it.
         if (image)
             set_faded(cairo, palette->seen[0], 0.22);
@@ -345,8 +346,8 @@ static void draw_level(const page *p, const viewer *v, int level) {
 /// One run of columns in which an open door or glass is seen. `s` is all of it: a door has posts at
 /// its ends alone.
 static void draw_run(const page *p, const span *s, int first, int end, bool glass) {
-    cairo_t *cairo = p->app->ui.cairo;
-    const sl_palette *palette = &p->app->ui.palette;
+    cairo_t *cairo = p->view->ui->cairo;
+    const sl_palette *palette = &p->view->ui->palette;
     const double na = nearness_at(s, first), nb = nearness_at(s, end);
     if (glass) {
         add_shape(p, first, end, na, nb, -1, 1);
@@ -363,7 +364,8 @@ static void draw_run(const page *p, const span *s, int first, int end, bool glas
     add_shape(p, first, end, na, nb, 0.72, 1);
     if (left > first) add_shape(p, first, left, na, nearness_at(s, left), -1, 1);
     if (right < end) add_shape(p, right, end, nearness_at(s, right), nb, -1, 1);
-    sl_set_colour(cairo, dim(p, sl_colour_mix(palette->door, palette->wall, 0.25), (na + nb) / 2));
+    sl_set_colour(cairo,
+                  dimmed(p, sl_colour_mix(palette->door, palette->wall, 0.25), (na + nb) / 2));
     cairo_fill(cairo);
 }
 
@@ -411,24 +413,24 @@ static void draw_all(const page *p, viewer *v, first_person_counts *counts) {
     }
 }
 
-static void draw_count(app_state *app, const viewer *v, sl_box box) {
+static void draw_count(view_state *view, const viewer *v, sl_box box) {
     char text[160];
-    const uint32_t all = app->view.present.outline->side_count;
+    const uint32_t all = view->present.outline->side_count;
     uint32_t walls = 0;
     for (uint32_t i = 0; i < all; i++)
-        walls += !sl_side_is_portal(&app->view.present.outline->sides[i]);
+        walls += !sl_side_is_portal(&view->present.outline->sides[i]);
     size_t count;
     snprintf(text, sizeof text, "%u of %u wall pieces drawn, %.1f %% culled by %s", v->pieces,
              walls, walls ? 100.0 * (walls - v->pieces) / walls : 0,
-             sl_eye_methods(&count)[app->view.method].name);
-    if (app_is_solid(app, app->view.eye.at))
+             sl_eye_methods(&count)[view->method].name);
+    if (view_is_solid(view, view->eye.at))
         snprintf(text, sizeof text, "The eye is in solid ground and sees nothing.");
-    const double t = app->ui.text;
-    const double width = fmin(ui_text_width(&app->ui, 0.95, false, text), box_width(box) - 2.6 * t);
+    const double t = view->ui->text;
+    const double width = fmin(ui_text_width(view->ui, 0.95, false, text), box_width(box) - 2.6 * t);
     const sl_box ground = {{box.min.x + 0.7 * t, box.max.y - 2.3 * t},
                            {box.min.x + 1.9 * t + width, box.max.y - 0.6 * t}};
-    ui_fill_round(&app->ui, ground, 0.3 * t, app->ui.palette.page);
-    sl_text_show_within(app->ui.cairo, app->ui.palette.ink, ground.min.x + 0.6 * t,
+    ui_fill_round(view->ui, ground, 0.3 * t, view->ui->palette.page);
+    sl_text_show_within(view->ui->cairo, view->ui->palette.ink, ground.min.x + 0.6 * t,
                         ground.max.y - 0.5 * t, width, 0.95 * t, false, text);
 }
 
@@ -445,24 +447,25 @@ static bool make_levels(viewer *v, const view_state *view) {
     return all != NULL;
 }
 
-static void draw_view(app_state *app, sl_box box, viewer *v) {
-    const double size = sqrt(app->document.area / fmax(app->document.counted, 1));
-    const page p = {app, box, 0.22 * size * v->focal, box_width(box) / v->columns};
-    const look straight = {&app->view, v->eye, SL_NO_PART, 0};
+static void draw_view(view_state *view, sl_box box, viewer *v) {
+    const double size = sqrt(view->document->area / fmax(view->document->counted, 1));
+    const page p = {view, box, 0.22 * size * v->focal, box_width(box) / v->columns};
+    const look straight = {view, v->eye, SL_NO_PART, 0};
     v->near = 1e-3 * size;
-    v->range = app->document.map.range;
-    if (!make_levels(v, &app->view)) return;
-    add_cells(&app->view, v);
-    add_effects(v, &app->document.map, &straight);
-    add_parts(v, &app->view, &app->document.map);
-    draw_all(&p, v, &app->view.first_person);
-    app->view.first_person.pieces = v->pieces;
+    v->range = view->document->map.range;
+    if (!make_levels(v, view)) return;
+    add_cells(view, v);
+    add_effects(v, &view->document->map, &straight);
+    add_parts(v, view, &view->document->map);
+    draw_all(&p, v, &view->first_person);
+    view->first_person.pieces = v->pieces;
     free(v->levels[0]);
-    draw_count(app, v, box);
+    draw_count(view, v, box);
 }
 
-void pane_first_person(app_state *app, sl_box box) {
-    ui_state *ui = &app->ui;
+void pane_first_person(learn_state *learn, sl_box box) {
+    view_state *view = learn->view;
+    ui_state *ui = view->ui;
     const sl_palette *palette = &ui->palette;
     const double middle = (box.min.y + box.max.y) / 2;
     ui_hit(ui, HIT_PANEL, 0, box);
@@ -473,16 +476,16 @@ void pane_first_person(app_state *app, sl_box box) {
     ui_fill(ui, (sl_box){{box.min.x, middle}, box.max},
             sl_colour_mix(palette->page, palette->object, 0.22));
     static const double widest = 110;
-    const double fov = fmin(app->view.eye.fov, widest) * RADIANS;
-    viewer v = {.eye = app->view.eye.at,
-                .c = cos(app->view.eye.heading * RADIANS),
-                .s = sin(app->view.eye.heading * RADIANS),
+    const double fov = fmin(view->eye.fov, widest) * RADIANS;
+    viewer v = {.eye = view->eye.at,
+                .c = cos(view->eye.heading * RADIANS),
+                .s = sin(view->eye.heading * RADIANS),
                 .columns = (int)fmin(box_width(box), COLUMNS_MOST)};
     v.focal = v.columns / 2.0 / tan(fov / 2);
-    app->view.first_person = (first_person_counts){0};
-    if (app->document.baked && app->view.seen.valid && v.columns > 0 &&
-        app->view.seen.methods[app->view.method].known)
-        draw_view(app, box, &v);
+    view->first_person = (first_person_counts){0};
+    if (view->document->baked && view->seen.valid && v.columns > 0 &&
+        view->seen.methods[view->method].known)
+        draw_view(view, box, &v);
     ui_line(ui, box.min.x, box.min.y + 0.5, box.max.x, box.min.y + 0.5, palette->outline);
     cairo_restore(ui->cairo);
 }

@@ -1,8 +1,6 @@
 /// The help: all actions by topic, with a field that narrows them down; and tooltips. Both take
 /// their words from the table of actions.
-#include "app/actions.h"
-#include "app/modes.h"
-#include "app/sliders.h"
+#include "panes/panes.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -49,17 +47,15 @@ static const char *const by_hand[][2] = {
 enum { BY_HAND = sizeof by_hand / sizeof *by_hand };
 
 /// The first action of a topic; of one without actions, that of the next one.
-static size_t topic_begin(int topic) {
-    size_t count;
+static int topic_start(const ui_state *ui, int topic) {
     for (; topic < TOPICS; topic++) {
-        const int first = action_find(topics[topic].first);
-        if (first >= 0) return (size_t)first;
+        const int first = ui_action_find(ui, topics[topic].first);
+        if (first >= 0) return first;
     }
-    action_table(&count);
-    return count;
+    return ui->action_count;
 }
 
-static bool has(const char *text, const char *part) {
+static bool has_words(const char *text, const char *part) {
     const size_t length = strlen(part);
     for (; text && *text; text++) {
         size_t i = 0;
@@ -111,23 +107,22 @@ static void help_title(help_column *c, const char *title) {
 
 /// The rows of a topic that the filter lets through; TOPICS: what is done by hand.
 static void help_topic(help_column *c, int topic, const char *filter) {
-    size_t count, first = 0, end = 0;
-    const action_row *actions = action_table(&count);
+    int first = 0, end = BY_HAND;
+    const ui_action *actions = c->ui->actions;
     const char *title = topic < TOPICS ? topics[topic].title : "Mouse, and keys in its place";
-    const bool all = has(title, filter);
+    const bool all = has_words(title, filter);
     bool titled = false;
     if (topic < TOPICS) {
-        first = topic_begin(topic);
-        end = topic_begin(topic + 1);
+        first = topic_start(c->ui, topic);
+        end = topic_start(c->ui, topic + 1);
     }
-    for (size_t i = first; topic < TOPICS ? i < end : i < BY_HAND; i++) {
+    for (int i = first; i < end; i++) {
         const char *key = topic < TOPICS ? actions[i].key : by_hand[i][0];
         const char *help = topic < TOPICS ? actions[i].help : by_hand[i][1];
-        if (!all && !has(key, filter) && !has(help, filter)) continue;
+        if (!all && !has_words(key, filter) && !has_words(help, filter)) continue;
         if (!titled) help_title(c, title);
         titled = true;
-        help_row(c, key ? key : "\xe2\x80\x93", help,
-                 topic < TOPICS && actions[i].run ? (int)i : -1);
+        help_row(c, key ? key : "\xe2\x80\x93", help, topic < TOPICS && !actions[i].held ? i : -1);
     }
 }
 
@@ -165,8 +160,7 @@ static double help_columns(ui_state *ui, sl_box room, double y, const char *filt
     return bottom + 0.5 * t;
 }
 
-void pane_help(app_state *app) {
-    ui_state *ui = &app->ui;
+void pane_help(ui_state *ui) {
     const double t = ui->text;
     double top;
     const sl_box sheet = ui_begin_sheet(ui, 78 * t, 52 * t, "Keys; a click on a row does it", &top);
@@ -181,32 +175,32 @@ void pane_help(app_state *app) {
 
 // --- tooltips
 
-static void write_action(const action_row *a, char text[UI_TIP_TEXT]) {
+static void write_action(const ui_action *a, char text[UI_TIP_TEXT]) {
     snprintf(text, UI_TIP_TEXT, "%s%s%s%s", a->help, a->key ? " (" : "", a->key ? a->key : "",
              a->key ? ")" : "");
     text[0] = (char)toupper((unsigned char)text[0]);
 }
 
 /// Words about a widget; empty: there are none.
-static void write_tip(const app_state *app, const hit_area *hit, char text[UI_TIP_TEXT]) {
+static void write_tip(const ui_state *ui, const hit_area *hit, char text[UI_TIP_TEXT]) {
     size_t count;
     text[0] = '\0';
     switch (hit->kind) {
     case HIT_ACTION:
-        if (!app->ui.help && hit->value >= 0) write_action(&action_table(&count)[hit->value], text);
+        if (!ui->help && hit->value >= 0) write_action(&ui->actions[hit->value], text);
         break;
     case HIT_METHOD:
         snprintf(text, UI_TIP_TEXT, "%s", sl_eye_methods(&count)[hit->value].what);
         break;
     case HIT_SLIDER:
-        snprintf(text, UI_TIP_TEXT, "%s", slider_table(&count)[hit->value].help);
+        snprintf(text, UI_TIP_TEXT, "%s", ui->sliders[hit->value].help);
         break;
     case HIT_PANEL:
-        if (hit->value == PANEL_STATUS && app->ui.message_seconds > 8)
-            snprintf(text, UI_TIP_TEXT, "%.300s", app->ui.message);
+        if (hit->value == PANEL_STATUS && ui->message_seconds > 8)
+            snprintf(text, UI_TIP_TEXT, "%.300s", ui->message);
         break;
     case HIT_PLAN:
-        if (app->ui.hover_is_focus)
+        if (ui->hover_is_focus)
             snprintf(text, UI_TIP_TEXT,
                      "Arrows move the cursor, with Shift by a pixel, and the plan at its border. "
                      "Return clicks, Shift+Return asks why, Space presses or releases, Escape "
@@ -229,10 +223,10 @@ static void write_tip(const app_state *app, const hit_area *hit, char text[UI_TI
     }
 }
 
-void pane_tip(app_state *app) {
-    const hit_area hit = ui_tip_of(&app->ui);
+void pane_tip(ui_state *ui) {
+    const hit_area hit = ui_tip_of(ui);
     char text[UI_TIP_TEXT];
-    if (hit.kind == HIT_NONE || app->tool.drag.kind != DRAG_NONE) return;
-    write_tip(app, &hit, text);
-    if (*text) ui_tip(&app->ui, hit.box, text);
+    if (hit.kind == HIT_NONE) return;
+    write_tip(ui, &hit, text);
+    if (*text) ui_tip(ui, hit.box, text);
 }

@@ -1,19 +1,18 @@
 /// The panel of lessons: their list, the pseudo-code, the account of the search so far.
-#include "app/actions.h"
-#include "app/modes.h"
+#include "panes/panel.h"
+#include "panes/panes.h"
 #include "sightline/draw.h"
-#include "ui/column.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-static void draw_code(app_state *app, column *c) {
-    ui_state *ui = &app->ui;
+static void draw_code(learn_state *learn, column *c) {
+    ui_state *ui = learn->ui;
     size_t count, lit;
-    if (!lesson_shows(&app->tool.lesson, &app->document)) return;
+    if (!lesson_shows(&learn->lesson, learn->document)) return;
     const char *const *code =
-        lesson_subject(&app->tool.lesson)->code(&app->tool.lesson, &app->document, &count, &lit);
+        lesson_subject(&learn->lesson)->code(&learn->lesson, learn->document, &count, &lit);
     const double t = ui->text;
     for (size_t i = 0; i < count; i++) {
         const char *line = code[i];
@@ -32,15 +31,15 @@ static void draw_code(app_state *app, column *c) {
 }
 
 /// The subjects to choose from: those that the map allows.
-static void draw_subjects(app_state *app, column *c) {
-    ui_state *ui = &app->ui;
+static void draw_subjects(learn_state *learn, column *c) {
+    ui_state *ui = learn->ui;
     const double t = ui->text, out = fmin(0.4 * t, c->left - c->box.min.x);
     size_t count;
     const subject_row *const *subjects = subject_table(&count);
     column_heading(ui, c, "Lessons", "U");
     for (size_t i = 0; i < count; i++) {
-        if (!lesson_fits(i, &app->document)) continue;
-        const bool on = i == app->tool.lesson.subject;
+        if (!lesson_fits(i, learn->document)) continue;
+        const bool on = i == learn->lesson.subject;
         const double high =
             ui_lines_height(ui, column_width(c), 1, on, subjects[i]->title) + 0.1 * t;
         const sl_box row = {{c->left - out, c->y}, {c->right + out, c->y + high}};
@@ -55,25 +54,25 @@ static void draw_subjects(app_state *app, column *c) {
 }
 
 /// Buttons to the next step of a kind, named by the subject, and the speed.
-static void draw_steps(app_state *app, column *c) {
-    ui_state *ui = &app->ui;
-    const lesson_state *lesson = &app->tool.lesson;
+static void draw_steps(learn_state *learn, column *c) {
+    ui_state *ui = learn->ui;
+    const lesson_state *lesson = &learn->lesson;
     const subject_row *subject = lesson_subject(lesson);
     char text[64];
     double x = c->left;
     if (lesson->finds) {
         snprintf(text, sizeof text, "\xe2\x97\x80 %s", subject->found ? subject->found : "");
-        x = column_button(ui, c, x, text, false, action_find("found_back"));
+        x = column_button(ui, c, x, text, false, ui_action_find(ui, "found_back"));
         snprintf(text, sizeof text, "%s \xe2\x96\xb6", subject->found ? subject->found : "");
-        x = column_button(ui, c, x, text, false, action_find("found_next"));
+        x = column_button(ui, c, x, text, false, ui_action_find(ui, "found_next"));
     }
     if (lesson->rejects) {
         snprintf(text, sizeof text, "%s \xe2\x96\xb6", subject->rejected ? subject->rejected : "");
-        column_button(ui, c, x, text, false, action_find("rejected_next"));
+        column_button(ui, c, x, text, false, ui_action_find(ui, "rejected_next"));
     }
     if (lesson->finds || lesson->rejects) c->y += 2 * ui->text;
     static const char *const speed[] = {"slower", "faster", NULL};
-    column_buttons(app, c, speed);
+    column_buttons(learn->ui, c, speed);
     snprintf(text, sizeof text, "%g steps a second", ldexp(2, lesson->speed));
     column_words(ui, c, 0.95, ui->palette.faint, text);
 }
@@ -97,12 +96,12 @@ static void list_ends(const sl_conflict *conflict, char *text, size_t room) {
 }
 
 /// What the ends that leave no line are to each other.
-static void write_conflict(app_state *app, char *text, size_t room) {
-    lesson_state *lesson = &app->tool.lesson;
+static void write_conflict(learn_state *learn, char *text, size_t room) {
+    lesson_state *lesson = &learn->lesson;
     char ends[128];
     sl_status status;
-    const sl_conflict *conflict = lesson_conflict(app->context, lesson, &status);
-    app_check(app, status);
+    const sl_conflict *conflict = lesson_conflict(learn->context, lesson, &status);
+    view_check(learn->view, status);
     text[0] = '\0';
     if (conflict->verdict == SL_STABBED || !conflict->end_count) return;
     list_ends(conflict, ends, sizeof ends);
@@ -113,42 +112,42 @@ static void write_conflict(app_state *app, char *text, size_t room) {
              ends, sl_conflict_reason(lesson->ends, conflict));
 }
 
-static void draw_account(app_state *app, column *c) {
-    lesson_state *lesson = &app->tool.lesson;
+static void draw_account(learn_state *learn, column *c) {
+    lesson_state *lesson = &learn->lesson;
     const subject_row *subject = lesson_subject(lesson);
     char text[SENTENCE];
-    if (!lesson_shows(lesson, &app->document)) return;
+    if (!lesson_shows(lesson, learn->document)) return;
     if (subject->account) {
         subject->account(lesson, text);
-        column_heading(&app->ui, c, "So far", NULL);
-        column_words(&app->ui, c, 1, app->ui.palette.ink, text);
+        column_heading(learn->ui, c, "So far", NULL);
+        column_words(learn->ui, c, 1, learn->ui->palette.ink, text);
     }
     if (!lesson->end_count) return;
     const double margin =
         sl_dual_margin(&lesson->dual, lesson->ends, lesson->end_count, lesson->line);
-    column_heading(&app->ui, c, "The line", lesson->dragged ? "ends were dragged" : NULL);
+    column_heading(learn->ui, c, "The line", lesson->dragged ? "ends were dragged" : NULL);
     snprintf(text, sizeof text, "Its margin is %.3g, the best is %.3g.",
              margin * lesson->dual.scale, lesson->dual.margin * lesson->dual.scale);
-    column_words(&app->ui, c, 0.95, app->ui.palette.ink, text);
-    write_conflict(app, text, sizeof text);
-    if (*text) column_words(&app->ui, c, 0.95, app->ui.palette.start, text);
-    column_words(&app->ui, c, 0.95, app->ui.palette.faint,
+    column_words(learn->ui, c, 0.95, learn->ui->palette.ink, text);
+    write_conflict(learn, text, sizeof text);
+    if (*text) column_words(learn->ui, c, 0.95, learn->ui->palette.start, text);
+    column_words(learn->ui, c, 0.95, learn->ui->palette.faint,
                  "Drag it or portal ends, or choose by . and move by arrows.");
     static const char *const change[] = {"undo", "reset_ends", "program", NULL};
-    column_buttons(app, c, change);
+    column_buttons(learn->ui, c, change);
 }
 
-void pane_learn(app_state *app, sl_box box) {
-    column c = column_begin(&app->ui, box);
-    pane_why(app, &c);
-    draw_subjects(app, &c);
-    c.y += 0.7 * app->ui.text;
-    draw_code(app, &c);
-    draw_steps(app, &c);
-    draw_account(app, &c);
-    column_layers(app, &c);
-    column_check(app, &c, "first_person");
-    column_legend(app, &c);
-    pane_words(app, &c);
-    column_end(&app->ui, &c);
+void pane_learn(learn_state *learn, sl_box box) {
+    column c = column_begin(learn->ui, box);
+    pane_why(learn, &c);
+    draw_subjects(learn, &c);
+    c.y += 0.7 * learn->ui->text;
+    draw_code(learn, &c);
+    draw_steps(learn, &c);
+    draw_account(learn, &c);
+    column_layers(learn->view, &c);
+    column_check(learn->ui, &c, "first_person");
+    column_legend(learn->view, &c);
+    pane_words(learn->view, &c);
+    column_end(learn->ui, &c);
 }

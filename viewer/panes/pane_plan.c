@@ -1,5 +1,9 @@
 /// The plan: pictures that are kept from frame to frame, and over them what changes.
-#include "app/modes.h"
+#include "panes/panes.h"
+
+#include "panes/modes.h"
+#include "plan/heat.h"
+#include "plan/view_cells.h"
 
 #include "draw/draw_lesson.h" // private: the layer of splits shows the inside of the library
 #include "sightline/draw.h"
@@ -13,69 +17,63 @@
 
 // --- scenes
 
-static unsigned scene_layers(const app_state *app) {
-    const view_state *view = &app->view;
-    // A subdivision in the making has no cells to be named yet.
-    const bool named =
-        layers_shows(app, LAYER_NAMES) &&
-        !(app->tool.mode == MODE_LEARN && lesson_subject(&app->tool.lesson) == &lesson_subdivision);
-    const bool numbers = layers_shows(app, LAYER_NUMBERS) || named;
+static unsigned scene_layers(const view_state *view) {
+    const bool named = layers_shows(view, LAYER_NAMES) && !view->in_the_making;
+    const bool numbers = layers_shows(view, LAYER_NUMBERS) || named;
     return SL_LAYER_WALLS | (view->show & SHOW_CELLS ? SL_LAYER_CELLS : 0u) |
            (view->show & SHOW_PORTALS ? SL_LAYER_PORTALS : 0u) | (numbers ? SL_LAYER_NUMBERS : 0u) |
            (view->show & SHOW_STARTS ? SL_LAYER_STARTS : 0u);
 }
 
-static bool make_scene(app_state *app) {
-    const unsigned layers = scene_layers(app);
-    const uint32_t key = layers | (app->ui.dark ? 1024u : 0u) | (app->ui.presents ? 2048u : 0u);
-    if (app->view.scene && app->view.scene_version == app->document.version &&
-        app->view.scene_show == key)
+static bool make_scene(view_state *view) {
+    const unsigned layers = scene_layers(view);
+    const uint32_t key = layers | (view->ui->dark ? 1024u : 0u) | (view->ui->presents ? 2048u : 0u);
+    if (view->scene && view->scene_version == view->document->version && view->scene_show == key)
         return true;
-    sl_scene_destroy(app->context, app->view.scene);
-    app->view.scene = NULL;
+    sl_scene_destroy(view->context, view->scene);
+    view->scene = NULL;
     sl_draw_options options = sl_draw_options_default();
     options.layers = layers;
     options.cell = SL_NO_CELL;
-    options.dark = app->ui.dark;
+    options.dark = view->ui->dark;
     const sl_status status =
-        sl_scene_create(app->context, app->document.baked, &options, NULL, &app->view.scene);
-    app_check(app, status);
-    if (!app->document.live) app->view.pen_size = 0;
-    if (status == SL_OK)
-        plan_keep_pens(app->view.scene, &app->view.pen_size, ui_strength(&app->ui));
-    app->view.scene_version = app->document.version;
-    app->view.scene_show = key;
+        sl_scene_create(view->context, view->document->baked, &options, NULL, &view->scene);
+    view_check(view, status);
+    if (!view->document->live) view->pen_size = 0;
+    if (status == SL_OK) plan_keep_pens(view->scene, &view->pen_size, ui_strength(view->ui));
+    view->scene_version = view->document->version;
+    view->scene_show = key;
     return status == SL_OK;
 }
 
 // --- pictures that are kept
 
-static sl_context *drawing(const app_state *app) {
-    return app->drawing ? app->drawing : app->context;
+static sl_context *drawing(const view_state *view) {
+    return view->drawing ? view->drawing : view->context;
 }
 
 /// Draws what is below all that changes: cells, portals, view cells, splits. False if it was
 /// stopped.
-static bool draw_under(app_state *app, cairo_t *cairo, const sl_frame *frame) {
+static bool draw_under(view_state *view, cairo_t *cairo, const sl_frame *frame) {
     const unsigned layers =
-        scene_layers(app) & ~(unsigned)(SL_LAYER_WALLS | SL_LAYER_STARTS | SL_LAYER_NUMBERS);
-    sl_set_colour(cairo, app->ui.palette.page);
+        scene_layers(view) & ~(unsigned)(SL_LAYER_WALLS | SL_LAYER_STARTS | SL_LAYER_NUMBERS);
+    sl_set_colour(cairo, view->ui->palette.page);
     cairo_paint(cairo);
-    if (sl_draw_plan(drawing(app), cairo, app->view.scene, layers, frame) != SL_OK) return false;
-    if (layers_shows(app, LAYER_VIEWS)) view_layer_draw(app, cairo, frame);
-    heat_layer_draw(app, cairo, frame);
-    const unsigned fill = layers_fill(app);
-    if ((fill == LAYER_VIEWS || fill == LAYER_HEAT) && layers_shows(app, LAYER_PORTALS))
-        layers_draw_portals(app, cairo, frame, NULL, NULL);
-    if (app->view.show & SHOW_SPLITS)
-        sli_draw_splits(cairo, &app->ui.palette, frame, app->document.splits,
-                        app->document.baked->space.node_count, app->view.split_depth);
+    if (sl_draw_plan(drawing(view), cairo, view->scene, layers, frame) != SL_OK) return false;
+    if (layers_shows(view, LAYER_VIEWS)) view_layer_draw(view, cairo, frame);
+    heat_layer_draw(view, cairo, frame);
+    const unsigned fill = layers_fill(view);
+    if ((fill == LAYER_VIEWS || fill == LAYER_HEAT) && layers_shows(view, LAYER_PORTALS))
+        layers_draw_portals(view, cairo, frame, NULL, NULL);
+    if (view->show & SHOW_SPLITS)
+        sli_draw_splits(cairo, &view->ui->palette, frame, view->document->splits,
+                        view->document->baked->space.node_count, view->split_depth);
     return true;
 }
 
 /// Draws what is over it: walls and other things of the map.
-static bool draw_over(app_state *app, cairo_t *cairo, const sl_frame *frame) {
-    return sl_draw_walls(drawing(app), cairo, app->view.scene, frame) == SL_OK;
+static bool draw_over(view_state *view, cairo_t *cairo, const sl_frame *frame) {
+    return sl_draw_walls(drawing(view), cairo, view->scene, frame) == SL_OK;
 }
 
 /// The frame of a pane with its upper left at the origin.
@@ -85,15 +83,15 @@ static sl_frame at_origin(sl_frame frame) {
 }
 
 /// Draws a picture where it is clipped to.
-static bool paint(app_state *app, cairo_t *cairo, bool over, const sl_frame *frame) {
+static bool paint_picture(view_state *view, cairo_t *cairo, bool over, const sl_frame *frame) {
     bool whole;
     if (over) {
         cairo_set_operator(cairo, CAIRO_OPERATOR_CLEAR);
         cairo_paint(cairo);
         cairo_set_operator(cairo, CAIRO_OPERATOR_OVER);
-        whole = draw_over(app, cairo, frame);
+        whole = draw_over(view, cairo, frame);
     } else {
-        whole = draw_under(app, cairo, frame);
+        whole = draw_under(view, cairo, frame);
     }
     return whole && cairo_status(cairo) == CAIRO_STATUS_SUCCESS;
 }
@@ -118,18 +116,18 @@ static void part_of_frame(const sl_frame *frame, const sl_box *box, sl_frame *pa
 #define AROUND 200
 
 /// Draws what differs from the picture, which was drawn for the same frame. False if that is much.
-static bool mend(app_state *app, kept_picture *kept, bool over, const sl_frame *local) {
-    const document_state *document = &app->document;
+static bool mend_picture(view_state *view, kept_picture *kept, bool over, const sl_frame *local) {
+    const document_state *document = view->document;
     plan_items now = {0};
     sl_box boxes[CHANGES_MOST];
     sl_frame parts[CHANGES_MOST];
     if (!kept->items.count ||
-        plan_items_list(app->context, document->baked, app->view.scene, over, &now) != SL_OK) {
-        sl_free(app->context, now.items);
+        plan_items_list(view->context, document->baked, view->scene, over, &now) != SL_OK) {
+        sl_free(view->context, now.items);
         return false;
     }
     const int count = plan_items_compare(&kept->items, &now, boxes);
-    sl_free(app->context, kept->items.items);
+    sl_free(view->context, kept->items.items);
     kept->items = now;
     double area = 0;
     for (int i = 0; i < count; i++) {
@@ -142,13 +140,13 @@ static bool mend(app_state *app, kept_picture *kept, bool over, const sl_frame *
         cairo_t *cairo = cairo_create(kept->surface);
         cairo_rectangle(cairo, parts[i].left, parts[i].top, parts[i].width, parts[i].height);
         cairo_clip(cairo);
-        good = paint(app, cairo, over, &parts[i]);
+        good = paint_picture(view, cairo, over, &parts[i]);
         cairo_destroy(cairo);
     }
     return good;
 }
 
-static bool remake(app_state *app, kept_picture *kept, bool over, const sl_frame *local) {
+static bool remake_picture(view_state *view, kept_picture *kept, bool over, const sl_frame *local) {
     const int width = (int)ceil(local->width), height = (int)ceil(local->height);
     const double before = sl_seconds();
     if (!kept->surface || cairo_image_surface_get_width(kept->surface) != width ||
@@ -158,20 +156,20 @@ static bool remake(app_state *app, kept_picture *kept, bool over, const sl_frame
                                                    width, height);
     }
     cairo_t *cairo = cairo_create(kept->surface);
-    const bool good = paint(app, cairo, over, local);
+    const bool good = paint_picture(view, cairo, over, local);
     cairo_destroy(cairo);
     kept->items.count = 0;
-    if (!good) kept->key.version = app->document.version - 1; // it is drawn again
-    if (good && app->tool.drag.changed)
-        app_check(app, plan_items_list(app->context, app->document.baked, app->view.scene, over,
-                                       &kept->items));
+    if (!good) kept->key.version = view->document->version - 1; // it is drawn again
+    if (good && view->drag.changed)
+        view_check(view, plan_items_list(view->context, view->document->baked, view->scene, over,
+                                         &kept->items));
     kept->seconds = sl_seconds() - before;
     return good;
 }
 
 /// Shows the picture at the present frame: moves and scales it if it was drawn for another one.
-static void blit(cairo_t *cairo, const kept_picture *kept, const sl_frame *frame, sl_colour page,
-                 bool over) {
+static void show_picture(cairo_t *cairo, const kept_picture *kept, const sl_frame *frame,
+                         sl_colour page, bool over) {
     const sl_frame *old = &kept->key.frame;
     const double s = frame->scale / old->scale;
     const double x = (old->corner.x - frame->corner.x) * frame->scale;
@@ -195,19 +193,19 @@ static void blit(cairo_t *cairo, const kept_picture *kept, const sl_frame *frame
     cairo_restore(cairo);
 }
 
-static void show_kept(app_state *app, kept_picture *kept, bool over, const sl_frame *frame) {
+static void show_kept(view_state *view, kept_picture *kept, bool over, const sl_frame *frame) {
     kept_picture now;
     memset(&now.key, 0, sizeof now.key);
-    now.key.version = app->document.version;
-    now.key.touched = over ? app->document.touched : 0;
-    now.key.show = scene_layers(app) | (app->view.show & SHOW_SPLITS && !over ? 2048u : 0u);
-    now.key.depth = app->view.show & SHOW_SPLITS && !over ? app->view.split_depth : 0;
-    now.key.dark = app->ui.dark;
-    if (!over && layers_shows(app, LAYER_VIEWS)) {
-        now.key.views = view_layer_shown(app->view.views) << 1 | (layers_fill(app) == LAYER_VIEWS);
-        now.key.mark = view_layer_marked(app->view.views);
+    now.key.version = view->document->version;
+    now.key.touched = over ? view->document->touched : 0;
+    now.key.show = scene_layers(view) | (view->show & SHOW_SPLITS && !over ? 2048u : 0u);
+    now.key.depth = view->show & SHOW_SPLITS && !over ? view->split_depth : 0;
+    now.key.dark = view->ui->dark;
+    if (!over && layers_shows(view, LAYER_VIEWS)) {
+        now.key.views = view_layer_shown(view->views) << 1 | (layers_fill(view) == LAYER_VIEWS);
+        now.key.mark = view_layer_marked(view->views);
     }
-    if (!over && layers_fill(app) == LAYER_HEAT) now.key.heat = app->view.heat_choice.stamp + 1;
+    if (!over && layers_fill(view) == LAYER_HEAT) now.key.heat = view->heat_choice.stamp + 1;
     now.key.frame = at_origin(*frame);
     const bool same = kept->surface && memcmp(&kept->key, &now.key, sizeof now.key) == 0;
     if (!same) {
@@ -216,47 +214,46 @@ static void show_kept(app_state *app, kept_picture *kept, bool over, const sl_fr
         const bool only_moved =
             kept->surface && memcmp(&other.key, &now.key, sizeof now.key) == 0 &&
             kept->key.frame.width == frame->width && kept->key.frame.height == frame->height;
-        const bool wait = only_moved && app->view.motion > 0 && kept->seconds > SLOW_SECONDS;
+        const bool wait = only_moved && view->motion > 0 && kept->seconds > SLOW_SECONDS;
         other = *kept;
         other.key.version = now.key.version;
         other.key.touched = now.key.touched;
-        const bool only_dragged = kept->surface && app->document.live &&
+        const bool only_dragged = kept->surface && view->document->live &&
                                   memcmp(&other.key, &now.key, sizeof now.key) == 0;
-        const bool mended = only_dragged && mend(app, kept, over, &now.key.frame);
-        if (mended || (!wait && remake(app, kept, over, &now.key.frame)))
+        const bool mended = only_dragged && mend_picture(view, kept, over, &now.key.frame);
+        if (mended || (!wait && remake_picture(view, kept, over, &now.key.frame)))
             memcpy(&kept->key, &now.key, sizeof now.key);
     }
-    if (kept->surface) blit(app->ui.cairo, kept, frame, app->ui.palette.page, over);
+    if (kept->surface) show_picture(view->ui->cairo, kept, frame, view->ui->palette.page, over);
 }
 
 // --- the pane
 
-static void draw_empty(app_state *app, sl_box box) {
-    ui_state *ui = &app->ui;
+static void draw_empty(view_state *view, sl_box box) {
+    ui_state *ui = view->ui;
     const double t = ui->text, gap = fmin(3 * t, 0.08 * box_width(box));
     const double x = box.min.x + gap, wide = box_width(box) - 2 * gap;
     ui_fill(ui, box, ui->palette.ground);
     const double y =
         ui_lines(ui, x, fmax((box.min.y + box.max.y) / 2 - 2 * t, box.min.y + 2.5 * t), wide, 1.6,
-                 true, ui->palette.ink, app->document.job ? "Opening ..." : "No map is open");
+                 true, ui->palette.ink, view->document->job ? "Opening ..." : "No map is open");
     ui_lines(ui, x, y, wide, 1, false, ui->palette.faint,
              "Drop a map or a .slv file here, or press O for the maps at hand.");
 }
 
-static void draw_name(app_state *app, sl_box box, int index, int count) {
+static void draw_name(view_state *view, sl_box box, int index, int count) {
     if (count < 2) return;
-    ui_state *ui = &app->ui;
+    ui_state *ui = view->ui;
     if (index) ui_line(ui, box.min.x, box.min.y, box.min.x, box.max.y, ui->palette.faint);
     size_t methods;
-    const size_t method = index ? app->view.other : app->view.method;
+    const size_t method = index ? view->other : view->method;
     const char *name = sl_eye_methods(&methods)[method].name;
     char text[96];
-    const seen_method *seen = &app->view.seen.methods[method];
+    const seen_method *seen = &view->seen.methods[method];
     char words[64];
     snprintf(words, sizeof words, "%s", name);
-    for (char *at = words; *at; at++)
-        if (*at == '_') *at = ' ';
-    snprintf(text, sizeof text, "%s: %u cells", words, app->view.seen.valid ? seen->count : 0);
+    ui_spaces(words);
+    snprintf(text, sizeof text, "%s: %u cells", words, view->seen.valid ? seen->count : 0);
     const double t = ui->text, gap = fmin(t, 0.04 * box_width(box));
     const double wide =
         fmin(ui_text_width(ui, 1, true, text) + 1, box_width(box) - 2 * gap - 1.2 * t);
@@ -270,8 +267,7 @@ static void draw_name(app_state *app, sl_box box, int index, int count) {
 }
 
 /// The cursor that keys move: a cross with a rim, over any ground.
-static void draw_cursor(app_state *app, sl_box box) {
-    ui_state *ui = &app->ui;
+static void draw_cursor(ui_state *ui, sl_box box) {
     const sl_point at = ui->pointer;
     const double arm = 9 * ui_scale(ui), gap = 2.5 * ui_scale(ui);
     ui_mark_focus(ui, box);
@@ -286,11 +282,11 @@ static void draw_cursor(app_state *app, sl_box box) {
 }
 
 /// Says that the plan is not that of the map as it is now.
-static void draw_late(app_state *app, sl_box box) {
-    if (!document_is_late(&app->document)) return;
-    ui_state *ui = &app->ui;
+static void draw_late(view_state *view, sl_box box) {
+    if (!document_is_late(view->document)) return;
+    ui_state *ui = view->ui;
     const double t = ui->text;
-    const char *text = app->document.stale || app->document.job
+    const char *text = view->document->stale || view->document->job
                            ? "Updating ..."
                            : "The plan does not show the last change.";
     const double half = fmin(ui_text_width(ui, 1, true, text), box_width(box) - 3 * t) / 2;
@@ -302,33 +298,36 @@ static void draw_late(app_state *app, sl_box box) {
     sl_text_show_within(ui->cairo, ui->palette.start, middle - half, base, 2 * half, t, true, text);
 }
 
-void pane_plan(app_state *app, sl_box box, int index, bool vector) {
-    cairo_t *cairo = app->ui.cairo;
-    ui_hit(&app->ui, HIT_PLAN, index, box);
-    const bool focused = ui_has_focus(&app->ui);
-    app->ui.area = box;
-    if (!app->document.baked || !make_scene(app)) {
-        draw_empty(app, box);
+void pane_plan(learn_state *learn, sl_box box, int index, bool vector) {
+    view_state *view = learn->view;
+    ui_state *ui = view->ui;
+    ui_hit(ui, HIT_PLAN, index, box);
+    const bool focused = ui_has_focus(ui);
+    ui->area = box;
+    view->in_the_making =
+        view->mode == MODE_LEARN && lesson_subject(&learn->lesson) == &lesson_subdivision;
+    if (!view->document->baked || !make_scene(view)) {
+        draw_empty(view, box);
         return;
     }
-    const sl_frame frame = camera_frame(&app->view.camera, box, ui_scale(&app->ui));
-    cairo_save(cairo);
-    cairo_rectangle(cairo, box.min.x, box.min.y, box_width(box), box_height(box));
-    cairo_clip(cairo);
+    const sl_frame frame = camera_frame(&view->camera, box, ui_scale(ui));
+    cairo_save(ui->cairo);
+    cairo_rectangle(ui->cairo, box.min.x, box.min.y, box_width(box), box_height(box));
+    cairo_clip(ui->cairo);
     if (vector)
-        draw_under(app, cairo, &frame);
+        draw_under(view, ui->cairo, &frame);
     else
-        show_kept(app, &app->view.under, false, &frame);
-    modes_draw_below(app, &frame, index);
+        show_kept(view, &view->under, false, &frame);
+    modes_draw_below(learn, &frame, index);
     if (vector)
-        draw_over(app, cairo, &frame);
+        draw_over(view, ui->cairo, &frame);
     else
-        show_kept(app, &app->view.over, true, &frame);
-    modes_draw_above(app, &frame);
-    if (!index) layers_draw_keys(app, &frame, vector);
-    const bool panes = app->view.compare == COMPARE_PANES && app->tool.mode == MODE_EXPLORE;
-    draw_name(app, box, index, panes ? 2 : 1);
-    if (!vector && focused) draw_cursor(app, box);
-    draw_late(app, box);
-    cairo_restore(cairo);
+        show_kept(view, &view->over, true, &frame);
+    modes_draw_above(learn, &frame);
+    if (!index) legend_over_plan(view, &frame, vector);
+    const bool panes = view->compare == COMPARE_PANES && view->mode == MODE_EXPLORE;
+    draw_name(view, box, index, panes ? 2 : 1);
+    if (!vector && focused) draw_cursor(ui, box);
+    draw_late(view, box);
+    cairo_restore(ui->cairo);
 }

@@ -4,7 +4,7 @@
 /// The line is ux y - uy x + c, positive to its left. Its margin d is made as large as possible.
 /// Rows that are not in the basis hold it back: these are the ends that the best line touches, or
 /// those that leave none. A row under the pointer is marked in the plan and in the dual plane.
-#include "app/modes.h"
+#include "panes/panes.h"
 #include "sightline/draw.h"
 
 #include <math.h>
@@ -29,8 +29,8 @@ static void write_number(double value, char text[NUMBER]) {
     snprintf(text, NUMBER, "%s%.3g", value < 0 ? "\xe2\x88\x92" : "", fabs(value));
 }
 
-static void cell(const table *at, int column, double y, bool bold, sl_colour colour,
-                 const char *text) {
+static void draw_cell(const table *at, int column, double y, bool bold, sl_colour colour,
+                      const char *text) {
     if (at->places[column] != OUT)
         ui_text(at->ui, at->left + at->places[column] * at->ui->text, y, 0.85, bold, colour, text);
 }
@@ -46,20 +46,20 @@ static void draw_row(const table *at, double y, const sl_program *program,
         snprintf(text, sizeof text, "|u|");
     else
         snprintf(text, sizeof text, "%c%u", row->left ? 'L' : 'R', row->portal + 1);
-    cell(at, 0, y, held, colour, text);
+    draw_cell(at, 0, y, held, colour, text);
     for (int i = 0; i < SL_PROGRAM_COLUMNS; i++) {
         write_number(row->coefficients[i], text);
-        if (row->coefficients[i] != 0) cell(at, i + 1, y, held, palette->ink, text);
+        if (row->coefficients[i] != 0) draw_cell(at, i + 1, y, held, palette->ink, text);
     }
-    cell(at, 5, y, held, palette->ink,
-         fixed       ? "= 1"
-         : row->left ? "\xe2\x89\xa5 0"
-                     : "\xe2\x89\xa4 0");
+    draw_cell(at, 5, y, held, palette->ink,
+              fixed       ? "= 1"
+              : row->left ? "\xe2\x89\xa5 0"
+                          : "\xe2\x89\xa4 0");
     if (!program->solved) return;
     write_number(row->value, text);
-    cell(at, 6, y, held, palette->ink, text);
+    draw_cell(at, 6, y, held, palette->ink, text);
     write_number(row->price, text);
-    cell(at, 7, y, held, held ? palette->ink : palette->faint, held ? text : "basis");
+    draw_cell(at, 7, y, held, held ? palette->ink : palette->faint, held ? text : "basis");
 }
 
 /// "maximise d; d = 0.12, margin 1.5; the basis holds ux, uy, c, d".
@@ -93,16 +93,16 @@ static void reveal(ui_state *ui, sl_box box, sl_box row) {
 }
 
 /// Draws words and rows from y on; returns where they end.
-static double draw_table(app_state *app, sl_box box, double y, const sl_program *program) {
-    ui_state *ui = &app->ui;
-    const lesson_state *lesson = &app->tool.lesson;
+static double draw_table(learn_state *learn, sl_box box, double y, const sl_program *program) {
+    ui_state *ui = learn->ui;
+    const lesson_state *lesson = &learn->lesson;
     const double t = ui->text, left = box.min.x + 0.9 * t, high = 1.25 * t;
     static const char *const titles[] = {"row", "ux", "uy", "c", "d", "bound", "value", "price"};
     char text[512];
     write_optimum(program, text, sizeof text);
     y = ui_paragraph(ui, left, y, box_width(box) - 1.8 * t, 0.9, ui->palette.ink, text) + 0.2 * t;
     const table rows = {ui, left, box_width(box) < 31 * t ? narrow : wide};
-    for (int i = 0; i < COLUMNS; i++) cell(&rows, i, y, false, ui->palette.faint, titles[i]);
+    for (int i = 0; i < COLUMNS; i++) draw_cell(&rows, i, y, false, ui->palette.faint, titles[i]);
     sl_stab_end marked = {0};
     const bool any = lesson_marked(lesson, &marked);
     for (size_t i = 0; i < program->row_count; i++) {
@@ -121,21 +121,22 @@ static double draw_table(app_state *app, sl_box box, double y, const sl_program 
 }
 
 /// Returns where it ends, from y on.
-static double draw_program(app_state *app, sl_box box, double y) {
-    ui_state *ui = &app->ui;
+static double draw_program(learn_state *learn, sl_box box, double y) {
+    ui_state *ui = learn->ui;
     const double t = ui->text, left = box.min.x + 0.9 * t, room = box_width(box) - 1.8 * t;
-    lesson_state *lesson = &app->tool.lesson;
+    lesson_state *lesson = &learn->lesson;
     ui_text_within(ui, left, y + 1.5 * t, room, 1, ui->palette.ink, "Linear program");
     y += 3.1 * t;
     if (!lesson->end_count) return y;
     sl_status status;
-    const sl_program *program = lesson_program(app->context, lesson, &status);
-    if (program) return draw_table(app, box, y, program);
-    return ui_paragraph(ui, left, y, room, 0.95, ui->palette.ink, sl_context_message(app->context));
+    const sl_program *program = lesson_program(learn->context, lesson, &status);
+    if (program) return draw_table(learn, box, y, program);
+    return ui_paragraph(ui, left, y, room, 0.95, ui->palette.ink,
+                        sl_context_message(learn->context));
 }
 
-void pane_program(app_state *app, sl_box box) {
-    ui_state *ui = &app->ui;
+void pane_program(learn_state *learn, sl_box box) {
+    ui_state *ui = learn->ui;
     const double t = ui->text;
     ui_begin_area(ui, box);
     ui_line(ui, box.min.x, box.min.y + 0.5, box.max.x, box.min.y + 0.5, ui->palette.outline);
@@ -144,7 +145,7 @@ void pane_program(app_state *app, sl_box box) {
     const sl_box room = {{box.min.x + 1, box.min.y + 1}, box.max};
     const double y = ui_begin_scroll(ui, SCROLL_PROGRAM, room);
     ui->text = fmin(t, box_width(box) / NARROWEST);
-    const double bottom = draw_program(app, room, y);
+    const double bottom = draw_program(learn, room, y);
     ui->text = t;
     ui_end_scroll(ui, room, bottom);
     ui_end_area(ui);

@@ -20,7 +20,7 @@ typedef struct lister {
     plan_items *items;
 } lister;
 
-static uint64_t mix(uint64_t z) {
+static uint64_t mix_bits(uint64_t z) {
     z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
     z = (z ^ z >> 27) * 0x94d049bb133111ebu;
     return z ^ z >> 31;
@@ -31,12 +31,12 @@ static uint64_t mix_number(uint64_t hash, double number) {
         double value;
         uint64_t bits;
     } n = {number + 0.0};
-    return mix(hash + 0x9e3779b97f4a7c15u + n.bits);
+    return mix_bits(hash + 0x9e3779b97f4a7c15u + n.bits);
 }
 
 /// Adds an item with these corners. `look`: its kind, paint or state.
-static sl_status add(const lister *l, uint64_t look, const sl_point *corners, size_t count) {
-    plan_item item = {mix(look + 1), {corners[0], corners[0]}};
+static sl_status add_item(const lister *l, uint64_t look, const sl_point *corners, size_t count) {
+    plan_item item = {mix_bits(look + 1), {corners[0], corners[0]}};
     for (size_t i = 0; i < count; i++) {
         item.hash = mix_number(mix_number(item.hash, corners[i].x), corners[i].y);
         item.box.min.x = fmin(item.box.min.x, corners[i].x);
@@ -51,7 +51,7 @@ static sl_status add(const lister *l, uint64_t look, const sl_point *corners, si
 
 static sl_status add_segment(const lister *l, uint64_t look, sl_point a, sl_point b) {
     const sl_point ends[2] = {a, b};
-    return add(l, look, ends, 2);
+    return add_item(l, look, ends, 2);
 }
 
 enum { PORTAL = 1000, WALL, DOOR_OPEN, DOOR_SHUT, MIRROR, ONEWAY, OBJECT, BOUNDS, CELL };
@@ -66,7 +66,7 @@ static sl_status list_under(const lister *l, const sl_baked *baked, const sl_sce
         const sl_cell *cell = &space->cells[i];
         const bool shown = sli_scene_shows(scene, i);
         const uint64_t look = CELL + 4u * paint[i] + 2u * shown + cell->inside;
-        status = add(l, look, space->vertices + cell->first_vertex, cell->vertex_count);
+        status = add_item(l, look, space->vertices + cell->first_vertex, cell->vertex_count);
     }
     for (uint32_t i = 0; i < space->portal_count && status == SL_OK; i++)
         if (sli_scene_shows(scene, space->portals[i].cell[0]))
@@ -109,22 +109,23 @@ sl_status plan_items_list(sl_context *context, const sl_baked *baked, const sl_s
     return status;
 }
 
-static sl_box join(sl_box a, sl_box b) {
+static sl_box join_boxes(sl_box a, sl_box b) {
     return (sl_box){{fmin(a.min.x, b.min.x), fmin(a.min.y, b.min.y)},
                     {fmax(a.max.x, b.max.x), fmax(a.max.y, b.max.y)}};
 }
 
 /// The area of a box with a margin: each box is drawn with its surroundings.
-static double weight(sl_box box, double margin) {
+static double drawn_area(sl_box box, double margin) {
     return (box.max.x - box.min.x + margin) * (box.max.y - box.min.y + margin);
 }
 
 /// Puts a box to the one that grows least, or beside all if it would grow by more than itself.
-static int put(sl_box boxes[CHANGES_MOST], int count, sl_box box, double margin) {
+static int put_box(sl_box boxes[CHANGES_MOST], int count, sl_box box, double margin) {
     int best = -1;
-    double least = count < CHANGES_MOST ? weight(box, margin) : INFINITY;
+    double least = count < CHANGES_MOST ? drawn_area(box, margin) : INFINITY;
     for (int i = 0; i < count; i++) {
-        const double growth = weight(join(boxes[i], box), margin) - weight(boxes[i], margin);
+        const double growth =
+            drawn_area(join_boxes(boxes[i], box), margin) - drawn_area(boxes[i], margin);
         if (growth > least) continue;
         least = growth;
         best = i;
@@ -133,7 +134,7 @@ static int put(sl_box boxes[CHANGES_MOST], int count, sl_box box, double margin)
         boxes[count] = box;
         return count + 1;
     }
-    boxes[best] = join(boxes[best], box);
+    boxes[best] = join_boxes(boxes[best], box);
     return count;
 }
 
@@ -150,7 +151,7 @@ int plan_items_compare(const plan_items *a, const plan_items *b, sl_box boxes[CH
         const bool both = p && q && p->hash == q->hash;
         i += both || one == p;
         k += both || one == q;
-        if (!both) count = put(boxes, count, one->box, size / 8);
+        if (!both) count = put_box(boxes, count, one->box, size / 8);
     }
     return count;
 }

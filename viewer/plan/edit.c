@@ -1,5 +1,6 @@
 /// What the pointer holds, where it may go, and what a drag makes of it.
 #include "plan/edit.h"
+#include "plan/grid.h"
 
 #include "plan/effects.h"
 #include "sightline/draw.h"
@@ -9,37 +10,14 @@
 #include <stdio.h>
 #include <string.h>
 
-double edit_step(const app_state *app) {
-    const double wanted = 11 * app->ui.density / app->view.camera.scale;
-    double step = pow(10, floor(log10(wanted)));
-    if (step * 2 >= wanted) return step * 2;
-    return step * 5 >= wanted ? step * 5 : step * 10;
-}
-
-sl_point edit_snap(const app_state *app, sl_point at) {
-    const double step = edit_step(app);
-    return (sl_point){step * round(at.x / step), step * round(at.y / step)};
-}
-
-double edit_distance(sl_point p, sl_point a, sl_point b) {
-    const double dx = b.x - a.x, dy = b.y - a.y, length = dx * dx + dy * dy;
-    const double along = length > 0 ? ((p.x - a.x) * dx + (p.y - a.y) * dy) / length : 0;
-    const double t = fmin(fmax(along, 0), 1);
-    return hypot(p.x - a.x - t * dx, p.y - a.y - t * dy);
-}
-
-double edit_reach(const app_state *app) {
-    return 7 * app->ui.density / app->view.camera.scale;
-}
-
 /// The wall that is near to both places; UINT32_MAX for none.
-static uint32_t pick_along(const app_state *app, sl_point from, sl_point to) {
-    const sl_map *map = &app->document.map;
-    double nearest = edit_reach(app);
+static uint32_t pick_along(const view_state *view, sl_point from, sl_point to) {
+    const sl_map *map = &view->document->map;
+    double nearest = grid_reach(view);
     uint32_t found = UINT32_MAX;
     for (size_t i = 0; i < map->wall_count; i++) {
         const sl_wall *w = &map->walls[i];
-        const double off = fmax(edit_distance(from, w->a, w->b), edit_distance(to, w->a, w->b));
+        const double off = fmax(grid_distance(from, w->a, w->b), grid_distance(to, w->a, w->b));
         if (off > nearest) continue;
         nearest = off;
         found = (uint32_t)i;
@@ -68,30 +46,30 @@ static sl_point *end_of(const sl_map *map, int kind, size_t index, bool second) 
     return second ? &at->b : &at->a;
 }
 
-static bool hold(app_state *app, int kind, size_t index, bool second) {
-    const sl_status status = SL_ARRAY_ROOM(app->context, &app->tool.ends, 1);
-    app_check(app, status);
+static bool hold_end(view_state *view, int kind, size_t index, bool second) {
+    const sl_status status = SL_ARRAY_ROOM(view->context, &view->edit.ends, 1);
+    view_check(view, status);
     if (status != SL_OK) return false;
-    app->tool.ends.items[app->tool.ends.count++] =
-        (held_end){kind, index, second, *end_of(&app->document.map, kind, index, second)};
+    view->edit.ends.items[view->edit.ends.count++] =
+        (held_end){kind, index, second, *end_of(&view->document->map, kind, index, second)};
     return true;
 }
 
 /// A baked file has its doors and glass cut to pieces: they stay where they are.
-static int kinds_that_move(const app_state *app) {
-    const char *path = app->document.source.path;
+static int kinds_that_move(const view_state *view) {
+    const char *path = view->document->source.path;
     return path && document_is_baked(path) ? DOORS : KINDS;
 }
 
 /// The end of a wall or door under a place. Short walls keep room between their corners.
-static bool find_corner(const app_state *app, sl_point at, sl_point *found) {
-    const sl_map *map = &app->document.map;
+static bool find_corner(const view_state *view, sl_point at, sl_point *found) {
+    const sl_map *map = &view->document->map;
     double nearest = INFINITY;
-    for (int kind = WALLS; kind <= DOORS && kind < kinds_that_move(app); kind++)
+    for (int kind = WALLS; kind <= DOORS && kind < kinds_that_move(view); kind++)
         for (size_t i = 0; i < count_of(map, kind); i++) {
             const sl_point ends[2] = {*end_of(map, kind, i, false), *end_of(map, kind, i, true)};
             const double length = hypot(ends[1].x - ends[0].x, ends[1].y - ends[0].y);
-            const double room = fmin(1.2 * edit_reach(app), length / 4);
+            const double room = fmin(1.2 * grid_reach(view), length / 4);
             for (int k = 0; k < 2; k++) {
                 const double off = hypot(at.x - ends[k].x, at.y - ends[k].y);
                 if (off > room || off >= nearest) continue;
@@ -103,37 +81,38 @@ static bool find_corner(const app_state *app, sl_point at, sl_point *found) {
 }
 
 /// Holds all ends at a corner. Ends that cleaning would weld are at one corner.
-static void hold_corner(app_state *app, sl_point at) {
-    const sl_map *map = &app->document.map;
-    for (int kind = 0; kind < kinds_that_move(app); kind++)
+static void hold_corner(view_state *view, sl_point at) {
+    const sl_map *map = &view->document->map;
+    for (int kind = 0; kind < kinds_that_move(view); kind++)
         for (size_t i = 0; i < count_of(map, kind); i++)
             for (int k = 0; k < 2; k++) {
                 const sl_point end = *end_of(map, kind, i, k);
-                if (hypot(end.x - at.x, end.y - at.y) <= app->document.weld) hold(app, kind, i, k);
+                if (hypot(end.x - at.x, end.y - at.y) <= view->document->weld)
+                    hold_end(view, kind, i, k);
             }
 }
 
-static uint32_t pick_door(const app_state *app, sl_point at) {
-    return kinds_that_move(app) > DOORS ? door_at(app, at) : UINT32_MAX;
+static uint32_t pick_door(const view_state *view, sl_point at) {
+    return kinds_that_move(view) > DOORS ? door_at(view, at) : UINT32_MAX;
 }
 
-drag_kind edit_take(app_state *app, drag_state *drag) {
+drag_kind edit_take(view_state *view, drag_state *drag) {
     sl_point corner;
-    app->tool.ends.count = 0;
+    view->edit.ends.count = 0;
     drag->segment = (sl_segment){{0, 0}, {0, 0}};
-    app->tool.chosen = UINT32_MAX;
-    if (!app->tool.draws_doors && find_corner(app, drag->at, &corner)) {
-        hold_corner(app, corner);
+    view->edit.chosen = UINT32_MAX;
+    if (!view->edit.draws_doors && find_corner(view, drag->at, &corner)) {
+        hold_corner(view, corner);
         return DRAG_CORNER;
     }
-    const uint32_t door = pick_door(app, drag->at);
+    const uint32_t door = pick_door(view, drag->at);
     const int kind = door == UINT32_MAX ? WALLS : DOORS;
-    if (app->tool.draws_doors && kind == WALLS) return DRAG_NEW_DOOR;
-    app->tool.chosen_kind = kind;
-    app->tool.chosen = kind == WALLS ? pick_along(app, drag->at, drag->at) : door;
-    if (app->tool.chosen == UINT32_MAX) return DRAG_NEW_WALL;
-    hold(app, kind, app->tool.chosen, false);
-    hold(app, kind, app->tool.chosen, true);
+    if (view->edit.draws_doors && kind == WALLS) return DRAG_NEW_DOOR;
+    view->edit.chosen_kind = kind;
+    view->edit.chosen = kind == WALLS ? pick_along(view, drag->at, drag->at) : door;
+    if (view->edit.chosen == UINT32_MAX) return DRAG_NEW_WALL;
+    hold_end(view, kind, view->edit.chosen, false);
+    hold_end(view, kind, view->edit.chosen, true);
     return kind == WALLS ? DRAG_WALL : DRAG_DOOR;
 }
 
@@ -146,22 +125,21 @@ static bool is_usable(sl_point p) {
 }
 
 /// Where a held end is when the drag is at a place: corners on the grid, the rest by whole steps.
-static sl_point place_of(const app_state *app, const drag_state *drag, const held_end *end,
+static sl_point place_of(const view_state *view, const drag_state *drag, const held_end *end,
                          sl_point now) {
-    const double step = edit_step(app);
-    if (drag->kind == DRAG_CORNER || drag->kind == DRAG_NEW_WALL) return edit_snap(app, now);
-    return (sl_point){end->was.x + step * round((now.x - drag->at.x) / step),
-                      end->was.y + step * round((now.y - drag->at.y) / step)};
+    if (drag->kind == DRAG_CORNER || drag->kind == DRAG_NEW_WALL) return grid_snap(view, now);
+    const sl_point by = grid_moved(view, drag->at, now);
+    return (sl_point){end->was.x + by.x, end->was.y + by.y};
 }
 
 /// Whether all ends can go there, and one of them is not there yet. No segment may lose its length.
-static bool can_go(const app_state *app, const drag_state *drag, sl_point now) {
-    const sl_map *map = &app->document.map;
+static bool can_go(const view_state *view, const drag_state *drag, sl_point now) {
+    const sl_map *map = &view->document->map;
     const bool whole = drag->kind == DRAG_WALL || drag->kind == DRAG_DOOR;
     bool any = false;
-    for (size_t i = 0; i < app->tool.ends.count; i++) {
-        const held_end *e = &app->tool.ends.items[i];
-        const sl_point to = place_of(app, drag, e, now);
+    for (size_t i = 0; i < view->edit.ends.count; i++) {
+        const held_end *e = &view->edit.ends.items[i];
+        const sl_point to = place_of(view, drag, e, now);
         if (e->index >= count_of(map, e->kind) || !is_usable(to)) return false;
         if (!whole && is_same(to, *end_of(map, e->kind, e->index, !e->second))) return false;
         any |= !is_same(to, *end_of(map, e->kind, e->index, e->second));
@@ -171,47 +149,47 @@ static bool can_go(const app_state *app, const drag_state *drag, sl_point now) {
 
 /// Keeps the map for undo. Walls that are moved are no longer the sides of the solid ground that
 /// the file speaks of: where they contradict each other, ground is open from now on.
-static void begin_change(app_state *app, drag_state *drag) {
-    app_before_edit(app);
-    app->document.map.ground_guessed = true;
+static void begin_change(view_state *view, drag_state *drag) {
+    view_before_edit(view);
+    view->document->map.ground_guessed = true;
     drag->changed = true;
 }
 
 /// A new wall begins where the pointer was pressed. Its second end is held.
-static bool begin_wall(app_state *app, drag_state *drag, sl_point now) {
-    const sl_point from = edit_snap(app, drag->at), to = edit_snap(app, now);
+static bool begin_wall(view_state *view, drag_state *drag, sl_point now) {
+    const sl_point from = grid_snap(view, drag->at), to = grid_snap(view, now);
     if (is_same(from, to) || !is_usable(from) || !is_usable(to)) return false;
-    begin_change(app, drag);
-    const sl_status status = sl_map_add_wall(app->context, &app->document.map, from, to, 0);
-    app_check(app, status);
-    return status == SL_OK && hold(app, WALLS, app->document.map.wall_count - 1, true);
+    begin_change(view, drag);
+    const sl_status status = sl_map_add_wall(view->context, &view->document->map, from, to, 0);
+    view_check(view, status);
+    return status == SL_OK && hold_end(view, WALLS, view->document->map.wall_count - 1, true);
 }
 
 // --- new doors
 
 /// The place of a wall nearest to a place of the grid; near an end of the wall, that end.
-static sl_point place_on(const app_state *app, const sl_wall *wall, sl_point at) {
-    const sl_point a = wall->a, b = wall->b, to = edit_snap(app, at);
+static sl_point place_on(const view_state *view, const sl_wall *wall, sl_point at) {
+    const sl_point a = wall->a, b = wall->b, to = grid_snap(view, at);
     const double dx = b.x - a.x, dy = b.y - a.y;
     const double share = ((to.x - a.x) * dx + (to.y - a.y) * dy) / (dx * dx + dy * dy);
-    if (share <= 0 || hypot(at.x - a.x, at.y - a.y) <= edit_reach(app)) return a;
-    if (share >= 1 || hypot(at.x - b.x, at.y - b.y) <= edit_reach(app)) return b;
+    if (share <= 0 || hypot(at.x - a.x, at.y - a.y) <= grid_reach(view)) return a;
+    if (share >= 1 || hypot(at.x - b.x, at.y - b.y) <= grid_reach(view)) return b;
     if (dx == 0) return (sl_point){a.x, to.y};
     if (dy == 0) return (sl_point){to.x, a.y};
     return (sl_point){a.x + share * dx, a.y + share * dy};
 }
 
 /// The place of a corner that is near, else of the grid.
-static sl_point place_at(const app_state *app, sl_point at) {
+static sl_point place_at(const view_state *view, sl_point at) {
     sl_point corner;
-    return find_corner(app, at, &corner) ? corner : edit_snap(app, at);
+    return find_corner(view, at, &corner) ? corner : grid_snap(view, at);
 }
 
 /// Along a wall a door lies in that wall; UINT32_MAX: along none.
-static sl_segment door_between(const app_state *app, uint32_t along, sl_point from, sl_point to) {
-    if (along == UINT32_MAX) return (sl_segment){place_at(app, from), place_at(app, to)};
-    const sl_wall *wall = &app->document.map.walls[along];
-    return (sl_segment){place_on(app, wall, from), place_on(app, wall, to)};
+static sl_segment door_between(const view_state *view, uint32_t along, sl_point from, sl_point to) {
+    if (along == UINT32_MAX) return (sl_segment){place_at(view, from), place_at(view, to)};
+    const sl_wall *wall = &view->document->map.walls[along];
+    return (sl_segment){place_on(view, wall, from), place_on(view, wall, to)};
 }
 
 /// A name that no door has: "door1".
@@ -225,42 +203,42 @@ static void name_door(const sl_map *map, char name[32]) {
 }
 
 /// A new door is open, and its ends are held.
-static bool begin_door(app_state *app, drag_state *drag, sl_segment at) {
-    sl_map *map = &app->document.map;
+static bool begin_door(view_state *view, drag_state *drag, sl_segment at) {
+    sl_map *map = &view->document->map;
     char name[32];
-    begin_change(app, drag);
+    begin_change(view, drag);
     name_door(map, name);
-    const sl_status status = sl_map_add_door(app->context, map, name, at, true, 0);
-    app_check(app, status);
-    return status == SL_OK && hold(app, DOORS, map->door_count - 1, false) &&
-           hold(app, DOORS, map->door_count - 1, true);
+    const sl_status status = sl_map_add_door(view->context, map, name, at, true, 0);
+    view_check(view, status);
+    return status == SL_OK && hold_end(view, DOORS, map->door_count - 1, false) &&
+           hold_end(view, DOORS, map->door_count - 1, true);
 }
 
 /// The drag's index is the wall that the door lies in.
-static void drag_door(app_state *app, drag_state *drag, sl_point now) {
-    const uint32_t along = pick_along(app, drag->at, now);
-    const sl_segment at = door_between(app, along, drag->at, now);
+static void drag_door(view_state *view, drag_state *drag, sl_point now) {
+    const uint32_t along = pick_along(view, drag->at, now);
+    const sl_segment at = door_between(view, along, drag->at, now);
     if (is_same(at.a, at.b) || !is_usable(at.a) || !is_usable(at.b)) return;
     drag->index = along;
     if (!drag->changed) {
-        if (begin_door(app, drag, at)) app_after_step(app);
+        if (begin_door(view, drag, at)) view_after_step(view);
         return;
     }
-    sl_map *map = &app->document.map;
-    if (!app->tool.ends.count || app->tool.ends.items[0].index >= map->door_count) return;
-    sl_segment *door = &map->doors[app->tool.ends.items[0].index].segment;
+    sl_map *map = &view->document->map;
+    if (!view->edit.ends.count || view->edit.ends.items[0].index >= map->door_count) return;
+    sl_segment *door = &map->doors[view->edit.ends.items[0].index].segment;
     if (is_same(door->a, at.a) && is_same(door->b, at.b)) return;
     *door = at;
-    app_after_step(app);
+    view_after_step(view);
 }
 
-static void say_last_wall(app_state *app) {
-    ui_say(&app->ui, true, "the last wall stays: a map without walls has no cells");
+static void say_last_wall(ui_state *ui) {
+    ui_say(ui, true, "the last wall stays: a map without walls has no cells");
 }
 
 /// Leaves of a wall what is beside the door in it; false if that is the last wall and nothing is.
-static bool cut_wall(app_state *app, uint32_t wall, sl_segment door) {
-    sl_map *map = &app->document.map;
+static bool cut_wall(view_state *view, uint32_t wall, sl_segment door) {
+    sl_map *map = &view->document->map;
     sl_wall parts[2] = {map->walls[wall], map->walls[wall]};
     const sl_point a = parts[0].a;
     const bool turned =
@@ -272,121 +250,121 @@ static bool cut_wall(app_state *app, uint32_t wall, sl_segment door) {
     map->walls[wall] = map->walls[--map->wall_count];
     for (int i = 0; i < 2; i++)
         if (!is_same(parts[i].a, parts[i].b))
-            app_check(app, sl_map_add_walls(app->context, map, &parts[i], 1));
+            view_check(view, sl_map_add_walls(view->context, map, &parts[i], 1));
     return true;
 }
 
 // --- drags
 
-void edit_drag(app_state *app, drag_state *drag, sl_point now) {
+void edit_drag(view_state *view, drag_state *drag, sl_point now) {
     if (drag->kind == DRAG_NEW_DOOR) {
-        drag_door(app, drag, now);
+        drag_door(view, drag, now);
         return;
     }
     if (drag->kind == DRAG_NEW_WALL && !drag->changed) {
-        if (begin_wall(app, drag, now)) app_after_step(app);
+        if (begin_wall(view, drag, now)) view_after_step(view);
         return;
     }
-    if (!can_go(app, drag, now)) return;
-    if (!drag->changed) begin_change(app, drag);
-    for (size_t i = 0; i < app->tool.ends.count; i++) {
-        const held_end *e = &app->tool.ends.items[i];
-        *end_of(&app->document.map, e->kind, e->index, e->second) = place_of(app, drag, e, now);
+    if (!can_go(view, drag, now)) return;
+    if (!drag->changed) begin_change(view, drag);
+    for (size_t i = 0; i < view->edit.ends.count; i++) {
+        const held_end *e = &view->edit.ends.items[i];
+        *end_of(&view->document->map, e->kind, e->index, e->second) = place_of(view, drag, e, now);
     }
-    app_after_step(app);
+    view_after_step(view);
 }
 
 /// Says where things are now.
-static void say_moved(app_state *app, const drag_state *drag) {
-    const held_end *e = &app->tool.ends.items[0];
-    const sl_point at = *end_of(&app->document.map, e->kind, e->index, e->second);
+static void say_moved(view_state *view, const drag_state *drag) {
+    const held_end *e = &view->edit.ends.items[0];
+    const sl_point at = *end_of(&view->document->map, e->kind, e->index, e->second);
     if (drag->kind == DRAG_NEW_WALL) {
-        const sl_point from = *end_of(&app->document.map, WALLS, e->index, false);
-        ui_say(&app->ui, false, "wall from %.10g,%.10g to %.10g,%.10g", from.x, from.y, at.x, at.y);
+        const sl_point from = *end_of(&view->document->map, WALLS, e->index, false);
+        ui_say(view->ui, false, "wall from %.10g,%.10g to %.10g,%.10g", from.x, from.y, at.x, at.y);
     } else if (drag->kind == DRAG_NEW_DOOR) {
-        const sl_door *door = &app->document.map.doors[e->index];
+        const sl_door *door = &view->document->map.doors[e->index];
         const sl_segment s = door->segment;
-        ui_say(&app->ui, false,
+        ui_say(view->ui, false,
                "%s from %.10g,%.10g to %.10g,%.10g, open; in Explore a click shuts it", door->name,
                s.a.x, s.a.y, s.b.x, s.b.y);
     } else if (drag->kind == DRAG_CORNER) {
-        ui_say(&app->ui, false, "corner at %.10g,%.10g, %zu end%s moved", at.x, at.y,
-               app->tool.ends.count, app->tool.ends.count == 1 ? "" : "s");
+        ui_say(view->ui, false, "corner at %.10g,%.10g, %zu end%s moved", at.x, at.y,
+               view->edit.ends.count, view->edit.ends.count == 1 ? "" : "s");
     } else {
-        ui_say(&app->ui, false, "%s moved by %g,%g", drag->kind == DRAG_DOOR ? "door" : "wall",
+        ui_say(view->ui, false, "%s moved by %g,%g", drag->kind == DRAG_DOOR ? "door" : "wall",
                at.x - e->was.x, at.y - e->was.y);
     }
 }
 
-void edit_drop(app_state *app, const drag_state *drag) {
-    sl_map *map = &app->document.map;
+void edit_drop(view_state *view, const drag_state *drag) {
+    sl_map *map = &view->document->map;
     bool moved = drag->kind == DRAG_NEW_WALL || drag->kind == DRAG_NEW_DOOR;
-    for (size_t i = 0; i < app->tool.ends.count && drag->changed; i++) {
-        const held_end *e = &app->tool.ends.items[i];
+    for (size_t i = 0; i < view->edit.ends.count && drag->changed; i++) {
+        const held_end *e = &view->edit.ends.items[i];
         if (e->index >= count_of(map, e->kind)) return;
         moved |= !is_same(e->was, *end_of(map, e->kind, e->index, e->second));
     }
-    if (drag->changed && app->tool.ends.count) {
-        if (moved) say_moved(app, drag);
+    if (drag->changed && view->edit.ends.count) {
+        if (moved) say_moved(view, drag);
         if (drag->kind == DRAG_NEW_DOOR && drag->index < map->wall_count &&
-            !cut_wall(app, drag->index, map->doors[app->tool.ends.items[0].index].segment)) {
-            say_last_wall(app);
+            !cut_wall(view, drag->index, map->doors[view->edit.ends.items[0].index].segment)) {
+            say_last_wall(view->ui);
             moved = false;
         }
-        if (!moved) history_take_back(app->context, &app->document.history, map);
-        app->tool.chosen = UINT32_MAX;
-        app_after_edit(app);
+        if (!moved) history_take_back(view->context, &view->document->history, map);
+        view->edit.chosen = UINT32_MAX;
+        view_after_edit(view);
     }
-    app->tool.ends.count = 0;
+    view->edit.ends.count = 0;
 }
 
-bool edit_cancel(app_state *app) {
-    const drag_state drag = app->tool.drag;
+bool edit_cancel(view_state *view) {
+    const drag_state drag = view->drag;
     if (drag.kind < DRAG_NEW_WALL || drag.kind > DRAG_MIRROR) return false;
-    app->tool.drag = (drag_state){0};
-    app->tool.ends.count = 0;
+    view->drag = (drag_state){0};
+    view->edit.ends.count = 0;
     if (drag.changed &&
-        history_take_back(app->context, &app->document.history, &app->document.map)) {
-        app->tool.chosen = UINT32_MAX;
-        ui_say(&app->ui, false, "everything is back where it was");
-        app_after_edit(app);
+        history_take_back(view->context, &view->document->history, &view->document->map)) {
+        view->edit.chosen = UINT32_MAX;
+        ui_say(view->ui, false, "everything is back where it was");
+        view_after_edit(view);
     }
     return true;
 }
 
-static void drop_door(app_state *app, uint32_t door) {
-    sl_map *map = &app->document.map;
-    sl_free(app->context, map->doors[door].name);
-    sl_free(app->context, map->doors[door].parts);
+static void drop_door(view_state *view, uint32_t door) {
+    sl_map *map = &view->document->map;
+    sl_free(view->context, map->doors[door].name);
+    sl_free(view->context, map->doors[door].parts);
     map->doors[door] = map->doors[--map->door_count];
 }
 
-void edit_delete(app_state *app) {
-    sl_map *map = &app->document.map;
-    const uint32_t chosen = app->tool.chosen;
-    const bool door = app->tool.chosen_kind == DOORS;
-    if (app->tool.drag.changed) return; // what is held stays
-    if (chosen >= count_of(map, app->tool.chosen_kind)) {
-        ui_say(&app->ui, false, "nothing is chosen: click on a wall or a door");
+void edit_delete(view_state *view) {
+    sl_map *map = &view->document->map;
+    const uint32_t chosen = view->edit.chosen;
+    const bool door = view->edit.chosen_kind == DOORS;
+    if (view->drag.changed) return; // what is held stays
+    if (chosen >= count_of(map, view->edit.chosen_kind)) {
+        ui_say(view->ui, false, "nothing is chosen: click on a wall or a door");
         return;
     }
     if (!door && map->wall_count == 1) {
-        say_last_wall(app);
+        say_last_wall(view->ui);
         return;
     }
-    app_before_edit(app);
+    view_before_edit(view);
     map->ground_guessed = true;
     if (door)
-        drop_door(app, chosen);
+        drop_door(view, chosen);
     else
         map->walls[chosen] = map->walls[--map->wall_count];
-    app->tool.chosen = UINT32_MAX;
-    ui_say(&app->ui, false, "%s deleted", door ? "door" : "wall");
-    app_after_edit(app);
+    view->edit.chosen = UINT32_MAX;
+    ui_say(view->ui, false, "%s deleted", door ? "door" : "wall");
+    view_after_edit(view);
 }
 
-static void draw_grid(app_state *app, const sl_frame *frame) {
-    const double step = edit_step(app), size = fmax(frame->unit, 1);
+static void draw_grid(view_state *view, const sl_frame *frame) {
+    const double step = grid_step(view), size = fmax(frame->unit, 1);
     const double x0 = step * ceil(frame->corner.x / step);
     const double y0 = step * ceil(frame->corner.y / step);
     const int columns = (int)(frame->width / frame->scale / step) + 1;
@@ -394,52 +372,48 @@ static void draw_grid(app_state *app, const sl_frame *frame) {
     for (int i = 0; i < columns && columns < 1000; i++)
         for (int k = 0; k < rows && rows < 1000; k++) {
             const sl_point at = sl_frame_point(frame, (sl_point){x0 + i * step, y0 + k * step});
-            cairo_rectangle(app->ui.cairo, floor(at.x), floor(at.y), size, size);
+            cairo_rectangle(view->ui->cairo, floor(at.x), floor(at.y), size, size);
         }
-    const sl_colour c = app->ui.palette.faint;
-    cairo_set_source_rgba(app->ui.cairo, c.red, c.green, c.blue, 0.4);
-    cairo_fill(app->ui.cairo);
+    const sl_colour c = view->ui->palette.faint;
+    cairo_set_source_rgba(view->ui->cairo, c.red, c.green, c.blue, 0.4);
+    cairo_fill(view->ui->cairo);
 }
 
 /// Marks the corner that is held, or the one under the pointer.
-static void draw_corner(app_state *app, const sl_frame *frame, sl_point pointer) {
-    const drag_state *drag = &app->tool.drag;
-    sl_point corner, at;
+static void draw_corner(view_state *view, const sl_frame *frame, sl_point pointer) {
+    const drag_state *drag = &view->drag;
+    sl_point corner;
     if (drag->kind == DRAG_CORNER || (drag->kind == DRAG_NEW_WALL && drag->changed)) {
-        const held_end *e = app->tool.ends.items;
-        if (!app->tool.ends.count || e->index >= count_of(&app->document.map, e->kind)) return;
-        corner = *end_of(&app->document.map, e->kind, e->index, e->second);
-    } else if (drag->kind != DRAG_NONE || !find_corner(app, pointer, &corner)) {
+        const held_end *e = view->edit.ends.items;
+        if (!view->edit.ends.count || e->index >= count_of(&view->document->map, e->kind)) return;
+        corner = *end_of(&view->document->map, e->kind, e->index, e->second);
+    } else if (drag->kind != DRAG_NONE || !find_corner(view, pointer, &corner)) {
         return;
     }
-    if (!sl_frame_holds(frame, corner, &at)) return;
-    cairo_new_path(app->ui.cairo);
-    cairo_arc(app->ui.cairo, at.x, at.y, 5 * frame->unit, 0, 6.283185307179586);
-    sl_set_colour(app->ui.cairo, app->ui.palette.start);
-    cairo_fill(app->ui.cairo);
+    view_mark(view, frame, corner);
 }
 
 /// Draws each segment of which an end is held where it is now, however late the plan is.
-static void draw_held(app_state *app, const sl_frame *frame) {
-    const sl_map *map = &app->document.map;
-    for (size_t i = 0; i < app->tool.ends.count && app->tool.drag.changed; i++) {
-        const held_end *e = &app->tool.ends.items[i];
+static void draw_held(view_state *view, const sl_frame *frame) {
+    const sl_map *map = &view->document->map;
+    for (size_t i = 0; i < view->edit.ends.count && view->drag.changed; i++) {
+        const held_end *e = &view->edit.ends.items[i];
         if (e->index >= count_of(map, e->kind)) return;
-        sl_draw_line(app->ui.cairo, frame, *end_of(map, e->kind, e->index, false),
-                     *end_of(map, e->kind, e->index, true), app->ui.palette.start, 4 * frame->unit);
+        sl_draw_line(view->ui->cairo, frame, *end_of(map, e->kind, e->index, false),
+                     *end_of(map, e->kind, e->index, true), view->ui->palette.start,
+                     4 * frame->unit);
     }
 }
 
-void edit_draw(app_state *app, const sl_frame *frame) {
-    const sl_map *map = &app->document.map;
-    const sl_colour colour = app->ui.palette.start;
-    draw_grid(app, frame);
-    const window_layout l = app_layout(app);
-    const int kind = app->tool.chosen_kind;
-    if (app->tool.chosen < count_of(map, kind))
-        sl_draw_line(app->ui.cairo, frame, *end_of(map, kind, app->tool.chosen, false),
-                     *end_of(map, kind, app->tool.chosen, true), colour, 5 * frame->unit);
-    draw_held(app, frame);
-    if (box_has(l.plan[0], app->tool.pointer))
-        draw_corner(app, frame, camera_point(&app->view.camera, l.plan[0], app->tool.pointer));
+void edit_draw(view_state *view, const sl_frame *frame) {
+    const sl_map *map = &view->document->map;
+    const sl_colour colour = view->ui->palette.start;
+    draw_grid(view, frame);
+    const int kind = view->edit.chosen_kind;
+    if (view->edit.chosen < count_of(map, kind))
+        sl_draw_line(view->ui->cairo, frame, *end_of(map, kind, view->edit.chosen, false),
+                     *end_of(map, kind, view->edit.chosen, true), colour, 5 * frame->unit);
+    draw_held(view, frame);
+    sl_point at;
+    if (view_pointed(view, &at)) draw_corner(view, frame, at);
 }

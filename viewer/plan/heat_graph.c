@@ -32,7 +32,7 @@ unsigned heat_measure_part(const sl_measure *measure) {
 
 // --- the work
 
-static sl_status fill(sl_context *context, heat_graph *g) {
+static sl_status make_graph(sl_context *context, heat_graph *g) {
     SL_TRY(sl_query_outline(context, g->query, &g->outline));
     SL_TRY(sl_vga_grid_make(context, g->outline, g->step, NULL, 0, &g->grid));
     if (g->grid.count == 0)
@@ -53,8 +53,8 @@ static sl_status fill(sl_context *context, heat_graph *g) {
     return sl_vga_graph_make(context, g->outline, &g->grid, g->range, 0, &g->graph);
 }
 
-/// Drops all that `fill` makes.
-static void empty(sl_context *context, heat_graph *g) {
+/// Drops all that make_graph makes.
+static void drop_graph(sl_context *context, heat_graph *g) {
     sl_vga_graph_destroy(context, &g->graph);
     sl_vga_grid_destroy(context, &g->grid);
     sl_free(context, g->measures);
@@ -66,7 +66,7 @@ static void empty(sl_context *context, heat_graph *g) {
 }
 
 /// Measures one group, beside those that are there.
-static sl_status measure(sl_context *context, heat_graph *g, unsigned part) {
+static sl_status measure_group(sl_context *context, heat_graph *g, unsigned part) {
     sl_vga_measures *made = sl_alloc_array(context, g->grid.count, sizeof *made);
     if (!made) return SL_NO_MEMORY;
     sl_vga_options options = sl_vga_options_default();
@@ -86,16 +86,16 @@ static sl_status measure(sl_context *context, heat_graph *g, unsigned part) {
 sl_status heat_graph_work(sl_context *context, void *data) {
     heat_graph *g = data;
     if (!g->made) {
-        const sl_status status = fill(context, g);
-        if (status != SL_OK) empty(context, g);
+        const sl_status status = make_graph(context, g);
+        if (status != SL_OK) drop_graph(context, g);
         SL_TRY(status);
         g->made = true;
     }
-    return g->wanted & ~g->parts ? measure(context, g, g->wanted) : SL_OK;
+    return g->wanted & ~g->parts ? measure_group(context, g, g->wanted) : SL_OK;
 }
 
 void heat_graph_destroy(sl_context *context, heat_graph *graph) {
-    empty(context, graph);
+    drop_graph(context, graph);
     sl_query_destroy(context, graph->query);
     *graph = (heat_graph){0};
 }

@@ -2,7 +2,6 @@
 /// Bittner and Havran 2002, Figure 12.
 #include "plan/layers.h"
 
-#include "app/app.h"
 #include "sightline/draw.h"
 #include "sightline/support.h"
 #include "sightline/walk.h"
@@ -46,7 +45,7 @@ static const sl_walk_method *find_method(const char *name) {
     return &methods[i];
 }
 
-static sl_status fill(sl_context *context, present_state *present, node_layer *layer) {
+static sl_status fill_layer(sl_context *context, present_state *present, node_layer *layer) {
     SL_TRY(present_space(context, present));
     const sl_space *space = present->space;
     const sl_walk_options options = sl_walk_options_default();
@@ -62,17 +61,17 @@ static sl_status fill(sl_context *context, present_state *present, node_layer *l
 }
 
 /// Makes the layer for the present space, if it is not there.
-static sl_status prepare(app_state *app) {
-    if (app->view.nodes && app->view.nodes->version == app->view.present.version) return SL_OK;
-    node_layer_destroy(app->context, app->view.nodes);
-    app->view.nodes = NULL;
-    node_layer *layer = sl_alloc_array(app->context, 1, sizeof *layer);
+static sl_status prepare_layer(view_state *view) {
+    if (view->nodes && view->nodes->version == view->present.version) return SL_OK;
+    node_layer_destroy(view->context, view->nodes);
+    view->nodes = NULL;
+    node_layer *layer = sl_alloc_array(view->context, 1, sizeof *layer);
     if (!layer) return SL_NO_MEMORY;
-    const sl_status status = fill(app->context, &app->view.present, layer);
+    const sl_status status = fill_layer(view->context, &view->present, layer);
     if (status == SL_OK)
-        app->view.nodes = layer;
+        view->nodes = layer;
     else
-        node_layer_destroy(app->context, layer);
+        node_layer_destroy(view->context, layer);
     return status;
 }
 
@@ -99,20 +98,20 @@ static void sort_cells(node_layer *layer) {
 }
 
 /// Walks one frame if the eye moved since the last one.
-static sl_status step(app_state *app) {
-    SL_TRY(prepare(app));
-    node_layer *layer = app->view.nodes;
-    if (layer->stepped && seen_same_view(&layer->view, &app->view.seen.view)) return SL_OK;
-    SL_TRY(sl_walk_step(app->context, layer->walk, &app->view.seen.view, &layer->frame));
-    layer->view = app->view.seen.view;
+static sl_status step_walk(view_state *view) {
+    SL_TRY(prepare_layer(view));
+    node_layer *layer = view->nodes;
+    if (layer->stepped && seen_same_view(&layer->view, &view->seen.view)) return SL_OK;
+    SL_TRY(sl_walk_step(view->context, layer->walk, &view->seen.view, &layer->frame));
+    layer->view = view->seen.view;
     layer->stepped = true;
     sort_cells(layer);
     return SL_OK;
 }
 
-int layer_nodes_legend(const app_state *app, legend_row *rows) {
-    const node_layer *layer = app->view.nodes;
-    const bool fills = layers_fill(app) == LAYER_NODES;
+int layer_nodes_legend(const view_state *view, legend_row *rows) {
+    const node_layer *layer = view->nodes;
+    const bool fills = layers_fill(view) == LAYER_NODES;
     int at = 0;
     if (!layer || !layer->stepped) return 0;
     for (int k = fills ? 0 : VISIBLE; k < KINDS; k++, at++) {
@@ -124,21 +123,21 @@ int layer_nodes_legend(const app_state *app, legend_row *rows) {
     return at;
 }
 
-const char *layer_nodes_words(const app_state *app, char text[96]) {
-    const node_layer *layer = app->view.nodes;
-    if (!layer || !layer->stepped || !layers_shows(app, LAYER_NODES)) return NULL;
+const char *layer_nodes_words(const view_state *view, char text[96]) {
+    const node_layer *layer = view->nodes;
+    if (!layer || !layer->stepped || !layers_shows(view, LAYER_NODES)) return NULL;
     const sl_walk_frame *f = &layer->frame;
     snprintf(text, 96, "Nodes: %u tests for %u, %u occluders.", f->tests, f->visited, f->occluders);
     return text;
 }
 
-void layer_nodes(app_state *app, const sl_frame *frame, int index) {
-    const sl_status status = step(app);
-    const bool fills = layers_fill(app) == LAYER_NODES;
+void layer_nodes(view_state *view, const sl_frame *frame, int index) {
+    const sl_status status = step_walk(view);
+    const bool fills = layers_fill(view) == LAYER_NODES;
     (void)index;
-    app_check(app, status);
+    view_check(view, status);
     if (status != SL_OK) return;
     // Lines go round what is visible: the rest has all of the map in it.
     for (int k = fills ? 0 : VISIBLE; k < KINDS; k++)
-        layers_draw_set(app, frame, app->view.nodes->sets[k], NULL, tones[k], fills);
+        layers_draw_set(view, frame, view->nodes->sets[k], NULL, tones[k], fills);
 }

@@ -3,7 +3,6 @@
 /// is what an eye would see with all glass turned round: without glass, the query looks forwards.
 #include "plan/layers.h"
 
-#include "app/app.h"
 #include "sightline/draw.h"
 #include "sightline/support.h"
 
@@ -49,13 +48,13 @@ static sl_status make_sets(sl_context *context, watch_layer *layer, const sl_spa
     return SL_OK;
 }
 
-static void sort_cells(const app_state *app, watch_layer *layer) {
-    const uint32_t eye = app->view.seen.cell;
+static void sort_cells(const view_state *view, watch_layer *layer) {
+    const uint32_t eye = view->seen.cell;
     memset(layer->counts, 0, sizeof layer->counts);
-    if (eye == SL_NO_CELL || !app->view.present.has_rows) return;
-    for (uint32_t cell = 0; cell < app->document.baked->space.cell_count; cell++) {
-        const bool sees = sl_bits_has(app->view.seen.pvs, cell);
-        const bool seen = present_sees(app->context, &app->view.present, cell, eye);
+    if (eye == SL_NO_CELL || !view->present.has_rows) return;
+    for (uint32_t cell = 0; cell < view->document->baked->space.cell_count; cell++) {
+        const bool sees = sl_bits_has(view->seen.pvs, cell);
+        const bool seen = present_sees(view->context, &view->present, cell, eye);
         if (cell == eye || !(sees || seen)) continue;
         const kind k = sees && seen ? MUTUAL : sees ? SEES : SEEN;
         sl_bits_add(layer->sets[k], cell);
@@ -63,54 +62,53 @@ static void sort_cells(const app_state *app, watch_layer *layer) {
     }
 }
 
-static sl_status make(app_state *app, watch_layer *layer) {
-    sl_context *context = app->context;
-    const sl_view view = sl_view_all_round(app->view.eye.at);
-    const bool turns = app->document.baked->map.oneway_count;
-    if (turns) SL_TRY(present_update(context, &layer->present, &app->document, app->view.eye.at));
-    SL_TRY(make_sets(context, layer, &app->document.baked->space));
-    sort_cells(app, layer);
-    sl_query *query = turns ? layer->present.query : app->view.present.query;
-    SL_TRY(sl_query_region(context, query, &view, &layer->region));
-    layer->version = app->view.present.version;
-    layer->eye = app->view.eye.at;
-    layer->range = app->document.map.range;
+static sl_status make_layer(view_state *view, watch_layer *layer) {
+    sl_context *context = view->context;
+    const sl_view all_round = sl_view_all_round(view->eye.at);
+    const bool turns = view->document->baked->map.oneway_count;
+    if (turns) SL_TRY(present_update(context, &layer->present, view->document, view->eye.at));
+    SL_TRY(make_sets(context, layer, &view->document->baked->space));
+    sort_cells(view, layer);
+    sl_query *query = turns ? layer->present.query : view->present.query;
+    SL_TRY(sl_query_region(context, query, &all_round, &layer->region));
+    layer->version = view->present.version;
+    layer->eye = view->eye.at;
+    layer->range = view->document->map.range;
     layer->made = true;
     return SL_OK;
 }
 
-static sl_status follow(app_state *app) {
-    if (!app->view.watch) {
-        app->view.watch = sl_alloc_array(app->context, 1, sizeof *app->view.watch);
-        if (!app->view.watch) return SL_NO_MEMORY;
-        app->view.watch->present.backwards = true;
+static sl_status follow_eye(view_state *view) {
+    if (!view->watch) {
+        view->watch = sl_alloc_array(view->context, 1, sizeof *view->watch);
+        if (!view->watch) return SL_NO_MEMORY;
+        view->watch->present.backwards = true;
     }
-    watch_layer *layer = app->view.watch;
-    if (layer->made && layer->version == app->view.present.version &&
-        layer->eye.x == app->view.eye.at.x && layer->eye.y == app->view.eye.at.y &&
-        layer->range == app->document.map.range)
+    watch_layer *layer = view->watch;
+    if (layer->made && layer->version == view->present.version && layer->eye.x == view->eye.at.x &&
+        layer->eye.y == view->eye.at.y && layer->range == view->document->map.range)
         return SL_OK;
     layer->made = false;
-    return make(app, layer);
+    return make_layer(view, layer);
 }
 
 static const tone tones[KINDS] = {
     [SEES] = TONE_WATCH_SEES, [MUTUAL] = TONE_WATCH_MUTUAL, [SEEN] = TONE_WATCH_SEEN};
 
-void layer_watch(app_state *app, const sl_frame *frame, int index) {
-    const bool fills = layers_fill(app) == LAYER_WATCH;
+void layer_watch(view_state *view, const sl_frame *frame, int index) {
+    const bool fills = layers_fill(view) == LAYER_WATCH;
     (void)index;
-    const sl_status status = follow(app);
-    app_check(app, status);
+    const sl_status status = follow_eye(view);
+    view_check(view, status);
     if (status != SL_OK) return;
     for (kind k = 0; k < KINDS; k++)
-        layers_draw_set(app, frame, app->view.watch->sets[k], NULL, tones[k], fills);
-    layers_draw_region(app, frame, &app->view.watch->region, TONE_WATCH_SEEN, false);
+        layers_draw_set(view, frame, view->watch->sets[k], NULL, tones[k], fills);
+    layers_draw_region(view, frame, &view->watch->region, TONE_WATCH_SEEN, false);
 }
 
-int layer_watch_legend(const app_state *app, legend_row *rows) {
-    const watch_layer *layer = app->view.watch;
-    const bool fills = layers_fill(app) == LAYER_WATCH;
+int layer_watch_legend(const view_state *view, legend_row *rows) {
+    const watch_layer *layer = view->watch;
+    const bool fills = layers_fill(view) == LAYER_WATCH;
     if (!layer || !layer->made) return 0;
     for (kind k = 0; k < KINDS; k++) {
         rows[k] = (legend_row){.label = tone_table()[tones[k]].label,

@@ -11,8 +11,8 @@ void present_drop(sl_context *context, present_state *present) {
 }
 
 /// Starts again with a new document, or one that changed.
-static sl_status begin(sl_context *context, present_state *present,
-                       const document_state *document) {
+static sl_status start_again(sl_context *context, present_state *present,
+                             const document_state *document) {
     const sl_baked *baked = document->baked;
     present_drop(context, present);
     present->sides = sl_alloc_array(context, baked->map.oneway_count, sizeof *present->sides);
@@ -70,8 +70,8 @@ static sl_status follow_sets(sl_context *context, present_state *present,
 }
 
 /// Puts the map's objects in, and makes the outline that shows whether they fit.
-static sl_status place(sl_context *context, present_state *present,
-                       const document_state *document) {
+static sl_status place_objects(sl_context *context, present_state *present,
+                               const document_state *document) {
     sl_moving_box boxes[OBJECTS_MOST] = {0};
     for (size_t i = 0; i < document->object_count; i++)
         boxes[i] = (sl_moving_box){document->map.objects[i].box, document->blocks[i]};
@@ -82,18 +82,18 @@ static sl_status place(sl_context *context, present_state *present,
 static sl_status follow_objects(sl_context *context, present_state *present,
                                 const document_state *document) {
     present->touched = document->touched;
-    const sl_status status = place(context, present, document);
+    const sl_status status = place_objects(context, present, document);
     present->still = status == SL_UNSUPPORTED;
     if (present->still) return sl_query_set_boxes(context, present->query, NULL, 0);
     return status;
 }
 
-static sl_status update(sl_context *context, present_state *present, const document_state *document,
-                        sl_point eye) {
+static sl_status follow_changes(sl_context *context, present_state *present,
+                                const document_state *document, sl_point eye) {
     const sl_map *map =
         &document->baked->map; // the clean one: its glass is cut where it is crossed
     if (!present->query || present->document_version != document->version)
-        SL_TRY(begin(context, present, document));
+        SL_TRY(start_again(context, present, document));
     bool changed = follow_doors(context, present, map);
     changed |= follow_eye(present, map, eye);
     SL_TRY(follow_sets(context, present, document));
@@ -121,7 +121,7 @@ sl_status present_update(sl_context *context, present_state *present,
         if (present->query) present_drop(context, present);
         return SL_OK;
     }
-    const sl_status status = update(context, present, document, eye);
+    const sl_status status = follow_changes(context, present, document, eye);
     if (status != SL_OK) present_drop(context, present);
     return status;
 }

@@ -70,8 +70,8 @@ static void sum_up(const document_state *document, const uint64_t *cells, uint32
     }
 }
 
-static void look(sl_context *context, seen_method *m, const sl_eye_method *method,
-                 const document_state *document, sl_query *query, const sl_view *view) {
+static void look_by_method(sl_context *context, seen_method *m, const sl_eye_method *method,
+                           const document_state *document, sl_query *query, const sl_view *view) {
     const double before = sl_seconds();
     m->known = sl_query_look(context, query, view, method, m->cells, &m->account) == SL_OK;
     const double seconds = sl_seconds() - before;
@@ -146,7 +146,7 @@ static bool is_late(void *user) {
     return sl_seconds() > seen->until;
 }
 
-static void give(seen_state *seen, double seconds) {
+static void allow_seconds(seen_state *seen, double seconds) {
     seen->until = seen->patient ? INFINITY : sl_seconds() + seconds;
 }
 
@@ -157,7 +157,7 @@ static sl_status look_at_objects_by_mirror(seen_state *seen, const document_stat
     if (!size) return SL_OK;
     memset(seen->objects_mirrored, 0, size);
     if (!present->parents || !document->mirror_depth) return SL_OK;
-    give(seen, CELLS_SECONDS);
+    allow_seconds(seen, CELLS_SECONDS);
     const sl_status status = sl_query_boxes_seen(seen->hurried, present->query, &seen->view, NULL,
                                                  seen->objects_mirrored);
     return status == SL_CANCELLED ? SL_OK : status;
@@ -174,7 +174,7 @@ static sl_status look_by_methods(seen_state *seen, const document_state *documen
     for (size_t i = 0; i < count && i < SEEN_MOST; i++) {
         seen_method *m = &seen->methods[i];
         sl_status status = SL_CANCELLED;
-        give(seen, CELLS_SECONDS);
+        allow_seconds(seen, CELLS_SECONDS);
         if (methods[i].mirrored)
             status = sl_query_look_mirrored(seen->hurried, present->query, &seen->view, &methods[i],
                                             m->mirrored, NULL);
@@ -193,7 +193,7 @@ static sl_status make_parts(sl_context *context, seen_state *seen, const documen
                             const present_state *present) {
     const uint32_t most = document->mirror_depth;
     seen->depth = 0;
-    give(seen, PARTS_SECONDS);
+    allow_seconds(seen, PARTS_SECONDS);
     for (uint32_t depth = seen->patient ? most : 1; depth <= most && most; depth++) {
         const sl_status status = sl_query_mirrored_region_to(seen->hurried, present->query,
                                                              &seen->view, depth, &seen->deeper);
@@ -257,7 +257,7 @@ sl_status seen_update(sl_context *context, seen_state *seen, const document_stat
     size_t count;
     const sl_eye_method *methods = sl_eye_methods(&count);
     for (size_t i = 0; i < count && i < SEEN_MOST; i++)
-        look(context, &seen->methods[i], &methods[i], document, present->query, view);
+        look_by_method(context, &seen->methods[i], &methods[i], document, present->query, view);
     SL_TRY(look_at_objects(context, seen, document, present));
     const double before = sl_seconds();
     const sl_status status = sl_query_region(context, present->query, view, &seen->region);

@@ -1,7 +1,5 @@
-/// Where things are seen from: the camera over the plan, and the eye that walks through the map.
+/// The camera over the plan, the eye that walks through the map, and changes by hand.
 #include "plan/view.h"
-
-#include "app/app.h"
 
 #include <math.h>
 
@@ -18,22 +16,22 @@ plan_camera camera_fit(sl_box bounds, double width, double height) {
 }
 
 /// The camera from now on; NULL: no map was shown yet.
-static plan_camera *take_camera(app_state *app) {
-    if (!(app->view.camera.scale > 0)) return NULL;
-    app->view.fitted = false;
-    app->view.motion = 0.2;
-    return &app->view.camera;
+static plan_camera *take_camera(view_state *view) {
+    if (!(view->camera.scale > 0)) return NULL;
+    view->fitted = false;
+    view->motion = 0.2;
+    return &view->camera;
 }
 
-void view_pan(app_state *app, double dx, double dy) {
-    plan_camera *camera = take_camera(app);
+void view_pan(view_state *view, double dx, double dy) {
+    plan_camera *camera = take_camera(view);
     if (!camera) return;
     camera->middle.x -= dx / camera->scale;
     camera->middle.y += dy / camera->scale;
 }
 
-void view_zoom(app_state *app, double factor, sl_point offset) {
-    plan_camera *camera = take_camera(app);
+void view_zoom(view_state *view, double factor, sl_point offset) {
+    plan_camera *camera = take_camera(view);
     if (!camera) return;
     const double scale = fmin(fmax(camera->scale * factor, camera->least), camera->most);
     camera->middle.x += offset.x / camera->scale - offset.x / scale;
@@ -59,6 +57,73 @@ sl_point camera_point(const plan_camera *camera, sl_box pane, sl_point page) {
     return (sl_point){camera->middle.x + x / camera->scale, camera->middle.y - y / camera->scale};
 }
 
+// --- the state
+
+void view_follow(view_state *view) {
+    view_check(view, present_update(view->context, &view->present, view->document, view->eye.at));
+}
+
+bool view_pointed(const view_state *view, sl_point *at) {
+    *at = camera_point(&view->camera, view->plan[0], view->ui->pointer);
+    return box_has(view->plan[0], view->ui->pointer);
+}
+
+void view_mark(const view_state *view, const sl_frame *frame, sl_point place) {
+    cairo_t *cairo = view->ui->cairo;
+    sl_point at;
+    if (!sl_frame_holds(frame, place, &at)) return;
+    cairo_new_path(cairo);
+    cairo_arc(cairo, at.x, at.y, 5 * frame->unit, 0, 6.283185307179586);
+    sl_set_colour(cairo, view->ui->palette.start);
+    cairo_fill(cairo);
+}
+
+void view_drop_scenes(view_state *view) {
+    sl_scene_destroy(view->context, view->scene);
+    sl_scene_destroy(view->context, view->tree);
+    view->scene = view->tree = NULL;
+}
+
+bool view_is_solid(const view_state *view, sl_point at) {
+    if (!view->document->baked) return false;
+    const sl_space *space = &view->document->baked->space;
+    const uint32_t cell = sl_space_locate(space, at);
+    return cell != SL_NO_CELL && space->cells[cell].solid;
+}
+
+uint32_t view_eye_cell(const view_state *view) {
+    return view->document->baked && !view_is_solid(view, view->eye.at)
+               ? sl_space_locate(&view->document->baked->space, view->eye.at)
+               : SL_NO_CELL;
+}
+
+// --- changes by hand
+
+void view_keep(view_state *view) {
+    view_check(view, history_keep(view->context, &view->document->history, &view->document->map));
+}
+
+void view_before_edit(view_state *view) {
+    view->fitted = false; // the plan stays where it is, whatever the map becomes
+    view_keep(view);
+    sl_map_drop_cells(view->context, &view->document->map); // they do not know other walls
+}
+
+void view_after_edit(view_state *view) {
+    view->document->stale = false;
+    view_check(view, document_rebuild(view->context, view->document, false));
+}
+
+void view_after_step(view_state *view) {
+    view->document->stale = true;
+    view_check(view, document_keep_up(view->context, view->document));
+}
+
+void view_after_touch(view_state *view) {
+    document_touch(view->document);
+    view_follow(view);
+}
+
 // --- the eye
 
 #define RADIANS (3.14159265358979323846 / 180)
@@ -72,7 +137,7 @@ static bool spans(double a, double b, double low, double high) {
 }
 
 /// Whether two closed segments have a point in common. Exact.
-static bool meet(sl_point a, sl_point b, sl_point p, sl_point q) {
+static bool segments_meet(sl_point a, sl_point b, sl_point p, sl_point q) {
     if (!spans(a.x, b.x, fmin(p.x, q.x), fmax(p.x, q.x)) ||
         !spans(a.y, b.y, fmin(p.y, q.y), fmax(p.y, q.y)))
         return false;
@@ -83,7 +148,7 @@ static bool meet(sl_point a, sl_point b, sl_point p, sl_point q) {
 /// The wall in the way; wall_count for none.
 static uint32_t first_wall(const sl_space *space, sl_point from, sl_point to) {
     for (uint32_t i = 0; i < space->wall_count; i++)
-        if (meet(from, to, space->walls[i].a, space->walls[i].b)) return i;
+        if (segments_meet(from, to, space->walls[i].a, space->walls[i].b)) return i;
     return space->wall_count;
 }
 
@@ -106,7 +171,7 @@ static bool try_move(view_state *view, double dx, double dy, double body, uint32
 }
 
 /// Moves by the part of a step that is along the wall.
-static void slide(view_state *view, double dx, double dy, double body, uint32_t wall) {
+static void slide_along(view_state *view, double dx, double dy, double body, uint32_t wall) {
     const sl_space *space = view->present.space;
     if (wall >= space->wall_count) return;
     const sl_wall *w = &space->walls[wall];
@@ -116,43 +181,43 @@ static void slide(view_state *view, double dx, double dy, double body, uint32_t 
     try_move(view, share * x, share * y, body, &wall);
 }
 
-void walk_tick(app_state *app, double seconds) {
-    if (!app->view.present.query || !app->tool.held) return;
-    const unsigned held = app->tool.held;
+void walk_tick(view_state *view, double seconds) {
+    if (!view->present.query || !view->held) return;
+    const unsigned held = view->held;
     const double turn = ((held & HOLD_TURN_LEFT) != 0) - ((held & HOLD_TURN_RIGHT) != 0);
-    app->view.eye.heading = fmod(app->view.eye.heading + 120 * turn * seconds + 360, 360);
+    view->eye.heading = fmod(view->eye.heading + 120 * turn * seconds + 360, 360);
     const double ahead = ((held & HOLD_FORWARD) != 0) - ((held & HOLD_BACK) != 0);
     const double aside = ((held & HOLD_RIGHT) != 0) - ((held & HOLD_LEFT) != 0);
     const double length = hypot(ahead, aside);
     if (!(length > 0)) return;
-    const double step = walk_speed(&app->document) * seconds / length,
-                 body = 0.04 * walk_speed(&app->document);
-    const double c = cos(app->view.eye.heading * RADIANS), s = sin(app->view.eye.heading * RADIANS);
+    const double step = walk_speed(view->document) * seconds / length,
+                 body = 0.04 * walk_speed(view->document);
+    const double c = cos(view->eye.heading * RADIANS), s = sin(view->eye.heading * RADIANS);
     const double dx = step * (ahead * c + aside * s), dy = step * (ahead * s - aside * c);
     uint32_t wall;
-    app_check(app, present_space(app->context, &app->view.present));
-    if (!app->view.present.space) return;
-    if (!try_move(&app->view, dx, dy, body, &wall)) slide(&app->view, dx, dy, body, wall);
+    view_check(view, present_space(view->context, &view->present));
+    if (!view->present.space) return;
+    if (!try_move(view, dx, dy, body, &wall)) slide_along(view, dx, dy, body, wall);
 }
 
-void walk_home(app_state *app) {
-    const document_state *d = &app->document;
+void walk_home(view_state *view) {
+    const document_state *d = view->document;
     if (!d->baked) return;
     const sl_map *map = &d->baked->map;
-    if (d->source.has_start && !app_is_solid(app, d->source.start)) {
-        app->view.eye.at = d->source.start;
+    if (d->source.has_start && !view_is_solid(view, d->source.start)) {
+        view->eye.at = d->source.start;
         return;
     }
     for (size_t i = 0; i < map->start_count; i++) {
-        if (app_is_solid(app, map->starts[i].at)) continue;
-        app->view.eye.at = map->starts[i].at;
-        app->view.eye.heading = fmod(map->starts[i].heading, 360);
+        if (view_is_solid(view, map->starts[i].at)) continue;
+        view->eye.at = map->starts[i].at;
+        view->eye.heading = fmod(map->starts[i].heading, 360);
         return;
     }
     // The largest cell may be a courtyard, or outdoors.
     const uint32_t roomiest = sl_space_locate(&d->baked->space, map->interior.roomiest);
     if (roomiest != SL_NO_CELL) {
-        app->view.eye.at = sl_space_middle(&d->baked->space, roomiest);
+        view->eye.at = sl_space_middle(&d->baked->space, roomiest);
         return;
     }
     uint32_t best = 0;
@@ -162,5 +227,5 @@ void walk_home(app_state *app) {
             largest = d->areas[cell];
             best = cell;
         }
-    if (d->baked->space.cell_count) app->view.eye.at = sl_space_middle(&d->baked->space, best);
+    if (d->baked->space.cell_count) view->eye.at = sl_space_middle(&d->baked->space, best);
 }

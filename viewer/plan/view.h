@@ -1,11 +1,20 @@
-/// Where things are seen from: the camera over the plan, and the eye that walks through the map.
+/// The view of a document on a page: the camera over the plan, the eye that walks through the map,
+/// and what layers and tools of the plan keep from frame to frame.
 #ifndef VIEWER_VIEW_H
 #define VIEWER_VIEW_H
 
 #include "document/document.h"
+#include "plan/changes.h"
+#include "plan/layer_table.h"
+#include "plan/present.h"
+#include "plan/seen.h"
 #include "sightline/draw.h"
+#include "sightline/support.h"
+#include "ui/ui.h"
 
-typedef struct app_state app_state;
+typedef enum view_mode { MODE_EXPLORE, MODE_LEARN, MODE_DRAW, MODE_QUIZ } view_mode;
+
+typedef struct view_state view_state;
 
 // --- the camera
 
@@ -24,15 +33,7 @@ sl_frame camera_frame(const plan_camera *camera, sl_box pane, double unit);
 /// The map's point at a place on the page.
 sl_point camera_point(const plan_camera *camera, sl_box pane, sl_point page);
 
-// --- the camera, moved by hand: the plan no longer fits the pane by itself
-
-/// Moves the plan by pixels, right and down.
-void view_pan(app_state *app, double dx, double dy);
-
-/// Zooms; the place at `offset` (pixels from the middle of the pane, right and down) stays.
-void view_zoom(app_state *app, double factor, sl_point offset);
-
-// --- the eye
+// --- the state
 
 /// Keys held down.
 enum hold_key {
@@ -50,14 +51,196 @@ typedef struct eye_state {
     bool flies;          ///< through walls
 } eye_state;
 
+typedef enum comparison { COMPARE_OFF, COMPARE_PANES, COMPARE_DIFFERENCE } comparison;
+
+/// A picture that is kept until what it shows changes.
+typedef struct kept_picture {
+    cairo_surface_t *surface;
+    struct {
+        uint32_t version, touched, show, depth, dark, views, mark, heat;
+        sl_frame frame;
+    } key;
+    double seconds;   ///< that drawing it took
+    plan_items items; ///< that are in it, while the map is edited
+} kept_picture;
+
+/// The account as it was drawn last.
+typedef struct account_picture {
+    cairo_surface_t *surface;
+    uint32_t version;
+    bool dark;
+    double text, made; ///< when, by the clock
+} account_picture;
+
+/// What the first-person pane shows: wall pieces drawn, and columns of pixels by what is in them.
+typedef struct first_person_counts {
+    uint32_t pieces;
+    uint32_t mirrors, reflected; ///< mirrors, and what is seen in them
+    uint32_t leaves, frames;     ///< doors that are shut, and open ones
+    uint32_t dark, tinted;       ///< one-way glass from its dark side, and from the other
+} first_person_counts;
+
+/// What the pointer does while its button is down.
+typedef enum drag_kind {
+    DRAG_NONE,
+    DRAG_PAN,
+    DRAG_LOOK,
+    DRAG_HIT,  ///< a slider, the time line, the dual plane
+    DRAG_LINE, ///< the lesson's line, in the plan
+    DRAG_END,  ///< a portal end of the lesson
+    DRAG_NEW_WALL,
+    DRAG_NEW_DOOR,
+    DRAG_WALL,
+    DRAG_CORNER,
+    DRAG_DOOR,
+    DRAG_MIRROR,
+    DRAG_OBJECT,
+} drag_kind;
+
+typedef struct drag_state {
+    drag_kind kind;
+    hit_area hit;
+    sl_point from, last; ///< pointer
+    sl_point at;         ///< where it began, in the map
+    uint32_t index;
+    bool moved;
+    // Of a mirror or an object: what of it, where it was, and whether it has been changed.
+    int part;
+    sl_segment segment;
+    bool changed;
+} drag_state;
+
+/// An end of a wall, a door or glass that is dragged, and where it was.
+typedef struct held_end {
+    int kind; ///< of edit.c
+    size_t index;
+    bool second;
+    sl_point was;
+} held_end;
+
+/// What is edited by hand.
+typedef struct edit_state {
+    bool draws_doors;        ///< new doors instead of walls
+    int chosen_kind;         ///< of edit.c
+    uint32_t chosen;         ///< a wall or a door of the map; UINT32_MAX: none
+    SL_ARRAY(held_end) ends; ///< that are dragged
+} edit_state;
+
+/// What is chosen of it. Zeroed: the first measure, on a grid of the usual step.
+typedef struct heat_choice {
+    size_t measure, before; ///< by heat_measure(); the one before steps were chosen
+    double step;            ///< 0: the usual one
+    bool held;              ///< the colour scale stays as it is
+    double least, most;     ///< its ends then
+    uint32_t stamp;         ///< grows with every change of what is drawn
+} heat_choice;
+
+typedef struct node_layer node_layer;
+typedef struct view_layer view_layer;
+typedef struct heat_layer heat_layer;
+typedef struct watch_layer watch_layer;
+
+/// What is shown and from where. Results are kept from frame to frame.
+struct view_state {
+    sl_context *context;
+    ui_state *ui;
+    document_state *document;
+    /// For pictures that may take longer than a frame has: the window stops them for keys that must
+    /// not wait. NULL: they are drawn to their end.
+    sl_context *drawing;
+    view_mode mode;
+    unsigned held;  ///< keys, of hold_key
+    sl_box plan[2]; ///< where the plans are on the page, and how many
+    int plan_count;
+    drag_state drag;
+    edit_state edit;
+    plan_camera camera;
+    bool fitted; ///< the camera fits the map, and follows the window's size
+    eye_state eye;
+    unsigned show;                ///< layers, of show_bit
+    unsigned filled[LAYER_COUNT]; ///< by layer: the larger, the later it was switched on
+    unsigned last_filled;         ///< the largest of them
+    uint32_t split_depth, tree_depth;
+    size_t method, other; ///< of sl_eye_methods: chosen, and compared with
+    bool in_the_making;   ///< the lesson of the subdivision: cells have no numbers yet
+    bool mesh;            ///< the cells are those of a mesh
+    comparison compare;
+    double motion; ///< seconds for which a moving plan may be drawn by moving the kept picture
+
+    present_state present;
+    seen_state seen;
+
+    sl_scene *scene;                    ///< of the plan; NULL: none yet
+    sl_scene *tree;                     ///< the stab tree of the eye's cell, likewise
+    uint32_t scene_version, scene_show; ///< of what the scene was made
+    uint32_t tree_version, tree_cell;   ///< of what the tree was made
+    bool tree_dark;
+    double pen_size; ///< that lines of the plan are drawn for; it stays while something is dragged
+    double draw_seconds;      ///< that a frame takes to draw, smoothed
+    kept_picture under, over; ///< below and above what changes from frame to frame
+    account_picture account;
+    first_person_counts first_person; ///< of the last frame
+
+    heat_choice heat_choice;
+    node_layer *nodes; ///< these four: NULL: none yet
+    view_layer *views;
+    heat_layer *heat;
+    watch_layer *watch;
+};
+
+/// Shows the message of a failure; nothing for SL_OK.
+static inline void view_check(view_state *view, sl_status status) {
+    ui_report(view->ui, view->context, status);
+}
+
+/// The place of the map under the pointer; false: it is not over the first plan.
+bool view_pointed(const view_state *view, sl_point *at);
+
+/// Marks a place of the map by a disc.
+void view_mark(const view_state *view, const sl_frame *frame, sl_point place);
+
+/// Follows the document and the eye.
+void view_follow(view_state *view);
+
+/// Drops the scenes of the plan and of the stab tree.
+void view_drop_scenes(view_state *view);
+
+/// Whether a point of the map is in solid ground, from where nobody looks.
+bool view_is_solid(const view_state *view, sl_point at);
+
+/// The cell of the eye; SL_NO_CELL outside, in solid ground, and without a map.
+uint32_t view_eye_cell(const view_state *view);
+
+// --- changes by hand
+
+/// Call before one: keeps the map for undo.
+void view_keep(view_state *view);
+/// The same where the change needs a new bake. Call view_after_edit after it: that starts the bake.
+void view_before_edit(view_state *view);
+void view_after_edit(view_state *view);
+/// Call after each step of a drag that changed the map: the space follows, visible sets do not.
+void view_after_step(view_state *view);
+/// Call after a change that needs no new bake.
+void view_after_touch(view_state *view);
+
+// --- the camera, moved by hand: the plan no longer fits the pane by itself
+
+/// Moves the plan by pixels, right and down.
+void view_pan(view_state *view, double dx, double dy);
+
+/// Zooms; the place at `offset` (pixels from the middle of the pane, right and down) stays.
+void view_zoom(view_state *view, double factor, sl_point offset);
+
+// --- the eye
+
 /// The speed of the eye in map units a second: it depends on the size of cells.
 double walk_speed(const document_state *document);
 
 /// Moves the eye by the keys that are held. Walls stop a walking eye by an exact test, and it
 /// slides along them.
-void walk_tick(app_state *app, double seconds);
+void walk_tick(view_state *view, double seconds);
 
 /// Puts the eye at the map's first start, or into the middle of its largest cell that counts.
-void walk_home(app_state *app);
+void walk_home(view_state *view);
 
 #endif

@@ -2,7 +2,6 @@
 /// on a copy of the map once the layer is on.
 #include "plan/view_cells.h"
 
-#include "app/app.h"
 #include "document/task.h"
 #include "sightline/draw.h"
 #include "sightline/support.h"
@@ -47,7 +46,7 @@ static const sl_view_method *method_that_merges(void) {
     return &methods[i];
 }
 
-static sl_status merge(sl_context *context, const sl_view_scene *scene, view_job *job) {
+static sl_status merge_cells(sl_context *context, const sl_view_scene *scene, view_job *job) {
     sl_view_sets sets = {0};
     SL_TRY(sl_view_sets_sample(context, scene, &job->history.tree, &job->segments, 0, &sets));
     const sl_status status =
@@ -57,7 +56,7 @@ static sl_status merge(sl_context *context, const sl_view_scene *scene, view_job
 }
 
 /// Uses other lines: the cells fit the lines that made them too well.
-static sl_status tell(sl_context *context, const sl_view_scene *scene, view_job *job) {
+static sl_status tell_costs(sl_context *context, const sl_view_scene *scene, view_job *job) {
     sl_view_sampling sampling = sl_view_sampling_default();
     sampling.samples *= TELLING;
     sampling.seed = ~sampling.seed;
@@ -71,7 +70,7 @@ static sl_status tell(sl_context *context, const sl_view_scene *scene, view_job 
 }
 
 /// With as many lines and elementary view cells as `sightline viewcells` takes by default.
-static sl_status work(sl_context *context, void *data) {
+static sl_status make_history(sl_context *context, void *data) {
     view_job *job = data;
     const sl_view_sampling sampling = sl_view_sampling_default();
     sl_view_subdivision subdivision = sl_view_subdivision_default();
@@ -86,8 +85,8 @@ static sl_status work(sl_context *context, void *data) {
     SL_TRY(sl_view_sample(context, job->outline, &sampling, &job->segments));
     SL_TRY(method_that_merges()->divide(context, &scene, &job->segments, &subdivision,
                                         &job->history.tree, NULL));
-    SL_TRY(merge(context, &scene, job));
-    return tell(context, &scene, job);
+    SL_TRY(merge_cells(context, &scene, job));
+    return tell_costs(context, &scene, job);
 }
 
 static void free_job(sl_context *context, view_job *job) {
@@ -106,7 +105,8 @@ static sl_status start_job(sl_context *context, const sl_map *map, view_job **ou
     view_job *job = sl_alloc_array(context, 1, sizeof *job);
     if (!job) return SL_NO_MEMORY;
     sl_status status = sl_map_copy(context, map, &job->map);
-    if (status == SL_OK) status = task_start(context, work, job, "sample", NULL, &job->task);
+    if (status == SL_OK)
+        status = task_start(context, make_history, job, "sample", NULL, &job->task);
     if (status == SL_OK)
         *out = job;
     else
@@ -168,7 +168,7 @@ static double cost_of(const view_layer *layer, uint32_t view_cell) {
 }
 
 /// Shows the cut with this number of view cells.
-static sl_status cut(sl_context *context, view_layer *layer, uint32_t cells) {
+static sl_status show_cut(sl_context *context, view_layer *layer, uint32_t cells) {
     const view_history *h = &layer->history;
     sl_segment *borders = NULL;
     size_t count = 0;
@@ -189,7 +189,7 @@ static sl_status cut(sl_context *context, view_layer *layer, uint32_t cells) {
     return SL_OK;
 }
 
-static sl_status take(sl_context *context, view_layer *layer) {
+static sl_status take_history(sl_context *context, view_layer *layer) {
     view_job *job = layer->job;
     layer->job = NULL;
     const sl_status status = task_end(context, job->task);
@@ -213,40 +213,41 @@ static sl_status take(sl_context *context, view_layer *layer) {
     sl_view_curve(h, layer->costs, layer->bytes);
     uint32_t cells;
     SL_TRY(sl_view_cut_by_cost(context, h, TOLERANCE, &cells));
-    return cut(context, layer, cells);
+    return show_cut(context, layer, cells);
 }
 
-static sl_status begin(app_state *app) {
-    view_layer *layer = sl_alloc_array(app->context, 1, sizeof *layer);
+static sl_status begin_layer(view_state *view) {
+    view_layer *layer = sl_alloc_array(view->context, 1, sizeof *layer);
     if (!layer) return SL_NO_MEMORY;
-    layer->version = app->document.version;
+    layer->version = view->document->version;
     layer->mark = SL_NO_VIEW_CELL;
-    app->view.views = layer; // kept where it fails too, so that it is not tried again and again
-    return start_job(app->context, &app->document.map, &layer->job);
+    view->views = layer; // kept where it fails too, so that it is not tried again and again
+    return start_job(view->context, &view->document->map, &layer->job);
 }
 
-static void drop(app_state *app) {
-    view_layer_destroy(app->context, app->view.views);
-    app->view.views = NULL;
+static void drop_layer(view_state *view) {
+    view_layer_destroy(view->context, view->views);
+    view->views = NULL;
 }
 
-void view_layer_update(app_state *app, bool wait) {
-    const bool wanted = app->view.show & SHOW_VIEWS && app->document.baked;
-    if (app->view.views && app->view.views->version != app->document.version) drop(app);
+void view_layer_update(view_state *view, bool wait) {
+    const bool wanted = view->show & SHOW_VIEWS && view->document->baked;
+    if (view->views && view->views->version != view->document->version) drop_layer(view);
     // Switched off, what is there waits for the next time; what is not starts anew then.
-    if (!wanted && app->view.views && !app->view.views->cells) drop(app);
+    if (!wanted && view->views && !view->views->cells) drop_layer(view);
     if (!wanted) return;
     // The document's version has settled once its cells are seen.
-    const bool settled = app->document.has_visibility || !(app->document.job || app->document.live);
-    if (!app->view.views && settled) app_check(app, begin(app));
-    view_layer *layer = app->view.views;
+    const bool settled =
+        view->document->has_visibility || !(view->document->job || view->document->live);
+    if (!view->views && settled) view_check(view, begin_layer(view));
+    view_layer *layer = view->views;
     if (layer && layer->job && (wait || task_done(layer->job->task)))
-        app_check(app, take(app->context, layer));
+        view_check(view, take_history(view->context, layer));
 }
 
-bool view_layer_stop(app_state *app) {
-    if (!app->view.views || !app->view.views->job) return false;
-    end_job(app->context, app->view.views);
+bool view_layer_stop(view_state *view) {
+    if (!view->views || !view->views->job) return false;
+    end_job(view->context, view->views);
     return true;
 }
 
@@ -268,11 +269,11 @@ uint32_t view_layer_marked(const view_layer *layer) {
     return view_layer_shown(layer) ? layer->mark : SL_NO_VIEW_CELL;
 }
 
-void view_layer_go(app_state *app, uint32_t cells) {
-    const uint32_t most = view_layer_most(app->view.views);
+void view_layer_go(view_state *view, uint32_t cells) {
+    const uint32_t most = view_layer_most(view->views);
     if (cells > most) cells = most;
-    if (cells && cells != app->view.views->cells)
-        app_check(app, cut(app->context, app->view.views, cells));
+    if (cells && cells != view->views->cells)
+        view_check(view, show_cut(view->context, view->views, cells));
 }
 
 /// The next view cell by falling cost, equal ones by number; the first one after the last.
@@ -291,7 +292,7 @@ static uint32_t next_by_cost(const view_layer *layer) {
 }
 
 /// Finds the border of the marked view cell, and the middle of its largest elementary cell.
-static sl_status outline(sl_context *context, view_layer *layer, sl_point *middle) {
+static sl_status outline_marked(sl_context *context, view_layer *layer, sl_point *middle) {
     const sl_view_tree *tree = &layer->history.tree;
     uint32_t largest = SL_NO_VIEW_CELL;
     uint32_t *mine = sl_alloc_array(context, tree->cell_count, sizeof *mine);
@@ -329,20 +330,20 @@ static void write_bytes(uint64_t bytes, char text[32]) {
         snprintf(text, 32, "%.1f MiB", (double)bytes / (1024 * 1024));
 }
 
-void view_layer_mark_next(app_state *app) {
-    view_layer *layer = app->view.views;
+void view_layer_mark_next(view_state *view) {
+    view_layer *layer = view->views;
     if (!view_layer_shown(layer)) {
-        ui_say(&app->ui, false, "no view cells are there; F5 makes them");
+        ui_say(view->ui, false, "no view cells are there; F5 makes them");
         return;
     }
     const uint32_t mark = next_by_cost(layer);
     sl_point middle;
-    drop_mark(app->context, layer);
+    drop_mark(view->context, layer);
     layer->mark = mark;
-    const sl_status status = outline(app->context, layer, &middle);
-    app_check(app, status);
+    const sl_status status = outline_marked(view->context, layer, &middle);
+    view_check(view, status);
     if (status != SL_OK) return;
-    if (!app->view.fitted) app->view.camera.middle = middle;
+    if (!view->fitted) view->camera.middle = middle;
     uint32_t rank = 1;
     for (uint32_t i = 0; i < layer->cells; i++) {
         const double cost = cost_of(layer, i);
@@ -353,7 +354,7 @@ void view_layer_mark_next(app_state *app) {
     write_cost(cost_of(layer, mark), cost);
     write_bytes(layer->history.hierarchy.bytes[number], bytes);
     sl_text_percent(layer->history.hierarchy.mass[number], share);
-    ui_say(&app->ui, false,
+    ui_say(view->ui, false,
            "%u of %u view cells by cost: %s walls to render, for %s of the viewpoints; its set "
            "takes %s",
            rank, layer->cells, cost, share, bytes);
@@ -366,15 +367,15 @@ static int step_of(const view_layer *layer, double cost) {
 }
 
 /// Cells of one colour make one path. A thin stroke covers the seams between them.
-static void draw_cells(const app_state *app, cairo_t *cairo, const sl_frame *frame) {
-    const view_layer *layer = app->view.views;
+static void draw_cells(const view_state *view, cairo_t *cairo, const sl_frame *frame) {
+    const view_layer *layer = view->views;
     const sl_view_tree *tree = &layer->history.tree;
     for (int step = 0; step < RAMP_STEPS; step++) {
         for (uint32_t i = 0; i < tree->cell_count; i++)
             if (step_of(layer, cost_of(layer, layer->view_cells[i])) == step)
                 sl_path_polygon(cairo, frame, tree->corners + tree->first[i],
                                 tree->first[i + 1] - tree->first[i]);
-        sl_set_colour(cairo, ramp_colour(&app->ui, step));
+        sl_set_colour(cairo, ramp_colour(view->ui, step));
         cairo_fill_preserve(cairo);
         cairo_set_line_width(cairo, 0.6);
         cairo_stroke(cairo);
@@ -387,13 +388,13 @@ static void add_borders(cairo_t *cairo, const sl_frame *frame, const sl_segment 
     for (size_t i = 0; i < count; i++) sl_path_segment(cairo, frame, borders[i].a, borders[i].b);
 }
 
-void view_layer_draw(const app_state *app, cairo_t *cairo, const sl_frame *frame) {
-    const view_layer *layer = app->view.views;
+void view_layer_draw(const view_state *view, cairo_t *cairo, const sl_frame *frame) {
+    const view_layer *layer = view->views;
     if (!view_layer_shown(layer)) return;
-    const sl_palette *palette = &app->ui.palette;
+    const sl_palette *palette = &view->ui->palette;
     cairo_save(cairo);
-    layers_clip_inside(&app->document, cairo, frame);
-    if (layers_fill(app) == LAYER_VIEWS) draw_cells(app, cairo, frame);
+    layers_clip_inside(view->document, cairo, frame);
+    if (layers_fill(view) == LAYER_VIEWS) draw_cells(view, cairo, frame);
     add_borders(cairo, frame, layer->borders, layer->border_count);
     tone_cased(cairo, palette, palette->wall, 0.9 * frame->unit, 0);
     add_borders(cairo, frame, layer->mark_borders, layer->mark_border_count);
@@ -402,24 +403,24 @@ void view_layer_draw(const app_state *app, cairo_t *cairo, const sl_frame *frame
 }
 
 /// Writes the cost of the view cell under the pointer; a dash where there is none.
-static void write_pointed(const app_state *app, char *text, size_t room) {
-    const sl_view_tree *tree = &app->view.views->history.tree;
-    const sl_box plan = app_layout(app).plan[0];
-    const sl_point at = camera_point(&app->view.camera, plan, app->tool.pointer);
+static void write_pointed(const view_state *view, char *text, size_t room) {
+    const sl_view_tree *tree = &view->views->history.tree;
+    sl_point at;
+    const bool over = view_pointed(view, &at);
     const uint32_t leaf = sl_view_tree_locate(tree, at);
     char cost[32];
     snprintf(text, room, "\xe2\x80\x93");
-    if (!box_has(plan, app->tool.pointer) || leaf >= tree->cell_count) return;
-    write_cost(cost_of(app->view.views, app->view.views->view_cells[leaf]), cost);
+    if (!over || leaf >= tree->cell_count) return;
+    write_cost(cost_of(view->views, view->views->view_cells[leaf]), cost);
     snprintf(text, room, "%s walls", cost);
 }
 
-bool view_layer_key(const app_state *app, legend_key *key) {
-    const view_layer *layer = app->view.views;
-    if (!view_layer_shown(layer) || !layers_shows(app, LAYER_VIEWS)) return false;
+bool view_layer_key(const view_state *view, legend_key *key) {
+    const view_layer *layer = view->views;
+    if (!view_layer_shown(layer) || !layers_shows(view, LAYER_VIEWS)) return false;
     const uint32_t most = view_layer_most(layer);
     char text[96], cost[32];
-    *key = (legend_key){.ramp = layers_fill(app) == LAYER_VIEWS};
+    *key = (legend_key){.ramp = layers_fill(view) == LAYER_VIEWS};
     snprintf(text, sizeof text, "%u of %u", layer->cells, most);
     legend_key_add(key, "view cells", text);
     write_cost(layer->costs[layer->cells - 1], cost);
@@ -429,7 +430,7 @@ bool view_layer_key(const app_state *app, legend_key *key) {
     legend_key_add(key, "times the least", text);
     write_bytes(layer->bytes[layer->cells - 1], cost);
     legend_key_add(key, "memory of visible sets", cost);
-    write_pointed(app, text, sizeof text);
+    write_pointed(view, text, sizeof text);
     legend_key_add(key, "under the pointer", text);
     write_cost(layer->least, key->least);
     write_cost(layer->most, key->most);

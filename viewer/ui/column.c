@@ -1,9 +1,6 @@
 /// Each thing takes its height off the top of the column.
 #include "ui/column.h"
 
-#include "app/actions.h"
-#include "app/sliders.h"
-
 #include <math.h>
 
 column column_begin(ui_state *ui, sl_box box) {
@@ -40,13 +37,12 @@ void column_words(ui_state *ui, column *c, double size, sl_colour colour, const 
         ui_paragraph(ui, c->left, c->y + ui->text, column_width(c), size, colour, text) - ui->text;
 }
 
-void column_check(app_state *app, column *c, const char *name) {
-    size_t count;
-    const int number = action_find(name);
-    const action_row *action = &action_table(&count)[number];
-    const double t = app->ui.text, out = fmin(0.4 * t, c->left - c->box.min.x);
-    c->y = ui_check(&app->ui, (sl_box){{c->left - out, c->y}, {c->right + out, c->y + 1.5 * t}},
-                    action->label, action->key, action->on(app), number);
+void column_check(ui_state *ui, column *c, const char *name) {
+    const int number = ui_action_find(ui, name);
+    const ui_action *action = &ui->actions[number];
+    const double t = ui->text, out = fmin(0.4 * t, c->left - c->box.min.x);
+    c->y = ui_check(ui, (sl_box){{c->left - out, c->y}, {c->right + out, c->y + 1.5 * t}},
+                    action->label, action->key, action->on, number);
 }
 
 double column_button(ui_state *ui, column *c, double x, const char *label, bool on, int action) {
@@ -58,56 +54,33 @@ double column_button(ui_state *ui, column *c, double x, const char *label, bool 
     return ui_button(ui, x, c->y + 0.4 * t, 1.6 * t, label, on, action) + 0.4 * t;
 }
 
-void column_buttons(app_state *app, column *c, const char *const *names) {
-    size_t count;
-    const action_row *actions = action_table(&count);
+void column_buttons(ui_state *ui, column *c, const char *const *names) {
     double x = c->left;
     for (; *names; names++) {
-        const action_row *a = &actions[action_find(*names)];
-        x = column_button(&app->ui, c, x, a->label, a->on && a->on(app), (int)(a - actions));
+        const int number = ui_action_find(ui, *names);
+        x = column_button(ui, c, x, ui->actions[number].label, ui->actions[number].on, number);
     }
-    c->y += 2 * app->ui.text;
+    c->y += 2 * ui->text;
 }
 
-void column_legend(app_state *app, column *c) {
-    legend_row rows[LEGEND_MOST];
-    char text[96];
-    const int count = layers_legend(app, rows);
-    if (!count) return;
-    column_heading(&app->ui, c, "Legend", NULL);
-    for (int i = 0; i < count; i++)
-        c->y = layers_legend_row(&app->ui, c->left, c->right, c->y, &rows[i]);
-    c->y = layers_key_column(app, c->left, c->right, c->y);
-    if (layer_nodes_words(app, text)) column_words(&app->ui, c, 0.9, app->ui.palette.faint, text);
-}
-
-void column_layers(app_state *app, column *c) {
-    column_heading(&app->ui, c, "Layers", "key");
-    for (unsigned i = 0; i < LAYER_COUNT; i++)
-        if (layers_lists(app, i)) column_check(app, c, layer_table()[i].name);
-}
-
-void column_sliders(app_state *app, column *c) {
-    ui_state *ui = &app->ui;
+void column_sliders(ui_state *ui, column *c) {
     const double t = ui->text;
-    size_t count;
-    const slider_row *sliders = slider_table(&count);
-    for (size_t i = 0; i < count; i++) {
-        if (!sliders[i].shown(app)) continue;
-        char text[SLIDER_TEXT];
-        sliders[i].text(app, text);
+    for (int i = 0; i < ui->slider_count; i++) {
+        const ui_slider_row *slider = &ui->sliders[i];
+        if (!slider->shown) continue;
         // A narrow panel has the track below the words.
         const bool beside = !column_is_narrow(ui, c);
-        const double value = fmax(ui_text_width(ui, 1, false, text), beside ? 3.2 * t : 0) + t;
-        ui_text_right(ui, c->right, c->y + 1.16 * t, 1, ui->palette.ink, text);
+        const double value =
+            fmax(ui_text_width(ui, 1, false, slider->text), beside ? 3.2 * t : 0) + t;
+        ui_text_right(ui, c->right, c->y + 1.16 * t, 1, ui->palette.ink, slider->text);
         const double label = beside ? 6.4 * t : column_width(c) - value;
-        const double below = ui_lines(ui, c->left, c->y + 1.16 * t, label, 1, false,
-                                      ui->palette.ink, sliders[i].label);
+        const double below =
+            ui_lines(ui, c->left, c->y + 1.16 * t, label, 1, false, ui->palette.ink, slider->label);
         sl_box track = {{c->left + 6.4 * t, c->y}, {c->right - value, c->y + 1.6 * t}};
         if (!beside)
             track = (sl_box){{c->left + 0.5 * t, below - 1.1 * t},
                              {c->right - 0.5 * t, below + 0.5 * t}};
-        ui_slider(ui, track, sliders[i].share(app), HIT_SLIDER, (int)i);
+        ui_slider(ui, track, slider->share, HIT_SLIDER, i);
         c->y = fmax(track.max.y, below - 1.1 * t) + 0.1 * t;
     }
 }

@@ -2,7 +2,7 @@
 #ifndef VIEWER_COLUMN_H
 #define VIEWER_COLUMN_H
 
-#include "app/app.h"
+#include "ui/ui.h"
 
 /// Where the next thing goes: between `left` and `right`, from `y` down.
 typedef struct column {
@@ -22,23 +22,12 @@ void column_heading(ui_state *ui, column *c, const char *text, const char *right
 /// A paragraph below what is there.
 void column_words(ui_state *ui, column *c, double size, sl_colour colour, const char *text);
 /// The row of a switch, with its key; `name` is an action's.
-void column_check(app_state *app, column *c, const char *name);
+void column_check(ui_state *ui, column *c, const char *name);
 /// A button from x on, or on the next line where it has no room. Returns where the next one begins.
 double column_button(ui_state *ui, column *c, double x, const char *label, bool on, int action);
 /// The buttons of actions, on as many lines as they need; the names end with NULL.
-void column_buttons(app_state *app, column *c, const char *const *names);
-
-/// What the plan shows, and how.
-void column_legend(app_state *app, column *c);
-/// The layers that belong to the present mode.
-void column_layers(app_state *app, column *c);
-void column_sliders(app_state *app, column *c);
-
-// --- of pane_side.c
-
-/// What is under the pointer, or else under the eye.
-void pane_words(app_state *app, column *c);
-/// Why the cell that was asked about is seen or not.
-void pane_why(app_state *app, column *c);
+void column_buttons(ui_state *ui, column *c, const char *const *names);
+/// The sliders that are shown now.
+void column_sliders(ui_state *ui, column *c);
 
 #endif

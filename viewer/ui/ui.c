@@ -28,6 +28,35 @@ void ui_say_working(ui_state *ui, const char *format, ...) {
     ui->message_seconds = 0;
 }
 
+void ui_report(ui_state *ui, const sl_context *context, sl_status status) {
+    if (status != SL_OK && status != SL_CANCELLED)
+        ui_say(ui, true, "%s", sl_context_message(context));
+}
+
+void ui_spaces(char *text) {
+    for (; *text; text++)
+        if (*text == '_') *text = ' ';
+}
+
+int ui_action_find(const ui_state *ui, const char *name) {
+    for (int i = 0; i < ui->action_count; i++)
+        if (strcmp(ui->actions[i].name, name) == 0) return i;
+    return -1;
+}
+
+void ui_open_help(ui_state *ui) {
+    ui->help = true;
+    field_set(&ui->filter, "");
+    ui->field = &ui->filter;
+    ui->scrolls[SCROLL_HELP] = (ui_scroll){0};
+    ui->focus = (ui_focus){0};
+}
+
+void ui_shut_help(ui_state *ui) {
+    ui->help = false;
+    if (ui->field == &ui->filter) ui->field = NULL;
+}
+
 void ui_fill(ui_state *ui, sl_box box, sl_colour colour) {
     sl_set_colour(ui->cairo, colour);
     cairo_rectangle(ui->cairo, box.min.x, box.min.y, box_width(box), box_height(box));
@@ -217,6 +246,11 @@ double ui_check(ui_state *ui, sl_box row, const char *label, const char *key, bo
     if (key) ui_text_right(ui, end, middle + 0.36 * t, 0.9, ui->palette.faint, key);
     ui_hit_focus(ui, HIT_ACTION, action, row);
     return row.max.y;
+}
+
+double ui_slider_at(const ui_state *ui, sl_box box, sl_point at) {
+    const double margin = 0.5 * ui->text, low = box.min.x + margin, high = box.max.x - margin;
+    return high > low ? fmin(fmax((at.x - low) / (high - low), 0), 1) : 0;
 }
 
 void ui_slider(ui_state *ui, sl_box track, double value, hit_kind kind, int number) {

@@ -4,6 +4,7 @@
 
 #include "sightline/draw.h"
 #include "sightline/geometry.h"
+#include "sightline/support.h"
 #include "ui/text_field.h"
 
 #include <cairo.h>
@@ -71,6 +72,26 @@ typedef struct text_spot {
     char text[48];
 } text_spot;
 
+/// An action, as buttons, rows and the help show it.
+typedef struct ui_action {
+    const char *name;  ///< for scripts: "fit"
+    const char *key;   ///< "F", "Ctrl+Z", "Left"; NULL for none
+    const char *label; ///< on its button
+    const char *help;
+    bool on;   ///< it is a switch, and is switched on
+    bool held; ///< it lasts while its key is down
+} ui_action;
+
+/// A slider of the panel.
+typedef struct ui_slider_row {
+    const char *label, *help;
+    bool shown;
+    double share;  ///< where it stands, 0 to 1
+    char text[32]; ///< its value
+} ui_slider_row;
+
+enum { ACTIONS_MOST = 160, SLIDERS_MOST = 12 };
+
 /// The page and its widgets: what a frame is drawn with, panels, messages. A frame starts without
 /// hits.
 typedef struct ui_state {
@@ -87,6 +108,7 @@ typedef struct ui_state {
     double text_scale;               ///< chosen by the user
     double density;                  ///< of the screen: pixels where a common one has 1
     bool dark;
+    bool steady; ///< under a script: no clock shows, nothing is remembered
     bool fullscreen;
     bool presents; ///< for a projector: large text, strong lines, no panel at the right
     bool legend;   ///< over the plan, where there is no panel
@@ -113,6 +135,10 @@ typedef struct ui_state {
     bool hover_is_focus;
     int bar_rows, time_lines, time_rows; ///< of buttons; of the lesson's sentence and its buttons
 
+    ui_action actions[ACTIONS_MOST]; ///< these two: filled in by the app for each frame
+    ui_slider_row sliders[SLIDERS_MOST];
+    int action_count, slider_count;
+
     text_spot *spots; ///< NULL: texts are not kept
     int spot_count;
 } ui_state;
@@ -132,12 +158,31 @@ static inline double ui_text_size(const ui_state *ui) {
     return 13 * ui->density * (ui->presents ? larger : ui->text_scale);
 }
 
+/// Whether there is a panel at the right: in a presentation the plan has the window to itself, but
+/// for what was opened since.
+static inline bool ui_has_panel(const ui_state *ui) {
+    return ui->side_panel && !ui->presents;
+}
+
+/// Opens the help, with nothing searched for, and shuts it.
+void ui_open_help(ui_state *ui);
+void ui_shut_help(ui_state *ui);
+
+/// Writes a name as words: '_' becomes a space.
+void ui_spaces(char *text);
+
+/// The number of an action; -1 for an unknown name.
+int ui_action_find(const ui_state *ui, const char *name);
+
 /// Begins a frame: no hits, no clip.
 void ui_begin(ui_state *ui);
 
 /// Shows a message in the status line.
 void ui_say(ui_state *ui, bool error, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
+
+/// Shows the message of a failure; nothing for SL_OK, and where one was told to stop.
+void ui_report(ui_state *ui, const sl_context *context, sl_status status);
 
 /// The same for work that goes on: its end is to say something else.
 void ui_say_working(ui_state *ui, const char *format, ...) __attribute__((format(printf, 2, 3)));
@@ -158,6 +203,10 @@ static inline double box_width(sl_box box) {
 }
 static inline double box_height(sl_box box) {
     return box.max.y - box.min.y;
+}
+
+static inline sl_point box_middle(sl_box box) {
+    return (sl_point){(box.min.x + box.max.x) / 2, (box.min.y + box.max.y) / 2};
 }
 
 // --- shapes and text
@@ -226,6 +275,8 @@ double ui_button_width(ui_state *ui, const char *label);
 double ui_check(ui_state *ui, sl_box row, const char *label, const char *key, bool on, int action);
 /// A slider with its value from 0 to 1.
 void ui_slider(ui_state *ui, sl_box track, double value, hit_kind kind, int number);
+/// Its value for a place over its box.
+double ui_slider_at(const ui_state *ui, sl_box box, sl_point at);
 /// A text field with its cursor, where typing goes to it; `empty` stands there before (NULL:
 /// nothing). A click places the cursor. The caller finds the clicks.
 void ui_text_field(ui_state *ui, sl_box box, text_field *field, const char *empty, bool typed);

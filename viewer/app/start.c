@@ -1,0 +1,94 @@
+/// How the state of the viewer starts and ends.
+#include "app/start.h"
+
+#include "app/frame.h"
+#include "dialogs/browser.h"
+#include "dialogs/import_dialog.h"
+#include "dialogs/map_file.h"
+#include "dialogs/question.h"
+#include "plan/heat.h"
+#include "plan/view_cells.h"
+
+static const dialog_row dialogs[DIALOG_KINDS] = {
+    [DIALOG_MENU] = {menu_draw, menu_act, NULL, NULL, NULL},
+    [DIALOG_BROWSER] = {browser_draw, browser_act, browser_edited, browser_key, browser_destroy},
+    [DIALOG_IMPORT] = {import_draw, import_act, import_edited, NULL, import_destroy},
+    [DIALOG_QUESTION] = {question_draw, question_act, NULL, question_key, NULL},
+};
+
+void app_init(app_state *app, sl_context *context) {
+    size_t count;
+    sl_eye_methods(&count);
+    *app = (app_state){
+        .context = context,
+        .document = {.mirror_depth = 1},
+        .view = {.context = context,
+                 .ui = &app->ui,
+                 .document = &app->document,
+                 .edit = {.chosen = UINT32_MAX},
+                 .fitted = true,
+                 .eye = {.fov = 90},
+                 .show =
+                     SHOW_CELLS | SHOW_PORTALS | SHOW_CULL | SHOW_REGION | SHOW_STARTS | SHOW_NAMES,
+                 .filled = {[LAYER_CULL] = 1},
+                 .last_filled = 1,
+                 .split_depth = 6,
+                 .tree_depth = 64,
+                 .method = count - 1},
+        .learn = {.context = context,
+                  .ui = &app->ui,
+                  .document = &app->document,
+                  .view = &app->view,
+                  .quiz = {.random = 1}},
+        .desk = {.context = context,
+                 .ui = &app->ui,
+                 .document = &app->document,
+                 .dialog = {.desk = &app->desk, .ui = &app->ui, .rows = dialogs}},
+        .exports = {.context = context,
+                    .ui = &app->ui,
+                    .recorder = &app->recorder,
+                    .user = app,
+                    .draw_window = frame_draw},
+        .ui = {.pointer = {-1, -1},
+               .bar_rows = 1,
+               .time_lines = 1,
+               .scrolling = -1,
+               .legend = true,
+               .side_panel = true,
+               .effects = true,
+               .text_scale = 1,
+               .density = 1,
+               .width = 1200,
+               .height = 760,
+               .window_width = 1200,
+               .window_height = 760},
+    };
+}
+
+void app_destroy(app_state *app) {
+    // All jobs are told before any of them is waited for.
+    document_stop_soon(&app->document);
+    export_stop(&app->exports);
+    view_layer_stop(&app->view);
+    heat_layer_stop(&app->view);
+    view_drop_scenes(&app->view);
+    if (app->view.under.surface) cairo_surface_destroy(app->view.under.surface);
+    if (app->view.over.surface) cairo_surface_destroy(app->view.over.surface);
+    sl_free(app->context, app->view.under.items.items);
+    sl_free(app->context, app->view.over.items.items);
+    if (app->view.account.surface) cairo_surface_destroy(app->view.account.surface);
+    node_layer_destroy(app->context, app->view.nodes);
+    view_layer_destroy(app->context, app->view.views);
+    heat_layer_destroy(app->context, app->view.heat);
+    watch_layer_destroy(app->context, app->view.watch);
+    seen_destroy(app->context, &app->view.seen);
+    present_drop(app->context, &app->view.present);
+    lesson_destroy(app->context, &app->learn.lesson);
+    map_file_destroy(&app->desk);
+    dialog_destroy(&app->desk.dialog);
+    history_clear(app->context, &app->document.history);
+    record_destroy(app->context, &app->recorder);
+    sl_free(app->context, app->view.edit.ends.items);
+    sl_explanation_destroy(app->context, &app->learn.quiz.explanation);
+    document_close(app->context, &app->document);
+}

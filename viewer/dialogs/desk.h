@@ -1,0 +1,46 @@
+/// What dialogs work on: the document, its file, and the questions about both.
+#ifndef VIEWER_DESK_H
+#define VIEWER_DESK_H
+
+#include "dialogs/dialog.h"
+#include "document/save_job.h"
+#include "document/session.h"
+
+typedef enum pending_kind { PENDING_NONE, PENDING_QUIT, PENDING_NEW, PENDING_OPEN } pending_kind;
+
+/// Zeroed, the map is in no file.
+typedef struct file_state {
+    char *path;     ///< what Save writes to; NULL: it asks for a name
+    uint64_t saved; ///< the state of the map that the file has; UINT64_MAX: none
+    bool recovered; ///< the map that is being opened is one that was never saved
+    char *of;       ///< the file that it is of, then; NULL: none
+
+    pending_kind pending;   ///< what waits until changes are saved or given up
+    document_source source; ///< to be opened
+    document_source tried;  ///< that was opened last
+
+    save_job *job; ///< NULL: nothing is being saved
+    bool locked;   ///< nothing may be written: events are random
+
+    session copy;        ///< of unsaved changes
+    uint64_t copy_state; ///< the state of the map that it has
+    double copy_next;    ///< the clock's time of the next copy
+    bool copies;         ///< whether copies are kept at all
+    char *failed;        ///< the path that was not saved to; NULL: none
+    session offer;       ///< an earlier one that is asked about
+} file_state;
+
+struct desk_state {
+    sl_context *context;
+    ui_state *ui;
+    document_state *document;
+    dialog_state dialog;
+    file_state file;
+    sl_import_options options; ///< the command line's, for files opened later too
+    bool quit;
+    bool agreed; ///< to what the app asked for itself: it does that next
+};
+
+enum { TITLE_TEXT = 320 };
+
+#endif

@@ -1,0 +1,86 @@
+/// How a file is opened: what it leaves open is asked, and a failure gets a dialog.
+#include "dialogs/opening.h"
+
+#include "dialogs/browser.h"
+#include "dialogs/import_dialog.h"
+#include "dialogs/map_file.h"
+#include "document/files.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static void keep_useful(sl_import_options *options, unsigned takes) {
+    const sl_import_options usual = sl_import_options_default();
+    if (!(takes & SL_TAKES_SLICE)) options->has_slice = false;
+    if (!(takes & SL_TAKES_LAYERS)) options->layers = NULL;
+    if (!(takes & SL_TAKES_STARTS)) options->start_names = NULL;
+    if (!(takes & SL_TAKES_TOLERANCE)) options->tolerance = usual.tolerance;
+    if (!(takes & SL_TAKES_UNIT)) options->unit = NULL;
+    if (!(takes & SL_TAKES_THRESHOLD)) options->threshold = usual.threshold;
+    if (!(takes & SL_TAKES_DOORS)) options->doors = false;
+    if (!(takes & SL_TAKES_CELLS)) options->cells = false;
+}
+
+/// Whether the file has to be asked about.
+static bool is_open_question(const document_source *source, const sl_map_choice *choice) {
+    return (choice->maps.count > 1 && !source->options.map) ||
+           (choice->layers_unsaid && !source->options.layers);
+}
+
+void files_open(desk_state *desk, const char *path, bool ask) {
+    document_source source = {.path = (char *)(uintptr_t)path, .options = desk->options};
+    sl_map_choice choice = {0};
+    sl_status status = files_look(desk->context, &source, &choice);
+    if (choice.format) keep_useful(&source.options, source.takes);
+    if (status == SL_OK && choice.format && (ask || is_open_question(&source, &choice)))
+        status = import_open(desk, &source, &choice, ask, map_file_start);
+    else if (status == SL_OK)
+        map_file_start(desk, &source);
+    map_file_check(desk, path, status);
+    sl_map_choice_destroy(desk->context, &choice);
+}
+
+void files_drop(desk_state *desk, const char *path) {
+    if (dialog_clear(&desk->dialog))
+        files_open(desk, path, false);
+    else
+        ui_say(desk->ui, true, "answer the question first, then drop the file again");
+}
+
+sl_status files_open_source(desk_state *desk, const document_source *given, bool ask) {
+    document_source source = *given;
+    sl_map_choice choice = {0};
+    SL_TRY(files_look(desk->context, &source, &choice));
+    sl_status status;
+    if (ask && choice.format && is_open_question(&source, &choice))
+        status = import_open(desk, &source, &choice, false, map_file_start);
+    else
+        status = document_open(desk->context, desk->document, &source);
+    sl_map_choice_destroy(desk->context, &choice);
+    return status;
+}
+
+void files_open_again(desk_state *desk, const sl_import_options *options) {
+    document_source source = desk->document->source;
+    if (!source.path) return;
+    source.options = *options;
+    source.again = true;
+    map_file_start(desk, &source);
+}
+
+void files_import_again(desk_state *desk) {
+    document_source source = desk->document->source;
+    sl_map_choice choice = {0};
+    if (!source.path || document_is_baked(source.path)) {
+        ui_say(desk->ui, false, "this map was not read from a file that has options");
+        return;
+    }
+    sl_status status = files_look(desk->context, &source, &choice);
+    if (status == SL_OK) status = import_open(desk, &source, &choice, true, map_file_start);
+    map_file_check(desk, source.path, status);
+    sl_map_choice_destroy(desk->context, &choice);
+}
+
+void files_browse(desk_state *desk) {
+    browser_open(desk, files_open);
+}

@@ -1,0 +1,20 @@
+/// What several panels have.
+#ifndef VIEWER_PANEL_H
+#define VIEWER_PANEL_H
+
+#include "lessons/learn.h"
+#include "plan/layers.h"
+#include "ui/column.h"
+
+/// A sample of a tone in a box, as it looks on a cell.
+void legend_swatch(ui_state *ui, sl_box box, const legend_row *row);
+/// What the plan shows, and how.
+void column_legend(view_state *view, column *c);
+/// The layers that belong to the present mode.
+void column_layers(view_state *view, column *c);
+/// What is under the pointer, or else under the eye.
+void pane_words(view_state *view, column *c);
+/// Why the cell that was asked about is seen or not.
+void pane_why(learn_state *learn, column *c);
+
+#endif
