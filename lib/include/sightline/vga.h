@@ -153,8 +153,8 @@ SL_API sl_status sl_vga_depth(sl_context *context, const sl_outline *outline,
                               const uint32_t *from, size_t from_count, sl_vga_depths *depths);
 
 /// How one steps in a map where some walls stop steps and not sight, or sight and not steps: a low
-/// wall, a window, a curtain (sl_map_steps_differ). The grid, paths and agents go by steps, all else
-/// by sight. NULL stands for a map where both are the same.
+/// wall, a window, a curtain (sl_map_steps_differ). The grid, paths and agents go by steps, all
+/// else by sight. NULL stands for a map where both are the same.
 typedef struct sl_vga_steps sl_vga_steps;
 
 /// Makes it, with a note; *out stays NULL where both are the same. `sight`: what was cut for sight,
