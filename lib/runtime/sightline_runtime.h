@@ -3174,12 +3174,66 @@ static void slrt_see(slrt_search *s, uint32_t cell) {
     s->count++;
 }
 
-// --- Boxes: what of them is seen
+// --- What the parts need that the library has in common with this header: box_envelope.h says what
 
-// A search enters a cell with a sector of directions. A box in that cell is seen there if box,
-// sector and cell have a point in common. All three are convex, and any two of them meet. So, by
-// Helly's theorem, the three meet unless a side of the cell, a border of the sector and a side of
-// the box keep them apart:
+typedef struct slrt_point {
+    double x, y;
+} slrt_point;
+typedef slrt_search slrt_eye;
+typedef slrt_arm slrt_ray;
+typedef struct slrt_polygon slrt_sight;
+typedef sl_runtime_box slrt_box_list;
+
+static slrt_point slrt_eye_at(const slrt_eye *eye) {
+    slrt_point at;
+    at.x = eye->x;
+    at.y = eye->y;
+    return at;
+}
+
+static slrt_arm slrt_ray_to(const slrt_eye *eye, slrt_point at) {
+    return slrt_make_arm(eye->x, eye->y, at.x, at.y);
+}
+
+static int slrt_turn_to(const slrt_eye *eye, const slrt_arm *ray, slrt_point at) {
+    const slrt_arm to = slrt_ray_to(eye, at);
+    return slrt_side(ray, &to);
+}
+
+static int slrt_point_turn(const slrt_eye *eye, slrt_point a, slrt_point b) {
+    const slrt_arm ray = slrt_ray_to(eye, a);
+    return slrt_turn_to(eye, &ray, b);
+}
+
+static int slrt_ray_sign(const slrt_eye *eye, const slrt_arm *ray, int axis) {
+    const double from = axis ? ray->from_y : ray->from_x, to = axis ? ray->to_y : ray->to_x;
+    (void)eye;
+    return (to > from) - (to < from);
+}
+
+static int slrt_way_turn(const slrt_eye *eye, const slrt_arm *ray, slrt_point a, slrt_point b) {
+    const slrt_arm way = slrt_make_arm(a.x, a.y, b.x, b.y);
+    (void)eye;
+    return slrt_side(&way, ray);
+}
+
+static slrt_point slrt_vertex(const slrt_eye *eye, uint32_t number) {
+    slrt_point at;
+    sl_runtime_get_vertex(eye->rt, number, &at.x, &at.y);
+    return at;
+}
+
+static void slrt_read_box(const sl_runtime_box *boxes, uint32_t number, double *box) {
+    box[0] = boxes[number].min_x;
+    box[1] = boxes[number].min_y;
+    box[2] = boxes[number].max_x;
+    box[3] = boxes[number].max_y;
+}
+
+// --- A box, a cell and a sector of directions about an eye: whether they have a point in common
+
+// All three are convex. So, by Helly's theorem, if any two of them meet, then all three meet unless
+// a side of the cell, a border of the sector and a side of the box keep them apart:
 //
 //        side of the cell
 //       -----.------------     The three half-planes have no point in common. The sign of one
@@ -3188,20 +3242,99 @@ static void slrt_see(slrt_search *s, uint32_t cell) {
 //      --------.-.--/-----
 //               ./  border
 //
+// The header and the library have this part in common. Beside slrt_point, slrt_eye and slrt_eye_at
+// (box_envelope.h), slrt_ray, slrt_turn_to and slrt_ray_sign (box_sieve.h), they say what these
+// are:
+//
+//     slrt_vertex        a corner of a cell, by its number in the map
+//     slrt_way_turn      which way a ray goes across the way from a to b: 1 to its left, -1 to its
+//                        right, 0 along it; exact
+//
+// and define after it the function that it declares without a body. A box is min x, min y, max x,
+// max y. A sector goes counter-clockwise from the ray u to the ray v, at most 180 degrees.
+
+/// The sign that box_sieve.h declares.
+static int slrt_side_meets(const slrt_eye *eye, const slrt_ray *ray, slrt_point a, slrt_point b,
+                           int axis, double at);
+
+/// Whether a sector has a direction with a part upward along an axis (`up` 1), or downward (-1).
+static bool slrt_sector_goes(const slrt_eye *eye, const slrt_ray *u, const slrt_ray *v, int axis,
+                             int up) {
+    const int of_u = up * slrt_ray_sign(eye, u, axis), of_v = up * slrt_ray_sign(eye, v, axis);
+    const int turn = axis ? up : -up;
+    if (of_u > 0 || of_v > 0) return true;
+    return !of_u && !of_v && turn * slrt_ray_sign(eye, u, !axis) > 0 &&
+           turn * slrt_ray_sign(eye, v, !axis) < 0;
+}
+
+/// Whether a box meets a sector. If not, a side of one of them lies between them.
+static bool slrt_box_meets_sector(const slrt_eye *eye, const double box[4], const slrt_ray *u,
+                                  const slrt_ray *v) {
+    const slrt_point at = slrt_eye_at(eye);
+    bool right = true, left = true;
+    int k;
+    if ((at.x < box[0] && !slrt_sector_goes(eye, u, v, 0, 1)) ||
+        (at.x > box[2] && !slrt_sector_goes(eye, u, v, 0, -1)) ||
+        (at.y < box[1] && !slrt_sector_goes(eye, u, v, 1, 1)) ||
+        (at.y > box[3] && !slrt_sector_goes(eye, u, v, 1, -1)))
+        return false;
+    for (k = 0; k < 4 && (right || left); k++) {
+        slrt_point corner;
+        corner.x = box[k & 1 ? 2 : 0];
+        corner.y = box[k & 2 ? 3 : 1];
+        right = right && slrt_turn_to(eye, u, corner) < 0;
+        left = left && slrt_turn_to(eye, v, corner) > 0;
+    }
+    return !right && !left;
+}
+
+/// Whether three half-planes have no point in common, any two of which have: left or right of a
+/// ray (`of_ray` 1 or -1), left of a cell's side from a to b, and above or below a value along an
+/// axis (`up` 1 or -1). By Farkas' lemma: the normals leave no direction free, and the corners
+/// between the lines go around the wrong way.
+static bool slrt_keep_apart(const slrt_eye *eye, const slrt_ray *ray, int of_ray, slrt_point a,
+                            slrt_point b, int axis, int up, double value) {
+    const int part = slrt_ray_sign(eye, ray, axis);
+    const double from = axis ? a.y : a.x, to = axis ? b.y : b.x;
+    return part && (to > from) - (to < from) == -of_ray * part &&
+           slrt_way_turn(eye, ray, a, b) == -up * part &&
+           part * slrt_side_meets(eye, ray, a, b, axis, value) > 0;
+}
+
+/// Whether a box has a point in common with a sector and with a cell that it meets, into which the
+/// eye sees in the sector. The cell's corners are numbers from `first` on.
+static bool slrt_box_meets_within(const slrt_eye *eye, const double box[4], uint32_t first,
+                                  uint32_t count, const slrt_ray *u, const slrt_ray *v) {
+    slrt_point a = slrt_vertex(eye, first + count - 1);
+    uint32_t i;
+    if (!slrt_box_meets_sector(eye, box, u, v)) return false;
+    for (i = 0; i < count; i++) {
+        const slrt_point b = slrt_vertex(eye, first + i);
+        int axis;
+        for (axis = 0; axis < 2; axis++)
+            if (slrt_keep_apart(eye, u, 1, a, b, axis, 1, box[axis]) ||
+                slrt_keep_apart(eye, u, 1, a, b, axis, -1, box[2 + axis]) ||
+                slrt_keep_apart(eye, v, -1, a, b, axis, 1, box[axis]) ||
+                slrt_keep_apart(eye, v, -1, a, b, axis, -1, box[2 + axis]))
+                return false;
+        a = b;
+    }
+    return true;
+}
+
+// --- Boxes: what of them is seen
+
+// A search enters a cell with a sector of directions. A box in that cell is seen there if box,
+// sector and cell have a point in common (box_sector.h).
+//
 // A box that blocks takes an open arc from the sectors of what is behind it: the directions that
-// pass its inside. What of a sector is left is tested as above. Cost: for each visit of a cell, the
-// cell's boxes, times the blocking boxes that are seen past walls.
+// pass its inside. What of a sector is left is tested the same way. Cost: for each visit of a cell,
+// the cell's boxes, times the blocking boxes that are seen past walls.
 
 enum { SLRT_BOX_PAST_WALLS = 1, SLRT_BOX_SEEN = 2, SLRT_BOX_HIDDEN = 4 };
 
 static bool slrt_box_holds(const sl_runtime_box *box, double x, double y) {
     return box->min_x <= x && x <= box->max_x && box->min_y <= y && y <= box->max_y;
-}
-
-/// The sign of an arm's x (axis 0) or y (axis 1).
-static int slrt_arm_sign(const slrt_arm *arm, int axis) {
-    const double from = axis ? arm->from_y : arm->from_x, to = axis ? arm->to_y : arm->to_x;
-    return (to > from) - (to < from);
 }
 
 static slrt_arm slrt_arm_to_corner(const slrt_search *s, const sl_runtime_box *box, int right,
@@ -3210,45 +3343,16 @@ static slrt_arm slrt_arm_to_corner(const slrt_search *s, const sl_runtime_box *b
                          top ? box->max_y : box->min_y);
 }
 
-/// Whether a sector of at most 180 degrees has a direction with a part upward along an axis, or
-/// downward.
-static bool slrt_sector_goes(const slrt_arm *u, const slrt_arm *v, int axis, int up) {
-    const int of_u = up * slrt_arm_sign(u, axis), of_v = up * slrt_arm_sign(v, axis);
-    const int turn = axis ? up : -up;
-    if (of_u > 0 || of_v > 0) return true;
-    return !of_u && !of_v && turn * slrt_arm_sign(u, !axis) > 0 &&
-           turn * slrt_arm_sign(v, !axis) < 0;
-}
-
-/// Whether a box meets the sector from u to v. If not, a side of one of them lies between them.
-static bool slrt_box_meets_sector(const slrt_search *s, const sl_runtime_box *box,
-                                  const slrt_arm *u, const slrt_arm *v) {
-    bool right = true, left = true;
-    int k;
-    if ((s->x < box->min_x && !slrt_sector_goes(u, v, 0, 1)) ||
-        (s->x > box->max_x && !slrt_sector_goes(u, v, 0, -1)) ||
-        (s->y < box->min_y && !slrt_sector_goes(u, v, 1, 1)) ||
-        (s->y > box->max_y && !slrt_sector_goes(u, v, 1, -1)))
-        return false;
-    for (k = 0; k < 4 && (right || left); k++) {
-        const slrt_arm corner = slrt_arm_to_corner(s, box, k & 1, k & 2);
-        right = right && slrt_side(u, &corner) < 0;
-        left = left && slrt_side(v, &corner) > 0;
-    }
-    return !right && !left;
-}
-
-/// The sign of u_m (s x (a - e)) - (s x u)(value - e_m), for s = b - a and the coordinate m of the
-/// axis. `e` is the eye, `u` an arm.
-static int slrt_meet_sign_exact(const slrt_search *search, const slrt_arm *u, const double *a,
-                                const double *b, int axis, double value) {
+/// As slrt_side_meets, without rounding.
+static int slrt_side_meets_exact(const slrt_eye *eye, const slrt_arm *u, slrt_point a, slrt_point b,
+                                 int axis, double value) {
     const double place =
-        slrt_scale_of(slrt_larger(slrt_larger(slrt_larger(a[0], a[1]), slrt_larger(b[0], b[1])),
-                                  slrt_larger(value, slrt_larger(search->x, search->y))));
+        slrt_scale_of(slrt_larger(slrt_larger(slrt_larger(a.x, a.y), slrt_larger(b.x, b.y)),
+                                  slrt_larger(value, slrt_larger(eye->x, eye->y))));
     const double length = slrt_scale_of(
         slrt_larger(slrt_larger(u->to_x, u->to_y), slrt_larger(u->from_x, u->from_y)));
-    const double a_x = place * a[0], a_y = place * a[1], b_x = place * b[0], b_y = place * b[1];
-    const double e_x = place * search->x, e_y = place * search->y;
+    const double a_x = place * a.x, a_y = place * a.y, b_x = place * b.x, b_y = place * b.y;
+    const double e_x = place * eye->x, e_y = place * eye->y;
     const double t_x = length * u->to_x, t_y = length * u->to_y;
     const double f_x = length * u->from_x, f_y = length * u->from_y;
     double turn[16], cross[16], parts[128];
@@ -3274,34 +3378,19 @@ static int slrt_meet_sign_exact(const slrt_search *search, const slrt_arm *u, co
     return count ? (parts[count - 1] > 0) - (parts[count - 1] < 0) : 0;
 }
 
-/// The same: the rounded number decides if it is large enough.
-static int slrt_meet_sign(const slrt_search *search, const slrt_arm *u, const double *a,
-                          const double *b, int axis, double value) {
-    const double s_x = b[0] - a[0], s_y = b[1] - a[1];
-    const double one = s_x * (a[1] - search->y), two = s_y * (a[0] - search->x);
+/// The rounded number decides if it is large enough.
+static int slrt_side_meets(const slrt_eye *eye, const slrt_arm *u, slrt_point a, slrt_point b,
+                           int axis, double value) {
+    const double s_x = b.x - a.x, s_y = b.y - a.y;
+    const double one = s_x * (a.y - eye->y), two = s_y * (a.x - eye->x);
     const double three = s_x * u->y, four = s_y * u->x;
-    const double part = axis ? u->y : u->x, away = value - (axis ? search->y : search->x);
+    const double part = axis ? u->y : u->x, away = value - (axis ? eye->y : eye->x);
     const double sum = part * (one - two) - (three - four) * away;
     const double bound = 4e-15 * slrt_larger(part, 0) * slrt_size(one, two) +
                          4e-15 * slrt_size(three, four) * (away < 0 ? -away : away) + 1e-150;
     if (sum > bound) return 1;
     if (-sum > bound) return -1;
-    return slrt_meet_sign_exact(search, u, a, b, axis, value);
-}
-
-/// Whether three half-planes have no point in common, any two of which have: left or right of an
-/// arm (`of_arm` 1 or -1), left of a cell's side from a to b, and above or below a value along an
-/// axis (`up` 1 or -1). By Farkas' lemma: the normals leave no direction free, and the corners
-/// between the lines go around the wrong way.
-static bool slrt_keep_apart(const slrt_search *s, const slrt_arm *u, int of_arm, const double *a,
-                            const double *b, int axis, int up, double value) {
-    const int part = slrt_arm_sign(u, axis);
-    const int along = (b[axis] > a[axis]) - (b[axis] < a[axis]);
-    slrt_arm side;
-    if (!part || along != -of_arm * part) return false;
-    side = slrt_make_arm(a[0], a[1], b[0], b[1]);
-    if (slrt_side(&side, u) != -up * part) return false;
-    return part * slrt_meet_sign(s, u, a, b, axis, value) > 0;
+    return slrt_side_meets_exact(eye, u, a, b, axis, value);
 }
 
 /// Whether a box, which reaches into a cell, has a point in that cell and in a sector in which the
@@ -3309,25 +3398,9 @@ static bool slrt_keep_apart(const slrt_search *s, const slrt_arm *u, int of_arm,
 static bool slrt_sees_box_in(const slrt_search *s, const sl_runtime_box *box, uint32_t cell,
                              const slrt_arm *u, const slrt_arm *v) {
     const sl_runtime_cell c = sl_runtime_get_cell(s->rt, cell);
-    double a[2], b[2];
-    uint32_t i;
-    if (!slrt_box_meets_sector(s, box, u, v)) return false;
-    sl_runtime_get_vertex(s->rt, c.first_vertex + c.vertex_count - 1, &a[0], &a[1]);
-    for (i = 0; i < c.vertex_count; i++) {
-        int axis;
-        sl_runtime_get_vertex(s->rt, c.first_vertex + i, &b[0], &b[1]);
-        for (axis = 0; axis < 2; axis++) {
-            const double low = axis ? box->min_y : box->min_x;
-            const double high = axis ? box->max_y : box->max_x;
-            if (slrt_keep_apart(s, u, 1, a, b, axis, 1, low) ||
-                slrt_keep_apart(s, u, 1, a, b, axis, -1, high) ||
-                slrt_keep_apart(s, v, -1, a, b, axis, 1, low) ||
-                slrt_keep_apart(s, v, -1, a, b, axis, -1, high))
-                return false;
-        }
-        memcpy(a, b, sizeof a);
-    }
-    return true;
+    double at[4];
+    slrt_read_box(box, 0, at);
+    return slrt_box_meets_within(s, at, c.first_vertex, c.vertex_count, u, v);
 }
 
 /// Where the lines of sight are that a box stops.
@@ -3539,7 +3612,9 @@ static bool slrt_meets_behind_wall(const slrt_search *s, const sl_runtime_box *b
                                    const slrt_arm *ray) {
     const sl_runtime_cell c = sl_runtime_get_cell(s->rt, cell);
     slrt_search from = *s;
+    double at[4];
     uint32_t i;
+    slrt_read_box(box, 0, at);
     for (i = c.first_directed; i < c.first_directed + c.directed_count; i++) {
         const slrt_arm p = slrt_border(s, 2 * i + 1), q = slrt_border(s, 2 * i);
         const slrt_arm along = slrt_make_arm(p.to_x, p.to_y, q.to_x, q.to_y);
@@ -3548,7 +3623,7 @@ static bool slrt_meets_behind_wall(const slrt_search *s, const sl_runtime_box *b
         if (!slrt_same_ray(&p, ray)) continue;
         from.x = p_is_near ? p.to_x : q.to_x;
         from.y = p_is_near ? p.to_y : q.to_y;
-        if (slrt_box_meets_sector(&from, box, ray, ray)) return true;
+        if (slrt_box_meets_sector(&from, at, ray, ray)) return true;
     }
     return false;
 }
@@ -5461,49 +5536,6 @@ SL_RUNTIME_API bool sl_runtime_walk(const sl_runtime *runtime, const sl_runtime_
     return *x == x1 && *y == y1;
 }
 
-// --- What the parts need that the library has in common with this header: box_envelope.h says what
-
-typedef struct slrt_point {
-    double x, y;
-} slrt_point;
-typedef slrt_search slrt_eye;
-typedef slrt_arm slrt_ray;
-typedef slrt_polygon slrt_sight;
-typedef sl_runtime_box slrt_box_list;
-
-static slrt_point slrt_eye_at(const slrt_eye *eye) {
-    slrt_point at;
-    at.x = eye->x;
-    at.y = eye->y;
-    return at;
-}
-
-static slrt_arm slrt_ray_to(const slrt_eye *eye, slrt_point at) {
-    return slrt_make_arm(eye->x, eye->y, at.x, at.y);
-}
-
-static int slrt_turn_to(const slrt_eye *eye, const slrt_arm *ray, slrt_point at) {
-    const slrt_arm to = slrt_ray_to(eye, at);
-    return slrt_side(ray, &to);
-}
-
-static int slrt_point_turn(const slrt_eye *eye, slrt_point a, slrt_point b) {
-    const slrt_arm ray = slrt_ray_to(eye, a);
-    return slrt_turn_to(eye, &ray, b);
-}
-
-static int slrt_ray_sign(const slrt_eye *eye, const slrt_arm *ray, int axis) {
-    (void)eye;
-    return slrt_arm_sign(ray, axis);
-}
-
-static void slrt_read_box(const sl_runtime_box *boxes, uint32_t number, double *box) {
-    box[0] = boxes[number].min_x;
-    box[1] = boxes[number].min_y;
-    box[2] = boxes[number].max_x;
-    box[3] = boxes[number].max_y;
-}
-
 // --- Boxes about an eye: in each direction, the nearest side of all
 
 // Of each box the sides that face the eye count. They are merged, box by box, to their lower
@@ -6033,14 +6065,6 @@ SL_RUNTIME_API size_t sl_runtime_boxes_scratch_count(const sl_runtime_boxes *box
            SLRT_ARC_WORDS * slrt_arcs_room(boxes->count);
 }
 
-static int slrt_side_meets(const slrt_eye *eye, const slrt_arm *ray, slrt_point a, slrt_point b,
-                           int axis, double at) {
-    double from[2], to[2];
-    from[0] = a.x, from[1] = a.y;
-    to[0] = b.x, to[1] = b.y;
-    return slrt_meet_sign(eye, ray, from, to, axis, at);
-}
-
 static slrt_point slrt_cross_side(slrt_point a, slrt_point b, const slrt_box_side *side) {
     const int axis = side->axis;
     const double from = axis ? a.y : a.x, to = axis ? b.y : b.x;
@@ -6192,7 +6216,7 @@ static void slrt_hide_from_eye(slrt_polygon *p, slrt_envelope_maker *m, slrt_poi
     uint32_t i;
     for (i = 0; i < 5; i++) {
         const slrt_arm u = slrt_ray_to(&p->s, from), v = slrt_ray_to(&p->s, to);
-        const int x = slrt_arm_sign(&u, 0), y = slrt_arm_sign(&u, 1);
+        const int x = slrt_ray_sign(&p->s, &u, 0), y = slrt_ray_sign(&p->s, &u, 1);
         const int next = x > 0 && y >= 0 ? 1 : x <= 0 && y > 0 ? 2 : x < 0 ? 3 : 0;
         const slrt_point axis = slrt_axis_point(p, next);
         const bool ends = slrt_side(&u, &v) > 0 && slrt_point_turn(&p->s, to, axis) >= 0;

@@ -5,7 +5,7 @@ typedef struct slrt_point {
 } slrt_point;
 typedef slrt_search slrt_eye;
 typedef slrt_arm slrt_ray;
-typedef slrt_polygon slrt_sight;
+typedef struct slrt_polygon slrt_sight;
 typedef sl_runtime_box slrt_box_list;
 
 static slrt_point slrt_eye_at(const slrt_eye *eye) {
@@ -30,8 +30,21 @@ static int slrt_point_turn(const slrt_eye *eye, slrt_point a, slrt_point b) {
 }
 
 static int slrt_ray_sign(const slrt_eye *eye, const slrt_arm *ray, int axis) {
+    const double from = axis ? ray->from_y : ray->from_x, to = axis ? ray->to_y : ray->to_x;
     (void)eye;
-    return slrt_arm_sign(ray, axis);
+    return (to > from) - (to < from);
+}
+
+static int slrt_way_turn(const slrt_eye *eye, const slrt_arm *ray, slrt_point a, slrt_point b) {
+    const slrt_arm way = slrt_make_arm(a.x, a.y, b.x, b.y);
+    (void)eye;
+    return slrt_side(&way, ray);
+}
+
+static slrt_point slrt_vertex(const slrt_eye *eye, uint32_t number) {
+    slrt_point at;
+    sl_runtime_get_vertex(eye->rt, number, &at.x, &at.y);
+    return at;
 }
 
 static void slrt_read_box(const sl_runtime_box *boxes, uint32_t number, double *box) {
