@@ -38,9 +38,7 @@ static void slrt_search_on(slrt_search *s, uint32_t *top, uint32_t directed) {
     sector.right = top[2];
     sector.left = top[3];
     sector.along = s->marks[top[0]] & SLRT_ALONG;
-    if (slrt_is_blocked(s, directed) ||
-        !slrt_narrow(s, directed, (s->marks[top[0]] & SLRT_OWN) != 0, &sector))
-        return;
+    if (slrt_is_blocked(s, directed) || !slrt_narrow(s, directed, &sector)) return;
     if (s->range > 0 && !slrt_in_range(s, directed, sector.right, sector.left)) return;
     if (s->is_hidden && s->is_hidden(s, directed, &sector)) return;
     slrt_enter(s, to, &sector);

@@ -115,10 +115,11 @@ static bool slrt_is_ahead(const slrt_arm *p, const slrt_arm *q, const slrt_arm *
            slrt_within(a, p, q, slrt_side(p, a), slrt_side(a, q));
 }
 
-/// Narrows a sector to its part that leaves a cell through a directed portal; false for none. The
-/// eye is not on the portal. `own`: the cell is one of the eye's. What the sector reaches of any
-/// other one is ahead, within less than 180 degrees. (As sli_arc_narrow of the library.)
-static bool slrt_narrow(const slrt_search *s, uint32_t directed, bool own, slrt_sector *sector) {
+/// Narrows a sector to its part that leaves the last cell on the path through a directed portal,
+/// which the eye is not on; false for none. The first cell is one of the eye's. What a sector
+/// reaches of any other one is ahead, within less than 180 degrees. (sli_arc_narrow in the
+/// library.)
+static bool slrt_narrow(const slrt_search *s, uint32_t directed, slrt_sector *sector) {
     const uint32_t portal_right = 2 * directed + 1, portal_left = 2 * directed;
     const slrt_arm p = slrt_border(s, portal_right), q = slrt_border(s, portal_left);
     slrt_arm right = p, left = q, to_left;
@@ -129,7 +130,7 @@ static bool slrt_narrow(const slrt_search *s, uint32_t directed, bool own, slrt_
     } else {
         right = slrt_border(s, sector->right);
         left = slrt_border(s, sector->left);
-        if (own && !slrt_is_ahead(&p, &q, &right, &left)) return false;
+        if (s->depth == 1 && !slrt_is_ahead(&p, &q, &right, &left)) return false;
         if (slrt_side(&right, &p) > 0) {
             right = p;
             sector->right = portal_right;
