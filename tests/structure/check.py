@@ -34,7 +34,7 @@ FOLDERS = ["base", "geometry", "json", "map", "generate", "space", "effects", "s
 ALONE = {"runtime"}
 # Of that, what the library has in common with it: parts that include nothing.
 SHARED = ("runtime/parts/box_envelope.h", "runtime/parts/box_sector.h",
-          "runtime/parts/box_sieve.h")
+          "runtime/parts/box_sieve.h", "runtime/parts/pairs.h")
 # Public headers that are not named after their folder.
 HEADERS = {"context": "base", "measures": "base", "support": "base", "version": "base",
            "import": "map",
