@@ -180,13 +180,13 @@ static int slrt_way_turn(const sli_eye_query *query, const sli_ray *ray, sl_poin
     return ray->away ? -turn : turn;
 }
 
-#include "runtime/parts/box_sector.h"
-
 static int slrt_side_meets(const sli_eye_query *query, const sli_ray *ray, sl_point a, sl_point b,
                            int axis, double at) {
     const int sign = sli_axial_meet_side(query->pivot.eye, ray->point, a, b, axis, at);
     return ray->away ? -sign : sign;
 }
+
+#include "runtime/parts/box_sector.h"
 
 /// For an eye on a wall that bounds a cell behind it: a line along that wall comes into the cell by
 /// a portal farther on. Whether it meets a box from there on.

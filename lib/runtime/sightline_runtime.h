@@ -3277,6 +3277,56 @@ static void slrt_read_box(const sl_runtime_box *boxes, uint32_t number, double *
     box[3] = boxes[number].max_y;
 }
 
+/// As slrt_side_meets, without rounding.
+static int slrt_side_meets_exact(const slrt_eye *eye, const slrt_arm *u, slrt_point a, slrt_point b,
+                                 int axis, double value) {
+    const double place =
+        slrt_scale_of(slrt_larger(slrt_larger(slrt_larger(a.x, a.y), slrt_larger(b.x, b.y)),
+                                  slrt_larger(value, slrt_larger(eye->x, eye->y))));
+    const double length = slrt_scale_of(
+        slrt_larger(slrt_larger(u->to_x, u->to_y), slrt_larger(u->from_x, u->from_y)));
+    const double a_x = place * a.x, a_y = place * a.y, b_x = place * b.x, b_y = place * b.y;
+    const double e_x = place * eye->x, e_y = place * eye->y;
+    const double t_x = length * u->to_x, t_y = length * u->to_y;
+    const double f_x = length * u->from_x, f_y = length * u->from_y;
+    double turn[16], cross[16], parts[128];
+    int turns = 0, crosses = 0, count = 0;
+    turns = slrt_add_product(turn, turns, b_x, a_y);
+    turns = slrt_add_product(turn, turns, b_x, -e_y);
+    turns = slrt_add_product(turn, turns, a_x, e_y);
+    turns = slrt_add_product(turn, turns, b_y, -a_x);
+    turns = slrt_add_product(turn, turns, b_y, e_x);
+    turns = slrt_add_product(turn, turns, a_y, -e_x);
+    crosses = slrt_add_product(cross, crosses, b_x, t_y);
+    crosses = slrt_add_product(cross, crosses, b_x, -f_y);
+    crosses = slrt_add_product(cross, crosses, a_x, -t_y);
+    crosses = slrt_add_product(cross, crosses, a_x, f_y);
+    crosses = slrt_add_product(cross, crosses, b_y, -t_x);
+    crosses = slrt_add_product(cross, crosses, b_y, f_x);
+    crosses = slrt_add_product(cross, crosses, a_y, t_x);
+    crosses = slrt_add_product(cross, crosses, a_y, -f_x);
+    count = slrt_add_times(parts, count, turn, turns, axis ? t_y : t_x);
+    count = slrt_add_times(parts, count, turn, turns, axis ? -f_y : -f_x);
+    count = slrt_add_times(parts, count, cross, crosses, place * -value);
+    count = slrt_add_times(parts, count, cross, crosses, axis ? e_y : e_x);
+    return count ? (parts[count - 1] > 0) - (parts[count - 1] < 0) : 0;
+}
+
+/// The rounded number decides if it is large enough.
+static int slrt_side_meets(const slrt_eye *eye, const slrt_arm *u, slrt_point a, slrt_point b,
+                           int axis, double value) {
+    const double s_x = b.x - a.x, s_y = b.y - a.y;
+    const double one = s_x * (a.y - eye->y), two = s_y * (a.x - eye->x);
+    const double three = s_x * u->y, four = s_y * u->x;
+    const double part = axis ? u->y : u->x, away = value - (axis ? eye->y : eye->x);
+    const double sum = part * (one - two) - (three - four) * away;
+    const double bound = 4e-15 * slrt_larger(part, 0) * slrt_size(one, two) +
+                         4e-15 * slrt_size(three, four) * (away < 0 ? -away : away) + 1e-150;
+    if (sum > bound) return 1;
+    if (-sum > bound) return -1;
+    return slrt_side_meets_exact(eye, u, a, b, axis, value);
+}
+
 // --- A box, a cell and a sector of directions about an eye: whether they have a point in common
 
 // All three are convex. So, by Helly's theorem, if any two of them meet, then all three meet unless
@@ -3290,19 +3340,15 @@ static void slrt_read_box(const sl_runtime_box *boxes, uint32_t number, double *
 //               ./  border
 //
 // The header and the library have this part in common. Beside slrt_point, slrt_eye and slrt_eye_at
-// (box_envelope.h), slrt_ray, slrt_turn_to and slrt_ray_sign (box_sieve.h), they say what these
-// are:
+// (box_envelope.h), slrt_ray, slrt_turn_to, slrt_ray_sign and slrt_side_meets (box_sieve.h), they
+// say before it what these are:
 //
 //     slrt_vertex        a corner of a cell, by its number in the map
 //     slrt_way_turn      which way a ray goes across the way from a to b: 1 to its left, -1 to its
 //                        right, 0 along it; exact
 //
-// and define after it the function that it declares without a body. A box is min x, min y, max x,
-// max y. A sector goes counter-clockwise from the ray u to the ray v, at most 180 degrees.
-
-/// The sign that box_sieve.h declares.
-static int slrt_side_meets(const slrt_eye *eye, const slrt_ray *ray, slrt_point a, slrt_point b,
-                           int axis, double at);
+// A box is min x, min y, max x, max y. A sector goes counter-clockwise from the ray u to the ray v,
+// at most 180 degrees.
 
 /// Whether a sector has a direction with a part upward along an axis (`up` 1), or downward (-1).
 static bool slrt_sector_goes(const slrt_eye *eye, const slrt_ray *u, const slrt_ray *v, int axis,
@@ -3388,56 +3434,6 @@ static slrt_arm slrt_arm_to_corner(const slrt_search *s, const sl_runtime_box *b
                                    int top) {
     return slrt_make_arm(s->x, s->y, right ? box->max_x : box->min_x,
                          top ? box->max_y : box->min_y);
-}
-
-/// As slrt_side_meets, without rounding.
-static int slrt_side_meets_exact(const slrt_eye *eye, const slrt_arm *u, slrt_point a, slrt_point b,
-                                 int axis, double value) {
-    const double place =
-        slrt_scale_of(slrt_larger(slrt_larger(slrt_larger(a.x, a.y), slrt_larger(b.x, b.y)),
-                                  slrt_larger(value, slrt_larger(eye->x, eye->y))));
-    const double length = slrt_scale_of(
-        slrt_larger(slrt_larger(u->to_x, u->to_y), slrt_larger(u->from_x, u->from_y)));
-    const double a_x = place * a.x, a_y = place * a.y, b_x = place * b.x, b_y = place * b.y;
-    const double e_x = place * eye->x, e_y = place * eye->y;
-    const double t_x = length * u->to_x, t_y = length * u->to_y;
-    const double f_x = length * u->from_x, f_y = length * u->from_y;
-    double turn[16], cross[16], parts[128];
-    int turns = 0, crosses = 0, count = 0;
-    turns = slrt_add_product(turn, turns, b_x, a_y);
-    turns = slrt_add_product(turn, turns, b_x, -e_y);
-    turns = slrt_add_product(turn, turns, a_x, e_y);
-    turns = slrt_add_product(turn, turns, b_y, -a_x);
-    turns = slrt_add_product(turn, turns, b_y, e_x);
-    turns = slrt_add_product(turn, turns, a_y, -e_x);
-    crosses = slrt_add_product(cross, crosses, b_x, t_y);
-    crosses = slrt_add_product(cross, crosses, b_x, -f_y);
-    crosses = slrt_add_product(cross, crosses, a_x, -t_y);
-    crosses = slrt_add_product(cross, crosses, a_x, f_y);
-    crosses = slrt_add_product(cross, crosses, b_y, -t_x);
-    crosses = slrt_add_product(cross, crosses, b_y, f_x);
-    crosses = slrt_add_product(cross, crosses, a_y, t_x);
-    crosses = slrt_add_product(cross, crosses, a_y, -f_x);
-    count = slrt_add_times(parts, count, turn, turns, axis ? t_y : t_x);
-    count = slrt_add_times(parts, count, turn, turns, axis ? -f_y : -f_x);
-    count = slrt_add_times(parts, count, cross, crosses, place * -value);
-    count = slrt_add_times(parts, count, cross, crosses, axis ? e_y : e_x);
-    return count ? (parts[count - 1] > 0) - (parts[count - 1] < 0) : 0;
-}
-
-/// The rounded number decides if it is large enough.
-static int slrt_side_meets(const slrt_eye *eye, const slrt_arm *u, slrt_point a, slrt_point b,
-                           int axis, double value) {
-    const double s_x = b.x - a.x, s_y = b.y - a.y;
-    const double one = s_x * (a.y - eye->y), two = s_y * (a.x - eye->x);
-    const double three = s_x * u->y, four = s_y * u->x;
-    const double part = axis ? u->y : u->x, away = value - (axis ? eye->y : eye->x);
-    const double sum = part * (one - two) - (three - four) * away;
-    const double bound = 4e-15 * slrt_larger(part, 0) * slrt_size(one, two) +
-                         4e-15 * slrt_size(three, four) * (away < 0 ? -away : away) + 1e-150;
-    if (sum > bound) return 1;
-    if (-sum > bound) return -1;
-    return slrt_side_meets_exact(eye, u, a, b, axis, value);
 }
 
 /// Whether a box, which reaches into a cell, has a point in that cell and in a sector in which the
@@ -5904,6 +5900,10 @@ static void slrt_finish_envelope(slrt_envelope_maker *m) {
 //     slrt_ray           from the eye; slrt_ray_to makes it through a point other than the eye
 //     slrt_turn_to       which side of a ray a point is on: 1 left, -1 right, 0 in one line; exact
 //     slrt_ray_sign      whether a ray goes up along an axis (0: x) or down: 1, -1, 0
+//     slrt_side_meets    on which side of an axial line (axis 0: x = at) a ray with the direction u
+//                        meets the line through a and b: the sign of
+//                        u_m (s x (a - eye)) - (s x u)(at - eye_m) for s = b - a and the coordinate
+//                        m of the axis; exact
 //
 // and define after it the functions that it declares without a body.
 
@@ -5921,12 +5921,6 @@ typedef struct slrt_sieve {
     slrt_point a, b;
     slrt_part_end start, stop;
 } slrt_sieve;
-
-/// The sign of u_m (s x (a - eye)) - (s x u)(at - eye_m), for s = b - a, the ray's direction u and
-/// the coordinate m of the axis: on which side of the axial line the ray meets that through a and
-/// b. Exact.
-static int slrt_side_meets(const slrt_eye *eye, const slrt_ray *ray, slrt_point a, slrt_point b,
-                           int axis, double at);
 
 /// Where the line through a and b crosses a side.
 static slrt_point slrt_cross_side(slrt_point a, slrt_point b, const slrt_box_side *side);

@@ -11,19 +11,15 @@
 //               ./  border
 //
 // The header and the library have this part in common. Beside slrt_point, slrt_eye and slrt_eye_at
-// (box_envelope.h), slrt_ray, slrt_turn_to and slrt_ray_sign (box_sieve.h), they say what these
-// are:
+// (box_envelope.h), slrt_ray, slrt_turn_to, slrt_ray_sign and slrt_side_meets (box_sieve.h), they
+// say before it what these are:
 //
 //     slrt_vertex        a corner of a cell, by its number in the map
 //     slrt_way_turn      which way a ray goes across the way from a to b: 1 to its left, -1 to its
 //                        right, 0 along it; exact
 //
-// and define after it the function that it declares without a body. A box is min x, min y, max x,
-// max y. A sector goes counter-clockwise from the ray u to the ray v, at most 180 degrees.
-
-/// The sign that box_sieve.h declares.
-static int slrt_side_meets(const slrt_eye *eye, const slrt_ray *ray, slrt_point a, slrt_point b,
-                           int axis, double at);
+// A box is min x, min y, max x, max y. A sector goes counter-clockwise from the ray u to the ray v,
+// at most 180 degrees.
 
 /// Whether a sector has a direction with a part upward along an axis (`up` 1), or downward (-1).
 static bool slrt_sector_goes(const slrt_eye *eye, const slrt_ray *u, const slrt_ray *v, int axis,
