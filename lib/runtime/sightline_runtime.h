@@ -2259,6 +2259,61 @@ SL_RUNTIME_API void sl_runtime_view_bits(const sl_runtime *runtime, uint32_t vie
     }
 }
 
+// --- Numbers as sums of two doubles: for lines that meet at a sharp angle
+
+// The header and the library have this part in common. Products of halves of numbers are exact, so
+// that it does not matter which steps a compiler fuses.
+
+/// The number high + low.
+typedef struct slrt_pair {
+    double high, low;
+} slrt_pair;
+
+/// The upper half of a number's bits, rounded. The rest has no more bits than that.
+static double slrt_upper(double number) {
+    uint64_t bits;
+    memcpy(&bits, &number, sizeof bits);
+    bits = (bits + (UINT64_C(1) << 26)) & ~((UINT64_C(1) << 27) - 1);
+    memcpy(&number, &bits, sizeof number);
+    return number;
+}
+
+/// The sum of a number and a smaller one: exact.
+static slrt_pair slrt_quick_sum(double a, double b) {
+    slrt_pair sum;
+    sum.high = a + b;
+    sum.low = b - (sum.high - a);
+    return sum;
+}
+
+/// Exact (Shewchuk 1997, theorem 7).
+static slrt_pair slrt_difference(double a, double b) {
+    slrt_pair difference;
+    double part;
+    difference.high = a - b;
+    part = a - difference.high;
+    difference.low = (a - (difference.high + part)) + (part - b);
+    return difference;
+}
+
+/// Good to about 2^-104 of it.
+static slrt_pair slrt_product(slrt_pair a, slrt_pair b) {
+    const double a_upper = slrt_upper(a.high), a_lower = a.high - a_upper;
+    const double b_upper = slrt_upper(b.high), b_lower = b.high - b_upper;
+    const double middle = a_upper * b_lower + a_lower * b_upper; // exact
+    const slrt_pair sum = slrt_quick_sum(a_upper * b_upper, middle);
+    const double rest = a_lower * b_lower + (a.high * b.low + a.low * b.high);
+    return slrt_quick_sum(sum.high, sum.low + rest);
+}
+
+/// The cross product (u_x, u_y) x (v_x, v_y), off by no more than a unit in the last place and
+/// 2^-100 of the two products.
+static double slrt_cross(slrt_pair u_x, slrt_pair u_y, slrt_pair v_x, slrt_pair v_y) {
+    const slrt_pair left = slrt_product(u_x, v_y), right = slrt_product(u_y, v_x);
+    const slrt_pair sum = slrt_difference(left.high, right.high);
+    return sum.high + (sum.low + (left.low - right.low));
+}
+
 // --- Signs of determinants: exact
 
 /// A vector between two points: rounded, and the two points.
@@ -2290,15 +2345,6 @@ static int slrt_add(double *parts, int count, double number) {
     }
     if (number != 0) parts[kept++] = number;
     return kept;
-}
-
-/// The upper half of a number's bits, rounded. The rest has no more bits than that.
-static double slrt_upper(double number) {
-    uint64_t bits;
-    memcpy(&bits, &number, sizeof bits);
-    bits = (bits + (UINT64_C(1) << 26)) & ~((UINT64_C(1) << 27) - 1);
-    memcpy(&number, &bits, sizeof number);
-    return number;
 }
 
 /// Adds a product as two parts (Dekker's). Numbers are cut by their bits, so each step is exact,
@@ -2941,8 +2987,7 @@ SL_RUNTIME_API sl_runtime_view sl_runtime_view_toward(double x, double y, double
 }
 
 /// A border of a sector is a number: 2e for the left end of directed portal e, 2e + 1 for the right
-/// end, plus SLRT_REVERSED for the opposite direction; or one of the cone's arms.
-#define SLRT_REVERSED  0x80000000u
+/// end; or one of the cone's arms.
 #define SLRT_ARM       (UINT32_MAX - 4)
 #define SLRT_ALL_ROUND UINT32_MAX ///< no borders: the eye is in the cell
 enum { SLRT_MOST_ARMS = 4 };
@@ -3007,13 +3052,10 @@ typedef struct slrt_search {
 } slrt_search;
 
 static slrt_arm slrt_border(const slrt_search *s, uint32_t border) {
-    const double x = s->x, y = s->y;
-    const uint32_t number = border & ~SLRT_REVERSED;
     const unsigned char *end;
     if (border >= SLRT_ARM) return s->cone[border - SLRT_ARM];
-    end = s->rt->directed + (size_t)(number / 2) * SLRT_DIRECTED_BYTES + 8 + 16 * (number % 2);
-    return border == number ? slrt_make_arm(x, y, slrt_f64(end), slrt_f64(end + 8))
-                            : slrt_make_arm(slrt_f64(end), slrt_f64(end + 8), x, y);
+    end = s->rt->directed + (size_t)(border / 2) * SLRT_DIRECTED_BYTES + 8 + 16 * (border % 2);
+    return slrt_make_arm(s->x, s->y, slrt_f64(end), slrt_f64(end + 8));
 }
 
 static bool slrt_is_zero(const slrt_arm *arm) {
@@ -3032,71 +3074,49 @@ static bool slrt_same_ray(const slrt_arm *u, const slrt_arm *v) {
     return !slrt_side(u, v) && slrt_same_way(u, v);
 }
 
-static bool slrt_is_ray(const slrt_search *s, const slrt_sector *sector) {
-    const slrt_arm a = slrt_border(s, sector->right), b = slrt_border(s, sector->left);
-    return slrt_same_ray(&a, &b);
+/// Whether a portal with the ends p and q has a direction of the sector from a to b.
+static bool slrt_is_ahead(const slrt_arm *p, const slrt_arm *q, const slrt_arm *a,
+                          const slrt_arm *b) {
+    return slrt_within(p, a, b, slrt_side(a, p), slrt_side(p, b)) ||
+           slrt_within(a, p, q, slrt_side(p, a), slrt_side(a, q));
 }
 
-/// Adds what a portal in line with the eye says about the borders. `p` and `q` lead to its right
-/// and left end. False if only a line is left that crosses portals along it both ways: no line
-/// beside it passes them all.
-static bool slrt_run_along(const slrt_search *s, const slrt_arm *p, const slrt_arm *q,
-                           slrt_sector *sector) {
-    const slrt_arm a = slrt_border(s, sector->right), b = slrt_border(s, sector->left);
-    const slrt_arm to_left = slrt_make_arm(p->to_x, p->to_y, q->to_x, q->to_y);
-    if (!slrt_same_way(p, q)) { // the eye is on it
-        if (!slrt_side(&to_left, &a) && !slrt_same_way(&to_left, &a))
-            sector->along |= SLRT_ALONG_RIGHT;
-        if (!slrt_side(&to_left, &b) && slrt_same_way(&to_left, &b))
-            sector->along |= SLRT_ALONG_LEFT;
-    } else if (slrt_same_ray(&a, &b)) {
-        // Who goes from its right end to its left end crosses it to the right.
-        sector->along |=
-            slrt_same_way(&to_left, &a) ? (unsigned)SLRT_ALONG_LEFT : (unsigned)SLRT_ALONG_RIGHT;
-    }
-    return sector->along != SLRT_ALONG || !slrt_same_ray(&a, &b);
-}
-
-/// Narrows a sector of less than 180 degrees to its part that leaves through a directed portal;
-/// false for none. From an eye on the directed portal, everything in front of it leaves.
+/// Narrows a sector to its part that leaves the last cell on the path through a directed portal,
+/// which the eye is not on; false for none. The first cell is one of the eye's. What a sector
+/// reaches of any other one is ahead, within less than 180 degrees. (sli_arc_narrow in the
+/// library.)
 static bool slrt_narrow(const slrt_search *s, uint32_t directed, slrt_sector *sector) {
-    uint32_t portal_right = 2 * directed + 1, portal_left = 2 * directed;
-    const slrt_arm right = slrt_border(s, portal_right), left = slrt_border(s, portal_left);
-    slrt_arm p = right, q = left, a, b;
-    int a_p, a_q, p_b, q_b;
-    bool right_within;
-    const int facing = slrt_side(&p, &q);
-    if (facing < 0) return false;
+    const uint32_t portal_right = 2 * directed + 1, portal_left = 2 * directed;
+    const slrt_arm p = slrt_border(s, portal_right), q = slrt_border(s, portal_left);
+    slrt_arm right = p, left = q, to_left;
+    int turn;
     if (sector->right == SLRT_ALL_ROUND) {
         sector->right = portal_right;
         sector->left = portal_left;
-        return facing || slrt_run_along(s, &right, &left, sector);
+    } else {
+        right = slrt_border(s, sector->right);
+        left = slrt_border(s, sector->left);
+        if (s->depth == 1 && !slrt_is_ahead(&p, &q, &right, &left)) return false;
+        if (slrt_side(&right, &p) > 0) {
+            right = p;
+            sector->right = portal_right;
+            sector->along &= ~(unsigned)SLRT_ALONG_RIGHT;
+        }
+        if (slrt_side(&left, &q) < 0) {
+            left = q;
+            sector->left = portal_left;
+            sector->along &= ~(unsigned)SLRT_ALONG_LEFT;
+        }
     }
-    if (slrt_is_zero(&p)) {
-        portal_right = portal_left | SLRT_REVERSED;
-        p = slrt_border(s, portal_right);
-    } else if (slrt_is_zero(&q)) {
-        portal_left = portal_right | SLRT_REVERSED;
-        q = slrt_border(s, portal_left);
+    turn = slrt_side(&right, &left);
+    if (turn) return turn > 0;
+    if (!slrt_side(&p, &q)) {
+        // Who goes from its right end to its left end crosses it to the right.
+        to_left = slrt_make_arm(p.to_x, p.to_y, q.to_x, q.to_y);
+        sector->along |= slrt_same_way(&to_left, &right) ? (unsigned)SLRT_ALONG_LEFT
+                                                         : (unsigned)SLRT_ALONG_RIGHT;
     }
-    a = slrt_border(s, sector->right);
-    b = slrt_border(s, sector->left);
-    a_p = slrt_side(&a, &p);
-    a_q = slrt_side(&a, &q);
-    p_b = slrt_side(&p, &b);
-    q_b = slrt_side(&q, &b);
-    right_within = slrt_within(&p, &a, &b, a_p, p_b);
-    if (!right_within && !slrt_within(&a, &p, &q, -a_p, a_q)) return false;
-    if (slrt_within(&q, &a, &b, a_q, q_b)) {
-        if (q_b || !slrt_same_way(&q, &b)) sector->along &= ~(unsigned)SLRT_ALONG_LEFT;
-        sector->left = portal_left;
-    }
-    if (right_within) {
-        if (a_p || !slrt_same_way(&a, &p)) sector->along &= ~(unsigned)SLRT_ALONG_RIGHT;
-        sector->right = portal_right;
-    }
-    return facing ? sector->along != SLRT_ALONG || !slrt_is_ray(s, sector)
-                  : slrt_run_along(s, &right, &left, sector);
+    return sector->along != SLRT_ALONG; // no line beside it passes all portals along it
 }
 
 /// Whether one-way glass keeps sight from the eye. From its a to its b, it is seen through from the
@@ -3201,81 +3221,72 @@ static void slrt_see(slrt_search *s, uint32_t cell) {
     s->count++;
 }
 
-// --- Boxes: what of them is seen
+// --- What the parts need that the library has in common with this header: box_envelope.h says what
 
-// A search enters a cell with a sector of directions. A box in that cell is seen there if box,
-// sector and cell have a point in common. All three are convex, and any two of them meet. So, by
-// Helly's theorem, the three meet unless a side of the cell, a border of the sector and a side of
-// the box keep them apart:
-//
-//        side of the cell
-//       -----.------------     The three half-planes have no point in common. The sign of one
-//             .  empty  /      determinant says so, of the third degree as a box's sides are
-//       box    .      /        axial.
-//      --------.-.--/-----
-//               ./  border
-//
-// A box that blocks takes an open arc from the sectors of what is behind it: the directions that
-// pass its inside. What of a sector is left is tested as above. Cost: for each visit of a cell, the
-// cell's boxes, times the blocking boxes that are seen past walls.
+typedef struct slrt_point {
+    double x, y;
+} slrt_point;
+typedef slrt_search slrt_eye;
+typedef slrt_arm slrt_ray;
+typedef struct slrt_polygon slrt_sight;
+typedef sl_runtime_box slrt_box_list;
 
-enum { SLRT_BOX_PAST_WALLS = 1, SLRT_BOX_SEEN = 2, SLRT_BOX_HIDDEN = 4 };
-
-static bool slrt_box_holds(const sl_runtime_box *box, double x, double y) {
-    return box->min_x <= x && x <= box->max_x && box->min_y <= y && y <= box->max_y;
+static slrt_point slrt_eye_at(const slrt_eye *eye) {
+    slrt_point at;
+    at.x = eye->x;
+    at.y = eye->y;
+    return at;
 }
 
-/// The sign of an arm's x (axis 0) or y (axis 1).
-static int slrt_arm_sign(const slrt_arm *arm, int axis) {
-    const double from = axis ? arm->from_y : arm->from_x, to = axis ? arm->to_y : arm->to_x;
+static slrt_arm slrt_ray_to(const slrt_eye *eye, slrt_point at) {
+    return slrt_make_arm(eye->x, eye->y, at.x, at.y);
+}
+
+static int slrt_turn_to(const slrt_eye *eye, const slrt_arm *ray, slrt_point at) {
+    const slrt_arm to = slrt_ray_to(eye, at);
+    return slrt_side(ray, &to);
+}
+
+static int slrt_point_turn(const slrt_eye *eye, slrt_point a, slrt_point b) {
+    const slrt_arm ray = slrt_ray_to(eye, a);
+    return slrt_turn_to(eye, &ray, b);
+}
+
+static int slrt_ray_sign(const slrt_eye *eye, const slrt_arm *ray, int axis) {
+    const double from = axis ? ray->from_y : ray->from_x, to = axis ? ray->to_y : ray->to_x;
+    (void)eye;
     return (to > from) - (to < from);
 }
 
-static slrt_arm slrt_arm_to_corner(const slrt_search *s, const sl_runtime_box *box, int right,
-                                   int top) {
-    return slrt_make_arm(s->x, s->y, right ? box->max_x : box->min_x,
-                         top ? box->max_y : box->min_y);
+static int slrt_way_turn(const slrt_eye *eye, const slrt_arm *ray, slrt_point a, slrt_point b) {
+    const slrt_arm way = slrt_make_arm(a.x, a.y, b.x, b.y);
+    (void)eye;
+    return slrt_side(&way, ray);
 }
 
-/// Whether a sector of at most 180 degrees has a direction with a part upward along an axis, or
-/// downward.
-static bool slrt_sector_goes(const slrt_arm *u, const slrt_arm *v, int axis, int up) {
-    const int of_u = up * slrt_arm_sign(u, axis), of_v = up * slrt_arm_sign(v, axis);
-    const int turn = axis ? up : -up;
-    if (of_u > 0 || of_v > 0) return true;
-    return !of_u && !of_v && turn * slrt_arm_sign(u, !axis) > 0 &&
-           turn * slrt_arm_sign(v, !axis) < 0;
+static slrt_point slrt_vertex(const slrt_eye *eye, uint32_t number) {
+    slrt_point at;
+    sl_runtime_get_vertex(eye->rt, number, &at.x, &at.y);
+    return at;
 }
 
-/// Whether a box meets the sector from u to v. If not, a side of one of them lies between them.
-static bool slrt_box_meets_sector(const slrt_search *s, const sl_runtime_box *box,
-                                  const slrt_arm *u, const slrt_arm *v) {
-    bool right = true, left = true;
-    int k;
-    if ((s->x < box->min_x && !slrt_sector_goes(u, v, 0, 1)) ||
-        (s->x > box->max_x && !slrt_sector_goes(u, v, 0, -1)) ||
-        (s->y < box->min_y && !slrt_sector_goes(u, v, 1, 1)) ||
-        (s->y > box->max_y && !slrt_sector_goes(u, v, 1, -1)))
-        return false;
-    for (k = 0; k < 4 && (right || left); k++) {
-        const slrt_arm corner = slrt_arm_to_corner(s, box, k & 1, k & 2);
-        right = right && slrt_side(u, &corner) < 0;
-        left = left && slrt_side(v, &corner) > 0;
-    }
-    return !right && !left;
+static void slrt_read_box(const sl_runtime_box *boxes, uint32_t number, double *box) {
+    box[0] = boxes[number].min_x;
+    box[1] = boxes[number].min_y;
+    box[2] = boxes[number].max_x;
+    box[3] = boxes[number].max_y;
 }
 
-/// The sign of u_m (s x (a - e)) - (s x u)(value - e_m), for s = b - a and the coordinate m of the
-/// axis. `e` is the eye, `u` an arm.
-static int slrt_meet_sign_exact(const slrt_search *search, const slrt_arm *u, const double *a,
-                                const double *b, int axis, double value) {
+/// As slrt_side_meets, without rounding.
+static int slrt_side_meets_exact(const slrt_eye *eye, const slrt_arm *u, slrt_point a, slrt_point b,
+                                 int axis, double value) {
     const double place =
-        slrt_scale_of(slrt_larger(slrt_larger(slrt_larger(a[0], a[1]), slrt_larger(b[0], b[1])),
-                                  slrt_larger(value, slrt_larger(search->x, search->y))));
+        slrt_scale_of(slrt_larger(slrt_larger(slrt_larger(a.x, a.y), slrt_larger(b.x, b.y)),
+                                  slrt_larger(value, slrt_larger(eye->x, eye->y))));
     const double length = slrt_scale_of(
         slrt_larger(slrt_larger(u->to_x, u->to_y), slrt_larger(u->from_x, u->from_y)));
-    const double a_x = place * a[0], a_y = place * a[1], b_x = place * b[0], b_y = place * b[1];
-    const double e_x = place * search->x, e_y = place * search->y;
+    const double a_x = place * a.x, a_y = place * a.y, b_x = place * b.x, b_y = place * b.y;
+    const double e_x = place * eye->x, e_y = place * eye->y;
     const double t_x = length * u->to_x, t_y = length * u->to_y;
     const double f_x = length * u->from_x, f_y = length * u->from_y;
     double turn[16], cross[16], parts[128];
@@ -3301,34 +3312,128 @@ static int slrt_meet_sign_exact(const slrt_search *search, const slrt_arm *u, co
     return count ? (parts[count - 1] > 0) - (parts[count - 1] < 0) : 0;
 }
 
-/// The same: the rounded number decides if it is large enough.
-static int slrt_meet_sign(const slrt_search *search, const slrt_arm *u, const double *a,
-                          const double *b, int axis, double value) {
-    const double s_x = b[0] - a[0], s_y = b[1] - a[1];
-    const double one = s_x * (a[1] - search->y), two = s_y * (a[0] - search->x);
+/// The rounded number decides if it is large enough.
+static int slrt_side_meets(const slrt_eye *eye, const slrt_arm *u, slrt_point a, slrt_point b,
+                           int axis, double value) {
+    const double s_x = b.x - a.x, s_y = b.y - a.y;
+    const double one = s_x * (a.y - eye->y), two = s_y * (a.x - eye->x);
     const double three = s_x * u->y, four = s_y * u->x;
-    const double part = axis ? u->y : u->x, away = value - (axis ? search->y : search->x);
+    const double part = axis ? u->y : u->x, away = value - (axis ? eye->y : eye->x);
     const double sum = part * (one - two) - (three - four) * away;
     const double bound = 4e-15 * slrt_larger(part, 0) * slrt_size(one, two) +
                          4e-15 * slrt_size(three, four) * (away < 0 ? -away : away) + 1e-150;
     if (sum > bound) return 1;
     if (-sum > bound) return -1;
-    return slrt_meet_sign_exact(search, u, a, b, axis, value);
+    return slrt_side_meets_exact(eye, u, a, b, axis, value);
 }
 
-/// Whether three half-planes have no point in common, any two of which have: left or right of an
-/// arm (`of_arm` 1 or -1), left of a cell's side from a to b, and above or below a value along an
+// --- A box, a cell and a sector of directions about an eye: whether they have a point in common
+
+// All three are convex. So, by Helly's theorem, if any two of them meet, then all three meet unless
+// a side of the cell, a border of the sector and a side of the box keep them apart:
+//
+//        side of the cell
+//       -----.------------     The three half-planes have no point in common. The sign of one
+//             .  empty  /      determinant says so, of the third degree as a box's sides are
+//       box    .      /        axial.
+//      --------.-.--/-----
+//               ./  border
+//
+// The header and the library have this part in common. Beside slrt_point, slrt_eye and slrt_eye_at
+// (box_envelope.h), slrt_ray, slrt_turn_to, slrt_ray_sign and slrt_side_meets (box_sieve.h), they
+// say before it what these are:
+//
+//     slrt_vertex        a corner of a cell, by its number in the map
+//     slrt_way_turn      which way a ray goes across the way from a to b: 1 to its left, -1 to its
+//                        right, 0 along it; exact
+//
+// A box is min x, min y, max x, max y. A sector goes counter-clockwise from the ray u to the ray v,
+// at most 180 degrees.
+
+/// Whether a sector has a direction with a part upward along an axis (`up` 1), or downward (-1).
+static bool slrt_sector_goes(const slrt_eye *eye, const slrt_ray *u, const slrt_ray *v, int axis,
+                             int up) {
+    const int of_u = up * slrt_ray_sign(eye, u, axis), of_v = up * slrt_ray_sign(eye, v, axis);
+    const int turn = axis ? up : -up;
+    if (of_u > 0 || of_v > 0) return true;
+    return !of_u && !of_v && turn * slrt_ray_sign(eye, u, !axis) > 0 &&
+           turn * slrt_ray_sign(eye, v, !axis) < 0;
+}
+
+/// Whether a box meets a sector. If not, a side of one of them lies between them.
+static bool slrt_box_meets_sector(const slrt_eye *eye, const double box[4], const slrt_ray *u,
+                                  const slrt_ray *v) {
+    const slrt_point at = slrt_eye_at(eye);
+    bool right = true, left = true;
+    int k;
+    if ((at.x < box[0] && !slrt_sector_goes(eye, u, v, 0, 1)) ||
+        (at.x > box[2] && !slrt_sector_goes(eye, u, v, 0, -1)) ||
+        (at.y < box[1] && !slrt_sector_goes(eye, u, v, 1, 1)) ||
+        (at.y > box[3] && !slrt_sector_goes(eye, u, v, 1, -1)))
+        return false;
+    for (k = 0; k < 4 && (right || left); k++) {
+        slrt_point corner;
+        corner.x = box[k & 1 ? 2 : 0];
+        corner.y = box[k & 2 ? 3 : 1];
+        right = right && slrt_turn_to(eye, u, corner) < 0;
+        left = left && slrt_turn_to(eye, v, corner) > 0;
+    }
+    return !right && !left;
+}
+
+/// Whether three half-planes have no point in common, any two of which have: left or right of a
+/// ray (`of_ray` 1 or -1), left of a cell's side from a to b, and above or below a value along an
 /// axis (`up` 1 or -1). By Farkas' lemma: the normals leave no direction free, and the corners
 /// between the lines go around the wrong way.
-static bool slrt_keep_apart(const slrt_search *s, const slrt_arm *u, int of_arm, const double *a,
-                            const double *b, int axis, int up, double value) {
-    const int part = slrt_arm_sign(u, axis);
-    const int along = (b[axis] > a[axis]) - (b[axis] < a[axis]);
-    slrt_arm side;
-    if (!part || along != -of_arm * part) return false;
-    side = slrt_make_arm(a[0], a[1], b[0], b[1]);
-    if (slrt_side(&side, u) != -up * part) return false;
-    return part * slrt_meet_sign(s, u, a, b, axis, value) > 0;
+static bool slrt_keep_apart(const slrt_eye *eye, const slrt_ray *ray, int of_ray, slrt_point a,
+                            slrt_point b, int axis, int up, double value) {
+    const int part = slrt_ray_sign(eye, ray, axis);
+    const double from = axis ? a.y : a.x, to = axis ? b.y : b.x;
+    return part && (to > from) - (to < from) == -of_ray * part &&
+           slrt_way_turn(eye, ray, a, b) == -up * part &&
+           part * slrt_side_meets(eye, ray, a, b, axis, value) > 0;
+}
+
+/// Whether a box has a point in common with a sector and with a cell that it meets, into which the
+/// eye sees in the sector. The cell's corners are numbers from `first` on.
+static bool slrt_box_meets_within(const slrt_eye *eye, const double box[4], uint32_t first,
+                                  uint32_t count, const slrt_ray *u, const slrt_ray *v) {
+    slrt_point a = slrt_vertex(eye, first + count - 1);
+    uint32_t i;
+    if (!slrt_box_meets_sector(eye, box, u, v)) return false;
+    for (i = 0; i < count; i++) {
+        const slrt_point b = slrt_vertex(eye, first + i);
+        int axis;
+        for (axis = 0; axis < 2; axis++)
+            if (slrt_keep_apart(eye, u, 1, a, b, axis, 1, box[axis]) ||
+                slrt_keep_apart(eye, u, 1, a, b, axis, -1, box[2 + axis]) ||
+                slrt_keep_apart(eye, v, -1, a, b, axis, 1, box[axis]) ||
+                slrt_keep_apart(eye, v, -1, a, b, axis, -1, box[2 + axis]))
+                return false;
+        a = b;
+    }
+    return true;
+}
+
+// --- Boxes: what of them is seen
+
+// A search enters a cell with a sector of directions. A box in that cell is seen there if box,
+// sector and cell have a point in common (box_sector.h).
+//
+// A box that blocks takes an open arc from the sectors of what is behind it: the directions that
+// pass its inside. What of a sector is left is tested the same way. Cost: for each visit of a cell,
+// the cell's boxes, times the blocking boxes that are seen past walls.
+
+enum { SLRT_BOX_PAST_WALLS = 1, SLRT_BOX_SEEN = 2, SLRT_BOX_HIDDEN = 4 };
+
+static bool slrt_box_holds(const sl_runtime_box *box, double x, double y) {
+    return box->min_x <= x && x <= box->max_x && box->min_y <= y && y <= box->max_y;
+}
+
+static slrt_arm slrt_arm_to_corner(const slrt_search *s, const sl_runtime_box *box, int right,
+                                   int top) {
+    return slrt_make_arm(s->x, s->y, right ? box->max_x : box->min_x,
+                         top ? box->max_y : box->min_y);
 }
 
 /// Whether a box, which reaches into a cell, has a point in that cell and in a sector in which the
@@ -3336,25 +3441,9 @@ static bool slrt_keep_apart(const slrt_search *s, const slrt_arm *u, int of_arm,
 static bool slrt_sees_box_in(const slrt_search *s, const sl_runtime_box *box, uint32_t cell,
                              const slrt_arm *u, const slrt_arm *v) {
     const sl_runtime_cell c = sl_runtime_get_cell(s->rt, cell);
-    double a[2], b[2];
-    uint32_t i;
-    if (!slrt_box_meets_sector(s, box, u, v)) return false;
-    sl_runtime_get_vertex(s->rt, c.first_vertex + c.vertex_count - 1, &a[0], &a[1]);
-    for (i = 0; i < c.vertex_count; i++) {
-        int axis;
-        sl_runtime_get_vertex(s->rt, c.first_vertex + i, &b[0], &b[1]);
-        for (axis = 0; axis < 2; axis++) {
-            const double low = axis ? box->min_y : box->min_x;
-            const double high = axis ? box->max_y : box->max_x;
-            if (slrt_keep_apart(s, u, 1, a, b, axis, 1, low) ||
-                slrt_keep_apart(s, u, 1, a, b, axis, -1, high) ||
-                slrt_keep_apart(s, v, -1, a, b, axis, 1, low) ||
-                slrt_keep_apart(s, v, -1, a, b, axis, -1, high))
-                return false;
-        }
-        memcpy(a, b, sizeof a);
-    }
-    return true;
+    double at[4];
+    slrt_read_box(box, 0, at);
+    return slrt_box_meets_within(s, at, c.first_vertex, c.vertex_count, u, v);
 }
 
 /// Where the lines of sight are that a box stops.
@@ -3566,7 +3655,9 @@ static bool slrt_meets_behind_wall(const slrt_search *s, const sl_runtime_box *b
                                    const slrt_arm *ray) {
     const sl_runtime_cell c = sl_runtime_get_cell(s->rt, cell);
     slrt_search from = *s;
+    double at[4];
     uint32_t i;
+    slrt_read_box(box, 0, at);
     for (i = c.first_directed; i < c.first_directed + c.directed_count; i++) {
         const slrt_arm p = slrt_border(s, 2 * i + 1), q = slrt_border(s, 2 * i);
         const slrt_arm along = slrt_make_arm(p.to_x, p.to_y, q.to_x, q.to_y);
@@ -3575,7 +3666,7 @@ static bool slrt_meets_behind_wall(const slrt_search *s, const sl_runtime_box *b
         if (!slrt_same_ray(&p, ray)) continue;
         from.x = p_is_near ? p.to_x : q.to_x;
         from.y = p_is_near ? p.to_y : q.to_y;
-        if (slrt_box_meets_sector(&from, box, ray, ray)) return true;
+        if (slrt_box_meets_sector(&from, at, ray, ray)) return true;
     }
     return false;
 }
@@ -4185,19 +4276,11 @@ static uint32_t slrt_cut_cone(slrt_search *s, uint32_t *last) {
 }
 
 /// Looks within the view cone, in pieces. The part of a piece that leaves through a directed portal
-/// is one sector. All round from within a cell, each directed portal is such a piece.
+/// is one sector. All round, each directed portal is such a piece.
 static void slrt_search_cone(slrt_search *s, uint32_t cell) {
-    uint32_t i, last = 0, pieces = slrt_cut_cone(s, &last);
-    if (!pieces && s->own_count == 1) {
-        slrt_search_from(s, cell, SLRT_ALL_ROUND, SLRT_ALL_ROUND);
-        return;
-    }
-    if (!pieces) {
-        s->cone[0] = slrt_direction(1, 0);
-        s->cone[1] = slrt_direction(-1, 1);
-        s->cone[2] = slrt_direction(-1, -1);
-        pieces = 3;
-    }
+    uint32_t i, last = 0;
+    const uint32_t pieces = slrt_cut_cone(s, &last);
+    if (!pieces) slrt_search_from(s, cell, SLRT_ALL_ROUND, SLRT_ALL_ROUND);
     for (i = 0; i < pieces; i++)
         slrt_search_from(s, cell, SLRT_ARM + i, SLRT_ARM + (i + 1 < pieces ? i + 1 : last));
 }
@@ -4821,36 +4904,20 @@ static void slrt_add_point(slrt_polygon *p, const double *point, bool radial) {
     p->count++;
 }
 
-/// The cross product u x v of arms, rounded once or twice: the sum of its exact parts.
-static double slrt_cross(const slrt_arm *u, const slrt_arm *v) {
-    double parts[16], sum = 0;
-    int i, count = 0;
-    count = slrt_add_product(parts, count, u->to_x, v->to_y);
-    count = slrt_add_product(parts, count, u->to_x, -v->from_y);
-    count = slrt_add_product(parts, count, -u->from_x, v->to_y);
-    count = slrt_add_product(parts, count, u->from_x, v->from_y);
-    count = slrt_add_product(parts, count, -u->to_y, v->to_x);
-    count = slrt_add_product(parts, count, u->to_y, v->from_x);
-    count = slrt_add_product(parts, count, u->from_y, v->to_x);
-    count = slrt_add_product(parts, count, -u->from_y, v->from_x);
-    for (i = 0; i < count; i++) sum += parts[i];
-    return sum;
-}
-
 /// Where a ray meets the line of a piece.
 static void slrt_meet_line(const slrt_polygon *p, const slrt_arm *ray, const slrt_piece *piece,
                            double *out) {
     const double *a = piece->a, *b = piece->b;
-    slrt_arm along, to;
     double share;
     if (a[0] == b[0]) {
         share = (a[0] - p->s.x) / ray->x;
     } else if (a[1] == b[1]) {
         share = (a[1] - p->s.y) / ray->y;
     } else {
-        along = slrt_make_arm(a[0], a[1], b[0], b[1]);
-        to = slrt_arm_to(p, a);
-        share = slrt_cross(&to, &along) / slrt_cross(ray, &along);
+        const slrt_pair x = slrt_difference(b[0], a[0]), y = slrt_difference(b[1], a[1]);
+        share = slrt_cross(slrt_difference(a[0], p->s.x), slrt_difference(a[1], p->s.y), x, y) /
+                slrt_cross(slrt_difference(ray->to_x, ray->from_x),
+                           slrt_difference(ray->to_y, ray->from_y), x, y);
     }
     out[0] = slrt_limited(a[0], p->s.x + ray->x * share, b[0]);
     out[1] = slrt_limited(a[1], p->s.y + ray->y * share, b[1]);
@@ -5494,49 +5561,6 @@ SL_RUNTIME_API bool sl_runtime_walk(const sl_runtime *runtime, const sl_runtime_
     return *x == x1 && *y == y1;
 }
 
-// --- What the parts need that the library has in common with this header: box_envelope.h says what
-
-typedef struct slrt_point {
-    double x, y;
-} slrt_point;
-typedef slrt_search slrt_eye;
-typedef slrt_arm slrt_ray;
-typedef slrt_polygon slrt_sight;
-typedef sl_runtime_box slrt_box_list;
-
-static slrt_point slrt_eye_at(const slrt_eye *eye) {
-    slrt_point at;
-    at.x = eye->x;
-    at.y = eye->y;
-    return at;
-}
-
-static slrt_arm slrt_ray_to(const slrt_eye *eye, slrt_point at) {
-    return slrt_make_arm(eye->x, eye->y, at.x, at.y);
-}
-
-static int slrt_turn_to(const slrt_eye *eye, const slrt_arm *ray, slrt_point at) {
-    const slrt_arm to = slrt_ray_to(eye, at);
-    return slrt_side(ray, &to);
-}
-
-static int slrt_point_turn(const slrt_eye *eye, slrt_point a, slrt_point b) {
-    const slrt_arm ray = slrt_ray_to(eye, a);
-    return slrt_turn_to(eye, &ray, b);
-}
-
-static int slrt_ray_sign(const slrt_eye *eye, const slrt_arm *ray, int axis) {
-    (void)eye;
-    return slrt_arm_sign(ray, axis);
-}
-
-static void slrt_read_box(const sl_runtime_box *boxes, uint32_t number, double *box) {
-    box[0] = boxes[number].min_x;
-    box[1] = boxes[number].min_y;
-    box[2] = boxes[number].max_x;
-    box[3] = boxes[number].max_y;
-}
-
 // --- Boxes about an eye: in each direction, the nearest side of all
 
 // Of each box the sides that face the eye count. They are merged, box by box, to their lower
@@ -5876,6 +5900,10 @@ static void slrt_finish_envelope(slrt_envelope_maker *m) {
 //     slrt_ray           from the eye; slrt_ray_to makes it through a point other than the eye
 //     slrt_turn_to       which side of a ray a point is on: 1 left, -1 right, 0 in one line; exact
 //     slrt_ray_sign      whether a ray goes up along an axis (0: x) or down: 1, -1, 0
+//     slrt_side_meets    on which side of an axial line (axis 0: x = at) a ray with the direction u
+//                        meets the line through a and b: the sign of
+//                        u_m (s x (a - eye)) - (s x u)(at - eye_m) for s = b - a and the coordinate
+//                        m of the axis; exact
 //
 // and define after it the functions that it declares without a body.
 
@@ -5893,12 +5921,6 @@ typedef struct slrt_sieve {
     slrt_point a, b;
     slrt_part_end start, stop;
 } slrt_sieve;
-
-/// The sign of u_m (s x (a - eye)) - (s x u)(at - eye_m), for s = b - a, the ray's direction u and
-/// the coordinate m of the axis: on which side of the axial line the ray meets that through a and
-/// b. Exact.
-static int slrt_side_meets(const slrt_eye *eye, const slrt_ray *ray, slrt_point a, slrt_point b,
-                           int axis, double at);
 
 /// Where the line through a and b crosses a side.
 static slrt_point slrt_cross_side(slrt_point a, slrt_point b, const slrt_box_side *side);
@@ -6066,14 +6088,6 @@ SL_RUNTIME_API size_t sl_runtime_boxes_scratch_count(const sl_runtime_boxes *box
            SLRT_ARC_WORDS * slrt_arcs_room(boxes->count);
 }
 
-static int slrt_side_meets(const slrt_eye *eye, const slrt_arm *ray, slrt_point a, slrt_point b,
-                           int axis, double at) {
-    double from[2], to[2];
-    from[0] = a.x, from[1] = a.y;
-    to[0] = b.x, to[1] = b.y;
-    return slrt_meet_sign(eye, ray, from, to, axis, at);
-}
-
 static slrt_point slrt_cross_side(slrt_point a, slrt_point b, const slrt_box_side *side) {
     const int axis = side->axis;
     const double from = axis ? a.y : a.x, to = axis ? b.y : b.x;
@@ -6225,7 +6239,7 @@ static void slrt_hide_from_eye(slrt_polygon *p, slrt_envelope_maker *m, slrt_poi
     uint32_t i;
     for (i = 0; i < 5; i++) {
         const slrt_arm u = slrt_ray_to(&p->s, from), v = slrt_ray_to(&p->s, to);
-        const int x = slrt_arm_sign(&u, 0), y = slrt_arm_sign(&u, 1);
+        const int x = slrt_ray_sign(&p->s, &u, 0), y = slrt_ray_sign(&p->s, &u, 1);
         const int next = x > 0 && y >= 0 ? 1 : x <= 0 && y > 0 ? 2 : x < 0 ? 3 : 0;
         const slrt_point axis = slrt_axis_point(p, next);
         const bool ends = slrt_side(&u, &v) > 0 && slrt_point_turn(&p->s, to, axis) >= 0;

@@ -2,16 +2,8 @@
 ///
 /// No cell is cut. Each cell has a list of the boxes that reach into it. The exact search enters a
 /// cell with an arc of directions, and asks the boxes of that cell. A box is seen there if box, arc
-/// and cell have a point in common. All three are convex, and any two of them meet. So, by Helly's
-/// theorem, all three meet unless a side of the cell, a border of the arc and a side of the box
-/// keep them apart:
-///
-///       side of the cell
-///      -----.------------      The three half-planes have no point in common. The sign of one
-///            .  empty  /       polynomial says so (sli_axial_meet_side).
-///      box    .      /
-///     --------.-.--/-----
-///              ./  border
+/// and cell have a point in common: how, box_sector.h says, a part that the runtime header has in
+/// common with the library.
 ///
 /// Invariant: a list has no box that only touches its cell, so a box at a wall is not seen from the
 /// wall's other side. Cost: a box that moves costs the cells near it; an eye costs the sides of the
@@ -159,108 +151,80 @@ sl_status sli_box_lists_make(sl_context *context, const sl_space *space, const s
 
 // --- a box, an arc and a cell
 
-/// The sign of a ray's x (axis 0) or y (axis 1).
-static int sign_along(const sli_pivot *pivot, const sli_ray *ray, int axis) {
-    const double from = axis ? pivot->eye.y : pivot->eye.x;
+typedef sl_point slrt_point;
+typedef sli_eye_query slrt_eye;
+typedef sli_ray slrt_ray;
+
+static sl_point slrt_eye_at(const sli_eye_query *query) {
+    return query->pivot.eye;
+}
+
+static sl_point slrt_vertex(const sli_eye_query *query, uint32_t number) {
+    return query->space->vertices[number];
+}
+
+static int slrt_turn_to(const sli_eye_query *query, const sli_ray *ray, sl_point at) {
+    const int turn = sli_orient(query->pivot.eye, ray->point, at);
+    return ray->away ? -turn : turn;
+}
+
+static int slrt_ray_sign(const sli_eye_query *query, const sli_ray *ray, int axis) {
+    const double from = axis ? query->pivot.eye.y : query->pivot.eye.x;
     const double to = axis ? ray->point.y : ray->point.x;
     const int sign = (to > from) - (to < from);
     return ray->away ? -sign : sign;
 }
 
-/// Whether some direction of an arc goes upward along an axis (`up` 1), or downward (-1).
-static bool goes(const sli_pivot *pivot, const sli_arc *arc, int axis, int up) {
-    const int right = up * sign_along(pivot, &arc->right, axis);
-    const int left = up * sign_along(pivot, &arc->left, axis);
-    const int turn = axis ? up : -up;
-    if (right > 0 || left > 0) return true;
-    return !right && !left && turn * sign_along(pivot, &arc->right, !axis) > 0 &&
-           turn * sign_along(pivot, &arc->left, !axis) < 0;
+static int slrt_way_turn(const sli_eye_query *query, const sli_ray *ray, sl_point a, sl_point b) {
+    const int turn = sli_turn(a, b, query->pivot.eye, ray->point);
+    return ray->away ? -turn : turn;
 }
 
-/// Whether a box meets an arc. If not, a side of one of them lies between them.
-static bool meets_arc(sli_pivot *pivot, sl_box box, const sli_arc *arc) {
-    const sl_point eye = pivot->eye;
-    bool right = true, left = true;
-    if ((eye.x < box.min.x && !goes(pivot, arc, 0, 1)) ||
-        (eye.x > box.max.x && !goes(pivot, arc, 0, -1)) ||
-        (eye.y < box.min.y && !goes(pivot, arc, 1, 1)) ||
-        (eye.y > box.max.y && !goes(pivot, arc, 1, -1)))
-        return false;
-    for (int k = 0; k < 4 && (right || left); k++) {
-        const sli_ray corner =
-            sli_ray_to((sl_point){k & 1 ? box.max.x : box.min.x, k & 2 ? box.max.y : box.min.y});
-        right = right && sli_ray_turn(pivot, arc->right, corner) < 0;
-        left = left && sli_ray_turn(pivot, arc->left, corner) > 0;
-    }
-    return !right && !left;
+static int slrt_side_meets(const sli_eye_query *query, const sli_ray *ray, sl_point a, sl_point b,
+                           int axis, double at) {
+    const int sign = sli_axial_meet_side(query->pivot.eye, ray->point, a, b, axis, at);
+    return ray->away ? -sign : sign;
 }
 
-/// Whether three half-planes, any two of which meet, have no point in common: left (`of_ray` 1) or
-/// right (-1) of a ray, left of a cell's side from a to b, and above (`up` 1) or below a value. By
-/// Farkas' lemma: the normals leave no direction free, and the lines meet the wrong way round.
-static bool keep_apart(sli_pivot *pivot, const sli_ray *ray, int of_ray, sl_point a, sl_point b,
-                       int axis, int up, double value) {
-    const int part = sign_along(pivot, ray, axis);
-    const double from = axis ? a.y : a.x, to = axis ? b.y : b.x;
-    const int away = ray->away ? -1 : 1;
-    if (!part || (to > from) - (to < from) != -of_ray * part) return false;
-    pivot->tests++;
-    if (away * sli_turn(a, b, pivot->eye, ray->point) != -up * part) return false;
-    return away * part * sli_axial_meet_side(pivot->eye, ray->point, a, b, axis, value) > 0;
-}
-
-static bool meets_within(sli_pivot *pivot, const sl_space *space, uint32_t number, sl_box box,
-                         const sli_arc *arc) {
-    const sl_cell *cell = &space->cells[number];
-    const sl_point *v = space->vertices + cell->first_vertex;
-    if (!meets_arc(pivot, box, arc)) return false;
-    for (uint32_t i = 0; i < cell->vertex_count; i++) {
-        const sl_point a = v[i], b = v[i + 1 == cell->vertex_count ? 0 : i + 1];
-        for (int axis = 0; axis < 2; axis++) {
-            const double low = axis ? box.min.y : box.min.x, high = axis ? box.max.y : box.max.x;
-            if (keep_apart(pivot, &arc->right, 1, a, b, axis, 1, low) ||
-                keep_apart(pivot, &arc->right, 1, a, b, axis, -1, high) ||
-                keep_apart(pivot, &arc->left, -1, a, b, axis, 1, low) ||
-                keep_apart(pivot, &arc->left, -1, a, b, axis, -1, high))
-                return false;
-        }
-    }
-    return true;
-}
+#include "runtime/parts/box_sector.h"
 
 /// For an eye on a wall that bounds a cell behind it: a line along that wall comes into the cell by
 /// a portal farther on. Whether it meets a box from there on.
-static bool meets_behind_wall(const sli_eye_query *query, uint32_t number, sl_box box,
+static bool meets_behind_wall(const sli_eye_query *query, uint32_t number, const double box[4],
                               const sli_ray *ray) {
     const sl_cell *cell = &query->space->cells[number];
     const sl_point eye = query->pivot.eye;
     for (uint32_t i = 0; i < cell->directed_count; i++) {
         const sl_directed_portal *d = &query->space->directed[cell->first_directed + i];
-        sli_pivot pivot = query->pivot;
+        sli_eye_query from = *query;
         if (sli_orient(d->left, d->right, eye) != 0) continue;
         const sli_ray ends[2] = {sli_ray_to(d->left), sli_ray_to(d->right)};
         if (sli_same_point(d->left, eye) || sli_same_point(d->right, eye) ||
-            !sli_ray_same_way(&pivot, ends[0], ends[1]))
+            !sli_ray_same_way(&from.pivot, ends[0], ends[1]))
             continue; // the eye is on the portal, behind the wall
-        if (!sli_ray_same_way(&pivot, ends[0], *ray)) continue;
+        if (!sli_ray_same_way(&from.pivot, ends[0], *ray)) continue;
         // From the nearer end on.
         const bool left_is_near = fabs(d->left.x - eye.x) + fabs(d->left.y - eye.y) <
                                   fabs(d->right.x - eye.x) + fabs(d->right.y - eye.y);
-        pivot.eye = left_is_near ? d->left : d->right;
+        from.pivot.eye = left_is_near ? d->left : d->right;
         const sli_ray on = sli_ray_to(left_is_near ? d->right : d->left);
-        if (meets_arc(&pivot, box, &(sli_arc){on, on, SLI_SPAN_RAY})) return true;
+        if (slrt_box_meets_sector(&from, box, &on, &on)) return true;
     }
     return false;
 }
 
-static bool sees_in_arc(sli_eye_query *query, uint32_t cell, sl_box box, const sli_arc *arc) {
-    if (!meets_within(&query->pivot, query->space, cell, box, arc)) return false;
+static bool sees_in_arc(const sli_eye_query *query, uint32_t cell, sl_box box, const sli_arc *arc) {
+    const double at[4] = {box.min.x, box.min.y, box.max.x, box.max.y};
+    const sl_cell *c = &query->space->cells[cell];
+    if (!slrt_box_meets_within(query, at, c->first_vertex, c->vertex_count, &arc->right,
+                               &arc->left))
+        return false;
     return arc->span != SLI_SPAN_RAY || !sli_cell_holds(query->space, cell, query->pivot.eye) ||
-           sli_eye_is_in(query, cell) || meets_behind_wall(query, cell, box, &arc->right);
+           sli_eye_is_in(query, cell) || meets_behind_wall(query, cell, at, &arc->right);
 }
 
 /// Whether the eye sees a box in a cell of its own. A wide cone is two halves, from each border on.
-static bool sees_in_cone(sli_eye_query *query, uint32_t cell, sl_box box) {
+static bool sees_in_cone(const sli_eye_query *query, uint32_t cell, sl_box box) {
     const sli_cone *cone = &query->cone;
     if (cone->full) return true;
     if (!cone->wide) return sees_in_arc(query, cell, box, &cone->arc);

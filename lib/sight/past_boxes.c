@@ -57,12 +57,12 @@ static int slrt_ray_sign(const sli_eye_place *eye, const sli_eye_ray *ray, int a
     return (part > 0) - (part < 0);
 }
 
-#include "runtime/parts/box_sieve.h"
-
 static int slrt_side_meets(const sli_eye_place *eye, const sli_eye_ray *ray, sl_point a, sl_point b,
                            int axis, double at) {
     return sli_axial_meet_side(eye->point.at, ray->at, a, b, axis, at);
 }
+
+#include "runtime/parts/box_sieve.h"
 
 static sl_point slrt_cross_side(sl_point a, sl_point b, const slrt_box_side *side) {
     return sli_crossing((sl_segment){a, b}, (sl_segment){side->a, side->b});

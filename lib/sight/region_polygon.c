@@ -10,59 +10,21 @@
 #include "sight/region_parts.h"
 
 #include <math.h>
+#include <string.h>
+
+#include "runtime/parts/pairs.h"
 
 // --- intersections
-
-/// A number as the unevaluated sum of two doubles: lines may meet at a sharp angle.
-typedef struct pair {
-    double high, low;
-} pair;
-
-static pair quick_sum(double a, double b) {
-    const double sum = a + b;
-    return (pair){sum, b - (sum - a)};
-}
-
-/// Exact (Shewchuk 1997, theorem 7).
-static pair difference(double a, double b) {
-    pair sum;
-    sum.high = sli_two_sum(a, -b, &sum.low);
-    return sum;
-}
-
-static pair product(pair a, pair b) {
-    const double high = a.high * b.high;
-    const double low = fma(a.high, b.high, -high) + (a.high * b.low + a.low * b.high);
-    return quick_sum(high, low);
-}
-
-static pair minus(pair a, pair b) {
-    const pair sum = difference(a.high, b.high);
-    return quick_sum(sum.high, sum.low + (a.low - b.low));
-}
-
-/// The difference of two points, exact.
-typedef struct span {
-    pair x, y;
-} span;
-
-static span span_of(sl_point from, sl_point to) {
-    return (span){difference(to.x, from.x), difference(to.y, from.y)};
-}
-
-/// a x b, good to about a unit in the last place whatever cancels.
-static double precise_cross(const span *a, const span *b) {
-    const pair cross = minus(product(a->x, b->y), product(a->y, b->x));
-    return cross.high + cross.low;
-}
 
 sl_point sli_region_meet(sl_point eye, const sli_eye_ray *ray, sl_point a, sl_point b) {
     const sl_point d = ray->offset;
     // A line parallel to an axis, at a known distance: nothing cancels.
     if (a.x == b.x) return (sl_point){a.x - eye.x, d.y * ((a.x - eye.x) / d.x)};
     if (a.y == b.y) return (sl_point){d.x * ((a.y - eye.y) / d.y), a.y - eye.y};
-    const span side = span_of(a, b), to_side = span_of(eye, a), along = span_of(eye, ray->at);
-    const double share = precise_cross(&to_side, &side) / precise_cross(&along, &side);
+    const slrt_pair x = slrt_difference(b.x, a.x), y = slrt_difference(b.y, a.y);
+    const double share =
+        slrt_cross(slrt_difference(a.x, eye.x), slrt_difference(a.y, eye.y), x, y) /
+        slrt_cross(slrt_difference(ray->at.x, eye.x), slrt_difference(ray->at.y, eye.y), x, y);
     return (sl_point){d.x * share, d.y * share};
 }
 

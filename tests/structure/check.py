@@ -41,7 +41,8 @@ VIEWER_FOLDERS = {"ui": [], "document": ["ui"], "plan": ["ui", "document"], "les
 # Used by games with no other part of the library beside it.
 ALONE = {"runtime"}
 # Of that, what the library has in common with it: parts that include nothing.
-SHARED = ("runtime/parts/box_envelope.h", "runtime/parts/box_sieve.h")
+SHARED = ("runtime/parts/box_envelope.h", "runtime/parts/box_sector.h",
+          "runtime/parts/box_sieve.h", "runtime/parts/pairs.h")
 # Public headers that are not named after their folder.
 HEADERS = {"context": "base", "measures": "base", "support": "base", "version": "base",
            "import": "map",

@@ -314,10 +314,10 @@ static int axial_sign(sl_point eye, sl_point point, sl_point a, sl_point b, int 
                       double value) {
     const slrt_search s = {.x = eye.x, .y = eye.y};
     const slrt_arm u = slrt_make_arm(eye.x, eye.y, point.x, point.y);
-    const double p[2] = {a.x, a.y}, q[2] = {b.x, b.y};
+    const slrt_point p = {a.x, a.y}, q = {b.x, b.y};
     const int sign = sli_axial_meet_side(eye, point, a, b, axis, value);
-    assert_int_equal(slrt_meet_sign(&s, &u, p, q, axis, value), sign);
-    assert_int_equal(slrt_meet_sign_exact(&s, &u, p, q, axis, value), sign);
+    assert_int_equal(slrt_side_meets(&s, &u, p, q, axis, value), sign);
+    assert_int_equal(slrt_side_meets_exact(&s, &u, p, q, axis, value), sign);
     return sign;
 }
 

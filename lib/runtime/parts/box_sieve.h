@@ -16,6 +16,10 @@
 //     slrt_ray           from the eye; slrt_ray_to makes it through a point other than the eye
 //     slrt_turn_to       which side of a ray a point is on: 1 left, -1 right, 0 in one line; exact
 //     slrt_ray_sign      whether a ray goes up along an axis (0: x) or down: 1, -1, 0
+//     slrt_side_meets    on which side of an axial line (axis 0: x = at) a ray with the direction u
+//                        meets the line through a and b: the sign of
+//                        u_m (s x (a - eye)) - (s x u)(at - eye_m) for s = b - a and the coordinate
+//                        m of the axis; exact
 //
 // and define after it the functions that it declares without a body.
 
@@ -33,12 +37,6 @@ typedef struct slrt_sieve {
     slrt_point a, b;
     slrt_part_end start, stop;
 } slrt_sieve;
-
-/// The sign of u_m (s x (a - eye)) - (s x u)(at - eye_m), for s = b - a, the ray's direction u and
-/// the coordinate m of the axis: on which side of the axial line the ray meets that through a and
-/// b. Exact.
-static int slrt_side_meets(const slrt_eye *eye, const slrt_ray *ray, slrt_point a, slrt_point b,
-                           int axis, double at);
 
 /// Where the line through a and b crosses a side.
 static slrt_point slrt_cross_side(slrt_point a, slrt_point b, const slrt_box_side *side);

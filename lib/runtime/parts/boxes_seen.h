@@ -1,31 +1,16 @@
 /// Boxes: what of them is seen.
 
 // A search enters a cell with a sector of directions. A box in that cell is seen there if box,
-// sector and cell have a point in common. All three are convex, and any two of them meet. So, by
-// Helly's theorem, the three meet unless a side of the cell, a border of the sector and a side of
-// the box keep them apart:
-//
-//        side of the cell
-//       -----.------------     The three half-planes have no point in common. The sign of one
-//             .  empty  /      determinant says so, of the third degree as a box's sides are
-//       box    .      /        axial.
-//      --------.-.--/-----
-//               ./  border
+// sector and cell have a point in common (box_sector.h).
 //
 // A box that blocks takes an open arc from the sectors of what is behind it: the directions that
-// pass its inside. What of a sector is left is tested as above. Cost: for each visit of a cell, the
-// cell's boxes, times the blocking boxes that are seen past walls.
+// pass its inside. What of a sector is left is tested the same way. Cost: for each visit of a cell,
+// the cell's boxes, times the blocking boxes that are seen past walls.
 
 enum { SLRT_BOX_PAST_WALLS = 1, SLRT_BOX_SEEN = 2, SLRT_BOX_HIDDEN = 4 };
 
 static bool slrt_box_holds(const sl_runtime_box *box, double x, double y) {
     return box->min_x <= x && x <= box->max_x && box->min_y <= y && y <= box->max_y;
-}
-
-/// The sign of an arm's x (axis 0) or y (axis 1).
-static int slrt_arm_sign(const slrt_arm *arm, int axis) {
-    const double from = axis ? arm->from_y : arm->from_x, to = axis ? arm->to_y : arm->to_x;
-    return (to > from) - (to < from);
 }
 
 static slrt_arm slrt_arm_to_corner(const slrt_search *s, const sl_runtime_box *box, int right,
@@ -34,124 +19,14 @@ static slrt_arm slrt_arm_to_corner(const slrt_search *s, const sl_runtime_box *b
                          top ? box->max_y : box->min_y);
 }
 
-/// Whether a sector of at most 180 degrees has a direction with a part upward along an axis, or
-/// downward.
-static bool slrt_sector_goes(const slrt_arm *u, const slrt_arm *v, int axis, int up) {
-    const int of_u = up * slrt_arm_sign(u, axis), of_v = up * slrt_arm_sign(v, axis);
-    const int turn = axis ? up : -up;
-    if (of_u > 0 || of_v > 0) return true;
-    return !of_u && !of_v && turn * slrt_arm_sign(u, !axis) > 0 &&
-           turn * slrt_arm_sign(v, !axis) < 0;
-}
-
-/// Whether a box meets the sector from u to v. If not, a side of one of them lies between them.
-static bool slrt_box_meets_sector(const slrt_search *s, const sl_runtime_box *box,
-                                  const slrt_arm *u, const slrt_arm *v) {
-    bool right = true, left = true;
-    int k;
-    if ((s->x < box->min_x && !slrt_sector_goes(u, v, 0, 1)) ||
-        (s->x > box->max_x && !slrt_sector_goes(u, v, 0, -1)) ||
-        (s->y < box->min_y && !slrt_sector_goes(u, v, 1, 1)) ||
-        (s->y > box->max_y && !slrt_sector_goes(u, v, 1, -1)))
-        return false;
-    for (k = 0; k < 4 && (right || left); k++) {
-        const slrt_arm corner = slrt_arm_to_corner(s, box, k & 1, k & 2);
-        right = right && slrt_side(u, &corner) < 0;
-        left = left && slrt_side(v, &corner) > 0;
-    }
-    return !right && !left;
-}
-
-/// The sign of u_m (s x (a - e)) - (s x u)(value - e_m), for s = b - a and the coordinate m of the
-/// axis. `e` is the eye, `u` an arm.
-static int slrt_meet_sign_exact(const slrt_search *search, const slrt_arm *u, const double *a,
-                                const double *b, int axis, double value) {
-    const double place =
-        slrt_scale_of(slrt_larger(slrt_larger(slrt_larger(a[0], a[1]), slrt_larger(b[0], b[1])),
-                                  slrt_larger(value, slrt_larger(search->x, search->y))));
-    const double length = slrt_scale_of(
-        slrt_larger(slrt_larger(u->to_x, u->to_y), slrt_larger(u->from_x, u->from_y)));
-    const double a_x = place * a[0], a_y = place * a[1], b_x = place * b[0], b_y = place * b[1];
-    const double e_x = place * search->x, e_y = place * search->y;
-    const double t_x = length * u->to_x, t_y = length * u->to_y;
-    const double f_x = length * u->from_x, f_y = length * u->from_y;
-    double turn[16], cross[16], parts[128];
-    int turns = 0, crosses = 0, count = 0;
-    turns = slrt_add_product(turn, turns, b_x, a_y);
-    turns = slrt_add_product(turn, turns, b_x, -e_y);
-    turns = slrt_add_product(turn, turns, a_x, e_y);
-    turns = slrt_add_product(turn, turns, b_y, -a_x);
-    turns = slrt_add_product(turn, turns, b_y, e_x);
-    turns = slrt_add_product(turn, turns, a_y, -e_x);
-    crosses = slrt_add_product(cross, crosses, b_x, t_y);
-    crosses = slrt_add_product(cross, crosses, b_x, -f_y);
-    crosses = slrt_add_product(cross, crosses, a_x, -t_y);
-    crosses = slrt_add_product(cross, crosses, a_x, f_y);
-    crosses = slrt_add_product(cross, crosses, b_y, -t_x);
-    crosses = slrt_add_product(cross, crosses, b_y, f_x);
-    crosses = slrt_add_product(cross, crosses, a_y, t_x);
-    crosses = slrt_add_product(cross, crosses, a_y, -f_x);
-    count = slrt_add_times(parts, count, turn, turns, axis ? t_y : t_x);
-    count = slrt_add_times(parts, count, turn, turns, axis ? -f_y : -f_x);
-    count = slrt_add_times(parts, count, cross, crosses, place * -value);
-    count = slrt_add_times(parts, count, cross, crosses, axis ? e_y : e_x);
-    return count ? (parts[count - 1] > 0) - (parts[count - 1] < 0) : 0;
-}
-
-/// The same: the rounded number decides if it is large enough.
-static int slrt_meet_sign(const slrt_search *search, const slrt_arm *u, const double *a,
-                          const double *b, int axis, double value) {
-    const double s_x = b[0] - a[0], s_y = b[1] - a[1];
-    const double one = s_x * (a[1] - search->y), two = s_y * (a[0] - search->x);
-    const double three = s_x * u->y, four = s_y * u->x;
-    const double part = axis ? u->y : u->x, away = value - (axis ? search->y : search->x);
-    const double sum = part * (one - two) - (three - four) * away;
-    const double bound = 4e-15 * slrt_larger(part, 0) * slrt_size(one, two) +
-                         4e-15 * slrt_size(three, four) * (away < 0 ? -away : away) + 1e-150;
-    if (sum > bound) return 1;
-    if (-sum > bound) return -1;
-    return slrt_meet_sign_exact(search, u, a, b, axis, value);
-}
-
-/// Whether three half-planes have no point in common, any two of which have: left or right of an
-/// arm (`of_arm` 1 or -1), left of a cell's side from a to b, and above or below a value along an
-/// axis (`up` 1 or -1). By Farkas' lemma: the normals leave no direction free, and the corners
-/// between the lines go around the wrong way.
-static bool slrt_keep_apart(const slrt_search *s, const slrt_arm *u, int of_arm, const double *a,
-                            const double *b, int axis, int up, double value) {
-    const int part = slrt_arm_sign(u, axis);
-    const int along = (b[axis] > a[axis]) - (b[axis] < a[axis]);
-    slrt_arm side;
-    if (!part || along != -of_arm * part) return false;
-    side = slrt_make_arm(a[0], a[1], b[0], b[1]);
-    if (slrt_side(&side, u) != -up * part) return false;
-    return part * slrt_meet_sign(s, u, a, b, axis, value) > 0;
-}
-
 /// Whether a box, which reaches into a cell, has a point in that cell and in a sector in which the
 /// eye sees into it.
 static bool slrt_sees_box_in(const slrt_search *s, const sl_runtime_box *box, uint32_t cell,
                              const slrt_arm *u, const slrt_arm *v) {
     const sl_runtime_cell c = sl_runtime_get_cell(s->rt, cell);
-    double a[2], b[2];
-    uint32_t i;
-    if (!slrt_box_meets_sector(s, box, u, v)) return false;
-    sl_runtime_get_vertex(s->rt, c.first_vertex + c.vertex_count - 1, &a[0], &a[1]);
-    for (i = 0; i < c.vertex_count; i++) {
-        int axis;
-        sl_runtime_get_vertex(s->rt, c.first_vertex + i, &b[0], &b[1]);
-        for (axis = 0; axis < 2; axis++) {
-            const double low = axis ? box->min_y : box->min_x;
-            const double high = axis ? box->max_y : box->max_x;
-            if (slrt_keep_apart(s, u, 1, a, b, axis, 1, low) ||
-                slrt_keep_apart(s, u, 1, a, b, axis, -1, high) ||
-                slrt_keep_apart(s, v, -1, a, b, axis, 1, low) ||
-                slrt_keep_apart(s, v, -1, a, b, axis, -1, high))
-                return false;
-        }
-        memcpy(a, b, sizeof a);
-    }
-    return true;
+    double at[4];
+    slrt_read_box(box, 0, at);
+    return slrt_box_meets_within(s, at, c.first_vertex, c.vertex_count, u, v);
 }
 
 /// Where the lines of sight are that a box stops.
@@ -363,7 +238,9 @@ static bool slrt_meets_behind_wall(const slrt_search *s, const sl_runtime_box *b
                                    const slrt_arm *ray) {
     const sl_runtime_cell c = sl_runtime_get_cell(s->rt, cell);
     slrt_search from = *s;
+    double at[4];
     uint32_t i;
+    slrt_read_box(box, 0, at);
     for (i = c.first_directed; i < c.first_directed + c.directed_count; i++) {
         const slrt_arm p = slrt_border(s, 2 * i + 1), q = slrt_border(s, 2 * i);
         const slrt_arm along = slrt_make_arm(p.to_x, p.to_y, q.to_x, q.to_y);
@@ -372,7 +249,7 @@ static bool slrt_meets_behind_wall(const slrt_search *s, const sl_runtime_box *b
         if (!slrt_same_ray(&p, ray)) continue;
         from.x = p_is_near ? p.to_x : q.to_x;
         from.y = p_is_near ? p.to_y : q.to_y;
-        if (slrt_box_meets_sector(&from, box, ray, ray)) return true;
+        if (slrt_box_meets_sector(&from, at, ray, ray)) return true;
     }
     return false;
 }

@@ -14,14 +14,6 @@ SL_RUNTIME_API size_t sl_runtime_boxes_scratch_count(const sl_runtime_boxes *box
            SLRT_ARC_WORDS * slrt_arcs_room(boxes->count);
 }
 
-static int slrt_side_meets(const slrt_eye *eye, const slrt_arm *ray, slrt_point a, slrt_point b,
-                           int axis, double at) {
-    double from[2], to[2];
-    from[0] = a.x, from[1] = a.y;
-    to[0] = b.x, to[1] = b.y;
-    return slrt_meet_sign(eye, ray, from, to, axis, at);
-}
-
 static slrt_point slrt_cross_side(slrt_point a, slrt_point b, const slrt_box_side *side) {
     const int axis = side->axis;
     const double from = axis ? a.y : a.x, to = axis ? b.y : b.x;
@@ -173,7 +165,7 @@ static void slrt_hide_from_eye(slrt_polygon *p, slrt_envelope_maker *m, slrt_poi
     uint32_t i;
     for (i = 0; i < 5; i++) {
         const slrt_arm u = slrt_ray_to(&p->s, from), v = slrt_ray_to(&p->s, to);
-        const int x = slrt_arm_sign(&u, 0), y = slrt_arm_sign(&u, 1);
+        const int x = slrt_ray_sign(&p->s, &u, 0), y = slrt_ray_sign(&p->s, &u, 1);
         const int next = x > 0 && y >= 0 ? 1 : x <= 0 && y > 0 ? 2 : x < 0 ? 3 : 0;
         const slrt_point axis = slrt_axis_point(p, next);
         const bool ends = slrt_side(&u, &v) > 0 && slrt_point_turn(&p->s, to, axis) >= 0;

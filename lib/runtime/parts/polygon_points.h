@@ -188,36 +188,20 @@ static void slrt_add_point(slrt_polygon *p, const double *point, bool radial) {
     p->count++;
 }
 
-/// The cross product u x v of arms, rounded once or twice: the sum of its exact parts.
-static double slrt_cross(const slrt_arm *u, const slrt_arm *v) {
-    double parts[16], sum = 0;
-    int i, count = 0;
-    count = slrt_add_product(parts, count, u->to_x, v->to_y);
-    count = slrt_add_product(parts, count, u->to_x, -v->from_y);
-    count = slrt_add_product(parts, count, -u->from_x, v->to_y);
-    count = slrt_add_product(parts, count, u->from_x, v->from_y);
-    count = slrt_add_product(parts, count, -u->to_y, v->to_x);
-    count = slrt_add_product(parts, count, u->to_y, v->from_x);
-    count = slrt_add_product(parts, count, u->from_y, v->to_x);
-    count = slrt_add_product(parts, count, -u->from_y, v->from_x);
-    for (i = 0; i < count; i++) sum += parts[i];
-    return sum;
-}
-
 /// Where a ray meets the line of a piece.
 static void slrt_meet_line(const slrt_polygon *p, const slrt_arm *ray, const slrt_piece *piece,
                            double *out) {
     const double *a = piece->a, *b = piece->b;
-    slrt_arm along, to;
     double share;
     if (a[0] == b[0]) {
         share = (a[0] - p->s.x) / ray->x;
     } else if (a[1] == b[1]) {
         share = (a[1] - p->s.y) / ray->y;
     } else {
-        along = slrt_make_arm(a[0], a[1], b[0], b[1]);
-        to = slrt_arm_to(p, a);
-        share = slrt_cross(&to, &along) / slrt_cross(ray, &along);
+        const slrt_pair x = slrt_difference(b[0], a[0]), y = slrt_difference(b[1], a[1]);
+        share = slrt_cross(slrt_difference(a[0], p->s.x), slrt_difference(a[1], p->s.y), x, y) /
+                slrt_cross(slrt_difference(ray->to_x, ray->from_x),
+                           slrt_difference(ray->to_y, ray->from_y), x, y);
     }
     out[0] = slrt_limited(a[0], p->s.x + ray->x * share, b[0]);
     out[1] = slrt_limited(a[1], p->s.y + ray->y * share, b[1]);

@@ -117,19 +117,11 @@ static uint32_t slrt_cut_cone(slrt_search *s, uint32_t *last) {
 }
 
 /// Looks within the view cone, in pieces. The part of a piece that leaves through a directed portal
-/// is one sector. All round from within a cell, each directed portal is such a piece.
+/// is one sector. All round, each directed portal is such a piece.
 static void slrt_search_cone(slrt_search *s, uint32_t cell) {
-    uint32_t i, last = 0, pieces = slrt_cut_cone(s, &last);
-    if (!pieces && s->own_count == 1) {
-        slrt_search_from(s, cell, SLRT_ALL_ROUND, SLRT_ALL_ROUND);
-        return;
-    }
-    if (!pieces) {
-        s->cone[0] = slrt_direction(1, 0);
-        s->cone[1] = slrt_direction(-1, 1);
-        s->cone[2] = slrt_direction(-1, -1);
-        pieces = 3;
-    }
+    uint32_t i, last = 0;
+    const uint32_t pieces = slrt_cut_cone(s, &last);
+    if (!pieces) slrt_search_from(s, cell, SLRT_ALL_ROUND, SLRT_ALL_ROUND);
     for (i = 0; i < pieces; i++)
         slrt_search_from(s, cell, SLRT_ARM + i, SLRT_ARM + (i + 1 < pieces ? i + 1 : last));
 }

@@ -21,8 +21,7 @@ SL_RUNTIME_API sl_runtime_view sl_runtime_view_toward(double x, double y, double
 }
 
 /// A border of a sector is a number: 2e for the left end of directed portal e, 2e + 1 for the right
-/// end, plus SLRT_REVERSED for the opposite direction; or one of the cone's arms.
-#define SLRT_REVERSED  0x80000000u
+/// end; or one of the cone's arms.
 #define SLRT_ARM       (UINT32_MAX - 4)
 #define SLRT_ALL_ROUND UINT32_MAX ///< no borders: the eye is in the cell
 enum { SLRT_MOST_ARMS = 4 };
@@ -87,13 +86,10 @@ typedef struct slrt_search {
 } slrt_search;
 
 static slrt_arm slrt_border(const slrt_search *s, uint32_t border) {
-    const double x = s->x, y = s->y;
-    const uint32_t number = border & ~SLRT_REVERSED;
     const unsigned char *end;
     if (border >= SLRT_ARM) return s->cone[border - SLRT_ARM];
-    end = s->rt->directed + (size_t)(number / 2) * SLRT_DIRECTED_BYTES + 8 + 16 * (number % 2);
-    return border == number ? slrt_make_arm(x, y, slrt_f64(end), slrt_f64(end + 8))
-                            : slrt_make_arm(slrt_f64(end), slrt_f64(end + 8), x, y);
+    end = s->rt->directed + (size_t)(border / 2) * SLRT_DIRECTED_BYTES + 8 + 16 * (border % 2);
+    return slrt_make_arm(s->x, s->y, slrt_f64(end), slrt_f64(end + 8));
 }
 
 static bool slrt_is_zero(const slrt_arm *arm) {
@@ -112,71 +108,49 @@ static bool slrt_same_ray(const slrt_arm *u, const slrt_arm *v) {
     return !slrt_side(u, v) && slrt_same_way(u, v);
 }
 
-static bool slrt_is_ray(const slrt_search *s, const slrt_sector *sector) {
-    const slrt_arm a = slrt_border(s, sector->right), b = slrt_border(s, sector->left);
-    return slrt_same_ray(&a, &b);
+/// Whether a portal with the ends p and q has a direction of the sector from a to b.
+static bool slrt_is_ahead(const slrt_arm *p, const slrt_arm *q, const slrt_arm *a,
+                          const slrt_arm *b) {
+    return slrt_within(p, a, b, slrt_side(a, p), slrt_side(p, b)) ||
+           slrt_within(a, p, q, slrt_side(p, a), slrt_side(a, q));
 }
 
-/// Adds what a portal in line with the eye says about the borders. `p` and `q` lead to its right
-/// and left end. False if only a line is left that crosses portals along it both ways: no line
-/// beside it passes them all.
-static bool slrt_run_along(const slrt_search *s, const slrt_arm *p, const slrt_arm *q,
-                           slrt_sector *sector) {
-    const slrt_arm a = slrt_border(s, sector->right), b = slrt_border(s, sector->left);
-    const slrt_arm to_left = slrt_make_arm(p->to_x, p->to_y, q->to_x, q->to_y);
-    if (!slrt_same_way(p, q)) { // the eye is on it
-        if (!slrt_side(&to_left, &a) && !slrt_same_way(&to_left, &a))
-            sector->along |= SLRT_ALONG_RIGHT;
-        if (!slrt_side(&to_left, &b) && slrt_same_way(&to_left, &b))
-            sector->along |= SLRT_ALONG_LEFT;
-    } else if (slrt_same_ray(&a, &b)) {
-        // Who goes from its right end to its left end crosses it to the right.
-        sector->along |=
-            slrt_same_way(&to_left, &a) ? (unsigned)SLRT_ALONG_LEFT : (unsigned)SLRT_ALONG_RIGHT;
-    }
-    return sector->along != SLRT_ALONG || !slrt_same_ray(&a, &b);
-}
-
-/// Narrows a sector of less than 180 degrees to its part that leaves through a directed portal;
-/// false for none. From an eye on the directed portal, everything in front of it leaves.
+/// Narrows a sector to its part that leaves the last cell on the path through a directed portal,
+/// which the eye is not on; false for none. The first cell is one of the eye's. What a sector
+/// reaches of any other one is ahead, within less than 180 degrees. (sli_arc_narrow in the
+/// library.)
 static bool slrt_narrow(const slrt_search *s, uint32_t directed, slrt_sector *sector) {
-    uint32_t portal_right = 2 * directed + 1, portal_left = 2 * directed;
-    const slrt_arm right = slrt_border(s, portal_right), left = slrt_border(s, portal_left);
-    slrt_arm p = right, q = left, a, b;
-    int a_p, a_q, p_b, q_b;
-    bool right_within;
-    const int facing = slrt_side(&p, &q);
-    if (facing < 0) return false;
+    const uint32_t portal_right = 2 * directed + 1, portal_left = 2 * directed;
+    const slrt_arm p = slrt_border(s, portal_right), q = slrt_border(s, portal_left);
+    slrt_arm right = p, left = q, to_left;
+    int turn;
     if (sector->right == SLRT_ALL_ROUND) {
         sector->right = portal_right;
         sector->left = portal_left;
-        return facing || slrt_run_along(s, &right, &left, sector);
+    } else {
+        right = slrt_border(s, sector->right);
+        left = slrt_border(s, sector->left);
+        if (s->depth == 1 && !slrt_is_ahead(&p, &q, &right, &left)) return false;
+        if (slrt_side(&right, &p) > 0) {
+            right = p;
+            sector->right = portal_right;
+            sector->along &= ~(unsigned)SLRT_ALONG_RIGHT;
+        }
+        if (slrt_side(&left, &q) < 0) {
+            left = q;
+            sector->left = portal_left;
+            sector->along &= ~(unsigned)SLRT_ALONG_LEFT;
+        }
     }
-    if (slrt_is_zero(&p)) {
-        portal_right = portal_left | SLRT_REVERSED;
-        p = slrt_border(s, portal_right);
-    } else if (slrt_is_zero(&q)) {
-        portal_left = portal_right | SLRT_REVERSED;
-        q = slrt_border(s, portal_left);
+    turn = slrt_side(&right, &left);
+    if (turn) return turn > 0;
+    if (!slrt_side(&p, &q)) {
+        // Who goes from its right end to its left end crosses it to the right.
+        to_left = slrt_make_arm(p.to_x, p.to_y, q.to_x, q.to_y);
+        sector->along |= slrt_same_way(&to_left, &right) ? (unsigned)SLRT_ALONG_LEFT
+                                                         : (unsigned)SLRT_ALONG_RIGHT;
     }
-    a = slrt_border(s, sector->right);
-    b = slrt_border(s, sector->left);
-    a_p = slrt_side(&a, &p);
-    a_q = slrt_side(&a, &q);
-    p_b = slrt_side(&p, &b);
-    q_b = slrt_side(&q, &b);
-    right_within = slrt_within(&p, &a, &b, a_p, p_b);
-    if (!right_within && !slrt_within(&a, &p, &q, -a_p, a_q)) return false;
-    if (slrt_within(&q, &a, &b, a_q, q_b)) {
-        if (q_b || !slrt_same_way(&q, &b)) sector->along &= ~(unsigned)SLRT_ALONG_LEFT;
-        sector->left = portal_left;
-    }
-    if (right_within) {
-        if (a_p || !slrt_same_way(&a, &p)) sector->along &= ~(unsigned)SLRT_ALONG_RIGHT;
-        sector->right = portal_right;
-    }
-    return facing ? sector->along != SLRT_ALONG || !slrt_is_ray(s, sector)
-                  : slrt_run_along(s, &right, &left, sector);
+    return sector->along != SLRT_ALONG; // no line beside it passes all portals along it
 }
 
 /// Whether one-way glass keeps sight from the eye. From its a to its b, it is seen through from the

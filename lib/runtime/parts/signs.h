@@ -31,15 +31,6 @@ static int slrt_add(double *parts, int count, double number) {
     return kept;
 }
 
-/// The upper half of a number's bits, rounded. The rest has no more bits than that.
-static double slrt_upper(double number) {
-    uint64_t bits;
-    memcpy(&bits, &number, sizeof bits);
-    bits = (bits + (UINT64_C(1) << 26)) & ~((UINT64_C(1) << 27) - 1);
-    memcpy(&number, &bits, sizeof number);
-    return number;
-}
-
 /// Adds a product as two parts (Dekker's). Numbers are cut by their bits, so each step is exact,
 /// also where a compiler fuses it with the next one.
 static int slrt_add_product(double *parts, int count, double a, double b) {
