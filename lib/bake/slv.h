@@ -155,8 +155,8 @@ typedef struct sli_slv_things {
     sli_slv_part_of_map parts[SLI_SLV_MAP_PARTS];
 } sli_slv_things;
 
-/// Makes the items of a map. SL_UNSUPPORTED if there are more than 32 bits can number. To be
-/// destroyed, on failure as well.
+/// Makes the items of a map. SL_UNSUPPORTED if there are more than 32 bits can number, or
+/// sli_slv_transform() would refuse its transform. To be destroyed, on failure as well.
 sl_status sli_slv_things_make(sl_context *context, const sl_map *map, sli_slv_things *out);
 void sli_slv_things_destroy(sl_context *context, sli_slv_things *things); ///< and zeroes it
 

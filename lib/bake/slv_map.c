@@ -83,6 +83,11 @@ sl_status sli_slv_things_make(sl_context *context, const sl_map *map, sli_slv_th
                   [PATHS] = {"PATH", sizeof(sli_slv_path), map->path_count, NULL},
                   [POINTS] = {"PAPO", sizeof(sl_point), count_points(map), NULL},
                   [MIRRORS] = {"MIRR", sizeof(sli_slv_mirror), map->mirror_count, NULL}}};
+    sl_transform same;
+    if (!sli_slv_transform(&out->info, &same))
+        return sl_fail(context, SL_UNSUPPORTED,
+                       "a baked file has no room for the map's transform: origin %g, %g, scale %g",
+                       t->origin.x, t->origin.y, t->scale);
     for (size_t i = 0; i < SLI_SLV_MAP_PARTS; i++) {
         sli_slv_part_of_map *part = &out->parts[i];
         if (part->count > INT32_MAX)

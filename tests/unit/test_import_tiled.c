@@ -140,17 +140,25 @@ static void test_layers_that_are_solid(void **state) {
                  TWO_TILES "wall 9 10 17 10\nwall 9 2 17 2\nwall 9 2 9 10\nwall 17 2 17 10\n");
 }
 
-/// A property says what walls of objects stop; an object's own is over that of its layer.
+/// A property says what walls of objects stop; an object's own is over that of its layer, and
+/// a layer's over that of its group.
 static void test_objects_that_stop_some(void **state) {
     (void)state;
 #define STOPS(what)  "<properties><property name='stops' value='" what "'/></properties>"
 #define FENCE(more)  "<object id='1' x='8' y='8'>" more "<polyline points='0,0 8,0'/></object>"
 #define FENCES(more) "<objectgroup name='fences'>" more "</objectgroup>"
+#define GROUP(more)  "<group name='yard'>" more "</group>"
     const char *plan = "wall 8 8 16 8 stops steps\n";
     assert_walls(MAP(SET FENCES(FENCE(STOPS("steps")))), plan);
     assert_walls(MAP(SET FENCES(STOPS("steps") FENCE(""))), plan);
     assert_walls(MAP(SET FENCES(STOPS("sight") FENCE(STOPS("steps")))), plan);
     assert_walls(MAP(SET FENCES(STOPS("sound,steps,sight") FENCE(""))), "wall 8 8 16 8\n");
+    assert_walls(MAP(SET GROUP(STOPS("steps") FENCES(FENCE("")))), plan);
+    assert_walls(MAP(SET GROUP(STOPS("steps") GROUP(FENCES(FENCE(""))))), plan);
+    assert_walls(MAP(SET GROUP(STOPS("sight") FENCES(STOPS("steps") FENCE("")))), plan);
+    assert_walls(MAP(SET GROUP(STOPS("sight") GROUP(STOPS("steps") FENCES(FENCE(""))))), plan);
+    assert_refused(MAP(SET GROUP(STOPS("stairs") FENCES(FENCE("")))),
+                   "f: stops: expected sight, steps, sound");
     assert_refused(MAP(SET FENCES(FENCE(STOPS("stairs")))),
                    "f: stops: expected sight, steps, sound");
     assert_refused(

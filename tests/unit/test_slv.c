@@ -237,6 +237,45 @@ static void what_cannot_be_read_back_is_not_written(void **state) {
     sl_context_destroy(context);
 }
 
+/// The reader's bounds of a transform are the writer's: each written file can be read.
+static void a_transform_out_of_range_is_not_written(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    const double far = 2 * SL_COORDINATE_MAX;
+    const struct {
+        sl_transform transform;
+        bool good;
+    } cases[] = {
+        {{{0, 0}, 0, false}, true},
+        {{{far, -far}, SL_COORDINATE_MIN, true}, true},
+        {{{0, 0}, SL_COORDINATE_MAX, false}, true},
+        {{{0, 0}, 1e-200, false}, false},
+        {{{0, 0}, 1e200, false}, false},
+        {{{0, 0}, -1, false}, false},
+        {{{0, 0}, NAN, false}, false},
+        {{{nextafter(far, INFINITY), 0}, 1, false}, false},
+        {{{0, -INFINITY}, 1, false}, false},
+        {{{NAN, 0}, 1, false}, false},
+    };
+    sl_baked baked;
+    bake(context, rooms, &baked);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        sl_bytes memory = {0};
+        sl_baked back = {0};
+        baked.map.source.transform = cases[i].transform;
+        const sl_status status = sl_baked_print(context, &baked, &memory);
+        assert_int_equal(status, cases[i].good ? SL_OK : SL_UNSUPPORTED);
+        if (cases[i].good)
+            assert_ok(context, sl_baked_parse(context, "t", memory.data, memory.size, &back));
+        else
+            assert_non_null(strstr(sl_context_message(context), "transform"));
+        sl_free(context, memory.data);
+        sl_baked_destroy(context, &back);
+    }
+    sl_baked_destroy(context, &baked);
+    sl_context_destroy(context);
+}
+
 static bool cancel_after(void *user) {
     int *calls = user;
     return (*calls)-- <= 0;
@@ -368,6 +407,7 @@ int main(void) {
         cmocka_unit_test(a_mesh_without_its_sections_is_refused),
         cmocka_unit_test(memory_and_file_hold_the_same_bytes),
         cmocka_unit_test(what_cannot_be_read_back_is_not_written),
+        cmocka_unit_test(a_transform_out_of_range_is_not_written),
         cmocka_unit_test(an_export_can_be_interrupted),
         cmocka_unit_test(a_partial_file_says_what_it_is),
         cmocka_unit_test(a_shard_is_no_baked_file),

@@ -226,6 +226,7 @@ static void print_tables(void) {
 
 sl_status cmd_check(command_console *console, int argc, char **argv) {
     check_plan plan = {.pipeline = pipeline_default(), .drawing = built_draw_options(), .most = 10};
+    plan.pipeline.channel = SL_STOPS_STEPS; // a window keeps a room closed, a curtain does not
     const option_table pipeline = pipeline_option_table(&plan.pipeline);
     const option_spec options[] = {
         {"gap", 0, "SIZE",
@@ -277,7 +278,6 @@ sl_status cmd_check(command_console *console, int argc, char **argv) {
     };
     checked c = {0}, after = {0};
     bool helped;
-    plan.pipeline.channel = SL_STOPS_STEPS; // a window keeps a room closed, a curtain does not
     const char *input;
     SL_TRY(options_parse(console, &usage, argc, argv, &input, &helped));
     if (helped) return SL_OK;

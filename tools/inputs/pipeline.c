@@ -77,7 +77,9 @@ option_table pipeline_option_table(map_pipeline *p) {
     const option_spec stops = {"stops",
                                0,
                                "sight|steps|sound",
-                               "which walls count: those that stop WHAT (default: sight)",
+                               p->channel == SL_STOPS_STEPS
+                                   ? "which walls count: those that stop WHAT (default: steps)"
+                                   : "which walls count: those that stop WHAT (default: sight)",
                                .choice = &p->stops,
                                .names = stops_table(),
                                .text = &p->stops_text,

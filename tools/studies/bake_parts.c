@@ -113,6 +113,7 @@ const char *bake_difference(const sl_baked *a, const sl_baked *b) {
         return a->partial.inside_only ? "with --inside" : "without --inside";
     if (a->partial.mirror_depth != b->partial.mirror_depth) return "with another --mirror-depth";
     if (a->partial.door_limit != b->partial.door_limit) return "with another --door-limit";
+    if (sl_map_channel(&a->map) != sl_map_channel(&b->map)) return "with other --stops";
     if (!sl_effects_same(&a->map, &b->map)) return "with other effects";
     if (!sl_baked_same_space(&a->space, &b->space))
         return "from another map, or cut into other cells,";

@@ -203,6 +203,14 @@ static size_t put_glass(const sl_glass *glass, size_t count, double *rows) {
     return count;
 }
 
+/// Those that stop nothing; others are windows, curtains and the like.
+static size_t put_seams(const sl_map *map, double *rows) {
+    size_t count = 0;
+    for (size_t i = 0; i < map->seam_count; i++)
+        if (!map->seams[i].stops) put_row(rows, count++, map->seams[i].segment);
+    return count;
+}
+
 size_t slp_segments(const void *handle, int is_level, const char *kind, double *rows) {
     const sl_map *map = map_of(handle, is_level);
     if (strcmp(kind, "wall") == 0) {
@@ -212,7 +220,7 @@ size_t slp_segments(const void *handle, int is_level, const char *kind, double *
     }
     if (strcmp(kind, "mirror") == 0) return put_glass(map->mirrors, map->mirror_count, rows);
     if (strcmp(kind, "oneway") == 0) return put_glass(map->oneways, map->oneway_count, rows);
-    if (strcmp(kind, "seam") == 0) return put_glass(map->seams, map->seam_count, rows);
+    if (strcmp(kind, "seam") == 0) return put_seams(map, rows);
     if (strcmp(kind, "door") == 0) {
         for (size_t i = 0; i < map->door_count; i++) put_row(rows, i, map->doors[i].segment);
         return map->door_count;

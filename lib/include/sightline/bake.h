@@ -133,7 +133,9 @@ SL_API sl_status sl_baked_shut(sl_context *context, const sl_baked *baked, const
 
 /// Writes beside the target and takes its place when all is written: SL_IO leaves the old file
 /// intact. The bytes depend on the contents alone. SL_BAD_ARGUMENT where there is no visible set
-/// for each cell, or a name that is none. Reports stage "write".
+/// for each cell, or a name that is none. SL_UNSUPPORTED where the map has a transform that readers
+/// refuse: an origin beyond twice SL_COORDINATE_MAX, or a scale that is not 0 and not between
+/// SL_COORDINATE_MIN and SL_COORDINATE_MAX. Reports stage "write".
 SL_API sl_status sl_baked_write(sl_context *context, const sl_baked *baked, const char *path);
 
 /// The same bytes in memory, which sl_baked_parse() reads. Fails as sl_baked_write() does, but for

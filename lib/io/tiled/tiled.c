@@ -116,6 +116,21 @@ static sl_status tiled_check_choice(const sli_json *map, const char *list) {
 
 // --- reading a map
 
+/// What walls of an object, a layer or a group stop, by its property `stops`, a text; else
+/// *stops stays.
+static sl_status read_stops(const sli_json *thing, uint32_t *stops) {
+    sli_tiled_properties at = sli_tiled_properties_of(thing);
+    const char *name;
+    for (sli_json value; sli_tiled_next_property(&at, &name, &value);) {
+        const char *text = json_string_value(value.value);
+        if (!text || !name || strcmp(name, "stops") != 0) continue;
+        if (!sl_stops_read(text, strlen(text), stops))
+            return sli_json_fail(&value, "stops: expected sight, steps, sound or several joined by "
+                                         "commas");
+    }
+    return SL_OK;
+}
+
 /// Where a layer lies in its group's place, and whether it is solid.
 static sl_status find_place(const sli_tiled_reader *reader, const sli_json *layer,
                             const sli_tiled_place *outer, sli_tiled_place *own) {
@@ -126,6 +141,7 @@ static sl_status find_place(const sli_tiled_reader *reader, const sli_json *laye
     SL_TRY(sli_json_number_if(&y, &offset.y));
     *own = *outer;
     own->offset = (sl_point){outer->offset.x + offset.x, outer->offset.y + offset.y};
+    SL_TRY(read_stops(layer, &own->stops));
     if (reader->options->layers) {
         sli_word gids;
         if (tiled_asked_for(reader->options->layers, name, &gids)) {
@@ -326,31 +342,14 @@ static sl_status read_marks(sli_tiled_reader *reader) {
     return SL_OK;
 }
 
-/// What walls of an object or a layer stop, by its property `stops`, a text; else
-/// *stops stays.
-static sl_status read_stops(const sli_json *thing, uint32_t *stops) {
-    sli_tiled_properties at = sli_tiled_properties_of(thing);
-    const char *name;
-    for (sli_json value; sli_tiled_next_property(&at, &name, &value);) {
-        const char *text = json_string_value(value.value);
-        if (!text || !name || strcmp(name, "stops") != 0) continue;
-        if (!sl_stops_read(text, strlen(text), stops))
-            return sli_json_fail(&value, "stops: expected sight, steps, sound or several joined by "
-                                         "commas");
-    }
-    return SL_OK;
-}
-
 /// Tiles are joined over all layers, and stop all.
-static sl_status note_stops_of_tiles(const sli_tiled_reader *reader, const sli_json *layer) {
+static void note_stops_of_tiles(const sli_tiled_reader *reader, const sli_json *layer,
+                                const sli_tiled_place *at) {
     const char *name = sli_json_text_of(layer, "name");
-    uint32_t stops = 0;
-    SL_TRY(read_stops(layer, &stops));
-    if (stops && !reader->guess)
+    if (at->stops && !reader->guess)
         sl_note(reader->context,
                 "%s: layer %s: the property 'stops' is for objects; tiles stop all",
                 layer->file->name, sli_show((sli_word){name, strlen(name)}).text);
-    return SL_OK;
 }
 
 /// The objects of a layer: starts and doors, and walls where the layer is not said to be open.
@@ -363,8 +362,6 @@ static sl_status read_objects(sli_tiled_reader *reader, const sli_json *layer,
     if (objects.value) SL_TRY(sli_json_array(&objects, &count));
     const sli_affine outer = reader->pen.affine;
     const sli_affine move = affine_of_layer(reader, at);
-    uint32_t of_layer = 0;
-    SL_TRY(read_stops(layer, &of_layer));
     reader->solid_layers += at->word == SLI_TILED_SOLID;
     sl_status status = SL_OK;
     for (size_t i = 0; status == SL_OK && i < count; i++) {
@@ -376,7 +373,7 @@ static sl_status read_objects(sli_tiled_reader *reader, const sli_json *layer,
         SL_TRY(look_for_thing(reader, &object, at, &is_thing));
         if (is_thing || at->word == SLI_TILED_OPEN) continue;
         const sli_tiled_word word = word_of_object(reader, &object, &shape);
-        uint32_t stops = of_layer;
+        uint32_t stops = at->stops;
         SL_TRY(read_stops(&object, &stops));
         const bool taken =
             at->word == SLI_TILED_SOLID || stops ? word != SLI_TILED_OPEN : word == SLI_TILED_SOLID;
@@ -416,7 +413,7 @@ static sl_status read_layers(sli_tiled_reader *reader, const sli_json *parent,
         if (strcmp(type, "group") == 0)
             SL_TRY(read_layers(reader, &layer, &own));
         else if (own.word != SLI_TILED_OPEN && strcmp(type, "tilelayer") == 0) {
-            SL_TRY(note_stops_of_tiles(reader, &layer));
+            note_stops_of_tiles(reader, &layer, &own);
             SL_TRY(sli_tiled_read_tile_layer(reader, &layer, &own));
         } else if (strcmp(type, "objectgroup") == 0 && !reader->guess)
             SL_TRY(read_objects(reader, &layer, &own));

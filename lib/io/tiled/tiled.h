@@ -235,6 +235,7 @@ typedef struct sli_tiled_place {
     sli_tiled_word word;
     sli_word gids; ///< the tiles that are asked for; of no length for all
     bool asked;
+    uint32_t stops; ///< what walls of its objects stop; 0 where nothing is said
 } sli_tiled_place;
 
 /// Whether a tile is among the numbers that are asked for; any tile is among none.

@@ -441,7 +441,7 @@ class Handle:
 
     @property
     def seams(self) -> Floats:
-        """The seams, as rows x0, y0, x1, y1."""
+        """The seams, as rows x0, y0, x1, y1. Walls that stop only sight, steps or sound are none."""
         return self._segments("seam")
 
     @property

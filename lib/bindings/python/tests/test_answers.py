@@ -120,6 +120,12 @@ class Regions(unittest.TestCase):
         with self.assertWarnsRegex(sightline.SightlineWarning, "leads out"):
             plan.isovists([(1, 1)])
 
+    def test_a_window_is_no_seam(self):
+        plan = sightline.Plan.from_text("sightline 1\nwalls 0 0 9 0 9 6 0 6 0 0\n"
+                                        "wall 3 0 3 6 stops steps\nseam 6 0 6 6\n")
+        for map_ in (plan, plan.bake()):
+            self.assertEqual(map_.seams.tolist(), [[6, 0, 6, 6]])
+
     def test_the_width_of_entrances_says_what_is_inside(self):
         def inside(plan):
             found = plan.space().cell_arrays()
