@@ -10,7 +10,7 @@ static void slrt_enter(slrt_search *s, uint32_t cell, const slrt_sector *sector)
     if (*marks & SLRT_ON_PATH) return;
     if (*marks & SLRT_ENTERED && slrt_covered(s, cell, sector)) return;
     slrt_see(s, cell);
-    if (s->meet_boxes) s->meet_boxes(s, cell, sector);
+    if (s->meet) s->meet(s, cell, sector);
     *marks = (unsigned char)((*marks & ~(unsigned)SLRT_ALONG) | SLRT_ENTERED | SLRT_ON_PATH |
                              sector->along);
     s->sectors[2 * (size_t)cell] = sector->right;
@@ -67,12 +67,8 @@ static bool slrt_leads_into(const slrt_search *s, uint32_t cell, const slrt_sect
     return enters;
 }
 
-static void slrt_search_from(slrt_search *s, uint32_t cell, uint32_t right, uint32_t left) {
-    slrt_sector sector;
-    sector.right = right;
-    sector.left = left;
-    sector.along = 0;
-    if (slrt_leads_into(s, cell, &sector)) slrt_enter(s, cell, &sector);
+/// Searches on from the cell that was entered.
+static void slrt_search_all(slrt_search *s) {
     while (s->depth) {
         uint32_t *top = s->path + 4 * (size_t)(s->depth - 1);
         const sl_runtime_cell c = sl_runtime_get_cell(s->rt, top[0]);
@@ -87,6 +83,18 @@ static void slrt_search_from(slrt_search *s, uint32_t cell, uint32_t right, uint
             slrt_search_on(s, top, c.first_directed + top[1]++);
         }
     }
+}
+
+static void slrt_search_from(slrt_search *s, uint32_t cell, uint32_t right, uint32_t left) {
+    slrt_sector sector;
+    sector.right = right;
+    sector.left = left;
+    sector.along = 0;
+    if (slrt_leads_into(s, cell, &sector))
+        slrt_enter(s, cell, &sector);
+    else if (s->in_mirrors)
+        s->meet(s, cell, &sector); // an eye on a mirror looks into it
+    slrt_search_all(s);
 }
 
 static bool slrt_is_direction(const double *d) {
