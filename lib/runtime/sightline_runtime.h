@@ -437,7 +437,7 @@ SL_RUNTIME_API uint32_t sl_runtime_passages(const sl_runtime *runtime, uint32_t 
 SL_RUNTIME_API bool sl_runtime_can_walk(const sl_runtime *runtime, double x0, double y0, double x1,
                                         double y1, const unsigned char *shut);
 
-// Mirrors. What is seen directly is exact, and what is seen by mirror is conservative: no cell is
+// Mirrors. What is seen directly is exact, and what rows say of mirrors is conservative: no cell is
 // missed, but cells may be added. The rows count whole cells, all directions and the map's range.
 // So they hold what some eye in the cell sees by some mirror, with up to as many reflections as the
 // bake followed (`bake --mirror-depth`, by default 1). sl_runtime_visible_polygon ends at mirrors;
@@ -3086,8 +3086,8 @@ static bool slrt_run_along(const slrt_search *s, const slrt_arm *p, const slrt_a
 
 /// Narrows a sector of at most 180 degrees to what is between two other borders, p and q; false for
 /// nothing.
-static bool slrt_narrow_to(const slrt_search *s, const slrt_arm *p, const slrt_arm *q,
-                           uint32_t right, uint32_t left, slrt_sector *sector) {
+static inline bool slrt_narrow_to(const slrt_search *s, const slrt_arm *p, const slrt_arm *q,
+                                  uint32_t right, uint32_t left, slrt_sector *sector) {
     const slrt_arm a = slrt_border(s, sector->right), b = slrt_border(s, sector->left);
     const int a_p = slrt_side(&a, p), a_q = slrt_side(&a, q);
     const int p_b = slrt_side(p, &b), q_b = slrt_side(q, &b);
@@ -3192,8 +3192,8 @@ static bool slrt_meet(const slrt_arm *ray, const slrt_arm *p, const slrt_arm *q,
 }
 
 /// Whether the part of a segment from p to q between two borders is within range; NULL for its end.
-static bool slrt_is_part_in_range(const slrt_search *s, const slrt_arm *p, const slrt_arm *q,
-                                  const slrt_arm *right, const slrt_arm *left) {
+static inline bool slrt_is_part_in_range(const slrt_search *s, const slrt_arm *p, const slrt_arm *q,
+                                         const slrt_arm *right, const slrt_arm *left) {
     const double x = q->x - p->x, y = q->y - p->y, square = x * x + y * y;
     const double ends = slrt_size(p->x, p->y) + slrt_size(q->x, q->y);
     const double limit = s->range * (1 + 1e-12) + 1e-14 * ends;
@@ -4178,8 +4178,11 @@ static bool slrt_leads_into(const slrt_search *s, uint32_t cell, const slrt_sect
     return enters;
 }
 
-/// Searches on from the cell that was entered.
-static void slrt_search_all(slrt_search *s) {
+static void slrt_search_from(slrt_search *s, uint32_t cell, const slrt_sector *sector) {
+    if (s->is_image || slrt_leads_into(s, cell, sector))
+        slrt_enter(s, cell, sector);
+    else if (s->in_mirrors)
+        s->meet(s, cell, sector); // an eye on a mirror looks into it
     while (s->depth) {
         uint32_t *top = s->path + 4 * (size_t)(s->depth - 1);
         const sl_runtime_cell c = sl_runtime_get_cell(s->rt, top[0]);
@@ -4194,18 +4197,6 @@ static void slrt_search_all(slrt_search *s) {
             slrt_search_on(s, top, c.first_directed + top[1]++);
         }
     }
-}
-
-static void slrt_search_from(slrt_search *s, uint32_t cell, uint32_t right, uint32_t left) {
-    slrt_sector sector;
-    sector.right = right;
-    sector.left = left;
-    sector.along = 0;
-    if (slrt_leads_into(s, cell, &sector))
-        slrt_enter(s, cell, &sector);
-    else if (s->in_mirrors)
-        s->meet(s, cell, &sector); // an eye on a mirror looks into it
-    slrt_search_all(s);
 }
 
 static bool slrt_is_direction(const double *d) {
@@ -4239,8 +4230,11 @@ static uint32_t slrt_cut_cone(slrt_search *s, uint32_t *last) {
 /// is one sector. All round from within a cell, each directed portal is such a piece.
 static void slrt_search_cone(slrt_search *s, uint32_t cell) {
     uint32_t i, last = 0, pieces = slrt_cut_cone(s, &last);
+    slrt_sector sector;
+    sector.right = sector.left = SLRT_ALL_ROUND;
+    sector.along = 0;
     if (!pieces && s->own_count == 1) {
-        slrt_search_from(s, cell, SLRT_ALL_ROUND, SLRT_ALL_ROUND);
+        slrt_search_from(s, cell, &sector);
         return;
     }
     if (!pieces) {
@@ -4249,8 +4243,11 @@ static void slrt_search_cone(slrt_search *s, uint32_t cell) {
         s->cone[2] = slrt_direction(-1, -1);
         pieces = 3;
     }
-    for (i = 0; i < pieces; i++)
-        slrt_search_from(s, cell, SLRT_ARM + i, SLRT_ARM + (i + 1 < pieces ? i + 1 : last));
+    for (i = 0; i < pieces; i++) {
+        sector.right = SLRT_ARM + i;
+        sector.left = SLRT_ARM + (i + 1 < pieces ? i + 1 : last);
+        slrt_search_from(s, cell, &sector);
+    }
 }
 
 /// The smaller one of a caller's range and the map's own; 0 for no limit.
@@ -6770,8 +6767,7 @@ static void slrt_look_in_mirror(slrt_reflected *from, uint32_t cell, uint32_t mi
     sector.left = SLRT_ARM + 1;
     sector.along = (seen->along & SLRT_ALONG_RIGHT ? (unsigned)SLRT_ALONG_LEFT : 0u) |
                    (seen->along & SLRT_ALONG_LEFT ? (unsigned)SLRT_ALONG_RIGHT : 0u);
-    slrt_enter(&to.s, cell, &sector);
-    slrt_search_all(&to.s);
+    slrt_search_from(&to.s, cell, &sector);
     *patience = to.s.patience;
     if (to.s.gave_up) *from->rounded = true;
 }

@@ -437,7 +437,7 @@ SL_RUNTIME_API uint32_t sl_runtime_passages(const sl_runtime *runtime, uint32_t 
 SL_RUNTIME_API bool sl_runtime_can_walk(const sl_runtime *runtime, double x0, double y0, double x1,
                                         double y1, const unsigned char *shut);
 
-// Mirrors. What is seen directly is exact, and what is seen by mirror is conservative: no cell is
+// Mirrors. What is seen directly is exact, and what rows say of mirrors is conservative: no cell is
 // missed, but cells may be added. The rows count whole cells, all directions and the map's range.
 // So they hold what some eye in the cell sees by some mirror, with up to as many reflections as the
 // bake followed (`bake --mirror-depth`, by default 1). sl_runtime_visible_polygon ends at mirrors;

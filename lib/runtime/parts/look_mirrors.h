@@ -94,8 +94,7 @@ static void slrt_look_in_mirror(slrt_reflected *from, uint32_t cell, uint32_t mi
     sector.left = SLRT_ARM + 1;
     sector.along = (seen->along & SLRT_ALONG_RIGHT ? (unsigned)SLRT_ALONG_LEFT : 0u) |
                    (seen->along & SLRT_ALONG_LEFT ? (unsigned)SLRT_ALONG_RIGHT : 0u);
-    slrt_enter(&to.s, cell, &sector);
-    slrt_search_all(&to.s);
+    slrt_search_from(&to.s, cell, &sector);
     *patience = to.s.patience;
     if (to.s.gave_up) *from->rounded = true;
 }

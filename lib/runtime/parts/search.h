@@ -67,8 +67,11 @@ static bool slrt_leads_into(const slrt_search *s, uint32_t cell, const slrt_sect
     return enters;
 }
 
-/// Searches on from the cell that was entered.
-static void slrt_search_all(slrt_search *s) {
+static void slrt_search_from(slrt_search *s, uint32_t cell, const slrt_sector *sector) {
+    if (s->is_image || slrt_leads_into(s, cell, sector))
+        slrt_enter(s, cell, sector);
+    else if (s->in_mirrors)
+        s->meet(s, cell, sector); // an eye on a mirror looks into it
     while (s->depth) {
         uint32_t *top = s->path + 4 * (size_t)(s->depth - 1);
         const sl_runtime_cell c = sl_runtime_get_cell(s->rt, top[0]);
@@ -83,18 +86,6 @@ static void slrt_search_all(slrt_search *s) {
             slrt_search_on(s, top, c.first_directed + top[1]++);
         }
     }
-}
-
-static void slrt_search_from(slrt_search *s, uint32_t cell, uint32_t right, uint32_t left) {
-    slrt_sector sector;
-    sector.right = right;
-    sector.left = left;
-    sector.along = 0;
-    if (slrt_leads_into(s, cell, &sector))
-        slrt_enter(s, cell, &sector);
-    else if (s->in_mirrors)
-        s->meet(s, cell, &sector); // an eye on a mirror looks into it
-    slrt_search_all(s);
 }
 
 static bool slrt_is_direction(const double *d) {
@@ -128,8 +119,11 @@ static uint32_t slrt_cut_cone(slrt_search *s, uint32_t *last) {
 /// is one sector. All round from within a cell, each directed portal is such a piece.
 static void slrt_search_cone(slrt_search *s, uint32_t cell) {
     uint32_t i, last = 0, pieces = slrt_cut_cone(s, &last);
+    slrt_sector sector;
+    sector.right = sector.left = SLRT_ALL_ROUND;
+    sector.along = 0;
     if (!pieces && s->own_count == 1) {
-        slrt_search_from(s, cell, SLRT_ALL_ROUND, SLRT_ALL_ROUND);
+        slrt_search_from(s, cell, &sector);
         return;
     }
     if (!pieces) {
@@ -138,8 +132,11 @@ static void slrt_search_cone(slrt_search *s, uint32_t cell) {
         s->cone[2] = slrt_direction(-1, -1);
         pieces = 3;
     }
-    for (i = 0; i < pieces; i++)
-        slrt_search_from(s, cell, SLRT_ARM + i, SLRT_ARM + (i + 1 < pieces ? i + 1 : last));
+    for (i = 0; i < pieces; i++) {
+        sector.right = SLRT_ARM + i;
+        sector.left = SLRT_ARM + (i + 1 < pieces ? i + 1 : last);
+        slrt_search_from(s, cell, &sector);
+    }
 }
 
 /// The smaller one of a caller's range and the map's own; 0 for no limit.

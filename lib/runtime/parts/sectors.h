@@ -142,8 +142,8 @@ static bool slrt_run_along(const slrt_search *s, const slrt_arm *p, const slrt_a
 
 /// Narrows a sector of at most 180 degrees to what is between two other borders, p and q; false for
 /// nothing.
-static bool slrt_narrow_to(const slrt_search *s, const slrt_arm *p, const slrt_arm *q,
-                           uint32_t right, uint32_t left, slrt_sector *sector) {
+static inline bool slrt_narrow_to(const slrt_search *s, const slrt_arm *p, const slrt_arm *q,
+                                  uint32_t right, uint32_t left, slrt_sector *sector) {
     const slrt_arm a = slrt_border(s, sector->right), b = slrt_border(s, sector->left);
     const int a_p = slrt_side(&a, p), a_q = slrt_side(&a, q);
     const int p_b = slrt_side(p, &b), q_b = slrt_side(q, &b);
@@ -248,8 +248,8 @@ static bool slrt_meet(const slrt_arm *ray, const slrt_arm *p, const slrt_arm *q,
 }
 
 /// Whether the part of a segment from p to q between two borders is within range; NULL for its end.
-static bool slrt_is_part_in_range(const slrt_search *s, const slrt_arm *p, const slrt_arm *q,
-                                  const slrt_arm *right, const slrt_arm *left) {
+static inline bool slrt_is_part_in_range(const slrt_search *s, const slrt_arm *p, const slrt_arm *q,
+                                         const slrt_arm *right, const slrt_arm *left) {
     const double x = q->x - p->x, y = q->y - p->y, square = x * x + y * y;
     const double ends = slrt_size(p->x, p->y) + slrt_size(q->x, q->y);
     const double limit = s->range * (1 + 1e-12) + 1e-14 * ends;
