@@ -6839,7 +6839,8 @@ SL_RUNTIME_API uint32_t sl_runtime_look_into_mirrors(const sl_runtime *runtime,
     if (!slrt_start_search(&r.s, runtime, view, shut, range, mirrored_scratch)) return 0;
     r.first = &r.s;
     r.rounded = rounded;
-    r.depth = depth < SLRT_MOST_REFLECTIONS ? depth : SLRT_MOST_REFLECTIONS;
+    r.depth = depth;
+    if (r.depth > SLRT_MOST_REFLECTIONS) r.depth = SLRT_MOST_REFLECTIONS;
     r.mirror = SLRT_NONE;
     r.patience = (uint64_t)SLRT_PATIENCE * 16 *
                  ((uint64_t)runtime->directed_count + runtime->vertex_count + 16);
