@@ -437,7 +437,7 @@ SL_RUNTIME_API uint32_t sl_runtime_passages(const sl_runtime *runtime, uint32_t 
 SL_RUNTIME_API bool sl_runtime_can_walk(const sl_runtime *runtime, double x0, double y0, double x1,
                                         double y1, const unsigned char *shut);
 
-// Mirrors. What is seen directly is exact, and what is seen by mirror is conservative: no cell is
+// Mirrors. What is seen directly is exact, and what rows say of mirrors is conservative: no cell is
 // missed, but cells may be added. The rows count whole cells, all directions and the map's range.
 // So they hold what some eye in the cell sees by some mirror, with up to as many reflections as the
 // bake followed (`bake --mirror-depth`, by default 1). sl_runtime_visible_polygon ends at mirrors;
@@ -464,6 +464,30 @@ SL_RUNTIME_API uint32_t sl_runtime_look_mirrored(const sl_runtime *runtime,
                                                  const unsigned char *shut, double range,
                                                  uint32_t *scratch, uint32_t *cells, uint32_t room,
                                                  uint32_t *direct);
+
+/// The size of `mirrored_scratch` for sl_runtime_look_into_mirrors, in uint32_t: depth + 1 times
+/// that of the other calls.
+SL_RUNTIME_API size_t sl_runtime_mirrored_scratch_count(const sl_runtime *runtime, uint32_t depth);
+
+/// As sl_runtime_look_mirrored, but what is seen by mirror is exact: the cells that some line from
+/// the eye, inside the cone, reaches by at least one and up to `depth` reflections (16 at most). A
+/// line crosses a mirror as it would cross a portal, by the rules of sl_runtime_look, straight on
+/// behind it. So an eye on a mirror looks into it. Lines are within range with their reflections;
+/// its margin is that of sl_runtime_look_past, about the image of the eye. The first `*direct`
+/// cells are those of sl_runtime_look_past; the others ascend. It needs no rows of mirrors.
+///
+/// Exact behind axial mirrors, as long as the image of the eye is one of doubles: with coordinates
+/// of few bits, as floats and those of drawings, it is. If not, if an oblique mirror is seen, if
+/// the search takes very long, and in a file before 2.0 or a loose one, `*rounded` is set. Then the
+/// other cells of sl_runtime_look_mirrored are added, so that none is missed, up to the reflections
+/// of the bake. Time: that of sl_runtime_look_past for each piece of a mirror that is seen, and for
+/// each cell seen all mirrors.
+SL_RUNTIME_API uint32_t sl_runtime_look_into_mirrors(const sl_runtime *runtime,
+                                                     const sl_runtime_view *view,
+                                                     const unsigned char *shut, double range,
+                                                     uint32_t depth, uint32_t *mirrored_scratch,
+                                                     uint32_t *cells, uint32_t room,
+                                                     uint32_t *direct, bool *rounded);
 
 /// As sl_runtime_seen_from, directly or by mirror. All cells if the bake did not look into the
 /// map's mirrors.
@@ -2988,9 +3012,9 @@ SL_RUNTIME_API sl_runtime_view sl_runtime_view_toward(double x, double y, double
 
 /// A border of a sector is a number: 2e for the left end of directed portal e, 2e + 1 for the right
 /// end; or one of the cone's arms.
-#define SLRT_ARM       (UINT32_MAX - 4)
-#define SLRT_ALL_ROUND UINT32_MAX ///< no borders: the eye is in the cell
-enum { SLRT_MOST_ARMS = 4 };
+#define SLRT_ARM       (UINT32_MAX - 6)
+#define SLRT_ALL_ROUND UINT32_MAX                 ///< no borders: the eye is in the cell
+enum { SLRT_MOST_ARMS = 6, SLRT_MIRROR_ARM = 4 }; ///< the last two: the ends of a mirror
 
 /// The limit of steps for each directed portal of the map. In sound maps few need more than one;
 /// four is the most seen.
@@ -3008,7 +3032,8 @@ enum {
     SLRT_ALONG_RIGHT = 16,
     SLRT_ALONG_LEFT = 32,
     SLRT_ALONG = SLRT_ALONG_RIGHT | SLRT_ALONG_LEFT,
-    SLRT_OWN = 64 ///< one of the eye's cells, or on the way to a point
+    SLRT_OWN = 64,      ///< one of the eye's cells, or on the way to a point
+    SLRT_MIRRORED = 128 ///< seen by mirror
 };
 
 /// What of a cell's surroundings the eye sees through the portals passed: a sector, and which of
@@ -3038,9 +3063,11 @@ typedef struct slrt_search {
     bool on_foot; ///< glass is a wall from both sides, and steps count in place of sight
     uint32_t *cells, room, count;
     uint64_t patience;
-    /// NULL for a search without boxes, and till boxes hide. By these a program that asks for no
-    /// boxes is built without what is only for them.
-    void (*meet_boxes)(struct slrt_search *s, uint32_t cell, const slrt_sector *sector);
+    bool in_mirrors; ///< `meet` looks into mirrors
+    bool is_image;   ///< the eye is an image, which stands in no cell
+    /// NULL for a search without boxes and mirrors, and till boxes hide. By these a program that
+    /// asks for none is built without what is only for them.
+    void (*meet)(struct slrt_search *s, uint32_t cell, const slrt_sector *sector);
     bool (*is_hidden)(const struct slrt_search *s, uint32_t directed, const slrt_sector *sector);
     bool (*stops)(const struct slrt_search *s, const slrt_arm *way, uint32_t cell);
     const sl_runtime_boxes *boxes;     ///< the rest is about them
@@ -3120,13 +3147,22 @@ static bool slrt_narrow(const slrt_search *s, uint32_t directed, slrt_sector *se
 }
 
 /// Whether one-way glass keeps sight from the eye. From its a to its b, it is seen through from the
-/// right to the left. For an eye on its line, the eye's cell decides.
-static bool slrt_is_dark(const slrt_search *s, const unsigned char *glass) {
+/// right to the left. For an eye on its line, the eye's cell decides; for an image there, which way
+/// the portal leads.
+static bool slrt_is_dark(const slrt_search *s, const unsigned char *glass, uint32_t directed) {
     const sl_runtime_cell cell = sl_runtime_get_cell(s->rt, s->eye_cell);
     const unsigned char *corner = s->rt->vertices + (size_t)cell.first_vertex * SLRT_VERTEX_BYTES;
     const int side = slrt_side_of_line(glass, glass + 16, s->x, s->y);
     uint32_t i;
     if (side) return side > 0;
+    if (s->is_image) {
+        const unsigned char *ends = s->rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 8;
+        const slrt_arm to_left = slrt_make_arm(slrt_f64(ends + 16), slrt_f64(ends + 24),
+                                               slrt_f64(ends), slrt_f64(ends + 8));
+        const slrt_arm along = slrt_make_arm(slrt_f64(glass), slrt_f64(glass + 8),
+                                             slrt_f64(glass + 16), slrt_f64(glass + 24));
+        return slrt_same_way(&to_left, &along);
+    }
     for (i = 0; i < cell.vertex_count; i++, corner += SLRT_VERTEX_BYTES)
         if (slrt_side_of_line(glass, glass + 16, slrt_f64(corner), slrt_f64(corner + 8)) > 0)
             return true;
@@ -3145,7 +3181,8 @@ static bool slrt_is_blocked(const slrt_search *s, uint32_t directed) {
         if (slrt_u32(on) != portal) return false;
         seam = rt->seams + (size_t)slrt_u32(on + 4) * 40;
         if (slrt_u32(seam + 32) == 1 && s->shut && s->shut[slrt_u32(seam + 36)]) return true;
-        if (slrt_u32(seam + 32) == 2 && (s->on_foot || slrt_is_dark(s, seam))) return true;
+        if (slrt_u32(seam + 32) == 2 && (s->on_foot || slrt_is_dark(s, seam, directed)))
+            return true;
         if (s->on_foot && slrt_seam_stops(rt, slrt_u32(on + 4)) & SL_RUNTIME_STOPS_STEPS)
             return true;
     }
@@ -3171,28 +3208,31 @@ static bool slrt_meet(const slrt_arm *ray, const slrt_arm *p, const slrt_arm *q,
     return true;
 }
 
-/// Whether the part of a directed portal between two borders of a sector, or all of it, is within
-/// range.
-static bool slrt_in_range(const slrt_search *s, uint32_t directed, uint32_t right, uint32_t left) {
-    const slrt_arm p = slrt_border(s, 2 * directed + 1), q = slrt_border(s, 2 * directed);
-    const double x = q.x - p.x, y = q.y - p.y, square = x * x + y * y;
-    const double ends = slrt_size(p.x, p.y) + slrt_size(q.x, q.y);
+/// Whether the part of a segment from p to q between two borders is within range; NULL for its end.
+static inline bool slrt_is_part_in_range(const slrt_search *s, const slrt_arm *p, const slrt_arm *q,
+                                         const slrt_arm *right, const slrt_arm *left) {
+    const double x = q->x - p->x, y = q->y - p->y, square = x * x + y * y;
+    const double ends = slrt_size(p->x, p->y) + slrt_size(q->x, q->y);
     const double limit = s->range * (1 + 1e-12) + 1e-14 * ends;
     double from = 0, to = 1, at, error, near_x, near_y;
-    if (right / 2 != directed) {
-        const slrt_arm ray = slrt_border(s, right);
-        if (slrt_meet(&ray, &p, &q, &at, &error) && at - error > from) from = at - error;
-    }
-    if (left / 2 != directed) {
-        const slrt_arm ray = slrt_border(s, left);
-        if (slrt_meet(&ray, &p, &q, &at, &error) && at + error < to) to = at + error;
-    }
-    at = square > 0 ? -(p.x * x + p.y * y) / square : 0;
+    if (right && slrt_meet(right, p, q, &at, &error) && at - error > from) from = at - error;
+    if (left && slrt_meet(left, p, q, &at, &error) && at + error < to) to = at + error;
+    at = square > 0 ? -(p->x * x + p->y * y) / square : 0;
     if (at > to) at = to;
     if (!(at >= from)) at = from;
-    near_x = p.x + at * x;
-    near_y = p.y + at * y;
+    near_x = p->x + at * x;
+    near_y = p->y + at * y;
     return !(near_x * near_x + near_y * near_y > limit * limit);
+}
+
+/// The same for the part of a directed portal between two borders of a sector, or all of it.
+static bool slrt_in_range(const slrt_search *s, uint32_t directed, uint32_t right, uint32_t left) {
+    const slrt_arm p = slrt_border(s, 2 * directed + 1), q = slrt_border(s, 2 * directed);
+    slrt_arm a, b;
+    if (right / 2 != directed) a = slrt_border(s, right);
+    if (left / 2 != directed) b = slrt_border(s, left);
+    return slrt_is_part_in_range(s, &p, &q, right / 2 != directed ? &a : NULL,
+                                 left / 2 != directed ? &b : NULL);
 }
 
 /// Whether a cell's last visit has seen all that a visit through another sector would.
@@ -4169,7 +4209,7 @@ static void slrt_enter(slrt_search *s, uint32_t cell, const slrt_sector *sector)
     if (*marks & SLRT_ON_PATH) return;
     if (*marks & SLRT_ENTERED && slrt_covered(s, cell, sector)) return;
     slrt_see(s, cell);
-    if (s->meet_boxes) s->meet_boxes(s, cell, sector);
+    if (s->meet) s->meet(s, cell, sector);
     *marks = (unsigned char)((*marks & ~(unsigned)SLRT_ALONG) | SLRT_ENTERED | SLRT_ON_PATH |
                              sector->along);
     s->sectors[2 * (size_t)cell] = sector->right;
@@ -4226,12 +4266,11 @@ static bool slrt_leads_into(const slrt_search *s, uint32_t cell, const slrt_sect
     return enters;
 }
 
-static void slrt_search_from(slrt_search *s, uint32_t cell, uint32_t right, uint32_t left) {
-    slrt_sector sector;
-    sector.right = right;
-    sector.left = left;
-    sector.along = 0;
-    if (slrt_leads_into(s, cell, &sector)) slrt_enter(s, cell, &sector);
+static void slrt_search_from(slrt_search *s, uint32_t cell, const slrt_sector *sector) {
+    if (s->is_image || slrt_leads_into(s, cell, sector))
+        slrt_enter(s, cell, sector);
+    else if (s->in_mirrors)
+        s->meet(s, cell, sector); // an eye on a mirror looks into it
     while (s->depth) {
         uint32_t *top = s->path + 4 * (size_t)(s->depth - 1);
         const sl_runtime_cell c = sl_runtime_get_cell(s->rt, top[0]);
@@ -4280,9 +4319,15 @@ static uint32_t slrt_cut_cone(slrt_search *s, uint32_t *last) {
 static void slrt_search_cone(slrt_search *s, uint32_t cell) {
     uint32_t i, last = 0;
     const uint32_t pieces = slrt_cut_cone(s, &last);
-    if (!pieces) slrt_search_from(s, cell, SLRT_ALL_ROUND, SLRT_ALL_ROUND);
-    for (i = 0; i < pieces; i++)
-        slrt_search_from(s, cell, SLRT_ARM + i, SLRT_ARM + (i + 1 < pieces ? i + 1 : last));
+    slrt_sector sector;
+    sector.right = sector.left = SLRT_ALL_ROUND;
+    sector.along = 0;
+    if (!pieces) slrt_search_from(s, cell, &sector);
+    for (i = 0; i < pieces; i++) {
+        sector.right = SLRT_ARM + i;
+        sector.left = SLRT_ARM + (i + 1 < pieces ? i + 1 : last);
+        slrt_search_from(s, cell, &sector);
+    }
 }
 
 /// The smaller one of a caller's range and the map's own; 0 for no limit.
@@ -4464,7 +4509,7 @@ SL_RUNTIME_API uint32_t sl_runtime_look_past_boxes(const sl_runtime_boxes *boxes
     if (!slrt_start_search(&s, boxes->runtime, view, shut, range, boxes_scratch)) return 0;
     s.cells = cells;
     s.room = room;
-    s.meet_boxes = slrt_meet_boxes;
+    s.meet = slrt_meet_boxes;
     s.boxes = boxes;
     s.box_marks = seen;
     s.blockers = boxes_scratch + sl_runtime_scratch_count(boxes->runtime);
@@ -6635,6 +6680,251 @@ SL_RUNTIME_API uint32_t sl_runtime_visible_polygon_mirrored(
     }
     *part_count = job.missed ? part_room + job.missed : job.here;
     return all;
+}
+
+// --- Eye-to-cell by mirrors: what is seen in them, exactly
+
+// In a cell that is entered, the sector is narrowed to each mirror that is there, as to a portal.
+// What leaves by it goes back into the cell about the eye's image (polygon_mirrors.h): a search of
+// its own, with marks of its own, in the next part of the scratch memory.
+
+enum { SLRT_MOST_REFLECTIONS = 16 };
+
+/// A search, and how it is come to. The search comes first: its `meet` is given that alone.
+typedef struct slrt_reflected {
+    slrt_search s;
+    slrt_search *first; ///< the eye's own
+    bool *rounded;
+    uint64_t patience; ///< of the eye's own search, for what is seen in mirrors
+    uint32_t depth;    ///< reflections that are left
+    uint32_t mirror;   ///< that the eye was reflected in; SLRT_NONE for the eye itself
+} slrt_reflected;
+
+/// The steps that are left for what is seen in mirrors.
+static uint64_t *slrt_mirrors_patience(slrt_reflected *r) {
+    return r->s.is_image ? &r->s.patience : &r->patience;
+}
+
+/// Whether some of a mirror is where a cell is, by their boxes.
+static bool slrt_is_near_cell(const unsigned char *mirror, const double *low, const double *high) {
+    int i;
+    for (i = 0; i < 2; i++) {
+        const double a = slrt_f64(mirror + 8 * i), b = slrt_f64(mirror + 16 + 8 * i);
+        if ((a < low[i] && b < low[i]) || (a > high[i] && b > high[i])) return false;
+    }
+    return true;
+}
+
+static bool slrt_is_ray(const slrt_search *s, const slrt_sector *sector) {
+    const slrt_arm a = slrt_border(s, sector->right), b = slrt_border(s, sector->left);
+    return slrt_same_ray(&a, &b);
+}
+
+/// Adds what a portal in line with the eye says about the borders. `p` and `q` lead to its right
+/// and left end. False if only a line is left that crosses portals along it both ways: no line
+/// beside it passes them all.
+static bool slrt_run_along(const slrt_search *s, const slrt_arm *p, const slrt_arm *q,
+                           slrt_sector *sector) {
+    const slrt_arm a = slrt_border(s, sector->right), b = slrt_border(s, sector->left);
+    const slrt_arm to_left = slrt_make_arm(p->to_x, p->to_y, q->to_x, q->to_y);
+    if (!slrt_same_way(p, q)) { // the eye is on it
+        if (!slrt_side(&to_left, &a) && !slrt_same_way(&to_left, &a))
+            sector->along |= SLRT_ALONG_RIGHT;
+        if (!slrt_side(&to_left, &b) && slrt_same_way(&to_left, &b))
+            sector->along |= SLRT_ALONG_LEFT;
+    } else if (slrt_same_ray(&a, &b)) {
+        // Who goes from its right end to its left end crosses it to the right.
+        sector->along |=
+            slrt_same_way(&to_left, &a) ? (unsigned)SLRT_ALONG_LEFT : (unsigned)SLRT_ALONG_RIGHT;
+    }
+    return sector->along != SLRT_ALONG || !slrt_same_ray(&a, &b);
+}
+
+/// Narrows a sector of at most 180 degrees to what is between two other borders, p and q; false for
+/// nothing.
+static bool slrt_narrow_to(const slrt_search *s, const slrt_arm *p, const slrt_arm *q,
+                           uint32_t right, uint32_t left, slrt_sector *sector) {
+    const slrt_arm a = slrt_border(s, sector->right), b = slrt_border(s, sector->left);
+    const int a_p = slrt_side(&a, p), a_q = slrt_side(&a, q);
+    const int p_b = slrt_side(p, &b), q_b = slrt_side(q, &b);
+    const bool right_within = slrt_within(p, &a, &b, a_p, p_b);
+    if (!right_within && !slrt_within(&a, p, q, -a_p, a_q)) return false;
+    if (slrt_within(q, &a, &b, a_q, q_b)) {
+        if (q_b || !slrt_same_way(q, &b)) sector->along &= ~(unsigned)SLRT_ALONG_LEFT;
+        sector->left = left;
+    }
+    if (right_within) {
+        if (a_p || !slrt_same_way(&a, p)) sector->along &= ~(unsigned)SLRT_ALONG_RIGHT;
+        sector->right = right;
+    }
+    return true;
+}
+
+/// Narrows a sector to a piece of a mirror, with its ends as the last two arms. False for nothing.
+static bool slrt_narrow_to_mirror(slrt_search *s, const slrt_piece *piece, slrt_sector *sector) {
+    const slrt_arm right = slrt_make_arm(s->x, s->y, piece->a[0], piece->a[1]);
+    const slrt_arm left = slrt_make_arm(s->x, s->y, piece->b[0], piece->b[1]);
+    const uint32_t to_right = SLRT_ARM + SLRT_MIRROR_ARM, to_left = to_right + 1;
+    const int facing = slrt_side(&right, &left);
+    slrt_arm *p = &s->cone[SLRT_MIRROR_ARM], *q = p + 1, u, v;
+    *p = slrt_is_zero(&right) ? slrt_make_arm(left.to_x, left.to_y, s->x, s->y) : right;
+    *q = slrt_is_zero(&left) ? slrt_make_arm(right.to_x, right.to_y, s->x, s->y) : left;
+    if (facing < 0) return false;
+    if (sector->right == SLRT_ALL_ROUND) {
+        sector->right = to_right;
+        sector->left = to_left;
+    } else if (!slrt_narrow_to(s, p, q, to_right, to_left, sector)) {
+        return false;
+    }
+    if (facing ? sector->along == SLRT_ALONG && slrt_is_ray(s, sector)
+               : !slrt_run_along(s, &right, &left, sector))
+        return false;
+    if (!(s->range > 0)) return true;
+    u = slrt_border(s, sector->right);
+    v = slrt_border(s, sector->left);
+    return slrt_is_part_in_range(s, &right, &left, sector->right == to_right ? NULL : &u,
+                                 sector->left == to_left ? NULL : &v);
+}
+
+/// Marks for an eye on a mirror, which is its own image, the cells that it stands in.
+static void slrt_mark_own_of_image(const slrt_reflected *from, slrt_search *image) {
+    const slrt_search *first = from->first;
+    uint32_t i;
+    if (image->x != first->x || image->y != first->y) return;
+    for (i = 0; i < first->own_count; i++) {
+        const uint32_t own = slrt_own_cells(first)[i];
+        image->marks[own] = first->marks[own] & SLRT_OWN;
+    }
+}
+
+/// Looks from the eye's image, through a piece of a mirror, into the cell before it.
+static void slrt_look_in_mirror(slrt_reflected *from, uint32_t cell, uint32_t mirror,
+                                const slrt_sector *seen) {
+    const sl_runtime *rt = from->s.rt;
+    const slrt_arm u = slrt_border(&from->s, seen->right), v = slrt_border(&from->s, seen->left);
+    const double eye[2] = {from->s.x, from->s.y};
+    uint64_t *patience = slrt_mirrors_patience(from);
+    double m[6], image[2], border[4];
+    bool rounded = false;
+    slrt_sector sector;
+    slrt_reflected to;
+    slrt_reflection(rt->mirror_lines + (size_t)mirror * SLRT_MIRROR_BYTES, m);
+    slrt_reflect_place(m, eye, image, &rounded);
+    if (rounded || *patience <= rt->cell_count / 16 ||
+        (from->s.is_image && image[0] == eye[0] && image[1] == eye[1])) {
+        *from->rounded = true;
+        return;
+    }
+    to = *from;
+    to.mirror = mirror;
+    to.depth--;
+    to.s.x = image[0], to.s.y = image[1];
+    to.s.is_image = true;
+    to.s.has_row = false;
+    to.s.depth = to.s.room = 0;
+    to.s.patience = *patience - rt->cell_count / 16;
+    to.s.path += sl_runtime_scratch_count(rt);
+    to.s.sectors = to.s.path + 4 * (size_t)rt->cell_count;
+    to.s.marks = (unsigned char *)(to.s.path + 6 * (size_t)rt->cell_count);
+    memset(to.s.marks, 0, rt->cell_count);
+    slrt_mark_own_of_image(from, &to.s);
+    slrt_reflect_border(m, &v, border);
+    to.s.cone[0] = slrt_arm_of(border);
+    slrt_reflect_border(m, &u, border);
+    to.s.cone[1] = slrt_arm_of(border);
+    sector.right = SLRT_ARM;
+    sector.left = SLRT_ARM + 1;
+    sector.along = (seen->along & SLRT_ALONG_RIGHT ? (unsigned)SLRT_ALONG_LEFT : 0u) |
+                   (seen->along & SLRT_ALONG_LEFT ? (unsigned)SLRT_ALONG_RIGHT : 0u);
+    slrt_search_from(&to.s, cell, &sector);
+    *patience = to.s.patience;
+    if (to.s.gave_up) *from->rounded = true;
+}
+
+/// Looks into a mirror from a cell, through a sector.
+static void slrt_see_in(slrt_reflected *r, uint32_t cell, uint32_t mirror,
+                        const slrt_sector *sector) {
+    const sl_runtime_cell c = sl_runtime_get_cell(r->s.rt, cell);
+    uint32_t i;
+    for (i = 0; i < c.vertex_count; i++) {
+        slrt_piece piece;
+        slrt_sector part = *sector;
+        slrt_read_vertex(r->s.rt, &c, i, piece.a);
+        slrt_read_vertex(r->s.rt, &c, slrt_next_corner(&c, i), piece.b);
+        if (slrt_cut_to_mirror(r->s.rt, cell,
+                               r->s.rt->mirror_lines + (size_t)mirror * SLRT_MIRROR_BYTES,
+                               &piece) &&
+            slrt_narrow_to_mirror(&r->s, &piece, &part))
+            slrt_look_in_mirror(r, cell, mirror, &part);
+    }
+}
+
+/// Notes a cell that is entered, and looks into its mirrors.
+static void slrt_meet_mirrors(slrt_search *s, uint32_t cell, const slrt_sector *sector) {
+    slrt_reflected *r = (slrt_reflected *)s;
+    const sl_runtime *rt = s->rt;
+    const sl_runtime_cell c = sl_runtime_get_cell(rt, cell);
+    double low[2], high[2], at[2];
+    uint64_t *patience = slrt_mirrors_patience(r);
+    uint32_t i;
+    int k;
+    if (s->is_image) r->first->marks[cell] |= SLRT_MIRRORED;
+    if (!r->depth) return;
+    slrt_read_vertex(rt, &c, 0, low);
+    memcpy(high, low, sizeof high);
+    for (i = 1; i < c.vertex_count; i++) {
+        slrt_read_vertex(rt, &c, i, at);
+        for (k = 0; k < 2; k++) {
+            if (at[k] < low[k]) low[k] = at[k];
+            if (at[k] > high[k]) high[k] = at[k];
+        }
+    }
+    for (i = 0; i < rt->mirror_count && *patience; i++) {
+        --*patience;
+        // Behind a mirror its own side is behind the line of sight, but for rounding.
+        if (i != r->mirror &&
+            slrt_is_near_cell(rt->mirror_lines + (size_t)i * SLRT_MIRROR_BYTES, low, high))
+            slrt_see_in(r, cell, i, sector);
+    }
+    if (i < rt->mirror_count) *r->rounded = true;
+}
+
+SL_RUNTIME_API size_t sl_runtime_mirrored_scratch_count(const sl_runtime *runtime, uint32_t depth) {
+    const size_t most = SLRT_MOST_REFLECTIONS;
+    return sl_runtime_scratch_count(runtime) * (1 + (depth < most ? depth : most));
+}
+
+SL_RUNTIME_API uint32_t sl_runtime_look_into_mirrors(const sl_runtime *runtime,
+                                                     const sl_runtime_view *view,
+                                                     const unsigned char *shut, double range,
+                                                     uint32_t depth, uint32_t *mirrored_scratch,
+                                                     uint32_t *cells, uint32_t room,
+                                                     uint32_t *direct, bool *rounded) {
+    slrt_reflected r;
+    uint32_t i;
+    *direct = 0;
+    *rounded = false;
+    memset(&r, 0, sizeof r);
+    if (!slrt_start_search(&r.s, runtime, view, shut, range, mirrored_scratch)) return 0;
+    r.first = &r.s;
+    r.rounded = rounded;
+    r.depth = depth;
+    if (r.depth > SLRT_MOST_REFLECTIONS) r.depth = SLRT_MOST_REFLECTIONS;
+    r.mirror = SLRT_NONE;
+    r.patience = (uint64_t)SLRT_PATIENCE * 16 *
+                 ((uint64_t)runtime->directed_count + runtime->vertex_count + 16);
+    r.s.cells = cells;
+    r.s.room = room;
+    r.s.in_mirrors = runtime->mirror_count && r.depth;
+    if (r.s.in_mirrors) r.s.meet = slrt_meet_mirrors;
+    slrt_run_search(&r.s);
+    *direct = r.s.count;
+    if (runtime->mirrors && depth && (!runtime->mirror_count || runtime->loose || r.s.gave_up))
+        *rounded = true;
+    for (i = 0; r.s.in_mirrors && i < runtime->cell_count; i++)
+        if (r.s.marks[i] & SLRT_MIRRORED) slrt_see(&r.s, i);
+    if (*rounded) slrt_see_mirrored(&r.s);
+    return r.s.count;
 }
 
 /// Box to box: what is seen from anywhere in a box, by a search through portals.

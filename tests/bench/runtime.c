@@ -29,6 +29,7 @@ static char *bake(sl_context *context, const char *name, const char *slice, size
 
 // --- the questions: each asks for element i of the lists and adds the answer up
 
+enum { DEPTH = 2 }; // reflections
 enum { ASKED = 1 << 14, LOOKS = 1 << 10, ROUNDS = 15, POINTS = 1 << 12 };
 
 typedef struct bench {
@@ -40,8 +41,8 @@ typedef struct bench {
     double x[ASKED], y[ASKED], angle[ASKED];
     unsigned char *matrix, *bits;
     size_t stride;
-    uint32_t *scratch, *cells;
-    double *points; ///< POINTS pairs
+    uint32_t *scratch, *cells; ///< scratch: for DEPTH reflections
+    double *points;            ///< POINTS pairs
 } bench;
 
 typedef uint32_t question(const bench *b, uint32_t i);
@@ -107,6 +108,22 @@ static uint32_t ask_look_60(const bench *b, uint32_t i) {
     const sl_runtime_view view = sl_runtime_view_toward(b->x[i], b->y[i], cos(b->angle[i]),
                                                         sin(b->angle[i]), 0.57735026918962584);
     return sl_runtime_look(&b->runtime, &view, b->scratch, b->cells, b->runtime.cell_count);
+}
+
+static uint32_t ask_look_mirrored(const bench *b, uint32_t i) {
+    const sl_runtime_view view = sl_runtime_view_all_round(b->x[i], b->y[i]);
+    uint32_t direct;
+    return sl_runtime_look_mirrored(&b->runtime, &view, NULL, 0, b->scratch, b->cells,
+                                    b->runtime.cell_count, &direct);
+}
+
+/// From places of few bits, as those of floats.
+static uint32_t ask_look_into_mirrors(const bench *b, uint32_t i) {
+    const sl_runtime_view view = sl_runtime_view_all_round((float)b->x[i], (float)b->y[i]);
+    uint32_t direct;
+    bool rounded;
+    return sl_runtime_look_into_mirrors(&b->runtime, &view, NULL, 0, DEPTH, b->scratch, b->cells,
+                                        b->runtime.cell_count, &direct, &rounded);
 }
 
 /// From one place to any other, and to one in a cell that the eye sees.
@@ -219,7 +236,7 @@ static void prepare(bench *b) {
     b->stride = ((size_t)r->cell_count + 7) / 8;
     b->matrix = room(b->stride * r->cell_count);
     b->bits = room(b->stride);
-    b->scratch = room(sl_runtime_scratch_count(r) * sizeof *b->scratch);
+    b->scratch = room(sl_runtime_mirrored_scratch_count(r, DEPTH) * sizeof *b->scratch);
     b->cells = room(r->cell_count * sizeof *b->cells);
     b->points = room(2 * POINTS * sizeof *b->points);
     for (uint32_t i = 0; i < r->cell_count; i++) {
@@ -257,6 +274,8 @@ static void print_table(const bench *b, const char *name) {
         {"unpack a row", ask_row_bits, ASKED, rows},
         {"look all round", ask_look, LOOKS, b->size},
         {"look in a cone of 60", ask_look_60, LOOKS, b->size},
+        {"look, with rows of mirrors", ask_look_mirrored, LOOKS, b->size},
+        {"look into mirrors", ask_look_into_mirrors, LOOKS, b->size},
         {"one place sees another", ask_sees, LOOKS, b->size},
         {"one place sees one in a cell in view", ask_sees_near, LOOKS, b->size},
         {"a step is free", ask_can_walk, LOOKS, b->size},

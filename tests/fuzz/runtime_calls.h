@@ -53,6 +53,22 @@ static void check_row(const sl_runtime *r, uint32_t cell, const buffers *b) {
     FUZZ_CHECK(seen == count);
 }
 
+/// Into mirrors likewise.
+static void check_into_mirrors(const sl_runtime *r, const sl_runtime_view *view, uint32_t seen,
+                               const buffers *b) {
+    enum { DEPTH = 2 };
+    uint32_t *scratch = room(sl_runtime_mirrored_scratch_count(r, DEPTH) * sizeof *scratch);
+    uint32_t direct = 0;
+    bool rounded = true;
+    const uint32_t count = sl_runtime_look_into_mirrors(r, view, NULL, 0, DEPTH, scratch, b->cells,
+                                                        r->cell_count, &direct, &rounded);
+    FUZZ_CHECK(direct == seen && count >= direct && count <= r->cell_count);
+    FUZZ_CHECK(r->mirrors || r->mirror_count || (count == direct && !rounded));
+    for (uint32_t i = 0; i < count; i++)
+        FUZZ_CHECK(b->cells[i] < r->cell_count && b->seen[b->cells[i]] == (i < direct));
+    free(scratch);
+}
+
 /// By mirror no cell of `seen` is lost, and none comes twice. Leaves `seen` as it was.
 static void check_mirrored(const sl_runtime *r, const sl_runtime_view *view, uint32_t seen,
                            const buffers *b) {
@@ -63,6 +79,7 @@ static void check_mirrored(const sl_runtime *r, const sl_runtime_view *view, uin
     FUZZ_CHECK(r->mirrors || count == direct);
     for (uint32_t i = 0; i < count; i++)
         FUZZ_CHECK(b->cells[i] < r->cell_count && b->seen[b->cells[i]] == (i < direct));
+    check_into_mirrors(r, view, seen, b);
 }
 
 /// Whether a row of a cell that the eye stands in has a cell, or one of a cell at glass in its

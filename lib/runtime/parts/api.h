@@ -437,7 +437,7 @@ SL_RUNTIME_API uint32_t sl_runtime_passages(const sl_runtime *runtime, uint32_t 
 SL_RUNTIME_API bool sl_runtime_can_walk(const sl_runtime *runtime, double x0, double y0, double x1,
                                         double y1, const unsigned char *shut);
 
-// Mirrors. What is seen directly is exact, and what is seen by mirror is conservative: no cell is
+// Mirrors. What is seen directly is exact, and what rows say of mirrors is conservative: no cell is
 // missed, but cells may be added. The rows count whole cells, all directions and the map's range.
 // So they hold what some eye in the cell sees by some mirror, with up to as many reflections as the
 // bake followed (`bake --mirror-depth`, by default 1). sl_runtime_visible_polygon ends at mirrors;
@@ -464,6 +464,30 @@ SL_RUNTIME_API uint32_t sl_runtime_look_mirrored(const sl_runtime *runtime,
                                                  const unsigned char *shut, double range,
                                                  uint32_t *scratch, uint32_t *cells, uint32_t room,
                                                  uint32_t *direct);
+
+/// The size of `mirrored_scratch` for sl_runtime_look_into_mirrors, in uint32_t: depth + 1 times
+/// that of the other calls.
+SL_RUNTIME_API size_t sl_runtime_mirrored_scratch_count(const sl_runtime *runtime, uint32_t depth);
+
+/// As sl_runtime_look_mirrored, but what is seen by mirror is exact: the cells that some line from
+/// the eye, inside the cone, reaches by at least one and up to `depth` reflections (16 at most). A
+/// line crosses a mirror as it would cross a portal, by the rules of sl_runtime_look, straight on
+/// behind it. So an eye on a mirror looks into it. Lines are within range with their reflections;
+/// its margin is that of sl_runtime_look_past, about the image of the eye. The first `*direct`
+/// cells are those of sl_runtime_look_past; the others ascend. It needs no rows of mirrors.
+///
+/// Exact behind axial mirrors, as long as the image of the eye is one of doubles: with coordinates
+/// of few bits, as floats and those of drawings, it is. If not, if an oblique mirror is seen, if
+/// the search takes very long, and in a file before 2.0 or a loose one, `*rounded` is set. Then the
+/// other cells of sl_runtime_look_mirrored are added, so that none is missed, up to the reflections
+/// of the bake. Time: that of sl_runtime_look_past for each piece of a mirror that is seen, and for
+/// each cell seen all mirrors.
+SL_RUNTIME_API uint32_t sl_runtime_look_into_mirrors(const sl_runtime *runtime,
+                                                     const sl_runtime_view *view,
+                                                     const unsigned char *shut, double range,
+                                                     uint32_t depth, uint32_t *mirrored_scratch,
+                                                     uint32_t *cells, uint32_t room,
+                                                     uint32_t *direct, bool *rounded);
 
 /// As sl_runtime_seen_from, directly or by mirror. All cells if the bake did not look into the
 /// map's mirrors.

@@ -82,7 +82,7 @@ SL_RUNTIME_API uint32_t sl_runtime_look_past_boxes(const sl_runtime_boxes *boxes
     if (!slrt_start_search(&s, boxes->runtime, view, shut, range, boxes_scratch)) return 0;
     s.cells = cells;
     s.room = room;
-    s.meet_boxes = slrt_meet_boxes;
+    s.meet = slrt_meet_boxes;
     s.boxes = boxes;
     s.box_marks = seen;
     s.blockers = boxes_scratch + sl_runtime_scratch_count(boxes->runtime);

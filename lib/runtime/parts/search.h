@@ -10,7 +10,7 @@ static void slrt_enter(slrt_search *s, uint32_t cell, const slrt_sector *sector)
     if (*marks & SLRT_ON_PATH) return;
     if (*marks & SLRT_ENTERED && slrt_covered(s, cell, sector)) return;
     slrt_see(s, cell);
-    if (s->meet_boxes) s->meet_boxes(s, cell, sector);
+    if (s->meet) s->meet(s, cell, sector);
     *marks = (unsigned char)((*marks & ~(unsigned)SLRT_ALONG) | SLRT_ENTERED | SLRT_ON_PATH |
                              sector->along);
     s->sectors[2 * (size_t)cell] = sector->right;
@@ -67,12 +67,11 @@ static bool slrt_leads_into(const slrt_search *s, uint32_t cell, const slrt_sect
     return enters;
 }
 
-static void slrt_search_from(slrt_search *s, uint32_t cell, uint32_t right, uint32_t left) {
-    slrt_sector sector;
-    sector.right = right;
-    sector.left = left;
-    sector.along = 0;
-    if (slrt_leads_into(s, cell, &sector)) slrt_enter(s, cell, &sector);
+static void slrt_search_from(slrt_search *s, uint32_t cell, const slrt_sector *sector) {
+    if (s->is_image || slrt_leads_into(s, cell, sector))
+        slrt_enter(s, cell, sector);
+    else if (s->in_mirrors)
+        s->meet(s, cell, sector); // an eye on a mirror looks into it
     while (s->depth) {
         uint32_t *top = s->path + 4 * (size_t)(s->depth - 1);
         const sl_runtime_cell c = sl_runtime_get_cell(s->rt, top[0]);
@@ -121,9 +120,15 @@ static uint32_t slrt_cut_cone(slrt_search *s, uint32_t *last) {
 static void slrt_search_cone(slrt_search *s, uint32_t cell) {
     uint32_t i, last = 0;
     const uint32_t pieces = slrt_cut_cone(s, &last);
-    if (!pieces) slrt_search_from(s, cell, SLRT_ALL_ROUND, SLRT_ALL_ROUND);
-    for (i = 0; i < pieces; i++)
-        slrt_search_from(s, cell, SLRT_ARM + i, SLRT_ARM + (i + 1 < pieces ? i + 1 : last));
+    slrt_sector sector;
+    sector.right = sector.left = SLRT_ALL_ROUND;
+    sector.along = 0;
+    if (!pieces) slrt_search_from(s, cell, &sector);
+    for (i = 0; i < pieces; i++) {
+        sector.right = SLRT_ARM + i;
+        sector.left = SLRT_ARM + (i + 1 < pieces ? i + 1 : last);
+        slrt_search_from(s, cell, &sector);
+    }
 }
 
 /// The smaller one of a caller's range and the map's own; 0 for no limit.

@@ -22,9 +22,9 @@ SL_RUNTIME_API sl_runtime_view sl_runtime_view_toward(double x, double y, double
 
 /// A border of a sector is a number: 2e for the left end of directed portal e, 2e + 1 for the right
 /// end; or one of the cone's arms.
-#define SLRT_ARM       (UINT32_MAX - 4)
-#define SLRT_ALL_ROUND UINT32_MAX ///< no borders: the eye is in the cell
-enum { SLRT_MOST_ARMS = 4 };
+#define SLRT_ARM       (UINT32_MAX - 6)
+#define SLRT_ALL_ROUND UINT32_MAX                 ///< no borders: the eye is in the cell
+enum { SLRT_MOST_ARMS = 6, SLRT_MIRROR_ARM = 4 }; ///< the last two: the ends of a mirror
 
 /// The limit of steps for each directed portal of the map. In sound maps few need more than one;
 /// four is the most seen.
@@ -42,7 +42,8 @@ enum {
     SLRT_ALONG_RIGHT = 16,
     SLRT_ALONG_LEFT = 32,
     SLRT_ALONG = SLRT_ALONG_RIGHT | SLRT_ALONG_LEFT,
-    SLRT_OWN = 64 ///< one of the eye's cells, or on the way to a point
+    SLRT_OWN = 64,      ///< one of the eye's cells, or on the way to a point
+    SLRT_MIRRORED = 128 ///< seen by mirror
 };
 
 /// What of a cell's surroundings the eye sees through the portals passed: a sector, and which of
@@ -72,9 +73,11 @@ typedef struct slrt_search {
     bool on_foot; ///< glass is a wall from both sides, and steps count in place of sight
     uint32_t *cells, room, count;
     uint64_t patience;
-    /// NULL for a search without boxes, and till boxes hide. By these a program that asks for no
-    /// boxes is built without what is only for them.
-    void (*meet_boxes)(struct slrt_search *s, uint32_t cell, const slrt_sector *sector);
+    bool in_mirrors; ///< `meet` looks into mirrors
+    bool is_image;   ///< the eye is an image, which stands in no cell
+    /// NULL for a search without boxes and mirrors, and till boxes hide. By these a program that
+    /// asks for none is built without what is only for them.
+    void (*meet)(struct slrt_search *s, uint32_t cell, const slrt_sector *sector);
     bool (*is_hidden)(const struct slrt_search *s, uint32_t directed, const slrt_sector *sector);
     bool (*stops)(const struct slrt_search *s, const slrt_arm *way, uint32_t cell);
     const sl_runtime_boxes *boxes;     ///< the rest is about them
@@ -154,13 +157,22 @@ static bool slrt_narrow(const slrt_search *s, uint32_t directed, slrt_sector *se
 }
 
 /// Whether one-way glass keeps sight from the eye. From its a to its b, it is seen through from the
-/// right to the left. For an eye on its line, the eye's cell decides.
-static bool slrt_is_dark(const slrt_search *s, const unsigned char *glass) {
+/// right to the left. For an eye on its line, the eye's cell decides; for an image there, which way
+/// the portal leads.
+static bool slrt_is_dark(const slrt_search *s, const unsigned char *glass, uint32_t directed) {
     const sl_runtime_cell cell = sl_runtime_get_cell(s->rt, s->eye_cell);
     const unsigned char *corner = s->rt->vertices + (size_t)cell.first_vertex * SLRT_VERTEX_BYTES;
     const int side = slrt_side_of_line(glass, glass + 16, s->x, s->y);
     uint32_t i;
     if (side) return side > 0;
+    if (s->is_image) {
+        const unsigned char *ends = s->rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 8;
+        const slrt_arm to_left = slrt_make_arm(slrt_f64(ends + 16), slrt_f64(ends + 24),
+                                               slrt_f64(ends), slrt_f64(ends + 8));
+        const slrt_arm along = slrt_make_arm(slrt_f64(glass), slrt_f64(glass + 8),
+                                             slrt_f64(glass + 16), slrt_f64(glass + 24));
+        return slrt_same_way(&to_left, &along);
+    }
     for (i = 0; i < cell.vertex_count; i++, corner += SLRT_VERTEX_BYTES)
         if (slrt_side_of_line(glass, glass + 16, slrt_f64(corner), slrt_f64(corner + 8)) > 0)
             return true;
@@ -179,7 +191,8 @@ static bool slrt_is_blocked(const slrt_search *s, uint32_t directed) {
         if (slrt_u32(on) != portal) return false;
         seam = rt->seams + (size_t)slrt_u32(on + 4) * 40;
         if (slrt_u32(seam + 32) == 1 && s->shut && s->shut[slrt_u32(seam + 36)]) return true;
-        if (slrt_u32(seam + 32) == 2 && (s->on_foot || slrt_is_dark(s, seam))) return true;
+        if (slrt_u32(seam + 32) == 2 && (s->on_foot || slrt_is_dark(s, seam, directed)))
+            return true;
         if (s->on_foot && slrt_seam_stops(rt, slrt_u32(on + 4)) & SL_RUNTIME_STOPS_STEPS)
             return true;
     }
@@ -205,28 +218,31 @@ static bool slrt_meet(const slrt_arm *ray, const slrt_arm *p, const slrt_arm *q,
     return true;
 }
 
-/// Whether the part of a directed portal between two borders of a sector, or all of it, is within
-/// range.
-static bool slrt_in_range(const slrt_search *s, uint32_t directed, uint32_t right, uint32_t left) {
-    const slrt_arm p = slrt_border(s, 2 * directed + 1), q = slrt_border(s, 2 * directed);
-    const double x = q.x - p.x, y = q.y - p.y, square = x * x + y * y;
-    const double ends = slrt_size(p.x, p.y) + slrt_size(q.x, q.y);
+/// Whether the part of a segment from p to q between two borders is within range; NULL for its end.
+static inline bool slrt_is_part_in_range(const slrt_search *s, const slrt_arm *p, const slrt_arm *q,
+                                         const slrt_arm *right, const slrt_arm *left) {
+    const double x = q->x - p->x, y = q->y - p->y, square = x * x + y * y;
+    const double ends = slrt_size(p->x, p->y) + slrt_size(q->x, q->y);
     const double limit = s->range * (1 + 1e-12) + 1e-14 * ends;
     double from = 0, to = 1, at, error, near_x, near_y;
-    if (right / 2 != directed) {
-        const slrt_arm ray = slrt_border(s, right);
-        if (slrt_meet(&ray, &p, &q, &at, &error) && at - error > from) from = at - error;
-    }
-    if (left / 2 != directed) {
-        const slrt_arm ray = slrt_border(s, left);
-        if (slrt_meet(&ray, &p, &q, &at, &error) && at + error < to) to = at + error;
-    }
-    at = square > 0 ? -(p.x * x + p.y * y) / square : 0;
+    if (right && slrt_meet(right, p, q, &at, &error) && at - error > from) from = at - error;
+    if (left && slrt_meet(left, p, q, &at, &error) && at + error < to) to = at + error;
+    at = square > 0 ? -(p->x * x + p->y * y) / square : 0;
     if (at > to) at = to;
     if (!(at >= from)) at = from;
-    near_x = p.x + at * x;
-    near_y = p.y + at * y;
+    near_x = p->x + at * x;
+    near_y = p->y + at * y;
     return !(near_x * near_x + near_y * near_y > limit * limit);
+}
+
+/// The same for the part of a directed portal between two borders of a sector, or all of it.
+static bool slrt_in_range(const slrt_search *s, uint32_t directed, uint32_t right, uint32_t left) {
+    const slrt_arm p = slrt_border(s, 2 * directed + 1), q = slrt_border(s, 2 * directed);
+    slrt_arm a, b;
+    if (right / 2 != directed) a = slrt_border(s, right);
+    if (left / 2 != directed) b = slrt_border(s, left);
+    return slrt_is_part_in_range(s, &p, &q, right / 2 != directed ? &a : NULL,
+                                 left / 2 != directed ? &b : NULL);
 }
 
 /// Whether a cell's last visit has seen all that a visit through another sector would.
