@@ -30,51 +30,78 @@ static void press_key(app_state *app, const char *key) {
 
 // --- against the library
 
-/// What the library says of the map as it is now.
-typedef struct fresh {
+/// A space of the map as it is now: of sight, or of steps.
+typedef struct cut_plan {
     sl_baked baked;
     sl_space space;
     sl_outline outline;
+} cut_plan;
+
+/// What the library says of the map as it is now.
+typedef struct fresh {
+    cut_plan sight, steps;
     sl_vga_grid grid;
-    sl_vga_graph graph;
+    sl_vga_graph graph, walked;
     sl_vga_measures *measures;
 } fresh;
 
-static void make_fresh(app_state *app, sl_context *context, unsigned part, fresh *f) {
+static void make_plan(app_state *app, sl_context *context, uint32_t channel, cut_plan *out) {
     sl_bake_options options = sl_bake_options_default();
     sl_bake_account account;
     sl_map map = {0};
-    *f = (fresh){0};
+    *out = (cut_plan){0};
     assert_int_equal(sl_map_copy(context, &app->document.map, &map), SL_OK);
-    assert_int_equal(sl_bake_space(context, &map, &options, &f->baked, &account), SL_OK);
-    bool *shut = calloc(f->baked.map.door_count + 1, sizeof *shut);
-    for (size_t i = 0; i < f->baked.map.door_count; i++) shut[i] = !f->baked.map.doors[i].open;
-    const bool glass = f->baked.map.oneway_count > 0;
+    map.channel = channel;
+    assert_int_equal(sl_bake_space(context, &map, &options, &out->baked, &account), SL_OK);
+    bool *shut = calloc(out->baked.map.door_count + 1, sizeof *shut);
+    for (size_t i = 0; i < out->baked.map.door_count; i++) shut[i] = !out->baked.map.doors[i].open;
+    const bool glass = out->baked.map.oneway_count > 0;
     const sli_filtered_space filtered = {.shut = shut, .one_way = glass, .dark_walls = glass};
-    assert_int_equal(sli_filtered_space_make(context, &f->baked.space, &filtered, NULL, &f->space),
-                     SL_OK);
+    assert_int_equal(
+        sli_filtered_space_make(context, &out->baked.space, &filtered, NULL, &out->space), SL_OK);
     free(shut);
     sl_map_destroy(context, &map);
-    assert_int_equal(sli_outline_make(context, &f->space, &f->outline), SL_OK);
-    assert_int_equal(
-        sl_vga_grid_make(context, &f->outline, heat_step(&app->view), NULL, 0, &f->grid), SL_OK);
-    assert_int_equal(
-        sl_vga_graph_make(context, &f->outline, &f->grid, app->document.map.range, 1, &f->graph),
-        SL_OK);
-    f->measures = calloc(f->grid.count, sizeof *f->measures);
+    assert_int_equal(sli_outline_make(context, &out->space, &out->outline), SL_OK);
+}
+
+static void drop_plan(sl_context *context, cut_plan *p) {
+    sli_outline_destroy(context, &p->outline);
+    sl_space_destroy(context, &p->space);
+    sl_baked_destroy(context, &p->baked);
+}
+
+/// The grid and paths go by steps, all else by sight.
+static void make_fresh(app_state *app, sl_context *context, unsigned part, fresh *f) {
     sl_vga_options measured = sl_vga_options_default();
     measured.parts = part;
+    *f = (fresh){0};
+    make_plan(app, context, SL_STOPS_SIGHT, &f->sight);
+    make_plan(app, context, SL_STOPS_STEPS, &f->steps);
     assert_int_equal(
-        sl_vga_measure(context, &f->outline, &f->grid, &f->graph, &measured, f->measures), SL_OK);
+        sl_vga_grid_make(context, &f->steps.outline, heat_step(&app->view), NULL, 0, &f->grid),
+        SL_OK);
+    assert_int_equal(sl_vga_graph_make(context, &f->sight.outline, &f->grid,
+                                       app->document.map.range, 1, &f->graph),
+                     SL_OK);
+    const bool differ = sl_map_steps_differ(&app->document.map);
+    const bool walks = differ && part & (SL_VGA_METRIC | SL_VGA_ANGULAR);
+    if (walks)
+        assert_int_equal(sl_vga_graph_make(context, &f->steps.outline, &f->grid, 0, 1, &f->walked),
+                         SL_OK);
+    f->measures = calloc(f->grid.count, sizeof *f->measures);
+    assert_int_equal(sl_vga_measure(context, walks ? &f->steps.outline : &f->sight.outline,
+                                    &f->grid, walks ? &f->walked : &f->graph, &measured,
+                                    f->measures),
+                     SL_OK);
 }
 
 static void drop_fresh(sl_context *context, fresh *f) {
     free(f->measures);
     sl_vga_graph_destroy(context, &f->graph);
+    sl_vga_graph_destroy(context, &f->walked);
     sl_vga_grid_destroy(context, &f->grid);
-    sli_outline_destroy(context, &f->outline);
-    sl_space_destroy(context, &f->space);
-    sl_baked_destroy(context, &f->baked);
+    drop_plan(context, &f->sight);
+    drop_plan(context, &f->steps);
 }
 
 /// The values that are shown; there must be some.
@@ -131,7 +158,8 @@ static void test_list(void **state) {
 /// All measures, one after the other, and back to the first one.
 static void test_measures(void **state) {
     static const char *const maps[] = {MAPS "/office.map", MAPS "/oblique/rotunda.map",
-                                       MAPS "/effects/range.map", MAPS "/effects/oneway.map"};
+                                       MAPS "/effects/range.map", MAPS "/effects/oneway.map",
+                                       MAPS "/effects/stops.map"};
     const size_t count = heat_measure_count();
     (void)state;
     for (size_t m = 0; m < sizeof maps / sizeof *maps; m++) {

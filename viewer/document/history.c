@@ -56,7 +56,8 @@ static bool same_segment(sl_segment a, sl_segment b) {
 static bool same_glass(const sl_glass *a, size_t a_count, const sl_glass *b, size_t b_count) {
     bool same = a_count == b_count;
     for (size_t i = 0; i < a_count && same; i++)
-        same = same_segment(a[i].segment, b[i].segment) && a[i].one_sided == b[i].one_sided;
+        same = same_segment(a[i].segment, b[i].segment) && a[i].one_sided == b[i].one_sided &&
+               a[i].stops == b[i].stops;
     return same;
 }
 

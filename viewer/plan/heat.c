@@ -158,11 +158,9 @@ static sl_status begin_layer(view_state *view) {
     SL_TRY(sl_effects_check(view->context, map, "the heat map", ~(unsigned)SL_EFFECT_MIRROR,
                             "steps and paths lead straight to points, not to mirror "
                             "images"));
-    if (sl_map_steps_differ(map))
-        sl_note(view->context,
-                "some walls stop steps and not sight, or sight and not steps: the heat map goes "
-                "by sight in all measures; 'sightline vga' has paths by steps");
     SL_TRY(sl_query_copy(view->context, view->present.query, &layer->graph.query));
+    SL_TRY(sl_vga_steps_create(view->context, document->baked, layer->graph.query, NULL,
+                               &layer->graph.steps));
     return start_work(view, layer);
 }
 

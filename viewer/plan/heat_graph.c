@@ -34,7 +34,8 @@ unsigned heat_measure_part(const sl_measure *measure) {
 
 static sl_status make_graph(sl_context *context, heat_graph *g) {
     SL_TRY(sl_query_outline(context, g->query, &g->outline));
-    SL_TRY(sl_vga_grid_make(context, g->outline, g->step, NULL, 0, &g->grid));
+    SL_TRY(sl_vga_grid_make(context, sl_vga_steps_outline(g->steps, g->outline), g->step, NULL, 0,
+                            &g->grid));
     if (g->grid.count == 0)
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "no point of a grid with steps of %.3g is inside; choose a finer grid",
@@ -72,7 +73,7 @@ static sl_status measure_group(sl_context *context, heat_graph *g, unsigned part
     sl_vga_options options = sl_vga_options_default();
     options.parts = part;
     const sl_status status =
-        sl_vga_measure(context, g->outline, &g->grid, &g->graph, &options, made);
+        sl_vga_measure_walked(context, g->outline, &g->grid, &g->graph, g->steps, &options, made);
     size_t count;
     const sl_measure *all = sl_measures(SL_VGA, &count);
     for (size_t k = 0; k < count && status == SL_OK; k++)
@@ -97,6 +98,7 @@ sl_status heat_graph_work(sl_context *context, void *data) {
 void heat_graph_destroy(sl_context *context, heat_graph *graph) {
     drop_graph(context, graph);
     sl_query_destroy(context, graph->query);
+    sl_vga_steps_destroy(context, graph->steps);
     *graph = (heat_graph){0};
 }
 

@@ -17,7 +17,8 @@ unsigned heat_measure_part(const sl_measure *measure);
 
 /// Zeroed to start. The caller fills the first block.
 typedef struct heat_graph {
-    sl_query *query; ///< a copy of its own
+    sl_query *query;     ///< a copy of its own
+    sl_vga_steps *steps; ///< its own; NULL where steps go as sight does
     double step, range;
     unsigned wanted; ///< the group to measure next; 0: none
 
