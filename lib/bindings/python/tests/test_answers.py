@@ -276,12 +276,13 @@ class CommandLine(unittest.TestCase):
                 np.testing.assert_array_equal(ours[column], theirs[column], column)
 
     def test_vga_is_that_of_the_command(self):
-        path = support.MAPS / "office.map"
-        theirs = support.table(support.command("vga", path, "--grid", "2", "--measures", "all"))
-        ours = sightline.Plan.from_file(path).vga(
-            2, measures=("visual", "through", "metric", "angular", "isovist"), arrays=True)
-        for name in theirs:
-            np.testing.assert_array_equal(ours[name], theirs[name], name)
+        groups = ("visual", "through", "metric", "angular", "isovist")
+        for name, grid in (("office.map", 2), ("effects/stops.map", 0.5)): # the other: paths by steps
+            path = support.MAPS / name
+            theirs = support.table(support.command("vga", path, "--grid", str(grid), "--measures", "all"))
+            ours = sightline.Plan.from_file(path).vga(grid, measures=groups, arrays=True)
+            for column in theirs:
+                np.testing.assert_array_equal(ours[column], theirs[column], f"{name}: {column}")
 
     def test_measures_are_those_of_the_command_in_its_order(self):
         path = support.MAPS / "office.map"
