@@ -20,6 +20,9 @@
 /// One-way glass is a portal at its lit side and a wall at its dark one. So a view passes it one
 /// way, also by mirror. At the eye itself the side that the eye is on decides.
 ///
+/// A cone that has passed a limited wall takes the next one for a wall. The fan about an eye on
+/// limited walls spreads through them, so these do not count.
+///
 /// Cost: O(sides of the rooms that are seen), counted once for each time a room is entered. The
 /// expansion is that of triangular expansion (Bungiu et al. 2014, Efficient Computation of
 /// Visibility Polygons), with convex rooms in place of triangles.
@@ -271,6 +274,7 @@ static inline bool is_barred(const expansion *x, uint32_t i) {
 typedef struct view_cone {
     uint32_t entry, at;
     bool within;
+    bool limited; ///< it has passed a limited wall
     sli_eye_ray right, left;
 } view_cone;
 
@@ -286,22 +290,25 @@ static inline sl_status enter(expansion *x, view_cone *cone, int turn) {
     if (turn < 0) {
         if (m->frames.count == m->frames.capacity) SL_TRY(grow_frames(x));
         m->frames.items[m->frames.count++] =
-            (sli_region_frame){portal->next, cone->entry, cone->left};
+            (sli_region_frame){portal->next, cone->entry, cone->limited, cone->left};
     }
+    cone->limited = cone->limited || sli_region_limit(x->outline, cone->at) != SL_NO_SEAM;
     if (turn <= 0) cone->left = to_start(x, portal->next);
     if (!cone->within) cone->right = to_start(x, cone->at);
     cone->entry = portal->neighbour;
     return SL_OK;
 }
 
-/// Adds what is seen of a side, no portal within range: from `right` to `left`, or where these are
-/// NULL from and to its ends.
+/// Adds what is seen of a side that the view does not pass: from `right` to `left`, or where these
+/// are NULL from and to its ends.
 static inline sl_status see_side(expansion *x, uint32_t i, const sli_eye_ray *right,
                                  const sli_eye_ray *left) {
-    const uint32_t neighbour = side(x, i)->neighbour;
+    uint32_t neighbour = side(x, i)->neighbour;
     const sli_eye_ray a = to_start(x, i), b = to_start(x, side(x, i)->next);
-    SL_TRY(see_piece(x, neighbour < SL_SIDE_WALL ? SLI_PIECE_FAR : neighbour, &a, &b, right, left));
-    if (!x->region->memory->mirrors || neighbour < SL_SIDE_WALL) return SL_OK;
+    if (neighbour < SL_SIDE_WALL)
+        neighbour = is_barred(x, i) ? SLI_PIECE_FAR : sli_region_limit(x->outline, i);
+    SL_TRY(see_piece(x, neighbour, &a, &b, right, left));
+    if (!x->region->memory->mirrors || sl_side_is_portal(side(x, i))) return SL_OK;
     return reflect(x, i, right ? right : &a, left ? left : &b);
 }
 
@@ -314,7 +321,8 @@ static inline sl_status sweep(expansion *x, view_cone *cone, bool *enters) {
         const sl_side *at = side(x, cone->at);
         const sl_point end = side(x, at->next)->start;
         const int turn = sli_eye_turn_to(eye, &cone->left, end, sli_eye_offset(eye, end), limit);
-        if (sl_side_is_portal(at) && !is_barred(x, cone->at)) {
+        if (sl_side_is_portal(at) && !is_barred(x, cone->at) &&
+            !(cone->limited && sli_region_limit(x->outline, cone->at) != SL_NO_SEAM)) {
             *enters = true;
             return enter(x, cone, turn);
         }
@@ -345,6 +353,7 @@ static sl_status look_through(expansion *x, view_cone cone) {
             cone.entry = f->entry;
             cone.at = f->side;
             cone.left = f->left;
+            cone.limited = f->limited;
             cone.within = false;
         }
         SL_TRY(sweep(x, &cone, &enters));
@@ -365,6 +374,7 @@ static sl_status see_fan(expansion *x, uint32_t k, const sli_eye_ray *right,
     if (!sl_side_is_portal(side(x, i)) || is_barred(x, i)) return see_side(x, i, right, left);
     return look_through(x, (view_cone){.entry = side(x, i)->neighbour,
                                        .within = right,
+                                       .limited = sli_region_limit(x->outline, i) != SL_NO_SEAM,
                                        .right = right ? *right : a,
                                        .left = left ? *left : b});
 }

@@ -27,12 +27,14 @@ typedef struct sli_eye_place {
 typedef struct sli_region_frame {
     uint32_t side;
     uint32_t entry; ///< the portal that the room is seen through, as a side of it
+    bool limited;   ///< the way to the room passes a limited wall
     sli_eye_ray left;
 } sli_region_frame;
 
 /// The part of a side, no portal, that is seen: up to the ray `left`.
 typedef struct sli_region_piece {
-    uint32_t neighbour; ///< as that of sl_side; SLI_PIECE_FAR: all of it is out of range
+    uint32_t neighbour; ///< as that of sl_side, or the seam of a limited wall; SLI_PIECE_FAR: all
+                        ///< of it is out of range
     sl_point a, b;      ///< the side
     sli_eye_ray left;
     bool to_end; ///< the side's own end lies on `left` and is seen; else `left` meets it within
@@ -101,6 +103,11 @@ static inline int sli_eye_turn(const sli_eye_place *eye, const sli_eye_ray *a,
 /// Whether an eye sees through a side. One-way glass is a wall from both sides where it is dark for
 /// the eye, and else open from both. For an eye on its line the eye's cell decides.
 bool sli_region_leads_on(const sl_outline *outline, uint32_t side, uint32_t eye_cell, sl_point eye);
+
+/// The seam of the limited wall that a side is on; SL_NO_SEAM for none.
+static inline uint32_t sli_region_limit(const sl_outline *outline, uint32_t side) {
+    return outline->limited ? outline->limited[side] : SL_NO_SEAM;
+}
 
 /// The other side of a portal, or of glass.
 uint32_t sli_region_across(const sl_outline *outline, uint32_t side);
