@@ -1,0 +1,582 @@
+/// Walls that limit sight, beside oracles that follow no cell and no portal: points, regions,
+/// cells, visibility graphs and rays, in random maps whose walls cross, touch, overlap and end
+/// together.
+#include "testing.h"
+
+#include "oracle/limited_points.h"
+#include "sightline/vga.h"
+
+#include <math.h>
+
+/// Of the oracle's units there are so many in one of the map, whose numbers are 0 to SIZE.
+enum { FINE = 64, SIZE = 16, WALLS = 24 };
+
+/// A map as the oracle has it, and how its numbers become those of the library.
+typedef struct scene {
+    sl_context *context;
+    limited_wall walls[WALLS + 4];
+    size_t count;
+    double unit, shift;
+    sl_baked baked;
+    sl_query *query;
+    uint64_t seed;
+} scene;
+
+static double coordinate(const scene *s, int64_t fine) {
+    return (double)fine / FINE * s->unit + s->shift;
+}
+
+static sl_point point(const scene *s, int64_t x, int64_t y) {
+    return (sl_point){coordinate(s, x), coordinate(s, y)};
+}
+
+static void add_wall(scene *s, sl_map *map, limited_wall wall, uint32_t stops) {
+    const size_t first = map->wall_count;
+    s->walls[s->count++] = wall;
+    assert_ok(s->context, sl_map_add_wall(s->context, map, point(s, wall.ax, wall.ay),
+                                          point(s, wall.bx, wall.by), 0));
+    assert_ok(s->context, sl_map_walls_stop(s->context, map, first, stops));
+}
+
+/// A wall between even places, upright, level or at 45 degrees: all crossings are exact.
+static limited_wall random_wall(sl_random *random, bool axial) {
+    const int64_t x = 2 * (int64_t)sl_random_below(random, SIZE / 2 + 1);
+    const int64_t y = 2 * (int64_t)sl_random_below(random, SIZE / 2 + 1);
+    const int64_t length = 2 + 2 * (int64_t)sl_random_below(random, SIZE / 2);
+    const uint64_t way = sl_random_below(random, axial ? 2 : 4);
+    const int64_t dx = way == 0 ? 0 : way == 3 ? -length : length, dy = way == 1 ? 0 : length;
+    return (limited_wall){x * FINE, y * FINE, (x + dx) * FINE, (y + dy) * FINE, false};
+}
+
+/// `blocks`: of eight walls so many stop sight. `bits`: what walls may say.
+static void make_with(scene *s, uint64_t seed, uint64_t blocks, sl_sight sight, uint32_t bits) {
+    sl_random random = {seed};
+    sl_map map = {0};
+    *s = (scene){.context = testing_context(NULL), .seed = seed, .unit = 1};
+    if (seed % 5 == 3) s->unit = 0x1p-40;
+    if (seed % 5 == 4) s->shift = 0x1p30;
+    const size_t count = 2 + (size_t)sl_random_below(&random, WALLS - 1);
+    const int64_t low = -SIZE * FINE - FINE, high = 2 * SIZE * FINE + FINE;
+    const limited_wall box[4] = {{low, low, high, low, true},
+                                 {high, low, high, high, true},
+                                 {high, high, low, high, true},
+                                 {low, high, low, low, true}};
+    for (int i = 0; i < 4; i++) add_wall(s, &map, box[i], SL_STOPS_ALL);
+    for (size_t i = 0; i < count; i++) {
+        limited_wall wall = random_wall(&random, seed % 2);
+        const uint32_t rest = (uint32_t)sl_random_below(&random, 4) * SL_STOPS_STEPS;
+        wall.stops = sl_random_below(&random, 8) < blocks;
+        add_wall(s, &map, wall, rest | (wall.stops ? SL_STOPS_SIGHT : SL_STOPS_LIMITED));
+    }
+    for (size_t i = 0; i < map.seam_count; i++) map.seams[i].stops &= (uint8_t)bits;
+    sl_bake_options options = sl_bake_options_default();
+    options.see.sight = sight;
+    assert_ok(s->context, sl_bake(s->context, &map, &options, &s->baked, NULL));
+    assert_ok(s->context, sl_space_check(s->context, &s->baked.space));
+    assert_ok(s->context, sl_query_create(s->context, &s->baked, &s->query));
+    sl_map_destroy(s->context, &map);
+}
+
+static void make(scene *s, uint64_t seed, uint64_t blocks, sl_sight sight) {
+    make_with(s, seed, blocks, sight, SL_STOPS_ALL | SL_STOPS_LIMITED);
+}
+
+static void end(scene *s) {
+    sl_query_destroy(s->context, s->query);
+    sl_baked_destroy(s->context, &s->baked);
+    sl_context_destroy(s->context);
+}
+
+static limited_way way_between(const scene *s, int64_t px, int64_t py, int64_t qx, int64_t qy) {
+    return (limited_way){s->walls, s->count, px, py, qx, qy};
+}
+
+/// Whether a place is on a wall that stops sight.
+static bool is_on_wall(const scene *s, int64_t x, int64_t y) {
+    for (size_t i = 0; i < s->count; i++) {
+        const limited_wall *w = &s->walls[i];
+        if (w->stops && (w->bx - w->ax) * (y - w->ay) == (w->by - w->ay) * (x - w->ax) &&
+            (w->ax - x) * (w->bx - x) <= 0 && (w->ay - y) * (w->by - y) <= 0)
+            return true;
+    }
+    return false;
+}
+
+/// Whether the line through two places meets no end of a wall and no crossing, and runs along no
+/// wall.
+static bool is_generic(const limited_way *w) {
+    for (size_t i = 0; i < w->count; i++) {
+        const limited_wall *one = &w->walls[i];
+        limited_place at, other;
+        if (!limited_side(w, one->ax, one->ay) || !limited_side(w, one->bx, one->by)) return false;
+        for (size_t k = 0; k < i; k++) {
+            const limited_wall *two = &w->walls[k];
+            if ((one->bx - one->ax) * (two->by - two->ay) !=
+                    (one->by - one->ay) * (two->bx - two->ax) &&
+                limited_meets(w, one, &at) && limited_meets(w, two, &other) && at.above &&
+                !limited_compare(&at, &other))
+                return false;
+        }
+    }
+    return true;
+}
+
+/// An eye where walls end, cross and lie along lines, often on limited ones, but on no other wall.
+static bool random_eye(const scene *s, sl_random *random, int64_t *x, int64_t *y) {
+    for (int tries = 0; tries < 50; tries++) {
+        const int64_t step = sl_random_below(random, 4) ? FINE : 1;
+        *x = (int64_t)sl_random_below(random, (uint64_t)(SIZE * FINE / step)) * step;
+        *y = (int64_t)sl_random_below(random, (uint64_t)(SIZE * FINE / step)) * step;
+        if (!is_on_wall(s, *x, *y)) return true;
+    }
+    return false;
+}
+
+// --- points
+
+/// Closed and open sight, both ways, where lines touch ends, run along walls and pass crossings.
+static void points_see_past_one_limited_wall(void **state) {
+    (void)state;
+    size_t counts[4] = {0}, touching = 0;
+    for (uint64_t seed = 1; seed <= testing_seeds(600); seed++) {
+        scene s;
+        sl_random random = {seed ^ 0x11};
+        const sl_sight sight = seed % 3 ? SL_CLOSED : SL_OPEN;
+        make(&s, seed, seed / 7 % 4, sight);
+        for (int i = 0; i < 150; i++) {
+            int64_t px, py, qx, qy;
+            if (!random_eye(&s, &random, &px, &py) || !random_eye(&s, &random, &qx, &qy)) continue;
+            const limited_way w = way_between(&s, px, py, qx, qy);
+            const int64_t passed = limited_passed(&w);
+            const bool open = sight == SL_CLOSED || !limited_touches(&w);
+            bool sees, back;
+            assert_ok(s.context, sl_query_sees(s.context, s.query, point(&s, px, py),
+                                               point(&s, qx, qy), &sees));
+            assert_ok(s.context, sl_query_sees(s.context, s.query, point(&s, qx, qy),
+                                               point(&s, px, py), &back));
+            counts[passed < 3 ? passed : 3]++;
+            touching += !is_generic(&w);
+            if (sees != (open && passed < 2) || back != sees)
+                fail_msg("seed %llu: from %g %g to %g %g: %lld passed; library %d, back %d",
+                         (unsigned long long)seed, (double)px / FINE, (double)py / FINE,
+                         (double)qx / FINE, (double)qy / FINE, (long long)passed, sees, back);
+        }
+        end(&s);
+    }
+    assert_true(counts[0] && counts[1] && counts[2] && counts[3] && touching);
+}
+
+/// The cases that the format names, one by one.
+static void places_where_walls_meet_count_as_said(void **state) {
+    (void)state;
+    static const struct {
+        const char *walls;
+        double p[2], q[2];
+        bool sees;
+    } cases[] = {
+        {"wall 3 0 3 8 stops limited\n", {1, 4}, {9, 4}, true},
+        {"wall 3 0 3 8 stops limited\nwall 6 0 6 8 stops limited\n", {1, 4}, {5, 4}, true},
+        {"wall 3 0 3 8 stops limited\nwall 6 0 6 8 stops limited\n", {1, 4}, {6, 4}, true},
+        {"wall 3 0 3 8 stops limited\nwall 6 0 6 8 stops limited\n", {1, 4}, {7, 4}, false},
+        // from one to behind the other
+        {"wall 3 0 3 8 stops limited\nwall 6 0 6 8 stops limited\n", {3, 4}, {7, 4}, true},
+        // a common end: one wall
+        {"wall 3 0 3 4 stops limited\nwall 3 4 3 8 stops limited\n", {1, 4}, {9, 4}, true},
+        {"wall 3 0 3 4 stops limited\nwall 3 4 3 8 stops limited\nwall 6 0 6 8 stops limited\n",
+         {1, 4},
+         {9, 4},
+         false},
+        // a tip: none
+        {"walls 5 0 3 4 1 0 stops limited\nwall 6 0 6 8 stops limited\n", {1, 4}, {9, 4}, true},
+        // a crossing: two
+        {"wall 1 2 5 6 stops limited\nwall 1 6 5 2 stops limited\n", {1, 4}, {9, 4}, false},
+        {"wall 1 2 5 6 stops limited\nwall 1 6 5 2 stops limited\n", {1, 4}, {3, 4}, true},
+        {"wall 1 2 5 6 stops limited\nwall 1 6 5 2 stops limited\n", {3, 4}, {9, 4}, true},
+        // one on another: one
+        {"wall 3 0 3 8 stops limited\nwall 3 2 3 8 stops limited\n", {1, 4}, {9, 4}, true},
+        {"wall 3 0 3 8 stops limited\nwall 3 0 3 8\n", {1, 4}, {9, 4}, false},
+        // a wall that stops sight goes on as a limited one
+        {"wall 3 0 3 4\nwall 3 4 3 8 stops limited\n", {1, 4}, {9, 4}, true},
+        {"wall 3 0 3 4\nwall 3 4 3 8 stops limited\nwall 6 0 6 8 stops limited\n",
+         {1, 4},
+         {9, 4},
+         false},
+        // along a limited wall, from its left to its right and back
+        {"wall 3 4 6 4 stops limited\nwall 4 4 4 8\nwall 5 4 5 0\n", {1, 4}, {9, 4}, true},
+        {"wall 3 4 6 4 stops limited\nwall 4 4 4 8\nwall 5 4 5 0\nwall 7 0 7 8 stops limited\n",
+         {1, 4},
+         {9, 4},
+         false},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        sl_context *context = testing_context(NULL);
+        sl_map map = {0};
+        sl_baked baked = {0};
+        sl_query *query = NULL;
+        char text[512];
+        bool sees[2];
+        snprintf(text, sizeof text, "sightline 1\nwalls 0 0 10 0 10 8 0 8 0 0\n%s", cases[i].walls);
+        assert_ok(context, sl_map_parse(context, "test.map", text, strlen(text), NULL, &map));
+        assert_ok(context, sl_bake(context, &map, NULL, &baked, NULL));
+        assert_ok(context, sl_query_create(context, &baked, &query));
+        const sl_point p = {cases[i].p[0], cases[i].p[1]}, q = {cases[i].q[0], cases[i].q[1]};
+        assert_ok(context, sl_query_sees(context, query, p, q, &sees[0]));
+        assert_ok(context, sl_query_sees(context, query, q, p, &sees[1]));
+        if (sees[0] != cases[i].sees || sees[1] != sees[0])
+            fail_msg("case %zu: %d, back %d", i, sees[0], sees[1]);
+        sl_query_destroy(context, query);
+        sl_baked_destroy(context, &baked);
+        sl_context_destroy(context);
+    }
+}
+
+// --- regions
+
+/// Whether a point is in a polygon; -1 where it is near an edge.
+static int is_in(const sl_region *region, sl_point q, double near) {
+    bool inside = false;
+    for (size_t i = 0, k = region->count - 1; i < region->count; k = i++) {
+        const sl_point a = {region->points[k].x - q.x, region->points[k].y - q.y};
+        const sl_point b = {region->points[i].x - q.x, region->points[i].y - q.y};
+        const double turn = a.x * b.y - a.y * b.x, length = hypot(b.x - a.x, b.y - a.y);
+        if (fabs(turn) <= near * length) return -1;
+        if ((a.y > 0) != (b.y > 0) && (turn > 0) == (b.y > a.y)) inside = !inside;
+    }
+    return inside;
+}
+
+static void regions_end_at_the_second_limited_wall(void **state) {
+    (void)state;
+    size_t in = 0, out = 0, limited = 0;
+    for (uint64_t seed = 1; seed <= testing_seeds(500); seed++) {
+        scene s;
+        sl_random random = {seed ^ 0x22};
+        sl_region region = {0};
+        make(&s, seed, seed / 7 % 4, SL_CLOSED);
+        for (int eye = 0; eye < 6; eye++) {
+            int64_t px, py;
+            if (!random_eye(&s, &random, &px, &py)) continue;
+            const sl_view view = sl_view_all_round(point(&s, px, py));
+            assert_ok(s.context, sl_query_region(s.context, s.query, &view, &region));
+            assert_true(region.count > 2);
+            for (size_t i = 0; i < region.count; i++) {
+                if (region.edges[i].kind != SL_EDGE_WALL) continue;
+                if (region.edges[i].wall < SL_LIMITED_WALL) continue;
+                const uint32_t seam = region.edges[i].wall - SL_LIMITED_WALL;
+                assert_true(seam < s.baked.space.seam_count);
+                assert_int_equal(s.baked.space.seams[seam].kind, SL_SEAM_LIMITED);
+                limited++;
+            }
+            for (int i = 0; i < 40; i++) {
+                const int64_t qx = (int64_t)sl_random_below(&random, SIZE * FINE);
+                const int64_t qy = (int64_t)sl_random_below(&random, SIZE * FINE);
+                const limited_way w = way_between(&s, px, py, qx, qy);
+                if (!is_generic(&w)) continue;
+                const bool seen = limited_passed(&w) < 2;
+                const int found = is_in(&region, point(&s, qx, qy), 1e-5 * s.unit);
+                if (found < 0) continue;
+                in += seen;
+                out += !seen;
+                if (found != seen)
+                    fail_msg("seed %llu: eye %g %g, point %g %g: oracle %d, region %d",
+                             (unsigned long long)seed, (double)px / FINE, (double)py / FINE,
+                             (double)qx / FINE, (double)qy / FINE, seen, found);
+            }
+        }
+        sl_region_destroy(s.context, &region);
+        end(&s);
+    }
+    assert_true(in && out && limited);
+}
+
+// --- cells
+
+/// Marks the cells that a ray in a direction between two corners passes before it is stopped.
+static void mark_ray(const scene *s, int64_t px, int64_t py, int64_t dx, int64_t dy,
+                     uint64_t *cells) {
+    // So far that it leaves the map, in units that are small enough.
+    const int64_t far = 6 * SIZE * FINE / (llabs(dx) > llabs(dy) ? llabs(dx) : llabs(dy)) + 1;
+    const limited_way w = way_between(s, px, py, px + far * dx, py + far * dy);
+    double stop = 1;
+    int passed = 0;
+    limited_place *all = malloc((s->count + 1) * sizeof *all);
+    assert_non_null(all);
+    size_t count = 0;
+    for (size_t i = 0; i < s->count; i++) {
+        limited_place at;
+        if (limited_meets(&w, &s->walls[i], &at) && at.above > 0) all[count++] = at;
+    }
+    qsort(all, count, sizeof *all, limited_compare);
+    for (size_t i = 0; i < count && passed < 2; i++) {
+        if (i && !limited_compare(&all[i - 1], &all[i])) continue; // one on another
+        for (size_t k = 0; k < s->count; k++) {
+            limited_place at;
+            if (s->walls[k].stops && limited_meets(&w, &s->walls[k], &at) &&
+                !limited_compare(&at, &all[i]))
+                passed = 2;
+        }
+        passed++;
+        if (passed >= 2) stop = (double)all[i].above / (double)all[i].below;
+    }
+    free(all);
+    // Cells along it: sampled between all sides that it crosses.
+    const sl_space *space = &s->baked.space;
+    double last = 0;
+    const double x = (double)(far * dx), y = (double)(far * dy);
+    while (last < stop) {
+        double next = stop;
+        for (uint32_t i = 0; i < space->portal_count; i++) {
+            const sl_point a = space->portals[i].right, b = space->portals[i].left;
+            const double ax = (a.x - s->shift) / s->unit * FINE - (double)px;
+            const double ay = (a.y - s->shift) / s->unit * FINE - (double)py;
+            const double bx = (b.x - s->shift) / s->unit * FINE - (double)px;
+            const double by = (b.y - s->shift) / s->unit * FINE - (double)py;
+            const double turn = x * (by - ay) - y * (bx - ax);
+            if (turn == 0 || (x * ay - y * ax) * (x * by - y * bx) > 0) continue;
+            const double t = (ax * (by - ay) - ay * (bx - ax)) / turn;
+            if (t > last + 1e-9 && t < next) next = t;
+        }
+        const double middle = (last + next) / 2;
+        const sl_point at = {((double)px + middle * x) / FINE * s->unit + s->shift,
+                             ((double)py + middle * y) / FINE * s->unit + s->shift};
+        sl_bits_add(cells, sl_space_locate(space, at));
+        last = next;
+    }
+}
+
+/// Directions from the eye, counter-clockwise from +x.
+typedef struct directions {
+    int64_t (*items)[2];
+    size_t count;
+} directions;
+
+static bool is_lower(const int64_t *d) {
+    return d[1] < 0 || (d[1] == 0 && d[0] < 0);
+}
+
+static void add_direction(const scene *s, int64_t px, int64_t py, sl_point to, directions *all) {
+    const int64_t d[2] = {llrint((to.x - s->shift) / s->unit * FINE) - px,
+                          llrint((to.y - s->shift) / s->unit * FINE) - py};
+    size_t at = 0;
+    if (!d[0] && !d[1]) return;
+    for (; at < all->count; at++) {
+        const int64_t *other = all->items[at];
+        const int64_t turn = other[0] * d[1] - other[1] * d[0];
+        if (is_lower(other) == is_lower(d) && turn == 0) return;
+        if (is_lower(other) > is_lower(d) || (is_lower(other) == is_lower(d) && turn < 0)) break;
+    }
+    memmove(all->items + at + 1, all->items + at, (all->count++ - at) * sizeof *all->items);
+    memcpy(all->items[at], d, sizeof d);
+}
+
+/// To all corners of cells and ends of portals.
+static directions list_directions(const scene *s, int64_t px, int64_t py) {
+    const sl_space *space = &s->baked.space;
+    directions all = {calloc(space->vertex_count + 2 * space->portal_count + 1, 16), 0};
+    assert_non_null(all.items);
+    for (uint32_t i = 0; i < space->vertex_count; i++)
+        add_direction(s, px, py, space->vertices[i], &all);
+    for (uint32_t i = 0; i < space->portal_count; i++) {
+        add_direction(s, px, py, space->portals[i].left, &all);
+        add_direction(s, px, py, space->portals[i].right, &all);
+    }
+    return all;
+}
+
+/// Where a way first meets a cell.
+static bool meets_cell(const scene *s, const limited_way *w, uint32_t number, limited_place *out) {
+    const sl_cell *cell = &s->baked.space.cells[number];
+    const sl_point *corners = s->baked.space.vertices + cell->first_vertex;
+    bool any = false;
+    for (uint32_t i = 0; i < cell->vertex_count; i++) {
+        const sl_point a = corners[i], b = corners[(i + 1) % cell->vertex_count];
+        const limited_wall side = {.ax = llrint((a.x - s->shift) / s->unit * FINE),
+                                   .ay = llrint((a.y - s->shift) / s->unit * FINE),
+                                   .bx = llrint((b.x - s->shift) / s->unit * FINE),
+                                   .by = llrint((b.y - s->shift) / s->unit * FINE)};
+        limited_place at;
+        if (!limited_meets(w, &side, &at) || at.above < 0) continue;
+        if (!any || limited_compare(&at, out) < 0) *out = at;
+        any = true;
+    }
+    return any;
+}
+
+/// A cell that is listed beside what rays pass: closed sight must come to it by a single ray, which
+/// touches corners.
+static bool is_touched(const scene *s, int64_t px, int64_t py, const directions *all,
+                       uint32_t cell) {
+    for (size_t i = 0; i < all->count; i++) {
+        const int64_t dx = all->items[i][0], dy = all->items[i][1];
+        const int64_t far = 4 * SIZE * FINE / (llabs(dx) > llabs(dy) ? llabs(dx) : llabs(dy)) + 1;
+        const limited_way w = way_between(s, px, py, px + far * dx, py + far * dy);
+        limited_place at;
+        if (meets_cell(s, &w, cell, &at) && limited_passed_until(&w, at) < 2) return true;
+    }
+    return false;
+}
+
+static void ask_cells(scene *s, int64_t px, int64_t py, sl_sight sight) {
+    const size_t words = sl_eye_words(&s->baked.space);
+    uint64_t *rays = calloc(words, 8), *cells = calloc(words, 8);
+    assert_true(rays && cells);
+    const sl_view view = sl_view_all_round(point(s, px, py));
+    directions all = list_directions(s, px, py);
+    for (size_t i = 0; i < all.count; i++) {
+        const int64_t *a = all.items[i], *b = all.items[(i + 1) % all.count];
+        if (a[0] * b[1] - a[1] * b[0] > 0) mark_ray(s, px, py, a[0] + b[0], a[1] + b[1], rays);
+    }
+    assert_ok(s->context, sl_query_look(s->context, s->query, &view, NULL, cells, NULL));
+    for (uint32_t c = 0; c < s->baked.space.cell_count; c++) {
+        const bool by_rays = sl_bits_has(rays, c), listed = sl_bits_has(cells, c);
+        const bool right =
+            by_rays ? listed : !listed || (sight == SL_CLOSED && is_touched(s, px, py, &all, c));
+        if (!right)
+            fail_msg("seed %llu, sight %d: eye %g %g, cell %u: by rays %d, listed %d",
+                     (unsigned long long)s->seed, sight, (double)px / FINE, (double)py / FINE, c,
+                     by_rays, listed);
+    }
+    free(rays);
+    free(cells);
+    free(all.items);
+}
+
+static void cells_are_those_that_rays_pass(void **state) {
+    (void)state;
+    for (uint64_t seed = 1; seed <= testing_seeds(300); seed++) {
+        scene s;
+        sl_random random = {seed ^ 0x33};
+        const sl_sight sight = seed / 2 % 2 ? SL_CLOSED : SL_OPEN;
+        make(&s, seed, seed / 7 % 4, sight);
+        for (int eye = 0; eye < 6; eye++) {
+            int64_t px, py;
+            if (random_eye(&s, &random, &px, &py)) ask_cells(&s, px, py, sight);
+        }
+        end(&s);
+    }
+}
+
+// --- visible sets, and what is found of points
+
+/// Rows take limited walls as open, and say so.
+static void rows_are_those_with_open_walls(void **state) {
+    (void)state;
+    size_t pairs = 0;
+    for (uint64_t seed = 1; seed <= testing_seeds(200); seed++) {
+        scene s, open;
+        make(&s, seed, seed / 7 % 4, SL_CLOSED);
+        make_with(&open, seed, seed / 7 % 4, SL_CLOSED, SL_STOPS_ALL);
+        const sl_visibility *one = &s.baked.visibility, *other = &open.baked.visibility;
+        const uint32_t cells = s.baked.space.cell_count;
+        assert_int_equal(cells, open.baked.space.cell_count);
+        for (uint32_t a = 0; a < cells; a++)
+            for (uint32_t b = 0; b < cells; b++, pairs++)
+                assert_int_equal(sl_pvs_sees(&one->pvs, a, b), sl_pvs_sees(&other->pvs, a, b));
+        const bool any = sl_map_limited_walls(&s.baked.map) != 0;
+        assert_int_equal(other->guarantee, SL_EXACT);
+        assert_int_equal(one->guarantee, any ? SL_CONSERVATIVE : SL_EXACT);
+        end(&open);
+        end(&s);
+    }
+    assert_true(pairs);
+}
+
+static void graphs_count_limited_walls(void **state) {
+    (void)state;
+    size_t seen = 0, hidden = 0;
+    for (uint64_t seed = 1; seed <= testing_seeds(60); seed++) {
+        scene s;
+        sl_vga_grid grid = {0};
+        sl_vga_graph graph = {0};
+        const sl_outline *outline;
+        make(&s, seed, seed / 7 % 4, SL_CLOSED);
+        assert_ok(s.context, sl_query_outline(s.context, s.query, &outline));
+        const sl_point seed_point = point(&s, 9 * FINE + 1, 7 * FINE);
+        assert_ok(s.context,
+                  sl_vga_grid_make(s.context, outline, 3 * s.unit, &seed_point, 1, &grid));
+        assert_ok(s.context, sl_vga_graph_make(s.context, outline, &grid, 0, 1, &graph));
+        for (uint32_t a = 0; a < grid.count; a++)
+            for (uint32_t b = 0; b < grid.count; b++) {
+                bool sees;
+                const bool linked = sl_bits_has(graph.rows + a * graph.words, b);
+                assert_ok(s.context,
+                          sl_query_sees(s.context, s.query, grid.points[a], grid.points[b], &sees));
+                seen += sees;
+                hidden += !sees;
+                if (a != b && sees != linked)
+                    fail_msg("seed %llu: %g %g and %g %g: sees %d, graph %d",
+                             (unsigned long long)seed, grid.points[a].x, grid.points[a].y,
+                             grid.points[b].x, grid.points[b].y, sees, linked);
+            }
+        sl_vga_graph_destroy(s.context, &graph);
+        sl_vga_grid_destroy(s.context, &grid);
+        end(&s);
+    }
+    assert_true(seen && hidden);
+}
+
+static void rays_end_at_the_second_limited_wall(void **state) {
+    (void)state;
+    size_t limited = 0, stopped = 0;
+    for (uint64_t seed = 1; seed <= testing_seeds(300); seed++) {
+        scene s;
+        sl_random random = {seed ^ 0x44};
+        make(&s, seed, seed / 7 % 4, SL_CLOSED);
+        for (int i = 0; i < 60; i++) {
+            int64_t px, py;
+            const int64_t qx = (int64_t)sl_random_below(&random, SIZE * FINE);
+            const int64_t qy = (int64_t)sl_random_below(&random, SIZE * FINE);
+            if (!random_eye(&s, &random, &px, &py)) continue;
+            limited_way w = way_between(&s, px, py, qx, qy);
+            if ((px == qx && py == qy) || !is_generic(&w)) continue;
+            limited_place last = {INT64_MAX / (1 << 30), 1};
+            bool at_limit = false;
+            for (size_t k = 0; k < s.count; k++) {
+                limited_place at;
+                int64_t before = 0;
+                if (!limited_meets(&w, &s.walls[k], &at) || at.above <= 0) continue;
+                for (size_t j = 0; j < s.count && !s.walls[k].stops; j++) {
+                    limited_place other;
+                    before += !s.walls[j].stops && limited_meets(&w, &s.walls[j], &other) &&
+                              other.above > 0 && limited_compare(&other, &at) < 0;
+                }
+                if ((!s.walls[k].stops && !before) || limited_compare(&at, &last) > 0) continue;
+                at_limit = !s.walls[k].stops && (limited_compare(&at, &last) < 0 || at_limit);
+                last = at;
+            }
+            sl_hit hit;
+            assert_ok(s.context, sl_query_cast(s.context, s.query, point(&s, px, py),
+                                               point(&s, qx, qy), &hit));
+            const double t = (double)last.above / (double)last.below;
+            const double x = ((double)px + t * (double)(qx - px)) / FINE * s.unit + s.shift;
+            const double y = ((double)py + t * (double)(qy - py)) / FINE * s.unit + s.shift;
+            const double near = 1e-9 * s.unit + 1e-15 * s.shift;
+            if (fabs(hit.point.x - x) > near || fabs(hit.point.y - y) > near)
+                fail_msg("seed %llu: eye %g %g through %g %g: %g %g, not %g %g",
+                         (unsigned long long)seed, (double)px / FINE, (double)py / FINE,
+                         (double)qx / FINE, (double)qy / FINE, hit.point.x, hit.point.y, x, y);
+            if (at_limit) {
+                assert_true(hit.wall >= SL_LIMITED_WALL && hit.wall != SL_NO_WALL);
+                limited++;
+            } else {
+                assert_true(hit.wall < s.baked.space.wall_count);
+                stopped++;
+            }
+        }
+        end(&s);
+    }
+    assert_true(limited && stopped);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(points_see_past_one_limited_wall),
+        cmocka_unit_test(places_where_walls_meet_count_as_said),
+        cmocka_unit_test(regions_end_at_the_second_limited_wall),
+        cmocka_unit_test(cells_are_those_that_rays_pass),
+        cmocka_unit_test(rows_are_those_with_open_walls),
+        cmocka_unit_test(graphs_count_limited_walls),
+        cmocka_unit_test(rays_end_at_the_second_limited_wall),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
