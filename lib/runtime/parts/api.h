@@ -77,7 +77,8 @@ enum {
     SL_RUNTIME_STOPS_SIGHT = 1,
     SL_RUNTIME_STOPS_STEPS = 2,
     SL_RUNTIME_STOPS_SOUND = 4,
-    SL_RUNTIME_STOPS_ALL = 7
+    SL_RUNTIME_STOPS_ALL = 7,
+    SL_RUNTIME_STOPS_LIMITED = 8 ///< a limited wall: sight passes one of them, and not a second one
 };
 
 /// An open file. Counts and bounds are for reading; the pointers are for the functions only.
@@ -114,6 +115,7 @@ typedef struct sl_runtime {
     const unsigned char *stops, *passages; ///< NULL where all walls stop all
     uint32_t passage_count;
     bool has_glass; ///< one-way glass, somewhere
+    bool has_limits; ///< in a file for sight: limited walls, somewhere
     const unsigned char *portals;
     const unsigned char *walls; ///< NULL in a file without them
     uint32_t wall_count;

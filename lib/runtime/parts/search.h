@@ -11,8 +11,9 @@ static void slrt_enter(slrt_search *s, uint32_t cell, const slrt_sector *sector)
     if (*marks & SLRT_ENTERED && slrt_covered(s, cell, sector)) return;
     slrt_see(s, cell);
     if (s->meet_boxes) s->meet_boxes(s, cell, sector);
-    *marks = (unsigned char)((*marks & ~(unsigned)SLRT_ALONG) | SLRT_ENTERED | SLRT_ON_PATH |
-                             sector->along);
+    *marks = (unsigned char)((*marks & ~(unsigned)(SLRT_ALONG | SLRT_LIMITED)) | SLRT_ENTERED |
+                             SLRT_ON_PATH | sector->along |
+                             (sector->limited ? (unsigned)SLRT_LIMITED : 0));
     s->sectors[2 * (size_t)cell] = sector->right;
     s->sectors[2 * (size_t)cell + 1] = sector->left;
     top[0] = cell;
@@ -38,6 +39,11 @@ static void slrt_search_on(slrt_search *s, uint32_t *top, uint32_t directed) {
     sector.right = top[2];
     sector.left = top[3];
     sector.along = s->marks[top[0]] & SLRT_ALONG;
+    sector.limited = (s->marks[top[0]] & SLRT_LIMITED) != 0;
+    if (slrt_is_limited(s->rt, directed)) {
+        if (sector.limited) return;
+        sector.limited = true;
+    }
     if (slrt_is_blocked(s, directed) || !slrt_narrow(s, directed, &sector)) return;
     if (s->range > 0 && !slrt_in_range(s, directed, sector.right, sector.left)) return;
     if (s->is_hidden && s->is_hidden(s, directed, &sector)) return;
@@ -72,6 +78,7 @@ static void slrt_search_from(slrt_search *s, uint32_t cell, uint32_t right, uint
     sector.right = right;
     sector.left = left;
     sector.along = 0;
+    sector.limited = false;
     if (slrt_leads_into(s, cell, &sector)) slrt_enter(s, cell, &sector);
     while (s->depth) {
         uint32_t *top = s->path + 4 * (size_t)(s->depth - 1);
