@@ -158,8 +158,8 @@ void input_note_limited(sl_context *context, const sl_map *map) {
     const size_t count = sl_map_limited_walls(map);
     if (count)
         sl_note(context,
-                "%zu wall%s sight: sight passes one of them, not two. What an eye sees counts "
-                "them; in what cells see, and in all that is found from that, they are open",
+                "%zu wall%s sight: it passes one of them, not two. What an eye sees counts them; "
+                "between cells they are open",
                 count, count == 1 ? " limits" : "s limit");
 }
 

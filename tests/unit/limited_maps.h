@@ -15,7 +15,7 @@ enum { FINE = 64, SIZE = 16, WALLS = 24 };
 /// A map as the oracle has it, and how its numbers become those of the library.
 typedef struct scene {
     sl_context *context;
-    limited_wall walls[WALLS + 4];
+    limited_wall walls[WALLS + 8]; ///< those, a border, a box
     size_t count;
     double unit, shift;
     sl_baked baked;

@@ -152,7 +152,7 @@ static void test_objects_that_stop_some(void **state) {
     assert_walls(MAP(SET FENCES(STOPS("sight") FENCE(STOPS("steps")))), plan);
     assert_walls(MAP(SET FENCES(STOPS("sound,steps,sight") FENCE(""))), "wall 8 8 16 8\n");
     assert_refused(MAP(SET FENCES(FENCE(STOPS("stairs")))),
-                   "f: stops: expected sight, steps, sound");
+                   "f: stops: expected sight or limited, steps, sound");
     assert_refused(
         MAP(SET "<objectgroup name='sightline-wall-stops-stairs'>" FENCE("") "</objectgroup>"),
         "f:1: a layer whose walls stop something: expected a name such as "

@@ -1,6 +1,7 @@
 /// Walls that limit sight, beside oracles: points, regions, cells, visibility graphs and rays.
 #include "unit/limited_maps.h"
 
+#include "sightline/explain.h"
 #include "sightline/vga.h"
 
 // --- points
@@ -310,6 +311,124 @@ static void rays_end_at_the_second_limited_wall(void **state) {
     assert_true(limited && stopped);
 }
 
+// --- files
+
+/// A file for sight tells which seams limit it; one for steps keeps it. What it cannot say is
+/// refused.
+static void files_keep_limited_walls(void **state) {
+    (void)state;
+    static const char text[] = "sightline 1\nwalls 0 0 10 0 10 8 0 8 0 0\n"
+                               "wall 3 0 3 4 stops limited\nwall 6 0 6 8 stops steps,limited\n"
+                               "seam 8 0 8 8\n";
+    for (uint32_t channel = SL_STOPS_SIGHT; channel <= SL_STOPS_STEPS; channel *= 2) {
+        sl_context *context = testing_context(NULL);
+        sl_map map = {0};
+        sl_baked baked = {0}, again = {0};
+        sl_bytes bytes = {0};
+        assert_ok(context, sl_map_parse(context, "test.map", text, strlen(text), NULL, &map));
+        map.channel = channel;
+        assert_ok(context, sl_bake(context, &map, NULL, &baked, NULL));
+        assert_int_equal(sl_map_limited_walls(&baked.map), channel == SL_STOPS_SIGHT ? 2 : 0);
+        assert_ok(context, sl_baked_print(context, &baked, &bytes));
+        assert_ok(context, sl_baked_parse(context, "test", bytes.data, bytes.size, &again));
+        assert_ok(context, sl_space_check(context, &again.space));
+        assert_int_equal(again.space.seam_count, 3);
+        for (uint32_t i = 0; i < 3; i++) {
+            const sl_seam *seam = &again.space.seams[i];
+            const bool limits = again.map.seams[seam->number].stops & SL_STOPS_LIMITED;
+            assert_int_equal(seam->kind, baked.space.seams[i].kind);
+            assert_int_equal(seam->kind == SL_SEAM_LIMITED, limits && channel == SL_STOPS_SIGHT);
+            assert_int_equal(again.map.seams[seam->number].stops,
+                             baked.map.seams[baked.space.seams[i].number].stops);
+        }
+        assert_int_equal(again.visibility.guarantee,
+                         channel == SL_STOPS_SIGHT ? SL_CONSERVATIVE : SL_EXACT);
+        sl_free(context, bytes.data);
+        sl_baked_destroy(context, &baked);
+        sl_baked_destroy(context, &again);
+        sl_context_destroy(context);
+    }
+}
+
+// --- what does not count them
+
+static void what_cannot_count_refuses(void **state) {
+    (void)state;
+    static const char text[] = "sightline 1\nwalls 0 0 10 0 10 8 0 8 0 0\nmirror 9 1 9 7\n"
+                               "wall 3 0 3 8 stops limited\n";
+    sl_context *context = testing_context(NULL);
+    sl_map map = {0};
+    sl_baked baked = {0};
+    sl_query *query = NULL;
+    assert_ok(context, sl_map_parse(context, "test.map", text, strlen(text), NULL, &map));
+    assert_ok(context, sl_bake(context, &map, NULL, &baked, NULL));
+    assert_ok(context, sl_query_create(context, &baked, &query));
+    const sl_view view = sl_view_all_round((sl_point){1, 4});
+    sl_mirrored_region region = {0};
+    uint64_t cells[4] = {0};
+    assert_true(sl_eye_words(&baked.space) <= 4);
+    assert_int_equal(sl_query_mirrored_region(context, query, &view, &region), SL_UNSUPPORTED);
+    assert_non_null(strstr(sl_context_message(context), "limit sight"));
+    assert_non_null(strstr(sl_context_message(context), "--without mirror"));
+    assert_int_equal(sl_query_look_mirrored(context, query, &view, NULL, cells, NULL),
+                     SL_UNSUPPORTED);
+    assert_ok(context, sl_query_set_mirror_depth(context, query, 0));
+    assert_ok(context, sl_query_mirrored_region(context, query, &view, &region));
+    assert_ok(context, sl_query_look_mirrored(context, query, &view, NULL, cells, NULL));
+    sl_explain_options options = sl_explain_options_default();
+    sl_explanation explanation = {0};
+    assert_int_equal(sl_explain(context, &baked.space, &options, 0, 1, &explanation),
+                     SL_UNSUPPORTED);
+    assert_non_null(strstr(sl_context_message(context), "an explanation"));
+    sl_mirrored_region_destroy(context, &region);
+    sl_query_destroy(context, query);
+    sl_baked_destroy(context, &baked);
+    sl_context_destroy(context);
+}
+
+/// Boxes that block, in the middle of limited walls too: an eye sees past them what it sees past
+/// walls in their place.
+static void boxes_hide_as_walls_do(void **state) {
+    (void)state;
+    size_t seen = 0, hidden = 0, touched = 0;
+    for (uint64_t seed = 1; seed <= testing_seeds(200); seed++) {
+        scene s;
+        sl_random random = {seed ^ 0x88};
+        make(&s, seed, seed / 7 % 4, SL_CLOSED);
+        const int64_t x = 2 + (int64_t)sl_random_below(&random, SIZE - 4);
+        const int64_t y = 2 + (int64_t)sl_random_below(&random, SIZE - 4);
+        const sl_point low = point(&s, x * FINE, y * FINE);
+        const sl_point high = point(&s, (x + 2) * FINE, (y + 3) * FINE);
+        const sl_moving_box box = {.box = {low, high}, .blocks = true};
+        const limited_wall sides[4] = {
+            {x * FINE, y * FINE, (x + 2) * FINE, y * FINE, true},
+            {(x + 2) * FINE, y * FINE, (x + 2) * FINE, (y + 3) * FINE, true},
+            {(x + 2) * FINE, (y + 3) * FINE, x * FINE, (y + 3) * FINE, true},
+            {x * FINE, (y + 3) * FINE, x * FINE, y * FINE, true}};
+        assert_ok(s.context, sl_query_set_boxes(s.context, s.query, &box, 1));
+        memcpy(s.walls + s.count, sides, sizeof sides);
+        s.count += 4;
+        for (int i = 0; i < 60; i++) {
+            int64_t px, py, qx, qy;
+            bool sees;
+            if (!random_eye(&s, &random, &px, &py) || !random_eye(&s, &random, &qx, &qy)) continue;
+            const limited_way w = way_between(&s, px, py, qx, qy);
+            const bool truth = limited_passed(&w) < 2;
+            assert_ok(s.context, sl_query_sees(s.context, s.query, point(&s, px, py),
+                                               point(&s, qx, qy), &sees));
+            seen += truth;
+            hidden += !truth;
+            touched += !is_generic(&w);
+            if (sees != truth)
+                fail_msg("seed %llu: from %g %g to %g %g past a box at %g %g: oracle %d, not %d",
+                         (unsigned long long)seed, (double)px / FINE, (double)py / FINE,
+                         (double)qx / FINE, (double)qy / FINE, (double)x, (double)y, truth, sees);
+        }
+        end(&s);
+    }
+    assert_true(seen && hidden && touched);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(points_see_past_one_limited_wall),
@@ -319,6 +438,9 @@ int main(void) {
         cmocka_unit_test(rows_are_those_with_open_walls),
         cmocka_unit_test(graphs_count_limited_walls),
         cmocka_unit_test(rays_end_at_the_second_limited_wall),
+        cmocka_unit_test(files_keep_limited_walls),
+        cmocka_unit_test(what_cannot_count_refuses),
+        cmocka_unit_test(boxes_hide_as_walls_do),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
