@@ -201,6 +201,7 @@ typedef struct expansion {
     sl_context *context;
     const sl_outline *outline;
     sl_region *region;
+    const uint32_t *limited; ///< that of the outline
 } expansion;
 
 static const sl_side *side(const expansion *x, uint32_t i) {
@@ -283,16 +284,19 @@ static sl_status grow_frames(expansion *x) {
 }
 
 /// Takes the cone through the portal that it is at. `turn`: where the portal's end lies from the
-/// left ray. The rest of the room waits as a frame.
-static inline sl_status enter(expansion *x, view_cone *cone, int turn) {
+/// left ray. The rest of the room waits as a frame. `limits`, here and below: the outline has
+/// limited walls. It is a constant, so that others pay nothing for them.
+static inline sl_status enter(expansion *x, view_cone *cone, int turn, bool limits) {
     struct sli_region_memory *m = x->region->memory;
     const sl_side *portal = side(x, cone->at);
     if (turn < 0) {
         if (m->frames.count == m->frames.capacity) SL_TRY(grow_frames(x));
         m->frames.items[m->frames.count++] =
-            (sli_region_frame){portal->next, cone->entry, cone->limited, cone->left};
+            (sli_region_frame){portal->next, cone->entry, cone->left};
+        if (limits && cone->limited)
+            m->frames.items[m->frames.count - 1].entry |= SLI_REGION_LIMITED;
     }
-    cone->limited = cone->limited || sli_region_limit(x->outline, cone->at) != SL_NO_SEAM;
+    if (limits && x->limited[cone->at] != SL_NO_SEAM) cone->limited = true;
     if (turn <= 0) cone->left = to_start(x, portal->next);
     if (!cone->within) cone->right = to_start(x, cone->at);
     cone->entry = portal->neighbour;
@@ -313,7 +317,7 @@ static inline sl_status see_side(expansion *x, uint32_t i, const sli_eye_ray *ri
 }
 
 /// Goes around a room to the next portal within the cone and enters it (*enters), or to the end.
-static inline sl_status sweep(expansion *x, view_cone *cone, bool *enters) {
+static inline sl_status sweep(expansion *x, view_cone *cone, bool *enters, bool limits) {
     const sli_eye_place *eye = &x->region->memory->eye;
     const double limit = x->region->memory->limit;
     *enters = false;
@@ -322,9 +326,9 @@ static inline sl_status sweep(expansion *x, view_cone *cone, bool *enters) {
         const sl_point end = side(x, at->next)->start;
         const int turn = sli_eye_turn_to(eye, &cone->left, end, sli_eye_offset(eye, end), limit);
         if (sl_side_is_portal(at) && !is_barred(x, cone->at) &&
-            !(cone->limited && sli_region_limit(x->outline, cone->at) != SL_NO_SEAM)) {
+            !(limits && cone->limited && x->limited[cone->at] != SL_NO_SEAM)) {
             *enters = true;
-            return enter(x, cone, turn);
+            return enter(x, cone, turn, limits);
         }
         SL_TRY(see_side(x, cone->at, cone->within ? &cone->right : NULL,
                         turn > 0 ? &cone->left : NULL));
@@ -335,8 +339,7 @@ static inline sl_status sweep(expansion *x, view_cone *cone, bool *enters) {
     return SL_OK;
 }
 
-/// Adds all that a cone sees through its entry, from the room behind the entry on.
-static sl_status look_through(expansion *x, view_cone cone) {
+static inline sl_status look_on(expansion *x, view_cone cone, bool limits) {
     struct sli_region_memory *m = x->region->memory;
     const sli_eye_place *eye = &m->eye;
     const size_t floor = m->frames.count;
@@ -353,13 +356,21 @@ static sl_status look_through(expansion *x, view_cone cone) {
             cone.entry = f->entry;
             cone.at = f->side;
             cone.left = f->left;
-            cone.limited = f->limited;
             cone.within = false;
+            if (limits) {
+                cone.limited = f->entry & SLI_REGION_LIMITED;
+                cone.entry &= ~SLI_REGION_LIMITED;
+            }
         }
-        SL_TRY(sweep(x, &cone, &enters));
+        SL_TRY(sweep(x, &cone, &enters, limits));
     }
     x->region->portals_passed += passed;
     return SL_OK;
+}
+
+/// Adds all that a cone sees through its entry, from the room behind the entry on.
+static sl_status look_through(expansion *x, view_cone cone) {
+    return x->limited ? look_on(x, cone, true) : look_on(x, cone, false);
 }
 
 /// Adds what is seen of a side of the fan and behind it: from `right` to `left`, or where these are
@@ -495,7 +506,7 @@ sl_status sli_region_check_view(sl_context *context, const sl_view *view, double
 }
 
 sl_status sli_region_spread(sl_context *context, const sl_outline *outline, sl_region *region) {
-    expansion x = {context, outline, region};
+    expansion x = {context, outline, region, outline->limited};
     if (region->cell == SL_NO_CELL) return SL_OK;
     if (!region->view.full && is_one_ray(&region->view)) return SL_OK;
     SL_TRY(sli_region_gather_fan(context, outline, region));
@@ -506,7 +517,7 @@ sl_status sli_region_spread(sl_context *context, const sl_outline *outline, sl_r
 
 sl_status sli_region_look_in(sl_context *context, const sl_outline *outline, sl_region *region,
                              const sli_reflected_view *reflected) {
-    expansion x = {context, outline, region};
+    expansion x = {context, outline, region, outline->limited};
     const sl_side *entry = side(&x, reflected->side);
     const sli_eye_ray right_end = to_start(&x, entry->next);
     const bool within = sli_eye_turn(&region->memory->eye, &reflected->right, &right_end) < 0;

@@ -26,8 +26,8 @@ typedef struct sli_eye_place {
 /// The rest of a room that waits: from the start of `side` to the ray `left`.
 typedef struct sli_region_frame {
     uint32_t side;
-    uint32_t entry; ///< the portal that the room is seen through, as a side of it
-    bool limited;   ///< the way to the room passes a limited wall
+    uint32_t entry; ///< the portal that the room is seen through, as a side of it; plus
+                    ///< SLI_REGION_LIMITED if the way to the room passes a limited wall
     sli_eye_ray left;
 } sli_region_frame;
 
@@ -41,6 +41,8 @@ typedef struct sli_region_piece {
 } sli_region_piece;
 
 #define SLI_PIECE_FAR UINT32_MAX
+
+#define SLI_REGION_LIMITED UINT32_C(0x80000000)
 
 /// The part of a mirror, on one side of a room, that is seen between two rays.
 typedef struct sli_reflected_view {

@@ -114,7 +114,7 @@ typedef struct sl_runtime {
     uint32_t seam_count, seam_portal_count;
     const unsigned char *stops, *passages; ///< NULL where all walls stop all
     uint32_t passage_count;
-    bool has_glass; ///< one-way glass, somewhere
+    bool has_glass;  ///< one-way glass, somewhere
     bool has_limits; ///< in a file for sight: limited walls, somewhere
     const unsigned char *portals;
     const unsigned char *walls; ///< NULL in a file without them
@@ -399,6 +399,11 @@ SL_RUNTIME_API uint32_t sl_runtime_look_past(const sl_runtime *runtime, const sl
 /// unless one of them is where walls or shut doors part what is around it, or one-way glass is
 /// between them. (The range is exact if no coordinate but 0 is 1e70 times smaller than another
 /// one.)
+///
+/// Of limited walls (SL_RUNTIME_STOPS_LIMITED) the line passes at most one, on the way that passes
+/// the fewest: one at the common end of two, two where two cross. Those that the eye is on do not
+/// count. sl_runtime_look and the polygons count them too, but behind a mirror from the mirror on:
+/// so more may be shown there. All that is from cell to cell or from box to box takes them as open.
 ///
 /// The rows do not say it all: an eye at the end of a wall stands in cells on both sides, and may
 /// see a point though sl_runtime_can_see says no of the cells of both points. Time: the portals of
@@ -2994,7 +2999,7 @@ enum {
 typedef struct slrt_sector {
     uint32_t right, left;
     unsigned along;
-    bool limited; ///< a limited wall is among the portals
+    unsigned limited; ///< SLRT_LIMITED if a limited wall is among the portals, else 0
 } slrt_sector;
 
 /// A depth-first search. The path is a stack of four numbers for each cell: the cell, the number of
@@ -3873,8 +3878,8 @@ static bool slrt_walk_next(slrt_polygon *p, slrt_walk *w, slrt_piece *piece) {
 // Where the line touches an end of a portal, or an end of the line is on a side, it may go on in
 // several cells. Then all cells are followed that it comes to by portals that it meets.
 //
-// Of all these ways the one counts that passes the fewest limited walls. Those that the eye is on do
-// not count for the cells about it.
+// Of all these ways the one counts that passes the fewest limited walls. Those that the eye is on
+// do not count for the cells about it.
 
 /// Replaces a number that is too small for a map by 0, as its products would underflow.
 static double slrt_no_dust(double number) {
@@ -4145,8 +4150,7 @@ static void slrt_enter(slrt_search *s, uint32_t cell, const slrt_sector *sector)
     slrt_see(s, cell);
     if (s->meet_boxes) s->meet_boxes(s, cell, sector);
     *marks = (unsigned char)((*marks & ~(unsigned)(SLRT_ALONG | SLRT_LIMITED)) | SLRT_ENTERED |
-                             SLRT_ON_PATH | sector->along |
-                             (sector->limited ? (unsigned)SLRT_LIMITED : 0));
+                             SLRT_ON_PATH | sector->along | sector->limited);
     s->sectors[2 * (size_t)cell] = sector->right;
     s->sectors[2 * (size_t)cell + 1] = sector->left;
     top[0] = cell;
@@ -4172,10 +4176,12 @@ static void slrt_search_on(slrt_search *s, uint32_t *top, uint32_t directed) {
     sector.right = top[2];
     sector.left = top[3];
     sector.along = s->marks[top[0]] & SLRT_ALONG;
-    sector.limited = (s->marks[top[0]] & SLRT_LIMITED) != 0;
-    if (slrt_is_limited(s->rt, directed)) {
-        if (sector.limited) return;
-        sector.limited = true;
+    sector.limited = 0;
+    if (s->rt->has_limits) {
+        const bool limited = slrt_is_limited(s->rt, directed);
+        sector.limited = s->marks[top[0]] & SLRT_LIMITED;
+        if (limited && sector.limited) return;
+        if (limited) sector.limited = SLRT_LIMITED;
     }
     if (slrt_is_blocked(s, directed) || !slrt_narrow(s, directed, &sector)) return;
     if (s->range > 0 && !slrt_in_range(s, directed, sector.right, sector.left)) return;
@@ -4211,7 +4217,7 @@ static void slrt_search_from(slrt_search *s, uint32_t cell, uint32_t right, uint
     sector.right = right;
     sector.left = left;
     sector.along = 0;
-    sector.limited = false;
+    sector.limited = 0;
     if (slrt_leads_into(s, cell, &sector)) slrt_enter(s, cell, &sector);
     while (s->depth) {
         uint32_t *top = s->path + 4 * (size_t)(s->depth - 1);

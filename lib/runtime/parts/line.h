@@ -10,8 +10,8 @@
 // Where the line touches an end of a portal, or an end of the line is on a side, it may go on in
 // several cells. Then all cells are followed that it comes to by portals that it meets.
 //
-// Of all these ways the one counts that passes the fewest limited walls. Those that the eye is on do
-// not count for the cells about it.
+// Of all these ways the one counts that passes the fewest limited walls. Those that the eye is on
+// do not count for the cells about it.
 
 /// Replaces a number that is too small for a map by 0, as its products would underflow.
 static double slrt_no_dust(double number) {

@@ -12,8 +12,7 @@ static void slrt_enter(slrt_search *s, uint32_t cell, const slrt_sector *sector)
     slrt_see(s, cell);
     if (s->meet_boxes) s->meet_boxes(s, cell, sector);
     *marks = (unsigned char)((*marks & ~(unsigned)(SLRT_ALONG | SLRT_LIMITED)) | SLRT_ENTERED |
-                             SLRT_ON_PATH | sector->along |
-                             (sector->limited ? (unsigned)SLRT_LIMITED : 0));
+                             SLRT_ON_PATH | sector->along | sector->limited);
     s->sectors[2 * (size_t)cell] = sector->right;
     s->sectors[2 * (size_t)cell + 1] = sector->left;
     top[0] = cell;
@@ -39,10 +38,12 @@ static void slrt_search_on(slrt_search *s, uint32_t *top, uint32_t directed) {
     sector.right = top[2];
     sector.left = top[3];
     sector.along = s->marks[top[0]] & SLRT_ALONG;
-    sector.limited = (s->marks[top[0]] & SLRT_LIMITED) != 0;
-    if (slrt_is_limited(s->rt, directed)) {
-        if (sector.limited) return;
-        sector.limited = true;
+    sector.limited = 0;
+    if (s->rt->has_limits) {
+        const bool limited = slrt_is_limited(s->rt, directed);
+        sector.limited = s->marks[top[0]] & SLRT_LIMITED;
+        if (limited && sector.limited) return;
+        if (limited) sector.limited = SLRT_LIMITED;
     }
     if (slrt_is_blocked(s, directed) || !slrt_narrow(s, directed, &sector)) return;
     if (s->range > 0 && !slrt_in_range(s, directed, sector.right, sector.left)) return;
@@ -78,7 +79,7 @@ static void slrt_search_from(slrt_search *s, uint32_t cell, uint32_t right, uint
     sector.right = right;
     sector.left = left;
     sector.along = 0;
-    sector.limited = false;
+    sector.limited = 0;
     if (slrt_leads_into(s, cell, &sector)) slrt_enter(s, cell, &sector);
     while (s->depth) {
         uint32_t *top = s->path + 4 * (size_t)(s->depth - 1);

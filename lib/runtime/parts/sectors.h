@@ -52,7 +52,7 @@ enum {
 typedef struct slrt_sector {
     uint32_t right, left;
     unsigned along;
-    bool limited; ///< a limited wall is among the portals
+    unsigned limited; ///< SLRT_LIMITED if a limited wall is among the portals, else 0
 } slrt_sector;
 
 /// A depth-first search. The path is a stack of four numbers for each cell: the cell, the number of
