@@ -286,7 +286,7 @@ static sl_status grow_frames(expansion *x) {
 /// Takes the cone through the portal that it is at. `turn`: where the portal's end lies from the
 /// left ray. The rest of the room waits as a frame. `limits`, here and below: the outline has
 /// limited walls. It is a constant, so that others pay nothing for them.
-static inline sl_status enter(expansion *x, view_cone *cone, int turn, bool limits) {
+SLI_VISIT sl_status enter(expansion *x, view_cone *cone, int turn, bool limits) {
     struct sli_region_memory *m = x->region->memory;
     const sl_side *portal = side(x, cone->at);
     if (turn < 0) {
@@ -317,7 +317,7 @@ static inline sl_status see_side(expansion *x, uint32_t i, const sli_eye_ray *ri
 }
 
 /// Goes around a room to the next portal within the cone and enters it (*enters), or to the end.
-static inline sl_status sweep(expansion *x, view_cone *cone, bool *enters, bool limits) {
+SLI_VISIT sl_status sweep(expansion *x, view_cone *cone, bool *enters, bool limits) {
     const sli_eye_place *eye = &x->region->memory->eye;
     const double limit = x->region->memory->limit;
     *enters = false;
@@ -339,7 +339,7 @@ static inline sl_status sweep(expansion *x, view_cone *cone, bool *enters, bool 
     return SL_OK;
 }
 
-static inline sl_status look_on(expansion *x, view_cone cone, bool limits) {
+SLI_VISIT sl_status look_on(expansion *x, view_cone cone, bool limits) {
     struct sli_region_memory *m = x->region->memory;
     const sli_eye_place *eye = &m->eye;
     const size_t floor = m->frames.count;

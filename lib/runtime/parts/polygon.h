@@ -67,8 +67,8 @@ static void slrt_push(slrt_polygon *p, uint32_t directed, uint32_t right, uint32
     top[0] = slrt_u32(p->s.rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 4);
     cell = sl_runtime_get_cell(p->s.rt, top[0]);
     top[1] = top[2] = twin;
-    top[3] = slrt_side_of_portal(p, &cell, twin) | past |
-             (slrt_is_limited(p->s.rt, directed) ? SLRT_PAST_LIMIT : 0);
+    top[3] = slrt_side_of_portal(p, &cell, twin) | past;
+    if (slrt_is_limited(p->s.rt, directed)) top[3] |= SLRT_PAST_LIMIT;
     top[4] = right;
     top[5] = left;
     p->s.depth++;
