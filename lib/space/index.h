@@ -15,10 +15,6 @@ static inline bool sli_is_map_seam(const sl_seam *seam) {
     return seam->kind == SL_SEAM_PLAIN || seam->kind == SL_SEAM_LIMITED;
 }
 
-/// The seam that limits sight at a portal; SL_NO_SEAM for none. A wall that stops it, lying there
-/// too, leaves no portal.
-uint32_t sli_portal_limits(const sl_space *space, uint32_t portal);
-
 /// SL_UNSUPPORTED, naming `who`, for a space with walls that limit sight. `or_else`: what else to
 /// do about it, "" for nothing.
 sl_status sli_refuse_limited(sl_context *context, const sl_space *space, const char *who,

@@ -300,14 +300,6 @@ const sl_seam_portal *sl_space_seams_of(const sl_space *space, uint32_t portal, 
     return *count ? space->seam_portals + first : NULL;
 }
 
-uint32_t sli_portal_limits(const sl_space *space, uint32_t portal) {
-    size_t count;
-    const sl_seam_portal *on = sl_space_seams_of(space, portal, &count);
-    for (size_t i = 0; i < count; i++)
-        if (space->seams[on[i].seam].kind == SL_SEAM_LIMITED) return on[i].seam;
-    return SL_NO_SEAM;
-}
-
 sl_status sli_refuse_limited(sl_context *context, const sl_space *space, const char *who,
                              const char *or_else) {
     for (uint32_t i = 0; i < space->seam_count; i++)
