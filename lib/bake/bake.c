@@ -92,12 +92,19 @@ static sl_status find_sets(sl_context *context, sl_bake_options *options, sl_bak
     return status;
 }
 
+sl_guarantee sl_limited_guarantee(const sl_map *map, sl_guarantee guarantee) {
+    const bool adds = guarantee == SL_CONSERVATIVE || guarantee == SL_ROUNDED;
+    if (adds || !sl_map_limited_walls(map)) return guarantee;
+    return guarantee == SL_EXACT ? SL_CONSERVATIVE : SL_ROUNDED;
+}
+
 sl_status sl_bake(sl_context *context, sl_map *map, const sl_bake_options *options, sl_baked *out,
                   sl_bake_account *account) {
     sl_bake_options chosen = options ? *options : sl_bake_options_default();
     sl_bake_account done = {0};
     SL_TRY(sl_bake_space(context, map, &chosen, out, &done));
     const sl_status status = find_sets(context, &chosen, out, &done);
+    out->visibility.guarantee = sl_limited_guarantee(&out->map, out->visibility.guarantee);
     if (status != SL_OK)
         sl_baked_destroy(context, out);
     else if (account)

@@ -153,7 +153,7 @@ const char *sli_glass_name(sli_glass_way way) {
 static void put_stops(printer *out, uint32_t stops) {
     sl_json_put_key(&out->json, "stops");
     sl_json_put_list(&out->json);
-    for (uint32_t bit = 1; bit < SL_STOPS_ALL; bit *= 2) {
+    for (uint32_t bit = 1; bit <= SL_STOPS_LIMITED; bit *= 2) {
         char name[SL_STOPS_TEXT];
         sl_stops_write(stops & bit, name);
         if (*name) sl_json_put_text(&out->json, name);

@@ -210,6 +210,8 @@ static sl_status check_seams(const reader *r) {
     const sl_baked *b = r->out;
     for (uint32_t i = 0; i < b->space.seam_count; i++) {
         const sl_seam *seam = &b->space.seams[i];
+        if (seam->kind > SL_SEAM_ONEWAY)
+            return sl_fail_at(r->context, r->name, 0, "damaged: seam %u is none", i);
         const size_t most = seam->kind == SL_SEAM_DOOR     ? b->map.door_count
                             : seam->kind == SL_SEAM_ONEWAY ? b->map.oneway_count
                                                            : b->map.seam_count;
@@ -217,6 +219,13 @@ static sl_status check_seams(const reader *r) {
             return sl_fail_at(r->context, r->name, 0, "damaged: seam %u is of nothing", i);
     }
     return SL_OK;
+}
+
+/// Whether bits are what a seam may stop.
+static bool are_stops(uint32_t stops) {
+    const uint32_t in_full = stops & SL_STOPS_ALL;
+    return !(stops & ~(uint32_t)(SL_STOPS_ALL | SL_STOPS_LIMITED)) && in_full < SL_STOPS_ALL &&
+           !(stops & SL_STOPS_LIMITED && stops & SL_STOPS_SIGHT);
 }
 
 /// What walls stop that do not stop all. The map that the seams are of is there already.
@@ -229,9 +238,10 @@ static sl_status load_stops(const reader *r) {
     bool sound = !count || count == s->seam_count;
     for (uint32_t i = 0; i < count && sound; i++) {
         const bool plain = s->seams[i].kind == SL_SEAM_PLAIN;
-        const uint32_t what = stops[i] & SL_STOPS_ALL, ground = stops[i] >> SLI_SLV_GROUND;
-        sound = stops[i] == (what | ground << SLI_SLV_GROUND) && what < SL_STOPS_ALL &&
-                ground <= (SL_SOLID_LEFT | SL_SOLID_RIGHT) && (what || !ground) && (plain || !what);
+        const uint32_t what = stops[i] & ((1u << SLI_SLV_GROUND) - 1);
+        const uint32_t ground = stops[i] >> SLI_SLV_GROUND;
+        sound = are_stops(what) && ground <= (SL_SOLID_LEFT | SL_SOLID_RIGHT) &&
+                (what || !ground) && (plain || !what);
         if (!sound || !plain) continue;
         map->seams[s->seams[i].number].stops = (uint8_t)what;
         map->seams[s->seams[i].number].ground = (uint8_t)ground;
@@ -266,6 +276,16 @@ static sl_status load_channel(const reader *r) {
     if (!told || told > SL_STOPS_ALL) return fail_file(r, "damaged: section CHAN makes no sense");
     r->out->map.channel = told;
     return SL_OK;
+}
+
+/// In a file for sight, seams that limit it are such.
+static void mark_limited(const reader *r) {
+    const sl_map *map = &r->out->map;
+    sl_space *s = &r->out->space;
+    for (uint32_t i = 0; i < s->seam_count && sl_map_channel(map) & SL_STOPS_SIGHT; i++)
+        if (s->seams[i].kind == SL_SEAM_PLAIN &&
+            map->seams[s->seams[i].number].stops & SL_STOPS_LIMITED)
+            s->seams[i].kind = SL_SEAM_LIMITED;
 }
 
 static sl_status load_grid(const reader *r) {
@@ -673,6 +693,7 @@ static sl_status load_all(reader *r) {
     SL_TRY(check_seams(r));
     SL_TRY(load_stops(r));
     SL_TRY(load_channel(r));
+    mark_limited(r);
     return check_channel(r);
 }
 

@@ -22,6 +22,7 @@ typedef struct plan {
         copies[MOST_SECTIONS]; ///< of the contents in the file's order of bytes, if that is another
     sl_segment *walls;
     uint32_t *stops; ///< by seam; NULL where each is passed by all
+    sl_seam *seams;  ///< limited ones are plain in a file, whose stops say it; NULL where none is
     uint32_t channel;
     sli_slv_passage *passages;
     sl_map map; ///< of which the text is; its seams are the plan's
@@ -97,12 +98,24 @@ static sl_status list_stops(sl_context *context, const sl_baked *baked, plan *p)
     if (!p->stops) return SL_NO_MEMORY;
     for (uint32_t i = 0; i < space->seam_count; i++) {
         const sl_seam *seam = &space->seams[i];
-        if (seam->kind == SL_SEAM_PLAIN) p->stops[i] = stops_of(&baked->map.seams[seam->number]);
+        if (sli_is_map_seam(seam)) p->stops[i] = stops_of(&baked->map.seams[seam->number]);
         any |= p->stops[i] != 0;
     }
     if (any) return SL_OK;
     sl_free(context, p->stops);
     p->stops = NULL;
+    return SL_OK;
+}
+
+static sl_status copy_seams(sl_context *context, const sl_space *space, plan *p) {
+    bool any = false;
+    for (uint32_t i = 0; i < space->seam_count; i++) any |= space->seams[i].kind == SL_SEAM_LIMITED;
+    if (!any) return SL_OK;
+    p->seams = sl_alloc_array(context, space->seam_count, sizeof *p->seams);
+    if (!p->seams) return SL_NO_MEMORY;
+    memcpy(p->seams, space->seams, space->seam_count * sizeof *p->seams);
+    for (uint32_t i = 0; i < space->seam_count; i++)
+        if (p->seams[i].kind == SL_SEAM_LIMITED) p->seams[i].kind = SL_SEAM_PLAIN;
     return SL_OK;
 }
 
@@ -223,7 +236,8 @@ static void add_sections(plan *p, const sl_baked *baked, const sli_slv_info *inf
         add_section(p, "GRIC", g->cells, sizeof *g->cells, g->entry_count);
     }
     if (space->seam_count)
-        add_section(p, "SEAM", space->seams, sizeof *space->seams, space->seam_count);
+        add_section(p, "SEAM", p->seams ? p->seams : space->seams, sizeof *space->seams,
+                    space->seam_count);
     if (space->seam_portal_count)
         add_section(p, "SEPO", space->seam_portals, sizeof *space->seam_portals,
                     space->seam_portal_count);
@@ -357,6 +371,7 @@ static sl_status make_plan(sl_context *context, const sl_baked *baked, const sli
     size_t map_bytes = 0;
     SL_TRY(copy_walls(context, &baked->space, p));
     SL_TRY(list_stops(context, baked, p));
+    SL_TRY(copy_seams(context, &baked->space, p));
     SL_TRY(list_parts(context, baked, p));
     if (!baked->space.neighbour) SL_TRY(sli_tree_grid_make(context, &baked->space, &p->grid));
     SL_TRY(sli_slv_list_passages(context, &baked->space, &p->passages));
@@ -382,6 +397,7 @@ static void destroy_plan(sl_context *context, plan *p) {
     for (uint32_t i = 0; i < p->header.section_count; i++) sl_free(context, p->copies[i]);
     sl_free(context, p->walls);
     sl_free(context, p->stops);
+    sl_free(context, p->seams);
     sl_free(context, p->parts);
     sl_free(context, p->grid.starts);
     sl_free(context, p->passages);

@@ -199,12 +199,20 @@ static void swatch_oneway(cairo_t *cairo, const sl_scene *scene, const sli_pens 
 
 static void swatch_open_wall(cairo_t *cairo, const sl_scene *scene, const sli_pens *pens,
                              sl_box box) {
-    sli_mark_partial(cairo, &scene->palette, pens, left_middle(box), right_middle(box), false);
+    sli_mark_partial(cairo, &scene->palette, pens, left_middle(box), right_middle(box),
+                     SLI_PARTIAL_OPEN);
+}
+
+static void swatch_limited(cairo_t *cairo, const sl_scene *scene, const sli_pens *pens,
+                           sl_box box) {
+    sli_mark_partial(cairo, &scene->palette, pens, left_middle(box), right_middle(box),
+                     SLI_PARTIAL_LIMITED);
 }
 
 static void swatch_passage(cairo_t *cairo, const sl_scene *scene, const sli_pens *pens,
                            sl_box box) {
-    sli_mark_partial(cairo, &scene->palette, pens, left_middle(box), right_middle(box), true);
+    sli_mark_partial(cairo, &scene->palette, pens, left_middle(box), right_middle(box),
+                     SLI_PARTIAL_WALL);
 }
 
 static void swatch_object(cairo_t *cairo, const sl_scene *scene, const sli_pens *pens, sl_box box) {
@@ -302,16 +310,17 @@ static void add_cells(key *k, const sl_scene *scene) {
 /// Walls that do not stop all, as the space has them.
 static void add_partial_walls(key *k, const sl_map *map) {
     char stops[SL_STOPS_TEXT], text[TEXT_MAX];
-    bool open = false, walls = false;
-    for (size_t i = 0; i < map->seam_count; i++) {
-        if (!map->seams[i].stops) continue;
-        *(map->seams[i].stops & sl_map_channel(map) ? &walls : &open) = true;
-    }
+    bool has[] = {
+        [SLI_PARTIAL_OPEN] = false, [SLI_PARTIAL_LIMITED] = false, [SLI_PARTIAL_WALL] = false};
+    for (size_t i = 0; i < map->seam_count; i++)
+        if (map->seams[i].stops) has[sli_partial_of(map, map->seams[i].stops)] = true;
     sl_stops_write(sl_map_channel(map), stops);
     snprintf(text, sizeof text, "wall that does not stop %s", stops);
-    if (open) add_key_entry(k, swatch_open_wall, text);
+    if (has[SLI_PARTIAL_OPEN]) add_key_entry(k, swatch_open_wall, text);
+    if (has[SLI_PARTIAL_LIMITED])
+        add_key_entry(k, swatch_limited, "wall that limits sight: one is passed, not two");
     snprintf(text, sizeof text, "wall that stops %s, but not all", stops);
-    if (walls) add_key_entry(k, swatch_passage, text);
+    if (has[SLI_PARTIAL_WALL]) add_key_entry(k, swatch_passage, text);
 }
 
 static void add_effects(key *k, const sl_map *map) {

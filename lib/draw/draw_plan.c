@@ -449,7 +449,8 @@ static void draw_open_walls(const plan *p) {
         const sl_glass *wall = &p->map->seams[i];
         if (!wall->stops || wall->stops & sl_map_channel(p->map)) continue;
         if (sli_frame_segment(p->frame, wall->segment.a, wall->segment.b, &a, &b))
-            sli_mark_partial(p->cairo, p->palette, &p->pens, a, b, false);
+            sli_mark_partial(p->cairo, p->palette, &p->pens, a, b,
+                             sli_partial_of(p->map, wall->stops));
     }
 }
 
@@ -466,7 +467,7 @@ static void draw_walls(const plan *p) {
     for (uint32_t i = 0; i < p->space->passage_count; i++) {
         const sl_wall *wall = &p->space->walls[p->space->passages[i].wall];
         if (sli_frame_segment(p->frame, wall->a, wall->b, &a, &b))
-            sli_mark_partial(p->cairo, p->palette, &p->pens, a, b, true);
+            sli_mark_partial(p->cairo, p->palette, &p->pens, a, b, SLI_PARTIAL_WALL);
     }
     for (size_t i = 0; i < p->map->door_count; i++) {
         const sl_door *door = &p->map->doors[i];

@@ -273,11 +273,13 @@ void sli_mark_door(cairo_t *cairo, const sl_palette *palette, const sli_pens *pe
 }
 
 void sli_mark_partial(cairo_t *cairo, const sl_palette *palette, const sli_pens *pens, sl_point a,
-                      sl_point b, bool is_wall) {
-    const double dash = 3 * pens->wall;
+                      sl_point b, sli_partial what) {
+    const bool is_wall = what == SLI_PARTIAL_WALL;
+    const double dash[] = {(what == SLI_PARTIAL_LIMITED ? 6 : 3) * pens->wall, 3 * pens->wall,
+                           pens->wall, 3 * pens->wall};
     cairo_move_to(cairo, a.x, a.y);
     cairo_line_to(cairo, b.x, b.y);
-    if (!is_wall) cairo_set_dash(cairo, &dash, 1, 0);
+    if (!is_wall) cairo_set_dash(cairo, dash, what == SLI_PARTIAL_LIMITED ? 4 : 1, 0);
     stroke(cairo, palette->wall, (is_wall ? 1.3 : 0.8) * pens->wall, CAIRO_LINE_CAP_BUTT);
     cairo_set_dash(cairo, NULL, 0, 0);
     if (!is_wall) return;

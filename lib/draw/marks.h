@@ -40,9 +40,19 @@ void sli_mark_door(cairo_t *cairo, const sl_palette *palette, const sli_pens *pe
                    sl_point b, bool open);
 void sli_mark_mirror(cairo_t *cairo, const sl_palette *palette, const sli_pens *pens, sl_point a,
                      sl_point b);
-/// A wall that does not stop all: hollow where the picture's space has it as a wall, else dashed.
+/// What a wall that does not stop all is in the picture's space.
+typedef enum sli_partial { SLI_PARTIAL_OPEN, SLI_PARTIAL_LIMITED, SLI_PARTIAL_WALL } sli_partial;
+
+static inline sli_partial sli_partial_of(const sl_map *map, uint32_t stops) {
+    if (stops & sl_map_channel(map)) return SLI_PARTIAL_WALL;
+    const bool limits = stops & SL_STOPS_LIMITED && sl_map_channel(map) & SL_STOPS_SIGHT;
+    return limits ? SLI_PARTIAL_LIMITED : SLI_PARTIAL_OPEN;
+}
+
+/// A wall that does not stop all: hollow for a wall, dashed where it is open, with dashes and dots
+/// where it limits sight.
 void sli_mark_partial(cairo_t *cairo, const sl_palette *palette, const sli_pens *pens, sl_point a,
-                      sl_point b, bool is_wall);
+                      sl_point b, sli_partial what);
 /// Its arrow points in the direction that one can look: from the right of `a` to `b` to the left.
 void sli_mark_oneway(cairo_t *cairo, const sl_palette *palette, const sli_pens *pens, sl_point a,
                      sl_point b);

@@ -163,9 +163,11 @@ static sl_status read_stops(const sli_json *item, uint32_t *stops) {
         uint32_t one;
         SL_TRY(sli_json_text(&name, &text));
         if (!sl_stops_read(text, strlen(text), &one) || one & *stops)
-            return sli_json_fail(&name, "expected sight, steps or sound, each once");
+            return sli_json_fail(&name, "expected sight or limited, steps or sound, each once");
         *stops |= one;
     }
+    if (*stops & SL_STOPS_SIGHT && *stops & SL_STOPS_LIMITED)
+        return sli_json_fail(&list, "a wall stops sight or limits it, not both");
     return *stops ? SL_OK : sli_json_fail(&list, "expected at least one of sight, steps, sound");
 }
 
@@ -215,7 +217,8 @@ static sl_status read_channel(export_reader *reader, const sli_json *root) {
     const char *text;
     if (!channel.value) return SL_OK;
     SL_TRY(sli_json_text(&channel, &text));
-    return sl_stops_read(text, strlen(text), &reader->map->channel)
+    return sl_stops_read(text, strlen(text), &reader->map->channel) &&
+                   reader->map->channel <= SL_STOPS_ALL
                ? SL_OK
                : sli_json_fail(&channel, "expected sight, steps or sound");
 }

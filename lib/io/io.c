@@ -74,7 +74,8 @@ static bool knows_wad(const char *text, size_t size) {
 
 /// What files with layers of our own hold (layers.h).
 #define KEEPS_LAYERS                                                                               \
-    (SL_KEEPS_ALL & ~SL_KEEPS_NOTES & ~SL_KEEPS_COMMENTS & ~SL_KEEPS_UNIT & ~SL_KEEPS_ENTRANCE)
+    (SL_KEEPS_ALL & ~SL_KEEPS_NOTES & ~SL_KEEPS_COMMENTS & ~SL_KEEPS_UNIT & ~SL_KEEPS_ENTRANCE &   \
+     ~SL_KEEPS_LIMITED)
 
 /// Pairs of lines begin with a section, perhaps behind comments (999); or the file is a drawing of
 /// the same programs in binary, which the reader refuses with what to do.
@@ -183,7 +184,7 @@ static const sl_map_format map_formats[] = {
      .knows = knows_foundry,
      .write = sli_map_print_foundry,
      .keeps = SL_KEEPS_DOORS | SL_KEEPS_STARTS | SL_KEEPS_RANGE | SL_KEEPS_MIRRORS |
-              SL_KEEPS_ONEWAYS | SL_KEEPS_SEAMS | SL_KEEPS_STOPS},
+              SL_KEEPS_ONEWAYS | SL_KEEPS_SEAMS | SL_KEEPS_STOPS | SL_KEEPS_LIMITED},
     {.name = "wad",
      .endings = ".wad",
      .what = "a Doom WAD, classic, Hexen's or UDMF",

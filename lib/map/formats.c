@@ -42,7 +42,7 @@ static const sl_map_format formats[] = {
      .read = read_plan,
      .write = sli_map_print_plan,
      .keeps = SL_KEEPS_ALL & ~SL_KEEPS_COMMENTS & ~SL_KEEPS_NOTES & ~SL_KEEPS_UNIT &
-              ~SL_KEEPS_ENTRANCE & ~SL_KEEPS_STOPS},
+              ~SL_KEEPS_ENTRANCE & ~SL_KEEPS_STOPS & ~SL_KEEPS_LIMITED},
 };
 enum { FORMAT_COUNT = sizeof formats / sizeof *formats };
 
@@ -503,11 +503,43 @@ static sl_status write_settled(sl_context *context, const sl_map *map, const sl_
     return status;
 }
 
+/// Into a format that has a place for what walls stop, but not for limited walls: these are open to
+/// sight there.
+static sl_status write_unlimited(sl_context *context, const sl_map *map,
+                                 const sl_map_format *format, const char *path) {
+    sl_map open = {0};
+    size_t kept = 0, limited = 0;
+    SL_TRY(sl_map_copy(context, map, &open));
+    for (size_t i = 0; i < open.seam_count; i++) {
+        sl_glass seam = open.seams[i];
+        limited += (seam.stops & SL_STOPS_LIMITED) != 0;
+        seam.stops &= SL_STOPS_ALL;
+        if (seam.stops || !open.seams[i].stops) open.seams[kept++] = seam;
+    }
+    const size_t gone = open.seam_count - kept;
+    open.seam_count = kept;
+    sl_note(context,
+            "%s: %s has no place for walls that limit sight: %zu written without that, %zu that do "
+            "nothing else left out",
+            path, format->what, limited - gone, gone);
+    const sl_status status = write_map(context, &open, format, path);
+    sl_map_destroy(context, &open);
+    return status;
+}
+
+static bool has_limited(const sl_map *map) {
+    for (size_t i = 0; i < map->seam_count; i++)
+        if (map->seams[i].stops & SL_STOPS_LIMITED) return true;
+    return false;
+}
+
 sl_status sl_map_write(sl_context *context, const sl_map *map, const sl_map_format *format,
                        const char *path) {
     if (!format) format = &formats[0];
     if (!format->write)
         return sl_fail(context, SL_UNSUPPORTED, "%s: %s is only read", path, format->what);
+    if (format->keeps & SL_KEEPS_STOPS && !(format->keeps & SL_KEEPS_LIMITED) && has_limited(map))
+        return write_unlimited(context, map, format, path);
     return format->keeps & SL_KEEPS_STOPS || !sl_map_partial_walls(map)
                ? write_map(context, map, format, path)
                : write_settled(context, map, format, path);

@@ -325,8 +325,8 @@ static sl_status take_stops(text_reader *reader, const statement *row) {
         const sli_word what = i + 1 < *count ? reader->words.items[i + 1] : (sli_word){"", 0};
         if (i + 2 != *count || !sl_stops_read(what.at, what.length, &reader->stops))
             return sl_fail_at(reader->context, reader->name, reader->line,
-                              "%s: expected sight, steps, sound or several joined by commas after "
-                              "'stops', at the end, found '%s'",
+                              "%s: expected sight or limited, steps, sound or several joined by "
+                              "commas after 'stops', at the end, found '%s'",
                               row->word, sli_show(what).text);
         *count = i;
     }
@@ -710,7 +710,7 @@ static sl_status print_partial_walls(text_writer *writer) {
     if (!all) return SL_OK;
     sl_wall *walls = sl_alloc_array(writer->context, all, sizeof *walls);
     sl_status status = walls ? SL_OK : SL_NO_MEMORY;
-    for (uint32_t stops = 1; stops < SL_STOPS_ALL && status == SL_OK; stops++) {
+    for (uint32_t stops = 1; stops < 2 * SL_STOPS_LIMITED && status == SL_OK; stops++) {
         size_t count = 0;
         for (size_t i = 0; i < map->seam_count; i++) {
             const sl_glass *seam = &map->seams[i];

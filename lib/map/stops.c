@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static const char *const names[] = {"sight", "steps", "sound"};
+static const char *const names[] = {"sight", "steps", "sound", "limited"};
 enum { NAMES = sizeof names / sizeof *names };
 
 void sl_stops_write(uint32_t stops, char text[SL_STOPS_TEXT]) {
@@ -32,13 +32,16 @@ bool sl_stops_read(const char *text, size_t length, uint32_t *out) {
         if (!comma) break;
         at = comma;
     }
+    if (stops & SL_STOPS_LIMITED && stops & SL_STOPS_SIGHT) return false;
     *out = stops;
     return true;
 }
 
 sl_status sl_map_walls_stop(sl_context *context, sl_map *map, size_t first, uint32_t stops) {
-    if (!stops || stops & ~(uint32_t)SL_STOPS_ALL)
-        return sl_fail(context, SL_BAD_ARGUMENT, "a wall stops sight, steps, sound or several");
+    if (!stops || stops & ~(uint32_t)(SL_STOPS_ALL | SL_STOPS_LIMITED) ||
+        (stops & SL_STOPS_SIGHT && stops & SL_STOPS_LIMITED))
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "a wall stops sight or limits it, stops steps, sound or several of these");
     if (stops == SL_STOPS_ALL) return SL_OK;
     for (size_t i = first; i < map->wall_count; i++) {
         const sl_wall *wall = &map->walls[i];
@@ -71,6 +74,14 @@ sl_status sl_map_settle_stops(sl_context *context, sl_map *map, size_t *left_out
 size_t sl_map_partial_walls(const sl_map *map) {
     size_t count = 0;
     for (size_t i = 0; i < map->seam_count; i++) count += map->seams[i].stops != 0;
+    return count;
+}
+
+size_t sl_map_limited_walls(const sl_map *map) {
+    size_t count = 0;
+    if (!(sl_map_channel(map) & SL_STOPS_SIGHT)) return 0;
+    for (size_t i = 0; i < map->seam_count; i++)
+        count += (map->seams[i].stops & SL_STOPS_LIMITED) != 0;
     return count;
 }
 

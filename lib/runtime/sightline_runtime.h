@@ -77,7 +77,8 @@ enum {
     SL_RUNTIME_STOPS_SIGHT = 1,
     SL_RUNTIME_STOPS_STEPS = 2,
     SL_RUNTIME_STOPS_SOUND = 4,
-    SL_RUNTIME_STOPS_ALL = 7
+    SL_RUNTIME_STOPS_ALL = 7,
+    SL_RUNTIME_STOPS_LIMITED = 8 ///< a limited wall: sight passes one of them, and not a second one
 };
 
 /// An open file. Counts and bounds are for reading; the pointers are for the functions only.
@@ -113,7 +114,8 @@ typedef struct sl_runtime {
     uint32_t seam_count, seam_portal_count;
     const unsigned char *stops, *passages; ///< NULL where all walls stop all
     uint32_t passage_count;
-    bool has_glass; ///< one-way glass, somewhere
+    bool has_glass;  ///< one-way glass, somewhere
+    bool has_limits; ///< in a file for sight: limited walls, somewhere
     const unsigned char *portals;
     const unsigned char *walls; ///< NULL in a file without them
     uint32_t wall_count;
@@ -397,6 +399,11 @@ SL_RUNTIME_API uint32_t sl_runtime_look_past(const sl_runtime *runtime, const sl
 /// unless one of them is where walls or shut doors part what is around it, or one-way glass is
 /// between them. (The range is exact if no coordinate but 0 is 1e70 times smaller than another
 /// one.)
+///
+/// Of limited walls (SL_RUNTIME_STOPS_LIMITED) the line passes at most one, on the way that passes
+/// the fewest: one at the common end of two, two where two cross. Those that the eye is on do not
+/// count. sl_runtime_look and the polygons count them too, but behind a mirror from the mirror on:
+/// so more may be shown there. All that is from cell to cell or from box to box takes them as open.
 ///
 /// The rows do not say it all: an eye at the end of a wall stands in cells on both sides, and may
 /// see a point though sl_runtime_can_see says no of the cells of both points. Time: the portals of
@@ -1457,6 +1464,15 @@ static bool slrt_passage_is_sound(const sl_runtime *rt, const unsigned char *at)
            (slrt_u32(at + 4) & INT32_MAX) < rt->wall_count && stops && stops < SL_RUNTIME_STOPS_ALL;
 }
 
+/// Whether some seam limits sight, in a file for sight.
+static bool slrt_has_limits(const sl_runtime *rt) {
+    uint32_t i;
+    if (!rt->stops || !(rt->channel & SL_RUNTIME_STOPS_SIGHT)) return false;
+    for (i = 0; i < rt->seam_count; i++)
+        if (slrt_u32(rt->stops + (size_t)i * 4) & SL_RUNTIME_STOPS_LIMITED) return true;
+    return false;
+}
+
 /// Passages go by cell, so that they can be searched.
 static bool slrt_take_stops(sl_runtime *rt, const slrt_section *found) {
     uint32_t i;
@@ -1469,6 +1485,7 @@ static bool slrt_take_stops(sl_runtime *rt, const slrt_section *found) {
         if (!rt->channel || rt->channel > SL_RUNTIME_STOPS_ALL) return false;
     }
     if (rt->stops && found[SLRT_STOP].count != rt->seam_count) return false;
+    rt->has_limits = slrt_has_limits(rt);
     if (!rt->passages) return true;
     if (!rt->walls || found[SLRT_PASS].count > UINT32_MAX) return false;
     rt->passage_count = (uint32_t)found[SLRT_PASS].count;
@@ -2738,7 +2755,9 @@ static uint32_t slrt_first_seam(const sl_runtime *rt, uint32_t portal) {
 
 /// What a seam stops; 0 for most.
 static uint32_t slrt_seam_stops(const sl_runtime *rt, uint32_t seam) {
-    return rt->stops ? slrt_u32(rt->stops + (size_t)seam * 4) & SL_RUNTIME_STOPS_ALL : 0;
+    return rt->stops ? slrt_u32(rt->stops + (size_t)seam * 4) &
+                           (SL_RUNTIME_STOPS_ALL | SL_RUNTIME_STOPS_LIMITED)
+                     : 0;
 }
 
 /// The first passage of a cell, or where it would be.
@@ -2799,6 +2818,14 @@ SL_RUNTIME_API uint32_t sl_runtime_portal_stops(const sl_runtime *runtime, uint3
         stops |= slrt_seam_stops(runtime, slrt_u32(on + 4));
     }
     return stops;
+}
+
+/// Whether a directed portal is on a limited wall, in a file for sight.
+static bool slrt_is_limited(const sl_runtime *rt, uint32_t directed) {
+    uint32_t portal;
+    if (!rt->has_limits) return false;
+    portal = slrt_u32(rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES);
+    return (sl_runtime_portal_stops(rt, portal) & SL_RUNTIME_STOPS_LIMITED) != 0;
 }
 
 SL_RUNTIME_API uint32_t sl_runtime_passages(const sl_runtime *runtime, uint32_t cell,
@@ -3032,8 +3059,8 @@ enum {
     SLRT_ALONG_RIGHT = 16,
     SLRT_ALONG_LEFT = 32,
     SLRT_ALONG = SLRT_ALONG_RIGHT | SLRT_ALONG_LEFT,
-    SLRT_OWN = 64,      ///< one of the eye's cells, or on the way to a point
-    SLRT_MIRRORED = 128 ///< seen by mirror
+    SLRT_OWN = 64,     ///< one of the eye's cells, or on the way to a point
+    SLRT_LIMITED = 128 ///< of the last visit: the way there crosses a limited wall
 };
 
 /// What of a cell's surroundings the eye sees through the portals passed: a sector, and which of
@@ -3041,6 +3068,7 @@ enum {
 typedef struct slrt_sector {
     uint32_t right, left;
     unsigned along;
+    unsigned limited; ///< SLRT_LIMITED if a limited wall is among the portals, else 0
 } slrt_sector;
 
 /// A depth-first search. The path is a stack of four numbers for each cell: the cell, the number of
@@ -3242,6 +3270,7 @@ static bool slrt_covered(const slrt_search *s, uint32_t cell, const slrt_sector 
     const unsigned more = s->marks[cell] & SLRT_ALONG & ~sector->along;
     slrt_arm a, b, v, w;
     int a_v, w_b;
+    if (s->marks[cell] & SLRT_LIMITED && !sector->limited) return false;
     if (was_right == sector->right && was_left == sector->left) return !more;
     a = slrt_border(s, was_right);
     b = slrt_border(s, was_left);
@@ -3978,6 +4007,9 @@ static bool slrt_walk_next(slrt_polygon *p, slrt_walk *w, slrt_piece *piece) {
 //
 // Where the line touches an end of a portal, or an end of the line is on a side, it may go on in
 // several cells. Then all cells are followed that it comes to by portals that it meets.
+//
+// Of all these ways the one counts that passes the fewest limited walls. Those that the eye is on
+// do not count for the cells about it.
 
 /// Replaces a number that is too small for a map by 0, as its products would underflow.
 static double slrt_no_dust(double number) {
@@ -4042,7 +4074,7 @@ static uint32_t slrt_way_out(const slrt_search *s, const slrt_arm *way, uint32_t
 /// A way out of a cell: the cell that it leads to, and its ends as crossed.
 typedef struct slrt_exit {
     uint32_t cell; ///< SLRT_NONE for no way out
-    bool is_blocked;
+    bool is_blocked, is_limited;
     const unsigned char *right, *left;
 } slrt_exit;
 
@@ -4070,7 +4102,7 @@ static slrt_exit slrt_exit_of(const slrt_search *s, const slrt_arm *way, uint32_
     const unsigned char *portal;
     slrt_exit out;
     out.cell = SLRT_NONE;
-    out.is_blocked = false;
+    out.is_blocked = out.is_limited = false;
     if (directed == SLRT_NONE) {
         if (s->on_foot && s->rt->passage_count && !*touches)
             slrt_passage_out(s, way, cell, &out, touches);
@@ -4079,6 +4111,7 @@ static slrt_exit slrt_exit_of(const slrt_search *s, const slrt_arm *way, uint32_
     portal = s->rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES;
     out.cell = slrt_cell_across(s->rt, directed);
     out.is_blocked = slrt_is_blocked(s, directed);
+    out.is_limited = !s->on_foot && slrt_is_limited(s->rt, directed);
     out.right = portal + 24;
     out.left = portal + 8;
     return out;
@@ -4088,6 +4121,7 @@ static slrt_exit slrt_exit_of(const slrt_search *s, const slrt_arm *way, uint32_
 /// to, or a box, stops it.
 static slrt_finding slrt_follow_within(const slrt_search *s, const slrt_arm *way) {
     uint32_t cell = s->eye_cell, steps = s->rt->loose ? 0 : s->rt->cell_count;
+    bool limited = false;
     if (slrt_place_in(s->rt, cell, s->x, s->y) <= 0) return SLRT_TOUCHES;
     for (; steps; steps--) {
         bool touches;
@@ -4100,7 +4134,9 @@ static slrt_finding slrt_follow_within(const slrt_search *s, const slrt_arm *way
                     : slrt_side_of_line(out.right, out.left, way->to_x, way->to_y);
         if (place > 0) return SLRT_ARRIVES;
         if (!place) return SLRT_TOUCHES;
-        if (out.cell == SLRT_NONE || out.is_blocked) return SLRT_STOPS;
+        if (out.cell == SLRT_NONE || out.is_blocked || (limited && out.is_limited))
+            return SLRT_STOPS;
+        limited = limited || out.is_limited;
         cell = out.cell;
     }
     return SLRT_TOUCHES;
@@ -4175,24 +4211,57 @@ static void slrt_list(slrt_search *s, uint32_t cell) {
     for (; i < s->own_count; i++) s->marks[s->path[i]] |= SLRT_OWN;
 }
 
+/// Which portals are gone through.
+enum { SLRT_NOT_LIMITED = 1, SLRT_ONLY_LIMITED = 2, SLRT_ANY = 3 };
+
+/// Lists the cells behind the open portals of a cell that a way meets, NULL for the way that is the
+/// eye alone.
+static void slrt_list_behind(slrt_search *s, const slrt_arm *way, uint32_t cell, int which) {
+    const sl_runtime_cell c = sl_runtime_get_cell(s->rt, cell);
+    uint32_t i;
+    for (i = c.first_directed; i < c.first_directed + c.directed_count; i++) {
+        const uint32_t to = slrt_cell_across(s->rt, i);
+        if (!(way ? slrt_way_meets(s, way, i) : slrt_is_on_portal(s, i)) || slrt_is_listed(s, to) ||
+            slrt_is_blocked(s, i))
+            continue;
+        if (which != SLRT_ANY && (which == SLRT_ONLY_LIMITED) != slrt_is_limited(s->rt, i))
+            continue;
+        slrt_list(s, to);
+        if (s->has_row) slrt_allow_row(s, to);
+    }
+}
+
+/// As slrt_follow, in a file with limited walls: first the cells about the eye, then those that the
+/// way leads to, then those behind a limited wall.
+static bool slrt_follow_limited(slrt_search *s, const slrt_arm *way) {
+    uint32_t at, first;
+    int passed;
+    slrt_list(s, s->eye_cell);
+    for (at = 0; at < s->own_count; at++) slrt_list_behind(s, NULL, s->path[at], SLRT_ANY);
+    for (passed = 0, first = 0; passed < 2; passed++) {
+        for (at = first; at < s->own_count; at++) {
+            if (s->stops && s->stops(s, way, s->path[at])) return false;
+            if (slrt_holds(s->rt, s->path[at], way->to_x, way->to_y)) return true;
+            slrt_list_behind(s, way, s->path[at], SLRT_NOT_LIMITED);
+        }
+        first = s->own_count;
+        for (at = 0; at < first && !passed; at++)
+            slrt_list_behind(s, way, s->path[at], SLRT_ONLY_LIMITED);
+    }
+    return false;
+}
+
 /// Lists the eye's cell and those that it leads to through all open portals that a way meets, until
 /// a cell touches the end of the way: then true. NULL for the way that is the eye alone: the cells
 /// are the eye's, and their rows count.
 static bool slrt_follow(slrt_search *s, const slrt_arm *way) {
-    uint32_t at, i;
+    uint32_t at;
+    if (way && s->rt->has_limits) return slrt_follow_limited(s, way);
     slrt_list(s, s->eye_cell);
     for (at = 0; at < s->own_count; at++) {
-        const sl_runtime_cell c = sl_runtime_get_cell(s->rt, s->path[at]);
         if (s->stops && s->stops(s, way, s->path[at])) return false;
         if (way && slrt_holds(s->rt, s->path[at], way->to_x, way->to_y)) return true;
-        for (i = c.first_directed; i < c.first_directed + c.directed_count; i++) {
-            const uint32_t to = slrt_cell_across(s->rt, i);
-            if (!(way ? slrt_way_meets(s, way, i) : slrt_is_on_portal(s, i)) ||
-                slrt_is_listed(s, to) || slrt_is_blocked(s, i))
-                continue;
-            slrt_list(s, to);
-            if (s->has_row) slrt_allow_row(s, to);
-        }
+        slrt_list_behind(s, way, s->path[at], SLRT_ANY);
     }
     return false;
 }
@@ -4210,8 +4279,8 @@ static void slrt_enter(slrt_search *s, uint32_t cell, const slrt_sector *sector)
     if (*marks & SLRT_ENTERED && slrt_covered(s, cell, sector)) return;
     slrt_see(s, cell);
     if (s->meet) s->meet(s, cell, sector);
-    *marks = (unsigned char)((*marks & ~(unsigned)SLRT_ALONG) | SLRT_ENTERED | SLRT_ON_PATH |
-                             sector->along);
+    *marks = (unsigned char)((*marks & ~(unsigned)(SLRT_ALONG | SLRT_LIMITED)) | SLRT_ENTERED |
+                             SLRT_ON_PATH | sector->along | sector->limited);
     s->sectors[2 * (size_t)cell] = sector->right;
     s->sectors[2 * (size_t)cell + 1] = sector->left;
     top[0] = cell;
@@ -4237,6 +4306,13 @@ static void slrt_search_on(slrt_search *s, uint32_t *top, uint32_t directed) {
     sector.right = top[2];
     sector.left = top[3];
     sector.along = s->marks[top[0]] & SLRT_ALONG;
+    sector.limited = 0;
+    if (s->rt->has_limits) {
+        const bool limited = slrt_is_limited(s->rt, directed);
+        sector.limited = s->marks[top[0]] & SLRT_LIMITED;
+        if (limited && sector.limited) return;
+        if (limited) sector.limited = SLRT_LIMITED;
+    }
     if (slrt_is_blocked(s, directed) || !slrt_narrow(s, directed, &sector)) return;
     if (s->range > 0 && !slrt_in_range(s, directed, sector.right, sector.left)) return;
     if (s->is_hidden && s->is_hidden(s, directed, &sector)) return;
@@ -4322,6 +4398,7 @@ static void slrt_search_cone(slrt_search *s, uint32_t cell) {
     slrt_sector sector;
     sector.right = sector.left = SLRT_ALL_ROUND;
     sector.along = 0;
+    sector.limited = 0;
     if (!pieces) slrt_search_from(s, cell, &sector);
     for (i = 0; i < pieces; i++) {
         sector.right = SLRT_ARM + i;
@@ -5073,7 +5150,9 @@ static void slrt_close(slrt_polygon *p, bool all_round) {
 //      +---------+--------.-+
 //
 // Invariant: cells are convex and a sector is narrower than half a circle. So pieces within come in
-// counter-clockwise order, depth first, and the polygon needs no sorting. Signs are exact. Pieces
+// counter-clockwise order, depth first, and the polygon needs no sorting. A sector that has passed
+// a limited wall takes the next one for a wall; those that the eye is on do not count. Signs are
+// exact. Pieces
 // in one line join; where one ends is computed only when the next one is known not to join. Cost:
 // the sides and portals of the cells that are seen, counted once for each sector. (Teller 1992;
 // with triangles for cells: Bungiu et al. 2014, Efficient Computation of Visibility Polygons.)
@@ -5109,11 +5188,14 @@ static void slrt_see_wall(slrt_polygon *p, uint32_t cell, const slrt_piece *piec
 }
 
 // The search. The path is a stack of six numbers for each cell: the cell, the portal through which
-// it was entered, the portal passed last and its side, and the borders of the sector.
+// it was entered, the portal passed last and its side, and the borders of the sector. With the side
+// is SLRT_PAST_LIMIT, if the sector has passed a limited wall.
 
 enum { SLRT_FRAME = 6 };
+#define SLRT_PAST_LIMIT 0x80000000u
 
-static void slrt_push(slrt_polygon *p, uint32_t directed, uint32_t right, uint32_t left) {
+static void slrt_push(slrt_polygon *p, uint32_t directed, uint32_t right, uint32_t left,
+                      uint32_t past) {
     uint32_t *top = p->s.path + (size_t)SLRT_FRAME * p->s.depth;
     const uint32_t twin = slrt_twin(p, directed);
     sl_runtime_cell cell;
@@ -5124,7 +5206,8 @@ static void slrt_push(slrt_polygon *p, uint32_t directed, uint32_t right, uint32
     top[0] = slrt_u32(p->s.rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 4);
     cell = sl_runtime_get_cell(p->s.rt, top[0]);
     top[1] = top[2] = twin;
-    top[3] = slrt_side_of_portal(p, &cell, twin);
+    top[3] = slrt_side_of_portal(p, &cell, twin) | past;
+    if (slrt_is_limited(p->s.rt, directed)) top[3] |= SLRT_PAST_LIMIT;
     top[4] = right;
     top[5] = left;
     p->s.depth++;
@@ -5136,11 +5219,12 @@ static void slrt_push(slrt_polygon *p, uint32_t directed, uint32_t right, uint32
 static void slrt_spread_on(slrt_polygon *p) {
     uint32_t *top = p->s.path + (size_t)SLRT_FRAME * (p->s.depth - 1);
     const slrt_arm a = slrt_border(&p->s, top[4]), b = slrt_border(&p->s, top[5]);
+    const uint32_t past = top[3] & SLRT_PAST_LIMIT;
     bool within = top[2] != top[1]; // what is right of the sector is passed
     slrt_walk w;
     slrt_piece piece;
     w.cell = sl_runtime_get_cell(p->s.rt, top[0]);
-    slrt_walk_start(p, &w, top[1], top[2], top[3], 1);
+    slrt_walk_start(p, &w, top[1], top[2], top[3] & ~SLRT_PAST_LIMIT, 1);
     while (slrt_walk_next(p, &w, &piece)) {
         const uint32_t portal = piece.directed;
         const slrt_arm to = slrt_arm_to(p, piece.b);
@@ -5154,11 +5238,12 @@ static void slrt_spread_on(slrt_polygon *p) {
         }
         end = slrt_side(&to, &b);
         if (end < 0) left = top[5];
-        if (slrt_pass(p, portal, &right, &left)) {
+        if (!(past && portal != SLRT_NONE && slrt_is_limited(p->s.rt, portal)) &&
+            slrt_pass(p, portal, &right, &left)) {
             top[2] = portal;
-            top[3] = w.side;
+            top[3] = w.side | past;
             if (end <= 0) p->s.depth--; // nothing is left to see of this cell
-            slrt_push(p, portal, right, left);
+            slrt_push(p, portal, right, left, past);
             return;
         }
         slrt_see_wall(p, top[0], &piece, right, left);
@@ -5175,7 +5260,7 @@ static void slrt_see_piece(slrt_polygon *p, const slrt_piece *piece, uint32_t ri
         slrt_see_wall(p, p->fan_cell, piece, right, left);
         return;
     }
-    slrt_push(p, portal, right, left);
+    slrt_push(p, portal, right, left, 0);
     while (p->s.depth && !p->broken) slrt_spread_on(p);
 }
 
@@ -6693,7 +6778,8 @@ enum { SLRT_MOST_REFLECTIONS = 16 };
 /// A search, and how it is come to. The search comes first: its `meet` is given that alone.
 typedef struct slrt_reflected {
     slrt_search s;
-    slrt_search *first; ///< the eye's own
+    slrt_search *first;       ///< the eye's own
+    unsigned char *by_mirror; ///< by cell: seen in a mirror
     bool *rounded;
     uint64_t patience; ///< of the eye's own search, for what is seen in mirrors
     uint32_t depth;    ///< reflections that are left
@@ -6836,6 +6922,7 @@ static void slrt_look_in_mirror(slrt_reflected *from, uint32_t cell, uint32_t mi
     sector.left = SLRT_ARM + 1;
     sector.along = (seen->along & SLRT_ALONG_RIGHT ? (unsigned)SLRT_ALONG_LEFT : 0u) |
                    (seen->along & SLRT_ALONG_LEFT ? (unsigned)SLRT_ALONG_RIGHT : 0u);
+    sector.limited = seen->limited;
     slrt_search_from(&to.s, cell, &sector);
     *patience = to.s.patience;
     if (to.s.gave_up) *from->rounded = true;
@@ -6868,7 +6955,7 @@ static void slrt_meet_mirrors(slrt_search *s, uint32_t cell, const slrt_sector *
     uint64_t *patience = slrt_mirrors_patience(r);
     uint32_t i;
     int k;
-    if (s->is_image) r->first->marks[cell] |= SLRT_MIRRORED;
+    if (s->is_image) r->by_mirror[cell] = 1;
     if (!r->depth) return;
     slrt_read_vertex(rt, &c, 0, low);
     memcpy(high, low, sizeof high);
@@ -6891,7 +6978,8 @@ static void slrt_meet_mirrors(slrt_search *s, uint32_t cell, const slrt_sector *
 
 SL_RUNTIME_API size_t sl_runtime_mirrored_scratch_count(const sl_runtime *runtime, uint32_t depth) {
     const size_t most = SLRT_MOST_REFLECTIONS;
-    return sl_runtime_scratch_count(runtime) * (1 + (depth < most ? depth : most));
+    return sl_runtime_scratch_count(runtime) * (1 + (depth < most ? depth : most)) +
+           ((size_t)runtime->cell_count + 3) / 4;
 }
 
 SL_RUNTIME_API uint32_t sl_runtime_look_into_mirrors(const sl_runtime *runtime,
@@ -6916,13 +7004,16 @@ SL_RUNTIME_API uint32_t sl_runtime_look_into_mirrors(const sl_runtime *runtime,
     r.s.cells = cells;
     r.s.room = room;
     r.s.in_mirrors = runtime->mirror_count && r.depth;
+    r.by_mirror = (unsigned char *)(mirrored_scratch +
+                                    sl_runtime_scratch_count(runtime) * (1 + (size_t)r.depth));
+    memset(r.by_mirror, 0, runtime->cell_count);
     if (r.s.in_mirrors) r.s.meet = slrt_meet_mirrors;
     slrt_run_search(&r.s);
     *direct = r.s.count;
     if (runtime->mirrors && depth && (!runtime->mirror_count || runtime->loose || r.s.gave_up))
         *rounded = true;
     for (i = 0; r.s.in_mirrors && i < runtime->cell_count; i++)
-        if (r.s.marks[i] & SLRT_MIRRORED) slrt_see(&r.s, i);
+        if (r.by_mirror[i]) slrt_see(&r.s, i);
     if (*rounded) slrt_see_mirrored(&r.s);
     return r.s.count;
 }

@@ -8,7 +8,8 @@
 /// Arcs that lead to one cell by different sequences overlap in their borders at most. So there are
 /// no more steps than visible pieces of cells, but for single rays. A single ray may pass a point
 /// where portals meet on either side, and again at the next such point. Of all sequences that one
-/// ray has to a cell, one is followed for each side on which it may still cross portals along it.
+/// ray has to a cell, one is followed for each side on which it may still cross portals along it,
+/// and for each number of limited walls, 0 or 1, that it has crossed.
 #include "sight/eye_search.h"
 
 #include <string.h>
@@ -22,7 +23,8 @@ static unsigned sides_of(const sli_arc *ray) {
 static uint32_t new_ray(sli_eye_search *search) {
     if (++search->ray_count == 0) {
         memset(search->rays, 0,
-               SLI_RAY_SIDES * (size_t)search->space->cell_count * sizeof(uint32_t));
+               SLI_RAY_SIDES * (size_t)search->space->cell_count * (search->limited ? 2 : 1) *
+                   sizeof(uint32_t));
         search->ray_count = 1;
     }
     return search->ray_count;
@@ -31,7 +33,8 @@ static uint32_t new_ray(sli_eye_search *search) {
 bool sli_eye_is_new(sli_eye_search *search, const sli_eye_step *from, sli_eye_step *to) {
     if (to->arcs[0].span != SLI_SPAN_RAY) return true;
     to->ray = from->ray ? from->ray : new_ray(search);
-    uint32_t *mark = &search->rays[SLI_RAY_SIDES * (size_t)to->at.cell + sides_of(&to->arcs[0])];
+    const size_t cell = to->at.cell + (to->limited ? search->space->cell_count : (size_t)0);
+    uint32_t *mark = &search->rays[SLI_RAY_SIDES * cell + sides_of(&to->arcs[0])];
     const bool fresh = *mark != to->ray;
     *mark = to->ray;
     return fresh;
@@ -76,7 +79,7 @@ SLI_VISIT sl_status cross(sl_context *context, void *visit, const void *last, vo
     const sl_directed_portal *directed = &query->space->directed[number];
     if (!sli_eye_may_see(query, directed->cell) ||
         !sli_eye_pass_in_range(query, from, job->way.count == 1, directed, &entered) ||
-        entered.near)
+        entered.near || !sli_eye_may_cross(query->search, from, directed->portal, &entered))
         return SL_OK;
     for (unsigned i = 0; i < entered.arc_count; i++) {
         *to = entered;

@@ -21,7 +21,8 @@ static void go_down(sli_eye_query *query, const sli_eye_step *from, const sl_sta
     const bool passes =
         !dead && !sl_stab_is_mirror(node) && sli_eye_may_see(query, node->cell) &&
         sli_eye_pass_in_range(query, from, first, &query->space->directed[node->directed], to) &&
-        !to->near;
+        !to->near &&
+        sli_eye_may_cross(query->search, from, query->space->directed[node->directed].portal, to);
     if (passes) {
         query->nodes++;
         sl_bits_add(query->cells, node->cell);

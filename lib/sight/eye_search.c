@@ -18,6 +18,17 @@ static sl_status check_fits(sl_context *context, uint32_t cells, const sl_visibi
     return sl_fail(context, SL_BAD_ARGUMENT, "the visible sets are those of another space");
 }
 
+/// Marks the portals on limited walls, if there are any.
+static sl_status mark_limited(sl_context *context, const sl_space *space, sl_bits **out) {
+    for (uint32_t i = 0; i < space->seam_portal_count; i++) {
+        if (space->seams[space->seam_portals[i].seam].kind != SL_SEAM_LIMITED) continue;
+        if (!*out) *out = sl_alloc_array(context, sl_bits_words(space->portal_count), sizeof **out);
+        if (!*out) return SL_NO_MEMORY;
+        sl_bits_add(*out, space->seam_portals[i].portal);
+    }
+    return SL_OK;
+}
+
 static sl_status create(sl_context *context, const sl_space *space, const sli_boxed_space *boxed,
                         const sl_visibility *visibility, uint32_t row_cells, sli_eye_search **out) {
     SL_TRY(check_fits(context, row_cells, visibility));
@@ -31,8 +42,10 @@ static sl_status create(sl_context *context, const sl_space *space, const sli_bo
     search->row = sl_alloc_array(context, sl_bits_words(row_cells), sizeof *search->row);
     search->queue = sl_alloc_array(context, count, sizeof *search->queue);
     search->steps = sl_alloc_array(context, count + 3, sizeof *search->steps);
-    search->rays = sl_alloc_array(context, SLI_RAY_SIDES * count, sizeof *search->rays);
-    if (!search->row || !search->queue || !search->steps || !search->rays) {
+    const sl_status marked = mark_limited(context, space, &search->limited);
+    const size_t rays = SLI_RAY_SIDES * (search->limited ? 2 * count : count);
+    search->rays = sl_alloc_array(context, rays, sizeof *search->rays);
+    if (marked != SL_OK || !search->row || !search->queue || !search->steps || !search->rays) {
         sli_eye_search_destroy(context, search);
         return SL_NO_MEMORY;
     }
@@ -57,6 +70,7 @@ void sli_eye_search_destroy(sl_context *context, sli_eye_search *search) {
     sl_free(context, search->queue);
     sl_free(context, search->steps);
     sl_free(context, search->rays);
+    sl_free(context, search->limited);
     sli_eye_mirrors_destroy(context, search->mirrors);
     sl_free(context, search);
 }

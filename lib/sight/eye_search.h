@@ -22,6 +22,7 @@ typedef struct sli_eye_step {
     sli_portal_step at; ///< `next` is the node's number in a stab tree
     uint32_t ray;       ///< over portals: the number of the ray, where a single one is left
     bool near;          ///< the eye is on the portal crossed last, or this is a cell of its own
+    bool limited;       ///< the way has crossed a limited wall
     unsigned arc_count; ///< over portals, 1 but for an eye's cell
     sli_arc arcs[2];    ///< what is seen into the cell: within a wide cone up to two arcs
 } sli_eye_step;
@@ -53,13 +54,15 @@ typedef struct sli_eye_search {
     sli_eye_targets targets;      ///< for the exact method, also by mirror; `first` NULL: none
     const sli_box_lists *boxes;   ///< likewise, with closed sight and without mirrors; NULL: none
     bool *boxes_seen;             ///< by box: whether the search has met it
+    sl_bits *limited; ///< by portal: whether it is on a limited wall; NULL where none is
     bool has_pvs;
     bool in_line;        ///< with glass, which the space has open both ways, unlike the visible
                          ///< sets: those of its cells count as well
     sl_bits *row;        ///< the visible sets of the eye's cells
     uint32_t *queue;     ///< cells to spread from, the eye's first
     sli_eye_step *steps; ///< cell_count + 3 of them
-    uint32_t *rays;      ///< SLI_RAY_SIDES a cell: the last ray that has come to it
+    uint32_t *rays;      ///< SLI_RAY_SIDES a cell: the last ray that has come to it. With limited
+                         ///< walls twice as many: for ways that have crossed none, then for others
     uint32_t ray_count;
     struct sli_eye_mirrors *mirrors; ///< NULL for none
 } sli_eye_search;
@@ -199,6 +202,15 @@ void sli_eye_mirrors_destroy(sl_context *context, struct sli_eye_mirrors *mirror
 /// that counts.
 bool sli_eye_pass_in_range(sli_eye_query *query, const sli_eye_step *from, bool first,
                            const sl_directed_portal *portal, sli_eye_step *to);
+
+/// Whether a step may cross a portal: not the second limited wall on the way. Notes in `to` whether
+/// the way has crossed one.
+static inline bool sli_eye_may_cross(const sli_eye_search *search, const sli_eye_step *from,
+                                     uint32_t portal, sli_eye_step *to) {
+    const bool limited = search->limited && sl_bits_has(search->limited, portal);
+    to->limited = from->limited || limited;
+    return !(from->limited && limited);
+}
 
 /// The exact method down the stab tree of one of the eye's cells. `done` is false where the tree is
 /// not kept or its nodes are not in the order of a depth-first search.

@@ -22,6 +22,7 @@
 #include "sight/sight_space.h"
 #include "sightline/effects.h"
 #include "sightline/support.h"
+#include "space/index.h"
 
 #include <math.h>
 #include <string.h>
@@ -353,6 +354,12 @@ static bool has_mirrors(const sl_query *q) {
 
 // --- what answers
 
+/// What is seen by mirror does not count limited walls.
+static sl_status check_mirrors(sl_context *context, const sl_query *q) {
+    return sli_refuse_limited(context, q->asked, "what an eye sees by mirror",
+                              ", or leave the mirrors out (--without mirror)");
+}
+
 static sl_status make_search(sl_context *context, sl_query *q) {
     if (!q->search) {
         sli_eye_search *search;
@@ -675,6 +682,7 @@ sl_status sl_query_look_mirrored(sl_context *context, sl_query *query, const sl_
     if (!method->mirrored)
         return sl_fail(context, SL_UNSUPPORTED, "the method '%s' does not know mirrors",
                        method->name);
+    if (method == exact_method()) SL_TRY(check_mirrors(context, query));
     SL_TRY(make_layers(context, query));
     if (has_blocks(query) && method == exact_method())
         return look_past(context, query, view, true, cells, NULL, account);
@@ -688,6 +696,7 @@ sl_status sl_query_boxes_seen(sl_context *context, sl_query *query, const sl_vie
     SL_TRY(make_layers(context, query));
     if (!SLI_BOXES || !query->box_count) return SL_OK;
     if (mirrored) memset(mirrored, 0, query->box_count * sizeof *mirrored);
+    if (mirrored && has_mirrors(query)) SL_TRY(check_mirrors(context, query));
     if (lists_will_do(query, view->eye))
         return seen ? look_by_lists(context, query, view, seen) : SL_OK;
     uint64_t *cells = sl_alloc_array(context, sl_eye_words(query->asked), sizeof *cells);
@@ -716,6 +725,7 @@ sl_status sl_query_region(sl_context *context, sl_query *query, const sl_view *v
 sl_status sl_query_mirrored_region_to(sl_context *context, sl_query *query, const sl_view *view,
                                       uint32_t depth, sl_mirrored_region *out) {
     const sl_outline *outline;
+    if (query->map->mirror_count && depth) SL_TRY(check_mirrors(context, query));
     SL_TRY(sl_query_outline(context, query, &outline));
     SL_TRY(make_mirrors(context, query, outline));
     return sli_mirrored_region_make(context, query->mirrors, view, query->range, depth, out);

@@ -20,6 +20,9 @@
 /// One-way glass is a portal at its lit side and a wall at its dark one. So a view passes it one
 /// way, also by mirror. At the eye itself the side that the eye is on decides.
 ///
+/// A cone that has passed a limited wall takes the next one for a wall. The fan about an eye on
+/// limited walls spreads through them, so these do not count.
+///
 /// Cost: O(sides of the rooms that are seen), counted once for each time a room is entered. The
 /// expansion is that of triangular expansion (Bungiu et al. 2014, Efficient Computation of
 /// Visibility Polygons), with convex rooms in place of triangles.
@@ -198,6 +201,7 @@ typedef struct expansion {
     sl_context *context;
     const sl_outline *outline;
     sl_region *region;
+    const uint32_t *limited; ///< that of the outline
 } expansion;
 
 static const sl_side *side(const expansion *x, uint32_t i) {
@@ -271,6 +275,7 @@ static inline bool is_barred(const expansion *x, uint32_t i) {
 typedef struct view_cone {
     uint32_t entry, at;
     bool within;
+    bool limited; ///< it has passed a limited wall
     sli_eye_ray right, left;
 } view_cone;
 
@@ -279,34 +284,40 @@ static sl_status grow_frames(expansion *x) {
 }
 
 /// Takes the cone through the portal that it is at. `turn`: where the portal's end lies from the
-/// left ray. The rest of the room waits as a frame.
-static inline sl_status enter(expansion *x, view_cone *cone, int turn) {
+/// left ray. The rest of the room waits as a frame. `limits`, here and below: the outline has
+/// limited walls. It is a constant, so that others pay nothing for them.
+SLI_VISIT sl_status enter(expansion *x, view_cone *cone, int turn, bool limits) {
     struct sli_region_memory *m = x->region->memory;
     const sl_side *portal = side(x, cone->at);
     if (turn < 0) {
         if (m->frames.count == m->frames.capacity) SL_TRY(grow_frames(x));
         m->frames.items[m->frames.count++] =
             (sli_region_frame){portal->next, cone->entry, cone->left};
+        if (limits && cone->limited)
+            m->frames.items[m->frames.count - 1].entry |= SLI_REGION_LIMITED;
     }
+    if (limits && x->limited[cone->at] != SL_NO_SEAM) cone->limited = true;
     if (turn <= 0) cone->left = to_start(x, portal->next);
     if (!cone->within) cone->right = to_start(x, cone->at);
     cone->entry = portal->neighbour;
     return SL_OK;
 }
 
-/// Adds what is seen of a side, no portal within range: from `right` to `left`, or where these are
-/// NULL from and to its ends.
+/// Adds what is seen of a side that the view does not pass: from `right` to `left`, or where these
+/// are NULL from and to its ends.
 static inline sl_status see_side(expansion *x, uint32_t i, const sli_eye_ray *right,
                                  const sli_eye_ray *left) {
-    const uint32_t neighbour = side(x, i)->neighbour;
+    uint32_t neighbour = side(x, i)->neighbour;
     const sli_eye_ray a = to_start(x, i), b = to_start(x, side(x, i)->next);
-    SL_TRY(see_piece(x, neighbour < SL_SIDE_WALL ? SLI_PIECE_FAR : neighbour, &a, &b, right, left));
-    if (!x->region->memory->mirrors || neighbour < SL_SIDE_WALL) return SL_OK;
+    if (neighbour < SL_SIDE_WALL)
+        neighbour = is_barred(x, i) ? SLI_PIECE_FAR : sli_region_limit(x->outline, i);
+    SL_TRY(see_piece(x, neighbour, &a, &b, right, left));
+    if (!x->region->memory->mirrors || sl_side_is_portal(side(x, i))) return SL_OK;
     return reflect(x, i, right ? right : &a, left ? left : &b);
 }
 
 /// Goes around a room to the next portal within the cone and enters it (*enters), or to the end.
-static inline sl_status sweep(expansion *x, view_cone *cone, bool *enters) {
+SLI_VISIT sl_status sweep(expansion *x, view_cone *cone, bool *enters, bool limits) {
     const sli_eye_place *eye = &x->region->memory->eye;
     const double limit = x->region->memory->limit;
     *enters = false;
@@ -314,9 +325,10 @@ static inline sl_status sweep(expansion *x, view_cone *cone, bool *enters) {
         const sl_side *at = side(x, cone->at);
         const sl_point end = side(x, at->next)->start;
         const int turn = sli_eye_turn_to(eye, &cone->left, end, sli_eye_offset(eye, end), limit);
-        if (sl_side_is_portal(at) && !is_barred(x, cone->at)) {
+        if (sl_side_is_portal(at) && !is_barred(x, cone->at) &&
+            !(limits && cone->limited && x->limited[cone->at] != SL_NO_SEAM)) {
             *enters = true;
-            return enter(x, cone, turn);
+            return enter(x, cone, turn, limits);
         }
         SL_TRY(see_side(x, cone->at, cone->within ? &cone->right : NULL,
                         turn > 0 ? &cone->left : NULL));
@@ -327,8 +339,7 @@ static inline sl_status sweep(expansion *x, view_cone *cone, bool *enters) {
     return SL_OK;
 }
 
-/// Adds all that a cone sees through its entry, from the room behind the entry on.
-static sl_status look_through(expansion *x, view_cone cone) {
+SLI_VISIT sl_status look_on(expansion *x, view_cone cone, bool limits) {
     struct sli_region_memory *m = x->region->memory;
     const sli_eye_place *eye = &m->eye;
     const size_t floor = m->frames.count;
@@ -346,11 +357,20 @@ static sl_status look_through(expansion *x, view_cone cone) {
             cone.at = f->side;
             cone.left = f->left;
             cone.within = false;
+            if (limits) {
+                cone.limited = f->entry & SLI_REGION_LIMITED;
+                cone.entry &= ~SLI_REGION_LIMITED;
+            }
         }
-        SL_TRY(sweep(x, &cone, &enters));
+        SL_TRY(sweep(x, &cone, &enters, limits));
     }
     x->region->portals_passed += passed;
     return SL_OK;
+}
+
+/// Adds all that a cone sees through its entry, from the room behind the entry on.
+static sl_status look_through(expansion *x, view_cone cone) {
+    return x->limited ? look_on(x, cone, true) : look_on(x, cone, false);
 }
 
 /// Adds what is seen of a side of the fan and behind it: from `right` to `left`, or where these are
@@ -365,6 +385,7 @@ static sl_status see_fan(expansion *x, uint32_t k, const sli_eye_ray *right,
     if (!sl_side_is_portal(side(x, i)) || is_barred(x, i)) return see_side(x, i, right, left);
     return look_through(x, (view_cone){.entry = side(x, i)->neighbour,
                                        .within = right,
+                                       .limited = sli_region_limit(x->outline, i) != SL_NO_SEAM,
                                        .right = right ? *right : a,
                                        .left = left ? *left : b});
 }
@@ -485,7 +506,7 @@ sl_status sli_region_check_view(sl_context *context, const sl_view *view, double
 }
 
 sl_status sli_region_spread(sl_context *context, const sl_outline *outline, sl_region *region) {
-    expansion x = {context, outline, region};
+    expansion x = {context, outline, region, outline->limited};
     if (region->cell == SL_NO_CELL) return SL_OK;
     if (!region->view.full && is_one_ray(&region->view)) return SL_OK;
     SL_TRY(sli_region_gather_fan(context, outline, region));
@@ -496,7 +517,7 @@ sl_status sli_region_spread(sl_context *context, const sl_outline *outline, sl_r
 
 sl_status sli_region_look_in(sl_context *context, const sl_outline *outline, sl_region *region,
                              const sli_reflected_view *reflected) {
-    expansion x = {context, outline, region};
+    expansion x = {context, outline, region, outline->limited};
     const sl_side *entry = side(&x, reflected->side);
     const sli_eye_ray right_end = to_start(&x, entry->next);
     const bool within = sli_eye_turn(&region->memory->eye, &reflected->right, &right_end) < 0;

@@ -26,19 +26,23 @@ typedef struct sli_eye_place {
 /// The rest of a room that waits: from the start of `side` to the ray `left`.
 typedef struct sli_region_frame {
     uint32_t side;
-    uint32_t entry; ///< the portal that the room is seen through, as a side of it
+    uint32_t entry; ///< the portal that the room is seen through, as a side of it; plus
+                    ///< SLI_REGION_LIMITED if the way to the room passes a limited wall
     sli_eye_ray left;
 } sli_region_frame;
 
 /// The part of a side, no portal, that is seen: up to the ray `left`.
 typedef struct sli_region_piece {
-    uint32_t neighbour; ///< as that of sl_side; SLI_PIECE_FAR: all of it is out of range
+    uint32_t neighbour; ///< as that of sl_side, or the seam of a limited wall; SLI_PIECE_FAR: all
+                        ///< of it is out of range
     sl_point a, b;      ///< the side
     sli_eye_ray left;
     bool to_end; ///< the side's own end lies on `left` and is seen; else `left` meets it within
 } sli_region_piece;
 
 #define SLI_PIECE_FAR UINT32_MAX
+
+#define SLI_REGION_LIMITED UINT32_C(0x80000000)
 
 /// The part of a mirror, on one side of a room, that is seen between two rays.
 typedef struct sli_reflected_view {
@@ -101,6 +105,11 @@ static inline int sli_eye_turn(const sli_eye_place *eye, const sli_eye_ray *a,
 /// Whether an eye sees through a side. One-way glass is a wall from both sides where it is dark for
 /// the eye, and else open from both. For an eye on its line the eye's cell decides.
 bool sli_region_leads_on(const sl_outline *outline, uint32_t side, uint32_t eye_cell, sl_point eye);
+
+/// The seam of the limited wall that a side is on; SL_NO_SEAM for none.
+static inline uint32_t sli_region_limit(const sl_outline *outline, uint32_t side) {
+    return outline->limited ? outline->limited[side] : SL_NO_SEAM;
+}
 
 /// The other side of a portal, or of glass.
 uint32_t sli_region_across(const sl_outline *outline, uint32_t side);

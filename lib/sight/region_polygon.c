@@ -111,6 +111,8 @@ static place left_of(const sl_region *region, const sli_region_piece *p) {
 static sl_region_edge edge_along(uint32_t neighbour, bool exact) {
     if (neighbour == SLI_PIECE_FAR) return (sl_region_edge){SL_NO_WALL, SL_EDGE_ARC, exact};
     if (neighbour >= SL_SIDE_BORDER) return (sl_region_edge){SL_NO_WALL, SL_EDGE_BORDER, exact};
+    if (neighbour < SL_SIDE_WALL)
+        return (sl_region_edge){SL_LIMITED_WALL + neighbour, SL_EDGE_WALL, exact};
     return (sl_region_edge){neighbour - SL_SIDE_WALL, SL_EDGE_WALL, exact};
 }
 

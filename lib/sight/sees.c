@@ -11,6 +11,10 @@
 /// Then all rooms are tried that it comes to by portals that it meets. It is seen where one of them
 /// holds the point; with open sight it must touch no wall.
 ///
+/// Of all these ways the one counts that passes the fewest limited walls. Those that the eye is on
+/// do not count for the rooms about it, and a point on one is seen. So where the line passes the
+/// common end of two limited walls, it passes one of them, or none; where two cross, it passes two.
+///
 /// sli_ray_cast starts at the side of the fan (region.c) that the ray meets and goes from room to
 /// room to the first side that is no portal. Both decide by exact predicates alone; only the point
 /// where the ray hits is rounded. Cost: O(sides of the rooms on the way).
@@ -59,11 +63,16 @@ static finding follow_within(const sl_outline *o, uint32_t room, sl_point eye, s
     const double limit = sli_eye_limit(o->space, &view);
     uint32_t at;
     if (!leave_start(o, &place, &ray, limit, room, &at)) return TOUCHES;
-    for (bool within = true;;) {
+    bool within = true, limited = false;
+    for (;;) {
         const int before = sli_orient(sides[at].start, sides[sides[at].next].start, point);
         if (before) {
             if (before > 0) return SEEN;
             if (!sl_side_is_portal(&sides[at])) return HIDDEN;
+            if (sli_region_limit(o, at) != SL_NO_SEAM) {
+                if (limited) return HIDDEN;
+                limited = true;
+            }
         }
         if (!before ||
             !sli_region_find_first(o, &place, limit, sides[at].neighbour, &ray, &at, &within) ||
@@ -80,7 +89,9 @@ typedef struct seer {
     uint32_t cell; ///< the eye's
     bool touches;  ///< a wall, somewhere
     SL_ARRAY(uint32_t) waiting;
-    sl_bits *entered; ///< by room
+    SL_ARRAY(uint32_t) later; ///< behind one more limited wall
+    unsigned passed;          ///< limited walls on the way; 2 for more
+    sl_bits *entered;         ///< by room
 } seer;
 
 /// Whether two segments in one line have a point in common.
@@ -124,12 +135,38 @@ static sl_status enter(sl_context *context, seer *s, uint32_t room) {
     return SL_OK;
 }
 
-/// Enters all rooms that the segment leads to, and finds whether one of them holds the point.
+/// Goes through a portal: a limited wall is passed later, unless nothing is counted any more.
+static sl_status pass(sl_context *context, seer *s, uint32_t side) {
+    const uint32_t room = room_of(s->outline, sli_region_across(s->outline, side));
+    if (s->passed == 2 || sli_region_limit(s->outline, side) == SL_NO_SEAM)
+        return enter(context, s, room);
+    SL_TRY(SL_ARRAY_ROOM(context, &s->later, 1));
+    s->later.items[s->later.count++] = room;
+    return SL_OK;
+}
+
+/// Enters the rooms about the eye.
+static sl_status enter_around(sl_context *context, seer *s) {
+    const sl_outline *o = s->outline;
+    for (size_t k = 0; k < s->waiting.count; k++) {
+        const uint32_t room = s->waiting.items[k];
+        for (uint32_t i = o->first[room]; i < o->first[room + 1]; i++) {
+            const sl_point a = o->sides[i].start, b = o->sides[o->sides[i].next].start;
+            if (sli_orient(a, b, s->eye) == 0 && overlap(s->eye, s->eye, a, b) &&
+                sli_region_leads_on(o, i, s->cell, s->eye))
+                SL_TRY(enter(context, s, room_of(o, sli_region_across(o, i))));
+        }
+    }
+    return SL_OK;
+}
+
+/// Enters all rooms that the segment leads to without a further limited wall, and finds whether one
+/// of them holds the point.
 static sl_status follow(sl_context *context, seer *s, bool *arrives) {
     const sl_outline *o = s->outline;
     while (s->waiting.count) {
         const uint32_t room = s->waiting.items[--s->waiting.count];
-        *arrives = *arrives || room_holds(s, room, s->point);
+        *arrives = *arrives || (s->passed < 2 && room_holds(s, room, s->point));
         for (uint32_t i = o->first[room]; i < o->first[room + 1]; i++) {
             const sl_side *side = &o->sides[i];
             const bool open = sli_region_leads_on(o, i, s->cell, s->eye);
@@ -137,12 +174,25 @@ static sl_status follow(sl_context *context, seer *s, bool *arrives) {
                 !meets(s, side->start, o->sides[side->next].start))
                 continue;
             if (open)
-                SL_TRY(enter(context, s, room_of(o, sli_region_across(o, i))));
+                SL_TRY(pass(context, s, i));
             else
                 s->touches = true;
         }
     }
     return SL_OK;
+}
+
+/// The same through all limited walls. Rooms behind the second one tell only what is touched, which
+/// open sight asks.
+static sl_status follow_all(sl_context *context, seer *s, sl_sight sight, bool *arrives) {
+    if (s->outline->limited) SL_TRY(enter_around(context, s));
+    for (;;) {
+        SL_TRY(follow(context, s, arrives));
+        if (!s->later.count || s->passed == (sight == SL_OPEN ? 2 : 1)) return SL_OK;
+        s->passed++;
+        for (size_t i = 0; i < s->later.count; i++) SL_TRY(enter(context, s, s->later.items[i]));
+        s->later.count = 0;
+    }
 }
 
 static bool in_bounds(const sl_space *space, sl_point p) {
@@ -164,23 +214,29 @@ sl_status sli_sees(sl_context *context, const sl_outline *outline, sl_point eye,
     bool arrives = false;
     s.entered = sl_alloc_array(context, sl_bits_words(outline->room_count), sizeof *s.entered);
     sl_status status = s.entered ? enter(context, &s, room) : SL_NO_MEMORY;
-    if (status == SL_OK) status = follow(context, &s, &arrives);
+    if (status == SL_OK) status = follow_all(context, &s, sight, &arrives);
     sl_free(context, s.entered);
     sl_free(context, s.waiting.items);
+    sl_free(context, s.later.items);
     if (status == SL_OK) *out = arrives && (sight == SL_CLOSED || !s.touches);
     return status;
 }
 
 // --- rays
 
-/// Finds the wall or border that the ray meets, starting at a side of the fan. False where the
-/// boundary of a room is not closed, by rounding.
+/// Finds the wall, second limited wall or border that the ray meets, starting at a side of the fan.
+/// False where the boundary of a room is not closed, by rounding.
 static bool walk(const sl_outline *o, const sli_eye_place *eye, const sli_eye_ray *ray,
                  uint32_t *at, bool *within) {
+    bool limited = false;
     const sl_view view = {.eye = eye->point.at, .left = ray->at, .right = ray->at};
     const double limit = sli_eye_limit(o->space, &view);
     while (sl_side_is_portal(&o->sides[*at])) {
         const uint32_t entry = o->sides[*at].neighbour;
+        if (sli_region_limit(o, *at) != SL_NO_SEAM) {
+            if (limited) return true;
+            limited = true;
+        }
         if (!sli_region_find_first(o, eye, limit, entry, ray, at, within)) return false;
     }
     return true;
@@ -189,10 +245,11 @@ static bool walk(const sl_outline *o, const sli_eye_place *eye, const sli_eye_ra
 static void write_hit(const sl_outline *o, sl_point eye, const sli_eye_ray *ray, uint32_t at,
                       bool within, sl_hit *out) {
     const sl_side *side = &o->sides[at];
-    // An eye on glass may have the lit side there.
+    // An eye on glass may have the lit side there. Else a portal is a limited wall.
     const uint32_t neighbour =
         sl_side_is_portal(side) ? o->sides[side->neighbour].neighbour : side->neighbour;
     out->wall = neighbour >= SL_SIDE_BORDER ? UINT32_MAX : neighbour - SL_SIDE_WALL;
+    if (neighbour < SL_SIDE_WALL) out->wall = SL_LIMITED_WALL + sli_region_limit(o, at);
     out->point = side->start;
     if (!within) return;
     const sl_point a = side->start, b = o->sides[side->next].start;

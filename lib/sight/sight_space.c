@@ -17,6 +17,7 @@
 #include "geometry/orient.h"
 #include "sightline/effects.h"
 #include "sightline/support.h"
+#include "space/index.h"
 #include "space/kd_tree.h"
 #include "space/outline.h"
 
@@ -26,7 +27,7 @@
 // --- which portals
 
 static bool is_special(const sl_space *base, const sl_seam_portal *on) {
-    return base->seams[on->seam].kind != SL_SEAM_PLAIN;
+    return !sli_is_map_seam(&base->seams[on->seam]);
 }
 
 static uint32_t count_specials(const sl_space *base) {

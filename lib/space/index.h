@@ -10,6 +10,16 @@
 #include <math.h>
 #include <stdbool.h>
 
+/// Whether a seam of a space is one of the map's seams, and no door or glass.
+static inline bool sli_is_map_seam(const sl_seam *seam) {
+    return seam->kind == SL_SEAM_PLAIN || seam->kind == SL_SEAM_LIMITED;
+}
+
+/// SL_UNSUPPORTED, naming `who`, for a space with walls that limit sight. `or_else`: what else to
+/// do about it, "" for nothing.
+sl_status sli_refuse_limited(sl_context *context, const sl_space *space, const char *who,
+                             const char *or_else);
+
 // --- boxes in a tree (a packed R-tree)
 
 /// Deep enough for 2^32 boxes.

@@ -176,7 +176,7 @@ static bool is_entrance(const inside *m, uint32_t portal) {
     for (size_t i = 0; i < count; i++) {
         const sl_seam *seam = &m->space->seams[at[i].seam];
         if (seam->kind == SL_SEAM_DOOR ||
-            (seam->kind == SL_SEAM_PLAIN && m->map->seams[seam->number].entrance))
+            (sli_is_map_seam(seam) && m->map->seams[seam->number].entrance))
             return true;
     }
     return false;
@@ -479,7 +479,7 @@ static sl_status add_covered(const inside *m) {
 /// Whether a portal is on the outline of ground that nobody steps on; then *cell is on this ground.
 static bool is_shore(const inside *m, const sl_seam_portal *on, uint32_t *cell) {
     const sl_seam *seam = &m->space->seams[on->seam];
-    if (seam->kind != SL_SEAM_PLAIN) return false;
+    if (!sli_is_map_seam(seam)) return false;
     const sl_glass *wall = &m->map->seams[seam->number];
     if (!(wall->stops & SL_STOPS_STEPS) || !(wall->ground & (SL_SOLID_LEFT | SL_SOLID_RIGHT)))
         return false;

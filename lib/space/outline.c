@@ -305,6 +305,88 @@ static void wall_portals(outliner *o, const uint32_t *portals, uint32_t count) {
     }
 }
 
+// --- limited walls
+
+/// While cells are joined, limited walls are walls. Those that are not yet have numbers from
+/// `first` on.
+typedef struct limits {
+    uint32_t first, count;
+    uint32_t *seam_of; ///< by wall; SL_NO_SEAM for most. NULL where no wall limits sight
+} limits;
+
+static bool is_limited(const sl_space *s, uint32_t on) {
+    return s->seams[s->seam_portals[on].seam].kind == SL_SEAM_LIMITED;
+}
+
+/// The side of a portal in either of its cells; UINT32_MAX for none.
+static uint32_t side_of_portal(const outliner *o, uint32_t portal) {
+    const sl_space *s = o->space;
+    for (unsigned k = 0; k < 2; k++) {
+        const sl_cell *cell = &s->cells[s->portals[portal].cell[k]];
+        const uint32_t stop = cell->first_directed + cell->directed_count;
+        for (uint32_t i = cell->first_directed; i < stop; i++)
+            if (s->directed[i].portal == portal) return o->of_portal[i];
+    }
+    return UINT32_MAX;
+}
+
+/// Makes a wall of a portal on a limited wall, if it is none.
+static void limit_portal(outliner *o, limits *l, uint32_t portal, uint32_t seam) {
+    const uint32_t i = side_of_portal(o, portal);
+    if (i == UINT32_MAX) return;
+    sl_side *side = &o->sides.items[i];
+    if (sl_side_is_portal(side)) {
+        const uint32_t wall = SL_SIDE_WALL + l->first + l->count++;
+        o->sides.items[side->neighbour].neighbour = wall;
+        side->neighbour = wall;
+    }
+    l->seam_of[side->neighbour - SL_SIDE_WALL] = seam;
+}
+
+/// `first`: the number of walls there are.
+static sl_status wall_limits(sl_context *context, outliner *o, uint32_t first, limits *l) {
+    const sl_space *s = o->space;
+    uint32_t most = 0;
+    for (uint32_t i = 0; i < s->seam_portal_count; i++) most += is_limited(s, i);
+    if (!most) return SL_OK;
+    l->first = first;
+    l->seam_of = sl_alloc_array(context, (size_t)first + most, sizeof *l->seam_of);
+    if (!l->seam_of) return SL_NO_MEMORY;
+    for (size_t i = 0; i < (size_t)first + most; i++) l->seam_of[i] = SL_NO_SEAM;
+    for (uint32_t i = 0, last = UINT32_MAX; i < s->seam_portal_count; i++) {
+        const sl_seam_portal *on = &s->seam_portals[i];
+        if (!is_limited(s, i) || on->portal == last) continue;
+        last = on->portal;
+        limit_portal(o, l, last, on->seam);
+    }
+    return SL_OK;
+}
+
+/// Says which sides limit sight, and links those again that were made walls for it.
+static sl_status link_limits(sl_context *context, const limits *l, sl_outline *out) {
+    if (!l->seam_of) return SL_OK;
+    uint32_t *other = sl_alloc_array(context, l->count, sizeof *other);
+    out->limited = sl_alloc_array(context, out->side_count, sizeof *out->limited);
+    const bool room = other && out->limited;
+    for (uint32_t i = 0; room && i < l->count; i++) other[i] = UINT32_MAX;
+    for (uint32_t i = 0; room && i < out->side_count; i++) {
+        sl_side *side = &out->sides[i];
+        out->limited[i] = SL_NO_SEAM;
+        if (sl_side_is_portal(side) || side->neighbour >= SL_SIDE_BORDER) continue;
+        const uint32_t wall = side->neighbour - SL_SIDE_WALL;
+        out->limited[i] = l->seam_of[wall];
+        if (wall < l->first) continue;
+        uint32_t *one = &other[wall - l->first];
+        if (*one != UINT32_MAX) {
+            side->neighbour = *one;
+            out->sides[*one].neighbour = i;
+        }
+        *one = i;
+    }
+    sl_free(context, other);
+    return room ? SL_OK : SL_NO_MEMORY;
+}
+
 static sl_status outline_all(sl_context *context, outliner *o, uint32_t *first) {
     const sl_space *s = o->space;
     if (!s->neighbour) SL_TRY(sort_lines(context, o));
@@ -345,14 +427,17 @@ sl_status sli_outline_make(sl_context *context, const sl_space *space, sl_outlin
 sl_status sli_outline_make_walled(sl_context *context, const sl_space *space,
                                   const uint32_t *portals, uint32_t count, sl_outline *out) {
     outliner o = {.space = space};
+    limits l = {0};
     sl_outline made = {0};
     sl_status status = start_rooms(context, space, &made);
     if (status == SL_OK) status = outline_all(context, &o, made.first);
     if (status == SL_OK) wall_portals(&o, portals, count);
+    if (status == SL_OK) status = wall_limits(context, &o, space->wall_count + count, &l);
     made.sides = o.sides.items;
     made.side_count = (uint32_t)o.sides.count;
     if (status == SL_OK)
         status = space->neighbour ? keep_cells(context, &made) : sli_rooms_make(context, &made);
+    if (status == SL_OK) status = link_limits(context, &l, &made);
     if (status == SL_OK) status = link_glass(context, o.dark_count, &made);
     if (status == SL_OK)
         *out = made;
@@ -361,6 +446,7 @@ sl_status sli_outline_make_walled(sl_context *context, const sl_space *space,
     sl_free(context, o.lines);
     sl_free(context, o.covers.items);
     sl_free(context, o.of_portal);
+    sl_free(context, l.seam_of);
     return status;
 }
 
@@ -370,5 +456,6 @@ void sli_outline_destroy(sl_context *context, sl_outline *outline) {
     sl_free(context, outline->first_part);
     sl_free(context, outline->parts);
     sl_free(context, outline->lit);
+    sl_free(context, outline->limited);
     *outline = (sl_outline){0};
 }

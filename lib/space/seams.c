@@ -26,7 +26,7 @@ static sl_status add_seam(sl_context *context, const sl_map *map, bool axial, sl
                           uint32_t line, sl_seam seam, sl_space *space) {
     const bool upright = at.a.x == at.b.x, level = at.a.y == at.b.y;
     if (upright && level) return SL_OK;
-    static const char *const names[] = {"seam", "door", "one-way glass"};
+    static const char *const names[] = {"seam", "door", "one-way glass", "limited wall"};
     if (axial && !upright && !level)
         return sli_map_fail(context, map, SL_BAD_INPUT, line,
                             "the %s from %.17g %.17g to %.17g %.17g is neither horizontal nor "
@@ -47,6 +47,12 @@ static sl_status add_door(sl_context *context, const sl_map *map, bool axial, ui
                        : add_seam(context, map, axial, door->segment, door->line, seam, space);
 }
 
+static uint32_t kind_of(const sl_map *map, size_t seam) {
+    const bool limits =
+        sl_map_channel(map) & SL_STOPS_SIGHT && map->seams[seam].stops & SL_STOPS_LIMITED;
+    return limits ? SL_SEAM_LIMITED : SL_SEAM_PLAIN;
+}
+
 sl_status sli_seams_of_map(sl_context *context, const sl_map *map, bool axial, sl_space *space) {
     size_t count = map->door_count + map->oneway_count + map->seam_count;
     for (size_t i = 0; i < map->door_count; i++) count += map->doors[i].part_count;
@@ -61,7 +67,7 @@ sl_status sli_seams_of_map(sl_context *context, const sl_map *map, bool axial, s
                         (sl_seam){.kind = SL_SEAM_ONEWAY, .number = (uint32_t)i}, space));
     for (size_t i = 0; i < map->seam_count; i++)
         SL_TRY(add_seam(context, map, axial, map->seams[i].segment, map->seams[i].line,
-                        (sl_seam){.kind = SL_SEAM_PLAIN, .number = (uint32_t)i}, space));
+                        (sl_seam){.kind = kind_of(map, i), .number = (uint32_t)i}, space));
     return SL_OK;
 }
 
@@ -294,6 +300,17 @@ const sl_seam_portal *sl_space_seams_of(const sl_space *space, uint32_t portal, 
     return *count ? space->seam_portals + first : NULL;
 }
 
+sl_status sli_refuse_limited(sl_context *context, const sl_space *space, const char *who,
+                             const char *or_else) {
+    for (uint32_t i = 0; i < space->seam_count; i++)
+        if (space->seams[i].kind == SL_SEAM_LIMITED)
+            return sl_fail(context, SL_UNSUPPORTED,
+                           "the map has walls that limit sight, which %s does not count: let them "
+                           "stop 'sight' in place of 'limited', or nothing of it%s",
+                           who, or_else);
+    return SL_OK;
+}
+
 bool sli_seams_same(const sl_space *space, uint32_t portal, uint32_t other) {
     size_t count, other_count;
     const sl_seam_portal *a = sl_space_seams_of(space, portal, &count);
@@ -317,7 +334,7 @@ sl_status sli_seams_check(sl_context *context, const sl_space *space, bool axial
         const bool upright = seam->at.a.x == seam->at.b.x, level = seam->at.a.y == seam->at.b.y;
         if (!is_within(&space->bounds, seam->at.a) || !is_within(&space->bounds, seam->at.b))
             return sl_fail(context, SL_BAD_INPUT, "seam %u leaves the bounds", i);
-        if ((upright && level) || (axial && !upright && !level) || seam->kind > SL_SEAM_ONEWAY)
+        if ((upright && level) || (axial && !upright && !level) || seam->kind > SL_SEAM_LIMITED)
             return sl_fail(context, SL_BAD_INPUT, "seam %u is none", i);
     }
     for (uint32_t i = 0; i < space->seam_portal_count; i++) {

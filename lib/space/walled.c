@@ -131,9 +131,9 @@ uint32_t sli_portal_stops(const sl_map *map, const sl_space *space, uint32_t por
     const sl_seam_portal *on = sl_space_seams_of(space, portal, &count);
     for (size_t i = 0; i < count; i++) {
         const sl_seam *seam = &space->seams[on[i].seam];
-        if (seam->kind == SL_SEAM_PLAIN) stops |= map->seams[seam->number].stops;
+        if (sli_is_map_seam(seam)) stops |= map->seams[seam->number].stops;
     }
-    return stops;
+    return stops & SL_STOPS_SIGHT ? stops & SL_STOPS_ALL : stops;
 }
 
 /// The first line of the walls that a portal lies on.
@@ -143,7 +143,7 @@ static uint32_t line_of(const sl_map *map, const sl_space *space, uint32_t porta
     const sl_seam_portal *on = sl_space_seams_of(space, portal, &count);
     for (size_t i = 0; i < count; i++) {
         const sl_seam *seam = &space->seams[on[i].seam];
-        if (seam->kind != SL_SEAM_PLAIN) continue;
+        if (!sli_is_map_seam(seam)) continue;
         const sl_glass *from = &map->seams[seam->number];
         if (!from->stops) continue;
         if (!line || from->line < line) line = from->line;
@@ -200,7 +200,8 @@ static sl_status make(channel *c) {
         const uint32_t *cell = c->from.portals[i].cell;
         if (c->portals[i] != UINT32_MAX) continue;
         if (c->stops[i] != SL_STOPS_ALL)
-            s->passages[s->passage_count++] = (sl_passage){next, c->stops[i], {cell[0], cell[1]}};
+            s->passages[s->passage_count++] =
+                (sl_passage){next, c->stops[i] & SL_STOPS_ALL, {cell[0], cell[1]}};
         s->walls[next++].line = line_of(c->map, &c->from, i);
     }
     return sli_walled_make(

@@ -25,7 +25,8 @@ sl_status sli_walled_by_channel(sl_context *context, const sl_map *map, sl_space
 /// Checks that passages are in order, and that their cells are beside their walls. SL_BAD_INPUT.
 sl_status sli_passages_check(sl_context *context, const sl_space *space);
 
-/// What the walls stop that a portal lies on; 0 for none.
+/// What the walls stop that a portal lies on; 0 for none. A place limits sight if no wall there
+/// stops it.
 uint32_t sli_portal_stops(const sl_map *map, const sl_space *space, uint32_t portal);
 
 #endif

@@ -113,10 +113,14 @@ static void test_foundry_stops(void **state) {
         {"\"sense\": 0, \"move\": 1", " stops steps,sound"},
         {"\"sight\": 20, \"sound\": 10", " stops sight,steps"},
         {"\"sight\": 20, \"sound\": null, \"move\": true", ""},
-        // Limited, and by distance: they count as open, as does what is behind another.
-        {"\"sight\": 10, \"move\": 0, \"sound\": 0", NULL},
-        {"\"sight\": 10", " stops steps,sound"},
-        {"\"sense\": 2", " stops steps,sound"},
+        // Limited sight; from one side it counts as open.
+        {"\"sight\": 10, \"move\": 0, \"sound\": 0", " stops limited"},
+        {"\"sight\": 10", " stops steps,sound,limited"},
+        {"\"sense\": 2", " stops steps,sound,limited"},
+        {"\"sight\": 10, \"sound\": 0, \"dir\": 1", " stops steps"},
+        {"\"sight\": 10, \"door\": 1, \"ds\": 0", " stops steps,sound,limited"},
+        {"\"sight\": 10, \"door\": 1, \"ds\": 1", NULL},
+        // By distance: open.
         {"\"sight\": 30, \"sound\": 40", " stops steps"},
         {"\"sight\": 40, \"sound\": 0", " stops steps"},
         // Doors that are seen through are walls while they are shut.

@@ -160,7 +160,7 @@ static void test_objects_that_stop_some(void **state) {
     assert_refused(MAP(SET GROUP(STOPS("stairs") FENCES(FENCE("")))),
                    "f: stops: expected sight, steps, sound");
     assert_refused(MAP(SET FENCES(FENCE(STOPS("stairs")))),
-                   "f: stops: expected sight, steps, sound");
+                   "f: stops: expected sight or limited, steps, sound");
     assert_refused(
         MAP(SET "<objectgroup name='sightline-wall-stops-stairs'>" FENCE("") "</objectgroup>"),
         "f:1: a layer whose walls stop something: expected a name such as "

@@ -200,13 +200,26 @@ static void count(trips *all, size_t what, bool kept, bool told) {
     ++*(kept ? &all->kept[what] : told ? &all->told[what] : &all->lost[what]);
 }
 
+/// Leaves out what limits sight.
+static void unlimit(sl_map *map) {
+    size_t kept = 0;
+    for (size_t i = 0; i < map->seam_count; i++) {
+        sl_glass seam = map->seams[i];
+        seam.stops &= SL_STOPS_ALL;
+        if (seam.stops || !map->seams[i].stops) map->seams[kept++] = seam;
+    }
+    map->seam_count = kept;
+}
+
 /// What a format is to keep: without walls that do not stop sight, if it has no place for what
-/// walls stop.
+/// walls stop, and without what limits sight, if it has none for that.
 static sl_map expected_of(sl_context *context, const sl_map *map, const sl_map_format *format) {
     sl_map expected = {.walls = NULL};
     assert_ok(context, sl_map_copy(context, map, &expected));
     if (!(format->keeps & SL_KEEPS_STOPS))
         assert_ok(context, sl_map_settle_stops(context, &expected, NULL));
+    else if (!(format->keeps & SL_KEEPS_LIMITED))
+        unlimit(&expected);
     return expected;
 }
 

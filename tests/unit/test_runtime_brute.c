@@ -87,10 +87,14 @@ static bool is_hidden_by(const sl_runtime_box *box, place p, place q) {
 /// Whether sight, or a step, passes the map's walls, mirrors, doors and glass.
 static bool passes(const scene *s, uint32_t stops, place p, place q) {
     const sl_map *map = &s->file.baked.map;
+    int limited = 0;
     for (size_t i = 0; i < map->wall_count; i++)
         if (crosses((sl_segment){map->walls[i].a, map->walls[i].b}, p, q)) return false;
     for (size_t i = 0; i < map->seam_count; i++)
         if (map->seams[i].stops & stops && crosses(map->seams[i].segment, p, q)) return false;
+    for (size_t i = 0; i < map->seam_count && stops == SL_STOPS_SIGHT; i++)
+        limited += map->seams[i].stops & SL_STOPS_LIMITED && crosses(map->seams[i].segment, p, q);
+    if (limited > 1) return false;
     for (size_t i = 0; i < map->mirror_count; i++)
         if (crosses(map->mirrors[i].segment, p, q)) return false;
     for (size_t i = 0; i < map->door_count; i++)
@@ -337,9 +341,11 @@ static void brute_force_agrees(void **state) {
     ask_map("effects/mirrors", 0);
     ask_map("effects/oneway", 0);
     ask_map("effects/stops", 0);
+    ask_map("effects/limited", 0);
     ask_map("oblique/chapel", 0);
     ask_map("office", 17.3);
     ask_map("effects/stops", 17.3);
+    ask_map("effects/limited", 17.3);
     ask_map("gallery", 17.3);
     ask_map("courtyard", 17.3);
 }

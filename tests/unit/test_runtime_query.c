@@ -223,7 +223,7 @@ static bool may_walk(const trial *t, sl_point p, sl_point q) {
         const sl_seam *seam = &s->seams[i];
         const bool stops = seam->kind == SL_SEAM_ONEWAY ||
                            (seam->kind == SL_SEAM_DOOR && t->shut[seam->number]) ||
-                           (seam->kind == SL_SEAM_PLAIN &&
+                           ((seam->kind == SL_SEAM_PLAIN || seam->kind == SL_SEAM_LIMITED) &&
                             t->f->baked.map.seams[seam->number].stops & SL_STOPS_STEPS);
         if (stops && touches(p, q, seam->at.a, seam->at.b)) return false;
     }

@@ -37,10 +37,25 @@ static void words_are_read_and_written(void **state) {
         assert_true(sl_stops_read(text, strlen(text), &stops));
         assert_int_equal(stops, i);
     }
+    for (uint32_t i = SL_STOPS_LIMITED; i < 2 * SL_STOPS_LIMITED; i += 2) {
+        sl_stops_write(i, text);
+        assert_true(sl_stops_read(text, strlen(text), &stops));
+        assert_int_equal(stops, i);
+    }
     assert_true(sl_stops_read("sound,sight", 11, &stops));
     assert_int_equal(stops, SL_STOPS_SOUND | SL_STOPS_SIGHT);
-    static const char *const wrong[] = {
-        "", ",", "sight,", ",sight", "sights", "sight,,steps", "steps,steps", "Sight", "all"};
+    static const char *const wrong[] = {"",
+                                        ",",
+                                        "sight,",
+                                        ",sight",
+                                        "sights",
+                                        "sight,,steps",
+                                        "steps,steps",
+                                        "Sight",
+                                        "all",
+                                        "sight,limited",
+                                        "limited,sight",
+                                        "limited,limited"};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)
         assert_false(sl_stops_read(wrong[i], strlen(wrong[i]), &stops));
 }
@@ -79,15 +94,18 @@ static void text_is_kept(void **state) {
                                 "wall 0 0 9 0\nwall 0 0 0 9 solid\nwalls 1 1 2 1 2 2 stops sight\n"
                                 "wall 3 1 4 1 solid stops steps,sound # a step\n"
                                 "solid 5 5 6 5 6 6 stops steps\nseam 1 8 2 8\n"
-                                "wall 7 7 8 8 stops sound,steps,sight\n",
+                                "wall 7 7 8 8 stops sound,steps,sight\n"
+                                "wall 2 8 2 9 stops limited\nwall 3 8 3 9 stops limited,steps\n",
                                 &map));
     assert_int_equal(map.wall_count, 3);
-    assert_int_equal(map.seam_count, 7);
+    assert_int_equal(map.seam_count, 9);
     char *text = text_of(context, &map);
     assert_non_null(strstr(text, "wall 2 1 2 2 stops sight\n"));
     assert_non_null(strstr(text, "wall 3 1 4 1 solid stops steps,sound # a step\n"));
     assert_non_null(strstr(text, "solid 5 5 6 5 6 6 stops steps\n"));
     assert_non_null(strstr(text, "wall 7 7 8 8\n"));
+    assert_non_null(strstr(text, "wall 2 8 2 9 stops limited\n"));
+    assert_non_null(strstr(text, "wall 3 8 3 9 stops steps,limited\n"));
     assert_non_null(strstr(text, "\nseam 1 8 2 8\n"));
     assert_ok(context, sl_map_parse(context, "t", text, strlen(text), NULL, &again));
     char *twice = text_of(context, &again);
@@ -377,12 +395,19 @@ static void damaged_sections_are_refused(void **state) {
         const char *tag;
         size_t at;
         uint32_t value;
-    } wrong[] = {{"STOP", 0, 8},          {"STOP", 0, SL_STOPS_ALL},
-                 {"STOP", 0, 0x402},      {"STOP", 0, 0x100},
-                 {"CHAN", 0, 0},          {"CHAN", 0, 8},
-                 {"PASS", 0, 0xffff},     {"PASS", 4, 0x7fffffff},
-                 {"PASS", 4, UINT32_MAX}, {"PASS", 8, 0xffff},
-                 {"PASS", 12, 0},         {"PASS", 12, SL_STOPS_ALL}};
+    } wrong[] = {{"STOP", 0, 9},
+                 {"STOP", 0, SL_STOPS_ALL},
+                 {"STOP", 0, 16},
+                 {"STOP", 0, 0x402},
+                 {"STOP", 0, 0x100},
+                 {"CHAN", 0, 0},
+                 {"CHAN", 0, 8},
+                 {"PASS", 0, 0xffff},
+                 {"PASS", 4, 0x7fffffff},
+                 {"PASS", 4, UINT32_MAX},
+                 {"PASS", 8, 0xffff},
+                 {"PASS", 12, 0},
+                 {"PASS", 12, SL_STOPS_ALL}};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         char *copy = malloc(bytes.size);
         assert_non_null(copy);

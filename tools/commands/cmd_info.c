@@ -153,7 +153,7 @@ static size_t count_stops(const sl_map *map, uint32_t stops) {
 /// Walls that do not stop all: "stops     sight,sound: 3 walls".
 static void print_stops(const sl_map *map) {
     char what[SL_STOPS_TEXT];
-    for (uint32_t stops = 1; stops < SL_STOPS_ALL; stops++) {
+    for (uint32_t stops = 1; stops < 2 * SL_STOPS_LIMITED; stops++) {
         const size_t count = count_stops(map, stops);
         sl_stops_write(stops, what);
         if (count) printf("  stops     %s: %zu wall%s\n", what, count, count == 1 ? "" : "s");
@@ -165,7 +165,7 @@ static void add_stops_json(json_fields *fields, const sl_map *map) {
     char what[SL_STOPS_TEXT];
     if (!sl_map_partial_walls(map)) return;
     json_open(fields, "stops");
-    for (uint32_t stops = 1; stops < SL_STOPS_ALL; stops++) {
+    for (uint32_t stops = 1; stops < 2 * SL_STOPS_LIMITED; stops++) {
         sl_stops_write(stops, what);
         if (count_stops(map, stops)) json_add_count(fields, what, count_stops(map, stops));
     }

@@ -110,6 +110,7 @@ static sl_status settle(sl_context *context, const merge_plan *plan, sl_baked *a
     SL_TRY(method->finish(context, &all->space, &see, &all->partial, &seen));
     sl_visibility_destroy(context, &all->visibility);
     all->visibility = seen;
+    all->visibility.guarantee = sl_limited_guarantee(&all->map, seen.guarantee);
     sl_partial_destroy(context, &all->partial);
     return SL_OK;
 }

@@ -149,12 +149,22 @@ sl_status input_read_baked(sl_context *context, const char *path, sl_baked *bake
     return status;
 }
 
+void input_note_limited(sl_context *context, const sl_map *map) {
+    const size_t count = sl_map_limited_walls(map);
+    if (count)
+        sl_note(context,
+                "%zu wall%s sight: it passes one of them, not two. What an eye sees counts them; "
+                "between cells they are open",
+                count, count == 1 ? " limits" : "s limit");
+}
+
 sl_status input_parse_baked(sl_context *context, const char *path, const sl_bytes *bytes,
                             sl_baked *baked) {
     SL_TRY(sl_baked_parse(context, path, bytes->data, bytes->size, baked));
     char partial[SL_PARTIAL_TEXT];
     sl_baked_say_partial(baked, partial);
     if (partial[0]) sl_note(context, "%s is %s", path, partial);
+    input_note_limited(context, &baked->map);
     return SL_OK;
 }
 
@@ -168,7 +178,7 @@ static sl_status parse_map_of_baked(sl_context *context, const char *path, const
 }
 
 sl_status input_take_lines(sl_context *context, sl_map *map) {
-    map->channel = SL_STOPS_ALL;
+    map->channel = SL_STOPS_ALL | SL_STOPS_LIMITED;
     return sl_map_settle_stops(context, map, NULL);
 }
 

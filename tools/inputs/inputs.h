@@ -48,6 +48,9 @@ sl_status input_take_lines(sl_context *context, sl_map *map);
 sl_status input_read_either(sl_context *context, const char *path, const input_options *input,
                             sl_map *map);
 
+/// Notes that a map has walls that limit sight, and where these count.
+void input_note_limited(sl_context *context, const sl_map *map);
+
 /// The same as input_read_baked() from memory; `path` is for messages.
 sl_status input_parse_baked(sl_context *context, const char *path, const sl_bytes *bytes,
                             sl_baked *baked);

@@ -194,6 +194,7 @@ sl_status pipeline_prepare(sl_context *context, const map_pipeline *pipeline, sl
         map->channel = UINT32_C(1) << pipeline->stops;
     else if (pipeline->channel)
         map->channel = pipeline->channel;
+    input_note_limited(context, map);
     sl_effects_leave_out(context, map, pipeline->without);
     return pipeline->settles_doors ? sl_effects_settle_doors(context, map) : SL_OK;
 }

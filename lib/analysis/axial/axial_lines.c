@@ -21,6 +21,7 @@
 
 #include "geometry/orient.h"
 #include "sightline/support.h"
+#include "space/index.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -644,6 +645,7 @@ sl_status sl_axial_all_lines(sl_context *context, const sl_outline *outline, uns
                              sl_axial_lines *out) {
     job j = {0};
     sl_axial_lines lines = {0};
+    SL_TRY(sli_refuse_limited(context, outline->space, "an axial map", ""));
     sl_status status = find_corners(context, outline->space, &j.plan);
     if (status == SL_OK) find_open_sides(outline, &j.plan);
     if (status == SL_OK) status = fill_buckets(context, &j.plan);

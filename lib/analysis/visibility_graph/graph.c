@@ -14,6 +14,9 @@
 /// Sight is closed: a sightline may graze corners. Where only one ray passes two corners, the cone
 /// has no width. Such a ray is followed on its own, room by room.
 ///
+/// A view that has passed a limited wall takes the next one for a wall. Those that the eye is on do
+/// not count.
+///
 /// Cost: for each eye, the sides of the rooms that it sees and the points in them. Invariant: a
 /// cone is narrower than half a circle, and the rooms behind a portal lie beyond its line.
 #include "base/bits.h"
@@ -133,6 +136,7 @@ static sl_status sort_points(sl_context *context, const sl_outline *o, const uin
 
 typedef struct frame {
     uint32_t entry; ///< the side through which the room is entered
+    bool limited;   ///< the way to the room passes a limited wall
     sl_point right, left;
 } frame;
 
@@ -145,6 +149,7 @@ typedef struct looker {
     sl_bits *row;
     SL_ARRAY(frame) frames;
     SL_ARRAY(uint32_t) ray_rooms;
+    SL_ARRAY(uint32_t) later; ///< rooms of a ray behind a limited wall
     touching at_eye;
 } looker;
 
@@ -183,13 +188,39 @@ static bool ray_meets(const looker *l, sl_point via, const sl_side *side) {
     return true;
 }
 
-/// Follows one ray through all rooms that it touches, from a room on.
-static sl_status follow_ray(sl_context *context, looker *l, uint32_t room, sl_point via) {
-    const sl_outline *o = l->outline;
-    l->ray_rooms.count = 0;
+static bool is_limited(const sl_outline *o, uint32_t side) {
+    return o->limited && o->limited[side] != SL_NO_SEAM;
+}
+
+/// Lists a room of a ray, once.
+static sl_status add_ray_room(sl_context *context, looker *l, uint32_t room) {
+    for (size_t i = 0; i < l->ray_rooms.count; i++)
+        if (l->ray_rooms.items[i] == room) return SL_OK;
     SL_TRY(SL_ARRAY_ROOM(context, &l->ray_rooms, 1));
     l->ray_rooms.items[l->ray_rooms.count++] = room;
-    for (size_t k = 0; k < l->ray_rooms.count; k++) {
+    return SL_OK;
+}
+
+/// Lists the rooms of a ray behind limited walls, where all before them are done.
+static sl_status add_later_rooms(sl_context *context, looker *l) {
+    for (size_t i = 0; i < l->later.count; i++) SL_TRY(add_ray_room(context, l, l->later.items[i]));
+    l->later.count = 0;
+    return SL_OK;
+}
+
+/// Follows one ray through all rooms that it touches, from a room on. `limited`: it has passed a
+/// limited wall.
+static sl_status follow_ray(sl_context *context, looker *l, uint32_t room, sl_point via,
+                            bool limited) {
+    const sl_outline *o = l->outline;
+    l->ray_rooms.count = l->later.count = 0;
+    SL_TRY(add_ray_room(context, l, room));
+    for (size_t k = 0; k < l->ray_rooms.count || l->later.count; k++) {
+        if (k == l->ray_rooms.count) {
+            limited = true;
+            SL_TRY(add_later_rooms(context, l));
+            if (k == l->ray_rooms.count) break;
+        }
         const uint32_t at = l->ray_rooms.items[k];
         for (uint32_t i = l->by_room->first[at]; i < l->by_room->first[at + 1]; i++) {
             const uint32_t p = l->by_room->points[i];
@@ -200,11 +231,12 @@ static sl_status follow_ray(sl_context *context, looker *l, uint32_t room, sl_po
         for (uint32_t i = o->first[at]; i < o->first[at + 1]; i++) {
             if (!sl_side_is_portal(&o->sides[i]) || !ray_meets(l, via, &o->sides[i])) continue;
             const uint32_t next = l->room_of[o->sides[i].neighbour];
-            bool known = false;
-            for (size_t j = 0; j < l->ray_rooms.count; j++) known |= l->ray_rooms.items[j] == next;
-            if (known) continue;
-            SL_TRY(SL_ARRAY_ROOM(context, &l->ray_rooms, 1));
-            l->ray_rooms.items[l->ray_rooms.count++] = next;
+            if (!is_limited(o, i)) {
+                SL_TRY(add_ray_room(context, l, next));
+            } else if (!limited) {
+                SL_TRY(SL_ARRAY_ROOM(context, &l->later, 1));
+                l->later.items[l->later.count++] = next;
+            }
         }
     }
     return SL_OK;
@@ -212,40 +244,48 @@ static sl_status follow_ray(sl_context *context, looker *l, uint32_t room, sl_po
 
 /// Follows the rays along a portal in line with the eye, where they lie between two rays.
 static sl_status look_along(sl_context *context, looker *l, const sl_side *side,
-                            const sl_point *right, const sl_point *left) {
+                            const sl_point *right, const sl_point *left, bool limited) {
     const sl_point ends[2] = {side->start, l->outline->sides[side->next].start};
     for (int e = 0; e < 2; e++) {
         if (sli_same_point(ends[e], l->eye)) continue;
         if (right &&
             (sli_orient(l->eye, *right, ends[e]) < 0 || sli_orient(l->eye, ends[e], *left) < 0))
             continue;
-        SL_TRY(follow_ray(context, l, l->room_of[side->neighbour], ends[e]));
+        SL_TRY(follow_ray(context, l, l->room_of[side->neighbour], ends[e], limited));
     }
     return SL_OK;
 }
 
-/// Takes the view on through one side of a room, as far as it lies between two rays.
+/// Takes the view on through one side of a room, as far as it lies between two rays. `limited`: it
+/// has passed a limited wall.
 static sl_status look_through(sl_context *context, looker *l, uint32_t i, const sl_point *right,
-                              const sl_point *left) {
+                              const sl_point *left, bool limited) {
     const sl_side *side = &l->outline->sides[i];
     sl_point a = side->start, b = l->outline->sides[side->next].start;
     const int facing = sli_orient(a, b, l->eye);
     if (!sl_side_is_portal(side) || facing < 0) return SL_OK;
-    if (facing == 0) return look_along(context, l, side, right, left);
+    if (is_limited(l->outline, i)) {
+        if (limited) return SL_OK;
+        limited = true;
+    }
+    if (facing == 0) return look_along(context, l, side, right, left, limited);
     if (right && sli_orient(l->eye, *right, a) < 0) a = *right;
     if (left && sli_orient(l->eye, b, *left) < 0) b = *left;
     const int width = sli_orient(l->eye, a, b);
     if (width < 0) return SL_OK;
-    if (width == 0) return follow_ray(context, l, l->room_of[side->neighbour], a);
+    if (width == 0) return follow_ray(context, l, l->room_of[side->neighbour], a, limited);
     SL_TRY(SL_ARRAY_ROOM(context, &l->frames, 1));
-    l->frames.items[l->frames.count++] = (frame){side->neighbour, a, b};
+    l->frames.items[l->frames.count++] = (frame){side->neighbour, limited, a, b};
     return SL_OK;
 }
 
-static sl_status look_around_room(sl_context *context, looker *l, uint32_t room, uint32_t except,
-                                  const sl_point *right, const sl_point *left) {
+/// Takes the view on from a room: all of it from the eye's own, else as it came in.
+static sl_status look_around_room(sl_context *context, looker *l, uint32_t room, const frame *in) {
     for (uint32_t i = l->outline->first[room]; i < l->outline->first[room + 1]; i++)
-        if (i != except) SL_TRY(look_through(context, l, i, right, left));
+        if (!in)
+            SL_TRY(look_through(context, l, i, NULL, NULL, false));
+        else if (i != in->entry)
+            SL_TRY(look_through(context, l, i, &in->right, &in->left, in->limited));
     return SL_OK;
 }
 
@@ -256,12 +296,12 @@ static sl_status look(sl_context *context, looker *l, uint32_t eye) {
     for (size_t k = 0; k < l->at_eye.rooms.count; k++) {
         const uint32_t room = l->at_eye.rooms.items[k];
         see_all(l, room);
-        SL_TRY(look_around_room(context, l, room, UINT32_MAX, NULL, NULL));
+        SL_TRY(look_around_room(context, l, room, NULL));
         while (l->frames.count) {
             const frame f = l->frames.items[--l->frames.count];
             const uint32_t at = l->room_of[f.entry];
             see_within(l, at, f.right, f.left);
-            SL_TRY(look_around_room(context, l, at, f.entry, &f.right, &f.left));
+            SL_TRY(look_around_room(context, l, at, &f));
         }
     }
     return SL_OK;
@@ -290,6 +330,7 @@ static void end_graph_worker(sl_context *context, void *all, void *state) {
     looker *l = state;
     sl_free(context, l->frames.items);
     sl_free(context, l->ray_rooms.items);
+    sl_free(context, l->later.items);
     sl_free(context, l->at_eye.rooms.items);
     sl_free(context, l);
 }

@@ -8,8 +8,11 @@ export { SightlineError }
 type Line = Segment | number[] | { segment: Segment | number[] }
 type Polygon = number[] | [number, number][]
 
-/** What walls stop; by default all. Windows are seen through, curtains are walked through. */
-type Stopped = 'sight' | 'steps' | 'sound'
+/**
+ * What walls stop; by default all. Windows are seen through, curtains are walked through. Of limited walls sight passes
+ * one, not two.
+ */
+type Stopped = 'sight' | 'limited' | 'steps' | 'sound'
 type Stops = { stops?: Stopped | Stopped[] }
 
 /** A map as an object. All members may be left out but for walls. */

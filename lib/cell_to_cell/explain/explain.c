@@ -443,6 +443,7 @@ static sl_status check(sl_context *context, const sl_space *space,
     if (from >= space->cell_count || to >= space->cell_count)
         return sl_fail(context, SL_BAD_ARGUMENT, "cell %u: the map has %u cells",
                        from >= space->cell_count ? from : to, space->cell_count);
+    SL_TRY(sli_refuse_limited(context, space, "an explanation", ""));
     if (!solver || solver->guarantee != SL_EXACT || !solver->conflict)
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "an explanation needs an exact solver that reports conflicts");

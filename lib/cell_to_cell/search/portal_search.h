@@ -54,7 +54,8 @@ typedef struct sli_portal_visitor {
     sl_status (*leave)(sl_context *context, void *job, const void *left);
 } sli_portal_visitor;
 
-/// Stands before a visitor's function that the compiler is to put into its copy of the search.
+/// Stands before a visitor's function that the compiler is to put into its copy of the search, and
+/// before others that it is to copy.
 #define SLI_VISIT static inline __attribute__((always_inline))
 
 static inline void *sli_portal_search_step(const sli_portal_search *search, size_t step_size,

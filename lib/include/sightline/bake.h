@@ -75,6 +75,11 @@ typedef struct sl_bake_account {
     } seconds;
 } sl_bake_account;
 
+/// What visible sets promise that a method found with this guarantee. They take limited walls
+/// (SL_STOPS_LIMITED) as open: where the map has some, pairs may be added that are seen through two
+/// of them.
+SL_API sl_guarantee sl_limited_guarantee(const sl_map *map, sl_guarantee guarantee);
+
 /// Bakes a map: cleans its walls, cuts the map into cells, finds which cells see which.
 ///
 /// Takes the map over: on success it is empty, and `out` holds what it held. On failure `out` stays

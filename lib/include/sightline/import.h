@@ -88,7 +88,8 @@ typedef enum sl_map_keeps {
     SL_KEEPS_ENTRANCE = 8192, ///< how wide entrances are
     SL_KEEPS_STOPS = 16384,   ///< what walls stop; else those that do not stop what the map is
                               ///< for are left out (sl_map.channel)
-    SL_KEEPS_ALL = 32767,
+    SL_KEEPS_LIMITED = 32768, ///< which walls limit sight; else these are open to it
+    SL_KEEPS_ALL = 65535,
 } sl_map_keeps;
 
 /// A format: its name, what its files' names end with (space-separated), what it is, how to read

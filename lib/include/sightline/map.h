@@ -35,6 +35,8 @@ enum {
     SL_STOPS_STEPS = 2,
     SL_STOPS_SOUND = 4,
     SL_STOPS_ALL = 7,
+    /// A limited wall: sight passes one of them, and not a second one. Not with SL_STOPS_SIGHT.
+    SL_STOPS_LIMITED = 8,
 };
 
 /// A wall: a closed segment that stops sight, steps and sound. `line`, here and below, is the line
@@ -233,7 +235,8 @@ SL_API sl_status sl_map_add_solid(sl_context *context, sl_map *map, const sl_poi
 /// parts of their sides.
 SL_API sl_status sl_map_add_open(sl_context *context, sl_map *map, const sl_point *corners,
                                  size_t count, uint32_t line);
-/// Says that the walls from number `first` on stop these alone (bits of SL_STOPS_SIGHT ...). They
+/// Says that the walls from number `first` on stop these alone (bits of SL_STOPS_SIGHT ...,
+/// SL_STOPS_LIMITED among them). They
 /// become seams of the map (sl_glass.stops), with SL_STOPS_ALL they stay. Polygons of ground keep
 /// their marks, but the ground is open for all: one sees from there, and over it. It is not inside
 /// if the walls stop steps. SL_BAD_ARGUMENT for 0 and for other bits.
@@ -244,6 +247,8 @@ SL_API sl_status sl_map_walls_stop(sl_context *context, sl_map *map, size_t firs
 SL_API sl_status sl_map_settle_stops(sl_context *context, sl_map *map, size_t *left_out);
 /// How many walls do not stop all.
 SL_API size_t sl_map_partial_walls(const sl_map *map);
+/// How many walls limit sight (SL_STOPS_LIMITED) where a space of the map is one of sight; else 0.
+SL_API size_t sl_map_limited_walls(const sl_map *map);
 /// Whether, in a map whose space is one of sight, some walls stop steps and not sight, or sight and
 /// not steps. Paths then need a space of their own: that of a copy with the channel SL_STOPS_STEPS.
 SL_API bool sl_map_steps_differ(const sl_map *map);
@@ -252,7 +257,8 @@ SL_API bool sl_map_steps_differ(const sl_map *map);
 #define SL_STOPS_TEXT 24
 /// What is stopped, as map text says it: "sight,steps"; "" for 0.
 SL_API void sl_stops_write(uint32_t stops, char text[SL_STOPS_TEXT]);
-/// Reads such a text of `length` characters; false where it is none, or names a thing twice.
+/// Reads such a text of `length` characters; false where it is none, names a thing twice, or has
+/// both "sight" and "limited".
 SL_API bool sl_stops_read(const char *text, size_t length, uint32_t *out);
 /// What a space of the map lets its walls stop (sl_map.channel), never 0.
 static inline uint32_t sl_map_channel(const sl_map *map) {

@@ -16,6 +16,10 @@ extern "C" {
 /// 0 for its left side, 1 for the right, 2 for the lower and 3 for the upper one.
 #define SL_BOX_WALL UINT32_C(0x40000000)
 
+/// The `wall` of an edge on a limited wall that is the second one on the way from the eye, and of
+/// such a hit, is SL_LIMITED_WALL + the number of the seam (sl_space.seams).
+#define SL_LIMITED_WALL UINT32_C(0x80000000)
+
 /// What an edge of a region lies on.
 typedef enum sl_edge_kind {
     SL_EDGE_WALL,      ///< on a wall, or on several pieces that portals cut one wall into
@@ -28,8 +32,8 @@ typedef enum sl_edge_kind {
 
 /// An edge of a region.
 typedef struct sl_region_edge {
-    uint32_t wall; ///< index of the space's walls, or of a box's side: SL_BOX_WALL; SL_NO_WALL for
-                   ///< all kinds but walls
+    uint32_t wall; ///< index of the space's walls, of a box's side: SL_BOX_WALL, or of a limited
+                   ///< wall: SL_LIMITED_WALL; SL_NO_WALL for all kinds but walls
     uint8_t kind;  ///< of sl_edge_kind
     bool exact;    ///< its start is a corner of the space (or the eye), not a computed point
 } sl_region_edge;
@@ -84,7 +88,8 @@ SL_API size_t sl_region_flatten(const sl_region *region, double tolerance, sl_po
 
 /// What a ray meets (sl_query_cast).
 typedef struct sl_hit {
-    uint32_t wall;  ///< index of the space's walls; SL_NO_WALL: the border of the map
+    uint32_t wall;  ///< index of the space's walls, or SL_LIMITED_WALL; SL_NO_WALL: the border of
+                    ///< the map
     sl_point point; ///< rounded; on the wall where that is axial
 } sl_hit;
 

@@ -54,7 +54,12 @@ typedef struct sl_cell {
 } sl_cell;
 
 /// What a seam is in the map.
-typedef enum sl_seam_kind { SL_SEAM_PLAIN, SL_SEAM_DOOR, SL_SEAM_ONEWAY } sl_seam_kind;
+typedef enum sl_seam_kind {
+    SL_SEAM_PLAIN,
+    SL_SEAM_DOOR,
+    SL_SEAM_ONEWAY,
+    SL_SEAM_LIMITED, ///< in a space of sight, one of the map's seams that limits it
+} sl_seam_kind;
 
 /// A seam: a line that cuts the cells although it is, or may be, seen through.
 typedef struct sl_seam {
@@ -74,7 +79,7 @@ typedef struct sl_seam_portal {
 /// stop crosses it from one to the other, all along the wall.
 typedef struct sl_passage {
     uint32_t wall;
-    uint32_t stops;   ///< bits of SL_STOPS_SIGHT ...
+    uint32_t stops;   ///< bits of SL_STOPS_SIGHT ..., without SL_STOPS_LIMITED
     uint32_t cell[2]; ///< at the wall's left, going from a to b, and at its right
 } sl_passage;
 
@@ -290,7 +295,13 @@ typedef struct sl_outline {
     /// One-way glass: walls from this number on are its dark sides. The other side of wall w is
     /// sides[lit[w - first_dark]], a portal that leads to the wall's side. NULL without glass.
     uint32_t first_dark, *lit;
+    /// Limited walls: by side, the seam of the space that limits sight there, SL_NO_SEAM for most.
+    /// NULL without them.
+    uint32_t *limited;
 } sl_outline;
+
+/// No seam (sl_outline.limited).
+#define SL_NO_SEAM UINT32_MAX
 
 /// The room that holds a point of a cell, among the rooms with a part of that cell. Time: the sides
 /// of these rooms.

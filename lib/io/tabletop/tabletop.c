@@ -326,7 +326,8 @@ typedef struct foundry {
     size_t partial;        ///< walls that do not stop all
     size_t mirrors, seams; ///< of a file of our own
     door_names names;
-    size_t unseen, limited, near, points; ///< left out
+    size_t limited;                           ///< walls that limit sight
+    size_t unseen, one_limited, near, points; ///< left out, or open to sight
 } foundry;
 
 typedef struct record {
@@ -360,9 +361,15 @@ static sl_status read_ends(foundry *reader, const sli_json *wall, sl_segment *at
     return SL_OK;
 }
 
-/// A wall that stops sight or sound behind another one, or by distance, counts as open for it.
+/// A wall that stops sight by distance, or sound by distance or behind another one, counts as open
+/// for it.
 static bool is_normal(int64_t sense) {
     return sense == SIGHT_NORMAL || sense == SENSE_NORMAL;
+}
+
+/// A wall that stops sight behind another one: limited sight.
+static bool is_limited(int64_t sense) {
+    return sense == SIGHT_LIMITED || sense == SENSE_LIMITED;
 }
 
 static int64_t sense_of(const sli_json *wall, const char *key) {
@@ -375,6 +382,7 @@ static sl_status read_stops(const sli_json *wall, record *read) {
     const int64_t steps = sense_of(wall, "move"), heard = sense_of(wall, "sound");
     SL_TRY(sli_json_whole_if(sight.value ? &sight : &sense, 0, SIGHT_MOST, &read->sight));
     read->stops = (is_normal(read->sight) ? SL_STOPS_SIGHT : 0u) |
+                  (is_limited(read->sight) ? SL_STOPS_LIMITED : 0u) |
                   (steps != SIGHT_NONE ? SL_STOPS_STEPS : 0u) |
                   (is_normal(heard) ? SL_STOPS_SOUND : 0u);
     return SL_OK;
@@ -433,6 +441,7 @@ static sl_status add_glass(foundry *reader, const record *wall) {
 static sl_status add_partial(foundry *reader, const record *wall) {
     const size_t first = reader->map->wall_count;
     reader->partial++;
+    reader->limited += (wall->stops & SL_STOPS_LIMITED) != 0;
     SL_TRY(sl_map_add_wall(reader->context, reader->map, wall->at.a, wall->at.b, wall->item));
     return sl_map_walls_stop(reader->context, reader->map, first, wall->stops);
 }
@@ -462,17 +471,17 @@ static sl_status name_wall(foundry *reader, const sli_json *wall, const record *
     return sli_map_add_label(reader->context, reader->map, read->item, label);
 }
 
-static sl_status take(foundry *reader, const sli_json *walls, const sli_json *json,
-                      const record *wall) {
+static sl_status take(foundry *reader, const sli_json *walls, const sli_json *json, record *wall) {
     const sl_segment at = wall->at;
     size_t *left_out = NULL;
+    if (wall->side) wall->stops &= SL_STOPS_ALL; // it limits sight one way: open to it
     if (at.a.x == at.b.x && at.a.y == at.b.y)
         left_out = &reader->points;
     else if (wall->seam)
         return add_glass(reader, wall);
-    else if (wall->sight == SIGHT_LIMITED || wall->sight == SENSE_LIMITED)
-        left_out = &reader->limited;
-    else if (wall->sight != SIGHT_NONE && !is_normal(wall->sight))
+    else if (wall->side && is_limited(wall->sight))
+        left_out = &reader->one_limited;
+    else if (wall->sight != SIGHT_NONE && !is_normal(wall->sight) && !is_limited(wall->sight))
         left_out = &reader->near;
     else if (!wall->stops)
         left_out = &reader->unseen;
@@ -525,6 +534,7 @@ static sl_status read_foundry_walls(foundry *reader, const sli_json *walls) {
     const sli_tally taken[] = {
         {reader->walls, "wall", "walls"},
         {reader->partial, "wall that does not stop all", "walls that do not stop all"},
+        {reader->limited, "of them limits sight", "of them limit sight"},
         {reader->oneways, "of them one-way", "of them one-way"},
         {reader->shut, doors ? "shut door" : "shut door (a wall)",
          doors ? "shut doors" : "shut doors (walls)"},
@@ -533,12 +543,12 @@ static sl_status read_foundry_walls(foundry *reader, const sli_json *walls) {
         {reader->secret, "of them secret", "of them secret"}};
     const sli_tally left[] = {
         {reader->unseen, "that stops nothing", "that stop nothing"},
-        {reader->limited, "that stops sight behind another", "that stop sight behind another"},
+        {reader->one_limited, "that limits sight from one side", "that limit sight from one side"},
         {reader->near, "that stops sight by distance", "that stop sight by distance"},
         {reader->points, "of no length", "of no length"}};
     char with[SLI_TALLY_TEXT], without[SLI_TALLY_TEXT];
     sl_note(reader->context, "%s: %s%s; unit: %s, y = %s - the file's y", walls->file->name,
-            sli_tally_write("", taken, 6, with),
+            sli_tally_write("", taken, 7, with),
             sli_tally_write("; left out or open: ", left, 4, without), unit, top);
     if (reader->mirrors || reader->seams)
         sl_note(reader->context, "%s: taken by their flags: %zu mirror%s, %zu seam%s",

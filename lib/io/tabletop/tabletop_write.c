@@ -203,7 +203,7 @@ sl_status sli_map_print_uvtt(sl_context *context, const sl_map *map, FILE *strea
 
 // --- Foundry
 
-enum { SIGHT_NONE = 0, SIGHT_NORMAL = 20, LEFT_ONLY = 1, DOOR_PLAIN = 1 };
+enum { SIGHT_NONE = 0, SIGHT_LIMITED = 10, SIGHT_NORMAL = 20, LEFT_ONLY = 1, DOOR_PLAIN = 1 };
 /// Pixels in a unit of the map, a power of two, so that nothing is rounded: as many as the file had
 /// that the map is from; else so many that the scene is 1024 pixels wide or high at least. Foundry
 /// itself keeps whole pixels.
@@ -253,7 +253,9 @@ static sl_status put_wall(tabletop_writer *writer, sl_point a, sl_point b, found
     const double c[4] = {a.x * writer->pixels, y[0] * writer->pixels, b.x * writer->pixels,
                          y[1] * writer->pixels};
     const uint32_t stops = wall.seam ? 0 : wall.stops ? wall.stops : SL_STOPS_ALL;
-    const int64_t sight = stops & SL_STOPS_SIGHT ? SIGHT_NORMAL : SIGHT_NONE;
+    const int64_t sight = stops & SL_STOPS_SIGHT     ? SIGHT_NORMAL
+                          : stops & SL_STOPS_LIMITED ? SIGHT_LIMITED
+                                                     : SIGHT_NONE;
     bool whole = true;
     begin_json_part(writer, NULL, '{');
     put_id(writer, "wall0", writer->written);

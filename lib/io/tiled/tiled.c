@@ -125,8 +125,8 @@ static sl_status read_stops(const sli_json *thing, uint32_t *stops) {
         const char *text = json_string_value(value.value);
         if (!text || !name || strcmp(name, "stops") != 0) continue;
         if (!sl_stops_read(text, strlen(text), stops))
-            return sli_json_fail(&value, "stops: expected sight, steps, sound or several joined by "
-                                         "commas");
+            return sli_json_fail(&value, "stops: expected sight or limited, steps, sound or "
+                                         "several joined by commas");
     }
     return SL_OK;
 }

@@ -77,7 +77,8 @@ enum {
     SL_RUNTIME_STOPS_SIGHT = 1,
     SL_RUNTIME_STOPS_STEPS = 2,
     SL_RUNTIME_STOPS_SOUND = 4,
-    SL_RUNTIME_STOPS_ALL = 7
+    SL_RUNTIME_STOPS_ALL = 7,
+    SL_RUNTIME_STOPS_LIMITED = 8 ///< a limited wall: sight passes one of them, and not a second one
 };
 
 /// An open file. Counts and bounds are for reading; the pointers are for the functions only.
@@ -113,7 +114,8 @@ typedef struct sl_runtime {
     uint32_t seam_count, seam_portal_count;
     const unsigned char *stops, *passages; ///< NULL where all walls stop all
     uint32_t passage_count;
-    bool has_glass; ///< one-way glass, somewhere
+    bool has_glass;  ///< one-way glass, somewhere
+    bool has_limits; ///< in a file for sight: limited walls, somewhere
     const unsigned char *portals;
     const unsigned char *walls; ///< NULL in a file without them
     uint32_t wall_count;
@@ -397,6 +399,11 @@ SL_RUNTIME_API uint32_t sl_runtime_look_past(const sl_runtime *runtime, const sl
 /// unless one of them is where walls or shut doors part what is around it, or one-way glass is
 /// between them. (The range is exact if no coordinate but 0 is 1e70 times smaller than another
 /// one.)
+///
+/// Of limited walls (SL_RUNTIME_STOPS_LIMITED) the line passes at most one, on the way that passes
+/// the fewest: one at the common end of two, two where two cross. Those that the eye is on do not
+/// count. sl_runtime_look and the polygons count them too, but behind a mirror from the mirror on:
+/// so more may be shown there. All that is from cell to cell or from box to box takes them as open.
 ///
 /// The rows do not say it all: an eye at the end of a wall stands in cells on both sides, and may
 /// see a point though sl_runtime_can_see says no of the cells of both points. Time: the portals of

@@ -9,6 +9,9 @@
 //
 // Where the line touches an end of a portal, or an end of the line is on a side, it may go on in
 // several cells. Then all cells are followed that it comes to by portals that it meets.
+//
+// Of all these ways the one counts that passes the fewest limited walls. Those that the eye is on
+// do not count for the cells about it.
 
 /// Replaces a number that is too small for a map by 0, as its products would underflow.
 static double slrt_no_dust(double number) {
@@ -73,7 +76,7 @@ static uint32_t slrt_way_out(const slrt_search *s, const slrt_arm *way, uint32_t
 /// A way out of a cell: the cell that it leads to, and its ends as crossed.
 typedef struct slrt_exit {
     uint32_t cell; ///< SLRT_NONE for no way out
-    bool is_blocked;
+    bool is_blocked, is_limited;
     const unsigned char *right, *left;
 } slrt_exit;
 
@@ -101,7 +104,7 @@ static slrt_exit slrt_exit_of(const slrt_search *s, const slrt_arm *way, uint32_
     const unsigned char *portal;
     slrt_exit out;
     out.cell = SLRT_NONE;
-    out.is_blocked = false;
+    out.is_blocked = out.is_limited = false;
     if (directed == SLRT_NONE) {
         if (s->on_foot && s->rt->passage_count && !*touches)
             slrt_passage_out(s, way, cell, &out, touches);
@@ -110,6 +113,7 @@ static slrt_exit slrt_exit_of(const slrt_search *s, const slrt_arm *way, uint32_
     portal = s->rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES;
     out.cell = slrt_cell_across(s->rt, directed);
     out.is_blocked = slrt_is_blocked(s, directed);
+    out.is_limited = !s->on_foot && slrt_is_limited(s->rt, directed);
     out.right = portal + 24;
     out.left = portal + 8;
     return out;
@@ -119,6 +123,7 @@ static slrt_exit slrt_exit_of(const slrt_search *s, const slrt_arm *way, uint32_
 /// to, or a box, stops it.
 static slrt_finding slrt_follow_within(const slrt_search *s, const slrt_arm *way) {
     uint32_t cell = s->eye_cell, steps = s->rt->loose ? 0 : s->rt->cell_count;
+    bool limited = false;
     if (slrt_place_in(s->rt, cell, s->x, s->y) <= 0) return SLRT_TOUCHES;
     for (; steps; steps--) {
         bool touches;
@@ -131,7 +136,9 @@ static slrt_finding slrt_follow_within(const slrt_search *s, const slrt_arm *way
                     : slrt_side_of_line(out.right, out.left, way->to_x, way->to_y);
         if (place > 0) return SLRT_ARRIVES;
         if (!place) return SLRT_TOUCHES;
-        if (out.cell == SLRT_NONE || out.is_blocked) return SLRT_STOPS;
+        if (out.cell == SLRT_NONE || out.is_blocked || (limited && out.is_limited))
+            return SLRT_STOPS;
+        limited = limited || out.is_limited;
         cell = out.cell;
     }
     return SLRT_TOUCHES;
@@ -206,24 +213,57 @@ static void slrt_list(slrt_search *s, uint32_t cell) {
     for (; i < s->own_count; i++) s->marks[s->path[i]] |= SLRT_OWN;
 }
 
+/// Which portals are gone through.
+enum { SLRT_NOT_LIMITED = 1, SLRT_ONLY_LIMITED = 2, SLRT_ANY = 3 };
+
+/// Lists the cells behind the open portals of a cell that a way meets, NULL for the way that is the
+/// eye alone.
+static void slrt_list_behind(slrt_search *s, const slrt_arm *way, uint32_t cell, int which) {
+    const sl_runtime_cell c = sl_runtime_get_cell(s->rt, cell);
+    uint32_t i;
+    for (i = c.first_directed; i < c.first_directed + c.directed_count; i++) {
+        const uint32_t to = slrt_cell_across(s->rt, i);
+        if (!(way ? slrt_way_meets(s, way, i) : slrt_is_on_portal(s, i)) || slrt_is_listed(s, to) ||
+            slrt_is_blocked(s, i))
+            continue;
+        if (which != SLRT_ANY && (which == SLRT_ONLY_LIMITED) != slrt_is_limited(s->rt, i))
+            continue;
+        slrt_list(s, to);
+        if (s->has_row) slrt_allow_row(s, to);
+    }
+}
+
+/// As slrt_follow, in a file with limited walls: first the cells about the eye, then those that the
+/// way leads to, then those behind a limited wall.
+static bool slrt_follow_limited(slrt_search *s, const slrt_arm *way) {
+    uint32_t at, first;
+    int passed;
+    slrt_list(s, s->eye_cell);
+    for (at = 0; at < s->own_count; at++) slrt_list_behind(s, NULL, s->path[at], SLRT_ANY);
+    for (passed = 0, first = 0; passed < 2; passed++) {
+        for (at = first; at < s->own_count; at++) {
+            if (s->stops && s->stops(s, way, s->path[at])) return false;
+            if (slrt_holds(s->rt, s->path[at], way->to_x, way->to_y)) return true;
+            slrt_list_behind(s, way, s->path[at], SLRT_NOT_LIMITED);
+        }
+        first = s->own_count;
+        for (at = 0; at < first && !passed; at++)
+            slrt_list_behind(s, way, s->path[at], SLRT_ONLY_LIMITED);
+    }
+    return false;
+}
+
 /// Lists the eye's cell and those that it leads to through all open portals that a way meets, until
 /// a cell touches the end of the way: then true. NULL for the way that is the eye alone: the cells
 /// are the eye's, and their rows count.
 static bool slrt_follow(slrt_search *s, const slrt_arm *way) {
-    uint32_t at, i;
+    uint32_t at;
+    if (way && s->rt->has_limits) return slrt_follow_limited(s, way);
     slrt_list(s, s->eye_cell);
     for (at = 0; at < s->own_count; at++) {
-        const sl_runtime_cell c = sl_runtime_get_cell(s->rt, s->path[at]);
         if (s->stops && s->stops(s, way, s->path[at])) return false;
         if (way && slrt_holds(s->rt, s->path[at], way->to_x, way->to_y)) return true;
-        for (i = c.first_directed; i < c.first_directed + c.directed_count; i++) {
-            const uint32_t to = slrt_cell_across(s->rt, i);
-            if (!(way ? slrt_way_meets(s, way, i) : slrt_is_on_portal(s, i)) ||
-                slrt_is_listed(s, to) || slrt_is_blocked(s, i))
-                continue;
-            slrt_list(s, to);
-            if (s->has_row) slrt_allow_row(s, to);
-        }
+        slrt_list_behind(s, way, s->path[at], SLRT_ANY);
     }
     return false;
 }

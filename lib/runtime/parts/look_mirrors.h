@@ -9,7 +9,8 @@ enum { SLRT_MOST_REFLECTIONS = 16 };
 /// A search, and how it is come to. The search comes first: its `meet` is given that alone.
 typedef struct slrt_reflected {
     slrt_search s;
-    slrt_search *first; ///< the eye's own
+    slrt_search *first;       ///< the eye's own
+    unsigned char *by_mirror; ///< by cell: seen in a mirror
     bool *rounded;
     uint64_t patience; ///< of the eye's own search, for what is seen in mirrors
     uint32_t depth;    ///< reflections that are left
@@ -152,6 +153,7 @@ static void slrt_look_in_mirror(slrt_reflected *from, uint32_t cell, uint32_t mi
     sector.left = SLRT_ARM + 1;
     sector.along = (seen->along & SLRT_ALONG_RIGHT ? (unsigned)SLRT_ALONG_LEFT : 0u) |
                    (seen->along & SLRT_ALONG_LEFT ? (unsigned)SLRT_ALONG_RIGHT : 0u);
+    sector.limited = seen->limited;
     slrt_search_from(&to.s, cell, &sector);
     *patience = to.s.patience;
     if (to.s.gave_up) *from->rounded = true;
@@ -184,7 +186,7 @@ static void slrt_meet_mirrors(slrt_search *s, uint32_t cell, const slrt_sector *
     uint64_t *patience = slrt_mirrors_patience(r);
     uint32_t i;
     int k;
-    if (s->is_image) r->first->marks[cell] |= SLRT_MIRRORED;
+    if (s->is_image) r->by_mirror[cell] = 1;
     if (!r->depth) return;
     slrt_read_vertex(rt, &c, 0, low);
     memcpy(high, low, sizeof high);
@@ -207,7 +209,8 @@ static void slrt_meet_mirrors(slrt_search *s, uint32_t cell, const slrt_sector *
 
 SL_RUNTIME_API size_t sl_runtime_mirrored_scratch_count(const sl_runtime *runtime, uint32_t depth) {
     const size_t most = SLRT_MOST_REFLECTIONS;
-    return sl_runtime_scratch_count(runtime) * (1 + (depth < most ? depth : most));
+    return sl_runtime_scratch_count(runtime) * (1 + (depth < most ? depth : most)) +
+           ((size_t)runtime->cell_count + 3) / 4;
 }
 
 SL_RUNTIME_API uint32_t sl_runtime_look_into_mirrors(const sl_runtime *runtime,
@@ -232,13 +235,16 @@ SL_RUNTIME_API uint32_t sl_runtime_look_into_mirrors(const sl_runtime *runtime,
     r.s.cells = cells;
     r.s.room = room;
     r.s.in_mirrors = runtime->mirror_count && r.depth;
+    r.by_mirror = (unsigned char *)(mirrored_scratch +
+                                    sl_runtime_scratch_count(runtime) * (1 + (size_t)r.depth));
+    memset(r.by_mirror, 0, runtime->cell_count);
     if (r.s.in_mirrors) r.s.meet = slrt_meet_mirrors;
     slrt_run_search(&r.s);
     *direct = r.s.count;
     if (runtime->mirrors && depth && (!runtime->mirror_count || runtime->loose || r.s.gave_up))
         *rounded = true;
     for (i = 0; r.s.in_mirrors && i < runtime->cell_count; i++)
-        if (r.s.marks[i] & SLRT_MIRRORED) slrt_see(&r.s, i);
+        if (r.by_mirror[i]) slrt_see(&r.s, i);
     if (*rounded) slrt_see_mirrored(&r.s);
     return r.s.count;
 }

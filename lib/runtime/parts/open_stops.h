@@ -6,6 +6,15 @@ static bool slrt_passage_is_sound(const sl_runtime *rt, const unsigned char *at)
            (slrt_u32(at + 4) & INT32_MAX) < rt->wall_count && stops && stops < SL_RUNTIME_STOPS_ALL;
 }
 
+/// Whether some seam limits sight, in a file for sight.
+static bool slrt_has_limits(const sl_runtime *rt) {
+    uint32_t i;
+    if (!rt->stops || !(rt->channel & SL_RUNTIME_STOPS_SIGHT)) return false;
+    for (i = 0; i < rt->seam_count; i++)
+        if (slrt_u32(rt->stops + (size_t)i * 4) & SL_RUNTIME_STOPS_LIMITED) return true;
+    return false;
+}
+
 /// Passages go by cell, so that they can be searched.
 static bool slrt_take_stops(sl_runtime *rt, const slrt_section *found) {
     uint32_t i;
@@ -18,6 +27,7 @@ static bool slrt_take_stops(sl_runtime *rt, const slrt_section *found) {
         if (!rt->channel || rt->channel > SL_RUNTIME_STOPS_ALL) return false;
     }
     if (rt->stops && found[SLRT_STOP].count != rt->seam_count) return false;
+    rt->has_limits = slrt_has_limits(rt);
     if (!rt->passages) return true;
     if (!rt->walls || found[SLRT_PASS].count > UINT32_MAX) return false;
     rt->passage_count = (uint32_t)found[SLRT_PASS].count;

@@ -11,7 +11,9 @@
 //      +---------+--------.-+
 //
 // Invariant: cells are convex and a sector is narrower than half a circle. So pieces within come in
-// counter-clockwise order, depth first, and the polygon needs no sorting. Signs are exact. Pieces
+// counter-clockwise order, depth first, and the polygon needs no sorting. A sector that has passed
+// a limited wall takes the next one for a wall; those that the eye is on do not count. Signs are
+// exact. Pieces
 // in one line join; where one ends is computed only when the next one is known not to join. Cost:
 // the sides and portals of the cells that are seen, counted once for each sector. (Teller 1992;
 // with triangles for cells: Bungiu et al. 2014, Efficient Computation of Visibility Polygons.)
@@ -47,11 +49,14 @@ static void slrt_see_wall(slrt_polygon *p, uint32_t cell, const slrt_piece *piec
 }
 
 // The search. The path is a stack of six numbers for each cell: the cell, the portal through which
-// it was entered, the portal passed last and its side, and the borders of the sector.
+// it was entered, the portal passed last and its side, and the borders of the sector. With the side
+// is SLRT_PAST_LIMIT, if the sector has passed a limited wall.
 
 enum { SLRT_FRAME = 6 };
+#define SLRT_PAST_LIMIT 0x80000000u
 
-static void slrt_push(slrt_polygon *p, uint32_t directed, uint32_t right, uint32_t left) {
+static void slrt_push(slrt_polygon *p, uint32_t directed, uint32_t right, uint32_t left,
+                      uint32_t past) {
     uint32_t *top = p->s.path + (size_t)SLRT_FRAME * p->s.depth;
     const uint32_t twin = slrt_twin(p, directed);
     sl_runtime_cell cell;
@@ -62,7 +67,8 @@ static void slrt_push(slrt_polygon *p, uint32_t directed, uint32_t right, uint32
     top[0] = slrt_u32(p->s.rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 4);
     cell = sl_runtime_get_cell(p->s.rt, top[0]);
     top[1] = top[2] = twin;
-    top[3] = slrt_side_of_portal(p, &cell, twin);
+    top[3] = slrt_side_of_portal(p, &cell, twin) | past;
+    if (slrt_is_limited(p->s.rt, directed)) top[3] |= SLRT_PAST_LIMIT;
     top[4] = right;
     top[5] = left;
     p->s.depth++;
@@ -74,11 +80,12 @@ static void slrt_push(slrt_polygon *p, uint32_t directed, uint32_t right, uint32
 static void slrt_spread_on(slrt_polygon *p) {
     uint32_t *top = p->s.path + (size_t)SLRT_FRAME * (p->s.depth - 1);
     const slrt_arm a = slrt_border(&p->s, top[4]), b = slrt_border(&p->s, top[5]);
+    const uint32_t past = top[3] & SLRT_PAST_LIMIT;
     bool within = top[2] != top[1]; // what is right of the sector is passed
     slrt_walk w;
     slrt_piece piece;
     w.cell = sl_runtime_get_cell(p->s.rt, top[0]);
-    slrt_walk_start(p, &w, top[1], top[2], top[3], 1);
+    slrt_walk_start(p, &w, top[1], top[2], top[3] & ~SLRT_PAST_LIMIT, 1);
     while (slrt_walk_next(p, &w, &piece)) {
         const uint32_t portal = piece.directed;
         const slrt_arm to = slrt_arm_to(p, piece.b);
@@ -92,11 +99,12 @@ static void slrt_spread_on(slrt_polygon *p) {
         }
         end = slrt_side(&to, &b);
         if (end < 0) left = top[5];
-        if (slrt_pass(p, portal, &right, &left)) {
+        if (!(past && portal != SLRT_NONE && slrt_is_limited(p->s.rt, portal)) &&
+            slrt_pass(p, portal, &right, &left)) {
             top[2] = portal;
-            top[3] = w.side;
+            top[3] = w.side | past;
             if (end <= 0) p->s.depth--; // nothing is left to see of this cell
-            slrt_push(p, portal, right, left);
+            slrt_push(p, portal, right, left, past);
             return;
         }
         slrt_see_wall(p, top[0], &piece, right, left);
@@ -113,7 +121,7 @@ static void slrt_see_piece(slrt_polygon *p, const slrt_piece *piece, uint32_t ri
         slrt_see_wall(p, p->fan_cell, piece, right, left);
         return;
     }
-    slrt_push(p, portal, right, left);
+    slrt_push(p, portal, right, left, 0);
     while (p->s.depth && !p->broken) slrt_spread_on(p);
 }
 

@@ -11,8 +11,8 @@ static void slrt_enter(slrt_search *s, uint32_t cell, const slrt_sector *sector)
     if (*marks & SLRT_ENTERED && slrt_covered(s, cell, sector)) return;
     slrt_see(s, cell);
     if (s->meet) s->meet(s, cell, sector);
-    *marks = (unsigned char)((*marks & ~(unsigned)SLRT_ALONG) | SLRT_ENTERED | SLRT_ON_PATH |
-                             sector->along);
+    *marks = (unsigned char)((*marks & ~(unsigned)(SLRT_ALONG | SLRT_LIMITED)) | SLRT_ENTERED |
+                             SLRT_ON_PATH | sector->along | sector->limited);
     s->sectors[2 * (size_t)cell] = sector->right;
     s->sectors[2 * (size_t)cell + 1] = sector->left;
     top[0] = cell;
@@ -38,6 +38,13 @@ static void slrt_search_on(slrt_search *s, uint32_t *top, uint32_t directed) {
     sector.right = top[2];
     sector.left = top[3];
     sector.along = s->marks[top[0]] & SLRT_ALONG;
+    sector.limited = 0;
+    if (s->rt->has_limits) {
+        const bool limited = slrt_is_limited(s->rt, directed);
+        sector.limited = s->marks[top[0]] & SLRT_LIMITED;
+        if (limited && sector.limited) return;
+        if (limited) sector.limited = SLRT_LIMITED;
+    }
     if (slrt_is_blocked(s, directed) || !slrt_narrow(s, directed, &sector)) return;
     if (s->range > 0 && !slrt_in_range(s, directed, sector.right, sector.left)) return;
     if (s->is_hidden && s->is_hidden(s, directed, &sector)) return;
@@ -123,6 +130,7 @@ static void slrt_search_cone(slrt_search *s, uint32_t cell) {
     slrt_sector sector;
     sector.right = sector.left = SLRT_ALL_ROUND;
     sector.along = 0;
+    sector.limited = 0;
     if (!pieces) slrt_search_from(s, cell, &sector);
     for (i = 0; i < pieces; i++) {
         sector.right = SLRT_ARM + i;

@@ -42,8 +42,8 @@ enum {
     SLRT_ALONG_RIGHT = 16,
     SLRT_ALONG_LEFT = 32,
     SLRT_ALONG = SLRT_ALONG_RIGHT | SLRT_ALONG_LEFT,
-    SLRT_OWN = 64,      ///< one of the eye's cells, or on the way to a point
-    SLRT_MIRRORED = 128 ///< seen by mirror
+    SLRT_OWN = 64,     ///< one of the eye's cells, or on the way to a point
+    SLRT_LIMITED = 128 ///< of the last visit: the way there crosses a limited wall
 };
 
 /// What of a cell's surroundings the eye sees through the portals passed: a sector, and which of
@@ -51,6 +51,7 @@ enum {
 typedef struct slrt_sector {
     uint32_t right, left;
     unsigned along;
+    unsigned limited; ///< SLRT_LIMITED if a limited wall is among the portals, else 0
 } slrt_sector;
 
 /// A depth-first search. The path is a stack of four numbers for each cell: the cell, the number of
@@ -252,6 +253,7 @@ static bool slrt_covered(const slrt_search *s, uint32_t cell, const slrt_sector 
     const unsigned more = s->marks[cell] & SLRT_ALONG & ~sector->along;
     slrt_arm a, b, v, w;
     int a_v, w_b;
+    if (s->marks[cell] & SLRT_LIMITED && !sector->limited) return false;
     if (was_right == sector->right && was_left == sector->left) return !more;
     a = slrt_border(s, was_right);
     b = slrt_border(s, was_left);

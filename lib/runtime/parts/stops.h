@@ -21,7 +21,9 @@ static uint32_t slrt_first_seam(const sl_runtime *rt, uint32_t portal) {
 
 /// What a seam stops; 0 for most.
 static uint32_t slrt_seam_stops(const sl_runtime *rt, uint32_t seam) {
-    return rt->stops ? slrt_u32(rt->stops + (size_t)seam * 4) & SL_RUNTIME_STOPS_ALL : 0;
+    return rt->stops ? slrt_u32(rt->stops + (size_t)seam * 4) &
+                           (SL_RUNTIME_STOPS_ALL | SL_RUNTIME_STOPS_LIMITED)
+                     : 0;
 }
 
 /// The first passage of a cell, or where it would be.
@@ -82,6 +84,14 @@ SL_RUNTIME_API uint32_t sl_runtime_portal_stops(const sl_runtime *runtime, uint3
         stops |= slrt_seam_stops(runtime, slrt_u32(on + 4));
     }
     return stops;
+}
+
+/// Whether a directed portal is on a limited wall, in a file for sight.
+static bool slrt_is_limited(const sl_runtime *rt, uint32_t directed) {
+    uint32_t portal;
+    if (!rt->has_limits) return false;
+    portal = slrt_u32(rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES);
+    return (sl_runtime_portal_stops(rt, portal) & SL_RUNTIME_STOPS_LIMITED) != 0;
 }
 
 SL_RUNTIME_API uint32_t sl_runtime_passages(const sl_runtime *runtime, uint32_t cell,
