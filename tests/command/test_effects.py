@@ -17,12 +17,14 @@ import pathlib
 import re
 import subprocess
 import sys
+import textwrap
 import unittest
 
 import sandbox
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 DOCUMENT = pathlib.Path(__file__).resolve().parents[2] / "tools" / "EFFECTS.md"
+WHOLE = "`+` throughout: "  # the rows that have nothing else
 BEGIN, END = "<!-- the table -->\n", "<!-- the end of the table -->\n"
 
 # Three rooms in a row and one above them; each effect stands in a place of its own.
@@ -46,6 +48,7 @@ EFFECTS = {
     "boxes": "object crate 6 3 7 4\n",
 }
 COLUMNS = [(name,) for name in EFFECTS] + list(itertools.combinations(EFFECTS, 2)) + [tuple(EFFECTS)]
+ALL = ["+"] * len(EFFECTS)
 FORMATS = {"json": "json", "geojson": "geojson", "csv": "csv", "c": "h", "png": "png"}
 
 
@@ -170,19 +173,31 @@ class Matrix:
     def table(self):
         self.make_maps()
         short = {name: name[0].upper() for name in EFFECTS}
-        heads = ["".join(short[name] for name in column) for column in COLUMNS[:-1]] + ["all"]
-        lines = ["| | " + " | ".join(heads) + " |", "| --- |" + " :-: |" * len(heads)]
+        heads = [short[name] for name in EFFECTS]
+        made = {}  # the name of a row: its entries
         for name, arguments, boxes in [] if OPTIONS.only else self.commands():
-            entries = [self.entry(arguments, boxes, column) for column in COLUMNS]
-            lines.append(f"| `{name}` | " + " | ".join(entries) + " |")
+            made[f"`{name}`"] = [self.entry(arguments, boxes, column) for column in COLUMNS]
         for column in COLUMNS:
             self.ask_others("-".join(column))
         for name, found in self.others.items():
-            entries = [sign + "".join(map(self.letter, reasons)) for sign, reasons in found]
-            lines.append(f"| {name} | " + " | ".join(entries) + " |")
-        lines.append("")
+            made[name] = [sign + "".join(map(self.letter, reasons)) for sign, reasons in found]
+        lines = ["| | " + " | ".join(heads) + " |", "| --- |" + " :-: |" * len(heads)]
+        alone = {name: row[:len(EFFECTS)] for name, row in made.items()}
+        lines += [f"| {name} | " + " | ".join(row) + " |" for name, row in alone.items() if row != ALL]
+        whole = "; ".join(name for name, row in alone.items() if row == ALL)
+        lines += ["", *textwrap.wrap(WHOLE + whole, 118, break_on_hyphens=False), ""]
+        lines += [f"- {name} with {''.join(short[effect] for effect in column)}: {entry}"
+                  for name, row in made.items() for column, entry in zip(COLUMNS, row)
+                  if not follows(entry, [alone[name][list(EFFECTS).index(effect)] for effect in column])]
         lines += [f"- {letter}: {reason}" for reason, letter in self.reasons.items()]
         return "\n".join(lines).rstrip() + "\n"
+
+
+def follows(entry, alone):
+    """Whether what happens with several effects is what happens with each of them: it is refused where
+    one is, and else has the notes of all."""
+    refused = [one for one in alone if one[0] != "+"]
+    return entry in refused if refused else set(entry) == set("".join(alone))
 
 
 def reason_of(message):
@@ -209,6 +224,12 @@ def spelled_out(table):
     for name, entries in re.findall(r"^\| ([^|-][^|]*) \| (.*) \|$", table, re.M):
         rows_found[name] = [[reasons.get(letter, letter) for letter in entry]
                             for entry in entries.split(" | ")]
+    for name, entry in re.findall(r"^- (.* with [A-Z]+): (.*)$", table, re.M):
+        rows_found[name] = [[reasons.get(letter, letter) for letter in entry]]
+    whole = (table + "\n\n").split(WHOLE.strip())[1].split("\n\n")[0]
+    for name in " ".join(whole.split()).split("; "):
+        if name:
+            rows_found[name] = [[entry] for entry in ALL]
     return rows_found
 
 
