@@ -29,7 +29,7 @@ void limbs_are_enough(void) {
     const product p = any_product(), q = any_product();
     const int range = p.exponent - q.exponent;
     ASSUME(range >= 0);
-    // As sign_of_sum counts them, and where its calls of add() begin.
+    // As sign_of_sum counts them, and where its calls of add_product() begin.
     const int count = (range + 106 + 8) / 64 + 1;
     PROVE(count <= LIMBS && range / 64 < count);
 }
@@ -40,7 +40,7 @@ void adding_stays_in_the_limbs(void) {
     const int shift = nondet_int(), count = nondet_int();
     uint64_t limbs[4] = {0};
     ASSUME(count > 0 && count <= 4 + MISSING && shift >= 0 && shift / 64 < count);
-    add(limbs, count, &p, shift);
+    add_product(limbs, count, &p, shift);
 }
 
 void products_are_compared_in_range(void) {

@@ -158,7 +158,7 @@ static void test_objects_that_stop_some(void **state) {
     assert_walls(MAP(SET GROUP(STOPS("sight") FENCES(STOPS("steps") FENCE("")))), plan);
     assert_walls(MAP(SET GROUP(STOPS("sight") GROUP(STOPS("steps") FENCES(FENCE(""))))), plan);
     assert_refused(MAP(SET GROUP(STOPS("stairs") FENCES(FENCE("")))),
-                   "f: stops: expected sight, steps, sound");
+                   "f: stops: expected sight or limited, steps, sound");
     assert_refused(MAP(SET FENCES(FENCE(STOPS("stairs")))),
                    "f: stops: expected sight or limited, steps, sound");
     assert_refused(

@@ -284,7 +284,7 @@ static void wrong_seams_are_found(void **state) {
         assert_ok(context, sl_space_check(context, &space));
         switch (fault / 2) {
         case 0:
-            space.seams[0].kind = 3;
+            space.seams[0].kind = SL_SEAM_LIMITED + 1;
             break;
         case 1:
             space.seams[1].at = (sl_segment){{5, 1}, {5, 9}}; // inside a cell

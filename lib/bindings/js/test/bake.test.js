@@ -41,6 +41,10 @@ test('describe() is the JSON export, explain() the command', () => {
     const cells = Array.from({ length: scene.cellCount }, (_, i) => i).filter((i) => !scene.cell(i).solid)
     for (let i = 0; i < 4; i++) {
       const a = cells[(7 * i) % cells.length], b = cells[(13 * i + cells.length - 1) % cells.length]
+      if (/ stops \S*limited/.test(readFileSync(path, 'latin1'))) {
+        assert.throws(() => scene.explain(a, b), /limited/)
+        continue
+      }
       const want = JSON.parse(command('explain', slv, String(a), String(b), '--json'))
       assert.deepEqual(scene.explain(a, b), want, `${path} ${a} ${b}`)
     }
