@@ -27,7 +27,7 @@ import sys
 import tempfile
 
 # The stages, in order. Data goes one way: each knows those before it and nothing of those after it.
-FOLDERS = ["base", "geometry", "json", "map", "space", "effects", "stab",
+FOLDERS = ["base", "geometry", "json", "map", "space", "space/faults", "effects", "stab",
            "cell_to_cell", "cell_to_cell/search", "cell_to_cell/sweep", "cell_to_cell/explain",
            "sight", "bake", "analysis/visibility_graph", "analysis/axial",
            "study/generate", "study/from_region", "study/walk", "study/view_cells",
@@ -46,7 +46,7 @@ SHARED = ("runtime/parts/box_envelope.h", "runtime/parts/box_sector.h",
 # Public headers that are not named after their folder.
 HEADERS = {"context": "base", "measures": "base", "support": "base", "version": "base",
            "import": "map",
-           "faults": "space", "outline": "space",
+           "faults": "space/faults", "outline": "space",
            "dual": "stab", "glpk": "stab", "solvers": "stab",
            "doors": "cell_to_cell", "explain": "cell_to_cell", "pvs": "cell_to_cell",
            "steps": "cell_to_cell",

@@ -4,7 +4,7 @@
 #include "geometry/orient.h"
 #include "map/scan.h"
 #include "map_same.h"
-#include "space/faults.h"
+#include "space/faults/faults.h"
 
 #include <math.h>
 

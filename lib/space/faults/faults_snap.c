@@ -15,7 +15,7 @@
 /// A corner near the side of a wall stays where it is: someone has to decide which of the two is
 /// right. What is left is found by mending a copy. Time about O(n log n) for walls that are short
 /// against the map.
-#include "space/faults.h"
+#include "space/faults/faults.h"
 
 #include "geometry/orient.h"
 

@@ -17,7 +17,7 @@
 /// against the map, wherever they lie.
 #include "base/base.h"
 #include "geometry/length.h"
-#include "space/faults.h"
+#include "space/faults/faults.h"
 
 #include "geometry/orient.h"
 #include "map/planar.h"

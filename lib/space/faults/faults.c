@@ -11,7 +11,7 @@
 ///
 /// A cell is as thin as the least distance from one of its edges to the farthest corner. Time
 /// O(n log n).
-#include "space/faults.h"
+#include "space/faults/faults.h"
 
 #include "geometry/orient.h"
 #include "sightline/support.h"

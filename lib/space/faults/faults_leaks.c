@@ -19,7 +19,7 @@
 /// outside, and each is the narrowest place of a way out. Holes in walls along the border are leaks
 /// as well, wherever the start leads to them. The way is the shortest from piece to piece, made
 /// straight where nothing is between. Time O(n log n), and O(n) for each start.
-#include "space/faults.h"
+#include "space/faults/faults.h"
 
 #include "geometry/orient.h"
 #include "space/mesh.h"
