@@ -137,7 +137,7 @@ void sli_box_lists_destroy(sl_context *context, sli_box_lists *lists) {
 
 sl_status sli_box_lists_make(sl_context *context, const sl_space *space, const sl_moving_box *boxes,
                              size_t count, sli_box_lists *out) {
-    SL_TRY(sli_moving_boxes_check(context, boxes, count));
+    SL_TRY(sli_boxes_check(context, boxes, count));
     gatherer g = {.context = context, .space = space};
     *out = (sli_box_lists){.boxes = boxes, .count = count};
     sl_status status = gather(&g, boxes, count);

@@ -299,21 +299,6 @@ static sl_status darken(sl_context *context, sl_space *space) {
     return SL_OK;
 }
 
-sl_status sli_moving_boxes_check(sl_context *context, const sl_moving_box *boxes, size_t count) {
-    if (count >= UINT32_MAX) return sl_fail_memory(context);
-    for (size_t i = 0; i < count; i++) {
-        const sl_box b = boxes[i].box;
-        if (!sl_coordinate_usable(b.min.x) || !sl_coordinate_usable(b.min.y) ||
-            !sl_coordinate_usable(b.max.x) || !sl_coordinate_usable(b.max.y) || b.min.x > b.max.x ||
-            b.min.y > b.max.y)
-            return sl_fail(context, SL_BAD_ARGUMENT,
-                           "box %zu: coordinates must be as a map's, and the lower left corner not "
-                           "beyond the upper right one",
-                           i + 1);
-    }
-    return SL_OK;
-}
-
 /// Makes all that follows from the boxes of `m`.
 static sl_status place(sl_context *context, sli_moving *m) {
     m->boxed = sl_alloc_array(context, 1, sizeof *m->boxed);
@@ -338,7 +323,7 @@ static sl_status place(sl_context *context, sli_moving *m) {
 
 sl_status sli_moving_set_boxes(sl_context *context, sli_moving *moving, const sl_moving_box *boxes,
                                size_t count) {
-    SL_TRY(sli_moving_boxes_check(context, boxes, count));
+    SL_TRY(sli_boxes_check(context, boxes, count));
     sli_moving made = {.set = moving->set, .count = count};
     made.boxes = sl_alloc_array(context, count, sizeof *made.boxes);
     if (!made.boxes) return SL_NO_MEMORY;
