@@ -259,10 +259,6 @@ sl_status sli_eye_boxes_seen(sl_context *context, sli_eye_search *search,
     search->boxes = NULL;
     const sl_point eye = view->eye;
     if (status != SL_OK || sli_eye_cell(search->space, eye) == SL_NO_CELL) return status;
-    for (size_t i = 0; i < lists->count; i++) {
-        const sl_box box = lists->boxes[i].box;
-        seen[i] |=
-            box.min.x <= eye.x && eye.x <= box.max.x && box.min.y <= eye.y && eye.y <= box.max.y;
-    }
+    for (size_t i = 0; i < lists->count; i++) seen[i] |= sli_box_holds(&lists->boxes[i].box, eye);
     return SL_OK;
 }

@@ -383,10 +383,6 @@ void sli_moving_set_in_line(sli_moving *moving) {
     moving->set.in_line = moving->search->in_line = true;
 }
 
-static bool holds(sl_box box, sl_point p) {
-    return box.min.x <= p.x && p.x <= box.max.x && box.min.y <= p.y && p.y <= box.max.y;
-}
-
 /// Whether a box that is one point is seen.
 static sl_status see_point(sl_context *context, sli_moving *moving, const sl_view *view,
                            sl_point point, bool *seen) {
@@ -417,7 +413,7 @@ sl_status sli_moving_look(sl_context *context, sli_moving *moving, const sl_view
     const bool inside = sli_eye_cell(space, view->eye) != SL_NO_CELL;
     for (size_t i = 0; i < moving->count; i++) {
         const sl_box box = moving->boxes[i].box;
-        seen[i] = moving->met[i] || (inside && holds(box, view->eye));
+        seen[i] = moving->met[i] || (inside && sli_box_holds(&box, view->eye));
         if (!seen[i] && inside && box.min.x == box.max.x && box.min.y == box.max.y)
             SL_TRY(see_point(context, moving, view, box.min, &seen[i]));
     }

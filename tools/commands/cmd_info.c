@@ -244,11 +244,6 @@ static sl_status print_map_json(sl_context *context, const info_request *request
     return json_print(context, &fields);
 }
 
-static void print_effects(const sl_map *map) {
-    if (!sl_plan_make(map).effects) puts("  effects   none");
-    plan_print(map);
-}
-
 static void print_notices(const char *notes) {
     if (!notes) return;
     puts("  notices");
@@ -285,7 +280,8 @@ static sl_status print_map(sl_context *context, const info_request *request, con
     }
     printf("  cleaned   %zu walls%s", cleaning->after, walls->partial ? " that stop all" : "");
     cleaning_print(cleaning);
-    print_effects(map);
+    if (!sl_plan_make(map).effects) puts("  effects   none");
+    plan_print(map);
     print_notices(map->source.notes);
     return SL_OK;
 }
