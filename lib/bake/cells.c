@@ -52,15 +52,10 @@ sl_status sli_bake_cut(sl_context *context, sl_map *map, const sl_bake_options *
     return status;
 }
 
-/// Those that count here.
-static sl_bake_options usual_options(void) {
-    return (sl_bake_options){.clean = sl_clean_options_default(),
-                             .rules = sl_subdivide_options_default()};
-}
-
 sl_status sl_bake_cells(sl_context *context, sl_map *map, const sl_bake_options *options,
                         sl_baked *out) {
-    const sl_bake_options usual = usual_options();
+    const sl_bake_options usual = {.clean = sl_clean_options_default(),
+                                   .rules = sl_subdivide_options_default()};
     if (!options) options = &usual;
     SL_TRY(sli_bake_clean(context, map, options, NULL));
     return sli_bake_cut(context, map, options, out, NULL);

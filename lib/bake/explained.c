@@ -136,10 +136,6 @@ static void add_segment(sl_json_writer *json, const char *key, sl_point a, sl_po
     sl_json_put_end(json, ']');
 }
 
-static uint32_t portal_of(const sl_space *space, const sl_sequence *sequence, uint32_t number) {
-    return space->directed[sequence->directed[number]].portal;
-}
-
 static void put_portal(sl_json_writer *json, const sl_directed_portal *directed) {
     sl_json_put_object(json);
     add_count(json, "portal", directed->portal);
@@ -161,7 +157,7 @@ static void add_ends(sl_json_writer *json, const sl_space *space, const sl_seque
     for (uint32_t i = 0; i < sequence->end_count; i++) {
         const sl_stab_end end = sequence->ends[i];
         sl_json_put_object(json);
-        add_count(json, "portal", portal_of(space, sequence, end.portal));
+        add_count(json, "portal", space->directed[sequence->directed[end.portal]].portal);
         add_text(json, "side", end.left ? "left" : "right");
         add_point(json, "point", sl_sequence_end(space, sequence, end));
         sl_json_put_end(json, '}');

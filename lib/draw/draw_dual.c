@@ -218,10 +218,6 @@ static void draw_border(const figure *g, sl_stab_end end) {
     cairo_stroke(g->cairo);
 }
 
-static void draw_borders(const figure *g) {
-    for (uint32_t i = 0; i < 2 * g->count; i++) draw_border(g, (sl_stab_end){i / 2, i % 2 == 0});
-}
-
 /// A text on a plate in the colour of the ground.
 static void show_on_plate(const figure *g, sl_colour colour, double x, double y, bool bold,
                           const char *text) {
@@ -365,7 +361,7 @@ void sl_draw_dual(cairo_t *cairo, const sl_palette *palette, const sl_dual_frame
     cairo_paint(cairo);
     if (g.marks->text > 0) draw_axes(cairo, palette, f, g.marks->text);
     draw_polygon(cairo, palette, f, dual);
-    draw_borders(&g);
+    for (uint32_t i = 0; i < 2 * count; i++) draw_border(&g, (sl_stab_end){i / 2, i % 2 == 0});
     draw_best(cairo, palette, f, dual);
     draw_conflict_frame(&g);
     draw_names(&g);

@@ -26,17 +26,13 @@ static void ink(cairo_t *cairo, const sl_palette *palette, bool blocks, bool see
     cairo_set_dash(cairo, NULL, 0, 0);
 }
 
-static void set_light(cairo_t *cairo, const sl_palette *palette, double opacity) {
-    const sl_colour c = palette->page;
-    cairo_set_source_rgba(cairo, c.red, c.green, c.blue, opacity);
-}
-
 /// What is seen directly, lighter than the rest.
 static void draw_lit(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,
                      const sl_drawn_region *region) {
     if (region->count < 3) return;
     sl_path_polygon(cairo, frame, region->points, region->count);
-    set_light(cairo, palette, 0.6);
+    const sl_colour light = palette->page;
+    cairo_set_source_rgba(cairo, light.red, light.green, light.blue, 0.6);
     cairo_fill(cairo);
 }
 

@@ -13,14 +13,10 @@ static void set_faded(cairo_t *cairo, sl_colour c, double opacity) {
     cairo_set_source_rgba(cairo, c.red, c.green, c.blue, opacity);
 }
 
-static void add_cell(cairo_t *cairo, const sl_space *space, const sl_frame *frame, uint32_t cell) {
-    const sl_cell *c = &space->cells[cell];
-    sl_path_polygon(cairo, frame, space->vertices + c->first_vertex, c->vertex_count);
-}
-
 void sl_draw_cell(cairo_t *cairo, const sl_space *space, const sl_frame *frame, uint32_t cell,
                   sl_colour colour, double opacity, double width) {
-    add_cell(cairo, space, frame, cell);
+    const sl_cell *c = &space->cells[cell];
+    sl_path_polygon(cairo, frame, space->vertices + c->first_vertex, c->vertex_count);
     if (opacity > 0) {
         set_faded(cairo, colour, opacity);
         cairo_fill_preserve(cairo);

@@ -15,6 +15,10 @@
 #error "this compiler computes doubles with more bits, so signs are wrong: use -msse2 -mfpmath=sse"
 #endif
 
+static inline bool sli_box_holds(const sl_box *box, sl_point p) {
+    return p.x >= box->min.x && p.x <= box->max.x && p.y >= box->min.y && p.y <= box->max.y;
+}
+
 static inline bool sli_same_point(sl_point a, sl_point b) {
     return a.x == b.x && a.y == b.y;
 }

@@ -332,16 +332,12 @@ static sl_status fail_several(sl_context *context, const char *option, const cha
                    path, list);
 }
 
-/// Whether a name stands for stdout, a pipe or a device, which have no ending.
-static bool is_stream(const char *path) {
-    return strcmp(path, "-") == 0 || sl_path_look(path) == SL_PATH_STREAM;
-}
-
 sl_status sl_map_format_to_write(sl_context *context, const char *option, const char *path,
                                  const char *name, const sl_map_format **out) {
     size_t count, fitting = 0;
     const sl_map_format *known = sl_map_formats(context, &count), *found = NULL;
-    const bool stream = is_stream(path);
+    // There is no ending for stdout, a pipe or a device.
+    const bool stream = strcmp(path, "-") == 0 || sl_path_look(path) == SL_PATH_STREAM;
     for (size_t i = 0; i < count; i++) {
         if (!known[i].write) continue;
         if (name ? strcmp(known[i].name, name) != 0 : !stream && !has_ending(&known[i], path))

@@ -137,7 +137,7 @@ void sli_box_lists_destroy(sl_context *context, sli_box_lists *lists) {
 
 sl_status sli_box_lists_make(sl_context *context, const sl_space *space, const sl_moving_box *boxes,
                              size_t count, sli_box_lists *out) {
-    SL_TRY(sli_moving_boxes_check(context, boxes, count));
+    SL_TRY(sli_boxes_check(context, boxes, count));
     gatherer g = {.context = context, .space = space};
     *out = (sli_box_lists){.boxes = boxes, .count = count};
     sl_status status = gather(&g, boxes, count);
@@ -259,10 +259,6 @@ sl_status sli_eye_boxes_seen(sl_context *context, sli_eye_search *search,
     search->boxes = NULL;
     const sl_point eye = view->eye;
     if (status != SL_OK || sli_eye_cell(search->space, eye) == SL_NO_CELL) return status;
-    for (size_t i = 0; i < lists->count; i++) {
-        const sl_box box = lists->boxes[i].box;
-        seen[i] |=
-            box.min.x <= eye.x && eye.x <= box.max.x && box.min.y <= eye.y && eye.y <= box.max.y;
-    }
+    for (size_t i = 0; i < lists->count; i++) seen[i] |= sli_box_holds(&lists->boxes[i].box, eye);
     return SL_OK;
 }

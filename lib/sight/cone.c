@@ -148,10 +148,6 @@ static bool holds_ray(sli_pivot *pivot, const sli_cone *cone, sli_ray ray) {
     return cone->full || holds_turned(pivot, cone, ray, sli_ray_turn(pivot, cone->arc.right, ray));
 }
 
-static bool cone_holds(sli_pivot *pivot, const sli_cone *cone, sl_point point) {
-    return sli_same_point(point, pivot->eye) || holds_ray(pivot, cone, sli_ray_to(point));
-}
-
 /// Whether a segment crosses the cone though neither end is within: it passes both borders, or the
 /// eye. Its ends are then on opposite sides of the arc's right border (`to_a`, `to_b`). A wide cone
 /// leaves out a convex set, so no segment between two points of that set meets the cone.
@@ -256,7 +252,7 @@ bool sli_view_usable(const sl_view *view) {
 bool sli_view_holds(const sl_view *view, sl_point point) {
     sli_pivot pivot = {.eye = view->eye};
     const sli_cone cone = sli_cone_of(&pivot, view);
-    return cone_holds(&pivot, &cone, point);
+    return sli_same_point(point, view->eye) || holds_ray(&pivot, &cone, sli_ray_to(point));
 }
 
 bool sli_view_meets_segment(const sl_view *view, sl_segment segment) {

@@ -3,24 +3,13 @@
 /// Cells and portals stay where they are.
 #include "sight/eye_search.h"
 
-#include "effects/mirrors.h"
-
 /// A step, the number of mirrors on its way, and the one crossed last, UINT32_MAX for a portal.
 typedef struct step {
     sli_eye_step at;
     uint32_t depth, mirror;
 } step;
 
-struct sli_eye_mirrors {
-    const sl_map *map;
-    uint32_t depth;
-    sli_mirror_sides sides;
-    sli_fine *images;      ///< of the eye, by the number of mirrors
-    sli_portal_search way; ///< of `step`
-    uint64_t rounded;
-};
-
-typedef struct sli_eye_mirrors mirrors;
+typedef sli_eye_mirrors mirrors;
 
 sl_status sli_eye_search_add_mirrors(sl_context *context, sli_eye_search *search, const sl_map *map,
                                      uint32_t depth) {
@@ -38,14 +27,6 @@ sl_status sli_eye_search_add_mirrors(sl_context *context, sli_eye_search *search
     sli_eye_mirrors_destroy(context, search->mirrors);
     search->mirrors = m;
     return SL_OK;
-}
-
-void sli_eye_mirrors_destroy(sl_context *context, mirrors *m) {
-    if (!m) return;
-    sli_mirror_sides_destroy(context, &m->sides);
-    sl_free(context, m->images);
-    sli_portal_search_end(context, &m->way);
-    sl_free(context, m);
 }
 
 /// Puts the eye where it is seen to be after a number of mirrors.

@@ -64,6 +64,14 @@ sl_status sli_eye_search_create_cut(sl_context *context, const sli_boxed_space *
     return create(context, &boxed->space, boxed, visibility, row_cells, out);
 }
 
+void sli_eye_mirrors_destroy(sl_context *context, sli_eye_mirrors *m) {
+    if (!m) return;
+    sli_mirror_sides_destroy(context, &m->sides);
+    sl_free(context, m->images);
+    sli_portal_search_end(context, &m->way);
+    sl_free(context, m);
+}
+
 void sli_eye_search_destroy(sl_context *context, sli_eye_search *search) {
     if (!search) return;
     sl_free(context, search->row);

@@ -3,6 +3,7 @@
 #define SL_EYE_SEARCH_H
 
 #include "cell_to_cell/search/portal_search.h"
+#include "effects/mirrors.h"
 #include "sight/cone.h"
 #include "sight/moving.h"
 #include "sightline/support.h"
@@ -43,6 +44,16 @@ typedef struct sli_box_lists {
     uint32_t *items;
 } sli_box_lists;
 
+/// What a search by mirror needs (exact_mirrored.c).
+typedef struct sli_eye_mirrors {
+    const sl_map *map;
+    uint32_t depth;
+    sli_mirror_sides sides;
+    sli_fine *images;      ///< of the eye, by the number of mirrors
+    sli_portal_search way; ///< of steps with their mirrors
+    uint64_t rounded;
+} sli_eye_mirrors;
+
 /// The scratch memory of queries on one space. For one thread at a time.
 typedef struct sli_eye_search {
     double range; ///< of the exact method; 0 for no limit
@@ -64,7 +75,7 @@ typedef struct sli_eye_search {
     uint32_t *rays;      ///< SLI_RAY_SIDES a cell: the last ray that has come to it. With limited
                          ///< walls twice as many: for ways that have crossed none, then for others
     uint32_t ray_count;
-    struct sli_eye_mirrors *mirrors; ///< NULL for none
+    sli_eye_mirrors *mirrors; ///< NULL for none
 } sli_eye_search;
 
 /// `visibility` holds the visible sets and the sight. It may have no rows (all zero but for the
@@ -178,9 +189,6 @@ void sli_moving_set_shut(sli_moving *moving, const bool *shut);
 /// Makes it one for eyes in line with glass (sli_eye_search.in_line).
 void sli_moving_set_in_line(sli_moving *moving);
 
-/// Checks boxes as sli_moving_set_boxes does.
-sl_status sli_moving_boxes_check(sl_context *context, const sl_moving_box *boxes, size_t count);
-
 /// Finds the cells of boxes, which must outlive the lists.
 sl_status sli_box_lists_make(sl_context *context, const sl_space *space, const sl_moving_box *boxes,
                              size_t count, sli_box_lists *out);
@@ -195,7 +203,8 @@ sl_status sli_eye_boxes_seen(sl_context *context, sli_eye_search *search,
 /// Marks the boxes that are seen in a cell just entered; `first` for a cell of the eye's own.
 void sli_eye_meet_boxes(sli_eye_query *query, const sli_eye_step *at, bool first);
 
-void sli_eye_mirrors_destroy(sl_context *context, struct sli_eye_mirrors *mirrors);
+/// Frees them; NULL is fine.
+void sli_eye_mirrors_destroy(sl_context *context, sli_eye_mirrors *mirrors);
 
 /// Clips a step's arcs to a directed portal of its cell; `first` for a cell of the eye's own.
 /// Leaves out arcs in which the portal is out of the search's range. False where nothing is left

@@ -299,21 +299,6 @@ static sl_status darken(sl_context *context, sl_space *space) {
     return SL_OK;
 }
 
-sl_status sli_moving_boxes_check(sl_context *context, const sl_moving_box *boxes, size_t count) {
-    if (count >= UINT32_MAX) return sl_fail_memory(context);
-    for (size_t i = 0; i < count; i++) {
-        const sl_box b = boxes[i].box;
-        if (!sl_coordinate_usable(b.min.x) || !sl_coordinate_usable(b.min.y) ||
-            !sl_coordinate_usable(b.max.x) || !sl_coordinate_usable(b.max.y) || b.min.x > b.max.x ||
-            b.min.y > b.max.y)
-            return sl_fail(context, SL_BAD_ARGUMENT,
-                           "box %zu: coordinates must be as a map's, and the lower left corner not "
-                           "beyond the upper right one",
-                           i + 1);
-    }
-    return SL_OK;
-}
-
 /// Makes all that follows from the boxes of `m`.
 static sl_status place(sl_context *context, sli_moving *m) {
     m->boxed = sl_alloc_array(context, 1, sizeof *m->boxed);
@@ -338,7 +323,7 @@ static sl_status place(sl_context *context, sli_moving *m) {
 
 sl_status sli_moving_set_boxes(sl_context *context, sli_moving *moving, const sl_moving_box *boxes,
                                size_t count) {
-    SL_TRY(sli_moving_boxes_check(context, boxes, count));
+    SL_TRY(sli_boxes_check(context, boxes, count));
     sli_moving made = {.set = moving->set, .count = count};
     made.boxes = sl_alloc_array(context, count, sizeof *made.boxes);
     if (!made.boxes) return SL_NO_MEMORY;
@@ -398,10 +383,6 @@ void sli_moving_set_in_line(sli_moving *moving) {
     moving->set.in_line = moving->search->in_line = true;
 }
 
-static bool holds(sl_box box, sl_point p) {
-    return box.min.x <= p.x && p.x <= box.max.x && box.min.y <= p.y && p.y <= box.max.y;
-}
-
 /// Whether a box that is one point is seen.
 static sl_status see_point(sl_context *context, sli_moving *moving, const sl_view *view,
                            sl_point point, bool *seen) {
@@ -432,7 +413,7 @@ sl_status sli_moving_look(sl_context *context, sli_moving *moving, const sl_view
     const bool inside = sli_eye_cell(space, view->eye) != SL_NO_CELL;
     for (size_t i = 0; i < moving->count; i++) {
         const sl_box box = moving->boxes[i].box;
-        seen[i] = moving->met[i] || (inside && holds(box, view->eye));
+        seen[i] = moving->met[i] || (inside && sli_box_holds(&box, view->eye));
         if (!seen[i] && inside && box.min.x == box.max.x && box.min.y == box.max.y)
             SL_TRY(see_point(context, moving, view, box.min, &seen[i]));
     }

@@ -98,10 +98,6 @@ static bool counts(const sl_moving_box *box, const sl_box *reach) {
                                       b->max.y >= reach->min.y && b->min.y <= reach->max.y));
 }
 
-static slrt_envelope envelope_of(const sli_eye_place *eye, const sli_box_envelope *kept) {
-    return (slrt_envelope){eye, kept->boxes, kept->arcs.items, kept->count};
-}
-
 sl_status sli_box_envelope_make(sl_context *context, const sl_moving_box *boxes, size_t count,
                                 const sli_eye_place *eye, const sl_box *reach,
                                 sli_box_envelope *out) {
@@ -187,7 +183,8 @@ sl_status sli_region_see_past(sl_context *context, sl_region *region, uint32_t n
                               const sli_eye_ray *a, const sli_eye_ray *b, const sli_eye_ray *right,
                               const sli_eye_ray *left) {
     const sli_eye_place *eye = &region->memory->eye;
-    const slrt_envelope e = envelope_of(eye, &region->memory->envelope);
+    const sli_box_envelope *kept = &region->memory->envelope;
+    const slrt_envelope e = {eye, kept->boxes, kept->arcs.items, kept->count};
     slrt_sight sight = {context, region, neighbour, a, b, SL_OK};
     const slrt_sieve s = {.envelope = &e,
                           .sight = &sight,

@@ -329,7 +329,7 @@ static sl_status make_ready(sl_context *context, sl_query *q) {
 /// Changes nothing where all is as it was, so that several threads may ask.
 static sl_status make_layers(sl_context *context, sl_query *q) {
     if (q->settled) return SL_OK;
-    if (SLI_BOXES) SL_TRY(sli_moving_boxes_check(context, q->boxes, q->box_count));
+    if (SLI_BOXES) SL_TRY(sli_boxes_check(context, q->boxes, q->box_count));
     SL_TRY(make_ready(context, q));
     q->rows = rows_of(q);
     // Stab trees are of a space with all its directed portals.

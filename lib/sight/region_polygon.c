@@ -116,16 +116,12 @@ static sl_region_edge edge_along(uint32_t neighbour, bool exact) {
     return (sl_region_edge){neighbour - SL_SIDE_WALL, SL_EDGE_WALL, exact};
 }
 
-static bool same(const place *a, const place *b) {
-    return a->point.x == b->point.x && a->point.y == b->point.y;
-}
-
 /// Adds the end of the pending piece, unless the next piece starts there.
 static sl_status end_piece(sl_context *context, sl_region *region, const place *next,
                            sl_edge_kind kind) {
     const place end = left_of(region, &region->memory->piece);
     region->memory->pending = false;
-    if (next && same(&end, next)) return SL_OK;
+    if (next && sli_same_point(end.point, next->point)) return SL_OK;
     const sl_region_edge edge = {SL_NO_WALL, (uint8_t)kind, end.exact};
     return add_point(context, region, end.point, end.offset, edge);
 }

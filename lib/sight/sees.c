@@ -195,17 +195,12 @@ static sl_status follow_all(sl_context *context, seer *s, sl_sight sight, bool *
     }
 }
 
-static bool in_bounds(const sl_space *space, sl_point p) {
-    const sl_box *b = &space->bounds;
-    return p.x >= b->min.x && p.x <= b->max.x && p.y >= b->min.y && p.y <= b->max.y;
-}
-
 sl_status sli_sees(sl_context *context, const sl_outline *outline, sl_point eye, sl_point point,
                    sl_sight sight, bool *out) {
     const sl_space *space = outline->space;
     const uint32_t start = sli_eye_cell(space, eye);
     *out = false;
-    if (start == SL_NO_CELL || !in_bounds(space, point)) return SL_OK;
+    if (start == SL_NO_CELL || !sli_box_holds(&space->bounds, point)) return SL_OK;
     const uint32_t room = sl_outline_room(outline, start, eye);
     const finding found = space->loose ? TOUCHES : follow_within(outline, room, eye, point);
     *out = found == SEEN;

@@ -18,6 +18,7 @@
 #include "space/boxes.h"
 
 #include "geometry/orient.h"
+#include "sightline/map.h"
 #include "sightline/support.h"
 #include "space/index.h"
 #include "space/kd_tree.h"
@@ -113,6 +114,21 @@ sl_status sli_box_sides_put(sl_context *context, const sli_box_ground *ground,
     const sl_status status = add_sides(context, ground, boxes, count, blocking, &all, out);
     sl_free(context, all.items);
     return status;
+}
+
+sl_status sli_boxes_check(sl_context *context, const sl_moving_box *boxes, size_t count) {
+    if (count >= UINT32_MAX) return sl_fail_memory(context);
+    for (size_t i = 0; i < count; i++) {
+        const sl_box b = boxes[i].box;
+        if (!sl_coordinate_usable(b.min.x) || !sl_coordinate_usable(b.min.y) ||
+            !sl_coordinate_usable(b.max.x) || !sl_coordinate_usable(b.max.y) || b.min.x > b.max.x ||
+            b.min.y > b.max.y)
+            return sl_fail(context, SL_BAD_ARGUMENT,
+                           "box %zu: coordinates must be as a map's, and the lower left corner not "
+                           "beyond the upper right one",
+                           i + 1);
+    }
+    return SL_OK;
 }
 
 // --- cells

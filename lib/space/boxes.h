@@ -43,6 +43,10 @@ void sli_boxed_space_destroy(sl_context *context, sli_boxed_space *boxed); ///< 
 sl_status sli_boxes_put_mesh(sl_context *context, const sli_box_ground *ground,
                              const sl_moving_box *boxes, size_t count, sli_boxed_space *out);
 
+/// SL_BAD_ARGUMENT for boxes whose corners are not in order, or whose coordinates
+/// sl_coordinate_usable refuses.
+sl_status sli_boxes_check(sl_context *context, const sl_moving_box *boxes, size_t count);
+
 /// Whether a box and a cell have a point in common; a point of the border is enough. Exact.
 bool sli_cell_meets_box(const sl_space *space, uint32_t cell, sl_box box);
 

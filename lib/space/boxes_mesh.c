@@ -197,10 +197,6 @@ static sl_status gather_segments(maker *m) {
 
 // --- the graph
 
-static uint32_t seen_from_left(uint32_t wall, bool along) {
-    return wall | (along ? 0 : SL_NEIGHBOUR_RIGHT);
-}
-
 /// Gives an edge the seams of a line that it is part of.
 static void take_seams(maker *m, graph_edge *e, uint32_t portal, bool along) {
     size_t count = 0;
@@ -227,7 +223,7 @@ static sl_status take_edges(maker *m) {
                                       ? m->lines.items[i].wall
                                       : (uint32_t)(m->from->wall_count + i - m->lines.count);
             if (wall != NONE && e->neighbour == SL_NEIGHBOUR_PORTAL)
-                e->neighbour = seen_from_left(wall, along);
+                e->neighbour = wall | (along ? 0 : SL_NEIGHBOUR_RIGHT);
             if (i >= m->lines.count) continue;
             e->shared = e->line != NONE;
             if (!e->shared) e->line = (uint32_t)i, e->along = along;

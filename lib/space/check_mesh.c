@@ -55,10 +55,6 @@ static bool is_usable(sl_point p) {
            (sl_coordinate_usable(p.y) || sl_coordinate_usable(p.y / 2));
 }
 
-static bool is_within(const sl_box *b, sl_point p) {
-    return p.x >= b->min.x && p.x <= b->max.x && p.y >= b->min.y && p.y <= b->max.y;
-}
-
 static sl_status check_cell(const checker *c, uint32_t number, uint64_t vertices,
                             uint64_t directed) {
     const sl_space *s = c->space;
@@ -70,7 +66,7 @@ static sl_status check_cell(const checker *c, uint32_t number, uint64_t vertices
     SL_TRY(sli_check_ground(c->context, c->space, number));
     const sl_point *corners = s->vertices + cell->first_vertex;
     for (uint32_t i = 0; i < cell->vertex_count; i++)
-        if (!is_usable(corners[i]) || (!s->loose && !is_within(&s->bounds, corners[i])))
+        if (!is_usable(corners[i]) || (!s->loose && !sli_box_holds(&s->bounds, corners[i])))
             return fail_cell(c, number, "leaves the bounds");
     if (!is_convex(corners, cell->vertex_count)) return fail_cell(c, number, "is not convex");
     return SL_OK;

@@ -222,10 +222,6 @@ static double area_of(const finder *f, uint32_t half) {
     return sli_cross((sl_point){b.x - a.x, b.y - a.y}, (sl_point){c.x - a.x, c.y - a.y}) / 2;
 }
 
-static bool holds(const sl_box *b, sl_point p) {
-    return p.x >= b->min.x && p.x <= b->max.x && p.y >= b->min.y && p.y <= b->max.y;
-}
-
 /// Takes a triangle, and its neighbours that belong to the same group, into it.
 static sl_status take_triangle(finder *f, const choice *c, uint32_t triangle, uint32_t number) {
     group *g = &f->groups.items[number];
@@ -235,7 +231,7 @@ static sl_status take_triangle(finder *f, const choice *c, uint32_t triangle, ui
     g->access = fmax(g->access, f->access[triangle]);
     g->area += area_of(f, half);
     SL_TRY(sli_clearance_of(&f->clearance, half, &place, &clearance));
-    if (clearance > g->clearance && holds(&f->bounds, place)) {
+    if (clearance > g->clearance && sli_box_holds(&f->bounds, place)) {
         g->clearance = clearance;
         g->place = place;
     }

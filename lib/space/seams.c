@@ -324,8 +324,7 @@ bool sli_seams_same(const sl_space *space, uint32_t portal, uint32_t other) {
 // --- checks
 
 static bool is_within(const sl_box *b, sl_point p) {
-    return sl_coordinate_usable(p.x) && sl_coordinate_usable(p.y) && p.x >= b->min.x &&
-           p.x <= b->max.x && p.y >= b->min.y && p.y <= b->max.y;
+    return sl_coordinate_usable(p.x) && sl_coordinate_usable(p.y) && sli_box_holds(b, p);
 }
 
 sl_status sli_seams_check(sl_context *context, const sl_space *space, bool axial) {

@@ -127,6 +127,28 @@ static void answers_are_the_headers(void **state) {
     assert_true(areas[0] < areas[1]);
 }
 
+/// Below 0 a field of view is the line of the heading, as 0 is; NaN and 360 or more are all round.
+static void any_field_of_view_is_one(void **state) {
+    opened *o = *state;
+    const double fields[][2] = {{-60, 0},   {-180, 0},  {-400, 0},    {-INFINITY, 0},
+                                {NAN, 360}, {360, 180}, {1e300, 180}, {INFINITY, 360}};
+    int32_t cells[2], boxes;
+    bool seen[2];
+    sl_level_set_door(o->level, 0, 1);
+    assert_int_equal(sl_level_set_box_count(o->level, 1), 1);
+    sl_level_move_box(o->level, 0, 0.5, 3.5, 1, 4.5, 0); // behind the eye, which looks to the right
+    for (size_t i = 0; i < sizeof fields / sizeof *fields; i++) {
+        for (int k = 0; k < 2; k++) {
+            sl_level_look(o->level, 2, 4, 0, fields[i][k], 0, &cells[k]);
+            seen[k] = sl_level_boxes_seen(o->level, 2, 4, 0, fields[i][k], 0, &boxes)[0];
+        }
+        assert_int_equal(cells[0], cells[1]);
+        assert_true(cells[0] > 0);
+        assert_int_equal(seen[0], seen[1]);
+        assert_int_equal(seen[0], fields[i][1] > 0);
+    }
+}
+
 /// In pixels: 10 a unit, with y down from the upper left corner.
 static void coordinates_are_chosen(void **state) {
     opened *o = *state;
@@ -239,6 +261,7 @@ int main(void) {
         cmocka_unit_test(faults_are_told),
         cmocka_unit_test_setup_teardown(numbers_of_nothing_answer_nothing, open_rooms, close_rooms),
         cmocka_unit_test_setup_teardown(answers_are_the_headers, open_rooms, close_rooms),
+        cmocka_unit_test_setup_teardown(any_field_of_view_is_one, open_rooms, close_rooms),
         cmocka_unit_test_setup_teardown(coordinates_are_chosen, open_rooms, close_rooms),
         cmocka_unit_test_setup_teardown(discs_walk_and_servers_ask, open_rooms, close_rooms),
         cmocka_unit_test_setup_teardown(boxes_outgrow_their_lists, open_rooms, close_rooms),

@@ -5,6 +5,7 @@ prints about the same levels, to the last digit; Godot, whose points are floats 
 language whose program is not here is left out, with a message. For Godot the environment must name the folder
 of its headers, GODOT_HEADERS: the repository godot-headers, branch 3.2.
 """
+import ctypes
 import os
 import pathlib
 import shutil
@@ -65,6 +66,8 @@ class Level(unittest.TestCase):
                             "-o", cls.at / "godot/liblevel.so"], check=True)
         if "C#" in cls.programs:
             subprocess.run(["mcs", f"-out:{cls.at / 'Seen.exe'}", examples / "Seen.cs"], check=True)
+            subprocess.run(["mcs", "-main:Calls", f"-out:{cls.at / 'Calls.exe'}", examples / "Seen.cs",
+                            SOURCE / "tests/bindings/Calls.cs"], check=True)
         for name, (path, _, _) in LEVELS.items():
             subprocess.run([PROGRAM, "bake", SOURCE / path, "-o", cls.at / f"{name}.slv", "--quiet"], check=True)
 
@@ -86,6 +89,41 @@ class Level(unittest.TestCase):
                         self.assertEqual(done.stderr, "", language)
                     self.assertTrue(are_alike(read(done.stdout), read(wanted.stdout), 1e-6 if language == "Godot" else 0),
                                     (language, name, x, y, done.stdout, wanted.stdout))
+
+    def test_class_answers_as_c(self):
+        if "C#" not in self.programs:
+            self.skipTest("no C#")
+        number, count = ctypes.c_double, ctypes.c_int32()
+        library = ctypes.CDLL(str(LIBRARY))
+        for name, result in (("open_file", ctypes.c_void_p), ("relevant", ctypes.POINTER(ctypes.c_ubyte)),
+                             ("boxes_seen", ctypes.POINTER(ctypes.c_ubyte))):
+            getattr(library, f"sl_level_{name}").restype = result
+        level = ctypes.c_void_p(library.sl_level_open_file(str(self.at / "doors.slv").encode()))
+
+        def call(name, *arguments):
+            return getattr(library, f"sl_level_{name}")(
+                level, *(number(a) if isinstance(a, float) else a for a in arguments))
+
+        at = (number * 2)()
+        eye = (5.1, 5.03)
+        wanted = [bool(call("can_walk", *eye, 5.2, 5.03, -1)), bool(call("can_walk", *eye, 99., 5.03, -1)),
+                  bool(call("walk", *eye, 99., 7., .25, -1, at)), *at]
+        things = (number * 12)(5, 5, 5.5, 5.5, 12.3, 7.1, 12.5, 7.2, 90, 90, 91, 91)
+        bits = call("relevant", (number * 8)(5, 5, 5.2, 5.2, 12.3, 7.1, 12.4, 7.2), 2, .25, things, 3)
+        wanted += [bool(bits[p] >> t & 1) for p in range(2) for t in range(3)] + [2, 3, 0]
+        self.assertGreater(len(set(wanted[-9:-3])), 1)
+        wanted.append(bool(call("set_box_count", 2)))
+        call("move_box", 0, 5.3, 4.8, 5.4, 5.2, 1)
+        call("move_box", 1, 5.6, 5., 5.7, 5.1, 0)
+        seen = call("boxes_seen", *eye, 0., 360., 0., ctypes.byref(count))
+        self.assertEqual(seen[:count.value], [1, 0])
+        wanted += [bool(s) for s in seen[:2]] + [bool(call("can_walk", *eye, 5.5, 5.03, own)) for own in (-1, 0)]
+        self.assertEqual(wanted[-2:], [False, True])
+        library.sl_level_close(level)
+        done = self.run_one(["mono", self.at / "Calls.exe"], self.at / "doors.slv")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        words = [word == "True" if word in ("True", "False") else float(word) for word in done.stdout.split()]
+        self.assertEqual(words, wanted)
 
     def test_faults_are_told(self):
         broken = self.at / "broken.slv"

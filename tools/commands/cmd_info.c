@@ -143,31 +143,49 @@ static void count_map(const sl_map *map, map_count counts[MAP_COUNTS]) {
     memcpy(counts, all, sizeof all);
 }
 
-/// How many walls stop `stops` and nothing else, if that is not all.
-static size_t count_stops(const sl_map *map, uint32_t stops) {
-    size_t count = 0;
-    for (size_t i = 0; i < map->seam_count; i++) count += map->seams[i].stops == stops;
-    return count;
+/// Walls as they are read; cleaning cuts them.
+typedef struct walls_read {
+    size_t count, oblique;
+    size_t partial;                     ///< that do not stop all
+    size_t stops[2 * SL_STOPS_LIMITED]; ///< of these: by what they stop
+} walls_read;
+
+static bool is_oblique(sl_point a, sl_point b) {
+    return a.x != b.x && a.y != b.y;
+}
+
+static walls_read count_walls(const sl_map *map) {
+    walls_read walls = {.partial = sl_map_partial_walls(map)};
+    walls.count = map->wall_count + walls.partial;
+    for (size_t i = 0; i < map->wall_count; i++)
+        walls.oblique += is_oblique(map->walls[i].a, map->walls[i].b);
+    for (size_t i = 0; i < map->seam_count; i++) {
+        const sl_glass *seam = &map->seams[i];
+        if (!seam->stops) continue;
+        walls.oblique += is_oblique(seam->segment.a, seam->segment.b);
+        walls.stops[seam->stops]++;
+    }
+    return walls;
 }
 
 /// Walls that do not stop all: "stops     sight,sound: 3 walls".
-static void print_stops(const sl_map *map) {
+static void print_stops(const walls_read *walls) {
     char what[SL_STOPS_TEXT];
     for (uint32_t stops = 1; stops < 2 * SL_STOPS_LIMITED; stops++) {
-        const size_t count = count_stops(map, stops);
+        const size_t count = walls->stops[stops];
         sl_stops_write(stops, what);
         if (count) printf("  stops     %s: %zu wall%s\n", what, count, count == 1 ? "" : "s");
     }
 }
 
 /// "stops": {"sight,sound": 3}
-static void add_stops_json(json_fields *fields, const sl_map *map) {
+static void add_stops_json(json_fields *fields, const walls_read *walls) {
     char what[SL_STOPS_TEXT];
-    if (!sl_map_partial_walls(map)) return;
+    if (!walls->partial) return;
     json_open(fields, "stops");
     for (uint32_t stops = 1; stops < 2 * SL_STOPS_LIMITED; stops++) {
         sl_stops_write(stops, what);
-        if (count_stops(map, stops)) json_add_count(fields, what, count_stops(map, stops));
+        if (walls->stops[stops]) json_add_count(fields, what, walls->stops[stops]);
     }
     json_close(fields);
 }
@@ -203,7 +221,7 @@ static void add_layers_json(json_fields *fields, const sl_drawing_layers *layers
 }
 
 static sl_status print_map_json(sl_context *context, const info_request *request, const sl_map *map,
-                                size_t oblique, const sl_clean_account *cleaning) {
+                                const walls_read *walls, const sl_clean_account *cleaning) {
     map_count counts[MAP_COUNTS];
     count_map(map, counts);
     json_fields fields = json_begin();
@@ -211,9 +229,9 @@ static sl_status print_map_json(sl_context *context, const info_request *request
     json_add_text(&fields, "kind", "map");
     json_add_box(&fields, "bounds", sl_map_bounds(map));
     if (*map->unit) json_add_text(&fields, "unit", map->unit);
-    json_add_count(&fields, "walls", cleaning->before);
-    json_add_count(&fields, "oblique_walls", oblique);
-    add_stops_json(&fields, map);
+    json_add_count(&fields, "walls", walls->count);
+    json_add_count(&fields, "oblique_walls", walls->oblique);
+    add_stops_json(&fields, walls);
     for (int i = 0; i < MAP_COUNTS; i++) json_add_count(&fields, counts[i].key, counts[i].count);
     if (add_doors_json(context, &fields, map) != SL_OK) {
         json_drop(&fields);
@@ -226,11 +244,6 @@ static sl_status print_map_json(sl_context *context, const info_request *request
     return json_print(context, &fields);
 }
 
-static void print_effects(const sl_map *map) {
-    if (!sl_plan_make(map).effects) puts("  effects   none");
-    plan_print(map);
-}
-
 static void print_notices(const char *notes) {
     if (!notes) return;
     puts("  notices");
@@ -241,18 +254,8 @@ static void print_notices(const char *notes) {
     }
 }
 
-/// Walls that are parallel to neither axis.
-static size_t count_oblique(const sl_map *map) {
-    size_t oblique = 0;
-    for (size_t i = 0; i < map->wall_count; i++) {
-        const sl_wall *wall = &map->walls[i];
-        oblique += wall->a.x != wall->b.x && wall->a.y != wall->b.y;
-    }
-    return oblique;
-}
-
 static sl_status print_map(sl_context *context, const info_request *request, const sl_map *map,
-                           size_t oblique, const sl_clean_account *cleaning) {
+                           const walls_read *walls, const sl_clean_account *cleaning) {
     map_count counts[MAP_COUNTS];
     count_map(map, counts);
     printf("%s: a map\n", request->path);
@@ -260,12 +263,12 @@ static sl_status print_map(sl_context *context, const info_request *request, con
     if (*map->unit) printf("  unit      %s\n", map->unit);
     if (request->is_drawing && !*map->unit)
         puts("  unit      unknown; if it is mm, --unit mm=m reads the drawing in metres");
-    printf("  walls     %zu, ", cleaning->before);
-    if (oblique)
-        printf("%zu of them oblique\n", oblique);
+    printf("  walls     %zu, ", walls->count);
+    if (walls->oblique)
+        printf("%zu of them oblique\n", walls->oblique);
     else
         puts("all axial");
-    print_stops(map);
+    print_stops(walls);
     for (int i = 0; i < MAP_COUNTS; i++)
         if (counts[i].count) printf("  %-9s %zu\n", counts[i].key, counts[i].count);
     SL_TRY(print_doors(context, map));
@@ -275,9 +278,10 @@ static sl_status print_map(sl_context *context, const info_request *request, con
         sl_number_write(map->range, number);
         printf("  range     %s\n", number);
     }
-    printf("  cleaned   %zu walls", cleaning->after);
+    printf("  cleaned   %zu walls%s", cleaning->after, walls->partial ? " that stop all" : "");
     cleaning_print(cleaning);
-    print_effects(map);
+    if (!sl_plan_make(map).effects) puts("  effects   none");
+    plan_print(map);
     print_notices(map->source.notes);
     return SL_OK;
 }
@@ -334,13 +338,13 @@ static sl_status inform_of_map(command_console *console, info_request *request) 
     }
     SL_TRY(sl_map_parse(console->context, request->path, request->bytes.data, request->bytes.size,
                         &request->input.import, &map));
-    const size_t oblique = count_oblique(&map);
+    const walls_read walls = count_walls(&map);
     sl_status status = input_clean(console->context, &request->input, &map, &cleaning);
     progress_line_clear(&console->line);
     if (status == SL_OK && request->json)
-        status = print_map_json(console->context, request, &map, oblique, &cleaning);
+        status = print_map_json(console->context, request, &map, &walls, &cleaning);
     else if (status == SL_OK)
-        status = print_map(console->context, request, &map, oblique, &cleaning);
+        status = print_map(console->context, request, &map, &walls, &cleaning);
     sl_map_destroy(console->context, &map);
     return status;
 }
@@ -404,7 +408,8 @@ static sl_status print_baked_json(sl_context *context, const info_request *reque
     sl_stops_write(sl_map_channel(&baked->map), channel);
     if (sl_map_channel(&baked->map) != SL_STOPS_SIGHT)
         json_add_text(&fields, "walls_stop", channel);
-    add_stops_json(&fields, &baked->map);
+    const walls_read walls = count_walls(&baked->map);
+    add_stops_json(&fields, &walls);
     json_add_flag(&fields, "finished", !sl_partial_begun(&baked->partial));
     json_add_count(&fields, "inside_cells", baked->space.inside_count);
     ground_add_json(&fields, &baked->space);
@@ -443,7 +448,8 @@ static sl_status print_baked(sl_context *context, const info_request *request,
     sl_stops_write(sl_map_channel(&baked->map), channel);
     if (sl_map_channel(&baked->map) != SL_STOPS_SIGHT)
         printf("  walls     those that stop %s\n", channel);
-    print_stops(&baked->map);
+    const walls_read walls = count_walls(&baked->map);
+    print_stops(&walls);
     printf("  inside    %" PRIu32 " of %" PRIu32 " cells", space->inside_count, space->cell_count);
     if (space->node_count) printf("; tree depth %" PRIu32, space->tree_depth);
     putchar('\n');

@@ -301,11 +301,6 @@ static sl_status measure(sl_context *context, vga_plan *plan, vga_work *w) {
     return plan->parts & VGA_PART_ISOVIST ? measure_regions(context, plan, w) : SL_OK;
 }
 
-static sl_status make_outline(sl_context *context, vga_work *w) {
-    SL_TRY(sl_query_over(context, &w->baked.space, &w->baked.map, NULL, &w->query));
-    return sl_query_outline(context, w->query, &w->outline);
-}
-
 /// Fields go row by row from the lowest, grids column by column. A point is the middle of a square.
 static void lay_out(const sl_vga_grid *grid, const double *values, double *field) {
     for (size_t i = 0; i < (size_t)grid->columns * grid->rows; i++) field[i] = NAN;
@@ -407,7 +402,8 @@ static sl_status compute(sl_context *context, vga_plan *plan, vga_work *w) {
     SL_TRY(make_steps(context, plan, w));
     SL_TRY(doors_shut(context, &plan->doors, &w->baked));
     if (!plan->range_given) plan->range = w->baked.map.range;
-    SL_TRY(make_outline(context, w));
+    SL_TRY(sl_query_over(context, &w->baked.space, &w->baked.map, NULL, &w->query));
+    SL_TRY(sl_query_outline(context, w->query, &w->outline));
     sl_status status = check_area(context, plan, &w->baked.space);
     status = pipeline_name_stray(context, plan->input, &w->baked.map, &w->baked.space, status);
     if (status == SL_OK)

@@ -17,6 +17,21 @@ static int digits_for(const sl_map *map, sl_segment at) {
     return (int)fmin(fmax(ceil(log10(most / apart)) + 3, least), 17);
 }
 
+/// "map.map: 16 walls (6 do not stop all), 12 cells"
+static void print_size(const char *name, const checked *c) {
+    const size_t partial = sl_map_partial_walls(&c->map);
+    printf("%s: %zu walls", name, c->map.wall_count + partial);
+    if (partial) printf(" (%zu do not stop all)", partial);
+    printf(", %u cells", (unsigned)c->baked.space.cell_count);
+}
+
+static void add_size(json_fields *fields, const checked *c) {
+    const size_t partial = sl_map_partial_walls(&c->map);
+    json_add_count(fields, "walls", c->map.wall_count + partial);
+    json_add_count(fields, "partial_walls", partial);
+    json_add_count(fields, "cells", c->baked.space.cell_count);
+}
+
 /// "(1,2.5)"
 static void print_point(const char *before, sl_point point, int digits) {
     printf("%s(%.*g,%.*g)", before, digits, point.x, digits, point.y);
@@ -471,9 +486,8 @@ static void print_inside(const checked *found) {
 void faults_print(const faults_report *report) {
     const checked *found = report->found;
     const sl_faults *faults = &found->faults;
-    printf("%s: %zu walls, %u cells; looked for gaps up to %.4g and cells thinner than %.4g\n",
-           report->input, found->map.wall_count, (unsigned)found->baked.space.cell_count,
-           found->gap, report->thin);
+    print_size(report->input, found);
+    printf("; looked for gaps up to %.4g and cells thinner than %.4g\n", found->gap, report->thin);
     for (int kind = 0; kind < SL_FAULT_KINDS; kind++)
         print_kind(found, (sl_fault_kind)kind, report->most);
     print_entrances(found);
@@ -555,8 +569,7 @@ sl_status faults_print_json(sl_context *context, const faults_report *report) {
     const uint32_t count = found->faults.count;
     json_fields fields = json_begin();
     json_add_text(&fields, "file", report->input);
-    json_add_count(&fields, "walls", found->map.wall_count);
-    json_add_count(&fields, "cells", found->baked.space.cell_count);
+    add_size(&fields, found);
     json_add_real(&fields, "gap", found->gap);
     json_add_real(&fields, "thin", report->thin);
     json_add_flag(&fields, "has_starts", found->faults.has_starts);
@@ -592,7 +605,7 @@ bool checked_has_fault(const checked *c) {
 
 void faults_print_line(const char *name, const checked *c) {
     const char *before = "; ";
-    printf("%s: %zu walls, %u cells", name, c->map.wall_count, (unsigned)c->baked.space.cell_count);
+    print_size(name, c);
     for (int kind = 0; kind < SL_FAULT_KINDS; kind++) {
         if (!c->faults.counts[kind]) continue;
         print_count(before, (sl_fault_kind)kind, c->faults.counts[kind]);
@@ -611,8 +624,7 @@ void faults_print_line(const char *name, const checked *c) {
 void faults_add_line(json_fields *fields, const char *name, const checked *c) {
     json_open_item(fields);
     json_add_text(fields, "map", name);
-    json_add_count(fields, "walls", c->map.wall_count);
-    json_add_count(fields, "cells", c->baked.space.cell_count);
+    add_size(fields, c);
     json_add_text(fields, "inside", inside_words[c->inside]);
     add_counts(fields, "counts", c->faults.counts);
     json_add_count(fields, "strays", c->strays.count);

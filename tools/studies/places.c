@@ -2,7 +2,6 @@
 #include "studies/places.h"
 
 #include "inputs/inputs.h"
-#include "sightline/query.h"
 #include "sightline/support.h"
 
 void places_note_outside(sl_context *context, const char *what, const sl_space *space,
@@ -33,14 +32,17 @@ static sl_status check_path(sl_context *context, const char *name, sl_query *que
     return SL_OK;
 }
 
-sl_status places_note_path(sl_context *context, const char *name, const sl_space *space,
+sl_status places_note_path(sl_context *context, const char *name, const sl_baked *baked,
                            const sl_point *points, size_t count) {
     const sl_map none = {0};
-    sl_space walls = *space;
-    sl_query *query;
+    sl_baked steps = {0};
+    sl_query *query = NULL;
+    SL_TRY(sl_bake_steps(context, baked, NULL, &steps));
+    sl_space walls = steps.space.cell_count ? steps.space : baked->space;
     walls.seam_count = walls.seam_portal_count = 0;
-    SL_TRY(sl_query_over(context, &walls, &none, NULL, &query));
-    const sl_status status = check_path(context, name, query, points, count);
+    sl_status status = sl_query_over(context, &walls, &none, NULL, &query);
+    if (status == SL_OK) status = check_path(context, name, query, points, count);
     sl_query_destroy(context, query);
+    sl_baked_destroy(context, &steps);
     return status;
 }

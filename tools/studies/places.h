@@ -2,6 +2,7 @@
 #ifndef PLACES_H
 #define PLACES_H
 
+#include "sightline/bake.h"
 #include "studies/isovist.h"
 
 /// Notes how many of some viewpoints are not inside, and the place inside that is nearest to the
@@ -9,8 +10,8 @@
 void places_note_outside(sl_context *context, const char *what, const sl_space *space,
                          const eye_place *eyes, size_t count);
 
-/// Notes where a path goes through a wall of the space. One-way glass stops no path.
-sl_status places_note_path(sl_context *context, const char *name, const sl_space *space,
+/// Notes where a path goes through a wall that stops steps. One-way glass stops no path.
+sl_status places_note_path(sl_context *context, const char *name, const sl_baked *baked,
                            const sl_point *points, size_t count);
 
 #endif

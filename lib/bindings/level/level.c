@@ -361,7 +361,7 @@ static eye eye_of(const sl_level *level, double x, double y, double heading, dou
     double at[2] = {x, y};
     sl_runtime_to_map(&level->transform, at, 1);
     return (eye){fov < 180 ? sl_runtime_view_toward(at[0], at[1], cos(angle), sin(angle),
-                                                    tan(fov / 2 * degree))
+                                                    tan(fmax(fov, 0) / 2 * degree))
                            : sl_runtime_view_all_round(at[0], at[1]),
                  range / level->transform.scale};
 }

@@ -109,8 +109,8 @@ SL_LEVEL_API const unsigned char *sl_level_relevant(sl_level *level, const doubl
                                                     int32_t player_count, double margin,
                                                     const double *things, int32_t thing_count);
 /// The cells that an eye sees, `*count` of them. `heading` and `fov` are in degrees,
-/// counter-clockwise from +x; a field of view of 180 or more is all round. `range` above 0 limits
-/// how far it sees; 0 stands for the map's own range.
+/// counter-clockwise from +x; a field of view of 180 or more is all round, one of 0 or less is the
+/// line of the heading. `range` above 0 limits how far it sees; 0 stands for the map's own range.
 SL_LEVEL_API const int32_t *sl_level_look(sl_level *level, double x, double y, double heading,
                                           double fov, double range, int32_t *count);
 /// The polygon that an eye sees, counter-clockwise: `*count` pairs of numbers, 0 if it sees

@@ -28,6 +28,17 @@ public sealed class Level : IDisposable
                                                                     double fov, double range, out int count);
     [DllImport(Library)] private static extern IntPtr sl_level_visible_polygon(
         IntPtr level, double x, double y, double heading, double fov, double range, out int count);
+    [DllImport(Library)] private static extern int sl_level_can_walk(IntPtr level, double x0, double y0, double x1,
+                                                                     double y1, int own);
+    [DllImport(Library)] private static extern int sl_level_walk(IntPtr level, double x0, double y0, double x1,
+                                                                 double y1, double radius, int own, double[] at);
+    [DllImport(Library)] private static extern IntPtr sl_level_relevant(
+        IntPtr level, double[] players, int playerCount, double margin, double[] things, int thingCount);
+    [DllImport(Library)] private static extern int sl_level_set_box_count(IntPtr level, int count);
+    [DllImport(Library)] private static extern void sl_level_move_box(
+        IntPtr level, int box, double minX, double minY, double maxX, double maxY, int blocks);
+    [DllImport(Library)] private static extern IntPtr sl_level_boxes_seen(
+        IntPtr level, double x, double y, double heading, double fov, double range, out int count);
 
     public Level(byte[] bytes)
     {
@@ -85,6 +96,52 @@ public sealed class Level : IDisposable
         double[] points = new double[2 * count];
         if (count > 0) Marshal.Copy(answer, points, 0, points.Length);
         return points;
+    }
+
+    /// Whether one may walk straight there. Box `own` does not stop it: that of who walks.
+    public bool CanWalk(double x0, double y0, double x1, double y1, int own = -1)
+    {
+        return sl_level_can_walk(handle, x0, y0, x1, y1, own) == 1;
+    }
+
+    /// Moves a disc toward a point, along what stops it; `at` is the x and y that it comes to. True if it comes there.
+    public bool Walk(double x0, double y0, double x1, double y1, double radius, out double[] at, int own = -1)
+    {
+        at = new double[2];
+        return sl_level_walk(handle, x0, y0, x1, y1, radius, own, at) == 1;
+    }
+
+    /// Which things each player may see: answer[player, thing]. Of each box min x, min y, max x, max y.
+    public bool[,] Relevant(double[] players, double margin, double[] things)
+    {
+        bool[,] answer = new bool[players.Length / 4, things.Length / 4];
+        int lookers = answer.GetLength(0), seen = answer.GetLength(1), row = (seen + 7) / 8;
+        byte[] bits = new byte[lookers * row];
+        IntPtr found = sl_level_relevant(handle, players, lookers, margin, things, seen);
+        if (found == IntPtr.Zero) throw new OutOfMemoryException();
+        Marshal.Copy(found, bits, 0, bits.Length);
+        for (int p = 0; p < lookers; p++)
+            for (int t = 0; t < seen; t++) answer[p, t] = (bits[p * row + t / 8] >> t % 8 & 1) == 1;
+        return answer;
+    }
+
+    /// Makes room for boxes, which are nowhere yet; false if memory is short.
+    public bool SetBoxCount(int count) { return sl_level_set_box_count(handle, count) == 1; }
+
+    /// Puts a box at a place. One that blocks hides what is behind it and stops who walks.
+    public void MoveBox(int box, double minX, double minY, double maxX, double maxY, bool blocks)
+    {
+        sl_level_move_box(handle, box, minX, minY, maxX, maxY, blocks ? 1 : 0);
+    }
+
+    /// Which boxes an eye sees.
+    public bool[] BoxesSeen(double x, double y, double heading = 0, double fov = 360, double range = 0)
+    {
+        int count;
+        IntPtr answer = sl_level_boxes_seen(handle, x, y, heading, fov, range, out count);
+        bool[] seen = new bool[count];
+        for (int i = 0; i < count; i++) seen[i] = Marshal.ReadByte(answer, i) == 1;
+        return seen;
     }
 }
 
