@@ -1,6 +1,7 @@
 /// Walls that do not stop all: windows, fences, curtains. In a map they are seams that know what
 /// they stop. So they cut cells, and cleaning cuts them where they meet others; a place where
 /// several lie on each other stops what any of them stops.
+#include "geometry/orient.h"
 #include "map/ground.h"
 #include "sightline/support.h"
 
@@ -45,6 +46,7 @@ sl_status sl_map_walls_stop(sl_context *context, sl_map *map, size_t first, uint
     if (stops == SL_STOPS_ALL) return SL_OK;
     for (size_t i = first; i < map->wall_count; i++) {
         const sl_wall *wall = &map->walls[i];
+        if (sli_same_point(wall->a, wall->b)) continue;
         SL_TRY(sl_map_add_seam(context, map, (sl_segment){wall->a, wall->b}, wall->line));
         sl_glass *seam = &map->seams[map->seam_count - 1];
         seam->stops = (uint8_t)stops;

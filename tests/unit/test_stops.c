@@ -28,6 +28,20 @@ static sl_baked bake(sl_context *context, const char *statements, uint32_t chann
 
 // --- text
 
+static void walls_of_no_length_are_dropped(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    sl_map map = {0};
+    assert_ok(context, read_map(context,
+                                "wall 1 1 1 1 stops sight\n"
+                                "solid 9 3 9 3 11 3 11 5 stops steps\n",
+                                &map));
+    assert_int_equal(map.seam_count, 3);
+    assert_int_equal(map.wall_count, 0);
+    sl_map_destroy(context, &map);
+    sl_context_destroy(context);
+}
+
 static void words_are_read_and_written(void **state) {
     (void)state;
     char text[SL_STOPS_TEXT];
@@ -483,6 +497,7 @@ static void memory_may_be_lacking(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(words_are_read_and_written),
+        cmocka_unit_test(walls_of_no_length_are_dropped),
         cmocka_unit_test(wrong_statements_name_their_line),
         cmocka_unit_test(text_is_kept),
         cmocka_unit_test(rows_are_those_without_the_other_walls),

@@ -236,10 +236,10 @@ SL_API sl_status sl_map_add_solid(sl_context *context, sl_map *map, const sl_poi
 SL_API sl_status sl_map_add_open(sl_context *context, sl_map *map, const sl_point *corners,
                                  size_t count, uint32_t line);
 /// Says that the walls from number `first` on stop these alone (bits of SL_STOPS_SIGHT ...,
-/// SL_STOPS_LIMITED among them). They
-/// become seams of the map (sl_glass.stops), with SL_STOPS_ALL they stay. Polygons of ground keep
-/// their marks, but the ground is open for all: one sees from there, and over it. It is not inside
-/// if the walls stop steps. SL_BAD_ARGUMENT for 0 and for other bits.
+/// SL_STOPS_LIMITED among them). They become seams of the map (sl_glass.stops), those of no length
+/// are dropped; with SL_STOPS_ALL they stay. Polygons of ground keep their marks, but the ground is
+/// open for all: one sees from there, and over it. It is not inside if the walls stop steps.
+/// SL_BAD_ARGUMENT for 0 and for other bits.
 SL_API sl_status sl_map_walls_stop(sl_context *context, sl_map *map, size_t first, uint32_t stops);
 
 /// Walls that stop what a space of the map is for (sl_map.channel) stop all then, and those that do
