@@ -294,7 +294,7 @@ def check_numbers(v):
 def main():
     with tempfile.TemporaryDirectory() as name:
         v = Lessons(sys.argv, pathlib.Path(name))
-        for check in (check_seeking, check_speed, check_changes, check_why, check_mirrors, check_twins, check_program,
+        for check in (check_seeking, check_view_cells, check_speed, check_changes, check_why, check_mirrors, check_twins, check_program,
                       check_quiz, check_present, check_why_in_lesson, check_subdivision,
                       check_doors, check_first_person, check_numbers):
             check(v)
