@@ -83,8 +83,7 @@ static sl_status make_history(sl_context *context, void *data) {
     const sl_space *space;
     SL_TRY(sl_query_space(context, job->query, &space, NULL));
     SL_TRY(sl_view_places_inside(context, space, &job->places));
-    const sl_view_scene scene = {space, sampling.objects, sl_render_cost_default(),
-                                 &job->places};
+    const sl_view_scene scene = {space, sampling.objects, sl_render_cost_default(), &job->places};
     SL_TRY(sl_view_sample(context, job->outline, &sampling, &job->segments));
     SL_TRY(method_that_merges()->divide(context, &scene, &job->segments, &subdivision,
                                         &job->history.tree, NULL));
