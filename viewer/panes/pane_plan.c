@@ -214,7 +214,8 @@ static void show_kept(view_state *view, kept_picture *kept, bool over, const sl_
         const bool only_moved =
             kept->surface && memcmp(&other.key, &now.key, sizeof now.key) == 0 &&
             kept->key.frame.width == frame->width && kept->key.frame.height == frame->height;
-        const bool wait = only_moved && view->motion > 0 && kept->seconds > SLOW_SECONDS;
+        const bool wait =
+            only_moved && !view->ui->steady && view->motion > 0 && kept->seconds > SLOW_SECONDS;
         other = *kept;
         other.key.version = now.key.version;
         other.key.touched = now.key.touched;

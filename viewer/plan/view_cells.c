@@ -79,9 +79,11 @@ static sl_status make_history(sl_context *context, void *data) {
     SL_TRY(sl_subdivision_for(&job->map)->subdivide(context, &job->map, NULL, &job->space));
     SL_TRY(sl_query_over(context, &job->space, &job->map, NULL, &job->query));
     SL_TRY(sl_query_outline(context, job->query, &job->outline));
-    SL_TRY(sl_view_places_inside(context, &job->space, &job->places));
-    const sl_view_scene scene = {&job->space, sampling.objects, sl_render_cost_default(),
-                                 &job->places};
+    // Its walls are the outline's: shut doors and glass are among them.
+    const sl_space *space;
+    SL_TRY(sl_query_space(context, job->query, &space, NULL));
+    SL_TRY(sl_view_places_inside(context, space, &job->places));
+    const sl_view_scene scene = {space, sampling.objects, sl_render_cost_default(), &job->places};
     SL_TRY(sl_view_sample(context, job->outline, &sampling, &job->segments));
     SL_TRY(method_that_merges()->divide(context, &scene, &job->segments, &subdivision,
                                         &job->history.tree, NULL));
