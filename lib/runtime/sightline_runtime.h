@@ -7578,8 +7578,12 @@ SL_RUNTIME_API bool sl_runtime_sees_within(const sl_runtime *runtime, double x0,
 // --- many things
 
 // Memory: that of a search, the first entry of each cell, and the entries. An entry is two numbers:
-// a thing that touches the cell, and the cell's next entry. There is room for a thing that touches
-// each cell, and eight entries for each thing.
+// a thing that comes near the cell, and the cell's next entry. Most cells are never looked into: of
+// which things touch a cell is found when the first beam comes to it. There is room for a thing in
+// each cell, and 16 entries for each thing.
+
+/// Added to a cell's first entry: some of its things may not touch it.
+#define SLRT_UNSORTED UINT32_C(0x80000000)
 
 typedef struct slrt_relevant {
     slrt_origin origin;
@@ -7587,7 +7591,6 @@ typedef struct slrt_relevant {
     uint32_t *first, *entries, count;
     size_t room;
     uint32_t thing; ///< is being placed
-    double box[4];  ///< its part within the bounds of the map
     unsigned char *bits;
     size_t pairs;
 } slrt_relevant;
@@ -7595,19 +7598,37 @@ typedef struct slrt_relevant {
 static bool slrt_place_thing(void *context, uint32_t cell) {
     slrt_relevant *t = (slrt_relevant *)context;
     uint32_t *first = t->first + cell;
-    if ((*first != SLRT_NO_ENTRY && t->entries[2 * (size_t)*first] == t->thing) ||
-        !slrt_meets_box(t->origin.beams.rt, cell, t->box))
-        return true;
+    const size_t at = *first & ~SLRT_UNSORTED;
+    if (*first != SLRT_NO_ENTRY && t->entries[2 * at] == t->thing) return true;
     if (t->count == t->room) return false;
     t->entries[2 * (size_t)t->count] = t->thing;
-    t->entries[2 * (size_t)t->count + 1] = *first;
-    *first = t->count++;
+    t->entries[2 * (size_t)t->count + 1] = *first == SLRT_NO_ENTRY ? *first : (uint32_t)at;
+    *first = t->count++ | SLRT_UNSORTED;
     return true;
+}
+
+/// Keeps of a cell's things those that touch it.
+static void slrt_sort_things(slrt_relevant *t, uint32_t cell) {
+    uint32_t *link = t->first + cell;
+    *link &= ~SLRT_UNSORTED;
+    while (*link != SLRT_NO_ENTRY) {
+        uint32_t *entry = t->entries + 2 * (size_t)*link;
+        double box[4];
+        slrt_box_in_map(t->origin.beams.rt, &t->things[*entry], 0, box);
+        if (slrt_meets_box(t->origin.beams.rt, cell, box))
+            link = entry + 1;
+        else
+            *link = entry[1];
+    }
 }
 
 static bool slrt_meet_things(slrt_beams *b, uint32_t cell, const slrt_beam *beam) {
     slrt_relevant *t = (slrt_relevant *)b->context;
     uint32_t at = t->first[cell];
+    if (at != SLRT_NO_ENTRY && at & SLRT_UNSORTED) {
+        slrt_sort_things(t, cell);
+        at = t->first[cell];
+    }
     for (; at != SLRT_NO_ENTRY; at = t->entries[2 * (size_t)at + 1]) {
         const uint32_t thing = t->entries[2 * (size_t)at];
         double box[4], part[4];
@@ -7625,11 +7646,12 @@ static bool slrt_meet_things(slrt_beams *b, uint32_t cell, const slrt_beam *beam
 /// these.
 static void slrt_place_things(slrt_relevant *t, uint32_t thing_count) {
     const sl_runtime *rt = t->origin.beams.rt;
+    double box[4];
     memset(t->first, 0xff, rt->cell_count * sizeof *t->first);
     t->count = 0;
     for (; t->thing < thing_count; t->thing++)
-        if (slrt_box_in_map(rt, &t->things[t->thing], 0, t->box) &&
-            !slrt_visit_near(rt, t->box, slrt_place_thing, t))
+        if (slrt_box_in_map(rt, &t->things[t->thing], 0, box) &&
+            !slrt_visit_near(rt, box, slrt_place_thing, t))
             return;
 }
 
@@ -7648,7 +7670,7 @@ static void slrt_meet_all(slrt_relevant *t, uint32_t thing_count) {
 
 SL_RUNTIME_API size_t sl_runtime_relevant_count(const sl_runtime *runtime, uint32_t thing_count) {
     return sl_runtime_scratch_count(runtime) + 3 * (size_t)runtime->cell_count +
-           16 * (size_t)thing_count;
+           32 * (size_t)thing_count;
 }
 
 SL_RUNTIME_API size_t sl_runtime_relevant(const sl_runtime *runtime, const sl_runtime_box *players,
@@ -7667,7 +7689,8 @@ SL_RUNTIME_API size_t sl_runtime_relevant(const sl_runtime *runtime, const sl_ru
     t.things = things;
     t.first = relevant_scratch + sl_runtime_scratch_count(runtime);
     t.entries = t.first + runtime->cell_count;
-    t.room = runtime->cell_count + 8 * (size_t)thing_count;
+    t.room = runtime->cell_count + 16 * (size_t)thing_count;
+    if (t.room >= SLRT_UNSORTED) t.room = SLRT_UNSORTED - 1;
     while (t.thing < thing_count) {
         slrt_place_things(&t, thing_count);
         for (i = 0; i < player_count; i++) {
