@@ -2593,20 +2593,27 @@ SL_RUNTIME_API uint32_t sl_runtime_locate(const sl_runtime *runtime, double x, d
 
 // --- from box to cells
 
+/// The lower left and the upper right of a cell's corners.
+static void slrt_bounds_of(const sl_runtime *rt, const sl_runtime_cell *cell, double bounds[4]) {
+    const unsigned char *corner = rt->vertices + (size_t)cell->first_vertex * SLRT_VERTEX_BYTES;
+    const unsigned char *stop = corner + (size_t)cell->vertex_count * SLRT_VERTEX_BYTES;
+    double low_x = slrt_f64(corner), low_y = slrt_f64(corner + 8), high_x = low_x, high_y = low_y;
+    while ((corner += SLRT_VERTEX_BYTES) < stop) {
+        const double x = slrt_f64(corner), y = slrt_f64(corner + 8);
+        low_x = x < low_x ? x : low_x;
+        low_y = y < low_y ? y : low_y;
+        high_x = x > high_x ? x : high_x;
+        high_y = y > high_y ? y : high_y;
+    }
+    bounds[0] = low_x, bounds[1] = low_y, bounds[2] = high_x, bounds[3] = high_y;
+}
+
 /// Whether a cell lies on one side of a box.
 static bool slrt_is_beside_box(const sl_runtime *rt, const sl_runtime_cell *cell,
                                const double box[4]) {
-    bool left = true, right = true, under = true, over = true;
-    uint32_t i;
-    for (i = 0; i < cell->vertex_count; i++) {
-        double x, y;
-        sl_runtime_get_vertex(rt, cell->first_vertex + i, &x, &y);
-        left = left && x < box[0];
-        under = under && y < box[1];
-        right = right && x > box[2];
-        over = over && y > box[3];
-    }
-    return left || right || under || over;
+    double bounds[4];
+    slrt_bounds_of(rt, cell, bounds);
+    return bounds[2] < box[0] || bounds[3] < box[1] || bounds[0] > box[2] || bounds[1] > box[3];
 }
 
 /// A cell and a box are convex: if they are apart, a side of one of them separates them.
@@ -7088,25 +7095,12 @@ typedef struct slrt_beams {
 
 // --- boxes and lines
 
-/// The part of a box within the bounds of a cell that it meets.
-static void slrt_part_of(const sl_runtime *rt, uint32_t number, const double box[4],
-                         double part[4]) {
-    const sl_runtime_cell cell = sl_runtime_get_cell(rt, number);
-    double low[2], high[2], at[2];
-    uint32_t i;
+/// The part of a box within bounds that it meets.
+static void slrt_part_in(const double bounds[4], const double box[4], double part[4]) {
     int k;
-    sl_runtime_get_vertex(rt, cell.first_vertex, &low[0], &low[1]);
-    memcpy(high, low, sizeof high);
-    for (i = 1; i < cell.vertex_count; i++) {
-        sl_runtime_get_vertex(rt, cell.first_vertex + i, &at[0], &at[1]);
-        for (k = 0; k < 2; k++) {
-            if (at[k] < low[k]) low[k] = at[k];
-            if (at[k] > high[k]) high[k] = at[k];
-        }
-    }
     for (k = 0; k < 2; k++) {
-        part[k] = box[k] > low[k] ? box[k] : low[k];
-        part[2 + k] = box[2 + k] < high[k] ? box[2 + k] : high[k];
+        part[k] = box[k] > bounds[k] ? box[k] : bounds[k];
+        part[2 + k] = box[2 + k] < bounds[2 + k] ? box[2 + k] : bounds[2 + k];
     }
 }
 
@@ -7464,13 +7458,15 @@ static bool slrt_go_on(slrt_beams *b) {
 /// or it took too long.
 static bool slrt_send_beams(slrt_beams *b, uint32_t source) {
     slrt_beam beam;
+    double bounds[4];
     bool ended;
     memset(&beam, 0, sizeof beam);
     beam.bounds[0].from = beam.bounds[1].from = SLRT_NONE;
     b->source = source;
     b->depth = 0;
-    slrt_part_of(b->rt, source, b->box, b->part);
     slrt_come_to(b, source, SLRT_NONE, &beam);
+    slrt_bounds_of(b->rt, &b->cell, bounds);
+    slrt_part_in(bounds, b->box, b->part);
     ended = b->meet(b, source, &beam);
     while (b->depth && !ended) {
         const uint32_t *top = b->path + SLRT_BEAM_STEP * (size_t)(b->depth - 1);
@@ -7545,9 +7541,10 @@ static bool slrt_look_from_box(slrt_origin *o, const sl_runtime_box *box, double
 // --- one box
 
 static bool slrt_meet_target(slrt_beams *b, uint32_t cell, const slrt_beam *beam) {
-    double part[4];
+    double bounds[4], part[4];
     if (!slrt_meets_box(b->rt, cell, b->target)) return false;
-    slrt_part_of(b->rt, cell, b->target, part);
+    slrt_bounds_of(b->rt, &b->cell, bounds);
+    slrt_part_in(bounds, b->target, part);
     return !slrt_is_beam_beside(beam, part) && !slrt_is_out_of_range(b, part);
 }
 
@@ -7624,17 +7621,17 @@ static void slrt_sort_things(slrt_relevant *t, uint32_t cell) {
 
 static bool slrt_meet_things(slrt_beams *b, uint32_t cell, const slrt_beam *beam) {
     slrt_relevant *t = (slrt_relevant *)b->context;
+    double bounds[4];
     uint32_t at = t->first[cell];
-    if (at != SLRT_NO_ENTRY && at & SLRT_UNSORTED) {
-        slrt_sort_things(t, cell);
-        at = t->first[cell];
-    }
-    for (; at != SLRT_NO_ENTRY; at = t->entries[2 * (size_t)at + 1]) {
+    if (at == SLRT_NO_ENTRY) return false;
+    if (at & SLRT_UNSORTED) slrt_sort_things(t, cell);
+    slrt_bounds_of(b->rt, &b->cell, bounds);
+    for (at = t->first[cell]; at != SLRT_NO_ENTRY; at = t->entries[2 * (size_t)at + 1]) {
         const uint32_t thing = t->entries[2 * (size_t)at];
         double box[4], part[4];
         if (t->bits[thing / 8] >> thing % 8 & 1) continue;
         slrt_box_in_map(b->rt, &t->things[thing], 0, box);
-        slrt_part_of(b->rt, cell, box, part);
+        slrt_part_in(bounds, box, part);
         if (slrt_is_beam_beside(beam, part) || slrt_is_out_of_range(b, part)) continue;
         t->bits[thing / 8] |= (unsigned char)(1 << thing % 8);
         t->pairs++;

@@ -58,9 +58,10 @@ static bool slrt_look_from_box(slrt_origin *o, const sl_runtime_box *box, double
 // --- one box
 
 static bool slrt_meet_target(slrt_beams *b, uint32_t cell, const slrt_beam *beam) {
-    double part[4];
+    double bounds[4], part[4];
     if (!slrt_meets_box(b->rt, cell, b->target)) return false;
-    slrt_part_of(b->rt, cell, b->target, part);
+    slrt_bounds_of(b->rt, &b->cell, bounds);
+    slrt_part_in(bounds, b->target, part);
     return !slrt_is_beam_beside(beam, part) && !slrt_is_out_of_range(b, part);
 }
 
@@ -137,17 +138,17 @@ static void slrt_sort_things(slrt_relevant *t, uint32_t cell) {
 
 static bool slrt_meet_things(slrt_beams *b, uint32_t cell, const slrt_beam *beam) {
     slrt_relevant *t = (slrt_relevant *)b->context;
+    double bounds[4];
     uint32_t at = t->first[cell];
-    if (at != SLRT_NO_ENTRY && at & SLRT_UNSORTED) {
-        slrt_sort_things(t, cell);
-        at = t->first[cell];
-    }
-    for (; at != SLRT_NO_ENTRY; at = t->entries[2 * (size_t)at + 1]) {
+    if (at == SLRT_NO_ENTRY) return false;
+    if (at & SLRT_UNSORTED) slrt_sort_things(t, cell);
+    slrt_bounds_of(b->rt, &b->cell, bounds);
+    for (at = t->first[cell]; at != SLRT_NO_ENTRY; at = t->entries[2 * (size_t)at + 1]) {
         const uint32_t thing = t->entries[2 * (size_t)at];
         double box[4], part[4];
         if (t->bits[thing / 8] >> thing % 8 & 1) continue;
         slrt_box_in_map(b->rt, &t->things[thing], 0, box);
-        slrt_part_of(b->rt, cell, box, part);
+        slrt_part_in(bounds, box, part);
         if (slrt_is_beam_beside(beam, part) || slrt_is_out_of_range(b, part)) continue;
         t->bits[thing / 8] |= (unsigned char)(1 << thing % 8);
         t->pairs++;
