@@ -175,7 +175,7 @@ static void slrt_turn_bound(const slrt_beams *b, slrt_bound *bound, uint32_t las
     pivots[3] = b->entry == SLRT_NONE ? SLRT_NONE : 2 * b->entry + (side == SLRT_LEFT);
     for (i = 0; i < 4; i++) {
         double from_x, from_y;
-        if (pivots[i] == SLRT_NONE) continue;
+        if (pivots[i] == SLRT_NONE || (i == 3 && pivots[3] == last)) continue;
         slrt_point_of(b, pivots[i], &from_x, &from_y);
         if (bound->from != SLRT_NONE && bound->to == end &&
             sign * (arm->x * (from_y - arm->from_y) - arm->y * (from_x - arm->from_x)) <= 0)

@@ -94,20 +94,28 @@ SL_RUNTIME_API bool sl_runtime_sees_within(const sl_runtime *runtime, double x0,
 // Memory: that of a search, the first entry of each cell, and the entries. An entry is two numbers:
 // a thing that comes near the cell, and the cell's next entry. Most cells are never looked into: of
 // which things touch a cell is found when the first beam comes to it. There is room for a thing in
-// each cell, and 16 entries for each thing.
+// each cell, and 16 entries for each thing. Then the parts of the things in the map, four doubles
+// each.
 
 /// Added to a cell's first entry: some of its things may not touch it.
 #define SLRT_UNSORTED UINT32_C(0x80000000)
 
+enum { SLRT_THING_PART = 4 * sizeof(double) / sizeof(uint32_t) };
+
 typedef struct slrt_relevant {
     slrt_origin origin;
     const sl_runtime_box *things;
-    uint32_t *first, *entries, count;
+    uint32_t *first, *entries, *parts, count;
     size_t room;
     uint32_t thing; ///< is being placed
     unsigned char *bits;
     size_t pairs;
 } slrt_relevant;
+
+/// The part of a thing that has been placed within the bounds of the map.
+static void slrt_thing_in_map(const slrt_relevant *t, uint32_t thing, double box[4]) {
+    memcpy(box, t->parts + SLRT_THING_PART * (size_t)thing, SLRT_THING_PART * sizeof *t->parts);
+}
 
 static bool slrt_place_thing(void *context, uint32_t cell) {
     slrt_relevant *t = (slrt_relevant *)context;
@@ -128,7 +136,7 @@ static void slrt_sort_things(slrt_relevant *t, uint32_t cell) {
     while (*link != SLRT_NO_ENTRY) {
         uint32_t *entry = t->entries + 2 * (size_t)*link;
         double box[4];
-        slrt_box_in_map(t->origin.beams.rt, &t->things[*entry], 0, box);
+        slrt_thing_in_map(t, *entry, box);
         if (slrt_meets_box(t->origin.beams.rt, cell, box))
             link = entry + 1;
         else
@@ -147,7 +155,7 @@ static bool slrt_meet_things(slrt_beams *b, uint32_t cell, const slrt_beam *beam
         const uint32_t thing = t->entries[2 * (size_t)at];
         double box[4], part[4];
         if (t->bits[thing / 8] >> thing % 8 & 1) continue;
-        slrt_box_in_map(b->rt, &t->things[thing], 0, box);
+        slrt_thing_in_map(t, thing, box);
         slrt_part_in(bounds, box, part);
         if (slrt_is_beam_beside(beam, part) || slrt_is_out_of_range(b, part)) continue;
         t->bits[thing / 8] |= (unsigned char)(1 << thing % 8);
@@ -163,10 +171,12 @@ static void slrt_place_things(slrt_relevant *t, uint32_t thing_count) {
     double box[4];
     memset(t->first, 0xff, rt->cell_count * sizeof *t->first);
     t->count = 0;
-    for (; t->thing < thing_count; t->thing++)
-        if (slrt_box_in_map(rt, &t->things[t->thing], 0, box) &&
-            !slrt_visit_near(rt, box, slrt_place_thing, t))
-            return;
+    for (; t->thing < thing_count; t->thing++) {
+        uint32_t *part = t->parts + SLRT_THING_PART * (size_t)t->thing;
+        if (!slrt_box_in_map(rt, &t->things[t->thing], 0, box)) continue;
+        memcpy(part, box, sizeof box);
+        if (!slrt_visit_near(rt, box, slrt_place_thing, t)) return;
+    }
 }
 
 /// Takes each thing in the map for relevant.
@@ -184,7 +194,7 @@ static void slrt_meet_all(slrt_relevant *t, uint32_t thing_count) {
 
 SL_RUNTIME_API size_t sl_runtime_relevant_count(const sl_runtime *runtime, uint32_t thing_count) {
     return sl_runtime_scratch_count(runtime) + 3 * (size_t)runtime->cell_count +
-           32 * (size_t)thing_count;
+           (32 + SLRT_THING_PART) * (size_t)thing_count;
 }
 
 SL_RUNTIME_API size_t sl_runtime_relevant(const sl_runtime *runtime, const sl_runtime_box *players,
@@ -204,6 +214,7 @@ SL_RUNTIME_API size_t sl_runtime_relevant(const sl_runtime *runtime, const sl_ru
     t.first = relevant_scratch + sl_runtime_scratch_count(runtime);
     t.entries = t.first + runtime->cell_count;
     t.room = runtime->cell_count + 16 * (size_t)thing_count;
+    t.parts = t.entries + 2 * t.room;
     if (t.room >= SLRT_UNSORTED) t.room = SLRT_UNSORTED - 1;
     while (t.thing < thing_count) {
         slrt_place_things(&t, thing_count);
