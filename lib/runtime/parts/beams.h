@@ -40,7 +40,13 @@ typedef struct slrt_past_beam {
     uint32_t bounds[4];
 } slrt_past_beam;
 
-enum { SLRT_PAST_BEAMS = 256, SLRT_WAYS = 5 };
+/// So many past beams are remembered.
+#ifndef SLRT_PAST_BEAMS
+#define SLRT_PAST_BEAMS 256
+#endif
+
+/// The ways out of the first cell through a directed portal.
+enum { SLRT_WAYS = 5 };
 
 /// The limit of portals that the beams of a box come to, for each directed portal of the map.
 #ifndef SLRT_BEAM_PATIENCE
