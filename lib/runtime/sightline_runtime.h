@@ -752,7 +752,7 @@ SL_RUNTIME_API size_t sl_runtime_relevant_count(const sl_runtime *runtime, uint3
 /// A box with NaN, or with a minimum above its maximum, sees nothing and is not seen. To give each
 /// player a margin of its own, let the boxes have it and `margin` be 0. Time: the cells near each
 /// thing; for each player, the portals that it may see, and the things in their cells. It clears 4
-/// bytes for each cell. Large things, in far more than eight cells each, take more than one round.
+/// bytes for each cell. Large things, near far more than 16 cells each, take more than one round.
 SL_RUNTIME_API size_t sl_runtime_relevant(const sl_runtime *runtime, const sl_runtime_box *players,
                                           uint32_t player_count, double margin,
                                           const sl_runtime_box *things, uint32_t thing_count,
@@ -2593,20 +2593,27 @@ SL_RUNTIME_API uint32_t sl_runtime_locate(const sl_runtime *runtime, double x, d
 
 // --- from box to cells
 
+/// The lower left and the upper right of a cell's corners.
+static void slrt_bounds_of(const sl_runtime *rt, const sl_runtime_cell *cell, double bounds[4]) {
+    const unsigned char *corner = rt->vertices + (size_t)cell->first_vertex * SLRT_VERTEX_BYTES;
+    const unsigned char *stop = corner + (size_t)cell->vertex_count * SLRT_VERTEX_BYTES;
+    double low_x = slrt_f64(corner), low_y = slrt_f64(corner + 8), high_x = low_x, high_y = low_y;
+    while ((corner += SLRT_VERTEX_BYTES) < stop) {
+        const double x = slrt_f64(corner), y = slrt_f64(corner + 8);
+        low_x = x < low_x ? x : low_x;
+        low_y = y < low_y ? y : low_y;
+        high_x = x > high_x ? x : high_x;
+        high_y = y > high_y ? y : high_y;
+    }
+    bounds[0] = low_x, bounds[1] = low_y, bounds[2] = high_x, bounds[3] = high_y;
+}
+
 /// Whether a cell lies on one side of a box.
 static bool slrt_is_beside_box(const sl_runtime *rt, const sl_runtime_cell *cell,
                                const double box[4]) {
-    bool left = true, right = true, under = true, over = true;
-    uint32_t i;
-    for (i = 0; i < cell->vertex_count; i++) {
-        double x, y;
-        sl_runtime_get_vertex(rt, cell->first_vertex + i, &x, &y);
-        left = left && x < box[0];
-        under = under && y < box[1];
-        right = right && x > box[2];
-        over = over && y > box[3];
-    }
-    return left || right || under || over;
+    double bounds[4];
+    slrt_bounds_of(rt, cell, bounds);
+    return bounds[2] < box[0] || bounds[3] < box[1] || bounds[0] > box[2] || bounds[1] > box[3];
 }
 
 /// A cell and a box are convex: if they are apart, a side of one of them separates them.
@@ -6876,7 +6883,8 @@ static bool slrt_narrow_to_mirror(slrt_search *s, const slrt_piece *piece, slrt_
 static void slrt_mark_own_of_image(const slrt_reflected *from, slrt_search *image) {
     const slrt_search *first = from->first;
     uint32_t i;
-    if (image->x != first->x || image->y != first->y) return;
+    // One alone is not marked, and the path may have run over its number.
+    if (first->own_count < 2 || image->x != first->x || image->y != first->y) return;
     for (i = 0; i < first->own_count; i++) {
         const uint32_t own = slrt_own_cells(first)[i];
         image->marks[own] = first->marks[own] & SLRT_OWN;
@@ -7060,7 +7068,13 @@ typedef struct slrt_past_beam {
     uint32_t bounds[4];
 } slrt_past_beam;
 
-enum { SLRT_PAST_BEAMS = 256, SLRT_WAYS = 5 };
+/// So many past beams are remembered.
+#ifndef SLRT_PAST_BEAMS
+#define SLRT_PAST_BEAMS 256
+#endif
+
+/// The ways out of the first cell through a directed portal.
+enum { SLRT_WAYS = 5 };
 
 /// The limit of portals that the beams of a box come to, for each directed portal of the map.
 #ifndef SLRT_BEAM_PATIENCE
@@ -7088,25 +7102,12 @@ typedef struct slrt_beams {
 
 // --- boxes and lines
 
-/// The part of a box within the bounds of a cell that it meets.
-static void slrt_part_of(const sl_runtime *rt, uint32_t number, const double box[4],
-                         double part[4]) {
-    const sl_runtime_cell cell = sl_runtime_get_cell(rt, number);
-    double low[2], high[2], at[2];
-    uint32_t i;
+/// The part of a box within bounds that it meets.
+static void slrt_part_in(const double bounds[4], const double box[4], double part[4]) {
     int k;
-    sl_runtime_get_vertex(rt, cell.first_vertex, &low[0], &low[1]);
-    memcpy(high, low, sizeof high);
-    for (i = 1; i < cell.vertex_count; i++) {
-        sl_runtime_get_vertex(rt, cell.first_vertex + i, &at[0], &at[1]);
-        for (k = 0; k < 2; k++) {
-            if (at[k] < low[k]) low[k] = at[k];
-            if (at[k] > high[k]) high[k] = at[k];
-        }
-    }
     for (k = 0; k < 2; k++) {
-        part[k] = box[k] > low[k] ? box[k] : low[k];
-        part[2 + k] = box[2 + k] < high[k] ? box[2 + k] : high[k];
+        part[k] = box[k] > bounds[k] ? box[k] : bounds[k];
+        part[2 + k] = box[2 + k] < bounds[2 + k] ? box[2 + k] : bounds[2 + k];
     }
 }
 
@@ -7208,7 +7209,7 @@ static void slrt_turn_bound(const slrt_beams *b, slrt_bound *bound, uint32_t las
     pivots[3] = b->entry == SLRT_NONE ? SLRT_NONE : 2 * b->entry + (side == SLRT_LEFT);
     for (i = 0; i < 4; i++) {
         double from_x, from_y;
-        if (pivots[i] == SLRT_NONE) continue;
+        if (pivots[i] == SLRT_NONE || (i == 3 && pivots[3] == last)) continue;
         slrt_point_of(b, pivots[i], &from_x, &from_y);
         if (bound->from != SLRT_NONE && bound->to == end &&
             sign * (arm->x * (from_y - arm->from_y) - arm->y * (from_x - arm->from_x)) <= 0)
@@ -7464,13 +7465,15 @@ static bool slrt_go_on(slrt_beams *b) {
 /// or it took too long.
 static bool slrt_send_beams(slrt_beams *b, uint32_t source) {
     slrt_beam beam;
+    double bounds[4];
     bool ended;
     memset(&beam, 0, sizeof beam);
     beam.bounds[0].from = beam.bounds[1].from = SLRT_NONE;
     b->source = source;
     b->depth = 0;
-    slrt_part_of(b->rt, source, b->box, b->part);
     slrt_come_to(b, source, SLRT_NONE, &beam);
+    slrt_bounds_of(b->rt, &b->cell, bounds);
+    slrt_part_in(bounds, b->box, b->part);
     ended = b->meet(b, source, &beam);
     while (b->depth && !ended) {
         const uint32_t *top = b->path + SLRT_BEAM_STEP * (size_t)(b->depth - 1);
@@ -7545,9 +7548,10 @@ static bool slrt_look_from_box(slrt_origin *o, const sl_runtime_box *box, double
 // --- one box
 
 static bool slrt_meet_target(slrt_beams *b, uint32_t cell, const slrt_beam *beam) {
-    double part[4];
+    double bounds[4], part[4];
     if (!slrt_meets_box(b->rt, cell, b->target)) return false;
-    slrt_part_of(b->rt, cell, b->target, part);
+    slrt_bounds_of(b->rt, &b->cell, bounds);
+    slrt_part_in(bounds, b->target, part);
     return !slrt_is_beam_beside(beam, part) && !slrt_is_out_of_range(b, part);
 }
 
@@ -7578,42 +7582,71 @@ SL_RUNTIME_API bool sl_runtime_sees_within(const sl_runtime *runtime, double x0,
 // --- many things
 
 // Memory: that of a search, the first entry of each cell, and the entries. An entry is two numbers:
-// a thing that touches the cell, and the cell's next entry. There is room for a thing that touches
-// each cell, and eight entries for each thing.
+// a thing that comes near the cell, and the cell's next entry. Most cells are never looked into: of
+// which things touch a cell is found when the first beam comes to it. There is room for a thing in
+// each cell, and 16 entries for each thing. Then the parts of the things in the map, four doubles
+// each.
+
+/// Added to a cell's first entry: some of its things may not touch it.
+#define SLRT_UNSORTED UINT32_C(0x80000000)
+
+enum { SLRT_THING_PART = 4 * sizeof(double) / sizeof(uint32_t) };
 
 typedef struct slrt_relevant {
     slrt_origin origin;
     const sl_runtime_box *things;
-    uint32_t *first, *entries, count;
+    uint32_t *first, *entries, *parts, count;
     size_t room;
     uint32_t thing; ///< is being placed
-    double box[4];  ///< its part within the bounds of the map
     unsigned char *bits;
     size_t pairs;
 } slrt_relevant;
 
+/// The part of a thing that has been placed within the bounds of the map.
+static void slrt_thing_in_map(const slrt_relevant *t, uint32_t thing, double box[4]) {
+    memcpy(box, t->parts + SLRT_THING_PART * (size_t)thing, SLRT_THING_PART * sizeof *t->parts);
+}
+
 static bool slrt_place_thing(void *context, uint32_t cell) {
     slrt_relevant *t = (slrt_relevant *)context;
     uint32_t *first = t->first + cell;
-    if ((*first != SLRT_NO_ENTRY && t->entries[2 * (size_t)*first] == t->thing) ||
-        !slrt_meets_box(t->origin.beams.rt, cell, t->box))
-        return true;
+    const size_t at = *first & ~SLRT_UNSORTED;
+    if (*first != SLRT_NO_ENTRY && t->entries[2 * at] == t->thing) return true;
     if (t->count == t->room) return false;
     t->entries[2 * (size_t)t->count] = t->thing;
-    t->entries[2 * (size_t)t->count + 1] = *first;
-    *first = t->count++;
+    t->entries[2 * (size_t)t->count + 1] = *first == SLRT_NO_ENTRY ? *first : (uint32_t)at;
+    *first = t->count++ | SLRT_UNSORTED;
     return true;
+}
+
+/// Keeps of a cell's things those that touch it.
+static void slrt_sort_things(slrt_relevant *t, uint32_t cell) {
+    uint32_t *link = t->first + cell;
+    *link &= ~SLRT_UNSORTED;
+    while (*link != SLRT_NO_ENTRY) {
+        uint32_t *entry = t->entries + 2 * (size_t)*link;
+        double box[4];
+        slrt_thing_in_map(t, *entry, box);
+        if (slrt_meets_box(t->origin.beams.rt, cell, box))
+            link = entry + 1;
+        else
+            *link = entry[1];
+    }
 }
 
 static bool slrt_meet_things(slrt_beams *b, uint32_t cell, const slrt_beam *beam) {
     slrt_relevant *t = (slrt_relevant *)b->context;
+    double bounds[4];
     uint32_t at = t->first[cell];
-    for (; at != SLRT_NO_ENTRY; at = t->entries[2 * (size_t)at + 1]) {
+    if (at == SLRT_NO_ENTRY) return false;
+    if (at & SLRT_UNSORTED) slrt_sort_things(t, cell);
+    slrt_bounds_of(b->rt, &b->cell, bounds);
+    for (at = t->first[cell]; at != SLRT_NO_ENTRY; at = t->entries[2 * (size_t)at + 1]) {
         const uint32_t thing = t->entries[2 * (size_t)at];
         double box[4], part[4];
         if (t->bits[thing / 8] >> thing % 8 & 1) continue;
-        slrt_box_in_map(b->rt, &t->things[thing], 0, box);
-        slrt_part_of(b->rt, cell, box, part);
+        slrt_thing_in_map(t, thing, box);
+        slrt_part_in(bounds, box, part);
         if (slrt_is_beam_beside(beam, part) || slrt_is_out_of_range(b, part)) continue;
         t->bits[thing / 8] |= (unsigned char)(1 << thing % 8);
         t->pairs++;
@@ -7625,12 +7658,15 @@ static bool slrt_meet_things(slrt_beams *b, uint32_t cell, const slrt_beam *beam
 /// these.
 static void slrt_place_things(slrt_relevant *t, uint32_t thing_count) {
     const sl_runtime *rt = t->origin.beams.rt;
+    double box[4];
     memset(t->first, 0xff, rt->cell_count * sizeof *t->first);
     t->count = 0;
-    for (; t->thing < thing_count; t->thing++)
-        if (slrt_box_in_map(rt, &t->things[t->thing], 0, t->box) &&
-            !slrt_visit_near(rt, t->box, slrt_place_thing, t))
-            return;
+    for (; t->thing < thing_count; t->thing++) {
+        uint32_t *part = t->parts + SLRT_THING_PART * (size_t)t->thing;
+        if (!slrt_box_in_map(rt, &t->things[t->thing], 0, box)) continue;
+        memcpy(part, box, sizeof box);
+        if (!slrt_visit_near(rt, box, slrt_place_thing, t)) return;
+    }
 }
 
 /// Takes each thing in the map for relevant.
@@ -7648,7 +7684,7 @@ static void slrt_meet_all(slrt_relevant *t, uint32_t thing_count) {
 
 SL_RUNTIME_API size_t sl_runtime_relevant_count(const sl_runtime *runtime, uint32_t thing_count) {
     return sl_runtime_scratch_count(runtime) + 3 * (size_t)runtime->cell_count +
-           16 * (size_t)thing_count;
+           (32 + SLRT_THING_PART) * (size_t)thing_count;
 }
 
 SL_RUNTIME_API size_t sl_runtime_relevant(const sl_runtime *runtime, const sl_runtime_box *players,
@@ -7667,7 +7703,9 @@ SL_RUNTIME_API size_t sl_runtime_relevant(const sl_runtime *runtime, const sl_ru
     t.things = things;
     t.first = relevant_scratch + sl_runtime_scratch_count(runtime);
     t.entries = t.first + runtime->cell_count;
-    t.room = runtime->cell_count + 8 * (size_t)thing_count;
+    t.room = runtime->cell_count + 16 * (size_t)thing_count;
+    t.parts = t.entries + 2 * t.room;
+    if (t.room >= SLRT_UNSORTED) t.room = SLRT_UNSORTED - 1;
     while (t.thing < thing_count) {
         slrt_place_things(&t, thing_count);
         for (i = 0; i < player_count; i++) {

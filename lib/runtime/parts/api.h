@@ -752,7 +752,7 @@ SL_RUNTIME_API size_t sl_runtime_relevant_count(const sl_runtime *runtime, uint3
 /// A box with NaN, or with a minimum above its maximum, sees nothing and is not seen. To give each
 /// player a margin of its own, let the boxes have it and `margin` be 0. Time: the cells near each
 /// thing; for each player, the portals that it may see, and the things in their cells. It clears 4
-/// bytes for each cell. Large things, in far more than eight cells each, take more than one round.
+/// bytes for each cell. Large things, near far more than 16 cells each, take more than one round.
 SL_RUNTIME_API size_t sl_runtime_relevant(const sl_runtime *runtime, const sl_runtime_box *players,
                                           uint32_t player_count, double margin,
                                           const sl_runtime_box *things, uint32_t thing_count,

@@ -40,7 +40,13 @@ typedef struct slrt_past_beam {
     uint32_t bounds[4];
 } slrt_past_beam;
 
-enum { SLRT_PAST_BEAMS = 256, SLRT_WAYS = 5 };
+/// So many past beams are remembered.
+#ifndef SLRT_PAST_BEAMS
+#define SLRT_PAST_BEAMS 256
+#endif
+
+/// The ways out of the first cell through a directed portal.
+enum { SLRT_WAYS = 5 };
 
 /// The limit of portals that the beams of a box come to, for each directed portal of the map.
 #ifndef SLRT_BEAM_PATIENCE
@@ -68,25 +74,12 @@ typedef struct slrt_beams {
 
 // --- boxes and lines
 
-/// The part of a box within the bounds of a cell that it meets.
-static void slrt_part_of(const sl_runtime *rt, uint32_t number, const double box[4],
-                         double part[4]) {
-    const sl_runtime_cell cell = sl_runtime_get_cell(rt, number);
-    double low[2], high[2], at[2];
-    uint32_t i;
+/// The part of a box within bounds that it meets.
+static void slrt_part_in(const double bounds[4], const double box[4], double part[4]) {
     int k;
-    sl_runtime_get_vertex(rt, cell.first_vertex, &low[0], &low[1]);
-    memcpy(high, low, sizeof high);
-    for (i = 1; i < cell.vertex_count; i++) {
-        sl_runtime_get_vertex(rt, cell.first_vertex + i, &at[0], &at[1]);
-        for (k = 0; k < 2; k++) {
-            if (at[k] < low[k]) low[k] = at[k];
-            if (at[k] > high[k]) high[k] = at[k];
-        }
-    }
     for (k = 0; k < 2; k++) {
-        part[k] = box[k] > low[k] ? box[k] : low[k];
-        part[2 + k] = box[2 + k] < high[k] ? box[2 + k] : high[k];
+        part[k] = box[k] > bounds[k] ? box[k] : bounds[k];
+        part[2 + k] = box[2 + k] < bounds[2 + k] ? box[2 + k] : bounds[2 + k];
     }
 }
 
@@ -188,7 +181,7 @@ static void slrt_turn_bound(const slrt_beams *b, slrt_bound *bound, uint32_t las
     pivots[3] = b->entry == SLRT_NONE ? SLRT_NONE : 2 * b->entry + (side == SLRT_LEFT);
     for (i = 0; i < 4; i++) {
         double from_x, from_y;
-        if (pivots[i] == SLRT_NONE) continue;
+        if (pivots[i] == SLRT_NONE || (i == 3 && pivots[3] == last)) continue;
         slrt_point_of(b, pivots[i], &from_x, &from_y);
         if (bound->from != SLRT_NONE && bound->to == end &&
             sign * (arm->x * (from_y - arm->from_y) - arm->y * (from_x - arm->from_x)) <= 0)
@@ -444,13 +437,15 @@ static bool slrt_go_on(slrt_beams *b) {
 /// or it took too long.
 static bool slrt_send_beams(slrt_beams *b, uint32_t source) {
     slrt_beam beam;
+    double bounds[4];
     bool ended;
     memset(&beam, 0, sizeof beam);
     beam.bounds[0].from = beam.bounds[1].from = SLRT_NONE;
     b->source = source;
     b->depth = 0;
-    slrt_part_of(b->rt, source, b->box, b->part);
     slrt_come_to(b, source, SLRT_NONE, &beam);
+    slrt_bounds_of(b->rt, &b->cell, bounds);
+    slrt_part_in(bounds, b->box, b->part);
     ended = b->meet(b, source, &beam);
     while (b->depth && !ended) {
         const uint32_t *top = b->path + SLRT_BEAM_STEP * (size_t)(b->depth - 1);

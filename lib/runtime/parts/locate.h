@@ -109,20 +109,27 @@ SL_RUNTIME_API uint32_t sl_runtime_locate(const sl_runtime *runtime, double x, d
 
 // --- from box to cells
 
+/// The lower left and the upper right of a cell's corners.
+static void slrt_bounds_of(const sl_runtime *rt, const sl_runtime_cell *cell, double bounds[4]) {
+    const unsigned char *corner = rt->vertices + (size_t)cell->first_vertex * SLRT_VERTEX_BYTES;
+    const unsigned char *stop = corner + (size_t)cell->vertex_count * SLRT_VERTEX_BYTES;
+    double low_x = slrt_f64(corner), low_y = slrt_f64(corner + 8), high_x = low_x, high_y = low_y;
+    while ((corner += SLRT_VERTEX_BYTES) < stop) {
+        const double x = slrt_f64(corner), y = slrt_f64(corner + 8);
+        low_x = x < low_x ? x : low_x;
+        low_y = y < low_y ? y : low_y;
+        high_x = x > high_x ? x : high_x;
+        high_y = y > high_y ? y : high_y;
+    }
+    bounds[0] = low_x, bounds[1] = low_y, bounds[2] = high_x, bounds[3] = high_y;
+}
+
 /// Whether a cell lies on one side of a box.
 static bool slrt_is_beside_box(const sl_runtime *rt, const sl_runtime_cell *cell,
                                const double box[4]) {
-    bool left = true, right = true, under = true, over = true;
-    uint32_t i;
-    for (i = 0; i < cell->vertex_count; i++) {
-        double x, y;
-        sl_runtime_get_vertex(rt, cell->first_vertex + i, &x, &y);
-        left = left && x < box[0];
-        under = under && y < box[1];
-        right = right && x > box[2];
-        over = over && y > box[3];
-    }
-    return left || right || under || over;
+    double bounds[4];
+    slrt_bounds_of(rt, cell, bounds);
+    return bounds[2] < box[0] || bounds[3] < box[1] || bounds[0] > box[2] || bounds[1] > box[3];
 }
 
 /// A cell and a box are convex: if they are apart, a side of one of them separates them.

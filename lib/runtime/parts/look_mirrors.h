@@ -107,7 +107,8 @@ static bool slrt_narrow_to_mirror(slrt_search *s, const slrt_piece *piece, slrt_
 static void slrt_mark_own_of_image(const slrt_reflected *from, slrt_search *image) {
     const slrt_search *first = from->first;
     uint32_t i;
-    if (image->x != first->x || image->y != first->y) return;
+    // One alone is not marked, and the path may have run over its number.
+    if (first->own_count < 2 || image->x != first->x || image->y != first->y) return;
     for (i = 0; i < first->own_count; i++) {
         const uint32_t own = slrt_own_cells(first)[i];
         image->marks[own] = first->marks[own] & SLRT_OWN;

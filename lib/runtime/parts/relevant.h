@@ -58,9 +58,10 @@ static bool slrt_look_from_box(slrt_origin *o, const sl_runtime_box *box, double
 // --- one box
 
 static bool slrt_meet_target(slrt_beams *b, uint32_t cell, const slrt_beam *beam) {
-    double part[4];
+    double bounds[4], part[4];
     if (!slrt_meets_box(b->rt, cell, b->target)) return false;
-    slrt_part_of(b->rt, cell, b->target, part);
+    slrt_bounds_of(b->rt, &b->cell, bounds);
+    slrt_part_in(bounds, b->target, part);
     return !slrt_is_beam_beside(beam, part) && !slrt_is_out_of_range(b, part);
 }
 
@@ -91,42 +92,71 @@ SL_RUNTIME_API bool sl_runtime_sees_within(const sl_runtime *runtime, double x0,
 // --- many things
 
 // Memory: that of a search, the first entry of each cell, and the entries. An entry is two numbers:
-// a thing that touches the cell, and the cell's next entry. There is room for a thing that touches
-// each cell, and eight entries for each thing.
+// a thing that comes near the cell, and the cell's next entry. Most cells are never looked into: of
+// which things touch a cell is found when the first beam comes to it. There is room for a thing in
+// each cell, and 16 entries for each thing. Then the parts of the things in the map, four doubles
+// each.
+
+/// Added to a cell's first entry: some of its things may not touch it.
+#define SLRT_UNSORTED UINT32_C(0x80000000)
+
+enum { SLRT_THING_PART = 4 * sizeof(double) / sizeof(uint32_t) };
 
 typedef struct slrt_relevant {
     slrt_origin origin;
     const sl_runtime_box *things;
-    uint32_t *first, *entries, count;
+    uint32_t *first, *entries, *parts, count;
     size_t room;
     uint32_t thing; ///< is being placed
-    double box[4];  ///< its part within the bounds of the map
     unsigned char *bits;
     size_t pairs;
 } slrt_relevant;
 
+/// The part of a thing that has been placed within the bounds of the map.
+static void slrt_thing_in_map(const slrt_relevant *t, uint32_t thing, double box[4]) {
+    memcpy(box, t->parts + SLRT_THING_PART * (size_t)thing, SLRT_THING_PART * sizeof *t->parts);
+}
+
 static bool slrt_place_thing(void *context, uint32_t cell) {
     slrt_relevant *t = (slrt_relevant *)context;
     uint32_t *first = t->first + cell;
-    if ((*first != SLRT_NO_ENTRY && t->entries[2 * (size_t)*first] == t->thing) ||
-        !slrt_meets_box(t->origin.beams.rt, cell, t->box))
-        return true;
+    const size_t at = *first & ~SLRT_UNSORTED;
+    if (*first != SLRT_NO_ENTRY && t->entries[2 * at] == t->thing) return true;
     if (t->count == t->room) return false;
     t->entries[2 * (size_t)t->count] = t->thing;
-    t->entries[2 * (size_t)t->count + 1] = *first;
-    *first = t->count++;
+    t->entries[2 * (size_t)t->count + 1] = *first == SLRT_NO_ENTRY ? *first : (uint32_t)at;
+    *first = t->count++ | SLRT_UNSORTED;
     return true;
+}
+
+/// Keeps of a cell's things those that touch it.
+static void slrt_sort_things(slrt_relevant *t, uint32_t cell) {
+    uint32_t *link = t->first + cell;
+    *link &= ~SLRT_UNSORTED;
+    while (*link != SLRT_NO_ENTRY) {
+        uint32_t *entry = t->entries + 2 * (size_t)*link;
+        double box[4];
+        slrt_thing_in_map(t, *entry, box);
+        if (slrt_meets_box(t->origin.beams.rt, cell, box))
+            link = entry + 1;
+        else
+            *link = entry[1];
+    }
 }
 
 static bool slrt_meet_things(slrt_beams *b, uint32_t cell, const slrt_beam *beam) {
     slrt_relevant *t = (slrt_relevant *)b->context;
+    double bounds[4];
     uint32_t at = t->first[cell];
-    for (; at != SLRT_NO_ENTRY; at = t->entries[2 * (size_t)at + 1]) {
+    if (at == SLRT_NO_ENTRY) return false;
+    if (at & SLRT_UNSORTED) slrt_sort_things(t, cell);
+    slrt_bounds_of(b->rt, &b->cell, bounds);
+    for (at = t->first[cell]; at != SLRT_NO_ENTRY; at = t->entries[2 * (size_t)at + 1]) {
         const uint32_t thing = t->entries[2 * (size_t)at];
         double box[4], part[4];
         if (t->bits[thing / 8] >> thing % 8 & 1) continue;
-        slrt_box_in_map(b->rt, &t->things[thing], 0, box);
-        slrt_part_of(b->rt, cell, box, part);
+        slrt_thing_in_map(t, thing, box);
+        slrt_part_in(bounds, box, part);
         if (slrt_is_beam_beside(beam, part) || slrt_is_out_of_range(b, part)) continue;
         t->bits[thing / 8] |= (unsigned char)(1 << thing % 8);
         t->pairs++;
@@ -138,12 +168,15 @@ static bool slrt_meet_things(slrt_beams *b, uint32_t cell, const slrt_beam *beam
 /// these.
 static void slrt_place_things(slrt_relevant *t, uint32_t thing_count) {
     const sl_runtime *rt = t->origin.beams.rt;
+    double box[4];
     memset(t->first, 0xff, rt->cell_count * sizeof *t->first);
     t->count = 0;
-    for (; t->thing < thing_count; t->thing++)
-        if (slrt_box_in_map(rt, &t->things[t->thing], 0, t->box) &&
-            !slrt_visit_near(rt, t->box, slrt_place_thing, t))
-            return;
+    for (; t->thing < thing_count; t->thing++) {
+        uint32_t *part = t->parts + SLRT_THING_PART * (size_t)t->thing;
+        if (!slrt_box_in_map(rt, &t->things[t->thing], 0, box)) continue;
+        memcpy(part, box, sizeof box);
+        if (!slrt_visit_near(rt, box, slrt_place_thing, t)) return;
+    }
 }
 
 /// Takes each thing in the map for relevant.
@@ -161,7 +194,7 @@ static void slrt_meet_all(slrt_relevant *t, uint32_t thing_count) {
 
 SL_RUNTIME_API size_t sl_runtime_relevant_count(const sl_runtime *runtime, uint32_t thing_count) {
     return sl_runtime_scratch_count(runtime) + 3 * (size_t)runtime->cell_count +
-           16 * (size_t)thing_count;
+           (32 + SLRT_THING_PART) * (size_t)thing_count;
 }
 
 SL_RUNTIME_API size_t sl_runtime_relevant(const sl_runtime *runtime, const sl_runtime_box *players,
@@ -180,7 +213,9 @@ SL_RUNTIME_API size_t sl_runtime_relevant(const sl_runtime *runtime, const sl_ru
     t.things = things;
     t.first = relevant_scratch + sl_runtime_scratch_count(runtime);
     t.entries = t.first + runtime->cell_count;
-    t.room = runtime->cell_count + 8 * (size_t)thing_count;
+    t.room = runtime->cell_count + 16 * (size_t)thing_count;
+    t.parts = t.entries + 2 * t.room;
+    if (t.room >= SLRT_UNSORTED) t.room = SLRT_UNSORTED - 1;
     while (t.thing < thing_count) {
         slrt_place_things(&t, thing_count);
         for (i = 0; i < player_count; i++) {
