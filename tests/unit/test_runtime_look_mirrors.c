@@ -229,9 +229,59 @@ static void rows_say_too_much(void **state) {
     sl_context_destroy(t.context);
 }
 
+/// An eye on a mirror stands in one cell only. When a piece of its cone has filled the path, the
+/// next one looks into that mirror.
+static void on_a_mirror_when_the_path_was_full(void **state) {
+    (void)state;
+    static trial t;
+    t.context = testing_context(NULL);
+    t.f = baked_file_of_text(t.context, "wall 0 0 10 0\nwall 10 0 10 4\nwall 10 4 0 4\n"
+                                        "wall 0 4 0 0\nwall 4 1 4 4\nmirror 0 0 2 0\n");
+    const sl_runtime *r = &t.f.runtime;
+    assert_int_equal(r->cell_count, 2);
+    t.depth = 1;
+    t.scratch = malloc(sl_runtime_mirrored_scratch_count(r, 1) * sizeof *t.scratch);
+    const sl_view view = {.eye = {1, 0}, .right = {1.1, -1}, .left = {0, -0.5}};
+    look(&t, &view);
+    assert_false(t.rounded);
+    for (uint32_t i = 0; i < r->cell_count; i++) assert_int_equal(t.found[i], 1);
+    end(&t);
+    sl_context_destroy(t.context);
+}
+
+/// In line with the mirror that the eye is on is a doorway. By the mirror, the line through it
+/// shows no more than that line.
+static void on_a_mirror_beside_a_doorway(void **state) {
+    (void)state;
+    static trial t;
+    sl_space space = {0};
+    t.context = testing_context(NULL);
+    t.f = baked_file_of_text(
+        t.context, "wall 0 -4 10 -4\nwall 10 -4 10 4\nwall 10 4 0 4\nwall 0 4 0 -4\n"
+                   "wall 0 0 2 0\nwall 4 0 6 0\nwall 8 0 10 0\nwall 3 -4 3 -2\nwall 5 -2 5 0\n"
+                   "mirror 2 0 4 0\n");
+    t.depth = 1;
+    t.scratch = malloc(sl_runtime_mirrored_scratch_count(&t.f.runtime, 1) * sizeof *t.scratch);
+    const sli_filtered_space filtered = {.shut = t.is_shut, .one_way = true};
+    assert_ok(t.context,
+              sli_filtered_space_make(t.context, &t.f.baked.space, &filtered, NULL, &space));
+    for (int x = 16; x <= 32; x++) {
+        const sl_view view = sl_view_all_round((sl_point){x / 8.0, 0});
+        oracle_mirrored truth = oracle_mirrored_of(&space, &t.f.baked.map, &view, 0, 1);
+        look(&t, &view);
+        compare(&t, &view, &truth);
+        oracle_mirrored_free(&truth);
+    }
+    sl_space_destroy(t.context, &space);
+    end(&t);
+    sl_context_destroy(t.context);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rows_say_too_much),
+        cmocka_unit_test(on_a_mirror_when_the_path_was_full),
+        cmocka_unit_test(on_a_mirror_beside_a_doorway),
         cmocka_unit_test(as_brute_force_says),
         cmocka_unit_test(turned_maps_miss_nothing),
     };
