@@ -156,6 +156,7 @@ static void note_drawing(const sli_dxf *dxf) {
         sl_note(dxf->context,
                 "%s: nothing on the layers %s is a wall; sightline info %s lists all layers",
                 dxf->name, dxf->options->layers, dxf->name);
+    sli_faults_note(dxf->context, dxf->name, &dxf->faults);
     sli_layers_note(dxf->context, dxf->name, dxf->pen.map);
 }
 
@@ -176,6 +177,9 @@ static void drawing_destroy(sli_dxf *dxf) {
     sl_free(dxf->context, dxf->blocks.items);
     sl_free(dxf->context, dxf->layers.items);
     sl_free(dxf->context, dxf->walls);
+    sl_free(dxf->context, dxf->filters.items);
+    sl_free(dxf->context, dxf->text.items);
+    sl_free(dxf->context, dxf->names);
 }
 
 sl_status sli_map_read_dxf(sl_context *context, const char *name, const char *text, size_t size,

@@ -123,7 +123,8 @@ static bool place(const sli_pen *pen, sl_point point, sl_point *out) {
 
 sl_status sli_pen_line(sli_pen *pen, sl_point to) {
     sl_point a, b;
-    if (!place(pen, pen->at, &a) || !place(pen, to, &b))
+    pen->too_far = !place(pen, pen->at, &a) || !place(pen, to, &b);
+    if (pen->too_far)
         return sl_fail_at(pen->context, pen->name, pen->line,
                           "a coordinate is out of range: expected a magnitude up to %g",
                           SL_COORDINATE_MAX);

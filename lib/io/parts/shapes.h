@@ -56,6 +56,7 @@ typedef struct sli_pen {
     sl_point at;   ///< the pen, in the drawing's coordinates
     size_t walls;  ///< drawn
     size_t points; ///< lines of no length, left out
+    bool too_far;  ///< the last failure: a coordinate that is not usable
     double finest; ///< the finest unit of the coordinates, in the map's unit
     uint64_t sum;  ///< of their digits
 } sli_pen;
