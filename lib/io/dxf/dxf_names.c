@@ -284,10 +284,12 @@ static bool has_high_byte(sli_word value) {
     return false;
 }
 
-static bool has_escape(sli_word value) {
-    for (size_t i = 0; i + 7 <= value.length; i++)
-        if (memcmp(value.at + i, "\\U+", 3) == 0) return true;
-    return false;
+/// Whether a value has neither bytes beyond ASCII nor anything that may be an escape.
+static bool is_plain(sli_word value) {
+    bool plain = true;
+    for (size_t i = 0; i < value.length; i++)
+        plain &= (unsigned char)value.at[i] < 0x80 && value.at[i] != '\\';
+    return plain;
 }
 
 /// A variable of the header; of no length where there is none.
@@ -348,10 +350,10 @@ sl_status sli_dxf_decode_names(sli_dxf *dxf) {
     bool all_utf8 = true, long_ones = true, any = false;
     for (size_t i = 0; i < dxf->pairs.count; i++) {
         const sli_word value = sli_dxf_at(dxf, i)->value;
-        const bool high = has_high_byte(value);
-        if (high || has_escape(value)) bytes += 8 * value.length + 1;
-        if (high) all_utf8 &= is_utf8(value, &long_ones);
-        any |= high;
+        if (is_plain(value)) continue;
+        bytes += 8 * value.length;
+        any |= has_high_byte(value);
+        all_utf8 &= is_utf8(value, &long_ones);
     }
     if (!bytes) return SL_OK;
     code_page page = {0};
@@ -360,7 +362,7 @@ sl_status sli_dxf_decode_names(sli_dxf *dxf) {
     const bool paged = any && find_page(dxf, all_utf8, long_ones, &page);
     for (size_t i = 0; i < dxf->pairs.count; i++) {
         sli_word *value = &dxf->pairs.items[i].value;
-        if (!has_high_byte(*value) && !has_escape(*value)) continue;
+        if (is_plain(*value)) continue;
         const size_t length = read_escapes(to, read_bytes(paged ? &page : NULL, *value, to));
         *value = (sli_word){to, length};
         to += length;
