@@ -5,7 +5,7 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     sl_context *context = fuzz_context();
-    const sl_limits limits = {.walls = 1 << 16, .entities = 1 << 16};
+    const sl_limits limits = {.walls = 1 << 14, .entities = 1 << 14};
     sl_context_set_limits(context, &limits);
     const sl_import_options options = sl_import_options_default();
     fuzz_read(context, data, size, sli_map_read_dxf, &options, NULL);

@@ -164,9 +164,10 @@ static sl_status find_clip(svg *s, xmlNode *clip, sl_box *out) {
 
 /// The element that "url(#id)" names, if it is a clip; NULL else.
 static xmlNode *named_clip(const svg *s, sli_word value) {
+    if (value.length < 4 || memcmp(value.at, "url(", 4) != 0) return NULL;
     const char *end = value.at + value.length, *at = value.at;
     while (at < end && *at != '#') at++;
-    if (at == end || value.length < 4 || memcmp(value.at, "url(", 4) != 0) return NULL;
+    if (at == end) return NULL;
     const char *stop = ++at;
     while (stop < end && !strchr("\"')", *stop)) stop++;
     char *id = sl_copy_text(s->context, at, (size_t)(stop - at));
