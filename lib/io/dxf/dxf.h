@@ -3,6 +3,7 @@
 #ifndef SL_DXF_H
 #define SL_DXF_H
 
+#include "io/parts/contents.h"
 #include "io/parts/layers.h"
 #include "io/parts/names.h"
 #include "io/parts/shapes.h"
@@ -57,6 +58,8 @@ typedef struct sli_dxf {
     sli_dxf_range entities;
     int unit; ///< $INSUNITS; 0 where the drawing does not tell
     sli_pen pen;
+    sli_contents contents;
+    uint32_t block; ///< the innermost block about an entity whose name says what it is; 0 for none
     size_t work;    ///< entities and insertions gone through
     sl_bits *walls; ///< the pairs that start an entity that was drawn
     /// Entities drawn; those of other layers, further kinds, of the paper or out of the plane.

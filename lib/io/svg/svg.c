@@ -4,11 +4,13 @@
 /// begin with "sightline-" hold doors, solid ground and so on (layers.h).
 #include "base/base.h"
 #include "io/io_formats.h"
+#include "io/parts/contents.h"
 #include "io/parts/document.h"
 #include "io/parts/layers.h"
 #include "io/parts/names.h"
 #include "io/parts/shapes.h"
 #include "io/svg/svg_count.h"
+#include "io/svg/svg_group.h"
 #include "io/svg/svg_style.h"
 #include "map/scan.h"
 #include "map/source.h"
@@ -301,6 +303,7 @@ typedef struct svg {
     sli_svg_style style;
     sli_svg_ids ids;
     sli_pen pen;
+    sli_contents contents;
     size_t work, shapes, hidden, other;
     char *mark;     ///< the sum of the digits that the file's writer knew
     bool by_number; ///< walls have the number of their shape in place of its line
@@ -311,6 +314,7 @@ typedef struct place {
     sli_affine affine;
     bool taken; ///< on a layer that is asked for
     sli_layer layer;
+    uint32_t group; ///< that it belongs to by name
     unsigned depth;
 } place;
 
@@ -591,6 +595,14 @@ static sl_status draw_in_layer(svg *s, xmlNode *node, shape kind, sli_layer laye
     return status;
 }
 
+/// Draws a shape, and tells whose it is.
+static sl_status draw_in_group(svg *s, xmlNode *node, shape kind, uint32_t group) {
+    if (!sli_contents_asks(&s->contents)) return draw_shape(s, node, kind);
+    sli_contents_begin(&s->contents, &s->pen);
+    SL_TRY(draw_shape(s, node, kind));
+    return sli_contents_end(&s->contents, &s->pen, group);
+}
+
 // --- groups
 
 static sl_status draw_children(svg *s, xmlNode *node, place at) {
@@ -647,6 +659,7 @@ static sl_status draw_use(svg *s, xmlNode *node, place at) {
     SL_TRY(status);
     at.affine = sli_affine_after(at.affine, (sli_affine){.xx = 1, .x0 = x, .yy = 1, .y0 = y});
     at.depth++;
+    if (sli_xml_is(used, "symbol")) SL_TRY(sli_svg_find_group(&s->contents, used, &at.group));
     return sli_xml_is(used, "symbol") ? draw_children(s, used, at) : draw_element(s, used, at);
 }
 
@@ -694,6 +707,7 @@ static sl_status draw_element(svg *s, xmlNode *node, place at) {
         at.affine = sli_affine_after(at.affine, own);
     }
     at.taken |= s->options->layers && is_layer(s, node);
+    if (sli_contents_asks(&s->contents)) SL_TRY(sli_svg_find_group(&s->contents, node, &at.group));
     if (kind == NO_SHAPE) {
         const sli_layer own = layer_of_group(node);
         if (own) at.layer = own;
@@ -702,7 +716,8 @@ static sl_status draw_element(svg *s, xmlNode *node, place at) {
     if (!at.taken) return SL_OK;
     s->pen.affine = at.affine;
     s->pen.item = s->by_number ? (uint32_t)(uintptr_t)node->_private : 0;
-    return at.layer ? draw_in_layer(s, node, kind, at.layer) : draw_shape(s, node, kind);
+    return at.layer ? draw_in_layer(s, node, kind, at.layer)
+                    : draw_in_group(s, node, kind, at.group);
 }
 
 // --- names for walls
@@ -827,14 +842,17 @@ static sl_status draw_root(svg *s, xmlNode *root) {
     SL_TRY(sli_svg_check_amount(s->context, s->pen.name, s->options, root, &s->style, &s->ids));
     const place at = {.affine = {.xx = 1, .yy = -1, .y0 = height}, .taken = !s->options->layers};
     SL_TRY(draw_children(s, root, at));
+    SL_TRY(sli_contents_choose(&s->contents, 0, &s->pen));
+    s->shapes -= s->contents.left_out;
     s->pen.map->precision = sli_marked_precision(s->pen.map, s->pen.finest, s->mark, s->pen.sum);
-    const sli_tally left[] = {{s->hidden, "hidden element or group", "hidden elements or groups"},
+    const sli_tally left[] = {{s->contents.left_out, "shape passed over", "shapes passed over"},
+                              {s->hidden, "hidden element or group", "hidden elements or groups"},
                               {s->other, "text or picture", "texts and pictures"},
                               {s->pen.points, "line of no length", "lines of no length"},
                               {s->style.unread, "rule of a style sheet", "rules of style sheets"}};
     char without[SLI_TALLY_TEXT];
     sl_note(s->context, "%s: %zu shapes give %zu walls%s", s->pen.name, s->shapes, s->pen.walls,
-            sli_tally_write("; left out: ", left, 4, without));
+            sli_tally_write("; left out: ", left, 5, without));
     sli_layers_note(s->context, s->pen.name, s->pen.map);
     return SL_OK;
 }
@@ -845,6 +863,7 @@ sl_status sli_map_read_svg(sl_context *context, const char *name, const char *te
     svg s = {
         .context = context,
         .options = options,
+        .contents = {.context = context, .file = name, .options = options},
         .pen = {.context = context, .name = name, .map = &read, .tolerance = options->tolerance}};
     SL_TRY(sli_xml_read(context, name, text, size, &s.document));
     xmlNode *root = xmlDocGetRootElement(s.document);
@@ -857,6 +876,7 @@ sl_status sli_map_read_svg(sl_context *context, const char *name, const char *te
                       .text);
     sli_svg_style_destroy(context, &s.style);
     sli_svg_ids_destroy(context, &s.ids);
+    sli_contents_destroy(&s.contents);
     sli_xml_free(s.mark);
     xmlFreeDoc(s.document);
     if (status == SL_OK)
