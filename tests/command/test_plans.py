@@ -169,7 +169,7 @@ class Drawings(Plans):
 
     def test_what_is_left_out_has_its_kind_and_layer(self):
         self.write("a.dxf", flat().add("HATCH", "A-WALL").add("HATCH", "A-WALL").add("TEXT", "A-TEXT"))
-        self.assertIn("; left out: 2 HATCH on A-WALL, 1 TEXT on A-TEXT; unit: millimetres",
+        self.assertIn("; left out: 1 entity on layers passed over, 2 HATCH on A-WALL, 1 TEXT on A-TEXT; unit: millimetres",
                       self.run_well("info", "a.dxf").stderr)
 
     def test_splines_become_chords(self):
@@ -233,7 +233,7 @@ class Drawings(Plans):
                 self.assertIn("-: 6 entities", self.run_well("info", "-", *LAYERS, stdin=stream).stderr)
         for name, text in (("plan.dwg", "AC1027"), ("plan", "AC1032....")):
             self.write(name, text)
-            self.assertIn(f"{name}: a DWG drawing: save it as ASCII DXF in the program that it is from",
+            self.assertIn(f"{name}: a DWG drawing: save it as DXF in the program that it is from",
                           self.refused("bake", name, "-o", "a.slv"))
         self.write("map.pgm", "P2 3 1 255 0 205 254")
         for end in "\n\r":

@@ -1,7 +1,7 @@
 /// DXF (Autodesk, DXF Reference). A drawing is lines in pairs, a group code and a value, in
 /// sections HEADER, TABLES, BLOCKS and ENTITIES. The pairs are read first (dxf_sections.c); then
-/// every entity that is walls is drawn (dxf_draw.c). Here walls get names and a unit, and the notes
-/// say what was taken.
+/// every entity that is walls is drawn (dxf_draw.c). Then layers are chosen by what they mean
+/// (contents.h). Here walls get names and a unit, and the notes say what was taken.
 #include "io/dxf/dxf.h"
 
 #include "io/io_formats.h"
@@ -132,8 +132,10 @@ static sl_status draw_drawing(sli_dxf *dxf, const char *text, size_t size) {
 /// What was taken, and what was left out.
 static void note_drawing(const sli_dxf *dxf) {
     char kinds[SLI_DXF_OTHERS][96];
-    sli_tally left[5 + SLI_DXF_OTHERS];
+    sli_tally left[6 + SLI_DXF_OTHERS];
     size_t count = 0;
+    left[count++] = (sli_tally){dxf->contents.left_out, "entity on layers passed over",
+                                "entities on layers passed over"};
     left[count++] = (sli_tally){dxf->other_layers, "on another layer", "on other layers"};
     for (size_t i = 0; i < dxf->others_count; i++) {
         const sli_dxf_other *other = &dxf->others[i];
@@ -163,6 +165,9 @@ static void note_drawing(const sli_dxf *dxf) {
 static sl_status read_drawing(sli_dxf *dxf, const char *text, size_t size) {
     SL_TRY(draw_drawing(dxf, text, size));
     SL_TRY(name_walls(dxf));
+    const double metres = sli_units[dxf->pen.map->source.drawing_unit].metres;
+    SL_TRY(sli_contents_choose(&dxf->contents, metres > 0 ? 1 / metres : 0, &dxf->pen));
+    dxf->drawn -= dxf->contents.left_out;
     char *mark = NULL;
     SL_TRY(find_mark(dxf, &mark));
     dxf->pen.map->precision =
@@ -180,6 +185,7 @@ static void drawing_destroy(sli_dxf *dxf) {
     sl_free(dxf->context, dxf->filters.items);
     sl_free(dxf->context, dxf->text.items);
     sl_free(dxf->context, dxf->names);
+    sli_contents_destroy(&dxf->contents);
 }
 
 sl_status sli_map_read_dxf(sl_context *context, const char *name, const char *text, size_t size,
@@ -188,6 +194,7 @@ sl_status sli_map_read_dxf(sl_context *context, const char *name, const char *te
     sli_dxf dxf = {.context = context,
                    .name = name,
                    .options = options,
+                   .contents = {.context = context, .file = name, .options = options},
                    .pen = {.context = context,
                            .name = name,
                            .map = &read,
@@ -231,6 +238,7 @@ sl_status sl_drawing_layers_dxf(sl_context *context, const char *name, const cha
         .context = context,
         .name = name,
         .options = &options,
+        .contents = {.context = context, .file = name, .options = &options},
         .pen = {.context = context, .name = name, .map = &map, .affine = SLI_AFFINE_NONE}};
     sl_status status = draw_drawing(&dxf, text, size);
     if (status == SL_OK) status = copy_layers(&dxf, &read);

@@ -5,6 +5,7 @@
 #ifndef SL_DXF_H
 #define SL_DXF_H
 
+#include "io/parts/contents.h"
 #include "io/parts/faults.h"
 #include "io/parts/layers.h"
 #include "io/parts/names.h"
@@ -75,8 +76,10 @@ typedef struct sli_dxf {
     char *names;                      ///< that are not as in the file
     int unit;                         ///< $INSUNITS; 0 where the drawing does not tell
     sli_pen pen;
-    size_t work;            ///< entities and insertions gone through
-    sl_bits *walls;         ///< the pairs that start an entity that was drawn
+    sli_contents contents;
+    uint32_t block; ///< the innermost block about an entity whose name says what it is; 0 for none
+    size_t work;    ///< entities and insertions gone through
+    sl_bits *walls; ///< the pairs that start an entity that was drawn
     sli_faults faults;      ///< entities passed over
     const sli_fault *fault; ///< that the entity being drawn has; NULL for none
     uint32_t fault_line;    ///< of the file

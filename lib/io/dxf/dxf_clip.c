@@ -223,14 +223,17 @@ sl_status sli_dxf_cut(sli_dxf *dxf, const sli_dxf_clip *clip, sli_affine affine,
     if (!count || first == map->wall_count) return SL_OK;
     sl_point *p = sl_alloc_array(dxf->context, count, sizeof *p);
     double *shares = sl_alloc_array(dxf->context, count + 2, sizeof *shares);
-    sl_status status = p && shares ? SL_OK : SL_NO_MEMORY;
+    size_t *ends = sl_alloc_array(dxf->context, map->wall_count - first, sizeof *ends);
+    sl_status status = p && shares && ends ? SL_OK : SL_NO_MEMORY;
     for (size_t i = 0; i < count && status == SL_OK; i++)
         p[i] = sli_affine_apply(affine, clip->corners[i]);
     for (size_t i = first; i < map->wall_count && status == SL_OK; i++) {
         status = cut_wall(dxf, p, count, &map->walls[i], shares, &kept);
+        ends[i - first] = first + kept.wall_count;
         if (status == SL_OK && i % 256 == 0) status = sl_check_cancelled(dxf->context);
     }
     if (status == SL_OK) {
+        sli_contents_cut(&dxf->contents, first, ends);
         const size_t before_cut = map->wall_count - first, counted = dxf->pen.walls;
         dxf->pen.walls = counted + kept.wall_count - (counted < before_cut ? counted : before_cut);
         map->wall_count = first;
@@ -239,5 +242,6 @@ sl_status sli_dxf_cut(sli_dxf *dxf, const sli_dxf_clip *clip, sli_affine affine,
     sl_map_destroy(dxf->context, &kept);
     sl_free(dxf->context, p);
     sl_free(dxf->context, shares);
+    sl_free(dxf->context, ends);
     return status;
 }

@@ -312,7 +312,11 @@ static sl_status draw_insert(sli_dxf *dxf, sli_dxf_range entity, sli_word layer,
     SL_TRY(sli_dxf_number(dxf, entity, 45, &gap.y));
     const sli_affine outer = dxf->pen.affine;
     sli_dxf_clip clip;
+    const uint32_t block_before = dxf->block;
+    uint32_t named;
+    SL_TRY(sli_contents_group(&dxf->contents, name, &named));
     sl_status status = sli_dxf_read_clip(dxf, entity, &clip);
+    if (sli_contents_means(&dxf->contents, named)) dxf->block = named;
     for (int row = 0; row < rows && status == SL_OK; row++) {
         for (int column = 0; column < columns && status == SL_OK; column++) {
             const size_t first = dxf->pen.map->wall_count;
@@ -325,6 +329,7 @@ static sl_status draw_insert(sli_dxf *dxf, sli_dxf_range entity, sli_word layer,
             if (status == SL_OK) status = sli_dxf_cut(dxf, &clip, inner, first);
         }
     }
+    dxf->block = block_before;
     sl_free(dxf->context, clip.corners);
     return status;
 }
@@ -376,6 +381,22 @@ static sl_status read_start(sli_dxf *dxf, sli_dxf_range entity, sl_point *at, do
     return SL_OK;
 }
 
+/// Draws an entity, and tells whose it is: its layer's, or the block's about it, where the layer
+/// says nothing, or is that of the insertion.
+static sl_status draw_in_group(sli_dxf *dxf, sli_dxf_range entity, size_t end, sli_word layer,
+                               plane lies, unsigned depth) {
+    sli_contents *contents = &dxf->contents;
+    uint32_t group;
+    if (!sli_contents_asks(contents)) return draw_shape(dxf, entity, end, layer, lies, depth);
+    SL_TRY(sli_contents_group(contents, layer, &group));
+    const sli_meaning block = sli_contents_means(contents, dxf->block);
+    const bool inserted = sli_word_is(sli_dxf_text(dxf, entity, 8), "0") && block != SLI_MEANS_WALL;
+    if (block && (inserted || !sli_contents_means(contents, group))) group = dxf->block;
+    sli_contents_begin(contents, &dxf->pen);
+    SL_TRY(draw_shape(dxf, entity, end, layer, lies, depth));
+    return sli_contents_end(contents, &dxf->pen, group);
+}
+
 /// Draws an entity; on a layer that says what it holds, into a map of its own, and its lines become
 /// that.
 static sl_status draw_in_layer(sli_dxf *dxf, sli_dxf_range entity, size_t end, sli_word layer,
@@ -384,8 +405,8 @@ static sl_status draw_in_layer(sli_dxf *dxf, sli_dxf_range entity, size_t end, s
     sli_word rest = {"", 0};
     sl_point start = {0, 0};
     sli_layer_item item = {.layer = sli_layer_of(layer, &rest), .points = &start};
-    if (!item.layer || sli_word_is(kind, "INSERT"))
-        return draw_shape(dxf, entity, end, layer, lies, depth);
+    if (sli_word_is(kind, "INSERT")) return draw_shape(dxf, entity, end, layer, lies, depth);
+    if (!item.layer) return draw_in_group(dxf, entity, end, layer, lies, depth);
     if (item.layer == SLI_LAYER_DOOR) read_door_layer(&rest, &item.open);
     char *name = sl_copy_text(dxf->context, rest.at, rest.length);
     if (!name) return SL_NO_MEMORY;

@@ -4,6 +4,7 @@
 #ifndef SL_SVG_H
 #define SL_SVG_H
 
+#include "io/parts/contents.h"
 #include "io/parts/faults.h"
 #include "io/parts/layers.h"
 #include "io/parts/shapes.h"
@@ -17,6 +18,7 @@ typedef struct sli_svg {
     sli_svg_style style;
     sli_svg_ids ids;
     sli_pen pen;
+    sli_contents contents;
     size_t work, shapes, hidden, other;
     sli_faults faults;      ///< passed over
     const sli_fault *fault; ///< of the last failure; NULL where it is of the whole file
@@ -33,6 +35,7 @@ typedef struct sli_svg_place {
     sli_svg_paint paint;
     bool taken; ///< on a layer that is asked for
     sli_layer layer;
+    uint32_t group; ///< that it belongs to by name
     unsigned depth;
 } sli_svg_place;
 
