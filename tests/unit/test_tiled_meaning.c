@@ -159,7 +159,7 @@ static void test_names_in_languages(void **state) {
         if (sli_game_kind_of(others[i]) == SLI_GAME_SOLID) fail_msg("%s", others[i]);
     assert_int_equal(sli_game_kind_of("stone floor"), SLI_GAME_FLOOR);
     assert_int_equal(sli_game_kind_of("Water"), SLI_GAME_WATER);
-    assert_int_equal(sli_game_kind_of("Ladder"), SLI_GAME_GROUND);
+    assert_int_equal(sli_game_kind_of("Ladder"), SLI_GAME_PASS);
     assert_int_equal(sli_game_kind_of("Tile Layer 1"), SLI_GAME_UNSAID);
 }
 

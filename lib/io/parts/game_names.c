@@ -23,13 +23,16 @@ static const char *const floor_words[] = {
     "suelo", "piso", "pavimento", "golv",     "podłoga", "пол",      "地板",  "床",
 };
 static const char *const ground_words[] = {
-    "ground", "grass",  "sand",     "dirt",   "mud",    "snow",   "ice",    "road",     "bridge",
-    "ladder", "stair",  "stairs",   "step",   "door",   "gate",   "field",  "desert",   "beach",
-    "meadow", "gravel", "soil",     "earth",  "air",    "empty",  "open",   "walkable", "passable",
-    "void",   "none",   "nothing",  "rope",   "vine",   "climb",  "street", "sidewalk", "pavement",
-    "plank",  "farm",   "farmland", "spawn",  "start",  "exit",   "zone",   "trigger",  "coin",
-    "item",   "moss",   "leaf",     "bush",   "oneway", "hay",    "crop",   "wiese",    "gras",
-    "herbe",  "hierba", "erba",     "straße", "weg",    "chemin", "camino", "地面",     "草地",
+    "ground",   "grass",    "sand",   "dirt",   "mud",      "snow",   "ice",   "road",
+    "field",    "desert",   "beach",  "meadow", "gravel",   "soil",   "earth", "street",
+    "sidewalk", "pavement", "plank",  "farm",   "farmland", "moss",   "leaf",  "bush",
+    "hay",      "crop",     "wiese",  "gras",   "herbe",    "hierba", "erba",  "straße",
+    "weg",      "chemin",   "camino", "地面",   "草地",
+};
+static const char *const pass_words[] = {
+    "bridge",   "ladder",   "stair", "step", "door",    "gate", "air",  "empty",  "open",
+    "walkable", "passable", "void",  "none", "nothing", "rope", "vine", "climb",  "climbable",
+    "spawn",    "start",    "exit",  "zone", "trigger", "coin", "item", "player", "enemy",
 };
 static const char *const water_words[] = {
     "water",   "lava",   "pit",   "river", "lake",   "sea",   "ocean", "pond",
@@ -78,7 +81,7 @@ static const char *const other_words[] = {
 
 /// Which kinds the words of a name are of.
 typedef struct kinds {
-    bool solid, drawn, floor, ground, water, stands, likely, unknown;
+    bool solid, drawn, floor, ground, pass, water, stands, likely, unknown;
 } kinds;
 
 static kinds kinds_of(const char *name) {
@@ -89,6 +92,7 @@ static kinds kinds_of(const char *name) {
         all.drawn |= IS_ONE_OF(&word, drawn_words);
         all.floor |= IS_ONE_OF(&word, floor_words);
         all.ground |= IS_ONE_OF(&word, ground_words);
+        all.pass |= IS_ONE_OF(&word, pass_words);
         all.water |= IS_ONE_OF(&word, water_words);
         all.stands |= IS_ONE_OF(&word, stands_words);
         all.likely |= IS_ONE_OF(&word, likely_words);
@@ -100,10 +104,11 @@ static kinds kinds_of(const char *name) {
 
 sli_game_kind sli_game_kind_of(const char *name) {
     if (sli_says_solid(name)) return SLI_GAME_SOLID;
-    if (sli_says_walkable(name)) return SLI_GAME_GROUND;
+    if (sli_says_walkable(name)) return SLI_GAME_PASS;
     const kinds all = kinds_of(name);
     if (all.drawn) return SLI_GAME_DRAWN;
     if (all.solid) return all.unknown ? SLI_GAME_LIKELY : SLI_GAME_SOLID;
+    if (all.pass) return SLI_GAME_PASS;
     if (all.water) return SLI_GAME_WATER;
     if (all.likely) return SLI_GAME_LIKELY;
     if (all.floor) return SLI_GAME_FLOOR;

@@ -9,7 +9,8 @@ typedef enum sli_game_kind {
     SLI_GAME_UNSAID,
     SLI_GAME_DRAWN,  ///< a picture only: above, roof, decoration, shadow, background
     SLI_GAME_FLOOR,  ///< floor, path, room: where it is not, there is a wall
-    SLI_GAME_GROUND, ///< ground, grass, sand, bridge, ladder, door: open
+    SLI_GAME_PASS,   ///< ladder, bridge, door, air, exit: open
+    SLI_GAME_GROUND, ///< ground, grass, sand: open seen from above, solid in a platformer
     SLI_GAME_WATER,  ///< water, lava, pit: one sees over it, and does not walk on it
     SLI_GAME_STANDS, ///< trees, buildings, cliffs: solid where nothing says more
     SLI_GAME_LIKELY, ///< a word for solid among others, platforms, meta: solid before those
