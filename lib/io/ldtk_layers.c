@@ -303,16 +303,27 @@ static bool says_solid(const sli_json *layer) {
     return sli_game_kind_of(sli_json_text_of(layer, "__identifier")) == SLI_GAME_SOLID;
 }
 
+/// What the layers of a level that hold cells say by their names.
+typedef struct said {
+    bool solid; ///< some are solid
+    bool plain; ///< some are no pictures, doors, zones
+} said;
+
+static bool is_plain(const sli_json *layer) {
+    const sli_game_kind kind = sli_game_kind_of(sli_json_text_of(layer, "__identifier"));
+    return kind != SLI_GAME_DRAWN && kind != SLI_GAME_PASS;
+}
+
 /// Whether a layer of cells is to be read: those asked for; else those whose names say that they
-/// are solid, and water beside them; else all but pictures.
-static bool is_taken(const sli_ldtk *reader, const sli_json *layer, bool some_say_solid) {
+/// are solid, and water beside them; else all but pictures and zones, where there are others.
+static bool is_taken(const sli_ldtk *reader, const sli_json *layer, said all) {
     const char *name = sli_json_text_of(layer, "__identifier");
     const sli_game_kind kind = sli_game_kind_of(name);
     sli_word numbers;
     if (!is_int_grid(layer)) return false;
     if (reader->options->layers) return sli_layers_ask(reader->options->layers, name, &numbers);
-    return some_say_solid ? kind == SLI_GAME_SOLID || kind == SLI_GAME_WATER
-                          : kind != SLI_GAME_DRAWN;
+    if (all.solid) return kind == SLI_GAME_SOLID || kind == SLI_GAME_WATER;
+    return !all.plain || is_plain(layer);
 }
 
 /// Whether the level has layers of cells: those of tiles count only where it has not.
@@ -350,13 +361,14 @@ static sl_status check_layers(const sli_ldtk *reader, const sli_json *layers) {
 
 sl_status sli_ldtk_read_layers(sli_ldtk *reader, const sli_json *layers, sli_ldtk_place at) {
     size_t count;
-    bool some_say_solid = false;
+    said all = {.solid = false};
     SL_TRY(sli_json_array(layers, &count));
     SL_TRY(check_layers(reader, layers));
     for (size_t i = 0; i < count; i++) {
         const sli_json layer = sli_json_item(layers, i);
         SL_TRY(sli_json_object(&layer));
-        some_say_solid |= is_int_grid(&layer) && says_solid(&layer);
+        all.solid |= is_int_grid(&layer) && says_solid(&layer);
+        all.plain |= is_int_grid(&layer) && is_plain(&layer);
     }
     const bool cells = has_cells(layers);
     for (size_t i = 0; i < count; i++) {
@@ -367,7 +379,7 @@ sl_status sli_ldtk_read_layers(sli_ldtk *reader, const sli_json *layers, sli_ldt
                            sli_layers_ask(reader->options->layers,
                                           sli_json_text_of(&layer, "__identifier"), &numbers);
         SL_TRY(read_entities(reader, &layer, at));
-        if (is_taken(reader, &layer, some_say_solid)) SL_TRY(read_layer(reader, &layer, at));
+        if (is_taken(reader, &layer, all)) SL_TRY(read_layer(reader, &layer, at));
         if (!cells && asked && is_tiles(&layer)) SL_TRY(read_tiles(reader, &layer, at));
         reader->other_layers += before == reader->layers + reader->tile_layers;
     }

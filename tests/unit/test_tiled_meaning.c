@@ -112,6 +112,37 @@ static void test_weaker_names(void **state) {
     assert_refused(MAP(SET LAYER("Ground", FULL) BOX_IN("Houses")), UNSAID);
 }
 
+/// An object that shows a tile has the tile's collision shapes, stretched and mirrored as it is.
+static void test_shapes_of_tile_objects(void **state) {
+    (void)state;
+#define SHOWN(more)                                                                                \
+    MAP(SET_OF("<tile id='4'><objectgroup>" BOX("1", "2", "3", "4") "</objectgroup></tile>")       \
+            LAYER("a", FULL) "<objectgroup name='things'><object " more "/></objectgroup>")
+#define AS_BOX(a, b, c, d)                                                                         \
+    "wall " a " " b "\nwall " b " " c "\nwall " c " " d "\nwall " d " " a "\n" FRAME
+    assert_walls(SHOWN("gid='5' x='8' y='8' width='8' height='8'"),
+                 AS_BOX("9 14", "12 14", "12 10", "9 10"));
+    assert_walls(SHOWN("gid='5' x='8' y='8'"), AS_BOX("9 14", "12 14", "12 10", "9 10"));
+    assert_walls(SHOWN("gid='5' x='0' y='16' width='16' height='16'"),
+                 AS_BOX("2 12", "8 12", "8 4", "2 4"));
+    assert_walls(SHOWN("gid='2147483653' x='8' y='8' width='8' height='8'"),
+                 AS_BOX("15 14", "12 14", "12 10", "15 10"));
+    assert_walls(SHOWN("gid='5' x='8' y='8' width='8' height='8' rotation='90'"),
+                 AS_BOX("14 7", "14 4", "10 4", "10 7"));
+    assert_refused(SHOWN("gid='5' name='slime' x='8' y='8' width='8' height='8'"), UNSAID);
+    assert_refused(SHOWN("gid='6' x='8' y='8' width='8' height='8'"), UNSAID);
+}
+
+/// A layer that is named for walls and holds nothing does not decide.
+static void test_empty_layers(void **state) {
+    (void)state;
+    assert_walls(MAP(SET LAYER("walls", CSV("0,0,0,0,0,0")) "<objectgroup name='collision'/>" LAYER(
+                     "Trees", TILES)),
+                 TWO_TILES);
+    assert_walls(MAP(SET LAYER("walls", CSV("0,0,0,0,0,0")) LAYER("ground", FULL)), FRAME);
+    assert_refused(MAP(SET LAYER("no collision", TILES) LAYER("ground", FULL)), UNSAID);
+}
+
 #define PROPERTY(name, value)                                                                      \
     "<properties><property name='" name "' value='" value "'/></properties>"
 #define TILE_WITH(property)                                                                        \
@@ -254,6 +285,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_guess),
         cmocka_unit_test(test_weaker_names),
+        cmocka_unit_test(test_shapes_of_tile_objects),
+        cmocka_unit_test(test_empty_layers),
         cmocka_unit_test(test_words_of_properties),
         cmocka_unit_test(test_names_in_languages),
         cmocka_unit_test(test_terrains),

@@ -62,6 +62,11 @@ static const char *const which_words[] = {
     "line",   "full",  "data",    "check",      "info",     "grid",        "set",     "tileset",
     "metal",  "basic", "tilemap", "tileslayer", "env",      "environment", "hard",    "physic",
 };
+/// Before a word for solid: it is none.
+static const char *const without_words[] = {
+    "no",    "non",      "not",         "un",        "without",      "ohne",        "sans", "sin",
+    "senza", "nonsolid", "nocollision", "nocollide", "nocollisions", "passthrough", "без",
+};
 static const char *const inside_words[] = {
     "sewer",     "dungeon", "cave",   "cavern", "crypt",     "catacomb", "mine",        "tomb",
     "roguelike", "rogue",   "cellar", "prison", "labyrinth", "maze",     "underground",
@@ -81,7 +86,7 @@ static const char *const other_words[] = {
 
 /// Which kinds the words of a name are of.
 typedef struct kinds {
-    bool solid, drawn, floor, ground, pass, water, stands, likely, unknown;
+    bool without, solid, drawn, floor, ground, pass, water, stands, likely, unknown;
 } kinds;
 
 static kinds kinds_of(const char *name) {
@@ -89,6 +94,7 @@ static kinds kinds_of(const char *name) {
     for (sli_name_word word; sli_word_next(&name, &word);) {
         const bool solid = sli_says_solid(word.text), which = IS_ONE_OF(&word, which_words);
         all.solid |= solid;
+        all.without |= IS_ONE_OF(&word, without_words);
         all.drawn |= IS_ONE_OF(&word, drawn_words);
         all.floor |= IS_ONE_OF(&word, floor_words);
         all.ground |= IS_ONE_OF(&word, ground_words);
@@ -106,6 +112,7 @@ sli_game_kind sli_game_kind_of(const char *name) {
     if (sli_says_solid(name)) return SLI_GAME_SOLID;
     if (sli_says_walkable(name)) return SLI_GAME_PASS;
     const kinds all = kinds_of(name);
+    if (all.without) return SLI_GAME_PASS;
     if (all.drawn) return SLI_GAME_DRAWN;
     if (all.solid) return all.unknown ? SLI_GAME_LIKELY : SLI_GAME_SOLID;
     if (all.pass) return SLI_GAME_PASS;

@@ -356,6 +356,8 @@ static sl_status read_object(sli_tiled_reader *reader, const sli_json *layer,
         const char *name = sli_json_text_of(object, "name");
         sli_things_leave(&reader->things, *name ? name : sli_json_text_of(object, "class"));
     }
+    if (!taken && word == SLI_TILED_UNSAID && !at->others)
+        return sli_tiled_draw_picture(reader, object, &shape, affine_of_layer(reader, at));
     if (counted != &reader->objects) return SL_OK;
     return draw_object(reader, layer, object, &shape, at, stops);
 }
@@ -368,8 +370,7 @@ static sl_status read_objects(sli_tiled_reader *reader, const sli_json *layer,
     size_t count = 0;
     if (objects.value) SL_TRY(sli_json_array(&objects, &count));
     if (!reader->by) reader->seen.items[reader->at_layer].count = count;
-    if (kind) return read_items(reader, layer, at, kind);
-    reader->solid_layers += at->word == SLI_TILED_SOLID;
+    if (kind) return reader->by ? SL_OK : read_items(reader, layer, at, kind);
     sl_status status = SL_OK;
     for (size_t i = 0; status == SL_OK && i < count; i++) {
         const sli_json object = sli_json_item(&objects, i);
@@ -409,7 +410,12 @@ static sl_status read_layer(sli_tiled_reader *reader, const sli_json *layer,
         note_stops_of_tiles(reader, layer, own);
         SL_TRY(sli_tiled_read_tile_layer(reader, layer, own));
     }
-    reader->seen.items[reader->at_layer++].taken |= sli_tiled_taken(reader) > before;
+    sli_tiled_seen *seen = &reader->seen.items[reader->at_layer++];
+    const bool solid = own->word == SLI_TILED_SOLID && !places &&
+                       !(objects && kind_of_layer(reader, layer) != SLI_LAYER_NONE);
+    reader->solid_layers += solid && seen->count;
+    reader->empty_layers += solid && !seen->count;
+    seen->taken |= sli_tiled_taken(reader) > before;
     return SL_OK;
 }
 

@@ -259,6 +259,7 @@ typedef struct sli_tiled_reader {
     const char *guess_why;            ///< NULL where nothing can be guessed
     uint64_t tile_shapes, tile_walls; ///< that the layers' tiles draw
     size_t solid_layers, solid_tiles, shapes, objects; ///< taken
+    size_t empty_layers;                               ///< that would be solid
     size_t other_layers, other_objects, other_shapes;  ///< left out
     size_t unknown_tiles;                              ///< of tilesets that cannot be read
     size_t lost_tiles;                                 ///< the same, in solid layers too
@@ -289,6 +290,11 @@ sl_status sli_tiled_name_shape(sli_tiled_reader *reader, const char *label);
 /// Reads the tiles of a layer: solid squares, doors, shapes of tiles.
 sl_status sli_tiled_read_tile_layer(sli_tiled_reader *reader, const sli_json *layer,
                                     const sli_tiled_place *at);
+
+/// Draws the collision shapes of the tile that an object shows, where it has some and is no enemy
+/// or item by its name; in orthogonal maps. `layer` leads from its layer to the plan.
+sl_status sli_tiled_draw_picture(sli_tiled_reader *reader, const sli_json *object,
+                                 const sli_tiled_shape *shape, sli_affine layer);
 
 /// Makes walls of all solid tiles that were read, in the plan.
 sl_status sli_tiled_add_tile_walls(sli_tiled_reader *reader);

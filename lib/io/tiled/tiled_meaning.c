@@ -235,6 +235,11 @@ sl_status sli_tiled_find_meaning(sli_tiled_reader *reader) {
         SL_TRY(sli_tiled_read_again(reader));
         if (sli_tiled_taken(reader)) return SL_OK;
     }
+    // A layer for walls that has none: all is open but what is beyond the map.
+    if (reader->empty_layers) {
+        reader->by = SLI_TILED_BY_WORD;
+        return SL_OK;
+    }
     SL_TRY(guess(reader));
     return reader->guess_why ? SL_OK
                              : sli_tiled_fail_unsaid(reader, "nothing in it says what is solid");
@@ -270,6 +275,6 @@ void sli_tiled_tell_meaning(const sli_tiled_reader *reader) {
             file, by[reader->by], taken.text, others.count ? "; not taken: " : "", others.text);
     } else if (others.count) {
         sl_note(reader->context, "%s: solid: %s; --layers NAME,NAME chooses; not solid: %s", file,
-                taken.count ? taken.text : "objects", others.text);
+                taken.count ? taken.text : "only what is beyond its edge", others.text);
     }
 }

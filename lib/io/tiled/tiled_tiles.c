@@ -174,6 +174,56 @@ static sl_status draw_tile_shapes(sli_tiled_reader *reader, const block *all, si
     return status;
 }
 
+/// From a tile's pixels to the layer of an object that shows it: stretched to the object's size,
+/// its lower left corner on the object's place, about which it turns.
+static sli_affine affine_of_picture(const sli_tiled_reader *reader, const sli_tiled_set *set,
+                                    const sli_tiled_shape *shape) {
+    double height;
+    const uint32_t mirrors = SLI_TILED_ACROSS | SLI_TILED_DOWN | SLI_TILED_TILE;
+    const sli_affine inner = turn_tile(reader, shape->gid & mirrors, set, &height);
+    const double x = shape->width > 0 ? shape->width / set->width : 1;
+    const double y = shape->height > 0 ? shape->height / set->height : 1;
+    const sli_affine scale = {.xx = x, .yy = y, .y0 = -y * set->height};
+    sli_affine turn = shape->turn;
+    turn.x0 = shape->x;
+    turn.y0 = shape->y;
+    return sli_affine_after(turn, sli_affine_after(scale, inner));
+}
+
+sl_status sli_tiled_draw_picture(sli_tiled_reader *reader, const sli_json *object,
+                                 const sli_tiled_shape *shape, sli_affine layer) {
+    const uint32_t gid = shape->gid & SLI_TILED_TILE;
+    const sli_tiled_set *set = gid ? sli_tiled_find_set(&reader->sets, gid) : NULL;
+    sli_tiled_tile *tile = set ? sli_tiled_find_tile(set, gid) : NULL;
+    const bool other = sli_game_says_other(sli_json_text_of(object, "name")) ||
+                       sli_game_says_other(sli_json_text_of(object, "type"));
+    if (!tile || !tile->shapes || other || reader->by || set->diamond.x > 0 ||
+        reader->lattice.orientation != SLI_TILED_ORTHOGONAL || !(set->width > 0 && set->height > 0))
+        return SL_OK;
+    SL_TRY(meet_tile(reader, set, tile));
+    reader->tile_shapes = sli_limit_sum(reader->tile_shapes, json_array_size(tile->shapes));
+    SL_TRY(sli_limit_check(reader->context, reader->map->file->name, 0, SLI_LIMIT_ENTITIES,
+                           reader->tile_shapes, "the tiles' shapes, as often as they are drawn"));
+    const sli_json list = shapes_of(reader, set, tile);
+    const sli_affine outer = reader->pen.affine;
+    const sli_affine place = sli_affine_after(layer, affine_of_picture(reader, set, shape));
+    const uint32_t last = reader->pen.item;
+    sl_status status = SL_OK;
+    for (size_t i = 0; status == SL_OK && i < json_array_size(tile->shapes); i++) {
+        const sli_json item = sli_json_item(&list, i);
+        sli_tiled_shape own;
+        SL_TRY(sli_tiled_read_shape(&item, &own));
+        *(own.kind < SLI_TILED_PICTURE ? &reader->shapes : &reader->other_shapes) += 1;
+        if (own.kind >= SLI_TILED_PICTURE) continue;
+        reader->pen.item = tile->item + (uint32_t)i;
+        reader->pen.affine = sli_affine_after(outer, place);
+        status = sli_tiled_draw_shape(&reader->pen, &own);
+        reader->pen.affine = outer;
+        reader->pen.item = last;
+    }
+    return status;
+}
+
 /// A door of one staggered tile. Its neighbours are other doors.
 static sl_status add_diamond_door(sli_tiled_reader *reader, const block *all, size_t i,
                                   const sli_tiled_tile *tile) {
@@ -465,7 +515,6 @@ sl_status sli_tiled_read_tile_layer(sli_tiled_reader *reader, const sli_json *la
     const sli_json chunks = sli_json_member(layer, "chunks");
     const sli_json infinite = sli_json_member(reader->map, "infinite");
     if (reader->by == SLI_TILED_BY_GUESS && reader->at_layer != reader->guess_layer) return SL_OK;
-    reader->solid_layers += at->word == SLI_TILED_SOLID;
     if (chunks.value) return read_chunks(reader, layer, &chunks, at);
     // A layer without bounds that nothing is drawn on has no chunk.
     if (sli_json_true(&infinite, NULL)) return SL_OK;
