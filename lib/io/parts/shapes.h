@@ -85,7 +85,7 @@ typedef struct sli_tile_block {
     sl_point corner;      ///< the upper left one
     sl_point step;        ///< the size of a tile, over 0
     size_t columns, rows; ///< at least 1
-    char *squares;        ///< row after row, '#' solid, '.' open, ' ' not of the block
+    char *squares;        ///< row after row, '#' solid, '~' water, '.' open, ' ' not of the block
     bool done;            ///< its walls are made
 } sli_tile_block;
 
@@ -93,6 +93,7 @@ typedef struct sli_tile_block {
 typedef struct sli_tiles {
     SL_ARRAY(sli_tile_block) blocks;
     uint64_t squares; ///< of all blocks
+    bool water;       ///< there is some: it stops steps, and neither sight nor sound
 } sli_tiles;
 
 /// SL_BAD_INPUT where a block of so many more squares goes beyond the limit: asked before its data

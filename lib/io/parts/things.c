@@ -7,6 +7,7 @@
 #include "io/parts/things.h"
 
 #include "geometry/length.h"
+#include "io/parts/game_names.h"
 #include "sightline/support.h"
 
 #include <math.h>
@@ -17,6 +18,8 @@
 
 sli_says sli_says_of(const char *name, const char *class_name) {
     const char *texts[] = {class_name ? class_name : "", name ? name : ""};
+    // A trigger that is named for the door where it lies.
+    if (sli_game_says_other(texts[0])) return (sli_says){0};
     for (size_t i = 0; i < 2; i++) {
         const char *own = *texts[1] ? texts[1] : texts[0];
         if (sli_says_door(texts[i])) {
@@ -25,7 +28,10 @@ sli_says sli_says_of(const char *name, const char *class_name) {
                               .state = state ? state : sli_says_state(texts[0]),
                               .name = own};
         }
-        if (sli_says_start(texts[i])) return (sli_says){.kind = SLI_THING_START, .name = own};
+        if (!sli_says_start(texts[i])) continue;
+        // A spawn that is named for a goblin.
+        if (i == 0 && sli_game_says_other(texts[1])) return (sli_says){0};
+        return (sli_says){.kind = SLI_THING_START, .name = own};
     }
     return (sli_says){0};
 }
