@@ -77,8 +77,8 @@ static bool knows_wad(const char *text, size_t size) {
     (SL_KEEPS_ALL & ~SL_KEEPS_NOTES & ~SL_KEEPS_COMMENTS & ~SL_KEEPS_UNIT & ~SL_KEEPS_ENTRANCE &   \
      ~SL_KEEPS_LIMITED)
 
-/// Pairs of lines begin with a section, perhaps behind comments (999); or the file is a drawing of
-/// the same programs in binary, which the reader refuses with what to do.
+/// Pairs of lines begin with a section, perhaps behind comments (999); or the file is binary; or a
+/// DWG drawing of the same programs, which the reader refuses with what to do.
 static bool knows_dxf(const char *text, size_t size) {
     static const char binary[] = "AutoCAD Binary DXF";
     if (size >= 6 && memcmp(text, "AC10", 4) == 0) return true;

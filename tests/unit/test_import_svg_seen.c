@@ -156,8 +156,9 @@ static void test_visibility(void **state) {
     assert_seen(true,
                 "<symbol id='s'>" SHAPE("fill='none'") "</symbol><use href='#s' stroke='red'/>");
     // No size.
-    assert_seen(false,
-                "<rect width='0' height='4'/><rect width='4'/><circle r='0'/><ellipse rx='3' ry='0'/>");
+    assert_seen(
+        false,
+        "<rect width='0' height='4'/><rect width='4'/><circle r='0'/><ellipse rx='3' ry='0'/>");
 }
 
 #define CLIP(parts) "<clipPath id='c'>" parts "</clipPath>"

@@ -29,7 +29,7 @@ static bool read_code(sli_word word, int *code) {
 static sl_status refuse_other_files(sli_dxf *dxf, const char *text, size_t size) {
     if (size >= 6 && memcmp(text, "AC10", 4) == 0)
         return sl_fail_at(dxf->context, dxf->name, 0,
-                          "a DWG drawing: save it as DXF in the program that it is from");
+                          "a DWG drawing: save it as ASCII DXF in the program that it is from");
     return sli_refuse_nul(dxf->context, dxf->name, text, size);
 }
 
