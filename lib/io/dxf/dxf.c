@@ -132,9 +132,8 @@ static sl_status draw_drawing(sli_dxf *dxf, const char *text, size_t size) {
 /// What was taken, and what was left out.
 static void note_drawing(const sli_dxf *dxf) {
     char kinds[SLI_DXF_OTHERS][96];
-    sli_tally left[6 + SLI_DXF_OTHERS];
+    sli_tally left[5 + SLI_DXF_OTHERS];
     size_t count = 0;
-    left[count++] = (sli_tally){dxf->contents.left_out, "passed over", "passed over"};
     left[count++] = (sli_tally){dxf->other_layers, "on another layer", "on other layers"};
     for (size_t i = 0; i < dxf->others_count; i++) {
         const sli_dxf_other *other = &dxf->others[i];

@@ -845,14 +845,13 @@ static sl_status draw_root(svg *s, xmlNode *root) {
     SL_TRY(sli_contents_choose(&s->contents, 0, &s->pen));
     s->shapes -= s->contents.left_out;
     s->pen.map->precision = sli_marked_precision(s->pen.map, s->pen.finest, s->mark, s->pen.sum);
-    const sli_tally left[] = {{s->contents.left_out, "shape passed over", "shapes passed over"},
-                              {s->hidden, "hidden element or group", "hidden elements or groups"},
+    const sli_tally left[] = {{s->hidden, "hidden element or group", "hidden elements or groups"},
                               {s->other, "text or picture", "texts and pictures"},
                               {s->pen.points, "line of no length", "lines of no length"},
                               {s->style.unread, "rule of a style sheet", "rules of style sheets"}};
     char without[SLI_TALLY_TEXT];
     sl_note(s->context, "%s: %zu shapes give %zu walls%s", s->pen.name, s->shapes, s->pen.walls,
-            sli_tally_write("; left out: ", left, 5, without));
+            sli_tally_write("; left out: ", left, 4, without));
     sli_layers_note(s->context, s->pen.name, s->pen.map);
     return SL_OK;
 }
