@@ -104,7 +104,7 @@ static void test_swings(void **state) {
     assert_dxf(ROOM("0") LINE("0", 3, 1, 3, 0) ARC("0", 3, 0, 1, 90, 180), ROOM_WALLS);
     assert_dxf(ROOM("0") LINE("0", 2, 0, 2.8, 0.6) ARC("0", 2, 0, 1, 0, 36.87), ROOM_WALLS);
     // A leaf of four sides.
-    assert_dxf(ROOM("0") "0\nLWPOLYLINE\n8\n0\n70\n1\n10\n2\n20\n0\n10\n2.05\n20\n0\n10\n2.05\n20"
+    assert_dxf(ROOM("0") "0\nLWPOLYLINE\n8\n0\n70\n1\n10\n2\n20\n0\n10\n2.1\n20\n0\n10\n2.1\n20"
                          "\n1\n10\n2\n20\n1\n" ARC("0", 2, 0, 1, 0, 90),
                ROOM_WALLS);
     // A round corner has no leaf, a tower no gap.
