@@ -205,6 +205,10 @@ static void test_asked_for(void **state) {
         HEAD ROOM("A-WALL") LINE("A-GLAZ", 10, 3, 10, 5) SWING("A-DOOR") TAIL;
     assert_map(sli_map_read_dxf, text, "A-WALL,A-GLAZ", false, ROOM_WALLS "wall 10 3 10 5\n");
     assert_map(sli_map_read_dxf, text, "A-WALL,A-DOOR", true, ROOM_WALLS DOOR("door1", 2, 0, 3, 0));
+    assert_map(sli_map_read_dxf, text, "A-DOOR", true, DOOR("door1", 2, 0, 3, 0));
+    static const char named[] =
+        HEAD ROOM("A-WALL") LINE("A-GLAZ", 10, 3, 10, 5) LINE("A-FURN", 4, 4, 5, 4) TAIL;
+    assert_map(sli_map_read_dxf, named, "*", false, ROOM_WALLS "wall 10 3 10 5\nwall 4 4 5 4\n");
     // Doors that are drawn as lines or thin boxes.
     static const char boxes[] =
         HEAD ROOM("A-WALL") "0\nLWPOLYLINE\n8\nA-DOOR\n70\n1\n10\n2\n20\n-.5\n10\n3\n20\n-.5\n10\n3"
@@ -247,6 +251,14 @@ static void test_svg(void **state) {
     }
 }
 
+static void test_svg_asked_for(void **state) {
+    (void)state;
+    static const char text[] = SVG("<g id='walls'>" POLYLINE "</g><g id='sofa'><line x2='1'/></g>");
+    assert_map(sli_map_read_svg, text, NULL, false, SHUT_WALLS);
+    assert_map(sli_map_read_svg, text, "*", false, SHUT_WALLS "wall 0 10 1 10\n");
+    assert_map(sli_map_read_svg, text, "sofa", false, "wall 0 10 1 10\n");
+}
+
 static void test_memory(void **state) {
     (void)state;
     sl_import_options options = sl_import_options_default();
@@ -263,7 +275,7 @@ int main(void) {
         cmocka_unit_test(test_blocks),    cmocka_unit_test(test_swings),
         cmocka_unit_test(test_hatching),  cmocka_unit_test(test_turned_swings),
         cmocka_unit_test(test_asked_for), cmocka_unit_test(test_svg),
-        cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_memory),    cmocka_unit_test(test_svg_asked_for),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -184,16 +184,17 @@ static void drawing_destroy(sli_dxf *dxf) {
 
 sl_status sli_map_read_dxf(sl_context *context, const char *name, const char *text, size_t size,
                            const sl_import_options *options, sl_map *map) {
+    const sl_import_options own = sli_drawing_options(options);
     sl_map read = {0};
     sli_dxf dxf = {.context = context,
                    .name = name,
-                   .options = options,
-                   .contents = {.context = context, .file = name, .options = options},
+                   .options = &own,
+                   .contents = {.context = context, .file = name, .options = &own},
                    .pen = {.context = context,
                            .name = name,
                            .map = &read,
                            .affine = SLI_AFFINE_NONE,
-                           .tolerance = options->tolerance}};
+                           .tolerance = own.tolerance}};
     const sl_status status = read_drawing(&dxf, text, size);
     drawing_destroy(&dxf);
     if (status == SL_OK)

@@ -70,7 +70,7 @@ sl_status sli_contents_group(sli_contents *contents, sli_word name, uint32_t *gr
 }
 
 bool sli_contents_asks(const sli_contents *contents) {
-    return !contents->options->layers || contents->options->doors;
+    return !sli_contents_said(contents) || contents->options->doors;
 }
 
 void sli_contents_begin(sli_contents *contents, sli_pen *pen) {
@@ -111,7 +111,7 @@ typedef struct choice {
 } choice;
 
 static sl_status find_symbols(choice *c, double metre) {
-    const sl_import_options *options = c->contents->options;
+    const bool said = sli_contents_said(c->contents);
     c->means = sl_alloc(c->contents->context, c->map->wall_count);
     if (!c->means) return SL_NO_MEMORY;
     memset(c->means, SLI_MEANS_OTHER, c->map->wall_count); // walls of layers of our own
@@ -120,8 +120,8 @@ static sl_status find_symbols(choice *c, double metre) {
         memset(c->means + run->first, (int)c->contents->groups.items[run->group].means,
                run->end - run->first);
     }
-    return sli_symbols_find(c->contents->context, c->map, c->means, !options->layers,
-                            options->layers != NULL, metre, &c->symbols);
+    return sli_symbols_find(c->contents->context, c->map, c->means, !said, said, metre,
+                            &c->symbols);
 }
 
 static bool is_gone(const choice *c, size_t wall) {
@@ -129,7 +129,7 @@ static bool is_gone(const choice *c, size_t wall) {
 }
 
 static bool is_taken(const choice *c, sli_meaning means) {
-    if (c->contents->options->layers) return means != SLI_MEANS_DOOR;
+    if (sli_contents_said(c->contents)) return means != SLI_MEANS_DOOR;
     return means == SLI_MEANS_WALL || means == SLI_MEANS_WINDOW ||
            (means == SLI_MEANS_NOTHING && !c->walls_named);
 }
@@ -144,7 +144,7 @@ static bool choose_groups(choice *c) {
     for (size_t i = 0; i < c->contents->groups.count; i++) {
         sli_group *group = &c->contents->groups.items[i];
         group->taken = is_taken(c, group->means);
-        const bool window = group->means == SLI_MEANS_WINDOW && !c->contents->options->layers;
+        const bool window = group->means == SLI_MEANS_WINDOW && !sli_contents_said(c->contents);
         changes |= group->walls && (!group->taken || window);
     }
     for (size_t i = 0; i < c->contents->runs.count; i++) {
@@ -152,7 +152,7 @@ static bool choose_groups(choice *c) {
         if (!c->contents->groups.items[run->group].taken) continue;
         for (size_t j = run->first; j < run->end; j++) c->kept += !is_gone(c, j);
     }
-    return changes && (c->kept >= LEAST_WALLS || c->contents->options->layers);
+    return changes && (c->kept >= LEAST_WALLS || sli_contents_said(c->contents));
 }
 
 // --- doors
@@ -271,7 +271,7 @@ static sl_status add_doors(choice *c) {
 static sl_status keep_walls(choice *c) {
     sl_context *context = c->contents->context;
     sl_map *map = c->map;
-    const bool layers = c->contents->options->layers != NULL;
+    const bool said = sli_contents_said(c->contents);
     sl_wall *windows = sl_alloc_array(context, map->wall_count, sizeof *windows);
     if (!windows) return SL_NO_MEMORY;
     size_t kept = 0, count = 0, run = 0;
@@ -279,7 +279,7 @@ static sl_status keep_walls(choice *c) {
         while (run < c->contents->runs.count && c->contents->runs.items[run].end <= i) run++;
         const bool own = run == c->contents->runs.count || i < c->contents->runs.items[run].first;
         if (!own && (is_gone(c, i) || !is_taken(c, c->means[i]))) continue;
-        if (!own && c->means[i] == SLI_MEANS_WINDOW && !layers)
+        if (!own && c->means[i] == SLI_MEANS_WINDOW && !said)
             windows[count++] = map->walls[i];
         else
             map->walls[kept++] = map->walls[i];
@@ -344,7 +344,8 @@ static void note_choice(const choice *c) {
         add_part(text, sizeof text, "%zu lines of hatching or steps are no walls",
                  c->symbols.lines);
     if (*over.text) add_part(text, sizeof text, "passed over: %.250s", over.text);
-    sl_note(c->contents->context, "%s: layers: %s (--layers A,B chooses)", file, text);
+    sl_note(c->contents->context, "%s: layers: %s (--layers A,B chooses, --layers '*' takes all)",
+            file, text);
     if (c->contents->options->doors && c->doors < c->symbols.doors)
         sl_note(c->contents->context,
                 "%s: %zu of the doors stay gaps: both sides of their swings are drawn", file,
@@ -384,7 +385,7 @@ static sl_status choose(choice *c, double metre, sli_pen *pen) {
         pen->walls -= c->contents->groups.items[i].walls;
     pen->walls += c->kept;
     note_choice(c);
-    if (c->walls_named && !c->contents->options->layers) note_doubt(c);
+    if (c->walls_named && !sli_contents_said(c->contents)) note_doubt(c);
     return SL_OK;
 }
 

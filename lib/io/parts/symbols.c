@@ -145,7 +145,8 @@ typedef struct door_arc {
     size_t first, count; ///< its walls
     sl_point centre, ends[2];
     double radius;
-    bool is_door; ///< by its layer
+    bool is_door;   ///< by its layer
+    sl_point hinge; ///< the end of a leaf that is nearest to the centre
     size_t leaves[2];
     size_t nearby[2]; ///< ends of other walls
 } door_arc;
@@ -197,7 +198,7 @@ static bool make_arc(const finder *f, size_t first, size_t count, door_arc *out)
     const sl_point from = minus(out->ends[0], out->centre), to = minus(out->ends[1], out->centre);
     const sl_point top = minus(middle, out->centre);
     const double radius = out->radius = sli_length(from.x, from.y);
-    if (!(radius > 0 && radius < (out->is_door ? 1 : 0.4) * f->size)) return false;
+    if (!(radius > 0 && (out->is_door || radius < 0.4 * f->size))) return false;
     for (size_t i = 1; i < count; i++)
         if (!(fabs(apart(walls[i].a, out->centre) - radius) < 0.03 * radius)) return false;
     // From 28 to 120 degrees, the short way round.
@@ -254,7 +255,11 @@ static void count_leaf(void *user, size_t number) {
     arc_list *list = user;
     door_arc *arc = &list->arcs.items[number];
     const int end = end_reached(list, arc);
-    if (end >= 0) arc->leaves[end]++;
+    if (end < 0) return;
+    const bool first = !arc->leaves[0] && !arc->leaves[1];
+    if (first || apart(list->from, arc->centre) < apart(arc->hinge, arc->centre))
+        arc->hinge = list->from;
+    arc->leaves[end]++;
 }
 
 static bool is_small(const arc_list *list, const door_arc *arc) {
@@ -316,7 +321,7 @@ static sl_status name_ends(arc_list *list) {
         const int tip = (by == arc->leaves) == (by[0] > by[1]) ? 0 : 1;
         SL_TRY(SL_ARRAY_ROOM(list->f->context, &out->swings, 1));
         out->swings.items[out->swings.count++] =
-            (sli_swing){arc->centre, arc->ends[tip], arc->ends[1 - tip], arc->radius};
+            (sli_swing){arc->hinge, arc->ends[tip], arc->ends[1 - tip], arc->radius};
     }
     return SL_OK;
 }

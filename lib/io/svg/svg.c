@@ -858,12 +858,12 @@ static sl_status draw_root(svg *s, xmlNode *root) {
 
 sl_status sli_map_read_svg(sl_context *context, const char *name, const char *text, size_t size,
                            const sl_import_options *options, sl_map *map) {
+    const sl_import_options own = sli_drawing_options(options);
     sl_map read = {0};
-    svg s = {
-        .context = context,
-        .options = options,
-        .contents = {.context = context, .file = name, .options = options},
-        .pen = {.context = context, .name = name, .map = &read, .tolerance = options->tolerance}};
+    svg s = {.context = context,
+             .options = &own,
+             .contents = {.context = context, .file = name, .options = &own},
+             .pen = {.context = context, .name = name, .map = &read, .tolerance = own.tolerance}};
     SL_TRY(sli_xml_read(context, name, text, size, &s.document));
     xmlNode *root = xmlDocGetRootElement(s.document);
     const sl_status status =
