@@ -120,8 +120,13 @@ static sl_status find_symbols(choice *c, double metre) {
         memset(c->means + run->first, (int)c->contents->groups.items[run->group].means,
                run->end - run->first);
     }
-    return sli_symbols_find(c->contents->context, c->map, c->means, !said, said, metre,
-                            &c->symbols);
+    size_t named = 0;
+    for (size_t i = 0; i < c->contents->groups.count; i++)
+        if (c->contents->groups.items[i].means == SLI_MEANS_WALL)
+            named += c->contents->groups.items[i].walls;
+    const sli_meaning walls = named >= LEAST_WALLS ? SLI_MEANS_WALL : SLI_MEANS_NOTHING;
+    return sli_symbols_find(c->contents->context, c->map, c->means, said ? SLI_MEANINGS : walls,
+                            said, metre, &c->symbols);
 }
 
 static bool is_gone(const choice *c, size_t wall) {
@@ -303,8 +308,8 @@ static void list_groups(const choice *c, bool taken, sli_meaning means, sli_name
             means == SLI_MEANINGS ? group->means != SLI_MEANS_DOOR : group->means == means;
         char shown[80];
         if (!group->walls || group->taken != taken || !same) continue;
-        const char *name =
-            group->length ? sli_show((sli_word){group->name, group->length}).text : "no layer";
+        const char *name = group->length ? sli_show((sli_word){group->name, group->length}).text
+                                         : "shapes without a layer";
         if (means == SLI_MEANINGS && group->means)
             snprintf(shown, sizeof shown, "%.50s (%s)", name, sli_meaning_text(group->means));
         else
@@ -356,9 +361,11 @@ static void note_choice(const choice *c) {
 static void note_doubt(const choice *c) {
     sli_name_list names = {.full = false};
     size_t unknown = 0;
-    for (size_t i = 1; i < c->contents->groups.count; i++) {
-        const sli_group *group = &c->contents->groups.items[i];
-        if (!group->taken && group->means == SLI_MEANS_NOTHING) unknown += group->walls;
+    for (size_t i = 0; i < c->contents->runs.count; i++) {
+        const sli_group_run *run = &c->contents->runs.items[i];
+        const sli_group *group = &c->contents->groups.items[run->group];
+        if (group->taken || group->means != SLI_MEANS_NOTHING) continue;
+        for (size_t j = run->first; j < run->end; j++) unknown += !is_gone(c, j);
     }
     if (unknown <= c->kept) return;
     list_groups(c, false, SLI_MEANS_NOTHING, &names);

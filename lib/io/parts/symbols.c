@@ -80,6 +80,7 @@ typedef struct finder {
     sl_context *context;
     const sl_map *map;
     const unsigned char *means;
+    sli_meaning hatching;
     bool doors_only;
     double size; ///< of the plan
     sli_symbols *out;
@@ -354,8 +355,8 @@ static sl_status find_swings(finder *f) {
 
 /// Whether the wall is a line by itself that may be hatching.
 static bool may_hatch(const finder *f, size_t wall) {
-    return (f->means[wall] == SLI_MEANS_NOTHING || f->means[wall] == SLI_MEANS_WALL) &&
-           !goes_on(f, wall) && !goes_on(f, wall + 1) && !sl_bits_has(f->out->gone, wall);
+    return f->means[wall] == f->hatching && !goes_on(f, wall) && !goes_on(f, wall + 1) &&
+           !sl_bits_has(f->out->gone, wall);
 }
 
 /// How far the wall stands beside the one before it, at its left; 0 where they are not parallel or
@@ -399,8 +400,8 @@ static void find_hatching(finder *f, double widest) {
 // --- all
 
 sl_status sli_symbols_find(sl_context *context, const sl_map *map, const unsigned char *means,
-                           bool hatching, bool doors_only, double metre, sli_symbols *out) {
-    finder f = {context, map, means, doors_only, 0, out};
+                           sli_meaning hatching, bool doors_only, double metre, sli_symbols *out) {
+    finder f = {context, map, means, hatching, doors_only, 0, out};
     if (!map->wall_count) return SL_OK;
     out->gone = sl_alloc_array(context, sl_bits_words(map->wall_count), sizeof *out->gone);
     if (!out->gone) return SL_NO_MEMORY;
@@ -409,7 +410,7 @@ sl_status sli_symbols_find(sl_context *context, const sl_map *map, const unsigne
     for (size_t i = 0; i < map->wall_count; i++) out->leaves += sl_bits_has(out->gone, i);
     // A unit is believed if the plan is as large as a building.
     const bool believed = metre > 0 && f.size > 4 * metre && f.size < 400 * metre;
-    if (hatching) find_hatching(&f, believed ? 0.35 * metre : f.size / 200);
+    if (hatching != SLI_MEANINGS) find_hatching(&f, believed ? 0.35 * metre : f.size / 200);
     return SL_OK;
 }
 
