@@ -36,14 +36,16 @@ sl_status sli_map_heights_unigrafix(sl_context *context, const char *name, const
 
 /// The lines, polylines with bulges, arcs, circles, ellipses and plain splines (degree up to 3, no
 /// weights) of a DXF drawing, text or binary, in blocks as inserted, on layers that are on and not
-/// frozen or on those asked for. Layers named "sightline-..." hold doors, solid ground and so on
-/// (lib/io/FORMATS.md). What was taken is noted. SL_BAD_ARGUMENT where a unit is asked for and
-/// there is none of that name, or the drawing does not name its own.
+/// frozen and mean walls, windows or doors (parts/contents.h), or on those asked for. Layers named
+/// "sightline-..." hold doors, solid ground and so on (lib/io/FORMATS.md). What was taken is noted.
+/// SL_BAD_ARGUMENT where a unit is asked for and there is none of that name, or the drawing does
+/// not name its own.
 sl_status sli_map_read_dxf(sl_context *context, const char *name, const char *text, size_t size,
                            const sl_import_options *options, sl_map *map);
 
 /// The outlines of an SVG drawing's shapes, in its user units, y turned up. Layers are groups by id
-/// or label, also those named "sightline-...". Shapes that are not seen are left out. What was
+/// or label, taken by what they mean or as asked for; also those named "sightline-...". Shapes that
+/// are not seen are left out. What was
 /// taken is noted.
 sl_status sli_map_read_svg(sl_context *context, const char *name, const char *text, size_t size,
                            const sl_import_options *options, sl_map *map);

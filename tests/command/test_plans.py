@@ -169,7 +169,7 @@ class Drawings(Plans):
 
     def test_what_is_left_out_has_its_kind_and_layer(self):
         self.write("a.dxf", flat().add("HATCH", "A-WALL").add("HATCH", "A-WALL").add("TEXT", "A-TEXT"))
-        self.assertIn("; left out: 1 entity on layers passed over, 2 HATCH on A-WALL, 1 TEXT on A-TEXT; unit: millimetres",
+        self.assertIn("; left out: 2 HATCH on A-WALL, 1 TEXT on A-TEXT; unit: millimetres",
                       self.run_well("info", "a.dxf").stderr)
 
     def test_splines_become_chords(self):

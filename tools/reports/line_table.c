@@ -221,7 +221,9 @@ sl_status lines_read(sl_context *context, const char *path, const input_options 
                      sl_map *map) {
     sl_bytes bytes;
     SL_TRY(sl_file_read(context, path, &bytes));
-    const sl_status status = parse_lines(context, path, &bytes, input, map);
+    input_options own = *input;
+    own.import.all_layers = true; // a network is no plan: streets and axes are its lines
+    const sl_status status = parse_lines(context, path, &bytes, &own, map);
     sl_free(context, bytes.data);
     SL_TRY(status);
     SL_TRY(input_take_lines(context, map));

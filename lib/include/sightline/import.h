@@ -20,7 +20,8 @@ typedef struct sl_import_options {
     /// Which of the maps of a file that holds several, by name; NULL for the only one (a reader
     /// that is called by itself takes the first).
     const char *map;
-    /// The layers to take, by name, with commas between; NULL for the format's own choice.
+    /// The layers to take, by name, with commas between; NULL for the format's own choice. "*" for
+    /// all visible layers of a drawing (DXF, SVG).
     const char *layers;
     /// The names of objects that are starts, with commas between; "" or "none" for no starts; NULL
     /// for the usual names (player, spawn, start ...). Letters and capitals are the same.
@@ -41,6 +42,8 @@ typedef struct sl_import_options {
     /// Take the cells that the file brings along, for the subdivision "given". Map texts give
     /// theirs without being asked.
     bool cells;
+    /// Drawings: all visible layers, whatever their names mean, unless `layers` names some.
+    bool all_layers;
 } sl_import_options;
 
 /// The usual options: each format's own choice.

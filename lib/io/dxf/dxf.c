@@ -132,10 +132,8 @@ static sl_status draw_drawing(sli_dxf *dxf, const char *text, size_t size) {
 /// What was taken, and what was left out.
 static void note_drawing(const sli_dxf *dxf) {
     char kinds[SLI_DXF_OTHERS][96];
-    sli_tally left[6 + SLI_DXF_OTHERS];
+    sli_tally left[5 + SLI_DXF_OTHERS];
     size_t count = 0;
-    left[count++] = (sli_tally){dxf->contents.left_out, "entity on layers passed over",
-                                "entities on layers passed over"};
     left[count++] = (sli_tally){dxf->other_layers, "on another layer", "on other layers"};
     for (size_t i = 0; i < dxf->others_count; i++) {
         const sli_dxf_other *other = &dxf->others[i];
@@ -190,16 +188,17 @@ static void drawing_destroy(sli_dxf *dxf) {
 
 sl_status sli_map_read_dxf(sl_context *context, const char *name, const char *text, size_t size,
                            const sl_import_options *options, sl_map *map) {
+    const sl_import_options own = sli_drawing_options(options);
     sl_map read = {0};
     sli_dxf dxf = {.context = context,
                    .name = name,
-                   .options = options,
-                   .contents = {.context = context, .file = name, .options = options},
+                   .options = &own,
+                   .contents = {.context = context, .file = name, .options = &own},
                    .pen = {.context = context,
                            .name = name,
                            .map = &read,
                            .affine = SLI_AFFINE_NONE,
-                           .tolerance = options->tolerance}};
+                           .tolerance = own.tolerance}};
     const sl_status status = read_drawing(&dxf, text, size);
     drawing_destroy(&dxf);
     if (status == SL_OK)

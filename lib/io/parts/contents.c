@@ -70,7 +70,7 @@ sl_status sli_contents_group(sli_contents *contents, sli_word name, uint32_t *gr
 }
 
 bool sli_contents_asks(const sli_contents *contents) {
-    return !contents->options->layers || contents->options->doors;
+    return !sli_contents_said(contents) || contents->options->doors;
 }
 
 void sli_contents_begin(sli_contents *contents, sli_pen *pen) {
@@ -122,7 +122,7 @@ typedef struct choice {
 } choice;
 
 static sl_status find_symbols(choice *c, double metre) {
-    const sl_import_options *options = c->contents->options;
+    const bool said = sli_contents_said(c->contents);
     c->means = sl_alloc(c->contents->context, c->map->wall_count);
     if (!c->means) return SL_NO_MEMORY;
     memset(c->means, SLI_MEANS_OTHER, c->map->wall_count); // walls of layers of our own
@@ -131,8 +131,13 @@ static sl_status find_symbols(choice *c, double metre) {
         memset(c->means + run->first, (int)c->contents->groups.items[run->group].means,
                run->end - run->first);
     }
-    return sli_symbols_find(c->contents->context, c->map, c->means, !options->layers,
-                            options->layers != NULL, metre, &c->symbols);
+    size_t named = 0;
+    for (size_t i = 0; i < c->contents->groups.count; i++)
+        if (c->contents->groups.items[i].means == SLI_MEANS_WALL)
+            named += c->contents->groups.items[i].walls;
+    const sli_meaning walls = named >= LEAST_WALLS ? SLI_MEANS_WALL : SLI_MEANS_NOTHING;
+    return sli_symbols_find(c->contents->context, c->map, c->means, said ? SLI_MEANINGS : walls,
+                            said, metre, &c->symbols);
 }
 
 static bool is_gone(const choice *c, size_t wall) {
@@ -140,7 +145,7 @@ static bool is_gone(const choice *c, size_t wall) {
 }
 
 static bool is_taken(const choice *c, sli_meaning means) {
-    if (c->contents->options->layers) return means != SLI_MEANS_DOOR;
+    if (sli_contents_said(c->contents)) return means != SLI_MEANS_DOOR;
     return means == SLI_MEANS_WALL || means == SLI_MEANS_WINDOW ||
            (means == SLI_MEANS_NOTHING && !c->walls_named);
 }
@@ -155,7 +160,7 @@ static bool choose_groups(choice *c) {
     for (size_t i = 0; i < c->contents->groups.count; i++) {
         sli_group *group = &c->contents->groups.items[i];
         group->taken = is_taken(c, group->means);
-        const bool window = group->means == SLI_MEANS_WINDOW && !c->contents->options->layers;
+        const bool window = group->means == SLI_MEANS_WINDOW && !sli_contents_said(c->contents);
         changes |= group->walls && (!group->taken || window);
     }
     for (size_t i = 0; i < c->contents->runs.count; i++) {
@@ -163,7 +168,7 @@ static bool choose_groups(choice *c) {
         if (!c->contents->groups.items[run->group].taken) continue;
         for (size_t j = run->first; j < run->end; j++) c->kept += !is_gone(c, j);
     }
-    return changes && (c->kept >= LEAST_WALLS || c->contents->options->layers);
+    return changes && (c->kept >= LEAST_WALLS || sli_contents_said(c->contents));
 }
 
 // --- doors
@@ -282,7 +287,7 @@ static sl_status add_doors(choice *c) {
 static sl_status keep_walls(choice *c) {
     sl_context *context = c->contents->context;
     sl_map *map = c->map;
-    const bool layers = c->contents->options->layers != NULL;
+    const bool said = sli_contents_said(c->contents);
     sl_wall *windows = sl_alloc_array(context, map->wall_count, sizeof *windows);
     if (!windows) return SL_NO_MEMORY;
     size_t kept = 0, count = 0, run = 0;
@@ -290,7 +295,7 @@ static sl_status keep_walls(choice *c) {
         while (run < c->contents->runs.count && c->contents->runs.items[run].end <= i) run++;
         const bool own = run == c->contents->runs.count || i < c->contents->runs.items[run].first;
         if (!own && (is_gone(c, i) || !is_taken(c, c->means[i]))) continue;
-        if (!own && c->means[i] == SLI_MEANS_WINDOW && !layers)
+        if (!own && c->means[i] == SLI_MEANS_WINDOW && !said)
             windows[count++] = map->walls[i];
         else
             map->walls[kept++] = map->walls[i];
@@ -314,8 +319,8 @@ static void list_groups(const choice *c, bool taken, sli_meaning means, sli_name
             means == SLI_MEANINGS ? group->means != SLI_MEANS_DOOR : group->means == means;
         char shown[80];
         if (!group->walls || group->taken != taken || !same) continue;
-        const char *name =
-            group->length ? sli_show((sli_word){group->name, group->length}).text : "no layer";
+        const char *name = group->length ? sli_show((sli_word){group->name, group->length}).text
+                                         : "shapes without a layer";
         if (means == SLI_MEANINGS && group->means)
             snprintf(shown, sizeof shown, "%.50s (%s)", name, sli_meaning_text(group->means));
         else
@@ -355,7 +360,8 @@ static void note_choice(const choice *c) {
         add_part(text, sizeof text, "%zu lines of hatching or steps are no walls",
                  c->symbols.lines);
     if (*over.text) add_part(text, sizeof text, "passed over: %.250s", over.text);
-    sl_note(c->contents->context, "%s: layers: %s (--layers A,B chooses)", file, text);
+    sl_note(c->contents->context, "%s: layers: %s (--layers A,B chooses, --layers '*' takes all)",
+            file, text);
     if (c->contents->options->doors && c->doors < c->symbols.doors)
         sl_note(c->contents->context,
                 "%s: %zu of the doors stay gaps: both sides of their swings are drawn", file,
@@ -366,9 +372,11 @@ static void note_choice(const choice *c) {
 static void note_doubt(const choice *c) {
     sli_name_list names = {.full = false};
     size_t unknown = 0;
-    for (size_t i = 1; i < c->contents->groups.count; i++) {
-        const sli_group *group = &c->contents->groups.items[i];
-        if (!group->taken && group->means == SLI_MEANS_NOTHING) unknown += group->walls;
+    for (size_t i = 0; i < c->contents->runs.count; i++) {
+        const sli_group_run *run = &c->contents->runs.items[i];
+        const sli_group *group = &c->contents->groups.items[run->group];
+        if (group->taken || group->means != SLI_MEANS_NOTHING) continue;
+        for (size_t j = run->first; j < run->end; j++) unknown += !is_gone(c, j);
     }
     if (unknown <= c->kept) return;
     list_groups(c, false, SLI_MEANS_NOTHING, &names);
@@ -395,7 +403,7 @@ static sl_status choose(choice *c, double metre, sli_pen *pen) {
         pen->walls -= c->contents->groups.items[i].walls;
     pen->walls += c->kept;
     note_choice(c);
-    if (c->walls_named && !c->contents->options->layers) note_doubt(c);
+    if (c->walls_named && !sli_contents_said(c->contents)) note_doubt(c);
     return SL_OK;
 }
 

@@ -8,6 +8,8 @@
 #include "io/parts/shapes.h"
 #include "sightline/import.h"
 
+#include <string.h>
+
 /// A layer, or a block or group that says by its name what is in it.
 typedef struct sli_group {
     char *name;
@@ -27,9 +29,9 @@ typedef struct sli_group_run {
 /// Set the first three, zero the rest.
 typedef struct sli_contents {
     sl_context *context;
-    const char *file; ///< its name, for messages
-    const sl_import_options *options;
-    SL_ARRAY(sli_group) groups; ///< the first one has no name: what no layer is said of
+    const char *file;                 ///< its name, for messages
+    const sl_import_options *options; ///< as sli_drawing_options() gives them
+    SL_ARRAY(sli_group) groups;       ///< the first one has no name: what no layer is said of
     SL_ARRAY(sli_group_run) runs;
     uint32_t *table; ///< groups by their names: numbers, 0 for none
     size_t table_size;
@@ -38,6 +40,16 @@ typedef struct sli_contents {
     size_t first;    ///< wall of a shape
     size_t left_out; ///< shapes that are passed over
 } sli_contents;
+
+/// The options with layers "*" as all_layers.
+static inline sl_import_options sli_drawing_options(const sl_import_options *options) {
+    sl_import_options own = *options;
+    if (own.layers && strcmp(own.layers, "*") == 0) {
+        own.layers = NULL;
+        own.all_layers = true;
+    }
+    return own;
+}
 
 void sli_contents_destroy(sli_contents *contents);
 
@@ -50,7 +62,11 @@ static inline sli_meaning sli_contents_means(const sli_contents *contents, uint3
     return group < contents->groups.count ? contents->groups.items[group].means : SLI_MEANS_NOTHING;
 }
 
-/// Whether shapes are to be told of: without the option layers, or with the option doors.
+/// Whether the options say which layers are taken; all of them are walls then, but doors.
+static inline bool sli_contents_said(const sli_contents *contents) {
+    return contents->options->layers || contents->options->all_layers;
+}
+/// Whether shapes are to be told of: where the options do not say all.
 bool sli_contents_asks(const sli_contents *contents);
 /// To be called before and behind a shape that the pen draws.
 void sli_contents_begin(sli_contents *contents, sli_pen *pen);

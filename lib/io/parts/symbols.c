@@ -80,6 +80,7 @@ typedef struct finder {
     sl_context *context;
     const sl_map *map;
     const unsigned char *means;
+    sli_meaning hatching;
     bool doors_only;
     double size; ///< of the plan
     sli_symbols *out;
@@ -145,7 +146,8 @@ typedef struct door_arc {
     size_t first, count; ///< its walls
     sl_point centre, ends[2];
     double radius;
-    bool is_door; ///< by its layer
+    bool is_door;   ///< by its layer
+    sl_point hinge; ///< the end of a leaf that is nearest to the centre
     size_t leaves[2];
     size_t nearby[2]; ///< ends of other walls
 } door_arc;
@@ -197,7 +199,7 @@ static bool make_arc(const finder *f, size_t first, size_t count, door_arc *out)
     const sl_point from = minus(out->ends[0], out->centre), to = minus(out->ends[1], out->centre);
     const sl_point top = minus(middle, out->centre);
     const double radius = out->radius = sli_length(from.x, from.y);
-    if (!(radius > 0 && radius < (out->is_door ? 1 : 0.4) * f->size)) return false;
+    if (!(radius > 0 && (out->is_door || radius < 0.4 * f->size))) return false;
     for (size_t i = 1; i < count; i++)
         if (!(fabs(apart(walls[i].a, out->centre) - radius) < 0.03 * radius)) return false;
     // From 28 to 120 degrees, the short way round.
@@ -254,7 +256,11 @@ static void count_leaf(void *user, size_t number) {
     arc_list *list = user;
     door_arc *arc = &list->arcs.items[number];
     const int end = end_reached(list, arc);
-    if (end >= 0) arc->leaves[end]++;
+    if (end < 0) return;
+    const bool first = !arc->leaves[0] && !arc->leaves[1];
+    if (first || apart(list->from, arc->centre) < apart(arc->hinge, arc->centre))
+        arc->hinge = list->from;
+    arc->leaves[end]++;
 }
 
 static bool is_small(const arc_list *list, const door_arc *arc) {
@@ -316,7 +322,7 @@ static sl_status name_ends(arc_list *list) {
         const int tip = (by == arc->leaves) == (by[0] > by[1]) ? 0 : 1;
         SL_TRY(SL_ARRAY_ROOM(list->f->context, &out->swings, 1));
         out->swings.items[out->swings.count++] =
-            (sli_swing){arc->centre, arc->ends[tip], arc->ends[1 - tip], arc->radius};
+            (sli_swing){arc->hinge, arc->ends[tip], arc->ends[1 - tip], arc->radius};
     }
     return SL_OK;
 }
@@ -349,8 +355,8 @@ static sl_status find_swings(finder *f) {
 
 /// Whether the wall is a line by itself that may be hatching.
 static bool may_hatch(const finder *f, size_t wall) {
-    return (f->means[wall] == SLI_MEANS_NOTHING || f->means[wall] == SLI_MEANS_WALL) &&
-           !goes_on(f, wall) && !goes_on(f, wall + 1) && !sl_bits_has(f->out->gone, wall);
+    return f->means[wall] == f->hatching && !goes_on(f, wall) && !goes_on(f, wall + 1) &&
+           !sl_bits_has(f->out->gone, wall);
 }
 
 /// How far the wall stands beside the one before it, at its left; 0 where they are not parallel or
@@ -394,8 +400,8 @@ static void find_hatching(finder *f, double widest) {
 // --- all
 
 sl_status sli_symbols_find(sl_context *context, const sl_map *map, const unsigned char *means,
-                           bool hatching, bool doors_only, double metre, sli_symbols *out) {
-    finder f = {context, map, means, doors_only, 0, out};
+                           sli_meaning hatching, bool doors_only, double metre, sli_symbols *out) {
+    finder f = {context, map, means, hatching, doors_only, 0, out};
     if (!map->wall_count) return SL_OK;
     out->gone = sl_alloc_array(context, sl_bits_words(map->wall_count), sizeof *out->gone);
     if (!out->gone) return SL_NO_MEMORY;
@@ -404,7 +410,7 @@ sl_status sli_symbols_find(sl_context *context, const sl_map *map, const unsigne
     for (size_t i = 0; i < map->wall_count; i++) out->leaves += sl_bits_has(out->gone, i);
     // A unit is believed if the plan is as large as a building.
     const bool believed = metre > 0 && f.size > 4 * metre && f.size < 400 * metre;
-    if (hatching) find_hatching(&f, believed ? 0.35 * metre : f.size / 200);
+    if (hatching != SLI_MEANINGS) find_hatching(&f, believed ? 0.35 * metre : f.size / 200);
     return SL_OK;
 }
 

@@ -22,12 +22,12 @@ typedef struct sli_symbols {
     size_t lines;  ///< walls of hatching
 } sli_symbols;
 
-/// `means` has the meaning of each wall's layer; walls that mean anything but nothing, wall, door
-/// and window are no part of a symbol. Hatching is looked for where walls mean nothing or wall, if
-/// `hatching` says so; swings only where walls mean a door, if `doors_only` does. `metre` is a
-/// metre in the map's unit, 0 for unknown.
+/// `means` has the meaning of each wall's layer. Hatching is looked for among walls that mean
+/// `hatching`; SLI_MEANINGS for nowhere. Swings are looked for among those that mean a door, and
+/// without `doors_only` nothing, a wall or a window. `metre` is a metre in the map's unit, 0 for
+/// unknown.
 sl_status sli_symbols_find(sl_context *context, const sl_map *map, const unsigned char *means,
-                           bool hatching, bool doors_only, double metre, sli_symbols *out);
+                           sli_meaning hatching, bool doors_only, double metre, sli_symbols *out);
 void sli_symbols_destroy(sl_context *context, sli_symbols *symbols);
 
 // --- points, found by where they are

@@ -452,14 +452,13 @@ static sl_status draw_root(svg *s, xmlNode *root) {
     s->shapes -= s->contents.left_out;
     s->pen.map->precision = sli_marked_precision(s->pen.map, s->pen.finest, s->mark, s->pen.sum);
     const sli_tally left[] = {
-        {s->contents.left_out, "shape passed over", "shapes passed over"},
         {s->hidden, "shape or group that is not seen", "shapes or groups that are not seen"},
         {s->other, "text or picture", "texts and pictures"},
         {s->pen.points, "line of no length", "lines of no length"},
         {s->style.unread, "rule of a style sheet", "rules of style sheets"}};
     char without[SLI_TALLY_TEXT];
     sl_note(s->context, "%s: %zu shapes give %zu walls%s", s->pen.name, s->shapes, s->pen.walls,
-            sli_tally_write("; left out: ", left, 5, without));
+            sli_tally_write("; left out: ", left, 4, without));
     sli_faults_note(s->context, s->pen.name, &s->faults);
     sli_layers_note(s->context, s->pen.name, s->pen.map);
     return SL_OK;
@@ -467,12 +466,13 @@ static sl_status draw_root(svg *s, xmlNode *root) {
 
 sl_status sli_map_read_svg(sl_context *context, const char *name, const char *text, size_t size,
                            const sl_import_options *options, sl_map *map) {
+    const sl_import_options own = sli_drawing_options(options);
     sl_map read = {0};
     sli_svg s = {
         .context = context,
-        .options = options,
-        .contents = {.context = context, .file = name, .options = options},
-        .pen = {.context = context, .name = name, .map = &read, .tolerance = options->tolerance}};
+        .options = &own,
+        .contents = {.context = context, .file = name, .options = &own},
+        .pen = {.context = context, .name = name, .map = &read, .tolerance = own.tolerance}};
     SL_TRY(sli_xml_read(context, name, text, size, &s.document));
     xmlNode *root = xmlDocGetRootElement(s.document);
     const sl_status status =
