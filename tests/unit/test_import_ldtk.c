@@ -331,9 +331,17 @@ static void test_separate_levels(void **state) {
     assert_int_equal(remove(project) | remove(level) | rmdir(folder), 0);
 }
 
+static void test_memory(void **state) {
+    (void)state;
+    assert_memory_of(sli_map_read_ldtk, NULL,
+                     NAMED("Any", "3,1,1,2,3,3", VALUE("1", "Wall") "," VALUE("2", "water")));
+    assert_memory_of(sli_map_read_ldtk, NULL, OF_TILES("Walls", ""));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_values_by_meaning),
+        cmocka_unit_test(test_memory),
         cmocka_unit_test(test_tiles),
         cmocka_unit_test(test_project_of_a_level),
         cmocka_unit_test(test_values),

@@ -281,6 +281,18 @@ static void test_start_layers(void **state) {
     }
 }
 
+static void test_memory(void **state) {
+    (void)state;
+    assert_memory_of(sli_map_read_tmx, NULL, STARTS("start", ""));
+    assert_memory_of(sli_map_read_tmx, NULL, SHOWN("gid='5' x='8' y='8'"));
+    assert_memory_of(
+        sli_map_read_tmx, NULL,
+        MAP(SET_OF(WANG("Walls", "", "0,1,0,0,0,0,0,0")) LAYER("a", CSV("2,5,5,2,2,2"))));
+    assert_memory_of(sli_map_read_tmx, NULL, MAP(SET LAYER("Floor", CSV("3,0,0,4,4,5"))));
+    assert_memory_of(sli_map_read_tmj, NULL,
+                     OLD("\"tileproperties\": {\"4\": {\"collides\": true}}"));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_guess),
@@ -292,6 +304,7 @@ int main(void) {
         cmocka_unit_test(test_terrains),
         cmocka_unit_test(test_old_json),
         cmocka_unit_test(test_start_layers),
+        cmocka_unit_test(test_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
