@@ -8,6 +8,7 @@
 /// (union-find). Time O(n log n).
 #include "io/parts/regions.h"
 
+#include "base/base.h"
 #include "geometry/length.h"
 #include "sightline/support.h"
 
@@ -34,14 +35,20 @@ static sl_status copy_barriers(sl_context *context, const sl_map *map, sl_map *t
     return SL_OK;
 }
 
+/// What cleaning and cutting would say, the bake of the map itself says.
 static sl_status cut(sl_context *context, sl_map *map, sli_regions *out) {
     size_t count, mesh = 0;
     const sl_subdivision *ways = sl_subdivisions(&count);
     sl_clean_account account = {0};
+    const sl_hooks hooks = context->hooks;
     while (mesh + 1 < count && strcmp(ways[mesh].name, "mesh") != 0) mesh++;
-    SL_TRY(sl_map_clean(context, map, NULL, &account));
+    context->hooks.note = NULL;
+    context->hooks.progress = NULL;
+    sl_status status = sl_map_clean(context, map, NULL, &account);
     out->tolerance = account.tolerance;
-    return ways[mesh].subdivide(context, map, NULL, &out->space);
+    if (status == SL_OK) status = ways[mesh].subdivide(context, map, NULL, &out->space);
+    context->hooks = hooks;
+    return status;
 }
 
 // --- joining cells

@@ -285,12 +285,19 @@ sl_status sli_edge_find(sli_edge *edge, const sl_map *map, sli_things *things) {
                     edge->file, edge->all);
         return SL_OK;
     }
-    const sl_status status = search(&s, things);
+    sl_status status = search(&s, things);
     sli_regions_destroy(edge->context, &s.regions);
     sl_free(edge->context, s.mark);
     sl_free(edge->context, s.covered.items);
     sl_free(edge->context, s.bare.items);
-    return status;
+    if (status != SL_UNSUPPORTED && status != SL_BAD_INPUT) return status;
+    // Walls that cannot be cleaned are read as ever: a bake refuses them.
+    edge->pieces.count = 0;
+    sl_note(edge->context,
+            "%s: the walls cannot be cut, so the scene's edge is left out; "
+            "--layers %s takes it",
+            edge->file, edge->all);
+    return SL_OK;
 }
 
 sl_status sli_edge_add(const sli_edge *edge, sl_map *map, uint32_t item) {
