@@ -88,14 +88,19 @@ sl_status sli_map_read_ldtk(sl_context *context, const char *name, const char *t
 sl_status sli_map_list_ldtk(sl_context *context, const char *name, const char *text, size_t size,
                             sl_map_list *list);
 
-/// A Universal VTT file: walls and portals. Unit: squares of its grid. What was taken is noted.
+/// A Universal VTT file: walls, portals as doors, and the edge where they leave it open. Unit:
+/// squares of its grid. What was taken is noted.
 sl_status sli_map_read_uvtt(sl_context *context, const char *name, const char *text, size_t size,
                             const sl_import_options *options, sl_map *map);
 
-/// The walls of a scene of Foundry VTT: what stops sight, doors, one-way walls. Friendly tokens are
-/// starts, or those of options->start_names. Unit: pixels. What was taken is noted.
+/// The walls of a scene of Foundry VTT (options->map; else the first): what stops sight, doors,
+/// one-way walls, and the edge where they leave it open. Friendly tokens are starts, or those of
+/// options->start_names. Unit: pixels. What was taken is noted.
 sl_status sli_map_read_foundry(sl_context *context, const char *name, const char *text, size_t size,
                                const sl_import_options *options, sl_map *map);
+/// Its scenes that have walls: one, or those of an adventure or a database.
+sl_status sli_map_list_foundry(sl_context *context, const char *name, const char *text, size_t size,
+                               sl_map_list *list);
 
 /// The map in our own JSON export, version 1 or 2: walls, solid ground, doors, mirrors, one-way
 /// glass, seams, starts, paths, objects, range. SL_BAD_INPUT, naming the place, for other versions.

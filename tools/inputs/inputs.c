@@ -77,7 +77,7 @@ option_table input_option_table(input_options *input) {
         {"sectors", 0, NULL, "end cells at the sectors of a Doom map: its REJECT hides more then",
          .flag = &to->sectors, .given = given, .rare = true},
         {"doors", 0, NULL,
-         "keep the doors of the format as doors (default: walls if shut, gaps if open)",
+         "Doom: keep doors as doors (default: they are seen through)",
          .flag = &to->doors, .given = given},
         {"max-squares", 0, "N", "refuse a map of more tiles or cells than this (default 2^27)",
          .count = &input->limits.squares, .least = 1, .given = given, .rare = true},

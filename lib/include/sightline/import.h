@@ -33,8 +33,8 @@ typedef struct sl_import_options {
     double entrance;  ///< how wide openings to the outside are at most (sl_map.entrance); 0: as
                       ///< the file says
     double threshold; ///< images: darkness from which a pixel is solid, 0 .. 1; 0: the usual
-    /// Take doors as doors. Off: as what they are when the map begins; those of a game that opens
-    /// them at a touch (Doom) are seen through. Those of Tiled and LDtk are doors in any case.
+    /// Take the doors of a game that opens them at a touch (Doom) as doors. Off: they are seen
+    /// through. Those of other formats are doors in any case.
     bool doors;
     /// Make seams of the lines between different sectors (Doom), so that each cell is in one
     /// sector.
