@@ -62,6 +62,12 @@ static bool knows_export(const char *text, size_t size) {
     return false;
 }
 
+static bool knows_geojson(const char *text, size_t size) {
+    (void)size;
+    return is_json_with(text, "\"FeatureCollection\"", "\"features\"") ||
+           is_json_with(text, "\"coordinates\"", "\"type\"");
+}
+
 static bool knows_foundry(const char *text, size_t size) {
     (void)size;
     return is_json_with(text, "\"c\"", "\"move\"") ||
@@ -75,7 +81,7 @@ static bool knows_wad(const char *text, size_t size) {
 /// What files with layers of our own hold (layers.h).
 #define KEEPS_LAYERS                                                                               \
     (SL_KEEPS_ALL & ~SL_KEEPS_NOTES & ~SL_KEEPS_COMMENTS & ~SL_KEEPS_UNIT & ~SL_KEEPS_ENTRANCE &   \
-     ~SL_KEEPS_LIMITED)
+     ~SL_KEEPS_LIMITED & ~SL_KEEPS_EARTH)
 
 /// Pairs of lines begin with a section, perhaps behind comments (999); or the file is binary; or a
 /// DWG drawing of the same programs, which the reader refuses with what to do.
@@ -192,6 +198,13 @@ static const sl_map_format map_formats[] = {
      .read = sli_map_read_foundry,
      .takes = SL_TAKES_LAYERS | SL_TAKES_DOORS | SL_TAKES_STARTS,
      .list = sli_map_list_foundry},
+    {.name = "geojson",
+     .endings = ".geojson .json",
+     .what = "GeoJSON: rooms, walls, openings",
+     .read = sli_map_read_geojson,
+     .takes = SL_TAKES_LAYERS | SL_TAKES_DOORS | SL_TAKES_DEGREES | SL_TAKES_PLANS,
+     .list = sli_map_list_geojson,
+     .knows = knows_geojson},
     {.name = "wad",
      .endings = ".wad",
      .what = "a Doom WAD, classic, Hexen's or UDMF",

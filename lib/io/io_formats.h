@@ -107,6 +107,16 @@ sl_status sli_map_list_foundry(sl_context *context, const char *name, const char
 sl_status sli_map_read_export(sl_context *context, const char *name, const char *text, size_t size,
                               const sl_import_options *options, sl_map *map);
 
+/// GeoJSON (RFC 7946): outlines of rooms and walls, openings cut out of them; or all lines as drawn
+/// (options->lines). Longitude and latitude are laid in a plane in metres (sl_map.earth). Levels
+/// are maps, by name; options->map NULL: all of them. What was taken is noted. SL_BAD_ARGUMENT
+/// where options->layers has a name that the file has not.
+sl_status sli_map_read_geojson(sl_context *context, const char *name, const char *text, size_t size,
+                               const sl_import_options *options, sl_map *map);
+/// Its levels, lowest first; none where features have none.
+sl_status sli_map_list_geojson(sl_context *context, const char *name, const char *text, size_t size,
+                               sl_map_list *list);
+
 /// Reads a map of a Doom WAD: lumps of Doom's or Hexen's records, or a TEXTMAP (UDMF). Lines with
 /// one side are walls; those with two are seen through, and so are doors, shut ones too: what a
 /// player may open hides nothing. With options->doors each line between a door sector (one whose

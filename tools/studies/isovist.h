@@ -63,7 +63,8 @@ sl_view eye_view(const sl_space *space, const eye_place *eye);
 typedef struct isovist_scene {
     const sl_space *space; ///< as the query's settings make it
     sl_query *query;
-    bool mirrored; ///< with what is seen by mirror
+    bool mirrored;  ///< with what is seen by mirror
+    sl_earth earth; ///< where the map lies (sl_map.earth)
 } isovist_scene;
 
 /// The visible region of a view, with the parts that are seen by mirror.

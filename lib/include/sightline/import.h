@@ -39,6 +39,12 @@ typedef struct sl_import_options {
     /// Make seams of the lines between different sectors (Doom), so that each cell is in one
     /// sector.
     bool sectors;
+    /// Coordinates are plain units: no longitude and latitude (GeoJSON).
+    bool planar;
+    /// Coordinates are longitude and latitude, however few their decimals are (GeoJSON).
+    bool degrees;
+    /// Take all lines and outlines as drawn, whatever they stand for: doors cut no walls (GeoJSON).
+    bool lines;
     /// Take the cells that the file brings along, for the subdivision "given". Map texts give
     /// theirs without being asked.
     bool cells;
@@ -71,6 +77,8 @@ typedef enum sl_import_takes {
     SL_TAKES_UNIT = 64,
     SL_TAKES_SECTORS = 128,
     SL_TAKES_STARTS = 256,
+    SL_TAKES_DEGREES = 512, ///< planar, degrees and lines
+    SL_TAKES_PLANS = 1024,  ///< a file may hold several plans on one sheet
 } sl_import_takes;
 
 /// What a format has a place for, beside walls. sl_map_write() reports what it leaves out.
@@ -92,7 +100,8 @@ typedef enum sl_map_keeps {
     SL_KEEPS_STOPS = 16384,   ///< what walls stop; else those that do not stop what the map is
                               ///< for are left out (sl_map.channel)
     SL_KEEPS_LIMITED = 32768, ///< which walls limit sight; else these are open to it
-    SL_KEEPS_ALL = 65535,
+    SL_KEEPS_EARTH = 65536,   ///< where the map lies on the earth
+    SL_KEEPS_ALL = 131071,
 } sl_map_keeps;
 
 /// A format: its name, what its files' names end with (space-separated), what it is, how to read
