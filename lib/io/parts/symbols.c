@@ -158,6 +158,7 @@ typedef struct arc_list {
     double widest;     ///< radius
     sl_bits *part;     ///< by wall: a chord of an arc
     sl_point *at;      ///< of arcs: the centres; of ends: two an arc
+    size_t base;       ///< the arc of the first point
     size_t wall;       ///< at hand
     sl_point from, to; ///< its ends
 } arc_list;
@@ -220,7 +221,6 @@ static sl_status find_arcs(arc_list *list) {
         if (!make_arc(f, i, count, &one)) continue;
         SL_TRY(SL_ARRAY_ROOM(f->context, &list->arcs, 1));
         list->arcs.items[list->arcs.count++] = one;
-        list->widest = fmax(list->widest, one.radius);
     }
     return SL_OK;
 }
@@ -254,7 +254,7 @@ static int end_reached(const arc_list *list, const door_arc *arc) {
 
 static void count_leaf(void *user, size_t number) {
     arc_list *list = user;
-    door_arc *arc = &list->arcs.items[number];
+    door_arc *arc = &list->arcs.items[list->base + number];
     const int end = end_reached(list, arc);
     if (end < 0) return;
     const bool first = !arc->leaves[0] && !arc->leaves[1];
@@ -274,13 +274,13 @@ static bool is_swing(const arc_list *list, const door_arc *arc) {
 
 static void drop_leaf(void *user, size_t number) {
     arc_list *list = user;
-    const door_arc *arc = &list->arcs.items[number];
+    const door_arc *arc = &list->arcs.items[list->base + number];
     if (is_swing(list, arc) && end_reached(list, arc) >= 0) take_leaf(list->f, list->wall);
 }
 
 static void count_end(void *user, size_t number) {
     arc_list *list = user;
-    door_arc *arc = &list->arcs.items[number / 2];
+    door_arc *arc = &list->arcs.items[list->base + number / 2];
     arc->nearby[number % 2] += apart(list->from, arc->ends[number % 2]) <= 0.25 * arc->radius;
 }
 
@@ -327,16 +327,45 @@ static sl_status name_ends(arc_list *list) {
     return SL_OK;
 }
 
+/// Wide arcs first, else as in the file.
+static int compare_radii(const void *left, const void *right) {
+    const door_arc *a = left, *b = right;
+    if (a->radius != b->radius) return a->radius < b->radius ? 1 : -1;
+    return (a->first > b->first) - (a->first < b->first);
+}
+
+static int compare_places(const void *left, const void *right) {
+    const door_arc *a = left, *b = right;
+    return (a->first > b->first) - (a->first < b->first);
+}
+
+/// Holds the walls against arcs of much the same radius.
+static sl_status find_leaves_of(arc_list *list, size_t first, size_t count) {
+    const door_arc *arcs = list->arcs.items + first;
+    list->base = first;
+    for (size_t i = 0; i < count; i++) list->at[i] = arcs[i].centre;
+    SL_TRY(each_wall(list, count, SLACK * arcs[0].radius, true, count_leaf));
+    SL_TRY(each_wall(list, count, SLACK * arcs[0].radius, true, drop_leaf));
+    for (size_t i = 0; i < 2 * count; i++) list->at[i] = arcs[i / 2].ends[i % 2];
+    return each_wall(list, 2 * count, 0.25 * arcs[0].radius, false, count_end);
+}
+
+/// One wide arc must not put all doors into one square. So arcs go by their radius, in a few
+/// groups; the last one has the rest.
 static sl_status find_leaves(arc_list *list) {
+    enum { GROUPS = 12 };
     const size_t count = list->arcs.count;
-    const double reach = SLACK * list->widest;
     list->at = sl_alloc_array(list->f->context, 2 * count, sizeof *list->at);
     if (!list->at) return SL_NO_MEMORY;
-    for (size_t i = 0; i < count; i++) list->at[i] = list->arcs.items[i].centre;
-    SL_TRY(each_wall(list, count, reach, true, count_leaf));
-    SL_TRY(each_wall(list, count, reach, true, drop_leaf));
-    for (size_t i = 0; i < 2 * count; i++) list->at[i] = list->arcs.items[i / 2].ends[i % 2];
-    SL_TRY(each_wall(list, 2 * count, 0.25 * list->widest, false, count_end));
+    qsort(list->arcs.items, count, sizeof *list->arcs.items, compare_radii);
+    for (size_t first = 0, end, groups = 1; first < count; first = end, groups++) {
+        end = first + 1;
+        while (end < count && (groups == GROUPS ||
+                               list->arcs.items[end].radius > list->arcs.items[first].radius / 4))
+            end++;
+        SL_TRY(find_leaves_of(list, first, end - first));
+    }
+    qsort(list->arcs.items, count, sizeof *list->arcs.items, compare_places);
     return name_ends(list);
 }
 
