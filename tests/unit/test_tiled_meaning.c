@@ -281,6 +281,20 @@ static void test_start_layers(void **state) {
     }
 }
 
+/// Starts are taken whatever layers are asked for, and no walls come with them.
+static void test_start_layers_beside_others(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    const sl_import_options options = {.layers = "walls"};
+    const char *text = STARTS("start", "");
+    sl_map map = {0};
+    assert_ok(context, sli_map_read_tmx(context, "f", text, strlen(text), &options, &map));
+    assert_int_equal(map.start_count, 1);
+    assert_int_equal(map.wall_count, 4);
+    sl_map_destroy(context, &map);
+    sl_context_destroy(context);
+}
+
 static void test_memory(void **state) {
     (void)state;
     assert_memory_of(sli_map_read_tmx, NULL, STARTS("start", ""));
@@ -304,6 +318,7 @@ int main(void) {
         cmocka_unit_test(test_terrains),
         cmocka_unit_test(test_old_json),
         cmocka_unit_test(test_start_layers),
+        cmocka_unit_test(test_start_layers_beside_others),
         cmocka_unit_test(test_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

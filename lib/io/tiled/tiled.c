@@ -406,7 +406,7 @@ static sl_status read_layer(sli_tiled_reader *reader, const sli_json *layer,
     const bool places = reader->by && objects && own->kind < SLI_GAME_LIKELY;
     if (objects)
         SL_TRY(places ? SL_OK : read_objects(reader, layer, own));
-    else if (own->word != SLI_TILED_OPEN) {
+    else if (own->word != SLI_TILED_OPEN || (!reader->by && sli_tiled_is_start_layer(layer))) {
         note_stops_of_tiles(reader, layer, own);
         SL_TRY(sli_tiled_read_tile_layer(reader, layer, own));
     }

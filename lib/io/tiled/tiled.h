@@ -287,7 +287,11 @@ sli_tiled_word sli_tiled_word_of_tile(const sli_tiled_set *set, const sli_tiled_
 /// than the map, so that a line of its own would say nothing.
 sl_status sli_tiled_name_shape(sli_tiled_reader *reader, const char *label);
 
-/// Reads the tiles of a layer: solid squares, doors, shapes of tiles.
+/// Whether a layer of tiles is a start.
+bool sli_tiled_is_start_layer(const sli_json *layer);
+
+/// Reads the tiles of a layer: solid squares, doors, shapes of tiles; of one that is open only that
+/// it is a start.
 sl_status sli_tiled_read_tile_layer(sli_tiled_reader *reader, const sli_json *layer,
                                     const sli_tiled_place *at);
 

@@ -319,7 +319,7 @@ static sl_status check_shapes(sli_tiled_reader *reader, const sli_tiled_place *a
 }
 
 /// A layer of tiles may be where one starts: WorkAdventure's maps have such.
-static bool is_start_layer(const sli_json *layer) {
+bool sli_tiled_is_start_layer(const sli_json *layer) {
     sli_tiled_properties at = sli_tiled_properties_of(layer);
     const char *name;
     for (sli_json value; sli_tiled_next_property(&at, &name, &value);)
@@ -366,7 +366,7 @@ static sl_point middle_of(const sli_tiled_reader *reader, const block *all, size
 static sl_status take_start(sli_tiled_reader *reader, const sli_json *layer, const block *all) {
     const char *name = sli_json_text_of(layer, "name");
     const size_t middle = find_middle(all);
-    if (!is_start_layer(layer) || middle == all->columns * all->rows) return SL_OK;
+    if (!sli_tiled_is_start_layer(layer) || middle == all->columns * all->rows) return SL_OK;
     sli_says says = {.kind = SLI_THING_START, .name = *name ? name : "start"};
     SL_TRY(sli_things_ask(&reader->things, name, NULL, &says));
     if (says.kind != SLI_THING_START) return SL_OK;
@@ -392,6 +392,7 @@ static sl_status take_tiles(sli_tiled_reader *reader, const sli_json *layer,
     const size_t count = all->columns * all->rows;
     sli_tiled_seen *seen = &reader->seen.items[reader->at_layer];
     if (reader->by == SLI_TILED_BY_GUESS) return guess_tiles(reader, all);
+    if (at->word == SLI_TILED_OPEN) return take_start(reader, layer, all);
     SL_TRY(check_shapes(reader, at, all));
     for (size_t i = 0; i < count; i++) {
         if (i % 4096 == 0) SL_TRY(sl_check_cancelled(reader->context));
@@ -427,6 +428,12 @@ static sl_status add_block(sli_tiled_reader *reader, block *all) {
     return SL_OK;
 }
 
+static void drop_last_block(sli_tiled_reader *reader) {
+    const sli_tile_block *last = &reader->tiles.blocks.items[--reader->tiles.blocks.count];
+    reader->tiles.squares -= (uint64_t)last->columns * last->rows;
+    sl_free(reader->context, last->squares);
+}
+
 /// Staggered and hexagonal maps have one lattice: layers with other offsets may have no solid tile.
 static sl_status check_offset(sli_tiled_reader *reader, const sli_json *holder, const block *all) {
     sli_tiled_range *range = &reader->all;
@@ -453,9 +460,7 @@ static sl_status check_offset(sli_tiled_reader *reader, const sli_json *holder, 
         if (*square_of(reader, all, i) == '#')
             return sli_json_fail(holder, "layers of tiles that are moved differently are taken in "
                                          "orthogonal and isometric maps only");
-    const sli_tile_block *last = &reader->tiles.blocks.items[--reader->tiles.blocks.count];
-    reader->tiles.squares -= (uint64_t)last->columns * last->rows;
-    sl_free(reader->context, last->squares);
+    drop_last_block(reader);
     return SL_OK;
 }
 
@@ -489,7 +494,10 @@ static sl_status read_block(sli_tiled_reader *reader, const sli_json *layer, con
                  .gids = gids};
     sl_status status = add_block(reader, &all);
     if (status == SL_OK) status = take_tiles(reader, layer, at, &all);
-    if (status == SL_OK) status = check_offset(reader, holder, &all);
+    if (status == SL_OK && at->word == SLI_TILED_OPEN)
+        drop_last_block(reader);
+    else if (status == SL_OK)
+        status = check_offset(reader, holder, &all);
     sl_free(reader->context, gids);
     return status;
 }
