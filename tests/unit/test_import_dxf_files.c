@@ -5,6 +5,8 @@
 #include "io/io_formats.h"
 #include "sightline/io.h"
 
+#include <unistd.h>
+
 #define HEAD                 "0\nSECTION\n2\nENTITIES\n"
 #define TAIL                 "0\nENDSEC\n0\nEOF\n"
 #define LINE(x0, y0, x1, y1) "0\nLINE\n8\nw\n10\n" #x0 "\n20\n" #y0 "\n11\n" #x1 "\n21\n" #y1 "\n"
@@ -262,8 +264,16 @@ static void test_wide_code_pages(void **state) {
     assert_wide_layer("ANSI_950", "\xc0\xf0", "\xe7\x89\x86", "\\M+2C0F0");
     // The second byte of a character may be that of a backslash.
     assert_wide_layer("ANSI_932", "\x95\x5c", "\xe8\xa1\xa8", "\\M+1955C");
-    // A byte alone is no character: all of the name is escaped, and that is said.
+    // A byte alone is no character: all of the name is escaped, and that is said in notes alone.
+    FILE *told = tmpfile();
+    const int before = dup(STDERR_FILENO);
+    assert_true(told && before >= 0 && dup2(fileno(told), STDERR_FILENO) >= 0);
     assert_wide_layer("ANSI_936", "\xc7", "", "\\M+500C7");
+    assert_wide_layer("ANSI_936", "A\xff B", "", "A\\M+5FF20B");
+    assert_true(dup2(before, STDERR_FILENO) >= 0);
+    assert_int_equal(lseek(fileno(told), 0, SEEK_END), 0);
+    assert_int_equal(close(before), 0);
+    assert_int_equal(fclose(told), 0);
 }
 
 // --- clips

@@ -156,6 +156,7 @@ static void note_drawing(const sli_dxf *dxf) {
         sl_note(dxf->context,
                 "%s: nothing on the layers %s is a wall; sightline info %s lists all layers",
                 dxf->name, dxf->options->layers, dxf->name);
+    sli_dxf_note_names(dxf);
     sli_faults_note(dxf->context, dxf->name, &dxf->faults);
     sli_layers_note(dxf->context, dxf->name, dxf->pen.map);
 }

@@ -74,6 +74,8 @@ typedef struct sli_dxf {
     SL_ARRAY(sli_dxf_object) filters; ///< dictionaries and clips, by handle
     SL_ARRAY(char) text;              ///< of a binary drawing
     char *names;                      ///< that are not as in the file
+    size_t unread_names;              ///< whose characters stand as their numbers
+    bool guessed_page;                ///< the drawing has no code page that is known
     int unit;                         ///< $INSUNITS; 0 where the drawing does not tell
     sli_pen pen;
     sli_contents contents;
@@ -128,6 +130,8 @@ sl_status sli_dxf_from_binary(sli_dxf *dxf, const char *bytes, size_t size);
 
 /// Has all values in UTF-8, by the drawing's code page. Needs the pairs alone.
 sl_status sli_dxf_decode_names(sli_dxf *dxf);
+/// Notes a code page that was guessed, and names that could not be read.
+void sli_dxf_note_names(const sli_dxf *dxf);
 
 /// Finds the clips among dxf->objects.
 sl_status sli_dxf_find_clips(sli_dxf *dxf);

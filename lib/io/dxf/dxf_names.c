@@ -12,6 +12,7 @@
 #include "io/dxf/dxf.h"
 
 #include <libxml/encoding.h>
+#include <libxml/xmlerror.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -126,6 +127,8 @@ typedef struct code_page {
     const uint16_t *table; ///< NULL where it is of libxml2
     xmlCharEncodingHandler *handler;
     xmlBuffer *in, *out;
+    xmlGenericErrorFunc told; ///< who was told of libxml2's errors before
+    void *told_context;
     int escape;   ///< the digit of \M+
     bool guessed; ///< the drawing does not name it
     size_t unread;
@@ -143,8 +146,8 @@ static int number_of(const char *name) {
                               (sli_word){others[i].name, strlen(others[i].name)}))
             return others[i].number;
     const size_t letters = strcspn(name, "0123456789");
-    const int number = atoi(name + letters);
-    return strncmp(name, "8859", 4) == 0 || number > 10000 ? 0 : number;
+    const long number = strtol(name + letters, NULL, 10);
+    return strncmp(name, "8859", 4) == 0 || number > 10000 ? 0 : (int)number;
 }
 
 static xmlCharEncodingHandler *open_handler(const char *name, int number) {
@@ -157,13 +160,19 @@ static xmlCharEncodingHandler *open_handler(const char *name, int number) {
         return NULL;
     xmlCharEncodingHandler *handler = xmlFindCharEncodingHandler(other);
     if (handler) return handler;
-    const char *const second = number == 932    ? "SHIFT_JIS"
-                               : number == 936  ? "GBK"
-                               : number == 949  ? "EUC-KR"
-                               : number == 950  ? "BIG5"
-                               : number == 1361 ? "JOHAB"
-                                                : NULL;
+    const char *const second = number == 932     ? "SHIFT_JIS"
+                               : number == 936   ? "GBK"
+                               : number == 949   ? "EUC-KR"
+                               : number == 950   ? "BIG5"
+                               : number == 1361  ? "JOHAB"
+                               : number == 10000 ? "MACINTOSH"
+                                                 : NULL;
     return second ? xmlFindCharEncodingHandler(second) : NULL;
+}
+
+/// A byte that is no character is told of in another way.
+static void tell_nobody(void *user, const char *message, ...) {
+    (void)user, (void)message;
 }
 
 static void open_page(code_page *page, const char *name) {
@@ -174,12 +183,17 @@ static void open_page(code_page *page, const char *name) {
         if (number == escapes[i]) page->escape = i + 1;
     if (!page->table) page->handler = open_handler(name, number);
     if (!page->handler) return;
+    page->told = xmlGenericError;
+    page->told_context = xmlGenericErrorContext;
+    xmlSetGenericErrorFunc(NULL, tell_nobody);
     page->in = xmlBufferCreate();
     page->out = xmlBufferCreate();
 }
 
 static void close_page(code_page *page) {
-    if (page->handler) xmlCharEncCloseFunc(page->handler);
+    if (!page->handler) return;
+    xmlCharEncCloseFunc(page->handler);
+    xmlSetGenericErrorFunc(page->told_context, page->told);
     xmlBufferFree(page->in);
     xmlBufferFree(page->out);
 }
@@ -330,19 +344,20 @@ static bool find_page(const sli_dxf *dxf, bool all_utf8, bool long_ones, code_pa
     return true;
 }
 
-static void note_page(const sli_dxf *dxf, const code_page *page) {
+void sli_dxf_note_names(const sli_dxf *dxf) {
     const sli_word named = header_variable(dxf, "$DWGCODEPAGE");
-    if (page->guessed)
+    const size_t unread = dxf->unread_names;
+    if (dxf->guessed_page)
         sl_note(dxf->context, "%s: names are read as of the code page ANSI_1252: the drawing %s%s",
                 dxf->name, named.length ? "has an unknown one, " : "names none",
                 sli_show(named).text);
-    if (page->unread)
+    if (unread)
         sl_note(
             dxf->context,
             "%s: %zu name%s or text%s of the code page %s cannot be read here; their characters "
-            "are shown by their numbers, as in \\M+%d8140",
-            dxf->name, page->unread, page->unread == 1 ? "" : "s", page->unread == 1 ? "" : "s",
-            sli_show(named).text, page->escape);
+            "are shown by their numbers, as in \\M+18140",
+            dxf->name, unread, unread == 1 ? "" : "s", unread == 1 ? "" : "s",
+            sli_show(named).text);
 }
 
 sl_status sli_dxf_decode_names(sli_dxf *dxf) {
@@ -368,7 +383,8 @@ sl_status sli_dxf_decode_names(sli_dxf *dxf) {
         to += length;
     }
     if (!paged) return SL_OK;
-    note_page(dxf, &page);
+    dxf->unread_names = page.unread;
+    dxf->guessed_page = page.guessed;
     close_page(&page);
     return SL_OK;
 }
