@@ -430,12 +430,6 @@ static sl_box find_scene(const foundry *reader, const sli_json *root) {
                : bare;
 }
 
-static bool is_box(sl_box box) {
-    return sl_coordinate_usable(box.min.x) && sl_coordinate_usable(box.min.y) &&
-           sl_coordinate_usable(box.max.x) && sl_coordinate_usable(box.max.y) &&
-           box.min.x < box.max.x && box.min.y < box.max.y;
-}
-
 // --- the whole
 
 /// Raises all by `up`: what was `0 - y` becomes `up - y`, by the same rounding.
@@ -473,7 +467,7 @@ static sl_status find_edge(foundry *reader, const sli_json *root, double lowest,
                            sli_things *things, sli_edge *edge) {
     edge->box = find_scene(reader, root);
     edge->asked = asked;
-    if (is_box(edge->box)) SL_TRY(sli_edge_find(edge, reader->map, things));
+    SL_TRY(sli_edge_find(edge, reader->map, things));
     reader->top = lowest;
     for (size_t i = 0; i < edge->pieces.count; i++)
         reader->top =

@@ -190,7 +190,6 @@ static sl_status add_edge(uvtt *reader, const char *name) {
                      .off = "line_of_sight,objects_line_of_sight,portals",
                      .all = "line_of_sight,objects_line_of_sight,portals,edge"};
     if (!asked && (reader->is_own || reader->options->layers)) return SL_OK;
-    if (!(edge.box.min.x < edge.box.max.x && edge.box.min.y < edge.box.max.y)) return SL_OK;
     sl_status status = sli_edge_find(&edge, reader->map, &none);
     if (status == SL_OK) status = sli_edge_add(&edge, reader->map, ++reader->item);
     sli_edge_destroy(&edge);
