@@ -312,7 +312,7 @@ sl_status sli_edge_add(const sli_edge *edge, sl_map *map, uint32_t item) {
     const double percent = 100 * edge->closed_off;
     if (percent >= 1)
         sl_note(edge->context,
-                "%s: %.0f %% of the scene lie beyond closed walls and are not inside; "
+                "%s: %.0f %% of the scene lies beyond closed walls and is not inside; "
                 "--layers %s takes them in",
                 edge->file, percent, edge->all);
     if (!count) return SL_OK;
