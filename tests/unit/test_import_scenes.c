@@ -97,6 +97,10 @@ static void test_edge(void **state) {
                  ROOM_TEXT(, "0", "400"));
     assert_scene(SCENE("\"width\": -1000, \"height\": 800", ROOM, ""), ROOM_TEXT(, "0", "400"));
     assert_scene(SCENE(PLAIN, "", ""), "");
+    // What has no length once y points up is left out.
+    assert_scene("[" W("0, 100, 9, 100") ", {\"c\": [3, 0, 3, 5e-149], \"sight\": 0}]",
+                 "precision 1.9984014443252818e-14\n"
+                 "wall 0 0 9 0\n");
     const sl_import_options asked = {.layers = "walls,edge"}, off = {.layers = "walls"};
     const char *text = SCENE(PLAIN, ROOM "," LEFT, "");
     assert_walls_of(sli_map_read_foundry, &asked, text, strlen(text),

@@ -57,6 +57,12 @@ static bool holds(sl_box box, sl_point at) {
 
 // --- whether the scene's size is right
 
+static bool is_box(sl_box box) {
+    return sl_coordinate_usable(box.min.x) && sl_coordinate_usable(box.min.y) &&
+           sl_coordinate_usable(box.max.x) && sl_coordinate_usable(box.max.y) &&
+           box.min.x < box.max.x && box.min.y < box.max.y;
+}
+
 static void count_ends(sl_box box, sl_segment at, size_t *in, size_t *all) {
     *in += (size_t)holds(box, at.a) + holds(box, at.b);
     *all += 2;
@@ -271,6 +277,7 @@ sl_status sli_edge_find(sli_edge *edge, const sl_map *map, sli_things *things) {
     edge_search s = {.edge = edge, .map = map};
     size_t all;
     edge->whole = true;
+    if (!is_box(edge->box)) return SL_OK;
     if (edge->asked) {
         SL_TRY(SL_ARRAY_ROOM(edge->context, &edge->pieces, SIDES));
         for (int i = 0; i < SIDES; i++) edge->pieces.items[i] = side_of(edge->box, i);
@@ -290,7 +297,7 @@ sl_status sli_edge_find(sli_edge *edge, const sl_map *map, sli_things *things) {
     sl_free(edge->context, s.mark);
     sl_free(edge->context, s.covered.items);
     sl_free(edge->context, s.bare.items);
-    if (status != SL_UNSUPPORTED && status != SL_BAD_INPUT) return status;
+    if (status == SL_OK || status == SL_NO_MEMORY || status == SL_CANCELLED) return status;
     // Walls that cannot be cleaned are read as ever: a bake refuses them.
     edge->pieces.count = 0;
     sl_note(edge->context,
@@ -305,7 +312,7 @@ sl_status sli_edge_add(const sli_edge *edge, sl_map *map, uint32_t item) {
     const double percent = 100 * edge->closed_off;
     if (percent >= 1)
         sl_note(edge->context,
-                "%s: %.0f %% of the scene lie beyond closed walls and are not inside; "
+                "%s: %.0f %% of the scene lies beyond closed walls and is not inside; "
                 "--layers %s takes them in",
                 edge->file, percent, edge->all);
     if (!count) return SL_OK;

@@ -3,8 +3,8 @@
 /// (Foundry's API, WallData). It stops steps by default, and sound. Light is sight, so "light" is
 /// not read.
 ///
-/// The scene is read with its y turned up about 0 first. Then the edge is found (edge.c), and the
-/// lowest of all walls gets y 0.
+/// The scene is read with its y turned up about 0 first, and its edge is found (edge.c). Then it is
+/// read so that the lowest of all walls has y 0.
 #include "geometry/orient.h"
 #include "io/io_formats.h"
 #include "io/parts/names.h"
@@ -430,57 +430,40 @@ static sl_box find_scene(const foundry *reader, const sli_json *root) {
                : bare;
 }
 
-static bool is_box(sl_box box) {
-    return sl_coordinate_usable(box.min.x) && sl_coordinate_usable(box.min.y) &&
-           sl_coordinate_usable(box.max.x) && sl_coordinate_usable(box.max.y) &&
-           box.min.x < box.max.x && box.min.y < box.max.y;
-}
-
 // --- the whole
 
-/// Raises all by `up`: what was `0 - y` becomes `up - y`, by the same rounding.
-static bool raise_point(sl_point *at, double up) {
-    at->y = sli_coordinate(up + at->y);
-    return sl_coordinate_usable(at->y);
-}
-
-static bool raise_segment(sl_segment *at, double up) {
-    const bool a = raise_point(&at->a, up), b = raise_point(&at->b, up);
-    return a && b;
-}
-
-static bool raise_map(sl_map *map, sli_edge *edge, double up) {
-    bool usable = true;
-    for (size_t i = 0; i < map->wall_count; i++) {
-        usable &= raise_point(&map->walls[i].a, up);
-        usable &= raise_point(&map->walls[i].b, up);
-    }
-    for (size_t i = 0; i < map->door_count; i++)
-        usable &= raise_segment(&map->doors[i].segment, up);
-    for (size_t i = 0; i < map->mirror_count; i++)
-        usable &= raise_segment(&map->mirrors[i].segment, up);
-    for (size_t i = 0; i < map->oneway_count; i++)
-        usable &= raise_segment(&map->oneways[i].segment, up);
-    for (size_t i = 0; i < map->seam_count; i++)
-        usable &= raise_segment(&map->seams[i].segment, up);
-    for (size_t i = 0; i < edge->pieces.count; i++)
-        usable &= raise_segment(&edge->pieces.items[i], up);
-    return usable;
+/// Reads the walls again, below the right top.
+static sl_status read_below(foundry *reader, const sli_json *walls, size_t count, double top) {
+    const double range = reader->map->range;
+    sl_map_destroy(reader->context, reader->map);
+    reader->map->range = range;
+    *reader = (foundry){.context = reader->context,
+                        .options = reader->options,
+                        .map = reader->map,
+                        .top = top,
+                        .mark = reader->mark,
+                        .pixels = reader->pixels,
+                        .top_told = reader->top_told};
+    return read_walls(reader, walls, count);
 }
 
 /// Finds the edge of a map that has y 0 at the file's, and then gives the lowest wall y 0.
 static sl_status find_edge(foundry *reader, const sli_json *root, double lowest, bool asked,
                            sli_things *things, sli_edge *edge) {
+    bool usable = true;
     edge->box = find_scene(reader, root);
     edge->asked = asked;
-    if (is_box(edge->box)) SL_TRY(sli_edge_find(edge, reader->map, things));
-    reader->top = lowest;
+    SL_TRY(sli_edge_find(edge, reader->map, things));
     for (size_t i = 0; i < edge->pieces.count; i++)
-        reader->top =
-            fmax(reader->top, fmax(-edge->pieces.items[i].a.y, -edge->pieces.items[i].b.y));
-    things->top = reader->top;
-    if (raise_map(reader->map, edge, reader->top)) return SL_OK;
-    return sli_json_fail(root, "out of range once y points up");
+        lowest = fmax(lowest, fmax(-edge->pieces.items[i].a.y, -edge->pieces.items[i].b.y));
+    for (size_t i = 0; i < edge->pieces.count; i++) {
+        sl_segment *piece = &edge->pieces.items[i];
+        piece->a.y = sli_coordinate(lowest + piece->a.y);
+        piece->b.y = sli_coordinate(lowest + piece->b.y);
+        usable &= sl_coordinate_usable(piece->a.y) && sl_coordinate_usable(piece->b.y);
+    }
+    things->top = lowest;
+    return usable ? SL_OK : sli_json_fail(root, "its edge is out of range once y points up");
 }
 
 static sl_status read_rest(foundry *reader, const sli_json *root, const sli_json *walls,
@@ -499,6 +482,7 @@ static sl_status read_rest(foundry *reader, const sli_json *root, const sli_json
     things->top = reader->top;
     SL_TRY(read_tokens(reader, root, things));
     if (finds) SL_TRY(find_edge(reader, root, lowest, asked, things, edge));
+    if (things->top != reader->top) SL_TRY(read_below(reader, walls, count, things->top));
     tell_walls(reader, root->file->name);
     SL_TRY(sli_edge_add(edge, reader->map, (uint32_t)json_array_size(walls->value) + 1));
     reader->map->source.transform = sli_y_down(reader->top, reader->pixels);

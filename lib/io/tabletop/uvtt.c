@@ -1,11 +1,14 @@
 /// Universal VTT (Dungeondraft, DungeonFog, Arkenforge, Dungeon Alchemist): walls as polylines, and
 /// portals, which are doors. Files of our own have members of their own, as tabletop_write.c says.
+#include "geometry/length.h"
 #include "geometry/orient.h"
 #include "io/io_formats.h"
 #include "io/parts/names.h"
 #include "io/parts/shapes.h"
 #include "io/tabletop/tabletop.h"
 #include "map/source.h"
+
+#include <math.h>
 
 typedef struct uvtt {
     sl_context *context;
@@ -170,6 +173,33 @@ static bool takes(const uvtt *reader, const char *layer) {
     return !reader->options->layers || sli_layers_have(reader->options->layers, layer);
 }
 
+/// Whether a place is on a wall, up to the rounding of the file.
+static bool is_on(const sl_wall *wall, sl_point at, double near) {
+    const sl_point d = {wall->b.x - wall->a.x, wall->b.y - wall->a.y};
+    const sl_point w = {at.x - wall->a.x, at.y - wall->a.y};
+    const double length = sli_length(d.x, d.y), along = (w.x * d.x + w.y * d.y) / length;
+    return along >= -near && along <= length + near && fabs(w.x * d.y - w.y * d.x) / length <= near;
+}
+
+/// Some programs do not cut the walls at their portals: a door there opens nothing.
+static void tell_blocked(const uvtt *reader, const char *name) {
+    const size_t most = (size_t)1 << 26;
+    const sl_map *map = reader->map;
+    size_t blocked = 0;
+    if (map->wall_count && map->door_count > most / map->wall_count) return;
+    for (size_t i = 0; i < map->door_count; i++)
+        for (size_t k = 0; k < map->wall_count; k++)
+            if (is_on(&map->walls[k], map->doors[i].segment.a, map->precision) &&
+                is_on(&map->walls[k], map->doors[i].segment.b, map->precision)) {
+                blocked++;
+                break;
+            }
+    if (blocked)
+        sl_note(reader->context,
+                "%s: %zu door%s on a wall that runs on behind: opening %s shows nothing", name,
+                blocked, blocked == 1 ? " lies" : "s lie", blocked == 1 ? "it" : "them");
+}
+
 /// Some programs count the places of walls from the corner of the map, and not from its origin.
 static sl_box find_scene(const uvtt *reader) {
     const sl_box box = reader->scene;
@@ -190,7 +220,6 @@ static sl_status add_edge(uvtt *reader, const char *name) {
                      .off = "line_of_sight,objects_line_of_sight,portals",
                      .all = "line_of_sight,objects_line_of_sight,portals,edge"};
     if (!asked && (reader->is_own || reader->options->layers)) return SL_OK;
-    if (!(edge.box.min.x < edge.box.max.x && edge.box.min.y < edge.box.max.y)) return SL_OK;
     sl_status status = sli_edge_find(&edge, reader->map, &none);
     if (status == SL_OK) status = sli_edge_add(&edge, reader->map, ++reader->item);
     sli_edge_destroy(&edge);
@@ -227,6 +256,7 @@ static sl_status read_uvtt(uvtt *reader, const sli_json *root) {
     sl_note(reader->context, "%s: %s%s; unit: grid squares, y = %s - the file's y",
             root->file->name, sli_tally_write("", taken, 4, with),
             sli_tally_write("; left out: ", left, 2, without), top);
+    tell_blocked(reader, root->file->name);
     return add_edge(reader, root->file->name);
 }
 
