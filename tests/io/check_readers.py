@@ -31,6 +31,7 @@ READERS = {".uvtt": own_readers.uvtt, ".dd2vtt": own_readers.uvtt, ".df2vtt": ow
 SIGHTLINES = 1500
 MAPS = 3  # of a file that holds several
 NEAR = 2e-4  # of the larger side: chords and welded ends
+OPEN = ("open", "seen through")  # doors and walls of tabletops that stop no sight
 FLIPPED = re.compile(r"y = (-?[\d.e+-]+) - the file's y")
 
 
@@ -165,7 +166,7 @@ def compare_tiles(drawing, outlines, top):
                 said |= places
             elif len(places) >= 20 and len(outside) <= len(places) / 50:
                 lost |= outside
-        result = (len(lost), len(solid - said), len(solid))
+        result = (len(lost), 0 if drawing.unread or drawing.walls else len(solid - said), len(solid))
         if solid and (best is None or result[:2] < best[:2]):
             best = result
     return best or (0, 0, 0)
@@ -201,7 +202,8 @@ def compare_walls(drawing, text, top, world, random_numbers):
     if world:
         everything = fitted([s for walls in layers.values() for s in walls], every)
         layers = {"all": everything}
-    took = {layer: walls for layer, walls in layers.items() if taken(walls, every) > 0.5}
+    took = {layer: walls for layer, walls in layers.items()
+            if not layer.endswith(OPEN) and taken(walls, every) > (0.95 if drawing.size else 0.5)}
     chosen = [s for walls in took.values() for s in walls]
     lost = trials = extra = others = 0
     if chosen and any_wall:
