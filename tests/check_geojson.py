@@ -133,7 +133,9 @@ def check_geometry(geometry):
 
 def faults(collection):
     """Lines about what is wrong with a collection."""
-    if set(collection) != {"type", "features"} or collection["type"] != "FeatureCollection":
+    # "crs": null says that places are in a plane; without it they are in degrees.
+    if set(collection) - {"crs"} != {"type", "features"} or collection["type"] != "FeatureCollection" \
+            or collection.get("crs"):
         return ["no FeatureCollection"]
     found = []
     for number, feature in enumerate(collection["features"]):
@@ -189,6 +191,8 @@ def self_test():
     assert not faults({"type": "FeatureCollection", "features": [feature]})
     for wrong in {"type": "Feature"}, {"type": "Feature", "geometry": None, "properties": {}}:
         assert faults({"type": "FeatureCollection", "features": [wrong]})
+    assert not faults({"type": "FeatureCollection", "crs": None, "features": [feature]})
+    assert faults({"type": "FeatureCollection", "crs": "EPSG:1", "features": [feature]})
     assert faults({"type": "FeatureCollection"})
 
 

@@ -182,7 +182,7 @@ class Export(sandbox.ProgramTest):
         self.bake(ALL_EFFECTS)
         level = self.export()
         places = self.export("m.slv", "--format", "geojson")
-        self.assertEqual(set(places), {"type", "features"})
+        self.assertEqual(set(places), {"type", "crs", "features"})
         kinds = {}
         for feature in places["features"]:
             self.assertEqual((feature["type"], set(feature)),
