@@ -99,7 +99,7 @@ class Pictures(sandbox.ProgramTest):
         walls, _ = self.converted(furniture, "--threshold", "0.21")
         self.assertEqual(len(walls), len(self.converted(Picture(255).rooms(0))[0]) + 1)  # an outline
         # Soft edges of lines are not lost.
-        soft = Picture(255).rooms(150, 4, 19).rooms(0)
+        soft = Picture(255).rooms(150, 3, 19).rooms(0)
         self.assertNotIn("grey", self.assert_same(soft))
 
     def test_small_pieces(self):
