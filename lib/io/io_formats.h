@@ -50,8 +50,10 @@ sl_status sli_map_read_dxf(sl_context *context, const char *name, const char *te
 sl_status sli_map_read_svg(sl_context *context, const char *name, const char *text, size_t size,
                            const sl_import_options *options, sl_map *map);
 
-/// A picture (PNG, PGM, PBM): pixels are unit squares, dark ones solid (threshold: the usual is
-/// 0.5), the lower left one's corner at the origin. What was taken is noted.
+/// A picture (PNG, PGM, PBM): pixels are unit squares, the lower left one's corner at the origin.
+/// Solid are dark ones, or light or opaque ones where they are lines on a dark or transparent
+/// ground (options->layers: dark, light, opaque; large), from a threshold, usually 0.5. What was
+/// taken is noted.
 sl_status sli_map_read_image(sl_context *context, const char *name, const char *text, size_t size,
                              const sl_import_options *options, sl_map *map);
 

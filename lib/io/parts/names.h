@@ -71,6 +71,10 @@ static inline sl_status sli_fail_layer(sl_context *context, const char *file, sl
                    *there->text ? there->text : "none with a name");
 }
 
+/// SL_BAD_ARGUMENT where the list, which may be NULL, has a layer that is none of these.
+sl_status sli_layers_check(sl_context *context, const char *name, const char *list,
+                           const char *const *layers, size_t count);
+
 // --- words for what stops sight
 
 enum { SLI_LONGEST_WORD = 40 };

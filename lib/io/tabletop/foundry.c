@@ -521,8 +521,8 @@ static json_t *scene_of(const sli_scenes *scenes, const char *name) {
 sl_status sli_map_read_foundry(sl_context *context, const char *name, const char *text, size_t size,
                                const sl_import_options *options, sl_map *map) {
     sli_scenes scenes;
-    SL_TRY(sli_tabletop_check_layers(context, name, options->layers, layer_names,
-                                     sizeof layer_names / sizeof *layer_names));
+    SL_TRY(sli_layers_check(context, name, options->layers, layer_names,
+                            sizeof layer_names / sizeof *layer_names));
     SL_TRY(sli_scenes_open(context, name, text, size, &scenes));
     sl_map read = {0};
     foundry reader = {.context = context, .options = options, .map = &read, .pixels = 1};

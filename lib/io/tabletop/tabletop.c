@@ -46,16 +46,3 @@ sl_status sli_tabletop_own(const sli_json *own, double *top, const char **mark, 
     return range.value && !(map->range > 0) ? sli_json_fail(&range, "a range is greater than 0")
                                             : SL_OK;
 }
-
-sl_status sli_tabletop_check_layers(sl_context *context, const char *name, const char *list,
-                                    const char *const *layers, size_t count) {
-    sli_name_list there = {0};
-    for (size_t i = 0; i < count; i++)
-        sli_name_list_add(&there, (sli_word){layers[i], strlen(layers[i])});
-    for (sli_word word; list && sli_layers_next(&list, &word);) {
-        bool known = false;
-        for (size_t i = 0; i < count; i++) known |= sli_word_is(word, layers[i]);
-        if (!known) return sli_fail_layer(context, name, word, "file", &there);
-    }
-    return SL_OK;
-}

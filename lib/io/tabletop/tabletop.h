@@ -26,12 +26,6 @@ const char *sli_name_of_door(sli_door_names *names, const sli_json *door, char m
 /// of its digits (NULL for none).
 sl_status sli_tabletop_own(const sli_json *own, double *top, const char **mark, sl_map *map);
 
-// --- layers
-
-/// SL_BAD_ARGUMENT where the options ask for a layer that is none of these.
-sl_status sli_tabletop_check_layers(sl_context *context, const char *name, const char *list,
-                                    const char *const *layers, size_t count);
-
 // --- the edge of a scene
 
 /// The edge of a scene: eyes and steps end there. It is taken as walls where the map's walls leave

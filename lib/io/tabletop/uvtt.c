@@ -265,7 +265,7 @@ sl_status sli_map_read_uvtt(sl_context *context, const char *name, const char *t
     sli_json_file file;
     sl_map read = {0};
     uvtt reader = {.context = context, .options = options, .map = &read};
-    SL_TRY(sli_tabletop_check_layers(context, name, options->layers, layer_names, LAYER_COUNT));
+    SL_TRY(sli_layers_check(context, name, options->layers, layer_names, LAYER_COUNT));
     SL_TRY(sli_json_open(context, name, text, size, &file));
     const sli_json root = sli_json_root(&file);
     const sl_status status = read_uvtt(&reader, &root);

@@ -1,0 +1,60 @@
+/// Pictures as plans: what is solid in them, and the walls about it.
+#ifndef SL_IMAGE_H
+#define SL_IMAGE_H
+
+#include "map/grid.h"
+#include "sightline/io.h"
+
+/// The grey and the opacity of each pixel, one behind the other; NULL where the picture has no
+/// transparent ones. sl_free is the caller's. As sl_image_read.
+sl_status sli_image_read_alpha(sl_context *context, const char *name, const char *bytes,
+                               size_t size, unsigned char **out);
+
+// --- walls
+
+/// How a picture is a plan.
+typedef struct sli_image_plan {
+    double threshold;   ///< a pixel is solid where its darkness, 0 .. 1, is at least this
+    bool light;         ///< the light pixels are the dark ones
+    bool large;         ///< small pieces of solid that touch nothing are open
+    bool solid_outside; ///< beyond the picture all is solid; else it is open
+    double step;        ///< the size of a pixel
+    sl_point origin;    ///< of the lower left pixel's lower left corner
+} sli_image_plan;
+
+/// Small pieces of solid: lettering, symbols, columns.
+typedef struct sli_image_small {
+    size_t count;
+    size_t width, height; ///< of the largest, in pixels
+} sli_image_small;
+
+/// Adds walls along the edges between solid and other pixels, merged. Gives the number of solid
+/// pixels; with `small`, small pieces are looked for.
+sl_status sli_image_add_walls(sl_context *context, const sl_image *image,
+                              const sli_image_plan *plan, sl_map *map, size_t *solid,
+                              sli_image_small *small);
+
+/// Looks for small pieces in a grid of rows of one length; with `open` they become open ground.
+sl_status sli_image_find_small(sl_context *context, sli_grid *grid, bool open,
+                               sli_image_small *out);
+
+// --- what is solid
+
+/// Whether the walls are what is opaque: thin, mostly light, and the rest is transparent.
+bool sli_image_is_opaque(const unsigned char *alpha, const sl_image *image, size_t *row);
+/// Whether the walls are thin light lines on a dark ground. `row` has room for a row and one more.
+bool sli_image_is_light(const sl_image *image, size_t *row);
+
+/// What a histogram says of the threshold.
+typedef struct sli_image_levels {
+    double threshold;  ///< the usual, or less where nearly all of the drawing is fainter
+    bool faint;        ///< it is less
+    size_t lost;       ///< pixels of fainter lines and areas that stay open
+    double lost_level; ///< their darkness
+    double lost_from;  ///< the threshold that takes them
+    double between;    ///< the share of pixels of all kinds of grey, as photographs have them
+} sli_image_levels;
+
+sli_image_levels sli_image_find_levels(const sl_image *image, bool light, size_t *row);
+
+#endif
