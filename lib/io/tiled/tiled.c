@@ -494,6 +494,11 @@ static void give_account(const sli_tiled_reader *reader) {
             reader->map->file->name, reader->pen.map->wall_count,
             sli_tally_write(" from ", taken, 4, from),
             sli_tally_write("; left out: ", left, 5, without), top);
+    if (reader->lost_shapes)
+        sl_note(reader->context,
+                "%s: left out: %zu collision shape%s of tiles that are objects: they are drawn in "
+                "orthogonal maps only; draw their outlines in a layer 'Collision'",
+                reader->map->file->name, reader->lost_shapes, reader->lost_shapes == 1 ? "" : "s");
     if (reader->doors_left_out)
         sl_note(reader->context,
                 "%s: left out: %zu tile%s of doors; in hexagonal maps only objects are doors",

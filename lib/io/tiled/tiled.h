@@ -263,8 +263,12 @@ typedef struct sli_tiled_reader {
     size_t other_layers, other_objects, other_shapes;  ///< left out
     size_t unknown_tiles;                              ///< of tilesets that cannot be read
     size_t lost_tiles;                                 ///< the same, in solid layers too
+    size_t lost_shapes;                                ///< of tiles as objects, not orthogonal
     size_t doors_left_out;                             ///< tiles that are doors and hexagons
     sli_things things;
+    const json_t *start_layer; ///< a layer of chunks that is a start,
+    size_t start_tiles;        ///< the tiles of the chunk that it was put into,
+    size_t start_at;           ///< and its number among the things
     sli_tiled_templates templates;
 } sli_tiled_reader;
 
