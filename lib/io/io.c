@@ -38,6 +38,11 @@ static bool knows_tmj(const char *text, size_t size) {
     return is_json_with(text, "\"tilewidth\"", "\"layers\"");
 }
 
+static bool knows_world(const char *text, size_t size) {
+    (void)size;
+    return is_json_with(text, "\"fileName\"", "\"world\"");
+}
+
 static bool knows_ldtk(const char *text, size_t size) {
     (void)size;
     return is_json_with(text, "\"__header__\"", "\"ldtk") ||
@@ -167,6 +172,13 @@ static const sl_map_format map_formats[] = {
      .takes = SL_TAKES_LAYERS | SL_TAKES_TOLERANCE | SL_TAKES_STARTS | SL_TAKES_DOORS,
      .layers = sli_map_layers_tmj,
      .knows = knows_tmj},
+    {.name = "world",
+     .endings = ".world",
+     .what = "a world of Tiled: maps in files beside it",
+     .read = sli_map_read_world,
+     .takes = SL_TAKES_LAYERS | SL_TAKES_TOLERANCE | SL_TAKES_STARTS | SL_TAKES_DOORS,
+     .list = sli_map_list_world,
+     .knows = knows_world},
     {.name = "ldtk",
      .endings = ".ldtk .ldtkl .json",
      .what = "a project or a level of LDtk",

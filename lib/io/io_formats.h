@@ -81,6 +81,14 @@ sl_status sli_map_layers_tmx(sl_context *context, const char *name, const char *
 sl_status sli_map_layers_tmj(sl_context *context, const char *name, const char *text, size_t size,
                              sl_map_list *list, bool *unsaid);
 
+/// A map of a world of Tiled (options->map, the name of its file; else the first), as
+/// sli_map_read_tmx reads it. SL_BAD_INPUT where the world names none.
+sl_status sli_map_read_world(sl_context *context, const char *name, const char *text, size_t size,
+                             const sl_import_options *options, sl_map *map);
+/// Its maps, by the names of their files.
+sl_status sli_map_list_world(sl_context *context, const char *name, const char *text, size_t size,
+                             sl_map_list *list);
+
 /// A level of an LDtk project, one in a file of its own too, or all levels of a world ("all", or
 /// the world's name): the cells of its IntGrid layers, and entities named as starts or doors. Unit:
 /// pixels. What was taken is noted. SL_BAD_ARGUMENT as sli_map_read_tmx.

@@ -176,11 +176,17 @@ static void give_account(const sli_ldtk *reader, const sl_map *map, bool ground_
 
 /// SL_BAD_INPUT where the level has nothing that says what is solid.
 static sl_status check_any(const sli_ldtk *reader, bool unsure) {
+    char next[600] = "; it has no tiles";
+    if (reader->tiles_name)
+        snprintf(next, sizeof next,
+                 "; layers of tiles: %.150s; --layers takes all tiles of one, as in: sightline "
+                 "check '%.80s' --map %.40s --layers %.40s -o map.png",
+                 reader->tile_names.text, reader->name, reader->taken, reader->tiles_name);
     if (!reader->layers && !reader->tile_layers)
         return sli_json_fail(&reader->root,
                              "level %s has no IntGrid layer, and no layer of tiles whose name or "
-                             "whose tileset's enums say what is solid (Wall, Solid, Collision)",
-                             reader->taken);
+                             "whose tileset's enums say what is solid (Wall, Solid, Collision)%s",
+                             reader->taken, next);
     if (unsure)
         return sl_fail_at(reader->context, reader->name, 0,
                           "the values %s may be walls or open ground; --layers %s:1+3-5 takes the "

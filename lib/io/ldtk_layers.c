@@ -359,6 +359,16 @@ static sl_status check_layers(const sli_ldtk *reader, const sli_json *layers) {
     return SL_OK;
 }
 
+/// Remembers a layer of tiles, for the message that nothing says what is solid.
+static void name_tiles(sli_ldtk *reader, const sli_json *layer) {
+    const char *name = sli_json_text_of(layer, "__identifier");
+    const sli_json by_hand = sli_json_member(layer, "gridTiles");
+    const sli_json by_rules = sli_json_member(layer, "autoLayerTiles");
+    if (!json_array_size(by_hand.value) && !json_array_size(by_rules.value)) return;
+    if (!reader->tiles_name) reader->tiles_name = name;
+    sli_name_list_add(&reader->tile_names, (sli_word){name, strlen(name)});
+}
+
 sl_status sli_ldtk_read_layers(sli_ldtk *reader, const sli_json *layers, sli_ldtk_place at) {
     size_t count;
     said all = {.solid = false};
@@ -378,6 +388,7 @@ sl_status sli_ldtk_read_layers(sli_ldtk *reader, const sli_json *layers, sli_ldt
         const bool asked = !reader->options->layers ||
                            sli_layers_ask(reader->options->layers,
                                           sli_json_text_of(&layer, "__identifier"), &numbers);
+        if (is_tiles(&layer)) name_tiles(reader, &layer);
         SL_TRY(read_entities(reader, &layer, at));
         if (is_taken(reader, &layer, all)) SL_TRY(read_layer(reader, &layer, at));
         if (!cells && asked && is_tiles(&layer)) SL_TRY(read_tiles(reader, &layer, at));

@@ -452,14 +452,17 @@ static sl_status add_doors(sli_things *things, sl_map *map) {
         if (i % 64 == 0) status = sl_check_cancelled(things->context);
         if (door->kind != SLI_THING_DOOR || door->again) continue;
         door->goes_on = door->goes_on && things->items.items[i - 1].placed;
-        if (place_in_open(things, map, door) && is_usable(door->at.a) && is_usable(door->at.b) &&
+        if (place_in_open(things, map, door) && !door->buried && is_usable(door->at.a) &&
+            is_usable(door->at.b) &&
             (door->at.a.x != door->at.b.x || door->at.a.y != door->at.b.y)) {
             doors[count++] = door;
             continue;
         }
+        const bool buried = door->placed && door->buried;
         door->placed = false;
         tell_left_out(things, door, &left_out,
                       things->grids && !door->inside ? "it is outside the map"
+                      : buried                       ? "another layer is solid on both of its sides"
                                                      : "no passage is found there");
         if (status == SL_OK && door->is_wall) status = add_outline(things, door, map);
     }

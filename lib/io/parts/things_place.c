@@ -265,6 +265,28 @@ static bool is_solid_at(const spot *at) {
     return solid;
 }
 
+/// Whether all squares that a door touches in its middle are solid: in another grid than the one
+/// that has its passage.
+static bool is_buried(const sli_things *things, const spot *at) {
+    const sli_thing *door = at->thing;
+    const sli_grid *grid = at->grid;
+    sl_point middle = at->middle;
+    if (door->placed) {
+        const double top = things->top - (grid->origin.y + (double)grid->count * grid->step.y);
+        const double x = (door->at.a.x + door->at.b.x) / 2;
+        const double y = things->top - (door->at.a.y + door->at.b.y) / 2;
+        middle = (sl_point){(x - grid->origin.x) / grid->step.x, (y - top) / grid->step.y};
+    }
+    if (!(middle.x >= 0 && middle.x <= (double)grid->rows[0].length && middle.y >= 0 &&
+          middle.y <= (double)grid->count))
+        return false;
+    const size_t column = (size_t)middle.x, row = (size_t)middle.y;
+    const size_t columns = 1 + ((double)column == middle.x), rows = 1 + ((double)row == middle.y);
+    for (size_t i = 0; i < rows * columns; i++)
+        if (!sli_grid_solid(grid, row - i / columns, column - i % columns)) return false;
+    return true;
+}
+
 // --- starts among squares
 
 /// A start on the border of a solid square moves to the middle of an open square beside it, the
@@ -310,6 +332,7 @@ sl_status sli_things_place(sli_things *things, sli_grid *grid) {
         sli_thing *thing = &things->items.items[i];
         if (!find_spot(things, grid, thing, &at)) continue;
         thing->inside = true;
+        if (thing->kind == SLI_THING_DOOR) thing->buried |= is_buried(things, &at);
         if (thing->kind == SLI_THING_START)
             place_start(things, &at, thing);
         else if (!thing->placed)

@@ -42,6 +42,7 @@ static sl_status tiled_check_choice(const sli_json *map, const char *list) {
     for (sli_word word; list && sli_layers_next(&list, &word);) {
         sli_word gids;
         if (!find_layer(&layers, word, &gids)) {
+            if (sli_word_is(word, "void")) continue;
             sli_name_list there = {.full = false};
             name_layers(map, &there);
             return sli_fail_layer(map->file->context, map->file->name, word, "map", &there);
@@ -494,6 +495,11 @@ static void give_account(const sli_tiled_reader *reader) {
             reader->map->file->name, reader->pen.map->wall_count,
             sli_tally_write(" from ", taken, 4, from),
             sli_tally_write("; left out: ", left, 5, without), top);
+    if (reader->lost_shapes)
+        sl_note(reader->context,
+                "%s: left out: %zu collision shape%s of tiles that are objects: they are drawn in "
+                "orthogonal maps only; draw their outlines in a layer 'Collision'",
+                reader->map->file->name, reader->lost_shapes, reader->lost_shapes == 1 ? "" : "s");
     if (reader->doors_left_out)
         sl_note(reader->context,
                 "%s: left out: %zu tile%s of doors; in hexagonal maps only objects are doors",
@@ -506,6 +512,7 @@ static sl_status read_map(sli_tiled_reader *reader) {
     SL_TRY(sli_tiled_read_sets(reader->map, &reader->sets));
     SL_TRY(sli_tiled_read_again(reader));
     if (!reader->solid_layers && !reader->options->layers) SL_TRY(sli_tiled_find_meaning(reader));
+    SL_TRY(sli_tiled_settle_void(reader));
     SL_TRY(sli_tiled_add_tile_walls(reader));
     const sl_map *map = reader->pen.map;
     if (!map->wall_count && !sl_map_partial_walls(map))
@@ -542,8 +549,15 @@ static void end_reader(sl_context *context, sli_tiled_reader *reader) {
 static sl_status read_tree(sl_context *context, sli_json_file *file,
                            const sl_import_options *options, sl_map *map) {
     sl_map read = {0};
-    const sli_json root = sli_json_root(file);
-    sli_tiled_reader reader = begin_reader(context, &root, options, &read);
+    sl_import_options own = *options;
+    const sli_json root = sli_json_root(file), layers = sli_json_member(&root, "layers");
+    const sli_word empty = {"void", 4};
+    sli_word gids;
+    const bool asks_void =
+        own.layers && sli_layers_have(own.layers, empty.at) && !find_layer(&layers, empty, &gids);
+    if (asks_void && sli_tiled_only_void(own.layers)) own.layers = NULL;
+    sli_tiled_reader reader = begin_reader(context, &root, &own, &read);
+    reader.void_is_solid = asks_void;
     const sl_status status = read_map(&reader);
     end_reader(context, &reader);
     sli_json_close(file);

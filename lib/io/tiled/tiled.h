@@ -256,6 +256,7 @@ typedef struct sli_tiled_reader {
     size_t guess_layer;               ///< by a guess: the layer,
     uint32_t guessed;                 ///< the tile that is taken as solid (0: empty squares)
     bool guessed_all;                 ///< or all tiles are
+    bool void_is_solid;               ///< as the options ask
     const char *guess_why;            ///< NULL where nothing can be guessed
     uint64_t tile_shapes, tile_walls; ///< that the layers' tiles draw
     size_t solid_layers, solid_tiles, shapes, objects; ///< taken
@@ -263,8 +264,12 @@ typedef struct sli_tiled_reader {
     size_t other_layers, other_objects, other_shapes;  ///< left out
     size_t unknown_tiles;                              ///< of tilesets that cannot be read
     size_t lost_tiles;                                 ///< the same, in solid layers too
+    size_t lost_shapes;                                ///< of tiles as objects, not orthogonal
     size_t doors_left_out;                             ///< tiles that are doors and hexagons
     sli_things things;
+    const json_t *start_layer; ///< a layer of chunks that is a start,
+    size_t start_tiles;        ///< the tiles of the chunk that it was put into,
+    size_t start_at;           ///< and its number among the things
     sli_tiled_templates templates;
 } sli_tiled_reader;
 
@@ -302,6 +307,12 @@ sl_status sli_tiled_draw_picture(sli_tiled_reader *reader, const sli_json *objec
 
 /// Makes walls of all solid tiles that were read, in the plan.
 sl_status sli_tiled_add_tile_walls(sli_tiled_reader *reader);
+
+/// Whether the layers that are asked for are `void` alone: then all else is as without the option.
+bool sli_tiled_only_void(const char *layers);
+/// Makes the squares without any tile solid (reader->void_is_solid), or tells where floor leads to
+/// them. To be called before the walls are made.
+sl_status sli_tiled_settle_void(sli_tiled_reader *reader);
 
 /// Reads all layers by reader->by, which tells what is solid; what was read before of tiles is
 /// dropped.

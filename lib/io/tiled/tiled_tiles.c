@@ -197,9 +197,12 @@ sl_status sli_tiled_draw_picture(sli_tiled_reader *reader, const sli_json *objec
     sli_tiled_tile *tile = set ? sli_tiled_find_tile(set, gid) : NULL;
     const bool other = sli_game_says_other(sli_json_text_of(object, "name")) ||
                        sli_game_says_other(sli_json_text_of(object, "type"));
-    if (!tile || !tile->shapes || other || reader->by || set->diamond.x > 0 ||
-        reader->lattice.orientation != SLI_TILED_ORTHOGONAL || !(set->width > 0 && set->height > 0))
+    if (!tile || !tile->shapes || other || reader->by) return SL_OK;
+    if (set->diamond.x > 0 || reader->lattice.orientation != SLI_TILED_ORTHOGONAL) {
+        reader->lost_shapes += json_array_size(tile->shapes);
         return SL_OK;
+    }
+    if (!(set->width > 0 && set->height > 0)) return SL_OK;
     SL_TRY(meet_tile(reader, set, tile));
     reader->tile_shapes = sli_limit_sum(reader->tile_shapes, json_array_size(tile->shapes));
     SL_TRY(sli_limit_check(reader->context, reader->map->file->name, 0, SLI_LIMIT_ENTITIES,
@@ -373,6 +376,19 @@ static sl_status take_start(sli_tiled_reader *reader, const sli_json *layer, con
     const sli_thing start = {.kind = SLI_THING_START,
                              .middle = middle_of(reader, all, middle),
                              .line = sli_json_line(layer)};
+    size_t tiles = 0;
+    for (size_t i = 0; i < all->columns * all->rows; i++)
+        tiles += (all->gids[i] & SLI_TILED_TILE) != 0;
+    // Of several chunks the one with the most tiles.
+    const bool again = reader->start_layer == layer->value;
+    if (again && tiles <= reader->start_tiles) return SL_OK;
+    reader->start_layer = layer->value;
+    reader->start_tiles = tiles;
+    if (again) {
+        reader->things.items.items[reader->start_at].middle = start.middle;
+        return SL_OK;
+    }
+    reader->start_at = reader->things.items.count;
     return sli_things_add(&reader->things, says.name, start);
 }
 

@@ -1,0 +1,211 @@
+/// Squares of Tiled's maps that have no tile at all: around rooms that are drawn floor by floor
+/// they are what nobody enters, and in a platformer they are the air. The file does not say which,
+/// so they are open; where floor leads to them it is told, and `--layers void` makes them solid.
+#include "io/tiled/tiled.h"
+
+#include <math.h>
+#include <string.h>
+
+/// What is looked at: maps of more squares are left alone.
+enum { MOST = 1 << 24, PAIRS = 512 };
+
+typedef struct field {
+    sli_tiled_reader *reader;
+    sli_tiled_range range; ///< of all tiles
+    bool pictures;         ///< there is a layer that is a picture
+    size_t columns, rows;
+    char *squares; ///< ' ' without a tile, '.' with one, '#' solid; NULL while the range is looked
+                   ///< for
+} field;
+
+bool sli_tiled_only_void(const char *layers) {
+    bool any = false, only = true;
+    for (sli_word word; layers && sli_layers_next(&layers, &word); any = true)
+        only &= sli_word_is(word, "void");
+    return any && only;
+}
+
+static void take_gids(field *f, const sli_tiled_range *at, const uint32_t *gids) {
+    const size_t width = (size_t)(at->right - at->left);
+    for (int64_t y = at->top; y < at->bottom; y++)
+        for (int64_t x = at->left; x < at->right; x++) {
+            const size_t i = (size_t)(y - at->top) * width + (size_t)(x - at->left);
+            if (!(gids[i] & SLI_TILED_TILE)) continue;
+            f->squares[(size_t)(y - f->range.top) * f->columns + (size_t)(x - f->range.left)] = '.';
+        }
+}
+
+static void widen(sli_tiled_range *all, const sli_tiled_range *more) {
+    if (all->left == all->right) *all = *more;
+    if (more->left < all->left) all->left = more->left;
+    if (more->top < all->top) all->top = more->top;
+    if (more->right > all->right) all->right = more->right;
+    if (more->bottom > all->bottom) all->bottom = more->bottom;
+}
+
+/// A layer's tiles, or those of a chunk.
+static sl_status look_at_block(field *f, const sli_json *layer, const sli_json *holder,
+                               sl_point offset) {
+    const sli_json size[] = {sli_json_member(holder, "width"), sli_json_member(holder, "height")};
+    const sli_json data = sli_json_member(holder, "data");
+    const sli_json x = sli_json_member(holder, "x"), y = sli_json_member(holder, "y");
+    int64_t columns, rows, column = 0, row = 0;
+    SL_TRY(sli_json_whole(&size[0], 1, MOST, &columns));
+    SL_TRY(sli_json_whole(&size[1], 1, MOST, &rows));
+    if (holder != layer) {
+        SL_TRY(sli_json_whole(&x, INT32_MIN, INT32_MAX, &column));
+        SL_TRY(sli_json_whole(&y, INT32_MIN, INT32_MAX, &row));
+    }
+    column += (int64_t)offset.x;
+    row += (int64_t)offset.y;
+    const sli_tiled_range at = {column, row, column + columns, row + rows};
+    if (!f->squares) {
+        widen(&f->range, &at);
+        return SL_OK;
+    }
+    uint32_t *gids;
+    SL_TRY(sli_tiled_read_data(layer, &data, (size_t)(columns * rows), &gids));
+    take_gids(f, &at, gids);
+    sl_free(f->reader->context, gids);
+    return SL_OK;
+}
+
+/// How far a layer is moved, in whole squares, with its group's move.
+static sl_point move_of(const field *f, const sli_json *layer, sl_point outer) {
+    const sli_json x = sli_json_member(layer, "offsetx"), y = sli_json_member(layer, "offsety");
+    const sli_tiled_lattice *lattice = &f->reader->lattice;
+    if (lattice->orientation != SLI_TILED_ORTHOGONAL) return outer;
+    const double right = rint(sli_json_number_or_0(&x) / lattice->tile.x);
+    const double down = rint(sli_json_number_or_0(&y) / lattice->tile.y);
+    if (!(fabs(right) < MOST && fabs(down) < MOST)) return outer;
+    return (sl_point){outer.x + right, outer.y + down};
+}
+
+static sl_status look_at_layers(field *f, const sli_json *parent, sl_point outer) {
+    const sli_json layers = sli_json_member(parent, "layers");
+    for (size_t i = 0; i < json_array_size(layers.value); i++) {
+        const sli_json layer = sli_json_item(&layers, i);
+        const sli_json chunks = sli_json_member(&layer, "chunks");
+        const sli_json data = sli_json_member(&layer, "data");
+        const char *type = sli_json_text_of(&layer, "type");
+        const sl_point offset = move_of(f, &layer, outer);
+        f->pictures |= strcmp(type, "imagelayer") == 0;
+        if (strcmp(type, "group") == 0) SL_TRY(look_at_layers(f, &layer, offset));
+        if (strcmp(type, "tilelayer") != 0) continue;
+        for (size_t k = 0; k < json_array_size(chunks.value); k++) {
+            const sli_json chunk = sli_json_item(&chunks, k);
+            SL_TRY(look_at_block(f, &layer, &chunk, offset));
+        }
+        if (!chunks.value && data.value) SL_TRY(look_at_block(f, &layer, &layer, offset));
+        SL_TRY(sl_check_cancelled(f->reader->context));
+    }
+    return SL_OK;
+}
+
+/// Puts in what is solid.
+static void take_solid(field *f) {
+    const sli_tiles *tiles = &f->reader->tiles;
+    for (size_t i = 0; i < tiles->blocks.count; i++) {
+        const sli_tile_block *block = &tiles->blocks.items[i];
+        const double left = rint(block->corner.x / block->step.x) - (double)f->range.left;
+        const double top = rint(block->corner.y / block->step.y) - (double)f->range.top;
+        for (size_t k = 0; k < block->columns * block->rows; k++) {
+            const double x = left + (double)(k % block->columns);
+            const double y = top + (double)(k / block->columns);
+            if (block->squares[k] != '#') continue;
+            if (x >= 0 && y >= 0 && x < (double)f->columns && y < (double)f->rows)
+                f->squares[(size_t)y * f->columns + (size_t)x] = '#';
+        }
+    }
+}
+
+static sl_point middle_of(const field *f, size_t i) {
+    const sl_point step = f->reader->lattice.step;
+    const double x = (double)f->range.left + (double)(i % f->columns) + 0.5;
+    const double y = (double)f->range.top + (double)(i / f->columns) + 0.5;
+    return sli_affine_apply(f->reader->pen.affine, (sl_point){x * step.x, y * step.y});
+}
+
+static double side(sl_point a, sl_point b, sl_point c) {
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+/// Whether a wall of an object lies between two squares.
+static bool is_between(const sl_map *map, sl_point a, sl_point b) {
+    for (size_t i = 0; i < map->wall_count; i++) {
+        const sl_wall *wall = &map->walls[i];
+        if (side(a, b, wall->a) * side(a, b, wall->b) <= 0 &&
+            side(wall->a, wall->b, a) * side(wall->a, wall->b, b) <= 0)
+            return true;
+    }
+    return false;
+}
+
+/// Whether one steps from floor to squares without a tile. So many places are held against the
+/// walls of objects and no more.
+static bool leads_to_void(const field *f) {
+    size_t tried = 0;
+    for (size_t i = 0; i < f->columns * f->rows && tried < PAIRS; i++) {
+        const bool ends = (i + 1) % f->columns == 0;
+        const size_t beside[] = {ends ? i : i + 1, i + f->columns};
+        for (int k = 0; k < 2; k++) {
+            const size_t j = beside[k];
+            if (j >= f->columns * f->rows || f->squares[i] == '#' || f->squares[j] == '#' ||
+                f->squares[i] == f->squares[j])
+                continue;
+            tried++;
+            if (!is_between(f->reader->pen.map, middle_of(f, i), middle_of(f, j))) return true;
+        }
+    }
+    return false;
+}
+
+static sl_status fill(field *f) {
+    const sl_point step = f->reader->lattice.step;
+    const sl_point corner = {(double)f->range.left * step.x, (double)f->range.top * step.y};
+    char *squares;
+    SL_TRY(sli_tiles_add(f->reader->context, &f->reader->tiles, f->reader->map->file->name, corner,
+                         step, f->columns, f->rows, &squares));
+    for (size_t i = 0; i < f->columns * f->rows; i++)
+        if (f->squares[i] == ' ') squares[i] = '#';
+    return SL_OK;
+}
+
+static sl_status settle(field *f, const char *layers) {
+    size_t empty = 0, floor = 0;
+    take_solid(f);
+    for (size_t i = 0; i < f->columns * f->rows; i++) {
+        empty += f->squares[i] == ' ';
+        floor += f->squares[i] == '.';
+    }
+    if (f->reader->void_is_solid) return fill(f);
+    // In a platformer a little is drawn in much air.
+    if (!empty || 10 * floor < empty + floor || f->pictures || f->reader->guessed_all ||
+        !leads_to_void(f))
+        return SL_OK;
+    sl_note(f->reader->context,
+            "%s: %zu squares have no tile and are open, and floor leads to them with no wall "
+            "between: --layers '%s%svoid' takes them as solid",
+            f->reader->map->file->name, empty, layers ? layers : "", layers ? "," : "");
+    return SL_OK;
+}
+
+sl_status sli_tiled_settle_void(sli_tiled_reader *reader) {
+    field f = {.reader = reader};
+    const sli_tiled_orientation kind = reader->lattice.orientation;
+    if (kind != SLI_TILED_ORTHOGONAL && kind != SLI_TILED_ISOMETRIC) return SL_OK;
+    sl_status status = look_at_layers(&f, reader->map, (sl_point){0});
+    const int64_t columns = f.range.right - f.range.left, rows = f.range.bottom - f.range.top;
+    if (status != SL_OK || !columns || columns > MOST / rows)
+        return status == SL_BAD_INPUT ? SL_OK : status;
+    f.columns = (size_t)columns;
+    f.rows = (size_t)rows;
+    f.squares = sl_alloc_array(reader->context, f.columns, f.rows);
+    if (!f.squares) return SL_NO_MEMORY;
+    memset(f.squares, ' ', f.columns * f.rows);
+    status = look_at_layers(&f, reader->map, (sl_point){0});
+    if (status == SL_OK) status = settle(&f, reader->options->layers);
+    sl_free(reader->context, f.squares);
+    // A layer that is damaged says nothing; it is no fault where it is not read for its walls.
+    return status == SL_BAD_INPUT && !reader->void_is_solid ? SL_OK : status;
+}
