@@ -193,6 +193,42 @@ static sl_status read_format(sl_context *context, const char *path, const sl_map
     return status;
 }
 
+/// The part of the map that is asked for, and one line of what was left out.
+static sl_status crop_map(sl_context *context, const char *path, const sl_import_options *options,
+                          sl_map *map) {
+    sl_crop_account a;
+    const sl_box all = sl_map_bounds(map), box = options->crop;
+    const int digits = sl_map_digits(map);
+    if (!options->has_crop) return SL_OK;
+    SL_TRY(sl_map_crop(context, map, box, &a));
+    if (!a.inside && !a.cut)
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "%s: nothing lies in the crop %.*g,%.*g,%.*g,%.*g; the map is %.*g,%.*g to "
+                       "%.*g,%.*g",
+                       path, digits, box.min.x, digits, box.min.y, digits, box.max.x, digits,
+                       box.max.y, digits, all.min.x, digits, all.min.y, digits, all.max.x, digits,
+                       all.max.y);
+    const struct {
+        size_t count;
+        const char *one, *several;
+    } things[] = {{a.doors, "door", "doors"},
+                  {a.starts, "start", "starts"},
+                  {a.paths, "path", "paths"},
+                  {a.objects, "object", "objects"},
+                  {a.cells, "cell", "cells"}};
+    char left[160] = "";
+    for (size_t i = 0; i < sizeof things / sizeof *things; i++) {
+        const size_t used = strlen(left), count = things[i].count;
+        if (count)
+            snprintf(left + used, sizeof left - used, ", %zu %s", count,
+                     count == 1 ? things[i].one : things[i].several);
+    }
+    sl_note(context,
+            "%s: the crop keeps %zu of %zu walls, %zu of them cut at its border; left out: %zu%s",
+            path, a.inside + a.cut, a.inside + a.cut + a.left_out, a.cut, a.left_out, left);
+    return SL_OK;
+}
+
 /// A foreign file that was taken for map text: the message says how to read it.
 static sl_status tell_of_formats(sl_context *context, const char *path, sl_status status) {
     size_t count;
@@ -221,6 +257,10 @@ sl_status sl_map_parse(sl_context *context, const char *path, const char *text, 
     if (source)
         status = read_format(context, path, find_format(context, path, text, size), text, size,
                              options, &read);
+    if (status == SL_OK) {
+        status = crop_map(context, path, options, &read);
+        if (status != SL_OK) sl_map_destroy(context, &read);
+    }
     if (status != SL_OK) {
         sl_free(context, source);
         return tell_of_formats(context, path, status);
