@@ -5,6 +5,7 @@
 #include "base/base.h"
 #include "base/file_system.h"
 #include "base/size.h"
+#include "map/plans.h"
 #include "map/scan.h"
 #include "map/unit.h"
 
@@ -151,7 +152,7 @@ static sl_status check_options(sl_context *context, const char *path, const sl_m
         const char *name;
         bool given, taken;
     } all[] = {
-        {"map", options->map, format->list},
+        {"map", options->map, format->list || format->takes & SL_TAKES_PLANS},
         {"slice", options->has_slice, format->takes & SL_TAKES_SLICE},
         {"layers", options->layers, format->takes & SL_TAKES_LAYERS},
         {"start-names", options->start_names, format->takes & SL_TAKES_STARTS},
@@ -174,6 +175,49 @@ static sl_status check_options(sl_context *context, const char *path, const sl_m
     return SL_OK;
 }
 
+/// "plan 1: 0,0 to 10,8; plan 2: ..."
+static void say_plans(const sli_sheet *sheet, int digits, char *text, size_t size) {
+    *text = '\0';
+    for (size_t i = 0; i < sheet->count; i++) {
+        const size_t used = strlen(text);
+        const sl_box b = sheet->plans[i].bounds;
+        snprintf(text + used, size - used, "%splan %zu: %.*g,%.*g to %.*g,%.*g", i ? "; " : "",
+                 i + 1, digits, b.min.x, digits, b.min.y, digits, b.max.x, digits, b.max.y);
+    }
+}
+
+/// Where a file is a sheet of several plans: takes the one that is asked for, or tells of them.
+static sl_status take_plan(sl_context *context, const char *path, const char *wanted, bool cropped,
+                           sl_map *map) {
+    sli_sheet sheet;
+    char list[SLI_PLANS_MOST * 128], name[32];
+    SL_TRY(sli_sheet_find(context, map, &sheet));
+    say_plans(&sheet, sl_map_digits(map), list, sizeof list);
+    if (!sheet.count && wanted)
+        return sl_fail(
+            context, SL_BAD_ARGUMENT,
+            "%s: there is no map '%.64s': the file holds one map, so --map is not needed", path,
+            wanted);
+    if (!sheet.count || (cropped && !wanted)) return SL_OK;
+    if (!wanted) {
+        sl_note(context,
+                "%s holds %zu plans apart from each other (%s): --map 'plan 1' reads one, --crop "
+                "X0,Y0,X1,Y1 a part",
+                path, sheet.count, list);
+        return SL_OK;
+    }
+    for (size_t i = 0; i < sheet.count; i++) {
+        snprintf(name, sizeof name, "plan %zu", i + 1);
+        if (strcasecmp(name, wanted) != 0) continue;
+        const size_t left = sli_sheet_take(context, &sheet, i, map);
+        sl_note(context, "%s: plan %zu of %zu has %zu walls; %zu beside it are left out", path,
+                i + 1, sheet.count, sheet.plans[i].walls, left);
+        return SL_OK;
+    }
+    return sl_fail(context, SL_BAD_ARGUMENT, "%s: there is no map '%.64s': it holds %zu plans, %s",
+                   path, wanted, sheet.count, list);
+}
+
 static sl_status read_format(sl_context *context, const char *path, const sl_map_format *format,
                              const char *text, size_t size, const sl_import_options *given,
                              sl_map *map) {
@@ -186,11 +230,53 @@ static sl_status read_format(sl_context *context, const char *path, const sl_map
         if (status == SL_OK && (list.count || !(format->takes & SL_TAKES_PLANS)))
             status = choose_map(context, path, &list, &options);
     }
+    const bool sheets = format->takes & SL_TAKES_PLANS && !list.count;
+    if (sheets) options.map = NULL;
     if (status == SL_OK) status = format->read(context, path, text, size, &options, map);
     sl_map_list_destroy(context, &list);
+    if (status == SL_OK && sheets) {
+        status = take_plan(context, path, given->map, given->has_crop, map);
+        if (status != SL_OK) sl_map_destroy(context, map);
+    }
     sl_transform *transform = &map->source.transform;
     if (status == SL_OK && transform->scale == 0) transform->scale = 1; // the file's y is up
     return status;
+}
+
+/// The part of the map that is asked for, and one line of what was left out.
+static sl_status crop_map(sl_context *context, const char *path, const sl_import_options *options,
+                          sl_map *map) {
+    sl_crop_account a;
+    const sl_box all = sl_map_bounds(map), box = options->crop;
+    const int digits = sl_map_digits(map);
+    if (!options->has_crop) return SL_OK;
+    SL_TRY(sl_map_crop(context, map, box, &a));
+    if (!a.inside && !a.cut)
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "%s: nothing lies in the crop %.*g,%.*g,%.*g,%.*g; the map is %.*g,%.*g to "
+                       "%.*g,%.*g",
+                       path, digits, box.min.x, digits, box.min.y, digits, box.max.x, digits,
+                       box.max.y, digits, all.min.x, digits, all.min.y, digits, all.max.x, digits,
+                       all.max.y);
+    const struct {
+        size_t count;
+        const char *one, *several;
+    } things[] = {{a.doors, "door", "doors"},
+                  {a.starts, "start", "starts"},
+                  {a.paths, "path", "paths"},
+                  {a.objects, "object", "objects"},
+                  {a.cells, "cell", "cells"}};
+    char left[160] = "";
+    for (size_t i = 0; i < sizeof things / sizeof *things; i++) {
+        const size_t used = strlen(left), count = things[i].count;
+        if (count)
+            snprintf(left + used, sizeof left - used, ", %zu %s", count,
+                     count == 1 ? things[i].one : things[i].several);
+    }
+    sl_note(context,
+            "%s: the crop keeps %zu of %zu walls, %zu of them cut at its border; left out: %zu%s",
+            path, a.inside + a.cut, a.inside + a.cut + a.left_out, a.cut, a.left_out, left);
+    return SL_OK;
 }
 
 /// A foreign file that was taken for map text: the message says how to read it.
@@ -221,6 +307,10 @@ sl_status sl_map_parse(sl_context *context, const char *path, const char *text, 
     if (source)
         status = read_format(context, path, find_format(context, path, text, size), text, size,
                              options, &read);
+    if (status == SL_OK) {
+        status = crop_map(context, path, options, &read);
+        if (status != SL_OK) sl_map_destroy(context, &read);
+    }
     if (status != SL_OK) {
         sl_free(context, source);
         return tell_of_formats(context, path, status);

@@ -162,6 +162,60 @@ static void check_clean_text(sl_context *context, const sl_map *map, uint64_t se
     sl_map_destroy(context, &again);
 }
 
+/// Some place between two, on a square's side in a third of the cases.
+static sl_point random_corner(const trial *t, sl_random *random) {
+    const int step = sl_random_below(random, 3) ? 1 : PARTS;
+    const uint64_t steps = (uint64_t)((t->high - t->low) * PARTS / step);
+    const double x = t->low * PARTS + step * (int)sl_random_below(random, steps);
+    const double y = t->low * PARTS + step * (int)sl_random_below(random, steps);
+    return put(&t->at, x / PARTS, y / PARTS);
+}
+
+/// Half squares of a box: the ground is what it was; nothing is beyond.
+static bool check_cropped(const trial *t, const sl_space *space, sl_box box, bool ask) {
+    bool open = false;
+    const int step = PARTS / 2;
+    for (int x = t->low * 2; x < t->high * 2; x++)
+        for (int y = t->low * 2; y < t->high * 2; y++) {
+            const int u = x * step + PARTS / 4, v = y * step + PARTS / 4;
+            const sl_point at = put(&t->at, (double)u / PARTS, (double)v / PARTS);
+            if (at.x <= box.min.x || at.x >= box.max.x || at.y <= box.min.y || at.y >= box.max.y)
+                continue;
+            open |= t->oracle(t->user, u, v) == 0;
+            if (ask) check_place(t, space, u, v);
+        }
+    return open;
+}
+
+/// Cropped to a random box, the ground in it stays what it is.
+static void check_crop(sl_context *context, const trial *t, sl_random *random) {
+    sl_map map = {0};
+    sl_crop_account account;
+    const sl_point p = random_corner(t, random), q = random_corner(t, random);
+    if (p.x == q.x || p.y == q.y) return;
+    const sl_box box = {{fmin(p.x, q.x), fmin(p.y, q.y)}, {fmax(p.x, q.x), fmax(p.y, q.y)}};
+    assert_ok(context, sl_map_copy(context, t->read, &map));
+    assert_ok(context, sl_map_crop(context, &map, (sl_box){p, q}, &account));
+    assert_int_equal(account.inside + account.cut + account.left_out, t->read->wall_count);
+    const sl_box bounds = sl_map_bounds(&map);
+    if (map.wall_count) {
+        assert_true(bounds.min.x >= box.min.x && bounds.min.y >= box.min.y);
+        assert_true(bounds.max.x <= box.max.x && bounds.max.y <= box.max.y);
+    }
+    if (account.inside + account.cut && check_cropped(t, NULL, box, false)) {
+        assert_ok(context, sl_map_clean(context, &map, NULL, NULL));
+        // Walls of no length, and those a rounding apart, are gone now.
+        for (int kind = KD; kind <= MESH && map.wall_count; kind++) {
+            sl_space space = {0};
+            if (kind == KD && !sl_map_is_axial(&map)) continue;
+            subdivide(context, &map, kind, &space);
+            check_cropped(t, &space, box, true);
+            sl_space_destroy(context, &space);
+        }
+    }
+    sl_map_destroy(context, &map);
+}
+
 /// Cleans a map, subdivides it in each way, asks the oracle, and writes and reads it.
 static void check_map(sl_context *context, const trial *t, sl_random *random) {
     sl_map map = {0};
@@ -177,6 +231,7 @@ static void check_map(sl_context *context, const trial *t, sl_random *random) {
     const sl_space *spaces[3] = {[KD] = axial ? &kd : NULL, [MESH] = &mesh};
     check_text(context, t->read, spaces, t->seed);
     check_clean_text(context, &map, t->seed);
+    check_crop(context, t, random);
     sl_space_destroy(context, &kd);
     sl_space_destroy(context, &mesh);
     sl_map_destroy(context, &map);

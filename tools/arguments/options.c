@@ -266,6 +266,28 @@ sl_status read_point(sl_context *context, const char *label, const char *text, s
     return SL_OK;
 }
 
+/// Two opposite corners, as the lower left and the upper right one.
+static sl_status read_box(sl_context *context, const char *label, const char *text, sl_box *box) {
+    double at[4];
+    const char *from = text;
+    for (int i = 0; i < 4; i++) {
+        const size_t length = i < 3 ? strcspn(from, ",") : strlen(from);
+        if ((i < 3 && !from[length]) || !sl_number_read(from, length, &at[i]) ||
+            !sl_coordinate_usable(fabs(at[i]) < SL_COORDINATE_MIN ? 0 : at[i])) {
+            from = NULL;
+            break;
+        }
+        from += length + (i < 3);
+    }
+    if (!from || at[0] == at[2] || at[1] == at[3])
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "%s %s: two opposite corners of a box are needed, as 0,0,10,7.5", label,
+                       text);
+    *box = (sl_box){{fmin(at[0], at[2]), fmin(at[1], at[3])},
+                    {fmax(at[0], at[2]), fmax(at[1], at[3])}};
+    return SL_OK;
+}
+
 /// Checks that a number is in the range of its option.
 static sl_status check_range(sl_context *context, const char *label, const char *text,
                              const option_spec *option, double value) {
@@ -391,6 +413,7 @@ static sl_status set_target(sl_context *context, const option_spec *option, cons
     if (option->count || option->count32) return set_count(context, label, text, option);
     if (option->bytes) return read_bytes(context, label, text, option->bytes);
     if (option->point) return read_point(context, label, text, option->point);
+    if (option->box) return read_box(context, label, text, option->box);
     if (option->sight) return set_sight(context, label, text, option->sight);
     if (option->choice) return read_choice(context, label, text, &option->names, option->choice);
     if (option->choices) return read_choices(context, label, text, &option->names, option->choices);

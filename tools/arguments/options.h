@@ -46,6 +46,7 @@ typedef struct option_spec {
     uint32_t *count32; ///< likewise
     uint64_t *bytes;   ///< "4096", "64K", "256M", "2G", "1T", by powers of 1024
     sl_point *point;   ///< "X,Y"
+    sl_box *box;       ///< "X0,Y0,X1,Y1", two opposite corners
     sl_sight *sight;   ///< "closed" or "open"
     size_t *choice;    ///< one of `names`
     unsigned *choices; ///< names of `names` with commas between, a bit for each; "none" for none

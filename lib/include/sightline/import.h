@@ -50,6 +50,9 @@ typedef struct sl_import_options {
     bool cells;
     /// Drawings: all visible layers, whatever their names mean, unless `layers` names some.
     bool all_layers;
+    /// Keep only what lies in `crop`, a box in the map's places (sl_map_crop).
+    bool has_crop;
+    sl_box crop;
 } sl_import_options;
 
 /// The usual options: each format's own choice.

@@ -317,6 +317,28 @@ SL_API int sl_map_digits(const sl_map *map);
 /// Whether all walls, mirrors, doors, one-way glass and seams are parallel to an axis.
 SL_API bool sl_map_is_axial(const sl_map *map);
 
+/// What sl_map_crop() did. Lines are walls, mirrors, glass and seams. The numbers below them are of
+/// what was left out: doors, starts, paths, objects and cells of the map's own.
+typedef struct sl_crop_account {
+    size_t inside, cut, left_out; ///< lines
+    size_t doors, starts, paths, objects, cells;
+} sl_crop_account;
+
+/// Keeps what lies in a box, given by two opposite corners; the border belongs to it. Lines, doors
+/// and paths are cut where they cross the border: which do is exact, and the place is the nearest
+/// one that doubles have, on the border. What only touches the border from outside is left out. Of
+/// a path several parts may stay, each with its name; cells of the map's own stay where they are
+/// whole. A door that was cut by cleaning is one door again.
+///
+/// Polygons of ground are cut as polygons: their outlines go on along the border, so ground stays
+/// what it is. Ground of single marked walls is known where such a wall is in the box.
+///
+/// `account` may be NULL. SL_BAD_ARGUMENT if the box has no area or its corners are no coordinates.
+/// On failure the map stays as it was. A map may be empty then; that is no failure. Time O(n log n)
+/// for n walls that cross the border, and linear in all else.
+SL_API sl_status sl_map_crop(sl_context *context, sl_map *map, sl_box box,
+                             sl_crop_account *account);
+
 /// What cleaning did, as numbers of walls unless said otherwise.
 typedef struct sl_clean_account {
     size_t before, after;
