@@ -10,8 +10,8 @@
 
 #include <math.h>
 
-/// What is looked at: so many walls, and of each so many near it.
-enum { MOST_WALLS = 100000, MOST_NEAR = 200 };
+/// What is looked at: so many walls, and so many that are near others.
+enum { MOST_WALLS = 100000, MOST_NEAR = 1 << 23 };
 
 typedef struct net {
     sl_context *context;
@@ -25,6 +25,7 @@ typedef struct net {
     uint32_t *counts; ///< likewise: walls
     sl_bits *paired;  ///< by wall: another one runs beside it, as the sides of a wall do
     size_t ends_on_sides, crossings;
+    size_t near; ///< walls that were near others; beyond MOST_NEAR nothing more is looked at
 } net;
 
 static uint32_t first_of(uint32_t *sets, uint32_t at) {
@@ -59,14 +60,23 @@ static sl_point end_of(const net *n, uint32_t end) {
     return end % 2 ? wall->b : wall->a;
 }
 
+/// Finds the walls near a segment; none, once there were too many.
+static sl_status find_near(net *n, sl_segment at, double reach) {
+    n->index.near.count = 0;
+    if (n->near > MOST_NEAR) return SL_OK;
+    SL_TRY(sli_walls_near(n->context, &n->index, at, reach));
+    n->near += n->index.near.count;
+    return SL_OK;
+}
+
 // --- what meets
 
 /// Joins an end with the ends and the sides of the walls near it. `sides` alone: all ends are
 /// joined, and one end of each corner stands for it.
 static sl_status look_at_end(net *n, uint32_t end, bool sides) {
     const sl_point at = end_of(n, end);
-    SL_TRY(sli_walls_near(n->context, &n->index, (sl_segment){at, at}, n->tolerance));
-    for (size_t k = 0; k < n->index.near.count && k < MOST_NEAR; k++) {
+    SL_TRY(find_near(n, (sl_segment){at, at}, n->tolerance));
+    for (size_t k = 0; k < n->index.near.count; k++) {
         const uint32_t other = n->index.near.items[k];
         const sl_wall *wall = &n->map->walls[other];
         const sl_point along = minus(wall->b, wall->a), from = minus(at, wall->a);
@@ -107,8 +117,8 @@ static bool is_crossing(const sl_wall *p, const sl_wall *q) {
 static sl_status look_beside(net *n, uint32_t i) {
     const sl_wall *wall = &n->map->walls[i];
     const double most = n->metre > 0 ? 0.6 * n->metre : 0, least = 0.05 * n->metre;
-    SL_TRY(sli_walls_near(n->context, &n->index, (sl_segment){wall->a, wall->b}, most));
-    for (size_t k = 0; k < n->index.near.count && k < MOST_NEAR; k++) {
+    SL_TRY(find_near(n, (sl_segment){wall->a, wall->b}, most));
+    for (size_t k = 0; k < n->index.near.count; k++) {
         const uint32_t j = n->index.near.items[k];
         const sl_wall *other = &n->map->walls[j];
         if (j == i) continue;
@@ -198,6 +208,7 @@ static sl_status find_all(net *n, sli_plan_look *out) {
     const uint32_t count = (uint32_t)n->map->wall_count;
     size_t corners = 0, pieces = 0;
     SL_TRY(join_all(n));
+    if (n->near > MOST_NEAR) return SL_OK;
     for (uint32_t i = 0; i < 2 * count; i++) corners += first_of(n->corner, i) == i;
     for (uint32_t i = 0; i < count; i++) {
         if (first_of(n->piece, i) != i) continue;

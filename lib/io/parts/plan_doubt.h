@@ -16,8 +16,8 @@ typedef struct sli_plan_look {
 } sli_plan_look;
 
 /// `metre` is a metre in the map's unit, 0 for unknown; `tolerance` how far apart ends may be that
-/// meet. Drawings of very many walls are not looked at: all is 0 then. Time O(n log n) where few
-/// lines are near each other; of a crowd only a part is looked at.
+/// meet. Drawings of very many walls, or of crowds of them, are not looked at: all is 0 then. Time
+/// O(n log n) where few lines are near each other.
 sl_status sli_plan_look_at(sl_context *context, const sl_map *map, double metre, double tolerance,
                            sli_plan_look *out);
 
