@@ -15,8 +15,10 @@ static size_t pixels_of(const sl_image *image) {
     return image->width * image->height;
 }
 
-static size_t shorter(const sl_image *image) {
-    return image->width < image->height ? image->width : image->height;
+/// Whether the largest square is 2 pixels at most, or one `share`th of the picture's shorter side.
+static bool is_thin(const sl_image *image, size_t square, size_t share) {
+    const size_t shorter = image->width < image->height ? image->width : image->height;
+    return square <= 2 || square <= shorter / share;
 }
 
 /// The value of a pixel: how dark it is, or how light.
@@ -76,7 +78,7 @@ bool sli_image_is_opaque(const unsigned char *alpha, const sl_image *image, size
     }
     if (!opaque || 2 * opaque > all || 2 * light < opaque) return false;
     const size_t side = largest_square(alpha + 1, 2, image, 128, 255, row);
-    return side <= fmax(2, (double)shorter(image) / 16);
+    return is_thin(image, side, 16);
 }
 
 bool sli_image_is_light(const sl_image *image, size_t *row) {
@@ -96,7 +98,7 @@ bool sli_image_is_light(const sl_image *image, size_t *row) {
     }
     if (5 * dark_edge < 4 * edge) return false;
     const size_t lines = largest_square(image->pixels, 1, image, dark + 1, 255, row);
-    if (lines > fmax(2, (double)shorter(image) / 32)) return false;
+    if (!is_thin(image, lines, 32)) return false;
     return largest_square(image->pixels, 1, image, 0, dark, row) >= 6 * lines;
 }
 
@@ -164,7 +166,7 @@ sli_image_levels sli_image_find_levels(const sl_image *image, bool light, size_t
     const unsigned least = ground + VISIBLE;
     const size_t side = light ? largest_square(image->pixels, 1, image, least, 255, row)
                               : largest_square(image->pixels, 1, image, 0, 255 - least, row);
-    if (side > fmax(2, (double)shorter(image) / 16)) return out;
+    if (!is_thin(image, side, 16)) return out;
     out.threshold = out.lost_from;
     out.faint = true;
     out.lost = 0;

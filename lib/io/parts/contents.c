@@ -10,6 +10,7 @@
 
 #include "geometry/length.h"
 #include "io/parts/names.h"
+#include "io/parts/plan_doubt.h"
 #include "io/parts/symbols.h"
 
 #include <strings.h>
@@ -410,7 +411,9 @@ static sl_status choose(choice *c, double metre, sli_pen *pen) {
 sl_status sli_contents_choose(sli_contents *contents, double metre, sli_pen *pen) {
     choice c = {.contents = contents, .map = pen->map};
     if (!contents->runs.count) return SL_OK;
-    const sl_status status = choose(&c, metre, pen);
+    sl_status status = choose(&c, metre, pen);
+    if (status == SL_OK && !c.walls_named && !sli_contents_said(contents))
+        status = sli_plan_tell(contents->context, contents->file, pen->map, metre, 0);
     sl_free(contents->context, c.means);
     sli_symbols_destroy(contents->context, &c.symbols);
     return status;

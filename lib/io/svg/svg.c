@@ -263,6 +263,34 @@ static sl_status draw_in_group(svg *s, xmlNode *node, sli_svg_shape kind, const 
     return status;
 }
 
+/// Keeps the width of a line that is drawn by its stroke alone.
+static sl_status keep_stroke(svg *s, const place *at) {
+    const sli_affine *affine = &at->affine;
+    const double scale = sqrt(fabs(affine->xx * affine->yy - affine->xy * affine->yx));
+    if (!at->paint.no_fill || !at->paint.stroke || !(at->paint.width > 0)) return SL_OK;
+    SL_TRY(SL_ARRAY_ROOM(s->context, &s->strokes, 1));
+    s->strokes.items[s->strokes.count++] = at->paint.width * scale;
+    return SL_OK;
+}
+
+/// Walls run along the middle of lines. A wide one may be meant as a wall of that width.
+static void note_strokes(const svg *s) {
+    const sl_box box = sl_map_bounds(s->pen.map);
+    const double size = fmax(box.max.x - box.min.x, box.max.y - box.min.y);
+    double widest = 0;
+    size_t wide = 0;
+    for (size_t i = 0; i < s->strokes.count; i++) {
+        if (!(s->strokes.items[i] > size / 80)) continue;
+        wide++;
+        widest = fmax(widest, s->strokes.items[i]);
+    }
+    if (wide && s->pen.map->wall_count)
+        sl_note(s->context,
+                "%s: %zu shape%s drawn by lines up to %g wide: walls run along their middle; for "
+                "walls of that width, make outlines of the lines (in Inkscape: Stroke to Path)",
+                s->pen.name, wide, wide == 1 ? " is" : "s are", widest);
+}
+
 static sl_status draw_placed(svg *s, xmlNode *node, sli_svg_shape kind, place at) {
     at.taken |= s->options->layers && is_layer(s, node);
     if (sli_contents_asks(&s->contents)) SL_TRY(sli_svg_find_group(&s->contents, node, &at.group));
@@ -277,6 +305,7 @@ static sl_status draw_placed(svg *s, xmlNode *node, sli_svg_shape kind, place at
         s->hidden++;
         return SL_OK;
     }
+    if (!at.layer) SL_TRY(keep_stroke(s, &at));
     s->pen.affine = at.affine;
     s->pen.item = s->by_number ? (uint32_t)(uintptr_t)node->_private : 0;
     if (at.layer) return draw_in_layer(s, node, kind, at.layer);
@@ -461,6 +490,7 @@ static sl_status draw_root(svg *s, xmlNode *root) {
             sli_tally_write("; left out: ", left, 4, without));
     sli_faults_note(s->context, s->pen.name, &s->faults);
     sli_layers_note(s->context, s->pen.name, s->pen.map);
+    note_strokes(s);
     return SL_OK;
 }
 
@@ -485,6 +515,7 @@ sl_status sli_map_read_svg(sl_context *context, const char *name, const char *te
     sli_svg_style_destroy(context, &s.style);
     sli_svg_ids_destroy(context, &s.ids);
     sl_free(context, s.clips.items);
+    sl_free(context, s.strokes.items);
     sli_contents_destroy(&s.contents);
     sli_xml_free(s.mark);
     xmlFreeDoc(s.document);

@@ -20,11 +20,12 @@ typedef struct sli_svg {
     sli_pen pen;
     sli_contents contents;
     size_t work, shapes, hidden, other;
-    sli_faults faults;      ///< passed over
-    const sli_fault *fault; ///< of the last failure; NULL where it is of the whole file
-    SL_ARRAY(sl_box) clips; ///< boxes of clips that were used, in their own places
-    char *mark;             ///< the sum of the digits that the file's writer knew
-    bool by_number;         ///< walls have the number of their shape in place of its line
+    sli_faults faults;        ///< passed over
+    const sli_fault *fault;   ///< of the last failure; NULL where it is of the whole file
+    SL_ARRAY(sl_box) clips;   ///< boxes of clips that were used, in their own places
+    SL_ARRAY(double) strokes; ///< widths of lines that are not filled, in the map
+    char *mark;               ///< the sum of the digits that the file's writer knew
+    bool by_number;           ///< walls have the number of their shape in place of its line
 } sli_svg;
 
 /// Where an element stands, and what it has of the elements about it.

@@ -413,7 +413,13 @@ sli_svg_paint sli_svg_paint_in(sli_svg_paint outer, const sli_svg_look *look) {
         paint.clear_fill = is_zero(values[SLI_SVG_FILL_OPACITY]);
     if (is_said(values[SLI_SVG_STROKE_OPACITY]))
         paint.clear_stroke = is_zero(values[SLI_SVG_STROKE_OPACITY]);
-    if (is_said(values[SLI_SVG_STROKE_WIDTH])) paint.thin = is_zero(values[SLI_SVG_STROKE_WIDTH]);
+    if (is_said(values[SLI_SVG_STROKE_WIDTH])) {
+        const sli_word width = values[SLI_SVG_STROKE_WIDTH];
+        const size_t length = sli_number_length(width.at, width.length);
+        paint.width = 0;
+        if (length && !sl_number_read(width.at, length, &paint.width)) paint.width = 0;
+        paint.thin = is_zero(width);
+    }
     return paint;
 }
 

@@ -64,6 +64,7 @@ typedef struct sli_svg_paint {
     bool hidden, clear;              ///< visibility; an opacity of 0
     bool no_fill, clear_fill;        ///< fill:none; an opacity of 0
     bool stroke, clear_stroke, thin; ///< some stroke; an opacity of 0; a width of 0
+    double width;                    ///< of the stroke, in the units of its place; 0: unsaid
 } sli_svg_paint;
 
 /// That of an element within one of `outer`.

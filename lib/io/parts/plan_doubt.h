@@ -1,0 +1,28 @@
+/// Whether a drawing whose layers say nothing looks like a plan: furniture and symbols, frames of
+/// sheets, and drawings in which nothing is closed are told. Nothing is changed.
+#ifndef SL_PLAN_DOUBT_H
+#define SL_PLAN_DOUBT_H
+
+#include "sightline/map.h"
+#include "sightline/support.h"
+
+/// What was found.
+typedef struct sli_plan_look {
+    size_t walls;
+    size_t small;  ///< walls in small pieces that touch nothing else and are no pieces of walls
+    size_t pieces; ///< such pieces
+    size_t closed; ///< how many ways round there are: 0 where nothing is enclosed
+    bool frame;    ///< a rectangle holds all else, at a distance, and touches nothing
+} sli_plan_look;
+
+/// `metre` is a metre in the map's unit, 0 for unknown; `tolerance` how far apart ends may be that
+/// meet. Drawings of very many walls, or of crowds of them, are not looked at: all is 0 then. Time
+/// O(n log n) where few lines are near each other.
+sl_status sli_plan_look_at(sl_context *context, const sl_map *map, double metre, double tolerance,
+                           sli_plan_look *out);
+
+/// Notes what is doubtful, with what to do.
+sl_status sli_plan_tell(sl_context *context, const char *file, const sl_map *map, double metre,
+                        double tolerance);
+
+#endif
