@@ -177,7 +177,7 @@ static void give_account(const sli_ldtk *reader, const sl_map *map, bool ground_
 /// SL_BAD_INPUT where the level has nothing that says what is solid.
 static sl_status check_any(const sli_ldtk *reader, bool unsure) {
     char next[600] = "; it has no tiles";
-    if (reader->tiles_name)
+    if (*reader->tiles_name)
         snprintf(next, sizeof next,
                  "; layers of tiles: %.150s; --layers takes all tiles of one, as in: sightline "
                  "check '%.80s' --map %.40s --layers %.40s -o map.png",

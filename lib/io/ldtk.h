@@ -57,8 +57,8 @@ typedef struct sli_ldtk {
     int64_t depth;   ///< of the levels taken
     char taken[160]; ///< the first level that is taken, as the account shows it
     sli_ldtk_told told;
-    const char *asked;        ///< a layer with values that chooses, for the message
-    const char *tiles_name;   ///< the first layer of tiles; NULL for none
+    char asked[80];           ///< a layer with values that chooses, for the message
+    char tiles_name[80];      ///< the first layer of tiles; "" for none
     sli_name_list tile_names; ///< all of them
     size_t levels, other_levels, other_depths;
     size_t layers, tile_layers, other_layers, entities;

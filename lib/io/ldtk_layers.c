@@ -2,6 +2,7 @@
 /// entities.
 #include "io/ldtk.h"
 
+#include <stdio.h>
 #include <strings.h>
 
 /// The definition in `list` whose uid is the number; the way to it lives in `defs`.
@@ -35,6 +36,11 @@ static sli_ldtk_layer layer_of(const sli_ldtk *reader, const sli_json *layer) {
     if (reader->options->layers && sli_layers_ask(reader->options->layers, name, &of.numbers))
         of.kind = SLI_GAME_SOLID;
     return of;
+}
+
+/// Keeps the first name, as the level that it is of is read and closed.
+static void keep_name(char *kept, size_t size, const char *name) {
+    if (!*kept) snprintf(kept, size, "%s", name);
 }
 
 /// Fills in the cells and gathers doors.
@@ -108,7 +114,7 @@ static sl_status read_layer(sli_ldtk *reader, const sli_json *layer, sli_ldtk_pl
     SL_TRY(sli_tiles_add(reader->context, &reader->tiles, reader->name, of.corner, square,
                          (size_t)of.columns, (size_t)of.rows, &squares));
     reader->layers++;
-    if (!reader->asked) reader->asked = sli_json_text_of(layer, "__identifier");
+    keep_name(reader->asked, sizeof reader->asked, sli_json_text_of(layer, "__identifier"));
     SL_TRY(read_cells(reader, layer, &cells, count, (size_t)of.columns, squares));
     return sli_things_end_block(&reader->things, of.corner, square);
 }
@@ -365,7 +371,7 @@ static void name_tiles(sli_ldtk *reader, const sli_json *layer) {
     const sli_json by_hand = sli_json_member(layer, "gridTiles");
     const sli_json by_rules = sli_json_member(layer, "autoLayerTiles");
     if (!json_array_size(by_hand.value) && !json_array_size(by_rules.value)) return;
-    if (!reader->tiles_name) reader->tiles_name = name;
+    keep_name(reader->tiles_name, sizeof reader->tiles_name, name);
     sli_name_list_add(&reader->tile_names, (sli_word){name, strlen(name)});
 }
 

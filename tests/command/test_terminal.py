@@ -4,6 +4,7 @@ test_terminal.py PROGRAM
 """
 import fcntl
 import os
+import re
 import signal
 import struct
 import termios
@@ -48,6 +49,26 @@ class Terminal(unittest.TestCase):
         # At most ten times a second, and the last thing before the message is to clear the line.
         self.assertLess(len(lines), self.seconds * 10 + 5)
         self.assertEqual(shown[-1], "sightline: interrupted\r\n")
+
+    def test_segments(self):
+        """A large network: the line moves on, and an interrupt ends the work at once, without a table."""
+        streets = [f"wall {x} {y} {x + 1 - d} {y + d}" for x in range(60) for y in range(60) for d in (0, 1)]
+        with sandbox.Sandbox(PROGRAM) as box:
+            box.path("streets.map").write_text("sightline 1\n" + "\n".join(streets) + "\n")
+            master, slave = os.openpty()
+            process = box.start(["segments", "streets.map", "-o", "streets.csv"], stderr=slave)
+            os.close(slave)
+            text, done = b"", []
+            while len(set(done)) < 3:
+                text += os.read(master, 65536)
+                done = [int(n) for n in re.findall(rb"segment measures: (\d+)/7200 ", text)]
+            process.send_signal(signal.SIGINT)
+            process.communicate(timeout=30)
+            self.assertEqual(process.returncode, 1)
+            self.assertEqual(done, sorted(done))
+            self.assertFalse(box.path("streets.csv").exists())
+            shown = (text + sandbox.read_terminal(master)).decode().split("\r\x1b[K")
+            self.assertEqual(shown[-1], "sightline: interrupted\r\n")
 
     def test_narrow_terminal(self):
         text, _ = self.talk(shows=LINE, columns=24)

@@ -356,6 +356,66 @@ static void test_starts(void **state) {
     assert_starts(THING("6", "3001"), "", "no player has a start");
 }
 
+/// A closed square, its sidedefs and its sector: `n` counts squares.
+static void add_square(char *text, size_t size, int n, double x, double side, int tag) {
+    const double at[4][2] = {{x, 0}, {x, side}, {x + side, side}, {x + side, 0}};
+    const size_t used = strlen(text);
+    snprintf(text + used, size - used,
+             "sector { id = %d; heightceiling = 64; }\nsidedef { sector = %d; }\n", tag, n);
+    for (int i = 0; i < 4; i++) {
+        const size_t now = strlen(text);
+        snprintf(text + now, size - now,
+                 "vertex { x = %g; y = %g; } linedef { v1 = %d; v2 = %d; sidefront = %d; }\n",
+                 at[i][0], at[i][1], 4 * n + i, 4 * n + (i + 1) % 4, n);
+    }
+}
+
+/// A start in a closet reaches little and is left out. What teleporters lead to is inside, too, and
+/// they lead to sectors of their tag alone.
+static void test_starts_that_reach(void **state) {
+    (void)state;
+    const struct {
+        const char *special;
+        int tag; ///< of the far room's sector; that of the line is 7
+        double closet;
+        const char *expected, *note;
+    } cases[] = {
+        {"97", 7, 20, "5 350 ", "map MAP01: left out: the start at 205,2: it reaches less than a"},
+        {"97", 7, 20, "5 350 ", "by teleporters players reach 1 place apart from these"},
+        {"97", 8, 20, "5 ", "map MAP01: left out: the start at 205,2"},
+        {"125", 7, 20, "5 ", "map MAP01: left out: the start at 205,2"}, // for monsters alone
+        {"97", 8, 60, "5 205 ", "map MAP01: players start at 2 places"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        noted notes = {""};
+        const sl_hooks hooks = {.user = &notes, .note = keep_note};
+        sl_context *context = sl_context_create(&hooks);
+        char text[4096] = "namespace = \"doom\";\n", found[64] = "";
+        add_square(text, sizeof text, 0, 0, 100, 0);
+        add_square(text, sizeof text, 1, 200, cases[i].closet, 0);
+        add_square(text, sizeof text, 2, 300, 100, cases[i].tag);
+        const size_t used = strlen(text);
+        snprintf(text + used, sizeof text - used,
+                 "vertex { x = 50; y = 20; } vertex { x = 60; y = 20; }\n"
+                 "linedef { v1 = 12; v2 = 13; sidefront = 0; sideback = 0; special = %s; id = 7; "
+                 "}\n" THING("5", "1") THING("205", "2") THING("350", "14"),
+                 cases[i].special);
+        wad_made wad;
+        text_wad(&wad, text);
+        sl_map map = {0};
+        assert_ok(context, read_wad(context, &wad, "MAP01", false, &map));
+        for (size_t k = 0; k < map.start_count; k++)
+            snprintf(found + strlen(found), sizeof found - strlen(found), "%g ",
+                     map.starts[k].at.x);
+        assert_string_equal(found, cases[i].expected);
+        if (!strstr(notes.text, cases[i].note))
+            fail_msg("no '%s' in: %s", cases[i].note, notes.text);
+        sl_map_destroy(context, &map);
+        free(wad.bytes);
+        sl_context_destroy(context);
+    }
+}
+
 static void test_textmap_broken(void **state) {
     (void)state;
     const struct {
@@ -534,7 +594,7 @@ int main(void) {
         cmocka_unit_test(test_textmap_broken), cmocka_unit_test(test_directory_broken),
         cmocka_unit_test(test_lumps_broken),   cmocka_unit_test(test_references_broken),
         cmocka_unit_test(test_memory),         cmocka_unit_test(test_starts),
-        cmocka_unit_test(test_polyobjects),
+        cmocka_unit_test(test_polyobjects),    cmocka_unit_test(test_starts_that_reach),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,6 +2,7 @@
 #include "testing.h"
 
 #include "io/io_formats.h"
+#include "map/plans.h"
 #include "map/scan.h"
 #include "map/source.h"
 #include "map_same.h"
@@ -22,6 +23,21 @@ static const char model[] = "{ note }\nv a 0 0 0;v b 2 0 0;v c 2 3 0;v d 0 3 0;v
                             "f n (c d D C);f w (d a A D);{ last }";
 // The table of vertices starts with room for 32.
 static char large_model[4000];
+
+// Rooms with a window between them, a mirror, a start; in degrees.
+static const char geojson[] =
+    "{\"type\": \"FeatureCollection\", \"features\": ["
+    "{\"type\": \"Feature\", \"properties\": {\"kind\": \"wall\", \"level\": \"0\"}, \"geometry\": "
+    "{"
+    "\"type\": \"Polygon\", \"coordinates\": [[[8.54,47.37],[8.5401,47.37],[8.5401,47.3701],"
+    "[8.54,47.3701],[8.54,47.37]]]}},"
+    "{\"type\": \"Feature\", \"properties\": {\"kind\": \"door\"}, \"geometry\": {"
+    "\"type\": \"LineString\", \"coordinates\": [[8.54002,47.37],[8.54003,47.37]]}},"
+    "{\"type\": \"Feature\", \"properties\": {\"kind\": \"mirror\"}, \"geometry\": {"
+    "\"type\": \"LineString\", \"coordinates\": [[8.54002,47.37005],[8.54003,47.37005]]}},"
+    "{\"type\": \"Feature\", \"properties\": {\"kind\": \"start\", \"heading\": 90}, \"geometry\": "
+    "{"
+    "\"type\": \"Point\", \"coordinates\": [8.54002,47.37002]}}]}";
 
 typedef sl_status work(sl_context *context, sl_map *map);
 
@@ -45,6 +61,27 @@ static sl_status read_model(sl_context *context, sl_map *map) {
 static sl_status read_large_model(sl_context *context, sl_map *map) {
     const sl_import_options options = {.has_slice = true, .slice = 1};
     return sli_map_read_unigrafix(context, "t", large_model, strlen(large_model), &options, map);
+}
+
+static sl_status read_geojson(sl_context *context, sl_map *map) {
+    const sl_import_options options = {.doors = true};
+    return sli_map_read_geojson(context, "t", geojson, sizeof geojson - 1, &options, map);
+}
+
+static sl_status read_level(sl_context *context, sl_map *map) {
+    const sl_import_options options = {.map = "0"};
+    return sli_map_read_geojson(context, "t", geojson, sizeof geojson - 1, &options, map);
+}
+
+/// Two plans of four rooms each, side by side.
+static sl_status read_sheet(sl_context *context, sl_map *map) {
+    for (int i = 0; i < 2; i++)
+        for (int k = 0; k < 3; k++) {
+            const double x = 20 * i, at = 5 * k;
+            SL_TRY(sl_map_add_wall(context, map, (sl_point){x + at, 0}, (sl_point){x + at, 10}, 0));
+            SL_TRY(sl_map_add_wall(context, map, (sl_point){x, at}, (sl_point){x + 10, at}, 0));
+        }
+    return SL_OK;
 }
 
 static sl_status read_file(sl_context *context, sl_map *map) {
@@ -85,6 +122,8 @@ static void test_readers(void **state) {
     assert_true(fail_at_each_call(read_model) > 5);
     assert_true(fail_at_each_call(read_large_model) > 8);
     assert_true(fail_at_each_call(read_file) > 4);
+    assert_true(fail_at_each_call(read_geojson) > 8);
+    assert_true(fail_at_each_call(read_level) > 8);
 }
 
 /// Runs on a map that is there already, which must stay as it was.
@@ -155,6 +194,17 @@ static sl_status add_path(sl_context *context, sl_map *map) {
     return sl_map_add_path(context, map, "one_more", &(sl_point){1, 2}, 1, 0);
 }
 
+static sl_status crop(sl_context *context, sl_map *map) {
+    return sl_map_crop(context, map, (sl_box){{1.5, 1.5}, {7, 5}}, NULL);
+}
+
+static sl_status find_plans(sl_context *context, sl_map *map) {
+    sli_sheet sheet;
+    const sl_status status = sli_sheet_find(context, map, &sheet);
+    if (status == SL_OK) assert_int_equal(sheet.count, 2);
+    return status;
+}
+
 static sl_status copy(sl_context *context, sl_map *map) {
     sl_map other = {0};
     const sl_status status = sl_map_copy(context, map, &other);
@@ -176,6 +226,9 @@ static void test_others(void **state) {
     fail_on_map(read_plan, print_plan);
     fail_on_map(read_text, write_text);
     fail_on_map(read_plan, write_plan);
+    fail_on_map(read_text, crop);
+    fail_on_map(read_plan, crop);
+    fail_on_map(read_sheet, find_plans);
     fail_on_map(read_text, add_note);
     fail_on_map(read_text, add_path);
 }

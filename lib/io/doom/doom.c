@@ -390,6 +390,7 @@ sl_status sli_doom_make_map(sl_context *context, const sli_wad *wad, const sli_w
         tell_starts(&import, name);
         if (!options->doors) tell_doors_left_out(context, name, level, options->sectors, is_door);
     }
+    if (status == SL_OK) status = sli_doom_settle_starts(context, level, name, brief, map);
     if (status == SL_OK) tell_unusual(&import, name);
     sl_free(context, is_door);
     // The map's lines are numbers of linedefs: a start is none of them.

@@ -41,7 +41,8 @@ typedef struct doom_records {
 } doom_records;
 
 static bool is_start(int64_t type) {
-    return (type >= 1 && type <= SLI_DOOM_PLAYERS) || type == SLI_DOOM_DEATHMATCH;
+    return (type >= 1 && type <= SLI_DOOM_PLAYERS) || type == SLI_DOOM_DEATHMATCH ||
+           type == SLI_DOOM_ARRIVAL;
 }
 
 // --- lumps of records

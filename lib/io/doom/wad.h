@@ -106,12 +106,13 @@ typedef struct sli_doom_sector {
     int tag;
 } sli_doom_sector;
 
-/// The kinds of things where players start: 1 to 4, and any of them in a deathmatch.
-enum { SLI_DOOM_PLAYERS = 4, SLI_DOOM_DEATHMATCH = 11 };
+/// The kinds of things where players start: 1 to 4, and any of them in a deathmatch; and where
+/// teleporters lead to.
+enum { SLI_DOOM_PLAYERS = 4, SLI_DOOM_DEATHMATCH = 11, SLI_DOOM_ARRIVAL = 14 };
 
 typedef struct sli_doom_start {
     sl_start start;
-    int kind; ///< 1 .. SLI_DOOM_PLAYERS, or SLI_DOOM_DEATHMATCH
+    int kind; ///< 1 .. SLI_DOOM_PLAYERS, SLI_DOOM_DEATHMATCH or SLI_DOOM_ARRIVAL
 } sli_doom_start;
 
 /// Zeroed, it is empty.
@@ -136,6 +137,11 @@ void sli_doom_level_destroy(sl_context *context, sli_doom_level *level); ///< an
 sl_status sli_doom_make_map(sl_context *context, const sli_wad *wad, const sli_wad_map *chosen,
                             const sli_doom_level *level, const sl_import_options *options,
                             bool brief, sl_map *map);
+
+/// Drops the map's starts that reach little, and names them. Adds those where players arrive by
+/// teleporters, in regions without a start. `brief`: notes only of what is dropped.
+sl_status sli_doom_settle_starts(sl_context *context, const sli_doom_level *level, const char *name,
+                                 bool brief, sl_map *map);
 
 /// Marks the sectors that are doors: those that a door special of a line moves, and those whose
 /// ceiling meets the floor when the map begins. `is_door` has one flag a sector, all false.

@@ -52,6 +52,22 @@ static bool is_asked_for(const sli_geo *geo, const sli_geo_feature *feature) {
     return false;
 }
 
+/// SL_BAD_INPUT where the lines are streets and their like: no walls.
+static sl_status refuse_ways(const sli_geo *geo) {
+    size_t ways = 0;
+    const char *layer = "";
+    for (size_t i = 0; i < geo->features.count; i++) {
+        if (geo->features.items[i].means != SLI_GEO_WAY) continue;
+        ways++;
+        layer = geo->features.items[i].layer;
+    }
+    return sl_fail_at(
+        geo->context, geo->name, 0,
+        "nothing in it is a wall: %zu feature%s a street or other way (%s); sightline "
+        "segments measures them; --layers %s takes them as walls",
+        ways, ways == 1 ? " is" : "s are each", layer, layer);
+}
+
 /// Walls are the features that say so. Where none does: those that say nothing; and where all say
 /// something else, all.
 static sl_status choose(sli_geo *geo) {
@@ -60,10 +76,14 @@ static sl_status choose(sli_geo *geo) {
                                   : has_meaning(geo, SLI_GEO_UNSAID)                ? SLI_GEO_UNSAID
                                                                      : SLI_GEO_NO_WALL;
     SL_TRY(check_layers(geo));
+    const bool free = !options->layers && !options->lines;
+    if (free && walls != SLI_GEO_WALL && has_meaning(geo, SLI_GEO_WAY)) return refuse_ways(geo);
+    geo->guessed = free && walls == SLI_GEO_UNSAID;
     for (size_t i = 0; i < geo->features.count; i++) {
         sli_geo_feature *f = &geo->features.items[i];
         const bool asked = is_asked_for(geo, f);
-        const bool other = f->means == SLI_GEO_UNSAID || f->means == SLI_GEO_NO_WALL;
+        const bool other =
+            f->means == SLI_GEO_UNSAID || f->means == SLI_GEO_WAY || f->means == SLI_GEO_NO_WALL;
         if (options->lines && (asked || !options->layers))
             f->means = SLI_GEO_WALL;
         else if (asked)
@@ -165,6 +185,11 @@ static void report(const sli_geo *geo) {
                 geo->name, with, other, *left.text ? ": " : "", left.text);
     else
         sl_note(geo->context, "%s: %s", geo->name, with);
+    if (geo->guessed && walls)
+        sl_note(geo->context,
+                "%s: no property says what is a wall, so all lines are; if they are streets, "
+                "sightline segments measures them",
+                geo->name);
     for (size_t i = 1; i < geo->file_count; i++)
         sl_note(geo->context, "%s: %s beside it is read too", geo->name, geo->files[i].name);
     if (geo->no_walls)

@@ -15,6 +15,7 @@ typedef enum sli_geo_meaning {
     SLI_GEO_MIRROR,
     SLI_GEO_ONEWAY,
     SLI_GEO_START,
+    SLI_GEO_WAY,     ///< a street, a railway, a river: no wall
     SLI_GEO_NO_WALL, ///< what is known to be none: levels, furniture, cells of a baked file
 } sli_geo_meaning;
 
@@ -48,6 +49,7 @@ typedef struct sli_geo {
     double finest;             ///< the last decimal place of the coordinates
     size_t no_walls;           ///< doors that are on no wall, left out
     size_t cuts;               ///< openings in walls
+    bool guessed;              ///< nothing says what is a wall
 } sli_geo;
 
 /// Reads the file, and those that belong to it. `sli_geo_close` is the caller's, also on failure.

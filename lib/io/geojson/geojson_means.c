@@ -73,6 +73,15 @@ static sli_geo_meaning by_category(const sli_geo_feature *feature) {
     return feature->means;
 }
 
+/// Ways of OpenStreetMap, by which people go, and none of them is a wall. NULL for none.
+static const char *way_of(const sli_geo_feature *feature) {
+    static const char *const keys[] = {"highway", "railway", "waterway", "aeroway",
+                                       "route",   "power",   "cycleway"};
+    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
+        if (has_tag(feature, keys[i])) return keys[i];
+    return NULL;
+}
+
 static void find_meaning(const sli_geo *geo, sli_geo_feature *feature) {
     static const char *const keys[] = {"feature_type", "kind", "layer", "Layer",
                                        "indoor",       "type", "class"};
@@ -98,6 +107,11 @@ static void find_meaning(const sli_geo *geo, sli_geo_feature *feature) {
         feature->means = meaning_of(tag);
     }
     feature->means = by_category(feature);
+    const char *way = way_of(feature);
+    if (way && (!feature->means || feature->means == SLI_GEO_NO_WALL)) {
+        feature->layer = way;
+        feature->means = SLI_GEO_WAY;
+    }
 }
 
 sl_status sli_geo_find_meanings(sli_geo *geo) {

@@ -12,9 +12,6 @@
 #include "geometry/length.h"
 #include "sightline/support.h"
 
-/// The least share of what others reach that makes a start believed.
-#define LEAST_SHARE 10
-
 // --- the map that is cut
 
 /// Walls that stop steps, doors, and no ground.
@@ -180,7 +177,7 @@ void sli_regions_doubt(const sli_regions *regions, sli_things *things) {
         most = fmax(most, reached_from(regions, things, i));
     for (size_t i = 0; i < things->items.count; i++) {
         const double area = reached_from(regions, things, i);
-        if (area > 0 && area * LEAST_SHARE < most)
+        if (area > 0 && sli_reaches_little(area, most))
             things->items.items[i].doubt = "it reaches less than a tenth of what others would; "
                                            "--start-names takes it all the same";
     }

@@ -34,6 +34,11 @@ uint32_t sli_regions_at(const sli_regions *regions, sl_point place);
 /// A place of the middle of a cell.
 sl_point sli_cell_middle(const sl_space *space, uint32_t cell);
 
+/// Whether a start that reaches an area is to be doubted, where another one reaches `most`.
+static inline bool sli_reaches_little(double area, double most) {
+    return 10 * area < most;
+}
+
 /// Marks starts that reach less than a tenth of what another start reaches, or that a region with
 /// doors has (sli_thing.doubt). Those that the user named, and those in doubt already, are passed
 /// over.
