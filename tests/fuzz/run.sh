@@ -34,7 +34,7 @@ seeds_of() {
     fuzz_unigrafix) echo ug ;;
     fuzz_image) echo pgm ;;
     fuzz_geojson_lines) echo geojson ;;
-    fuzz_number_table) echo csv ;;
+    fuzz_number_table | fuzz_cameras) echo csv ;;
     fuzz_ros) echo yaml ;;
     fuzz_uvtt) echo dd2vtt ;;
     *) echo "${1#fuzz_}" ;;

@@ -10,6 +10,7 @@ sl_status cmd_bake(command_console *console, int argc, char **argv);
 sl_status cmd_check(command_console *console, int argc, char **argv);
 sl_status cmd_compare(command_console *console, int argc, char **argv);
 sl_status cmd_convert(command_console *console, int argc, char **argv);
+sl_status cmd_cover(command_console *console, int argc, char **argv);
 sl_status cmd_draw(command_console *console, int argc, char **argv);
 sl_status cmd_explain(command_console *console, int argc, char **argv);
 sl_status cmd_export(command_console *console, int argc, char **argv);

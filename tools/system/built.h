@@ -41,6 +41,9 @@ typedef struct built_draw {
     sl_status (*regions)(sl_context *context, const sl_baked *baked, const sl_drawn_region *regions,
                          size_t count, const char *caption, const sl_draw_options *options,
                          const char *path);
+    sl_status (*coverage)(sl_context *context, const sl_baked *baked,
+                          const sl_drawn_coverage *coverage, const char *caption,
+                          const sl_draw_options *options, const char *path);
     sl_status (*field)(sl_context *context, const sl_baked *baked, const sl_field *field,
                        const sl_draw_options *options, const char *path);
     sl_status (*patches)(sl_context *context, const sl_baked *baked, const sl_patches *patches,

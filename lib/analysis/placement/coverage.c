@@ -22,30 +22,24 @@
 /// How far the chord of an arc may be off it, as a share of the radius.
 #define CHORD 1e-4
 
+/// What the shapes refer to.
+struct sli_coverage_memory {
+    SL_ARRAY(sl_point) points; ///< of all shapes
+    SL_ARRAY(size_t) ends;     ///< of all loops, counted from their shape's first point
+    sl_shape *shapes;          ///< that of the walls, and those of the viewpoints
+};
+
 typedef struct surveyor {
     sl_context *context;
     sl_query *query;
     const sl_space *space;
     sl_region region;
-    SL_ARRAY(sl_point) points; ///< of all shapes
-    SL_ARRAY(size_t) ends;     ///< of all loops, counted from their shape's first point
-    size_t *first_point;       ///< by shape, and one more
+    struct sli_coverage_memory *memory;
+    size_t *first_point; ///< by shape, and one more
     size_t *first_loop;
-    sl_shape *shapes; ///< that of the walls, and those of the viewpoints
-    size_t count;     ///< of viewpoints
+    size_t count; ///< of viewpoints
     sl_coverage *out;
 } surveyor;
-
-void sl_viewpoint_tilt(sl_viewpoint *viewpoint, double height, double tilt, double aspect) {
-    if (!(height > 0) || !(viewpoint->fov < 180)) return;
-    const double degree = atan(1) / 45;
-    const double half = atan(tan(viewpoint->fov / 2 * degree) / aspect);
-    const double lower = tilt * degree + half, upper = tilt * degree - half;
-    if (lower < 90 * degree && lower > 0) viewpoint->nearest = height / tan(lower);
-    if (!(upper > 0)) return;
-    const double far = height / tan(upper);
-    if (!(viewpoint->range > 0) || far < viewpoint->range) viewpoint->range = far;
-}
 
 // --- shapes
 
@@ -65,8 +59,8 @@ static sl_status check_viewpoints(sl_context *context, const sl_viewpoint *viewp
 }
 
 static sl_status end_loop(surveyor *s) {
-    SL_TRY(SL_ARRAY_ROOM(s->context, &s->ends, 1));
-    s->ends.items[s->ends.count++] = s->points.count;
+    SL_TRY(SL_ARRAY_ROOM(s->context, &s->memory->ends, 1));
+    s->memory->ends.items[s->memory->ends.count++] = s->memory->points.count;
     return SL_OK;
 }
 
@@ -78,14 +72,14 @@ static sl_status add_loop(surveyor *s, const sl_viewpoint *v, double range, bool
     const sl_status status = sl_query_region(s->context, s->query, &view, &s->region);
     SL_TRY(sl_query_set_range(s->context, s->query, most));
     SL_TRY(status);
-    const size_t from = s->points.count;
+    const size_t from = s->memory->points.count;
     const double tolerance = CHORD * range;
     const size_t count = sl_region_flatten(&s->region, tolerance, NULL, 0);
     if (!count) return SL_OK;
-    SL_TRY(SL_ARRAY_ROOM(s->context, &s->points, count));
-    sl_point *const loop = s->points.items + from;
+    SL_TRY(SL_ARRAY_ROOM(s->context, &s->memory->points, count));
+    sl_point *const loop = s->memory->points.items + from;
     sl_region_flatten(&s->region, tolerance, loop, count);
-    s->points.count += count;
+    s->memory->points.count += count;
     for (size_t i = 0; clockwise && i < count / 2; i++) {
         const sl_point last = loop[count - 1 - i];
         loop[count - 1 - i] = loop[i];
@@ -105,26 +99,28 @@ static sl_status add_viewpoint(surveyor *s, const sl_viewpoint *v) {
 /// All walls, there and back.
 static sl_status add_walls(surveyor *s) {
     for (uint32_t w = 0; w < s->space->wall_count; w++) {
-        SL_TRY(SL_ARRAY_ROOM(s->context, &s->points, 2));
-        s->points.items[s->points.count++] = s->space->walls[w].a;
-        s->points.items[s->points.count++] = s->space->walls[w].b;
+        SL_TRY(SL_ARRAY_ROOM(s->context, &s->memory->points, 2));
+        s->memory->points.items[s->memory->points.count++] = s->space->walls[w].a;
+        s->memory->points.items[s->memory->points.count++] = s->space->walls[w].b;
         SL_TRY(end_loop(s));
     }
     return SL_OK;
 }
 
 static void end_shape(surveyor *s, size_t shape) {
-    for (size_t i = s->first_loop[shape]; i < s->ends.count; i++)
-        s->ends.items[i] -= s->first_point[shape];
-    s->first_point[shape + 1] = s->points.count;
-    s->first_loop[shape + 1] = s->ends.count;
+    for (size_t i = s->first_loop[shape]; i < s->memory->ends.count; i++)
+        s->memory->ends.items[i] -= s->first_point[shape];
+    s->first_point[shape + 1] = s->memory->points.count;
+    s->first_loop[shape + 1] = s->memory->ends.count;
 }
 
 static sl_status make_shapes(surveyor *s, const sl_viewpoint *viewpoints) {
+    s->memory = s->out->memory = sl_alloc_array(s->context, 1, sizeof *s->memory);
+    if (!s->memory) return SL_NO_MEMORY;
     s->first_point = sl_alloc_array(s->context, s->count + 2, sizeof *s->first_point);
     s->first_loop = sl_alloc_array(s->context, s->count + 2, sizeof *s->first_loop);
-    s->shapes = sl_alloc_array(s->context, s->count + 1, sizeof *s->shapes);
-    if (!s->first_point || !s->first_loop || !s->shapes) return SL_NO_MEMORY;
+    s->memory->shapes = sl_alloc_array(s->context, s->count + 1, sizeof *s->memory->shapes);
+    if (!s->first_point || !s->first_loop || !s->memory->shapes) return SL_NO_MEMORY;
     SL_TRY(add_walls(s));
     end_shape(s, 0);
     for (size_t i = 0; i < s->count; i++) {
@@ -134,9 +130,9 @@ static sl_status make_shapes(surveyor *s, const sl_viewpoint *viewpoints) {
         end_shape(s, i + 1);
     }
     for (size_t i = 0; i <= s->count; i++)
-        s->shapes[i] =
-            (sl_shape){s->points.items + s->first_point[i], s->ends.items + s->first_loop[i],
-                       s->first_loop[i + 1] - s->first_loop[i]};
+        s->memory->shapes[i] = (sl_shape){s->memory->points.items + s->first_point[i],
+                                          s->memory->ends.items + s->first_loop[i],
+                                          s->first_loop[i + 1] - s->first_loop[i]};
     return SL_OK;
 }
 
@@ -144,7 +140,8 @@ static sl_status lay(surveyor *s) {
     sl_shape inside = {0};
     sl_overlay *overlay = &s->out->overlay;
     SL_TRY(sl_shape_of_inside(s->context, s->space, &inside));
-    const sl_status status = sl_overlay_make(s->context, &inside, s->shapes, s->count + 1, overlay);
+    const sl_status status =
+        sl_overlay_make(s->context, &inside, s->memory->shapes, s->count + 1, overlay);
     sl_shape_destroy(s->context, &inside);
     if (status != SL_OK) return status;
     overlay->areas[0] = 0; // of the plan itself: no crossing of outlines has rounded it
@@ -152,6 +149,7 @@ static sl_status lay(surveyor *s) {
         if (s->space->cells[c].inside) overlay->areas[0] += sl_space_area(s->space, c);
     s->out->negligible = NEGLIGIBLE * overlay->areas[0];
     s->out->count = s->count;
+    s->out->regions = s->memory->shapes + 1;
     s->out->seen = overlay->covered + 1;
     s->out->alone = overlay->alone + 1;
     return SL_OK;
@@ -311,8 +309,8 @@ sl_status sl_coverage_make(sl_context *context, sl_query *query, const sl_viewpo
     if (status == SL_OK) status = lay(&s);
     if (status == SL_OK) status = find_blind(&s);
     sl_region_destroy(context, &s.region);
-    void *const scratch[] = {s.points.items, s.ends.items, s.first_point, s.first_loop, s.shapes};
-    for (size_t i = 0; i < sizeof scratch / sizeof *scratch; i++) sl_free(context, scratch[i]);
+    sl_free(context, s.first_point);
+    sl_free(context, s.first_loop);
     if (status == SL_OK)
         *out = made;
     else
@@ -324,6 +322,12 @@ void sl_coverage_destroy(sl_context *context, sl_coverage *coverage) {
     sl_overlay_destroy(context, &coverage->overlay);
     sl_free(context, coverage->spots);
     sl_free(context, coverage->blind);
+    if (coverage->memory) {
+        sl_free(context, coverage->memory->points.items);
+        sl_free(context, coverage->memory->ends.items);
+        sl_free(context, coverage->memory->shapes);
+        sl_free(context, coverage->memory);
+    }
     *coverage = (sl_coverage){0};
 }
 

@@ -11,26 +11,11 @@
 
 #include "sightline/overlay.h"
 #include "sightline/query.h"
+#include "sightline/viewpoint.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-/// A camera, guard, lamp or sensor.
-typedef struct sl_viewpoint {
-    sl_point at;
-    double heading; ///< degrees, counter-clockwise from +x
-    double fov;     ///< width of the view cone in degrees, over 0 to 360; 360: all round
-    double range;   ///< sees no farther; 0: no limit
-    double nearest; ///< sees nothing nearer: the dead zone below a camera; 0: none
-} sl_viewpoint;
-
-/// The ground that a tilted camera sees: `nearest` and `range` where the lower and the upper border
-/// of its picture meet the ground. `height` over the ground, in map units; `tilt` of its axis below
-/// the horizon in degrees, under 90; `fov` is the width of its cone, and the picture is `aspect`
-/// times as wide as high, usually 16:9. The smaller range counts. A cone of 180 degrees and more
-/// keeps what it has.
-SL_API void sl_viewpoint_tilt(sl_viewpoint *viewpoint, double height, double tilt, double aspect);
 
 /// A part of the inside that no viewpoint sees: pieces that join, up to walls.
 typedef struct sl_blind_spot {
@@ -43,6 +28,7 @@ typedef struct sl_blind_spot {
 typedef struct sl_coverage {
     sl_overlay overlay;   ///< its first shape are the walls, which cover nothing; then a viewpoint
                           ///< each. So areas[k] is the area that at least k viewpoints see
+    sl_shape *regions;    ///< by viewpoint: what it sees, with the dead zone as a hole
     size_t count;         ///< of viewpoints
     const double *seen;   ///< by viewpoint: the area inside that it sees
     const double *alone;  ///< by viewpoint: the area that it alone sees
@@ -50,6 +36,7 @@ typedef struct sl_coverage {
     uint32_t *spots;      ///< by piece of the overlay: its blind spot; UINT32_MAX: none
     sl_blind_spot *blind; ///< the largest first, those over `negligible`
     uint32_t blind_count;
+    struct sli_coverage_memory *memory;
 } sl_coverage;
 
 /// Lays the regions of viewpoints over what is inside. Doors, glass and boxes count as the query

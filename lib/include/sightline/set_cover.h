@@ -47,9 +47,9 @@ typedef struct sl_cover_program {
 /// What to do, and how much of it. sl_cover_options_default() has the usual values.
 typedef struct sl_cover_options {
     const sl_cover_program *program; ///< NULL: Lagrangian bounds alone
-    uint64_t nodes;      ///< of the branching tree, at most; 0: no tree
-    uint64_t iterations; ///< of the local search and of the Lagrangian search, at most
-    uint64_t known_lower; ///< a bound that the caller has from elsewhere; 0 for none
+    uint64_t nodes;                  ///< of the branching tree, at most; 0: no tree
+    uint64_t iterations;             ///< of the local search and of the Lagrangian search, at most
+    uint64_t known_lower;            ///< a bound that the caller has from elsewhere; 0 for none
     const uint32_t *start; ///< columns to start from: a set that the caller has; NULL for none
     uint32_t start_count;
 } sl_cover_options;
@@ -83,9 +83,9 @@ typedef struct sl_cover_proof {
 /// Zeroed, it is empty.
 typedef struct sl_cover_result {
     uint32_t count;
-    uint32_t *columns; ///< ascending; they cover all rows
-    uint64_t cost;     ///< of these columns
-    uint64_t lower;    ///< no set costs less
+    uint32_t *columns;    ///< ascending; they cover all rows
+    uint64_t cost;        ///< of these columns
+    uint64_t lower;       ///< no set costs less
     sl_cover_proof proof; ///< of `lower`
 } sl_cover_result;
 
@@ -94,7 +94,8 @@ typedef struct sl_cover_result {
 /// bound so far with SL_CANCELLED, once it has a set. The same input gives the same bytes.
 SL_API sl_status sl_cover_solve(sl_context *context, const sl_cover_problem *problem,
                                 const sl_cover_options *options, sl_cover_result *out);
-SL_API void sl_cover_result_destroy(sl_context *context, sl_cover_result *result); ///< and zeroes it
+SL_API void sl_cover_result_destroy(sl_context *context,
+                                    sl_cover_result *result); ///< and zeroes it
 
 /// Checks a proof in integers, trusting nothing in it: the bound that it proves, which may be less
 /// than what is claimed; 0 where it is no proof.
