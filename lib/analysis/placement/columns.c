@@ -33,7 +33,7 @@ typedef struct event {
 
 typedef struct collector {
     sl_context *context;
-    const sli_look *looks;
+    const sli_look *const *looks;
     uint32_t count;
     sli_place_columns *out;
     sli_spans spans;
@@ -153,9 +153,9 @@ static sl_box wider(const sl_box *box) {
 static sl_status list_events(collector *c, const sli_track *track, uint32_t mine) {
     c->events.count = 0;
     for (uint32_t j = 0; j < c->count; j++) {
-        const sl_box box = wider(&c->looks[j].bounds);
+        const sl_box box = wider(&c->looks[j]->bounds);
         if (j == mine || !boxes_meet(&box, track->line.b, track->far)) continue;
-        SL_TRY(sli_track_spans(c->context, track, &c->looks[j], false, &c->spans));
+        SL_TRY(sli_track_spans(c->context, track, c->looks[j], false, &c->spans));
         SL_TRY(SL_ARRAY_ROOM(c->context, &c->events, 2 * c->spans.count));
         for (size_t i = 0; i < c->spans.count; i++) {
             c->events.items[c->events.count++] = (event){c->spans.items[i].from, j, false};
@@ -170,7 +170,7 @@ static double share_of(const sli_spot *spot) {
 }
 
 static sl_status walk_window(collector *c, uint32_t mine, uint32_t window) {
-    const sli_track track = sli_track_of(&c->looks[mine], window);
+    const sli_track track = sli_track_of(c->looks[mine], window);
     SL_TRY(list_events(c, &track, mine));
     const size_t count = c->events.count;
     SL_TRY(sl_reserve(c->context, &c->spare, &c->spare_room, count, sizeof *c->spare));
@@ -202,7 +202,7 @@ static sl_status add_whole(collector *c, uint32_t mine) {
     c->here_count = 0;
     c->hash = 0;
     for (uint32_t j = 0; j < c->count; j++)
-        if (sli_look_holds(&c->looks[mine], c->looks[j].eye)) enter(c, j);
+        if (sli_look_holds(c->looks[mine], c->looks[j]->eye)) enter(c, j);
     return emit(c, (sli_window_part){mine, SLI_NO_WINDOW, 0, 0});
 }
 
@@ -213,14 +213,14 @@ static sl_status collect(collector *c) {
     if (!c->here || !c->where || !c->sorted) return SL_NO_MEMORY;
     for (uint32_t i = 0; i < c->count; i++) {
         SL_TRY(sl_check_cancelled(c->context));
-        if (!c->looks[i].window_count) SL_TRY(add_whole(c, i));
-        for (uint32_t w = 0; w < c->looks[i].window_count; w++) SL_TRY(walk_window(c, i, w));
+        if (!c->looks[i]->window_count) SL_TRY(add_whole(c, i));
+        for (uint32_t w = 0; w < c->looks[i]->window_count; w++) SL_TRY(walk_window(c, i, w));
     }
     return SL_OK;
 }
 
-sl_status sli_place_columns_make(sl_context *context, const sli_look *looks, uint32_t count,
-                           sli_place_columns *out) {
+sl_status sli_place_columns_make(sl_context *context, const sli_look *const *looks, uint32_t count,
+                                 sli_place_columns *out) {
     collector c = {.context = context, .looks = looks, .count = count, .out = out};
     *out = (sli_place_columns){0};
     const sl_status status = collect(&c);

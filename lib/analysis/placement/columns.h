@@ -24,7 +24,7 @@ void sli_place_columns_destroy(sl_context *context, sli_place_columns *columns);
 
 /// All largest sets of general looks (sli_look.general) that have a point of the plane in common,
 /// and perhaps others. Exact.
-sl_status sli_place_columns_make(sl_context *context, const sli_look *looks, uint32_t count,
+sl_status sli_place_columns_make(sl_context *context, const sli_look *const *looks, uint32_t count,
                            sli_place_columns *out);
 
 typedef SL_ARRAY(sli_window_part) sli_window_parts;

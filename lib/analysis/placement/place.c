@@ -10,6 +10,12 @@
 #include "geometry/orient.h"
 
 #include <stdlib.h>
+#include <stdio.h>
+
+typedef struct candidate {
+    sli_look look;
+    SL_ARRAY(uint32_t) sees; ///< witnesses, ascending
+} candidate;
 
 typedef struct placer {
     sl_context *context;
@@ -17,9 +23,13 @@ typedef struct placer {
     const sl_place_options *options;
     const sl_space *space;
     sl_region memory;
-    SL_ARRAY(sli_look) witnesses; ///< of the lower bound
-    SL_ARRAY(sli_look) places;    ///< viewpoints of this round
     sl_random random;
+    SL_ARRAY(sli_look) witnesses;   ///< all that were made
+    SL_ARRAY(uint32_t) active;      ///< those of the lower bound
+    SL_ARRAY(candidate) candidates; ///< places to look from, for the upper bound
+    SL_ARRAY(uint32_t) chosen;      ///< candidates
+    SL_ARRAY(const sli_look *) looks; ///< scratch
+    sli_window_parts gaps;
     sl_placement *out;
 } placer;
 
@@ -33,8 +43,6 @@ void sl_placement_destroy(sl_context *context, sl_placement *p) {
     sl_free(context, p->places);
     sl_free(context, (void *)(uintptr_t)p->columns.ends);
     sl_free(context, (void *)(uintptr_t)p->columns.entries);
-    sl_free(context, p->proof.nodes);
-    sl_free(context, p->proof.duals);
     *p = (sl_placement){0};
 }
 
@@ -49,6 +57,16 @@ static double some(placer *p) {
     return 0.5 + 0.5 * sl_random_unit(&p->random);
 }
 
+/// Notes a witness where a candidate sees it.
+static sl_status try_seeing(placer *p, size_t number, uint32_t witness) {
+    candidate *c = &p->candidates.items[number];
+    const sl_point at = p->witnesses.items[witness].eye;
+    if (!sli_box_holds(&c->look.bounds, at) || !sli_look_holds(&c->look, at)) return SL_OK;
+    SL_TRY(SL_ARRAY_ROOM(p->context, &c->sees, 1));
+    c->sees.items[c->sees.count++] = witness;
+    return SL_OK;
+}
+
 /// Adds a witness. False where it is not inside, or not general.
 static sl_status add_witness(placer *p, sl_point at, bool *added) {
     sli_look look;
@@ -59,10 +77,15 @@ static sl_status add_witness(placer *p, sl_point at, bool *added) {
     SL_TRY(SL_ARRAY_ROOM(p->context, &p->witnesses, 1));
     SL_TRY(sli_look_make(p->context, p->query, &p->memory, at, &look, &clean));
     *added = clean && look.general;
-    if (*added)
-        p->witnesses.items[p->witnesses.count++] = look;
-    else
+    if (!*added) {
         sli_look_destroy(p->context, &look);
+        return SL_OK;
+    }
+    const uint32_t number = (uint32_t)p->witnesses.count;
+    p->witnesses.items[p->witnesses.count++] = look;
+    SL_TRY(SL_ARRAY_ROOM(p->context, &p->active, 1));
+    p->active.items[p->active.count++] = number;
+    for (size_t i = 0; i < p->candidates.count; i++) SL_TRY(try_seeing(p, i, number));
     return SL_OK;
 }
 
@@ -123,7 +146,7 @@ static sl_point beside(const sli_track *t, double share, int side, double depth)
 static uint32_t count_seers(const placer *p, sl_point at, const uint32_t *entries, size_t count) {
     uint32_t seers = 0;
     for (size_t i = 0; i < count; i++)
-        seers += sli_look_holds(&p->witnesses.items[entries[i]], at);
+        seers += sli_look_holds(&p->witnesses.items[p->active.items[entries[i]]], at);
     return seers;
 }
 
@@ -132,7 +155,7 @@ static sl_point place_of(const placer *p, const sli_place_columns *c, uint32_t c
     static const double depths[] = {1, 0.5, 0.25, 0.1, 0.03, 0.01, 1e-3, 1e-4, 1e-6, 1e-8, 1e-11, 0};
     static const double shares[] = {0.5, 0.3, 0.7, 0.1, 0.9, 0, 1};
     const sli_window_part part = c->places.items[column];
-    const sli_look *look = &p->witnesses.items[part.look];
+    const sli_look *look = &p->witnesses.items[p->active.items[part.look]];
     if (part.window == SLI_NO_WINDOW) return look->eye;
     const size_t first = column ? c->ends.items[column - 1] : 0;
     const size_t count = c->ends.items[column] - first;
@@ -150,26 +173,34 @@ static sl_point place_of(const placer *p, const sli_place_columns *c, uint32_t c
             const uint32_t seers = count_seers(p, at, c->entries.items + first, count);
             if (seers > most) most = seers, best = at;
         }
+    if (getenv("PLACE_FAIL") && most < count) { fprintf(stderr,"  FAIL %u of %zu part %.17g %.17g end %.17g eye %.9g %.9g apex %.9g %.9g best %.17g %.17g\n", most,count,part.from,part.to,t.end.at,t.line.a.x,t.line.a.y,t.line.b.x,t.line.b.y,best.x,best.y); }
     return best;
 }
 
-static void clear_looks(sl_context *context, sli_look *looks, size_t count) {
-    for (size_t i = 0; i < count; i++) sli_look_destroy(context, &looks[i]);
-}
-
-static sl_status add_place(placer *p, sl_point at) {
-    sli_look look;
+/// Adds a candidate, once; UINT32_MAX where nothing can be seen from there.
+static sl_status add_candidate(placer *p, sl_point at, uint32_t *number) {
     bool clean;
-    SL_TRY(SL_ARRAY_ROOM(p->context, &p->places, 1));
-    SL_TRY(sli_look_make(p->context, p->query, &p->memory, at, &look, &clean));
-    if (clean) p->places.items[p->places.count++] = look;
+    for (*number = 0; *number < p->candidates.count; ++*number)
+        if (sli_same_point(p->candidates.items[*number].look.eye, at)) return SL_OK;
+    SL_TRY(SL_ARRAY_ROOM(p->context, &p->candidates, 1));
+    candidate *c = &p->candidates.items[p->candidates.count];
+    *c = (candidate){0};
+    *number = UINT32_MAX;
+    if (!sl_space_is_inside(p->space, at)) return SL_OK;
+    SL_TRY(sli_look_make(p->context, p->query, &p->memory, at, &c->look, &clean));
+    if (!clean) return SL_OK;
+    *number = (uint32_t)p->candidates.count++;
+    for (uint32_t i = 0; i < p->witnesses.count; i++) SL_TRY(try_seeing(p, *number, i));
     return SL_OK;
 }
 
+static const sli_look *chosen_look(const placer *p, size_t i) {
+    return &p->candidates.items[p->chosen.items[i]].look;
+}
+
 static bool is_seen(const placer *p, sl_point at) {
-    for (size_t i = 0; i < p->places.count; i++)
-        if (sli_box_holds(&p->places.items[i].bounds, at) &&
-            sli_look_holds(&p->places.items[i], at))
+    for (size_t i = 0; i < p->chosen.count; i++)
+        if (sli_box_holds(&chosen_look(p, i)->bounds, at) && sli_look_holds(chosen_look(p, i), at))
             return true;
     return false;
 }
@@ -178,7 +209,7 @@ static bool is_seen(const placer *p, sl_point at) {
 static sl_status add_beyond(placer *p, const sli_window_part *gap, bool *added) {
     static const double depths[] = {0.5, 0.25, 0.1, 0.03, 0.01, 1e-3, 1e-4, 1e-5, 1e-7, 1e-9, 1e-12};
     static const double shares[] = {0.5, 0.25, 0.75, 0.05, 0.95};
-    const sli_track t = sli_track_of(&p->places.items[gap->look], gap->window);
+    const sli_track t = sli_track_of(chosen_look(p, gap->look), gap->window);
     const double length =
         (gap->to - gap->from) * sli_length(t.line.b.x - t.line.a.x, t.line.b.y - t.line.a.y);
     *added = false;
@@ -194,57 +225,236 @@ static sl_status add_beyond(placer *p, const sli_window_part *gap, bool *added) 
     return SL_OK;
 }
 
+
 #include <stdio.h>
-static sl_status run_round(placer *p, bool *done) {
-    sli_place_columns columns;
-    double t0=sl_seconds();
-    SL_TRY(sli_place_columns_make(p->context, p->witnesses.items, (uint32_t)p->witnesses.count, &columns));
-    double t1=sl_seconds();
-    const sl_cover_problem problem = {(uint32_t)p->witnesses.count, (uint32_t)columns.ends.count,
-                                      columns.ends.items, columns.entries.items, NULL, NULL};
-    sl_cover_result cover = {0};
-    SL_TRY(sl_cover_solve(p->context, &problem, NULL, &cover));
-    double t2=sl_seconds();
-    clear_looks(p->context, p->places.items, p->places.count);
-    p->places.count = 0;
-    for (uint32_t i = 0; i < cover.count; i++)
-        SL_TRY(add_place(p, place_of(p, &columns, cover.columns[i])));
-    double t3=sl_seconds();
-    sli_window_parts gaps = {0};
-    const sli_look **looks = malloc(p->places.count * sizeof *looks);
-    for (size_t i = 0; i < p->places.count; i++) looks[i] = &p->places.items[i];
-    SL_TRY(sli_gaps_find(p->context, p->space, looks, (uint32_t)p->places.count, &gaps));
-    double t4=sl_seconds();
-    size_t more = 0, failed = 0;
-    for (size_t i = 0; i < gaps.count; i++) {
-        bool added;
-        SL_TRY(add_beyond(p, &gaps.items[i], &added));
-        more += added;
-        failed += !added;
+// --- rounds
+
+/// Finds what the chosen candidates leave unseen, and witnesses there.
+static sl_status find_unseen(placer *p, bool *none, bool *added) {
+    p->looks.count = 0;
+    SL_TRY(SL_ARRAY_ROOM(p->context, &p->looks, p->chosen.count));
+    for (size_t i = 0; i < p->chosen.count; i++)
+        p->looks.items[p->looks.count++] = chosen_look(p, i);
+    SL_TRY(sli_gaps_find(p->context, p->space, p->looks.items, (uint32_t)p->looks.count, &p->gaps));
+    *none = p->gaps.count == 0;
+    *added = false;
+    for (size_t i = 0; i < p->gaps.count; i++) {
+        if (getenv("PLACE_GAPS")) { const sli_window_part *g=&p->gaps.items[i]; const sli_look *l=chosen_look(p,g->look); sli_track t=sli_track_of(l,g->window); fprintf(stderr,"   gap eye %.9g %.9g apex %.9g %.9g share %g..%g of end %g wall %.9g %.9g %.9g %.9g\n", l->eye.x,l->eye.y,t.line.b.x,t.line.b.y,g->from,g->to,t.end.at,t.end.line.a.x,t.end.line.a.y,t.end.line.b.x,t.end.line.b.y);} 
+        bool one;
+        SL_TRY(add_beyond(p, &p->gaps.items[i], &one));
+        *added = *added || one;
     }
-    if (getenv("PLACE_DEBUG")) fprintf(stderr, "W %u cols %u lower %lu places %zu gaps %zu new %zu failed %zu | %.3f %.3f %.3f %.3f %.3f\n", problem.row_count, problem.column_count, (unsigned long)cover.lower, p->places.count, gaps.count, more, failed,t1-t0,t2-t1,t3-t2,t4-t3,sl_seconds()-t4);
-    p->out->lower = cover.lower;
-    *done = gaps.count == 0;
-    p->out->upper = *done ? p->places.count : UINT64_MAX;
-    if (!*done && !more) { *done = true; }
-    sl_cover_result_destroy(p->context, &cover);
-    sli_place_columns_destroy(p->context, &columns);
-    sl_free(p->context, gaps.items);
-    free(looks);
     return SL_OK;
+}
+
+/// The chosen candidates see everything: they are the upper bound if they are fewer.
+static sl_status keep_best(placer *p) {
+    sl_placement *out = p->out;
+    if (out->viewpoints && out->count <= p->chosen.count) return SL_OK;
+    sl_viewpoint *all = sl_alloc_array(p->context, p->chosen.count, sizeof *all);
+    if (!all) return SL_NO_MEMORY;
+    for (size_t i = 0; i < p->chosen.count; i++)
+        all[i] = (sl_viewpoint){chosen_look(p, i)->eye, 0, 360, 0};
+    sl_free(p->context, out->viewpoints);
+    out->viewpoints = all;
+    out->count = (uint32_t)p->chosen.count;
+    out->upper = out->count;
+    return SL_OK;
+}
+
+/// Drops witnesses from the lower bound that are seen wherever another one is, by the columns.
+static sl_status prune(placer *p, const sli_place_columns *c) {
+    const size_t rows = p->active.count, columns = c->ends.count;
+    uint32_t *degree = sl_alloc_array(p->context, rows, sizeof *degree);
+    uint32_t *together = sl_alloc_array(p->context, rows, sizeof *together);
+    size_t *first = sl_alloc_array(p->context, rows + 1, sizeof *first);
+    uint32_t *of_row = sl_alloc_array(p->context, c->entries.count, sizeof *of_row);
+    bool *gone = sl_alloc_array(p->context, rows, sizeof *gone);
+    const bool room = degree && together && first && of_row && gone;
+    if (room) {
+        for (size_t i = 0; i < c->entries.count; i++) degree[c->entries.items[i]]++;
+        for (size_t r = 0; r < rows; r++) first[r + 1] = first[r] + degree[r];
+        size_t at = 0;
+        for (size_t k = 0; k < columns; k++)
+            for (; at < c->ends.items[k]; at++) of_row[first[c->entries.items[at]]++] = (uint32_t)k;
+        for (size_t r = 0; r < rows; r++) first[r] -= degree[r];
+        for (size_t r = 0; r < rows; r++) {
+            if (gone[r]) continue;
+            for (size_t i = 0; i < rows; i++) together[i] = 0;
+            for (size_t i = first[r]; i < first[r + 1]; i++) {
+                const size_t k = of_row[i];
+                for (size_t e = k ? c->ends.items[k - 1] : 0; e < c->ends.items[k]; e++)
+                    together[c->entries.items[e]]++;
+            }
+            for (size_t i = 0; i < rows; i++)
+                if (i != r && together[i] == degree[r] && !(degree[i] == degree[r] && i < r))
+                    gone[i] = true;
+        }
+        p->active.count = 0;
+        for (size_t r = 0; r < rows; r++)
+            if (!gone[r]) p->active.items[p->active.count++] = p->active.items[r];
+    }
+    sl_free(p->context, degree);
+    sl_free(p->context, together);
+    sl_free(p->context, first);
+    sl_free(p->context, of_row);
+    sl_free(p->context, gone);
+    return room ? SL_OK : SL_NO_MEMORY;
+}
+
+#include <stdio.h>
+static bool debug(void) { return getenv("PLACE_DEBUG") != NULL; }
+
+static sl_status choose_column(placer *p, const sli_place_columns *c, uint32_t column) {
+    uint32_t number;
+    SL_TRY(SL_ARRAY_ROOM(p->context, &p->chosen, 1));
+    SL_TRY(add_candidate(p, place_of(p, c, column), &number));
+    if (number != UINT32_MAX) p->chosen.items[p->chosen.count++] = number;
+    return SL_OK;
+}
+
+/// The lower bound, and the viewpoints that it has.
+static sl_status bound_below(placer *p, bool *done, bool *added) {
+    sli_place_columns c;
+    const double t0 = sl_seconds();
+    p->looks.count = 0;
+    SL_TRY(SL_ARRAY_ROOM(p->context, &p->looks, p->active.count));
+    for (size_t i = 0; i < p->active.count; i++)
+        p->looks.items[p->looks.count++] = &p->witnesses.items[p->active.items[i]];
+    SL_TRY(sli_place_columns_make(p->context, p->looks.items, (uint32_t)p->active.count, &c));
+    const double t1 = sl_seconds();
+    const sl_cover_problem problem = {(uint32_t)p->active.count, (uint32_t)c.ends.count,
+                                      c.ends.items, c.entries.items, NULL, NULL};
+    sl_cover_options options = sl_cover_options_default();
+    options.program = p->options->program;
+    sl_cover_result cover = {0};
+    SL_TRY(sl_cover_solve(p->context, &problem, &options, &cover));
+    const double t2 = sl_seconds();
+    p->chosen.count = 0;
+    for (uint32_t i = 0; i < cover.count; i++) SL_TRY(choose_column(p, &c, cover.columns[i]));
+    if (cover.lower > p->out->lower) p->out->lower = cover.lower;
+    if (p->out->rounds < 8) SL_TRY(prune(p, &c));
+    const double t3 = sl_seconds();
+    SL_TRY(find_unseen(p, done, added));
+    if (*done) SL_TRY(keep_best(p));
+    if (debug()) fprintf(stderr, "W %u/%zu cols %u lower %lu (%lu) gaps %zu added %d | col %.3f cover %.3f place %.3f gaps %.3f\n", problem.row_count, p->witnesses.count, problem.column_count, (unsigned long)cover.lower, (unsigned long)cover.cost, p->gaps.count, *added, t1-t0,t2-t1,t3-t2,sl_seconds()-t3);
+    sl_cover_result_destroy(p->context, &cover);
+    sli_place_columns_destroy(p->context, &c);
+    return SL_OK;
+}
+
+/// Candidates for witnesses that none of them sees.
+static sl_status complete(placer *p) {
+    bool *seen = sl_alloc_array(p->context, p->witnesses.count, sizeof *seen);
+    sl_status status = seen ? SL_OK : SL_NO_MEMORY;
+    for (size_t i = 0; seen && i < p->candidates.count; i++)
+        for (size_t k = 0; k < p->candidates.items[i].sees.count; k++)
+            seen[p->candidates.items[i].sees.items[k]] = true;
+    const size_t count = p->witnesses.count;
+    for (size_t i = 0; status == SL_OK && i < count; i++) {
+        uint32_t number;
+        if (!seen[i]) status = add_candidate(p, p->witnesses.items[i].eye, &number);
+    }
+    sl_free(p->context, seen);
+    return status;
+}
+
+/// The fewest candidates that see all witnesses.
+static sl_status cover_witnesses(placer *p) {
+    SL_TRY(complete(p));
+    size_t entries = 0;
+    for (size_t i = 0; i < p->candidates.count; i++) entries += p->candidates.items[i].sees.count;
+    size_t *ends = sl_alloc_array(p->context, p->candidates.count, sizeof *ends);
+    uint32_t *all = sl_alloc_array(p->context, entries, sizeof *all);
+    sl_status status = ends && all ? SL_OK : SL_NO_MEMORY;
+    entries = 0;
+    for (size_t i = 0; status == SL_OK && i < p->candidates.count; i++) {
+        for (size_t k = 0; k < p->candidates.items[i].sees.count; k++)
+            all[entries++] = p->candidates.items[i].sees.items[k];
+        ends[i] = entries;
+    }
+    const sl_cover_problem problem = {(uint32_t)p->witnesses.count, (uint32_t)p->candidates.count,
+                                      ends, all, NULL, NULL};
+    sl_cover_options options = sl_cover_options_default();
+    options.program = p->options->program;
+    sl_cover_result cover = {0};
+    if (status == SL_OK) status = sl_cover_solve(p->context, &problem, &options, &cover);
+    p->chosen.count = 0;
+    if (status == SL_OK) status = SL_ARRAY_ROOM(p->context, &p->chosen, cover.count);
+    for (uint32_t i = 0; status == SL_OK && i < cover.count; i++)
+        p->chosen.items[p->chosen.count++] = cover.columns[i];
+    sl_cover_result_destroy(p->context, &cover);
+    sl_free(p->context, ends);
+    sl_free(p->context, all);
+    return status;
+}
+
+static sl_status bound_above(placer *p, bool *added) {
+    for (int i = 0; i < 30; i++) {
+        bool none, one;
+        const double t0 = sl_seconds();
+        SL_TRY(cover_witnesses(p));
+        const double t1 = sl_seconds();
+        if (p->out->viewpoints && p->chosen.count >= p->out->count) return SL_OK;
+        SL_TRY(find_unseen(p, &none, &one));
+        if (debug()) fprintf(stderr, "  U %zu C %zu upper? %zu gaps %zu added %d | cover %.3f gaps %.3f\n", p->witnesses.count, p->candidates.count, p->chosen.count, p->gaps.count, one, t1-t0, sl_seconds()-t1);
+        *added = *added || one;
+        if (none) return keep_best(p);
+        if (!one) return SL_OK;
+    }
+    return SL_OK;
+}
+
+static sl_status add_corners(placer *p) {
+    uint32_t number;
+    for (size_t i = 0; i < p->witnesses.count; i++)
+        for (uint32_t w = 0; w < p->witnesses.items[i].window_count; w++)
+            SL_TRY(add_candidate(p, p->witnesses.items[i].windows[w].apex, &number));
+    return SL_OK;
+}
+
+static sl_status run(placer *p) {
+    for (;;) {
+        bool done, added;
+        p->out->rounds++;
+        SL_TRY(bound_below(p, &done, &added));
+        if (p->out->upper == p->out->lower) return SL_OK;
+        if (p->out->rounds == 2) SL_TRY(add_corners(p));
+        if (p->out->rounds > 1) SL_TRY(bound_above(p, &added));
+        if (p->out->upper == p->out->lower) return SL_OK;
+        if (!added || p->out->rounds == 60) return SL_OK;
+    }
+}
+
+static void clear(placer *p) {
+    sl_region_destroy(p->context, &p->memory);
+    for (size_t i = 0; i < p->witnesses.count; i++)
+        sli_look_destroy(p->context, &p->witnesses.items[i]);
+    for (size_t i = 0; i < p->candidates.count; i++) {
+        sli_look_destroy(p->context, &p->candidates.items[i].look);
+        sl_free(p->context, p->candidates.items[i].sees.items);
+    }
+    sl_free(p->context, p->witnesses.items);
+    sl_free(p->context, p->candidates.items);
+    sl_free(p->context, p->active.items);
+    sl_free(p->context, p->chosen.items);
+    sl_free(p->context, (void *)p->looks.items);
+    sl_free(p->context, p->gaps.items);
 }
 
 sl_status sl_place(sl_context *context, sl_query *query, const sl_place_options *options,
                    sl_placement *out) {
-    placer p = {.context = context, .query = query, .options = options, .out = out, .random = {1}};
-    *out = (sl_placement){0};
     const sl_outline *outline;
+    sl_placement made = {0};
+    placer p = {.context = context, .query = query, .options = options, .out = &made, .random = {1}};
     SL_TRY(sl_query_space(context, query, &p.space, NULL));
     SL_TRY(sl_query_outline(context, query, &outline));
-    SL_TRY(add_first_witnesses(&p, outline));
-    for (bool done = false; !done; ) { out->rounds++; SL_TRY(run_round(&p, &done)); }
-    out->viewpoints = sl_alloc_array(context, p.places.count, sizeof *out->viewpoints);
-    for (size_t i = 0; i < p.places.count; i++) out->viewpoints[i] = (sl_viewpoint){p.places.items[i].eye, 0, 360, 0};
-    out->count = (uint32_t)p.places.count;
-    return SL_OK;
+    sl_status status = add_first_witnesses(&p, outline);
+    if (status == SL_OK) status = run(&p);
+    clear(&p);
+    if (status == SL_OK)
+        *out = made;
+    else
+        sl_placement_destroy(context, &made);
+    return status;
 }

@@ -45,11 +45,20 @@ sli_spot sli_spot_of_point(const sl_segment *line, sl_point p) {
     return sli_spot_of_line(line, (sl_segment){p, q});
 }
 
+/// Whether two lines are given by a common point that is on a third one.
+static bool meet_on(const sl_segment *line, const sl_segment *a, const sl_segment *b) {
+    return ((sli_same_point(a->a, b->a) || sli_same_point(a->a, b->b)) &&
+            sli_orient(line->a, line->b, a->a) == 0) ||
+           ((sli_same_point(a->b, b->a) || sli_same_point(a->b, b->b)) &&
+            sli_orient(line->a, line->b, a->b) == 0);
+}
+
 int sli_spot_order(const sl_segment *line, const sli_spot *a, const sli_spot *b) {
     const double gap = a->at - b->at, error = a->error + b->error;
     if (gap > error) return 1;
     if (-gap > error) return -1;
     if (sli_same_point(a->line.a, b->line.a) && sli_same_point(a->line.b, b->line.b)) return 0;
+    if (meet_on(line, &a->line, &b->line)) return 0;
     return sli_meet_order(*line, a->line, b->line);
 }
 
