@@ -17,6 +17,11 @@ typedef struct candidate {
     SL_ARRAY(uint32_t) sees; ///< witnesses, ascending
 } candidate;
 
+typedef struct unseen {
+    double area; ///< of its region
+    uint32_t witness;
+} unseen;
+
 typedef struct placer {
     sl_context *context;
     sl_query *query;
@@ -28,6 +33,7 @@ typedef struct placer {
     SL_ARRAY(uint32_t) active;      ///< those of the lower bound
     SL_ARRAY(candidate) candidates; ///< places to look from, for the upper bound
     SL_ARRAY(uint32_t) chosen;      ///< candidates
+    SL_ARRAY(unseen) unseen;        ///< scratch
     SL_ARRAY(const sli_look *) looks; ///< scratch
     sli_window_parts gaps;
     sl_placement *out;
@@ -83,8 +89,6 @@ static sl_status add_witness(placer *p, sl_point at, bool *added) {
     }
     const uint32_t number = (uint32_t)p->witnesses.count;
     p->witnesses.items[p->witnesses.count++] = look;
-    SL_TRY(SL_ARRAY_ROOM(p->context, &p->active, 1));
-    p->active.items[p->active.count++] = number;
     for (size_t i = 0; i < p->candidates.count; i++) SL_TRY(try_seeing(p, i, number));
     return SL_OK;
 }
@@ -262,44 +266,36 @@ static sl_status keep_best(placer *p) {
     return SL_OK;
 }
 
-/// Drops witnesses from the lower bound that are seen wherever another one is, by the columns.
-static sl_status prune(placer *p, const sli_place_columns *c) {
-    const size_t rows = p->active.count, columns = c->ends.count;
-    uint32_t *degree = sl_alloc_array(p->context, rows, sizeof *degree);
-    uint32_t *together = sl_alloc_array(p->context, rows, sizeof *together);
-    size_t *first = sl_alloc_array(p->context, rows + 1, sizeof *first);
-    uint32_t *of_row = sl_alloc_array(p->context, c->entries.count, sizeof *of_row);
-    bool *gone = sl_alloc_array(p->context, rows, sizeof *gone);
-    const bool room = degree && together && first && of_row && gone;
-    if (room) {
-        for (size_t i = 0; i < c->entries.count; i++) degree[c->entries.items[i]]++;
-        for (size_t r = 0; r < rows; r++) first[r + 1] = first[r] + degree[r];
-        size_t at = 0;
-        for (size_t k = 0; k < columns; k++)
-            for (; at < c->ends.items[k]; at++) of_row[first[c->entries.items[at]]++] = (uint32_t)k;
-        for (size_t r = 0; r < rows; r++) first[r] -= degree[r];
-        for (size_t r = 0; r < rows; r++) {
-            if (gone[r]) continue;
-            for (size_t i = 0; i < rows; i++) together[i] = 0;
-            for (size_t i = first[r]; i < first[r + 1]; i++) {
-                const size_t k = of_row[i];
-                for (size_t e = k ? c->ends.items[k - 1] : 0; e < c->ends.items[k]; e++)
-                    together[c->entries.items[e]]++;
-            }
-            for (size_t i = 0; i < rows; i++)
-                if (i != r && together[i] == degree[r] && !(degree[i] == degree[r] && i < r))
-                    gone[i] = true;
-        }
-        p->active.count = 0;
-        for (size_t r = 0; r < rows; r++)
-            if (!gone[r]) p->active.items[p->active.count++] = p->active.items[r];
+static int compare_areas(const void *left, const void *right) {
+    const unseen *a = left, *b = right;
+    if (a->area != b->area) return a->area < b->area ? -1 : 1;
+    return (a->witness > b->witness) - (a->witness < b->witness);
+}
+
+/// Takes witnesses that no chosen candidate sees into the lower bound: those with the smallest
+/// regions first, but of those that see each other one.
+static sl_status activate(placer *p, bool *added) {
+    const size_t before = p->active.count;
+    p->unseen.count = 0;
+    for (uint32_t i = 0; i < p->witnesses.count; i++) {
+        const sli_look *w = &p->witnesses.items[i];
+        if (is_seen(p, w->eye)) continue;
+        SL_TRY(SL_ARRAY_ROOM(p->context, &p->unseen, 1));
+        p->unseen.items[p->unseen.count++] = (unseen){w->area, i};
     }
-    sl_free(p->context, degree);
-    sl_free(p->context, together);
-    sl_free(p->context, first);
-    sl_free(p->context, of_row);
-    sl_free(p->context, gone);
-    return room ? SL_OK : SL_NO_MEMORY;
+    if (p->unseen.count)
+        qsort(p->unseen.items, p->unseen.count, sizeof *p->unseen.items, compare_areas);
+    for (size_t i = 0; i < p->unseen.count; i++) {
+        const sl_point at = p->witnesses.items[p->unseen.items[i].witness].eye;
+        bool near = false;
+        for (size_t k = before; k < p->active.count && !near; k++)
+            near = sli_look_holds(&p->witnesses.items[p->active.items[k]], at);
+        if (near) continue;
+        SL_TRY(SL_ARRAY_ROOM(p->context, &p->active, 1));
+        p->active.items[p->active.count++] = p->unseen.items[i].witness;
+    }
+    *added = p->active.count > before;
+    return SL_OK;
 }
 
 #include <stdio.h>
@@ -333,10 +329,15 @@ static sl_status bound_below(placer *p, bool *done, bool *added) {
     p->chosen.count = 0;
     for (uint32_t i = 0; i < cover.count; i++) SL_TRY(choose_column(p, &c, cover.columns[i]));
     if (cover.lower > p->out->lower) p->out->lower = cover.lower;
-    if (p->out->rounds < 8) SL_TRY(prune(p, &c));
     const double t3 = sl_seconds();
-    SL_TRY(find_unseen(p, done, added));
-    if (*done) SL_TRY(keep_best(p));
+    *done = false;
+    SL_TRY(activate(p, added));
+    p->gaps.count = 0;
+    if (!*added) {
+        SL_TRY(find_unseen(p, done, added));
+        if (*done) SL_TRY(keep_best(p));
+        SL_TRY(activate(p, added));
+    }
     if (debug()) fprintf(stderr, "W %u/%zu cols %u lower %lu (%lu) gaps %zu added %d | col %.3f cover %.3f place %.3f gaps %.3f\n", problem.row_count, p->witnesses.count, problem.column_count, (unsigned long)cover.lower, (unsigned long)cover.cost, p->gaps.count, *added, t1-t0,t2-t1,t3-t2,sl_seconds()-t3);
     sl_cover_result_destroy(p->context, &cover);
     sli_place_columns_destroy(p->context, &c);
@@ -414,15 +415,20 @@ static sl_status add_corners(placer *p) {
 }
 
 static sl_status run(placer *p) {
+    bool added;
+    int full = 0;
+    SL_TRY(activate(p, &added));
     for (;;) {
-        bool done, added;
+        bool done;
         p->out->rounds++;
         SL_TRY(bound_below(p, &done, &added));
         if (p->out->upper == p->out->lower) return SL_OK;
-        if (p->out->rounds == 2) SL_TRY(add_corners(p));
-        if (p->out->rounds > 1) SL_TRY(bound_above(p, &added));
+        if (p->gaps.count == 0) continue;
+        full++;
+        if (full == 2) SL_TRY(add_corners(p));
+        if (full > 1) SL_TRY(bound_above(p, &added));
         if (p->out->upper == p->out->lower) return SL_OK;
-        if (!added || p->out->rounds == 60) return SL_OK;
+        if (!added || full == 60) return SL_OK;
     }
 }
 
@@ -437,6 +443,7 @@ static void clear(placer *p) {
     sl_free(p->context, p->witnesses.items);
     sl_free(p->context, p->candidates.items);
     sl_free(p->context, p->active.items);
+    sl_free(p->context, p->unseen.items);
     sl_free(p->context, p->chosen.items);
     sl_free(p->context, (void *)p->looks.items);
     sl_free(p->context, p->gaps.items);
