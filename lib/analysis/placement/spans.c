@@ -121,24 +121,74 @@ static sli_spot spot_of_ray(const spanner *s, sl_point corner) {
     return sli_spot_of_line(&s->track->line, (sl_segment){s->look->eye, corner});
 }
 
-/// The part that is seen through a front, by an eye on the side `side` of the line.
-static sl_status see_through(const spanner *s, const sli_front *f, int side) {
+/// Whether a ray meets the line, from an eye on its side `side`.
+static bool hits(const spanner *s, sl_point corner, int side) {
     const sl_segment *line = &s->track->line;
-    const sl_point eye = s->look->eye;
-    const bool right = sli_turn(line->a, line->b, eye, f->right) == -side;
-    const bool left = sli_turn(line->a, line->b, eye, f->left) == -side;
-    if (!right && !left) return SL_OK;
+    return sli_turn(line->a, line->b, s->look->eye, corner) == -side;
+}
+
+/// The part between two rays, of which at least one meets the line.
+static sli_span span_between(const spanner *s, const sl_point *right, const sl_point *left,
+                             int side) {
     sli_span span = {s->track->start, s->track->end};
-    if (right) *(side > 0 ? &span.from : &span.to) = spot_of_ray(s, f->right);
-    if (left) *(side > 0 ? &span.to : &span.from) = spot_of_ray(s, f->left);
+    const sl_point *from = side > 0 ? right : left, *to = side > 0 ? left : right;
+    if (from) span.from = spot_of_ray(s, *from);
+    if (to) span.to = spot_of_ray(s, *to);
     if (order(s, &span.from, &s->track->start) < 0) span.from = s->track->start;
     if (order(s, &span.to, &s->track->end) > 0) span.to = s->track->end;
+    return span;
+}
+
+/// The part that is seen through a front.
+static sl_status see_through(const spanner *s, const sli_front *f, int side) {
+    const bool right = hits(s, f->right, side), left = hits(s, f->left, side);
+    if (!right && !left) return SL_OK;
+    const sli_span span = span_between(s, right ? &f->right : NULL, left ? &f->left : NULL, side);
     if (order(s, &span.from, &span.to) > 0 || !is_before(s, f, &span)) return SL_OK;
     return add(s, span);
 }
 
-/// The range of fronts that may see the track: by angles, with a margin.
-static void find_fronts(const spanner *s, int side, uint32_t *first, uint32_t *count) {
+/// Whether the track is before a front's wall, as a whole: 1, or behind it: -1; 0 where this is not
+/// clear at once.
+static int place_at(const spanner *s, const sli_front *f) {
+    double apex_error, far_error, eye_error;
+    const double apex = determinant(f->wall.a, f->wall.b, s->track->line.b, &apex_error);
+    const double far = determinant(f->wall.a, f->wall.b, s->track->far, &far_error);
+    const double eye = determinant(f->wall.a, f->wall.b, s->look->eye, &eye_error);
+    // The far end is rounded: much more than that, in terms of the products.
+    const double margin = 0x1p20 * (apex_error + far_error + eye_error);
+    if (!(fabs(apex) > margin && fabs(far) > margin && fabs(eye) > margin)) return 0;
+    if ((apex > 0) != (far > 0)) return 0;
+    return (apex > 0) == (eye > 0) ? 1 : -1;
+}
+
+/// What is seen through fronts that follow each other within less than half a turn of the way from
+/// one end of the track to the other. Those that it is before are one span.
+static sl_status see_through_all(const spanner *s, uint32_t first, uint32_t count, int side) {
+    const sli_look *look = s->look;
+    for (uint32_t i = 0; i < count;) {
+        const sli_front *f = &look->fronts[(first + i++) % look->front_count], *last = f;
+        const int at = place_at(s, f);
+        if (at == 0) SL_TRY(see_through(s, f, side));
+        if (at <= 0) continue;
+        const bool right = hits(s, f->right, side);
+        bool left = hits(s, f->left, side), any = left;
+        for (; i < count; i++) {
+            const sli_front *next = &look->fronts[(first + i) % look->front_count];
+            if (!sli_same_point(last->left, next->right) || place_at(s, next) <= 0) break;
+            last = next;
+            left = hits(s, last->left, side);
+            any = any || left;
+        }
+        if (!right && !any) continue;
+        SL_TRY(add(s, span_between(s, right ? &f->right : NULL, left ? &last->left : NULL, side)));
+    }
+    return SL_OK;
+}
+
+/// The range of fronts that may see the track, by angles, with a margin. False where an angle is
+/// not clear, or too wide: all fronts.
+static bool find_fronts(const spanner *s, int side, uint32_t *first, uint32_t *count) {
     const sli_look *look = s->look;
     const sl_point apex = s->track->line.b, far = s->track->far, eye = look->eye;
     const sl_point a = {apex.x - eye.x, apex.y - eye.y}, b = {far.x - eye.x, far.y - eye.y};
@@ -146,13 +196,14 @@ static void find_fronts(const spanner *s, int side, uint32_t *first, uint32_t *c
     *first = 0;
     *count = look->front_count;
     const double reach = fabs(eye.x) + fabs(eye.y) + fabs(far.x) + fabs(far.y), near = 1e-8 * reach;
-    if (!(cross > 1e-9 * size && sli_dot(a, a) > near * near && sli_dot(b, b) > near * near)) return;
+    if (!(cross > 1e-9 * size && sli_dot(a, a) > near * near && sli_dot(b, b) > near * near))
+        return false;
     const double margin = 1e-6;
     const double right = sli_look_angle(side > 0 ? a : b), left = sli_look_angle(side > 0 ? b : a);
     double from = right - margin;
     double length = left - right + 2 * margin;
     if (length < 0) length += 4;
-    if (length > 3) return;
+    if (length > 2.5) return false;
     if (from < 0) from += 4;
     uint32_t low = 0, high = look->front_count; // the first one at an angle beyond `from`
     while (low < high) {
@@ -171,6 +222,7 @@ static void find_fronts(const spanner *s, int side, uint32_t *first, uint32_t *c
         n++;
     }
     *count = n;
+    return true;
 }
 
 /// What an eye on the line sees to one side of it: `way` is 1 forwards along the line, -1 back.
@@ -229,9 +281,10 @@ sl_status sli_track_spans(sl_context *context, const sli_track *track, const sli
         }
     } else {
         uint32_t first, count;
-        find_fronts(&s, side, &first, &count);
-        for (uint32_t i = 0; i < count; i++)
-            SL_TRY(see_through(&s, &look->fronts[(first + i) % look->front_count], side));
+        if (find_fronts(&s, side, &first, &count))
+            SL_TRY(see_through_all(&s, first, count, side));
+        else
+            for (uint32_t i = 0; i < count; i++) SL_TRY(see_through(&s, &look->fronts[i], side));
     }
     join(&s);
     return SL_OK;
