@@ -42,6 +42,15 @@ typedef struct sl_cover_program {
     /// their number. May be NULL.
     sl_status (*branch)(sl_context *context, const sl_cover_problem *problem, uint64_t nodes,
                         uint32_t *columns, uint32_t *count);
+    /// The same relaxation again and again, while columns are taken and left: each run goes on from
+    /// the basis of the one before. The problem stays where it is until `end`. May be NULL, all
+    /// three.
+    sl_status (*begin)(sl_context *context, const sl_cover_problem *problem, void **state);
+    /// `fixed` by column: 0 free, 1 not taken, 2 taken. Ends early where the bound passes `enough`;
+    /// then duals are right, and values are not. `enough` 0: it does not.
+    sl_status (*again)(sl_context *context, void *state, const uint8_t *fixed, uint64_t work,
+                       double enough, double *duals, double *values);
+    void (*end)(sl_context *context, void *state);
 } sl_cover_program;
 
 /// What to do, and how much of it. sl_cover_options_default() has the usual values.
@@ -56,27 +65,52 @@ typedef struct sl_cover_options {
 
 SL_API sl_cover_options sl_cover_options_default(void);
 
-/// A node of the branching tree that proves the lower bound. A leaf has duals: y[row] / denominator
-/// each, integers. An inner node has a column, in its first child not taken and in its second one
-/// taken.
+/// A step that makes a problem smaller and keeps its least cost. Steps are taken one after the
+/// other; each speaks of the rows and columns that those before it left, and of what is still
+/// demanded.
+typedef enum sl_cover_step_kind {
+    SL_COVER_ROW_GOES,    ///< every column that covers row `by` covers row `what`, which demands no
+                          ///< more
+    SL_COVER_COLUMN_GOES, ///< column `by` covers all that column `what` does, and costs no more;
+                          ///< these rows demand one column each
+    SL_COVER_COLUMN_TAKEN, ///< row `by` demands all columns that it has, `what` among them
+} sl_cover_step_kind;
+
+typedef struct sl_cover_step {
+    uint32_t kind; ///< sl_cover_step_kind
+    uint32_t what, by;
+} sl_cover_step;
+
+/// A node of a branching tree. A leaf is bounded by its duals. An inner node has a column, in its
+/// first child not taken and in its second one taken. A child that is UINT32_MAX is not in the
+/// tree: the node's duals bound it, or no set is left there.
 typedef struct sl_cover_node {
     uint32_t column; ///< of an inner node; UINT32_MAX: a leaf
     uint32_t children[2];
-    size_t duals; ///< of a leaf: where its row_count duals start in sl_cover_proof.duals
+    size_t duals; ///< where its duals start in sl_cover_proof.duals: one for each row of its part
+                  ///< that the steps left, ascending; SIZE_MAX: all of them 0
 } sl_cover_node;
 
-/// Why no set costs less than `lower`. Node 0 is the root. For a leaf, with the columns taken and
-/// not taken on the way to it, the bound is
+/// Why no set costs less than `lower`. The steps leave a problem that falls into parts: no column
+/// covers rows of two. Each part has a tree; the part's bound is the least one of its leaves. The
+/// bounds of the parts and the costs of the columns that steps took add up.
+///
+/// With the columns taken and not taken on the way to it, a leaf's bound is
 ///
 ///     sum over taken columns of cost + sum over rows of y * (what is still demanded)
-///         - sum over free columns of max(0, sum of its rows' y - cost)
+///         - sum over free columns of max(0, sum of y over its rows with demand - cost)
 ///
-/// rounded up to an integer; without a free column left that covers some row's rest, or with more
-/// demanded than there is, a leaf holds no set at all.
+/// where y = dual / denominator, rounded up to a multiple of the greatest common divisor of all
+/// costs. A leaf with a row that demands more columns than are free for it holds no set at all. For
+/// a child that is not there, the bound is that of its node, and more by what is lost by taking the
+/// column, max(0, cost - sum), or by not taking it, max(0, sum - cost).
 typedef struct sl_cover_proof {
     uint64_t denominator; ///< of all duals; at least 1
-    uint32_t node_count, row_count;
-    sl_cover_node *nodes;
+    uint32_t row_count, step_count, part_count, node_count;
+    size_t dual_count;
+    sl_cover_step *steps;
+    uint32_t *parts;      ///< by row: its part; of no meaning for a row that is gone
+    sl_cover_node *nodes; ///< the first ones are the roots, by part; a child comes after its parent
     uint64_t *duals;
 } sl_cover_proof;
 
@@ -86,7 +120,7 @@ typedef struct sl_cover_result {
     uint32_t *columns;    ///< ascending; they cover all rows
     uint64_t cost;        ///< of these columns
     uint64_t lower;       ///< no set costs less
-    sl_cover_proof proof; ///< of `lower`
+    sl_cover_proof proof; ///< of `lower`, as far as it is not known_lower
 } sl_cover_result;
 
 /// Covers all rows. NULL options: the default ones. SL_BAD_ARGUMENT, with the row, where a row

@@ -1,0 +1,329 @@
+/// Sets of witnesses that one place sees, for the lower bound.
+///
+/// The regions of the witnesses cut the plane into faces. Go from any point towards the border of
+/// its face: closed regions that hold the point hold the border, too. So each largest set of
+/// regions with a point in common has one on a window, or is that of a part without windows. Along
+/// a window, regions are entered and left. A set can be largest only where one is left that was
+/// entered since the last one was left:
+///
+///      apex ---[1---[2------1]----[3----2]--3]----> far
+///                   |1,2|   |         |2,3|
+///
+/// Of events at one spot, entering counts first: all regions that touch the spot hold it.
+#include "analysis/placement/columns.h"
+
+#include "geometry/length.h"
+#include "geometry/orient.h"
+
+#include <stdlib.h>
+
+void sli_place_columns_destroy(sl_context *context, sli_place_columns *columns) {
+    sl_free(context, columns->ends.items);
+    sl_free(context, columns->entries.items);
+    sl_free(context, columns->places.items);
+    *columns = (sli_place_columns){0};
+}
+
+/// A region is entered or left along a window.
+typedef struct event {
+    sli_spot spot;
+    uint32_t look;
+    bool leaves;
+} event;
+
+typedef struct collector {
+    sl_context *context;
+    const sli_look *const *looks;
+    uint32_t count;
+    sli_place_columns *out;
+    sli_spans spans;
+    SL_ARRAY(event) events;
+    event *spare;
+    size_t spare_room;
+    uint32_t *here, *where; ///< the looks that hold the spot, and their places in this list
+    uint32_t here_count;
+    uint64_t hash;
+    uint32_t *table; ///< of columns by hash, and one more: open addressing
+    size_t table_size;
+    uint32_t *sorted;
+} collector;
+
+static uint64_t hash_of(uint32_t look) {
+    sl_random random = {look};
+    return sl_random_next(&random);
+}
+
+static int compare_numbers(const void *left, const void *right) {
+    const uint32_t a = *(const uint32_t *)left, b = *(const uint32_t *)right;
+    return (a > b) - (a < b);
+}
+
+static bool same_column(const sli_place_columns *all, size_t column, const uint32_t *entries,
+                        uint32_t count) {
+    const size_t first = column ? all->ends.items[column - 1] : 0;
+    if (all->ends.items[column] - first != count) return false;
+    for (uint32_t i = 0; i < count; i++)
+        if (all->entries.items[first + i] != entries[i]) return false;
+    return true;
+}
+
+static sl_status grow_table(collector *c) {
+    const size_t size = c->table_size ? 2 * c->table_size : 1024;
+    uint32_t *table = sl_alloc_array(c->context, size, sizeof *table);
+    if (!table) return SL_NO_MEMORY;
+    size_t from = 0;
+    for (size_t i = 0; i < c->out->ends.count; i++) {
+        uint64_t hash = 0;
+        for (; from < c->out->ends.items[i]; from++) hash ^= hash_of(c->out->entries.items[from]);
+        size_t at = hash & (size - 1);
+        while (table[at]) at = (at + 1) & (size - 1);
+        table[at] = (uint32_t)i + 1;
+    }
+    sl_free(c->context, c->table);
+    c->table = table;
+    c->table_size = size;
+    return SL_OK;
+}
+
+/// Adds what holds the current spot as a column, once.
+static sl_status emit(collector *c, sli_window_part place) {
+    sli_place_columns *out = c->out;
+    if (2 * (out->ends.count + 1) > c->table_size) SL_TRY(grow_table(c));
+    for (uint32_t i = 0; i < c->here_count; i++) c->sorted[i] = c->here[i];
+    qsort(c->sorted, c->here_count, sizeof *c->sorted, compare_numbers);
+    size_t at = c->hash & (c->table_size - 1);
+    for (; c->table[at]; at = (at + 1) & (c->table_size - 1)) {
+        const uint32_t column = c->table[at] - 1;
+        if (same_column(out, column, c->sorted, c->here_count)) return SL_OK;
+    }
+    SL_TRY(SL_ARRAY_ROOM(c->context, &out->entries, c->here_count));
+    SL_TRY(SL_ARRAY_ROOM(c->context, &out->ends, 1));
+    SL_TRY(SL_ARRAY_ROOM(c->context, &out->places, 1));
+    for (uint32_t i = 0; i < c->here_count; i++)
+        out->entries.items[out->entries.count++] = c->sorted[i];
+    out->ends.items[out->ends.count++] = out->entries.count;
+    out->places.items[out->places.count++] = place;
+    c->table[at] = (uint32_t)out->ends.count;
+    return SL_OK;
+}
+
+static void enter(collector *c, uint32_t look) {
+    c->where[look] = c->here_count;
+    c->here[c->here_count++] = look;
+    c->hash ^= hash_of(look);
+}
+
+static void leave(collector *c, uint32_t look) {
+    const uint32_t last = c->here[--c->here_count], at = c->where[look];
+    c->here[at] = last;
+    c->where[last] = at;
+    c->hash ^= hash_of(look);
+}
+
+static bool comes_first(const sl_segment *line, const event *a, const event *b) {
+    const int order = sli_spot_order(line, &a->spot, &b->spot);
+    return order ? order < 0 : a->leaves < b->leaves;
+}
+
+/// A merge sort: stable, whatever the comparisons cost.
+static void sort_events(const sl_segment *line, event *events, event *spare, size_t count) {
+    if (count < 2) return;
+    const size_t half = count / 2;
+    sort_events(line, events, spare, half);
+    sort_events(line, events + half, spare, count - half);
+    for (size_t i = 0; i < half; i++) spare[i] = events[i];
+    size_t a = 0, b = half, to = 0;
+    while (a < half)
+        events[to++] =
+            b < count && comes_first(line, &events[b], &spare[a]) ? events[b++] : spare[a++];
+}
+
+static bool boxes_meet(const sl_box *a, sl_point p, sl_point q) {
+    return sli_lesser(p.x, q.x) <= a->max.x && sli_greater(p.x, q.x) >= a->min.x &&
+           sli_lesser(p.y, q.y) <= a->max.y && sli_greater(p.y, q.y) >= a->min.y;
+}
+
+/// A box that is larger by more than the rounding of what is in it.
+static sl_box wider(const sl_box *box) {
+    const double x = 0x1p-40 * (fabs(box->min.x) + fabs(box->max.x));
+    const double y = 0x1p-40 * (fabs(box->min.y) + fabs(box->max.y));
+    return (sl_box){{box->min.x - x, box->min.y - y}, {box->max.x + x, box->max.y + y}};
+}
+
+static sl_status list_events(collector *c, const sli_track *track, uint32_t mine) {
+    c->events.count = 0;
+    for (uint32_t j = 0; j < c->count; j++) {
+        const sl_box box = wider(&c->looks[j]->bounds);
+        if (j == mine || !boxes_meet(&box, track->line.b, track->far)) continue;
+        SL_TRY(sli_track_spans(c->context, track, c->looks[j], false, &c->spans));
+        SL_TRY(SL_ARRAY_ROOM(c->context, &c->events, 2 * c->spans.count));
+        for (size_t i = 0; i < c->spans.count; i++) {
+            c->events.items[c->events.count++] = (event){c->spans.items[i].from, j, false};
+            c->events.items[c->events.count++] = (event){c->spans.items[i].to, j, true};
+        }
+    }
+    return SL_OK;
+}
+
+static double share_of(const sli_spot *spot) {
+    return spot->error < INFINITY ? spot->at : 1;
+}
+
+static sl_status walk_window(collector *c, uint32_t mine, uint32_t window) {
+    const sli_track track = sli_track_of(c->looks[mine], window);
+    SL_TRY(list_events(c, &track, mine));
+    const size_t count = c->events.count;
+    SL_TRY(sl_reserve(c->context, &c->spare, &c->spare_room, count, sizeof *c->spare));
+    sort_events(&track.line, c->events.items, c->spare, count);
+    c->here_count = 0;
+    c->hash = 0;
+    enter(c, mine);
+    sli_window_part place = {mine, window, 1, 1};
+    bool entered = true;
+    for (size_t i = 0; i < count; i++) {
+        const event *e = &c->events.items[i];
+        if (!e->leaves) {
+            enter(c, e->look);
+            place.from = share_of(&e->spot);
+            entered = true;
+            continue;
+        }
+        place.to = share_of(&e->spot);
+        if (entered) SL_TRY(emit(c, place));
+        entered = false;
+        leave(c, e->look);
+    }
+    place.to = share_of(&track.end);
+    return entered ? emit(c, place) : SL_OK;
+}
+
+/// A region without windows is a whole part of the plan: all that see into it see the eye.
+static sl_status add_whole(collector *c, uint32_t mine) {
+    c->here_count = 0;
+    c->hash = 0;
+    for (uint32_t j = 0; j < c->count; j++)
+        if (sli_look_holds(c->looks[mine], c->looks[j]->eye)) enter(c, j);
+    return emit(c, (sli_window_part){mine, SLI_NO_WINDOW, 0, 0});
+}
+
+static sl_status collect(collector *c) {
+    c->here = sl_alloc_array(c->context, c->count, sizeof *c->here);
+    c->where = sl_alloc_array(c->context, c->count, sizeof *c->where);
+    c->sorted = sl_alloc_array(c->context, c->count, sizeof *c->sorted);
+    if (!c->here || !c->where || !c->sorted) return SL_NO_MEMORY;
+    for (uint32_t i = 0; i < c->count; i++) {
+        SL_TRY(sl_check_cancelled(c->context));
+        if (!c->looks[i]->window_count) SL_TRY(add_whole(c, i));
+        for (uint32_t w = 0; w < c->looks[i]->window_count; w++) SL_TRY(walk_window(c, i, w));
+    }
+    return SL_OK;
+}
+
+sl_status sli_place_columns_make(sl_context *context, const sli_look *const *looks, uint32_t count,
+                                 sli_place_columns *out) {
+    collector c = {.context = context, .looks = looks, .count = count, .out = out};
+    *out = (sli_place_columns){0};
+    const sl_status status = collect(&c);
+    sl_free(context, c.spans.items);
+    sl_free(context, c.events.items);
+    sl_free(context, c.spare);
+    sl_free(context, c.here);
+    sl_free(context, c.where);
+    sl_free(context, c.table);
+    sl_free(context, c.sorted);
+    if (status != SL_OK) sli_place_columns_destroy(context, out);
+    return status;
+}
+
+// --- gaps
+
+typedef struct gap_finder {
+    sl_context *context;
+    const sl_space *space;
+    const sli_look *const *looks;
+    uint32_t count;
+    sli_spans spans, one;
+    sli_window_parts *out;
+} gap_finder;
+
+static sl_status add_wall_spans(gap_finder *g, const sli_track *track) {
+    const sl_segment *line = &track->line;
+    for (uint32_t i = 0; i < g->space->wall_count; i++) {
+        const sl_wall *w = &g->space->walls[i];
+        if (sli_orient(line->a, line->b, w->a) || sli_orient(line->a, line->b, w->b)) continue;
+        const sli_spot a = sli_spot_of_point(line, w->a), b = sli_spot_of_point(line, w->b);
+        SL_TRY(SL_ARRAY_ROOM(g->context, &g->spans, 1));
+        g->spans.items[g->spans.count++] =
+            sli_spot_order(line, &a, &b) < 0 ? (sli_span){a, b} : (sli_span){b, a};
+    }
+    return SL_OK;
+}
+
+static void sort_spans(const sl_segment *line, sli_spans *spans) {
+    for (size_t i = 1; i < spans->count; i++) {
+        const sli_span span = spans->items[i];
+        size_t k = i;
+        for (; k && sli_spot_order(line, &spans->items[k - 1].from, &span.from) > 0; k--)
+            spans->items[k] = spans->items[k - 1];
+        spans->items[k] = span;
+    }
+}
+
+/// Lists what the spans leave of a track; with NULL only tells.
+static sl_status list_gaps(gap_finder *g, const sli_track *track, sli_window_part part, bool *any) {
+    const sl_segment *line = &track->line;
+    sli_spot reached = track->start;
+    sort_spans(line, &g->spans);
+    *any = false;
+    for (size_t i = 0; i <= g->spans.count; i++) {
+        const sli_spot *next = i < g->spans.count ? &g->spans.items[i].from : &track->end;
+        if (sli_spot_order(line, next, &track->end) > 0) next = &track->end;
+        if (sli_spot_order(line, next, &reached) > 0) {
+            *any = true;
+            if (part.look == UINT32_MAX) return SL_OK;
+            SL_TRY(SL_ARRAY_ROOM(g->context, g->out, 1));
+            part.from = share_of(&reached);
+            part.to = share_of(next);
+            g->out->items[g->out->count++] = part;
+        }
+        if (i < g->spans.count && sli_spot_order(line, &g->spans.items[i].to, &reached) > 0)
+            reached = g->spans.items[i].to;
+    }
+    return SL_OK;
+}
+
+static sl_status check_window(gap_finder *g, uint32_t mine, uint32_t window) {
+    const sli_track track = sli_track_of(g->looks[mine], window);
+    bool any;
+    g->spans.count = 0;
+    for (uint32_t j = 0; j < g->count; j++) {
+        const sl_box box = wider(&g->looks[j]->bounds);
+        if (j == mine || !boxes_meet(&box, track.line.b, track.far)) continue;
+        SL_TRY(sli_track_spans(g->context, &track, g->looks[j], true, &g->one));
+        SL_TRY(SL_ARRAY_ROOM(g->context, &g->spans, g->one.count));
+        for (size_t i = 0; i < g->one.count; i++)
+            g->spans.items[g->spans.count++] = g->one.items[i];
+    }
+    SL_TRY(list_gaps(g, &track, (sli_window_part){UINT32_MAX, 0, 0, 0}, &any));
+    if (!any) return SL_OK;
+    SL_TRY(add_wall_spans(g, &track));
+    return list_gaps(g, &track, (sli_window_part){mine, window, 0, 0}, &any);
+}
+
+static sl_status find_gaps(gap_finder *g) {
+    for (uint32_t i = 0; i < g->count; i++) {
+        SL_TRY(sl_check_cancelled(g->context));
+        for (uint32_t w = 0; w < g->looks[i]->window_count; w++) SL_TRY(check_window(g, i, w));
+    }
+    return SL_OK;
+}
+
+sl_status sli_gaps_find(sl_context *context, const sl_space *space, const sli_look *const *looks,
+                        uint32_t count, sli_window_parts *out) {
+    gap_finder g = {context, space, looks, count, {0}, {0}, out};
+    out->count = 0;
+    const sl_status status = find_gaps(&g);
+    sl_free(context, g.spans.items);
+    sl_free(context, g.one.items);
+    return status;
+}

@@ -1,0 +1,82 @@
+/// Placement: the fewest viewpoints that see everything, with a proof that fewer do not (the art
+/// gallery problem).
+///
+///     sl_place_options options = sl_place_options_default();
+///     sl_placement placement;
+///     sl_status status = sl_place(context, query, &options, &placement);
+///     if (status == SL_OK && placement.lower == placement.upper) // no fewer can do it
+///         for (uint32_t i = 0; i < placement.count; i++) use(placement.viewpoints[i].at);
+///     sl_placement_destroy(context, &placement);
+///
+/// Two bounds close in on the optimum (Tozoni, de Rezende and de Souza 2016, Algorithm 966: A
+/// practical iterative algorithm for the art gallery problem using integer linear programming).
+///
+/// - `lower`: no set of fewer viewpoints, anywhere in the plane, sees all of `witnesses`, which are
+///   points inside. `columns` has every largest set of witnesses that one place can see, and the
+///   proof says that fewer of these sets do not hold all witnesses. Exact.
+/// - `upper`: `viewpoints` see everything. Each point that is inside, or on the border of what is
+///   inside, is in the visible region (region.h) of one of them. Exact, for the coordinates that
+///   the viewpoints have.
+///
+/// Sight is closed: it may graze walls. What is seen only in a single direction does not count for
+/// the upper bound. It has no area, so all around it is seen, by others, and then it is, too.
+#ifndef SIGHTLINE_PLACE_H
+#define SIGHTLINE_PLACE_H
+
+#include "sightline/query.h"
+#include "sightline/set_cover.h"
+#include "sightline/viewpoint.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// What to do, and how much of it. sl_place_options_default() has the usual values.
+typedef struct sl_place_options {
+    const sl_cover_program *program; ///< for set covers; NULL: without a linear program
+    uint64_t rounds; ///< at most so many; 0 for no limit
+    uint64_t nodes;  ///< of the branching tree of each set cover, at most
+} sl_place_options;
+
+SL_API sl_place_options sl_place_options_default(void);
+
+/// A point that the lower bound asks to be seen.
+typedef struct sl_witness {
+    sl_point at; ///< inside, on no wall
+    /// Whether sight is closed: lines that graze walls see it. Always true without limits of view
+    /// and range.
+    bool closed;
+} sl_witness;
+
+/// Zeroed, it is empty.
+typedef struct sl_placement {
+    uint64_t lower, upper;    ///< viewpoints; upper == count
+    sl_viewpoint *viewpoints; ///< they see everything
+    uint32_t count;
+    sl_witness *witnesses; ///< of the lower bound: the rows of `columns`
+    uint32_t witness_count;
+    /// Column by column, the witnesses that a place sees (set_cover.h). Each set of witnesses that
+    /// some place sees is part of a column.
+    sl_cover_problem columns;
+    sl_point *places;     ///< by column: a place that sees it, rounded
+    sl_cover_proof proof; ///< of `lower`, for `columns`
+    uint64_t rounds;
+    double unseen_area; ///< of what is inside: 0, unless the work was cancelled early
+} sl_placement;
+
+/// Finds viewpoints for all that is inside of a query's space, with its doors as they are. They may
+/// stand anywhere inside.
+///
+/// SL_BAD_ARGUMENT where nothing is inside. SL_UNSUPPORTED for maps with mirrors, one-way glass or
+/// limited walls, and past boxes. Cancelled by the context, it returns SL_CANCELLED with the best
+/// set and bounds so far in `out`, once it has a set. Reports stage "place". The same input gives
+/// the same bytes.
+SL_API sl_status sl_place(sl_context *context, sl_query *query, const sl_place_options *options,
+                          sl_placement *out);
+SL_API void sl_placement_destroy(sl_context *context, sl_placement *placement); ///< and zeroes it
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
