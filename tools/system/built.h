@@ -6,6 +6,7 @@
 
 #include "sightline/draw.h"
 #include "sightline/io.h"
+#include "sightline/set_cover.h"
 #include "system/console.h"
 
 /// Commands that need the part.
@@ -57,6 +58,7 @@ typedef struct built_draw {
 typedef struct built_part {
     const built_command *commands;            ///< the last has no name
     const sl_solver *(*const *solvers)(void); ///< the last is NULL
+    const sl_cover_program *(*cover)(void);   ///< linear programs of set cover
     const built_io *io;
     const built_draw *draw;
 } built_part;
@@ -72,6 +74,9 @@ sl_status built_run(command_console *console, int argc, char **argv);
 /// The solver of a number, from 0, which is the default; NULL past the last. Where the part is off,
 /// it refuses.
 const sl_solver *built_solver(size_t index);
+
+/// What solves the linear programs of set cover; NULL where the part is off.
+const sl_cover_program *built_cover_program(void);
 
 /// Adds foreign formats to those that the context reads and writes, or formats that refuse.
 sl_status built_use_formats(sl_context *context);
