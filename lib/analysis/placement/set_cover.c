@@ -68,14 +68,12 @@ sl_status sli_cover_read(sl_context *context, const sl_cover_problem *p, uint32_
     SL_TRY(sli_cover_make(context, p->row_count, p->column_count, entries, out));
     for (uint32_t j = 0; j < p->column_count; j++) {
         out->column_first[j + 1] = p->ends[j];
-        out->costs[j] = p->costs ? p->costs[j] / divisor : 1;
+        out->costs[j] = p->costs && divisor ? p->costs[j] / divisor : 1;
     }
     if (entries) memcpy(out->column_rows, p->entries, entries * sizeof *p->entries);
     for (uint32_t r = 0; r < p->row_count; r++) out->demands[r] = p->demands ? p->demands[r] : 1;
     sli_cover_turn(out);
-    const sl_status status = check_rows(context, out);
-    if (status != SL_OK) sli_cover_destroy(context, out);
-    return status;
+    return SL_OK;
 }
 
 /// The largest power of two, up to 2^31, with which no bound comes near 2^63.
@@ -410,6 +408,7 @@ static sl_status complete_parts(sl_context *context, solver *s) {
 static sl_status prepare(sl_context *context, const sl_cover_problem *problem, uint32_t divisor,
                          solver *s) {
     SL_TRY(sli_cover_read(context, problem, divisor, &s->cover));
+    SL_TRY(check_rows(context, &s->cover));
     SL_TRY(choose_denominator(context, &s->cover, &s->denominator));
     SL_TRY(sli_cover_reduce(context, &s->cover, &s->left));
     s->step_cost = sli_cover_cost(&s->cover, s->left.taken);
