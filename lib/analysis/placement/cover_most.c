@@ -193,8 +193,8 @@ static sl_status keep_set(sl_context *context, const most *m, sl_cover_result *o
     return SL_OK;
 }
 
-/// Lagrangian iterations for each of the local search's.
-enum { LAGRANGIAN_SHARE = 40 };
+/// Iterations of the local search for each Lagrangian one, at most.
+enum { LAGRANGIAN_SHARE = 50 };
 
 sl_status sl_cover_most(sl_context *context, const sl_cover_problem *problem, const double *weights,
                         uint32_t count, const sl_cover_options *options, sl_cover_result *out,

@@ -22,8 +22,9 @@
 
 #include <string.h>
 
-/// Duals that a tree keeps at most: 256 MB.
-enum { MOST_DUALS = 1 << 25, STEPS = 60 };
+/// What a tree keeps of duals at most: 256 MB. A node counts as one for so many entries of its
+/// part, and has so many Lagrangian steps.
+enum { MOST_DUALS = 1 << 25, NODE_ENTRIES = 1024, STEPS = 60 };
 static const double whole = 1e-6;
 
 typedef struct fix {
@@ -298,11 +299,12 @@ static sl_status undo(sl_context *context, tree *t, size_t count, sl_status stat
 
 /// Makes the node of the state, from its parent's duals.
 static sl_status grow(sl_context *context, tree *t, size_t duals, uint32_t *at) {
-    if (!*t->nodes_left) {
+    const uint64_t price = 1 + t->cover->column_first[t->cover->columns] / NODE_ENTRIES;
+    if (*t->nodes_left < price) {
         t->spent = true;
         return SL_OK;
     }
-    --*t->nodes_left;
+    *t->nodes_left -= price;
     SL_TRY(sl_check_cancelled(context));
     const size_t count = t->fixes.count;
     return undo(context, t, count, grow_node(context, t, duals, at), at);

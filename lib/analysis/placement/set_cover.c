@@ -14,7 +14,7 @@
 #include <string.h>
 
 sl_cover_options sl_cover_options_default(void) {
-    return (sl_cover_options){.nodes = 20000, .iterations = 20000};
+    return (sl_cover_options){.nodes = 10000, .iterations = 50000};
 }
 
 void sl_cover_result_destroy(sl_context *context, sl_cover_result *r) {
@@ -290,8 +290,8 @@ static uint64_t enough_of(const solver *s, const piece *p, uint64_t known) {
     return least > p->part.lower ? least : p->part.lower;
 }
 
-/// Lagrangian iterations for each of the local search's, at most.
-enum { LAGRANGIAN_SHARE = 10 };
+/// Iterations of the local search for each Lagrangian one, at most.
+enum { LAGRANGIAN_SHARE = 25 };
 
 static sl_status solve_piece(sl_context *context, solver *s, piece *p, uint64_t known) {
     sli_cover_part *part = &p->part;

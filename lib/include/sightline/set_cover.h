@@ -56,9 +56,11 @@ typedef struct sl_cover_program {
 /// What to do, and how much of it. sl_cover_options_default() has the usual values.
 typedef struct sl_cover_options {
     const sl_cover_program *program; ///< NULL: Lagrangian bounds alone
-    uint64_t nodes;                  ///< of the branching tree, at most; 0: no tree
-    uint64_t iterations;             ///< of the local search and of the Lagrangian search, at most
-    uint64_t known_lower;            ///< a bound that the caller has from elsewhere; 0 for none
+    /// Of the branching trees, at most; 0: no tree. In a part of more than 1,024 entries, a node
+    /// counts for one more for each 1,024.
+    uint64_t nodes;
+    uint64_t iterations;   ///< of the local search and of the Lagrangian search, at most
+    uint64_t known_lower;  ///< a bound that the caller has from elsewhere; 0 for none
     const uint32_t *start; ///< columns to start from: a set that the caller has; NULL for none
     uint32_t start_count;
 } sl_cover_options;
@@ -70,7 +72,7 @@ SL_API sl_cover_options sl_cover_options_default(void);
 /// demanded.
 typedef enum sl_cover_step_kind {
     SL_COVER_ROW_GOES,    ///< every column that covers row `by` covers row `what`, which demands no
-                          ///< more
+                          ///< more; a bound without the row is a bound in any case
     SL_COVER_COLUMN_GOES, ///< column `by` covers all that column `what` does, and costs no more;
                           ///< these rows demand one column each
     SL_COVER_COLUMN_TAKEN, ///< row `by` demands all columns that it has, `what` among them
