@@ -8,7 +8,7 @@
 /// 5. Steps, parts and trees are the proof, which cover_check.c reads with code of its own.
 ///
 /// Costs are divided by their greatest common divisor first: then bounds are rounded up to whole
-/// numbers. Duals are integers over a power of two, as large as sums in 64 bits allow.
+/// numbers. The duals are integers over a power of two, as large as sums in 64 bits allow.
 #include "analysis/placement/cover.h"
 
 #include <string.h>
@@ -324,7 +324,7 @@ static sl_status solve_piece(sl_context *context, solver *s, piece *p, uint64_t 
 
 // --- the result
 
-/// Duals of the proof are for costs as they are, not divided: below the largest cost, times 2^31.
+/// The duals of a proof are for costs as they are, not divided: below the largest cost, times 2^31.
 static void add_nodes(sl_cover_proof *proof, const piece *its, uint32_t divisor, uint32_t part,
                       uint32_t first) {
     const sli_cover_part *p = &its->part;

@@ -65,6 +65,7 @@ typedef struct sl_cover_options {
     uint32_t start_count;
 } sl_cover_options;
 
+/// No program; 10,000 nodes and 50,000 iterations.
 SL_API sl_cover_options sl_cover_options_default(void);
 
 /// A step that makes a problem smaller and keeps its least cost. Steps are taken one after the
@@ -78,6 +79,7 @@ typedef enum sl_cover_step_kind {
     SL_COVER_COLUMN_TAKEN, ///< row `by` demands all columns that it has, `what` among them
 } sl_cover_step_kind;
 
+/// One step: what it says of a row or column, and by which other one.
 typedef struct sl_cover_step {
     uint32_t kind; ///< sl_cover_step_kind
     uint32_t what, by;
