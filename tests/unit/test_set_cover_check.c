@@ -109,7 +109,7 @@ static void never_proves_too_much(void **state) {
     sl_context *context = testing_context(NULL);
     sl_random random = {31};
     uint64_t weaker = 0;
-    const uint64_t seeds = testing_seeds(600);
+    const uint64_t seeds = testing_seeds(300);
     for (uint64_t i = 0; i < seeds; i++) {
         cover_small(&p, &random);
         if (i % 3 == 0) { // one that leaves something to branch on
@@ -184,7 +184,7 @@ static void steps_keep_the_least_cost(void **state) {
     sl_context *context = testing_context(NULL);
     sl_random random = {32};
     uint64_t kept[3] = {0}, refused = 0;
-    const uint64_t seeds = testing_seeds(1000);
+    const uint64_t seeds = testing_seeds(800);
     for (uint64_t i = 0; i < seeds; i++) {
         const uint32_t rows = 2 + (uint32_t)sl_random_below(&random, 4);
         cover_random(&p, &random, rows, TRIED_COLUMNS, 2);

@@ -8,7 +8,7 @@
 ///         for (uint32_t i = 0; i < result.count; ++i) use(result.columns[i]);
 ///     sl_cover_result_destroy(context, &result);
 ///
-/// The bound never rests on rounding. Duals come from anywhere (a Lagrangian search, a linear
+/// The bound never rests on rounding. Its duals come from anywhere (a Lagrangian search, a linear
 /// program in doubles); they are made integers over a common denominator, and count only as far as
 /// they are feasible in integers.
 #ifndef SIGHTLINE_SET_COVER_H
