@@ -41,8 +41,8 @@ typedef struct sl_viewpoint {
 /// What to do, and how much of it. sl_place_options_default() has the usual values.
 typedef struct sl_place_options {
     const sl_cover_program *program; ///< for set covers; NULL: without a linear program
-    uint64_t rounds; ///< at most so many; 0 for no limit
-    uint64_t nodes;  ///< of the branching tree of each set cover, at most
+    uint64_t rounds;                 ///< at most so many; 0 for no limit
+    uint64_t nodes;                  ///< of the branching tree of each set cover, at most
 } sl_place_options;
 
 SL_API sl_place_options sl_place_options_default(void);
