@@ -15,6 +15,7 @@ sl_status sli_try_seeing(sli_placer *p, size_t number, uint32_t witness) {
 
 sl_status sli_add_candidate(sli_placer *p, sl_point at, uint32_t *number) {
     bool clean;
+    at = sli_coordinates(at);
     for (*number = 0; *number < p->candidates.count; ++*number)
         if (sli_same_point(p->candidates.items[*number].look.eye, at)) return SL_OK;
     SL_TRY(SL_ARRAY_ROOM(p->context, &p->candidates, 1));
@@ -91,6 +92,66 @@ sl_status sli_choose_column(sli_placer *p, const sli_place_columns *c, uint32_t 
     if (number != UINT32_MAX) p->chosen.items[p->chosen.count++] = number;
     return SL_OK;
 }
+
+// --- places on the lines of walls
+
+// Often a viewpoint must stand exactly in line with a wall, as in a door of a wall without
+// thickness. Then the places of the lower bound come ever nearer to that line.
+
+/// The wall that a gap's apex hides: of those that end there, the one beyond the window that turns
+/// least from it. False where there is none.
+static bool find_hidden(const sli_placer *p, const sli_window_part *gap, sl_segment *out) {
+    const sli_window *w = &sli_chosen_look(p, gap->look)->windows[gap->window];
+    const sl_point eye = sli_chosen_look(p, gap->look)->eye;
+    bool found = false;
+    size_t count;
+    const sli_wall_end *walls = sli_ground_walls_at(&p->ground, w->apex, &count);
+    for (size_t i = 0; i < count; i++) {
+        const sl_point other = walls[i].other;
+        if (sli_orient(eye, w->apex, other) != -w->seen) continue;
+        if (found && sli_orient(w->apex, out->b, other) != w->seen) continue;
+        *out = (sl_segment){w->apex, other};
+        found = true;
+    }
+    return found;
+}
+
+static sl_point foot_of(sl_point at, const sl_segment *line) {
+    const sl_point way = {line->b.x - line->a.x, line->b.y - line->a.y};
+    const double share =
+        sli_dot((sl_point){at.x - line->a.x, at.y - line->a.y}, way) / sli_dot(way, way);
+    return (sl_point){line->a.x + share * way.x, line->a.y + share * way.y};
+}
+
+static sl_point meet_of(const sl_segment *s, const sl_segment *t) {
+    const sl_point u = {s->b.x - s->a.x, s->b.y - s->a.y}, v = {t->b.x - t->a.x, t->b.y - t->a.y};
+    const double share =
+        sli_cross((sl_point){t->a.x - s->a.x, t->a.y - s->a.y}, v) / sli_cross(u, v);
+    return (sl_point){s->a.x + share * u.x, s->a.y + share * u.y};
+}
+
+sl_status sli_add_in_line(sli_placer *p) {
+    enum { MOST = 8 };
+    sl_segment lines[MOST];
+    const size_t count = p->gaps.count;
+    for (size_t i = 0; i < count;) {
+        const uint32_t look = p->gaps.items[i].look;
+        const sl_point eye = sli_chosen_look(p, look)->eye;
+        uint32_t number;
+        int found = 0;
+        for (; i < count && p->gaps.items[i].look == look; i++)
+            if (found < MOST) found += find_hidden(p, &p->gaps.items[i], &lines[found]);
+        for (int k = 0; k < found; k++) {
+            SL_TRY(sli_add_candidate(p, foot_of(eye, &lines[k]), &number));
+            for (int j = 0; j < k; j++)
+                if (sli_turn(lines[k].a, lines[k].b, lines[j].a, lines[j].b))
+                    SL_TRY(sli_add_candidate(p, meet_of(&lines[k], &lines[j]), &number));
+        }
+    }
+    return SL_OK;
+}
+
+// --- choosing
 
 sl_cover_options sli_cover_options(const sli_placer *p) {
     sl_cover_options options = sl_cover_options_default();

@@ -33,6 +33,7 @@ typedef struct event {
 
 typedef struct collector {
     sl_context *context;
+    const sli_ground *ground;
     const sli_look *const *looks;
     uint32_t count;
     sli_place_columns *out;
@@ -138,6 +139,15 @@ static void sort_events(const sl_segment *line, event *events, event *spare, siz
             b < count && comes_first(line, &events[b], &spare[a]) ? events[b++] : spare[a++];
 }
 
+/// Whether a region touches the track only at the apex, and there from between other walls: nobody
+/// who stands there sees both.
+static bool is_parted(const collector *c, const sli_track *track, const sli_span *span,
+                      uint32_t look) {
+    const sl_segment *line = &track->line;
+    return sli_spot_order(line, &span->to, &track->start) == 0 &&
+           !sli_ground_joins(c->ground, line->b, line->a, c->looks[look]->eye);
+}
+
 static sl_status list_events(collector *c, const sli_track *track, uint32_t mine) {
     c->events.count = 0;
     for (uint32_t j = 0; j < c->count; j++) {
@@ -145,6 +155,7 @@ static sl_status list_events(collector *c, const sli_track *track, uint32_t mine
         SL_TRY(sli_track_spans(c->context, track, c->looks[j], false, &c->spans));
         SL_TRY(SL_ARRAY_ROOM(c->context, &c->events, 2 * c->spans.count));
         for (size_t i = 0; i < c->spans.count; i++) {
+            if (is_parted(c, track, &c->spans.items[i], j)) continue;
             c->events.items[c->events.count++] = (event){c->spans.items[i].from, j, false};
             c->events.items[c->events.count++] = (event){c->spans.items[i].to, j, true};
         }
@@ -202,9 +213,11 @@ static sl_status collect(collector *c) {
     return SL_OK;
 }
 
-sl_status sli_place_columns_make(sl_context *context, const sli_look *const *looks, uint32_t count,
+sl_status sli_place_columns_make(sl_context *context, const sli_ground *ground,
+                                 const sli_look *const *looks, uint32_t count,
                                  sli_place_columns *out) {
-    collector c = {.context = context, .looks = looks, .count = count, .out = out};
+    collector c = {
+        .context = context, .ground = ground, .looks = looks, .count = count, .out = out};
     *out = (sli_place_columns){0};
     const sl_status status = collect(&c);
     sl_free(context, c.spans.items);

@@ -2,6 +2,7 @@
 #ifndef SLI_PLACE_COLUMNS_H
 #define SLI_PLACE_COLUMNS_H
 
+#include "analysis/placement/ground.h"
 #include "analysis/placement/spans.h"
 
 /// Part of a window of a look: between two shares of the way (sli_spot.at), rounded. Or the eye of
@@ -22,9 +23,10 @@ typedef struct sli_place_columns {
 
 void sli_place_columns_destroy(sl_context *context, sli_place_columns *columns); ///< and zeroes it
 
-/// All largest sets of general looks (sli_look.general) that have a point of the plane in common,
+/// All largest sets of general looks (sli_look.general) that some viewpoint is in the regions of,
 /// and perhaps others. Exact.
-sl_status sli_place_columns_make(sl_context *context, const sli_look *const *looks, uint32_t count,
+sl_status sli_place_columns_make(sl_context *context, const sli_ground *ground,
+                                 const sli_look *const *looks, uint32_t count,
                                  sli_place_columns *out);
 
 #endif

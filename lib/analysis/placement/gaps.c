@@ -135,15 +135,6 @@ static sl_status find_gaps(gap_finder *g) {
     return SL_OK;
 }
 
-sli_ground sli_ground_of(const sl_space *space) {
-    sli_ground ground = {space, false};
-    for (uint32_t i = 0; i < space->portal_count; i++) {
-        const uint32_t *cell = space->portals[i].cell;
-        if (space->cells[cell[0]].inside != space->cells[cell[1]].inside) ground.open = true;
-    }
-    return ground;
-}
-
 sl_status sli_gaps_find(sl_context *context, const sli_ground *ground, const sli_look *const *looks,
                         uint32_t count, sli_window_parts *out) {
     gap_finder g = {context, ground, looks, count, {0}, {0}, out};

@@ -6,14 +6,6 @@
 
 typedef SL_ARRAY(sli_window_part) sli_window_parts;
 
-/// What is to be seen, and its borders.
-typedef struct sli_ground {
-    const sl_space *space; ///< all that is inside
-    bool open;             ///< portals lead out of what is inside: windows may, too
-} sli_ground;
-
-sli_ground sli_ground_of(const sl_space *space);
-
 /// The parts of windows beyond which, inside, no look sees anything. Where there is none, the looks
 /// see all of each part of the inside in which one of them stands. Exact.
 sl_status sli_gaps_find(sl_context *context, const sli_ground *ground, const sli_look *const *looks,

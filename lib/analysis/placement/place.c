@@ -16,7 +16,9 @@
 #include "sightline/place.h"
 
 #include "analysis/placement/placer.h"
+#include "geometry/length.h"
 #include "geometry/orient.h"
+#include "sightline/overlay.h"
 
 enum { USUAL_ROUNDS = 60, UPPER_STEPS = 30 };
 
@@ -41,6 +43,7 @@ void sl_placement_destroy(sl_context *context, sl_placement *p) {
 
 void sli_placer_destroy(sli_placer *p) {
     sl_region_destroy(p->context, &p->memory);
+    sli_ground_destroy(p->context, &p->ground);
     for (size_t i = 0; i < p->witnesses.count; i++)
         sli_look_destroy(p->context, &p->witnesses.items[i]);
     for (size_t i = 0; i < p->candidates.count; i++) {
@@ -66,13 +69,17 @@ static sl_status keep_viewpoints(sli_placer *p, sl_viewpoint *all, size_t count)
     return SL_OK;
 }
 
-/// The chosen candidates see everything: they are the upper bound if they are fewer.
+/// The chosen candidates see everything but slivers at the gaps: they are the upper bound if they
+/// are fewer.
 static sl_status keep_chosen(sli_placer *p) {
-    if (p->out->count <= p->chosen.count) return SL_OK;
+    sl_placement *out = p->out;
+    if (out->count < p->chosen.count) return SL_OK;
+    if (out->count == p->chosen.count && out->slivers <= p->gaps.count) return SL_OK;
     sl_viewpoint *all = sl_alloc_array(p->context, p->chosen.count, sizeof *all);
     if (!all) return SL_NO_MEMORY;
     for (size_t i = 0; i < p->chosen.count; i++)
         all[i] = (sl_viewpoint){.at = sli_chosen_look(p, i)->eye, .fov = 360};
+    out->slivers = p->gaps.count;
     return keep_viewpoints(p, all, p->chosen.count);
 }
 
@@ -90,24 +97,56 @@ static sl_status start_with_cells(sli_placer *p) {
     return keep_viewpoints(p, all, count);
 }
 
-/// Finds what the chosen candidates leave unseen, and witnesses there.
-static sl_status find_unseen(sli_placer *p, bool *none, bool *added) {
+static sl_status find_gaps(sli_placer *p) {
     p->looks.count = 0;
     SL_TRY(SL_ARRAY_ROOM(p->context, &p->looks, p->chosen.count));
     for (size_t i = 0; i < p->chosen.count; i++)
         p->looks.items[p->looks.count++] = sli_chosen_look(p, i);
-    SL_TRY(
-        sli_gaps_find(p->context, &p->ground, p->looks.items, (uint32_t)p->looks.count, &p->gaps));
-    *none = p->gaps.count == 0;
+    return sli_gaps_find(p->context, &p->ground, p->looks.items, (uint32_t)p->looks.count,
+                         &p->gaps);
+}
+
+/// Moves viewpoints that have slivers beside them to places in line with walls, as long as that
+/// leaves fewer.
+static sl_status mend_slivers(sli_placer *p, size_t first_candidate) {
+    const size_t count = p->candidates.count;
+    for (size_t c = first_candidate; c < count && p->gaps.count; c++) {
+        const size_t before = p->gaps.count;
+        const sl_point at = p->candidates.items[c].look.eye;
+        size_t nearest = 0;
+        double least = INFINITY;
+        for (size_t i = 0; i < before; i++) {
+            const sl_point eye = sli_chosen_look(p, p->gaps.items[i].look)->eye;
+            const double distance = sli_length(eye.x - at.x, eye.y - at.y);
+            if (distance < least) least = distance, nearest = p->gaps.items[i].look;
+        }
+        const uint32_t old = p->chosen.items[nearest];
+        p->chosen.items[nearest] = (uint32_t)c;
+        SL_TRY(find_gaps(p));
+        if (p->gaps.count < before) continue;
+        p->chosen.items[nearest] = old;
+        SL_TRY(find_gaps(p));
+    }
+    return SL_OK;
+}
+
+/// Finds what the chosen candidates leave unseen, and witnesses there. *none: nothing but slivers
+/// is left.
+static sl_status find_unseen(sli_placer *p, bool *none, bool *added) {
+    const size_t first_candidate = p->candidates.count;
+    size_t found = 0;
+    bool missed;
+    SL_TRY(find_gaps(p));
     for (size_t i = 0; i < p->gaps.count; i++) {
         bool one;
         SL_TRY(sli_add_beyond(p, &p->gaps.items[i], &one));
-        *added = *added || one;
+        found += one;
     }
-    bool missed;
+    SL_TRY(sli_add_in_line(p));
     SL_TRY(sli_add_unseen_parts(p, &missed));
-    if (missed) *none = false, *added = true;
-    return SL_OK;
+    *none = !found && !missed;
+    *added = *added || !*none;
+    return *none && p->gaps.count ? mend_slivers(p, first_candidate) : SL_OK;
 }
 
 static sl_status bound_above(sli_placer *p, bool *added) {
@@ -186,7 +225,8 @@ static sl_status bound_below(sli_placer *p, bool *gaps, bool *added) {
     SL_TRY(SL_ARRAY_ROOM(p->context, &p->looks, p->active.count));
     for (size_t i = 0; i < p->active.count; i++)
         p->looks.items[p->looks.count++] = &p->witnesses.items[p->active.items[i]];
-    SL_TRY(sli_place_columns_make(p->context, p->looks.items, (uint32_t)p->active.count, &c));
+    SL_TRY(sli_place_columns_make(p->context, &p->ground, p->looks.items, (uint32_t)p->active.count,
+                                  &c));
     const sl_status status = use_columns(p, &c);
     sli_place_columns_destroy(p->context, &c);
     SL_TRY(status);
@@ -214,10 +254,34 @@ static sl_status run(sli_placer *p) {
         if (!gaps) continue;
         p->out->rounds++;
         if (p->out->rounds == 2) SL_TRY(sli_add_corners(p));
-        if (p->out->rounds > 1) SL_TRY(bound_above(p, &added));
+        SL_TRY(bound_above(p, &added));
         if (p->out->upper == p->out->lower || !added) return SL_OK;
     }
     return SL_OK;
+}
+
+/// What the viewpoints leave unseen, where that is slivers.
+static sl_status measure_unseen(sli_placer *p) {
+    sl_placement *out = p->out;
+    if (!out->slivers) return SL_OK;
+    sl_shape inside = {0}, *seen = sl_alloc_array(p->context, out->count, sizeof *seen);
+    sl_region *regions = sl_alloc_array(p->context, out->count, sizeof *regions);
+    sl_overlay overlay = {0};
+    sl_status status = seen && regions ? SL_OK : SL_NO_MEMORY;
+    for (uint32_t i = 0; status == SL_OK && i < out->count; i++) {
+        const sl_view view = sl_view_all_round(out->viewpoints[i].at);
+        status = sl_query_region(p->context, p->query, &view, &regions[i]);
+        seen[i] = (sl_shape){regions[i].points, &regions[i].count, 1};
+    }
+    if (status == SL_OK) status = sl_shape_of_inside(p->context, p->ground.space, &inside);
+    if (status == SL_OK) status = sl_overlay_make(p->context, &inside, seen, out->count, &overlay);
+    if (status == SL_OK) out->unseen_area = sli_greater(overlay.areas[0] - overlay.areas[1], 0);
+    sl_overlay_destroy(p->context, &overlay);
+    sl_shape_destroy(p->context, &inside);
+    for (uint32_t i = 0; regions && i < out->count; i++) sl_region_destroy(p->context, &regions[i]);
+    sl_free(p->context, regions);
+    sl_free(p->context, seen);
+    return status;
 }
 
 static sl_status check(sl_context *context, sl_query *query) {
@@ -237,12 +301,11 @@ sl_status sl_place(sl_context *context, sl_query *query, const sl_place_options 
     sl_placement made = {0};
     SL_TRY(check(context, query));
     SL_TRY(sl_query_space(context, query, &space, NULL));
-    sli_placer p = {.context = context,
-                    .query = query,
-                    .options = options ? options : &usual,
-                    .ground = sli_ground_of(space),
-                    .out = &made};
-    const sl_status status = run(&p);
+    sli_placer p = {
+        .context = context, .query = query, .options = options ? options : &usual, .out = &made};
+    sl_status status = sli_ground_make(context, space, &p.ground);
+    if (status == SL_OK) status = run(&p);
+    if (status == SL_OK) status = measure_unseen(&p);
     sli_placer_destroy(&p);
     if (status == SL_OK || (status == SL_CANCELLED && made.viewpoints))
         *out = made;

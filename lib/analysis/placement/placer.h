@@ -47,7 +47,7 @@ sl_status sli_add_unseen_parts(sli_placer *placer, bool *added);
 /// Adds one beyond a gap of the chosen candidates that none of them sees.
 sl_status sli_add_beyond(sli_placer *placer, const sli_window_part *gap, bool *added);
 /// Takes witnesses that no chosen candidate sees into the lower bound: those with the smallest
-/// regions first, but of those that see each other one.
+/// regions first. Of those that see each other it takes one, and others while they are few.
 sl_status sli_activate(sli_placer *placer, bool *added);
 
 // --- candidates (candidates.c)
@@ -56,6 +56,8 @@ sl_status sli_activate(sli_placer *placer, bool *added);
 sl_status sli_add_candidate(sli_placer *placer, sl_point at, uint32_t *number);
 /// Adds the corners that hide something from a witness.
 sl_status sli_add_corners(sli_placer *placer);
+/// Adds places in line with walls that the chosen ones have gaps at.
+sl_status sli_add_in_line(sli_placer *placer);
 /// Adds a candidate for a column of the lower bound and chooses it. It sees the column's witnesses,
 /// or as many as can be found.
 sl_status sli_choose_column(sli_placer *placer, const sli_place_columns *columns, uint32_t column);

@@ -114,6 +114,14 @@ static bool is_active(const sli_placer *p, uint32_t witness) {
     return false;
 }
 
+/// Whether a witness sees one that has become active since `from`.
+static bool sees_one_since(const sli_placer *p, size_t from, uint32_t witness) {
+    const sl_point at = p->witnesses.items[witness].eye;
+    for (size_t i = from; i < p->active.count; i++)
+        if (sli_look_holds(&p->witnesses.items[p->active.items[i]], at)) return true;
+    return false;
+}
+
 sl_status sli_activate(sli_placer *p, bool *added) {
     const size_t before = p->active.count;
     p->unseen.count = 0;
@@ -125,15 +133,15 @@ sl_status sli_activate(sli_placer *p, bool *added) {
     }
     if (p->unseen.count)
         qsort(p->unseen.items, p->unseen.count, sizeof *p->unseen.items, compare_areas);
-    for (size_t i = 0; i < p->unseen.count; i++) {
-        const sl_point at = p->witnesses.items[p->unseen.items[i].witness].eye;
-        bool near = false;
-        for (size_t k = before; k < p->active.count && !near; k++)
-            near = sli_look_holds(&p->witnesses.items[p->active.items[k]], at);
-        if (near) continue;
-        SL_TRY(SL_ARRAY_ROOM(p->context, &p->active, 1));
-        p->active.items[p->active.count++] = p->unseen.items[i].witness;
-    }
+    const size_t room = before / 4 + 16;
+    SL_TRY(SL_ARRAY_ROOM(p->context, &p->active, p->unseen.count));
+    for (int pass = 0; pass < 2; pass++)
+        for (size_t i = 0; i < p->unseen.count && (!pass || p->active.count < before + room); i++) {
+            const uint32_t witness = p->unseen.items[i].witness;
+            if (witness == UINT32_MAX || (!pass && sees_one_since(p, before, witness))) continue;
+            p->active.items[p->active.count++] = witness;
+            p->unseen.items[i].witness = UINT32_MAX;
+        }
     *added = p->active.count > before;
     return SL_OK;
 }

@@ -16,7 +16,7 @@
 ///   proof says that fewer of these sets do not hold all witnesses. Exact.
 /// - `upper`: `viewpoints` see everything. Each point that is inside, or on the border of what is
 ///   inside, is in the visible region (region.h) of one of them. Exact, for the coordinates that
-///   the viewpoints have.
+///   the viewpoints have. Where `slivers` is not 0, this holds but for slivers.
 ///
 /// Sight is closed: it may graze walls. What is seen only in a single direction does not count for
 /// the upper bound. It has no area, so all around it is seen, by others, and then it is, too.
@@ -68,7 +68,11 @@ typedef struct sl_placement {
     sl_point *places;     ///< by column: a place that sees it, rounded
     sl_cover_proof proof; ///< of `lower`, for `columns`
     uint64_t rounds;
-    double unseen_area; ///< of what is inside: 0, unless the work was cancelled early
+    /// Parts of borders of visible regions beyond which something is unseen, but no point with
+    /// doubles as coordinates was found; 0: nothing is unseen, proven. Slivers remain where a
+    /// viewpoint must stand in line with walls, and the line has no such point.
+    uint64_t slivers;
+    double unseen_area; ///< of the slivers, rounded
 } sl_placement;
 
 /// Finds viewpoints for all that is inside of a query's space, with its doors as they are. They may
