@@ -33,6 +33,7 @@ typedef struct event {
 
 typedef struct collector {
     sl_context *context;
+    const sli_ground *ground;
     const sli_look *const *looks;
     uint32_t count;
     sli_place_columns *out;
@@ -138,35 +139,28 @@ static void sort_events(const sl_segment *line, event *events, event *spare, siz
             b < count && comes_first(line, &events[b], &spare[a]) ? events[b++] : spare[a++];
 }
 
-static bool boxes_meet(const sl_box *a, sl_point p, sl_point q) {
-    return sli_lesser(p.x, q.x) <= a->max.x && sli_greater(p.x, q.x) >= a->min.x &&
-           sli_lesser(p.y, q.y) <= a->max.y && sli_greater(p.y, q.y) >= a->min.y;
-}
-
-/// A box that is larger by more than the rounding of what is in it.
-static sl_box wider(const sl_box *box) {
-    const double x = 0x1p-40 * (fabs(box->min.x) + fabs(box->max.x));
-    const double y = 0x1p-40 * (fabs(box->min.y) + fabs(box->max.y));
-    return (sl_box){{box->min.x - x, box->min.y - y}, {box->max.x + x, box->max.y + y}};
+/// Whether a region touches the track only at the apex, and there from between other walls: nobody
+/// who stands there sees both.
+static bool is_parted(const collector *c, const sli_track *track, const sli_span *span,
+                      uint32_t look) {
+    const sl_segment *line = &track->line;
+    return sli_spot_order(line, &span->to, &track->start) == 0 &&
+           !sli_ground_joins(c->ground, line->b, line->a, c->looks[look]->eye);
 }
 
 static sl_status list_events(collector *c, const sli_track *track, uint32_t mine) {
     c->events.count = 0;
     for (uint32_t j = 0; j < c->count; j++) {
-        const sl_box box = wider(&c->looks[j]->bounds);
-        if (j == mine || !boxes_meet(&box, track->line.b, track->far)) continue;
+        if (j == mine) continue;
         SL_TRY(sli_track_spans(c->context, track, c->looks[j], false, &c->spans));
         SL_TRY(SL_ARRAY_ROOM(c->context, &c->events, 2 * c->spans.count));
         for (size_t i = 0; i < c->spans.count; i++) {
+            if (is_parted(c, track, &c->spans.items[i], j)) continue;
             c->events.items[c->events.count++] = (event){c->spans.items[i].from, j, false};
             c->events.items[c->events.count++] = (event){c->spans.items[i].to, j, true};
         }
     }
     return SL_OK;
-}
-
-static double share_of(const sli_spot *spot) {
-    return spot->error < INFINITY ? spot->at : 1;
 }
 
 static sl_status walk_window(collector *c, uint32_t mine, uint32_t window) {
@@ -184,16 +178,16 @@ static sl_status walk_window(collector *c, uint32_t mine, uint32_t window) {
         const event *e = &c->events.items[i];
         if (!e->leaves) {
             enter(c, e->look);
-            place.from = share_of(&e->spot);
+            place.from = sli_spot_share(&e->spot);
             entered = true;
             continue;
         }
-        place.to = share_of(&e->spot);
+        place.to = sli_spot_share(&e->spot);
         if (entered) SL_TRY(emit(c, place));
         entered = false;
         leave(c, e->look);
     }
-    place.to = share_of(&track.end);
+    place.to = sli_spot_share(&track.end);
     return entered ? emit(c, place) : SL_OK;
 }
 
@@ -219,9 +213,11 @@ static sl_status collect(collector *c) {
     return SL_OK;
 }
 
-sl_status sli_place_columns_make(sl_context *context, const sli_look *const *looks, uint32_t count,
+sl_status sli_place_columns_make(sl_context *context, const sli_ground *ground,
+                                 const sli_look *const *looks, uint32_t count,
                                  sli_place_columns *out) {
-    collector c = {.context = context, .looks = looks, .count = count, .out = out};
+    collector c = {
+        .context = context, .ground = ground, .looks = looks, .count = count, .out = out};
     *out = (sli_place_columns){0};
     const sl_status status = collect(&c);
     sl_free(context, c.spans.items);
@@ -232,98 +228,5 @@ sl_status sli_place_columns_make(sl_context *context, const sli_look *const *loo
     sl_free(context, c.table);
     sl_free(context, c.sorted);
     if (status != SL_OK) sli_place_columns_destroy(context, out);
-    return status;
-}
-
-// --- gaps
-
-typedef struct gap_finder {
-    sl_context *context;
-    const sl_space *space;
-    const sli_look *const *looks;
-    uint32_t count;
-    sli_spans spans, one;
-    sli_window_parts *out;
-} gap_finder;
-
-static sl_status add_wall_spans(gap_finder *g, const sli_track *track) {
-    const sl_segment *line = &track->line;
-    for (uint32_t i = 0; i < g->space->wall_count; i++) {
-        const sl_wall *w = &g->space->walls[i];
-        if (sli_orient(line->a, line->b, w->a) || sli_orient(line->a, line->b, w->b)) continue;
-        const sli_spot a = sli_spot_of_point(line, w->a), b = sli_spot_of_point(line, w->b);
-        SL_TRY(SL_ARRAY_ROOM(g->context, &g->spans, 1));
-        g->spans.items[g->spans.count++] =
-            sli_spot_order(line, &a, &b) < 0 ? (sli_span){a, b} : (sli_span){b, a};
-    }
-    return SL_OK;
-}
-
-static void sort_spans(const sl_segment *line, sli_spans *spans) {
-    for (size_t i = 1; i < spans->count; i++) {
-        const sli_span span = spans->items[i];
-        size_t k = i;
-        for (; k && sli_spot_order(line, &spans->items[k - 1].from, &span.from) > 0; k--)
-            spans->items[k] = spans->items[k - 1];
-        spans->items[k] = span;
-    }
-}
-
-/// Lists what the spans leave of a track; with NULL only tells.
-static sl_status list_gaps(gap_finder *g, const sli_track *track, sli_window_part part, bool *any) {
-    const sl_segment *line = &track->line;
-    sli_spot reached = track->start;
-    sort_spans(line, &g->spans);
-    *any = false;
-    for (size_t i = 0; i <= g->spans.count; i++) {
-        const sli_spot *next = i < g->spans.count ? &g->spans.items[i].from : &track->end;
-        if (sli_spot_order(line, next, &track->end) > 0) next = &track->end;
-        if (sli_spot_order(line, next, &reached) > 0) {
-            *any = true;
-            if (part.look == UINT32_MAX) return SL_OK;
-            SL_TRY(SL_ARRAY_ROOM(g->context, g->out, 1));
-            part.from = share_of(&reached);
-            part.to = share_of(next);
-            g->out->items[g->out->count++] = part;
-        }
-        if (i < g->spans.count && sli_spot_order(line, &g->spans.items[i].to, &reached) > 0)
-            reached = g->spans.items[i].to;
-    }
-    return SL_OK;
-}
-
-static sl_status check_window(gap_finder *g, uint32_t mine, uint32_t window) {
-    const sli_track track = sli_track_of(g->looks[mine], window);
-    bool any;
-    g->spans.count = 0;
-    for (uint32_t j = 0; j < g->count; j++) {
-        const sl_box box = wider(&g->looks[j]->bounds);
-        if (j == mine || !boxes_meet(&box, track.line.b, track.far)) continue;
-        SL_TRY(sli_track_spans(g->context, &track, g->looks[j], true, &g->one));
-        SL_TRY(SL_ARRAY_ROOM(g->context, &g->spans, g->one.count));
-        for (size_t i = 0; i < g->one.count; i++)
-            g->spans.items[g->spans.count++] = g->one.items[i];
-    }
-    SL_TRY(list_gaps(g, &track, (sli_window_part){UINT32_MAX, 0, 0, 0}, &any));
-    if (!any) return SL_OK;
-    SL_TRY(add_wall_spans(g, &track));
-    return list_gaps(g, &track, (sli_window_part){mine, window, 0, 0}, &any);
-}
-
-static sl_status find_gaps(gap_finder *g) {
-    for (uint32_t i = 0; i < g->count; i++) {
-        SL_TRY(sl_check_cancelled(g->context));
-        for (uint32_t w = 0; w < g->looks[i]->window_count; w++) SL_TRY(check_window(g, i, w));
-    }
-    return SL_OK;
-}
-
-sl_status sli_gaps_find(sl_context *context, const sl_space *space, const sli_look *const *looks,
-                        uint32_t count, sli_window_parts *out) {
-    gap_finder g = {context, space, looks, count, {0}, {0}, out};
-    out->count = 0;
-    const sl_status status = find_gaps(&g);
-    sl_free(context, g.spans.items);
-    sl_free(context, g.one.items);
     return status;
 }

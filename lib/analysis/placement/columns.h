@@ -1,7 +1,8 @@
-/// Which sets of witnesses one place can see, and what a set of viewpoints leaves unseen.
+/// Which sets of witnesses one place can see.
 #ifndef SLI_PLACE_COLUMNS_H
 #define SLI_PLACE_COLUMNS_H
 
+#include "analysis/placement/ground.h"
 #include "analysis/placement/spans.h"
 
 /// Part of a window of a look: between two shares of the way (sli_spot.at), rounded. Or the eye of
@@ -15,24 +16,17 @@ typedef struct sli_window_part {
 
 /// Zeroed, it is empty.
 typedef struct sli_place_columns {
-    SL_ARRAY(size_t) ends; ///< by column: the number of entries up to its last one
-    SL_ARRAY(uint32_t) entries; ///< ascending
+    SL_ARRAY(size_t) ends;            ///< by column: the number of entries up to its last one
+    SL_ARRAY(uint32_t) entries;       ///< ascending
     SL_ARRAY(sli_window_part) places; ///< by column: its witnesses see this
 } sli_place_columns;
 
 void sli_place_columns_destroy(sl_context *context, sli_place_columns *columns); ///< and zeroes it
 
-/// All largest sets of general looks (sli_look.general) that have a point of the plane in common,
+/// All largest sets of general looks (sli_look.general) that some viewpoint is in the regions of,
 /// and perhaps others. Exact.
-sl_status sli_place_columns_make(sl_context *context, const sli_look *const *looks, uint32_t count,
-                           sli_place_columns *out);
-
-typedef SL_ARRAY(sli_window_part) sli_window_parts;
-
-/// The parts of windows beyond which nothing is seen by any look. If there are none, the looks see
-/// all of each part of the inside in which one of them stands. Parts that lie along a wall of the
-/// space are left out. Exact.
-sl_status sli_gaps_find(sl_context *context, const sl_space *space, const sli_look *const *looks,
-                        uint32_t count, sli_window_parts *out);
+sl_status sli_place_columns_make(sl_context *context, const sli_ground *ground,
+                                 const sli_look *const *looks, uint32_t count,
+                                 sli_place_columns *out);
 
 #endif

@@ -77,11 +77,12 @@ static bool add_window(const builder *b, size_t i) {
     const size_t next = around(b, i + 1), before = around(b, i + r->count - 1);
     const sl_point p = r->offsets[i], q = r->offsets[next];
     const bool outward = sli_dot(p, p) < sli_dot(q, q);
-    const size_t near = outward ? i : next, far = outward ? next : i, wall = outward ? next : before;
+    const size_t near = outward ? i : next, far = outward ? next : i,
+                 wall = outward ? next : before;
     if (!r->edges[near].exact || !is_wall(&r->edges[wall])) return false;
     if (r->edges[far].exact) b->look->general = false;
-    b->look->windows[b->look->window_count++] = (sli_window){
-        r->points[near], line_of(b->space, r, wall), r->points[far], outward ? 1 : -1};
+    b->look->windows[b->look->window_count++] =
+        (sli_window){r->points[near], line_of(b->space, r, wall), r->points[far], outward ? 1 : -1};
     return true;
 }
 

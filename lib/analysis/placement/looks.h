@@ -35,7 +35,7 @@ typedef struct sli_look {
     sl_box bounds; ///< of the region
     double area;   ///< of the region, rounded
     uint32_t front_count, window_count;
-    sli_front *fronts;  ///< counter-clockwise
+    sli_front *fronts; ///< counter-clockwise
     sli_window *windows;
     double *angles; ///< by front: that of its right ray, rounded, ascending (sli_look_angle)
     /// No line of sight touches two corners of walls and runs on behind them in only one direction

@@ -1,7 +1,7 @@
 /// Spans of windows that regions cover.
 ///
-/// An eye beside the line of the window sees it through its fronts. The two rays of a front meet the
-/// line in two spots, and between these the window is seen if it is before the front's wall:
+/// An eye beside the line of the window sees it through its fronts. The two rays of a front meet
+/// the line in two spots, and between these the window is seen if it is before the front's wall:
 ///
 ///        ------+===========+----------  wall of the front
 ///               \         /
@@ -10,8 +10,8 @@
 ///                  \   /                spot of the wall's line tells.
 ///                   eye
 ///
-/// An eye in line with the window looks along it. Then the front at either side of the line ends the
-/// span.
+/// An eye in line with the window looks along it. Then the front at either side of the line ends
+/// the span.
 #include "analysis/placement/spans.h"
 
 #include "geometry/crossing.h"
@@ -32,8 +32,8 @@ sli_spot sli_spot_of_line(const sl_segment *line, sl_segment other) {
     sli_spot spot = {other, 0, INFINITY};
     if (!(fabs(change) > 2 * both)) return spot;
     spot.at = from / change;
-    spot.error = 2 * (4 * from_error + fabs(spot.at) * both) / fabs(change) +
-                 8 * 0x1p-53 * fabs(spot.at);
+    spot.error =
+        2 * (4 * from_error + fabs(spot.at) * both) / fabs(change) + 8 * 0x1p-53 * fabs(spot.at);
     return spot;
 }
 
@@ -62,6 +62,10 @@ int sli_spot_order(const sl_segment *line, const sli_spot *a, const sli_spot *b)
     return sli_meet_order(*line, a->line, b->line);
 }
 
+double sli_spot_share(const sli_spot *spot) {
+    return spot->error < INFINITY ? spot->at : 1;
+}
+
 sli_track sli_track_of(const sli_look *look, uint32_t i) {
     const sli_window *w = &look->windows[i];
     sli_track track = {.line = {look->eye, w->apex}, .far = w->far, .seen = w->seen};
@@ -73,6 +77,12 @@ sli_track sli_track_of(const sli_look *look, uint32_t i) {
 sl_point sli_track_at(const sli_track *track, double share) {
     const sl_point a = track->line.a, b = track->line.b;
     return (sl_point){a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)};
+}
+
+sl_point sli_track_beside(const sli_track *t, double share, int side, double depth) {
+    const sl_point at = sli_track_at(t, share), a = t->line.a, b = t->line.b;
+    const double step = side * t->seen * depth / sli_length(b.x - a.x, b.y - a.y);
+    return (sl_point){at.x - step * (b.y - a.y), at.y + step * (b.x - a.x)};
 }
 
 typedef struct spanner {
@@ -231,7 +241,8 @@ static sl_status see_along(const spanner *s, const sli_front *f, int way) {
     const sl_point eye = s->look->eye, ahead = way > 0 ? line->b : line->a,
                    from = way > 0 ? line->a : line->b;
     // The ray that the direction is on, or that it is between.
-    const int right = sli_turn(eye, f->right, from, ahead), left = sli_turn(from, ahead, eye, f->left);
+    const int right = sli_turn(eye, f->right, from, ahead),
+              left = sli_turn(from, ahead, eye, f->left);
     const double right_along = sli_dot((sl_point){f->right.x - eye.x, f->right.y - eye.y},
                                        (sl_point){ahead.x - from.x, ahead.y - from.y});
     const double left_along = sli_dot((sl_point){f->left.x - eye.x, f->left.y - eye.y},
@@ -269,11 +280,21 @@ static void join(const spanner *s) {
     all->count = count;
 }
 
+/// Whether a track may reach into a region: by boxes, with a margin for what was rounded.
+static bool may_meet(const sli_track *track, const sl_box *box) {
+    const sl_point p = track->line.b, q = track->far;
+    const double x = 0x1p-40 * (fabs(box->min.x) + fabs(box->max.x));
+    const double y = 0x1p-40 * (fabs(box->min.y) + fabs(box->max.y));
+    return sli_lesser(p.x, q.x) <= box->max.x + x && sli_greater(p.x, q.x) >= box->min.x - x &&
+           sli_lesser(p.y, q.y) <= box->max.y + y && sli_greater(p.y, q.y) >= box->min.y - y;
+}
+
 sl_status sli_track_spans(sl_context *context, const sli_track *track, const sli_look *look,
                           bool beyond, sli_spans *out) {
     const spanner s = {context, track, look, beyond, out};
-    const int side = sli_orient(track->line.a, track->line.b, look->eye);
     out->count = 0;
+    if (!may_meet(track, &look->bounds)) return SL_OK;
+    const int side = sli_orient(track->line.a, track->line.b, look->eye);
     if (side == 0) {
         for (uint32_t i = 0; i < look->front_count; i++) {
             SL_TRY(see_along(&s, &look->fronts[i], 1));

@@ -34,8 +34,14 @@ sli_spot sli_spot_of_point(const sl_segment *line, sl_point point);
 sli_spot sli_spot_of_line(const sl_segment *line, sl_segment other);
 /// The sign of a - b. Exact.
 int sli_spot_order(const sl_segment *line, const sli_spot *a, const sli_spot *b);
+/// Its share, rounded.
+double sli_spot_share(const sli_spot *spot);
 /// The point at a share of the way from the eye to the apex, rounded.
 sl_point sli_track_at(const sli_track *track, double share);
+
+/// The point beside the track there, at a depth on the seen side (1) or the unseen one (-1),
+/// rounded.
+sl_point sli_track_beside(const sli_track *track, double share, int side, double depth);
 
 /// The parts of a track in the region of a look, ascending: they do not touch. `beyond`: those
 /// where, but for single points, what is just beyond the window (at its unseen side) is in the

@@ -16,7 +16,7 @@
 ///   proof says that fewer of these sets do not hold all witnesses. Exact.
 /// - `upper`: `viewpoints` see everything. Each point that is inside, or on the border of what is
 ///   inside, is in the visible region (region.h) of one of them. Exact, for the coordinates that
-///   the viewpoints have.
+///   the viewpoints have. Where `slivers` is not 0, this holds but for slivers.
 ///
 /// Sight is closed: it may graze walls. What is seen only in a single direction does not count for
 /// the upper bound. It has no area, so all around it is seen, by others, and then it is, too.
@@ -34,8 +34,8 @@ extern "C" {
 /// What to do, and how much of it. sl_place_options_default() has the usual values.
 typedef struct sl_place_options {
     const sl_cover_program *program; ///< for set covers; NULL: without a linear program
-    uint64_t rounds; ///< at most so many; 0 for no limit
-    uint64_t nodes;  ///< of the branching tree of each set cover, at most
+    uint64_t rounds;                 ///< at most so many; 0 for no limit
+    uint64_t nodes;                  ///< of the branching tree of each set cover, at most
 } sl_place_options;
 
 SL_API sl_place_options sl_place_options_default(void);
@@ -61,7 +61,11 @@ typedef struct sl_placement {
     sl_point *places;     ///< by column: a place that sees it, rounded
     sl_cover_proof proof; ///< of `lower`, for `columns`
     uint64_t rounds;
-    double unseen_area; ///< of what is inside: 0, unless the work was cancelled early
+    /// Parts of borders of visible regions beyond which something is unseen, but no point with
+    /// doubles as coordinates was found; 0: nothing is unseen, proven. Slivers remain where a
+    /// viewpoint must stand in line with walls, and the line has no such point.
+    uint64_t slivers;
+    double unseen_area; ///< of the slivers, rounded
 } sl_placement;
 
 /// Finds viewpoints for all that is inside of a query's space, with its doors as they are. They may
