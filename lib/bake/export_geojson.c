@@ -71,7 +71,7 @@ static void put_starts(sl_geojson_writer *out, const sl_map *map) {
 static sl_status put_all(sl_context *context, const sl_baked *baked, FILE *stream) {
     const sl_space *space = &baked->space;
     const sl_map *map = &baked->map;
-    sl_geojson_writer out = sl_geojson_begin(stream);
+    sl_geojson_writer out = sl_geojson_begin(stream, &map->earth);
     for (uint32_t i = 0; i < space->cell_count && !ferror(stream); i++) put_cell(&out, baked, i);
     SL_TRY(sl_check_cancelled(context));
     for (uint32_t i = 0; i < space->portal_count && !ferror(stream); i++)

@@ -14,6 +14,18 @@ typedef SL_ARRAY(char) characters;
 /// A device may never end: it would take all memory there is.
 static const uint64_t most_of_stream = (uint64_t)1 << 30;
 
+/// A folder is no file. One of LevelDB is what Foundry 11 and later keep packs and worlds in.
+static sl_status fail_folder(sl_context *context, const char *path) {
+    char current[1024];
+    const int length = snprintf(current, sizeof current, "%s/CURRENT", path);
+    const bool is_database =
+        length > 0 && (size_t)length < sizeof current && sl_path_look(current) == SL_PATH_FILE;
+    return sl_fail(context, SL_BAD_ARGUMENT, "%s: cannot read: %s%s", path, strerror(EISDIR),
+                   is_database ? ": a database of LevelDB; in Foundry, right-click the scene and "
+                                 "choose Export Data, or unpack the folder (fvtt package unpack)"
+                               : "");
+}
+
 static sl_status fail_size(sl_context *context, const char *path, uint64_t most) {
     return sl_fail(context, SL_BAD_INPUT, "%s: has more than the %llu MiB that can be read", path,
                    (unsigned long long)(most >> 20));
@@ -32,10 +44,9 @@ static sl_status read_to_end(sl_context *context, FILE *stream, const char *path
             clearerr(stream);
             continue;
         }
-        if (ferror(stream)) {
-            const sl_status status = errno == EISDIR ? SL_BAD_ARGUMENT : SL_IO;
-            return sl_fail(context, status, "%s: cannot read: %s", path, strerror(errno));
-        }
+        if (ferror(stream) && errno == EISDIR) return fail_folder(context, path);
+        if (ferror(stream))
+            return sl_fail(context, SL_IO, "%s: cannot read: %s", path, strerror(errno));
         if (data->count > most) return fail_size(context, path, most);
         if (got < more) break;
     }

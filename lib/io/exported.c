@@ -339,21 +339,8 @@ static sl_status read_object(export_reader *reader, const sli_json *object) {
 
 // --- all of it
 
-/// Files of that ending that no reader knows come here.
-static sl_status refuse_geojson(const sli_json *root) {
-    const char *type = sli_json_text_of(root, "type");
-    const char *const kinds[] = {"FeatureCollection", "Feature", "GeometryCollection"};
-    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
-        if (strcmp(type, kinds[i]) == 0)
-            return sl_fail_at(root->file->context, root->file->name, 1,
-                              "GeoJSON is no map to read; use map text, DXF or SVG, or the JSON "
-                              "export");
-    return SL_OK;
-}
-
 static sl_status check_version(const sli_json *root) {
     SL_TRY(sli_json_object(root));
-    SL_TRY(refuse_geojson(root));
     const sli_json format = sli_json_member(root, "format");
     const sli_json version = sli_json_member(root, "version");
     const char *name;

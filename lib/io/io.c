@@ -62,6 +62,12 @@ static bool knows_export(const char *text, size_t size) {
     return false;
 }
 
+static bool knows_geojson(const char *text, size_t size) {
+    (void)size;
+    return is_json_with(text, "\"FeatureCollection\"", "\"features\"") ||
+           is_json_with(text, "\"coordinates\"", "\"type\"");
+}
+
 static bool knows_foundry(const char *text, size_t size) {
     (void)size;
     return is_json_with(text, "\"c\"", "\"move\"") ||
@@ -75,10 +81,10 @@ static bool knows_wad(const char *text, size_t size) {
 /// What files with layers of our own hold (layers.h).
 #define KEEPS_LAYERS                                                                               \
     (SL_KEEPS_ALL & ~SL_KEEPS_NOTES & ~SL_KEEPS_COMMENTS & ~SL_KEEPS_UNIT & ~SL_KEEPS_ENTRANCE &   \
-     ~SL_KEEPS_LIMITED)
+     ~SL_KEEPS_LIMITED & ~SL_KEEPS_EARTH)
 
-/// Pairs of lines begin with a section, perhaps behind comments (999); or the file is a drawing of
-/// the same programs in binary, which the reader refuses with what to do.
+/// Pairs of lines begin with a section, perhaps behind comments (999); or the file is binary; or a
+/// DWG drawing of the same programs, which the reader refuses with what to do.
 static bool knows_dxf(const char *text, size_t size) {
     static const char binary[] = "AutoCAD Binary DXF";
     if (size >= 6 && memcmp(text, "AC10", 4) == 0) return true;
@@ -116,7 +122,7 @@ static const sl_map_format map_formats[] = {
      .endings = ".dxf",
      .what = "a DXF drawing",
      .read = sli_map_read_dxf,
-     .takes = SL_TAKES_LAYERS | SL_TAKES_TOLERANCE | SL_TAKES_UNIT,
+     .takes = SL_TAKES_LAYERS | SL_TAKES_TOLERANCE | SL_TAKES_UNIT | SL_TAKES_DOORS,
      .knows = knows_dxf,
      .write = sli_map_print_dxf,
      .keeps = (KEEPS_LAYERS & ~SL_KEEPS_RANGE & ~SL_KEEPS_CELLS) | SL_KEEPS_UNIT},
@@ -124,7 +130,7 @@ static const sl_map_format map_formats[] = {
      .endings = ".svg",
      .what = "an SVG drawing",
      .read = sli_map_read_svg,
-     .takes = SL_TAKES_LAYERS | SL_TAKES_TOLERANCE,
+     .takes = SL_TAKES_LAYERS | SL_TAKES_TOLERANCE | SL_TAKES_DOORS,
      .knows = knows_svg,
      .write = sli_map_print_svg,
      .keeps = KEEPS_LAYERS},
@@ -180,11 +186,25 @@ static const sl_map_format map_formats[] = {
      .endings = ".json",
      .what = "a scene of Foundry VTT",
      .read = sli_map_read_foundry,
-     .takes = SL_TAKES_DOORS | SL_TAKES_STARTS,
+     .takes = SL_TAKES_LAYERS | SL_TAKES_DOORS | SL_TAKES_STARTS,
+     .list = sli_map_list_foundry,
      .knows = knows_foundry,
      .write = sli_map_print_foundry,
      .keeps = SL_KEEPS_DOORS | SL_KEEPS_STARTS | SL_KEEPS_RANGE | SL_KEEPS_MIRRORS |
               SL_KEEPS_ONEWAYS | SL_KEEPS_SEAMS | SL_KEEPS_STOPS | SL_KEEPS_LIMITED},
+    {.name = "foundry_db",
+     .endings = ".db .ldb",
+     .what = "a database of Foundry VTT: its scenes",
+     .read = sli_map_read_foundry,
+     .takes = SL_TAKES_LAYERS | SL_TAKES_DOORS | SL_TAKES_STARTS,
+     .list = sli_map_list_foundry},
+    {.name = "geojson",
+     .endings = ".geojson .json",
+     .what = "GeoJSON: rooms, walls, openings",
+     .read = sli_map_read_geojson,
+     .takes = SL_TAKES_LAYERS | SL_TAKES_DOORS | SL_TAKES_DEGREES | SL_TAKES_PLANS,
+     .list = sli_map_list_geojson,
+     .knows = knows_geojson},
     {.name = "wad",
      .endings = ".wad",
      .what = "a Doom WAD, classic, Hexen's or UDMF",

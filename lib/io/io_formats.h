@@ -35,15 +35,18 @@ sl_status sli_map_heights_unigrafix(sl_context *context, const char *name, const
                                     size_t size, double *lowest, double *highest);
 
 /// The lines, polylines with bulges, arcs, circles, ellipses and plain splines (degree up to 3, no
-/// weights) of an ASCII DXF drawing, in blocks as inserted, on layers that are on and not frozen or
-/// on those asked for. Layers named "sightline-..." hold doors, solid ground and so on
-/// (lib/io/FORMATS.md). What was taken is noted. SL_BAD_ARGUMENT where a unit is asked for and
-/// there is none of that name, or the drawing does not name its own.
+/// weights) of a DXF drawing, text or binary, in blocks as inserted, on layers that are on and not
+/// frozen and mean walls, windows or doors (parts/contents.h), or on those asked for. Layers named
+/// "sightline-..." hold doors, solid ground and so on (lib/io/FORMATS.md). What was taken is noted.
+/// SL_BAD_ARGUMENT where a unit is asked for and there is none of that name, or the drawing does
+/// not name its own.
 sl_status sli_map_read_dxf(sl_context *context, const char *name, const char *text, size_t size,
                            const sl_import_options *options, sl_map *map);
 
 /// The outlines of an SVG drawing's shapes, in its user units, y turned up. Layers are groups by id
-/// or label, also those named "sightline-...". What was taken is noted.
+/// or label, taken by what they mean or as asked for; also those named "sightline-...". Shapes that
+/// are not seen are left out. What was
+/// taken is noted.
 sl_status sli_map_read_svg(sl_context *context, const char *name, const char *text, size_t size,
                            const sl_import_options *options, sl_map *map);
 
@@ -85,19 +88,34 @@ sl_status sli_map_read_ldtk(sl_context *context, const char *name, const char *t
 sl_status sli_map_list_ldtk(sl_context *context, const char *name, const char *text, size_t size,
                             sl_map_list *list);
 
-/// A Universal VTT file: walls and portals. Unit: squares of its grid. What was taken is noted.
+/// A Universal VTT file: walls, portals as doors, and the edge where they leave it open. Unit:
+/// squares of its grid. What was taken is noted.
 sl_status sli_map_read_uvtt(sl_context *context, const char *name, const char *text, size_t size,
                             const sl_import_options *options, sl_map *map);
 
-/// The walls of a scene of Foundry VTT: what stops sight, doors, one-way walls. Friendly tokens are
-/// starts, or those of options->start_names. Unit: pixels. What was taken is noted.
+/// The walls of a scene of Foundry VTT (options->map; else the first): what stops sight, doors,
+/// one-way walls, and the edge where they leave it open. Friendly tokens are starts, or those of
+/// options->start_names. Unit: pixels. What was taken is noted.
 sl_status sli_map_read_foundry(sl_context *context, const char *name, const char *text, size_t size,
                                const sl_import_options *options, sl_map *map);
+/// Its scenes that have walls: one, or those of an adventure or a database.
+sl_status sli_map_list_foundry(sl_context *context, const char *name, const char *text, size_t size,
+                               sl_map_list *list);
 
 /// The map in our own JSON export, version 1 or 2: walls, solid ground, doors, mirrors, one-way
 /// glass, seams, starts, paths, objects, range. SL_BAD_INPUT, naming the place, for other versions.
 sl_status sli_map_read_export(sl_context *context, const char *name, const char *text, size_t size,
                               const sl_import_options *options, sl_map *map);
+
+/// GeoJSON (RFC 7946): outlines of rooms and walls, openings cut out of them; or all lines as drawn
+/// (options->lines). Longitude and latitude are laid in a plane in metres (sl_map.earth). Levels
+/// are maps, by name; options->map NULL: all of them. What was taken is noted. SL_BAD_ARGUMENT
+/// where options->layers has a name that the file has not.
+sl_status sli_map_read_geojson(sl_context *context, const char *name, const char *text, size_t size,
+                               const sl_import_options *options, sl_map *map);
+/// Its levels, lowest first; none where features have none.
+sl_status sli_map_list_geojson(sl_context *context, const char *name, const char *text, size_t size,
+                               sl_map_list *list);
 
 /// Reads a map of a Doom WAD: lumps of Doom's or Hexen's records, or a TEXTMAP (UDMF). Lines with
 /// one side are walls; those with two are seen through, and so are doors, shut ones too: what a

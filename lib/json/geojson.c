@@ -1,17 +1,21 @@
 /// GeoJSON, feature by feature.
 ///
 /// A feature is a geometry and its properties. Rings of polygons are closed, outer rings go
-/// counter-clockwise, and holes clockwise (RFC 7946, 3.1.6). Coordinates are those of the map's
-/// plane, so a collection names no coordinate reference system.
+/// counter-clockwise, and holes clockwise (RFC 7946, 3.1.6). Places of a map on the earth are
+/// turned back into degrees. Those of any other map are in its plane, and "crs": null says so.
 #include "sightline/json.h"
 
 #include "geometry/orient.h"
 
 #include <math.h>
 
-sl_geojson_writer sl_geojson_begin(FILE *stream) {
-    fputs("{\"type\": \"FeatureCollection\", \"features\": [", stream);
-    return (sl_geojson_writer){.json = sl_json_writer_to(stream, 0), .stream = stream};
+sl_geojson_writer sl_geojson_begin(FILE *stream, const sl_earth *earth) {
+    const bool known = earth && earth->known;
+    fprintf(stream, "{\"type\": \"FeatureCollection\", %s\"features\": [",
+            known ? "" : "\"crs\": null, ");
+    return (sl_geojson_writer){.json = sl_json_writer_to(stream, 0),
+                               .stream = stream,
+                               .earth = known ? *earth : (sl_earth){0}};
 }
 
 void sl_geojson_end(sl_geojson_writer *out) {
@@ -61,6 +65,7 @@ void sl_geojson_end_feature(sl_geojson_writer *out) {
 }
 
 static void put_place(sl_geojson_writer *out, sl_point p) {
+    if (out->earth.known) p = sl_earth_of_map(&out->earth, p);
     sl_json_put_list(&out->json);
     sl_json_put_real(&out->json, p.x);
     sl_json_put_real(&out->json, p.y);

@@ -42,7 +42,7 @@ static const sl_map_format formats[] = {
      .read = read_plan,
      .write = sli_map_print_plan,
      .keeps = SL_KEEPS_ALL & ~SL_KEEPS_COMMENTS & ~SL_KEEPS_NOTES & ~SL_KEEPS_UNIT &
-              ~SL_KEEPS_ENTRANCE & ~SL_KEEPS_STOPS & ~SL_KEEPS_LIMITED},
+              ~SL_KEEPS_ENTRANCE & ~SL_KEEPS_STOPS & ~SL_KEEPS_LIMITED & ~SL_KEEPS_EARTH},
 };
 enum { FORMAT_COUNT = sizeof formats / sizeof *formats };
 
@@ -160,8 +160,12 @@ static sl_status check_options(sl_context *context, const char *path, const sl_m
         {"threshold", options->threshold != 0, format->takes & SL_TAKES_THRESHOLD},
         {"doors", options->doors, format->takes & SL_TAKES_DOORS},
         {"sectors", options->sectors, format->takes & SL_TAKES_SECTORS},
+        {"planar", options->planar, format->takes & SL_TAKES_DEGREES},
+        {"degrees", options->degrees, format->takes & SL_TAKES_DEGREES},
         {"subdivide given", options->cells, format->takes & SL_TAKES_CELLS},
     };
+    if (options->planar && options->degrees)
+        return sl_fail(context, SL_BAD_ARGUMENT, "--planar and --degrees: give one of them");
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
         if (all[i].given && !all[i].taken)
             return sl_fail(context, SL_BAD_ARGUMENT,
@@ -179,7 +183,8 @@ static sl_status read_format(sl_context *context, const char *path, const sl_map
     sl_status status = SL_OK;
     if (format->list) {
         status = format->list(context, path, text, size, &list);
-        if (status == SL_OK) status = choose_map(context, path, &list, &options);
+        if (status == SL_OK && (list.count || !(format->takes & SL_TAKES_PLANS)))
+            status = choose_map(context, path, &list, &options);
     }
     if (status == SL_OK) status = format->read(context, path, text, size, &options, map);
     sl_map_list_destroy(context, &list);
@@ -399,6 +404,10 @@ static void tell_left_out(sl_context *context, const sl_map *map, const sl_map_f
                 format->what);
     if (!(format->keeps & SL_KEEPS_UNIT) && sli_unit_metres(map->unit) > 0)
         sl_note(context, "%s: %s has no place for the unit, which is left out", path, format->what);
+    if (!(format->keeps & SL_KEEPS_EARTH) && map->earth.known)
+        sl_note(context,
+                "%s: %s has no place for where the map lies on the earth, which is left out", path,
+                format->what);
     if (!(format->keeps & SL_KEEPS_ENTRANCE) && map->entrance > 0)
         sl_note(context, "%s: %s has no place for the width of entrances, which is left out", path,
                 format->what);

@@ -348,6 +348,8 @@ sl_status sl_map_copy(sl_context *context, const sl_map *from, sl_map *to) {
                   .range = from->range,
                   .range_line = from->range_line,
                   .unit_line = from->unit_line,
+                  .earth = from->earth,
+                  .earth_line = from->earth_line,
                   .entrance = from->entrance,
                   .entrance_line = from->entrance_line,
                   .ground_guessed = from->ground_guessed};

@@ -155,6 +155,25 @@ static sl_status read_unit(text_reader *reader) {
     return SL_OK;
 }
 
+/// Two angles, not coordinates.
+static sl_status read_earth(text_reader *reader) {
+    double degrees[2];
+    if (reader->map->earth.known)
+        return sl_fail_at(reader->context, reader->name, reader->line, "a second earth");
+    for (int i = 0; i < 2; i++) {
+        const sli_word word = reader->words.items[i];
+        if (!sl_number_read(word.at, word.length, &degrees[i]) ||
+            !(fabs(degrees[i]) <= (i ? 90 : 180)))
+            return sl_fail_at(reader->context, reader->name, reader->line,
+                              "earth: expected a longitude up to 180 and a latitude up to 90 "
+                              "degrees, found '%s'",
+                              sli_show(word).text);
+    }
+    reader->map->earth = (sl_earth){true, degrees[0], degrees[1]};
+    reader->map->earth_line = reader->line;
+    return SL_OK;
+}
+
 static sl_status read_snap(text_reader *reader) {
     if (reader->map->snap > 0)
         return sl_fail_at(reader->context, reader->name, reader->line,
@@ -261,6 +280,7 @@ static const statement statements[] = {
     {"range", "range r", false, 1, 1, 1, read_range},
     {"entrance", "entrance w", false, 1, 1, 1, read_entrance},
     {"unit", "unit NAME", false, 1, 2, 0, read_unit},
+    {"earth", "earth LONGITUDE LATITUDE", false, 2, 2, 0, read_earth},
     {"start", "start x y heading", false, 3, 3, 2, read_start},
     {"path", "path NAME x y ...", true, 2, ANY, ANY, read_path},
     {"object", "object NAME x0 y0 x1 y1", true, 4, 4, 4, read_object},
@@ -364,7 +384,8 @@ static sl_status read_statement(text_reader *reader) {
         return sl_fail_at(
             reader->context, reader->name, reader->line,
             "unknown statement '%s': expected wall, walls, solid, open, door, mirror, "
-            "oneway, seam, range, entrance, unit, start, path, object, cell, snap or precision",
+            "oneway, seam, range, entrance, unit, earth, start, path, object, cell, snap or "
+            "precision",
             sli_show(word).text);
     memmove(reader->words.items, reader->words.items + 1, --reader->words.count * sizeof(sli_word));
     const sl_status status = read_by(reader, row);
@@ -373,20 +394,11 @@ static sl_status read_statement(text_reader *reader) {
     return status;
 }
 
-static bool is_geojson(const char *name) {
-    static const char ending[] = ".geojson";
-    const size_t length = strlen(name);
-    return length >= sizeof ending - 1 && strcmp(name + length - (sizeof ending - 1), ending) == 0;
-}
-
 static sl_status read_first(text_reader *reader) {
     const sli_word *words = reader->words.items;
     if (words[0].at[0] == '{')
         return sl_fail_at(reader->context, reader->name, reader->line,
-                          "expected 'sightline 1' as the first statement, found JSON%s",
-                          is_geojson(reader->name) ? ": GeoJSON is no map to read; use map text, "
-                                                     "DXF or SVG, or the JSON export"
-                                                   : "");
+                          "expected 'sightline 1' as the first statement, found JSON");
     if (!sli_word_is(words[0], "sightline"))
         return sl_fail_at(reader->context, reader->name, reader->line,
                           "expected 'sightline 1' as the first statement, found '%s'",
@@ -737,6 +749,12 @@ static sl_status print_map(text_writer *writer) {
         begin_statement(writer, map->unit_line, "unit ");
         fputs(map->unit, writer->stream);
         end_statement(writer, map->unit_line);
+    }
+    if (map->earth.known) {
+        begin_statement(writer, map->earth_line, "earth");
+        print_number(writer->stream, map->earth.longitude);
+        print_number(writer->stream, map->earth.latitude);
+        end_statement(writer, map->earth_line);
     }
     if (map->entrance > 0) {
         begin_statement(writer, map->entrance_line, "entrance");

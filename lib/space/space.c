@@ -32,7 +32,7 @@ void sl_space_destroy(sl_context *context, sl_space *space) {
 }
 
 sl_status sli_check_has_walls(sl_context *context, const sl_map *map) {
-    if (map->wall_count) return SL_OK;
+    if (map->wall_count || map->oneway_count) return SL_OK;
     for (size_t i = 0; i < map->seam_count; i++)
         if (map->seams[i].stops & sl_map_channel(map)) return SL_OK;
     char stops[SL_STOPS_TEXT];

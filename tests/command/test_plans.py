@@ -233,7 +233,7 @@ class Drawings(Plans):
                 self.assertIn("-: 6 entities", self.run_well("info", "-", *LAYERS, stdin=stream).stderr)
         for name, text in (("plan.dwg", "AC1027"), ("plan", "AC1032....")):
             self.write(name, text)
-            self.assertIn(f"{name}: a DWG drawing: save it as ASCII DXF in the program that it is from",
+            self.assertIn(f"{name}: a DWG drawing: save it as DXF in the program that it is from",
                           self.refused("bake", name, "-o", "a.slv"))
         self.write("map.pgm", "P2 3 1 255 0 205 254")
         for end in "\n\r":

@@ -44,7 +44,7 @@ ALONE = {"runtime"}
 SHARED = ("runtime/parts/box_envelope.h", "runtime/parts/box_sector.h",
           "runtime/parts/box_sieve.h", "runtime/parts/pairs.h")
 # Public headers that are not named after their folder.
-HEADERS = {"context": "base", "measures": "base", "support": "base", "version": "base",
+HEADERS = {"context": "base", "earth": "geometry", "measures": "base", "support": "base", "version": "base",
            "import": "map",
            "faults": "space/faults", "outline": "space",
            "dual": "stab", "glpk": "stab", "solvers": "stab",

@@ -21,6 +21,33 @@ static inline void assert_walls_of(import_reader *read, const sl_import_options 
     sl_context_destroy(context);
 }
 
+static inline void import_keep_notes(void *user, const char *message) {
+    char *notes = user;
+    const size_t used = strlen(notes);
+    snprintf(notes + used, 4096 - used, "%s\n", message);
+}
+
+/// The text's walls are those of the map text, and what is said of it has this in it; "" for
+/// nothing that was passed over.
+static inline void assert_noted_of(import_reader *read, const sl_import_options *options,
+                                   const char *input, size_t size, const char *expected,
+                                   const char *note) {
+    char notes[4096] = "";
+    const sl_hooks hooks = {.user = notes, .note = import_keep_notes};
+    sl_context *context = sl_context_create(&hooks);
+    const sl_import_options usual = sl_import_options_default();
+    sl_map map = {0};
+    assert_non_null(context);
+    assert_ok(context, read(context, "f", input, size, options ? options : &usual, &map));
+    char *text = map_walls_text(&map);
+    assert_string_equal(text + strlen("sightline 1\n"), expected);
+    if (*note ? !strstr(notes, note) : strstr(notes, "passed over") != NULL)
+        fail_msg("'%s' is not in '%s'", note, notes);
+    free(text);
+    sl_map_destroy(context, &map);
+    sl_context_destroy(context);
+}
+
 /// The map that the text gives is in this unit, also when it is copied and clean.
 static inline void assert_unit_of(import_reader *read, const sl_import_options *options,
                                   const char *input, const char *unit) {

@@ -8,11 +8,12 @@ static char *written(void (*put)(sl_geojson_writer *out)) {
     size_t size = 0;
     FILE *stream = open_memstream(&text, &size);
     assert_non_null(stream);
-    sl_geojson_writer out = sl_geojson_begin(stream);
+    sl_geojson_writer out = sl_geojson_begin(stream, NULL);
     put(&out);
     sl_geojson_end(&out);
     assert_int_equal(fclose(stream), 0);
-    const char lead[] = "{\"type\": \"FeatureCollection\", \"features\": [", tail[] = "]}\n";
+    const char lead[] = "{\"type\": \"FeatureCollection\", \"crs\": null, \"features\": [",
+               tail[] = "]}\n";
     assert_memory_equal(text, lead, strlen(lead));
     assert_string_equal(text + size - strlen(tail), tail);
     text[size - strlen(tail)] = '\0';

@@ -5,6 +5,7 @@
 #include "io/io_formats.h"
 #include "sightline/io.h"
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #define GRID(name, cells, more)                                                                    \
@@ -49,6 +50,81 @@ static void test_values(void **state) {
     assert_walls(LEVEL("A", "5", "5", GRID("Any", "0,1,2,0,0,0", "")), NULL, NULL, TWO_TILES);
 }
 
+#define NAMED(name, cells, values)                                                                 \
+    PROJECT(", \"defs\": {\"layers\": [{\"uid\": 7, \"intGridValues\": [" values "]}]}",           \
+            LEVEL("A", "0", "0", GRID(name, cells, "")))
+#define VALUE(number, name) "{\"value\": " number ", \"identifier\": \"" name "\"}"
+
+/// Values by what their names mean: walls and rock are solid, ladders and doors are passed, water
+/// stops steps alone. Ground is solid in a platformer.
+static void test_values_by_meaning(void **state) {
+    (void)state;
+#define WATER TWO_TILES "wall 0 8 8 8 stops steps\nwall 8 8 8 0 stops steps\n"
+    assert_walls(NAMED("Any", "3,1,1,2,3,3",
+                       VALUE("1", "Wall") "," VALUE("2", "water") "," VALUE("3", "grass")),
+                 NULL, NULL, WATER);
+    assert_walls(NAMED("Any", "3,1,4,2,3,3",
+                       VALUE("1", "brick_wall") "," VALUE("2", "Lava") "," VALUE(
+                           "3", "Floor") "," VALUE("4", "rock")),
+                 NULL, NULL, WATER);
+    // Most squares are empty: earth is what one stands on.
+    assert_walls(NAMED("Any", "0,1,3,2,0,0",
+                       VALUE("1", "dirt") "," VALUE("2", "ladder") "," VALUE("3", "stone")),
+                 NULL, NULL, TWO_TILES);
+    // None is empty: grass is open.
+    assert_walls(NAMED("Any", "1,3,3,1,1,2",
+                       VALUE("1", "grass") "," VALUE("2", "path") "," VALUE("3", "cliff")),
+                 NULL, NULL, TWO_TILES);
+    // The layer says that its values are solid, but for what one passes.
+    assert_walls(NAMED("Collisions", "0,1,1,2,0,0", VALUE("1", "ground") "," VALUE("2", "Ladder")),
+                 NULL, NULL, TWO_TILES);
+    assert_walls(NAMED("Any", "2,1,3,2,2,2",
+                       VALUE("1", "Wall") "," VALUE("2", "dirt") "," VALUE("3", "water")),
+                 NULL, "Any:1+3", TWO_TILES);
+    assert_refused(NAMED("Any", "0,1,1,1,1,1", VALUE("1", "grass")),
+                   "f: the values grass (1) may be walls or open ground; --layers Any:1+3-5 takes");
+    assert_no_such(NAMED("Any", "0,1,1,1,1,1", ""), NULL, "Any:x",
+                   "f: layer 'Any:x': expected values such as 1+3-5");
+}
+
+#define TILE(px, id) "{\"px\": [" px "], \"t\": " id "}"
+#define OF_TILES(name, tilesets)                                                                   \
+    PROJECT(", \"defs\": {\"layers\": [], \"tilesets\": [{\"uid\": 3" tilesets "}]}",              \
+            LEVEL("A", "0", "0",                                                                   \
+                  "{\"__identifier\": \"" name                                                     \
+                  "\", \"__type\": \"Tiles\", \"__cWid\": 3, \"__cHei\": "                         \
+                  "2, \"__gridSize\": 8, \"__tilesetDefUid\": 3, \"gridTiles\": [" TILE(           \
+                      "8, 0", "5") "," TILE("16, 0",                                               \
+                                            "6") "," TILE("99, 0",                                 \
+                                                          "5") "," TILE("-8, 0",                   \
+                                                                        "5") "," TILE("0, 8",      \
+                                                                                      "7") "]}"))
+
+/// Where a level has no cells its tiles do, by their layer's name or their tileset.
+static void test_tiles(void **state) {
+    (void)state;
+    assert_walls(OF_TILES("Any",
+                          ", \"enumTags\": [{\"enumValueId\": \"Wall\", \"tileIds\": [5, 6]}, "
+                          "{\"enumValueId\": \"Floor\", \"tileIds\": [7]}]"),
+                 NULL, NULL, TWO_TILES);
+    assert_walls(OF_TILES("Any",
+                          ", \"customData\": [{\"tileId\": 5, \"data\": \"solid\"}, {\"tileId\": "
+                          "6, \"data\": \"{\\\"collides\\\": true}\"}, {\"tileId\": 7, \"data\": "
+                          "\"solid: false\"}]"),
+                 NULL, NULL, TWO_TILES);
+    assert_walls(OF_TILES("Any",
+                          ", \"enumTags\": [{\"enumValueId\": \"Solid\", \"tileIds\": [5, 6]}, "
+                          "{\"enumValueId\": \"Water\", \"tileIds\": [7]}]"),
+                 NULL, NULL, WATER);
+    static const char three[] = "wall 0 16 8 16\nwall 0 8 8 8\nwall 8 8 24 8\nwall 0 8 0 16\n"
+                                "wall 8 8 8 16\nwall 8 0 24 0\nwall 8 0 8 8\nwall 24 0 24 8\n";
+    assert_walls(OF_TILES("Walls", ""), NULL, NULL, three);
+    assert_walls(OF_TILES("Any", ""), NULL, "Any", three);
+    assert_refused(OF_TILES("Any", ""), "f: level A has no IntGrid layer, and no layer of tiles");
+    assert_no_such(OF_TILES("Any", ""), NULL, "Other",
+                   "f: there is no layer 'Other' in the level; it has Any");
+}
+
 static void test_layers(void **state) {
     (void)state;
 #define LAYERS                                                                                     \
@@ -58,7 +134,8 @@ static void test_layers(void **state) {
                                "\"__identifier\": \"Walls_2\", \"entityInstances\": [{}]}," GRID(  \
                                    "Collisions", "0,1,0,0,0,0", "") "," GRID("Walls",              \
                                                                              "0,0,1,0,0,0", "")))
-    assert_walls(LAYERS, NULL, NULL, TWO_TILES);
+    // Water beside walls stops steps.
+    assert_walls(LAYERS, NULL, NULL, TWO_TILES "wall 16 8 16 0 stops steps\n");
     assert_walls(LAYERS, NULL, "Walls,Collisions", TWO_TILES);
     assert_walls(LAYERS, NULL, "Water",
                  "wall 16 8 24 8\nwall 16 0 24 0\nwall 16 0 16 8\nwall 24 0 24 8\n");
@@ -194,6 +271,34 @@ static void test_refused(void **state) {
                    "f: it names the file no/such.ldtkl: ");
 }
 
+/// A level's file finds its project by the name of its folder.
+static void test_project_of_a_level(void **state) {
+    (void)state;
+    char top[] = "/tmp/sightline-ldtk-XXXXXX", folder[64], project[64], level[96];
+    assert_non_null(mkdtemp(top));
+    snprintf(folder, sizeof folder, "%s/p", top);
+    snprintf(project, sizeof project, "%s/p.ldtk", top);
+    snprintf(level, sizeof level, "%s/A.ldtkl", folder);
+    assert_int_equal(mkdir(folder, 0700), 0);
+    import_write_file(project, PROJECT(VALUES, ""));
+    import_write_file(level, LEVEL("A", "0", "0", GRID("Any", "2,1,3,0,0,2", "")));
+    testing_memory memory = {0};
+    sl_context *context = testing_context(&memory);
+    sl_map map = {0};
+    assert_ok(context, sl_io_use(context));
+    assert_ok(context, sl_map_read(context, level, NULL, &map));
+    char *text = map_walls_text(&map);
+    assert_string_equal(text + strlen("sightline 1\n"), TWO_TILES);
+    free(text);
+    sl_map_destroy(context, &map);
+    import_write_file(project, "{");
+    assert_int_equal(sl_map_read(context, level, NULL, &map), SL_BAD_INPUT);
+    assert_non_null(strstr(sl_context_message(context), "p.ldtk:1: column "));
+    sl_context_destroy(context);
+    assert_int_equal(memory.live, 0);
+    assert_int_equal(remove(project) | remove(level) | rmdir(folder) | rmdir(top), 0);
+}
+
 static void test_separate_levels(void **state) {
     (void)state;
     char folder[] = "/tmp/sightline-ldtk-XXXXXX", project[64], level[64];
@@ -226,12 +331,27 @@ static void test_separate_levels(void **state) {
     assert_int_equal(remove(project) | remove(level) | rmdir(folder), 0);
 }
 
+static void test_memory(void **state) {
+    (void)state;
+    assert_memory_of(sli_map_read_ldtk, NULL,
+                     NAMED("Any", "3,1,1,2,3,3", VALUE("1", "Wall") "," VALUE("2", "water")));
+    assert_memory_of(sli_map_read_ldtk, NULL, OF_TILES("Walls", ""));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_values),         cmocka_unit_test(test_layers),
-        cmocka_unit_test(test_levels),         cmocka_unit_test(test_layouts),
-        cmocka_unit_test(test_several_worlds), cmocka_unit_test(test_list),
-        cmocka_unit_test(test_refused),        cmocka_unit_test(test_separate_levels),
+        cmocka_unit_test(test_values_by_meaning),
+        cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_tiles),
+        cmocka_unit_test(test_project_of_a_level),
+        cmocka_unit_test(test_values),
+        cmocka_unit_test(test_layers),
+        cmocka_unit_test(test_levels),
+        cmocka_unit_test(test_layouts),
+        cmocka_unit_test(test_several_worlds),
+        cmocka_unit_test(test_list),
+        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_separate_levels),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

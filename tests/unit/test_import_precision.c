@@ -121,8 +121,9 @@ static const struct format {
 } formats[] = {
     {sli_map_read_dxf, write_dxf, "0\nSECTION\n2\nENTITIES\n", "0\nENDSEC\n0\nEOF\n"},
     {sli_map_read_svg, write_svg, "<svg>\n", "</svg>\n"},
+    // Without a width it has no edge.
     {sli_map_read_uvtt, write_uvtt,
-     "{\"format\":0.3,\"resolution\":{\"map_size\":{\"x\":64,\"y\":64}},\"line_of_sight\":[", "]}"},
+     "{\"format\":0.3,\"resolution\":{\"map_size\":{\"x\":0,\"y\":64}},\"line_of_sight\":[", "]}"},
     {sli_map_read_foundry, write_foundry, "[", "]"},
 };
 enum { FORMATS = sizeof formats / sizeof *formats };

@@ -155,7 +155,8 @@ static void test_style_sheets(void **state) {
     assert_hidden(
         true, "@font-face { font-family: x } @media print { a { b: c } } .no{display:none}", "");
     assert_hidden(false, ".n, .nob, rect, #o .outer line, line g {display:none}", "");
-    assert_hidden(false, ".no {stroke:none; fill:none; display:inline; visibility:visible}", "");
+    assert_hidden(false, ".no {stroke:none; display:inline; visibility:visible}", "");
+    assert_hidden(true, ".no {stroke:none; fill:none}", "");
     assert_hidden(false, "@media print { .no { display: none } }", "");
     assert_hidden(false, ".no { -x-display: none; display: none-such }", "");
     assert_hidden(false, ".no { display: none", "style='display: inline'");
@@ -185,19 +186,6 @@ static void test_refused(void **state) {
     assert_refused("<svg>", "f:1: XML: ");
     assert_refused("<svg>\n<line x1='1'</svg>", "f:2: XML: ");
     assert_refused("<html/>", "f:1: expected an svg element, found 'html'");
-    assert_refused(SVG("\n<line x1='one'/>"), "f:3: x1: expected a number, found 'one'");
-    assert_refused(SVG("<line x2='1em'/>"), "f:2: x2: the unit 'em' is not known");
-    assert_refused(SVG("<line x2='1e200' y2='1'/>"), "f:2: a coordinate is out of range");
-    assert_refused(SVG("<line x2='1e999' y2='1'/>"), "f:2: x2: expected a number");
-    assert_refused(PATH("L1 1"), "f:2: path data: expected an M to start with, found 'L1 1'");
-    assert_refused(PATH("M1 1 2"), "f:2: path data: expected a number, found the end");
-    assert_refused(PATH("M1 1k2"), "f:2: path data: expected one of MZLHVCSQTA, found 'k2'");
-    assert_refused(PATH("M1 1z2"), "f:2: path data: expected a command, found '2'");
-    assert_refused(PATH("M1 1A1 1 0 2 0 3 3"), "f:2: path data: expected a flag, 0 or 1");
-    assert_refused(SVG("<polyline points='1 2 3'/>"), "f:2: points: expected a number");
-    assert_refused(SHIFTED("turn(3)"), "f:2: transform: there is no 'turn' of 1 numbers");
-    assert_refused(SHIFTED("scale 3"), "f:2: transform: expected '('");
-    assert_refused(SVG("<use href='#x'/>"), "f:2: use: there is no element '#x'");
     assert_refused(SVG("<g id='a'><use href='#a'/></g>"),
                    "f:2: use: element 'a' holds a use of itself");
     assert_refused("<svg viewBox='0 0 0 1'/>", "f:1: viewBox: its width and height");

@@ -6,8 +6,6 @@
 #include "io/io_formats.h"
 #include "sightline/io.h"
 
-static const sl_import_options with_doors = {.doors = true};
-
 // --- Universal VTT
 
 #define POINT(x, y) "{\"x\": " x ", \"y\": " y "}"
@@ -21,6 +19,9 @@ static const sl_import_options with_doors = {.doors = true};
         "") "]"
 #define UVTT(body) "{" SIZE body "}"
 
+/// All but the scene's edge.
+static const sl_import_options no_edge = {.layers = "line_of_sight,objects_line_of_sight,portals"};
+
 static void assert_uvtt(const sl_import_options *options, const char *text, const char *expected) {
     assert_walls_of(sli_map_read_uvtt, options, text, strlen(text), expected);
 }
@@ -31,10 +32,9 @@ static void assert_uvtt_refused(const char *text, const char *message) {
 
 static void test_uvtt(void **state) {
     (void)state;
-    assert_uvtt(NULL, UVTT(LINES), "wall 0 10 0 6\n");
-    assert_uvtt(NULL, UVTT(LINES "," OBJECTS "," PORTALS),
-                "wall 0 10 0 6\nwall 1 9 2.5 7\nwall 0 6 0 5\nwall 0 6 0 5\n");
-    assert_uvtt(&with_doors, UVTT(LINES "," PORTALS),
+    assert_uvtt(&no_edge, UVTT(LINES), "wall 0 10 0 6\n");
+    assert_uvtt(&no_edge, UVTT(LINES "," OBJECTS), "wall 0 10 0 6\nwall 1 9 2.5 7\n");
+    assert_uvtt(&no_edge, UVTT(LINES "," PORTALS),
                 "wall 0 10 0 6\ndoor door1 0 6 0 5 shut\ndoor door2 0 6 0 5 open\ndoor door3 0 6 0 "
                 "5 shut\n");
     const sl_import_options objects = {.layers = "objects_line_of_sight"};
@@ -118,15 +118,19 @@ static void test_foundry_stops(void **state) {
         {"\"sight\": 10", " stops steps,sound,limited"},
         {"\"sense\": 2", " stops steps,sound,limited"},
         {"\"sight\": 10, \"sound\": 0, \"dir\": 1", " stops steps"},
-        {"\"sight\": 10, \"door\": 1, \"ds\": 0", " stops steps,sound,limited"},
+        // Doors that are seen through are open to steps, and open ones are nothing.
+        {"\"sight\": 10, \"door\": 1, \"ds\": 0", " stops sound,limited"},
         {"\"sight\": 10, \"door\": 1, \"ds\": 1", NULL},
         // By distance: open.
         {"\"sight\": 30, \"sound\": 40", " stops steps"},
         {"\"sight\": 40, \"sound\": 0", " stops steps"},
-        // Doors that are seen through are walls while they are shut.
-        {"\"sight\": 0, \"door\": 1, \"ds\": 0", " stops steps,sound"},
+        {"\"sight\": 0, \"door\": 1, \"ds\": 0", " stops sound"},
+        {"\"sight\": 0, \"sound\": 0, \"door\": 1, \"ds\": 0", NULL},
         {"\"sight\": 0, \"door\": 1, \"ds\": 1", NULL},
         {"\"sight\": 0, \"dir\": 1", " stops steps,sound"},
+        // What no version has: open to sight and sound, and shut to steps.
+        {"\"sight\": 50, \"sound\": 3, \"move\": 7", " stops steps"},
+        {"\"sight\": -1, \"move\": 0", " stops sound"},
     };
     for (size_t i = 0; i < sizeof walls / sizeof *walls; i++) {
         char text[256], expected[128] = BASE_WALL;
@@ -146,29 +150,22 @@ static void test_foundry_sides(void **state) {
                    BASE_WALL "oneway 3 8 1 8\n");
 }
 
+#define DOOR_AT(c, more) WALL(c, ", \"door\": 1" more)
+#define DOORS                                                                                       \
+    SCENE(                                                                                          \
+        BASE                                                                                        \
+        "," DOOR_AT("1, 2, 3, 2", ", \"ds\": 0") "," DOOR_AT("3, 2, 5, 2", ", \"ds\": 1") "," WALL( \
+            "5, 2, 7, 2",                                                                           \
+            ", \"door\": 2, \"ds\": 2") "," DOOR_AT("7, 2, 9, 2",                                   \
+                                                    ", \"dir\": 1") "," DOOR_AT("7, 2, 9, 2",       \
+                                                                                ", \"sight\": 0"))
+
+/// Shut, open, locked and secret, on one side, and one that is seen through.
 static void test_foundry_doors(void **state) {
     (void)state;
-#define DOORS                                                                                      \
-    SCENE(BASE "," WALL("1, 2, 3, 2", ", \"door\": 1, \"ds\": 0") "," WALL(                        \
-        "3, 2, 5, 2",                                                                              \
-        ", \"door\": "                                                                             \
-        "1, \"ds\": "                                                                              \
-        "1") "," WALL("5, 2, 7, 2",                                                                \
-                      ", \"door\": 2, \"ds\": 2") "," WALL("7, 2, 9, 2",                           \
-                                                           ", \"door\": 1, "                       \
-                                                           "\"dir\": 1") "," WALL("7, 2, "         \
-                                                                                  "9, 2",          \
-                                                                                  ", "             \
-                                                                                  "\"door"         \
-                                                                                  "\": 1, "        \
-                                                                                  "\"sight"        \
-                                                                                  "\": 0"))
     assert_foundry(NULL, DOORS,
                    BASE_WALL
-                   "wall 1 8 3 8\nwall 5 8 7 8\nwall 7 8 9 8 stops steps,sound\noneway 7 8 9 8\n");
-    assert_foundry(&with_doors, DOORS,
-                   BASE_WALL
-                   "wall 7 8 9 8 stops steps,sound\n"
+                   "wall 7 8 9 8 stops sound\n"
                    "door door1 1 8 3 8 shut\ndoor door2 3 8 5 8 open\ndoor door3 5 8 7 8 shut\n"
                    "door door4 7 8 9 8 shut\n");
 }
@@ -184,8 +181,10 @@ static void test_foundry_refused(void **state) {
                            "f: walls[0].c[3]: expected a number, found nothing");
     assert_foundry_refused(SCENE(WALL("1, 2, 3, 1e308", "")),
                            "f: walls[0].c[3]: 1e+308 is out of range");
-    assert_foundry_refused(SCENE(WALL("1, 2, 3, 4", ", \"sight\": 50")),
-                           "f: walls[0].sight: 50 is out of range");
+    assert_foundry_refused(SCENE(WALL("1, 2, 3, 4", ", \"sight\": \"20\"")),
+                           "f: walls[0].sight: expected a whole number, found '20'");
+    assert_foundry_refused(SCENE(WALL("1, 2, 3, 4", ", \"move\": 1.5")),
+                           "f: walls[0].move: expected a whole number, found 1.5");
     assert_foundry_refused(SCENE(WALL("1, 2, 3, 4", ", \"dir\": 3")),
                            "f: walls[0].dir: 3 is out of range");
     assert_foundry_refused(SCENE(WALL("1, 2, 3, 4", ", \"door\": true")),

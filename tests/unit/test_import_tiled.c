@@ -471,7 +471,7 @@ static void test_few_walls_of_diamonds(void **state) {
                              "1,1,1,1,1,0,0,1,1,1,1,1") "</layer>"),
                  "wall 24 20 40 12\nwall 16 16 24 20\nwall 16 16 32 8\nwall 32 8 40 12\n");
     assert_reads(LATTICE(STAGGERED("y"), THREE_BY_THREE,
-                         LATTICE_SET "<layer name='a' " THREE_BY_THREE
+                         LATTICE_SET "<layer name='floor' " THREE_BY_THREE
                                      ">" CSV("0,0,0,0,2,0,0,2,0") "</layer>"),
                  "wall 32 12 40 8\nwall 16 4 24 0\nwall 16 4 32 12\nwall 24 0 40 8\n");
 }
@@ -584,22 +584,6 @@ static void test_tile_shapes_on_lattices(void **state) {
         sl_map_destroy(context, &map);
         sl_context_destroy(context);
     }
-}
-
-static void test_guess(void **state) {
-    (void)state;
-    // Nothing says what is solid: the empty squares of the lowest layer, else its most frequent
-    // tile.
-    assert_walls(MAP(SET LAYER("a", CSV("3,0,0,4,4,5")) LAYER("b", CSV("3,9,0,4,0,0"))), TWO_TILES);
-    assert_walls(MAP(SET LAYER("a", CSV("2,1,1,3,4,5"))), TWO_TILES);
-    assert_refused(MAP(SET LAYER("a", CSV("1,1,1,1,1,1")) "<group name='g'><objectgroup name='b'/>"
-                                                          "</group>"),
-                   "f:1: nothing in it says what is solid; --layers NAME chooses; layers: 'a', 'b' "
-                   "(objects)");
-    assert_refused(MAP(SET LAYER("walls", CSV("1,1,1,1,1,1"))),
-                   "f:1: what it says is solid gives no walls; --layers NAME chooses; layers: "
-                   "'walls'");
-    assert_refused(MAP(""), "f:1: nothing in it says what is solid; it has no layers");
 }
 
 /// The layers to choose from, and whether the map says which of them are solid.
@@ -854,6 +838,50 @@ static void test_tilesets_beside(void **state) {
     assert_int_equal(rmdir(folder), 0);
 }
 
+/// An instance of a template is a wall like any other object.
+static void test_templates_beside(void **state) {
+    (void)state;
+    char folder[] = "/tmp/sightline-tiled-XXXXXX";
+    assert_non_null(mkdtemp(folder));
+    write_file(folder, "crate.tx",
+               "<template><object type='wall' width='8' height='4'/></template>");
+    write_file(folder, "tile.tx",
+               "<template><tileset firstgid='1' source='b.tsx'/><object gid='3' width='8' "
+               "height='4'/></template>");
+    write_file(
+        folder, "b.tsx",
+        "<tileset tilewidth='8' tileheight='8'><tile id='2'>" TRUE("solid") "</tile></tileset>");
+#define WITH_INSTANCES(more)                                                                       \
+    MAP("<tileset firstgid='1' tilewidth='8' tileheight='8'/><tileset firstgid='40' "              \
+        "source='b.tsx'/><objectgroup name='things'>" more "</objectgroup>")
+    static const struct {
+        const char *text, *walls;
+    } cases[] = {
+        {WITH_INSTANCES("<object template='crate.tx' x='8' y='8'/>"),
+         "wall 8 8 16 8\nwall 16 8 16 4\nwall 16 4 8 4\nwall 8 4 8 8\n"},
+        {WITH_INSTANCES("<object template='crate.tx' x='8' y='8' width='4'/>"),
+         "wall 8 8 12 8\nwall 12 8 12 4\nwall 12 4 8 4\nwall 8 4 8 8\n"},
+        // A tile of the template's set, which has another number in the map.
+        {WITH_INSTANCES("<object template='tile.tx' x='8' y='8'/>"),
+         "wall 8 12 16 12\nwall 16 12 16 8\nwall 16 8 8 8\nwall 8 8 8 12\n"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        sl_context *context = testing_context(NULL);
+        sl_map map = {0};
+        assert_ok(context, read_beside(context, folder, cases[i].text, &map));
+        char *walls = map_walls_text(&map);
+        assert_string_equal(walls + strlen("sightline 1\n"), cases[i].walls);
+        free(walls);
+        sl_map_destroy(context, &map);
+        sl_context_destroy(context);
+    }
+    remove_file(folder, "crate.tx");
+    remove_file(folder, "tile.tx");
+    remove_file(folder, "b.tsx");
+    remove_file(folder, "m.tmx");
+    assert_int_equal(rmdir(folder), 0);
+}
+
 static void test_memory(void **state) {
     (void)state;
     assert_memory_of(
@@ -887,7 +915,7 @@ int main(void) {
         cmocka_unit_test(test_objects_on_lattices),
         cmocka_unit_test(test_starts_and_doors_on_lattices),
         cmocka_unit_test(test_tile_shapes_on_lattices),
-        cmocka_unit_test(test_guess),
+        cmocka_unit_test(test_templates_beside),
         cmocka_unit_test(test_layers_listed),
         cmocka_unit_test(test_damaged_data),
         cmocka_unit_test(test_refused),

@@ -375,6 +375,13 @@ static const char *const own_maps[] = {
     "wall -1000000000000000 3 1000000000000000 3\nwall 0 -1e-7 1e-9 0.1\nstart 0 1 0\n",
     "walls 0 -100 50 -100 50 -60 0 -60 0 -100\nstart 1 -70.123456789012345 1e-5\n",
     "wall 0.1 0.2 0.3 0.7\nwall 1e20 1e20 2e20 3e20\nmirror 0.1 0.7 0.3 0.9\n",
+    // Walls that do not stop all: plain, a closed outline, beside solid ground that is not closed,
+    // and round open ground.
+    "walls 0 0 20 0 20 9 0 9 0 0\nwall 1 1 2 1.3 stops sight\nwall 1 3 2 3 solid stops steps\n"
+    "wall 2 3 2 4.7 solid stops steps\nwall 3 3 3 4 solid stops sight,sound\n"
+    "solid 4 4 5 4 5 5 4 5 stops steps\nwall 6 6 6 8 solid stops steps\n"
+    "wall 6 8 8 8 solid stops steps\nwall 8 8 8 6 solid stops steps\n"
+    "wall 8 6 6 6 solid stops steps\nstart 10 4 0\n",
 };
 
 static void test_everything(void **state) {

@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { MAX_OPTIONS = 64 };
+enum { MAX_OPTIONS = 96 };
 
 /// All options of a command, with those of its groups, and the argument of each: NULL where the
 /// option is not given, "" for a flag. Arguments are gathered first and read afterwards, so that

@@ -65,7 +65,7 @@ typedef struct option_spec {
 
 /// A group of options that several commands share. Its targets belong to one command.
 struct option_table {
-    option_spec items[24];
+    option_spec items[40];
     size_t count;
 };
 

@@ -112,6 +112,7 @@ static sl_status measure(sl_context *context, const axial_plan *plan, axial_work
     w->measures = sl_alloc_array(context, w->lines.count, sizeof *w->measures);
     if (!w->measures) return SL_NO_MEMORY;
     w->table.lines = w->lines.lines;
+    w->table.earth = plan->lines == LINES_DRAWN ? w->drawn.earth : w->baked.map.earth;
     w->table.count = w->lines.count;
     for (size_t i = 0; i < count; i++) {
         sl_axial_options options = {.threads = plan->threads};

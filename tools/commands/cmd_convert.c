@@ -86,7 +86,7 @@ sl_status cmd_convert(command_console *console, int argc, char **argv) {
         .examples = "  sightline convert plan.txt -o plan.map\n"
                     "  sightline convert tower.ug --slice 1040 -o floor.map\n"
                     "  sightline convert office.map --clean --in-place\n"
-                    "  sightline convert cellar.dd2vtt --doors --clean -o clean.dd2vtt\n"
+                    "  sightline convert cellar.dd2vtt --clean -o clean.dd2vtt\n"
                     "  sightline convert office.map -o scene.json --format foundry",
         .options = options,
         .option_count = sizeof options / sizeof *options,

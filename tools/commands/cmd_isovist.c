@@ -295,6 +295,7 @@ static sl_status make_scene(sl_context *context, const isovist_plan *plan, isovi
     SL_TRY(sl_query_set_range(context, w->query, plan->range));
     SL_TRY(sl_query_set_mirror_depth(context, w->query, plan->mirror_depth));
     w->scene = (isovist_scene){.query = w->query,
+                               .earth = w->baked.map.earth,
                                .mirrored = w->baked.map.mirror_count && !plan->together,
                                .range = plan->range};
     SL_TRY(sl_query_space(context, w->query, &w->scene.space, NULL));
@@ -338,7 +339,7 @@ static sl_status work(command_console *console, isovist_plan *plan, isovist_work
     if (!plan->together) return isovist_write(context, &w->scene, &w->eyes, w->isovists, path);
     char text[256];
     say_union(w, text, sizeof text);
-    SL_TRY(isovist_union_write(context, &w->together, path));
+    SL_TRY(isovist_union_write(context, &w->together, &w->baked.map.earth, path));
     sl_note(context, "%s", text);
     return SL_OK;
 }

@@ -38,6 +38,7 @@ static sl_status read_segments(sl_context *context, const segments_plan *plan, s
     for (size_t i = 0; i < count; i++)
         w->segments[i] = (sl_segment){w->map.walls[i].a, w->map.walls[i].b};
     w->table.lines = w->segments;
+    w->table.earth = w->map.earth;
     w->table.count = (uint32_t)count;
     return SL_OK;
 }

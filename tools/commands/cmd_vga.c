@@ -279,6 +279,7 @@ static sl_status measure(sl_context *context, vga_plan *plan, vga_work *w) {
     vga_table *table = &w->table;
     const sl_vga_grid *grid = &table->grid;
     table->parts = plan->parts;
+    table->earth = w->baked.map.earth;
     const unsigned of_graph = plan->parts & ~(unsigned)VGA_PART_ISOVIST;
     table->measures = sl_alloc_array(context, grid->count, sizeof *table->measures);
     if (!table->measures) return SL_NO_MEMORY;

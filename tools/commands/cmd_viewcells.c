@@ -243,7 +243,7 @@ static sl_status write_places(sl_context *context, const field_rows *rows, FILE 
     const view_run *run = of->run;
     sl_shapes shapes;
     SL_TRY(sl_view_shapes(context, &run->tree, run->view_cells, run->cell_count, &shapes));
-    sl_geojson_writer out = sl_geojson_begin(file);
+    sl_geojson_writer out = sl_geojson_begin(file, &run->baked.map.earth);
     for (uint32_t i = 0; i < run->cell_count && !ferror(file); i++) {
         sl_geojson_put_shape(&out, "view_cell", &shapes, i);
         fields_add_properties(&out, rows, i);

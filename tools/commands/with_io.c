@@ -6,7 +6,6 @@ static const built_command commands[] = {{"reject", cmd_reject}, {0}};
 
 static const built_io io = {
     .use = sl_io_use,
-    .lines_read_geojson = sl_lines_read_geojson,
     .layers_dxf = sl_drawing_layers_dxf,
     .layers_destroy = sl_drawing_layers_destroy,
     .image_read = sl_image_read,

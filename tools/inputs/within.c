@@ -51,6 +51,7 @@ sl_status within_read(sl_context *context, const within_plan *plan, const input_
                       sl_map *outlines) {
     input_options own = *input;
     if (plan->layers) own.import.layers = plan->layers;
+    own.import.all_layers = true; // outlines, whatever they are called
     SL_TRY(input_read_either(context, plan->path, &own, outlines));
     sl_status status = input_take_lines(context, outlines);
     if (status == SL_OK) status = note_open(context, plan, outlines);

@@ -69,7 +69,7 @@ static sl_status write_csv(sl_context *context, const line_table *t, FILE *out) 
 }
 
 static sl_status write_geojson(sl_context *context, const line_table *t, FILE *file) {
-    sl_geojson_writer out = sl_geojson_begin(file);
+    sl_geojson_writer out = sl_geojson_begin(file, &t->earth);
     for (uint32_t i = 0; i < t->count; i++) {
         if (i % 4096 == 0) SL_TRY(sl_check_cancelled(context));
         sl_geojson_put_line(&out, "line", t->lines[i].a, t->lines[i].b);
@@ -207,21 +207,20 @@ bool lines_are_drawn(const char *path) {
 static sl_status parse_lines(sl_context *context, const char *path, const sl_bytes *bytes,
                              const input_options *input, sl_map *map) {
     const bool piped = strcmp(path, "-") == 0;
-    if (name_ends_with(path, ".geojson")) {
-        const built_io *io;
-        SL_TRY(built_need_io(context, path, &io));
-        return io->lines_read_geojson(context, path, bytes->data, bytes->size, map);
-    }
     if (name_ends_with(path, ".csv") || (piped && number_table_begins(bytes->data, bytes->size, 4)))
         return parse_table(context, path, bytes, map);
-    return input_parse_either(context, path, bytes, input, map);
+    input_options as_drawn = *input;
+    as_drawn.import.lines = true;
+    return input_parse_either(context, path, bytes, &as_drawn, map);
 }
 
 sl_status lines_read(sl_context *context, const char *path, const input_options *input,
                      sl_map *map) {
     sl_bytes bytes;
     SL_TRY(sl_file_read(context, path, &bytes));
-    const sl_status status = parse_lines(context, path, &bytes, input, map);
+    input_options own = *input;
+    own.import.all_layers = true; // a network is no plan: streets and axes are its lines
+    const sl_status status = parse_lines(context, path, &bytes, &own, map);
     sl_free(context, bytes.data);
     SL_TRY(status);
     SL_TRY(input_take_lines(context, map));

@@ -19,6 +19,7 @@ typedef struct line_column {
 typedef struct line_table {
     const sl_segment *lines;
     uint32_t count;
+    sl_earth earth; ///< where the map lies (sl_map.earth)
     SL_ARRAY(line_column) columns;
 } line_table;
 

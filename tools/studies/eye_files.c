@@ -127,7 +127,7 @@ sl_status eye_files_write(sl_context *context, const sl_baked *baked, const eye_
     if (!name_ends_with(path, ".geojson")) {
         write_rows(baked, sets, count, output.stream);
     } else if ((status = gather_parts(context, &baked->space, run, objects, &parts)) == SL_OK) {
-        sl_geojson_writer out = sl_geojson_begin(output.stream);
+        sl_geojson_writer out = sl_geojson_begin(output.stream, &baked->map.earth);
         sl_geojson_put_point(&out, "eye", run->view.eye);
         sl_geojson_add_count(&out, "cell", run->cell);
         sl_geojson_add_real(&out, "heading", heading);

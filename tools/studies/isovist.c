@@ -291,7 +291,7 @@ static sl_status put_eye(sl_context *context, sl_geojson_writer *out, const isov
 /// Regions are found anew: those of all eyes at once may take much memory.
 static sl_status write_places(sl_context *context, const isovist_scene *scene,
                               const field_rows *rows, FILE *file) {
-    sl_geojson_writer out = sl_geojson_begin(file);
+    sl_geojson_writer out = sl_geojson_begin(file, &scene->earth);
     sl_mirrored_region region = {0};
     sl_status status = SL_OK;
     for (size_t i = 0; i < rows->count && status == SL_OK && !ferror(file); i++) {

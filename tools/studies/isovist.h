@@ -63,8 +63,9 @@ sl_view eye_view(const sl_space *space, const eye_place *eye);
 typedef struct isovist_scene {
     const sl_space *space; ///< as the query's settings make it
     sl_query *query;
-    bool mirrored; ///< with what is seen by mirror
-    double range;  ///< of all eyes, which may have less; 0 for no limit
+    bool mirrored;  ///< with what is seen by mirror
+    double range;   ///< of all eyes, which may have less; 0 for no limit
+    sl_earth earth; ///< where the map lies (sl_map.earth)
 } isovist_scene;
 
 /// The visible region of an eye, with the parts that are seen by mirror.

@@ -30,8 +30,8 @@ static void put_rows(const sl_overlay *all, FILE *out) {
     }
 }
 
-static void put_pieces(const sl_overlay *all, FILE *file) {
-    sl_geojson_writer out = sl_geojson_begin(file);
+static void put_pieces(const sl_overlay *all, const sl_earth *earth, FILE *file) {
+    sl_geojson_writer out = sl_geojson_begin(file, earth);
     for (uint32_t c = 0; c < all->pieces.cell_count && !ferror(file); c++) {
         const sl_cell *cell = &all->pieces.cells[c];
         if (!all->counts[c] || !cell->inside) continue;
@@ -44,11 +44,12 @@ static void put_pieces(const sl_overlay *all, FILE *file) {
     sl_geojson_end(&out);
 }
 
-sl_status isovist_union_write(sl_context *context, const sl_overlay *all, const char *path) {
+sl_status isovist_union_write(sl_context *context, const sl_overlay *all, const sl_earth *earth,
+                              const char *path) {
     sl_output output;
     SL_TRY(sl_output_open(context, path, &output));
     if (name_ends_with(path, ".geojson"))
-        put_pieces(all, output.stream);
+        put_pieces(all, earth, output.stream);
     else
         put_rows(all, output.stream);
     return sl_output_close(context, &output, SL_OK);

@@ -11,6 +11,7 @@ sl_status isovist_union_make(sl_context *context, const sl_space *space, const s
 
 /// Writes the areas inside, one row for each number of viewpoints; "-" is stdout. A name that ends
 /// in .geojson: the pieces of them that are seen, as GeoJSON.
-sl_status isovist_union_write(sl_context *context, const sl_overlay *all, const char *path);
+sl_status isovist_union_write(sl_context *context, const sl_overlay *all, const sl_earth *earth,
+                              const char *path);
 
 #endif

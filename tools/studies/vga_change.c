@@ -87,7 +87,7 @@ static sl_status write_csv(sl_context *context, const vga_change *c, FILE *out) 
 
 static sl_status write_geojson(sl_context *context, const vga_change *c, FILE *file) {
     const name_table names = measure_table(SL_VGA);
-    sl_geojson_writer out = sl_geojson_begin(file);
+    sl_geojson_writer out = sl_geojson_begin(file, &c->before->earth);
     double values[VALUES];
     char key[96];
     for (size_t n = 0; n < c->count; n++) {

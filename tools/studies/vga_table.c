@@ -60,14 +60,18 @@ static size_t list_fields(const void *of, size_t point, table_field fields[FIELD
 
 static sl_status write_geojson(sl_context *context, const vga_table *table, FILE *out) {
     table_field fields[FIELDS_MOST];
-    fputs("{\"type\": \"FeatureCollection\", \"features\": [", out);
+    const bool known = table->earth.known;
+    fprintf(out, "{\"type\": \"FeatureCollection\", %s\"features\": [",
+            known ? "" : "\"crs\": null, ");
     for (uint32_t p = 0; p < table->grid.count; p++) {
         if (p % 4096 == 0) SL_TRY(sl_check_cancelled(context));
         fprintf(out, "%s\n{\"type\": \"Feature\", \"geometry\": {\"type\": \"Point\", ",
                 p ? "," : "");
         fputs("\"coordinates\": [", out);
-        csv_put(out, table->grid.points[p].x, ", ");
-        csv_put(out, table->grid.points[p].y, "");
+        sl_point at = table->grid.points[p];
+        if (known) at = sl_earth_of_map(&table->earth, at);
+        csv_put(out, at.x, ", ");
+        csv_put(out, at.y, "");
         fputs("]}, \"properties\": {", out);
         const size_t count = list_fields(table, p, fields);
         for (size_t k = 2; k < count; k++) {

@@ -14,6 +14,7 @@ typedef struct vga_table {
     sl_vga_depths *depths;    ///< from chosen points; NULL where there are none
     uint64_t *gates;          ///< steps of agents; NULL where there are none
     unsigned parts;
+    sl_earth earth; ///< where the map lies (sl_map.earth)
 } vga_table;
 
 enum { VGA_PART_VISUAL = 1, VGA_PART_THROUGH = 2, VGA_PART_METRIC = 4, VGA_PART_ANGULAR = 8 };

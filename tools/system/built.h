@@ -18,8 +18,6 @@ typedef struct built_command {
 /// Functions of sightline/io.h.
 typedef struct built_io {
     sl_status (*use)(sl_context *context);
-    sl_status (*lines_read_geojson)(sl_context *context, const char *name, const char *text,
-                                    size_t size, sl_map *map);
     sl_status (*layers_dxf)(sl_context *context, const char *name, const char *text, size_t size,
                             sl_drawing_layers *out);
     void (*layers_destroy)(sl_context *context, sl_drawing_layers *layers);

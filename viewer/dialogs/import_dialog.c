@@ -357,10 +357,11 @@ static double draw_layers(desk_state *desk, import_state *s, sl_box box, double 
     ui_state *ui = desk->ui;
     const double t = ui->text;
     const sl_box frame = {{box.min.x, y + 1.8 * t}, {box.max.x, y + 1.8 * t + high}};
-    ui_text(ui, box.min.x, y + 1.2 * t, 1, false, ui->palette.ink,
-            s->choice.layers_unsaid
-                ? "Which layers are solid? The file does not say. None: a guess from the lowest"
-                : "Solid layers; none: those that the file marks");
+    ui_text(
+        ui, box.min.x, y + 1.2 * t, 1, false, ui->palette.ink,
+        s->choice.layers_unsaid
+            ? "Which layers are solid? The file does not say. None: by their names, if these tell"
+            : "Solid layers; none: those that the file marks");
     dialog_list_frame(&desk->dialog, LAYERS_LIST, frame, &s->layers);
     for (size_t i = s->layers.first; i < s->layers.count && i < s->layers.first + s->layers.page;
          i++) {

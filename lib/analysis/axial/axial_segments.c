@@ -11,15 +11,23 @@
 /// nearer of its states. Choice is betweenness (Brandes 2001) on the states: the paths to both
 /// states of a segment share its 1 where they tie. Sums are whole numbers, as in axial_measures.c.
 ///
-/// Cost: O(n * pairs of segments that meet * log) for n segments. Threads take segments one by one.
+/// Turns are at most a half turn, so states wait in a ring of buckets, one for each turn that may
+/// come next (Dial 1969); only the states of the turn at hand are kept in order, by a heap. What a
+/// search has touched is set back before the next one, so that a search within a radius costs what
+/// it reaches.
+///
+/// Cost: O(n * pairs of segments that meet) for n segments, times the logarithm of the states of
+/// one turn. Threads take segments one by one.
 #include "base/heap.h"
 #include "geometry/length.h"
 #include "geometry/orient.h"
 #include "sightline/axial.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <stdatomic.h>
 #include <stdlib.h>
+#include <string.h>
 
 #define HALF_TURN 3.14159265358979323846
 
@@ -138,15 +146,31 @@ static inline bool is_before(const entry *a, const entry *b) {
 
 SLI_HEAP(queue, entry, is_before)
 
+/// An entry that waits in a bucket.
+typedef struct waiting {
+    entry entry;
+    uint32_t next; ///< of the bucket, from 1; 0 for the last
+} waiting;
+
+/// More than there are turns from one state to the next.
+enum { BUCKETS = 1024, BUCKET_WORDS = BUCKETS / 64 };
+
 typedef struct scratch {
     uint64_t *keys; ///< by state
     double *paths, *depends;
-    uint32_t *order; ///< of states: ascending keys
-    double *far;     ///< by corner: along the network, from the middle of the root
+    uint32_t *order;   ///< of states: ascending keys
+    uint32_t *touched; ///< states that have a key
+    double *far;       ///< by corner: along the network, from the middle of the root
+    uint32_t *corners; ///< those that are not INFINITY far
     bool *done, *wanted;
+    uint32_t *chosen; ///< segments that are wanted, with a metric radius
     uint64_t *choice; ///< by segment
-    uint32_t count;   ///< of states in order
-    queue queue;
+    uint32_t count, touched_count, corner_count, chosen_count;
+    queue queue; ///< of states of the turn at hand
+    SL_ARRAY(waiting) waiting;
+    uint32_t buckets[BUCKETS]; ///< into `waiting`, from 1; by turn modulo BUCKETS
+    uint64_t filled[BUCKET_WORDS];
+    uint64_t turn; ///< at hand
 } scratch;
 
 typedef struct job {
@@ -165,19 +189,24 @@ static uint64_t bits_of(double length) {
     return u.bits;
 }
 
+static void reach_corner(scratch *s, uint32_t corner, double far) {
+    if (isinf(s->far[corner])) s->corners[s->corner_count++] = corner;
+    s->far[corner] = far;
+}
+
 /// Wanted are the segments within the metric radius. Returns their number, without the root.
 static sl_status want(sl_context *context, const job *j, scratch *s, uint32_t root,
                       uint32_t *count) {
     const network *n = &j->net;
     const double radius = j->options->metric_radius;
-    for (uint32_t i = 0; i < n->count; i++) s->wanted[i] = !(radius > 0) && i != root;
     *count = n->count - 1;
     if (!(radius > 0)) return SL_OK;
-    *count = 0;
+    for (uint32_t i = 0; i < s->chosen_count; i++) s->wanted[s->chosen[i]] = false;
+    for (uint32_t i = 0; i < s->corner_count; i++) s->far[s->corners[i]] = INFINITY;
+    s->chosen_count = s->corner_count = 0;
     s->queue.count = 0;
-    for (uint32_t c = 0; c < n->corner_count; c++) s->far[c] = INFINITY;
     for (int e = 0; e < 2; e++) {
-        s->far[n->corners[root][e]] = n->lengths[root] / 2;
+        reach_corner(s, n->corners[root][e], n->lengths[root] / 2);
         SL_TRY(queue_push(context, &s->queue,
                           (entry){bits_of(n->lengths[root] / 2), n->corners[root][e]}));
     }
@@ -191,14 +220,76 @@ static sl_status want(sl_context *context, const job *j, scratch *s, uint32_t ro
             if (segment == root) continue;
             if (!s->wanted[segment] && here + n->lengths[segment] / 2 <= radius) {
                 s->wanted[segment] = true;
-                ++*count;
+                s->chosen[s->chosen_count++] = segment;
             }
             if (here + n->lengths[segment] >= s->far[to]) continue;
-            s->far[to] = here + n->lengths[segment];
+            reach_corner(s, to, here + n->lengths[segment]);
             SL_TRY(queue_push(context, &s->queue, (entry){bits_of(s->far[to]), to}));
         }
     }
+    *count = s->chosen_count;
     return SL_OK;
+}
+
+static sl_status put_waiting(sl_context *context, scratch *s, entry e) {
+    const uint64_t turn = e.key >> STEP_BITS;
+    const uint32_t bucket = turn % BUCKETS;
+    if (turn == s->turn) return queue_push(context, &s->queue, e);
+    SL_TRY(SL_ARRAY_ROOM(context, &s->waiting, 1));
+    s->waiting.items[s->waiting.count++] = (waiting){e, s->buckets[bucket]};
+    s->buckets[bucket] = (uint32_t)s->waiting.count;
+    s->filled[bucket / 64] |= (uint64_t)1 << bucket % 64;
+    return SL_OK;
+}
+
+/// The first bucket from this one on, round the ring, that is not empty; BUCKETS for none.
+static uint32_t next_bucket(const scratch *s, uint32_t from) {
+    uint64_t word = s->filled[from / 64] & UINT64_MAX << from % 64;
+    for (uint32_t i = 0; i <= BUCKET_WORDS; i++) {
+        const uint32_t at = (from / 64 + i) % BUCKET_WORDS;
+        if (i) word = s->filled[at];
+        if (word) return at * 64 + (uint32_t)__builtin_ctzll(word);
+    }
+    return BUCKETS;
+}
+
+/// Takes the next turn at hand, and its states into the queue; false at the end.
+static sl_status take_turn(sl_context *context, scratch *s, bool *found) {
+    const uint32_t bucket = next_bucket(s, s->turn % BUCKETS);
+    *found = bucket < BUCKETS;
+    if (!*found) return SL_OK;
+    s->turn += (bucket + BUCKETS - s->turn % BUCKETS) % BUCKETS;
+    for (uint32_t i = s->buckets[bucket]; i;) {
+        const waiting *w = &s->waiting.items[i - 1];
+        if (w->entry.key == s->keys[w->entry.state])
+            SL_TRY(queue_push(context, &s->queue, w->entry));
+        i = w->next;
+    }
+    s->buckets[bucket] = 0;
+    s->filled[bucket / 64] &= ~((uint64_t)1 << bucket % 64);
+    return SL_OK;
+}
+
+/// Sets back what the search before has touched.
+static void forget(scratch *s) {
+    for (uint32_t i = 0; i < s->touched_count; i++) {
+        const uint32_t state = s->touched[i];
+        s->keys[state] = FAR;
+        s->paths[state] = s->depends[state] = 0;
+        s->done[state] = false;
+    }
+    memset(s->buckets, 0, sizeof s->buckets);
+    memset(s->filled, 0, sizeof s->filled);
+    s->touched_count = s->count = 0;
+    s->queue.count = s->waiting.count = 0;
+    s->turn = 0;
+}
+
+static sl_status reach(sl_context *context, scratch *s, uint32_t state, uint64_t key) {
+    if (s->keys[state] == FAR) s->touched[s->touched_count++] = state;
+    s->keys[state] = key;
+    s->paths[state] = 0;
+    return put_waiting(context, s, (entry){key, state});
 }
 
 /// Finds the least turns, until all that is wanted is found.
@@ -207,20 +298,18 @@ static sl_status search(sl_context *context, const job *j, scratch *s, uint32_t 
     const network *n = &j->net;
     const double radius = j->options->angular_radius;
     uint64_t most = FAR;
+    bool found = true;
     if (radius > 0 && radius < 1e6)
         most = ((uint64_t)floor(radius * UNITS_OF_RIGHT_ANGLE) + 1) << STEP_BITS;
-    s->queue.count = s->count = 0;
-    for (uint32_t i = 0; i < 2 * n->count; i++) {
-        s->keys[i] = FAR;
-        s->paths[i] = s->depends[i] = 0;
-        s->done[i] = false;
-    }
     for (uint32_t e = 0; e < 2; e++) {
-        s->keys[2 * root + e] = 0;
+        SL_TRY(reach(context, s, 2 * root + e, 0));
         s->paths[2 * root + e] = 1;
-        SL_TRY(queue_push(context, &s->queue, (entry){0, 2 * root + e}));
     }
-    while (s->queue.count) {
+    while (found) {
+        if (!s->queue.count) {
+            SL_TRY(take_turn(context, s, &found));
+            continue;
+        }
         const entry e = queue_pop(&s->queue);
         if (s->done[e.state] || e.key != s->keys[e.state]) continue;
         if (e.key >= most) break;
@@ -231,11 +320,7 @@ static sl_status search(sl_context *context, const job *j, scratch *s, uint32_t 
             const arc a = n->arcs[i];
             const uint64_t key = e.key + ((uint64_t)a.turn << STEP_BITS) + 1;
             if (key > s->keys[a.to]) continue;
-            if (key < s->keys[a.to]) {
-                s->keys[a.to] = key;
-                s->paths[a.to] = 0;
-                SL_TRY(queue_push(context, &s->queue, (entry){key, a.to}));
-            }
+            if (key < s->keys[a.to]) SL_TRY(reach(context, s, a.to, key));
             s->paths[a.to] += s->paths[e.state];
         }
     }
@@ -278,16 +363,21 @@ static sl_status measure_segment(sl_context *context, void *all, void *state, si
     sl_segment_measures *out = &j->measures[root];
     uint32_t wanted;
     uint64_t units = 0, nodes = 1;
+    const bool all_wanted = !(j->options->metric_radius > 0);
     SL_TRY(sl_check_cancelled(context));
     SL_TRY(want(context, j, s, root, &wanted));
+    forget(s);
+    s->wanted[root] = false;
     if (wanted) SL_TRY(search(context, j, s, root, wanted));
-    for (uint32_t i = 0; i < n->count && wanted; i++) {
+    for (uint32_t i = 0; i < (all_wanted ? n->count : wanted); i++) {
         double paths;
-        const uint64_t key = s->wanted[i] ? nearest(s, i, &paths) : FAR;
+        const uint32_t segment = all_wanted ? i : s->chosen[i];
+        const uint64_t key = s->wanted[segment] ? nearest(s, segment, &paths) : FAR;
         nodes += key != FAR;
         units += key != FAR ? key >> STEP_BITS : 0;
     }
     if (wanted) add_choice(j, s, root);
+    s->wanted[root] = all_wanted;
     const double total = (double)units / UNITS_OF_RIGHT_ANGLE, count = (double)nodes;
     *out =
         (sl_segment_measures){.connectivity = (double)(n->first[2 * root + 2] - n->first[2 * root]),
@@ -310,6 +400,10 @@ static void end_segment_worker(sl_context *context, void *all, void *state) {
     sl_free(context, s->paths);
     sl_free(context, s->depends);
     sl_free(context, s->order);
+    sl_free(context, s->touched);
+    sl_free(context, s->corners);
+    sl_free(context, s->chosen);
+    sl_free(context, s->waiting.items);
     sl_free(context, s->far);
     sl_free(context, s->done);
     sl_free(context, s->wanted);
@@ -327,14 +421,22 @@ static sl_status begin_segment_worker(sl_context *context, void *all, void **sta
     s->paths = sl_alloc_array(context, states, sizeof *s->paths);
     s->depends = sl_alloc_array(context, states, sizeof *s->depends);
     s->order = sl_alloc_array(context, states, sizeof *s->order);
+    s->touched = sl_alloc_array(context, states, sizeof *s->touched);
+    s->corners = sl_alloc_array(context, states, sizeof *s->corners);
+    s->chosen = sl_alloc_array(context, states, sizeof *s->chosen);
     s->far = sl_alloc_array(context, states, sizeof *s->far);
     s->done = sl_alloc_array(context, states, sizeof *s->done);
     s->wanted = sl_alloc_array(context, states, sizeof *s->wanted);
     s->choice = sl_alloc_array(context, states, sizeof *s->choice);
-    if (!s->keys || !s->paths || !s->depends || !s->order || !s->far || !s->done || !s->wanted ||
-        !s->choice) {
+    if (!s->keys || !s->paths || !s->depends || !s->order || !s->touched || !s->corners ||
+        !s->chosen || !s->far || !s->done || !s->wanted || !s->choice) {
         end_segment_worker(context, all, s);
         return SL_NO_MEMORY;
+    }
+    for (size_t i = 0; i < states; i++) {
+        s->keys[i] = FAR;
+        s->far[i] = INFINITY;
+        s->wanted[i] = !(((const job *)all)->options->metric_radius > 0);
     }
     *state = s;
     return SL_OK;

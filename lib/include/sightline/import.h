@@ -20,7 +20,8 @@ typedef struct sl_import_options {
     /// Which of the maps of a file that holds several, by name; NULL for the only one (a reader
     /// that is called by itself takes the first).
     const char *map;
-    /// The layers to take, by name, with commas between; NULL for the format's own choice.
+    /// The layers to take, by name, with commas between; NULL for the format's own choice. "*" for
+    /// all visible layers of a drawing (DXF, SVG).
     const char *layers;
     /// The names of objects that are starts, with commas between; "" or "none" for no starts; NULL
     /// for the usual names (player, spawn, start ...). Letters and capitals are the same.
@@ -32,15 +33,23 @@ typedef struct sl_import_options {
     double entrance;  ///< how wide openings to the outside are at most (sl_map.entrance); 0: as
                       ///< the file says
     double threshold; ///< images: darkness from which a pixel is solid, 0 .. 1; 0: the usual
-    /// Take doors as doors. Off: as what they are when the map begins; those of a game that opens
-    /// them at a touch (Doom) are seen through. Those of Tiled and LDtk are doors in any case.
+    /// Take the doors of a game that opens them at a touch (Doom) as doors. Off: they are seen
+    /// through. Those of other formats are doors in any case.
     bool doors;
     /// Make seams of the lines between different sectors (Doom), so that each cell is in one
     /// sector.
     bool sectors;
+    /// Coordinates are plain units: no longitude and latitude (GeoJSON).
+    bool planar;
+    /// Coordinates are longitude and latitude, however few their decimals are (GeoJSON).
+    bool degrees;
+    /// Take all lines and outlines as drawn, whatever they stand for: doors cut no walls (GeoJSON).
+    bool lines;
     /// Take the cells that the file brings along, for the subdivision "given". Map texts give
     /// theirs without being asked.
     bool cells;
+    /// Drawings: all visible layers, whatever their names mean, unless `layers` names some.
+    bool all_layers;
 } sl_import_options;
 
 /// The usual options: each format's own choice.
@@ -68,6 +77,8 @@ typedef enum sl_import_takes {
     SL_TAKES_UNIT = 64,
     SL_TAKES_SECTORS = 128,
     SL_TAKES_STARTS = 256,
+    SL_TAKES_DEGREES = 512, ///< planar, degrees and lines
+    SL_TAKES_PLANS = 1024,  ///< a file may hold several plans on one sheet
 } sl_import_takes;
 
 /// What a format has a place for, beside walls. sl_map_write() reports what it leaves out.
@@ -89,7 +100,8 @@ typedef enum sl_map_keeps {
     SL_KEEPS_STOPS = 16384,   ///< what walls stop; else those that do not stop what the map is
                               ///< for are left out (sl_map.channel)
     SL_KEEPS_LIMITED = 32768, ///< which walls limit sight; else these are open to it
-    SL_KEEPS_ALL = 65535,
+    SL_KEEPS_EARTH = 65536,   ///< where the map lies on the earth
+    SL_KEEPS_ALL = 131071,
 } sl_map_keeps;
 
 /// A format: its name, what its files' names end with (space-separated), what it is, how to read

@@ -21,7 +21,7 @@ SL_API sl_status sl_io_use(sl_context *context);
 /// The endings of all their files, with spaces between.
 #define SL_IO_ENDINGS                                                                              \
     ".ug .dxf .svg .png .pgm .pbm .yaml .yml .tmx .json .tmj .ldtk .ldtkl .dd2vtt .uvtt .df2vtt "  \
-    ".wad"
+    ".db .ldb .wad"
 
 // --- what there is in a drawing
 
@@ -47,8 +47,9 @@ SL_API void sl_drawing_layers_destroy(sl_context *context,
 
 // --- lines and pictures
 
-/// Drawn lines of GeoJSON, as walls: lines, and outlines of polygons. It is no map, so sl_map_read
-/// does not read it. Coordinates are taken as they are, in a plane.
+/// Drawn lines of GeoJSON, as walls: lines, and outlines of polygons, whatever they stand for, as
+/// sl_map_read() reads them with sl_import_options.lines. Longitude and latitude are laid in a
+/// plane in metres (sl_map.earth).
 SL_API sl_status sl_lines_read_geojson(sl_context *context, const char *name, const char *text,
                                        size_t size, sl_map *map);
 

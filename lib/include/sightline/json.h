@@ -8,7 +8,7 @@
 #ifndef SIGHTLINE_JSON_H
 #define SIGHTLINE_JSON_H
 
-#include "sightline/geometry.h"
+#include "sightline/earth.h"
 
 #include <stdio.h>
 
@@ -56,10 +56,11 @@ SL_API void sl_json_put_written(sl_json_writer *json, const char *text, size_t s
 /// Whether a text is well-formed UTF-8 (RFC 3629).
 SL_API bool sl_text_is_utf8(const char *text);
 
-// --- GeoJSON (RFC 7946 in form). Coordinates are those of the map, in a plane, with y up. They are
-// not longitude and latitude.
+// --- GeoJSON (RFC 7946). Coordinates are longitude and latitude where the map lies on the earth.
+// Else they are those of the map, in a plane, with y up; the collection then says "crs": null,
+// which stands for no place on earth (The GeoJSON Format Specification, 2008, section 3).
 //
-//     sl_geojson_writer out = sl_geojson_begin(stream);
+//     sl_geojson_writer out = sl_geojson_begin(stream, &map->earth);
 //     sl_geojson_put_polygon(&out, "room", corners, 4);
 //     sl_geojson_add_text(&out, "name", "kitchen");
 //     sl_geojson_end_feature(&out);
@@ -69,11 +70,13 @@ SL_API bool sl_text_is_utf8(const char *text);
 typedef struct sl_geojson_writer {
     sl_json_writer json; ///< for the properties of the feature that is open
     FILE *stream;
-    bool follows; ///< a feature stands before the next one
+    bool follows;   ///< a feature stands before the next one
+    sl_earth earth; ///< where the coordinates' plane lies
 } sl_geojson_writer;
 
-/// Begins a collection of features. Refused writes are left to the stream's error flag.
-SL_API sl_geojson_writer sl_geojson_begin(FILE *stream);
+/// Begins a collection of features of a map that lies there (sl_map.earth); NULL: in a plane of its
+/// own. Refused writes are left to the stream's error flag.
+SL_API sl_geojson_writer sl_geojson_begin(FILE *stream, const sl_earth *earth);
 /// Ends the collection.
 SL_API void sl_geojson_end(sl_geojson_writer *out);
 

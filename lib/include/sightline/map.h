@@ -3,6 +3,7 @@
 #define SIGHTLINE_MAP_H
 
 #include "sightline/context.h"
+#include "sightline/earth.h"
 #include "sightline/geometry.h"
 
 #ifdef __cplusplus
@@ -200,6 +201,10 @@ typedef struct sl_map {
     /// keep units of a known length, and what a map text says itself.
     char unit[16];
     uint32_t unit_line;
+    /// Where the map lies on the earth, if it was read from longitudes and latitudes: its unit is
+    /// "m" then. GeoJSON is written in degrees again. Map text and .slv files keep it.
+    sl_earth earth;
+    uint32_t earth_line;
     double entrance; ///< how wide openings to the outside are at most; 0 where nobody says it
     uint32_t entrance_line;
     sl_interior interior; ///< map text and .slv files do not keep it

@@ -6,6 +6,7 @@
 #include "sightline/cell_to_cell.h"
 #include "sightline/context.h"
 #include "sightline/dual.h"
+#include "sightline/earth.h"
 #include "sightline/effects.h"
 #include "sightline/explain.h"
 #include "sightline/explained.h"

@@ -1,7 +1,7 @@
 /// DXF (Autodesk, DXF Reference). A drawing is lines in pairs, a group code and a value, in
 /// sections HEADER, TABLES, BLOCKS and ENTITIES. The pairs are read first (dxf_sections.c); then
-/// every entity that is walls is drawn (dxf_draw.c). Here walls get names and a unit, and the notes
-/// say what was taken.
+/// every entity that is walls is drawn (dxf_draw.c). Then layers are chosen by what they mean
+/// (contents.h). Here walls get names and a unit, and the notes say what was taken.
 #include "io/dxf/dxf.h"
 
 #include "io/io_formats.h"
@@ -156,12 +156,17 @@ static void note_drawing(const sli_dxf *dxf) {
         sl_note(dxf->context,
                 "%s: nothing on the layers %s is a wall; sightline info %s lists all layers",
                 dxf->name, dxf->options->layers, dxf->name);
+    sli_dxf_note_names(dxf);
+    sli_faults_note(dxf->context, dxf->name, &dxf->faults);
     sli_layers_note(dxf->context, dxf->name, dxf->pen.map);
 }
 
 static sl_status read_drawing(sli_dxf *dxf, const char *text, size_t size) {
     SL_TRY(draw_drawing(dxf, text, size));
     SL_TRY(name_walls(dxf));
+    const double metres = sli_units[dxf->pen.map->source.drawing_unit].metres;
+    SL_TRY(sli_contents_choose(&dxf->contents, metres > 0 ? 1 / metres : 0, &dxf->pen));
+    dxf->drawn -= dxf->contents.left_out;
     char *mark = NULL;
     SL_TRY(find_mark(dxf, &mark));
     dxf->pen.map->precision =
@@ -176,19 +181,25 @@ static void drawing_destroy(sli_dxf *dxf) {
     sl_free(dxf->context, dxf->blocks.items);
     sl_free(dxf->context, dxf->layers.items);
     sl_free(dxf->context, dxf->walls);
+    sl_free(dxf->context, dxf->filters.items);
+    sl_free(dxf->context, dxf->text.items);
+    sl_free(dxf->context, dxf->names);
+    sli_contents_destroy(&dxf->contents);
 }
 
 sl_status sli_map_read_dxf(sl_context *context, const char *name, const char *text, size_t size,
                            const sl_import_options *options, sl_map *map) {
+    const sl_import_options own = sli_drawing_options(options);
     sl_map read = {0};
     sli_dxf dxf = {.context = context,
                    .name = name,
-                   .options = options,
+                   .options = &own,
+                   .contents = {.context = context, .file = name, .options = &own},
                    .pen = {.context = context,
                            .name = name,
                            .map = &read,
                            .affine = SLI_AFFINE_NONE,
-                           .tolerance = options->tolerance}};
+                           .tolerance = own.tolerance}};
     const sl_status status = read_drawing(&dxf, text, size);
     drawing_destroy(&dxf);
     if (status == SL_OK)
@@ -227,6 +238,7 @@ sl_status sl_drawing_layers_dxf(sl_context *context, const char *name, const cha
         .context = context,
         .name = name,
         .options = &options,
+        .contents = {.context = context, .file = name, .options = &options},
         .pen = {.context = context, .name = name, .map = &map, .affine = SLI_AFFINE_NONE}};
     sl_status status = draw_drawing(&dxf, text, size);
     if (status == SL_OK) status = copy_layers(&dxf, &read);

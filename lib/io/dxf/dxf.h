@@ -1,8 +1,12 @@
-/// A DXF drawing while it is read: its pairs, layers and blocks (dxf_sections.c), how much it gives
-/// (dxf_count.c), and the pen that draws its entities (dxf_draw.c). dxf.c makes a map of it.
+/// A DXF drawing while it is read: its pairs, layers and blocks (dxf_sections.c; dxf_binary.c makes
+/// a text of a binary drawing, dxf_names.c has names in UTF-8), how much it gives (dxf_count.c),
+/// and the pen that draws its entities (dxf_draw.c), as far as a clip shows them (dxf_clip.c).
+/// dxf.c makes a map of it.
 #ifndef SL_DXF_H
 #define SL_DXF_H
 
+#include "io/parts/contents.h"
+#include "io/parts/faults.h"
 #include "io/parts/layers.h"
 #include "io/parts/names.h"
 #include "io/parts/shapes.h"
@@ -35,6 +39,18 @@ typedef struct sli_dxf_layer {
     size_t entities;
 } sli_dxf_layer;
 
+/// Something of the section OBJECTS: its handle, and the pair that starts it.
+typedef struct sli_dxf_object {
+    sli_word handle;
+    size_t begin;
+} sli_dxf_object;
+
+/// The polygon that an INSERT shows of its block, in the block's places. Without corners: all.
+typedef struct sli_dxf_clip {
+    sl_point *corners;
+    size_t count;
+} sli_dxf_clip;
+
 /// Entities of a kind that is no wall, on a layer.
 typedef struct sli_dxf_other {
     sli_word kind, layer;
@@ -54,11 +70,21 @@ typedef struct sli_dxf {
     size_t table_layers;            ///< of the table
     sli_dxf_other others[SLI_DXF_OTHERS];
     size_t others_count;
-    sli_dxf_range entities;
-    int unit; ///< $INSUNITS; 0 where the drawing does not tell
+    sli_dxf_range entities, objects;
+    SL_ARRAY(sli_dxf_object) filters; ///< dictionaries and clips, by handle
+    SL_ARRAY(char) text;              ///< of a binary drawing
+    char *names;                      ///< that are not as in the file
+    size_t unread_names;              ///< whose characters stand as their numbers
+    bool guessed_page;                ///< the drawing has no code page that is known
+    int unit;                         ///< $INSUNITS; 0 where the drawing does not tell
     sli_pen pen;
+    sli_contents contents;
+    uint32_t block; ///< the innermost block about an entity whose name says what it is; 0 for none
     size_t work;    ///< entities and insertions gone through
     sl_bits *walls; ///< the pairs that start an entity that was drawn
+    sli_faults faults;      ///< entities passed over
+    const sli_fault *fault; ///< that the entity being drawn has; NULL for none
+    uint32_t fault_line;    ///< of the file
     /// Entities drawn; those of other layers, further kinds, of the paper or out of the plane.
     size_t drawn, other_layers, other_kinds, on_paper, out_of_plane;
 } sli_dxf;
@@ -75,6 +101,9 @@ sli_dxf_range sli_dxf_entity(const sli_dxf *dxf, size_t begin, size_t end);
 
 /// The first pair of a group in an entity; NULL for none.
 const sli_dxf_pair *sli_dxf_find(const sli_dxf *dxf, sli_dxf_range entity, int code);
+/// Says what is wrong with the entity being drawn, and where: SL_BAD_INPUT. The entity is then
+/// passed over. Reading values says so too, with a message, as outside of entities it fails.
+sl_status sli_dxf_fault(sli_dxf *dxf, const sli_fault *kind, uint32_t line);
 /// The value of a pair.
 sl_status sli_dxf_read_number(sli_dxf *dxf, const sli_dxf_pair *pair, double *value);
 
@@ -93,6 +122,24 @@ const sli_dxf_block *sli_dxf_find_block(const sli_dxf *dxf, sli_word name);
 
 /// Reads pairs and sections. dxf->entities are those to draw.
 sl_status sli_dxf_read(sli_dxf *dxf, const char *text, size_t size);
+
+/// Whether these are the first bytes of a binary drawing.
+bool sli_dxf_is_binary(const char *bytes, size_t size);
+/// Writes a binary drawing to dxf->text as it would be as a text.
+sl_status sli_dxf_from_binary(sli_dxf *dxf, const char *bytes, size_t size);
+
+/// Has all values in UTF-8, by the drawing's code page. Needs the pairs alone.
+sl_status sli_dxf_decode_names(sli_dxf *dxf);
+/// Notes a code page that was guessed, and names that could not be read.
+void sli_dxf_note_names(const sli_dxf *dxf);
+
+/// Finds the clips among dxf->objects.
+sl_status sli_dxf_find_clips(sli_dxf *dxf);
+/// The clip of an INSERT; sl_free of its corners is the caller's.
+sl_status sli_dxf_read_clip(sli_dxf *dxf, sli_dxf_range insert, sli_dxf_clip *clip);
+/// Cuts the map's walls from `first` on to what the clip shows. `affine` leads from the block's
+/// places to the map's.
+sl_status sli_dxf_cut(sli_dxf *dxf, const sli_dxf_clip *clip, sli_affine affine, size_t first);
 
 /// SL_BAD_INPUT where dxf->entities, with all that they insert, give more than the limits; asked
 /// before they are drawn.

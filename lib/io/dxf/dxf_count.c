@@ -1,7 +1,8 @@
 /// How much a drawing gives, before it is drawn: a few blocks that insert one another in rows and
 /// columns give any number of entities. Each block is counted once, so the time is that of the
 /// file: a block's entities, and for each INSERT its rows x columns x those of the block inserted.
-/// The sums stay at UINT64_MAX where they would go beyond it.
+/// The sums stay at UINT64_MAX where they would go beyond it. Entities with wrong numbers count for
+/// little: they will be passed over.
 #include "io/dxf/dxf.h"
 #include "io/parts/limits.h"
 
@@ -39,65 +40,59 @@ static double bulge_share(double bulge) {
 }
 
 /// From the groups of an arc's two angles. `full` is a whole turn in their unit.
-static sl_status count_arc(sli_dxf *dxf, sli_dxf_range entity, int group, double full,
-                           uint64_t *walls) {
+static uint64_t count_arc(sli_dxf *dxf, sli_dxf_range entity, int group, double full) {
     double from = 0, to = full;
-    SL_TRY(sli_dxf_number(dxf, entity, group, &from));
-    SL_TRY(sli_dxf_number(dxf, entity, group + 1, &to));
+    (void)sli_dxf_number(dxf, entity, group, &from);
+    (void)sli_dxf_number(dxf, entity, group + 1, &to);
     const double sweep = fmod(to - from, full);
-    *walls = chords(dxf, (sweep > 0 ? sweep : sweep + full) / full);
-    return SL_OK;
+    return chords(dxf, (sweep > 0 ? sweep : sweep + full) / full);
 }
 
 /// The pieces between corners; a bulge makes one an arc. The last corner's is of the side that
 /// closes the polyline.
-static sl_status count_polyline(sli_dxf *dxf, sli_dxf_range entity, uint64_t *walls) {
+static uint64_t count_polyline(sli_dxf *dxf, sli_dxf_range entity) {
     const uint64_t corners = number_of(dxf, entity, 10);
-    uint64_t seen = 0;
-    *walls = corners ? corners - 1 : 0;
+    uint64_t seen = 0, walls = corners ? corners - 1 : 0;
     for (size_t i = entity.begin; i < entity.end; i++) {
         const sli_dxf_pair *pair = sli_dxf_at(dxf, i);
         double bulge;
         seen += pair->code == 10;
         if (pair->code != 42 || !seen || seen == corners) continue;
-        SL_TRY(sli_dxf_read_number(dxf, pair, &bulge));
-        *walls = sli_limit_sum(*walls, chords(dxf, bulge_share(bulge)) - 1);
+        if (sli_dxf_read_number(dxf, pair, &bulge) != SL_OK) return 0;
+        walls = sli_limit_sum(walls, chords(dxf, bulge_share(bulge)) - 1);
     }
-    return SL_OK;
+    return walls;
 }
 
 /// A piece between two knots as one wall.
-static sl_status count_spline(sli_dxf *dxf, sli_dxf_range entity, uint64_t *walls) {
+static uint64_t count_spline(sli_dxf *dxf, sli_dxf_range entity) {
     const uint64_t points = number_of(dxf, entity, 10);
+    uint64_t walls = 0;
     double last = INFINITY;
-    *walls = 0;
     for (size_t i = entity.begin; i < entity.end; i++) {
         const sli_dxf_pair *pair = sli_dxf_at(dxf, i);
         double knot;
         if (pair->code != 40) continue;
-        SL_TRY(sli_dxf_read_number(dxf, pair, &knot));
-        *walls += knot > last && *walls + 1 < points;
+        if (sli_dxf_read_number(dxf, pair, &knot) != SL_OK) return 0;
+        walls += knot > last && walls + 1 < points;
         last = knot;
     }
-    return SL_OK;
+    return walls;
 }
 
 /// The walls of an entity but for its blocks, at least.
-static sl_status count_shape(sli_dxf *dxf, sli_dxf_range entity, uint64_t *walls) {
+static uint64_t count_shape(sli_dxf *dxf, sli_dxf_range entity) {
     const sli_word kind = sli_dxf_at(dxf, entity.begin)->value;
-    *walls = 0;
-    if (sli_word_is(kind, "LINE")) *walls = 1;
-    if (sli_word_is(kind, "CIRCLE")) *walls = chords(dxf, 1);
-    if (sli_word_is(kind, "ARC")) return count_arc(dxf, entity, 50, 360, walls);
-    if (sli_word_is(kind, "ELLIPSE")) return count_arc(dxf, entity, 41, 2 * pi, walls);
-    if (sli_word_is(kind, "LWPOLYLINE")) return count_polyline(dxf, entity, walls);
-    if (sli_word_is(kind, "SPLINE")) return count_spline(dxf, entity, walls);
-    if (sli_word_is(kind, "VERTEX")) {
-        double bulge = 0;
-        SL_TRY(sli_dxf_number(dxf, entity, 42, &bulge));
-        *walls = chords(dxf, bulge_share(bulge));
-    }
-    return SL_OK;
+    if (sli_word_is(kind, "LINE")) return 1;
+    if (sli_word_is(kind, "CIRCLE")) return chords(dxf, 1);
+    if (sli_word_is(kind, "ARC")) return count_arc(dxf, entity, 50, 360);
+    if (sli_word_is(kind, "ELLIPSE")) return count_arc(dxf, entity, 41, 2 * pi);
+    if (sli_word_is(kind, "LWPOLYLINE")) return count_polyline(dxf, entity);
+    if (sli_word_is(kind, "SPLINE")) return count_spline(dxf, entity);
+    if (!sli_word_is(kind, "VERTEX")) return 0;
+    double bulge = 0;
+    (void)sli_dxf_number(dxf, entity, 42, &bulge);
+    return chords(dxf, bulge_share(bulge));
 }
 
 static sl_status count_range(counter *c, sli_dxf_range range, uint64_t depth, amount *sum);
@@ -107,10 +102,10 @@ static sl_status count_insert(counter *c, sli_dxf_range entity, uint64_t depth, 
     const sli_word name = sli_dxf_text(dxf, entity, 2);
     const sli_dxf_block *block = sli_dxf_find_block(dxf, name);
     int columns = 1, rows = 1, on_paper = 0;
-    SL_TRY(sli_dxf_integer(dxf, entity, 67, &on_paper));
-    SL_TRY(sli_dxf_integer(dxf, entity, 70, &columns));
-    SL_TRY(sli_dxf_integer(dxf, entity, 71, &rows));
-    if (!block || on_paper || columns <= 0 || rows <= 0) return SL_OK;
+    const bool good = sli_dxf_integer(dxf, entity, 67, &on_paper) == SL_OK &&
+                      sli_dxf_integer(dxf, entity, 70, &columns) == SL_OK &&
+                      sli_dxf_integer(dxf, entity, 71, &rows) == SL_OK;
+    if (!good || !block || on_paper || columns <= 0 || rows <= 0) return SL_OK;
     amount *own = &c->blocks[block - dxf->blocks.items];
     const uint32_t line = sli_dxf_at(dxf, entity.begin)->line;
     if (own->state == COUNTING)
@@ -138,8 +133,7 @@ static sl_status count_range(counter *c, sli_dxf_range range, uint64_t depth, am
     for (size_t i = range.begin; i < range.end; i = entity.end) {
         entity = sli_dxf_entity(dxf, i, range.end);
         const sli_word kind = sli_dxf_at(dxf, i)->value;
-        uint64_t walls;
-        SL_TRY(count_shape(dxf, entity, &walls));
+        const uint64_t walls = count_shape(dxf, entity);
         sum->entities = sli_limit_sum(sum->entities, 1);
         // Lines of no length and other layers give none: too few walls are counted only where the
         // entities are not inserted.

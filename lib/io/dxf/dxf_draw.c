@@ -2,7 +2,7 @@
 /// POLYLINE with bulges, ARC, CIRCLE, ELLIPSE, SPLINE, and INSERT, which draws a block's entities
 /// once more. Blocks within blocks could ask for any amount of work: their depth and the number of
 /// entities drawn are bounded. Layers whose names begin with "sightline-" hold doors, solid ground
-/// and so on (layers.h).
+/// and so on (layers.h). An entity that is faulty is passed over as a whole.
 #include "io/dxf/dxf.h"
 
 #include <math.h>
@@ -22,6 +22,31 @@ static sl_status read_point(sli_dxf *dxf, sli_dxf_range entity, int code, sl_poi
     SL_TRY(read_coordinate(dxf, entity, code, &point->x));
     return read_coordinate(dxf, entity, code + 10, &point->y);
 }
+
+static const sli_fault missing = {"entity without a number that it needs",
+                                  "entities without numbers that they need"};
+static const sli_fault no_radius = {"arc or circle without a radius",
+                                    "arcs and circles without a radius"};
+static const sli_fault no_size = {"ellipse without a size", "ellipses without a size"};
+static const sli_fault no_angle = {"arc whose angles make no sense",
+                                   "arcs whose angles make no sense"};
+static const sli_fault no_length = {"polyline of fewer than two corners",
+                                    "polylines of fewer than two corners"};
+static const sli_fault no_spline = {"spline whose knots do not fit its points",
+                                    "splines whose knots do not fit their points"};
+static const sli_fault no_block = {"insertion of a block that is not there",
+                                   "insertions of blocks that are not there"};
+static const sli_fault too_far = {"entity with a coordinate out of range",
+                                  "entities with coordinates out of range"};
+
+/// An entity has all of these groups; a 0 ends them.
+static sl_status need(sli_dxf *dxf, sli_dxf_range entity, const int *codes) {
+    for (; *codes; codes++)
+        if (!sli_dxf_find(dxf, entity, *codes))
+            return sli_dxf_fault(dxf, &missing, sli_dxf_at(dxf, entity.begin)->line);
+    return SL_OK;
+}
+#define NEED(entity, ...) SL_TRY(need(dxf, entity, (const int[]){__VA_ARGS__, 0}))
 
 /// Entities drawn in their own plane: one seen from below is mirrored, one that leans is left out.
 typedef enum plane { LEVEL, FROM_BELOW, LEANING } plane;
@@ -55,6 +80,7 @@ static void leave_out(sli_dxf *dxf, sli_word kind, sli_word layer) {
 static sl_status draw_line(sli_dxf *dxf, sli_dxf_range entity) {
     sl_point to = {0, 0};
     dxf->pen.at = to;
+    NEED(entity, 10, 20, 11, 21);
     SL_TRY(read_point(dxf, entity, 10, &dxf->pen.at));
     SL_TRY(read_point(dxf, entity, 11, &to));
     return sli_pen_line(&dxf->pen, to);
@@ -89,7 +115,8 @@ static sl_status next_corner(sli_dxf *dxf, corners *line, sl_point to, double bu
 }
 
 static sl_status end_corners(sli_dxf *dxf, const corners *line, bool closed) {
-    return closed && line->count > 1 ? draw_piece(&dxf->pen, line->first, line->bulge) : SL_OK;
+    if (line->count < 2) return sli_dxf_fault(dxf, &no_length, dxf->pen.line);
+    return closed ? draw_piece(&dxf->pen, line->first, line->bulge) : SL_OK;
 }
 
 static sl_status draw_light_polyline(sli_dxf *dxf, sli_dxf_range entity) {
@@ -105,6 +132,7 @@ static sl_status draw_light_polyline(sli_dxf *dxf, sli_dxf_range entity) {
         while (corner.end < entity.end && sli_dxf_at(dxf, corner.end)->code != 10) corner.end++;
         sl_point at = {0, 0};
         double bulge = 0;
+        NEED(corner, 20);
         SL_TRY(read_point(dxf, corner, 10, &at));
         SL_TRY(sli_dxf_number(dxf, corner, 42, &bulge));
         SL_TRY(next_corner(dxf, &line, at, bulge));
@@ -129,6 +157,7 @@ static sl_status draw_polyline(sli_dxf *dxf, sli_dxf_range entity, size_t end, s
         sl_point at = {0, 0};
         double bulge = 0;
         int kind = 0;
+        NEED(vertex, 10, 20);
         SL_TRY(read_point(dxf, vertex, 10, &at));
         SL_TRY(sli_dxf_number(dxf, vertex, 42, &bulge));
         SL_TRY(sli_dxf_integer(dxf, vertex, 70, &kind));
@@ -149,8 +178,7 @@ static sl_point on_arc(sl_point centre, sl_point u, sl_point v, double angle) {
 static sl_status draw_round(sli_dxf *dxf, sl_point centre, sl_point u, sl_point v, double from,
                             double to) {
     double sweep = to - from;
-    if (!(fabs(sweep) <= 1e6))
-        return sl_fail_at(dxf->context, dxf->name, dxf->pen.line, "an arc's angles make no sense");
+    if (!(fabs(sweep) <= 1e6)) return sli_dxf_fault(dxf, &no_angle, dxf->pen.line);
     sweep -= 2 * pi * floor(sweep / (2 * pi));
     if (sweep == 0) sweep = 2 * pi;
     const sl_point start = on_arc(centre, u, v, from);
@@ -165,15 +193,15 @@ static sl_status draw_round(sli_dxf *dxf, sl_point centre, sl_point u, sl_point 
 static sl_status draw_circle(sli_dxf *dxf, sli_dxf_range entity, bool whole) {
     sl_point centre = {0, 0};
     double radius = 0, from = 0, to = 360;
+    NEED(entity, 10, 20, 40);
     SL_TRY(read_point(dxf, entity, 10, &centre));
     SL_TRY(sli_dxf_number(dxf, entity, 40, &radius));
     if (!whole) {
+        NEED(entity, 50, 51);
         SL_TRY(sli_dxf_number(dxf, entity, 50, &from));
         SL_TRY(sli_dxf_number(dxf, entity, 51, &to));
     }
-    if (!(radius > 0))
-        return sl_fail_at(dxf->context, dxf->name, dxf->pen.line,
-                          "a circle's or arc's radius (group 40) must be positive");
+    if (!(radius > 0)) return sli_dxf_fault(dxf, &no_radius, dxf->pen.line);
     return draw_round(dxf, centre, (sl_point){radius, 0}, (sl_point){0, radius}, from * (pi / 180),
                       to * (pi / 180));
 }
@@ -182,26 +210,30 @@ static sl_status draw_circle(sli_dxf *dxf, sli_dxf_range entity, bool whole) {
 static sl_status draw_ellipse(sli_dxf *dxf, sli_dxf_range entity, plane lies) {
     sl_point centre = {0, 0}, major = {0, 0};
     double ratio = 1, from = 0, to = 2 * pi;
+    NEED(entity, 10, 20, 11, 21, 40);
     SL_TRY(read_point(dxf, entity, 10, &centre));
     SL_TRY(read_point(dxf, entity, 11, &major));
     SL_TRY(sli_dxf_number(dxf, entity, 40, &ratio));
     SL_TRY(sli_dxf_number(dxf, entity, 41, &from));
     SL_TRY(sli_dxf_number(dxf, entity, 42, &to));
+    if (ratio == 0 || (major.x == 0 && major.y == 0))
+        return sli_dxf_fault(dxf, &no_size, dxf->pen.line);
     if (lies == FROM_BELOW) ratio = -ratio;
     return draw_round(dxf, centre, major, (sl_point){-ratio * major.y, ratio * major.x}, from, to);
 }
 
 // --- entities: splines
 
-/// A B-spline of degree up to 3 without weights: its knots and control points.
+/// A B-spline: its knots and control points. Those of degree up to 3 without weights are drawn.
 typedef struct spline {
     int degree;
+    bool plain, sound;
     SL_ARRAY(double) knots;
     SL_ARRAY(sl_point) points;
 } spline;
 
-static sl_status read_spline(sli_dxf *dxf, sli_dxf_range entity, spline *out, bool *plain) {
-    *plain = true;
+static sl_status read_spline(sli_dxf *dxf, sli_dxf_range entity, spline *out) {
+    out->plain = out->sound = true;
     SL_TRY(sli_dxf_integer(dxf, entity, 71, &out->degree));
     for (size_t i = entity.begin; i < entity.end; i++) {
         const sli_dxf_pair *pair = sli_dxf_at(dxf, i);
@@ -209,11 +241,11 @@ static sl_status read_spline(sli_dxf *dxf, sli_dxf_range entity, spline *out, bo
         if (pair->code == 40) {
             SL_TRY(SL_ARRAY_ROOM(dxf->context, &out->knots, 1));
             SL_TRY(sli_dxf_read_number(dxf, pair, &value));
-            *plain &= !out->knots.count || value >= out->knots.items[out->knots.count - 1];
+            out->sound &= !out->knots.count || value >= out->knots.items[out->knots.count - 1];
             out->knots.items[out->knots.count++] = value;
         } else if (pair->code == 41) {
             SL_TRY(sli_dxf_read_number(dxf, pair, &value));
-            *plain &= value == 1;
+            out->plain &= value == 1;
         } else if (pair->code == 10) {
             sl_point at = {0, 0};
             SL_TRY(SL_ARRAY_ROOM(dxf->context, &out->points, 1));
@@ -221,16 +253,18 @@ static sl_status read_spline(sli_dxf *dxf, sli_dxf_range entity, spline *out, bo
             out->points.items[out->points.count++] = at;
         }
     }
-    *plain &= out->degree >= 1 && out->degree <= 3 && out->points.count > (size_t)out->degree &&
-              out->knots.count == out->points.count + (size_t)out->degree + 1;
+    out->plain &= out->degree <= 3 && out->points.count > 0;
+    out->sound &= out->degree >= 1 && out->points.count > (size_t)out->degree &&
+                  out->knots.count == out->points.count + (size_t)out->degree + 1;
     return SL_OK;
 }
 
 static sl_status draw_spline(sli_dxf *dxf, sli_dxf_range entity, sli_word layer) {
     spline s = {0};
-    bool plain = true;
-    sl_status status = read_spline(dxf, entity, &s, &plain);
-    if (status == SL_OK && plain) {
+    sl_status status = read_spline(dxf, entity, &s);
+    if (status == SL_OK && s.plain && !s.sound) {
+        status = sli_dxf_fault(dxf, &no_spline, dxf->pen.line);
+    } else if (status == SL_OK && s.plain) {
         status = sli_pen_spline(&dxf->pen, s.degree, s.knots.items, s.points.items, s.points.count);
     } else if (status == SL_OK) {
         dxf->drawn--;
@@ -264,10 +298,7 @@ static sl_status count_work(sli_dxf *dxf) {
 static sl_status draw_insert(sli_dxf *dxf, sli_dxf_range entity, sli_word layer, unsigned depth) {
     const sli_word name = sli_dxf_text(dxf, entity, 2);
     const sli_dxf_block *block = sli_dxf_find_block(dxf, name);
-    const uint32_t line = dxf->pen.line;
-    if (!block)
-        return sl_fail_at(dxf->context, dxf->name, line, "there is no block '%s'",
-                          sli_show(name).text);
+    if (!block) return sli_dxf_fault(dxf, &no_block, dxf->pen.line);
     sl_point at = {0, 0}, scale = {1, 1}, gap = {0, 0};
     double turn = 0;
     int columns = 1, rows = 1;
@@ -280,16 +311,27 @@ static sl_status draw_insert(sli_dxf *dxf, sli_dxf_range entity, sli_word layer,
     SL_TRY(sli_dxf_number(dxf, entity, 44, &gap.x));
     SL_TRY(sli_dxf_number(dxf, entity, 45, &gap.y));
     const sli_affine outer = dxf->pen.affine;
-    for (int row = 0; row < rows; row++) {
-        for (int column = 0; column < columns; column++) {
-            SL_TRY(count_work(dxf));
+    sli_dxf_clip clip;
+    const uint32_t block_before = dxf->block;
+    uint32_t named;
+    SL_TRY(sli_contents_group(&dxf->contents, name, &named));
+    sl_status status = sli_dxf_read_clip(dxf, entity, &clip);
+    if (sli_contents_means(&dxf->contents, named)) dxf->block = named;
+    for (int row = 0; row < rows && status == SL_OK; row++) {
+        for (int column = 0; column < columns && status == SL_OK; column++) {
+            const size_t first = dxf->pen.map->wall_count;
             const sl_point step = {column * gap.x, row * gap.y};
-            dxf->pen.affine =
+            const sli_affine inner =
                 sli_affine_after(outer, insertion(at, step, scale, turn, block->base));
-            SL_TRY(sli_dxf_draw(dxf, block->entities, layer, depth + 1));
+            dxf->pen.affine = inner;
+            status = count_work(dxf);
+            if (status == SL_OK) status = sli_dxf_draw(dxf, block->entities, layer, depth + 1);
+            if (status == SL_OK) status = sli_dxf_cut(dxf, &clip, inner, first);
         }
     }
-    return SL_OK;
+    dxf->block = block_before;
+    sl_free(dxf->context, clip.corners);
+    return status;
 }
 
 // --- entities: all of them
@@ -339,6 +381,22 @@ static sl_status read_start(sli_dxf *dxf, sli_dxf_range entity, sl_point *at, do
     return SL_OK;
 }
 
+/// Draws an entity, and tells whose it is: its layer's, or the block's about it, where the layer
+/// says nothing, or is that of the insertion.
+static sl_status draw_in_group(sli_dxf *dxf, sli_dxf_range entity, size_t end, sli_word layer,
+                               plane lies, unsigned depth) {
+    sli_contents *contents = &dxf->contents;
+    uint32_t group;
+    if (!sli_contents_asks(contents)) return draw_shape(dxf, entity, end, layer, lies, depth);
+    SL_TRY(sli_contents_group(contents, layer, &group));
+    const sli_meaning block = sli_contents_means(contents, dxf->block);
+    const bool inserted = sli_word_is(sli_dxf_text(dxf, entity, 8), "0") && block != SLI_MEANS_WALL;
+    if (block && (inserted || !sli_contents_means(contents, group))) group = dxf->block;
+    sli_contents_begin(contents, &dxf->pen);
+    SL_TRY(draw_shape(dxf, entity, end, layer, lies, depth));
+    return sli_contents_end(contents, &dxf->pen, group);
+}
+
 /// Draws an entity; on a layer that says what it holds, into a map of its own, and its lines become
 /// that.
 static sl_status draw_in_layer(sli_dxf *dxf, sli_dxf_range entity, size_t end, sli_word layer,
@@ -347,8 +405,8 @@ static sl_status draw_in_layer(sli_dxf *dxf, sli_dxf_range entity, size_t end, s
     sli_word rest = {"", 0};
     sl_point start = {0, 0};
     sli_layer_item item = {.layer = sli_layer_of(layer, &rest), .points = &start};
-    if (!item.layer || sli_word_is(kind, "INSERT"))
-        return draw_shape(dxf, entity, end, layer, lies, depth);
+    if (sli_word_is(kind, "INSERT")) return draw_shape(dxf, entity, end, layer, lies, depth);
+    if (!item.layer) return draw_in_group(dxf, entity, end, layer, lies, depth);
     if (item.layer == SLI_LAYER_DOOR) read_door_layer(&rest, &item.open);
     char *name = sl_copy_text(dxf->context, rest.at, rest.length);
     if (!name) return SL_NO_MEMORY;
@@ -374,45 +432,69 @@ static sl_status draw_in_layer(sli_dxf *dxf, sli_dxf_range entity, size_t end, s
     return status;
 }
 
-static sl_status draw_entity(sli_dxf *dxf, sli_dxf_range entity, size_t end, sli_word layer,
-                             unsigned depth) {
+static sl_status draw_taken(sli_dxf *dxf, sli_dxf_range entity, size_t end, sli_word layer,
+                            unsigned depth) {
     const sli_word kind = sli_dxf_at(dxf, entity.begin)->value;
-    sli_word own = sli_dxf_text(dxf, entity, 8);
-    if (sli_word_is(own, "0") && layer.length) own = layer;
-    int on_paper = 0;
-    SL_TRY(sli_dxf_integer(dxf, entity, 67, &on_paper));
-    const bool part = sli_word_is(kind, "VERTEX") || sli_word_is(kind, "SEQEND");
-    if (part || sli_word_is(kind, "ATTRIB")) return SL_OK;
-    if (on_paper) {
-        dxf->on_paper++;
-        return SL_OK;
-    }
-    bool taken = true;
-    if (!sli_word_is(kind, "INSERT")) SL_TRY(sli_dxf_take_layer(dxf, own, &taken));
-    if (!taken) {
-        dxf->other_layers++;
-        return SL_OK;
-    }
     plane lies = LEVEL;
     if (!sli_word_is(kind, "LINE")) SL_TRY(read_plane(dxf, entity, &lies));
     if (lies == LEANING) {
         dxf->out_of_plane++;
         return SL_OK;
     }
-    const sli_affine outer = dxf->pen.affine;
     if (lies == FROM_BELOW && !sli_word_is(kind, "ELLIPSE"))
-        dxf->pen.affine = sli_affine_after(outer, (sli_affine){.xx = -1, .yy = 1});
+        dxf->pen.affine = sli_affine_after(dxf->pen.affine, (sli_affine){.xx = -1, .yy = 1});
     dxf->pen.line = sli_dxf_at(dxf, entity.begin)->line;
-    const sl_status status = draw_in_layer(dxf, entity, end, own, lies, depth);
-    dxf->pen.affine = outer;
-    return status;
+    return draw_in_layer(dxf, entity, end, layer, lies, depth);
+}
+
+static sl_status draw_entity(sli_dxf *dxf, sli_dxf_range entity, size_t end, sli_word layer,
+                             unsigned depth) {
+    const sli_word kind = sli_dxf_at(dxf, entity.begin)->value;
+    sli_word own = sli_dxf_text(dxf, entity, 8);
+    if (sli_word_is(own, "0") && layer.length) own = layer;
+    int on_paper = 0;
+    const bool part = sli_word_is(kind, "VERTEX") || sli_word_is(kind, "SEQEND");
+    if (part || sli_word_is(kind, "ATTRIB")) return SL_OK;
+    SL_TRY(sli_dxf_integer(dxf, entity, 67, &on_paper));
+    if (on_paper) {
+        dxf->on_paper++;
+        return SL_OK;
+    }
+    bool taken = true;
+    if (!sli_word_is(kind, "INSERT")) SL_TRY(sli_dxf_take_layer(dxf, own, &taken));
+    if (taken) return draw_taken(dxf, entity, end, own, depth);
+    dxf->other_layers++;
+    return SL_OK;
+}
+
+/// Draws an entity, all of it or, if it is faulty, none.
+static sl_status draw_or_pass(sli_dxf *dxf, sli_dxf_range entity, size_t end, sli_word layer,
+                              unsigned depth) {
+    const sli_pen before = dxf->pen;
+    const size_t drawn = dxf->drawn, walls = before.map->wall_count;
+    const bool named = sl_bits_has(dxf->walls, entity.begin);
+    dxf->fault = NULL;
+    sl_status status = draw_entity(dxf, entity, end, layer, depth);
+    if (status == SL_BAD_INPUT && !dxf->fault && dxf->pen.too_far)
+        status = sli_dxf_fault(dxf, &too_far, dxf->pen.line);
+    dxf->pen.affine = before.affine;
+    if (status != SL_BAD_INPUT || !dxf->fault) return status;
+    sli_faults_add(&dxf->faults, dxf->fault, dxf->fault_line);
+    dxf->fault = NULL;
+    dxf->pen.walls = before.walls;
+    dxf->pen.points = before.points;
+    dxf->pen.too_far = false;
+    dxf->pen.map->wall_count = walls;
+    dxf->drawn = drawn;
+    if (!named && sl_bits_has(dxf->walls, entity.begin)) sl_bits_flip(dxf->walls, entity.begin);
+    return SL_OK;
 }
 
 sl_status sli_dxf_draw(sli_dxf *dxf, sli_dxf_range range, sli_word layer, unsigned depth) {
     for (size_t i = range.begin; i < range.end;) {
         const sli_dxf_range entity = sli_dxf_entity(dxf, i, range.end);
         SL_TRY(count_work(dxf));
-        SL_TRY(draw_entity(dxf, entity, range.end, layer, depth));
+        SL_TRY(draw_or_pass(dxf, entity, range.end, layer, depth));
         i = entity.end;
     }
     return SL_OK;

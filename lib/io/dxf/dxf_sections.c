@@ -27,9 +27,6 @@ static bool read_code(sli_word word, int *code) {
 }
 
 static sl_status refuse_other_files(sli_dxf *dxf, const char *text, size_t size) {
-    static const char binary[] = "AutoCAD Binary DXF";
-    if (size >= sizeof binary - 1 && memcmp(text, binary, sizeof binary - 1) == 0)
-        return sl_fail_at(dxf->context, dxf->name, 0, "binary DXF: save the drawing as ASCII DXF");
     if (size >= 6 && memcmp(text, "AC10", 4) == 0)
         return sl_fail_at(dxf->context, dxf->name, 0,
                           "a DWG drawing: save it as ASCII DXF in the program that it is from");
@@ -67,13 +64,23 @@ sli_dxf_range sli_dxf_entity(const sli_dxf *dxf, size_t begin, size_t end) {
     return (sli_dxf_range){begin, stop};
 }
 
+sl_status sli_dxf_fault(sli_dxf *dxf, const sli_fault *kind, uint32_t line) {
+    dxf->fault = kind;
+    dxf->fault_line = line;
+    return SL_BAD_INPUT;
+}
+
+static const sli_fault wrong_number = {"entity with a wrong number", "entities with wrong numbers"};
+
 sl_status sli_dxf_read_number(sli_dxf *dxf, const sli_dxf_pair *pair, double *value) {
     double number;
     if (!sl_number_read(pair->value.at, pair->value.length, &number) ||
-        !(number <= SL_COORDINATE_MAX && number >= -SL_COORDINATE_MAX))
+        !(number <= SL_COORDINATE_MAX && number >= -SL_COORDINATE_MAX)) {
+        (void)sli_dxf_fault(dxf, &wrong_number, pair->line);
         return sl_fail_at(dxf->context, dxf->name, pair->line,
                           "expected a number up to %g for group %d, found '%s'", SL_COORDINATE_MAX,
                           pair->code, sli_show(pair->value).text);
+    }
     *value = number;
     return SL_OK;
 }
@@ -94,10 +101,12 @@ sl_status sli_dxf_integer(sli_dxf *dxf, sli_dxf_range entity, int code, int *val
     if (!pair) return SL_OK;
     double number = 0;
     SL_TRY(sli_dxf_read_number(dxf, pair, &number));
-    if (!(number >= -32768 && number <= 65535) || number != (int)number)
+    if (!(number >= -32768 && number <= 65535) || number != (int)number) {
+        (void)sli_dxf_fault(dxf, &wrong_number, pair->line);
         return sl_fail_at(dxf->context, dxf->name, pair->line,
                           "expected a whole number of 16 bits for group %d, found '%s'", code,
                           sli_show(pair->value).text);
+    }
     *value = (int)number;
     return SL_OK;
 }
@@ -233,6 +242,7 @@ static sl_status read_section(sli_dxf *dxf, size_t begin, size_t *after) {
     if (sli_word_is(name->value, "TABLES")) return read_tables(dxf, section);
     if (sli_word_is(name->value, "BLOCKS")) return read_blocks(dxf, section);
     if (sli_word_is(name->value, "ENTITIES")) dxf->entities = section;
+    if (sli_word_is(name->value, "OBJECTS")) dxf->objects = section;
     return SL_OK;
 }
 
@@ -253,7 +263,14 @@ static sl_status read_sections(sli_dxf *dxf) {
 }
 
 sl_status sli_dxf_read(sli_dxf *dxf, const char *text, size_t size) {
+    if (sli_dxf_is_binary(text, size)) {
+        SL_TRY(sli_dxf_from_binary(dxf, text, size));
+        text = dxf->text.items;
+        size = dxf->text.count;
+    }
     SL_TRY(refuse_other_files(dxf, text, size));
     SL_TRY(read_pairs(dxf, text, size));
-    return read_sections(dxf);
+    SL_TRY(sli_dxf_decode_names(dxf));
+    SL_TRY(read_sections(dxf));
+    return sli_dxf_find_clips(dxf);
 }

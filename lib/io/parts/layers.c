@@ -47,12 +47,19 @@ static const char *const names[SLI_LAYER_COUNT] = {
     "sightline-solid-stops-sound",
     "sightline-solid-stops-sight-sound",
     "sightline-solid-stops-steps-sound",
+    [SLI_LAYER_PARTIAL_WALL_SOLID] = "sightline-wall-solid-stops-sight",
+    "sightline-wall-solid-stops-steps",
+    "sightline-wall-solid-stops-sight-steps",
+    "sightline-wall-solid-stops-sound",
+    "sightline-wall-solid-stops-sight-sound",
+    "sightline-wall-solid-stops-steps-sound",
 };
 
 /// Whether a layer's name says what walls stop.
 static bool says_stops(sli_word name) {
-    static const char *const begins[] = {"sightline-wall-stops", "sightline-solid-stops"};
-    for (int i = 0; i < 2; i++)
+    static const char *const begins[] = {"sightline-wall-stops", "sightline-solid-stops",
+                                         "sightline-wall-solid-stops"};
+    for (int i = 0; i < 3; i++)
         if (name.length >= strlen(begins[i]) &&
             strncasecmp(name.at, begins[i], strlen(begins[i])) == 0)
             return true;
@@ -169,14 +176,16 @@ static sl_status take_line(sl_context *context, sl_map *map, const sli_layer_ite
     }
 }
 
-/// Walls that do not stop all, or ground with such.
+/// Walls that do not stop all, with solid ground at their left or without, or ground with such.
 static sl_status take_partial(sl_context *context, const char *file, sl_map *map,
                               const sli_layer_item *item, const sl_map *drawn, uint32_t line) {
     const size_t first = map->wall_count;
-    if (item->layer < SLI_LAYER_PARTIAL_SOLID)
-        SL_TRY(sl_map_add_walls(context, map, drawn->walls, drawn->wall_count));
-    else
+    if (item->layer >= SLI_LAYER_PARTIAL_SOLID && item->layer < SLI_LAYER_PARTIAL_WALL_SOLID)
         SL_TRY(take_outline(context, file, map, item, drawn, line));
+    else
+        SL_TRY(sl_map_add_walls(context, map, drawn->walls, drawn->wall_count));
+    if (item->layer >= SLI_LAYER_PARTIAL_WALL_SOLID)
+        for (size_t i = first; i < map->wall_count; i++) map->walls[i].ground = SL_SOLID_LEFT;
     return sl_map_walls_stop(context, map, first, sli_layer_stops(item->layer));
 }
 
@@ -361,12 +370,16 @@ static sl_status emit_partial(void *user, sl_point from, sl_point to, uint32_t l
     return emit_line(writer, partial(writer, SLI_LAYER_PARTIAL), from, to);
 }
 
-/// Open ground within walls that do not stop all is written wall by wall.
+static sl_status emit_partial_wall_solid(void *user, sl_point from, sl_point to, uint32_t line) {
+    layer_writer *writer = user;
+    (void)line;
+    return emit_line(writer, partial(writer, SLI_LAYER_PARTIAL_WALL_SOLID), from, to);
+}
+
 static sl_status emit_partial_solid(void *user, const sl_point *corners, size_t count, bool solid,
                                     uint32_t line) {
     layer_writer *writer = user;
-    for (size_t i = 0; i < count && !solid; i++)
-        SL_TRY(emit_partial(user, corners[i], corners[i + 1 < count ? i + 1 : 0], line));
+    (void)line;
     if (!solid) return SL_OK;
     return emit(writer, &(sli_layer_item){.layer = partial(writer, SLI_LAYER_PARTIAL_SOLID),
                                           .points = corners,
@@ -374,7 +387,16 @@ static sl_status emit_partial_solid(void *user, const sl_point *corners, size_t 
                                           .closed = true});
 }
 
-/// Walls that do not stop all: those without ground, then the outlines of ground.
+/// Open ground within walls that do not stop all is written wall by wall.
+static sl_status emit_partial_open(void *user, const sl_point *corners, size_t count, bool solid,
+                                   uint32_t line) {
+    for (size_t i = 0; i < count && !solid; i++)
+        SL_TRY(emit_partial_wall_solid(user, corners[i], corners[(i + 1) % count], line));
+    return SL_OK;
+}
+
+/// Walls that do not stop all: those without ground, then the outlines of ground, then what is left
+/// of those with ground.
 static sl_status write_partial(layer_writer *writer) {
     const sl_map *map = writer->map;
     sl_wall *walls = sl_alloc_array(writer->context, map->seam_count, sizeof *walls);
@@ -385,14 +407,18 @@ static sl_status write_partial(layer_writer *writer) {
             const sl_glass *wall = &map->seams[i];
             const sl_segment at = wall->segment;
             if (wall->stops != writer->stops) continue;
-            if (wall->ground)
+            if (wall->ground & (SL_SOLID_LEFT | SL_SOLID_RIGHT) &&
+                !sli_ground_parts_rooms(wall->ground))
                 walls[count++] = (sl_wall){at.a, at.b, wall->line, wall->ground};
             else
                 status = emit_partial(writer, at.a, at.b, 0);
         }
-        const sli_loop_user user = {
-            .user = writer, .polygon = emit_partial_solid, .wall = emit_partial};
-        if (status == SL_OK) status = sli_ground_trace(writer->context, walls, count, &user);
+        const sli_loop_user users[] = {
+            {.user = writer, .polygon = emit_partial_solid, .wall = pass_wall},
+            {.user = writer, .polygon = emit_partial_open, .wall = emit_partial_wall_solid},
+        };
+        for (size_t i = 0; i < 2 && status == SL_OK; i++)
+            status = sli_ground_trace(writer->context, walls, count, &users[i]);
     }
     sl_free(writer->context, walls);
     return status;

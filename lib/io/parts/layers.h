@@ -23,11 +23,12 @@ typedef enum sli_layer {
     SLI_LAYER_OBJECT, ///< closed outlines of boxes
     SLI_LAYER_CELL,   ///< closed outlines
     SLI_LAYER_WRONG,  ///< it says what walls stop, in words that nobody knows
-    /// Walls that do not stop all, and outlines of ground with such: the first of the layers, by
-    /// what they stop, from SL_STOPS_SIGHT on.
+    /// Walls that do not stop all, outlines of ground with such, and such walls with solid ground
+    /// at their left: the first of the layers, by what they stop, from SL_STOPS_SIGHT on.
     SLI_LAYER_PARTIAL,
     SLI_LAYER_PARTIAL_SOLID = SLI_LAYER_PARTIAL + SL_STOPS_ALL - 1,
-    SLI_LAYER_COUNT = SLI_LAYER_PARTIAL_SOLID + SL_STOPS_ALL - 1,
+    SLI_LAYER_PARTIAL_WALL_SOLID = SLI_LAYER_PARTIAL_SOLID + SL_STOPS_ALL - 1,
+    SLI_LAYER_COUNT = SLI_LAYER_PARTIAL_WALL_SOLID + SL_STOPS_ALL - 1,
 } sli_layer;
 
 /// What walls of such a layer stop; 0 for other layers.

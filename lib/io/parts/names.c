@@ -11,22 +11,124 @@
 
 // --- words
 
-#define LONGEST 24
-
 static const char *const solid_words[] = {
-    "wall",     "solid",     "collision", "collide",    "collider",
-    "obstacle", "block",     "blocked",   "blocking",   "blocker",
-    "occluder", "occlusion", "opaque",    "impassable", "collides",
+    // English
+    "wall",
+    "solid",
+    "collision",
+    "collide",
+    "collider",
+    "collidable",
+    "collideable",
+    "obstacle",
+    "block",
+    "blocked",
+    "blocking",
+    "blocker",
+    "occluder",
+    "occlusion",
+    "opaque",
+    "impassable",
+    "collides",
+    "impassible",
+    "unpassable",
+    "unwalkable",
+    "nonwalkable",
+    "nowalk",
+    "nopass",
+    "barrier",
+    "boundary",
+    "boundaries",
+    "bounds",
+    // German, French, Spanish, Portuguese, Italian, Swedish, Polish
+    "mauer",
+    "mauern",
+    "wände",
+    "waende",
+    "kollision",
+    "kollisionen",
+    "hindernis",
+    "hindernisse",
+    "mur",
+    "obstaculo",
+    "obstáculo",
+    "muro",
+    "pared",
+    "paredes",
+    "colision",
+    "colisión",
+    "colisiones",
+    "parede",
+    "colisao",
+    "colisão",
+    "colisoes",
+    "colisões",
+    "bloqueo",
+    "muri",
+    "muratura",
+    "parete",
+    "pareti",
+    "collisione",
+    "collisioni",
+    "ostacolo",
+    "ostacoli",
+    "vägg",
+    "väggar",
+    "kollisioner",
+    "ściana",
+    "ściany",
+    "sciana",
+    "sciany",
+    "kolizja",
+    "kolizje",
+    // Russian, Chinese, Japanese, Korean
+    "стена",
+    "стены",
+    "коллизия",
+    "коллизии",
+    "препятствие",
+    "препятствия",
+    "墙",
+    "墙壁",
+    "墙体",
+    "牆",
+    "牆壁",
+    "碰撞",
+    "碰撞层",
+    "障碍",
+    "障碍物",
+    "障碍层",
+    "阻挡",
+    "阻挡层",
+    "壁",
+    "障害物",
+    "当たり判定",
+    "벽",
+    "충돌",
+    "장애물",
 };
 static const char *const solid_neutral[] = {
-    "layer", "tile", "object", "group", "map", "area", "shape", "box",
+    "layer", "tile",  "object", "group", "map",    "area", "shape", "box",     "is",       "ge",
+    "has",   "ebene", "calque", "capa",  "camada", "mask", "rect",  "polygon", "geometry",
 };
-static const char *const start_words[] = {"player",           "spawn",         "start",
-                                          "starting",         "entrance",      "hero",
-                                          "playerstart",      "playerspawn",   "playerpos",
-                                          "spawnpoint",       "startpoint",    "startpos",
-                                          "spawnpos",         "startposition", "playerposition",
-                                          "playerspawnpoint", "spawnposition", "playercharacter"};
+/// "no walk", "not passable": the second word of what is solid.
+static const char *const not_words[] = {"no", "non", "not", "un", "cannot", "cant"};
+static const char *const walk_words[] = {"walk",        "walkable",    "walking",   "pass",
+                                         "passable",    "passing",     "passage",   "passthrough",
+                                         "traversable", "walkthrough", "accessible"};
+static const char *const walk_neutral[] = {"is", "can", "tile", "be", "on", "through", "ge"};
+static const char *const start_words[] = {"player",         "spawn",
+                                          "start",          "starting",
+                                          "entrance",       "hero",
+                                          "playerstart",    "playerspawn",
+                                          "playerpos",      "spawnpoint",
+                                          "startpoint",     "startpos",
+                                          "spawnpos",       "startposition",
+                                          "playerposition", "playerspawnpoint",
+                                          "spawnposition",  "playercharacter",
+                                          "entry",          "entrypoint",
+                                          "playerentry",    "startlayer",
+                                          "protagonist"};
 static const char *const start_neutral[] = {
     "point",  "position", "pos",  "location", "loc",  "place", "marker",    "object",
     "entity", "tile",     "area", "zone",     "main", "here",  "character", "default",
@@ -56,14 +158,12 @@ static bool is_small(char c) {
     return c >= 'a' && c <= 'z';
 }
 
-/// A word of a name, in small letters; empty for one too long to know.
-typedef struct name_word {
-    char text[LONGEST];
-    size_t length;
-} name_word;
+/// A byte of a letter beyond ASCII.
+static bool is_other(char c) {
+    return (unsigned char)c >= 0x80;
+}
 
-/// Whether a word is in the list. A plural with s or es counts too.
-static bool in_list(const name_word *word, const char *const *list, size_t count) {
+bool sli_word_in(const sli_name_word *word, const char *const *list, size_t count) {
     for (size_t i = 0; i < count; i++) {
         const size_t stem = strlen(list[i]);
         if (word->length < stem || memcmp(word->text, list[i], stem) != 0) continue;
@@ -73,26 +173,34 @@ static bool in_list(const name_word *word, const char *const *list, size_t count
     }
     return false;
 }
-#define IS_ONE_OF(word, list) in_list(word, list, COUNT(list))
+#define IS_ONE_OF(word, list) sli_word_in(word, list, COUNT(list))
 
-/// The next word of the name; moves behind it. False at the end. A letter beyond ASCII gives an
-/// empty word: its words are in no list.
-static bool next_word(const char **at, name_word *out) {
-    *out = (name_word){0};
-    while (**at && !is_small(**at) && !is_capital(**at) && (unsigned char)**at < 0x80) ++*at;
+/// Capitals of Latin-1 and Cyrillic in two bytes of UTF-8 become small letters.
+static void make_small(char *text, size_t length) {
+    for (size_t i = 0; i + 1 < length; i++) {
+        unsigned char *two = (unsigned char *)text + i;
+        if (two[0] == 0xc3 && two[1] >= 0x80 && two[1] <= 0x9e && two[1] != 0x97) two[1] += 0x20;
+        if (two[0] == 0xd0 && two[1] >= 0x90 && two[1] <= 0x9f) two[1] += 0x20;
+        if (two[0] == 0xd0 && two[1] >= 0xa0 && two[1] <= 0xaf) two[0]++, two[1] -= 0x20;
+    }
+}
+
+bool sli_word_next(const char **at, sli_name_word *out) {
+    *out = (sli_name_word){0};
+    while (**at && !is_small(**at) && !is_capital(**at) && !is_other(**at)) ++*at;
     if (!**at) return false;
     const char *from = *at;
     size_t length = 0;
-    for (; is_small(**at) || is_capital(**at); ++*at, length++) {
+    for (; is_small(**at) || is_capital(**at) || is_other(**at); ++*at, length++) {
         if (*at > from && is_capital(**at) && is_small((*at)[-1])) break;
-        if (length + 1 < LONGEST)
+        if (length + 1 < SLI_LONGEST_WORD)
             out->text[length] = is_capital(**at) ? (char)(**at - 'A' + 'a') : **at;
     }
-    if (!length) ++*at;
-    if (length + 1 < LONGEST)
+    if (length + 1 < SLI_LONGEST_WORD)
         out->length = length;
     else
-        *out = (name_word){0};
+        *out = (sli_name_word){0};
+    make_small(out->text, out->length);
     return true;
 }
 
@@ -100,17 +208,39 @@ static bool next_word(const char **at, name_word *out) {
 static bool says(const char *name, const char *const *first, size_t first_count,
                  const char *const *neutral, size_t neutral_count) {
     bool said = false;
-    for (name_word word; next_word(&name, &word);) {
-        if (in_list(&word, first, first_count))
+    for (sli_name_word word; sli_word_next(&name, &word);) {
+        if (sli_word_in(&word, first, first_count))
             said = true;
-        else if (!in_list(&word, neutral, neutral_count))
+        else if (!sli_word_in(&word, neutral, neutral_count))
             return false;
     }
     return said;
 }
 
 bool sli_says_solid(const char *name) {
-    return says(name, solid_words, COUNT(solid_words), solid_neutral, COUNT(solid_neutral));
+    bool said = false, negated = false;
+    for (sli_name_word word; sli_word_next(&name, &word);) {
+        if (!negated && IS_ONE_OF(&word, not_words)) {
+            negated = true;
+            continue;
+        }
+        if (negated != IS_ONE_OF(&word, walk_words)) return false;
+        said |= negated || IS_ONE_OF(&word, solid_words);
+        if (!negated && !IS_ONE_OF(&word, solid_words) && !IS_ONE_OF(&word, solid_neutral))
+            return false;
+        negated = false;
+    }
+    return said && !negated;
+}
+
+bool sli_says_walkable(const char *name) {
+    return says(name, walk_words, COUNT(walk_words), walk_neutral, COUNT(walk_neutral));
+}
+
+bool sli_mentions_solid(const char *name) {
+    for (sli_name_word word; sli_word_next(&name, &word);)
+        if (IS_ONE_OF(&word, solid_words)) return true;
+    return false;
 }
 
 bool sli_says_start(const char *name) {
@@ -119,7 +249,7 @@ bool sli_says_start(const char *name) {
 
 bool sli_says_door(const char *name) {
     bool first = true, leads = false, said = false;
-    for (name_word word; next_word(&name, &word); first = false) {
+    for (sli_name_word word; sli_word_next(&name, &word); first = false) {
         if (IS_ONE_OF(&word, door_others)) return false;
         const bool door = IS_ONE_OF(&word, door_words);
         leads |= first && door;
@@ -145,7 +275,7 @@ bool sli_says_state_by_word(const char *name) {
 }
 
 bool sli_mentions_door(const char *name) {
-    for (name_word word; next_word(&name, &word);)
+    for (sli_name_word word; sli_word_next(&name, &word);)
         if (IS_ONE_OF(&word, door_words)) return true;
     return false;
 }
@@ -156,11 +286,69 @@ bool sli_says_door_alone(const char *name) {
 
 sli_door_state sli_says_state(const char *name) {
     sli_door_state state = SLI_DOOR_UNSAID;
-    for (name_word word; next_word(&name, &word);) {
+    for (sli_name_word word; sli_word_next(&name, &word);) {
         if (IS_ONE_OF(&word, shut_words)) return SLI_DOOR_SHUT;
         if (IS_ONE_OF(&word, open_words)) state = SLI_DOOR_OPEN;
     }
     return state;
+}
+
+// --- layers with numbers
+
+bool sli_layers_name(sli_word word, const char *layer, sli_word *numbers) {
+    const size_t length = strlen(layer);
+    *numbers = (sli_word){word.at + word.length, 0};
+    if (sli_word_is(word, layer)) return true;
+    if (word.length <= length || word.at[length] != ':' || memcmp(word.at, layer, length) != 0)
+        return false;
+    *numbers = (sli_word){word.at + length + 1, word.length - length - 1};
+    return true;
+}
+
+bool sli_layers_ask(const char *list, const char *layer, sli_word *numbers) {
+    for (sli_word word; sli_layers_next(&list, &word);)
+        if (sli_layers_name(word, layer, numbers)) return true;
+    return false;
+}
+
+/// A number at the start of the word, cut off from it.
+static bool next_number(sli_word *word, uint64_t *number) {
+    size_t length = 0;
+    for (*number = 0; length < word->length && *number <= UINT32_MAX; length++) {
+        const char c = word->at[length];
+        if (c < '0' || c > '9') break;
+        *number = 10 * *number + (uint64_t)(c - '0');
+    }
+    *word = (sli_word){word->at + length, word->length - length};
+    return length > 0 && *number <= UINT32_MAX;
+}
+
+/// The next "28" or "33-35" of numbers with + between; false at the end, and where there is none.
+static bool next_range(sli_word *numbers, uint64_t *low, uint64_t *high) {
+    if (!next_number(numbers, low)) return false;
+    *high = *low;
+    if (numbers->length && numbers->at[0] == '-') {
+        *numbers = (sli_word){numbers->at + 1, numbers->length - 1};
+        if (!next_number(numbers, high)) return false;
+    }
+    if (numbers->length && numbers->at[0] == '+')
+        *numbers = (sli_word){numbers->at + 1, numbers->length - 1};
+    else if (numbers->length)
+        return false;
+    return true;
+}
+
+bool sli_numbers_have(sli_word numbers, uint64_t number) {
+    if (!numbers.length) return true;
+    for (uint64_t low, high; numbers.length && next_range(&numbers, &low, &high);)
+        if (number >= low && number <= high) return true;
+    return false;
+}
+
+bool sli_numbers_good(sli_word numbers) {
+    for (uint64_t low, high; numbers.length;)
+        if (!next_range(&numbers, &low, &high)) return false;
+    return true;
 }
 
 // --- files beside a file

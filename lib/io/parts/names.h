@@ -33,6 +33,19 @@ static inline bool sli_layers_have(const char *list, const char *layer) {
     return false;
 }
 
+// --- layers with numbers: NAME takes all of a layer, or all layers of a group; NAME:28+33-35 the
+// --- tiles or values of these numbers
+
+/// Whether a word of the list is a layer's name, with numbers or without; `*numbers` gets them, of
+/// no length for all.
+bool sli_layers_name(sli_word word, const char *layer, sli_word *numbers);
+/// The same for the first such word of a list.
+bool sli_layers_ask(const char *list, const char *layer, sli_word *numbers);
+/// Whether the numbers are written as they must be.
+bool sli_numbers_good(sli_word numbers);
+/// Whether a number is among them; any is among none.
+bool sli_numbers_have(sli_word numbers, uint64_t number);
+
 /// Names for a message: "walls, doors, ...". Zeroed, it is empty.
 typedef struct sli_name_list {
     char text[512];
@@ -60,12 +73,29 @@ static inline sl_status sli_fail_layer(sl_context *context, const char *file, sl
 
 // --- words for what stops sight
 
+enum { SLI_LONGEST_WORD = 40 };
+
+/// A word of a name, in small letters; empty for one too long to know.
+typedef struct sli_name_word {
+    char text[SLI_LONGEST_WORD];
+    size_t length;
+} sli_name_word;
+
+/// The next word of the name; moves behind it. False at the end. Words are runs of letters, and end
+/// before a capital that follows a small letter. All letters beyond ASCII are letters.
+bool sli_word_next(const char **at, sli_name_word *word);
+/// Whether the word is in the list. A plural with s or es counts too.
+bool sli_word_in(const sli_name_word *word, const char *const *list, size_t count);
+
 /// Whether all words of the name are words for what is solid (wall, solid, collision, collider,
-/// obstacle, block, blocked, blocking, blocker, occluder, occlusion, opaque, impassable, one or
-/// many) or for nothing in particular (layer, tile, object, group, map, area, shape, box), one of
-/// the first at least. Words are runs of letters, in small letters or capitals, and end before a
-/// capital that follows a small letter: "Collision_Layer 2", "wallTiles", but not "wall_tops".
+/// obstacle, block, barrier, impassable ..., Mauer, mur, muro, стена, 墙 ..., one or many; "no
+/// walk") or for nothing in particular (layer, tile, object, group, map, area, shape, box, is ...),
+/// one of the first at least: "Collision_Layer 2", "wallTiles", but not "wall_tops".
 bool sli_says_solid(const char *name);
+/// The same for a property that says the contrary: "walkable", "isPassable".
+bool sli_says_walkable(const char *name);
+/// Whether some word is one for what is solid: "wall_tops".
+bool sli_mentions_solid(const char *name);
 
 // --- words for starts and doors
 

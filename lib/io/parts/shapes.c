@@ -123,7 +123,8 @@ static bool place(const sli_pen *pen, sl_point point, sl_point *out) {
 
 sl_status sli_pen_line(sli_pen *pen, sl_point to) {
     sl_point a, b;
-    if (!place(pen, pen->at, &a) || !place(pen, to, &b))
+    pen->too_far = !place(pen, pen->at, &a) || !place(pen, to, &b);
+    if (pen->too_far)
         return sl_fail_at(pen->context, pen->name, pen->line,
                           "a coordinate is out of range: expected a magnitude up to %g",
                           SL_COORDINATE_MAX);
@@ -327,6 +328,49 @@ static void put_all(sli_tiles *tiles, const span *all, char kind, sli_grid *grid
     }
 }
 
+/// Which of two squares is water beside an open one: 1 the first, 2 the second, 0 none.
+static int shore_of(char one, char other) {
+    if ((one == '~') == (other == '~') || one == '#' || other == '#') return 0;
+    return one == '~' ? 1 : 2;
+}
+
+/// The shores of one line of the grid, each as long as it can be. `upright` lines lie before a
+/// column, the others above a row.
+static sl_status add_shores_of_line(sl_context *context, const sli_grid *grid, bool upright,
+                                    size_t line, sl_map *map) {
+    const size_t length = upright ? grid->count : grid->rows[0].length;
+    size_t from = 0;
+    int last = 0;
+    for (size_t i = 0; i <= length; i++) {
+        const int now =
+            i == length ? 0
+            : upright
+                ? shore_of(sli_grid_square(grid, i, line - 1), sli_grid_square(grid, i, line))
+                : shore_of(sli_grid_square(grid, line - 1, i), sli_grid_square(grid, line, i));
+        if (now == last) continue;
+        const sl_point a =
+            upright ? sli_grid_corner(grid, from - 1, line) : sli_grid_corner(grid, line - 1, from);
+        const sl_point b =
+            upright ? sli_grid_corner(grid, i - 1, line) : sli_grid_corner(grid, line - 1, i);
+        if (last) SL_TRY(sl_map_add_wall(context, map, a, b, 0));
+        from = i;
+        last = now;
+    }
+    return SL_OK;
+}
+
+/// Water is seen over, and stops steps where it ends at open ground.
+static sl_status add_shores(sl_context *context, const sli_grid *grid, sl_map *map) {
+    const size_t first = map->wall_count;
+    for (size_t row = 0; row <= grid->count; row++)
+        SL_TRY(add_shores_of_line(context, grid, false, row, map));
+    for (size_t column = 0; column <= grid->rows[0].length; column++) {
+        SL_TRY(sl_check_cancelled(context));
+        SL_TRY(add_shores_of_line(context, grid, true, column, map));
+    }
+    return sl_map_walls_stop(context, map, first, SL_STOPS_STEPS);
+}
+
 static sl_status add_grid(sl_context *context, sli_tiles *tiles, const char *name, const span *all,
                           const sli_tiles_options *options, bool closed, sl_map *map) {
     const double width = all->right - all->left, height = all->bottom - all->top;
@@ -348,6 +392,7 @@ static sl_status add_grid(sl_context *context, sli_tiles *tiles, const char *nam
         memset(grid.squares, '#', (size_t)width * (size_t)height);
         put_all(tiles, all, '.', &grid);
     }
+    if (tiles->water) put_all(tiles, all, '~', &grid);
     put_all(tiles, all, '#', &grid);
     grid.step = step;
     grid.origin =
@@ -359,6 +404,7 @@ static sl_status add_grid(sl_context *context, sli_tiles *tiles, const char *nam
     if (status == SL_OK)
         status = options->add_walls ? options->add_walls(options->user, &grid, map)
                                     : sli_grid_add_walls(context, &grid, map);
+    if (status == SL_OK && tiles->water) status = add_shores(context, &grid, map);
     sli_grid_destroy(context, &grid);
     return status;
 }

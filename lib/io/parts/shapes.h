@@ -56,6 +56,7 @@ typedef struct sli_pen {
     sl_point at;   ///< the pen, in the drawing's coordinates
     size_t walls;  ///< drawn
     size_t points; ///< lines of no length, left out
+    bool too_far;  ///< the last failure: a coordinate that is not usable
     double finest; ///< the finest unit of the coordinates, in the map's unit
     uint64_t sum;  ///< of their digits
 } sli_pen;
@@ -84,7 +85,7 @@ typedef struct sli_tile_block {
     sl_point corner;      ///< the upper left one
     sl_point step;        ///< the size of a tile, over 0
     size_t columns, rows; ///< at least 1
-    char *squares;        ///< row after row, '#' solid, '.' open, ' ' not of the block
+    char *squares;        ///< row after row, '#' solid, '~' water, '.' open, ' ' not of the block
     bool done;            ///< its walls are made
 } sli_tile_block;
 
@@ -92,6 +93,7 @@ typedef struct sli_tile_block {
 typedef struct sli_tiles {
     SL_ARRAY(sli_tile_block) blocks;
     uint64_t squares; ///< of all blocks
+    bool water;       ///< there is some: it stops steps, and neither sight nor sound
 } sli_tiles;
 
 /// SL_BAD_INPUT where a block of so many more squares goes beyond the limit: asked before its data

@@ -7,6 +7,7 @@
 #include "io/parts/things.h"
 
 #include "geometry/length.h"
+#include "io/parts/game_names.h"
 #include "sightline/support.h"
 
 #include <math.h>
@@ -17,6 +18,8 @@
 
 sli_says sli_says_of(const char *name, const char *class_name) {
     const char *texts[] = {class_name ? class_name : "", name ? name : ""};
+    // A trigger that is named for the door where it lies.
+    if (sli_game_says_other(texts[0])) return (sli_says){0};
     for (size_t i = 0; i < 2; i++) {
         const char *own = *texts[1] ? texts[1] : texts[0];
         if (sli_says_door(texts[i])) {
@@ -25,7 +28,10 @@ sli_says sli_says_of(const char *name, const char *class_name) {
                               .state = state ? state : sli_says_state(texts[0]),
                               .name = own};
         }
-        if (sli_says_start(texts[i])) return (sli_says){.kind = SLI_THING_START, .name = own};
+        if (!sli_says_start(texts[i])) continue;
+        // A spawn that is named for a goblin.
+        if (i == 0 && sli_game_says_other(texts[1])) return (sli_says){0};
+        return (sli_says){.kind = SLI_THING_START, .name = own};
     }
     return (sli_says){0};
 }
@@ -312,6 +318,11 @@ static sl_status check_names(const sli_things *things) {
     return SL_OK;
 }
 
+sl_point sli_thing_place(const sli_things *things, size_t number) {
+    const sl_point middle = things->items.items[number].middle;
+    return (sl_point){middle.x, things->top - middle.y};
+}
+
 static sl_status add_starts(const sli_things *things, sl_map *map) {
     const sl_box bounds = sl_map_bounds(map);
     size_t count = 0, moved = 0, left_out = 0;
@@ -319,11 +330,15 @@ static sl_status add_starts(const sli_things *things, sl_map *map) {
     for (size_t i = 0; i < things->items.count; i++) {
         const sli_thing *start = &things->items.items[i];
         if (start->kind != SLI_THING_START) continue;
-        const sl_point at = {start->middle.x, things->top - start->middle.y};
+        const sl_point at = sli_thing_place(things, i);
         const bool in_bounds = at.x >= bounds.min.x && at.x <= bounds.max.x &&
                                at.y >= bounds.min.y && at.y <= bounds.max.y;
         if (!is_usable(at) || !(things->grids ? start->inside : in_bounds)) {
             tell_left_out(things, start, &left_out, "it is outside the map");
+            continue;
+        }
+        if (start->doubt) {
+            tell_left_out(things, start, &left_out, start->doubt);
             continue;
         }
         if (start->solid) {

@@ -41,13 +41,14 @@ typedef struct sli_thing {
     bool open;      ///< a door, when the map begins
     double heading; ///< of a start, as sl_start has it
     uint32_t line;
-    bool inside;   ///< within some grid
-    bool solid;    ///< its middle is on solid ground
-    bool moved;    ///< a start that stood on the edge of a solid square
-    bool placed;   ///< a door whose segment is found, in the map's coordinates
-    bool cut;      ///< and which opened solid squares
-    bool again;    ///< a door of squares that is an object's door too
-    sl_segment at; ///< of a door
+    bool inside;       ///< within some grid
+    bool solid;        ///< its middle is on solid ground
+    bool moved;        ///< a start that stood on the edge of a solid square
+    const char *doubt; ///< a start that is not believed: why; else NULL
+    bool placed;       ///< a door whose segment is found, in the map's coordinates
+    bool cut;          ///< and which opened solid squares
+    bool again;        ///< a door of squares that is an object's door too
+    sl_segment at;     ///< of a door
 } sli_thing;
 
 /// A rectangle of door squares that is growing: squares of a block of tiles, and its first row.
@@ -86,6 +87,9 @@ typedef struct sli_things {
 } sli_things;
 
 void sli_things_destroy(sli_things *things);
+
+/// Where a thing is in the map.
+sl_point sli_thing_place(const sli_things *things, size_t number);
 
 /// The heading of a start: `clockwise` degrees from +x, on a screen with y down.
 double sli_heading_of(double clockwise);

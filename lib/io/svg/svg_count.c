@@ -161,8 +161,8 @@ static sl_status count_use(counter *c, const xmlNode *node, uint64_t depth, sli_
 
 static sl_status count_element(counter *c, const xmlNode *node, uint64_t depth, sli_svg_id *sum) {
     static const char *const groups[] = {"g", "a", "svg", "switch"};
-    // Rules of style sheets are held against each element.
-    sum->entities = sli_limit_sum(sum->entities, 1 + c->style->rules.count / 16);
+    // Rules of style sheets that may fit are held against each element.
+    sum->entities = sli_limit_sum(sum->entities, 1 + c->style->same_key / 16);
     if (sli_xml_is(node, "use"))
         return sli_svg_hides(c->style, node) ? SL_OK : count_use(c, node, depth, sum);
     for (size_t i = 0; i < sizeof groups / sizeof *groups; i++)

@@ -1,26 +1,54 @@
-/// Style sheets in drawings (CSS 2.1), as far as they hide: Illustrator and others write the looks
-/// of shapes as classes. Of several declarations about an element one counts (CSS 2.1, 6.4): first
-/// those that are !important, then the element's own style, then the rule whose selector has more
-/// ids, classes and names of elements, then the later one. Attributes come last.
+/// Style sheets in drawings (CSS 2.1), as far as they hide or move: Illustrator and others write
+/// the looks of shapes as classes. Of several declarations about an element one counts
+/// (CSS 2.1, 6.4): first those that are !important, then the element's own style, then the rule
+/// whose selector has more ids, classes and names of elements, then the later one. Attributes come
+/// last.
 ///
-/// Known are selectors of names, .classes, #ids and *, one within another: "g.walls .no, #a".
+/// Known are selectors of names, .classes, #ids and *, one within another: "g.walls .no, #a". Rules
+/// are sorted by one part that an element must have, so that an element is held against few of
+/// them.
+///
+/// A shape is seen if it is not hidden, nothing about it has an opacity of 0, and its inside or its
+/// line is painted. By default the inside is (fill:black) and the line is not (stroke:none).
 #include "io/svg/svg_style.h"
+
+#include "base/base.h"
 
 #include "io/parts/document.h"
 
+#include <stdlib.h>
+
 static const char blanks[] = " \t\r\n\f";
 
-enum { DISPLAY, VISIBILITY, PROPERTIES };
-static const char *const names[] = {"display", "visibility"};
-static const char *const hiding[] = {"none", "hidden"};
+static const char *const names[SLI_SVG_PROPERTIES] = {
+    [SLI_SVG_DISPLAY] = "display",
+    [SLI_SVG_VISIBILITY] = "visibility",
+    [SLI_SVG_OPACITY] = "opacity",
+    [SLI_SVG_FILL] = "fill",
+    [SLI_SVG_STROKE] = "stroke",
+    [SLI_SVG_FILL_OPACITY] = "fill-opacity",
+    [SLI_SVG_STROKE_OPACITY] = "stroke-opacity",
+    [SLI_SVG_STROKE_WIDTH] = "stroke-width",
+    [SLI_SVG_CLIP_PATH] = "clip-path",
+    [SLI_SVG_TRANSFORM] = "transform",
+    [SLI_SVG_TRANSFORM_ORIGIN] = "transform-origin",
+    [SLI_SVG_TRANSFORM_BOX] = "transform-box",
+    [SLI_SVG_ROTATE] = "rotate",
+    [SLI_SVG_SCALE] = "scale",
+    [SLI_SVG_TRANSLATE] = "translate",
+};
+
+static bool paints(int property) {
+    return property >= SLI_SVG_OPACITY && property <= SLI_SVG_STROKE_WIDTH;
+}
 
 #define IMPORTANT ((uint64_t)1 << 63)
 #define OWN_STYLE ((uint64_t)1 << 62)
 
-/// The declaration of a property that counts so far.
+/// The declarations that count so far.
 typedef struct declared {
-    bool any, hides;
-    uint64_t weight;
+    sli_word values[SLI_SVG_PROPERTIES];
+    uint64_t weights[SLI_SVG_PROPERTIES];
 } declared;
 
 static sli_word trimmed(const char *at, const char *end) {
@@ -36,8 +64,9 @@ static const char *find(const char *at, const char *end, const char *any) {
 }
 
 static void declare(declared *d, int property, sli_word value, uint64_t weight) {
-    if (d[property].any && weight < d[property].weight) return;
-    d[property] = (declared){true, sli_word_is(value, hiding[property]), weight};
+    if (!value.length || (d->values[property].length && weight < d->weights[property])) return;
+    d->values[property] = value;
+    d->weights[property] = weight;
 }
 
 /// Reads "name: value; name: value !important".
@@ -46,8 +75,9 @@ static void declare_all(declared *d, sli_word body, uint64_t weight) {
     for (const char *at = body.at; at < end; at++) {
         const char *stop = find(at, end, ";"), *colon = find(at, stop, ":");
         const char *value = colon + (colon < stop), *mark = find(value, stop, "!");
-        for (int i = 0; i < PROPERTIES; i++)
-            if (sli_word_is(trimmed(at, colon), names[i]))
+        const sli_word name = trimmed(at, colon);
+        for (int i = 0; i < SLI_SVG_PROPERTIES; i++)
+            if (sli_word_is(name, names[i]))
                 declare(d, i, trimmed(value, mark), mark < stop ? weight | IMPORTANT : weight);
         at = stop;
     }
@@ -130,24 +160,46 @@ static uint64_t weight_of(sli_word selector, size_t number) {
 
 // --- sheets
 
+/// The first part of the last compound.
+static sli_word key_of(sli_word selector) {
+    sli_word compound = last_compound(&selector);
+    return next_part(&compound);
+}
+
+/// Whether a selector is of elements that somebody points at: no drawing begins like that.
+static bool waits(sli_word selector) {
+    static const char *const states[] = {":hover", ":active", ":focus"};
+    for (int i = 0; i < 3; i++)
+        for (size_t k = 0; k + strlen(states[i]) <= selector.length; k++)
+            if (memcmp(selector.at + k, states[i], strlen(states[i])) == 0) return true;
+    return false;
+}
+
 static sl_status add_rules(sl_context *context, sli_svg_style *style, sli_word selectors,
                            sli_word body) {
     const char *end = selectors.at + selectors.length;
-    declared found[PROPERTIES] = {0};
-    declare_all(found, body, 0);
-    if (!found[DISPLAY].any && !found[VISIBILITY].any) return SL_OK;
+    declared found = {0};
+    bool any = false, moves = false, painted = false;
+    declare_all(&found, body, 0);
+    for (int i = 0; i < SLI_SVG_PROPERTIES; i++) {
+        any |= found.values[i].length > 0;
+        painted |= found.values[i].length && paints(i);
+        moves |= found.values[i].length && !paints(i);
+    }
+    if (!any) return SL_OK;
     for (const char *at = selectors.at; at < end; at++) {
         const char *stop = find(at, end, ",");
         const sli_word selector = trimmed(at, stop);
         at = stop;
         if (!selector.length || find(selector.at, stop, ">+~:[|\\") < stop) {
-            style->unread++;
+            style->unread += moves;
+            style->paint_unread |= painted && !waits(selector);
             continue;
         }
         SL_TRY(SL_ARRAY_ROOM(context, &style->rules, 1));
         const size_t number = ++style->rules.count;
         style->rules.items[number - 1] =
-            (sli_svg_rule){selector, body, weight_of(selector, number)};
+            (sli_svg_rule){key_of(selector), selector, body, weight_of(selector, number)};
     }
     return SL_OK;
 }
@@ -178,7 +230,9 @@ static sl_status read_sheet(sl_context *context, sli_svg_style *style, char *tex
     for (const char *at = text; at < end; at++) {
         at = trimmed(at, end).at;
         if (at < end && *at == '@') {
-            style->unread += strncmp(at, "@media", 6) == 0 || strncmp(at, "@import", 7) == 0;
+            const bool rules = strncmp(at, "@media", 6) == 0 || strncmp(at, "@import", 7) == 0;
+            style->unread += rules;
+            style->paint_unread |= rules;
             at = pass_at_rule(at, end);
             continue;
         }
@@ -197,10 +251,21 @@ static bool is_css(const xmlNode *node) {
     return css;
 }
 
-sl_status sli_svg_style_read(sl_context *context, const xmlNode *node, sli_svg_style *style) {
+static int compare_words(sli_word a, sli_word b) {
+    const size_t least = a.length < b.length ? a.length : b.length;
+    const int order = least ? memcmp(a.at, b.at, least) : 0;
+    return order ? order : (a.length > b.length) - (a.length < b.length);
+}
+
+static int compare_rules(const void *left, const void *right) {
+    const sli_svg_rule *a = left, *b = right;
+    return compare_words(a->key, b->key);
+}
+
+static sl_status read_sheets(sl_context *context, const xmlNode *node, sli_svg_style *style) {
     for (; node; node = node->next) {
         if (node->type != XML_ELEMENT_NODE) continue;
-        SL_TRY(sli_svg_style_read(context, node->children, style));
+        SL_TRY(read_sheets(context, node->children, style));
         if (!sli_xml_is(node, "style") || !is_css(node)) continue;
         SL_TRY(SL_ARRAY_ROOM(context, &style->sheets, 1));
         char *text = style->sheets.items[style->sheets.count] = sli_xml_content(node);
@@ -211,24 +276,149 @@ sl_status sli_svg_style_read(sl_context *context, const xmlNode *node, sli_svg_s
     return SL_OK;
 }
 
+sl_status sli_svg_style_read(sl_context *context, const xmlNode *root, sli_svg_style *style) {
+    // A sheet in another file, which stands before the drawing.
+    for (const xmlNode *before = root->prev; before; before = before->prev)
+        style->paint_unread |= before->type == XML_PI_NODE &&
+                               strcmp((const char *)before->name, "xml-stylesheet") == 0;
+    SL_TRY(read_sheets(context, root, style));
+    const size_t count = style->rules.count;
+    if (count) qsort(style->rules.items, count, sizeof *style->rules.items, compare_rules);
+    for (size_t i = 0, first = 0; i < count; i++) {
+        if (compare_rules(&style->rules.items[first], &style->rules.items[i]) != 0) first = i;
+        if (i - first + 1 > style->same_key) style->same_key = i - first + 1;
+    }
+    return SL_OK;
+}
+
 void sli_svg_style_destroy(sl_context *context, sli_svg_style *style) {
     for (size_t i = 0; i < style->sheets.count; i++) sli_xml_free(style->sheets.items[i]);
     sl_free(context, style->sheets.items);
     sl_free(context, style->rules.items);
 }
 
-bool sli_svg_hides(const sli_svg_style *style, const xmlNode *node) {
-    declared found[PROPERTIES] = {0};
-    for (int i = 0; i < PROPERTIES; i++) {
-        char *text = sli_xml_attribute(node, names[i]);
-        if (text) declare(found, i, trimmed(text, text + strlen(text)), 0);
-        sli_xml_free(text);
+// --- an element
+
+/// The order of a key and of ".a", whose sign and word come apart. A sign of 0 is none.
+static int compare_key(sli_word key, char sign, sli_word word) {
+    if (!sign) return compare_words(key, word);
+    if (!key.length || *key.at != sign)
+        return key.length && (unsigned char)*key.at > (unsigned char)sign ? 1 : -1;
+    return compare_words((sli_word){key.at + 1, key.length - 1}, word);
+}
+
+/// Declares what the rules of a key say of an element.
+static void declare_rules(declared *d, const sli_svg_style *style, const xmlNode *node, char sign,
+                          sli_word word) {
+    size_t low = 0, high = style->rules.count;
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        if (compare_key(style->rules.items[middle].key, sign, word) < 0)
+            low = middle + 1;
+        else
+            high = middle;
     }
-    for (size_t i = 0; i < style->rules.count; i++)
-        if (selector_matches(style->rules.items[i].selector, node))
-            declare_all(found, style->rules.items[i].body, style->rules.items[i].weight);
-    char *own = sli_xml_attribute(node, "style");
-    if (own) declare_all(found, (sli_word){own, strlen(own)}, OWN_STYLE);
-    sli_xml_free(own);
-    return found[DISPLAY].hides || found[VISIBILITY].hides;
+    for (; low < style->rules.count; low++) {
+        const sli_svg_rule *rule = &style->rules.items[low];
+        if (compare_key(rule->key, sign, word) != 0) return;
+        if (selector_matches(rule->selector, node)) declare_all(d, rule->body, rule->weight);
+    }
+}
+
+/// So many classes of one element are looked up.
+enum { MOST_CLASSES = 256 };
+
+static void declare_sheets(declared *d, const sli_svg_style *style, const xmlNode *node) {
+    if (!style->rules.count) return;
+    const char *name = (const char *)node->name;
+    char *id = sli_xml_attribute(node, "id"), *classes = sli_xml_attribute(node, "class");
+    declare_rules(d, style, node, '*', (sli_word){"", 0});
+    declare_rules(d, style, node, 0, (sli_word){name, strlen(name)});
+    if (id) declare_rules(d, style, node, '#', (sli_word){id, strlen(id)});
+    const char *at = classes ? classes + strspn(classes, blanks) : "";
+    for (int i = 0; *at && i < MOST_CLASSES; i++) {
+        const size_t length = strcspn(at, blanks);
+        declare_rules(d, style, node, '.', (sli_word){at, length});
+        at += length;
+        at += strspn(at, blanks);
+    }
+    sli_xml_free(id);
+    sli_xml_free(classes);
+}
+
+void sli_svg_look_read(const sli_svg_style *style, const xmlNode *node, sli_svg_look *look) {
+    declared found = {0};
+    *look = (sli_svg_look){0};
+    for (const xmlAttr *each = node->properties; each; each = each->next) {
+        const char *name = (const char *)each->name;
+        for (int i = 0; i < SLI_SVG_ROTATE; i++) {
+            if (look->held[i] || strcmp(name, names[i]) != 0) continue;
+            char *text = look->held[i] = sli_xml_attribute(node, name);
+            if (text) declare(&found, i, trimmed(text, text + strlen(text)), 0);
+        }
+    }
+    declare_sheets(&found, style, node);
+    char *own = look->held[SLI_SVG_PROPERTIES] = sli_xml_attribute(node, "style");
+    if (own) blank_comments(own);
+    if (own) declare_all(&found, (sli_word){own, strlen(own)}, OWN_STYLE);
+    memcpy(look->values, found.values, sizeof look->values);
+}
+
+void sli_svg_look_free(sli_svg_look *look) {
+    for (int i = 0; i <= SLI_SVG_PROPERTIES; i++) sli_xml_free(look->held[i]);
+}
+
+bool sli_svg_hides(const sli_svg_style *style, const xmlNode *node) {
+    sli_svg_look look;
+    sli_svg_look_read(style, node, &look);
+    const bool hides = sli_word_is(look.values[SLI_SVG_DISPLAY], "none");
+    sli_svg_look_free(&look);
+    return hides;
+}
+
+// --- paint
+
+/// Whether a value is said here, and not that of the element about.
+static bool is_said(sli_word value) {
+    return value.length && !sli_word_is(value, "inherit");
+}
+
+static bool is_zero(sli_word value) {
+    double number = 1;
+    const size_t length = sli_number_length(value.at, value.length);
+    return length && sl_number_read(value.at, length, &number) && number <= 0;
+}
+
+/// "none", "transparent", or a colour that ends with an opacity of 0, as in "rgba(1, 2, 3, 0)".
+static bool is_no_paint(sli_word value) {
+    if (sli_word_is(value, "none") || sli_word_is(value, "transparent")) return true;
+    if (value.length == 9 && *value.at == '#') return memcmp(value.at + 7, "00", 2) == 0;
+    if (value.length == 5 && *value.at == '#') return value.at[4] == '0';
+    if (value.length < 6 || memcmp(value.at, "rgba(", 5) != 0) return false;
+    const char *end = value.at + value.length, *last = end;
+    while (last > value.at && !strchr(",/", last[-1])) last--;
+    return is_zero(trimmed(last, end));
+}
+
+sli_svg_paint sli_svg_paint_in(sli_svg_paint outer, const sli_svg_look *look) {
+    sli_svg_paint paint = outer;
+    const sli_word *values = look->values;
+    if (is_said(values[SLI_SVG_VISIBILITY]))
+        paint.hidden = sli_word_is(values[SLI_SVG_VISIBILITY], "hidden") ||
+                       sli_word_is(values[SLI_SVG_VISIBILITY], "collapse");
+    if (is_said(values[SLI_SVG_OPACITY])) paint.clear |= is_zero(values[SLI_SVG_OPACITY]);
+    if (is_said(values[SLI_SVG_FILL])) paint.no_fill = is_no_paint(values[SLI_SVG_FILL]);
+    if (is_said(values[SLI_SVG_STROKE])) paint.stroke = !is_no_paint(values[SLI_SVG_STROKE]);
+    if (is_said(values[SLI_SVG_FILL_OPACITY]))
+        paint.clear_fill = is_zero(values[SLI_SVG_FILL_OPACITY]);
+    if (is_said(values[SLI_SVG_STROKE_OPACITY]))
+        paint.clear_stroke = is_zero(values[SLI_SVG_STROKE_OPACITY]);
+    if (is_said(values[SLI_SVG_STROKE_WIDTH])) paint.thin = is_zero(values[SLI_SVG_STROKE_WIDTH]);
+    return paint;
+}
+
+bool sli_svg_is_seen(sli_svg_paint paint, bool all) {
+    if (paint.hidden || paint.clear) return false;
+    const bool filled = !paint.no_fill && !paint.clear_fill;
+    return !all || filled || (paint.stroke && !paint.clear_stroke && !paint.thin);
 }

@@ -13,73 +13,13 @@
 #include "map/source.h"
 #include "sightline/io.h"
 
-// --- the layers asked for: NAME takes all tiles of a layer, or all layers of a group;
-// --- NAME:28+33-35 the tiles of these numbers
-
-/// Whether a word of the list is a layer's name, with its tiles or without.
-static bool names(sli_word word, const char *layer, sli_word *gids) {
-    const size_t length = strlen(layer);
-    *gids = (sli_word){word.at + word.length, 0};
-    if (sli_word_is(word, layer)) return true;
-    if (word.length <= length || word.at[length] != ':' || memcmp(word.at, layer, length) != 0)
-        return false;
-    *gids = (sli_word){word.at + length + 1, word.length - length - 1};
-    return true;
-}
-
-/// Whether a layer of this name is in the list; `*gids` gets its tiles' numbers, of no length for
-/// all.
-static bool tiled_asked_for(const char *list, const char *layer, sli_word *gids) {
-    for (sli_word word; sli_layers_next(&list, &word);)
-        if (names(word, layer, gids)) return true;
-    return false;
-}
-
-/// A number at the start of the word, cut off from it.
-static bool next_number(sli_word *word, uint64_t *number) {
-    size_t length = 0;
-    for (*number = 0; length < word->length && *number <= UINT32_MAX; length++) {
-        const char c = word->at[length];
-        if (c < '0' || c > '9') break;
-        *number = 10 * *number + (uint64_t)(c - '0');
-    }
-    *word = (sli_word){word->at + length, word->length - length};
-    return length > 0 && *number <= UINT32_MAX;
-}
-
-/// The next "28" or "33-35" of numbers with + between; false at the end, and where there is none.
-static bool next_range(sli_word *gids, uint64_t *low, uint64_t *high) {
-    if (!next_number(gids, low)) return false;
-    *high = *low;
-    if (gids->length && gids->at[0] == '-') {
-        *gids = (sli_word){gids->at + 1, gids->length - 1};
-        if (!next_number(gids, high)) return false;
-    }
-    if (gids->length && gids->at[0] == '+')
-        *gids = (sli_word){gids->at + 1, gids->length - 1};
-    else if (gids->length)
-        return false;
-    return true;
-}
-
-bool sli_tiled_among(sli_word gids, uint32_t gid) {
-    if (!gids.length) return true;
-    for (uint64_t low, high; gids.length && next_range(&gids, &low, &high);)
-        if (gid >= low && gid <= high) return true;
-    return false;
-}
-
-static bool are_numbers(sli_word gids) {
-    for (uint64_t low, high; gids.length;)
-        if (!next_range(&gids, &low, &high)) return false;
-    return true;
-}
+// --- the layers asked for
 
 /// Looks for a layer in a list of layers and in its groups.
 static bool find_layer(const sli_json *layers, sli_word word, sli_word *gids) {
     for (size_t i = 0; i < json_array_size(layers->value); i++) {
         const sli_json layer = sli_json_item(layers, i), inner = sli_json_member(&layer, "layers");
-        if (names(word, sli_json_text_of(&layer, "name"), gids)) return true;
+        if (sli_layers_name(word, sli_json_text_of(&layer, "name"), gids)) return true;
         if (find_layer(&inner, word, gids)) return true;
     }
     return false;
@@ -106,7 +46,7 @@ static sl_status tiled_check_choice(const sli_json *map, const char *list) {
             name_layers(map, &there);
             return sli_fail_layer(map->file->context, map->file->name, word, "map", &there);
         }
-        if (!are_numbers(gids))
+        if (!sli_numbers_good(gids))
             return sl_fail(map->file->context, SL_BAD_ARGUMENT,
                            "%s: layer '%s': expected tile numbers such as 28+33-35 behind the ':'",
                            map->file->name, sli_show(word).text);
@@ -131,31 +71,67 @@ static sl_status read_stops(const sli_json *thing, uint32_t *stops) {
     return SL_OK;
 }
 
+/// Whether a property of the map, such as "collisionLayer", names this layer.
+static bool map_names(const sli_tiled_reader *reader, const char *layer) {
+    sli_tiled_properties at = sli_tiled_properties_of(reader->map);
+    const char *name;
+    for (sli_json value; sli_tiled_next_property(&at, &name, &value);) {
+        const char *text = json_string_value(value.value);
+        if (*layer && name && text && sli_says_solid(name) && sli_layers_have(text, layer))
+            return true;
+    }
+    return false;
+}
+
+/// What a layer is in the reading at hand; `own` has its name's kind, and what its group is.
+static sli_tiled_word word_of_layer(const sli_tiled_reader *reader, const sli_json *layer,
+                                    const sli_tiled_place *own) {
+    const char *name = sli_json_text_of(layer, "name");
+    const sli_tiled_word said = sli_tiled_word_of(layer, "class");
+    if (said != SLI_TILED_UNSAID) return said;
+    switch (reader->by) {
+    case SLI_TILED_BY_WORD:
+        return sli_game_kind_of(name) == SLI_GAME_SOLID || map_names(reader, name) ? SLI_TILED_SOLID
+                                                                                   : own->word;
+    case SLI_TILED_BY_NAME:
+        return own->kind == reader->best && !own->moves ? SLI_TILED_SOLID : SLI_TILED_UNSAID;
+    case SLI_TILED_BY_TERRAIN:
+    case SLI_TILED_BY_SET:
+        return own->kind == SLI_GAME_DRAWN || own->moves ? SLI_TILED_OPEN : SLI_TILED_UNSAID;
+    case SLI_TILED_BY_GUESS:
+        break;
+    }
+    return SLI_TILED_UNSAID;
+}
+
 /// Where a layer lies in its group's place, and whether it is solid.
 static sl_status find_place(const sli_tiled_reader *reader, const sli_json *layer,
                             const sli_tiled_place *outer, sli_tiled_place *own) {
     const sli_json x = sli_json_member(layer, "offsetx"), y = sli_json_member(layer, "offsety");
     const char *name = sli_json_text_of(layer, "name");
-    sl_point offset = {0};
+    sl_point offset = {0}, moves = {1, 1};
     SL_TRY(sli_json_number_if(&x, &offset.x));
     SL_TRY(sli_json_number_if(&y, &offset.y));
+    const sli_json across = sli_json_member(layer, "parallaxx");
+    const sli_json down = sli_json_member(layer, "parallaxy");
+    SL_TRY(sli_json_number_if(&across, &moves.x));
+    SL_TRY(sli_json_number_if(&down, &moves.y));
     *own = *outer;
     own->offset = (sl_point){outer->offset.x + offset.x, outer->offset.y + offset.y};
+    own->moves |= moves.x != 1 || moves.y != 1;
+    const sli_game_kind kind = sli_game_kind_of(name);
+    if (kind != SLI_GAME_UNSAID) own->kind = kind;
     SL_TRY(read_stops(layer, &own->stops));
     if (reader->options->layers) {
         sli_word gids;
-        if (tiled_asked_for(reader->options->layers, name, &gids)) {
+        if (sli_layers_ask(reader->options->layers, name, &gids)) {
             own->asked = true;
             own->gids = gids;
         }
         own->word = own->asked ? SLI_TILED_SOLID : SLI_TILED_OPEN;
         return SL_OK;
     }
-    const sli_tiled_word said = sli_tiled_word_of(layer, "class");
-    if (said != SLI_TILED_UNSAID)
-        own->word = said;
-    else if (sli_says_solid(name))
-        own->word = SLI_TILED_SOLID;
+    own->word = word_of_layer(reader, layer, own);
     return SL_OK;
 }
 
@@ -241,6 +217,9 @@ static sl_status take_thing(sli_tiled_reader *reader, const sli_json *object,
     const sli_tiled_tile *tile = set ? sli_tiled_find_tile(set, gid) : NULL;
     sli_says says = sli_tiled_says_of(object, "type");
     if (!says.kind && tile) says = tile->says;
+    if (says.kind == SLI_THING_START && at->others) says = (sli_says){0};
+    *taken = says.kind != SLI_THING_NONE;
+    if (reader->by) return SL_OK; // the first reading took it
     SL_TRY(sli_things_ask(&reader->things, sli_json_text_of(object, "name"),
                           *class ? class : sli_json_text_of(object, "class"), &says));
     *taken = says.kind != SLI_THING_NONE;
@@ -251,17 +230,6 @@ static sl_status take_thing(sli_tiled_reader *reader, const sli_json *object,
     }
     return sli_tiled_take_thing(&reader->things, &says, &shape, affine_of_layer(reader, at),
                                 at->word == SLI_TILED_SOLID && shape.kind != SLI_TILED_OTHER);
-}
-
-/// The same for an instance of a template too.
-static sl_status look_for_thing(sli_tiled_reader *reader, const sli_json *object,
-                                const sli_tiled_place *at, bool *taken) {
-    sli_json_file file;
-    sl_status status = sli_tiled_instance(&reader->templates, object, &file);
-    const sli_json whole = sli_json_root(&file);
-    if (status == SL_OK) status = take_thing(reader, file.root ? &whole : object, at, taken);
-    sli_json_close(&file);
-    return status;
 }
 
 // --- layers that say what they hold
@@ -346,10 +314,52 @@ static sl_status read_marks(sli_tiled_reader *reader) {
 static void note_stops_of_tiles(const sli_tiled_reader *reader, const sli_json *layer,
                                 const sli_tiled_place *at) {
     const char *name = sli_json_text_of(layer, "name");
-    if (at->stops && !reader->guess)
+    if (at->stops && !reader->by)
         sl_note(reader->context,
                 "%s: layer %s: the property 'stops' is for objects; tiles stop all",
                 layer->file->name, sli_show((sli_word){name, strlen(name)}).text);
+}
+
+/// Draws an object that is solid.
+static sl_status draw_object(sli_tiled_reader *reader, const sli_json *layer,
+                             const sli_json *object, const sli_tiled_shape *shape,
+                             const sli_tiled_place *at, uint32_t stops) {
+    const sli_affine outer = reader->pen.affine;
+    SL_TRY(name_object(reader, layer, object, shape));
+    reader->pen.affine = sli_affine_after(outer, affine_of_layer(reader, at));
+    const size_t first = reader->pen.map->wall_count;
+    sl_status status = sli_tiled_draw_shape(&reader->pen, shape);
+    if (status == SL_OK && stops)
+        status = sl_map_walls_stop(reader->context, reader->pen.map, first, stops);
+    reader->pen.affine = outer;
+    return status;
+}
+
+/// An object, with all that its template says: a start, a door, or a wall where it is solid.
+static sl_status read_object(sli_tiled_reader *reader, const sli_json *layer,
+                             const sli_json *object, const sli_tiled_place *at) {
+    sli_tiled_shape shape;
+    bool is_thing;
+    SL_TRY(read_shape(reader, object, &shape));
+    SL_TRY(take_thing(reader, object, at, &is_thing));
+    if (is_thing || at->word == SLI_TILED_OPEN) return SL_OK;
+    const sli_tiled_word word = word_of_object(reader, object, &shape);
+    uint32_t stops = at->stops;
+    SL_TRY(read_stops(object, &stops));
+    const bool taken =
+        at->word == SLI_TILED_SOLID || stops ? word != SLI_TILED_OPEN : word == SLI_TILED_SOLID;
+    size_t *counted = !taken                          ? &reader->other_objects
+                      : shape.kind == SLI_TILED_OTHER ? &reader->other_shapes
+                                                      : &reader->objects;
+    ++*counted;
+    if (counted == &reader->other_objects) {
+        const char *name = sli_json_text_of(object, "name");
+        sli_things_leave(&reader->things, *name ? name : sli_json_text_of(object, "class"));
+    }
+    if (!taken && word == SLI_TILED_UNSAID && !at->others)
+        return sli_tiled_draw_picture(reader, object, &shape, affine_of_layer(reader, at));
+    if (counted != &reader->objects) return SL_OK;
+    return draw_object(reader, layer, object, &shape, at, stops);
 }
 
 /// The objects of a layer: starts and doors, and walls where the layer is not said to be open.
@@ -358,46 +368,56 @@ static sl_status read_objects(sli_tiled_reader *reader, const sli_json *layer,
     const sli_json objects = sli_json_member(layer, "objects");
     const sli_layer kind = kind_of_layer(reader, layer);
     size_t count = 0;
-    if (kind) return read_items(reader, layer, at, kind);
     if (objects.value) SL_TRY(sli_json_array(&objects, &count));
-    const sli_affine outer = reader->pen.affine;
-    const sli_affine move = affine_of_layer(reader, at);
-    reader->solid_layers += at->word == SLI_TILED_SOLID;
+    if (!reader->by) reader->seen.items[reader->at_layer].count = count;
+    if (kind) return reader->by ? SL_OK : read_items(reader, layer, at, kind);
     sl_status status = SL_OK;
     for (size_t i = 0; status == SL_OK && i < count; i++) {
         const sli_json object = sli_json_item(&objects, i);
-        sli_tiled_shape shape;
-        bool is_thing;
+        sli_json_file file;
         if (i % 256 == 0) SL_TRY(sl_check_cancelled(reader->context));
-        SL_TRY(read_shape(reader, &object, &shape));
-        SL_TRY(look_for_thing(reader, &object, at, &is_thing));
-        if (is_thing || at->word == SLI_TILED_OPEN) continue;
-        const sli_tiled_word word = word_of_object(reader, &object, &shape);
-        uint32_t stops = at->stops;
-        SL_TRY(read_stops(&object, &stops));
-        const bool taken =
-            at->word == SLI_TILED_SOLID || stops ? word != SLI_TILED_OPEN : word == SLI_TILED_SOLID;
-        size_t *counted = !taken                          ? &reader->other_objects
-                          : shape.kind == SLI_TILED_OTHER ? &reader->other_shapes
-                                                          : &reader->objects;
-        ++*counted;
-        if (counted == &reader->other_objects) {
-            const char *name = sli_json_text_of(&object, "name");
-            sli_things_leave(&reader->things, *name ? name : sli_json_text_of(&object, "class"));
-        }
-        if (!taken || shape.kind == SLI_TILED_OTHER) continue;
-        SL_TRY(name_object(reader, layer, &object, &shape));
-        reader->pen.affine = sli_affine_after(outer, move);
-        const size_t first = reader->pen.map->wall_count;
-        status = sli_tiled_draw_shape(&reader->pen, &shape);
-        if (status == SL_OK && stops)
-            status = sl_map_walls_stop(reader->context, reader->pen.map, first, stops);
-        reader->pen.affine = outer;
+        status = sli_tiled_instance(&reader->templates, &reader->sets, &object, &file);
+        const sli_json whole = sli_json_root(&file);
+        if (status == SL_OK) status = read_object(reader, layer, file.root ? &whole : &object, at);
+        sli_json_close(&file);
     }
     return status;
 }
 
 // --- layers
+
+static sl_status see_layer(sli_tiled_reader *reader, const sli_json *layer,
+                           const sli_tiled_place *own, bool objects) {
+    SL_TRY(SL_ARRAY_ROOM(reader->context, &reader->seen, 1));
+    reader->seen.items[reader->seen.count++] =
+        (sli_tiled_seen){.name = sli_json_text_of(layer, "name"),
+                         .objects = objects,
+                         .moves = own->moves,
+                         .kind = own->kind};
+    return SL_OK;
+}
+
+/// Reads a layer of tiles or objects.
+static sl_status read_layer(sli_tiled_reader *reader, const sli_json *layer,
+                            const sli_tiled_place *own, bool objects) {
+    const size_t before = sli_tiled_taken(reader);
+    if (!reader->by) SL_TRY(see_layer(reader, layer, own, objects));
+    // Objects that are named for houses and trees may be places only.
+    const bool places = reader->by && objects && own->kind < SLI_GAME_LIKELY;
+    if (objects)
+        SL_TRY(places ? SL_OK : read_objects(reader, layer, own));
+    else if (own->word != SLI_TILED_OPEN || (!reader->by && sli_tiled_is_start_layer(layer))) {
+        note_stops_of_tiles(reader, layer, own);
+        SL_TRY(sli_tiled_read_tile_layer(reader, layer, own));
+    }
+    sli_tiled_seen *seen = &reader->seen.items[reader->at_layer++];
+    const bool solid = own->word == SLI_TILED_SOLID && !places &&
+                       !(objects && kind_of_layer(reader, layer) != SLI_LAYER_NONE);
+    reader->solid_layers += solid && seen->count;
+    reader->empty_layers += solid && !seen->count;
+    seen->taken |= sli_tiled_taken(reader) > before;
+    return SL_OK;
+}
 
 static sl_status read_layers(sli_tiled_reader *reader, const sli_json *parent,
                              const sli_tiled_place *outer) {
@@ -408,21 +428,25 @@ static sl_status read_layers(sli_tiled_reader *reader, const sli_json *parent,
         const sli_json layer = sli_json_item(&layers, i);
         SL_TRY(sli_json_object(&layer));
         const char *type = sli_json_text_of(&layer, "type");
+        const bool tiles = strcmp(type, "tilelayer") == 0;
+        const bool objects = strcmp(type, "objectgroup") == 0;
         sli_tiled_place own;
         SL_TRY(find_place(reader, &layer, outer, &own));
+        own.others |= objects && sli_game_says_other(sli_json_text_of(&layer, "name"));
         if (strcmp(type, "group") == 0)
             SL_TRY(read_layers(reader, &layer, &own));
-        else if (own.word != SLI_TILED_OPEN && strcmp(type, "tilelayer") == 0) {
-            note_stops_of_tiles(reader, &layer, &own);
-            SL_TRY(sli_tiled_read_tile_layer(reader, &layer, &own));
-        } else if (strcmp(type, "objectgroup") == 0 && !reader->guess)
-            SL_TRY(read_objects(reader, &layer, &own));
-        if (strcmp(type, "group") != 0 && !reader->guess)
-            reader->other_layers +=
-                own.word == SLI_TILED_OPEN ||
-                (strcmp(type, "tilelayer") != 0 && strcmp(type, "objectgroup") != 0);
+        else if (tiles || objects)
+            SL_TRY(read_layer(reader, &layer, &own, objects));
+        if (strcmp(type, "group") != 0 && !reader->by)
+            reader->other_layers += own.word == SLI_TILED_OPEN || (!tiles && !objects);
     }
     return SL_OK;
+}
+
+sl_status sli_tiled_read_again(sli_tiled_reader *reader) {
+    sli_tiles_destroy(reader->context, &reader->tiles);
+    reader->at_layer = 0;
+    return read_layers(reader, reader->map, &(sli_tiled_place){0});
 }
 
 static sl_status read_head(sli_tiled_reader *reader) {
@@ -452,82 +476,6 @@ static sl_status read_head(sli_tiled_reader *reader) {
     return tiled_check_choice(reader->map, reader->options->layers);
 }
 
-/// The names of the layers, for messages: 'Ground', 'Objects' (objects).
-typedef struct layer_text {
-    char text[320];
-    size_t count, length;
-} layer_text;
-
-static void add_layers(const sli_json *parent, layer_text *out) {
-    const sli_json layers = sli_json_member(parent, "layers");
-    for (size_t i = 0; i < json_array_size(layers.value); i++) {
-        const sli_json layer = sli_json_item(&layers, i);
-        const char *name = sli_json_text_of(&layer, "name"),
-                   *type = sli_json_text_of(&layer, "type");
-        const bool objects = strcmp(type, "objectgroup") == 0;
-        if (strcmp(type, "group") == 0) add_layers(&layer, out);
-        if (!objects && strcmp(type, "tilelayer") != 0) continue;
-        char own[96];
-        const int length =
-            snprintf(own, sizeof own, "%s'%s'%s", out->count++ ? ", " : "",
-                     sli_show((sli_word){name, strlen(name)}).text, objects ? " (objects)" : "");
-        // Once a name does not fit, all later ones are left out too.
-        if (out->length + (size_t)length + sizeof ", ..." > sizeof out->text) {
-            if (out->length < sizeof out->text) strcpy(out->text + out->length, ", ...");
-            out->length = sizeof out->text;
-            continue;
-        }
-        memcpy(out->text + out->length, own, (size_t)length + 1);
-        out->length += (size_t)length;
-    }
-}
-
-static layer_text list_layers(const sli_tiled_reader *reader) {
-    layer_text out = {.count = 0};
-    add_layers(reader->map, &out);
-    return out;
-}
-
-/// Nothing says what is solid: the lowest tile layer is looked at once more.
-static sl_status guess(sli_tiled_reader *reader) {
-    sli_tiles_destroy(reader->context, &reader->tiles);
-    reader->guess = true;
-    SL_TRY(read_layers(reader, reader->map, &(sli_tiled_place){0}));
-    if (!*reader->guessed_of) return SL_OK;
-    char tile[48] = "its empty squares are";
-    layer_text layers = list_layers(reader);
-    if (reader->guessed)
-        snprintf(tile, sizeof tile, "its most frequent tile, %u, is", (unsigned)reader->guessed);
-    sl_note(reader->context,
-            "%s: nothing in it says what is solid: layer %s is the lowest, and %s taken as solid; "
-            "--layers NAME or NAME:TILE+TILE-TILE chooses; layers: %s",
-            reader->map->file->name, reader->guessed_of, tile, layers.text);
-    return SL_OK;
-}
-
-/// A start on a tile that is guessed to be solid says that the guess is wrong.
-static void check_guess(const sli_tiled_reader *reader) {
-    bool stands = false;
-    for (size_t i = 0; reader->guess && i < reader->things.items.count; i++) {
-        const sli_thing *thing = &reader->things.items.items[i];
-        stands |= thing->kind == SLI_THING_START && thing->solid;
-    }
-    if (stands)
-        sl_note(reader->context,
-                "%s: a start stands on what is guessed to be solid, so the guess is wrong; "
-                "--layers NAME or NAME:TILE+TILE-TILE chooses",
-                reader->map->file->name);
-}
-
-static sl_status fail_no_walls(const sli_tiled_reader *reader) {
-    const layer_text layers = list_layers(reader);
-    const bool said = reader->options->layers || !reader->guess;
-    return sli_json_fail(
-        reader->map, "%s; %s%s",
-        said ? "what it says is solid gives no walls" : "nothing in it says what is solid",
-        layers.count ? "--layers NAME chooses; layers: " : "it has no layers", layers.text);
-}
-
 static void give_account(const sli_tiled_reader *reader) {
     char top[SL_NUMBER_TEXT];
     sl_number_write(reader->lattice.height, top);
@@ -553,36 +501,19 @@ static void give_account(const sli_tiled_reader *reader) {
                 reader->doors_left_out == 1 ? "" : "s");
 }
 
-/// A layer that is not solid as a whole has tiles of a tileset that cannot be read.
-static sl_status fail_missing(const sli_tiled_reader *reader) {
-    const char *missing = NULL;
-    for (size_t i = reader->sets.sets.count; i-- > 0;)
-        if (reader->sets.sets.items[i].missing) missing = reader->sets.sets.items[i].missing;
-    return sli_json_fail(reader->map,
-                         "its tileset '%s' cannot be read, and no layer says that it is solid; "
-                         "--layers NAME chooses",
-                         sli_show((sli_word){missing, strlen(missing)}).text);
-}
-
-/// Whether nothing that was read is solid by what the map itself says.
-static bool says_nothing(const sli_tiled_reader *reader) {
-    return !reader->solid_layers && !reader->solid_tiles && !reader->shapes && !reader->objects;
-}
-
 static sl_status read_map(sli_tiled_reader *reader) {
     SL_TRY(read_head(reader));
     SL_TRY(sli_tiled_read_sets(reader->map, &reader->sets));
-    SL_TRY(read_layers(reader, reader->map, &(sli_tiled_place){0}));
-    if (!reader->solid_layers && !reader->options->layers) {
-        if (reader->unknown_tiles) return fail_missing(reader);
-        if (says_nothing(reader)) SL_TRY(guess(reader));
-    }
+    SL_TRY(sli_tiled_read_again(reader));
+    if (!reader->solid_layers && !reader->options->layers) SL_TRY(sli_tiled_find_meaning(reader));
     SL_TRY(sli_tiled_add_tile_walls(reader));
     const sl_map *map = reader->pen.map;
-    if (!map->wall_count && !sl_map_partial_walls(map)) return fail_no_walls(reader);
-    check_guess(reader);
+    if (!map->wall_count && !sl_map_partial_walls(map))
+        return sli_tiled_fail_unsaid(reader, "what it says is solid gives no walls");
+    SL_TRY(sli_tiled_check_guess(reader));
     strcpy(reader->pen.map->unit, "px");
     give_account(reader);
+    sli_tiled_tell_meaning(reader);
     sli_layers_note(reader->context, reader->map->file->name, reader->pen.map);
     SL_TRY(sli_things_finish(&reader->things, reader->pen.map));
     return sli_tiled_project(reader->map, &reader->lattice, reader->pen.map);
@@ -604,6 +535,7 @@ static void end_reader(sl_context *context, sli_tiled_reader *reader) {
     sli_tiled_destroy_sets(context, &reader->sets);
     sli_tiled_destroy_templates(context, &reader->templates);
     sli_things_destroy(&reader->things);
+    sl_free(context, reader->seen.items);
 }
 
 /// Reads a tree, and closes its file.
@@ -649,10 +581,10 @@ static sl_status list_tree(sl_context *context, sli_json_file *file, sl_map_list
     sli_tiled_reader reader = begin_reader(context, &root, &options, &read);
     sl_status status = read_head(&reader);
     if (status == SL_OK) status = sli_tiled_read_sets(reader.map, &reader.sets);
-    if (status == SL_OK) status = read_layers(&reader, reader.map, &(sli_tiled_place){0});
+    if (status == SL_OK) status = sli_tiled_read_again(&reader);
     if (status == SL_OK) status = list_names(context, &root, list);
     if (status != SL_OK) sl_map_list_destroy(context, list);
-    *unsaid = !reader.solid_layers && (reader.unknown_tiles || says_nothing(&reader));
+    *unsaid = !reader.solid_layers && (reader.unknown_tiles || !sli_tiled_taken(&reader));
     end_reader(context, &reader);
     sl_map_destroy(context, &read);
     sli_json_close(file);

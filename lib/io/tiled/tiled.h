@@ -3,6 +3,7 @@
 #define SL_TILED_H
 
 #include "io/parts/document.h"
+#include "io/parts/game_names.h"
 #include "io/parts/shapes.h"
 #include "io/parts/things.h"
 
@@ -89,8 +90,9 @@ bool sli_tiled_in_hexagon(const sli_tiled_lattice *lattice, int64_t column, int6
 /// What a layer, a tile or an object says of itself.
 typedef enum sli_tiled_word { SLI_TILED_UNSAID, SLI_TILED_OPEN, SLI_TILED_SOLID } sli_tiled_word;
 
-/// By a property whose name is a word for solid (solid.h) and whose value is true or false; else by
-/// the class (member `class_key`, or "class"), where that is such a word.
+/// By a property whose name is a word for solid, or for the contrary, and whose value is true or
+/// false; or that is a type, with a word for solid as its value; else by the class (member
+/// `class_key`, or "class"), where that is such a word.
 sli_tiled_word sli_tiled_word_of(const sli_json *thing, const char *class_key);
 
 /// A walk over the properties of a layer, a tile or an object: newer files have a list, the older
@@ -111,7 +113,9 @@ bool sli_tiled_looks_like_xml(const sl_bytes *bytes);
 /// A tile that says something of itself, or has shapes to collide with.
 typedef struct sli_tiled_tile {
     uint32_t id;
+    uint32_t order; ///< among those of the file
     sli_tiled_word word;
+    bool terrain;   ///< it is drawn by a terrain that is solid by its name
     sli_says says;  ///< by its class and its properties
     json_t *shapes; ///< an array of objects; NULL for none
     uint32_t item;  ///< of the first shape's name in the map; 0 before the tile is drawn
@@ -125,11 +129,21 @@ typedef struct sli_tiled_set {
     double x, y;                    ///< how far its tiles are drawn from their place
     sl_point diamond;               ///< the tiles' shapes are drawn in this one; 0 for in pixels
     sli_tiled_word word;            ///< of all tiles that say nothing
+    bool named;                     ///< its name is one for what is solid
+    bool inside;                    ///< its name is that of a dungeon
+    const char *source;             ///< that file as the map calls it; NULL for none
     SL_ARRAY(sli_tiled_tile) tiles; ///< by id, ascending
     sli_json_file file;             ///< where it is in a file of its own
     char *path;                     ///< that file; NULL for none
     const char *missing;            ///< that file as the map calls it, where it cannot be read
 } sli_tiled_set;
+
+/// Adds a tile that says something. Of several with one id the first says what it says.
+sl_status sli_tiled_add_tile(sl_context *context, sli_tiled_set *set, sli_tiled_tile tile);
+/// Whether a tile is drawn by terrains that are solid by their names.
+bool sli_tiled_has_terrain(const sli_json *set, const sli_json *tile);
+/// Adds the tiles that are drawn by such colours of Wang sets.
+sl_status sli_tiled_read_wang_sets(const sli_json *json, sli_tiled_set *set);
 
 typedef struct sli_tiled_sets {
     SL_ARRAY(sli_tiled_set) sets; ///< by first number, ascending
@@ -195,8 +209,8 @@ void sli_tiled_destroy_templates(sl_context *context, sli_tiled_templates *templ
 /// An instance of a template with all that the template says; `file` has no root for an object that
 /// is no instance. sli_json_close is the caller's, on failure too. A template that cannot be read
 /// is noted, and the instance stands for itself.
-sl_status sli_tiled_instance(sli_tiled_templates *templates, const sli_json *object,
-                             sli_json_file *file);
+sl_status sli_tiled_instance(sli_tiled_templates *templates, const sli_tiled_sets *sets,
+                             const sli_json *object, sli_json_file *file);
 
 /// Adds an object that is a start or a door; `place` leads from its layer to the file's places, and
 /// it would be a wall else if `is_wall`.
@@ -204,6 +218,24 @@ sl_status sli_tiled_take_thing(sli_things *things, const sli_says *says,
                                const sli_tiled_shape *shape, sli_affine place, bool is_wall);
 
 // --- reading a map: what its parts share
+
+/// How it is found out what is solid, the firmest first. Each is a reading of all layers.
+typedef enum sli_tiled_by {
+    SLI_TILED_BY_WORD,    ///< layers, tiles and objects say it
+    SLI_TILED_BY_NAME,    ///< names of layers let expect it: trees, platforms
+    SLI_TILED_BY_TERRAIN, ///< tiles' terrains
+    SLI_TILED_BY_SET,     ///< names of tilesets
+    SLI_TILED_BY_GUESS,   ///< the look of one layer
+} sli_tiled_by;
+
+/// A layer of tiles or objects as the first reading found it.
+typedef struct sli_tiled_seen {
+    const char *name;
+    bool objects, moves; ///< moves: by a parallax of its own
+    bool taken;          ///< something of it is solid
+    sli_game_kind kind;  ///< by its name, else by that of its group
+    uint64_t count, squares;
+} sli_tiled_seen;
 
 typedef struct sli_tiled_reader {
     sl_context *context;
@@ -217,13 +249,20 @@ typedef struct sli_tiled_reader {
     sli_tiled_sets sets;
     sli_tiles tiles;
     sli_pen pen;
-    bool guess;          ///< nothing says what is solid: the first tile layer is guessed from
-    uint32_t guessed;    ///< the tile that is taken as solid, 0 where the empty squares are
-    char guessed_of[64]; ///< and its layer
-    uint64_t tile_shapes, tile_walls;                  ///< that the layers' tiles draw
+    SL_ARRAY(sli_tiled_seen) seen; ///< in the order of the file
+    size_t at_layer;               ///< the one at hand
+    sli_tiled_by by;
+    sli_game_kind best;               ///< by name: of the layers taken
+    size_t guess_layer;               ///< by a guess: the layer,
+    uint32_t guessed;                 ///< the tile that is taken as solid (0: empty squares)
+    bool guessed_all;                 ///< or all tiles are
+    const char *guess_why;            ///< NULL where nothing can be guessed
+    uint64_t tile_shapes, tile_walls; ///< that the layers' tiles draw
     size_t solid_layers, solid_tiles, shapes, objects; ///< taken
+    size_t empty_layers;                               ///< that would be solid
     size_t other_layers, other_objects, other_shapes;  ///< left out
     size_t unknown_tiles;                              ///< of tilesets that cannot be read
+    size_t lost_tiles;                                 ///< the same, in solid layers too
     size_t doors_left_out;                             ///< tiles that are doors and hexagons
     sli_things things;
     sli_tiled_templates templates;
@@ -233,13 +272,13 @@ typedef struct sli_tiled_reader {
 typedef struct sli_tiled_place {
     sl_point offset; ///< pixels, y down
     sli_tiled_word word;
-    sli_word gids; ///< the tiles that are asked for; of no length for all
+    sli_game_kind kind; ///< by its name
+    bool moves;         ///< against what is behind it: by a parallax
+    bool others;        ///< its objects are enemies, items, triggers
+    sli_word gids;      ///< the tiles that are asked for; of no length for all
     bool asked;
     uint32_t stops; ///< what walls of its objects stop; 0 where nothing is said
 } sli_tiled_place;
-
-/// Whether a tile is among the numbers that are asked for; any tile is among none.
-bool sli_tiled_among(sli_word gids, uint32_t gid);
 
 /// What a tile's set says of it; both may be NULL.
 sli_tiled_word sli_tiled_word_of_tile(const sli_tiled_set *set, const sli_tiled_tile *tile);
@@ -248,11 +287,43 @@ sli_tiled_word sli_tiled_word_of_tile(const sli_tiled_set *set, const sli_tiled_
 /// than the map, so that a line of its own would say nothing.
 sl_status sli_tiled_name_shape(sli_tiled_reader *reader, const char *label);
 
-/// Reads the tiles of a layer: solid squares, doors, shapes of tiles.
+/// Whether a layer of tiles is a start.
+bool sli_tiled_is_start_layer(const sli_json *layer);
+
+/// Reads the tiles of a layer: solid squares, doors, shapes of tiles; of one that is open only that
+/// it is a start.
 sl_status sli_tiled_read_tile_layer(sli_tiled_reader *reader, const sli_json *layer,
                                     const sli_tiled_place *at);
 
+/// Draws the collision shapes of the tile that an object shows, where it has some and is no enemy
+/// or item by its name; in orthogonal maps. `layer` leads from its layer to the plan.
+sl_status sli_tiled_draw_picture(sli_tiled_reader *reader, const sli_json *object,
+                                 const sli_tiled_shape *shape, sli_affine layer);
+
 /// Makes walls of all solid tiles that were read, in the plan.
 sl_status sli_tiled_add_tile_walls(sli_tiled_reader *reader);
+
+/// Reads all layers by reader->by, which tells what is solid; what was read before of tiles is
+/// dropped.
+sl_status sli_tiled_read_again(sli_tiled_reader *reader);
+
+// --- what is solid where nothing says it (tiled_meaning.c)
+
+/// The number of layers, tiles, shapes and objects that are solid so far.
+static inline size_t sli_tiled_taken(const sli_tiled_reader *reader) {
+    return reader->solid_layers + reader->solid_tiles + reader->shapes + reader->objects;
+}
+/// Where nothing says what is solid: by names, terrains, sets, at last a guess. SL_BAD_INPUT, with
+/// the layers and what to type, where none tells.
+sl_status sli_tiled_find_meaning(sli_tiled_reader *reader);
+/// SL_BAD_INPUT, with the layers and what to type.
+sl_status sli_tiled_fail_unsaid(const sli_tiled_reader *reader, const char *why);
+/// Tells what is solid and by what, and which layers are not.
+void sli_tiled_tell_meaning(const sli_tiled_reader *reader);
+/// SL_BAD_INPUT where a start stands on what was guessed to be solid.
+sl_status sli_tiled_check_guess(const sli_tiled_reader *reader);
+/// Looks at the tiles of a block of the layer that is guessed from.
+sl_status sli_tiled_guess(sli_tiled_reader *reader, const uint32_t *gids, size_t columns,
+                          size_t rows);
 
 #endif

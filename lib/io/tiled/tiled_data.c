@@ -25,8 +25,21 @@ static const item_kind item_kinds[] = {
     {"tile", "tiles", NULL},
     {"object", "objects", NULL},
     {"property", "properties", NULL},
+    {"terrain", "terrains", NULL},
+    {"wangset", "wangsets", NULL},
+    {"wangcolor", "colors", NULL},
+    {"wangtile", "wangtiles", NULL},
 };
 #define ITEM_KIND_COUNT (sizeof item_kinds / sizeof *item_kinds)
+
+/// Elements that hold items and are no objects in JSON.
+typedef struct holder {
+    const char *element, *item;
+} holder;
+
+static const holder holders[] = {
+    {"properties", "property"}, {"terraintypes", "terrain"}, {"wangsets", "wangset"}};
+#define HOLDER_COUNT (sizeof holders / sizeof *holders)
 
 static const char *const shapes[] = {"ellipse", "point", "text", "capsule"};
 #define SHAPE_COUNT (sizeof shapes / sizeof *shapes)
@@ -126,6 +139,15 @@ static bool add_item(json_t *parent, const item_kind *kind, const xmlNode *node)
     return false;
 }
 
+static bool add_child(json_t *parent, const xmlNode *node);
+
+/// Adds the items of an element that only holds them.
+static bool add_held(json_t *parent, const holder *of, const xmlNode *node) {
+    for (const xmlNode *child = node->children; child; child = child->next)
+        if (sli_xml_is(child, of->item) && !add_child(parent, child)) return false;
+    return true;
+}
+
 static bool add_child(json_t *parent, const xmlNode *node) {
     const bool in_tile = sli_xml_is(node->parent, "tile");
     if (in_tile && sli_xml_is(node, "objectgroup"))
@@ -137,11 +159,8 @@ static bool add_child(json_t *parent, const xmlNode *node) {
         char *points = sli_xml_attribute(node, "points");
         return set(parent, (const char *)node->name, points ? take_text(points) : json_string(""));
     }
-    if (sli_xml_is(node, "properties")) {
-        for (const xmlNode *child = node->children; child; child = child->next)
-            if (sli_xml_is(child, "property") && !add_child(parent, child)) return false;
-        return true;
-    }
+    for (size_t i = 0; i < HOLDER_COUNT; i++)
+        if (sli_xml_is(node, holders[i].element)) return add_held(parent, &holders[i], node);
     for (size_t i = 0; i < SHAPE_COUNT; i++)
         if (sli_xml_is(node, shapes[i])) return set(parent, shapes[i], json_true());
     for (size_t i = 0; i < ITEM_KIND_COUNT; i++)

@@ -5,15 +5,37 @@
 #include "map/scan.h"
 
 #include <stdlib.h>
+#include <strings.h>
 
 // --- tilesets
 
-/// The property's word, where its name is one for solid and its value true or false.
-static sli_tiled_word word_of_property(const char *name, const sli_json *value) {
-    if (!name || !sli_says_solid(name)) return SLI_TILED_UNSAID;
+/// The names of properties whose text is a type.
+static bool is_type(const char *name) {
+    static const char *const names[] = {"type", "kind", "class", "category", "tag"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (strcasecmp(name, names[i]) == 0) return true;
+    return false;
+}
+
+/// Whether the value is true or false, written as such, as a number or as a word.
+static bool truth_of(const sli_json *value, bool *truth) {
+    const char *text = json_string_value(value->value);
     bool said;
-    const bool solid = sli_json_true(value, &said);
-    return !said ? SLI_TILED_UNSAID : solid ? SLI_TILED_SOLID : SLI_TILED_OPEN;
+    if (text && sli_game_truth(text, truth)) return true;
+    *truth = sli_json_true(value, &said);
+    return said;
+}
+
+/// What a property says of what has it.
+static sli_tiled_word word_of_property(const char *name, const sli_json *value) {
+    const char *text = json_string_value(value->value);
+    bool truth;
+    if (!name) return SLI_TILED_UNSAID;
+    if (text && is_type(name) && sli_says_solid(text)) return SLI_TILED_SOLID;
+    const bool contrary = sli_says_walkable(name);
+    if (!contrary && !sli_says_solid(name)) return SLI_TILED_UNSAID;
+    if (!truth_of(value, &truth)) return SLI_TILED_UNSAID;
+    return truth != contrary ? SLI_TILED_SOLID : SLI_TILED_OPEN;
 }
 
 sli_tiled_properties sli_tiled_properties_of(const sli_json *thing) {
@@ -50,9 +72,11 @@ sli_tiled_word sli_tiled_word_of(const sli_json *thing, const char *class_key) {
                : SLI_TILED_UNSAID;
 }
 
-static sl_status add_tile(sl_context *context, sli_tiled_set *set, sli_tiled_tile tile) {
-    if (tile.word == SLI_TILED_UNSAID && !tile.says.kind && !tile.shapes) return SL_OK;
+sl_status sli_tiled_add_tile(sl_context *context, sli_tiled_set *set, sli_tiled_tile tile) {
+    if (tile.word == SLI_TILED_UNSAID && !tile.says.kind && !tile.shapes && !tile.terrain)
+        return SL_OK;
     SL_TRY(SL_ARRAY_ROOM(context, &set->tiles, 1));
+    tile.order = (uint32_t)set->tiles.count;
     set->tiles.items[set->tiles.count++] = tile;
     return SL_OK;
 }
@@ -68,23 +92,87 @@ static int compare_tiles(const void *left, const void *right) {
     return (a->id > b->id) - (a->id < b->id);
 }
 
+static int compare_order(const void *left, const void *right) {
+    const sli_tiled_tile *a = left, *b = right;
+    const int order = compare_tiles(left, right);
+    return order ? order : (a->order > b->order) - (a->order < b->order);
+}
+
+static sl_status read_tile(const sli_json *set_json, const sli_json *tile, int64_t id,
+                           sli_tiled_set *set) {
+    return sli_tiled_add_tile(set_json->file->context, set,
+                              (sli_tiled_tile){.id = (uint32_t)id,
+                                               .word = sli_tiled_word_of(tile, "type"),
+                                               .says = sli_tiled_says_of(tile, "type"),
+                                               .terrain = sli_tiled_has_terrain(set_json, tile),
+                                               .shapes = shapes_of(tile)});
+}
+
+/// The number that the key of an old file's tile is.
+static bool id_of(const char *key, int64_t *id) {
+    char *end;
+    *id = strtoll(key, &end, 10);
+    return end > key && !*end && *id >= 0 && *id <= UINT32_MAX;
+}
+
+/// JSON files before Tiled 1.2 have tiles by their numbers, and their properties apart.
+static sl_status read_old_tiles(const sli_json *json, const sli_json *tiles, sli_tiled_set *set) {
+    const sli_json all = sli_json_member(json, "tileproperties");
+    const char *key;
+    json_t *value;
+    int64_t id;
+    json_object_foreach(tiles->value, key, value) {
+        const sli_json tile = {.file = json->file, .value = value, .parent = tiles, .key = key};
+        if (json_is_object(value) && id_of(key, &id)) SL_TRY(read_tile(json, &tile, id, set));
+    }
+    json_object_foreach(all.value, key, value) {
+        if (!json_is_object(value) || !id_of(key, &id)) continue;
+        json_t *of = json_object();
+        const sli_json tile = {.file = json->file, .value = of, .parent = &all, .key = key};
+        const bool good = of && json_object_set(of, "properties", value) == 0;
+        const sl_status status =
+            good ? read_tile(json, &tile, id, set) : sl_fail_memory(json->file->context);
+        json_decref(of);
+        SL_TRY(status);
+    }
+    return SL_OK;
+}
+
+/// Sorts the tiles by their ids, and makes one of those with the same.
+static void merge_tiles(sli_tiled_set *set) {
+    size_t kept = 0;
+    if (!set->tiles.count) return;
+    qsort(set->tiles.items, set->tiles.count, sizeof *set->tiles.items, compare_order);
+    for (size_t i = 0; i < set->tiles.count; i++) {
+        const sli_tiled_tile next = set->tiles.items[i];
+        sli_tiled_tile *last = kept ? &set->tiles.items[kept - 1] : NULL;
+        if (!last || last->id != next.id) {
+            set->tiles.items[kept++] = next;
+            continue;
+        }
+        if (last->word == SLI_TILED_UNSAID) last->word = next.word;
+        if (!last->says.kind) last->says = next.says;
+        if (!last->shapes) last->shapes = next.shapes;
+        last->terrain |= next.terrain;
+    }
+    set->tiles.count = kept;
+}
+
 static sl_status read_tiles(const sli_json *json, sli_tiled_set *set) {
     const sli_json tiles = sli_json_member(json, "tiles");
+    const bool old = !tiles.value || json_is_object(tiles.value);
     size_t count = 0;
-    if (tiles.value && !json_is_object(tiles.value)) SL_TRY(sli_json_array(&tiles, &count));
+    if (old) SL_TRY(read_old_tiles(json, &tiles, set));
+    if (!old) SL_TRY(sli_json_array(&tiles, &count));
     for (size_t i = 0; i < count; i++) {
         const sli_json tile = sli_json_item(&tiles, i), id = sli_json_member(&tile, "id");
         int64_t number;
         SL_TRY(sli_json_object(&tile));
         SL_TRY(sli_json_whole(&id, 0, UINT32_MAX, &number));
-        SL_TRY(add_tile(json->file->context, set,
-                        (sli_tiled_tile){.id = (uint32_t)number,
-                                         .word = sli_tiled_word_of(&tile, "type"),
-                                         .says = sli_tiled_says_of(&tile, "type"),
-                                         .shapes = shapes_of(&tile)}));
+        SL_TRY(read_tile(json, &tile, number, set));
     }
-    if (set->tiles.count)
-        qsort(set->tiles.items, set->tiles.count, sizeof *set->tiles.items, compare_tiles);
+    SL_TRY(sli_tiled_read_wang_sets(json, set));
+    merge_tiles(set);
     return SL_OK;
 }
 
@@ -113,7 +201,10 @@ static sl_status read_set(const sli_json *json, sli_tiled_set *set) {
     SL_TRY(sli_json_number_if(&x, &set->x));
     SL_TRY(sli_json_number_if(&y, &set->y));
     SL_TRY(read_grid(json, set));
+    const char *name = sli_json_text_of(json, "name");
     set->word = sli_tiled_word_of(json, "class");
+    set->named = sli_game_kind_of(name) == SLI_GAME_SOLID;
+    set->inside = sli_game_says_inside(name);
     return read_tiles(json, set);
 }
 
@@ -149,6 +240,7 @@ static sl_status read_one(const sli_json *item, sli_tiled_set *set) {
     if (!source.value) return read_set(item, set);
     const char *text;
     SL_TRY(sli_json_text(&source, &text));
+    set->source = text;
     return read_separate(item->file->context, item->file->name, text, set);
 }
 
@@ -188,7 +280,7 @@ void sli_tiled_destroy_sets(sl_context *context, sli_tiled_sets *sets) {
 }
 
 const sli_tiled_set *sli_tiled_find_set(const sli_tiled_sets *sets, uint32_t gid) {
-    size_t low = 0, high = sets->sets.count;
+    size_t low = 0, high = gid == SLI_TILED_TILE ? 0 : sets->sets.count;
     while (low < high) {
         const size_t middle = low + (high - low) / 2;
         if (sets->sets.items[middle].first <= gid)

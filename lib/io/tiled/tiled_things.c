@@ -58,11 +58,11 @@ static sl_status read_template(sl_context *context, const char *map, sli_tiled_t
 }
 
 static sl_status find_template(sli_tiled_templates *templates, const sli_json *from,
-                               const char *source, json_t **object) {
+                               const char *source, const sli_tiled_template **out) {
     sl_context *context = from->file->context;
     for (size_t i = 0; i < templates->count; i++) {
         if (strcmp(templates->items[i].source, source) != 0) continue;
-        *object = templates->items[i].object;
+        *out = &templates->items[i];
         return SL_OK;
     }
     SL_TRY(SL_ARRAY_ROOM(context, templates, 1));
@@ -71,7 +71,7 @@ static sl_status find_template(sli_tiled_templates *templates, const sli_json *f
     if (!own->source) return SL_NO_MEMORY;
     templates->count++;
     SL_TRY(read_template(context, from->file->name, own));
-    *object = own->object;
+    *out = own;
     return SL_OK;
 }
 
@@ -107,19 +107,48 @@ static bool add_properties(json_t *object, const json_t *of_template) {
     return false;
 }
 
-sl_status sli_tiled_instance(sli_tiled_templates *templates, const sli_json *object,
-                             sli_json_file *file) {
+/// The number that a template's tile has in the map; the largest one, which is of no set, where the
+/// map does not have its set. The template names one set, by a path from its own folder.
+static json_int_t gid_in_map(const sli_json_file *file, const json_t *object,
+                             const sli_tiled_sets *sets) {
+    const sli_json root = sli_json_root(file), of = sli_json_member(&root, "tileset");
+    const sli_json list = sli_json_member(&root, "tilesets"), first = sli_json_item(&list, 0);
+    const sli_json *own = of.value ? &of : &first;
+    const sli_json begin = sli_json_member(own, "firstgid");
+    const sli_json gid = {.file = file, .value = json_object_get(object, "gid")};
+    const char *name = sl_path_name(sli_json_text_of(own, "source"));
+    const double number = sli_json_number_or_0(&gid), from = sli_json_number_or_0(&begin);
+    for (size_t i = 0; i < sets->sets.count; i++) {
+        const sli_tiled_set *set = &sets->sets.items[i];
+        if (!set->source || strcmp(sl_path_name(set->source), name) != 0) continue;
+        const uint32_t turned = (uint32_t)number & ~SLI_TILED_TILE;
+        const uint32_t tile = (uint32_t)number & SLI_TILED_TILE;
+        if (from >= 1 && tile >= from)
+            return (json_int_t)(turned | (tile - (uint32_t)from + set->first));
+    }
+    return SLI_TILED_TILE;
+}
+
+sl_status sli_tiled_instance(sli_tiled_templates *templates, const sli_tiled_sets *sets,
+                             const sli_json *object, sli_json_file *file) {
     const char *source = sli_json_text_of(object, "template");
+    const sli_tiled_template *of = NULL;
     json_t *from = NULL;
     *file = (sli_json_file){
         .context = object->file->context, .name = object->file->name, .numbers_as_text = true};
     if (!*source) return SL_OK;
-    SL_TRY(find_template(templates, object, source, &from));
+    SL_TRY(find_template(templates, object, source, &of));
+    from = of->object;
     file->root = json_is_object(from) ? json_copy(from) : json_object();
     if (!file->root || json_object_update(file->root, object->value) != 0 ||
         !add_properties(file->root, json_object_get(from, "properties")))
         return sl_fail_memory(object->file->context);
-    json_object_del(file->root, "template");
+    // Without its template nobody knows what it is.
+    if (from) json_object_del(file->root, "template");
+    const bool of_template = json_object_get(from, "gid") && !json_object_get(object->value, "gid");
+    if (of_template && json_object_set_new(file->root, "gid",
+                                           json_integer(gid_in_map(&of->file, from, sets))) != 0)
+        return sl_fail_memory(object->file->context);
     return SL_OK;
 }
 

@@ -17,7 +17,6 @@
 #include "sightline/import.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 /// Layers of staggered and hexagonal maps are moved by no more pixels.
 #define FARTHEST 1e9
@@ -175,6 +174,56 @@ static sl_status draw_tile_shapes(sli_tiled_reader *reader, const block *all, si
     return status;
 }
 
+/// From a tile's pixels to the layer of an object that shows it: stretched to the object's size,
+/// its lower left corner on the object's place, about which it turns.
+static sli_affine affine_of_picture(const sli_tiled_reader *reader, const sli_tiled_set *set,
+                                    const sli_tiled_shape *shape) {
+    double height;
+    const uint32_t mirrors = SLI_TILED_ACROSS | SLI_TILED_DOWN | SLI_TILED_TILE;
+    const sli_affine inner = turn_tile(reader, shape->gid & mirrors, set, &height);
+    const double x = shape->width > 0 ? shape->width / set->width : 1;
+    const double y = shape->height > 0 ? shape->height / set->height : 1;
+    const sli_affine scale = {.xx = x, .yy = y, .y0 = -y * set->height};
+    sli_affine turn = shape->turn;
+    turn.x0 = shape->x;
+    turn.y0 = shape->y;
+    return sli_affine_after(turn, sli_affine_after(scale, inner));
+}
+
+sl_status sli_tiled_draw_picture(sli_tiled_reader *reader, const sli_json *object,
+                                 const sli_tiled_shape *shape, sli_affine layer) {
+    const uint32_t gid = shape->gid & SLI_TILED_TILE;
+    const sli_tiled_set *set = gid ? sli_tiled_find_set(&reader->sets, gid) : NULL;
+    sli_tiled_tile *tile = set ? sli_tiled_find_tile(set, gid) : NULL;
+    const bool other = sli_game_says_other(sli_json_text_of(object, "name")) ||
+                       sli_game_says_other(sli_json_text_of(object, "type"));
+    if (!tile || !tile->shapes || other || reader->by || set->diamond.x > 0 ||
+        reader->lattice.orientation != SLI_TILED_ORTHOGONAL || !(set->width > 0 && set->height > 0))
+        return SL_OK;
+    SL_TRY(meet_tile(reader, set, tile));
+    reader->tile_shapes = sli_limit_sum(reader->tile_shapes, json_array_size(tile->shapes));
+    SL_TRY(sli_limit_check(reader->context, reader->map->file->name, 0, SLI_LIMIT_ENTITIES,
+                           reader->tile_shapes, "the tiles' shapes, as often as they are drawn"));
+    const sli_json list = shapes_of(reader, set, tile);
+    const sli_affine outer = reader->pen.affine;
+    const sli_affine place = sli_affine_after(layer, affine_of_picture(reader, set, shape));
+    const uint32_t last = reader->pen.item;
+    sl_status status = SL_OK;
+    for (size_t i = 0; status == SL_OK && i < json_array_size(tile->shapes); i++) {
+        const sli_json item = sli_json_item(&list, i);
+        sli_tiled_shape own;
+        SL_TRY(sli_tiled_read_shape(&item, &own));
+        *(own.kind < SLI_TILED_PICTURE ? &reader->shapes : &reader->other_shapes) += 1;
+        if (own.kind >= SLI_TILED_PICTURE) continue;
+        reader->pen.item = tile->item + (uint32_t)i;
+        reader->pen.affine = sli_affine_after(outer, place);
+        status = sli_tiled_draw_shape(&reader->pen, &own);
+        reader->pen.affine = outer;
+        reader->pen.item = last;
+    }
+    return status;
+}
+
 /// A door of one staggered tile. Its neighbours are other doors.
 static sl_status add_diamond_door(sli_tiled_reader *reader, const block *all, size_t i,
                                   const sli_tiled_tile *tile) {
@@ -197,6 +246,7 @@ static sl_status take_door(sli_tiled_reader *reader, const sli_tiled_place *at, 
                            size_t i, const sli_tiled_tile *tile) {
     if (at->word == SLI_TILED_SOLID || tile->word == SLI_TILED_SOLID || tile->shapes)
         *square_of(reader, all, i) = '#';
+    if (reader->by) return SL_OK; // the first reading took it
     if (reader->lattice.orientation == SLI_TILED_HEXAGONAL) {
         reader->doors_left_out++;
         return SL_OK;
@@ -211,18 +261,29 @@ sli_tiled_word sli_tiled_word_of_tile(const sli_tiled_set *set, const sli_tiled_
     return set ? set->word : SLI_TILED_UNSAID;
 }
 
+/// What counts of a tile in the reading at hand.
+static sli_tiled_word word_by(const sli_tiled_reader *reader, const sli_tiled_set *set,
+                              const sli_tiled_tile *tile) {
+    const sli_tiled_word word = sli_tiled_word_of_tile(set, tile);
+    if (word != SLI_TILED_UNSAID) return word;
+    const bool solid = (reader->by == SLI_TILED_BY_TERRAIN && tile && tile->terrain) ||
+                       (reader->by == SLI_TILED_BY_SET && set && set->named);
+    return solid ? SLI_TILED_SOLID : SLI_TILED_UNSAID;
+}
+
 static sl_status take_tile(sli_tiled_reader *reader, const sli_tiled_place *at, const block *all,
                            size_t i) {
     const uint32_t gid = all->gids[i] & SLI_TILED_TILE;
     if (!gid) return SL_OK;
     const sli_tiled_set *set = sli_tiled_find_set(&reader->sets, gid);
     const sli_tiled_tile *tile = set ? sli_tiled_find_tile(set, gid) : NULL;
-    const sli_tiled_word word = sli_tiled_word_of_tile(set, tile);
+    const sli_tiled_word word = word_by(reader, set, tile);
+    if (set && set->missing) reader->lost_tiles++;
     if (tile && tile->says.kind == SLI_THING_DOOR && !at->gids.length)
         return take_door(reader, at, all, i, tile);
     if (at->word == SLI_TILED_SOLID) {
         const bool solid =
-            at->gids.length ? sli_tiled_among(at->gids, gid) : word != SLI_TILED_OPEN;
+            at->gids.length ? sli_numbers_have(at->gids, gid) : word != SLI_TILED_OPEN;
         if (solid) *square_of(reader, all, i) = '#';
         return SL_OK;
     }
@@ -257,47 +318,90 @@ static sl_status check_shapes(sli_tiled_reader *reader, const sli_tiled_place *a
                            "the tiles' shapes give");
 }
 
-static int compare_gids(const void *left, const void *right) {
-    const uint32_t *a = left, *b = right;
-    return (*a > *b) - (*a < *b);
+/// A layer of tiles may be where one starts: WorkAdventure's maps have such.
+bool sli_tiled_is_start_layer(const sli_json *layer) {
+    sli_tiled_properties at = sli_tiled_properties_of(layer);
+    const char *name;
+    for (sli_json value; sli_tiled_next_property(&at, &name, &value);)
+        if (name && strcmp(name, "startLayer") == 0 && sli_json_true(&value, NULL)) return true;
+    return sli_says_start(sli_json_text_of(layer, "name"));
 }
 
-/// The tile that is taken as solid where nothing says what is: none (0) where some squares are
-/// empty, else the most frequent one, the lowest of those.
-static sl_status guess_tile(const sli_tiled_reader *reader, const block *all, uint32_t *guess) {
+/// The tile next to the middle of all, or `count` where there is none.
+static size_t find_middle(const block *all) {
     const size_t count = all->columns * all->rows;
-    uint32_t *sorted = sl_alloc_array(reader->context, count, sizeof *sorted);
-    if (!sorted) return SL_NO_MEMORY;
-    for (size_t i = 0; i < count; i++) sorted[i] = all->gids[i] & SLI_TILED_TILE;
-    qsort(sorted, count, sizeof *sorted, compare_gids);
-    size_t most = 0;
-    *guess = 0;
-    for (size_t i = 0, next; sorted[0] && i < count; i = next) {
-        for (next = i; next < count && sorted[next] == sorted[i]; next++) continue;
-        if (next - i <= most) continue;
-        most = next - i;
-        *guess = sorted[i];
+    double x = 0, y = 0, any = 0, least = INFINITY;
+    for (size_t i = 0; i < count; i++) {
+        if (!(all->gids[i] & SLI_TILED_TILE)) continue;
+        x += (double)(i % all->columns);
+        y += (double)(i / all->columns);
+        any++;
     }
-    sl_free(reader->context, sorted);
+    size_t best = count;
+    for (size_t i = 0; i < count; i++) {
+        const double dx = (double)(i % all->columns) - x / any;
+        const double dy = (double)(i / all->columns) - y / any;
+        if (!(all->gids[i] & SLI_TILED_TILE) || !(dx * dx + dy * dy < least)) continue;
+        least = dx * dx + dy * dy;
+        best = i;
+    }
+    return best;
+}
+
+/// The middle of a tile in the places of things.
+static sl_point middle_of(const sli_tiled_reader *reader, const block *all, size_t i) {
+    const sl_point step = reader->lattice.step, tile = reader->lattice.tile;
+    if (reader->lattice.orientation == SLI_TILED_HEXAGONAL) {
+        const sl_point at =
+            sli_tiled_tile_at(&reader->lattice, all->column + (int64_t)(i % all->columns),
+                              all->row + (int64_t)(i / all->columns));
+        return (sl_point){all->offset.x + at.x + tile.x / 2, all->offset.y + at.y + tile.y / 2};
+    }
+    const size_t at = (size_t)(square_of(reader, all, i) - all->squares);
+    const size_t width = (size_t)(all->range.right - all->range.left);
+    return (sl_point){all->corner.x + ((double)(at % width) + 0.5) * step.x,
+                      all->corner.y + ((double)(at / width) + 0.5) * step.y};
+}
+
+static sl_status take_start(sli_tiled_reader *reader, const sli_json *layer, const block *all) {
+    const char *name = sli_json_text_of(layer, "name");
+    const size_t middle = find_middle(all);
+    if (!sli_tiled_is_start_layer(layer) || middle == all->columns * all->rows) return SL_OK;
+    sli_says says = {.kind = SLI_THING_START, .name = *name ? name : "start"};
+    SL_TRY(sli_things_ask(&reader->things, name, NULL, &says));
+    if (says.kind != SLI_THING_START) return SL_OK;
+    const sli_thing start = {.kind = SLI_THING_START,
+                             .middle = middle_of(reader, all, middle),
+                             .line = sli_json_line(layer)};
+    return sli_things_add(&reader->things, says.name, start);
+}
+
+/// The layer that is guessed from.
+static sl_status guess_tiles(sli_tiled_reader *reader, const block *all) {
+    SL_TRY(sli_tiled_guess(reader, all->gids, all->columns, all->rows));
+    for (size_t i = 0; reader->guess_why && i < all->columns * all->rows; i++) {
+        const uint32_t gid = all->gids[i] & SLI_TILED_TILE;
+        if (reader->guessed_all ? gid != 0 : gid == reader->guessed)
+            *square_of(reader, all, i) = '#';
+    }
     return SL_OK;
 }
 
 static sl_status take_tiles(sli_tiled_reader *reader, const sli_json *layer,
                             const sli_tiled_place *at, const block *all) {
     const size_t count = all->columns * all->rows;
-    if (reader->guess && !*reader->guessed_of) {
-        const char *name = sli_json_text_of(layer, "name");
-        snprintf(reader->guessed_of, sizeof reader->guessed_of, "'%s'",
-                 sli_show((sli_word){name, strlen(name)}).text);
-        SL_TRY(guess_tile(reader, all, &reader->guessed));
-    }
-    if (!reader->guess) SL_TRY(check_shapes(reader, at, all));
+    sli_tiled_seen *seen = &reader->seen.items[reader->at_layer];
+    if (reader->by == SLI_TILED_BY_GUESS) return guess_tiles(reader, all);
+    if (at->word == SLI_TILED_OPEN) return take_start(reader, layer, all);
+    SL_TRY(check_shapes(reader, at, all));
     for (size_t i = 0; i < count; i++) {
         if (i % 4096 == 0) SL_TRY(sl_check_cancelled(reader->context));
-        if (!reader->guess)
-            SL_TRY(take_tile(reader, at, all, i));
-        else if ((all->gids[i] & SLI_TILED_TILE) == reader->guessed)
-            *square_of(reader, all, i) = '#';
+        if (!reader->by) seen->count += (all->gids[i] & SLI_TILED_TILE) != 0;
+        SL_TRY(take_tile(reader, at, all, i));
+    }
+    if (!reader->by) {
+        seen->squares += count;
+        SL_TRY(take_start(reader, layer, all));
     }
     return sli_things_end_block(&reader->things, all->corner, reader->lattice.step);
 }
@@ -322,6 +426,12 @@ static sl_status add_block(sli_tiled_reader *reader, block *all) {
     memset(all->squares, ' ', columns * rows);
     for (size_t i = 0; i < all->columns * all->rows; i++) *square_of(reader, all, i) = '.';
     return SL_OK;
+}
+
+static void drop_last_block(sli_tiled_reader *reader) {
+    const sli_tile_block *last = &reader->tiles.blocks.items[--reader->tiles.blocks.count];
+    reader->tiles.squares -= (uint64_t)last->columns * last->rows;
+    sl_free(reader->context, last->squares);
 }
 
 /// Staggered and hexagonal maps have one lattice: layers with other offsets may have no solid tile.
@@ -350,9 +460,7 @@ static sl_status check_offset(sli_tiled_reader *reader, const sli_json *holder, 
         if (*square_of(reader, all, i) == '#')
             return sli_json_fail(holder, "layers of tiles that are moved differently are taken in "
                                          "orthogonal and isometric maps only");
-    const sli_tile_block *last = &reader->tiles.blocks.items[--reader->tiles.blocks.count];
-    reader->tiles.squares -= (uint64_t)last->columns * last->rows;
-    sl_free(reader->context, last->squares);
+    drop_last_block(reader);
     return SL_OK;
 }
 
@@ -386,7 +494,10 @@ static sl_status read_block(sli_tiled_reader *reader, const sli_json *layer, con
                  .gids = gids};
     sl_status status = add_block(reader, &all);
     if (status == SL_OK) status = take_tiles(reader, layer, at, &all);
-    if (status == SL_OK) status = check_offset(reader, holder, &all);
+    if (status == SL_OK && at->word == SLI_TILED_OPEN)
+        drop_last_block(reader);
+    else if (status == SL_OK)
+        status = check_offset(reader, holder, &all);
     sl_free(reader->context, gids);
     return status;
 }
@@ -411,9 +522,7 @@ sl_status sli_tiled_read_tile_layer(sli_tiled_reader *reader, const sli_json *la
                                     const sli_tiled_place *at) {
     const sli_json chunks = sli_json_member(layer, "chunks");
     const sli_json infinite = sli_json_member(reader->map, "infinite");
-    // Only the lowest layer is guessed from.
-    if (reader->guess && *reader->guessed_of) return SL_OK;
-    reader->solid_layers += at->word == SLI_TILED_SOLID;
+    if (reader->by == SLI_TILED_BY_GUESS && reader->at_layer != reader->guess_layer) return SL_OK;
     if (chunks.value) return read_chunks(reader, layer, &chunks, at);
     // A layer without bounds that nothing is drawn on has no chunk.
     if (sli_json_true(&infinite, NULL)) return SL_OK;
@@ -480,7 +589,8 @@ sl_status sli_tiled_add_tile_walls(sli_tiled_reader *reader) {
     reader->things.shapes = map->wall_count;
     SL_TRY(add_surroundings(reader));
     const sli_tiles_options options = {.top = hexagons ? 0 : reader->top,
-                                       .solid_between = reader->guess && !reader->guessed,
+                                       .solid_between = reader->by == SLI_TILED_BY_GUESS &&
+                                                        !reader->guessed && !reader->guessed_all,
                                        .things = hexagons ? NULL : &reader->things,
                                        .add_walls = hexagons ? add_hexagons : NULL,
                                        .user = reader};

@@ -5,13 +5,23 @@
 import { doorItems } from './grid-doors.js';
 import { FormatError } from './map-text.js';
 import { gridWalls } from './plan-text.js';
-import { isDoorName, isSolidName, isStartName, oneWord, plural } from './words.js';
+import { isDoorName, isOpenName, isSolidName, isStartName, oneWord, plural } from './words.js';
 
 const FLAGS = 0x1fffffff;
 
+/** True and false, also as a number or a word; undefined for all else. */
+const truth = (value) => ({ true: true, 1: true, yes: true, false: false, 0: false, no: false })[String(value).toLowerCase()];
+
+/** What the properties of a layer, a tile or an object say: an array, or an object in old files. */
 const flag = (properties) => {
-    const found = (properties ?? []).find((p) => typeof p.value === 'boolean' && isSolidName(p.name));
-    return found?.value;
+    const all = Array.isArray(properties) ? properties
+        : Object.entries(properties ?? {}).map(([name, value]) => ({ name, value }));
+    for (const { name, value } of all) {
+        const said = truth(value);
+        if (said !== undefined && isSolidName(name)) return said;
+        if (said !== undefined && isOpenName(name)) return !said;
+    }
+    return undefined;
 };
 
 /** Whether a layer says that it is solid; undefined where it says nothing. */
@@ -93,12 +103,10 @@ function objectItems(object, says, height, counts, doors) {
     return width || h || object.polygon ? [{ kind: 'solid', points }] : [];
 }
 
-/** The tiles that are solid where nobody says so: empty ones, or else the most frequent one. */
+/** The tiles that are solid where nobody says so: empty ones. */
 function guess(tiles) {
-    const counts = new Map();
-    for (const t of tiles) counts.set(t & FLAGS, (counts.get(t & FLAGS) ?? 0) + 1);
-    if (counts.has(0)) return 0;
-    return [...counts].reduce((a, b) => (b[1] > a[1] ? b : a))[0];
+    if (tiles.some((t) => (t & FLAGS) === 0)) return 0;
+    throw new FormatError('nothing in this Tiled map says what is solid: name a layer Walls, or give tiles the property solid');
 }
 
 /** @param {any} map @returns {Promise<{items: import('./map-text.js').Item[], notes: string[]}>} */

@@ -130,6 +130,11 @@ test('a Tiled map that says nothing is guessed, and the page says so', async () 
         layers: [{ type: 'tilelayer', name: 'a', width: 2, height: 2, data: [1, 0, 1, 1] }] };
     const { notes } = await read(JSON.stringify(map));
     assert.match(notes.join(), /guess/);
+    map.layers[0].data = [1, 2, 1, 1];
+    await assert.rejects(read(JSON.stringify(map)), /says what is solid/);
+    map.layers[0].data = [1, 0, 1, 1];
+    map.layers[0].properties = [{ name: 'walkable', value: 'false' }];
+    assert.ok((await read(JSON.stringify(map))).items.length);
 });
 
 test('LDtk, Universal VTT and GeoJSON', async () => {

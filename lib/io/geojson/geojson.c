@@ -1,0 +1,225 @@
+/// GeoJSON as a map: outlines of rooms, walls, openings; or all lines as they are drawn.
+#include "io/geojson/geojson.h"
+#include "geometry/orient.h"
+#include "io/io_formats.h"
+#include "io/parts/names.h"
+#include "io/parts/shapes.h"
+#include "map/source.h"
+#include "sightline/io.h"
+
+#include <math.h>
+#include <string.h>
+#include <strings.h>
+
+// --- which features
+
+static bool has_meaning(const sli_geo *geo, sli_geo_meaning means) {
+    for (size_t i = 0; i < geo->features.count; i++) {
+        const sli_geo_feature *f = &geo->features.items[i];
+        if (f->means == means && f->count && geo->lines.items[f->first].count > 1) return true;
+    }
+    return false;
+}
+
+static bool is_layer(const sli_geo_feature *feature, sli_word name) {
+    return strlen(feature->layer) == name.length &&
+           strncasecmp(feature->layer, name.at, name.length) == 0;
+}
+
+/// SL_BAD_ARGUMENT for a layer that no feature is on.
+static sl_status check_layers(const sli_geo *geo) {
+    const char *list = geo->options->layers;
+    for (sli_word name; list && sli_layers_next(&list, &name);) {
+        bool found = false;
+        sli_name_list there = {0};
+        const char *last = "";
+        for (size_t i = 0; i < geo->features.count && !found; i++) {
+            const sli_geo_feature *f = &geo->features.items[i];
+            found = is_layer(f, name);
+            if (*f->layer && strcmp(f->layer, last) != 0 && !strstr(there.text, f->layer))
+                sli_name_list_add(&there, (sli_word){f->layer, strlen(f->layer)});
+            last = f->layer;
+        }
+        if (!found) return sli_fail_layer(geo->context, geo->name, name, "file", &there);
+    }
+    return SL_OK;
+}
+
+static bool is_asked_for(const sli_geo *geo, const sli_geo_feature *feature) {
+    const char *list = geo->options->layers;
+    for (sli_word name; list && sli_layers_next(&list, &name);)
+        if (is_layer(feature, name)) return true;
+    return false;
+}
+
+/// Walls are the features that say so. Where none does: those that say nothing; and where all say
+/// something else, all.
+static sl_status choose(sli_geo *geo) {
+    const sl_import_options *options = geo->options;
+    const sli_geo_meaning walls = options->layers || has_meaning(geo, SLI_GEO_WALL) ? SLI_GEO_WALL
+                                  : has_meaning(geo, SLI_GEO_UNSAID)                ? SLI_GEO_UNSAID
+                                                                     : SLI_GEO_NO_WALL;
+    SL_TRY(check_layers(geo));
+    for (size_t i = 0; i < geo->features.count; i++) {
+        sli_geo_feature *f = &geo->features.items[i];
+        const bool asked = is_asked_for(geo, f);
+        const bool other = f->means == SLI_GEO_UNSAID || f->means == SLI_GEO_NO_WALL;
+        if (options->lines && (asked || !options->layers))
+            f->means = SLI_GEO_WALL;
+        else if (asked)
+            f->means = other ? SLI_GEO_WALL : f->means;
+        else if (f->means == walls && !options->layers)
+            f->means = SLI_GEO_WALL;
+        else if (other || f->means == SLI_GEO_WALL)
+            f->means = SLI_GEO_NO_WALL;
+        f->taken = f->means != SLI_GEO_NO_WALL &&
+                   (!options->map || sli_geo_on_level(geo, f, options->map));
+    }
+    return SL_OK;
+}
+
+// --- the map
+
+static sl_status add_lines(sli_geo *geo, const sli_geo_feature *feature, uint32_t item) {
+    for (size_t k = 0; k < feature->count; k++) {
+        const sli_geo_line line = geo->lines.items[feature->first + k];
+        const sl_point *p = geo->points.items + line.first;
+        for (size_t i = 1; i < line.count; i++)
+            if (p[i].x != p[i - 1].x || p[i].y != p[i - 1].y)
+                SL_TRY(sl_map_add_wall(geo->context, geo->map, p[i - 1], p[i], item));
+    }
+    return SL_OK;
+}
+
+/// Mirrors, one-way glass and starts, as our own exports write them.
+static sl_status add_other(sli_geo *geo, const sli_geo_feature *feature, uint32_t item) {
+    const sli_geo_line line = geo->lines.items[feature->first];
+    if (!line.count) return SL_OK;
+    const sl_point p = geo->points.items[line.first];
+    const sl_point q = geo->points.items[line.first + line.count - 1];
+    const double heading = json_number_value(sli_geo_property(feature, "heading"));
+    if (feature->means == SLI_GEO_START)
+        return line.count == 1 ? sl_map_add_start(geo->context, geo->map, p, heading, item) : SL_OK;
+    if (p.x == q.x && p.y == q.y) return SL_OK;
+    return feature->means == SLI_GEO_MIRROR
+               ? sl_map_add_mirror(geo->context, geo->map, (sl_segment){p, q}, item)
+               : sl_map_add_oneway(geo->context, geo->map, (sl_segment){p, q}, item);
+}
+
+static sl_status add_label(sli_geo *geo, size_t number) {
+    const sli_geo_feature *f = &geo->features.items[number];
+    const json_t *id = json_object_get(f->feature, "id");
+    char text[SL_LINE_TEXT];
+    snprintf(text, sizeof text, "features[%zu]%s%.40s%s%.40s", number, *f->layer ? " " : "",
+             f->layer, json_is_string(id) ? " " : "",
+             json_is_string(id) ? json_string_value(id) : "");
+    return sli_map_add_label(geo->context, geo->map, (uint32_t)number + 1, text);
+}
+
+static sl_status add_all(sli_geo *geo) {
+    if (geo->features.count >= UINT32_MAX)
+        return sl_fail_at(geo->context, geo->name, 0, "too many features");
+    geo->map->source.lines_are_items = true;
+    for (size_t i = 0; i < geo->features.count; i++) {
+        const sli_geo_feature *f = &geo->features.items[i];
+        if (i % 1024 == 0) SL_TRY(sl_check_cancelled(geo->context));
+        if (!f->taken || !f->count) continue;
+        SL_TRY(add_label(geo, i));
+        if (f->means == SLI_GEO_WALL) SL_TRY(add_lines(geo, f, (uint32_t)i + 1));
+        if (f->means == SLI_GEO_MIRROR || f->means == SLI_GEO_ONEWAY || f->means == SLI_GEO_START)
+            SL_TRY(add_other(geo, f, (uint32_t)i + 1));
+    }
+    return SL_OK;
+}
+
+/// Cleaning drops walls of no length; those that openings took away whole go at once.
+static void drop_points(sl_map *map) {
+    size_t kept = 0;
+    for (size_t i = 0; i < map->wall_count; i++)
+        if (map->walls[i].a.x != map->walls[i].b.x || map->walls[i].a.y != map->walls[i].b.y)
+            map->walls[kept++] = map->walls[i];
+    map->wall_count = kept;
+}
+
+static void report(const sli_geo *geo) {
+    sli_name_list left = {0};
+    size_t walls = 0, doors = 0, other = 0;
+    for (size_t i = 0; i < geo->features.count; i++) {
+        const sli_geo_feature *f = &geo->features.items[i];
+        const bool lines = f->count && geo->lines.items[f->first].count > 1;
+        walls += f->taken && f->means == SLI_GEO_WALL && lines;
+        doors += f->taken && f->means == SLI_GEO_DOOR;
+        if (f->means != SLI_GEO_NO_WALL || !lines) continue;
+        if (geo->options->map && !sli_geo_on_level(geo, f, geo->options->map)) continue;
+        other++;
+        if (!*f->layer || strstr(left.text, f->layer)) continue;
+        sli_name_list_add(&left, (sli_word){f->layer, strlen(f->layer)});
+    }
+    const sli_tally taken[] = {{walls, "feature as walls", "features as walls"},
+                               {geo->cuts, "opening in them", "openings in them"},
+                               {doors - geo->cuts, "other door", "other doors"}};
+    char with[SLI_TALLY_TEXT];
+    sli_tally_write("", taken, doors >= geo->cuts ? 3 : 2, with);
+    if (other)
+        sl_note(geo->context, "%s: %s; left out: %zu of other layers%s%s; --layers takes layers",
+                geo->name, with, other, *left.text ? ": " : "", left.text);
+    else
+        sl_note(geo->context, "%s: %s", geo->name, with);
+    for (size_t i = 1; i < geo->file_count; i++)
+        sl_note(geo->context, "%s: %s beside it is read too", geo->name, geo->files[i].name);
+    if (geo->no_walls)
+        sl_note(geo->context, "%s: %zu door%s no wall", geo->name, geo->no_walls,
+                geo->no_walls == 1 ? " is on" : "s are on");
+}
+
+/// Straight walls of the file are straight in its own plane, and bend by this in another one.
+#define BENT 2e-3
+
+static sl_status read_all(sli_geo *geo, const char *text, size_t size) {
+    const bool lines = geo->options->lines;
+    SL_TRY(sli_geo_open(geo, text, size));
+    SL_TRY(sli_geo_place(geo));
+    SL_TRY(sli_geo_find_meanings(geo));
+    SL_TRY(choose(geo));
+    SL_TRY(add_all(geo));
+    if (!lines) SL_TRY(sli_geo_add_doors(geo));
+    drop_points(geo->map);
+    if (!lines || geo->map->earth.known)
+        geo->map->precision = sli_marked_precision(geo->map, geo->finest, NULL, 0);
+    if (geo->map->earth.known && geo->map->wall_count)
+        geo->map->precision = fmax(geo->map->precision, BENT);
+    if (!lines) report(geo);
+    return SL_OK;
+}
+
+sl_status sli_map_read_geojson(sl_context *context, const char *name, const char *text, size_t size,
+                               const sl_import_options *options, sl_map *map) {
+    sl_map out = {0};
+    sli_geo geo = {.context = context, .name = name, .options = options, .map = &out};
+    const sl_status status = read_all(&geo, text, size);
+    sli_geo_close(&geo);
+    if (status == SL_OK)
+        *map = out;
+    else
+        sl_map_destroy(context, &out);
+    return status;
+}
+
+sl_status sl_lines_read_geojson(sl_context *context, const char *name, const char *text,
+                                size_t size, sl_map *map) {
+    sl_import_options options = sl_import_options_default();
+    options.lines = true;
+    return sli_map_read_geojson(context, name, text, size, &options, map);
+}
+
+sl_status sli_map_list_geojson(sl_context *context, const char *name, const char *text, size_t size,
+                               sl_map_list *list) {
+    const sl_import_options options = sl_import_options_default();
+    sli_geo geo = {.context = context, .name = name, .options = &options};
+    sl_status status = sli_geo_open(&geo, text, size);
+    if (status == SL_OK) status = sli_geo_find_meanings(&geo);
+    if (status == SL_OK) status = sli_geo_levels(&geo, list);
+    sli_geo_close(&geo);
+    if (status != SL_OK) sl_map_list_destroy(context, list);
+    return status;
+}

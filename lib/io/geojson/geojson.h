@@ -1,0 +1,77 @@
+/// The parts of the reader of GeoJSON. Files are walked once (geojson_walk.c), into features with
+/// their points. Then the points are laid in a plane, and each feature gets its meaning and its
+/// levels (geojson_means.c). Doors are cut out of the walls last (geojson_doors.c).
+#ifndef SL_GEOJSON_H
+#define SL_GEOJSON_H
+
+#include "io/parts/document.h"
+#include "sightline/import.h"
+#include "sightline/support.h"
+
+typedef enum sli_geo_meaning {
+    SLI_GEO_UNSAID, ///< nothing that is known
+    SLI_GEO_WALL,   ///< its lines and outlines are walls
+    SLI_GEO_DOOR,
+    SLI_GEO_MIRROR,
+    SLI_GEO_ONEWAY,
+    SLI_GEO_START,
+    SLI_GEO_NO_WALL, ///< what is known to be none: levels, furniture, cells of a baked file
+} sli_geo_meaning;
+
+/// A run of points: a point, a line, or a ring, whose last point is the first one again.
+typedef struct sli_geo_line {
+    size_t first, count;
+} sli_geo_line;
+
+/// Texts belong to the tree of the file.
+typedef struct sli_geo_feature {
+    json_t *feature, *properties; ///< NULL for a geometry without a feature
+    sli_geo_meaning means;
+    const char *layer;   ///< the word that says what it is; "" for none
+    size_t first, count; ///< of its lines
+    bool taken;
+} sli_geo_feature;
+
+enum { SLI_GEO_FILES = 4 };
+
+typedef struct sli_geo {
+    sl_context *context;
+    const char *name;
+    const sl_import_options *options;
+    sl_map *map;
+    sli_json_file files[SLI_GEO_FILES]; ///< the file itself, and those of a set beside it
+    size_t file_count;
+    SL_ARRAY(sli_geo_feature) features;
+    SL_ARRAY(sli_geo_line) lines;
+    SL_ARRAY(sl_point) points; ///< as in the file, then in the map
+    SL_ARRAY(size_t) levels;   ///< features that say where a level stands
+    double finest;             ///< the last decimal place of the coordinates
+    size_t no_walls;           ///< doors that are on no wall, left out
+    size_t cuts;               ///< openings in walls
+} sli_geo;
+
+/// Reads the file, and those that belong to it. `sli_geo_close` is the caller's, also on failure.
+sl_status sli_geo_open(sli_geo *geo, const char *text, size_t size);
+void sli_geo_close(sli_geo *geo);
+
+/// Lays all points in the map's plane, and says so. Sets the map's unit and its place on the earth.
+sl_status sli_geo_place(sli_geo *geo);
+
+/// Finds out what each feature is.
+sl_status sli_geo_find_meanings(sli_geo *geo);
+
+/// The names of all levels that walls and doors are on, lowest first; none where nothing has a
+/// level.
+sl_status sli_geo_levels(sli_geo *geo, sl_map_list *list);
+/// Whether a feature is on a level; one that has none is on all.
+bool sli_geo_on_level(const sli_geo *geo, const sli_geo_feature *feature, const char *level);
+
+/// Adds the doors that are taken: they are cut out of the map's walls, or stand between them.
+sl_status sli_geo_add_doors(sli_geo *geo);
+
+/// A property of a feature, also one among the "tags" of OpenStreetMap; NULL for none.
+json_t *sli_geo_property(const sli_geo_feature *feature, const char *key);
+/// The text of a property; "" for none.
+const char *sli_geo_text(const sli_geo_feature *feature, const char *key);
+
+#endif

@@ -1,0 +1,76 @@
+/// The parts of the reader of LDtk: layers, and what the values of cells mean.
+#ifndef SL_LDTK_H
+#define SL_LDTK_H
+
+#include "io/parts/document.h"
+#include "io/parts/game_names.h"
+#include "io/parts/shapes.h"
+#include "io/parts/things.h"
+#include "sightline/import.h"
+
+/// What a cell is, as the characters of sli_tile_block; ground is decided once all is read.
+enum { SLI_LDTK_GROUND = 'g' };
+
+/// What the values of a layer mean, or the tiles of its tileset.
+typedef struct sli_ldtk_layer {
+    sli_game_kind kind; ///< by its name; SOLID where it is asked for
+    bool by_name;       ///< some value is named for what is solid: the others are not, but for rock
+    sli_word numbers;   ///< of the values that are asked for; of no length for all
+} sli_ldtk_layer;
+
+/// What a value stands for.
+typedef struct sli_ldtk_cell {
+    char square;
+    sli_says says; ///< whether it is a door
+} sli_ldtk_cell;
+
+/// What is told: the values by what became of them.
+typedef struct sli_ldtk_told {
+    sli_name_list solid, water, ground, open;
+    bool named; ///< some value has a name
+} sli_ldtk_told;
+
+bool sli_ldtk_any_solid(const sli_json *values);
+/// What a value other than 0 means; `values` are its layer's definitions.
+sli_ldtk_cell sli_ldtk_meaning(const sli_json *values, const sli_ldtk_layer *layer, int64_t value,
+                               sli_ldtk_told *told);
+
+/// The squares that tiles of a tileset make by its enums (Wall, Water ...), and by the text that it
+/// has for single tiles; 0 for a tile that says nothing. `tiles` has the definition of the tileset.
+char sli_ldtk_tile(const sli_json *tileset, int64_t tile);
+
+/// Decides what ground is, and puts '#' or '.' in its place: where starts stand on it or on what is
+/// empty; else it is the solid ground of a platformer if most squares around it are empty, and open
+/// if hardly any are. `*unsure` where nothing tells; `*solid` where it is solid.
+void sli_ldtk_settle_ground(sli_tiles *tiles, const sli_things *things, bool *solid, bool *unsure);
+
+/// A file that is read.
+typedef struct sli_ldtk {
+    sl_context *context;
+    const char *name;
+    const sl_import_options *options;
+    sli_json root;
+    sli_json project; ///< has the definitions
+    sli_tiles tiles;
+    sli_things things;
+    double bottom;   ///< the largest y of the levels taken, in pixels from the world's origin
+    int64_t depth;   ///< of the levels taken
+    char taken[160]; ///< the first level that is taken, as the account shows it
+    sli_ldtk_told told;
+    const char *asked; ///< a layer with values that chooses, for the message
+    size_t levels, other_levels, other_depths;
+    size_t layers, tile_layers, other_layers, entities;
+} sli_ldtk;
+
+/// A level's place in its world, in pixels, y down.
+typedef struct sli_ldtk_place {
+    double x, y;
+} sli_ldtk_place;
+
+/// Coordinates of levels and sizes of cells are up to this many pixels.
+#define SLI_LDTK_MOST_PIXELS 1000000000
+
+/// Reads the layers of a level: those with cells, tiles and entities.
+sl_status sli_ldtk_read_layers(sli_ldtk *reader, const sli_json *layers, sli_ldtk_place at);
+
+#endif

@@ -1,0 +1,145 @@
+/// What the values of LDtk's cells mean by their names, and tiles by the enums of their tileset.
+///
+/// Firm words (wall, solid, collision) decide, if a layer has any: its other values are open, but
+/// for rock and the like. Without such words all values are solid but those that one passes
+/// (ladder, door), and water stops steps. Grass, sand and floors are the ground: it is open in a
+/// map seen from above and solid in a platformer, which is found out once all cells and starts are
+/// read.
+#include "io/ldtk.h"
+
+static bool is_firm(sli_game_kind kind, const char *name) {
+    return kind == SLI_GAME_SOLID || (kind == SLI_GAME_LIKELY && sli_mentions_solid(name));
+}
+
+bool sli_ldtk_any_solid(const sli_json *values) {
+    for (size_t i = 0; i < json_array_size(values->value); i++) {
+        const sli_json value = sli_json_item(values, i);
+        const char *name = sli_json_text_of(&value, "identifier");
+        if (is_firm(sli_game_kind_of(name), name)) return true;
+    }
+    return false;
+}
+
+/// The square of a value of this name in a layer, where no numbers are asked for.
+static char square_of(const sli_ldtk_layer *layer, const char *name) {
+    const sli_game_kind kind = sli_game_kind_of(name);
+    if (kind == SLI_GAME_WATER) return '~';
+    if (kind >= SLI_GAME_STANDS &&
+        !(layer->by_name && kind == SLI_GAME_LIKELY && !is_firm(kind, name)))
+        return '#';
+    if (layer->by_name || kind == SLI_GAME_PASS || kind == SLI_GAME_DRAWN) return '.';
+    if (layer->kind == SLI_GAME_WATER) return '~';
+    if (kind == SLI_GAME_UNSAID || layer->kind == SLI_GAME_SOLID) return '#';
+    return SLI_LDTK_GROUND;
+}
+
+static void tell(sli_ldtk_told *told, char square, const char *name, int64_t value) {
+    sli_name_list *list = square == '#'               ? &told->solid
+                          : square == '~'             ? &told->water
+                          : square == SLI_LDTK_GROUND ? &told->ground
+                                                      : &told->open;
+    char text[80];
+    snprintf(text, sizeof text, "%s%s%lld%s", sli_show((sli_word){name, strlen(name)}).text,
+             *name ? " (" : "", (long long)value, *name ? ")" : "");
+    told->named |= *name != '\0';
+    char wanted[90];
+    snprintf(wanted, sizeof wanted, "%s,", text);
+    const char *there = strstr(list->text, text);
+    const bool known = there && (there == list->text || there[-1] == ' ') &&
+                       (!there[strlen(text)] || strncmp(there, wanted, strlen(wanted)) == 0);
+    if (!known) sli_name_list_add(list, (sli_word){text, strlen(text)});
+}
+
+sli_ldtk_cell sli_ldtk_meaning(const sli_json *values, const sli_ldtk_layer *layer, int64_t value,
+                               sli_ldtk_told *told) {
+    const char *name = "";
+    for (size_t i = 0; i < json_array_size(values->value); i++) {
+        const sli_json item = sli_json_item(values, i), number = sli_json_member(&item, "value");
+        if (!json_is_integer(number.value) || json_integer_value(number.value) != value) continue;
+        name = sli_json_text_of(&item, "identifier");
+        break;
+    }
+    sli_ldtk_cell cell = {.square = square_of(layer, name), .says = sli_says_of(name, NULL)};
+    if (layer->numbers.length)
+        cell.square = sli_numbers_have(layer->numbers, (uint64_t)value) ? '#' : '.';
+    // A door is solid until a passage is found for it.
+    else if (cell.says.kind == SLI_THING_DOOR && !layer->by_name)
+        cell.square = '#';
+    tell(told, cell.square, name, value);
+    return cell;
+}
+
+// --- tiles
+
+static char square_of_name(const char *name) {
+    const sli_game_kind kind = sli_game_kind_of(name);
+    return kind == SLI_GAME_WATER ? '~' : is_firm(kind, name) ? '#' : 0;
+}
+
+static bool has_number(const sli_json *list, int64_t number) {
+    for (size_t i = 0; i < json_array_size(list->value); i++)
+        if (json_integer_value(json_array_get(list->value, i)) == number) return true;
+    return false;
+}
+
+/// The text of a tile: a list of words, or JSON: {"solid": true}.
+static char square_of_text(const char *text) {
+    if (strstr(text, "false")) return 0;
+    return sli_mentions_solid(text) ? '#' : 0;
+}
+
+char sli_ldtk_tile(const sli_json *tileset, int64_t tile) {
+    const sli_json tags = sli_json_member(tileset, "enumTags");
+    const sli_json texts = sli_json_member(tileset, "customData");
+    char square = 0;
+    for (size_t i = 0; i < json_array_size(tags.value) && square != '#'; i++) {
+        const sli_json tag = sli_json_item(&tags, i), ids = sli_json_member(&tag, "tileIds");
+        const char own = square_of_name(sli_json_text_of(&tag, "enumValueId"));
+        if (own && has_number(&ids, tile)) square = own;
+    }
+    for (size_t i = 0; i < json_array_size(texts.value) && !square; i++) {
+        const sli_json text = sli_json_item(&texts, i), id = sli_json_member(&text, "tileId");
+        if (json_is_integer(id.value) && json_integer_value(id.value) == tile)
+            square = square_of_text(sli_json_text_of(&text, "data"));
+    }
+    return square;
+}
+
+// --- ground
+
+/// The square of a block at a place, or 0 outside.
+static char square_at(const sli_tile_block *block, sl_point at) {
+    const double x = (at.x - block->corner.x) / block->step.x;
+    const double y = (at.y - block->corner.y) / block->step.y;
+    if (!(x >= 0 && y >= 0 && x < (double)block->columns && y < (double)block->rows)) return 0;
+    return block->squares[(size_t)y * block->columns + (size_t)x];
+}
+
+void sli_ldtk_settle_ground(sli_tiles *tiles, const sli_things *things, bool *solid, bool *unsure) {
+    size_t ground = 0, empty = 0, all = 0, on_ground = 0, on_empty = 0;
+    for (size_t i = 0; i < tiles->blocks.count; i++) {
+        const sli_tile_block *block = &tiles->blocks.items[i];
+        const size_t count = block->columns * block->rows;
+        if (!memchr(block->squares, SLI_LDTK_GROUND, count)) continue;
+        for (size_t k = 0; k < count; k++) {
+            ground += block->squares[k] == SLI_LDTK_GROUND;
+            empty += block->squares[k] == '.';
+        }
+        all += count;
+        for (size_t k = 0; k < things->items.count; k++) {
+            const sli_thing *thing = &things->items.items[k];
+            if (thing->kind != SLI_THING_START) continue;
+            const char at = square_at(block, thing->middle);
+            on_ground += at == SLI_LDTK_GROUND;
+            on_empty += at == '.';
+        }
+    }
+    if (!ground) return;
+    *solid = on_ground != on_empty ? on_empty > on_ground : 5 * empty >= 2 * all;
+    *unsure = on_ground == on_empty && !*solid && 10 * empty > all;
+    for (size_t i = 0; i < tiles->blocks.count; i++) {
+        const sli_tile_block *block = &tiles->blocks.items[i];
+        for (size_t k = 0; k < block->columns * block->rows; k++)
+            if (block->squares[k] == SLI_LDTK_GROUND) block->squares[k] = *solid ? '#' : '.';
+    }
+}

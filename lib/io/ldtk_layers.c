@@ -1,0 +1,387 @@
+/// The layers of LDtk's levels: cells with values (IntGrid), tiles where a level has no cells, and
+/// entities.
+#include "io/ldtk.h"
+
+#include <strings.h>
+
+/// The definition in `list` whose uid is the number; the way to it lives in `defs`.
+static sli_json find_definition(const sli_ldtk *reader, const char *list, const sli_json *uid,
+                                sli_json defs[3]) {
+    defs[0] = sli_json_member(&reader->project, "defs");
+    defs[1] = sli_json_member(&defs[0], list);
+    const size_t count = json_array_size(defs[1].value);
+    for (size_t i = 0; uid->value && i < count; i++) {
+        defs[2] = sli_json_item(&defs[1], i);
+        const sli_json other = sli_json_member(&defs[2], "uid");
+        if (other.value && json_equal(uid->value, other.value)) return defs[2];
+    }
+    return (sli_json){.file = uid->file};
+}
+
+/// What values or tiles mean, as far as they were met: most are met often.
+#define KNOWN 256
+typedef struct known_cells {
+    struct {
+        bool is_known;
+        int64_t value;
+        sli_ldtk_cell cell;
+    } items[KNOWN];
+} known_cells;
+
+/// A layer as its name and --layers have it.
+static sli_ldtk_layer layer_of(const sli_ldtk *reader, const sli_json *layer) {
+    const char *name = sli_json_text_of(layer, "__identifier");
+    sli_ldtk_layer of = {.kind = sli_game_kind_of(name)};
+    if (reader->options->layers && sli_layers_ask(reader->options->layers, name, &of.numbers))
+        of.kind = SLI_GAME_SOLID;
+    return of;
+}
+
+/// Fills in the cells and gathers doors.
+static sl_status read_cells(sli_ldtk *reader, const sli_json *layer, const sli_json *cells,
+                            size_t count, size_t columns, char *squares) {
+    sli_json defs[3];
+    const sli_json uid = sli_json_member(layer, "layerDefUid");
+    const sli_json definition = find_definition(reader, "layers", &uid, defs);
+    const sli_json values = sli_json_member(&definition, "intGridValues");
+    sli_ldtk_layer of = layer_of(reader, layer);
+    of.by_name = sli_ldtk_any_solid(&values);
+    known_cells *known = sl_alloc(reader->context, sizeof *known);
+    if (!known) return SL_NO_MEMORY;
+    *known = (known_cells){0};
+    sl_status status = SL_OK;
+    for (size_t i = 0; i < count && status == SL_OK; i++) {
+        if (i % 4096 == 0) status = sl_check_cancelled(reader->context);
+        const sli_json item = sli_json_item(cells, i);
+        int64_t value = 0;
+        if (status == SL_OK) status = sli_json_whole(&item, 0, INT32_MAX, &value);
+        if (status != SL_OK || !value) continue;
+        const size_t at = (size_t)value % KNOWN;
+        if (!known->items[at].is_known || known->items[at].value != value) {
+            known->items[at].is_known = true;
+            known->items[at].value = value;
+            known->items[at].cell = sli_ldtk_meaning(&values, &of, value, &reader->told);
+        }
+        const sli_ldtk_cell *cell = &known->items[at].cell;
+        squares[i] = cell->square;
+        reader->tiles.water |= cell->square == '~';
+        if (cell->says.kind == SLI_THING_DOOR)
+            status = sli_things_add_square(&reader->things, &cell->says, i % columns, i / columns);
+    }
+    sl_free(reader->context, known);
+    return status;
+}
+
+/// A layer's squares.
+typedef struct frame {
+    int64_t columns, rows, step;
+    sl_point corner;
+} frame;
+
+static sl_status read_frame(const sli_json *layer, sli_ldtk_place at, frame *out) {
+    const sli_json width = sli_json_member(layer, "__cWid"),
+                   height = sli_json_member(layer, "__cHei");
+    const sli_json size = sli_json_member(layer, "__gridSize");
+    const sli_json x = sli_json_member(layer, "__pxTotalOffsetX");
+    const sli_json y = sli_json_member(layer, "__pxTotalOffsetY");
+    int64_t offset_x = 0, offset_y = 0;
+    SL_TRY(sli_json_whole(&width, 1, INT32_MAX, &out->columns));
+    SL_TRY(sli_json_whole(&height, 1, INT32_MAX, &out->rows));
+    SL_TRY(sli_json_whole(&size, 1, SLI_LDTK_MOST_PIXELS, &out->step));
+    SL_TRY(sli_json_whole_if(&x, -SLI_LDTK_MOST_PIXELS, SLI_LDTK_MOST_PIXELS, &offset_x));
+    SL_TRY(sli_json_whole_if(&y, -SLI_LDTK_MOST_PIXELS, SLI_LDTK_MOST_PIXELS, &offset_y));
+    out->corner = (sl_point){at.x + (double)offset_x, at.y + (double)offset_y};
+    return SL_OK;
+}
+
+static sl_status read_layer(sli_ldtk *reader, const sli_json *layer, sli_ldtk_place at) {
+    const sli_json cells = sli_json_member(layer, "intGridCsv");
+    frame of;
+    size_t count;
+    SL_TRY(read_frame(layer, at, &of));
+    SL_TRY(sli_json_array(&cells, &count));
+    if (count / (size_t)of.columns != (size_t)of.rows || count % (size_t)of.columns)
+        return sli_json_fail(&cells, "%lld x %lld cells are %lld, found %zu", (long long)of.columns,
+                             (long long)of.rows, (long long)(of.columns * of.rows), count);
+    char *squares;
+    const sl_point square = {(double)of.step, (double)of.step};
+    SL_TRY(sli_tiles_add(reader->context, &reader->tiles, reader->name, of.corner, square,
+                         (size_t)of.columns, (size_t)of.rows, &squares));
+    reader->layers++;
+    if (!reader->asked) reader->asked = sli_json_text_of(layer, "__identifier");
+    SL_TRY(read_cells(reader, layer, &cells, count, (size_t)of.columns, squares));
+    return sli_things_end_block(&reader->things, of.corner, square);
+}
+
+// --- layers of tiles, where there is no IntGrid
+
+/// Where a tile of a list lies; false where that is no square of the layer.
+static bool find_square(const sli_json *tile, const frame *of, size_t *at) {
+    const sli_json px = sli_json_member(tile, "px");
+    const json_t *x = json_array_get(px.value, 0), *y = json_array_get(px.value, 1);
+    if (!json_is_integer(x) || !json_is_integer(y)) return false;
+    const int64_t column = json_integer_value(x) / of->step, row = json_integer_value(y) / of->step;
+    if (json_integer_value(x) < 0 || json_integer_value(y) < 0 || column >= of->columns ||
+        row >= of->rows)
+        return false;
+    *at = (size_t)(row * of->columns + column);
+    return true;
+}
+
+/// Puts the tiles of one list into their squares. All are solid where the layer says so.
+static sl_status read_tile_list(sli_ldtk *reader, const sli_json *list, const sli_json *tileset,
+                                bool whole, const frame *of, char *squares, bool *any) {
+    struct {
+        bool is_known;
+        int64_t tile;
+        char square;
+    } known[KNOWN] = {{0}};
+    for (size_t i = 0; i < json_array_size(list->value); i++) {
+        const sli_json tile = sli_json_item(list, i), id = sli_json_member(&tile, "t");
+        size_t at;
+        if (i % 4096 == 0) SL_TRY(sl_check_cancelled(reader->context));
+        if (!json_is_integer(id.value) || !find_square(&tile, of, &at)) continue;
+        const int64_t number = json_integer_value(id.value);
+        const size_t slot = (size_t)((uint64_t)number % KNOWN);
+        if (!known[slot].is_known || known[slot].tile != number) {
+            known[slot].is_known = true;
+            known[slot].tile = number;
+            known[slot].square = whole ? '#' : sli_ldtk_tile(tileset, number);
+        }
+        const char square = known[slot].square;
+        if (!square || squares[at] == '#') continue;
+        squares[at] = square;
+        *any = true;
+        reader->tiles.water |= square == '~';
+    }
+    return SL_OK;
+}
+
+/// A layer of tiles by its name or its tileset; no layer is taken where neither says anything.
+static sl_status read_tiles(sli_ldtk *reader, const sli_json *layer, sli_ldtk_place at) {
+    sli_json defs[3];
+    const sli_json uid = sli_json_member(layer, "__tilesetDefUid");
+    const sli_json tileset = find_definition(reader, "tilesets", &uid, defs);
+    const sli_json by_hand = sli_json_member(layer, "gridTiles");
+    const sli_json by_rules = sli_json_member(layer, "autoLayerTiles");
+    const bool whole = layer_of(reader, layer).kind == SLI_GAME_SOLID;
+    frame of;
+    bool any = false;
+    char *squares;
+    if (!json_array_size(by_hand.value) && !json_array_size(by_rules.value)) return SL_OK;
+    SL_TRY(read_frame(layer, at, &of));
+    SL_TRY(sli_tiles_check(reader->context, &reader->tiles, reader->name, 0, "a layer of tiles",
+                           (uint64_t)of.columns, (uint64_t)of.rows));
+    SL_TRY(sli_tiles_add(reader->context, &reader->tiles, reader->name, of.corner,
+                         (sl_point){(double)of.step, (double)of.step}, (size_t)of.columns,
+                         (size_t)of.rows, &squares));
+    SL_TRY(read_tile_list(reader, &by_hand, &tileset, whole, &of, squares, &any));
+    SL_TRY(read_tile_list(reader, &by_rules, &tileset, whole, &of, squares, &any));
+    reader->tile_layers += any;
+    return SL_OK;
+}
+
+// --- entities
+
+/// Two numbers of an array, where it is there.
+static sl_status read_pair(const sli_json *pair, sl_point *out) {
+    if (!pair->value) return SL_OK;
+    const sli_json x = sli_json_item(pair, 0), y = sli_json_item(pair, 1);
+    SL_TRY(sli_json_number(&x, &out->x));
+    return sli_json_number(&y, &out->y);
+}
+
+/// The heading, if the field names one: clockwise degrees, or a direction on the screen.
+static void find_heading(const char *field, const sli_json *value, double *heading) {
+    static const char *const fields[] = {"angle", "rotation", "heading", "facing", "direction"};
+    static const struct {
+        const char *name;
+        double heading;
+    } words[] = {{"right", 0},  {"east", 0},   {"up", 90},    {"north", 90},
+                 {"left", 180}, {"west", 180}, {"down", 270}, {"south", 270}};
+    bool known = false;
+    for (size_t i = 0; i < sizeof fields / sizeof *fields; i++)
+        known |= strcasecmp(field, fields[i]) == 0;
+    const char *text = json_string_value(value->value);
+    if (!known) return;
+    if (json_is_number(value->value)) *heading = sli_heading_of(json_number_value(value->value));
+    for (size_t i = 0; text && i < sizeof words / sizeof *words; i++)
+        if (strcasecmp(text, words[i].name) == 0) *heading = words[i].heading;
+}
+
+/// What a field `lockedWith` names is a key: the door is shut. No value, no lock.
+static bool names_key(const char *field, const sli_json *value) {
+    const char *text = json_string_value(value->value);
+    return strcasecmp(field, "lockedWith") == 0 &&
+           ((text && *text) || json_object_size(value->value) || json_array_size(value->value));
+}
+
+/// `own` becomes the text of the field "name", if there is one.
+static void read_fields(const sli_json *entity, sli_says *says, double *heading, const char **own) {
+    const sli_json fields = sli_json_member(entity, "fieldInstances");
+    for (size_t i = 0; i < json_array_size(fields.value); i++) {
+        const sli_json field = sli_json_item(&fields, i);
+        const sli_json value = sli_json_member(&field, "__value");
+        const char *name = sli_json_text_of(&field, "__identifier");
+        const char *text = json_string_value(value.value);
+        if (json_is_boolean(value.value)) sli_says_add(says, name, json_is_true(value.value));
+        if (text) sli_says_add_text(says, name, text);
+        if (names_key(name, &value)) sli_says_add(says, "locked", true);
+        if (text && *text && strcasecmp(name, "name") == 0) *own = text;
+        find_heading(name, &value, heading);
+    }
+}
+
+/// Adds an entity that is a start or a door. Its pivot is at its place "px".
+static sl_status read_entity(sli_ldtk *reader, const sli_json *entity, sl_point corner,
+                             double step) {
+    const char *name = sli_json_text_of(entity, "__identifier");
+    sli_says says = sli_says_of(name, NULL);
+    const char *own = name;
+    double heading = 0;
+    read_fields(entity, &says, &heading, &own);
+    if (says.kind == SLI_THING_DOOR && own != name) says.name = own;
+    SL_TRY(sli_things_ask(&reader->things, name, NULL, &says));
+    if (!says.kind) {
+        sli_things_leave(&reader->things, name);
+        return SL_OK;
+    }
+    const sli_json px = sli_json_member(entity, "px"), pivot = sli_json_member(entity, "__pivot");
+    const sli_json width = sli_json_member(entity, "width");
+    const sli_json height = sli_json_member(entity, "height");
+    sl_point at = {0}, part = {0}, size = {step, step};
+    if (!px.value) return sli_json_fail(&px, "expected two numbers, found nothing");
+    SL_TRY(read_pair(&px, &at));
+    SL_TRY(read_pair(&pivot, &part));
+    SL_TRY(sli_json_number_if(&width, &size.x));
+    SL_TRY(sli_json_number_if(&height, &size.y));
+    reader->entities--;
+    const sli_thing thing = {.kind = says.kind,
+                             .middle = {corner.x + at.x + (0.5 - part.x) * size.x,
+                                        corner.y + at.y + (0.5 - part.y) * size.y},
+                             .u = {size.x / 2, 0},
+                             .v = {0, size.y / 2},
+                             .open = says.state != SLI_DOOR_SHUT,
+                             .heading = heading};
+    return sli_things_add(&reader->things, says.name, thing);
+}
+
+static sl_status read_entities(sli_ldtk *reader, const sli_json *layer, sli_ldtk_place at) {
+    const sli_json entities = sli_json_member(layer, "entityInstances");
+    const sli_json x = sli_json_member(layer, "__pxTotalOffsetX");
+    const sli_json y = sli_json_member(layer, "__pxTotalOffsetY");
+    const sli_json size = sli_json_member(layer, "__gridSize");
+    const size_t count = json_array_size(entities.value);
+    sl_point corner = {0};
+    double step = 0;
+    if (!count) return SL_OK;
+    SL_TRY(sli_json_number_if(&x, &corner.x));
+    SL_TRY(sli_json_number_if(&y, &corner.y));
+    SL_TRY(sli_json_number_if(&size, &step));
+    corner = (sl_point){at.x + corner.x, at.y + corner.y};
+    reader->entities += count;
+    for (size_t i = 0; i < count; i++) {
+        const sli_json entity = sli_json_item(&entities, i);
+        if (i % 256 == 0) SL_TRY(sl_check_cancelled(reader->context));
+        SL_TRY(read_entity(reader, &entity, corner, step));
+    }
+    return SL_OK;
+}
+
+// --- layers
+
+static bool is_int_grid(const sli_json *layer) {
+    return strcmp(sli_json_text_of(layer, "__type"), "IntGrid") == 0;
+}
+
+static bool is_tiles(const sli_json *layer) {
+    return strcmp(sli_json_text_of(layer, "__type"), "Tiles") == 0 ||
+           strcmp(sli_json_text_of(layer, "__type"), "AutoLayer") == 0;
+}
+
+static bool says_solid(const sli_json *layer) {
+    return sli_game_kind_of(sli_json_text_of(layer, "__identifier")) == SLI_GAME_SOLID;
+}
+
+/// What the layers of a level that hold cells say by their names.
+typedef struct said {
+    bool solid; ///< some are solid
+    bool plain; ///< some are no pictures, doors, zones
+} said;
+
+static bool is_plain(const sli_json *layer) {
+    const sli_game_kind kind = sli_game_kind_of(sli_json_text_of(layer, "__identifier"));
+    return kind != SLI_GAME_DRAWN && kind != SLI_GAME_PASS;
+}
+
+/// Whether a layer of cells is to be read: those asked for; else those whose names say that they
+/// are solid, and water beside them; else all but pictures and zones, where there are others.
+static bool is_taken(const sli_ldtk *reader, const sli_json *layer, said all) {
+    const char *name = sli_json_text_of(layer, "__identifier");
+    const sli_game_kind kind = sli_game_kind_of(name);
+    sli_word numbers;
+    if (!is_int_grid(layer)) return false;
+    if (reader->options->layers) return sli_layers_ask(reader->options->layers, name, &numbers);
+    if (all.solid) return kind == SLI_GAME_SOLID || kind == SLI_GAME_WATER;
+    return !all.plain || is_plain(layer);
+}
+
+/// Whether the level has layers of cells: those of tiles count only where it has not.
+static bool has_cells(const sli_json *layers) {
+    bool any = false;
+    for (size_t i = 0; i < json_array_size(layers->value); i++) {
+        const sli_json layer = sli_json_item(layers, i);
+        any |= is_int_grid(&layer);
+    }
+    return any;
+}
+
+static sl_status check_layers(const sli_ldtk *reader, const sli_json *layers) {
+    const char *list = reader->options->layers;
+    const bool cells = has_cells(layers);
+    for (sli_word name; list && sli_layers_next(&list, &name);) {
+        bool known = false;
+        sli_word numbers = {0};
+        sli_name_list there = {.full = false};
+        for (size_t i = 0; i < json_array_size(layers->value); i++) {
+            const sli_json layer = sli_json_item(layers, i);
+            if (cells ? !is_int_grid(&layer) : !is_tiles(&layer)) continue;
+            const char *own = sli_json_text_of(&layer, "__identifier");
+            known |= sli_layers_name(name, own, &numbers);
+            sli_name_list_add(&there, (sli_word){own, strlen(own)});
+        }
+        if (!known) return sli_fail_layer(reader->context, reader->name, name, "level", &there);
+        if (!sli_numbers_good(numbers))
+            return sl_fail(reader->context, SL_BAD_ARGUMENT,
+                           "%s: layer '%s': expected values such as 1+3-5 behind the ':'",
+                           reader->name, sli_show(name).text);
+    }
+    return SL_OK;
+}
+
+sl_status sli_ldtk_read_layers(sli_ldtk *reader, const sli_json *layers, sli_ldtk_place at) {
+    size_t count;
+    said all = {.solid = false};
+    SL_TRY(sli_json_array(layers, &count));
+    SL_TRY(check_layers(reader, layers));
+    for (size_t i = 0; i < count; i++) {
+        const sli_json layer = sli_json_item(layers, i);
+        SL_TRY(sli_json_object(&layer));
+        all.solid |= is_int_grid(&layer) && says_solid(&layer);
+        all.plain |= is_int_grid(&layer) && is_plain(&layer);
+    }
+    const bool cells = has_cells(layers);
+    for (size_t i = 0; i < count; i++) {
+        const sli_json layer = sli_json_item(layers, i);
+        const size_t before = reader->layers + reader->tile_layers;
+        sli_word numbers;
+        const bool asked = !reader->options->layers ||
+                           sli_layers_ask(reader->options->layers,
+                                          sli_json_text_of(&layer, "__identifier"), &numbers);
+        SL_TRY(read_entities(reader, &layer, at));
+        if (is_taken(reader, &layer, all)) SL_TRY(read_layer(reader, &layer, at));
+        if (!cells && asked && is_tiles(&layer)) SL_TRY(read_tiles(reader, &layer, at));
+        reader->other_layers += before == reader->layers + reader->tile_layers;
+    }
+    return SL_OK;
+}

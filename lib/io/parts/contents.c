@@ -1,0 +1,417 @@
+/// Which layers of a drawing are walls.
+///
+/// Names decide first. If some layer is named as walls, these layers are the walls, windows are
+/// windows, and all else is passed over. Else layers are passed over that are named as something
+/// else. Symbols are taken out of what is left: swings of doors, hatching, steps.
+///
+/// Three walls enclose the least room. A choice that leaves fewer is none: then all visible layers
+/// are walls. The note names every layer that is passed over, and the option that chooses.
+#include "io/parts/contents.h"
+
+#include "geometry/length.h"
+#include "io/parts/names.h"
+#include "io/parts/symbols.h"
+
+#include <strings.h>
+
+// --- groups and their walls
+
+/// So many names are told apart; each is held against some thousand words.
+enum { MOST_GROUPS = 4096, LEAST_WALLS = 3 };
+
+void sli_contents_destroy(sli_contents *contents) {
+    for (size_t i = 0; i < contents->groups.count; i++)
+        sl_free(contents->context, contents->groups.items[i].name);
+    sl_free(contents->context, contents->groups.items);
+    sl_free(contents->context, contents->runs.items);
+    sl_free(contents->context, contents->table);
+}
+
+static bool is_named(const sli_group *group, sli_word name) {
+    return group->length == name.length && strncasecmp(group->name, name.at, name.length) == 0;
+}
+
+static sl_status add_group(sli_contents *contents, sli_word name) {
+    SL_TRY(SL_ARRAY_ROOM(contents->context, &contents->groups, 1));
+    char *copy = sl_copy_text(contents->context, name.at, name.length);
+    if (!copy) return SL_NO_MEMORY;
+    contents->groups.items[contents->groups.count++] =
+        (sli_group){.name = copy, .length = name.length, .means = sli_meaning_of(name)};
+    return SL_OK;
+}
+
+sl_status sli_contents_group(sli_contents *contents, sli_word name, uint32_t *group) {
+    *group = 0;
+    if (!contents->table) {
+        contents->table_size = (size_t)2 * MOST_GROUPS;
+        contents->table =
+            sl_alloc_array(contents->context, contents->table_size, sizeof *contents->table);
+        if (!contents->table) return SL_NO_MEMORY;
+    }
+    if (!contents->groups.count) SL_TRY(add_group(contents, (sli_word){"", 0}));
+    if (!name.length) return SL_OK;
+    if (is_named(&contents->groups.items[contents->last], name)) {
+        *group = contents->last;
+        return SL_OK;
+    }
+    sl_random hash = {0};
+    for (size_t i = 0; i < name.length; i++)
+        hash.state = hash.state * 0x100000001b3u + ((unsigned char)name.at[i] | 0x20u);
+    size_t at = (size_t)sl_random_next(&hash) % contents->table_size;
+    for (; contents->table[at]; at = (at + 1) % contents->table_size)
+        if (is_named(&contents->groups.items[contents->table[at]], name)) break;
+    if (!contents->table[at]) {
+        if (contents->groups.count == MOST_GROUPS) return SL_OK;
+        SL_TRY(add_group(contents, name));
+        contents->table[at] = (uint32_t)(contents->groups.count - 1);
+    }
+    *group = contents->last = contents->table[at];
+    return SL_OK;
+}
+
+bool sli_contents_asks(const sli_contents *contents) {
+    return !sli_contents_said(contents) || contents->options->doors;
+}
+
+void sli_contents_begin(sli_contents *contents, sli_pen *pen) {
+    contents->first = pen->map->wall_count;
+    contents->finest = pen->finest;
+    pen->finest = 0;
+}
+
+sl_status sli_contents_end(sli_contents *contents, sli_pen *pen, uint32_t group) {
+    if (!contents->groups.count) SL_TRY(add_group(contents, (sli_word){"", 0}));
+    sli_group *of = &contents->groups.items[group];
+    const size_t end = pen->map->wall_count, count = contents->runs.count;
+    sli_keep_finest(&of->finest, pen->finest);
+    pen->finest = contents->finest;
+    if (end == contents->first) return SL_OK;
+    of->shapes++;
+    of->walls += end - contents->first;
+    sli_group_run *last = count ? &contents->runs.items[count - 1] : NULL;
+    if (last && last->group == group && last->end == contents->first) {
+        last->end = end;
+        return SL_OK;
+    }
+    SL_TRY(SL_ARRAY_ROOM(contents->context, &contents->runs, 1));
+    contents->runs.items[contents->runs.count++] = (sli_group_run){contents->first, end, group};
+    return SL_OK;
+}
+
+void sli_contents_cut(sli_contents *contents, size_t first, const size_t *ends) {
+    for (size_t i = contents->runs.count; i-- > 0 && contents->runs.items[i].end > first;) {
+        sli_group_run *run = &contents->runs.items[i];
+        size_t *walls = &contents->groups.items[run->group].walls;
+        *walls -= run->end - run->first;
+        if (run->first > first) run->first = ends[run->first - first - 1];
+        run->end = ends[run->end - first - 1];
+        *walls += run->end - run->first;
+    }
+}
+
+// --- the choice
+
+typedef struct choice {
+    sli_contents *contents;
+    sl_map *map;
+    unsigned char *means; ///< by wall
+    sli_symbols symbols;
+    size_t kept;      ///< walls and windows that stay
+    bool walls_named; ///< some layer is named as walls
+    size_t doors;     ///< made
+} choice;
+
+static sl_status find_symbols(choice *c, double metre) {
+    const bool said = sli_contents_said(c->contents);
+    c->means = sl_alloc(c->contents->context, c->map->wall_count);
+    if (!c->means) return SL_NO_MEMORY;
+    memset(c->means, SLI_MEANS_OTHER, c->map->wall_count); // walls of layers of our own
+    for (size_t i = 0; i < c->contents->runs.count; i++) {
+        const sli_group_run *run = &c->contents->runs.items[i];
+        memset(c->means + run->first, (int)c->contents->groups.items[run->group].means,
+               run->end - run->first);
+    }
+    size_t named = 0;
+    for (size_t i = 0; i < c->contents->groups.count; i++)
+        if (c->contents->groups.items[i].means == SLI_MEANS_WALL)
+            named += c->contents->groups.items[i].walls;
+    const sli_meaning walls = named >= LEAST_WALLS ? SLI_MEANS_WALL : SLI_MEANS_NOTHING;
+    return sli_symbols_find(c->contents->context, c->map, c->means, said ? SLI_MEANINGS : walls,
+                            said, metre, &c->symbols);
+}
+
+static bool is_gone(const choice *c, size_t wall) {
+    return sl_bits_has(c->symbols.gone, wall);
+}
+
+static bool is_taken(const choice *c, sli_meaning means) {
+    if (sli_contents_said(c->contents)) return means != SLI_MEANS_DOOR;
+    return means == SLI_MEANS_WALL || means == SLI_MEANS_WINDOW ||
+           (means == SLI_MEANS_NOTHING && !c->walls_named);
+}
+
+/// Marks the groups that are taken. False where the choice is none, or changes nothing.
+static bool choose_groups(choice *c) {
+    size_t named = 0;
+    bool changes = c->symbols.leaves + c->symbols.lines > 0;
+    for (size_t i = 0; i < c->map->wall_count; i++)
+        named += c->means[i] == SLI_MEANS_WALL && !is_gone(c, i);
+    c->walls_named = named >= LEAST_WALLS;
+    for (size_t i = 0; i < c->contents->groups.count; i++) {
+        sli_group *group = &c->contents->groups.items[i];
+        group->taken = is_taken(c, group->means);
+        const bool window = group->means == SLI_MEANS_WINDOW && !sli_contents_said(c->contents);
+        changes |= group->walls && (!group->taken || window);
+    }
+    for (size_t i = 0; i < c->contents->runs.count; i++) {
+        const sli_group_run *run = &c->contents->runs.items[i];
+        if (!c->contents->groups.items[run->group].taken) continue;
+        for (size_t j = run->first; j < run->end; j++) c->kept += !is_gone(c, j);
+    }
+    return changes && (c->kept >= LEAST_WALLS || sli_contents_said(c->contents));
+}
+
+// --- doors
+
+/// The ends of doors, each with the end of a wall that is next to it.
+typedef struct joints {
+    sl_point *at, *to;
+    double *reach; ///< how far the end of a wall may be; the distance to the nearest one
+    sl_point end;  ///< of the wall at hand
+} joints;
+
+static void join(void *user, size_t number) {
+    joints *j = user;
+    const double away = sli_length(j->at[number].x - j->end.x, j->at[number].y - j->end.y);
+    if (away >= j->reach[number]) return;
+    j->reach[number] = away;
+    j->to[number] = j->end;
+}
+
+/// Moves hinges and latches to the walls that they stand at, across the frame: a shut door leaves
+/// no slit.
+static sl_status join_doors(choice *c, joints *j, size_t count, double reach) {
+    sl_context *context = c->contents->context;
+    sli_near near = {0};
+    sl_status status = sli_near_make(context, j->at, count, reach, &near);
+    for (size_t i = 0; status == SL_OK && i < c->map->wall_count; i++) {
+        if (i % 4096 == 0) status = sl_check_cancelled(context);
+        if (is_gone(c, i) || !is_taken(c, c->means[i])) continue;
+        j->end = c->map->walls[i].a;
+        sli_near_each(&near, j->end, j, join);
+        j->end = c->map->walls[i].b;
+        sli_near_each(&near, j->end, j, join);
+    }
+    sli_near_destroy(context, &near);
+    return status;
+}
+
+static sl_status add_door(choice *c, sl_point a, sl_point b, bool open) {
+    char name[32];
+    if (a.x == b.x && a.y == b.y) return SL_OK;
+    snprintf(name, sizeof name, "door%zu", c->map->door_count + 1);
+    c->doors++;
+    return sl_map_add_door(c->contents->context, c->map, name, (sl_segment){a, b}, open, 0);
+}
+
+static sl_status add_swings(choice *c) {
+    sl_context *context = c->contents->context;
+    const size_t count = c->symbols.swings.count;
+    joints j = {.at = sl_alloc_array(context, 2 * count + 1, sizeof *j.at),
+                .to = sl_alloc_array(context, 2 * count + 1, sizeof *j.to),
+                .reach = sl_alloc_array(context, 2 * count + 1, sizeof *j.reach)};
+    sl_status status = j.at && j.to && j.reach ? SL_OK : SL_NO_MEMORY;
+    double widest = 0;
+    for (size_t i = 0; status == SL_OK && i < count; i++) {
+        const sli_swing *swing = &c->symbols.swings.items[i];
+        j.at[2 * i] = j.to[2 * i] = swing->hinge;
+        j.at[2 * i + 1] = j.to[2 * i + 1] = swing->latch;
+        j.reach[2 * i] = j.reach[2 * i + 1] = 0.15 * swing->radius;
+        widest = fmax(widest, swing->radius);
+    }
+    if (status == SL_OK && count) status = join_doors(c, &j, 2 * count, 0.15 * widest);
+    for (size_t i = 0; status == SL_OK && i < count; i++)
+        status = add_door(c, j.to[2 * i], j.to[2 * i + 1], true);
+    sl_free(context, j.at);
+    sl_free(context, j.to);
+    sl_free(context, j.reach);
+    return status;
+}
+
+static sl_point between(sl_point a, sl_point b) {
+    return (sl_point){a.x / 2 + b.x / 2, a.y / 2 + b.y / 2};
+}
+
+/// A door of a layer without swings: a line by itself, or the middle line of a closed outline of
+/// four corners.
+static sl_status add_drawn(choice *c, const sl_wall *walls, size_t count) {
+    const sl_wall first = walls[0], second = walls[count > 1];
+    if (count == 1) return add_door(c, first.a, first.b, true);
+    if (count != 4 || walls[3].b.x != first.a.x || walls[3].b.y != first.a.y) return SL_OK;
+    const bool along = sli_length(first.b.x - first.a.x, first.b.y - first.a.y) >=
+                       sli_length(second.b.x - second.a.x, second.b.y - second.a.y);
+    const sl_point corners[5] = {first.a, first.b, second.b, walls[3].a, first.a};
+    const int at = along ? 1 : 0;
+    return add_door(c, between(corners[at], corners[at + 1]),
+                    between(corners[at + 2], corners[(at + 3) % 4]), true);
+}
+
+static sl_status add_doors_of_run(choice *c, const sli_group_run *run) {
+    for (size_t i = run->first; i < run->end; i++)
+        if (is_gone(c, i)) return SL_OK;
+    for (size_t i = run->first, end; i < run->end; i = end) {
+        const sl_wall *walls = c->map->walls;
+        for (end = i + 1; end < run->end; end++)
+            if (walls[end].line != walls[i].line || walls[end].a.x != walls[end - 1].b.x ||
+                walls[end].a.y != walls[end - 1].b.y)
+                break;
+        SL_TRY(add_drawn(c, walls + i, end - i));
+    }
+    return SL_OK;
+}
+
+static sl_status add_doors(choice *c) {
+    if (!c->contents->options->doors) return SL_OK;
+    SL_TRY(add_swings(c));
+    for (size_t i = 0; !c->symbols.doors && i < c->contents->runs.count; i++) {
+        const sli_group_run *run = &c->contents->runs.items[i];
+        if (c->contents->groups.items[run->group].means == SLI_MEANS_DOOR)
+            SL_TRY(add_doors_of_run(c, run));
+    }
+    return SL_OK;
+}
+
+// --- walls and windows
+
+/// Keeps the walls that are chosen, and makes windows of the rest.
+static sl_status keep_walls(choice *c) {
+    sl_context *context = c->contents->context;
+    sl_map *map = c->map;
+    const bool said = sli_contents_said(c->contents);
+    sl_wall *windows = sl_alloc_array(context, map->wall_count, sizeof *windows);
+    if (!windows) return SL_NO_MEMORY;
+    size_t kept = 0, count = 0, run = 0;
+    for (size_t i = 0; i < map->wall_count; i++) {
+        while (run < c->contents->runs.count && c->contents->runs.items[run].end <= i) run++;
+        const bool own = run == c->contents->runs.count || i < c->contents->runs.items[run].first;
+        if (!own && (is_gone(c, i) || !is_taken(c, c->means[i]))) continue;
+        if (!own && c->means[i] == SLI_MEANS_WINDOW && !said)
+            windows[count++] = map->walls[i];
+        else
+            map->walls[kept++] = map->walls[i];
+    }
+    map->wall_count = kept;
+    sl_status status = sl_map_add_walls(context, map, windows, count);
+    if (status == SL_OK && count)
+        status = sl_map_walls_stop(context, map, kept, SL_STOPS_STEPS | SL_STOPS_SOUND);
+    sl_free(context, windows);
+    return status;
+}
+
+// --- the note
+
+/// The names of groups, taken or not, that mean this (or any of what is passed over, where it is
+/// SLI_MEANINGS); with their kinds.
+static void list_groups(const choice *c, bool taken, sli_meaning means, sli_name_list *list) {
+    for (size_t i = 0; i < c->contents->groups.count; i++) {
+        const sli_group *group = &c->contents->groups.items[i];
+        const bool same =
+            means == SLI_MEANINGS ? group->means != SLI_MEANS_DOOR : group->means == means;
+        char shown[80];
+        if (!group->walls || group->taken != taken || !same) continue;
+        const char *name = group->length ? sli_show((sli_word){group->name, group->length}).text
+                                         : "shapes without a layer";
+        if (means == SLI_MEANINGS && group->means)
+            snprintf(shown, sizeof shown, "%.50s (%s)", name, sli_meaning_text(group->means));
+        else
+            snprintf(shown, sizeof shown, "%.60s", name);
+        sli_name_list_add(list, (sli_word){shown, strlen(shown)});
+    }
+}
+
+static void add_part(char *text, size_t size, const char *format, ...) SL_PRINTF(3, 4);
+static void add_part(char *text, size_t size, const char *format, ...) {
+    const size_t used = strlen(text);
+    if (used && used + 3 < size) strcat(text, "; ");
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text + strlen(text), size - strlen(text), format, arguments);
+    va_end(arguments);
+}
+
+static void note_choice(const choice *c) {
+    const char *file = c->contents->file;
+    sli_name_list walls = {.full = false}, windows = walls, doors = walls, over = walls;
+    char text[900] = "";
+    list_groups(c, true, c->walls_named ? SLI_MEANS_WALL : SLI_MEANS_NOTHING, &walls);
+    if (!c->walls_named) list_groups(c, true, SLI_MEANS_WALL, &walls);
+    list_groups(c, true, SLI_MEANS_WINDOW, &windows);
+    list_groups(c, false, SLI_MEANS_DOOR, &doors);
+    list_groups(c, false, SLI_MEANINGS, &over);
+    if (*walls.text) add_part(text, sizeof text, "walls from %.200s", walls.text);
+    if (*windows.text)
+        add_part(text, sizeof text, "windows, which are seen through, from %.120s", windows.text);
+    if (*doors.text) add_part(text, sizeof text, "doors from %.120s", doors.text);
+    if (c->symbols.doors)
+        add_part(text, sizeof text, "%zu door%s drawn open%s", c->symbols.doors,
+                 c->symbols.doors == 1 ? " is" : "s are",
+                 c->contents->options->doors ? "" : ": gaps (--doors keeps doors)");
+    if (c->symbols.lines)
+        add_part(text, sizeof text, "%zu lines of hatching or steps are no walls",
+                 c->symbols.lines);
+    if (*over.text) add_part(text, sizeof text, "passed over: %.250s", over.text);
+    sl_note(c->contents->context, "%s: layers: %s (--layers A,B chooses, --layers '*' takes all)",
+            file, text);
+    if (c->contents->options->doors && c->doors < c->symbols.doors)
+        sl_note(c->contents->context,
+                "%s: %zu of the doors stay gaps: both sides of their swings are drawn", file,
+                c->symbols.doors - c->doors);
+}
+
+/// Layers that are passed over though their names say nothing, and that hold more than the walls.
+static void note_doubt(const choice *c) {
+    sli_name_list names = {.full = false};
+    size_t unknown = 0;
+    for (size_t i = 0; i < c->contents->runs.count; i++) {
+        const sli_group_run *run = &c->contents->runs.items[i];
+        const sli_group *group = &c->contents->groups.items[run->group];
+        if (group->taken || group->means != SLI_MEANS_NOTHING) continue;
+        for (size_t j = run->first; j < run->end; j++) unknown += !is_gone(c, j);
+    }
+    if (unknown <= c->kept) return;
+    list_groups(c, false, SLI_MEANS_NOTHING, &names);
+    sl_note(c->contents->context,
+            "%s: %.300s: more lines than the walls have; if walls are among them, name all layers "
+            "of walls by --layers",
+            c->contents->file, names.text);
+}
+
+// --- all
+
+static sl_status choose(choice *c, double metre, sli_pen *pen) {
+    SL_TRY(find_symbols(c, metre));
+    const bool chosen = choose_groups(c);
+    for (size_t i = 0; i < c->contents->groups.count; i++) {
+        const sli_group *group = &c->contents->groups.items[i];
+        if (!chosen || group->taken) sli_keep_finest(&pen->finest, group->finest);
+        if (chosen && !group->taken) c->contents->left_out += group->shapes;
+    }
+    if (!chosen) return SL_OK;
+    SL_TRY(add_doors(c));
+    SL_TRY(keep_walls(c));
+    for (size_t i = 0; i < c->contents->groups.count; i++)
+        pen->walls -= c->contents->groups.items[i].walls;
+    pen->walls += c->kept;
+    note_choice(c);
+    if (c->walls_named && !sli_contents_said(c->contents)) note_doubt(c);
+    return SL_OK;
+}
+
+sl_status sli_contents_choose(sli_contents *contents, double metre, sli_pen *pen) {
+    choice c = {.contents = contents, .map = pen->map};
+    if (!contents->runs.count) return SL_OK;
+    const sl_status status = choose(&c, metre, pen);
+    sl_free(contents->context, c.means);
+    sli_symbols_destroy(contents->context, &c.symbols);
+    return status;
+}

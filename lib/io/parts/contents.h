@@ -1,0 +1,86 @@
+/// What a drawing's layers are taken for: by their names (meaning.h), and by the symbols that are
+/// drawn on them (symbols.h). A reader draws all that is visible and says which layer each shape is
+/// on; then one call keeps walls, makes windows of windows and doors of doors, and says so.
+#ifndef SL_CONTENTS_H
+#define SL_CONTENTS_H
+
+#include "io/parts/meaning.h"
+#include "io/parts/shapes.h"
+#include "sightline/import.h"
+
+#include <string.h>
+
+/// A layer, or a block or group that says by its name what is in it.
+typedef struct sli_group {
+    char *name;
+    size_t length;
+    sli_meaning means;
+    size_t shapes, walls;
+    double finest; ///< unit of its coordinates, as sli_pen has it
+    bool taken;
+} sli_group;
+
+/// Walls of a group, one behind another.
+typedef struct sli_group_run {
+    size_t first, end;
+    uint32_t group;
+} sli_group_run;
+
+/// Set the first three, zero the rest.
+typedef struct sli_contents {
+    sl_context *context;
+    const char *file;                 ///< its name, for messages
+    const sl_import_options *options; ///< as sli_drawing_options() gives them
+    SL_ARRAY(sli_group) groups;       ///< the first one has no name: what no layer is said of
+    SL_ARRAY(sli_group_run) runs;
+    uint32_t *table; ///< groups by their names: numbers, 0 for none
+    size_t table_size;
+    uint32_t last;   ///< the group that was asked for before
+    double finest;   ///< the pen's, before a shape
+    size_t first;    ///< wall of a shape
+    size_t left_out; ///< shapes that are passed over
+} sli_contents;
+
+/// The options with layers "*" as all_layers.
+static inline sl_import_options sli_drawing_options(const sl_import_options *options) {
+    sl_import_options own = *options;
+    if (own.layers && strcmp(own.layers, "*") == 0) {
+        own.layers = NULL;
+        own.all_layers = true;
+    }
+    return own;
+}
+
+void sli_contents_destroy(sli_contents *contents);
+
+/// The number of the group of this name; letters and capitals are the same. 0 for a name of no
+/// length, and where there are very many names.
+sl_status sli_contents_group(sli_contents *contents, sli_word name, uint32_t *group);
+
+/// What a group means.
+static inline sli_meaning sli_contents_means(const sli_contents *contents, uint32_t group) {
+    return group < contents->groups.count ? contents->groups.items[group].means : SLI_MEANS_NOTHING;
+}
+
+/// Whether the options say which layers are taken; all of them are walls then, but doors.
+static inline bool sli_contents_said(const sli_contents *contents) {
+    return contents->options->layers || contents->options->all_layers;
+}
+/// Whether shapes are to be told of: where the options do not say all.
+bool sli_contents_asks(const sli_contents *contents);
+/// To be called before and behind a shape that the pen draws.
+void sli_contents_begin(sli_contents *contents, sli_pen *pen);
+sl_status sli_contents_end(sli_contents *contents, sli_pen *pen, uint32_t group);
+
+/// The walls from `first` on are cut to pieces: those of wall `first` + i end at wall ends[i] now,
+/// those of wall `first` start at `first`.
+void sli_contents_cut(sli_contents *contents, size_t first, const size_t *ends);
+
+/// Chooses among the walls that were drawn, once all are. `metre` is a metre in the map's unit, 0
+/// for unknown. Layers named as walls are walls; where there are none of three walls at least,
+/// those whose names say nothing. Layers of windows stop steps and sound. Doors are gaps, or doors
+/// with the option doors. Where that leaves fewer than three walls, or no name and no symbol says
+/// anything, the map stays as it is.
+sl_status sli_contents_choose(sli_contents *contents, double metre, sli_pen *pen);
+
+#endif

@@ -1,0 +1,73 @@
+/// An SVG drawing while it is read: its shapes (svg_shapes.c) with their numbers and paths
+/// (svg_path.c), through transforms (svg_transform.c), as far as they are seen (svg_style.c,
+/// svg_clip.c). svg.c goes through the elements and makes a map of them.
+#ifndef SL_SVG_H
+#define SL_SVG_H
+
+#include "io/parts/contents.h"
+#include "io/parts/faults.h"
+#include "io/parts/layers.h"
+#include "io/parts/shapes.h"
+#include "io/svg/svg_count.h"
+#include "io/svg/svg_style.h"
+
+typedef struct sli_svg {
+    sl_context *context;
+    const sl_import_options *options;
+    xmlDoc *document;
+    sli_svg_style style;
+    sli_svg_ids ids;
+    sli_pen pen;
+    sli_contents contents;
+    size_t work, shapes, hidden, other;
+    sli_faults faults;      ///< passed over
+    const sli_fault *fault; ///< of the last failure; NULL where it is of the whole file
+    SL_ARRAY(sl_box) clips; ///< boxes of clips that were used, in their own places
+    char *mark;             ///< the sum of the digits that the file's writer knew
+    bool by_number;         ///< walls have the number of their shape in place of its line
+} sli_svg;
+
+/// Where an element stands, and what it has of the elements about it.
+typedef struct sli_svg_place {
+    sli_affine affine;
+    sl_box view; ///< what shares in percent are of; without a size: not known
+    sl_box clip; ///< in the map: what lies outside of it is not seen
+    sli_svg_paint paint;
+    bool taken; ///< on a layer that is asked for
+    sli_layer layer;
+    uint32_t group; ///< that it belongs to by name
+    unsigned depth;
+} sli_svg_place;
+
+/// SL_BAD_INPUT: the element being drawn is faulty, and is passed over.
+sl_status sli_svg_fault(sli_svg *s, const sli_fault *kind);
+
+/// A length: a number with a unit, in user units. It stays as it is where the attribute is not
+/// there. SL_BAD_INPUT, as sli_svg_fault, and with a message, where it is not known here.
+sl_status sli_svg_length(sli_svg *s, xmlNode *node, const char *name, double *value);
+
+typedef enum sli_svg_shape {
+    SLI_SVG_LINE,
+    SLI_SVG_POLYLINE,
+    SLI_SVG_POLYGON,
+    SLI_SVG_RECT,
+    SLI_SVG_CIRCLE,
+    SLI_SVG_ELLIPSE,
+    SLI_SVG_PATH,
+    SLI_SVG_NO_SHAPE,
+} sli_svg_shape;
+
+sli_svg_shape sli_svg_shape_of(const xmlNode *node);
+/// Draws the outline of a shape with the pen.
+sl_status sli_svg_draw(sli_svg *s, xmlNode *node, sli_svg_shape kind);
+
+/// Adds an element's own transform to that of its place. `*seen` becomes false where it has one
+/// that is not known here: then nobody knows where the element is.
+sl_status sli_svg_move(sli_svg *s, xmlNode *node, const sli_svg_look *look, sli_svg_place *at,
+                       bool *seen);
+/// Makes the clip of a place smaller by an element's own.
+sl_status sli_svg_clip(sli_svg *s, const sli_svg_look *look, sli_svg_place *at);
+/// All of the plane.
+sl_box sli_svg_no_clip(void);
+
+#endif

@@ -1,0 +1,280 @@
+/// What is solid in a map of Tiled where no layer, tile or object says it, and what is told of it.
+///
+/// After the firm words come weaker ones, and the first that gives anything decides: names of
+/// layers that stand for something solid (platforms, trees), terrains named Wall, tilesets named
+/// walls. At last one layer is looked at, and only rules that hold for few maps count:
+///
+/// - Where the only layer of tiles is named for a floor, there is a wall where it has no tile.
+/// - Where the map or a tileset is named for a dungeon or a sewer, and one tile covers at least
+///   half of the lowest layer and of its edge, that tile is rock.
+/// - Where the only layer has tiles all around its edge, or below and not above, and is empty for
+///   a good part, the tiles are walls or the ground of a platformer.
+///
+/// All others are refused, with the layers and what to type: a meadow's grass is no wall.
+#include "io/tiled/tiled.h"
+
+#include "io/io_formats.h"
+
+#include <stdlib.h>
+
+/// Layers for a message: 'Ground' (2500 tiles), 'Things' (3 objects).
+typedef struct layer_text {
+    char text[400];
+    size_t count, length;
+} layer_text;
+
+static void add_layer(layer_text *out, const sli_tiled_seen *layer) {
+    char own[96];
+    const char *what = layer->objects ? "object" : "tile";
+    const int length =
+        snprintf(own, sizeof own, "%s'%s' (%llu %s%s)", out->count++ ? ", " : "",
+                 sli_show((sli_word){layer->name, strlen(layer->name)}).text,
+                 (unsigned long long)layer->count, what, layer->count == 1 ? "" : "s");
+    // Once a name does not fit, all later ones are left out too.
+    if (out->length + (size_t)length + sizeof ", ..." > sizeof out->text) {
+        if (out->length < sizeof out->text) strcpy(out->text + out->length, ", ...");
+        out->length = sizeof out->text;
+        return;
+    }
+    memcpy(out->text + out->length, own, (size_t)length + 1);
+    out->length += (size_t)length;
+}
+
+/// The layers from which something is taken, or the others that have anything.
+static layer_text list_layers(const sli_tiled_reader *reader, bool taken) {
+    layer_text out = {.count = 0};
+    for (size_t i = 0; i < reader->seen.count; i++)
+        if (reader->seen.items[i].taken == taken && (taken || reader->seen.items[i].count))
+            add_layer(&out, &reader->seen.items[i]);
+    return out;
+}
+
+/// The layer to name in an example: not a picture or a floor, and not full.
+static const sli_tiled_seen *find_example(const sli_tiled_reader *reader) {
+    const sli_tiled_seen *best = NULL;
+    for (size_t i = 0; i < reader->seen.count; i++) {
+        const sli_tiled_seen *layer = &reader->seen.items[i];
+        const bool open = layer->kind != SLI_GAME_UNSAID && layer->kind < SLI_GAME_STANDS;
+        if (!layer->count || !*layer->name || layer->objects || open) continue;
+        if (!best || (best->count == best->squares && layer->count < layer->squares)) best = layer;
+    }
+    for (size_t i = 0; i < reader->seen.count && !best; i++)
+        if (reader->seen.items[i].count && *reader->seen.items[i].name)
+            best = &reader->seen.items[i];
+    return best;
+}
+
+sl_status sli_tiled_fail_unsaid(const sli_tiled_reader *reader, const char *why) {
+    const char *file = reader->map->file->name;
+    const sli_tiled_seen *example = find_example(reader);
+    const layer_text taken = list_layers(reader, true), others = list_layers(reader, false);
+    const char *between = taken.count && others.count ? ", " : "";
+    if (!reader->seen.count) return sli_json_fail(reader->map, "%s; it has no layers", why);
+    if (!example) return sli_json_fail(reader->map, "%s; all its layers are empty", why);
+    return sl_fail_at(reader->context, file, sli_json_line(reader->map),
+                      "%s; --layers NAME takes a layer as solid, NAME:28+33-35 tiles of it, as in: "
+                      "sightline check '%.150s' --layers '%s' -o map.png; layers: %s%s%s",
+                      why, file, sli_show((sli_word){example->name, strlen(example->name)}).text,
+                      taken.text, between, others.text);
+}
+
+// --- the guess
+
+/// A block as the rules look at it.
+typedef struct look {
+    const uint32_t *gids;
+    size_t columns, rows;
+} look;
+
+static uint32_t tile_at(const look *at, size_t column, size_t row) {
+    return at->gids[row * at->columns + column] & SLI_TILED_TILE;
+}
+
+/// How many squares of a row have a tile.
+static size_t tiles_of_row(const look *at, size_t row) {
+    size_t count = 0;
+    for (size_t i = 0; i < at->columns; i++) count += tile_at(at, i, row) != 0;
+    return count;
+}
+
+/// How many squares of the edge have this tile, or any other than it.
+static size_t on_edge(const look *at, uint32_t gid) {
+    size_t count = 0;
+    for (size_t i = 0; i < at->columns; i++)
+        count += (size_t)(tile_at(at, i, 0) == gid) + (tile_at(at, i, at->rows - 1) == gid);
+    for (size_t i = 0; i < at->rows; i++)
+        count += (size_t)(tile_at(at, 0, i) == gid) + (tile_at(at, at->columns - 1, i) == gid);
+    return count;
+}
+
+static int compare_gids(const void *left, const void *right) {
+    const uint32_t *a = left, *b = right;
+    return (*a > *b) - (*a < *b);
+}
+
+/// The most frequent tile, the lowest of those, and how often it is there; 0 is an empty square.
+static sl_status find_most(sl_context *context, const look *at, uint32_t *gid, size_t *most) {
+    const size_t count = at->columns * at->rows;
+    uint32_t *sorted = sl_alloc_array(context, count, sizeof *sorted);
+    if (!sorted) return SL_NO_MEMORY;
+    for (size_t i = 0; i < count; i++) sorted[i] = at->gids[i] & SLI_TILED_TILE;
+    qsort(sorted, count, sizeof *sorted, compare_gids);
+    *most = 0;
+    for (size_t i = 0, next; i < count; i = next) {
+        for (next = i; next < count && sorted[next] == sorted[i]; next++) continue;
+        if (next - i <= *most) continue;
+        *most = next - i;
+        *gid = sorted[i];
+    }
+    sl_free(context, sorted);
+    return SL_OK;
+}
+
+static bool is_inside(const sli_tiled_reader *reader) {
+    bool inside = sli_game_says_inside(sl_path_name(reader->map->file->name));
+    for (size_t i = 0; i < reader->sets.sets.count; i++)
+        inside |= reader->sets.sets.items[i].inside;
+    return inside;
+}
+
+/// The layers of tiles that are no pictures.
+static size_t count_plain(const sli_tiled_reader *reader) {
+    size_t count = 0;
+    for (size_t i = 0; i < reader->seen.count; i++) {
+        const sli_tiled_seen *layer = &reader->seen.items[i];
+        count += !layer->objects && layer->count && layer->kind != SLI_GAME_DRAWN;
+    }
+    return count;
+}
+
+sl_status sli_tiled_guess(sli_tiled_reader *reader, const uint32_t *gids, size_t columns,
+                          size_t rows) {
+    const look at = {gids, columns, rows};
+    const sli_tiled_seen *layer = &reader->seen.items[reader->guess_layer];
+    const size_t count = columns * rows, edge = 2 * (columns + rows);
+    const size_t empty = count - (size_t)layer->count, bare = on_edge(&at, 0);
+    const bool only = count_plain(reader) == 1, floor = layer->kind == SLI_GAME_FLOOR;
+    size_t most;
+    uint32_t gid = 0;
+    if (layer->squares != count) return SL_OK; // one chunk of several
+    SL_TRY(find_most(reader->context, &at, &gid, &most));
+    if (only && floor && empty) {
+        reader->guess_why = "where the floor has no tile is a wall";
+    } else if (is_inside(reader) && 2 * most >= count && 2 * on_edge(&at, gid) >= edge) {
+        reader->guessed = gid;
+        reader->guess_why = gid ? "the most frequent tile of a dungeon, which is on its edge too"
+                                : "the empty squares of a dungeon";
+    } else if (only && !floor && 5 * empty >= count && 20 * bare <= edge) {
+        reader->guessed_all = true;
+        reader->guess_why = "its tiles lie all around its edge";
+    } else if (only && !floor && 5 * empty >= 2 * count &&
+               2 * tiles_of_row(&at, rows - 1) >= columns && 4 * tiles_of_row(&at, 0) <= columns) {
+        reader->guessed_all = true;
+        reader->guess_why = "its tiles lie below and not above, as in a platformer";
+    }
+    return SL_OK;
+}
+
+static sl_status guess(sli_tiled_reader *reader) {
+    reader->by = SLI_TILED_BY_GUESS;
+    for (size_t i = reader->seen.count; i-- > 0;) {
+        const sli_tiled_seen *layer = &reader->seen.items[i];
+        if (!layer->objects && layer->count && layer->kind != SLI_GAME_DRAWN)
+            reader->guess_layer = i;
+    }
+    SL_TRY(sli_tiled_read_again(reader));
+    return SL_OK;
+}
+
+sl_status sli_tiled_check_guess(const sli_tiled_reader *reader) {
+    for (size_t i = 0; reader->by && i < reader->things.items.count; i++) {
+        const sli_thing *thing = &reader->things.items.items[i];
+        if (thing->kind == SLI_THING_START && thing->solid)
+            return sli_tiled_fail_unsaid(
+                reader, "nothing in it says what is solid, and a start stands on what looks so");
+    }
+    return SL_OK;
+}
+
+// --- the order of the readings
+
+/// The firmest kind that names of layers have. A layer that is full says nothing.
+static sli_game_kind find_best(const sli_tiled_reader *reader) {
+    sli_game_kind best = SLI_GAME_UNSAID;
+    for (size_t i = 0; i < reader->seen.count; i++) {
+        const sli_tiled_seen *layer = &reader->seen.items[i];
+        const bool full = !layer->objects && 20 * layer->count >= 19 * layer->squares;
+        const sli_game_kind least = layer->objects ? SLI_GAME_LIKELY : SLI_GAME_STANDS;
+        if (layer->count && !full && !layer->moves && layer->kind >= least && layer->kind > best)
+            best = layer->kind;
+    }
+    return best;
+}
+
+/// A layer that is not solid as a whole has tiles of a tileset that cannot be read.
+static sl_status fail_missing(const sli_tiled_reader *reader) {
+    const char *missing = NULL;
+    char why[200];
+    for (size_t i = reader->sets.sets.count; i-- > 0;)
+        if (reader->sets.sets.items[i].missing) missing = reader->sets.sets.items[i].missing;
+    snprintf(
+        why, sizeof why,
+        "its tileset '%s' cannot be read, and no layer says that it is solid (it may say so of "
+        "%zu tiles)",
+        sli_show((sli_word){missing, strlen(missing)}).text, reader->unknown_tiles);
+    return sli_tiled_fail_unsaid(reader, why);
+}
+
+sl_status sli_tiled_find_meaning(sli_tiled_reader *reader) {
+    if (reader->unknown_tiles) return fail_missing(reader);
+    if (sli_tiled_taken(reader)) return SL_OK;
+    reader->best = find_best(reader);
+    for (int by = SLI_TILED_BY_NAME; by < SLI_TILED_BY_GUESS; by++) {
+        if (by == SLI_TILED_BY_NAME && !reader->best) continue;
+        reader->by = (sli_tiled_by)by;
+        SL_TRY(sli_tiled_read_again(reader));
+        if (sli_tiled_taken(reader)) return SL_OK;
+    }
+    // A layer for walls that has none: all is open but what is beyond the map.
+    if (reader->empty_layers) {
+        reader->by = SLI_TILED_BY_WORD;
+        return SL_OK;
+    }
+    SL_TRY(guess(reader));
+    return reader->guess_why ? SL_OK
+                             : sli_tiled_fail_unsaid(reader, "nothing in it says what is solid");
+}
+
+// --- what is told
+
+void sli_tiled_tell_meaning(const sli_tiled_reader *reader) {
+    static const char *const by[] = {"", "names of layers", "terrains", "names of tilesets"};
+    const layer_text taken = list_layers(reader, true), others = list_layers(reader, false);
+    const char *file = reader->map->file->name;
+    if (reader->sets.missing && reader->lost_tiles)
+        sl_note(
+            reader->context,
+            "%s: what a missing tileset says of %zu tiles is not known: solid layers count whole",
+            file, reader->lost_tiles);
+    if (reader->options->layers) return;
+    if (reader->by == SLI_TILED_BY_GUESS) {
+        const sli_tiled_seen *layer = &reader->seen.items[reader->guess_layer];
+        char tile[64] = "its empty squares are";
+        if (reader->guessed)
+            snprintf(tile, sizeof tile, "its tile %u is", (unsigned)reader->guessed);
+        sl_note(
+            reader->context,
+            "%s: nothing in it says what is solid: of layer '%s' %s taken (%s); --layers NAME or "
+            "NAME:TILE+TILE-TILE chooses; layers: %s",
+            file, sli_show((sli_word){layer->name, strlen(layer->name)}).text,
+            reader->guessed_all ? "all tiles are" : tile, reader->guess_why, others.text);
+    } else if (reader->by) {
+        sl_note(
+            reader->context,
+            "%s: nothing in it says what is solid: taken by %s: %s; --layers NAME,NAME chooses%s%s",
+            file, by[reader->by], taken.text, others.count ? "; not taken: " : "", others.text);
+    } else if (others.count) {
+        sl_note(reader->context, "%s: solid: %s; --layers NAME,NAME chooses; not solid: %s", file,
+                taken.count ? taken.text : "only what is beyond its edge", others.text);
+    }
+}

@@ -1,0 +1,281 @@
+// Which layers of DXF and SVG drawings become walls, windows and doors.
+#include "testing.h"
+
+#include "import_check.h"
+#include "io/io_formats.h"
+
+#include <math.h>
+
+#define HEAD "0\nSECTION\n2\nENTITIES\n"
+#define TAIL "0\nENDSEC\n0\nEOF\n"
+#define LINE(layer, x0, y0, x1, y1)                                                                \
+    "0\nLINE\n8\n" layer "\n10\n" #x0 "\n20\n" #y0 "\n11\n" #x1 "\n21\n" #y1 "\n"
+#define ARC(layer, x, y, r, from, to)                                                              \
+    "0\nARC\n8\n" layer "\n10\n" #x "\n20\n" #y "\n40\n" #r "\n50\n" #from "\n51\n" #to "\n"
+#define INSERT(layer, block, x, y) "0\nINSERT\n8\n" layer "\n2\n" block "\n10\n" #x "\n20\n" #y "\n"
+/// A room of 10 by 8 with a gap from (2,0) to (3,0).
+#define ROOM(layer)                                                                                \
+    LINE(layer, 2, 0, 0, 0)                                                                        \
+    LINE(layer, 0, 0, 0, 8)                                                                        \
+    LINE(layer, 0, 8, 10, 8) LINE(layer, 10, 8, 10, 0) LINE(layer, 10, 0, 3, 0)
+#define ROOM_WALLS "wall 2 0 0 0\nwall 0 0 0 8\nwall 0 8 10 8\nwall 10 8 10 0\nwall 10 0 3 0\n"
+/// A door in its gap: its leaf stands at the left.
+#define SWING(layer) LINE(layer, 2, 0, 2, 1) ARC(layer, 2, 0, 1, 0, 90)
+
+static void assert_map(import_reader *read, const char *text, const char *layers, bool doors,
+                       const char *expected) {
+    sl_import_options options = sl_import_options_default();
+    options.layers = layers;
+    options.doors = doors;
+    assert_walls_of(read, &options, text, strlen(text), expected);
+}
+
+static void assert_dxf(const char *entities, const char *expected) {
+    char text[8192];
+    assert_true((size_t)snprintf(text, sizeof text, HEAD "%s" TAIL, entities) < sizeof text);
+    assert_map(sli_map_read_dxf, text, NULL, false, expected);
+}
+
+#define WINDOW(x0, y0, x1, y1)     "wall " #x0 " " #y0 " " #x1 " " #y1 " stops steps,sound\n"
+#define DOOR(name, x0, y0, x1, y1) "door " name " " #x0 " " #y0 " " #x1 " " #y1 " open\n"
+
+/// The layers of a plan in one language: wall, door, window, furniture, text, hatch.
+static void assert_language(const char *const layers[6]) {
+    static const char form[] =
+        HEAD ROOM("#0") SWING("#1") LINE("#2", 10, 3, 10, 5) LINE("#3", 4, 4, 5, 4)
+            LINE("#4", 0, -1, 10, -1) LINE("#5", 0, 0, 1, 1) LINE("x", 7, 7, 9, 7) TAIL;
+    char drawing[4096], *end = drawing;
+    for (const char *at = form; *at; at++) {
+        if (*at == '#')
+            end = stpcpy(end, layers[*++at - '0']);
+        else
+            *end++ = *at;
+    }
+    *end = 0;
+    assert_map(sli_map_read_dxf, drawing, NULL, false, ROOM_WALLS WINDOW(10, 3, 10, 5));
+    assert_map(sli_map_read_dxf, drawing, NULL, true,
+               ROOM_WALLS WINDOW(10, 3, 10, 5) DOOR("door1", 2, 0, 3, 0));
+    assert_map(sli_map_read_dxf, drawing, layers[3], false, "wall 4 4 5 4\n");
+}
+
+static void test_languages(void **state) {
+    (void)state;
+    static const char *const languages[][6] = {
+        {"A-WALL", "A-DOOR", "A-GLAZ", "A-FURN", "A-ANNO-DIMS", "A-WALL-PATT"},
+        {"Wände", "Türen", "Fenster", "Möbel", "Bemaßung", "Schraffur"},
+        {"murs", "portes", "fenêtres", "mobilier", "cotes", "hachures"},
+        {"MURATURA", "PORTE", "INFISSI", "ARREDI", "QUOTE", "RETINI"},
+        {"Muros", "Puertas", "Ventanas", "Muebles", "Cotas", "Sombreado"},
+        {"Стены", "Двери", "Окна", "Мебель", "Размеры", "Штриховка"},
+        {"墙", "门", "窗", "家具", "标注", "填充"},
+        {"\\U+58C1", "ドア", "窓", "家具", "寸法", "ハッチ"},
+        {"벽", "문", "창문", "가구", "치수", "해치"}};
+    for (size_t i = 0; i < sizeof languages / sizeof *languages; i++) assert_language(languages[i]);
+}
+
+/// Where no name says anything, all is walls; a choice that leaves no room is none.
+static void test_no_choice(void **state) {
+    (void)state;
+    assert_dxf(ROOM("1") LINE("2", 4, 4, 5, 4), ROOM_WALLS "wall 4 4 5 4\n");
+    assert_dxf(LINE("WALL", 0, 0, 1, 0) LINE("FURN", 0, 0, 0, 1) LINE("0", 0, 1, 1, 1),
+               "wall 0 0 1 0\nwall 0 0 0 1\nwall 0 1 1 1\n");
+    // Layers that are named as something else are passed over all the same.
+    assert_dxf(ROOM("1") LINE("FURNITURE", 4, 4, 5, 4), ROOM_WALLS);
+    // All is on one layer whose name is misleading.
+    assert_dxf(ROOM("SITE"), ROOM_WALLS);
+}
+
+static void test_blocks(void **state) {
+    (void)state;
+#define BLOCK(name, body) "0\nBLOCK\n2\n" name "\n10\n0\n20\n0\n" body "0\nENDBLK\n"
+    static const char text[] =
+        "0\nSECTION\n2\nBLOCKS\n" BLOCK("Chair-3", LINE("0", 0, 0, 1, 0) LINE("x", 0, 0, 0, 1))
+            BLOCK("UNIT", INSERT("0", "chair-3", 1, 1) LINE("0", 5, 0, 5, 1))
+                BLOCK("wall unit", LINE("0", 0, 0, 1, 1)) "0\nENDSEC\n" HEAD ROOM("0")
+                    INSERT("0", "CHAIR-3", 4, 4) INSERT("0", "UNIT", 1, 1)
+                        INSERT("FURN", "wall unit", 3, 3) TAIL;
+    assert_map(sli_map_read_dxf, text, NULL, false, ROOM_WALLS "wall 6 1 6 2\n");
+}
+
+static void test_swings(void **state) {
+    (void)state;
+    // On one layer with the walls; the other way round; half open.
+    assert_dxf(ROOM("0") SWING("0"), ROOM_WALLS);
+    assert_dxf(ROOM("0") LINE("0", 3, 1, 3, 0) ARC("0", 3, 0, 1, 90, 180), ROOM_WALLS);
+    assert_dxf(ROOM("0") LINE("0", 2, 0, 2.8, 0.6) ARC("0", 2, 0, 1, 0, 36.87), ROOM_WALLS);
+    // A leaf of four sides.
+    assert_dxf(ROOM("0") "0\nLWPOLYLINE\n8\n0\n70\n1\n10\n2\n20\n0\n10\n2.1\n20\n0\n10\n2.1\n20"
+                         "\n1\n10\n2\n20\n1\n" ARC("0", 2, 0, 1, 0, 90),
+               ROOM_WALLS);
+    // A round corner has no leaf, a tower no gap.
+    sl_context *context = testing_context(NULL);
+    const sl_import_options usual = sl_import_options_default();
+    static const char *const rounds[] = {
+        HEAD ROOM("0") ARC("0", 2, 0, 1, 0, 90) TAIL,
+        HEAD LINE("0", 0, 0, 9, 0) LINE("0", 0, 0, 0, 9) ARC("0", 0, 0, 9, 0, 90)
+            LINE("0", 0, 9, -9, 9) TAIL,
+        HEAD ROOM("0") LINE("0", 2, 0, 2, 5) ARC("0", 2, 0, 1, 0, 90) TAIL,
+        HEAD ROOM("0") "0\nCIRCLE\n8\n0\n10\n5\n20\n5\n40\n1\n" LINE("0", 5, 5, 6, 5) TAIL,
+    };
+    for (size_t i = 0; i < sizeof rounds / sizeof *rounds; i++) {
+        sl_map map = {0};
+        assert_ok(context,
+                  sli_map_read_dxf(context, "f", rounds[i], strlen(rounds[i]), &usual, &map));
+        size_t arcs = 0;
+        for (size_t j = 0; j < map.wall_count; j++)
+            arcs += map.walls[j].a.x != map.walls[j].b.x && map.walls[j].a.y != map.walls[j].b.y;
+        assert_true(arcs >= 8);
+        sl_map_destroy(context, &map);
+    }
+    sl_context_destroy(context);
+}
+
+/// A plan turned by any angle, far away and in any unit gives the same doors.
+static void test_turned_swings(void **state) {
+    (void)state;
+    static const double scales[] = {1e-3, 1, 1e3, 1e9};
+    for (int turn = 0; turn < 360; turn += 17) {
+        for (size_t i = 0; i < 4; i++) {
+            const double s = scales[i], c = cos(turn * 0.017453292519943295) * s,
+                         n = sin(turn * 0.017453292519943295) * s, far = i == 1 ? 1e6 : 0;
+            const double corners[][4] = {{2, 0, 0, 0},   {0, 0, 0, 8},  {0, 8, 10, 8},
+                                         {10, 8, 10, 0}, {10, 0, 3, 0}, {2, 0, 2, 1}};
+            char text[4096] = HEAD;
+            for (size_t j = 0; j < 6; j++) {
+                const double *p = corners[j];
+                sprintf(text + strlen(text),
+                        "0\nLINE\n8\n0\n10\n%.17g\n20\n%.17g\n11\n%.17g\n21\n%.17g\n",
+                        far + c * p[0] - n * p[1], n * p[0] + c * p[1], far + c * p[2] - n * p[3],
+                        n * p[2] + c * p[3]);
+            }
+            sprintf(text + strlen(text),
+                    "0\nARC\n8\n0\n10\n%.17g\n20\n%.17g\n40\n%.17g\n50\n%d\n51\n%d\n" TAIL,
+                    far + 2 * c, 2 * n, s, turn, turn + 90);
+            sl_context *context = testing_context(NULL);
+            sl_import_options options = sl_import_options_default();
+            options.doors = true;
+            sl_map map = {0};
+            assert_ok(context, sli_map_read_dxf(context, "f", text, strlen(text), &options, &map));
+            assert_int_equal(map.wall_count, 5);
+            assert_int_equal(map.door_count, 1);
+            // It stands in the gap exactly.
+            const sl_segment door = map.doors[0].segment;
+            assert_true(door.a.x == map.walls[0].a.x && door.a.y == map.walls[0].a.y);
+            assert_true(door.b.x == map.walls[4].b.x && door.b.y == map.walls[4].b.y);
+            sl_map_destroy(context, &map);
+            sl_context_destroy(context);
+        }
+    }
+}
+
+/// Lines side by side are hatching only if they are many, even and close.
+static void test_hatching(void **state) {
+    (void)state;
+    static const struct {
+        int count;
+        double step, uneven;
+        bool stay;
+    } cases[] = {{20, 0.04, 0, false},
+                 {20, -0.04, 0, false},
+                 {7, 0.04, 0, true},
+                 {20, 0.8, 0, true},
+                 {20, 0.04, 0.01, true}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[8192] = HEAD ROOM("0");
+        for (int j = 0; j < cases[i].count; j++) {
+            const double x = 5 + j * cases[i].step + j * j * cases[i].uneven;
+            sprintf(text + strlen(text), "0\nLINE\n8\n0\n10\n%.3f\n20\n2\n11\n%.3f\n21\n3\n", x,
+                    x + 1);
+        }
+        strcat(text, TAIL);
+        sl_context *context = testing_context(NULL);
+        const sl_import_options usual = sl_import_options_default();
+        sl_map map = {0};
+        assert_ok(context, sli_map_read_dxf(context, "f", text, strlen(text), &usual, &map));
+        assert_int_equal(map.wall_count, 5 + (cases[i].stay ? cases[i].count : 0));
+        sl_map_destroy(context, &map);
+        sl_context_destroy(context);
+    }
+}
+
+/// Layers that are asked for are walls, whatever they are called.
+static void test_asked_for(void **state) {
+    (void)state;
+    static const char text[] =
+        HEAD ROOM("A-WALL") LINE("A-GLAZ", 10, 3, 10, 5) SWING("A-DOOR") TAIL;
+    assert_map(sli_map_read_dxf, text, "A-WALL,A-GLAZ", false, ROOM_WALLS "wall 10 3 10 5\n");
+    assert_map(sli_map_read_dxf, text, "A-WALL,A-DOOR", true, ROOM_WALLS DOOR("door1", 2, 0, 3, 0));
+    assert_map(sli_map_read_dxf, text, "A-DOOR", true, DOOR("door1", 2, 0, 3, 0));
+    static const char named[] =
+        HEAD ROOM("A-WALL") LINE("A-GLAZ", 10, 3, 10, 5) LINE("A-FURN", 4, 4, 5, 4) TAIL;
+    assert_map(sli_map_read_dxf, named, "*", false, ROOM_WALLS "wall 10 3 10 5\nwall 4 4 5 4\n");
+    // Doors that are drawn as lines or thin boxes.
+    static const char boxes[] =
+        HEAD ROOM("A-WALL") "0\nLWPOLYLINE\n8\nA-DOOR\n70\n1\n10\n2\n20\n-.5\n10\n3\n20\n-.5\n10\n3"
+                            "\n20\n.5\n10\n2\n20\n.5\n" LINE("A-DOOR", 5, 5, 6, 6) TAIL;
+    assert_map(sli_map_read_dxf, boxes, NULL, true,
+               ROOM_WALLS DOOR("door1", 3, 0, 2, 0) DOOR("door2", 5, 5, 6, 6));
+    assert_map(sli_map_read_dxf, boxes, NULL, false, ROOM_WALLS);
+}
+
+#define SVG(body)  "<svg viewBox='0 0 20 10'>\n" body "</svg>"
+#define POLYLINE   "<polyline points='2,10 0,10 0,2 10,2 10,10 3,10'/>"
+#define SHUT_WALLS "wall 2 0 0 0\nwall 0 0 0 8\nwall 0 8 10 8\nwall 10 8 10 0\nwall 10 0 3 0\n"
+
+static void test_svg(void **state) {
+    (void)state;
+    static const char *const plans[] = {
+        // Inkscape, Illustrator, and names of the shapes themselves; groups within groups; uses.
+        SVG("<g xmlns:i='urn:i' i:label='Wände' id='layer1'>" POLYLINE
+            "</g><g xmlns:i='urn:i' i:label='Türen'><path d='M2 10V9A1 1 0 0 1 3 10'/></g>"
+            "<g id='layer3' xmlns:i='urn:i' i:label='Möbel'><rect x='4' y='4' width='1' "
+            "height='1'/>"
+            "</g>"),
+        SVG("<g id='Walls_x5F_ext'>" POLYLINE
+            "</g><g id='Doors'><line x1='2' y1='10' x2='2' y2='9'/>"
+            "<path d='M2 9C2.5523 9 3 9.4477 3 10'/></g><g id='Text_1_'><path d='M0 0L5 5'/></g>"),
+        SVG("<polyline class='outer wall' points='2,10 0,10 0,2 10,2 10,10 3,10'/>"
+            "<path id='door-12' d='M2 10V9A1 1 0 0 1 3 10'/><circle class='chair' r='1'/>"),
+        SVG("<g id='site plan'><g id='EG'><g id='murs'><g id='g7'>" POLYLINE
+            "</g></g><g id='mobilier'><circle r='1'/></g></g><path d='M2 10V9A1 1 0 0 1 3 10'"
+            " class='st0'/></g>"),
+        SVG("<defs><symbol id='chair'><circle r='1'/></symbol></defs><g id='floor 1'>" POLYLINE
+            "<use href='#chair' x='5' y='5'/><path d='M2 10V9A1 1 0 0 1 3 10'/></g>"),
+    };
+    for (size_t i = 0; i < sizeof plans / sizeof *plans; i++) {
+        assert_map(sli_map_read_svg, plans[i], NULL, false, SHUT_WALLS);
+        // The fourth has its swing on the site's layer.
+        if (i != 3)
+            assert_map(sli_map_read_svg, plans[i], NULL, true,
+                       SHUT_WALLS DOOR("door1", 2, 0, 3, 0));
+    }
+}
+
+static void test_svg_asked_for(void **state) {
+    (void)state;
+    static const char text[] = SVG("<g id='walls'>" POLYLINE "</g><g id='sofa'><line x2='1'/></g>");
+    assert_map(sli_map_read_svg, text, NULL, false, SHUT_WALLS);
+    assert_map(sli_map_read_svg, text, "*", false, SHUT_WALLS "wall 0 10 1 10\n");
+    assert_map(sli_map_read_svg, text, "sofa", false, "wall 0 10 1 10\n");
+}
+
+static void test_memory(void **state) {
+    (void)state;
+    sl_import_options options = sl_import_options_default();
+    options.doors = true;
+    assert_memory_of(sli_map_read_dxf, &options,
+                     HEAD ROOM("A-WALL") LINE("A-GLAZ", 10, 3, 10, 5) SWING("A-DOOR") TAIL);
+    assert_memory_of(sli_map_read_svg, &options,
+                     SVG("<g id='walls'>" POLYLINE "</g><path d='M2 10V9A1 1 0 0 1 3 10'/>"));
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_languages), cmocka_unit_test(test_no_choice),
+        cmocka_unit_test(test_blocks),    cmocka_unit_test(test_swings),
+        cmocka_unit_test(test_hatching),  cmocka_unit_test(test_turned_swings),
+        cmocka_unit_test(test_asked_for), cmocka_unit_test(test_svg),
+        cmocka_unit_test(test_memory),    cmocka_unit_test(test_svg_asked_for),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,325 @@
+// What is solid in Tiled maps by its meaning: words of properties and names in several languages,
+// weaker names, terrains, tilesets' names, and the few looks that a guess is made from.
+#include "testing.h"
+
+#include "import_check.h"
+#include "io/io_formats.h"
+#include "io/parts/game_names.h"
+
+// The tiles 0 1 1 / 0 0 0 are the walls of most tests.
+#define SIZE              " width='3' height='2' "
+#define MAP(body)         "<map" SIZE "tilewidth='8' tileheight='8'>\n" body "</map>"
+#define SET               "<tileset firstgid='1' tilewidth='8' tileheight='8'/>"
+#define SET_OF(tiles)     "<tileset firstgid='1' tilewidth='8' tileheight='8'>" tiles "</tileset>"
+#define LAYER(name, data) "<layer name='" name "'" SIZE ">\n" data "</layer>"
+#define CSV(text)         "<data encoding='csv'>" text "</data>"
+#define TRUE(name)        "<properties><property name='" name "' type='bool' value='true'/></properties>"
+#define BOX(x, y, w, h)   "<object x='" x "' y='" y "' width='" w "' height='" h "'/>"
+#define TILES             CSV("0,1,1,0,0,0")
+
+#define TWO_TILES                                                                                  \
+    "wall 0 16 8 16\nwall 8 8 24 8\nwall 8 8 8 16\nwall 0 0 24 0\nwall 0 0 0 16\nwall 24 0 24 8\n"
+#define FRAME "wall 0 16 24 16\nwall 0 0 24 0\nwall 0 0 0 16\nwall 24 0 24 16\n"
+
+static void assert_walls(const char *text, const char *expected) {
+    assert_walls_of(sli_map_read_tmx, NULL, text, strlen(text), expected);
+}
+
+static void assert_walls_json(const char *text, const char *expected) {
+    assert_walls_of(sli_map_read_tmj, NULL, text, strlen(text), expected);
+}
+
+static void assert_refused(const char *text, const char *message) {
+    assert_refused_of(sli_map_read_tmx, NULL, text, strlen(text), SL_BAD_INPUT, message);
+}
+
+static void assert_refused_json(const char *text, const char *message) {
+    assert_refused_of(sli_map_read_tmj, NULL, text, strlen(text), SL_BAD_INPUT, message);
+}
+
+#define WIDE(body)             "<map width='6' height='4' tilewidth='8' tileheight='8'>\n" body "</map>"
+#define WIDE_LAYER(name, data) "<layer name='" name "' width='6' height='4'>\n" CSV(data) "</layer>"
+#define RING                   "1,1,1,1,1,1, 1,0,0,0,0,1, 1,0,0,0,0,1, 1,1,1,1,1,1"
+#define RING_WALLS             "wall 8 24 40 24\nwall 8 8 40 8\nwall 8 8 8 24\nwall 40 8 40 24\n"
+#define GRASS                  "7,7,7,7,7,7, 7,1,2,3,4,7, 7,5,6,8,9,7, 7,7,7,7,7,7"
+
+/// Nothing says what is solid: a few maps have a look that tells, and a meadow has none.
+static void test_guess(void **state) {
+    (void)state;
+    // A floor without tiles is a wall.
+    assert_walls(MAP(SET LAYER("Floor", CSV("3,0,0,4,4,5")) LAYER("roof", CSV("3,9,0,4,0,0"))),
+                 TWO_TILES);
+    // A layer with tiles about it, and one with a ground below.
+    assert_walls(WIDE(SET WIDE_LAYER("Tile Layer 1", RING)), RING_WALLS);
+    assert_walls(WIDE(SET WIDE_LAYER("Tile Layer 1", "0,0,0,0,0,0, 0,0,0,0,0,0, 0,0,0,0,0,0, "
+                                                     "3,3,3,3,3,3")),
+                 "wall 0 32 48 32\nwall 0 8 48 8\nwall 0 8 0 32\nwall 48 8 48 32\n");
+    // The tile that most of a dungeon is of.
+    const char *dungeon = WIDE("<tileset firstgid='1' name='dungeon_tiles' tilewidth='8' "
+                               "tileheight='8'/>" WIDE_LAYER("Bottom", GRASS));
+    assert_walls(dungeon, RING_WALLS);
+    // The same tiles as a meadow; a layer beside the floor; a layer that is full.
+#define UNSAID "f:1: nothing in it says what is solid; --layers NAME takes a layer as solid"
+    assert_refused(WIDE(SET WIDE_LAYER("Ground", GRASS)), UNSAID);
+    assert_refused(WIDE(SET WIDE_LAYER("Tile Layer 1", GRASS)), UNSAID);
+    assert_refused(MAP(SET LAYER("floor", CSV("3,0,0,4,4,5")) LAYER("b", CSV("3,9,0,4,0,0"))),
+                   UNSAID ", NAME:28+33-35 tiles of it, as in: sightline check 'f' --layers 'b' -o "
+                          "map.png; layers: 'floor' (4 tiles), 'b' (3 tiles)");
+    assert_refused(MAP(SET LAYER("a", CSV("1,1,1,1,1,1")) "<group name='g'><objectgroup name='b'/>"
+                                                          "</group>"),
+                   UNSAID);
+    // One that starts inside the wall says that the guess is wrong.
+    assert_refused(WIDE(SET WIDE_LAYER("Tile Layer 1", RING) "<objectgroup name='o'><object "
+                                                             "name='Player' x='4' y='4'/>"
+                                                             "</objectgroup>"),
+                   "f:1: nothing in it says what is solid, and a start stands on what looks so");
+    assert_refused(MAP(SET LAYER("walls", CSV("1,1,1,1,1,1"))),
+                   "f:1: what it says is solid gives no walls; --layers NAME takes");
+    assert_refused(MAP(SET LAYER("a", CSV("0,0,0,0,0,0"))),
+                   "f:1: nothing in it says what is solid; all its layers are empty");
+    assert_refused(MAP(""), "f:1: nothing in it says what is solid; it has no layers");
+}
+
+/// Weaker names count where there are no firm ones, the firmest of them alone.
+static void test_weaker_names(void **state) {
+    (void)state;
+#define FULL CSV("1,1,1,1,1,1")
+    assert_walls(MAP(SET LAYER("Ground", FULL) LAYER("Trees", TILES)), TWO_TILES);
+    assert_walls(MAP(SET LAYER("Ground", FULL) LAYER("meta", TILES)), TWO_TILES);
+    assert_walls(MAP(SET LAYER("Trees", CSV("0,0,0,1,0,0")) LAYER("Platforms", TILES)), TWO_TILES);
+    assert_walls(MAP(SET LAYER("Trees", CSV("0,0,0,1,0,0")) LAYER("walls of Rome", TILES)),
+                 TWO_TILES);
+    assert_walls(MAP(SET LAYER("inner walls", TILES) LAYER("Trees", CSV("0,0,0,1,0,0"))),
+                 TWO_TILES);
+    assert_walls(MAP(SET "<group name='Houses'>" LAYER("a", TILES)
+                         LAYER("roofs", CSV("0,0,0,1,0,0")) "</group>"),
+                 TWO_TILES);
+    // Firm words are before them; tiles that say so too.
+    assert_walls(MAP(SET LAYER("Trees", CSV("0,0,0,1,0,0")) LAYER("collision", TILES)), TWO_TILES);
+    assert_walls(
+        MAP(SET_OF("<tile id='4'>" TRUE("Collidable") "</tile>") LAYER("Meta", CSV("2,5,5,2,0,0"))),
+        TWO_TILES);
+    // What is drawn over the player, what is full, and what moves against the rest is none.
+    assert_refused(MAP(SET LAYER("Ground", FULL) LAYER("tree tops", TILES)), UNSAID);
+    assert_refused(MAP(SET LAYER("Mountains", FULL)), UNSAID);
+    assert_refused(MAP(SET "<layer name='Trees' parallaxx='0.5'" SIZE ">" TILES
+                           "</layer>" LAYER("Ground", FULL)),
+                   UNSAID);
+    // Objects count as tiles do, but for those that may be places only.
+#define BOX_IN(name) "<objectgroup name='" name "'>" BOX("8", "0", "8", "8") "</objectgroup>"
+    assert_walls(MAP(SET LAYER("Ground", FULL) BOX_IN("Platforms")),
+                 "wall 8 16 16 16\nwall 16 16 16 8\nwall 16 8 8 8\nwall 8 8 8 16\n" FRAME);
+    assert_refused(MAP(SET LAYER("Ground", FULL) BOX_IN("Houses")), UNSAID);
+}
+
+/// An object that shows a tile has the tile's collision shapes, stretched and mirrored as it is.
+static void test_shapes_of_tile_objects(void **state) {
+    (void)state;
+#define SHOWN(more)                                                                                \
+    MAP(SET_OF("<tile id='4'><objectgroup>" BOX("1", "2", "3", "4") "</objectgroup></tile>")       \
+            LAYER("a", FULL) "<objectgroup name='things'><object " more "/></objectgroup>")
+#define AS_BOX(a, b, c, d)                                                                         \
+    "wall " a " " b "\nwall " b " " c "\nwall " c " " d "\nwall " d " " a "\n" FRAME
+    assert_walls(SHOWN("gid='5' x='8' y='8' width='8' height='8'"),
+                 AS_BOX("9 14", "12 14", "12 10", "9 10"));
+    assert_walls(SHOWN("gid='5' x='8' y='8'"), AS_BOX("9 14", "12 14", "12 10", "9 10"));
+    assert_walls(SHOWN("gid='5' x='0' y='16' width='16' height='16'"),
+                 AS_BOX("2 12", "8 12", "8 4", "2 4"));
+    assert_walls(SHOWN("gid='2147483653' x='8' y='8' width='8' height='8'"),
+                 AS_BOX("15 14", "12 14", "12 10", "15 10"));
+    assert_walls(SHOWN("gid='5' x='8' y='8' width='8' height='8' rotation='90'"),
+                 AS_BOX("14 7", "14 4", "10 4", "10 7"));
+    assert_refused(SHOWN("gid='5' name='slime' x='8' y='8' width='8' height='8'"), UNSAID);
+    assert_refused(SHOWN("gid='6' x='8' y='8' width='8' height='8'"), UNSAID);
+}
+
+/// A layer that is named for walls and holds nothing does not decide.
+static void test_empty_layers(void **state) {
+    (void)state;
+    assert_walls(MAP(SET LAYER("walls", CSV("0,0,0,0,0,0")) "<objectgroup name='collision'/>" LAYER(
+                     "Trees", TILES)),
+                 TWO_TILES);
+    assert_walls(MAP(SET LAYER("walls", CSV("0,0,0,0,0,0")) LAYER("ground", FULL)), FRAME);
+    assert_refused(MAP(SET LAYER("no collision", TILES) LAYER("ground", FULL)), UNSAID);
+}
+
+#define PROPERTY(name, value)                                                                      \
+    "<properties><property name='" name "' value='" value "'/></properties>"
+#define TILE_WITH(property)                                                                        \
+    MAP(SET_OF("<tile id='4'>" property "</tile>") LAYER("a", CSV("2,5,5,2,0,0")))
+
+static void test_words_of_properties(void **state) {
+    (void)state;
+    static const char *const solid[] = {
+        TILE_WITH(PROPERTY("collidable", "true")),   TILE_WITH(PROPERTY("Collides", "1")),
+        TILE_WITH(PROPERTY("isWall", "True")),       TILE_WITH(PROPERTY("ge_collide", "true")),
+        TILE_WITH(PROPERTY("walkable", "false")),    TILE_WITH(PROPERTY("isPassable", "0")),
+        TILE_WITH(PROPERTY("type", "wall")),         TILE_WITH(PROPERTY("blocked", "yes")),
+        TILE_WITH(PROPERTY("can_walk", "no")),       TILE_WITH(PROPERTY("obstacle", "full")),
+        TILE_WITH(PROPERTY("hasCollision", "true")), TILE_WITH(PROPERTY("not walkable", "true")),
+    };
+    static const char *const open[] = {
+        TILE_WITH(PROPERTY("collidable", "false")),  TILE_WITH(PROPERTY("walkable", "true")),
+        TILE_WITH(PROPERTY("exitUrl", "wall.json")), TILE_WITH(PROPERTY("type", "wallpaper")),
+        TILE_WITH(PROPERTY("solid", "maybe")),       TILE_WITH(PROPERTY("wall_height", "3")),
+    };
+    for (size_t i = 0; i < sizeof solid / sizeof *solid; i++) assert_walls(solid[i], TWO_TILES);
+    for (size_t i = 0; i < sizeof open / sizeof *open; i++) assert_refused(open[i], UNSAID);
+    assert_walls(MAP(SET PROPERTY("collisionLayer", "b, c") LAYER("a", FULL) LAYER("b", TILES)),
+                 TWO_TILES);
+    // A layer of WorkAdventure that leads elsewhere is no wall.
+    assert_refused(MAP(SET LAYER("exit", PROPERTY("exitUrl", "#start") TILES)), UNSAID);
+}
+
+static void test_names_in_languages(void **state) {
+    (void)state;
+    static const char *const solid[] = {"Mauern",       "W\xc3\xa4nde",
+                                        "W\xc3\x84NDE", "murs",
+                                        "Muros",        "paredes",
+                                        "colisiones",   "\xd0\xa1\xd1\x82\xd0\xb5\xd0\xbd\xd1\x8b",
+                                        "\xe5\xa2\x99", "\xe7\xa2\xb0\xe6\x92\x9e\xe5\xb1\x82",
+                                        "no walk",      "not passable",
+                                        "unwalkable",   "inner walls",
+                                        "Castle_Walls", "bounds"};
+    static const char *const others[] = {"wall_tops", "Walls behind", "wall deco", "no walls",
+                                         "walk",      "Grass",        "Overhead",  "M\xc3\xa4user",
+                                         "wallpaper", "camera bounds"};
+    for (size_t i = 0; i < sizeof solid / sizeof *solid; i++)
+        if (sli_game_kind_of(solid[i]) != SLI_GAME_SOLID) fail_msg("%s", solid[i]);
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        if (sli_game_kind_of(others[i]) == SLI_GAME_SOLID) fail_msg("%s", others[i]);
+    assert_int_equal(sli_game_kind_of("stone floor"), SLI_GAME_FLOOR);
+    assert_int_equal(sli_game_kind_of("Water"), SLI_GAME_WATER);
+    assert_int_equal(sli_game_kind_of("Ladder"), SLI_GAME_PASS);
+    assert_int_equal(sli_game_kind_of("Tile Layer 1"), SLI_GAME_UNSAID);
+}
+
+/// Terrains, colours of Wang sets, and at last the names of tilesets.
+static void test_terrains(void **state) {
+    (void)state;
+#define WANG(name, color, id)                                                                      \
+    "<wangsets><wangset name='" name "'><wangcolor name='" color "'/><wangcolor name='Floor'/>"    \
+    "<wangtile tileid='4' wangid='" id "'/><wangtile tileid='1' wangid='2,2,2,2,2,2,2,1'/>"        \
+    "</wangset></wangsets>"
+#define DRAWN MAP(SET_OF("%s") LAYER("a", CSV("2,5,5,2,2,2")))
+    static const char *const solid[] = {
+        WANG("Dungeon", "Wall", "0,1,0,1,0,1,0,1"),
+        WANG("Dungeon", "stone walls", "2,1,2,1,1,1,2,2"), WANG("Walls", "", "0,1,0,0,0,0,0,0"),
+        "<terraintypes><terrain name='Wall'/><terrain name='Floor'/></terraintypes>"
+        "<tile id='4' terrain='0,0,,1'/><tile id='1' terrain='1,1,1,0'/>"};
+    static const char *const others[] = {
+        WANG("Dungeon", "Grass", "0,1,0,1,0,1,0,1"), WANG("Dungeon", "Wall", "2,2,2,2,2,2,2,1"),
+        WANG("Dungeon", "Wall", "9,9,,x,0,99999999999999999999"),
+        "<terraintypes><terrain name='Brick'/></terraintypes><tile id='4' terrain='0,0,0,0'/>"};
+    char text[2048];
+    for (size_t i = 0; i < sizeof solid / sizeof *solid; i++) {
+        snprintf(text, sizeof text, DRAWN, solid[i]);
+        assert_walls(text, TWO_TILES);
+    }
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
+        snprintf(text, sizeof text, DRAWN, others[i]);
+        assert_refused(text, UNSAID);
+    }
+#define TWO_SETS(name)                                                                             \
+    MAP("<tileset firstgid='1' name='" name "' tilewidth='8' tileheight='8'/><tileset "            \
+        "firstgid='9' name='ground' tilewidth='8' tileheight='8'/>" LAYER("a",                     \
+                                                                          CSV("9,1,2,9,9,9")))
+    assert_walls(TWO_SETS("Walls"), TWO_TILES);
+    assert_refused(TWO_SETS("overworld"), UNSAID);
+}
+
+/// Tilesets of JSON files before Tiled 1.2 have their tiles by number, and properties apart.
+static void test_old_json(void **state) {
+    (void)state;
+#define OLD(set)                                                                                   \
+    "{\"width\": 3, \"height\": 2, \"tilewidth\": 8, \"tileheight\": 8, \"tilesets\": [{"          \
+    "\"firstgid\": 1, \"tilewidth\": 8, \"tileheight\": 8, " set "}], \"layers\": [{\"type\": "    \
+    "\"tilelayer\", \"name\": \"a\", \"width\": 3, \"height\": 2, \"data\": [2,5,5,2,2,2]}]}"
+    assert_walls_json(OLD("\"tileproperties\": {\"4\": {\"collides\": true}}"), TWO_TILES);
+    assert_walls_json(OLD("\"tileproperties\": {\"4\": {\"collides\": \"1\"}, \"1\": {\"x\": 1}}, "
+                          "\"tiles\": {\"1\": {\"terrain\": [0, 0, 0, 0]}}"),
+                      TWO_TILES);
+    assert_walls_json(
+        OLD("\"tiles\": {\"4\": {\"objectgroup\": {\"objects\": [{\"x\": 0, \"y\": 0, "
+            "\"width\": 8, \"height\": 8}]}}}"),
+        TWO_TILES);
+    assert_walls_json(OLD("\"terrains\": [{\"name\": \"Wall\"}], \"tiles\": {\"4\": {\"terrain\": "
+                          "[0, 0, -1, -1]}}"),
+                      TWO_TILES);
+    assert_refused_json(OLD("\"tileproperties\": {\"-4\": {\"collides\": true}, \"x\": 7}"),
+                        "f: nothing in it says what is solid");
+}
+
+/// A layer of tiles where one starts: in the middle of the tile next to the middle of all.
+static void test_start_layers(void **state) {
+    (void)state;
+#define STARTS(name, more)                                                                         \
+    WIDE(SET WIDE_LAYER(                                                                           \
+        "walls", RING) "<layer name='" name "' width='6' "                                         \
+                       "height='4'>" more CSV(                                                     \
+                           "0,0,0,0,0,0, 0,0,1,1,1,0, 0,0,0,0,0,0, 0,0,0,0,0,0") "</layer>")
+    static const struct {
+        const char *text;
+        size_t count;
+    } cases[] = {{STARTS("start", ""), 1},
+                 {STARTS("from-hall", PROPERTY("startLayer", "true")), 1},
+                 {STARTS("from-hall", PROPERTY("startLayer", "false")), 0},
+                 {STARTS("exit", PROPERTY("exitUrl", "start.json")), 0}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        sl_context *context = testing_context(NULL);
+        const sl_import_options options = sl_import_options_default();
+        sl_map map = {0};
+        assert_ok(context, sli_map_read_tmx(context, "f", cases[i].text, strlen(cases[i].text),
+                                            &options, &map));
+        assert_int_equal(map.start_count, cases[i].count);
+        if (map.start_count) {
+            assert_true(map.starts[0].at.x == 28);
+            assert_true(map.starts[0].at.y == 20);
+        }
+        sl_map_destroy(context, &map);
+        sl_context_destroy(context);
+    }
+}
+
+/// Starts are taken whatever layers are asked for, and no walls come with them.
+static void test_start_layers_beside_others(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    const sl_import_options options = {.layers = "walls"};
+    const char *text = STARTS("start", "");
+    sl_map map = {0};
+    assert_ok(context, sli_map_read_tmx(context, "f", text, strlen(text), &options, &map));
+    assert_int_equal(map.start_count, 1);
+    assert_int_equal(map.wall_count, 4);
+    sl_map_destroy(context, &map);
+    sl_context_destroy(context);
+}
+
+static void test_memory(void **state) {
+    (void)state;
+    assert_memory_of(sli_map_read_tmx, NULL, STARTS("start", ""));
+    assert_memory_of(sli_map_read_tmx, NULL, SHOWN("gid='5' x='8' y='8'"));
+    assert_memory_of(
+        sli_map_read_tmx, NULL,
+        MAP(SET_OF(WANG("Walls", "", "0,1,0,0,0,0,0,0")) LAYER("a", CSV("2,5,5,2,2,2"))));
+    assert_memory_of(sli_map_read_tmx, NULL, MAP(SET LAYER("Floor", CSV("3,0,0,4,4,5"))));
+    assert_memory_of(sli_map_read_tmj, NULL,
+                     OLD("\"tileproperties\": {\"4\": {\"collides\": true}}"));
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_guess),
+        cmocka_unit_test(test_weaker_names),
+        cmocka_unit_test(test_shapes_of_tile_objects),
+        cmocka_unit_test(test_empty_layers),
+        cmocka_unit_test(test_words_of_properties),
+        cmocka_unit_test(test_names_in_languages),
+        cmocka_unit_test(test_terrains),
+        cmocka_unit_test(test_old_json),
+        cmocka_unit_test(test_start_layers),
+        cmocka_unit_test(test_start_layers_beside_others),
+        cmocka_unit_test(test_memory),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
