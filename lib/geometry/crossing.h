@@ -16,9 +16,9 @@ sl_point sli_crossing(sl_segment s, sl_segment t);
 /// The ends of s must lie strictly on different sides of t's line. Exact for all finite doubles.
 int sli_crossing_side(sl_point from, sl_point to, sl_segment s, sl_segment t);
 
-/// Where the lines through t and through u meet the line through s: 1 where t meets it further along
-/// the way from s.a to s.b, -1 where u does, 0 at one place. Neither may be parallel to s. Exact
-/// for all finite doubles.
+/// Where the lines through t and through u meet the line through s: 1 where t meets it further
+/// along the way from s.a to s.b, -1 where u does, 0 at one place. Neither may be parallel to s.
+/// Exact for all finite doubles.
 int sli_meet_order(sl_segment s, sl_segment t, sl_segment u);
 
 /// The sign of u_m (s x (a - eye)) - (s x u)(value - eye_m), for u = point - eye, s = b - a and the

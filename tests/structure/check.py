@@ -53,7 +53,7 @@ HEADERS = {"context": "base", "measures": "base", "support": "base", "version": 
            "mirrored": "sight", "moving": "sight", "overlay": "sight", "query": "sight",
            "region": "sight", "sees": "sight", "view": "sight",
            "explained": "bake",
-           "axial": "analysis/axial", "set_cover": "analysis/placement", "vga": "analysis/visibility_graph",
+           "axial": "analysis/axial", "place": "analysis/placement", "set_cover": "analysis/placement", "vga": "analysis/visibility_graph",
            "from_region": "study/from_region", "generate": "study/generate",
            "view_cells": "study/view_cells", "walk": "study/walk"}
 # For users: it includes the others, and no part of the library includes it.

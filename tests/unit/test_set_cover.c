@@ -16,7 +16,7 @@ static void finds_the_least(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
     sl_random random = {7};
-    const uint64_t seeds = testing_seeds(4000);
+    const uint64_t seeds = testing_seeds(2500);
     for (uint64_t i = 0; i < seeds; i++) {
         cover_small(&p, &random);
         sl_cover_result r;

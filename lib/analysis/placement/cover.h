@@ -20,7 +20,7 @@ sl_status sli_cover_make(sl_context *context, uint32_t rows, uint32_t columns, s
 /// Makes the lists by row of those by column.
 void sli_cover_turn(sli_cover *cover);
 void sli_cover_destroy(sl_context *context, sli_cover *cover);
-/// The caller's problem, checked; costs are divided.
+/// The caller's problem, its columns checked; costs are divided, and 1 each where `divisor` is 0.
 sl_status sli_cover_read(sl_context *context, const sl_cover_problem *problem, uint32_t divisor,
                          sli_cover *out);
 
@@ -67,13 +67,18 @@ uint64_t sli_cover_cost(const sli_cover *cover, const uint8_t *taken);
 sl_status sli_cover_search(sl_context *context, const sli_cover *cover, uint64_t enough,
                            uint64_t iterations, uint8_t *taken);
 
+/// Betters a set of at most `count` columns that covers much, from `taken` on; costs are 1 each.
+/// Weights by row sum up below 2^62. Cancelled, it keeps the best so far.
+sl_status sli_cover_search_most(sl_context *context, const sli_cover *cover, const int64_t *weights,
+                                uint32_t count, uint64_t iterations, uint8_t *taken);
+
 // --- bounds
 
 /// The numerator of a bound: by its duals in integers, over `denominator`. `sums`: NULL, or by
 /// column the sum of the duals of its rows with demand.
 int64_t sli_cover_bound(const sli_cover *cover, const sli_cover_state *state, const uint64_t *duals,
                         uint64_t denominator, int64_t *sums);
-/// Duals as integers, where bounds cannot overflow: at most the largest cost each.
+/// The duals as integers, where bounds cannot overflow: at most the largest cost each.
 void sli_cover_duals_round(const sli_cover *cover, const double *duals, uint64_t denominator,
                            uint64_t *out);
 /// The least whole number that is not below numerator / denominator; 0 for what is negative.
@@ -99,8 +104,9 @@ typedef struct sli_cover_part {
     SL_ARRAY(uint64_t) duals;
 } sli_cover_part;
 
-/// Betters bound and cover by branching. `duals`: those of the root.
-sl_status sli_cover_branch(sl_context *context, sli_cover_part *part, const double *duals,
+/// Betters bound and cover by branching. The part has a root alone; `duals` are its, and become
+/// those of the program.
+sl_status sli_cover_branch(sl_context *context, sli_cover_part *part, double *duals,
                            uint64_t *nodes);
 
 #endif

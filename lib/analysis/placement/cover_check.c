@@ -33,8 +33,6 @@ typedef struct sum {
 typedef struct checker {
     const sl_cover_problem *problem;
     const sl_cover_proof *proof;
-    size_t *row_first; ///< the lists by row, made anew
-    uint32_t *row_columns;
     bool *row_gone, *column_gone;
     uint8_t *decided;                   ///< by column, on the way down
     int64_t *rest;                      ///< by row: demand less what is taken
@@ -97,16 +95,9 @@ static bool has_row(const checker *c, uint32_t column, uint32_t row) {
     return low < p->ends[column] && p->entries[low] == row;
 }
 
-static bool row_goes(checker *c, uint32_t what, uint32_t by) {
-    if (what >= c->problem->row_count || by >= c->problem->row_count || what == by) return false;
-    if (c->row_gone[what] || c->row_gone[by] || c->rest[what] > c->rest[by]) return false;
-    size_t k = c->row_first[what];
-    for (size_t i = c->row_first[by]; i < c->row_first[by + 1]; i++) {
-        const uint32_t column = c->row_columns[i];
-        if (c->column_gone[column]) continue;
-        while (k < c->row_first[what + 1] && c->row_columns[k] < column) k++;
-        if (k == c->row_first[what + 1] || c->row_columns[k] != column) return false;
-    }
+/// Without a row no set costs more: a bound stays a bound, whatever the row was dropped for.
+static bool row_goes(checker *c, uint32_t what) {
+    if (what >= c->problem->row_count || c->row_gone[what]) return false;
     c->row_gone[what] = true;
     return true;
 }
@@ -144,12 +135,11 @@ static bool follow_steps(checker *c) {
     const sl_cover_problem *p = c->problem;
     for (uint32_t r = 0; r < p->row_count; r++) {
         c->rest[r] = p->demands ? p->demands[r] : 1;
-        c->free[r] = (int64_t)(c->row_first[r + 1] - c->row_first[r]);
         c->row_gone[r] = c->rest[r] == 0;
     }
     for (uint32_t i = 0; i < c->proof->step_count; i++) {
         const sl_cover_step s = c->proof->steps[i];
-        const bool holds = s.kind == SL_COVER_ROW_GOES       ? row_goes(c, s.what, s.by)
+        const bool holds = s.kind == SL_COVER_ROW_GOES       ? row_goes(c, s.what)
                            : s.kind == SL_COVER_COLUMN_GOES  ? column_goes(c, s.what, s.by)
                            : s.kind == SL_COVER_COLUMN_TAKEN ? column_taken(c, s.what, s.by)
                                                              : false;
@@ -349,9 +339,9 @@ static sl_status check_parts(sl_context *context, checker *c, uint64_t *lower) {
     return SL_OK;
 }
 
-static void list_rows(checker *c) {
+/// Counts the columns of rows, and finds the greatest common divisor of costs (Euclid).
+static void count(checker *c) {
     const sl_cover_problem *p = c->problem;
-    c->divisor = 0;
     for (uint32_t j = 0; j < p->column_count; j++) {
         uint32_t a = cost_of(p, j);
         while (a) {
@@ -359,22 +349,14 @@ static void list_rows(checker *c) {
             c->divisor = a;
             a = rest;
         }
-        for (size_t i = begin_of(p, j); i < p->ends[j]; i++)
-            c->row_first[(size_t)p->entries[i] + 2]++;
+        for (size_t i = begin_of(p, j); i < p->ends[j]; i++) c->free[p->entries[i]]++;
     }
-    for (uint32_t r = 0; r < p->row_count; r++) c->row_first[r + 2] += c->row_first[r + 1];
-    for (uint32_t j = 0; j < p->column_count; j++)
-        for (size_t i = begin_of(p, j); i < p->ends[j]; i++)
-            c->row_columns[c->row_first[(size_t)p->entries[i] + 1]++] = j;
 }
 
 static bool make(sl_context *context, checker *c) {
     const size_t rows = c->problem->row_count, columns = c->problem->column_count;
-    const size_t parts = c->proof->part_count,
-                 entries = columns ? c->problem->ends[columns - 1] : 0;
-    return (c->row_first = sl_alloc_array(context, rows + 2, sizeof *c->row_first)) &&
-           (c->row_columns = sl_alloc_array(context, entries, sizeof *c->row_columns)) &&
-           (c->row_gone = sl_alloc_array(context, rows, sizeof *c->row_gone)) &&
+    const size_t parts = c->proof->part_count;
+    return (c->row_gone = sl_alloc_array(context, rows, sizeof *c->row_gone)) &&
            (c->column_gone = sl_alloc_array(context, columns, sizeof *c->column_gone)) &&
            (c->decided = sl_alloc_array(context, columns, sizeof *c->decided)) &&
            (c->rest = sl_alloc_array(context, rows, sizeof *c->rest)) &&
@@ -390,8 +372,6 @@ static bool make(sl_context *context, checker *c) {
 }
 
 static void destroy(sl_context *context, checker *c) {
-    sl_free(context, c->row_first);
-    sl_free(context, c->row_columns);
     sl_free(context, c->row_gone);
     sl_free(context, c->column_gone);
     sl_free(context, c->decided);
@@ -431,7 +411,7 @@ sl_status sl_cover_check(sl_context *context, const sl_cover_problem *problem,
         return SL_OK;
     sl_status status = SL_NO_MEMORY;
     if (make(context, &c)) {
-        list_rows(&c);
+        count(&c);
         status = SL_OK;
         if (follow_steps(&c) && follow_parts(&c)) status = check_parts(context, &c, lower);
     }

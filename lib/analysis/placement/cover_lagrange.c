@@ -18,6 +18,10 @@
 /// Iterations between two pricings, and between two looks at the length of steps.
 enum { PRICING = 25, LOOK = 20, COLUMNS_A_ROW = 6, PATIENCE = 250, GREEDY = 4 };
 
+/// How much of its course the search keeps from step to step (Crowder 1976): without it, steps go
+/// to and fro across the valley, and the bound stays far below.
+static const double kept_course = 0.7;
+
 /// A core is worth its trouble from so many columns on.
 enum { MANY_COLUMNS = 1500 };
 
@@ -32,12 +36,12 @@ typedef struct ascent {
     uint64_t upper;
     uint32_t *all, *core; ///< free columns
     uint32_t all_count, core_count;
-    double *u, *best_u; ///< by row
-    double *costs;      ///< by column: reduced
-    double *slopes;     ///< by row
-    double *values;     ///< by column
-    priced *order;      ///< room for sorting
-    bool *chosen;       ///< by column
+    double *u, *best_u;      ///< by row
+    double *costs;           ///< by column: reduced
+    double *slopes, *course; ///< by row
+    double *values;          ///< by column
+    priced *order;           ///< room for sorting
+    bool *chosen;            ///< by column
     double best, step, base;
 } ascent;
 
@@ -131,12 +135,13 @@ static double move(ascent *a) {
     for (uint32_t r = 0; r < c->rows; r++) {
         if (a->state->rest[r] <= 0) continue;
         if (a->slopes[r] < 0 && a->u[r] <= 0) a->slopes[r] = 0; // it stays at 0
-        square += a->slopes[r] * a->slopes[r];
+        a->course[r] = kept_course * a->course[r] + (1 - kept_course) * a->slopes[r];
+        square += a->course[r] * a->course[r];
     }
     if (square == 0) return bound;
     const double length = a->step * (1.05 * (double)a->upper - bound) / square;
     for (uint32_t r = 0; r < c->rows; r++)
-        if (a->state->rest[r] > 0) a->u[r] = fmax(0, a->u[r] + length * a->slopes[r]);
+        if (a->state->rest[r] > 0) a->u[r] = fmax(0, a->u[r] + length * a->course[r]);
     return bound;
 }
 
@@ -223,11 +228,12 @@ sl_status sli_cover_lagrange(sl_context *context, const sli_cover *cover,
     a.u = sl_alloc_array(context, cover->rows, sizeof *a.u);
     a.costs = sl_alloc_array(context, cover->columns, sizeof *a.costs);
     a.slopes = sl_alloc_array(context, cover->rows, sizeof *a.slopes);
+    a.course = sl_alloc_array(context, cover->rows, sizeof *a.course);
     a.order = sl_alloc_array(context, cover->columns, sizeof *a.order);
     a.chosen = sl_alloc_array(context, cover->columns, sizeof *a.chosen);
     uint8_t *scratch = sl_alloc_array(context, cover->columns, sizeof *scratch);
     sl_status status = SL_NO_MEMORY;
-    if (a.all && core && a.u && a.costs && a.slopes && a.order && a.chosen && scratch) {
+    if (a.all && core && a.u && a.costs && a.slopes && a.course && a.order && a.chosen && scratch) {
         begin_prices(&a, duals);
         a.best_u = duals;
         for (uint32_t j = 0; j < cover->columns; j++)
@@ -242,6 +248,7 @@ sl_status sli_cover_lagrange(sl_context *context, const sli_cover *cover,
     sl_free(context, a.u);
     sl_free(context, a.costs);
     sl_free(context, a.slopes);
+    sl_free(context, a.course);
     sl_free(context, a.order);
     sl_free(context, a.chosen);
     sl_free(context, scratch);

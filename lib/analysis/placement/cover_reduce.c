@@ -10,7 +10,7 @@
 /// that became shorter are looked at again: a set can become a subset of another by losing
 /// something, not by what the other one loses.
 ///
-/// Supersets of a set are sought among those that share its rarest element, by size, then by a
+/// The supersets of a set are sought among those that share its rarest element, by size, then by a
 /// signature of 64 bits (a bit for each element, by hash), then element by element. The steps are
 /// kept in their order, for the proof: each can be checked in the problem that those before it
 /// left.

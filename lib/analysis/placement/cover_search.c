@@ -139,6 +139,7 @@ typedef struct search {
     uint64_t *row_times; ///< when a column of this row last changed
     uint64_t *times;     ///< when a column last changed
     uint64_t time, cost;
+    int64_t short_weight; ///< of rows short of columns, by the weights of the time
 } search;
 
 static bool list_make(sl_context *context, uint32_t count, list *out) {
@@ -193,12 +194,14 @@ static void change(search *s, uint32_t column) {
         if (adds) {
             if (--s->rest[row] == 0) {
                 list_drop(&s->missing, row);
+                s->short_weight -= s->weights[row];
                 shift_outer(s, row, -s->weights[row], column);
             } else if (s->rest[row] == -1) {
                 shift_inner(s, row, s->weights[row], column);
             }
         } else if (++s->rest[row] == 1) {
             list_add(&s->missing, row);
+            s->short_weight += s->weights[row];
             shift_outer(s, row, s->weights[row], column);
         } else if (s->rest[row] == 0) {
             shift_inner(s, row, -s->weights[row], column);
@@ -215,6 +218,7 @@ static void change(search *s, uint32_t column) {
     }
 }
 
+/// Costs do not count in maximum coverage: there they are 1 each.
 static double priority(const search *s, uint32_t column) {
     return (double)s->scores[column] / s->cover->costs[column];
 }
@@ -275,21 +279,25 @@ static void step(search *s, uint64_t best, uint64_t *since) {
     for (uint32_t k = 0; k < s->missing.count; k++) {
         const uint32_t row = s->missing.items[k];
         s->weights[row]++;
+        s->short_weight++;
         shift_outer(s, row, 1, UINT32_MAX);
         shift_inner(s, row, -1, UINT32_MAX);
     }
 }
 
-static void begin(search *s, const uint8_t *taken) {
+/// `weights` by row; NULL: 1 each.
+static void begin(search *s, const int64_t *weights, const uint8_t *taken) {
     const sli_cover *c = s->cover;
     for (uint32_t r = 0; r < c->rows; r++) {
         s->rest[r] = c->demands[r];
-        s->weights[r] = 1;
-        if (s->rest[r] > 0) list_add(&s->missing, r);
+        s->weights[r] = weights ? weights[r] : 1;
+        if (s->rest[r] <= 0) continue;
+        list_add(&s->missing, r);
+        s->short_weight += s->weights[r];
     }
     for (uint32_t j = 0; j < c->columns; j++)
         for (size_t i = c->column_first[j]; i < c->column_first[j + 1]; i++)
-            s->scores[j] += s->rest[c->column_rows[i]] > 0;
+            if (s->rest[c->column_rows[i]] > 0) s->scores[j] += s->weights[c->column_rows[i]];
     for (uint32_t j = 0; j < c->columns; j++)
         if (taken[j]) change(s, j);
     memset(s->times, 0, c->columns * sizeof *s->times);
@@ -317,29 +325,92 @@ static sl_status run(sl_context *context, search *s, uint64_t enough, uint64_t i
     return SL_OK;
 }
 
+static bool search_make(sl_context *context, search *s) {
+    const sli_cover *c = s->cover;
+    return list_make(context, c->columns, &s->in) && list_make(context, c->rows, &s->missing) &&
+           (s->rest = sl_alloc_array(context, c->rows, sizeof *s->rest)) &&
+           (s->weights = sl_alloc_array(context, c->rows, sizeof *s->weights)) &&
+           (s->scores = sl_alloc_array(context, c->columns, sizeof *s->scores)) &&
+           (s->row_times = sl_alloc_array(context, c->rows, sizeof *s->row_times)) &&
+           (s->times = sl_alloc_array(context, c->columns, sizeof *s->times));
+}
+
+static void search_destroy(sl_context *context, search *s) {
+    sl_free(context, s->in.items);
+    sl_free(context, s->in.places);
+    sl_free(context, s->missing.items);
+    sl_free(context, s->missing.places);
+    sl_free(context, s->rest);
+    sl_free(context, s->weights);
+    sl_free(context, s->scores);
+    sl_free(context, s->row_times);
+    sl_free(context, s->times);
+}
+
 sl_status sli_cover_search(sl_context *context, const sli_cover *cover, uint64_t enough,
                            uint64_t iterations, uint8_t *taken) {
     search s = {.cover = cover, .random = {1}};
-    bool room = list_make(context, cover->columns, &s.in);
-    room = list_make(context, cover->rows, &s.missing) && room;
-    s.rest = sl_alloc_array(context, cover->rows, sizeof *s.rest);
-    s.weights = sl_alloc_array(context, cover->rows, sizeof *s.weights);
-    s.scores = sl_alloc_array(context, cover->columns, sizeof *s.scores);
-    s.row_times = sl_alloc_array(context, cover->rows, sizeof *s.row_times);
-    s.times = sl_alloc_array(context, cover->columns, sizeof *s.times);
     sl_status status = SL_NO_MEMORY;
-    if (room && s.rest && s.weights && s.scores && s.row_times && s.times) {
-        begin(&s, taken);
+    if (search_make(context, &s)) {
+        begin(&s, NULL, taken);
         status = run(context, &s, enough, iterations, taken);
     }
-    sl_free(context, s.in.items);
-    sl_free(context, s.in.places);
-    sl_free(context, s.missing.items);
-    sl_free(context, s.missing.places);
-    sl_free(context, s.rest);
-    sl_free(context, s.weights);
-    sl_free(context, s.scores);
-    sl_free(context, s.row_times);
-    sl_free(context, s.times);
+    search_destroy(context, &s);
+    return status;
+}
+
+// --- the most that so many columns cover
+
+/// The column outside that gains most, among those that did not change since; UINT32_MAX where none
+/// gains.
+static uint32_t most_gain(const search *s, uint64_t since) {
+    uint32_t best = UINT32_MAX;
+    for (uint32_t j = 0; j < s->cover->columns; j++) {
+        if (is_in(s, j) || s->scores[j] <= 0 || s->times[j] > since) continue;
+        if (best == UINT32_MAX || s->scores[j] > s->scores[best] ||
+            (s->scores[j] == s->scores[best] && s->times[j] < s->times[best]))
+            best = j;
+    }
+    return best;
+}
+
+/// What came or went lately stays so: for a number of changes that is drawn each time, so that the
+/// search does not go in circles (tabu search; Glover 1989).
+static uint64_t some_changes_ago(search *s) {
+    const uint64_t ago = 2 + sl_random_below(&s->random, 10);
+    return s->time > ago ? s->time - ago : 0;
+}
+
+static sl_status run_most(sl_context *context, search *s, uint32_t count, uint64_t iterations,
+                          uint8_t *taken) {
+    int64_t best = INT64_MAX;
+    for (uint64_t i = 0; i <= iterations; i++) {
+        if (i % 256 == 0) SL_TRY(sl_check_cancelled(context));
+        while (s->in.count < count) {
+            const uint32_t added = most_gain(s, i ? some_changes_ago(s) : UINT64_MAX);
+            if (added == UINT32_MAX) break;
+            change(s, added);
+        }
+        if (s->short_weight < best) {
+            best = s->short_weight;
+            memset(taken, 0, s->cover->columns);
+            for (uint32_t k = 0; k < s->in.count; k++) taken[s->in.items[k]] = 1;
+        }
+        const uint32_t out = worst(s, some_changes_ago(s));
+        if (best == 0 || !s->in.count) break;
+        if (out != UINT32_MAX) change(s, out);
+    }
+    return SL_OK;
+}
+
+sl_status sli_cover_search_most(sl_context *context, const sli_cover *cover, const int64_t *weights,
+                                uint32_t count, uint64_t iterations, uint8_t *taken) {
+    search s = {.cover = cover, .random = {1}};
+    sl_status status = SL_NO_MEMORY;
+    if (search_make(context, &s)) {
+        begin(&s, weights, taken);
+        status = run_most(context, &s, count, iterations, taken);
+    }
+    search_destroy(context, &s);
     return status;
 }

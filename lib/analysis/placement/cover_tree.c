@@ -22,8 +22,12 @@
 
 #include <string.h>
 
-/// Duals that a tree keeps at most: 256 MB.
-enum { MOST_DUALS = 1 << 25, STEPS = 60 };
+/// What a tree keeps of duals at most: 256 MB. A node counts as one for so many entries of its
+/// part, and has so many Lagrangian steps.
+enum { MOST_DUALS = 1 << 25, NODE_ENTRIES = 1024, STEPS = 60 };
+
+/// Simplex steps times entries that the program may take for a node: some seconds.
+enum { PROGRAM_WORK = 1 << 28 };
 static const double whole = 1e-6;
 
 typedef struct fix {
@@ -137,14 +141,16 @@ static sl_status try_set(sl_context *context, tree *t, const double *duals) {
     return SL_OK;
 }
 
-/// New duals for the state, behind the others; from those at `duals`. Leaves t->values.
-static sl_status find_duals(sl_context *context, tree *t, size_t duals) {
+/// New duals for the state, behind the others; from those at `duals`. Leaves t->values. The program
+/// may stop where its bound passes `enough`; 0: it does not.
+static sl_status find_duals(sl_context *context, tree *t, size_t duals, double enough) {
     const uint32_t rows = t->cover->rows;
     const uint64_t denominator = t->part->denominator;
     sl_status status = SL_UNSUPPORTED;
+    const uint64_t work = 1 + PROGRAM_WORK / (1 + t->cover->column_first[t->cover->columns]);
     if (t->program)
-        status = t->part->options->program->again(context, t->program, t->state.fixed, 0,
-                                                  (double)t->target - 1 + whole, t->y, t->values);
+        status = t->part->options->program->again(context, t->program, t->state.fixed, work, enough,
+                                                  t->y, t->values);
     if (status == SL_UNSUPPORTED) {
         for (uint32_t r = 0; r < rows; r++)
             t->y[r] = (double)t->part->duals.items[duals + r] / (double)denominator;
@@ -259,7 +265,7 @@ static sl_status grow_node(sl_context *context, tree *t, size_t duals, uint32_t 
         if (!searched && sli_cover_ceiling(bound, d) < t->target) {
             searched = true;
             const size_t found = t->part->duals.count;
-            SL_TRY(find_duals(context, t, duals));
+            SL_TRY(find_duals(context, t, duals, (double)t->target - 1 + whole));
             const int64_t better = bound_by(t, found);
             SL_TRY(fill_set(context, t));
             if (better > bound)
@@ -297,11 +303,12 @@ static sl_status undo(sl_context *context, tree *t, size_t count, sl_status stat
 
 /// Makes the node of the state, from its parent's duals.
 static sl_status grow(sl_context *context, tree *t, size_t duals, uint32_t *at) {
-    if (!*t->nodes_left) {
+    const uint64_t price = 1 + t->cover->column_first[t->cover->columns] / NODE_ENTRIES;
+    if (*t->nodes_left < price) {
         t->spent = true;
         return SL_OK;
     }
-    --*t->nodes_left;
+    *t->nodes_left -= price;
     SL_TRY(sl_check_cancelled(context));
     const size_t count = t->fixes.count;
     return undo(context, t, count, grow_node(context, t, duals, at), at);
@@ -335,8 +342,24 @@ static sl_status grow_whole(sl_context *context, tree *t, const double *duals, b
     return status;
 }
 
-static sl_status grow_trees(sl_context *context, tree *t, const double *duals) {
+/// The bound of the root, as good as the program has it; a leaf alone, which replaces the part's.
+static sl_status bound_root(sl_context *context, tree *t, double *duals) {
+    sli_cover_part *part = t->part;
+    SL_TRY(find_duals(context, t, 0, 0));
+    SL_TRY(fill_set(context, t));
+    const uint32_t rows = t->cover->rows;
+    const uint64_t bound = sli_cover_ceiling(bound_by(t, rows), part->denominator);
+    part->duals.count = rows;
+    if (bound < part->lower) return SL_OK;
+    memcpy(part->duals.items, part->duals.items + rows, rows * sizeof *part->duals.items);
+    memcpy(duals, t->y, rows * sizeof *duals);
+    part->lower = bound;
+    return SL_OK;
+}
+
+static sl_status grow_trees(sl_context *context, tree *t, double *duals) {
     bool is_whole = true;
+    if (t->program) SL_TRY(bound_root(context, t, duals));
     while (is_whole && t->part->lower < t->part->cost) {
         t->target = t->part->lower + 1;
         SL_TRY(grow_whole(context, t, duals, &is_whole));
@@ -359,7 +382,7 @@ static sl_status tree_make(sl_context *context, tree *t) {
     return program && program->begin ? program->begin(context, &t->problem, &t->program) : SL_OK;
 }
 
-sl_status sli_cover_branch(sl_context *context, sli_cover_part *part, const double *duals,
+sl_status sli_cover_branch(sl_context *context, sli_cover_part *part, double *duals,
                            uint64_t *nodes) {
     tree t = {.part = part, .cover = part->cover, .nodes_left = nodes};
     sl_status status = tree_make(context, &t);

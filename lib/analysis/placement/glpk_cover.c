@@ -166,7 +166,7 @@ static sl_status branch(sl_context *context, const sl_cover_problem *problem, ui
     settings.msg_lev = GLP_MSG_OFF;
     settings.cb_func = count_nodes;
     settings.cb_info = &n;
-    settings.gmi_cuts = settings.clq_cuts = GLP_ON;
+
     if (setjmp(r->guard.left)) {
         r->lp = NULL;
         end(context, r);

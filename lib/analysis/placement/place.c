@@ -33,6 +33,8 @@ static void destroy_lower(sl_context *context, sl_placement *p) {
     sl_free(context, p->places);
     sl_free(context, (void *)(uintptr_t)p->columns.ends);
     sl_free(context, (void *)(uintptr_t)p->columns.entries);
+    sl_free(context, (void *)(uintptr_t)p->columns.costs);
+    sl_free(context, (void *)(uintptr_t)p->columns.demands);
 }
 
 void sl_placement_destroy(sl_context *context, sl_placement *p) {

@@ -8,13 +8,13 @@
 /// 5. Steps, parts and trees are the proof, which cover_check.c reads with code of its own.
 ///
 /// Costs are divided by their greatest common divisor first: then bounds are rounded up to whole
-/// numbers. Duals are integers over a power of two, as large as sums in 64 bits allow.
+/// numbers. The duals are integers over a power of two, as large as sums in 64 bits allow.
 #include "analysis/placement/cover.h"
 
 #include <string.h>
 
 sl_cover_options sl_cover_options_default(void) {
-    return (sl_cover_options){.nodes = 20000, .iterations = 20000};
+    return (sl_cover_options){.nodes = 10000, .iterations = 50000};
 }
 
 void sl_cover_result_destroy(sl_context *context, sl_cover_result *r) {
@@ -68,14 +68,12 @@ sl_status sli_cover_read(sl_context *context, const sl_cover_problem *p, uint32_
     SL_TRY(sli_cover_make(context, p->row_count, p->column_count, entries, out));
     for (uint32_t j = 0; j < p->column_count; j++) {
         out->column_first[j + 1] = p->ends[j];
-        out->costs[j] = p->costs ? p->costs[j] / divisor : 1;
+        out->costs[j] = p->costs && divisor ? p->costs[j] / divisor : 1;
     }
     if (entries) memcpy(out->column_rows, p->entries, entries * sizeof *p->entries);
     for (uint32_t r = 0; r < p->row_count; r++) out->demands[r] = p->demands ? p->demands[r] : 1;
     sli_cover_turn(out);
-    const sl_status status = check_rows(context, out);
-    if (status != SL_OK) sli_cover_destroy(context, out);
-    return status;
+    return SL_OK;
 }
 
 /// The largest power of two, up to 2^31, with which no bound comes near 2^63.
@@ -292,8 +290,8 @@ static uint64_t enough_of(const solver *s, const piece *p, uint64_t known) {
     return least > p->part.lower ? least : p->part.lower;
 }
 
-/// Lagrangian iterations for each of the local search's, at most.
-enum { LAGRANGIAN_SHARE = 10 };
+/// Iterations of the local search for each Lagrangian one, at most.
+enum { LAGRANGIAN_SHARE = 25 };
 
 static sl_status solve_piece(sl_context *context, solver *s, piece *p, uint64_t known) {
     sli_cover_part *part = &p->part;
@@ -326,7 +324,7 @@ static sl_status solve_piece(sl_context *context, solver *s, piece *p, uint64_t 
 
 // --- the result
 
-/// Duals of the proof are for costs as they are, not divided: below the largest cost, times 2^31.
+/// The duals of a proof are for costs as they are, not divided: below the largest cost, times 2^31.
 static void add_nodes(sl_cover_proof *proof, const piece *its, uint32_t divisor, uint32_t part,
                       uint32_t first) {
     const sli_cover_part *p = &its->part;
@@ -410,6 +408,7 @@ static sl_status complete_parts(sl_context *context, solver *s) {
 static sl_status prepare(sl_context *context, const sl_cover_problem *problem, uint32_t divisor,
                          solver *s) {
     SL_TRY(sli_cover_read(context, problem, divisor, &s->cover));
+    SL_TRY(check_rows(context, &s->cover));
     SL_TRY(choose_denominator(context, &s->cover, &s->denominator));
     SL_TRY(sli_cover_reduce(context, &s->cover, &s->left));
     s->step_cost = sli_cover_cost(&s->cover, s->left.taken);

@@ -8,7 +8,7 @@
 ///         for (uint32_t i = 0; i < result.count; ++i) use(result.columns[i]);
 ///     sl_cover_result_destroy(context, &result);
 ///
-/// The bound never rests on rounding. Duals come from anywhere (a Lagrangian search, a linear
+/// The bound never rests on rounding. Its duals come from anywhere (a Lagrangian search, a linear
 /// program in doubles); they are made integers over a common denominator, and count only as far as
 /// they are feasible in integers.
 #ifndef SIGHTLINE_SET_COVER_H
@@ -56,13 +56,16 @@ typedef struct sl_cover_program {
 /// What to do, and how much of it. sl_cover_options_default() has the usual values.
 typedef struct sl_cover_options {
     const sl_cover_program *program; ///< NULL: Lagrangian bounds alone
-    uint64_t nodes;                  ///< of the branching tree, at most; 0: no tree
-    uint64_t iterations;             ///< of the local search and of the Lagrangian search, at most
-    uint64_t known_lower;            ///< a bound that the caller has from elsewhere; 0 for none
+    /// Of the branching trees, at most; 0: no tree. In a part of more than 1,024 entries, a node
+    /// counts for one more for each 1,024.
+    uint64_t nodes;
+    uint64_t iterations;   ///< of the local search and of the Lagrangian search, at most
+    uint64_t known_lower;  ///< a bound that the caller has from elsewhere; 0 for none
     const uint32_t *start; ///< columns to start from: a set that the caller has; NULL for none
     uint32_t start_count;
 } sl_cover_options;
 
+/// No program; 10,000 nodes and 50,000 iterations.
 SL_API sl_cover_options sl_cover_options_default(void);
 
 /// A step that makes a problem smaller and keeps its least cost. Steps are taken one after the
@@ -70,12 +73,13 @@ SL_API sl_cover_options sl_cover_options_default(void);
 /// demanded.
 typedef enum sl_cover_step_kind {
     SL_COVER_ROW_GOES,    ///< every column that covers row `by` covers row `what`, which demands no
-                          ///< more
+                          ///< more; a bound without the row is a bound in any case
     SL_COVER_COLUMN_GOES, ///< column `by` covers all that column `what` does, and costs no more;
                           ///< these rows demand one column each
     SL_COVER_COLUMN_TAKEN, ///< row `by` demands all columns that it has, `what` among them
 } sl_cover_step_kind;
 
+/// One step: what it says of a row or column, and by which other one.
 typedef struct sl_cover_step {
     uint32_t kind; ///< sl_cover_step_kind
     uint32_t what, by;
