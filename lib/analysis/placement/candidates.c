@@ -22,7 +22,7 @@ sl_status sli_add_candidate(sli_placer *p, sl_point at, uint32_t *number) {
     sli_candidate *c = &p->candidates.items[p->candidates.count];
     *c = (sli_candidate){0};
     *number = UINT32_MAX;
-    if (!sl_space_is_inside(p->ground.space, at)) return SL_OK;
+    if (p->listed || !sl_space_is_inside(p->ground.space, at)) return SL_OK;
     SL_TRY(sli_look_make(p->context, p->query, &p->memory, at, &c->look, &clean));
     if (!clean) return SL_OK;
     *number = (uint32_t)p->candidates.count++;
@@ -170,36 +170,44 @@ static sl_status complete(sli_placer *p) {
     const size_t count = p->witnesses.count;
     for (size_t i = 0; status == SL_OK && i < count; i++) {
         uint32_t number;
-        if (!seen[i]) status = sli_add_candidate(p, p->witnesses.items[i].eye, &number);
+        if (seen[i]) continue;
+        const sl_point at = p->witnesses.items[i].eye;
+        if (p->listed)
+            status = sl_fail(p->context, SL_BAD_ARGUMENT,
+                             "(%g, %g) is seen from none of the places", at.x, at.y);
+        else
+            status = sli_add_candidate(p, at, &number);
     }
     sl_free(p->context, seen);
     return status;
 }
 
-sl_status sli_choose_fewest(sli_placer *p) {
+sl_status sli_choose_fewest(sli_placer *p, sl_cover_problem *problem, sl_cover_result *cover) {
     SL_TRY(complete(p));
     size_t entries = 0;
     for (size_t i = 0; i < p->candidates.count; i++) entries += p->candidates.items[i].sees.count;
     size_t *ends = sl_alloc_array(p->context, p->candidates.count, sizeof *ends);
     uint32_t *all = sl_alloc_array(p->context, entries, sizeof *all);
-    sl_status status = ends && all ? SL_OK : SL_NO_MEMORY;
+    *problem = (sl_cover_problem){
+        (uint32_t)p->witnesses.count, (uint32_t)p->candidates.count, ends, all, NULL, NULL};
+    if (!ends || !all) return SL_NO_MEMORY;
     entries = 0;
-    for (size_t i = 0; status == SL_OK && i < p->candidates.count; i++) {
+    for (size_t i = 0; i < p->candidates.count; i++) {
         for (size_t k = 0; k < p->candidates.items[i].sees.count; k++)
             all[entries++] = p->candidates.items[i].sees.items[k];
         ends[i] = entries;
     }
-    const sl_cover_problem problem = {
-        (uint32_t)p->witnesses.count, (uint32_t)p->candidates.count, ends, all, NULL, NULL};
     const sl_cover_options options = sli_cover_options(p);
-    sl_cover_result cover = {0};
-    if (status == SL_OK) status = sl_cover_solve(p->context, &problem, &options, &cover);
+    SL_TRY(sl_cover_solve(p->context, problem, &options, cover));
     p->chosen.count = 0;
-    if (status == SL_OK) status = SL_ARRAY_ROOM(p->context, &p->chosen, cover.count);
-    for (uint32_t i = 0; status == SL_OK && i < cover.count; i++)
-        p->chosen.items[p->chosen.count++] = cover.columns[i];
-    sl_cover_result_destroy(p->context, &cover);
-    sl_free(p->context, ends);
-    sl_free(p->context, all);
-    return status;
+    SL_TRY(SL_ARRAY_ROOM(p->context, &p->chosen, cover->count));
+    for (uint32_t i = 0; i < cover->count; i++)
+        p->chosen.items[p->chosen.count++] = cover->columns[i];
+    return SL_OK;
+}
+
+void sli_choice_destroy(sl_context *context, sl_cover_problem *problem, sl_cover_result *cover) {
+    sl_free(context, (void *)(uintptr_t)problem->ends);
+    sl_free(context, (void *)(uintptr_t)problem->entries);
+    sl_cover_result_destroy(context, cover);
 }

@@ -41,8 +41,10 @@ typedef struct sl_viewpoint {
 /// What to do, and how much of it. sl_place_options_default() has the usual values.
 typedef struct sl_place_options {
     const sl_cover_program *program; ///< for set covers; NULL: without a linear program
-    uint64_t rounds;                 ///< at most so many; 0 for no limit
-    uint64_t nodes;                  ///< of the branching tree of each set cover, at most
+    const sl_point *places; ///< to choose from; NULL: anywhere. `lower` is then for these alone
+    uint32_t place_count;
+    uint64_t rounds; ///< at most so many; 0 for no limit
+    uint64_t nodes;  ///< of the branching tree of each set cover, at most
 } sl_place_options;
 
 SL_API sl_place_options sl_place_options_default(void);
@@ -78,12 +80,13 @@ typedef struct sl_placement {
 } sl_placement;
 
 /// Finds viewpoints for all that is inside of a query's space, with its doors as they are. They may
-/// stand anywhere inside.
+/// stand anywhere inside, or at given places (sl_place_options.places).
 ///
-/// SL_BAD_ARGUMENT where nothing is inside. SL_UNSUPPORTED for maps with mirrors, one-way glass or
-/// limited walls, and past boxes. Cancelled by the context, it returns SL_CANCELLED with the best
-/// set and bounds so far in `out`, once it has a set. Reports stage "place". The same input gives
-/// the same bytes.
+/// SL_BAD_ARGUMENT where nothing is inside, for a place that is not, and where something is seen
+/// from none of the places, with a point of it. SL_UNSUPPORTED for maps with mirrors, one-way glass
+/// or limited walls, and past boxes. Cancelled by the context, it returns SL_CANCELLED with the
+/// best set and bounds so far in `out`, once it has a set. Reports stage "place". The same input
+/// gives the same bytes.
 SL_API sl_status sl_place(sl_context *context, sl_query *query, const sl_place_options *options,
                           sl_placement *out);
 
