@@ -10,6 +10,7 @@
 /// The place where two segments cross. Each coordinate is the nearest usable one
 /// (sl_coordinate_usable), of two equally near ones the lower. The order of the segments does not
 /// matter. They must cross properly: the ends of each lie strictly on different sides of the other.
+/// Or the place where their lines cross, which must not be parallel.
 sl_point sli_crossing(sl_segment s, sl_segment t);
 
 /// The side of the line from `from` to `to` on which s crosses the line through t, as sli_orient.

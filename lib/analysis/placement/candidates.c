@@ -1,6 +1,7 @@
 /// Candidates: places to look from.
 #include "analysis/placement/placer.h"
 
+#include "geometry/crossing.h"
 #include "geometry/length.h"
 #include "geometry/orient.h"
 
@@ -123,30 +124,43 @@ static sl_point foot_of(sl_point at, const sl_segment *line) {
     return (sl_point){line->a.x + share * way.x, line->a.y + share * way.y};
 }
 
-static sl_point meet_of(const sl_segment *s, const sl_segment *t) {
+/// Where two lines meet, if that is nearer to a point than a share of its distance from the apex.
+static bool meet_near(sl_point eye, const sl_segment *s, const sl_segment *t, sl_point *out) {
+    const double share = 0.1;
     const sl_point u = {s->b.x - s->a.x, s->b.y - s->a.y}, v = {t->b.x - t->a.x, t->b.y - t->a.y};
-    const double share =
+    if (sli_turn(s->a, s->b, t->a, t->b) == 0) return false;
+    const double along =
         sli_cross((sl_point){t->a.x - s->a.x, t->a.y - s->a.y}, v) / sli_cross(u, v);
-    return (sl_point){s->a.x + share * u.x, s->a.y + share * u.y};
+    const sl_point off = {s->a.x + along * u.x - eye.x, s->a.y + along * u.y - eye.y};
+    const sl_point apex = {s->a.x - eye.x, s->a.y - eye.y};
+    if (!(sli_dot(off, off) < share * share * sli_dot(apex, apex))) return false;
+    *out = sli_crossing(*s, *t);
+    return true;
+}
+
+/// Remembers a line of a wall.
+static sl_status keep_line(sli_placer *p, sl_segment line) {
+    for (size_t i = 0; i < p->lines.count; i++)
+        if (sli_same_point(p->lines.items[i].a, line.a) &&
+            sli_same_point(p->lines.items[i].b, line.b))
+            return SL_OK;
+    SL_TRY(SL_ARRAY_ROOM(p->context, &p->lines, 1));
+    p->lines.items[p->lines.count++] = line;
+    return SL_OK;
 }
 
 sl_status sli_add_in_line(sli_placer *p) {
-    enum { MOST = 8 };
-    sl_segment lines[MOST];
-    const size_t count = p->gaps.count;
-    for (size_t i = 0; i < count;) {
-        const uint32_t look = p->gaps.items[i].look;
-        const sl_point eye = sli_chosen_look(p, look)->eye;
+    for (size_t i = 0; i < p->gaps.count && !p->listed; i++) {
+        const sl_point eye = sli_chosen_look(p, p->gaps.items[i].look)->eye;
+        sl_segment line;
+        sl_point meet;
         uint32_t number;
-        int found = 0;
-        for (; i < count && p->gaps.items[i].look == look; i++)
-            if (found < MOST) found += find_hidden(p, &p->gaps.items[i], &lines[found]);
-        for (int k = 0; k < found; k++) {
-            SL_TRY(sli_add_candidate(p, foot_of(eye, &lines[k]), &number));
-            for (int j = 0; j < k; j++)
-                if (sli_turn(lines[k].a, lines[k].b, lines[j].a, lines[j].b))
-                    SL_TRY(sli_add_candidate(p, meet_of(&lines[k], &lines[j]), &number));
-        }
+        if (!find_hidden(p, &p->gaps.items[i], &line)) continue;
+        SL_TRY(sli_add_candidate(p, foot_of(eye, &line), &number));
+        for (size_t k = 0; k < p->lines.count; k++)
+            if (meet_near(eye, &line, &p->lines.items[k], &meet))
+                SL_TRY(sli_add_candidate(p, meet, &number));
+        SL_TRY(keep_line(p, line));
     }
     return SL_OK;
 }

@@ -58,6 +58,7 @@ void sli_placer_destroy(sli_placer *p) {
     sl_free(p->context, p->chosen.items);
     sl_free(p->context, (void *)p->looks.items);
     sl_free(p->context, p->unseen.items);
+    sl_free(p->context, p->lines.items);
     sl_free(p->context, p->gaps.items);
 }
 
