@@ -2,7 +2,7 @@
 #include "arguments/outputs.h"
 #include "commands/commands.h"
 #include "inputs/pipeline.h"
-#include "sightline/place.h"
+#include "sightline/place_proof.h"
 #include "sightline/support.h"
 #include "studies/cover_report.h"
 #include "system/built.h"
@@ -12,7 +12,7 @@
 #include <stdio.h>
 
 typedef struct place_plan {
-    const char *input, *output, *picture;
+    const char *input, *output, *picture, *proof, *verify;
     map_pipeline pipeline;
     door_choice doors;
     double time_limit;
@@ -96,6 +96,43 @@ static sl_status print_json(sl_context *context, const place_work *w, const cove
     return json_print(context, &fields);
 }
 
+/// Checks a proof by other code than that which found it, and says what holds.
+static sl_status verify(command_console *console, const place_plan *plan, place_work *w) {
+    sl_place_verdict v;
+    SL_TRY(sl_place_proof_read(console->context, w->query, plan->verify, &w->placement));
+    SL_TRY(sl_place_proof_check(console->context, w->query, &w->placement, &v));
+    const sl_placement *p = &w->placement;
+    const bool lower = v.lower >= p->lower;
+    console->refuted = !lower || !v.sees_all;
+    progress_line_clear(&console->line);
+    if (plan->json) {
+        json_fields fields = json_begin();
+        json_add_text(&fields, "input", plan->input);
+        json_add_flag(&fields, "verified", !console->refuted);
+        json_add_count(&fields, "lower", v.lower);
+        json_add_count(&fields, "upper", p->upper);
+        json_add_flag(&fields, "sees_all", v.sees_all);
+        json_add_flag(&fields, "optimal", v.sees_all && v.lower == p->upper);
+        return json_print(console->context, &fields);
+    }
+    if (v.sees_all)
+        printf("The %u viewpoints see everything.\n", (unsigned)p->count);
+    else
+        printf("The viewpoints do not see everything: not what is beside (%.9g, %.9g).\n",
+               v.unseen.x, v.unseen.y);
+    if (v.has_extra)
+        printf("The lower bound does not hold: a place at (%.9g, %.9g) sees witnesses that no "
+               "column has together.\n",
+               v.extra.x, v.extra.y);
+    else if (!lower)
+        printf("The lower bound of %u does not hold: %u is proven.\n", (unsigned)p->lower,
+               (unsigned)v.lower);
+    else
+        printf("At least %u are needed, wherever they stand.\n", (unsigned)v.lower);
+    if (!console->refuted && v.lower == p->upper) printf("So no fewer can do it.\n");
+    return SL_OK;
+}
+
 static sl_status work(command_console *console, const place_plan *plan, place_work *w) {
     sl_context *context = console->context;
     const sl_baked *baked = &w->baked;
@@ -103,7 +140,9 @@ static sl_status work(command_console *console, const place_plan *plan, place_wo
     SL_TRY(pipeline_need_inside(context, &plan->pipeline, &baked->map, &baked->space, ""));
     SL_TRY(doors_shut(context, &plan->doors, &w->baked));
     SL_TRY(sl_query_over(context, &baked->space, &baked->map, NULL, &w->query));
+    if (plan->verify) return verify(console, plan, w);
     SL_TRY(place(console, plan, w));
+    if (plan->proof) SL_TRY(sl_place_proof_write(context, w->query, &w->placement, plan->proof));
     SL_TRY(survey(context, w));
     const cover_report report = {plan->input, plan->pipeline.input.import.map, baked, &w->cameras,
                                  &w->coverage};
@@ -140,6 +179,12 @@ sl_status cmd_place(command_console *console, int argc, char **argv) {
          .text = &plan.output, .check = CHECK_FILE, .endings = ".csv .txt"},
         {"picture", 0, "PICTURE", "draw viewpoints and what they see: .png, .svg or .pdf",
          .text = &plan.picture, .check = CHECK_PICTURE},
+        {"proof", 0, "FILE", "write a proof of both bounds (.json), for --verify",
+         .text = &plan.proof, .check = CHECK_FILE, .endings = ".json"},
+        {"verify", 0, "FILE",
+         "check a proof for this map by other code, and trust nothing in it; exit with status 1 if "
+         "it does not hold",
+         .text = &plan.verify},
         {"time-limit", 0, "SECONDS",
          "stop then, and give the best set and both bounds; so does Ctrl-C (default: no limit)",
          .number = &plan.time_limit, .over_0 = true, .needs = "seconds, more than 0"},
@@ -156,7 +201,9 @@ sl_status cmd_place(command_console *console, int argc, char **argv) {
                 "fewer can (the art gallery problem). Viewpoints look all round and without "
                 "limit, and may stand anywhere inside.",
         .examples = "  sightline place gallery.dxf -o cameras.csv --picture cameras.png\n"
-                    "  sightline place office.map --time-limit 10 --json",
+                    "  sightline place office.map --time-limit 10 --json\n"
+                    "  sightline place office.map --proof proof.json\n"
+                    "  sightline place --verify proof.json office.map",
         .options = options,
         .option_count = sizeof options / sizeof *options,
         .given = &plan.pipeline.given,

@@ -259,5 +259,6 @@ int console_close(command_console *console, sl_status status) {
     if (status != SL_OK && message[0] && !silent)
         console_print_line(stderr, "sightline: ", message, strlen(message));
     sl_context_destroy(console->context);
+    if (status == SL_OK && console->refuted) return 1;
     return status == SL_OK && console->fault ? 3 : exit_status(status);
 }
