@@ -69,7 +69,12 @@ static sl_status survey(sl_context *context, place_work *w) {
 static void say_proof(const place_work *w, char *text, size_t size) {
     const sl_placement *p = &w->placement;
     const unsigned lower = (unsigned)p->lower, witnesses = (unsigned)p->witness_count;
-    if (p->lower == p->upper)
+    if (p->slivers)
+        snprintf(text, size,
+                 "At least %u are needed, wherever they stand. These see everything but slivers at "
+                 "%u place%s, where some must stand in line with walls.",
+                 lower, (unsigned)p->slivers, p->slivers == 1 ? "" : "s");
+    else if (p->lower == p->upper)
         snprintf(text, size,
                  "No fewer can: %u witness%s inside need%s %u viewpoint%s, wherever they stand.",
                  witnesses, witnesses == 1 ? "" : "es", witnesses == 1 ? "s" : "", lower,
@@ -88,7 +93,8 @@ static sl_status print_json(sl_context *context, const place_work *w, const cove
     json_add_text(&fields, "input", report->input);
     json_add_count(&fields, "lower", p->lower);
     json_add_count(&fields, "upper", p->upper);
-    json_add_flag(&fields, "optimal", p->lower == p->upper);
+    json_add_flag(&fields, "optimal", p->lower == p->upper && !p->slivers);
+    json_add_count(&fields, "slivers", p->slivers);
     json_add_count(&fields, "witnesses", p->witness_count);
     json_add_count(&fields, "rounds", p->rounds);
     json_add_real(&fields, "seconds", w->seconds);

@@ -123,7 +123,10 @@ static sl_status put_program(sl_context *context, FILE *f, const sl_cover_proble
     return made ? SL_OK : SL_NO_MEMORY;
 }
 
-static sl_status print(sl_context *context, const sl_space *space, const sl_placement *p, FILE *f) {
+sl_status sl_place_proof_print(sl_context *context, sl_query *query, const sl_placement *p,
+                               FILE *f) {
+    const sl_space *space;
+    SL_TRY(sl_query_space(context, query, &space, NULL));
     fprintf(f, "{\"sightline_proof\": 1,\n\"walls\": %" PRIu32 ",\n\"walls_sum\": %" PRIu64,
             space->wall_count, sum_of(space));
     fprintf(f, ",\n\"lower\": %" PRIu64 ",\n\"upper\": %" PRIu64, p->lower, p->upper);
@@ -138,11 +141,10 @@ static sl_status print(sl_context *context, const sl_space *space, const sl_plac
 
 sl_status sl_place_proof_write(sl_context *context, sl_query *query, const sl_placement *placement,
                                const char *path) {
-    const sl_space *space;
     sl_output output;
-    SL_TRY(sl_query_space(context, query, &space, NULL));
     SL_TRY(sl_output_open(context, path, &output));
-    return sl_output_close(context, &output, print(context, space, placement, output.stream));
+    return sl_output_close(context, &output,
+                           sl_place_proof_print(context, query, placement, output.stream));
 }
 
 // --- reading

@@ -33,6 +33,9 @@ extern "C" {
 /// (FORMATS.md), and is put in its place only when it is complete.
 SL_API sl_status sl_place_proof_write(sl_context *context, sl_query *query,
                                       const sl_placement *placement, const char *path);
+/// The same into a stream. Refused writes are left to the stream's error flag.
+SL_API sl_status sl_place_proof_print(sl_context *context, sl_query *query,
+                                      const sl_placement *placement, FILE *stream);
 /// Reads what sl_place_proof_write() wrote, for the same walls. Only the claim is read: witnesses,
 /// viewpoints, columns, proof and bounds. SL_BAD_INPUT, with file and line, for anything else, and
 /// for a proof of another map.
