@@ -91,11 +91,30 @@ static int compare_rays(const void *left, const void *right) {
     return (a->eye > b->eye) - (a->eye < b->eye);
 }
 
+/// Whether the lines of a place meet in a corner of walls. Corners are tried for themselves: a
+/// place there stands between two walls, which rays do not know.
+static bool is_corner(const checker *c, const sli_meet *p) {
+    uint32_t low = 0, high = c->scene.corner_count;
+    while (low < high) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (c->scene.corners[middle].at.x < p->at.x - p->error)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    for (; low < c->scene.corner_count; low++) {
+        const sl_point at = c->scene.corners[low].at;
+        if (at.x > p->at.x + p->error) return false;
+        if (!sli_orient(p->s.a, p->s.b, at) && !sli_orient(p->t.a, p->t.b, at)) return true;
+    }
+    return false;
+}
+
 static sl_status visit_crossing(checker *c, const ray_part *r, const ray_part *s) {
     if (r->eye == s->eye) return SL_OK; // rays of one eye meet only there
     if (!sli_turn(r->line.a, r->line.b, s->line.a, s->line.b)) return SL_OK;
     const sli_meet p = sli_meet_lines(r->line, s->line);
-    if (!may_hold(&r->box, &p) || !may_hold(&s->box, &p)) return SL_OK;
+    if (!may_hold(&r->box, &p) || !may_hold(&s->box, &p) || is_corner(c, &p)) return SL_OK;
     return c->visit(c, &p, SLI_NO_WALL, r->eye);
 }
 
@@ -105,7 +124,8 @@ static sl_status visit_rays(checker *c) {
     for (size_t i = 0; i < c->rays.count; i++) {
         const ray_part *r = &c->rays.items[i];
         SL_TRY(sl_check_cancelled(c->context));
-        if (r->eye != UINT32_MAX) SL_TRY(c->visit(c, &r->to, r->wall, r->eye));
+        if (r->eye != UINT32_MAX && !is_corner(c, &r->to))
+            SL_TRY(c->visit(c, &r->to, r->wall, r->eye));
         for (size_t k = i + 1; k < c->rays.count; k++) {
             const ray_part *s = &c->rays.items[k];
             if (s->box.min.x > r->box.max.x) break;
