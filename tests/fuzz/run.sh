@@ -33,6 +33,7 @@ seeds_of() {
     fuzz_map_plan) echo txt ;;
     fuzz_unigrafix) echo ug ;;
     fuzz_agp) echo pol ;;
+    fuzz_place_proof) echo proof ;;
     fuzz_image) echo pgm ;;
     fuzz_geojson_lines) echo geojson ;;
     fuzz_number_table | fuzz_cameras) echo csv ;;

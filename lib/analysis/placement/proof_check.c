@@ -1,4 +1,4 @@
-/// The verifier's two bounds (place_proof.h). Both try the corners of arrangements:
+/// The check of both bounds (place_proof.h). Both try the corners of arrangements:
 ///
 /// Take all places that see some witnesses. They are a closed set. Its lowest place, of these the
 /// leftmost one, is a corner: of walls, of a ray on which a region ends and a wall, or of two such

@@ -1,4 +1,4 @@
-/// Sight for the verifier (proof_sight.h).
+/// Sight for checks of proofs (proof_sight.h).
 #include "analysis/placement/proof_sight.h"
 
 #include "geometry/crossing.h"

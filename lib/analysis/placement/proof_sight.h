@@ -1,4 +1,4 @@
-/// Sight for the verifier of placements: other code than regions and looks, and exact. All is
+/// Sight for checks of placements: other code than regions and looks, and exact. All is
 /// decided by the sides of places against lines through pairs of given points.
 ///
 /// An eye sorts the corners of all walls around it. No wall ends within a cone between two
