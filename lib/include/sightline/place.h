@@ -90,6 +90,20 @@ typedef struct sl_placement {
 SL_API sl_status sl_place(sl_context *context, sl_query *query, const sl_place_options *options,
                           sl_placement *out);
 
+/// Where points are taken from.
+typedef enum sl_place_from {
+    SL_PLACE_CORNERS, ///< ends of walls, exactly
+    SL_PLACE_WALLS,   ///< along walls, on each side that is inside, at equal distances of up to a
+                      ///< step (0: the middle of each); off the wall by 2^-20 of its length
+    SL_PLACE_GRID,    ///< multiples of a step
+} sl_place_from;
+
+/// Points that are inside, by x, then by y: to place viewpoints at, or as targets. The caller frees
+/// them: sl_free(). SL_BAD_ARGUMENT for a step that is not positive (of walls: negative), for more
+/// than 2^24 points, and where there is none.
+SL_API sl_status sl_place_points(sl_context *context, sl_query *query, sl_place_from from,
+                                 double step, sl_point **points, uint32_t *count);
+
 /// Places to choose from, and targets to see: both are lists, so fields of view, ranges, costs and
 /// demands are possible. Bounds hold for these places and targets alone. What may be NULL is so
 /// where nothing is said.
