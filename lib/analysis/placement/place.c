@@ -20,7 +20,7 @@
 #include "geometry/orient.h"
 #include "sightline/overlay.h"
 
-enum { USUAL_ROUNDS = 60, UPPER_STEPS = 30 };
+enum { USUAL_ROUNDS = 400, UPPER_STEPS = 30 };
 
 sl_place_options sl_place_options_default(void) {
     return (sl_place_options){.nodes = 10000};

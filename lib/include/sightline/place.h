@@ -43,10 +43,11 @@ typedef struct sl_place_options {
     const sl_cover_program *program; ///< for set covers; NULL: without a linear program
     const sl_point *places; ///< to choose from; NULL: anywhere. `lower` is then for these alone
     uint32_t place_count;
-    uint64_t rounds; ///< at most so many; 0 for no limit
+    uint64_t rounds; ///< at most so many; 0 for 400; among given places for no limit
     uint64_t nodes;  ///< of the branching tree of each set cover, at most
 } sl_place_options;
 
+/// Anywhere, without a linear program, no limit of rounds.
 SL_API sl_place_options sl_place_options_default(void);
 
 /// A point that the lower bound asks to be seen.
