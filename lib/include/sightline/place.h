@@ -47,7 +47,7 @@ typedef struct sl_place_options {
     uint64_t nodes;  ///< of the branching tree of each set cover, at most
 } sl_place_options;
 
-/// Anywhere, without a linear program, no limit of rounds.
+/// Anywhere, without a linear program.
 SL_API sl_place_options sl_place_options_default(void);
 
 /// A point that the lower bound asks to be seen.
