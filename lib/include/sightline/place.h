@@ -71,9 +71,9 @@ typedef struct sl_placement {
     sl_point *places;     ///< by column: a place that sees it, rounded
     sl_cover_proof proof; ///< of `lower`, for `columns`
     uint64_t rounds;
-    /// Parts of borders of visible regions beyond which something is unseen, but no point with
-    /// doubles as coordinates was found; 0: nothing is unseen, proven. Slivers remain where a
-    /// viewpoint must stand in line with walls, and the line has no such point.
+    /// Parts of borders of visible regions beyond which something is unseen, thinner than about
+    /// 2^-36 of their length: a search found no unseen point there. 0: nothing is unseen, proven.
+    /// Slivers remain where a viewpoint must stand in line with walls, and does not exactly.
     uint64_t slivers;
     double unseen_area;      ///< of the slivers, rounded
     double seen, seen_bound; ///< of sl_place_list.count: the weight that is seen; no set of so many
