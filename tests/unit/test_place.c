@@ -389,6 +389,33 @@ static void cancelled(void **state) {
     end(&p);
 }
 
+/// Memory fails once, at one allocation after the other: it is said, and nothing is left behind.
+static void without_memory(void **state) {
+    (void)state;
+    static const sl_point corners[] = {{0, 0}, {9, 0}, {9, 8}, {6, 8}, {6, 4},
+                                       {3, 4}, {3, 8}, {1, 9}, {0, 8}};
+    plan p;
+    long failed = 0;
+    begin(&p);
+    assert_ok(p.context, sl_map_add_open(p.context, &p.map, corners, 9, 0));
+    ready(&p);
+    p.memory.once = true;
+    for (long n = 1, done = 0; !done; n += 1 + n / 16) {
+        sl_placement placed = {0};
+        p.memory.fail_at = p.memory.calls + n;
+        const sl_status status = sl_place(p.context, p.query, NULL, &placed);
+        done = p.memory.calls < p.memory.fail_at;
+        p.memory.fail_at = 0;
+        assert_true(status == SL_OK || status == SL_NO_MEMORY);
+        assert_true((status == SL_OK) == (placed.viewpoints != NULL));
+        failed += status == SL_NO_MEMORY;
+        if (status == SL_OK) assert_int_equal(placed.lower, 2);
+        sl_placement_destroy(p.context, &placed);
+    }
+    assert_true(failed > 20);
+    end(&p);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(known_combs),
@@ -401,6 +428,7 @@ int main(void) {
         cmocka_unit_test(given_places),
         cmocka_unit_test(refusals),
         cmocka_unit_test(cancelled),
+        cmocka_unit_test(without_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -207,6 +207,44 @@ static void most(void **state) {
     }
 }
 
+static bool has(const sl_point *points, uint32_t count, double x, double y) {
+    for (uint32_t i = 0; i < count; i++)
+        if (points[i].x == x && points[i].y == y) return true;
+    return false;
+}
+
+static void points_of_a_plan(void **state) {
+    (void)state;
+    scene s;
+    sl_point *points;
+    uint32_t count;
+    begin(&s, 1, 360, 0);
+    assert_ok(s.context, sl_place_points(s.context, s.query, SL_PLACE_CORNERS, 0, &points, &count));
+    assert_int_equal(count, 14); // the hall's, two pillars' and a wall's, each once
+    assert_true(has(points, count, 9, 5) && has(points, count, 3, 3) && has(points, count, 0, 8));
+    sl_free(s.context, points);
+    // 11 walls, and a thin one with two sides; its end cuts the wall that it stands on.
+    assert_ok(s.context, sl_place_points(s.context, s.query, SL_PLACE_WALLS, 0, &points, &count));
+    assert_true(count >= 15);
+    for (uint32_t i = 0; i < count; i++) assert_true(sl_space_is_inside(&s.space, points[i]));
+    const uint32_t few = count;
+    sl_free(s.context, points);
+    assert_ok(s.context, sl_place_points(s.context, s.query, SL_PLACE_WALLS, 0.5, &points, &count));
+    assert_true(count > 3 * few);
+    sl_free(s.context, points);
+    assert_ok(s.context, sl_place_points(s.context, s.query, SL_PLACE_GRID, 2, &points, &count));
+    assert_int_equal(count, 7 * 5 - 1); // (4, 4) is solid
+    assert_false(has(points, count, 4, 4));
+    sl_free(s.context, points);
+    assert_int_equal(sl_place_points(s.context, s.query, SL_PLACE_GRID, 0, &points, &count),
+                     SL_BAD_ARGUMENT);
+    assert_int_equal(sl_place_points(s.context, s.query, SL_PLACE_GRID, 1e-9, &points, &count),
+                     SL_BAD_ARGUMENT);
+    assert_int_equal(sl_place_points(s.context, s.query, SL_PLACE_WALLS, -1, &points, &count),
+                     SL_BAD_ARGUMENT);
+    end(&s);
+}
+
 static void refused(void **state) {
     (void)state;
     scene s;
@@ -232,6 +270,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(fewest),
         cmocka_unit_test(most),
+        cmocka_unit_test(points_of_a_plan),
         cmocka_unit_test(refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

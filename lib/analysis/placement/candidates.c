@@ -171,6 +171,8 @@ sl_cover_options sli_cover_options(const sli_placer *p) {
     sl_cover_options options = sl_cover_options_default();
     options.program = p->options->program;
     options.nodes = p->options->nodes;
+    // Rows are only added, so earlier bounds hold.
+    options.known_lower = p->out->lower;
     return options;
 }
 

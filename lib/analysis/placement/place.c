@@ -20,7 +20,7 @@
 #include "geometry/orient.h"
 #include "sightline/overlay.h"
 
-enum { USUAL_ROUNDS = 60, UPPER_STEPS = 30 };
+enum { USUAL_ROUNDS = 400, UPPER_STEPS = 30 };
 
 sl_place_options sl_place_options_default(void) {
     return (sl_place_options){.nodes = 10000};
@@ -58,6 +58,7 @@ void sli_placer_destroy(sli_placer *p) {
     sl_free(p->context, p->chosen.items);
     sl_free(p->context, (void *)p->looks.items);
     sl_free(p->context, p->unseen.items);
+    sli_crossings_destroy(p->context, &p->crossings);
     sl_free(p->context, p->lines.items);
     sl_free(p->context, p->gaps.items);
 }
@@ -233,7 +234,7 @@ static sl_status bound_below(sli_placer *p, bool *gaps, bool *added) {
     for (size_t i = 0; i < p->active.count; i++)
         p->looks.items[p->looks.count++] = &p->witnesses.items[p->active.items[i]];
     SL_TRY(sli_place_columns_make(p->context, &p->ground, p->looks.items, (uint32_t)p->active.count,
-                                  &c));
+                                  &p->crossings, &c));
     const sl_status status = use_columns(p, &c);
     sli_place_columns_destroy(p->context, &c);
     SL_TRY(status);

@@ -32,6 +32,7 @@ typedef struct sli_placer {
     SL_ARRAY(const sli_look *) looks;   ///< scratch
     SL_ARRAY(sli_hard_witness) unseen;  ///< scratch
     SL_ARRAY(sl_segment) lines;         ///< of walls that gaps' apexes hid
+    sli_crossings crossings;            ///< of the active witnesses
     sli_window_parts gaps;
     sl_placement *out;
 } sli_placer;

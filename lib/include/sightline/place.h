@@ -36,10 +36,11 @@ typedef struct sl_place_options {
     const sl_cover_program *program; ///< for set covers; NULL: without a linear program
     const sl_point *places; ///< to choose from; NULL: anywhere. `lower` is then for these alone
     uint32_t place_count;
-    uint64_t rounds; ///< at most so many; 0 for no limit
+    uint64_t rounds; ///< at most so many; 0 for 400; among given places for no limit
     uint64_t nodes;  ///< of the branching tree of each set cover, at most
 } sl_place_options;
 
+/// Anywhere, without a linear program.
 SL_API sl_place_options sl_place_options_default(void);
 
 /// A point that the lower bound asks to be seen.
@@ -63,9 +64,9 @@ typedef struct sl_placement {
     sl_point *places;     ///< by column: a place that sees it, rounded
     sl_cover_proof proof; ///< of `lower`, for `columns`
     uint64_t rounds;
-    /// Parts of borders of visible regions beyond which something is unseen, but no point with
-    /// doubles as coordinates was found; 0: nothing is unseen, proven. Slivers remain where a
-    /// viewpoint must stand in line with walls, and the line has no such point.
+    /// Parts of borders of visible regions beyond which something is unseen, thinner than about
+    /// 2^-36 of their length: a search found no unseen point there. 0: nothing is unseen, proven.
+    /// Slivers remain where a viewpoint must stand in line with walls, and does not exactly.
     uint64_t slivers;
     double unseen_area;      ///< of the slivers, rounded
     double seen, seen_bound; ///< of sl_place_list.count: the weight that is seen; no set of so many
@@ -82,6 +83,20 @@ typedef struct sl_placement {
 /// gives the same bytes.
 SL_API sl_status sl_place(sl_context *context, sl_query *query, const sl_place_options *options,
                           sl_placement *out);
+
+/// Where points are taken from.
+typedef enum sl_place_from {
+    SL_PLACE_CORNERS, ///< ends of walls, exactly
+    SL_PLACE_WALLS,   ///< along walls, on each side that is inside, at equal distances of up to a
+                      ///< step (0: the middle of each); off the wall by 2^-20 of its length
+    SL_PLACE_GRID,    ///< multiples of a step
+} sl_place_from;
+
+/// Points that are inside, by x, then by y: to place viewpoints at, or as targets. The caller frees
+/// them: sl_free(). SL_BAD_ARGUMENT for a step that is not positive (of walls: negative), for more
+/// than 2^24 points, and where there is none.
+SL_API sl_status sl_place_points(sl_context *context, sl_query *query, sl_place_from from,
+                                 double step, sl_point **points, uint32_t *count);
 
 /// Places to choose from, and targets to see: both are lists, so fields of view, ranges, costs and
 /// demands are possible. Bounds hold for these places and targets alone. What may be NULL is so
