@@ -218,6 +218,22 @@ int sli_crossing_side(sl_point from, sl_point to, sl_segment s, sl_segment t) {
     return a * compare_shares(from, to, &s, &t);
 }
 
+/// With D(t, p) = (t.b - t.a) x (p - t.a), t meets s at the share D(t, s.a) / (D(t, s.a) - D(t,
+/// s.b)) of the way. The difference of two shares has the sign of a difference of two products.
+int sli_meet_order(sl_segment s, sl_segment t, sl_segment u) {
+    const int first = lowest_exponent(&s, &t), second = lowest_exponent(&s, &u);
+    const int exponent = first < second ? first : second;
+    sli_whole one, other, left, right;
+    determinant_exact(u.a, u.b, s.a, exponent, &one);
+    determinant_exact(t.a, t.b, s.b, exponent, &other);
+    sli_whole_multiply(&one, &other, &left);
+    determinant_exact(t.a, t.b, s.a, exponent, &one);
+    determinant_exact(u.a, u.b, s.b, exponent, &other);
+    sli_whole_multiply(&one, &other, &right);
+    return sli_whole_compare(&left, &right) * sli_turn(t.a, t.b, s.a, s.b) *
+           sli_turn(u.a, u.b, s.a, s.b);
+}
+
 static int axial_meet_side_exact(sl_point eye, sl_point point, sl_point a, sl_point b, int axis,
                                  double value) {
     const sl_segment s = {eye, point}, t = {a, b};

@@ -50,24 +50,26 @@ typedef struct overlayer {
     sli_triangulation triangles;
     change *changes; ///< by wall of the pieces: first_change[w] .. first_change[w + 1]
     size_t *first_change;
-    uint32_t *beside; ///< by wall: the piece at its left, and the one at its right
-    int32_t *winding; ///< by shape: how often it goes around the walk's piece
-    uint32_t covering;
+    uint32_t *beside;   ///< by wall: the piece at its left, and the one at its right
+    int32_t *winding;   ///< by shape: how often it goes around the walk's piece
+    uint32_t *covering; ///< the shapes that cover the walk's piece, and
+    uint32_t *place;    ///< by shape: where it stands among them
+    uint32_t covering_count;
     visit *path;
     sl_overlay *out;
 } overlayer;
 
 // --- the outlines
 
-static sl_status add_side(overlayer *o, sl_point a, sl_point b) {
-    return sli_same_point(a, b) ? SL_OK : sl_map_add_wall(o->context, &o->map, a, b, 0);
+static sl_status add_side(overlayer *o, sl_point a, sl_point b, uint32_t number) {
+    return sli_same_point(a, b) ? SL_OK : sl_map_add_wall(o->context, &o->map, a, b, number);
 }
 
-static sl_status add_shape(overlayer *o, const sl_shape *shape) {
+static sl_status add_shape(overlayer *o, const sl_shape *shape, uint32_t number) {
     for (size_t i = 0, from = 0; i < shape->count; from = shape->ends[i++])
         for (size_t k = from; k < shape->ends[i]; k++)
             SL_TRY(add_side(o, shape->points[k],
-                            shape->points[k + 1 < shape->ends[i] ? k + 1 : from]));
+                            shape->points[k + 1 < shape->ends[i] ? k + 1 : from], number));
     return SL_OK;
 }
 
@@ -75,7 +77,7 @@ static sl_status add_outlines(overlayer *o, const sl_shape *within) {
     for (size_t i = 0; i <= o->count; i++) {
         o->first_segment[i] = o->map.wall_count;
         const sl_shape *shape = i < o->count ? &o->shapes[i] : within;
-        if (shape) SL_TRY(add_shape(o, shape));
+        if (shape) SL_TRY(add_shape(o, shape, (uint32_t)i));
     }
     o->first_segment[o->count + 1] = o->map.wall_count;
     return SL_OK;
@@ -132,6 +134,17 @@ static void note_beside(overlayer *o) {
 
 // --- the walk
 
+static void set_covering(overlayer *o, uint32_t shape, bool covers) {
+    if (covers) {
+        o->place[shape] = o->covering_count;
+        o->covering[o->covering_count++] = shape;
+        return;
+    }
+    const uint32_t last = o->covering[--o->covering_count];
+    o->covering[o->place[shape]] = last;
+    o->place[last] = o->place[shape];
+}
+
 /// Crosses a wall to the piece that has it as this neighbour, or back.
 static void cross(overlayer *o, uint32_t side, bool back) {
     if (side >= SL_NEIGHBOUR_BORDER) return; // no wall
@@ -142,16 +155,19 @@ static void cross(overlayer *o, uint32_t side, bool back) {
         const bool before = *winding != 0;
         *winding += to_left ? o->changes[k].by : -o->changes[k].by;
         if (o->changes[k].shape < o->count && before != (*winding != 0))
-            o->covering += before ? -1u : 1u;
+            set_covering(o, o->changes[k].shape, !before);
     }
 }
 
 static void enter(overlayer *o, uint32_t piece, uint32_t through, size_t *depth) {
     sl_cell *cell = &o->out->pieces.cells[piece];
     cross(o, through, false);
-    o->out->counts[piece] = o->covering;
-    cell->inside = o->limited ? o->winding[o->count] != 0 : o->covering > 0;
+    const uint32_t covering = o->out->counts[piece] = o->covering_count;
+    cell->inside = o->limited ? o->winding[o->count] != 0 : covering > 0;
     o->out->pieces.inside_count += cell->inside;
+    const double area = cell->inside && covering ? sl_space_area(&o->out->pieces, piece) : 0;
+    for (uint32_t i = 0; i < covering; i++) o->out->covered[o->covering[i]] += area;
+    if (covering == 1) o->out->alone[o->covering[0]] += area;
     o->path[(*depth)++] = (visit){piece, 0, cell->first_directed, through};
 }
 
@@ -210,9 +226,12 @@ static sl_status count_pieces(overlayer *o) {
         sl_alloc_array(o->context, (size_t)pieces->wall_count + 2, sizeof *o->first_change);
     o->beside = sl_alloc_array(o->context, 2 * (size_t)pieces->wall_count, sizeof *o->beside);
     o->winding = sl_alloc_array(o->context, o->count + 1, sizeof *o->winding);
+    o->covering = sl_alloc_array(o->context, o->count + 1, sizeof *o->covering);
+    o->place = sl_alloc_array(o->context, o->count + 1, sizeof *o->place);
     o->path = sl_alloc_array(o->context, pieces->cell_count, sizeof *o->path);
     o->out->counts = sl_alloc_array(o->context, pieces->cell_count, sizeof *o->out->counts);
-    if (!o->changes || !o->first_change || !o->beside || !o->winding || !o->path || !o->out->counts)
+    if (!o->changes || !o->first_change || !o->beside || !o->winding || !o->covering || !o->place ||
+        !o->path || !o->out->counts)
         return SL_NO_MEMORY;
     SL_TRY(number_walls(o, &wall));
     note_changes(o, wall);
@@ -269,8 +288,11 @@ static sl_status add_areas(overlayer *o) {
 static sl_status make(overlayer *o, const sl_shape *within) {
     o->out->shape_count = o->count;
     o->out->areas = sl_alloc_array(o->context, o->count + 1, sizeof *o->out->areas);
+    o->out->covered = sl_alloc_array(o->context, o->count, sizeof *o->out->covered);
+    o->out->alone = sl_alloc_array(o->context, o->count, sizeof *o->out->alone);
     o->first_segment = sl_alloc_array(o->context, o->count + 2, sizeof *o->first_segment);
-    if (!o->out->areas || !o->first_segment) return SL_NO_MEMORY;
+    if (!o->out->areas || !o->out->covered || !o->out->alone || !o->first_segment)
+        return SL_NO_MEMORY;
     SL_TRY(add_outlines(o, within));
     if (!o->map.wall_count) return SL_OK;
     SL_TRY(cut(o));
@@ -291,8 +313,9 @@ sl_status sl_overlay_make(sl_context *context, const sl_shape *within, const sl_
     sl_map_destroy(context, &o.map);
     sli_planar_destroy(context, &o.graph);
     sli_triangulation_destroy(context, &o.triangles);
-    void *const scratch[] = {o.first_segment, o.lines.items.items, o.changes, o.first_change,
-                             o.beside,        o.winding,           o.path};
+    void *const scratch[] = {o.first_segment, o.lines.items.items, o.changes,  o.first_change,
+                             o.beside,        o.winding,           o.covering, o.place,
+                             o.path};
     for (size_t i = 0; i < sizeof scratch / sizeof *scratch; i++) sl_free(context, scratch[i]);
     if (status == SL_OK)
         *out = made;
@@ -305,5 +328,7 @@ void sl_overlay_destroy(sl_context *context, sl_overlay *overlay) {
     sl_space_destroy(context, &overlay->pieces);
     sl_free(context, overlay->areas);
     sl_free(context, overlay->counts);
+    sl_free(context, overlay->covered);
+    sl_free(context, overlay->alone);
     *overlay = (sl_overlay){0};
 }

@@ -233,6 +233,10 @@ sl_status sl_query_set_range(sl_context *context, sl_query *query, double range)
     return SL_OK;
 }
 
+double sl_query_range(const sl_query *query) {
+    return query->range;
+}
+
 sl_status sl_query_set_mirror_depth(sl_context *context, sl_query *query, uint32_t depth) {
     if (depth > MIRROR_DEPTH_MOST)
         return sl_fail(context, SL_BAD_ARGUMENT, "the mirror depth must be 0 to %d",

@@ -112,7 +112,7 @@ static sl_status note_path(sl_context *context, const sl_path *path, const isovi
 static sl_status add_table(sl_context *context, const isovist_plan *plan, isovist_work *w) {
     const sl_space *space = &w->baked.space;
     char what[256];
-    SL_TRY(eyes_read_csv(context, plan->points, space, plan->like, &w->eyes));
+    SL_TRY(eyes_read_table(context, plan->points, space, plan->like, &w->eyes));
     snprintf(what, sizeof what, "--points %s", plan->points);
     places_note_outside(context, what, space, w->eyes.list.items, w->eyes.list.count);
     return SL_OK;
@@ -145,7 +145,8 @@ static sl_status add_starts(sl_context *context, const isovist_plan *plan, isovi
     for (size_t i = input_next_start(map, space, 0); i < map->start_count;
          i = input_next_start(map, space, i + 1)) {
         const double look = plan->look_given ? plan->like.heading : map->starts[i].heading;
-        SL_TRY(eyes_add(context, &w->eyes, (eye_place){map->starts[i].at, look, plan->like.fov}));
+        SL_TRY(
+            eyes_add(context, &w->eyes, (eye_place){map->starts[i].at, look, plan->like.fov, 0}));
     }
     if (w->eyes.list.count) return SL_OK;
     return sl_fail(context, SL_BAD_ARGUMENT,
@@ -217,9 +218,9 @@ static sl_status gather_parts(sl_context *context, isovist_work *w) {
     sl_mirrored_region region = {0};
     sl_status status = SL_OK;
     for (size_t i = 0; i < w->eyes.list.count && status == SL_OK; i++) {
-        const sl_view view = eye_view(&w->baked.space, &w->eyes.list.items[i]);
         status = sl_check_cancelled(context);
-        if (status == SL_OK) status = isovist_look(context, &w->scene, &view, &region);
+        if (status == SL_OK)
+            status = isovist_look(context, &w->scene, &w->eyes.list.items[i], &region);
         if (status == SL_OK)
             status = seen_parts_add(context, &w->baked.space, &region, true, &w->parts);
     }
@@ -295,7 +296,8 @@ static sl_status make_scene(sl_context *context, const isovist_plan *plan, isovi
     SL_TRY(sl_query_set_mirror_depth(context, w->query, plan->mirror_depth));
     w->scene = (isovist_scene){.query = w->query,
                                .earth = w->baked.map.earth,
-                               .mirrored = w->baked.map.mirror_count && !plan->together};
+                               .mirrored = w->baked.map.mirror_count && !plan->together,
+                               .range = plan->range};
     SL_TRY(sl_query_space(context, w->query, &w->scene.space, NULL));
     if (w->baked.map.mirror_count && plan->together)
         sl_note(context, "mirrors are walls here: --union counts what is seen directly");
@@ -389,8 +391,9 @@ sl_status cmd_isovist(command_console *console, int argc, char **argv) {
         {"step", 0, "STEP", "with --path: look from a point every STEP along it",
          .number = &plan.step, .over_0 = true, .rare = true},
         {"points", 0, "CSV",
-         "look from the points of a table: x,y or x,y,heading or x,y,heading,fov; its first line "
-         "may name the columns",
+         "look from the viewpoints of a table: x,y or x,y,heading,fov,range; its first line may "
+         "name "
+         "the columns (see sightline cover)",
          .text = &plan.points, .is_input = true, .rare = true},
         {"mirror-depth", 0, "N", "largest number of reflections, up to 16 (default 1)",
          .count32 = &plan.mirror_depth, .most = 16, .rare = true},

@@ -239,10 +239,11 @@ static sl_status walk_agents(sl_context *context, const vga_plan *plan, vga_work
 
 static sl_status measure_regions(sl_context *context, const vga_plan *plan, vga_work *w) {
     const sl_vga_grid *grid = &w->table.grid;
-    const isovist_scene scene = {.space = &w->baked.space, .query = w->query};
+    const isovist_scene scene = {
+        .space = &w->baked.space, .query = w->query, .range = sl_query_range(w->query)};
     SL_TRY(sl_query_set_range(context, w->query, plan->range));
     for (uint32_t p = 0; p < grid->count; p++)
-        SL_TRY(eyes_add(context, &w->eyes, (eye_place){grid->points[p], 0, 360}));
+        SL_TRY(eyes_add(context, &w->eyes, (eye_place){grid->points[p], 0, 360, 0}));
     w->table.isovists = sl_alloc_array(context, grid->count, sizeof *w->table.isovists);
     if (!w->table.isovists) return SL_NO_MEMORY;
     return isovist_run(context, &scene, &w->eyes, plan->options.threads, w->table.isovists);

@@ -3,6 +3,7 @@
 
 #include "reports/report.h"
 #include "sightline/support.h"
+#include "system/deadline.h"
 
 #include <inttypes.h>
 
@@ -10,33 +11,6 @@
 enum { LEAST_TIMINGS = 3 };
 #define ENOUGH_SECONDS 0.2
 #define MOST_SECONDS   5.0
-
-/// The hooks of a run: the console's, and a clock.
-typedef struct watch {
-    const sl_hooks *console;
-    const char *label;
-    double deadline;
-    bool late; ///< the deadline was what stopped the run
-} watch;
-
-static void show_progress(void *user, const sl_progress *progress) {
-    const watch *w = user;
-    sl_progress shown = *progress;
-    shown.stage = w->label;
-    if (w->console->progress) w->console->progress(w->console->user, &shown);
-}
-
-static void show_note(void *user, const char *message) {
-    const watch *w = user;
-    if (w->console->note) w->console->note(w->console->user, message);
-}
-
-static bool is_cancelled(void *user) {
-    watch *w = user;
-    if (w->console->cancelled && w->console->cancelled(w->console->user)) return true;
-    w->late = sl_seconds() >= w->deadline;
-    return w->late;
-}
 
 static bool is_enough(const run_timing *timing, size_t count, double sum) {
     if (timing->repeat) return count >= timing->repeat;
@@ -46,7 +20,7 @@ static bool is_enough(const run_timing *timing, size_t count, double sum) {
 typedef SL_ARRAY(double) durations;
 
 /// Runs until the time is known well enough. Keeps the first answer; the others are the same.
-static sl_status run_often(sl_context *context, watch *w, const sl_space *space,
+static sl_status run_often(sl_context *context, deadline *limit, const sl_space *space,
                            const sl_see_options *options, const run_timing *timing,
                            durations *taken, compare_run *run) {
     double sum = 0;
@@ -54,7 +28,7 @@ static sl_status run_often(sl_context *context, watch *w, const sl_space *space,
         SL_TRY(SL_ARRAY_ROOM(context, taken, 1));
         sl_visibility visibility = {0};
         const double start = sl_seconds();
-        w->deadline = start + timing->limit;
+        limit->at = start + timing->limit;
         SL_TRY(run->method->see(context, space, options, &visibility));
         const double seconds = sl_seconds() - start;
         if (taken->count)
@@ -79,17 +53,15 @@ static void summarise(const durations *taken, compare_run *run) {
 sl_status compare_time(command_console *console, const sl_space *space,
                        const sl_see_options *options, const run_timing *timing, const char *label,
                        compare_run *run) {
-    watch w = {.console = sl_context_hooks(console->context), .label = label};
-    const sl_hooks hooks = {
-        .user = &w, .progress = show_progress, .note = show_note, .cancelled = is_cancelled};
-    sl_context *context = sl_context_create(&hooks);
-    if (!context) return sl_fail_memory(console->context);
+    deadline limit = {.label = label};
+    sl_context *context;
+    SL_TRY(deadline_open(console, &limit, &context));
     durations taken = {0};
-    sl_status status = run_often(context, &w, space, options, timing, &taken, run);
+    sl_status status = run_often(context, &limit, space, options, timing, &taken, run);
     run->outcome = RUN_DONE;
     if (status == SL_UNSUPPORTED)
         snprintf(run->refusal, sizeof run->refusal, "%s", sl_context_message(context));
-    if (status == SL_UNSUPPORTED || (status == SL_CANCELLED && w.late)) {
+    if (status == SL_UNSUPPORTED || (status == SL_CANCELLED && limit.late)) {
         run->outcome = status == SL_UNSUPPORTED ? RUN_REFUSED : RUN_NOT_DONE;
         status = SL_OK;
     }

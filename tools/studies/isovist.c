@@ -91,117 +91,23 @@ sl_status eyes_add_path(sl_context *context, const sl_path *path, double step, e
     return SL_OK;
 }
 
-/// What a table has of an eye, and in which columns: those of the names in the first line, or the
-/// first ones.
-enum { EYE_FIELDS = 4 };
-typedef struct eye_columns {
-    bool named;
-    size_t at[EYE_FIELDS]; ///< SIZE_MAX: none
-} eye_columns;
-
-/// The next field of a line, without blanks around it. False behind the last.
-static bool next_field(const char *line, size_t length, size_t *at, const char **field,
-                       size_t *wide) {
-    if (*at > length) return false;
-    const char *comma = memchr(line + *at, ',', length - *at);
-    size_t end = comma ? (size_t)(comma - line) : length, start = *at;
-    *at = end + 1;
-    while (start < end && (line[start] == ' ' || line[start] == '\t')) start++;
-    while (start < end && (line[end - 1] == ' ' || line[end - 1] == '\t')) end--;
-    *field = line + start;
-    *wide = end - start;
-    return true;
-}
-
-/// Names of columns: x and y, with others in any order. Where none is known, the first columns
-/// count. SL_BAD_INPUT where one is known without these two, or there is one column alone.
-static sl_status find_columns(sl_context *context, const char *path, unsigned number,
-                              const char *line, size_t length, eye_columns *out) {
-    static const char *const names[EYE_FIELDS][3] = {
-        {"x", "", ""}, {"y", "", ""}, {"heading", "angle", "look"}, {"fov", "", ""}};
-    eye_columns columns = {.at = {SIZE_MAX, SIZE_MAX, SIZE_MAX, SIZE_MAX}};
-    const char *field;
-    size_t wide, place = 0;
-    for (size_t at = 0; next_field(line, length, &at, &field, &wide); place++)
-        for (size_t k = 0; k < EYE_FIELDS; k++)
-            for (size_t n = 0; n < 3; n++)
-                if (wide && wide == strlen(names[k][n]) && memcmp(field, names[k][n], wide) == 0)
-                    columns.at[k] = place;
-    columns.named = columns.at[0] != SIZE_MAX && columns.at[1] != SIZE_MAX;
-    bool known = place < 2;
-    for (size_t k = 0; k < EYE_FIELDS; k++) known |= columns.at[k] != SIZE_MAX;
-    if (known && !columns.named)
-        return sl_fail_at(context, path, number, "the columns x,y are needed");
-    if (columns.named) *out = columns;
-    return SL_OK;
-}
-
-/// Reads the fields of an eye. An empty one that the eye need not have leaves it as it is.
-static bool read_fields(const char *line, size_t length, const eye_columns *columns,
-                        double fields[EYE_FIELDS]) {
-    const char *field;
-    size_t wide, place = 0, count = 0;
-    for (size_t at = 0; next_field(line, length, &at, &field, &wide); place++) {
-        size_t k = 0;
-        while (k < EYE_FIELDS && columns->at[k] != place) k++;
-        if (k == EYE_FIELDS && columns->named) continue;
-        if (k >= 2 && columns->named && !wide) continue;
-        if (k == EYE_FIELDS || !sl_number_read(field, wide, &fields[k]) || !isfinite(fields[k]))
-            return false;
-        count += k < 2;
-    }
-    return count == 2;
-}
-
-static bool is_blank(const char *line, size_t length) {
-    for (size_t i = 0; i < length; i++)
-        if (line[i] != ' ' && line[i] != '\t') return false;
-    return true;
-}
-
-/// A line without a digit: it cannot hold numbers.
-static bool is_header(const char *line, size_t length) {
-    for (size_t i = 0; i < length; i++)
-        if (line[i] >= '0' && line[i] <= '9') return false;
-    return true;
-}
-
-static sl_status read_line(sl_context *context, const char *path, unsigned number, const char *line,
-                           size_t length, const eye_columns *columns, const sl_space *space,
-                           eye_place like, eye_places *eyes) {
-    double fields[EYE_FIELDS] = {0, 0, like.heading, like.fov};
-    if (!read_fields(line, length, columns, fields))
-        return sl_fail_at(context, path, number,
-                          "two to four finite numbers are needed: x, y, heading, fov");
-    const eye_place eye = {{fields[0], fields[1]}, fields[2], fields[3]};
-    if (!(eye.fov >= 0 && eye.fov <= 360))
-        return sl_fail_at(context, path, number, "fov must be 0 to 360 degrees");
-    SL_TRY(input_check_place(context, path, number, space, eye.at));
-    return eyes_add(context, eyes, eye);
-}
-
-sl_status eyes_read_csv(sl_context *context, const char *path, const sl_space *space,
-                        eye_place like, eye_places *eyes) {
-    sl_bytes text;
-    SL_TRY(sl_file_read(context, path, &text));
+sl_status eyes_read_table(sl_context *context, const char *path, const sl_space *space,
+                          eye_place like, eye_places *eyes) {
+    const sl_viewpoint usual = {.heading = like.heading, .fov = like.fov, .range = like.range};
+    sl_cameras cameras;
+    SL_TRY(sl_cameras_read(context, path, &usual, &cameras));
     sl_status status = SL_OK;
-    unsigned number = 0;
-    eye_columns columns = {.at = {0, 1, 2, 3}};
-    for (size_t at = 0; at < text.size && status == SL_OK;) {
-        const char *line = text.data + at, *end = memchr(line, '\n', text.size - at);
-        size_t length = end ? (size_t)(end - line) : text.size - at;
-        at += length + 1;
-        if (length && line[length - 1] == '\r') length--;
-        number++;
-        if (is_blank(line, length)) continue;
-        if (number == 1 && is_header(line, length))
-            status = find_columns(context, path, number, line, length, &columns);
-        else
-            status = read_line(context, path, number, line, length, &columns, space, like, eyes);
+    bool dead_zones = false;
+    for (size_t i = 0; i < cameras.count && status == SL_OK; i++) {
+        const sl_viewpoint *v = &cameras.items[i].view;
+        dead_zones |= v->nearest > 0;
+        status = input_check_place(context, path, cameras.items[i].line, space, v->at);
+        if (status == SL_OK)
+            status = eyes_add(context, eyes, (eye_place){v->at, v->heading, v->fov, v->range});
     }
-    sl_free(context, text.data);
-    if (status == SL_OK && !eyes->list.count)
-        status = sl_fail(context, SL_BAD_INPUT, "%s: there is no point in it", path);
+    sl_cameras_destroy(context, &cameras);
+    if (status == SL_OK && dead_zones)
+        sl_note(context, "%s: dead zones do not count here; sightline cover counts them", path);
     return status;
 }
 
@@ -255,15 +161,31 @@ sl_view eye_view(const sl_space *space, const eye_place *eye) {
     return sl_view_cone(eye->at, eye->heading, eye->fov, reach);
 }
 
-sl_status isovist_look(sl_context *context, const isovist_scene *scene, const sl_view *view,
-                       sl_mirrored_region *out) {
-    return scene->mirrored ? sl_query_mirrored_region(context, scene->query, view, out)
-                           : sl_query_region(context, scene->query, view, &out->direct);
+/// How far an eye sees: as far as all, or less.
+static double range_of(const isovist_scene *scene, const eye_place *eye) {
+    const bool less = eye->range > 0 && !(scene->range > 0 && scene->range < eye->range);
+    return less ? eye->range : scene->range;
 }
 
+/// Looks as far as the query is set to see.
+static sl_status look_so_far(sl_context *context, const isovist_scene *scene, const eye_place *eye,
+                             sl_mirrored_region *out) {
+    const sl_view view = eye_view(scene->space, eye);
+    return scene->mirrored ? sl_query_mirrored_region(context, scene->query, &view, out)
+                           : sl_query_region(context, scene->query, &view, &out->direct);
+}
+
+sl_status isovist_look(sl_context *context, const isovist_scene *scene, const eye_place *eye,
+                       sl_mirrored_region *out) {
+    SL_TRY(sl_query_set_range(context, scene->query, range_of(scene, eye)));
+    return look_so_far(context, scene, eye, out);
+}
+
+/// The eyes of one range: the query has one range for all threads.
 typedef struct job {
     const isovist_scene *scene;
     const eye_places *eyes;
+    double range;
     isovist_result *out;
 } job;
 
@@ -279,9 +201,10 @@ static sl_status measure_bundle(sl_context *context, void *all, void *state, siz
     const sl_space *space = j->scene->space;
     const size_t first = bundle * EYES_A_BUNDLE, count = j->eyes->list.count;
     for (size_t i = first; i < count && i < first + EYES_A_BUNDLE; i++) {
-        const sl_view view = eye_view(space, &j->eyes->list.items[i]);
+        const eye_place *eye = &j->eyes->list.items[i];
+        if (range_of(j->scene, eye) != j->range) continue;
         SL_TRY(sl_check_cancelled(context));
-        SL_TRY(isovist_look(context, j->scene, &view, region));
+        SL_TRY(look_so_far(context, j->scene, eye, region));
         j->out[i] = (isovist_result){sl_region_measure(&region->direct),
                                      sl_region_corners(&region->direct, space, NULL, 0),
                                      sl_mirrored_area(region), region->part_count};
@@ -297,7 +220,7 @@ static void end_isovist_worker(sl_context *context, void *all, void *state) {
 
 sl_status isovist_run(sl_context *context, const isovist_scene *scene, const eye_places *eyes,
                       unsigned threads, isovist_result *out) {
-    job j = {scene, eyes, out};
+    job j = {scene, eyes, 0, out};
     const sl_work work = {.job = &j,
                           .begin = begin_isovist_worker,
                           .unit = measure_bundle,
@@ -305,7 +228,21 @@ sl_status isovist_run(sl_context *context, const isovist_scene *scene, const eye
                           .stage = "isovist",
                           .units = "bundles of eyes"};
     const size_t bundles = (eyes->list.count + EYES_A_BUNDLE - 1) / EYES_A_BUNDLE;
-    return sl_work_run(context, &work, bundles, threads);
+    for (bool more = true, first = true; more; first = false) {
+        // The smallest range that is left.
+        const double done = j.range;
+        more = false;
+        for (size_t i = 0; i < eyes->list.count; i++) {
+            const double range = range_of(scene, &eyes->list.items[i]);
+            if ((!first && range <= done) || (more && range >= j.range)) continue;
+            j.range = range;
+            more = true;
+        }
+        if (!more) break;
+        SL_TRY(sl_query_set_range(context, scene->query, j.range));
+        SL_TRY(sl_work_run(context, &work, bundles, threads));
+    }
+    return SL_OK;
 }
 
 /// What the table is of.
@@ -338,9 +275,8 @@ static size_t list_fields(const void *of, size_t row, table_field fields[FIELDS_
 static sl_status put_eye(sl_context *context, sl_geojson_writer *out, const isovist_scene *scene,
                          const field_rows *rows, size_t row, sl_mirrored_region *region) {
     const isovist_rows *of = rows->of;
-    const sl_view view = eye_view(scene->space, &of->eyes->list.items[row]);
     seen_parts parts = {0};
-    SL_TRY(isovist_look(context, scene, &view, region));
+    SL_TRY(isovist_look(context, scene, &of->eyes->list.items[row], region));
     const sl_status status = seen_parts_add(context, scene->space, region, true, &parts);
     if (status == SL_OK) {
         sl_geojson_put_polygon(out, "isovist", parts.items[0].points, parts.items[0].count);

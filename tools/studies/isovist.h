@@ -7,11 +7,13 @@
 #include "sightline/json.h"
 #include "sightline/query.h"
 #include "sightline/support.h"
+#include "sightline/viewpoint.h"
 
-/// A place to look from, with its heading and view cone in degrees.
+/// A place to look from, with its heading and view cone in degrees, and how far it sees.
 typedef struct eye_place {
     sl_point at;
     double heading, fov;
+    double range; ///< 0 for no limit
 } eye_place;
 
 typedef struct eye_places {
@@ -39,12 +41,10 @@ void eyes_keep_within(const sl_map *outlines, eye_places *eyes);
 sl_status eyes_add_path(sl_context *context, const sl_path *path, double step, eye_place like,
                         eye_places *eyes);
 
-/// A table: lines of x,y or x,y,heading or x,y,heading,fov. A first line of words that has x and y
-/// names the columns, of which others may be there too; any other first line of words is skipped.
-/// SL_BAD_INPUT with FILE:LINE on anything else, and on points outside the map; and without a
-/// point.
-sl_status eyes_read_csv(sl_context *context, const char *path, const sl_space *space,
-                        eye_place like, eye_places *eyes);
+/// The viewpoints of a table (sl_cameras_read()). SL_BAD_INPUT with FILE:LINE on points outside the
+/// map, too.
+sl_status eyes_read_table(sl_context *context, const char *path, const sl_space *space,
+                          eye_place like, eye_places *eyes);
 
 typedef struct isovist_result {
     sl_region_measures measures;
@@ -64,11 +64,12 @@ typedef struct isovist_scene {
     const sl_space *space; ///< as the query's settings make it
     sl_query *query;
     bool mirrored;  ///< with what is seen by mirror
+    double range;   ///< of all eyes, which may have less; 0 for no limit
     sl_earth earth; ///< where the map lies (sl_map.earth)
 } isovist_scene;
 
-/// The visible region of a view, with the parts that are seen by mirror.
-sl_status isovist_look(sl_context *context, const isovist_scene *scene, const sl_view *view,
+/// The visible region of an eye, with the parts that are seen by mirror.
+sl_status isovist_look(sl_context *context, const isovist_scene *scene, const eye_place *eye,
                        sl_mirrored_region *out);
 
 /// The number of viewpoints in the part of each viewpoint: where cells join theirs, through doors

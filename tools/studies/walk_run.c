@@ -238,7 +238,7 @@ sl_status way_frames(sl_context *context, const walk_way *way, double step, doub
         toward = i ? advance(&seen, step) : toward;
         if (at.x != toward.x || at.y != toward.y)
             look = atan2(toward.y - at.y, toward.x - at.x) * (180 / acos(-1));
-        SL_TRY(eyes_add(context, eyes, (eye_place){at, look, fov}));
+        SL_TRY(eyes_add(context, eyes, (eye_place){at, look, fov, 0}));
     }
     return SL_OK;
 }

@@ -58,6 +58,12 @@ const sl_solver *built_solver(size_t index) {
     return index < sizeof absent / sizeof *absent ? &absent[index] : NULL;
 }
 
+const sl_cover_program *built_cover_program(void) {
+    for (size_t i = 0; parts[i]; i++)
+        if (parts[i]->cover) return parts[i]->cover();
+    return NULL;
+}
+
 // --- foreign formats
 
 static const built_io *find_io(void) {

@@ -6,6 +6,7 @@
 
 #include "sightline/draw.h"
 #include "sightline/io.h"
+#include "sightline/set_cover.h"
 #include "system/console.h"
 
 /// Commands that need the part.
@@ -39,6 +40,9 @@ typedef struct built_draw {
     sl_status (*regions)(sl_context *context, const sl_baked *baked, const sl_drawn_region *regions,
                          size_t count, const char *caption, const sl_draw_options *options,
                          const char *path);
+    sl_status (*coverage)(sl_context *context, const sl_baked *baked,
+                          const sl_drawn_coverage *coverage, const char *caption,
+                          const sl_draw_options *options, const char *path);
     sl_status (*field)(sl_context *context, const sl_baked *baked, const sl_field *field,
                        const sl_draw_options *options, const char *path);
     sl_status (*patches)(sl_context *context, const sl_baked *baked, const sl_patches *patches,
@@ -52,6 +56,7 @@ typedef struct built_draw {
 typedef struct built_part {
     const built_command *commands;            ///< the last has no name
     const sl_solver *(*const *solvers)(void); ///< the last is NULL
+    const sl_cover_program *(*cover)(void);   ///< linear programs of set cover
     const built_io *io;
     const built_draw *draw;
 } built_part;
@@ -67,6 +72,9 @@ sl_status built_run(command_console *console, int argc, char **argv);
 /// The solver of a number, from 0, which is the default; NULL past the last. Where the part is off,
 /// it refuses.
 const sl_solver *built_solver(size_t index);
+
+/// What solves the linear programs of set cover; NULL where the part is off.
+const sl_cover_program *built_cover_program(void);
 
 /// Adds foreign formats to those that the context reads and writes, or formats that refuse.
 sl_status built_use_formats(sl_context *context);

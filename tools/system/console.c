@@ -254,10 +254,13 @@ int console_close(command_console *console, sl_status status) {
     // A system call that the signal broke off is reported as what it is.
     if (status == SL_IO && atomic_load(&interrupted))
         status = sl_fail(console->context, SL_CANCELLED, "%s", sl_status_name(SL_CANCELLED));
+    if (status == SL_OK && console->refuted)
+        sl_fail(console->context, SL_OK, "the proof does not hold");
     const char *message = sl_context_message(console->context);
     const bool silent = status == SL_IO && is_reader_gone(message);
-    if (status != SL_OK && message[0] && !silent)
+    if ((status != SL_OK || console->refuted) && message[0] && !silent)
         console_print_line(stderr, "sightline: ", message, strlen(message));
     sl_context_destroy(console->context);
+    if (status == SL_OK && console->refuted) return 1;
     return status == SL_OK && console->fault ? 3 : exit_status(status);
 }

@@ -29,6 +29,7 @@ typedef struct command_console {
     bool quiet;            ///< --quiet: neither notes nor progress
     const char *summary;   ///< what the command does, in a few words
     bool fault;            ///< check --strict found a fault: the exit status is 3
+    bool refuted;          ///< place --verify: a proof does not hold: the exit status is 1
     char *const *words;    ///< of the command line
     int word_count;
     const char *noted; ///< the one of them, a file's path, that the last note began with

@@ -19,8 +19,10 @@
 #include "sightline/dual.h"
 #include "sightline/explain.h"
 #include "sightline/faults.h"
+#include "sightline/overlay.h"
 #include "sightline/region.h"
 #include "sightline/view.h"
+#include "sightline/viewpoint.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -125,6 +127,25 @@ SL_API sl_status sl_draw_regions_file(sl_context *context, const sl_baked *baked
                                       const sl_drawn_region *regions, size_t count,
                                       const char *caption, const sl_draw_options *options,
                                       const char *path);
+
+/// What several viewpoints see together (coverage.h).
+typedef struct sl_drawn_coverage {
+    const sl_space *pieces; ///< a mesh; `inside` marks what counts
+    const uint32_t *counts; ///< by piece: how many viewpoints see it
+    const sl_viewpoint *viewpoints;
+    const char *const *names; ///< by viewpoint; NULL for its number, from 1
+    const sl_shape *regions;  ///< by viewpoint: what it sees
+    size_t count;             ///< of viewpoints
+    const sl_point *blind;    ///< places of blind spots to number, from 1
+    size_t blind_count;
+} sl_drawn_coverage;
+
+/// Draws the plan in the colours of how many viewpoints see each place: 0, 1, 2, 3 and more. Each
+/// viewpoint has a colour of its own for its mark, its cone and the border of what it sees. Blind
+/// spots are numbered. `caption` as above; '\n' begins a new line.
+SL_API sl_status sl_draw_coverage_file(sl_context *context, const sl_baked *baked,
+                                       const sl_drawn_coverage *coverage, const char *caption,
+                                       const sl_draw_options *options, const char *path);
 
 /// Values on a grid of squares, row after row from the lower left.
 typedef struct sl_field {

@@ -1,5 +1,5 @@
-/// Stabbing by GLPK's linear programs. In a library of its own, sightline_glpk, since GLPK is under
-/// the GPL, version 3.
+/// Stabbing and set cover by GLPK's linear programs. In a library of its own, sightline_glpk, since
+/// GLPK is under the GPL, version 3.
 #ifndef SIGHTLINE_GLPK_H
 #define SIGHTLINE_GLPK_H
 
@@ -24,6 +24,10 @@ SL_API const sl_solver *sl_glpk_exact(void);
 /// itself, a hidden sequence by the few portals that the program says are in each other's way. What
 /// cannot be confirmed is decided by the funnel. SL_EXACT for all finite coordinates.
 SL_API const sl_solver *sl_glpk_hybrid(void);
+
+/// Set cover's linear and integer programs: dual simplex in doubles, and branch and bound with
+/// cuts. A guide for sl_cover_solve() (sightline/set_cover.h), which proves its bounds by itself.
+SL_API const struct sl_cover_program *sl_cover_glpk(void);
 
 // --- the program itself, to be shown
 

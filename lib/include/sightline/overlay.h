@@ -40,8 +40,11 @@ typedef struct sl_overlay {
     double *areas; ///< areas[k]: of what counts and at least k shapes cover, up to shape_count.
                    ///< So areas[0] is all that counts, and exactly k cover areas[k] - areas[k + 1]
     sl_space pieces;  ///< a mesh that tiles the bounds of all. `inside` marks what counts, and its
-                      ///< walls are the cut outlines. sl_space_locate finds the piece of a point
+                      ///< walls are the cut outlines; the `line` of each is the number of the first
+                      ///< shape that it is of. sl_space_locate finds the piece of a point
     uint32_t *counts; ///< by piece: how many shapes cover it
+    double *covered;  ///< by shape: what it covers of all that counts
+    double *alone;    ///< by shape: what of that no other shape covers
 } sl_overlay;
 
 /// Lays shapes over each other. What is within `within` counts; where that is NULL, all that is

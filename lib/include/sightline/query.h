@@ -96,6 +96,8 @@ SL_API sl_status sl_query_set_boxes(sl_context *context, sl_query *query,
 /// are not finite; and for more than the map's own range, where it has one: the visible sets know
 /// of nothing farther.
 SL_API sl_status sl_query_set_range(sl_context *context, sl_query *query, double range);
+/// How far is seen, as it is set; 0 for no limit.
+SL_API double sl_query_range(const sl_query *query);
 
 /// How often mirrors reflect a sightline at most: 0 to 16, else SL_BAD_ARGUMENT.
 SL_API sl_status sl_query_set_mirror_depth(sl_context *context, sl_query *query, uint32_t depth);

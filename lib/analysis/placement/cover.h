@@ -1,0 +1,112 @@
+/// What the files of set cover share: the problem both ways, what reductions leave of it, and
+/// bounds in integers. Begin with set_cover.c.
+#ifndef SLI_COVER_H
+#define SLI_COVER_H
+
+#include "sightline/set_cover.h"
+#include "sightline/support.h"
+
+/// A problem by columns and by rows, lists ascending.
+typedef struct sli_cover {
+    uint32_t rows, columns;
+    size_t *column_first, *row_first;    ///< one more than there are
+    uint32_t *column_rows, *row_columns; ///< NULL in a problem without entries
+    uint32_t *costs, *demands;
+} sli_cover;
+
+/// Room for a problem; `entries` of all columns together.
+sl_status sli_cover_make(sl_context *context, uint32_t rows, uint32_t columns, size_t entries,
+                         sli_cover *out);
+/// Makes the lists by row of those by column.
+void sli_cover_turn(sli_cover *cover);
+void sli_cover_destroy(sl_context *context, sli_cover *cover);
+/// The caller's problem, its columns checked; costs are divided, and 1 each where `divisor` is 0.
+sl_status sli_cover_read(sl_context *context, const sl_cover_problem *problem, uint32_t divisor,
+                         sli_cover *out);
+
+/// What is taken and what is left undecided on the way down a tree.
+enum { SLI_COVER_FREE, SLI_COVER_OUT, SLI_COVER_IN };
+typedef struct sli_cover_state {
+    uint8_t *fixed; ///< by column
+    int64_t *rest;  ///< by row: what is still demanded; negative where more is taken
+    uint32_t *free; ///< by row: how many free columns it has
+    uint64_t taken; ///< cost
+} sli_cover_state;
+
+sl_status sli_cover_state_make(sl_context *context, const sli_cover *cover, sli_cover_state *out);
+void sli_cover_state_destroy(sl_context *context, sli_cover_state *state);
+/// A free column is taken or left; and the same undone.
+void sli_cover_fix(const sli_cover *cover, sli_cover_state *state, uint32_t column, uint8_t how);
+void sli_cover_unfix(const sli_cover *cover, sli_cover_state *state, uint32_t column);
+
+// --- reductions
+
+/// What steps leave.
+typedef struct sli_cover_left {
+    SL_ARRAY(sl_cover_step) steps;
+    bool *row_there, *column_there;
+    uint32_t *rest; ///< by row: what is still demanded
+    uint8_t *taken; ///< by column: taken by a step
+} sli_cover_left;
+
+/// Dominated rows and columns go and essential columns are taken, until nothing changes.
+sl_status sli_cover_reduce(sl_context *context, const sli_cover *cover, sli_cover_left *out);
+void sli_cover_left_destroy(sl_context *context, sli_cover_left *left);
+
+// --- sets
+
+/// Sets of columns are bytes by column. Completes `taken` to a cover by the columns that cost least
+/// for what they cover, then drops what is not needed. `duals` by row, or NULL: they make rows that
+/// are hard to cover worth more. Columns that `fixed` (NULL: none) leaves are not taken, and those
+/// that it takes stay.
+sl_status sli_cover_greedy(sl_context *context, const sli_cover *cover, const double *duals,
+                           const uint8_t *fixed, uint8_t *taken);
+uint64_t sli_cover_cost(const sli_cover *cover, const uint8_t *taken);
+
+/// Betters a cover by local search, until it costs no more than `enough` or `iterations` are over.
+sl_status sli_cover_search(sl_context *context, const sli_cover *cover, uint64_t enough,
+                           uint64_t iterations, uint8_t *taken);
+
+/// Betters a set of at most `count` columns that covers much, from `taken` on; costs are 1 each.
+/// Weights by row sum up below 2^62. Cancelled, it keeps the best so far.
+sl_status sli_cover_search_most(sl_context *context, const sli_cover *cover, const int64_t *weights,
+                                uint32_t count, uint64_t iterations, uint8_t *taken);
+
+// --- bounds
+
+/// The numerator of a bound: by its duals in integers, over `denominator`. `sums`: NULL, or by
+/// column the sum of the duals of its rows with demand.
+int64_t sli_cover_bound(const sli_cover *cover, const sli_cover_state *state, const uint64_t *duals,
+                        uint64_t denominator, int64_t *sums);
+/// The duals as integers, where bounds cannot overflow: at most the largest cost each.
+void sli_cover_duals_round(const sli_cover *cover, const double *duals, uint64_t denominator,
+                           uint64_t *out);
+/// The least whole number that is not below numerator / denominator; 0 for what is negative.
+uint64_t sli_cover_ceiling(int64_t numerator, uint64_t denominator);
+
+/// Lagrangian search: betters `duals` until the bound passes `upper - 1` or `iterations` are over.
+/// `values` by column: about what share of it the relaxation takes. `set`: NULL, or a cover that is
+/// bettered by the way.
+sl_status sli_cover_lagrange(sl_context *context, const sli_cover *cover,
+                             const sli_cover_state *state, uint64_t upper, uint64_t iterations,
+                             double *duals, double *values, uint8_t *set);
+
+// --- the tree
+
+/// A part of the problem, its best cover, and why nothing is cheaper.
+typedef struct sli_cover_part {
+    const sli_cover *cover;
+    const sl_cover_options *options;
+    uint64_t denominator;
+    uint8_t *taken;
+    uint64_t cost, lower;
+    SL_ARRAY(sl_cover_node) nodes; ///< the root is the last one, and children are before parents
+    SL_ARRAY(uint64_t) duals;
+} sli_cover_part;
+
+/// Betters bound and cover by branching. The part has a root alone; `duals` are its, and become
+/// those of the program.
+sl_status sli_cover_branch(sl_context *context, sli_cover_part *part, double *duals,
+                           uint64_t *nodes);
+
+#endif

@@ -1,0 +1,399 @@
+/// Branch and bound, depth first, with a proof that can be checked node by node.
+///
+/// The tree is grown towards a target: it shows that no set costs less, so a node whose bound comes
+/// up to the target is a leaf. The first target is the least one above the bound of the root; when
+/// its tree is whole, the target rises, up to the cost of the best set. So a search that ends early
+/// leaves the bound of the last whole tree. A cheaper set that is found on the way lowers the
+/// target.
+///
+/// At each node:
+///
+/// 1. Rows that demand all their free columns take them; a row that demands more ends the node.
+/// 2. The parent's duals bound it; where they do not suffice, duals of its own: from the linear
+///    program, which goes on from the basis of the node before, or by some Lagrangian steps.
+/// 3. Reduced costs fix columns: one that costs too much is not taken, one that is worth too much
+/// is.
+/// 4. It branches on the column that the program takes for the most part, but not wholly.
+///
+/// A column fixed by 3 is a node with one child, the other one bounded by its duals. Most of these
+/// matter to no leaf below, so a node is made only where a bound, or a row that runs short, counts
+/// on the column.
+#include "analysis/placement/cover.h"
+
+#include <string.h>
+
+/// What a tree keeps of duals at most: 256 MB. A node counts as one for so many entries of its
+/// part, and has so many Lagrangian steps.
+enum { MOST_DUALS = 1 << 25, NODE_ENTRIES = 1024, STEPS = 60 };
+
+/// Simplex steps times entries that the program may take for a node: some seconds.
+enum { PROGRAM_WORK = 1 << 28 };
+static const double whole = 1e-6;
+
+typedef struct fix {
+    uint32_t column;
+    uint8_t how;
+    size_t duals; ///< SIZE_MAX: a row takes all that it has
+} fix;
+
+typedef struct tree {
+    sli_cover_part *part;
+    const sli_cover *cover;
+    sl_cover_problem problem; ///< the same for the program
+    sli_cover_state state;
+    void *program; ///< its state; NULL: none
+    uint64_t target, *nodes_left;
+    uint64_t least; ///< bound of all leaves so far
+    bool spent;
+    SL_ARRAY(fix) fixes;
+    bool *needed;   ///< by column: some bound counts on its being left
+    int64_t *sums;  ///< by column, of the last bound
+    double *y;      ///< by row
+    double *values; ///< by column
+    uint8_t *set;   ///< by column
+} tree;
+
+static sl_status add_node(sl_context *context, tree *t, sl_cover_node node, uint32_t *at) {
+    SL_TRY(SL_ARRAY_ROOM(context, &t->part->nodes, 1));
+    *at = (uint32_t)t->part->nodes.count;
+    t->part->nodes.items[t->part->nodes.count++] = node;
+    return SL_OK;
+}
+
+static void reach(tree *t, uint64_t bound) {
+    if (bound < t->least) t->least = bound;
+}
+
+static sl_status add_leaf(sl_context *context, tree *t, size_t duals, uint64_t bound,
+                          uint32_t *at) {
+    reach(t, bound);
+    return add_node(context, t, (sl_cover_node){UINT32_MAX, {UINT32_MAX, UINT32_MAX}, duals}, at);
+}
+
+/// The bound of the state by some duals; leaves the sums of columns.
+static int64_t bound_by(tree *t, size_t duals) {
+    return sli_cover_bound(t->cover, &t->state, t->part->duals.items + duals, t->part->denominator,
+                           t->sums);
+}
+
+/// The last bound is part of the proof: it counts on columns that are not there to be taken.
+static void need_by_sums(tree *t) {
+    for (uint32_t j = 0; j < t->cover->columns; j++)
+        if (t->state.fixed[j] == SLI_COVER_OUT &&
+            t->sums[j] > (int64_t)(t->cover->costs[j] * t->part->denominator))
+            t->needed[j] = true;
+}
+
+/// A row counts on its columns that are left.
+static void need_by_row(tree *t, uint32_t row) {
+    for (size_t k = t->cover->row_first[row]; k < t->cover->row_first[row + 1]; k++)
+        if (t->state.fixed[t->cover->row_columns[k]] == SLI_COVER_OUT)
+            t->needed[t->cover->row_columns[k]] = true;
+}
+
+static sl_status fix_column(sl_context *context, tree *t, uint32_t column, uint8_t how,
+                            size_t duals) {
+    SL_TRY(SL_ARRAY_ROOM(context, &t->fixes, 1));
+    t->fixes.items[t->fixes.count++] = (fix){column, how, duals};
+    sli_cover_fix(t->cover, &t->state, column, how);
+    return SL_OK;
+}
+
+/// Takes what rows must have. `row`: one that cannot have enough, or UINT32_MAX.
+static sl_status take_forced(sl_context *context, tree *t, uint32_t *short_row) {
+    const sli_cover *c = t->cover;
+    *short_row = UINT32_MAX;
+    for (uint32_t r = 0; r < c->rows; r++) {
+        if (t->state.rest[r] <= 0 || t->state.free[r] > t->state.rest[r]) continue;
+        need_by_row(t, r);
+        if (t->state.free[r] < t->state.rest[r]) {
+            *short_row = r;
+            return SL_OK;
+        }
+        for (size_t k = c->row_first[r]; k < c->row_first[r + 1]; k++)
+            if (t->state.fixed[c->row_columns[k]] == SLI_COVER_FREE)
+                SL_TRY(fix_column(context, t, c->row_columns[k], SLI_COVER_IN, SIZE_MAX));
+    }
+    return SL_OK;
+}
+
+static bool is_covered(const tree *t) {
+    for (uint32_t r = 0; r < t->cover->rows; r++)
+        if (t->state.rest[r] > 0) return false;
+    return true;
+}
+
+/// Completes what is in t->set; keeps it where it is the best cover so far.
+static sl_status try_set(sl_context *context, tree *t, const double *duals) {
+    const sli_cover *c = t->cover;
+    SL_TRY(sli_cover_greedy(context, c, duals, t->state.fixed, t->set));
+    for (uint32_t r = 0; r < c->rows; r++) {
+        uint32_t covered = 0;
+        for (size_t k = c->row_first[r]; k < c->row_first[r + 1]; k++)
+            covered += t->set[c->row_columns[k]];
+        if (covered < c->demands[r]) return SL_OK;
+    }
+    const uint64_t cost = sli_cover_cost(c, t->set);
+    if (cost >= t->part->cost) return SL_OK;
+    t->part->cost = cost;
+    memcpy(t->part->taken, t->set, c->columns);
+    if (cost < t->target) t->target = cost;
+    return SL_OK;
+}
+
+/// New duals for the state, behind the others; from those at `duals`. Leaves t->values. The program
+/// may stop where its bound passes `enough`; 0: it does not.
+static sl_status find_duals(sl_context *context, tree *t, size_t duals, double enough) {
+    const uint32_t rows = t->cover->rows;
+    const uint64_t denominator = t->part->denominator;
+    sl_status status = SL_UNSUPPORTED;
+    const uint64_t work = 1 + PROGRAM_WORK / (1 + t->cover->column_first[t->cover->columns]);
+    if (t->program)
+        status = t->part->options->program->again(context, t->program, t->state.fixed, work, enough,
+                                                  t->y, t->values);
+    if (status == SL_UNSUPPORTED) {
+        for (uint32_t r = 0; r < rows; r++)
+            t->y[r] = (double)t->part->duals.items[duals + r] / (double)denominator;
+        memset(t->values, 0, t->cover->columns * sizeof *t->values);
+        status = sli_cover_lagrange(context, t->cover, &t->state, t->target, STEPS, t->y, t->values,
+                                    NULL);
+    }
+    SL_TRY(status);
+    SL_TRY(SL_ARRAY_ROOM(context, &t->part->duals, rows));
+    sli_cover_duals_round(t->cover, t->y, denominator, t->part->duals.items + t->part->duals.count);
+    t->part->duals.count += rows;
+    return SL_OK;
+}
+
+/// Leaves columns that would cost too much, by the sums of the last bound.
+static sl_status fix_dear(sl_context *context, tree *t, int64_t bound, size_t duals, bool *any) {
+    const uint64_t d = t->part->denominator;
+    for (uint32_t j = 0; j < t->cover->columns; j++) {
+        if (t->state.fixed[j] != SLI_COVER_FREE || !t->sums[j]) continue;
+        const int64_t more = (int64_t)(t->cover->costs[j] * d) - t->sums[j];
+        if (more <= 0 || sli_cover_ceiling(bound + more, d) < t->target) continue;
+        if (!*any) need_by_sums(t);
+        *any = true;
+        reach(t, sli_cover_ceiling(bound + more, d));
+        SL_TRY(fix_column(context, t, j, SLI_COVER_OUT, duals));
+    }
+    return SL_OK;
+}
+
+/// Takes columns whose loss would cost too much. Each changes the sums of others.
+static sl_status fix_worthy(sl_context *context, tree *t, int64_t bound, size_t duals, bool *any) {
+    const uint64_t d = t->part->denominator;
+    for (uint32_t j = 0; j < t->cover->columns; j++) {
+        if (t->state.fixed[j] != SLI_COVER_FREE) continue;
+        const int64_t more = t->sums[j] - (int64_t)(t->cover->costs[j] * d);
+        if (more <= 0 || sli_cover_ceiling(bound + more, d) < t->target) continue;
+        *any = true;
+        need_by_sums(t);
+        reach(t, sli_cover_ceiling(bound + more, d));
+        SL_TRY(fix_column(context, t, j, SLI_COVER_IN, duals));
+        bound = bound_by(t, duals);
+    }
+    return SL_OK;
+}
+
+/// The column to branch on: the one that the program takes for the most part, but not wholly; else
+/// the one that is worth most to the row with the fewest columns.
+static uint32_t choose(const tree *t) {
+    const sli_cover *c = t->cover;
+    uint32_t best = UINT32_MAX, row = UINT32_MAX;
+    double most = 0.01;
+    for (uint32_t j = 0; j < c->columns; j++) {
+        if (t->state.fixed[j] != SLI_COVER_FREE || !t->sums[j]) continue;
+        if (t->values[j] > most && t->values[j] < 1 - whole) {
+            best = j;
+            most = t->values[j];
+        }
+    }
+    if (best != UINT32_MAX) return best;
+    for (uint32_t r = 0; r < c->rows; r++)
+        if (t->state.rest[r] > 0 && (row == UINT32_MAX || t->state.free[r] < t->state.free[row]))
+            row = r;
+    for (size_t k = c->row_first[row]; k < c->row_first[row + 1]; k++) {
+        const uint32_t j = c->row_columns[k];
+        if (t->state.fixed[j] == SLI_COVER_FREE &&
+            (best == UINT32_MAX || t->sums[j] > t->sums[best]))
+            best = j;
+    }
+    return best;
+}
+
+static sl_status grow(sl_context *context, tree *t, size_t duals, uint32_t *at);
+
+static sl_status branch_on(sl_context *context, tree *t, uint32_t column, size_t duals,
+                           uint32_t *at) {
+    sl_cover_node node = {column, {0, 0}, SIZE_MAX};
+    static const uint8_t ways[] = {SLI_COVER_IN, SLI_COVER_OUT};
+    for (int i = 0; i < 2; i++) {
+        sli_cover_fix(t->cover, &t->state, column, ways[i]);
+        const sl_status status = grow(context, t, duals, &node.children[1 - i]);
+        sli_cover_unfix(t->cover, &t->state, column);
+        if (status != SL_OK || t->spent) return status;
+    }
+    return add_node(context, t, node, at);
+}
+
+static sl_status fill_set(sl_context *context, tree *t) {
+    for (uint32_t j = 0; j < t->cover->columns; j++)
+        t->set[j] = t->state.fixed[j] == SLI_COVER_IN ||
+                    (t->state.fixed[j] == SLI_COVER_FREE && t->values[j] > 0.5);
+    return try_set(context, t, t->y);
+}
+
+/// The node of the state, whose fixes are undone by the caller.
+static sl_status grow_node(sl_context *context, tree *t, size_t duals, uint32_t *at) {
+    const uint64_t d = t->part->denominator;
+    bool searched = false;
+    for (bool any = true; any;) {
+        uint32_t short_row;
+        size_t before;
+        do {
+            before = t->fixes.count;
+            SL_TRY(take_forced(context, t, &short_row));
+            if (short_row != UINT32_MAX) return add_leaf(context, t, SIZE_MAX, UINT64_MAX, at);
+        } while (t->fixes.count != before);
+        if (is_covered(t)) {
+            memset(t->values, 0, t->cover->columns * sizeof *t->values);
+            SL_TRY(fill_set(context, t));
+            return add_leaf(context, t, SIZE_MAX, t->state.taken, at);
+        }
+        int64_t bound = bound_by(t, duals);
+        if (!searched && sli_cover_ceiling(bound, d) < t->target) {
+            searched = true;
+            const size_t found = t->part->duals.count;
+            SL_TRY(find_duals(context, t, duals, (double)t->target - 1 + whole));
+            const int64_t better = bound_by(t, found);
+            SL_TRY(fill_set(context, t));
+            if (better > bound)
+                duals = found;
+            else
+                t->part->duals.count = found;
+            bound = bound_by(t, duals);
+        }
+        if (sli_cover_ceiling(bound, d) >= t->target) {
+            need_by_sums(t);
+            return add_leaf(context, t, duals, sli_cover_ceiling(bound, d), at);
+        }
+        any = false;
+        SL_TRY(fix_dear(context, t, bound, duals, &any));
+        SL_TRY(fix_worthy(context, t, bound, duals, &any));
+    }
+    if (t->part->duals.count > MOST_DUALS) t->spent = true;
+    return t->spent ? SL_OK : branch_on(context, t, choose(t), duals, at);
+}
+
+/// Undoes fixes down to `count`, and puts those that are needed above the node.
+static sl_status undo(sl_context *context, tree *t, size_t count, sl_status status, uint32_t *at) {
+    while (t->fixes.count > count) {
+        const fix f = t->fixes.items[--t->fixes.count];
+        sli_cover_unfix(t->cover, &t->state, f.column);
+        const bool needed = f.how == SLI_COVER_IN || t->needed[f.column];
+        t->needed[f.column] = false;
+        if (!needed || t->spent || status != SL_OK) continue;
+        sl_cover_node node = {f.column, {UINT32_MAX, UINT32_MAX}, f.duals};
+        node.children[f.how == SLI_COVER_IN] = *at;
+        status = add_node(context, t, node, at);
+    }
+    return status;
+}
+
+/// Makes the node of the state, from its parent's duals.
+static sl_status grow(sl_context *context, tree *t, size_t duals, uint32_t *at) {
+    const uint64_t price = 1 + t->cover->column_first[t->cover->columns] / NODE_ENTRIES;
+    if (*t->nodes_left < price) {
+        t->spent = true;
+        return SL_OK;
+    }
+    *t->nodes_left -= price;
+    SL_TRY(sl_check_cancelled(context));
+    const size_t count = t->fixes.count;
+    return undo(context, t, count, grow_node(context, t, duals, at), at);
+}
+
+/// A tree for one target; what it proves goes to the part only when it is whole.
+static sl_status grow_whole(sl_context *context, tree *t, const double *duals, bool *is_whole) {
+    sli_cover_part *part = t->part, kept = *part;
+    part->nodes.items = NULL;
+    part->duals.items = NULL;
+    part->nodes.count = part->nodes.capacity = part->duals.count = part->duals.capacity = 0;
+    t->least = UINT64_MAX;
+    sl_status status = SL_ARRAY_ROOM(context, &part->duals, t->cover->rows);
+    if (status == SL_OK) {
+        sli_cover_duals_round(t->cover, duals, part->denominator, part->duals.items);
+        part->duals.count = t->cover->rows;
+        uint32_t root;
+        status = grow(context, t, 0, &root);
+    }
+    *is_whole = status == SL_OK && !t->spent;
+    if (*is_whole) {
+        part->lower = t->least < part->cost ? t->least : part->cost;
+        sl_free(context, kept.nodes.items);
+        sl_free(context, kept.duals.items);
+    } else {
+        sl_free(context, part->nodes.items);
+        sl_free(context, part->duals.items);
+        memcpy(&part->nodes, &kept.nodes, sizeof kept.nodes);
+        memcpy(&part->duals, &kept.duals, sizeof kept.duals);
+    }
+    return status;
+}
+
+/// The bound of the root, as good as the program has it; a leaf alone, which replaces the part's.
+static sl_status bound_root(sl_context *context, tree *t, double *duals) {
+    sli_cover_part *part = t->part;
+    SL_TRY(find_duals(context, t, 0, 0));
+    SL_TRY(fill_set(context, t));
+    const uint32_t rows = t->cover->rows;
+    const uint64_t bound = sli_cover_ceiling(bound_by(t, rows), part->denominator);
+    part->duals.count = rows;
+    if (bound < part->lower) return SL_OK;
+    memcpy(part->duals.items, part->duals.items + rows, rows * sizeof *part->duals.items);
+    memcpy(duals, t->y, rows * sizeof *duals);
+    part->lower = bound;
+    return SL_OK;
+}
+
+static sl_status grow_trees(sl_context *context, tree *t, double *duals) {
+    bool is_whole = true;
+    if (t->program) SL_TRY(bound_root(context, t, duals));
+    while (is_whole && t->part->lower < t->part->cost) {
+        t->target = t->part->lower + 1;
+        SL_TRY(grow_whole(context, t, duals, &is_whole));
+    }
+    return SL_OK;
+}
+
+static sl_status tree_make(sl_context *context, tree *t) {
+    const sli_cover *c = t->cover;
+    SL_TRY(sli_cover_state_make(context, c, &t->state));
+    t->needed = sl_alloc_array(context, c->columns, sizeof *t->needed);
+    t->sums = sl_alloc_array(context, c->columns, sizeof *t->sums);
+    t->y = sl_alloc_array(context, c->rows, sizeof *t->y);
+    t->values = sl_alloc_array(context, c->columns, sizeof *t->values);
+    t->set = sl_alloc_array(context, c->columns, sizeof *t->set);
+    if (!t->needed || !t->sums || !t->y || !t->values || !t->set) return SL_NO_MEMORY;
+    t->problem = (sl_cover_problem){c->rows,        c->columns, c->column_first + 1,
+                                    c->column_rows, c->costs,   c->demands};
+    const sl_cover_program *program = t->part->options->program;
+    return program && program->begin ? program->begin(context, &t->problem, &t->program) : SL_OK;
+}
+
+sl_status sli_cover_branch(sl_context *context, sli_cover_part *part, double *duals,
+                           uint64_t *nodes) {
+    tree t = {.part = part, .cover = part->cover, .nodes_left = nodes};
+    sl_status status = tree_make(context, &t);
+    if (status == SL_OK) status = grow_trees(context, &t, duals);
+    if (t.program) part->options->program->end(context, t.program);
+    sli_cover_state_destroy(context, &t.state);
+    sl_free(context, t.fixes.items);
+    sl_free(context, t.needed);
+    sl_free(context, t.sums);
+    sl_free(context, t.y);
+    sl_free(context, t.values);
+    sl_free(context, t.set);
+    return status;
+}

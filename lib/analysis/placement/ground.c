@@ -1,0 +1,72 @@
+/// The ground of placement: walls by their ends.
+#include "analysis/placement/ground.h"
+
+#include "geometry/length.h"
+#include "geometry/orient.h"
+#include "sightline/support.h"
+
+#include <stdlib.h>
+
+static int compare_ends(const void *left, const void *right) {
+    const sli_wall_end *a = left, *b = right;
+    const int order = sli_compare_points(a->at, b->at);
+    return order ? order : sli_compare_points(a->other, b->other);
+}
+
+sl_status sli_ground_make(sl_context *context, const sl_space *space, sli_ground *out) {
+    *out = (sli_ground){.space = space, .end_count = 2 * (size_t)space->wall_count};
+    out->ends = sl_alloc_array(context, out->end_count, sizeof *out->ends);
+    if (!out->ends) return SL_NO_MEMORY;
+    for (uint32_t i = 0; i < space->wall_count; i++) {
+        const sl_wall *w = &space->walls[i];
+        out->ends[2 * i] = (sli_wall_end){w->a, w->b};
+        out->ends[2 * i + 1] = (sli_wall_end){w->b, w->a};
+    }
+    if (out->end_count) qsort(out->ends, out->end_count, sizeof *out->ends, compare_ends);
+    for (uint32_t i = 0; i < space->portal_count; i++) {
+        const uint32_t *cell = space->portals[i].cell;
+        if (space->cells[cell[0]].inside != space->cells[cell[1]].inside) out->open = true;
+    }
+    return SL_OK;
+}
+
+void sli_ground_destroy(sl_context *context, sli_ground *ground) {
+    sl_free(context, ground->ends);
+    *ground = (sli_ground){0};
+}
+
+const sli_wall_end *sli_ground_walls_at(const sli_ground *ground, sl_point at, size_t *count) {
+    size_t low = 0, high = ground->end_count;
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        if (sli_compare_points(ground->ends[middle].at, at) < 0)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    *count = 0;
+    while (low + *count < ground->end_count && sli_same_point(ground->ends[low + *count].at, at))
+        ++*count;
+    return ground->ends + low;
+}
+
+/// Whether the direction to w is strictly between those to a and to b, counter-clockwise.
+static bool is_between(sl_point corner, sl_point a, sl_point b, sl_point w) {
+    const int turn = sli_orient(corner, a, b);
+    const int from = sli_orient(corner, a, w), to = sli_orient(corner, w, b);
+    if (turn > 0) return from > 0 && to > 0;
+    if (turn < 0) return from > 0 || to > 0;
+    const bool same = sli_dot((sl_point){a.x - corner.x, a.y - corner.y},
+                              (sl_point){b.x - corner.x, b.y - corner.y}) > 0;
+    return !same && from > 0;
+}
+
+bool sli_ground_joins(const sli_ground *ground, sl_point corner, sl_point a, sl_point b) {
+    size_t count, ahead = 0, back = 0;
+    const sli_wall_end *walls = sli_ground_walls_at(ground, corner, &count);
+    for (size_t i = 0; i < count; i++) {
+        ahead += is_between(corner, a, b, walls[i].other);
+        back += is_between(corner, b, a, walls[i].other);
+    }
+    return count < 2 || !ahead || !back;
+}

@@ -1,0 +1,29 @@
+/// What is to be seen: the inside of a space, with its walls by their ends.
+#ifndef SLI_PLACE_GROUND_H
+#define SLI_PLACE_GROUND_H
+
+#include "sightline/space.h"
+
+/// A wall as it leaves one of its ends.
+typedef struct sli_wall_end {
+    sl_point at, other;
+} sli_wall_end;
+
+typedef struct sli_ground {
+    const sl_space *space;
+    bool open;          ///< portals lead out of what is inside: windows may, too
+    sli_wall_end *ends; ///< sorted by their points
+    size_t end_count;
+} sli_ground;
+
+sl_status sli_ground_make(sl_context *context, const sl_space *space, sli_ground *out);
+void sli_ground_destroy(sl_context *context, sli_ground *ground);
+
+/// The walls that end at a point, *count of them.
+const sli_wall_end *sli_ground_walls_at(const sli_ground *ground, sl_point at, size_t *count);
+
+/// Whether walls that meet at a corner leave two directions from there, towards a and b, together.
+/// Directions along a wall are on both of its sides. Exact.
+bool sli_ground_joins(const sli_ground *ground, sl_point corner, sl_point a, sl_point b);
+
+#endif

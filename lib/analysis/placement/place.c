@@ -1,0 +1,400 @@
+/// Placement: rounds that close the bounds (place.h).
+///
+/// A round asks for the fewest places anywhere that see the active witnesses: the lower bound. Its
+/// places become candidates. If they do not see some witness, that becomes active. Else their gaps
+/// give new witnesses; and where there is no gap, they are the answer.
+///
+/// Candidates of all rounds, and corners, together give the upper bound: the fewest of them that
+/// see all witnesses, with new witnesses from their gaps, until there is none.
+///
+///     active witnesses --columns--> fewest places --> lower bound
+///            ^                          | candidates
+///            +----- witnesses <-- gaps--+--> fewest candidates --> upper bound
+///
+/// Tozoni, de Rezende and de Souza 2016 (Algorithm 966). Windows in place of an arrangement, and
+/// active witnesses, are ours.
+#include "sightline/place.h"
+
+#include "analysis/placement/placer.h"
+#include "geometry/length.h"
+#include "geometry/orient.h"
+#include "sightline/overlay.h"
+
+enum { USUAL_ROUNDS = 400, UPPER_STEPS = 30 };
+
+sl_place_options sl_place_options_default(void) {
+    return (sl_place_options){.nodes = 10000};
+}
+
+static void destroy_lower(sl_context *context, sl_placement *p) {
+    sl_cover_result owner = {.proof = p->proof};
+    sl_cover_result_destroy(context, &owner);
+    sl_free(context, p->witnesses);
+    sl_free(context, p->places);
+    sl_free(context, (void *)(uintptr_t)p->columns.ends);
+    sl_free(context, (void *)(uintptr_t)p->columns.entries);
+    sl_free(context, (void *)(uintptr_t)p->columns.costs);
+    sl_free(context, (void *)(uintptr_t)p->columns.demands);
+}
+
+void sl_placement_destroy(sl_context *context, sl_placement *p) {
+    destroy_lower(context, p);
+    sl_free(context, p->viewpoints);
+    *p = (sl_placement){0};
+}
+
+void sli_placer_destroy(sli_placer *p) {
+    sl_region_destroy(p->context, &p->memory);
+    sli_ground_destroy(p->context, &p->ground);
+    for (size_t i = 0; i < p->witnesses.count; i++)
+        sli_look_destroy(p->context, &p->witnesses.items[i]);
+    for (size_t i = 0; i < p->candidates.count; i++) {
+        sli_look_destroy(p->context, &p->candidates.items[i].look);
+        sl_free(p->context, p->candidates.items[i].sees.items);
+    }
+    sl_free(p->context, p->witnesses.items);
+    sl_free(p->context, p->candidates.items);
+    sl_free(p->context, p->active.items);
+    sl_free(p->context, p->chosen.items);
+    sl_free(p->context, (void *)p->looks.items);
+    sl_free(p->context, p->unseen.items);
+    sli_crossings_destroy(p->context, &p->crossings);
+    sl_free(p->context, p->lines.items);
+    sl_free(p->context, p->gaps.items);
+}
+
+// --- the upper bound
+
+static sl_status keep_viewpoints(sli_placer *p, sl_viewpoint *all, size_t count) {
+    sl_free(p->context, p->out->viewpoints);
+    p->out->viewpoints = all;
+    p->out->count = (uint32_t)count;
+    p->out->upper = count;
+    return SL_OK;
+}
+
+/// The chosen candidates see everything but slivers at the gaps: they are the upper bound if they
+/// are fewer.
+static sl_status keep_chosen(sli_placer *p) {
+    sl_placement *out = p->out;
+    if (out->count < p->chosen.count) return SL_OK;
+    if (out->count == p->chosen.count && out->slivers <= p->gaps.count) return SL_OK;
+    sl_viewpoint *all = sl_alloc_array(p->context, p->chosen.count, sizeof *all);
+    if (!all) return SL_NO_MEMORY;
+    for (size_t i = 0; i < p->chosen.count; i++)
+        all[i] = (sl_viewpoint){.at = sli_chosen_look(p, i)->eye, .fov = 360};
+    out->slivers = p->gaps.count;
+    return keep_viewpoints(p, all, p->chosen.count);
+}
+
+/// A set that surely sees everything: one viewpoint in each cell. SL_UNSUPPORTED where a cell is
+/// too thin for doubles.
+static sl_status start_with_cells(sli_placer *p) {
+    const sl_space *space = p->ground.space;
+    size_t count = 0;
+    if (!space->inside_count) return sl_fail(p->context, SL_BAD_ARGUMENT, "nothing is inside");
+    sl_viewpoint *all = sl_alloc_array(p->context, space->inside_count, sizeof *all);
+    if (!all) return SL_NO_MEMORY;
+    for (uint32_t c = 0; c < space->cell_count; c++)
+        if (space->cells[c].inside)
+            all[count++] = (sl_viewpoint){.at = sl_space_middle(space, c), .fov = 360};
+    return keep_viewpoints(p, all, count);
+}
+
+static sl_status find_gaps(sli_placer *p) {
+    p->looks.count = 0;
+    SL_TRY(SL_ARRAY_ROOM(p->context, &p->looks, p->chosen.count));
+    for (size_t i = 0; i < p->chosen.count; i++)
+        p->looks.items[p->looks.count++] = sli_chosen_look(p, i);
+    return sli_gaps_find(p->context, &p->ground, p->looks.items, (uint32_t)p->looks.count,
+                         &p->gaps);
+}
+
+/// Moves viewpoints that have slivers beside them to places in line with walls, as long as that
+/// leaves fewer.
+static sl_status mend_slivers(sli_placer *p, size_t first_candidate) {
+    const size_t count = p->candidates.count;
+    for (size_t c = first_candidate; c < count && p->gaps.count; c++) {
+        const size_t before = p->gaps.count;
+        const sl_point at = p->candidates.items[c].look.eye;
+        size_t nearest = 0;
+        double least = INFINITY;
+        for (size_t i = 0; i < before; i++) {
+            const sl_point eye = sli_chosen_look(p, p->gaps.items[i].look)->eye;
+            const double distance = sli_length(eye.x - at.x, eye.y - at.y);
+            if (distance < least) least = distance, nearest = p->gaps.items[i].look;
+        }
+        const uint32_t old = p->chosen.items[nearest];
+        p->chosen.items[nearest] = (uint32_t)c;
+        SL_TRY(find_gaps(p));
+        if (p->gaps.count < before) continue;
+        p->chosen.items[nearest] = old;
+        SL_TRY(find_gaps(p));
+    }
+    return SL_OK;
+}
+
+/// Finds what the chosen candidates leave unseen, and witnesses there. *none: nothing but slivers
+/// is left.
+static sl_status find_unseen(sli_placer *p, bool *none, bool *added) {
+    const size_t first_candidate = p->candidates.count;
+    size_t found = 0;
+    bool missed;
+    SL_TRY(find_gaps(p));
+    for (size_t i = 0; i < p->gaps.count; i++) {
+        bool one;
+        SL_TRY(sli_add_beyond(p, &p->gaps.items[i], &one));
+        found += one;
+    }
+    SL_TRY(sli_add_in_line(p));
+    SL_TRY(sli_add_unseen_parts(p, &missed));
+    *none = !found && !missed;
+    *added = *added || !*none;
+    return *none && p->gaps.count ? mend_slivers(p, first_candidate) : SL_OK;
+}
+
+static sl_status bound_above(sli_placer *p, bool *added) {
+    for (int i = 0; i < UPPER_STEPS; i++) {
+        bool none, one = false;
+        sl_cover_problem problem = {0};
+        sl_cover_result cover = {0};
+        const sl_status status = sli_choose_fewest(p, &problem, &cover);
+        sli_choice_destroy(p->context, &problem, &cover);
+        SL_TRY(status);
+        if (p->chosen.count >= p->out->count) return SL_OK;
+        SL_TRY(find_unseen(p, &none, &one));
+        *added = *added || one;
+        if (none) return keep_chosen(p);
+        if (!one) return SL_OK;
+    }
+    return SL_OK;
+}
+
+// --- the lower bound
+
+/// Keeps what proves a better lower bound. Takes the columns and the proof.
+static sl_status keep_lower(sli_placer *p, sli_place_columns *c, sl_cover_result *cover) {
+    sl_placement *out = p->out;
+    const uint32_t count = (uint32_t)p->active.count, columns = (uint32_t)c->ends.count;
+    sl_witness *witnesses = sl_alloc_array(p->context, count, sizeof *witnesses);
+    sl_point *places = sl_alloc_array(p->context, columns, sizeof *places);
+    if (!witnesses || !places) {
+        sl_free(p->context, witnesses);
+        sl_free(p->context, places);
+        return SL_NO_MEMORY;
+    }
+    for (uint32_t i = 0; i < count; i++)
+        witnesses[i] = (sl_witness){p->witnesses.items[p->active.items[i]].eye, true};
+    for (uint32_t i = 0; i < columns; i++) {
+        const sli_window_part *part = &c->places.items[i];
+        const sli_look *look = &p->witnesses.items[p->active.items[part->look]];
+        places[i] = look->eye;
+        if (part->window == SLI_NO_WINDOW) continue;
+        const sli_track track = sli_track_of(look, part->window);
+        places[i] = sli_track_at(&track, (part->from + part->to) / 2);
+    }
+    destroy_lower(p->context, out);
+    out->lower = cover->lower;
+    out->witnesses = witnesses;
+    out->witness_count = count;
+    out->places = places;
+    out->columns = (sl_cover_problem){count, columns, c->ends.items, c->entries.items, NULL, NULL};
+    out->proof = cover->proof;
+    c->ends.items = NULL;
+    c->entries.items = NULL;
+    cover->proof = (sl_cover_proof){0};
+    return SL_OK;
+}
+
+static sl_status use_columns(sli_placer *p, sli_place_columns *c) {
+    const sl_cover_problem problem = {(uint32_t)p->active.count,
+                                      (uint32_t)c->ends.count,
+                                      c->ends.items,
+                                      c->entries.items,
+                                      NULL,
+                                      NULL};
+    const sl_cover_options options = sli_cover_options(p);
+    sl_cover_result cover = {0};
+    sl_status status = sl_cover_solve(p->context, &problem, &options, &cover);
+    p->chosen.count = 0;
+    for (uint32_t i = 0; status == SL_OK && i < cover.count; i++)
+        status = sli_choose_column(p, c, cover.columns[i]);
+    if (status == SL_OK && cover.lower > p->out->lower) status = keep_lower(p, c, &cover);
+    sl_cover_result_destroy(p->context, &cover);
+    return status;
+}
+
+/// The lower bound, and the viewpoints that it has. *gaps: these see all witnesses, but not
+/// everything.
+static sl_status bound_below(sli_placer *p, bool *gaps, bool *added) {
+    sli_place_columns c;
+    bool none = false;
+    p->looks.count = 0;
+    SL_TRY(SL_ARRAY_ROOM(p->context, &p->looks, p->active.count));
+    for (size_t i = 0; i < p->active.count; i++)
+        p->looks.items[p->looks.count++] = &p->witnesses.items[p->active.items[i]];
+    SL_TRY(sli_place_columns_make(p->context, &p->ground, p->looks.items, (uint32_t)p->active.count,
+                                  &p->crossings, &c));
+    const sl_status status = use_columns(p, &c);
+    sli_place_columns_destroy(p->context, &c);
+    SL_TRY(status);
+    *gaps = false;
+    SL_TRY(sli_activate(p, added));
+    if (*added) return SL_OK;
+    SL_TRY(find_unseen(p, &none, added));
+    if (none) return keep_chosen(p);
+    *gaps = true;
+    return sli_activate(p, added);
+}
+
+// --- among given places
+
+/// Keeps what proves a better lower bound for the given places. Takes columns and proof.
+static sl_status keep_listed_lower(sli_placer *p, sl_cover_problem *problem,
+                                   sl_cover_result *cover) {
+    sl_placement *out = p->out;
+    sl_witness *witnesses = sl_alloc_array(p->context, problem->row_count, sizeof *witnesses);
+    sl_point *places = sl_alloc_array(p->context, problem->column_count, sizeof *places);
+    if (!witnesses || !places) {
+        sl_free(p->context, witnesses);
+        sl_free(p->context, places);
+        return SL_NO_MEMORY;
+    }
+    for (uint32_t i = 0; i < problem->row_count; i++)
+        witnesses[i] = (sl_witness){p->witnesses.items[i].eye, true};
+    for (uint32_t i = 0; i < problem->column_count; i++)
+        places[i] = p->candidates.items[i].look.eye;
+    destroy_lower(p->context, out);
+    out->lower = cover->lower;
+    out->witnesses = witnesses;
+    out->witness_count = problem->row_count;
+    out->places = places;
+    out->columns = *problem;
+    out->proof = cover->proof;
+    *problem = (sl_cover_problem){0};
+    cover->proof = (sl_cover_proof){0};
+    return SL_OK;
+}
+
+/// All places that are given: nothing else can see more.
+static sl_status take_listed(sli_placer *p) {
+    const sl_place_options *o = p->options;
+    bool none = true, added = false;
+    for (uint32_t i = 0; i < o->place_count; i++) {
+        uint32_t number;
+        SL_TRY(sli_add_candidate(p, o->places[i], &number));
+        if (number == UINT32_MAX)
+            return sl_fail(p->context, SL_BAD_ARGUMENT, "place %u at (%g, %g) is not inside", i + 1,
+                           o->places[i].x, o->places[i].y);
+    }
+    p->listed = true;
+    SL_TRY(SL_ARRAY_ROOM(p->context, &p->chosen, p->candidates.count));
+    for (uint32_t i = 0; i < p->candidates.count; i++) p->chosen.items[p->chosen.count++] = i;
+    SL_TRY(find_unseen(p, &none, &added));
+    p->out->count = UINT32_MAX;
+    if (none) return keep_chosen(p);
+    const sl_point at = p->witnesses.items[p->witnesses.count - 1].eye;
+    return sl_fail(p->context, SL_BAD_ARGUMENT, "(%g, %g) is seen from none of the places", at.x,
+                   at.y);
+}
+
+static sl_status step_listed(sli_placer *p, bool *added) {
+    sl_cover_problem problem = {0};
+    sl_cover_result cover = {0};
+    bool none = false;
+    sl_status status = sli_choose_fewest(p, &problem, &cover);
+    if (status == SL_OK && cover.lower > p->out->lower)
+        status = keep_listed_lower(p, &problem, &cover);
+    sli_choice_destroy(p->context, &problem, &cover);
+    SL_TRY(status);
+    SL_TRY(find_unseen(p, &none, added));
+    return none ? keep_chosen(p) : SL_OK;
+}
+
+static sl_status run_listed(sli_placer *p) {
+    const uint64_t most = p->options->rounds ? p->options->rounds : UINT64_MAX;
+    SL_TRY(take_listed(p));
+    SL_TRY(sli_add_first_witnesses(p));
+    for (bool added = true; added && p->out->rounds < most; p->out->rounds++) {
+        added = false;
+        SL_TRY(sl_check_cancelled(p->context));
+        SL_TRY(step_listed(p, &added));
+        sl_report(p->context, "place", "viewpoints", p->out->lower, p->out->upper);
+    }
+    return SL_OK;
+}
+
+static sl_status run(sli_placer *p) {
+    const uint64_t most = p->options->rounds ? p->options->rounds : USUAL_ROUNDS;
+    bool added, gaps;
+    SL_TRY(start_with_cells(p));
+    SL_TRY(sli_add_first_witnesses(p));
+    SL_TRY(sli_add_unseen_parts(p, &added));
+    SL_TRY(sli_activate(p, &added));
+    while (p->out->rounds < most) {
+        SL_TRY(sl_check_cancelled(p->context));
+        SL_TRY(bound_below(p, &gaps, &added));
+        sl_report(p->context, "place", "viewpoints", p->out->lower, p->out->upper);
+        if (p->out->upper == p->out->lower) return SL_OK;
+        if (!gaps) continue;
+        p->out->rounds++;
+        if (p->out->rounds == 2) SL_TRY(sli_add_corners(p));
+        SL_TRY(bound_above(p, &added));
+        if (p->out->upper == p->out->lower || !added) return SL_OK;
+    }
+    return SL_OK;
+}
+
+/// What the viewpoints leave unseen, where that is slivers.
+static sl_status measure_unseen(sli_placer *p) {
+    sl_placement *out = p->out;
+    if (!out->slivers) return SL_OK;
+    sl_shape inside = {0}, *seen = sl_alloc_array(p->context, out->count, sizeof *seen);
+    sl_region *regions = sl_alloc_array(p->context, out->count, sizeof *regions);
+    sl_overlay overlay = {0};
+    sl_status status = seen && regions ? SL_OK : SL_NO_MEMORY;
+    for (uint32_t i = 0; status == SL_OK && i < out->count; i++) {
+        const sl_view view = sl_view_all_round(out->viewpoints[i].at);
+        status = sl_query_region(p->context, p->query, &view, &regions[i]);
+        seen[i] = (sl_shape){regions[i].points, &regions[i].count, 1};
+    }
+    if (status == SL_OK) status = sl_shape_of_inside(p->context, p->ground.space, &inside);
+    if (status == SL_OK) status = sl_overlay_make(p->context, &inside, seen, out->count, &overlay);
+    if (status == SL_OK) out->unseen_area = sli_greater(overlay.areas[0] - overlay.areas[1], 0);
+    sl_overlay_destroy(p->context, &overlay);
+    sl_shape_destroy(p->context, &inside);
+    for (uint32_t i = 0; regions && i < out->count; i++) sl_region_destroy(p->context, &regions[i]);
+    sl_free(p->context, regions);
+    sl_free(p->context, seen);
+    return status;
+}
+
+static sl_status check(sl_context *context, sl_query *query) {
+    const sl_map *map = sl_query_map(query);
+    if (map->mirror_count) return sl_fail(context, SL_UNSUPPORTED, "placement knows no mirrors");
+    if (map->oneway_count)
+        return sl_fail(context, SL_UNSUPPORTED, "placement knows no one-way glass");
+    if (sl_map_limited_walls(map))
+        return sl_fail(context, SL_UNSUPPORTED, "placement knows no limited walls");
+    return SL_OK;
+}
+
+sl_status sl_place(sl_context *context, sl_query *query, const sl_place_options *options,
+                   sl_placement *out) {
+    const sl_place_options usual = sl_place_options_default();
+    const sl_space *space;
+    sl_placement made = {0};
+    SL_TRY(check(context, query));
+    SL_TRY(sl_query_space(context, query, &space, NULL));
+    sli_placer p = {
+        .context = context, .query = query, .options = options ? options : &usual, .out = &made};
+    sl_status status = sli_ground_make(context, space, &p.ground);
+    if (status == SL_OK) status = p.options->places ? run_listed(&p) : run(&p);
+    if (status == SL_OK) status = measure_unseen(&p);
+    sli_placer_destroy(&p);
+    if (status == SL_OK || (status == SL_CANCELLED && made.viewpoints))
+        *out = made;
+    else
+        sl_placement_destroy(context, &made);
+    return status;
+}

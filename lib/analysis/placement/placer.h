@@ -1,0 +1,78 @@
+/// What the parts of sl_place share: witnesses, candidates, and what is chosen of them.
+#ifndef SLI_PLACER_H
+#define SLI_PLACER_H
+
+#include "analysis/placement/gaps.h"
+#include "sightline/place.h"
+
+/// A place to look from.
+typedef struct sli_candidate {
+    sli_look look;
+    SL_ARRAY(uint32_t) sees; ///< witnesses, ascending
+} sli_candidate;
+
+/// A witness, and the area of its region.
+typedef struct sli_hard_witness {
+    double area;
+    uint32_t witness;
+} sli_hard_witness;
+
+typedef struct sli_placer {
+    sl_context *context;
+    sl_query *query;
+    const sl_place_options *options;
+    sli_ground ground;
+    bool listed; ///< candidates are given: none is added
+    sl_region memory;
+    sl_random random;
+    SL_ARRAY(sli_look) witnesses;       ///< all that were made: the rows of the upper bound
+    SL_ARRAY(uint32_t) active;          ///< those of the lower bound
+    SL_ARRAY(sli_candidate) candidates; ///< the columns of the upper bound
+    SL_ARRAY(uint32_t) chosen;          ///< candidates
+    SL_ARRAY(const sli_look *) looks;   ///< scratch
+    SL_ARRAY(sli_hard_witness) unseen;  ///< scratch
+    SL_ARRAY(sl_segment) lines;         ///< of walls that gaps' apexes hid
+    sli_crossings crossings;            ///< of the active witnesses
+    sli_window_parts gaps;
+    sl_placement *out;
+} sli_placer;
+
+void sli_placer_destroy(sli_placer *placer); ///< but for `out`
+
+// --- witnesses (witnesses.c)
+
+/// Witnesses in convex corners, and before walls between two corners that are not.
+sl_status sli_add_first_witnesses(sli_placer *placer);
+/// Adds a witness, unless it is not inside or not general.
+sl_status sli_add_witness(sli_placer *placer, sl_point at, bool *added);
+/// Adds one in each part of what is inside in which no chosen candidate stands.
+sl_status sli_add_unseen_parts(sli_placer *placer, bool *added);
+/// Adds one beyond a gap of the chosen candidates that none of them sees.
+sl_status sli_add_beyond(sli_placer *placer, const sli_window_part *gap, bool *added);
+/// Takes witnesses that no chosen candidate sees into the lower bound: those with the smallest
+/// regions first. Of those that see each other it takes one, and others while they are few.
+sl_status sli_activate(sli_placer *placer, bool *added);
+
+// --- candidates (candidates.c)
+
+/// Adds a candidate, once; *number is UINT32_MAX where nothing can be seen from there.
+sl_status sli_add_candidate(sli_placer *placer, sl_point at, uint32_t *number);
+/// Adds the corners that hide something from a witness.
+sl_status sli_add_corners(sli_placer *placer);
+/// Adds places in line with walls that the chosen ones have gaps at.
+sl_status sli_add_in_line(sli_placer *placer);
+/// Adds a candidate for a column of the lower bound and chooses it. It sees the column's witnesses,
+/// or as many as can be found.
+sl_status sli_choose_column(sli_placer *placer, const sli_place_columns *columns, uint32_t column);
+sl_cover_options sli_cover_options(const sli_placer *placer);
+/// Chooses the fewest candidates that see all witnesses. `problem` and `cover` are the caller's,
+/// on failure too: sli_choice_destroy(). SL_BAD_ARGUMENT, with the witness, where candidates are
+/// given and none of them sees it.
+sl_status sli_choose_fewest(sli_placer *placer, sl_cover_problem *problem, sl_cover_result *cover);
+void sli_choice_destroy(sl_context *context, sl_cover_problem *problem, sl_cover_result *cover);
+/// Notes a witness where a candidate sees it.
+sl_status sli_try_seeing(sli_placer *placer, size_t candidate, uint32_t witness);
+const sli_look *sli_chosen_look(const sli_placer *placer, size_t i);
+bool sli_is_seen(const sli_placer *placer, sl_point at); ///< by a chosen candidate
+
+#endif

@@ -1,0 +1,366 @@
+/// Sight for checks of proofs (proof_sight.h).
+#include "analysis/placement/proof_sight.h"
+
+#include "geometry/crossing.h"
+#include "geometry/orient.h"
+
+#include <stdlib.h>
+
+sli_meet sli_meet_point(sl_point at) {
+    return (sli_meet){.given = true, .at = at};
+}
+
+/// Rounded products of rounded differences are wrong by less than 8 units of rounding of what is
+/// added up. A divisor that is near its own error leaves the place open: the error is infinite.
+sli_meet sli_meet_lines(sl_segment s, sl_segment t) {
+    const double unit = 0x1p-50;
+    const sl_point u = {s.b.x - s.a.x, s.b.y - s.a.y}, v = {t.b.x - t.a.x, t.b.y - t.a.y},
+                   w = {t.a.x - s.a.x, t.a.y - s.a.y};
+    const double above = w.x * v.y - w.y * v.x, below = u.x * v.y - u.y * v.x;
+    const double above_error = unit * (fabs(w.x * v.y) + fabs(w.y * v.x)) + 0x1p-900;
+    const double below_error = unit * (fabs(u.x * v.y) + fabs(u.y * v.x)) + 0x1p-900;
+    const double share = above / below;
+    sli_meet p = {.s = s, .t = t, .at = s.a, .error = INFINITY};
+    if (!(fabs(below) > 4 * below_error) || !isfinite(share)) return p;
+    const double error =
+        2 * (above_error + fabs(share) * below_error) / fabs(below) + unit * fabs(share);
+    const double x = fabs(u.x) * error + unit * (fabs(s.a.x) + fabs(share * u.x)),
+                 y = fabs(u.y) * error + unit * (fabs(s.a.y) + fabs(share * u.y));
+    p.at = (sl_point){s.a.x + share * u.x, s.a.y + share * u.y};
+    p.error = x > y ? x : y;
+    return p;
+}
+
+static bool is_line(const sl_segment *s, sl_point a, sl_point b) {
+    return (sli_same_point(s->a, a) && sli_same_point(s->b, b)) ||
+           (sli_same_point(s->a, b) && sli_same_point(s->b, a));
+}
+
+int sli_meet_side(const sli_meet *p, sl_point a, sl_point b) {
+    if (p->given) return sli_orient(a, b, p->at);
+    const sl_point u = {b.x - a.x, b.y - a.y}, v = {p->at.x - a.x, p->at.y - a.y};
+    const double left = u.x * v.y, right = u.y * v.x, value = left - right;
+    const double bound = 1.0625 * (fabs(u.x) + fabs(u.y)) * p->error +
+                         0x1p-50 * (fabs(left) + fabs(right)) + 0x1p-900;
+    if (value > bound) return 1;
+    if (-value > bound) return -1;
+    if (is_line(&p->s, a, b) || is_line(&p->t, a, b)) return 0;
+    const int turn = sli_turn(a, b, p->s.a, p->s.b);
+    if (!turn) return sli_orient(a, b, p->s.a);
+    return turn * sli_meet_order(p->s, p->t, (sl_segment){a, b});
+}
+
+// --- walls and corners
+
+typedef struct wall_end {
+    sl_point at, other;
+    uint32_t slot;
+} wall_end;
+
+static bool is_lower(sl_point from, sl_point to) {
+    return to.y < from.y || (to.y == from.y && to.x < from.x);
+}
+
+/// Counter-clockwise from east; on one ray the nearer first.
+static int compare_around(sl_point eye, sl_point a, sl_point b) {
+    const int low = is_lower(eye, a) - is_lower(eye, b);
+    if (low) return low;
+    const int turn = sli_orient(eye, a, b);
+    if (turn) return -turn;
+    const int order = sli_compare_points(a, b);
+    return sli_compare_points(eye, a) < 0 ? order : -order;
+}
+
+static int compare_ends(const void *left, const void *right) {
+    const wall_end *a = left, *b = right;
+    const int order = sli_compare_points(a->at, b->at);
+    return order ? order : compare_around(a->at, a->other, b->other);
+}
+
+static void number_corners(sli_proof_scene *s, wall_end *ends) {
+    const uint32_t count = 2 * s->wall_count;
+    qsort(ends, count, sizeof *ends, compare_ends);
+    for (uint32_t i = 0; i < count; i++) {
+        if (!i || !sli_same_point(ends[i].at, ends[i - 1].at))
+            s->corners[s->corner_count++] = (sli_corner){ends[i].at, i, 0};
+        s->corners[s->corner_count - 1].count++;
+        s->others[i] = ends[i].other;
+        s->ends[ends[i].slot] = s->corner_count - 1;
+    }
+}
+
+sl_status sli_proof_scene_make(sl_context *context, const sl_space *space, sli_proof_scene *out) {
+    const sl_box b = space->bounds;
+    const double more = (b.max.x - b.min.x) + (b.max.y - b.min.y);
+    const sl_point low = {b.min.x - more, b.min.y - more}, high = {b.max.x + more, b.max.y + more};
+    const sl_point box[] = {low, {high.x, low.y}, high, {low.x, high.y}};
+    *out = (sli_proof_scene){.space = space, .bounds = {low, high}};
+    const size_t room = (size_t)space->wall_count + 4;
+    wall_end *ends = sl_alloc_array(context, 2 * room, sizeof *ends);
+    out->walls = sl_alloc_array(context, room, sizeof *out->walls);
+    out->ends = sl_alloc_array(context, 2 * room, sizeof *out->ends);
+    out->corners = sl_alloc_array(context, 2 * room, sizeof *out->corners);
+    out->others = sl_alloc_array(context, 2 * room, sizeof *out->others);
+    const bool made = ends && out->walls && out->ends && out->corners && out->others;
+    for (uint32_t i = 0; made && i < room; i++) {
+        const sl_segment w = i < space->wall_count
+                                 ? (sl_segment){space->walls[i].a, space->walls[i].b}
+                                 : (sl_segment){box[room - 1 - i], box[(room - i) % 4]};
+        const uint32_t n = out->wall_count;
+        if (sli_same_point(w.a, w.b)) continue;
+        ends[2 * n] = (wall_end){w.a, w.b, 2 * n};
+        ends[2 * n + 1] = (wall_end){w.b, w.a, 2 * n + 1};
+        out->walls[out->wall_count++] = w;
+    }
+    if (made) number_corners(out, ends);
+    sl_free(context, ends);
+    return made ? SL_OK : SL_NO_MEMORY;
+}
+
+void sli_proof_scene_destroy(sl_context *context, sli_proof_scene *s) {
+    sl_free(context, s->walls);
+    sl_free(context, s->ends);
+    sl_free(context, s->corners);
+    sl_free(context, s->others);
+    *s = (sli_proof_scene){0};
+}
+
+// --- eyes
+
+/// A corner as the eye sees it; or a point at an axis, which makes every cone narrow.
+typedef struct sighted {
+    const sl_point *eye;
+    sl_point at;
+    uint32_t corner; ///< UINT32_MAX: none
+} sighted;
+
+typedef struct eye_maker {
+    const sli_proof_scene *scene;
+    sl_point eye;
+    sighted *all;
+    uint32_t *group; ///< by corner
+    uint32_t *first; ///< by group, and one more
+    int32_t *cone, *span;
+    bool *shut; ///< by group: a wall at the eye leads there
+    uint32_t count, groups;
+    bool on_wall;
+} eye_maker;
+
+static int compare_sighted(const void *left, const void *right) {
+    const sighted *a = left, *b = right;
+    const int order = compare_around(*a->eye, a->at, b->at);
+    return order ? order : (a->corner > b->corner) - (a->corner < b->corner);
+}
+
+static void sort_around(eye_maker *m) {
+    const sli_proof_scene *s = m->scene;
+    const sl_point axes[] = {{s->bounds.max.x, m->eye.y},
+                             {m->eye.x, s->bounds.max.y},
+                             {s->bounds.min.x, m->eye.y},
+                             {m->eye.x, s->bounds.min.y}};
+    for (uint32_t i = 0; i < s->corner_count; i++)
+        if (!sli_same_point(s->corners[i].at, m->eye))
+            m->all[m->count++] = (sighted){&m->eye, s->corners[i].at, i};
+    for (int i = 0; i < 4; i++) m->all[m->count++] = (sighted){&m->eye, axes[i], UINT32_MAX};
+    qsort(m->all, m->count, sizeof *m->all, compare_sighted);
+    for (uint32_t i = 0; i < m->count; i++) {
+        const sl_point a = m->all[i ? i - 1 : 0].at, b = m->all[i].at;
+        if (!i || is_lower(m->eye, a) != is_lower(m->eye, b) || sli_orient(m->eye, a, b))
+            m->first[m->groups++] = i;
+        if (m->all[i].corner != UINT32_MAX) m->group[m->all[i].corner] = m->groups - 1;
+    }
+    m->first[m->groups] = m->count;
+}
+
+/// Of two walls that both cross a cone, and do not cross each other: whether a is the nearer one.
+static bool is_nearer(const eye_maker *m, int32_t a, int32_t b) {
+    const sl_segment *s = &m->scene->walls[a], *t = &m->scene->walls[b];
+    const int eye = sli_orient(s->a, s->b, m->eye);
+    const int one = eye * sli_orient(s->a, s->b, t->a), two = eye * sli_orient(s->a, s->b, t->b);
+    if (one <= 0 && two <= 0) return true;
+    if (one >= 0 && two >= 0) return false;
+    const int other = sli_orient(t->a, t->b, m->eye);
+    return other * sli_orient(t->a, t->b, s->a) >= 0 && other * sli_orient(t->a, t->b, s->b) >= 0;
+}
+
+static void lay(const eye_maker *m, int32_t *nearest, int32_t wall) {
+    if (*nearest == SLI_NO_WALL || is_nearer(m, wall, *nearest)) *nearest = wall;
+}
+
+static bool is_between(sl_point a, sl_point p, sl_point b) {
+    const int one = sli_compare_points(a, p), two = sli_compare_points(p, b);
+    return one == two && one != 0;
+}
+
+static void lay_wall(eye_maker *m, uint32_t wall) {
+    const sl_segment w = m->scene->walls[wall];
+    const uint32_t *ends = &m->scene->ends[2 * (size_t)wall];
+    const int turn = sli_orient(m->eye, w.a, w.b);
+    if (!turn) {
+        const bool at_a = sli_same_point(w.a, m->eye), at_b = sli_same_point(w.b, m->eye);
+        if (!at_a && !at_b && !is_between(w.a, m->eye, w.b)) return;
+        m->on_wall = true;
+        if (!at_a) m->shut[m->group[ends[0]]] = true;
+        if (!at_b) m->shut[m->group[ends[1]]] = true;
+        return;
+    }
+    const uint32_t from = m->group[ends[turn < 0]], to = m->group[ends[turn > 0]];
+    for (uint32_t g = from; g != to; g = (g + 1) % m->groups) {
+        if (g != from) lay(m, &m->span[g], (int32_t)wall);
+        lay(m, &m->cone[g], (int32_t)wall);
+    }
+}
+
+/// A direction at the border of the eye's cell such that the cell follows counter-clockwise.
+static bool find_cell_direction(const eye_maker *m, sl_point *to) {
+    const sl_space *space = m->scene->space;
+    const uint32_t at = sl_space_locate(space, m->eye);
+    if (at == SL_NO_CELL) return false;
+    const sl_cell *cell = &space->cells[at];
+    for (uint32_t i = 0; i < cell->vertex_count; i++) {
+        const sl_point a = space->vertices[cell->first_vertex + i];
+        *to = space->vertices[cell->first_vertex + (i + 1) % cell->vertex_count];
+        if (sli_same_point(a, m->eye)) return true;
+        if (sli_orient(a, *to, m->eye) == 0 && is_between(a, m->eye, *to)) return true;
+    }
+    return false;
+}
+
+/// An eye on a wall sees only from one side of it: the other cones are shut.
+static void shut_cones(eye_maker *m) {
+    sl_point to;
+    uint32_t in = 0;
+    if (!find_cell_direction(m, &to)) {
+        for (uint32_t g = 0; g < m->groups; g++) m->cone[g] = SLI_SHUT;
+        return;
+    }
+    for (uint32_t g = 0; g < m->groups; g++) {
+        const sl_point at = m->all[m->first[g]].at;
+        const int low = is_lower(m->eye, at) - is_lower(m->eye, to);
+        if (low < 0 || (low == 0 && sli_orient(m->eye, at, to) >= 0)) in = g;
+    }
+    uint32_t left = (in + 1) % m->groups, right = in;
+    while (!m->shut[left]) left = (left + 1) % m->groups;
+    while (!m->shut[right]) right = (right + m->groups - 1) % m->groups;
+    for (uint32_t g = left; g != right; g = (g + 1) % m->groups) m->cone[g] = SLI_SHUT;
+}
+
+/// A wall at the first corner of a group, before its end, that has walls on both sides of the ray;
+/// else the wall that crosses the ray.
+static int32_t end_of(const eye_maker *m, uint32_t g, bool *at_once) {
+    const sli_proof_scene *s = m->scene;
+    const int32_t span = m->span[g];
+    *at_once = false;
+    for (uint32_t i = m->first[g]; i < m->first[g + 1]; i++) {
+        if (m->all[i].corner == UINT32_MAX) continue;
+        const sli_corner *c = &s->corners[m->all[i].corner];
+        bool left = false, right = false;
+        if (span >= 0) {
+            const sl_segment *w = &s->walls[span];
+            const int side = sli_orient(w->a, w->b, c->at) * sli_orient(w->a, w->b, m->eye);
+            *at_once = *at_once || (side <= 0 && i == m->first[g]);
+            if (side <= 0) return span;
+        }
+        for (uint32_t k = 0; k < c->count; k++) {
+            const int turn = sli_orient(m->eye, c->at, s->others[c->first + k]);
+            left = left || turn > 0;
+            right = right || turn < 0;
+        }
+        if (!left || !right) continue;
+        *at_once = i == m->first[g];
+        for (uint32_t w = 0; w < s->wall_count; w++)
+            if ((s->ends[2 * (size_t)w] == m->all[i].corner ||
+                 s->ends[2 * (size_t)w + 1] == m->all[i].corner) &&
+                sli_orient(s->walls[w].a, s->walls[w].b, m->eye))
+                return (int32_t)w;
+    }
+    return span;
+}
+
+static sl_status keep_rays(sl_context *context, const eye_maker *m, sli_eye *out) {
+    out->rays = sl_alloc_array(context, m->groups, sizeof *out->rays);
+    if (!out->rays) return SL_NO_MEMORY;
+    bool lower = false;
+    for (uint32_t g = 0; g < m->groups; g++) {
+        const int32_t before = m->cone[(g ? g : m->groups) - 1], after = m->cone[g];
+        bool axis = false, at_once;
+        for (uint32_t i = m->first[g]; i < m->first[g + 1]; i++)
+            axis = axis || m->all[i].corner == UINT32_MAX;
+        if (before == after && !axis) continue;
+        const sighted *first = &m->all[m->first[g]];
+        if (!lower && is_lower(m->eye, first->at)) lower = true, out->west = out->ray_count;
+        const int32_t end = end_of(m, g, &at_once);
+        out->rays[out->ray_count++] =
+            (sli_proof_ray){first->at, after, end,
+                            before != after && !at_once && end >= 0 && first->corner != UINT32_MAX};
+    }
+    return SL_OK;
+}
+
+sl_status sli_eye_make(sl_context *context, const sli_proof_scene *scene, sl_point at, sli_eye *out,
+                       bool *on_wall) {
+    const size_t room = (size_t)scene->corner_count + 5;
+    eye_maker m = {.scene = scene, .eye = at};
+    *out = (sli_eye){.at = at, .north = {at.x, scene->bounds.max.y}};
+    m.all = sl_alloc_array(context, room, sizeof *m.all);
+    m.group = sl_alloc_array(context, room, sizeof *m.group);
+    m.first = sl_alloc_array(context, room, sizeof *m.first);
+    m.cone = sl_alloc_array(context, room, sizeof *m.cone);
+    m.span = sl_alloc_array(context, room, sizeof *m.span);
+    m.shut = sl_alloc_array(context, room, sizeof *m.shut);
+    sl_status status =
+        m.all && m.group && m.first && m.cone && m.span && m.shut ? SL_OK : SL_NO_MEMORY;
+    if (status == SL_OK) {
+        for (size_t i = 0; i < room; i++) m.cone[i] = m.span[i] = SLI_NO_WALL;
+        sort_around(&m);
+        for (uint32_t i = 0; i < scene->wall_count; i++) lay_wall(&m, i);
+        if (m.on_wall) shut_cones(&m);
+        status = keep_rays(context, &m, out);
+    }
+    *on_wall = m.on_wall;
+    sl_free(context, m.all);
+    sl_free(context, m.group);
+    sl_free(context, m.first);
+    sl_free(context, m.cone);
+    sl_free(context, m.span);
+    sl_free(context, m.shut);
+    return status;
+}
+
+void sli_eye_destroy(sl_context *context, sli_eye *eye) {
+    sl_free(context, eye->rays);
+    *eye = (sli_eye){0};
+}
+
+sli_bearing sli_eye_bearing(const sli_eye *eye, const sli_meet *p) {
+    const int up = sli_meet_side(p, eye->at, eye->rays[0].to);
+    if (!up) {
+        const int side = sli_meet_side(p, eye->at, eye->north);
+        if (!side) return (sli_bearing){0, true, true};
+        return (sli_bearing){side < 0 ? 0 : eye->west, true, false};
+    }
+    uint32_t low = up > 0 ? 0 : eye->west, high = up > 0 ? eye->west : eye->ray_count;
+    int at = up > 0 ? 1 : sli_meet_side(p, eye->at, eye->rays[low].to);
+    while (high - low > 1) {
+        const uint32_t middle = low + (high - low) / 2;
+        const int side = sli_meet_side(p, eye->at, eye->rays[middle].to);
+        if (side < 0)
+            high = middle;
+        else
+            low = middle, at = side;
+    }
+    return (sli_bearing){low, at == 0, false};
+}
+
+int sli_eye_side(const sli_proof_scene *scene, const sli_eye *eye, int32_t wall,
+                 const sli_meet *p) {
+    const sl_segment *w = &scene->walls[wall];
+    return sli_meet_side(p, w->a, w->b) * sli_orient(w->a, w->b, eye->at);
+}
+
+bool sli_eye_sees(const sli_proof_scene *scene, const sli_eye *eye, const sli_meet *p) {
+    const sli_bearing b = sli_eye_bearing(eye, p);
+    if (b.here) return true;
+    const int32_t wall = b.on ? eye->rays[b.ray].end : eye->rays[b.ray].cone;
+    return wall < 0 ? wall == SLI_NO_WALL : sli_eye_side(scene, eye, wall, p) >= 0;
+}

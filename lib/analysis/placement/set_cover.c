@@ -1,0 +1,449 @@
+/// Set cover, from the problem to a set and a proof.
+///
+/// 1. Reductions (cover_reduce.c) leave less, mostly much less.
+/// 2. What is left falls into parts that share no column. Each is solved by itself:
+/// 3. a greedy cover, a Lagrangian bound with covers by the way (cover_lagrange.c), local search
+///    (cover_search.c); and where bound and cover still differ,
+/// 4. branch and bound (cover_tree.c), with a linear program where there is one.
+/// 5. Steps, parts and trees are the proof, which cover_check.c reads with code of its own.
+///
+/// Costs are divided by their greatest common divisor first: then bounds are rounded up to whole
+/// numbers. The duals are integers over a power of two, as large as sums in 64 bits allow.
+#include "analysis/placement/cover.h"
+
+#include <string.h>
+
+sl_cover_options sl_cover_options_default(void) {
+    return (sl_cover_options){.nodes = 10000, .iterations = 50000};
+}
+
+void sl_cover_result_destroy(sl_context *context, sl_cover_result *r) {
+    sl_free(context, r->columns);
+    sl_free(context, r->proof.steps);
+    sl_free(context, r->proof.parts);
+    sl_free(context, r->proof.nodes);
+    sl_free(context, r->proof.duals);
+    *r = (sl_cover_result){0};
+}
+
+// --- the problem
+
+static sl_status check_columns(sl_context *context, const sl_cover_problem *p) {
+    size_t at = 0;
+    for (uint32_t j = 0; j < p->column_count; at = p->ends[j++]) {
+        if (p->ends[j] < at) return sl_fail(context, SL_BAD_ARGUMENT, "column %u ends early", j);
+        if (p->costs && !p->costs[j])
+            return sl_fail(context, SL_BAD_ARGUMENT, "column %u costs nothing", j);
+        for (size_t i = at; i < p->ends[j]; i++)
+            if (p->entries[i] >= p->row_count || (i > at && p->entries[i] <= p->entries[i - 1]))
+                return sl_fail(context, SL_BAD_ARGUMENT,
+                               "column %u: rows are below %u and ascending", j, p->row_count);
+    }
+    return SL_OK;
+}
+
+static sl_status check_rows(sl_context *context, const sli_cover *c) {
+    for (uint32_t r = 0; r < c->rows; r++)
+        if (c->row_first[r + 1] - c->row_first[r] < c->demands[r])
+            return sl_fail(context, SL_BAD_ARGUMENT, "row %u demands %u columns, and has %zu", r,
+                           c->demands[r], c->row_first[r + 1] - c->row_first[r]);
+    return SL_OK;
+}
+
+static uint32_t common_divisor(const sl_cover_problem *p) {
+    uint32_t divisor = p->costs ? 0 : 1;
+    for (uint32_t j = 0; j < p->column_count && divisor != 1; j++)
+        for (uint32_t a = p->costs[j]; a;) {
+            const uint32_t rest = divisor % a;
+            divisor = a;
+            a = rest;
+        }
+    return divisor ? divisor : 1;
+}
+
+sl_status sli_cover_read(sl_context *context, const sl_cover_problem *p, uint32_t divisor,
+                         sli_cover *out) {
+    SL_TRY(check_columns(context, p));
+    const size_t entries = p->column_count ? p->ends[p->column_count - 1] : 0;
+    SL_TRY(sli_cover_make(context, p->row_count, p->column_count, entries, out));
+    for (uint32_t j = 0; j < p->column_count; j++) {
+        out->column_first[j + 1] = p->ends[j];
+        out->costs[j] = p->costs && divisor ? p->costs[j] / divisor : 1;
+    }
+    if (entries) memcpy(out->column_rows, p->entries, entries * sizeof *p->entries);
+    for (uint32_t r = 0; r < p->row_count; r++) out->demands[r] = p->demands ? p->demands[r] : 1;
+    sli_cover_turn(out);
+    return SL_OK;
+}
+
+/// The largest power of two, up to 2^31, with which no bound comes near 2^63.
+static sl_status choose_denominator(sl_context *context, const sli_cover *c, uint64_t *out) {
+    double all = 0, demands = 0, most = 1;
+    for (uint32_t j = 0; j < c->columns; j++) {
+        all += c->costs[j];
+        if (c->costs[j] > most) most = c->costs[j];
+    }
+    for (uint32_t r = 0; r < c->rows; r++) demands += c->demands[r];
+    // A column is worth at most its rows' duals, each below the largest cost: the sum of all that
+    // is lost is below that of all entries.
+    const double entries = (double)c->column_first[c->columns];
+    const double size = all + (demands + entries) * most;
+    *out = (uint64_t)1 << 31;
+    while (*out > 1 && (double)*out * size > 0x1p60) *out /= 2;
+    if ((double)*out * size > 0x1p60)
+        return sl_fail(context, SL_UNSUPPORTED, "costs too large for sums in 64 bits");
+    return SL_OK;
+}
+
+// --- parts
+
+typedef struct piece {
+    sli_cover cover;
+    uint32_t *columns; ///< by column of the piece: its number in the problem
+    sli_cover_part part;
+} piece;
+
+typedef struct solver {
+    const sl_cover_options *options;
+    sli_cover cover;
+    sli_cover_left left;
+    uint64_t denominator, nodes, step_cost;
+    uint32_t *parts; ///< by row
+    uint32_t *names; ///< by row, and by column: the number in its piece
+    uint32_t *column_names;
+    piece *pieces;
+    uint32_t piece_count;
+} solver;
+
+static uint32_t find(uint32_t *up, uint32_t i) {
+    while (up[i] != i) i = up[i] = up[up[i]];
+    return i;
+}
+
+/// Numbers parts by their first rows.
+static sl_status find_parts(sl_context *context, solver *s) {
+    const sli_cover *c = &s->cover;
+    uint32_t *up = sl_alloc_array(context, c->rows, sizeof *up);
+    if (!up) return SL_NO_MEMORY;
+    for (uint32_t r = 0; r < c->rows; r++) up[r] = r;
+    for (uint32_t j = 0; j < c->columns; j++) {
+        uint32_t first = UINT32_MAX;
+        for (size_t i = c->column_first[j]; i < c->column_first[j + 1]; i++) {
+            const uint32_t row = c->column_rows[i];
+            if (!s->left.column_there[j] || !s->left.row_there[row]) continue;
+            if (first == UINT32_MAX) first = find(up, row);
+            const uint32_t other = find(up, row);
+            // The lower row leads, so that parts come in the order of their first rows.
+            up[first < other ? other : first] = first < other ? first : other;
+            if (other < first) first = other;
+        }
+    }
+    for (uint32_t r = 0; r < c->rows; r++) {
+        if (!s->left.row_there[r]) continue;
+        const uint32_t root = find(up, r);
+        s->parts[r] = root == r ? s->piece_count++ : s->parts[root];
+    }
+    sl_free(context, up);
+    return SL_OK;
+}
+
+/// Counts what pieces have, and gives rows and columns their numbers there.
+static sl_status make_pieces(sl_context *context, solver *s) {
+    const sli_cover *c = &s->cover;
+    size_t *entries = sl_alloc_array(context, s->piece_count, sizeof *entries);
+    s->pieces = sl_alloc_array(context, s->piece_count, sizeof *s->pieces);
+    sl_status status = entries && s->pieces ? SL_OK : SL_NO_MEMORY;
+    for (uint32_t r = 0; r < c->rows && status == SL_OK; r++)
+        if (s->left.row_there[r]) s->names[r] = s->pieces[s->parts[r]].cover.rows++;
+    for (uint32_t j = 0; j < c->columns && status == SL_OK; j++) {
+        uint32_t part = UINT32_MAX;
+        for (size_t i = c->column_first[j]; i < c->column_first[j + 1]; i++) {
+            if (!s->left.column_there[j] || !s->left.row_there[c->column_rows[i]]) continue;
+            part = s->parts[c->column_rows[i]];
+            entries[part]++;
+        }
+        s->left.column_there[j] = part != UINT32_MAX;
+        if (part != UINT32_MAX) s->column_names[j] = s->pieces[part].cover.columns++;
+    }
+    for (uint32_t k = 0; k < s->piece_count && status == SL_OK; k++) {
+        piece *p = &s->pieces[k];
+        status = sli_cover_make(context, p->cover.rows, p->cover.columns, entries[k], &p->cover);
+        p->columns = sl_alloc_array(context, p->cover.columns, sizeof *p->columns);
+        p->part.taken = sl_alloc_array(context, p->cover.columns, sizeof *p->part.taken);
+        if (!p->columns || !p->part.taken) status = SL_NO_MEMORY;
+        p->part.cover = &p->cover;
+        p->part.options = s->options;
+        p->part.denominator = s->denominator;
+    }
+    sl_free(context, entries);
+    return status;
+}
+
+static void fill_pieces(solver *s) {
+    const sli_cover *c = &s->cover;
+    for (uint32_t r = 0; r < c->rows; r++)
+        if (s->left.row_there[r])
+            s->pieces[s->parts[r]].cover.demands[s->names[r]] = s->left.rest[r];
+    for (uint32_t j = 0; j < c->columns; j++) {
+        piece *p = NULL;
+        for (size_t i = c->column_first[j]; i < c->column_first[j + 1]; i++) {
+            const uint32_t row = c->column_rows[i];
+            if (!s->left.column_there[j] || !s->left.row_there[row]) continue;
+            const uint32_t name = s->column_names[j];
+            if (!p) {
+                p = &s->pieces[s->parts[row]];
+                p->columns[name] = j;
+                p->cover.costs[name] = c->costs[j];
+                p->cover.column_first[name + 1] = p->cover.column_first[name];
+            }
+            p->cover.column_rows[p->cover.column_first[name + 1]++] = s->names[row];
+        }
+    }
+    for (uint32_t k = 0; k < s->piece_count; k++) sli_cover_turn(&s->pieces[k].cover);
+}
+
+static void solver_destroy(sl_context *context, solver *s) {
+    for (uint32_t k = 0; s->pieces && k < s->piece_count; k++) {
+        piece *p = &s->pieces[k];
+        sli_cover_destroy(context, &p->cover);
+        sl_free(context, p->columns);
+        sl_free(context, p->part.taken);
+        sl_free(context, p->part.nodes.items);
+        sl_free(context, p->part.duals.items);
+    }
+    sl_free(context, s->pieces);
+    sl_free(context, s->parts);
+    sl_free(context, s->names);
+    sl_free(context, s->column_names);
+    sli_cover_left_destroy(context, &s->left);
+    sli_cover_destroy(context, &s->cover);
+}
+
+// --- sets
+
+static void keep_if_better(sli_cover_part *p, const uint8_t *set) {
+    const uint64_t cost = sli_cover_cost(p->cover, set);
+    if (p->cost && cost >= p->cost) return;
+    p->cost = cost;
+    memcpy(p->taken, set, p->cover->columns);
+}
+
+/// A greedy cover of each piece; and what the caller has, completed.
+static sl_status begin_sets(sl_context *context, solver *s) {
+    uint8_t *start = sl_alloc_array(context, s->cover.columns, sizeof *start);
+    uint8_t *set = sl_alloc_array(context, s->cover.columns, sizeof *set);
+    sl_status status = start && set ? SL_OK : SL_NO_MEMORY;
+    for (uint32_t i = 0; i < s->options->start_count && status == SL_OK; i++) {
+        if (s->options->start[i] < s->cover.columns)
+            start[s->options->start[i]] = 1;
+        else
+            status = sl_fail(context, SL_BAD_ARGUMENT, "there is no column %u to start from",
+                             s->options->start[i]);
+    }
+    for (size_t i = 0; i < s->left.steps.count && status == SL_OK; i++) {
+        const sl_cover_step *step = &s->left.steps.items[i];
+        if (step->kind == SL_COVER_COLUMN_GOES) start[step->by] |= start[step->what];
+    }
+    for (uint32_t k = 0; k < s->piece_count && status == SL_OK; k++) {
+        piece *p = &s->pieces[k];
+        for (uint32_t j = 0; j < p->cover.columns; j++) set[j] = start[p->columns[j]];
+        if (s->options->start_count) {
+            status = sli_cover_greedy(context, &p->cover, NULL, NULL, set);
+            if (status == SL_OK) keep_if_better(&p->part, set);
+        }
+        memset(set, 0, s->cover.columns);
+        if (status == SL_OK) status = sli_cover_greedy(context, &p->cover, NULL, NULL, set);
+        if (status == SL_OK) keep_if_better(&p->part, set);
+    }
+    sl_free(context, start);
+    sl_free(context, set);
+    return status;
+}
+
+// --- bounds
+
+/// Takes duals as the proof of a part, a leaf alone, where they prove more than it has.
+static sl_status prove_by(sl_context *context, sli_cover_part *p, const double *duals) {
+    sli_cover_state state;
+    SL_TRY(sli_cover_state_make(context, p->cover, &state));
+    sl_status status = SL_ARRAY_ROOM(context, &p->nodes, 1);
+    if (status == SL_OK) status = SL_ARRAY_ROOM(context, &p->duals, p->cover->rows);
+    if (status == SL_OK) {
+        sli_cover_duals_round(p->cover, duals, p->denominator, p->duals.items);
+        p->duals.count = p->cover->rows;
+        p->nodes.count = 1;
+        p->nodes.items[0] = (sl_cover_node){UINT32_MAX, {UINT32_MAX, UINT32_MAX}, 0};
+        p->lower = sli_cover_ceiling(
+            sli_cover_bound(p->cover, &state, p->duals.items, p->denominator, NULL),
+            p->denominator);
+    }
+    sli_cover_state_destroy(context, &state);
+    return status;
+}
+
+/// What the cost of a part need not be below, as the caller has a bound of the whole.
+static uint64_t enough_of(const solver *s, const piece *p, uint64_t known) {
+    uint64_t others = 0;
+    for (uint32_t k = 0; k < s->piece_count; k++)
+        if (&s->pieces[k] != p) others += s->pieces[k].part.cost;
+    const uint64_t least = known > others ? known - others : 0;
+    return least > p->part.lower ? least : p->part.lower;
+}
+
+/// Iterations of the local search for each Lagrangian one, at most.
+enum { LAGRANGIAN_SHARE = 25 };
+
+static sl_status solve_piece(sl_context *context, solver *s, piece *p, uint64_t known) {
+    sli_cover_part *part = &p->part;
+    const sl_cover_options *o = s->options;
+    double *duals = sl_alloc_array(context, p->cover.rows, sizeof *duals);
+    double *values = sl_alloc_array(context, p->cover.columns, sizeof *values);
+    sli_cover_state state = {0};
+    sl_status status = duals && values ? SL_OK : SL_NO_MEMORY;
+    if (status == SL_OK) status = sli_cover_state_make(context, &p->cover, &state);
+    if (status == SL_OK)
+        status = sli_cover_lagrange(context, &p->cover, &state, part->cost,
+                                    o->iterations / LAGRANGIAN_SHARE, duals, values, part->taken);
+    if (status == SL_OK || status == SL_CANCELLED) {
+        const sl_status proven = prove_by(context, part, duals);
+        if (proven != SL_OK) status = proven;
+        part->cost = sli_cover_cost(&p->cover, part->taken);
+    }
+    if (status == SL_OK && part->cost > enough_of(s, p, known)) {
+        status = sli_cover_search(context, &p->cover, enough_of(s, p, known), o->iterations,
+                                  part->taken);
+        part->cost = sli_cover_cost(&p->cover, part->taken);
+    }
+    if (status == SL_OK && part->cost > enough_of(s, p, known))
+        status = sli_cover_branch(context, part, duals, &s->nodes);
+    sli_cover_state_destroy(context, &state);
+    sl_free(context, duals);
+    sl_free(context, values);
+    return status;
+}
+
+// --- the result
+
+/// The duals of a proof are for costs as they are, not divided: below the largest cost, times 2^31.
+static void add_nodes(sl_cover_proof *proof, const piece *its, uint32_t divisor, uint32_t part,
+                      uint32_t first) {
+    const sli_cover_part *p = &its->part;
+    const uint32_t count = (uint32_t)p->nodes.count;
+    for (uint32_t i = 0; i < count; i++) {
+        // The root, last in the part, is in front; the others follow, turned round.
+        sl_cover_node node = p->nodes.items[i];
+        for (int k = 0; k < 2; k++)
+            if (node.children[k] != UINT32_MAX)
+                node.children[k] = first + count - 2 - node.children[k];
+        if (node.column != UINT32_MAX) node.column = its->columns[node.column];
+        if (node.duals != SIZE_MAX) node.duals += proof->dual_count;
+        proof->nodes[i == count - 1 ? part : first + count - 2 - i] = node;
+    }
+    for (size_t i = 0; i < p->duals.count; i++)
+        proof->duals[proof->dual_count + i] = p->duals.items[i] * divisor;
+    proof->dual_count += p->duals.count;
+}
+
+static sl_status fill_proof(sl_context *context, solver *s, uint32_t divisor,
+                            sl_cover_proof *proof) {
+    size_t nodes = 0, duals = 0;
+    for (uint32_t k = 0; k < s->piece_count; k++) {
+        nodes += s->pieces[k].part.nodes.count;
+        duals += s->pieces[k].part.duals.count;
+    }
+    proof->denominator = s->denominator;
+    proof->row_count = s->cover.rows;
+    proof->part_count = s->piece_count;
+    proof->node_count = (uint32_t)nodes;
+    proof->step_count = (uint32_t)s->left.steps.count;
+    proof->steps = s->left.steps.items;
+    s->left.steps.items = NULL;
+    proof->parts = s->parts;
+    s->parts = NULL;
+    proof->nodes = sl_alloc_array(context, nodes, sizeof *proof->nodes);
+    proof->duals = sl_alloc_array(context, duals, sizeof *proof->duals);
+    if (!proof->nodes || !proof->duals) return SL_NO_MEMORY;
+    uint32_t first = s->piece_count;
+    for (uint32_t k = 0; k < s->piece_count; k++) {
+        add_nodes(proof, &s->pieces[k], divisor, k, first);
+        first += (uint32_t)s->pieces[k].part.nodes.count - 1;
+    }
+    return SL_OK;
+}
+
+static sl_status fill_result(sl_context *context, solver *s, uint32_t divisor,
+                             sl_cover_result *out) {
+    const sli_cover *c = &s->cover;
+    out->columns = sl_alloc_array(context, c->columns, sizeof *out->columns);
+    if (!out->columns) return SL_NO_MEMORY;
+    for (uint32_t k = 0; k < s->piece_count; k++) {
+        const piece *p = &s->pieces[k];
+        for (uint32_t j = 0; j < p->cover.columns; j++)
+            s->left.taken[p->columns[j]] |= p->part.taken[j];
+        out->lower += p->part.lower;
+        out->cost += p->part.cost;
+    }
+    out->lower += s->step_cost;
+    out->cost += s->step_cost;
+    out->lower *= divisor;
+    out->cost *= divisor;
+    if (out->lower < s->options->known_lower) out->lower = s->options->known_lower;
+    for (uint32_t j = 0; j < c->columns; j++)
+        if (s->left.taken[j]) out->columns[out->count++] = j;
+    return fill_proof(context, s, divisor, &out->proof);
+}
+
+/// A part whose turn does not come has a leaf without duals.
+static sl_status complete_parts(sl_context *context, solver *s) {
+    for (uint32_t k = 0; k < s->piece_count; k++) {
+        sli_cover_part *p = &s->pieces[k].part;
+        if (p->nodes.count) continue;
+        SL_TRY(SL_ARRAY_ROOM(context, &p->nodes, 1));
+        p->nodes.items[p->nodes.count++] =
+            (sl_cover_node){UINT32_MAX, {UINT32_MAX, UINT32_MAX}, SIZE_MAX};
+    }
+    return SL_OK;
+}
+
+static sl_status prepare(sl_context *context, const sl_cover_problem *problem, uint32_t divisor,
+                         solver *s) {
+    SL_TRY(sli_cover_read(context, problem, divisor, &s->cover));
+    SL_TRY(check_rows(context, &s->cover));
+    SL_TRY(choose_denominator(context, &s->cover, &s->denominator));
+    SL_TRY(sli_cover_reduce(context, &s->cover, &s->left));
+    s->step_cost = sli_cover_cost(&s->cover, s->left.taken);
+    s->parts = sl_alloc_array(context, s->cover.rows, sizeof *s->parts);
+    s->names = sl_alloc_array(context, s->cover.rows, sizeof *s->names);
+    s->column_names = sl_alloc_array(context, s->cover.columns, sizeof *s->column_names);
+    if (!s->parts || !s->names || !s->column_names) return SL_NO_MEMORY;
+    SL_TRY(find_parts(context, s));
+    SL_TRY(make_pieces(context, s));
+    fill_pieces(s);
+    return begin_sets(context, s);
+}
+
+sl_status sl_cover_solve(sl_context *context, const sl_cover_problem *problem,
+                         const sl_cover_options *options, sl_cover_result *out) {
+    const sl_cover_options usual = sl_cover_options_default();
+    solver s = {.options = options ? options : &usual};
+    const uint32_t divisor = common_divisor(problem);
+    s.nodes = s.options->nodes;
+    sl_cover_result result = {0};
+    sl_status status = prepare(context, problem, divisor, &s), filled = status;
+    if (status == SL_OK) {
+        // The bound that the caller knows, less what steps took, in units of the divisor.
+        const uint64_t known =
+            s.options->known_lower / divisor + (s.options->known_lower % divisor > 0);
+        for (uint32_t k = 0; k < s.piece_count && status == SL_OK; k++)
+            status = solve_piece(context, &s, &s.pieces[k],
+                                 known > s.step_cost ? known - s.step_cost : 0);
+        filled = status == SL_OK || status == SL_CANCELLED ? complete_parts(context, &s) : status;
+        if (filled == SL_OK) filled = fill_result(context, &s, divisor, &result);
+    }
+    solver_destroy(context, &s);
+    if (filled == SL_OK)
+        *out = result;
+    else
+        sl_cover_result_destroy(context, &result);
+    return filled == SL_OK ? status : filled;
+}

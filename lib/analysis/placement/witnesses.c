@@ -1,0 +1,186 @@
+/// Witnesses: points that are hard to see. They are put a little off all lines through corners, by
+/// chance, so that no line of sight touches two corners.
+#include "analysis/placement/placer.h"
+
+#include "geometry/length.h"
+#include "geometry/orient.h"
+
+#include <stdlib.h>
+
+static sl_point from_to(sl_point from, sl_point to, double share) {
+    return (sl_point){from.x + share * (to.x - from.x), from.y + share * (to.y - from.y)};
+}
+
+/// A number between 0.5 and 1, so that points are in no line by chance.
+static double some(sli_placer *p) {
+    return 0.5 + 0.5 * sl_random_unit(&p->random);
+}
+
+/// Adds a witness. False where it is not inside, or not general.
+sl_status sli_add_witness(sli_placer *p, sl_point at, bool *added) {
+    sli_look look;
+    bool clean = false;
+    *added = false;
+    at = sli_coordinates(at);
+    if (!sl_space_is_inside(p->ground.space, at)) return SL_OK;
+    SL_TRY(SL_ARRAY_ROOM(p->context, &p->witnesses, 1));
+    SL_TRY(sli_look_make(p->context, p->query, &p->memory, at, &look, &clean));
+    *added = clean && look.general;
+    if (!*added) {
+        sli_look_destroy(p->context, &look);
+        return SL_OK;
+    }
+    const uint32_t number = (uint32_t)p->witnesses.count;
+    p->witnesses.items[p->witnesses.count++] = look;
+    for (size_t i = 0; i < p->candidates.count; i++) SL_TRY(sli_try_seeing(p, i, number));
+    return SL_OK;
+}
+
+static sl_status add_near(sli_placer *p, sl_point corner, sl_point before, sl_point after,
+                          double share) {
+    bool added = false;
+    for (int i = 0; i < 6 && !added; i++) {
+        const sl_point to = from_to(before, after, some(p) / 1.5);
+        SL_TRY(sli_add_witness(p, from_to(corner, to, share * some(p)), &added));
+    }
+    return SL_OK;
+}
+
+static const sl_side *side_of(const sl_outline *o, uint32_t i) {
+    return &o->sides[i];
+}
+
+/// Whether sides i and the next one are walls and turn: the corner between them is convex.
+static bool is_convex(const sl_outline *o, uint32_t i) {
+    const sl_side *s = side_of(o, i), *next = side_of(o, s->next);
+    return !sl_side_is_portal(s) && !sl_side_is_portal(next) &&
+           sli_orient(s->start, next->start, side_of(o, next->next)->start) > 0;
+}
+
+sl_status sli_add_first_witnesses(sli_placer *p) {
+    const sl_outline *o;
+    SL_TRY(sl_query_outline(p->context, p->query, &o));
+    const uint32_t rooms = o->room_count;
+    for (uint32_t r = 0; r < rooms; r++)
+        for (uint32_t i = o->first[r]; i < o->first[r + 1]; i++) {
+            const sl_side *s = side_of(o, i), *next = side_of(o, s->next);
+            if (sl_side_is_portal(s)) continue;
+            const sl_point end = side_of(o, next->next)->start;
+            uint32_t before = i;
+            while (side_of(o, before)->next != i) before = side_of(o, before)->next;
+            if (is_convex(o, i))
+                SL_TRY(add_near(p, next->start, s->start, end, 1e-4));
+            else if (!is_convex(o, before)) {
+                bool added = false;
+                const sl_point a = s->start, b = next->start;
+                const sl_point m = from_to(a, b, 0.25 + 0.5 * some(p) / 1.5);
+                for (double h = 1e-3; !added && h > 1e-8; h /= 8)
+                    SL_TRY(sli_add_witness(
+                        p, (sl_point){m.x - h * (b.y - a.y), m.y + h * (b.x - a.x)}, &added));
+            }
+        }
+    return SL_OK;
+}
+
+sl_status sli_add_beyond(sli_placer *p, const sli_window_part *gap, bool *added) {
+    static const double depths[] = {0.5,  0.25, 0.1,  0.03, 0.01, 1e-3,
+                                    1e-4, 1e-5, 1e-7, 1e-9, 1e-12};
+    static const double shares[] = {0.5, 0.25, 0.75, 0.05, 0.95};
+    const sli_track t = sli_track_of(sli_chosen_look(p, gap->look), gap->window);
+    const double length =
+        (gap->to - gap->from) * sli_length(t.line.b.x - t.line.a.x, t.line.b.y - t.line.a.y);
+    *added = false;
+    for (size_t d = 0; d < sizeof depths / sizeof *depths; d++)
+        for (size_t s = 0; s < sizeof shares / sizeof *shares; s++) {
+            const double share = shares[s] + 0.04 * (some(p) - 0.75);
+            const sl_point at = sli_track_beside(&t, gap->from + share * (gap->to - gap->from), -1,
+                                                 depths[d] * length);
+            if (!sl_space_is_inside(p->ground.space, at) || sli_is_seen(p, at)) continue;
+            SL_TRY(sli_add_witness(p, at, added));
+            if (*added) return SL_OK;
+        }
+    return SL_OK;
+}
+
+static int compare_areas(const void *left, const void *right) {
+    const sli_hard_witness *a = left, *b = right;
+    if (a->area != b->area) return a->area < b->area ? -1 : 1;
+    return (a->witness > b->witness) - (a->witness < b->witness);
+}
+
+static bool is_active(const sli_placer *p, uint32_t witness) {
+    for (size_t i = 0; i < p->active.count; i++)
+        if (p->active.items[i] == witness) return true;
+    return false;
+}
+
+/// Whether a witness sees one that has become active since `from`.
+static bool sees_one_since(const sli_placer *p, size_t from, uint32_t witness) {
+    const sl_point at = p->witnesses.items[witness].eye;
+    for (size_t i = from; i < p->active.count; i++)
+        if (sli_look_holds(&p->witnesses.items[p->active.items[i]], at)) return true;
+    return false;
+}
+
+sl_status sli_activate(sli_placer *p, bool *added) {
+    const size_t before = p->active.count;
+    p->unseen.count = 0;
+    for (uint32_t i = 0; i < p->witnesses.count; i++) {
+        const sli_look *w = &p->witnesses.items[i];
+        if (is_active(p, i) || sli_is_seen(p, w->eye)) continue;
+        SL_TRY(SL_ARRAY_ROOM(p->context, &p->unseen, 1));
+        p->unseen.items[p->unseen.count++] = (sli_hard_witness){w->area, i};
+    }
+    if (p->unseen.count)
+        qsort(p->unseen.items, p->unseen.count, sizeof *p->unseen.items, compare_areas);
+    const size_t room = before / 4 + 16;
+    SL_TRY(SL_ARRAY_ROOM(p->context, &p->active, p->unseen.count));
+    for (int pass = 0; pass < 2; pass++)
+        for (size_t i = 0; i < p->unseen.count && (!pass || p->active.count < before + room); i++) {
+            const uint32_t witness = p->unseen.items[i].witness;
+            if (witness == UINT32_MAX || (!pass && sees_one_since(p, before, witness))) continue;
+            p->active.items[p->active.count++] = witness;
+            p->unseen.items[i].witness = UINT32_MAX;
+        }
+    *added = p->active.count > before;
+    return SL_OK;
+}
+
+// --- parts of the plan
+
+static uint32_t part_of(uint32_t *parent, uint32_t cell) {
+    while (parent[cell] != cell) {
+        parent[cell] = parent[parent[cell]];
+        cell = parent[cell];
+    }
+    return cell;
+}
+
+sl_status sli_add_unseen_parts(sli_placer *p, bool *added) {
+    const sl_space *space = p->ground.space;
+    uint32_t *parent = sl_alloc_array(p->context, space->cell_count, sizeof *parent);
+    bool *seen = sl_alloc_array(p->context, space->cell_count, sizeof *seen);
+    sl_status status = parent && seen ? SL_OK : SL_NO_MEMORY;
+    *added = false;
+    for (uint32_t c = 0; status == SL_OK && c < space->cell_count; c++) parent[c] = c;
+    for (uint32_t i = 0; status == SL_OK && i < space->directed_count; i++) {
+        const uint32_t *cell = space->portals[space->directed[i].portal].cell;
+        if (space->cells[cell[0]].inside && space->cells[cell[1]].inside)
+            parent[part_of(parent, cell[0])] = part_of(parent, cell[1]);
+    }
+    for (size_t i = 0; status == SL_OK && i < p->chosen.count; i++)
+        seen[part_of(parent, sl_space_locate(space, sli_chosen_look(p, i)->eye))] = true;
+    for (uint32_t c = 0; status == SL_OK && c < space->cell_count; c++) {
+        bool one;
+        if (!space->cells[c].inside || seen[part_of(parent, c)]) continue;
+        const sl_point m = sl_space_middle(space, c);
+        const sl_point corner = space->vertices[space->cells[c].first_vertex];
+        for (int i = 0; i < 4 && status == SL_OK && !seen[part_of(parent, c)]; i++) {
+            status = sli_add_witness(p, from_to(m, corner, 0.1 * some(p)), &one);
+            if (status == SL_OK && one) *added = seen[part_of(parent, c)] = true;
+        }
+    }
+    sl_free(p->context, parent);
+    sl_free(p->context, seen);
+    return status;
+}

@@ -1,0 +1,202 @@
+/// Pictures of what several viewpoints see together: classes of coverage, and each viewpoint in a
+/// colour of its own.
+#include "draw/marks.h"
+#include "draw/page.h"
+#include "sightline/support.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/// Classes: 0, 1, 2, 3 and more.
+enum { CLASSES = 4, NAME_TEXT = 48 };
+
+typedef struct picture {
+    sl_scene scene;
+    const sl_drawn_coverage *coverage;
+    const char *caption;
+} picture;
+
+/// Blind spots stand out; the others are one tone, the deeper the more viewpoints.
+static sl_colour class_colour(const sl_palette *palette, uint32_t class) {
+    static const sl_colour light[CLASSES] = {
+        {0.965, 0.735, 0.600}, {0.835, 0.910, 0.945}, {0.610, 0.790, 0.880}, {0.370, 0.630, 0.780}};
+    static const sl_colour dark[CLASSES] = {
+        {0.560, 0.290, 0.170}, {0.130, 0.240, 0.320}, {0.150, 0.350, 0.470}, {0.200, 0.480, 0.620}};
+    return palette->dark ? dark[class] : light[class];
+}
+
+/// Colours that tell viewpoints apart: eight that keep apart for colour-blind eyes (Okabe and Ito
+/// 2008, without yellow and with a deeper sky), then mixed with the ink.
+static sl_colour viewpoint_colour(const sl_palette *palette, size_t viewpoint) {
+    static const sl_colour kinds[] = {
+        {0.000, 0.447, 0.698}, {0.835, 0.369, 0.000}, {0.000, 0.520, 0.380}, {0.720, 0.360, 0.580},
+        {0.550, 0.420, 0.000}, {0.180, 0.520, 0.720}, {0.420, 0.250, 0.620}};
+    enum { KINDS = sizeof kinds / sizeof *kinds };
+    const double share = viewpoint / KINDS % 2 ? 0.45 : 0;
+    const sl_colour own = sl_colour_mix(kinds[viewpoint % KINDS], palette->ink, share);
+    return palette->dark ? sl_colour_mix(own, (sl_colour){1, 1, 1}, 0.45) : own;
+}
+
+static uint32_t class_of(const sl_drawn_coverage *c, uint32_t piece) {
+    return c->counts[piece] < CLASSES ? c->counts[piece] : CLASSES - 1;
+}
+
+/// Pieces of one class make one path. A thin stroke covers the seams between them.
+static sl_status draw_classes(sl_context *context, cairo_t *cairo, const picture *p,
+                              const sl_frame *frame) {
+    const sl_space *pieces = p->coverage->pieces;
+    for (uint32_t class = 0; class < CLASSES; class ++) {
+        SL_TRY(sl_check_cancelled(context));
+        for (uint32_t i = 0; i < pieces->cell_count; i++)
+            if (pieces->cells[i].inside && class_of(p->coverage, i) == class)
+                sl_path_polygon(cairo, frame, pieces->vertices + pieces->cells[i].first_vertex,
+                                pieces->cells[i].vertex_count);
+        sl_set_colour(cairo, class_colour(&p->scene.palette, class));
+        cairo_fill_preserve(cairo);
+        cairo_set_line_width(cairo, 0.6);
+        cairo_stroke(cairo);
+    }
+    return SL_OK;
+}
+
+static void draw_border(cairo_t *cairo, const picture *p, const sl_frame *frame, size_t viewpoint) {
+    const sl_shape *shape = &p->coverage->regions[viewpoint];
+    for (size_t i = 0, from = 0; i < shape->count; from = shape->ends[i++])
+        sl_path_polygon(cairo, frame, shape->points + from, shape->ends[i] - from);
+    sl_colour colour = viewpoint_colour(&p->scene.palette, viewpoint);
+    sli_pen_stroke(cairo, colour, 1.1 * frame->unit);
+}
+
+/// The borders of its cone, short, or nothing.
+static void draw_cone(cairo_t *cairo, const sl_frame *frame, const sl_viewpoint *v,
+                      sl_colour colour) {
+    if (!(v->fov < 360)) return;
+    const sl_point at = sl_frame_point(frame, v->at);
+    const double reach = 22 * frame->unit, degree = SLI_FULL_TURN / 360;
+    const double low = (v->heading - v->fov / 2) * degree, high = low + v->fov * degree;
+    cairo_move_to(cairo, at.x, at.y);
+    cairo_arc_negative(cairo, at.x, at.y, reach, -low, -high); // the page's y runs down
+    cairo_close_path(cairo);
+    sl_set_colour(cairo, colour);
+    cairo_fill(cairo);
+}
+
+/// A disc with a text in it, or beside it where it is long.
+static void draw_label(cairo_t *cairo, const sl_frame *frame, sl_point at, const char *text,
+                       sl_colour ground, sl_colour ink) {
+    const double size = 11 * frame->unit;
+    sl_text_font(cairo, size, true);
+    const double wide = sl_text_width(cairo, text), half = fmax(wide / 2 + 0.3 * size, 0.75 * size);
+    const sl_point place = sl_frame_point(frame, at);
+    const double high = 0.75 * size;
+    cairo_new_sub_path(cairo);
+    cairo_arc(cairo, place.x + half - high, place.y, high, -SLI_FULL_TURN / 4, SLI_FULL_TURN / 4);
+    cairo_arc(cairo, place.x - half + high, place.y, high, SLI_FULL_TURN / 4, -SLI_FULL_TURN / 4);
+    cairo_close_path(cairo);
+    sl_set_colour(cairo, ground);
+    cairo_fill_preserve(cairo);
+    sli_pen_stroke(cairo, ink, 0.9 * frame->unit);
+    sl_text_show(cairo, ink, place.x - wide / 2, place.y + 0.36 * size, text);
+}
+
+static void draw_viewpoint(cairo_t *cairo, const picture *p, const sl_frame *frame, size_t i) {
+    const sl_colour colour = viewpoint_colour(&p->scene.palette, i);
+    char number[NAME_TEXT];
+    const char *name = p->coverage->names ? p->coverage->names[i] : NULL;
+    if (name)
+        sli_text_copy(name, strlen(name), number, sizeof number);
+    else
+        snprintf(number, sizeof number, "%zu", i + 1);
+    draw_cone(cairo, frame, &p->coverage->viewpoints[i], colour);
+    draw_label(cairo, frame, p->coverage->viewpoints[i].at, number, colour, p->scene.palette.page);
+}
+
+static sl_status draw_plan(sl_context *context, cairo_t *cairo, const void *what,
+                           const sl_frame *frame) {
+    const picture *p = what;
+    const sl_palette *palette = &p->scene.palette;
+    SL_TRY(sl_draw_plan(context, cairo, &p->scene, p->scene.options.layers, frame));
+    SL_TRY(draw_classes(context, cairo, p, frame));
+    sli_draw_solid(cairo, &p->scene, frame);
+    for (size_t i = 0; i < p->coverage->count; i++) draw_border(cairo, p, frame, i);
+    SL_TRY(sl_draw_walls(context, cairo, &p->scene, frame));
+    for (size_t i = 0; i < p->coverage->blind_count; i++) {
+        char text[NAME_TEXT];
+        snprintf(text, sizeof text, "blind %zu", i + 1);
+        draw_label(cairo, frame, p->coverage->blind[i], text, palette->page, palette->ink);
+    }
+    for (size_t i = 0; i < p->coverage->count; i++) draw_viewpoint(cairo, p, frame, i);
+    return SL_OK;
+}
+
+// --- the page
+
+/// The classes that there are, in one line as the width allows.
+static double draw_key(cairo_t *cairo, const picture *p, sl_point at, double width, double size,
+                       bool paint) {
+    static const char *const texts[CLASSES] = {"not seen", "seen by 1", "by 2", "by 3 or more"};
+    const sl_space *pieces = p->coverage->pieces;
+    bool used[CLASSES] = {false};
+    for (uint32_t i = 0; i < pieces->cell_count; i++)
+        used[class_of(p->coverage, i)] |= pieces->cells[i].inside;
+    double x = at.x, y = at.y;
+    for (uint32_t class = 0; class < CLASSES; class ++) {
+        if (!used[class]) continue;
+        sl_text_font(cairo, size, false);
+        const double wide = 2.55 * size + sl_text_width(cairo, texts[class]);
+        if (x > at.x && x + wide > at.x + width) {
+            x = at.x;
+            y += 1.95 * size;
+        }
+        if (paint) {
+            cairo_rectangle(cairo, x, y + 0.22 * size, 2 * size, 1.2 * size);
+            sl_set_colour(cairo, class_colour(&p->scene.palette, class));
+            cairo_fill(cairo);
+            sl_text_show(cairo, p->scene.palette.ink, x + 2.55 * size, y + 1.16 * size,
+                         texts[class]);
+        }
+        x += wide + 1.9 * size;
+    }
+    return y + 1.95 * size - at.y;
+}
+
+static void set_page(cairo_t *cairo, const void *what, sli_page *page, bool paint) {
+    const picture *p = what;
+    const sl_palette *palette = &p->scene.palette;
+    const double top = sli_page_heading(cairo, page, palette, p->scene.options.title, NULL, paint);
+    if (!paint) sli_page_place_plan(page, p->scene.baked->space.bounds, top, SLI_PAGE_TALLEST);
+    double y = page->key;
+    y += draw_key(cairo, p, (sl_point){page->margin, y}, page->inner, page->text, paint);
+    y += sli_draw_ground_key(cairo, &p->scene, (sl_point){page->margin, y}, page->text, paint);
+    if (p->caption) {
+        sl_text_font(cairo, page->text, false);
+        const unsigned lines = sl_text_lines(cairo, page->inner, p->caption);
+        if (paint)
+            sl_text_show_lines(cairo, palette->ink, page->margin, y + 1.1 * page->text, page->inner,
+                               1.5 * page->text, p->caption);
+        y += 1.5 * page->text * lines + 0.1 * page->text;
+    }
+    page->height = ceil(y + 0.7 * page->margin);
+}
+
+sl_status sl_draw_coverage_file(sl_context *context, const sl_baked *baked,
+                                const sl_drawn_coverage *coverage, const char *caption,
+                                const sl_draw_options *options, const char *path) {
+    const sli_paper_kind *kind;
+    SL_TRY(sli_paper_kind_of(context, path, &kind));
+    SL_TRY(sli_page_check_width(context, options->width));
+    picture p = {.coverage = coverage, .caption = caption};
+    sl_draw_options plain = *options;
+    plain.layers = SL_LAYER_WALLS;
+    plain.cell = SL_NO_CELL;
+    SL_TRY(sli_scene_make(context, baked, &plain, NULL, &p.scene));
+    const sli_page_parts parts = {.set = set_page,
+                                  .draw_plan = draw_plan,
+                                  .what = &p,
+                                  .ground = p.scene.palette.page,
+                                  .title = options->title};
+    const sl_status status = sli_page_write(context, &parts, options->width, kind, path);
+    sli_scene_clear(context, &p.scene);
+    return status;
+}

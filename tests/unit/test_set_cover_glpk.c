@@ -1,0 +1,93 @@
+/// Set cover with GLPK's linear program: the same least costs, proven by the same check; GLPK's own
+/// branch and bound finds them too.
+#include "cover_problems.h"
+
+#include "sightline/glpk.h"
+
+static cover_problem p;
+
+static void finds_the_least_with_a_program(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    sl_random random = {41};
+    sl_cover_options options = sl_cover_options_default();
+    options.program = sl_cover_glpk();
+    options.iterations = 0; // so that bounds come from the program
+    const uint64_t seeds = testing_seeds(1000);
+    for (uint64_t i = 0; i < seeds; i++) {
+        cover_small(&p, &random);
+        if (i % 4 == 0) {
+            cover_steiner(&p, 2);
+            cover_cost(&p, &random, 9, 1);
+        }
+        const uint64_t least = cover_brute(&p);
+        sl_cover_result r;
+        assert_ok(context, sl_cover_solve(context, &p.problem, &options, &r));
+        cover_check_result(context, &p, &r);
+        assert_true(r.lower == least && r.cost == least);
+        sl_cover_result_destroy(context, &r);
+    }
+    sl_context_destroy(context);
+}
+
+/// The bound of the relaxation is that of its duals.
+static void relaxes_and_branches(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    sl_random random = {42};
+    const sl_cover_program *program = sl_cover_glpk();
+    for (int i = 0; i < 20; i++) {
+        cover_discs(&p, &random, 60, 90, 0.2);
+        cover_cost(&p, &random, 9, 1);
+        double duals[COVER_ROWS], values[COVER_COLUMNS], paid = 0, asked = 0;
+        assert_ok(context, program->relax(context, &p.problem, 0, duals, values));
+        for (uint32_t j = 0; j < p.problem.column_count; j++) paid += p.costs[j] * values[j];
+        for (uint32_t r = 0; r < p.problem.row_count; r++) asked += duals[r];
+        assert_true(asked > paid * (1 - 1e-6) && asked < paid * (1 + 1e-6));
+        assert_int_equal(program->relax(context, &p.problem, 1, duals, values), SL_UNSUPPORTED);
+        uint32_t columns[COVER_COLUMNS], count;
+        assert_ok(context, program->branch(context, &p.problem, 100000, columns, &count));
+        sl_cover_options options = sl_cover_options_default();
+        options.program = program;
+        sl_cover_result r;
+        assert_ok(context, sl_cover_solve(context, &p.problem, &options, &r));
+        cover_check_result(context, &p, &r);
+        uint64_t cost = 0;
+        for (uint32_t k = 0; k < count; k++) cost += p.costs[columns[k]];
+        assert_true(r.lower == r.cost && r.cost == cost);
+        sl_cover_result_destroy(context, &r);
+    }
+    sl_context_destroy(context);
+}
+
+/// Our own memory fails; GLPK's is not ours.
+static void survives_lack_of_memory(void **state) {
+    (void)state;
+    testing_memory memory = {0};
+    sl_context *context = testing_context(&memory);
+    cover_steiner(&p, 2);
+    sl_cover_options options = {.nodes = 50, .program = sl_cover_glpk()};
+    sl_cover_result r;
+    memory.calls = 0;
+    assert_ok(context, sl_cover_solve(context, &p.problem, &options, &r));
+    const long needed = memory.calls;
+    sl_cover_result_destroy(context, &r);
+    const long live = memory.live;
+    for (long at = 1; at <= needed; at++) {
+        memory.calls = 0;
+        memory.fail_at = at;
+        assert_int_equal(sl_cover_solve(context, &p.problem, &options, &r), SL_NO_MEMORY);
+        memory.fail_at = 0;
+        assert_int_equal(memory.live, live);
+    }
+    sl_context_destroy(context);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(finds_the_least_with_a_program),
+        cmocka_unit_test(relaxes_and_branches),
+        cmocka_unit_test(survives_lack_of_memory),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,132 @@
+/// `sightline cover`: what given viewpoints see together.
+#include "arguments/outputs.h"
+#include "commands/commands.h"
+#include "inputs/pipeline.h"
+#include "sightline/support.h"
+#include "studies/cover_report.h"
+#include "system/built.h"
+
+#include <stdio.h>
+
+typedef struct cover_plan {
+    const char *operands[2]; ///< the map, and the table
+    const char *picture;
+    map_pipeline pipeline;
+    door_choice doors;
+    sl_viewpoint like; ///< what rows of the table leave out
+    bool json;
+    sl_draw_options drawing;
+} cover_plan;
+
+typedef struct cover_work {
+    sl_baked baked;
+    sl_query *query;
+    sl_cameras cameras;
+    sl_viewpoint *viewpoints;
+    sl_coverage coverage;
+} cover_work;
+
+/// A viewpoint that is not inside sees nothing that counts, or only through windows.
+static sl_status check_places(sl_context *context, const cover_plan *plan, const cover_work *w) {
+    const sl_space *space = &w->baked.space;
+    char nearest[INPUT_NEAREST_TEXT];
+    size_t outside = 0, first = 0;
+    for (size_t i = 0; i < w->cameras.count; i++) {
+        const sl_camera *camera = &w->cameras.items[i];
+        SL_TRY(input_check_place(context, plan->operands[1], camera->line, space, camera->view.at));
+        const uint32_t cell = sl_space_locate(space, camera->view.at);
+        if (cell == SL_NO_CELL || space->cells[cell].inside) continue;
+        if (!outside++) first = i;
+    }
+    if (!outside) return SL_OK;
+    const sl_camera *camera = &w->cameras.items[first];
+    sl_note(context, "%s: %zu of %zu viewpoints are not inside; the first is on line %u%s",
+            plan->operands[1], outside, w->cameras.count, camera->line,
+            input_say_nearest(space, camera->view.at, nearest));
+    return SL_OK;
+}
+
+static sl_status print_json(sl_context *context, const cover_report *report) {
+    json_fields fields = json_begin();
+    json_add_text(&fields, "input", report->input);
+    cover_add_json(&fields, report);
+    return json_print(context, &fields);
+}
+
+static sl_status work(command_console *console, const cover_plan *plan, cover_work *w) {
+    sl_context *context = console->context;
+    const sl_baked *baked = &w->baked;
+    SL_TRY(pipeline_read_space(
+        context, &plan->pipeline, "cover",
+        SL_EFFECT_RANGE | SL_EFFECT_MIRROR | SL_EFFECT_DOOR | SL_EFFECT_ONEWAY, NULL, &w->baked));
+    SL_TRY(pipeline_need_inside(context, &plan->pipeline, &baked->map, &baked->space, ""));
+    SL_TRY(doors_shut(context, &plan->doors, &w->baked));
+    SL_TRY(sl_cameras_read(context, plan->operands[1], &plan->like, &w->cameras));
+    SL_TRY(check_places(context, plan, w));
+    SL_TRY(sl_query_over(context, &baked->space, &baked->map, NULL, &w->query));
+    if (baked->map.mirror_count)
+        sl_note(context, "mirrors are walls here: cover counts what is seen directly");
+    SL_TRY(cover_viewpoints(context, &w->cameras, &w->viewpoints));
+    SL_TRY(sl_coverage_make(context, w->query, w->viewpoints, w->cameras.count, &w->coverage));
+    const cover_report report = {plan->operands[0], plan->pipeline.input.import.map, baked,
+                                 &w->cameras, &w->coverage};
+    char caption[256];
+    cover_sentence(&report, caption, sizeof caption);
+    if (plan->picture) SL_TRY(cover_draw(context, &report, caption, &plan->drawing, plan->picture));
+    progress_line_clear(&console->line);
+    if (plan->json) return print_json(context, &report);
+    if (!console->quiet) cover_print(&report);
+    return SL_OK;
+}
+
+static void clear(sl_context *context, cover_work *w) {
+    sl_coverage_destroy(context, &w->coverage);
+    sl_free(context, w->viewpoints);
+    sl_cameras_destroy(context, &w->cameras);
+    sl_query_destroy(context, w->query);
+    sl_baked_destroy(context, &w->baked);
+}
+
+sl_status cmd_cover(command_console *console, int argc, char **argv) {
+    cover_plan plan = {
+        .pipeline = pipeline_default(), .like = {.fov = 360}, .drawing = built_draw_options()};
+    const option_table pipeline = pipeline_option_table(&plan.pipeline);
+    const option_table picture = picture_option_table(&plan.drawing, "picture", true);
+    const option_table doors = door_option_table(&plan.doors);
+    const option_spec options[] = {
+        {"picture", 0, "PICTURE", "draw classes of coverage: .png, .svg or .pdf",
+         .text = &plan.picture, .check = CHECK_PICTURE},
+        {"json", 0, NULL, "print one JSON object", .flag = &plan.json},
+        {"fov", 0, "DEG", "width of view cones that the table does not give (default: 360)",
+         .number = &plan.like.fov, .over_0 = true, .most = 360},
+        {"range", 0, "R", "how far viewpoints see where the table does not say (default: no limit)",
+         .number = &plan.like.range, .over_0 = true},
+        {.group = &doors},
+        {.group = &picture},
+        {.group = &pipeline},
+    };
+    const command_usage usage = {
+        .name = "cover",
+        .synopsis = "MAP|FILE.slv TABLE [options]",
+        .operands = {"MAP|FILE.slv", "TABLE"},
+        .what = "Shows what given viewpoints see together: how much of the inside 0, 1, 2, 3 or "
+                "more of them see, the blind spots by size, what each viewpoint sees and what it "
+                "alone sees. The table has the columns x and y, and maybe name, heading, fov, "
+                "range, height, tilt; commas, semicolons or tabs stand between them. Angles are "
+                "degrees, counter-clockwise from +x; a camera of some height and tilt has a dead "
+                "zone below.",
+        .examples = "  sightline cover gallery.dxf cameras.csv --picture cover.png\n"
+                    "  sightline cover office.map cameras.csv --fov 90 --range 12",
+        .options = options,
+        .option_count = sizeof options / sizeof *options,
+        .given = &plan.pipeline.given,
+    };
+    bool helped;
+    SL_TRY(options_parse(console, &usage, argc, argv, plan.operands, &helped));
+    if (helped) return SL_OK;
+    cover_work w = {0};
+    sl_status status = pipeline_plan(console->context, plan.operands[0], &plan.pipeline);
+    if (status == SL_OK) status = work(console, &plan, &w);
+    clear(console->context, &w);
+    return status;
+}

@@ -1,0 +1,225 @@
+/// `sightline place`: where viewpoints must stand, with a proof.
+#include "arguments/outputs.h"
+#include "commands/commands.h"
+#include "inputs/pipeline.h"
+#include "sightline/place_proof.h"
+#include "sightline/support.h"
+#include "studies/cover_report.h"
+#include "system/built.h"
+#include "system/deadline.h"
+
+#include <math.h>
+#include <stdio.h>
+
+typedef struct place_plan {
+    const char *input, *output, *picture, *proof, *verify;
+    map_pipeline pipeline;
+    door_choice doors;
+    double time_limit;
+    bool json;
+    sl_draw_options drawing;
+} place_plan;
+
+typedef struct place_work {
+    sl_baked baked;
+    sl_query *query;
+    sl_placement placement;
+    sl_cameras cameras; ///< the viewpoints of the placement
+    sl_viewpoint *viewpoints;
+    sl_coverage coverage;
+    double seconds;
+    bool late; ///< the time limit or Ctrl-C ended it
+} place_work;
+
+/// Keeps what there is when the time is over.
+static sl_status place(command_console *console, const place_plan *plan, place_work *w) {
+    const double start = sl_seconds();
+    deadline limit = {.at = plan->time_limit > 0 ? start + plan->time_limit : INFINITY,
+                      .asks = true};
+    sl_context *context;
+    sl_place_options options = sl_place_options_default();
+    options.program = built_cover_program();
+    SL_TRY(deadline_open(console, &limit, &context));
+    sl_status status = sl_place(context, w->query, &options, &w->placement);
+    if (status == SL_CANCELLED && limit.late && w->placement.count) {
+        status = SL_OK;
+        w->late = true;
+    }
+    if (status == SL_CANCELLED && limit.late)
+        status = sl_fail(console->context, SL_CANCELLED,
+                         "no set of viewpoints was found in time: give more with --time-limit");
+    else if (status != SL_OK)
+        sl_fail(console->context, status, "%s", sl_context_message(context));
+    sl_context_destroy(context);
+    w->seconds = sl_seconds() - start;
+    return status;
+}
+
+/// What the viewpoints see, found anew.
+static sl_status survey(sl_context *context, place_work *w) {
+    for (uint32_t i = 0; i < w->placement.count; i++) {
+        const sl_camera camera = {.view = w->placement.viewpoints[i], .cost = 1};
+        SL_TRY(sl_cameras_add(context, &w->cameras, &camera));
+    }
+    SL_TRY(cover_viewpoints(context, &w->cameras, &w->viewpoints));
+    return sl_coverage_make(context, w->query, w->viewpoints, w->cameras.count, &w->coverage);
+}
+
+/// What is proven, in words.
+static void say_proof(const place_work *w, char *text, size_t size) {
+    const sl_placement *p = &w->placement;
+    const unsigned lower = (unsigned)p->lower, witnesses = (unsigned)p->witness_count;
+    if (p->slivers)
+        snprintf(text, size,
+                 "At least %u are needed, wherever they stand. These see everything but slivers at "
+                 "%u place%s, where some must stand in line with walls.",
+                 lower, (unsigned)p->slivers, p->slivers == 1 ? "" : "s");
+    else if (p->lower == p->upper)
+        snprintf(text, size,
+                 "No fewer can: %u witness%s inside need%s %u viewpoint%s, wherever they stand.",
+                 witnesses, witnesses == 1 ? "" : "es", witnesses == 1 ? "s" : "", lower,
+                 lower == 1 ? "" : "s");
+    else
+        snprintf(text, size,
+                 "At least %u are needed: %u witnesses inside need so many, wherever viewpoints "
+                 "stand.%s",
+                 lower, witnesses,
+                 w->late ? " The work ended early; more time may close the gap." : "");
+}
+
+static sl_status print_json(sl_context *context, const place_work *w, const cover_report *report) {
+    const sl_placement *p = &w->placement;
+    json_fields fields = json_begin();
+    json_add_text(&fields, "input", report->input);
+    json_add_count(&fields, "lower", p->lower);
+    json_add_count(&fields, "upper", p->upper);
+    json_add_flag(&fields, "optimal", p->lower == p->upper && !p->slivers);
+    json_add_count(&fields, "slivers", p->slivers);
+    json_add_count(&fields, "witnesses", p->witness_count);
+    json_add_count(&fields, "rounds", p->rounds);
+    json_add_real(&fields, "seconds", w->seconds);
+    cover_add_json(&fields, report);
+    return json_print(context, &fields);
+}
+
+/// Checks a proof by other code than that which found it, and says what holds.
+static sl_status verify(command_console *console, const place_plan *plan, place_work *w) {
+    sl_place_verdict v;
+    SL_TRY(sl_place_proof_read(console->context, w->query, plan->verify, &w->placement));
+    SL_TRY(sl_place_proof_check(console->context, w->query, &w->placement, &v));
+    const sl_placement *p = &w->placement;
+    const bool lower = v.lower >= p->lower;
+    console->refuted = !lower || !v.sees_all;
+    progress_line_clear(&console->line);
+    if (plan->json) {
+        json_fields fields = json_begin();
+        json_add_text(&fields, "input", plan->input);
+        json_add_flag(&fields, "verified", !console->refuted);
+        json_add_count(&fields, "lower", v.lower);
+        json_add_count(&fields, "upper", p->upper);
+        json_add_flag(&fields, "sees_all", v.sees_all);
+        json_add_flag(&fields, "optimal", v.sees_all && v.lower == p->upper);
+        return json_print(console->context, &fields);
+    }
+    if (v.sees_all)
+        printf("The %u viewpoints see everything.\n", (unsigned)p->count);
+    else
+        printf("The viewpoints do not see everything: not what is beside (%.9g, %.9g).\n",
+               v.unseen.x, v.unseen.y);
+    if (v.has_extra)
+        printf("The lower bound does not hold: a place at (%.9g, %.9g) sees witnesses that no "
+               "column has together.\n",
+               v.extra.x, v.extra.y);
+    else if (!lower)
+        printf("The lower bound of %u does not hold: %u is proven.\n", (unsigned)p->lower,
+               (unsigned)v.lower);
+    else
+        printf("At least %u are needed, wherever they stand.\n", (unsigned)v.lower);
+    if (!console->refuted && v.lower == p->upper) printf("So no fewer can do it.\n");
+    return SL_OK;
+}
+
+static sl_status work(command_console *console, const place_plan *plan, place_work *w) {
+    sl_context *context = console->context;
+    const sl_baked *baked = &w->baked;
+    SL_TRY(pipeline_read_space(context, &plan->pipeline, "place", SL_EFFECT_DOOR, NULL, &w->baked));
+    SL_TRY(pipeline_need_inside(context, &plan->pipeline, &baked->map, &baked->space, ""));
+    SL_TRY(doors_shut(context, &plan->doors, &w->baked));
+    SL_TRY(sl_query_over(context, &baked->space, &baked->map, NULL, &w->query));
+    if (plan->verify) return verify(console, plan, w);
+    SL_TRY(place(console, plan, w));
+    if (plan->proof) SL_TRY(sl_place_proof_write(context, w->query, &w->placement, plan->proof));
+    SL_TRY(survey(context, w));
+    const cover_report report = {plan->input, plan->pipeline.input.import.map, baked, &w->cameras,
+                                 &w->coverage};
+    char sentence[256], proof[256], caption[516];
+    cover_sentence(&report, sentence, sizeof sentence);
+    say_proof(w, proof, sizeof proof);
+    snprintf(caption, sizeof caption, "%s.\n%s", sentence, proof);
+    if (plan->output) SL_TRY(sl_cameras_write(context, &w->cameras, plan->output));
+    if (plan->picture) SL_TRY(cover_draw(context, &report, caption, &plan->drawing, plan->picture));
+    progress_line_clear(&console->line);
+    if (plan->json) return print_json(context, w, &report);
+    if (console->quiet) return SL_OK;
+    cover_print(&report);
+    printf("\n%s\n", proof);
+    return SL_OK;
+}
+
+static void clear(sl_context *context, place_work *w) {
+    sl_coverage_destroy(context, &w->coverage);
+    sl_free(context, w->viewpoints);
+    sl_cameras_destroy(context, &w->cameras);
+    sl_placement_destroy(context, &w->placement);
+    sl_query_destroy(context, w->query);
+    sl_baked_destroy(context, &w->baked);
+}
+
+sl_status cmd_place(command_console *console, int argc, char **argv) {
+    place_plan plan = {.pipeline = pipeline_default(), .drawing = built_draw_options()};
+    const option_table pipeline = pipeline_option_table(&plan.pipeline);
+    const option_table picture = picture_option_table(&plan.drawing, "picture", true);
+    const option_table doors = door_option_table(&plan.doors);
+    const option_spec options[] = {
+        {"output", 'o', "TABLE", "the viewpoints as a table (.csv), which cover and isovist read",
+         .text = &plan.output, .check = CHECK_FILE, .endings = ".csv .txt"},
+        {"picture", 0, "PICTURE", "draw viewpoints and what they see: .png, .svg or .pdf",
+         .text = &plan.picture, .check = CHECK_PICTURE},
+        {"proof", 0, "FILE", "write a proof of both bounds (.json), for --verify",
+         .text = &plan.proof, .check = CHECK_FILE, .endings = ".json"},
+        {"verify", 0, "FILE",
+         "check a proof for this map by other code, and trust nothing in it; exit with status 1 if "
+         "it does not hold",
+         .text = &plan.verify},
+        {"time-limit", 0, "SECONDS",
+         "stop then, and give the best set and both bounds; so does Ctrl-C (default: no limit)",
+         .number = &plan.time_limit, .over_0 = true, .needs = "seconds, more than 0"},
+        {"json", 0, NULL, "print one JSON object", .flag = &plan.json},
+        {.group = &doors},
+        {.group = &picture},
+        {.group = &pipeline},
+    };
+    const command_usage usage = {
+        .name = "place",
+        .synopsis = "MAP|FILE.slv [options]",
+        .operands = {"MAP|FILE.slv"},
+        .what = "Finds the fewest viewpoints that see all that is inside, and proves that no "
+                "fewer can (the art gallery problem). Viewpoints look all round and without "
+                "limit, and may stand anywhere inside.",
+        .examples = "  sightline place gallery.dxf -o cameras.csv --picture cameras.png\n"
+                    "  sightline place office.map --time-limit 10 --json\n"
+                    "  sightline place office.map --proof proof.json\n"
+                    "  sightline place --verify proof.json office.map",
+        .options = options,
+        .option_count = sizeof options / sizeof *options,
+        .given = &plan.pipeline.given,
+    };
+    bool helped;
+    SL_TRY(options_parse(console, &usage, argc, argv, &plan.input, &helped));
+    if (helped) return SL_OK;
+    place_work w = {0};
+    sl_status status = pipeline_plan(console->context, plan.input, &plan.pipeline);
+    if (status == SL_OK) status = work(console, &plan, &w);
+    clear(console->context, &w);
+    return status;
+}

@@ -1,0 +1,34 @@
+/// What given viewpoints see together, as text, JSON and a picture. `cover` and `place` share it.
+#ifndef COVER_REPORT_H
+#define COVER_REPORT_H
+
+#include "reports/json_print.h"
+#include "sightline/bake.h"
+#include "sightline/coverage.h"
+#include "sightline/draw.h"
+
+typedef struct cover_report {
+    const char *input; ///< the map's file
+    const char *map;   ///< the name of one of several maps in it; NULL for none
+    const sl_baked *baked;
+    const sl_cameras *cameras;
+    const sl_coverage *coverage;
+} cover_report;
+
+/// The viewpoints of cameras. The caller frees them (sl_free).
+sl_status cover_viewpoints(sl_context *context, const sl_cameras *cameras, sl_viewpoint **out);
+
+/// "3 viewpoints see 52 m² of 60 m² inside (87 %)"
+void cover_sentence(const cover_report *report, char *text, size_t size);
+
+/// The sentence, classes, a line a viewpoint, spare ones, and the largest blind spots.
+void cover_print(const cover_report *report);
+
+/// "areas", "viewpoints" and "blind_spots".
+void cover_add_json(json_fields *fields, const cover_report *report);
+
+/// Draws classes and viewpoints. `caption` as sl_draw_coverage_file().
+sl_status cover_draw(sl_context *context, const cover_report *report, const char *caption,
+                     const sl_draw_options *drawing, const char *path);
+
+#endif
