@@ -41,7 +41,7 @@ endfunction()
 
 # The headers of a part come with it; all others belong to the core.
 set(headers "${PROJECT_SOURCE_DIR}/lib/include/sightline")
-set(analysis_headers axial.h vga.h)
+set(analysis_headers axial.h path.h vga.h)
 set(io_headers io.h)
 set(study_headers from_region.h generate.h view_cells.h walk.h)
 set(glpk_headers glpk.h)

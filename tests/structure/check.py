@@ -29,7 +29,7 @@ import tempfile
 # The stages, in order. Data goes one way: each knows those before it and nothing of those after it.
 FOLDERS = ["base", "geometry", "json", "map", "space", "space/faults", "effects", "stab",
            "cell_to_cell", "cell_to_cell/search", "cell_to_cell/sweep", "cell_to_cell/explain",
-           "sight", "bake", "analysis/visibility_graph", "analysis/axial",
+           "sight", "bake", "analysis/visibility_graph", "analysis/axial", "analysis/route",
            "study/generate", "study/from_region", "study/walk", "study/view_cells",
            "io", "runtime", "draw"]
 # The folders of the command, in order, too.
@@ -53,7 +53,7 @@ HEADERS = {"context": "base", "earth": "geometry", "measures": "base", "support"
            "mirrored": "sight", "moving": "sight", "overlay": "sight", "query": "sight",
            "region": "sight", "sees": "sight", "view": "sight",
            "explained": "bake",
-           "axial": "analysis/axial", "vga": "analysis/visibility_graph",
+           "axial": "analysis/axial", "path": "analysis/route", "vga": "analysis/visibility_graph",
            "from_region": "study/from_region", "generate": "study/generate",
            "view_cells": "study/view_cells", "walk": "study/walk"}
 # For users: it includes the others, and no part of the library includes it.
