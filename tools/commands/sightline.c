@@ -29,6 +29,7 @@ static const command commands[] = {
     {"draw", "draw a baked file", built_run, NULL},
     {"eye", "show what one viewpoint sees", cmd_eye, "questions"},
     {"isovist", "compute visible regions, their measures and heat maps", cmd_isovist, NULL},
+    {"path", "find shortest ways among walls, and how long they are", cmd_path, NULL},
     {"vga", "compute visibility graph analysis: integration, depth, control", cmd_vga, NULL},
     {"axial", "find axial lines and their measures", cmd_axial, NULL},
     {"segments", "compute angular segment analysis of a street network", cmd_segments, NULL},
