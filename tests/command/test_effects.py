@@ -62,6 +62,7 @@ def rows(methods):
     yield "info", ["info", "SLV"], None
     yield "eye", ["eye", "SLV", "--at", "5,5", "--json", "-o", "out.png"], ["--object", "crate,block"]
     yield "isovist", ["isovist", "MAP", "--at", "5,5", "--picture", "out.png"], None
+    yield "path", ["path", "MAP", "--from", "5,5", "--to", "25,2", "--picture", "out.png"], None
     yield "vga", ["vga", "MAP", "--grid", "1"], None
     yield "axial", ["axial", "MAP"], None
     yield "explain", ["explain", "SLV", "5,5", "25,2"], None

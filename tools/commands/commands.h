@@ -20,6 +20,7 @@ sl_status cmd_info(command_console *console, int argc, char **argv);
 sl_status cmd_merge(command_console *console, int argc, char **argv);
 sl_status cmd_isovist(command_console *console, int argc, char **argv);
 sl_status cmd_place(command_console *console, int argc, char **argv);
+sl_status cmd_path(command_console *console, int argc, char **argv);
 sl_status cmd_reject(command_console *console, int argc, char **argv);
 sl_status cmd_regions(command_console *console, int argc, char **argv);
 sl_status cmd_segments(command_console *console, int argc, char **argv);

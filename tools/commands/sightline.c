@@ -31,6 +31,7 @@ static const command commands[] = {
     {"isovist", "compute visible regions, their measures and heat maps", cmd_isovist, NULL},
     {"place", "find the fewest viewpoints that see everything, with a proof", cmd_place, NULL},
     {"cover", "show what given viewpoints see together, and blind spots", cmd_cover, NULL},
+    {"path", "find shortest ways among walls, and how long they are", cmd_path, NULL},
     {"vga", "compute visibility graph analysis: integration, depth, control", cmd_vga, NULL},
     {"axial", "find axial lines and their measures", cmd_axial, NULL},
     {"segments", "compute angular segment analysis of a street network", cmd_segments, NULL},

@@ -28,7 +28,8 @@ typedef struct command_console {
     progress_line line;    ///< shown where stderr is a terminal
     bool quiet;            ///< --quiet: neither notes nor progress
     const char *summary;   ///< what the command does, in a few words
-    bool fault;            ///< check --strict found a fault: the exit status is 3
+    bool fault;            ///< check --strict found a fault, or path no way: the exit status
+                           ///< is 3
     bool refuted;          ///< place --verify: a proof does not hold: the exit status is 1
     char *const *words;    ///< of the command line
     int word_count;

@@ -1,0 +1,154 @@
+/// Corners to turn around, parts that are joined, and cells at a point.
+///
+/// A corner is what ways turn around: the end of a wall, as it is met from one side. Where several
+/// walls meet in a point, they part what is around it, and each part has a corner of its own:
+///
+///       A | B        the portals (dots) around the point are joined cell by cell: those of A and
+///     ....+....      C in one row, those of B and D in another one. No way leads from one row to
+///       C | D        the other here.
+///
+/// A row that closes to a ring has no wall at its point: there is nothing to turn around. So a row
+/// of n portals is a corner if they are joined n - 1 times.
+#include "analysis/route/route.h"
+
+#include "geometry/length.h"
+#include "geometry/orient.h"
+
+#include <string.h>
+
+static uint32_t find_root(uint32_t *parents, uint32_t i) {
+    while (parents[i] != i) i = parents[i] = parents[parents[i]];
+    return i;
+}
+
+/// The lower number stands for both.
+static void join(uint32_t *parents, uint32_t a, uint32_t b) {
+    a = find_root(parents, a);
+    b = find_root(parents, b);
+    if (a < b)
+        parents[b] = a;
+    else
+        parents[a] = b;
+}
+
+/// The number of a portal's end among all ends.
+static uint32_t end_of(const sl_space *space, const sl_directed_portal *d, int side) {
+    const sl_point at = side == SLI_ROUTE_LEFT ? d->left : d->right;
+    return 2 * d->portal + !sli_same_point(at, space->portals[d->portal].left);
+}
+
+/// Whether two portals of a cell, one after the other, meet in a point.
+static bool meet(const sl_directed_portal *d, const sl_directed_portal *next) {
+    return d != next && sli_same_point(d->left, next->right);
+}
+
+static void join_ends(sl_route_finder *f) {
+    const sl_space *s = f->space;
+    for (uint32_t i = 0; i < 2 * s->portal_count; i++) f->ends[i] = i;
+    for (uint32_t c = 0; c < s->cell_count; c++) {
+        const sl_directed_portal *first = s->directed + s->cells[c].first_directed;
+        const uint32_t count = s->cells[c].directed_count;
+        for (uint32_t i = 0; i < count; i++) {
+            const sl_directed_portal *next = &first[i + 1 < count ? i + 1 : 0];
+            join(f->part_of, c, first[i].cell);
+            if (meet(&first[i], next))
+                join(f->ends, end_of(s, &first[i], SLI_ROUTE_LEFT),
+                     end_of(s, next, SLI_ROUTE_RIGHT));
+        }
+    }
+}
+
+/// counts[e]: for the end that stands for a row, the portals of the row less how often they are
+/// joined. One-way glass is in one cell only; a row with it is never taken for a ring.
+static void count_rows(sl_route_finder *f) {
+    const sl_space *s = f->space;
+    memset(f->counts, 0, 2 * (size_t)s->portal_count * sizeof *f->counts);
+    for (uint32_t e = 0; e < 2 * s->portal_count; e++) f->counts[find_root(f->ends, e)]++;
+    for (uint32_t c = 0; c < s->cell_count; c++) {
+        const sl_directed_portal *first = s->directed + s->cells[c].first_directed;
+        const uint32_t count = s->cells[c].directed_count;
+        for (uint32_t i = 0; i < count; i++)
+            if (meet(&first[i], &first[i + 1 < count ? i + 1 : 0]))
+                f->counts[find_root(f->ends, end_of(s, &first[i], SLI_ROUTE_LEFT))]--;
+    }
+}
+
+void sli_route_corners(sl_route_finder *f) {
+    const sl_space *s = f->space;
+    for (uint32_t c = 0; c < s->cell_count; c++) f->part_of[c] = c;
+    join_ends(f);
+    count_rows(f);
+    for (uint32_t c = 0; c < s->cell_count; c++) {
+        f->part_of[c] = find_root(f->part_of, c);
+        const sl_cell *cell = &s->cells[c];
+        for (uint32_t d = cell->first_directed; d < cell->first_directed + cell->directed_count;
+             d++)
+            for (int side = 0; side < 2; side++) {
+                const uint32_t row = find_root(f->ends, end_of(s, &s->directed[d], side));
+                f->corner_of[2 * (size_t)d + (size_t)side] = f->counts[row] ? row : SLI_ROUTE_NONE;
+            }
+    }
+}
+
+static bool touches(const sl_directed_portal *d, sl_point p) {
+    return p.x >= sli_lesser(d->left.x, d->right.x) && p.x <= sli_greater(d->left.x, d->right.x) &&
+           p.y >= sli_lesser(d->left.y, d->right.y) && p.y <= sli_greater(d->left.y, d->right.y) &&
+           sli_orient(d->left, d->right, p) == 0;
+}
+
+uint32_t sli_route_stand(sl_route_finder *f, sl_point point, uint32_t first, uint32_t *marks) {
+    const sl_space *s = f->space;
+    uint32_t count = 0;
+    marks[first] = f->stamp;
+    f->list[count++] = first;
+    for (uint32_t i = 0; i < count; i++) {
+        const sl_cell *cell = &s->cells[f->list[i]];
+        for (uint32_t k = 0; k < cell->directed_count; k++) {
+            const sl_directed_portal *d = &s->directed[cell->first_directed + k];
+            if (marks[d->cell] == f->stamp || !touches(d, point)) continue;
+            marks[d->cell] = f->stamp;
+            f->list[count++] = d->cell;
+        }
+    }
+    return count;
+}
+
+/// The point of a segment that is nearest to a place, rounded.
+static sl_point nearest_on(sl_point a, sl_point b, sl_point to) {
+    const double x = b.x - a.x, y = b.y - a.y, square = x * x + y * y;
+    const double along = ((to.x - a.x) * x + (to.y - a.y) * y) / square;
+    if (!(along > 0)) return a;
+    return along < 1 ? (sl_point){a.x + along * x, a.y + along * y} : b;
+}
+
+sl_point sli_route_nearest(sl_route_finder *f, sl_point to) {
+    const sl_space *s = f->space;
+    uint32_t count = 0, best_cell = 0;
+    sl_point best = {0};
+    double least = INFINITY;
+    for (uint32_t c = 0; c < s->cell_count; c++)
+        if (f->at_start[c] == f->stamp) f->list[count++] = c;
+    for (uint32_t i = 0; i < count; i++) {
+        const sl_cell *cell = &s->cells[f->list[i]];
+        const sl_point *corners = s->vertices + cell->first_vertex;
+        for (uint32_t k = 0; k < cell->vertex_count; k++) {
+            const sl_point at =
+                nearest_on(corners[k], corners[k + 1 < cell->vertex_count ? k + 1 : 0], to);
+            const double away = sli_length(at.x - to.x, at.y - to.y);
+            if (!(away < least)) continue;
+            least = away;
+            best = at;
+            best_cell = f->list[i];
+        }
+        for (uint32_t k = 0; k < cell->directed_count; k++) {
+            const uint32_t next = s->directed[cell->first_directed + k].cell;
+            if (f->at_start[next] == f->stamp) continue;
+            f->at_start[next] = f->stamp;
+            f->list[count++] = next;
+        }
+    }
+    const sl_point middle = sl_space_middle(s, best_cell);
+    const sl_point in = {best.x + (middle.x - best.x) / 1000, best.y + (middle.y - best.y) / 1000};
+    const uint32_t found = sl_space_locate(s, in);
+    return found != SL_NO_CELL && f->at_start[found] == f->stamp ? in : middle;
+}

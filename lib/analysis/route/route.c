@@ -1,0 +1,187 @@
+/// The finder of ways: its memory, and the way that a search has found.
+#include "analysis/route/route.h"
+
+#include "geometry/length.h"
+#include "geometry/orient.h"
+
+#include <string.h>
+
+// --- the finder
+
+static void drop_tables(sl_context *context, sl_route_finder *f) {
+    sl_free(context, f->corner_of);
+    sl_free(context, f->part_of);
+    sl_free(context, f->ends);
+    sl_free(context, f->counts);
+    sl_free(context, f->corners);
+    sl_free(context, f->turns);
+    sl_free(context, f->at_start);
+    sl_free(context, f->at_goal);
+    sl_free(context, f->list);
+    f->corner_of = f->part_of = f->ends = f->counts = f->at_start = f->at_goal = f->list = NULL;
+    f->corners = NULL;
+    f->turns = NULL;
+    f->space = NULL;
+}
+
+static sl_status make_tables(sl_context *context, sl_route_finder *f, const sl_space *space) {
+    const size_t ends = 2 * (size_t)space->portal_count, sides = 2 * (size_t)space->directed_count;
+    f->corner_of = sl_alloc_array(context, sides, sizeof *f->corner_of);
+    f->part_of = sl_alloc_array(context, space->cell_count, sizeof *f->part_of);
+    f->ends = sl_alloc_array(context, ends, sizeof *f->ends);
+    f->counts = sl_alloc_array(context, ends, sizeof *f->counts);
+    f->corners = sl_alloc_array(context, ends, sizeof *f->corners);
+    f->turns = sl_alloc_array(context, sides, sizeof *f->turns);
+    f->at_start = sl_alloc_array(context, space->cell_count, sizeof *f->at_start);
+    f->at_goal = sl_alloc_array(context, space->cell_count, sizeof *f->at_goal);
+    f->list = sl_alloc_array(context, space->cell_count, sizeof *f->list);
+    if (!f->corner_of || !f->part_of || !f->ends || !f->counts || !f->corners || !f->turns ||
+        !f->at_start || !f->at_goal || !f->list)
+        return SL_NO_MEMORY;
+    f->space = space;
+    f->stamp = 0;
+    sli_route_corners(f);
+    return SL_OK;
+}
+
+sl_status sl_route_finder_update(sl_context *context, sl_route_finder *finder) {
+    const sl_space *space;
+    drop_tables(context, finder);
+    SL_TRY(sl_query_space(context, finder->query, &space, NULL));
+    if (space->loose)
+        return sl_fail(context, SL_UNSUPPORTED,
+                       "ways need a space without gaps: bake the map again");
+    return make_tables(context, finder, space);
+}
+
+sl_status sl_route_finder_create(sl_context *context, sl_query *query, sl_route_finder **out) {
+    sl_route_finder *finder = sl_alloc_array(context, 1, sizeof *finder);
+    if (!finder) return SL_NO_MEMORY;
+    finder->query = query;
+    const sl_status status = sl_route_finder_update(context, finder);
+    if (status == SL_OK)
+        *out = finder;
+    else
+        sl_route_finder_destroy(context, finder);
+    return status;
+}
+
+void sl_route_finder_destroy(sl_context *context, sl_route_finder *finder) {
+    if (!finder) return;
+    drop_tables(context, finder);
+    sl_free(context, finder->nodes.items);
+    sl_free(context, finder->open.items);
+    sl_free(context, finder);
+}
+
+void sl_route_destroy(sl_context *context, sl_route *route) {
+    sl_free(context, route->points);
+    sl_free(context, route->portals);
+    *route = (sl_route){0};
+}
+
+// --- the way
+
+/// Adds a point at the end. A point in line with its neighbours is no corner.
+static void add_point(sl_route *route, sl_point p) {
+    size_t n = route->count;
+    if (n && sli_same_point(route->points[n - 1], p)) return;
+    while (n > 1 && sli_orient(route->points[n - 2], route->points[n - 1], p) == 0 &&
+           sli_goes_on(route->points[n - 2], route->points[n - 1], p))
+        n--;
+    route->points[n] = p;
+    route->count = n + 1;
+}
+
+static void turn_over(void *items, size_t count, size_t size) {
+    char *first = items, keep[sizeof(sl_point)];
+    for (size_t i = 0; i < count / 2; i++) {
+        char *a = first + i * size, *b = first + (count - 1 - i) * size;
+        memcpy(keep, a, size);
+        memcpy(a, b, size);
+        memcpy(b, keep, size);
+    }
+}
+
+static double length_of(const sl_route *route) {
+    double sum = 0, rest = 0;
+    for (size_t i = 1; i < route->count; i++) {
+        const sl_point a = route->points[i - 1], b = route->points[i];
+        double left_out;
+        sum = sli_two_sum(sum, sli_length(b.x - a.x, b.y - a.y), &left_out);
+        rest += left_out;
+    }
+    return sum + rest;
+}
+
+/// Whether a node came through a portal; others only turn, or end.
+static bool passes_portal(const sl_route_finder *f, const sli_route_node *node) {
+    return !node->is_last && node->entry != SLI_ROUTE_NONE &&
+           node->entry != f->nodes.items[node->parent].entry;
+}
+
+/// The way to a last node, from its end.
+static sl_status read_way(sl_context *context, const sl_route_finder *f, uint32_t last,
+                          sl_point from, sl_point to, sl_route *route) {
+    size_t depth = 0;
+    for (uint32_t i = last; i != SLI_ROUTE_NONE; i = f->nodes.items[i].parent) depth++;
+    SL_TRY(sl_reserve(context, &route->points, &route->room, depth + 2, sizeof *route->points));
+    SL_TRY(sl_reserve(context, &route->portals, &route->portal_room, depth + 1,
+                      sizeof *route->portals));
+    add_point(route, to);
+    for (uint32_t i = last; i != SLI_ROUTE_NONE; i = f->nodes.items[i].parent) {
+        const sli_route_node *node = &f->nodes.items[i];
+        add_point(route, node->root);
+        if (passes_portal(f, node))
+            route->portals[route->portal_count++] = f->space->directed[node->entry].portal;
+    }
+    if (route->count == 1) route->points[route->count++] = from; // the two points are one
+    turn_over(route->points, route->count, sizeof *route->points);
+    turn_over(route->portals, route->portal_count, sizeof *route->portals);
+    route->length = length_of(route);
+    route->found = true;
+    return SL_OK;
+}
+
+/// The cell that a point stands in, if it can be walked in.
+static sl_status stand(sl_context *context, const sl_space *space, const char *name, sl_point at,
+                       uint32_t *cell) {
+    *cell = sl_space_locate(space, at);
+    if (*cell == SL_NO_CELL)
+        return sl_fail(context, SL_BAD_ARGUMENT, "%s %.9g,%.9g is outside the map's bounds", name,
+                       at.x, at.y);
+    if (space->cells[*cell].solid)
+        return sl_fail(context, SL_BAD_ARGUMENT, "%s %.9g,%.9g is in solid ground", name, at.x,
+                       at.y);
+    return SL_OK;
+}
+
+/// A new search: no mark of an earlier one counts.
+static void begin(sl_route_finder *f) {
+    if (++f->stamp) return;
+    const size_t cells = f->space->cell_count;
+    memset(f->at_start, 0, cells * sizeof *f->at_start);
+    memset(f->at_goal, 0, cells * sizeof *f->at_goal);
+    memset(f->corners, 0, 2 * (size_t)f->space->portal_count * sizeof *f->corners);
+    memset(f->turns, 0, 2 * (size_t)f->space->directed_count * sizeof *f->turns);
+    f->stamp = 1;
+}
+
+sl_status sl_route_find(sl_context *context, sl_route_finder *finder, sl_point from, sl_point to,
+                        sl_route *route) {
+    uint32_t start, goal, last = SLI_ROUTE_NONE;
+    route->found = false;
+    route->count = route->portal_count = 0;
+    route->length = 0;
+    route->nodes = 0;
+    SL_TRY(stand(context, finder->space, "from", from, &start));
+    SL_TRY(stand(context, finder->space, "to", to, &goal));
+    begin(finder);
+    sli_route_stand(finder, to, goal, finder->at_goal);
+    if (finder->part_of[start] == finder->part_of[goal])
+        SL_TRY(sli_route_search(context, finder, from, to, &route->nodes, &last));
+    if (last != SLI_ROUTE_NONE) return read_way(context, finder, last, from, to, route);
+    sli_route_stand(finder, from, start, finder->at_start);
+    route->nearest = sli_route_nearest(finder, to);
+    return SL_OK;
+}

@@ -1,0 +1,89 @@
+/// What the finder of ways keeps, and the parts of its work.
+#ifndef SL_ROUTE_H
+#define SL_ROUTE_H
+
+#include "sightline/path.h"
+#include "sightline/support.h"
+
+/// No corner, no node, no directed portal.
+#define SLI_ROUTE_NONE UINT32_MAX
+
+/// Sides of a directed portal.
+enum { SLI_ROUTE_RIGHT, SLI_ROUTE_LEFT };
+
+/// A limit of the directions that a node's root looks in: none, the ray from the root through
+/// `point`, or the ray that goes on from `point` through the root.
+typedef enum sli_route_limit_kind { SLI_LIMIT_NONE, SLI_LIMIT_RAY, SLI_LIMIT_ON } sli_limit_kind;
+
+typedef struct sli_route_limit {
+    sli_limit_kind kind;
+    sl_point point;
+} sli_route_limit;
+
+/// A node of the search: a way to `root` of length g, and the directions from there that enter
+/// `cell` through the directed portal `entry`. A last node (`is_last`) leads from its root straight
+/// to the goal.
+typedef struct sli_route_node {
+    sl_point root;
+    sli_route_limit limit[2]; ///< right and left
+    double g;
+    uint32_t parent; ///< a node; SLI_ROUTE_NONE for the first ones
+    uint32_t entry;  ///< SLI_ROUTE_NONE for the cells at the start
+    uint32_t cell;
+    bool is_last;
+} sli_route_node;
+
+/// What is known of a corner in one search: the shortest way to it, and by turn the point before
+/// it from which the most directions can be turned to.
+typedef struct sli_route_corner {
+    uint32_t stamp; ///< of the search that the rest belongs to
+    double g;
+    bool has[2];
+    sl_point before[2];
+} sli_route_corner;
+
+/// The last turn at one end of a directed portal.
+typedef struct sli_route_turn {
+    uint32_t stamp;
+    double g;
+    sl_point before;
+} sli_route_turn;
+
+typedef struct sli_route_open {
+    double f;
+    uint32_t node;
+} sli_route_open;
+
+struct sl_route_finder {
+    sl_query *query;
+    const sl_space *space;
+    uint32_t *corner_of; ///< by directed portal and side: the corner there, SLI_ROUTE_NONE where
+                         ///< nothing is to turn around
+    uint32_t *part_of;   ///< by cell: the part of the space that portals join it with
+    uint32_t *ends;      ///< by end of a portal: for union-find
+    uint32_t *counts;    ///< by end of a portal, likewise
+    sli_route_corner *corners;    ///< by corner: the end of a portal that stands for it
+    sli_route_turn *turns;        ///< by directed portal and side
+    uint32_t *at_start, *at_goal; ///< by cell: the search in which it is there
+    uint32_t *list;               ///< cells, for walks
+    uint32_t stamp;
+    SL_ARRAY(sli_route_node) nodes;
+    SL_ARRAY(sli_route_open) open;
+};
+
+/// Finds the corners and the parts of the finder's space.
+void sli_route_corners(sl_route_finder *finder);
+
+/// The cells that a point stands in (view.h): marks them, and writes their number.
+uint32_t sli_route_stand(sl_route_finder *finder, sl_point point, uint32_t first, uint32_t *marks);
+
+/// A place that can be reached from the cells marked as the start, next to the one that is nearest
+/// to `to`.
+sl_point sli_route_nearest(sl_route_finder *finder, sl_point to);
+
+/// Searches from the cells that are marked. *out is the last node of the shortest way;
+/// SLI_ROUTE_NONE for none.
+sl_status sli_route_search(sl_context *context, sl_route_finder *finder, sl_point from, sl_point to,
+                           uint64_t *expanded, uint32_t *out);
+
+#endif

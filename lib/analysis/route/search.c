@@ -1,0 +1,313 @@
+/// The search for a shortest way through convex cells (Cui, Harabor and Grastien 2017,
+/// Compromise-free Pathfinding on a Navigation Mesh: Polyanya).
+///
+/// A node is a root, the last corner of a way, and the directions from it that go on straight into
+/// a cell. Each portal of the cell gets the directions that pass it. Where the directions end at a
+/// corner, the way may turn there, and that corner becomes the root:
+///
+///              left limit    .
+///               /        .'      the portal Q is seen whole, the portal S in part
+///          [   Q   ].-'---[  S  ]
+///             /  .-'           right limit, at the corner R of a wall: beyond it one turns right
+///            /.-'              around R, and the ray from the root through R limits that at its
+///          root                left
+///
+/// Limits are rays through corners, so all that is decided about them is exact. An A* search takes
+/// the node with the least bound first: the way to the root, and on to the goal by way of the piece
+/// of the portal that the directions pass (by the goal's mirror image where it lies before the
+/// portal). The bound is rounded down, so that the first way to arrive is the shortest.
+///
+/// A corner is turned at by the shortest way to it only. Of ways of the same length (SAME), those
+/// count from which most can be turned to: so a corner is left by a few nodes, and the cost does
+/// not grow with the number of ways of the same length.
+#include "analysis/route/route.h"
+
+#include "geometry/length.h"
+#include "geometry/orient.h"
+
+/// Lengths count as the same up to this share.
+static const double SAME = 0x1p-42;
+
+typedef struct search {
+    sl_context *context;
+    sl_route_finder *finder;
+    const sl_space *space;
+    sl_point goal;
+    double scale; ///< a power of two that brings the bounds to about 1: products neither overflow
+                  ///< nor underflow
+} search;
+
+static double distance(sl_point a, sl_point b) {
+    return sli_length(b.x - a.x, b.y - a.y);
+}
+
+/// The side of a limit that a point lies on: 1 left, -1 right, 0 on it.
+static int limit_side(const sli_route_node *n, int side, sl_point p) {
+    const sli_route_limit *limit = &n->limit[side];
+    return limit->kind == SLI_LIMIT_RAY ? sli_orient(n->root, limit->point, p)
+                                        : sli_orient(limit->point, n->root, p);
+}
+
+/// Whether a point is strictly out of a node's directions at one side.
+static bool is_beyond(const sli_route_node *n, int side, sl_point p) {
+    return n->limit[side].kind != SLI_LIMIT_NONE &&
+           limit_side(n, side, p) == (side == SLI_ROUTE_LEFT ? 1 : -1);
+}
+
+// --- the bound
+
+static sl_point offset(const search *s, sl_point from, sl_point to) {
+    return (sl_point){(to.x - from.x) * s->scale, (to.y - from.y) * s->scale};
+}
+
+static double size_of(sl_point p) {
+    return fabs(p.x) + fabs(p.y);
+}
+
+/// The end of what a node's directions pass of its portal, at one side, as seen from its root:
+/// between r and l, the ends of the portal. Where it is rounded, it lies rather too far out than
+/// too far in.
+static sl_point passed_end(const search *s, const sli_route_node *n, int side, sl_point r,
+                           sl_point l) {
+    const sl_directed_portal *d = &s->space->directed[n->entry];
+    const sli_route_limit *limit = &n->limit[side];
+    const sl_point whole = side == SLI_ROUTE_LEFT ? l : r;
+    if (limit->kind == SLI_LIMIT_NONE ||
+        !is_beyond(n, side, side == SLI_ROUTE_LEFT ? d->left : d->right))
+        return whole;
+    const sl_point ray = limit->kind == SLI_LIMIT_RAY ? offset(s, n->root, limit->point)
+                                                      : offset(s, limit->point, n->root);
+    const double at_right = -sli_cross(ray, r), sum = at_right + sli_cross(ray, l);
+    const double slack = 0x1p-48 * size_of(ray) * (size_of(r) + size_of(l)) / sum;
+    const double share = at_right / sum + (side == SLI_ROUTE_LEFT ? slack : -slack);
+    if (!(share > 0 && share < 1)) return whole;
+    return (sl_point){r.x + share * (l.x - r.x), r.y + share * (l.y - r.y)};
+}
+
+/// How far it is at least from a node's root to the goal, through its portal.
+static double bound(const search *s, const sli_route_node *n) {
+    const sl_directed_portal *d = &s->space->directed[n->entry];
+    const sl_point start = offset(s, n->root, d->right), end = offset(s, n->root, d->left),
+                   along = offset(s, d->right, d->left), past = offset(s, d->right, s->goal);
+    const sl_point r = passed_end(s, n, SLI_ROUTE_RIGHT, start, end),
+                   l = passed_end(s, n, SLI_ROUTE_LEFT, start, end);
+    sl_point t = offset(s, n->root, s->goal);
+    const double reach = size_of(t) + size_of(start) + size_of(along);
+    const double over = sli_cross(along, past);
+    if (over > 0) { // the goal lies before the portal: its image behind it
+        const double twice = 2 * (over / sli_dot(along, along));
+        t.x += twice * along.y;
+        t.y -= twice * along.x;
+    }
+    double h;
+    if (sli_cross(r, t) < 0)
+        h = sli_length(r.x, r.y) + sli_length(t.x - r.x, t.y - r.y);
+    else if (sli_cross(l, t) > 0)
+        h = sli_length(l.x, l.y) + sli_length(t.x - l.x, t.y - l.y);
+    else
+        h = sli_length(t.x, t.y);
+    return fmax(distance(n->root, s->goal), (h - 0x1p-46 * reach) / s->scale);
+}
+
+// --- the open nodes: a heap
+
+static bool before(const sli_route_open *a, const sli_route_open *b) {
+    return a->f != b->f ? a->f < b->f : a->node < b->node;
+}
+
+/// Adds a node that is not open.
+static sl_status keep(search *s, const sli_route_node *node) {
+    sl_route_finder *finder = s->finder;
+    SL_TRY(SL_ARRAY_ROOM(s->context, &finder->nodes, 1));
+    if (finder->nodes.count >= SLI_ROUTE_NONE)
+        return sl_fail(s->context, SL_NO_MEMORY, "too many search nodes");
+    finder->nodes.items[finder->nodes.count++] = *node;
+    return SL_OK;
+}
+
+static sl_status push(search *s, const sli_route_node *node, double f) {
+    sl_route_finder *finder = s->finder;
+    SL_TRY(keep(s, node));
+    SL_TRY(SL_ARRAY_ROOM(s->context, &finder->open, 1));
+    const sli_route_open item = {f * (1 - 0x1p-50), (uint32_t)finder->nodes.count - 1};
+    sli_route_open *heap = finder->open.items;
+    size_t i = finder->open.count++;
+    for (; i && before(&item, &heap[(i - 1) / 2]); i = (i - 1) / 2) heap[i] = heap[(i - 1) / 2];
+    heap[i] = item;
+    return SL_OK;
+}
+
+static uint32_t pop(sl_route_finder *finder) {
+    sli_route_open *heap = finder->open.items;
+    const uint32_t least = heap[0].node;
+    const sli_route_open last = heap[--finder->open.count];
+    size_t i = 0;
+    for (size_t child; (child = 2 * i + 1) < finder->open.count; i = child) {
+        if (child + 1 < finder->open.count && before(&heap[child + 1], &heap[child])) child++;
+        if (!before(&heap[child], &last)) break;
+        heap[i] = heap[child];
+    }
+    heap[i] = last;
+    return least;
+}
+
+// --- corners
+
+/// Whether `other` reaches directions beyond those from `known`, turning to one side at `at`.
+static bool turns_more(sl_point known, sl_point other, sl_point at, int side) {
+    const int turn = sli_turn(known, at, other, at);
+    return side == SLI_ROUTE_RIGHT ? turn > 0 : turn < 0;
+}
+
+/// Whether a way of length g that comes from `from` is worth turning at a corner; keeps it then.
+static bool enter_corner(search *s, uint32_t entry, int side, sl_point from, sl_point at,
+                         double g) {
+    const size_t end = 2 * (size_t)entry + (size_t)side;
+    const uint32_t number = s->finder->corner_of[end], stamp = s->finder->stamp;
+    if (number == SLI_ROUTE_NONE) return false;
+    sli_route_corner *corner = &s->finder->corners[number];
+    if (corner->stamp != stamp || g < corner->g * (1 - SAME))
+        *corner = (sli_route_corner){.stamp = stamp, .g = g};
+    if (g > corner->g * (1 + SAME)) return false;
+    if (corner->has[side] && !sli_same_point(corner->before[side], from) &&
+        !turns_more(corner->before[side], from, at, side))
+        return false;
+    corner->has[side] = true;
+    corner->before[side] = from;
+    sli_route_turn *turn = &s->finder->turns[end];
+    if (turn->stamp == stamp && sli_same_point(turn->before, from) && turn->g <= g) return false;
+    *turn = (sli_route_turn){stamp, g, from};
+    return true;
+}
+
+/// Makes the root of a node the corner at one end of a directed portal.
+static bool turn_at(search *s, sli_route_node *n, uint32_t entry, int side) {
+    const sl_directed_portal *d = &s->space->directed[entry];
+    const sl_point at = side == SLI_ROUTE_LEFT ? d->left : d->right;
+    const double g = n->g + distance(n->root, at);
+    if (!enter_corner(s, entry, side, n->root, at, g)) return false;
+    n->limit[side] = (sli_route_limit){SLI_LIMIT_NONE, at};
+    n->limit[!side] = (sli_route_limit){SLI_LIMIT_ON, n->root};
+    n->root = at;
+    n->g = g;
+    return true;
+}
+
+// --- the portals of a cell
+
+static sl_status push_across(search *s, sli_route_node *node, uint32_t across) {
+    node->entry = across;
+    node->cell = s->space->directed[across].cell;
+    return push(s, node, node->g + bound(s, node));
+}
+
+/// A portal that is seen edge-on: straight to its nearer end, and around that.
+static sl_status cross_edge_on(search *s, const sli_route_node *from, uint32_t across) {
+    const sl_directed_portal *d = &s->space->directed[across];
+    sli_route_node node = *from;
+    int side;
+    if (sli_goes_on(node.root, d->right, d->left))
+        side = SLI_ROUTE_RIGHT;
+    else if (sli_goes_on(node.root, d->left, d->right))
+        side = SLI_ROUTE_LEFT;
+    else
+        return SL_OK; // the root is on it: the start, which stands in the cell behind it, too
+    const sl_point end = side == SLI_ROUTE_LEFT ? d->left : d->right;
+    if (is_beyond(&node, SLI_ROUTE_RIGHT, end) || is_beyond(&node, SLI_ROUTE_LEFT, end))
+        return SL_OK;
+    return turn_at(s, &node, across, side) ? push_across(s, &node, across) : SL_OK;
+}
+
+/// Takes a node through a portal of its cell.
+static sl_status cross(search *s, const sli_route_node *from, uint32_t across) {
+    const sl_directed_portal *d = &s->space->directed[across];
+    const sl_point ends[2] = {d->right, d->left};
+    sli_route_node node = *from;
+    for (int side = 0; side < 2; side++)
+        if (sli_same_point(node.root, ends[side])) { // around the root
+            if (from->entry == SLI_ROUTE_NONE || is_beyond(from, !side, ends[!side])) return SL_OK;
+            node.limit[side].kind = SLI_LIMIT_NONE;
+            return push_across(s, &node, across);
+        }
+    const int facing = sli_orient(node.root, d->right, d->left);
+    if (facing < 0) return SL_OK;
+    if (!facing) return cross_edge_on(s, from, across);
+    for (int side = 0; side < 2; side++) {
+        const int out = side == SLI_ROUTE_LEFT ? 1 : -1;
+        if (from->limit[side].kind != SLI_LIMIT_NONE) {
+            const int near = limit_side(from, side, ends[side]) * out,
+                      far = limit_side(from, side, ends[!side]) * out;
+            if (near >= 0 && far >= 0) return SL_OK;
+            if (near > 0) continue;
+        }
+        node.limit[side] = (sli_route_limit){SLI_LIMIT_RAY, ends[side]};
+    }
+    return push_across(s, &node, across);
+}
+
+/// Straight on from a node's root: to the goal if it is in the cell, and through the portals.
+static sl_status go_on(search *s, const sli_route_node *node) {
+    const sl_cell *cell = &s->space->cells[node->cell];
+    const uint32_t back =
+        node->entry == SLI_ROUTE_NONE ? SLI_ROUTE_NONE : s->space->directed[node->entry].portal;
+    if (s->finder->at_goal[node->cell] == s->finder->stamp &&
+        !is_beyond(node, SLI_ROUTE_RIGHT, s->goal) && !is_beyond(node, SLI_ROUTE_LEFT, s->goal)) {
+        sli_route_node last = *node;
+        last.is_last = true;
+        SL_TRY(push(s, &last, node->g + distance(node->root, s->goal)));
+    }
+    for (uint32_t k = 0; k < cell->directed_count; k++) {
+        const uint32_t across = cell->first_directed + k;
+        if (s->space->directed[across].portal != back) SL_TRY(cross(s, node, across));
+    }
+    return SL_OK;
+}
+
+static sl_status expand(search *s, uint32_t number) {
+    sli_route_node node = s->finder->nodes.items[number];
+    node.parent = number;
+    SL_TRY(go_on(s, &node));
+    if (node.entry == SLI_ROUTE_NONE) return SL_OK;
+    const sl_directed_portal *d = &s->space->directed[node.entry];
+    for (int side = 0; side < 2; side++) {
+        const sl_point end = side == SLI_ROUTE_LEFT ? d->left : d->right;
+        sli_route_node turned = node;
+        if (node.limit[side].kind != SLI_LIMIT_RAY ||
+            !sli_same_point(node.limit[side].point, end) || !turn_at(s, &turned, node.entry, side))
+            continue;
+        SL_TRY(keep(s, &turned));
+        turned.parent = (uint32_t)s->finder->nodes.count - 1;
+        SL_TRY(go_on(s, &turned));
+    }
+    return SL_OK;
+}
+
+sl_status sli_route_search(sl_context *context, sl_route_finder *finder, sl_point from, sl_point to,
+                           uint64_t *expanded, uint32_t *out) {
+    const sl_box *b = &finder->space->bounds;
+    int exponent;
+    frexp(sli_greater(b->max.x - b->min.x, b->max.y - b->min.y), &exponent);
+    search s = {context, finder, finder->space, to, ldexp(1, -exponent)};
+    const uint32_t count =
+        sli_route_stand(finder, from, sl_space_locate(finder->space, from), finder->at_start);
+    finder->nodes.count = finder->open.count = 0;
+    *expanded = 0;
+    *out = SLI_ROUTE_NONE;
+    for (uint32_t i = 0; i < count; i++) {
+        const sli_route_node node = {.root = from,
+                                     .parent = SLI_ROUTE_NONE,
+                                     .entry = SLI_ROUTE_NONE,
+                                     .cell = finder->list[i]};
+        SL_TRY(push(&s, &node, 0));
+    }
+    while (finder->open.count) {
+        const uint32_t next = pop(finder);
+        if (finder->nodes.items[next].is_last) {
+            *out = next;
+            return SL_OK;
+        }
+        if ((++*expanded & 0xfff) == 0) SL_TRY(sl_check_cancelled(context));
+        SL_TRY(expand(&s, next));
+    }
+    return SL_OK;
+}

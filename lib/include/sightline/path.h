@@ -1,0 +1,76 @@
+/// Shortest ways among walls: how far is it around the corner?
+///
+///     sl_route_finder *finder;
+///     sl_route route = {0};
+///     sl_route_finder_create(context, query, &finder);
+///     sl_route_find(context, finder, from, to, &route);
+///     if (route.found) printf("%g\n", route.length);
+///     sl_route_destroy(context, &route);
+///     sl_route_finder_destroy(context, finder);
+///
+/// A way is walked by a point, from cell to cell through portals. It may slide along walls and turn
+/// at their ends, but it does not pass between walls that meet in a point. Shut doors and boxes
+/// that block are walls; one-way glass is passed from where it is seen through. Mirrors are walls,
+/// and the range does not count. A space is for sight or for steps (sl_map.channel): ways go by
+/// what the query's space is for.
+///
+/// A point on a wall stands on one side of it, as an eye does (view.h). So without one-way glass
+/// the distance is the same both ways, and no longer than by way of a third point.
+#ifndef SIGHTLINE_PATH_H
+#define SIGHTLINE_PATH_H
+
+#include "sightline/query.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// Finds ways in the space of one query. Serves one thread at a time.
+typedef struct sl_route_finder sl_route_finder;
+
+/// A way. Zero it to start. It keeps its memory from one sl_route_find() to the next.
+typedef struct sl_route {
+    bool found;        ///< false: no way leads there
+    double length;     ///< in map units; 0 if there is no way
+    sl_point *points;  ///< from, the corners where the way turns (ends of walls), to
+    size_t count;      ///< of points, 2 or more; 0 if there is no way
+    uint32_t *portals; ///< the portals that it passes, in order: numbers of the query's space
+    size_t portal_count;
+    sl_point nearest; ///< if there is no way: a place that can be reached, next to the one that is
+                      ///< nearest to `to`; rounded
+    uint64_t nodes;   ///< search nodes that were expanded: the measure of the work
+    size_t room, portal_room;
+} sl_route;
+
+SL_API void sl_route_destroy(sl_context *context, sl_route *route); ///< and zeroes it
+
+/// A finder over the space that the query's settings make (sl_query_space). The query must outlive
+/// it. SL_UNSUPPORTED for a loose space. Time and memory: O(portals).
+SL_API sl_status sl_route_finder_create(sl_context *context, sl_query *query,
+                                        sl_route_finder **out);
+/// Frees a finder. NULL is allowed.
+SL_API void sl_route_finder_destroy(sl_context *context, sl_route_finder *finder);
+
+/// Follows changes of the query's settings: to be called after doors or boxes change, before the
+/// next question. Time O(portals). After a failure it must be called again.
+SL_API sl_status sl_route_finder_update(sl_context *context, sl_route_finder *finder);
+
+/// The shortest way from one point to another (Cui, Harabor and Grastien 2017, Compromise-free
+/// Pathfinding on a Navigation Mesh: Polyanya, on the convex cells).
+///
+/// Signs are exact: the way crosses no wall, and it turns only where a wall is. Lengths are sums of
+/// square roots, compared as doubles: the way is longer than the shortest one by at most a relative
+/// 2^-40 for each of its corners. `length` is rounded to a few units in the last place. Of ways of
+/// the same length one is chosen by the order of the cells and portals, so the same input gives
+/// the same way.
+///
+/// SL_BAD_ARGUMENT for a point outside the bounds or in solid ground. No way is no failure. No
+/// memory is allocated once `route` and the finder have grown.
+SL_API sl_status sl_route_find(sl_context *context, sl_route_finder *finder, sl_point from,
+                               sl_point to, sl_route *route);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,70 @@
+// What a shortest way costs. Random pairs of points inside, each asked once.
+//   bench_route MAP [Z]    CSV: machine, map, walls, cells, milliseconds to make the finder, ways,
+//                          ways found, microseconds a way, search nodes and corners of a way, and
+//                          the mean length
+#include "bench.h"
+
+#include "sightline/path.h"
+#include "sightline/support.h"
+
+#include <sys/utsname.h>
+
+enum { WAYS = 500 };
+
+static sl_point random_inside(sl_random *random, const sl_space *space) {
+    const sl_box *b = &space->bounds;
+    while (true) {
+        const sl_point at = {b->min.x + sl_random_unit(random) * (b->max.x - b->min.x),
+                             b->min.y + sl_random_unit(random) * (b->max.y - b->min.y)};
+        if (sl_space_is_inside(space, at)) return at;
+    }
+}
+
+static void measure(sl_context *context, const char *name, const sl_space *space, sl_query *query) {
+    sl_route_finder *finder;
+    sl_route route = {0};
+    sl_random random = {7};
+    uint64_t nodes = 0, corners = 0, found = 0;
+    double length = 0;
+    double start = bench_seconds();
+    bench_must(context, sl_route_finder_create(context, query, &finder));
+    const double made = bench_seconds() - start;
+    start = bench_seconds();
+    for (int i = 0; i < WAYS; i++) {
+        const sl_point from = random_inside(&random, space), to = random_inside(&random, space);
+        bench_must(context, sl_route_find(context, finder, from, to, &route));
+        nodes += route.nodes;
+        found += route.found;
+        if (route.found) corners += route.count - 2;
+        length += route.length;
+    }
+    const double took = bench_seconds() - start;
+    struct utsname machine;
+    uname(&machine);
+    puts("machine,map,walls,cells,ms_to_make,ways,found,us_a_way,nodes,corners,length");
+    printf("%s %s,%s,%u,%u,%.1f,%d,%llu,%.1f,%.1f,%.1f,%.6g\n", machine.sysname, machine.machine,
+           name, space->wall_count, space->cell_count, 1e3 * made, WAYS, (unsigned long long)found,
+           1e6 * took / WAYS, (double)nodes / WAYS, (double)corners / WAYS,
+           found ? length / (double)found : 0);
+    sl_route_destroy(context, &route);
+    sl_route_finder_destroy(context, finder);
+}
+
+int main(int argc, char **argv) {
+    if (argc < 2) bench_fail("usage: bench_route MAP [Z]");
+    sl_map map = {0};
+    sl_space space = {0};
+    sl_query *query;
+    sl_context *context = sl_context_create(NULL);
+    if (!context) return 1;
+    bench_read_map(context, argv[1], argc > 2 ? argv[2] : NULL, &map);
+    bench_must(context, sl_subdivision_for(&map)->subdivide(context, &map, NULL, &space));
+    if (!space.inside_count) bench_fail("nothing in the map is inside");
+    bench_must(context, sl_query_over(context, &space, &map, NULL, &query));
+    measure(context, argv[1], &space, query);
+    sl_query_destroy(context, query);
+    sl_space_destroy(context, &space);
+    sl_map_destroy(context, &map);
+    sl_context_destroy(context);
+    return 0;
+}

@@ -1,0 +1,368 @@
+/// Shortest ways: by hand where walls touch, and on random maps against a graph of all corners.
+#include "testing.h"
+
+#include "geometry/orient.h"
+#include "oracle/random_effects.h"
+#include "oracle/random_map.h"
+#include "oracle/random_oblique.h"
+#include "oracle/walks.h"
+#include "sightline/path.h"
+
+#include <math.h>
+
+typedef struct plan {
+    sl_context *context;
+    sl_map map;
+    sl_space space;
+    sl_query *query;
+    sl_route_finder *finder;
+    sl_route route;
+} plan;
+
+static void open_plan(plan *p) {
+    assert_ok(p->context,
+              sl_subdivision_for(&p->map)->subdivide(p->context, &p->map, NULL, &p->space));
+    assert_ok(p->context, sl_query_over(p->context, &p->space, &p->map, NULL, &p->query));
+    assert_ok(p->context, sl_route_finder_create(p->context, p->query, &p->finder));
+}
+
+static void close_plan(plan *p) {
+    sl_route_destroy(p->context, &p->route);
+    sl_route_finder_destroy(p->context, p->finder);
+    sl_query_destroy(p->context, p->query);
+    sl_space_destroy(p->context, &p->space);
+    sl_map_destroy(p->context, &p->map);
+    sl_context_destroy(p->context);
+}
+
+static void read_plan(plan *p, const char *text) {
+    *p = (plan){.context = testing_context(NULL)};
+    assert_ok(p->context, sl_map_parse(p->context, "test.map", text, strlen(text), NULL, &p->map));
+    assert_ok(p->context, sl_map_clean(p->context, &p->map, NULL, NULL));
+    open_plan(p);
+}
+
+/// The length; INFINITY for no way.
+static double way(plan *p, double x, double y, double to_x, double to_y) {
+    assert_ok(p->context, sl_route_find(p->context, p->finder, (sl_point){x, y},
+                                        (sl_point){to_x, to_y}, &p->route));
+    return p->route.found ? p->route.length : (double)INFINITY;
+}
+
+// --- by hand
+
+static const char box[] =
+    "sightline 1\nwall 0 0 10 0\nwall 10 0 10 10\nwall 10 10 0 10\nwall 0 10 0 0\n";
+
+static void boxed(plan *p, const char *more) {
+    char text[1024];
+    snprintf(text, sizeof text, "%s%s", box, more);
+    read_plan(p, text);
+}
+
+static void test_straight_and_around(void **state) {
+    (void)state;
+    plan p;
+    boxed(&p, "wall 5 0 5 6\n");
+    assert_true(way(&p, 1, 8, 9, 8) == 8);
+    assert_int_equal(p.route.count, 2);
+    assert_true(way(&p, 2, 2, 8, 2) == 10); // two triangles of 3, 4, 5
+    assert_int_equal(p.route.count, 3);
+    assert_true(p.route.points[1].x == 5 && p.route.points[1].y == 6);
+    assert_true(way(&p, 3, 3, 3, 3) == 0);
+    assert_int_equal(p.route.count, 2);
+    close_plan(&p);
+}
+
+/// A way along both faces of a wall, and from a wall's end.
+static void test_along_walls(void **state) {
+    (void)state;
+    plan p;
+    boxed(&p, "wall 5 0 5 6\n");
+    assert_true(way(&p, 5, 6, 5, 9) == 3);
+    assert_true(way(&p, 5, 6, 2, 2) == 5 && way(&p, 5, 6, 8, 2) == 5);
+    assert_true(way(&p, 0, 0, 0, 10) == 10);
+    assert_true(way(&p, 10, 0, 5, 6) == hypot(5, 6));
+    close_plan(&p);
+}
+
+static void test_touching_walls_are_closed(void **state) {
+    (void)state;
+    // Two oblique walls whose ends meet in 5,5, and two that leave a gap of a step of doubles.
+    plan p;
+    boxed(&p, "wall 0 1 5 5\nwall 5 5 10 9\n");
+    assert_true(isinf(way(&p, 3, 8, 8, 3)));
+    assert_true(p.route.count == 0 && p.route.length == 0);
+    const sl_point nearest = p.route.nearest;
+    assert_true(isfinite(way(&p, 3, 8, nearest.x, nearest.y)));
+    close_plan(&p);
+    boxed(&p, "wall 0 5 5 5\nwall 5.000000000000001 5 10 5\n");
+    assert_true(way(&p, 5, 8, 5, 2) < 6 + 1e-12);
+    close_plan(&p);
+    // Corner to corner: rooms that share one point only.
+    boxed(&p, "wall 5 0 5 10\nwall 0 5 10 5\n");
+    assert_true(isinf(way(&p, 4, 4, 6, 6)));
+    close_plan(&p);
+    // The corner of two blocks is passed around, not through.
+    boxed(&p, "wall 2 2 5 2\nwall 5 2 5 5\nwall 5 5 2 5\nwall 2 5 2 2\n"
+              "wall 5 5 8 5\nwall 8 5 8 8\nwall 8 8 5 8\nwall 5 8 5 5\n");
+    assert_true(way(&p, 4, 6, 6, 4) > 8);
+    close_plan(&p);
+}
+
+static void test_doors(void **state) {
+    (void)state;
+    plan p;
+    boxed(&p, "wall 5 0 5 4\nwall 5 6 5 10\ndoor front 5 4 5 6 open\n");
+    assert_true(way(&p, 1, 5, 9, 5) == 8);
+    assert_int_equal(p.route.portal_count > 0, 1);
+    assert_ok(p.context, sl_query_set_door(p.context, p.query, "front", false));
+    assert_ok(p.context, sl_route_finder_update(p.context, p.finder));
+    assert_true(isinf(way(&p, 1, 5, 9, 5)));
+    assert_ok(p.context, sl_query_set_door(p.context, p.query, "front", true));
+    assert_ok(p.context, sl_route_finder_update(p.context, p.finder));
+    assert_true(way(&p, 1, 5, 9, 5) == 8);
+    close_plan(&p);
+}
+
+/// Glass is passed from its right to its left alone, and boxes that block are walked around.
+static void test_one_way_and_boxes(void **state) {
+    (void)state;
+    plan p;
+    boxed(&p, "wall 5 0 5 4\nwall 5 6 5 8\noneway 5 4 5 6\n");
+    const double over = way(&p, 1, 5, 9, 5), back = way(&p, 9, 5, 1, 5);
+    assert_true(fmin(over, back) == 8 && fmax(over, back) == 10);
+    const sl_moving_box block = {{{7, 3}, {8, 9}}, true};
+    assert_ok(p.context, sl_query_set_boxes(p.context, p.query, &block, 1));
+    assert_ok(p.context, sl_route_finder_update(p.context, p.finder));
+    assert_true(way(&p, 6, 5, 9, 5) > 4.4);
+    close_plan(&p);
+}
+
+static void test_refusals(void **state) {
+    (void)state;
+    plan p;
+    boxed(&p, "");
+    const sl_point in = {1, 1}, outside[] = {{11, 1}, {NAN, 1}, {1, -INFINITY}};
+    for (size_t i = 0; i < 3; i++) {
+        assert_int_equal(sl_route_find(p.context, p.finder, in, outside[i], &p.route),
+                         SL_BAD_ARGUMENT);
+        assert_int_equal(sl_route_find(p.context, p.finder, outside[i], in, &p.route),
+                         SL_BAD_ARGUMENT);
+    }
+    close_plan(&p);
+    const sl_point rock[] = {{4, 4}, {6, 4}, {6, 6}, {4, 6}};
+    p = (plan){.context = testing_context(NULL)};
+    assert_ok(p.context, sl_map_parse(p.context, "test.map", box, strlen(box), NULL, &p.map));
+    assert_ok(p.context, sl_map_add_solid(p.context, &p.map, rock, 4, 0));
+    assert_ok(p.context, sl_map_clean(p.context, &p.map, NULL, NULL));
+    open_plan(&p);
+    assert_int_equal(sl_route_find(p.context, p.finder, in, (sl_point){5, 5}, &p.route),
+                     SL_BAD_ARGUMENT);
+    assert_non_null(strstr(sl_context_message(p.context), "solid ground"));
+    assert_true(way(&p, 5, 1, 5, 9) == 2 * hypot(1, 3) + 2);
+    close_plan(&p);
+}
+
+static void test_memory(void **state) {
+    (void)state;
+    for (long fail_at = 1, done = 0; !done; fail_at++) {
+        testing_memory memory = {0};
+        plan p = {.context = testing_context(&memory)};
+        const char text[] =
+            "sightline 1\nwall 0 0 10 0\nwall 10 0 10 10\nwall 5 0 5 6\nwall 3 4 2 9\n";
+        assert_ok(p.context, sl_map_parse(p.context, "test.map", text, strlen(text), NULL, &p.map));
+        assert_ok(p.context, sl_map_clean(p.context, &p.map, NULL, NULL));
+        assert_ok(p.context,
+                  sl_subdivision_for(&p.map)->subdivide(p.context, &p.map, NULL, &p.space));
+        assert_ok(p.context, sl_query_over(p.context, &p.space, &p.map, NULL, &p.query));
+        memory.calls = 0;
+        memory.fail_at = fail_at;
+        sl_status status = sl_route_finder_create(p.context, p.query, &p.finder);
+        if (status == SL_OK)
+            status =
+                sl_route_find(p.context, p.finder, (sl_point){1, 1}, (sl_point){9, 1}, &p.route);
+        done = status == SL_OK;
+        if (!done) assert_int_equal(status, SL_NO_MEMORY);
+        const long calls = memory.calls;
+        if (done) { // nothing more once it has grown
+            assert_true(way(&p, 9, 1, 1, 1) > 8 && way(&p, 1, 1, 9, 1) > 8);
+            assert_true(memory.calls == calls);
+        }
+        memory.fail_at = 0;
+        close_plan(&p);
+        assert_int_equal(memory.live, 0);
+    }
+}
+
+// --- random maps
+
+enum {
+    WALLS_MOST = 2048,
+    ORACLE_WALLS = 30 ///< with more the oracle takes too long
+};
+
+/// What stops ways: the walls of the space, doors that are shut among them, and its border.
+typedef struct barrier {
+    sl_segment walls[WALLS_MOST];
+    size_t count;
+} barrier;
+
+static void add_wall(barrier *b, sl_point from, sl_point to) {
+    assert_true(b->count < WALLS_MOST);
+    if (!sli_same_point(from, to)) b->walls[b->count++] = (sl_segment){from, to};
+}
+
+static void find_barrier(plan *p, barrier *b) {
+    const sl_space *space;
+    b->count = 0;
+    assert_ok(p->context, sl_query_space(p->context, p->query, &space, NULL));
+    for (uint32_t i = 0; i < space->wall_count; i++)
+        add_wall(b, space->walls[i].a, space->walls[i].b);
+    const sl_box *s = &space->bounds;
+    const sl_point corners[] = {s->min, {s->max.x, s->min.y}, s->max, {s->min.x, s->max.y}};
+    for (int i = 0; i < 4; i++) add_wall(b, corners[i], corners[(i + 1) % 4]);
+}
+
+static walk_end stand(const plan *p, sl_point at) {
+    const uint32_t cell = sl_space_locate(&p->space, at);
+    return (walk_end){at, cell == SL_NO_CELL ? at : sl_space_middle(&p->space, cell)};
+}
+
+/// The middle of the cell says the side only where rounding has left it within the cell.
+static bool is_clear(const plan *p, walk_end end) {
+    return !sli_same_point(end.at, end.side) &&
+           sl_space_locate(&p->space, end.at) == sl_space_locate(&p->space, end.side) &&
+           !p->space.cells[sl_space_locate(&p->space, end.at)].solid;
+}
+
+/// Points at corners, on walls, in line with them, and anywhere.
+static sl_point random_place(sl_random *random, const plan *p) {
+    const sl_box *b = &p->space.bounds;
+    const sl_point any = {b->min.x + sl_random_unit(random) * (b->max.x - b->min.x),
+                          b->min.y + sl_random_unit(random) * (b->max.y - b->min.y)};
+    const sl_wall *w = &p->space.walls[sl_random_below(random, p->space.wall_count)],
+                  *v = &p->space.walls[sl_random_below(random, p->space.wall_count)];
+    switch (sl_random_below(random, 5)) {
+    case 0:
+        return w->a;
+    case 1:
+        return (sl_point){w->a.x / 2 + w->b.x / 2, w->a.y / 2 + w->b.y / 2};
+    case 2:
+        return (sl_point){w->a.x, v->b.y};
+    case 3:
+        return p->space.vertices[sl_random_below(random, p->space.vertex_count)];
+    default:
+        return any;
+    }
+}
+
+static double check_way(plan *p, const barrier *b, sl_point from, sl_point to, uint64_t seed) {
+    const walk_end start = stand(p, from), goal = stand(p, to);
+    const double length = way(p, from.x, from.y, to.x, to.y);
+    if (!is_clear(p, start) || !is_clear(p, goal) || b->count > ORACLE_WALLS) return length;
+    const double expected = oracle_walk(b->walls, b->count, start, goal);
+    if (isinf(length) != isinf(expected) ||
+        (!isinf(length) && fabs(length - expected) > 1e-12 * expected))
+        fail_msg("seed %llu: from %.17g,%.17g to %.17g,%.17g: %.17g, expected %.17g",
+                 (unsigned long long)seed, from.x, from.y, to.x, to.y, length, expected);
+    if (p->route.found &&
+        !oracle_can_walk(b->walls, b->count, start, goal, p->route.points, p->route.count))
+        fail_msg("seed %llu: from %.17g,%.17g to %.17g,%.17g: the way is blocked",
+                 (unsigned long long)seed, from.x, from.y, to.x, to.y);
+    return length;
+}
+
+/// Ways against the oracle; the same length both ways, and no shorter by way of a third point.
+static void check_plan(plan *p, uint64_t seed) {
+    static barrier b;
+    sl_random random = {seed};
+    open_plan(p);
+    if (p->map.door_count) {
+        for (size_t i = 0; i < p->map.door_count; i++)
+            sl_query_set_door_at(p->context, p->query, i, sl_random_below(&random, 2));
+        assert_ok(p->context, sl_route_finder_update(p->context, p->finder));
+    }
+    find_barrier(p, &b);
+    for (int i = 0; i < 3; i++) {
+        sl_point at[3];
+        bool usable = true;
+        for (int k = 0; k < 3; k++) {
+            at[k] = random_place(&random, p);
+            const uint32_t cell = sl_space_locate(&p->space, at[k]);
+            usable &= cell != SL_NO_CELL && !p->space.cells[cell].solid;
+        }
+        if (!usable) continue;
+        const double over = check_way(p, &b, at[0], at[1], seed);
+        const double back = way(p, at[1].x, at[1].y, at[0].x, at[0].y);
+        const double one = way(p, at[0].x, at[0].y, at[2].x, at[2].y),
+                     other = way(p, at[2].x, at[2].y, at[1].x, at[1].y);
+        if (isinf(over) != isinf(back) || fabs(over - back) > 1e-13 * over)
+            fail_msg("seed %llu: %.17g there, %.17g back", (unsigned long long)seed, over, back);
+        if (over > (one + other) * (1 + 1e-13))
+            fail_msg("seed %llu: %.17g, by a third point %.17g", (unsigned long long)seed, over,
+                     one + other);
+    }
+    close_plan(p);
+}
+
+static void test_axial(void **state) {
+    (void)state;
+    for (uint64_t seed = 0, count = testing_seeds(150); seed < count; seed++) {
+        plan p = {.context = testing_context(NULL)};
+        assert_ok(p.context, oracle_random_map(p.context, seed, (oracle_grid)(seed % 3), &p.map));
+        if (sl_map_clean(p.context, &p.map, NULL, NULL) == SL_OK && p.map.wall_count)
+            check_plan(&p, seed);
+    }
+}
+
+static void test_turned(void **state) {
+    (void)state;
+    for (uint64_t seed = 0, count = testing_seeds(120); seed < count; seed++) {
+        plan p = {.context = testing_context(NULL)};
+        assert_ok(p.context, oracle_random_map(p.context, seed, ORACLE_GRID_INTEGER, &p.map));
+        oblique_turn_map(&p.map, seed % 2 ? 17.3 : 45, seed % 3 ? 0 : 1e7);
+        assert_ok(p.context, sl_map_clean(p.context, &p.map, NULL, NULL));
+        check_plan(&p, seed);
+    }
+}
+
+static void test_oblique(void **state) {
+    (void)state;
+    for (uint64_t seed = 0, count = testing_seeds(300); seed < count; seed++) {
+        plan p = {.context = testing_context(NULL)};
+        assert_ok(p.context, oblique_random_map(p.context, seed,
+                                                (oblique_grid)(seed % OBLIQUE_GRIDS), 9, &p.map));
+        if (sl_map_clean(p.context, &p.map, NULL, NULL) == SL_OK && p.map.wall_count)
+            check_plan(&p, seed);
+        else
+            close_plan(&p);
+    }
+}
+
+static void test_random_doors(void **state) {
+    (void)state;
+    for (uint64_t seed = 0, count = testing_seeds(120); seed < count; seed++) {
+        plan p = {.context = testing_context(NULL)};
+        sl_random random = {seed};
+        random_effects_map(p.context, &random, SL_EFFECT_DOOR | SL_EFFECT_MIRROR, 1, &p.map);
+        check_plan(&p, seed);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_straight_and_around),
+        cmocka_unit_test(test_along_walls),
+        cmocka_unit_test(test_touching_walls_are_closed),
+        cmocka_unit_test(test_doors),
+        cmocka_unit_test(test_one_way_and_boxes),
+        cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_axial),
+        cmocka_unit_test(test_turned),
+        cmocka_unit_test(test_oblique),
+        cmocka_unit_test(test_random_doors),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,296 @@
+/// `sightline path`: shortest ways among walls, and how long they are.
+#include "arguments/outputs.h"
+#include "commands/commands.h"
+#include "inputs/number_table.h"
+#include "inputs/pipeline.h"
+#include "reports/json_print.h"
+#include "sightline/draw.h"
+#include "sightline/path.h"
+#include "sightline/support.h"
+#include "system/built.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+typedef struct path_plan {
+    const char *input, *from_text, *to_text, *pairs, *output, *picture;
+    sl_point from, to;
+    map_pipeline pipeline;
+    door_choice doors;
+    sl_draw_options drawing;
+    bool json;
+} path_plan;
+
+typedef struct path_work {
+    sl_baked baked;
+    sl_query *query;
+    sl_route_finder *finder;
+    sl_route route;
+    bool *shut; ///< by door of the map
+} path_work;
+
+// --- why there is no way
+
+/// Names the doors that are shut on the way that there is if all doors are open, each once.
+static void name_doors(const path_work *w, const sl_route *way, char *text, size_t size) {
+    const sl_map *map = &w->baked.map;
+    size_t used = 0;
+    text[0] = '\0';
+    for (size_t i = 0; i < way->portal_count; i++) {
+        size_t count;
+        const sl_seam_portal *seams = sl_space_seams_of(&w->baked.space, way->portals[i], &count);
+        for (size_t k = 0; k < count; k++) {
+            const sl_seam *seam = &w->baked.space.seams[seams[k].seam];
+            if (seam->kind != SL_SEAM_DOOR || !w->shut[seam->number]) continue;
+            char name[160];
+            snprintf(name, sizeof name, " \"%s\"", map->doors[seam->number].name);
+            if (strstr(text, name) || used >= size) continue;
+            used += (size_t)snprintf(text + used, size - used, "%s%s", used ? "," : "", name);
+        }
+    }
+}
+
+/// What keeps two points apart: doors that are shut, or walls ("").
+static sl_status find_doors(sl_context *context, path_work *w, sl_point from, sl_point to,
+                            char *text, size_t size) {
+    sl_route way = {0};
+    text[0] = '\0';
+    if (!w->baked.map.door_count) return SL_OK;
+    sl_query_set_doors(context, w->query, true);
+    sl_status status = sl_route_finder_update(context, w->finder);
+    if (status == SL_OK) status = sl_route_find(context, w->finder, from, to, &way);
+    if (status == SL_OK && way.found) name_doors(w, &way, text, size);
+    sl_route_destroy(context, &way);
+    for (size_t i = 0; i < w->baked.map.door_count; i++)
+        sl_query_set_door_at(context, w->query, i, !w->shut[i]);
+    return status == SL_OK ? sl_route_finder_update(context, w->finder) : status;
+}
+
+// --- the report
+
+static void print_way(const path_work *w) {
+    const sl_route *route = &w->route;
+    const char *unit = w->baked.map.unit;
+    char length[SL_NUMBER_TEXT];
+    sl_number_write(route->length, length);
+    printf("length %s%s%s, %zu corner%s\n", length, *unit ? " " : "", unit, route->count - 2,
+           route->count == 3 ? "" : "s");
+    for (size_t i = 0; i < route->count; i++) {
+        char x[SL_NUMBER_TEXT], y[SL_NUMBER_TEXT];
+        sl_number_write(route->points[i].x, x);
+        sl_number_write(route->points[i].y, y);
+        printf("  %s,%s\n", x, y);
+    }
+}
+
+static sl_status print_json(sl_context *context, const path_work *w) {
+    const sl_route *route = &w->route;
+    json_fields fields = json_begin();
+    json_add_flag(&fields, "found", route->found);
+    if (route->found) {
+        json_add_real(&fields, "length", route->length);
+        json_add_points(&fields, "points", route->points, route->count);
+    } else {
+        sl_json_writer *json = json_add(&fields, "nearest");
+        sl_json_put_list(json);
+        sl_json_put_real(json, route->nearest.x);
+        sl_json_put_real(json, route->nearest.y);
+        sl_json_put_end(json, ']');
+    }
+    return json_print(context, &fields);
+}
+
+/// The way over the plan: each piece in the colour of how far its end is.
+static sl_status draw(sl_context *context, const path_plan *plan, const path_work *w) {
+    const sl_route *route = &w->route;
+    const size_t count = route->count ? route->count - 1 : 0;
+    sl_segment *lines = sl_alloc_array(context, count, sizeof *lines);
+    double *values = sl_alloc_array(context, count, sizeof *values);
+    sl_status status = lines && values ? SL_OK : SL_NO_MEMORY;
+    double far = 0;
+    for (size_t i = 0; i < count && status == SL_OK; i++) {
+        lines[i] = (sl_segment){route->points[i], route->points[i + 1]};
+        far += hypot(lines[i].b.x - lines[i].a.x, lines[i].b.y - lines[i].a.y);
+        values[i] = far;
+    }
+    const sl_drawn_lines drawn = {
+        .name = "length", .lines = lines, .values = values, .count = (uint32_t)count};
+    if (status == SL_OK)
+        status = built_pictures()->lines(context, &w->baked, &drawn, &plan->drawing, plan->picture);
+    sl_free(context, lines);
+    sl_free(context, values);
+    return status;
+}
+
+/// One way. Without one, the exit status is 3.
+static sl_status find_one(command_console *console, const path_plan *plan, path_work *w) {
+    sl_context *context = console->context;
+    char doors[512];
+    SL_TRY(input_locate(context, "--from", plan->from_text, &w->baked.space, plan->from, NULL));
+    SL_TRY(input_locate(context, "--to", plan->to_text, &w->baked.space, plan->to, NULL));
+    SL_TRY(sl_route_find(context, w->finder, plan->from, plan->to, &w->route));
+    if (plan->picture) SL_TRY(draw(context, plan, w));
+    progress_line_clear(&console->line);
+    console->fault = !w->route.found;
+    if (plan->json) return print_json(context, w);
+    if (w->route.found) {
+        if (!console->quiet || !plan->picture) print_way(w);
+        return SL_OK;
+    }
+    SL_TRY(find_doors(context, w, plan->from, plan->to, doors, sizeof doors));
+    const int digits = sl_map_digits(&w->baked.map);
+    printf("no way: %s%s%s; the nearest place that can be reached: %.*g,%.*g\n",
+           *doors ? "shut doors on it:" : "walls are between", doors,
+           *doors ? " (--open opens them)" : "", digits, w->route.nearest.x, digits,
+           w->route.nearest.y);
+    return SL_OK;
+}
+
+// --- a table of questions
+
+static void put(FILE *out, double value, const char *behind) {
+    char text[SL_NUMBER_TEXT];
+    sl_number_write(value, text);
+    fprintf(out, "%s%s", text, behind);
+}
+
+static sl_status put_rows(sl_context *context, const number_table *table, path_work *w, bool *all,
+                          FILE *out) {
+    fputs("from_x,from_y,to_x,to_y,length,corners\n", out);
+    for (size_t i = 0; i < table->rows; i++) {
+        const double *v = table->values + i * table->columns;
+        const sl_point from = {v[0], v[1]}, to = {v[2], v[3]};
+        SL_TRY(sl_check_cancelled(context));
+        SL_TRY(input_check_place(context, table->path, table->lines[i], &w->baked.space, from));
+        SL_TRY(input_check_place(context, table->path, table->lines[i], &w->baked.space, to));
+        SL_TRY(sl_route_find(context, w->finder, from, to, &w->route));
+        *all &= w->route.found;
+        for (int k = 0; k < 4; k++) put(out, v[k], ",");
+        if (w->route.found) put(out, w->route.length, "");
+        if (w->route.found)
+            fprintf(out, ",%zu\n", w->route.count - 2);
+        else
+            fputs(",\n", out);
+    }
+    return SL_OK;
+}
+
+static sl_status check_table(sl_context *context, const number_table *table) {
+    if (table->columns != 4)
+        return sl_fail_at(context, table->path, table->first_line,
+                          "expected the columns from_x,from_y,to_x,to_y, found %zu column%s",
+                          table->columns, table->columns == 1 ? "" : "s");
+    for (size_t i = 0; i < table->rows; i++)
+        for (size_t k = 0; k < 4; k++)
+            if (isnan(table->values[4 * i + k]))
+                return sl_fail_at(context, table->path, table->lines[i], "a field is empty");
+    return SL_OK;
+}
+
+/// Many ways. A row without one has no length, and the exit status is 3.
+static sl_status find_many(command_console *console, const path_plan *plan, path_work *w) {
+    sl_context *context = console->context;
+    number_table table = {0};
+    sl_output output;
+    bool all = true;
+    SL_TRY(number_table_read(context, plan->pairs, &table));
+    sl_status status = check_table(context, &table);
+    if (status == SL_OK)
+        status = sl_output_open(context, plan->output ? plan->output : "-", &output);
+    if (status == SL_OK)
+        status =
+            sl_output_close(context, &output, put_rows(context, &table, w, &all, output.stream));
+    number_table_destroy(context, &table);
+    console->fault = !all;
+    return status;
+}
+
+// --- the command
+
+static sl_status check_plan(sl_context *context, path_plan *plan) {
+    if (plan->pairs && (plan->from_text || plan->to_text || plan->picture || plan->json))
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "--pairs makes a table: it goes without --from, --to, --picture and --json");
+    if (!plan->pairs && (!plan->from_text || !plan->to_text))
+        return sl_fail(context, SL_BAD_ARGUMENT, "--%s is missing: where the way %s",
+                       plan->from_text ? "to" : "from", plan->from_text ? "ends" : "begins");
+    return pipeline_plan(context, plan->input, &plan->pipeline);
+}
+
+/// A space of sight has other walls than steps need.
+static sl_status check_channel(sl_context *context, const path_plan *plan, const path_work *w) {
+    if (!sl_map_steps_differ(&w->baked.map) || plan->pipeline.stops_text) return SL_OK;
+    return sl_fail(context, SL_UNSUPPORTED,
+                   "%s: its cells are those of sight, and some of its walls stop sight or steps "
+                   "alone; give the map, or bake it with --stops steps",
+                   plan->input);
+}
+
+static sl_status work(command_console *console, path_plan *plan, path_work *w) {
+    sl_context *context = console->context;
+    SL_TRY(check_plan(context, plan));
+    SL_TRY(pipeline_read_space(
+        context, &plan->pipeline, "path",
+        SL_EFFECT_DOOR | SL_EFFECT_ONEWAY | SL_EFFECT_MIRROR | SL_EFFECT_RANGE, NULL, &w->baked));
+    SL_TRY(check_channel(context, plan, w));
+    w->shut = sl_alloc_array(context, w->baked.map.door_count, sizeof *w->shut);
+    if (!w->shut) return SL_NO_MEMORY;
+    SL_TRY(doors_read(context, &plan->doors, &w->baked.map, w->shut));
+    SL_TRY(sl_query_over(context, &w->baked.space, &w->baked.map, NULL, &w->query));
+    for (size_t i = 0; i < w->baked.map.door_count; i++) {
+        w->baked.map.doors[i].open = !w->shut[i];
+        sl_query_set_door_at(context, w->query, i, !w->shut[i]);
+    }
+    SL_TRY(sl_route_finder_create(context, w->query, &w->finder));
+    return plan->pairs ? find_many(console, plan, w) : find_one(console, plan, w);
+}
+
+sl_status cmd_path(command_console *console, int argc, char **argv) {
+    path_plan plan = {.pipeline = pipeline_default(), .drawing = built_draw_options()};
+    plan.pipeline.channel = SL_STOPS_STEPS;
+    const option_table pipeline = pipeline_option_table(&plan.pipeline),
+                       picture = picture_option_table(&plan.drawing, "picture", true),
+                       doors = door_option_table(&plan.doors);
+    const option_spec options[] = {
+        {"from", 0, "X,Y", "where the way begins", .point = &plan.from, .text = &plan.from_text},
+        {"to", 0, "X,Y", "where it ends", .point = &plan.to, .text = &plan.to_text},
+        {"pairs", 0, "CSV",
+         "a table of ways, from_x,from_y,to_x,to_y: its first line may name the columns",
+         .text = &plan.pairs, .is_input = true},
+        {"output", 'o', "TABLE", "with --pairs: where the lengths go (default: standard output)",
+         .text = &plan.output, .check = CHECK_TABLE, .without = "pairs"},
+        {"picture", 0, "PICTURE", "draw the way: .png, .svg or .pdf", .text = &plan.picture,
+         .check = CHECK_PICTURE},
+        {"json", 0, NULL, "print one JSON object: the length and the points", .flag = &plan.json},
+        {.group = &doors},
+        {.group = &picture},
+        {.group = &pipeline},
+    };
+    const command_usage usage = {
+        .name = "path",
+        .synopsis = "MAP|FILE.slv --from X,Y --to X,Y [options]",
+        .operands = {"MAP|FILE.slv"},
+        .what = "Finds the shortest way among the walls between two points, for a walker without "
+                "width. It turns at ends of walls, and it does not pass between walls that meet in "
+                "a point. Shut doors block it, and one-way glass from one side. The exit status is "
+                "3 if there is no way.",
+        .examples = "  sightline path office.map --from 3,3 --to 53,20\n"
+                    "  sightline path office.map --from 3,3 --to 53,20 --picture way.png\n"
+                    "  sightline path office.map --pairs desks.csv -o lengths.csv",
+        .options = options,
+        .option_count = sizeof options / sizeof *options,
+        .given = &plan.pipeline.given,
+    };
+    bool helped;
+    SL_TRY(options_parse(console, &usage, argc, argv, &plan.input, &helped));
+    if (helped) return SL_OK;
+    path_work w = {0};
+    const sl_status status = work(console, &plan, &w);
+    sl_route_destroy(console->context, &w.route);
+    sl_route_finder_destroy(console->context, w.finder);
+    sl_query_destroy(console->context, w.query);
+    sl_free(console->context, w.shut);
+    sl_baked_destroy(console->context, &w.baked);
+    return status;
+}
