@@ -10,15 +10,16 @@
 /// The place where two segments cross. Each coordinate is the nearest usable one
 /// (sl_coordinate_usable), of two equally near ones the lower. The order of the segments does not
 /// matter. They must cross properly: the ends of each lie strictly on different sides of the other.
+/// Or the place where their lines cross, which must not be parallel.
 sl_point sli_crossing(sl_segment s, sl_segment t);
 
 /// The side of the line from `from` to `to` on which s crosses the line through t, as sli_orient.
 /// The ends of s must lie strictly on different sides of t's line. Exact for all finite doubles.
 int sli_crossing_side(sl_point from, sl_point to, sl_segment s, sl_segment t);
 
-/// Where the lines through t and through u meet the line through s: 1 where t meets it further along
-/// the way from s.a to s.b, -1 where u does, 0 at one place. Neither may be parallel to s. Exact
-/// for all finite doubles.
+/// Where the lines through t and through u meet the line through s: 1 where t meets it further
+/// along the way from s.a to s.b, -1 where u does, 0 at one place. Neither may be parallel to s.
+/// Exact for all finite doubles.
 int sli_meet_order(sl_segment s, sl_segment t, sl_segment u);
 
 /// The sign of u_m (s x (a - eye)) - (s x u)(value - eye_m), for u = point - eye, s = b - a and the

@@ -34,6 +34,11 @@ sl_status sli_map_read_unigrafix(sl_context *context, const char *name, const ch
 sl_status sli_map_heights_unigrafix(sl_context *context, const char *name, const char *text,
                                     size_t size, double *lowest, double *highest);
 
+/// A polygon of AGPLIB: open ground, its holes solid. Coordinates are the quotients of doubles.
+/// What was taken is noted. SL_BAD_INPUT for a polygon that crosses itself, as sl_map_add_open.
+sl_status sli_map_read_agp(sl_context *context, const char *name, const char *text, size_t size,
+                           const sl_import_options *options, sl_map *map);
+
 /// The lines, polylines with bulges, arcs, circles, ellipses and plain splines (degree up to 3, no
 /// weights) of a DXF drawing, text or binary, in blocks as inserted, on layers that are on and not
 /// frozen and mean walls, windows or doors (parts/contents.h), or on those asked for. Layers named

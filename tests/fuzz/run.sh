@@ -32,6 +32,7 @@ seeds_of() {
     fuzz_map_text | fuzz_mesh | fuzz_slv | fuzz_runtime | fuzz_write) echo map ;;
     fuzz_map_plan) echo txt ;;
     fuzz_unigrafix) echo ug ;;
+    fuzz_agp) echo pol ;;
     fuzz_image) echo pgm ;;
     fuzz_geojson_lines) echo geojson ;;
     fuzz_number_table | fuzz_cameras) echo csv ;;

@@ -273,11 +273,64 @@ static void halfway_between_doubles(void **state) {
                       (sl_segment){{1, 1 + 0x1p-52}, {1 + 0x1p-52, 1}}));
 }
 
+// --- the order of places along a line
+
+/// The sign of (p - q) * (s.b - s.a), where p and q are on the line through s.
+static int order_of(sl_segment s, const place *p, const place *q) {
+    mpq_t x, y, way;
+    mpq_inits(x, y, way, NULL);
+    mpq_sub(x, p->x, q->x);
+    mpq_sub(y, p->y, q->y);
+    difference(way, s.b.x, s.a.x);
+    mpq_mul(x, x, way);
+    difference(way, s.b.y, s.a.y);
+    mpq_mul(y, y, way);
+    mpq_add(x, x, y);
+    const int sign = mpq_sgn(x);
+    mpq_clears(x, y, way, NULL);
+    return sign;
+}
+
+static void check_order(sl_segment s, sl_segment t, sl_segment u, int *ties) {
+    if (!sli_turn(s.a, s.b, t.a, t.b) || !sli_turn(s.a, s.b, u.a, u.b)) return;
+    place p, q;
+    place_of(s, t, &p);
+    place_of(s, u, &q);
+    const int expected = order_of(s, &p, &q);
+    *ties += expected == 0;
+    assert_int_equal(sli_meet_order(s, t, u), expected);
+    assert_int_equal(sli_meet_order(s, u, t), -expected);
+    assert_int_equal(sli_meet_order((sl_segment){s.b, s.a}, t, u), -expected);
+    assert_int_equal(sli_meet_order(s, (sl_segment){t.b, t.a}, u), expected);
+    mpq_clears(p.x, p.y, q.x, q.y, NULL);
+}
+
+/// Small whole numbers, where many lines meet in one place; then all magnitudes.
+static void in_order_along_a_line(void **state) {
+    (void)state;
+    sl_random random = {9};
+    int ties = 0;
+    for (int i = 0; i < 6000; i++) {
+        sl_segment line[3];
+        for (int k = 0; k < 3; k++) {
+            double v[4];
+            for (int c = 0; c < 4; c++) {
+                v[c] = (double)sl_random_below(&random, 5) - 2;
+                if (i % 2) v[c] = ldexp(v[c] + 0.1, (int)sl_random_below(&random, 400) - 200);
+            }
+            line[k] = (sl_segment){{v[0], v[1]}, {v[2], v[3]}};
+        }
+        check_order(line[0], line[1], line[2], &ties);
+    }
+    assert_true(ties > 100);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(of_all_magnitudes),  cmocka_unit_test(of_mixed_magnitudes),
-        cmocka_unit_test(nearly_parallel),    cmocka_unit_test(near_an_end),
-        cmocka_unit_test(where_zero_is_near), cmocka_unit_test(halfway_between_doubles),
+        cmocka_unit_test(of_all_magnitudes),     cmocka_unit_test(of_mixed_magnitudes),
+        cmocka_unit_test(nearly_parallel),       cmocka_unit_test(near_an_end),
+        cmocka_unit_test(where_zero_is_near),    cmocka_unit_test(halfway_between_doubles),
+        cmocka_unit_test(in_order_along_a_line),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

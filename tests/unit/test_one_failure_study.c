@@ -359,6 +359,7 @@ SEED(foundry, "everything.foundry")
 SEED(export, "all.export")
 SEED(wad, "nodes3.wad")
 SEED(unigrafix, "window.ug")
+SEED(agp, "hole.pol")
 SEED(image, "dots.pgm")
 
 /// In each format that is written.
@@ -394,7 +395,7 @@ static const one_failure_row rows[] = {
 static const one_failure_row readers[] = {
     ROW(generate),      ROW(read_dxf), ROW(read_svg),       ROW(read_tmx),   ROW(read_tmx_zlib),
     ROW(read_tmx_zstd), ROW(read_tmj), ROW(read_ldtk),      ROW(read_uvtt),  ROW(read_foundry),
-    ROW(read_export),   ROW(read_wad), ROW(read_unigrafix), ROW(read_image),
+    ROW(read_export),   ROW(read_wad), ROW(read_unigrafix), ROW(read_image), ROW(read_agp),
 };
 
 static void test_rooms(void **state) {

@@ -301,6 +301,44 @@ static void same_input_same_result(void **state) {
     end(&p);
 }
 
+/// Among given places: no fewer than anywhere; as few where the optimum is among them.
+static void given_places(void **state) {
+    (void)state;
+    for (uint64_t seed = 0; seed < 6; seed++) {
+        sl_point corners[40], places[48];
+        const size_t count = make_jagged(seed, corners);
+        plan p;
+        sl_placement anywhere = {0}, given = {0}, few = {0};
+        begin(&p);
+        assert_ok(p.context, sl_map_add_open(p.context, &p.map, corners, count, 0));
+        ready(&p);
+        place(&p, &anywhere);
+        sl_place_options options = sl_place_options_default();
+        options.places = corners;
+        options.place_count = (uint32_t)count;
+        assert_ok(p.context, sl_place(p.context, p.query, &options, &given));
+        check_all_seen(&p, &given, 3000);
+        assert_true(given.lower >= anywhere.lower);
+        assert_int_equal(given.lower, given.upper);
+        // With the optimum among them, they are as good as anywhere.
+        memcpy(places, corners, count * sizeof *corners);
+        for (uint32_t i = 0; i < anywhere.count; i++) places[count + i] = anywhere.viewpoints[i].at;
+        options.places = places;
+        options.place_count = (uint32_t)count + anywhere.count;
+        assert_ok(p.context, sl_place(p.context, p.query, &options, &few));
+        assert_int_equal(few.lower, anywhere.upper);
+        assert_int_equal(few.upper, anywhere.upper);
+        sl_placement_destroy(p.context, &few);
+        options.place_count = 1;
+        const sl_status status = sl_place(p.context, p.query, &options, &few);
+        assert_int_equal(status, anywhere.upper > 1 ? SL_BAD_ARGUMENT : status);
+        if (status == SL_OK) sl_placement_destroy(p.context, &few);
+        sl_placement_destroy(p.context, &anywhere);
+        sl_placement_destroy(p.context, &given);
+        end(&p);
+    }
+}
+
 // --- refusals, cancelling
 
 static void refusals(void **state) {
@@ -351,6 +389,33 @@ static void cancelled(void **state) {
     end(&p);
 }
 
+/// Memory fails once, at one allocation after the other: it is said, and nothing is left behind.
+static void without_memory(void **state) {
+    (void)state;
+    static const sl_point corners[] = {{0, 0}, {9, 0}, {9, 8}, {6, 8}, {6, 4},
+                                       {3, 4}, {3, 8}, {1, 9}, {0, 8}};
+    plan p;
+    long failed = 0;
+    begin(&p);
+    assert_ok(p.context, sl_map_add_open(p.context, &p.map, corners, 9, 0));
+    ready(&p);
+    p.memory.once = true;
+    for (long n = 1, done = 0; !done; n += 1 + n / 16) {
+        sl_placement placed = {0};
+        p.memory.fail_at = p.memory.calls + n;
+        const sl_status status = sl_place(p.context, p.query, NULL, &placed);
+        done = p.memory.calls < p.memory.fail_at;
+        p.memory.fail_at = 0;
+        assert_true(status == SL_OK || status == SL_NO_MEMORY);
+        assert_true((status == SL_OK) == (placed.viewpoints != NULL));
+        failed += status == SL_NO_MEMORY;
+        if (status == SL_OK) assert_int_equal(placed.lower, 2);
+        sl_placement_destroy(p.context, &placed);
+    }
+    assert_true(failed > 20);
+    end(&p);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(known_combs),
@@ -360,8 +425,10 @@ int main(void) {
         cmocka_unit_test(generated_maps),
         cmocka_unit_test(changes_keep_the_optimum),
         cmocka_unit_test(same_input_same_result),
+        cmocka_unit_test(given_places),
         cmocka_unit_test(refusals),
         cmocka_unit_test(cancelled),
+        cmocka_unit_test(without_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

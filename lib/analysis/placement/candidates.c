@@ -1,6 +1,7 @@
 /// Candidates: places to look from.
 #include "analysis/placement/placer.h"
 
+#include "geometry/crossing.h"
 #include "geometry/length.h"
 #include "geometry/orient.h"
 
@@ -22,7 +23,7 @@ sl_status sli_add_candidate(sli_placer *p, sl_point at, uint32_t *number) {
     sli_candidate *c = &p->candidates.items[p->candidates.count];
     *c = (sli_candidate){0};
     *number = UINT32_MAX;
-    if (!sl_space_is_inside(p->ground.space, at)) return SL_OK;
+    if (p->listed || !sl_space_is_inside(p->ground.space, at)) return SL_OK;
     SL_TRY(sli_look_make(p->context, p->query, &p->memory, at, &c->look, &clean));
     if (!clean) return SL_OK;
     *number = (uint32_t)p->candidates.count++;
@@ -123,30 +124,43 @@ static sl_point foot_of(sl_point at, const sl_segment *line) {
     return (sl_point){line->a.x + share * way.x, line->a.y + share * way.y};
 }
 
-static sl_point meet_of(const sl_segment *s, const sl_segment *t) {
+/// Where two lines meet, if that is nearer to a point than a share of its distance from the apex.
+static bool meet_near(sl_point eye, const sl_segment *s, const sl_segment *t, sl_point *out) {
+    const double share = 0.1;
     const sl_point u = {s->b.x - s->a.x, s->b.y - s->a.y}, v = {t->b.x - t->a.x, t->b.y - t->a.y};
-    const double share =
+    if (sli_turn(s->a, s->b, t->a, t->b) == 0) return false;
+    const double along =
         sli_cross((sl_point){t->a.x - s->a.x, t->a.y - s->a.y}, v) / sli_cross(u, v);
-    return (sl_point){s->a.x + share * u.x, s->a.y + share * u.y};
+    const sl_point off = {s->a.x + along * u.x - eye.x, s->a.y + along * u.y - eye.y};
+    const sl_point apex = {s->a.x - eye.x, s->a.y - eye.y};
+    if (!(sli_dot(off, off) < share * share * sli_dot(apex, apex))) return false;
+    *out = sli_crossing(*s, *t);
+    return true;
+}
+
+/// Remembers a line of a wall.
+static sl_status keep_line(sli_placer *p, sl_segment line) {
+    for (size_t i = 0; i < p->lines.count; i++)
+        if (sli_same_point(p->lines.items[i].a, line.a) &&
+            sli_same_point(p->lines.items[i].b, line.b))
+            return SL_OK;
+    SL_TRY(SL_ARRAY_ROOM(p->context, &p->lines, 1));
+    p->lines.items[p->lines.count++] = line;
+    return SL_OK;
 }
 
 sl_status sli_add_in_line(sli_placer *p) {
-    enum { MOST = 8 };
-    sl_segment lines[MOST];
-    const size_t count = p->gaps.count;
-    for (size_t i = 0; i < count;) {
-        const uint32_t look = p->gaps.items[i].look;
-        const sl_point eye = sli_chosen_look(p, look)->eye;
+    for (size_t i = 0; i < p->gaps.count && !p->listed; i++) {
+        const sl_point eye = sli_chosen_look(p, p->gaps.items[i].look)->eye;
+        sl_segment line;
+        sl_point meet;
         uint32_t number;
-        int found = 0;
-        for (; i < count && p->gaps.items[i].look == look; i++)
-            if (found < MOST) found += find_hidden(p, &p->gaps.items[i], &lines[found]);
-        for (int k = 0; k < found; k++) {
-            SL_TRY(sli_add_candidate(p, foot_of(eye, &lines[k]), &number));
-            for (int j = 0; j < k; j++)
-                if (sli_turn(lines[k].a, lines[k].b, lines[j].a, lines[j].b))
-                    SL_TRY(sli_add_candidate(p, meet_of(&lines[k], &lines[j]), &number));
-        }
+        if (!find_hidden(p, &p->gaps.items[i], &line)) continue;
+        SL_TRY(sli_add_candidate(p, foot_of(eye, &line), &number));
+        for (size_t k = 0; k < p->lines.count; k++)
+            if (meet_near(eye, &line, &p->lines.items[k], &meet))
+                SL_TRY(sli_add_candidate(p, meet, &number));
+        SL_TRY(keep_line(p, line));
     }
     return SL_OK;
 }
@@ -157,6 +171,8 @@ sl_cover_options sli_cover_options(const sli_placer *p) {
     sl_cover_options options = sl_cover_options_default();
     options.program = p->options->program;
     options.nodes = p->options->nodes;
+    // Rows are only added, so earlier bounds hold.
+    options.known_lower = p->out->lower;
     return options;
 }
 
@@ -170,36 +186,44 @@ static sl_status complete(sli_placer *p) {
     const size_t count = p->witnesses.count;
     for (size_t i = 0; status == SL_OK && i < count; i++) {
         uint32_t number;
-        if (!seen[i]) status = sli_add_candidate(p, p->witnesses.items[i].eye, &number);
+        if (seen[i]) continue;
+        const sl_point at = p->witnesses.items[i].eye;
+        if (p->listed)
+            status = sl_fail(p->context, SL_BAD_ARGUMENT,
+                             "(%g, %g) is seen from none of the places", at.x, at.y);
+        else
+            status = sli_add_candidate(p, at, &number);
     }
     sl_free(p->context, seen);
     return status;
 }
 
-sl_status sli_choose_fewest(sli_placer *p) {
+sl_status sli_choose_fewest(sli_placer *p, sl_cover_problem *problem, sl_cover_result *cover) {
     SL_TRY(complete(p));
     size_t entries = 0;
     for (size_t i = 0; i < p->candidates.count; i++) entries += p->candidates.items[i].sees.count;
     size_t *ends = sl_alloc_array(p->context, p->candidates.count, sizeof *ends);
     uint32_t *all = sl_alloc_array(p->context, entries, sizeof *all);
-    sl_status status = ends && all ? SL_OK : SL_NO_MEMORY;
+    *problem = (sl_cover_problem){
+        (uint32_t)p->witnesses.count, (uint32_t)p->candidates.count, ends, all, NULL, NULL};
+    if (!ends || !all) return SL_NO_MEMORY;
     entries = 0;
-    for (size_t i = 0; status == SL_OK && i < p->candidates.count; i++) {
+    for (size_t i = 0; i < p->candidates.count; i++) {
         for (size_t k = 0; k < p->candidates.items[i].sees.count; k++)
             all[entries++] = p->candidates.items[i].sees.items[k];
         ends[i] = entries;
     }
-    const sl_cover_problem problem = {
-        (uint32_t)p->witnesses.count, (uint32_t)p->candidates.count, ends, all, NULL, NULL};
     const sl_cover_options options = sli_cover_options(p);
-    sl_cover_result cover = {0};
-    if (status == SL_OK) status = sl_cover_solve(p->context, &problem, &options, &cover);
+    SL_TRY(sl_cover_solve(p->context, problem, &options, cover));
     p->chosen.count = 0;
-    if (status == SL_OK) status = SL_ARRAY_ROOM(p->context, &p->chosen, cover.count);
-    for (uint32_t i = 0; status == SL_OK && i < cover.count; i++)
-        p->chosen.items[p->chosen.count++] = cover.columns[i];
-    sl_cover_result_destroy(p->context, &cover);
-    sl_free(p->context, ends);
-    sl_free(p->context, all);
-    return status;
+    SL_TRY(SL_ARRAY_ROOM(p->context, &p->chosen, cover->count));
+    for (uint32_t i = 0; i < cover->count; i++)
+        p->chosen.items[p->chosen.count++] = cover->columns[i];
+    return SL_OK;
+}
+
+void sli_choice_destroy(sl_context *context, sl_cover_problem *problem, sl_cover_result *cover) {
+    sl_free(context, (void *)(uintptr_t)problem->ends);
+    sl_free(context, (void *)(uintptr_t)problem->entries);
+    sl_cover_result_destroy(context, cover);
 }

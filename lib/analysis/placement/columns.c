@@ -24,12 +24,14 @@ void sli_place_columns_destroy(sl_context *context, sli_place_columns *columns) 
     *columns = (sli_place_columns){0};
 }
 
-/// A region is entered or left along a window.
-typedef struct event {
-    sli_spot spot;
-    uint32_t look;
-    bool leaves;
-} event;
+void sli_crossings_destroy(sl_context *context, sli_crossings *crossings) {
+    for (size_t i = 0; i < crossings->windows.count; i++)
+        sl_free(context, crossings->windows.items[i].items);
+    sl_free(context, crossings->windows.items);
+    *crossings = (sli_crossings){0};
+}
+
+typedef sli_crossing_event event;
 
 typedef struct collector {
     sl_context *context;
@@ -38,7 +40,8 @@ typedef struct collector {
     uint32_t count;
     sli_place_columns *out;
     sli_spans spans;
-    SL_ARRAY(event) events;
+    sli_crossings *crossings;
+    sli_crossing_events fresh;
     event *spare;
     size_t spare_room;
     uint32_t *here, *where; ///< the looks that hold the spot, and their places in this list
@@ -148,34 +151,51 @@ static bool is_parted(const collector *c, const sli_track *track, const sli_span
            !sli_ground_joins(c->ground, line->b, line->a, c->looks[look]->eye);
 }
 
-static sl_status list_events(collector *c, const sli_track *track, uint32_t mine) {
-    c->events.count = 0;
-    for (uint32_t j = 0; j < c->count; j++) {
+/// The events of looks from `from` on, sorted.
+static sl_status list_events(collector *c, const sli_track *track, uint32_t mine, uint32_t from) {
+    c->fresh.count = 0;
+    for (uint32_t j = from; j < c->count; j++) {
         if (j == mine) continue;
         SL_TRY(sli_track_spans(c->context, track, c->looks[j], false, &c->spans));
-        SL_TRY(SL_ARRAY_ROOM(c->context, &c->events, 2 * c->spans.count));
+        SL_TRY(SL_ARRAY_ROOM(c->context, &c->fresh, 2 * c->spans.count));
         for (size_t i = 0; i < c->spans.count; i++) {
             if (is_parted(c, track, &c->spans.items[i], j)) continue;
-            c->events.items[c->events.count++] = (event){c->spans.items[i].from, j, false};
-            c->events.items[c->events.count++] = (event){c->spans.items[i].to, j, true};
+            c->fresh.items[c->fresh.count++] = (event){c->spans.items[i].from, j, false};
+            c->fresh.items[c->fresh.count++] = (event){c->spans.items[i].to, j, true};
         }
+    }
+    SL_TRY(sl_reserve(c->context, &c->spare, &c->spare_room, c->fresh.count, sizeof *c->spare));
+    sort_events(&track->line, c->fresh.items, c->spare, c->fresh.count);
+    return SL_OK;
+}
+
+/// Merges the fresh events with those that a window has.
+static sl_status merge_events(collector *c, const sli_track *track, sli_crossing_events *all) {
+    SL_TRY(SL_ARRAY_ROOM(c->context, all, c->fresh.count));
+    size_t a = all->count, b = c->fresh.count, to = a + b;
+    all->count = to;
+    while (b) {
+        if (a && comes_first(&track->line, &c->fresh.items[b - 1], &all->items[a - 1]))
+            all->items[--to] = all->items[--a];
+        else
+            all->items[--to] = c->fresh.items[--b];
     }
     return SL_OK;
 }
 
-static sl_status walk_window(collector *c, uint32_t mine, uint32_t window) {
+static sl_status walk_window(collector *c, uint32_t mine, uint32_t window,
+                             sli_crossing_events *all) {
     const sli_track track = sli_track_of(c->looks[mine], window);
-    SL_TRY(list_events(c, &track, mine));
-    const size_t count = c->events.count;
-    SL_TRY(sl_reserve(c->context, &c->spare, &c->spare_room, count, sizeof *c->spare));
-    sort_events(&track.line, c->events.items, c->spare, count);
+    SL_TRY(list_events(c, &track, mine, mine < c->crossings->known ? c->crossings->known : 0));
+    SL_TRY(merge_events(c, &track, all));
+    const size_t count = all->count;
     c->here_count = 0;
     c->hash = 0;
     enter(c, mine);
     sli_window_part place = {mine, window, 1, 1};
     bool entered = true;
     for (size_t i = 0; i < count; i++) {
-        const event *e = &c->events.items[i];
+        const event *e = &all->items[i];
         if (!e->leaves) {
             enter(c, e->look);
             place.from = sli_spot_share(&e->spot);
@@ -205,23 +225,35 @@ static sl_status collect(collector *c) {
     c->where = sl_alloc_array(c->context, c->count, sizeof *c->where);
     c->sorted = sl_alloc_array(c->context, c->count, sizeof *c->sorted);
     if (!c->here || !c->where || !c->sorted) return SL_NO_MEMORY;
+    size_t at = 0, windows = 0;
+    sli_crossings *all = c->crossings;
+    for (uint32_t i = 0; i < c->count; i++) windows += c->looks[i]->window_count;
+    SL_TRY(SL_ARRAY_ROOM(c->context, &all->windows, windows - all->windows.count));
+    while (all->windows.count < windows)
+        all->windows.items[all->windows.count++] = (sli_crossing_events){0};
     for (uint32_t i = 0; i < c->count; i++) {
         SL_TRY(sl_check_cancelled(c->context));
         if (!c->looks[i]->window_count) SL_TRY(add_whole(c, i));
-        for (uint32_t w = 0; w < c->looks[i]->window_count; w++) SL_TRY(walk_window(c, i, w));
+        for (uint32_t w = 0; w < c->looks[i]->window_count; w++)
+            SL_TRY(walk_window(c, i, w, &all->windows.items[at++]));
     }
+    all->known = c->count;
     return SL_OK;
 }
 
 sl_status sli_place_columns_make(sl_context *context, const sli_ground *ground,
                                  const sli_look *const *looks, uint32_t count,
-                                 sli_place_columns *out) {
-    collector c = {
-        .context = context, .ground = ground, .looks = looks, .count = count, .out = out};
+                                 sli_crossings *crossings, sli_place_columns *out) {
+    collector c = {.crossings = crossings,
+                   .context = context,
+                   .ground = ground,
+                   .looks = looks,
+                   .count = count,
+                   .out = out};
     *out = (sli_place_columns){0};
     const sl_status status = collect(&c);
     sl_free(context, c.spans.items);
-    sl_free(context, c.events.items);
+    sl_free(context, c.fresh.items);
     sl_free(context, c.spare);
     sl_free(context, c.here);
     sl_free(context, c.where);

@@ -23,10 +23,27 @@ typedef struct sli_place_columns {
 
 void sli_place_columns_destroy(sl_context *context, sli_place_columns *columns); ///< and zeroes it
 
+/// A region is entered or left along a window.
+typedef struct sli_crossing_event {
+    sli_spot spot;
+    uint32_t look;
+    bool leaves;
+} sli_crossing_event;
+
+typedef SL_ARRAY(sli_crossing_event) sli_crossing_events;
+
+/// The events of all windows, look by look, kept from one call to the next. Zeroed, it is empty.
+typedef struct sli_crossings {
+    uint32_t known; ///< looks whose events are there
+    SL_ARRAY(sli_crossing_events) windows;
+} sli_crossings;
+
+void sli_crossings_destroy(sl_context *context, sli_crossings *crossings); ///< and zeroes it
+
 /// All largest sets of general looks (sli_look.general) that some viewpoint is in the regions of,
 /// and perhaps others. Exact.
 sl_status sli_place_columns_make(sl_context *context, const sli_ground *ground,
                                  const sli_look *const *looks, uint32_t count,
-                                 sli_place_columns *out);
+                                 sli_crossings *crossings, sli_place_columns *out);
 
 #endif

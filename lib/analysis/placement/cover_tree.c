@@ -25,6 +25,9 @@
 /// What a tree keeps of duals at most: 256 MB. A node counts as one for so many entries of its
 /// part, and has so many Lagrangian steps.
 enum { MOST_DUALS = 1 << 25, NODE_ENTRIES = 1024, STEPS = 60 };
+
+/// Simplex steps times entries that the program may take for a node: some seconds.
+enum { PROGRAM_WORK = 1 << 28 };
 static const double whole = 1e-6;
 
 typedef struct fix {
@@ -144,8 +147,9 @@ static sl_status find_duals(sl_context *context, tree *t, size_t duals, double e
     const uint32_t rows = t->cover->rows;
     const uint64_t denominator = t->part->denominator;
     sl_status status = SL_UNSUPPORTED;
+    const uint64_t work = 1 + PROGRAM_WORK / (1 + t->cover->column_first[t->cover->columns]);
     if (t->program)
-        status = t->part->options->program->again(context, t->program, t->state.fixed, 0, enough,
+        status = t->part->options->program->again(context, t->program, t->state.fixed, work, enough,
                                                   t->y, t->values);
     if (status == SL_UNSUPPORTED) {
         for (uint32_t r = 0; r < rows; r++)

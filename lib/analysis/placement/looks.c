@@ -164,8 +164,10 @@ bool sli_look_holds(const sli_look *look, sl_point p) {
         else
             high = middle;
     }
-    // Angles are rounded: the front before and the one behind come into question, too.
-    for (uint32_t i = 0; i < 4 && i < count; i++)
+    // Angles are rounded: the front before and the one behind come into question, too. A region
+    // without windows is asked for the lower bound, and has few fronts: all of them.
+    const uint32_t most = look->window_count && count > 4 ? 4 : count;
+    for (uint32_t i = 0; i < most; i++)
         if (front_holds(eye, &look->fronts[(low + 2 * count - 3 + i) % count], p)) return true;
     return false;
 }

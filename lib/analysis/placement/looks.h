@@ -50,7 +50,8 @@ double sli_look_angle(sl_point direction);
 /// is lost in rounding.
 sl_status sli_look_make(sl_context *context, sl_query *query, sl_region *memory, sl_point eye,
                         sli_look *out, bool *clean);
-/// Whether the closed region holds a point. Exact.
+/// Whether the closed region holds a point. True is exact; false too where there are no windows,
+/// else unless several fronts are within the rounding of an angle.
 bool sli_look_holds(const sli_look *look, sl_point point);
 void sli_look_destroy(sl_context *context, sli_look *look); ///< and zeroes it
 

@@ -20,7 +20,7 @@
 #include "geometry/orient.h"
 #include "sightline/overlay.h"
 
-enum { USUAL_ROUNDS = 60, UPPER_STEPS = 30 };
+enum { USUAL_ROUNDS = 400, UPPER_STEPS = 30 };
 
 sl_place_options sl_place_options_default(void) {
     return (sl_place_options){.nodes = 10000};
@@ -33,6 +33,8 @@ static void destroy_lower(sl_context *context, sl_placement *p) {
     sl_free(context, p->places);
     sl_free(context, (void *)(uintptr_t)p->columns.ends);
     sl_free(context, (void *)(uintptr_t)p->columns.entries);
+    sl_free(context, (void *)(uintptr_t)p->columns.costs);
+    sl_free(context, (void *)(uintptr_t)p->columns.demands);
 }
 
 void sl_placement_destroy(sl_context *context, sl_placement *p) {
@@ -56,6 +58,8 @@ void sli_placer_destroy(sli_placer *p) {
     sl_free(p->context, p->chosen.items);
     sl_free(p->context, (void *)p->looks.items);
     sl_free(p->context, p->unseen.items);
+    sli_crossings_destroy(p->context, &p->crossings);
+    sl_free(p->context, p->lines.items);
     sl_free(p->context, p->gaps.items);
 }
 
@@ -152,7 +156,11 @@ static sl_status find_unseen(sli_placer *p, bool *none, bool *added) {
 static sl_status bound_above(sli_placer *p, bool *added) {
     for (int i = 0; i < UPPER_STEPS; i++) {
         bool none, one = false;
-        SL_TRY(sli_choose_fewest(p));
+        sl_cover_problem problem = {0};
+        sl_cover_result cover = {0};
+        const sl_status status = sli_choose_fewest(p, &problem, &cover);
+        sli_choice_destroy(p->context, &problem, &cover);
+        SL_TRY(status);
         if (p->chosen.count >= p->out->count) return SL_OK;
         SL_TRY(find_unseen(p, &none, &one));
         *added = *added || one;
@@ -226,7 +234,7 @@ static sl_status bound_below(sli_placer *p, bool *gaps, bool *added) {
     for (size_t i = 0; i < p->active.count; i++)
         p->looks.items[p->looks.count++] = &p->witnesses.items[p->active.items[i]];
     SL_TRY(sli_place_columns_make(p->context, &p->ground, p->looks.items, (uint32_t)p->active.count,
-                                  &c));
+                                  &p->crossings, &c));
     const sl_status status = use_columns(p, &c);
     sli_place_columns_destroy(p->context, &c);
     SL_TRY(status);
@@ -237,6 +245,83 @@ static sl_status bound_below(sli_placer *p, bool *gaps, bool *added) {
     if (none) return keep_chosen(p);
     *gaps = true;
     return sli_activate(p, added);
+}
+
+// --- among given places
+
+/// Keeps what proves a better lower bound for the given places. Takes columns and proof.
+static sl_status keep_listed_lower(sli_placer *p, sl_cover_problem *problem,
+                                   sl_cover_result *cover) {
+    sl_placement *out = p->out;
+    sl_witness *witnesses = sl_alloc_array(p->context, problem->row_count, sizeof *witnesses);
+    sl_point *places = sl_alloc_array(p->context, problem->column_count, sizeof *places);
+    if (!witnesses || !places) {
+        sl_free(p->context, witnesses);
+        sl_free(p->context, places);
+        return SL_NO_MEMORY;
+    }
+    for (uint32_t i = 0; i < problem->row_count; i++)
+        witnesses[i] = (sl_witness){p->witnesses.items[i].eye, true};
+    for (uint32_t i = 0; i < problem->column_count; i++)
+        places[i] = p->candidates.items[i].look.eye;
+    destroy_lower(p->context, out);
+    out->lower = cover->lower;
+    out->witnesses = witnesses;
+    out->witness_count = problem->row_count;
+    out->places = places;
+    out->columns = *problem;
+    out->proof = cover->proof;
+    *problem = (sl_cover_problem){0};
+    cover->proof = (sl_cover_proof){0};
+    return SL_OK;
+}
+
+/// All places that are given: nothing else can see more.
+static sl_status take_listed(sli_placer *p) {
+    const sl_place_options *o = p->options;
+    bool none = true, added = false;
+    for (uint32_t i = 0; i < o->place_count; i++) {
+        uint32_t number;
+        SL_TRY(sli_add_candidate(p, o->places[i], &number));
+        if (number == UINT32_MAX)
+            return sl_fail(p->context, SL_BAD_ARGUMENT, "place %u at (%g, %g) is not inside", i + 1,
+                           o->places[i].x, o->places[i].y);
+    }
+    p->listed = true;
+    SL_TRY(SL_ARRAY_ROOM(p->context, &p->chosen, p->candidates.count));
+    for (uint32_t i = 0; i < p->candidates.count; i++) p->chosen.items[p->chosen.count++] = i;
+    SL_TRY(find_unseen(p, &none, &added));
+    p->out->count = UINT32_MAX;
+    if (none) return keep_chosen(p);
+    const sl_point at = p->witnesses.items[p->witnesses.count - 1].eye;
+    return sl_fail(p->context, SL_BAD_ARGUMENT, "(%g, %g) is seen from none of the places", at.x,
+                   at.y);
+}
+
+static sl_status step_listed(sli_placer *p, bool *added) {
+    sl_cover_problem problem = {0};
+    sl_cover_result cover = {0};
+    bool none = false;
+    sl_status status = sli_choose_fewest(p, &problem, &cover);
+    if (status == SL_OK && cover.lower > p->out->lower)
+        status = keep_listed_lower(p, &problem, &cover);
+    sli_choice_destroy(p->context, &problem, &cover);
+    SL_TRY(status);
+    SL_TRY(find_unseen(p, &none, added));
+    return none ? keep_chosen(p) : SL_OK;
+}
+
+static sl_status run_listed(sli_placer *p) {
+    const uint64_t most = p->options->rounds ? p->options->rounds : UINT64_MAX;
+    SL_TRY(take_listed(p));
+    SL_TRY(sli_add_first_witnesses(p));
+    for (bool added = true; added && p->out->rounds < most; p->out->rounds++) {
+        added = false;
+        SL_TRY(sl_check_cancelled(p->context));
+        SL_TRY(step_listed(p, &added));
+        sl_report(p->context, "place", "viewpoints", p->out->lower, p->out->upper);
+    }
+    return SL_OK;
 }
 
 static sl_status run(sli_placer *p) {
@@ -304,7 +389,7 @@ sl_status sl_place(sl_context *context, sl_query *query, const sl_place_options 
     sli_placer p = {
         .context = context, .query = query, .options = options ? options : &usual, .out = &made};
     sl_status status = sli_ground_make(context, space, &p.ground);
-    if (status == SL_OK) status = run(&p);
+    if (status == SL_OK) status = p.options->places ? run_listed(&p) : run(&p);
     if (status == SL_OK) status = measure_unseen(&p);
     sli_placer_destroy(&p);
     if (status == SL_OK || (status == SL_CANCELLED && made.viewpoints))

@@ -22,6 +22,7 @@ typedef struct sli_placer {
     sl_query *query;
     const sl_place_options *options;
     sli_ground ground;
+    bool listed; ///< candidates are given: none is added
     sl_region memory;
     sl_random random;
     SL_ARRAY(sli_look) witnesses;       ///< all that were made: the rows of the upper bound
@@ -30,6 +31,8 @@ typedef struct sli_placer {
     SL_ARRAY(uint32_t) chosen;          ///< candidates
     SL_ARRAY(const sli_look *) looks;   ///< scratch
     SL_ARRAY(sli_hard_witness) unseen;  ///< scratch
+    SL_ARRAY(sl_segment) lines;         ///< of walls that gaps' apexes hid
+    sli_crossings crossings;            ///< of the active witnesses
     sli_window_parts gaps;
     sl_placement *out;
 } sli_placer;
@@ -62,8 +65,11 @@ sl_status sli_add_in_line(sli_placer *placer);
 /// or as many as can be found.
 sl_status sli_choose_column(sli_placer *placer, const sli_place_columns *columns, uint32_t column);
 sl_cover_options sli_cover_options(const sli_placer *placer);
-/// Chooses the fewest candidates that see all witnesses.
-sl_status sli_choose_fewest(sli_placer *placer);
+/// Chooses the fewest candidates that see all witnesses. `problem` and `cover` are the caller's,
+/// on failure too: sli_choice_destroy(). SL_BAD_ARGUMENT, with the witness, where candidates are
+/// given and none of them sees it.
+sl_status sli_choose_fewest(sli_placer *placer, sl_cover_problem *problem, sl_cover_result *cover);
+void sli_choice_destroy(sl_context *context, sl_cover_problem *problem, sl_cover_result *cover);
 /// Notes a witness where a candidate sees it.
 sl_status sli_try_seeing(sli_placer *placer, size_t candidate, uint32_t witness);
 const sli_look *sli_chosen_look(const sli_placer *placer, size_t i);

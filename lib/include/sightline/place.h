@@ -34,10 +34,13 @@ extern "C" {
 /// What to do, and how much of it. sl_place_options_default() has the usual values.
 typedef struct sl_place_options {
     const sl_cover_program *program; ///< for set covers; NULL: without a linear program
-    uint64_t rounds;                 ///< at most so many; 0 for no limit
-    uint64_t nodes;                  ///< of the branching tree of each set cover, at most
+    const sl_point *places; ///< to choose from; NULL: anywhere. `lower` is then for these alone
+    uint32_t place_count;
+    uint64_t rounds; ///< at most so many; 0 for 400; among given places for no limit
+    uint64_t nodes;  ///< of the branching tree of each set cover, at most
 } sl_place_options;
 
+/// Anywhere, without a linear program.
 SL_API sl_place_options sl_place_options_default(void);
 
 /// A point that the lower bound asks to be seen.
@@ -61,22 +64,67 @@ typedef struct sl_placement {
     sl_point *places;     ///< by column: a place that sees it, rounded
     sl_cover_proof proof; ///< of `lower`, for `columns`
     uint64_t rounds;
-    /// Parts of borders of visible regions beyond which something is unseen, but no point with
-    /// doubles as coordinates was found; 0: nothing is unseen, proven. Slivers remain where a
-    /// viewpoint must stand in line with walls, and the line has no such point.
+    /// Parts of borders of visible regions beyond which something is unseen, thinner than about
+    /// 2^-36 of their length: a search found no unseen point there. 0: nothing is unseen, proven.
+    /// Slivers remain where a viewpoint must stand in line with walls, and does not exactly.
     uint64_t slivers;
-    double unseen_area; ///< of the slivers, rounded
+    double unseen_area;      ///< of the slivers, rounded
+    double seen, seen_bound; ///< of sl_place_list.count: the weight that is seen; no set of so many
+                             ///< places sees more than the bound
 } sl_placement;
 
 /// Finds viewpoints for all that is inside of a query's space, with its doors as they are. They may
-/// stand anywhere inside.
+/// stand anywhere inside, or at given places (sl_place_options.places).
 ///
-/// SL_BAD_ARGUMENT where nothing is inside. SL_UNSUPPORTED for maps with mirrors, one-way glass or
-/// limited walls, and past boxes. Cancelled by the context, it returns SL_CANCELLED with the best
-/// set and bounds so far in `out`, once it has a set. Reports stage "place". The same input gives
-/// the same bytes.
+/// SL_BAD_ARGUMENT where nothing is inside, for a place that is not, and where something is seen
+/// from none of the places, with a point of it. SL_UNSUPPORTED for maps with mirrors, one-way glass
+/// or limited walls, and past boxes. Cancelled by the context, it returns SL_CANCELLED with the
+/// best set and bounds so far in `out`, once it has a set. Reports stage "place". The same input
+/// gives the same bytes.
 SL_API sl_status sl_place(sl_context *context, sl_query *query, const sl_place_options *options,
                           sl_placement *out);
+
+/// Where points are taken from.
+typedef enum sl_place_from {
+    SL_PLACE_CORNERS, ///< ends of walls, exactly
+    SL_PLACE_WALLS,   ///< along walls, on each side that is inside, at equal distances of up to a
+                      ///< step (0: the middle of each); off the wall by 2^-20 of its length
+    SL_PLACE_GRID,    ///< multiples of a step
+} sl_place_from;
+
+/// Points that are inside, by x, then by y: to place viewpoints at, or as targets. The caller frees
+/// them: sl_free(). SL_BAD_ARGUMENT for a step that is not positive (of walls: negative), for more
+/// than 2^24 points, and where there is none.
+SL_API sl_status sl_place_points(sl_context *context, sl_query *query, sl_place_from from,
+                                 double step, sl_point **points, uint32_t *count);
+
+/// Places to choose from, and targets to see: both are lists, so fields of view, ranges, costs and
+/// demands are possible. Bounds hold for these places and targets alone. What may be NULL is so
+/// where nothing is said.
+typedef struct sl_place_list {
+    const sl_viewpoint *places; ///< a point with several headings: one after the other
+    const uint32_t *costs;      ///< by place, at least 1; NULL: 1 each
+    const sl_point *targets;
+    const uint32_t *demands; ///< by target: how many places must see it; NULL: 1 each
+    const double *weights;   ///< by target, for `count`; NULL: 1 each
+    const uint32_t *fixed;   ///< places that are taken in any case, each once
+    uint32_t place_count, target_count, fixed_count;
+    uint32_t count; ///< 0: all targets are to be seen; else the most that so many places see
+} sl_place_list;
+
+/// Finds the cheapest of the places that see all targets, or the most that `count` places see. A
+/// place sees a target in its visible region (region.h), within its field of view and range,
+/// borders included. Exact.
+///
+/// `lower` and `upper` of the result are costs, of fixed places too. `columns` has the places
+/// and what the fixed ones leave to be seen of the targets; its `proof` is of the rest of `lower`.
+/// With `count` they are the number of places, and `seen` and `seen_bound` are weights.
+///
+/// SL_BAD_ARGUMENT with the target that too few places see, for numbers out of range, and for
+/// `count` with demands. Cancelled as sl_place.
+SL_API sl_status sl_place_among(sl_context *context, sl_query *query, const sl_place_list *list,
+                                const sl_place_options *options, sl_placement *out);
+
 SL_API void sl_placement_destroy(sl_context *context, sl_placement *placement); ///< and zeroes it
 
 #ifdef __cplusplus
