@@ -8,8 +8,10 @@
 #define SLP_FACADE_H
 
 #include "sightline/bake.h"
+#include "sightline/coverage.h"
 #include "sightline/explain.h"
 #include "sightline/faults.h"
+#include "sightline/place.h"
 #include "sightline/support.h"
 #include "sightline/vga.h"
 
@@ -21,6 +23,7 @@
 typedef struct slp_base {
     sl_context *context;
     atomic_bool cancelled;
+    double until;         ///< work stops then, by sl_seconds(); 0: no limit
     SL_ARRAY(char) notes; ///< lines, a 0 behind them
 } slp_base;
 
@@ -58,6 +61,9 @@ typedef struct slp_level {
     sl_vga_measures *measures;
     uint32_t *depths;
     sl_effect_explanation explanation;
+    sl_cameras cameras; ///< of `coverage`: given, or those of `placement`
+    sl_coverage coverage;
+    sl_placement placement;
 } slp_level;
 
 /// Makes the context of a new handle; false without memory. slp_base_end undoes it.
@@ -68,6 +74,8 @@ void slp_base_end(slp_base *base);
 sl_status slp_level_queries(slp_level *level, unsigned threads);
 /// Frees the polygons, the measures of a grid and the explanation that wait.
 void slp_level_forget(slp_level *level);
+/// Frees viewpoints, what they see and their placement.
+void slp_level_forget_viewpoints(slp_level *level);
 
 // --- for both handles; `handle` is a plan or a level
 
@@ -200,5 +208,38 @@ SLP_API int slp_level_explain(slp_level *level, int64_t from, int64_t to, uint32
 SLP_API size_t slp_level_sequence(const slp_level *level, int which, int64_t *portals,
                                   int64_t *cells, double *ends, size_t *end_count);
 SLP_API const char *slp_level_reason(const slp_level *level, int which);
+
+// --- viewpoints: placement.c
+
+/// Reads a table of viewpoints, of the file `name` where `text` is NULL, and keeps what they see.
+/// Rows that do not say it have this field of view and range.
+SLP_API int slp_level_cover(slp_level *level, const char *name, const char *text, size_t size,
+                            double fov, double range);
+
+/// Where viewpoints may stand: at `places`; at points of a kind, "corners", "walls" or "grid", of a
+/// step; anywhere where both are NULL.
+typedef struct slp_place {
+    const char *from;
+    const double *places;
+    size_t count;
+    double step, time_limit; ///< seconds; 0: no limit
+} slp_place;
+/// Finds the fewest viewpoints that see all that is inside, and keeps these and what they see.
+SLP_API int slp_level_place(slp_level *level, const slp_place *options);
+/// Of the placement kept: lower, upper, rounds, slivers, witnesses. `points` of witnesses may be
+/// NULL.
+SLP_API void slp_level_placed(const slp_level *level, int64_t numbers[5], double *unseen,
+                              double *points);
+/// Of the coverage kept: viewpoints, blind spots, pieces that are inside, their corners.
+SLP_API void slp_level_cover_counts(const slp_level *level, int64_t counts[4]);
+/// The name of a viewpoint; NULL for none.
+SLP_API const char *slp_level_cover_name(const slp_level *level, size_t number);
+/// Areas that 0, 1, 2, 3 or more see. Rows of viewpoints: x, y, heading, fov, range, nearest,
+/// height, tilt, cost, seen, alone, spare. Rows of blind spots: area, x, y, x0, y0, x1, y1.
+SLP_API void slp_level_cover_copy(const slp_level *level, double areas[4], double *viewpoints,
+                                  double *spots);
+/// Of each piece: its first corner, how many see it, its blind spot or -1.
+SLP_API void slp_level_cover_pieces(const slp_level *level, int64_t *offsets, int64_t *counts,
+                                    int64_t *spots, double *corners);
 
 #endif

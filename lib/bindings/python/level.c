@@ -37,6 +37,7 @@ void slp_level_free(slp_level *level) {
     if (!level) return;
     sl_context *context = level->base.context;
     slp_level_forget(level);
+    slp_level_forget_viewpoints(level);
     for (size_t i = 0; i < level->queries.count; i++)
         sl_query_destroy(context, level->queries.items[i]);
     sl_free(context, level->queries.items);

@@ -10,7 +10,8 @@
 // --- what both handles have
 
 static bool is_cancelled(void *user) {
-    return atomic_load(&((slp_base *)user)->cancelled);
+    slp_base *base = user;
+    return atomic_load(&base->cancelled) || (base->until > 0 && sl_seconds() > base->until);
 }
 
 /// Keeps a note as a line. Without memory it is lost, and nothing else.

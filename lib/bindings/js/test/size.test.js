@@ -26,6 +26,11 @@ test('visibility graph analysis is at most 130 kB', () => {
   assert.ok(bytes <= 130000, said(bytes))
 })
 
+test('placement is at most 145 kB', () => {
+  const bytes = size('place.js', 'arguments.js', 'maptext.js', 'host.js', 'module.js', 'place.wasm')
+  assert.ok(bytes <= 145000, said(bytes))
+})
+
 test('the package needs no other, and has what it says', async () => {
   const about = JSON.parse(readFileSync(join(folder, 'package.json'), 'utf8'))
   assert.equal(about.license, 'MIT')

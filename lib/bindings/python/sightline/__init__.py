@@ -21,13 +21,14 @@ from .drawing import heat_map
 from .errors import (BadArgument, BadInput, Cancelled, Closed, FileError, OutOfMemory,
                      SightlineError, SightlineWarning, Unsupported)
 from .level import Explanation, Level, Measure, PortalSequence, measures_of as _measures_of
+from .placement import Coverage, Placement
 from .plan import Plan
 from .transform import Transform
 
 __version__: str = _said(_call.version())
 
-__all__ = ["BadArgument", "BadInput", "Cancelled", "Closed", "Doors", "Explanation", "FileError",
-           "Level", "Measure", "OutOfMemory", "Plan", "PortalSequence", "SightlineError", "SightlineWarning",
+__all__ = ["BadArgument", "BadInput", "Cancelled", "Closed", "Coverage", "Doors", "Explanation", "FileError",
+           "Level", "Measure", "OutOfMemory", "Placement", "Plan", "PortalSequence", "SightlineError", "SightlineWarning",
            "Transform", "Unsupported", "eye_methods", "exports", "formats", "heat_map", "measures", "methods"]
 
 

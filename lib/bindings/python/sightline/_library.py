@@ -61,6 +61,12 @@ class Vga(ctypes.Structure):
                 ("threads", _uint32), ("turned", _uint32)]
 
 
+class Place(ctypes.Structure):
+    """As slp_place of facade.h."""
+    _fields_ = [("from", _text), ("places", _any), ("count", _size), ("step", _double),
+                ("time_limit", _double)]
+
+
 # Name: result, arguments.
 _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     "version": (_text, []),
@@ -117,6 +123,13 @@ _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
                              _doubles]),
     "level_sequence": (_size, [_handle, _int, _any, _any, _any, ctypes.POINTER(_size)]),
     "level_reason": (_text, [_handle, _int]),
+    "level_cover": (_int, [_handle, _text, _text, _size, _double, _double]),
+    "level_place": (_int, [_handle, ctypes.POINTER(Place)]),
+    "level_placed": (None, [_handle, _integers, _doubles, _any]),
+    "level_cover_counts": (None, [_handle, _integers]),
+    "level_cover_name": (_text, [_handle, _size]),
+    "level_cover_copy": (None, [_handle, _doubles, _doubles, _doubles]),
+    "level_cover_pieces": (None, [_handle, _integers, _integers, _integers, _doubles]),
 }
 
 

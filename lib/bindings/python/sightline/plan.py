@@ -16,6 +16,7 @@ from ._library import (Bake, Floats, Handle, Import, as_count, as_flag, as_numbe
                        text)
 from .errors import SightlineWarning
 from .level import Level
+from .placement import Coverage, Placement
 
 EFFECTS = ("door", "mirror", "oneway", "range")
 
@@ -444,6 +445,14 @@ class Plan(drawing.InNotebooks, Handle):
     def grid(self, step: float, **options: Any) -> Floats:
         """As `Level.grid`."""
         return self._own_space().grid(step, **options)
+
+    def cover(self, viewpoints: Any, **options: Any) -> Coverage:
+        """As `Level.cover`."""
+        return self._own_space().cover(viewpoints, **options)
+
+    def place(self, **options: Any) -> Placement:
+        """As `Level.place`."""
+        return self._own_space().place(**options)
 
     def plot(self, ax: Any = None, **style: Any) -> Any:
         """Draw walls, doors, mirrors, glass and starts with matplotlib; returns the axes."""
