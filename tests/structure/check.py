@@ -54,6 +54,7 @@ HEADERS = {"context": "base", "earth": "geometry", "measures": "base", "support"
            "region": "sight", "sees": "sight", "view": "sight",
            "explained": "bake",
            "axial": "analysis/axial", "vga": "analysis/visibility_graph",
+           "art_gallery": "analysis/placement",
            "coverage": "analysis/placement", "place": "analysis/placement",
            "set_cover": "analysis/placement", "viewpoint": "analysis/placement",
            "from_region": "study/from_region", "generate": "study/generate",
