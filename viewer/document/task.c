@@ -78,7 +78,9 @@ job_progress task_progress(const task *t) {
     const uint64_t total = atomic_load(&t->total), count = atomic_load(&t->count);
     return (job_progress){.running = true,
                           .stage = atomic_load(&t->stage),
-                          .share = total ? (double)count / (double)total : -1};
+                          .share = total ? (double)count / (double)total : -1,
+                          .done = count,
+                          .total = total};
 }
 
 sl_status task_end(sl_context *context, task *t) {
