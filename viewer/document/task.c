@@ -31,9 +31,10 @@ static void take_note(void *user, const char *message) {
 
 static void take_progress(void *user, const sl_progress *progress) {
     task *t = user;
-    atomic_store(&t->stage, progress->stage);
+    // The stage comes last: numbers of a stage are never seen under the name of the next.
     atomic_store(&t->count, progress->done);
     atomic_store(&t->total, progress->total);
+    atomic_store(&t->stage, progress->stage);
 }
 
 static void *run_task(void *user) {

@@ -43,6 +43,9 @@ typedef struct search_job {
     bool stopped; ///< it was stopped, and has a set
 } search_job;
 
+/// The stage whose progress is the bounds (place.h).
+#define PLACE_STAGE "place"
+
 struct camera_jobs {
     survey_job survey;
     search_job search;
@@ -252,7 +255,7 @@ void cameras_find(view_state *view) {
     job->version = view->document->version;
     job->touched = view->document->touched;
     sl_status status = copy_ground(view, &job->ground);
-    if (status == SL_OK) status = task_start(view->context, search, job, "place", NULL, &job->task);
+    if (status == SL_OK) status = task_start(view->context, search, job, "prepare", NULL, &job->task);
     view_check(view, status);
     if (status == SL_OK)
         ui_say_working(view->ui, "looking for the fewest cameras; Esc stops, and keeps the best");
@@ -269,7 +272,11 @@ bool cameras_stop(view_state *view) {
 
 job_progress cameras_progress(const camera_layer *layer) {
     const camera_jobs *jobs = layer ? layer->jobs : NULL;
-    return jobs && jobs->search.task ? task_progress(jobs->search.task) : (job_progress){0};
+    if (!jobs || !jobs->search.task) return (job_progress){0};
+    job_progress p = task_progress(jobs->search.task);
+    const bool bounds = p.stage && strcmp(p.stage, PLACE_STAGE) == 0;
+    if (!bounds) p.done = p.total = 0;
+    return p;
 }
 
 void camera_jobs_destroy(sl_context *context, camera_jobs *jobs) {

@@ -142,10 +142,11 @@ bool camera_undo(view_state *view, bool redo) {
 
 // --- the table, changed
 
-/// Whether a camera can stand there; says why not.
+/// Whether a camera can stand there: inside, and not in solid ground.
 static bool has_ground(const view_state *view, sl_point at) {
-    return view->document->baked && !view_is_solid(view, at) &&
-           sl_space_locate(&view->document->baked->space, at) != SL_NO_CELL;
+    const sl_baked *baked = view->document->baked;
+    const uint32_t cell = baked ? sl_space_locate(&baked->space, at) : SL_NO_CELL;
+    return cell != SL_NO_CELL && sl_baked_counts(baked, cell);
 }
 
 static void add_row(view_state *view, const sl_camera *camera) {
