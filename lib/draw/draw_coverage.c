@@ -39,7 +39,8 @@ static uint32_t class_of(const sl_drawn_coverage *c, uint32_t piece) {
     return c->counts[piece] < CLASSES ? c->counts[piece] : CLASSES - 1;
 }
 
-/// Pieces of one class make one path. A thin stroke covers the seams between them.
+/// Pieces of one class make one path. A thin stroke covers the seams between them, which there are
+/// only where edges are smooth.
 sl_status sl_draw_coverage_areas(sl_context *context, cairo_t *cairo, const sl_palette *palette,
                                  const sl_drawn_coverage *coverage, const sl_frame *frame) {
     const sl_space *pieces = coverage->pieces;
@@ -50,6 +51,10 @@ sl_status sl_draw_coverage_areas(sl_context *context, cairo_t *cairo, const sl_p
                 sl_path_polygon(cairo, frame, pieces->vertices + pieces->cells[i].first_vertex,
                                 pieces->cells[i].vertex_count);
         sl_set_colour(cairo, sl_coverage_colour(palette, class));
+        if (cairo_get_antialias(cairo) == CAIRO_ANTIALIAS_NONE) {
+            cairo_fill(cairo);
+            continue;
+        }
         cairo_fill_preserve(cairo);
         cairo_set_line_width(cairo, 0.6);
         cairo_stroke(cairo);

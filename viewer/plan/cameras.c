@@ -376,9 +376,12 @@ void cameras_draw_below(view_state *view, const sl_frame *frame) {
     if (!layer || !layer->known) return;
     const sl_drawn_coverage drawn = drawn_coverage(layer);
     const sl_palette *palette = &view->ui->palette;
-    view_check(view,
-               sl_draw_coverage_areas(view->context, view->ui->cairo, palette, &drawn, frame));
-    sl_draw_coverage_borders(view->ui->cairo, palette, &drawn, frame);
+    cairo_t *cairo = view->ui->cairo;
+    cairo_save(cairo);
+    cairo_set_antialias(cairo, CAIRO_ANTIALIAS_NONE); // borders, drawn over them, are smooth
+    view_check(view, sl_draw_coverage_areas(view->context, cairo, palette, &drawn, frame));
+    cairo_restore(cairo);
+    sl_draw_coverage_borders(cairo, palette, &drawn, frame);
 }
 
 static void draw_chosen(const view_state *view, const sl_frame *frame) {

@@ -445,7 +445,8 @@ SL_API sl_colour sl_coverage_colour(const sl_palette *palette, uint32_t class);
 /// Colours that tell viewpoints apart, for colour-blind eyes too.
 SL_API sl_colour sl_viewpoint_colour(const sl_palette *palette, size_t viewpoint);
 
-/// Fills the pieces in the colours of their classes. SL_CANCELLED between classes.
+/// Fills the pieces in the colours of their classes. Several times as fast with
+/// CAIRO_ANTIALIAS_NONE. SL_CANCELLED between classes.
 SL_API sl_status sl_draw_coverage_areas(sl_context *context, cairo_t *cairo,
                                         const sl_palette *palette,
                                         const sl_drawn_coverage *coverage, const sl_frame *frame);
