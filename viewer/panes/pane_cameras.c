@@ -137,10 +137,12 @@ void pane_cameras(learn_state *learn, sl_box box) {
     static const char *const find[] = {"camera_find", NULL};
     static const char *const change[] = {"camera_copy", "camera_delete", "undo", "redo", NULL};
     static const char *const files[] = {"camera_import", "camera_export", NULL};
+    column_heading(learn->ui, &c, "Place cameras", NULL);
     column_words(learn->ui, &c, 0.95, learn->ui->palette.ink,
                  "A click puts one. Drag it, or the handle ahead of it. Left and Right turn it.");
     c.y += 0.4 * learn->ui->text;
     column_buttons(learn->ui, &c, find);
+    c.y += 0.3 * learn->ui->text;
     if (view->cameras && learn->document->baked) {
         draw_search(view, &c);
         c.y += 0.4 * learn->ui->text;

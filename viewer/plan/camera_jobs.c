@@ -255,7 +255,8 @@ void cameras_find(view_state *view) {
     job->version = view->document->version;
     job->touched = view->document->touched;
     sl_status status = copy_ground(view, &job->ground);
-    if (status == SL_OK) status = task_start(view->context, search, job, "prepare", NULL, &job->task);
+    if (status == SL_OK)
+        status = task_start(view->context, search, job, "prepare", NULL, &job->task);
     view_check(view, status);
     if (status == SL_OK)
         ui_say_working(view->ui, "looking for the fewest cameras; Esc stops, and keeps the best");
