@@ -56,6 +56,18 @@ shoot office.map account <<'END'
 eye 53 20 160 90
 key L
 END
+shoot oblique/comb.map cameras <<'END'
+key 8
+key Space
+END
+shoot oblique/comb.map fisk <<'END'
+key F2
+key U
+key U
+key U
+key U
+key End
+END
 shoot oblique/rotunda.map oblique <<'END'
 key B
 END

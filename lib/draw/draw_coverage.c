@@ -8,8 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/// Classes: 0, 1, 2, 3 and more.
-enum { CLASSES = 4, NAME_TEXT = 48 };
+enum { CLASSES = SL_COVERAGE_CLASSES, NAME_TEXT = 48 };
 
 typedef struct picture {
     sl_scene scene;
@@ -17,8 +16,7 @@ typedef struct picture {
     const char *caption;
 } picture;
 
-/// Blind spots stand out; the others are one tone, the deeper the more viewpoints.
-static sl_colour class_colour(const sl_palette *palette, uint32_t class) {
+sl_colour sl_coverage_colour(const sl_palette *palette, uint32_t class) {
     static const sl_colour light[CLASSES] = {
         {0.965, 0.735, 0.600}, {0.835, 0.910, 0.945}, {0.610, 0.790, 0.880}, {0.370, 0.630, 0.780}};
     static const sl_colour dark[CLASSES] = {
@@ -26,9 +24,8 @@ static sl_colour class_colour(const sl_palette *palette, uint32_t class) {
     return palette->dark ? dark[class] : light[class];
 }
 
-/// Colours that tell viewpoints apart: eight that keep apart for colour-blind eyes (Okabe and Ito
-/// 2008, without yellow and with a deeper sky), then mixed with the ink.
-static sl_colour viewpoint_colour(const sl_palette *palette, size_t viewpoint) {
+/// Okabe and Ito 2008, without yellow and with a deeper sky; then mixed with the ink.
+sl_colour sl_viewpoint_colour(const sl_palette *palette, size_t viewpoint) {
     static const sl_colour kinds[] = {
         {0.000, 0.447, 0.698}, {0.835, 0.369, 0.000}, {0.000, 0.520, 0.380}, {0.720, 0.360, 0.580},
         {0.550, 0.420, 0.000}, {0.180, 0.520, 0.720}, {0.420, 0.250, 0.620}};
@@ -42,17 +39,22 @@ static uint32_t class_of(const sl_drawn_coverage *c, uint32_t piece) {
     return c->counts[piece] < CLASSES ? c->counts[piece] : CLASSES - 1;
 }
 
-/// Pieces of one class make one path. A thin stroke covers the seams between them.
-static sl_status draw_classes(sl_context *context, cairo_t *cairo, const picture *p,
-                              const sl_frame *frame) {
-    const sl_space *pieces = p->coverage->pieces;
+/// Pieces of one class make one path. A thin stroke covers the seams between them, which there are
+/// only where edges are smooth.
+sl_status sl_draw_coverage_areas(sl_context *context, cairo_t *cairo, const sl_palette *palette,
+                                 const sl_drawn_coverage *coverage, const sl_frame *frame) {
+    const sl_space *pieces = coverage->pieces;
     for (uint32_t class = 0; class < CLASSES; class ++) {
         SL_TRY(sl_check_cancelled(context));
         for (uint32_t i = 0; i < pieces->cell_count; i++)
-            if (pieces->cells[i].inside && class_of(p->coverage, i) == class)
+            if (pieces->cells[i].inside && class_of(coverage, i) == class)
                 sl_path_polygon(cairo, frame, pieces->vertices + pieces->cells[i].first_vertex,
                                 pieces->cells[i].vertex_count);
-        sl_set_colour(cairo, class_colour(&p->scene.palette, class));
+        sl_set_colour(cairo, sl_coverage_colour(palette, class));
+        if (cairo_get_antialias(cairo) == CAIRO_ANTIALIAS_NONE) {
+            cairo_fill(cairo);
+            continue;
+        }
         cairo_fill_preserve(cairo);
         cairo_set_line_width(cairo, 0.6);
         cairo_stroke(cairo);
@@ -60,12 +62,14 @@ static sl_status draw_classes(sl_context *context, cairo_t *cairo, const picture
     return SL_OK;
 }
 
-static void draw_border(cairo_t *cairo, const picture *p, const sl_frame *frame, size_t viewpoint) {
-    const sl_shape *shape = &p->coverage->regions[viewpoint];
-    for (size_t i = 0, from = 0; i < shape->count; from = shape->ends[i++])
-        sl_path_polygon(cairo, frame, shape->points + from, shape->ends[i] - from);
-    sl_colour colour = viewpoint_colour(&p->scene.palette, viewpoint);
-    sli_pen_stroke(cairo, colour, 1.1 * frame->unit);
+void sl_draw_coverage_borders(cairo_t *cairo, const sl_palette *palette,
+                              const sl_drawn_coverage *coverage, const sl_frame *frame) {
+    for (size_t v = 0; v < coverage->count; v++) {
+        const sl_shape *shape = &coverage->regions[v];
+        for (size_t i = 0, from = 0; i < shape->count; from = shape->ends[i++])
+            sl_path_polygon(cairo, frame, shape->points + from, shape->ends[i] - from);
+        sli_pen_stroke(cairo, sl_viewpoint_colour(palette, v), 1.1 * frame->unit);
+    }
 }
 
 /// The borders of its cone, short, or nothing.
@@ -100,16 +104,27 @@ static void draw_label(cairo_t *cairo, const sl_frame *frame, sl_point at, const
     sl_text_show(cairo, ink, place.x - wide / 2, place.y + 0.36 * size, text);
 }
 
-static void draw_viewpoint(cairo_t *cairo, const picture *p, const sl_frame *frame, size_t i) {
-    const sl_colour colour = viewpoint_colour(&p->scene.palette, i);
+static void draw_viewpoint(cairo_t *cairo, const sl_palette *palette, const sl_drawn_coverage *c,
+                           const sl_frame *frame, size_t i) {
+    const sl_colour colour = sl_viewpoint_colour(palette, i);
     char number[NAME_TEXT];
-    const char *name = p->coverage->names ? p->coverage->names[i] : NULL;
+    const char *name = c->names ? c->names[i] : NULL;
     if (name)
         sli_text_copy(name, strlen(name), number, sizeof number);
     else
         snprintf(number, sizeof number, "%zu", i + 1);
-    draw_cone(cairo, frame, &p->coverage->viewpoints[i], colour);
-    draw_label(cairo, frame, p->coverage->viewpoints[i].at, number, colour, p->scene.palette.page);
+    draw_cone(cairo, frame, &c->viewpoints[i], colour);
+    draw_label(cairo, frame, c->viewpoints[i].at, number, colour, palette->page);
+}
+
+void sl_draw_coverage_marks(cairo_t *cairo, const sl_palette *palette,
+                            const sl_drawn_coverage *coverage, const sl_frame *frame) {
+    for (size_t i = 0; i < coverage->blind_count; i++) {
+        char text[NAME_TEXT];
+        snprintf(text, sizeof text, "blind %zu", i + 1);
+        draw_label(cairo, frame, coverage->blind[i], text, palette->page, palette->ink);
+    }
+    for (size_t i = 0; i < coverage->count; i++) draw_viewpoint(cairo, palette, coverage, frame, i);
 }
 
 static sl_status draw_plan(sl_context *context, cairo_t *cairo, const void *what,
@@ -117,16 +132,11 @@ static sl_status draw_plan(sl_context *context, cairo_t *cairo, const void *what
     const picture *p = what;
     const sl_palette *palette = &p->scene.palette;
     SL_TRY(sl_draw_plan(context, cairo, &p->scene, p->scene.options.layers, frame));
-    SL_TRY(draw_classes(context, cairo, p, frame));
+    SL_TRY(sl_draw_coverage_areas(context, cairo, palette, p->coverage, frame));
     sli_draw_solid(cairo, &p->scene, frame);
-    for (size_t i = 0; i < p->coverage->count; i++) draw_border(cairo, p, frame, i);
+    sl_draw_coverage_borders(cairo, palette, p->coverage, frame);
     SL_TRY(sl_draw_walls(context, cairo, &p->scene, frame));
-    for (size_t i = 0; i < p->coverage->blind_count; i++) {
-        char text[NAME_TEXT];
-        snprintf(text, sizeof text, "blind %zu", i + 1);
-        draw_label(cairo, frame, p->coverage->blind[i], text, palette->page, palette->ink);
-    }
-    for (size_t i = 0; i < p->coverage->count; i++) draw_viewpoint(cairo, p, frame, i);
+    sl_draw_coverage_marks(cairo, palette, p->coverage, frame);
     return SL_OK;
 }
 
@@ -136,6 +146,7 @@ static sl_status draw_plan(sl_context *context, cairo_t *cairo, const void *what
 static double draw_key(cairo_t *cairo, const picture *p, sl_point at, double width, double size,
                        bool paint) {
     static const char *const texts[CLASSES] = {"not seen", "seen by 1", "by 2", "by 3 or more"};
+    const sl_palette *palette = &p->scene.palette;
     const sl_space *pieces = p->coverage->pieces;
     bool used[CLASSES] = {false};
     for (uint32_t i = 0; i < pieces->cell_count; i++)
@@ -151,10 +162,9 @@ static double draw_key(cairo_t *cairo, const picture *p, sl_point at, double wid
         }
         if (paint) {
             cairo_rectangle(cairo, x, y + 0.22 * size, 2 * size, 1.2 * size);
-            sl_set_colour(cairo, class_colour(&p->scene.palette, class));
+            sl_set_colour(cairo, sl_coverage_colour(palette, class));
             cairo_fill(cairo);
-            sl_text_show(cairo, p->scene.palette.ink, x + 2.55 * size, y + 1.16 * size,
-                         texts[class]);
+            sl_text_show(cairo, palette->ink, x + 2.55 * size, y + 1.16 * size, texts[class]);
         }
         x += wide + 1.9 * size;
     }

@@ -27,6 +27,10 @@ PICTURES = {
     "lesson_mirrors": ("effects/mirrors.map", "key F2\n" + "key U\n" * 3),
     "lesson_range": ("effects/range.map", "key F2\n" + "key U\n" * 3 + "key End\n"),
     "draw": ("office.map", "action side_panel\nkey F3\ndrag 200 100 200 300\naction side_panel\n"),
+    "fisk": ("oblique/comb.map", "key F2\n" + "key U\n" * 4 + "key Right\n" * 20),
+    "fewest": ("oblique/comb.map", "key F2\n" + "key U\n" * 3 + "key Right\n" * 3),
+    "cameras": ("oblique/comb.map", "key 8\nclick 120 290\n" + "key ,\n" * 40 + "key Left\n" * 12 +
+                "click 240 314\n"),
     "quiz": ("office.map", "key F4\nkey Y\n"),
     "nodes": ("office.map", "eye 53 20 160 60\nkey M\nkey R\nkey Q\naction side_panel\n"),
     "views": ("office.map", "size 640 530\neye 53 20 160 90\nkey M\nkey R\nkey F5\n"
@@ -57,7 +61,7 @@ PICTURES = {
 LAYERS = ["C", "P", "K", "F5", "1", "V", "B", "M", "R", "J", "Q"]
 MESH_LAYERS = [key for key in LAYERS if key != "K"]
 SWITCHES = {"I": "I", "L": "L", "T": "T", "X": "X X", "Ctrl+B": "Ctrl+B", "?": "Escape", "O": "Escape",
-            "F2": "F1", "F3": "F1", "F4": "F1", "PageUp": "F", "Ctrl+=": "Ctrl+-", "/": "/"}
+            "F2": "F1", "F3": "F1", "F4": "F1", "8": "F1", "PageUp": "F", "Ctrl+=": "Ctrl+-", "/": "/"}
 
 
 def shoot(viewer, folder):

@@ -4,6 +4,7 @@
 #include "app/layout.h"
 #include "app/pictures.h"
 #include "app/turn.h"
+#include "dialogs/browser.h"
 #include "dialogs/map_file.h"
 #include "dialogs/opening.h"
 #include "dialogs/question.h"
@@ -11,6 +12,7 @@
 #include "lessons/quiz.h"
 #include "lessons/why.h"
 #include "panes/modes.h"
+#include "plan/cameras.h"
 #include "plan/edit.h"
 #include "plan/effects.h"
 #include "plan/heat.h"
@@ -26,6 +28,7 @@ enum {
     LEARN = 1 << MODE_LEARN,
     DRAW = 1 << MODE_DRAW,
     QUIZ = 1 << MODE_QUIZ,
+    CAMERAS = 1 << MODE_CAMERAS,
     NOT_LEARN = EXPLORE | DRAW | QUIZ,
     WALKS = EXPLORE | DRAW | LEARN,
 };
@@ -59,6 +62,7 @@ MODE(explore, MODE_EXPLORE)
 MODE(learn, MODE_LEARN)
 MODE(draw, MODE_DRAW)
 MODE(quiz, MODE_QUIZ)
+MODE(cameras, MODE_CAMERAS)
 
 // --- layers
 
@@ -328,15 +332,30 @@ static void travel(app_state *app, bool redo) {
         view_after_touch(&app->view);
 }
 
+/// Cameras have an undo of their own. False in other modes.
+static bool travel_cameras(app_state *app, bool redo) {
+    if (app->view.mode != MODE_CAMERAS) return false;
+    if (camera_undo(&app->view, redo))
+        ui_say(&app->ui, false, redo ? "redone" : "undone");
+    else
+        ui_say(&app->ui, false,
+               redo ? "no change of the cameras to redo" : "no change of the cameras to undo");
+    return true;
+}
+
 static void undo(app_state *app) {
     const bool learns = app->view.mode == MODE_LEARN;
+    if (travel_cameras(app, false)) return;
     if (learns && lesson_undo(&app->learn.lesson))
         ui_say(&app->ui, false, "undone in the lesson");
     else
         travel(app, false);
 }
 
-DO(redo, travel(app, true))
+static void redo(app_state *app) {
+    if (!travel_cameras(app, true)) travel(app, true);
+}
+
 DO(delete_chosen, edit_delete(&app->view))
 
 static void draw_doors(app_state *app) {
@@ -347,6 +366,42 @@ static void draw_doors(app_state *app) {
 }
 
 IS(draw_doors, app->view.edit.draws_doors)
+
+// --- cameras
+
+DO(camera_left, camera_turn(&app->view, 5))
+DO(camera_right, camera_turn(&app->view, -5))
+DO(camera_narrower, camera_widen(&app->view, -5))
+DO(camera_wider, camera_widen(&app->view, 5))
+DO(camera_nearer, camera_reach(&app->view, 1 / 1.1))
+DO(camera_farther, camera_reach(&app->view, 1.1))
+DO(camera_copied, camera_copy(&app->view))
+DO(camera_deleted, camera_delete(&app->view))
+DO(camera_next, camera_choose(&app->view, 1))
+DO(camera_back, camera_choose(&app->view, -1))
+DO(camera_spot, camera_go_to_spot(&app->view, app->view.cameras ? app->view.cameras->spot : 0))
+DO(camera_find, cameras_find(&app->view))
+
+static bool is_camera_find(const app_state *app) {
+    return cameras_progress(app->view.cameras).running;
+}
+
+static void want_table(desk_state *desk, table_wish wish, const char *path) {
+    desk->table_wanted = wish;
+    snprintf(desk->table_path, sizeof desk->table_path, "%s", path);
+}
+
+static void import_table(desk_state *desk, const char *path, bool ask) {
+    (void)ask;
+    want_table(desk, TABLE_READ, path);
+}
+
+static void export_table(desk_state *desk, const char *path) {
+    want_table(desk, TABLE_WRITE, path);
+}
+
+DO(camera_import, browser_open_table(&app->desk, import_table))
+DO(camera_export, browser_save_table(&app->desk, "cameras.csv", export_table))
 
 // --- doors
 
@@ -462,6 +517,8 @@ static void escape(app_state *app) {
         ui_say(&app->ui, false, "stopped; the pictures that are written stay");
     else if (view_layer_stop(&app->view))
         ui_say(&app->ui, false, "stopped; F5 twice makes view cells again");
+    else if (cameras_stop(&app->view))
+        ui_say(&app->ui, false, "stopping: the best cameras so far stay");
     else if (heat_layer_stop(&app->view))
         ui_say(&app->ui, false, "stopped; 1 twice makes the heat map again");
     else if (app->view.mode == MODE_LEARN && app->learn.lesson.chosen_next)
@@ -485,6 +542,8 @@ static const action_row actions[] = {
     {"learn", "F2", "Learn", "learn: step by step", 0, 0, learn, is_learn},
     {"draw", "F3", "Draw", "draw: walls and doors by hand", 0, 0, draw, is_draw},
     {"quiz", "F4", "Quiz", "quiz: seen or not?", 0, 0, quiz, is_quiz},
+    {"cameras", "8", "Cameras", "cameras: what they see, and the fewest", 0, 0, cameras,
+     is_cameras},
 
     HOLD("forward", "W", "walk ahead", WALKS, HOLD_FORWARD),
     HOLD("forward_too", "Up", "walk ahead", WALKS, HOLD_FORWARD),
@@ -564,6 +623,28 @@ static const action_row actions[] = {
     {"next_question", "Space", "Next (Space)", "quiz: the next question", QUIZ, 0, next_question,
      NULL},
 
+    {"camera_find", "Space", "Find the fewest", "cameras: the fewest that see everything", CAMERAS,
+     0, camera_find, is_camera_find},
+    {"camera_left", "Left", NULL, "cameras: turn the chosen one left", CAMERAS, 0, camera_left,
+     NULL},
+    {"camera_right", "Right", NULL, "cameras: turn it right", CAMERAS, 0, camera_right, NULL},
+    {"camera_narrower", ",", NULL, "cameras: narrower field of view", CAMERAS, 0, camera_narrower,
+     NULL},
+    {"camera_wider", ".", NULL, "cameras: wider field of view", CAMERAS, 0, camera_wider, NULL},
+    {"camera_nearer", "-", NULL, "cameras: shorter range", CAMERAS, 0, camera_nearer, NULL},
+    {"camera_farther", "=", NULL, "cameras: longer range", CAMERAS, 0, camera_farther, NULL},
+    {"camera_copy", "Ctrl+C", "Copy", "cameras: copy the chosen one", CAMERAS, 0, camera_copied,
+     NULL},
+    {"camera_delete", "Delete", "Delete", "cameras: delete it", CAMERAS, 0, camera_deleted, NULL},
+    {"camera_next", "Down", "Next", "cameras: choose the next one", CAMERAS, 0, camera_next, NULL},
+    {"camera_back", "Up", "Back", "cameras: choose the one before", CAMERAS, 0, camera_back, NULL},
+    {"camera_spot", "B", "Next blind spot", "cameras: go to the next blind spot", CAMERAS, 0,
+     camera_spot, NULL},
+    {"camera_import", "Ctrl+Shift+O", "Import",
+     "cameras: read a table (name,x,y,heading,fov,range)", CAMERAS, 0, camera_import, NULL},
+    {"camera_export", "Ctrl+Shift+E", "Export", "cameras: write the table", CAMERAS, 0,
+     camera_export, NULL},
+
     {"record", "F9", "Record", "record the eye's way", 0, 0, record, is_record},
     {"play", "F10", "Play", "play it, or the map's path", 0, 0, play, is_play},
     {"export_series", NULL, "Save the way", "save pictures of the way", 0, 0, export_frames, NULL},
@@ -635,12 +716,21 @@ void actions_show(app_state *app) {
     }
 }
 
+/// Reads or writes the table that was asked for in the file browser.
+static void take_table(app_state *app) {
+    const table_wish wish = app->desk.table_wanted;
+    app->desk.table_wanted = TABLE_NONE;
+    view_check(&app->view, wish == TABLE_READ ? cameras_read(&app->view, app->desk.table_path)
+                                              : cameras_write(&app->view, app->desk.table_path));
+}
+
 void actions_answered(app_state *app) {
     const char *chosen = app->desk.dialog.chosen;
     const bool agreed = app->desk.agreed;
     app->desk.dialog.chosen = NULL;
     app->desk.agreed = false;
     if (chosen) action_run(app, action_find(chosen));
+    if (app->desk.table_wanted) take_table(app);
     if (agreed) view_check(&app->view, save_series(app, "sightline-frames", SERIES_STEP));
 }
 

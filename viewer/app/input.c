@@ -7,6 +7,7 @@
 #include "app/turn.h"
 #include "lessons/quiz.h"
 #include "panes/panes.h"
+#include "plan/cameras.h"
 #include "plan/edit.h"
 #include "plan/effects.h"
 #include "plan/grid.h"
@@ -223,7 +224,7 @@ bool input_takes(const char *key) {
                                       "Shift+Up",     "Shift+Down", "Backspace"};
     for (size_t i = 0; i < sizeof own / sizeof *own; i++)
         if (strcmp(own[i], key) == 0) return true;
-    for (int mode = MODE_EXPLORE; mode <= MODE_QUIZ; mode++)
+    for (int mode = MODE_EXPLORE; mode < MODES; mode++)
         if (action_of_key(key, (view_mode)mode) >= 0) return true;
     return false;
 }
@@ -290,6 +291,7 @@ static drag_kind plan_drag(app_state *app, drag_state *drag) {
     const bool moves = app->view.mode == MODE_EXPLORE || app->view.mode == MODE_DRAW;
     if (moves && mirror_take(&app->view, drag)) return DRAG_MIRROR;
     if (app->view.mode == MODE_EXPLORE && object_take(&app->view, drag)) return DRAG_OBJECT;
+    if (app->view.mode == MODE_CAMERAS && camera_take(&app->view, drag)) return DRAG_CAMERA;
     if (app->view.mode != MODE_DRAW) return DRAG_PAN;
     return edit_take(&app->view, drag);
 }
@@ -314,6 +316,10 @@ static void click_widget(app_state *app, const hit_area *hit) {
         app_tick(app, 0);
     } else if (hit->kind == HIT_END) {
         app->learn.lesson.chosen_next = (uint32_t)hit->value + 2;
+    } else if (hit->kind == HIT_CAMERA && app->view.cameras) {
+        app->view.cameras->chosen = (size_t)hit->value;
+    } else if (hit->kind == HIT_SPOT) {
+        camera_go_to_spot(&app->view, (uint32_t)hit->value);
     }
 }
 
@@ -369,7 +375,8 @@ static void input_press_at(app_state *app, button_kind button, sl_point at) {
     }
     if (!app->document.baked) return;
     drag->at = to_map(app, hit.value, at);
-    if (button == BUTTON_RIGHT && app->view.mode != MODE_DRAW)
+    const bool explains = app->view.mode != MODE_DRAW && app->view.mode != MODE_CAMERAS;
+    if (button == BUTTON_RIGHT && explains)
         explain_to(app, drag->at);
     else if (button == BUTTON_LEFT)
         drag->kind = plan_drag(app, drag);
@@ -419,6 +426,9 @@ static void input_point(app_state *app, sl_point to) {
     case DRAG_OBJECT:
         if (drag->moved) object_move(&app->view, drag, now);
         break;
+    case DRAG_CAMERA:
+        if (drag->moved) camera_move(&app->view, drag, now);
+        break;
     case DRAG_NEW_WALL:
     case DRAG_NEW_DOOR:
     case DRAG_WALL:
@@ -452,7 +462,9 @@ void input_release(app_state *app, sl_point at) {
         drag.kind == DRAG_PAN || (drag.kind == DRAG_MIRROR && app->view.mode == MODE_EXPLORE);
     const bool puts = holds && !drag.moved && app->view.mode != MODE_QUIZ;
     const uint32_t door = puts ? door_at(&app->view, now) : UINT32_MAX;
-    if (door != UINT32_MAX) {
+    if (door == UINT32_MAX && puts && app->view.mode == MODE_CAMERAS) {
+        camera_add(&app->view, now);
+    } else if (door != UINT32_MAX) {
         door_toggle(&app->view, door);
     } else if (puts && view_is_solid(&app->view, now)) {
         ui_say(&app->ui, false, "this is solid ground: the eye stays; click in a room");

@@ -70,7 +70,8 @@ enum { OPTION_COUNT = sizeof option_rows / sizeof *option_rows };
     "A script has a command on each line: open FILE; key NAME; down NAME; up NAME;\n"              \
     "action NAME; move X Y; click X Y; right X Y; drag X Y X2 Y2; wheel STEPS;\n"                  \
     "wait FRAMES; size W H; eye X Y HEADING [CONE]; text SCALE; screenshot FILE;\n"                \
-    "save FILE; account FILE; export FOLDER; drop FILE; type TEXT; expect TEXT;\n"                 \
+    "save FILE; account FILE; export FOLDER; cameras FILE; save_cameras FILE;\n"                   \
+    "drop FILE; type TEXT; expect TEXT;\n"                                                         \
     "print STATE (" PRINT_NAMES ");\n"                                                             \
     "fits (fails if a text does not fit its panel)."
 #define STATUS                                                                                     \

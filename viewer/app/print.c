@@ -3,6 +3,7 @@
 
 #include "lessons/quiz.h"
 #include "panes/panes.h"
+#include "plan/cameras.h"
 #include "plan/heat.h"
 
 #include <math.h>
@@ -142,14 +143,42 @@ static void print_heat(app_state *app, FILE *out) {
                 values[p]);
 }
 
+static void print_cameras(app_state *app, FILE *out) {
+    const camera_layer *layer = app->view.cameras;
+    if (!layer) {
+        fputs("cameras: none\n", out);
+        return;
+    }
+    fprintf(out, "cameras: %zu\n", layer->table.count);
+    fprintf(out, "chosen: %zu\n", layer->chosen == SIZE_MAX ? 0 : layer->chosen + 1);
+    for (size_t i = 0; i < layer->table.count; i++) {
+        const sl_viewpoint *v = &layer->table.items[i].view;
+        char name[CAMERA_NAME];
+        camera_name(layer, i, name);
+        fprintf(out, "camera %s: %.9g %.9g heading %.9g fov %.9g range %.9g\n", name, v->at.x,
+                v->at.y, v->heading, v->fov, v->range);
+    }
+    fprintf(out, "proof: %s\n", layer->proof);
+    if (!layer->known || layer->seen_stamp != layer->stamp) return;
+    for (uint32_t i = 0; i < SL_COVERAGE_CLASSES; i++)
+        fprintf(out, "class %u: %.9g\n", i, camera_class_area(layer, i));
+    for (size_t i = 0; i < layer->table.count; i++)
+        fprintf(out, "sees %zu: %.9g %s\n", i + 1, layer->coverage.seen[i],
+                sl_coverage_is_spare(&layer->coverage, i) ? "spare" : "needed");
+    for (uint32_t i = 0; i < layer->coverage.blind_count; i++)
+        fprintf(out, "blind %u: %.9g at %.9g %.9g\n", i + 1, layer->coverage.blind[i].area,
+                layer->coverage.blind[i].at.x, layer->coverage.blind[i].at.y);
+}
+
 bool print_state(app_state *app, const char *what, FILE *out) {
     static const struct {
         const char *name;
         void (*print)(app_state *app, FILE *out);
-    } states[] = {
-        {"lesson", print_lesson}, {"program", print_program}, {"why", print_why},
-        {"quiz", print_quiz},     {"doors", print_doors},     {"first_person", print_first_person},
-        {"heat", print_heat},     {"bar", print_bar},         {"legend", print_legend}};
+    } states[] = {{"lesson", print_lesson}, {"program", print_program},
+                  {"why", print_why},       {"quiz", print_quiz},
+                  {"doors", print_doors},   {"first_person", print_first_person},
+                  {"heat", print_heat},     {"cameras", print_cameras},
+                  {"bar", print_bar},       {"legend", print_legend}};
     for (size_t i = 0; i < sizeof states / sizeof *states; i++)
         if (strcmp(states[i].name, what) == 0) {
             states[i].print(app, out);

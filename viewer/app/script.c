@@ -11,6 +11,7 @@
 #include "dialogs/opening.h"
 #include "dialogs/question.h"
 #include "panes/account.h"
+#include "plan/cameras.h"
 #include "sightline/support.h"
 
 #include <math.h>
@@ -205,6 +206,14 @@ static sl_status do_save(reader *r, const words *w) {
     return save_plan(r->app, w->rest);
 }
 
+static sl_status do_cameras(reader *r, const words *w) {
+    return cameras_read(&r->app->view, w->rest);
+}
+
+static sl_status do_save_cameras(reader *r, const words *w) {
+    return cameras_write(&r->app->view, w->rest);
+}
+
 static sl_status do_account(reader *r, const words *w) {
     app_tick(r->app, 0);
     return account_save(&r->app->view, w->rest);
@@ -251,14 +260,31 @@ static const struct command {
     int numbers; ///< that must follow; -1: text, -2: any numbers
     sl_status (*run)(reader *r, const words *w);
 } commands[] = {
-    {"open", -1, do_open},  {"key", -1, do_key},       {"down", -1, do_down},
-    {"up", -1, do_up},      {"action", -1, do_action}, {"move", 2, do_move},
-    {"click", 2, do_click}, {"right", 2, do_right},    {"drag", 4, do_drag},
-    {"wheel", 1, do_wheel}, {"wait", 1, do_wait},      {"size", 2, do_size},
-    {"eye", -2, do_eye},    {"text", 1, do_text},      {"screenshot", -1, do_screenshot},
-    {"save", -1, do_save},  {"export", -1, do_export}, {"account", -1, do_account},
-    {"drop", -1, do_drop},  {"type", -1, do_type},     {"expect", -1, do_expect},
-    {"fits", 0, do_fits},   {"print", -1, do_print},
+    {"open", -1, do_open},
+    {"key", -1, do_key},
+    {"down", -1, do_down},
+    {"up", -1, do_up},
+    {"action", -1, do_action},
+    {"move", 2, do_move},
+    {"click", 2, do_click},
+    {"right", 2, do_right},
+    {"drag", 4, do_drag},
+    {"wheel", 1, do_wheel},
+    {"wait", 1, do_wait},
+    {"size", 2, do_size},
+    {"eye", -2, do_eye},
+    {"text", 1, do_text},
+    {"screenshot", -1, do_screenshot},
+    {"save", -1, do_save},
+    {"export", -1, do_export},
+    {"account", -1, do_account},
+    {"drop", -1, do_drop},
+    {"type", -1, do_type},
+    {"expect", -1, do_expect},
+    {"fits", 0, do_fits},
+    {"print", -1, do_print},
+    {"cameras", -1, do_cameras},
+    {"save_cameras", -1, do_save_cameras},
 };
 
 static sl_status run_command(reader *r, const struct command *command, words *w) {

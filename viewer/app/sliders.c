@@ -2,6 +2,7 @@
 #include "app/sliders.h"
 
 #include "dialogs/opening.h"
+#include "plan/cameras.h"
 #include "plan/effects.h"
 #include "plan/heat.h"
 #include "plan/layers.h"
@@ -12,9 +13,8 @@
 
 // --- the view cone: finer where it is narrow
 
-static bool always(const app_state *app) {
-    (void)app;
-    return true;
+static bool has_eye(const app_state *app) {
+    return app->view.mode != MODE_CAMERAS;
 }
 
 static double cone_share(const app_state *app) {
@@ -170,8 +170,63 @@ static void set_depth(app_state *app, double share) {
     mirror_set_depth(&app->view, (uint32_t)round(share * MIRROR_DEPTH_MOST));
 }
 
+// --- the chosen camera
+
+static bool has_camera(const app_state *app) {
+    return app->view.mode == MODE_CAMERAS && app->document.baked && camera_chosen(&app->view);
+}
+
+static bool has_camera_cone(const app_state *app) {
+    return has_camera(app) && camera_chosen(&app->view)->fov < 360;
+}
+
+static double field_share(const app_state *app) {
+    return (camera_chosen(&app->view)->fov - 5) / 355;
+}
+
+static void field_text(const app_state *app, char text[SLIDER_TEXT]) {
+    snprintf(text, SLIDER_TEXT, "%.0f\xc2\xb0", camera_chosen(&app->view)->fov);
+}
+
+static void set_field(app_state *app, double share) {
+    camera_chosen(&app->view)->fov = app->view.cameras->like.fov = round(5 + 355 * share);
+    camera_changed(&app->view);
+}
+
+static double heading_share(const app_state *app) {
+    return camera_chosen(&app->view)->heading / 360;
+}
+
+static void heading_text(const app_state *app, char text[SLIDER_TEXT]) {
+    snprintf(text, SLIDER_TEXT, "%.0f\xc2\xb0", camera_chosen(&app->view)->heading);
+}
+
+static void set_heading(app_state *app, double share) {
+    camera_chosen(&app->view)->heading = fmod(round(360 * share), 360);
+    camera_changed(&app->view);
+}
+
+static double camera_range_share(const app_state *app) {
+    const double range = camera_chosen(&app->view)->range;
+    return range > 0 ? sqrt(fmin(range / range_most(&app->document), 1)) : 1;
+}
+
+static void camera_range_text(const app_state *app, char text[SLIDER_TEXT]) {
+    const double range = camera_chosen(&app->view)->range;
+    if (range > 0)
+        snprintf(text, SLIDER_TEXT, "%.3g", range);
+    else
+        snprintf(text, SLIDER_TEXT, "no limit");
+}
+
+static void set_camera_range(app_state *app, double share) {
+    const double range = share < 1 ? fmax(share * share, 1e-3) * range_most(&app->document) : 0;
+    camera_chosen(&app->view)->range = app->view.cameras->like.range = range;
+    camera_changed(&app->view);
+}
+
 static const slider_row sliders[] = {
-    {"View cone", always, cone_share, cone_text, set_cone, NULL, NULL,
+    {"View cone", has_eye, cone_share, cone_text, set_cone, NULL, NULL,
      "How wide the eye sees (, and .)"},
     {"View range", has_range, range_share, range_text, set_range, view_keep, range_settle,
      "Nothing farther than this is seen (Ctrl+R sets and lifts it)"},
@@ -187,6 +242,12 @@ static const slider_row sliders[] = {
      "From one view cell to all elementary ones (Ctrl+Left, Ctrl+Right)"},
     {"Grid step", has_heat, heat_share, heat_text, set_heat, NULL, NULL,
      "From point to point of the heat map (4 coarser, 5 finer)"},
+    {"Field of view", has_camera, field_share, field_text, set_field, camera_keep, camera_settle,
+     "How wide the chosen camera sees (, and .)"},
+    {"Heading", has_camera_cone, heading_share, heading_text, set_heading, camera_keep,
+     camera_settle, "Where it looks: from right, counter-clockwise (Left and Right)"},
+    {"Range", has_camera, camera_range_share, camera_range_text, set_camera_range, camera_keep,
+     camera_settle, "How far it sees (- and =)"},
 };
 
 const slider_row *slider_table(size_t *count) {

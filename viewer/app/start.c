@@ -6,6 +6,7 @@
 #include "dialogs/import_dialog.h"
 #include "dialogs/map_file.h"
 #include "dialogs/question.h"
+#include "plan/cameras.h"
 #include "plan/heat.h"
 #include "plan/view_cells.h"
 
@@ -71,6 +72,7 @@ void app_destroy(app_state *app) {
     export_stop(&app->exports);
     view_layer_stop(&app->view);
     heat_layer_stop(&app->view);
+    cameras_stop(&app->view);
     view_drop_scenes(&app->view);
     if (app->view.under.surface) cairo_surface_destroy(app->view.under.surface);
     if (app->view.over.surface) cairo_surface_destroy(app->view.over.surface);
@@ -81,6 +83,7 @@ void app_destroy(app_state *app) {
     view_layer_destroy(app->context, app->view.views);
     heat_layer_destroy(app->context, app->view.heat);
     watch_layer_destroy(app->context, app->view.watch);
+    camera_layer_destroy(app->context, app->view.cameras);
     seen_destroy(app->context, &app->view.seen);
     present_drop(app->context, &app->view.present);
     lesson_destroy(app->context, &app->learn.lesson);

@@ -6,6 +6,7 @@
 #include "dialogs/recovery.h"
 #include "document/files.h"
 #include "lessons/quiz.h"
+#include "plan/cameras.h"
 #include "plan/effects.h"
 #include "plan/heat.h"
 #include "plan/view_cells.h"
@@ -79,6 +80,7 @@ static void take_document(app_state *app, bool opened) {
     history_clear(app->context, &app->document.history);
     app->recorder.records = app->recorder.plays = false;
     app->recorder.frames.count = 0;
+    cameras_clear(&app->view);
     walk_home(&app->view);
     map_file_taken(&app->desk);
     say_document(app);
@@ -138,6 +140,7 @@ static void poll_all(app_state *app, bool wait) {
     view_check(&app->view, document_keep_up(app->context, &app->document));
     view_layer_update(&app->view, wait);
     heat_layer_update(&app->view, wait);
+    cameras_update(&app->view, wait);
     map_file_tick(&app->desk, wait);
     recovery_tick(&app->desk);
 }
@@ -150,7 +153,9 @@ job_progress app_progress(const app_state *app) {
     if (file.running) return file;
     if (pictures.running) return pictures;
     const job_progress views = view_layer_progress(app->view.views);
-    return views.running ? views : heat_layer_progress(app->view.heat);
+    if (views.running) return views;
+    const job_progress cameras = cameras_progress(app->view.cameras);
+    return cameras.running ? cameras : heat_layer_progress(app->view.heat);
 }
 
 static void look_again(app_state *app) {

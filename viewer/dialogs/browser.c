@@ -22,7 +22,7 @@
 typedef enum browser_place { PLACE_FOLDER, PLACE_RECENT, PLACE_SAMPLES } browser_place;
 
 typedef struct browser_state {
-    bool saves;
+    bool saves, tables;      ///< tables, not maps
     browser_open_file *open; ///< these two: what is done with the path
     browser_save_file *save;
     browser_place place;
@@ -94,9 +94,10 @@ static void refill_list(desk_state *desk, browser_state *b) {
         status = folder_list_add_all(desk->context, &b->files, samples);
     else if (b->place == PLACE_FOLDER)
         status = folder_list_read(desk->context, &b->files, b->folder,
-                                  b->all     ? FILTER_ALL
-                                  : b->saves ? FILTER_SAVED
-                                             : FILTER_READABLE);
+                                  b->all      ? FILTER_ALL
+                                  : b->tables ? FILTER_TABLES
+                                  : b->saves  ? FILTER_SAVED
+                                              : FILTER_READABLE);
     b->problem[0] = '\0';
     if (status != SL_OK)
         snprintf(b->problem, sizeof b->problem, "%s", sl_context_message(desk->context));
@@ -231,11 +232,15 @@ static void save_now(desk_state *desk, const char *path) {
 /// The file is there: the dialog is still open below the question.
 static void take_replace(desk_state *desk, int answer) {
     char path[2 * PATH_TEXT];
+    const browser_state *b = desk->dialog.browser;
     if (answer != 0) return;
-    resolve_path(desk->dialog.browser, desk->dialog.browser->path.text, path);
-    if (!strchr(files_base(path), '.')) strcat(path, ".map");
+    resolve_path(b, b->path.text, path);
+    if (!strchr(files_base(path), '.')) strcat(path, b->tables ? ".csv" : ".map");
     save_now(desk, path);
 }
+
+static const char *const map_endings[] = {".map", ".slv"};
+static const char *const table_endings[] = {".csv", ".txt"};
 
 static void save_as(desk_state *desk, browser_state *b, char path[2 * PATH_TEXT]) {
     static const char *const answers[] = {"R:Replace", "C:Cancel"};
@@ -246,9 +251,12 @@ static void save_as(desk_state *desk, browser_state *b, char path[2 * PATH_TEXT]
         return;
     }
     if (strlen(path) + 8 > PATH_TEXT) return;
-    if (!dot) strcat(path, ".map");
-    if (dot && strcasecmp(dot, ".map") != 0 && strcasecmp(dot, ".slv") != 0) {
-        snprintf(b->problem, sizeof b->problem, "Names end in .map (map text) or .slv (baked).");
+    if (!dot) strcat(path, b->tables ? ".csv" : ".map");
+    const char *const *endings = b->tables ? table_endings : map_endings;
+    if (dot && strcasecmp(dot, endings[0]) != 0 && strcasecmp(dot, endings[1]) != 0) {
+        snprintf(b->problem, sizeof b->problem,
+                 b->tables ? "Names of tables end in .csv or .txt."
+                           : "Names end in .map (map text) or .slv (baked).");
         return;
     }
     if (!is_there(path)) {
@@ -342,10 +350,11 @@ void browser_act(desk_state *desk, int id) {
     }
 }
 
-static browser_state *show_browser(desk_state *desk, bool saves) {
+static browser_state *show_browser(desk_state *desk, bool saves, bool tables) {
     browser_state *b = state_of(desk);
     if (!b) return NULL;
     b->saves = saves;
+    b->tables = tables;
     const char *path = desk->document->source.path;
     char folder[PATH_TEXT] = ".";
     const char *slash = path ? strrchr(path, '/') : NULL;
@@ -359,7 +368,7 @@ static browser_state *show_browser(desk_state *desk, bool saves) {
 }
 
 void browser_open(desk_state *desk, browser_open_file *then) {
-    browser_state *b = show_browser(desk, false);
+    browser_state *b = show_browser(desk, false, false);
     sl_map_list recent = {0};
     if (!b) return;
     b->open = then;
@@ -370,16 +379,29 @@ void browser_open(desk_state *desk, browser_open_file *then) {
     sl_map_list_destroy(desk->context, &recent);
 }
 
-void browser_save(desk_state *desk, const char *name, browser_save_file *then) {
-    browser_state *b = show_browser(desk, true);
+static void save_named(desk_state *desk, bool tables, const char *name, browser_save_file *then) {
+    browser_state *b = show_browser(desk, true, tables);
     if (!b) return;
     b->save = then;
     if (access(b->folder, W_OK) != 0) enter_folder(desk, b, getenv("HOME") ? getenv("HOME") : ".");
     set_path(b, b->folder, name);
 }
 
+void browser_save(desk_state *desk, const char *name, browser_save_file *then) {
+    save_named(desk, false, name, then);
+}
+
+void browser_save_table(desk_state *desk, const char *name, browser_save_file *then) {
+    save_named(desk, true, name, then);
+}
+
+void browser_open_table(desk_state *desk, browser_open_file *then) {
+    browser_state *b = show_browser(desk, false, true);
+    if (b) b->open = then;
+}
+
 void browser_save_to(desk_state *desk, const char *path, browser_save_file *then) {
-    browser_state *b = show_browser(desk, true);
+    browser_state *b = show_browser(desk, true, false);
     if (!b) return;
     b->save = then;
     field_set(&b->path, path);
@@ -437,6 +459,7 @@ static void draw_list(desk_state *desk, browser_state *b, sl_box box) {
                 b->place == PLACE_RECENT    ? "No file was opened yet."
                 : b->place == PLACE_SAMPLES ? "The samples are not installed."
                 : b->all                    ? "The folder is empty."
+                : b->tables                 ? "No table in this folder. 'All files' shows the rest."
                                             : "No map in this folder. 'All files' shows the rest.");
     for (size_t i = b->list.first; i < b->list.count && i < b->list.first + b->list.page; i++)
         draw_entry(desk->ui, dialog_list_row(&desk->dialog, LIST, frame, &b->list, i),
@@ -453,7 +476,10 @@ void browser_draw(desk_state *desk) {
     const double text = fmin(ui->text, (ui->width - 12) / wide);
     const double high = fmin(fmax((ui->height - 12) / text, 24), 40);
     const sl_box box =
-        dialog_begin(&desk->dialog, wide, high, b->saves ? "Save the map" : "Open a map");
+        dialog_begin(&desk->dialog, wide, high,
+                     b->tables  ? (b->saves ? "Save a table of cameras" : "Open a table of cameras")
+                     : b->saves ? "Save the map"
+                                : "Open a map");
     const double t = ui->text, x0 = box.min.x, x1 = box.max.x;
     const dialog_label ends[] = {{OPTIONS, "Options..."},
                                  {DIALOG_CANCEL, "Cancel"},
@@ -462,8 +488,9 @@ void browser_draw(desk_state *desk) {
     dialog_field(&desk->dialog, PATH_FIELD, (sl_box){{x0, y}, {x1, y + 1.9 * t}}, &b->path,
                  "A path; Tab completes it");
     y += 2.6 * t;
-    dialog_buttons(&desk->dialog, x0 + dialog_buttons_width(&desk->dialog, places, 4), y, places,
-                   4);
+    const int skip = b->tables ? 2 : 0; // recent files and samples are maps
+    dialog_buttons(&desk->dialog, x0 + dialog_buttons_width(&desk->dialog, places + skip, 4 - skip),
+                   y, places + skip, 4 - skip);
     y += 2.3 * t;
     draw_list(desk, b, (sl_box){{x0, y}, {x1, box.max.y - 4.2 * t}});
     y = box.max.y - 1.8 * t;
@@ -474,7 +501,7 @@ void browser_draw(desk_state *desk) {
         dialog_problem(&desk->dialog, (sl_point){x0, y - 0.9 * t}, x1 - x0, b->problem);
     else
         ui_text(ui, x0, y - 0.9 * t, 1, false, ui->palette.faint, note);
-    const int from = b->saves ? 1 : 0;
+    const int from = b->saves || b->tables ? 1 : 0;
     const double left = dialog_buttons(&desk->dialog, x1, y, ends + from, 3 - from);
     if (b->place == PLACE_FOLDER)
         dialog_check(&desk->dialog, ALL_FILES,

@@ -15,6 +15,10 @@ void browser_save(desk_state *desk, const char *name, browser_save_file *then);
 /// The same with this path in the field.
 void browser_save_to(desk_state *desk, const char *path, browser_save_file *then);
 
+/// The same for tables (.csv, .txt).
+void browser_open_table(desk_state *desk, browser_open_file *then);
+void browser_save_table(desk_state *desk, const char *name, browser_save_file *then);
+
 void browser_draw(desk_state *desk);
 void browser_act(desk_state *desk, int id);
 void browser_edited(desk_state *desk, int id);

@@ -23,6 +23,7 @@ typedef enum folder_sort { SORT_NAME, SORT_SIZE, SORT_CHANGED } folder_sort;
 typedef enum folder_filter {
     FILTER_READABLE, ///< those that Sightline reads: by their ending, doubtful ones by their bytes
     FILTER_SAVED,    ///< .map and .slv
+    FILTER_TABLES,   ///< .csv and .txt
     FILTER_ALL,
 } folder_filter;
 

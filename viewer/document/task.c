@@ -31,9 +31,10 @@ static void take_note(void *user, const char *message) {
 
 static void take_progress(void *user, const sl_progress *progress) {
     task *t = user;
-    atomic_store(&t->stage, progress->stage);
+    // The stage comes last: numbers of a stage are never seen under the name of the next.
     atomic_store(&t->count, progress->done);
     atomic_store(&t->total, progress->total);
+    atomic_store(&t->stage, progress->stage);
 }
 
 static void *run_task(void *user) {
@@ -78,7 +79,9 @@ job_progress task_progress(const task *t) {
     const uint64_t total = atomic_load(&t->total), count = atomic_load(&t->count);
     return (job_progress){.running = true,
                           .stage = atomic_load(&t->stage),
-                          .share = total ? (double)count / (double)total : -1};
+                          .share = total ? (double)count / (double)total : -1,
+                          .done = count,
+                          .total = total};
 }
 
 sl_status task_end(sl_context *context, task *t) {

@@ -12,7 +12,8 @@ typedef struct task task;
 typedef struct job_progress {
     bool running;
     const char *stage;
-    double share; ///< 0 to 1; negative where it is not known
+    double share;         ///< 0 to 1; negative where it is not known
+    uint64_t done, total; ///< as the library reports them
 } job_progress;
 
 /// What else the thread calls, with the data of the work. Each may be NULL.

@@ -9,7 +9,7 @@
 #include <string.h>
 
 static const subject_row *const subjects[] = {&lesson_search, &lesson_subdivision, &lesson_pass,
-                                              &lesson_effects};
+                                              &lesson_place,  &lesson_fisk,        &lesson_effects};
 
 const subject_row *const *subject_table(size_t *count) {
     *count = sizeof subjects / sizeof *subjects;
@@ -33,6 +33,12 @@ static void forget_record(sl_context *context, lesson_state *lesson) {
     memset(&lesson->effects, 0, sizeof lesson->effects);
     for (int i = 0; i < PASSES; i++) sli_pass_destroy(context, &lesson->passes[i]);
     lesson->pass_cells = 0;
+    sl_shape_destroy(context, &lesson->outline);
+    sl_fisk_destroy(context, &lesson->fisk);
+    sl_placement_destroy(context, &lesson->placement);
+    sl_free(context, lesson->bounds.items);
+    memset(&lesson->bounds, 0, sizeof lesson->bounds);
+    lesson->refused[0] = '\0';
     lesson->made = false;
     lesson->end_count = 0;
     lesson->dragged = false;

@@ -6,10 +6,12 @@
 
 #include "cell_to_cell/search/sectors.h" // private: lessons show the inside of the library
 #include "document/document.h"
+#include "sightline/art_gallery.h"
 #include "sightline/draw.h"
 #include "sightline/dual.h"
 #include "sightline/explain.h"
 #include "sightline/glpk.h"
+#include "sightline/place.h"
 #include "sightline/steps.h"
 #include "sightline/support.h"
 #include "space/mesh.h" // private, likewise
@@ -50,7 +52,8 @@ typedef struct subject_row {
     void (*above)(learn_state *learn, const sl_frame *frame); ///< and above them
 } subject_row;
 
-extern const subject_row lesson_search, lesson_subdivision, lesson_pass, lesson_effects;
+extern const subject_row lesson_search, lesson_subdivision, lesson_pass, lesson_effects,
+    lesson_place, lesson_fisk;
 
 /// All subjects.
 const subject_row *const *subject_table(size_t *count);
@@ -80,6 +83,11 @@ typedef struct effect_step {
 #define CHOSEN_NONE UINT32_MAX
 #define CHOSEN_LINE (UINT32_MAX - 1)
 
+/// The bounds that a search for the fewest cameras reported.
+typedef struct lesson_bounds {
+    uint64_t lower, upper;
+} lesson_bounds;
+
 /// A change by hand, as it was before.
 typedef struct lesson_change {
     uint32_t what; ///< an end, or CHOSEN_LINE
@@ -98,8 +106,14 @@ struct lesson_state {
     sli_mesh_steps mesh;     ///< of the subdivision, where it is a mesh
     sli_pass passes[PASSES]; ///< of multipass, by quadrant
     uint32_t pass_cells;
-    bool finds, rejects; ///< some step does
-    size_t at;           ///< the step shown
+    sl_shape outline; ///< these two: of Fisk's colouring
+    sl_fisk fisk;
+    sl_placement placement; ///< these three: of the fewest cameras
+    SL_ARRAY(lesson_bounds) bounds;
+    bool hurried;           ///< the search was stopped
+    char refused[SENTENCE]; ///< why a subject does not fit the map; "": it does
+    bool finds, rejects;    ///< some step does
+    size_t at;              ///< the step shown
     bool plays;
     int speed; ///< powers of two: 0 is two steps a second
     double waited;

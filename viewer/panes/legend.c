@@ -86,14 +86,14 @@ static int list_rows(const view_state *view, legend_row rows[LEGEND_MOST]) {
     if (layers_shows(view, LAYER_PORTALS)) rows[at++] = stroke_row("portal", palette->portal, true);
     if (layers_shows(view, LAYER_STARTS) && map->path_count)
         rows[at++] = stroke_row("path", palette->path, true);
-    if (map->range > 0 && view->mode != MODE_QUIZ)
-        rows[at++] = stroke_row("view range", palette->start, true);
+    const bool eye = view->mode != MODE_QUIZ && view->mode != MODE_CAMERAS;
+    if (map->range > 0 && eye) rows[at++] = stroke_row("view range", palette->start, true);
     const struct {
         const char *label;
         bool shown;
         enum legend_mark mark;
     } marks[] = {{"start", layers_shows(view, LAYER_STARTS) && map->start_count, LEGEND_START},
-                 {"the eye", view->mode != MODE_QUIZ, LEGEND_EYE},
+                 {"the eye", eye, LEGEND_EYE},
                  {"door", map->door_count > 0, LEGEND_DOOR},
                  {"mirror", map->mirror_count > 0, LEGEND_MIRROR},
                  {"one-way glass", map->oneway_count > 0, LEGEND_ONEWAY},

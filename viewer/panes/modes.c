@@ -4,6 +4,7 @@
 
 #include "lessons/quiz.h"
 #include "panes/panes.h"
+#include "plan/cameras.h"
 #include "plan/edit.h"
 #include "plan/effects.h"
 #include "plan/layer_draw.h"
@@ -73,7 +74,15 @@ static void edit_above(learn_state *learn, const sl_frame *frame) {
     edit_draw(learn->view, frame);
 }
 
-static const mode_row modes[] = {
+static void cameras_below(learn_state *learn, const sl_frame *frame) {
+    cameras_draw_below(learn->view, frame);
+}
+
+static void cameras_above(learn_state *learn, const sl_frame *frame) {
+    cameras_draw_above(learn->view, frame);
+}
+
+static const mode_row modes[MODES] = {
     [MODE_EXPLORE] = {"W A S D and arrows walk, a click puts the eye, the wheel zooms", pane_side,
                       quiz_draw_below, quiz_draw_above, true, true},
     [MODE_LEARN] = {"Left and Right step, Space plays, . chooses the line or an end", pane_learn,
@@ -83,6 +92,8 @@ static const mode_row modes[] = {
          pane_draw, NULL, edit_above, true, false},
     [MODE_QUIZ] = {"Y or N answers, Space asks again", pane_quiz, quiz_draw_below, quiz_draw_above,
                    false, false},
+    [MODE_CAMERAS] = {"A click puts a camera; drag it, or its handle; Space finds the fewest",
+                      pane_cameras, cameras_below, cameras_above, false, false},
 };
 
 const mode_row *mode_table(void) {

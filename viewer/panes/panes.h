@@ -12,6 +12,7 @@ void pane_bar(learn_state *learn, sl_box box);     ///< the buttons at the top
 void pane_side(learn_state *learn, sl_box box);    ///< layers, methods with counts, words
 void pane_learn(learn_state *learn, sl_box box);   ///< in its place: pseudo-code and account
 void pane_quiz(learn_state *learn, sl_box box);    ///< likewise: the question
+void pane_cameras(learn_state *learn, sl_box box); ///< likewise: cameras
 void pane_draw(learn_state *learn, sl_box box);    ///< likewise: walls
 void pane_time(learn_state *learn, sl_box box);    ///< a sentence, and the lesson's time line
 void pane_dual(learn_state *learn, sl_box box);    ///< lines as points

@@ -9,16 +9,18 @@
 #define IN_LEARN     2u
 #define IN_DRAW      4u
 #define IN_QUIZ      8u
-#define IN_ALL_MODES 15u
+#define IN_CAMERAS   16u
+#define IN_ALL_MODES 31u
+#define IN_CELLS     15u ///< those that show cells
 
 /// A row: LAYER(NAME, name, key, label, help, modes, calls).
 ///
 /// `name` is for scripts, `label` and `key` are for the panel. `modes` are the modes that list and
 /// draw the layer. `calls` are effects, as bits: the map must have one of them; 0: no condition.
 #define LAYERS(LAYER)                                                                              \
-    LAYER(CELLS, "cells", "C", "Cells", "cells", IN_ALL_MODES, 0)                                  \
-    LAYER(PORTALS, "portals", "P", "Portals", "portals", IN_ALL_MODES, 0)                          \
-    LAYER(SPLITS, "splits", "K", "Splits of the tree", "splits by depth", IN_ALL_MODES, 0)         \
+    LAYER(CELLS, "cells", "C", "Cells", "cells", IN_CELLS, 0)                                      \
+    LAYER(PORTALS, "portals", "P", "Portals", "portals", IN_CELLS, 0)                              \
+    LAYER(SPLITS, "splits", "K", "Splits of the tree", "splits by depth", IN_CELLS, 0)             \
     LAYER(VIEWS, "views", "F5", "View cells by cost", "view cells that adapt, by cost",            \
           IN_EXPLORE | IN_DRAW, 0)                                                                 \
     LAYER(HEAT, "heat", "1", "Heat map", "heat map of the visibility graph", IN_EXPLORE | IN_DRAW, \

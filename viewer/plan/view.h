@@ -12,7 +12,14 @@
 #include "sightline/support.h"
 #include "ui/ui.h"
 
-typedef enum view_mode { MODE_EXPLORE, MODE_LEARN, MODE_DRAW, MODE_QUIZ } view_mode;
+typedef enum view_mode {
+    MODE_EXPLORE,
+    MODE_LEARN,
+    MODE_DRAW,
+    MODE_QUIZ,
+    MODE_CAMERAS,
+    MODES
+} view_mode;
 
 typedef struct view_state view_state;
 
@@ -95,6 +102,7 @@ typedef enum drag_kind {
     DRAG_DOOR,
     DRAG_MIRROR,
     DRAG_OBJECT,
+    DRAG_CAMERA,
 } drag_kind;
 
 typedef struct drag_state {
@@ -104,7 +112,8 @@ typedef struct drag_state {
     sl_point at;         ///< where it began, in the map
     uint32_t index;
     bool moved;
-    // Of a mirror or an object: what of it, where it was, and whether it has been changed.
+    // Of a mirror, an object or a camera: what of it, where it was, and whether it has been
+    // changed.
     int part;
     sl_segment segment;
     bool changed;
@@ -139,6 +148,7 @@ typedef struct node_layer node_layer;
 typedef struct view_layer view_layer;
 typedef struct heat_layer heat_layer;
 typedef struct watch_layer watch_layer;
+typedef struct camera_layer camera_layer;
 
 /// What is shown and from where. Results are kept from frame to frame.
 struct view_state {
@@ -182,10 +192,11 @@ struct view_state {
     first_person_counts first_person; ///< of the last frame
 
     heat_choice heat_choice;
-    node_layer *nodes; ///< these four: NULL: none yet
+    node_layer *nodes; ///< these five: NULL: none yet
     view_layer *views;
     heat_layer *heat;
     watch_layer *watch;
+    camera_layer *cameras;
 };
 
 /// Shows the message of a failure; nothing for SL_OK.

@@ -26,6 +26,8 @@ typedef enum hit_kind {
     HIT_EDGE,    ///< a border that can be dragged; value: of ui_edges
     HIT_SUBJECT, ///< value: of the lesson's subjects
     HIT_END,     ///< value: a portal end of the lesson
+    HIT_CAMERA,  ///< value: a camera of the table
+    HIT_SPOT,    ///< value: a blind spot
 } hit_kind;
 
 typedef struct hit_area {

@@ -435,6 +435,31 @@ SL_API void sl_draw_portal_ends(cairo_t *cairo, const sl_palette *palette, const
 SL_API void sl_draw_conflict(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,
                              const sl_portal_ends *portals, const sl_conflict *conflict);
 
+/// Classes of coverage: seen by no viewpoint, by 1, by 2, by 3 or more.
+#define SL_COVERAGE_CLASSES 4
+
+/// The colour of a class. Blind spots stand out; the others are one tone, the deeper the more
+/// viewpoints.
+SL_API sl_colour sl_coverage_colour(const sl_palette *palette, uint32_t class);
+
+/// Colours that tell viewpoints apart, for colour-blind eyes too.
+SL_API sl_colour sl_viewpoint_colour(const sl_palette *palette, size_t viewpoint);
+
+/// Fills the pieces in the colours of their classes. Several times as fast with
+/// CAIRO_ANTIALIAS_NONE. SL_CANCELLED between classes.
+SL_API sl_status sl_draw_coverage_areas(sl_context *context, cairo_t *cairo,
+                                        const sl_palette *palette,
+                                        const sl_drawn_coverage *coverage, const sl_frame *frame);
+
+/// Draws the border of what each viewpoint sees.
+SL_API void sl_draw_coverage_borders(cairo_t *cairo, const sl_palette *palette,
+                                     const sl_drawn_coverage *coverage, const sl_frame *frame);
+
+/// Draws viewpoints with their cones and names, and the numbers of blind spots. Needs no pieces and
+/// no regions.
+SL_API void sl_draw_coverage_marks(cairo_t *cairo, const sl_palette *palette,
+                                   const sl_drawn_coverage *coverage, const sl_frame *frame);
+
 /// Draws a ring about a place of the map.
 SL_API void sl_draw_ring(cairo_t *cairo, const sl_frame *frame, sl_point at, double radius,
                          sl_colour colour, double width);

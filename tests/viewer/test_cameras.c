@@ -1,0 +1,227 @@
+/// The Cameras mode through the state of the app: by pointer, with undo; tables; and jobs in the
+/// background, which nothing may wait for.
+#include "viewer_app.h"
+
+#include "app/layout.h"
+#include "plan/cameras.h"
+#include "sightline/place.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <time.h>
+#include <unistd.h>
+
+static sl_point on_page(app_state *app, sl_point at) {
+    const sl_frame frame = camera_frame(&app->view.camera, app_layout(app).plan[0], 1);
+    return sl_frame_point(&frame, at);
+}
+
+static void click(app_state *app, sl_point at) {
+    const sl_point page = on_page(app, at);
+    input_press(app, BUTTON_LEFT, page);
+    input_release(app, page);
+    app_tick(app, 0);
+}
+
+static void drag(app_state *app, sl_point from, sl_point to) {
+    const sl_point a = on_page(app, from), b = on_page(app, to);
+    input_press(app, BUTTON_LEFT, a);
+    for (int i = 1; i <= 5; i++) {
+        input_move(app, (sl_point){a.x + (b.x - a.x) * i / 5, a.y + (b.y - a.y) * i / 5});
+        app_tick(app, 1.0 / 60);
+        script_frame(app);
+    }
+    input_release(app, b);
+    app_tick(app, 0);
+}
+
+static app_state *start(const char *map, bool steady) {
+    app_state *app = viewer_start(steady);
+    viewer_open(app, map);
+    while (!steady && !app->document.has_visibility) app_tick(app, 0.01);
+    script_frame(app);
+    viewer_press(app, "8");
+    app_tick(app, 0);
+    return app;
+}
+
+static bool is_near(double a, double b, double within) {
+    return fabs(a - b) <= within;
+}
+
+/// The coverage that is shown is that of the table, found anew.
+static void assert_surveyed(app_state *app) {
+    const camera_layer *layer = app->view.cameras;
+    sl_context *context = testing_context(NULL);
+    sl_query *query = NULL;
+    sl_coverage fresh;
+    sl_viewpoint viewpoints[64];
+    assert_true(layer->known && layer->seen_stamp == layer->stamp);
+    assert_true(layer->table.count <= 64);
+    for (size_t i = 0; i < layer->table.count; i++) viewpoints[i] = layer->table.items[i].view;
+    const sl_baked *baked = app->document.baked;
+    assert_ok(context, sl_query_over(context, &baked->space, &baked->map, NULL, &query));
+    for (size_t i = 0; i < app->document.map.door_count; i++)
+        sl_query_set_door_at(context, query, i, app->document.map.doors[i].open);
+    assert_ok(context, sl_coverage_make(context, query, viewpoints, layer->table.count, &fresh));
+    double all = 0;
+    for (uint32_t k = 0; k < SL_COVERAGE_CLASSES; k++) all += camera_class_area(layer, k);
+    assert_true(is_near(all, fresh.overlay.areas[0], 1e-6 * all));
+    assert_int_equal(layer->coverage.count, fresh.count);
+    for (size_t i = 0; i <= fresh.count; i++)
+        assert_true(is_near(layer->coverage.overlay.areas[i], fresh.overlay.areas[i], 1e-6 * all));
+    assert_int_equal(layer->coverage.blind_count, fresh.blind_count);
+    sl_coverage_destroy(context, &fresh);
+    sl_query_destroy(context, query);
+    sl_context_destroy(context);
+}
+
+static void by_pointer(void **state) {
+    (void)state;
+    app_state *app = start(MAPS "/oblique/comb.map", true);
+    click(app, (sl_point){6, 0.5});
+    click(app, (sl_point){1, 8}); // between two teeth, outside
+    const camera_layer *layer = app->view.cameras;
+    assert_int_equal(layer->table.count, 1);
+    assert_surveyed(app);
+    drag(app, (sl_point){6, 0.5}, (sl_point){14, 0.5});
+    assert_true(is_near(layer->table.items[0].view.at.x, 14, 1e-6));
+    assert_surveyed(app);
+    drag(app, (sl_point){14, 0.5}, (sl_point){14, -3}); // out of the room: it stays inside
+    assert_true(layer->table.items[0].view.at.y > 0);
+    for (int i = 0; i < 40; i++) viewer_press(app, ",");
+    app_tick(app, 0);
+    sl_viewpoint *v = camera_chosen(&app->view);
+    assert_non_null(v);
+    assert_true(v->fov == 160);
+    const double reach = 44 / app->view.camera.scale;
+    drag(app, (sl_point){v->at.x + reach, v->at.y}, (sl_point){v->at.x, v->at.y + reach});
+    assert_true(is_near(v->heading, 90, 2));
+    assert_surveyed(app);
+    viewer_press(app, "Left");
+    assert_true(is_near(v->heading, 95, 2));
+    viewer_press(app, "-");
+    assert_true(camera_chosen(&app->view)->range > 0);
+    viewer_press(app, "Ctrl+C");
+    app_tick(app, 0);
+    assert_int_equal(layer->table.count, 2);
+    assert_surveyed(app);
+    viewer_press(app, "Delete");
+    app_tick(app, 0);
+    assert_int_equal(layer->table.count, 1);
+    size_t steps = 0;
+    for (; layer->done.count; steps++) viewer_press(app, "Ctrl+Z");
+    assert_true(steps > 40);
+    assert_int_equal(layer->table.count, 0);
+    for (size_t i = 0; i < steps; i++) viewer_press(app, "Ctrl+Y");
+    app_tick(app, 0);
+    assert_int_equal(layer->table.count, 1);
+    assert_surveyed(app);
+    assert_int_equal(layer->undone.count, 0);
+    viewer_end(app);
+}
+
+static void fewest(void **state) {
+    (void)state;
+    app_state *app = start(MAPS "/oblique/comb.map", true);
+    click(app, (sl_point){6, 0.5});
+    viewer_press(app, "Space");
+    app_tick(app, 0);
+    const camera_layer *layer = app->view.cameras;
+    assert_int_equal(layer->table.count, 5);
+    assert_true(camera_class_area(layer, 0) == 0);
+    assert_non_null(strstr(layer->proof, "Fewer than 5"));
+    viewer_press(app, "Ctrl+Z");
+    assert_int_equal(layer->table.count, 1);
+    assert_true(layer->proof[0] == '\0');
+    viewer_end(app);
+}
+
+/// A door that is shut, and a map that is another one.
+static void map_changes(void **state) {
+    (void)state;
+    app_state *app = start(MAPS "/effects/doors.map", true);
+    click(app, app->view.eye.at);
+    assert_int_equal(app->view.cameras->table.count, 1);
+    for (int i = 0; i < 3; i++) {
+        sl_map *map = &app->document.map;
+        assert_true(map->door_count > 0);
+        map->doors[0].open = !map->doors[0].open;
+        document_touch(&app->document);
+        app_tick(app, 0);
+        assert_surveyed(app);
+    }
+    viewer_open(app, MAPS "/oblique/comb.map");
+    app_tick(app, 0);
+    assert_true(!app->view.cameras || !app->view.cameras->table.count);
+    viewer_end(app);
+}
+
+static void tables(void **state) {
+    (void)state;
+    char path[] = "/tmp/sightline-cameras-XXXXXX";
+    const int file = mkstemp(path);
+    assert_true(file >= 0);
+    close(file);
+    app_state *app = start(MAPS "/office.map", true);
+    assert_int_equal(cameras_write(&app->view, path), SL_BAD_ARGUMENT); // nothing to write
+    FILE *out = fopen(path, "w");
+    assert_non_null(out);
+    fputs("name,x,y,heading,fov,range\ngate,53,20,90,60,12.5\n,30,20,,,\n", out);
+    fclose(out);
+    assert_int_equal(cameras_read(&app->view, path), SL_OK);
+    assert_int_equal(cameras_write(&app->view, path), SL_OK);
+    assert_int_equal(cameras_read(&app->view, path), SL_OK);
+    const camera_layer *layer = app->view.cameras;
+    app_tick(app, 0);
+    assert_int_equal(layer->table.count, 2);
+    assert_string_equal(layer->table.items[0].name, "gate");
+    assert_true(layer->table.items[0].view.range == 12.5 && layer->table.items[1].view.fov == 360);
+    assert_surveyed(app);
+    out = fopen(path, "w");
+    assert_non_null(out);
+    fputs("x,y,fov\n1,2,700\n", out);
+    fclose(out);
+    assert_int_equal(cameras_read(&app->view, path), SL_BAD_INPUT);
+    assert_non_null(strstr(sl_context_message(app->context), ":2"));
+    assert_int_equal(layer->table.count, 2); // as it was
+    unlink(path);
+    viewer_end(app);
+}
+
+/// The search runs in the background with both bounds, and stops at once with the best set.
+static void stopped(void **state) {
+    (void)state;
+    app_state *app = start(MAPS "/office.map", false);
+    const camera_layer *layer = app->view.cameras;
+    const struct timespec pause = {.tv_nsec = 2000000};
+    viewer_press(app, "Space");
+    job_progress p = cameras_progress(layer);
+    while (p.running && !p.total) {
+        nanosleep(&pause, NULL);
+        app_tick(app, 0.002);
+        p = cameras_progress(layer);
+    }
+    assert_true(p.running && p.done >= 1 && p.done <= p.total);
+    viewer_press(app, "Escape");
+    while (cameras_progress(layer).running) {
+        nanosleep(&pause, NULL);
+        app_tick(app, 0.002);
+    }
+    assert_true(layer->table.count >= p.done && layer->table.count <= p.total);
+    assert_non_null(strstr(layer->proof, "stopped"));
+    while (!layer->known || layer->seen_stamp != layer->stamp) {
+        nanosleep(&pause, NULL);
+        app_tick(app, 0.002);
+    }
+    assert_true(camera_class_area(layer, 0) == 0);
+    viewer_press(app, "Space"); // ends with the program
+    viewer_end(app);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(by_pointer), cmocka_unit_test(fewest),
+                                       cmocka_unit_test(map_changes), cmocka_unit_test(tables),
+                                       cmocka_unit_test(stopped)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,158 @@
+/// The panel of the Cameras mode: what the cameras see, the search for the fewest, each camera, and
+/// the blind spots.
+#include "panes/panel.h"
+#include "panes/panes.h"
+#include "plan/cameras.h"
+#include "sightline/draw.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+
+/// Rows that are listed: more would take the places of clicks of a frame.
+enum { CAMERAS_LISTED = 120, SPOTS_LISTED = 40, AREA_TEXT = SL_COUNT_TEXT + 32 };
+
+static void area_text(const camera_layer *layer, double area, char text[AREA_TEXT]) {
+    char share[SL_COUNT_TEXT];
+    const double all = layer->coverage.overlay.areas[0];
+    sl_text_percent(all > 0 ? area / all : 0, share);
+    snprintf(text, AREA_TEXT, "%.4g   %s", area, share);
+}
+
+/// A row with a colour, a label and a value at the right. Returns its box; the column moves on.
+static sl_box draw_row(ui_state *ui, column *c, const sl_colour *colour, const char *label,
+                       const char *value, bool chosen) {
+    const double t = ui->text, out = fmin(0.4 * t, c->left - c->box.min.x);
+    const double left = c->left + (colour ? 1.5 * t : 0), room = c->right - left;
+    const double wide = ui_text_width(ui, 0.95, false, value);
+    const bool below = ui_text_width(ui, 0.95, false, label) + wide + t > room;
+    const sl_box row = {{c->left - out, c->y}, {c->right + out, c->y + (below ? 2.9 : 1.55) * t}};
+    if (chosen || box_has(row, ui->pointer))
+        ui_fill_round(ui, row, 0.25 * t,
+                      sl_colour_mix(ui->palette.page, ui->palette.glass, chosen ? 0.22 : 0.1));
+    if (colour)
+        ui_fill_round(ui,
+                      (sl_box){{c->left, c->y + 0.25 * t}, {c->left + 1.05 * t, c->y + 1.3 * t}},
+                      0.2 * t, *colour);
+    ui_text_within(ui, left, c->y + 1.12 * t, below ? room : room - wide - t, 0.95, ui->palette.ink,
+                   label);
+    if (below)
+        ui_text_within(ui, left, c->y + 2.45 * t, room, 0.95, ui->palette.faint, value);
+    else
+        ui_text_right(ui, c->right, c->y + 1.12 * t, 0.95, ui->palette.faint, value);
+    c->y = row.max.y;
+    return row;
+}
+
+static void draw_classes(view_state *view, column *c) {
+    static const char *const names[SL_COVERAGE_CLASSES] = {"not seen", "seen by 1", "seen by 2",
+                                                           "seen by 3 or more"};
+    const camera_layer *layer = view->cameras;
+    column_heading(view->ui, c, "Area", NULL);
+    for (uint32_t i = 0; i < SL_COVERAGE_CLASSES; i++) {
+        const double area = camera_class_area(layer, i);
+        const sl_colour colour = sl_coverage_colour(&view->ui->palette, i);
+        char text[AREA_TEXT];
+        area_text(layer, area, text);
+        draw_row(view->ui, c, &colour, names[i], text, false);
+    }
+}
+
+/// The bounds of the search, or the proof of its end.
+static void draw_search(view_state *view, column *c) {
+    ui_state *ui = view->ui;
+    const camera_layer *layer = view->cameras;
+    const job_progress p = cameras_progress(layer);
+    char text[160];
+    if (p.running && p.total) {
+        snprintf(text, sizeof text,
+                 "At least %" PRIu64 " and at most %" PRIu64
+                 " cameras are needed. Esc stops, and keeps the best.",
+                 p.done, p.total);
+        column_words(ui, c, 1, ui->palette.ink, text);
+        const double t = ui->text, share = (double)p.done / (double)p.total;
+        const sl_box bar = {{c->left, c->y + 0.2 * t}, {c->right, c->y + 0.8 * t}};
+        ui_fill_round(ui, bar, 0.3 * t, ui->palette.outline);
+        ui_fill_round(ui, (sl_box){bar.min, {c->left + share * column_width(c), bar.max.y}},
+                      0.3 * t, ui->palette.glass);
+        c->y += 1.2 * t;
+    } else if (p.running) {
+        column_words(ui, c, 1, ui->palette.ink, "Looking for the fewest ...");
+    } else if (layer->proof[0]) {
+        column_words(ui, c, 1, ui->palette.ink, layer->proof);
+    }
+}
+
+static void draw_list(view_state *view, column *c) {
+    const camera_layer *layer = view->cameras;
+    const bool now = layer->known && layer->seen_stamp == layer->stamp;
+    size_t spare = 0;
+    char count[32];
+    snprintf(count, sizeof count, "%zu", layer->table.count);
+    column_heading(view->ui, c, "Cameras", count);
+    for (size_t i = 0; i < layer->table.count; i++) {
+        const sl_colour colour = sl_viewpoint_colour(&view->ui->palette, i);
+        const bool is_spare = now && sl_coverage_is_spare(&layer->coverage, i);
+        char name[CAMERA_NAME], text[96] = "";
+        spare += is_spare;
+        if (i >= CAMERAS_LISTED) continue;
+        camera_name(layer, i, name);
+        if (is_spare)
+            snprintf(text, sizeof text, "sees %.4g, spare", layer->coverage.seen[i]);
+        else if (now)
+            snprintf(text, sizeof text, "sees %.4g, alone %.4g", layer->coverage.seen[i],
+                     layer->coverage.alone[i]);
+        const sl_box row = draw_row(view->ui, c, &colour, name, text, i == layer->chosen);
+        ui_hit_focus(view->ui, HIT_CAMERA, (int)i, row);
+    }
+    if (layer->table.count > CAMERAS_LISTED)
+        column_words(view->ui, c, 0.9, view->ui->palette.faint, "The plan shows the rest.");
+    if (spare)
+        column_words(view->ui, c, 0.9, view->ui->palette.faint,
+                     spare > 1 ? "The others see all that a spare one sees. Delete one and look "
+                                 "again: two may stand in for each other."
+                               : "The others see all that the spare one sees.");
+}
+
+static void draw_spots(view_state *view, column *c) {
+    const camera_layer *layer = view->cameras;
+    char text[AREA_TEXT], name[32];
+    if (!layer->coverage.blind_count || !layer->table.count) return;
+    snprintf(text, sizeof text, "%u", layer->coverage.blind_count);
+    column_heading(view->ui, c, "Blind spots", text);
+    for (uint32_t i = 0; i < layer->coverage.blind_count && i < SPOTS_LISTED; i++) {
+        snprintf(name, sizeof name, "blind %u", i + 1);
+        area_text(layer, layer->coverage.blind[i].area, text);
+        const sl_box row = draw_row(view->ui, c, NULL, name, text, i + 1 == layer->spot);
+        ui_hit_focus(view->ui, HIT_SPOT, (int)i, row);
+    }
+    static const char *const next[] = {"camera_spot", NULL};
+    c->y += 0.3 * view->ui->text;
+    column_buttons(view->ui, c, next);
+}
+
+void pane_cameras(learn_state *learn, sl_box box) {
+    view_state *view = learn->view;
+    column c = column_begin(learn->ui, box);
+    static const char *const find[] = {"camera_find", NULL};
+    static const char *const change[] = {"camera_copy", "camera_delete", "undo", "redo", NULL};
+    static const char *const files[] = {"camera_import", "camera_export", NULL};
+    column_heading(learn->ui, &c, "Place cameras", NULL);
+    column_words(learn->ui, &c, 0.95, learn->ui->palette.ink,
+                 "A click puts one. Drag it, or the handle ahead of it. Left and Right turn it.");
+    c.y += 0.4 * learn->ui->text;
+    column_buttons(learn->ui, &c, find);
+    c.y += 0.3 * learn->ui->text;
+    if (view->cameras && learn->document->baked) {
+        draw_search(view, &c);
+        c.y += 0.4 * learn->ui->text;
+        column_sliders(learn->ui, &c);
+        column_buttons(learn->ui, &c, change);
+        if (view->cameras->known) draw_classes(view, &c);
+        draw_list(view, &c);
+        if (view->cameras->known) draw_spots(view, &c);
+    }
+    column_buttons(learn->ui, &c, files);
+    column_layers(view, &c);
+    column_end(learn->ui, &c);
+}

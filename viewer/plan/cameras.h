@@ -1,0 +1,91 @@
+/// Cameras, put into the plan by hand or found: their table with its own undo, what they see
+/// together, and the search for the fewest that see everything. The last two are made in the
+/// background.
+#ifndef VIEWER_CAMERAS_H
+#define VIEWER_CAMERAS_H
+
+#include "plan/view.h"
+#include "sightline/coverage.h"
+
+typedef struct camera_jobs camera_jobs;
+
+enum { CAMERA_NAME = 32, PROOF_TEXT = 256 };
+
+struct camera_layer {
+    sl_cameras table;
+    size_t chosen;                     ///< SIZE_MAX: none
+    uint32_t stamp;                    ///< grows with every change of the table
+    SL_ARRAY(sl_cameras) done, undone; ///< tables before changes; the last one is the nearest
+    sl_viewpoint like;                 ///< what a new one looks like
+    uint32_t spot;                     ///< the blind spot that was gone to, from 1; 0: none
+    bool known;                        ///< `coverage` is there, of `seen_stamp`
+    uint32_t seen_stamp;
+    sl_coverage coverage;
+    char proof[PROOF_TEXT]; ///< of the cameras that were found; "" once they were changed
+    camera_jobs *jobs;      ///< NULL: none yet
+};
+
+/// The layer, made where there is none yet; NULL without memory, which it reports.
+camera_layer *cameras_of(view_state *view);
+void camera_layer_destroy(sl_context *context, camera_layer *layer); ///< NULL: nothing
+/// Another map was opened: drops the cameras and what was found.
+void cameras_clear(view_state *view);
+
+// --- the table
+
+/// The name of a camera, or its number from 1.
+void camera_name(const camera_layer *layer, size_t camera, char text[CAMERA_NAME]);
+/// The chosen one; NULL: none.
+sl_viewpoint *camera_chosen(const view_state *view);
+
+/// Call before a change: keeps the table for undo. After it: camera_changed().
+void camera_keep(view_state *view);
+void camera_changed(view_state *view);
+/// Drops what was kept last where nothing has changed since.
+void camera_settle(view_state *view);
+
+void camera_add(view_state *view, sl_point at); ///< and chooses it; says so where none can stand
+void camera_copy(view_state *view);             ///< the chosen one, beside it
+void camera_delete(view_state *view);
+void camera_choose(view_state *view, int by); ///< the next one, or one before
+void camera_turn(view_state *view, double degrees);
+void camera_widen(view_state *view, double degrees);
+void camera_reach(view_state *view, double factor); ///< its range; one without limit gets one
+/// Goes back, or forward; false where there is nothing.
+bool camera_undo(view_state *view, bool redo);
+
+sl_status cameras_read(view_state *view, const char *path);
+sl_status cameras_write(view_state *view, const char *path);
+/// Takes a table over, to be undone, and chooses none.
+void cameras_replace(view_state *view, sl_cameras *table);
+
+// --- by pointer
+
+/// Takes hold of the camera or handle at drag->at; false: there is none.
+bool camera_take(view_state *view, drag_state *drag);
+void camera_move(view_state *view, drag_state *drag, sl_point now);
+
+// --- what they see
+
+/// The area that 0, 1, 2, 3 or more cameras see. Only where `known`.
+double camera_class_area(const camera_layer *layer, uint32_t class);
+/// Shows a blind spot, from 0; the largest after the last.
+void camera_go_to_spot(view_state *view, uint32_t spot);
+
+/// Draws classes of coverage and borders; and marks over the walls.
+void cameras_draw_below(view_state *view, const sl_frame *frame);
+void cameras_draw_above(view_state *view, const sl_frame *frame);
+
+// --- in the background (camera_jobs.c)
+
+/// Follows the document and the table, in Cameras mode. With `wait` it waits for results.
+void cameras_update(view_state *view, bool wait);
+/// Starts to look for the fewest.
+void cameras_find(view_state *view);
+/// Stops that, and keeps the best; false where nothing runs.
+bool cameras_stop(view_state *view);
+/// Of the search. `done` and `total` are its bounds.
+job_progress cameras_progress(const camera_layer *layer);
+void camera_jobs_destroy(sl_context *context, camera_jobs *jobs); ///< NULL: nothing
+
+#endif
