@@ -12,7 +12,7 @@
 #include <stdio.h>
 
 /// The lesson waits for no longer than this.
-#define SECONDS 1.5
+#define SECONDS 1.0
 
 /// Places with many witnesses are shown, up to so many.
 enum { PLACES_MOST = 60 };
