@@ -231,9 +231,9 @@ static void door_in_thin_wall(void **state) {
         begin(&p);
         for (size_t i = 0; i < sizeof walls / sizeof *walls; i++) {
             const sl_point a = walls[i].a, b = walls[i].b;
-            assert_ok(p.context, sl_map_add_wall(p.context, &p.map,
-                                                 (sl_point){c * a.x - s * a.y, s * a.x + c * a.y},
-                                                 (sl_point){c * b.x - s * b.y, s * b.x + c * b.y}));
+            const sl_point from = {c * a.x - s * a.y, s * a.x + c * a.y};
+            const sl_point to = {c * b.x - s * b.y, s * b.x + c * b.y};
+            assert_ok(p.context, sl_map_add_wall(p.context, &p.map, from, to, 0));
         }
         ready(&p);
         place(&p, &placed);
