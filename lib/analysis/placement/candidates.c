@@ -5,6 +5,8 @@
 #include "geometry/length.h"
 #include "geometry/orient.h"
 
+enum { COARSE_ITERATIONS = 4000 };
+
 sl_status sli_try_seeing(sli_placer *p, size_t number, uint32_t witness) {
     sli_candidate *c = &p->candidates.items[number];
     const sl_point at = p->witnesses.items[witness].eye;
@@ -186,7 +188,8 @@ sl_status sli_add_in_line(sli_placer *p) {
 sl_cover_options sli_cover_options(const sli_placer *p) {
     sl_cover_options options = sl_cover_options_default();
     options.program = p->options->program;
-    options.nodes = p->options->nodes;
+    options.nodes = p->coarse ? 0 : p->options->nodes;
+    if (p->coarse) options.iterations = COARSE_ITERATIONS;
     // Rows are only added, so earlier bounds hold.
     options.known_lower = p->out->lower;
     return options;

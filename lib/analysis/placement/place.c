@@ -313,6 +313,21 @@ static sl_status run_listed(sli_placer *p) {
     return SL_OK;
 }
 
+/// Both bounds once more. *gaps as in bound_below().
+static sl_status step(sli_placer *p, bool *gaps, bool *added) {
+    SL_TRY(sl_check_cancelled(p->context));
+    SL_TRY(bound_below(p, gaps, added));
+    sl_report(p->context, "place", "viewpoints", p->out->lower, p->out->upper);
+    if (!*gaps || p->out->upper == p->out->lower) return SL_OK;
+    p->out->rounds++;
+    if (p->out->rounds == 2) SL_TRY(sli_add_corners(p));
+    SL_TRY(bound_above(p, added));
+    sl_report(p->context, "place", "viewpoints", p->out->lower, p->out->upper);
+    return SL_OK;
+}
+
+/// Set covers are coarse at first: exact ones take much longer, and what they tell of too few
+/// witnesses is soon past. Where a round changes no bound, the next one is exact.
 static sl_status run(sli_placer *p) {
     const uint64_t most = p->options->rounds ? p->options->rounds : USUAL_ROUNDS;
     bool added, gaps;
@@ -320,18 +335,19 @@ static sl_status run(sli_placer *p) {
     SL_TRY(sli_add_first_witnesses(p));
     SL_TRY(sli_add_unseen_parts(p, &added));
     SL_TRY(sli_activate(p, &added));
-    while (p->out->rounds < most) {
-        SL_TRY(sl_check_cancelled(p->context));
+    p->coarse = true;
+    uint64_t lower = 0, upper = p->out->upper;
+    for (size_t steps = 0; p->out->rounds < most; steps++) {
         const size_t before = p->witnesses.count;
-        SL_TRY(bound_below(p, &gaps, &added));
-        sl_report(p->context, "place", "viewpoints", p->out->lower, p->out->upper);
+        SL_TRY(step(p, &gaps, &added));
         if (p->out->upper == p->out->lower) return SL_OK;
+        if (steps == 2 && !gaps) SL_TRY(complete(p));
         if (!gaps) continue;
-        p->out->rounds++;
-        if (p->out->rounds == 2) SL_TRY(sli_add_corners(p));
-        SL_TRY(bound_above(p, &added));
-        sl_report(p->context, "place", "viewpoints", p->out->lower, p->out->upper);
-        if (p->out->upper == p->out->lower || p->witnesses.count == before) return SL_OK;
+        const bool same = p->out->lower == lower && p->out->upper == upper;
+        if (p->witnesses.count == before && !p->coarse) return SL_OK;
+        p->coarse = !same && p->witnesses.count > before;
+        lower = p->out->lower;
+        upper = p->out->upper;
     }
     return SL_OK;
 }

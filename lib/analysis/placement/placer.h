@@ -31,6 +31,7 @@ typedef struct sli_placer {
     const sl_place_options *options;
     sli_ground ground;
     bool listed; ///< candidates are given: none is added
+    bool coarse; ///< set covers without trees
     sl_region memory;
     sl_random random;
     SL_ARRAY(sli_look) witnesses;       ///< all that were made: the rows of the upper bound
