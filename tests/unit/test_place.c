@@ -216,6 +216,35 @@ static void other_plans(void **state) {
     solve_text(ROOM "wall 2 2 8 2\nwall 8 2 8 8\nwall 8 8 2 8\nwall 2 8 2 2\nstart 1 1 0\n", 2);
 }
 
+/// Two rooms, and a door in a thin wall between them, turned: a viewpoint in it is not in line with
+/// both parts of the wall, and what it does not see is thinner than doubles tell.
+static void door_in_thin_wall(void **state) {
+    (void)state;
+    static const sl_segment walls[] = {
+        {{0, 0}, {10, 0}}, {{10, 0}, {10, 10}}, {{10, 10}, {0, 10}},
+        {{0, 10}, {0, 0}}, {{5, 0}, {5, 4}},    {{5, 6}, {5, 10}},
+    };
+    for (int degrees = 1; degrees < 90; degrees += 8) {
+        const double c = cos(degrees * 0.01745), s = sin(degrees * 0.01745);
+        plan p;
+        sl_placement placed = {0};
+        begin(&p);
+        for (size_t i = 0; i < sizeof walls / sizeof *walls; i++) {
+            const sl_point a = walls[i].a, b = walls[i].b;
+            const sl_point from = {c * a.x - s * a.y, s * a.x + c * a.y};
+            const sl_point to = {c * b.x - s * b.y, s * b.x + c * b.y};
+            assert_ok(p.context, sl_map_add_wall(p.context, &p.map, from, to, 0));
+        }
+        ready(&p);
+        place(&p, &placed);
+        check(&p, &placed, 2000);
+        assert_int_equal(placed.slivers, 0);
+        assert_in_range(placed.upper, 1, 2);
+        sl_placement_destroy(p.context, &placed);
+        end(&p);
+    }
+}
+
 /// Maps of a generator, solid ground and thin walls, as they are and turned: a few rounds.
 static void generated_maps(void **state) {
     (void)state;
@@ -237,6 +266,7 @@ static void generated_maps(void **state) {
             ready(&p);
             assert_ok(p.context, sl_place(p.context, p.query, &few, &placed));
             check(&p, &placed, 500);
+            assert_int_equal(placed.slivers, 0);
             sl_placement_destroy(p.context, &placed);
             end(&p);
         }
@@ -422,6 +452,7 @@ int main(void) {
         cmocka_unit_test(known_orthogonal_combs),
         cmocka_unit_test(one_suffices),
         cmocka_unit_test(other_plans),
+        cmocka_unit_test(door_in_thin_wall),
         cmocka_unit_test(generated_maps),
         cmocka_unit_test(changes_keep_the_optimum),
         cmocka_unit_test(same_input_same_result),

@@ -55,7 +55,8 @@ static void begin(scene *s, uint64_t seed, double fov, double range) {
     for (int i = 0; i < PLACES; i++) {
         // Two headings at each point.
         const sl_point at = i % 2 ? s->places[i - 1].at : draw(s, &random);
-        s->places[i] = (sl_viewpoint){at, 360 * sl_random_unit(&random), fov, range};
+        s->places[i] = (sl_viewpoint){
+            .at = at, .heading = 360 * sl_random_unit(&random), .fov = fov, .range = range};
         s->costs[i] = 1 + (uint32_t)sl_random_below(&random, 4);
         for (int t = 0; t < TARGETS; t++)
             s->sees[i] |= (uint32_t)sees_by_angle(s, &s->places[i], s->targets[t]) << t;

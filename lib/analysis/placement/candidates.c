@@ -5,6 +5,8 @@
 #include "geometry/length.h"
 #include "geometry/orient.h"
 
+enum { COARSE_ITERATIONS = 4000 };
+
 sl_status sli_try_seeing(sli_placer *p, size_t number, uint32_t witness) {
     sli_candidate *c = &p->candidates.items[number];
     const sl_point at = p->witnesses.items[witness].eye;
@@ -28,7 +30,7 @@ sl_status sli_add_candidate(sli_placer *p, sl_point at, uint32_t *number) {
     if (!clean) return SL_OK;
     *number = (uint32_t)p->candidates.count++;
     for (uint32_t i = 0; i < p->witnesses.count; i++) SL_TRY(sli_try_seeing(p, *number, i));
-    return SL_OK;
+    return sli_try_germs(p, *number);
 }
 
 const sli_look *sli_chosen_look(const sli_placer *p, size_t i) {
@@ -138,6 +140,22 @@ static bool meet_near(sl_point eye, const sl_segment *s, const sl_segment *t, sl
     return true;
 }
 
+/// The point of a line nearest to another one; where that is not on the line as rounded, one near
+/// it whose share of the way has few bits, which may be.
+static sl_point foot_on(sl_point at, const sl_segment *line) {
+    const sl_point foot = foot_of(at, line);
+    const sl_point way = {line->b.x - line->a.x, line->b.y - line->a.y};
+    const double share =
+        sli_dot((sl_point){at.x - line->a.x, at.y - line->a.y}, way) / sli_dot(way, way);
+    if (sli_orient(line->a, line->b, foot) == 0) return foot;
+    for (double bits = 0x1p30; bits >= 0x1p4; bits /= 4) {
+        const double few = rint(share * bits) / bits;
+        const sl_point on = {line->a.x + few * way.x, line->a.y + few * way.y};
+        if (sli_orient(line->a, line->b, on) == 0) return on;
+    }
+    return foot;
+}
+
 /// Remembers a line of a wall.
 static sl_status keep_line(sli_placer *p, sl_segment line) {
     for (size_t i = 0; i < p->lines.count; i++)
@@ -156,7 +174,7 @@ sl_status sli_add_in_line(sli_placer *p) {
         sl_point meet;
         uint32_t number;
         if (!find_hidden(p, &p->gaps.items[i], &line)) continue;
-        SL_TRY(sli_add_candidate(p, foot_of(eye, &line), &number));
+        SL_TRY(sli_add_candidate(p, foot_on(eye, &line), &number));
         for (size_t k = 0; k < p->lines.count; k++)
             if (meet_near(eye, &line, &p->lines.items[k], &meet))
                 SL_TRY(sli_add_candidate(p, meet, &number));
@@ -170,7 +188,8 @@ sl_status sli_add_in_line(sli_placer *p) {
 sl_cover_options sli_cover_options(const sli_placer *p) {
     sl_cover_options options = sl_cover_options_default();
     options.program = p->options->program;
-    options.nodes = p->options->nodes;
+    options.nodes = p->coarse ? 0 : p->options->nodes;
+    if (p->coarse) options.iterations = COARSE_ITERATIONS;
     // Rows are only added, so earlier bounds hold.
     options.known_lower = p->out->lower;
     return options;
@@ -201,16 +220,20 @@ static sl_status complete(sli_placer *p) {
 sl_status sli_choose_fewest(sli_placer *p, sl_cover_problem *problem, sl_cover_result *cover) {
     SL_TRY(complete(p));
     size_t entries = 0;
-    for (size_t i = 0; i < p->candidates.count; i++) entries += p->candidates.items[i].sees.count;
+    const uint32_t witnesses = (uint32_t)p->witnesses.count;
+    for (size_t i = 0; i < p->candidates.count; i++)
+        entries += p->candidates.items[i].sees.count + p->candidates.items[i].germs.count;
     size_t *ends = sl_alloc_array(p->context, p->candidates.count, sizeof *ends);
     uint32_t *all = sl_alloc_array(p->context, entries, sizeof *all);
     *problem = (sl_cover_problem){
-        (uint32_t)p->witnesses.count, (uint32_t)p->candidates.count, ends, all, NULL, NULL};
+        witnesses + (uint32_t)p->germs.count, (uint32_t)p->candidates.count, ends, all, NULL, NULL};
     if (!ends || !all) return SL_NO_MEMORY;
     entries = 0;
     for (size_t i = 0; i < p->candidates.count; i++) {
         for (size_t k = 0; k < p->candidates.items[i].sees.count; k++)
             all[entries++] = p->candidates.items[i].sees.items[k];
+        for (size_t k = 0; k < p->candidates.items[i].germs.count; k++)
+            all[entries++] = witnesses + p->candidates.items[i].germs.items[k];
         ends[i] = entries;
     }
     const sl_cover_options options = sli_cover_options(p);

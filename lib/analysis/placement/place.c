@@ -51,9 +51,12 @@ void sli_placer_destroy(sli_placer *p) {
     for (size_t i = 0; i < p->candidates.count; i++) {
         sli_look_destroy(p->context, &p->candidates.items[i].look);
         sl_free(p->context, p->candidates.items[i].sees.items);
+        sl_free(p->context, p->candidates.items[i].germs.items);
     }
     sl_free(p->context, p->witnesses.items);
     sl_free(p->context, p->candidates.items);
+    sl_free(p->context, p->germs.items);
+    sl_free(p->context, p->spans.items);
     sl_free(p->context, p->active.items);
     sl_free(p->context, p->chosen.items);
     sl_free(p->context, (void *)p->looks.items);
@@ -73,8 +76,8 @@ static sl_status keep_viewpoints(sli_placer *p, sl_viewpoint *all, size_t count)
     return SL_OK;
 }
 
-/// The chosen candidates see everything but slivers at the gaps: they are the upper bound if they
-/// are fewer.
+/// The chosen candidates see everything, but for slivers at gaps that are there: they are the upper
+/// bound if they are fewer.
 static sl_status keep_chosen(sli_placer *p) {
     sl_placement *out = p->out;
     if (out->count < p->chosen.count) return SL_OK;
@@ -110,47 +113,33 @@ static sl_status find_gaps(sli_placer *p) {
                          &p->gaps);
 }
 
-/// Moves viewpoints that have slivers beside them to places in line with walls, as long as that
-/// leaves fewer.
-static sl_status mend_slivers(sli_placer *p, size_t first_candidate) {
-    const size_t count = p->candidates.count;
-    for (size_t c = first_candidate; c < count && p->gaps.count; c++) {
-        const size_t before = p->gaps.count;
-        const sl_point at = p->candidates.items[c].look.eye;
-        size_t nearest = 0;
-        double least = INFINITY;
-        for (size_t i = 0; i < before; i++) {
-            const sl_point eye = sli_chosen_look(p, p->gaps.items[i].look)->eye;
-            const double distance = sli_length(eye.x - at.x, eye.y - at.y);
-            if (distance < least) least = distance, nearest = p->gaps.items[i].look;
-        }
-        const uint32_t old = p->chosen.items[nearest];
-        p->chosen.items[nearest] = (uint32_t)c;
-        SL_TRY(find_gaps(p));
-        if (p->gaps.count < before) continue;
-        p->chosen.items[nearest] = old;
-        SL_TRY(find_gaps(p));
-    }
-    return SL_OK;
-}
-
-/// Finds what the chosen candidates leave unseen, and witnesses there. *none: nothing but slivers
-/// is left.
+/// Finds what the chosen candidates leave unseen, and witnesses there, or germs. *none: there is
+/// nothing, or among given places only what none of them sees and no witness fits in.
 static sl_status find_unseen(sli_placer *p, bool *none, bool *added) {
-    const size_t first_candidate = p->candidates.count;
     size_t found = 0;
-    bool missed;
+    bool missed, one;
     SL_TRY(find_gaps(p));
     for (size_t i = 0; i < p->gaps.count; i++) {
-        bool one;
         SL_TRY(sli_add_beyond(p, &p->gaps.items[i], &one));
+        if (!one) SL_TRY(sli_add_germ(p, &p->gaps.items[i], &one));
         found += one;
     }
     SL_TRY(sli_add_in_line(p));
     SL_TRY(sli_add_unseen_parts(p, &missed));
-    *none = !found && !missed;
-    *added = *added || !*none;
-    return *none && p->gaps.count ? mend_slivers(p, first_candidate) : SL_OK;
+    *none = !missed && !found && (p->listed || !p->gaps.count);
+    *added = *added || missed || found;
+    return SL_OK;
+}
+
+/// Chooses more candidates, until everything is seen: a set that may be no best one.
+static sl_status complete(sli_placer *p) {
+    for (bool more = true; more && p->chosen.count < p->out->count;) {
+        SL_TRY(sl_check_cancelled(p->context));
+        SL_TRY(find_gaps(p));
+        if (!p->gaps.count) return keep_chosen(p);
+        SL_TRY(sli_choose_for_gaps(p, &more));
+    }
+    return SL_OK;
 }
 
 static sl_status bound_above(sli_placer *p, bool *added) {
@@ -165,9 +154,9 @@ static sl_status bound_above(sli_placer *p, bool *added) {
         SL_TRY(find_unseen(p, &none, &one));
         *added = *added || one;
         if (none) return keep_chosen(p);
-        if (!one) return SL_OK;
+        if (!one) break;
     }
-    return SL_OK;
+    return complete(p);
 }
 
 // --- the lower bound
@@ -292,7 +281,7 @@ static sl_status take_listed(sli_placer *p) {
     for (uint32_t i = 0; i < p->candidates.count; i++) p->chosen.items[p->chosen.count++] = i;
     SL_TRY(find_unseen(p, &none, &added));
     p->out->count = UINT32_MAX;
-    if (none) return keep_chosen(p);
+    if (!p->witnesses.count) return keep_chosen(p);
     const sl_point at = p->witnesses.items[p->witnesses.count - 1].eye;
     return sl_fail(p->context, SL_BAD_ARGUMENT, "(%g, %g) is seen from none of the places", at.x,
                    at.y);
@@ -324,6 +313,21 @@ static sl_status run_listed(sli_placer *p) {
     return SL_OK;
 }
 
+/// Both bounds once more. *gaps as in bound_below().
+static sl_status step(sli_placer *p, bool *gaps, bool *added) {
+    SL_TRY(sl_check_cancelled(p->context));
+    SL_TRY(bound_below(p, gaps, added));
+    sl_report(p->context, "place", "viewpoints", p->out->lower, p->out->upper);
+    if (!*gaps || p->out->upper == p->out->lower) return SL_OK;
+    p->out->rounds++;
+    if (p->out->rounds == 2) SL_TRY(sli_add_corners(p));
+    SL_TRY(bound_above(p, added));
+    sl_report(p->context, "place", "viewpoints", p->out->lower, p->out->upper);
+    return SL_OK;
+}
+
+/// Set covers are coarse at first: exact ones take much longer, and what they tell of too few
+/// witnesses is soon past. Where a round changes no bound, the next one is exact.
 static sl_status run(sli_placer *p) {
     const uint64_t most = p->options->rounds ? p->options->rounds : USUAL_ROUNDS;
     bool added, gaps;
@@ -331,16 +335,19 @@ static sl_status run(sli_placer *p) {
     SL_TRY(sli_add_first_witnesses(p));
     SL_TRY(sli_add_unseen_parts(p, &added));
     SL_TRY(sli_activate(p, &added));
-    while (p->out->rounds < most) {
-        SL_TRY(sl_check_cancelled(p->context));
-        SL_TRY(bound_below(p, &gaps, &added));
-        sl_report(p->context, "place", "viewpoints", p->out->lower, p->out->upper);
+    p->coarse = true;
+    uint64_t lower = 0, upper = p->out->upper;
+    for (size_t steps = 0; p->out->rounds < most; steps++) {
+        const size_t before = p->witnesses.count;
+        SL_TRY(step(p, &gaps, &added));
         if (p->out->upper == p->out->lower) return SL_OK;
+        if (steps == 2 && !gaps) SL_TRY(complete(p));
         if (!gaps) continue;
-        p->out->rounds++;
-        if (p->out->rounds == 2) SL_TRY(sli_add_corners(p));
-        SL_TRY(bound_above(p, &added));
-        if (p->out->upper == p->out->lower || !added) return SL_OK;
+        const bool same = p->out->lower == lower && p->out->upper == upper;
+        if (p->witnesses.count == before && !p->coarse) return SL_OK;
+        p->coarse = !same && p->witnesses.count > before;
+        lower = p->out->lower;
+        upper = p->out->upper;
     }
     return SL_OK;
 }

@@ -8,7 +8,8 @@
 /// A place to look from.
 typedef struct sli_candidate {
     sli_look look;
-    SL_ARRAY(uint32_t) sees; ///< witnesses, ascending
+    SL_ARRAY(uint32_t) sees;  ///< witnesses, ascending
+    SL_ARRAY(uint32_t) germs; ///< that it sees, ascending
 } sli_candidate;
 
 /// A witness, and the area of its region.
@@ -17,15 +18,25 @@ typedef struct sli_hard_witness {
     uint32_t witness;
 } sli_hard_witness;
 
+/// What is just beyond a window, at a share of its way.
+typedef struct sli_germ {
+    sli_track track;
+    double share;
+    sl_point at; ///< rounded
+} sli_germ;
+
 typedef struct sli_placer {
     sl_context *context;
     sl_query *query;
     const sl_place_options *options;
     sli_ground ground;
     bool listed; ///< candidates are given: none is added
+    bool coarse; ///< set covers without trees
     sl_region memory;
     sl_random random;
     SL_ARRAY(sli_look) witnesses;       ///< all that were made: the rows of the upper bound
+    SL_ARRAY(sli_germ) germs;           ///< more rows of the upper bound
+    sli_spans spans;                    ///< scratch
     SL_ARRAY(uint32_t) active;          ///< those of the lower bound
     SL_ARRAY(sli_candidate) candidates; ///< the columns of the upper bound
     SL_ARRAY(uint32_t) chosen;          ///< candidates
@@ -53,6 +64,16 @@ sl_status sli_add_beyond(sli_placer *placer, const sli_window_part *gap, bool *a
 /// regions first. Of those that see each other it takes one, and others while they are few.
 sl_status sli_activate(sli_placer *placer, bool *added);
 
+// --- germs (germs.c)
+
+/// Adds a germ for a gap of the chosen candidates, once, and its apex as a candidate. *added is
+/// false where none of the candidates sees it.
+sl_status sli_add_germ(sli_placer *placer, const sli_window_part *gap, bool *added);
+/// Notes the germs that a candidate sees.
+sl_status sli_try_germs(sli_placer *placer, size_t candidate);
+/// Chooses more candidates, for what the gaps leave unseen. *more: there are some.
+sl_status sli_choose_for_gaps(sli_placer *placer, bool *more);
+
 // --- candidates (candidates.c)
 
 /// Adds a candidate, once; *number is UINT32_MAX where nothing can be seen from there.
@@ -65,9 +86,9 @@ sl_status sli_add_in_line(sli_placer *placer);
 /// or as many as can be found.
 sl_status sli_choose_column(sli_placer *placer, const sli_place_columns *columns, uint32_t column);
 sl_cover_options sli_cover_options(const sli_placer *placer);
-/// Chooses the fewest candidates that see all witnesses. `problem` and `cover` are the caller's,
-/// on failure too: sli_choice_destroy(). SL_BAD_ARGUMENT, with the witness, where candidates are
-/// given and none of them sees it.
+/// Chooses the fewest candidates that see all witnesses and germs. `problem` and `cover` are the
+/// caller's, on failure too: sli_choice_destroy(). SL_BAD_ARGUMENT, with the witness, where
+/// candidates are given and none of them sees it.
 sl_status sli_choose_fewest(sli_placer *placer, sl_cover_problem *problem, sl_cover_result *cover);
 void sli_choice_destroy(sl_context *context, sl_cover_problem *problem, sl_cover_result *cover);
 /// Notes a witness where a candidate sees it.

@@ -16,7 +16,8 @@
 ///   proof says that fewer of these sets do not hold all witnesses. Exact.
 /// - `upper`: `viewpoints` see everything. Each point that is inside, or on the border of what is
 ///   inside, is in the visible region (region.h) of one of them. Exact, for the coordinates that
-///   the viewpoints have. Where `slivers` is not 0, this holds but for slivers.
+///   the viewpoints have. Anywhere, nothing is left out, be it thinner than any double: rather than
+///   that, there is one more viewpoint. Only given places can leave `slivers`.
 ///
 /// Sight is closed: it may graze walls. What is seen only in a single direction does not count for
 /// the upper bound. It has no area, so all around it is seen, by others, and then it is, too.
@@ -64,9 +65,9 @@ typedef struct sl_placement {
     sl_point *places;     ///< by column: a place that sees it, rounded
     sl_cover_proof proof; ///< of `lower`, for `columns`
     uint64_t rounds;
-    /// Parts of borders of visible regions beyond which something is unseen, thinner than about
-    /// 2^-36 of their length: a search found no unseen point there. 0: nothing is unseen, proven.
-    /// Slivers remain where a viewpoint must stand in line with walls, and does not exactly.
+    /// Among given places only: parts of borders of visible regions beyond which something is
+    /// unseen, so thin that a search found no unseen point there. None of the places sees it, or
+    /// only within rounding. 0: nothing is unseen, proven; and so it is always anywhere.
     uint64_t slivers;
     double unseen_area;      ///< of the slivers, rounded
     double seen, seen_bound; ///< of sl_place_list.count: the weight that is seen; no set of so many

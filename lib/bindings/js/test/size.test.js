@@ -16,9 +16,9 @@ test('the runtime is at most 22 kB', () => {
   assert.ok(bytes <= 22000, said(bytes))
 })
 
-test('the whole library is at most 203 kB', () => {
+test('the whole library is at most 208 kB', () => {
   const bytes = size('bake.js', 'arguments.js', 'maptext.js', 'scene.js', 'host.js', 'module.js', 'core.wasm')
-  assert.ok(bytes <= 203000, said(bytes))
+  assert.ok(bytes <= 208000, said(bytes))
 })
 
 test('visibility graph analysis is at most 130 kB', () => {

@@ -1,0 +1,105 @@
+/// Germs: what a gap leaves unseen where no double is. Just beyond a window there is always some
+/// room, but it may be thinner than the distance of doubles, as where a viewpoint must stand in
+/// line with two walls. No witness fits in there, and none is needed for the upper bound: a germ is
+/// "what is just beyond this window, there", and spans tell exactly who sees it.
+///
+/// Where the window's apex stands as a viewpoint, it looks along the window and sees the germ. So
+/// candidates that see all germs can always be found.
+#include "analysis/placement/placer.h"
+
+#include "geometry/orient.h"
+
+/// Notes a germ where a candidate sees it. Its middle is rounded, so this is only nearly exact:
+/// what is unseen in the end, gaps tell.
+static sl_status try_germ(sli_placer *p, size_t number, uint32_t germ) {
+    const sli_germ *g = &p->germs.items[germ];
+    sli_candidate *c = &p->candidates.items[number];
+    bool sees = false;
+    if (!sli_box_holds(&c->look.bounds, g->at)) return SL_OK;
+    SL_TRY(sli_track_spans(p->context, &g->track, &c->look, true, &p->spans));
+    for (size_t i = 0; i < p->spans.count && !sees; i++)
+        sees = sli_spot_share(&p->spans.items[i].from) <= g->share &&
+               sli_spot_share(&p->spans.items[i].to) >= g->share;
+    if (!sees) return SL_OK;
+    SL_TRY(SL_ARRAY_ROOM(p->context, &c->germs, 1));
+    c->germs.items[c->germs.count++] = germ;
+    return SL_OK;
+}
+
+sl_status sli_try_germs(sli_placer *p, size_t candidate) {
+    for (uint32_t i = 0; i < p->germs.count; i++) SL_TRY(try_germ(p, candidate, i));
+    return SL_OK;
+}
+
+sl_status sli_add_germ(sli_placer *p, const sli_window_part *gap, bool *added) {
+    sli_germ germ = {.track = sli_track_of(sli_chosen_look(p, gap->look), gap->window),
+                     .share = gap->from + (gap->to - gap->from) / 2};
+    uint32_t number;
+    germ.at = sli_track_at(&germ.track, germ.share);
+    *added = false;
+    for (size_t i = 0; i < p->germs.count; i++) {
+        const sli_germ *g = &p->germs.items[i];
+        if (g->share == germ.share && g->track.seen == germ.track.seen &&
+            sli_same_point(g->track.line.a, germ.track.line.a) &&
+            sli_same_point(g->track.line.b, germ.track.line.b))
+            return SL_OK;
+    }
+    if (!p->listed) SL_TRY(sli_add_candidate(p, germ.track.line.b, &number));
+    SL_TRY(SL_ARRAY_ROOM(p->context, &p->germs, 1));
+    p->germs.items[p->germs.count] = germ;
+    for (size_t i = 0; i < p->candidates.count; i++) {
+        const size_t before = p->candidates.items[i].germs.count;
+        SL_TRY(try_germ(p, i, (uint32_t)p->germs.count));
+        *added = *added || p->candidates.items[i].germs.count > before;
+    }
+    p->germs.count += *added;
+    return SL_OK;
+}
+
+/// The candidate that sees most of the germs from `first` on that are not seen; UINT32_MAX: none.
+static uint32_t best_for(const sli_placer *p, size_t first, const bool *seen) {
+    uint32_t best = UINT32_MAX;
+    size_t most = 0;
+    for (size_t i = 0; i < p->candidates.count; i++) {
+        const sli_candidate *c = &p->candidates.items[i];
+        size_t sees = 0;
+        for (size_t k = c->germs.count; k && c->germs.items[k - 1] >= first; k--)
+            sees += !seen[c->germs.items[k - 1]];
+        if (sees > most) most = sees, best = (uint32_t)i;
+    }
+    return best;
+}
+
+static sl_status choose_for(sli_placer *p, size_t first, bool *seen) {
+    for (;;) {
+        const uint32_t best = best_for(p, first, seen);
+        if (best == UINT32_MAX) return SL_OK;
+        SL_TRY(SL_ARRAY_ROOM(p->context, &p->chosen, 1));
+        p->chosen.items[p->chosen.count++] = best;
+        const sli_candidate *c = &p->candidates.items[best];
+        for (size_t k = 0; k < c->germs.count; k++) seen[c->germs.items[k]] = true;
+    }
+}
+
+sl_status sli_choose_for_gaps(sli_placer *p, bool *more) {
+    const size_t before = p->chosen.count, first = p->germs.count;
+    bool one;
+    for (size_t i = 0; i < p->gaps.count; i++) SL_TRY(sli_add_germ(p, &p->gaps.items[i], &one));
+    bool *seen = sl_alloc_array(p->context, p->germs.count, sizeof *seen);
+    if (!seen) return SL_NO_MEMORY;
+    sl_status status = choose_for(p, first, seen);
+    sl_free(p->context, seen);
+    // Gaps that had germs before: their apexes.
+    for (size_t i = 0; status == SL_OK && p->chosen.count == before && i < p->gaps.count; i++) {
+        const sli_window_part *gap = &p->gaps.items[i];
+        const sl_point apex = sli_chosen_look(p, gap->look)->windows[gap->window].apex;
+        uint32_t number;
+        status = sli_add_candidate(p, apex, &number);
+        bool there = number == UINT32_MAX;
+        for (size_t k = 0; k < p->chosen.count; k++) there = there || p->chosen.items[k] == number;
+        if (status == SL_OK) status = SL_ARRAY_ROOM(p->context, &p->chosen, 1);
+        if (status == SL_OK && !there) p->chosen.items[p->chosen.count++] = number;
+    }
+    *more = p->chosen.count > before;
+    return status;
+}
