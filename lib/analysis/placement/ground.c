@@ -13,8 +13,30 @@ static int compare_ends(const void *left, const void *right) {
     return order ? order : sli_compare_points(a->other, b->other);
 }
 
-sl_status sli_ground_make(sl_context *context, const sl_space *space, sli_ground *out) {
+bool sli_segment_holds(const sl_segment *segment, sl_point p) {
+    const sl_point a = segment->a, b = segment->b;
+    return p.x >= sli_lesser(a.x, b.x) && p.x <= sli_greater(a.x, b.x) &&
+           p.y >= sli_lesser(a.y, b.y) && p.y <= sli_greater(a.y, b.y) && sli_orient(a, b, p) == 0;
+}
+
+/// Cuts walls at a point within them.
+static sl_status cut_at(sl_context *context, const sl_space *space, sl_point at, sli_ground *out,
+                        size_t *room) {
+    for (uint32_t i = 0; i < space->wall_count; i++) {
+        const sl_segment w = {space->walls[i].a, space->walls[i].b};
+        if (sli_same_point(w.a, at) || sli_same_point(w.b, at) || !sli_segment_holds(&w, at))
+            continue;
+        SL_TRY(sl_reserve(context, &out->ends, room, out->end_count + 2, sizeof *out->ends));
+        out->ends[out->end_count++] = (sli_wall_end){at, w.a};
+        out->ends[out->end_count++] = (sli_wall_end){at, w.b};
+    }
+    return SL_OK;
+}
+
+sl_status sli_ground_make(sl_context *context, const sl_space *space, const sl_map *map,
+                          sli_ground *out) {
     *out = (sli_ground){.space = space, .end_count = 2 * (size_t)space->wall_count};
+    size_t room = out->end_count;
     out->ends = sl_alloc_array(context, out->end_count, sizeof *out->ends);
     if (!out->ends) return SL_NO_MEMORY;
     for (uint32_t i = 0; i < space->wall_count; i++) {
@@ -22,6 +44,12 @@ sl_status sli_ground_make(sl_context *context, const sl_space *space, sli_ground
         out->ends[2 * i] = (sli_wall_end){w->a, w->b};
         out->ends[2 * i + 1] = (sli_wall_end){w->b, w->a};
     }
+    for (size_t i = 0; i < map->door_count; i++)
+        for (size_t k = 0; k < sli_door_piece_count(&map->doors[i]); k++) {
+            const sl_segment piece = sli_door_piece(&map->doors[i], k);
+            SL_TRY(cut_at(context, space, piece.a, out, &room));
+            SL_TRY(cut_at(context, space, piece.b, out, &room));
+        }
     if (out->end_count) qsort(out->ends, out->end_count, sizeof *out->ends, compare_ends);
     for (uint32_t i = 0; i < space->portal_count; i++) {
         const uint32_t *cell = space->portals[i].cell;

@@ -1,6 +1,7 @@
 /// Looks: the fronts and windows of visible regions.
 #include "analysis/placement/looks.h"
 
+#include "analysis/placement/ground.h"
 #include "geometry/length.h"
 #include "geometry/orient.h"
 #include "sightline/support.h"
@@ -14,10 +15,6 @@ static bool is_wall(const sl_region_edge *edge) {
     return edge->kind == SL_EDGE_WALL || edge->kind == SL_EDGE_BORDER;
 }
 
-static bool is_end(const sl_segment *wall, sl_point point) {
-    return sli_same_point(wall->a, point) || sli_same_point(wall->b, point);
-}
-
 /// The line of the wall, or of the map's border, that an edge is on.
 static sl_segment line_of(const sl_space *space, const sl_region *r, size_t i) {
     if (r->edges[i].wall < space->wall_count)
@@ -29,12 +26,12 @@ static sl_segment line_of(const sl_space *space, const sl_region *r, size_t i) {
     return (sl_segment){{b->min.x, p.y}, {b->max.x, p.y}};
 }
 
-/// Whether the corner between edges i and i + 1, both on walls, is a corner of both. Else a window
-/// between them was too short for doubles.
+/// Whether the corner between edges i and i + 1, both on walls, is on both. Else a window between
+/// them was too short for doubles. A shut door may end within a wall.
 static bool joins(const sl_space *space, const sl_region *r, size_t i) {
     const size_t next = (i + 1) % r->count;
     const sl_segment a = line_of(space, r, i), b = line_of(space, r, next);
-    return is_end(&a, r->points[next]) && is_end(&b, r->points[next]);
+    return sli_segment_holds(&a, r->points[next]) && sli_segment_holds(&b, r->points[next]);
 }
 
 typedef struct builder {

@@ -80,6 +80,7 @@ static sl_status keep_viewpoints(sli_placer *p, sl_viewpoint *all, size_t count)
 /// bound if they are fewer.
 static sl_status keep_chosen(sli_placer *p) {
     sl_placement *out = p->out;
+    if (!p->chosen.count) return SL_OK; // no viewpoint has no gap, and sees nothing
     if (out->count < p->chosen.count) return SL_OK;
     if (out->count == p->chosen.count && out->slivers <= p->gaps.count) return SL_OK;
     sl_viewpoint *all = sl_alloc_array(p->context, p->chosen.count, sizeof *all);
@@ -395,7 +396,7 @@ sl_status sl_place(sl_context *context, sl_query *query, const sl_place_options 
     SL_TRY(sl_query_space(context, query, &space, NULL));
     sli_placer p = {
         .context = context, .query = query, .options = options ? options : &usual, .out = &made};
-    sl_status status = sli_ground_make(context, space, &p.ground);
+    sl_status status = sli_ground_make(context, space, sl_query_map(query), &p.ground);
     if (status == SL_OK) status = p.options->places ? run_listed(&p) : run(&p);
     if (status == SL_OK) status = measure_unseen(&p);
     sli_placer_destroy(&p);

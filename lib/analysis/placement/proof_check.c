@@ -456,11 +456,11 @@ static sl_status make_eye(checker *c, uint32_t i, sl_point at, bool witness) {
     return SL_OK;
 }
 
-static sl_status check_bound(sl_context *context, const sl_space *space, const sl_placement *claim,
-                             bool lower, sl_place_verdict *out) {
+static sl_status check_bound(sl_context *context, const sl_space *space, const sl_map *map,
+                             const sl_placement *claim, bool lower, sl_place_verdict *out) {
     checker c = {.context = context, .space = space, .out = out};
     c.eye_count = lower ? claim->witness_count : claim->count;
-    sl_status status = sli_proof_scene_make(context, space, &c.scene);
+    sl_status status = sli_proof_scene_make(context, space, map, &c.scene);
     c.eyes = sl_alloc_array(context, c.eye_count, sizeof *c.eyes);
     if (!c.eyes) status = SL_NO_MEMORY;
     for (uint32_t i = 0; status == SL_OK && i < c.eye_count; i++)
@@ -479,6 +479,6 @@ sl_status sl_place_proof_check(sl_context *context, sl_query *query, const sl_pl
         return sl_fail(context, SL_UNSUPPORTED,
                        "placement knows no mirrors, one-way glass and limited walls");
     SL_TRY(sl_query_space(context, query, &space, NULL));
-    SL_TRY(check_bound(context, space, claim, false, out));
-    return check_bound(context, space, claim, true, out);
+    SL_TRY(check_bound(context, space, sl_query_map(query), claim, false, out));
+    return check_bound(context, space, sl_query_map(query), claim, true, out);
 }

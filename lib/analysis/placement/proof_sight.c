@@ -1,5 +1,6 @@
 /// Sight for checks of proofs (proof_sight.h).
 #include "analysis/placement/proof_sight.h"
+#include "analysis/placement/ground.h"
 
 #include "geometry/crossing.h"
 #include "geometry/orient.h"
@@ -89,28 +90,63 @@ static void number_corners(sli_proof_scene *s, wall_end *ends) {
     }
 }
 
-sl_status sli_proof_scene_make(sl_context *context, const sl_space *space, sli_proof_scene *out) {
+static bool is_within(const sl_segment *w, sl_point p) {
+    if (sli_same_point(w->a, p) || sli_same_point(w->b, p)) return false;
+    return sli_compare_points(w->a, p) != sli_compare_points(w->b, p) &&
+           sli_orient(w->a, w->b, p) == 0;
+}
+
+/// Cuts the walls that a point is within: where shut doors end, so that all walls meet at common
+/// ends.
+static sl_status cut_walls(sl_context *context, sl_point at, size_t *room, sli_proof_scene *s) {
+    for (uint32_t i = 0, count = s->wall_count; i < count; i++) {
+        if (!is_within(&s->walls[i], at)) continue;
+        SL_TRY(sl_reserve(context, &s->walls, room, (size_t)s->wall_count + 1, sizeof *s->walls));
+        s->walls[s->wall_count++] = (sl_segment){at, s->walls[i].b};
+        s->walls[i].b = at;
+    }
+    return SL_OK;
+}
+
+static sl_status add_walls(sl_context *context, const sl_space *space, const sl_map *map,
+                           sli_proof_scene *out) {
     const sl_box b = space->bounds;
     const double more = (b.max.x - b.min.x) + (b.max.y - b.min.y);
     const sl_point low = {b.min.x - more, b.min.y - more}, high = {b.max.x + more, b.max.y + more};
     const sl_point box[] = {low, {high.x, low.y}, high, {low.x, high.y}};
-    *out = (sli_proof_scene){.space = space, .bounds = {low, high}};
-    const size_t room = (size_t)space->wall_count + 4;
-    wall_end *ends = sl_alloc_array(context, 2 * room, sizeof *ends);
+    out->bounds = (sl_box){low, high};
+    size_t room = (size_t)space->wall_count + 4;
     out->walls = sl_alloc_array(context, room, sizeof *out->walls);
-    out->ends = sl_alloc_array(context, 2 * room, sizeof *out->ends);
-    out->corners = sl_alloc_array(context, 2 * room, sizeof *out->corners);
-    out->others = sl_alloc_array(context, 2 * room, sizeof *out->others);
-    const bool made = ends && out->walls && out->ends && out->corners && out->others;
-    for (uint32_t i = 0; made && i < room; i++) {
-        const sl_segment w = i < space->wall_count
-                                 ? (sl_segment){space->walls[i].a, space->walls[i].b}
-                                 : (sl_segment){box[room - 1 - i], box[(room - i) % 4]};
-        const uint32_t n = out->wall_count;
-        if (sli_same_point(w.a, w.b)) continue;
+    if (!out->walls) return SL_NO_MEMORY;
+    for (uint32_t i = 0; i < space->wall_count; i++) {
+        const sl_segment w = {space->walls[i].a, space->walls[i].b};
+        if (!sli_same_point(w.a, w.b)) out->walls[out->wall_count++] = w;
+    }
+    for (uint32_t i = 0; i < 4; i++)
+        out->walls[out->wall_count++] = (sl_segment){box[3 - i], box[(4 - i) % 4]};
+    for (size_t i = 0; i < map->door_count; i++)
+        for (size_t k = 0; k < sli_door_piece_count(&map->doors[i]); k++) {
+            const sl_segment piece = sli_door_piece(&map->doors[i], k);
+            SL_TRY(cut_walls(context, piece.a, &room, out));
+            SL_TRY(cut_walls(context, piece.b, &room, out));
+        }
+    return SL_OK;
+}
+
+sl_status sli_proof_scene_make(sl_context *context, const sl_space *space, const sl_map *map,
+                               sli_proof_scene *out) {
+    *out = (sli_proof_scene){.space = space};
+    SL_TRY(add_walls(context, space, map, out));
+    const size_t count = 2 * (size_t)out->wall_count;
+    wall_end *ends = sl_alloc_array(context, count, sizeof *ends);
+    out->ends = sl_alloc_array(context, count, sizeof *out->ends);
+    out->corners = sl_alloc_array(context, count, sizeof *out->corners);
+    out->others = sl_alloc_array(context, count, sizeof *out->others);
+    const bool made = ends && out->ends && out->corners && out->others;
+    for (uint32_t n = 0; made && n < out->wall_count; n++) {
+        const sl_segment w = out->walls[n];
         ends[2 * n] = (wall_end){w.a, w.b, 2 * n};
         ends[2 * n + 1] = (wall_end){w.b, w.a, 2 * n + 1};
-        out->walls[out->wall_count++] = w;
     }
     if (made) number_corners(out, ends);
     sl_free(context, ends);

@@ -46,7 +46,9 @@ typedef struct sli_proof_scene {
     uint32_t wall_count, corner_count;
 } sli_proof_scene;
 
-sl_status sli_proof_scene_make(sl_context *context, const sl_space *space, sli_proof_scene *out);
+/// `map`: whose doors the space has.
+sl_status sli_proof_scene_make(sl_context *context, const sl_space *space, const sl_map *map,
+                               sli_proof_scene *out);
 void sli_proof_scene_destroy(sl_context *context, sli_proof_scene *scene);
 
 enum { SLI_NO_WALL = -1, SLI_SHUT = -2 };
