@@ -440,7 +440,7 @@ SL_API void sl_draw_conflict(cairo_t *cairo, const sl_palette *palette, const sl
 
 /// The colour of a class. Blind spots stand out; the others are one tone, the deeper the more
 /// viewpoints.
-SL_API sl_colour sl_coverage_colour(const sl_palette *palette, uint32_t class);
+SL_API sl_colour sl_coverage_colour(const sl_palette *palette, uint32_t kind);
 
 /// Colours that tell viewpoints apart, for colour-blind eyes too.
 SL_API sl_colour sl_viewpoint_colour(const sl_palette *palette, size_t viewpoint);

@@ -21,7 +21,7 @@ SL_API sl_status sl_io_use(sl_context *context);
 /// The endings of all their files, with spaces between.
 #define SL_IO_ENDINGS                                                                              \
     ".ug .dxf .svg .png .pgm .pbm .yaml .yml .tmx .json .tmj .world .ldtk .ldtkl .dd2vtt .uvtt "   \
-    ".df2vtt .db .ldb .geojson .wad"
+    ".df2vtt .db .ldb .geojson .pol .wad"
 
 // --- what there is in a drawing
 

@@ -4,7 +4,7 @@
 ///     sl_route route = {0};
 ///     sl_route_finder_create(context, query, &finder);
 ///     sl_route_find(context, finder, from, to, &route);
-///     if (route.found) printf("%g\n", route.length);
+///     if (route.found) use(route.length);
 ///     sl_route_destroy(context, &route);
 ///     sl_route_finder_destroy(context, finder);
 ///
