@@ -26,7 +26,9 @@ static sl_box draw_row(ui_state *ui, column *c, const sl_colour *colour, const c
     const double left = c->left + (colour ? 1.5 * t : 0), room = c->right - left;
     const double wide = ui_text_width(ui, 0.95, false, value);
     const bool below = ui_text_width(ui, 0.95, false, label) + wide + t > room;
-    const sl_box row = {{c->left - out, c->y}, {c->right + out, c->y + (below ? 2.9 : 1.55) * t}};
+    const double more = below ? ui_lines_height(ui, room, 0.95, false, value) : 0;
+    const double high = 1.55 * t + more;
+    const sl_box row = {{c->left - out, c->y}, {c->right + out, c->y + high}};
     if (chosen || box_has(row, ui->pointer))
         ui_fill_round(ui, row, 0.25 * t,
                       sl_colour_mix(ui->palette.page, ui->palette.glass, chosen ? 0.22 : 0.1));
@@ -37,7 +39,7 @@ static sl_box draw_row(ui_state *ui, column *c, const sl_colour *colour, const c
     ui_text_within(ui, left, c->y + 1.12 * t, below ? room : room - wide - t, 0.95, ui->palette.ink,
                    label);
     if (below)
-        ui_text_within(ui, left, c->y + 2.45 * t, room, 0.95, ui->palette.faint, value);
+        ui_lines(ui, left, c->y + 2.45 * t, room, 0.95, false, ui->palette.faint, value);
     else
         ui_text_right(ui, c->right, c->y + 1.12 * t, 0.95, ui->palette.faint, value);
     c->y = row.max.y;
