@@ -265,7 +265,8 @@ class Viewpoints(Plans):
         self.assertEqual(named, plain)
         for text in ("x,y\n1\n", "x,y\n1,\n", "y,x\n1,b\n", "name,x,y\nC,1,2,\nC\n"):
             self.write("wrong.csv", text)
-            self.assertIn("two to four finite numbers are needed", self.refused(*self.AT, "--points", "wrong.csv"))
+            self.assertRegex(self.refused(*self.AT, "--points", "wrong.csv"),
+                             r"wrong\.csv:\d: (x and y are needed|[xy]: '.*' is no finite number)")
 
     def test_cameras_of_a_table_are_drawn_as_points_are(self):
         self.write("cameras.csv", "x,y,angle,fov\n2000,1000,45,90\n")

@@ -201,12 +201,13 @@ static void test_terrains(void **state) {
     "<wangsets><wangset name='" name "'><wangcolor name='" color "'/><wangcolor name='Floor'/>"    \
     "<wangtile tileid='4' wangid='" id "'/><wangtile tileid='1' wangid='2,2,2,2,2,2,2,1'/>"        \
     "</wangset></wangsets>"
+#define TERRAIN                                                                                    \
+    "<terraintypes><terrain name='Wall'/><terrain name='Floor'/></terraintypes>"                   \
+    "<tile id='4' terrain='0,0,,1'/><tile id='1' terrain='1,1,1,0'/>"
 #define DRAWN MAP(SET_OF("%s") LAYER("a", CSV("2,5,5,2,2,2")))
-    static const char *const solid[] = {
-        WANG("Dungeon", "Wall", "0,1,0,1,0,1,0,1"),
-        WANG("Dungeon", "stone walls", "2,1,2,1,1,1,2,2"), WANG("Walls", "", "0,1,0,0,0,0,0,0"),
-        "<terraintypes><terrain name='Wall'/><terrain name='Floor'/></terraintypes>"
-        "<tile id='4' terrain='0,0,,1'/><tile id='1' terrain='1,1,1,0'/>"};
+    static const char *const solid[] = {WANG("Dungeon", "Wall", "0,1,0,1,0,1,0,1"),
+                                        WANG("Dungeon", "stone walls", "2,1,2,1,1,1,2,2"),
+                                        WANG("Walls", "", "0,1,0,0,0,0,0,0"), TERRAIN};
     static const char *const others[] = {
         WANG("Dungeon", "Grass", "0,1,0,1,0,1,0,1"), WANG("Dungeon", "Wall", "2,2,2,2,2,2,2,1"),
         WANG("Dungeon", "Wall", "9,9,,x,0,99999999999999999999"),

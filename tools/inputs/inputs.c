@@ -51,7 +51,7 @@ option_table input_option_table(input_options *input) {
         {"map", 0, "NAME", "which map of a file that holds several", .text = &to->map,
          .given = given},
         {"crop", 0, "X0,Y0,X1,Y1", "keep only what lies in this box, in the map's places",
-         .box = &to->crop, .flag = &to->has_crop, .given = given},
+         .box = &to->crop, .flag = &to->has_crop, .given = given, .rare = true},
         {"slice", 0, "Z", "cut a 3D model at this height", .number = &to->slice,
          .flag = &to->has_slice, .given = given, .rare = true},
         {"layers", 0, "LAYER,...", "which layers of a drawing or a tile map to read",
