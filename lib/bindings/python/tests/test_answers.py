@@ -254,7 +254,7 @@ class CommandLine(unittest.TestCase):
                  *sorted((support.MAPS / "oblique").glob("*.map"))]
         for path in paths:
             with self.subTest(path.name):
-                theirs = support.table(support.command("isovist", path, "--grid", "3"))
+                theirs = support.table(support.command("isovist", path, "--grid", "2"))
                 eyes = np.column_stack([theirs["x"], theirs["y"]])
                 ours = sightline.Plan.from_file(path).isovists(eyes, arrays=True)
                 self.assertGreater(len(eyes), 10)
