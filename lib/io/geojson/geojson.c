@@ -84,12 +84,13 @@ static sl_status choose(sli_geo *geo) {
         const bool asked = is_asked_for(geo, f);
         const bool other =
             f->means == SLI_GEO_UNSAID || f->means == SLI_GEO_WAY || f->means == SLI_GEO_NO_WALL;
-        if (options->lines && (asked || !options->layers))
+        // Without layers asked for, nothing is `asked`.
+        const bool wall =
+            options->layers ? options->lines && asked : options->lines || f->means == walls;
+        if (wall)
             f->means = SLI_GEO_WALL;
         else if (asked)
             f->means = other ? SLI_GEO_WALL : f->means;
-        else if (f->means == walls && !options->layers)
-            f->means = SLI_GEO_WALL;
         else if (other || f->means == SLI_GEO_WALL)
             f->means = SLI_GEO_NO_WALL;
         f->taken = f->means != SLI_GEO_NO_WALL &&
