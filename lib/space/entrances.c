@@ -137,15 +137,10 @@ static sl_status number_triangles(finder *f) {
     return f->access && f->parent && f->following && f->group_of && f->order ? SL_OK : SL_NO_MEMORY;
 }
 
-static uint32_t root_of(finder *f, uint32_t at) {
-    while (f->parent[at] != at) at = f->parent[at] = f->parent[f->parent[at]];
-    return at;
-}
-
 /// Joins the sets of two triangles. The outside, which has the last number, stays a root. Sets are
 /// also rings of `following`.
 static void join(finder *f, uint32_t a, uint32_t b, double width) {
-    uint32_t into = root_of(f, a), other = root_of(f, b);
+    uint32_t into = sl_root_of(f->parent, a), other = sl_root_of(f->parent, b);
     if (into == other) return;
     if (other == f->count) {
         other = into;

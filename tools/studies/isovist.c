@@ -113,11 +113,6 @@ sl_status eyes_read_table(sl_context *context, const char *path, const sl_space 
 
 // --- parts
 
-static uint32_t root_of(uint32_t *parent, uint32_t at) {
-    while (parent[at] != at) at = parent[at] = parent[parent[at]];
-    return at;
-}
-
 sl_status isovist_part_sizes(sl_context *context, sl_query *query, const eye_places *eyes,
                              uint32_t *sizes) {
     const sl_space *space;
@@ -131,11 +126,11 @@ sl_status isovist_part_sizes(sl_context *context, sl_query *query, const eye_pla
     for (uint32_t c = 0; room && c < cells; c++) {
         const sl_directed_portal *directed = &space->directed[space->cells[c].first_directed];
         for (uint32_t i = 0; i < space->cells[c].directed_count; i++)
-            parent[root_of(parent, c)] = root_of(parent, directed[i].cell);
+            parent[sl_root_of(parent, c)] = sl_root_of(parent, directed[i].cell);
     }
     for (size_t i = 0; room && i < count; i++) {
         const uint32_t cell = sl_query_locate(query, eyes->list.items[i].at);
-        sizes[i] = cell == SL_NO_CELL ? cells : root_of(parent, cell);
+        sizes[i] = cell == SL_NO_CELL ? cells : sl_root_of(parent, cell);
         points[sizes[i]]++;
     }
     for (size_t i = 0; room && i < count; i++) sizes[i] = points[sizes[i]];

@@ -2,7 +2,7 @@
 #ifndef SLI_PLACE_COLUMNS_H
 #define SLI_PLACE_COLUMNS_H
 
-#include "analysis/placement/ground.h"
+#include "analysis/placement/place_ground.h"
 #include "analysis/placement/spans.h"
 
 /// Part of a window of a look: between two shares of the way (sli_spot.at), rounded. Or the eye of

@@ -188,16 +188,11 @@ static void add_piece(const sl_space *pieces, uint32_t piece, double *largest,
     }
 }
 
-static uint32_t root_of(uint32_t *parent, uint32_t at) {
-    while (parent[at] != at) at = parent[at] = parent[parent[at]];
-    return at;
-}
-
 /// Joins two pieces, to the one of the smaller number.
 static void join(const sl_overlay *overlay, uint32_t *parent, uint32_t a, uint32_t b) {
     if (!is_blind(overlay, a) || !is_blind(overlay, b)) return;
-    a = root_of(parent, a);
-    b = root_of(parent, b);
+    a = sl_root_of(parent, a);
+    b = sl_root_of(parent, b);
     parent[a > b ? a : b] = a > b ? b : a;
 }
 
@@ -261,7 +256,7 @@ static sl_status gather(surveyor *s, uint32_t *parent, double *largest) {
     for (uint32_t c = 0; status == SL_OK && c < pieces->cell_count; c++) {
         out->spots[c] = UINT32_MAX;
         if (!is_blind(&out->overlay, c)) continue;
-        const uint32_t root = root_of(parent, c);
+        const uint32_t root = sl_root_of(parent, c);
         if (root == c) {
             status = SL_ARRAY_ROOM(s->context, &found, 1);
             if (status != SL_OK) break;

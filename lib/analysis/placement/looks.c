@@ -1,7 +1,7 @@
 /// Looks: the fronts and windows of visible regions.
 #include "analysis/placement/looks.h"
 
-#include "analysis/placement/ground.h"
+#include "analysis/placement/place_ground.h"
 #include "geometry/length.h"
 #include "geometry/orient.h"
 #include "sightline/support.h"

@@ -1,6 +1,6 @@
 /// Sight for checks of proofs (proof_sight.h).
 #include "analysis/placement/proof_sight.h"
-#include "analysis/placement/ground.h"
+#include "analysis/placement/place_ground.h"
 
 #include "geometry/crossing.h"
 #include "geometry/orient.h"

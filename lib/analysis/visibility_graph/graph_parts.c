@@ -20,14 +20,9 @@ typedef struct search {
     uint32_t *stack, depth;
 } search;
 
-static uint32_t root_of(uint32_t *parent, uint32_t at) {
-    while (parent[at] != at) at = parent[at] = parent[parent[at]];
-    return at;
-}
-
 static void join(search *s, uint32_t a, uint32_t b) {
-    a = root_of(s->parent, a);
-    b = root_of(s->parent, b);
+    a = sl_root_of(s->parent, a);
+    b = sl_root_of(s->parent, b);
     s->parent[a > b ? a : b] = a > b ? b : a;
 }
 
@@ -64,7 +59,7 @@ static void count_parts(search *s, uint32_t *sizes) {
     const uint32_t count = s->graph->count;
     for (uint32_t p = 0; p < count; p++) sizes[p] = 0;
     for (uint32_t p = 0; p < count; p++) {
-        s->part[p] = root_of(s->parent, s->part[p]);
+        s->part[p] = sl_root_of(s->parent, s->part[p]);
         sizes[s->part[p]]++;
     }
     for (uint32_t p = 0; p < count; p++) sizes[p] = sizes[s->part[p]];

@@ -37,7 +37,7 @@ typedef struct sl_place_options {
     const sl_cover_program *program; ///< for set covers; NULL: without a linear program
     const sl_point *places; ///< to choose from; NULL: anywhere. `lower` is then for these alone
     uint32_t place_count;
-    uint64_t rounds; ///< at most so many; 0 for 400; among given places for no limit
+    uint64_t rounds; ///< up to this number; 0: up to 400, and no limit among given places
     uint64_t nodes;  ///< of the branching tree of each set cover, at most
 } sl_place_options;
 

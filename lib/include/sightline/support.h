@@ -97,6 +97,14 @@ static inline void sl_bits_flip(sl_bits *set, size_t i) {
     set[i / 64] ^= (sl_bits)1 << (i % 64);
 }
 
+// --- disjoint sets of numbers: parent[i] == i at first
+
+/// The root of the set that a number is in; shortens the way to it.
+static inline uint32_t sl_root_of(uint32_t *parent, uint32_t at) {
+    while (parent[at] != at) at = parent[at] = parent[parent[at]];
+    return at;
+}
+
 // --- random numbers: the same on every machine (SplitMix64; Steele, Lea & Flood 2014)
 
 /// A source of random numbers; `state` is the seed at first. The same on every machine.

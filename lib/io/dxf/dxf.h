@@ -5,8 +5,8 @@
 #ifndef SL_DXF_H
 #define SL_DXF_H
 
+#include "io/parts/bad_parts.h"
 #include "io/parts/contents.h"
-#include "io/parts/faults.h"
 #include "io/parts/layers.h"
 #include "io/parts/names.h"
 #include "io/parts/shapes.h"

@@ -50,32 +50,17 @@ static sl_status cut(sl_context *context, sl_map *map, sli_regions *out) {
 
 // --- joining cells
 
-static uint32_t root_of(uint32_t *parent, uint32_t cell) {
-    while (parent[cell] != cell) cell = parent[cell] = parent[parent[cell]];
-    return cell;
-}
-
-static double area_of(const sl_space *space, uint32_t number) {
-    const sl_cell *cell = &space->cells[number];
-    const sl_point *at = space->vertices + cell->first_vertex;
-    double sum = 0;
-    for (uint32_t i = 1; i + 1 < cell->vertex_count; i++)
-        sum += (at[i].x - at[0].x) * (at[i + 1].y - at[0].y) -
-               (at[i + 1].x - at[0].x) * (at[i].y - at[0].y);
-    return sum / 2;
-}
-
 /// Numbers the regions: `region` holds parents of the union-find first.
 static sl_status number_regions(sl_context *context, sli_regions *regions) {
     const sl_space *space = &regions->space;
     uint32_t *region = regions->region;
     for (uint32_t i = 0; i < space->cell_count; i++) region[i] = i;
     for (uint32_t i = 0; i < space->portal_count; i++) {
-        const uint32_t a = root_of(region, space->portals[i].cell[0]);
-        const uint32_t b = root_of(region, space->portals[i].cell[1]);
+        const uint32_t a = sl_root_of(region, space->portals[i].cell[0]);
+        const uint32_t b = sl_root_of(region, space->portals[i].cell[1]);
         region[a > b ? a : b] = a > b ? b : a; // a root is the lowest cell
     }
-    for (uint32_t i = 0; i < space->cell_count; i++) root_of(region, i);
+    for (uint32_t i = 0; i < space->cell_count; i++) sl_root_of(region, i);
     for (uint32_t i = 0; i < space->cell_count; i++) {
         const uint32_t parent = region[i];
         region[i] = parent == i ? (uint32_t)regions->count++ : region[parent];
@@ -83,7 +68,7 @@ static sl_status number_regions(sl_context *context, sli_regions *regions) {
     regions->items = sl_alloc_array(context, regions->count, sizeof *regions->items);
     if (!regions->items) return SL_NO_MEMORY;
     for (uint32_t i = 0; i < space->cell_count; i++)
-        regions->items[region[i]].area += area_of(space, i);
+        regions->items[region[i]].area += sl_space_area(space, i);
     for (uint32_t i = 0; i < space->seam_portal_count; i++)
         if (space->seams[space->seam_portals[i].seam].kind == SL_SEAM_DOOR)
             regions->items[region[space->portals[space->seam_portals[i].portal].cell[0]]].doors =

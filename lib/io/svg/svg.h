@@ -4,8 +4,8 @@
 #ifndef SL_SVG_H
 #define SL_SVG_H
 
+#include "io/parts/bad_parts.h"
 #include "io/parts/contents.h"
-#include "io/parts/faults.h"
 #include "io/parts/layers.h"
 #include "io/parts/shapes.h"
 #include "io/svg/svg_count.h"

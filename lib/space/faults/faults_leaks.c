@@ -248,20 +248,15 @@ static uint32_t locate(const sli_leak_search *s, sl_point point) {
     return found;
 }
 
-static uint32_t root_of(uint32_t *parents, uint32_t piece) {
-    while (parents[piece] != piece) piece = parents[piece] = parents[parents[piece]];
-    return piece;
-}
-
 /// Joins pieces, the widest opening first, and marks the leaks.
 static void join(sli_leak_search *s, uint32_t start) {
     const uint32_t outside = (uint32_t)s->pieces.count - 1;
     for (uint32_t i = 0; i <= outside; i++) s->parents[i] = i;
     for (uint32_t i = 0; i < s->openings.count; i++) {
         opening *each = &s->openings.items[i];
-        const uint32_t a = root_of(s->parents, each->pieces[0]);
-        const uint32_t b = root_of(s->parents, each->pieces[1]);
-        const uint32_t in = root_of(s->parents, start), out = root_of(s->parents, outside);
+        const uint32_t a = sl_root_of(s->parents, each->pieces[0]);
+        const uint32_t b = sl_root_of(s->parents, each->pieces[1]);
+        const uint32_t in = sl_root_of(s->parents, start), out = sl_root_of(s->parents, outside);
         each->leaks = (a == in && b == out) || (a == out && b == in);
         if (!each->leaks) s->parents[a] = b;
     }

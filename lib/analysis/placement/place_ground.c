@@ -1,5 +1,5 @@
 /// The ground of placement: walls by their ends.
-#include "analysis/placement/ground.h"
+#include "analysis/placement/place_ground.h"
 
 #include "geometry/length.h"
 #include "geometry/orient.h"

@@ -1,6 +1,6 @@
 /// GeoJSON as a map: outlines of rooms, walls, openings; or all lines as they are drawn.
-#include "io/geojson/geojson.h"
 #include "geometry/orient.h"
+#include "io/geojson/geojson.h"
 #include "io/io_formats.h"
 #include "io/parts/names.h"
 #include "io/parts/shapes.h"

@@ -1,5 +1,5 @@
 /// Faults by kind, and the one line that tells of them.
-#include "io/parts/faults.h"
+#include "io/parts/bad_parts.h"
 
 #include "sightline/support.h"
 
