@@ -391,9 +391,8 @@ sl_status cmd_isovist(command_console *console, int argc, char **argv) {
         {"step", 0, "STEP", "with --path: look from a point every STEP along it",
          .number = &plan.step, .over_0 = true, .rare = true},
         {"points", 0, "CSV",
-         "look from the viewpoints of a table: x,y or x,y,heading,fov,range; its first line may "
-         "name "
-         "the columns (see sightline cover)",
+         "look from the viewpoints of a table: x,y or x,y,heading,fov,range; its first line "
+         "may name the columns (see sightline cover)",
          .text = &plan.points, .is_input = true, .rare = true},
         {"mirror-depth", 0, "N", "largest number of reflections, up to 16 (default 1)",
          .count32 = &plan.mirror_depth, .most = 16, .rare = true},

@@ -65,36 +65,13 @@ static sl_status survey(sl_context *context, place_work *w) {
     return sl_coverage_make(context, w->query, w->viewpoints, w->cameras.count, &w->coverage);
 }
 
-/// What is proven, in words.
-static void say_proof(const place_work *w, char *text, size_t size) {
-    const sl_placement *p = &w->placement;
-    const unsigned lower = (unsigned)p->lower, witnesses = (unsigned)p->witness_count;
-    if (p->slivers)
-        snprintf(text, size,
-                 "At least %u are needed, wherever they stand. These see everything but slivers at "
-                 "%u place%s, where some must stand in line with walls.",
-                 lower, (unsigned)p->slivers, p->slivers == 1 ? "" : "s");
-    else if (p->lower == p->upper)
-        snprintf(text, size,
-                 "No fewer can: %u witness%s inside need%s %u viewpoint%s, wherever they stand.",
-                 witnesses, witnesses == 1 ? "" : "es", witnesses == 1 ? "s" : "", lower,
-                 lower == 1 ? "" : "s");
-    else
-        snprintf(text, size,
-                 "At least %u are needed: %u witnesses inside need so many, wherever viewpoints "
-                 "stand.%s",
-                 lower, witnesses,
-                 w->late ? " The work ended early; more time may close the gap." : "");
-}
-
 static sl_status print_json(sl_context *context, const place_work *w, const cover_report *report) {
     const sl_placement *p = &w->placement;
     json_fields fields = json_begin();
     json_add_text(&fields, "input", report->input);
     json_add_count(&fields, "lower", p->lower);
     json_add_count(&fields, "upper", p->upper);
-    json_add_flag(&fields, "optimal", p->lower == p->upper && !p->slivers);
-    json_add_count(&fields, "slivers", p->slivers);
+    json_add_flag(&fields, "optimal", p->lower == p->upper);
     json_add_count(&fields, "witnesses", p->witness_count);
     json_add_count(&fields, "rounds", p->rounds);
     json_add_real(&fields, "seconds", w->seconds);
@@ -154,7 +131,7 @@ static sl_status work(command_console *console, const place_plan *plan, place_wo
                                  &w->coverage};
     char sentence[256], proof[256], caption[516];
     cover_sentence(&report, sentence, sizeof sentence);
-    say_proof(w, proof, sizeof proof);
+    sl_placement_say(&w->placement, "viewpoint", w->late, proof, sizeof proof);
     snprintf(caption, sizeof caption, "%s.\n%s", sentence, proof);
     if (plan->output) SL_TRY(sl_cameras_write(context, &w->cameras, plan->output));
     if (plan->picture) SL_TRY(cover_draw(context, &report, caption, &plan->drawing, plan->picture));

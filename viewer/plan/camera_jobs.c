@@ -10,7 +10,6 @@
 #include "sightline/glpk.h"
 #include "sightline/place.h"
 
-#include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -186,21 +185,6 @@ static void drop_search(sl_context *context, search_job *job) {
     *job = (search_job){0};
 }
 
-static void say_proof(const sl_placement *p, bool stopped, char text[PROOF_TEXT]) {
-    if (p->lower == p->upper)
-        snprintf(text, PROOF_TEXT,
-                 "Fewer than %" PRIu64 " cannot see everything: %u point%s inside need%s %" PRIu64
-                 " camera%s, wherever they stand.",
-                 p->lower, p->witness_count, p->witness_count == 1 ? "" : "s",
-                 p->witness_count == 1 ? "s" : "", p->lower, p->lower == 1 ? "" : "s");
-    else
-        snprintf(text, PROOF_TEXT,
-                 "%" PRIu64 " cameras see everything. At least %" PRIu64
-                 " are needed: %u points inside need so many, wherever cameras stand.%s",
-                 p->upper, p->lower, p->witness_count,
-                 stopped ? " The search was stopped; more time may close the gap." : "");
-}
-
 /// The set becomes the table, to be undone. It looks all round and without limit.
 static sl_status take_set(view_state *view, const search_job *job) {
     sl_cameras table = {0};
@@ -214,7 +198,8 @@ static sl_status take_set(view_state *view, const search_job *job) {
         return status;
     }
     cameras_replace(view, &table);
-    say_proof(&job->placement, job->stopped, view->cameras->proof);
+    sl_placement_say(&job->placement, "camera", job->stopped, view->cameras->proof,
+                     sizeof view->cameras->proof);
     ui_say(view->ui, false, "%s Ctrl+Z brings the cameras before back.", view->cameras->proof);
     return SL_OK;
 }

@@ -20,6 +20,8 @@
 #include "geometry/orient.h"
 #include "sightline/overlay.h"
 
+#include <stdio.h>
+
 enum { USUAL_ROUNDS = 400, UPPER_STEPS = 30 };
 
 sl_place_options sl_place_options_default(void) {
@@ -64,6 +66,21 @@ void sli_placer_destroy(sli_placer *p) {
     sli_crossings_destroy(p->context, &p->crossings);
     sl_free(p->context, p->lines.items);
     sl_free(p->context, p->gaps.items);
+}
+
+void sl_placement_say(const sl_placement *p, const char *noun, bool stopped, char *text,
+                      size_t size) {
+    const unsigned lower = (unsigned)p->lower, witnesses = (unsigned)p->witness_count;
+    if (p->lower == p->upper)
+        snprintf(text, size,
+                 "No fewer can: %u witness%s inside need%s %u %s%s, wherever they stand.",
+                 witnesses, witnesses == 1 ? "" : "es", witnesses == 1 ? "s" : "", lower, noun,
+                 lower == 1 ? "" : "s");
+    else
+        snprintf(text, size,
+                 "At least %u are needed: %u witnesses inside need so many, wherever they stand.%s",
+                 lower, witnesses,
+                 stopped ? " The work ended early; more time may close the gap." : "");
 }
 
 // --- the upper bound

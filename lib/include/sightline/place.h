@@ -126,6 +126,11 @@ typedef struct sl_place_list {
 SL_API sl_status sl_place_among(sl_context *context, sl_query *query, const sl_place_list *list,
                                 const sl_place_options *options, sl_placement *out);
 
+/// What is proven, in a sentence or two: "No fewer can: 12 witnesses inside need 4 cameras,
+/// wherever they stand." `noun`: what to call a viewpoint, "camera". `stopped`: the work ended
+/// early. For viewpoints anywhere. Cut to fit `size`.
+SL_API void sl_placement_say(const sl_placement *placement, const char *noun, bool stopped,
+                             char *text, size_t size);
 SL_API void sl_placement_destroy(sl_context *context, sl_placement *placement); ///< and zeroes it
 
 #ifdef __cplusplus
