@@ -158,7 +158,7 @@ sl_status cmd_place(command_console *console, int argc, char **argv) {
     const option_table picture = picture_option_table(&plan.drawing, "picture", true);
     const option_table doors = door_option_table(&plan.doors);
     const option_spec options[] = {
-        {"output", 'o', "TABLE", "the viewpoints as a table (.csv), which cover and isovist read",
+        {"output", 'o', "FILE.csv", "the viewpoints as a table, which cover and isovist read",
          .text = &plan.output, .check = CHECK_FILE, .endings = ".csv .txt"},
         {"picture", 0, "PICTURE", "draw viewpoints and what they see: .png, .svg or .pdf",
          .text = &plan.picture, .check = CHECK_PICTURE},
