@@ -120,8 +120,7 @@ sl_status sli_map_read_agp(sl_context *context, const char *name, const char *te
     }
     sl_note(context, "%s: a polygon of %zu corners and %zu holes", name, r.corner_count, r.holes);
     if (r.rounded)
-        sl_note(context,
-                "%s: %zu coordinates are fractions that no double is: the nearest ones are taken",
-                name, r.rounded);
+        sl_note(context, "%s: the nearest doubles are taken for fractions that are none: %zu", name,
+                r.rounded);
     return SL_OK;
 }
