@@ -93,10 +93,13 @@ static sl_point point_in(const checker *c, uint32_t piece) {
                       p[0].y + u * (p[i].y - p[0].y) + v * (p[i + 1].y - p[0].y)};
 }
 
-/// Takes a point as a witness if others than the chosen places could see it.
-static sl_status try_point(checker *c, sl_point at, bool *added) {
+/// Takes a point as a witness if others than the chosen places could see it. `sure`: not if it is
+/// between the chords and the arc of a range.
+static sl_status try_point(checker *c, sl_point at, bool sure, bool *added) {
     SL_TRY(sli_area_look(c->a, at));
     if (!sli_area_asks(c->a, c->chosen)) return SL_OK;
+    for (size_t i = 0; sure && i < c->a->row.count; i++)
+        if (c->a->row.items[i] & SLI_WIDE) return SL_OK;
     *added = true;
     c->added++;
     return sli_area_add_row(c->a, at);
@@ -107,8 +110,9 @@ static sl_status try_points(checker *c) {
         const uint32_t piece = c->unseen.items[i].piece;
         bool added = false;
         SL_TRY(sl_check_cancelled(c->a->context));
-        SL_TRY(try_point(c, sli_piece_middle(&c->overlay.pieces, piece), &added));
-        for (int k = 0; k < TRIES && !added; k++) SL_TRY(try_point(c, point_in(c, piece), &added));
+        SL_TRY(try_point(c, sli_piece_middle(&c->overlay.pieces, piece), true, &added));
+        for (int k = 0; k < TRIES && !added; k++)
+            SL_TRY(try_point(c, point_in(c, piece), k + 1 < TRIES, &added));
     }
     return SL_OK;
 }
@@ -178,7 +182,8 @@ static sl_status try_common(checker *c, const sl_shape *shape, uint32_t piece, b
         }
     }
     sl_status status = SL_OK;
-    if (best != UINT32_MAX) status = try_point(c, sli_piece_middle(&common.pieces, best), added);
+    if (best != UINT32_MAX)
+        status = try_point(c, sli_piece_middle(&common.pieces, best), false, added);
     sl_overlay_destroy(c->a->context, &common);
     return status;
 }

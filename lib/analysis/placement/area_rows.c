@@ -117,6 +117,8 @@ static sl_status try_witness(sli_area *a, sl_point at) {
     if (!sl_space_is_inside(a->space, at) || !sli_shape_holds(&a->target, at)) return SL_OK;
     SL_TRY(sl_check_cancelled(a->context));
     SL_TRY(sli_area_look(a, at));
+    for (size_t i = 0; i < a->row.count; i++)
+        if (a->row.items[i] & SLI_WIDE) return SL_OK;
     return a->row.count ? sli_area_add_row(a, at) : SL_OK;
 }
 

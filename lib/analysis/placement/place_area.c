@@ -7,7 +7,8 @@
 ///    gives more witnesses; more places complete them, maybe to a better upper bound. Again, until
 ///    they leave nothing.
 ///
-/// Early rounds take set covers without trees. Rows are only added, so each lower bound holds.
+/// While places are completed, local search betters them, so that few witnesses are added by each
+/// round. The first set cover goes without a tree. Rows are only added, so each bound holds.
 #include "analysis/placement/place_area.h"
 
 #include "analysis/placement/cover.h"
@@ -19,7 +20,7 @@
 /// The share of the area that is rounding.
 #define NEGLIGIBLE 1e-9
 
-enum { ROUNDS = 400, COARSE_ITERATIONS = 2000 };
+enum { ROUNDS = 400, COARSE_ITERATIONS = 20000, SEARCH_ITERATIONS = 5000 };
 
 static sl_status check_task(sl_context *context, const sl_place_area *t) {
     SL_TRY(sli_check_viewpoints(context, t->places, t->place_count));
@@ -165,14 +166,26 @@ static uint64_t cost_of(const sli_area *a, const uint8_t *chosen) {
     return cost;
 }
 
-/// Adds places to `now` until it sees all witnesses.
-static sl_status take_more(finder *f) {
+static uint64_t fixed_cost(const sli_area *a) {
+    uint64_t cost = 0;
+    for (uint32_t i = 0; i < a->task->fixed_count; i++)
+        cost += a->task->costs ? a->task->costs[a->task->fixed[i]] : 1;
+    return cost;
+}
+
+/// Adds places to `now` until it sees all witnesses, then betters it, but not at first.
+static sl_status take_more(finder *f, bool at_first) {
     sli_area *a = f->a;
     sl_cover_problem problem = {0};
     sli_cover cover = {0};
     sl_status status = sli_area_problem(a, false, &problem);
     if (status == SL_OK) status = sli_cover_read(a->context, &problem, 1, &cover);
     if (status == SL_OK) status = sli_cover_greedy(a->context, &cover, NULL, NULL, f->now);
+    const uint64_t fixed = fixed_cost(a);
+    if (status == SL_OK && !at_first)
+        status =
+            sli_cover_search(a->context, &cover, a->out->lower > fixed ? a->out->lower - fixed : 0,
+                             SEARCH_ITERATIONS, f->now);
     for (uint32_t i = 0; i < a->task->place_count; i++) f->now[i] |= a->fixed[i];
     sli_cover_destroy(a->context, &cover);
     sli_area_problem_destroy(a->context, &problem);
@@ -207,19 +220,13 @@ static sl_status complete(finder *f, bool *clean) {
         SL_TRY(sli_area_check(f->a, f->now, &added));
         if (!added) return keep(f);
         *clean = false;
-        SL_TRY(take_more(f));
+        SL_TRY(take_more(f, !f->complete));
     }
     return SL_OK;
 }
 
-static uint64_t fixed_cost(const sli_area *a) {
-    uint64_t cost = 0;
-    for (uint32_t i = 0; i < a->task->fixed_count; i++)
-        cost += a->task->costs ? a->task->costs[a->task->fixed[i]] : 1;
-    return cost;
-}
-
-/// The cheapest places that see all witnesses, into `now`; betters the lower bound.
+/// The cheapest places that see all witnesses, into `now`, or with `wide` nowhere; betters the
+/// lower bound. Where ranges are not the true ones, they give none.
 static sl_status choose(finder *f, bool wide) {
     sli_area *a = f->a;
     const uint64_t fixed = fixed_cost(a);
@@ -255,7 +262,7 @@ static sl_status find(finder *f) {
     bool clean;
     for (uint32_t i = 0; i < a->task->place_count; i++) f->now[i] = a->fixed[i];
     SL_TRY(sli_area_first_witnesses(a));
-    SL_TRY(take_more(f));
+    SL_TRY(take_more(f, true));
     SL_TRY(complete(f, &clean));
     if (!(a->out->seen > a->negligible))
         return sl_fail(a->context, SL_BAD_ARGUMENT,
@@ -267,9 +274,10 @@ static sl_status find(finder *f) {
         if (a->out->lower == a->out->upper) break;
         SL_TRY(complete(f, &clean));
         if (a->out->lower == a->out->upper || (clean && f->fine)) break;
-        if (clean) f->fine = true;
+        f->fine = true;
+        if (a->wide_count) SL_TRY(choose(f, true));
+        if (a->out->lower == a->out->upper) break;
     }
-    if (a->wide_count && a->out->lower < a->out->upper) SL_TRY(choose(f, true));
     return SL_OK;
 }
 
