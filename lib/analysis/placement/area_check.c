@@ -1,8 +1,9 @@
 /// What chosen places leave unseen: their shapes are laid over the area, and each piece that too
 /// few of them cover is looked at.
 ///
-/// 1. A place that is not chosen sees the middle of the piece, or a point at random in it: that
-///    point is a new witness.
+/// 1. Places that are not chosen see the middle of the piece, or points near its corners: that
+/// which
+///    the fewest see is a new witness.
 /// 2. If there was none in any piece: a place whose shape has a part of the piece gives a witness
 /// in
 ///    that part. The shape is cut to the piece, which is convex.
@@ -13,8 +14,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-/// Points at random in a piece; and witnesses added at once.
-enum { TRIES = 3, WITNESSES_MOST = 300 };
+/// Witnesses added at once, at most.
+enum { WITNESSES_MOST = 300 };
+/// How far a witness is from a corner of its piece, as a share of the way to the middle.
+#define CORNER_STEP 0x1p-6
 
 typedef struct unseen {
     uint32_t piece;
@@ -78,41 +81,52 @@ static const sl_point *corners_of(const checker *c, uint32_t piece, uint32_t *co
     return &c->overlay.pieces.vertices[cell->first_vertex];
 }
 
-/// A point of a piece by chance: in a triangle of its fan.
-static sl_point point_in(const checker *c, uint32_t piece) {
+/// A point of a piece: the middle, then close to each corner.
+static sl_point point_in(const checker *c, uint32_t piece, uint32_t number) {
     uint32_t count;
-    const sl_point *p = corners_of(c, piece, &count);
-    sl_random *const random = &c->a->random;
-    const uint32_t i = 1 + (uint32_t)sl_random_below(random, count - 2);
-    double u = sl_random_unit(random), v = sl_random_unit(random);
-    if (u + v > 1) {
-        u = 1 - u;
-        v = 1 - v;
-    }
-    return (sl_point){p[0].x + u * (p[i].x - p[0].x) + v * (p[i + 1].x - p[0].x),
-                      p[0].y + u * (p[i].y - p[0].y) + v * (p[i + 1].y - p[0].y)};
+    const sl_point *corners = corners_of(c, piece, &count);
+    const sl_point middle = sli_piece_middle(&c->overlay.pieces, piece);
+    if (!number) return middle;
+    const sl_point corner = corners[number - 1];
+    return (sl_point){corner.x + CORNER_STEP * (middle.x - corner.x),
+                      corner.y + CORNER_STEP * (middle.y - corner.y)};
 }
 
-/// Takes a point as a witness if others than the chosen places could see it. `sure`: not if it is
-/// between the chords and the arc of a range.
-static sl_status try_point(checker *c, sl_point at, bool sure, bool *added) {
-    SL_TRY(sli_area_look(c->a, at));
-    if (!sli_area_asks(c->a, c->chosen)) return SL_OK;
+/// Whether a->row is that of a witness: others than the chosen places could see it. `sure`: not if
+/// it is between the chords and the arc of a range.
+static bool is_witness(const checker *c, bool sure) {
     for (size_t i = 0; sure && i < c->a->row.count; i++)
-        if (c->a->row.items[i] & SLI_WIDE) return SL_OK;
-    *added = true;
+        if (c->a->row.items[i] & SLI_WIDE) return false;
+    return sli_area_asks(c->a, c->chosen);
+}
+
+static sl_status add_witness(checker *c, sl_point at) {
     c->added++;
     return sli_area_add_row(c->a, at);
 }
 
-static sl_status try_points(checker *c) {
+/// Adds that point of a piece which the fewest places see.
+static sl_status try_piece(checker *c, uint32_t piece) {
+    const uint32_t points = c->overlay.pieces.cells[piece].vertex_count + 1;
+    uint32_t best = UINT32_MAX;
+    size_t fewest = SIZE_MAX;
+    for (uint32_t k = 0; k < 2 * points; k++) {
+        if (k == points && best != UINT32_MAX) break;
+        SL_TRY(sli_area_look(c->a, point_in(c, piece, k % points)));
+        if (c->a->row.count >= fewest || !is_witness(c, k < points)) continue;
+        fewest = c->a->row.count;
+        best = k % points;
+    }
+    if (best == UINT32_MAX) return SL_OK;
+    const sl_point at = point_in(c, piece, best);
+    SL_TRY(sli_area_look(c->a, at));
+    return add_witness(c, at);
+}
+
+static sl_status try_pieces(checker *c) {
     for (size_t i = 0; i < c->unseen.count && c->added < WITNESSES_MOST; i++) {
-        const uint32_t piece = c->unseen.items[i].piece;
-        bool added = false;
         SL_TRY(sl_check_cancelled(c->a->context));
-        SL_TRY(try_point(c, sli_piece_middle(&c->overlay.pieces, piece), true, &added));
-        for (int k = 0; k < TRIES && !added; k++)
-            SL_TRY(try_point(c, point_in(c, piece), k + 1 < TRIES, &added));
+        SL_TRY(try_piece(c, c->unseen.items[i].piece));
     }
     return SL_OK;
 }
@@ -182,8 +196,12 @@ static sl_status try_common(checker *c, const sl_shape *shape, uint32_t piece, b
         }
     }
     sl_status status = SL_OK;
-    if (best != UINT32_MAX)
-        status = try_point(c, sli_piece_middle(&common.pieces, best), false, added);
+    if (best != UINT32_MAX) {
+        const sl_point at = sli_piece_middle(&common.pieces, best);
+        status = sli_area_look(c->a, at);
+        *added = status == SL_OK && is_witness(c, false);
+        if (*added) status = add_witness(c, at);
+    }
     sl_overlay_destroy(c->a->context, &common);
     return status;
 }
@@ -249,7 +267,7 @@ sl_status sli_area_check(sli_area *a, const uint8_t *chosen, uint32_t *added) {
     checker c = {.a = a, .chosen = chosen};
     sl_status status = lay(&c);
     if (status == SL_OK) status = list_unseen(&c);
-    if (status == SL_OK) status = try_points(&c);
+    if (status == SL_OK) status = try_pieces(&c);
     if (status == SL_OK && !c.added) status = search_pieces(&c);
     if (status == SL_OK && !c.added) status = conclude(&c);
     *added = c.added;

@@ -19,7 +19,7 @@ typedef struct sli_area {
     sl_shape target;   ///< what is to be seen
     double negligible; ///< areas that are rounding, all together
     sl_region region;  ///< scratch
-    sl_random random;
+
     sli_view_shapes shapes; ///< of the walls, then of the places
     sl_view *views;         ///< by place
     sl_box *boxes;          ///< by place: about its shape
