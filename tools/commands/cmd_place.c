@@ -31,6 +31,7 @@ typedef struct place_work {
     sl_cameras cameras; ///< the viewpoints of the placement
     sl_viewpoint *viewpoints;
     sl_coverage coverage;
+    zone_cover *covers; ///< by zone of --see
     double seconds;
     bool late; ///< the time limit or Ctrl-C ended it
 } place_work;
@@ -87,6 +88,7 @@ static sl_status print_json(sl_context *context, const place_work *w, const cove
     }
     json_add_real(&fields, "seconds", w->seconds);
     cover_add_json(&fields, report);
+    if (w->covers) cover_zones_add_json(&fields, &w->chosen.see, w->covers);
     return json_print(context, &fields);
 }
 
@@ -158,7 +160,11 @@ static sl_status work(command_console *console, const place_plan *plan, place_wo
     SL_TRY(survey(context, w));
     const cover_report report = {plan->input, plan->pipeline.input.import.map, baked, &w->cameras,
                                  &w->coverage};
-    char sentence[256], proof[256], caption[516];
+    char sentence[256], proof[320], caption[600];
+    if (plan->cameras.see) {
+        SL_TRY(cover_zones_make(context, &report, &w->chosen.see, &w->covers));
+        SL_TRY(camera_work_check_zones(context, &w->chosen, &plan->cameras, w->query, w->covers));
+    }
     cover_sentence(&report, sentence, sizeof sentence);
     if (w->chooses)
         camera_work_say(&w->chosen, w->late, proof, sizeof proof);
@@ -171,6 +177,7 @@ static sl_status work(command_console *console, const place_plan *plan, place_wo
     if (plan->json) return print_json(context, w, &report);
     if (console->quiet) return SL_OK;
     cover_print(&report);
+    if (w->covers) cover_zones_print(&report, &w->chosen.see, w->covers);
     printf("\n%s\n", proof);
     return w->chooses ? camera_work_print_blind(context, &w->chosen, &plan->cameras, w->query,
                                                 baked->map.unit)
@@ -182,6 +189,7 @@ static void clear(sl_context *context, place_work *w) {
     sl_free(context, w->viewpoints);
     sl_cameras_destroy(context, &w->cameras);
     sl_placement_destroy(context, &w->placement);
+    sl_free(context, w->covers);
     camera_work_destroy(context, &w->chosen);
     sl_query_destroy(context, w->query);
     sl_baked_destroy(context, &w->baked);

@@ -181,14 +181,19 @@ sl_shape zones_shape_of(const zone_list *zones, size_t zone, size_t *end) {
     return (sl_shape){zones->points.items + first, end, 1};
 }
 
+bool zones_shape_holds(const sl_shape *zone, sl_point at) {
+    bool within = false;
+    const size_t end = zone->ends[0];
+    for (size_t i = 0; i < end; i++)
+        within ^= within_crosses(at, zone->points[i], zone->points[i + 1 < end ? i + 1 : 0]);
+    return within;
+}
+
 bool zones_hold(const zone_list *zones, sl_point at) {
     for (size_t z = 0; z < zones->ends.count; z++) {
-        const size_t first = first_of(zones, z), end = zones->ends.items[z];
-        bool within = false;
-        for (size_t i = first; i < end; i++)
-            within ^= within_crosses(at, zones->points.items[i],
-                                     zones->points.items[i + 1 < end ? i + 1 : first]);
-        if (within) return true;
+        size_t end;
+        const sl_shape zone = zones_shape_of(zones, z, &end);
+        if (zones_shape_holds(&zone, at)) return true;
     }
     return false;
 }

@@ -22,7 +22,9 @@ sl_status zones_read(sl_context *context, const char *option, const char *text,
 sl_shape zones_shape(const zone_list *zones);
 /// A zone as a shape; `*end` keeps what it refers to.
 sl_shape zones_shape_of(const zone_list *zones, size_t zone, size_t *end);
-/// Whether a zone has a point.
+/// Whether a zone, as a shape, has a point.
+bool zones_shape_holds(const sl_shape *zone, sl_point at);
+/// Whether any zone has a point.
 bool zones_hold(const zone_list *zones, sl_point at);
 void zones_destroy(sl_context *context, zone_list *zones); ///< and zeroes it
 

@@ -229,35 +229,81 @@ static bool has_costs(const camera_work *w) {
     return w->scale * 1.0 != w->costs[0];
 }
 
+/// "of these 96 places", "of these 96 places and headings at 12 points"
+static void say_among(const camera_work *w, char *text, size_t size) {
+    const unsigned places = (unsigned)w->task.place_count;
+    const size_t points = w->points + w->task.fixed_count;
+    if (points == places)
+        snprintf(text, size, "of these %u place%s", places, places == 1 ? "" : "s");
+    else
+        snprintf(text, size, "of these %u places and headings at %zu point%s", places, points,
+                 points == 1 ? "" : "s");
+}
+
 static void say_fewest(const camera_work *w, bool stopped, char *text, size_t size) {
     const sl_area_placement *p = &w->placed;
+    const bool costs = has_costs(w);
     char among[128], lower[64];
-    snprintf(among, sizeof among, "of these %u places and headings at %zu points",
-             (unsigned)w->task.place_count, w->points);
-    snprintf(lower, sizeof lower, "%s%.10g%s", has_costs(w) ? "a cost of " : "",
-             (double)p->lower / w->scale, has_costs(w) ? "" : " viewpoints");
+    const double least = (double)p->lower / w->scale;
+    say_among(w, among, sizeof among);
+    snprintf(lower, sizeof lower, "%s%.10g%s", costs ? "a cost of " : "", least,
+             costs        ? ""
+             : least == 1 ? " viewpoint"
+                          : " viewpoints");
     if (p->lower == p->upper)
         snprintf(text, size, "No %s can, %s: %u points inside need %s.",
-                 has_costs(w) ? "cheaper choice" : "fewer", among, (unsigned)p->witness_count,
-                 lower);
+                 costs ? "cheaper choice" : "fewer", among, (unsigned)p->witness_count, lower);
     else
-        snprintf(text, size, "%s%u points inside need at least %s, %s: a gap of %.2g %%.",
-                 stopped ? "Stopped early. " : "", (unsigned)p->witness_count, lower, among,
-                 100.0 * (double)(p->upper - p->lower) / (double)p->upper);
+        snprintf(text, size, "%u points inside need at least %s, %s: a gap of %.2g %%.%s",
+                 (unsigned)p->witness_count, lower, among,
+                 100.0 * (double)(p->upper - p->lower) / (double)p->upper,
+                 stopped ? " Stopped early: more time may close it." : "");
 }
 
 void camera_work_say(const camera_work *w, bool stopped, char *text, size_t size) {
     const sl_area_placement *p = &w->placed;
+    char among[128];
+    int used = 0;
+    if (w->task.see)
+        used = snprintf(text, size, "Of the %.4g that must be seen, they see %.4g. ", p->area,
+                        p->seen);
+    text += used;
+    size -= (size_t)used;
     if (!w->task.count) {
         say_fewest(w, stopped, text, size);
         return;
     }
-    snprintf(text, size,
-             "%s%u viewpoints see %.4g %%. No %u of these %u places and headings at %zu points see "
-             "more than %.4g %%.",
-             stopped ? "Stopped early. " : "", (unsigned)p->count, 100 * p->seen / p->area,
-             (unsigned)w->task.count, (unsigned)w->task.place_count, w->points,
-             100 * p->seen_most / p->area);
+    say_among(w, among, sizeof among);
+    snprintf(text, size, "They see %.4g %%; no %u %s see more than %.4g %%.%s",
+             100 * p->seen / p->area, (unsigned)w->task.count, among, 100 * p->seen_most / p->area,
+             stopped ? " Stopped early." : "");
+}
+
+sl_status camera_work_check_zones(sl_context *context, const camera_work *w,
+                                  const camera_plan *plan, sl_query *query,
+                                  const zone_cover *covers) {
+    for (size_t z = 0; z < w->see.ends.count && !w->task.count; z++) {
+        const char *name = w->see.names.items[z];
+        if (!(covers[z].inside > 0))
+            return sl_fail(context, SL_BAD_ARGUMENT, "--see: nothing of zone '%s' is inside", name);
+        if (covers[z].seen > 0) continue;
+        sl_point at = {0, 0};
+        bool found = false;
+        size_t end;
+        const sl_shape zone = zones_shape_of(&w->see, z, &end);
+        for (uint32_t i = 0; i < w->placed.blind_count && !found; i++) {
+            if (!zones_shape_holds(&zone, w->placed.blind[i].at)) continue;
+            SL_TRY(sl_place_nearest(context, query, &plan->like, w->placed.blind[i].at,
+                                    w->task.places, w->task.place_count, &at, &found));
+        }
+        return found ? sl_fail(context, SL_BAD_ARGUMENT,
+                               "--see: none of the places sees zone '%s'; the nearest one that "
+                               "could is at %.6g,%.6g",
+                               name, at.x, at.y)
+                     : sl_fail(context, SL_BAD_ARGUMENT, "--see: none of the places sees zone '%s'",
+                               name);
+    }
+    return SL_OK;
 }
 
 void camera_work_add_json(json_fields *f, const camera_work *w) {

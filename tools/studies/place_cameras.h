@@ -4,9 +4,9 @@
 #define PLACE_CAMERAS_H
 
 #include "inputs/pipeline.h"
-#include "inputs/zones.h"
 #include "reports/json_print.h"
 #include "sightline/place_area.h"
+#include "studies/cover_zones.h"
 
 /// What the options say.
 typedef struct camera_plan {
@@ -51,6 +51,12 @@ void camera_work_say(const camera_work *w, bool stopped, char *text, size_t size
 
 /// Bounds, and areas of what is to be seen.
 void camera_work_add_json(json_fields *fields, const camera_work *w);
+
+/// Refuses a zone of which nothing is inside, or that no place sees: names it, and the nearest
+/// place that could see it. `covers`: what the chosen places see, by zone.
+sl_status camera_work_check_zones(sl_context *context, const camera_work *w,
+                                  const camera_plan *plan, sl_query *query,
+                                  const zone_cover *covers);
 
 /// Prints what no place sees, and a place that could see the largest part of it.
 sl_status camera_work_print_blind(sl_context *context, const camera_work *w,

@@ -257,6 +257,24 @@ static sl_status choose(finder *f, bool wide) {
     return status;
 }
 
+/// No place sees anything of the area: says where it is, and what could see it.
+static sl_status refuse_blind(sli_area *a) {
+    const sl_place_area *t = a->task;
+    const sl_point at = a->out->blind[0].at;
+    sl_point nearest;
+    bool found;
+    SL_TRY(sl_place_nearest(a->context, a->query, t->places, at, t->places, t->place_count,
+                            &nearest, &found));
+    if (!found)
+        return sl_fail(a->context, SL_BAD_ARGUMENT,
+                       "none of the %u places sees any of the area, at (%.9g, %.9g)",
+                       t->place_count, at.x, at.y);
+    return sl_fail(a->context, SL_BAD_ARGUMENT,
+                   "none of the %u places sees any of the area, at (%.9g, %.9g); the nearest place "
+                   "that could is at (%.9g, %.9g)",
+                   t->place_count, at.x, at.y, nearest.x, nearest.y);
+}
+
 static sl_status find(finder *f) {
     sli_area *a = f->a;
     bool clean;
@@ -264,11 +282,7 @@ static sl_status find(finder *f) {
     SL_TRY(sli_area_first_witnesses(a));
     SL_TRY(take_more(f, true));
     SL_TRY(complete(f, &clean));
-    if (!(a->out->seen > a->negligible))
-        return sl_fail(a->context, SL_BAD_ARGUMENT,
-                       "none of the %u places sees any of the area: the largest part is at "
-                       "(%.9g, %.9g)",
-                       a->task->place_count, a->out->blind[0].at.x, a->out->blind[0].at.y);
+    if (!(a->out->seen > a->negligible)) return refuse_blind(a);
     for (a->out->rounds = 1; a->out->rounds < ROUNDS; a->out->rounds++) {
         SL_TRY(choose(f, false));
         if (a->out->lower == a->out->upper) break;
