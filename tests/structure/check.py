@@ -29,7 +29,7 @@ import tempfile
 # The stages, in order. Data goes one way: each knows those before it and nothing of those after it.
 FOLDERS = ["base", "geometry", "json", "map", "space", "space/faults", "effects", "stab",
            "cell_to_cell", "cell_to_cell/search", "cell_to_cell/sweep", "cell_to_cell/explain",
-           "sight", "bake", "analysis/visibility_graph", "analysis/axial", "analysis/placement",
+           "sight", "world", "bake", "analysis/visibility_graph", "analysis/axial", "analysis/placement",
            "analysis/route",
            "study/generate", "study/from_region", "study/walk", "study/view_cells",
            "io", "runtime", "draw"]

@@ -24,5 +24,6 @@
 #include "sightline/steps.h"
 #include "sightline/version.h"
 #include "sightline/view.h"
+#include "sightline/world.h"
 
 #endif
