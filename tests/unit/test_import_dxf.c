@@ -27,6 +27,8 @@ static void test_lines(void **state) {
     (void)state;
     assert_walls(LINE(0, 0, 4, 3), "wall 0 0 4 3\n");
     assert_walls(LINE(0, 0, 4, 3) LINE(1.5, -2e1, .5, 0), "wall 0 0 4 3\nwall 1.5 -20 0.5 0\n");
+    // As release 10 has them in space.
+    assert_walls("0\n3DLINE\n8\nw\n10\n0\n20\n0\n30\n1\n11\n4\n21\n3\n31\n2\n", "wall 0 0 4 3\n");
     // Upright in space, so a point in the plan.
     assert_walls(LINE(2, 2, 2, 2), "");
     // Other kinds, and blanks and CR LF, are nothing to stumble over.
@@ -157,6 +159,7 @@ static void test_refused(void **state) {
     assert_refused("0\nSECTION\n2\nBLOCKS\n0\nBLOCK\n2\nb\n0\nENDSEC\n" HEAD TAIL,
                    "f:10: block 'b' has no ENDBLK");
     assert_refused("AC1027....", "f: a DWG drawing");
+    assert_refused("AC2.10....", "f: a DWG drawing");
 }
 
 #define IN(unit) "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n" #unit "\n0\nENDSEC\n"

@@ -262,6 +262,12 @@ static void test_wide_code_pages(void **state) {
     assert_wide_layer("ANSI_936", "A\xc7\xbd", "A\xe5\xa2\x99", "A\\M+5C7BD");
     assert_wide_layer("ANSI_949", "\xba\xae", "\xeb\xb2\xbd", "\\M+3BAAE");
     assert_wide_layer("ANSI_950", "\xc0\xf0", "\xe7\x89\x86", "\\M+2C0F0");
+    // No page is named: Japanese by its look. Curly quotes about a Western name are not.
+    assert_wide_layer("ASCII", "\x95\xc7", "\xe5\xa3\x81", "\xe2\x80\xa2\xc3\x87");
+    assert_wide_layer("ASCII", "\x92\xca\x82\xe8\x90\x63", "\xe9\x80\x9a\xe3\x82\x8a\xe8\x8a\xaf",
+                      "\xe2\x80\x99\xc3\x8a\xe2\x80\x9a\xc3\xa8\x90\x63");
+    assert_layer("AC1009", "ASCII", "\x93W\xe4nde\x94", "\xe2\x80\x9cW\xc3\xa4nde\xe2\x80\x9d");
+    assert_layer("AC1009", "ASCII", "l\x92\xe9tage", "l\xe2\x80\x99\xc3\xa9tage");
     // The second byte of a character may be that of a backslash.
     assert_wide_layer("ANSI_932", "\x95\x5c", "\xe8\xa1\xa8", "\\M+1955C");
     // A byte alone is no character: all of the name is escaped, and that is said in notes alone.

@@ -75,7 +75,7 @@ typedef struct sli_dxf {
     SL_ARRAY(char) text;              ///< of a binary drawing
     char *names;                      ///< that are not as in the file
     size_t unread_names;              ///< whose characters stand as their numbers
-    bool guessed_page;                ///< the drawing has no code page that is known
+    int guessed_page;                 ///< where the drawing has no code page that is known; else 0
     int unit;                         ///< $INSUNITS; 0 where the drawing does not tell
     sli_pen pen;
     sli_contents contents;

@@ -83,7 +83,7 @@ static uint64_t count_spline(sli_dxf *dxf, sli_dxf_range entity) {
 /// The walls of an entity but for its blocks, at least.
 static uint64_t count_shape(sli_dxf *dxf, sli_dxf_range entity) {
     const sli_word kind = sli_dxf_at(dxf, entity.begin)->value;
-    if (sli_word_is(kind, "LINE")) return 1;
+    if (sli_word_is(kind, "LINE") || sli_word_is(kind, "3DLINE")) return 1;
     if (sli_word_is(kind, "CIRCLE")) return chords(dxf, 1);
     if (sli_word_is(kind, "ARC")) return count_arc(dxf, entity, 50, 360);
     if (sli_word_is(kind, "ELLIPSE")) return count_arc(dxf, entity, 41, 2 * pi);

@@ -341,7 +341,7 @@ static sl_status draw_shape(sli_dxf *dxf, sli_dxf_range entity, size_t end, sli_
     const sli_word kind = sli_dxf_at(dxf, entity.begin)->value;
     dxf->drawn++;
     if (!sli_word_is(kind, "INSERT")) sl_bits_add(dxf->walls, entity.begin);
-    if (sli_word_is(kind, "LINE")) return draw_line(dxf, entity);
+    if (sli_word_is(kind, "LINE") || sli_word_is(kind, "3DLINE")) return draw_line(dxf, entity);
     if (sli_word_is(kind, "LWPOLYLINE")) return draw_light_polyline(dxf, entity);
     if (sli_word_is(kind, "POLYLINE")) return draw_polyline(dxf, entity, end, layer);
     if (sli_word_is(kind, "ARC")) return draw_circle(dxf, entity, false);
@@ -436,7 +436,8 @@ static sl_status draw_taken(sli_dxf *dxf, sli_dxf_range entity, size_t end, sli_
                             unsigned depth) {
     const sli_word kind = sli_dxf_at(dxf, entity.begin)->value;
     plane lies = LEVEL;
-    if (!sli_word_is(kind, "LINE")) SL_TRY(read_plane(dxf, entity, &lies));
+    if (!sli_word_is(kind, "LINE") && !sli_word_is(kind, "3DLINE"))
+        SL_TRY(read_plane(dxf, entity, &lies));
     if (lies == LEANING) {
         dxf->out_of_plane++;
         return SL_OK;

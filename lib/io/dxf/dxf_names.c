@@ -327,6 +327,62 @@ static bool is_utf8(sli_word value, bool *long_ones) {
     return true;
 }
 
+/// Whether libxml2 reads all values in a page.
+static bool reads_all(const sli_dxf *dxf, code_page *page) {
+    char *text = NULL;
+    size_t room = 0, length;
+    bool all = true;
+    for (size_t i = 0; all && i < dxf->pairs.count; i++) {
+        const sli_word value = sli_dxf_at(dxf, i)->value;
+        if (!has_high_byte(value)) continue;
+        if (4 * value.length > room) {
+            sl_free(dxf->context, text);
+            text = sl_alloc(dxf->context, room = 4 * value.length);
+        }
+        all = text && read_by_handler(page, value, text, &length);
+    }
+    sl_free(dxf->context, text);
+    return all;
+}
+
+static bool is_letter(char c) {
+    return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
+}
+
+/// Whether bytes are Japanese (Shift JIS) by their look: characters of two bytes throughout, most
+/// of them begun by what is hardly a letter in any page of one byte, and some with two high bytes.
+static bool looks_japanese(const sli_dxf *dxf) {
+    size_t begun = 0, letters = 0, high = 0;
+    for (size_t i = 0; i < dxf->pairs.count; i++) {
+        const sli_word value = sli_dxf_at(dxf, i)->value;
+        for (size_t k = 0; k < value.length; k++) {
+            const unsigned c = (unsigned char)value.at[k];
+            if (c < 0x80) continue;
+            letters++;
+            if (c >= 0xa1 && c <= 0xdf) continue; // of one byte
+            if (c == 0x80 || c == 0xa0 || c > 0xfc || ++k == value.length) return false;
+            const unsigned second = (unsigned char)value.at[k];
+            if (second < 0x40 || second == 0x7f || second > 0xfc) return false;
+            begun += c < 0xa0;
+            // Behind a letter it may be an apostrophe or a dash.
+            high += c < 0xa0 && second >= 0x80 && (k == 1 || !is_letter(value.at[k - 2]));
+        }
+    }
+    return high && 2 * begun > letters;
+}
+
+/// The page of a drawing that names none: Japanese where all of it can be read so, else that of
+/// Western Europe.
+static void guess_page(const sli_dxf *dxf, code_page *page) {
+    if (looks_japanese(dxf)) {
+        open_page(page, "ANSI_932");
+        page->guessed = true;
+        if (page->handler && reads_all(dxf, page)) return;
+        close_page(page);
+    }
+    *page = (code_page){.table = windows[2], .guessed = true};
+}
+
 /// Finds the page of the values that have bytes beyond ASCII. None where they are UTF-8.
 static bool find_page(const sli_dxf *dxf, bool all_utf8, bool long_ones, code_page *page) {
     const sli_word version = header_variable(dxf, "$ACADVER");
@@ -340,7 +396,7 @@ static bool find_page(const sli_dxf *dxf, bool all_utf8, bool long_ones, code_pa
         return false;
     }
     if (page->table || page->handler || page->escape) return true;
-    *page = (code_page){.table = windows[2], .guessed = true};
+    guess_page(dxf, page);
     return true;
 }
 
@@ -348,8 +404,8 @@ void sli_dxf_note_names(const sli_dxf *dxf) {
     const sli_word named = header_variable(dxf, "$DWGCODEPAGE");
     const size_t unread = dxf->unread_names;
     if (dxf->guessed_page)
-        sl_note(dxf->context, "%s: names are read as of the code page ANSI_1252: the drawing %s%s",
-                dxf->name, named.length ? "has an unknown one, " : "names none",
+        sl_note(dxf->context, "%s: names are read as of the code page ANSI_%d: the drawing %s%s",
+                dxf->name, dxf->guessed_page, named.length ? "has an unknown one, " : "names none",
                 sli_show(named).text);
     if (unread)
         sl_note(
@@ -384,7 +440,7 @@ sl_status sli_dxf_decode_names(sli_dxf *dxf) {
     }
     if (!paged) return SL_OK;
     dxf->unread_names = page.unread;
-    dxf->guessed_page = page.guessed;
+    dxf->guessed_page = !page.guessed ? 0 : page.table ? 1252 : 932;
     close_page(&page);
     return SL_OK;
 }

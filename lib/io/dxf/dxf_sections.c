@@ -27,7 +27,10 @@ static bool read_code(sli_word word, int *code) {
 }
 
 static sl_status refuse_other_files(sli_dxf *dxf, const char *text, size_t size) {
-    if (size >= 6 && memcmp(text, "AC10", 4) == 0)
+    static const char *const begins[] = {"AC10", "AC1.", "AC2.", "MC0."}; // by release
+    bool other = false;
+    for (int i = 0; i < 4; i++) other |= size >= 6 && memcmp(text, begins[i], 4) == 0;
+    if (other)
         return sl_fail_at(dxf->context, dxf->name, 0,
                           "a DWG drawing: save it as ASCII DXF in the program that it is from");
     return sli_refuse_nul(dxf->context, dxf->name, text, size);
