@@ -4,6 +4,7 @@
 #ifndef SL_CONTENTS_H
 #define SL_CONTENTS_H
 
+#include "io/parts/looks.h"
 #include "io/parts/meaning.h"
 #include "io/parts/shapes.h"
 #include "sightline/import.h"
@@ -24,6 +25,7 @@ typedef struct sli_group {
 typedef struct sli_group_run {
     size_t first, end;
     uint32_t group;
+    uint32_t look; ///< of the one shape, where looks are told
 } sli_group_run;
 
 /// Set the first three, zero the rest.
@@ -39,6 +41,9 @@ typedef struct sli_contents {
     double finest;   ///< the pen's, before a shape
     size_t first;    ///< wall of a shape
     size_t left_out; ///< shapes that are passed over
+    sli_looks looks; ///< how shapes look
+    bool has_looks;  ///< the reader tells them: `look` is that of the shape at hand
+    uint32_t look;
 } sli_contents;
 
 /// The options with layers "*" as all_layers.

@@ -9,6 +9,7 @@
 #include "io/parts/contents.h"
 #include "io/parts/document.h"
 #include "io/parts/names.h"
+#include "io/svg/svg_colour.h"
 #include "io/svg/svg_group.h"
 #include "io/svg/svg_path.h"
 #include "map/scan.h"
@@ -76,8 +77,24 @@ static sl_status check_layers(const svg *s, xmlNode *root) {
     const char *list = s->options->layers;
     for (sli_word wanted; list && sli_layers_next(&list, &wanted);) {
         sli_name_list there = {.full = false};
-        if (!has_layer(root, wanted, &there))
+        if (!has_layer(root, wanted, &there) && !sli_look_may_be(wanted))
             return sli_fail_layer(s->context, s->pen.name, wanted, "drawing", &there);
+    }
+    return SL_OK;
+}
+
+/// Layers that may be looks are looked for once all is drawn.
+static sl_status check_looks(const svg *s, xmlNode *root) {
+    const char *list = s->options->layers;
+    for (sli_word wanted; list && sli_layers_next(&list, &wanted);) {
+        sli_name_list there = {.full = false};
+        bool found = has_layer(root, wanted, &there);
+        for (size_t i = 0; i < s->contents.looks.items.count; i++) {
+            const char *name = s->contents.looks.items.items[i].name;
+            found |= sli_word_is(wanted, name);
+            sli_name_list_add(&there, (sli_word){name, strlen(name)});
+        }
+        if (!found) return sli_fail_layer(s->context, s->pen.name, wanted, "drawing", &there);
     }
     return SL_OK;
 }
@@ -228,8 +245,33 @@ static bool is_group(xmlNode *node) {
            sli_xml_is(node, "switch") || sli_xml_is(node, "use");
 }
 
+/// Keeps the largest picture: a plan may be in it.
+static void keep_picture(svg *s, xmlNode *node, const place *at) {
+    double width = 0, height = 0;
+    sli_svg_look look;
+    place own = *at;
+    bool seen = true;
+    if (has_percent(node, "width") || has_percent(node, "height")) {
+        width = at->view.max.x, height = at->view.max.y;
+    } else if (sli_svg_length(s, node, "width", &width) != SL_OK ||
+               sli_svg_length(s, node, "height", &height) != SL_OK) {
+        return;
+    }
+    sli_svg_look_read(&s->style, node, &look);
+    const bool hidden = sli_word_is(look.values[SLI_SVG_DISPLAY], "none") || at->paint.hidden;
+    const sl_status status = sli_svg_move(s, node, &look, &own, &seen);
+    sli_svg_look_free(&look);
+    if (status != SL_OK || !seen || hidden) return;
+    const sli_affine *affine = &own.affine;
+    const double area = width * height * fabs(affine->xx * affine->yy - affine->xy * affine->yx);
+    if (!(area > s->picture)) return;
+    s->picture = area;
+    s->picture_line = sli_xml_line(node);
+}
+
 /// Text, pictures and what is drawn only where it is used give no walls; the former are counted.
-static void pass_over(svg *s, xmlNode *node) {
+static void pass_over(svg *s, xmlNode *node, const place *at) {
+    if (sli_xml_is(node, "image")) keep_picture(s, node, at);
     s->other +=
         sli_xml_is(node, "text") || sli_xml_is(node, "image") || sli_xml_is(node, "foreignObject");
 }
@@ -291,14 +333,63 @@ static void note_strokes(const svg *s) {
                 s->pen.name, wide, wide == 1 ? " is" : "s are", widest);
 }
 
+static size_t count_shapes(const xmlNode *node) {
+    size_t count = 0;
+    for (const xmlNode *child = node->children; child; child = child->next) {
+        if (child->type != XML_ELEMENT_NODE) continue;
+        count += (sli_svg_shape_of(child) != SLI_SVG_NO_SHAPE) + count_shapes(child);
+    }
+    return count;
+}
+
+/// What belongs to an element by its name. A group that holds all shapes, but for two or one in
+/// fifty, says nothing of them unless it is one of walls: "axes_1", "Section A".
+static sl_status find_group(svg *s, xmlNode *node, sli_svg_shape kind, uint32_t *group) {
+    const uint32_t outer = *group;
+    SL_TRY(sli_svg_find_group(&s->contents, node, group));
+    const sli_meaning means = sli_contents_means(&s->contents, *group);
+    if (*group == outer || kind != SLI_SVG_NO_SHAPE || means == SLI_MEANS_NOTHING ||
+        means == SLI_MEANS_WALL)
+        return SL_OK;
+    if (count_shapes(node) + 2 + s->all_shapes / 50 >= s->all_shapes) *group = outer;
+    return SL_OK;
+}
+
+/// Tells how a shape looks, where styles are known. It may be asked for by that.
+static sl_status find_look(svg *s, place *at) {
+    const sli_affine *affine = &at->affine;
+    const double scale = sqrt(fabs(affine->xx * affine->yy - affine->xy * affine->yx));
+    const sli_ink ink = sli_svg_ink(&at->paint, scale);
+    sli_contents *contents = &s->contents;
+    if (s->style.paint_unread || at->layer) return SL_OK;
+    SL_TRY(sli_looks_find(s->context, &contents->looks, &ink, &contents->look));
+    if (s->options->layers)
+        at->taken |=
+            names_layer(s->options->layers, contents->looks.items.items[contents->look].name);
+    return SL_OK;
+}
+
+/// A picture as large as a quarter of the drawing: what it shows is not read.
+static void note_picture(const svg *s) {
+    const sl_box box = s->pen.map->wall_count ? sl_map_bounds(s->pen.map) : s->pen.map->source.page;
+    const double area = (box.max.x - box.min.x) * (box.max.y - box.min.y);
+    if (!(s->picture > 0) || s->picture * 4 < area) return;
+    sl_note(
+        s->context,
+        "%s:%u: a picture is as large as %.0f %% of the drawing, and is not read: if the plan is "
+        "in it, save it as a PNG file, and read that",
+        s->pen.name, (unsigned)s->picture_line, area > 0 ? 100 * s->picture / area : 100);
+}
+
 static sl_status draw_placed(svg *s, xmlNode *node, sli_svg_shape kind, place at) {
     at.taken |= s->options->layers && is_layer(s, node);
-    if (sli_contents_asks(&s->contents)) SL_TRY(sli_svg_find_group(&s->contents, node, &at.group));
+    if (sli_contents_asks(&s->contents)) SL_TRY(find_group(s, node, kind, &at.group));
     if (kind == SLI_SVG_NO_SHAPE) {
         const sli_layer own = layer_of_group(node);
         if (own) at.layer = own;
         return draw_group(s, node, at);
     }
+    SL_TRY(find_look(s, &at));
     if (!at.taken) return SL_OK;
     // Layers of our own say what they hold, however it is painted.
     if (at.layer ? at.paint.hidden : !sli_svg_is_seen(at.paint, !s->style.paint_unread)) {
@@ -318,7 +409,7 @@ static sl_status draw_element(svg *s, xmlNode *node, place at) {
     if (s->work % 1024 == 0) SL_TRY(sl_check_cancelled(s->context));
     const sli_svg_shape kind = sli_svg_shape_of(node);
     if (kind == SLI_SVG_NO_SHAPE && !is_group(node)) {
-        pass_over(s, node);
+        pass_over(s, node, &at);
         return SL_OK;
     }
     sli_svg_look look;
@@ -405,6 +496,7 @@ static sl_status name_walls(svg *s, xmlNode *root) {
     uint32_t count = 0, line = 0;
     bool own_lines = true;
     number_shapes(root, &count, &line, &own_lines);
+    s->all_shapes = count;
     s->by_number = s->pen.map->source.lines_are_items = !own_lines;
     return name_shapes(s, root);
 }
@@ -474,9 +566,11 @@ static sl_status draw_root(svg *s, xmlNode *root) {
                 .taken = !s->options->layers};
     sli_svg_look look;
     sli_svg_look_read(&s->style, root, &look);
-    at.paint = sli_svg_paint_in(at.paint, &look);
+    at.paint = sli_svg_paint_in(SLI_SVG_PAINT, &look);
     sli_svg_look_free(&look);
+    s->contents.has_looks = !s->style.paint_unread;
     SL_TRY(draw_children(s, root, at));
+    SL_TRY(check_looks(s, root));
     SL_TRY(sli_contents_choose(&s->contents, 0, &s->pen));
     s->shapes -= s->contents.left_out;
     s->pen.map->precision = sli_marked_precision(s->pen.map, s->pen.finest, s->mark, s->pen.sum);
@@ -491,6 +585,7 @@ static sl_status draw_root(svg *s, xmlNode *root) {
     sli_faults_note(s->context, s->pen.name, &s->faults);
     sli_layers_note(s->context, s->pen.name, s->pen.map);
     note_strokes(s);
+    note_picture(s);
     return SL_OK;
 }
 

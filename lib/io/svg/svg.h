@@ -24,8 +24,11 @@ typedef struct sli_svg {
     const sli_fault *fault;   ///< of the last failure; NULL where it is of the whole file
     SL_ARRAY(sl_box) clips;   ///< boxes of clips that were used, in their own places
     SL_ARRAY(double) strokes; ///< widths of lines that are not filled, in the map
-    char *mark;               ///< the sum of the digits that the file's writer knew
-    bool by_number;           ///< walls have the number of their shape in place of its line
+    size_t all_shapes;        ///< of the file, seen or not
+    double picture;           ///< the area of the largest picture, in the map
+    uint32_t picture_line;
+    char *mark;     ///< the sum of the digits that the file's writer knew
+    bool by_number; ///< walls have the number of their shape in place of its line
 } sli_svg;
 
 /// Where an element stands, and what it has of the elements about it.
