@@ -35,7 +35,8 @@ static bool is_json_with(const char *text, const char *word, const char *other) 
 
 static bool knows_tmj(const char *text, size_t size) {
     (void)size;
-    return is_json_with(text, "\"tilewidth\"", "\"layers\"");
+    return is_json_with(text, "\"tilewidth\"", "\"layers\"") ||
+           is_json_with(text, "\"tilelayer\"", "\"layers\"");
 }
 
 static bool knows_world(const char *text, size_t size) {
