@@ -203,7 +203,8 @@ sl_status cmd_place(command_console *console, int argc, char **argv) {
     const option_table cameras = camera_option_table(&plan.cameras);
     option_table picture = picture_option_table(&plan.drawing, "picture", true);
     for (size_t i = 0; i < picture.count; i++) picture.items[i].rare = true;
-    const option_table doors = door_option_table(&plan.doors);
+    option_table doors = door_option_table(&plan.doors);
+    for (size_t i = 1; i < doors.count; i++) doors.items[i].rare = true;
     const option_spec options[] = {
         {.group = &cameras},
         {"output", 'o', "FILE.csv", "the viewpoints as a table, which cover and isovist read",
@@ -215,7 +216,7 @@ sl_status cmd_place(command_console *console, int argc, char **argv) {
         {"verify", 0, "FILE",
          "check a proof for this map by other code, and trust nothing in it; exit with status 1 if "
          "it does not hold",
-         .text = &plan.verify},
+         .text = &plan.verify, .rare = true},
         {"time-limit", 0, "SECONDS",
          "stop then, and give the best set and both bounds; so does Ctrl-C (default: no limit)",
          .number = &plan.time_limit, .over_0 = true, .needs = "seconds, more than 0"},

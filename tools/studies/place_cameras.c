@@ -96,6 +96,11 @@ static sl_status add_place(sl_context *context, const camera_plan *plan, const s
 static sl_status add_table(sl_context *context, const camera_plan *plan, const zone_list *forbid,
                            const sl_space *space, camera_work *w) {
     sl_cameras table = {0};
+    if (strcmp(plan->from, "-") != 0 && sl_path_look(plan->from) == SL_PATH_NOTHING)
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "--from: '%s' is no file; places are anywhere, corners, walls, walls:STEP, "
+                       "grid:STEP or a table",
+                       plan->from);
     SL_TRY(sl_cameras_read(context, plan->from, &plan->like, &table));
     sl_status status = SL_OK;
     for (size_t i = 0; status == SL_OK && i < table.count; i++) {
@@ -240,12 +245,12 @@ static void say_among(const camera_work *w, char *text, size_t size) {
                  points == 1 ? "" : "s");
 }
 
-static void say_fewest(const camera_work *w, bool stopped, char *text, size_t size) {
+static void say_fewest(const camera_work *w, const char *among, bool stopped, char *text,
+                       size_t size) {
     const sl_area_placement *p = &w->placed;
     const bool costs = has_costs(w);
-    char among[128], lower[64];
+    char lower[64];
     const double least = (double)p->lower / w->scale;
-    say_among(w, among, sizeof among);
     snprintf(lower, sizeof lower, "%s%.10g%s", costs ? "a cost of " : "", least,
              costs        ? ""
              : least == 1 ? " viewpoint"
@@ -269,14 +274,17 @@ void camera_work_say(const camera_work *w, bool stopped, char *text, size_t size
                         p->seen);
     text += used;
     size -= (size_t)used;
-    if (!w->task.count) {
-        say_fewest(w, stopped, text, size);
-        return;
-    }
     say_among(w, among, sizeof among);
-    snprintf(text, size, "They see %.4g %%; no %u %s see more than %.4g %%.%s",
-             100 * p->seen / p->area, (unsigned)w->task.count, among, 100 * p->seen_most / p->area,
-             stopped ? " Stopped early." : "");
+    if (!w->task.count)
+        say_fewest(w, among, stopped, text, size);
+    else
+        snprintf(text, size, "They see %.4g %%; no %u %s see more than %.4g %%.%s",
+                 100 * p->seen / p->area, (unsigned)w->task.count, among,
+                 100 * p->seen_most / p->area, stopped ? " Stopped early." : "");
+    const size_t end = strlen(text);
+    if (w->task.fixed_count)
+        snprintf(text + end, size - end, " %u of them stand%s already.",
+                 (unsigned)w->task.fixed_count, w->task.fixed_count == 1 ? "s" : "");
 }
 
 sl_status camera_work_check_zones(sl_context *context, const camera_work *w,

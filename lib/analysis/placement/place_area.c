@@ -20,7 +20,9 @@
 /// The share of the area that is rounding.
 #define NEGLIGIBLE 1e-9
 
-enum { ROUNDS = 400, COARSE_ITERATIONS = 20000, SEARCH_ITERATIONS = 5000 };
+enum { ROUNDS = 400, COARSE_ITERATIONS = 20000, SEARCH_ITERATIONS = 5000, SEARCH_LEAST = 300 };
+/// Entries that a local search may touch, about.
+#define SEARCH_WORK 2e7
 
 static sl_status check_task(sl_context *context, const sl_place_area *t) {
     SL_TRY(sli_check_viewpoints(context, t->places, t->place_count));
@@ -173,6 +175,14 @@ static uint64_t fixed_cost(const sli_area *a) {
     return cost;
 }
 
+/// Iterations of the local search: fewer where each costs more, by the rows of a column and the
+/// columns of a row.
+static uint64_t iterations_for(const sli_cover *cover) {
+    const double entries = (double)cover->column_first[cover->columns];
+    const double each = entries * entries / ((double)cover->columns * cover->rows + 1);
+    return (uint64_t)fmax(SEARCH_LEAST, fmin(SEARCH_ITERATIONS, SEARCH_WORK / (each + 1)));
+}
+
 /// Adds places to `now` until it sees all witnesses, then betters it, but not at first.
 static sl_status take_more(finder *f, bool at_first) {
     sli_area *a = f->a;
@@ -185,7 +195,7 @@ static sl_status take_more(finder *f, bool at_first) {
     if (status == SL_OK && !at_first)
         status =
             sli_cover_search(a->context, &cover, a->out->lower > fixed ? a->out->lower - fixed : 0,
-                             SEARCH_ITERATIONS, f->now);
+                             iterations_for(&cover), f->now);
     for (uint32_t i = 0; i < a->task->place_count; i++) f->now[i] |= a->fixed[i];
     sli_cover_destroy(a->context, &cover);
     sli_area_problem_destroy(a->context, &problem);
