@@ -132,6 +132,7 @@ void sli_query_own(sl_query *query, sli_query_owner owner) {
 
 void sli_query_space_changed(sl_context *context, sl_query *q, const sl_outline *outline) {
     const bool grown = q->ready && q->sight.space.cell_count != q->asked->cell_count;
+    const bool rows = q->visibility && q->visibility->pvs.cell_count;
     q->given = outline;
     if (q->sight.own || is_turned(q)) {
         drop_all(context, q);
@@ -140,7 +141,7 @@ void sli_query_space_changed(sl_context *context, sl_query *q, const sl_outline 
     drop_moving(context, q);
     drop_mirrors(context, q);
     if (SLI_BOXES) sli_box_lists_destroy(context, &q->lists);
-    if (grown) drop_search(context, q);
+    if (grown || (q->search && q->search->has_pvs != rows)) drop_search(context, q);
     if (q->ready) q->sight.space = *q->asked;
     q->settled = false;
 }

@@ -26,6 +26,7 @@ sl_world_options sl_world_options_default(void) {
 void sl_world_destroy(sl_context *context, sl_world *s) {
     if (!s) return;
     sl_query_destroy(context, s->query);
+    sli_world_rows_destroy(context, &s->rows);
     sli_live_destroy(context, &s->live);
     sl_map_destroy(context, &s->map);
     void *const blocks[] = {s->lines.items,    s->pending.items,      s->points,
@@ -142,11 +143,14 @@ static sl_status make_mesh(sl_world *s, const sl_map *map, const sl_box *bounds)
     return status;
 }
 
-static sl_status start(sl_world *s, const sl_map *map, const sl_box *bounds) {
+static sl_status start(sl_world *s, const sl_map *map, const sl_box *bounds, sl_sight sight) {
+    const sl_visibility *visibility = s->mode == SL_WORLD_NO_ROWS ? NULL : &s->rows.visibility;
     SL_TRY(take_walls(s, map, bounds));
     SL_TRY(make_mesh(s, map, bounds));
-    s->map.range = map->range;
-    SL_TRY(sl_query_over(s->context, &s->live.space, &s->map, NULL, &s->query));
+    if (visibility) SL_TRY(sli_world_rows_start(s->context, &s->live, sight, &s->rows));
+    s->rows.visibility.sight = sight;
+    SL_TRY(sl_query_over(s->context, &s->live.space, &s->map, visibility, &s->query));
+    SL_TRY(sl_query_set_range(s->context, s->query, map->range));
     sli_query_space_changed(s->context, s->query, &s->live.outline);
     s->live.outline.space = &s->live.space;
     return SL_OK;
@@ -154,15 +158,16 @@ static sl_status start(sl_world *s, const sl_map *map, const sl_box *bounds) {
 
 sl_status sl_world_create(sl_context *context, const sl_map *map, const sl_world_options *options,
                           sl_world **out) {
-    const bool given = options && options->bounds.max.x > options->bounds.min.x &&
-                       options->bounds.max.y > options->bounds.min.y;
-    const sl_box bounds = given ? options->bounds : bounds_of(map);
+    const sl_world_options how = options ? *options : sl_world_options_default();
+    const sl_box b = how.bounds;
+    const sl_box bounds = b.max.x > b.min.x && b.max.y > b.min.y ? b : bounds_of(map);
     SL_TRY(refuse(context, map));
     if (map->wall_count > INT32_MAX / 2) return sl_fail_memory(context);
     sl_world *s = sl_alloc_array(context, 1, sizeof *s);
     if (!s) return SL_NO_MEMORY;
     use_context(s, context);
-    const sl_status status = start(s, map, &bounds);
+    s->mode = how.rows;
+    const sl_status status = start(s, map, &bounds, how.sight);
     if (status == SL_OK)
         *out = s;
     else
@@ -258,7 +263,27 @@ void sl_world_discard(sl_world *world) {
 
 static sl_status prepare(sl_world *s) {
     SL_TRY(sli_world_edit(s));
-    return sli_live_plan(&s->live);
+    SL_TRY(sli_live_plan(&s->live));
+    return sli_world_rows_plan(s->context, &s->live, &s->rows);
+}
+
+/// Whether some edit takes a wall away from where it is.
+static bool opens(const sl_world *s) {
+    for (size_t i = 0; i < s->pending.count; i++)
+        if (s->lines.items[s->pending.items[i]].stands) return true;
+    return false;
+}
+
+/// Makes the visible sets that the caller chose. Where memory is lacking there are none.
+static void follow_rows(sl_world *s, bool opened) {
+    sli_world_rows *r = &s->rows;
+    if (!r->kept) return;
+    sli_world_rows_apply(&s->live, r);
+    sli_world_rows_doubt(r);
+    const sl_status status = s->mode == SL_WORLD_ROWS_NOW
+                                 ? sli_world_rows_settle(s->context, &s->live, r, HUGE_VAL)
+                                 : sli_world_rows_loosen(s->context, &s->live, r, opened);
+    if (status != SL_OK) sli_world_rows_lose(&s->live, r);
 }
 
 static sl_status commit(sl_world *s) {
@@ -272,6 +297,7 @@ static sl_status commit(sl_world *s) {
     }
     sli_live_apply(&s->live);
     sli_world_settle_chains(s);
+    follow_rows(s, opens(s));
     for (size_t i = 0; i < s->pending.count; i++) {
         sli_world_line *line = &s->lines.items[s->pending.items[i]];
         line->at = line->next_at;
@@ -283,13 +309,27 @@ static sl_status commit(sl_world *s) {
 
 sl_status sl_world_commit(sl_context *context, sl_world *s, sl_world_changes *changes) {
     use_context(s, context);
-    s->live.gone.count = s->live.came.count = 0;
+    s->live.gone.count = s->live.came.count = s->rows.changed.count = 0;
     const sl_status status = s->pending.count ? commit(s) : SL_OK;
     end_edits(s);
     if (changes)
-        *changes = (sl_world_changes){s->live.gone.items, s->live.came.items, s->live.gone.count,
-                                      s->live.came.count};
+        *changes =
+            (sl_world_changes){s->live.gone.items, s->live.came.items,    s->live.gone.count,
+                               s->live.came.count, s->rows.changed.items, s->rows.changed.count};
     return status;
+}
+
+sl_status sl_world_settle(sl_context *context, sl_world *world, double milliseconds, size_t *left) {
+    use_context(world, context);
+    const sl_status status =
+        sli_world_rows_settle(context, &world->live, &world->rows, milliseconds / 1000);
+    sli_query_space_changed(context, world->query, &world->live.outline);
+    if (left) *left = world->rows.unsettled.count;
+    return status;
+}
+
+const sl_visibility *sl_world_visibility(const sl_world *world) {
+    return &world->rows.visibility;
 }
 
 // --- what there is

@@ -4,6 +4,7 @@
 
 #include "sightline/world.h"
 #include "world/live.h"
+#include "world/rows.h"
 
 /// A wall of the world. Its chain is the points of the triangulation that it leads through.
 typedef struct sli_world_line {
@@ -28,6 +29,8 @@ struct sl_world {
     sl_map map; ///< the query's: without walls
     sl_query *query;
     sli_live live;
+    sl_world_rows mode;
+    sli_world_rows rows;
     SL_ARRAY(sli_world_line) lines;
     uint32_t free_line;
     sli_numbers pending; ///< lines with edits

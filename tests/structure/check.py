@@ -51,7 +51,7 @@ HEADERS = {"context": "base", "earth": "geometry", "measures": "base", "support"
            "dual": "stab", "glpk": "stab", "solvers": "stab",
            "doors": "cell_to_cell", "explain": "cell_to_cell", "pvs": "cell_to_cell",
            "steps": "cell_to_cell",
-           "mirrored": "sight", "moving": "sight", "overlay": "sight", "query": "sight",
+           "explored": "sight", "mirrored": "sight", "moving": "sight", "overlay": "sight", "query": "sight",
            "region": "sight", "sees": "sight", "view": "sight",
            "explained": "bake",
            "axial": "analysis/axial", "vga": "analysis/visibility_graph",

@@ -10,6 +10,7 @@
 #include "sightline/effects.h"
 #include "sightline/explain.h"
 #include "sightline/explained.h"
+#include "sightline/explored.h"
 #include "sightline/faults.h"
 #include "sightline/geometry.h"
 #include "sightline/import.h"

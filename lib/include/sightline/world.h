@@ -35,14 +35,24 @@ extern "C" {
 /// Walls, their cells, and a query to them.
 typedef struct sl_world sl_world;
 
+/// Which visible sets a world keeps.
+typedef enum sl_world_rows {
+    SL_WORLD_NO_ROWS,    ///< none: sl_query_look searches without them
+    SL_WORLD_ROWS_NOW,   ///< exact after each commit
+    SL_WORLD_ROWS_LATER, ///< after each commit they miss nothing (SL_CONSERVATIVE);
+                         ///< sl_world_settle makes them exact
+} sl_world_rows;
+
 /// Start from sl_world_options_default().
 typedef struct sl_world_options {
+    sl_world_rows rows;
+    sl_sight sight; ///< of the visible sets
     /// Walls must lie within this box, not on its border. An empty box: the bounds of the map, and
     /// an eighth of their size more on each side.
     sl_box bounds;
 } sl_world_options;
 
-/// The usual options: bounds by the map.
+/// The usual options: bounds by the map, no visible sets, closed sight.
 SL_API sl_world_options sl_world_options_default(void);
 
 /// Makes a world of the walls of a map, which is copied. Wall i of the map is wall i of the world.
@@ -73,11 +83,13 @@ SL_API sl_status sl_world_move(sl_context *context, sl_world *world, uint32_t wa
 /// Forgets the edits since the last commit.
 SL_API void sl_world_discard(sl_world *world);
 
-/// What a commit did to the cells. Both lists are valid until the next commit. A number may be in
-/// both: it then stands for another cell.
+/// What a commit did to the cells. The lists are valid until the next commit. A number may be in
+/// `gone` and `came`: it then stands for another cell.
 typedef struct sl_world_changes {
     const uint32_t *gone, *came;
     size_t gone_count, came_count;
+    const uint32_t *rows; ///< cells whose visible sets may have changed, those that came among them
+    size_t row_count;
 } sl_world_changes;
 
 /// Makes the edits. `changes` may be NULL. If it fails, the edits are forgotten and the world is as
@@ -85,6 +97,20 @@ typedef struct sl_world_changes {
 /// and bend each other without end. Time: that of the cells around the walls that changed, whatever
 /// the size of the world.
 SL_API sl_status sl_world_commit(sl_context *context, sl_world *world, sl_world_changes *changes);
+
+// --- visible sets
+
+/// Makes visible sets exact, for about so many milliseconds, at least one set. *left: how many are
+/// still conservative; NULL for none. An exact one is made by a search over portal sequences from
+/// its cell. A commit searches again from the cells that saw a cell that went, and from those that
+/// came: no other set can change. If a commit lacks memory for its sets alone, it holds, and there
+/// are none (sl_world_visibility) until this makes them; questions are answered as before.
+SL_API sl_status sl_world_settle(sl_context *context, sl_world *world, double milliseconds,
+                                 size_t *left);
+
+/// The visible sets, by cell of the world, also as the query has them; without rows where there are
+/// none. `guarantee` says whether they are exact now. Valid until the next commit.
+SL_API const sl_visibility *sl_world_visibility(const sl_world *world);
 
 // --- what there is
 
