@@ -12,6 +12,7 @@
 #include "geometry/length.h"
 #include "io/parts/names.h"
 #include "io/parts/plan_doubt.h"
+#include "io/parts/plan_parts.h"
 #include "io/parts/symbols.h"
 
 #include <math.h>
@@ -120,7 +121,9 @@ typedef struct choice {
     sli_contents *contents;
     sl_map *map;
     unsigned char *means; ///< by wall
+    double metre;         ///< in the map's unit, 0 for unknown
     sli_symbols symbols;
+    sli_plan_parts parts;
     size_t kept;      ///< walls and windows that stay
     bool walls_named; ///< some layer is named as walls
     bool by_looks;    ///< some shapes are passed over by their looks
@@ -128,7 +131,7 @@ typedef struct choice {
     size_t doors;     ///< made
 } choice;
 
-static sl_status find_symbols(choice *c, double metre) {
+static sl_status find_symbols(choice *c) {
     const bool said = sli_contents_said(c->contents);
     c->means = sl_alloc(c->contents->context, c->map->wall_count);
     if (!c->means) return SL_NO_MEMORY;
@@ -144,7 +147,7 @@ static sl_status find_symbols(choice *c, double metre) {
             named += c->contents->groups.items[i].walls;
     const sli_meaning walls = named >= LEAST_WALLS ? SLI_MEANS_WALL : SLI_MEANS_NOTHING;
     return sli_symbols_find(c->contents->context, c->map, c->means, said ? SLI_MEANINGS : walls,
-                            said, metre, &c->symbols);
+                            said, c->metre, &c->symbols);
 }
 
 static bool is_gone(const choice *c, size_t wall) {
@@ -205,6 +208,40 @@ static bool choose_groups(choice *c) {
             c->kept += !is_gone(c, j) && is_taken(c, c->means[j]);
     }
     return changes && (c->kept >= LEAST_WALLS || sli_contents_said(c->contents));
+}
+
+/// A metre by the doors, which are 0.6 to 1.2 m wide, where the unit does not fit them.
+static double metre_by_doors(const choice *c) {
+    const size_t count = c->symbols.swings.count;
+    double sum = 0;
+    for (size_t i = 0; i < count; i++) sum += log(c->symbols.swings.items[i].radius);
+    const double radius = count ? exp(sum / (double)count) : 0;
+    if (!(radius > 0) || (radius > 0.5 * c->metre && radius < 1.6 * c->metre)) return c->metre;
+    return radius / 0.85;
+}
+
+/// Where no layer is named as walls: finds what is no wall by its shape, among what is taken.
+static sl_status find_parts(choice *c) {
+    sl_context *context = c->contents->context;
+    if (c->walls_named || sli_contents_said(c->contents)) return SL_OK;
+    const size_t count = c->map->wall_count;
+    sl_map taken = {0};
+    size_t *number = sl_alloc_array(context, count, sizeof *number);
+    taken.walls = sl_alloc_array(context, count, sizeof *taken.walls);
+    sl_status status = number && taken.walls ? SL_OK : SL_NO_MEMORY;
+    for (size_t i = 0; status == SL_OK && i < count; i++) {
+        if (is_gone(c, i) || !is_taken(c, c->means[i])) continue;
+        number[taken.wall_count] = i;
+        taken.walls[taken.wall_count++] = c->map->walls[i];
+    }
+    if (status == SL_OK)
+        status = sli_plan_parts_find(context, &taken, metre_by_doors(c), &c->parts);
+    for (size_t i = 0; status == SL_OK && c->parts.gone && i < taken.wall_count; i++)
+        if (sl_bits_has(c->parts.gone, i)) sl_bits_add(c->symbols.gone, number[i]);
+    c->kept -= sli_plan_parts_count(&c->parts);
+    sl_free(context, number);
+    sl_free(context, taken.walls);
+    return status;
 }
 
 // --- doors
@@ -396,6 +433,25 @@ static void list_looks(const choice *c, bool taken, sli_name_list *list) {
     }
 }
 
+static void add_kind(char *text, size_t size, size_t lines, const char *what) {
+    const size_t used = strlen(text);
+    snprintf(text + used, size - used, "%s%zu line%s %s", used ? ", " : "", lines,
+             lines == 1 ? "" : "s", what);
+}
+
+/// What was found by its shape.
+static void note_parts(const sli_plan_parts *parts, char *text, size_t size) {
+    if (!sli_plan_parts_count(parts)) return;
+    char shown[300] = "";
+    if (parts->frame) add_kind(shown, sizeof shown, parts->frame, "of frames");
+    if (parts->dimensions) add_kind(shown, sizeof shown, parts->dimensions, "of dimensions");
+    if (parts->across) add_kind(shown, sizeof shown, parts->across, "across walls (axes, wires)");
+    if (parts->beside) add_kind(shown, sizeof shown, parts->beside, "beside the plan");
+    if (parts->loose)
+        add_kind(shown, sizeof shown, parts->loose, "that touch no wall (furniture, symbols)");
+    add_part(text, size, "no walls by their shape: %s", shown);
+}
+
 static void note_choice(const choice *c) {
     const char *file = c->contents->file;
     sli_name_list walls = {.full = false}, windows = walls, doors = walls, over = walls;
@@ -423,6 +479,7 @@ static void note_choice(const choice *c) {
     if (c->words)
         add_part(text, sizeof text, "%zu shape%s of these, lettering or a page, %s no walls",
                  c->words, c->words == 1 ? "" : "s", c->words == 1 ? "is" : "are");
+    note_parts(&c->parts, text, sizeof text);
     if (*over.text) add_part(text, sizeof text, "passed over: %.250s", over.text);
     sl_note(c->contents->context, "%s: %s: %s (--layers A,B chooses, --layers '*' takes all)", file,
             c->by_looks ? "layers, and looks where no name says what is a wall" : "layers", text);
@@ -450,18 +507,64 @@ static void note_doubt(const choice *c) {
             c->contents->file, names.text);
 }
 
+/// What is left and not drawn as the walls are.
+static void note_rest(const choice *c) {
+    if (c->parts.rest <= 0.3) return;
+    sl_note(
+        c->contents->context,
+        "%s: %.0f %% of what is left, by length, is not drawn by pairs of lines as the walls are: "
+        "wires, counters or steps? sightline info %s lists the layers, --layers A,B takes those "
+        "of walls",
+        c->contents->file, 100 * c->parts.rest, c->contents->file);
+}
+
+/// Lines on layers of doors that are far longer than doors.
+static void note_long_doors(const choice *c) {
+    const sl_box bounds = sl_map_bounds(c->map);
+    const double size = fmax(bounds.max.x - bounds.min.x, bounds.max.y - bounds.min.y);
+    const double metre = metre_by_doors(c);
+    const double most = metre > 0 && size > 4 * metre && size < 400 * metre ? 3 * metre : size / 8;
+    size_t count = 0;
+    sli_name_list names = {.full = false};
+    for (size_t i = 0; i < c->contents->groups.count; i++)
+        c->contents->groups.items[i].long_ones = 0;
+    for (size_t i = 0; i < c->contents->runs.count; i++) {
+        const sli_group_run *run = &c->contents->runs.items[i];
+        sli_group *group = &c->contents->groups.items[run->group];
+        if (group->means != SLI_MEANS_DOOR) continue;
+        for (size_t k = run->first; k < run->end; k++) {
+            const sl_wall *wall = &c->map->walls[k];
+            const double length = sli_length(wall->b.x - wall->a.x, wall->b.y - wall->a.y);
+            group->long_ones += length > most && !is_gone(c, k);
+        }
+    }
+    for (size_t i = 0; i < c->contents->groups.count; i++) {
+        const sli_group *group = &c->contents->groups.items[i];
+        count += group->long_ones;
+        if (group->long_ones) sli_name_list_add(&names, (sli_word){group->name, group->length});
+    }
+    if (count < 2) return;
+    sl_note(c->contents->context,
+            "%s: %.120s: %zu lines on layers of doors are longer than doors: if they are walls, "
+            "--layers A,B names all layers of walls",
+            c->contents->file, names.text, count);
+}
+
 // --- all
 
-static sl_status choose(choice *c, double metre, sli_pen *pen) {
-    SL_TRY(find_symbols(c, metre));
+static sl_status choose(choice *c, sli_pen *pen) {
+    SL_TRY(find_symbols(c));
     count_named(c);
     SL_TRY(choose_looks(c));
-    const bool chosen = choose_groups(c);
+    bool chosen = choose_groups(c);
+    SL_TRY(find_parts(c));
+    chosen |= sli_plan_parts_count(&c->parts) > 0;
     for (size_t i = 0; i < c->contents->groups.count; i++) {
         const sli_group *group = &c->contents->groups.items[i];
         if (!chosen || group->taken) sli_keep_finest(&pen->finest, group->finest);
         if (chosen && !group->taken) c->contents->left_out += group->shapes;
     }
+    if (!sli_contents_said(c->contents)) note_long_doors(c);
     if (!chosen) return SL_OK;
     SL_TRY(add_doors(c));
     SL_TRY(keep_walls(c));
@@ -469,17 +572,19 @@ static sl_status choose(choice *c, double metre, sli_pen *pen) {
         pen->walls -= c->contents->groups.items[i].walls;
     pen->walls += c->kept;
     note_choice(c);
+    note_rest(c);
     if (c->walls_named && !sli_contents_said(c->contents)) note_doubt(c);
     return SL_OK;
 }
 
 sl_status sli_contents_choose(sli_contents *contents, double metre, sli_pen *pen) {
-    choice c = {.contents = contents, .map = pen->map};
+    choice c = {.contents = contents, .map = pen->map, .metre = metre};
     if (!contents->runs.count) return SL_OK;
-    sl_status status = choose(&c, metre, pen);
+    sl_status status = choose(&c, pen);
     if (status == SL_OK && !c.walls_named && !sli_contents_said(contents))
         status = sli_plan_tell(contents->context, contents->file, pen->map, metre, 0);
     sl_free(contents->context, c.means);
     sli_symbols_destroy(contents->context, &c.symbols);
+    sli_plan_parts_destroy(contents->context, &c.parts);
     return status;
 }

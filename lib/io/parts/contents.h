@@ -17,7 +17,8 @@ typedef struct sli_group {
     size_t length;
     sli_meaning means;
     size_t shapes, walls;
-    double finest; ///< unit of its coordinates, as sli_pen has it
+    size_t long_ones; ///< of a layer of doors: walls that are longer than doors
+    double finest;    ///< unit of its coordinates, as sli_pen has it
     bool taken;
 } sli_group;
 

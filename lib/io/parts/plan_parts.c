@@ -1,0 +1,555 @@
+/// What is no wall, in a plan whose layers do not say so.
+///
+/// Most plans draw a wall by its two faces. All walls of a plan have a few thicknesses, so these
+/// stand out among the distances between lines side by side, each taken as often as the lines are
+/// long. Lines at such a distance are faces. Where there are many, a plan can be told from what
+/// else is on the sheet:
+///
+///     +-------------------+  +--+     - a line across two faces or more is an axis, a dimension or
+///     | +---------------+ |  |* |       a wire: a wall does not go through a wall
+///     | |    o    []    | |  |# |     - pieces without faces beside the plan are legends, scales,
+///  ---|-|---------------|-|  +--+       north arrows, dimensions
+///     | +------+  +-----+ |           - small pieces without faces that touch nothing are
+///     furniture
+///     +--------+  +-------+             and symbols; but not a column, one small closed shape
+///
+/// A frame is a rectangle about all else that touches nothing of it, with a plan in it. Frames may
+/// be double, and have the title in a corner.
+///
+/// All is measured along the longest wall, so that plans may be turned. What cannot be told is
+/// kept.
+#include "io/parts/plan_parts.h"
+
+#include "geometry/length.h"
+#include "io/parts/plan_net.h"
+
+#include <math.h>
+#include <string.h>
+
+enum {
+    LEAST_FACES = 16, ///< fewer lines say nothing
+    BINS = 512,       ///< of distances
+    MOST_THICKNESSES = 4,
+    LEAST_OF_THICKNESS = 6 ///< pairs
+};
+
+typedef struct finder {
+    sl_context *context;
+    double metre;     ///< 0 where the plan is too large or too small for it
+    sl_map turned;    ///< the walls that are left, along the longest one
+    uint32_t *number; ///< of each in the map
+    sli_plan_net net;
+    sl_bits *faces; ///< of walls
+    sl_bits *even;  ///< has a line on both sides at one distance: hatching, steps, tiles
+    double thick[MOST_THICKNESSES];
+    size_t thick_count;
+    bool paired;                      ///< walls are drawn by their faces
+    double *face_length, *all_length; ///< by the first of each piece
+    sl_box plan;                      ///< about the pieces with faces
+    sli_plan_parts *out;
+} finder;
+
+static double wall_length(const sl_map *map, size_t wall) {
+    const sl_wall *w = &map->walls[wall];
+    return sli_length(w->b.x - w->a.x, w->b.y - w->a.y);
+}
+
+// --- the walls that are left, along the longest one
+
+static sl_point turned(sl_point p, sl_point by) {
+    return (sl_point){p.x * by.x + p.y * by.y, p.y * by.x - p.x * by.y};
+}
+
+/// Copies the walls that are not gone.
+static void take_walls(finder *f, const sl_map *map) {
+    double longest = 0;
+    sl_point by = {1, 0};
+    for (size_t i = 0; i < map->wall_count; i++) {
+        const sl_wall *wall = &map->walls[i];
+        const double length = wall_length(map, i);
+        if (!(length > longest)) continue;
+        longest = length;
+        by = (sl_point){(wall->b.x - wall->a.x) / length, (wall->b.y - wall->a.y) / length};
+    }
+    if (fabs(by.x) < 1e-9 || fabs(by.y) < 1e-9) by = (sl_point){1, 0};
+    f->turned.wall_count = 0;
+    for (size_t i = 0; i < map->wall_count; i++) {
+        if (sl_bits_has(f->out->gone, i)) continue;
+        f->number[f->turned.wall_count] = (uint32_t)i;
+        sl_wall *wall = &f->turned.walls[f->turned.wall_count++];
+        *wall = map->walls[i];
+        wall->a = turned(wall->a, by);
+        wall->b = turned(wall->b, by);
+    }
+}
+
+static sl_status make_net(finder *f, const sl_map *map) {
+    sli_plan_net_destroy(&f->net);
+    take_walls(f, map);
+    const sl_box bounds = sl_map_bounds(&f->turned);
+    const double size = fmax(sli_box_width(bounds), sli_box_height(bounds));
+    if (!(size > 4 * f->metre && size < 400 * f->metre)) f->metre = 0;
+    const double least = f->metre > 0 ? 0.05 * f->metre : size / 1000;
+    const double most = f->metre > 0 ? 0.6 * f->metre : size / 25;
+    return sli_plan_net_make(f->context, &f->turned, least, most, 0, &f->net);
+}
+
+// --- faces of walls
+
+/// How far a wall is at the left of another one.
+static double at_left(const sl_wall *wall, const sl_wall *other) {
+    const sl_point u = {wall->b.x - wall->a.x, wall->b.y - wall->a.y};
+    const sl_point v = {other->a.x / 2 + other->b.x / 2 - wall->a.x,
+                        other->a.y / 2 + other->b.y / 2 - wall->a.y};
+    return sli_cross(u, v) / sli_length(u.x, u.y);
+}
+
+static void keep_nearest(double sides[2], double left) {
+    double *side = &sides[left > 0];
+    if (*side == 0 || fabs(left) < *side) *side = fabs(left);
+}
+
+/// Marks lines that have lines of much their length at one distance on both sides.
+static sl_status find_even(finder *f) {
+    const sl_wall *walls = f->turned.walls;
+    const size_t count = f->turned.wall_count;
+    double(*sides)[2] = sl_alloc_array(f->context, count, sizeof *sides);
+    if (!sides) return SL_NO_MEMORY;
+    for (size_t i = 0; i < f->net.pairs.count; i++) {
+        const sli_plan_pair *pair = &f->net.pairs.items[i];
+        const double a = wall_length(&f->turned, pair->wall);
+        const double b = wall_length(&f->turned, pair->other);
+        if (a > 1.25 * b || b > 1.25 * a) continue;
+        keep_nearest(sides[pair->wall], at_left(&walls[pair->wall], &walls[pair->other]));
+        keep_nearest(sides[pair->other], at_left(&walls[pair->other], &walls[pair->wall]));
+    }
+    for (size_t i = 0; i < count; i++)
+        if (sides[i][0] > 0 && fabs(sides[i][0] - sides[i][1]) <= 0.05 * sides[i][0])
+            sl_bits_add(f->even, i);
+    sl_free(f->context, sides);
+    return SL_OK;
+}
+
+/// Whether a pair may be the faces of a wall: far longer than thick.
+static bool may_be_wall(const finder *f, const sli_plan_pair *pair) {
+    return pair->along >= 2 * pair->away && !sl_bits_has(f->even, pair->wall) &&
+           !sl_bits_has(f->even, pair->other);
+}
+
+static bool is_thickness(const finder *f, double away) {
+    for (size_t i = 0; i < f->thick_count; i++)
+        if (fabs(away - f->thick[i]) <= 0.04 * f->thick[i]) return true;
+    return false;
+}
+
+/// Pairs at much the same distance.
+typedef struct bin {
+    double along, weighed; ///< their lengths, and the sum of these by the distance
+    size_t count;
+} bin;
+
+/// What stands at a bin and next to it, up to 2 % away.
+static bin around(const finder *f, const bin *bins, int at) {
+    const int reach = (int)(0.02 * (BINS - 1) / log(f->net.most / f->net.least)) + 1;
+    bin sum = {0};
+    for (int i = at - reach; i <= at + reach; i++) {
+        if (i < 0 || i >= BINS) continue;
+        sum.along += bins[i].along;
+        sum.weighed += bins[i].weighed;
+        sum.count += bins[i].count;
+    }
+    return sum;
+}
+
+/// The distances that stand out, the commonest first.
+static sl_status find_thicknesses(finder *f) {
+    bin *bins = sl_alloc_array(f->context, BINS, sizeof *bins);
+    if (!bins) return SL_NO_MEMORY;
+    const double step = log(f->net.most / f->net.least) / (BINS - 1);
+    double first = 0;
+    for (size_t i = 0; i < f->net.pairs.count; i++) {
+        const sli_plan_pair *pair = &f->net.pairs.items[i];
+        if (!may_be_wall(f, pair)) continue;
+        bin *own = &bins[(size_t)(log(pair->away / f->net.least) / step)];
+        // Many walls count, not long ones: frames are long.
+        const double along = fmin(pair->along, f->net.size / 10);
+        own->along += along;
+        own->weighed += along * pair->away;
+        own->count++;
+    }
+    while (f->thick_count < MOST_THICKNESSES) {
+        bin best = {0};
+        for (int i = 0; i < BINS; i++) {
+            const bin sum = around(f, bins, i);
+            if (sum.count < LEAST_OF_THICKNESS || sum.along <= best.along) continue;
+            if (!is_thickness(f, sum.weighed / sum.along)) best = sum;
+        }
+        if (!best.count || best.along < 0.3 * first) break;
+        first = fmax(first, best.along);
+        f->thick[f->thick_count++] = best.weighed / best.along;
+    }
+    sl_free(f->context, bins);
+    return SL_OK;
+}
+
+/// Marks faces, and says whether walls are drawn by them.
+static void find_faces(finder *f) {
+    double faces = 0, all = 0;
+    size_t count = 0;
+    memset(f->faces, 0, sl_bits_words(f->turned.wall_count) * sizeof *f->faces);
+    for (size_t i = 0; i < f->net.pairs.count; i++) {
+        const sli_plan_pair *pair = &f->net.pairs.items[i];
+        if (!may_be_wall(f, pair) || !is_thickness(f, pair->away)) continue;
+        sl_bits_add(f->faces, pair->wall);
+        sl_bits_add(f->faces, pair->other);
+    }
+    for (size_t i = 0; i < f->turned.wall_count; i++) {
+        const double length = wall_length(&f->turned, i);
+        const bool face = sl_bits_has(f->faces, i);
+        count += face;
+        if (face) faces += length;
+        if (f->thick_count && length >= 2 * f->thick[0] && !sl_bits_has(f->even, i)) all += length;
+    }
+    f->paired = count >= LEAST_FACES && faces >= 0.25 * all;
+}
+
+// --- what is no wall
+
+static bool is_gone(const finder *f, uint32_t wall) {
+    return sl_bits_has(f->out->gone, f->number[wall]);
+}
+
+static void drop(finder *f, uint32_t wall, size_t *count) {
+    sl_bits_add(f->out->gone, f->number[wall]);
+    ++*count;
+}
+
+static void drop_piece(finder *f, uint32_t piece, size_t *count) {
+    for (uint32_t i = 0; i < f->turned.wall_count; i++)
+        if (sli_plan_first(f->net.piece, i) == piece) drop(f, i, count);
+}
+
+/// Lines that are no faces, and cross two faces or more. Not those that run beside others for half
+/// of their length: windows run through the columns of a wall.
+static sl_status drop_across(finder *f) {
+    const size_t count = f->turned.wall_count;
+    uint32_t *crossed = sl_alloc_array(f->context, count, sizeof *crossed);
+    double *along = sl_alloc_array(f->context, count, sizeof *along);
+    for (size_t i = 0; crossed && along && i < f->net.crossings.count; i++) {
+        const sli_plan_pair *at = &f->net.crossings.items[i];
+        crossed[at->wall] += sl_bits_has(f->faces, at->other);
+        crossed[at->other] += sl_bits_has(f->faces, at->wall);
+    }
+    for (size_t i = 0; crossed && along && i < f->net.pairs.count; i++) {
+        along[f->net.pairs.items[i].wall] += f->net.pairs.items[i].along;
+        along[f->net.pairs.items[i].other] += f->net.pairs.items[i].along;
+    }
+    for (uint32_t i = 0; crossed && along && i < count; i++)
+        if (crossed[i] >= 2 && along[i] < 0.5 * wall_length(&f->turned, i) &&
+            !sl_bits_has(f->faces, i) && !is_gone(f, i))
+            drop(f, i, &f->out->across);
+    const bool room = crossed && along;
+    sl_free(f->context, crossed);
+    sl_free(f->context, along);
+    return room ? SL_OK : SL_NO_MEMORY;
+}
+
+// --- dimensions
+
+/// The slash at the end of a dimension line: short and oblique, its middle on two lines or more.
+static bool is_tick(const finder *f, uint32_t wall) {
+    const sl_wall *w = &f->turned.walls[wall];
+    const double length = wall_length(&f->turned, wall);
+    const double most = f->metre > 0 ? 0.6 * f->metre : f->net.size / 50;
+    return length <= most && !sl_bits_has(f->faces, wall) &&
+           fmin(fabs(w->a.x - w->b.x), fabs(w->a.y - w->b.y)) >= 0.3 * length;
+}
+
+/// Whether a line that is no face is far longer than a tick, and has the tick's middle on it.
+static bool is_ticked(const finder *f, uint32_t wall, sl_point at, double tick) {
+    const sl_wall *w = &f->turned.walls[wall];
+    const double length = wall_length(&f->turned, wall), slack = 0.1 * tick;
+    const sl_point u = {(w->b.x - w->a.x) / length, (w->b.y - w->a.y) / length};
+    const sl_point v = {at.x - w->a.x, at.y - w->a.y};
+    return length > 2 * tick && !sl_bits_has(f->faces, wall) && fabs(sli_cross(u, v)) <= slack &&
+           sli_dot(u, v) >= -slack && sli_dot(u, v) <= length + slack;
+}
+
+/// Counts ticks by the lines that they are on, or drops the lines about the ticks of dimensions.
+static sl_status look_at_ticks(finder *f, uint32_t *ticks, bool dropping) {
+    for (uint32_t i = 0; i < f->turned.wall_count; i++) {
+        if (!is_tick(f, i)) continue;
+        const sl_wall *w = &f->turned.walls[i];
+        const sl_point at = {w->a.x / 2 + w->b.x / 2, w->a.y / 2 + w->b.y / 2};
+        const double length = wall_length(&f->turned, i);
+        bool ends = false;
+        uint32_t on = 0;
+        SL_TRY(sli_walls_near(f->context, &f->net.index, (sl_segment){at, at}, 0.1 * length));
+        for (size_t k = 0; k < f->net.index.near.count; k++) {
+            const uint32_t j = f->net.index.near.items[k];
+            if (j == i || !is_ticked(f, j, at, length)) continue;
+            on++;
+            ends |= ticks[j] >= 2;
+        }
+        if (on < 2 || (dropping && !ends)) continue;
+        for (size_t k = 0; k < f->net.index.near.count; k++) {
+            const uint32_t j = f->net.index.near.items[k];
+            if (j == i || !is_ticked(f, j, at, length)) continue;
+            if (!dropping)
+                ticks[j]++;
+            else if (!is_gone(f, j))
+                drop(f, j, &f->out->dimensions);
+        }
+        if (dropping && !is_gone(f, i)) drop(f, i, &f->out->dimensions);
+    }
+    return SL_OK;
+}
+
+/// Dimension lines with two ticks or more, the ticks, and the lines that lead to them.
+static sl_status drop_dimensions(finder *f) {
+    uint32_t *ticks = sl_alloc_array(f->context, f->turned.wall_count, sizeof *ticks);
+    if (!ticks) return SL_NO_MEMORY;
+    sl_status status = look_at_ticks(f, ticks, false);
+    if (status == SL_OK) status = look_at_ticks(f, ticks, true);
+    sl_free(f->context, ticks);
+    return status;
+}
+
+static double longer_side(sl_box box) {
+    return fmax(sli_box_width(box), sli_box_height(box));
+}
+
+/// Whether a piece is drawn as walls: a third of it is faces.
+static bool has_walls(const finder *f, uint32_t piece) {
+    return f->face_length[piece] >= 0.3 * f->all_length[piece];
+}
+
+static void measure_pieces(finder *f) {
+    const size_t count = f->turned.wall_count;
+    memset(f->face_length, 0, count * sizeof *f->face_length);
+    memset(f->all_length, 0, count * sizeof *f->all_length);
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t piece = sli_plan_first(f->net.piece, i);
+        const double length = wall_length(&f->turned, i);
+        f->all_length[piece] += length;
+        if (sl_bits_has(f->faces, i)) f->face_length[piece] += length;
+    }
+    bool any = false;
+    for (uint32_t i = 0; i < count; i++) {
+        if (sli_plan_first(f->net.piece, i) != i || !has_walls(f, i)) continue;
+        const sl_box box = f->net.boxes[i];
+        f->plan = any ? sli_box_with(sli_box_with(f->plan, box.min), box.max) : box;
+        any = true;
+    }
+}
+
+static bool is_beside(sl_box a, sl_box b) {
+    return a.max.x < b.min.x || a.min.x > b.max.x || a.max.y < b.min.y || a.min.y > b.max.y;
+}
+
+/// One closed shape, or four lines.
+static bool is_simple(const finder *f, uint32_t piece) {
+    bool one = true;
+    for (uint32_t i = piece; i < f->turned.wall_count; i++)
+        if (sli_plan_first(f->net.piece, i) == piece)
+            one &= f->turned.walls[i].line == f->turned.walls[piece].line;
+    return (one || f->net.counts[piece] == 4) && f->net.counts[piece] >= 3;
+}
+
+/// Whether a piece that touches nothing may be a wall: a column or an obstacle, a small room, or
+/// thin as walls and windows are.
+static bool may_stand(const finder *f, uint32_t piece, bool obstacles) {
+    const sl_box box = f->net.boxes[piece];
+    const double w = sli_box_width(box), h = sli_box_height(box);
+    const double thin = fmin(w, h), wide = fmax(w, h);
+    double thickest = 0;
+    for (size_t i = 0; i < f->thick_count; i++) thickest = fmax(thickest, f->thick[i]);
+    if (thin <= 1.2 * thickest && wide >= 3 * thin) return true;
+    if (!is_simple(f, piece)) return false;
+    return obstacles || wide <= 3 * thickest || (f->metre > 0 && thin >= f->metre);
+}
+
+/// A small piece without faces in the plan.
+static bool is_loose(const finder *f, uint32_t piece) {
+    const double plan = longer_side(f->plan), own = longer_side(f->net.boxes[piece]);
+    return sli_plan_first(f->net.piece, piece) == piece && !has_walls(f, piece) &&
+           !is_beside(f->net.boxes[piece], f->plan) &&
+           own <= (f->metre > 0 ? fmin(plan / 5, 3.5 * f->metre) : plan / 12);
+}
+
+/// Pieces without faces beside the plan, and small ones in it.
+static void drop_pieces(finder *f) {
+    size_t loose = 0, simple = 0;
+    for (uint32_t i = 0; i < f->turned.wall_count; i++) {
+        if (!is_loose(f, i)) continue;
+        loose++;
+        simple += is_simple(f, i);
+    }
+    // Where nearly all of them are plain boxes, that is how the plan draws obstacles.
+    const bool obstacles = 5 * simple >= 4 * loose;
+    for (uint32_t i = 0; i < f->turned.wall_count; i++) {
+        if (sli_plan_first(f->net.piece, i) != i || has_walls(f, i)) continue;
+        const sl_box box = f->net.boxes[i];
+        if (is_beside(box, f->plan)) {
+            if (longer_side(box) < longer_side(f->plan)) drop_piece(f, i, &f->out->beside);
+        } else if (is_loose(f, i) && !may_stand(f, i, obstacles)) {
+            drop_piece(f, i, &f->out->loose);
+            f->out->pieces++;
+        }
+    }
+}
+
+// --- frames
+
+/// A piece that covers the four sides of its box; what else it has lies in a part of it, as the
+/// title of a sheet does.
+static bool is_rectangle(const finder *f, uint32_t piece) {
+    const sl_box box = f->net.boxes[piece];
+    const double w = sli_box_width(box), h = sli_box_height(box), off = f->net.tolerance;
+    double sides[4] = {0};
+    sl_box rest = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+    for (uint32_t i = piece; i < f->turned.wall_count; i++) {
+        if (sli_plan_first(f->net.piece, i) != piece) continue;
+        const sl_wall *wall = &f->turned.walls[i];
+        const double length = wall_length(&f->turned, i);
+        if (fmax(fabs(wall->a.x - box.min.x), fabs(wall->b.x - box.min.x)) <= off)
+            sides[0] += length;
+        else if (fmax(fabs(wall->a.x - box.max.x), fabs(wall->b.x - box.max.x)) <= off)
+            sides[1] += length;
+        else if (fmax(fabs(wall->a.y - box.min.y), fabs(wall->b.y - box.min.y)) <= off)
+            sides[2] += length;
+        else if (fmax(fabs(wall->a.y - box.max.y), fabs(wall->b.y - box.max.y)) <= off)
+            sides[3] += length;
+        else
+            rest = sli_box_with(sli_box_with(rest, wall->a), wall->b);
+    }
+    const bool small =
+        rest.min.x > rest.max.x || sli_box_width(rest) * sli_box_height(rest) <= w * h / 3;
+    return w > 0 && h > 0 && small && sides[0] >= 0.95 * h && sides[1] >= 0.95 * h &&
+           sides[2] >= 0.95 * w && sides[3] >= 0.95 * w;
+}
+
+static bool is_within(sl_box inner, sl_box outer, double room) {
+    return inner.min.x >= outer.min.x + room && inner.max.x <= outer.max.x - room &&
+           inner.min.y >= outer.min.y + room && inner.max.y <= outer.max.y - room;
+}
+
+/// Whether a rectangle is the frame of a sheet: it holds a plan, with room about it. Where walls
+/// are not drawn by their faces, it must hold all else, and a plan is a large piece.
+static bool is_frame(const finder *f, uint32_t piece, const sl_bits *rectangles) {
+    const sl_box box = f->net.boxes[piece];
+    const double room = longer_side(box) / 50;
+    sl_box plan = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+    bool large = false;
+    for (uint32_t i = 0; i < f->turned.wall_count; i++) {
+        if (sli_plan_first(f->net.piece, i) != i || sl_bits_has(rectangles, i)) continue;
+        const sl_box own = f->net.boxes[i];
+        const bool near = !is_within(own, box, room);
+        if (f->paired ? near && is_within(own, box, 0) && has_walls(f, i) : near) return false;
+        if (near || f->net.counts[i] < 8) continue;
+        large |= sli_box_width(own) >= 0.4 * sli_box_width(box) &&
+                 sli_box_height(own) >= 0.4 * sli_box_height(box);
+        if (has_walls(f, i)) plan = sli_box_with(sli_box_with(plan, own.min), own.max);
+    }
+    return f->paired ? longer_side(plan) >= 0.2 * longer_side(box) : large;
+}
+
+/// Drops frames. A rectangle that is side by side with something else than a rectangle is a wall.
+static sl_status drop_frames(finder *f) {
+    const uint32_t count = (uint32_t)f->turned.wall_count;
+    sl_bits *rectangles = sl_alloc_array(f->context, sl_bits_words(count), sizeof *rectangles);
+    sl_bits *walls = sl_alloc_array(f->context, sl_bits_words(count), sizeof *walls);
+    const bool room = rectangles && walls;
+    for (uint32_t i = 0; room && i < count; i++)
+        if (sli_plan_first(f->net.piece, i) == i && f->net.counts[i] >= 4 && is_rectangle(f, i))
+            sl_bits_add(rectangles, i);
+    for (size_t i = 0; room && i < f->net.pairs.count; i++) {
+        const uint32_t a = sli_plan_first(f->net.piece, f->net.pairs.items[i].wall);
+        const uint32_t b = sli_plan_first(f->net.piece, f->net.pairs.items[i].other);
+        if (a == b || f->net.pairs.items[i].along < 0.25 * f->net.size / 4) continue;
+        const bool any = !f->paired;
+        if (!sl_bits_has(rectangles, b) && (any || has_walls(f, b))) sl_bits_add(walls, a);
+        if (!sl_bits_has(rectangles, a) && (any || has_walls(f, a))) sl_bits_add(walls, b);
+    }
+    for (uint32_t i = 0; room && i < count; i++)
+        if (sl_bits_has(rectangles, i) && !sl_bits_has(walls, i) && is_frame(f, i, rectangles))
+            drop_piece(f, i, &f->out->frame);
+    sl_free(f->context, rectangles);
+    sl_free(f->context, walls);
+    return room ? SL_OK : SL_NO_MEMORY;
+}
+
+// --- what is left
+
+/// How much of what is left are no faces and no ends of walls, by its length: it may be wires,
+/// counters, steps, or walls drawn by one line.
+static void measure_rest(finder *f) {
+    double rest = 0, all = 0;
+    for (uint32_t i = 0; i < f->turned.wall_count; i++) {
+        const double length = wall_length(&f->turned, i);
+        if (is_gone(f, i)) continue;
+        all += length;
+        double thickest = 0;
+        for (size_t k = 0; k < f->thick_count; k++) thickest = fmax(thickest, f->thick[k]);
+        if (!sl_bits_has(f->faces, i) && length > 1.2 * thickest) rest += length;
+    }
+    f->out->rest = all > 0 ? rest / all : 0;
+}
+
+// --- all
+
+/// The net of the walls that are left, and its faces. `first`: thicknesses are to be found.
+static sl_status look(finder *f, const sl_map *map, bool first) {
+    SL_TRY(make_net(f, map));
+    if (!f->net.whole || !(f->net.most > 0)) return SL_OK;
+    memset(f->even, 0, sl_bits_words(map->wall_count) * sizeof *f->even);
+    SL_TRY(find_even(f));
+    if (first) SL_TRY(find_thicknesses(f));
+    find_faces(f);
+    measure_pieces(f);
+    return SL_OK;
+}
+
+static sl_status find_all(finder *f, const sl_map *map) {
+    SL_TRY(look(f, map, true));
+    if (!f->net.whole || !(f->net.most > 0)) return SL_OK;
+    SL_TRY(drop_dimensions(f));
+    if (f->out->dimensions) SL_TRY(look(f, map, false));
+    SL_TRY(drop_frames(f));
+    if (f->paired) SL_TRY(drop_across(f));
+    if (f->out->across || f->out->frame) SL_TRY(look(f, map, false));
+    if (f->paired && f->net.whole) drop_pieces(f);
+    if (f->paired && f->net.whole) measure_rest(f);
+    return SL_OK;
+}
+
+sl_status sli_plan_parts_find(sl_context *context, const sl_map *map, double metre,
+                              sli_plan_parts *out) {
+    const size_t count = map->wall_count;
+    finder f = {.context = context, .metre = metre, .out = out};
+    if (count < LEAST_FACES) return SL_OK;
+    out->gone = sl_alloc_array(context, sl_bits_words(count), sizeof *out->gone);
+    f.turned.walls = sl_alloc_array(context, count, sizeof *f.turned.walls);
+    f.number = sl_alloc_array(context, count, sizeof *f.number);
+    f.faces = sl_alloc_array(context, sl_bits_words(count), sizeof *f.faces);
+    f.even = sl_alloc_array(context, sl_bits_words(count), sizeof *f.even);
+    f.face_length = sl_alloc_array(context, count, sizeof *f.face_length);
+    f.all_length = sl_alloc_array(context, count, sizeof *f.all_length);
+    sl_status status = SL_NO_MEMORY;
+    if (out->gone && f.turned.walls && f.number && f.faces && f.even && f.face_length &&
+        f.all_length)
+        status = find_all(&f, map);
+    sli_plan_net_destroy(&f.net);
+    sl_free(context, f.turned.walls);
+    sl_free(context, f.number);
+    sl_free(context, f.faces);
+    sl_free(context, f.even);
+    sl_free(context, f.face_length);
+    sl_free(context, f.all_length);
+    return status;
+}
+
+void sli_plan_parts_destroy(sl_context *context, sli_plan_parts *parts) {
+    sl_free(context, parts->gone);
+    *parts = (sli_plan_parts){0};
+}
