@@ -15,7 +15,8 @@
 #include <math.h>
 #include <string.h>
 
-enum { MOST_LOOKS = 512, LEAST_WALLS = 3 };
+/// Of fewer shapes than LEAST_SHAPES nothing is told.
+enum { MOST_LOOKS = 512, LEAST_WALLS = 3, LEAST_SHAPES = 8 };
 
 /// A long wall: 1/60 of the drawing, in a shape of 1/20. A floor is thicker than 1/25. A word or a
 /// symbol has no long wall, and is up to 1/4 large.
@@ -206,12 +207,13 @@ static const sli_look *heaviest(const chooser *c) {
     return best;
 }
 
-/// Whether a look is one of walls beside the heaviest.
+/// Whether a look is one of walls beside the heaviest. What is filled as darkly may be columns,
+/// which have no long walls.
 static bool is_alike(const chooser *c, const sli_look *look, const sli_look *best) {
-    return look == best ||
-           (look->weight >= ALIKE * best->weight &&
-            contrast(c, look) >= CONTRAST * contrast(c, best) &&
-            look->length >= BESIDE * best->length && look->length >= BESIDE * look->around);
+    if (look == best) return true;
+    if (look->weight < ALIKE * best->weight || contrast(c, look) < CONTRAST * contrast(c, best))
+        return false;
+    return !look->ink.line || look->length >= BESIDE * fmax(best->length, look->around);
 }
 
 /// Whether a filled shape is a word or a symbol: many short lines that enclose little.
@@ -261,8 +263,8 @@ void sli_looks_choose(const sl_map *map, const sli_look_shape *shapes, size_t co
         if (i != c.backdrop) measure_shape(&c, &shapes[i]);
     }
     weigh_all(&c);
-    const sli_look *best = heaviest(&c);
-    const bool rooms = !best && c.floors > c.lines;
+    const sli_look *best = count >= LEAST_SHAPES ? heaviest(&c) : NULL;
+    const bool rooms = count >= LEAST_SHAPES && !best && c.floors > c.lines;
     for (size_t i = 0; i < looks->items.count; i++) {
         sli_look *look = &looks->items.items[i];
         look->taken = best ? is_alike(&c, look, best) : rooms && is_floor(&c, look);
