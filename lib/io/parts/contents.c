@@ -127,6 +127,7 @@ typedef struct choice {
     size_t kept;      ///< walls and windows that stay
     bool walls_named; ///< some layer is named as walls
     bool by_looks;    ///< some shapes are passed over by their looks
+    double share;     ///< of walls by their looks in all long lines
     size_t words;     ///< shapes that look like walls, but are lettering or the page
     size_t doors;     ///< made
 } choice;
@@ -179,7 +180,7 @@ static sl_status choose_looks(choice *c) {
         if (c->means[runs[i].first] == SLI_MEANS_NOTHING && !is_gone(c, runs[i].first))
             shapes[used++] = (sli_look_shape){runs[i].first, runs[i].end, runs[i].look};
     if (used && taken)
-        sli_looks_choose(c->map, shapes, used, &c->contents->looks, taken, &c->by_looks);
+        c->share = sli_looks_choose(c->map, shapes, used, &c->contents->looks, taken, &c->by_looks);
     for (size_t i = 0; i < used && c->by_looks; i++) {
         if (sl_bits_has(taken, i)) continue;
         memset(c->means + shapes[i].first, SLI_MEANS_OTHER, shapes[i].end - shapes[i].first);
@@ -489,6 +490,22 @@ static void note_choice(const choice *c) {
                 c->symbols.doors - c->doors);
 }
 
+/// Walls by their looks, where others may be walls as well as they.
+static void note_share(const choice *c) {
+    const sli_look *taken = NULL, *other = NULL;
+    for (size_t i = 0; i < c->contents->looks.items.count; i++) {
+        const sli_look *look = &c->contents->looks.items.items[i],
+                       **best = look->taken ? &taken : &other;
+        if (!*best || look->length > (*best)->length) *best = look;
+    }
+    if (!taken || !other || c->share >= 0.4) return;
+    sl_note(
+        c->contents->context,
+        "%s: what looks like walls has only %.0f %% of the long lines: if other looks are walls, "
+        "name all that are: --layers '%s,%s'",
+        c->contents->file, 100 * c->share, taken->name, other->name);
+}
+
 /// Layers that are passed over though their names say nothing, and that hold more than the walls.
 static void note_doubt(const choice *c) {
     sli_name_list names = {.full = false};
@@ -574,6 +591,7 @@ static sl_status choose(choice *c, sli_pen *pen) {
     note_choice(c);
     note_rest(c);
     if (c->walls_named && !sli_contents_said(c->contents)) note_doubt(c);
+    if (c->by_looks) note_share(c);
     return SL_OK;
 }
 

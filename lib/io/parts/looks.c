@@ -15,7 +15,8 @@
 #include <math.h>
 #include <string.h>
 
-enum { MOST_LOOKS = 512, LEAST_WALLS = 3 };
+/// Of fewer shapes than LEAST_SHAPES nothing is told.
+enum { MOST_LOOKS = 512, LEAST_WALLS = 3, LEAST_SHAPES = 8 };
 
 /// A long wall: 1/60 of the drawing, in a shape of 1/20. A floor is thicker than 1/25. A word or a
 /// symbol has no long wall, and is up to 1/4 large.
@@ -206,15 +207,17 @@ static const sli_look *heaviest(const chooser *c) {
     return best;
 }
 
-/// Whether a look is one of walls beside the heaviest.
+/// Whether a look is one of walls beside the heaviest. What is filled as darkly may be columns,
+/// which have no long walls.
 static bool is_alike(const chooser *c, const sli_look *look, const sli_look *best) {
-    return look == best ||
-           (look->weight >= ALIKE * best->weight &&
-            contrast(c, look) >= CONTRAST * contrast(c, best) &&
-            look->length >= BESIDE * best->length && look->length >= BESIDE * look->around);
+    if (look == best) return true;
+    if (look->weight < ALIKE * best->weight || contrast(c, look) < CONTRAST * contrast(c, best))
+        return false;
+    const bool column = !look->ink.line && CONTRAST * contrast(c, look) <= contrast(c, best);
+    return column || look->length >= BESIDE * fmax(best->length, look->around);
 }
 
-/// Whether a filled shape is a word or a symbol: many short lines that enclose little.
+/// Whether a filled shape is a word or a symbol: many short lines, and not round as a column is.
 static bool is_word(const chooser *c, const sli_look_shape *shape) {
     double twice = 0, around = 0;
     const sl_point from = c->map->walls[shape->first].a;
@@ -230,7 +233,7 @@ static bool is_word(const chooser *c, const sli_look_shape *shape) {
         twice += sli_cross(a, b);
         around += length;
     }
-    return 9 * fabs(twice) < around * around; // of a circle it is 6.3 to 6.4, of a square 8
+    return 7 * fabs(twice) < around * around; // of a circle it is 6.3 to 6.4
 }
 
 /// Takes shapes of the looks that are taken, and counts them.
@@ -246,8 +249,22 @@ static size_t take_shapes(chooser *c, sl_bits *taken) {
     return walls;
 }
 
-void sli_looks_choose(const sl_map *map, const sli_look_shape *shapes, size_t count,
-                      sli_looks *looks, sl_bits *taken, bool *chosen) {
+/// The share of the looks that are taken in all long lines. Floors that are not taken have the
+/// lines between them twice.
+static double share_of(const chooser *c) {
+    double taken = 0, rest = 0;
+    for (size_t i = 0; i < c->looks->items.count; i++) {
+        const sli_look *look = &c->looks->items.items[i];
+        if (look->taken)
+            taken += look->length;
+        else
+            rest += is_floor(c, look) ? look->length / 2 : look->length;
+    }
+    return taken > 0 ? taken / (taken + rest) : 1;
+}
+
+double sli_looks_choose(const sl_map *map, const sli_look_shape *shapes, size_t count,
+                        sli_looks *looks, sl_bits *taken, bool *chosen) {
     chooser c = {.map = map, .shapes = shapes, .count = count, .looks = looks};
     size_t all = 0;
     for (size_t i = 0; i < looks->items.count; i++) {
@@ -261,12 +278,13 @@ void sli_looks_choose(const sl_map *map, const sli_look_shape *shapes, size_t co
         if (i != c.backdrop) measure_shape(&c, &shapes[i]);
     }
     weigh_all(&c);
-    const sli_look *best = heaviest(&c);
-    const bool rooms = !best && c.floors > c.lines;
+    const sli_look *best = count >= LEAST_SHAPES ? heaviest(&c) : NULL;
+    const bool rooms = count >= LEAST_SHAPES && !best && c.floors > c.lines;
     for (size_t i = 0; i < looks->items.count; i++) {
         sli_look *look = &looks->items.items[i];
         look->taken = best ? is_alike(&c, look, best) : rooms && is_floor(&c, look);
     }
     const size_t walls = take_shapes(&c, taken);
     *chosen = walls >= LEAST_WALLS && walls < all;
+    return share_of(&c);
 }

@@ -49,8 +49,9 @@ bool sli_look_may_be(sli_word name);
 /// Chooses the looks that are walls, by the shapes whose names say nothing; the first shape lies
 /// lowest. `taken`, all zero, gets the shapes that are walls: those of the looks that are taken,
 /// but for lettering, and for a page that all lies on. `*chosen`: it leaves some out, and three
-/// walls at least. Looks that are alike in weight stay together.
-void sli_looks_choose(const sl_map *map, const sli_look_shape *shapes, size_t count,
-                      sli_looks *looks, sl_bits *taken, bool *chosen);
+/// walls at least. Looks that are alike in weight stay together. Returns their share of all long
+/// lines.
+double sli_looks_choose(const sl_map *map, const sli_look_shape *shapes, size_t count,
+                        sli_looks *looks, sl_bits *taken, bool *chosen);
 
 #endif

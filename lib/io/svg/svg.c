@@ -9,7 +9,6 @@
 #include "io/parts/contents.h"
 #include "io/parts/document.h"
 #include "io/parts/names.h"
-#include "io/svg/svg_colour.h"
 #include "io/svg/svg_group.h"
 #include "io/svg/svg_path.h"
 #include "map/scan.h"
@@ -25,14 +24,6 @@ typedef sli_svg_place place;
 static sl_status draw_or_pass(svg *s, xmlNode *node, place at);
 
 // --- attributes
-
-/// A share of a window that a map has not.
-static bool has_percent(xmlNode *node, const char *name) {
-    char *text = sli_xml_attribute(node, name);
-    const bool percent = text && strchr(text, '%');
-    sli_xml_free(text);
-    return percent;
-}
 
 static bool attribute_is(xmlNode *node, const char *name, const char *value) {
     char *text = sli_xml_attribute(node, name);
@@ -202,8 +193,8 @@ static sl_status enter_drawing(svg *s, xmlNode *node, place *at) {
     double width = box[2], height = box[3];
     SL_TRY(sli_svg_length(s, node, "x", &x));
     SL_TRY(sli_svg_length(s, node, "y", &y));
-    if (!has_percent(node, "width")) SL_TRY(sli_svg_length(s, node, "width", &width));
-    if (!has_percent(node, "height")) SL_TRY(sli_svg_length(s, node, "height", &height));
+    if (!sli_svg_has_percent(node, "width")) SL_TRY(sli_svg_length(s, node, "width", &width));
+    if (!sli_svg_has_percent(node, "height")) SL_TRY(sli_svg_length(s, node, "height", &height));
     const double scale = box[2] > 0 ? fmin(width / box[2], height / box[3]) : 1;
     sli_affine inner = {
         .xx = scale, .x0 = x - scale * box[0], .yy = scale, .y0 = y - scale * box[1]};
@@ -245,33 +236,9 @@ static bool is_group(xmlNode *node) {
            sli_xml_is(node, "switch") || sli_xml_is(node, "use");
 }
 
-/// Keeps the largest picture: a plan may be in it.
-static void keep_picture(svg *s, xmlNode *node, const place *at) {
-    double width = 0, height = 0;
-    sli_svg_look look;
-    place own = *at;
-    bool seen = true;
-    if (has_percent(node, "width") || has_percent(node, "height")) {
-        width = at->view.max.x, height = at->view.max.y;
-    } else if (sli_svg_length(s, node, "width", &width) != SL_OK ||
-               sli_svg_length(s, node, "height", &height) != SL_OK) {
-        return;
-    }
-    sli_svg_look_read(&s->style, node, &look);
-    const bool hidden = sli_word_is(look.values[SLI_SVG_DISPLAY], "none") || at->paint.hidden;
-    const sl_status status = sli_svg_move(s, node, &look, &own, &seen);
-    sli_svg_look_free(&look);
-    if (status != SL_OK || !seen || hidden) return;
-    const sli_affine *affine = &own.affine;
-    const double area = width * height * fabs(affine->xx * affine->yy - affine->xy * affine->yx);
-    if (!(area > s->picture)) return;
-    s->picture = area;
-    s->picture_line = sli_xml_line(node);
-}
-
 /// Text, pictures and what is drawn only where it is used give no walls; the former are counted.
 static void pass_over(svg *s, xmlNode *node, const place *at) {
-    if (sli_xml_is(node, "image")) keep_picture(s, node, at);
+    if (sli_xml_is(node, "image")) sli_svg_keep_picture(s, node, at);
     s->other +=
         sli_xml_is(node, "text") || sli_xml_is(node, "image") || sli_xml_is(node, "foreignObject");
 }
@@ -305,98 +272,22 @@ static sl_status draw_in_group(svg *s, xmlNode *node, sli_svg_shape kind, const 
     return status;
 }
 
-/// Keeps the width of a line that is drawn by its stroke alone.
-static sl_status keep_stroke(svg *s, const place *at) {
-    const sli_affine *affine = &at->affine;
-    const double scale = sqrt(fabs(affine->xx * affine->yy - affine->xy * affine->yx));
-    if (!at->paint.no_fill || !at->paint.stroke || !(at->paint.width > 0)) return SL_OK;
-    SL_TRY(SL_ARRAY_ROOM(s->context, &s->strokes, 1));
-    s->strokes.items[s->strokes.count++] = at->paint.width * scale;
-    return SL_OK;
-}
-
-/// Walls run along the middle of lines. A wide one may be meant as a wall of that width.
-static void note_strokes(const svg *s) {
-    const sl_box box = sl_map_bounds(s->pen.map);
-    const double size = fmax(box.max.x - box.min.x, box.max.y - box.min.y);
-    double widest = 0;
-    size_t wide = 0;
-    for (size_t i = 0; i < s->strokes.count; i++) {
-        if (!(s->strokes.items[i] > size / 80)) continue;
-        wide++;
-        widest = fmax(widest, s->strokes.items[i]);
-    }
-    if (wide && s->pen.map->wall_count)
-        sl_note(s->context,
-                "%s: %zu shape%s drawn by lines up to %g wide: walls run along their middle; for "
-                "walls of that width, make outlines of the lines (in Inkscape: Stroke to Path)",
-                s->pen.name, wide, wide == 1 ? " is" : "s are", widest);
-}
-
-static size_t count_shapes(const xmlNode *node) {
-    size_t count = 0;
-    for (const xmlNode *child = node->children; child; child = child->next) {
-        if (child->type != XML_ELEMENT_NODE) continue;
-        count += (sli_svg_shape_of(child) != SLI_SVG_NO_SHAPE) + count_shapes(child);
-    }
-    return count;
-}
-
-/// What belongs to an element by its name. A group that holds all shapes, but for two or one in
-/// fifty, says nothing of them unless it is one of walls: "axes_1", "Section A".
-static sl_status find_group(svg *s, xmlNode *node, sli_svg_shape kind, uint32_t *group) {
-    const uint32_t outer = *group;
-    SL_TRY(sli_svg_find_group(&s->contents, node, group));
-    const sli_meaning means = sli_contents_means(&s->contents, *group);
-    if (*group == outer || kind != SLI_SVG_NO_SHAPE || means == SLI_MEANS_NOTHING ||
-        means == SLI_MEANS_WALL)
-        return SL_OK;
-    if (count_shapes(node) + 2 + s->all_shapes / 50 >= s->all_shapes) *group = outer;
-    return SL_OK;
-}
-
-/// Tells how a shape looks, where styles are known. It may be asked for by that.
-static sl_status find_look(svg *s, place *at) {
-    const sli_affine *affine = &at->affine;
-    const double scale = sqrt(fabs(affine->xx * affine->yy - affine->xy * affine->yx));
-    const sli_ink ink = sli_svg_ink(&at->paint, scale);
-    sli_contents *contents = &s->contents;
-    if (s->style.paint_unread || at->layer) return SL_OK;
-    SL_TRY(sli_looks_find(s->context, &contents->looks, &ink, &contents->look));
-    if (s->options->layers)
-        at->taken |=
-            names_layer(s->options->layers, contents->looks.items.items[contents->look].name);
-    return SL_OK;
-}
-
-/// A picture as large as a quarter of the drawing: what it shows is not read.
-static void note_picture(const svg *s) {
-    const sl_box box = s->pen.map->wall_count ? sl_map_bounds(s->pen.map) : s->pen.map->source.page;
-    const double area = (box.max.x - box.min.x) * (box.max.y - box.min.y);
-    if (!(s->picture > 0) || s->picture * 4 < area) return;
-    sl_note(
-        s->context,
-        "%s:%u: a picture is as large as %.0f %% of the drawing, and is not read: if the plan is "
-        "in it, save it as a PNG file, and read that",
-        s->pen.name, (unsigned)s->picture_line, area > 0 ? 100 * s->picture / area : 100);
-}
-
 static sl_status draw_placed(svg *s, xmlNode *node, sli_svg_shape kind, place at) {
     at.taken |= s->options->layers && is_layer(s, node);
-    if (sli_contents_asks(&s->contents)) SL_TRY(find_group(s, node, kind, &at.group));
+    if (sli_contents_asks(&s->contents)) SL_TRY(sli_svg_group_of(s, node, kind, &at.group));
     if (kind == SLI_SVG_NO_SHAPE) {
         const sli_layer own = layer_of_group(node);
         if (own) at.layer = own;
         return draw_group(s, node, at);
     }
-    SL_TRY(find_look(s, &at));
+    SL_TRY(sli_svg_find_look(s, &at));
     if (!at.taken) return SL_OK;
     // Layers of our own say what they hold, however it is painted.
     if (at.layer ? at.paint.hidden : !sli_svg_is_seen(at.paint, !s->style.paint_unread)) {
         s->hidden++;
         return SL_OK;
     }
-    if (!at.layer) SL_TRY(keep_stroke(s, &at));
+    if (!at.layer) SL_TRY(sli_svg_keep_stroke(s, &at));
     s->pen.affine = at.affine;
     s->pen.item = s->by_number ? (uint32_t)(uintptr_t)node->_private : 0;
     if (at.layer) return draw_in_layer(s, node, kind, at.layer);
@@ -546,7 +437,8 @@ static sl_status draw_root(svg *s, xmlNode *root) {
     SL_TRY(read_view_box(s, root, box));
     if (box[2] > 0)
         height = box[1] + box[3];
-    else if (!has_percent(root, "height") && sli_svg_length(s, root, "height", &height) != SL_OK)
+    else if (!sli_svg_has_percent(root, "height") &&
+             sli_svg_length(s, root, "height", &height) != SL_OK)
         sli_faults_add(&s->faults, s->fault, s->pen.line);
     SL_TRY(read_own_number(s, root, "data-sightline-y0", &told, &height));
     SL_TRY(read_marks(s, root));
@@ -584,8 +476,8 @@ static sl_status draw_root(svg *s, xmlNode *root) {
             sli_tally_write("; left out: ", left, 4, without));
     sli_faults_note(s->context, s->pen.name, &s->faults);
     sli_layers_note(s->context, s->pen.name, s->pen.map);
-    note_strokes(s);
-    note_picture(s);
+    sli_svg_note_strokes(s);
+    sli_svg_note_picture(s);
     return SL_OK;
 }
 

@@ -74,4 +74,23 @@ sl_status sli_svg_clip(sli_svg *s, const sli_svg_look *look, sli_svg_place *at);
 /// All of the plane.
 sl_box sli_svg_no_clip(void);
 
+// --- svg_looks.c
+
+/// Whether a length is a share of a window, that a map has not.
+bool sli_svg_has_percent(xmlNode *node, const char *name);
+/// `*group` is that of the element about this one; it becomes the one that the element belongs to
+/// by its name. A group that holds all shapes, but for two or one in fifty, says nothing of them
+/// unless it is one of walls: "axes_1", "Section A".
+sl_status sli_svg_group_of(sli_svg *s, xmlNode *node, sli_svg_shape kind, uint32_t *group);
+/// Tells how a shape looks, where styles are known. It may be asked for by that.
+sl_status sli_svg_find_look(sli_svg *s, sli_svg_place *at);
+/// Keeps the width of a line that is drawn by its stroke alone.
+sl_status sli_svg_keep_stroke(sli_svg *s, const sli_svg_place *at);
+/// Walls run along the middle of lines: notes wide ones, which may be meant as walls of that width.
+void sli_svg_note_strokes(const sli_svg *s);
+/// Keeps the largest picture: a plan may be in it.
+void sli_svg_keep_picture(sli_svg *s, xmlNode *node, const sli_svg_place *at);
+/// Notes a picture as large as a quarter of the drawing: what it shows is not read.
+void sli_svg_note_picture(const sli_svg *s);
+
 #endif

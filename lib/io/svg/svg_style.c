@@ -399,7 +399,7 @@ static double opacity_of(sli_word value) {
     return number < 0 ? 0 : number > 1 ? 1 : number;
 }
 
-/// The colours and opacities of an element's paint.
+/// The colours of an element's paint, and how opaque they are.
 static void read_colours(sli_svg_paint *paint, const sli_word *values) {
     double own;
     if (is_said(values[SLI_SVG_OPACITY])) paint->opacity *= opacity_of(values[SLI_SVG_OPACITY]);
