@@ -98,7 +98,8 @@ typedef struct slp_import {
     const char *map, *layers, *start_names, *unit;
     double slice, tolerance, entrance, threshold;
     uint64_t max_squares, max_pixels, max_walls, max_entities, max_depth; ///< as sl_limits
-    int doors, sectors, cells;
+    int doors, sectors, cells, planar, degrees;
+    const double *crop; ///< x0, y0, x1, y1; NULL for all
 } slp_import;
 SLP_API int slp_plan_read(slp_plan *plan, const char *path, const slp_import *options);
 SLP_API int slp_plan_parse(slp_plan *plan, const char *name, const char *text, size_t size,

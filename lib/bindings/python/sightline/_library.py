@@ -43,7 +43,8 @@ class Import(ctypes.Structure):
                 ("slice", _double), ("tolerance", _double), ("entrance", _double),
                 ("threshold", _double), ("max_squares", _uint64), ("max_pixels", _uint64),
                 ("max_walls", _uint64), ("max_entities", _uint64), ("max_depth", _uint64),
-                ("doors", _int), ("sectors", _int), ("cells", _int)]
+                ("doors", _int), ("sectors", _int), ("cells", _int), ("planar", _int),
+                ("degrees", _int), ("crop", _any)]
 
 
 class Bake(ctypes.Structure):
