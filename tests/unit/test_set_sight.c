@@ -245,9 +245,16 @@ static bool is_clear(const brute *x) {
     return true;
 }
 
-/// Whether some, and all, open pieces of a segment are seen from a point: between two neighbours of
-/// all shares where a line to an end of a wall meets it, or where a wall does, one place tells.
-static void by_brute_force(brute *x, sl_segment s, sl_point eye, bool *some, bool *all) {
+/// The pieces of a segment that are seen from a point, or not: whether there are any, and the
+/// share of the longest one.
+typedef struct seen_pieces {
+    bool any;
+    double longest;
+} seen_pieces;
+
+/// Finds the pieces that are not seen, and those that are: between two neighbours of all shares
+/// where a line to an end of a wall meets the segment, or where a wall does, one place tells.
+static void by_brute_force(brute *x, sl_segment s, sl_point eye, seen_pieces found[2]) {
     set_exact(&x->a, s.a);
     set_exact(&x->b, s.b);
     set_exact(&x->eye, eye);
@@ -264,8 +271,7 @@ static void by_brute_force(brute *x, sl_segment s, sl_point eye, bool *some, boo
         x->eye = keep;
     }
     qsort(x->shares, x->share_count, sizeof *x->shares, compare_shares);
-    *some = false;
-    *all = true;
+    found[0] = found[1] = (seen_pieces){0};
     for (size_t i = 1; i < x->share_count; i++) {
         if (mpq_cmp(x->shares[i - 1], x->shares[i]) == 0) continue;
         mpq_add(x->t, x->shares[i - 1], x->shares[i]);
@@ -276,9 +282,10 @@ static void by_brute_force(brute *x, sl_segment s, sl_point eye, bool *some, boo
         mpq_sub(x->p.y, x->b.y, x->a.y);
         mpq_mul(x->p.y, x->p.y, x->t);
         mpq_add(x->p.y, x->p.y, x->a.y);
-        const bool clear = is_clear(x);
-        *some |= clear;
-        *all &= clear;
+        mpq_sub(x->t, x->shares[i], x->shares[i - 1]);
+        seen_pieces *of = &found[is_clear(x)];
+        of->any = true;
+        of->longest = fmax(of->longest, mpq_get_d(x->t));
     }
 }
 
@@ -372,10 +379,12 @@ static void check_membership(const room *r, sl_set_sight *sight, brute *x, sl_se
                              const sl_set_region regions[2], sl_random *random, uint64_t seed) {
     for (int i = 0; i < POINTS; i++) {
         const sl_point at = i % 5 ? random_point(&r->space.bounds, random) : odd_point(r, random);
-        bool some, all, sees[2];
+        seen_pieces pieces[2];
+        bool sees[2];
         const uint32_t cell = sl_space_locate(&r->space, at);
         if (cell == SL_NO_CELL || r->space.cells[cell].solid) continue;
-        by_brute_force(x, s, at, &some, &all);
+        by_brute_force(x, s, at, pieces);
+        const bool some = pieces[1].any, all = !pieces[0].any;
         for (int k = 0; k < 2; k++)
             assert_ok(r->context,
                       sl_set_sight_sees(r->context, sight, (sl_set_seen)k, at, &sees[k]));
@@ -393,7 +402,9 @@ static void check_membership(const room *r, sl_set_sight *sight, brute *x, sl_se
         }
         const double near = 1e-9 * (fabs(r->space.bounds.max.x) + fabs(r->space.bounds.max.y));
         for (int k = 0; i % 5 && k < 2; k++)
-            if (goes_around(&regions[k].shape, at) != sees[k] &&
+            // Regions need not know of pieces that rounding hides.
+            if ((!pieces[!k].any || pieces[!k].longest > 1e-9) &&
+                goes_around(&regions[k].shape, at) != sees[k] &&
                 distance_to(&regions[k].shape, at) > near)
                 fail_msg("seed %llu: %.17g,%.17g: the region from %s says %d (%.17g,%.17g "
                          "%.17g,%.17g)",

@@ -106,7 +106,7 @@ typedef struct reach {
     struct sl_set_sight *sight;
     sl_segment segment;
     int eye_side;
-    bool stopped;
+    bool reached, stopped;
 } reach;
 
 /// Where a ray from the eye meets a side: 1 beyond the line of the segment, 0 on it, -1 before it.
@@ -140,7 +140,7 @@ static sl_status add_part_seen(sli_walk *w, reach *r, const sl_segment *side, co
         part.left = middle;
     else
         part.right = middle;
-    r->stopped = true;
+    r->reached = r->stopped = true;
     if (sli_same_point(middle.through, w->eye) ||
         sli_ray_turn(w->eye, &part.right, &part.left) <= 0 ||
         sli_ray_turn(w->eye, &beam->right, &part.right) < 0 ||
@@ -156,6 +156,7 @@ static sl_status reach_side(sli_walk *w, uint32_t side, const sli_beam *beam, bo
     const int left = compare_on_ray(r, w->eye, &beam->left, at.a, at.b);
     if (right >= 0 && left >= 0) {
         *enter = false;
+        r->reached = true;
         return add_seen(w->context, r->sight, w->eye, beam);
     }
     if (*enter) return SL_OK;
@@ -167,8 +168,8 @@ static sl_status reach_side(sli_walk *w, uint32_t side, const sli_beam *beam, bo
 }
 
 sl_status sli_reach(sl_context *context, struct sl_set_sight *s, const sli_spot *spot,
-                    sl_segment segment, bool backwards, bool *whole) {
-    reach r = {s, segment, sli_orient(segment.a, segment.b, spot->at), false};
+                    sl_segment segment, bool *some, bool *whole) {
+    reach r = {s, segment, sli_orient(segment.a, segment.b, spot->at), false, false};
     const sli_ray a = {segment.a, false}, b = {segment.b, false};
     const sli_beam triangle = r.eye_side > 0 ? (sli_beam){a, b} : (sli_beam){b, a};
     sli_walk *w = &s->walk;
@@ -176,12 +177,13 @@ sl_status sli_reach(sl_context *context, struct sl_set_sight *s, const sli_spot 
     w->rooms = &s->rooms;
     w->at_side = reach_side;
     w->data = &r;
-    w->backwards = backwards;
+    w->backwards = true;
     w->eye = spot->at;
     s->seen.count = 0;
     for (size_t i = 0; i < spot->rooms.count; i++)
         SL_TRY(sli_walk_from(w, spot->rooms.items[i], &triangle));
-    *whole = !r.stopped && s->seen.count;
+    *some = r.reached;
+    *whole = r.reached && !r.stopped;
     return SL_OK;
 }
 
@@ -348,8 +350,8 @@ sl_status sli_add_cones(sl_context *context, struct sl_set_sight *s, sl_segment 
         SL_TRY(sli_spot_of_corner(context, s, first, count, &s->corner));
         first += count;
         if (!s->corner.blocks.count || sli_orient(segment.a, segment.b, at) == 0) continue;
-        bool whole;
-        SL_TRY(sli_reach(context, s, &s->corner, segment, true, &whole));
+        bool some, whole;
+        SL_TRY(sli_reach(context, s, &s->corner, segment, &some, &whole));
         SL_TRY(add_cones_of(context, s, &s->corner, parts));
     }
     return sli_parts_close(context, parts);

@@ -200,9 +200,9 @@ static sl_status sees_segment(sl_context *context, sl_set_sight *s, sl_segment s
     *out = some && lies_between(segment, spot->at);
     if (*out) return SL_OK;
     if (sli_orient(segment.a, segment.b, spot->at) != 0) {
-        bool whole;
-        SL_TRY(sli_reach(context, s, spot, segment, true, &whole));
-        *out = some ? s->seen.count > 0 : whole;
+        bool piece, whole;
+        SL_TRY(sli_reach(context, s, spot, segment, &piece, &whole));
+        *out = some ? piece : whole;
         if (*out || !some) return SL_OK;
     }
     bool a, b;

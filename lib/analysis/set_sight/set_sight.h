@@ -60,10 +60,11 @@ sl_status sli_spot_find(sl_context *context, struct sl_set_sight *s, sl_point at
 sl_status sli_spot_of_corner(sl_context *context, struct sl_set_sight *s, uint32_t first,
                              uint32_t count, sli_spot *out);
 
-/// What is seen from a spot of a segment that is not in line with it, as beams (s->seen). *whole:
-/// all of the segment is. Backwards: from where on the segment the spot is seen.
+/// From where on a segment a spot is seen that is not in line with it, as beams from the spot
+/// (s->seen); those that are thinner than rounding are left out. Exact: from some piece, and from
+/// the whole segment.
 sl_status sli_reach(sl_context *context, struct sl_set_sight *s, const sli_spot *spot,
-                    sl_segment segment, bool backwards, bool *whole);
+                    sl_segment segment, bool *some, bool *whole);
 
 /// Adds the cones of all corners behind which points of a segment see.
 sl_status sli_add_cones(sl_context *context, struct sl_set_sight *s, sl_segment segment,
