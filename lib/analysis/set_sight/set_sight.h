@@ -39,8 +39,9 @@ struct sl_set_sight {
     sli_spot spot, corner;
     SL_ARRAY(sli_beam) seen; ///< what an eye sees of a segment
     SL_ARRAY(sli_ray) cuts;
-    sl_bits *touched; ///< cells
-    uint32_t *stops;  ///< sides that stop sight forwards or backwards
+    SL_ARRAY(sl_point) ends; ///< of walls, on the set
+    sl_bits *touched;        ///< cells
+    uint32_t *stops;         ///< sides that stop sight forwards or backwards
     uint32_t stop_count;
 };
 
