@@ -83,10 +83,24 @@ static bool has_room(const sli_beam_rooms *rooms, const sli_spot *spot, uint32_t
     return false;
 }
 
+/// Finds the room of a place that is in it, not on its border: it has no other. Fast.
+static bool is_within(const sli_beam_rooms *rooms, sl_point at, uint32_t *room) {
+    const sl_outline *o = rooms->outline;
+    const uint32_t cell = sl_space_locate(o->space, at);
+    if (cell == SL_NO_CELL) return false;
+    *room = sl_outline_room(o, cell, at);
+    for (uint32_t i = o->first[*room]; i < o->first[*room + 1]; i++)
+        if (sli_orient(sli_side(rooms, i)->start, sli_side_end(rooms, i), at) <= 0) return false;
+    return true;
+}
+
 sl_status sli_spot_find(sl_context *context, struct sl_set_sight *s, sl_point at, sli_spot *out) {
     const sl_outline *o = s->rooms.outline;
     const size_t words = sl_eye_words(o->space);
+    uint32_t room;
     clear_spot(out, at);
+    if (is_within(&s->rooms, at, &room))
+        return s->rooms.solid[room] ? SL_OK : add_room(context, out, o->first[room]);
     for (size_t i = 0; i < words; i++) s->touched[i] = 0;
     sl_cells_of_box(o->space, (sl_box){at, at}, s->touched);
     for (size_t word = 0; word < words; word++)
