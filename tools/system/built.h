@@ -40,6 +40,8 @@ typedef struct built_draw {
     sl_status (*regions)(sl_context *context, const sl_baked *baked, const sl_drawn_region *regions,
                          size_t count, const char *caption, const sl_draw_options *options,
                          const char *path);
+    sl_status (*set)(sl_context *context, const sl_baked *baked, const sl_drawn_set *set,
+                     const char *caption, const sl_draw_options *options, const char *path);
     sl_status (*coverage)(sl_context *context, const sl_baked *baked,
                           const sl_drawn_coverage *coverage, const char *caption,
                           const sl_draw_options *options, const char *path);

@@ -83,10 +83,24 @@ static bool has_room(const sli_beam_rooms *rooms, const sli_spot *spot, uint32_t
     return false;
 }
 
+/// Finds the room of a place that is in it, not on its border: it has no other. Fast.
+static bool is_within(const sli_beam_rooms *rooms, sl_point at, uint32_t *room) {
+    const sl_outline *o = rooms->outline;
+    const uint32_t cell = sl_space_locate(o->space, at);
+    if (cell == SL_NO_CELL) return false;
+    *room = sl_outline_room(o, cell, at);
+    for (uint32_t i = o->first[*room]; i < o->first[*room + 1]; i++)
+        if (sli_orient(sli_side(rooms, i)->start, sli_side_end(rooms, i), at) <= 0) return false;
+    return true;
+}
+
 sl_status sli_spot_find(sl_context *context, struct sl_set_sight *s, sl_point at, sli_spot *out) {
     const sl_outline *o = s->rooms.outline;
     const size_t words = sl_eye_words(o->space);
+    uint32_t room;
     clear_spot(out, at);
+    if (is_within(&s->rooms, at, &room))
+        return s->rooms.solid[room] ? SL_OK : add_room(context, out, o->first[room]);
     for (size_t i = 0; i < words; i++) s->touched[i] = 0;
     sl_cells_of_box(o->space, (sl_box){at, at}, s->touched);
     for (size_t word = 0; word < words; word++)
@@ -106,7 +120,7 @@ typedef struct reach {
     struct sl_set_sight *sight;
     sl_segment segment;
     int eye_side;
-    bool stopped;
+    bool reached, stopped;
 } reach;
 
 /// Where a ray from the eye meets a side: 1 beyond the line of the segment, 0 on it, -1 before it.
@@ -140,7 +154,7 @@ static sl_status add_part_seen(sli_walk *w, reach *r, const sl_segment *side, co
         part.left = middle;
     else
         part.right = middle;
-    r->stopped = true;
+    r->reached = r->stopped = true;
     if (sli_same_point(middle.through, w->eye) ||
         sli_ray_turn(w->eye, &part.right, &part.left) <= 0 ||
         sli_ray_turn(w->eye, &beam->right, &part.right) < 0 ||
@@ -156,6 +170,7 @@ static sl_status reach_side(sli_walk *w, uint32_t side, const sli_beam *beam, bo
     const int left = compare_on_ray(r, w->eye, &beam->left, at.a, at.b);
     if (right >= 0 && left >= 0) {
         *enter = false;
+        r->reached = true;
         return add_seen(w->context, r->sight, w->eye, beam);
     }
     if (*enter) return SL_OK;
@@ -167,8 +182,8 @@ static sl_status reach_side(sli_walk *w, uint32_t side, const sli_beam *beam, bo
 }
 
 sl_status sli_reach(sl_context *context, struct sl_set_sight *s, const sli_spot *spot,
-                    sl_segment segment, bool backwards, bool *whole) {
-    reach r = {s, segment, sli_orient(segment.a, segment.b, spot->at), false};
+                    sl_segment segment, bool *some, bool *whole) {
+    reach r = {s, segment, sli_orient(segment.a, segment.b, spot->at), false, false};
     const sli_ray a = {segment.a, false}, b = {segment.b, false};
     const sli_beam triangle = r.eye_side > 0 ? (sli_beam){a, b} : (sli_beam){b, a};
     sli_walk *w = &s->walk;
@@ -176,12 +191,13 @@ sl_status sli_reach(sl_context *context, struct sl_set_sight *s, const sli_spot 
     w->rooms = &s->rooms;
     w->at_side = reach_side;
     w->data = &r;
-    w->backwards = backwards;
+    w->backwards = true;
     w->eye = spot->at;
     s->seen.count = 0;
     for (size_t i = 0; i < spot->rooms.count; i++)
         SL_TRY(sli_walk_from(w, spot->rooms.items[i], &triangle));
-    *whole = !r.stopped && s->seen.count;
+    *some = r.reached;
+    *whole = r.reached && !r.stopped;
     return SL_OK;
 }
 
@@ -348,8 +364,8 @@ sl_status sli_add_cones(sl_context *context, struct sl_set_sight *s, sl_segment 
         SL_TRY(sli_spot_of_corner(context, s, first, count, &s->corner));
         first += count;
         if (!s->corner.blocks.count || sli_orient(segment.a, segment.b, at) == 0) continue;
-        bool whole;
-        SL_TRY(sli_reach(context, s, &s->corner, segment, true, &whole));
+        bool some, whole;
+        SL_TRY(sli_reach(context, s, &s->corner, segment, &some, &whole));
         SL_TRY(add_cones_of(context, s, &s->corner, parts));
     }
     return sli_parts_close(context, parts);

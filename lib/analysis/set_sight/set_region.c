@@ -23,6 +23,7 @@ typedef struct cut {
     sl_point at;
     double along;
     bool exact;
+    sl_segment wall; ///< that crosses there, if it is not exact
 } cut;
 
 typedef struct maker {
@@ -38,10 +39,10 @@ typedef struct maker {
 
 // --- the pieces of a segment
 
-static sl_status add_cut(maker *m, sl_segment s, sl_point at, bool exact) {
+static sl_status add_cut(maker *m, sl_segment s, sl_point at, const sl_segment *wall) {
     const sl_point way = {s.b.x - s.a.x, s.b.y - s.a.y}, to = {at.x - s.a.x, at.y - s.a.y};
     SL_TRY(SL_ARRAY_ROOM(m->context, &m->cuts, 1));
-    m->cuts.items[m->cuts.count++] = (cut){at, sli_dot(way, to), exact};
+    m->cuts.items[m->cuts.count++] = (cut){at, sli_dot(way, to), !wall, wall ? *wall : s};
     return SL_OK;
 }
 
@@ -63,18 +64,18 @@ static sl_status cut_at(maker *m, sl_segment s, uint32_t side) {
     const sli_beam_rooms *rooms = &m->sight->rooms;
     const sl_segment wall = {sli_side(rooms, side)->start, sli_side_end(rooms, side)};
     const int a = sli_orient(s.a, s.b, wall.a), b = sli_orient(s.a, s.b, wall.b);
-    if (a == 0 && is_between(s, wall.a)) SL_TRY(add_cut(m, s, wall.a, true));
-    if (b == 0 && is_between(s, wall.b)) SL_TRY(add_cut(m, s, wall.b, true));
+    if (a == 0 && is_between(s, wall.a)) SL_TRY(add_cut(m, s, wall.a, NULL));
+    if (b == 0 && is_between(s, wall.b)) SL_TRY(add_cut(m, s, wall.b, NULL));
     if (a * b >= 0 || sli_orient(wall.a, wall.b, s.a) * sli_orient(wall.a, wall.b, s.b) >= 0)
         return SL_OK;
     m->through |= sli_side_across(rooms, side) == SL_NO_WALL;
-    return add_cut(m, s, sli_crossing(s, wall), false);
+    return add_cut(m, s, sli_crossing(s, wall), &wall);
 }
 
 static sl_status cut_segment(maker *m, sl_segment s) {
     m->cuts.count = 0;
-    SL_TRY(add_cut(m, s, s.a, true));
-    SL_TRY(add_cut(m, s, s.b, true));
+    SL_TRY(add_cut(m, s, s.a, NULL));
+    SL_TRY(add_cut(m, s, s.b, NULL));
     for (uint32_t i = 0; i < m->sight->stop_count; i++) SL_TRY(cut_at(m, s, m->sight->stops[i]));
     qsort(m->cuts.items, m->cuts.count, sizeof *m->cuts.items, compare_cuts);
     size_t kept = 0;
@@ -87,8 +88,26 @@ static sl_status cut_segment(maker *m, sl_segment s) {
 
 // --- the parts
 
-static sl_point middle_of(sl_point a, sl_point b) {
-    return (sl_point){a.x + (b.x - a.x) / 2, a.y + (b.y - a.y) / 2};
+static int side_of(sl_segment wall, sl_point p) {
+    return sli_orient(wall.a, wall.b, p);
+}
+
+/// A place between two crossings of the segment, on its side of both walls. The middle may be
+/// rounded to their other sides. So it steps away from the first wall, by units in the last place.
+static sl_point between_walls(sl_segment s, const cut *from, const cut *to) {
+    const sl_point a = from->at, b = to->at,
+                   middle = {a.x + (b.x - a.x) / 2, a.y + (b.y - a.y) / 2};
+    const sl_segment w = from->wall;
+    const double length = sli_length(w.b.x - w.a.x, w.b.y - w.a.y);
+    const double unit = 0x1p-53 * sli_greater(fabs(middle.x), fabs(middle.y)) / length;
+    const int first = side_of(w, s.b), second = side_of(to->wall, s.a);
+    sl_point at = middle;
+    for (int steps = 1; steps <= 64; steps *= 2) {
+        if (side_of(w, at) == first && side_of(to->wall, at) == second) return at;
+        const double away = first * steps * unit;
+        at = (sl_point){middle.x - away * (w.b.y - w.a.y), middle.y + away * (w.b.x - w.a.x)};
+    }
+    return middle;
 }
 
 static sl_status add_eye(maker *m, sl_point at, const sl_point *towards, sli_parts *parts) {
@@ -102,21 +121,24 @@ static sl_status end_piece(maker *m) {
     return SL_OK;
 }
 
-static sl_status add_weak_eyes(maker *m) {
+static sl_status add_weak_eyes(maker *m, sl_segment s) {
     for (size_t i = 0; i < m->cuts.count; i++) {
         const cut *at = &m->cuts.items[i];
         if (at->exact) SL_TRY(add_eye(m, at->at, NULL, &m->cones));
         if (i && !at->exact && !at[-1].exact)
-            SL_TRY(add_eye(m, middle_of(at[-1].at, at->at), NULL, &m->cones));
+            SL_TRY(add_eye(m, between_walls(s, at - 1, at), NULL, &m->cones));
     }
     return SL_OK;
 }
 
-/// The eye of one piece. `joined`: free ground joins it with the piece before it.
-static sl_status add_complete_eye(maker *m, const cut *from, const cut *to, bool joined) {
+/// The eye of one piece, but where free ground joins it with the piece before it.
+static sl_status add_complete_eye(maker *m, sl_segment segment, const cut *from, const cut *to) {
+    const bool joined = m->pieces.count > 0;
     sl_set_sight *s = m->sight;
     const bool exact = from->exact || to->exact;
-    const sl_point at = from->exact ? from->at : to->exact ? to->at : middle_of(from->at, to->at);
+    const sl_point at = from->exact ? from->at
+                        : to->exact ? to->at
+                                    : between_walls(segment, from, to);
     SL_TRY(sli_spot_find(m->context, s, at, &s->spot));
     if (joined && !s->spot.blocks.count && from->exact) return SL_OK;
     SL_TRY(sli_add_eye(m->context, s, &s->spot, exact ? from->exact ? &to->at : &from->at : NULL,
@@ -129,11 +151,11 @@ static sl_status add_segment(maker *m, size_t i) {
     if (sli_same_point(s.a, s.b)) return SL_OK;
     SL_TRY(cut_segment(m, s));
     if (m->seen == SL_SEEN_FROM_SOME)
-        SL_TRY(add_weak_eyes(m));
+        SL_TRY(add_weak_eyes(m, s));
     else if (m->through)
         return SL_OK;
     for (size_t k = 1; m->seen == SL_SEEN_FROM_ALL && k < m->cuts.count; k++)
-        SL_TRY(add_complete_eye(m, &m->cuts.items[k - 1], &m->cuts.items[k], m->pieces.count > 0));
+        SL_TRY(add_complete_eye(m, s, &m->cuts.items[k - 1], &m->cuts.items[k]));
     return sli_add_cones(m->context, m->sight, s, &m->cones);
 }
 

@@ -67,6 +67,27 @@ static sl_status take_area(sl_context *context, sl_set_sight *s, const sl_point 
     return SL_OK;
 }
 
+static bool lies_between(sl_segment s, sl_point p) {
+    const sl_box box = {{sli_lesser(s.a.x, s.b.x), sli_lesser(s.a.y, s.b.y)},
+                        {sli_greater(s.a.x, s.b.x), sli_greater(s.a.y, s.b.y)}};
+    return sli_box_holds(&box, p) && sli_orient(s.a, s.b, p) == 0;
+}
+
+/// Ends of walls that lie on the set: sight of single points of it.
+static sl_status find_ends(sl_context *context, sl_set_sight *s) {
+    for (size_t k = 0; k < sli_segment_count(s); k++)
+        for (uint32_t i = 0; i < s->stop_count; i++) {
+            const sl_point ends[2] = {sli_side(&s->rooms, s->stops[i])->start,
+                                      sli_side_end(&s->rooms, s->stops[i])};
+            for (int side = 0; side < 2; side++) {
+                if (!lies_between(sli_segment(s, k), ends[side])) continue;
+                SL_TRY(SL_ARRAY_ROOM(context, &s->ends, 1));
+                s->ends.items[s->ends.count++] = ends[side];
+            }
+        }
+    return SL_OK;
+}
+
 /// What the sides of the outline stop: it is asked again and again.
 static sl_status find_stops(sl_context *context, sl_set_sight *s) {
     const uint32_t sides = s->rooms.outline->side_count;
@@ -77,7 +98,7 @@ static sl_status find_stops(sl_context *context, sl_set_sight *s) {
     for (uint32_t i = 0; i < sides; i++)
         if (!sli_side_passes(&s->rooms, i, false) || !sli_side_passes(&s->rooms, i, true))
             s->stops[s->stop_count++] = i;
-    return SL_OK;
+    return find_ends(context, s);
 }
 
 static sl_status check_settings(sl_context *context, sl_query *query, const sl_outline **outline) {
@@ -142,6 +163,7 @@ void sl_set_sight_destroy(sl_context *context, sl_set_sight *sight) {
     sl_free(context, sight->corner.blocks.items);
     sl_free(context, sight->seen.items);
     sl_free(context, sight->cuts.items);
+    sl_free(context, sight->ends.items);
     sl_free(context, sight->touched);
     sl_free(context, sight->stops);
     sl_free(context, sight);
@@ -176,40 +198,22 @@ static sl_status sees_point(sl_context *context, sl_set_sight *s, sl_point from,
     return *out ? SL_OK : sl_query_sees(context, s->query, from, to, out);
 }
 
-static bool lies_between(sl_segment s, sl_point p) {
-    const sl_box box = {{sli_lesser(s.a.x, s.b.x), sli_lesser(s.a.y, s.b.y)},
-                        {sli_greater(s.a.x, s.b.x), sli_greater(s.a.y, s.b.y)}};
-    return sli_box_holds(&box, p) && sli_orient(s.a, s.b, p) == 0;
-}
-
-/// Whether a point sees the end of a wall that lies on a segment.
-static sl_status sees_end_on(sl_context *context, sl_set_sight *s, sl_segment segment, sl_point at,
-                             bool *out) {
-    for (uint32_t i = 0; i < s->stop_count && !*out; i++) {
-        const sl_point end = sli_side(&s->rooms, s->stops[i])->start;
-        const sl_point other = sli_side_end(&s->rooms, s->stops[i]);
-        if (lies_between(segment, end)) SL_TRY(sees_point(context, s, end, at, out));
-        if (!*out && lies_between(segment, other)) SL_TRY(sees_point(context, s, other, at, out));
-    }
-    return SL_OK;
-}
-
 static sl_status sees_segment(sl_context *context, sl_set_sight *s, sl_segment segment,
                               sl_set_seen seen, const sli_spot *spot, bool *out) {
     const bool some = seen == SL_SEEN_FROM_SOME;
     *out = some && lies_between(segment, spot->at);
     if (*out) return SL_OK;
     if (sli_orient(segment.a, segment.b, spot->at) != 0) {
-        bool whole;
-        SL_TRY(sli_reach(context, s, spot, segment, true, &whole));
-        *out = some ? s->seen.count > 0 : whole;
+        bool piece, whole;
+        SL_TRY(sli_reach(context, s, spot, segment, &piece, &whole));
+        *out = some ? piece : whole;
         if (*out || !some) return SL_OK;
     }
     bool a, b;
     SL_TRY(sees_point(context, s, segment.a, spot->at, &a));
     SL_TRY(sees_point(context, s, segment.b, spot->at, &b));
     *out = some ? a || b : a && b;
-    return some && !*out ? sees_end_on(context, s, segment, spot->at, out) : SL_OK;
+    return SL_OK;
 }
 
 sl_status sl_set_sight_sees(sl_context *context, sl_set_sight *sight, sl_set_seen seen,
@@ -231,5 +235,7 @@ sl_status sl_set_sight_sees(sl_context *context, sl_set_sight *sight, sl_set_see
         SL_TRY(sees_segment(context, sight, sli_segment(sight, i), seen, &sight->spot, out));
         if (*out == some) return SL_OK;
     }
+    for (size_t i = 0; some && !*out && i < sight->ends.count; i++)
+        SL_TRY(sees_point(context, sight, sight->ends.items[i], point, out));
     return SL_OK;
 }

@@ -39,8 +39,9 @@ struct sl_set_sight {
     sli_spot spot, corner;
     SL_ARRAY(sli_beam) seen; ///< what an eye sees of a segment
     SL_ARRAY(sli_ray) cuts;
-    sl_bits *touched; ///< cells
-    uint32_t *stops;  ///< sides that stop sight forwards or backwards
+    SL_ARRAY(sl_point) ends; ///< of walls, on the set
+    sl_bits *touched;        ///< cells
+    uint32_t *stops;         ///< sides that stop sight forwards or backwards
     uint32_t stop_count;
 };
 
@@ -60,10 +61,11 @@ sl_status sli_spot_find(sl_context *context, struct sl_set_sight *s, sl_point at
 sl_status sli_spot_of_corner(sl_context *context, struct sl_set_sight *s, uint32_t first,
                              uint32_t count, sli_spot *out);
 
-/// What is seen from a spot of a segment that is not in line with it, as beams (s->seen). *whole:
-/// all of the segment is. Backwards: from where on the segment the spot is seen.
+/// From where on a segment a spot is seen that is not in line with it, as beams from the spot
+/// (s->seen); those that are thinner than rounding are left out. Exact: from some piece, and from
+/// the whole segment.
 sl_status sli_reach(sl_context *context, struct sl_set_sight *s, const sli_spot *spot,
-                    sl_segment segment, bool backwards, bool *whole);
+                    sl_segment segment, bool *some, bool *whole);
 
 /// Adds the cones of all corners behind which points of a segment see.
 sl_status sli_add_cones(sl_context *context, struct sl_set_sight *s, sl_segment segment,

@@ -186,6 +186,14 @@ SLP_API size_t slp_level_polygons(const slp_level *level, int64_t *eyes, int64_t
                                   int64_t *counts);
 SLP_API void slp_level_polygon_points(const slp_level *level, double *points);
 
+/// What is seen from a line or an area, points as rows of x, y: from some point, or from all. Its
+/// loops are kept as polygons without reflections.
+SLP_API int slp_level_set_region(slp_level *level, const double *points, size_t count, int is_area,
+                                 int from_all, double *area);
+SLP_API int slp_level_set_sees(slp_level *level, const double *points, size_t count, int is_area,
+                               int from_all, const double *places, size_t place_count,
+                               uint8_t *sees);
+
 /// As sl_vga_options. `parts` are bits of sl_vga_part; 0 for the grid alone.
 typedef struct slp_vga {
     double step, range, metric_radius, angular_radius;

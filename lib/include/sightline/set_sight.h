@@ -80,7 +80,8 @@ SL_API void sl_set_sight_destroy(sl_context *context, sl_set_sight *sight); ///<
 /// Which walls the cones meet, and in what order, is decided exactly. Corners that are no ends of
 /// walls are rounded. The parts are then joined as overlay.h says: places are right to about 2^-46
 /// of the largest coordinate. Loops thinner than four times that are left out, and so is what is
-/// seen along single lines only. An area is seen from itself, but for its solid ground.
+/// seen along single lines only, and of pieces of the set shorter than that. An area is seen from
+/// itself, but for its solid ground.
 ///
 /// SL_UNSUPPORTED over SL_SET_REGION_CORNERS. On failure the region is empty.
 ///

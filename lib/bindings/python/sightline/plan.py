@@ -445,6 +445,14 @@ class Plan(drawing.InNotebooks, Handle):
         """As `Level.region`."""
         return self._own_space().region(eye, **options)
 
+    def region_from(self, points: ArrayLike, **options: Any) -> Any:
+        """As `Level.region_from`."""
+        return self._own_space().region_from(points, **options)
+
+    def seen_from(self, points: ArrayLike, places: ArrayLike, **options: Any) -> Any:
+        """As `Level.seen_from`."""
+        return self._own_space().seen_from(points, places, **options)
+
     def isovists(self, points: ArrayLike, **options: Any) -> Any:
         """As `Level.isovists`."""
         return self._own_space().isovists(points, **options)
