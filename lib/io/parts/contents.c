@@ -115,6 +115,35 @@ void sli_contents_cut(sli_contents *contents, size_t first, const size_t *ends) 
     }
 }
 
+static sl_status list_one(sl_context *context, const char *name, size_t length, size_t shapes,
+                          sl_drawing_layers *out) {
+    if (!length || !shapes) return SL_OK;
+    char *copy = sl_copy_text(context, name, length);
+    if (!copy) return SL_NO_MEMORY;
+    out->items[out->count++] = (sl_drawing_layer){copy, shapes, true};
+    return SL_OK;
+}
+
+sl_status sli_contents_list(const sli_contents *contents, sl_drawing_layers *out) {
+    sl_context *context = contents->context;
+    const size_t groups = contents->groups.count, looks = contents->looks.items.count;
+    size_t *shapes = sl_alloc_array(context, looks + 1, sizeof *shapes);
+    out->items = sl_alloc_array(context, groups + looks + 1, sizeof *out->items);
+    sl_status status = shapes && out->items ? SL_OK : SL_NO_MEMORY;
+    for (size_t i = 0; i < groups && status == SL_OK; i++) {
+        const sli_group *group = &contents->groups.items[i];
+        status = list_one(context, group->name, group->length, group->shapes, out);
+    }
+    for (size_t i = 0; i < contents->runs.count && contents->has_looks && status == SL_OK; i++)
+        shapes[contents->runs.items[i].look]++;
+    for (size_t i = 0; i < looks && status == SL_OK; i++) {
+        const char *name = contents->looks.items.items[i].name;
+        status = list_one(context, name, strlen(name), shapes[i], out);
+    }
+    sl_free(context, shapes);
+    return status;
+}
+
 // --- the choice
 
 typedef struct choice {

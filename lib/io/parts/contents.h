@@ -8,6 +8,7 @@
 #include "io/parts/meaning.h"
 #include "io/parts/shapes.h"
 #include "sightline/import.h"
+#include "sightline/io.h"
 
 #include <string.h>
 
@@ -81,6 +82,10 @@ sl_status sli_contents_end(sli_contents *contents, sli_pen *pen, uint32_t group)
 /// The walls from `first` on are cut to pieces: those of wall `first` + i end at wall ends[i] now,
 /// those of wall `first` start at `first`.
 void sli_contents_cut(sli_contents *contents, size_t first, const size_t *ends);
+
+/// The groups and the looks that shapes have, with how many; destroyed by who asks, also if it
+/// fails.
+sl_status sli_contents_list(const sli_contents *contents, sl_drawing_layers *out);
 
 /// Chooses among the walls that were drawn, once all are. `metre` is a metre in the map's unit, 0
 /// for unknown. Layers named as walls are walls; where there are none of three walls at least,

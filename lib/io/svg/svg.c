@@ -462,6 +462,7 @@ static sl_status draw_root(svg *s, xmlNode *root) {
     sli_svg_look_free(&look);
     s->contents.has_looks = !s->style.paint_unread;
     SL_TRY(draw_children(s, root, at));
+    if (s->list) return sli_contents_list(&s->contents, s->list);
     SL_TRY(check_looks(s, root));
     SL_TRY(sli_contents_choose(&s->contents, 0, &s->pen));
     s->shapes -= s->contents.left_out;
@@ -481,24 +482,26 @@ static sl_status draw_root(svg *s, xmlNode *root) {
     return SL_OK;
 }
 
-sl_status sli_map_read_svg(sl_context *context, const char *name, const char *text, size_t size,
-                           const sl_import_options *options, sl_map *map) {
+static sl_status draw_document(svg *s, const char *text, size_t size) {
+    SL_TRY(sli_xml_read(s->context, s->pen.name, text, size, &s->document));
+    xmlNode *root = xmlDocGetRootElement(s->document);
+    if (sli_xml_is(root, "svg")) return draw_root(s, root);
+    const sli_word found = {(const char *)root->name, strlen((const char *)root->name)};
+    return sl_fail_at(s->context, s->pen.name, sli_xml_line(root),
+                      "expected an svg element, found '%s'", sli_show(found).text);
+}
+
+/// Reads a drawing, or its layers alone.
+static sl_status read_drawing(sl_context *context, const char *name, const char *text, size_t size,
+                              const sl_import_options *options, sl_map *map,
+                              sl_drawing_layers *list) {
     const sl_import_options own = sli_drawing_options(options);
-    sl_map read = {0};
-    sli_svg s = {
-        .context = context,
-        .options = &own,
-        .contents = {.context = context, .file = name, .options = &own},
-        .pen = {.context = context, .name = name, .map = &read, .tolerance = own.tolerance}};
-    SL_TRY(sli_xml_read(context, name, text, size, &s.document));
-    xmlNode *root = xmlDocGetRootElement(s.document);
-    const sl_status status =
-        sli_xml_is(root, "svg")
-            ? draw_root(&s, root)
-            : sl_fail_at(
-                  context, name, sli_xml_line(root), "expected an svg element, found '%s'",
-                  sli_show((sli_word){(const char *)root->name, strlen((const char *)root->name)})
-                      .text);
+    sli_svg s = {.context = context,
+                 .options = &own,
+                 .contents = {.context = context, .file = name, .options = &own},
+                 .list = list,
+                 .pen = {.context = context, .name = name, .map = map, .tolerance = own.tolerance}};
+    const sl_status status = draw_document(&s, text, size);
     sli_svg_style_destroy(context, &s.style);
     sli_svg_ids_destroy(context, &s.ids);
     sl_free(context, s.clips.items);
@@ -506,9 +509,30 @@ sl_status sli_map_read_svg(sl_context *context, const char *name, const char *te
     sli_contents_destroy(&s.contents);
     sli_xml_free(s.mark);
     xmlFreeDoc(s.document);
+    return status;
+}
+
+sl_status sli_map_read_svg(sl_context *context, const char *name, const char *text, size_t size,
+                           const sl_import_options *options, sl_map *map) {
+    sl_map read = {0};
+    const sl_status status = read_drawing(context, name, text, size, options, &read, NULL);
     if (status == SL_OK)
         *map = read;
     else
         sl_map_destroy(context, &read);
+    return status;
+}
+
+sl_status sl_drawing_layers_svg(sl_context *context, const char *name, const char *text,
+                                size_t size, sl_drawing_layers *out) {
+    const sl_import_options options = sl_import_options_default();
+    sl_drawing_layers read = {0};
+    sl_map map = {0};
+    const sl_status status = read_drawing(context, name, text, size, &options, &map, &read);
+    sl_map_destroy(context, &map);
+    if (status == SL_OK)
+        *out = read;
+    else
+        sl_drawing_layers_destroy(context, &read);
     return status;
 }

@@ -19,6 +19,7 @@ typedef struct sli_svg {
     sli_svg_ids ids;
     sli_pen pen;
     sli_contents contents;
+    sl_drawing_layers *list; ///< asked for in place of the map; NULL
     size_t work, shapes, hidden, other;
     sli_faults faults;        ///< passed over
     const sli_fault *fault;   ///< of the last failure; NULL where it is of the whole file
