@@ -189,6 +189,22 @@ static bool has_unknown(const ros_map *m, const sl_image *image) {
     return false;
 }
 
+/// Map savers write grey 205 for unknown ground, and older loaders knew it by a free_thresh of
+/// 0.196. Newer savers write 0.25 beside it, by which that grey is free.
+static void note_grey(const ros_map *m, const sl_image *image) {
+    enum { UNKNOWN = 50 }; // of 255, as occupancy
+    size_t grey = 0;
+    const size_t all = image->width * image->height;
+    if (m->free * 255 <= UNKNOWN) return;
+    for (size_t i = 0; i < all; i++)
+        grey += (m->negate != 0 ? image->pixels[i] : 255 - image->pixels[i]) == UNKNOWN;
+    if (grey < all / 50 + 1) return;
+    sl_note(m->context,
+            "%s: %.0f %% of the picture has the grey that map savers write for unknown ground; "
+            "free_thresh %g takes it as free; if it is unknown, --threshold 0.19 makes it solid",
+            m->name, 100.0 * (double)grey / (double)all, m->free);
+}
+
 static void note_taken(const ros_map *m, const sl_image *image, const sli_image_plan *plan,
                        size_t solid, size_t walls, bool given) {
     char unknown[100] = "";
@@ -218,6 +234,7 @@ static sl_status read_map(ros_map *m, const sl_import_options *options, const ch
     strcpy(map->unit, "m");
     if (status == SL_OK) turn(m, map);
     if (status == SL_OK) note_taken(m, &image, &plan, solid, map->wall_count, given);
+    if (status == SL_OK && !given) note_grey(m, &image);
     sl_image_destroy(m->context, &image);
     return status;
 }
