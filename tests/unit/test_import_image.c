@@ -93,6 +93,9 @@ static void test_refused(void **state) {
     (void)state;
 #define REFUSED(text, message) assert_refused(text, sizeof text - 1, message)
     REFUSED("", "f: neither PNG nor");
+    REFUSED("RIFF\1\1\1\1WEBPVP8 ", "f: a WebP picture, whatever its name says: save it as PNG");
+    REFUSED("\xFF\xD8\xFF\xE0", "f: a JPEG picture");
+    REFUSED("BM\1", "f: a BMP picture");
     REFUSED("P3 1 1 1 0 0 0", "f: neither PNG nor");
     REFUSED("P5 3", "f:1: expected a number, found the end");
     REFUSED("P5 3 x", "f:1: expected a number, found something else");

@@ -157,6 +157,23 @@ static sl_status read_portable(portable *file, sl_image *image) {
     return kind >= '4' ? read_binary(file, bits, most, image) : read_plain(file, bits, most, image);
 }
 
+/// What a picture is that is not read; NULL for what is not known.
+static const char *other_kind(const char *bytes, size_t size) {
+    if (size >= 12 && !memcmp(bytes, "RIFF", 4) && !memcmp(bytes + 8, "WEBP", 4)) return "WebP";
+    if (size >= 3 && !memcmp(bytes, "\xFF\xD8\xFF", 3)) return "JPEG";
+    if (size >= 6 && !memcmp(bytes, "GIF8", 4)) return "GIF";
+    return size >= 2 && !memcmp(bytes, "BM", 2) ? "BMP" : NULL;
+}
+
+static sl_status fail_kind(sl_context *context, const char *name, const char *bytes, size_t size) {
+    const char *kind = other_kind(bytes, size);
+    if (kind)
+        return sl_fail_at(context, name, 0, "a %s picture, whatever its name says: save it as PNG",
+                          kind);
+    return sl_fail_at(context, name, 0,
+                      "neither PNG nor a portable grey or bit map (P1, P2, P4, P5)");
+}
+
 sl_status sl_image_read(sl_context *context, const char *name, const char *bytes, size_t size,
                         sl_image *out) {
     sl_image image = {0};
@@ -167,8 +184,7 @@ sl_status sl_image_read(sl_context *context, const char *name, const char *bytes
         portable file = {context, name, bytes, bytes + size, 1};
         status = read_portable(&file, &image);
     } else {
-        status = sl_fail_at(context, name, 0,
-                            "neither PNG nor a portable grey or bit map (P1, P2, P4, P5)");
+        status = fail_kind(context, name, bytes, size);
     }
     if (status == SL_OK)
         *out = image;
