@@ -31,7 +31,8 @@ static bool read_number(const uint8_t **next, const uint8_t *stop, uint32_t *val
 
 sl_pvs_run sl_pvs_begin(const sl_pvs *pvs, uint32_t cell) {
     return (sl_pvs_run){.next = pvs->bytes + pvs->offsets[cell],
-                        .stop = pvs->bytes + pvs->offsets[cell + 1]};
+                        .stop =
+                            pvs->bytes + (pvs->ends ? pvs->ends[cell] : pvs->offsets[cell + 1])};
 }
 
 bool sl_pvs_next(sl_pvs_run *run) {
@@ -112,6 +113,19 @@ static sl_status append_run(sl_context *context, sli_row_bytes *bytes, uint32_t 
     uint8_t *at = bytes->items + bytes->count;
     at = write_number(write_number(at, skip), length);
     bytes->count = (size_t)(at - bytes->items);
+    return SL_OK;
+}
+
+sl_status sli_row_append_list(sl_context *context, sli_row_bytes *bytes, const uint32_t *cells,
+                              size_t count) {
+    uint32_t end = 0;
+    for (size_t i = 0; i < count;) {
+        const uint32_t first = cells[i];
+        uint32_t stop = first;
+        for (; i < count && cells[i] <= stop; i++) stop = cells[i] + 1;
+        SL_TRY(append_run(context, bytes, first - end, stop - first));
+        end = stop;
+    }
     return SL_OK;
 }
 

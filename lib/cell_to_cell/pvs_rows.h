@@ -13,6 +13,10 @@ typedef SL_ARRAY(uint8_t) sli_row_bytes;
 sl_status sli_row_append(sl_context *context, sli_row_bytes *bytes, const sl_bits *set,
                          uint32_t count);
 
+/// As sli_row_append, of the members themselves, ascending; some may come several times.
+sl_status sli_row_append_list(sl_context *context, sli_row_bytes *bytes, const uint32_t *cells,
+                              size_t count);
+
 /// As sli_row_append, of a set of which only some words are there: words[i] is the set's word
 /// index[i], ascending, or its word i where `index` is NULL.
 sl_status sli_row_append_words(sl_context *context, sli_row_bytes *bytes, const sl_bits *words,

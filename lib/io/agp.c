@@ -1,6 +1,7 @@
 // Polygons of AGPLIB, the benchmark of the art gallery problem (Couto, de Rezende and de Souza
 // 2009): the number of corners and their coordinates, as fractions "a/b" or decimals, the outline
 // counter-clockwise; then the number of holes, and each hole likewise.
+#include "io/fraction.h"
 #include "io/io_formats.h"
 #include "map/ground.h"
 #include "map/scan.h"
@@ -14,6 +15,7 @@ typedef struct agp_reader {
     sli_word line; ///< what is left of the current one
     SL_ARRAY(sl_point) corners;
     size_t holes, corner_count;
+    size_t rounded; ///< coordinates that are no doubles
 } agp_reader;
 
 /// The next word; empty at the end.
@@ -31,23 +33,28 @@ static sli_word next_word(agp_reader *r) {
     }
 }
 
-/// The quotient of two doubles: of whole numbers below 2^53 and a power of two it is exact.
+/// A decimal, or a fraction: of whole numbers the double nearest to it, else the quotient of two
+/// doubles.
 static sl_status read_fraction(agp_reader *r, double *value) {
     const sli_word word = next_word(r);
     const char *slash = word.length ? memchr(word.at, '/', word.length) : NULL;
-    const size_t above = slash ? (size_t)(slash - word.at) : word.length;
-    double a, b = 1;
     if (!word.length)
         return sl_fail_at(r->context, r->name, r->lines.line,
                           "the file ends before the last coordinate");
     if (!slash) return sli_read_coordinate(r->context, r->name, r->lines.line, word, value);
-    if (!sl_number_read(word.at, above, &a) ||
-        !sl_number_read(slash + 1, word.length - above - 1, &b) || !isfinite(a) || !isfinite(b) ||
-        b == 0)
-        return sl_fail_at(r->context, r->name, r->lines.line,
-                          "expected a number or a fraction such as 3/4, found '%s'",
-                          sli_show(word).text);
-    *value = sli_coordinate(a / b) + 0.0; // no -0
+    const size_t above = (size_t)(slash - word.at), below = word.length - above - 1;
+    double a, b;
+    bool exact = true;
+    if (!sli_fraction_read(word.at, above, slash + 1, below, value, &exact)) {
+        if (!sl_number_read(word.at, above, &a) || !sl_number_read(slash + 1, below, &b) ||
+            !isfinite(a) || !isfinite(b) || b == 0)
+            return sl_fail_at(r->context, r->name, r->lines.line,
+                              "expected a number or a fraction such as 3/4, found '%s'",
+                              sli_show(word).text);
+        *value = a / b;
+    }
+    r->rounded += !exact;
+    *value = sli_coordinate(*value) + 0.0; // no -0
     if (sl_coordinate_usable(*value)) return SL_OK;
     return sl_fail_at(r->context, r->name, r->lines.line,
                       "'%s' is out of range: expected a magnitude up to %g", sli_show(word).text,
@@ -112,5 +119,8 @@ sl_status sli_map_read_agp(sl_context *context, const char *name, const char *te
         return status;
     }
     sl_note(context, "%s: a polygon of %zu corners and %zu holes", name, r.corner_count, r.holes);
+    if (r.rounded)
+        sl_note(context, "%s: the nearest doubles are taken for fractions that are none: %zu", name,
+                r.rounded);
     return SL_OK;
 }

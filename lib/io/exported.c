@@ -345,6 +345,10 @@ static sl_status check_version(const sli_json *root) {
     const sli_json version = sli_json_member(root, "version");
     const char *name;
     int64_t number = 1;
+    if (!format.value)
+        return sli_json_fail(root,
+                             "no map of a kind that is known: JSON is of Tiled, LDtk, Universal "
+                             "VTT, Foundry, GeoJSON or an export of Sightline");
     SL_TRY(sli_json_text(&format, &name));
     if (strcmp(name, "sightline") != 0) return sli_json_fail(&format, "expected \"sightline\"");
     return sli_json_whole_if(&version, 1, SL_JSON_VERSION, &number);

@@ -35,7 +35,8 @@ static bool is_json_with(const char *text, const char *word, const char *other) 
 
 static bool knows_tmj(const char *text, size_t size) {
     (void)size;
-    return is_json_with(text, "\"tilewidth\"", "\"layers\"");
+    return is_json_with(text, "\"tilewidth\"", "\"layers\"") ||
+           is_json_with(text, "\"tilelayer\"", "\"layers\"");
 }
 
 static bool knows_world(const char *text, size_t size) {
@@ -76,7 +77,10 @@ static bool knows_geojson(const char *text, size_t size) {
 static bool knows_foundry(const char *text, size_t size) {
     (void)size;
     return is_json_with(text, "\"c\"", "\"move\"") ||
-           is_json_with(text, "\"walls\"", "\"padding\"");
+           is_json_with(text, "\"walls\"", "\"padding\"") ||
+           is_json_with(text, "\"_stats\"", "\"coreVersion\"") || // documents of other kinds:
+           is_json_with(text, "\"prototypeToken\"", "\"items\"") ||
+           is_json_with(text, "\"packs\"", "\"compatibility\"");
 }
 
 static bool knows_wad(const char *text, size_t size) {

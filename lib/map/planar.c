@@ -273,7 +273,7 @@ static bool is_near(const planer *p, sl_point a, sl_point b, sl_point v) {
     const double vx = (v.x - a.x) * p->scale, vy = (v.y - a.y) * p->scale;
     const double length = sli_length(dx, dy);
     const double along = (vx * dx + vy * dy) / length, off = fabs(dx * vy - dy * vx) / length;
-    if (off <= reach * p->scale && along > 0 && along < length) return true;
+    if (reach > 0 && off <= reach * p->scale && along > 0 && along < length) return true;
     return off <= 0x1p-48 * (fabs(vx) + fabs(vy)) + 0x1p-1000 && sli_orient(a, b, v) == 0 &&
            strictly_between(a, b, v);
 }

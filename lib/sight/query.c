@@ -34,7 +34,8 @@ struct sl_query {
     const sl_map *map;
     const sl_visibility *visibility; ///< the caller's; NULL for none
     sli_query_owner owner;
-    bool *shut; ///< by door of the map
+    const sl_outline *given; ///< of the space that is asked, where its owner keeps one
+    bool *shut;              ///< by door of the map
     size_t shut_count;
     bool backwards;
     double range;
@@ -74,6 +75,10 @@ static void drop_moving(sl_context *context, sl_query *q) {
     sl_space_destroy(context, &q->moving_ground);
     q->moving = NULL;
     q->boxes_placed = false;
+}
+
+static bool is_turned(const sl_query *q) {
+    return q->backwards && q->map->oneway_count;
 }
 
 static void drop_search(sl_context *context, sl_query *q) {
@@ -123,6 +128,22 @@ sl_status sl_query_over(sl_context *context, const sl_space *space, const sl_map
 
 void sli_query_own(sl_query *query, sli_query_owner owner) {
     query->owner = owner;
+}
+
+void sli_query_space_changed(sl_context *context, sl_query *q, const sl_outline *outline) {
+    const bool grown = q->ready && q->sight.space.cell_count != q->asked->cell_count;
+    const bool rows = q->visibility && q->visibility->pvs.cell_count;
+    q->given = outline;
+    if (q->sight.own || is_turned(q)) {
+        drop_all(context, q);
+        return;
+    }
+    drop_moving(context, q);
+    drop_mirrors(context, q);
+    if (SLI_BOXES) sli_box_lists_destroy(context, &q->lists);
+    if (grown || (q->search && q->search->has_pvs != rows)) drop_search(context, q);
+    if (q->ready) q->sight.space = *q->asked;
+    q->settled = false;
 }
 
 const sl_map *sl_query_map(const sl_query *query) {
@@ -309,10 +330,6 @@ static sl_status turn_glass(sl_context *context, sl_query *q) {
     return SL_OK;
 }
 
-static bool is_turned(const sl_query *q) {
-    return q->backwards && q->map->oneway_count;
-}
-
 /// The visible sets say what is seen from a cell, and not from where it is seen.
 static sl_visibility rows_of(const sl_query *q) {
     if (!q->visibility) return (sl_visibility){.sight = SL_CLOSED};
@@ -326,6 +343,7 @@ static sl_status make_ready(sl_context *context, sl_query *q) {
         status = sli_sight_space_make(context, is_turned(q) ? &q->turned : q->asked, q->shut,
                                       q->map->door_count, &q->sight);
     q->ready = status == SL_OK;
+    q->sight.given = q->given;
     if (!q->ready) drop_all(context, q);
     return status;
 }
@@ -405,6 +423,9 @@ static sl_status create_moving(sl_context *context, sl_query *q) {
 }
 
 static sl_status make_moving(sl_context *context, sl_query *q) {
+    if (q->given)
+        return sl_fail(context, SL_UNSUPPORTED,
+                       "boxes are not cut into a world: ask a copy of it (sl_world_copy_space)");
     if (!q->moving) SL_TRY(create_moving(context, q));
     if (!q->boxes_placed) SL_TRY(sli_moving_set_boxes(context, q->moving, q->boxes, q->box_count));
     q->boxes_placed = true;

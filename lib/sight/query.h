@@ -13,4 +13,7 @@ typedef struct sli_query_owner {
 /// Gives it to the query.
 void sli_query_own(sl_query *query, sli_query_owner owner);
 
+/// Follows a change of the space that is asked, which keeps its outline itself. Settings stay.
+void sli_query_space_changed(sl_context *context, sl_query *query, const sl_outline *outline);
+
 #endif

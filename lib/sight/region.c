@@ -76,7 +76,7 @@ static bool is_on(const sl_outline *o, uint32_t i, sl_point eye) {
 /// finds the sides there (*at) and leaves the fan empty: the caller goes around the eye.
 static sl_status gather_room(sl_context *context, const sl_outline *o, uint32_t room, sl_point eye,
                              struct sli_region_memory *m, corner *at, bool *within) {
-    const uint32_t first = o->first[room], stop = o->first[room + 1];
+    const uint32_t first = o->first[room], stop = sl_outline_stop(o, room);
     SL_TRY(SL_ARRAY_ROOM(context, &m->fan, stop - first));
     *within = true;
     for (uint32_t i = first; i < stop; i++) {

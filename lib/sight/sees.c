@@ -110,13 +110,14 @@ static bool meets(const seer *s, sl_point a, sl_point b) {
 
 static bool room_holds(const seer *s, uint32_t room, sl_point point) {
     const sl_side *sides = s->outline->sides;
-    for (uint32_t i = s->outline->first[room]; i < s->outline->first[room + 1]; i++)
+    for (uint32_t i = s->outline->first[room]; i < sl_outline_stop(s->outline, room); i++)
         if (sli_orient(sides[i].start, sides[sides[i].next].start, point) < 0) return false;
     return true;
 }
 
 static uint32_t room_of(const sl_outline *o, uint32_t side) {
     uint32_t low = 0, high = o->room_count;
+    if (o->room_of) return o->room_of[side];
     while (high - low > 1) {
         const uint32_t middle = low + (high - low) / 2;
         if (o->first[middle] <= side)
@@ -150,7 +151,7 @@ static sl_status enter_around(sl_context *context, seer *s) {
     const sl_outline *o = s->outline;
     for (size_t k = 0; k < s->waiting.count; k++) {
         const uint32_t room = s->waiting.items[k];
-        for (uint32_t i = o->first[room]; i < o->first[room + 1]; i++) {
+        for (uint32_t i = o->first[room]; i < sl_outline_stop(o, room); i++) {
             const sl_point a = o->sides[i].start, b = o->sides[o->sides[i].next].start;
             if (sli_orient(a, b, s->eye) == 0 && overlap(s->eye, s->eye, a, b) &&
                 sli_region_leads_on(o, i, s->cell, s->eye))
@@ -167,7 +168,7 @@ static sl_status follow(sl_context *context, seer *s, bool *arrives) {
     while (s->waiting.count) {
         const uint32_t room = s->waiting.items[--s->waiting.count];
         *arrives = *arrives || (s->passed < 2 && room_holds(s, room, s->point));
-        for (uint32_t i = o->first[room]; i < o->first[room + 1]; i++) {
+        for (uint32_t i = o->first[room]; i < sl_outline_stop(o, room); i++) {
             const sl_side *side = &o->sides[i];
             const bool open = sli_region_leads_on(o, i, s->cell, s->eye);
             if (side->neighbour >= SL_SIDE_BORDER || (s->touches && !open) ||

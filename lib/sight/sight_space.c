@@ -281,8 +281,8 @@ static sl_status make_outline(sl_context *context, sli_sight_space *s) {
 }
 
 sl_status sli_sight_space_outline(sl_context *context, sli_sight_space *s, const sl_outline **out) {
-    *out = &s->outline;
-    if (s->outline.sides) return SL_OK;
+    *out = s->given && !s->portal_count ? s->given : &s->outline;
+    if ((*out)->sides) return SL_OK;
     const sl_status status = make_outline(context, s);
     if (status != SL_OK) sli_outline_destroy(context, &s->outline);
     for (uint32_t i = 0; i < s->portal_count && status == SL_OK; i++) link_sides(s, &s->portals[i]);

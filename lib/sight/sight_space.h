@@ -24,6 +24,7 @@ typedef struct sli_sight_space {
     const sl_space *base;
     sl_space space;
     sl_outline outline;        ///< of `space`; made by sli_sight_space_outline
+    const sl_outline *given;   ///< the outline of the base, as its owner keeps it; NULL for none
     sli_sight_portal *portals; ///< in the order of their numbers
     uint32_t portal_count, dark_count;
     uint32_t *first_of_door, *of_door; ///< by door, and one more: its portals, as numbers in

@@ -1,7 +1,9 @@
 /// Clearances, by the triangles between walls. The nearest wall of a point is found through the
 /// sides of triangles that are nearer than the best wall so far. The clearance changes by no more
 /// than one goes, so a triangle whose middle has clearance c has none above c + r, where r is its
-/// radius. The search for a place with more cuts triangles in four until that decides.
+/// radius. Nor has it any above the largest distance of a corner from the wall that is nearest to
+/// the middle, as distances from a segment are convex: so slivers between walls are not cut on and
+/// on. The search for a place with more cuts triangles in four until that decides.
 #include "space/clearance.h"
 
 #include "geometry/length.h"
@@ -47,11 +49,22 @@ static sl_status push_half_edge(sli_clearance *c, uint32_t half) {
 }
 
 /// The distance from a point to the nearest wall that it can be reached from, rounded; `most` if
-/// that is less. `half` is a half-edge of the triangle that holds the point.
+/// that is less. `half` is a half-edge of the triangle that holds the point. `wall`, where not
+/// NULL, gets that wall, if it is nearer.
 static sl_status clearance_at(sli_clearance *c, uint32_t half, sl_point point, double most,
-                              double *out) {
+                              double *out, sl_segment *wall) {
     const sli_triangulation *t = &c->channels->triangles;
     double best = most;
+    sl_segment nearest = {point, point};
+    // Ends of walls at the triangle's own corners keep the search from going far.
+    for (int i = 0; i < 3; i++, half = t->halves.items[half].next) {
+        const sl_point corner = start_of(c, half);
+        if (!sl_bits_has(c->channels->solid, t->halves.items[half].from) ||
+            !(apart(point, corner) < best))
+            continue;
+        best = apart(point, corner);
+        nearest = (sl_segment){corner, corner};
+    }
     c->stamp++;
     SL_TRY(push_half_edge(c, half));
     while (c->stack.count) {
@@ -60,14 +73,19 @@ static sl_status clearance_at(sli_clearance *c, uint32_t half, sl_point point, d
         for (int i = 0; i < 3; i++, side = t->halves.items[side].next) {
             c->seen[side] = c->stamp;
             const uint32_t twin = side ^ 1;
-            const double distance = to_segment(point, start_of(c, side), start_of(c, twin));
-            if (!(distance < best)) continue;
-            if (c->channels->label[side / 2] == SLI_WALL)
+            const sl_segment at = {start_of(c, side), start_of(c, twin)};
+            const double distance = to_segment(point, at.a, at.b);
+            const bool is_wall = c->channels->label[side / 2] == SLI_WALL;
+            if (!(distance < best) && !(is_wall && distance == best)) continue;
+            if (is_wall) {
                 best = distance;
-            else if (!sli_half_is_outside(t, twin) && c->seen[twin] != c->stamp)
+                nearest = at;
+            } else if (!sli_half_is_outside(t, twin) && c->seen[twin] != c->stamp) {
                 SL_TRY(push_half_edge(c, twin));
+            }
         }
     }
+    if (wall) *wall = nearest;
     *out = best;
     return SL_OK;
 }
@@ -109,7 +127,7 @@ sl_status sli_clearance_of(sli_clearance *c, uint32_t half, sl_point *place, dou
     for (int i = 0; i < 2; i++) {
         double own;
         if (!holds(&t, tried[i])) continue;
-        SL_TRY(clearance_at(c, half, tried[i], INFINITY, &own));
+        SL_TRY(clearance_at(c, half, tried[i], INFINITY, &own, NULL));
         if (own <= *out) continue;
         *out = own;
         *place = tried[i];
@@ -137,12 +155,15 @@ static double limit_of(const sli_clearance *c, uint32_t half) {
 static sl_status search(sli_clearance *c, uint32_t half, const triangle *t, double wanted,
                         sl_point *place, bool *out) {
     const sl_point middle = middle_of(t);
-    double own, radius = 0;
+    double own, radius = 0, farthest = 0;
+    sl_segment wall;
     for (int i = 0; i < 3; i++) radius = fmax(radius, apart(middle, t->corner[i]));
-    SL_TRY(clearance_at(c, half, middle, wanted + radius, &own));
+    SL_TRY(clearance_at(c, half, middle, wanted + radius, &own, &wall));
     *out = own >= wanted;
     if (*out) *place = middle;
     if (*out || own + radius < wanted || radius < wanted / 16) return SL_OK;
+    for (int i = 0; i < 3; i++) farthest = fmax(farthest, to_segment(t->corner[i], wall.a, wall.b));
+    if (farthest < wanted) return SL_OK;
     const sl_point *p = t->corner;
     sl_point m[3];
     for (int i = 0; i < 3; i++)

@@ -46,6 +46,8 @@
 /// Openings up to so many times W are doubtful. A width that is found is that of a narrow door.
 #define DOUBT       2.5
 #define DOUBT_FOUND 3.5
+/// Slits are narrower than this share of the map, and no entrances.
+#define SLIT 1000
 /// How much roomier than its opening a part or pocket is.
 #define ROOMIER (4.0 / 3)
 /// How much less roomy than other places cores of walls are.
@@ -292,6 +294,17 @@ static int compare_numbers(const void *left, const void *right) {
     return (a > b) - (a < b);
 }
 
+/// Drops widths of slits, where there are others: walls that were meant to meet.
+static size_t drop_slits(double *widths, size_t count, double slit) {
+    size_t wide = 0;
+    for (size_t i = 0; i < count; i++) wide += widths[i] > slit;
+    if (!wide) return count;
+    wide = 0;
+    for (size_t i = 0; i < count; i++)
+        if (widths[i] > slit) widths[wide++] = widths[i];
+    return wide;
+}
+
 /// The number before the greatest step, by ratio; up to `most`.
 static double before_step(double *numbers, size_t count, double most) {
     double best = 0, step = 1;
@@ -331,6 +344,7 @@ static sl_status find_width(finder *f, double most, double *out) {
         status = fits(f, g, ROOMIER * g->access, &roomier);
         if (roomier) widths[count++] = g->access;
     }
+    count = drop_slits(widths, status == SL_OK ? count : 0, fmax(width, height) / SLIT);
     const double best = status == SL_OK ? before_step(widths, count, most) : 0;
     double widest = best; // both faces of a door frame are openings
     for (size_t i = 0; i < f->groups.count; i++)

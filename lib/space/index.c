@@ -309,22 +309,30 @@ static void add_side(const filler *f, sl_point p, sl_point q) {
     }
 }
 
-/// Enters a cell into its buckets; without lists it is only counted.
-static void enter(filler *f, uint32_t number, uint32_t *cells) {
-    const sl_cell *cell = &f->space->cells[number];
+/// Finds the columns of a polygon in each row, from *out to *last.
+static uint32_t reach(const filler *f, const sl_point *corners, uint32_t count, uint32_t *out) {
     const sl_cell_grid *g = f->grid;
-    const sl_point *corners = f->space->vertices + cell->first_vertex;
     double low = HUGE_VAL, high = -HUGE_VAL;
-    for (uint32_t i = 0; i < cell->vertex_count; i++) {
+    for (uint32_t i = 0; i < count; i++) {
         const double y = in_buckets(f, corners[i]).y;
         low = sli_lesser(low, y);
         high = sli_greater(high, y);
     }
     const uint32_t first = clamp(low - f->slack, g->rows), last = clamp(high + f->slack, g->rows);
     for (uint32_t row = first; row <= last; row++) f->rows[row] = (span){HUGE_VAL, -HUGE_VAL};
-    for (uint32_t i = 0; i < cell->vertex_count; i++)
-        add_side(f, in_buckets(f, corners[i]),
-                 in_buckets(f, corners[i + 1 < cell->vertex_count ? i + 1 : 0]));
+    for (uint32_t i = 0; i < count; i++)
+        add_side(f, in_buckets(f, corners[i]), in_buckets(f, corners[i + 1 < count ? i + 1 : 0]));
+    *out = last;
+    return first;
+}
+
+/// Enters a cell into its buckets; without lists it is only counted.
+static void enter(filler *f, uint32_t number, uint32_t *cells) {
+    const sl_cell *cell = &f->space->cells[number];
+    const sl_cell_grid *g = f->grid;
+    uint32_t last;
+    const uint32_t first =
+        reach(f, f->space->vertices + cell->first_vertex, cell->vertex_count, &last);
     for (uint32_t row = first; row <= last; row++) {
         if (f->rows[row].low > f->rows[row].high) continue;
         const uint32_t from = clamp(f->rows[row].low - f->slack, g->columns);
@@ -374,6 +382,32 @@ static sl_status fill(sl_context *context, const sl_space *space, double slack, 
     return status;
 }
 
+sl_status sli_cell_grid_reach(sl_context *context, const sl_space *space, const sl_point *corners,
+                              uint32_t count, sli_bucket_list *out) {
+    const sl_box *b = &space->bounds;
+    sl_cell_grid grid = space->grid;
+    span *rows = sl_alloc_array(context, grid.rows, sizeof *rows);
+    if (!rows) return SL_NO_MEMORY;
+    const filler f = {.space = space,
+                      .grid = &grid,
+                      .width = b->max.x - b->min.x,
+                      .height = b->max.y - b->min.y,
+                      .slack = CELL_SLACK,
+                      .rows = rows};
+    uint32_t last;
+    sl_status status = SL_OK;
+    for (uint32_t row = reach(&f, corners, count, &last); row <= last && status == SL_OK; row++) {
+        if (rows[row].low > rows[row].high) continue;
+        const uint32_t to = clamp(rows[row].high + f.slack, grid.columns);
+        uint32_t column = clamp(rows[row].low - f.slack, grid.columns);
+        status = SL_ARRAY_ROOM(context, out, to - column + 1);
+        for (; column <= to && status == SL_OK; column++)
+            out->items[out->count++] = row * grid.columns + column;
+    }
+    sl_free(context, rows);
+    return status;
+}
+
 /// The ratio of the average width of cells to their average height, as shares of the bounds.
 static double shape_of_cells(const sl_space *s) {
     const sl_box *b = &s->bounds;
@@ -411,7 +445,7 @@ sl_status sli_cell_grid_make(sl_context *context, sl_space *space) {
 }
 
 static bool is_in_bucket(const sl_cell_grid *g, size_t bucket, uint32_t cell) {
-    for (uint32_t i = g->first[bucket]; i < g->first[bucket + 1]; i++)
+    for (uint32_t i = g->first[bucket]; i < sli_cell_grid_stop(g, bucket); i++)
         if (g->cells[i] == cell) return true;
     return false;
 }
@@ -438,6 +472,7 @@ sl_status sli_cell_grid_check(sl_context *context, const sl_space *space) {
 
 void sli_cell_grid_destroy(sl_context *context, sl_cell_grid *grid) {
     sl_free(context, grid->first);
+    sl_free(context, grid->stop);
     sl_free(context, grid->cells);
     *grid = (sl_cell_grid){0};
 }

@@ -86,6 +86,17 @@ sl_status sli_tree_grid_make(sl_context *context, const sl_space *space, sli_tre
 
 // --- cells in a grid
 
+/// Where the cells of a bucket end.
+static inline uint32_t sli_cell_grid_stop(const sl_cell_grid *g, size_t bucket) {
+    return g->stop ? g->stop[bucket] : g->first[bucket + 1];
+}
+
+typedef SL_ARRAY(uint32_t) sli_bucket_list;
+
+/// Adds the buckets that a convex polygon reaches into, as those of sli_cell_grid_make.
+sl_status sli_cell_grid_reach(sl_context *context, const sl_space *space, const sl_point *corners,
+                              uint32_t count, sli_bucket_list *out);
+
 /// Makes the grid of a space that has its cells, vertices and bounds. It has at most 4 buckets and
 /// 32 entries for each cell.
 sl_status sli_cell_grid_make(sl_context *context, sl_space *space);
@@ -141,7 +152,7 @@ static inline bool sli_cell_grid_next(const sl_cell_grid *g, sli_cell_grid_range
         for (; r->column <= r->to_column; r->column++, r->entry = 0) {
             const uint32_t bucket = r->row * g->columns + r->column;
             const uint32_t at = g->first[bucket] + r->entry;
-            if (at == g->first[bucket + 1]) continue;
+            if (at == sli_cell_grid_stop(g, bucket)) continue;
             r->entry++;
             *cell = g->cells[at];
             return true;

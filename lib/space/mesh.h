@@ -28,6 +28,7 @@ typedef struct sli_triangulation {
     uint32_t *labels; ///< by edge (h / 2): 1 + the number of the graph's edge, 0 for none
     size_t label_room;
     uint32_t *out; ///< by point: a half-edge within the box that starts there
+    size_t out_room;
 } sli_triangulation;
 
 /// Triangulates. The triangles are Delaunay triangles where the graph's edges permit it, except for

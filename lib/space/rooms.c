@@ -594,7 +594,7 @@ sl_status sli_rooms_make(sl_context *context, sl_outline *o) {
 }
 
 static bool holds(const sl_outline *o, uint32_t room, sl_point point) {
-    for (uint32_t i = o->first[room]; i < o->first[room + 1]; i++)
+    for (uint32_t i = o->first[room]; i < sl_outline_stop(o, room); i++)
         if (sli_orient(o->sides[i].start, o->sides[o->sides[i].next].start, point) < 0)
             return false;
     return true;

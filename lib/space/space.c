@@ -101,7 +101,7 @@ bool sli_cell_holds(const sl_space *space, uint32_t number, sl_point point) {
 /// Cells tile the bounds, so the last one holds it if no other does.
 static uint32_t locate_in_bucket(const sl_space *space, sl_point point) {
     const uint32_t bucket = sli_cell_grid_bucket(space, point);
-    const uint32_t *cells = space->grid.cells, end = space->grid.first[bucket + 1];
+    const uint32_t *cells = space->grid.cells, end = sli_cell_grid_stop(&space->grid, bucket);
     uint32_t found = SL_NO_CELL;
     for (uint32_t i = space->grid.first[bucket]; i < end; i++) {
         const bool solid = space->cells[cells[i]].solid, last = i + 1 == end && !space->loose;

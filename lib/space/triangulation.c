@@ -20,27 +20,16 @@
 /// Exact signs (sli_orient) decide what is a triangle. The circle test is rounded: a flip needs to
 /// be sure, so flipping ends, and a doubtful case costs nothing but the shape of a triangle. Time
 /// about O(n log n), for sorting; the walks are short.
-#include "space/mesh.h"
+#include "space/triangulator.h"
 
 #include "geometry/orient.h"
-#include "sightline/support.h"
 
 #include <math.h>
 #include <stdlib.h>
 
 #define NONE UINT32_MAX
 
-typedef SL_ARRAY(uint32_t) half_list;
-
-typedef struct maker {
-    sl_context *context;
-    sli_triangulation *t;
-    double scale;  ///< distances in the box, times scale, are at most 1
-    uint32_t last; ///< a half-edge at the point added last
-    sl_random random;
-    half_list doubtful; ///< half-edges that may need a flip
-    half_list crossing, flipped;
-} maker;
+typedef sli_triangulator maker;
 
 static sl_point at(const maker *m, uint32_t point) {
     return m->t->points.items[point];
@@ -59,9 +48,11 @@ static uint32_t next(const maker *m, uint32_t half) {
 }
 
 static void link(maker *m, uint32_t a, uint32_t b, uint32_t c) {
-    m->t->halves.items[a].next = b;
-    m->t->halves.items[b].next = c;
-    m->t->halves.items[c].next = a;
+    sli_triangulator_link(m, a, b, c);
+}
+
+static void put(maker *m, sli_word_kind kind, uint32_t index, uint32_t value) {
+    sli_triangulator_put(m, kind, index, value);
 }
 
 static int side(const maker *m, uint32_t a, uint32_t b, uint32_t c) {
@@ -71,14 +62,24 @@ static int side(const maker *m, uint32_t a, uint32_t b, uint32_t c) {
 /// A new edge between two points; its half-edge from a to b.
 static sl_status add_edge(maker *m, uint32_t a, uint32_t b, uint32_t *out) {
     sli_triangulation *t = m->t;
-    if (t->halves.count >= INT32_MAX) return sl_fail_memory(m->context);
-    SL_TRY(SL_ARRAY_ROOM(m->context, &t->halves, 2));
-    SL_TRY(sl_reserve(m->context, &t->labels, &t->label_room, t->halves.count / 2 + 1,
-                      sizeof *t->labels));
-    *out = (uint32_t)t->halves.count;
-    t->labels[*out / 2] = 0;
-    t->halves.items[t->halves.count++] = (sli_half_edge){a, SLI_OUTSIDE};
-    t->halves.items[t->halves.count++] = (sli_half_edge){b, SLI_OUTSIDE};
+    SL_TRY(sli_triangulator_room(m));
+    if (m->free_edge) {
+        *out = 2 * (m->free_edge - 1);
+        put(m, SLI_WORD_FREE_EDGE, 0, t->halves.items[*out].next);
+    } else {
+        if (t->halves.count >= INT32_MAX) return sl_fail_memory(m->context);
+        SL_TRY(SL_ARRAY_ROOM(m->context, &t->halves, 2));
+        SL_TRY(sl_reserve(m->context, &t->labels, &t->label_room, t->halves.count / 2 + 1,
+                          sizeof *t->labels));
+        *out = (uint32_t)t->halves.count;
+        t->labels[*out / 2] = 0;
+        t->halves.items[*out] = t->halves.items[*out + 1] = (sli_half_edge){NONE, 0};
+        t->halves.count += 2;
+    }
+    put(m, SLI_WORD_FROM, *out, a);
+    put(m, SLI_WORD_FROM, *out + 1, b);
+    put(m, SLI_WORD_NEXT, *out, SLI_OUTSIDE);
+    put(m, SLI_WORD_NEXT, *out + 1, SLI_OUTSIDE);
     return SL_OK;
 }
 
@@ -107,13 +108,12 @@ static bool can_flip(const maker *m, uint32_t half) {
 
 /// Flips an edge to the other two corners of the quadrilateral.
 static void flip(maker *m, uint32_t half) {
-    sli_half_edge *halves = m->t->halves.items;
     const uint32_t twin = half ^ 1;
     const uint32_t a = next(m, half), b = next(m, a), c = next(m, twin), d = next(m, c);
-    m->t->out[halves[half].from] = c;
-    m->t->out[halves[twin].from] = a;
-    halves[half].from = halves[d].from;
-    halves[twin].from = halves[b].from;
+    put(m, SLI_WORD_OUT, from(m, half), c);
+    put(m, SLI_WORD_OUT, from(m, twin), a);
+    put(m, SLI_WORD_FROM, half, from(m, d));
+    put(m, SLI_WORD_FROM, twin, from(m, b));
     link(m, half, b, c);
     link(m, twin, d, a);
 }
@@ -127,17 +127,21 @@ static bool should_flip(const maker *m, uint32_t half) {
            can_flip(m, half);
 }
 
-static sl_status doubt(maker *m, uint32_t half) {
+sl_status sli_triangulator_doubt(maker *m, uint32_t half) {
     SL_TRY(SL_ARRAY_ROOM(m->context, &m->doubtful, 1));
     m->doubtful.items[m->doubtful.count++] = half;
     return SL_OK;
 }
 
-/// Flips doubtful edges until none needs it.
-static sl_status settle(maker *m) {
+static sl_status doubt(maker *m, uint32_t half) {
+    return sli_triangulator_doubt(m, half);
+}
+
+sl_status sli_triangulator_settle(maker *m) {
     while (m->doubtful.count) {
         const uint32_t half = m->doubtful.items[--m->doubtful.count];
         if (!should_flip(m, half)) continue;
+        SL_TRY(sli_triangulator_room(m));
         const uint32_t sides[4] = {next(m, half), next(m, next(m, half)), next(m, half ^ 1),
                                    next(m, next(m, half ^ 1))};
         flip(m, half);
@@ -148,9 +152,8 @@ static sl_status settle(maker *m) {
 
 // --- adding points
 
-/// A half-edge of the triangle that holds a point. If the point is on an edge, it is that edge, and
-/// *on is true. Each step starts at a random edge, so that no walk goes in circles.
-static uint32_t walk_to(maker *m, sl_point p, bool *on) {
+/// Each step starts at a random edge, so that no walk goes in circles.
+uint32_t sli_triangulator_walk(maker *m, sl_point p, bool *on) {
     uint32_t half = m->last;
     for (;;) {
         const uint64_t chance = sl_random_next(&m->random) % 3;
@@ -178,8 +181,8 @@ static sl_status split_triangle(maker *m, uint32_t half, uint32_t p) {
         link(m, h[i], in[(i + 1) % 3], in[i] ^ 1);
         SL_TRY(doubt(m, h[i]));
     }
-    m->t->out[p] = in[0] ^ 1;
-    return settle(m);
+    put(m, SLI_WORD_OUT, p, in[0] ^ 1);
+    return sli_triangulator_settle(m);
 }
 
 /// Cuts the triangles at an edge; one of its sides may be outside.
@@ -191,11 +194,12 @@ static sl_status split_edge(maker *m, uint32_t half, uint32_t p) {
     uint32_t rest, inward, across;
     SL_TRY(add_edge(m, p, b, &rest));
     SL_TRY(add_edge(m, p, from(m, h2), &inward));
-    m->t->halves.items[twin].from = p;
+    SL_TRY(sli_triangulator_room(m));
+    put(m, SLI_WORD_FROM, twin, p);
     link(m, half, inward, h2);
     link(m, rest, h1, inward ^ 1);
-    m->t->out[b] = h1;
-    m->t->out[p] = rest;
+    put(m, SLI_WORD_OUT, b, h1);
+    put(m, SLI_WORD_OUT, p, rest);
     SL_TRY(doubt(m, h1));
     SL_TRY(doubt(m, h2));
     if (!outer) {
@@ -206,12 +210,12 @@ static sl_status split_edge(maker *m, uint32_t half, uint32_t p) {
         SL_TRY(doubt(m, t1));
         SL_TRY(doubt(m, t2));
     }
-    return settle(m);
+    return sli_triangulator_settle(m);
 }
 
-static sl_status add_point(maker *m, uint32_t p) {
+sl_status sli_triangulator_add_point(maker *m, uint32_t p) {
     bool on = false;
-    const uint32_t half = walk_to(m, at(m, p), &on);
+    const uint32_t half = sli_triangulator_walk(m, at(m, p), &on);
     SL_TRY(on ? split_edge(m, half, p) : split_triangle(m, half, p));
     m->last = m->t->out[p];
     return SL_OK;
@@ -315,7 +319,7 @@ static sl_status add_points(maker *m, const sl_box *box) {
     for (size_t i = 0; i < t->points.count && status == SL_OK; i++) {
         if (i % 4096 == 0) status = sl_check_cancelled(m->context);
         if (status == SL_OK && t->out[places[i].point] == NONE)
-            status = add_point(m, places[i].point);
+            status = sli_triangulator_add_point(m, places[i].point);
     }
     sl_free(m->context, places);
     return status;
@@ -391,10 +395,11 @@ static sl_status clear_way(maker *m, uint32_t a, uint32_t b, uint32_t label) {
         for (size_t i = 0; i < count; i++) {
             const uint32_t half = m->crossing.items[i];
             const bool flips = can_flip(m, half);
+            SL_TRY(sli_triangulator_room(m));
             if (flips) flip(m, half);
             const uint32_t p = from(m, half), q = to(m, half);
             if ((p == a && q == b) || (p == b && q == a)) {
-                m->t->labels[half / 2] = label;
+                put(m, SLI_WORD_LABEL, half / 2, label);
             } else if (!flips || (p != a && p != b && q != a && q != b &&
                                   side(m, a, b, p) * side(m, a, b, q) < 0)) {
                 m->crossing.items[m->crossing.count++] = half; // later, after others
@@ -406,29 +411,33 @@ static sl_status clear_way(maker *m, uint32_t a, uint32_t b, uint32_t label) {
         SL_TRY(sl_check_cancelled(m->context));
     }
     for (size_t i = 0; i < m->flipped.count; i++) SL_TRY(doubt(m, m->flipped.items[i]));
-    return settle(m);
+    return sli_triangulator_settle(m);
+}
+
+sl_status sli_triangulator_add_edge(maker *m, uint32_t a, uint32_t b, uint32_t label) {
+    bool there;
+    uint32_t half;
+    SL_TRY(find_way(m, a, b, &there, &half));
+    if (there) {
+        SL_TRY(sli_triangulator_room(m));
+        put(m, SLI_WORD_LABEL, half / 2, label);
+        return SL_OK;
+    }
+    SL_TRY(find_crossing(m, a, b, half));
+    return clear_way(m, a, b, label);
 }
 
 static sl_status add_edges(maker *m, const sli_planar *graph) {
     for (uint32_t i = 0; i < graph->edge_count; i++) {
-        const uint32_t a = graph->edges[i].a, b = graph->edges[i].b;
-        bool there;
-        uint32_t half;
         if (i % 4096 == 0) SL_TRY(sl_check_cancelled(m->context));
-        SL_TRY(find_way(m, a, b, &there, &half));
-        if (there) {
-            m->t->labels[half / 2] = i + 1;
-            continue;
-        }
-        SL_TRY(find_crossing(m, a, b, half));
-        SL_TRY(clear_way(m, a, b, i + 1));
+        SL_TRY(sli_triangulator_add_edge(m, graph->edges[i].a, graph->edges[i].b, i + 1));
     }
     return SL_OK;
 }
 
 // --- all of it
 
-static double scale_of(const sl_box *box) {
+double sli_triangulator_scale(const sl_box *box) {
     int exponent = 0;
     frexp(fmax(box->max.x - box->min.x, box->max.y - box->min.y), &exponent);
     return ldexp(1, -exponent);
@@ -437,18 +446,24 @@ static double scale_of(const sl_box *box) {
 sl_status sli_triangulate(sl_context *context, const sli_planar *graph, const sl_box *box,
                           sli_triangulation *out) {
     sli_triangulation made = {0};
-    maker m = {.context = context, .t = &made, .scale = scale_of(box)};
+    maker m = {.context = context, .t = &made, .scale = sli_triangulator_scale(box)};
     sl_status status = start(&m, graph, box);
     if (status == SL_OK) status = add_points(&m, box);
     if (status == SL_OK) status = add_edges(&m, graph);
-    sl_free(context, m.doubtful.items);
-    sl_free(context, m.crossing.items);
-    sl_free(context, m.flipped.items);
+    sli_triangulator_end(&m);
     if (status == SL_OK)
         *out = made;
     else
         sli_triangulation_destroy(context, &made);
     return status;
+}
+
+void sli_triangulator_end(maker *m) {
+    sl_free(m->context, m->doubtful.items);
+    sl_free(m->context, m->crossing.items);
+    sl_free(m->context, m->flipped.items);
+    sl_free(m->context, m->journal.items);
+    sl_free(m->context, m->ring.items);
 }
 
 void sli_triangulation_destroy(sl_context *context, sli_triangulation *t) {

@@ -18,8 +18,8 @@ from case import MAPS
 from wad import make_wad, rooms
 
 VALUES = {"MAP": "flat.map", "IN": "flat.map", "MAP|FILE.slv": "flat.map", "FILE.slv": "flat.slv",
-          "PART.slv": "part.slv", "A": "0", "B": "0", "X,Y": "1,1", "KIND": "tunnels",
-          "IN.wad": "rooms.wad", "STEP": "1"}
+          "PART.slv": "part.slv", "A": "0", "B": "0", "X,Y": "1.25,1.5", "KIND": "tunnels",
+          "IN.wad": "rooms.wad", "STEP": "1", "TABLE": "cameras.csv"}
 OUTPUTS = {"FILE.slv": "out.slv", "PICTURE": "out.png", "OUT": "out.map",
            "OUT.map": "out.map", "OUT.wad": "out.wad",
            "FILE": "out.json", "TABLE": "out.geojson", "PICTURE|TABLE": "out.geojson",
@@ -92,6 +92,7 @@ class Hostile(sandbox.ProgramTest):
         super().setUp()
         self.box.path("flat.map").write_bytes((MAPS / "flat.map").read_bytes())
         self.box.path("rooms.wad").write_bytes(make_wad(rooms("MAP01", 3), rooms("MAP02", 2)))
+        self.box.path("cameras.csv").write_text("x,y\n1,1\n")
         self.run_well("bake", "flat.map", "-o", "flat.slv", "--quiet")
         self.run_well("bake", "flat.map", "-o", "part.slv", "--quiet", "--shard", "1/1")
 

@@ -29,8 +29,8 @@ import tempfile
 # The stages, in order. Data goes one way: each knows those before it and nothing of those after it.
 FOLDERS = ["base", "geometry", "json", "map", "space", "space/faults", "effects", "stab",
            "cell_to_cell", "cell_to_cell/search", "cell_to_cell/sweep", "cell_to_cell/explain",
-           "sight", "bake", "analysis/visibility_graph", "analysis/axial", "analysis/placement",
-           "analysis/route",
+           "sight", "world", "bake", "analysis/visibility_graph", "analysis/axial", "analysis/placement",
+           "analysis/route", "analysis/set_sight",
            "study/generate", "study/from_region", "study/walk", "study/view_cells",
            "io", "runtime", "draw"]
 # The folders of the command, in order, too.
@@ -51,13 +51,14 @@ HEADERS = {"context": "base", "earth": "geometry", "measures": "base", "support"
            "dual": "stab", "glpk": "stab", "solvers": "stab",
            "doors": "cell_to_cell", "explain": "cell_to_cell", "pvs": "cell_to_cell",
            "steps": "cell_to_cell",
-           "mirrored": "sight", "moving": "sight", "overlay": "sight", "query": "sight",
+           "explored": "sight", "mirrored": "sight", "moving": "sight", "overlay": "sight", "query": "sight",
            "region": "sight", "sees": "sight", "view": "sight",
            "explained": "bake",
            "axial": "analysis/axial", "vga": "analysis/visibility_graph",
            "art_gallery": "analysis/placement", "coverage": "analysis/placement",
-           "place": "analysis/placement", "place_proof": "analysis/placement",
-           "path": "analysis/route",
+           "place": "analysis/placement", "place_area": "analysis/placement",
+           "place_proof": "analysis/placement",
+           "path": "analysis/route", "set_sight": "analysis/set_sight",
            "set_cover": "analysis/placement", "viewpoint": "analysis/placement",
            "from_region": "study/from_region", "generate": "study/generate",
            "view_cells": "study/view_cells", "walk": "study/walk"}

@@ -315,6 +315,64 @@ static void test_walls_on_doors(void **state) {
     assert_null(strstr(notes, "longer"));
 }
 
+/// A page, walls by thick black lines, furniture and a letter; no name says anything.
+#define PAGE "<rect width='20' height='10' fill='#eee'/>"
+#define HEAVY                                                                                      \
+    "<g id='g12' stroke='black' stroke-width='.3' fill='none'><path d='M2 0H0V8H10V0H3'/>"         \
+    "<path d='M10 0H18V8H10'/><path d='M5 8V5'/></g>"
+#define LIGHT                                                                                      \
+    "<g stroke='#999' stroke-width='.05' fill='none'><rect x='1' y='6' width='2' height='1'/>"     \
+    "<rect x='6' y='6' width='2' height='1'/><path d='M11 1H17V2H11'/></g>"
+#define LETTER "<path d='M7 3h.1v.1h.1v-.1h.1v.2h-.1v.1h-.1v-.1h-.1z'/>"
+#define COLUMN "<rect x='14' y='4' width='.3' height='.3'/>"
+#define HEAVY_WALLS                                                                                \
+    "wall 2 10 0 10\nwall 0 10 0 2\nwall 0 2 10 2\nwall 10 2 10 10\nwall 10 10 3 10\n"             \
+    "wall 10 10 18 10\nwall 18 10 18 2\nwall 18 2 10 2\nwall 5 2 5 5\n"
+
+static void test_looks(void **state) {
+    (void)state;
+    static const char plan[] = SVG(PAGE HEAVY LIGHT LETTER);
+    assert_map(sli_map_read_svg, plan, NULL, false, HEAVY_WALLS);
+    assert_map(sli_map_read_svg, plan, "black line 0.3", false, HEAVY_WALLS);
+    assert_map(sli_map_read_svg, SVG(PAGE HEAVY LIGHT COLUMN), NULL, false,
+               HEAVY_WALLS "wall 14 6 14.3 6\nwall 14.3 6 14.3 5.7\nwall 14.3 5.7 14 5.7\n"
+                           "wall 14 5.7 14 6\n");
+    assert_noted_of(
+        sli_map_read_svg, NULL, plan, strlen(plan), HEAVY_WALLS,
+        "walls from black line 0.3: 3 shapes; passed over: #999999 line 0.05: 3 shapes");
+    sl_import_options wrong = sl_import_options_default();
+    wrong.layers = "black line 0.4";
+    assert_refused_of(sli_map_read_svg, &wrong, plan, strlen(plan), SL_BAD_ARGUMENT,
+                      "f: there is no layer 'black line 0.4' in the drawing; it has g12, #eeeeee "
+                      "fill, black line 0.3");
+    // light walls on a dark page
+    assert_map(sli_map_read_svg,
+               SVG("<rect width='20' height='10' fill='#111'/><g stroke='white' stroke-width='.3' "
+                   "fill='none'><path d='M2 0H0V8H10V0H3'/><path d='M10 0H18V8H10'/><path "
+                   "d='M5 8V5'/></g>" LIGHT "<path d='M7 3h.1v.1h.1v-.1h.1v.2h-.1v.1h-.1v-.1h-.1z' "
+                   "fill='white'/>"),
+               NULL, false, HEAVY_WALLS);
+    // all alike: nothing is told
+    assert_map(sli_map_read_svg, SVG("<g fill='none' stroke='#000'>" POLYLINE "</g>"), NULL, false,
+               SHUT_WALLS);
+    // a group that holds all says nothing of it
+    assert_map(sli_map_read_svg, SVG("<g id='axes_1'>" PAGE HEAVY LIGHT LETTER "</g>"), NULL, false,
+               HEAVY_WALLS);
+}
+
+/// Coloured rooms without lines: their outlines are walls, and lettering is none.
+static void test_rooms(void **state) {
+    (void)state;
+#define ROOM_OF(x, colour) "<rect x='" #x "' y='1' width='4' height='4' fill='" colour "'/>" LETTER
+    assert_map(sli_map_read_svg,
+               SVG(ROOM_OF(0, "#fcc") ROOM_OF(4, "#cfc") ROOM_OF(8, "#ccf") ROOM_OF(12, "#ffc")),
+               NULL, false,
+               "wall 0 9 4 9\nwall 4 9 4 5\nwall 4 5 0 5\nwall 0 5 0 9\n"
+               "wall 4 9 8 9\nwall 8 9 8 5\nwall 8 5 4 5\nwall 4 5 4 9\n"
+               "wall 8 9 12 9\nwall 12 9 12 5\nwall 12 5 8 5\nwall 8 5 8 9\n"
+               "wall 12 9 16 9\nwall 16 9 16 5\nwall 16 5 12 5\nwall 12 5 12 9\n");
+}
+
 static void test_memory(void **state) {
     (void)state;
     sl_import_options options = sl_import_options_default();
@@ -333,6 +391,7 @@ int main(void) {
         cmocka_unit_test(test_asked_for), cmocka_unit_test(test_svg),
         cmocka_unit_test(test_memory),    cmocka_unit_test(test_svg_asked_for),
         cmocka_unit_test(test_one_layer), cmocka_unit_test(test_walls_on_doors),
+        cmocka_unit_test(test_looks),     cmocka_unit_test(test_rooms),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -538,6 +538,30 @@ static void test_memory(void **state) {
     assert_true(failed > 20);
 }
 
+/// Walls that nearly meet leave slits, which are no entrances where the plan has some; where it has
+/// none, they are.
+static void test_slits(void **state) {
+    (void)state;
+    static const struct {
+        const char *walls;
+        bool hall; ///< is inside
+    } plans[] = {
+        {"walls 4 0 10 0 10 8 0 8 0 0 3 0\nwall 6 8 6 0.0001\n", true},
+        {"walls 0.0001 0 10 0 10 8 0 8 0 0\nwall 6 8 6 0\n", true},
+    };
+    for (int i = 0; i < 6; i++) {
+        const turned t = turned_by(i % 3 * 17.3, 1, 0, 0);
+        char text[4000];
+        plan p;
+        snprintf(text, sizeof text, "%s", plans[i / 3].walls);
+        turn_plan(text, &t, &p);
+        assert_true(is_inside(&p, turn(&t, 8, 4)));
+        assert_int_equal(is_inside(&p, turn(&t, 3, 4)), plans[i / 3].hall);
+        if (i < 3) assert_true(p.map.interior.width >= 1 && p.map.interior.width < 1.1);
+        close_plan(&p);
+    }
+}
+
 static void test_units(void **state) {
     (void)state;
     assert_true(sli_unit_metres("m") == 1 && sli_unit_metres("mm") == 1e-3);
@@ -553,7 +577,7 @@ int main(void) {
         cmocka_unit_test(test_closed),        cmocka_unit_test(test_again),
         cmocka_unit_test(test_memory),        cmocka_unit_test(test_units),
         cmocka_unit_test(test_corridor),      cmocka_unit_test(test_thick_walls),
-        cmocka_unit_test(test_roomiest),
+        cmocka_unit_test(test_roomiest),      cmocka_unit_test(test_slits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

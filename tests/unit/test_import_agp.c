@@ -1,6 +1,7 @@
 // Polygons of AGPLIB: outline, holes, fractions, and what is refused where.
 #include "testing.h"
 
+#include "io/fraction.h"
 #include "io/io_formats.h"
 #include "map_same.h"
 
@@ -30,6 +31,55 @@ static void test_read(void **state) {
     assert_ok(context, read(context, "3 1e-300 1/1e200 1 0 1 1 0", &map));
     assert_true(map.walls[0].a.x == 0 && map.walls[0].a.y == 0);
     sl_map_destroy(context, &map);
+    sl_context_destroy(context);
+}
+
+/// A whole number and zeros behind it.
+static void put_long(char *text, size_t size, const char *digits, int zeros) {
+    snprintf(text, size, "%s%0*d", digits, zeros, 0);
+}
+
+static void test_long_fractions(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    sl_map map = {0};
+    char above[400], below[400], text[2000];
+    double value;
+    bool exact;
+    // The nearest double, of two the even one; past 53 bits and past the range of doubles, too.
+    static const struct {
+        const char *above, *below;
+        double value;
+        bool exact;
+    } cases[] = {
+        {"1", "3", 1.0 / 3, false},
+        {"-7", "+4", -1.75, true},
+        {"9007199254740993", "1", 9007199254740992.0, false},
+        {"9007199254740995", "1", 9007199254740996.0, false},
+        {"90071992547409930000000000000001", "10000000000000000", 9007199254740994.0, false},
+        {"9007199254740993", "2", 4503599627370496.0, false},
+        {"18446744073709551615", "1", 18446744073709551616.0, false},
+        {"1267650600228229401496703205376", "1", 0x1p100, true},
+        {"-3", "1267650600228229401496703205376", -0x1.8p-99, true},
+        {"0", "12", 0, true},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        assert_true(sli_fraction_read(cases[i].above, strlen(cases[i].above), cases[i].below,
+                                      strlen(cases[i].below), &value, &exact));
+        assert_true(value == cases[i].value);
+        assert_int_equal(exact, cases[i].exact);
+    }
+    put_long(above, sizeof above, "9", 340);
+    put_long(below, sizeof below, "2", 340);
+    assert_true(sli_fraction_read(above, strlen(above), below, strlen(below), &value, &exact));
+    assert_true(value == 4.5 && exact);
+    snprintf(text, sizeof text, "3 0 0 %s/%s 0 0 1/3", above, below);
+    assert_ok(context, read(context, text, &map));
+    assert_true(sl_map_bounds(&map).max.x == 4.5 && sl_map_bounds(&map).max.y == 1.0 / 3);
+    sl_map_destroy(context, &map);
+    assert_false(sli_fraction_read("1", 1, "0", 1, &value, &exact));
+    assert_false(sli_fraction_read("", 0, "1", 1, &value, &exact));
+    assert_false(sli_fraction_read("1.5", 3, "1", 1, &value, &exact));
     sl_context_destroy(context);
 }
 
@@ -67,6 +117,7 @@ static void test_refused(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_read),
+        cmocka_unit_test(test_long_fractions),
         cmocka_unit_test(test_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -95,7 +95,7 @@ static void test_foundry_walls(void **state) {
     assert_foundry(NULL, "[" BASE "," WALL("1, 2, 3, 4", ", \"sense\": 1") "]",
                    BASE_WALL "wall 1 8 3 6\n");
     assert_foundry(NULL, SCENE(BASE "," WALL("1, 2, 1, 2", "")), BASE_WALL);
-    assert_foundry(NULL, SCENE(""), "");
+    assert_foundry_refused(SCENE(""), "f: the scene has no walls, so nothing is hidden in it");
 }
 
 /// A wall, what the file says that it does, and what it then stops.
@@ -173,7 +173,8 @@ static void test_foundry_doors(void **state) {
 static void test_foundry_refused(void **state) {
     (void)state;
     assert_foundry_refused("{", "f:1: column 1: no JSON: ");
-    assert_foundry_refused("{}", "f: walls: expected an array, found nothing");
+    assert_foundry_refused("{}",
+                           "f: a document of Foundry, no scene: in Foundry, right-click the scene");
     assert_foundry_refused("[1]", "f: [0]: expected an object, found 1");
     assert_foundry_refused(SCENE("{}"), "f: walls[0].c: expected an array, found nothing");
     assert_foundry_refused(SCENE(WALL("1, 2, 3", "")), "f: walls[0].c: expected 4 numbers");

@@ -685,7 +685,7 @@ static void test_refused(void **state) {
                                                                          ">" TILES "</layer></map>",
                    "f:2: layers[1]: layers of tiles that are moved differently");
     assert_refused("<map" SIZE "tilewidth='8'/>",
-                   "f:1: tileheight: expected a number, found nothing");
+                   "f:1: it does not say how large its tiles are (tileheight)");
     assert_refused("<map" SIZE "tilewidth='nan' tileheight='8'/>",
                    "f:1: tilewidth: expected a number, found 'nan'");
     assert_refused("<map" SIZE "tilewidth='1e308' tileheight='8'/>",

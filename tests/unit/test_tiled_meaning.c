@@ -16,6 +16,7 @@
 #define TRUE(name)        "<properties><property name='" name "' type='bool' value='true'/></properties>"
 #define BOX(x, y, w, h)   "<object x='" x "' y='" y "' width='" w "' height='" h "'/>"
 #define TILES             CSV("0,1,1,0,0,0")
+#define FULL              CSV("1,1,1,1,1,1")
 
 #define TWO_TILES                                                                                  \
     "wall 0 16 8 16\nwall 8 8 24 8\nwall 8 8 8 16\nwall 0 0 24 0\nwall 0 0 0 16\nwall 24 0 24 8\n"
@@ -80,10 +81,62 @@ static void test_guess(void **state) {
     assert_refused(MAP(""), "f:1: nothing in it says what is solid; it has no layers");
 }
 
+/// Walls are a picture where a layer that stops lies on them: it leaves the doorway open.
+static void test_pictures_of_walls(void **state) {
+    (void)state;
+#define DOORWAY CSV("0,1,1,0,1,0")
+#define STOPS_TWO                                                                                  \
+    "<objectgroup name='objects'><object type='collision' x='8' y='0' width='16' height='8'/>"     \
+    "</objectgroup>"
+    assert_walls(MAP(SET LAYER("walls1", DOORWAY) LAYER("collisions", TILES)), TWO_TILES);
+    assert_walls(MAP(SET LAYER("CollisionHorizontal", TILES) LAYER("Walls", DOORWAY)), TWO_TILES);
+    assert_walls(MAP(SET "<group name='walls'>" LAYER(
+                     "a", DOORWAY) "</group><group name='collision'>" LAYER("b", TILES) "</group>"),
+                 TWO_TILES);
+    // Objects draw their own walls.
+    assert_walls(MAP(SET LAYER("walls", DOORWAY) STOPS_TWO),
+                 "wall 8 16 24 16\nwall 24 16 24 8\nwall 24 8 8 8\nwall 8 8 8 16\n" FRAME);
+    // Elsewhere they are furniture, and of another meaning they are none.
+    assert_walls(MAP(SET LAYER("walls", TILES) LAYER("collision", CSV("0,0,0,0,0,1"))),
+                 "wall 0 16 8 16\nwall 8 8 16 8\nwall 8 8 8 16\nwall 0 0 16 0\nwall 0 0 0 16\nwall "
+                 "16 0 16 8\n");
+    assert_walls(MAP(SET LAYER("walls", TILES) LAYER("enemy collision", DOORWAY)), TWO_TILES);
+    assert_walls(MAP(SET LAYER("walls", TILES) LAYER("Light-Collisions", DOORWAY)), TWO_TILES);
+}
+
+/// A property on nearly all tiles, the floor's too, says nothing.
+static void test_all_solid(void **state) {
+    (void)state;
+    const char *both = MAP(SET_OF("<tile id='0'>" TRUE("solid") "</tile>") LAYER("Ground", FULL)
+                               LAYER("Walls", TILES));
+    assert_walls(both, TWO_TILES);
+    assert_refused(MAP(SET_OF("<tile id='0'>" TRUE("solid") "</tile>") LAYER("Ground", FULL)),
+                   "f:1: nearly all of its tiles say that they are solid; --layers NAME takes a");
+}
+
+/// What is no whole map is named.
+static void test_tile_size(void **state) {
+    (void)state;
+    assert_refused("<map width='1' height='1'/>",
+                   "f:1: it does not say how large its tiles are (tilewidth); a map saved by");
+    assert_refused("<map width='1' height='1' tilewidth='8'/>",
+                   "f:1: it does not say how large its tiles are (tileheight)");
+}
+
+/// Enemies and triggers among walls are none; a chest is.
+static void test_passing_objects(void **state) {
+    (void)state;
+    const char *box =
+        "<map width='3' height='2' tilewidth='8' tileheight='8'><objectgroup "
+        "name='Collision'><object name='Goblin' x='8' y='4' width='2' height='2'/>"
+        "<object type='trigger' x='8' y='8' width='2' height='2'/>"
+        "<object name='chest' x='16' y='8' width='4' height='4'/></objectgroup></map>";
+    assert_walls(box, "wall 16 8 20 8\nwall 20 8 20 4\nwall 20 4 16 4\nwall 16 4 16 8\n");
+}
+
 /// Weaker names count where there are no firm ones, the firmest of them alone.
 static void test_weaker_names(void **state) {
     (void)state;
-#define FULL CSV("1,1,1,1,1,1")
     assert_walls(MAP(SET LAYER("Ground", FULL) LAYER("Trees", TILES)), TWO_TILES);
     assert_walls(MAP(SET LAYER("Ground", FULL) LAYER("meta", TILES)), TWO_TILES);
     assert_walls(MAP(SET LAYER("Trees", CSV("0,0,0,1,0,0")) LAYER("Platforms", TILES)), TWO_TILES);
@@ -311,6 +364,10 @@ static void test_memory(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_guess),
+        cmocka_unit_test(test_pictures_of_walls),
+        cmocka_unit_test(test_all_solid),
+        cmocka_unit_test(test_tile_size),
+        cmocka_unit_test(test_passing_objects),
         cmocka_unit_test(test_weaker_names),
         cmocka_unit_test(test_shapes_of_tile_objects),
         cmocka_unit_test(test_empty_layers),

@@ -4,13 +4,14 @@
 #include "inputs/pipeline.h"
 #include "sightline/support.h"
 #include "studies/cover_report.h"
+#include "studies/cover_zones.h"
 #include "system/built.h"
 
 #include <stdio.h>
 
 typedef struct cover_plan {
     const char *operands[2]; ///< the map, and the table
-    const char *picture;
+    const char *picture, *zones, *output;
     map_pipeline pipeline;
     door_choice doors;
     sl_viewpoint like; ///< what rows of the table leave out
@@ -24,6 +25,8 @@ typedef struct cover_work {
     sl_cameras cameras;
     sl_viewpoint *viewpoints;
     sl_coverage coverage;
+    zone_list zones;
+    zone_cover *covers; ///< by zone
 } cover_work;
 
 /// A viewpoint that is not inside sees nothing that counts, or only through windows.
@@ -46,10 +49,11 @@ static sl_status check_places(sl_context *context, const cover_plan *plan, const
     return SL_OK;
 }
 
-static sl_status print_json(sl_context *context, const cover_report *report) {
+static sl_status print_json(sl_context *context, const cover_work *w, const cover_report *report) {
     json_fields fields = json_begin();
     json_add_text(&fields, "input", report->input);
     cover_add_json(&fields, report);
+    if (w->covers) cover_zones_add_json(&fields, &w->zones, w->covers);
     return json_print(context, &fields);
 }
 
@@ -70,17 +74,28 @@ static sl_status work(command_console *console, const cover_plan *plan, cover_wo
     SL_TRY(sl_coverage_make(context, w->query, w->viewpoints, w->cameras.count, &w->coverage));
     const cover_report report = {plan->operands[0], plan->pipeline.input.import.map, baked,
                                  &w->cameras, &w->coverage};
+    if (plan->zones) {
+        SL_TRY(zones_read(context, "zones", plan->zones, &plan->pipeline.input, &baked->map,
+                          &w->zones));
+        SL_TRY(cover_zones_make(context, &report, &w->zones, &w->covers));
+    }
+    if (plan->output)
+        SL_TRY(cover_table_write(context, &report, plan->zones ? &w->zones : NULL, w->covers,
+                                 plan->output));
     char caption[256];
     cover_sentence(&report, caption, sizeof caption);
     if (plan->picture) SL_TRY(cover_draw(context, &report, caption, &plan->drawing, plan->picture));
     progress_line_clear(&console->line);
-    if (plan->json) return print_json(context, &report);
+    if (plan->json) return print_json(context, w, &report);
     if (!console->quiet) cover_print(&report);
+    if (!console->quiet && w->covers) cover_zones_print(&report, &w->zones, w->covers);
     return SL_OK;
 }
 
 static void clear(sl_context *context, cover_work *w) {
     sl_coverage_destroy(context, &w->coverage);
+    zones_destroy(context, &w->zones);
+    sl_free(context, w->covers);
     sl_free(context, w->viewpoints);
     sl_cameras_destroy(context, &w->cameras);
     sl_query_destroy(context, w->query);
@@ -94,6 +109,13 @@ sl_status cmd_cover(command_console *console, int argc, char **argv) {
     const option_table picture = picture_option_table(&plan.drawing, "picture", true);
     const option_table doors = door_option_table(&plan.doors);
     const option_spec options[] = {
+        {"output", 'o', "TABLE",
+         "a table (.csv): a row for each zone, or without --zones for each viewpoint",
+         .text = &plan.output, .check = CHECK_FILE, .endings = ".csv .txt"},
+        {"zones", 0, "ZONES",
+         "what is seen of each zone: names of objects in the map, a drawing of closed outlines, or "
+         "a table of corners (.csv: name,x,y)",
+         .text = &plan.zones},
         {"picture", 0, "PICTURE", "draw classes of coverage: .png, .svg or .pdf",
          .text = &plan.picture, .check = CHECK_PICTURE},
         {"json", 0, NULL, "print one JSON object", .flag = &plan.json},
@@ -116,7 +138,8 @@ sl_status cmd_cover(command_console *console, int argc, char **argv) {
                 "degrees, counter-clockwise from +x; a camera of some height and tilt has a dead "
                 "zone below.",
         .examples = "  sightline cover gallery.dxf cameras.csv --picture cover.png\n"
-                    "  sightline cover office.map cameras.csv --fov 90 --range 12",
+                    "  sightline cover office.map cameras.csv --fov 90 --range 12\n"
+                    "  sightline cover office.map cameras.csv --zones rooms.dxf -o rooms.csv",
         .options = options,
         .option_count = sizeof options / sizeof *options,
         .given = &plan.pipeline.given,

@@ -19,7 +19,7 @@ typedef struct info_request {
     const char *shut;
     bool json;
     sl_bytes bytes; ///< the file
-    bool is_drawing;
+    bool is_dxf, is_svg;
     const built_io *io; ///< of a drawing, as the next
     sl_drawing_layers layers;
 } info_request;
@@ -190,9 +190,10 @@ static void add_stops_json(json_fields *fields, const walls_read *walls) {
     json_close(fields);
 }
 
-/// The layers that hold something, and how many do not.
+/// The layers that hold something, up to a hundred, and how many there are besides.
 static void print_layers(const sl_drawing_layers *layers) {
-    size_t empty = 0;
+    enum { MOST = 100 };
+    size_t empty = 0, shown = 0;
     if (layers->count) puts("  layers, with their entities");
     for (size_t i = 0; i < layers->count; i++) {
         const sl_drawing_layer *layer = &layers->items[i];
@@ -200,10 +201,12 @@ static void print_layers(const sl_drawing_layers *layers) {
             empty++;
             continue;
         }
+        if (++shown > MOST) continue;
         printf("    %6zu  ", layer->entities);
         console_print_text(stdout, layer->name, strlen(layer->name));
         puts(layer->on ? "" : " (off: read only by --layers)");
     }
+    if (shown > MOST) printf("    and %zu more (--json lists all)\n", shown - MOST);
     if (empty) printf("    %6zu  empty layer%s (--json lists all)\n", empty, empty == 1 ? "" : "s");
 }
 
@@ -237,7 +240,7 @@ static sl_status print_map_json(sl_context *context, const info_request *request
         json_drop(&fields);
         return SL_NO_MEMORY;
     }
-    if (request->is_drawing) add_layers_json(&fields, &request->layers);
+    if (request->is_dxf || request->is_svg) add_layers_json(&fields, &request->layers);
     json_add_real(&fields, "range", map->range);
     json_add_cleaning(&fields, "cleaning", cleaning);
     plan_add_json(&fields, map);
@@ -261,7 +264,7 @@ static sl_status print_map(sl_context *context, const info_request *request, con
     printf("%s: a map\n", request->path);
     print_bounds(sl_map_bounds(map));
     if (*map->unit) printf("  unit      %s\n", map->unit);
-    if (request->is_drawing && !*map->unit)
+    if (request->is_dxf && !*map->unit)
         puts("  unit      unknown; if it is mm, --unit mm=m reads the drawing in metres");
     printf("  walls     %zu, ", walls->count);
     if (walls->oblique)
@@ -318,7 +321,8 @@ static sl_status inform_of_list(command_console *console, info_request *request,
     progress_line_clear(&console->line);
     sl_status status = SL_OK;
     *done = choice.maps.count > 1;
-    request->is_drawing = choice.format && strcmp(choice.format->name, "dxf") == 0;
+    request->is_dxf = choice.format && strcmp(choice.format->name, "dxf") == 0;
+    request->is_svg = choice.format && strcmp(choice.format->name, "svg") == 0;
     if (*done && request->json)
         status = print_list_json(console->context, request->path, &choice.maps);
     else if (*done)
@@ -331,10 +335,11 @@ static sl_status inform_of_map(command_console *console, info_request *request) 
     sl_map map = {0};
     sl_clean_account cleaning;
     sl_context_set_limits(console->context, &request->input.limits);
-    if (request->is_drawing) {
+    if (request->is_dxf || request->is_svg) {
         SL_TRY(built_need_io(console->context, request->path, &request->io));
-        SL_TRY(request->io->layers_dxf(console->context, request->path, request->bytes.data,
-                                       request->bytes.size, &request->layers));
+        SL_TRY((request->is_dxf ? request->io->layers_dxf : request->io->layers_svg)(
+            console->context, request->path, request->bytes.data, request->bytes.size,
+            &request->layers));
     }
     SL_TRY(sl_map_parse(console->context, request->path, request->bytes.data, request->bytes.size,
                         &request->input.import, &map));

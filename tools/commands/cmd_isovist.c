@@ -10,6 +10,7 @@
 #include "sightline/support.h"
 #include "studies/eye_run.h"
 #include "studies/isovist.h"
+#include "studies/isovist_set.h"
 #include "studies/isovist_union.h"
 #include "studies/places.h"
 #include "system/built.h"
@@ -24,6 +25,7 @@ typedef struct isovist_plan {
     door_choice doors;
     within_plan within;
     option_list at;
+    set_choice set;
     eye_place like; ///< the heading and cone of eyes that say nothing of it
     double grid, step, range;
     uint32_t squares, mirror_depth;
@@ -45,17 +47,24 @@ typedef struct isovist_work {
     isovist_result *isovists; ///< NULL with --union
     seen_parts parts;         ///< of all eyes, once they are gathered
     sl_overlay together;      ///< with --union
+    isovist_set set;          ///< of a line or an area
 } isovist_work;
 
 // --- the options
 
 static sl_status make_plan(sl_context *context, isovist_plan *p) {
     const bool grid = p->grid > 0 || p->squares_given;
+    const int sets = set_choices(&p->set);
     const int ways =
-        (p->at.count > 0) + (p->grid > 0) + !!p->squares_given + !!p->path + !!p->points;
+        (p->at.count > 0) + (p->grid > 0) + !!p->squares_given + !!p->path + !!p->points + sets;
     if (ways > 1)
         return sl_fail(context, SL_BAD_ARGUMENT,
-                       "where to look from: give one of --at, --grid, --squares, --path, --points");
+                       "where to look from: give one of --at, --grid, --squares, --path, --points, "
+                       "--from-line, --from-area, --along");
+    if (sets && (p->together || p->look_given || p->like.fov < 360))
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "--union, --look and --fov are not for lines and areas (--from-line, "
+                       "--from-area, --along)");
     if (p->step > 0 && !p->path)
         return sl_fail(context, SL_BAD_ARGUMENT, "--step is for --path, which is not given");
     if (p->measure_given && !(p->picture && grid))
@@ -319,6 +328,26 @@ static sl_status measure(sl_context *context, const isovist_plan *plan, isovist_
     return isovist_run(context, &w->scene, &w->eyes, plan->threads, w->isovists);
 }
 
+/// What is seen from a line or an area, from some point of it and from all.
+static sl_status work_set(command_console *console, const isovist_plan *plan, isovist_work *w) {
+    sl_context *context = console->context;
+    isovist_set *set = &w->set;
+    char caption[160];
+    SL_TRY(sl_query_set_range(context, w->query, plan->range));
+    SL_TRY(isovist_set_make(context, &plan->set, &w->baked, w->query, set));
+    isovist_set_say(set, w->baked.map.unit, caption, sizeof caption);
+    const sl_drawn_set drawn = {set->points, set->count, set->kind == SL_SET_AREA,
+                                set->regions[SL_SEEN_FROM_SOME].shape,
+                                set->regions[SL_SEEN_FROM_ALL].shape};
+    if (plan->picture)
+        SL_TRY(built_pictures()->set(context, &w->baked, &drawn, caption, &plan->drawing,
+                                     plan->picture));
+    progress_line_clear(&console->line);
+    SL_TRY(isovist_set_write(context, set, &w->baked.map.earth, plan->output ? plan->output : "-"));
+    sl_note(context, "%s", caption);
+    return SL_OK;
+}
+
 static sl_status work(command_console *console, isovist_plan *plan, isovist_work *w) {
     sl_context *context = console->context;
     SL_TRY(pipeline_read_space(
@@ -328,6 +357,7 @@ static sl_status work(command_console *console, isovist_plan *plan, isovist_work
     SL_TRY(doors_shut(context, &plan->doors, &w->baked));
     if (!plan->range_given) plan->range = w->baked.map.range;
     SL_TRY(sl_query_over(context, &w->baked.space, &w->baked.map, NULL, &w->query));
+    if (set_choices(&plan->set)) return work_set(console, plan, w);
     SL_TRY(gather_eyes(context, plan, w));
     SL_TRY(make_scene(context, plan, w));
     SL_TRY(plan->together ? join_regions(context, w) : measure(context, plan, w));
@@ -388,6 +418,14 @@ sl_status cmd_isovist(command_console *console, int argc, char **argv) {
          .rare = true},
         {"path", 0, "NAME", "look from the points of a path of the map", .text = &plan.path,
          .rare = true},
+        {"from-line", 0, "X,Y,X,Y,...",
+         "what is seen from some point of a line, and from all of its points",
+         .text = &plan.set.line, .rare = true},
+        {"from-area", 0, "X,Y,X,Y,X,Y,...",
+         "the same from a convex area, or from a disc, X,Y,R (chords up to 0.001 R within it)",
+         .text = &plan.set.area, .rare = true},
+        {"along", 0, "PATH", "the same along a path of the map, or along the points of a CSV table",
+         .text = &plan.set.along, .rare = true},
         {"step", 0, "STEP", "with --path: look from a point every STEP along it",
          .number = &plan.step, .over_0 = true, .rare = true},
         {"points", 0, "CSV",
@@ -411,6 +449,7 @@ sl_status cmd_isovist(command_console *console, int argc, char **argv) {
                 "measures under the names of depthmapX. Default viewpoints: the map's starts.",
         .tables = print_tables,
         .examples =
+            "  sightline isovist office.map --from-line 8,8,50,8 --picture corridor.png\n"
             "  sightline isovist office.map --at 53,20 --picture seen.png\n"
             "  sightline isovist office.map --grid 0.5 --picture heat.png -o all.csv\n"
             "  sightline isovist office.map --grid 2 -o seen.geojson\n"
@@ -428,6 +467,7 @@ sl_status cmd_isovist(command_console *console, int argc, char **argv) {
     sl_free(console->context, w.isovists);
     seen_parts_destroy(console->context, &w.parts);
     sl_overlay_destroy(console->context, &w.together);
+    isovist_set_destroy(console->context, &w.set);
     eyes_destroy(console->context, &w.eyes);
     sl_query_destroy(console->context, w.query);
     sl_baked_destroy(console->context, &w.baked);

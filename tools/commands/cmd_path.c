@@ -123,6 +123,21 @@ static sl_status draw(sl_context *context, const path_plan *plan, const path_wor
     return status;
 }
 
+static void put(FILE *out, double value, const char *behind) {
+    char text[SL_NUMBER_TEXT];
+    sl_number_write(value, text);
+    fprintf(out, "%s%s", text, behind);
+}
+
+static sl_status put_points(const sl_route *route, FILE *out) {
+    fputs("x,y\n", out);
+    for (size_t i = 0; i < route->count; i++) {
+        put(out, route->points[i].x, ",");
+        put(out, route->points[i].y, "\n");
+    }
+    return SL_OK;
+}
+
 /// One way. Without one, the exit status is 3.
 static sl_status find_one(command_console *console, const path_plan *plan, path_work *w) {
     sl_context *context = console->context;
@@ -131,11 +146,17 @@ static sl_status find_one(command_console *console, const path_plan *plan, path_
     SL_TRY(input_locate(context, "--to", plan->to_text, &w->baked.space, plan->to, NULL));
     SL_TRY(sl_route_find(context, w->finder, plan->from, plan->to, &w->route));
     if (plan->picture) SL_TRY(draw(context, plan, w));
+    if (plan->output && w->route.found) {
+        sl_output output;
+        SL_TRY(sl_output_open(context, plan->output, &output));
+        SL_TRY(sl_output_close(context, &output, put_points(&w->route, output.stream)));
+    }
     progress_line_clear(&console->line);
     console->fault = !w->route.found;
     if (plan->json) return print_json(context, w);
     if (w->route.found) {
-        if (!console->quiet || !plan->picture) print_way(w);
+        const bool quiet = console->quiet && (plan->picture || plan->output);
+        if (!quiet && (!plan->output || output_is_plain_file(plan->output))) print_way(w);
         return SL_OK;
     }
     SL_TRY(find_doors(context, w, plan->from, plan->to, doors, sizeof doors));
@@ -148,12 +169,6 @@ static sl_status find_one(command_console *console, const path_plan *plan, path_
 }
 
 // --- a table of questions
-
-static void put(FILE *out, double value, const char *behind) {
-    char text[SL_NUMBER_TEXT];
-    sl_number_write(value, text);
-    fprintf(out, "%s%s", text, behind);
-}
 
 static sl_status put_rows(sl_context *context, const number_table *table, path_work *w, bool *all,
                           FILE *out) {
@@ -258,8 +273,10 @@ sl_status cmd_path(command_console *console, int argc, char **argv) {
         {"pairs", 0, "CSV",
          "a table of ways, from_x,from_y,to_x,to_y: its first line may name the columns",
          .text = &plan.pairs, .is_input = true},
-        {"output", 'o', "TABLE", "with --pairs: where the lengths go (default: standard output)",
-         .text = &plan.output, .check = CHECK_TABLE, .without = "pairs"},
+        {"output", 'o', "FILE.csv",
+         "the points of the way as a table, or with --pairs the lengths (default: standard "
+         "output)",
+         .text = &plan.output, .check = CHECK_TABLE},
         {"picture", 0, "PICTURE", "draw the way: .png, .svg or .pdf", .text = &plan.picture,
          .check = CHECK_PICTURE},
         {"json", 0, NULL, "print one JSON object: the length and the points", .flag = &plan.json},

@@ -5,6 +5,7 @@
 #include "sightline/place_proof.h"
 #include "sightline/support.h"
 #include "studies/cover_report.h"
+#include "studies/place_cameras.h"
 #include "system/built.h"
 #include "system/deadline.h"
 
@@ -15,6 +16,7 @@ typedef struct place_plan {
     const char *input, *output, *picture, *proof, *verify;
     map_pipeline pipeline;
     door_choice doors;
+    camera_plan cameras;
     double time_limit;
     bool json;
     sl_draw_options drawing;
@@ -24,9 +26,12 @@ typedef struct place_work {
     sl_baked baked;
     sl_query *query;
     sl_placement placement;
+    bool chooses; ///< among given places: `chosen`, and not `placement`
+    camera_work chosen;
     sl_cameras cameras; ///< the viewpoints of the placement
     sl_viewpoint *viewpoints;
     sl_coverage coverage;
+    zone_cover *covers; ///< by zone of --see
     double seconds;
     bool late; ///< the time limit or Ctrl-C ended it
 } place_work;
@@ -40,8 +45,10 @@ static sl_status place(command_console *console, const place_plan *plan, place_w
     sl_place_options options = sl_place_options_default();
     options.program = built_cover_program();
     SL_TRY(deadline_open(console, &limit, &context));
-    sl_status status = sl_place(context, w->query, &options, &w->placement);
-    if (status == SL_CANCELLED && limit.late && w->placement.count) {
+    sl_status status = w->chooses ? sl_place_area_cover(context, w->query, &w->chosen.task,
+                                                        &options, &w->chosen.placed)
+                                  : sl_place(context, w->query, &options, &w->placement);
+    if (status == SL_CANCELLED && limit.late && (w->placement.count || w->chosen.placed.count)) {
         status = SL_OK;
         w->late = true;
     }
@@ -57,6 +64,7 @@ static sl_status place(command_console *console, const place_plan *plan, place_w
 
 /// What the viewpoints see, found anew.
 static sl_status survey(sl_context *context, place_work *w) {
+    if (w->chooses) SL_TRY(camera_work_chosen(context, &w->chosen, &w->cameras));
     for (uint32_t i = 0; i < w->placement.count; i++) {
         const sl_camera camera = {.view = w->placement.viewpoints[i], .cost = 1};
         SL_TRY(sl_cameras_add(context, &w->cameras, &camera));
@@ -69,13 +77,18 @@ static sl_status print_json(sl_context *context, const place_work *w, const cove
     const sl_placement *p = &w->placement;
     json_fields fields = json_begin();
     json_add_text(&fields, "input", report->input);
-    json_add_count(&fields, "lower", p->lower);
-    json_add_count(&fields, "upper", p->upper);
-    json_add_flag(&fields, "optimal", p->lower == p->upper);
-    json_add_count(&fields, "witnesses", p->witness_count);
-    json_add_count(&fields, "rounds", p->rounds);
+    if (w->chooses) {
+        camera_work_add_json(&fields, &w->chosen);
+    } else {
+        json_add_count(&fields, "lower", p->lower);
+        json_add_count(&fields, "upper", p->upper);
+        json_add_flag(&fields, "optimal", p->lower == p->upper);
+        json_add_count(&fields, "witnesses", p->witness_count);
+        json_add_count(&fields, "rounds", p->rounds);
+    }
     json_add_real(&fields, "seconds", w->seconds);
     cover_add_json(&fields, report);
+    if (w->covers) cover_zones_add_json(&fields, &w->chosen.see, w->covers);
     return json_print(context, &fields);
 }
 
@@ -116,22 +129,47 @@ static sl_status verify(command_console *console, const place_plan *plan, place_
     return SL_OK;
 }
 
+/// Refuses what proofs do not know.
+static sl_status check_plan(sl_context *context, const place_plan *plan, bool chooses) {
+    SL_TRY(camera_plan_check(context, &plan->cameras));
+    if (chooses && (plan->proof || plan->verify))
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "--%s is for viewpoints anywhere, that look all round: leave out --from and "
+                       "the options with it",
+                       plan->proof ? "proof" : "verify");
+    return SL_OK;
+}
+
 static sl_status work(command_console *console, const place_plan *plan, place_work *w) {
     sl_context *context = console->context;
     const sl_baked *baked = &w->baked;
-    SL_TRY(pipeline_read_space(context, &plan->pipeline, "place", SL_EFFECT_DOOR, NULL, &w->baked));
+    w->chooses = camera_plan_chooses(&plan->cameras);
+    SL_TRY(check_plan(context, plan, w->chooses));
+    const unsigned effects =
+        SL_EFFECT_DOOR | (w->chooses ? SL_EFFECT_RANGE | SL_EFFECT_ONEWAY : 0u);
+    SL_TRY(pipeline_read_space(context, &plan->pipeline, "place", effects, NULL, &w->baked));
     SL_TRY(pipeline_need_inside(context, &plan->pipeline, &baked->map, &baked->space, ""));
     SL_TRY(doors_shut(context, &plan->doors, &w->baked));
     SL_TRY(sl_query_over(context, &baked->space, &baked->map, NULL, &w->query));
     if (plan->verify) return verify(console, plan, w);
+    if (w->chooses)
+        SL_TRY(camera_work_prepare(context, &plan->cameras, &plan->pipeline.input, baked, w->query,
+                                   &w->chosen));
     SL_TRY(place(console, plan, w));
     if (plan->proof) SL_TRY(sl_place_proof_write(context, w->query, &w->placement, plan->proof));
     SL_TRY(survey(context, w));
     const cover_report report = {plan->input, plan->pipeline.input.import.map, baked, &w->cameras,
                                  &w->coverage};
-    char sentence[256], proof[256], caption[516];
+    char sentence[256], proof[320], caption[600];
+    if (plan->cameras.see) {
+        SL_TRY(cover_zones_make(context, &report, &w->chosen.see, &w->covers));
+        SL_TRY(camera_work_check_zones(context, &w->chosen, &plan->cameras, w->query, w->covers));
+    }
     cover_sentence(&report, sentence, sizeof sentence);
-    sl_placement_say(&w->placement, "viewpoint", w->late, proof, sizeof proof);
+    if (w->chooses)
+        camera_work_say(&w->chosen, w->late, proof, sizeof proof);
+    else
+        sl_placement_say(&w->placement, "viewpoint", w->late, proof, sizeof proof);
     snprintf(caption, sizeof caption, "%s.\n%s", sentence, proof);
     if (plan->output) SL_TRY(sl_cameras_write(context, &w->cameras, plan->output));
     if (plan->picture) SL_TRY(cover_draw(context, &report, caption, &plan->drawing, plan->picture));
@@ -139,8 +177,11 @@ static sl_status work(command_console *console, const place_plan *plan, place_wo
     if (plan->json) return print_json(context, w, &report);
     if (console->quiet) return SL_OK;
     cover_print(&report);
+    if (w->covers) cover_zones_print(&report, &w->chosen.see, w->covers);
     printf("\n%s\n", proof);
-    return SL_OK;
+    return w->chooses ? camera_work_print_blind(context, &w->chosen, &plan->cameras, w->query,
+                                                baked->map.unit)
+                      : SL_OK;
 }
 
 static void clear(sl_context *context, place_work *w) {
@@ -148,17 +189,25 @@ static void clear(sl_context *context, place_work *w) {
     sl_free(context, w->viewpoints);
     sl_cameras_destroy(context, &w->cameras);
     sl_placement_destroy(context, &w->placement);
+    sl_free(context, w->covers);
+    camera_work_destroy(context, &w->chosen);
     sl_query_destroy(context, w->query);
     sl_baked_destroy(context, &w->baked);
 }
 
 sl_status cmd_place(command_console *console, int argc, char **argv) {
-    place_plan plan = {.pipeline = pipeline_default(), .drawing = built_draw_options()};
+    place_plan plan = {.pipeline = pipeline_default(),
+                       .cameras = camera_plan_default(),
+                       .drawing = built_draw_options()};
     const option_table pipeline = pipeline_option_table(&plan.pipeline);
-    const option_table picture = picture_option_table(&plan.drawing, "picture", true);
-    const option_table doors = door_option_table(&plan.doors);
+    const option_table cameras = camera_option_table(&plan.cameras);
+    option_table picture = picture_option_table(&plan.drawing, "picture", true);
+    for (size_t i = 0; i < picture.count; i++) picture.items[i].rare = true;
+    option_table doors = door_option_table(&plan.doors);
+    for (size_t i = 1; i < doors.count; i++) doors.items[i].rare = true;
     const option_spec options[] = {
-        {"output", 'o', "TABLE", "the viewpoints as a table (.csv), which cover and isovist read",
+        {.group = &cameras},
+        {"output", 'o', "FILE.csv", "the viewpoints as a table, which cover and isovist read",
          .text = &plan.output, .check = CHECK_FILE, .endings = ".csv .txt"},
         {"picture", 0, "PICTURE", "draw viewpoints and what they see: .png, .svg or .pdf",
          .text = &plan.picture, .check = CHECK_PICTURE},
@@ -167,7 +216,7 @@ sl_status cmd_place(command_console *console, int argc, char **argv) {
         {"verify", 0, "FILE",
          "check a proof for this map by other code, and trust nothing in it; exit with status 1 if "
          "it does not hold",
-         .text = &plan.verify},
+         .text = &plan.verify, .rare = true},
         {"time-limit", 0, "SECONDS",
          "stop then, and give the best set and both bounds; so does Ctrl-C (default: no limit)",
          .number = &plan.time_limit, .over_0 = true, .needs = "seconds, more than 0"},
@@ -181,10 +230,14 @@ sl_status cmd_place(command_console *console, int argc, char **argv) {
         .synopsis = "MAP|FILE.slv [options]",
         .operands = {"MAP|FILE.slv"},
         .what = "Finds the fewest viewpoints that see all that is inside, and proves that no "
-                "fewer can (the art gallery problem). Viewpoints look all round and without "
-                "limit, and may stand anywhere inside.",
+                "fewer can (the art gallery problem). By default they look all round and without "
+                "limit, and may stand anywhere inside. With --from they are chosen among given "
+                "places: cameras on walls, with a field of view and a range. Then everything is "
+                "seen that these places can see, and none of their choices is smaller; the rest is "
+                "shown. Angles are degrees, counter-clockwise from +x.",
         .examples = "  sightline place gallery.dxf -o cameras.csv --picture cameras.png\n"
-                    "  sightline place office.map --time-limit 10 --json\n"
+                    "  sightline place office.map --from walls --fov 90 --range 12 -o cameras.csv\n"
+                    "  sightline place office.map --from grid:2 --count 4 --json\n"
                     "  sightline place office.map --proof proof.json\n"
                     "  sightline place --verify proof.json office.map",
         .options = options,

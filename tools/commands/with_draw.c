@@ -10,6 +10,7 @@ static const built_draw draw = {
     .explanation = sl_draw_explanation,
     .eye = sl_draw_eye,
     .regions = sl_draw_regions_file,
+    .set = sl_draw_set_file,
     .coverage = sl_draw_coverage_file,
     .field = sl_draw_field_file,
     .patches = sl_draw_patches_file,

@@ -7,6 +7,7 @@ static const built_command commands[] = {{"reject", cmd_reject}, {0}};
 static const built_io io = {
     .use = sl_io_use,
     .layers_dxf = sl_drawing_layers_dxf,
+    .layers_svg = sl_drawing_layers_svg,
     .layers_destroy = sl_drawing_layers_destroy,
     .image_read = sl_image_read,
     .image_destroy = sl_image_destroy,

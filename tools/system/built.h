@@ -20,6 +20,8 @@ typedef struct built_io {
     sl_status (*use)(sl_context *context);
     sl_status (*layers_dxf)(sl_context *context, const char *name, const char *text, size_t size,
                             sl_drawing_layers *out);
+    sl_status (*layers_svg)(sl_context *context, const char *name, const char *text, size_t size,
+                            sl_drawing_layers *out);
     void (*layers_destroy)(sl_context *context, sl_drawing_layers *layers);
     sl_status (*image_read)(sl_context *context, const char *name, const char *bytes, size_t size,
                             sl_image *out);
@@ -40,6 +42,8 @@ typedef struct built_draw {
     sl_status (*regions)(sl_context *context, const sl_baked *baked, const sl_drawn_region *regions,
                          size_t count, const char *caption, const sl_draw_options *options,
                          const char *path);
+    sl_status (*set)(sl_context *context, const sl_baked *baked, const sl_drawn_set *set,
+                     const char *caption, const sl_draw_options *options, const char *path);
     sl_status (*coverage)(sl_context *context, const sl_baked *baked,
                           const sl_drawn_coverage *coverage, const char *caption,
                           const sl_draw_options *options, const char *path);

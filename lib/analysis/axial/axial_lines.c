@@ -139,7 +139,7 @@ static void find_open_sides(const sl_outline *outline, plan *p) {
         if (!p->space->cells[c].inside) continue;
         for (uint32_t k = outline->first_part[c]; k < outline->first_part[c + 1]; k++) {
             const uint32_t room = outline->parts[k];
-            for (uint32_t i = outline->first[room]; i < outline->first[room + 1]; i++)
+            for (uint32_t i = outline->first[room]; i < sl_outline_stop(outline, room); i++)
                 mark_side(p, outline, &outline->sides[i]);
         }
     }

@@ -5,6 +5,8 @@
 #include "geometry/length.h"
 #include "geometry/orient.h"
 
+#include <math.h>
+
 enum { COARSE_ITERATIONS = 4000 };
 
 sl_status sli_try_seeing(sli_placer *p, size_t number, uint32_t witness) {
@@ -99,7 +101,7 @@ sl_status sli_choose_column(sli_placer *p, const sli_place_columns *c, uint32_t 
 // --- places on the lines of walls
 
 // Often a viewpoint must stand exactly in line with a wall, as in a door of a wall without
-// thickness. Then the places of the lower bound come ever nearer to that line.
+// thickness, or with two corners. Then the places of the lower bound come ever nearer to that line.
 
 /// The wall that a gap's apex hides: of those that end there, the one beyond the window that turns
 /// least from it. False where there is none.
@@ -156,7 +158,7 @@ static sl_point foot_on(sl_point at, const sl_segment *line) {
     return foot;
 }
 
-/// Remembers a line of a wall.
+/// Remembers a line.
 static sl_status keep_line(sli_placer *p, sl_segment line) {
     for (size_t i = 0; i < p->lines.count; i++)
         if (sli_same_point(p->lines.items[i].a, line.a) &&
@@ -167,18 +169,36 @@ static sl_status keep_line(sli_placer *p, sl_segment line) {
     return SL_OK;
 }
 
+/// Whether a window ends nearly in a corner of its wall: then the viewpoint may have to stand in
+/// line with both corners.
+static bool ends_at(const sli_look *look, const sli_window *w, sl_point corner) {
+    const double few = 1e-3;
+    const sl_point a = {w->apex.x - look->eye.x, w->apex.y - look->eye.y};
+    const sl_point b = {corner.x - w->apex.x, corner.y - w->apex.y};
+    const double along = sli_dot(a, b);
+    return along > 0 && fabs(sli_cross(a, b)) < few * along;
+}
+
+static sl_status add_on_line(sli_placer *p, sl_point eye, sl_segment line) {
+    sl_point meet;
+    uint32_t number;
+    SL_TRY(sli_add_candidate(p, foot_on(eye, &line), &number));
+    for (size_t k = 0; k < p->lines.count; k++)
+        if (meet_near(eye, &line, &p->lines.items[k], &meet))
+            SL_TRY(sli_add_candidate(p, meet, &number));
+    return keep_line(p, line);
+}
+
 sl_status sli_add_in_line(sli_placer *p) {
     for (size_t i = 0; i < p->gaps.count && !p->listed; i++) {
-        const sl_point eye = sli_chosen_look(p, p->gaps.items[i].look)->eye;
+        const sli_look look = *sli_chosen_look(p, p->gaps.items[i].look);
+        const sli_window w = look.windows[p->gaps.items[i].window];
         sl_segment line;
-        sl_point meet;
-        uint32_t number;
-        if (!find_hidden(p, &p->gaps.items[i], &line)) continue;
-        SL_TRY(sli_add_candidate(p, foot_on(eye, &line), &number));
-        for (size_t k = 0; k < p->lines.count; k++)
-            if (meet_near(eye, &line, &p->lines.items[k], &meet))
-                SL_TRY(sli_add_candidate(p, meet, &number));
-        SL_TRY(keep_line(p, line));
+        if (find_hidden(p, &p->gaps.items[i], &line)) SL_TRY(add_on_line(p, look.eye, line));
+        const sl_point corners[] = {w.wall.a, w.wall.b};
+        for (int k = 0; k < 2; k++)
+            if (!sli_same_point(corners[k], w.apex) && ends_at(&look, &w, corners[k]))
+                SL_TRY(add_on_line(p, look.eye, (sl_segment){w.apex, corners[k]}));
     }
     return SL_OK;
 }

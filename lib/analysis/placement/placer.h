@@ -42,7 +42,7 @@ typedef struct sli_placer {
     SL_ARRAY(uint32_t) chosen;          ///< candidates
     SL_ARRAY(const sli_look *) looks;   ///< scratch
     SL_ARRAY(sli_hard_witness) unseen;  ///< scratch
-    SL_ARRAY(sl_segment) lines;         ///< of walls that gaps' apexes hid
+    SL_ARRAY(sl_segment) lines;         ///< of walls that gaps' apexes hid, and through two corners
     sli_crossings crossings;            ///< of the active witnesses
     sli_window_parts gaps;
     sl_placement *out;
@@ -80,7 +80,7 @@ sl_status sli_choose_for_gaps(sli_placer *placer, bool *more);
 sl_status sli_add_candidate(sli_placer *placer, sl_point at, uint32_t *number);
 /// Adds the corners that hide something from a witness.
 sl_status sli_add_corners(sli_placer *placer);
-/// Adds places in line with walls that the chosen ones have gaps at.
+/// Adds places in line with walls, or with two corners, that the chosen ones have gaps at.
 sl_status sli_add_in_line(sli_placer *placer);
 /// Adds a candidate for a column of the lower bound and chooses it. It sees the column's witnesses,
 /// or as many as can be found.

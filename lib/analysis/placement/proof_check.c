@@ -13,6 +13,7 @@
 #include "analysis/placement/proof_sight.h"
 #include "geometry/orient.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 /// A part of a line on which regions may end.
@@ -32,6 +33,7 @@ typedef struct checker {
     const sl_space *space;
     sli_proof_scene scene;
     sli_eye *eyes;
+    sl_box *eye_boxes; ///< by eye: they hold all that it sees
     uint32_t eye_count;
     SL_ARRAY(ray_part) rays;
     sl_status (*visit)(struct checker *c, const sli_meet *p, int32_t wall, uint32_t eye);
@@ -164,13 +166,17 @@ static void check_set(checker *c, const sli_meet *p) {
     c->out->extra = p->at;
 }
 
+static bool sees(const checker *c, uint32_t eye, const sli_meet *p) {
+    return may_hold(&c->eye_boxes[eye], p) && sli_eye_sees(&c->scene, &c->eyes[eye], p);
+}
+
 static sl_status visit_for_witnesses(checker *c, const sli_meet *p, int32_t wall, uint32_t eye) {
     const sl_segment *w = wall < 0 ? NULL : &c->scene.walls[wall];
     const int side = w ? sli_orient(w->a, w->b, c->eyes[eye].at) : 0;
     for (size_t i = 0; i < c->words; i++) c->here[i] = 0;
     for (uint32_t i = 0; i < c->eye_count; i++) {
         if (w && sli_orient(w->a, w->b, c->eyes[i].at) * side < 0) continue;
-        if (sli_eye_sees(&c->scene, &c->eyes[i], p)) sl_bits_add(c->here, i);
+        if (sees(c, i, p)) sl_bits_add(c->here, i);
     }
     check_set(c, p);
     return SL_OK;
@@ -187,7 +193,7 @@ static bool is_within(sl_point corner, sl_point from, sl_point to, sl_point p) {
 static void check_corner(checker *c, const sli_corner *corner, bool *seen) {
     const sli_meet p = sli_meet_point(corner->at);
     const sl_point *others = c->scene.others + corner->first;
-    for (uint32_t i = 0; i < c->eye_count; i++) seen[i] = sli_eye_sees(&c->scene, &c->eyes[i], &p);
+    for (uint32_t i = 0; i < c->eye_count; i++) seen[i] = sees(c, i, &p);
     for (uint32_t k = 0; k < corner->count; k++) {
         const sl_point from = others[k], to = others[(k + 1) % corner->count];
         for (size_t i = 0; i < c->words; i++) c->here[i] = 0;
@@ -277,7 +283,9 @@ static bool sees_sector(const checker *c, const sli_eye *e, const sli_meet *p,
 }
 
 /// Whether an eye sees all around a place.
-static bool sees_around(const checker *c, const sli_eye *e, const sli_meet *p) {
+static bool sees_around(const checker *c, uint32_t eye, const sli_meet *p) {
+    const sli_eye *e = &c->eyes[eye];
+    if (!may_hold(&c->eye_boxes[eye], p)) return false;
     const sli_bearing b = sli_eye_bearing(e, p);
     if (b.on) return false;
     const int32_t wall = e->rays[b.ray].cone;
@@ -351,7 +359,8 @@ static sl_status check_cell_at(checker *c, const sl_cell *k, const sli_meet *p, 
         const sl_point a = corners[i], b = corners[(i + 1) % k->vertex_count];
         if (!sli_meet_side(p, a, b)) SL_TRY(add_direction(c, a, b));
     }
-    for (uint32_t i = 0; i < c->eye_count; i++) SL_TRY(add_eye_directions(c, &c->eyes[i], p));
+    for (uint32_t i = 0; i < c->eye_count; i++)
+        if (may_hold(&c->eye_boxes[i], p)) SL_TRY(add_eye_directions(c, &c->eyes[i], p));
     if (!c->around.count) SL_TRY(add_direction(c, c->scene.bounds.min, c->scene.bounds.max));
     sort_directions(c);
     for (size_t i = 0; i < c->around.count && *seen; i++) {
@@ -359,7 +368,7 @@ static sl_status check_cell_at(checker *c, const sl_cell *k, const sli_meet *p, 
         if (!is_in_cell(c, k, p, sector)) continue;
         *seen = false;
         for (uint32_t e = 0; e < c->eye_count && !*seen; e++)
-            *seen = sees_sector(c, &c->eyes[e], p, sector);
+            *seen = may_hold(&c->eye_boxes[e], p) && sees_sector(c, &c->eyes[e], p, sector);
     }
     return SL_OK;
 }
@@ -370,7 +379,7 @@ static sl_status visit_for_viewpoints(checker *c, const sli_meet *p, int32_t wal
     (void)eye;
     if (!c->out->sees_all) return SL_OK;
     c->out->corners++;
-    for (uint32_t i = 0; i < c->eye_count && !seen; i++) seen = sees_around(c, &c->eyes[i], p);
+    for (uint32_t i = 0; i < c->eye_count && !seen; i++) seen = sees_around(c, i, p);
     if (seen) return SL_OK;
     for (uint32_t k = 0; k < c->space->cell_count; k++) {
         seen = true;
@@ -433,6 +442,7 @@ static sl_status check_upper(checker *c) {
 static void clear(checker *c) {
     for (uint32_t i = 0; c->eyes && i < c->eye_count; i++) sli_eye_destroy(c->context, &c->eyes[i]);
     sl_free(c->context, c->eyes);
+    sl_free(c->context, c->eye_boxes);
     sl_free(c->context, c->rays.items);
     sl_free(c->context, c->around.items);
     sl_free(c->context, c->cell_boxes);
@@ -443,6 +453,26 @@ static void clear(checker *c) {
     sli_proof_scene_destroy(c->context, &c->scene);
 }
 
+/// Each cone of an eye is a triangle, from the eye to the wall that ends it. On the rays themselves
+/// sight may go farther.
+static sl_box box_of_eye(const checker *c, const sli_eye *e) {
+    static const sl_box all = {{-INFINITY, -INFINITY}, {INFINITY, INFINITY}};
+    sl_box box = {e->at, e->at};
+    for (uint32_t i = 0; i < e->ray_count; i++) {
+        const sl_segment line = {e->at, e->rays[i].to};
+        const int32_t walls[] = {e->rays[i].cone, e->rays[(i ? i : e->ray_count) - 1].cone,
+                                 e->rays[i].end};
+        for (int k = 0; k < 3; k++) {
+            if (walls[k] == SLI_SHUT) continue;
+            if (walls[k] < 0) return all;
+            const sli_meet p = sli_meet_lines(line, c->scene.walls[walls[k]]);
+            if (!isfinite(p.at.x) || !isfinite(p.at.y) || !isfinite(p.error)) return all;
+            widen(&box, &p);
+        }
+    }
+    return box;
+}
+
 static sl_status make_eye(checker *c, uint32_t i, sl_point at, bool witness) {
     bool on_wall = false;
     const char *what = witness ? "witness" : "viewpoint";
@@ -450,6 +480,7 @@ static sl_status make_eye(checker *c, uint32_t i, sl_point at, bool witness) {
         return sl_fail(c->context, SL_BAD_ARGUMENT, "%s %u at (%g, %g) is not inside", what, i + 1,
                        at.x, at.y);
     SL_TRY(sli_eye_make(c->context, &c->scene, at, &c->eyes[i], &on_wall));
+    c->eye_boxes[i] = box_of_eye(c, &c->eyes[i]);
     if (witness && on_wall)
         return sl_fail(c->context, SL_BAD_ARGUMENT, "witness %u at (%g, %g) is on a wall", i + 1,
                        at.x, at.y);
@@ -462,7 +493,8 @@ static sl_status check_bound(sl_context *context, const sl_space *space, const s
     c.eye_count = lower ? claim->witness_count : claim->count;
     sl_status status = sli_proof_scene_make(context, space, map, &c.scene);
     c.eyes = sl_alloc_array(context, c.eye_count, sizeof *c.eyes);
-    if (!c.eyes) status = SL_NO_MEMORY;
+    c.eye_boxes = sl_alloc_array(context, c.eye_count, sizeof *c.eye_boxes);
+    if (!c.eyes || !c.eye_boxes) status = SL_NO_MEMORY;
     for (uint32_t i = 0; status == SL_OK && i < c.eye_count; i++)
         status = make_eye(&c, i, lower ? claim->witnesses[i].at : claim->viewpoints[i].at, lower);
     if (status == SL_OK) status = lower ? check_lower(&c, claim) : check_upper(&c);

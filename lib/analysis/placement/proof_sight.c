@@ -86,6 +86,7 @@ static void number_corners(sli_proof_scene *s, wall_end *ends) {
             s->corners[s->corner_count++] = (sli_corner){ends[i].at, i, 0};
         s->corners[s->corner_count - 1].count++;
         s->others[i] = ends[i].other;
+        s->other_walls[i] = ends[i].slot / 2;
         s->ends[ends[i].slot] = s->corner_count - 1;
     }
 }
@@ -142,7 +143,8 @@ sl_status sli_proof_scene_make(sl_context *context, const sl_space *space, const
     out->ends = sl_alloc_array(context, count, sizeof *out->ends);
     out->corners = sl_alloc_array(context, count, sizeof *out->corners);
     out->others = sl_alloc_array(context, count, sizeof *out->others);
-    const bool made = ends && out->ends && out->corners && out->others;
+    out->other_walls = sl_alloc_array(context, count, sizeof *out->other_walls);
+    const bool made = ends && out->ends && out->corners && out->others && out->other_walls;
     for (uint32_t n = 0; made && n < out->wall_count; n++) {
         const sl_segment w = out->walls[n];
         ends[2 * n] = (wall_end){w.a, w.b, 2 * n};
@@ -158,6 +160,7 @@ void sli_proof_scene_destroy(sl_context *context, sli_proof_scene *s) {
     sl_free(context, s->ends);
     sl_free(context, s->corners);
     sl_free(context, s->others);
+    sl_free(context, s->other_walls);
     *s = (sli_proof_scene){0};
 }
 
@@ -174,10 +177,11 @@ typedef struct eye_maker {
     const sli_proof_scene *scene;
     sl_point eye;
     sighted *all;
-    uint32_t *group; ///< by corner
-    uint32_t *first; ///< by group, and one more
-    int32_t *cone, *span;
-    bool *shut; ///< by group: a wall at the eye leads there
+    uint32_t *group;      ///< by corner
+    uint32_t *first;      ///< by group, and one more
+    int32_t *cone, *span; ///< by group: the nearest wall behind it, and on its first ray
+    int32_t *cone_ranges, *span_ranges; ///< the same as trees, by ranges of groups
+    bool *shut;                         ///< by group: a wall at the eye leads there
     uint32_t count, groups;
     bool on_wall;
 } eye_maker;
@@ -220,7 +224,38 @@ static bool is_nearer(const eye_maker *m, int32_t a, int32_t b) {
 }
 
 static void lay(const eye_maker *m, int32_t *nearest, int32_t wall) {
-    if (*nearest == SLI_NO_WALL || is_nearer(m, wall, *nearest)) *nearest = wall;
+    if (wall != SLI_NO_WALL && (*nearest == SLI_NO_WALL || is_nearer(m, wall, *nearest)))
+        *nearest = wall;
+}
+
+/// Lays a wall on groups from..to - 1, in a tree whose node i has the children 2 i and 2 i + 1. Of
+/// two walls that cross all cones of a node, one is the nearer in all of them: a node keeps that.
+static void lay_range(const eye_maker *m, int32_t *ranges, uint32_t from, uint32_t to,
+                      int32_t wall) {
+    for (from += m->groups, to += m->groups; from < to; from /= 2, to /= 2) {
+        if (from % 2) lay(m, &ranges[from++], wall);
+        if (to % 2) lay(m, &ranges[--to], wall);
+    }
+}
+
+/// The same from `from` on around to `to`, where they differ.
+static void lay_around(const eye_maker *m, int32_t *ranges, uint32_t from, uint32_t to,
+                       int32_t wall) {
+    if (from < to) {
+        lay_range(m, ranges, from, to, wall);
+    } else if (from > to) {
+        lay_range(m, ranges, from, m->groups, wall);
+        lay_range(m, ranges, 0, to, wall);
+    }
+}
+
+/// The nearest wall of each group is that of the nodes above it.
+static void settle(eye_maker *m) {
+    for (uint32_t g = 0; g < m->groups; g++)
+        for (uint32_t i = g + m->groups; i; i /= 2) {
+            lay(m, &m->cone[g], m->cone_ranges[i]);
+            lay(m, &m->span[g], m->span_ranges[i]);
+        }
 }
 
 static bool is_between(sl_point a, sl_point p, sl_point b) {
@@ -241,10 +276,9 @@ static void lay_wall(eye_maker *m, uint32_t wall) {
         return;
     }
     const uint32_t from = m->group[ends[turn < 0]], to = m->group[ends[turn > 0]];
-    for (uint32_t g = from; g != to; g = (g + 1) % m->groups) {
-        if (g != from) lay(m, &m->span[g], (int32_t)wall);
-        lay(m, &m->cone[g], (int32_t)wall);
-    }
+    if (from == to) return;
+    lay_around(m, m->cone_ranges, from, to, (int32_t)wall);
+    lay_around(m, m->span_ranges, (from + 1) % m->groups, to, (int32_t)wall);
 }
 
 /// A direction at the border of the eye's cell such that the cell follows counter-clockwise.
@@ -304,11 +338,10 @@ static int32_t end_of(const eye_maker *m, uint32_t g, bool *at_once) {
         }
         if (!left || !right) continue;
         *at_once = i == m->first[g];
-        for (uint32_t w = 0; w < s->wall_count; w++)
-            if ((s->ends[2 * (size_t)w] == m->all[i].corner ||
-                 s->ends[2 * (size_t)w + 1] == m->all[i].corner) &&
-                sli_orient(s->walls[w].a, s->walls[w].b, m->eye))
-                return (int32_t)w;
+        for (uint32_t k = 0; k < c->count; k++) {
+            const uint32_t w = s->other_walls[c->first + k];
+            if (sli_orient(s->walls[w].a, s->walls[w].b, m->eye)) return (int32_t)w;
+        }
     }
     return span;
 }
@@ -343,13 +376,19 @@ sl_status sli_eye_make(sl_context *context, const sli_proof_scene *scene, sl_poi
     m.first = sl_alloc_array(context, room, sizeof *m.first);
     m.cone = sl_alloc_array(context, room, sizeof *m.cone);
     m.span = sl_alloc_array(context, room, sizeof *m.span);
+    m.cone_ranges = sl_alloc_array(context, 2 * room, sizeof *m.cone_ranges);
+    m.span_ranges = sl_alloc_array(context, 2 * room, sizeof *m.span_ranges);
     m.shut = sl_alloc_array(context, room, sizeof *m.shut);
     sl_status status =
-        m.all && m.group && m.first && m.cone && m.span && m.shut ? SL_OK : SL_NO_MEMORY;
+        m.all && m.group && m.first && m.cone && m.span && m.cone_ranges && m.span_ranges && m.shut
+            ? SL_OK
+            : SL_NO_MEMORY;
     if (status == SL_OK) {
         for (size_t i = 0; i < room; i++) m.cone[i] = m.span[i] = SLI_NO_WALL;
+        for (size_t i = 0; i < 2 * room; i++) m.cone_ranges[i] = m.span_ranges[i] = SLI_NO_WALL;
         sort_around(&m);
         for (uint32_t i = 0; i < scene->wall_count; i++) lay_wall(&m, i);
+        settle(&m);
         if (m.on_wall) shut_cones(&m);
         status = keep_rays(context, &m, out);
     }
@@ -359,6 +398,8 @@ sl_status sli_eye_make(sl_context *context, const sli_proof_scene *scene, sl_poi
     sl_free(context, m.first);
     sl_free(context, m.cone);
     sl_free(context, m.span);
+    sl_free(context, m.cone_ranges);
+    sl_free(context, m.span_ranges);
     sl_free(context, m.shut);
     return status;
 }

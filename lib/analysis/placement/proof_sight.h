@@ -43,6 +43,7 @@ typedef struct sli_proof_scene {
     uint32_t *ends; ///< by wall, twice: the corners
     sli_corner *corners;
     sl_point *others;
+    uint32_t *other_walls; ///< by other end: the wall between
     uint32_t wall_count, corner_count;
 } sli_proof_scene;
 

@@ -322,6 +322,27 @@ static sl_status solve_piece(sl_context *context, solver *s, piece *p, uint64_t 
     return status;
 }
 
+static size_t size_of(const piece *p) {
+    return p->cover.column_first[p->cover.columns];
+}
+
+/// Small pieces first: what they leave of the nodes is for the large ones.
+static sl_status solve_pieces(sl_context *context, solver *s, uint64_t known) {
+    uint32_t *order = sl_alloc_array(context, s->piece_count, sizeof *order);
+    if (!order) return SL_NO_MEMORY;
+    for (uint32_t k = 0; k < s->piece_count; k++) {
+        uint32_t at = k;
+        for (; at && size_of(&s->pieces[order[at - 1]]) > size_of(&s->pieces[k]); at--)
+            order[at] = order[at - 1];
+        order[at] = k;
+    }
+    sl_status status = SL_OK;
+    for (uint32_t k = 0; k < s->piece_count && status == SL_OK; k++)
+        status = solve_piece(context, s, &s->pieces[order[k]], known);
+    sl_free(context, order);
+    return status;
+}
+
 // --- the result
 
 /// The duals of a proof are for costs as they are, not divided: below the largest cost, times 2^31.
@@ -434,9 +455,7 @@ sl_status sl_cover_solve(sl_context *context, const sl_cover_problem *problem,
         // The bound that the caller knows, less what steps took, in units of the divisor.
         const uint64_t known =
             s.options->known_lower / divisor + (s.options->known_lower % divisor > 0);
-        for (uint32_t k = 0; k < s.piece_count && status == SL_OK; k++)
-            status = solve_piece(context, &s, &s.pieces[k],
-                                 known > s.step_cost ? known - s.step_cost : 0);
+        status = solve_pieces(context, &s, known > s.step_cost ? known - s.step_cost : 0);
         filled = status == SL_OK || status == SL_CANCELLED ? complete_parts(context, &s) : status;
         if (filled == SL_OK) filled = fill_result(context, &s, divisor, &result);
     }

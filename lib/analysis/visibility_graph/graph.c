@@ -47,7 +47,7 @@ typedef struct room_points {
 } room_points;
 
 static bool room_holds(const sl_outline *o, uint32_t room, sl_point point) {
-    for (uint32_t i = o->first[room]; i < o->first[room + 1]; i++)
+    for (uint32_t i = o->first[room]; i < sl_outline_stop(o, room); i++)
         if (sli_orient(o->sides[i].start, o->sides[o->sides[i].next].start, point) < 0)
             return false;
     return true;
@@ -72,7 +72,7 @@ static sl_status find_touching(sl_context *context, const sl_outline *o, const u
     t->rooms.items[t->rooms.count++] = home;
     for (size_t k = 0; k < t->rooms.count; k++) {
         const uint32_t room = t->rooms.items[k];
-        for (uint32_t i = o->first[room]; i < o->first[room + 1]; i++) {
+        for (uint32_t i = o->first[room]; i < sl_outline_stop(o, room); i++) {
             const sl_side *side = &o->sides[i];
             if (!sl_side_is_portal(side) ||
                 sli_orient(side->start, o->sides[side->next].start, point) != 0)

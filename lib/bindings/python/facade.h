@@ -98,7 +98,8 @@ typedef struct slp_import {
     const char *map, *layers, *start_names, *unit;
     double slice, tolerance, entrance, threshold;
     uint64_t max_squares, max_pixels, max_walls, max_entities, max_depth; ///< as sl_limits
-    int doors, sectors, cells;
+    int doors, sectors, cells, planar, degrees;
+    const double *crop; ///< x0, y0, x1, y1; NULL for all
 } slp_import;
 SLP_API int slp_plan_read(slp_plan *plan, const char *path, const slp_import *options);
 SLP_API int slp_plan_parse(slp_plan *plan, const char *name, const char *text, size_t size,
@@ -184,6 +185,14 @@ SLP_API int slp_level_isovists(slp_level *level, const double *eyes, size_t coun
 SLP_API size_t slp_level_polygons(const slp_level *level, int64_t *eyes, int64_t *depths,
                                   int64_t *counts);
 SLP_API void slp_level_polygon_points(const slp_level *level, double *points);
+
+/// What is seen from a line or an area, points as rows of x, y: from some point, or from all. Its
+/// loops are kept as polygons without reflections.
+SLP_API int slp_level_set_region(slp_level *level, const double *points, size_t count, int is_area,
+                                 int from_all, double *area);
+SLP_API int slp_level_set_sees(slp_level *level, const double *points, size_t count, int is_area,
+                               int from_all, const double *places, size_t place_count,
+                               uint8_t *sees);
 
 /// As sl_vga_options. `parts` are bits of sl_vga_part; 0 for the grid alone.
 typedef struct slp_vga {

@@ -93,6 +93,11 @@ static sl_import_options import_options(sl_context *context, const slp_import *g
     options.doors = given->doors;
     options.sectors = given->sectors;
     options.cells = given->cells;
+    options.planar = given->planar;
+    options.degrees = given->degrees;
+    options.has_crop = given->crop != NULL;
+    if (given->crop)
+        options.crop = (sl_box){{given->crop[0], given->crop[1]}, {given->crop[2], given->crop[3]}};
     return options;
 }
 

@@ -486,7 +486,7 @@ static sl_status copy_rows(sl_context *context, const sl_pvs *rows, sl_pvs *out)
 }
 
 static sl_status copy_doors(sl_context *context, const sl_door_sets *sets, sl_door_sets *out) {
-    const sl_pvs rows = {sets->cell_count, sets->offsets, sets->bytes};
+    const sl_pvs rows = {sets->cell_count, sets->offsets, sets->bytes, NULL};
     sl_pvs copy = {0};
     const sl_status status = copy_rows(context, &rows, &copy);
     *out = (sl_door_sets){copy.cell_count, copy.offsets, copy.bytes};

@@ -42,7 +42,8 @@ typedef struct sl_coverage {
 /// Lays the regions of viewpoints over what is inside. Doors, glass and boxes count as the query
 /// has them; what is seen in mirrors does not. A viewpoint outside or in solid ground sees nothing.
 /// Regions are decided exactly, and corners of what they share are rounded as overlay.h says. Where
-/// a range ends, an arc is a chain of chords that lie within it, up to 1e-4 of the range off it.
+/// a range ends, an arc is a chain of chords up to 1e-4 of the range off it: within it, and outside
+/// of the arc of a dead zone. So nothing counts that is not seen.
 ///
 /// SL_BAD_ARGUMENT, with the number of the viewpoint, for a cone, range or dead zone that is none.
 /// The query's range is the most that counts. The query has its own settings again afterwards.

@@ -128,6 +128,20 @@ SL_API sl_status sl_draw_regions_file(sl_context *context, const sl_baked *baked
                                       const char *caption, const sl_draw_options *options,
                                       const char *path);
 
+/// What is seen from a line or an area (set_sight.h).
+typedef struct sl_drawn_set {
+    const sl_point *points; ///< of the set
+    size_t count;
+    bool is_area;       ///< the points are corners of an area; else of a line
+    sl_shape some, all; ///< what is seen from some of its points, and from all
+} sl_drawn_set;
+
+/// Draws the plan with both regions and the set, with a key. Options and caption as in
+/// sl_draw_regions_file.
+SL_API sl_status sl_draw_set_file(sl_context *context, const sl_baked *baked,
+                                  const sl_drawn_set *set, const char *caption,
+                                  const sl_draw_options *options, const char *path);
+
 /// What several viewpoints see together (coverage.h).
 typedef struct sl_drawn_coverage {
     const sl_space *pieces; ///< a mesh; `inside` marks what counts

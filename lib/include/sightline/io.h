@@ -25,10 +25,10 @@ SL_API sl_status sl_io_use(sl_context *context);
 
 // --- what there is in a drawing
 
-/// A layer of a drawing.
+/// A layer of a drawing. Of SVG: a group that is named, or a look ("black line 3").
 typedef struct sl_drawing_layer {
     char *name;
-    size_t entities; ///< on it, those of blocks as often as they are inserted
+    size_t entities; ///< on it, those of blocks as often as they are inserted; of SVG: shapes
     bool on;         ///< and not frozen: taken unless layers are asked for
 } sl_drawing_layer;
 
@@ -41,6 +41,9 @@ typedef struct sl_drawing_layers {
 /// Lists the layers of a DXF drawing; `out` is empty, and stays so on failure. SL_BAD_INPUT where
 /// sl_map_read() fails too.
 SL_API sl_status sl_drawing_layers_dxf(sl_context *context, const char *name, const char *text,
+                                       size_t size, sl_drawing_layers *out);
+/// The same for an SVG drawing. A shape is in one group, and in one look.
+SL_API sl_status sl_drawing_layers_svg(sl_context *context, const char *name, const char *text,
                                        size_t size, sl_drawing_layers *out);
 SL_API void sl_drawing_layers_destroy(sl_context *context,
                                       sl_drawing_layers *layers); ///< zeroes it

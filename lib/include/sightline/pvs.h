@@ -15,6 +15,8 @@ typedef struct sl_pvs {
     uint32_t cell_count;
     uint64_t *offsets; ///< cell_count + 1
     uint8_t *bytes;
+    uint64_t *ends; ///< by cell, of rows that live (sightline/world.h): where its row ends, in
+                    ///< place of offsets[cell + 1]. Else NULL
 } sl_pvs;
 
 SL_API void sl_pvs_destroy(sl_context *context, sl_pvs *pvs); ///< and zeroes it

@@ -10,6 +10,7 @@
 #include "sightline/effects.h"
 #include "sightline/explain.h"
 #include "sightline/explained.h"
+#include "sightline/explored.h"
 #include "sightline/faults.h"
 #include "sightline/geometry.h"
 #include "sightline/import.h"
@@ -24,5 +25,6 @@
 #include "sightline/steps.h"
 #include "sightline/version.h"
 #include "sightline/view.h"
+#include "sightline/world.h"
 
 #endif

@@ -28,6 +28,8 @@ typedef struct sl_cell_grid {
     uint32_t columns, rows, entry_count;
     uint32_t *first;
     uint32_t *cells;
+    uint32_t *stop; ///< by bucket, of a space that lives: its cells end there and not at
+                    ///< first[b + 1]. Else NULL
 } sl_cell_grid;
 
 /// A portal: a longest piece without walls of the boundary that two cells share, of positive
@@ -298,7 +300,16 @@ typedef struct sl_outline {
     /// Limited walls: by side, the seam of the space that limits sight there, SL_NO_SEAM for most.
     /// NULL without them.
     uint32_t *limited;
+    /// Of a space that lives (sightline/world.h), whose rooms are its cells: by side, its room.
+    /// Rooms then have gaps between them (sl_outline_stop). Else NULL.
+    const uint32_t *room_of;
 } sl_outline;
+
+/// Where the sides of a room end.
+static inline uint32_t sl_outline_stop(const sl_outline *outline, uint32_t room) {
+    return outline->room_of ? outline->first[room] + outline->space->cells[room].vertex_count
+                            : outline->first[room + 1];
+}
 
 /// No seam (sl_outline.limited).
 #define SL_NO_SEAM UINT32_MAX

@@ -15,7 +15,7 @@ typedef enum sli_geo_meaning {
     SLI_GEO_MIRROR,
     SLI_GEO_ONEWAY,
     SLI_GEO_START,
-    SLI_GEO_WAY,     ///< a street, a railway, a river: no wall
+    SLI_GEO_WAY,     ///< a street, a river, a meadow: no wall
     SLI_GEO_NO_WALL, ///< what is known to be none: levels, furniture, cells of a baked file
 } sli_geo_meaning;
 
@@ -67,6 +67,12 @@ sl_status sli_geo_find_meanings(sli_geo *geo);
 sl_status sli_geo_levels(sli_geo *geo, sl_map_list *list);
 /// Whether a feature is on a level; one that has none is on all.
 bool sli_geo_on_level(const sli_geo *geo, const sli_geo_feature *feature, const char *level);
+
+/// SL_BAD_INPUT where there are points, and no lines.
+sl_status sli_geo_refuse_points(const sli_geo *geo);
+/// SL_BAD_INPUT where open lines that nothing names reach too far for walls. Notes sites that lie
+/// far apart, with the --crop of each. For maps on the earth, once it is known what is taken.
+sl_status sli_geo_doubt(const sli_geo *geo);
 
 /// Adds the doors that are taken: they are cut out of the map's walls, or stand between them.
 sl_status sli_geo_add_doors(sli_geo *geo);

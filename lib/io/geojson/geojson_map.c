@@ -63,7 +63,7 @@ static sl_status refuse_ways(const sli_geo *geo) {
     }
     return sl_fail_at(
         geo->context, geo->name, 0,
-        "nothing in it is a wall: %zu feature%s a street or other way (%s); sightline "
+        "nothing in it is a wall: %zu feature%s a street, a meadow or the like (%s); sightline "
         "segments measures them; --layers %s takes them as walls",
         ways, ways == 1 ? " is" : "s are each", layer, layer);
 }
@@ -204,9 +204,11 @@ static void report(const sli_geo *geo) {
 static sl_status read_all(sli_geo *geo, const char *text, size_t size) {
     const bool lines = geo->options->lines;
     SL_TRY(sli_geo_open(geo, text, size));
+    if (!lines) SL_TRY(sli_geo_refuse_points(geo));
     SL_TRY(sli_geo_place(geo));
     SL_TRY(sli_geo_find_meanings(geo));
     SL_TRY(choose(geo));
+    if (!lines) SL_TRY(sli_geo_doubt(geo));
     SL_TRY(add_all(geo));
     if (!lines) SL_TRY(sli_geo_add_doors(geo));
     drop_points(geo->map);
@@ -243,6 +245,7 @@ sl_status sli_map_list_geojson(sl_context *context, const char *name, const char
     const sl_import_options options = sl_import_options_default();
     sli_geo geo = {.context = context, .name = name, .options = &options};
     sl_status status = sli_geo_open(&geo, text, size);
+    if (status == SL_OK) status = sli_geo_refuse_points(&geo);
     if (status == SL_OK) status = sli_geo_find_meanings(&geo);
     if (status == SL_OK) status = sli_geo_levels(&geo, list);
     sli_geo_close(&geo);

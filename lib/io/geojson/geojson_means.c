@@ -23,6 +23,20 @@ const char *sli_geo_text(const sli_geo_feature *feature, const char *key) {
 
 // --- meanings
 
+/// By one word among others: "building_footprint", "accessible path".
+static sli_geo_meaning by_words(const char *name) {
+    static const char *const buildings[] = {"building", "house", "gebäude", "bâtiment", "edificio"};
+    static const char *const ways[] = {"street", "road",  "footpath",  "walkway", "sidewalk",
+                                       "path",   "trail", "crosswalk", "route"};
+    sli_geo_meaning means = SLI_GEO_UNSAID;
+    for (sli_name_word word; sli_word_next(&name, &word);) {
+        if (sli_word_in(&word, ways, sizeof ways / sizeof *ways)) return SLI_GEO_WAY;
+        if (sli_word_in(&word, buildings, sizeof buildings / sizeof *buildings))
+            means = SLI_GEO_WALL;
+    }
+    return means;
+}
+
 static sli_geo_meaning meaning_of(const char *word) {
     static const struct {
         const char *word;
@@ -48,7 +62,7 @@ static sli_geo_meaning meaning_of(const char *word) {
     for (size_t i = 0; i < sizeof known / sizeof *known; i++)
         if (strcasecmp(word, known[i].word) == 0) return known[i].means;
     if (sli_says_solid(word)) return SLI_GEO_WALL;
-    return sli_says_door(word) ? SLI_GEO_DOOR : SLI_GEO_UNSAID;
+    return sli_says_door(word) ? SLI_GEO_DOOR : by_words(word);
 }
 
 /// A tag of OpenStreetMap whose value says only what kind: "building": "yes".
@@ -73,10 +87,10 @@ static sli_geo_meaning by_category(const sli_geo_feature *feature) {
     return feature->means;
 }
 
-/// Ways of OpenStreetMap, by which people go, and none of them is a wall. NULL for none.
+/// Ways of OpenStreetMap, by which people go, and areas; none of them is a wall. NULL for none.
 static const char *way_of(const sli_geo_feature *feature) {
-    static const char *const keys[] = {"highway", "railway", "waterway", "aeroway",
-                                       "route",   "power",   "cycleway"};
+    static const char *const keys[] = {"highway", "railway",  "waterway", "aeroway", "route",
+                                       "power",   "cycleway", "landuse",  "natural", "leisure"};
     for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
         if (has_tag(feature, keys[i])) return keys[i];
     return NULL;
@@ -239,6 +253,9 @@ sl_status sli_geo_levels(sli_geo *geo, sl_map_list *list) {
     for (size_t i = 0; i < geo->features.count; i++) {
         const sli_geo_feature *feature = &geo->features.items[i];
         if (feature->means != SLI_GEO_WALL && feature->means != SLI_GEO_DOOR) continue;
+        // What OpenStreetMap says of some buildings divides no town into maps.
+        if (strcasecmp(feature->layer, "building") == 0 && !*sli_geo_text(feature, "level_id"))
+            continue;
         level_text(geo, feature, text);
         SL_TRY(each_level(text, add_level, &to));
     }

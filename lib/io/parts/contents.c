@@ -1,8 +1,9 @@
 /// Which layers of a drawing are walls.
 ///
-/// Names decide first. If some layer is named as walls, these layers are the walls, windows are
-/// windows, and all else is passed over. Else layers are passed over that are named as something
-/// else. Symbols are taken out of what is left: swings of doors, hatching, steps.
+/// Names decide first. Where none says what is a wall, the looks of shapes do (looks.h). If some
+/// layer is named as walls, these layers are the walls, windows are windows, and all else is passed
+/// over. Else layers are passed over that are named as something else. Symbols are taken out of
+/// what is left: swings of doors, hatching, steps.
 ///
 /// Three walls enclose the least room. A choice that leaves fewer is none: then all visible layers
 /// are walls. The note names every layer that is passed over, and the option that chooses.
@@ -28,6 +29,7 @@ void sli_contents_destroy(sli_contents *contents) {
     sl_free(contents->context, contents->groups.items);
     sl_free(contents->context, contents->runs.items);
     sl_free(contents->context, contents->table);
+    sl_free(contents->context, contents->looks.items.items);
 }
 
 static bool is_named(const sli_group *group, sli_word name) {
@@ -92,12 +94,13 @@ sl_status sli_contents_end(sli_contents *contents, sli_pen *pen, uint32_t group)
     of->shapes++;
     of->walls += end - contents->first;
     sli_group_run *last = count ? &contents->runs.items[count - 1] : NULL;
-    if (last && last->group == group && last->end == contents->first) {
+    if (!contents->has_looks && last && last->group == group && last->end == contents->first) {
         last->end = end;
         return SL_OK;
     }
     SL_TRY(SL_ARRAY_ROOM(contents->context, &contents->runs, 1));
-    contents->runs.items[contents->runs.count++] = (sli_group_run){contents->first, end, group};
+    contents->runs.items[contents->runs.count++] =
+        (sli_group_run){contents->first, end, group, contents->look};
     return SL_OK;
 }
 
@@ -112,6 +115,35 @@ void sli_contents_cut(sli_contents *contents, size_t first, const size_t *ends) 
     }
 }
 
+static sl_status list_one(sl_context *context, const char *name, size_t length, size_t shapes,
+                          sl_drawing_layers *out) {
+    if (!length || !shapes) return SL_OK;
+    char *copy = sl_copy_text(context, name, length);
+    if (!copy) return SL_NO_MEMORY;
+    out->items[out->count++] = (sl_drawing_layer){copy, shapes, true};
+    return SL_OK;
+}
+
+sl_status sli_contents_list(const sli_contents *contents, sl_drawing_layers *out) {
+    sl_context *context = contents->context;
+    const size_t groups = contents->groups.count, looks = contents->looks.items.count;
+    size_t *shapes = sl_alloc_array(context, looks + 1, sizeof *shapes);
+    out->items = sl_alloc_array(context, groups + looks + 1, sizeof *out->items);
+    sl_status status = shapes && out->items ? SL_OK : SL_NO_MEMORY;
+    for (size_t i = 0; i < groups && status == SL_OK; i++) {
+        const sli_group *group = &contents->groups.items[i];
+        status = list_one(context, group->name, group->length, group->shapes, out);
+    }
+    for (size_t i = 0; i < contents->runs.count && contents->has_looks && status == SL_OK; i++)
+        shapes[contents->runs.items[i].look]++;
+    for (size_t i = 0; i < looks && status == SL_OK; i++) {
+        const char *name = contents->looks.items.items[i].name;
+        status = list_one(context, name, strlen(name), shapes[i], out);
+    }
+    sl_free(context, shapes);
+    return status;
+}
+
 // --- the choice
 
 typedef struct choice {
@@ -123,6 +155,9 @@ typedef struct choice {
     sli_plan_parts parts;
     size_t kept;      ///< walls and windows that stay
     bool walls_named; ///< some layer is named as walls
+    bool by_looks;    ///< some shapes are passed over by their looks
+    double share;     ///< of walls by their looks in all long lines
+    size_t words;     ///< shapes that look like walls, but are lettering or the page
     size_t doors;     ///< made
 } choice;
 
@@ -155,13 +190,41 @@ static bool is_taken(const choice *c, sli_meaning means) {
            (means == SLI_MEANS_NOTHING && !c->walls_named);
 }
 
-/// Marks the groups that are taken. False where the choice is none, or changes nothing.
-static bool choose_groups(choice *c) {
+static void count_named(choice *c) {
     size_t named = 0;
-    bool changes = c->symbols.leaves + c->symbols.lines > 0;
     for (size_t i = 0; i < c->map->wall_count; i++)
         named += c->means[i] == SLI_MEANS_WALL && !is_gone(c, i);
     c->walls_named = named >= LEAST_WALLS;
+}
+
+/// Among shapes that no name tells apart, those that do not look like walls get another meaning.
+static sl_status choose_looks(choice *c) {
+    const sli_group_run *runs = c->contents->runs.items;
+    const size_t count = c->contents->runs.count;
+    if (!c->contents->has_looks || c->walls_named || sli_contents_said(c->contents)) return SL_OK;
+    sli_look_shape *shapes = sl_alloc_array(c->contents->context, count, sizeof *shapes);
+    sl_bits *taken = sl_alloc_array(c->contents->context, sl_bits_words(count), sizeof *taken);
+    size_t used = 0;
+    for (size_t i = 0; shapes && i < count; i++)
+        if (c->means[runs[i].first] == SLI_MEANS_NOTHING && !is_gone(c, runs[i].first))
+            shapes[used++] = (sli_look_shape){runs[i].first, runs[i].end, runs[i].look};
+    if (used && taken)
+        c->share = sli_looks_choose(c->map, shapes, used, &c->contents->looks, taken, &c->by_looks);
+    for (size_t i = 0; i < used && c->by_looks; i++) {
+        if (sl_bits_has(taken, i)) continue;
+        memset(c->means + shapes[i].first, SLI_MEANS_OTHER, shapes[i].end - shapes[i].first);
+        c->contents->left_out++;
+        c->words += c->contents->looks.items.items[shapes[i].look].taken;
+    }
+    const bool room = shapes && taken;
+    sl_free(c->contents->context, shapes);
+    sl_free(c->contents->context, taken);
+    return room ? SL_OK : SL_NO_MEMORY;
+}
+
+/// Marks the groups that are taken. False where the choice is none, or changes nothing.
+static bool choose_groups(choice *c) {
+    bool changes = c->by_looks || c->symbols.leaves + c->symbols.lines > 0;
     for (size_t i = 0; i < c->contents->groups.count; i++) {
         sli_group *group = &c->contents->groups.items[i];
         group->taken = is_taken(c, group->means);
@@ -171,7 +234,8 @@ static bool choose_groups(choice *c) {
     for (size_t i = 0; i < c->contents->runs.count; i++) {
         const sli_group_run *run = &c->contents->runs.items[i];
         if (!c->contents->groups.items[run->group].taken) continue;
-        for (size_t j = run->first; j < run->end; j++) c->kept += !is_gone(c, j);
+        for (size_t j = run->first; j < run->end; j++)
+            c->kept += !is_gone(c, j) && is_taken(c, c->means[j]);
     }
     return changes && (c->kept >= LEAST_WALLS || sli_contents_said(c->contents));
 }
@@ -186,10 +250,11 @@ static double metre_by_doors(const choice *c) {
     return radius / 0.85;
 }
 
-/// Where no layer is named as walls: finds what is no wall by its shape, among what is taken.
+/// Where neither names nor looks say what is a wall: finds what is no wall by its shape, among what
+/// is taken.
 static sl_status find_parts(choice *c) {
     sl_context *context = c->contents->context;
-    if (c->walls_named || sli_contents_said(c->contents)) return SL_OK;
+    if (c->walls_named || c->by_looks || sli_contents_said(c->contents)) return SL_OK;
     const size_t count = c->map->wall_count;
     sl_map taken = {0};
     size_t *number = sl_alloc_array(context, count, sizeof *number);
@@ -378,6 +443,27 @@ static void add_part(char *text, size_t size, const char *format, ...) {
     va_end(arguments);
 }
 
+/// The looks that are taken or not, with how many shapes they have; those with most long lines
+/// first.
+static void list_looks(const choice *c, bool taken, sli_name_list *list) {
+    const size_t count = c->contents->looks.items.count;
+    double below = INFINITY;
+    for (int shown = 0; shown < 6; shown++) {
+        const sli_look *next = NULL;
+        for (size_t i = 0; i < count; i++) {
+            const sli_look *look = &c->contents->looks.items.items[i];
+            const bool fits = look->shapes && look->taken == taken && look->around < below;
+            if (fits && (!next || look->around > next->around)) next = look;
+        }
+        if (!next) return;
+        char text[80];
+        snprintf(text, sizeof text, "%s: %zu shape%s", next->name, next->shapes,
+                 next->shapes == 1 ? "" : "s");
+        sli_name_list_add(list, (sli_word){text, strlen(text)});
+        below = next->around;
+    }
+}
+
 static void add_kind(char *text, size_t size, size_t lines, const char *what) {
     const size_t used = strlen(text);
     snprintf(text + used, size - used, "%s%zu line%s %s", used ? ", " : "", lines,
@@ -401,10 +487,14 @@ static void note_choice(const choice *c) {
     const char *file = c->contents->file;
     sli_name_list walls = {.full = false}, windows = walls, doors = walls, over = walls;
     char text[900] = "";
-    list_groups(c, true, c->walls_named ? SLI_MEANS_WALL : SLI_MEANS_NOTHING, &walls);
+    if (c->by_looks)
+        list_looks(c, true, &walls);
+    else
+        list_groups(c, true, c->walls_named ? SLI_MEANS_WALL : SLI_MEANS_NOTHING, &walls);
     if (!c->walls_named) list_groups(c, true, SLI_MEANS_WALL, &walls);
     list_groups(c, true, SLI_MEANS_WINDOW, &windows);
     list_groups(c, false, SLI_MEANS_DOOR, &doors);
+    if (c->by_looks) list_looks(c, false, &over);
     list_groups(c, false, SLI_MEANINGS, &over);
     if (*walls.text) add_part(text, sizeof text, "walls from %.200s", walls.text);
     if (*windows.text)
@@ -417,14 +507,33 @@ static void note_choice(const choice *c) {
     if (c->symbols.lines)
         add_part(text, sizeof text, "%zu lines of hatching or steps are no walls",
                  c->symbols.lines);
+    if (c->words)
+        add_part(text, sizeof text, "%zu shape%s of these, lettering or a page, %s no walls",
+                 c->words, c->words == 1 ? "" : "s", c->words == 1 ? "is" : "are");
     note_parts(&c->parts, text, sizeof text);
     if (*over.text) add_part(text, sizeof text, "passed over: %.250s", over.text);
-    sl_note(c->contents->context, "%s: layers: %s (--layers A,B chooses, --layers '*' takes all)",
-            file, text);
+    sl_note(c->contents->context, "%s: %s: %s (--layers A,B chooses, --layers '*' takes all)", file,
+            c->by_looks ? "layers, and looks where no name says what is a wall" : "layers", text);
     if (c->contents->options->doors && c->doors < c->symbols.doors)
         sl_note(c->contents->context,
                 "%s: %zu of the doors stay gaps: both sides of their swings are drawn", file,
                 c->symbols.doors - c->doors);
+}
+
+/// Walls by their looks, where others may be walls as well as they.
+static void note_share(const choice *c) {
+    const sli_look *taken = NULL, *other = NULL;
+    for (size_t i = 0; i < c->contents->looks.items.count; i++) {
+        const sli_look *look = &c->contents->looks.items.items[i],
+                       **best = look->taken ? &taken : &other;
+        if (!*best || look->length > (*best)->length) *best = look;
+    }
+    if (!taken || !other || c->share >= 0.4) return;
+    sl_note(
+        c->contents->context,
+        "%s: what looks like walls has only %.0f %% of the long lines: if other looks are walls, "
+        "name all that are: --layers '%s,%s'",
+        c->contents->file, 100 * c->share, taken->name, other->name);
 }
 
 /// Layers that are passed over though their names say nothing, and that hold more than the walls.
@@ -492,6 +601,8 @@ static void note_long_doors(const choice *c) {
 
 static sl_status choose(choice *c, sli_pen *pen) {
     SL_TRY(find_symbols(c));
+    count_named(c);
+    SL_TRY(choose_looks(c));
     bool chosen = choose_groups(c);
     SL_TRY(find_parts(c));
     chosen |= sli_plan_parts_count(&c->parts) > 0;
@@ -510,6 +621,7 @@ static sl_status choose(choice *c, sli_pen *pen) {
     note_choice(c);
     note_rest(c);
     if (c->walls_named && !sli_contents_said(c->contents)) note_doubt(c);
+    if (c->by_looks) note_share(c);
     return SL_OK;
 }
 

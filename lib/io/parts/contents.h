@@ -4,9 +4,11 @@
 #ifndef SL_CONTENTS_H
 #define SL_CONTENTS_H
 
+#include "io/parts/looks.h"
 #include "io/parts/meaning.h"
 #include "io/parts/shapes.h"
 #include "sightline/import.h"
+#include "sightline/io.h"
 
 #include <string.h>
 
@@ -25,6 +27,7 @@ typedef struct sli_group {
 typedef struct sli_group_run {
     size_t first, end;
     uint32_t group;
+    uint32_t look; ///< of the one shape, where looks are told
 } sli_group_run;
 
 /// Set the first three, zero the rest.
@@ -40,6 +43,9 @@ typedef struct sli_contents {
     double finest;   ///< the pen's, before a shape
     size_t first;    ///< wall of a shape
     size_t left_out; ///< shapes that are passed over
+    sli_looks looks; ///< how shapes look
+    bool has_looks;  ///< the reader tells them: `look` is that of the shape at hand
+    uint32_t look;
 } sli_contents;
 
 /// The options with layers "*" as all_layers.
@@ -76,6 +82,10 @@ sl_status sli_contents_end(sli_contents *contents, sli_pen *pen, uint32_t group)
 /// The walls from `first` on are cut to pieces: those of wall `first` + i end at wall ends[i] now,
 /// those of wall `first` start at `first`.
 void sli_contents_cut(sli_contents *contents, size_t first, const size_t *ends);
+
+/// The groups and the looks that shapes have, with how many; destroyed by who asks, also if it
+/// fails.
+sl_status sli_contents_list(const sli_contents *contents, sl_drawing_layers *out);
 
 /// Chooses among the walls that were drawn, once all are. `metre` is a metre in the map's unit, 0
 /// for unknown. Layers named as walls are walls; where there are none of three walls at least,

@@ -62,6 +62,13 @@ static const char *const which_words[] = {
     "line",   "full",  "data",    "check",      "info",     "grid",        "set",     "tileset",
     "metal",  "basic", "tilemap", "tileslayer", "env",      "environment", "hard",    "physic",
 };
+/// Words for solid that say what stops a player, not what it looks like.
+static const char *const stop_words[] = {
+    "collision",  "collisions", "collide",   "collides",   "collider",  "collidable", "collideable",
+    "obstacle",   "blocked",    "blocking",  "blocker",    "solid",     "impassable", "impassible",
+    "unwalkable", "unpassable", "nowalk",    "colision",   "colisión",  "colisiones", "colisao",
+    "colisão",    "collisioni", "kollision", "kollisions", "hindernis",
+};
 /// Before a word for solid: it is none.
 static const char *const without_words[] = {
     "no",    "non",      "not",         "un",        "without",      "ohne",        "sans", "sin",
@@ -72,17 +79,17 @@ static const char *const inside_words[] = {
     "roguelike", "rogue",   "cellar", "prison", "labyrinth", "maze",     "underground",
 };
 static const char *const other_words[] = {
-    "enemy",      "enemies",  "npc",      "monster", "mob",     "goblin",      "orc",
-    "skeleton",   "zombie",   "slime",    "bat",     "rat",     "spider",      "boss",
-    "guard",      "item",     "coin",     "chest",   "key",     "potion",      "trigger",
-    "event",      "spawner",  "pickup",   "loot",    "crate",   "trap",        "animal",
-    "villager",   "merchant", "shop",     "bullet",  "powerup", "collectible", "collectable",
-    "gem",        "creature", "critter",  "ghost",   "warp",    "teleport",    "teleporter",
-    "transition", "dialog",   "dialogue", "sign",    "camera",  "sound",       "music",
-    "light",      "foe",      "hostile",  "minion",  "turret",  "weapon",      "ammo",
-    "health",     "bandit",   "wolf",     "dragon",  "troll",   "soldier",     "switch",
-    "button",
-};
+    "enemy",    "enemies",     "npc",         "monster",    "mob",      "goblin",   "orc",
+    "skeleton", "zombie",      "slime",       "bat",        "rat",      "spider",   "boss",
+    "guard",    "item",        "coin",        "potion",     "trigger",  "event",    "spawner",
+    "pickup",   "loot",        "trap",        "animal",     "villager", "merchant", "bullet",
+    "powerup",  "collectible", "collectable", "gem",        "creature", "critter",  "ghost",
+    "warp",     "teleport",    "teleporter",  "transition", "dialog",   "dialogue", "sound",
+    "music",    "foe",         "hostile",     "minion",     "weapon",   "ammo",     "health",
+    "bandit",   "wolf",        "dragon",      "troll",      "soldier",  "dialogo",  "diálogo"};
+/// Others that may well stand in the way.
+static const char *const placed_words[] = {"chest",  "key",   "crate",  "shop",   "sign",
+                                           "camera", "light", "turret", "switch", "button"};
 
 /// Which kinds the words of a name are of.
 typedef struct kinds {
@@ -123,6 +130,15 @@ sli_game_kind sli_game_kind_of(const char *name) {
     return all.stands ? SLI_GAME_STANDS : SLI_GAME_UNSAID;
 }
 
+bool sli_game_says_stops(const char *name) {
+    const kinds all = kinds_of(name);
+    if (all.without || all.drawn || all.pass || sli_says_walkable(name)) return false;
+    if (sli_game_says_other(name)) return false;
+    for (sli_name_word word; sli_word_next(&name, &word);)
+        if (IS_ONE_OF(&word, stop_words)) return true;
+    return false;
+}
+
 bool sli_game_says_inside(const char *name) {
     for (sli_name_word word; sli_word_next(&name, &word);)
         if (IS_ONE_OF(&word, inside_words)) return true;
@@ -130,6 +146,12 @@ bool sli_game_says_inside(const char *name) {
 }
 
 bool sli_game_says_other(const char *name) {
+    for (sli_name_word word; sli_word_next(&name, &word);)
+        if (IS_ONE_OF(&word, other_words) || IS_ONE_OF(&word, placed_words)) return true;
+    return false;
+}
+
+bool sli_game_says_passing(const char *name) {
     for (sli_name_word word; sli_word_next(&name, &word);)
         if (IS_ONE_OF(&word, other_words)) return true;
     return false;

@@ -19,12 +19,19 @@ typedef enum sli_game_kind {
 
 sli_game_kind sli_game_kind_of(const char *name);
 
+/// Whether the name says what stops a player, whatever it looks like: some word is one for that
+/// (collision, blocked, obstacle), and none for a picture, an enemy, an item or a trigger:
+/// "CollisionHorizontal", but not "walls", "light collisions", "enemy collision".
+bool sli_game_says_stops(const char *name);
+
 /// Whether the name is of a dungeon, a cave, a sewer ..., where most of a map is rock.
 bool sli_game_says_inside(const char *name);
 
 /// Whether some word is one for an enemy, a person of the game, an item or a trigger: what stands
 /// with such a word is neither a start nor a door.
 bool sli_game_says_other(const char *name);
+/// The same without what may stand in the way, as chests do.
+bool sli_game_says_passing(const char *name);
 
 /// Whether a text is true or false: "yes", "1", "full"; "no", "0", "none" ...
 bool sli_game_truth(const char *text, bool *truth);

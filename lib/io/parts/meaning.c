@@ -142,6 +142,10 @@ static const word_list lists[SLI_MEANINGS] = {
          "*標注* *尺寸* *注释* *说明* *图例* *名称* *寸法* *注記* *室名* *치수* *문자* *주석*"},
 };
 
+/// What makes a room of the furniture that is named before it.
+static const char rooms[] = "room zimmer raum raume chambre salle stanza sala cuarto quarto kamer "
+                            "ruimte pokoj комнат* zone hall lobby";
+
 const char *sli_meaning_text(sli_meaning meaning) {
     return lists[meaning].text;
 }
@@ -274,14 +278,18 @@ static bool fits(sli_word word, sli_word pattern) {
     return behind || !ending.length || sli_word_is(ending, "s") || sli_word_is(ending, "es");
 }
 
-static sli_meaning meaning_of_word(sli_word word) {
-    for (int i = SLI_MEANINGS - 1; i > SLI_MEANS_NOTHING; i--) {
-        for (const char *at = lists[i].patterns; *at;) {
-            const size_t length = strcspn(at, " ");
-            if (fits(word, (sli_word){at, length})) return (sli_meaning)i;
-            at += length + (at[length] == ' ');
-        }
+static bool fits_any(sli_word word, const char *patterns) {
+    for (const char *at = patterns; *at;) {
+        const size_t length = strcspn(at, " ");
+        if (fits(word, (sli_word){at, length})) return true;
+        at += length + (at[length] == ' ');
     }
+    return false;
+}
+
+static sli_meaning meaning_of_word(sli_word word) {
+    for (int i = SLI_MEANINGS - 1; i > SLI_MEANS_NOTHING; i--)
+        if (fits_any(word, lists[i].patterns)) return (sli_meaning)i;
     return SLI_MEANS_NOTHING;
 }
 
@@ -319,10 +327,13 @@ static sli_meaning meaning_of_code(sli_word name) {
 static sli_meaning meaning_of_part(sli_word name) {
     const char *at = name.at, *const end = name.at + name.length;
     char text[LONGEST];
-    sli_meaning found = meaning_of_code(name);
+    sli_meaning found = meaning_of_code(name), before = found, last = SLI_MEANS_NOTHING;
     for (sli_word word = next_word(&at, end, text); word.length; word = next_word(&at, end, text)) {
-        const sli_meaning one = meaning_of_word(word);
-        if (one > found) found = one;
+        // "BedRoom": furniture that says which room it is.
+        if (last == SLI_MEANS_FURNITURE && fits_any(word, rooms)) found = before;
+        last = meaning_of_word(word);
+        before = found;
+        if (last > found) found = last;
     }
     return found;
 }

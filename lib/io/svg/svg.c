@@ -25,14 +25,6 @@ static sl_status draw_or_pass(svg *s, xmlNode *node, place at);
 
 // --- attributes
 
-/// A share of a window that a map has not.
-static bool has_percent(xmlNode *node, const char *name) {
-    char *text = sli_xml_attribute(node, name);
-    const bool percent = text && strchr(text, '%');
-    sli_xml_free(text);
-    return percent;
-}
-
 static bool attribute_is(xmlNode *node, const char *name, const char *value) {
     char *text = sli_xml_attribute(node, name);
     const bool same = text && strcmp(text, value) == 0;
@@ -76,8 +68,24 @@ static sl_status check_layers(const svg *s, xmlNode *root) {
     const char *list = s->options->layers;
     for (sli_word wanted; list && sli_layers_next(&list, &wanted);) {
         sli_name_list there = {.full = false};
-        if (!has_layer(root, wanted, &there))
+        if (!has_layer(root, wanted, &there) && !sli_look_may_be(wanted))
             return sli_fail_layer(s->context, s->pen.name, wanted, "drawing", &there);
+    }
+    return SL_OK;
+}
+
+/// Layers that may be looks are looked for once all is drawn.
+static sl_status check_looks(const svg *s, xmlNode *root) {
+    const char *list = s->options->layers;
+    for (sli_word wanted; list && sli_layers_next(&list, &wanted);) {
+        sli_name_list there = {.full = false};
+        bool found = has_layer(root, wanted, &there);
+        for (size_t i = 0; i < s->contents.looks.items.count; i++) {
+            const char *name = s->contents.looks.items.items[i].name;
+            found |= sli_word_is(wanted, name);
+            sli_name_list_add(&there, (sli_word){name, strlen(name)});
+        }
+        if (!found) return sli_fail_layer(s->context, s->pen.name, wanted, "drawing", &there);
     }
     return SL_OK;
 }
@@ -185,8 +193,8 @@ static sl_status enter_drawing(svg *s, xmlNode *node, place *at) {
     double width = box[2], height = box[3];
     SL_TRY(sli_svg_length(s, node, "x", &x));
     SL_TRY(sli_svg_length(s, node, "y", &y));
-    if (!has_percent(node, "width")) SL_TRY(sli_svg_length(s, node, "width", &width));
-    if (!has_percent(node, "height")) SL_TRY(sli_svg_length(s, node, "height", &height));
+    if (!sli_svg_has_percent(node, "width")) SL_TRY(sli_svg_length(s, node, "width", &width));
+    if (!sli_svg_has_percent(node, "height")) SL_TRY(sli_svg_length(s, node, "height", &height));
     const double scale = box[2] > 0 ? fmin(width / box[2], height / box[3]) : 1;
     sli_affine inner = {
         .xx = scale, .x0 = x - scale * box[0], .yy = scale, .y0 = y - scale * box[1]};
@@ -229,7 +237,8 @@ static bool is_group(xmlNode *node) {
 }
 
 /// Text, pictures and what is drawn only where it is used give no walls; the former are counted.
-static void pass_over(svg *s, xmlNode *node) {
+static void pass_over(svg *s, xmlNode *node, const place *at) {
+    if (sli_xml_is(node, "image")) sli_svg_keep_picture(s, node, at);
     s->other +=
         sli_xml_is(node, "text") || sli_xml_is(node, "image") || sli_xml_is(node, "foreignObject");
 }
@@ -263,49 +272,22 @@ static sl_status draw_in_group(svg *s, xmlNode *node, sli_svg_shape kind, const 
     return status;
 }
 
-/// Keeps the width of a line that is drawn by its stroke alone.
-static sl_status keep_stroke(svg *s, const place *at) {
-    const sli_affine *affine = &at->affine;
-    const double scale = sqrt(fabs(affine->xx * affine->yy - affine->xy * affine->yx));
-    if (!at->paint.no_fill || !at->paint.stroke || !(at->paint.width > 0)) return SL_OK;
-    SL_TRY(SL_ARRAY_ROOM(s->context, &s->strokes, 1));
-    s->strokes.items[s->strokes.count++] = at->paint.width * scale;
-    return SL_OK;
-}
-
-/// Walls run along the middle of lines. A wide one may be meant as a wall of that width.
-static void note_strokes(const svg *s) {
-    const sl_box box = sl_map_bounds(s->pen.map);
-    const double size = fmax(box.max.x - box.min.x, box.max.y - box.min.y);
-    double widest = 0;
-    size_t wide = 0;
-    for (size_t i = 0; i < s->strokes.count; i++) {
-        if (!(s->strokes.items[i] > size / 80)) continue;
-        wide++;
-        widest = fmax(widest, s->strokes.items[i]);
-    }
-    if (wide && s->pen.map->wall_count)
-        sl_note(s->context,
-                "%s: %zu shape%s drawn by lines up to %g wide: walls run along their middle; for "
-                "walls of that width, make outlines of the lines (in Inkscape: Stroke to Path)",
-                s->pen.name, wide, wide == 1 ? " is" : "s are", widest);
-}
-
 static sl_status draw_placed(svg *s, xmlNode *node, sli_svg_shape kind, place at) {
     at.taken |= s->options->layers && is_layer(s, node);
-    if (sli_contents_asks(&s->contents)) SL_TRY(sli_svg_find_group(&s->contents, node, &at.group));
+    if (sli_contents_asks(&s->contents)) SL_TRY(sli_svg_group_of(s, node, kind, &at.group));
     if (kind == SLI_SVG_NO_SHAPE) {
         const sli_layer own = layer_of_group(node);
         if (own) at.layer = own;
         return draw_group(s, node, at);
     }
+    SL_TRY(sli_svg_find_look(s, &at));
     if (!at.taken) return SL_OK;
     // Layers of our own say what they hold, however it is painted.
     if (at.layer ? at.paint.hidden : !sli_svg_is_seen(at.paint, !s->style.paint_unread)) {
         s->hidden++;
         return SL_OK;
     }
-    if (!at.layer) SL_TRY(keep_stroke(s, &at));
+    if (!at.layer) SL_TRY(sli_svg_keep_stroke(s, &at));
     s->pen.affine = at.affine;
     s->pen.item = s->by_number ? (uint32_t)(uintptr_t)node->_private : 0;
     if (at.layer) return draw_in_layer(s, node, kind, at.layer);
@@ -318,7 +300,7 @@ static sl_status draw_element(svg *s, xmlNode *node, place at) {
     if (s->work % 1024 == 0) SL_TRY(sl_check_cancelled(s->context));
     const sli_svg_shape kind = sli_svg_shape_of(node);
     if (kind == SLI_SVG_NO_SHAPE && !is_group(node)) {
-        pass_over(s, node);
+        pass_over(s, node, &at);
         return SL_OK;
     }
     sli_svg_look look;
@@ -405,6 +387,7 @@ static sl_status name_walls(svg *s, xmlNode *root) {
     uint32_t count = 0, line = 0;
     bool own_lines = true;
     number_shapes(root, &count, &line, &own_lines);
+    s->all_shapes = count;
     s->by_number = s->pen.map->source.lines_are_items = !own_lines;
     return name_shapes(s, root);
 }
@@ -454,7 +437,8 @@ static sl_status draw_root(svg *s, xmlNode *root) {
     SL_TRY(read_view_box(s, root, box));
     if (box[2] > 0)
         height = box[1] + box[3];
-    else if (!has_percent(root, "height") && sli_svg_length(s, root, "height", &height) != SL_OK)
+    else if (!sli_svg_has_percent(root, "height") &&
+             sli_svg_length(s, root, "height", &height) != SL_OK)
         sli_faults_add(&s->faults, s->fault, s->pen.line);
     SL_TRY(read_own_number(s, root, "data-sightline-y0", &told, &height));
     SL_TRY(read_marks(s, root));
@@ -474,9 +458,12 @@ static sl_status draw_root(svg *s, xmlNode *root) {
                 .taken = !s->options->layers};
     sli_svg_look look;
     sli_svg_look_read(&s->style, root, &look);
-    at.paint = sli_svg_paint_in(at.paint, &look);
+    at.paint = sli_svg_paint_in(SLI_SVG_PAINT, &look);
     sli_svg_look_free(&look);
+    s->contents.has_looks = !s->style.paint_unread;
     SL_TRY(draw_children(s, root, at));
+    if (s->list) return sli_contents_list(&s->contents, s->list);
+    SL_TRY(check_looks(s, root));
     SL_TRY(sli_contents_choose(&s->contents, 0, &s->pen));
     s->shapes -= s->contents.left_out;
     s->pen.map->precision = sli_marked_precision(s->pen.map, s->pen.finest, s->mark, s->pen.sum);
@@ -490,28 +477,31 @@ static sl_status draw_root(svg *s, xmlNode *root) {
             sli_tally_write("; left out: ", left, 4, without));
     sli_faults_note(s->context, s->pen.name, &s->faults);
     sli_layers_note(s->context, s->pen.name, s->pen.map);
-    note_strokes(s);
+    sli_svg_note_strokes(s);
+    sli_svg_note_picture(s);
     return SL_OK;
 }
 
-sl_status sli_map_read_svg(sl_context *context, const char *name, const char *text, size_t size,
-                           const sl_import_options *options, sl_map *map) {
+static sl_status draw_document(svg *s, const char *text, size_t size) {
+    SL_TRY(sli_xml_read(s->context, s->pen.name, text, size, &s->document));
+    xmlNode *root = xmlDocGetRootElement(s->document);
+    if (sli_xml_is(root, "svg")) return draw_root(s, root);
+    const sli_word found = {(const char *)root->name, strlen((const char *)root->name)};
+    return sl_fail_at(s->context, s->pen.name, sli_xml_line(root),
+                      "expected an svg element, found '%s'", sli_show(found).text);
+}
+
+/// Reads a drawing, or its layers alone.
+static sl_status read_drawing(sl_context *context, const char *name, const char *text, size_t size,
+                              const sl_import_options *options, sl_map *map,
+                              sl_drawing_layers *list) {
     const sl_import_options own = sli_drawing_options(options);
-    sl_map read = {0};
-    sli_svg s = {
-        .context = context,
-        .options = &own,
-        .contents = {.context = context, .file = name, .options = &own},
-        .pen = {.context = context, .name = name, .map = &read, .tolerance = own.tolerance}};
-    SL_TRY(sli_xml_read(context, name, text, size, &s.document));
-    xmlNode *root = xmlDocGetRootElement(s.document);
-    const sl_status status =
-        sli_xml_is(root, "svg")
-            ? draw_root(&s, root)
-            : sl_fail_at(
-                  context, name, sli_xml_line(root), "expected an svg element, found '%s'",
-                  sli_show((sli_word){(const char *)root->name, strlen((const char *)root->name)})
-                      .text);
+    sli_svg s = {.context = context,
+                 .options = &own,
+                 .contents = {.context = context, .file = name, .options = &own},
+                 .list = list,
+                 .pen = {.context = context, .name = name, .map = map, .tolerance = own.tolerance}};
+    const sl_status status = draw_document(&s, text, size);
     sli_svg_style_destroy(context, &s.style);
     sli_svg_ids_destroy(context, &s.ids);
     sl_free(context, s.clips.items);
@@ -519,9 +509,30 @@ sl_status sli_map_read_svg(sl_context *context, const char *name, const char *te
     sli_contents_destroy(&s.contents);
     sli_xml_free(s.mark);
     xmlFreeDoc(s.document);
+    return status;
+}
+
+sl_status sli_map_read_svg(sl_context *context, const char *name, const char *text, size_t size,
+                           const sl_import_options *options, sl_map *map) {
+    sl_map read = {0};
+    const sl_status status = read_drawing(context, name, text, size, options, &read, NULL);
     if (status == SL_OK)
         *map = read;
     else
         sl_map_destroy(context, &read);
+    return status;
+}
+
+sl_status sl_drawing_layers_svg(sl_context *context, const char *name, const char *text,
+                                size_t size, sl_drawing_layers *out) {
+    const sl_import_options options = sl_import_options_default();
+    sl_drawing_layers read = {0};
+    sl_map map = {0};
+    const sl_status status = read_drawing(context, name, text, size, &options, &map, &read);
+    sl_map_destroy(context, &map);
+    if (status == SL_OK)
+        *out = read;
+    else
+        sl_drawing_layers_destroy(context, &read);
     return status;
 }

@@ -19,13 +19,17 @@ typedef struct sli_svg {
     sli_svg_ids ids;
     sli_pen pen;
     sli_contents contents;
+    sl_drawing_layers *list; ///< asked for in place of the map; NULL
     size_t work, shapes, hidden, other;
     sli_faults faults;        ///< passed over
     const sli_fault *fault;   ///< of the last failure; NULL where it is of the whole file
     SL_ARRAY(sl_box) clips;   ///< boxes of clips that were used, in their own places
     SL_ARRAY(double) strokes; ///< widths of lines that are not filled, in the map
-    char *mark;               ///< the sum of the digits that the file's writer knew
-    bool by_number;           ///< walls have the number of their shape in place of its line
+    size_t all_shapes;        ///< of the file, seen or not
+    double picture;           ///< the area of the largest picture, in the map
+    uint32_t picture_line;
+    char *mark;     ///< the sum of the digits that the file's writer knew
+    bool by_number; ///< walls have the number of their shape in place of its line
 } sli_svg;
 
 /// Where an element stands, and what it has of the elements about it.
@@ -70,5 +74,24 @@ sl_status sli_svg_move(sli_svg *s, xmlNode *node, const sli_svg_look *look, sli_
 sl_status sli_svg_clip(sli_svg *s, const sli_svg_look *look, sli_svg_place *at);
 /// All of the plane.
 sl_box sli_svg_no_clip(void);
+
+// --- svg_looks.c
+
+/// Whether a length is a share of a window, that a map has not.
+bool sli_svg_has_percent(xmlNode *node, const char *name);
+/// `*group` is that of the element about this one; it becomes the one that the element belongs to
+/// by its name. A group that holds all shapes, but for two or one in fifty, says nothing of them
+/// unless it is one of walls: "axes_1", "Section A".
+sl_status sli_svg_group_of(sli_svg *s, xmlNode *node, sli_svg_shape kind, uint32_t *group);
+/// Tells how a shape looks, where styles are known. It may be asked for by that.
+sl_status sli_svg_find_look(sli_svg *s, sli_svg_place *at);
+/// Keeps the width of a line that is drawn by its stroke alone.
+sl_status sli_svg_keep_stroke(sli_svg *s, const sli_svg_place *at);
+/// Walls run along the middle of lines: notes wide ones, which may be meant as walls of that width.
+void sli_svg_note_strokes(const sli_svg *s);
+/// Keeps the largest picture: a plan may be in it.
+void sli_svg_keep_picture(sli_svg *s, xmlNode *node, const sli_svg_place *at);
+/// Notes a picture as large as a quarter of the drawing: what it shows is not read.
+void sli_svg_note_picture(const sli_svg *s);
 
 #endif

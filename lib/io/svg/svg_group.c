@@ -18,6 +18,10 @@ static sl_status group_of(sli_contents *contents, xmlNode *node, const char *att
     char *text = sli_xml_attribute(node, attribute);
     *group = 0;
     if (!text) return SL_OK;
+    if (*text == '{') { // data of a program, which names its members
+        sli_xml_free(text);
+        return SL_OK;
+    }
     const sli_word name = whole ? (sli_word){text, strlen(text)} : without_number(text);
     const sl_status status = sli_contents_group(contents, name, group);
     sli_xml_free(text);

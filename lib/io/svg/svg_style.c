@@ -15,6 +15,7 @@
 #include "base/base.h"
 
 #include "io/parts/document.h"
+#include "io/svg/svg_colour.h"
 
 #include <stdlib.h>
 
@@ -389,6 +390,33 @@ static bool is_zero(sli_word value) {
     return length && sl_number_read(value.at, length, &number) && number <= 0;
 }
 
+/// An opacity, of all or of one paint; 1 where it is not known.
+static double opacity_of(sli_word value) {
+    double number = 1;
+    const size_t length = sli_number_length(value.at, value.length);
+    if (!length || !sl_number_read(value.at, length, &number)) return 1;
+    if (length < value.length && value.at[length] == '%') number /= 100;
+    return number < 0 ? 0 : number > 1 ? 1 : number;
+}
+
+/// The colours of an element's paint, and how opaque they are.
+static void read_colours(sli_svg_paint *paint, const sli_word *values) {
+    double own;
+    if (is_said(values[SLI_SVG_OPACITY])) paint->opacity *= opacity_of(values[SLI_SVG_OPACITY]);
+    if (is_said(values[SLI_SVG_FILL_OPACITY]))
+        paint->fill_opacity = opacity_of(values[SLI_SVG_FILL_OPACITY]);
+    if (is_said(values[SLI_SVG_STROKE_OPACITY]))
+        paint->line_opacity = opacity_of(values[SLI_SVG_STROKE_OPACITY]);
+    if (is_said(values[SLI_SVG_FILL])) {
+        paint->fill = sli_svg_colour(values[SLI_SVG_FILL], &own);
+        paint->fill_opacity *= own;
+    }
+    if (is_said(values[SLI_SVG_STROKE])) {
+        paint->line = sli_svg_colour(values[SLI_SVG_STROKE], &own);
+        paint->line_opacity *= own;
+    }
+}
+
 /// "none", "transparent", or a colour that ends with an opacity of 0, as in "rgba(1, 2, 3, 0)".
 static bool is_no_paint(sli_word value) {
     if (sli_word_is(value, "none") || sli_word_is(value, "transparent")) return true;
@@ -420,6 +448,7 @@ sli_svg_paint sli_svg_paint_in(sli_svg_paint outer, const sli_svg_look *look) {
         if (length && !sl_number_read(width.at, length, &paint.width)) paint.width = 0;
         paint.thin = is_zero(width);
     }
+    read_colours(&paint, values);
     return paint;
 }
 

@@ -65,7 +65,13 @@ typedef struct sli_svg_paint {
     bool no_fill, clear_fill;        ///< fill:none; an opacity of 0
     bool stroke, clear_stroke, thin; ///< some stroke; an opacity of 0; a width of 0
     double width;                    ///< of the stroke, in the units of its place; 0: unsaid
+    uint32_t fill, line;             ///< colours, as sli_svg_colour() gives them
+    double opacity;                  ///< of all; then the two's own
+    double fill_opacity, line_opacity;
 } sli_svg_paint;
+
+/// What is painted where nothing is said: black insides.
+#define SLI_SVG_PAINT ((sli_svg_paint){.opacity = 1, .fill_opacity = 1, .line_opacity = 1})
 
 /// That of an element within one of `outer`.
 sli_svg_paint sli_svg_paint_in(sli_svg_paint outer, const sli_svg_look *look);

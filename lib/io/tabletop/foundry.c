@@ -305,6 +305,7 @@ static void tell_walls(const foundry *reader, const char *file) {
     sl_number_write(reader->top, top);
     sl_number_write(reader->pixels, pixels);
     if (reader->pixels != 1) snprintf(unit, sizeof unit, "%s pixels", pixels);
+    const bool any = reader->walls || reader->partial || reader->shut || reader->open;
     const sli_tally taken[] = {
         {reader->walls, "wall", "walls"},
         {reader->partial, "wall that does not stop all", "walls that do not stop all"},
@@ -322,8 +323,8 @@ static void tell_walls(const foundry *reader, const char *file) {
         {reader->glass_doors, "door that is seen through", "doors that are seen through"},
         {reader->points, "of no length", "of no length"}};
     char with[SLI_TALLY_TEXT], without[SLI_TALLY_TEXT];
-    sl_note(reader->context, "%s: %s%s; unit: %s, y = %s - the file's y", file,
-            sli_tally_write("", taken, sizeof taken / sizeof *taken, with),
+    sl_note(reader->context, "%s: %s%s%s; unit: %s, y = %s - the file's y", file,
+            any ? "" : "no walls", sli_tally_write("", taken, sizeof taken / sizeof *taken, with),
             sli_tally_write("; left out or open: ", left, sizeof left / sizeof *left, without),
             unit, top);
     if (reader->mirrors || reader->seams)

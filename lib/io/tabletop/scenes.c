@@ -133,6 +133,34 @@ static sl_status take_document(sli_scenes *scenes, json_t *document) {
     return SL_OK;
 }
 
+/// SL_BAD_INPUT for a document without scenes: what it is, by what it has.
+static sl_status refuse_document(const sli_scenes *scenes, const json_t *document) {
+    static const struct {
+        const char *key, *what;
+    } kinds[] = {
+        {"prototypeToken", "an actor"}, {"token", "an actor"},
+        {"pages", "a journal"},         {"packs", "a list of what a module or a world holds"},
+        {"results", "a table"},         {"sounds", "a playlist"},
+        {"command", "a macro"},         {"cards", "a deck of cards"},
+        {"system", "an item"},
+    };
+    const char *what = "a document";
+    for (size_t i = sizeof kinds / sizeof *kinds; i-- > 0;)
+        if (json_object_get(document, kinds[i].key)) what = kinds[i].what;
+    return sl_fail_at(scenes->context, scenes->file.name, 0,
+                      "%s of Foundry, no scene: in Foundry, right-click the scene and choose "
+                      "Export Data",
+                      what);
+}
+
+/// A scene without walls, but for one that Sightline has written.
+static bool is_bare(const json_t *scene) {
+    const json_t *flags = json_object_get(scene, "flags");
+    const json_t *walls = json_object_get(scene, "walls");
+    return json_object_get(scene, "padding") && json_is_array(walls) && !json_array_size(walls) &&
+           !json_object_get(flags, "sightline");
+}
+
 static sl_status take_root(sli_scenes *scenes, bool of_lines) {
     json_t *root = scenes->file.root, *document;
     const json_t *first = json_array_get(root, 0);
@@ -143,6 +171,12 @@ static sl_status take_root(sli_scenes *scenes, bool of_lines) {
     } else if (json_object_get(first, "walls") || json_object_get(first, "scenes")) {
         json_array_foreach(root, i, document) SL_TRY(take_document(scenes, document));
     } else if (!json_is_array(json_object_get(root, "scenes")) || json_object_get(root, "walls")) {
+        if (json_is_object(root) && !json_object_get(root, "walls") &&
+            !json_object_get(root, "scenes"))
+            return refuse_document(scenes, root);
+        if (is_bare(root))
+            return sl_fail_at(scenes->context, scenes->file.name, 0,
+                              "the scene has no walls, so nothing is hidden in it");
         return take_scene(scenes, root);
     } else {
         SL_TRY(take_document(scenes, root));

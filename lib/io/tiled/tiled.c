@@ -89,11 +89,15 @@ static sli_tiled_word word_of_layer(const sli_tiled_reader *reader, const sli_js
                                     const sli_tiled_place *own) {
     const char *name = sli_json_text_of(layer, "name");
     const sli_tiled_word said = sli_tiled_word_of(layer, "class");
+    const bool objects =
+        reader->walls_are_pictures && strcmp(sli_json_text_of(layer, "type"), "objectgroup") == 0;
     if (said != SLI_TILED_UNSAID) return said;
     switch (reader->by) {
     case SLI_TILED_BY_WORD:
-        return sli_game_kind_of(name) == SLI_GAME_SOLID || map_names(reader, name) ? SLI_TILED_SOLID
-                                                                                   : own->word;
+        if (sli_game_says_stops(name) || map_names(reader, name)) return SLI_TILED_SOLID;
+        if (reader->walls_are_pictures && !objects) return own->word;
+        return (objects ? own->kind : sli_game_kind_of(name)) == SLI_GAME_SOLID ? SLI_TILED_SOLID
+                                                                                : own->word;
     case SLI_TILED_BY_NAME:
         return own->kind == reader->best && !own->moves ? SLI_TILED_SOLID : SLI_TILED_UNSAID;
     case SLI_TILED_BY_TERRAIN:
@@ -344,7 +348,12 @@ static sl_status read_object(sli_tiled_reader *reader, const sli_json *layer,
     SL_TRY(read_shape(reader, object, &shape));
     SL_TRY(take_thing(reader, object, at, &is_thing));
     if (is_thing || at->word == SLI_TILED_OPEN) return SL_OK;
-    const sli_tiled_word word = word_of_object(reader, object, &shape);
+    const sli_tiled_word own = word_of_object(reader, object, &shape);
+    // An enemy or a trigger among walls is none, unless it says so.
+    const bool other = own == SLI_TILED_UNSAID && !at->asked &&
+                       (sli_game_says_passing(sli_json_text_of(object, "name")) ||
+                        sli_game_says_passing(sli_json_text_of(object, "type")));
+    const sli_tiled_word word = other ? SLI_TILED_OPEN : own;
     uint32_t stops = at->stops;
     SL_TRY(read_stops(object, &stops));
     const bool taken =
@@ -510,6 +519,7 @@ static void give_account(const sli_tiled_reader *reader) {
 static sl_status read_map(sli_tiled_reader *reader) {
     SL_TRY(read_head(reader));
     SL_TRY(sli_tiled_read_sets(reader->map, &reader->sets));
+    SL_TRY(sli_tiled_look_beside(reader));
     SL_TRY(sli_tiled_read_again(reader));
     if (!reader->solid_layers && !reader->options->layers) SL_TRY(sli_tiled_find_meaning(reader));
     SL_TRY(sli_tiled_settle_void(reader));

@@ -257,6 +257,8 @@ typedef struct sli_tiled_reader {
     uint32_t guessed;                 ///< the tile that is taken as solid (0: empty squares)
     bool guessed_all;                 ///< or all tiles are
     bool void_is_solid;               ///< as the options ask
+    bool walls_are_pictures;          ///< of layers that are named for what stops
+    const char *believed_not;         ///< the first layer whose tiles say too much
     const char *guess_why;            ///< NULL where nothing can be guessed
     uint64_t tile_shapes, tile_walls; ///< that the layers' tiles draw
     size_t solid_layers, solid_tiles, shapes, objects; ///< taken
@@ -317,6 +319,14 @@ sl_status sli_tiled_settle_void(sli_tiled_reader *reader);
 /// Reads all layers by reader->by, which tells what is solid; what was read before of tiles is
 /// dropped.
 sl_status sli_tiled_read_again(sli_tiled_reader *reader);
+
+// --- doubts (tiled_beside.c)
+
+/// Whether layers of tiles named for walls are a picture beside layers that stop:
+/// reader->walls_are_pictures.
+sl_status sli_tiled_look_beside(sli_tiled_reader *reader);
+/// Whether nearly all squares have tiles, and nearly all of these say that they are solid.
+bool sli_tiled_all_solid(const sli_tiled_sets *sets, const uint32_t *gids, size_t count);
 
 // --- what is solid where nothing says it (tiled_meaning.c)
 

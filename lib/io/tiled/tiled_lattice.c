@@ -89,6 +89,11 @@ sl_status sli_tiled_read_lattice(const sli_json *map, sli_tiled_lattice *lattice
     SL_TRY(sli_json_object(map));
     SL_TRY(read_word(map, "orientation", orientations, 4, &orientation));
     lattice->orientation = (sli_tiled_orientation)orientation;
+    if (!width.value || !height.value)
+        return sli_json_fail(map,
+                             "it does not say how large its tiles are (%s); a map saved by "
+                             "Tiled does",
+                             width.value ? "tileheight" : "tilewidth");
     SL_TRY(sli_json_number(&width, &lattice->tile.x));
     SL_TRY(sli_json_number(&height, &lattice->tile.y));
     SL_TRY(sli_json_whole(&row_count, 0, INT32_MAX, &rows));

@@ -54,7 +54,7 @@ static const sli_tiled_seen *find_example(const sli_tiled_reader *reader) {
     const sli_tiled_seen *best = NULL;
     for (size_t i = 0; i < reader->seen.count; i++) {
         const sli_tiled_seen *layer = &reader->seen.items[i];
-        const bool open = layer->kind != SLI_GAME_UNSAID && layer->kind < SLI_GAME_STANDS;
+        const bool open = layer->kind != SLI_GAME_UNSAID && layer->kind < SLI_GAME_WATER;
         if (!layer->count || !*layer->name || layer->objects || open) continue;
         if (!best || (best->count == best->squares && layer->count < layer->squares)) best = layer;
     }
@@ -241,8 +241,10 @@ sl_status sli_tiled_find_meaning(sli_tiled_reader *reader) {
         return SL_OK;
     }
     SL_TRY(guess(reader));
-    return reader->guess_why ? SL_OK
-                             : sli_tiled_fail_unsaid(reader, "nothing in it says what is solid");
+    if (reader->guess_why) return SL_OK;
+    return sli_tiled_fail_unsaid(reader, reader->believed_not
+                                             ? "nearly all of its tiles say that they are solid"
+                                             : "nothing in it says what is solid");
 }
 
 // --- what is told
@@ -257,6 +259,12 @@ void sli_tiled_tell_meaning(const sli_tiled_reader *reader) {
             "%s: what a missing tileset says of %zu tiles is not known: solid layers count whole",
             file, reader->lost_tiles);
     if (reader->options->layers) return;
+    if (reader->believed_not)
+        sl_note(reader->context,
+                "%s: nearly all tiles of layer '%s' say that they are solid, and it has no gaps: "
+                "this is not believed",
+                file,
+                sli_show((sli_word){reader->believed_not, strlen(reader->believed_not)}).text);
     if (reader->by == SLI_TILED_BY_GUESS) {
         const sli_tiled_seen *layer = &reader->seen.items[reader->guess_layer];
         char tile[64] = "its empty squares are";

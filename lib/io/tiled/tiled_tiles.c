@@ -31,6 +31,7 @@ typedef struct block {
     int64_t column, row; ///< of the first tile
     size_t columns, rows;
     const uint32_t *gids;
+    bool says_too_much; ///< its tiles say that nearly all of it is solid
     char *squares;
     sli_tiled_range range; ///< of the squares
 } block;
@@ -280,7 +281,8 @@ static sl_status take_tile(sli_tiled_reader *reader, const sli_tiled_place *at, 
     if (!gid) return SL_OK;
     const sli_tiled_set *set = sli_tiled_find_set(&reader->sets, gid);
     const sli_tiled_tile *tile = set ? sli_tiled_find_tile(set, gid) : NULL;
-    const sli_tiled_word word = word_by(reader, set, tile);
+    sli_tiled_word word = word_by(reader, set, tile);
+    if (all->says_too_much && word == SLI_TILED_SOLID) word = SLI_TILED_UNSAID;
     if (set && set->missing) reader->lost_tiles++;
     if (tile && tile->says.kind == SLI_THING_DOOR && !at->gids.length)
         return take_door(reader, at, all, i, tile);
@@ -508,6 +510,11 @@ static sl_status read_block(sli_tiled_reader *reader, const sli_json *layer, con
                  .columns = (size_t)columns,
                  .rows = (size_t)rows,
                  .gids = gids};
+    // A chunk may well be all rock.
+    all.says_too_much = holder == layer && at->word == SLI_TILED_UNSAID &&
+                        sli_tiled_all_solid(&reader->sets, gids, (size_t)(columns * rows));
+    if (all.says_too_much && !reader->believed_not)
+        reader->believed_not = sli_json_text_of(layer, "name");
     sl_status status = add_block(reader, &all);
     if (status == SL_OK) status = take_tiles(reader, layer, at, &all);
     if (status == SL_OK && at->word == SLI_TILED_OPEN)

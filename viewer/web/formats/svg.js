@@ -50,7 +50,7 @@ function readSheets(page, counts) {
     counts.rules = text.match(imports)?.length ?? 0;
     for (const { selectorText, style, media } of parseRules(text.replace(imports, ''))) {
         counts.rules += media ? 1 : 0;
-        if (!style?.display && !style?.visibility) continue;
+        if (!style?.display && !style?.visibility && !style?.fill && !style?.stroke) continue;
         for (const selector of selectorText?.split(',') ?? [])
             if (/[>+~:[|\\]/.test(selector)) counts.rules++;
             else rules.push({ selector, style, weight: weightOf(selector) });
@@ -64,18 +64,21 @@ function weightOf(selector) {
     return count(/#/g) * 2 ** 16 + count(/\./g) * 2 ** 8 + count(/(^|\s)[^\s.#*]/g);
 }
 
-/** Whether attributes, the style or style sheets hide an element, as lib/io/svg/svg_style.c reads them. */
-function isHidden(node, rules) {
+/** The styles of an element: what counts more comes later. */
+function stylesOf(node, rules) {
     const styles = rules.filter(({ selector }) => node.matches(selector)).map(({ style }) => style);
     const own = node.getAttribute('style');
     if (own) styles.push(...parseRules(`*{${own}}`).slice(0, 1).map(({ style }) => style));
-    return Object.entries(hiding).some(([property, value]) => {
-        let now = node.getAttribute(property)?.trim();
-        for (const priority of ['', 'important'])
-            for (const style of styles)
-                if (style[property] && style.getPropertyPriority(property) === priority) now = style[property];
-        return now === value;
-    });
+    return styles;
+}
+
+/** What attributes, the style or style sheets say of a property, as lib/io/svg/svg_style.c reads them. */
+function said(node, styles, property) {
+    let now = node.getAttribute(property)?.trim();
+    for (const priority of ['', 'important'])
+        for (const style of styles)
+            if (style[property] && style.getPropertyPriority(property) === priority) now = style[property];
+    return now;
 }
 
 const layerName = (node) => {
@@ -120,16 +123,19 @@ export function readSvg(text) {
     const box = numbersOf(root.getAttribute('viewBox'));
     const own = root.getAttribute('data-sightline-y0');
     const top = own !== null ? Number(own) : box.length === 4 ? 2 * box[1] + box[3] : number(root, 'height');
-    const visit = (node, matrix, layer, depth) => {
+    const visit = (node, matrix, layer, above, depth) => {
         if (skipped.has(node.localName)) return;
-        if (isHidden(node, rules)) {
+        const styles = stylesOf(node, rules);
+        const paint = { fill: said(node, styles, 'fill') ?? above.fill, stroke: said(node, styles, 'stroke') ?? above.stroke };
+        const lines = shape(node);
+        const isHidden = Object.entries(hiding).some(([property, value]) => said(node, styles, property) === value);
+        if (isHidden || (lines && paint.fill === 'none' && paint.stroke === 'none')) {
             counts.hidden++;
             return;
         }
         if (depth > 64) throw new FormatError('groups and uses are nested too deeply');
         const here = multiply(matrix, parseTransform(node.getAttribute('transform')));
         const inLayer = layerName(node) ?? layer;
-        const lines = shape(node);
         if (lines) {
             for (const line of lines) {
                 const points = line.map((p) => apply(here, p)).map(([x, y]) => [x, top - y]);
@@ -143,12 +149,12 @@ export function readSvg(text) {
             const target = reference?.startsWith('#') && page.getElementById(reference.slice(1));
             const moved = multiply(here, [1, 0, 0, 1, number(node, 'x'), number(node, 'y')]);
             if (target?.localName === 'symbol')
-                for (const child of target.children) visit(child, moved, inLayer, depth + 1);
-            else if (target) visit(target, moved, inLayer, depth + 1);
+                for (const child of target.children) visit(child, moved, inLayer, paint, depth + 1);
+            else if (target) visit(target, moved, inLayer, paint, depth + 1);
         }
-        for (const child of node.children) visit(child, here, inLayer, depth + 1);
+        for (const child of node.children) visit(child, here, inLayer, paint, depth + 1);
     };
-    visit(root, identity, undefined, 0);
+    visit(root, identity, undefined, { stroke: 'none' }, 0);
     const notes = [];
     if (counts.left) notes.push(plural(counts.left, 'text or picture', 'texts and pictures'));
     if (counts.hidden) notes.push(plural(counts.hidden, 'hidden element'));

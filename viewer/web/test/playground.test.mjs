@@ -449,7 +449,7 @@ for (const name of wanted)
                 shown += cells.length > 1;
                 assert.equal(/Left out.*rule/.test(await message(page)), i === 6 || i === 8, sheet);
             }
-            assert.equal(shown, 5);
+            assert.equal(shown, 4);
             await context.close();
         });
 

@@ -16,14 +16,14 @@ test('the runtime is at most 22 kB', () => {
   assert.ok(bytes <= 22000, said(bytes))
 })
 
-test('the whole library is at most 208 kB', () => {
+test('the whole library is at most 211 kB', () => {
   const bytes = size('bake.js', 'arguments.js', 'maptext.js', 'scene.js', 'host.js', 'module.js', 'core.wasm')
-  assert.ok(bytes <= 208000, said(bytes))
+  assert.ok(bytes <= 211000, said(bytes))
 })
 
-test('visibility graph analysis is at most 130 kB', () => {
+test('visibility graph analysis is at most 134 kB', () => {
   const bytes = size('graph.js', 'arguments.js', 'maptext.js', 'host.js', 'module.js', 'graph.wasm')
-  assert.ok(bytes <= 130000, said(bytes))
+  assert.ok(bytes <= 134000, said(bytes))
 })
 
 test('placement is at most 145 kB', () => {

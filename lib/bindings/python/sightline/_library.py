@@ -43,7 +43,8 @@ class Import(ctypes.Structure):
                 ("slice", _double), ("tolerance", _double), ("entrance", _double),
                 ("threshold", _double), ("max_squares", _uint64), ("max_pixels", _uint64),
                 ("max_walls", _uint64), ("max_entities", _uint64), ("max_depth", _uint64),
-                ("doors", _int), ("sectors", _int), ("cells", _int)]
+                ("doors", _int), ("sectors", _int), ("cells", _int), ("planar", _int),
+                ("degrees", _int), ("crop", _any)]
 
 
 class Bake(ctypes.Structure):
@@ -117,6 +118,8 @@ _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
                               _doubles]),
     "level_polygons": (_size, [_handle, _any, _any, _any]),
     "level_polygon_points": (None, [_handle, _doubles]),
+    "level_set_region": (_int, [_handle, _doubles, _size, _int, _int, _doubles]),
+    "level_set_sees": (_int, [_handle, _doubles, _size, _int, _int, _doubles, _size, _bytes]),
     "level_vga": (_int, [_handle, ctypes.POINTER(Vga), _doubles, _size, _doubles, _size]),
     "level_vga_copy": (_size, [_handle, _any, _any, _any]),
     "level_explain": (_int, [_handle, ctypes.c_int64, ctypes.c_int64, _uint32, _integers,

@@ -50,6 +50,7 @@ class Plan(drawing.InNotebooks, Handle):
                   unit: Optional[str] = None, slice: Optional[float] = None,
                   tolerance: float = 0, entrance: float = 0, threshold: float = 0,
                   doors: bool = False, sectors: bool = False, cells: bool = False,
+                  planar: bool = False, degrees: bool = False, crop: Optional[ArrayLike] = None,
                   max_squares: int = 0, max_pixels: int = 0, max_walls: int = 0,
                   max_entities: int = 0, max_depth: int = 0) -> "Plan":
         """Read a map: map text, Tiled, LDtk, Universal VTT, Foundry, Doom, DXF, SVG, images, ROS.
@@ -77,6 +78,10 @@ class Plan(drawing.InNotebooks, Handle):
             Darkness from which a pixel of an image is solid, 0 to 1; 0 for the usual.
         doors, sectors, cells
             Take doors as doors (Doom), make seams between sectors (Doom), take the file's cells.
+        planar, degrees
+            Take the coordinates of GeoJSON as plain units, or as longitude and latitude.
+        crop
+            Keep what lies in a box x0, y0, x1, y1, in the map's places.
         max_squares, max_pixels, max_walls, max_entities, max_depth
             Limits: a file that has more tiles, pixels, walls, entities or blocks within blocks is
             refused. They are the `--max-...` of the command line; 0 for the usual.
@@ -89,6 +94,10 @@ class Plan(drawing.InNotebooks, Handle):
             The file cannot be read.
         """
         plan = cls()
+        box = None if crop is None else as_reals(crop, "crop")
+        if box is not None and (box.shape != (4,) or not np.isfinite(box).all()
+                                or not (box[:2] < box[2:]).all()):
+            raise ValueError("crop must be x0, y0, x1, y1, with x0 < x1 and y0 < y1")
         options = Import(text(map, "map"), names_text(layers, "layers"),
                          names_text(start_names, "start_names"), text(unit, "unit"),
                          math.nan if slice is None else as_number(slice, "slice"),
@@ -100,7 +109,9 @@ class Plan(drawing.InNotebooks, Handle):
                          as_count(max_walls, "max_walls", 2**64 - 1),
                          as_count(max_entities, "max_entities", 2**64 - 1),
                          as_count(max_depth, "max_depth", 1000), as_flag(doors, "doors"),
-                         as_flag(sectors, "sectors"), as_flag(cells, "cells"))
+                         as_flag(sectors, "sectors"), as_flag(cells, "cells"),
+                         as_flag(planar, "planar"), as_flag(degrees, "degrees"),
+                         None if box is None else box.ctypes.data)
         plan._ask(call.plan_read, existing(path), ctypes.byref(options))
         return plan
 
@@ -433,6 +444,14 @@ class Plan(drawing.InNotebooks, Handle):
     def region(self, eye: ArrayLike, **options: Any) -> Any:
         """As `Level.region`."""
         return self._own_space().region(eye, **options)
+
+    def region_from(self, points: ArrayLike, **options: Any) -> Any:
+        """As `Level.region_from`."""
+        return self._own_space().region_from(points, **options)
+
+    def seen_from(self, points: ArrayLike, places: ArrayLike, **options: Any) -> Any:
+        """As `Level.seen_from`."""
+        return self._own_space().seen_from(points, places, **options)
 
     def isovists(self, points: ArrayLike, **options: Any) -> Any:
         """As `Level.isovists`."""

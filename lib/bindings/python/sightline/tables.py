@@ -24,6 +24,26 @@ def polygon(points: NDArray[np.float64]) -> Any:
     return shapely.Polygon(points) if len(points) > 2 else shapely.Polygon()
 
 
+def polygons(loops: list[NDArray[np.float64]]) -> Any:
+    """A shapely geometry of loops, holes clockwise; without shapely the loops themselves.
+
+    Loops meet in single points only. So a loop is within another one where the middle of a side is.
+    """
+    shapely = _module("shapely.geometry")
+    if shapely is None:
+        return loops
+    whole = [shapely.Polygon(loop) for loop in loops]
+    outer = [i for i, each in enumerate(whole) if each.exterior.is_ccw]
+    holes: dict[int, list[NDArray[np.float64]]] = {i: [] for i in outer}
+    for i, loop in enumerate(loops):
+        if i not in holes:
+            middle = shapely.Point((loop[0] + loop[1]) / 2)
+            around = [k for k in outer if whole[k].contains(middle)]
+            holes[min(around, key=lambda k: whole[k].area)].append(loop)
+    found = [shapely.Polygon(loops[i], holes[i]) for i in outer]
+    return found[0] if len(found) == 1 else shapely.MultiPolygon(found)
+
+
 def frame(columns: dict[str, NDArray[Any]], shapes: Optional[list[NDArray[np.float64]]] = None,
           kind: str = "polygon", crs: Any = None, arrays: bool = False,
           attributes: Optional[dict[str, Any]] = None) -> Any:

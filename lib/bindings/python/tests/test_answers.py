@@ -99,6 +99,21 @@ class Regions(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, "range"):
                 plan.isovists([(1, 2)], range=wrong)
 
+    def test_a_plan_is_read_in_part_and_as_plain_units(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "a.geojson"
+            path.write_text('{"type": "LineString", "coordinates": '
+                            '[[7.00001, 50.00001], [7.00101, 50.00001], [7.00101, 50.00101]]}',
+                            encoding="utf-8")
+            flat = sightline.Plan.from_file(path, planar=True)
+            np.testing.assert_array_equal(flat.walls[0], [7.00001, 50.00001, 7.00101, 50.00001])
+            metres = sightline.Plan.from_file(path, degrees=True)
+            self.assertAlmostEqual(float(np.ptp(metres.walls[0, ::2])), 71.7, delta=0.1)
+            part = sightline.Plan.from_file(path, planar=True, crop=(7, 50, 7.0005, 50.0005))
+            np.testing.assert_array_equal(part.walls, [[7.00001, 50.00001, 7.0005, 50.00001]])
+            with self.assertRaises(ValueError):
+                sightline.Plan.from_file(path, crop=(1, 0, 0, 1))
+
     def test_layers_are_a_list_or_a_text(self):
         pairs = "0 SECTION 2 ENTITIES" + "".join(
             f" 0 LINE 8 {layer} 10 0 20 {y} 11 9 21 {y}" for y, layer in enumerate("ABC")) + " 0 ENDSEC 0 EOF"

@@ -1,0 +1,72 @@
+/// What the files of placement for areas share. Begin with place_area.c.
+#ifndef SLI_PLACE_AREA_H
+#define SLI_PLACE_AREA_H
+
+#include "analysis/placement/view_shapes.h"
+#include "sightline/place_area.h"
+
+/// In the list of who sees a witness: only beyond the chords of the range, so for the lower bound.
+#define SLI_WIDE (UINT32_C(1) << 31)
+
+typedef struct sli_area {
+    sl_context *context;
+    sl_query *query;
+    const sl_place_area *task;
+    const sl_place_options *options;
+    const sl_space *space;
+    bool directed; ///< one-way glass: who sees a witness is asked from the places
+    uint32_t cover;
+    sl_shape target;   ///< what is to be seen
+    double negligible; ///< areas that are rounding, all together
+    sl_region region;  ///< scratch
+
+    sli_view_shapes shapes; ///< of the walls, then of the places
+    sl_view *views;         ///< by place
+    sl_box *boxes;          ///< by place: about its shape
+    double *ranges;         ///< by place: the one that counts
+    uint32_t *groups;       ///< the first place at each point; one more than there are
+    bool *on_edge;          ///< by group: the point is on a side of its cell
+    uint32_t group_count;
+    bool *fixed; ///< by place
+
+    SL_ARRAY(sl_point) witnesses;
+    SL_ARRAY(size_t) row_ends;  ///< by witness
+    SL_ARRAY(uint32_t) entries; ///< places that see it, ascending, maybe with SLI_WIDE
+    SL_ARRAY(uint32_t) row;     ///< scratch: the same of one point
+    uint32_t wide_count;        ///< witnesses with an entry that is SLI_WIDE
+
+    sl_area_placement *out;
+} sli_area;
+
+/// The places to choose from as shapes and views, and the area.
+sl_status sli_area_begin(sli_area *a);
+void sli_area_end(sli_area *a);
+
+// --- who sees what (area_rows.c)
+
+/// Fills a->row with the places that see a point.
+sl_status sli_area_look(sli_area *a, sl_point at);
+/// Makes a->row a row, of the point as a witness.
+sl_status sli_area_add_row(sli_area *a, sl_point at);
+/// Whether the places of a->row could see the point more often than the chosen ones do.
+bool sli_area_asks(const sli_area *a, const uint8_t *chosen);
+/// Witnesses to begin with: near corners, and on a grid.
+sl_status sli_area_first_witnesses(sli_area *a);
+/// The set cover of all witnesses. With `wide`, ranges are true. `demands`: what the fixed places
+/// leave. The caller destroys it, on failure too.
+sl_status sli_area_problem(sli_area *a, bool wide, sl_cover_problem *out);
+void sli_area_problem_destroy(sl_context *context, sl_cover_problem *problem);
+/// Whether the loops of a shape go around a point; on a loop, either may be.
+bool sli_shape_holds(const sl_shape *shape, sl_point at);
+
+// --- what chosen places leave (area_check.c)
+
+/// Adds witnesses where the chosen places (bytes by place) leave something unseen that others could
+/// see, *added of them. Where there is none, `out` gets what is seen and what is blind.
+sl_status sli_area_check(sli_area *a, const uint8_t *chosen, uint32_t *added);
+
+// --- the most that a number of places sees (area_most.c)
+
+sl_status sli_area_most(sli_area *a);
+
+#endif

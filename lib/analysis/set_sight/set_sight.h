@@ -1,0 +1,83 @@
+/// The sight of a set of points: what its files share.
+#ifndef SL_SET_SIGHT_INTERNAL_H
+#define SL_SET_SIGHT_INTERNAL_H
+
+#include "analysis/set_sight/beams.h"
+#include "sightline/set_sight.h"
+
+/// A side at a place that sight does not pass, and the way from the place along it. `leftward`: it
+/// stops sight that comes from the left of this way and crosses to its right; else the other.
+typedef struct sli_block {
+    sl_point along;
+    bool from_left;
+} sli_block;
+
+/// What is around a place: the rooms that it is in or on, by the side that starts there, or is
+/// there, or any; and the sides there that stop sight.
+typedef struct sli_spot {
+    sl_point at;
+    SL_ARRAY(uint32_t) rooms;
+    SL_ARRAY(sli_block) blocks;
+} sli_spot;
+
+/// Parts of a region: loops, and of which shape each is.
+typedef struct sli_parts {
+    SL_ARRAY(sl_point) points;
+    SL_ARRAY(size_t) ends; ///< by loop, as sl_shape has them
+    size_t open;           ///< the first point of the loop that grows
+    sli_ray last;          ///< where it ends
+    uint64_t cones;
+} sli_parts;
+
+struct sl_set_sight {
+    sl_query *query;
+    sli_beam_rooms rooms;
+    sl_set_kind kind;
+    sl_point *points;
+    size_t count;
+    sli_walk walk;
+    sli_spot spot, corner;
+    SL_ARRAY(sli_beam) seen; ///< what an eye sees of a segment
+    SL_ARRAY(sli_ray) cuts;
+    SL_ARRAY(sl_point) ends; ///< of walls, on the set
+    sl_bits *touched;        ///< cells
+    uint32_t *stops;         ///< sides that stop sight forwards or backwards
+    uint32_t stop_count;
+};
+
+/// The segments of a set; a polygon has one for each corner.
+static inline size_t sli_segment_count(const struct sl_set_sight *s) {
+    return s->kind == SL_SET_AREA ? s->count : s->count - 1;
+}
+
+static inline sl_segment sli_segment(const struct sl_set_sight *s, size_t i) {
+    return (sl_segment){s->points[i], s->points[i + 1 < s->count ? i + 1 : 0]};
+}
+
+/// Finds what is around a place, on both sides of walls, but in no solid ground.
+sl_status sli_spot_find(sl_context *context, struct sl_set_sight *s, sl_point at, sli_spot *out);
+
+/// The same for a corner of rooms: by_start[first ...], `count` of them. Faster.
+sl_status sli_spot_of_corner(sl_context *context, struct sl_set_sight *s, uint32_t first,
+                             uint32_t count, sli_spot *out);
+
+/// From where on a segment a spot is seen that is not in line with it, as beams from the spot
+/// (s->seen); those that are thinner than rounding are left out. Exact: from some piece, and from
+/// the whole segment.
+sl_status sli_reach(sl_context *context, struct sl_set_sight *s, const sli_spot *spot,
+                    sl_segment segment, bool *some, bool *whole);
+
+/// Adds the cones of all corners behind which points of a segment see.
+sl_status sli_add_cones(sl_context *context, struct sl_set_sight *s, sl_segment segment,
+                        sli_parts *parts);
+
+/// Adds what is seen from a spot. `towards`, which may be NULL: what is seen from next to it, on
+/// the way to this point.
+sl_status sli_add_eye(sl_context *context, struct sl_set_sight *s, const sli_spot *spot,
+                      const sl_point *towards, sli_parts *parts);
+
+/// Ends the last loop. Loops without an area are dropped.
+sl_status sli_parts_close(sl_context *context, sli_parts *parts);
+void sli_parts_destroy(sl_context *context, sli_parts *parts);
+
+#endif

@@ -1,0 +1,72 @@
+/// Sight from lines and areas for Python.
+#include "facade.h"
+
+#include "sightline/set_sight.h"
+
+/// The sight of a set with the level's settings.
+static sl_status begin(slp_level *level, const double *points, size_t count, int is_area,
+                       sl_set_sight **out) {
+    sl_context *context = level->base.context;
+    SL_TRY(slp_level_queries(level, 1));
+    sl_point *set = sl_alloc_array(context, count, sizeof *set);
+    if (!set) return SL_NO_MEMORY;
+    for (size_t i = 0; i < count; i++) set[i] = (sl_point){points[2 * i], points[2 * i + 1]};
+    const sl_status status = sl_set_sight_create(context, level->queries.items[0], set, count,
+                                                 is_area ? SL_SET_AREA : SL_SET_LINE, out);
+    sl_free(context, set);
+    return status;
+}
+
+static sl_status keep_loops(sl_context *context, const sl_shape *shape, slp_polygons *out) {
+    for (size_t i = 0; i < shape->count; i++) {
+        const size_t from = i ? shape->ends[i - 1] : 0, count = shape->ends[i] - from;
+        SL_TRY(SL_ARRAY_ROOM(context, &out->list, 1));
+        slp_polygon *loop = &out->list.items[out->list.count];
+        *loop = (slp_polygon){.count = count};
+        loop->points = sl_alloc_array(context, count, sizeof *loop->points);
+        if (!loop->points) return SL_NO_MEMORY;
+        out->list.count++;
+        for (size_t k = 0; k < count; k++) loop->points[k] = shape->points[from + k];
+    }
+    return SL_OK;
+}
+
+int slp_level_set_region(slp_level *level, const double *points, size_t count, int is_area,
+                         int from_all, double *area) {
+    sl_context *context = level->base.context;
+    sl_set_sight *sight;
+    sl_set_region region = {0};
+    slp_level_forget(level);
+    SL_TRY(begin(level, points, count, is_area, &sight));
+    sl_status status = sl_set_sight_region(
+        context, sight, from_all ? SL_SEEN_FROM_ALL : SL_SEEN_FROM_SOME, &region);
+    if (status == SL_OK) {
+        level->polygons = sl_alloc_array(context, 1, sizeof *level->polygons);
+        status = level->polygons ? SL_OK : SL_NO_MEMORY;
+    }
+    if (status == SL_OK) {
+        level->eye_count = 1;
+        status = keep_loops(context, &region.shape, level->polygons);
+    }
+    *area = region.area;
+    sl_set_region_destroy(context, &region);
+    sl_set_sight_destroy(context, sight);
+    return status;
+}
+
+int slp_level_set_sees(slp_level *level, const double *points, size_t count, int is_area,
+                       int from_all, const double *places, size_t place_count, uint8_t *sees) {
+    sl_context *context = level->base.context;
+    sl_set_sight *sight;
+    SL_TRY(begin(level, points, count, is_area, &sight));
+    sl_status status = SL_OK;
+    for (size_t i = 0; i < place_count && status == SL_OK; i++) {
+        bool seen = false;
+        status = sl_set_sight_sees(context, sight, from_all ? SL_SEEN_FROM_ALL : SL_SEEN_FROM_SOME,
+                                   (sl_point){places[2 * i], places[2 * i + 1]}, &seen);
+        sees[i] = seen;
+        if (status == SL_OK && i % 256 == 0) status = sl_check_cancelled(context);
+    }
+    sl_set_sight_destroy(context, sight);
+    return status;
+}

@@ -1,0 +1,69 @@
+"""Sight from lines and areas, against single eyes."""
+import importlib.util
+import unittest
+import warnings
+
+import numpy as np
+
+import sightline
+import support
+
+warnings.simplefilter("ignore", sightline.SightlineWarning)
+
+
+def area_of(loops):
+    return sum(float(np.sum(loop[:, 0] * np.roll(loop[:, 1], -1) -
+                            loop[:, 1] * np.roll(loop[:, 0], -1))) / 2 for loop in loops)
+
+
+class Sets(unittest.TestCase):
+    def setUp(self):
+        self.plan = sightline.Plan.from_file(support.MAPS / "office.map")
+        self.level = self.plan.space()
+
+    def check(self, points, eyes, area):
+        places = support.inside_points(self.level, 60, 1)
+        by_eyes = self.level.can_see(eyes[:, None, :], places)
+        some = self.level.seen_from(points, places, area=area)
+        every = self.plan.seen_from(points, places, area=area, seen="all")
+        self.assertTrue((some >= by_eyes.any(axis=0)).all() and (every <= by_eyes.all(axis=0)).all())
+        self.assertLess((some != by_eyes.any(axis=0)).sum(), 3)
+        loops = self.level.region_from(points, area=area, as_array=True)
+        self.assertGreaterEqual(area_of(loops), area_of([self.level.region(eyes[0], as_array=True)]))
+        within = self.plan.region_from(points, area=area, seen="all", as_array=True)
+        self.assertLess(area_of(within), area_of(loops))
+
+    def test_line(self):
+        line = np.array([(8.0, 8.0), (50.0, 8.0)])
+        self.check(line, line[0] + np.linspace(0, 1, 2000)[:, None] * (line[1] - line[0]), False)
+
+    def test_area(self):
+        corners = np.array([(31.0, 8.0), (33.0, 8.0), (33.0, 12.0), (31.0, 12.0)])
+        weights = np.random.default_rng(3).dirichlet(np.ones(4), 4000)
+        self.check(corners, weights @ corners, True)
+
+    def test_shapes_of_shapely(self):
+        if not importlib.util.find_spec("shapely"):
+            self.skipTest("there is no shapely")
+        shape = self.level.region_from([(8, 8), (50, 8)])
+        loops = self.level.region_from([(8, 8), (50, 8)], as_array=True)
+        self.assertTrue(shape.is_valid)
+        self.assertAlmostEqual(shape.area, area_of(loops), places=6)
+
+    def test_one_place(self):
+        self.assertIs(self.level.seen_from([(8, 8), (50, 8)], (30, 8), seen="all"), True)
+
+    def test_wrong_questions(self):
+        with self.assertRaises(ValueError):
+            self.level.region_from([(8, 8), (50, 8)], seen="most")
+        with self.assertRaises(ValueError):
+            self.level.region_from([(8, 8), (1e9, 8)])
+        with self.assertRaises(ValueError):
+            self.level.seen_from([(1, 1), (9, 1), (4, 2), (1, 9)], (3, 3), area=True)
+        with self.assertRaises(ValueError):
+            self.level.region_from([])
+        self.assertEqual(len(self.level.seen_from([(8, 8)], np.empty((0, 2)))), 0)
+
+
+if __name__ == "__main__":
+    unittest.main()

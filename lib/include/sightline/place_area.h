@@ -1,0 +1,85 @@
+/// Placement of cameras: which of given places and headings see an area, with fields of view,
+/// ranges, dead zones, costs, and by how many.
+///
+///     sl_viewpoint places[] = {{.at = {1, 1}, .heading = 45, .fov = 90, .range = 12}, ...};
+///     sl_place_area area = {.places = places, .place_count = 2};
+///     sl_area_placement placed;
+///     sl_status status = sl_place_area_cover(context, query, &area, NULL, &placed);
+///     if (status == SL_OK && placed.lower == placed.upper) // none of these sets costs less
+///         for (uint32_t i = 0; i < placed.count; i++) use(places[placed.chosen[i]]);
+///     sl_area_placement_destroy(context, &placed);
+///
+/// All of the area counts, and not only points of it. Points that are asked to be seen (witnesses)
+/// are added where a set leaves something unseen, until it leaves nothing that one of the places
+/// could see. Few of the witnesses are needed for that.
+///
+/// - `lower`: no set of these places that costs less sees all witnesses. Exact: who sees a witness
+///   is decided by exact predicates, up to the true range.
+/// - `upper`: the chosen places see all of the area but `blind`. Their regions are laid over it
+///   (overlay.h), and chords stand for arcs so that nothing counts that is not seen (coverage.h).
+///   Up to rounding: `rounding` is the area that was too small to be decided.
+/// - `blind`: parts that fewer than `cover` of the places see, so no choice of them helps. There,
+///   the chosen ones are as many as can be.
+#ifndef SIGHTLINE_PLACE_AREA_H
+#define SIGHTLINE_PLACE_AREA_H
+
+#include "sightline/coverage.h"
+#include "sightline/place.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// Places to choose from, and the area to see. What may be NULL is so where nothing is said.
+typedef struct sl_place_area {
+    const sl_viewpoint *places; ///< a point with several headings: one after the other
+    uint32_t place_count;
+    const uint32_t *costs; ///< by place, at least 1; NULL: 1 each
+    const uint32_t *fixed; ///< places that are taken in any case, each once, ascending
+    uint32_t fixed_count;
+    const sl_shape *see; ///< what of the inside is to be seen; NULL: all of it
+    uint32_t cover;      ///< how many places must see each point; 0: 1
+    uint32_t count;      ///< 0: see everything; else the most area that so many places see
+} sl_place_area;
+
+/// Zeroed, it is empty.
+typedef struct sl_area_placement {
+    uint64_t lower, upper; ///< costs, of fixed places too; with `count`, numbers of places
+    uint32_t *chosen;      ///< places, ascending, the fixed ones among them
+    uint32_t count;
+    double area;      ///< to be seen
+    double seen;      ///< of it, by at least `cover` of the chosen places
+    double rounding;  ///< of it, too small to be decided; at most 1e-9 of the area
+    double seen_most; ///< with `count`: no set of so many places sees more than this area
+    double blind_area;
+    sl_blind_spot *blind; ///< the largest first
+    uint32_t blind_count;
+    uint32_t witness_count;
+    uint64_t rounds;
+} sl_area_placement;
+
+/// Finds the cheapest places that see the area, as far as these places can see it; or, with
+/// `count`, places that see as much of it as so many can.
+///
+/// Doors count as the query has them, and one-way glass; the query's range is the most that counts.
+/// SL_BAD_ARGUMENT with the number of a place that is none, where nothing is to be seen, where no
+/// place sees anything of it, and for `count` with `cover`. SL_UNSUPPORTED for mirrors and boxes.
+/// Cancelled by the context, it returns SL_CANCELLED with the best set and bounds so far, once it
+/// has a set. Reports stage "place". The same input gives the same bytes.
+SL_API sl_status sl_place_area_cover(sl_context *context, sl_query *query,
+                                     const sl_place_area *area, const sl_place_options *options,
+                                     sl_area_placement *out);
+SL_API void sl_area_placement_destroy(sl_context *context,
+                                      sl_area_placement *placement); ///< and zeroes it
+
+/// Of all points that a viewpoint like `like` could stand at to see `target`, looking there: one
+/// that is nearest to one of the places. False where `target` is not inside. Rounded.
+SL_API sl_status sl_place_nearest(sl_context *context, sl_query *query, const sl_viewpoint *like,
+                                  sl_point target, const sl_viewpoint *places, uint32_t count,
+                                  sl_point *out, bool *found);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,139 @@
+/// Worlds: walls that change while they are asked. An edit costs what it touches, and no bake.
+///
+///     sl_world *world;
+///     sl_world_create(context, &map, NULL, &world);
+///     sl_world_add_wall(context, world, (sl_segment){{3, 0}, {3, 4}}, &wall);
+///     sl_world_remove(context, world, 17);
+///     sl_world_commit(context, world, NULL);
+///     sl_query_sees(context, sl_world_query(world), eye, point, &sees);
+///
+/// A world holds the walls as they were given, and a mesh of convex cells that lives. A commit cuts
+/// the mesh again around the walls that changed: the triangles there, then the cells that lost a
+/// triangle. All other cells keep their numbers. A commit takes all edits since the last one, or
+/// none of them: if it fails, the world is as it was. Undo is an edit.
+///
+/// Questions go through sl_query alone. Answers are those of a space that is made anew from the
+/// walls as they are now (the subdivision "mesh"), exactly, and right after the commit. Two things
+/// depend on what was edited before: how the plane is cut into cells, and their numbers. So compare
+/// points, not cells. And an eye that is within a wall, or where walls meet, sees the side of its
+/// cell (view.h), which their numbers decide.
+///
+/// Where walls cross or touch they are cut, as by the mesh. Each wall keeps the place that it was
+/// given: when another one goes, it is as if that had never been there. Places where oblique walls
+/// cross are rounded to the nearest doubles, as in a clean map.
+///
+/// One thread at a time uses a world and its query.
+#ifndef SIGHTLINE_WORLD_H
+#define SIGHTLINE_WORLD_H
+
+#include "sightline/query.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// Walls, their cells, and a query to them.
+typedef struct sl_world sl_world;
+
+/// Which visible sets a world keeps.
+typedef enum sl_world_rows {
+    SL_WORLD_NO_ROWS,    ///< none: sl_query_look searches without them
+    SL_WORLD_ROWS_NOW,   ///< exact after each commit
+    SL_WORLD_ROWS_LATER, ///< after each commit they miss nothing (SL_CONSERVATIVE);
+                         ///< sl_world_settle makes them exact
+} sl_world_rows;
+
+/// Start from sl_world_options_default().
+typedef struct sl_world_options {
+    sl_world_rows rows;
+    sl_sight sight; ///< of the visible sets
+    /// Walls must lie within this box, not on its border. An empty box: the bounds of the map, and
+    /// an eighth of their size more on each side.
+    sl_box bounds;
+} sl_world_options;
+
+/// The usual options: bounds by the map, no visible sets, closed sight.
+SL_API sl_world_options sl_world_options_default(void);
+
+/// Makes a world of the walls of a map, which is copied. Wall i of the map is wall i of the world.
+/// `options`: NULL for the usual ones. SL_UNSUPPORTED for a map with effects, seams, solid ground
+/// or cells of its own; SL_BAD_INPUT for a wall outside the bounds, and as the mesh refuses a map
+/// that is not clean. Time: that of the mesh.
+SL_API sl_status sl_world_create(sl_context *context, const sl_map *map,
+                                 const sl_world_options *options, sl_world **out);
+/// Frees a world and its query. NULL is allowed.
+SL_API void sl_world_destroy(sl_context *context, sl_world *world);
+
+/// The query to the world. It belongs to the world, and its settings stay after a commit. What it
+/// gave before (spaces, outlines) is void then. Boxes that block are SL_UNSUPPORTED where they need
+/// cut cells (sl_query_set_boxes): sl_query_region and sl_query_sees take them.
+SL_API sl_query *sl_world_query(sl_world *world);
+
+// --- edits
+
+/// Adds a wall at the next commit. *wall is its number, from then on until it is removed; numbers
+/// of removed walls are given again. Walls may cross, touch and cover each other. SL_BAD_ARGUMENT
+/// for a wall of no length, or not within the bounds.
+SL_API sl_status sl_world_add_wall(sl_context *context, sl_world *world, sl_segment at,
+                                   uint32_t *wall);
+/// Removes a wall at the next commit. SL_BAD_ARGUMENT if there is none of that number.
+SL_API sl_status sl_world_remove(sl_context *context, sl_world *world, uint32_t wall);
+/// Moves a wall at the next commit; it keeps its number. As the two above.
+SL_API sl_status sl_world_move(sl_context *context, sl_world *world, uint32_t wall, sl_segment at);
+/// Forgets the edits since the last commit.
+SL_API void sl_world_discard(sl_world *world);
+
+/// What a commit did to the cells. The lists are valid until the next commit. A number may be in
+/// `gone` and `came`: it then stands for another cell.
+typedef struct sl_world_changes {
+    const uint32_t *gone, *came;
+    size_t gone_count, came_count;
+    const uint32_t *rows; ///< cells whose visible sets may have changed, those that came among them
+    size_t row_count;
+} sl_world_changes;
+
+/// Makes the edits. `changes` may be NULL. If it fails, the edits are forgotten and the world is as
+/// it was: SL_NO_MEMORY; SL_UNSUPPORTED where walls run along each other within steps of doubles
+/// and bend each other without end. Time: that of the cells around the walls that changed, whatever
+/// the size of the world.
+SL_API sl_status sl_world_commit(sl_context *context, sl_world *world, sl_world_changes *changes);
+
+// --- visible sets
+
+/// Makes visible sets exact, for about so many milliseconds, at least one set. *left: how many are
+/// still conservative; NULL for none. An exact one is made by a search over portal sequences from
+/// its cell. A commit searches again from the cells that saw a cell that went, and from those that
+/// came: no other set can change. If a commit lacks memory for its sets alone, it holds, and there
+/// are none (sl_world_visibility) until this makes them; questions are answered as before.
+SL_API sl_status sl_world_settle(sl_context *context, sl_world *world, double milliseconds,
+                                 size_t *left);
+
+/// The visible sets, by cell of the world, also as the query has them; without rows where there are
+/// none. `guarantee` says whether they are exact now. Valid until the next commit.
+SL_API const sl_visibility *sl_world_visibility(const sl_world *world);
+
+// --- what there is
+
+/// One more than the highest number of a wall.
+SL_API uint32_t sl_world_wall_count(const sl_world *world);
+/// A wall as it was given, at the last commit. False if there is none of that number.
+SL_API bool sl_world_wall(const sl_world *world, uint32_t wall, sl_segment *at);
+/// How many cells there are.
+SL_API uint32_t sl_world_cell_count(const sl_world *world);
+
+/// The walls as they were given, at the last commit, as a map of its own: for files, bakes and
+/// other work. `numbers`, NULL for none: by wall of the world, its number in the map; UINT32_MAX
+/// for none.
+SL_API sl_status sl_world_copy_map(sl_context *context, const sl_world *world, uint32_t *numbers,
+                                   sl_map *out);
+/// The space as it is, as a copy without gaps in its numbers; it passes sl_space_check. `numbers`,
+/// NULL for none: by cell of the world (sl_query_asked), its number in the copy; SL_NO_CELL for
+/// none.
+SL_API sl_status sl_world_copy_space(sl_context *context, const sl_world *world, uint32_t *numbers,
+                                     sl_space *out);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,152 @@
+/// What GeoJSON holds that is no plan: points alone, open lines of streets that nothing names, and
+/// several sites far apart.
+#include "io/geojson/geojson.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+sl_status sli_geo_refuse_points(const sli_geo *geo) {
+    size_t points = 0;
+    for (size_t i = 0; i < geo->lines.count; i++) {
+        if (geo->lines.items[i].count > 1) return SL_OK;
+        points += geo->lines.items[i].count;
+    }
+    if (!points) return SL_OK;
+    return sl_fail_at(geo->context, geo->name, 0,
+                      "it has %zu point%s, and no lines or outlines that walls could be", points,
+                      points == 1 ? "" : "s");
+}
+
+// --- sites
+
+/// The box of what is one: a feature, then a site.
+typedef struct part {
+    sl_box box;
+    size_t features;
+} part;
+
+static void join(sl_box *box, sl_box other) {
+    box->min = (sl_point){fmin(box->min.x, other.min.x), fmin(box->min.y, other.min.y)};
+    box->max = (sl_point){fmax(box->max.x, other.max.x), fmax(box->max.y, other.max.y)};
+}
+
+static const sl_box nothing = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+
+static sl_box box_of(const sli_geo *geo, const sli_geo_feature *feature) {
+    sl_box box = nothing;
+    for (size_t k = 0; k < feature->count; k++) {
+        const sli_geo_line line = geo->lines.items[feature->first + k];
+        for (size_t i = 0; i < line.count; i++) {
+            const sl_point p = geo->points.items[line.first + i];
+            join(&box, (sl_box){p, p});
+        }
+    }
+    return box;
+}
+
+static int compare_x(const void *left, const void *right) {
+    const part *a = left, *b = right;
+    return (a->box.min.x > b->box.min.x) - (a->box.min.x < b->box.min.x);
+}
+
+static int compare_y(const void *left, const void *right) {
+    const part *a = left, *b = right;
+    return (a->box.min.y > b->box.min.y) - (a->box.min.y < b->box.min.y);
+}
+
+/// Sites have at least a kilometre between them, and a quarter of all that there is.
+#define APART       1000
+#define APART_SHARE 0.25
+
+/// The number of parts, by x or y, before the widest gap; 0 where no gap is wide enough. Sorts.
+static size_t find_gap(part *parts, size_t count, bool by_y) {
+    double end = -INFINITY, widest = APART;
+    size_t at = 0;
+    qsort(parts, count, sizeof *parts, by_y ? compare_y : compare_x);
+    const double begin = by_y ? parts[0].box.min.y : parts[0].box.min.x;
+    for (size_t i = 0; i < count; i++) {
+        const double low = by_y ? parts[i].box.min.y : parts[i].box.min.x;
+        if (i && low - end >= widest) {
+            widest = low - end;
+            at = i;
+        }
+        end = fmax(end, by_y ? parts[i].box.max.y : parts[i].box.max.x);
+    }
+    return widest >= APART_SHARE * (end - begin) ? at : 0;
+}
+
+enum { SITES_MOST = 4 };
+
+typedef struct site_list {
+    part sites[SITES_MOST];
+    size_t count; ///< more than the most where there are more
+} site_list;
+
+/// Splits the parts at their gaps. At most SITES_MOST levels deep, as then there are enough sites.
+static void split(part *parts, size_t count, site_list *out) {
+    for (int by_y = 0; by_y < 2 && out->count <= SITES_MOST; by_y++) {
+        const size_t at = find_gap(parts, count, by_y);
+        if (!at) continue;
+        split(parts, at, out);
+        split(parts + at, count - at, out);
+        return;
+    }
+    part site = {.box = nothing, .features = count};
+    for (size_t i = 0; i < count; i++) join(&site.box, parts[i].box);
+    if (out->count < SITES_MOST) out->sites[out->count] = site;
+    out->count++;
+}
+
+static void note_sites(const sli_geo *geo, const site_list *list) {
+    char text[400] = "";
+    const size_t shown = list->count < SITES_MOST ? list->count : SITES_MOST;
+    for (size_t i = 0; i < shown; i++) {
+        const part *site = &list->sites[i];
+        const size_t used = strlen(text);
+        snprintf(text + used, sizeof text - used, "%s--crop %.0f,%.0f,%.0f,%.0f (%zu feature%s)",
+                 i ? ", " : "", floor(site->box.min.x) - 1, floor(site->box.min.y) - 1,
+                 ceil(site->box.max.x) + 1, ceil(site->box.max.y) + 1, site->features,
+                 site->features == 1 ? "" : "s");
+    }
+    sl_note(geo->context, "%s: %s sites far apart; each alone: %s%s", geo->name,
+            list->count > SITES_MOST ? "more than 4" : "several", text,
+            list->count > SITES_MOST ? " ..." : "");
+}
+
+static bool is_closed(const sli_geo *geo, const sli_geo_feature *feature) {
+    const sli_geo_line line = geo->lines.items[feature->first];
+    const sl_point *p = geo->points.items + line.first;
+    return line.count > 3 && p[0].x == p[line.count - 1].x && p[0].y == p[line.count - 1].y;
+}
+
+/// Open lines that nothing names are streets if they reach farther.
+#define STREETS 3000
+
+sl_status sli_geo_doubt(const sli_geo *geo) {
+    sl_box all = nothing;
+    size_t count = 0, closed = 0;
+    if (!geo->map->earth.known || !geo->features.count) return SL_OK;
+    part *parts = sl_alloc_array(geo->context, geo->features.count, sizeof *parts);
+    if (!parts) return SL_NO_MEMORY;
+    for (size_t i = 0; i < geo->features.count; i++) {
+        const sli_geo_feature *f = &geo->features.items[i];
+        if (!f->taken || f->means != SLI_GEO_WALL || !f->count) continue;
+        parts[count] = (part){.box = box_of(geo, f), .features = 1};
+        if (!(parts[count].box.min.x <= parts[count].box.max.x)) continue;
+        closed += is_closed(geo, f);
+        join(&all, parts[count++].box);
+    }
+    site_list list = {.count = 0};
+    if (count) split(parts, count, &list);
+    sl_free(geo->context, parts);
+    const double size = fmax(all.max.x - all.min.x, all.max.y - all.min.y);
+    if (geo->guessed && !closed && size > STREETS)
+        return sl_fail_at(
+            geo->context, geo->name, 0,
+            "no property says what is a wall, and open lines over %.3g km are streets "
+            "rather: sightline segments measures them; walls have \"kind\": \"wall\"",
+            size / 1000);
+    if (list.count > 1) note_sites(geo, &list);
+    return SL_OK;
+}

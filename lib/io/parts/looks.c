@@ -1,0 +1,290 @@
+/// Which look is that of walls.
+///
+/// A look weighs by the square of its contrast with the ground and by its thickness: the width of
+/// its lines, or 2 area / perimeter of what is filled, which is the width of a long bar. A fill
+/// thicker than 1/25 of the drawing is a floor and weighs nothing. Long walls tell where a look is:
+/// lettering, symbols and furniture are short. The heaviest look that has a fair share of all long
+/// lines, over a fair part of the drawing, is that of walls, with all others of at least 2/5 of its
+/// weight: thinner inner walls. Where there is none, the floors are rooms, and their outlines are
+/// walls.
+#include "io/parts/looks.h"
+
+#include "geometry/length.h"
+#include "space/index.h"
+
+#include <math.h>
+#include <string.h>
+
+/// Of fewer shapes than LEAST_SHAPES nothing is told.
+enum { MOST_LOOKS = 512, LEAST_WALLS = 3, LEAST_SHAPES = 8 };
+
+/// A long wall: 1/60 of the drawing, in a shape of 1/20. A floor is thicker than 1/25. A word or a
+/// symbol has no long wall, and is up to 1/4 large.
+#define LONG  60
+#define LARGE 20
+#define FLOOR 25
+#define WORD  4
+/// Shares of the long lines: of the heaviest look, and of those beside it.
+#define FAIR   0.15
+#define BESIDE 0.02
+/// Of the heaviest look's weight, and of its contrast.
+#define ALIKE    0.4
+#define CONTRAST 0.75
+
+// --- names
+
+static const struct {
+    uint32_t colour;
+    const char *name;
+} plain[] = {{0x000000, "black"}, {0xFFFFFF, "white"}, {0xFF0000, "red"},
+             {0x0000FF, "blue"},  {0x008000, "green"}, {0x808080, "grey"}};
+
+static void write_name(sli_look *look) {
+    const sli_ink *ink = &look->ink;
+    char colour[16];
+    snprintf(colour, sizeof colour, "#%06x", (unsigned)(ink->colour & 0xFFFFFF));
+    for (size_t i = 0; i < sizeof plain / sizeof *plain; i++)
+        if (plain[i].colour == ink->colour) snprintf(colour, sizeof colour, "%s", plain[i].name);
+    if (!ink->known) snprintf(colour, sizeof colour, "patterned");
+    if (ink->line)
+        snprintf(look->name, sizeof look->name, "%s line %.3g", colour, ink->width);
+    else
+        snprintf(look->name, sizeof look->name, "%s fill", colour);
+}
+
+bool sli_look_may_be(sli_word name) {
+    static const char *const words[] = {" line ", " fill"};
+    for (int i = 0; i < 2; i++)
+        for (size_t k = 0; k + strlen(words[i]) <= name.length; k++)
+            if (memcmp(name.at + k, words[i], strlen(words[i])) == 0) return true;
+    return false;
+}
+
+// --- which there are
+
+/// Lines that are as wide within a hundredth have one look.
+static bool same_ink(const sli_ink *a, const sli_ink *b) {
+    return a->line == b->line && a->known == b->known && a->colour == b->colour &&
+           (!a->line || fabs(a->width - b->width) <= 0.01 * fmax(a->width, b->width));
+}
+
+sl_status sli_looks_find(sl_context *context, sli_looks *looks, const sli_ink *ink, uint32_t *out) {
+    if (looks->last < looks->items.count && same_ink(&looks->items.items[looks->last].ink, ink)) {
+        *out = looks->last;
+        return SL_OK;
+    }
+    for (size_t i = 0; i < looks->items.count; i++) {
+        if (!same_ink(&looks->items.items[i].ink, ink) && i + 1 < MOST_LOOKS) continue;
+        *out = looks->last = (uint32_t)i;
+        return SL_OK;
+    }
+    SL_TRY(SL_ARRAY_ROOM(context, &looks->items, 1));
+    *out = looks->last = (uint32_t)looks->items.count;
+    looks->items.items[looks->items.count] = (sli_look){.ink = *ink};
+    write_name(&looks->items.items[looks->items.count++]);
+    return SL_OK;
+}
+
+// --- measures
+
+typedef struct chooser {
+    const sl_map *map;
+    const sli_look_shape *shapes;
+    size_t count;
+    sli_looks *looks;
+    sl_box bounds;
+    double size;
+    size_t backdrop;
+    double ground;        ///< how light what all lies on is
+    double lines, floors; ///< how long all long lines are: of what may be walls, of floors
+} chooser;
+
+static double width_of(sl_box box) {
+    return box.max.x - box.min.x;
+}
+
+static double height_of(sl_box box) {
+    return box.max.y - box.min.y;
+}
+
+static double extent(sl_box box) {
+    return fmax(width_of(box), height_of(box));
+}
+
+static sl_box box_of(const sl_map *map, const sli_look_shape *shape) {
+    sl_box box = sli_box_around(map->walls[shape->first].a, map->walls[shape->first].a);
+    for (size_t i = shape->first; i < shape->end; i++)
+        box = sli_box_with(sli_box_with(box, map->walls[i].a), map->walls[i].b);
+    return box;
+}
+
+/// How light a colour is, from 0 to 1 (ITU-R BT.709).
+static double lightness(const sli_ink *ink) {
+    if (!ink->known) return 0.7;
+    const double red = ink->colour >> 16 & 0xFF, green = ink->colour >> 8 & 0xFF;
+    return (0.2126 * red + 0.7152 * green + 0.0722 * (ink->colour & 0xFF)) / 255;
+}
+
+/// The lowest filled shape, if all else lies on it. It is a page, and no floor.
+static void find_backdrop(chooser *c) {
+    c->backdrop = c->count;
+    for (size_t i = 0; i < c->count; i++) {
+        const sl_box box = box_of(c->map, &c->shapes[i]);
+        c->bounds = i ? sli_box_with(sli_box_with(c->bounds, box.min), box.max) : box;
+    }
+    c->size = extent(c->bounds);
+    if (!c->count || c->looks->items.items[c->shapes[0].look].ink.line) return;
+    const sli_look_shape *first = &c->shapes[0];
+    const sl_box box = box_of(c->map, first);
+    if (first->end - first->first != 4 || width_of(box) < 0.95 * width_of(c->bounds) ||
+        height_of(box) < 0.95 * height_of(c->bounds))
+        return;
+    c->backdrop = 0;
+}
+
+static void measure_shape(const chooser *c, const sli_look_shape *shape) {
+    sli_look *look = &c->looks->items.items[shape->look];
+    const bool large = extent(box_of(c->map, shape)) * LARGE > c->size;
+    double twice = 0;
+    const sl_point from = c->map->walls[shape->first].a;
+    for (size_t i = shape->first; i < shape->end; i++) {
+        const sl_wall *wall = &c->map->walls[i];
+        const sl_point a = {wall->a.x - from.x, wall->a.y - from.y};
+        const sl_point b = {wall->b.x - from.x, wall->b.y - from.y};
+        const double length = sli_length(b.x - a.x, b.y - a.y);
+        twice += sli_cross(a, b);
+        look->around += length;
+        if (!large || length * LONG < c->size) continue;
+        if (look->length == 0) look->box = sli_box_around(wall->a, wall->a);
+        look->box = sli_box_with(sli_box_with(look->box, wall->a), wall->b);
+        look->length += length;
+    }
+    look->area += fabs(twice) / 2;
+    look->shapes++;
+    look->walls += shape->end - shape->first;
+}
+
+/// What is filled, as thick as a bar would be.
+static double thickness(const sli_look *look) {
+    if (look->ink.line) return look->ink.width;
+    return look->around > 0 ? 2 * look->area / look->around : 0;
+}
+
+static bool is_floor(const chooser *c, const sli_look *look) {
+    return !look->ink.line && thickness(look) * FLOOR > c->size;
+}
+
+static double contrast(const chooser *c, const sli_look *look) {
+    return fabs(lightness(&look->ink) - c->ground);
+}
+
+static void weigh_all(chooser *c) {
+    c->ground = 1;
+    if (c->backdrop < c->count)
+        c->ground = lightness(&c->looks->items.items[c->shapes[c->backdrop].look].ink);
+    for (size_t i = 0; i < c->looks->items.count; i++) {
+        sli_look *look = &c->looks->items.items[i];
+        const bool floor = is_floor(c, look);
+        look->weight = floor ? 0 : contrast(c, look) * contrast(c, look) * thickness(look);
+        *(floor ? &c->floors : &c->lines) += look->length;
+    }
+}
+
+// --- the choice
+
+/// The heaviest look that is spread as walls are; NULL for none.
+static const sli_look *heaviest(const chooser *c) {
+    const sli_look *best = NULL;
+    const double all = fmax(c->lines, c->floors);
+    for (size_t i = 0; i < c->looks->items.count; i++) {
+        const sli_look *look = &c->looks->items.items[i];
+        if (!(look->weight > 0) || look->walls < LEAST_WALLS || look->length < FAIR * all) continue;
+        if (width_of(look->box) < 0.3 * width_of(c->bounds) ||
+            height_of(look->box) < 0.3 * height_of(c->bounds))
+            continue;
+        if (!best || look->weight > best->weight) best = look;
+    }
+    return best;
+}
+
+/// Whether a look is one of walls beside the heaviest. What is filled as darkly may be columns,
+/// which have no long walls.
+static bool is_alike(const chooser *c, const sli_look *look, const sli_look *best) {
+    if (look == best) return true;
+    if (look->weight < ALIKE * best->weight || contrast(c, look) < CONTRAST * contrast(c, best))
+        return false;
+    const bool column = !look->ink.line && CONTRAST * contrast(c, look) <= contrast(c, best);
+    return column || look->length >= BESIDE * fmax(best->length, look->around);
+}
+
+/// Whether a filled shape is a word or a symbol: many short lines, and not round as a column is.
+static bool is_word(const chooser *c, const sli_look_shape *shape) {
+    double twice = 0, around = 0;
+    const sl_point from = c->map->walls[shape->first].a;
+    if (shape->end - shape->first <= 8 || c->looks->items.items[shape->look].ink.line ||
+        extent(box_of(c->map, shape)) * WORD > c->size)
+        return false;
+    for (size_t i = shape->first; i < shape->end; i++) {
+        const sl_wall *wall = &c->map->walls[i];
+        const sl_point a = {wall->a.x - from.x, wall->a.y - from.y};
+        const sl_point b = {wall->b.x - from.x, wall->b.y - from.y};
+        const double length = sli_length(b.x - a.x, b.y - a.y);
+        if (length * LONG > c->size) return false;
+        twice += sli_cross(a, b);
+        around += length;
+    }
+    return 7 * fabs(twice) < around * around; // of a circle it is 6.3 to 6.4
+}
+
+/// Takes shapes of the looks that are taken, and counts them.
+static size_t take_shapes(chooser *c, sl_bits *taken) {
+    size_t walls = 0;
+    for (size_t i = 0; i < c->count; i++) {
+        const sli_look_shape *shape = &c->shapes[i];
+        if (i == c->backdrop || !c->looks->items.items[shape->look].taken || is_word(c, shape))
+            continue;
+        sl_bits_add(taken, i);
+        walls += shape->end - shape->first;
+    }
+    return walls;
+}
+
+/// The share of the looks that are taken in all long lines. Floors that are not taken have the
+/// lines between them twice.
+static double share_of(const chooser *c) {
+    double taken = 0, rest = 0;
+    for (size_t i = 0; i < c->looks->items.count; i++) {
+        const sli_look *look = &c->looks->items.items[i];
+        if (look->taken)
+            taken += look->length;
+        else
+            rest += is_floor(c, look) ? look->length / 2 : look->length;
+    }
+    return taken > 0 ? taken / (taken + rest) : 1;
+}
+
+double sli_looks_choose(const sl_map *map, const sli_look_shape *shapes, size_t count,
+                        sli_looks *looks, sl_bits *taken, bool *chosen) {
+    chooser c = {.map = map, .shapes = shapes, .count = count, .looks = looks};
+    size_t all = 0;
+    for (size_t i = 0; i < looks->items.count; i++) {
+        sli_look *look = &looks->items.items[i];
+        *look = (sli_look){.ink = look->ink};
+        write_name(look);
+    }
+    find_backdrop(&c);
+    for (size_t i = 0; i < count; i++) {
+        all += shapes[i].end - shapes[i].first;
+        if (i != c.backdrop) measure_shape(&c, &shapes[i]);
+    }
+    weigh_all(&c);
+    const sli_look *best = count >= LEAST_SHAPES ? heaviest(&c) : NULL;
+    const bool rooms = count >= LEAST_SHAPES && !best && c.floors > c.lines;
+    for (size_t i = 0; i < looks->items.count; i++) {
+        sli_look *look = &looks->items.items[i];
+        look->taken = best ? is_alike(&c, look, best) : rooms && is_floor(&c, look);
+    }
+    const size_t walls = take_shapes(&c, taken);
+    *chosen = walls >= LEAST_WALLS && walls < all;
+    return share_of(&c);
+}

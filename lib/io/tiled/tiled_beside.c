@@ -1,0 +1,149 @@
+/// Two doubts about what a map of Tiled says, which only a look at all of its tiles settles.
+///
+/// - Layers of tiles named for walls may be their picture only. Where others say what stops a
+///   player (a layer "collisions", objects), and these lie on at least a third of the pictured
+///   walls, they alone count: the picture runs on over doorways. Where they lie elsewhere, they are
+///   furniture or borders, and the walls count, too. Looked at in orthogonal maps with bounds;
+///   objects by their boxes.
+/// - A layer without gaps, nearly all of whose tiles say that they are solid, is a floor with a
+///   property that was set on all tiles. It would leave no room to stand in.
+///
+/// Time O(tiles + squares under the boxes of objects).
+#include "io/tiled/tiled.h"
+
+#include "io/parts/limits.h"
+
+#include <math.h>
+
+bool sli_tiled_all_solid(const sli_tiled_sets *sets, const uint32_t *gids, size_t count) {
+    size_t any = 0, solid = 0;
+    for (size_t i = 0; i < count; i++) {
+        const uint32_t gid = gids[i] & SLI_TILED_TILE;
+        const sli_tiled_set *set = gid ? sli_tiled_find_set(sets, gid) : NULL;
+        any += gid != 0;
+        solid +=
+            set && sli_tiled_word_of_tile(set, sli_tiled_find_tile(set, gid)) == SLI_TILED_SOLID;
+    }
+    return solid && 20 * any >= 19 * count && 20 * solid >= 19 * any;
+}
+
+// --- pictures of walls
+
+enum { PICTURED = 1, STOPS = 2 };
+
+/// The squares of the map, and what lies on them.
+typedef struct beside {
+    const sli_tiled_reader *reader;
+    char *squares;
+    size_t columns, rows;
+} beside;
+
+static size_t clamp(double at, size_t most) {
+    return at > 0 ? (at < (double)most ? (size_t)at : most) : 0;
+}
+
+/// Marks the squares whose middles lie in a box of pixels.
+static void mark_box(const beside *all, sl_point low, sl_point high) {
+    const sl_point tile = all->reader->lattice.tile;
+    const size_t right = clamp(ceil(high.x / tile.x - 0.5), all->columns);
+    const size_t bottom = clamp(ceil(high.y / tile.y - 0.5), all->rows);
+    for (size_t row = clamp(ceil(low.y / tile.y - 0.5), all->rows); row < bottom; row++)
+        for (size_t i = clamp(ceil(low.x / tile.x - 0.5), all->columns); i < right; i++)
+            all->squares[row * all->columns + i] |= STOPS;
+}
+
+static void mark_object(const beside *all, const sli_json *object, const sli_tiled_place *at) {
+    const char *const keys[] = {"x", "y", "width", "height"};
+    double box[4];
+    for (size_t i = 0; i < 4; i++) {
+        const sli_json number = sli_json_member(object, keys[i]);
+        box[i] = sli_json_number_or_0(&number);
+    }
+    const sl_point low = {at->offset.x + box[0], at->offset.y + box[1]};
+    mark_box(all, low, (sl_point){low.x + box[2], low.y + box[3]});
+}
+
+static void mark_objects(const beside *all, const sli_json *layer, const sli_tiled_place *at) {
+    const sli_json objects = sli_json_member(layer, "objects");
+    for (size_t i = 0; i < json_array_size(objects.value); i++) {
+        const sli_json object = sli_json_item(&objects, i);
+        const sli_tiled_word word = sli_tiled_word_of(&object, "type");
+        if (word == SLI_TILED_SOLID || (word == SLI_TILED_UNSAID && at->word == SLI_TILED_SOLID))
+            mark_object(all, &object, at);
+    }
+}
+
+/// Marks the tiles of a layer of walls, or of one that stops.
+static sl_status mark_tiles(const beside *all, const sli_json *layer, char mark) {
+    const sli_json data = sli_json_member(layer, "data"), width = sli_json_member(layer, "width");
+    const sli_json height = sli_json_member(layer, "height");
+    const double columns = sli_json_number_or_0(&width), rows = sli_json_number_or_0(&height);
+    const size_t count = all->columns * all->rows;
+    uint32_t *gids;
+    if (columns != (double)all->columns || rows != (double)all->rows) return SL_OK;
+    SL_TRY(sli_tiled_read_data(layer, &data, count, &gids));
+    for (size_t i = 0; i < count; i++)
+        if (gids[i] & SLI_TILED_TILE) all->squares[i] |= mark;
+    sl_free(all->reader->context, gids);
+    return SL_OK;
+}
+
+/// `outer` has the place of the group, and whether that is solid.
+static sl_status mark_layers(const beside *all, const sli_json *parent,
+                             const sli_tiled_place *outer) {
+    const sli_json layers = sli_json_member(parent, "layers");
+    for (size_t i = 0; i < json_array_size(layers.value); i++) {
+        const sli_json layer = sli_json_item(&layers, i);
+        const char *name = sli_json_text_of(&layer, "name");
+        const char *type = sli_json_text_of(&layer, "type");
+        const sli_tiled_word said = sli_tiled_word_of(&layer, "class");
+        const sli_json x = sli_json_member(&layer, "offsetx"),
+                       y = sli_json_member(&layer, "offsety");
+        sli_tiled_place own = *outer;
+        sl_point offset = {0};
+        SL_TRY(sli_json_number_if(&x, &offset.x));
+        SL_TRY(sli_json_number_if(&y, &offset.y));
+        own.offset = (sl_point){own.offset.x + offset.x, own.offset.y + offset.y};
+        if (said != SLI_TILED_UNSAID || sli_game_says_stops(name))
+            own.word = said == SLI_TILED_OPEN ? said : SLI_TILED_SOLID;
+        const sli_game_kind kind = sli_game_kind_of(name);
+        if (kind != SLI_GAME_UNSAID) own.kind = kind;
+        const bool objects = strcmp(type, "objectgroup") == 0;
+        const bool walls = own.word == SLI_TILED_UNSAID && own.kind == SLI_GAME_SOLID;
+        if (walls && objects) own.word = SLI_TILED_SOLID;
+        if (strcmp(type, "group") == 0) SL_TRY(mark_layers(all, &layer, &own));
+        if (objects) mark_objects(all, &layer, &own);
+        if (strcmp(type, "tilelayer") == 0 && (walls || own.word == SLI_TILED_SOLID))
+            SL_TRY(mark_tiles(all, &layer, walls ? PICTURED : STOPS));
+    }
+    return SL_OK;
+}
+
+sl_status sli_tiled_look_beside(sli_tiled_reader *reader) {
+    const sli_json width = sli_json_member(reader->map, "width");
+    const sli_json height = sli_json_member(reader->map, "height");
+    const sli_json infinite = sli_json_member(reader->map, "infinite");
+    int64_t columns, rows;
+    if (reader->options->layers || sli_json_true(&infinite, NULL) ||
+        reader->lattice.orientation != SLI_TILED_ORTHOGONAL)
+        return SL_OK;
+    SL_TRY(sli_json_whole(&width, 1, INT32_MAX, &columns));
+    SL_TRY(sli_json_whole(&height, 1, INT32_MAX, &rows));
+    SL_TRY(sli_tiles_check(reader->context, &reader->tiles, reader->map->file->name,
+                           sli_json_line(reader->map), "the map", (uint64_t)columns,
+                           (uint64_t)rows));
+    beside all = {.reader = reader, .columns = (size_t)columns, .rows = (size_t)rows};
+    const size_t count = all.columns * all.rows;
+    all.squares = sl_alloc_array(reader->context, count, 1);
+    if (!all.squares) return SL_NO_MEMORY;
+    memset(all.squares, 0, count);
+    const sl_status status = mark_layers(&all, reader->map, &(sli_tiled_place){0});
+    size_t pictured = 0, both = 0;
+    for (size_t i = 0; i < count; i++) {
+        pictured += (all.squares[i] & PICTURED) != 0;
+        both += all.squares[i] == (PICTURED | STOPS);
+    }
+    reader->walls_are_pictures = both && 3 * both >= pictured;
+    sl_free(reader->context, all.squares);
+    return status;
+}

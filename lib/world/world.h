@@ -1,0 +1,70 @@
+/// What a world is made of.
+#ifndef SL_WORLD_SCENE_H
+#define SL_WORLD_SCENE_H
+
+#include "sightline/world.h"
+#include "world/live.h"
+#include "world/rows.h"
+
+/// A wall of the world. Its chain is the points of the triangulation that it leads through.
+typedef struct sli_world_line {
+    sl_segment at, next_at;     ///< now, and after the commit
+    bool stands, next_stands;   ///< likewise: there is one of this number
+    bool pending;               ///< it has edits
+    uint32_t file_line, ground; ///< of sl_wall
+    uint32_t first, count;      ///< of the chain, in `points`; count 0 for none
+    uint32_t mark;              ///< the edit that looked at it
+    uint32_t next_free;         ///< 1 + the next free number
+} sli_world_line;
+
+/// A wall that an edge is part of, and the next one. Lists are never changed while an edit may
+/// fail: it makes new ones.
+typedef struct sli_world_use {
+    uint32_t line, from; ///< from: the point where the wall enters the edge
+    uint32_t next;       ///< 1 + its place; 0 for none
+} sli_world_use;
+
+struct sl_world {
+    sl_context *context;
+    sl_map map; ///< the query's: without walls
+    sl_query *query;
+    sli_live live;
+    sl_world_rows mode;
+    sli_world_rows rows;
+    SL_ARRAY(sli_world_line) lines;
+    uint32_t free_line;
+    sli_numbers pending; ///< lines with edits
+
+    uint32_t *points; ///< of all chains
+    size_t point_room;
+    sli_blocks point_blocks;
+
+    SL_ARRAY(sli_world_use) uses;
+    uint32_t free_use;
+    sli_numbers fresh, stale; ///< uses of this edit, and those that it replaces
+
+    // The edit.
+    uint32_t now;
+    sli_numbers involved;          ///< lines
+    SL_ARRAY(sl_segment) segments; ///< of those that will stand, in their order
+    SL_ARRAY(sl_point) corners;    ///< of their new chains
+    sli_numbers first_corner;      ///< by line involved, and one more
+    sli_numbers chain;             ///< new chains, as points
+    sli_numbers doubtful;          ///< points that no wall may need any more
+    uint32_t *wanted;              ///< by point: the edit that needs it
+    size_t wanted_room;
+    sli_numbers flood; ///< triangles that a segment meets
+};
+
+/// Finds the lines that an edit has to do with, and their new chains.
+sl_status sli_world_involve(sl_world *world);
+/// Edits the triangulation accordingly.
+sl_status sli_world_edit(sl_world *world);
+/// Takes the new chains over; nothing can fail any more.
+void sli_world_settle_chains(sl_world *world);
+void sli_world_drop_uses(sl_world *world);
+
+/// What an edge with a label is (sli_live_label).
+sli_live_edge sli_world_edge(void *world, uint32_t label);
+
+#endif

@@ -1,0 +1,132 @@
+// What an edit of a world costs (sightline/world.h).
+//   bench_world KIND:N[:DEGREES] ...    generated maps, turned: city:1000 city:1000:17.3
+// CSV: map, which visible sets are kept, walls, cells, milliseconds to make the world; microseconds
+// to remove a wall chosen by chance and to add it again, median and 95th percentile; to move a wall
+// by a step with a region asked near it; and to remove all walls one by one, on average (of at most
+// 10,000). City:4 has about 1,000 walls, city:12 10,000, city:38 100,000.
+#include "bench.h"
+
+#include "sightline/query.h"
+#include "sightline/support.h"
+#include "sightline/world.h"
+
+enum { EDITS = 1000, STEPS = 200, REMOVED_MOST = 100, SETTLE_MS = 100 };
+
+typedef struct bench {
+    sl_context *context;
+    sl_world *world;
+    sl_random random;
+    double times[2 * EDITS];
+} bench;
+
+static int compare_times(const void *left, const void *right) {
+    const double a = *(const double *)left, b = *(const double *)right;
+    return (a > b) - (a < b);
+}
+
+static double share_of(bench *b, size_t count, double share) {
+    qsort(b->times, count, sizeof *b->times, compare_times);
+    return 1e6 * b->times[(size_t)((double)(count - 1) * share)];
+}
+
+static uint32_t random_wall(bench *b, sl_segment *at) {
+    for (;;) {
+        const uint32_t wall = (uint32_t)sl_random_below(&b->random, sl_world_wall_count(b->world));
+        if (sl_world_wall(b->world, wall, at)) return wall;
+    }
+}
+
+static void time_commit(bench *b, size_t at) {
+    const double start = bench_seconds();
+    bench_must(b->context, sl_world_commit(b->context, b->world, NULL));
+    b->times[at] = bench_seconds() - start;
+    bench_must(b->context, sl_world_settle(b->context, b->world, SETTLE_MS, NULL));
+}
+
+static void change_walls(bench *b) {
+    for (size_t i = 0; i < EDITS; i++) {
+        sl_segment at;
+        uint32_t wall = random_wall(b, &at);
+        bench_must(b->context, sl_world_remove(b->context, b->world, wall));
+        time_commit(b, 2 * i);
+        bench_must(b->context, sl_world_add_wall(b->context, b->world, at, &wall));
+        time_commit(b, 2 * i + 1);
+    }
+}
+
+/// A wall that is dragged, and the region of an eye beside it.
+static void drag_wall(bench *b) {
+    sl_region region = {0};
+    sl_segment at;
+    const uint32_t wall = random_wall(b, &at);
+    const double size = (at.b.x - at.a.x) + (at.b.y - at.a.y);
+    for (size_t i = 0; i < STEPS; i++) {
+        const double start = bench_seconds(), step = size / 37 * (i % 20 < 10 ? 1 : -1);
+        at = (sl_segment){{at.a.x + step, at.a.y + step / 3}, {at.b.x + step, at.b.y + step / 3}};
+        const sl_view view = sl_view_all_round((sl_point){at.a.x + size / 7, at.a.y + size / 5});
+        bench_must(b->context, sl_world_move(b->context, b->world, wall, at));
+        bench_must(b->context, sl_world_commit(b->context, b->world, NULL));
+        bench_must(b->context,
+                   sl_query_region(b->context, sl_world_query(b->world), &view, &region));
+        bench_must(b->context, sl_world_settle(b->context, b->world, 1, NULL));
+        b->times[i] = bench_seconds() - start;
+    }
+    sl_region_destroy(b->context, &region);
+}
+
+/// Removes walls one by one; microseconds for one.
+static double remove_all(bench *b) {
+    const uint32_t count = sl_world_wall_count(b->world);
+    const uint32_t most = count < REMOVED_MOST ? count : REMOVED_MOST;
+    uint32_t removed = 0;
+    const double start = bench_seconds();
+    for (uint32_t i = 0; i < most; i++) {
+        sl_segment at;
+        if (!sl_world_wall(b->world, i, &at)) continue;
+        bench_must(b->context, sl_world_remove(b->context, b->world, i));
+        bench_must(b->context, sl_world_commit(b->context, b->world, NULL));
+        bench_must(b->context, sl_world_settle(b->context, b->world, 1, NULL));
+        removed++;
+    }
+    return 1e6 * (bench_seconds() - start) / removed;
+}
+
+static void print_row(const char *what, const sl_map *map, sl_world_rows rows) {
+    static const char *const names[] = {"none", "now", "later"};
+    bench b = {.context = sl_context_create(NULL), .random = {3}};
+    if (!b.context) bench_fail("out of memory");
+    sl_world_options options = sl_world_options_default();
+    options.rows = rows;
+    const double start = bench_seconds();
+    bench_must(b.context, sl_world_create(b.context, map, &options, &b.world));
+    const double made = 1e3 * (bench_seconds() - start);
+    const uint32_t cells = sl_world_cell_count(b.world);
+    change_walls(&b);
+    const double median = share_of(&b, 2 * EDITS, 0.5), high = share_of(&b, 2 * EDITS, 0.95);
+    drag_wall(&b);
+    const double drag = share_of(&b, STEPS, 0.5), slow_drag = share_of(&b, STEPS, 0.95);
+    printf("%s,%s,%zu,%u,%.0f,%.1f,%.1f,%.1f,%.1f,%.1f\n", what, names[rows], map->wall_count,
+           cells, made, median, high, drag, slow_drag, remove_all(&b));
+    fflush(stdout);
+    sl_world_destroy(b.context, b.world);
+    sl_context_destroy(b.context);
+}
+
+static void print_map(const char *what) {
+    sl_context *context = sl_context_create(NULL);
+    sl_map map = {0};
+    if (!context) bench_fail("out of memory");
+    bench_read_map(context, what, NULL, &map);
+    bench_must(context, sl_map_clean(context, &map, NULL, NULL));
+    for (int rows = SL_WORLD_NO_ROWS; rows <= SL_WORLD_ROWS_LATER; rows++)
+        print_row(what, &map, (sl_world_rows)rows);
+    sl_map_destroy(context, &map);
+    sl_context_destroy(context);
+}
+
+int main(int argc, char **argv) {
+    if (argc < 2) bench_fail("usage: bench_world KIND:N[:DEGREES] ...");
+    puts("map,rows,walls,cells,make_ms,edit_us,edit_95_us,drag_us,drag_95_us,remove_us");
+    for (int i = 1; i < argc; i++) print_map(argv[i]);
+    return 0;
+}

@@ -1,0 +1,298 @@
+// Placement for an area against points at random and beside corners, each asked of sl_query_sees
+// and angles; and against all subsets of the places.
+#include "testing.h"
+
+#include "sightline/place_area.h"
+#include "sightline/support.h"
+
+#include <math.h>
+
+enum { PLACES = 10, SAMPLES = 10000 };
+#define DEGREE 0.017453292519943295
+
+#define PLAN "open 0 0 12 0 12 8 0 8\nsolid 3 3 5 3 5 5 3 5\nsolid 7 2 8 2 8 6 7 6\nwall 9 8 9 5\n"
+#define TURNED                                                                                     \
+    "open 0 0 11.457138 3.572 9.078 11.21 -2.379 7.638\nwall 3 3 5 3.7\nwall 6 4 5.5 6\n"          \
+    "oneway 2 2 3 3\n"
+
+typedef struct scene {
+    testing_memory memory;
+    sl_context *context;
+    sl_map map;
+    sl_space space;
+    sl_query *query;
+    sl_viewpoint places[PLACES];
+    uint32_t costs[PLACES];
+    sl_place_area area;
+} scene;
+
+static sl_point draw(scene *s, sl_random *random) {
+    for (;;) {
+        const sl_point at = {-3 + 16 * sl_random_unit(random), 12 * sl_random_unit(random)};
+        if (sl_space_is_inside(&s->space, at)) return at;
+    }
+}
+
+static void begin(scene *s, const char *plan, uint64_t seed, sl_viewpoint like) {
+    sl_random random = {seed};
+    *s = (scene){0};
+    s->context = testing_context(&s->memory);
+    testing_space(s->context, plan, &s->map, &s->space);
+    assert_ok(s->context, sl_query_over(s->context, &s->space, &s->map, NULL, &s->query));
+    for (int i = 0; i < PLACES; i++) {
+        s->places[i] = like;
+        s->places[i].at = i % 2 ? s->places[i - 1].at : draw(s, &random);
+        s->places[i].heading = 360 * sl_random_unit(&random);
+        s->costs[i] = 1 + (uint32_t)sl_random_below(&random, 3);
+    }
+    s->area = (sl_place_area){.places = s->places, .place_count = PLACES};
+}
+
+static void end(scene *s) {
+    sl_query_destroy(s->context, s->query);
+    sl_space_destroy(s->context, &s->space);
+    sl_map_destroy(s->context, &s->map);
+    sl_context_destroy(s->context);
+    assert_int_equal(s->memory.live, 0);
+}
+
+/// Whether a place sees a point. *near: this hangs on the chords of a range.
+static bool sees(scene *s, const sl_viewpoint *p, sl_point at, bool *near) {
+    bool is_seen;
+    const double x = at.x - p->at.x, y = at.y - p->at.y, distance = hypot(x, y);
+    if (p->range > 0) *near |= fabs(distance / p->range - 1) < 5e-4;
+    if (p->nearest > 0) *near |= fabs(distance / p->nearest - 1) < 5e-4;
+    if ((p->range > 0 && distance > p->range) || distance < p->nearest) return false;
+    const double off = fabs(remainder(atan2(y, x) - p->heading * DEGREE, 360 * DEGREE));
+    *near |= p->fov < 360 && fabs(off - p->fov * DEGREE / 2) < 1e-9;
+    assert_ok(s->context, sl_query_sees(s->context, s->query, p->at, at, &is_seen));
+    return is_seen && (p->fov >= 360 || off <= p->fov * DEGREE / 2);
+}
+
+/// A point inside; every other one is close to a corner of the walls.
+static sl_point sample(scene *s, sl_random *random, int number) {
+    if (number % 2 || !s->space.wall_count) return draw(s, random);
+    for (;;) {
+        const sl_wall *wall = &s->space.walls[sl_random_below(random, s->space.wall_count)];
+        const double size = exp(-12 * sl_random_unit(random));
+        const sl_point at = {wall->a.x + size * (sl_random_unit(random) - 0.5),
+                             wall->a.y + size * (sl_random_unit(random) - 0.5)};
+        if (sl_space_is_inside(&s->space, at)) return at;
+    }
+}
+
+static bool within(const sl_shape *shape, sl_point p) {
+    if (!shape) return true;
+    const sl_point low = shape->points[0], high = shape->points[2];
+    return p.x > low.x && p.x < high.x && p.y > low.y && p.y < high.y;
+}
+
+/// Every point that places could see is seen, as often as asked or as they could.
+static void check_points(scene *s, const sl_area_placement *placed) {
+    sl_random random = {11};
+    const uint32_t cover = s->area.cover ? s->area.cover : 1;
+    uint32_t asked = 0;
+    for (int k = 0; k < SAMPLES; k++) {
+        const sl_point at = sample(s, &random, k);
+        uint32_t all = 0, chosen = 0;
+        bool near = false, seen[PLACES];
+        if (!within(s->area.see, at)) continue;
+        for (int i = 0; i < PLACES; i++) all += seen[i] = sees(s, &s->places[i], at, &near);
+        if (near) continue;
+        for (uint32_t i = 0; i < placed->count; i++) chosen += seen[placed->chosen[i]];
+        assert_true(chosen >= (all < cover ? all : cover));
+        asked += all > 0;
+    }
+    assert_true(asked > 0);
+}
+
+/// The area that a set of places sees of all that is inside.
+static double area_of(scene *s, uint32_t set) {
+    sl_viewpoint chosen[PLACES];
+    sl_coverage coverage;
+    size_t count = 0;
+    for (int i = 0; i < PLACES; i++)
+        if (set >> i & 1) chosen[count++] = s->places[i];
+    if (!count) return 0;
+    assert_ok(s->context, sl_coverage_make(s->context, s->query, chosen, count, &coverage));
+    const double area = coverage.overlay.areas[1];
+    sl_coverage_destroy(s->context, &coverage);
+    return area;
+}
+
+static uint64_t cost_of(const scene *s, uint32_t set) {
+    uint64_t cost = 0;
+    for (int i = 0; i < PLACES; i++)
+        if (set >> i & 1) cost += s->area.costs ? s->area.costs[i] : 1;
+    return cost;
+}
+
+/// No set that costs less sees as much as all places together.
+static void check_lower(scene *s, const sl_area_placement *placed) {
+    const uint32_t every = (1u << PLACES) - 1;
+    const double most = area_of(s, every);
+    uint32_t tried = 0;
+    for (uint32_t set = 0; set <= every; set++) {
+        // The dearest of the cheaper sets: another place makes them too dear.
+        if (cost_of(s, set) + 1 != placed->lower) continue;
+        assert_true(area_of(s, set) < most * (1 - 1e-9));
+        if (++tried == 40) break;
+    }
+}
+
+static sl_area_placement place(scene *s) {
+    sl_area_placement placed = {0};
+    assert_ok(s->context, sl_place_area_cover(s->context, s->query, &s->area, NULL, &placed));
+    assert_true(placed.lower <= placed.upper);
+    assert_true(placed.count > 0 && placed.count <= PLACES);
+    uint32_t set = 0;
+    for (uint32_t i = 0; i < placed.count; i++) set |= 1u << placed.chosen[i];
+    assert_int_equal(cost_of(s, set), placed.upper);
+    assert_true(placed.rounding <= 1e-9 * placed.area);
+    return placed;
+}
+
+static void test_fewest(void **state) {
+    (void)state;
+    static const sl_viewpoint kinds[] = {{.fov = 360},
+                                         {.fov = 90},
+                                         {.fov = 200, .range = 6},
+                                         {.fov = 360, .range = 5, .nearest = 1}};
+    static const char *const plans[] = {PLAN, TURNED};
+    for (unsigned k = 0; k < 12; k++) {
+        scene s;
+        begin(&s, plans[k % 2], 100 + k, kinds[k / 2 % 4]);
+        if (k % 3 == 0) s.area.costs = s.costs;
+        sl_area_placement placed = place(&s);
+        // With ranges, the bounds are of arcs and of chords.
+        if (k / 2 % 4 < 2) assert_int_equal(placed.lower, placed.upper);
+        check_points(&s, &placed);
+        check_lower(&s, &placed);
+        sl_area_placement_destroy(s.context, &placed);
+        end(&s);
+    }
+}
+
+static void test_demands_and_fixed(void **state) {
+    (void)state;
+    for (unsigned k = 0; k < 6; k++) {
+        const uint32_t fixed[2] = {1, 4};
+        scene s;
+        begin(&s, PLAN, 200 + k, (sl_viewpoint){.fov = k % 2 ? 360 : 150, .range = k < 3 ? 0 : 7});
+        s.area.cover = 2;
+        s.area.fixed = fixed;
+        s.area.fixed_count = 2;
+        sl_area_placement placed = place(&s);
+        int found = 0;
+        for (uint32_t i = 0; i < placed.count; i++)
+            found += placed.chosen[i] == 1 || placed.chosen[i] == 4;
+        assert_int_equal(found, 2);
+        check_points(&s, &placed);
+        sl_area_placement_destroy(s.context, &placed);
+        end(&s);
+    }
+}
+
+static void test_zone(void **state) {
+    (void)state;
+    const sl_point corners[] = {{1, 1}, {6, 1}, {6, 6}, {1, 6}};
+    const size_t count = 4;
+    const sl_shape zone = {corners, &count, 1};
+    scene s;
+    begin(&s, PLAN, 7, (sl_viewpoint){.fov = 120});
+    s.area.see = &zone;
+    sl_area_placement placed = place(&s);
+    assert_true(fabs(placed.area - 21) < 1e-9);
+    check_points(&s, &placed);
+    sl_area_placement_destroy(s.context, &placed);
+    end(&s);
+}
+
+static void test_most(void **state) {
+    (void)state;
+    for (unsigned k = 0; k < 6; k++) {
+        scene s;
+        begin(&s, k % 2 ? PLAN : TURNED, 300 + k,
+              (sl_viewpoint){.fov = k % 3 ? 80 : 360, .range = k < 3 ? 0 : 4});
+        s.area.count = 1 + k % 3;
+        sl_area_placement placed = place(&s);
+        assert_int_equal(placed.count, s.area.count);
+        uint32_t chosen = 0;
+        double best = 0;
+        for (uint32_t i = 0; i < placed.count; i++) chosen |= 1u << placed.chosen[i];
+        assert_true(fabs(area_of(&s, chosen) - placed.seen) < 1e-9 * placed.area);
+        for (uint32_t set = 0; set < 1u << PLACES; set++) {
+            uint32_t size = 0;
+            for (int i = 0; i < PLACES; i++) size += set >> i & 1;
+            if (size == s.area.count) best = fmax(best, area_of(&s, set));
+        }
+        assert_true(best <= placed.seen_most);
+        assert_true(placed.seen <= best + 1e-9 * placed.area);
+        sl_area_placement_destroy(s.context, &placed);
+        end(&s);
+    }
+}
+
+/// What is blind, and a place that could see it.
+static void test_blind(void **state) {
+    (void)state;
+    scene s;
+    begin(&s, PLAN, 5, (sl_viewpoint){.fov = 360, .range = 2});
+    sl_area_placement placed = place(&s);
+    double blind = 0;
+    for (uint32_t i = 0; i < placed.blind_count; i++) blind += placed.blind[i].area;
+    assert_true(placed.blind_count > 0);
+    assert_true(fabs(blind - placed.blind_area) < 1e-9 * placed.area);
+    assert_true(fabs(area_of(&s, (1u << PLACES) - 1) + blind - placed.area) < 1e-8 * placed.area);
+    sl_point at;
+    bool found, reached;
+    assert_ok(s.context, sl_place_nearest(s.context, s.query, &s.places[0], placed.blind[0].at,
+                                          s.places, PLACES, &at, &found));
+    assert_true(found);
+    assert_ok(s.context, sl_query_sees(s.context, s.query, at, placed.blind[0].at, &reached));
+    assert_true(reached);
+    assert_true(hypot(at.x - placed.blind[0].at.x, at.y - placed.blind[0].at.y) <= 2);
+    sl_area_placement_destroy(s.context, &placed);
+    end(&s);
+}
+
+static void assert_refused(scene *s, const char *part) {
+    sl_area_placement placed = {0};
+    assert_int_equal(sl_place_area_cover(s->context, s->query, &s->area, NULL, &placed),
+                     SL_BAD_ARGUMENT);
+    assert_non_null(strstr(sl_context_message(s->context), part));
+    assert_null(placed.chosen);
+}
+
+static void test_refusals(void **state) {
+    (void)state;
+    const sl_point outside[] = {{20, 20}, {21, 20}, {21, 21}}, closed[] = {{0, 0}, {1, 0}, {1, 1}};
+    const size_t count = 3;
+    const sl_shape nowhere = {outside, &count, 1}, corner = {closed, &count, 1};
+    const uint32_t costs[PLACES] = {1, 0};
+    scene s;
+    begin(&s, PLAN, 5, (sl_viewpoint){.fov = 360});
+    s.area.see = &nowhere;
+    assert_refused(&s, "nothing is to be seen");
+    for (int i = 0; i < PLACES; i++) s.places[i].range = 1e-3;
+    s.area.see = &corner;
+    assert_refused(&s, "none of the 10 places sees any");
+    s.area.see = NULL;
+    s.area.costs = costs;
+    assert_refused(&s, "place 2");
+    s.area.costs = NULL;
+    s.area.count = s.area.cover = 2;
+    assert_refused(&s, "not by several");
+    s.area.place_count = 0;
+    assert_refused(&s, "no place");
+    end(&s);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_fewest), cmocka_unit_test(test_demands_and_fixed),
+        cmocka_unit_test(test_zone),   cmocka_unit_test(test_most),
+        cmocka_unit_test(test_blind),  cmocka_unit_test(test_refusals),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,363 @@
+/// Places to choose from, and what is said of the choice.
+#include "studies/place_cameras.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { HEADINGS = 8, MOST_PLACES = 1 << 20 };
+
+camera_plan camera_plan_default(void) {
+    return (camera_plan){.like = {.fov = 360}};
+}
+
+option_table camera_option_table(camera_plan *plan) {
+    const option_spec options[] = {
+        {"from", 0, "PLACES",
+         "where viewpoints may stand: anywhere, corners, walls, walls:STEP, grid:STEP, or a table "
+         "of places (default: anywhere; walls with one of the options below)",
+         .text = &plan->from},
+        {"fov", 0, "DEG", "width of view cones (default: 360, all round)",
+         .number = &plan->like.fov, .over_0 = true, .most = 360},
+        {"headings", 0, "N", "directions to choose from at each place (default: 8)",
+         .count32 = &plan->headings, .least = 1, .most = 360},
+        {"range", 0, "R", "how far viewpoints see (default: no limit)", .number = &plan->like.range,
+         .over_0 = true},
+        {"nearest", 0, "R", "dead zone: viewpoints see nothing nearer", .rare = true,
+         .number = &plan->like.nearest, .over_0 = true},
+        {"cover", 0, "K", "each point must be seen by K viewpoints (default: 1)",
+         .count32 = &plan->cover, .least = 1, .most = 100},
+        {"count", 0, "N", "see as much as N viewpoints can, in place of everything",
+         .count32 = &plan->count, .least = 1, .most = 100000},
+        {"fixed", 0, "TABLE", "viewpoints that stand already", .text = &plan->fixed,
+         .is_input = true},
+        {"see", 0, "ZONES",
+         "what must be seen: names of objects in the map, a drawing of closed outlines, or a table "
+         "of corners (.csv: name,x,y) (default: all that is inside)",
+         .text = &plan->see},
+        {"forbid", 0, "ZONES", "where no viewpoint may stand, given as --see is",
+         .text = &plan->forbid},
+    };
+    option_table table = {0};
+    option_table_add(&table, options, sizeof options / sizeof *options);
+    return table;
+}
+
+bool camera_plan_chooses(const camera_plan *p) {
+    return (p->from && strcmp(p->from, "anywhere") != 0) || p->see || p->forbid || p->fixed ||
+           p->like.fov < 360 || p->headings || p->like.range > 0 || p->like.nearest > 0 ||
+           p->cover || p->count;
+}
+
+sl_status camera_plan_check(sl_context *context, const camera_plan *p) {
+    if (p->from && strcmp(p->from, "anywhere") == 0 && camera_plan_chooses(p))
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "--from anywhere: viewpoints anywhere look all round, without limit, at all "
+                       "that is inside; take --from walls, corners, grid:STEP or a table");
+    if (p->like.range > 0 && p->like.nearest >= p->like.range)
+        return sl_fail(context, SL_BAD_ARGUMENT, "--nearest must be less than --range");
+    if (p->count && p->cover > 1)
+        return sl_fail(context, SL_BAD_ARGUMENT, "--count and --cover do not go together");
+    return SL_OK;
+}
+
+// --- places
+
+/// "walls:2.5": the step behind a word; false for another word.
+static sl_status read_step(sl_context *context, const char *text, const char *word, double *step,
+                           bool *is_word) {
+    const size_t length = strlen(word);
+    *is_word = strncmp(text, word, length) == 0 && (!text[length] || text[length] == ':');
+    if (!*is_word || !text[length]) return SL_OK;
+    SL_TRY(read_number(context, "--from", text + length + 1, step));
+    return *step > 0
+               ? SL_OK
+               : sl_fail(context, SL_BAD_ARGUMENT, "--from %s: the step must be more than 0", text);
+}
+
+/// Adds a place, once for each heading that it may have.
+static sl_status add_place(sl_context *context, const camera_plan *plan, const sl_camera *camera,
+                           bool turns, camera_work *w) {
+    sl_camera turned = *camera;
+    const uint32_t headings = plan->headings ? plan->headings : HEADINGS;
+    const uint32_t count = turns && camera->view.fov < 360 ? headings : 1;
+    if (w->places.count + count > MOST_PLACES)
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "more than %d places and headings: take a longer step or fewer headings",
+                       (int)MOST_PLACES);
+    w->points++;
+    for (uint32_t h = 0; h < count; h++) {
+        if (turns) turned.view.heading = 360.0 * h / count;
+        SL_TRY(sl_cameras_add(context, &w->places, &turned));
+    }
+    return SL_OK;
+}
+
+static sl_status add_table(sl_context *context, const camera_plan *plan, const zone_list *forbid,
+                           const sl_space *space, camera_work *w) {
+    sl_cameras table = {0};
+    if (strcmp(plan->from, "-") != 0 && sl_path_look(plan->from) == SL_PATH_NOTHING)
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "--from: '%s' is no file; places are anywhere, corners, walls, walls:STEP, "
+                       "grid:STEP or a table",
+                       plan->from);
+    SL_TRY(sl_cameras_read(context, plan->from, &plan->like, &table));
+    sl_status status = SL_OK;
+    for (size_t i = 0; status == SL_OK && i < table.count; i++) {
+        const sl_camera *camera = &table.items[i];
+        status = input_check_place(context, plan->from, camera->line, space, camera->view.at);
+        if (status != SL_OK) break;
+        if (zones_hold(forbid, camera->view.at))
+            w->forbidden++;
+        else
+            status = add_place(context, plan, camera, plan->headings > 0, w);
+    }
+    sl_cameras_destroy(context, &table);
+    return status;
+}
+
+/// How far apart places along walls are by default: a third of the range, but not more than a
+/// twentieth of the side of a square as large as the inside.
+static double usual_step(const camera_plan *plan, const sl_space *space) {
+    double area = 0;
+    for (uint32_t c = 0; c < space->cell_count; c++)
+        if (space->cells[c].inside) area += sl_space_area(space, c);
+    const double step = sqrt(area) / 20;
+    return plan->like.range > 0 ? fmin(step, plan->like.range / 3) : step;
+}
+
+static sl_status add_points(sl_context *context, const camera_plan *plan, const zone_list *forbid,
+                            const sl_space *space, sl_query *query, camera_work *w) {
+    const char *from = plan->from ? plan->from : "walls";
+    double step = 0;
+    bool corners, walls = false, grid = false;
+    SL_TRY(read_step(context, from, "corners", &step, &corners));
+    if (!corners) SL_TRY(read_step(context, from, "walls", &step, &walls));
+    if (!corners && !walls) SL_TRY(read_step(context, from, "grid", &step, &grid));
+    if (!corners && !walls && !grid) return add_table(context, plan, forbid, space, w);
+    if (grid && !(step > 0))
+        return sl_fail(context, SL_BAD_ARGUMENT, "--from grid: give the step, as grid:0.5");
+    if (walls && !(step > 0)) step = usual_step(plan, space);
+    sl_point *points = NULL;
+    uint32_t count = 0;
+    SL_TRY(sl_place_points(context, query,
+                           corners ? SL_PLACE_CORNERS
+                           : walls ? SL_PLACE_WALLS
+                                   : SL_PLACE_GRID,
+                           step, &points, &count));
+    sl_status status = SL_OK;
+    for (uint32_t i = 0; status == SL_OK && i < count; i++) {
+        sl_camera camera = {.view = plan->like, .cost = 1};
+        camera.view.at = points[i];
+        if (zones_hold(forbid, points[i]))
+            w->forbidden++;
+        else
+            status = add_place(context, plan, &camera, true, w);
+    }
+    sl_free(context, points);
+    return status;
+}
+
+static sl_status add_fixed(sl_context *context, const camera_plan *plan, const sl_space *space,
+                           camera_work *w) {
+    SL_TRY(sl_cameras_read(context, plan->fixed, &plan->like, &w->places));
+    w->task.fixed_count = (uint32_t)w->places.count;
+    w->fixed = sl_alloc_array(context, w->places.count, sizeof *w->fixed);
+    if (!w->fixed) return SL_NO_MEMORY;
+    for (uint32_t i = 0; i < w->task.fixed_count; i++) {
+        const sl_camera *camera = &w->places.items[i];
+        w->fixed[i] = i;
+        SL_TRY(input_check_place(context, plan->fixed, camera->line, space, camera->view.at));
+    }
+    return SL_OK;
+}
+
+/// Costs as whole numbers: times 1, 10, 100 or 1000.
+static sl_status make_costs(sl_context *context, camera_work *w) {
+    w->costs = sl_alloc_array(context, w->places.count, sizeof *w->costs);
+    w->views = sl_alloc_array(context, w->places.count, sizeof *w->views);
+    if (!w->costs || !w->views) return SL_NO_MEMORY;
+    for (w->scale = 1; w->scale <= 1000; w->scale *= 10) {
+        bool whole = true;
+        for (size_t i = 0; i < w->places.count && whole; i++) {
+            const double cost = w->places.items[i].cost * w->scale;
+            whole = fabs(cost - round(cost)) <= 1e-9 * cost && cost >= 1 && cost <= 1e6;
+            if (whole) w->costs[i] = (uint32_t)round(cost);
+        }
+        for (size_t i = 0; i < w->places.count; i++) w->views[i] = w->places.items[i].view;
+        if (whole) return SL_OK;
+    }
+    return sl_fail(context, SL_BAD_INPUT,
+                   "costs must be over 0 and up to 1,000,000, with up to three decimals");
+}
+
+sl_status camera_work_prepare(sl_context *context, const camera_plan *plan,
+                              const input_options *input, const sl_baked *baked, sl_query *query,
+                              camera_work *w) {
+    const sl_space *space = &baked->space;
+    zone_list forbid = {0};
+    if (plan->see) {
+        SL_TRY(zones_read(context, "see", plan->see, input, &baked->map, &w->see));
+        w->shape = zones_shape(&w->see);
+        w->task.see = &w->shape;
+    }
+    if (plan->fixed) SL_TRY(add_fixed(context, plan, space, w));
+    if (plan->forbid)
+        SL_TRY(zones_read(context, "forbid", plan->forbid, input, &baked->map, &forbid));
+    sl_status status = add_points(context, plan, &forbid, space, query, w);
+    zones_destroy(context, &forbid);
+    SL_TRY(status);
+    if (!w->points)
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "no place is left to choose: --forbid has all %zu of them", w->forbidden);
+    SL_TRY(make_costs(context, w));
+    w->task.places = w->views;
+    w->task.place_count = (uint32_t)w->places.count;
+    w->task.costs = w->costs;
+    w->task.fixed = w->fixed;
+    w->task.cover = plan->cover;
+    w->task.count = plan->count;
+    return SL_OK;
+}
+
+sl_status camera_work_chosen(sl_context *context, const camera_work *w, sl_cameras *out) {
+    for (uint32_t i = 0; i < w->placed.count; i++)
+        SL_TRY(sl_cameras_add(context, out, &w->places.items[w->placed.chosen[i]]));
+    return SL_OK;
+}
+
+// --- words
+
+static bool has_costs(const camera_work *w) {
+    for (uint32_t i = 1; i < w->task.place_count; i++)
+        if (w->costs[i] != w->costs[0]) return true;
+    return w->scale * 1.0 != w->costs[0];
+}
+
+/// "of these 96 places", "of these 96 places and headings at 12 points"
+static void say_among(const camera_work *w, char *text, size_t size) {
+    const unsigned places = (unsigned)w->task.place_count;
+    const size_t points = w->points + w->task.fixed_count;
+    if (points == places)
+        snprintf(text, size, "of these %u place%s", places, places == 1 ? "" : "s");
+    else
+        snprintf(text, size, "of these %u places and headings at %zu point%s", places, points,
+                 points == 1 ? "" : "s");
+}
+
+static void say_fewest(const camera_work *w, const char *among, bool stopped, char *text,
+                       size_t size) {
+    const sl_area_placement *p = &w->placed;
+    const bool costs = has_costs(w);
+    char lower[64];
+    const double least = (double)p->lower / w->scale;
+    snprintf(lower, sizeof lower, "%s%.10g%s", costs ? "a cost of " : "", least,
+             costs        ? ""
+             : least == 1 ? " viewpoint"
+                          : " viewpoints");
+    if (p->lower == p->upper)
+        snprintf(text, size, "No %s can, %s: %u points inside need %s.",
+                 costs ? "cheaper choice" : "fewer", among, (unsigned)p->witness_count, lower);
+    else
+        snprintf(text, size, "%u points inside need at least %s, %s: a gap of %.2g %%.%s",
+                 (unsigned)p->witness_count, lower, among,
+                 100.0 * (double)(p->upper - p->lower) / (double)p->upper,
+                 stopped ? " Stopped early: more time may close it." : "");
+}
+
+void camera_work_say(const camera_work *w, bool stopped, char *text, size_t size) {
+    const sl_area_placement *p = &w->placed;
+    char among[128];
+    int used = 0;
+    if (w->task.see)
+        used = snprintf(text, size, "Of the %.4g that must be seen, they see %.4g. ", p->area,
+                        p->seen);
+    text += used;
+    size -= (size_t)used;
+    say_among(w, among, sizeof among);
+    if (!w->task.count)
+        say_fewest(w, among, stopped, text, size);
+    else
+        snprintf(text, size, "They see %.4g %%; no %u %s see more than %.4g %%.%s",
+                 100 * p->seen / p->area, (unsigned)w->task.count, among,
+                 100 * p->seen_most / p->area, stopped ? " Stopped early." : "");
+    const size_t end = strlen(text);
+    if (w->task.fixed_count)
+        snprintf(text + end, size - end, " %u of them stand%s already.",
+                 (unsigned)w->task.fixed_count, w->task.fixed_count == 1 ? "s" : "");
+}
+
+sl_status camera_work_check_zones(sl_context *context, const camera_work *w,
+                                  const camera_plan *plan, sl_query *query,
+                                  const zone_cover *covers) {
+    for (size_t z = 0; z < w->see.ends.count && !w->task.count; z++) {
+        const char *name = w->see.names.items[z];
+        if (!(covers[z].inside > 0))
+            return sl_fail(context, SL_BAD_ARGUMENT, "--see: nothing of zone '%s' is inside", name);
+        if (covers[z].seen > 0) continue;
+        sl_point at = {0, 0};
+        bool found = false;
+        size_t end;
+        const sl_shape zone = zones_shape_of(&w->see, z, &end);
+        for (uint32_t i = 0; i < w->placed.blind_count && !found; i++) {
+            if (!zones_shape_holds(&zone, w->placed.blind[i].at)) continue;
+            SL_TRY(sl_place_nearest(context, query, &plan->like, w->placed.blind[i].at,
+                                    w->task.places, w->task.place_count, &at, &found));
+        }
+        return found ? sl_fail(context, SL_BAD_ARGUMENT,
+                               "--see: none of the places sees zone '%s'; the nearest one that "
+                               "could is at %.6g,%.6g",
+                               name, at.x, at.y)
+                     : sl_fail(context, SL_BAD_ARGUMENT, "--see: none of the places sees zone '%s'",
+                               name);
+    }
+    return SL_OK;
+}
+
+void camera_work_add_json(json_fields *f, const camera_work *w) {
+    const sl_area_placement *p = &w->placed;
+    if (w->task.count) {
+        json_add_count(f, "count", p->count);
+        json_add_real(f, "seen_area_bound", p->seen_most);
+    } else {
+        json_add_real(f, "lower", (double)p->lower / w->scale);
+        json_add_real(f, "upper", (double)p->upper / w->scale);
+        json_add_flag(f, "optimal", p->lower == p->upper);
+        json_add_count(f, "witnesses", p->witness_count);
+        json_add_count(f, "rounds", p->rounds);
+        json_add_real(f, "hidden_area", p->blind_area);
+        json_add_real(f, "rounding_area", p->rounding);
+    }
+    json_add_count(f, "places", w->task.place_count);
+    json_add_real(f, "to_see_area", p->area);
+    json_add_real(f, "to_see_seen_area", p->seen);
+}
+
+sl_status camera_work_print_blind(sl_context *context, const camera_work *w,
+                                  const camera_plan *plan, sl_query *query, const char *unit) {
+    const sl_area_placement *p = &w->placed;
+    const char *const squared = *unit ? "\xc2\xb2" : "", *const gap = *unit ? " " : "";
+    if (!p->blind_count) return SL_OK;
+    printf(
+        "\n%.4g%s%s%s of it %s of these places see%s, whatever is chosen: %.3g %%. The largest of "
+        "%u part%s has %.4g%s%s%s at %.6g,%.6g.\n",
+        p->blind_area, gap, unit, squared, w->task.cover > 1 ? "too few" : "none",
+        w->task.cover > 1 ? "" : "s", 100 * p->blind_area / p->area, (unsigned)p->blind_count,
+        p->blind_count == 1 ? "" : "s", p->blind[0].area, gap, unit, squared, p->blind[0].at.x,
+        p->blind[0].at.y);
+    sl_point at;
+    bool found;
+    SL_TRY(sl_place_nearest(context, query, &plan->like, p->blind[0].at, w->task.places,
+                            w->task.place_count, &at, &found));
+    if (found) printf("The nearest place that could see it: %.6g,%.6g.\n", at.x, at.y);
+    return SL_OK;
+}
+
+void camera_work_destroy(sl_context *context, camera_work *w) {
+    sl_cameras_destroy(context, &w->places);
+    sl_free(context, w->views);
+    sl_free(context, w->costs);
+    sl_free(context, w->fixed);
+    zones_destroy(context, &w->see);
+    sl_area_placement_destroy(context, &w->placed);
+}

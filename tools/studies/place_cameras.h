@@ -1,0 +1,67 @@
+/// `place --from`: which of given places and headings see the area. Places come from walls,
+/// corners, a grid or a table.
+#ifndef PLACE_CAMERAS_H
+#define PLACE_CAMERAS_H
+
+#include "inputs/pipeline.h"
+#include "reports/json_print.h"
+#include "sightline/place_area.h"
+#include "studies/cover_zones.h"
+
+/// What the options say.
+typedef struct camera_plan {
+    const char *from, *see, *forbid, *fixed;
+    sl_viewpoint like; ///< what a table leaves out, and all other places
+    uint32_t headings, cover, count;
+} camera_plan;
+
+typedef struct camera_work {
+    sl_cameras places; ///< to choose from: the fixed ones first
+    sl_viewpoint *views;
+    uint32_t *costs, *fixed;
+    double scale;     ///< costs are those of the tables times this
+    size_t points;    ///< different ones among the places
+    size_t forbidden; ///< points that --forbid took away
+    zone_list see;
+    sl_shape shape;
+    sl_place_area task;
+    sl_area_placement placed;
+} camera_work;
+
+camera_plan camera_plan_default(void);
+option_table camera_option_table(camera_plan *plan);
+
+/// Whether the options ask for chosen places, and not for viewpoints anywhere.
+bool camera_plan_chooses(const camera_plan *plan);
+
+/// Refuses options that say too little or contradict each other.
+sl_status camera_plan_check(sl_context *context, const camera_plan *plan);
+
+/// The places to choose from, and what is to be seen. `step`: between places along walls, where the
+/// options do not say.
+sl_status camera_work_prepare(sl_context *context, const camera_plan *plan,
+                              const input_options *input, const sl_baked *baked, sl_query *query,
+                              camera_work *w);
+
+/// The chosen places, to print and draw.
+sl_status camera_work_chosen(sl_context *context, const camera_work *w, sl_cameras *out);
+
+/// What is proven, in a sentence or two; `stopped`: the work ended early.
+void camera_work_say(const camera_work *w, bool stopped, char *text, size_t size);
+
+/// Bounds, and areas of what is to be seen.
+void camera_work_add_json(json_fields *fields, const camera_work *w);
+
+/// Refuses a zone of which nothing is inside, or that no place sees: names it, and the nearest
+/// place that could see it. `covers`: what the chosen places see, by zone.
+sl_status camera_work_check_zones(sl_context *context, const camera_work *w,
+                                  const camera_plan *plan, sl_query *query,
+                                  const zone_cover *covers);
+
+/// Prints what no place sees, and a place that could see the largest part of it.
+sl_status camera_work_print_blind(sl_context *context, const camera_work *w,
+                                  const camera_plan *plan, sl_query *query, const char *unit);
+
+void camera_work_destroy(sl_context *context, camera_work *w);
+
+#endif
