@@ -259,6 +259,62 @@ static void test_svg_asked_for(void **state) {
     assert_map(sli_map_read_svg, text, "sofa", false, "wall 0 10 1 10\n");
 }
 
+/// What is said of a drawing, and how many walls it has.
+static size_t read_noted(const char *text, const char *layers, char notes[4096]) {
+    const sl_hooks hooks = {.user = notes, .note = import_keep_notes};
+    sl_context *context = sl_context_create(&hooks);
+    sl_import_options options = sl_import_options_default();
+    sl_map map = {0};
+    options.layers = layers;
+    *notes = 0;
+    assert_non_null(context);
+    assert_ok(context, sli_map_read_dxf(context, "f", text, strlen(text), &options, &map));
+    const size_t walls = map.wall_count;
+    sl_map_destroy(context, &map);
+    sl_context_destroy(context);
+    return walls;
+}
+
+/// Nine rooms in one layer, side by side in walls of two faces, with a bed in one.
+static void test_one_layer(void **state) {
+    (void)state;
+    enum { PITCH = 43, SIDE = 40, BED = 6 };
+    static const int bed[BED][4] = {{5, 5, 15, 5}, {15, 5, 15, 25}, {15, 25, 5, 25},
+                                    {5, 25, 5, 5}, {5, 20, 15, 20}, {7, 21, 13, 24}};
+    char text[16384] = HEAD, notes[4096], *end = text + strlen(text);
+    const char *const form = "0\nLINE\n8\n0\n10\n%g\n20\n%g\n11\n%g\n21\n%g\n";
+    for (int room = 0; room < 9; room++)
+        for (int side = 0; side < 4; side++) {
+            const int x = PITCH * (room % 3), y = PITCH * (room / 3), next = (side + 1) % 4;
+            const int dx[] = {0, SIDE, SIDE, 0}, dy[] = {0, 0, SIDE, SIDE};
+            end += sprintf(end, form, (x + dx[side]) / 10., (y + dy[side]) / 10.,
+                           (x + dx[next]) / 10., (y + dy[next]) / 10.);
+        }
+    for (int i = 0; i < BED; i++)
+        end +=
+            sprintf(end, form, bed[i][0] / 10., bed[i][1] / 10., bed[i][2] / 10., bed[i][3] / 10.);
+    strcpy(end, TAIL);
+    char metres[16600];
+    snprintf(metres, sizeof metres, "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n6\n0\nENDSEC\n%s",
+             text);
+    assert_int_equal(read_noted(metres, NULL, notes), 36);
+    assert_non_null(strstr(notes, "no walls by their shape: 6 lines that touch no wall (furniture, "
+                                  "symbols) (--layers A,B chooses, --layers '*' takes all)"));
+    assert_int_equal(read_noted(metres, "*", notes), 36 + BED);
+    assert_null(strstr(notes, "shape"));
+}
+
+static void test_walls_on_doors(void **state) {
+    (void)state;
+    char notes[4096];
+    static const char text[] = HEAD ROOM("A-WALL") SWING("A-DOOR") LINE("A-DOOR", 0, 4, 6, 4)
+        LINE("A-DOOR", 6, 4, 6, 8) TAIL;
+    assert_int_equal(read_noted(text, NULL, notes), 5);
+    assert_non_null(strstr(notes, "A-DOOR: 2 lines on layers of doors are longer than doors"));
+    assert_int_equal(read_noted(HEAD ROOM("A-WALL") SWING("A-DOOR") TAIL, NULL, notes), 5);
+    assert_null(strstr(notes, "longer"));
+}
+
 /// A page, walls by thick black lines, furniture and a letter; no name says anything.
 #define PAGE "<rect width='20' height='10' fill='#eee'/>"
 #define HEAVY                                                                                      \
@@ -334,6 +390,7 @@ int main(void) {
         cmocka_unit_test(test_hatching),  cmocka_unit_test(test_turned_swings),
         cmocka_unit_test(test_asked_for), cmocka_unit_test(test_svg),
         cmocka_unit_test(test_memory),    cmocka_unit_test(test_svg_asked_for),
+        cmocka_unit_test(test_one_layer), cmocka_unit_test(test_walls_on_doors),
         cmocka_unit_test(test_looks),     cmocka_unit_test(test_rooms),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -250,10 +250,11 @@ static double metre_by_doors(const choice *c) {
     return radius / 0.85;
 }
 
-/// Where no layer is named as walls: finds what is no wall by its shape, among what is taken.
+/// Where neither names nor looks say what is a wall: finds what is no wall by its shape, among what
+/// is taken.
 static sl_status find_parts(choice *c) {
     sl_context *context = c->contents->context;
-    if (c->walls_named || sli_contents_said(c->contents)) return SL_OK;
+    if (c->walls_named || c->by_looks || sli_contents_said(c->contents)) return SL_OK;
     const size_t count = c->map->wall_count;
     sl_map taken = {0};
     size_t *number = sl_alloc_array(context, count, sizeof *number);

@@ -30,8 +30,18 @@ enum {
     LEAST_FACES = 16, ///< fewer lines say nothing
     BINS = 512,       ///< of distances
     MOST_THICKNESSES = 4,
+    MOST_FRAMES = 256,     ///< rectangles that are looked at
     LEAST_OF_THICKNESS = 6 ///< pairs
 };
+
+/// Of a piece, by its first wall.
+typedef struct piece_look {
+    double faces, all; ///< lengths
+    double sides[4];   ///< of what lies on the sides of its box
+    sl_box rest;       ///< about what does not
+    size_t *into;      ///< what its walls are counted for as they are dropped; NULL: it stays
+    bool many;         ///< of several items
+} piece_look;
 
 typedef struct finder {
     sl_context *context;
@@ -43,9 +53,9 @@ typedef struct finder {
     sl_bits *even;  ///< has a line on both sides at one distance: hatching, steps, tiles
     double thick[MOST_THICKNESSES];
     size_t thick_count;
-    bool paired;                      ///< walls are drawn by their faces
-    double *face_length, *all_length; ///< by the first of each piece
-    sl_box plan;                      ///< about the pieces with faces
+    bool paired; ///< walls are drawn by their faces
+    piece_look *looks;
+    sl_box plan; ///< about the pieces with faces
     sli_plan_parts *out;
 } finder;
 
@@ -224,9 +234,12 @@ static void drop(finder *f, uint32_t wall, size_t *count) {
     ++*count;
 }
 
-static void drop_piece(finder *f, uint32_t piece, size_t *count) {
-    for (uint32_t i = 0; i < f->turned.wall_count; i++)
-        if (sli_plan_first(f->net.piece, i) == piece) drop(f, i, count);
+/// Drops the pieces that are to be.
+static void drop_marked(finder *f) {
+    for (uint32_t i = 0; i < f->turned.wall_count; i++) {
+        size_t *into = f->looks[sli_plan_first(f->net.piece, i)].into;
+        if (into && !is_gone(f, i)) drop(f, i, into);
+    }
 }
 
 /// Lines that are no faces, and cross two faces or more. Not those that run beside others for half
@@ -321,26 +334,40 @@ static double longer_side(sl_box box) {
 
 /// Whether a piece is drawn as walls: a third of it is faces.
 static bool has_walls(const finder *f, uint32_t piece) {
-    return f->face_length[piece] >= 0.3 * f->all_length[piece];
+    return f->looks[piece].faces >= 0.3 * f->looks[piece].all;
+}
+
+/// Adds a wall to what is known of its piece.
+static void measure_wall(finder *f, uint32_t i) {
+    const uint32_t piece = sli_plan_first(f->net.piece, i);
+    const sl_wall *wall = &f->turned.walls[i];
+    const sl_box box = f->net.boxes[piece];
+    const double length = wall_length(&f->turned, i), off = f->net.tolerance;
+    piece_look *look = &f->looks[piece];
+    look->all += length;
+    if (sl_bits_has(f->faces, i)) look->faces += length;
+    look->many |= wall->line != f->turned.walls[piece].line;
+    if (fmax(fabs(wall->a.x - box.min.x), fabs(wall->b.x - box.min.x)) <= off)
+        look->sides[0] += length;
+    else if (fmax(fabs(wall->a.x - box.max.x), fabs(wall->b.x - box.max.x)) <= off)
+        look->sides[1] += length;
+    else if (fmax(fabs(wall->a.y - box.min.y), fabs(wall->b.y - box.min.y)) <= off)
+        look->sides[2] += length;
+    else if (fmax(fabs(wall->a.y - box.max.y), fabs(wall->b.y - box.max.y)) <= off)
+        look->sides[3] += length;
+    else
+        look->rest = sli_box_with(sli_box_with(look->rest, wall->a), wall->b);
 }
 
 static void measure_pieces(finder *f) {
     const size_t count = f->turned.wall_count;
-    memset(f->face_length, 0, count * sizeof *f->face_length);
-    memset(f->all_length, 0, count * sizeof *f->all_length);
-    for (uint32_t i = 0; i < count; i++) {
-        const uint32_t piece = sli_plan_first(f->net.piece, i);
-        const double length = wall_length(&f->turned, i);
-        f->all_length[piece] += length;
-        if (sl_bits_has(f->faces, i)) f->face_length[piece] += length;
-    }
-    bool any = false;
-    for (uint32_t i = 0; i < count; i++) {
-        if (sli_plan_first(f->net.piece, i) != i || !has_walls(f, i)) continue;
-        const sl_box box = f->net.boxes[i];
-        f->plan = any ? sli_box_with(sli_box_with(f->plan, box.min), box.max) : box;
-        any = true;
-    }
+    const sl_box none = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+    for (size_t i = 0; i < count; i++) f->looks[i] = (piece_look){.rest = none};
+    for (uint32_t i = 0; i < count; i++) measure_wall(f, i);
+    f->plan = none;
+    for (uint32_t i = 0; i < count; i++)
+        if (sli_plan_first(f->net.piece, i) == i && has_walls(f, i))
+            f->plan = sli_box_with(sli_box_with(f->plan, f->net.boxes[i].min), f->net.boxes[i].max);
 }
 
 static bool is_beside(sl_box a, sl_box b) {
@@ -349,11 +376,8 @@ static bool is_beside(sl_box a, sl_box b) {
 
 /// One closed shape, or four lines.
 static bool is_simple(const finder *f, uint32_t piece) {
-    bool one = true;
-    for (uint32_t i = piece; i < f->turned.wall_count; i++)
-        if (sli_plan_first(f->net.piece, i) == piece)
-            one &= f->turned.walls[i].line == f->turned.walls[piece].line;
-    return (one || f->net.counts[piece] == 4) && f->net.counts[piece] >= 3;
+    const uint32_t count = f->net.counts[piece];
+    return (!f->looks[piece].many || count == 4) && count >= 3;
 }
 
 /// Whether a piece that touches nothing may be a wall: a column or an obstacle, a small room, or
@@ -391,12 +415,13 @@ static void drop_pieces(finder *f) {
         if (sli_plan_first(f->net.piece, i) != i || has_walls(f, i)) continue;
         const sl_box box = f->net.boxes[i];
         if (is_beside(box, f->plan)) {
-            if (longer_side(box) < longer_side(f->plan)) drop_piece(f, i, &f->out->beside);
+            if (longer_side(box) < longer_side(f->plan)) f->looks[i].into = &f->out->beside;
         } else if (is_loose(f, i) && !may_stand(f, i, obstacles)) {
-            drop_piece(f, i, &f->out->loose);
+            f->looks[i].into = &f->out->loose;
             f->out->pieces++;
         }
     }
+    drop_marked(f);
 }
 
 // --- frames
@@ -404,29 +429,12 @@ static void drop_pieces(finder *f) {
 /// A piece that covers the four sides of its box; what else it has lies in a part of it, as the
 /// title of a sheet does.
 static bool is_rectangle(const finder *f, uint32_t piece) {
-    const sl_box box = f->net.boxes[piece];
-    const double w = sli_box_width(box), h = sli_box_height(box), off = f->net.tolerance;
-    double sides[4] = {0};
-    sl_box rest = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
-    for (uint32_t i = piece; i < f->turned.wall_count; i++) {
-        if (sli_plan_first(f->net.piece, i) != piece) continue;
-        const sl_wall *wall = &f->turned.walls[i];
-        const double length = wall_length(&f->turned, i);
-        if (fmax(fabs(wall->a.x - box.min.x), fabs(wall->b.x - box.min.x)) <= off)
-            sides[0] += length;
-        else if (fmax(fabs(wall->a.x - box.max.x), fabs(wall->b.x - box.max.x)) <= off)
-            sides[1] += length;
-        else if (fmax(fabs(wall->a.y - box.min.y), fabs(wall->b.y - box.min.y)) <= off)
-            sides[2] += length;
-        else if (fmax(fabs(wall->a.y - box.max.y), fabs(wall->b.y - box.max.y)) <= off)
-            sides[3] += length;
-        else
-            rest = sli_box_with(sli_box_with(rest, wall->a), wall->b);
-    }
-    const bool small =
-        rest.min.x > rest.max.x || sli_box_width(rest) * sli_box_height(rest) <= w * h / 3;
-    return w > 0 && h > 0 && small && sides[0] >= 0.95 * h && sides[1] >= 0.95 * h &&
-           sides[2] >= 0.95 * w && sides[3] >= 0.95 * w;
+    const piece_look *look = &f->looks[piece];
+    const double w = sli_box_width(f->net.boxes[piece]), h = sli_box_height(f->net.boxes[piece]);
+    const bool small = look->rest.min.x > look->rest.max.x ||
+                       sli_box_width(look->rest) * sli_box_height(look->rest) <= w * h / 3;
+    return w > 0 && h > 0 && small && look->sides[0] >= 0.95 * h && look->sides[1] >= 0.95 * h &&
+           look->sides[2] >= 0.95 * w && look->sides[3] >= 0.95 * w;
 }
 
 static bool is_within(sl_box inner, sl_box outer, double room) {
@@ -471,9 +479,14 @@ static sl_status drop_frames(finder *f) {
         if (!sl_bits_has(rectangles, b) && (any || has_walls(f, b))) sl_bits_add(walls, a);
         if (!sl_bits_has(rectangles, a) && (any || has_walls(f, a))) sl_bits_add(walls, b);
     }
-    for (uint32_t i = 0; room && i < count; i++)
-        if (sl_bits_has(rectangles, i) && !sl_bits_has(walls, i) && is_frame(f, i, rectangles))
-            drop_piece(f, i, &f->out->frame);
+    size_t looked = 0;
+    for (uint32_t i = 0; room && i < count && looked < MOST_FRAMES; i++) {
+        if (!sl_bits_has(rectangles, i) || sl_bits_has(walls, i)) continue;
+        if (longer_side(f->net.boxes[i]) < f->net.size / 20) continue;
+        looked++;
+        if (is_frame(f, i, rectangles)) f->looks[i].into = &f->out->frame;
+    }
+    drop_marked(f);
     sl_free(f->context, rectangles);
     sl_free(f->context, walls);
     return room ? SL_OK : SL_NO_MEMORY;
@@ -533,19 +546,16 @@ sl_status sli_plan_parts_find(sl_context *context, const sl_map *map, double met
     f.number = sl_alloc_array(context, count, sizeof *f.number);
     f.faces = sl_alloc_array(context, sl_bits_words(count), sizeof *f.faces);
     f.even = sl_alloc_array(context, sl_bits_words(count), sizeof *f.even);
-    f.face_length = sl_alloc_array(context, count, sizeof *f.face_length);
-    f.all_length = sl_alloc_array(context, count, sizeof *f.all_length);
+    f.looks = sl_alloc_array(context, count, sizeof *f.looks);
     sl_status status = SL_NO_MEMORY;
-    if (out->gone && f.turned.walls && f.number && f.faces && f.even && f.face_length &&
-        f.all_length)
+    if (out->gone && f.turned.walls && f.number && f.faces && f.even && f.looks)
         status = find_all(&f, map);
     sli_plan_net_destroy(&f.net);
     sl_free(context, f.turned.walls);
     sl_free(context, f.number);
     sl_free(context, f.faces);
     sl_free(context, f.even);
-    sl_free(context, f.face_length);
-    sl_free(context, f.all_length);
+    sl_free(context, f.looks);
     return status;
 }
 
