@@ -425,7 +425,7 @@ sl_status cmd_isovist(command_console *console, int argc, char **argv) {
          "the same from a convex area, or from a disc, X,Y,R (chords up to 0.001 R within it)",
          .text = &plan.set.area, .rare = true},
         {"along", 0, "PATH", "the same along a path of the map, or along the points of a CSV table",
-         .text = &plan.set.along, .rare = true},
+         .text = &plan.set.along, .is_input = true, .rare = true},
         {"step", 0, "STEP", "with --path: look from a point every STEP along it",
          .number = &plan.step, .over_0 = true, .rare = true},
         {"points", 0, "CSV",

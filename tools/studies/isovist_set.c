@@ -269,7 +269,12 @@ sl_status isovist_set_write(sl_context *context, const isovist_set *set, const s
 
 void isovist_set_say(const isovist_set *set, const char *unit, char *text, size_t size) {
     const char *space = *unit ? " " : "", *square = *unit ? "\xc2\xb2" : "";
-    snprintf(text, size, "some point of it sees %.6g%s%s%s, all points see %.6g%s%s%s",
-             set->regions[SL_SEEN_FROM_SOME].area, space, unit, square,
-             set->regions[SL_SEEN_FROM_ALL].area, space, unit, square);
+    const size_t used = (size_t)snprintf(text, size, "some point of it sees %.6g%s%s%s",
+                                         set->regions[SL_SEEN_FROM_SOME].area, space, unit, square);
+    if (used >= size) return;
+    if (set->regions[SL_SEEN_FROM_ALL].walled)
+        snprintf(text + used, size - used, ", all points see nothing: a wall crosses it");
+    else
+        snprintf(text + used, size - used, ", all points see %.6g%s%s%s",
+                 set->regions[SL_SEEN_FROM_ALL].area, space, unit, square);
 }

@@ -343,6 +343,7 @@ sl_status sl_set_sight_region(sl_context *context, sl_set_sight *sight, sl_set_s
         status = seen == SL_SEEN_FROM_SOME ? join(context, &parts, 1, 1, &joined)
                                            : join_complete(&m, &joined);
     if (status == SL_OK) status = finish(&m, &joined, out);
+    out->walled = m.through;
     out->cones = m.cones.cones;
     out->corners = m.cones.points.count + m.eyes.points.count;
     if (status != SL_OK) sl_set_region_destroy(context, out);

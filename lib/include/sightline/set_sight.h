@@ -59,6 +59,7 @@ typedef struct sl_set_sight sl_set_sight;
 typedef struct sl_set_region {
     sl_shape shape;   ///< simple loops: outer ones counter-clockwise, holes clockwise
     double area;      ///< of the shape
+    bool walled;      ///< a wall crosses the set, so nothing is seen from all of it
     uint64_t cones;   ///< behind ends of walls, before they are joined
     uint64_t corners; ///< of all parts, before they are joined: the measure of the work
 } sl_set_region;
