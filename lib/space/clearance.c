@@ -56,20 +56,19 @@ static sl_status clearance_at(sli_clearance *c, uint32_t half, sl_point point, d
     const sli_triangulation *t = &c->channels->triangles;
     double best = most;
     sl_segment nearest = {point, point};
-    // Ends of walls at the triangle's own corners keep the search from going far.
-    for (int i = 0; i < 3; i++, half = t->halves.items[half].next) {
-        const sl_point corner = start_of(c, half);
-        if (!sl_bits_has(c->channels->solid, t->halves.items[half].from) ||
-            !(apart(point, corner) < best))
-            continue;
-        best = apart(point, corner);
-        nearest = (sl_segment){corner, corner};
-    }
     c->stamp++;
     SL_TRY(push_half_edge(c, half));
     while (c->stack.count) {
         uint32_t side = c->stack.items[--c->stack.count];
         if (c->seen[side] == c->stamp) continue;
+        // A wall that hides an end is nearer than the end, and is found.
+        for (int i = 0; i < 3; i++, side = t->halves.items[side].next) {
+            const sl_point corner = start_of(c, side);
+            if (!sl_bits_has(c->channels->solid, t->halves.items[side].from)) continue;
+            if (!(apart(point, corner) < best)) continue;
+            best = apart(point, corner);
+            nearest = (sl_segment){corner, corner};
+        }
         for (int i = 0; i < 3; i++, side = t->halves.items[side].next) {
             c->seen[side] = c->stamp;
             const uint32_t twin = side ^ 1;

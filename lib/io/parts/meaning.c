@@ -87,7 +87,8 @@ static const word_list lists[SLI_MEANINGS] = {
          "*도로*"},
     [SLI_MEANS_GRID] =
         {"grid",
-         "grid* axis axes axe centerline* centreline* center centre cntr guide* datum dote achse* "
+         "grid* axis axes axe paths route* waypoint* wayfinding centerline* centreline* center "
+         "centre cntr guide* datum dote achse* "
          "raster* hilfslinie* mittellinie* trame asse assi interass* eje eixo stramien* assen ось "
          "оси осеи осей осев* os osi osie osy aks akslar axel stomlinj* modullinj* akse akser "
          "*轴* *軸* *通り芯* *通芯* *基準線* *축* *중심선*"},
