@@ -81,6 +81,21 @@ static sl_status check_apart(sl_context *context, const char *option, const opti
     return SL_OK;
 }
 
+/// From this many segments on, the whole network takes more than some seconds.
+#define MANY 5000
+
+/// The whole network is all pairs of segments.
+static void note_pairs(sl_context *context, const segments_plan *plan, size_t count) {
+    const bool whole = plan->metric.count + plan->angular.count == 0 || has_whole(&plan->metric) ||
+                       has_whole(&plan->angular);
+    if (whole && count >= MANY)
+        sl_note(context,
+                "%zu segments: the whole network is measured from each, so that the time grows "
+                "with the square of their number; --metric-radius R measures what is within R, and "
+                "takes much less",
+                count);
+}
+
 /// One analysis for each radius.
 static sl_status run(sl_context *context, const segments_plan *plan, segments_work *w) {
     const size_t metric = plan->metric.count, angular = plan->angular.count;
@@ -110,6 +125,7 @@ static sl_status work(command_console *console, const segments_plan *plan, segme
                        "--metric-radius n and --angular-radius n are one analysis: give one of "
                        "them");
     SL_TRY(read_segments(context, plan, w));
+    note_pairs(context, plan, w->table.count);
     SL_TRY(run(context, plan, w));
     const line_column *column = line_table_column(&w->table, plan->measure);
     if (plan->picture)
