@@ -74,7 +74,7 @@ static sl_point sample(scene *s, sl_random *random, int number) {
     if (number % 2 || !s->space.wall_count) return draw(s, random);
     for (;;) {
         const sl_wall *wall = &s->space.walls[sl_random_below(random, s->space.wall_count)];
-        const double size = exp(-12 * sl_random_unit(random));
+        const double size = exp(-18 * sl_random_unit(random));
         const sl_point at = {wall->a.x + size * (sl_random_unit(random) - 0.5),
                              wall->a.y + size * (sl_random_unit(random) - 0.5)};
         if (sl_space_is_inside(&s->space, at)) return at;
@@ -169,6 +169,27 @@ static void test_fewest(void **state) {
         check_points(&s, &placed);
         check_lower(&s, &placed);
         sl_area_placement_destroy(s.context, &placed);
+        end(&s);
+    }
+}
+
+/// Places just off walls leave strips beside them that are thinner than a millionth of the plan.
+static void test_off_walls(void **state) {
+    (void)state;
+    for (unsigned k = 0; k < 3; k++) {
+        sl_point *points;
+        uint32_t count;
+        scene s;
+        begin(&s, PLAN, 400 + k, (sl_viewpoint){.fov = 110});
+        assert_ok(s.context,
+                  sl_place_points(s.context, s.query, SL_PLACE_WALLS, 0, &points, &count));
+        assert_true(count >= PLACES);
+        for (int i = 0; i < PLACES; i++) s.places[i].at = points[i];
+        sl_area_placement placed = place(&s);
+        check_points(&s, &placed);
+        check_lower(&s, &placed);
+        sl_area_placement_destroy(s.context, &placed);
+        sl_free(s.context, points);
         end(&s);
     }
 }
@@ -290,9 +311,13 @@ static void test_refusals(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_fewest), cmocka_unit_test(test_demands_and_fixed),
-        cmocka_unit_test(test_zone),   cmocka_unit_test(test_most),
-        cmocka_unit_test(test_blind),  cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_fewest),
+        cmocka_unit_test(test_off_walls),
+        cmocka_unit_test(test_demands_and_fixed),
+        cmocka_unit_test(test_zone),
+        cmocka_unit_test(test_most),
+        cmocka_unit_test(test_blind),
+        cmocka_unit_test(test_refusals),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -314,20 +314,28 @@ sl_status camera_work_check_zones(sl_context *context, const camera_work *w,
     return SL_OK;
 }
 
+/// A cost as in the tables: a whole number where they have no decimals.
+static void add_cost(json_fields *f, const char *key, const camera_work *w, uint64_t cost) {
+    if (w->scale > 1)
+        json_add_real(f, key, (double)cost / w->scale);
+    else
+        json_add_count(f, key, cost);
+}
+
 void camera_work_add_json(json_fields *f, const camera_work *w) {
     const sl_area_placement *p = &w->placed;
+    add_cost(f, "lower", w, p->lower);
+    add_cost(f, "upper", w, p->upper);
     if (w->task.count) {
-        json_add_count(f, "count", p->count);
+        json_add_flag(f, "optimal", p->seen >= p->seen_most * (1 - 1e-9));
         json_add_real(f, "seen_area_bound", p->seen_most);
     } else {
-        json_add_real(f, "lower", (double)p->lower / w->scale);
-        json_add_real(f, "upper", (double)p->upper / w->scale);
         json_add_flag(f, "optimal", p->lower == p->upper);
-        json_add_count(f, "witnesses", p->witness_count);
-        json_add_count(f, "rounds", p->rounds);
         json_add_real(f, "hidden_area", p->blind_area);
         json_add_real(f, "rounding_area", p->rounding);
     }
+    json_add_count(f, "witnesses", p->witness_count);
+    json_add_count(f, "rounds", p->rounds);
     json_add_count(f, "places", w->task.place_count);
     json_add_real(f, "to_see_area", p->area);
     json_add_real(f, "to_see_seen_area", p->seen);

@@ -18,6 +18,8 @@
 enum { WITNESSES_MOST = 300 };
 /// How far a witness is from a corner of its piece, as a share of the way to the middle.
 #define CORNER_STEP 0x1p-6
+/// The width of rounding, as a share of the largest coordinate: some times that of an overlay.
+#define THIN 0x1p-44
 
 typedef struct unseen {
     uint32_t piece;
@@ -31,7 +33,7 @@ typedef struct checker {
     bool *blind; ///< by piece
     SL_ARRAY(unseen) unseen;
     SL_ARRAY(sl_point) cut, spare; ///< scratch
-    double tiny;                   ///< pieces up to this area are rounding
+    double thin;                   ///< pieces up to this wide, on average, are rounding
     uint32_t added;
 } checker;
 
@@ -54,15 +56,40 @@ static int compare_unseen(const void *left, const void *right) {
     return a->piece < b->piece ? -1 : 1;
 }
 
+static const sl_point *corners_of(const checker *c, uint32_t piece, uint32_t *count) {
+    const sl_cell *cell = &c->overlay.pieces.cells[piece];
+    *count = cell->vertex_count;
+    return &c->overlay.pieces.vertices[cell->first_vertex];
+}
+
+static sl_box box_of(const checker *c, uint32_t piece) {
+    uint32_t count;
+    const sl_point *p = corners_of(c, piece, &count);
+    sl_box box = {p[0], p[0]};
+    for (uint32_t i = 1; i < count; i++) {
+        box.min = (sl_point){fmin(box.min.x, p[i].x), fmin(box.min.y, p[i].y)};
+        box.max = (sl_point){fmax(box.max.x, p[i].x), fmax(box.max.y, p[i].y)};
+    }
+    return box;
+}
+
+/// The area up to which a piece is rounding.
+static double rounding_of(const checker *c, uint32_t piece) {
+    const sl_box box = box_of(c, piece);
+    return c->thin * (box.max.x - box.min.x + box.max.y - box.min.y);
+}
+
 /// The pieces that too few places cover, the largest first, but for those that are rounding.
 static sl_status list_unseen(checker *c) {
     const sl_space *pieces = &c->overlay.pieces;
     double rounding = 0;
-    c->tiny = c->a->negligible / (pieces->cell_count + 1.0);
+    const sl_box *b = &pieces->bounds;
+    c->thin =
+        THIN * fmax(fmax(fabs(b->min.x), fabs(b->max.x)), fmax(fabs(b->min.y), fabs(b->max.y)));
     for (uint32_t i = 0; i < pieces->cell_count; i++) {
         if (!pieces->cells[i].inside || c->overlay.counts[i] >= c->a->cover) continue;
         const double area = sl_space_area(pieces, i);
-        if (area <= c->tiny) {
+        if (area <= rounding_of(c, i)) {
             rounding += area;
             continue;
         }
@@ -73,12 +100,6 @@ static sl_status list_unseen(checker *c) {
         qsort(c->unseen.items, c->unseen.count, sizeof *c->unseen.items, compare_unseen);
     c->a->out->rounding = rounding;
     return SL_OK;
-}
-
-static const sl_point *corners_of(const checker *c, uint32_t piece, uint32_t *count) {
-    const sl_cell *cell = &c->overlay.pieces.cells[piece];
-    *count = cell->vertex_count;
-    return &c->overlay.pieces.vertices[cell->first_vertex];
 }
 
 /// A point of a piece: the middle, then close to each corner.
@@ -210,17 +231,6 @@ static bool boxes_meet(const sl_box *a, const sl_box *b) {
     return a->min.x < b->max.x && b->min.x < a->max.x && a->min.y < b->max.y && b->min.y < a->max.y;
 }
 
-static sl_box box_of(const checker *c, uint32_t piece) {
-    uint32_t count;
-    const sl_point *p = corners_of(c, piece, &count);
-    sl_box box = {p[0], p[0]};
-    for (uint32_t i = 1; i < count; i++) {
-        box.min = (sl_point){fmin(box.min.x, p[i].x), fmin(box.min.y, p[i].y)};
-        box.max = (sl_point){fmax(box.max.x, p[i].x), fmax(box.max.y, p[i].y)};
-    }
-    return box;
-}
-
 /// Looks for a place that sees a part of a piece.
 static sl_status search_piece(checker *c, uint32_t piece) {
     const sl_box box = box_of(c, piece);
@@ -230,7 +240,7 @@ static sl_status search_piece(checker *c, uint32_t piece) {
         const sl_shape shape = sli_view_shape(&c->a->shapes, i + 1);
         double area;
         SL_TRY(common_area(c, &shape, piece, &area));
-        if (area > c->tiny) SL_TRY(try_common(c, &shape, piece, &added));
+        if (area > rounding_of(c, piece)) SL_TRY(try_common(c, &shape, piece, &added));
     }
     return SL_OK;
 }
@@ -256,8 +266,8 @@ static sl_status conclude(checker *c) {
     if (!c->blind) return SL_NO_MEMORY;
     for (size_t i = 0; i < c->unseen.count; i++) c->blind[c->unseen.items[i].piece] = true;
     for (size_t i = 0; i < c->unseen.count; i++) out->blind_area += c->unseen.items[i].area;
-    const sl_status status = sli_blind_spots_find(a->context, &c->overlay, c->blind, c->tiny,
-                                                  &spots, &out->blind, &out->blind_count);
+    const sl_status status = sli_blind_spots_find(a->context, &c->overlay, c->blind, 0, &spots,
+                                                  &out->blind, &out->blind_count);
     sl_free(a->context, spots);
     out->seen = out->area - out->blind_area;
     return status;

@@ -17,7 +17,7 @@
 ///   is decided by exact predicates, up to the true range.
 /// - `upper`: the chosen places see all of the area but `blind`. Their regions are laid over it
 ///   (overlay.h), and chords stand for arcs so that nothing counts that is not seen (coverage.h).
-///   Up to rounding: `rounding` is the area that was too small to be decided.
+///   Up to rounding: `rounding` is the area of pieces thinner than 2^-44 of the largest coordinate.
 /// - `blind`: parts that fewer than `cover` of the places see, so no choice of them helps. There,
 ///   the chosen ones are as many as can be.
 #ifndef SIGHTLINE_PLACE_AREA_H
@@ -49,7 +49,7 @@ typedef struct sl_area_placement {
     uint32_t count;
     double area;      ///< to be seen
     double seen;      ///< of it, by at least `cover` of the chosen places
-    double rounding;  ///< of it, too small to be decided; at most 1e-9 of the area
+    double rounding;  ///< of it, of pieces too thin to be decided
     double seen_most; ///< with `count`: no set of so many places sees more than this area
     double blind_area;
     sl_blind_spot *blind; ///< the largest first
