@@ -285,7 +285,15 @@ static void destroy_copied(sl_context *context, void *what) {
     sl_free(context, copied);
 }
 
+/// The numbers of a space that lives have gaps, which only what keeps them up knows.
+static sl_status refuse_living(sl_context *context, const sl_query *q, const char *what) {
+    if (!q->given) return SL_OK;
+    return sl_fail(context, SL_UNSUPPORTED, "%s a world: ask a copy of it (sl_world_copy_space)",
+                   what);
+}
+
 sl_status sl_query_copy(sl_context *context, const sl_query *query, sl_query **out) {
+    SL_TRY(refuse_living(context, query, "no copies are made of a query to"));
     copied_space *copied = sl_alloc_array(context, 1, sizeof *copied);
     sl_query *q = NULL;
     if (!copied) return SL_NO_MEMORY;
@@ -423,9 +431,7 @@ static sl_status create_moving(sl_context *context, sl_query *q) {
 }
 
 static sl_status make_moving(sl_context *context, sl_query *q) {
-    if (q->given)
-        return sl_fail(context, SL_UNSUPPORTED,
-                       "boxes are not cut into a world: ask a copy of it (sl_world_copy_space)");
+    SL_TRY(refuse_living(context, q, "boxes are not cut into"));
     if (!q->moving) SL_TRY(create_moving(context, q));
     if (!q->boxes_placed) SL_TRY(sli_moving_set_boxes(context, q->moving, q->boxes, q->box_count));
     q->boxes_placed = true;
@@ -547,6 +553,7 @@ sl_status sl_query_space(sl_context *context, sl_query *query, const sl_space **
 }
 
 sl_status sl_query_copy_space(sl_context *context, sl_query *query, sl_point eye, sl_space *out) {
+    SL_TRY(refuse_living(context, query, "no copies are made of the space of"));
     SL_TRY(make_ready(context, query));
     const sli_filtered_space filtered = {.shut = query->shut, .eye = &eye};
     return sli_filtered_space_make(context, query->sight.base, &filtered, NULL, out);

@@ -114,7 +114,7 @@ static sl_status involve_met(sl_world *s, sl_segment at) {
     sli_live *l = &s->live;
     const double tolerance = tolerance_of(&l->space.bounds);
     bool on;
-    l->now += 2;
+    sli_live_next_mark(l);
     s->flood.count = 0;
     sli_live_go_near(l, at.a);
     SL_TRY(reach(s, sli_triangulator_walk(&l->maker, at.a, &on)));

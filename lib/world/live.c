@@ -280,8 +280,18 @@ static sl_status plan(sli_live *l, bool all) {
     return sli_live_room(l);
 }
 
-sl_status sli_live_plan(sli_live *l) {
+void sli_live_next_mark(sli_live *l) {
+    if (l->now > UINT32_MAX - 4) {
+        memset(l->mark, 0, l->mark_room * sizeof *l->mark);
+        memset(l->wrote, 0, l->wrote_room * sizeof *l->wrote);
+        memset(l->dissolved, 0, l->cell_room * sizeof *l->dissolved);
+        l->now = 0;
+    }
     l->now += 2;
+}
+
+sl_status sli_live_plan(sli_live *l) {
+    sli_live_next_mark(l);
     l->region.count = l->old.count = l->unmerged.count = l->merged.count = 0;
     l->triangles_of.count = l->cells.count = l->new_buckets.count = l->old_buckets.count = 0;
     l->planned = true;

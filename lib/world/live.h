@@ -99,6 +99,9 @@ void sli_live_destroy(sl_context *context, sli_live *live); ///< and zeroes it
 /// A half-edge near a point, to start walks.
 void sli_live_go_near(sli_live *live, sl_point at);
 
+/// Begins new marks: `now` is one that nothing has yet.
+void sli_live_next_mark(sli_live *live);
+
 sl_status sli_live_plan(sli_live *live);
 void sli_live_apply(sli_live *live);
 void sli_live_undo(sli_live *live);

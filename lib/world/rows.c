@@ -66,6 +66,15 @@ static sl_status write_row(sl_context *context, sli_world_rows *r, uint32_t cell
 
 // --- the search
 
+/// Begins new marks.
+static void next_mark(sli_world_rows *r) {
+    if (r->now == UINT32_MAX) {
+        memset(r->marks, 0, r->cell_room * sizeof *r->marks);
+        r->now = 0;
+    }
+    r->now++;
+}
+
 enum { TESTS_PER_CELL = 64, LEAST_TESTS = 4096 };
 
 typedef struct step {
@@ -115,7 +124,7 @@ static sl_status start_search(sl_context *context, const sli_live *live, sli_wor
 static sl_status search_from(sl_context *context, const sli_live *live, sli_world_rows *r,
                              uint32_t cell) {
     static const sli_portal_visitor visitor = {.step_size = sizeof(step), .cross = cross};
-    r->now++;
+    next_mark(r);
     r->seen.count = 0;
     SL_TRY(start_search(context, live, r));
     SL_TRY(see(context, r, cell));
@@ -163,7 +172,7 @@ sl_status sli_world_rows_plan(sl_context *context, const sli_live *live, sli_wor
     r->changed.count = 0;
     if (!r->kept) return SL_OK;
     SL_TRY(grow_cells(context, live, r));
-    r->now++;
+    next_mark(r);
     for (size_t i = 0; i < live->old.count && pvs->cell_count; i++) {
         if (!goes(live, live->old.items[i])) continue;
         for (sl_pvs_run run = sl_pvs_begin(pvs, live->old.items[i]); sl_pvs_next(&run);)

@@ -1,8 +1,8 @@
 /// Worlds against spaces that are made anew: after random edits of random maps, what points see and
 /// what regions they have is the same, and the mesh passes the check of the whole graph.
 /// SIGHTLINE_SEEDS in the environment: how many maps (20 by default), SIGHTLINE_EDITS: how many
-/// commits each (40).
-#include "oracle/random_map.h"
+/// commits each (40). The long run, 10^5 commits over 100 maps, takes some minutes:
+///     SIGHTLINE_SEEDS=100 SIGHTLINE_EDITS=1000 test_world
 #include "polygon_same.h"
 #include "space/subdivide.h"
 #include "testing.h"
@@ -350,6 +350,71 @@ static void test_random_edits(void **state) {
     }
 }
 
+// --- by hand
+
+static bool sees(trial *t, sl_point eye, sl_point point) {
+    bool out;
+    assert_ok(t->context, sl_query_sees(t->context, sl_world_query(t->world), eye, point, &out));
+    return out;
+}
+
+static void test_edits_by_hand(void **state) {
+    (void)state;
+    const sl_point west = {1, 5}, east = {9, 5};
+    trial t = {.context = testing_context(NULL)};
+    sl_map map = {0};
+    sl_space space;
+    sl_map given;
+    sl_query *copy;
+    sl_world_changes changes;
+    sl_segment at;
+    uint32_t wall, other;
+    testing_space(t.context, "wall 0 0 10 0\nwall 10 0 10 10\nwall 10 10 0 10\nwall 0 10 0 0\n",
+                  &given, &space);
+    for (size_t i = 0; i < given.wall_count; i++)
+        assert_ok(t.context,
+                  sl_map_add_wall(t.context, &map, given.walls[i].a, given.walls[i].b, 0));
+    assert_ok(t.context, sl_world_create(t.context, &map, NULL, &t.world));
+    assert_true(sees(&t, west, east));
+    at = (sl_segment){{5, 2}, {5, 8}};
+    assert_ok(t.context, sl_world_add_wall(t.context, t.world, at, &wall));
+    assert_int_equal(wall, FRAME);
+    assert_true(sees(&t, west, east)); // not before the commit
+    assert_ok(t.context, sl_world_commit(t.context, t.world, &changes));
+    assert_false(sees(&t, west, east));
+    assert_true(changes.gone_count && changes.came_count);
+    // A wall across it, and the first one goes and comes back.
+    assert_ok(t.context,
+              sl_world_add_wall(t.context, t.world, (sl_segment){{2, 3}, {8, 7}}, &other));
+    assert_ok(t.context, sl_world_commit(t.context, t.world, NULL));
+    assert_ok(t.context, sl_world_remove(t.context, t.world, other));
+    assert_ok(t.context, sl_world_move(t.context, t.world, wall, (sl_segment){{5, 6}, {5, 8}}));
+    assert_ok(t.context, sl_world_commit(t.context, t.world, NULL));
+    assert_true(sees(&t, west, east));
+    assert_ok(t.context, sl_world_move(t.context, t.world, wall, at));
+    assert_ok(t.context, sl_world_commit(t.context, t.world, NULL));
+    assert_false(sees(&t, west, east));
+    assert_true(sl_world_wall(t.world, wall, &at) && at.b.y == 8);
+    assert_false(sl_world_wall(t.world, other, &at));
+    // What is forgotten changes nothing.
+    assert_ok(t.context, sl_world_remove(t.context, t.world, wall));
+    sl_world_discard(t.world);
+    assert_ok(t.context, sl_world_commit(t.context, t.world, &changes));
+    assert_true(!changes.gone_count && !changes.came_count);
+    assert_false(sees(&t, west, east));
+    // What is no wall is refused.
+    assert_int_equal(sl_world_remove(t.context, t.world, other), SL_BAD_ARGUMENT);
+    assert_int_equal(sl_world_add_wall(t.context, t.world, (sl_segment){{1, 1}, {1, 1}}, &other),
+                     SL_BAD_ARGUMENT);
+    assert_int_equal(sl_world_move(t.context, t.world, wall, (sl_segment){{1, 1}, {1, 99}}),
+                     SL_BAD_ARGUMENT);
+    assert_int_equal(sl_query_copy(t.context, sl_world_query(t.world), &copy), SL_UNSUPPORTED);
+    sl_space_destroy(t.context, &space);
+    sl_map_destroy(t.context, &given);
+    sl_map_destroy(t.context, &map);
+    end(&t);
+}
+
 // --- memory
 
 /// Edits that run out of memory at every call in turn leave the world as it was.
@@ -421,6 +486,7 @@ static void test_memory_stays(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_edits_by_hand),
         cmocka_unit_test(test_random_edits),
         cmocka_unit_test(test_memory_may_fail_at_any_call),
         cmocka_unit_test(test_memory_stays),

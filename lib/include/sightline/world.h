@@ -22,6 +22,10 @@
 /// given: when another one goes, it is as if that had never been there. Places where oblique walls
 /// cross are rounded to the nearest doubles, as in a clean map.
 ///
+/// Numbers have gaps. In the space that is asked (sl_query_asked), a number without a cell has no
+/// corners, one without a portal has SL_NO_CELL for its cells, and one without a wall has no
+/// length. The query's map has no walls: sl_world_copy_map has them.
+///
 /// One thread at a time uses a world and its query.
 #ifndef SIGHTLINE_WORLD_H
 #define SIGHTLINE_WORLD_H
@@ -66,7 +70,8 @@ SL_API void sl_world_destroy(sl_context *context, sl_world *world);
 
 /// The query to the world. It belongs to the world, and its settings stay after a commit. What it
 /// gave before (spaces, outlines) is void then. Boxes that block are SL_UNSUPPORTED where they need
-/// cut cells (sl_query_set_boxes): sl_query_region and sl_query_sees take them.
+/// cut cells (sl_query_set_boxes): sl_query_region and sl_query_sees take them. So are
+/// sl_query_copy and sl_query_copy_space.
 SL_API sl_query *sl_world_query(sl_world *world);
 
 // --- edits
