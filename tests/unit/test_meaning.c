@@ -23,8 +23,8 @@ static void test_standards(void **state) {
           "B-22-12--E-", "xref-furniture|A-WALL", "plan$0$A-WALL", "COLUMN");
     MEANS(SLI_MEANS_DOOR, "A-DOOR", "A-DOOR-FULL", "A-32----E-");
     MEANS(SLI_MEANS_WINDOW, "A-GLAZ", "A-GLAZ-CURT", "WINDOW", "A-31----E-");
-    MEANS(SLI_MEANS_FURNITURE, "I-FURN", "A-EQPM", "P-FIXT", "E-LITE", "furniture|0",
-          "Bed", "Room furniture");
+    MEANS(SLI_MEANS_FURNITURE, "I-FURN", "A-EQPM", "P-FIXT", "E-LITE", "furniture|0", "Bed",
+          "Room furniture");
     MEANS(SLI_MEANS_NOTHING, "BedRoom", "WC room 2", "table_room", "Kitchen");
     MEANS(SLI_MEANS_TEXT, "A-ANNO-DIMS", "A-WALL-IDEN", "PUB_DIM", "A-21----T-N----", "mtext");
     MEANS(SLI_MEANS_HATCH, "A-WALL-PATT", "A-21----H-");
