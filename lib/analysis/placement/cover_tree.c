@@ -15,8 +15,7 @@
 /// is.
 /// 4. It branches on a column that the program takes in part: the one for which taking and leaving
 ///    both raise the bound most. That is tried out, in the beginning of a tree, and later told from
-///    what was tried (reliability branching; Achterberg, Koch and Martin 2005). It takes a
-///    hundredth of the nodes that a column at will does.
+///    what was tried (reliability branching; Achterberg, Koch and Martin 2005).
 ///
 /// A column fixed by 3 is a node with one child, the other one bounded by its duals. Most of these
 /// matter to no leaf below, so a node is made only where a bound, or a row that runs short, counts
