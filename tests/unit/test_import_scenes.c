@@ -96,7 +96,8 @@ static void test_edge(void **state) {
     assert_scene(SCENE("\"width\": 200, \"height\": 150, \"padding\": 0", ROOM, ""),
                  ROOM_TEXT(, "0", "400"));
     assert_scene(SCENE("\"width\": -1000, \"height\": 800", ROOM, ""), ROOM_TEXT(, "0", "400"));
-    assert_refused_of(sli_map_read_foundry, NULL, SCENE(PLAIN, "", ""),
+    const char *empty = SCENE(PLAIN, "", "");
+    assert_refused_of(sli_map_read_foundry, NULL, empty, strlen(empty), SL_BAD_INPUT,
                       "f: the scene has no walls, so nothing is hidden in it");
     // What has no length once y points up is left out.
     assert_scene("[" W("0, 100, 9, 100") ", {\"c\": [3, 0, 3, 5e-149], \"sight\": 0}]",
