@@ -322,6 +322,11 @@ sl_status sli_tiled_read_again(sli_tiled_reader *reader);
 
 // --- doubts (tiled_beside.c)
 
+/// Refuses a layer of more squares than the limit, before its tiles are unpacked: they may be
+/// packed to a thousandth.
+sl_status sli_tiled_check_squares(const sli_tiled_reader *reader, const sli_json *layer,
+                                  int64_t columns, int64_t rows);
+
 /// Whether layers of tiles named for walls are a picture beside layers that stop:
 /// reader->walls_are_pictures.
 sl_status sli_tiled_look_beside(sli_tiled_reader *reader);

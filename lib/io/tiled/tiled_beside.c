@@ -139,19 +139,39 @@ static sl_status mark_layers(const beside *all, const sli_json *parent,
     return SL_OK;
 }
 
+/// Whether a layer of tiles is as large as the map, with as many squares as are allowed. A map
+/// without one may be of any size.
+static sl_status find_tiles(const sli_tiled_reader *reader, const sli_json *parent, double columns,
+                            double rows, bool *found) {
+    const sli_json layers = sli_json_member(parent, "layers");
+    for (size_t i = 0; i < json_array_size(layers.value) && !*found; i++) {
+        const sli_json layer = sli_json_item(&layers, i);
+        const sli_json width = sli_json_member(&layer, "width");
+        const sli_json height = sli_json_member(&layer, "height");
+        const char *type = sli_json_text_of(&layer, "type");
+        if (strcmp(type, "group") == 0) SL_TRY(find_tiles(reader, &layer, columns, rows, found));
+        if (strcmp(type, "tilelayer") != 0 || sli_json_number_or_0(&width) != columns ||
+            sli_json_number_or_0(&height) != rows)
+            continue;
+        *found = true;
+        return sli_tiled_check_squares(reader, &layer, (int64_t)columns, (int64_t)rows);
+    }
+    return SL_OK;
+}
+
 sl_status sli_tiled_look_beside(sli_tiled_reader *reader) {
     const sli_json width = sli_json_member(reader->map, "width");
     const sli_json height = sli_json_member(reader->map, "height");
     const sli_json infinite = sli_json_member(reader->map, "infinite");
     const double columns = sli_json_number_or_0(&width), rows = sli_json_number_or_0(&height);
+    bool found = false;
     if (reader->options->layers || sli_json_true(&infinite, NULL) ||
         reader->lattice.orientation != SLI_TILED_ORTHOGONAL || !(columns >= 1 && rows >= 1) ||
         columns > INT32_MAX || rows > INT32_MAX || !(reader->lattice.tile.x > 0) ||
         !(reader->lattice.tile.y > 0))
         return SL_OK;
-    SL_TRY(sli_tiles_check(reader->context, &reader->tiles, reader->map->file->name,
-                           sli_json_line(reader->map), "the map", (uint64_t)columns,
-                           (uint64_t)rows));
+    SL_TRY(find_tiles(reader, reader->map, columns, rows, &found));
+    if (!found) return SL_OK;
     beside all = {.reader = reader, .columns = (size_t)columns, .rows = (size_t)rows};
     const size_t count = all.columns * all.rows;
     const size_t corners = (all.columns + 1) * (all.rows + 1);

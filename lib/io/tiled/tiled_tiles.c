@@ -482,9 +482,8 @@ static sl_status check_offset(sli_tiled_reader *reader, const sli_json *holder, 
     return SL_OK;
 }
 
-/// Before the tiles are unpacked: they may be packed to a thousandth.
-static sl_status check_squares(const sli_tiled_reader *reader, const sli_json *layer,
-                               int64_t columns, int64_t rows) {
+sl_status sli_tiled_check_squares(const sli_tiled_reader *reader, const sli_json *layer,
+                                  int64_t columns, int64_t rows) {
     const char *name = sli_json_text_of(layer, "name");
     char what[96];
     snprintf(what, sizeof what, "layer '%s'", sli_show((sli_word){name, strlen(name)}).text);
@@ -502,7 +501,7 @@ static sl_status read_block(sli_tiled_reader *reader, const sli_json *layer, con
     SL_TRY(sli_json_whole(&width, 1, INT32_MAX, &columns));
     SL_TRY(sli_json_whole(&height, 1, INT32_MAX, &rows));
     uint32_t *gids;
-    SL_TRY(check_squares(reader, layer, columns, rows));
+    SL_TRY(sli_tiled_check_squares(reader, layer, columns, rows));
     SL_TRY(sli_tiled_read_data(layer, &data, (size_t)(columns * rows), &gids));
     block all = {.offset = at->offset,
                  .column = column,
