@@ -110,7 +110,7 @@ sl_status cmd_cover(command_console *console, int argc, char **argv) {
     const option_table doors = door_option_table(&plan.doors);
     const option_spec options[] = {
         {"output", 'o', "FILE.csv",
-         "a table (.csv): a row for each zone, or without --zones for each viewpoint",
+         "a table: a row for each zone, or without --zones for each viewpoint",
          .text = &plan.output, .check = CHECK_FILE, .endings = ".csv .txt"},
         {"zones", 0, "ZONES",
          "what is seen of each zone: names of objects in the map, a drawing of closed outlines, or "
