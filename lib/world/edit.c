@@ -197,7 +197,8 @@ sl_status sli_world_edit(sl_world *s) {
     for (size_t i = 0; i < s->involved.count; i++) {
         const uint32_t first = s->first_corner.items[i],
                        count = s->first_corner.items[i + 1] - first;
-        if (!stays(s, i)) SL_TRY(lay(s, s->involved.items[i], s->chain.items + first, count));
+        if (count && !stays(s, i))
+            SL_TRY(lay(s, s->involved.items[i], s->chain.items + first, count));
     }
     return SL_OK;
 }
