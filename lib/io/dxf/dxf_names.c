@@ -428,7 +428,7 @@ sl_status sli_dxf_decode_names(sli_dxf *dxf) {
     }
     if (!bytes) return SL_OK;
     code_page page = {0};
-    char *to = dxf->names = sl_alloc(dxf->context, bytes + 1); // and what sprintf ends with
+    char *to = dxf->names = sl_alloc(dxf->context, bytes + 1); // an escape is written with its zero
     if (!to) return SL_NO_MEMORY;
     const bool paged = any && find_page(dxf, all_utf8, long_ones, &page);
     for (size_t i = 0; i < dxf->pairs.count; i++) {
