@@ -92,9 +92,10 @@ static bool next_field(const reader *r, const char *line, size_t length, size_t 
                 continue;
             }
         }
-        if (!quoted && !out->length && (line[i] == ' ' || line[i] == '\t')) continue;
+        const char c = line[i] == '\r' ? ' ' : line[i]; // as names are written
+        if (!quoted && !out->length && (c == ' ' || c == '\t')) continue;
         *wrong |= out->length + 1 >= FIELD_TEXT;
-        if (!*wrong) out->text[out->length++] = line[i];
+        if (!*wrong) out->text[out->length++] = c;
     }
     *wrong |= quoted;
     while (out->length && strchr(" \t", out->text[out->length - 1])) out->length--;
