@@ -179,34 +179,14 @@ static void set_page(cairo_t *cairo, const void *what, sli_page *page, bool pain
     double y = page->key;
     y += draw_key(cairo, p, (sl_point){page->margin, y}, page->inner, page->text, paint);
     y += sli_draw_ground_key(cairo, &p->scene, (sl_point){page->margin, y}, page->text, paint);
-    if (p->caption) {
-        sl_text_font(cairo, page->text, false);
-        const unsigned lines = sl_text_lines(cairo, page->inner, p->caption);
-        if (paint)
-            sl_text_show_lines(cairo, palette->ink, page->margin, y + 1.1 * page->text, page->inner,
-                               1.5 * page->text, p->caption);
-        y += 1.5 * page->text * lines + 0.1 * page->text;
-    }
+    y += sli_page_caption(cairo, page, palette, y, p->caption, paint);
     page->height = ceil(y + 0.7 * page->margin);
 }
 
 sl_status sl_draw_coverage_file(sl_context *context, const sl_baked *baked,
                                 const sl_drawn_coverage *coverage, const char *caption,
                                 const sl_draw_options *options, const char *path) {
-    const sli_paper_kind *kind;
-    SL_TRY(sli_paper_kind_of(context, path, &kind));
-    SL_TRY(sli_page_check_width(context, options->width));
     picture p = {.coverage = coverage, .caption = caption};
-    sl_draw_options plain = *options;
-    plain.layers = SL_LAYER_WALLS;
-    plain.cell = SL_NO_CELL;
-    SL_TRY(sli_scene_make(context, baked, &plain, NULL, &p.scene));
-    const sli_page_parts parts = {.set = set_page,
-                                  .draw_plan = draw_plan,
-                                  .what = &p,
-                                  .ground = p.scene.palette.page,
-                                  .title = options->title};
-    const sl_status status = sli_page_write(context, &parts, options->width, kind, path);
-    sli_scene_clear(context, &p.scene);
-    return status;
+    const sli_page_parts parts = {.set = set_page, .draw_plan = draw_plan, .what = &p};
+    return sli_page_write_map(context, baked, options, SL_LAYER_WALLS, &p.scene, parts, path);
 }

@@ -305,32 +305,15 @@ static void set_page(cairo_t *cairo, const void *what, sli_page *page, bool pain
     y += sli_draw_seen_key(cairo, palette, p->regions, p->region_count, (sl_point){page->margin, y},
                            page->inner, page->text, paint);
     y += sli_draw_ground_key(cairo, &p->scene, (sl_point){page->margin, y}, page->text, paint);
-    if (p->caption) {
-        if (paint)
-            sl_text_show_within(cairo, palette->ink, page->margin, y + 1.1 * page->text,
-                                page->inner, page->text, false, p->caption);
-        y += 1.6 * page->text;
-    }
+    y += sli_page_caption(cairo, page, palette, y, p->caption, paint);
     page->height = ceil(y + 0.7 * page->margin);
 }
 
 static sl_status draw_picture(sl_context *context, const sl_baked *baked,
                               const sl_draw_options *options, picture *p, const char *path) {
-    const sli_paper_kind *kind;
-    SL_TRY(sli_paper_kind_of(context, path, &kind));
-    SL_TRY(sli_page_check_width(context, options->width));
-    sl_draw_options plain = *options;
-    plain.layers = SL_LAYER_WALLS | (p->scale ? 0 : (unsigned)SL_LAYER_STARTS);
-    plain.cell = SL_NO_CELL;
-    SL_TRY(sli_scene_make(context, baked, &plain, NULL, &p->scene));
-    const sli_page_parts parts = {.set = set_page,
-                                  .draw_plan = draw_plan,
-                                  .what = p,
-                                  .ground = p->scene.palette.page,
-                                  .title = options->title};
-    const sl_status status = sli_page_write(context, &parts, options->width, kind, path);
-    sli_scene_clear(context, &p->scene);
-    return status;
+    const unsigned layers = SL_LAYER_WALLS | (p->scale ? 0 : (unsigned)SL_LAYER_STARTS);
+    const sli_page_parts parts = {.set = set_page, .draw_plan = draw_plan, .what = p};
+    return sli_page_write_map(context, baked, options, layers, &p->scene, parts, path);
 }
 
 sl_status sl_draw_regions_file(sl_context *context, const sl_baked *baked,

@@ -251,6 +251,34 @@ sl_status sli_page_write(sl_context *context, const sli_page_parts *parts, doubl
     return sli_paper_close(context, &paper, draw_page(context, paper.cairo, parts, &m.page));
 }
 
+sl_status sli_page_write_map(sl_context *context, const sl_baked *baked,
+                             const sl_draw_options *options, unsigned layers, sl_scene *scene,
+                             sli_page_parts parts, const char *path) {
+    const sli_paper_kind *kind = &kinds[0];
+    SL_TRY(sli_paper_kind_of(context, path, &kind));
+    SL_TRY(sli_page_check_width(context, options->width));
+    sl_draw_options plain = *options;
+    plain.layers = layers;
+    plain.cell = SL_NO_CELL;
+    SL_TRY(sli_scene_make(context, baked, &plain, NULL, scene));
+    parts.ground = scene->palette.page;
+    parts.title = options->title;
+    const sl_status status = sli_page_write(context, &parts, options->width, kind, path);
+    sli_scene_clear(context, scene);
+    return status;
+}
+
+double sli_page_caption(cairo_t *cairo, const sli_page *page, const sl_palette *palette, double y,
+                        const char *caption, bool paint) {
+    if (!caption) return 0;
+    sl_text_font(cairo, page->text, false);
+    const unsigned lines = sl_text_lines(cairo, page->inner, caption);
+    if (paint)
+        sl_text_show_lines(cairo, palette->ink, page->margin, y + 1.1 * page->text, page->inner,
+                           1.5 * page->text, caption);
+    return 1.5 * page->text * lines + 0.1 * page->text;
+}
+
 sl_status sl_draw_page_file(sl_context *context, const char *path, int width, int height,
                             const char *title, void (*draw)(void *user, cairo_t *cairo),
                             void *user) {

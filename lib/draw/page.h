@@ -87,6 +87,17 @@ typedef struct sli_page_parts {
 sl_status sli_page_write(sl_context *context, const sli_page_parts *parts, double width,
                          const sli_paper_kind *kind, const char *path);
 
+/// Writes a page about the walls of a map, `layers` of it. `scene` is the picture's own, and is
+/// made and cleared here; the ground and the title of `parts` come from it and from the options.
+sl_status sli_page_write_map(sl_context *context, const sl_baked *baked,
+                             const sl_draw_options *options, unsigned layers, sl_scene *scene,
+                             sli_page_parts parts, const char *path);
+
+/// A text below a picture, in lines as the width allows. Returns the height; 0 for NULL. Draws only
+/// with `paint`.
+double sli_page_caption(cairo_t *cairo, const sli_page *page, const sl_palette *palette, double y,
+                        const char *caption, bool paint);
+
 /// The key of the colours of sli_draw_seen, from a place on the page, in lines as the width allows.
 /// Returns the height; 0 if nothing is seen by mirror. Draws only with `paint`.
 double sli_draw_seen_key(cairo_t *cairo, const sl_palette *palette, const sl_drawn_region *regions,

@@ -4,7 +4,7 @@
 
 #include "sightline/world.h"
 #include "world/live.h"
-#include "world/rows.h"
+#include "world/world_rows.h"
 
 /// A wall of the world. Its chain is the points of the triangulation that it leads through.
 typedef struct sli_world_line {

@@ -266,8 +266,9 @@ static sl_status add_side(sli_walk *w, uint32_t side, const sli_beam *beam, bool
     return add_point(w->context, parts, meet(w->eye, &beam->left, a, b));
 }
 
-static sl_status add_beam(sl_context *context, struct sl_set_sight *s, const sli_spot *spot,
-                          const sli_beam *beam, sli_parts *parts) {
+/// A walk from a spot that adds what it sees to parts.
+static sli_walk *begin_walk(sl_context *context, struct sl_set_sight *s, const sli_spot *spot,
+                            sli_parts *parts) {
     sli_walk *w = &s->walk;
     w->context = context;
     w->rooms = &s->rooms;
@@ -275,6 +276,12 @@ static sl_status add_beam(sl_context *context, struct sl_set_sight *s, const sli
     w->data = parts;
     w->backwards = false;
     w->eye = spot->at;
+    return w;
+}
+
+static sl_status add_beam(sl_context *context, struct sl_set_sight *s, const sli_spot *spot,
+                          const sli_beam *beam, sli_parts *parts) {
+    sli_walk *w = begin_walk(context, s, spot, parts);
     for (size_t i = 0; i < spot->rooms.count; i++)
         SL_TRY(sli_walk_from(w, spot->rooms.items[i], beam));
     return SL_OK;
@@ -411,13 +418,7 @@ sl_status sli_add_eye(sl_context *context, struct sl_set_sight *s, const sli_spo
     if (!towards)
         SL_TRY(add_beam(context, s, spot, NULL, parts));
     else {
-        sli_walk *w = &s->walk;
-        w->context = context;
-        w->rooms = &s->rooms;
-        w->at_side = add_side;
-        w->data = parts;
-        w->backwards = false;
-        w->eye = spot->at;
+        begin_walk(context, s, spot, parts);
         for (size_t i = 0; i < spot->rooms.count; i++)
             SL_TRY(add_room_beams(context, s, spot, spot->rooms.items[i], *towards));
     }

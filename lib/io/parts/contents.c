@@ -1,9 +1,9 @@
 /// Which layers of a drawing are walls.
 ///
-/// Names decide first. Where none says what is a wall, the looks of shapes do (looks.h). If some
-/// layer is named as walls, these layers are the walls, windows are windows, and all else is passed
-/// over. Else layers are passed over that are named as something else. Symbols are taken out of
-/// what is left: swings of doors, hatching, steps.
+/// Names decide first. Where none says what is a wall, the looks of shapes do (drawn_looks.h). If
+/// some layer is named as walls, these layers are the walls, windows are windows, and all else is
+/// passed over. Else layers are passed over that are named as something else. Symbols are taken out
+/// of what is left: swings of doors, hatching, steps.
 ///
 /// Three walls enclose the least room. A choice that leaves fewer is none: then all visible layers
 /// are walls. The note names every layer that is passed over, and the option that chooses.

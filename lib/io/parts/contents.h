@@ -4,7 +4,7 @@
 #ifndef SL_CONTENTS_H
 #define SL_CONTENTS_H
 
-#include "io/parts/looks.h"
+#include "io/parts/drawn_looks.h"
 #include "io/parts/meaning.h"
 #include "io/parts/shapes.h"
 #include "sightline/import.h"

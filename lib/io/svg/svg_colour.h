@@ -2,7 +2,7 @@
 #ifndef SL_SVG_COLOUR_H
 #define SL_SVG_COLOUR_H
 
-#include "io/parts/looks.h"
+#include "io/parts/drawn_looks.h"
 #include "io/svg/svg_style.h"
 
 /// A colour as 0xRRGGBB, and its opacity. SLI_SVG_NO_COLOUR where it is not known here: patterns,

@@ -5,7 +5,7 @@
 /// portal sequence that is seen, and for each portal that leads out of it. Where few walls stand in
 /// open ground there are many sequences. Once the tests have cost as much as the default method
 /// would, that one sees all cells of a copy, and the rows that are not settled are taken from it.
-#include "world/rows.h"
+#include "world/world_rows.h"
 
 #include "cell_to_cell/search/directions.h"
 #include "sightline/stab.h"

@@ -1,8 +1,8 @@
 /// Shapes of a drawing by how they look: the colour and the width of their lines, or the colour
 /// that they are filled with. Where no name says what is a wall, the heaviest look is: thick dark
 /// lines or bars against thin grey furniture, small lettering and coloured floors.
-#ifndef SL_LOOKS_H
-#define SL_LOOKS_H
+#ifndef SL_DRAWN_LOOKS_H
+#define SL_DRAWN_LOOKS_H
 
 #include "map/scan.h"
 #include "sightline/map.h"

@@ -7,7 +7,7 @@
 /// lines, over a fair part of the drawing, is that of walls, with all others of at least 2/5 of its
 /// weight: thinner inner walls. Where there is none, the floors are rooms, and their outlines are
 /// walls.
-#include "io/parts/looks.h"
+#include "io/parts/drawn_looks.h"
 
 #include "geometry/length.h"
 #include "space/index.h"
