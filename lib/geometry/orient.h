@@ -9,6 +9,7 @@
 #include <float.h>
 #include <math.h>
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 #if FLT_EVAL_METHOD == 2 || FLT_EVAL_METHOD < 0
@@ -49,6 +50,21 @@ static inline size_t sli_distinct_corners(const sl_point *corners, size_t count)
 static inline int sli_compare_points(sl_point a, sl_point b) {
     if (a.x != b.x) return a.x < b.x ? -1 : 1;
     return (a.y > b.y) - (a.y < b.y);
+}
+
+/// Of items that begin with a point, by which they are sorted (sli_compare_points), the first that
+/// is not before `at`; `count` if all are. `size`: of an item.
+static inline size_t sli_first_at(const void *items, size_t size, size_t count, sl_point at) {
+    size_t low = 0, high = count;
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        const void *item = (const char *)items + middle * size;
+        if (sli_compare_points(*(const sl_point *)item, at) < 0)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
 }
 
 /// As sli_orient, by exact arithmetic only.

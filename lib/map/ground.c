@@ -234,14 +234,7 @@ static int compare_sides(const void *left, const void *right) {
 
 /// The sides that start at a point: the first of them, and *end behind the last.
 static size_t sides_from(const tracer *t, sl_point at, size_t *end) {
-    size_t low = 0, high = t->count;
-    while (low < high) {
-        const size_t middle = low + (high - low) / 2;
-        if (sli_compare_points(t->sides[middle].from, at) < 0)
-            low = middle + 1;
-        else
-            high = middle;
-    }
+    const size_t low = sli_first_at(t->sides, sizeof *t->sides, t->count, at);
     for (*end = low; *end < t->count && sli_same_point(t->sides[*end].from, at);) ++*end;
     return low;
 }

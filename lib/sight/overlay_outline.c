@@ -93,15 +93,7 @@ static sl_status list_ways(tracer *t, const sl_space *pieces, const bool *covere
 
 /// The first way out of a point; there is one, as loops are closed.
 static size_t first_from(const tracer *t, sl_point at) {
-    size_t low = 0, high = t->count;
-    while (low < high) {
-        const size_t middle = low + (high - low) / 2;
-        if (sli_compare_points(t->ways[middle].from, at) < 0)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low;
+    return sli_first_at(t->ways, sizeof *t->ways, t->count, at);
 }
 
 /// Whether, turning clockwise about a point from the direction back, a comes before b.

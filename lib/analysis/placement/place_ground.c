@@ -64,14 +64,7 @@ void sli_ground_destroy(sl_context *context, sli_ground *ground) {
 }
 
 const sli_wall_end *sli_ground_walls_at(const sli_ground *ground, sl_point at, size_t *count) {
-    size_t low = 0, high = ground->end_count;
-    while (low < high) {
-        const size_t middle = low + (high - low) / 2;
-        if (sli_compare_points(ground->ends[middle].at, at) < 0)
-            low = middle + 1;
-        else
-            high = middle;
-    }
+    const size_t low = sli_first_at(ground->ends, sizeof *ground->ends, ground->end_count, at);
     *count = 0;
     while (low + *count < ground->end_count && sli_same_point(ground->ends[low + *count].at, at))
         ++*count;

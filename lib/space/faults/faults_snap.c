@@ -221,14 +221,7 @@ static int compare_moves(const void *left, const void *right) {
 }
 
 static sl_point moved_with(const snapper *s, sl_point end) {
-    size_t low = 0, high = s->moves.count;
-    while (low < high) {
-        const size_t middle = low + (high - low) / 2;
-        if (sli_compare_points(s->moves.items[middle].from, end) < 0)
-            low = middle + 1;
-        else
-            high = middle;
-    }
+    const size_t low = sli_first_at(s->moves.items, sizeof *s->moves.items, s->moves.count, end);
     const bool found = low < s->moves.count && sli_same_point(s->moves.items[low].from, end);
     return found ? s->moves.items[low].to : end;
 }
