@@ -114,7 +114,7 @@ static sl_status note_path(sl_context *context, const sl_path *path, const isovi
     char what[128];
     snprintf(what, sizeof what, "--path %s", path->name);
     places_note_outside(context, what, &w->baked.space, w->eyes.list.items, w->eyes.list.count);
-    return places_note_path(context, path->name, &w->baked, path->points, path->count);
+    return places_note_path(context, what, &w->baked, path->points, path->count);
 }
 
 /// The points of a table.

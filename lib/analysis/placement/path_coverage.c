@@ -19,7 +19,7 @@
 #include <stdlib.h>
 
 /// Parts up to this share of the largest coordinate are rounding.
-#define ROUNDING 0x1p-44
+#define ROUNDING 0x1p-36
 
 typedef struct walker {
     sl_context *context;

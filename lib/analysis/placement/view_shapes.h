@@ -31,8 +31,8 @@ bool sli_viewpoint_holds(const sl_viewpoint *viewpoint, const sl_view *view, sl_
 /// The middle of the disc that a sign is read from, given its eye.
 sl_point sli_sign_middle(sl_point eye, const sl_viewpoint *sign);
 /// Adds what a viewpoint sees. Where a range ends, chords lie within the arc; around a dead zone
-/// they lie outside of it. So the shape has nothing that is not seen. `region` is scratch. Of a sign
-/// it is where the sign is read from. SL_UNSUPPORTED for a sign and one-way glass.
+/// they lie outside of it. So the shape has nothing that is not seen. `region` is scratch. Of a
+/// sign it is where the sign is read from. SL_UNSUPPORTED for a sign and one-way glass.
 sl_status sli_view_shapes_add(sl_context *context, sl_query *query, const sl_viewpoint *viewpoint,
                               sl_region *region, sli_view_shapes *shapes);
 /// Adds all walls of a space, there and back, as one shape. It covers nothing.

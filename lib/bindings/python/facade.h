@@ -63,6 +63,7 @@ typedef struct slp_level {
     sl_effect_explanation explanation;
     sl_cameras cameras; ///< of `coverage`: given, or those of `placement`
     sl_coverage coverage;
+    sl_path_coverage unseen; ///< of a path, by `coverage`
     sl_placement placement;
 } slp_level;
 
@@ -221,9 +222,13 @@ SLP_API const char *slp_level_reason(const slp_level *level, int which);
 // --- viewpoints: placement.c
 
 /// Reads a table of viewpoints, of the file `name` where `text` is NULL, and keeps what they see.
-/// Rows that do not say it have this field of view and range.
+/// Rows that do not say it have this field of view and range. `signs`: all rows are signs.
 SLP_API int slp_level_cover(slp_level *level, const char *name, const char *text, size_t size,
-                            double fov, double range);
+                            double fov, double range, int signs);
+/// Keeps the parts of a path that none of the viewpoints kept sees.
+SLP_API int slp_level_cover_path(slp_level *level, const double *points, size_t count);
+/// How many parts are kept, and rows of them, which may be NULL: from, to, both ends.
+SLP_API size_t slp_level_unseen(const slp_level *level, double *rows);
 
 /// Where viewpoints may stand: at `places`; at points of a kind, "corners", "walls" or "grid", of a
 /// step; anywhere where both are NULL.
@@ -244,7 +249,8 @@ SLP_API void slp_level_cover_counts(const slp_level *level, int64_t counts[4]);
 /// The name of a viewpoint; NULL for none.
 SLP_API const char *slp_level_cover_name(const slp_level *level, size_t number);
 /// Areas that 0, 1, 2, 3 or more see. Rows of viewpoints: x, y, heading, fov, range, nearest,
-/// height, tilt, cost, seen, alone, spare. Rows of blind spots: area, x, y, x0, y0, x1, y1.
+/// height, tilt, letters, sign, cost, seen, alone, spare. Rows of blind spots: area, x, y, x0, y0,
+/// x1, y1.
 SLP_API void slp_level_cover_copy(const slp_level *level, double areas[4], double *viewpoints,
                                   double *spots);
 /// Of each piece: its first corner, how many see it, its blind spot or -1.

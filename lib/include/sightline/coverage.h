@@ -72,7 +72,7 @@ typedef struct sl_path_coverage {
 ///
 /// Where a part begins and ends is computed in doubles, from all borders of regions that cross the
 /// path; whether it is seen is decided in its middle, exactly but for a sign's disc: by
-/// sl_query_sees, with arcs in place of chords. Parts up to 2^-44 times the largest coordinate long
+/// sl_query_sees, with arcs in place of chords. Parts up to 2^-36 times the largest coordinate long
 /// are left out. SL_BAD_ARGUMENT for a point that is outside the bounds, and for less than 2
 /// points. Time: for each segment of the path the corners of all regions, and what crosses it times
 /// the viewpoints.
