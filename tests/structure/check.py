@@ -58,7 +58,8 @@ HEADERS = {"context": "base", "earth": "geometry", "measures": "base", "support"
            "art_gallery": "analysis/placement", "coverage": "analysis/placement",
            "place": "analysis/placement", "place_area": "analysis/placement",
            "place_proof": "analysis/placement",
-           "path": "analysis/route", "set_sight": "analysis/set_sight",
+           "path": "analysis/route", "path_parts": "analysis/placement",
+           "exposure": "analysis/set_sight", "set_sight": "analysis/set_sight",
            "set_cover": "analysis/placement", "viewpoint": "analysis/placement",
            "from_region": "study/from_region", "generate": "study/generate",
            "view_cells": "study/view_cells", "walk": "study/walk"}

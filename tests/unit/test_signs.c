@@ -122,16 +122,16 @@ static void parts_of_a_path(void **state) {
     const sl_viewpoint signs[] = {sign_at(0, 10, 0, 8), sign_at(28, 10, 0, 6)};
     const sl_point path[] = {{1, 10}, {39, 10}, {39, 10}, {39, 19}};
     sl_coverage c;
-    sl_path_coverage p;
+    sl_path_parts p;
     assert_ok(r.context, sl_coverage_make(r.context, r.query, signs, 2, &c));
     assert_ok(r.context, sl_coverage_of_path(r.context, r.query, &c, signs, path, 4, &p));
     assert_int_equal(p.count, 2);
-    assert_true(is_near(p.length, 47, 1e-9) && is_near(p.unseen, 20 + 14, 1e-9));
+    assert_true(is_near(p.length, 47, 1e-9) && is_near(p.total, 20 + 14, 1e-9));
     assert_true(is_near(p.parts[0].from, 7, 1e-9) && is_near(p.parts[0].to, 27, 1e-9));
     assert_true(is_near(p.parts[0].start.x, 8, 1e-9) && is_near(p.parts[0].end.x, 28, 1e-9));
     assert_true(is_near(p.parts[1].from, 33, 1e-9) && p.parts[1].to == 47);
     assert_true(p.parts[1].end.y == 19);
-    sl_path_coverage_destroy(r.context, &p);
+    sl_path_parts_destroy(r.context, &p);
     sl_coverage_destroy(r.context, &c);
     // A camera with a dead zone: along the wall that it looks along, and without one.
     const sl_viewpoint camera = {.at = {0, 0}, .heading = 45, .fov = 90, .range = 30, .nearest = 5};
@@ -141,13 +141,13 @@ static void parts_of_a_path(void **state) {
     assert_int_equal(p.count, 2);
     assert_true(is_near(p.parts[0].to, 20, 1e-9)); // behind the wall across
     assert_true(is_near(p.parts[1].from, 35, 1e-9) && p.parts[1].to == 40);
-    sl_path_coverage_destroy(r.context, &p);
+    sl_path_parts_destroy(r.context, &p);
     sl_coverage_destroy(r.context, &c);
     // Nobody looks.
     assert_ok(r.context, sl_coverage_make(r.context, r.query, NULL, 0, &c));
     assert_ok(r.context, sl_coverage_of_path(r.context, r.query, &c, NULL, path, 4, &p));
-    assert_true(p.count == 1 && p.unseen == p.length && p.parts[0].to == p.length);
-    sl_path_coverage_destroy(r.context, &p);
+    assert_true(p.count == 1 && p.total == p.length && p.parts[0].to == p.length);
+    sl_path_parts_destroy(r.context, &p);
     sl_coverage_destroy(r.context, &c);
     end_room(&r);
 }
@@ -159,7 +159,7 @@ static void wrong_questions(void **state) {
     const sl_viewpoint sign = sign_at(2, 2, 0, 4), camera = {.at = {2, 2}, .fov = 360};
     sl_viewpoint none = sign;
     sl_coverage c;
-    sl_path_coverage p;
+    sl_path_parts p;
     none.range = 0;
     assert_int_equal(sl_coverage_make(r.context, r.query, &none, 1, &c), SL_BAD_ARGUMENT);
     assert_int_equal(sl_coverage_make(r.context, r.query, &sign, 1, &c), SL_UNSUPPORTED);
@@ -238,7 +238,7 @@ static void check_random(room *r, const sl_viewpoint *signs, sl_random *random, 
     const sl_point path[] = {random_point(&r->space.bounds, random),
                              random_point(&r->space.bounds, random),
                              random_point(&r->space.bounds, random)};
-    sl_path_coverage p;
+    sl_path_parts p;
     assert_ok(r->context, sl_coverage_of_path(r->context, r->query, &c, signs, path, 3, &p));
     for (size_t i = 0; i < p.count; i++)
         assert_true(p.parts[i].from < p.parts[i].to && (!i || p.parts[i - 1].to < p.parts[i].from));
@@ -260,7 +260,7 @@ static void check_random(room *r, const sl_viewpoint *signs, sl_random *random, 
         before += length;
     }
     assert_true(is_near(before, p.length, 1e-9 * before));
-    sl_path_coverage_destroy(r->context, &p);
+    sl_path_parts_destroy(r->context, &p);
     sl_coverage_destroy(r->context, &c);
 }
 
@@ -298,10 +298,10 @@ static void memory_that_ends(void **state) {
     const sl_viewpoint sign = sign_at(2, 10, 0, 8);
     const sl_point path[] = {{1, 15}, {39, 15}};
     sl_coverage c;
-    sl_path_coverage p;
+    sl_path_parts p;
     assert_ok(r.context, sl_coverage_make(r.context, r.query, &sign, 1, &c));
     assert_ok(r.context, sl_coverage_of_path(r.context, r.query, &c, &sign, path, 2, &p));
-    sl_path_coverage_destroy(r.context, &p);
+    sl_path_parts_destroy(r.context, &p);
     sl_coverage_destroy(r.context, &c);
     const long live = memory.live;
     sl_status status = SL_NO_MEMORY;
@@ -310,12 +310,12 @@ static void memory_that_ends(void **state) {
         memory.fail_at = at;
         memory.once = true;
         c = (sl_coverage){0};
-        p = (sl_path_coverage){0};
+        p = (sl_path_parts){0};
         status = sl_coverage_make(r.context, r.query, &sign, 1, &c);
         if (status == SL_OK)
             status = sl_coverage_of_path(r.context, r.query, &c, &sign, path, 2, &p);
         assert_true(status == SL_OK || status == SL_NO_MEMORY);
-        sl_path_coverage_destroy(r.context, &p);
+        sl_path_parts_destroy(r.context, &p);
         sl_coverage_destroy(r.context, &c);
         assert_true(memory.live <= live + 1);
     }

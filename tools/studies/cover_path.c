@@ -17,7 +17,7 @@ static sl_status add_piece(sl_context *context, cover_path *path, sl_point a, sl
 }
 
 /// Cuts a part where the path turns.
-static sl_status add_part(sl_context *context, cover_path *path, const sl_unseen_part *part) {
+static sl_status add_part(sl_context *context, cover_path *path, const sl_path_part *part) {
     double done = 0;
     sl_point from = part->start;
     for (size_t i = 0; i + 1 < path->count; i++) {
@@ -46,22 +46,22 @@ sl_status cover_path_make(sl_context *context, const cover_report *r, sl_query *
 void cover_path_destroy(sl_context *context, cover_path *path) {
     sl_free(context, path->points);
     sl_free(context, path->unseen.items);
-    sl_path_coverage_destroy(context, &path->found);
+    sl_path_parts_destroy(context, &path->found);
     *path = (cover_path){0};
 }
 
 void cover_path_print(const cover_report *r, const cover_path *path) {
-    const sl_path_coverage *p = &path->found;
+    const sl_path_parts *p = &path->found;
     const char *unit = r->baked->map.unit, *space = *unit ? " " : "";
     if (!p->count) {
         printf("\n  all of the path is seen (%.4g%s%s)\n", p->length, space, unit);
         return;
     }
-    printf("\n  %.4g%s%s of the path are not seen (%.3g %% of %.4g%s%s)%s\n", p->unseen, space,
-           unit, 100 * p->unseen / p->length, p->length, space, unit,
+    printf("\n  %.4g%s%s of the path are not seen (%.3g %% of %.4g%s%s)%s\n", p->total, space, unit,
+           100 * p->total / p->length, p->length, space, unit,
            p->count > PARTS_MOST ? ", the first parts:" : ":");
     for (size_t i = 0; i < p->count && i < PARTS_MOST; i++) {
-        const sl_unseen_part *part = &p->parts[i];
+        const sl_path_part *part = &p->parts[i];
         printf("  %10.4g to %-10.4g from %.6g,%.6g to %.6g,%.6g\n", part->from, part->to,
                part->start.x, part->start.y, part->end.x, part->end.y);
     }
@@ -70,10 +70,10 @@ void cover_path_print(const cover_report *r, const cover_path *path) {
 void cover_path_add_json(json_fields *f, const cover_path *path) {
     json_open(f, "path");
     json_add_real(f, "length", path->found.length);
-    json_add_real(f, "unseen_length", path->found.unseen);
+    json_add_real(f, "unseen_length", path->found.total);
     json_open_list(f, "unseen");
     for (size_t i = 0; i < path->found.count; i++) {
-        const sl_unseen_part *part = &path->found.parts[i];
+        const sl_path_part *part = &path->found.parts[i];
         const sl_point ends[2] = {part->start, part->end};
         json_open_item(f);
         json_add_real(f, "from", part->from);
@@ -90,7 +90,7 @@ sl_status cover_path_write(sl_context *context, const cover_path *path, const ch
     SL_TRY(sl_output_open(context, name, &output));
     fputs("from,to,from_x,from_y,to_x,to_y\n", output.stream);
     for (size_t i = 0; i < path->found.count; i++) {
-        const sl_unseen_part *part = &path->found.parts[i];
+        const sl_path_part *part = &path->found.parts[i];
         const double row[6] = {part->from,    part->to,    part->start.x,
                                part->start.y, part->end.x, part->end.y};
         for (int k = 0; k < 6; k++) {

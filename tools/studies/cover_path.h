@@ -10,7 +10,7 @@
 typedef struct cover_path {
     sl_point *points; ///< of the path
     size_t count;
-    sl_path_coverage found;
+    sl_path_parts found;
     SL_ARRAY(sl_segment) unseen; ///< the parts, piece by piece
 } cover_path;
 

@@ -1,194 +1,56 @@
-/// Which parts of a path does no viewpoint see?
-///
-///     path  ----o=========o-----o====o----     Along a segment sight of a viewpoint begins and
-///     ends
-///              a|         |b    |                where the segment crosses the border of its
-///              region,
-///               |  region |     |                its range, or its disc. Between two neighbouring
-///               +---------+    ...               crossings nothing changes, so the middle tells.
-///
-/// Crossings are computed, so a crossing that is listed twice, or where nothing changes, does no
-/// harm: parts that meet are one. Cost: the corners of all regions for each segment, and a
-/// sightline for each crossing and viewpoint.
+/// The parts of a path that no viewpoint sees: cut by the viewpoints' regions, ranges and discs.
 #include "sightline/coverage.h"
 
+#include "analysis/placement/path_cut.h"
 #include "analysis/placement/view_shapes.h"
-#include "geometry/orient.h"
 
-#include <math.h>
-#include <stdlib.h>
-
-/// Parts up to this share of the largest coordinate are rounding.
-#define ROUNDING 0x1p-36
-
-typedef struct walker {
-    sl_context *context;
+typedef struct watch {
     sl_query *query;
     const sl_coverage *coverage;
     const sl_viewpoint *viewpoints;
-    sl_view *views;        ///< by viewpoint
-    SL_ARRAY(double) cuts; ///< of the segment at hand, 0 to 1
-    SL_ARRAY(sl_unseen_part) parts;
-    double done, least; ///< length of the segments before; of parts
-} walker;
+    sl_view *views; ///< by viewpoint
+} watch;
 
-static sl_status add_cut(walker *w, double t) {
-    if (!(t > 0 && t < 1)) return SL_OK;
-    SL_TRY(SL_ARRAY_ROOM(w->context, &w->cuts, 1));
-    w->cuts.items[w->cuts.count++] = t;
+static sl_status cut(sli_path_cut *c, sl_point p, sl_point q) {
+    const watch *w = c->of;
+    for (size_t i = 0; i < w->coverage->count; i++) {
+        const sl_viewpoint *v = &w->viewpoints[i];
+        const sl_point eye = w->views[i].eye;
+        SL_TRY(sli_cut_by_shape(c, p, q, &w->coverage->regions[i]));
+        SL_TRY(sli_cut_by_circle(c, p, q, eye, sli_view_range(w->query, v)));
+        SL_TRY(sli_cut_by_circle(c, p, q, eye, v->nearest));
+        if (v->sign) SL_TRY(sli_cut_by_circle(c, p, q, sli_sign_middle(eye, v), v->range / 2));
+    }
     return SL_OK;
 }
 
-static double cross(sl_point a, sl_point b) {
-    return a.x * b.y - a.y * b.x;
-}
-
-static sl_point less(sl_point a, sl_point b) {
-    return (sl_point){a.x - b.x, a.y - b.y};
-}
-
-/// Where an edge meets the segment.
-static sl_status cut_by_edge(walker *w, sl_point p, sl_point q, sl_point a, sl_point b) {
-    const int oa = sli_orient(p, q, a), ob = sli_orient(p, q, b);
-    const sl_point way = less(q, p), to = less(a, p);
-    if (oa == 0) return add_cut(w, (to.x * way.x + to.y * way.y) / (way.x * way.x + way.y * way.y));
-    if (oa * ob >= 0) return SL_OK; // an end on the line is the start of another edge
-    const sl_point edge = less(b, a);
-    return add_cut(w, cross(to, edge) / cross(way, edge));
-}
-
-static sl_status cut_by_circle(walker *w, sl_point p, sl_point q, sl_point middle, double radius) {
-    const sl_point way = less(q, p), from = less(p, middle);
-    const double a = way.x * way.x + way.y * way.y, b = way.x * from.x + way.y * from.y;
-    const double away = cross(way, from) / sqrt(a);
-    const double root = (radius - away) * (radius + away);
-    if (!(radius > 0 && root > 0)) return SL_OK;
-    const double half = sqrt(root) / sqrt(a);
-    SL_TRY(add_cut(w, -b / a - half));
-    return add_cut(w, -b / a + half);
-}
-
-static sl_status cut_by_viewpoint(walker *w, size_t number, sl_point p, sl_point q) {
-    const sl_viewpoint *v = &w->viewpoints[number];
-    const sl_shape *shape = &w->coverage->regions[number];
-    const sl_point eye = w->views[number].eye;
-    for (size_t i = 0, from = 0; i < shape->count; from = shape->ends[i++])
-        for (size_t k = from; k < shape->ends[i]; k++) {
-            const size_t next = k + 1 < shape->ends[i] ? k + 1 : from;
-            SL_TRY(cut_by_edge(w, p, q, shape->points[k], shape->points[next]));
-        }
-    if (v->sign) SL_TRY(cut_by_circle(w, p, q, sli_sign_middle(eye, v), v->range / 2));
-    SL_TRY(cut_by_circle(w, p, q, eye, sli_view_range(w->query, v)));
-    return cut_by_circle(w, p, q, eye, v->nearest);
-}
-
-static sl_status is_seen(const walker *w, sl_point at, bool *out) {
-    *out = false;
-    for (size_t i = 0; i < w->coverage->count && !*out; i++) {
+static sl_status is_unseen(sli_path_cut *c, sl_point at, bool *out) {
+    const watch *w = c->of;
+    bool seen = false;
+    for (size_t i = 0; i < w->coverage->count && !seen; i++) {
         sl_viewpoint v = w->viewpoints[i];
         if (!v.sign) v.range = sli_view_range(w->query, &v);
         if (!sli_viewpoint_holds(&v, &w->views[i], at)) continue;
-        SL_TRY(sl_query_sees(w->context, w->query, w->views[i].eye, at, out));
+        SL_TRY(sl_query_sees(c->context, w->query, w->views[i].eye, at, &seen));
     }
-    return SL_OK;
-}
-
-static int compare(const void *left, const void *right) {
-    const double a = *(const double *)left, b = *(const double *)right;
-    return (a > b) - (a < b);
-}
-
-static sl_point between(sl_point p, sl_point q, double t) {
-    return t == 1 ? q : (sl_point){p.x + t * (q.x - p.x), p.y + t * (q.y - p.y)};
-}
-
-/// Adds a part, or joins it to the one that it goes on from.
-static sl_status add_part(walker *w, sl_point p, sl_point q, double t0, double t1, double length) {
-    const sl_unseen_part part = {w->done + t0 * length, w->done + t1 * length, between(p, q, t0),
-                                 between(p, q, t1)};
-    sl_unseen_part *last = w->parts.count ? &w->parts.items[w->parts.count - 1] : NULL;
-    if (last && part.from - last->to <= w->least) {
-        last->to = part.to;
-        last->end = part.end;
-        return SL_OK;
-    }
-    SL_TRY(SL_ARRAY_ROOM(w->context, &w->parts, 1));
-    w->parts.items[w->parts.count++] = part;
-    return SL_OK;
-}
-
-static sl_status walk_segment(walker *w, sl_point p, sl_point q) {
-    const double length = hypot(q.x - p.x, q.y - p.y);
-    w->cuts.count = 0;
-    if (!(length > 0)) return SL_OK;
-    for (size_t i = 0; i < w->coverage->count; i++) SL_TRY(cut_by_viewpoint(w, i, p, q));
-    SL_TRY(SL_ARRAY_ROOM(w->context, &w->cuts, 1));
-    qsort(w->cuts.items, w->cuts.count, sizeof *w->cuts.items, compare);
-    w->cuts.items[w->cuts.count++] = 1;
-    double from = 0;
-    for (size_t i = 0; i < w->cuts.count; i++) {
-        const double to = w->cuts.items[i];
-        bool seen;
-        if (!((to - from) * length > w->least)) continue;
-        SL_TRY(is_seen(w, between(p, q, from + (to - from) / 2), &seen));
-        if (!seen) SL_TRY(add_part(w, p, q, from, to, length));
-        from = to;
-    }
-    w->done += length;
-    return SL_OK;
-}
-
-static sl_status check_path(sl_context *context, const sl_space *space, const sl_point *path,
-                            size_t count) {
-    if (count < 2)
-        return sl_fail(context, SL_BAD_ARGUMENT, "a path needs 2 points, not %zu", count);
-    for (size_t i = 0; i < count; i++)
-        if (sl_space_locate(space, path[i]) == SL_NO_CELL)
-            return sl_fail(context, SL_BAD_ARGUMENT,
-                           "point %zu of the path, %.9g,%.9g, is outside the map's bounds", i + 1,
-                           path[i].x, path[i].y);
-    return SL_OK;
-}
-
-static sl_status walk(walker *w, const sl_space *space, const sl_point *path, size_t count) {
-    const sl_box *b = &space->bounds;
-    const double largest =
-        fmax(fmax(fabs(b->min.x), fabs(b->max.x)), fmax(fabs(b->min.y), fabs(b->max.y)));
-    w->least = ROUNDING * largest;
-    w->views = sl_alloc_array(w->context, w->coverage->count + 1, sizeof *w->views);
-    if (!w->views) return SL_NO_MEMORY;
-    for (size_t i = 0; i < w->coverage->count; i++) {
-        const sl_viewpoint *v = &w->viewpoints[i];
-        w->views[i] = sl_query_view(w->query, sli_viewpoint_eye(space, v), v->heading, v->fov);
-    }
-    for (size_t i = 0; i + 1 < count; i++) {
-        SL_TRY(sl_check_cancelled(w->context));
-        SL_TRY(walk_segment(w, path[i], path[i + 1]));
-    }
+    *out = !seen;
     return SL_OK;
 }
 
 sl_status sl_coverage_of_path(sl_context *context, sl_query *query, const sl_coverage *coverage,
                               const sl_viewpoint *viewpoints, const sl_point *path, size_t count,
-                              sl_path_coverage *out) {
-    walker w = {.context = context, .query = query, .coverage = coverage, .viewpoints = viewpoints};
-    const sl_space *space;
-    *out = (sl_path_coverage){0};
-    SL_TRY(sl_query_space(context, query, &space, NULL));
-    SL_TRY(check_path(context, space, path, count));
-    const sl_status status = walk(&w, space, path, count);
-    sl_free(context, w.views);
-    sl_free(context, w.cuts.items);
-    if (status != SL_OK) {
-        sl_free(context, w.parts.items);
-        return status;
+                              sl_path_parts *out) {
+    watch w = {.query = query, .coverage = coverage, .viewpoints = viewpoints};
+    sli_path_cut c = {.context = context, .cut = cut, .holds = is_unseen, .of = &w};
+    *out = (sl_path_parts){0};
+    SL_TRY(sl_query_space(context, query, &c.space, NULL));
+    w.views = sl_alloc_array(context, coverage->count + 1, sizeof *w.views);
+    if (!w.views) return SL_NO_MEMORY;
+    for (size_t i = 0; i < coverage->count; i++) {
+        const sl_viewpoint *v = &viewpoints[i];
+        w.views[i] = sl_query_view(query, sli_viewpoint_eye(c.space, v), v->heading, v->fov);
     }
-    *out = (sl_path_coverage){.length = w.done, .parts = w.parts.items, .count = w.parts.count};
-    for (size_t i = 0; i < out->count; i++) out->unseen += out->parts[i].to - out->parts[i].from;
-    return SL_OK;
-}
-
-void sl_path_coverage_destroy(sl_context *context, sl_path_coverage *path) {
-    sl_free(context, path->parts);
-    *path = (sl_path_coverage){0};
+    const sl_status status = sli_path_parts(&c, path, count, out);
+    sl_free(context, w.views);
+    return status;
 }

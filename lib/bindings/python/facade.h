@@ -63,7 +63,7 @@ typedef struct slp_level {
     sl_effect_explanation explanation;
     sl_cameras cameras; ///< of `coverage`: given, or those of `placement`
     sl_coverage coverage;
-    sl_path_coverage unseen; ///< of a path, by `coverage`
+    sl_path_parts unseen; ///< of a path, by `coverage`
     sl_placement placement;
 } slp_level;
 

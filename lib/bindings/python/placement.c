@@ -8,7 +8,7 @@
 void slp_level_forget_viewpoints(slp_level *level) {
     sl_context *context = level->base.context;
     sl_coverage_destroy(context, &level->coverage);
-    sl_path_coverage_destroy(context, &level->unseen);
+    sl_path_parts_destroy(context, &level->unseen);
     sl_cameras_destroy(context, &level->cameras);
     sl_placement_destroy(context, &level->placement);
 }
@@ -50,7 +50,7 @@ int slp_level_cover_path(slp_level *level, const double *points, size_t count) {
     sl_status status = path ? list_viewpoints(level, &viewpoints) : SL_NO_MEMORY;
     for (size_t i = 0; path && i < count; i++)
         path[i] = (sl_point){points[2 * i], points[2 * i + 1]};
-    sl_path_coverage_destroy(context, &level->unseen);
+    sl_path_parts_destroy(context, &level->unseen);
     if (status == SL_OK)
         status = sl_coverage_of_path(context, level->queries.items[0], &level->coverage, viewpoints,
                                      path, count, &level->unseen);
@@ -61,7 +61,7 @@ int slp_level_cover_path(slp_level *level, const double *points, size_t count) {
 
 size_t slp_level_unseen(const slp_level *level, double *rows) {
     for (size_t i = 0; rows && i < level->unseen.count; i++) {
-        const sl_unseen_part *part = &level->unseen.parts[i];
+        const sl_path_part *part = &level->unseen.parts[i];
         const double row[6] = {part->from,    part->to,    part->start.x,
                                part->start.y, part->end.x, part->end.y};
         memcpy(rows + 6 * i, row, sizeof row);

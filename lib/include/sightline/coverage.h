@@ -10,6 +10,7 @@
 #define SIGHTLINE_COVERAGE_H
 
 #include "sightline/overlay.h"
+#include "sightline/path_parts.h"
 #include "sightline/query.h"
 #include "sightline/viewpoint.h"
 
@@ -54,19 +55,6 @@ SL_API sl_status sl_coverage_make(sl_context *context, sl_query *query,
                                   const sl_viewpoint *viewpoints, size_t count, sl_coverage *out);
 SL_API void sl_coverage_destroy(sl_context *context, sl_coverage *coverage); ///< and zeroes it
 
-/// A part of a path that no viewpoint sees.
-typedef struct sl_unseen_part {
-    double from, to;     ///< how far along the path, in map units
-    sl_point start, end; ///< rounded
-} sl_unseen_part;
-
-/// Zeroed, it is empty.
-typedef struct sl_path_coverage {
-    double length, unseen; ///< of the path, and of its parts
-    sl_unseen_part *parts; ///< in the order of the path
-    size_t count;
-} sl_path_coverage;
-
 /// The parts of a path from which no sign can be read, or which no camera sees. `coverage` is of
 /// these viewpoints and the query as it is.
 ///
@@ -78,8 +66,7 @@ typedef struct sl_path_coverage {
 /// the viewpoints.
 SL_API sl_status sl_coverage_of_path(sl_context *context, sl_query *query,
                                      const sl_coverage *coverage, const sl_viewpoint *viewpoints,
-                                     const sl_point *path, size_t count, sl_path_coverage *out);
-SL_API void sl_path_coverage_destroy(sl_context *context, sl_path_coverage *path); ///< zeroes it
+                                     const sl_point *path, size_t count, sl_path_parts *out);
 
 /// Whether the others see all that a viewpoint sees, but for rounding. Of two that see the same,
 /// each is spare; take one away and ask again.
