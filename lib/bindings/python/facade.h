@@ -194,6 +194,12 @@ SLP_API int slp_level_set_region(slp_level *level, const double *points, size_t 
 SLP_API int slp_level_set_sees(slp_level *level, const double *points, size_t count, int is_area,
                                int from_all, const double *places, size_t place_count,
                                uint8_t *sees);
+/// What of things a path sees: each is a line, or a convex area, of the points up to its end. A row
+/// is its size, what of that is seen, the lengths of the path that see some of it and all of it,
+/// and how far along the path it is seen first, or NAN.
+SLP_API int slp_level_exposure(slp_level *level, const double *path, size_t path_count,
+                               const double *points, const int64_t *ends, size_t count, int is_area,
+                               double *rows);
 
 /// As sl_vga_options. `parts` are bits of sl_vga_part; 0 for the grid alone.
 typedef struct slp_vga {
