@@ -200,6 +200,10 @@ SLP_API int slp_level_set_sees(slp_level *level, const double *points, size_t co
 SLP_API int slp_level_exposure(slp_level *level, const double *path, size_t path_count,
                                const double *points, const int64_t *ends, size_t count, int is_area,
                                double *rows);
+/// Whether some place within reach of from[i] may see some place within reach of to[i].
+SLP_API int slp_level_sees_within(slp_level *level, const double *from, double from_radius,
+                                  const double *to, double to_radius, size_t count, int on_foot,
+                                  uint8_t *sees);
 
 /// As sl_vga_options. `parts` are bits of sl_vga_part; 0 for the grid alone.
 typedef struct slp_vga {

@@ -2,6 +2,7 @@
 #include "facade.h"
 
 #include "sightline/exposure.h"
+#include "sightline/reach.h"
 
 #include <math.h>
 
@@ -112,5 +113,25 @@ int slp_level_exposure(slp_level *level, const double *path, size_t path_count,
     sl_free(context, things);
     sl_free(context, own);
     sl_free(context, all);
+    return status;
+}
+
+int slp_level_sees_within(slp_level *level, const double *from, double from_radius,
+                          const double *to, double to_radius, size_t count, int on_foot,
+                          uint8_t *sees) {
+    sl_context *context = level->base.context;
+    sl_reach *reach;
+    SL_TRY(slp_level_queries(level, 1));
+    SL_TRY(sl_reach_create(context, level->queries.items[0], &reach));
+    sl_status status = SL_OK;
+    for (size_t i = 0; i < count && status == SL_OK; i++) {
+        const sl_point a = {from[2 * i], from[2 * i + 1]}, b = {to[2 * i], to[2 * i + 1]};
+        bool seen = false;
+        status = sl_reach_sees_within(context, reach, a, from_radius, b, to_radius,
+                                      on_foot ? SL_REACH_ON_FOOT : SL_REACH_STRAIGHT, &seen);
+        sees[i] = seen;
+        if (status == SL_OK && i % 256 == 0) status = sl_check_cancelled(context);
+    }
+    sl_reach_destroy(context, reach);
     return status;
 }

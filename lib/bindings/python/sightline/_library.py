@@ -121,6 +121,7 @@ _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     "level_set_region": (_int, [_handle, _doubles, _size, _int, _int, _doubles]),
     "level_set_sees": (_int, [_handle, _doubles, _size, _int, _int, _doubles, _size, _bytes]),
     "level_exposure": (_int, [_handle, _doubles, _size, _doubles, _integers, _size, _int, _doubles]),
+    "level_sees_within": (_int, [_handle, _doubles, _double, _doubles, _double, _size, _int, _bytes]),
     "level_vga": (_int, [_handle, ctypes.POINTER(Vga), _doubles, _size, _doubles, _size]),
     "level_vga_copy": (_size, [_handle, _any, _any, _any]),
     "level_explain": (_int, [_handle, ctypes.c_int64, ctypes.c_int64, _uint32, _integers,

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import tables
-from ._library import Floats, Handle, address, as_flag, as_points, call
+from ._library import Floats, Handle, address, as_flag, as_number, as_points, call
 
 
 def _asked(points: ArrayLike, seen: str) -> tuple[Floats, bool]:
@@ -105,6 +105,40 @@ class Sets(Handle):
                    "path_some": rows[:, 2].copy(), "path_all": rows[:, 3].copy(),
                    "first": rows[:, 4].copy()}
         return tables.frame(columns, arrays=arrays)
+
+    def sees_within(self, start: ArrayLike, start_radius: float, end: ArrayLike, end_radius: float,
+                    *, on_foot: bool = False) -> Any:
+        """Whether some place near `start` may see some place near `end`. Conservative: never misses.
+
+        Each call prepares the level: ask for many pairs at once.
+
+        Parameters
+        ----------
+        start, end
+            Points (..., 2), which go together as numpy's arrays do.
+        start_radius, end_radius
+            How far places may be from them.
+        on_foot
+            Count only places that a way of that length leads to, through doors as they stand.
+
+        Examples
+        --------
+        >>> import sightline
+        >>> rooms = sightline.Plan.from_segments([(0, 0, 4, 0), (4, 0, 4, 3), (4, 3, 0, 3),
+        ...                                       (0, 3, 0, 0), (2, 0, 2, 2.5)])
+        >>> level = rooms.space()
+        >>> [bool(level.sees_within((1.5, 0.5), 0.9, (2.5, 0.5), 0.9, on_foot=foot))
+        ...  for foot in (False, True)]
+        [True, False]
+        """
+        a, b = np.broadcast_arrays(as_points(start, "start"), as_points(end, "end"))
+        near, far = (as_number(start_radius, "start_radius", least=0),
+                     as_number(end_radius, "end_radius", least=0))
+        sees: NDArray[np.uint8] = np.zeros(a.shape[:-1], np.uint8)
+        self._ask_long(call.level_sees_within, np.ascontiguousarray(a), near,
+                       np.ascontiguousarray(b), far, sees.size, as_flag(on_foot, "on_foot"),
+                       sees.reshape(-1))
+        return bool(sees) if sees.ndim == 0 else sees.view(bool)
 
     def seen_from(self, points: ArrayLike, places: ArrayLike, *, area: bool = False,
                   seen: str = "some") -> Any:

@@ -70,6 +70,19 @@ class Sets(unittest.TestCase):
             with self.assertRaises(ValueError):
                 hall.exposure(path, things, area=area)
 
+    def test_sees_within(self):
+        level = self.level
+        places = support.inside_points(level, 60, 5)
+        for on_foot in (False, True):
+            near = level.sees_within(places[:30], 0.5, places[30:], 0.5, on_foot=on_foot)
+            self.assertTrue((near >= level.can_see(places[:30], places[30:])).all())
+        some = level.sees_within(places[:30, None], 0, places[30:], 0)
+        self.assertEqual(some.shape, (30, 30))
+        self.assertTrue((some >= level.can_see(places[:30, None], places[30:])).all())
+        self.assertLess(some.sum(), 900)
+        with self.assertRaises(ValueError):
+            level.sees_within((1, 1), -1, (2, 2), 0)
+
     def test_wrong_questions(self):
         with self.assertRaises(ValueError):
             self.level.region_from([(8, 8), (50, 8)], seen="most")
