@@ -42,7 +42,8 @@ endfunction()
 # The headers of a part come with it; all others belong to the core.
 set(headers "${PROJECT_SOURCE_DIR}/lib/include/sightline")
 set(analysis_headers
-  art_gallery.h axial.h coverage.h path.h place.h place_proof.h set_cover.h set_sight.h vga.h viewpoint.h)
+  art_gallery.h axial.h coverage.h exposure.h path.h path_parts.h place.h place_area.h place_proof.h
+  reach.h set_cover.h set_sight.h vga.h viewpoint.h)
 set(io_headers io.h)
 set(study_headers from_region.h generate.h view_cells.h walk.h)
 set(glpk_headers glpk.h)

@@ -117,6 +117,27 @@ static void draw_viewpoint(cairo_t *cairo, const sl_palette *palette, const sl_d
     draw_label(cairo, frame, c->viewpoints[i].at, number, colour, palette->page);
 }
 
+static void draw_path(cairo_t *cairo, const picture *p, const sl_frame *frame) {
+    const sl_drawn_coverage *c = p->coverage;
+    const sl_palette *palette = &p->scene.palette;
+    for (size_t i = 0; i < c->path_count; i++) {
+        const sl_point at = sl_frame_point(frame, c->path[i]);
+        if (i)
+            cairo_line_to(cairo, at.x, at.y);
+        else
+            cairo_move_to(cairo, at.x, at.y);
+    }
+    sli_pen_stroke(cairo, palette->ink, 1.4 * frame->unit);
+    for (size_t i = 0; i < c->unseen_count; i++) {
+        const sl_point a = sl_frame_point(frame, c->unseen[i].a),
+                       b = sl_frame_point(frame, c->unseen[i].b);
+        cairo_move_to(cairo, a.x, a.y);
+        cairo_line_to(cairo, b.x, b.y);
+    }
+    cairo_set_line_cap(cairo, CAIRO_LINE_CAP_ROUND);
+    sli_pen_stroke(cairo, sl_viewpoint_colour(palette, 1), 4 * frame->unit);
+}
+
 void sl_draw_coverage_marks(cairo_t *cairo, const sl_palette *palette,
                             const sl_drawn_coverage *coverage, const sl_frame *frame) {
     for (size_t i = 0; i < coverage->blind_count; i++) {
@@ -136,6 +157,7 @@ static sl_status draw_plan(sl_context *context, cairo_t *cairo, const void *what
     sli_draw_solid(cairo, &p->scene, frame);
     sl_draw_coverage_borders(cairo, palette, p->coverage, frame);
     SL_TRY(sl_draw_walls(context, cairo, &p->scene, frame));
+    draw_path(cairo, p, frame);
     sl_draw_coverage_marks(cairo, palette, p->coverage, frame);
     return SL_OK;
 }

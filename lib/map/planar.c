@@ -86,6 +86,7 @@ typedef struct planer {
     SL_ARRAY(piece) pieces;
     SL_ARRAY(split) splits;
     SL_ARRAY(meeting) meetings;
+    size_t most;  ///< of meetings
     uint32_t old; ///< the edges below this number have been compared with each other
 } planer;
 
@@ -308,6 +309,9 @@ static sl_status add_meeting(planer *p, uint32_t edge, uint32_t other) {
     const double gx = (t.a.x - s.a.x) * p->scale, gy = (t.a.y - s.a.y) * p->scale;
     const double share = (gx * ty - gy * tx) / (sx * ty - sy * tx);
     const double along = share > 0 ? share < 1 ? share : 1 : 0;
+    if (p->meetings.count >= p->most)
+        return sl_fail(p->context, SL_UNSUPPORTED, "%s: more than %zu crossings", p->source,
+                       p->most);
     SL_TRY(SL_ARRAY_ROOM(p->context, &p->meetings, 1));
     p->meetings.items[p->meetings.count++] = (meeting){
         {s.a.x + along * (s.b.x - s.a.x), s.a.y + along * (s.b.y - s.a.y)}, {first, second}};
@@ -822,9 +826,18 @@ static sl_status make(planer *p, const sl_segment *segments, size_t count, sli_p
 
 sl_status sli_planar_make(sl_context *context, const char *source, const sl_segment *segments,
                           size_t count, double weld, sli_planar *out) {
+    return sli_planar_make_up_to(context, source, segments, count, weld, SIZE_MAX, out);
+}
+
+sl_status sli_planar_make_up_to(sl_context *context, const char *source, const sl_segment *segments,
+                                size_t count, double weld, size_t most, sli_planar *out) {
     int exponent = 0;
     frexp(magnitude(segments, count), &exponent);
-    planer p = {.context = context, .source = source, .weld = weld, .scale = ldexp(1, -exponent)};
+    planer p = {.context = context,
+                .source = source,
+                .weld = weld,
+                .scale = ldexp(1, -exponent),
+                .most = most};
     // A tolerance far below rounding counts as none: doubles must hold the numbers of squares.
     if (!(weld * p.scale >= 0x1p-50)) p.weld = 0;
     p.side = 64 * p.weld;

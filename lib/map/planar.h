@@ -44,6 +44,9 @@ typedef struct sli_planar {
 /// segments come near to each other in one place.
 sl_status sli_planar_make(sl_context *context, const char *source, const sl_segment *segments,
                           size_t count, double weld, sli_planar *out);
+/// The same, but SL_UNSUPPORTED where more than `most` crossings are found.
+sl_status sli_planar_make_up_to(sl_context *context, const char *source, const sl_segment *segments,
+                                size_t count, double weld, size_t most, sli_planar *out);
 void sli_planar_destroy(sl_context *context, sli_planar *planar); ///< and zeroes it
 
 /// The tolerance for doubles of a map's size. Ends that met still do after a map was turned and

@@ -15,7 +15,7 @@
 ///
 /// Signs decide all of this, so a piece is counted right however thin it is; only places of
 /// crossings are rounded (map/planar.h). Areas are sums of exact products, and rounded once.
-#include "sightline/overlay.h"
+#include "sight/overlay.h"
 
 #include "geometry/length.h"
 #include "geometry/orient.h"
@@ -43,6 +43,8 @@ typedef struct overlayer {
     const sl_shape *shapes;
     size_t count;          ///< of shapes; shape `count` is the area that counts
     bool limited;          ///< there is that area; else all that is covered counts
+    size_t most;           ///< of crossings
+    const char *what;      ///< is laid
     sl_map map;            ///< the outlines as walls, shape after shape
     size_t *first_segment; ///< by shape, and two more
     sli_mesh_lines lines;
@@ -86,8 +88,8 @@ static sl_status add_outlines(overlayer *o, const sl_shape *within) {
 static sl_status cut(overlayer *o) {
     sl_space *pieces = &o->out->pieces;
     SL_TRY(sli_mesh_lines_of_map(o->context, &o->map, &o->lines, pieces));
-    SL_TRY(sli_planar_make(o->context, "the overlay", o->lines.items.items, o->lines.items.count,
-                           sli_planar_tolerance(&pieces->bounds), &o->graph));
+    SL_TRY(sli_planar_make_up_to(o->context, o->what, o->lines.items.items, o->lines.items.count,
+                                 sli_planar_tolerance(&pieces->bounds), o->most, &o->graph));
     SL_TRY(sli_triangulate(o->context, &o->graph, &pieces->bounds, &o->triangles));
     return sli_mesh_make(o->context, &o->map, &o->lines, &o->graph, &o->triangles, pieces);
 }
@@ -302,11 +304,19 @@ static sl_status make(overlayer *o, const sl_shape *within) {
 
 sl_status sl_overlay_make(sl_context *context, const sl_shape *within, const sl_shape *shapes,
                           size_t count, sl_overlay *out) {
+    return sli_overlay_make_up_to(context, "the overlay", within, shapes, count, SIZE_MAX, out);
+}
+
+sl_status sli_overlay_make_up_to(sl_context *context, const char *what, const sl_shape *within,
+                                 const sl_shape *shapes, size_t count, size_t most,
+                                 sl_overlay *out) {
     sl_overlay made = {0};
     overlayer o = {.context = context,
                    .shapes = shapes,
                    .count = count,
                    .limited = within != NULL,
+                   .most = most,
+                   .what = what,
                    .out = &made};
     if (count >= INT32_MAX) return sl_fail_memory(context);
     const sl_status status = make(&o, within);

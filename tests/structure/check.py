@@ -30,7 +30,7 @@ import tempfile
 FOLDERS = ["base", "geometry", "json", "map", "space", "space/faults", "effects", "stab",
            "cell_to_cell", "cell_to_cell/search", "cell_to_cell/sweep", "cell_to_cell/explain",
            "sight", "world", "bake", "analysis/visibility_graph", "analysis/axial", "analysis/placement",
-           "analysis/route", "analysis/set_sight",
+           "analysis/reach", "analysis/route", "analysis/set_sight",
            "study/generate", "study/from_region", "study/walk", "study/view_cells",
            "io", "runtime", "draw"]
 # The folders of the command, in order, too.
@@ -41,9 +41,9 @@ VIEWER_FOLDERS = {"ui": [], "document": ["ui"], "plan": ["ui", "document"], "les
                   "app": ["ui", "document", "plan", "lessons", "panes", "dialogs"]}
 # Used by games with no other part of the library beside it.
 ALONE = {"runtime"}
-# Of that, what the library has in common with it: parts that include nothing.
+# Of that, what the library has in common with it: parts that include nothing, and the whole.
 SHARED = ("runtime/parts/box_envelope.h", "runtime/parts/box_sector.h",
-          "runtime/parts/box_sieve.h", "runtime/parts/pairs.h")
+          "runtime/parts/box_sieve.h", "runtime/parts/pairs.h", "runtime/sightline_runtime.h")
 # Public headers that are not named after their folder.
 HEADERS = {"context": "base", "earth": "geometry", "measures": "base", "support": "base", "version": "base",
            "import": "map",
@@ -58,7 +58,9 @@ HEADERS = {"context": "base", "earth": "geometry", "measures": "base", "support"
            "art_gallery": "analysis/placement", "coverage": "analysis/placement",
            "place": "analysis/placement", "place_area": "analysis/placement",
            "place_proof": "analysis/placement",
-           "path": "analysis/route", "set_sight": "analysis/set_sight",
+           "path": "analysis/route", "path_parts": "analysis/placement",
+           "reach": "analysis/reach",
+           "exposure": "analysis/set_sight", "set_sight": "analysis/set_sight",
            "set_cover": "analysis/placement", "viewpoint": "analysis/placement",
            "from_region": "study/from_region", "generate": "study/generate",
            "view_cells": "study/view_cells", "walk": "study/walk"}

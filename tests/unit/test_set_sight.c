@@ -127,6 +127,37 @@ static void areas(void **state) {
     end_room(&r);
 }
 
+/// Two walls with slits between a line and a hall: behind them the cones cross everywhere. The
+/// limit holds before the crossings are made points.
+static void many_slits(void **state) {
+    (void)state;
+    enum { SLITS = 80, TEXT = 64 * 1024 };
+    char *text = calloc(1, TEXT);
+    assert_non_null(text);
+    int used = snprintf(text, TEXT, "walls 0 0 800 0 800 60 0 60 0 0\nstart 400 1 0\n");
+    for (int wall = 0; wall < 2; wall++)
+        for (int i = 0; i <= SLITS; i++) // of different widths, so that few lines meet in a point
+            used += snprintf(text + used, (size_t)(TEXT - used), "wall %.17g %d %.17g %d\n",
+                             i ? 10 * i - 0.25 : 0.0, 20 + 20 * wall,
+                             i < SLITS ? 10 * i + 9 + (i * (7 + wall) % 13) * 0.05 : 800.0,
+                             20 + 20 * wall);
+    room r;
+    make_room(&r, text);
+    free(text);
+    const sl_point line[] = {{1, 2}, {799, 2}};
+    sl_set_sight *sight;
+    sl_set_region region = {0};
+    assert_ok(r.context, sl_set_sight_create(r.context, r.query, line, 2, SL_SET_LINE, &sight));
+    assert_int_equal(sl_set_sight_region(r.context, sight, SL_SEEN_FROM_SOME, &region),
+                     SL_UNSUPPORTED);
+    assert_non_null(strstr(sl_context_message(r.context), "more than"));
+    assert_non_null(strstr(sl_context_message(r.context), "crossings"));
+    assert_true(!region.shape.count && region.area == 0);
+    sl_set_region_destroy(r.context, &region);
+    sl_set_sight_destroy(r.context, sight);
+    end_room(&r);
+}
+
 static void wrong_sets(void **state) {
     (void)state;
     room r;
@@ -630,11 +661,12 @@ static void memory_that_ends(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(behind_a_wall), cmocka_unit_test(rooms_and_doors),
-        cmocka_unit_test(on_a_wall),     cmocka_unit_test(areas),
-        cmocka_unit_test(wrong_sets),    cmocka_unit_test(random_maps),
-        cmocka_unit_test(many_eyes),     cmocka_unit_test(one_point),
-        cmocka_unit_test(tiny_and_huge), cmocka_unit_test(memory_that_ends),
+        cmocka_unit_test(behind_a_wall),    cmocka_unit_test(rooms_and_doors),
+        cmocka_unit_test(on_a_wall),        cmocka_unit_test(areas),
+        cmocka_unit_test(many_slits),       cmocka_unit_test(wrong_sets),
+        cmocka_unit_test(random_maps),      cmocka_unit_test(many_eyes),
+        cmocka_unit_test(one_point),        cmocka_unit_test(tiny_and_huge),
+        cmocka_unit_test(memory_that_ends),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

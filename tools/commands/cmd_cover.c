@@ -3,6 +3,7 @@
 #include "commands/commands.h"
 #include "inputs/pipeline.h"
 #include "sightline/support.h"
+#include "studies/cover_path.h"
 #include "studies/cover_report.h"
 #include "studies/cover_zones.h"
 #include "system/built.h"
@@ -11,7 +12,7 @@
 
 typedef struct cover_plan {
     const char *operands[2]; ///< the map, and the table
-    const char *picture, *zones, *output;
+    const char *picture, *zones, *path, *output;
     map_pipeline pipeline;
     door_choice doors;
     sl_viewpoint like; ///< what rows of the table leave out
@@ -27,6 +28,7 @@ typedef struct cover_work {
     sl_coverage coverage;
     zone_list zones;
     zone_cover *covers; ///< by zone
+    cover_path path;
 } cover_work;
 
 /// A viewpoint that is not inside sees nothing that counts, or only through windows.
@@ -54,11 +56,34 @@ static sl_status print_json(sl_context *context, const cover_work *w, const cove
     json_add_text(&fields, "input", report->input);
     cover_add_json(&fields, report);
     if (w->covers) cover_zones_add_json(&fields, &w->zones, w->covers);
+    if (w->path.count) cover_path_add_json(&fields, &w->path);
     return json_print(context, &fields);
+}
+
+/// A sign hangs on what it faces: its place is in the wall, or it faces the wrong way.
+static void note_signs(sl_context *context, const cover_plan *plan, const cover_work *w) {
+    size_t unread = 0, first = 0;
+    for (size_t i = 0; i < w->cameras.count; i++)
+        if (w->viewpoints[i].sign && w->coverage.seen[i] <= w->coverage.negligible && !unread++)
+            first = i;
+    if (unread)
+        sl_note(
+            context,
+            "%s: %zu of %zu signs can be read from nowhere, the first on line %u: put it on the "
+            "wall or before it, and its heading into the room",
+            plan->operands[1], unread, w->cameras.count, w->cameras.items[first].line);
+}
+
+static sl_status check_plan(sl_context *context, const cover_plan *plan) {
+    if (plan->output && plan->zones && plan->path)
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "-o makes one table: give one of --zones and --path");
+    return SL_OK;
 }
 
 static sl_status work(command_console *console, const cover_plan *plan, cover_work *w) {
     sl_context *context = console->context;
+    SL_TRY(check_plan(context, plan));
     const sl_baked *baked = &w->baked;
     SL_TRY(pipeline_read_space(
         context, &plan->pipeline, "cover",
@@ -72,6 +97,7 @@ static sl_status work(command_console *console, const cover_plan *plan, cover_wo
         sl_note(context, "mirrors are walls here: cover counts what is seen directly");
     SL_TRY(cover_viewpoints(context, &w->cameras, &w->viewpoints));
     SL_TRY(sl_coverage_make(context, w->query, w->viewpoints, w->cameras.count, &w->coverage));
+    note_signs(context, plan, w);
     const cover_report report = {plan->operands[0], plan->pipeline.input.import.map, baked,
                                  &w->cameras, &w->coverage};
     if (plan->zones) {
@@ -79,21 +105,28 @@ static sl_status work(command_console *console, const cover_plan *plan, cover_wo
                           &w->zones));
         SL_TRY(cover_zones_make(context, &report, &w->zones, &w->covers));
     }
+    if (plan->path)
+        SL_TRY(cover_path_make(context, &report, w->query, w->viewpoints, plan->path, &w->path));
     if (plan->output)
-        SL_TRY(cover_table_write(context, &report, plan->zones ? &w->zones : NULL, w->covers,
-                                 plan->output));
+        SL_TRY(plan->path ? cover_path_write(context, &w->path, plan->output)
+                          : cover_table_write(context, &report, plan->zones ? &w->zones : NULL,
+                                              w->covers, plan->output));
     char caption[256];
     cover_sentence(&report, caption, sizeof caption);
-    if (plan->picture) SL_TRY(cover_draw(context, &report, caption, &plan->drawing, plan->picture));
+    if (plan->picture)
+        SL_TRY(cover_draw(context, &report, plan->path ? &w->path : NULL, caption, &plan->drawing,
+                          plan->picture));
     progress_line_clear(&console->line);
     if (plan->json) return print_json(context, w, &report);
     if (!console->quiet) cover_print(&report);
     if (!console->quiet && w->covers) cover_zones_print(&report, &w->zones, w->covers);
+    if (!console->quiet && plan->path) cover_path_print(&report, &w->path);
     return SL_OK;
 }
 
 static void clear(sl_context *context, cover_work *w) {
     sl_coverage_destroy(context, &w->coverage);
+    cover_path_destroy(context, &w->path);
     zones_destroy(context, &w->zones);
     sl_free(context, w->covers);
     sl_free(context, w->viewpoints);
@@ -110,12 +143,20 @@ sl_status cmd_cover(command_console *console, int argc, char **argv) {
     const option_table doors = door_option_table(&plan.doors);
     const option_spec options[] = {
         {"output", 'o', "FILE.csv",
-         "a table: a row for each zone, or without --zones for each viewpoint",
+         "a table: a row for each zone, with --path for each part that is not seen, else for each "
+         "viewpoint",
          .text = &plan.output, .check = CHECK_FILE, .endings = ".csv .txt"},
         {"zones", 0, "ZONES",
          "what is seen of each zone: names of objects in the map, a drawing of closed outlines, or "
          "a table of corners (.csv: name,x,y)",
          .text = &plan.zones},
+        {"path", 0, "PATH",
+         "which parts of a path no viewpoint sees: a path of the map, or the points of a CSV table",
+         .text = &plan.path, .is_input = true},
+        {"signs", 0, NULL,
+         "the table has signs: where they can be read. They face their heading, and they are read "
+         "from --range, or from 100 times the column letters; at an angle from nearer",
+         .flag = &plan.like.sign},
         {"picture", 0, "PICTURE", "draw classes of coverage: .png, .svg or .pdf",
          .text = &plan.picture, .check = CHECK_PICTURE},
         {"json", 0, NULL, "print one JSON object", .flag = &plan.json},
@@ -134,12 +175,14 @@ sl_status cmd_cover(command_console *console, int argc, char **argv) {
         .what = "Shows what given viewpoints see together: how much of the inside 0, 1, 2, 3 or "
                 "more of them see, the blind spots by size, what each viewpoint sees and what it "
                 "alone sees. The table has the columns x and y, and maybe name, heading, fov, "
-                "range, height, tilt; commas, semicolons or tabs stand between them. Angles are "
+                "range, height, tilt, letters, sign; commas, semicolons or tabs stand between "
+                "them. Angles are "
                 "degrees, counter-clockwise from +x; a camera of some height and tilt has a dead "
                 "zone below.",
         .examples = "  sightline cover gallery.dxf cameras.csv --picture cover.png\n"
                     "  sightline cover office.map cameras.csv --fov 90 --range 12\n"
-                    "  sightline cover office.map cameras.csv --zones rooms.dxf -o rooms.csv",
+                    "  sightline cover office.map cameras.csv --zones rooms.dxf -o rooms.csv\n"
+                    "  sightline cover office.map signs.csv --signs --path escape.csv",
         .options = options,
         .option_count = sizeof options / sizeof *options,
         .given = &plan.pipeline.given,

@@ -8,6 +8,7 @@
 #include "reports/json_print.h"
 #include "sightline/draw.h"
 #include "sightline/support.h"
+#include "studies/exposure.h"
 #include "studies/eye_run.h"
 #include "studies/isovist.h"
 #include "studies/isovist_set.h"
@@ -20,7 +21,7 @@
 #include <string.h>
 
 typedef struct isovist_plan {
-    const char *input, *path, *points, *output, *picture;
+    const char *input, *path, *points, *see, *output, *picture;
     map_pipeline pipeline;
     door_choice doors;
     within_plan within;
@@ -48,6 +49,7 @@ typedef struct isovist_work {
     seen_parts parts;         ///< of all eyes, once they are gathered
     sl_overlay together;      ///< with --union
     isovist_set set;          ///< of a line or an area
+    exposed_things things;    ///< that the line sees
 } isovist_work;
 
 // --- the options
@@ -65,6 +67,11 @@ static sl_status make_plan(sl_context *context, isovist_plan *p) {
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "--union, --look and --fov are not for lines and areas (--from-line, "
                        "--from-area, --along)");
+    if (p->see && !p->set.along && !p->set.line)
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "--see is for a path: give --along or --from-line");
+    if (p->see && p->output && name_ends_with(p->output, ".geojson"))
+        return sl_fail(context, SL_BAD_ARGUMENT, "--see makes a table: name it .csv");
     if (p->step > 0 && !p->path)
         return sl_fail(context, SL_BAD_ARGUMENT, "--step is for --path, which is not given");
     if (p->measure_given && !(p->picture && grid))
@@ -114,7 +121,7 @@ static sl_status note_path(sl_context *context, const sl_path *path, const isovi
     char what[128];
     snprintf(what, sizeof what, "--path %s", path->name);
     places_note_outside(context, what, &w->baked.space, w->eyes.list.items, w->eyes.list.count);
-    return places_note_path(context, path->name, &w->baked, path->points, path->count);
+    return places_note_path(context, what, &w->baked, path->points, path->count);
 }
 
 /// The points of a table.
@@ -342,6 +349,15 @@ static sl_status work_set(command_console *console, const isovist_plan *plan, is
     if (plan->picture)
         SL_TRY(built_pictures()->set(context, &w->baked, &drawn, caption, &plan->drawing,
                                      plan->picture));
+    if (plan->see) {
+        SL_TRY(exposure_make(context, plan->see, &plan->pipeline.input, &w->baked, w->query,
+                             set->points, set->count, &w->things));
+        progress_line_clear(&console->line);
+        SL_TRY(exposure_write(context, &w->things, plan->output ? plan->output : "-"));
+        exposure_say(&w->things, caption, sizeof caption);
+        sl_note(context, "%s", caption);
+        return SL_OK;
+    }
     progress_line_clear(&console->line);
     SL_TRY(isovist_set_write(context, set, &w->baked.map.earth, plan->output ? plan->output : "-"));
     sl_note(context, "%s", caption);
@@ -426,6 +442,11 @@ sl_status cmd_isovist(command_console *console, int argc, char **argv) {
          .text = &plan.set.area, .rare = true},
         {"along", 0, "PATH", "the same along a path of the map, or along the points of a CSV table",
          .text = &plan.set.along, .is_input = true, .rare = true},
+        {"see", 0, "THINGS",
+         "with --along or --from-line: what of each thing is seen, and along how much of the way. "
+         "Names of objects, doors and layers; 'objects', 'doors': all of them; a drawing of closed "
+         "outlines, or a table of corners (.csv: name,x,y)",
+         .text = &plan.see, .rare = true},
         {"step", 0, "STEP", "with --path: look from a point every STEP along it",
          .number = &plan.step, .over_0 = true, .rare = true},
         {"points", 0, "CSV",
@@ -468,6 +489,7 @@ sl_status cmd_isovist(command_console *console, int argc, char **argv) {
     seen_parts_destroy(console->context, &w.parts);
     sl_overlay_destroy(console->context, &w.together);
     isovist_set_destroy(console->context, &w.set);
+    exposure_destroy(console->context, &w.things);
     eyes_destroy(console->context, &w.eyes);
     sl_query_destroy(console->context, w.query);
     sl_baked_destroy(console->context, &w.baked);

@@ -172,7 +172,8 @@ static sl_status work(command_console *console, const place_plan *plan, place_wo
         sl_placement_say(&w->placement, "viewpoint", w->late, proof, sizeof proof);
     snprintf(caption, sizeof caption, "%s.\n%s", sentence, proof);
     if (plan->output) SL_TRY(sl_cameras_write(context, &w->cameras, plan->output));
-    if (plan->picture) SL_TRY(cover_draw(context, &report, caption, &plan->drawing, plan->picture));
+    if (plan->picture)
+        SL_TRY(cover_draw(context, &report, NULL, caption, &plan->drawing, plan->picture));
     progress_line_clear(&console->line);
     if (plan->json) return print_json(context, w, &report);
     if (console->quiet) return SL_OK;

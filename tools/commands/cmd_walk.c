@@ -279,7 +279,9 @@ static sl_status lay_way(sl_context *context, const walk_plan *plan, walk_work *
         if (w->way.count < 2 || !(length > 0))
             return sl_fail(context, SL_BAD_ARGUMENT, "--path %s: a path of no length", name);
         w->step = plan->step > 0 ? plan->step : length / (double)plan->steps;
-        return places_note_path(context, name, &w->baked, w->way.items, w->way.count);
+        char what[128];
+        snprintf(what, sizeof what, "--path %s", name);
+        return places_note_path(context, what, &w->baked, w->way.items, w->way.count);
     }
     if (!map->start_count)
         return sl_fail(context, SL_BAD_ARGUMENT,

@@ -3,6 +3,7 @@
 
 #include "reports/heat_map.h"
 #include "sightline/support.h"
+#include "studies/cover_path.h"
 #include "system/built.h"
 
 #include <stdio.h>
@@ -36,13 +37,19 @@ void cover_sentence(const cover_report *r, char *text, size_t size) {
     const sl_coverage *c = r->coverage;
     char seen[AREA_TEXT], all[AREA_TEXT];
     const double blind = class_area(c, 0), inside = c->overlay.areas[0];
+    size_t signs = 0;
+    for (size_t i = 0; i < c->count; i++) signs += r->cameras->items[i].view.sign;
+    const bool one = c->count == 1;
+    const char *see = signs < c->count ? one ? "viewpoint sees" : "viewpoints see"
+                      : one            ? "sign can be read from"
+                                       : "signs can be read from";
     if (!(blind > 0))
-        snprintf(text, size, "%zu viewpoint%s all that is inside (%s)", c->count,
-                 c->count == 1 ? " sees" : "s see", area_text(r, inside, all));
+        snprintf(text, size, "%zu %s all that is inside (%s)", c->count, see,
+                 area_text(r, inside, all));
     else
-        snprintf(text, size, "%zu viewpoint%s %s of %s inside (%.3g %%)", c->count,
-                 c->count == 1 ? " sees" : "s see", area_text(r, inside - blind, seen),
-                 area_text(r, inside, all), 100 * (inside - blind) / inside);
+        snprintf(text, size, "%zu %s %s of %s inside (%.3g %%)", c->count, see,
+                 area_text(r, inside - blind, seen), area_text(r, inside, all),
+                 100 * (inside - blind) / inside);
 }
 
 static void name_of(const sl_camera *camera, size_t number, char *text, size_t size) {
@@ -116,6 +123,7 @@ static void add_camera(json_fields *f, const cover_report *r, size_t i) {
     if (camera->view.fov < 360) json_add_real(f, "fov", camera->view.fov);
     if (camera->view.range > 0) json_add_real(f, "range", camera->view.range);
     if (camera->view.nearest > 0) json_add_real(f, "nearest", camera->view.nearest);
+    if (camera->view.sign) json_add_flag(f, "sign", true);
     json_add_real(f, "seen_area", r->coverage->seen[i]);
     json_add_real(f, "alone_area", r->coverage->alone[i]);
     json_add_flag(f, "spare", sl_coverage_is_spare(r->coverage, i));
@@ -146,8 +154,8 @@ void cover_add_json(json_fields *f, const cover_report *r) {
     json_close_list(f);
 }
 
-sl_status cover_draw(sl_context *context, const cover_report *r, const char *caption,
-                     const sl_draw_options *drawing, const char *path) {
+sl_status cover_draw(sl_context *context, const cover_report *r, const cover_path *way,
+                     const char *caption, const sl_draw_options *drawing, const char *path) {
     const sl_coverage *c = r->coverage;
     sl_viewpoint *viewpoints = NULL;
     const char **names = sl_alloc_array(context, c->count, sizeof *names);
@@ -162,6 +170,12 @@ sl_status cover_draw(sl_context *context, const cover_report *r, const char *cap
                                .regions = c->regions,
                                .count = c->count,
                                .blind = blind};
+    if (way) {
+        drawn.path = way->points;
+        drawn.path_count = way->count;
+        drawn.unseen = way->unseen.items;
+        drawn.unseen_count = way->unseen.count;
+    }
     for (; drawn.blind_count < c->blind_count && drawn.blind_count < BLIND_MOST;
          drawn.blind_count++)
         blind[drawn.blind_count] = c->blind[drawn.blind_count].at;

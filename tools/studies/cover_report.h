@@ -18,7 +18,8 @@ typedef struct cover_report {
 /// The viewpoints of cameras. The caller frees them (sl_free).
 sl_status cover_viewpoints(sl_context *context, const sl_cameras *cameras, sl_viewpoint **out);
 
-/// "3 viewpoints see 52 m² of 60 m² inside (87 %)"
+/// "3 viewpoints see 52 m² of 60 m² inside (87 %)"; where all are signs: "3 signs can be read from
+/// 52 m² of 60 m² inside (87 %)"
 void cover_sentence(const cover_report *report, char *text, size_t size);
 
 /// The sentence, classes, a line a viewpoint, spare ones, and the largest blind spots.
@@ -27,8 +28,11 @@ void cover_print(const cover_report *report);
 /// "areas", "viewpoints" and "blind_spots".
 void cover_add_json(json_fields *fields, const cover_report *report);
 
-/// Draws classes and viewpoints. `caption` as sl_draw_coverage_file().
-sl_status cover_draw(sl_context *context, const cover_report *report, const char *caption,
-                     const sl_draw_options *drawing, const char *path);
+struct cover_path;
+
+/// Draws classes and viewpoints, and what of a way they do not see; NULL for none. `caption` as
+/// sl_draw_coverage_file().
+sl_status cover_draw(sl_context *context, const cover_report *report, const struct cover_path *way,
+                     const char *caption, const sl_draw_options *drawing, const char *path);
 
 #endif

@@ -2,9 +2,7 @@
 #include "studies/isovist_set.h"
 
 #include "arguments/names.h"
-#include "arguments/options.h"
-#include "inputs/inputs.h"
-#include "inputs/number_table.h"
+#include "inputs/path_points.h"
 #include "sightline/json.h"
 
 #include <math.h>
@@ -74,53 +72,6 @@ static sl_status read_points(sl_context *context, const char *label, const char 
     return status;
 }
 
-static sl_status take_table(sl_context *context, const number_table *table, isovist_set *out) {
-    if (table->columns < 2 || !table->rows)
-        return sl_fail(context, SL_BAD_INPUT, "%s: expected the columns x,y and a row for a point",
-                       table->path);
-    const size_t x = table->names ? number_table_column(table, "x") : 0;
-    const size_t y = table->names ? number_table_column(table, "y") : 1;
-    if (x == table->columns || y == table->columns)
-        return sl_fail(context, SL_BAD_INPUT, "%s:%u: there is no column \"%s\"", table->path,
-                       table->first_line, x == table->columns ? "x" : "y");
-    out->points = sl_alloc_array(context, table->rows, sizeof *out->points);
-    if (!out->points) return SL_NO_MEMORY;
-    for (; out->count < table->rows; out->count++) {
-        const sl_point at = {number_table_at(table, out->count, x),
-                             number_table_at(table, out->count, y)};
-        if (isnan(at.x) || isnan(at.y))
-            return sl_fail(context, SL_BAD_INPUT, "%s:%u: a point needs x and y", table->path,
-                           table->lines[out->count]);
-        out->points[out->count] = at;
-    }
-    return SL_OK;
-}
-
-static sl_status read_path(sl_context *context, const char *name, const sl_map *map,
-                           isovist_set *out) {
-    for (size_t i = 0; i < map->path_count; i++) {
-        const sl_path *path = &map->paths[i];
-        if (strcmp(path->name, name) != 0) continue;
-        out->points = sl_alloc_array(context, path->count, sizeof *out->points);
-        if (!out->points) return SL_NO_MEMORY;
-        memcpy(out->points, path->points, path->count * sizeof *out->points);
-        out->count = path->count;
-        return SL_OK;
-    }
-    if (name_ends_with(name, ".csv") || strcmp(name, "-") == 0) {
-        number_table table = {0};
-        SL_TRY(number_table_read(context, name, &table));
-        const sl_status status = take_table(context, &table, out);
-        number_table_destroy(context, &table);
-        return status;
-    }
-    const name_table paths = {"path", map->paths, sizeof *map->paths, map->path_count, NULL};
-    char names[NAME_LIST];
-    name_list(&paths, names);
-    return sl_fail(context, SL_BAD_ARGUMENT,
-                   "--along %s: the map has no path of that name; its paths: %s", name, names);
-}
-
 sl_status isovist_set_make(sl_context *context, const set_choice *choice, const sl_baked *baked,
                            sl_query *query, isovist_set *out) {
     if (choice->line)
@@ -128,7 +79,8 @@ sl_status isovist_set_make(sl_context *context, const set_choice *choice, const 
     else if (choice->area)
         SL_TRY(read_points(context, "--from-area", choice->area, SL_SET_AREA, out));
     else
-        SL_TRY(read_path(context, choice->along, &baked->map, out));
+        SL_TRY(path_points_read(context, "along", choice->along, &baked->map, &out->points,
+                                &out->count));
     sl_set_sight *sight;
     SL_TRY(sl_set_sight_create(context, query, out->points, out->count, out->kind, &sight));
     sl_status status = SL_OK;

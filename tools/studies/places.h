@@ -10,8 +10,9 @@
 void places_note_outside(sl_context *context, const char *what, const sl_space *space,
                          const eye_place *eyes, size_t count);
 
-/// Notes where a path goes through a wall that stops steps. One-way glass stops no path.
-sl_status places_note_path(sl_context *context, const char *name, const sl_baked *baked,
+/// Notes where a path goes through a wall that stops steps. One-way glass stops no path. `what`:
+/// how it is given, "--path tour".
+sl_status places_note_path(sl_context *context, const char *what, const sl_baked *baked,
                            const sl_point *points, size_t count);
 
 #endif

@@ -22,6 +22,8 @@ typedef enum column {
     NUMBERED, ///< so many have a place in a table without names
     COLUMN_HEIGHT = NUMBERED,
     COLUMN_TILT,
+    COLUMN_LETTERS,
+    COLUMN_SIGN,
     COLUMN_COST,
     COLUMN_NEAREST,
     COLUMN_NAME,
@@ -37,6 +39,8 @@ static const char *const column_names[COLUMNS][4] = {
     {"range", "reach"},
     {"height"},
     {"tilt"},
+    {"letters", "letter height", "letter_height"},
+    {"sign"},
     {"cost", "price"},
     {"nearest", "dead_zone", "dead zone"},
     {"name", "label", "id", "camera"},
@@ -71,6 +75,14 @@ void sl_viewpoint_tilt(sl_viewpoint *viewpoint, double height, double tilt, doub
     if (!(upper > 0)) return;
     const double far = height / tan(upper);
     if (!(viewpoint->range > 0) || far < viewpoint->range) viewpoint->range = far;
+}
+
+void sl_viewpoint_sign(sl_viewpoint *viewpoint, double letters) {
+    viewpoint->sign = true;
+    viewpoint->fov = 180;
+    const double range = SL_SIGN_FACTOR * letters;
+    if (letters > 0 && !(viewpoint->range > 0 && viewpoint->range < range))
+        viewpoint->range = range;
 }
 
 // --- fields
@@ -159,7 +171,7 @@ static sl_status name_columns(reader *r, const char *line, size_t length) {
     if (!known[COLUMN_X] || !known[COLUMN_Y])
         return sl_fail_at(r->context, r->path, r->line,
                           "the columns x and y are needed; others may be name, heading, fov, "
-                          "range, height, tilt, cost");
+                          "range, height, tilt, letters, sign, cost");
     if (count && sl_text_is_utf8(others))
         sl_note(r->context, "%s: column%s passed over: %s", r->path, count == 1 ? "" : "s", others);
     return SL_OK;
@@ -186,6 +198,9 @@ static sl_status check_row(const reader *r, const sl_camera *camera) {
                         : !(camera->height >= 0)       ? "height must be 0 or more"
                         : !(camera->tilt >= 0 && camera->tilt <= 90)
                             ? "tilt must be 0 to 90 degrees below the horizon"
+                        : !(camera->letters >= 0) ? "letters must be 0 or more high"
+                        : camera->view.sign && !(camera->view.range > 0)
+                            ? "a sign needs letters, their height, or a range: how far it is read"
                         : !(camera->cost > 0) ? "cost must be over 0"
                                               : NULL;
     return wrong ? sl_fail_at(r->context, r->path, r->line, "%s", wrong) : SL_OK;
@@ -195,9 +210,11 @@ static sl_status check_row(const reader *r, const sl_camera *camera) {
 static sl_status take_field(reader *r, size_t place, const field *f, sl_camera *camera, char *name,
                             size_t *needed) {
     const column c = r->columns[place];
-    double *const targets[] = {&camera->view.at.x, &camera->view.at.y,  &camera->view.heading,
-                               &camera->view.fov,  &camera->view.range, &camera->height,
-                               &camera->tilt,      &camera->cost,       &camera->view.nearest};
+    double sign = 0;
+    double *const targets[] = {&camera->view.at.x, &camera->view.at.y,   &camera->view.heading,
+                               &camera->view.fov,  &camera->view.range,  &camera->height,
+                               &camera->tilt,      &camera->letters,     &sign,
+                               &camera->cost,      &camera->view.nearest};
     if (c == UNKNOWN || !f->length) return SL_OK;
     if (c == COLUMN_NAME) {
         if (!sl_text_is_utf8(f->text))
@@ -207,9 +224,11 @@ static sl_status take_field(reader *r, size_t place, const field *f, sl_camera *
         return SL_OK;
     }
     *needed += c == COLUMN_X || c == COLUMN_Y;
-    if (read_number(r, f, targets[c])) return SL_OK;
-    return sl_fail_at(r->context, r->path, r->line, "%s: '%.40s' is no finite number",
-                      column_names[c][0], sl_text_is_utf8(f->text) ? f->text : "?");
+    if (!read_number(r, f, targets[c]))
+        return sl_fail_at(r->context, r->path, r->line, "%s: '%.40s' is no finite number",
+                          column_names[c][0], sl_text_is_utf8(f->text) ? f->text : "?");
+    if (c == COLUMN_SIGN) camera->view.sign = sign != 0;
+    return SL_OK;
 }
 
 static sl_status read_row(reader *r, const char *line, size_t length) {
@@ -229,6 +248,7 @@ static sl_status read_row(reader *r, const char *line, size_t length) {
         if (place < r->column_count) SL_TRY(take_field(r, place, &f, &camera, name, &needed));
     }
     if (needed < 2) return sl_fail_at(r->context, r->path, r->line, "x and y are needed");
+    if (camera.letters > 0 || camera.view.sign) sl_viewpoint_sign(&camera.view, camera.letters);
     SL_TRY(check_row(r, &camera));
     if (camera.height > 0) sl_viewpoint_tilt(&camera.view, camera.height, camera.tilt, 16.0 / 9);
     return sl_cameras_add(r->context, r->to, &camera);
@@ -319,6 +339,10 @@ static bool needs(const sl_camera *camera, column c) {
         return camera->height > 0;
     case COLUMN_TILT:
         return camera->tilt > 0;
+    case COLUMN_LETTERS:
+        return camera->letters > 0;
+    case COLUMN_SIGN:
+        return camera->view.sign && !(camera->letters > 0);
     case COLUMN_COST:
         return camera->cost != 1;
     case COLUMN_NEAREST:
@@ -341,9 +365,10 @@ static void put_name(FILE *out, const char *name) {
 }
 
 static double value_of(const sl_camera *camera, column c) {
-    const double values[] = {camera->view.at.x, camera->view.at.y,  camera->view.heading,
-                             camera->view.fov,  camera->view.range, camera->height,
-                             camera->tilt,      camera->cost,       camera->view.nearest};
+    const double values[] = {camera->view.at.x, camera->view.at.y,   camera->view.heading,
+                             camera->view.fov,  camera->view.range,  camera->height,
+                             camera->tilt,      camera->letters,     camera->view.sign,
+                             camera->cost,      camera->view.nearest};
     return values[c];
 }
 
@@ -363,8 +388,8 @@ static void put_row(FILE *out, const sl_camera *camera, const column *columns, s
 
 void sl_cameras_print(const sl_cameras *cameras, FILE *out) {
     static const column order[COLUMNS] = {
-        COLUMN_NAME,  COLUMN_X,      COLUMN_Y,    COLUMN_HEADING, COLUMN_FOV,
-        COLUMN_RANGE, COLUMN_HEIGHT, COLUMN_TILT, COLUMN_NEAREST, COLUMN_COST};
+        COLUMN_NAME,   COLUMN_X,    COLUMN_Y,       COLUMN_HEADING, COLUMN_FOV,  COLUMN_RANGE,
+        COLUMN_HEIGHT, COLUMN_TILT, COLUMN_NEAREST, COLUMN_LETTERS, COLUMN_SIGN, COLUMN_COST};
     column columns[COLUMNS];
     size_t count = 0;
     for (size_t k = 0; k < COLUMNS; k++) {

@@ -5,9 +5,8 @@
 #include "sightline/place.h"
 
 #include "analysis/placement/looks.h"
-#include "geometry/crossing.h"
+#include "analysis/placement/view_shapes.h"
 #include "geometry/orient.h"
-#include "sight/cone.h"
 #include "sightline/support.h"
 
 typedef struct lister {
@@ -45,11 +44,6 @@ static sl_status look_around(lister *l, sl_point at) {
     return status;
 }
 
-static bool is_within(const sl_viewpoint *place, const sl_view *view, sl_point target) {
-    if (place->range > 0 && sli_distance_compare(place->at, target, place->range) > 0) return false;
-    return view->full || sli_same_point(place->at, target) || sli_view_holds(view, target);
-}
-
 static sl_status add_column(lister *l, uint32_t number) {
     const sl_viewpoint *place = &l->list->places[number];
     const double reach = l->bounds.max.x - l->bounds.min.x + l->bounds.max.y - l->bounds.min.y;
@@ -60,7 +54,7 @@ static sl_status add_column(lister *l, uint32_t number) {
     if (moved) SL_TRY(look_around(l, place->at));
     SL_TRY(SL_ARRAY_ROOM(l->context, &l->entries, l->around.count));
     for (size_t i = 0; i < l->around.count; i++)
-        if (is_within(place, &view, l->list->targets[l->around.items[i]]))
+        if (sli_viewpoint_holds(place, &view, l->list->targets[l->around.items[i]]))
             l->entries.items[l->entries.count++] = l->around.items[i];
     l->ends[number] = l->entries.count;
     return SL_OK;
@@ -174,6 +168,7 @@ static sl_status find_most(lister *l, sl_cover_problem problem, const sl_cover_o
 }
 
 static sl_status check_list(sl_context *context, const sl_place_list *list) {
+    SL_TRY(sli_refuse_signs(context, list->places, list->place_count, "placement"));
     for (uint32_t i = 0; i < list->place_count; i++) {
         const sl_viewpoint *p = &list->places[i];
         if (!(p->fov > 0) || !isfinite(p->heading) || !(p->range >= 0) || !isfinite(p->range))

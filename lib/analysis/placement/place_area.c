@@ -26,6 +26,7 @@ enum { ROUNDS = 400, COARSE_ITERATIONS = 20000, SEARCH_ITERATIONS = 5000, SEARCH
 
 static sl_status check_task(sl_context *context, const sl_place_area *t) {
     SL_TRY(sli_check_viewpoints(context, t->places, t->place_count));
+    SL_TRY(sli_refuse_signs(context, t->places, t->place_count, "placement"));
     if (!t->place_count) return sl_fail(context, SL_BAD_ARGUMENT, "there is no place to choose");
     if (t->place_count >= SLI_WIDE)
         return sl_fail(context, SL_BAD_ARGUMENT, "%u places are too many", t->place_count);

@@ -6,24 +6,46 @@
 ///     |   ( (o)  )    |
 ///     |    \____/     |        An arc becomes chords. Those of the range lie within the arc, those
 ///     +---------------+        of the dead zone about it: what is doubtful counts as not seen.
+///
+/// Of a sign it is the region all round, and what of it is within a disc.
 #include "analysis/placement/view_shapes.h"
+
+#include "geometry/crossing.h"
+#include "geometry/orient.h"
+#include "sight/cone.h"
 
 #include <math.h>
 
 /// How far the chord of an arc may be off it, as a share of the radius.
 #define CHORD 1e-4
+/// The corners of a sign's disc: its chords are not so far off it.
+enum { DISC = 256 };
+/// A sign counts so far before its place, as a share of the largest coordinate.
+#define BEFORE 0x1p-44
 
 sl_status sli_check_viewpoints(sl_context *context, const sl_viewpoint *viewpoints, size_t count) {
     for (size_t i = 0; i < count; i++) {
         const sl_viewpoint *v = &viewpoints[i];
         const bool cone = v->fov > 0 && v->fov <= 360 && isfinite(v->heading);
         const bool reach = v->range >= 0 && v->nearest >= 0 && isfinite(v->range + v->nearest);
+        if (v->sign && !(v->range > 0))
+            return sl_fail(context, SL_BAD_ARGUMENT,
+                           "viewpoint %zu: a sign needs a range, how far it is read", i + 1);
         if (!cone || !reach || !isfinite(v->at.x) || !isfinite(v->at.y))
             return sl_fail(context, SL_BAD_ARGUMENT, "viewpoint %zu: %s", i + 1,
                            !cone    ? "the field of view must be over 0 and up to 360 degrees"
                            : !reach ? "range and dead zone must be 0 or more, and finite"
                                     : "its place must be finite");
     }
+    return SL_OK;
+}
+
+sl_status sli_refuse_signs(sl_context *context, const sl_viewpoint *viewpoints, size_t count,
+                           const char *what) {
+    for (size_t i = 0; i < count; i++)
+        if (viewpoints[i].sign)
+            return sl_fail(context, SL_UNSUPPORTED, "viewpoint %zu is a sign: %s knows none", i + 1,
+                           what);
     return SL_OK;
 }
 
@@ -72,8 +94,81 @@ static sl_status add_loop(sl_context *context, sl_query *query, const sl_viewpoi
     return end_loop(context, s);
 }
 
+// --- signs
+
+static sl_point ahead(sl_point from, double heading, double way) {
+    const double degree = atan(1) / 45;
+    return (sl_point){from.x + way * cos(heading * degree), from.y + way * sin(heading * degree)};
+}
+
+sl_point sli_viewpoint_eye(const sl_space *space, const sl_viewpoint *v) {
+    const sl_box *b = &space->bounds;
+    const double largest =
+        fmax(fmax(fabs(b->min.x), fabs(b->max.x)), fmax(fabs(b->min.y), fabs(b->max.y)));
+    return v->sign ? ahead(v->at, v->heading, BEFORE * largest) : v->at;
+}
+
+sl_point sli_sign_middle(sl_point eye, const sl_viewpoint *v) {
+    return ahead(eye, v->heading, v->range / 2);
+}
+
+bool sli_viewpoint_holds(const sl_viewpoint *v, const sl_view *view, sl_point place) {
+    if (v->range > 0 && sli_distance_compare(view->eye, place, v->range) > 0) return false;
+    if (v->nearest > 0 && sli_distance_compare(view->eye, place, v->nearest) < 0) return false;
+    if (v->sign)
+        return sli_distance_compare(sli_sign_middle(view->eye, v), place, v->range / 2) <= 0;
+    return view->full || sli_same_point(view->eye, place) || sli_view_holds(view, place);
+}
+
+/// What of the loop behind the last shape is within the disc of a sign takes its place.
+static sl_status keep_disc(sl_context *context, sl_point eye, const sl_viewpoint *v, size_t first,
+                           sli_view_shapes *s) {
+    const size_t loop = s->points.count - first, disc = DISC;
+    const sl_point middle = sli_sign_middle(eye, v);
+    sl_point corners[DISC];
+    for (int i = 0; i < DISC; i++)
+        corners[i] = ahead(middle, v->heading + 180 + i * 360.0 / DISC, v->range / 2);
+    const sl_shape both[2] = {{s->points.items + first, &loop, 1}, {corners, &disc, 1}};
+    sl_overlay overlay;
+    sl_shape read = {0};
+    SL_TRY(sl_overlay_make(context, NULL, both, 2, &overlay));
+    sl_status status = sl_overlay_outline(context, &overlay, 2, &read);
+    sl_overlay_destroy(context, &overlay);
+    s->points.count = first;
+    s->ends.count--;
+    const size_t count = read.count ? read.ends[read.count - 1] : 0;
+    if (status == SL_OK) status = SL_ARRAY_ROOM(context, &s->points, count);
+    for (size_t i = 0; status == SL_OK && i < read.count; i++) {
+        while (s->points.count - first < read.ends[i]) {
+            const size_t next = s->points.count - first;
+            s->points.items[s->points.count++] = read.points[next];
+        }
+        status = end_loop(context, s);
+    }
+    sl_shape_destroy(context, &read);
+    return status;
+}
+
+static sl_status add_sign(sl_context *context, sl_query *query, const sl_viewpoint *v,
+                          sl_region *region, sli_view_shapes *s) {
+    const sl_map *map = sl_query_map(query);
+    const sl_space *space;
+    if (map && map->oneway_count)
+        return sl_fail(context, SL_UNSUPPORTED, "signs do not support one-way glass: leave it out");
+    SL_TRY(sl_query_space(context, query, &space, NULL));
+    const size_t first = s->points.count;
+    // Chords of the range are beyond the disc.
+    sl_viewpoint around = {
+        .at = sli_viewpoint_eye(space, v), .fov = 360, .range = v->range * (1 + 2 * CHORD)};
+    around.range = sli_view_range(query, &around);
+    SL_TRY(add_loop(context, query, &around, around.range, false, region, s));
+    if (s->points.count > first) SL_TRY(keep_disc(context, around.at, v, first, s));
+    return end_shape(context, s);
+}
+
 sl_status sli_view_shapes_add(sl_context *context, sl_query *query, const sl_viewpoint *v,
                               sl_region *region, sli_view_shapes *s) {
+    if (v->sign) return add_sign(context, query, v, region, s);
     const double range = sli_view_range(query, v);
     // As much farther as a chord may come nearer, and more.
     const double nearest = v->nearest * (1 + 2 * CHORD);

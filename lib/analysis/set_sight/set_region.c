@@ -14,6 +14,7 @@
 #include "geometry/crossing.h"
 #include "geometry/length.h"
 #include "geometry/orient.h"
+#include "sight/overlay.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -240,7 +241,8 @@ static sl_status join(sl_context *context, const sl_shape *shapes, size_t count,
                       sl_shape *out) {
     sl_overlay overlay = {0};
     *out = (sl_shape){0};
-    SL_TRY(sl_overlay_make(context, NULL, shapes, count, &overlay));
+    SL_TRY(sli_overlay_make_up_to(context, "the region of the set, before its parts are joined",
+                                  NULL, shapes, count, SL_SET_REGION_CROSSINGS, &overlay));
     const sl_status status = sl_overlay_outline(context, &overlay, at_least, out);
     sl_overlay_destroy(context, &overlay);
     return status;

@@ -63,6 +63,7 @@ typedef struct slp_level {
     sl_effect_explanation explanation;
     sl_cameras cameras; ///< of `coverage`: given, or those of `placement`
     sl_coverage coverage;
+    sl_path_parts unseen; ///< of a path, by `coverage`
     sl_placement placement;
 } slp_level;
 
@@ -193,6 +194,16 @@ SLP_API int slp_level_set_region(slp_level *level, const double *points, size_t 
 SLP_API int slp_level_set_sees(slp_level *level, const double *points, size_t count, int is_area,
                                int from_all, const double *places, size_t place_count,
                                uint8_t *sees);
+/// What of things a path sees: each is a line, or a convex area, of the points up to its end. A row
+/// is its size, what of that is seen, the lengths of the path that see some of it and all of it,
+/// and how far along the path it is seen first, or NAN.
+SLP_API int slp_level_exposure(slp_level *level, const double *path, size_t path_count,
+                               const double *points, const int64_t *ends, size_t count, int is_area,
+                               double *rows);
+/// Whether some place within reach of from[i] may see some place within reach of to[i].
+SLP_API int slp_level_sees_within(slp_level *level, const double *from, double from_radius,
+                                  const double *to, double to_radius, size_t count, int on_foot,
+                                  uint8_t *sees);
 
 /// As sl_vga_options. `parts` are bits of sl_vga_part; 0 for the grid alone.
 typedef struct slp_vga {
@@ -221,9 +232,13 @@ SLP_API const char *slp_level_reason(const slp_level *level, int which);
 // --- viewpoints: placement.c
 
 /// Reads a table of viewpoints, of the file `name` where `text` is NULL, and keeps what they see.
-/// Rows that do not say it have this field of view and range.
+/// Rows that do not say it have this field of view and range. `signs`: all rows are signs.
 SLP_API int slp_level_cover(slp_level *level, const char *name, const char *text, size_t size,
-                            double fov, double range);
+                            double fov, double range, int signs);
+/// Keeps the parts of a path that none of the viewpoints kept sees.
+SLP_API int slp_level_cover_path(slp_level *level, const double *points, size_t count);
+/// How many parts are kept, and rows of them, which may be NULL: from, to, both ends.
+SLP_API size_t slp_level_unseen(const slp_level *level, double *rows);
 
 /// Where viewpoints may stand: at `places`; at points of a kind, "corners", "walls" or "grid", of a
 /// step; anywhere where both are NULL.
@@ -244,7 +259,8 @@ SLP_API void slp_level_cover_counts(const slp_level *level, int64_t counts[4]);
 /// The name of a viewpoint; NULL for none.
 SLP_API const char *slp_level_cover_name(const slp_level *level, size_t number);
 /// Areas that 0, 1, 2, 3 or more see. Rows of viewpoints: x, y, heading, fov, range, nearest,
-/// height, tilt, cost, seen, alone, spare. Rows of blind spots: area, x, y, x0, y0, x1, y1.
+/// height, tilt, letters, sign, cost, seen, alone, spare. Rows of blind spots: area, x, y, x0, y0,
+/// x1, y1.
 SLP_API void slp_level_cover_copy(const slp_level *level, double areas[4], double *viewpoints,
                                   double *spots);
 /// Of each piece: its first corner, how many see it, its blind spot or -1.

@@ -8,31 +8,65 @@
 void slp_level_forget_viewpoints(slp_level *level) {
     sl_context *context = level->base.context;
     sl_coverage_destroy(context, &level->coverage);
+    sl_path_parts_destroy(context, &level->unseen);
     sl_cameras_destroy(context, &level->cameras);
     sl_placement_destroy(context, &level->placement);
 }
 
-/// What the viewpoints of the level's table see.
+/// The viewpoints of the level's table. The caller frees them.
+static sl_status list_viewpoints(slp_level *level, sl_viewpoint **out) {
+    const size_t count = level->cameras.count;
+    *out = sl_alloc_array(level->base.context, count, sizeof **out);
+    if (!*out) return SL_NO_MEMORY;
+    for (size_t i = 0; i < count; i++) (*out)[i] = level->cameras.items[i].view;
+    return SL_OK;
+}
+
+/// What they see.
 static sl_status cover(slp_level *level) {
     sl_context *context = level->base.context;
-    const size_t count = level->cameras.count;
-    sl_viewpoint *viewpoints = sl_alloc_array(context, count, sizeof *viewpoints);
-    if (!viewpoints) return SL_NO_MEMORY;
-    for (size_t i = 0; i < count; i++) viewpoints[i] = level->cameras.items[i].view;
-    const sl_status status =
-        sl_coverage_make(context, level->queries.items[0], viewpoints, count, &level->coverage);
+    sl_viewpoint *viewpoints;
+    SL_TRY(list_viewpoints(level, &viewpoints));
+    const sl_status status = sl_coverage_make(context, level->queries.items[0], viewpoints,
+                                              level->cameras.count, &level->coverage);
     sl_free(context, viewpoints);
     return status;
 }
 
 int slp_level_cover(slp_level *level, const char *name, const char *text, size_t size, double fov,
-                    double range) {
-    const sl_viewpoint like = {.fov = fov, .range = range};
+                    double range, int signs) {
+    const sl_viewpoint like = {.fov = fov, .range = range, .sign = signs};
     sl_context *context = level->base.context;
     slp_level_forget_viewpoints(level);
     SL_TRY(text ? sl_cameras_parse(context, name, text, size, &like, &level->cameras)
                 : sl_cameras_read(context, name, &like, &level->cameras));
     return cover(level);
+}
+
+int slp_level_cover_path(slp_level *level, const double *points, size_t count) {
+    sl_context *context = level->base.context;
+    sl_viewpoint *viewpoints = NULL;
+    sl_point *path = sl_alloc_array(context, count, sizeof *path);
+    sl_status status = path ? list_viewpoints(level, &viewpoints) : SL_NO_MEMORY;
+    for (size_t i = 0; path && i < count; i++)
+        path[i] = (sl_point){points[2 * i], points[2 * i + 1]};
+    sl_path_parts_destroy(context, &level->unseen);
+    if (status == SL_OK)
+        status = sl_coverage_of_path(context, level->queries.items[0], &level->coverage, viewpoints,
+                                     path, count, &level->unseen);
+    sl_free(context, viewpoints);
+    sl_free(context, path);
+    return status;
+}
+
+size_t slp_level_unseen(const slp_level *level, double *rows) {
+    for (size_t i = 0; rows && i < level->unseen.count; i++) {
+        const sl_path_part *part = &level->unseen.parts[i];
+        const double row[6] = {part->from,    part->to,    part->start.x,
+                               part->start.y, part->end.x, part->end.y};
+        memcpy(rows + 6 * i, row, sizeof row);
+    }
+    return level->unseen.count;
 }
 
 // --- placement
@@ -142,11 +176,21 @@ void slp_level_cover_copy(const slp_level *level, double areas[4], double *viewp
     for (size_t i = 0; i < level->cameras.count; i++) {
         const sl_camera *camera = &level->cameras.items[i];
         const sl_viewpoint *v = &camera->view;
-        const double row[12] = {
-            v->at.x,      v->at.y,           v->heading,         v->fov,
-            v->range,     v->nearest,        camera->height,     camera->tilt,
-            camera->cost, coverage->seen[i], coverage->alone[i], sl_coverage_is_spare(coverage, i)};
-        memcpy(viewpoints + 12 * i, row, sizeof row);
+        const double row[14] = {v->at.x,
+                                v->at.y,
+                                v->heading,
+                                v->fov,
+                                v->range,
+                                v->nearest,
+                                camera->height,
+                                camera->tilt,
+                                camera->letters,
+                                v->sign,
+                                camera->cost,
+                                coverage->seen[i],
+                                coverage->alone[i],
+                                sl_coverage_is_spare(coverage, i)};
+        memcpy(viewpoints + 14 * i, row, sizeof row);
     }
     for (uint32_t i = 0; i < coverage->blind_count; i++) {
         const sl_blind_spot *s = &coverage->blind[i];

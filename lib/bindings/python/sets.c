@@ -1,7 +1,10 @@
 /// Sight from lines and areas for Python.
 #include "facade.h"
 
-#include "sightline/set_sight.h"
+#include "sightline/exposure.h"
+#include "sightline/reach.h"
+
+#include <math.h>
 
 /// The sight of a set with the level's settings.
 static sl_status begin(slp_level *level, const double *points, size_t count, int is_area,
@@ -68,5 +71,67 @@ int slp_level_set_sees(slp_level *level, const double *points, size_t count, int
         if (status == SL_OK && i % 256 == 0) status = sl_check_cancelled(context);
     }
     sl_set_sight_destroy(context, sight);
+    return status;
+}
+
+/// Rows of exposures: size, seen, the length of the path that sees some of it, and all of it, and
+/// how far along the path some of it is seen first, or NAN.
+static void put_exposure(sl_context *context, sl_exposure *e, double row[5]) {
+    row[0] = e->size;
+    row[1] = e->seen;
+    row[2] = e->some.total;
+    row[3] = e->whole.total;
+    row[4] = e->some.count ? e->some.parts[0].from : NAN;
+    sl_exposure_destroy(context, e);
+}
+
+int slp_level_exposure(slp_level *level, const double *path, size_t path_count,
+                       const double *points, const int64_t *ends, size_t count, int is_area,
+                       double *rows) {
+    sl_context *context = level->base.context;
+    SL_TRY(slp_level_queries(level, 1));
+    const size_t point_count = count ? (size_t)ends[count - 1] : 0;
+    sl_point *all = sl_alloc_array(context, path_count + point_count, sizeof *all);
+    size_t *own = sl_alloc_array(context, count, sizeof *own);
+    sl_exposed *things = sl_alloc_array(context, count, sizeof *things);
+    sl_exposure *exposures = sl_alloc_array(context, count, sizeof *exposures);
+    sl_status status = all && own && things && exposures ? SL_OK : SL_NO_MEMORY;
+    if (status == SL_OK) {
+        for (size_t i = 0; i < path_count; i++) all[i] = (sl_point){path[2 * i], path[2 * i + 1]};
+        for (size_t i = 0; i < point_count; i++)
+            all[path_count + i] = (sl_point){points[2 * i], points[2 * i + 1]};
+        for (size_t i = 0, from = 0; i < count; from = (size_t)ends[i++]) {
+            own[i] = (size_t)ends[i] - from;
+            things[i] = (sl_exposed){{all + path_count + from, &own[i], 1}, is_area};
+        }
+        status = sl_exposure_make(context, level->queries.items[0], all, path_count, things, count,
+                                  exposures);
+    }
+    for (size_t i = 0; status == SL_OK && i < count; i++)
+        put_exposure(context, &exposures[i], rows + 5 * i);
+    sl_free(context, exposures);
+    sl_free(context, things);
+    sl_free(context, own);
+    sl_free(context, all);
+    return status;
+}
+
+int slp_level_sees_within(slp_level *level, const double *from, double from_radius,
+                          const double *to, double to_radius, size_t count, int on_foot,
+                          uint8_t *sees) {
+    sl_context *context = level->base.context;
+    sl_reach *reach;
+    SL_TRY(slp_level_queries(level, 1));
+    SL_TRY(sl_reach_create(context, level->queries.items[0], &reach));
+    sl_status status = SL_OK;
+    for (size_t i = 0; i < count && status == SL_OK; i++) {
+        const sl_point a = {from[2 * i], from[2 * i + 1]}, b = {to[2 * i], to[2 * i + 1]};
+        bool seen = false;
+        status = sl_reach_sees_within(context, reach, a, from_radius, b, to_radius,
+                                      on_foot ? SL_REACH_ON_FOOT : SL_REACH_STRAIGHT, &seen);
+        sees[i] = seen;
+        if (status == SL_OK && i % 256 == 0) status = sl_check_cancelled(context);
+    }
+    sl_reach_destroy(context, reach);
     return status;
 }

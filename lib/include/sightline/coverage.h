@@ -10,6 +10,7 @@
 #define SIGHTLINE_COVERAGE_H
 
 #include "sightline/overlay.h"
+#include "sightline/path_parts.h"
 #include "sightline/query.h"
 #include "sightline/viewpoint.h"
 
@@ -43,14 +44,29 @@ typedef struct sl_coverage {
 /// has them; what is seen in mirrors does not. A viewpoint outside or in solid ground sees nothing.
 /// Regions are decided exactly, and corners of what they share are rounded as overlay.h says. Where
 /// a range ends, an arc is a chain of chords up to 1e-4 of the range off it: within it, and outside
-/// of the arc of a dead zone. So nothing counts that is not seen.
+/// of the arc of a dead zone. So nothing counts that is not seen. A sign (sl_viewpoint_sign) covers
+/// where it can be read: chords lie within its disc, up to 1e-4 of its radius.
 ///
 /// SL_BAD_ARGUMENT, with the number of the viewpoint, for a cone, range or dead zone that is none.
+/// SL_UNSUPPORTED for signs and one-way glass.
 /// The query's range is the most that counts. The query has its own settings again afterwards.
 /// Time: the regions, and O((n + k) log n) for n corners and k crossings of their borders.
 SL_API sl_status sl_coverage_make(sl_context *context, sl_query *query,
                                   const sl_viewpoint *viewpoints, size_t count, sl_coverage *out);
 SL_API void sl_coverage_destroy(sl_context *context, sl_coverage *coverage); ///< and zeroes it
+
+/// The parts of a path from which no sign can be read, or which no camera sees. `coverage` is of
+/// these viewpoints and the query as it is.
+///
+/// Where a part begins and ends is computed in doubles, from all borders of regions that cross the
+/// path; whether it is seen is decided in its middle, exactly but for a sign's disc: by
+/// sl_query_sees, with arcs in place of chords. Parts up to 2^-36 times the largest coordinate long
+/// are left out. SL_BAD_ARGUMENT for a point that is outside the bounds, and for less than 2
+/// points. Time: for each segment of the path the corners of all regions, and what crosses it times
+/// the viewpoints.
+SL_API sl_status sl_coverage_of_path(sl_context *context, sl_query *query,
+                                     const sl_coverage *coverage, const sl_viewpoint *viewpoints,
+                                     const sl_point *path, size_t count, sl_path_parts *out);
 
 /// Whether the others see all that a viewpoint sees, but for rounding. Of two that see the same,
 /// each is spare; take one away and ask again.

@@ -152,11 +152,16 @@ typedef struct sl_drawn_coverage {
     size_t count;             ///< of viewpoints
     const sl_point *blind;    ///< places of blind spots to number, from 1
     size_t blind_count;
+    const sl_point *path; ///< a path over it; NULL for none
+    size_t path_count;
+    const sl_segment *unseen; ///< of the path
+    size_t unseen_count;
 } sl_drawn_coverage;
 
 /// Draws the plan in the colours of how many viewpoints see each place: 0, 1, 2, 3 and more. Each
 /// viewpoint has a colour of its own for its mark, its cone and the border of what it sees. Blind
-/// spots are numbered. `caption` as above; '\n' begins a new line.
+/// spots are numbered. What of the path is not seen is thick. `caption` as above; '\n' begins a new
+/// line.
 SL_API sl_status sl_draw_coverage_file(sl_context *context, const sl_baked *baked,
                                        const sl_drawn_coverage *coverage, const char *caption,
                                        const sl_draw_options *options, const char *path);

@@ -39,6 +39,8 @@ extern "C" {
 /// The most corners that the parts of a region may have in all, before they are joined. Behind
 /// holes a region may have corners as the fourth power of the walls.
 #define SL_SET_REGION_CORNERS 4000000
+/// The most crossings of their borders, which are found when they are joined.
+#define SL_SET_REGION_CROSSINGS 2000000
 
 /// What the points of a set are.
 typedef enum sl_set_kind {
@@ -84,7 +86,8 @@ SL_API void sl_set_sight_destroy(sl_context *context, sl_set_sight *sight); ///<
 /// seen along single lines only, and of pieces of the set shorter than that. An area is seen from
 /// itself, but for its solid ground.
 ///
-/// SL_UNSUPPORTED over SL_SET_REGION_CORNERS. On failure the region is empty.
+/// SL_UNSUPPORTED over SL_SET_REGION_CORNERS and SL_SET_REGION_CROSSINGS. On failure the region is
+/// empty.
 ///
 /// Time: for each segment of the set, and each end of a wall, the rooms between them that see both;
 /// and the joining of the cones, O((c + k) log c) for c corners and k crossings.

@@ -18,7 +18,23 @@ typedef struct sl_viewpoint {
     double fov;     ///< width of the view cone in degrees, over 0 to 360; 360: all round
     double range;   ///< sees no farther, in the map's unit; 0: no limit
     double nearest; ///< sees nothing nearer: the dead zone below a camera; 0: none
+    bool sign;      ///< it is a sign, which is read (sl_viewpoint_sign)
 } sl_viewpoint;
+
+/// The distance factor of signs that light falls on: they are read from so many times the height of
+/// their letters (EN 1838; those lit from within, from twice as far).
+#define SL_SIGN_FACTOR 100.0
+
+/// Makes a viewpoint a sign: where can it be read? It faces its heading. Straight before it, it is
+/// read from `range`, which is at most SL_SIGN_FACTOR times the height of its letters (0: not
+/// given). At an angle letters look narrower, so the distance shrinks with the cosine of the angle.
+/// That is a disc: `range` wide, it touches the wall of the sign (Xie, Filippidis, Gwynne, Galea,
+/// Blackshields and Lawrence 2007, Signage Legibility Distances as a Function of Observation Angle:
+/// the visibility catchment area, for a sign that is small beside its distance).
+///
+/// A sign counts from 2^-44 times the largest coordinate before its place: one on a wall hangs on
+/// the side that it faces.
+SL_API void sl_viewpoint_sign(sl_viewpoint *viewpoint, double letters);
 
 /// The ground that a tilted camera sees: `nearest` and `range` where the lower and the upper border
 /// of its picture meet the ground. `height` over the ground, in map units; `tilt` of its axis below
@@ -32,6 +48,7 @@ typedef struct sl_camera {
     char *name; ///< UTF-8; NULL for none
     sl_viewpoint view;
     double height, tilt; ///< as they are given; 0 where they are not. `view` has what comes of them
+    double letters;      ///< height of the letters of a sign; 0 where it is not given
     double cost;         ///< 1 where it is not given
     unsigned line;       ///< of the file
 } sl_camera;
@@ -42,12 +59,13 @@ typedef struct sl_cameras {
     size_t count, capacity;
 } sl_cameras;
 
-/// Reads a table of viewpoints: columns name, x, y, heading, fov, range, height, tilt, cost in any
-/// order and case, of which x and y are needed. Without a line of names: x, y, and maybe heading,
-/// fov and range. Commas, semicolons or tabs stand between the columns. With semicolons or tabs,
-/// numbers may have decimal commas. What a row leaves out is that of `like`. With height and tilt
-/// the dead zone and the range are those of the ground (sl_viewpoint_tilt, 16:9). Notes columns of
-/// other names, which are passed over.
+/// Reads a table of viewpoints: columns name, x, y, heading, fov, range, height, tilt, letters,
+/// sign, cost in any order and case, of which x and y are needed. A row with letters, or with a
+/// sign other than 0, is a sign (sl_viewpoint_sign). Without a line of names: x, y, and maybe
+/// heading, fov and range. Commas, semicolons or tabs stand between the columns. With semicolons or
+/// tabs, numbers may have decimal commas. What a row leaves out is that of `like`. With height and
+/// tilt the dead zone and the range are those of the ground (sl_viewpoint_tilt, 16:9). Notes
+/// columns of other names, which are passed over.
 ///
 /// SL_BAD_INPUT, with file and line, for what is no table of viewpoints, and for values out of
 /// range; without a row, too. "-" is standard input.

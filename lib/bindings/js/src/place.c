@@ -145,8 +145,11 @@ static sl_status cover(floor_plan *f, const sl_viewpoint *viewpoints, size_t cou
 SLI_EXPORT(int, floor_cover, floor_plan *f, const double *given, size_t count) {
     sl_viewpoint *viewpoints = sl_alloc_array(context(), count + 1, sizeof *viewpoints);
     for (size_t i = 0; viewpoints && i < count; i++, given += GIVEN)
-        viewpoints[i] =
-            (sl_viewpoint){{given[0], given[1]}, given[2], given[3], given[4], given[5]};
+        viewpoints[i] = (sl_viewpoint){.at = {given[0], given[1]},
+                                       .heading = given[2],
+                                       .fov = given[3],
+                                       .range = given[4],
+                                       .nearest = given[5]};
     sli_done(viewpoints ? cover(f, viewpoints, count) : SL_NO_MEMORY);
     sl_free(context(), viewpoints);
     return (int)sli_module.status;

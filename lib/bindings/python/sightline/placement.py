@@ -16,9 +16,10 @@ from . import drawing, tables
 from ._library import (Floats, Handle, Place, address, as_flag, as_number, as_points, call,
                        existing, said)
 
-COLUMNS = ("name", "x", "y", "heading", "fov", "range", "height", "tilt", "cost")
-_NUMBERS = ("x", "y", "heading", "fov", "range", "nearest", "height", "tilt", "cost", "seen",
-            "alone", "spare")
+COLUMNS = ("name", "x", "y", "heading", "fov", "range", "height", "tilt", "letters", "sign", "cost")
+_NUMBERS = ("x", "y", "heading", "fov", "range", "nearest", "height", "tilt", "letters", "sign",
+            "cost", "seen", "alone", "spare")
+_PARTS = ("from", "to", "from_x", "from_y", "to_x", "to_y")
 _SPOTS = ("area", "x", "y", "x0", "y0", "x1", "y1")
 # By how many see a place: none, 1, 2, 3 or more.
 _CLASSES = ("#e4572e", "#dcecc9", "#8fc6a0", "#2f8f83")
@@ -68,16 +69,20 @@ class Coverage:
     areas
         What exactly 0, 1 and 2 of them see, and 3 or more, of all that is inside.
     viewpoints
-        A table: name, x, y, heading, fov, range, nearest (the dead zone), height, tilt, cost;
-        `seen`, the area that each sees; `alone`, what no other sees; `spare`, whether the others
+        A table: name, x, y, heading, fov, range, nearest (the dead zone), height, tilt, letters,
+        sign, cost; `seen`, the area that each sees; `alone`, what no other sees; `spare`, whether the others
         see all of that.
     blind_spots
         A table, the largest first: area, x and y of the middle of its largest piece, and its box
         x0, y0, x1, y1.
+    unseen
+        The parts of the path that nobody sees, a table: from and to, how far along it, and both
+        ends from_x, from_y, to_x, to_y. None without a path.
     """
     areas: Floats
     viewpoints: Any
     blind_spots: Any
+    unseen: Any
     _of: Any
     _pieces: tuple[NDArray[np.int64], NDArray[np.int64], list[Floats]]
 
@@ -175,8 +180,8 @@ class Viewpoints(Handle):
 
     crs: Any
 
-    def cover(self, viewpoints: Any, *, fov: float = 360, range: float = 0,
-              arrays: bool = False) -> Coverage:
+    def cover(self, viewpoints: Any, *, fov: float = 360, range: float = 0, signs: bool = False,
+              path: Optional[ArrayLike] = None, arrays: bool = False) -> Coverage:
         """What viewpoints see together: areas by how many see them, and blind spots.
 
         Doors and the range count as they are. What is seen by mirror does not. A viewpoint that is
@@ -186,10 +191,17 @@ class Viewpoints(Handle):
         ----------
         viewpoints
             Points (n, 2), a DataFrame, a dict of columns, a list of dicts, or the path of a table.
-            Columns are x and y, and any of name, heading, fov, range, height, tilt, cost. With
-            height and tilt (degrees below the horizon) there is a dead zone below a camera.
+            Columns are x and y, and any of name, heading, fov, range, height, tilt, letters, sign,
+            cost. With height and tilt (degrees below the horizon) there is a dead zone below a
+            camera. With letters (their height), or a sign other than 0, a row is a sign: it covers
+            where it can be read, a disc before its wall that is `range` or 100 times the letters
+            wide.
         fov, range
             What rows have that do not say it; a range of 0 has no limit.
+        signs
+            All rows are signs.
+        path
+            Points (n, 2): `Coverage.unseen` lists its parts that nobody sees.
         arrays
             Dicts of arrays in place of DataFrames, which are the default with pandas.
 
@@ -203,16 +215,24 @@ class Viewpoints(Handle):
         <Coverage: 2 viewpoints see 100 %>
         >>> seen.viewpoints["spare"].tolist()
         [False, True]
+        >>> corridor = sightline.Plan.from_segments([(0, 0, 20, 0), (20, 0, 20, 4), (20, 4, 0, 4),
+        ...                                          (0, 4, 0, 0)])
+        >>> read = corridor.cover([{"x": 0, "y": 2, "letters": 0.1}], path=[(0, 2), (20, 2)])
+        >>> [round(float(at), 9) for at in (read.unseen["from"][0], read.unseen["to"][0])]
+        [10.0, 20.0]
         """
         fov, range = as_number(fov, "fov", over=0), as_number(range, "range", least=0)
-        arrays = as_flag(arrays, "arrays")
+        arrays, signs = as_flag(arrays, "arrays"), as_flag(signs, "signs")
+        way = None if path is None else np.ascontiguousarray(as_points(path, "path").reshape(-1, 2))
         if isinstance(viewpoints, (str, os.PathLike)):
             name, content = existing(viewpoints), None
         else:
             name, content = b"viewpoints", _table_text(viewpoints)
         with self._lock:
-            self._ask_long(call.level_cover, name, content, len(content or b""), fov, range)
-            return self._coverage(arrays)
+            self._ask_long(call.level_cover, name, content, len(content or b""), fov, range, signs)
+            if way is not None:
+                self._ask_long(call.level_cover_path, way, len(way))
+            return self._coverage(arrays, way is not None)
 
     def place(self, *, places: Union[str, ArrayLike] = "anywhere", step: Optional[float] = None,
               time_limit: Optional[float] = None, arrays: bool = False) -> Placement:
@@ -276,12 +296,12 @@ class Viewpoints(Handle):
         return Placement(lower, upper, _proof(lower, upper, count, where), witnesses, rounds,
                          slivers, float(unseen[0]), seconds, coverage)
 
-    def _coverage(self, arrays: bool) -> Coverage:
+    def _coverage(self, arrays: bool, has_path: bool = False) -> Coverage:
         """A copy of what the library keeps."""
         pointer, counts = self._open_pointer(), np.zeros(4, np.int64)
         call.level_cover_counts(pointer, counts)
         viewpoints, blind, pieces, corners = counts.tolist()
-        areas, rows, spots = np.zeros(4), np.empty((viewpoints, 12)), np.empty((blind, 7))
+        areas, rows, spots = np.zeros(4), np.empty((viewpoints, 14)), np.empty((blind, 7))
         call.level_cover_copy(pointer, areas, rows, spots)
         offsets = np.empty(pieces + 1, np.int64)
         seen, spot = np.empty(pieces, np.int64), np.empty(pieces, np.int64)
@@ -290,8 +310,14 @@ class Viewpoints(Handle):
         names = [said(call.level_cover_name(pointer, i)) for i in range(viewpoints)]
         columns: dict[str, NDArray[Any]] = {"name": np.array(names, object)}
         columns.update((name, rows[:, i].copy()) for i, name in enumerate(_NUMBERS))
-        columns["spare"] = columns["spare"] != 0
+        columns["spare"], columns["sign"] = columns["spare"] != 0, columns["sign"] != 0
+        unseen = None
+        if has_path:
+            parts = np.empty((call.level_unseen(pointer, None), 6))
+            call.level_unseen(pointer, address(parts))
+            unseen = tables.frame({name: parts[:, i].copy() for i, name in enumerate(_PARTS)},
+                                  arrays=arrays)
         blind_spots = {name: spots[:, i].copy() for i, name in enumerate(_SPOTS)}
         shapes = np.split(points, offsets[1:-1]) if pieces else []
         return Coverage(areas, tables.frame(columns, arrays=arrays),
-                        tables.frame(blind_spots, arrays=arrays), self, (seen, spot, shapes))
+                        tables.frame(blind_spots, arrays=arrays), unseen, self, (seen, spot, shapes))

@@ -449,6 +449,15 @@ class Plan(drawing.InNotebooks, Handle):
         """As `Level.region_from`."""
         return self._own_space().region_from(points, **options)
 
+    def exposure(self, path: ArrayLike, things: Any, **options: Any) -> Any:
+        """As `Level.exposure`."""
+        return self._own_space().exposure(path, things, **options)
+
+    def sees_within(self, start: ArrayLike, start_radius: float, end: ArrayLike, end_radius: float,
+                    **options: Any) -> Any:
+        """As `Level.sees_within`."""
+        return self._own_space().sees_within(start, start_radius, end, end_radius, **options)
+
     def seen_from(self, points: ArrayLike, places: ArrayLike, **options: Any) -> Any:
         """As `Level.seen_from`."""
         return self._own_space().seen_from(points, places, **options)

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import tables
-from ._library import Floats, Handle, address, as_flag, as_points, call
+from ._library import Floats, Handle, address, as_flag, as_number, as_points, call
 
 
 def _asked(points: ArrayLike, seen: str) -> tuple[Floats, bool]:
@@ -57,6 +57,88 @@ class Sets(Handle):
             call.level_polygon_points(pointer, corners)
         loops = np.split(corners, np.cumsum(found[2])[:-1]) if found.shape[1] else []
         return loops if as_array else tables.polygons(loops)
+
+    def exposure(self, path: ArrayLike, things: Any, *, area: bool = False,
+                 arrays: bool = False) -> Any:
+        """What of each thing is seen from a path, and from how much of the path.
+
+        Parameters
+        ----------
+        path
+            Points (n, 2).
+        things
+            Lines (n, 2), which are walls, doors or outlines: a list, or a dict of names.
+        area
+            The things are convex areas, given by their corners.
+        arrays
+            A dict of arrays in place of a DataFrame, which is the default with pandas.
+
+        Returns
+        -------
+        A table: `name`, `size` (a length, or the area that is inside), `seen` (of that), `share`,
+        `path_some` and `path_all`, the lengths of the path that see some of it and all of it, and
+        `first`, how far along the path it is seen first; nan: never.
+
+        Examples
+        --------
+        >>> import sightline
+        >>> room = sightline.Plan.from_segments([(0, 0, 4, 0), (4, 0, 4, 3), (4, 3, 0, 3),
+        ...                                      (0, 3, 0, 0), (2, 0, 2, 2)])
+        >>> seen = room.exposure([(1, 1), (1, 3)], {"east": [(4, 0), (4, 3)]}, arrays=True)
+        >>> [round(float(seen[name][0]), 9) for name in ("size", "share", "first")]
+        [3.0, 1.0, 0.5]
+        """
+        way = np.ascontiguousarray(as_points(path, "path").reshape(-1, 2))
+        names = list(things) if isinstance(things, dict) else [str(i) for i in range(len(things))]
+        parts = [as_points(part, "things").reshape(-1, 2)
+                 for part in (things.values() if isinstance(things, dict) else things)]
+        if any(not len(part) for part in parts):
+            raise ValueError("a thing has no points")
+        is_area, arrays = as_flag(area, "area"), as_flag(arrays, "arrays")
+        rows = np.empty((len(parts), 5))
+        ends = np.cumsum([len(part) for part in parts], dtype=np.int64)
+        points = np.ascontiguousarray(np.concatenate(parts)) if parts else np.empty((0, 2))
+        self._ask_long(call.level_exposure, way, len(way), points, ends, len(parts), is_area, rows)
+        size, seen = rows[:, 0].copy(), rows[:, 1].copy()
+        share = np.divide(seen, size, out=np.zeros_like(seen), where=size > 0)
+        columns = {"name": np.array(names, object), "size": size, "seen": seen, "share": share,
+                   "path_some": rows[:, 2].copy(), "path_all": rows[:, 3].copy(),
+                   "first": rows[:, 4].copy()}
+        return tables.frame(columns, arrays=arrays)
+
+    def sees_within(self, start: ArrayLike, start_radius: float, end: ArrayLike, end_radius: float,
+                    *, on_foot: bool = False) -> Any:
+        """Whether some place near `start` may see some place near `end`. Conservative: never misses.
+
+        Each call prepares the level: ask for many pairs at once.
+
+        Parameters
+        ----------
+        start, end
+            Points (..., 2), which go together as numpy's arrays do.
+        start_radius, end_radius
+            How far places may be from them.
+        on_foot
+            Count only places that a way of that length leads to, through doors as they stand.
+
+        Examples
+        --------
+        >>> import sightline
+        >>> rooms = sightline.Plan.from_segments([(0, 0, 4, 0), (4, 0, 4, 3), (4, 3, 0, 3),
+        ...                                       (0, 3, 0, 0), (2, 0, 2, 2.5)])
+        >>> level = rooms.space()
+        >>> [bool(level.sees_within((1.5, 0.5), 0.9, (2.5, 0.5), 0.9, on_foot=foot))
+        ...  for foot in (False, True)]
+        [True, False]
+        """
+        a, b = np.broadcast_arrays(as_points(start, "start"), as_points(end, "end"))
+        near, far = (as_number(start_radius, "start_radius", least=0),
+                     as_number(end_radius, "end_radius", least=0))
+        sees: NDArray[np.uint8] = np.zeros(a.shape[:-1], np.uint8)
+        self._ask_long(call.level_sees_within, np.ascontiguousarray(a), near,
+                       np.ascontiguousarray(b), far, sees.size, as_flag(on_foot, "on_foot"),
+                       sees.reshape(-1))
+        return bool(sees) if sees.ndim == 0 else sees.view(bool)
 
     def seen_from(self, points: ArrayLike, places: ArrayLike, *, area: bool = False,
                   seen: str = "some") -> Any:

@@ -80,6 +80,24 @@ class Coverage(unittest.TestCase):
         self.assertGreater(table["nearest"][0], 0)
         self.assertGreater(table["range"][0], table["nearest"][0])
 
+    def test_signs_and_a_path(self):
+        hall = sightline.Plan.from_segments([(0, 0, 40, 0), (40, 0, 40, 20), (40, 20, 0, 20), (0, 20, 0, 0)])
+        rows = [{"x": 0, "y": 10, "letters": 0.08}, {"x": 28, "y": 10, "sign": 1, "range": 6}]
+        seen = hall.cover(rows, path=[(1, 10), (39, 10), (39, 19)], arrays=True)
+        self.assertEqual(seen.viewpoints["sign"].tolist(), [True, True])
+        self.assertEqual(seen.viewpoints["range"].tolist(), [8, 6])
+        np.testing.assert_allclose(seen.viewpoints["seen"], [np.pi * 16, np.pi * 9], rtol=2e-4)
+        np.testing.assert_allclose(seen.unseen["from"], [7, 33])
+        np.testing.assert_allclose(seen.unseen["to"], [27, 47])
+        np.testing.assert_allclose(seen.unseen["to_x"], [28, 39])
+        again = hall.cover([(0, 10)], signs=True, range=8, arrays=True)
+        self.assertIsNone(again.unseen)
+        self.assertEqual(again.viewpoints["seen"][0], seen.viewpoints["seen"][0])
+        with self.assertRaisesRegex(sightline.BadInput, "a sign needs letters"):
+            hall.cover([(0, 10)], signs=True)
+        with self.assertRaisesRegex(ValueError, "point 2 of the path"):
+            hall.cover([(2, 10)], path=[(1, 10), (50, 10)])
+
     def test_what_is_no_table_is_refused(self):
         for given, kind, words in (
                 ([], ValueError, "no viewpoint"), ([(1, 2, 3)], ValueError, "viewpoints"),

@@ -53,6 +53,36 @@ class Sets(unittest.TestCase):
     def test_one_place(self):
         self.assertIs(self.level.seen_from([(8, 8), (50, 8)], (30, 8), seen="all"), True)
 
+    def test_exposure(self):
+        hall = sightline.Plan.from_segments([(0, 0, 20, 0), (20, 0, 20, 10), (20, 10, 0, 10), (0, 10, 0, 0),
+                                             (0, 5, 9, 5), (11, 5, 20, 5)])
+        path = [(2, 4), (18, 4)]
+        seen = hall.exposure(path, {"line": [(10, 8), (12, 8)], "far": [(1, 5.1), (2, 5.1)]}, arrays=True)
+        self.assertEqual(seen["name"].tolist(), ["line", "far"])
+        np.testing.assert_allclose(seen["path_some"], [10 / 3, 0])
+        np.testing.assert_allclose(seen["share"], [1, 0])
+        self.assertAlmostEqual(seen["first"][0], 6)
+        self.assertTrue(np.isnan(seen["first"][1]))
+        room = hall.exposure(path, [[(0, 0), (20, 0), (20, 5), (0, 5)]], area=True, arrays=True)
+        np.testing.assert_allclose([room["size"][0], room["seen"][0], room["path_all"][0]], [100, 100, 16])
+        self.assertEqual(len(hall.exposure(path, [], arrays=True)["size"]), 0)
+        for things, area in (([[(0, 0), (99, 0)]], False), ([[(1, 1), (9, 1), (4, 2), (1, 4)]], True), ([[]], False)):
+            with self.assertRaises(ValueError):
+                hall.exposure(path, things, area=area)
+
+    def test_sees_within(self):
+        level = self.level
+        places = support.inside_points(level, 60, 5)
+        for on_foot in (False, True):
+            near = level.sees_within(places[:30], 0.5, places[30:], 0.5, on_foot=on_foot)
+            self.assertTrue((near >= level.can_see(places[:30], places[30:])).all())
+        some = level.sees_within(places[:30, None], 0, places[30:], 0)
+        self.assertEqual(some.shape, (30, 30))
+        self.assertTrue((some >= level.can_see(places[:30, None], places[30:])).all())
+        self.assertLess(some.sum(), 900)
+        with self.assertRaises(ValueError):
+            level.sees_within((1, 1), -1, (2, 2), 0)
+
     def test_wrong_questions(self):
         with self.assertRaises(ValueError):
             self.level.region_from([(8, 8), (50, 8)], seen="most")
