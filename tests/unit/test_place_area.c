@@ -254,6 +254,103 @@ static void test_most(void **state) {
     }
 }
 
+/// Whether lines of sight join all places of a set.
+static bool is_network(scene *s, uint32_t set) {
+    uint32_t joined = set & (0u - set), before = 0;
+    while (joined != before) {
+        before = joined;
+        for (int i = 0; i < PLACES; i++)
+            for (int j = 0; j < PLACES; j++) {
+                const sl_viewpoint *p = &s->places[i], *q = &s->places[j];
+                bool there, back;
+                if (!(joined >> i & 1) || !(set >> j & 1) || joined >> j & 1) continue;
+                const double distance = hypot(p->at.x - q->at.x, p->at.y - q->at.y);
+                if ((p->range > 0 && distance > p->range) || (q->range > 0 && distance > q->range))
+                    continue;
+                assert_ok(s->context, sl_query_sees(s->context, s->query, p->at, q->at, &there));
+                assert_ok(s->context, sl_query_sees(s->context, s->query, q->at, p->at, &back));
+                if (there && back) joined |= 1u << j;
+            }
+    }
+    return joined == set;
+}
+
+/// The areas that a set sees by one place, and by two.
+static void areas_of(scene *s, uint32_t set, double areas[2]) {
+    sl_viewpoint chosen[PLACES];
+    sl_coverage coverage;
+    size_t count = 0;
+    for (int i = 0; i < PLACES; i++)
+        if (set >> i & 1) chosen[count++] = s->places[i];
+    assert_ok(s->context, sl_coverage_make(s->context, s->query, chosen, count, &coverage));
+    for (uint32_t k = 0; k < 2; k++) areas[k] = k < count ? coverage.overlay.areas[k + 1] : 0;
+    sl_coverage_destroy(s->context, &coverage);
+}
+
+/// No network of less than a cost, with the fixed places, sees all that all places see.
+static void check_networks(scene *s, uint64_t cost) {
+    const uint32_t cover = s->area.cover ? s->area.cover : 1, every = (1u << PLACES) - 1;
+    double all[2], areas[2];
+    uint32_t fixed = 0;
+    for (uint32_t i = 0; i < s->area.fixed_count; i++) fixed |= 1u << s->area.fixed[i];
+    areas_of(s, every, all);
+    for (uint32_t set = 1; set <= every; set++) {
+        if ((set & fixed) != fixed || cost_of(s, set) >= cost || !is_network(s, set)) continue;
+        areas_of(s, set, areas);
+        assert_true(areas[0] < all[0] * (1 - 1e-9) ||
+                    (cover > 1 && areas[1] < all[1] - 1e-9 * all[0]));
+    }
+}
+
+/// Networks against all sets of places. A wall parts the plan but for a gap at its end, or all of
+/// it; places may stand on walls and see one side of them.
+static void test_network(void **state) {
+    (void)state;
+    static const sl_viewpoint kinds[] = {
+        {.fov = 360}, {.fov = 250}, {.fov = 360, .range = 7}, {.fov = 200, .range = 9}};
+    static const char *const plans[] = {PLAN, TURNED, PLAN "wall 5 8 5 5\nwall 8 2 8 0\n",
+                                        PLAN "wall 5 8 5 5\nwall 4 3 4 0\n"};
+    static const uint32_t fixed[2] = {0, 7};
+    uint32_t dearer = 0, refused = 0, proven = 0;
+    for (unsigned k = 0; k < 24; k++) {
+        scene s;
+        sl_random random = {k};
+        sl_area_placement free = {0}, placed = {0};
+        begin(&s, plans[k % 4], 500 + k, kinds[k / 4 % 4]);
+        for (int i = 1; i < PLACES && k % 6; i += 2) s.places[i].at = draw(&s, &random);
+        if (k % 3 == 0) s.area.costs = s.costs;
+        if (k % 5 == 0) s.area.cover = 2;
+        if (k % 7 == 0) {
+            s.area.fixed = fixed;
+            s.area.fixed_count = 2;
+        }
+        if (k % 8 == 3) s.places[2].at = s.places[3].at = s.space.walls[5].a;
+        assert_ok(s.context, sl_place_area_cover(s.context, s.query, &s.area, NULL, &free));
+        s.area.network = true;
+        const sl_status status = sl_place_area_cover(s.context, s.query, &s.area, NULL, &placed);
+        if (status == SL_OK) {
+            uint32_t set = 0;
+            for (uint32_t i = 0; i < placed.count; i++) set |= 1u << placed.chosen[i];
+            assert_int_equal(cost_of(&s, set), placed.upper);
+            assert_true(is_network(&s, set));
+            check_points(&s, &placed);
+            check_networks(&s, placed.lower);
+            assert_true(placed.lower >= free.lower);
+            dearer += placed.lower > free.upper;
+            proven += placed.lower == placed.upper;
+        } else {
+            assert_int_equal(status, SL_BAD_ARGUMENT);
+            assert_non_null(strstr(sl_context_message(s.context), "no network"));
+            check_networks(&s, UINT64_MAX);
+            refused++;
+        }
+        sl_area_placement_destroy(s.context, &free);
+        sl_area_placement_destroy(s.context, &placed);
+        end(&s);
+    }
+    assert_true(dearer > 1 && refused > 1 && proven > 5);
+}
+
 /// What is blind, and a place that could see it.
 static void test_blind(void **state) {
     (void)state;
@@ -316,6 +413,7 @@ int main(void) {
         cmocka_unit_test(test_demands_and_fixed),
         cmocka_unit_test(test_zone),
         cmocka_unit_test(test_most),
+        cmocka_unit_test(test_network),
         cmocka_unit_test(test_blind),
         cmocka_unit_test(test_refusals),
     };

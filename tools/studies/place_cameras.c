@@ -29,6 +29,9 @@ option_table camera_option_table(camera_plan *plan) {
          .count32 = &plan->cover, .least = 1, .most = 100},
         {"count", 0, "N", "see as much as N viewpoints can, in place of everything",
          .count32 = &plan->count, .least = 1, .most = 100000},
+        {"network", 0, NULL,
+         "lines of sight must join all viewpoints, each to each over others, up to their ranges",
+         .flag = &plan->network},
         {"fixed", 0, "TABLE", "viewpoints that stand already", .text = &plan->fixed,
          .is_input = true},
         {"see", 0, "ZONES",
@@ -46,7 +49,7 @@ option_table camera_option_table(camera_plan *plan) {
 bool camera_plan_chooses(const camera_plan *p) {
     return (p->from && strcmp(p->from, "anywhere") != 0) || p->see || p->forbid || p->fixed ||
            p->like.fov < 360 || p->headings || p->like.range > 0 || p->like.nearest > 0 ||
-           p->cover || p->count;
+           p->cover || p->count || p->network;
 }
 
 sl_status camera_plan_check(sl_context *context, const camera_plan *p) {
@@ -56,6 +59,8 @@ sl_status camera_plan_check(sl_context *context, const camera_plan *p) {
                        "that is inside; take --from walls, corners, grid:STEP or a table");
     if (p->like.range > 0 && p->like.nearest >= p->like.range)
         return sl_fail(context, SL_BAD_ARGUMENT, "--nearest must be less than --range");
+    if (p->count && p->network)
+        return sl_fail(context, SL_BAD_ARGUMENT, "--count and --network do not go together");
     if (p->count && p->cover > 1)
         return sl_fail(context, SL_BAD_ARGUMENT, "--count and --cover do not go together");
     return SL_OK;
@@ -217,6 +222,7 @@ sl_status camera_work_prepare(sl_context *context, const camera_plan *plan,
     w->task.fixed = w->fixed;
     w->task.cover = plan->cover;
     w->task.count = plan->count;
+    w->task.network = plan->network;
     return SL_OK;
 }
 
@@ -249,6 +255,7 @@ static void say_fewest(const camera_work *w, const char *among, bool stopped, ch
                        size_t size) {
     const sl_area_placement *p = &w->placed;
     const bool costs = has_costs(w);
+    const char *const network = w->task.network ? " and a network" : "";
     char lower[64];
     const double least = (double)p->lower / w->scale;
     snprintf(lower, sizeof lower, "%s%.10g%s", costs ? "a cost of " : "", least,
@@ -256,11 +263,12 @@ static void say_fewest(const camera_work *w, const char *among, bool stopped, ch
              : least == 1 ? " viewpoint"
                           : " viewpoints");
     if (p->lower == p->upper)
-        snprintf(text, size, "No %s can, %s: %u points inside need %s.",
-                 costs ? "cheaper choice" : "fewer", among, (unsigned)p->witness_count, lower);
+        snprintf(text, size, "No %s can, %s: %u points inside%s need %s.",
+                 costs ? "cheaper choice" : "fewer", among, (unsigned)p->witness_count, network,
+                 lower);
     else
-        snprintf(text, size, "%u points inside need at least %s, %s: a gap of %.2g %%.%s",
-                 (unsigned)p->witness_count, lower, among,
+        snprintf(text, size, "%u points inside%s need at least %s, %s: a gap of %.2g %%.%s",
+                 (unsigned)p->witness_count, network, lower, among,
                  100.0 * (double)(p->upper - p->lower) / (double)p->upper,
                  stopped ? " Stopped early: more time may close it." : "");
 }

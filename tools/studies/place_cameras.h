@@ -13,6 +13,7 @@ typedef struct camera_plan {
     const char *from, *see, *forbid, *fixed;
     sl_viewpoint like; ///< what a table leaves out, and all other places
     uint32_t headings, cover, count;
+    bool network; ///< lines of sight join all viewpoints
 } camera_plan;
 
 typedef struct camera_work {
