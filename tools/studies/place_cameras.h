@@ -13,7 +13,8 @@ typedef struct camera_plan {
     const char *from, *see, *forbid, *fixed;
     sl_viewpoint like; ///< what a table leaves out, and all other places
     uint32_t headings, cover, count;
-    bool network; ///< lines of sight join all viewpoints
+    bool network;                  ///< lines of sight join all viewpoints
+    double scan_angle, scan_range; ///< walls are to be seen so; 0: the area is
 } camera_plan;
 
 typedef struct camera_work {

@@ -10,6 +10,8 @@
 /// Prices move to the least bound by subgradients, as in cover_most.c. The set comes from
 /// sl_cover_most, for squares of which a place sees at least half. What it sees is then found
 /// exactly.
+///
+/// Of walls to scan there are rows already (area_walls.c): their lengths are the weights.
 #include "analysis/placement/place_area.h"
 
 #include <math.h>
@@ -333,8 +335,61 @@ static sl_status descend(counter *k) {
     return SL_OK;
 }
 
+// --- walls to scan
+
+/// The most length that so many places see: their bytes into `now` unless it is NULL.
+static sl_status choose_most(sli_area *a, bool wide, uint8_t *now, double *seen, double *bound) {
+    const sl_place_area *task = a->task;
+    const uint32_t count = task->count > task->fixed_count ? task->count - task->fixed_count : 0;
+    sl_cover_problem problem = {0};
+    sl_cover_result result = {0};
+    double covered = 0, most = 0;
+    double *weights = sl_alloc_array(a->context, a->lengths.count, sizeof *weights);
+    sl_status status = weights ? sli_area_problem(a, wide, &problem) : SL_NO_MEMORY;
+    *seen = 0;
+    for (size_t r = 0, i = 0; status == SL_OK && r < a->lengths.count; r++) {
+        bool fixed = false;
+        for (; i < a->row_ends.items[r]; i++)
+            fixed |= (wide || !(a->entries.items[i] & SLI_WIDE)) &&
+                     a->fixed[a->entries.items[i] & ~SLI_WIDE];
+        *seen += fixed ? a->lengths.items[r] : 0;
+        weights[r] = fixed ? 0 : a->lengths.items[r];
+    }
+    sl_cover_problem free = problem;
+    free.demands = free.costs = NULL;
+    if (status == SL_OK && count)
+        status = sl_cover_most(a->context, &free, weights, count, NULL, &result, &covered, &most);
+    for (uint32_t i = 0; now && i < task->place_count; i++) now[i] = a->fixed[i];
+    for (uint32_t i = 0; now && i < result.count; i++) now[result.columns[i]] = 1;
+    *bound = *seen + most;
+    *seen += covered;
+    sl_free(a->context, weights);
+    sl_cover_result_destroy(a->context, &result);
+    sli_area_problem_destroy(a->context, &problem);
+    return status;
+}
+
+static sl_status find_most_of_walls(sli_area *a) {
+    sl_area_placement *out = a->out;
+    double seen, bound;
+    SL_TRY(sli_area_walls(a));
+    uint8_t *now = sl_alloc_array(a->context, a->task->place_count, 1);
+    uint32_t *chosen = sl_alloc_array(a->context, a->task->place_count, sizeof *chosen);
+    out->chosen = chosen;
+    sl_status status =
+        now && chosen ? choose_most(a, false, now, &out->seen, &bound) : SL_NO_MEMORY;
+    for (uint32_t i = 0; status == SL_OK && i < a->task->place_count; i++)
+        if (now[i]) chosen[out->count++] = i;
+    if (status == SL_OK && a->wide_count) status = choose_most(a, true, NULL, &seen, &bound);
+    if (status == SL_OK) out->seen_most = fmax(fmin(bound, out->area), out->seen);
+    out->lower = out->upper = out->count;
+    sl_free(a->context, now);
+    return status;
+}
+
 sl_status sli_area_most(sli_area *a) {
     const sl_place_area *task = a->task;
+    if (sli_area_scans(a)) return find_most_of_walls(a);
     counter k = {.a = a, .bound = a->out->area};
     k.count = task->count > task->fixed_count ? task->count - task->fixed_count : 0;
     uint8_t *now = sl_alloc_array(a->context, task->place_count, 1);

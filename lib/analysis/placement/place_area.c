@@ -41,6 +41,10 @@ static sl_status check_task(sl_context *context, const sl_place_area *t) {
         if (t->fixed[i] >= t->place_count || (i && t->fixed[i] <= t->fixed[i - 1]))
             return sl_fail(context, SL_BAD_ARGUMENT,
                            "fixed places must ascend and be among the %u places", t->place_count);
+    if (!(t->scan_angle >= 0 && t->scan_angle < 90) || !(t->scan_range >= 0) ||
+        !isfinite(t->scan_range))
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "walls are seen under 0 to less than 90 degrees, and from 0 or more");
     if (t->count && t->network)
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "a network sees everything: not the most that a number of places sees");
@@ -159,6 +163,7 @@ void sli_area_end(sli_area *a) {
     sl_free(a->context, a->row_ends.items);
     sl_free(a->context, a->entries.items);
     sl_free(a->context, a->row.items);
+    sl_free(a->context, a->lengths.items);
     sl_free(a->context, a->seers.items);
     sli_network_end(a);
 }
@@ -313,7 +318,7 @@ static sl_status find(finder *f) {
     bool clean;
     uint32_t rows = 0;
     for (uint32_t i = 0; i < a->task->place_count; i++) f->now[i] = a->fixed[i];
-    SL_TRY(sli_area_first_witnesses(a));
+    SL_TRY(sli_area_scans(a) ? sli_area_walls(a) : sli_area_first_witnesses(a));
     SL_TRY(take_more(f, true));
     SL_TRY(complete(f, &clean));
     if (!(a->out->seen > a->negligible)) return refuse_blind(a);

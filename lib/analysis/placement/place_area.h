@@ -58,6 +58,7 @@ typedef struct sli_area {
     SL_ARRAY(size_t) row_ends;  ///< by witness
     SL_ARRAY(uint32_t) entries; ///< places that see it, ascending, maybe with SLI_WIDE
     SL_ARRAY(uint32_t) row;     ///< scratch: the same of one point
+    SL_ARRAY(double) lengths;   ///< of walls to scan: by witness, that of its piece
     SL_ARRAY(uint32_t) seers;   ///< scratch: groups
     uint32_t wide_count;        ///< witnesses with an entry that is SLI_WIDE
     sli_network network;
@@ -94,6 +95,13 @@ bool sli_shape_holds(const sl_shape *shape, sl_point at);
 /// Adds witnesses where the chosen places (bytes by place) leave something unseen that others could
 /// see, *added of them. Where there is none, `out` gets what is seen and what is blind.
 sl_status sli_area_check(sli_area *a, const uint8_t *chosen, uint32_t *added);
+
+// --- walls to scan (area_walls.c)
+
+/// Whether walls are to be seen, and not the area.
+bool sli_area_scans(const sli_area *a);
+/// Adds all rows. `out` gets the length that is to be seen, and what is blind of it.
+sl_status sli_area_walls(sli_area *a);
 
 // --- networks (area_network.c)
 

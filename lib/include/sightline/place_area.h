@@ -43,6 +43,11 @@ typedef struct sl_place_area {
     /// Chosen places form one network: lines of sight within the ranges of both ends join each to
     /// each, over others. Headings do not count there.
     bool network;
+    /// Over 0, one or both: walls are to be seen in place of the area, each side that is inside.
+    /// Each point of them from at most `scan_range` (0: no limit), by a line of sight that makes an
+    /// angle of at least `scan_angle` degrees with the wall. Shut doors are walls. The areas of
+    /// the result are lengths of walls then.
+    double scan_angle, scan_range;
 } sl_place_area;
 
 /// Zeroed, it is empty.
