@@ -183,6 +183,84 @@ static void test_most(void **state) {
     }
 }
 
+/// The area that is seen within a box: pieces cut by its sides one after the other.
+static double area_within(const sl_coverage *coverage, const sl_point box[4]) {
+    const sl_space *pieces = &coverage->overlay.pieces;
+    double area = 0;
+    for (uint32_t c = 0; c < pieces->cell_count; c++) {
+        sl_point now[64], next[64];
+        size_t count = pieces->cells[c].vertex_count;
+        if (!pieces->cells[c].inside || !coverage->overlay.counts[c]) continue;
+        assert_true(count < 32);
+        memcpy(now, &pieces->vertices[pieces->cells[c].first_vertex], count * sizeof *now);
+        for (int side = 0; side < 4; side++) {
+            const sl_point a = box[side], b = box[(side + 1) % 4];
+            size_t left = 0;
+            for (size_t i = 0; i < count; i++) {
+                const sl_point p = now[i], q = now[(i + 1) % count];
+                const double u = (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
+                const double v = (b.x - a.x) * (q.y - a.y) - (b.y - a.y) * (q.x - a.x);
+                if (u >= 0) next[left++] = p;
+                if ((u >= 0) != (v >= 0))
+                    next[left++] = (sl_point){p.x + u / (u - v) * (q.x - p.x),
+                                              p.y + u / (u - v) * (q.y - p.y)};
+            }
+            count = left;
+            memcpy(now, next, count * sizeof *now);
+        }
+        for (size_t i = 1; i + 1 < count; i++)
+            area += ((now[i].x - now[0].x) * (now[i + 1].y - now[0].y) -
+                     (now[i].y - now[0].y) * (now[i + 1].x - now[0].x)) /
+                    2;
+    }
+    return area;
+}
+
+/// Zones of which one is worth more, one lies in the other, and one is partly outside: against all
+/// sets of places.
+static void test_weights(void **state) {
+    (void)state;
+    const sl_point corners[3][4] = {{{0, 0}, {6, 0}, {6, 3}, {0, 3}},
+                                    {{1, 1}, {3, 1}, {3, 2}, {1, 2}},
+                                    {{8.5, 4}, {14, 4}, {14, 9}, {8.5, 9}}};
+    const size_t count = 4;
+    const sl_shape zones[3] = {
+        {corners[0], &count, 1}, {corners[1], &count, 1}, {corners[2], &count, 1}};
+    const double weights[3] = {1, 7, 2.5};
+    for (unsigned k = 0; k < 4; k++) {
+        scene s;
+        begin(&s, k % 2 ? PLAN : TURNED, 600 + k, (sl_viewpoint){.fov = k < 2 ? 100 : 360});
+        s.area.count = 1 + k % 3;
+        s.area.zones = zones;
+        s.area.weights = weights;
+        s.area.zone_count = 3;
+        sl_area_placement placed = place(&s);
+        double best = 0, seen = 0;
+        uint32_t chosen = 0;
+        for (uint32_t i = 0; i < placed.count; i++) chosen |= 1u << placed.chosen[i];
+        if (k % 2) assert_true(fabs(placed.area - (18 + 7 * 2 + 2.5 * 14)) < 1e-9);
+        for (uint32_t set = 0; set < 1u << PLACES; set++) {
+            sl_viewpoint views[PLACES];
+            sl_coverage coverage;
+            size_t size = 0;
+            double worth = 0;
+            for (int i = 0; i < PLACES; i++)
+                if (set >> i & 1) views[size++] = s.places[i];
+            if (size != s.area.count) continue;
+            assert_ok(s.context, sl_coverage_make(s.context, s.query, views, size, &coverage));
+            for (int z = 0; z < 3; z++) worth += weights[z] * area_within(&coverage, corners[z]);
+            sl_coverage_destroy(s.context, &coverage);
+            best = fmax(best, worth);
+            if (set == chosen) seen = worth;
+        }
+        assert_true(fabs(seen - placed.seen) < 1e-9 * placed.area);
+        assert_true(best <= placed.seen_most);
+        assert_true(placed.seen >= 0.9 * best);
+        sl_area_placement_destroy(s.context, &placed);
+        end(&s);
+    }
+}
+
 /// Whether lines of sight join all places of a set.
 static bool is_network(scene *s, uint32_t set) {
     uint32_t joined = set & (0u - set), before = 0;
@@ -330,6 +408,14 @@ static void test_refusals(void **state) {
     s.area.costs = NULL;
     s.area.count = s.area.cover = 2;
     assert_refused(&s, "not by several");
+    s.area.zones = &corner;
+    s.area.weights = (double[]){0};
+    s.area.zone_count = 1;
+    assert_refused(&s, "zone 1: its weight");
+    s.area.weights = (double[]){1};
+    s.area.count = 0;
+    assert_refused(&s, "weights are for the most");
+    s.area.zone_count = 0;
     s.area.place_count = 0;
     assert_refused(&s, "no place");
     end(&s);
@@ -342,6 +428,7 @@ int main(void) {
         cmocka_unit_test(test_demands_and_fixed),
         cmocka_unit_test(test_zone),
         cmocka_unit_test(test_most),
+        cmocka_unit_test(test_weights),
         cmocka_unit_test(test_network),
         cmocka_unit_test(test_blind),
         cmocka_unit_test(test_refusals),

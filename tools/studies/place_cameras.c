@@ -44,6 +44,10 @@ option_table camera_option_table(camera_plan *plan) {
          "what must be seen: names of objects in the map, a drawing of closed outlines, or a table "
          "of corners (.csv: name,x,y) (default: all that is inside)",
          .text = &plan->see},
+        {"weight", 0, "NAME=W,...",
+         "with --count and --see: what the area of these zones is worth (default: 1); where zones "
+         "overlap, both count",
+         .text = &plan->weight, .rare = true},
         {"forbid", 0, "ZONES", "where no viewpoint may stand, given as --see is",
          .text = &plan->forbid},
     };
@@ -55,7 +59,8 @@ option_table camera_option_table(camera_plan *plan) {
 bool camera_plan_chooses(const camera_plan *p) {
     return (p->from && strcmp(p->from, "anywhere") != 0) || p->see || p->forbid || p->fixed ||
            p->like.fov < 360 || p->headings || p->like.range > 0 || p->like.nearest > 0 ||
-           p->cover || p->count || p->network || p->scan_angle > 0 || p->scan_range > 0;
+           p->cover || p->count || p->weight || p->network || p->scan_angle > 0 ||
+           p->scan_range > 0;
 }
 
 sl_status camera_plan_check(sl_context *context, const camera_plan *p) {
@@ -65,6 +70,9 @@ sl_status camera_plan_check(sl_context *context, const camera_plan *p) {
                        "that is inside; take --from walls, corners, grid:STEP or a table");
     if (p->like.range > 0 && p->like.nearest >= p->like.range)
         return sl_fail(context, SL_BAD_ARGUMENT, "--nearest must be less than --range");
+    if (p->weight && (!p->count || !p->see || p->scan_angle > 0 || p->scan_range > 0))
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "--weight goes with --count and --see, and with no scan of walls");
     if (p->count && p->network)
         return sl_fail(context, SL_BAD_ARGUMENT, "--count and --network do not go together");
     if (p->count && p->cover > 1)
@@ -202,6 +210,53 @@ static sl_status make_costs(sl_context *context, camera_work *w) {
                    "costs must be over 0 and up to 1,000,000, with up to three decimals");
 }
 
+/// One "NAME=W" of `length`.
+static sl_status read_weight(sl_context *context, const char *text, size_t length, camera_work *w) {
+    char name[256], number[64];
+    const char *equals = NULL;
+    for (size_t i = 0; i < length; i++)
+        if (text[i] == '=') equals = text + i;
+    const size_t size = equals ? (size_t)(equals - text) : 0, rest = length - size;
+    double weight;
+    if (!size || size >= sizeof name || rest < 2 || rest > sizeof number)
+        return sl_fail(context, SL_BAD_ARGUMENT, "--weight %.*s: give NAME=W, as vault=5",
+                       (int)length, text);
+    snprintf(name, sizeof name, "%.*s", (int)size, text);
+    snprintf(number, sizeof number, "%.*s", (int)(rest - 1), equals + 1);
+    SL_TRY(read_number(context, "--weight", number, &weight));
+    if (!(weight > 0))
+        return sl_fail(context, SL_BAD_ARGUMENT, "--weight %s: a weight must be more than 0", name);
+    bool found = false;
+    for (size_t z = 0; z < w->see.ends.count; z++) {
+        if (strcmp(w->see.names.items[z], name) != 0) continue;
+        w->weights[z] = weight;
+        found = true;
+    }
+    return found ? SL_OK
+                 : sl_fail(context, SL_BAD_ARGUMENT, "--weight: --see has no zone '%s'", name);
+}
+
+static sl_status make_weights(sl_context *context, const camera_plan *plan, camera_work *w) {
+    const size_t count = w->see.ends.count;
+    w->zones = sl_alloc_array(context, count, sizeof *w->zones);
+    w->zone_ends = sl_alloc_array(context, count, sizeof *w->zone_ends);
+    w->weights = sl_alloc_array(context, count, sizeof *w->weights);
+    if (!w->zones || !w->zone_ends || !w->weights) return SL_NO_MEMORY;
+    for (size_t z = 0; z < count; z++) {
+        w->zones[z] = zones_shape_of(&w->see, z, &w->zone_ends[z]);
+        w->weights[z] = 1;
+    }
+    for (const char *at = plan->weight; *at;) {
+        const size_t length = strcspn(at, ",");
+        SL_TRY(read_weight(context, at, length, w));
+        at += length + (at[length] == ',');
+    }
+    w->task.zones = w->zones;
+    w->task.weights = w->weights;
+    w->task.zone_count = (uint32_t)count;
+    return SL_OK;
+}
+
 sl_status camera_work_prepare(sl_context *context, const camera_plan *plan,
                               const input_options *input, const sl_baked *baked, sl_query *query,
                               camera_work *w) {
@@ -211,6 +266,7 @@ sl_status camera_work_prepare(sl_context *context, const camera_plan *plan,
         SL_TRY(zones_read(context, "see", plan->see, input, &baked->map, &w->see));
         w->shape = zones_shape(&w->see);
         w->task.see = &w->shape;
+        if (plan->weight) SL_TRY(make_weights(context, plan, w));
     }
     if (plan->fixed) SL_TRY(add_fixed(context, plan, space, w));
     if (plan->forbid)
@@ -291,6 +347,10 @@ void camera_work_say(const camera_work *w, bool stopped, char *text, size_t size
     int used = 0;
     if (scans(w))
         used = snprintf(text, size, "Of walls %.4g long, they scan %.4g. ", p->area, p->seen);
+    else if (w->weights)
+        used = snprintf(text, size,
+                        "By their weights, the zones are worth %.4g, and what is seen %.4g. ",
+                        p->area, p->seen);
     else if (w->task.see)
         used = snprintf(text, size, "Of the %.4g that must be seen, they see %.4g. ", p->area,
                         p->seen);
@@ -352,7 +412,11 @@ void camera_work_add_json(json_fields *f, const camera_work *w) {
     add_cost(f, "upper", w, p->upper);
     if (w->task.count) {
         json_add_flag(f, "optimal", p->seen >= p->seen_most * (1 - 1e-9));
-        json_add_real(f, walls ? "scanned_length_bound" : "seen_area_bound", p->seen_most);
+        json_add_real(f,
+                      walls        ? "scanned_length_bound"
+                      : w->weights ? "seen_worth_bound"
+                                   : "seen_area_bound",
+                      p->seen_most);
     } else {
         json_add_flag(f, "optimal", p->lower == p->upper);
         json_add_real(f, walls ? "hidden_length" : "hidden_area", p->blind_area);
@@ -361,8 +425,16 @@ void camera_work_add_json(json_fields *f, const camera_work *w) {
     json_add_count(f, "witnesses", p->witness_count);
     json_add_count(f, "rounds", p->rounds);
     json_add_count(f, "places", w->task.place_count);
-    json_add_real(f, walls ? "to_scan_length" : "to_see_area", p->area);
-    json_add_real(f, walls ? "scanned_length" : "to_see_seen_area", p->seen);
+    json_add_real(f,
+                  walls        ? "to_scan_length"
+                  : w->weights ? "to_see_worth"
+                               : "to_see_area",
+                  p->area);
+    json_add_real(f,
+                  walls        ? "scanned_length"
+                  : w->weights ? "seen_worth"
+                               : "to_see_seen_area",
+                  p->seen);
 }
 
 /// What of walls none of the places scans.
@@ -408,5 +480,8 @@ void camera_work_destroy(sl_context *context, camera_work *w) {
     sl_free(context, w->costs);
     sl_free(context, w->fixed);
     zones_destroy(context, &w->see);
+    sl_free(context, w->zones);
+    sl_free(context, w->zone_ends);
+    sl_free(context, w->weights);
     sl_area_placement_destroy(context, &w->placed);
 }

@@ -45,6 +45,12 @@ static sl_status check_task(sl_context *context, const sl_place_area *t) {
         !isfinite(t->scan_range))
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "walls are seen under 0 to less than 90 degrees, and from 0 or more");
+    for (uint32_t i = 0; i < t->zone_count; i++)
+        if (!(t->weights[i] > 0) || !isfinite(t->weights[i]))
+            return sl_fail(context, SL_BAD_ARGUMENT, "zone %u: its weight must be over 0", i + 1);
+    if (t->zone_count && (!t->count || t->scan_angle > 0 || t->scan_range > 0))
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "weights are for the most area that a number of places sees");
     if (t->count && t->network)
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "a network sees everything: not the most that a number of places sees");
@@ -63,18 +69,25 @@ static sl_status check_map(sl_context *context, sl_query *query) {
 
 // --- the area and the places
 
+sl_status sli_shape_common(sl_context *context, const sl_shape *one, const sl_shape *other,
+                           sl_shape *out) {
+    const sl_shape both[2] = {*one, *other};
+    sl_overlay overlay;
+    SL_TRY(sl_overlay_make(context, NULL, both, 2, &overlay));
+    const sl_status status = sl_overlay_outline(context, &overlay, 2, out);
+    sl_overlay_destroy(context, &overlay);
+    return status;
+}
+
 /// What is inside, or what of it is to be seen.
 static sl_status make_target(sli_area *a) {
     SL_TRY(sl_shape_of_inside(a->context, a->space, &a->target));
     sl_overlay overlay;
     if (a->task->see) {
-        const sl_shape both[2] = {a->target, *a->task->see};
-        sl_status status = sl_overlay_make(a->context, NULL, both, 2, &overlay);
-        sl_shape_destroy(a->context, &a->target);
-        if (status == SL_OK) {
-            status = sl_overlay_outline(a->context, &overlay, 2, &a->target);
-            sl_overlay_destroy(a->context, &overlay);
-        }
+        sl_shape inside = a->target;
+        a->target = (sl_shape){0};
+        const sl_status status = sli_shape_common(a->context, &inside, a->task->see, &a->target);
+        sl_shape_destroy(a->context, &inside);
         SL_TRY(status);
     }
     SL_TRY(sl_overlay_make(a->context, &a->target, NULL, 0, &overlay));

@@ -40,6 +40,12 @@ typedef struct sl_place_area {
     const sl_shape *see; ///< what of the inside is to be seen; NULL: all of it
     uint32_t cover;      ///< how many places must see each point; 0: 1
     uint32_t count;      ///< 0: see everything; else the most area that so many places see
+    /// With `count`: parts of what is to be seen, and what their area is worth, each over 0. Where
+    /// parts overlap, both count. The areas of the result are these worths then. NULL: all of it is
+    /// worth its area.
+    const sl_shape *zones;
+    const double *weights; ///< by zone
+    uint32_t zone_count;
     /// Chosen places form one network: lines of sight within the ranges of both ends join each to
     /// each, over others. Headings do not count there.
     bool network;
