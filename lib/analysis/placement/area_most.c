@@ -9,7 +9,7 @@
 ///
 /// Prices move to the least bound by subgradients, as in cover_most.c. The set comes from
 /// sl_cover_most, for squares of which a place sees at least half. What it sees is then found
-/// exactly. Where zones have weights, a_cj and A_j are worths.
+/// exactly. Where zones have weights, a_cj and A_j are what they are worth.
 ///
 /// Of walls to scan there are rows already (area_walls.c): their lengths are the weights.
 #include "analysis/placement/place_area.h"

@@ -40,9 +40,9 @@ typedef struct sl_place_area {
     const sl_shape *see; ///< what of the inside is to be seen; NULL: all of it
     uint32_t cover;      ///< how many places must see each point; 0: 1
     uint32_t count;      ///< 0: see everything; else the most area that so many places see
-    /// With `count`: parts of what is to be seen, and what their area is worth, each over 0. Where
-    /// parts overlap, both count. The areas of the result are these worths then. NULL: all of it is
-    /// worth its area.
+    /// With `count`: parts of what is to be seen, and weights by which their areas count, each over
+    /// 0. Where parts overlap, both count. The areas of the result are multiplied by these weights
+    /// then. NULL: all of it counts once.
     const sl_shape *zones;
     const double *weights; ///< by zone
     uint32_t zone_count;
@@ -51,8 +51,8 @@ typedef struct sl_place_area {
     bool network;
     /// Over 0, one or both: walls are to be seen in place of the area, each side that is inside.
     /// Each point of them from at most `scan_range` (0: no limit), by a line of sight that makes an
-    /// angle of at least `scan_angle` degrees with the wall. Shut doors are walls. The areas of
-    /// the result are lengths of walls then.
+    /// angle of at least `scan_angle` degrees with the wall. Shut doors are walls,
+    /// and so are dark sides of glass. The areas of the result are lengths of walls then.
     double scan_angle, scan_range;
 } sl_place_area;
 
