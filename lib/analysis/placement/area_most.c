@@ -427,7 +427,6 @@ static sl_status find_most_of_walls(sli_area *a) {
     SL_TRY(sli_area_walls(a));
     uint8_t *now = sl_alloc_array(a->context, a->task->place_count, 1);
     uint32_t *chosen = sl_alloc_array(a->context, a->task->place_count, sizeof *chosen);
-    out->chosen = chosen;
     sl_status status =
         now && chosen ? choose_most(a, false, now, &out->seen, &bound) : SL_NO_MEMORY;
     for (uint32_t i = 0; status == SL_OK && i < a->task->place_count; i++)
@@ -435,6 +434,10 @@ static sl_status find_most_of_walls(sli_area *a) {
     if (status == SL_OK && a->wide_count) status = choose_most(a, true, NULL, &seen, &bound);
     if (status == SL_OK) out->seen_most = fmax(fmin(bound, out->area), out->seen);
     out->lower = out->upper = out->count;
+    if (status == SL_OK)
+        out->chosen = chosen;
+    else
+        sl_free(a->context, chosen);
     sl_free(a->context, now);
     return status;
 }
