@@ -1,60 +1,8 @@
 // Placement for an area against points at random and beside corners, each asked of sl_query_sees
 // and angles; and against all subsets of the places.
-#include "testing.h"
+#include "place_scene.h"
 
-#include "sightline/place_area.h"
-#include "sightline/support.h"
-
-#include <math.h>
-
-enum { PLACES = 10, SAMPLES = 10000 };
-#define DEGREE 0.017453292519943295
-
-#define PLAN "open 0 0 12 0 12 8 0 8\nsolid 3 3 5 3 5 5 3 5\nsolid 7 2 8 2 8 6 7 6\nwall 9 8 9 5\n"
-#define TURNED                                                                                     \
-    "open 0 0 11.457138 3.572 9.078 11.21 -2.379 7.638\nwall 3 3 5 3.7\nwall 6 4 5.5 6\n"          \
-    "oneway 2 2 3 3\n"
-
-typedef struct scene {
-    testing_memory memory;
-    sl_context *context;
-    sl_map map;
-    sl_space space;
-    sl_query *query;
-    sl_viewpoint places[PLACES];
-    uint32_t costs[PLACES];
-    sl_place_area area;
-} scene;
-
-static sl_point draw(scene *s, sl_random *random) {
-    for (;;) {
-        const sl_point at = {-3 + 16 * sl_random_unit(random), 12 * sl_random_unit(random)};
-        if (sl_space_is_inside(&s->space, at)) return at;
-    }
-}
-
-static void begin(scene *s, const char *plan, uint64_t seed, sl_viewpoint like) {
-    sl_random random = {seed};
-    *s = (scene){0};
-    s->context = testing_context(&s->memory);
-    testing_space(s->context, plan, &s->map, &s->space);
-    assert_ok(s->context, sl_query_over(s->context, &s->space, &s->map, NULL, &s->query));
-    for (int i = 0; i < PLACES; i++) {
-        s->places[i] = like;
-        s->places[i].at = i % 2 ? s->places[i - 1].at : draw(s, &random);
-        s->places[i].heading = 360 * sl_random_unit(&random);
-        s->costs[i] = 1 + (uint32_t)sl_random_below(&random, 3);
-    }
-    s->area = (sl_place_area){.places = s->places, .place_count = PLACES};
-}
-
-static void end(scene *s) {
-    sl_query_destroy(s->context, s->query);
-    sl_space_destroy(s->context, &s->space);
-    sl_map_destroy(s->context, &s->map);
-    sl_context_destroy(s->context);
-    assert_int_equal(s->memory.live, 0);
-}
+enum { SAMPLES = 10000 };
 
 /// Whether a place sees a point. *near: this hangs on the chords of a range.
 static bool sees(scene *s, const sl_viewpoint *p, sl_point at, bool *near) {
@@ -120,13 +68,6 @@ static double area_of(scene *s, uint32_t set) {
     return area;
 }
 
-static uint64_t cost_of(const scene *s, uint32_t set) {
-    uint64_t cost = 0;
-    for (int i = 0; i < PLACES; i++)
-        if (set >> i & 1) cost += s->area.costs ? s->area.costs[i] : 1;
-    return cost;
-}
-
 /// No set that costs less sees as much as all places together.
 static void check_lower(scene *s, const sl_area_placement *placed) {
     const uint32_t every = (1u << PLACES) - 1;
@@ -138,18 +79,6 @@ static void check_lower(scene *s, const sl_area_placement *placed) {
         assert_true(area_of(s, set) < most * (1 - 1e-9));
         if (++tried == 40) break;
     }
-}
-
-static sl_area_placement place(scene *s) {
-    sl_area_placement placed = {0};
-    assert_ok(s->context, sl_place_area_cover(s->context, s->query, &s->area, NULL, &placed));
-    assert_true(placed.lower <= placed.upper);
-    assert_true(placed.count > 0 && placed.count <= PLACES);
-    uint32_t set = 0;
-    for (uint32_t i = 0; i < placed.count; i++) set |= 1u << placed.chosen[i];
-    assert_int_equal(cost_of(s, set), placed.upper);
-    assert_true(placed.rounding <= 1e-9 * placed.area);
-    return placed;
 }
 
 static void test_fewest(void **state) {
@@ -254,6 +183,181 @@ static void test_most(void **state) {
     }
 }
 
+/// The area that is seen within a box: pieces cut by its sides one after the other.
+static double area_within(const sl_coverage *coverage, const sl_point box[4]) {
+    const sl_space *pieces = &coverage->overlay.pieces;
+    double area = 0;
+    for (uint32_t c = 0; c < pieces->cell_count; c++) {
+        sl_point now[64], next[64];
+        size_t count = pieces->cells[c].vertex_count;
+        if (!pieces->cells[c].inside || !coverage->overlay.counts[c]) continue;
+        assert_true(count < 32);
+        memcpy(now, &pieces->vertices[pieces->cells[c].first_vertex], count * sizeof *now);
+        for (int side = 0; side < 4; side++) {
+            const sl_point a = box[side], b = box[(side + 1) % 4];
+            size_t left = 0;
+            for (size_t i = 0; i < count; i++) {
+                const sl_point p = now[i], q = now[(i + 1) % count];
+                const double u = (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
+                const double v = (b.x - a.x) * (q.y - a.y) - (b.y - a.y) * (q.x - a.x);
+                if (u >= 0) next[left++] = p;
+                if ((u >= 0) != (v >= 0))
+                    next[left++] = (sl_point){p.x + u / (u - v) * (q.x - p.x),
+                                              p.y + u / (u - v) * (q.y - p.y)};
+            }
+            count = left;
+            memcpy(now, next, count * sizeof *now);
+        }
+        for (size_t i = 1; i + 1 < count; i++)
+            area += ((now[i].x - now[0].x) * (now[i + 1].y - now[0].y) -
+                     (now[i].y - now[0].y) * (now[i + 1].x - now[0].x)) /
+                    2;
+    }
+    return area;
+}
+
+/// Zones of which one is worth more, one lies in the other, and one is partly outside: against all
+/// sets of places.
+static void test_weights(void **state) {
+    (void)state;
+    const sl_point corners[3][4] = {{{0, 0}, {6, 0}, {6, 3}, {0, 3}},
+                                    {{1, 1}, {3, 1}, {3, 2}, {1, 2}},
+                                    {{8.5, 4}, {14, 4}, {14, 9}, {8.5, 9}}};
+    const size_t count = 4;
+    const sl_shape zones[3] = {
+        {corners[0], &count, 1}, {corners[1], &count, 1}, {corners[2], &count, 1}};
+    const double weights[3] = {1, 7, 2.5};
+    for (unsigned k = 0; k < 4; k++) {
+        scene s;
+        begin(&s, k % 2 ? PLAN : TURNED, 600 + k, (sl_viewpoint){.fov = k < 2 ? 100 : 360});
+        s.area.count = 1 + k % 3;
+        s.area.zones = zones;
+        s.area.weights = weights;
+        s.area.zone_count = 3;
+        sl_area_placement placed = place(&s);
+        double best = 0, seen = 0;
+        uint32_t chosen = 0;
+        for (uint32_t i = 0; i < placed.count; i++) chosen |= 1u << placed.chosen[i];
+        if (k % 2) assert_true(fabs(placed.area - (18 + 7 * 2 + 2.5 * 14)) < 1e-9);
+        for (uint32_t set = 0; set < 1u << PLACES; set++) {
+            sl_viewpoint views[PLACES];
+            sl_coverage coverage;
+            size_t size = 0;
+            double worth = 0;
+            for (int i = 0; i < PLACES; i++)
+                if (set >> i & 1) views[size++] = s.places[i];
+            if (size != s.area.count) continue;
+            assert_ok(s.context, sl_coverage_make(s.context, s.query, views, size, &coverage));
+            for (int z = 0; z < 3; z++) worth += weights[z] * area_within(&coverage, corners[z]);
+            sl_coverage_destroy(s.context, &coverage);
+            best = fmax(best, worth);
+            if (set == chosen) seen = worth;
+        }
+        assert_true(fabs(seen - placed.seen) < 1e-9 * placed.area);
+        assert_true(best <= placed.seen_most);
+        assert_true(placed.seen >= 0.9 * best);
+        sl_area_placement_destroy(s.context, &placed);
+        end(&s);
+    }
+}
+
+/// Whether lines of sight join all places of a set.
+static bool is_network(scene *s, uint32_t set) {
+    uint32_t joined = set & (0u - set), before = 0;
+    while (joined != before) {
+        before = joined;
+        for (int i = 0; i < PLACES; i++)
+            for (int j = 0; j < PLACES; j++) {
+                const sl_viewpoint *p = &s->places[i], *q = &s->places[j];
+                bool there, back;
+                if (!(joined >> i & 1) || !(set >> j & 1) || joined >> j & 1) continue;
+                const double distance = hypot(p->at.x - q->at.x, p->at.y - q->at.y);
+                if ((p->range > 0 && distance > p->range) || (q->range > 0 && distance > q->range))
+                    continue;
+                assert_ok(s->context, sl_query_sees(s->context, s->query, p->at, q->at, &there));
+                assert_ok(s->context, sl_query_sees(s->context, s->query, q->at, p->at, &back));
+                if (there && back) joined |= 1u << j;
+            }
+    }
+    return joined == set;
+}
+
+/// The areas that a set sees by one place, and by two.
+static void areas_of(scene *s, uint32_t set, double areas[2]) {
+    sl_viewpoint chosen[PLACES];
+    sl_coverage coverage;
+    size_t count = 0;
+    for (int i = 0; i < PLACES; i++)
+        if (set >> i & 1) chosen[count++] = s->places[i];
+    assert_ok(s->context, sl_coverage_make(s->context, s->query, chosen, count, &coverage));
+    for (uint32_t k = 0; k < 2; k++) areas[k] = k < count ? coverage.overlay.areas[k + 1] : 0;
+    sl_coverage_destroy(s->context, &coverage);
+}
+
+/// No network of less than a cost, with the fixed places, sees all that all places see.
+static void check_networks(scene *s, uint64_t cost) {
+    const uint32_t cover = s->area.cover ? s->area.cover : 1, every = (1u << PLACES) - 1;
+    double all[2], areas[2];
+    uint32_t fixed = 0;
+    for (uint32_t i = 0; i < s->area.fixed_count; i++) fixed |= 1u << s->area.fixed[i];
+    areas_of(s, every, all);
+    for (uint32_t set = 1; set <= every; set++) {
+        if ((set & fixed) != fixed || cost_of(s, set) >= cost || !is_network(s, set)) continue;
+        areas_of(s, set, areas);
+        assert_true(areas[0] < all[0] * (1 - 1e-9) ||
+                    (cover > 1 && areas[1] < all[1] - 1e-9 * all[0]));
+    }
+}
+
+/// Networks against all sets of places. A wall parts the plan but for a gap at its end, or all of
+/// it; places may stand on walls and see one side of them.
+static void test_network(void **state) {
+    (void)state;
+    static const sl_viewpoint kinds[] = {
+        {.fov = 360}, {.fov = 250}, {.fov = 360, .range = 7}, {.fov = 200, .range = 9}};
+    static const char *const plans[] = {PLAN, TURNED, PLAN "wall 5 8 5 5\nwall 8 2 8 0\n",
+                                        PLAN "wall 5 8 5 5\nwall 4 3 4 0\n"};
+    static const uint32_t fixed[2] = {0, 7};
+    uint32_t dearer = 0, refused = 0, proven = 0;
+    for (unsigned k = 0; k < 24; k++) {
+        scene s;
+        sl_random random = {k};
+        sl_area_placement free = {0}, placed = {0};
+        begin(&s, plans[k % 4], 500 + k, kinds[k / 4 % 4]);
+        for (int i = 1; i < PLACES && k % 6; i += 2) s.places[i].at = draw(&s, &random);
+        if (k % 3 == 0) s.area.costs = s.costs;
+        if (k % 5 == 0) s.area.cover = 2;
+        if (k % 7 == 0) {
+            s.area.fixed = fixed;
+            s.area.fixed_count = 2;
+        }
+        if (k % 8 == 3) s.places[2].at = s.places[3].at = s.space.walls[5].a;
+        assert_ok(s.context, sl_place_area_cover(s.context, s.query, &s.area, NULL, &free));
+        s.area.network = true;
+        const sl_status status = sl_place_area_cover(s.context, s.query, &s.area, NULL, &placed);
+        if (status == SL_OK) {
+            uint32_t set = 0;
+            for (uint32_t i = 0; i < placed.count; i++) set |= 1u << placed.chosen[i];
+            assert_int_equal(cost_of(&s, set), placed.upper);
+            assert_true(is_network(&s, set));
+            check_points(&s, &placed);
+            check_networks(&s, placed.lower);
+            assert_true(placed.lower >= free.lower);
+            dearer += placed.lower > free.upper;
+            proven += placed.lower == placed.upper;
+        } else {
+            assert_int_equal(status, SL_BAD_ARGUMENT);
+            assert_non_null(strstr(sl_context_message(s.context), "no network"));
+            check_networks(&s, UINT64_MAX);
+            refused++;
+        }
+        sl_area_placement_destroy(s.context, &free);
+        sl_area_placement_destroy(s.context, &placed);
+        end(&s);
+    }
+    assert_true(dearer > 1 && refused > 1 && proven > 5);
+}
+
 /// What is blind, and a place that could see it.
 static void test_blind(void **state) {
     (void)state;
@@ -304,6 +408,14 @@ static void test_refusals(void **state) {
     s.area.costs = NULL;
     s.area.count = s.area.cover = 2;
     assert_refused(&s, "not by several");
+    s.area.zones = &corner;
+    s.area.weights = (double[]){0};
+    s.area.zone_count = 1;
+    assert_refused(&s, "zone 1: its weight");
+    s.area.weights = (double[]){1};
+    s.area.count = 0;
+    assert_refused(&s, "weights are for the most");
+    s.area.zone_count = 0;
     s.area.place_count = 0;
     assert_refused(&s, "no place");
     end(&s);
@@ -316,6 +428,8 @@ int main(void) {
         cmocka_unit_test(test_demands_and_fixed),
         cmocka_unit_test(test_zone),
         cmocka_unit_test(test_most),
+        cmocka_unit_test(test_weights),
+        cmocka_unit_test(test_network),
         cmocka_unit_test(test_blind),
         cmocka_unit_test(test_refusals),
     };

@@ -29,12 +29,25 @@ option_table camera_option_table(camera_plan *plan) {
          .count32 = &plan->cover, .least = 1, .most = 100},
         {"count", 0, "N", "see as much as N viewpoints can, in place of everything",
          .count32 = &plan->count, .least = 1, .most = 100000},
+        {"network", 0, NULL,
+         "lines of sight must join all viewpoints, each to each over others, up to their ranges",
+         .flag = &plan->network},
+        {"scan-angle", 0, "DEG",
+         "scan the walls in place of the area: see each point of them under an angle of at least "
+         "this with the wall",
+         .number = &plan->scan_angle, .over_0 = true, .most = 89},
+        {"scan-range", 0, "R", "scan the walls: see each point of them from R or nearer",
+         .number = &plan->scan_range, .over_0 = true},
         {"fixed", 0, "TABLE", "viewpoints that stand already", .text = &plan->fixed,
          .is_input = true},
         {"see", 0, "ZONES",
          "what must be seen: names of objects in the map, a drawing of closed outlines, or a table "
          "of corners (.csv: name,x,y) (default: all that is inside)",
          .text = &plan->see},
+        {"weight", 0, "NAME=W,...",
+         "with --count and --see: what the area of these zones is worth (default: 1); where zones "
+         "overlap, both count",
+         .text = &plan->weight, .rare = true},
         {"forbid", 0, "ZONES", "where no viewpoint may stand, given as --see is",
          .text = &plan->forbid},
     };
@@ -46,7 +59,8 @@ option_table camera_option_table(camera_plan *plan) {
 bool camera_plan_chooses(const camera_plan *p) {
     return (p->from && strcmp(p->from, "anywhere") != 0) || p->see || p->forbid || p->fixed ||
            p->like.fov < 360 || p->headings || p->like.range > 0 || p->like.nearest > 0 ||
-           p->cover || p->count;
+           p->cover || p->count || p->weight || p->network || p->scan_angle > 0 ||
+           p->scan_range > 0;
 }
 
 sl_status camera_plan_check(sl_context *context, const camera_plan *p) {
@@ -56,6 +70,11 @@ sl_status camera_plan_check(sl_context *context, const camera_plan *p) {
                        "that is inside; take --from walls, corners, grid:STEP or a table");
     if (p->like.range > 0 && p->like.nearest >= p->like.range)
         return sl_fail(context, SL_BAD_ARGUMENT, "--nearest must be less than --range");
+    if (p->weight && (!p->count || !p->see || p->scan_angle > 0 || p->scan_range > 0))
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "--weight goes with --count and --see, and with no scan of walls");
+    if (p->count && p->network)
+        return sl_fail(context, SL_BAD_ARGUMENT, "--count and --network do not go together");
     if (p->count && p->cover > 1)
         return sl_fail(context, SL_BAD_ARGUMENT, "--count and --cover do not go together");
     return SL_OK;
@@ -191,6 +210,53 @@ static sl_status make_costs(sl_context *context, camera_work *w) {
                    "costs must be over 0 and up to 1,000,000, with up to three decimals");
 }
 
+/// One "NAME=W" of `length`.
+static sl_status read_weight(sl_context *context, const char *text, size_t length, camera_work *w) {
+    char name[256], number[64];
+    const char *equals = NULL;
+    for (size_t i = 0; i < length; i++)
+        if (text[i] == '=') equals = text + i;
+    const size_t size = equals ? (size_t)(equals - text) : 0, rest = length - size;
+    double weight;
+    if (!size || size >= sizeof name || rest < 2 || rest > sizeof number)
+        return sl_fail(context, SL_BAD_ARGUMENT, "--weight %.*s: give NAME=W, as vault=5",
+                       (int)length, text);
+    snprintf(name, sizeof name, "%.*s", (int)size, text);
+    snprintf(number, sizeof number, "%.*s", (int)(rest - 1), equals + 1);
+    SL_TRY(read_number(context, "--weight", number, &weight));
+    if (!(weight > 0))
+        return sl_fail(context, SL_BAD_ARGUMENT, "--weight %s: a weight must be more than 0", name);
+    bool found = false;
+    for (size_t z = 0; z < w->see.ends.count; z++) {
+        if (strcmp(w->see.names.items[z], name) != 0) continue;
+        w->weights[z] = weight;
+        found = true;
+    }
+    return found ? SL_OK
+                 : sl_fail(context, SL_BAD_ARGUMENT, "--weight: --see has no zone '%s'", name);
+}
+
+static sl_status make_weights(sl_context *context, const camera_plan *plan, camera_work *w) {
+    const size_t count = w->see.ends.count;
+    w->zones = sl_alloc_array(context, count, sizeof *w->zones);
+    w->zone_ends = sl_alloc_array(context, count, sizeof *w->zone_ends);
+    w->weights = sl_alloc_array(context, count, sizeof *w->weights);
+    if (!w->zones || !w->zone_ends || !w->weights) return SL_NO_MEMORY;
+    for (size_t z = 0; z < count; z++) {
+        w->zones[z] = zones_shape_of(&w->see, z, &w->zone_ends[z]);
+        w->weights[z] = 1;
+    }
+    for (const char *at = plan->weight; *at;) {
+        const size_t length = strcspn(at, ",");
+        SL_TRY(read_weight(context, at, length, w));
+        at += length + (at[length] == ',');
+    }
+    w->task.zones = w->zones;
+    w->task.weights = w->weights;
+    w->task.zone_count = (uint32_t)count;
+    return SL_OK;
+}
+
 sl_status camera_work_prepare(sl_context *context, const camera_plan *plan,
                               const input_options *input, const sl_baked *baked, sl_query *query,
                               camera_work *w) {
@@ -200,6 +266,7 @@ sl_status camera_work_prepare(sl_context *context, const camera_plan *plan,
         SL_TRY(zones_read(context, "see", plan->see, input, &baked->map, &w->see));
         w->shape = zones_shape(&w->see);
         w->task.see = &w->shape;
+        if (plan->weight) SL_TRY(make_weights(context, plan, w));
     }
     if (plan->fixed) SL_TRY(add_fixed(context, plan, space, w));
     if (plan->forbid)
@@ -217,6 +284,9 @@ sl_status camera_work_prepare(sl_context *context, const camera_plan *plan,
     w->task.fixed = w->fixed;
     w->task.cover = plan->cover;
     w->task.count = plan->count;
+    w->task.network = plan->network;
+    w->task.scan_angle = plan->scan_angle;
+    w->task.scan_range = plan->scan_range;
     return SL_OK;
 }
 
@@ -234,6 +304,10 @@ static bool has_costs(const camera_work *w) {
     return w->scale * 1.0 != w->costs[0];
 }
 
+static bool scans(const camera_work *w) {
+    return w->task.scan_angle > 0 || w->task.scan_range > 0;
+}
+
 /// "of these 96 places", "of these 96 places and headings at 12 points"
 static void say_among(const camera_work *w, char *text, size_t size) {
     const unsigned places = (unsigned)w->task.place_count;
@@ -249,6 +323,9 @@ static void say_fewest(const camera_work *w, const char *among, bool stopped, ch
                        size_t size) {
     const sl_area_placement *p = &w->placed;
     const bool costs = has_costs(w);
+    char points[64];
+    snprintf(points, sizeof points, "%u points %s%s", (unsigned)p->witness_count,
+             scans(w) ? "on walls" : "inside", w->task.network ? " and a network" : "");
     char lower[64];
     const double least = (double)p->lower / w->scale;
     snprintf(lower, sizeof lower, "%s%.10g%s", costs ? "a cost of " : "", least,
@@ -256,11 +333,10 @@ static void say_fewest(const camera_work *w, const char *among, bool stopped, ch
              : least == 1 ? " viewpoint"
                           : " viewpoints");
     if (p->lower == p->upper)
-        snprintf(text, size, "No %s can, %s: %u points inside need %s.",
-                 costs ? "cheaper choice" : "fewer", among, (unsigned)p->witness_count, lower);
+        snprintf(text, size, "No %s can, %s: %s need %s.", costs ? "cheaper choice" : "fewer",
+                 among, points, lower);
     else
-        snprintf(text, size, "%u points inside need at least %s, %s: a gap of %.2g %%.%s",
-                 (unsigned)p->witness_count, lower, among,
+        snprintf(text, size, "%s need at least %s, %s: a gap of %.2g %%.%s", points, lower, among,
                  100.0 * (double)(p->upper - p->lower) / (double)p->upper,
                  stopped ? " Stopped early: more time may close it." : "");
 }
@@ -269,7 +345,13 @@ void camera_work_say(const camera_work *w, bool stopped, char *text, size_t size
     const sl_area_placement *p = &w->placed;
     char among[128];
     int used = 0;
-    if (w->task.see)
+    if (scans(w))
+        used = snprintf(text, size, "Of walls %.4g long, they scan %.4g. ", p->area, p->seen);
+    else if (w->weights)
+        used = snprintf(text, size,
+                        "By their weights, the zones are worth %.4g, and what is seen %.4g. ",
+                        p->area, p->seen);
+    else if (w->task.see)
         used = snprintf(text, size, "Of the %.4g that must be seen, they see %.4g. ", p->area,
                         p->seen);
     text += used;
@@ -278,9 +360,10 @@ void camera_work_say(const camera_work *w, bool stopped, char *text, size_t size
     if (!w->task.count)
         say_fewest(w, among, stopped, text, size);
     else
-        snprintf(text, size, "They see %.4g %%; no %u %s see more than %.4g %%.%s",
-                 100 * p->seen / p->area, (unsigned)w->task.count, among,
-                 100 * p->seen_most / p->area, stopped ? " Stopped early." : "");
+        snprintf(text, size, "They %s %.4g %%; no %u %s %s more than %.4g %%.%s",
+                 scans(w) ? "scan" : "see", 100 * p->seen / p->area, (unsigned)w->task.count, among,
+                 scans(w) ? "scan" : "see", 100 * p->seen_most / p->area,
+                 stopped ? " Stopped early." : "");
     const size_t end = strlen(text);
     if (w->task.fixed_count)
         snprintf(text + end, size - end, " %u of them stand%s already.",
@@ -290,7 +373,7 @@ void camera_work_say(const camera_work *w, bool stopped, char *text, size_t size
 sl_status camera_work_check_zones(sl_context *context, const camera_work *w,
                                   const camera_plan *plan, sl_query *query,
                                   const zone_cover *covers) {
-    for (size_t z = 0; z < w->see.ends.count && !w->task.count; z++) {
+    for (size_t z = 0; z < w->see.ends.count && !w->task.count && !scans(w); z++) {
         const char *name = w->see.names.items[z];
         if (!(covers[z].inside > 0))
             return sl_fail(context, SL_BAD_ARGUMENT, "--see: nothing of zone '%s' is inside", name);
@@ -324,21 +407,47 @@ static void add_cost(json_fields *f, const char *key, const camera_work *w, uint
 
 void camera_work_add_json(json_fields *f, const camera_work *w) {
     const sl_area_placement *p = &w->placed;
+    const bool walls = scans(w);
     add_cost(f, "lower", w, p->lower);
     add_cost(f, "upper", w, p->upper);
     if (w->task.count) {
         json_add_flag(f, "optimal", p->seen >= p->seen_most * (1 - 1e-9));
-        json_add_real(f, "seen_area_bound", p->seen_most);
+        json_add_real(f,
+                      walls        ? "scanned_length_bound"
+                      : w->weights ? "seen_worth_bound"
+                                   : "seen_area_bound",
+                      p->seen_most);
     } else {
         json_add_flag(f, "optimal", p->lower == p->upper);
-        json_add_real(f, "hidden_area", p->blind_area);
-        json_add_real(f, "rounding_area", p->rounding);
+        json_add_real(f, walls ? "hidden_length" : "hidden_area", p->blind_area);
+        json_add_real(f, walls ? "rounding_length" : "rounding_area", p->rounding);
     }
     json_add_count(f, "witnesses", p->witness_count);
     json_add_count(f, "rounds", p->rounds);
     json_add_count(f, "places", w->task.place_count);
-    json_add_real(f, "to_see_area", p->area);
-    json_add_real(f, "to_see_seen_area", p->seen);
+    json_add_real(f,
+                  walls        ? "to_scan_length"
+                  : w->weights ? "to_see_worth"
+                               : "to_see_area",
+                  p->area);
+    json_add_real(f,
+                  walls        ? "scanned_length"
+                  : w->weights ? "seen_worth"
+                               : "to_see_seen_area",
+                  p->seen);
+}
+
+/// What of walls none of the places scans.
+static void print_blind_walls(const camera_work *w, const char *unit) {
+    const sl_area_placement *p = &w->placed;
+    const char *const gap = *unit ? " " : "";
+    printf(
+        "\n%.4g%s%s of walls %s of these places scan%s, whatever is chosen: %.3g %%. The longest "
+        "of %u part%s has %.4g%s%s at %.6g,%.6g.\n",
+        p->blind_area, gap, unit, w->task.cover > 1 ? "too few" : "none",
+        w->task.cover > 1 ? "" : "s", 100 * p->blind_area / p->area, (unsigned)p->blind_count,
+        p->blind_count == 1 ? "" : "s", p->blind[0].area, gap, unit, p->blind[0].at.x,
+        p->blind[0].at.y);
 }
 
 sl_status camera_work_print_blind(sl_context *context, const camera_work *w,
@@ -346,6 +455,10 @@ sl_status camera_work_print_blind(sl_context *context, const camera_work *w,
     const sl_area_placement *p = &w->placed;
     const char *const squared = *unit ? "\xc2\xb2" : "", *const gap = *unit ? " " : "";
     if (!p->blind_count) return SL_OK;
+    if (scans(w)) {
+        print_blind_walls(w, unit);
+        return SL_OK;
+    }
     printf(
         "\n%.4g%s%s%s of it %s of these places see%s, whatever is chosen: %.3g %%. The largest of "
         "%u part%s has %.4g%s%s%s at %.6g,%.6g.\n",
@@ -367,5 +480,8 @@ void camera_work_destroy(sl_context *context, camera_work *w) {
     sl_free(context, w->costs);
     sl_free(context, w->fixed);
     zones_destroy(context, &w->see);
+    sl_free(context, w->zones);
+    sl_free(context, w->zone_ends);
+    sl_free(context, w->weights);
     sl_area_placement_destroy(context, &w->placed);
 }

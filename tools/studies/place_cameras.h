@@ -10,9 +10,11 @@
 
 /// What the options say.
 typedef struct camera_plan {
-    const char *from, *see, *forbid, *fixed;
+    const char *from, *see, *forbid, *fixed, *weight;
     sl_viewpoint like; ///< what a table leaves out, and all other places
     uint32_t headings, cover, count;
+    bool network;                  ///< lines of sight join all viewpoints
+    double scan_angle, scan_range; ///< walls are to be seen so; 0: the area is
 } camera_plan;
 
 typedef struct camera_work {
@@ -24,6 +26,9 @@ typedef struct camera_work {
     size_t forbidden; ///< points that --forbid took away
     zone_list see;
     sl_shape shape;
+    sl_shape *zones; ///< of `see`, with `zone_ends` and `weights`; NULL where no weight is given
+    size_t *zone_ends;
+    double *weights;
     sl_place_area task;
     sl_area_placement placed;
 } camera_work;

@@ -9,7 +9,9 @@
 ///
 /// Prices move to the least bound by subgradients, as in cover_most.c. The set comes from
 /// sl_cover_most, for squares of which a place sees at least half. What it sees is then found
-/// exactly.
+/// exactly. Where zones have weights, a_cj and A_j are what they are worth.
+///
+/// Of walls to scan there are rows already (area_walls.c): their lengths are the weights.
 #include "analysis/placement/place_area.h"
 
 #include <math.h>
@@ -37,6 +39,8 @@ typedef struct counter {
     int columns, rows;
     double *cover, *part; ///< by square, scratch: of what is to the right of it, and of itself
     double *areas;        ///< A_j
+    sl_shape *zones;      ///< of sl_place_area, as far as they are to be seen; or all of that
+    double *density;      ///< by square: what area in it is worth at most
     SL_ARRAY(share) shares;
     size_t *ends; ///< by place
     double *prices, *slopes;
@@ -164,31 +168,86 @@ static sl_status make_grid(counter *k, const sl_box *box) {
     k->cover = sl_alloc_array(a->context, squares, sizeof *k->cover);
     k->part = sl_alloc_array(a->context, squares, sizeof *k->part);
     k->areas = sl_alloc_array(a->context, squares, sizeof *k->areas);
+    k->density = sl_alloc_array(a->context, squares, sizeof *k->density);
     k->prices = sl_alloc_array(a->context, squares, sizeof *k->prices);
     k->slopes = sl_alloc_array(a->context, squares, sizeof *k->slopes);
     k->ends = sl_alloc_array(a->context, places, sizeof *k->ends);
     k->order = sl_alloc_array(a->context, places, sizeof *k->order);
-    return k->cover && k->part && k->areas && k->prices && k->slopes && k->ends && k->order
+    return k->cover && k->part && k->areas && k->density && k->prices && k->slopes && k->ends &&
+                   k->order
                ? SL_OK
                : SL_NO_MEMORY;
+}
+
+static uint32_t zones_of(const sli_area *a) {
+    return a->task->zone_count ? a->task->zone_count : 1;
+}
+
+/// What an area that is seen is worth: in all zones, by `shapes`; or without them, all of it.
+static sl_status add_up(const counter *k, const sl_shape *shapes, uint32_t count, double *worth) {
+    const sli_area *a = k->a;
+    *worth = 0;
+    for (uint32_t z = 0; z < zones_of(a); z++) {
+        sl_overlay overlay;
+        if (!k->zones[z].count) continue;
+        SL_TRY(sl_overlay_make(a->context, &k->zones[z], shapes, count, &overlay));
+        *worth += (a->task->zone_count ? a->task->weights[z] : 1) * overlay.areas[count ? 1 : 0];
+        sl_overlay_destroy(a->context, &overlay);
+    }
+    return SL_OK;
+}
+
+/// How much of each square counts, and for how much.
+static sl_status measure_zones(counter *k) {
+    sli_area *a = k->a;
+    for (uint32_t z = 0; z < zones_of(a); z++) {
+        const double weight = a->task->zone_count ? a->task->weights[z] : 1;
+        if (!k->zones[z].count) continue;
+        const sl_box box = box_of(&k->zones[z]);
+        SL_TRY(measure(k, &k->zones[z], &box));
+        for (size_t i = 0; i < k->shares.count; i++) {
+            k->areas[k->shares.items[i].square] += weight * k->shares.items[i].area;
+            k->density[k->shares.items[i].square] += weight;
+        }
+        k->shares.count = 0;
+    }
+    SL_TRY(add_up(k, NULL, 0, &a->out->area));
+    k->bound = a->out->area;
+    return a->out->area > 0 ? SL_OK
+                            : sl_fail(a->context, SL_BAD_ARGUMENT, "no zone is to be seen inside");
+}
+
+static sl_status make_zones(counter *k) {
+    sli_area *a = k->a;
+    k->zones = sl_alloc_array(a->context, zones_of(a), sizeof *k->zones);
+    if (!k->zones) return SL_NO_MEMORY;
+    if (!a->task->zone_count) {
+        k->zones[0] = a->target;
+        a->target = (sl_shape){0};
+    }
+    for (uint32_t z = 0; z < a->task->zone_count; z++)
+        SL_TRY(sli_shape_common(a->context, &a->target, &a->task->zones[z], &k->zones[z]));
+    return SL_OK;
 }
 
 static sl_status measure_all(counter *k) {
     sli_area *a = k->a;
     const sl_box box = box_of(&a->target);
     SL_TRY(make_grid(k, &box));
-    SL_TRY(measure(k, &a->target, &box));
-    for (size_t i = 0; i < k->shares.count; i++)
-        k->areas[k->shares.items[i].square] = k->shares.items[i].area;
-    k->shares.count = 0;
+    SL_TRY(make_zones(k));
+    SL_TRY(measure_zones(k));
     for (uint32_t i = 0; i < a->task->place_count; i++) {
         if (i % 64 == 0) SL_TRY(sl_check_cancelled(a->context));
         const sl_shape shape = sli_view_shape(&a->shapes, i + 1);
         const size_t from = k->shares.count;
         size_t to = from;
         SL_TRY(measure(k, &shape, &a->boxes[i]));
-        for (size_t j = from; j < k->shares.count; j++)
-            if (k->areas[k->shares.items[j].square] > 0) k->shares.items[to++] = k->shares.items[j];
+        for (size_t j = from; j < k->shares.count; j++) {
+            share s = k->shares.items[j];
+            if (!(k->areas[s.square] > 0)) continue;
+            s.area *= k->density[s.square];
+            k->shares.items[to++] = s;
+        }
         k->shares.count = to;
         k->ends[i] = to;
     }
@@ -253,12 +312,7 @@ static sl_status keep(counter *k, const uint8_t *now) {
         shapes[out->count] = sli_view_shape(&a->shapes, i + 1);
         chosen[out->count++] = i;
     }
-    sl_overlay overlay;
-    const sl_status status = sl_overlay_make(a->context, &a->target, shapes, out->count, &overlay);
-    if (status == SL_OK) {
-        out->seen = out->count ? overlay.areas[1] : 0;
-        sl_overlay_destroy(a->context, &overlay);
-    }
+    const sl_status status = out->count ? add_up(k, shapes, out->count, &out->seen) : SL_OK;
     sl_free(a->context, shapes);
     out->lower = out->upper = out->count;
     return status;
@@ -333,9 +387,65 @@ static sl_status descend(counter *k) {
     return SL_OK;
 }
 
+// --- walls to scan
+
+/// The most length that so many places see: their bytes into `now` unless it is NULL.
+static sl_status choose_most(sli_area *a, bool wide, uint8_t *now, double *seen, double *bound) {
+    const sl_place_area *task = a->task;
+    const uint32_t count = task->count > task->fixed_count ? task->count - task->fixed_count : 0;
+    sl_cover_problem problem = {0};
+    sl_cover_result result = {0};
+    double covered = 0, most = 0;
+    double *weights = sl_alloc_array(a->context, a->lengths.count, sizeof *weights);
+    sl_status status = weights ? sli_area_problem(a, wide, &problem) : SL_NO_MEMORY;
+    *seen = 0;
+    for (size_t r = 0, i = 0; status == SL_OK && r < a->lengths.count; r++) {
+        bool fixed = false;
+        for (; i < a->row_ends.items[r]; i++)
+            fixed |= (wide || !(a->entries.items[i] & SLI_WIDE)) &&
+                     a->fixed[a->entries.items[i] & ~SLI_WIDE];
+        *seen += fixed ? a->lengths.items[r] : 0;
+        weights[r] = fixed ? 0 : a->lengths.items[r];
+    }
+    sl_cover_problem free = problem;
+    free.demands = free.costs = NULL;
+    if (status == SL_OK && count)
+        status = sl_cover_most(a->context, &free, weights, count, NULL, &result, &covered, &most);
+    for (uint32_t i = 0; now && i < task->place_count; i++) now[i] = a->fixed[i];
+    for (uint32_t i = 0; now && i < result.count; i++) now[result.columns[i]] = 1;
+    *bound = *seen + most;
+    *seen += covered;
+    sl_free(a->context, weights);
+    sl_cover_result_destroy(a->context, &result);
+    sli_area_problem_destroy(a->context, &problem);
+    return status;
+}
+
+static sl_status find_most_of_walls(sli_area *a) {
+    sl_area_placement *out = a->out;
+    double seen, bound;
+    SL_TRY(sli_area_walls(a));
+    uint8_t *now = sl_alloc_array(a->context, a->task->place_count, 1);
+    uint32_t *chosen = sl_alloc_array(a->context, a->task->place_count, sizeof *chosen);
+    sl_status status =
+        now && chosen ? choose_most(a, false, now, &out->seen, &bound) : SL_NO_MEMORY;
+    for (uint32_t i = 0; status == SL_OK && i < a->task->place_count; i++)
+        if (now[i]) chosen[out->count++] = i;
+    if (status == SL_OK && a->wide_count) status = choose_most(a, true, NULL, &seen, &bound);
+    if (status == SL_OK) out->seen_most = fmax(fmin(bound, out->area), out->seen);
+    out->lower = out->upper = out->count;
+    if (status == SL_OK)
+        out->chosen = chosen;
+    else
+        sl_free(a->context, chosen);
+    sl_free(a->context, now);
+    return status;
+}
+
 sl_status sli_area_most(sli_area *a) {
     const sl_place_area *task = a->task;
-    counter k = {.a = a, .bound = a->out->area};
+    if (sli_area_scans(a)) return find_most_of_walls(a);
+    counter k = {.a = a};
     k.count = task->count > task->fixed_count ? task->count - task->fixed_count : 0;
     uint8_t *now = sl_alloc_array(a->context, task->place_count, 1);
     sl_status status = now ? measure_all(&k) : SL_NO_MEMORY;
@@ -347,6 +457,9 @@ sl_status sli_area_most(sli_area *a) {
     sl_free(a->context, k.cover);
     sl_free(a->context, k.part);
     sl_free(a->context, k.areas);
+    sl_free(a->context, k.density);
+    for (uint32_t z = 0; k.zones && z < zones_of(a); z++) sl_shape_destroy(a->context, &k.zones[z]);
+    sl_free(a->context, k.zones);
     sl_free(a->context, k.shares.items);
     sl_free(a->context, k.ends);
     sl_free(a->context, k.prices);

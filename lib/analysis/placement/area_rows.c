@@ -33,10 +33,11 @@ bool sli_shape_holds(const sl_shape *shape, sl_point p) {
 
 /// Notes the places at a point that look at a witness there.
 static sl_status add_group(sli_area *a, uint32_t group, sl_point at) {
+    const double range = a->ranges[a->groups[group]];
+    if (range > 0 && sli_distance_compare(a->task->places[a->groups[group]].at, at, range) > 0)
+        return SL_OK;
     for (uint32_t i = a->groups[group]; i < a->groups[group + 1]; i++) {
         const sl_viewpoint *place = &a->task->places[i];
-        const double range = a->ranges[i];
-        if (range > 0 && sli_distance_compare(place->at, at, range) > 0) continue;
         if (place->nearest > 0 && sli_distance_compare(place->at, at, place->nearest) < 0) continue;
         if (!a->views[i].full && !sli_same_point(place->at, at) &&
             !sli_view_holds(&a->views[i], at))
@@ -52,37 +53,41 @@ static sl_status add_group(sli_area *a, uint32_t group, sl_point at) {
     return SL_OK;
 }
 
-/// Whether no place at a point reaches another one.
+/// Whether no place of a group reaches a point.
 static bool is_beyond(const sli_area *a, uint32_t group, sl_point at) {
-    double most = 0;
-    for (uint32_t i = a->groups[group]; i < a->groups[group + 1]; i++) {
-        if (!(a->ranges[i] > 0)) return false;
-        most = fmax(most, a->ranges[i]);
-    }
+    const double range = a->ranges[a->groups[group]];
     const sl_point from = a->task->places[a->groups[group]].at;
-    return fabs(from.x - at.x) > most || fabs(from.y - at.y) > most;
+    return range > 0 && (fabs(from.x - at.x) > range || fabs(from.y - at.y) > range);
 }
 
-sl_status sli_area_look(sli_area *a, sl_point at) {
+sl_status sli_area_seers(sli_area *a, sl_point at, uint32_t first) {
     sli_look look = {0};
     bool clean = false;
     sl_status status = SL_OK;
     const double range = sl_query_range(a->query);
-    a->row.count = 0;
+    a->seers.count = 0;
+    SL_TRY(SL_ARRAY_ROOM(a->context, &a->seers, a->group_count));
     SL_TRY(sl_query_set_range(a->context, a->query, 0));
     if (!a->directed) status = sli_look_make(a->context, a->query, &a->region, at, &look, &clean);
     clean = clean && look.general;
-    for (uint32_t g = 0; status == SL_OK && g < a->group_count; g++) {
+    for (uint32_t g = first; status == SL_OK && g < a->group_count; g++) {
         const sl_point from = a->task->places[a->groups[g]].at;
         if (is_beyond(a, g, at)) continue;
         bool sees = !clean || (sli_box_holds(&look.bounds, from) && sli_look_holds(&look, from));
         if (sees && (!clean || a->on_edge[g]))
             status = sl_query_sees(a->context, a->query, from, at, &sees);
-        if (sees && status == SL_OK) status = add_group(a, g, at);
+        if (sees) a->seers.items[a->seers.count++] = g;
     }
     sli_look_destroy(a->context, &look);
     const sl_status reset = sl_query_set_range(a->context, a->query, range);
     return status == SL_OK ? reset : status;
+}
+
+sl_status sli_area_look(sli_area *a, sl_point at) {
+    a->row.count = 0;
+    SL_TRY(sli_area_seers(a, at, 0));
+    for (size_t i = 0; i < a->seers.count; i++) SL_TRY(add_group(a, a->seers.items[i], at));
+    return SL_OK;
 }
 
 sl_status sli_area_add_row(sli_area *a, sl_point at) {
@@ -158,6 +163,12 @@ static bool counts(uint32_t entry, bool wide) {
     return wide || !(entry & SLI_WIDE);
 }
 
+/// Whether a place may be chosen for a row.
+static bool is_offered(const sli_area *a, uint32_t entry, bool wide) {
+    const uint32_t place = entry & ~SLI_WIDE;
+    return counts(entry, wide) && !a->fixed[place] && sli_network_allows(a, place);
+}
+
 /// What the fixed places leave of a row's demand: as many as surely see it, up to `cover`.
 static uint32_t demand_of(const sli_area *a, size_t row, bool wide) {
     uint32_t sure = 0, fixed = 0;
@@ -171,10 +182,12 @@ static uint32_t demand_of(const sli_area *a, size_t row, bool wide) {
 }
 
 sl_status sli_area_problem(sli_area *a, bool wide, sl_cover_problem *out) {
-    const uint32_t rows = (uint32_t)a->witnesses.count, columns = a->task->place_count;
+    const uint32_t witnesses = (uint32_t)a->witnesses.count, columns = a->task->place_count;
+    const uint32_t rows = witnesses + (uint32_t)a->network.row_ends.count;
     size_t *ends = sl_alloc_array(a->context, (size_t)columns + 1, sizeof *ends);
     uint32_t *demands = sl_alloc_array(a->context, rows, sizeof *demands);
-    uint32_t *entries = sl_alloc_array(a->context, a->entries.count, sizeof *entries);
+    uint32_t *entries =
+        sl_alloc_array(a->context, a->entries.count + a->network.entries.count, sizeof *entries);
     *out = (sl_cover_problem){.row_count = rows,
                               .column_count = columns,
                               .ends = ends,
@@ -185,16 +198,22 @@ sl_status sli_area_problem(sli_area *a, bool wide, sl_cover_problem *out) {
     // ends[c + 1] counts column c, then is where it starts, then where it ends.
     size_t *const starts = ends;
     for (size_t i = 0; i < a->entries.count; i++) {
-        const uint32_t entry = a->entries.items[i], place = entry & ~SLI_WIDE;
-        if (counts(entry, wide) && !a->fixed[place]) starts[place + 1]++;
+        const uint32_t entry = a->entries.items[i];
+        if (is_offered(a, entry, wide)) starts[(entry & ~SLI_WIDE) + 1]++;
     }
+    for (size_t i = 0; i < a->network.entries.count; i++) starts[a->network.entries.items[i] + 1]++;
     for (uint32_t c = 0; c < columns; c++) starts[c + 1] += starts[c];
-    for (size_t r = 0, i = 0; r < rows; r++) {
+    for (size_t r = 0, i = 0; r < witnesses; r++) {
         demands[r] = demand_of(a, r, wide);
         for (; i < a->row_ends.items[r]; i++) {
-            const uint32_t entry = a->entries.items[i], place = entry & ~SLI_WIDE;
-            if (counts(entry, wide) && !a->fixed[place]) entries[starts[place]++] = (uint32_t)r;
+            const uint32_t entry = a->entries.items[i];
+            if (is_offered(a, entry, wide)) entries[starts[entry & ~SLI_WIDE]++] = (uint32_t)r;
         }
+    }
+    for (size_t r = 0, i = 0; r < a->network.row_ends.count; r++) {
+        demands[witnesses + r] = 1;
+        for (; i < a->network.row_ends.items[r]; i++)
+            entries[starts[a->network.entries.items[i]]++] = witnesses + (uint32_t)r;
     }
     return SL_OK;
 }

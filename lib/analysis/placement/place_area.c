@@ -7,6 +7,9 @@
 ///    gives more witnesses; more places complete them, maybe to a better upper bound. Again, until
 ///    they leave nothing.
 ///
+/// For a network, chosen places are joined before they are checked, and rows of a set cover that is
+/// none are added beside witnesses (area_network.c).
+///
 /// While places are completed, local search betters them, so that few witnesses are added by each
 /// round. The first set cover goes without a tree. Rows are only added, so each bound holds.
 #include "analysis/placement/place_area.h"
@@ -20,6 +23,8 @@
 /// The share of the area that is rounding.
 #define NEGLIGIBLE 1e-9
 
+/// Without a better bound for NETWORK_ROUNDS, no more rows of a network are sought.
+enum { NETWORK_ROUNDS = 20 };
 enum { ROUNDS = 400, COARSE_ITERATIONS = 20000, SEARCH_ITERATIONS = 5000, SEARCH_LEAST = 300 };
 /// Entries that a local search may touch, about.
 #define SEARCH_WORK 2e7
@@ -37,6 +42,19 @@ static sl_status check_task(sl_context *context, const sl_place_area *t) {
         if (t->fixed[i] >= t->place_count || (i && t->fixed[i] <= t->fixed[i - 1]))
             return sl_fail(context, SL_BAD_ARGUMENT,
                            "fixed places must ascend and be among the %u places", t->place_count);
+    if (!(t->scan_angle >= 0 && t->scan_angle < 90) || !(t->scan_range >= 0) ||
+        !isfinite(t->scan_range))
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "walls are seen under 0 to less than 90 degrees, and from 0 or more");
+    for (uint32_t i = 0; i < t->zone_count; i++)
+        if (!(t->weights[i] > 0) || !isfinite(t->weights[i]))
+            return sl_fail(context, SL_BAD_ARGUMENT, "zone %u: its weight must be over 0", i + 1);
+    if (t->zone_count && (!t->count || t->scan_angle > 0 || t->scan_range > 0))
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "weights are for the most area that a number of places sees");
+    if (t->count && t->network)
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "a network sees everything: not the most that a number of places sees");
     if (t->count && t->cover > 1)
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "the most that a number of places sees: by one of them, not by several");
@@ -52,18 +70,25 @@ static sl_status check_map(sl_context *context, sl_query *query) {
 
 // --- the area and the places
 
+sl_status sli_shape_common(sl_context *context, const sl_shape *one, const sl_shape *other,
+                           sl_shape *out) {
+    const sl_shape both[2] = {*one, *other};
+    sl_overlay overlay;
+    SL_TRY(sl_overlay_make(context, NULL, both, 2, &overlay));
+    const sl_status status = sl_overlay_outline(context, &overlay, 2, out);
+    sl_overlay_destroy(context, &overlay);
+    return status;
+}
+
 /// What is inside, or what of it is to be seen.
 static sl_status make_target(sli_area *a) {
     SL_TRY(sl_shape_of_inside(a->context, a->space, &a->target));
     sl_overlay overlay;
     if (a->task->see) {
-        const sl_shape both[2] = {a->target, *a->task->see};
-        sl_status status = sl_overlay_make(a->context, NULL, both, 2, &overlay);
-        sl_shape_destroy(a->context, &a->target);
-        if (status == SL_OK) {
-            status = sl_overlay_outline(a->context, &overlay, 2, &a->target);
-            sl_overlay_destroy(a->context, &overlay);
-        }
+        sl_shape inside = a->target;
+        a->target = (sl_shape){0};
+        const sl_status status = sli_shape_common(a->context, &inside, a->task->see, &a->target);
+        sl_shape_destroy(a->context, &inside);
         SL_TRY(status);
     }
     SL_TRY(sl_overlay_make(a->context, &a->target, NULL, 0, &overlay));
@@ -101,7 +126,8 @@ static sl_status add_place(sli_area *a, uint32_t i) {
         box.max = (sl_point){fmax(box.max.x, p.x), fmax(box.max.y, p.y)};
     }
     a->boxes[i] = box;
-    if (i && sli_same_point(place->at, a->task->places[i - 1].at)) {
+    if (i && sli_same_point(place->at, a->task->places[i - 1].at) &&
+        a->ranges[i] == a->ranges[i - 1]) {
         a->groups[a->group_count] = i + 1;
         return SL_OK;
     }
@@ -134,7 +160,7 @@ sl_status sli_area_begin(sli_area *a) {
         }
         SL_TRY(add_place(a, i));
     }
-    return SL_OK;
+    return a->task->network ? sli_network_begin(a) : SL_OK;
 }
 
 void sli_area_end(sli_area *a) {
@@ -151,6 +177,9 @@ void sli_area_end(sli_area *a) {
     sl_free(a->context, a->row_ends.items);
     sl_free(a->context, a->entries.items);
     sl_free(a->context, a->row.items);
+    sl_free(a->context, a->lengths.items);
+    sl_free(a->context, a->seers.items);
+    sli_network_end(a);
 }
 
 // --- the search
@@ -160,6 +189,8 @@ typedef struct finder {
     uint8_t *now, *best; ///< by place
     bool complete;       ///< `best` sees all that can be seen
     bool fine;           ///< set covers with trees
+    uint64_t gap;        ///< between the bounds, when it last closed
+    uint32_t since;      ///< rounds since then
 } finder;
 
 static uint64_t cost_of(const sli_area *a, const uint8_t *chosen) {
@@ -189,6 +220,7 @@ static sl_status take_more(finder *f, bool at_first) {
     sli_area *a = f->a;
     sl_cover_problem problem = {0};
     sli_cover cover = {0};
+    if (a->task->network) SL_TRY(sli_network_rule_out(a));
     sl_status status = sli_area_problem(a, false, &problem);
     if (status == SL_OK) status = sli_cover_read(a->context, &problem, 1, &cover);
     if (status == SL_OK) status = sli_cover_greedy(a->context, &cover, NULL, NULL, f->now);
@@ -228,6 +260,7 @@ static sl_status complete(finder *f, bool *clean) {
     *clean = true;
     for (int round = 0; round < ROUNDS; round++) {
         sl_report(f->a->context, "place", "witnesses", f->a->witnesses.count, 0);
+        if (f->a->task->network) SL_TRY(sli_network_join(f->a, f->now));
         SL_TRY(sli_area_check(f->a, f->now, &added));
         if (!added) return keep(f);
         *clean = false;
@@ -256,7 +289,7 @@ static sl_status choose(finder *f, bool wide) {
     options.start = start;
     if (status == SL_OK) status = sl_cover_solve(a->context, &problem, &options, &cover);
     if ((status == SL_OK || (status == SL_CANCELLED && cover.columns)) &&
-        (wide || !a->wide_count) && cover.lower + fixed > a->out->lower)
+        (wide || !a->wide_count) && !a->network.is_rounded && cover.lower + fixed > a->out->lower)
         a->out->lower = cover.lower + fixed;
     if (status == SL_OK && !wide) {
         for (uint32_t i = 0; i < a->task->place_count; i++) f->now[i] = a->fixed[i];
@@ -286,19 +319,30 @@ static sl_status refuse_blind(sli_area *a) {
                    t->place_count, at.x, at.y, nearest.x, nearest.y);
 }
 
+/// Whether the bounds have not closed in for long.
+static bool is_stalled(finder *f) {
+    const uint64_t gap = f->a->out->upper - f->a->out->lower;
+    if (gap != f->gap) f->since = 0;
+    f->gap = gap;
+    return ++f->since > NETWORK_ROUNDS;
+}
+
 static sl_status find(finder *f) {
     sli_area *a = f->a;
     bool clean;
+    uint32_t rows = 0;
     for (uint32_t i = 0; i < a->task->place_count; i++) f->now[i] = a->fixed[i];
-    SL_TRY(sli_area_first_witnesses(a));
+    SL_TRY(sli_area_scans(a) ? sli_area_walls(a) : sli_area_first_witnesses(a));
     SL_TRY(take_more(f, true));
     SL_TRY(complete(f, &clean));
     if (!(a->out->seen > a->negligible)) return refuse_blind(a);
     for (a->out->rounds = 1; a->out->rounds < ROUNDS; a->out->rounds++) {
+        rows = 0;
         SL_TRY(choose(f, false));
         if (a->out->lower == a->out->upper) break;
+        if (a->task->network && !is_stalled(f)) SL_TRY(sli_network_cut(a, f->now, &rows));
         SL_TRY(complete(f, &clean));
-        if (a->out->lower == a->out->upper || (clean && f->fine)) break;
+        if (a->out->lower == a->out->upper || (clean && !rows && f->fine)) break;
         f->fine = true;
         if (a->wide_count) SL_TRY(choose(f, true));
         if (a->out->lower == a->out->upper) break;

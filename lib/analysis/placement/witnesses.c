@@ -16,13 +16,36 @@ static double some(sli_placer *p) {
     return 0.5 + 0.5 * sl_random_unit(&p->random);
 }
 
-/// Adds a witness. False where it is not inside, or not general.
+static const sl_side *side_of(const sl_outline *o, uint32_t i) {
+    return &o->sides[i];
+}
+
+/// Whether a point inside is on a wall, maybe by rounding, or is a corner.
+static sl_status is_on_wall(sli_placer *p, sl_point at, bool *on_wall) {
+    const sl_outline *o;
+    const uint32_t cell = sl_space_locate(p->ground.space, at);
+    *on_wall = false;
+    SL_TRY(sl_query_outline(p->context, p->query, &o));
+    for (uint32_t k = o->first_part[cell]; k < o->first_part[cell + 1]; k++)
+        for (uint32_t i = o->first[o->parts[k]]; i < o->first[o->parts[k] + 1]; i++) {
+            const sl_side *s = side_of(o, i);
+            *on_wall |= sli_same_point(s->start, at) ||
+                        (!sl_side_is_portal(s) &&
+                         sli_orient(s->start, side_of(o, s->next)->start, at) == 0);
+        }
+    return SL_OK;
+}
+
+/// Adds a witness. False where it is not inside, on a wall, or not general.
 sl_status sli_add_witness(sli_placer *p, sl_point at, bool *added) {
     sli_look look;
+    bool on_wall;
     bool clean = false;
     *added = false;
     at = sli_coordinates(at);
     if (!sl_space_is_inside(p->ground.space, at)) return SL_OK;
+    SL_TRY(is_on_wall(p, at, &on_wall));
+    if (on_wall) return SL_OK;
     SL_TRY(SL_ARRAY_ROOM(p->context, &p->witnesses, 1));
     SL_TRY(sli_look_make(p->context, p->query, &p->memory, at, &look, &clean));
     *added = clean && look.general;
@@ -44,10 +67,6 @@ static sl_status add_near(sli_placer *p, sl_point corner, sl_point before, sl_po
         SL_TRY(sli_add_witness(p, from_to(corner, to, share * some(p)), &added));
     }
     return SL_OK;
-}
-
-static const sl_side *side_of(const sl_outline *o, uint32_t i) {
-    return &o->sides[i];
 }
 
 /// Whether sides i and the next one are walls and turn: the corner between them is convex.

@@ -40,6 +40,20 @@ typedef struct sl_place_area {
     const sl_shape *see; ///< what of the inside is to be seen; NULL: all of it
     uint32_t cover;      ///< how many places must see each point; 0: 1
     uint32_t count;      ///< 0: see everything; else the most area that so many places see
+    /// With `count`: parts of what is to be seen, and weights by which their areas count, each over
+    /// 0. Where parts overlap, both count. The areas of the result are multiplied by these weights
+    /// then. NULL: all of it counts once.
+    const sl_shape *zones;
+    const double *weights; ///< by zone
+    uint32_t zone_count;
+    /// Chosen places form one network: lines of sight within the ranges of both ends join each to
+    /// each, over others. Headings do not count there.
+    bool network;
+    /// Over 0, one or both: walls are to be seen in place of the area, each side that is inside.
+    /// Each point of them from at most `scan_range` (0: no limit), by a line of sight that makes an
+    /// angle of at least `scan_angle` degrees with the wall. Shut doors are walls,
+    /// and so are dark sides of glass. The areas of the result are lengths of walls then.
+    double scan_angle, scan_range;
 } sl_place_area;
 
 /// Zeroed, it is empty.
@@ -63,7 +77,8 @@ typedef struct sl_area_placement {
 ///
 /// Doors count as the query has them, and one-way glass; the query's range is the most that counts.
 /// SL_BAD_ARGUMENT with the number of a place that is none, where nothing is to be seen, where no
-/// place sees anything of it, and for `count` with `cover`. SL_UNSUPPORTED for mirrors and boxes.
+/// place sees anything of it, where no network sees all that places see, and for `count` with
+/// `cover` or `network`. SL_UNSUPPORTED for mirrors and boxes.
 /// Cancelled by the context, it returns SL_CANCELLED with the best set and bounds so far, once it
 /// has a set. Reports stage "place". The same input gives the same bytes.
 SL_API sl_status sl_place_area_cover(sl_context *context, sl_query *query,

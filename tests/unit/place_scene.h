@@ -1,0 +1,80 @@
+// Ten places at random in a plan, and what placement chooses of them.
+#ifndef PLACE_SCENE_H
+#define PLACE_SCENE_H
+
+#include "testing.h"
+
+#include "sightline/place_area.h"
+#include "sightline/support.h"
+
+#include <math.h>
+
+enum { PLACES = 10 };
+#define DEGREE 0.017453292519943295
+
+#define PLAN "open 0 0 12 0 12 8 0 8\nsolid 3 3 5 3 5 5 3 5\nsolid 7 2 8 2 8 6 7 6\nwall 9 8 9 5\n"
+#define TURNED                                                                                     \
+    "open 0 0 11.457138 3.572 9.078 11.21 -2.379 7.638\nwall 3 3 5 3.7\nwall 6 4 5.5 6\n"          \
+    "oneway 2 2 3 3\n"
+
+typedef struct scene {
+    testing_memory memory;
+    sl_context *context;
+    sl_map map;
+    sl_space space;
+    sl_query *query;
+    sl_viewpoint places[PLACES];
+    uint32_t costs[PLACES];
+    sl_place_area area;
+} scene;
+
+static inline sl_point draw(scene *s, sl_random *random) {
+    for (;;) {
+        const sl_point at = {-3 + 16 * sl_random_unit(random), 12 * sl_random_unit(random)};
+        if (sl_space_is_inside(&s->space, at)) return at;
+    }
+}
+
+static inline void begin(scene *s, const char *plan, uint64_t seed, sl_viewpoint like) {
+    sl_random random = {seed};
+    *s = (scene){0};
+    s->context = testing_context(&s->memory);
+    testing_space(s->context, plan, &s->map, &s->space);
+    assert_ok(s->context, sl_query_over(s->context, &s->space, &s->map, NULL, &s->query));
+    for (int i = 0; i < PLACES; i++) {
+        s->places[i] = like;
+        s->places[i].at = i % 2 ? s->places[i - 1].at : draw(s, &random);
+        s->places[i].heading = 360 * sl_random_unit(&random);
+        s->costs[i] = 1 + (uint32_t)sl_random_below(&random, 3);
+    }
+    s->area = (sl_place_area){.places = s->places, .place_count = PLACES};
+}
+
+static inline void end(scene *s) {
+    sl_query_destroy(s->context, s->query);
+    sl_space_destroy(s->context, &s->space);
+    sl_map_destroy(s->context, &s->map);
+    sl_context_destroy(s->context);
+    assert_int_equal(s->memory.live, 0);
+}
+
+static inline uint64_t cost_of(const scene *s, uint32_t set) {
+    uint64_t cost = 0;
+    for (int i = 0; i < PLACES; i++)
+        if (set >> i & 1) cost += s->area.costs ? s->area.costs[i] : 1;
+    return cost;
+}
+
+static inline sl_area_placement place(scene *s) {
+    sl_area_placement placed = {0};
+    assert_ok(s->context, sl_place_area_cover(s->context, s->query, &s->area, NULL, &placed));
+    assert_true(placed.lower <= placed.upper);
+    assert_true(placed.count > 0 && placed.count <= PLACES);
+    uint32_t set = 0;
+    for (uint32_t i = 0; i < placed.count; i++) set |= 1u << placed.chosen[i];
+    assert_int_equal(cost_of(s, set), placed.upper);
+    assert_true(placed.rounding <= 1e-9 * placed.area);
+    return placed;
+}
+
+#endif
