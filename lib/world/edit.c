@@ -92,6 +92,41 @@ static bool stays(const sl_world *s, size_t involved) {
     return true;
 }
 
+static sl_point chain_point(const sl_world *s, const sli_world_line *line, uint32_t i) {
+    return s->live.triangles.points.items[s->points[line->first + i]];
+}
+
+/// Whether a line is where it was, though it may be cut elsewhere.
+static bool keeps_place(const sl_world *s, size_t involved) {
+    const sli_world_line *line = &s->lines.items[s->involved.items[involved]];
+    const sl_segment at = line->at, next = line->next_at;
+    if (!line->stands || !line->next_stands || !sli_same_point(at.a, next.a) ||
+        !sli_same_point(at.b, next.b))
+        return false;
+    if (stays(s, involved)) return true;
+    for (uint32_t i = 0; i < line->count; i++)
+        if (sli_orient(at.a, at.b, chain_point(s, line, i)) != 0) return false;
+    for (uint32_t i = s->first_corner.items[involved]; i < s->first_corner.items[involved + 1]; i++)
+        if (sli_orient(at.a, at.b, s->corners.items[i]) != 0) return false;
+    return true;
+}
+
+sl_status sli_world_find_opened(sl_world *s) {
+    s->opened.count = 0;
+    s->only_opens = true;
+    for (size_t i = 0; i < s->involved.count; i++) {
+        const sli_world_line *line = &s->lines.items[s->involved.items[i]];
+        if (keeps_place(s, i)) continue;
+        s->only_opens &= !line->next_stands;
+        for (uint32_t k = 0; k + 1 < line->count; k++) {
+            SL_TRY(SL_ARRAY_ROOM(s->context, &s->opened, 1));
+            s->opened.items[s->opened.count++] =
+                (sl_segment){chain_point(s, line, k), chain_point(s, line, k + 1)};
+        }
+    }
+    return SL_OK;
+}
+
 static sl_status set_label(sl_world *s, uint32_t edge, uint32_t label) {
     SL_TRY(sli_triangulator_room(&s->live.maker));
     sli_triangulator_put(&s->live.maker, SLI_WORD_LABEL, edge, label);

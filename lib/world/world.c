@@ -33,7 +33,7 @@ void sl_world_destroy(sl_context *context, sl_world *s) {
                             s->uses.items,     s->fresh.items,        s->stale.items,
                             s->involved.items, s->segments.items,     s->corners.items,
                             s->chain.items,    s->first_corner.items, s->doubtful.items,
-                            s->wanted,         s->flood.items};
+                            s->wanted,         s->flood.items,        s->opened.items};
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) sl_free(context, blocks[i]);
     sl_free(context, s);
 }
@@ -261,10 +261,17 @@ void sl_world_discard(sl_world *world) {
     end_edits(world);
 }
 
+/// Whether the edit takes walls away and does nothing else, and rows are exact and stay so.
+static bool reveals(const sl_world *s) {
+    return s->only_opens && s->rows.kept && s->mode == SL_WORLD_ROWS_NOW &&
+           s->rows.visibility.guarantee == SL_EXACT;
+}
+
 static sl_status prepare(sl_world *s) {
     SL_TRY(sli_world_edit(s));
     SL_TRY(sli_live_plan(&s->live));
-    return sli_world_rows_plan(s->context, &s->live, &s->rows);
+    SL_TRY(sli_world_rows_plan(s->context, &s->live, &s->rows));
+    return reveals(s) ? sli_world_rows_note_lines(s->context, &s->live, &s->rows) : SL_OK;
 }
 
 /// Whether some edit takes a wall away from where it is.
@@ -277,17 +284,23 @@ static bool opens(const sl_world *s) {
 /// Makes the visible sets that the caller chose. Where memory is lacking there are none.
 static void follow_rows(sl_world *s, bool opened) {
     sli_world_rows *r = &s->rows;
+    sl_status status;
     if (!r->kept) return;
     sli_world_rows_apply(&s->live, r);
-    sli_world_rows_doubt(r);
-    const sl_status status = s->mode == SL_WORLD_ROWS_NOW
-                                 ? sli_world_rows_settle(s->context, &s->live, r, HUGE_VAL)
-                                 : sli_world_rows_loosen(s->context, &s->live, r, opened);
+    if (reveals(s)) {
+        status = sli_world_rows_reveal(s->context, &s->live, r, s->opened.items, s->opened.count);
+    } else {
+        sli_world_rows_doubt(r);
+        status = s->mode == SL_WORLD_ROWS_NOW
+                     ? sli_world_rows_settle(s->context, &s->live, r, HUGE_VAL)
+                     : sli_world_rows_loosen(s->context, &s->live, r, opened);
+    }
     if (status != SL_OK) sli_world_rows_lose(&s->live, r);
 }
 
 static sl_status commit(sl_world *s) {
     SL_TRY(sli_world_involve(s));
+    SL_TRY(sli_world_find_opened(s));
     sli_triangulator_begin(&s->live.maker);
     const sl_status status = prepare(s);
     if (status != SL_OK) {

@@ -53,11 +53,15 @@ struct sl_world {
     sli_numbers doubtful;          ///< points that no wall may need any more
     uint32_t *wanted;              ///< by point: the edit that needs it
     size_t wanted_room;
-    sli_numbers flood; ///< triangles that a segment meets
+    sli_numbers flood;           ///< triangles that a segment meets
+    SL_ARRAY(sl_segment) opened; ///< where walls go
+    bool only_opens;             ///< the edit takes walls away and does nothing else
 };
 
 /// Finds the lines that an edit has to do with, and their new chains.
 sl_status sli_world_involve(sl_world *world);
+/// Finds where walls go, and whether that is all that the edit does.
+sl_status sli_world_find_opened(sl_world *world);
 /// Edits the triangulation accordingly.
 sl_status sli_world_edit(sl_world *world);
 /// Takes the new chains over; nothing can fail any more.
