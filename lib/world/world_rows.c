@@ -253,6 +253,7 @@ sl_status sli_world_rows_loosen(sl_context *context, const sli_live *live, sli_w
                                 bool opened) {
     const size_t stayed = r->changed.count - live->came.count;
     if (!r->visibility.pvs.cell_count) return SL_OK;
+    opened |= r->visibility.sight == SL_CLOSED; // new portals may join cells, too (along.c)
     for (size_t i = 0; i < r->changed.count; i++) {
         const uint32_t cell = r->changed.items[i];
         r->seen.count = 0;

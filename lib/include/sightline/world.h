@@ -109,8 +109,9 @@ SL_API sl_status sl_world_commit(sl_context *context, sl_world *world, sl_world_
 /// still conservative; NULL for none. An exact one is made by a search over portal sequences from
 /// its cell. A commit searches again from the cells that saw a cell that went, and from those that
 /// came: no other set can change. If it takes walls away and does nothing else, it follows from the
-/// former only lines through these walls. If a commit lacks memory for its sets alone, it holds, and there
-/// are none (sl_world_visibility) until this makes them; questions are answered as before.
+/// former only lines through these walls. If a commit lacks memory for its sets alone, it holds,
+/// and there are none (sl_world_visibility) until this makes them; questions are answered as
+/// before.
 SL_API sl_status sl_world_settle(sl_context *context, sl_world *world, double milliseconds,
                                  size_t *left);
 
