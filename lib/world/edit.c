@@ -61,15 +61,34 @@ void sli_world_drop_uses(sl_world *s) {
     s->stale.count = 0;
 }
 
+static bool is_wall(const sl_world *s, uint32_t use) {
+    return s->lines.items[s->uses.items[use - 1].line].kind != SL_WORLD_ONEWAY;
+}
+
+bool sli_world_glass(void *world, uint32_t label, uint32_t k, uint32_t *seam, uint32_t *from) {
+    const sl_world *s = world;
+    for (uint32_t at = label; at; at = s->uses.items[at - 1].next) {
+        if (is_wall(s, at) || k--) continue;
+        *seam = s->uses.items[at - 1].line;
+        *from = s->uses.items[at - 1].from;
+        return true;
+    }
+    return false;
+}
+
 sli_live_edge sli_world_edge(void *world, uint32_t label) {
     const sl_world *s = world;
     // The wall of the lowest number says how the edge runs.
-    uint32_t first = label;
+    uint32_t first = 0;
     for (uint32_t at = label; at; at = s->uses.items[at - 1].next)
-        if (s->uses.items[at - 1].line < s->uses.items[first - 1].line) first = at;
+        if (is_wall(s, at) &&
+            (!first || s->uses.items[at - 1].line < s->uses.items[first - 1].line))
+            first = at;
+    if (!first) return (sli_live_edge){0};
     const sli_world_use *use = &s->uses.items[first - 1];
     sli_live_edge edge = {true, use->from, s->lines.items[use->line].file_line, 0};
     for (uint32_t at = label; at; at = s->uses.items[at - 1].next) {
+        if (!is_wall(s, at)) continue;
         const uint32_t ground = s->lines.items[s->uses.items[at - 1].line].ground;
         edge.ground = sli_ground_joined(edge.ground, s->uses.items[at - 1].from == use->from
                                                          ? ground

@@ -8,6 +8,7 @@
 #include "world/world_rows.h"
 
 #include "cell_to_cell/search/directions.h"
+#include "sightline/effects.h"
 #include "sightline/stab.h"
 
 #include <stdlib.h>
@@ -107,6 +108,18 @@ static bool add_direction(step *s, const sl_directed_portal *directed) {
     return crossing != SLI_CROSSES_NEVER;
 }
 
+/// Whether glass keeps sight from leaving a cell by a directed portal.
+static bool is_blocked(const sli_world_rows *r, uint32_t cell, uint32_t number) {
+    const sl_space *s = r->search.space;
+    const uint32_t portal = s->directed[number].portal;
+    const bool forward = (s->portals[portal].cell[0] == cell) != r->backwards;
+    size_t count;
+    const sl_seam_portal *on = sl_space_seams_of(s, portal, &count);
+    for (size_t i = 0; i < count; i++)
+        if (on[i].forward != forward) return true;
+    return false;
+}
+
 SLI_VISIT sl_status cross(sl_context *context, void *job, const void *last, void *next,
                           uint32_t number) {
     sli_world_rows *r = job;
@@ -116,6 +129,7 @@ SLI_VISIT sl_status cross(sl_context *context, void *job, const void *last, void
     sl_stab_verdict verdict;
     if (r->within_places && !r->places[directed->cell]) return SL_OK;
     if (!add_direction(&to, directed)) return SL_OK;
+    if (r->search.space->seam_portal_count && is_blocked(r, from->at.cell, number)) return SL_OK;
     r->search.stop = ++r->tests > r->most_tests;
     SL_TRY(sli_portal_search_push(context, &r->search, directed->left, directed->right, &verdict));
     to.grazing = verdict == SL_GRAZING || from->grazing;
@@ -209,6 +223,31 @@ static bool goes(const sli_live *l, uint32_t cell) {
     return l->dissolved[cell] == l->now;
 }
 
+/// Adds the cells that see one that goes. A cell may come several times then.
+static sl_status find_seers(sl_context *context, const sli_live *live, sli_world_rows *r) {
+    r->backwards = true;
+    r->most_tests = UINT64_MAX;
+    sl_status status = SL_OK;
+    for (size_t i = 0; i < live->old.count && status == SL_OK; i++) {
+        if (!goes(live, live->old.items[i])) continue;
+        status = sli_world_rows_search(context, live, r, live->old.items[i], NULL);
+        for (size_t k = 0; k < r->seen.count && status == SL_OK; k++)
+            if (!goes(live, r->seen.items[k]))
+                status = push(context, &r->changed, r->seen.items[k]);
+    }
+    r->backwards = false;
+    return status;
+}
+
+static void leave_each_once(sli_numbers *list) {
+    size_t count = 0;
+    if (list->count) qsort(list->items, list->count, sizeof *list->items, compare_cells);
+    for (size_t i = 0; i < list->count; i++)
+        if (!count || list->items[count - 1] != list->items[i])
+            list->items[count++] = list->items[i];
+    list->count = count;
+}
+
 sl_status sli_world_rows_plan(sl_context *context, const sli_live *live, sli_world_rows *r) {
     const sl_pvs *pvs = &r->visibility.pvs;
     r->changed.count = 0;
@@ -225,6 +264,10 @@ sl_status sli_world_rows_plan(sl_context *context, const sli_live *live, sli_wor
                 r->marks[cell] = r->now;
                 SL_TRY(push(context, &r->changed, cell));
             }
+    }
+    if (live->space.seam_portal_count) {
+        SL_TRY(find_seers(context, live, r));
+        leave_each_once(&r->changed);
     }
     SL_TRY(SL_ARRAY_ROOM(context, &r->changed, live->cells.count));
     // All cells that are loose are in the list, each once.
@@ -288,6 +331,7 @@ static sl_status take_rows(sl_context *context, sli_world_rows *r, const uint32_
 static sl_status settle_by_copy(sl_context *context, const sli_live *live, sli_world_rows *r) {
     const uint32_t count = live->space.cell_count;
     sl_see_options options = sl_see_options_default();
+    const sl_plan plan = {.effects = SL_EFFECT_ONEWAY};
     sl_space space = {0};
     sl_visibility seen = {0};
     uint32_t *numbers = sl_alloc_array(context, count, sizeof *numbers);
@@ -295,6 +339,7 @@ static sl_status settle_by_copy(sl_context *context, const sli_live *live, sli_w
     sl_status status = numbers && cells ? SL_OK : SL_NO_MEMORY;
     options.sight = r->visibility.sight;
     options.threads = 1;
+    if (live->space.seam_portal_count) options.plan = &plan;
     if (status == SL_OK) status = sli_live_pack(context, live, numbers, &space);
     if (status == SL_OK)
         status = sl_see_method_named("sweep")->see(context, &space, &options, &seen);

@@ -4,7 +4,8 @@
 /// before or only after the edit. Then it passes the region of the cells that went, which is that
 /// of the cells that came. Up to there it is the same as before. So both cells saw a cell that
 /// went. The sets of all cells that did, and of those that came, are searched again; no other
-/// changes.
+/// changes. With one-way glass, one of the two sees and the other one is seen: those that see a
+/// cell that goes are searched for.
 #ifndef SL_WORLD_ROWS_H
 #define SL_WORLD_ROWS_H
 
@@ -37,6 +38,7 @@ typedef struct sli_world_rows {
     // What walls reveal that are taken away (reveal.c).
     uint32_t stayed;     ///< so many changed cells stay; they are the first
     uint32_t *places;    ///< by cell: 1 + its place in `changed`; 0 for none
+    bool backwards;      ///< the search finds cells that see the first one
     bool within_places;  ///< the search enters cells with places only
     size_t wanted_count; ///< cells that the search still has to see, then it stops; 0: no such end
     SL_ARRAY(bool) wanted;        ///< by place: they are such
