@@ -107,8 +107,8 @@ static sl_status write_row(sl_context *context, const sli_live *live, sli_world_
     for (sl_pvs_run run = sl_pvs_begin(&r->visibility.pvs, r->changed.items[place]);
          sl_pvs_next(&run);)
         for (uint32_t c = run.first; c < run.end; c++) {
-            const sli_reveal_pair_of *pair = &r->joined.items[*lost];
-            if (*lost < r->joined.count && pair->place == place && pair->other == c) {
+            const bool left = *lost < r->joined.count && r->joined.items[*lost].place == place;
+            if (left && r->joined.items[*lost].other == c) {
                 ++*lost;
                 continue;
             }
