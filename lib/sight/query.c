@@ -134,7 +134,7 @@ void sli_query_space_changed(sl_context *context, sl_query *q, const sl_outline 
     const bool grown = q->ready && q->sight.space.cell_count != q->asked->cell_count;
     const bool rows = q->visibility && q->visibility->pvs.cell_count;
     q->given = outline;
-    if (q->sight.own || is_turned(q)) {
+    if (q->sight.own || q->asked->seam_portal_count || is_turned(q)) {
         drop_all(context, q);
         return;
     }

@@ -265,16 +265,52 @@ static sl_status find_sides(sl_context *context, sli_sight_space *s) {
     return SL_OK;
 }
 
-static sl_status make_outline(sl_context *context, sli_sight_space *s) {
+/// Copies the outline of a base that lives: its rooms are cells, and its sides are in their order.
+static sl_status copy_given(sl_context *context, sli_sight_space *s) {
+    const sl_space *base = s->base;
+    sl_outline *o = &s->outline;
+    const size_t rooms = s->given->room_count, sides = s->given->side_count;
+    o->sides = sl_alloc_array(context, sides, sizeof *o->sides);
+    o->first = sl_alloc_array(context, rooms + 1, sizeof *o->first);
+    o->first_part = sl_alloc_array(context, (size_t)base->cell_count + 1, sizeof *o->first_part);
+    o->parts = sl_alloc_array(context, base->cell_count, sizeof *o->parts);
+    if (!o->sides || !o->first || !o->first_part || !o->parts) return SL_NO_MEMORY;
+    memcpy(o->sides, s->given->sides, sides * sizeof *o->sides);
+    memcpy(o->first, s->given->first, (rooms + 1) * sizeof *o->first);
+    memcpy(o->first_part, s->given->first_part,
+           ((size_t)base->cell_count + 1) * sizeof *o->first_part);
+    memcpy(o->parts, s->given->parts, base->cell_count * sizeof *o->parts);
+    o->side_count = s->given->side_count;
+    o->room_count = s->given->room_count;
+    o->room_of = s->given->room_of;
+    for (uint32_t i = 0; i < s->portal_count; i++)
+        for (unsigned side = 0; side < 2; side++) {
+            const sl_cell *cell = &base->cells[base->portals[s->portals[i].portal].cell[side]];
+            uint32_t at = cell->first_directed, place = cell->first_vertex;
+            for (;; place++) {
+                if (base->neighbour[place] != SL_NEIGHBOUR_PORTAL) continue;
+                if (base->directed[at++].portal == s->portals[i].portal) break;
+            }
+            s->portals[i].sides[side] = place;
+        }
+    return SL_OK;
+}
+
+static sl_status make_walled(sl_context *context, sli_sight_space *s) {
     sl_outline *o = &s->outline;
     uint32_t *portals = sl_alloc_array(context, s->portal_count, sizeof *portals);
     if (!portals) return SL_NO_MEMORY;
     for (uint32_t i = 0; i < s->portal_count; i++) portals[i] = s->portals[i].portal;
     sl_status status = sli_outline_make_walled(context, s->base, portals, s->portal_count, o);
     sl_free(context, portals);
+    return status == SL_OK ? find_sides(context, s) : status;
+}
+
+static sl_status make_outline(sl_context *context, sli_sight_space *s) {
+    sl_outline *o = &s->outline;
+    SL_TRY(s->given ? copy_given(context, s) : make_walled(context, s));
     o->space = &s->space;
-    if (status == SL_OK) status = find_sides(context, s);
-    if (status != SL_OK || !s->dark_count) return status;
+    if (!s->dark_count) return SL_OK;
     o->first_dark = s->base->wall_count + s->portal_count;
     o->lit = sl_alloc_array(context, s->dark_count, sizeof *o->lit);
     return o->lit ? SL_OK : SL_NO_MEMORY;

@@ -61,15 +61,34 @@ void sli_world_drop_uses(sl_world *s) {
     s->stale.count = 0;
 }
 
+static bool is_wall(const sl_world *s, uint32_t use) {
+    return s->lines.items[s->uses.items[use - 1].line].kind != SL_WORLD_ONEWAY;
+}
+
+bool sli_world_glass(void *world, uint32_t label, uint32_t k, uint32_t *seam, uint32_t *from) {
+    const sl_world *s = world;
+    for (uint32_t at = label; at; at = s->uses.items[at - 1].next) {
+        if (is_wall(s, at) || k--) continue;
+        *seam = s->uses.items[at - 1].line;
+        *from = s->uses.items[at - 1].from;
+        return true;
+    }
+    return false;
+}
+
 sli_live_edge sli_world_edge(void *world, uint32_t label) {
     const sl_world *s = world;
     // The wall of the lowest number says how the edge runs.
-    uint32_t first = label;
+    uint32_t first = 0;
     for (uint32_t at = label; at; at = s->uses.items[at - 1].next)
-        if (s->uses.items[at - 1].line < s->uses.items[first - 1].line) first = at;
+        if (is_wall(s, at) &&
+            (!first || s->uses.items[at - 1].line < s->uses.items[first - 1].line))
+            first = at;
+    if (!first) return (sli_live_edge){0};
     const sli_world_use *use = &s->uses.items[first - 1];
     sli_live_edge edge = {true, use->from, s->lines.items[use->line].file_line, 0};
     for (uint32_t at = label; at; at = s->uses.items[at - 1].next) {
+        if (!is_wall(s, at)) continue;
         const uint32_t ground = s->lines.items[s->uses.items[at - 1].line].ground;
         edge.ground = sli_ground_joined(edge.ground, s->uses.items[at - 1].from == use->from
                                                          ? ground
@@ -90,6 +109,41 @@ static bool stays(const sl_world *s, size_t involved) {
                             s->corners.items[first + i]))
             return false;
     return true;
+}
+
+static sl_point chain_point(const sl_world *s, const sli_world_line *line, uint32_t i) {
+    return s->live.triangles.points.items[s->points[line->first + i]];
+}
+
+/// Whether a line is where it was, though it may be cut elsewhere.
+static bool keeps_place(const sl_world *s, size_t involved) {
+    const sli_world_line *line = &s->lines.items[s->involved.items[involved]];
+    const sl_segment at = line->at, next = line->next_at;
+    if (!line->stands || !line->next_stands || !sli_same_point(at.a, next.a) ||
+        !sli_same_point(at.b, next.b))
+        return false;
+    if (stays(s, involved)) return true;
+    for (uint32_t i = 0; i < line->count; i++)
+        if (sli_orient(at.a, at.b, chain_point(s, line, i)) != 0) return false;
+    for (uint32_t i = s->first_corner.items[involved]; i < s->first_corner.items[involved + 1]; i++)
+        if (sli_orient(at.a, at.b, s->corners.items[i]) != 0) return false;
+    return true;
+}
+
+sl_status sli_world_find_opened(sl_world *s) {
+    s->opened.count = 0;
+    s->only_opens = true;
+    for (size_t i = 0; i < s->involved.count; i++) {
+        const sli_world_line *line = &s->lines.items[s->involved.items[i]];
+        if (keeps_place(s, i)) continue;
+        s->only_opens &= !line->next_stands;
+        for (uint32_t k = 0; k + 1 < line->count; k++) {
+            SL_TRY(SL_ARRAY_ROOM(s->context, &s->opened, 1));
+            s->opened.items[s->opened.count++] =
+                (sl_segment){chain_point(s, line, k), chain_point(s, line, k + 1)};
+        }
+    }
+    return SL_OK;
 }
 
 static sl_status set_label(sl_world *s, uint32_t edge, uint32_t label) {

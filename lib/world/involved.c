@@ -7,7 +7,8 @@
 /// - A wall is involved if it shares a corner with one that is, and the corner is not an end of
 ///   both: they cut each other there before.
 /// - A wall is involved if it meets the segment or the new pieces of one that is, other than in an
-///   end of both: they cut each other there now.
+///   end of both: they cut each other there now. If it is cut there already, at a place that
+///   rounding has not moved off it, nothing changes.
 ///
 /// Then the graph of the walls involved is made (map/planar.h). As nothing else meets them, it is
 /// the same as their part of the graph of all walls.
@@ -79,6 +80,20 @@ static sl_status involve_uses(sl_world *s, uint32_t label) {
     return SL_OK;
 }
 
+static bool is_end(sl_segment at, sl_point p) {
+    return sli_same_point(at.a, p) || sli_same_point(at.b, p);
+}
+
+/// Involves the walls of an edge that a segment meets in an end of both, at a place off the wall.
+static sl_status involve_cut(sl_world *s, uint32_t label, sl_point at) {
+    for (uint32_t use = label; use; use = s->uses.items[use - 1].next) {
+        const uint32_t line = s->uses.items[use - 1].line;
+        const sl_segment wall = s->lines.items[line].at;
+        if (!is_end(wall, at) && sli_orient(wall.a, wall.b, at) != 0) SL_TRY(involve(s, line));
+    }
+    return SL_OK;
+}
+
 static double distance(sl_point at, sl_point a, sl_point b) {
     const sl_point d = {b.x - a.x, b.y - a.y}, o = {at.x - a.x, at.y - a.y};
     const double square = d.x * d.x + d.y * d.y;
@@ -128,6 +143,8 @@ static sl_status involve_met(sl_world *s, sl_segment at) {
             if (!sli_half_is_outside(&l->triangles, half ^ 1)) SL_TRY(reach(s, half ^ 1));
             if (label && ((met && meets_within(at, c, d)) || is_near_within(at, c, d, tolerance)))
                 SL_TRY(involve_uses(s, label));
+            else if (label && met)
+                SL_TRY(involve_cut(s, label, is_end(at, c) ? c : d));
         }
     }
     return SL_OK;

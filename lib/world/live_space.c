@@ -7,6 +7,7 @@
 
 #include "geometry/orient.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 // --- room
@@ -104,6 +105,23 @@ static sl_status grow_entries(sli_live *l, uint32_t new_cells) {
     return SL_OK;
 }
 
+/// Room for what glass there is on the sides of new cells.
+static sl_status grow_seams(sli_live *l) {
+    sl_space *s = &l->space;
+    size_t needed = s->seam_portal_count;
+    uint32_t seam, from;
+    for (size_t i = 0; i < l->cells.count; i++) {
+        const sli_live_cell *cell = &l->cells.items[i];
+        uint32_t half = cell->half;
+        for (uint32_t k = 0; k < cell->corners; k++, half = sli_live_next_side(l, half)) {
+            const uint32_t label = l->triangles.labels[half / 2];
+            for (uint32_t g = 0; label && l->glass(l->user, label, g, &seam, &from); g++) needed++;
+        }
+    }
+    if (needed > INT32_MAX) return sl_fail_memory(l->context);
+    return sl_reserve(l->context, &s->seam_portals, &l->seam_room, needed, sizeof *s->seam_portals);
+}
+
 sl_status sli_live_room(sli_live *l) {
     size_t cells = 0, corners = l->corners.used;
     for (size_t i = 0; i < l->cells.count; i++) {
@@ -116,6 +134,7 @@ sl_status sli_live_room(sli_live *l) {
     if (all > l->cell_room) SL_TRY(grow_cells(l, all));
     SL_TRY(grow_corners(l, corners));
     SL_TRY(grow_edges(l));
+    SL_TRY(grow_seams(l));
     l->gone.count = l->came.count = 0;
     SL_TRY(SL_ARRAY_ROOM(l->context, &l->gone, l->old.count));
     SL_TRY(SL_ARRAY_ROOM(l->context, &l->came, cells));
@@ -241,6 +260,50 @@ static void place_cell(sli_live *l, sli_live_cell *c) {
         enter_bucket(l, l->new_buckets.items[c->first_bucket + i], number);
 }
 
+/// Notes the glass on a portal.
+static void write_glass(sli_live *l, uint32_t edge) {
+    sl_space *s = &l->space;
+    uint32_t seam, from;
+    for (uint32_t k = 0; l->glass(l->user, l->triangles.labels[edge], k, &seam, &from); k++) {
+        s->seam_portals[s->seam_portal_count++] = (sl_seam_portal){
+            edge, seam, sli_same_point(l->triangles.points.items[from], s->portals[edge].left)};
+        l->new_glass = true;
+    }
+}
+
+/// Glass that rounding has folded lies on a portal both ways.
+static int compare_seam_portals(const void *left, const void *right) {
+    const sl_seam_portal *a = left, *b = right;
+    if (a->portal != b->portal) return a->portal > b->portal ? 1 : -1;
+    if (a->seam != b->seam) return a->seam > b->seam ? 1 : -1;
+    return (a->forward > b->forward) - (a->forward < b->forward);
+}
+
+/// Sorts the glass of portals. Two new cells have both written what is between them.
+static void sort_glass(sli_live *l) {
+    sl_seam_portal *items = l->space.seam_portals;
+    const uint32_t all = l->space.seam_portal_count;
+    uint32_t count = 0;
+    qsort(items, all, sizeof *items, compare_seam_portals);
+    for (uint32_t i = 0; i < all; i++)
+        if (!count || compare_seam_portals(&items[count - 1], &items[i]) != 0)
+            items[count++] = items[i];
+    l->space.seam_portal_count = count;
+    l->new_glass = false;
+}
+
+/// Drops the glass of portals that cells are about to lose, or that they write again.
+static void drop_glass(sli_live *l) {
+    sl_space *s = &l->space;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < s->seam_portal_count; i++) {
+        const uint32_t *cells = s->portals[s->seam_portals[i].portal].cell;
+        if (l->dissolved[cells[0]] != l->now && l->dissolved[cells[1]] != l->now)
+            s->seam_portals[count++] = s->seam_portals[i];
+    }
+    s->seam_portal_count = count;
+}
+
 static uint32_t border_of(const sl_box *b, sl_point from, sl_point to) {
     if (from.y == b->min.y && to.y == b->min.y) return SL_SIDE_BORDER;
     if (from.x == b->max.x && to.x == b->max.x) return SL_SIDE_BORDER + 1;
@@ -288,11 +351,13 @@ static void write_cell(sli_live *l, const sli_live_cell *c) {
         } else {
             s->neighbour[i] = SL_NEIGHBOUR_PORTAL;
             side->neighbour = write_portal(l, cell, c->number, half);
+            if (label) write_glass(l, edge);
         }
     }
 }
 
 void sli_live_write(sli_live *l) {
+    drop_glass(l);
     drop_old(l);
     size_t fresh = 0;
     for (size_t i = 0; i < l->cells.count; i++) {
@@ -302,4 +367,5 @@ void sli_live_write(sli_live *l) {
     }
     for (size_t i = 0; i < fresh; i++) write_cell(l, &l->cells.items[i]);
     l->space.inside_count = l->live_count;
+    if (l->new_glass) sort_glass(l);
 }

@@ -59,6 +59,30 @@ static void write_cells(const packer *p, uint32_t *place) {
         if (p->walls[i] != UINT32_MAX) o->walls[p->walls[i]] = s->walls[i];
 }
 
+/// Writes the glass on portals, one seam for each.
+static sl_status write_glass(sl_context *context, const packer *p, const sli_mesh_joint *joints) {
+    const sl_space *s = &p->live->space;
+    sl_space *o = p->out;
+    if (!s->seam_portal_count) return SL_OK;
+    o->seams = sl_alloc_array(context, s->seam_portal_count, sizeof *o->seams);
+    o->seam_portals = sl_alloc_array(context, s->seam_portal_count, sizeof *o->seam_portals);
+    if (!o->seams || !o->seam_portals) return SL_NO_MEMORY;
+    for (uint32_t i = 0; i < o->portal_count; i++) {
+        const sl_portal *portal = &o->portals[i];
+        size_t count;
+        const sl_seam_portal *on = sl_space_seams_of(s, joints[i].half, &count);
+        for (size_t k = 0; k < count; k++) {
+            sl_seam seam = s->seams[on[k].seam];
+            seam.at = on[k].forward ? (sl_segment){portal->left, portal->right}
+                                    : (sl_segment){portal->right, portal->left};
+            o->seams[o->seam_count] = seam;
+            o->seam_portals[o->seam_portal_count++] =
+                (sl_seam_portal){i, o->seam_count++, on[k].forward};
+        }
+    }
+    return SL_OK;
+}
+
 static sl_status write_portals(sl_context *context, const packer *p, const uint32_t *place) {
     const sl_space *s = &p->live->space;
     const uint32_t most = p->out->directed_count / 2;
@@ -72,7 +96,8 @@ static sl_status write_portals(sl_context *context, const packer *p, const uint3
         portal.cell[1] = p->cells[portal.cell[1]];
         joints[count++] = (sli_mesh_joint){portal, {place[2 * i], place[2 * i + 1]}, i};
     }
-    const sl_status status = sli_mesh_join(context, joints, count, p->out);
+    sl_status status = sli_mesh_join(context, joints, count, p->out);
+    if (status == SL_OK) status = write_glass(context, p, joints);
     sl_free(context, joints);
     return status;
 }

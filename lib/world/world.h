@@ -9,7 +9,12 @@
 /// A wall of the world. Its chain is the points of the triangulation that it leads through.
 typedef struct sli_world_line {
     sl_segment at, next_at;     ///< now, and after the commit
-    bool stands, next_stands;   ///< likewise: there is one of this number
+    bool there, next_there;     ///< likewise: there is one of this number
+    bool open, next_open;       ///< likewise, of a door
+    bool stands, next_stands;   ///< likewise: it is in the mesh
+    uint8_t kind;               ///< of sl_world_kind
+    uint8_t stops;              ///< of sl_glass, for one that does not stop all
+    char *name;                 ///< of a door; else NULL
     bool pending;               ///< it has edits
     uint32_t file_line, ground; ///< of sl_wall
     uint32_t first, count;      ///< of the chain, in `points`; count 0 for none
@@ -53,11 +58,22 @@ struct sl_world {
     sli_numbers doubtful;          ///< points that no wall may need any more
     uint32_t *wanted;              ///< by point: the edit that needs it
     size_t wanted_room;
-    sli_numbers flood; ///< triangles that a segment meets
+    sli_numbers flood;           ///< triangles that a segment meets
+    SL_ARRAY(sl_segment) opened; ///< where walls go
+    bool only_opens;             ///< the edit takes walls away and does nothing else
+    size_t oneway_room;          ///< of the map's
+    uint32_t oneway_count;       ///< of lines, also those that are not there any more
 };
 
+/// Takes the walls of a map, of all kinds.
+sl_status sli_world_take(sl_world *world, const sl_map *map, const sl_box *bounds);
+/// Ends the edits that waited: what will be there is what is there. Numbers without a wall are
+/// free.
+void sli_world_end_edits(sl_world *world);
 /// Finds the lines that an edit has to do with, and their new chains.
 sl_status sli_world_involve(sl_world *world);
+/// Finds where walls go, and whether that is all that the edit does.
+sl_status sli_world_find_opened(sl_world *world);
 /// Edits the triangulation accordingly.
 sl_status sli_world_edit(sl_world *world);
 /// Takes the new chains over; nothing can fail any more.
@@ -66,5 +82,7 @@ void sli_world_drop_uses(sl_world *world);
 
 /// What an edge with a label is (sli_live_label).
 sli_live_edge sli_world_edge(void *world, uint32_t label);
+/// The glass on it (sli_live_glass).
+bool sli_world_glass(void *world, uint32_t label, uint32_t k, uint32_t *seam, uint32_t *from);
 
 #endif

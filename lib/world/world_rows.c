@@ -8,6 +8,7 @@
 #include "world/world_rows.h"
 
 #include "cell_to_cell/search/directions.h"
+#include "sightline/effects.h"
 #include "sightline/stab.h"
 
 #include <stdlib.h>
@@ -45,10 +46,12 @@ static int compare_cells(const void *left, const void *right) {
     return (a > b) - (a < b);
 }
 
-/// Writes r->seen as the row of a cell.
-static sl_status write_row(sl_context *context, sli_world_rows *r, uint32_t cell) {
+sl_status sli_world_rows_write(sl_context *context, sli_world_rows *r, uint32_t cell) {
     sl_pvs *pvs = &r->visibility.pvs;
-    qsort(r->seen.items, r->seen.count, sizeof *r->seen.items, compare_cells);
+    bool sorted = true;
+    for (size_t i = 1; i < r->seen.count && sorted; i++)
+        sorted = r->seen.items[i - 1] <= r->seen.items[i];
+    if (!sorted) qsort(r->seen.items, r->seen.count, sizeof *r->seen.items, compare_cells);
     r->row.count = 0;
     SL_TRY(sli_row_append_list(context, &r->row, r->seen.items, r->seen.count));
     const uint32_t words = (uint32_t)((r->row.count + 3) / 4);
@@ -66,8 +69,7 @@ static sl_status write_row(sl_context *context, sli_world_rows *r, uint32_t cell
 
 // --- the search
 
-/// Begins new marks.
-static void next_mark(sli_world_rows *r) {
+void sli_world_rows_next_mark(sli_world_rows *r) {
     if (r->now == UINT32_MAX) {
         memset(r->marks, 0, r->cell_room * sizeof *r->marks);
         r->now = 0;
@@ -80,14 +82,42 @@ enum { TESTS_PER_CELL = 64, LEAST_TESTS = 4096 };
 typedef struct step {
     sli_portal_step at;
     bool grazing; ///< the sequence is no more than grazed
-    sli_directions directions;
+    /// As of sli_directions: the portals whose directions bound those of all; NULL for none yet.
+    const sl_directed_portal *least, *most;
 } step;
 
 static sl_status see(sl_context *context, sli_world_rows *r, uint32_t cell) {
     if (r->marks[cell] == r->now) return SL_OK;
     SL_TRY(push(context, &r->seen, cell));
     r->marks[cell] = r->now;
+    if (r->wanted_count && r->places[cell] && r->wanted.items[r->places[cell] - 1])
+        r->search.stop = !--r->wanted_count;
     return SL_OK;
+}
+
+/// Whether some direction still crosses all portals.
+static bool add_direction(step *s, const sl_directed_portal *directed) {
+    if (!s->least) {
+        s->least = s->most = directed;
+        return true;
+    }
+    const sli_direction_change crossing =
+        sli_direction_change_of(s->least, s->most, s->least == s->most, directed);
+    if (crossing == SLI_CROSSES_MOST) s->most = directed;
+    if (crossing == SLI_CROSSES_LEAST) s->least = directed;
+    return crossing != SLI_CROSSES_NEVER;
+}
+
+/// Whether glass keeps sight from leaving a cell by a directed portal.
+static bool is_blocked(const sli_world_rows *r, uint32_t cell, uint32_t number) {
+    const sl_space *s = r->search.space;
+    const uint32_t portal = s->directed[number].portal;
+    const bool forward = (s->portals[portal].cell[0] == cell) != r->backwards;
+    size_t count;
+    const sl_seam_portal *on = sl_space_seams_of(s, portal, &count);
+    for (size_t i = 0; i < count; i++)
+        if (on[i].forward != forward) return true;
+    return false;
 }
 
 SLI_VISIT sl_status cross(sl_context *context, void *job, const void *last, void *next,
@@ -95,19 +125,21 @@ SLI_VISIT sl_status cross(sl_context *context, void *job, const void *last, void
     sli_world_rows *r = job;
     const step *from = last;
     const sl_directed_portal *directed = &r->search.space->directed[number];
-    sli_directions directions = from->directions;
+    step to = {.at.cell = directed->cell, .least = from->least, .most = from->most};
     sl_stab_verdict verdict;
-    if (!sli_directions_add(r->search.space, &directions, number)) return SL_OK;
+    if (r->within_places && !r->places[directed->cell]) return SL_OK;
+    if (!add_direction(&to, directed)) return SL_OK;
+    if (r->search.space->seam_portal_count && is_blocked(r, from->at.cell, number)) return SL_OK;
     r->search.stop = ++r->tests > r->most_tests;
     SL_TRY(sli_portal_search_push(context, &r->search, directed->left, directed->right, &verdict));
-    const bool grazing = verdict == SL_GRAZING || from->grazing;
-    if (verdict == SL_HIDDEN || (grazing && r->visibility.sight == SL_OPEN)) {
+    to.grazing = verdict == SL_GRAZING || from->grazing;
+    if (verdict == SL_HIDDEN || (to.grazing && r->visibility.sight == SL_OPEN)) {
         sli_portal_search_pop(&r->search);
         return SL_OK;
     }
-    SL_TRY(see(context, r, directed->cell));
-    *(step *)next = (step){.at.cell = directed->cell, .grazing = grazing, .directions = directions};
+    *(step *)next = to;
     r->search.count++;
+    SL_TRY(see(context, r, directed->cell));
     return r->seen.count % 64 ? SL_OK : sl_check_cancelled(context);
 }
 
@@ -120,20 +152,42 @@ static sl_status start_search(sl_context *context, const sli_live *live, sli_wor
     return SL_OK;
 }
 
-/// Searches from a cell; r->seen is what it sees.
-static sl_status search_from(sl_context *context, const sli_live *live, sli_world_rows *r,
-                             uint32_t cell) {
+/// Searches with the portals that the solver holds. `through`: a portal among them that bounds the
+/// directions, or NULL.
+static sl_status run_search(sl_context *context, sli_world_rows *r, uint32_t cell,
+                            const sl_directed_portal *through) {
     static const sli_portal_visitor visitor = {.step_size = sizeof(step), .cross = cross};
-    next_mark(r);
-    r->seen.count = 0;
-    SL_TRY(start_search(context, live, r));
     SL_TRY(see(context, r, cell));
     SL_TRY(sli_portal_search_start(context, &r->search, sizeof(step)));
-    *(step *)r->search.steps = (step){.at.cell = cell, .directions = SLI_NO_DIRECTIONS};
+    *(step *)r->search.steps = (step){.at.cell = cell, .least = through, .most = through};
     r->search.count = 1;
-    const sl_status status = sli_portal_search_run(context, &r->search, &visitor, r);
+    return sli_portal_search_run(context, &r->search, &visitor, r);
+}
+
+static sl_status search(sl_context *context, const sli_live *live, sli_world_rows *r, uint32_t cell,
+                        const sl_directed_portal *held, size_t count, bool through) {
+    sl_stab_verdict verdict;
+    sli_world_rows_next_mark(r);
+    r->seen.count = 0;
+    SL_TRY(start_search(context, live, r));
+    sl_status status = SL_OK;
+    for (size_t i = 0; i < count && status == SL_OK; i++)
+        status = sli_portal_search_push(context, &r->search, held[i].left, held[i].right, &verdict);
+    if (status == SL_OK) status = run_search(context, r, cell, through ? held : NULL);
     if (status != SL_OK) sli_portal_search_end(context, &r->search);
     return status;
+}
+
+sl_status sli_world_rows_search(sl_context *context, const sli_live *live, sli_world_rows *r,
+                                uint32_t cell, const sl_directed_portal *through) {
+    return search(context, live, r, cell, through, through ? 1 : 0, true);
+}
+
+sl_status sli_world_rows_search_along(sl_context *context, const sli_live *live, sli_world_rows *r,
+                                      uint32_t cell, sl_segment line) {
+    const sl_directed_portal both[] = {{.left = line.a, .right = line.b},
+                                       {.left = line.b, .right = line.a}};
+    return search(context, live, r, cell, both, 2, false);
 }
 
 // --- edits
@@ -153,9 +207,11 @@ static sl_status grow_cells(sl_context *context, const sli_live *live, sli_world
     SL_TRY(sl_reserve(context, &r->marks, &capacity, room, sizeof *r->marks));
     capacity = old;
     SL_TRY(sl_reserve(context, &r->loose, &capacity, room, sizeof *r->loose));
+    capacity = old;
+    SL_TRY(sl_reserve(context, &r->places, &capacity, room, sizeof *r->places));
     for (size_t c = old; c < room; c++) {
         pvs->offsets[c] = pvs->ends[c] = 0;
-        r->words[c] = r->marks[c] = 0;
+        r->words[c] = r->marks[c] = r->places[c] = 0;
         r->loose[c] = 0;
     }
     pvs->offsets[room] = 0;
@@ -167,12 +223,37 @@ static bool goes(const sli_live *l, uint32_t cell) {
     return l->dissolved[cell] == l->now;
 }
 
+/// Adds the cells that see one that goes. A cell may come several times then.
+static sl_status find_seers(sl_context *context, const sli_live *live, sli_world_rows *r) {
+    r->backwards = true;
+    r->most_tests = UINT64_MAX;
+    sl_status status = SL_OK;
+    for (size_t i = 0; i < live->old.count && status == SL_OK; i++) {
+        if (!goes(live, live->old.items[i])) continue;
+        status = sli_world_rows_search(context, live, r, live->old.items[i], NULL);
+        for (size_t k = 0; k < r->seen.count && status == SL_OK; k++)
+            if (!goes(live, r->seen.items[k]))
+                status = push(context, &r->changed, r->seen.items[k]);
+    }
+    r->backwards = false;
+    return status;
+}
+
+static void leave_each_once(sli_numbers *list) {
+    size_t count = 0;
+    if (list->count) qsort(list->items, list->count, sizeof *list->items, compare_cells);
+    for (size_t i = 0; i < list->count; i++)
+        if (!count || list->items[count - 1] != list->items[i])
+            list->items[count++] = list->items[i];
+    list->count = count;
+}
+
 sl_status sli_world_rows_plan(sl_context *context, const sli_live *live, sli_world_rows *r) {
     const sl_pvs *pvs = &r->visibility.pvs;
     r->changed.count = 0;
     if (!r->kept) return SL_OK;
     SL_TRY(grow_cells(context, live, r));
-    next_mark(r);
+    sli_world_rows_next_mark(r);
     for (size_t i = 0; i < live->old.count && pvs->cell_count; i++) {
         if (!goes(live, live->old.items[i])) continue;
         for (sl_pvs_run run = sl_pvs_begin(pvs, live->old.items[i]); sl_pvs_next(&run);)
@@ -183,6 +264,10 @@ sl_status sli_world_rows_plan(sl_context *context, const sli_live *live, sli_wor
                 r->marks[cell] = r->now;
                 SL_TRY(push(context, &r->changed, cell));
             }
+    }
+    if (live->space.seam_portal_count) {
+        SL_TRY(find_seers(context, live, r));
+        leave_each_once(&r->changed);
     }
     SL_TRY(SL_ARRAY_ROOM(context, &r->changed, live->cells.count));
     // All cells that are loose are in the list, each once.
@@ -211,6 +296,7 @@ sl_status sli_world_rows_loosen(sl_context *context, const sli_live *live, sli_w
                                 bool opened) {
     const size_t stayed = r->changed.count - live->came.count;
     if (!r->visibility.pvs.cell_count) return SL_OK;
+    opened |= r->visibility.sight == SL_CLOSED; // new portals may join cells, too (along.c)
     for (size_t i = 0; i < r->changed.count; i++) {
         const uint32_t cell = r->changed.items[i];
         r->seen.count = 0;
@@ -219,7 +305,7 @@ sl_status sli_world_rows_loosen(sl_context *context, const sli_live *live, sli_w
                 if (live->space.cells[c].vertex_count) SL_TRY(push(context, &r->seen, c));
         for (size_t k = opened || i >= stayed ? 0 : stayed; k < r->changed.count; k++)
             SL_TRY(push(context, &r->seen, r->changed.items[k]));
-        SL_TRY(write_row(context, r, cell));
+        SL_TRY(sli_world_rows_write(context, r, cell));
     }
     return SL_OK;
 }
@@ -234,7 +320,7 @@ static sl_status take_rows(sl_context *context, sli_world_rows *r, const uint32_
             for (sl_pvs_run run = sl_pvs_begin(from, numbers[cell]); sl_pvs_next(&run);)
                 for (uint32_t c = run.first; c < run.end; c++)
                     SL_TRY(push(context, &r->seen, cells[c]));
-            SL_TRY(write_row(context, r, cell));
+            SL_TRY(sli_world_rows_write(context, r, cell));
         }
         r->loose[cell] = 0;
         r->unsettled.count--;
@@ -245,6 +331,7 @@ static sl_status take_rows(sl_context *context, sli_world_rows *r, const uint32_
 static sl_status settle_by_copy(sl_context *context, const sli_live *live, sli_world_rows *r) {
     const uint32_t count = live->space.cell_count;
     sl_see_options options = sl_see_options_default();
+    const sl_plan plan = {.effects = SL_EFFECT_ONEWAY};
     sl_space space = {0};
     sl_visibility seen = {0};
     uint32_t *numbers = sl_alloc_array(context, count, sizeof *numbers);
@@ -252,6 +339,7 @@ static sl_status settle_by_copy(sl_context *context, const sli_live *live, sli_w
     sl_status status = numbers && cells ? SL_OK : SL_NO_MEMORY;
     options.sight = r->visibility.sight;
     options.threads = 1;
+    if (live->space.seam_portal_count) options.plan = &plan;
     if (status == SL_OK) status = sli_live_pack(context, live, numbers, &space);
     if (status == SL_OK)
         status = sl_see_method_named("sweep")->see(context, &space, &options, &seen);
@@ -273,9 +361,9 @@ static sl_status settle_by_search(sl_context *context, const sli_live *live, sli
     while (r->unsettled.count && r->tests <= r->most_tests) {
         const uint32_t cell = r->unsettled.items[r->unsettled.count - 1];
         if (live->space.cells[cell].vertex_count) {
-            SL_TRY(search_from(context, live, r, cell));
+            SL_TRY(sli_world_rows_search(context, live, r, cell, NULL));
             if (r->tests > r->most_tests) return SL_OK;
-            SL_TRY(write_row(context, r, cell));
+            SL_TRY(sli_world_rows_write(context, r, cell));
         }
         r->loose[cell] = 0;
         r->unsettled.count--;
@@ -320,10 +408,19 @@ void sli_world_rows_destroy(sl_context *context, sli_world_rows *r) {
     sl_free(context, r->visibility.pvs.bytes);
     sl_free(context, r->words);
     sl_free(context, r->marks);
+    sl_free(context, r->places);
     sl_free(context, r->loose);
     sl_free(context, r->changed.items);
     sl_free(context, r->unsettled.items);
     sl_free(context, r->seen.items);
+    sl_free(context, r->wanted.items);
+    sl_free(context, r->sides.items);
+    sl_free(context, r->first.items);
+    sl_free(context, r->more.items);
+    sl_free(context, r->pairs.items);
+    sl_free(context, r->portals.items);
+    sl_free(context, r->joined.items);
+    sl_free(context, r->touched.items);
     sl_free(context, r->row.items);
     *r = (sli_world_rows){0};
 }

@@ -1,4 +1,5 @@
-/// What the Python package calls: plain functions on two kinds of handles, a plan and a level.
+/// What the Python package calls: plain functions on three kinds of handles: a plan, a level, and a
+/// world.
 ///
 /// Arguments are numbers, texts and arrays that the caller owns, so that Python needs to know the
 /// layout of no struct. Calls that may give arrays of any length first find the result and keep it
@@ -14,6 +15,7 @@
 #include "sightline/place.h"
 #include "sightline/support.h"
 #include "sightline/vga.h"
+#include "sightline/world.h"
 
 #include <stdatomic.h>
 
@@ -66,6 +68,13 @@ typedef struct slp_level {
     sl_path_parts unseen; ///< of a path, by `coverage`
     sl_placement placement;
 } slp_level;
+
+/// A world of walls that change, and the last region asked.
+typedef struct slp_world {
+    slp_base base;
+    sl_world *world;
+    sl_region region;
+} slp_world;
 
 /// Makes the context of a new handle; false without memory. slp_base_end undoes it.
 bool slp_base_begin(slp_base *base);
@@ -266,5 +275,31 @@ SLP_API void slp_level_cover_copy(const slp_level *level, double areas[4], doubl
 /// Of each piece: its first corner, how many see it, its blind spot or -1.
 SLP_API void slp_level_cover_pieces(const slp_level *level, int64_t *offsets, int64_t *counts,
                                     int64_t *spots, double *corners);
+
+// --- worlds; walls by their numbers
+
+SLP_API slp_world *slp_world_new(void);
+SLP_API void slp_world_free(slp_world *world);
+/// Makes the world of a plan's map. `box`: its bounds x0, y0, x1, y1; NULL for those of the map.
+SLP_API int slp_world_begin(slp_world *world, const slp_plan *plan, const double *box);
+/// Adds `count` segments, rows of 4 doubles, of one kind: "wall", "door", "oneway", "seam".
+SLP_API int slp_world_add(slp_world *world, const char *kind, const char *name, int open,
+                          const double *segments, size_t count, int64_t *numbers);
+SLP_API int slp_world_add_solid(slp_world *world, const double *corners, size_t count,
+                                int64_t *numbers);
+SLP_API int slp_world_remove(slp_world *world, const int64_t *numbers, size_t count);
+SLP_API int slp_world_move(slp_world *world, int64_t number, const double *segment);
+SLP_API int slp_world_set_open(slp_world *world, int64_t number, int open);
+SLP_API int slp_world_commit(slp_world *world);
+SLP_API void slp_world_discard(slp_world *world);
+/// Copies the walls as they are into a plan.
+SLP_API int slp_world_plan(slp_world *world, slp_plan *plan);
+SLP_API int slp_world_can_see(slp_world *world, const double *eyes, const double *points,
+                              size_t count, uint8_t *sees);
+/// Finds what an eye sees; *corners: of its polygon, with arcs as chords within `tolerance`.
+SLP_API int slp_world_region(slp_world *world, const double *eye, double heading, double fov,
+                             double tolerance, int64_t *corners);
+SLP_API void slp_world_region_points(const slp_world *world, double tolerance, double *points,
+                                     size_t count);
 
 #endif

@@ -22,6 +22,10 @@
 /// given: when another one goes, it is as if that had never been there. Places where oblique walls
 /// cross are rounded to the nearest doubles, as in a clean map.
 ///
+/// Doors, one-way glass and walls that do not stop sight are walls of other kinds, with numbers of
+/// the same row. A shut door is a wall, an open one is not there for sight, nor is a wall that does
+/// not stop it; neither cuts cells. The query knows nothing of doors: they open by edits.
+///
 /// Numbers have gaps. In the space that is asked (sl_query_asked), a number without a cell has no
 /// corners, one without a portal has SL_NO_CELL for its cells, and one without a wall has no
 /// length. The query's map has no walls: sl_world_copy_map has them.
@@ -59,10 +63,19 @@ typedef struct sl_world_options {
 /// The usual options: bounds by the map, no visible sets, closed sight.
 SL_API sl_world_options sl_world_options_default(void);
 
-/// Makes a world of the walls of a map, which is copied. Wall i of the map is wall i of the world.
-/// `options`: NULL for the usual ones. SL_UNSUPPORTED for a map with effects, seams, solid ground
-/// or cells of its own; SL_BAD_INPUT for a wall outside the bounds, and as the mesh refuses a map
-/// that is not clean. Time: that of the mesh.
+/// What a wall of a world is.
+typedef enum sl_world_kind {
+    SL_WORLD_WALL,
+    SL_WORLD_DOOR,   ///< a wall that opens
+    SL_WORLD_ONEWAY, ///< one-way glass
+    SL_WORLD_SEAM,   ///< a wall that does not stop sight, or a seam of the map
+} sl_world_kind;
+
+/// Makes a world of the walls of a map, which is copied. Wall i of the map is wall i of the world;
+/// then come its doors, its one-way glass and its seams. `options`: NULL for the usual ones.
+/// SL_UNSUPPORTED for a map with mirrors, limited walls or cells of its own; SL_BAD_INPUT for a
+/// wall outside the bounds, and as the mesh refuses a map that is not clean. Time: that of the
+/// mesh.
 SL_API sl_status sl_world_create(sl_context *context, const sl_map *map,
                                  const sl_world_options *options, sl_world **out);
 /// Frees a world and its query. NULL is allowed.
@@ -81,6 +94,25 @@ SL_API sl_query *sl_world_query(sl_world *world);
 /// for a wall of no length, or not within the bounds.
 SL_API sl_status sl_world_add_wall(sl_context *context, sl_world *world, sl_segment at,
                                    uint32_t *wall);
+/// Adds a door. As sl_world_add_wall. Doors of one name are no more than neighbours here: each
+/// opens by itself.
+SL_API sl_status sl_world_add_door(sl_context *context, sl_world *world, const char *name,
+                                   sl_segment at, bool open, uint32_t *wall);
+/// Adds one-way glass, seen through from its right to its left. As sl_world_add_wall. Where there
+/// is some, the first question after a commit takes time that grows with the world.
+SL_API sl_status sl_world_add_oneway(sl_context *context, sl_world *world, sl_segment at,
+                                     uint32_t *wall);
+/// Adds a wall that stops only what the bits of SL_STOPS_SIGHT ... say, and nothing for 0. As
+/// sl_world_add_wall; SL_UNSUPPORTED for SL_STOPS_LIMITED.
+SL_API sl_status sl_world_add_partial(sl_context *context, sl_world *world, sl_segment at,
+                                      uint32_t stops, uint32_t *wall);
+/// Adds a polygon of solid ground: its walls, which get the numbers walls[0 .. count). It goes when
+/// these are removed. As sl_map_add_solid and sl_world_add_wall; corners that repeat the one before
+/// are SL_BAD_ARGUMENT.
+SL_API sl_status sl_world_add_solid(sl_context *context, sl_world *world, const sl_point *corners,
+                                    size_t count, uint32_t *walls);
+/// Opens or shuts a door at the next commit. SL_BAD_ARGUMENT for what is no door.
+SL_API sl_status sl_world_set_open(sl_context *context, sl_world *world, uint32_t wall, bool open);
 /// Removes a wall at the next commit. SL_BAD_ARGUMENT if there is none of that number.
 SL_API sl_status sl_world_remove(sl_context *context, sl_world *world, uint32_t wall);
 /// Moves a wall at the next commit; it keeps its number. As the two above.
@@ -108,8 +140,10 @@ SL_API sl_status sl_world_commit(sl_context *context, sl_world *world, sl_world_
 /// Makes visible sets exact, for about so many milliseconds, at least one set. *left: how many are
 /// still conservative; NULL for none. An exact one is made by a search over portal sequences from
 /// its cell. A commit searches again from the cells that saw a cell that went, and from those that
-/// came: no other set can change. If a commit lacks memory for its sets alone, it holds, and there
-/// are none (sl_world_visibility) until this makes them; questions are answered as before.
+/// came: no other set can change. If it takes walls away and does nothing else, it follows from the
+/// former only lines through these walls. If a commit lacks memory for its sets alone, it holds,
+/// and there are none (sl_world_visibility) until this makes them; questions are answered as
+/// before.
 SL_API sl_status sl_world_settle(sl_context *context, sl_world *world, double milliseconds,
                                  size_t *left);
 
@@ -123,15 +157,20 @@ SL_API const sl_visibility *sl_world_visibility(const sl_world *world);
 SL_API uint32_t sl_world_wall_count(const sl_world *world);
 /// A wall as it was given, at the last commit. False if there is none of that number.
 SL_API bool sl_world_wall(const sl_world *world, uint32_t wall, sl_segment *at);
+/// What a wall is, as sl_world_wall finds it.
+SL_API sl_world_kind sl_world_kind_of(const sl_world *world, uint32_t wall);
+/// Whether a door is open, at the last commit; false for what is none.
+SL_API bool sl_world_is_open(const sl_world *world, uint32_t wall);
 /// How many cells there are.
 SL_API uint32_t sl_world_cell_count(const sl_world *world);
 
 /// The walls as they were given, at the last commit, as a map of its own: for files, bakes and
-/// other work. `numbers`, NULL for none: by wall of the world, its number in the map; UINT32_MAX
-/// for none.
+/// other work. `numbers`, NULL for none: by wall of the world, its number among the map's walls,
+/// doors, one-way glass or seams; UINT32_MAX for none.
 SL_API sl_status sl_world_copy_map(sl_context *context, const sl_world *world, uint32_t *numbers,
                                    sl_map *out);
-/// The space as it is, as a copy without gaps in its numbers; it passes sl_space_check. `numbers`,
+/// The space as it is, as a copy without gaps in its numbers; it passes sl_space_check. Shut doors
+/// are walls of it. `numbers`,
 /// NULL for none: by cell of the world (sl_query_asked), its number in the copy; SL_NO_CELL for
 /// none.
 SL_API sl_status sl_world_copy_space(sl_context *context, const sl_world *world, uint32_t *numbers,

@@ -137,6 +137,20 @@ _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     "level_cover_name": (_text, [_handle, _size]),
     "level_cover_copy": (None, [_handle, _doubles, _doubles, _doubles]),
     "level_cover_pieces": (None, [_handle, _integers, _integers, _integers, _doubles]),
+    "world_new": (_handle, []),
+    "world_free": (None, [_handle]),
+    "world_begin": (_int, [_handle, _handle, _any]),
+    "world_add": (_int, [_handle, _text, _text, _int, _doubles, _size, _integers]),
+    "world_add_solid": (_int, [_handle, _doubles, _size, _integers]),
+    "world_remove": (_int, [_handle, _integers, _size]),
+    "world_move": (_int, [_handle, ctypes.c_int64, _doubles]),
+    "world_set_open": (_int, [_handle, ctypes.c_int64, _int]),
+    "world_commit": (_int, [_handle]),
+    "world_discard": (None, [_handle]),
+    "world_plan": (_int, [_handle, _handle]),
+    "world_can_see": (_int, [_handle, _doubles, _doubles, _size, _bytes]),
+    "world_region": (_int, [_handle, _doubles, _double, _double, _double, _integers]),
+    "world_region_points": (None, [_handle, _double, _doubles, _size]),
 }
 
 
@@ -303,7 +317,7 @@ def as_segments(value: ArrayLike, what: str) -> Floats:
 class Doors(MutableMapping[str, bool]):
     """The doors of a plan or a level: whether each is open. `doors["front"] = False` shuts one."""
 
-    def __init__(self, of: "Handle") -> None:
+    def __init__(self, of: "MapHandle") -> None:
         self._of = of
 
     def __getitem__(self, name: str) -> bool:
@@ -334,14 +348,14 @@ def _fixed(array: NDArray[Any]) -> NDArray[Any]:
 
 
 class Handle:
-    """A plan or level of the library, with a lock. It can be closed, also by `with`."""
+    """A plan, level or world of the library, with a lock. It can be closed, also by `with`."""
 
     _is_level = 0
     _pointer: Optional[int]
 
     def __init__(self, pointer: Optional[int], free: Callable[[int], None]) -> None:
         if not pointer:
-            raise MemoryError("no memory for a plan or level")
+            raise MemoryError("no memory for a plan, level or world")
         self._pointer = pointer
         self._lock = threading.RLock()
         self._finalizer = weakref.finalize(self, free, pointer)
@@ -418,6 +432,10 @@ class Handle:
             buffer = ctypes.create_string_buffer(room)
             call.names(pointer, what.encode(), ctypes.cast(buffer, ctypes.c_void_p), room)
         return said(buffer.value).splitlines()
+
+
+class MapHandle(Handle):
+    """A plan or level. Both hold a map."""
 
     def _segments(self, kind: str) -> Floats:
         with self._lock:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import drawing, tables
-from ._library import (Floats, Handle, Integers, Vga, address, as_count, as_flag, as_number,
+from ._library import (Floats, Handle, Integers, MapHandle, Vga, address, as_count, as_flag, as_number,
                        as_point, as_points, as_reals, call, existing, path_text, said, text)
 from .placement import Viewpoints
 from .sets import Sets
@@ -110,7 +110,7 @@ class Explanation:
         return why
 
 
-class Level(Viewpoints, Sets, drawing.InNotebooks, Handle):
+class Level(Viewpoints, Sets, drawing.InNotebooks, MapHandle):
     """A baked plan: cells, the portals between them, and which cells see each other.
 
     `Plan.bake` makes one, and `Level.open` reads one. Several threads may use a level: they take

@@ -11,16 +11,17 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import drawing
-from ._library import (Bake, Floats, Handle, Import, as_count, as_flag, as_number, as_point,
+from ._library import (Bake, Floats, Handle, Import, MapHandle, as_count, as_flag, as_number, as_point,
                        as_points, as_reals, as_segments, call, existing, names_text, path_text, said,
                        text)
 from .errors import SightlineWarning
 from .level import Level
 from .placement import Coverage, Placement
+from .world import World
 
 EFFECTS = ("door", "mirror", "oneway", "range")
 
-class Plan(drawing.InNotebooks, Handle):
+class Plan(drawing.InNotebooks, MapHandle):
     """A plan: walls, solid ground, doors, mirrors, one-way glass, starts and a view range.
 
     Lengths are in any unit, and y grows upwards.
@@ -394,6 +395,17 @@ class Plan(drawing.InNotebooks, Handle):
         The parameters are those of `bake`.
         """
         return self._bake(None, "closed", subdivide, start, weld, without, False, 1, 16, 0, False)
+
+    def edit(self, *, bounds: Optional[ArrayLike] = None) -> World:
+        """The walls as a `World`: they change, and answers follow without a bake.
+
+        Parameters
+        ----------
+        bounds
+            x0, y0, x1, y1: where walls may be. By default those of the plan, and an eighth of their
+            size more on each side.
+        """
+        return World(self, bounds)
 
     def _bake(self, method: Optional[str], sight: str, subdivide: Optional[str],
               start: Optional[ArrayLike], weld: Optional[float], without: Sequence[str],

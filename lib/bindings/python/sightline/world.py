@@ -1,0 +1,141 @@
+"""Worlds: walls that change, and questions in between."""
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Optional
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import tables
+from ._library import (Floats, Handle, Integers, address, as_flag, as_number, as_point, as_points,
+                       as_reals, as_segments, call, text)
+
+if TYPE_CHECKING:
+    from .plan import Plan
+
+
+def _one_segment(value: ArrayLike) -> Floats:
+    segments = as_segments(value, "segment")
+    if len(segments) != 1:
+        raise ValueError(f"segment must be one segment, not {len(segments)}")
+    return segments.reshape(4)
+
+
+def _as_wall(value: Any) -> int:
+    numbers = np.asarray(value)
+    if numbers.ndim or numbers.dtype.kind not in "iu":
+        raise TypeError(f"a wall is a whole number, not {value!r:.40}")
+    return int(numbers)
+
+
+class World(Handle):
+    """Walls that change: an edit costs what it touches, and no bake. `Plan.edit` makes one.
+
+    Walls have numbers, from when they are added until they are removed: first those of the plan's
+    walls, then of its doors, its one-way glass and its seams. Edits count from `commit` on. Answers
+    are those of a plan that is made anew.
+
+    Examples
+    --------
+    >>> import sightline
+    >>> room = [(0, 0, 8, 0), (8, 0, 8, 4), (8, 4, 0, 4), (0, 4, 0, 0)]
+    >>> world = sightline.Plan.from_segments(room).edit()
+    >>> world.can_see((1, 1), (7, 1))
+    True
+    >>> wall = world.add((4, 0, 4, 3))
+    >>> world.commit()
+    >>> world.can_see((1, 1), (7, 1))
+    False
+    >>> world.remove(wall)
+    >>> world.commit()
+    >>> world.can_see((1, 1), (7, 1))
+    True
+    """
+
+    def __init__(self, plan: "Plan", bounds: Optional[ArrayLike] = None) -> None:
+        super().__init__(call.world_new(), call.world_free)
+        box = None if bounds is None else as_reals(bounds, "bounds")
+        if box is not None and box.shape != (4,):
+            raise ValueError("bounds must be x0, y0, x1, y1")
+        with plan._lock:
+            self._ask(call.world_begin, plan._open_pointer(), None if box is None else address(box))
+
+    def add(self, segments: ArrayLike, kind: str = "wall", *, name: str = "door",
+            open: bool = False) -> Any:
+        """Add walls at the next commit. All of them, or none where one is refused.
+
+        Parameters
+        ----------
+        segments
+            One (4,), which gives a number, or several (n, 4), which give an array of numbers.
+        kind
+            "wall", "door", "oneway" (seen through from its right to its left), or "seam".
+        name, open
+            Of doors.
+        """
+        rows = as_segments(segments, "segments")
+        numbers: Integers = np.zeros(len(rows), np.int64)
+        self._ask(call.world_add, text(kind, "kind"), text(name, "name"), as_flag(open, "open"), rows,
+                  len(rows), numbers)
+        return int(numbers[0]) if np.ndim(segments) == 1 else numbers
+
+    def add_solid(self, corners: ArrayLike) -> Integers:
+        """Add a polygon of solid ground; the numbers of its walls. It goes when they are removed."""
+        points = np.ascontiguousarray(as_points(corners, "corners").reshape(-1, 2))
+        numbers: Integers = np.zeros(len(points), np.int64)
+        self._ask(call.world_add_solid, points, len(points), numbers)
+        return numbers
+
+    def remove(self, walls: ArrayLike) -> None:
+        """Remove walls, one number or several, at the next commit."""
+        numbers = np.asarray(walls)
+        if numbers.size and numbers.dtype.kind not in "iu":
+            raise TypeError("walls are whole numbers")
+        rows = np.ascontiguousarray(numbers, np.int64).reshape(-1)
+        self._ask(call.world_remove, rows, len(rows))
+
+    def move(self, wall: int, segment: ArrayLike) -> None:
+        """Move a wall at the next commit; it keeps its number."""
+        self._ask(call.world_move, _as_wall(wall), _one_segment(segment))
+
+    def set_open(self, door: int, open: bool) -> None:
+        """Open or shut a door at the next commit."""
+        self._ask(call.world_set_open, _as_wall(door), as_flag(open, "open"))
+
+    def commit(self) -> None:
+        """Make the edits. If this raises, they are forgotten, and all is as it was."""
+        self._ask_long(call.world_commit)
+
+    def discard(self) -> None:
+        """Forget the edits since the last commit."""
+        with self._lock:
+            call.world_discard(self._open_pointer())
+
+    def plan(self) -> "Plan":
+        """The walls as they are, as a plan of its own: for files and bakes."""
+        from .plan import Plan
+        plan = Plan()
+        with self._lock:
+            self._ask(call.world_plan, plan._open_pointer())
+        return plan
+
+    def can_see(self, a: ArrayLike, b: ArrayLike) -> Any:
+        """Whether points see each other directly. Exact. Arrays (..., 2) broadcast."""
+        eyes, places = np.broadcast_arrays(as_points(a, "a"), as_points(b, "b"))
+        eyes, places = np.ascontiguousarray(eyes), np.ascontiguousarray(places)
+        sees = np.zeros(eyes.shape[:-1], np.uint8)
+        self._ask_long(call.world_can_see, eyes, places, sees.size, sees.reshape(-1))
+        return bool(sees) if sees.ndim == 0 else sees.view(bool)
+
+    def region(self, eye: ArrayLike, heading: float = 0, fov: float = 360, *,
+               tolerance: Optional[float] = None, as_array: bool = False) -> Any:
+        """The visible region of an eye. The parameters are those of `Level.region`."""
+        at, flag = as_point(eye, "eye"), as_flag(as_array, "as_array")
+        error = 0.0 if tolerance is None else as_number(tolerance, "tolerance", over=0)
+        count: Integers = np.zeros(1, np.int64)
+        with self._lock:
+            self._ask(call.world_region, at, as_number(heading, "heading"), as_number(fov, "fov"),
+                      error, count)
+            corners = np.empty((int(count[0]), 2))
+            call.world_region_points(self._open_pointer(), error, corners, len(corners))
+        return corners if flag else tables.polygon(corners)
