@@ -49,7 +49,8 @@ static sl_status find_certain(sl_context *context, const sl_space *space,
                               const sl_see_options *options, const sl_plan *plan,
                               const sl_visibility *open, sl_visibility *shut) {
     const double range = plan->range;
-    if (!(plan->effects & SL_EFFECT_DOOR))
+    // Without sets of doors, no pair needs more than the open doors.
+    if (!(plan->effects & SL_EFFECT_DOOR) || !plan->door_limit)
         return sli_pvs_within(context, space, &open->pvs, range, SLI_ALL_WITHIN, &shut->pvs);
     SL_TRY(see_shut(context, space, options, plan->map->door_count, shut));
     return range > 0 ? narrow(context, space, range, SLI_ALL_WITHIN, &shut->pvs) : SL_OK;
