@@ -137,8 +137,7 @@ static void change_some(game *g) {
         sl_runtime_settle(&g->state, (uint32_t)sl_random_below(&g->random, 200));
         const sl_runtime_door_kind kind = sl_runtime_get_door_kind(r, door);
         const bool stands = g->state.shut[door];
-        const bool may =
-            stands == shut || kind != (shut ? SL_RUNTIME_BREAKABLE : SL_RUNTIME_SITE);
+        const bool may = stands == shut || kind != (shut ? SL_RUNTIME_BREAKABLE : SL_RUNTIME_SITE);
         assert_int_equal(sl_runtime_state_set_door(&g->state, door, shut), may);
         assert_int_equal(g->state.shut[door], may ? shut : stands);
     }

@@ -210,6 +210,11 @@ SL_RUNTIME_API bool sl_runtime_door_open(const sl_runtime *runtime, uint32_t doo
 SL_RUNTIME_API uint32_t sl_runtime_door_segments(const sl_runtime *runtime, uint32_t door,
                                                  sl_runtime_segment *segments, uint32_t room);
 
+/// Reads a wall, one of `wall_count`; false, and `out` is unchanged, if it does not exist. To draw
+/// them: sight goes by cells and portals.
+SL_RUNTIME_API bool sl_runtime_wall(const sl_runtime *runtime, uint32_t wall,
+                                    sl_runtime_segment *out);
+
 /// The number of starts.
 SL_RUNTIME_API uint32_t sl_runtime_start_count(const sl_runtime *runtime);
 

@@ -71,6 +71,13 @@ SL_RUNTIME_API uint32_t sl_runtime_door_segments(const sl_runtime *runtime, uint
     return count;
 }
 
+SL_RUNTIME_API bool sl_runtime_wall(const sl_runtime *runtime, uint32_t wall,
+                                    sl_runtime_segment *out) {
+    if (!runtime->walls || wall >= runtime->wall_count) return false;
+    *out = slrt_segment(runtime->walls + (size_t)wall * 32);
+    return true;
+}
+
 SL_RUNTIME_API uint32_t sl_runtime_start_count(const sl_runtime *runtime) {
     return runtime->start_count;
 }
