@@ -152,8 +152,8 @@ static void print_effect_work(const sl_visibility *visibility) {
         size_write(sl_door_sets_bytes(doors), size);
         printf("  doors     %s of door sets", size);
         if (account->effects.door_fallbacks)
-            printf("; %" PRIu64 " pairs have too many sets and count as seen",
-                   account->effects.door_fallbacks);
+            printf("; %" PRIu64 " %s as seen, with too many sets", account->effects.door_fallbacks,
+                   account->effects.door_fallbacks == 1 ? "pair counts" : "pairs count");
         putchar('\n');
     }
     if (account->effects.range_tests) {
@@ -327,12 +327,11 @@ static void note_fallbacks(sl_context *context, const bake_report *report, uint3
                 "no sets of doors are kept: rows are those with all doors open; in a game, "
                 "sl_runtime_settle() makes them exact");
     else if (pairs)
-        sl_note(
-            context,
-            "%" PRIu64 " pairs need more than %" PRIu32
-            " sets of doors, and count as seen whatever is shut; for more sets: --door-limit N; "
-            "in a game, sl_runtime_settle() makes rows exact, and --door-limit 0 bakes fast",
-            pairs, limit);
+        sl_note(context,
+                "whatever is shut, %" PRIu64 " %s as seen, for more sets of doors are needed than "
+                "the %" PRIu32 " kept: --door-limit N keeps more; in a game, sl_runtime_settle() "
+                "makes rows exact, and --door-limit 0 bakes fast",
+                pairs, pairs == 1 ? "pair counts" : "pairs count", limit);
 }
 
 static sl_status bake(sl_context *context, bake_plan *plan, sl_map *map, sl_baked *baked,
