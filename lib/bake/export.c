@@ -292,6 +292,12 @@ static void put_door_segments(printer *out, const sl_baked *baked, uint32_t numb
     sl_json_put_end(&out->json, ']');
 }
 
+static void put_door_kind(printer *out, sl_door_kind kind) {
+    if (kind == SL_DOOR_PLAIN) return;
+    sl_json_put_key(&out->json, "kind");
+    sl_json_put_text(&out->json, kind == SL_DOOR_BREAKABLE ? "breakable" : "site");
+}
+
 static void print_doors(printer *out, const sl_baked *baked) {
     const uint32_t count = (uint32_t)baked->map.door_count;
     if (!count) return;
@@ -305,6 +311,7 @@ static void print_doors(printer *out, const sl_baked *baked) {
         put_door_segments(out, baked, i);
         sl_json_put_key(&out->json, "open");
         sl_json_put_flag(&out->json, baked->map.doors[i].open);
+        put_door_kind(out, baked->map.doors[i].kind);
         sl_json_put_end(&out->json, '}');
     }
     fputs("]", out->stream);

@@ -110,9 +110,11 @@ typedef struct sli_slv_name {
     uint32_t first, bytes;
 } sli_slv_name;
 
+enum { SLI_SLV_DOOR_OPEN = 1, SLI_SLV_DOOR_BREAKABLE = 2, SLI_SLV_DOOR_SITE = 4 };
+
 typedef struct sli_slv_door {
     sli_slv_name name;
-    uint32_t open; ///< 0 or 1
+    uint32_t state; ///< SLI_SLV_DOOR_OPEN ..., added up
 } sli_slv_door;
 
 typedef struct sli_slv_start {

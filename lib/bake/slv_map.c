@@ -47,6 +47,12 @@ static void fill_paths(const sl_map *map, names *to, sli_slv_path *paths, sl_poi
     }
 }
 
+static uint32_t door_state(const sl_door *door) {
+    return (door->open ? SLI_SLV_DOOR_OPEN : 0) |
+           (door->kind == SL_DOOR_BREAKABLE ? SLI_SLV_DOOR_BREAKABLE : 0) |
+           (door->kind == SL_DOOR_SITE ? SLI_SLV_DOOR_SITE : 0);
+}
+
 static void fill(const sl_map *map, sli_slv_part_of_map *parts) {
     names to = {.bytes = parts[NAMES].items};
     sli_slv_door *doors = parts[DOORS].items;
@@ -54,7 +60,7 @@ static void fill(const sl_map *map, sli_slv_part_of_map *parts) {
     sli_slv_object *objects = parts[OBJECTS].items;
     sli_slv_mirror *mirrors = parts[MIRRORS].items;
     for (size_t i = 0; i < map->door_count; i++)
-        doors[i] = (sli_slv_door){add_name(&to, map->doors[i].name), map->doors[i].open};
+        doors[i] = (sli_slv_door){add_name(&to, map->doors[i].name), door_state(&map->doors[i])};
     for (size_t i = 0; i < map->start_count; i++) {
         const sl_point at = sli_coordinates(map->starts[i].at);
         starts[i] = (sli_slv_start){at.x, at.y, map->starts[i].heading};

@@ -230,6 +230,28 @@ static bool continues(const sl_segment *first, const sl_segment *next) {
            sli_orient(first->a, first->b, next->b) == 0;
 }
 
+static sl_status read_door_kind(const sli_json *door, sl_door_kind *kind) {
+    const sli_json said = sli_json_member(door, "kind");
+    const char *word;
+    *kind = SL_DOOR_PLAIN;
+    if (!said.value) return SL_OK;
+    SL_TRY(sli_json_text(&said, &word));
+    if (strcmp(word, "breakable") == 0)
+        *kind = SL_DOOR_BREAKABLE;
+    else if (strcmp(word, "site") == 0)
+        *kind = SL_DOOR_SITE;
+    else
+        return sli_json_fail(&said, "expected \"breakable\" or \"site\"");
+    return SL_OK;
+}
+
+static sl_status add_door(export_reader *reader, const char *name, sl_segment at, bool open,
+                          sl_door_kind kind) {
+    SL_TRY(sl_map_add_door(reader->context, reader->map, name, at, open, reader->item));
+    reader->map->doors[reader->map->door_count - 1].kind = kind;
+    return SL_OK;
+}
+
 /// A door, or several of one name: stretches that go on in one line are joined.
 static sl_status read_door(export_reader *reader, const sli_json *door) {
     const char *name;
@@ -240,6 +262,8 @@ static sl_status read_door(export_reader *reader, const sli_json *door) {
     bool said = true;
     const bool is_open = open.value ? sli_json_true(&open, &said) : true;
     if (!said) return sli_json_fail(&open, "expected true or false");
+    sl_door_kind kind;
+    SL_TRY(read_door_kind(door, &kind));
     const sli_json segments = sli_json_member(door, "segments");
     SL_TRY(sli_json_array(&segments, &count));
     if (!count) return sli_json_fail(&segments, "expected at least 1 segment");
@@ -248,11 +272,10 @@ static sl_status read_door(export_reader *reader, const sli_json *door) {
         const sli_json segment = sli_json_item(&segments, i);
         SL_TRY(read_stretch(&segment, &next));
         const bool joins = i && continues(&at, &next);
-        if (i && !joins)
-            SL_TRY(sl_map_add_door(reader->context, reader->map, name, at, is_open, reader->item));
+        if (i && !joins) SL_TRY(add_door(reader, name, at, is_open, kind));
         at = joins ? (sl_segment){at.a, next.b} : next;
     }
-    return sl_map_add_door(reader->context, reader->map, name, at, is_open, reader->item);
+    return add_door(reader, name, at, is_open, kind);
 }
 
 static sl_status read_mirror(export_reader *reader, const sli_json *mirror) {

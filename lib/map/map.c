@@ -288,6 +288,7 @@ static sl_status copy_effects(sl_context *context, const sl_map *from, sl_map *t
     for (size_t i = 0; i < from->door_count; i++) {
         const sl_door *d = &from->doors[i];
         SL_TRY(sl_map_add_door(context, to, d->name, d->segment, d->open, d->line));
+        to->doors[i].kind = d->kind;
         if (!d->parts) continue;
         to->doors[i].parts = sl_alloc_array(context, d->part_count, sizeof *d->parts);
         if (!to->doors[i].parts) return SL_NO_MEMORY;

@@ -65,18 +65,31 @@ static sl_status read_walls(text_reader *reader) {
     return SL_OK;
 }
 
+/// How a door stands, what it is, or both.
 static sl_status read_door(text_reader *reader) {
-    bool open = true;
-    if (reader->words.count == 5) {
-        const sli_word word = reader->words.items[4];
-        open = sli_word_is(word, "open");
-        if (!open && !sli_word_is(word, "shut"))
-            return sl_fail_at(reader->context, reader->name, reader->line,
-                              "door: expected 'open' or 'shut', found '%s'", sli_show(word).text);
+    sl_door_kind kind = SL_DOOR_PLAIN;
+    int open = -1;
+    for (size_t i = 4; i < reader->words.count; i++) {
+        const sli_word word = reader->words.items[i];
+        const bool last = i + 1 == reader->words.count;
+        if (i == 4 && (sli_word_is(word, "open") || sli_word_is(word, "shut")))
+            open = sli_word_is(word, "open");
+        else if (last && sli_word_is(word, "breakable"))
+            kind = SL_DOOR_BREAKABLE;
+        else if (last && sli_word_is(word, "site"))
+            kind = SL_DOOR_SITE;
+        else
+            return sl_fail_at(
+                reader->context, reader->name, reader->line, "door: expected %s, found '%s'",
+                i == 4 ? "'open' or 'shut', 'breakable' or 'site'" : "'breakable' or 'site'",
+                sli_show(word).text);
     }
+    if (open < 0) open = kind != SL_DOOR_BREAKABLE;
     SL_TRY(refuse_no_length(reader, "door"));
-    return sl_map_add_door(reader->context, reader->map, reader->label, segment_of(reader), open,
-                           reader->line);
+    SL_TRY(sl_map_add_door(reader->context, reader->map, reader->label, segment_of(reader), open,
+                           reader->line));
+    reader->map->doors[reader->map->door_count - 1].kind = kind;
+    return SL_OK;
 }
 
 static sl_status read_mirror(text_reader *reader) {
@@ -273,7 +286,7 @@ static const statement statements[] = {
     {"walls", "walls x0 y0 x1 y1 ... [stops WHAT]", false, 4, ANY, ANY, read_walls},
     {"solid", "solid x0 y0 x1 y1 x2 y2 ... [stops WHAT]", false, 6, ANY, ANY, read_solid},
     {"open", "open x0 y0 x1 y1 x2 y2 ...", false, 6, ANY, ANY, read_open},
-    {"door", "door NAME x0 y0 x1 y1 [open|shut]", true, 4, 5, 4, read_door},
+    {"door", "door NAME x0 y0 x1 y1 [open|shut] [breakable|site]", true, 4, 6, 4, read_door},
     {"mirror", "mirror x0 y0 x1 y1 [one|both]", false, 4, 5, 4, read_mirror},
     {"oneway", "oneway x0 y0 x1 y1", false, 4, 4, 4, read_oneway},
     {"seam", "seam x0 y0 x1 y1", false, 4, 4, 4, read_seam},
@@ -606,6 +619,7 @@ static void print_others(text_writer *writer) {
         fputs(door->name, stream);
         print_ends(stream, door->segment.a, door->segment.b);
         fputs(door->open ? " open" : " shut", stream);
+        if (door->kind) fputs(door->kind == SL_DOOR_SITE ? " site" : " breakable", stream);
         end_statement(writer, door->line);
     }
     for (size_t i = 0; i < map->mirror_count; i++) {

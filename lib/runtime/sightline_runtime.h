@@ -210,6 +210,11 @@ SL_RUNTIME_API bool sl_runtime_door_open(const sl_runtime *runtime, uint32_t doo
 SL_RUNTIME_API uint32_t sl_runtime_door_segments(const sl_runtime *runtime, uint32_t door,
                                                  sl_runtime_segment *segments, uint32_t room);
 
+/// Reads a wall, one of `wall_count`; false, and `out` is unchanged, if it does not exist. To draw
+/// them: sight goes by cells and portals.
+SL_RUNTIME_API bool sl_runtime_wall(const sl_runtime *runtime, uint32_t wall,
+                                    sl_runtime_segment *out);
+
 /// The number of starts.
 SL_RUNTIME_API uint32_t sl_runtime_start_count(const sl_runtime *runtime);
 
@@ -321,6 +326,75 @@ SL_RUNTIME_API bool sl_runtime_view_can_see(const sl_runtime *runtime, uint32_t 
 /// Unpacks the visible set of a view cell, as sl_runtime_row_bits does for a cell.
 SL_RUNTIME_API void sl_runtime_view_bits(const sl_runtime *runtime, uint32_t view_cell,
                                          unsigned char *bits);
+
+// Walls that break, building sites, and rows that follow the doors. To all calls that take `shut` a
+// wall that breaks is a door that is shut until it breaks, and a site a door that is open until a
+// wall is built on it. So they are exact at once. Rows are baked once: past shut doors they are
+// exact as far as the bake kept sets of doors, and conservative beyond. A state makes them exact
+// for the doors as they stand, bit by bit, in the time that a game has left.
+//
+//     size_t size = sl_runtime_state_count(&runtime);
+//     sl_runtime_state_start(&state, &runtime, malloc(size * sizeof(uint32_t)));
+//     when a wall breaks: sl_runtime_state_set_door(&state, wall, false);
+//     each frame: while (time is left && sl_runtime_settle(&state, 1000)) {}
+//     any time: sl_runtime_state_can_see(&state, from, to);
+//               sl_runtime_sees(&runtime, x0, y0, x1, y1, state.shut, 0, scratch);
+
+/// What a door is.
+typedef enum sl_runtime_door_kind {
+    SL_RUNTIME_DOOR = 0,  ///< opens and shuts
+    SL_RUNTIME_BREAKABLE, ///< a wall that breaks: once open, it stays open
+    SL_RUNTIME_SITE       ///< a place for a wall: once shut, it stays shut
+} sl_runtime_door_kind;
+
+/// The kind of a door; SL_RUNTIME_DOOR if the door does not exist.
+SL_RUNTIME_API sl_runtime_door_kind sl_runtime_get_door_kind(const sl_runtime *runtime,
+                                                             uint32_t door);
+
+/// The doors of a level as they stand in one game, with rows. It has one owner: one thread changes
+/// and settles it while no other asks. Any number of states share one level.
+typedef struct sl_runtime_state {
+    const sl_runtime *runtime;
+    unsigned char *shut; ///< for all calls that take it; sl_runtime_state_set_door writes
+    uint32_t unsettled;  ///< rows that are not exact yet
+    uint32_t given_up;   ///< settled rows whose search took too long: they are conservative
+    uint32_t *first, *bits, *settled, *ranks, *steps, *corners; ///< for the functions only, to the
+                                                                ///< end
+    uint32_t row, next, depth, missing;
+    uint64_t patience;
+} sl_runtime_state;
+
+/// The size of the memory for a state, in uint32_t: a bit for each pair of the rows, and 100 bytes
+/// for each cell.
+SL_RUNTIME_API size_t sl_runtime_state_count(const sl_runtime *runtime);
+
+/// Starts with the doors of the map. `memory` may hold anything, and is used as long as `out` is.
+SL_RUNTIME_API void sl_runtime_state_start(sl_runtime_state *out, const sl_runtime *runtime,
+                                           uint32_t *memory);
+
+/// Opens or shuts a door, breaks a wall (not shut) or builds one (shut): all doors of its name.
+/// Returns false, and changes nothing, to shut a broken wall, to open what was built, and for a
+/// door that does not exist. Rows of cells that see the door are then unsettled; all others stay
+/// exact. Time: the portals on doors, and the rows of the cells beside the door.
+SL_RUNTIME_API bool sl_runtime_state_set_door(sl_runtime_state *state, uint32_t door, bool shut);
+
+/// Works on the rows that are not exact, through up to `portals` portals, of about 0.1 microseconds
+/// each. Returns how many rows are left. It goes on where it ended.
+///
+/// A settled row is exact for the doors as they stand, with closed sight: a cell is in it if some
+/// line leads there from the row's cell through portals that no shut door is on and no dark glass.
+/// So it is as a bake would find it with walls in place of the shut doors. It never has a cell that
+/// the baked row has not. A view range and limited walls count as in the baked rows, whatever is
+/// shut. A row whose search takes very long stays as sl_runtime_can_see_past says (`given_up`).
+SL_RUNTIME_API uint32_t sl_runtime_settle(sl_runtime_state *state, uint32_t portals);
+
+/// As sl_runtime_can_see_past for the doors as they stand; exact if the row of `from` is settled.
+SL_RUNTIME_API bool sl_runtime_state_can_see(const sl_runtime_state *state, uint32_t from,
+                                             uint32_t to);
+
+/// Unpacks that row, as sl_runtime_row_bits. Returns the number of cells.
+SL_RUNTIME_API uint32_t sl_runtime_state_row_bits(const sl_runtime_state *state, uint32_t cell,
+                                                  unsigned char *bits);
 
 // Where an eye stands, as in view.h of the library: in the cell that sl_runtime_locate gives, and
 // in each cell that open portals at the eye join with it (it is on the portal, or on its end). It
@@ -528,6 +602,29 @@ SL_RUNTIME_API uint32_t sl_runtime_visible_polygon(const sl_runtime *runtime,
                                                    const unsigned char *shut, double range,
                                                    uint32_t *scratch, double *points,
                                                    uint32_t room);
+
+/// A grid over the map, for what was explored: tile (i, k) is from min_x + i * tile, min_y + k *
+/// tile on, and has the bit bits[n / 8] >> n % 8 & 1 for n = k * columns + i. The game keeps and
+/// saves the bits, (columns * rows + 7) / 8 bytes that begin as 0.
+typedef struct sl_runtime_grid {
+    double min_x, min_y, tile;
+    uint32_t columns, rows;
+    unsigned char *bits;
+} sl_runtime_grid;
+
+/// A grid over the map with tiles of a size: bits is NULL. No column and no row if the size is not
+/// above 0, or tiles are more than 2^31.
+SL_RUNTIME_API sl_runtime_grid sl_runtime_grid_over(const sl_runtime *runtime, double tile);
+
+/// Fog that stays: sets the bits of the tiles whose middles are in a visible polygon about an eye.
+/// Returns how many are new. By rounding, a middle nearer to the polygon's border than 1e-12 of the
+/// map's largest coordinate may count or not. Time: the tiles in the polygon, and for each edge its
+/// rows.
+///
+///     count = sl_runtime_visible_polygon(&runtime, &view, shut, range, scratch, points, room);
+///     if (count <= room) sl_runtime_explore(&grid, view.x, view.y, points, count);
+SL_RUNTIME_API uint32_t sl_runtime_explore(const sl_runtime_grid *grid, double x, double y,
+                                           const double *points, uint32_t count);
 
 /// What is seen directly, or in a piece of a mirror, that is itself seen directly or in another
 /// mirror: a polygon.
@@ -1950,7 +2047,7 @@ static sl_runtime_name slrt_door(const sl_runtime *rt, uint32_t door, bool *open
     if (rt->text) return slrt_text_door(rt, door, open);
 #endif
     item = rt->doors + (size_t)door * SLRT_DOOR_BYTES;
-    *open = slrt_u32(item + 8) != 0;
+    *open = slrt_u32(item + 8) & 1;
     return slrt_name(rt, item);
 }
 
@@ -1978,6 +2075,14 @@ SL_RUNTIME_API bool sl_runtime_door_open(const sl_runtime *runtime, uint32_t doo
     return open;
 }
 
+SL_RUNTIME_API sl_runtime_door_kind sl_runtime_get_door_kind(const sl_runtime *runtime,
+                                                             uint32_t door) {
+    uint32_t bits;
+    if (door >= runtime->door_count || !runtime->doors) return SL_RUNTIME_DOOR;
+    bits = slrt_u32(runtime->doors + (size_t)door * SLRT_DOOR_BYTES + 8);
+    return bits & 2 ? SL_RUNTIME_BREAKABLE : bits & 4 ? SL_RUNTIME_SITE : SL_RUNTIME_DOOR;
+}
+
 SL_RUNTIME_API uint32_t sl_runtime_door_segments(const sl_runtime *runtime, uint32_t door,
                                                  sl_runtime_segment *segments, uint32_t room) {
     uint32_t i, count = 0;
@@ -1988,6 +2093,13 @@ SL_RUNTIME_API uint32_t sl_runtime_door_segments(const sl_runtime *runtime, uint
         count++;
     }
     return count;
+}
+
+SL_RUNTIME_API bool sl_runtime_wall(const sl_runtime *runtime, uint32_t wall,
+                                    sl_runtime_segment *out) {
+    if (!runtime->walls || wall >= runtime->wall_count) return false;
+    *out = slrt_segment(runtime->walls + (size_t)wall * 32);
+    return true;
 }
 
 SL_RUNTIME_API uint32_t sl_runtime_start_count(const sl_runtime *runtime) {
@@ -3181,6 +3293,17 @@ static bool slrt_narrow(const slrt_search *s, uint32_t directed, slrt_sector *se
     return sector->along != SLRT_ALONG; // no line beside it passes all portals along it
 }
 
+/// Whether a directed portal, from its right end to its left, goes as the glass that it is on: it
+/// leads to the dark.
+static bool slrt_leads_along(const sl_runtime *rt, uint32_t directed, const unsigned char *glass) {
+    const unsigned char *ends = rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 8;
+    const slrt_arm to_left =
+        slrt_make_arm(slrt_f64(ends + 16), slrt_f64(ends + 24), slrt_f64(ends), slrt_f64(ends + 8));
+    const slrt_arm along = slrt_make_arm(slrt_f64(glass), slrt_f64(glass + 8), slrt_f64(glass + 16),
+                                         slrt_f64(glass + 24));
+    return slrt_same_way(&to_left, &along);
+}
+
 /// Whether one-way glass keeps sight from the eye. From its a to its b, it is seen through from the
 /// right to the left. For an eye on its line, the eye's cell decides; for an image there, which way
 /// the portal leads.
@@ -3190,14 +3313,7 @@ static bool slrt_is_dark(const slrt_search *s, const unsigned char *glass, uint3
     const int side = slrt_side_of_line(glass, glass + 16, s->x, s->y);
     uint32_t i;
     if (side) return side > 0;
-    if (s->is_image) {
-        const unsigned char *ends = s->rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 8;
-        const slrt_arm to_left = slrt_make_arm(slrt_f64(ends + 16), slrt_f64(ends + 24),
-                                               slrt_f64(ends), slrt_f64(ends + 8));
-        const slrt_arm along = slrt_make_arm(slrt_f64(glass), slrt_f64(glass + 8),
-                                             slrt_f64(glass + 16), slrt_f64(glass + 24));
-        return slrt_same_way(&to_left, &along);
-    }
+    if (s->is_image) return slrt_leads_along(s->rt, directed, glass);
     for (i = 0; i < cell.vertex_count; i++, corner += SLRT_VERTEX_BYTES)
         if (slrt_side_of_line(glass, glass + 16, slrt_f64(corner), slrt_f64(corner + 8)) > 0)
             return true;
@@ -7714,6 +7830,559 @@ SL_RUNTIME_API size_t sl_runtime_relevant(const sl_runtime *runtime, const sl_ru
         }
     }
     return t.pairs;
+}
+
+// --- What was explored: the tiles of a grid
+
+// The triangles of the eye and an edge each cover a visible polygon. In a row of tiles a triangle
+// has one run of middles.
+
+SL_RUNTIME_API sl_runtime_grid sl_runtime_grid_over(const sl_runtime *runtime, double tile) {
+    const double wide = (runtime->max_x - runtime->min_x) / tile;
+    const double high = (runtime->max_y - runtime->min_y) / tile;
+    sl_runtime_grid grid;
+    memset(&grid, 0, sizeof grid);
+    grid.min_x = runtime->min_x;
+    grid.min_y = runtime->min_y;
+    grid.tile = tile;
+    if (!(tile > 0) || !(wide < 2147483647.0) || !((wide + 1) * (high + 1) < 2147483648.0))
+        return grid;
+    grid.columns = (uint32_t)wide + ((uint32_t)wide < wide);
+    grid.rows = (uint32_t)high + ((uint32_t)high < high);
+    return grid;
+}
+
+/// The first tile of `count` along an axis whose middle is not before a place.
+static uint32_t slrt_first_tile(double place, double min, double tile, uint32_t count) {
+    const double at = (place - min) / tile - 0.5;
+    if (!(at > 0)) return 0;
+    if (at >= count) return count;
+    return (uint32_t)at + ((uint32_t)at < at);
+}
+
+/// Widens a run by where an edge of a triangle crosses a line at a height.
+static void slrt_widen_run(const double *a, const double *b, double y, double *low, double *high) {
+    double x = a[0];
+    if ((a[1] < y && b[1] < y) || (a[1] > y && b[1] > y)) return;
+    if (a[1] != b[1]) x += (y - a[1]) / (b[1] - a[1]) * (b[0] - a[0]);
+    if (x < *low) *low = x;
+    if (x > *high) *high = x;
+    if (a[1] != b[1]) return;
+    if (b[0] < *low) *low = b[0];
+    if (b[0] > *high) *high = b[0];
+}
+
+static uint32_t slrt_explore_row(const sl_runtime_grid *grid, uint32_t row, double low,
+                                 double high) {
+    uint32_t i = slrt_first_tile(low, grid->min_x, grid->tile, grid->columns), found = 0;
+    for (; i < grid->columns && grid->min_x + (i + 0.5) * grid->tile <= high; i++) {
+        const size_t n = (size_t)row * grid->columns + i;
+        found += !(grid->bits[n / 8] >> n % 8 & 1);
+        grid->bits[n / 8] |= (unsigned char)(1 << n % 8);
+    }
+    return found;
+}
+
+SL_RUNTIME_API uint32_t sl_runtime_explore(const sl_runtime_grid *grid, double x, double y,
+                                           const double *points, uint32_t count) {
+    double eye[2];
+    uint32_t i, row, found = 0;
+    eye[0] = x;
+    eye[1] = y;
+    for (i = 0; i < count; i++) {
+        const double *a = points + 2 * (size_t)i, *b = i + 1 < count ? a + 2 : points;
+        double bottom = a[1] < b[1] ? a[1] : b[1], top = a[1] < b[1] ? b[1] : a[1];
+        if (y < bottom) bottom = y;
+        if (y > top) top = y;
+        row = slrt_first_tile(bottom, grid->min_y, grid->tile, grid->rows);
+        for (; row < grid->rows; row++) {
+            const double middle = grid->min_y + (row + 0.5) * grid->tile;
+            double low = DBL_MAX, high = -DBL_MAX;
+            if (middle > top) break;
+            slrt_widen_run(eye, a, middle, &low, &high);
+            slrt_widen_run(a, b, middle, &low, &high);
+            slrt_widen_run(b, eye, middle, &low, &high);
+            if (low <= high) found += slrt_explore_row(grid, row, low, high);
+        }
+    }
+    return found;
+}
+
+// --- Cell to cell: the lines through a sequence of portals
+
+// All lines with the left ends of some portals on their left and the right ends on their right form
+// a convex polygon in the plane of lines. Its corners are lines through two ends. On an edge a line
+// turns about one end, the pivot. One more portal cuts the polygon by two half-planes, and all
+// signs are of three ends: exact. (The funnel of the library is the same; stab/funnel.c has more.)
+//
+// Ends are numbered as borders of sectors: 2 * directed portal for the left one, 1 more for the
+// right one.
+
+/// A corner: the line from one end to another, and the end about which it turns to the next one.
+typedef struct slrt_corner {
+    uint32_t from, to, pivot;
+} slrt_corner;
+
+/// A step of a sequence: a cell, how many of its ways out are done, the directed portals that bound
+/// the directions of all so far, the first one, and the polygon's corners.
+typedef struct slrt_stab_step {
+    uint32_t cell, done;
+    uint32_t least, most;
+    uint32_t line;         ///< the first directed portal; SLRT_NONE before it
+    uint32_t first, count; ///< corners; none for one portal
+} slrt_stab_step;
+
+/// The corners of all steps of a sequence, one behind the other.
+typedef struct slrt_stab {
+    const sl_runtime *rt;
+    slrt_corner *corners;
+    uint32_t room;
+    bool full; ///< there was no room: nothing is decided
+} slrt_stab;
+
+static void slrt_stab_end(const slrt_stab *s, uint32_t end, double *at) {
+    slrt_read_end(s->rt, end / 2, (int)(end % 2), at);
+}
+
+static slrt_arm slrt_stab_arm(const slrt_stab *s, uint32_t from, uint32_t to) {
+    double a[2], b[2];
+    slrt_stab_end(s, from, a);
+    slrt_stab_end(s, to, b);
+    return slrt_make_arm(a[0], a[1], b[0], b[1]);
+}
+
+/// Whether the line of a corner has a new end on the right side: 1, on it: 0.
+static int slrt_stab_side(const slrt_stab *s, const slrt_corner *c, uint32_t end) {
+    double from[2], to[2], at[2];
+    int turn;
+    if (end == c->from || end == c->to) return 0;
+    slrt_stab_end(s, c->from, from);
+    slrt_stab_end(s, c->to, to);
+    slrt_stab_end(s, end, at);
+    turn = slrt_turn(from, to, at);
+    return end % 2 ? -turn : turn;
+}
+
+static slrt_corner slrt_make_corner(uint32_t from, uint32_t to, uint32_t pivot) {
+    slrt_corner corner;
+    corner.from = from;
+    corner.to = to;
+    corner.pivot = pivot;
+    return corner;
+}
+
+/// The corner that a new end makes on the edge that turns about `pivot`. `leaving`: going round,
+/// the cut starts there. The sense of the turn says which of the two ends comes first.
+static slrt_corner slrt_cut_at(uint32_t pivot, uint32_t end, bool leaving) {
+    const bool pivot_first = (!(pivot % 2) != leaving) == !(end % 2);
+    return slrt_make_corner(pivot_first ? pivot : end, pivot_first ? end : pivot,
+                            leaving ? end : pivot);
+}
+
+/// Cuts by an end while there is no polygon: the first portal, `line`, is all there is. The next
+/// one is on another side of a cell, so one end of it at most is on the same line, and not between
+/// the ends of the first.
+static void slrt_cut_line(slrt_stab *s, slrt_stab_step *step, uint32_t end) {
+    const uint32_t left = 2 * step->line, right = left + 1;
+    slrt_corner *to = s->corners + step->first;
+    double a[2], b[2], at[2];
+    bool upwards;
+    int side;
+    slrt_stab_end(s, right, a);
+    slrt_stab_end(s, left, b);
+    slrt_stab_end(s, end, at);
+    side = slrt_turn(a, b, at);
+    if (!side) return;
+    if (step->first + 3 > s->room) {
+        s->full = true;
+        return;
+    }
+    // Of the two directions along the line, the end leaves one. Upwards: from right to left.
+    upwards = !(end % 2) == (side > 0);
+    to[0] = upwards ? slrt_make_corner(right, left, left) : slrt_make_corner(left, right, right);
+    to[1] = slrt_cut_at(upwards ? left : right, end, true);
+    to[2] = slrt_cut_at(upwards ? right : left, end, false);
+    step->count = 3;
+}
+
+/// Cuts the polygon `from`, of `count` corners, by an end, into the step's place. False if no line
+/// is left. The corners outside follow on each other: behind the last one of them come the corners
+/// that are kept.
+static bool slrt_cut_polygon(slrt_stab *s, slrt_stab_step *step, const slrt_corner *from,
+                             uint32_t count, uint32_t end) {
+    slrt_corner *to = s->corners + step->first;
+    uint32_t i, out = 0, last_out = 0, kept;
+    int before = slrt_stab_side(s, &from[count - 1], end), entering = 0, leaving = 0;
+    if (step->first + count + 2 > s->room) {
+        s->full = true;
+        return true;
+    }
+    for (i = 0; i < count; i++) {
+        const int side = slrt_stab_side(s, &from[i], end);
+        if (side >= 0 && before < 0) {
+            last_out = i ? i - 1 : count - 1;
+            entering = side;
+        }
+        if (side < 0 && before >= 0) leaving = before;
+        if (side < 0) out++;
+        before = side;
+    }
+    if (out == count) return false;
+    step->count = 0;
+    if (!out) last_out = count - 1;
+    for (i = last_out, kept = count - out; kept; kept--) {
+        i = i + 1 < count ? i + 1 : 0;
+        to[step->count++] = from[i];
+    }
+    if (!out) return true;
+    if (leaving > 0) to[step->count++] = slrt_cut_at(from[i].pivot, end, true);
+    to[step->count - 1].pivot = end;
+    if (entering > 0) to[step->count++] = slrt_cut_at(from[last_out].pivot, end, false);
+    return true;
+}
+
+/// Whether some direction crosses a directed portal and all before it strictly forwards. Their
+/// directions, from right end to left, span less than half a turn.
+static bool slrt_stab_direction(const slrt_stab *s, slrt_stab_step *step, uint32_t directed) {
+    const slrt_arm least = slrt_stab_arm(s, 2 * step->least + 1, 2 * step->least);
+    const slrt_arm most = slrt_stab_arm(s, 2 * step->most + 1, 2 * step->most);
+    const slrt_arm across = slrt_stab_arm(s, 2 * directed + 1, 2 * directed);
+    const int from_least = slrt_side(&least, &across), from_most = slrt_side(&most, &across);
+    if (!from_least && !from_most) return slrt_same_way(&least, &across);
+    if (from_least >= 0 && from_most <= 0) return true;
+    if (from_least <= 0 && from_most >= 0) return false;
+    if (from_most > 0)
+        step->most = directed;
+    else
+        step->least = directed;
+    return true;
+}
+
+/// Adds a directed portal to the sequence whose last step is `last`: makes `step`, whose corners
+/// come behind those of all others. False if no line passes all portals.
+static bool slrt_stab_push(slrt_stab *s, const slrt_stab_step *last, uint32_t directed,
+                           slrt_stab_step *step) {
+    enum { MOST = 64 };
+    slrt_corner between[MOST];
+    *step = *last;
+    step->done = 0;
+    step->first = last->first + last->count;
+    if (last->line == SLRT_NONE) {
+        step->line = step->least = step->most = directed;
+        return true;
+    }
+    if (!slrt_stab_direction(s, step, directed)) return false;
+    if (!last->count)
+        slrt_cut_line(s, step, 2 * directed);
+    else if (!slrt_cut_polygon(s, step, s->corners + last->first, last->count, 2 * directed))
+        return false;
+    if (!step->count) {
+        slrt_cut_line(s, step, 2 * directed + 1);
+        return true;
+    }
+    if (s->full || step->count > MOST) {
+        s->full = true;
+        return true;
+    }
+    memcpy(between, s->corners + step->first, step->count * sizeof *between);
+    return slrt_cut_polygon(s, step, between, step->count, 2 * directed + 1);
+}
+
+// --- Doors that stand as they do in one game, and rows that follow them
+
+// The row of a cell is searched through portals, depth first. No line enters a cell that the baked
+// row, past shut doors, has not. So those cells alone are looked for, and a settled row has a bit
+// for each cell of the baked one. A door matters to the rows that have a cell beside it: a line
+// that passes the door comes to such a cell before it.
+
+/// The limit of portals that the search of one row comes to, for each directed portal of the map.
+#ifndef SLRT_SETTLE_PATIENCE
+#define SLRT_SETTLE_PATIENCE 64
+#endif
+
+enum {
+    SLRT_STEP_WORDS = sizeof(slrt_stab_step) / sizeof(uint32_t),
+    SLRT_CORNER_WORDS = sizeof(slrt_corner) / sizeof(uint32_t),
+    SLRT_CORNERS_MORE = 1024
+};
+
+/// Corners in a state: 4 for each cell that a sequence may pass, and some more.
+static uint32_t slrt_corner_room(const sl_runtime *rt) {
+    return 4 * rt->cell_count + SLRT_CORNERS_MORE;
+}
+
+static size_t slrt_row_words(const sl_runtime *rt, uint32_t cell) {
+    return ((size_t)sl_runtime_row_count(rt, cell) + 31) / 32;
+}
+
+SL_RUNTIME_API size_t sl_runtime_state_count(const sl_runtime *runtime) {
+    const size_t cells = runtime->cell_count;
+    size_t words = 2 * cells + 1 + (cells + 31) / 32 + ((size_t)runtime->door_count + 3) / 4;
+    uint32_t i;
+    for (i = 0; i < runtime->cell_count; i++) words += slrt_row_words(runtime, i);
+    return words + SLRT_STEP_WORDS * (cells + 1) +
+           (size_t)SLRT_CORNER_WORDS * slrt_corner_room(runtime);
+}
+
+SL_RUNTIME_API void sl_runtime_state_start(sl_runtime_state *out, const sl_runtime *runtime,
+                                           uint32_t *memory) {
+    const size_t cells = runtime->cell_count;
+    size_t words = 0;
+    uint32_t i;
+    memset(out, 0, sizeof *out);
+    out->runtime = runtime;
+    out->first = memory;
+    out->settled = out->first + cells + 1;
+    out->ranks = out->settled + (cells + 31) / 32;
+    out->steps = out->ranks + cells;
+    out->corners = out->steps + SLRT_STEP_WORDS * (cells + 1);
+    out->bits = out->corners + (size_t)SLRT_CORNER_WORDS * slrt_corner_room(runtime);
+    memset(out->settled, 0, (cells + 31) / 32 * sizeof *memory);
+    memset(out->ranks, 0xff, cells * sizeof *memory);
+    for (i = 0; i < runtime->cell_count; i++) {
+        out->first[i] = (uint32_t)words;
+        words += slrt_row_words(runtime, i);
+        if (words == out->first[i])
+            out->settled[i / 32] |= UINT32_C(1) << i % 32; // without a row
+        else
+            out->unsettled++;
+    }
+    out->first[cells] = (uint32_t)words;
+    out->shut = (unsigned char *)(out->bits + words);
+    out->row = SLRT_NONE;
+    for (i = 0; i < runtime->door_count; i++) out->shut[i] = !sl_runtime_door_open(runtime, i);
+}
+
+// --- changes
+
+static bool slrt_is_settled(const sl_runtime_state *state, uint32_t cell) {
+    return state->settled[cell / 32] >> cell % 32 & 1;
+}
+
+/// The place of a cell among those of a row; SLRT_NONE if it is not in the row.
+static uint32_t slrt_rank(const sl_runtime *rt, uint32_t from, uint32_t to) {
+    sl_runtime_run run;
+    uint32_t rank = 0;
+    if (!slrt_may_see(rt, from, to)) return SLRT_NONE;
+    run = sl_runtime_row(rt, from);
+    while (sl_runtime_next(&run)) {
+        if (to < run.end) return to >= run.first ? rank + (to - run.first) : SLRT_NONE;
+        rank += run.end - run.first;
+    }
+    return SLRT_NONE;
+}
+
+SL_RUNTIME_API bool sl_runtime_state_can_see(const sl_runtime_state *state, uint32_t from,
+                                             uint32_t to) {
+    uint32_t rank;
+    if (from >= state->runtime->cell_count) return false;
+    if (!slrt_is_settled(state, from))
+        return sl_runtime_can_see_past(state->runtime, from, to, state->shut);
+    rank = slrt_rank(state->runtime, from, to);
+    return rank != SLRT_NONE && state->bits[state->first[from] + rank / 32] >> rank % 32 & 1;
+}
+
+/// Leaves the search of a row: the row is not settled.
+static void slrt_leave_row(sl_runtime_state *state) {
+    sl_runtime_run run;
+    if (state->row == SLRT_NONE) return;
+    run = sl_runtime_row(state->runtime, state->row);
+    while (sl_runtime_next(&run))
+        memset(state->ranks + run.first, 0xff, (run.end - run.first) * sizeof *state->ranks);
+    state->row = SLRT_NONE;
+    state->depth = 0;
+}
+
+/// Unsettles the rows that have a cell. If no glass makes it one-way, these are of cells that are
+/// in the row of that cell.
+static void slrt_unsettle(sl_runtime_state *state, uint32_t cell) {
+    const sl_runtime *rt = state->runtime;
+    sl_runtime_run run = sl_runtime_row(rt, cell);
+    uint32_t i;
+    if (rt->has_glass) {
+        run.first = 0;
+        run.end = rt->cell_count;
+        run.next = run.stop;
+    } else if (!sl_runtime_next(&run))
+        return;
+    do
+        for (i = run.first; i < run.end; i++)
+            if (slrt_is_settled(state, i) && sl_runtime_state_can_see(state, i, cell)) {
+                state->settled[i / 32] &= ~(UINT32_C(1) << i % 32);
+                state->unsettled++;
+            }
+    while (sl_runtime_next(&run));
+}
+
+static bool slrt_same_door(const sl_runtime *rt, uint32_t a, uint32_t b) {
+    const sl_runtime_name p = sl_runtime_door_name(rt, a), q = sl_runtime_door_name(rt, b);
+    return a == b || (p.length == q.length && !memcmp(p.text, q.text, p.length));
+}
+
+/// Whether a door may be opened or shut, as it stands.
+static bool slrt_may_set(const sl_runtime_state *state, uint32_t door, bool shut) {
+    const sl_runtime_door_kind kind = sl_runtime_get_door_kind(state->runtime, door);
+    return !state->shut[door] == !shut || kind != (shut ? SL_RUNTIME_BREAKABLE : SL_RUNTIME_SITE);
+}
+
+SL_RUNTIME_API bool sl_runtime_state_set_door(sl_runtime_state *state, uint32_t door, bool shut) {
+    const sl_runtime *rt = state->runtime;
+    bool changes = false;
+    uint32_t i;
+    if (door >= rt->door_count) return false;
+    for (i = 0; i < rt->door_count; i++)
+        if (slrt_same_door(rt, i, door) && !slrt_may_set(state, i, shut)) return false;
+    for (i = 0; i < rt->door_count; i++) {
+        if (!state->shut[i] == !shut || !slrt_same_door(rt, i, door)) continue;
+        state->shut[i] = shut;
+        changes = true;
+    }
+    if (!changes) return true;
+    slrt_leave_row(state);
+    for (i = 0; i < rt->seam_portal_count; i++) {
+        const unsigned char *on = rt->seam_portals + (size_t)i * 12;
+        const unsigned char *seam = rt->seams + (size_t)slrt_u32(on + 4) * 40;
+        const unsigned char *portal = rt->portals + (size_t)slrt_u32(on) * SLRT_PORTAL_BYTES;
+        if (slrt_u32(seam + 32) != 1 || !slrt_same_door(rt, slrt_u32(seam + 36), door)) continue;
+        slrt_unsettle(state, slrt_u32(portal));
+        slrt_unsettle(state, slrt_u32(portal + 4));
+    }
+    return true;
+}
+
+// --- the search of a row
+
+/// Whether a directed portal is on a shut door, or on glass that is dark as it leads.
+static bool slrt_is_barred(const sl_runtime_state *state, uint32_t directed) {
+    const sl_runtime *rt = state->runtime;
+    const uint32_t portal = slrt_u32(rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES);
+    uint32_t i;
+    if (!rt->seam_portal_count) return false;
+    for (i = slrt_first_seam(rt, portal); i < rt->seam_portal_count; i++) {
+        const unsigned char *on = rt->seam_portals + (size_t)i * 12, *seam;
+        if (slrt_u32(on) != portal) return false;
+        seam = rt->seams + (size_t)slrt_u32(on + 4) * 40;
+        if (slrt_u32(seam + 32) == 1 && state->shut[slrt_u32(seam + 36)]) return true;
+        if (slrt_u32(seam + 32) == 2 && slrt_leads_along(rt, directed, seam)) return true;
+    }
+    return false;
+}
+
+static void slrt_find(sl_runtime_state *state, uint32_t cell) {
+    const uint32_t rank = state->ranks[cell];
+    uint32_t *word = state->bits + state->first[state->row] + rank / 32;
+    if (*word >> rank % 32 & 1) return;
+    *word |= UINT32_C(1) << rank % 32;
+    state->missing--;
+}
+
+static slrt_stab_step *slrt_steps(const sl_runtime_state *state) {
+    return (slrt_stab_step *)state->steps;
+}
+
+/// Starts with the next row that is not settled: numbers the cells that are looked for by their
+/// places in it. Returns how many there are.
+static uint32_t slrt_start_row(sl_runtime_state *state) {
+    const sl_runtime *rt = state->runtime;
+    slrt_stab_step *step = slrt_steps(state);
+    slrt_door_pairs pairs;
+    sl_runtime_run run;
+    uint32_t cell = state->next, rank = 0, i;
+    while (slrt_is_settled(state, cell)) cell = cell + 1 < rt->cell_count ? cell + 1 : 0;
+    state->row = cell;
+    state->next = cell + 1 < rt->cell_count ? cell + 1 : 0;
+    state->missing = 0;
+    state->patience = SLRT_SETTLE_PATIENCE * ((uint64_t)rt->directed_count + 1024);
+    memset(state->bits + state->first[cell], 0,
+           (state->first[cell + 1] - state->first[cell]) * sizeof *state->bits);
+    pairs = slrt_door_pairs_of(rt, cell);
+    run = sl_runtime_row(rt, cell);
+    while (sl_runtime_next(&run))
+        for (i = run.first; i < run.end; i++, rank++) {
+            if (!slrt_pair_is_open(&pairs, i, state->shut)) continue;
+            state->ranks[i] = rank;
+            state->missing++;
+        }
+    slrt_find(state, cell);
+    memset(step, 0, sizeof *step);
+    step->cell = cell;
+    step->line = SLRT_NONE;
+    state->depth = 1;
+    return rank;
+}
+
+/// Takes the next way out of the last cell. False if the search has to give up.
+static bool slrt_search_row(sl_runtime_state *state) {
+    slrt_stab_step *step = slrt_steps(state) + state->depth - 1;
+    const sl_runtime_cell cell = sl_runtime_get_cell(state->runtime, step->cell);
+    const uint32_t directed = cell.first_directed + step->done;
+    uint32_t to;
+    slrt_stab stab;
+    if (step->done == cell.directed_count) {
+        state->depth--;
+        return true;
+    }
+    step->done++;
+    to = slrt_cell_across(state->runtime, directed);
+    if (state->ranks[to] == SLRT_NONE || slrt_is_barred(state, directed)) return true;
+    stab.rt = state->runtime;
+    stab.corners = (slrt_corner *)state->corners;
+    stab.room = slrt_corner_room(state->runtime);
+    stab.full = false;
+    if (!slrt_stab_push(&stab, step, directed, step + 1)) return true;
+    // No line enters a cell twice: a longer sequence is that of a damaged file.
+    if (stab.full || state->depth > state->runtime->cell_count) return false;
+    step[1].cell = to;
+    slrt_find(state, to);
+    state->depth++;
+    return true;
+}
+
+/// Ends the search of a row. If it gave up, all that was looked for counts as seen.
+static void slrt_settle_row(sl_runtime_state *state, bool gave_up) {
+    const uint32_t cell = state->row;
+    sl_runtime_run run = sl_runtime_row(state->runtime, cell);
+    uint32_t i;
+    while (gave_up && sl_runtime_next(&run))
+        for (i = run.first; i < run.end; i++)
+            if (state->ranks[i] != SLRT_NONE) slrt_find(state, i);
+    slrt_leave_row(state);
+    state->settled[cell / 32] |= UINT32_C(1) << cell % 32;
+    state->unsettled--;
+}
+
+SL_RUNTIME_API uint32_t sl_runtime_settle(sl_runtime_state *state, uint32_t portals) {
+    while (state->unsettled && portals) {
+        bool gave_up = false;
+        if (state->row == SLRT_NONE) {
+            const uint32_t cost = 1 + slrt_start_row(state) / 16;
+            portals -= cost < portals ? cost : portals;
+        }
+        for (; portals && state->depth && state->missing && !gave_up; portals--)
+            gave_up = !state->patience-- || !slrt_search_row(state);
+        if (!state->depth || !state->missing || gave_up) {
+            if (gave_up) state->given_up++;
+            slrt_settle_row(state, gave_up);
+        }
+    }
+    return state->unsettled;
+}
+
+SL_RUNTIME_API uint32_t sl_runtime_state_row_bits(const sl_runtime_state *state, uint32_t cell,
+                                                  unsigned char *bits) {
+    const sl_runtime *rt = state->runtime;
+    sl_runtime_run run = sl_runtime_row(rt, cell);
+    uint32_t rank = 0, count = 0, i;
+    if (cell >= rt->cell_count || !slrt_is_settled(state, cell))
+        return sl_runtime_seen_from(rt, &cell, 1, state->shut, bits);
+    memset(bits, 0, ((size_t)rt->cell_count + 7) / 8);
+    while (sl_runtime_next(&run))
+        for (i = run.first; i < run.end; i++, rank++) {
+            if (!(state->bits[state->first[cell] + rank / 32] >> rank % 32 & 1)) continue;
+            bits[i / 8] |= (unsigned char)(1 << i % 8);
+            count++;
+        }
+    return count;
 }
 
 #ifdef __cplusplus

@@ -17,6 +17,7 @@ public static class Calls
             foreach (bool each in relevant) Console.Write(each + " ");
             Console.WriteLine(relevant.GetLength(0) + " " + relevant.GetLength(1));
             Console.WriteLine(level.BoxesSeen(5.1, 5.03).Length);
+            Console.WriteLine(level.Settle(1000000));
             Console.WriteLine(level.SetBoxCount(2));
             level.MoveBox(0, 5.3, 4.8, 5.4, 5.2, true);
             level.MoveBox(1, 5.6, 5, 5.7, 5.1, false);

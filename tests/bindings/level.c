@@ -127,6 +127,39 @@ static void answers_are_the_headers(void **state) {
     assert_true(areas[0] < areas[1]);
 }
 
+/// Walls break and are built once; what is exact after that is settled in steps.
+static void walls_break(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    baked_file f = baked_file_of_text(context, "walls 0 0 9 0 9 9 0 9 0 0\n"
+                                               "door wall 3 0 3 3 breakable\n"
+                                               "door wall 3 3 3 9 breakable\n"
+                                               "door site 6 0 6 9 site\n");
+    sl_level *level = sl_level_open(f.bytes, f.size);
+    assert_non_null(level);
+    const int32_t left = sl_level_locate(level, 1, 1), middle = sl_level_locate(level, 4, 1);
+    const int32_t right = sl_level_locate(level, 8, 1);
+    assert_int_equal(sl_level_door_kind(level, 0), 1);
+    assert_int_equal(sl_level_door_kind(level, 2), 2);
+    assert_int_equal(sl_level_door_kind(level, 3), -1);
+    assert_true(sl_level_settle(level, -1) > 0);
+    assert_int_equal(sl_level_settle(level, 100000), 0);
+    assert_false(sl_level_can_see(level, left, middle));
+    assert_true(sl_level_can_see(level, middle, right));
+    assert_int_equal(sl_level_set_door(level, 1, 1), 1);
+    assert_int_equal(sl_level_door_is_open(level, 0), 1); // of the same name
+    assert_int_equal(sl_level_set_door(level, 0, 0), 0);
+    assert_int_equal(sl_level_set_door(level, 2, 0), 1);
+    assert_int_equal(sl_level_set_door(level, 2, 1), 0);
+    assert_int_equal(sl_level_set_door(level, 3, 1), 0);
+    assert_int_equal(sl_level_settle(level, 100000), 0);
+    assert_true(sl_level_can_see(level, left, middle));
+    assert_false(sl_level_can_see(level, left, right));
+    sl_level_close(level);
+    baked_file_destroy(context, &f);
+    sl_context_destroy(context);
+}
+
 /// Below 0 a field of view is the line of the heading, as 0 is; NaN and 360 or more are all round.
 static void any_field_of_view_is_one(void **state) {
     opened *o = *state;
@@ -261,6 +294,7 @@ int main(void) {
         cmocka_unit_test(faults_are_told),
         cmocka_unit_test_setup_teardown(numbers_of_nothing_answer_nothing, open_rooms, close_rooms),
         cmocka_unit_test_setup_teardown(answers_are_the_headers, open_rooms, close_rooms),
+        cmocka_unit_test(walls_break),
         cmocka_unit_test_setup_teardown(any_field_of_view_is_one, open_rooms, close_rooms),
         cmocka_unit_test_setup_teardown(coordinates_are_chosen, open_rooms, close_rooms),
         cmocka_unit_test_setup_teardown(discs_walk_and_servers_ask, open_rooms, close_rooms),

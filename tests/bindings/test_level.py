@@ -112,6 +112,8 @@ class Level(unittest.TestCase):
         bits = call("relevant", (number * 8)(5, 5, 5.2, 5.2, 12.3, 7.1, 12.4, 7.2), 2, .25, things, 3)
         wanted += [bool(bits[p] >> t & 1) for p in range(2) for t in range(3)] + [2, 3, 0]
         self.assertGreater(len(set(wanted[-9:-3])), 1)
+        self.assertGreater(call("settle", 0), 0)
+        wanted.append(call("settle", 1000000))
         wanted.append(bool(call("set_box_count", 2)))
         call("move_box", 0, 5.3, 4.8, 5.4, 5.2, 1)
         call("move_box", 1, 5.6, 5., 5.7, 5.1, 0)

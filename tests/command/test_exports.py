@@ -54,7 +54,8 @@ def with_effects(text, numbers):
         b[axis] += round(size[axis] * numbers.uniform(0.02, 0.1), 3)
         return "{} {} {} {}".format(*a, *b)
 
-    lines = [f"door d{i % 2} {segment()} {numbers.choice(['open', 'shut'])}" for i in range(3)]
+    states = ["open", "shut", "breakable", "open site"]
+    lines = [f"door d{i % 2} {segment()} {numbers.choice(states)}" for i in range(3)]
     lines += ["mirror " + segment(), "mirror " + segment() + " one", "oneway " + segment(),
               "seam " + segment(), f"range {max(size) / 2!r}", "object crate " + segment(),
               "path tour {} {} {} {} {} {}".format(*place(), *place(), *place())]

@@ -66,8 +66,10 @@ class SlvFormat(sandbox.ProgramTest):
         info, = slv.items("MAPI")
         self.assertEqual(info["range"], float(said["range"][0][0]) if said["range"] else 0)
         numbers = lambda words: [float(word) for word in words]
-        self.assertEqual([[slv.name_of(d), "open" if d["open"] else "shut"] for d in slv.items("DOOR")],
-                         [[d[0], d[5]] for d in said["door"]])
+        kinds = {0: [], 2: ["breakable"], 4: ["site"]}
+        self.assertEqual([[slv.name_of(d), "open" if d["state"] & 1 else "shut", *kinds[d["state"] & ~1]]
+                          for d in slv.items("DOOR")],
+                         [[d[0], *d[5:]] for d in said["door"]])
         self.assertEqual([[*s.values()] for s in slv.items("STRT")],
                          [numbers(s) for s in said["start"]])
         self.assertEqual([[slv.name_of(o), *[*o.values()][2:]] for o in slv.items("OBJE")],

@@ -25,6 +25,10 @@ static void test_all_statements(void **state) {
                             "door front 10 4 10 6 open\n"
                             "\tdoor back 1 4 1 6 shut#\n"
                             "door side 2 4 2 6\n"
+                            "door plaster 3 4 3 6 breakable\n"
+                            "door palisade 4 4 4 6 site\n"
+                            "door broken 5 4 5 6 open breakable\n"
+                            "door built 6 4 6 6 shut site\n"
                             "mirror 3 0 6 0\n"
                             "oneway 12 2 12 4\n"
                             "seam 0 6 20 6\n"
@@ -37,14 +41,19 @@ static void test_all_statements(void **state) {
     assert_true(map.walls[0].b.y == 5 && map.walls[0].line == 4);
     assert_true(map.walls[3].a.x == 0 && map.walls[3].a.y == 10 && map.walls[3].b.y == 0);
     assert_int_equal(map.walls[3].line, 5);
-    assert_int_equal(map.door_count, 3);
+    assert_int_equal(map.door_count, 7);
     assert_true(map.doors[0].open && !map.doors[1].open && map.doors[2].open);
+    assert_true(!map.doors[3].open && map.doors[4].open && map.doors[5].open && !map.doors[6].open);
+    for (int i = 0; i < 7; i++)
+        assert_int_equal(map.doors[i].kind, i < 3   ? SL_DOOR_PLAIN
+                                            : i % 2 ? SL_DOOR_BREAKABLE
+                                                    : SL_DOOR_SITE);
     assert_string_equal(map.doors[1].name, "back");
     assert_true(map.mirror_count == 1 && map.mirrors[0].segment.b.x == 6);
     assert_true(map.oneway_count == 1 && map.oneways[0].segment.b.y == 4);
-    assert_true(map.oneways[0].line == 10);
+    assert_true(map.oneways[0].line == 14);
     assert_true(map.seam_count == 1 && map.seams[0].segment.b.x == 20);
-    assert_true(map.range == 500 && map.range_line == 12);
+    assert_true(map.range == 500 && map.range_line == 16);
     assert_true(map.starts[0].at.y == -5 && map.starts[0].heading == 1e300);
     assert_true(map.paths[0].count == 3 && map.paths[0].points[2].y == 8);
     assert_true(map.objects[0].box.min.x == 4 && map.objects[0].box.max.x == 5);
@@ -132,7 +141,9 @@ static void test_refusals(void **state) {
         {"door d 0 0 0 1 ajar", "found 'ajar'"},
         {"door d 0 0 0 0 open", "two different ends"},
         {"door d 0 0 0", "with 4 values"},
-        {"door d 0 0 0 1 open now", "with 7 values"},
+        {"door d 0 0 0 1 open now", "found 'now'"},
+        {"door d 0 0 0 1 site shut", "found 'site'"},
+        {"door d 0 0 0 1 open site now", "with 8 values"},
         {"door d\xff 0 0 0 1", "a name of printable UTF-8"},
         {"mirror 1 1 1 1", "two different ends"},
         {"oneway 1 1 1 1", "two different ends"},

@@ -20,6 +20,8 @@ static void the_doors_are_the_same(const baked_file *f) {
         assert_int_equal(name.length, strlen(map->doors[i].name));
         assert_memory_equal(name.text, map->doors[i].name, name.length);
         assert_int_equal(sl_runtime_door_open(r, i), map->doors[i].open);
+        // Numbered alike. An old file does not tell: all are plain there.
+        assert_int_equal(sl_runtime_get_door_kind(r, i), r->text ? 0 : map->doors[i].kind);
         const uint32_t first = sl_runtime_find_door(r, map->doors[i].name);
         assert_true(first <= i && strcmp(map->doors[first].name, map->doors[i].name) == 0);
         const uint32_t found = sl_runtime_door_segments(r, i, segments, 16);

@@ -152,8 +152,8 @@ static void print_effect_work(const sl_visibility *visibility) {
         size_write(sl_door_sets_bytes(doors), size);
         printf("  doors     %s of door sets", size);
         if (account->effects.door_fallbacks)
-            printf("; %" PRIu64 " pairs have too many sets and count as seen (--door-limit)",
-                   account->effects.door_fallbacks);
+            printf("; %" PRIu64 " %s as seen, with too many sets", account->effects.door_fallbacks,
+                   account->effects.door_fallbacks == 1 ? "pair counts" : "pairs count");
         putchar('\n');
     }
     if (account->effects.range_tests) {
@@ -319,6 +319,21 @@ static sl_status join(sl_context *context, void *user, sl_status outcome, sl_par
     return bake_parts_join(context, &plan->parts, outcome, partial);
 }
 
+/// Says which pairs take no notice of doors, and what to do about it.
+static void note_fallbacks(sl_context *context, const bake_report *report, uint32_t limit) {
+    const uint64_t pairs = report->baked->visibility.account.effects.door_fallbacks;
+    if (!limit && report->baked->map.door_count)
+        sl_note(context,
+                "no sets of doors are kept: rows are those with all doors open; in a game, "
+                "sl_runtime_settle() makes them exact");
+    else if (pairs)
+        sl_note(context,
+                "whatever is shut, %" PRIu64 " %s as seen, for more sets of doors are needed than "
+                "the %" PRIu32 " kept: --door-limit N keeps more; in a game, sl_runtime_settle() "
+                "makes rows exact, and --door-limit 0 bakes fast",
+                pairs, pairs == 1 ? "pair counts" : "pairs count", limit);
+}
+
 static sl_status bake(sl_context *context, bake_plan *plan, sl_map *map, sl_baked *baked,
                       bake_report *report) {
     sl_bake_options *options = &plan->pipeline.bake;
@@ -332,6 +347,7 @@ static sl_status bake(sl_context *context, bake_plan *plan, sl_map *map, sl_bake
     SL_TRY(sl_bake(context, map, options, baked, &report->account));
     report->read_seconds += report->account.seconds.clean;
     if (crew_rank() != 0) return SL_OK;
+    note_fallbacks(context, report, options->door_limit);
     if (plan->named_by_map) sl_note(context, "writing %s, as no -o is given", plan->output);
     const double seen = sl_seconds();
     SL_TRY(sl_baked_write(context, baked, plan->output));
@@ -396,7 +412,7 @@ sl_status cmd_bake(command_console *console, int argc, char **argv) {
          .rare = true},
         {"door-limit", 0, "N",
          "largest number of sets of doors kept for a pair (default 16); a pair with more counts as "
-         "seen",
+         "seen; 0: none are looked for",
          .count32 = &bake_options->door_limit, .most = 65535, .topic = "computing visibility",
          .rare = true},
         {"memory", 0, "SIZE",

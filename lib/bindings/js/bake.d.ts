@@ -18,7 +18,7 @@ type Stops = { stops?: Stopped | Stopped[] }
 /** A map as an object. All members may be left out but for walls. */
 export interface MapObject {
   walls: (Line & { solid?: boolean } & Stops)[]
-  doors?: { name: string; segment: Segment | number[]; open?: boolean }[]
+  doors?: { name: string; segment: Segment | number[]; open?: boolean; kind?: 'door' | 'breakable' | 'site' }[]
   mirrors?: (Line & { oneSided?: boolean })[]
   /** Seen through from the right to the left, going from the first end to the second. */
   oneway?: Line[]

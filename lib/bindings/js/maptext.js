@@ -43,11 +43,16 @@ function name(thing, item) {
   throw new SightlineError(`${item}: a name of one word without '#' is needed`, { item })
 }
 
+function kind({ kind = 'door' }, item) {
+  if (['door', 'breakable', 'site'].includes(kind)) return kind === 'door' ? '' : ` ${kind}`
+  throw new SightlineError(`${item}: kind: door, breakable or site is needed`, { item })
+}
+
 /** The statement of one item, by the member that it is in. */
 const statements = {
   walls: (wall, item) => `wall ${segment(wall, item)}${flag(wall.solid, item, 'solid', false) ? ' solid' : ''}${stopped(wall, item)}`,
   doors: (door, item) =>
-    `door ${name(door, item)} ${segment(door, item)} ${flag(door.open, item, 'open', true) ? 'open' : 'shut'}`,
+    `door ${name(door, item)} ${segment(door, item)} ${flag(door.open, item, 'open', door.kind !== 'breakable') ? 'open' : 'shut'}${kind(door, item)}`,
   mirrors: (mirror, item) => `mirror ${segment(mirror, item)}${flag(mirror.oneSided, item, 'oneSided', false) ? ' one' : ''}`,
   oneway: (glass, item) => `oneway ${segment(glass, item)}`,
   seams: (seam, item) => `seam ${segment(seam, item)}`,

@@ -14,8 +14,10 @@ struct sl_level {
     sl_runtime runtime;
     sl_runtime_transform transform;
     unsigned char *bytes;
-    unsigned char *shut; ///< by door
-    char **names;        ///< by door
+    sl_runtime_state state;
+    uint32_t *state_memory;
+    const unsigned char *shut; ///< by door: of the state
+    char **names;              ///< by door
     uint32_t *scratch;
     int32_t *cells;          ///< room for all
     double *points;          ///< an answer, which grows
@@ -56,7 +58,7 @@ void sl_level_close(sl_level *level) {
     for (uint32_t i = 0; level->names && i < level->runtime.door_count; i++) free(level->names[i]);
     free(level->names);
     free(level->bytes);
-    free(level->shut);
+    free(level->state_memory);
     free(level->scratch);
     free(level->cells);
     free(level->points);
@@ -66,16 +68,18 @@ void sl_level_close(sl_level *level) {
 
 static bool copy_doors(sl_level *level) {
     const sl_runtime *rt = &level->runtime;
-    level->shut = room_for(rt->door_count, 1);
+    level->state_memory = room_for(sl_runtime_state_count(rt), sizeof *level->state_memory);
     level->names = room_for(rt->door_count, sizeof *level->names);
-    for (uint32_t i = 0; level->shut && level->names && i < rt->door_count; i++) {
+    if (!level->state_memory || !level->names) return false;
+    sl_runtime_state_start(&level->state, rt, level->state_memory);
+    level->shut = level->state.shut;
+    for (uint32_t i = 0; i < rt->door_count; i++) {
         const sl_runtime_name name = sl_runtime_door_name(rt, i);
-        level->shut[i] = !sl_runtime_door_open(rt, i);
         level->names[i] = room_for((size_t)name.length + 1, 1);
         if (!level->names[i]) return false;
         memcpy(level->names[i], name.text, name.length);
     }
-    return level->shut && level->names;
+    return true;
 }
 
 /// Takes over the bytes.
@@ -246,8 +250,17 @@ int32_t sl_level_find_door(const sl_level *level, const char *name, int32_t from
     return -1;
 }
 
-void sl_level_set_door(sl_level *level, int32_t door, int32_t open) {
-    if (is_door(level, door)) level->shut[door] = !open;
+int32_t sl_level_door_kind(const sl_level *level, int32_t door) {
+    return is_door(level, door) ? (int32_t)sl_runtime_get_door_kind(&level->runtime, (uint32_t)door)
+                                : -1;
+}
+
+int32_t sl_level_set_door(sl_level *level, int32_t door, int32_t open) {
+    return is_door(level, door) && sl_runtime_state_set_door(&level->state, (uint32_t)door, !open);
+}
+
+int32_t sl_level_settle(sl_level *level, int32_t portals) {
+    return (int32_t)sl_runtime_settle(&level->state, portals > 0 ? (uint32_t)portals : 0);
 }
 
 int32_t sl_level_door_is_open(const sl_level *level, int32_t door) {
@@ -277,8 +290,10 @@ int32_t sl_level_locate(const sl_level *level, double x, double y) {
 }
 
 int32_t sl_level_can_see(const sl_level *level, int32_t from, int32_t to) {
-    return is_cell(level, from) && is_cell(level, to) &&
-           sl_runtime_can_see_mirrored(&level->runtime, (uint32_t)from, (uint32_t)to, level->shut);
+    if (!is_cell(level, from) || !is_cell(level, to)) return 0;
+    if (!level->runtime.mirrors)
+        return sl_runtime_state_can_see(&level->state, (uint32_t)from, (uint32_t)to);
+    return sl_runtime_can_see_mirrored(&level->runtime, (uint32_t)from, (uint32_t)to, level->shut);
 }
 
 int32_t sl_level_sees(sl_level *level, double x0, double y0, double x1, double y1) {

@@ -76,17 +76,16 @@ function level:start(number)
     return s[0], s[1], s[2]
 end
 
--- Opens or shuts all doors of a name; false if there is none.
+-- Opens or shuts all doors of a name, breaks a wall or builds one; false if there is none, and for a
+-- wall that is broken or built already.
 function level:set_door(name, open)
     if type(open) ~= "boolean" then error("set_door needs true for open or false for shut", 2) end
     local door = c.sl_level_find_door(self.handle, name, 0)
-    if door < 0 then return false end
-    while door >= 0 do
-        c.sl_level_set_door(self.handle, door, open and 1 or 0)
-        door = c.sl_level_find_door(self.handle, name, door + 1)
-    end
-    return true
+    return c.sl_level_set_door(self.handle, door, open and 1 or 0) == 1
 end
+
+-- Makes can_see exact for the doors as they stand, through some more portals. How many rows are left.
+function level:settle(portals) return c.sl_level_settle(self.handle, portals) end
 
 -- The doors of the level: a list of {name =, open =, segments = {x0, y0, x1, y1, ...}}.
 function level:doors()

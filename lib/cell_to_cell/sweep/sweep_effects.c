@@ -44,12 +44,17 @@ static sl_status narrow(sl_context *context, const sl_space *space, double range
     return SL_OK;
 }
 
+/// Whether pairs need sets of doors. With a limit of 0 they count as seen through open doors.
+static bool keeps_doors(const sl_plan *plan) {
+    return plan->effects & SL_EFFECT_DOOR && plan->door_limit;
+}
+
 /// The pairs that are seen whatever doors are shut: into `shut`, from those with all doors open.
 static sl_status find_certain(sl_context *context, const sl_space *space,
                               const sl_see_options *options, const sl_plan *plan,
                               const sl_visibility *open, sl_visibility *shut) {
     const double range = plan->range;
-    if (!(plan->effects & SL_EFFECT_DOOR))
+    if (!keeps_doors(plan))
         return sli_pvs_within(context, space, &open->pvs, range, SLI_ALL_WITHIN, &shut->pvs);
     SL_TRY(see_shut(context, space, options, plan->map->door_count, shut));
     return range > 0 ? narrow(context, space, range, SLI_ALL_WITHIN, &shut->pvs) : SL_OK;
@@ -65,12 +70,12 @@ static sl_status see_all(sl_context *context, const sl_space *space, const sl_se
     swept.plan = &ways;
     searched.solver = sl_funnel();
     SL_TRY(sli_see_sweep(context, space, &swept, open));
-    // With mirrors alone the sweep has decided all that is seen directly.
-    const bool mirrors_alone = !(plan->effects & (SL_EFFECT_DOOR | SL_EFFECT_RANGE));
-    if (!mirrors_alone) SL_TRY(find_certain(context, space, &swept, plan, open, shut));
+    // The sweep has decided all that is seen directly.
+    const bool decided = !keeps_doors(plan) && !(plan->range > 0);
+    if (!decided) SL_TRY(find_certain(context, space, &swept, plan, open, shut));
     if (plan->range > 0) SL_TRY(narrow(context, space, plan->range, SLI_SOME_WITHIN, &open->pvs));
     const sli_dfs_known known = {.possible = &open->pvs,
-                                 .certain = mirrors_alone ? &open->pvs : &shut->pvs};
+                                 .certain = decided ? &open->pvs : &shut->pvs};
     SL_TRY(sli_dfs_see_rest(context, space, &searched, &known, out));
     out->account.effects.glass_tests +=
         open->account.effects.glass_tests + shut->account.effects.glass_tests;

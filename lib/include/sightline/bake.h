@@ -37,7 +37,7 @@ typedef struct sl_bake_options {
     const sl_see_method *method; ///< NULL: the fastest exact one (sl_see_method_for)
     sl_see_options see;          ///< its `plan` is not looked at; no solver: sl_funnel()
     uint32_t mirror_depth;       ///< reflections of a sightline at most, 0 to 16; 1 by default
-    uint32_t door_limit;         ///< sets of doors kept of a pair at most; 16 by default
+    uint32_t door_limit;         ///< sets of doors kept of a pair at most; 16 by default, 0: none
 
     /// Work unit by unit, so that `see.enough` can stop the bake and `see.shard` can share it. The
     /// result is the same; of a bake that is stopped, and of a shard, sl_baked.partial is kept. For

@@ -39,7 +39,7 @@ typedef struct sl_plan {
     double range;          ///< nothing farther than this is seen; 0 for no limit
     const sl_map *map;     ///< that it was made of, and must outlive it
     uint32_t mirror_depth; ///< reflections of a sightline, at most; 1 by itself
-    uint32_t door_limit;   ///< sets of doors kept of a pair, at most; 16 by itself
+    uint32_t door_limit;   ///< sets of doors kept of a pair, at most; 16 by itself, 0: none
 } sl_plan;
 
 /// The plan of a map; it never fails.

@@ -49,12 +49,20 @@ typedef struct sl_wall {
     uint32_t ground; ///< bits of SL_SOLID_LEFT ...; 0 for most maps
 } sl_wall;
 
+/// What a door is. The library opens and shuts all of them; games keep to it (the runtime header).
+typedef enum sl_door_kind {
+    SL_DOOR_PLAIN,     ///< opens and shuts
+    SL_DOOR_BREAKABLE, ///< a wall that breaks: once open, it stays open
+    SL_DOOR_SITE,      ///< a place for a wall: once shut, it stays shut
+} sl_door_kind;
+
 /// A door: a portal that can be shut. Doors of one name are parts of one door, which open and shut
 /// together.
 typedef struct sl_door {
     char *name;
     sl_segment segment;
     bool open;
+    sl_door_kind kind;
     uint32_t line;
     sl_segment *parts; ///< the parts that cleaning cut it into, in order; NULL for a whole one
     size_t part_count;
@@ -270,7 +278,7 @@ static inline uint32_t sl_map_channel(const sl_map *map) {
     return map->channel ? map->channel : (uint32_t)SL_STOPS_SIGHT;
 }
 
-/// Adds a door. As sl_map_add_wall.
+/// Adds a door, a plain one. As sl_map_add_wall.
 SL_API sl_status sl_map_add_door(sl_context *context, sl_map *map, const char *name, sl_segment at,
                                  bool open, uint32_t line);
 /// Adds a mirror that reflects on both sides. As sl_map_add_wall.

@@ -210,6 +210,11 @@ SL_RUNTIME_API bool sl_runtime_door_open(const sl_runtime *runtime, uint32_t doo
 SL_RUNTIME_API uint32_t sl_runtime_door_segments(const sl_runtime *runtime, uint32_t door,
                                                  sl_runtime_segment *segments, uint32_t room);
 
+/// Reads a wall, one of `wall_count`; false, and `out` is unchanged, if it does not exist. To draw
+/// them: sight goes by cells and portals.
+SL_RUNTIME_API bool sl_runtime_wall(const sl_runtime *runtime, uint32_t wall,
+                                    sl_runtime_segment *out);
+
 /// The number of starts.
 SL_RUNTIME_API uint32_t sl_runtime_start_count(const sl_runtime *runtime);
 
@@ -321,6 +326,75 @@ SL_RUNTIME_API bool sl_runtime_view_can_see(const sl_runtime *runtime, uint32_t 
 /// Unpacks the visible set of a view cell, as sl_runtime_row_bits does for a cell.
 SL_RUNTIME_API void sl_runtime_view_bits(const sl_runtime *runtime, uint32_t view_cell,
                                          unsigned char *bits);
+
+// Walls that break, building sites, and rows that follow the doors. To all calls that take `shut` a
+// wall that breaks is a door that is shut until it breaks, and a site a door that is open until a
+// wall is built on it. So they are exact at once. Rows are baked once: past shut doors they are
+// exact as far as the bake kept sets of doors, and conservative beyond. A state makes them exact
+// for the doors as they stand, bit by bit, in the time that a game has left.
+//
+//     size_t size = sl_runtime_state_count(&runtime);
+//     sl_runtime_state_start(&state, &runtime, malloc(size * sizeof(uint32_t)));
+//     when a wall breaks: sl_runtime_state_set_door(&state, wall, false);
+//     each frame: while (time is left && sl_runtime_settle(&state, 1000)) {}
+//     any time: sl_runtime_state_can_see(&state, from, to);
+//               sl_runtime_sees(&runtime, x0, y0, x1, y1, state.shut, 0, scratch);
+
+/// What a door is.
+typedef enum sl_runtime_door_kind {
+    SL_RUNTIME_DOOR = 0,  ///< opens and shuts
+    SL_RUNTIME_BREAKABLE, ///< a wall that breaks: once open, it stays open
+    SL_RUNTIME_SITE       ///< a place for a wall: once shut, it stays shut
+} sl_runtime_door_kind;
+
+/// The kind of a door; SL_RUNTIME_DOOR if the door does not exist.
+SL_RUNTIME_API sl_runtime_door_kind sl_runtime_get_door_kind(const sl_runtime *runtime,
+                                                             uint32_t door);
+
+/// The doors of a level as they stand in one game, with rows. It has one owner: one thread changes
+/// and settles it while no other asks. Any number of states share one level.
+typedef struct sl_runtime_state {
+    const sl_runtime *runtime;
+    unsigned char *shut; ///< for all calls that take it; sl_runtime_state_set_door writes
+    uint32_t unsettled;  ///< rows that are not exact yet
+    uint32_t given_up;   ///< settled rows whose search took too long: they are conservative
+    uint32_t *first, *bits, *settled, *ranks, *steps, *corners; ///< for the functions only, to the
+                                                                ///< end
+    uint32_t row, next, depth, missing;
+    uint64_t patience;
+} sl_runtime_state;
+
+/// The size of the memory for a state, in uint32_t: a bit for each pair of the rows, and 100 bytes
+/// for each cell.
+SL_RUNTIME_API size_t sl_runtime_state_count(const sl_runtime *runtime);
+
+/// Starts with the doors of the map. `memory` may hold anything, and is used as long as `out` is.
+SL_RUNTIME_API void sl_runtime_state_start(sl_runtime_state *out, const sl_runtime *runtime,
+                                           uint32_t *memory);
+
+/// Opens or shuts a door, breaks a wall (not shut) or builds one (shut): all doors of its name.
+/// Returns false, and changes nothing, to shut a broken wall, to open what was built, and for a
+/// door that does not exist. Rows of cells that see the door are then unsettled; all others stay
+/// exact. Time: the portals on doors, and the rows of the cells beside the door.
+SL_RUNTIME_API bool sl_runtime_state_set_door(sl_runtime_state *state, uint32_t door, bool shut);
+
+/// Works on the rows that are not exact, through up to `portals` portals, of about 0.1 microseconds
+/// each. Returns how many rows are left. It goes on where it ended.
+///
+/// A settled row is exact for the doors as they stand, with closed sight: a cell is in it if some
+/// line leads there from the row's cell through portals that no shut door is on and no dark glass.
+/// So it is as a bake would find it with walls in place of the shut doors. It never has a cell that
+/// the baked row has not. A view range and limited walls count as in the baked rows, whatever is
+/// shut. A row whose search takes very long stays as sl_runtime_can_see_past says (`given_up`).
+SL_RUNTIME_API uint32_t sl_runtime_settle(sl_runtime_state *state, uint32_t portals);
+
+/// As sl_runtime_can_see_past for the doors as they stand; exact if the row of `from` is settled.
+SL_RUNTIME_API bool sl_runtime_state_can_see(const sl_runtime_state *state, uint32_t from,
+                                             uint32_t to);
+
+/// Unpacks that row, as sl_runtime_row_bits. Returns the number of cells.
+SL_RUNTIME_API uint32_t sl_runtime_state_row_bits(const sl_runtime_state *state, uint32_t cell,
+                                                  unsigned char *bits);
 
 // Where an eye stands, as in view.h of the library: in the cell that sl_runtime_locate gives, and
 // in each cell that open portals at the eye join with it (it is on the portal, or on its end). It
@@ -528,6 +602,29 @@ SL_RUNTIME_API uint32_t sl_runtime_visible_polygon(const sl_runtime *runtime,
                                                    const unsigned char *shut, double range,
                                                    uint32_t *scratch, double *points,
                                                    uint32_t room);
+
+/// A grid over the map, for what was explored: tile (i, k) is from min_x + i * tile, min_y + k *
+/// tile on, and has the bit bits[n / 8] >> n % 8 & 1 for n = k * columns + i. The game keeps and
+/// saves the bits, (columns * rows + 7) / 8 bytes that begin as 0.
+typedef struct sl_runtime_grid {
+    double min_x, min_y, tile;
+    uint32_t columns, rows;
+    unsigned char *bits;
+} sl_runtime_grid;
+
+/// A grid over the map with tiles of a size: bits is NULL. No column and no row if the size is not
+/// above 0, or tiles are more than 2^31.
+SL_RUNTIME_API sl_runtime_grid sl_runtime_grid_over(const sl_runtime *runtime, double tile);
+
+/// Fog that stays: sets the bits of the tiles whose middles are in a visible polygon about an eye.
+/// Returns how many are new. By rounding, a middle nearer to the polygon's border than 1e-12 of the
+/// map's largest coordinate may count or not. Time: the tiles in the polygon, and for each edge its
+/// rows.
+///
+///     count = sl_runtime_visible_polygon(&runtime, &view, shut, range, scratch, points, room);
+///     if (count <= room) sl_runtime_explore(&grid, view.x, view.y, points, count);
+SL_RUNTIME_API uint32_t sl_runtime_explore(const sl_runtime_grid *grid, double x, double y,
+                                           const double *points, uint32_t count);
 
 /// What is seen directly, or in a piece of a mirror, that is itself seen directly or in another
 /// mirror: a polygon.

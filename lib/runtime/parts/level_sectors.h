@@ -157,6 +157,17 @@ static bool slrt_narrow(const slrt_search *s, uint32_t directed, slrt_sector *se
     return sector->along != SLRT_ALONG; // no line beside it passes all portals along it
 }
 
+/// Whether a directed portal, from its right end to its left, goes as the glass that it is on: it
+/// leads to the dark.
+static bool slrt_leads_along(const sl_runtime *rt, uint32_t directed, const unsigned char *glass) {
+    const unsigned char *ends = rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 8;
+    const slrt_arm to_left =
+        slrt_make_arm(slrt_f64(ends + 16), slrt_f64(ends + 24), slrt_f64(ends), slrt_f64(ends + 8));
+    const slrt_arm along = slrt_make_arm(slrt_f64(glass), slrt_f64(glass + 8), slrt_f64(glass + 16),
+                                         slrt_f64(glass + 24));
+    return slrt_same_way(&to_left, &along);
+}
+
 /// Whether one-way glass keeps sight from the eye. From its a to its b, it is seen through from the
 /// right to the left. For an eye on its line, the eye's cell decides; for an image there, which way
 /// the portal leads.
@@ -166,14 +177,7 @@ static bool slrt_is_dark(const slrt_search *s, const unsigned char *glass, uint3
     const int side = slrt_side_of_line(glass, glass + 16, s->x, s->y);
     uint32_t i;
     if (side) return side > 0;
-    if (s->is_image) {
-        const unsigned char *ends = s->rt->directed + (size_t)directed * SLRT_DIRECTED_BYTES + 8;
-        const slrt_arm to_left = slrt_make_arm(slrt_f64(ends + 16), slrt_f64(ends + 24),
-                                               slrt_f64(ends), slrt_f64(ends + 8));
-        const slrt_arm along = slrt_make_arm(slrt_f64(glass), slrt_f64(glass + 8),
-                                             slrt_f64(glass + 16), slrt_f64(glass + 24));
-        return slrt_same_way(&to_left, &along);
-    }
+    if (s->is_image) return slrt_leads_along(s->rt, directed, glass);
     for (i = 0; i < cell.vertex_count; i++, corner += SLRT_VERTEX_BYTES)
         if (slrt_side_of_line(glass, glass + 16, slrt_f64(corner), slrt_f64(corner + 8)) > 0)
             return true;

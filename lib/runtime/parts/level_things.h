@@ -23,7 +23,7 @@ static sl_runtime_name slrt_door(const sl_runtime *rt, uint32_t door, bool *open
     if (rt->text) return slrt_text_door(rt, door, open);
 #endif
     item = rt->doors + (size_t)door * SLRT_DOOR_BYTES;
-    *open = slrt_u32(item + 8) != 0;
+    *open = slrt_u32(item + 8) & 1;
     return slrt_name(rt, item);
 }
 
@@ -51,6 +51,14 @@ SL_RUNTIME_API bool sl_runtime_door_open(const sl_runtime *runtime, uint32_t doo
     return open;
 }
 
+SL_RUNTIME_API sl_runtime_door_kind sl_runtime_get_door_kind(const sl_runtime *runtime,
+                                                             uint32_t door) {
+    uint32_t bits;
+    if (door >= runtime->door_count || !runtime->doors) return SL_RUNTIME_DOOR;
+    bits = slrt_u32(runtime->doors + (size_t)door * SLRT_DOOR_BYTES + 8);
+    return bits & 2 ? SL_RUNTIME_BREAKABLE : bits & 4 ? SL_RUNTIME_SITE : SL_RUNTIME_DOOR;
+}
+
 SL_RUNTIME_API uint32_t sl_runtime_door_segments(const sl_runtime *runtime, uint32_t door,
                                                  sl_runtime_segment *segments, uint32_t room) {
     uint32_t i, count = 0;
@@ -61,6 +69,13 @@ SL_RUNTIME_API uint32_t sl_runtime_door_segments(const sl_runtime *runtime, uint
         count++;
     }
     return count;
+}
+
+SL_RUNTIME_API bool sl_runtime_wall(const sl_runtime *runtime, uint32_t wall,
+                                    sl_runtime_segment *out) {
+    if (!runtime->walls || wall >= runtime->wall_count) return false;
+    *out = slrt_segment(runtime->walls + (size_t)wall * 32);
+    return true;
 }
 
 SL_RUNTIME_API uint32_t sl_runtime_start_count(const sl_runtime *runtime) {

@@ -16,6 +16,7 @@
 
 /// What JavaScript reads and writes directly.
 static sl_runtime level;
+static sl_runtime_state state;
 static sl_runtime_view view;
 static double numbers[8];
 static uint32_t integers[8];
@@ -58,6 +59,25 @@ EXPORT(void, describe, void) {
     integers[4] = (uint32_t)sl_runtime_scratch_count(&level);
     integers[5] = (uint32_t)level.mirrors;
     integers[6] = level.unfinished;
+    integers[7] = (uint32_t)sl_runtime_state_count(&level);
+}
+
+/// The doors as the map has them. Gives where their bytes are: all calls take them as `shut`.
+EXPORT(unsigned char *, start_doors, uint32_t *memory) {
+    sl_runtime_state_start(&state, &level, memory);
+    return state.shut;
+}
+
+EXPORT(int, set_door, uint32_t door, int shut) {
+    return sl_runtime_state_set_door(&state, door, shut);
+}
+
+EXPORT(uint32_t, settle, uint32_t portals) {
+    return sl_runtime_settle(&state, portals);
+}
+
+EXPORT(int, wall, uint32_t wall) {
+    return sl_runtime_wall(&level, wall, (sl_runtime_segment *)numbers);
 }
 
 EXPORT(uint32_t, locate, double x, double y) {
@@ -67,9 +87,9 @@ EXPORT(uint32_t, locate, double x, double y) {
 // Of the calls with `mirrored`: 1 to count what is seen by mirror, too; 0 to take mirrors for
 // walls.
 
-EXPORT(int, can_see, uint32_t from, uint32_t to, const unsigned char *shut, int mirrored) {
-    return (mirrored ? sl_runtime_can_see_mirrored : sl_runtime_can_see_past)(&level, from, to,
-                                                                              shut);
+EXPORT(int, can_see, uint32_t from, uint32_t to, int mirrored) {
+    return mirrored ? sl_runtime_can_see_mirrored(&level, from, to, state.shut)
+                    : sl_runtime_state_can_see(&state, from, to);
 }
 
 /// Whether something in cell `to` may be seen by mirror from a point.
@@ -88,10 +108,18 @@ EXPORT(int, may_mirror, double x, double y, uint32_t to, const unsigned char *sh
     return false;
 }
 
-EXPORT(void, seen_from, const uint32_t *cells, uint32_t count, const unsigned char *shut,
-       unsigned char *bits, int mirrored) {
-    (mirrored ? sl_runtime_seen_from_mirrored : sl_runtime_seen_from)(&level, cells, count, shut,
-                                                                      bits);
+/// `bits` has room for the bits of two rows.
+EXPORT(void, seen_from, const uint32_t *cells, uint32_t count, unsigned char *bits, int mirrored) {
+    const uint32_t bytes = (level.cell_count + 7) / 8;
+    if (mirrored) {
+        sl_runtime_seen_from_mirrored(&level, cells, count, state.shut, bits);
+        return;
+    }
+    memset(bits, 0, bytes);
+    for (uint32_t i = 0; i < count; i++) {
+        sl_runtime_state_row_bits(&state, cells[i], bits + bytes);
+        for (uint32_t k = 0; k < bytes; k++) bits[k] |= bits[bytes + k];
+    }
 }
 
 EXPORT(uint32_t, view_cell, uint32_t cell) {
@@ -157,12 +185,12 @@ EXPORT(void, directed_portal, uint32_t directed) {
     numbers[3] = d.right[1];
 }
 
-/// integers: where its name is, its length, whether it is open at first; returns its segments.
+/// integers: where its name is, its length, its kind; returns its segments.
 EXPORT(uint32_t, door, uint32_t door, sl_runtime_segment *segments, uint32_t room) {
     const sl_runtime_name name = sl_runtime_door_name(&level, door);
     integers[0] = (uint32_t)(uintptr_t)name.text;
     integers[1] = name.length;
-    integers[2] = sl_runtime_door_open(&level, door);
+    integers[2] = (uint32_t)sl_runtime_get_door_kind(&level, door);
     return sl_runtime_door_segments(&level, door, segments, room);
 }
 

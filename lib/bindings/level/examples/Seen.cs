@@ -19,7 +19,8 @@ public sealed class Level : IDisposable
     [DllImport(Library)] private static extern void sl_level_close(IntPtr level);
     [DllImport(Library)] private static extern int sl_level_cell_count(IntPtr level);
     [DllImport(Library)] private static extern int sl_level_find_door(IntPtr level, byte[] name, int from);
-    [DllImport(Library)] private static extern void sl_level_set_door(IntPtr level, int door, int open);
+    [DllImport(Library)] private static extern int sl_level_set_door(IntPtr level, int door, int open);
+    [DllImport(Library)] private static extern int sl_level_settle(IntPtr level, int portals);
     [DllImport(Library)] private static extern int sl_level_locate(IntPtr level, double x, double y);
     [DllImport(Library)] private static extern int sl_level_can_see(IntPtr level, int from, int to);
     [DllImport(Library)] private static extern int sl_level_sees(IntPtr level, double x0, double y0, double x1,
@@ -54,19 +55,16 @@ public sealed class Level : IDisposable
 
     public int CellCount { get { return sl_level_cell_count(handle); } }
 
-    /// Opens or shuts all doors of a name; false if there is none.
+    /// Opens or shuts all doors of a name, breaks a wall or builds one; false if there is none, and
+    /// for a wall that is broken or built already.
     public bool SetDoor(string name, bool open)
     {
-        byte[] text = Encoding.UTF8.GetBytes(name + "\0");
-        bool found = false;
-        for (int door = sl_level_find_door(handle, text, 0); door >= 0;
-             door = sl_level_find_door(handle, text, door + 1))
-        {
-            sl_level_set_door(handle, door, open ? 1 : 0);
-            found = true;
-        }
-        return found;
+        int door = sl_level_find_door(handle, Encoding.UTF8.GetBytes(name + "\0"), 0);
+        return sl_level_set_door(handle, door, open ? 1 : 0) != 0;
     }
+
+    /// Makes CanSee exact for the doors as they stand, through some more portals. How many rows are left.
+    public int Settle(int portals) { return sl_level_settle(handle, portals); }
 
     /// The cell of a point; -1 for none.
     public int Locate(double x, double y) { return sl_level_locate(handle, x, y); }
