@@ -207,6 +207,10 @@ static inline void view_check(view_state *view, sl_status status) {
 /// The place of the map under the pointer; false: it is not over the first plan.
 bool view_pointed(const view_state *view, sl_point *at);
 
+/// "12.34, 5.6": to about a ten-thousandth of the map's size, however far from the origin it is.
+enum { PLACE_TEXT = 72 };
+void view_say_place(const sl_map *map, sl_point at, char text[PLACE_TEXT]);
+
 /// Marks a place of the map by a disc.
 void view_mark(const view_state *view, const sl_frame *frame, sl_point place);
 
