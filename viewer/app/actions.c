@@ -386,22 +386,22 @@ static bool is_camera_find(const app_state *app) {
     return cameras_progress(app->view.cameras).running;
 }
 
-static void want_table(desk_state *desk, table_wish wish, const char *path) {
-    desk->table_wanted = wish;
-    snprintf(desk->table_path, sizeof desk->table_path, "%s", path);
+static void wish_for(desk_state *desk, path_wish wish, const char *path) {
+    desk->wish = wish;
+    snprintf(desk->wish_path, sizeof desk->wish_path, "%s", path);
 }
 
 static void import_table(desk_state *desk, const char *path, bool ask) {
     (void)ask;
-    want_table(desk, TABLE_READ, path);
+    wish_for(desk, WISH_READ_TABLE, path);
 }
 
 static void export_table(desk_state *desk, const char *path) {
-    want_table(desk, TABLE_WRITE, path);
+    wish_for(desk, WISH_WRITE_TABLE, path);
 }
 
-DO(camera_import, browser_open_table(&app->desk, import_table))
-DO(camera_export, browser_save_table(&app->desk, "cameras.csv", export_table))
+DO(camera_import, browser_open(&app->desk, BROWSE_TABLES, import_table))
+DO(camera_export, browser_save(&app->desk, BROWSE_TABLES, "cameras.csv", export_table))
 
 // --- doors
 
@@ -444,21 +444,31 @@ static void play(app_state *app) {
 
 IS(play, app->recorder.plays)
 
-static void take_export(desk_state *desk, int answer) {
-    desk->agreed = answer == 0;
+static void take_frames(desk_state *desk, const char *path) {
+    wish_for(desk, WISH_FRAMES, path);
 }
 
 static void export_frames(app_state *app) {
-    static const char *const answers[] = {"S:Save", "C:Cancel"};
     const size_t count = (app->recorder.frames.count + SERIES_STEP - 1) / SERIES_STEP;
-    char text[160];
+    char name[TITLE_TEXT];
     if (!count) {
         ui_say(&app->ui, false, "no way was recorded: record one, or play the map's path");
         return;
     }
-    snprintf(text, sizeof text, "%zu picture%s of %d x %d pixels, in the folder sightline-frames",
-             count, count == 1 ? "" : "s", app->ui.width, app->ui.height);
-    question_ask(&app->desk, "Save pictures of the way?", text, answers, 2, take_export);
+    ui_say(&app->ui, false, "%zu picture%s of %d x %d pixels, in a new folder", count,
+           count == 1 ? "" : "s", app->ui.width, app->ui.height);
+    map_file_name_output(&app->desk, "-frames", name);
+    browser_save(&app->desk, BROWSE_FRAMES, name, take_frames);
+}
+
+static void take_picture(desk_state *desk, const char *path) {
+    wish_for(desk, WISH_PICTURE, path);
+}
+
+static void ask_for_picture(app_state *app, const char *ending) {
+    char name[TITLE_TEXT];
+    map_file_name_output(&app->desk, ending, name);
+    if (app->document.baked) browser_save(&app->desk, BROWSE_PICTURES, name, take_picture);
 }
 
 // --- files
@@ -498,9 +508,9 @@ static void cut_by(app_state *app, double share) {
 
 DO(cut_lower, cut_by(app, -0.02))
 DO(cut_higher, cut_by(app, 0.02))
-DO(save_png, save_numbered(app, "png"))
-DO(save_svg, save_numbered(app, "svg"))
-DO(save_pdf, save_numbered(app, "pdf"))
+DO(save_png, ask_for_picture(app, ".png"))
+DO(save_svg, ask_for_picture(app, ".svg"))
+DO(save_pdf, ask_for_picture(app, ".pdf"))
 DO(quit, map_file_quit(&app->desk))
 
 static void escape(app_state *app) {
@@ -716,22 +726,28 @@ void actions_show(app_state *app) {
     }
 }
 
-/// Reads or writes the table that was asked for in the file browser.
-static void take_table(app_state *app) {
-    const table_wish wish = app->desk.table_wanted;
-    app->desk.table_wanted = TABLE_NONE;
-    view_check(&app->view, wish == TABLE_READ ? cameras_read(&app->view, app->desk.table_path)
-                                              : cameras_write(&app->view, app->desk.table_path));
+/// Does what a path was chosen for in the file browser.
+static void take_wish(app_state *app) {
+    const path_wish wish = app->desk.wish;
+    const char *path = app->desk.wish_path;
+    sl_status status = SL_OK;
+    app->desk.wish = WISH_NONE;
+    if (wish == WISH_READ_TABLE)
+        status = cameras_read(&app->view, path);
+    else if (wish == WISH_WRITE_TABLE)
+        status = cameras_write(&app->view, path);
+    else if (wish == WISH_PICTURE)
+        status = save_picture(app, path);
+    else if (wish == WISH_FRAMES)
+        status = save_series(app, path, SERIES_STEP);
+    view_check(&app->view, status);
 }
 
 void actions_answered(app_state *app) {
     const char *chosen = app->desk.dialog.chosen;
-    const bool agreed = app->desk.agreed;
     app->desk.dialog.chosen = NULL;
-    app->desk.agreed = false;
     if (chosen) action_run(app, action_find(chosen));
-    if (app->desk.table_wanted) take_table(app);
-    if (agreed) view_check(&app->view, save_series(app, "sightline-frames", SERIES_STEP));
+    take_wish(app);
 }
 
 void action_run(app_state *app, int action) {
