@@ -131,12 +131,20 @@ static void assert_fresh(app_state *app) {
         }
         if (values[p] != value) fail_msg("%s: %g, not %g", measure->name, values[p], value);
     }
-    uint32_t *sizes = calloc(f.grid.count, sizeof *sizes);
-    assert_int_equal(sl_vga_part_sizes(context, &f.graph, NULL, 0, sizes), SL_OK);
-    const sl_vga_scale scale = sl_vga_scale_of(values, sizes, f.grid.count);
+    // The scale is that of the part that the eye is in.
+    uint32_t *parts = calloc(f.grid.count, sizeof *parts), part_count;
+    assert_int_equal(sl_vga_parts(context, &f.graph, NULL, 0, parts, &part_count), SL_OK);
+    const uint32_t at = heat_graph_nearest(context, graph, app->view.eye.at);
+    assert_true(at != UINT32_MAX);
+    double least = INFINITY, most = -INFINITY;
+    for (uint32_t p = 0; p < f.grid.count; p++) {
+        if (parts[p] != parts[at]) continue;
+        least = fmin(least, values[p]);
+        most = fmax(most, values[p]);
+    }
     heat_layer_scale(&app->view, &low, &high);
-    assert_true(low == scale.least && high == scale.most);
-    free(sizes);
+    assert_true(low == least && high == most);
+    free(parts);
     drop_fresh(context, &f);
     sl_context_destroy(context);
 }
@@ -416,6 +424,43 @@ static void test_fills(void **state) {
     viewer_end(app);
 }
 
+/// Of two halls that do not see each other the eye's has the scale.
+static void test_parts(void **state) {
+    (void)state;
+    char folder[] = "/tmp/sightline-heat-XXXXXX", path[64];
+    assert_non_null(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s/a.map", folder);
+    FILE *stream = fopen(path, "w");
+    assert_non_null(stream);
+    fputs("sightline 1\nwalls 0 0 20 0 20 10 0 10 0 0\nwall 10 0 10 6\n"
+          "walls 30 0 36 0 36 6 30 6 30 0\nwall 33 0 33 4\nstart 1 1 0\nstart 31 1 0\n",
+          stream);
+    assert_int_equal(fclose(stream), 0);
+    app_state *app = start(path);
+    double low, high, least, most;
+    legend_key key;
+    press_key(app, "1");
+    assert_fresh(app);
+    heat_layer_scale(&app->view, &low, &high);
+    assert_true(heat_layer_key(&app->view, &key));
+    bool told = false;
+    for (int i = 0; i < key.count; i++) told |= strstr(key.rows[i].text, "points are grey") != NULL;
+    assert_true(told);
+    const uint32_t stamp = app->view.heat_choice.stamp;
+    app->view.eye.at = (sl_point){2, 2};
+    app_tick(app, 0);
+    assert_int_equal(app->view.heat_choice.stamp, stamp);
+    app->view.eye.at = (sl_point){31.2, 1.1};
+    app_tick(app, 0);
+    assert_fresh(app);
+    heat_layer_scale(&app->view, &least, &most);
+    assert_true(least != low && most != high);
+    assert_true(app->view.heat_choice.stamp != stamp);
+    viewer_end(app);
+    assert_int_equal(remove(path), 0);
+    assert_int_equal(rmdir(folder), 0);
+}
+
 static cairo_surface_t *draw_window(app_state *app, bool portals) {
     cairo_surface_t *surface =
         cairo_image_surface_create(CAIRO_FORMAT_RGB24, app->ui.width, app->ui.height);
@@ -492,6 +537,7 @@ int main(void) {
         cmocka_unit_test(test_glass),     cmocka_unit_test(test_stopped),
         cmocka_unit_test(test_fills),     cmocka_unit_test(test_no_value),
         cmocka_unit_test(test_first_eye), cmocka_unit_test(test_portals),
+        cmocka_unit_test(test_parts),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
