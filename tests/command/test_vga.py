@@ -398,9 +398,9 @@ class Scale(sandbox.ProgramTest):
         self.assertRegex(figures, r"^181 points in 2 parts that no sightline joins; .* largest, 160 points\n")
         self.assertRegex(others, r"\A +part .*\n +2 +21 +31 +1 +[\d.]+\n\Z")
         with_part = [row.split(",") for row in self.box.path("t.csv").read_text().split()]
-        self.assertEqual(with_part[0][2], "part")
-        self.assertEqual([row[:2] + row[3:] for row in with_part[1:] if row[2] == "1"], rows[1:])
-        self.assertEqual(len([row for row in with_part if row[2] == "2"]), 21)
+        self.assertEqual(with_part[0], rows[0] + ["part"])
+        self.assertEqual([row[:-1] for row in with_part[1:] if row[-1] == "1"], rows[1:])
+        self.assertEqual(len([row for row in with_part if row[-1] == "2"]), 21)
         # Steps from a point of the court are the court's.
         steps = self.run_well("vga", "both.map", *arguments, "--from", "31,1", "--measure",
                               "visual_step_depth").stdout

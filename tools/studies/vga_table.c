@@ -56,18 +56,19 @@ static size_t list_fields(const void *of, size_t point, table_field fields[FIELD
     const sl_measure *measures = columns(&measure_count);
     fields[count++] = field_real("x", table->grid.points[point].x);
     fields[count++] = field_real("y", table->grid.points[point].y);
-    if (table->part_count > 1) fields[count++] = field_real("part", table->part[point] + 1.0);
     for (size_t k = 0; k < measure_count; k++)
         if (table->parts & vga_measure_part(k))
             fields[count++] = field_real(measures[k].name, vga_value(table, k, (uint32_t)point));
+    if (table->part_count > 1) fields[count++] = field_real("part", table->part[point] + 1.0);
     return count;
 }
 
 static sl_status write_geojson(sl_context *context, const vga_table *table, FILE *out) {
     table_field fields[FIELDS_MOST];
     const bool known = table->earth.known;
-    fprintf(out, "{\"type\": \"FeatureCollection\", %s\"features\": [",
-            known ? "" : "\"crs\": null, ");
+    fputs("{\"type\": \"FeatureCollection\", ", out);
+    sl_geojson_put_crs(out, &table->earth);
+    fputs("\"features\": [", out);
     for (uint32_t p = 0; p < table->grid.count; p++) {
         if (p % 4096 == 0) SL_TRY(sl_check_cancelled(context));
         fprintf(out, "%s\n{\"type\": \"Feature\", \"geometry\": {\"type\": \"Point\", ",
