@@ -226,7 +226,7 @@ def check_present(v):
     bars = v.facts("office.map", "key F12\n" + EYE + why, "bar")
     v.check(bars[0].startswith("From cell ") and bars[0].endswith(words[0]) and bars[1] == "nothing", f"{bars}")
     # The button that leaves is there at any size, and the legend leaves the map free until it is asked for.
-    bar = v.facts("office.map", "size 1024 768\nkey F12\nscreenshot a.png\nclick 592 24\nkey F4\nprint bar\n", "bar")
+    bar = v.facts("office.map", "size 1024 768\nkey F12\nscreenshot a.png\nclick 668 24\nkey F4\nprint bar\n", "bar")
     v.check(bar == ["nothing"], f"the button does not end the presentation: {bar}")
     keys = "".join(f"{key}screenshot a.png\nprint legend\n" for key in ("key F12\n", "key F7\n", "key F7\n", "click 80 652\n"))
     legends = v.facts("office.map", "size 1280 720\n" + keys, "legend")

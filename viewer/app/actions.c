@@ -16,6 +16,7 @@
 #include "plan/edit.h"
 #include "plan/effects.h"
 #include "plan/heat.h"
+#include "plan/route.h"
 #include "plan/view.h"
 #include "plan/view_cells.h"
 
@@ -29,8 +30,9 @@ enum {
     DRAW = 1 << MODE_DRAW,
     QUIZ = 1 << MODE_QUIZ,
     CAMERAS = 1 << MODE_CAMERAS,
-    NOT_LEARN = EXPLORE | DRAW | QUIZ,
-    WALKS = EXPLORE | DRAW | LEARN,
+    PLAN = 1 << MODE_PLAN,
+    NOT_LEARN = EXPLORE | DRAW | QUIZ | PLAN,
+    WALKS = EXPLORE | DRAW | LEARN | PLAN,
 };
 
 /// An action of one statement, and whether a switch is on.
@@ -63,6 +65,19 @@ MODE(learn, MODE_LEARN)
 MODE(draw, MODE_DRAW)
 MODE(quiz, MODE_QUIZ)
 MODE(cameras, MODE_CAMERAS)
+MODE(plan, MODE_PLAN)
+
+// --- tools of the Plan mode
+
+DO(plan_isovist, app->view.tool = TOOL_ISOVIST)
+IS(plan_isovist, app->view.tool == TOOL_ISOVIST)
+
+static void plan_path(app_state *app) {
+    app->view.tool = TOOL_PATH;
+    ui_say(&app->ui, false, "click where the way begins, then where it ends");
+}
+
+IS(plan_path, app->view.tool == TOOL_PATH)
 
 // --- layers
 
@@ -148,6 +163,13 @@ static bool is_heat_steps(const app_state *app) {
     return !heat_measure_part(heat_measure(app->view.heat_choice.measure));
 }
 
+static void plan_graph(app_state *app) {
+    toggle_HEAT(app);
+}
+
+IS(plan_graph, is_HEAT(app))
+DO(heat_ranks, heat_toggle_ranks(&app->view))
+IS(heat_ranks, app->view.heat_choice.ranks)
 DO(heat_hold, heat_toggle_held(&app->view))
 IS(heat_hold, app->view.heat_choice.held)
 
@@ -520,6 +542,8 @@ static void escape(app_state *app) {
         ui_say(&app->ui, false, "stopped; the map is not saved");
     else if (edit_cancel(&app->view))
         ;
+    else if (app->view.mode == MODE_PLAN && app->view.tool == TOOL_PATH && route_clear(&app->view))
+        ui_say(&app->ui, false, "the way is gone");
     else if (app->document.job) {
         document_cancel(app->context, &app->document);
         ui_say(&app->ui, false, "stopped; what is there stays");
@@ -555,14 +579,16 @@ static const action_row actions[] = {
     {"cameras", "8", "Cameras", "cameras: what they see, and the fewest", 0, 0, cameras,
      is_cameras},
 
+    {"plan", "9", "Plan", "plan: measures of a floor plan", 0, 0, plan, is_plan},
+
     HOLD("forward", "W", "walk ahead", WALKS, HOLD_FORWARD),
     HOLD("forward_too", "Up", "walk ahead", WALKS, HOLD_FORWARD),
     HOLD("back", "S", "walk back", WALKS, HOLD_BACK),
     HOLD("back_too", "Down", "walk back", WALKS, HOLD_BACK),
     HOLD("left", "A", "step to the left", WALKS, HOLD_LEFT),
     HOLD("right", "D", "step to the right", WALKS, HOLD_RIGHT),
-    HOLD("turn_left", "Left", "turn left", EXPLORE | DRAW, HOLD_TURN_LEFT),
-    HOLD("turn_right", "Right", "turn right", EXPLORE | DRAW, HOLD_TURN_RIGHT),
+    HOLD("turn_left", "Left", "turn left", EXPLORE | DRAW | PLAN, HOLD_TURN_LEFT),
+    HOLD("turn_right", "Right", "turn right", EXPLORE | DRAW | PLAN, HOLD_TURN_RIGHT),
     {"fly", "G", "Fly", "fly through walls, or walk", 0, 0, fly, is_fly},
     {"home", "H", "Home", "back to the map's start", 0, 0, home, NULL},
     {"narrower", ",", NULL, "narrower view cone", NOT_LEARN, 0, narrower, NULL},
@@ -586,6 +612,14 @@ static const action_row actions[] = {
      is_heat_steps},
     {"heat_hold", "7", "Keep colours", "heat map: keep the colour scale, to compare", NOT_LEARN, 0,
      heat_hold, is_heat_hold},
+    {"heat_ranks", NULL, "Equal shares", "heat map: as many points in each colour", NOT_LEARN, 0,
+     heat_ranks, is_heat_ranks},
+    {"plan_isovist", "Ctrl+1", "Isovist", "plan: a click puts the viewpoint", PLAN, 0, plan_isovist,
+     is_plan_isovist},
+    {"plan_graph", "Ctrl+2", "Visibility graph", "plan: the heat map of the visibility graph", PLAN,
+     0, plan_graph, is_plan_graph},
+    {"plan_path", "Ctrl+3", "Path", "plan: two clicks, and the shortest way between them", PLAN, 0,
+     plan_path, is_plan_path},
     {"first_person", "I", "First person", "first-person pane", 0, 0, first_person, is_first_person},
     {"account", "L", "What accuracy costs", "what accuracy costs, as a chart", 0, 0, account,
      is_account},
@@ -626,7 +660,7 @@ static const action_row actions[] = {
      is_draw_doors},
 
     {"nearest_door", "N", "Door", "shut or open the nearest door (click: any door)",
-     EXPLORE | LEARN | DRAW, 0, nearest_door, NULL},
+     EXPLORE | LEARN | DRAW | PLAN, 0, nearest_door, NULL},
 
     {"answer_yes", "Y", "Yes, seen (Y)", "quiz: seen", QUIZ, 0, answer_yes, NULL},
     {"answer_no", "N", "No (N)", "quiz: not seen", QUIZ, 0, answer_no, NULL},

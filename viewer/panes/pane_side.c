@@ -230,6 +230,11 @@ static void describe_place(const view_state *view, sl_point at, char *text, size
         snprintf(text, room, "Solid ground at %s: nobody looks from there.", place);
         return;
     }
+    if (view->mode == MODE_PLAN) {
+        snprintf(text, room, "%s, %s.", place,
+                 !sl_baked_counts(view->document->baked, cell) ? "outside" : "inside");
+        return;
+    }
     const size_t word = cell / 64, bit = cell % 64;
     const bool counts = sl_baked_counts(view->document->baked, cell);
     char area[SL_COUNT_TEXT];
@@ -281,7 +286,11 @@ bool pane_say_place(const view_state *view, char *text, size_t room) {
 void pane_words(view_state *view, column *c) {
     char text[512];
     const bool over = pane_say_place(view, text, sizeof text);
-    column_heading(view->ui, c, over ? "Under the pointer" : "Under the eye", NULL);
+    column_heading(view->ui, c,
+                   over                      ? "Under the pointer"
+                   : view->mode == MODE_PLAN ? "Under the viewpoint"
+                                             : "Under the eye",
+                   NULL);
     c->y = ui_paragraph(view->ui, c->left, c->y + 0.7 * view->ui->text, c->right - c->left, 0.95,
                         view->ui->palette.ink, text);
 }

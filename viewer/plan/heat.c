@@ -14,6 +14,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 struct heat_layer {
@@ -36,6 +37,8 @@ struct heat_layer {
     uint32_t within;           ///< points in it
     sl_point eye;              ///< that the part was found for
     double least, most;
+    double *sorted; ///< the values with the scale, ascending
+    uint32_t sorted_count;
     uint32_t from;    ///< of steps: the point they begin at
     uint32_t *steps;  ///< by point
     uint32_t deepest; ///< of all steps that were counted
@@ -103,6 +106,7 @@ void heat_layer_destroy(sl_context *context, heat_layer *layer) {
     sl_free(context, layer->shut);
     sl_free(context, layer->values);
     sl_free(context, layer->parts);
+    sl_free(context, layer->sorted);
     sl_free(context, layer->steps);
     sl_free(context, layer);
 }
@@ -266,6 +270,43 @@ static bool is_grey(const heat_layer *layer, uint32_t point) {
            heat_measure_part(heat_measure(layer->measure));
 }
 
+static int compare_values(const void *a, const void *b) {
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/// Puts the values that have the scale in order.
+static sl_status sort_values(sl_context *context, heat_layer *layer) {
+    const uint32_t count = layer->graph.grid.count;
+    if (!layer->sorted) layer->sorted = sl_alloc_array(context, count + 1, sizeof *layer->sorted);
+    if (!layer->sorted) return SL_NO_MEMORY;
+    layer->sorted_count = 0;
+    for (uint32_t p = 0; p < count; p++)
+        if (!is_grey(layer, p) && !isnan(layer->values[p]))
+            layer->sorted[layer->sorted_count++] = layer->values[p];
+    qsort(layer->sorted, layer->sorted_count, sizeof *layer->sorted, compare_values);
+    return SL_OK;
+}
+
+/// The value that a share of the points with the scale is below.
+static double quantile(const heat_layer *layer, double share) {
+    if (!layer->sorted_count) return NAN;
+    return layer->sorted[(uint32_t)fmin(share * layer->sorted_count, layer->sorted_count - 1.0)];
+}
+
+/// The share of values below this one.
+static double rank_of(const heat_layer *layer, double value) {
+    uint32_t low = 0, high = layer->sorted_count;
+    while (low < high) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (layer->sorted[middle] < value)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return layer->sorted_count ? (double)low / layer->sorted_count : 0;
+}
+
 static sl_status evaluate_measure(view_state *view, heat_layer *layer) {
     const sl_measure *measure = chosen_measure(view);
     const uint32_t count = layer->graph.grid.count;
@@ -288,6 +329,7 @@ static sl_status evaluate_measure(view_state *view, heat_layer *layer) {
         layer->most = fmax(layer->most, value);
         layer->within++;
     }
+    SL_TRY(sort_values(view->context, layer));
     layer->valued = true;
     view->heat_choice.stamp++;
     return SL_OK;
@@ -367,6 +409,15 @@ void heat_toggle_steps(view_state *view) {
     choose_measure(view, next == choice->measure ? 0 : next);
 }
 
+void heat_toggle_ranks(view_state *view) {
+    heat_choice *choice = &view->heat_choice;
+    choice->ranks = !choice->ranks;
+    choice->stamp++;
+    ui_say(view->ui, false, "%s",
+           choice->ranks ? "each colour has as many points as any other"
+                         : "colours go by the values, in equal steps");
+}
+
 void heat_toggle_held(view_state *view) {
     heat_choice *choice = &view->heat_choice;
     const heat_graph *graph;
@@ -386,6 +437,11 @@ void heat_toggle_held(view_state *view) {
 
 enum { NO_COLOUR = -1, GREY = RAMP_STEPS };
 
+/// A scale that is kept is one of values, and so are steps.
+static bool by_rank(const view_state *view) {
+    return view->heat_choice.ranks && !view->heat_choice.held && chosen_part(view);
+}
+
 /// The number of a square's colour.
 static int step_at(const view_state *view, const heat_layer *layer, size_t square) {
     double least, most;
@@ -393,6 +449,7 @@ static int step_at(const view_state *view, const heat_layer *layer, size_t squar
     if (p == UINT32_MAX) return NO_COLOUR;
     if (is_grey(layer, p)) return GREY;
     if (isnan(layer->values[p])) return NO_COLOUR;
+    if (by_rank(view)) return ramp_step(rank_of(layer, layer->values[p]), 0, 1);
     heat_layer_scale(view, &least, &most);
     return ramp_step(layer->values[p], least, most);
 }
@@ -482,6 +539,14 @@ static void write_pointed(const view_state *view, const heat_graph *g, char text
     write_value(p != UINT32_MAX ? view->heat->values[p] : NAN, text);
 }
 
+/// Where the colours change, with as many points in each.
+static void add_quantiles(const heat_layer *layer, legend_key *key) {
+    char text[3][32], all[100];
+    for (int i = 0; i < 3; i++) write_value(quantile(layer, 0.25 * (i + 1)), text[i]);
+    snprintf(all, sizeof all, "%s, %s, %s", text[0], text[1], text[2]);
+    legend_key_add(key, "quarters of the points end at", all);
+}
+
 bool heat_layer_key(const view_state *view, legend_key *key) {
     const heat_graph *g;
     double least, most;
@@ -489,7 +554,10 @@ bool heat_layer_key(const view_state *view, legend_key *key) {
     if (!heat_layer_values(view, &g)) return false;
     heat_layer_scale(view, &least, &most);
     *key = (legend_key){.ramp = layers_fill(view) == LAYER_HEAT};
+    char unit[SL_UNIT_TEXT];
     heat_say_measure(view, key->rows[0].label);
+    sl_measure_say_unit(chosen_measure(view), view->document->map.unit, unit);
+    snprintf(key->rows[0].text, sizeof key->rows[0].text, "%s", unit);
     write_pointed(view, g, value);
     key->count = 1;
     legend_key_add(key, "under the pointer", value);
@@ -498,6 +566,7 @@ bool heat_layer_key(const view_state *view, legend_key *key) {
     snprintf(value, sizeof value, "%.3g", g->step);
     legend_key_add(key, "from point to point", value);
     if (view->heat_choice.held) legend_key_add(key, "colour scale", "kept");
+    if (by_rank(view)) add_quantiles(view->heat, key);
     if (heat_measure_part(chosen_measure(view)) && view->heat->part_count > 1) {
         char others[2 * SL_COUNT_TEXT];
         sl_text_count(g->grid.count - view->heat->within, "", count);

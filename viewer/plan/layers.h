@@ -75,7 +75,7 @@ tone layers_method_tone(size_t method, size_t chosen);
 typedef struct legend_key {
     struct {
         char label[64], text[96];
-    } rows[8];
+    } rows[10];
     int count;
     bool ramp;
     char least[32], most[32];
