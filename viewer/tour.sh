@@ -17,6 +17,14 @@ shoot() { # map picture, the script on stdin
     echo "viewer/tour/$2.png"
 }
 
+shoot office.map plan <<'END'
+key 9
+key Ctrl+2
+key Ctrl+3
+click 60 130
+click 500 420
+move 300 300
+END
 shoot office.map explore <<'END'
 eye 53 20 160 90
 key B

@@ -97,9 +97,21 @@ static void add_patch(cairo_t *cairo, const sl_frame *frame, const sl_patches *p
     sl_path_polygon(cairo, frame, patches->points + first, patches->first[i + 1] - first);
 }
 
+/// The squares that are no part of the scale.
+static void draw_grey(cairo_t *cairo, const picture *p, const sl_frame *frame) {
+    const sl_palette *palette = &p->scene.palette;
+    for (size_t i = 0; p->field && p->field->grey && i < p->value_count; i++)
+        if (p->field->grey[i]) add_square(cairo, frame, &p->scene.baked->space.bounds, p->field, i);
+    sl_set_colour(cairo, sl_colour_mix(palette->page, palette->ink, 0.18));
+    cairo_fill_preserve(cairo);
+    cairo_set_line_width(cairo, 0.6);
+    cairo_stroke(cairo);
+}
+
 /// Squares or patches of one colour make one path. A thin stroke covers the seams between them.
 static sl_status draw_values(sl_context *context, cairo_t *cairo, const picture *p,
                              const sl_frame *frame) {
+    draw_grey(cairo, p, frame);
     for (int step = 0; step < RAMP_STEPS; step++) {
         SL_TRY(sl_check_cancelled(context));
         for (size_t i = 0; i < p->value_count; i++) {
@@ -269,7 +281,9 @@ static double draw_scale(cairo_t *cairo, const picture *p, const sli_page *g, bo
     const sl_colour ink = p->scene.palette.ink;
     char name[128];
     snprintf(name, sizeof name, "%s%s%s%s", p->scale, p->unit ? ", " : "", p->unit ? p->unit : "",
-             p->lines && has_undefined(p) ? " (grey: not defined)" : "");
+             p->lines && has_undefined(p) ? " (grey: not defined)"
+             : p->field && p->field->grey ? " (grey: other parts)"
+                                          : "");
     sl_text_font(cairo, g->text, false);
     const bool beside = width + 1.6 * g->text + sl_text_width(cairo, name) <= g->inner;
     const double height = (beside ? 3.2 : 4.8) * g->text;

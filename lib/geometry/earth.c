@@ -85,3 +85,18 @@ double sl_earth_stretch(double x) {
     const double part = x / RADIUS;
     return 1 + part * part / 2;
 }
+
+bool sl_earth_read_epsg(const char *text, size_t length, uint32_t *epsg) {
+    static const char lead[] = "EPSG:";
+    enum { LEAD = sizeof lead - 1, DIGITS_MOST = 9 };
+    uint32_t code = 0;
+    if (length <= LEAD || length > LEAD + DIGITS_MOST) return false;
+    for (size_t i = 0; i < LEAD; i++)
+        if (text[i] != lead[i] && text[i] != (lead[i] | 32)) return false;
+    for (size_t i = LEAD; i < length; i++) {
+        if (text[i] < '0' || text[i] > '9') return false;
+        code = 10 * code + (uint32_t)(text[i] - '0');
+    }
+    if (code) *epsg = code;
+    return code > 0;
+}

@@ -2,17 +2,30 @@
 ///
 /// A feature is a geometry and its properties. Rings of polygons are closed, outer rings go
 /// counter-clockwise, and holes clockwise (RFC 7946, 3.1.6). Places of a map on the earth are
-/// turned back into degrees. Those of any other map are in its plane, and "crs": null says so.
+/// turned back into degrees. Those of any other map are in its plane, and "crs": null says so, or
+/// names the coordinate system that the user has named.
 #include "sightline/json.h"
 
 #include "geometry/orient.h"
 
 #include <math.h>
 
+void sl_geojson_put_crs(FILE *stream, const sl_earth *earth) {
+    if (earth && earth->known) return;
+    if (earth && earth->epsg)
+        fprintf(stream,
+                "\"crs\": {\"type\": \"name\", \"properties\": {\"name\": "
+                "\"urn:ogc:def:crs:EPSG::%u\"}}, ",
+                (unsigned)earth->epsg);
+    else
+        fputs("\"crs\": null, ", stream);
+}
+
 sl_geojson_writer sl_geojson_begin(FILE *stream, const sl_earth *earth) {
     const bool known = earth && earth->known;
-    fprintf(stream, "{\"type\": \"FeatureCollection\", %s\"features\": [",
-            known ? "" : "\"crs\": null, ");
+    fputs("{\"type\": \"FeatureCollection\", ", stream);
+    sl_geojson_put_crs(stream, earth);
+    fputs("\"features\": [", stream);
     return (sl_geojson_writer){.json = sl_json_writer_to(stream, 0),
                                .stream = stream,
                                .earth = known ? *earth : (sl_earth){0}};

@@ -293,6 +293,23 @@ static sl_status tell_of_formats(sl_context *context, const char *path, sl_statu
                    message);
 }
 
+/// Takes the coordinate system that the user names.
+static sl_status name_crs(sl_context *context, const char *path, const sl_import_options *options,
+                          sl_map *map) {
+    uint32_t epsg;
+    if (!options->crs) return SL_OK;
+    if (!sl_earth_read_epsg(options->crs, strlen(options->crs), &epsg))
+        return sl_fail(context, SL_BAD_ARGUMENT, "--crs %s: expected EPSG:NUMBER, as EPSG:2056",
+                       options->crs);
+    if (map->earth.known)
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "--crs: %s is in longitude and latitude; --planar takes them as plain units",
+                       path);
+    if (map->earth.epsg != epsg) map->earth_line = 0;
+    map->earth.epsg = epsg;
+    return SL_OK;
+}
+
 sl_status sl_map_parse(sl_context *context, const char *path, const char *text, size_t size,
                        const sl_import_options *options, sl_map *map) {
     const sl_import_options usual = sl_import_options_default();
@@ -309,6 +326,7 @@ sl_status sl_map_parse(sl_context *context, const char *path, const char *text, 
                              options, &read);
     if (status == SL_OK) {
         status = crop_map(context, path, options, &read);
+        if (status == SL_OK) status = name_crs(context, path, options, &read);
         if (status != SL_OK) sl_map_destroy(context, &read);
     }
     if (status != SL_OK) {
@@ -494,6 +512,9 @@ static void tell_left_out(sl_context *context, const sl_map *map, const sl_map_f
                 format->what);
     if (!(format->keeps & SL_KEEPS_UNIT) && sli_unit_metres(map->unit) > 0)
         sl_note(context, "%s: %s has no place for the unit, which is left out", path, format->what);
+    if (!(format->keeps & SL_KEEPS_EARTH) && map->earth.epsg)
+        sl_note(context, "%s: %s has no place for the coordinate system, which is left out", path,
+                format->what);
     if (!(format->keeps & SL_KEEPS_EARTH) && map->earth.known)
         sl_note(context,
                 "%s: %s has no place for where the map lies on the earth, which is left out", path,

@@ -277,7 +277,11 @@ int sl_map_digits(const sl_map *map) {
     const sl_box box = sl_map_bounds(map);
     const double most =
         fmax(fmax(fabs(box.min.x), fabs(box.min.y)), fmax(fabs(box.max.x), fabs(box.max.y)));
-    const double across = hypot(box.max.x - box.min.x, box.max.y - box.min.y);
+    double across = hypot(box.max.x - box.min.x, box.max.y - box.min.y), walls = 0;
+    for (size_t i = 0; i < map->wall_count; i++)
+        walls +=
+            hypot(map->walls[i].b.x - map->walls[i].a.x, map->walls[i].b.y - map->walls[i].a.y);
+    if (walls > 0 && walls < across) across = walls; // a stray lies far away
     if (!(across > 0 && most > 0)) return 6;
     return (int)fmin(fmax(ceil(log10(most / across) - 0.5), 0) + 6, 17);
 }

@@ -173,6 +173,8 @@ static sl_status read_earth(text_reader *reader) {
     double degrees[2];
     if (reader->map->earth.known)
         return sl_fail_at(reader->context, reader->name, reader->line, "a second earth");
+    if (reader->map->earth.epsg)
+        return sl_fail_at(reader->context, reader->name, reader->line, "earth beside crs");
     for (int i = 0; i < 2; i++) {
         const sli_word word = reader->words.items[i];
         if (!sl_number_read(word.at, word.length, &degrees[i]) ||
@@ -182,7 +184,19 @@ static sl_status read_earth(text_reader *reader) {
                               "degrees, found '%s'",
                               sli_show(word).text);
     }
-    reader->map->earth = (sl_earth){true, degrees[0], degrees[1]};
+    reader->map->earth = (sl_earth){.known = true, .longitude = degrees[0], .latitude = degrees[1]};
+    reader->map->earth_line = reader->line;
+    return SL_OK;
+}
+
+static sl_status read_crs(text_reader *reader) {
+    const sli_word word = reader->words.items[0];
+    if (reader->map->earth.epsg || reader->map->earth.known)
+        return sl_fail_at(reader->context, reader->name, reader->line,
+                          reader->map->earth.known ? "crs beside earth" : "a second crs");
+    if (!sl_earth_read_epsg(word.at, word.length, &reader->map->earth.epsg))
+        return sl_fail_at(reader->context, reader->name, reader->line,
+                          "crs: expected EPSG:NUMBER, found '%s'", sli_show(word).text);
     reader->map->earth_line = reader->line;
     return SL_OK;
 }
@@ -294,6 +308,7 @@ static const statement statements[] = {
     {"entrance", "entrance w", false, 1, 1, 1, read_entrance},
     {"unit", "unit NAME", false, 1, 2, 0, read_unit},
     {"earth", "earth LONGITUDE LATITUDE", false, 2, 2, 0, read_earth},
+    {"crs", "crs EPSG:NUMBER", false, 1, 1, 0, read_crs},
     {"start", "start x y heading", false, 3, 3, 2, read_start},
     {"path", "path NAME x y ...", true, 2, ANY, ANY, read_path},
     {"object", "object NAME x0 y0 x1 y1", true, 4, 4, 4, read_object},
@@ -397,7 +412,7 @@ static sl_status read_statement(text_reader *reader) {
         return sl_fail_at(
             reader->context, reader->name, reader->line,
             "unknown statement '%s': expected wall, walls, solid, open, door, mirror, "
-            "oneway, seam, range, entrance, unit, earth, start, path, object, cell, snap or "
+            "oneway, seam, range, entrance, unit, earth, crs, start, path, object, cell, snap or "
             "precision",
             sli_show(word).text);
     memmove(reader->words.items, reader->words.items + 1, --reader->words.count * sizeof(sli_word));
@@ -768,6 +783,11 @@ static sl_status print_map(text_writer *writer) {
         begin_statement(writer, map->earth_line, "earth");
         print_number(writer->stream, map->earth.longitude);
         print_number(writer->stream, map->earth.latitude);
+        end_statement(writer, map->earth_line);
+    }
+    if (map->earth.epsg) {
+        begin_statement(writer, map->earth_line, "crs ");
+        fprintf(writer->stream, "EPSG:%u", (unsigned)map->earth.epsg);
         end_statement(writer, map->earth_line);
     }
     if (map->entrance > 0) {

@@ -142,7 +142,7 @@ class Case:
         after = self.box.files()
         for name, start in makes.items():
             sandbox.check(after.get(name), f"{name} is not there, or empty")
-            sandbox.check(start.encode() in after[name][:64], f"{name} does not start with {start}")
+            sandbox.check(start.encode() in after[name][:256], f"{name} does not start with {start}")
         changed = {name for name in after if name not in before or after[name] != before[name]}
         sandbox.check(changed <= set(makes), f"also wrote {sorted(changed - set(makes))}")
 

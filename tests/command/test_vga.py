@@ -364,19 +364,47 @@ class Scale(sandbox.ProgramTest):
             "wall 10 0 10 12\nwall 10 14 10 30\nwall 30 0 30 12\nwall 30 14 30 30\n")
         note = (r"note: the colour scale leaves out 9 points in 1 small part, not seen from the rest; .*"
                 r"add --start X,Y there\n")
+        grey = (r"note: 2 parts that no sightline joins, numbered in the column 'part': the largest has "
+                r"1050 of 1059 points\nnote: the colours are those of the largest part; the other is grey")
         for command, measure, *options in (("vga", "visual_integration_hh"), ("isovist", "area"),
                                            ("vga", "area", "--measures", "isovist")):
             with self.subTest(command=command, measure=measure):
                 arguments = [command, "court.map", "--grid", "1", "--measure", measure, *options]
                 told = self.run_well(*arguments, "--picture", "a.svg").stderr
-                self.assertRegex(told, note if command == "vga" else "the colour scale leaves out")
+                self.assertRegex(told, note if command == "vga" and measure == "area" else
+                                 "the colour scale leaves out" if command == "isovist" else grey)
                 told = self.run_well(*arguments, "--picture", "b.svg", "--start", "5,5").stderr
-                self.assertNotIn("the colour scale", told)
+                self.assertNotRegex(told, "the colour|parts")
                 told = self.run_well(*arguments, "--picture", "c.svg", "--scale", "0,9").stderr
-                self.assertNotIn("the colour scale", told)
+                self.assertNotIn("the colour", told)
         tables = [self.printed("vga", "court.map", "--grid", "1", "-o", "-", "-q", *picture)
                   for picture in ([], ["--picture", "d.svg"])]
         self.assertEqual(*tables)
+
+    def test_parts_have_their_own_figures(self):
+        """A court of its own is grey, has its own mean, and changes no figure of the hall."""
+        walls = ("sightline 1\nwalls 0 0 20 0 20 10 0 10 0 0\nwall 10 0 10 6\nwall 4 4 8 4\n")
+        court = ("walls 30 0 36 0 36 6 30 6 30 0\nwall 33 0 33 4\nstart 31 1 0\n")
+        self.box.path("hall.map").write_text(walls + "start 1 1 0\n")
+        self.box.path("both.map").write_text(walls + court + "start 1 1 0\n")
+        arguments = ["--grid", "1", "-o", "t.csv", "--picture", "p.svg"]
+        alone = self.run_well("vga", "hall.map", *arguments).stdout
+        rows = [row.split(",") for row in self.box.path("t.csv").read_text().split()]
+        self.assertNotIn("part", rows[0])
+        both = self.run_well("vga", "both.map", *arguments).stdout
+        # The same means, deviations and ranks, then the line of the court.
+        figures, others = both.split("other parts:\n")
+        self.assertEqual(figures.split("\n", 1)[1], alone.split("\n", 1)[1])
+        self.assertRegex(figures, r"^181 points in 2 parts that no sightline joins; .* largest, 160 points\n")
+        self.assertRegex(others, r"\A +part .*\n +2 +21 +31 +1 +[\d.]+\n\Z")
+        with_part = [row.split(",") for row in self.box.path("t.csv").read_text().split()]
+        self.assertEqual(with_part[0], rows[0] + ["part"])
+        self.assertEqual([row[:-1] for row in with_part[1:] if row[-1] == "1"], rows[1:])
+        self.assertEqual(len([row for row in with_part if row[-1] == "2"]), 21)
+        # Steps from a point of the court are the court's.
+        steps = self.run_well("vga", "both.map", *arguments, "--from", "31,1", "--measure",
+                              "visual_step_depth").stdout
+        self.assertRegex(steps, r"highest visual_step_depth:\n.*\n +3[1-5] ")
 
 
 if __name__ == "__main__":

@@ -8,8 +8,12 @@
 
 static const double degree = 3.14159265358979323846 / 180;
 
-static const sl_earth origins[] = {{true, 0, 0},      {true, 10, 60},   {true, -179.99, -45},
-                                   {true, 180, 78.2}, {true, 139.7, 0}, {true, 12.5, -89.9}};
+static const sl_earth origins[] = {{.known = true, .longitude = 0, .latitude = 0},
+                                   {.known = true, .longitude = 10, .latitude = 60},
+                                   {.known = true, .longitude = -179.99, .latitude = -45},
+                                   {.known = true, .longitude = 180, .latitude = 78.2},
+                                   {.known = true, .longitude = 139.7, .latitude = 0},
+                                   {.known = true, .longitude = 12.5, .latitude = -89.9}};
 enum { ORIGINS = sizeof origins / sizeof *origins };
 
 /// There and back, up to some 100 km: within 1e-10 degrees, a hundredth of a millimetre.
@@ -69,7 +73,7 @@ static void test_stretch(void **state) {
     (void)state;
     const double small = 1e-4 * degree;
     for (double latitude = -60; latitude <= 60; latitude += 30) {
-        const sl_earth earth = {true, 20, latitude};
+        const sl_earth earth = {.known = true, .longitude = 20, .latitude = latitude};
         for (double east = 0; east <= 3; east += 0.5) {
             const sl_point p = {20 + east, latitude};
             const sl_point at = sl_earth_to_map(&earth, p);
@@ -90,7 +94,7 @@ static void test_stretch(void **state) {
 /// The way over 180 degrees is short.
 static void test_date_line(void **state) {
     (void)state;
-    const sl_earth earth = {true, 179.9, 10};
+    const sl_earth earth = {.known = true, .longitude = 179.9, .latitude = 10};
     const sl_point at = sl_earth_to_map(&earth, (sl_point){-179.9, 10});
     assert_true(at.x > 0 && at.x < 30000);
     assert_true(fabs(sl_earth_of_map(&earth, at).x + 179.9) < 1e-11);

@@ -97,6 +97,26 @@ static void parts_are_those_of_all_pairs(void **state) {
             for (uint32_t q = 0; q < count; q++) size += part_root(parts, q) == part_root(parts, p);
             assert_int_equal(sizes[p], size);
         }
+        // Numbered from the largest, of two alike from the first.
+        uint32_t numbers[MOST], number_count;
+        assert_ok(context,
+                  sl_vga_parts(context, &graph, links, link_count, numbers, &number_count));
+        for (uint32_t p = 0; p < count; p++)
+            for (uint32_t q = 0; q < p; q++) {
+                const bool one = part_root(parts, p) == part_root(parts, q);
+                assert_true(one == (numbers[p] == numbers[q]));
+                if (sizes[p] != sizes[q])
+                    assert_true((sizes[p] > sizes[q]) == (numbers[p] < numbers[q]));
+            }
+        for (uint32_t p = 0, seen = 0; p < count; p++) {
+            assert_true(numbers[p] < number_count);
+            uint32_t first = 0;
+            while (numbers[first] != numbers[p]) first++;
+            if (first != p) continue;
+            for (uint32_t q = 0; q < p; q++)
+                if (sizes[q] == sizes[p]) assert_true(numbers[q] < numbers[p]);
+            assert_true(++seen <= number_count);
+        }
     }
     sl_context_destroy(context);
 }

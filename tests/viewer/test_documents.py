@@ -306,14 +306,36 @@ class Cases:
         self.run("oblique", path, OBLIQUE + "expect A wall is oblique now\nkey Ctrl+Z\n"
                  "expect All walls are axial now\n")
 
+    def asks_before_pictures(self):
+        """A picture goes beside the map, under the map's name or the one that is typed."""
+        (self.folder / "plans").mkdir()
+        path = self.write("plans/plan.map", PLAN)
+        ask = "key Ctrl+E\nexpect Save a picture of the plan\n"
+        self.run("none", path, ask + "key Escape\n")
+        self.run("unasked", path, "key Ctrl+G\nkey Ctrl+P\nkey Escape\n")
+        names = lambda: sorted(each.name for each in self.folder.rglob("*.???"))
+        self.check(names() == ["plan.map", "script.txt"], f"pictures were saved unasked: {names()}")
+        self.run("picture", path, ask + "key Return\nexpect saved plan.png\n"
+                 + ask + "key Return\nexpect saved plan-2.png\n"
+                 "key Ctrl+G\nkey Return\nexpect saved plan.svg\n")
+        self.run("wrong ending", path, ask + "key Ctrl+U\ntype hall.jpg\nkey Return\n"
+                 "expect end in .png, .svg or .pdf\nkey Escape\n")
+        self.run("replaced", path, ask + "key Ctrl+U\ntype plan.png\nkey Return\n"
+                 "expect Replace the file?\nkey R\nexpect saved plan.png\n")
+        self.run("account", path, "key L\n" + ask + "key Ctrl+U\ntype cost.pdf\nkey Return\n"
+                 "expect the account beside it\n")
+        self.check(names() == ["cost-account.pdf", "cost.pdf", "plan-2.png", "plan.map", "plan.png",
+                               "plan.svg", "script.txt"], f"pictures: {names()}")
+        self.check(not list(self.folder.glob("*.png")), "a picture is in the working folder")
+
     def asks_before_many_pictures(self):
         path = self.write("plan.map", PLAN)
-        frames = self.folder / "sightline-frames"
+        frames = self.folder / "plan-frames"
         script = "key F9\ndown W\nwait 6\nup W\nkey F9\naction export_series\n"
         self.run("no way", path, "action export_series\nexpect no way was recorded\n")
-        self.run("no pictures", path, script + "expect pictures of 800 x 600 pixels\nkey C\n")
+        self.run("no pictures", path, script + "expect pictures of 800 x 600 pixels\nkey Escape\n")
         self.check(not frames.exists(), "pictures were saved unasked")
-        self.run("pictures", path, script + "key S\nexpect frames in\n")
+        self.run("pictures", path, script + "key Return\nexpect frames in\n")
         self.check(any(frames.glob("*.png")), "no pictures were saved")
 
 

@@ -4,6 +4,7 @@
 #include "space/outline.h"
 #include "viewer_app.h"
 
+#include "app/frame.h"
 #include "app/layout.h"
 #include "app/turn.h"
 #include "plan/heat.h"
@@ -130,12 +131,20 @@ static void assert_fresh(app_state *app) {
         }
         if (values[p] != value) fail_msg("%s: %g, not %g", measure->name, values[p], value);
     }
-    uint32_t *sizes = calloc(f.grid.count, sizeof *sizes);
-    assert_int_equal(sl_vga_part_sizes(context, &f.graph, NULL, 0, sizes), SL_OK);
-    const sl_vga_scale scale = sl_vga_scale_of(values, sizes, f.grid.count);
+    // The scale is that of the part that the eye is in.
+    uint32_t *parts = calloc(f.grid.count, sizeof *parts), part_count;
+    assert_int_equal(sl_vga_parts(context, &f.graph, NULL, 0, parts, &part_count), SL_OK);
+    const uint32_t at = heat_graph_nearest(context, graph, app->view.eye.at);
+    assert_true(at != UINT32_MAX);
+    double least = INFINITY, most = -INFINITY;
+    for (uint32_t p = 0; p < f.grid.count; p++) {
+        if (parts[p] != parts[at]) continue;
+        least = fmin(least, values[p]);
+        most = fmax(most, values[p]);
+    }
     heat_layer_scale(&app->view, &low, &high);
-    assert_true(low == scale.least && high == scale.most);
-    free(sizes);
+    assert_true(low == least && high == most);
+    free(parts);
     drop_fresh(context, &f);
     sl_context_destroy(context);
 }
@@ -415,6 +424,111 @@ static void test_fills(void **state) {
     viewer_end(app);
 }
 
+/// Of two halls that do not see each other the eye's has the scale.
+static void test_parts(void **state) {
+    (void)state;
+    char folder[] = "/tmp/sightline-heat-XXXXXX", path[64];
+    assert_non_null(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s/a.map", folder);
+    FILE *stream = fopen(path, "w");
+    assert_non_null(stream);
+    fputs("sightline 1\nwalls 0 0 20 0 20 10 0 10 0 0\nwall 10 0 10 6\n"
+          "walls 30 0 36 0 36 6 30 6 30 0\nwall 33 0 33 4\nstart 1 1 0\nstart 31 1 0\n",
+          stream);
+    assert_int_equal(fclose(stream), 0);
+    app_state *app = start(path);
+    double low, high, least, most;
+    legend_key key;
+    press_key(app, "1");
+    assert_fresh(app);
+    heat_layer_scale(&app->view, &low, &high);
+    assert_true(heat_layer_key(&app->view, &key));
+    bool told = false;
+    for (int i = 0; i < key.count; i++) told |= strstr(key.rows[i].text, "points are grey") != NULL;
+    assert_true(told);
+    const uint32_t stamp = app->view.heat_choice.stamp;
+    app->view.eye.at = (sl_point){2, 2};
+    app_tick(app, 0);
+    assert_int_equal(app->view.heat_choice.stamp, stamp);
+    app->view.eye.at = (sl_point){31.2, 1.1};
+    app_tick(app, 0);
+    assert_fresh(app);
+    heat_layer_scale(&app->view, &least, &most);
+    assert_true(least != low && most != high);
+    assert_true(app->view.heat_choice.stamp != stamp);
+    viewer_end(app);
+    assert_int_equal(remove(path), 0);
+    assert_int_equal(rmdir(folder), 0);
+}
+
+static cairo_surface_t *draw_window(app_state *app, bool portals) {
+    cairo_surface_t *surface =
+        cairo_image_surface_create(CAIRO_FORMAT_RGB24, app->ui.width, app->ui.height);
+    cairo_t *cairo = cairo_create(surface);
+    app->view.show = SHOW_CELLS | SHOW_HEAT | (portals ? SHOW_PORTALS : 0);
+    app_draw(app, cairo);
+    cairo_destroy(cairo);
+    cairo_surface_flush(surface);
+    return surface;
+}
+
+/// The pixels beside a line of the map in which two pictures of the window differ.
+static unsigned differing(const app_state *app, cairo_surface_t *one, cairo_surface_t *other,
+                          sl_point from, sl_point to) {
+    const sl_frame frame = camera_frame(&app->view.camera, app->view.plan[0], 1);
+    const sl_point a = sl_frame_point(&frame, from), b = sl_frame_point(&frame, to);
+    const size_t stride = (size_t)cairo_image_surface_get_stride(one);
+    const unsigned char *p = cairo_image_surface_get_data(one);
+    const unsigned char *q = cairo_image_surface_get_data(other);
+    unsigned count = 0;
+    for (int y = (int)fmin(a.y, b.y) + 8; y < (int)fmax(a.y, b.y) - 8; y++)
+        for (int x = (int)fmin(a.x, b.x) - 4; x <= (int)fmax(a.x, b.x) + 4; x++) {
+            const size_t at = (size_t)y * stride + 4 * (size_t)x;
+            count += memcmp(p + at, q + at, 3) != 0;
+        }
+    return count;
+}
+
+/// Portals are drawn over the heat map, but not between cells outside, where there is no map.
+static void test_portals(void **state) {
+    (void)state;
+    char folder[] = "/tmp/sightline-heat-XXXXXX", path[64];
+    assert_non_null(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s/a.map", folder);
+    FILE *stream = fopen(path, "w");
+    assert_non_null(stream);
+    // An L; in its notch a wall that has the notch cut in two.
+    fputs("sightline 1\nwalls 0 0 20 0 20 10 10 10 10 20 0 20 0 0\nwall 15 10 15 14\n"
+          "wall 5 0 5 4\nstart 2 12 0\n",
+          stream);
+    assert_int_equal(fclose(stream), 0);
+    app_state *app = start(path);
+    app->view.show = SHOW_CELLS | SHOW_HEAT;
+    layers_set_fill(&app->view, LAYER_HEAT);
+    app_tick(app, 0);
+    script_frame(app);
+    const heat_graph *graph;
+    assert_non_null(heat_layer_values(&app->view, &graph));
+    const sl_space *space = &app->document.baked->space;
+    cairo_surface_t *with = draw_window(app, true), *without = draw_window(app, false);
+    uint32_t inside = 0, outside = 0;
+    for (uint32_t i = 0; i < space->portal_count; i++) {
+        const sl_portal *portal = &space->portals[i];
+        if (portal->left.x != portal->right.x) continue;
+        const bool in = space->cells[portal->cell[0]].inside;
+        const unsigned pixels = differing(app, with, without, portal->left, portal->right);
+        assert_true(in ? pixels > 20 : pixels == 0);
+        inside += in;
+        outside += !in;
+    }
+    assert_true(inside && outside);
+    cairo_surface_destroy(with);
+    cairo_surface_destroy(without);
+    viewer_end(app);
+    assert_int_equal(remove(path), 0);
+    assert_int_equal(rmdir(folder), 0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_list),      cmocka_unit_test(test_measures),
@@ -422,7 +536,8 @@ int main(void) {
         cmocka_unit_test(test_steps),     cmocka_unit_test(test_refused),
         cmocka_unit_test(test_glass),     cmocka_unit_test(test_stopped),
         cmocka_unit_test(test_fills),     cmocka_unit_test(test_no_value),
-        cmocka_unit_test(test_first_eye),
+        cmocka_unit_test(test_first_eye), cmocka_unit_test(test_portals),
+        cmocka_unit_test(test_parts),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -548,10 +548,21 @@ static void wait_for_pictures(app_state *app) {
     assert_null(app->exports.job);
 }
 
-/// Saves the way, and answers the question of how many pictures that are.
+/// Types the path of a file of the working folder into the dialog that asks for one.
+static void choose_path(app_state *app, const char *name) {
+    char path[512];
+    assert_non_null(getcwd(path, sizeof path - 32));
+    strcat(path, "/");
+    strcat(path, name);
+    viewer_press(app, "Ctrl+U");
+    input_text(app, path);
+    viewer_press(app, "Return");
+}
+
 static void save_way(app_state *app) {
     action_run(app, action_find("export_series"));
-    viewer_press(app, "S");
+    script_frame(app);
+    choose_path(app, "sightline-frames");
 }
 
 static void test_exported(void **state) {
@@ -573,12 +584,16 @@ static void test_exported(void **state) {
     viewer_press(app, "Escape");
     assert_null(app->exports.job);
     assert_true(take_away("sightline-frames") <= 3);
-    static const char *const keys[] = {"Ctrl+E", "Ctrl+G", "Ctrl+P"};
+    static const char *const keys[][2] = {{"Ctrl+E", "sightline-live.png"},
+                                          {"Ctrl+G", "sightline-live.svg"},
+                                          {"Ctrl+P", "sightline-live.pdf"}};
     for (int i = 0; i < 3; i++) {
-        viewer_press(app, keys[i]);
+        viewer_press(app, keys[i][0]);
+        script_frame(app);
+        choose_path(app, keys[i][1]);
         wait_for_pictures(app);
         assert_int_equal(strncmp(app->ui.message, "saved ", 6), 0);
-        assert_int_equal(remove(app->ui.message + 6), 0);
+        assert_int_equal(remove(keys[i][1]), 0);
     }
     // Closed while a picture is being written.
     save_way(app);

@@ -31,6 +31,8 @@ PICTURES = {
     "fewest": ("oblique/comb.map", "key F2\n" + "key U\n" * 3 + "key Right\n" * 3),
     "cameras": ("oblique/comb.map", "key 8\nclick 120 290\n" + "key ,\n" * 40 + "key Left\n" * 12 +
                 "click 240 314\n"),
+    "plan": ("effects/doors.map", "key 9\nkey Ctrl+2\naction heat_ranks\nmove 180 120\n"),
+    "plan_path": ("effects/doors.map", "key 9\nkey Ctrl+3\nclick 100 120\nclick 380 400\n"),
     "quiz": ("office.map", "key F4\nkey Y\n"),
     "nodes": ("office.map", "eye 53 20 160 60\nkey M\nkey R\nkey Q\naction side_panel\n"),
     "views": ("office.map", "size 640 530\neye 53 20 160 90\nkey M\nkey R\nkey F5\n"

@@ -39,6 +39,11 @@ STEPS = [
     ("heat_kept", ["7"], "key 7\n"),
     ("heat_steps", ["6"], "key 6\n"),
     ("no_heat", ["6", "1", "m"], "key 6\nkey 1\nkey M\n"),
+    ("plan", ["9"], "key 9\n"),
+    ("plan_graph", ["ctrl+2"], "key Ctrl+2\n"),
+    ("plan_path", ["ctrl+2", "ctrl+3", ("drag", 150, 200, 150, 200), ("drag", 600, 400, 600, 400)],
+     "key Ctrl+2\nkey Ctrl+3\nclick 150 200\nclick 600 400\n"),
+    ("plan_eye", ["ctrl+1", ("drag", 400, 300, 400, 300)], "key Ctrl+1\nclick 400 300\n"),
     ("learn", ["F2", "Right", "Right", "Right"], "key F2\n" + "key Right\n" * 3),
     ("back", ["Left"], "key Left\n"),
     ("moved", ["period", "period", "Up", "Up", "period", "Right"],
@@ -68,11 +73,11 @@ def steps():
     return STEPS if DROP.exists() else STEPS[:names.index("dropped")]
 
 
-def start_display():
+def start_display(size="1280x800"):
     """The server and its name; it chooses a free one itself."""
     read, write = os.pipe()
     server = subprocess.Popen(
-        ["Xvfb", "-displayfd", str(write), "-screen", "0", "1280x800x24", "-nolisten", "tcp", "-noreset"],
+        ["Xvfb", "-displayfd", str(write), "-screen", "0", f"{size}x24", "-nolisten", "tcp", "-noreset"],
         pass_fds=[write], stderr=subprocess.DEVNULL)
     os.close(write)
     with os.fdopen(read) as pipe:
@@ -129,11 +134,18 @@ class Window:
     def save(self):
         """The picture that is saved next. The pointer rests on the bar, where it changes nothing."""
         self.saved += 1
-        path = self.folder / f"sightline-{self.saved}.png"
+        path = self.folder / f"saved-{self.saved}.png"
         self.do("mousemove", "--window", self.id, 1150, 15)
         self.do("key", "ctrl+e")
+        self.choose(path)
         self.viewer.check(wait_for_file(path), f"{path.name} was not saved")
         return path
+
+    def choose(self, path):
+        """Types a path into the dialog that asks for one."""
+        self.do("key", "ctrl+u")
+        self.do("type", "--delay", 2, path)
+        self.do("key", "Return")
 
     def save_after(self, series):
         """Saves the plan once the series is written: until then that is refused."""
@@ -193,12 +205,13 @@ def drive(viewer, window):
 
 def export(viewer, window):
     """A recorded way becomes numbered pictures in the background: keys work meanwhile."""
-    for act in ["F9", "w", "F9", "ctrl+m", "End", "Up", "Return", "s"]:
+    series = window.folder / "way"
+    for act in ["F9", "w", "F9", "ctrl+m", "End", "Up", "Return"]:
         window.act(act)
         time.sleep(0.3)
+    window.choose(series)
     window.act("m")
     window.act("m")
-    series = window.folder / "sightline-frames"
     viewer.check(wait_for_file(series / "frame-0002.png"), "no numbered pictures")
     window.save_after(series)
 

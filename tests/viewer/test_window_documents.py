@@ -222,6 +222,17 @@ class Cases:
             s.keys("ctrl+q")
             s.ends("opened by path")
 
+    def starts_large(self):
+        """On a dense screen that does not tell its size the window is not tiny."""
+        path = self.write("plan.map", PLAN)
+        with self.session(path) as s:
+            s.shows("plan.map")
+            told = s.window.do("getwindowgeometry", s.window.id).split("Geometry: ")[1]
+            wide, high = map(int, told.split("x"))
+            self.viewer.check(wide >= 1800 and high >= 1100, f"a window of {told} on 2880 x 1800")
+            s.keys("ctrl+q")
+            s.ends("on a dense screen")
+
     def shows_a_bad_file(self):
         bad = self.write("bad.map", "sightline 1\nwall 0 0 1\n")
         good = self.write("plan.map", PLAN)
@@ -235,14 +246,10 @@ class Cases:
             s.ends("after a bad file")
 
 
-def main():
-    if not shutil.which("Xvfb") or not shutil.which("xdotool"):
-        print("Xvfb or xdotool is not here")
-        sys.exit(SKIP)
-    viewer = Viewer(sys.argv)
-    server, display = start_display()
+def play(viewer, size, cases):
+    server, display = start_display(size)
     try:
-        for case in ["saves_and_quits", "recovers", "offers_each", "opens_by_path", "shows_a_bad_file"]:
+        for case in cases:
             with tempfile.TemporaryDirectory() as name:
                 folder = pathlib.Path(name).resolve()
                 shown = environment(DISPLAY=display, XDG_CONFIG_HOME=str(folder / "config"),
@@ -251,6 +258,16 @@ def main():
     finally:
         server.terminate()
         server.wait()
+
+
+def main():
+    if not shutil.which("Xvfb") or not shutil.which("xdotool"):
+        print("Xvfb or xdotool is not here")
+        sys.exit(SKIP)
+    viewer = Viewer(sys.argv)
+    play(viewer, "1280x800",
+         ["saves_and_quits", "recovers", "offers_each", "opens_by_path", "shows_a_bad_file"])
+    play(viewer, "2880x1800", ["starts_large"])
     viewer.end()
 
 

@@ -8,6 +8,7 @@
 #include "reports/json_print.h"
 #include "sightline/draw.h"
 #include "sightline/support.h"
+#include "studies/cover_report.h"
 #include "studies/exposure.h"
 #include "studies/eye_run.h"
 #include "studies/isovist.h"
@@ -277,10 +278,6 @@ static void say_union(const isovist_work *w, char *text, size_t size) {
 }
 
 static void write_caption(const isovist_work *w, char *text, size_t size) {
-    if (w->together.shape_count) {
-        say_union(w, text, size);
-        return;
-    }
     const isovist_result *isovist = &w->isovists[0];
     const sl_region_measures *m = &isovist->measures;
     const char *name = w->baked.map.unit, *space = *name ? " " : "",
@@ -297,13 +294,53 @@ static void write_caption(const isovist_work *w, char *text, size_t size) {
              m->drift_magnitude, unit, m->drift_angle);
 }
 
+/// The viewpoints as cameras, under the names of their table.
+static sl_status list_cameras(sl_context *context, const isovist_plan *plan, const isovist_work *w,
+                              sl_cameras *out) {
+    for (size_t i = 0; i < w->eyes.list.count; i++) {
+        const eye_place *eye = &w->eyes.list.items[i];
+        const double range = plan->range > 0 && eye->range > 0 ? fmin(plan->range, eye->range)
+                                                               : fmax(plan->range, eye->range);
+        const sl_camera camera = {
+            .view = {.at = eye->at, .heading = eye->heading, .fov = eye->fov, .range = range},
+            .name = i < w->eyes.table.count ? w->eyes.table.items[i].name : NULL};
+        SL_TRY(sl_cameras_add(context, out, &camera));
+    }
+    return SL_OK;
+}
+
+/// Draws what they see together, as `cover` does: classes, viewpoints, blind spots and the key.
+static sl_status draw_union(sl_context *context, const isovist_plan *plan, const isovist_work *w) {
+    char caption[256];
+    sl_cameras cameras = {0};
+    sl_coverage coverage = {0};
+    sl_viewpoint *viewpoints = NULL;
+    // What was asked last has left its own range.
+    sl_status status = sl_query_set_range(context, w->query, plan->range);
+    if (status == SL_OK) status = list_cameras(context, plan, w, &cameras);
+    if (status == SL_OK) status = cover_viewpoints(context, &cameras, &viewpoints);
+    if (status == SL_OK)
+        status = sl_coverage_make(context, w->query, viewpoints, cameras.count, &coverage);
+    const cover_report report = {plan->input, plan->pipeline.input.import.map, &w->baked, &cameras,
+                                 &coverage};
+    if (status == SL_OK) {
+        cover_sentence(&report, caption, sizeof caption);
+        status = cover_draw(context, &report, caption, &plan->drawing, plan->picture);
+    }
+    sl_coverage_destroy(context, &coverage);
+    sl_free(context, viewpoints);
+    sl_cameras_destroy(context, &cameras);
+    return status;
+}
+
 static sl_status draw_points(sl_context *context, const isovist_plan *plan, isovist_work *w) {
     char caption[256];
+    if (plan->together) return draw_union(context, plan, w);
     write_caption(w, caption, sizeof caption);
-    if (!plan->together) SL_TRY(gather_parts(context, w));
+    SL_TRY(gather_parts(context, w));
     return built_pictures()->regions(context, &w->baked, w->parts.items, w->parts.count,
-                                     w->eyes.list.count == 1 || plan->together ? caption : NULL,
-                                     &plan->drawing, plan->picture);
+                                     w->eyes.list.count == 1 ? caption : NULL, &plan->drawing,
+                                     plan->picture);
 }
 
 /// What sight goes by: shut doors are walls of the space by now.

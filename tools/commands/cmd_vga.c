@@ -312,23 +312,41 @@ static void lay_out(const sl_vga_grid *grid, const double *values, double *field
     }
 }
 
-/// Gives each point the value of the picture's measure, and the size of its part.
-static sl_status evaluate(sl_context *context, const vga_plan *plan, const vga_work *w,
-                          double *values, uint32_t *sizes) {
-    for (uint32_t p = 0; p < w->table.grid.count; p++)
-        values[p] = vga_value(&w->table, plan->measure, p);
-    if (!w->graph.rows) return isovist_part_sizes(context, w->query, &w->eyes, sizes);
-    return sl_vga_part_sizes(context, &w->graph, w->links, w->link_count, sizes);
+/// Of several parts the largest alone is coloured, by its own scale. `grey` takes the squares of
+/// the others, by point.
+static void grey_others(const vga_table *table, double *values, double *grey) {
+    for (uint32_t p = 0; p < table->grid.count; p++) {
+        grey[p] = table->part[p] ? 1 : NAN;
+        if (table->part[p]) values[p] = NAN;
+    }
+}
+
+/// Areas, steps of agents and the like do not go by the part that a point is in: small parts only
+/// do not set their scale.
+static sl_status scale_without_small(sl_context *context, const vga_plan *plan, const vga_work *w,
+                                     const double *values, sl_field *field) {
+    uint32_t *sizes = sl_alloc_array(context, w->table.grid.count, sizeof *sizes);
+    sl_status status = sizes ? SL_OK : SL_NO_MEMORY;
+    if (status == SL_OK && w->graph.rows)
+        status = sl_vga_part_sizes(context, &w->graph, w->links, w->link_count, sizes);
+    else if (status == SL_OK)
+        status = isovist_part_sizes(context, w->query, &w->eyes, sizes);
+    if (status == SL_OK)
+        heat_map_scale(context, plan->scale_given != NULL, values, sizes, w->table.grid.count,
+                       &field->least, &field->most);
+    sl_free(context, sizes);
+    return status;
 }
 
 static sl_status draw(sl_context *context, const vga_plan *plan, const vga_work *w) {
     const sl_vga_grid *grid = &w->table.grid;
     const size_t count = (size_t)grid->columns * grid->rows;
     const name_table measures = measure_table(SL_VGA);
-    double *field_values = sl_alloc_array(context, count, sizeof *field_values);
+    double *laid = sl_alloc_array(context, count, sizeof *laid);
     double *values = sl_alloc_array(context, grid->count, sizeof *values);
-    uint32_t *sizes = sl_alloc_array(context, grid->count, sizeof *sizes);
-    sl_status status = field_values && values && sizes ? SL_OK : SL_NO_MEMORY;
+    double *others = sl_alloc_array(context, grid->count, sizeof *others);
+    bool *grey = sl_alloc_array(context, count, sizeof *grey);
+    sl_status status = laid && values && others && grey ? SL_OK : SL_NO_MEMORY;
     const heat_map heat = {.input = plan->input,
                            .map = plan->pipeline.input.import.map,
                            .measure = name_table_at(&measures, plan->measure),
@@ -339,20 +357,47 @@ static sl_status draw(sl_context *context, const vga_plan *plan, const vga_work 
                       .step = grid->step,
                       .columns = grid->columns,
                       .rows = grid->rows,
-                      .values = field_values,
+                      .values = laid,
                       .least = plan->scale.x,
                       .most = plan->scale.y};
-    if (status == SL_OK) status = evaluate(context, plan, w, values, sizes);
+    for (uint32_t p = 0; status == SL_OK && p < grid->count; p++)
+        values[p] = vga_value(&w->table, plan->measure, p);
+    if (status == SL_OK && !vga_measure_is_of_part(plan->measure)) {
+        status = scale_without_small(context, plan, w, values, &field);
+    } else if (status == SL_OK && w->table.part_count > 1 && !plan->scale_given) {
+        grey_others(&w->table, values, others);
+        lay_out(grid, others, laid);
+        for (size_t i = 0; i < count; i++) grey[i] = !isnan(laid[i]);
+        field.grey = grey;
+        sl_note(context,
+                "the colours are those of the largest part; the other%s grey (--scale "
+                "MIN,MAX colours all)",
+                w->table.part_count > 2 ? "s are" : " is");
+    }
     if (status == SL_OK) {
-        lay_out(grid, values, field_values);
-        heat_map_scale(context, plan->scale_given != NULL, values, sizes, grid->count, &field.least,
-                       &field.most);
+        lay_out(grid, values, laid);
         status = heat_map_draw(context, &w->baked, &heat, &field);
     }
-    sl_free(context, field_values);
-    sl_free(context, values);
-    sl_free(context, sizes);
+    void *const arrays[] = {laid, values, others, grey};
+    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) sl_free(context, arrays[i]);
     return status;
+}
+
+/// The parts of the graph that no sightline joins. Measures of the whole graph are of a point's
+/// own.
+static sl_status find_parts(sl_context *context, vga_work *w) {
+    vga_table *table = &w->table;
+    if (!w->graph.rows) return SL_OK;
+    table->part = sl_alloc_array(context, table->grid.count, sizeof *table->part);
+    if (!table->part) return SL_NO_MEMORY;
+    SL_TRY(
+        sl_vga_parts(context, &w->graph, w->links, w->link_count, table->part, &table->part_count));
+    if (table->part_count > 1)
+        sl_note(context,
+                "%" PRIu32 " parts that no sightline joins, numbered in the column 'part': the "
+                "largest has %" PRIu32 " of %" PRIu32 " points",
+                table->part_count, vga_part_size(table, 0), table->grid.count);
+    return SL_OK;
 }
 
 /// Measures of a map with glass are directed: what a point sees, or who sees it.
@@ -416,7 +461,7 @@ static sl_status compute(sl_context *context, vga_plan *plan, vga_work *w) {
         SL_TRY(vga_grid_read_links(context, plan->points.links, &w->table.grid, &w->links,
                                    &w->link_count));
     SL_TRY(measure(context, plan, w));
-    return SL_OK;
+    return find_parts(context, w);
 }
 
 static void work_destroy(sl_context *context, vga_work *w) {
@@ -425,6 +470,7 @@ static void work_destroy(sl_context *context, vga_work *w) {
     sl_free(context, w->table.depths);
     sl_vga_steps_destroy(context, w->steps);
     sl_free(context, w->table.gates);
+    sl_free(context, w->table.part);
     sl_free(context, w->links);
     sl_vga_grid_destroy(context, &w->table.grid);
     sl_vga_graph_destroy(context, &w->graph);

@@ -189,14 +189,15 @@ static void print_steps(const sl_baked *baked, const sl_bent_sightline *bent) {
         print_point(at.b);
         printf(", back into cell %" PRIu32 "\n", step->cell);
     }
+    const int digits = sl_map_digits(&baked->map);
     printf("The line starts about ");
     for (uint32_t i = 0; i < bent->mirrors + 2; i++) {
         const sl_point p = bent->bends[i];
-        printf("%s(%.6g,%.6g)",
+        printf("%s(%.*g,%.*g)",
                !i                   ? ""
                : i <= bent->mirrors ? ", bends at "
                                     : " and ends about ",
-               p.x, p.y);
+               digits, p.x, digits, p.y);
     }
     puts(bent->rounded ? "; places in mirrors are rounded." : ".");
 }

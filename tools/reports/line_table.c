@@ -113,7 +113,7 @@ void line_table_print(const line_table *table, const char *what, const line_colu
                "value");
     for (size_t k = 0; k < count; k++) {
         const sl_segment *s = &table->lines[best[k]];
-        printf("  %12.6g %12.6g %12.6g %12.6g %12.6g\n", s->a.x, s->a.y, s->b.x, s->b.y,
+        printf("  %12.10g %12.10g %12.10g %12.10g %12.6g\n", s->a.x, s->a.y, s->b.x, s->b.y,
                column->values[best[k]]);
     }
 }

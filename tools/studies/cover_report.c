@@ -74,11 +74,12 @@ static void print_classes(const cover_report *r) {
 static void print_viewpoints(const cover_report *r) {
     size_t spare = 0;
     char name[64], seen[AREA_TEXT], alone[AREA_TEXT];
+    const int digits = sl_map_digits(&r->baked->map);
     printf("\n  viewpoint          at                      sees       alone\n");
     for (size_t i = 0; i < r->coverage->count; i++) {
         const sl_camera *camera = &r->cameras->items[i];
         char at[64];
-        snprintf(at, sizeof at, "%.6g,%.6g", camera->view.at.x, camera->view.at.y);
+        snprintf(at, sizeof at, "%.*g,%.*g", digits, camera->view.at.x, digits, camera->view.at.y);
         name_of(camera, i, name, sizeof name);
         const bool is_spare = sl_coverage_is_spare(r->coverage, i);
         spare += is_spare;
@@ -96,12 +97,13 @@ static void print_viewpoints(const cover_report *r) {
 static void print_blind(const cover_report *r) {
     const sl_coverage *c = r->coverage;
     char text[AREA_TEXT];
+    const int digits = sl_map_digits(&r->baked->map);
     if (!c->blind_count) return;
     printf("\n  %u blind spot%s", (unsigned)c->blind_count, c->blind_count == 1 ? "" : "s");
     printf(c->blind_count > BLIND_MOST ? ", the largest %d:\n" : ":\n", BLIND_MOST);
     for (uint32_t i = 0; i < c->blind_count && i < BLIND_MOST; i++)
-        printf("  %4u %12s  at %.6g,%.6g\n", (unsigned)i + 1, area_text(r, c->blind[i].area, text),
-               c->blind[i].at.x, c->blind[i].at.y);
+        printf("  %4u %12s  at %.*g,%.*g\n", (unsigned)i + 1, area_text(r, c->blind[i].area, text),
+               digits, c->blind[i].at.x, digits, c->blind[i].at.y);
 }
 
 void cover_print(const cover_report *r) {

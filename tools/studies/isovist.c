@@ -18,6 +18,7 @@ enum { MOST_SQUARES = 1 << 26 };
 void eyes_destroy(sl_context *context, eye_places *eyes) {
     sl_free(context, eyes->list.items);
     sl_free(context, eyes->squares.items);
+    sl_cameras_destroy(context, &eyes->table);
     *eyes = (eye_places){0};
 }
 
@@ -94,21 +95,17 @@ sl_status eyes_add_path(sl_context *context, const sl_path *path, double step, e
 sl_status eyes_read_table(sl_context *context, const char *path, const sl_space *space,
                           eye_place like, eye_places *eyes) {
     const sl_viewpoint usual = {.heading = like.heading, .fov = like.fov, .range = like.range};
-    sl_cameras cameras;
-    SL_TRY(sl_cameras_read(context, path, &usual, &cameras));
-    sl_status status = SL_OK;
+    SL_TRY(sl_cameras_read(context, path, &usual, &eyes->table));
     bool dead_zones = false;
-    for (size_t i = 0; i < cameras.count && status == SL_OK; i++) {
-        const sl_viewpoint *v = &cameras.items[i].view;
+    for (size_t i = 0; i < eyes->table.count; i++) {
+        const sl_viewpoint *v = &eyes->table.items[i].view;
         dead_zones |= v->nearest > 0;
-        status = input_check_place(context, path, cameras.items[i].line, space, v->at);
-        if (status == SL_OK)
-            status = eyes_add(context, eyes, (eye_place){v->at, v->heading, v->fov, v->range});
+        SL_TRY(input_check_place(context, path, eyes->table.items[i].line, space, v->at));
+        SL_TRY(eyes_add(context, eyes, (eye_place){v->at, v->heading, v->fov, v->range}));
     }
-    sl_cameras_destroy(context, &cameras);
-    if (status == SL_OK && dead_zones)
+    if (dead_zones)
         sl_note(context, "%s: dead zones do not count here; sightline cover counts them", path);
-    return status;
+    return SL_OK;
 }
 
 // --- parts

@@ -18,6 +18,7 @@ typedef struct eye_place {
 
 typedef struct eye_places {
     SL_ARRAY(eye_place) list;
+    sl_cameras table; ///< that they were read from; else empty
     // Of a grid: its squares, and by eye the square that it is in the middle of.
     sl_point corner;
     double step;

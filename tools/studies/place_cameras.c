@@ -373,6 +373,7 @@ void camera_work_say(const camera_work *w, bool stopped, char *text, size_t size
 sl_status camera_work_check_zones(sl_context *context, const camera_work *w,
                                   const camera_plan *plan, sl_query *query,
                                   const zone_cover *covers) {
+    const int digits = sl_map_digits(sl_query_map(query));
     for (size_t z = 0; z < w->see.ends.count && !w->task.count && !scans(w); z++) {
         const char *name = w->see.names.items[z];
         if (!(covers[z].inside > 0))
@@ -389,8 +390,8 @@ sl_status camera_work_check_zones(sl_context *context, const camera_work *w,
         }
         return found ? sl_fail(context, SL_BAD_ARGUMENT,
                                "--see: none of the places sees zone '%s'; the nearest one that "
-                               "could is at %.6g,%.6g",
-                               name, at.x, at.y)
+                               "could is at %.*g,%.*g",
+                               name, digits, at.x, digits, at.y)
                      : sl_fail(context, SL_BAD_ARGUMENT, "--see: none of the places sees zone '%s'",
                                name);
     }
@@ -453,6 +454,7 @@ static void print_blind_walls(const camera_work *w, const char *unit) {
 sl_status camera_work_print_blind(sl_context *context, const camera_work *w,
                                   const camera_plan *plan, sl_query *query, const char *unit) {
     const sl_area_placement *p = &w->placed;
+    const int digits = sl_map_digits(sl_query_map(query));
     const char *const squared = *unit ? "\xc2\xb2" : "", *const gap = *unit ? " " : "";
     if (!p->blind_count) return SL_OK;
     if (scans(w)) {
@@ -461,16 +463,17 @@ sl_status camera_work_print_blind(sl_context *context, const camera_work *w,
     }
     printf(
         "\n%.4g%s%s%s of it %s of these places see%s, whatever is chosen: %.3g %%. The largest of "
-        "%u part%s has %.4g%s%s%s at %.6g,%.6g.\n",
+        "%u part%s has %.4g%s%s%s at %.*g,%.*g.\n",
         p->blind_area, gap, unit, squared, w->task.cover > 1 ? "too few" : "none",
         w->task.cover > 1 ? "" : "s", 100 * p->blind_area / p->area, (unsigned)p->blind_count,
-        p->blind_count == 1 ? "" : "s", p->blind[0].area, gap, unit, squared, p->blind[0].at.x,
-        p->blind[0].at.y);
+        p->blind_count == 1 ? "" : "s", p->blind[0].area, gap, unit, squared, digits,
+        p->blind[0].at.x, digits, p->blind[0].at.y);
     sl_point at;
     bool found;
     SL_TRY(sl_place_nearest(context, query, &plan->like, p->blind[0].at, w->task.places,
                             w->task.place_count, &at, &found));
-    if (found) printf("The nearest place that could see it: %.6g,%.6g.\n", at.x, at.y);
+    if (found)
+        printf("The nearest place that could see it: %.*g,%.*g.\n", digits, at.x, digits, at.y);
     return SL_OK;
 }
 

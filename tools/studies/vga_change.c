@@ -174,7 +174,7 @@ static void print_best(const vga_change *c, size_t measure, int sign) {
                name_table_at(&names, measure), "x", "y", "change");
     for (size_t k = 0; k < count; k++) {
         const vga_pair *p = &c->pairs[best[k]];
-        printf("  %12.6g %12.6g %12.6g\n", p->at.x, p->at.y, change_of(c, measure, p));
+        printf("  %12.10g %12.10g %12.6g\n", p->at.x, p->at.y, change_of(c, measure, p));
     }
 }
 

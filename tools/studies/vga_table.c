@@ -35,6 +35,10 @@ unsigned vga_measure_part(size_t measure) {
     return m->of == SL_OF_DEPTH ? part * VGA_PART_STEPS : part;
 }
 
+bool vga_measure_is_of_part(size_t measure) {
+    return vga_measure_part(measure) < VGA_PART_ISOVIST;
+}
+
 double vga_value(const vga_table *table, size_t measure, uint32_t point) {
     const sl_measure *m = &columns(&(size_t){0})[measure];
     if (m->of == SL_OF_AGENTS) return (double)table->gates[point];
@@ -55,14 +59,16 @@ static size_t list_fields(const void *of, size_t point, table_field fields[FIELD
     for (size_t k = 0; k < measure_count; k++)
         if (table->parts & vga_measure_part(k))
             fields[count++] = field_real(measures[k].name, vga_value(table, k, (uint32_t)point));
+    if (table->part_count > 1) fields[count++] = field_real("part", table->part[point] + 1.0);
     return count;
 }
 
 static sl_status write_geojson(sl_context *context, const vga_table *table, FILE *out) {
     table_field fields[FIELDS_MOST];
     const bool known = table->earth.known;
-    fprintf(out, "{\"type\": \"FeatureCollection\", %s\"features\": [",
-            known ? "" : "\"crs\": null, ");
+    fputs("{\"type\": \"FeatureCollection\", ", out);
+    sl_geojson_put_crs(out, &table->earth);
+    fputs("\"features\": [", out);
     for (uint32_t p = 0; p < table->grid.count; p++) {
         if (p % 4096 == 0) SL_TRY(sl_check_cancelled(context));
         fprintf(out, "%s\n{\"type\": \"Feature\", \"geometry\": {\"type\": \"Point\", ",
@@ -97,27 +103,67 @@ sl_status vga_write(sl_context *context, const vga_table *table, const char *pat
 typedef struct table_measure {
     const vga_table *table;
     size_t measure;
+    uint32_t part;
 } table_measure;
 
+/// The value of a point of that part.
 static double value_at(const void *of, size_t index) {
     const table_measure *m = of;
+    if (m->table->part_count > 1 && m->table->part[index] != m->part &&
+        vga_measure_is_of_part(m->measure))
+        return NAN;
     return vga_value(m->table, m->measure, (uint32_t)index);
+}
+
+uint32_t vga_part_size(const vga_table *table, uint32_t part) {
+    uint32_t size = 0;
+    for (uint32_t p = 0; p < table->grid.count; p++) size += table->part[p] == part;
+    return size;
+}
+
+/// Each part but the largest in a line, as far as they are many.
+static void print_others(const vga_table *table, size_t measure, const char *name) {
+    enum { LISTED = 10 };
+    table_measure of = {table, measure, 1};
+    const summary_values values = {value_at, &of, table->grid.count};
+    printf("other parts:\n  %4s %8s %12s %12s   mean %s\n", "part", "points", "x", "y", name);
+    for (; of.part < table->part_count && of.part <= LISTED; of.part++) {
+        uint32_t first = 0;
+        double mean, deviation;
+        while (table->part[first] != of.part) first++;
+        const sl_point at = table->grid.points[first];
+        printf("  %4" PRIu32 " %8" PRIu32 " %12.10g %12.10g", of.part + 1,
+               vga_part_size(table, of.part), at.x, at.y);
+        if (summary_mean(&values, &mean, &deviation))
+            printf("   %.6g\n", mean);
+        else
+            printf("   not defined\n");
+    }
+    if (table->part_count > LISTED + 1)
+        printf("  and %" PRIu32 " more\n", table->part_count - LISTED - 1);
 }
 
 void vga_print_summary(const vga_table *table, size_t measure) {
     size_t best[SUMMARY_BEST], columns_count;
     const sl_measure *measures = columns(&columns_count);
-    table_measure of = {table, measure};
+    table_measure of = {table, measure, 0};
     const summary_values values = {value_at, &of, table->grid.count};
     const size_t count = summary_best(&values, best);
-    printf("%" PRIu32 " points\n  %-36s %12s %12s\n", table->grid.count, "measure", "mean",
-           "deviation");
+    printf("%" PRIu32 " points", table->grid.count);
+    if (table->part_count > 1)
+        printf(" in %" PRIu32
+               " parts that no sightline joins; the graph's figures are those of the "
+               "largest, %" PRIu32 " points",
+               table->part_count, vga_part_size(table, 0));
+    printf("\n  %-36s %12s %12s\n", "measure", "mean", "deviation");
     for (of.measure = 0; of.measure < columns_count; of.measure++)
         if (table->parts & vga_measure_part(of.measure))
             summary_print_mean(measures[of.measure].name, &values);
-    if (!count) return;
-    printf("highest %s:\n  %12s %12s %12s\n", measures[measure].name, "x", "y", "value");
+    of.measure = measure;
+    if (count) printf("highest %s:\n  %12s %12s %12s\n", measures[measure].name, "x", "y", "value");
     for (size_t k = 0; k < count; k++)
-        printf("  %12.6g %12.6g %12.6g\n", table->grid.points[best[k]].x,
+        printf("  %12.10g %12.10g %12.6g\n", table->grid.points[best[k]].x,
                table->grid.points[best[k]].y, vga_value(table, measure, (uint32_t)best[k]));
+    if (table->part_count > 1 && vga_measure_is_of_part(measure))
+        print_others(table, measure, measures[measure].name);
 }

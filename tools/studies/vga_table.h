@@ -14,6 +14,8 @@ typedef struct vga_table {
     sl_vga_depths *depths;    ///< from chosen points; NULL where there are none
     uint64_t *gates;          ///< steps of agents; NULL where there are none
     unsigned parts;
+    uint32_t *part; ///< by point: of those that no sightline joins (sl_vga_parts); NULL: unknown
+    uint32_t part_count;
     sl_earth earth; ///< where the map lies (sl_map.earth)
 } vga_table;
 
@@ -29,6 +31,10 @@ name_table vga_parts(void);
 /// The group of a measure, by its place in the table of SL_VGA.
 unsigned vga_measure_part(size_t measure);
 
+/// Whether a measure goes by the part of the graph that a point is in: not that of its own region,
+/// nor from chosen points, nor of agents.
+bool vga_measure_is_of_part(size_t measure);
+
 /// NAN where the measure is not defined.
 double vga_value(const vga_table *table, size_t measure, uint32_t point);
 
@@ -36,7 +42,11 @@ double vga_value(const vga_table *table, size_t measure, uint32_t point);
 /// stdout.
 sl_status vga_write(sl_context *context, const vga_table *table, const char *path);
 
-/// Prints mean and standard deviation of each column, and the ten highest values of one.
+/// The number of points in one of several parts.
+uint32_t vga_part_size(const vga_table *table, uint32_t part);
+
+/// Prints mean and standard deviation of each column, and the ten highest values of one. Of several
+/// parts the largest has these figures, and of the others only that one mean is printed.
 void vga_print_summary(const vga_table *table, size_t measure);
 
 #endif

@@ -16,6 +16,7 @@
 #include "plan/edit.h"
 #include "plan/effects.h"
 #include "plan/heat.h"
+#include "plan/route.h"
 #include "plan/view.h"
 #include "plan/view_cells.h"
 
@@ -29,8 +30,9 @@ enum {
     DRAW = 1 << MODE_DRAW,
     QUIZ = 1 << MODE_QUIZ,
     CAMERAS = 1 << MODE_CAMERAS,
-    NOT_LEARN = EXPLORE | DRAW | QUIZ,
-    WALKS = EXPLORE | DRAW | LEARN,
+    PLAN = 1 << MODE_PLAN,
+    NOT_LEARN = EXPLORE | DRAW | QUIZ | PLAN,
+    WALKS = EXPLORE | DRAW | LEARN | PLAN,
 };
 
 /// An action of one statement, and whether a switch is on.
@@ -63,6 +65,19 @@ MODE(learn, MODE_LEARN)
 MODE(draw, MODE_DRAW)
 MODE(quiz, MODE_QUIZ)
 MODE(cameras, MODE_CAMERAS)
+MODE(plan, MODE_PLAN)
+
+// --- tools of the Plan mode
+
+DO(plan_isovist, app->view.tool = TOOL_ISOVIST)
+IS(plan_isovist, app->view.tool == TOOL_ISOVIST)
+
+static void plan_path(app_state *app) {
+    app->view.tool = TOOL_PATH;
+    ui_say(&app->ui, false, "click where the way begins, then where it ends");
+}
+
+IS(plan_path, app->view.tool == TOOL_PATH)
 
 // --- layers
 
@@ -148,6 +163,13 @@ static bool is_heat_steps(const app_state *app) {
     return !heat_measure_part(heat_measure(app->view.heat_choice.measure));
 }
 
+static void plan_graph(app_state *app) {
+    toggle_HEAT(app);
+}
+
+IS(plan_graph, is_HEAT(app))
+DO(heat_ranks, heat_toggle_ranks(&app->view))
+IS(heat_ranks, app->view.heat_choice.ranks)
 DO(heat_hold, heat_toggle_held(&app->view))
 IS(heat_hold, app->view.heat_choice.held)
 
@@ -386,22 +408,22 @@ static bool is_camera_find(const app_state *app) {
     return cameras_progress(app->view.cameras).running;
 }
 
-static void want_table(desk_state *desk, table_wish wish, const char *path) {
-    desk->table_wanted = wish;
-    snprintf(desk->table_path, sizeof desk->table_path, "%s", path);
+static void wish_for(desk_state *desk, path_wish wish, const char *path) {
+    desk->wish = wish;
+    snprintf(desk->wish_path, sizeof desk->wish_path, "%s", path);
 }
 
 static void import_table(desk_state *desk, const char *path, bool ask) {
     (void)ask;
-    want_table(desk, TABLE_READ, path);
+    wish_for(desk, WISH_READ_TABLE, path);
 }
 
 static void export_table(desk_state *desk, const char *path) {
-    want_table(desk, TABLE_WRITE, path);
+    wish_for(desk, WISH_WRITE_TABLE, path);
 }
 
-DO(camera_import, browser_open_table(&app->desk, import_table))
-DO(camera_export, browser_save_table(&app->desk, "cameras.csv", export_table))
+DO(camera_import, browser_open(&app->desk, BROWSE_TABLES, import_table))
+DO(camera_export, browser_save(&app->desk, BROWSE_TABLES, "cameras.csv", export_table))
 
 // --- doors
 
@@ -444,21 +466,31 @@ static void play(app_state *app) {
 
 IS(play, app->recorder.plays)
 
-static void take_export(desk_state *desk, int answer) {
-    desk->agreed = answer == 0;
+static void take_frames(desk_state *desk, const char *path) {
+    wish_for(desk, WISH_FRAMES, path);
 }
 
 static void export_frames(app_state *app) {
-    static const char *const answers[] = {"S:Save", "C:Cancel"};
     const size_t count = (app->recorder.frames.count + SERIES_STEP - 1) / SERIES_STEP;
-    char text[160];
+    char name[TITLE_TEXT];
     if (!count) {
         ui_say(&app->ui, false, "no way was recorded: record one, or play the map's path");
         return;
     }
-    snprintf(text, sizeof text, "%zu picture%s of %d x %d pixels, in the folder sightline-frames",
-             count, count == 1 ? "" : "s", app->ui.width, app->ui.height);
-    question_ask(&app->desk, "Save pictures of the way?", text, answers, 2, take_export);
+    ui_say(&app->ui, false, "%zu picture%s of %d x %d pixels, in a new folder", count,
+           count == 1 ? "" : "s", app->ui.width, app->ui.height);
+    map_file_name_output(&app->desk, "-frames", name);
+    browser_save(&app->desk, BROWSE_FRAMES, name, take_frames);
+}
+
+static void take_picture(desk_state *desk, const char *path) {
+    wish_for(desk, WISH_PICTURE, path);
+}
+
+static void ask_for_picture(app_state *app, const char *ending) {
+    char name[TITLE_TEXT];
+    map_file_name_output(&app->desk, ending, name);
+    if (app->document.baked) browser_save(&app->desk, BROWSE_PICTURES, name, take_picture);
 }
 
 // --- files
@@ -498,9 +530,9 @@ static void cut_by(app_state *app, double share) {
 
 DO(cut_lower, cut_by(app, -0.02))
 DO(cut_higher, cut_by(app, 0.02))
-DO(save_png, save_numbered(app, "png"))
-DO(save_svg, save_numbered(app, "svg"))
-DO(save_pdf, save_numbered(app, "pdf"))
+DO(save_png, ask_for_picture(app, ".png"))
+DO(save_svg, ask_for_picture(app, ".svg"))
+DO(save_pdf, ask_for_picture(app, ".pdf"))
 DO(quit, map_file_quit(&app->desk))
 
 static void escape(app_state *app) {
@@ -510,6 +542,8 @@ static void escape(app_state *app) {
         ui_say(&app->ui, false, "stopped; the map is not saved");
     else if (edit_cancel(&app->view))
         ;
+    else if (app->view.mode == MODE_PLAN && app->view.tool == TOOL_PATH && route_clear(&app->view))
+        ui_say(&app->ui, false, "the way is gone");
     else if (app->document.job) {
         document_cancel(app->context, &app->document);
         ui_say(&app->ui, false, "stopped; what is there stays");
@@ -545,14 +579,16 @@ static const action_row actions[] = {
     {"cameras", "8", "Cameras", "cameras: what they see, and the fewest", 0, 0, cameras,
      is_cameras},
 
+    {"plan", "9", "Plan", "plan: measures of a floor plan", 0, 0, plan, is_plan},
+
     HOLD("forward", "W", "walk ahead", WALKS, HOLD_FORWARD),
     HOLD("forward_too", "Up", "walk ahead", WALKS, HOLD_FORWARD),
     HOLD("back", "S", "walk back", WALKS, HOLD_BACK),
     HOLD("back_too", "Down", "walk back", WALKS, HOLD_BACK),
     HOLD("left", "A", "step to the left", WALKS, HOLD_LEFT),
     HOLD("right", "D", "step to the right", WALKS, HOLD_RIGHT),
-    HOLD("turn_left", "Left", "turn left", EXPLORE | DRAW, HOLD_TURN_LEFT),
-    HOLD("turn_right", "Right", "turn right", EXPLORE | DRAW, HOLD_TURN_RIGHT),
+    HOLD("turn_left", "Left", "turn left", EXPLORE | DRAW | PLAN, HOLD_TURN_LEFT),
+    HOLD("turn_right", "Right", "turn right", EXPLORE | DRAW | PLAN, HOLD_TURN_RIGHT),
     {"fly", "G", "Fly", "fly through walls, or walk", 0, 0, fly, is_fly},
     {"home", "H", "Home", "back to the map's start", 0, 0, home, NULL},
     {"narrower", ",", NULL, "narrower view cone", NOT_LEARN, 0, narrower, NULL},
@@ -576,6 +612,14 @@ static const action_row actions[] = {
      is_heat_steps},
     {"heat_hold", "7", "Keep colours", "heat map: keep the colour scale, to compare", NOT_LEARN, 0,
      heat_hold, is_heat_hold},
+    {"heat_ranks", NULL, "Equal shares", "heat map: as many points in each colour", NOT_LEARN, 0,
+     heat_ranks, is_heat_ranks},
+    {"plan_isovist", "Ctrl+1", "Isovist", "plan: a click puts the viewpoint", PLAN, 0, plan_isovist,
+     is_plan_isovist},
+    {"plan_graph", "Ctrl+2", "Visibility graph", "plan: the heat map of the visibility graph", PLAN,
+     0, plan_graph, is_plan_graph},
+    {"plan_path", "Ctrl+3", "Path", "plan: two clicks, and the shortest way between them", PLAN, 0,
+     plan_path, is_plan_path},
     {"first_person", "I", "First person", "first-person pane", 0, 0, first_person, is_first_person},
     {"account", "L", "What accuracy costs", "what accuracy costs, as a chart", 0, 0, account,
      is_account},
@@ -616,7 +660,7 @@ static const action_row actions[] = {
      is_draw_doors},
 
     {"nearest_door", "N", "Door", "shut or open the nearest door (click: any door)",
-     EXPLORE | LEARN | DRAW, 0, nearest_door, NULL},
+     EXPLORE | LEARN | DRAW | PLAN, 0, nearest_door, NULL},
 
     {"answer_yes", "Y", "Yes, seen (Y)", "quiz: seen", QUIZ, 0, answer_yes, NULL},
     {"answer_no", "N", "No (N)", "quiz: not seen", QUIZ, 0, answer_no, NULL},
@@ -716,22 +760,28 @@ void actions_show(app_state *app) {
     }
 }
 
-/// Reads or writes the table that was asked for in the file browser.
-static void take_table(app_state *app) {
-    const table_wish wish = app->desk.table_wanted;
-    app->desk.table_wanted = TABLE_NONE;
-    view_check(&app->view, wish == TABLE_READ ? cameras_read(&app->view, app->desk.table_path)
-                                              : cameras_write(&app->view, app->desk.table_path));
+/// Does what a path was chosen for in the file browser.
+static void take_wish(app_state *app) {
+    const path_wish wish = app->desk.wish;
+    const char *path = app->desk.wish_path;
+    sl_status status = SL_OK;
+    app->desk.wish = WISH_NONE;
+    if (wish == WISH_READ_TABLE)
+        status = cameras_read(&app->view, path);
+    else if (wish == WISH_WRITE_TABLE)
+        status = cameras_write(&app->view, path);
+    else if (wish == WISH_PICTURE)
+        status = save_picture(app, path);
+    else if (wish == WISH_FRAMES)
+        status = save_series(app, path, SERIES_STEP);
+    view_check(&app->view, status);
 }
 
 void actions_answered(app_state *app) {
     const char *chosen = app->desk.dialog.chosen;
-    const bool agreed = app->desk.agreed;
     app->desk.dialog.chosen = NULL;
-    app->desk.agreed = false;
     if (chosen) action_run(app, action_find(chosen));
-    if (app->desk.table_wanted) take_table(app);
-    if (agreed) view_check(&app->view, save_series(app, "sightline-frames", SERIES_STEP));
+    take_wish(app);
 }
 
 void action_run(app_state *app, int action) {

@@ -11,6 +11,7 @@
 #include "plan/edit.h"
 #include "plan/effects.h"
 #include "plan/grid.h"
+#include "plan/route.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -375,7 +376,8 @@ static void input_press_at(app_state *app, button_kind button, sl_point at) {
     }
     if (!app->document.baked) return;
     drag->at = to_map(app, hit.value, at);
-    const bool explains = app->view.mode != MODE_DRAW && app->view.mode != MODE_CAMERAS;
+    const bool explains = app->view.mode != MODE_DRAW && app->view.mode != MODE_CAMERAS &&
+                          app->view.mode != MODE_PLAN;
     if (button == BUTTON_RIGHT && explains)
         explain_to(app, drag->at);
     else if (button == BUTTON_LEFT)
@@ -466,6 +468,8 @@ void input_release(app_state *app, sl_point at) {
         camera_add(&app->view, now);
     } else if (door != UINT32_MAX) {
         door_toggle(&app->view, door);
+    } else if (puts && app->view.mode == MODE_PLAN && app->view.tool == TOOL_PATH) {
+        route_click(&app->view, now);
     } else if (puts && view_is_solid(&app->view, now)) {
         ui_say(&app->ui, false, "this is solid ground: the eye stays; click in a room");
     } else if (puts && sl_space_locate(&app->document.baked->space, now) != SL_NO_CELL) {

@@ -4,6 +4,7 @@
 #include "app/layout.h"
 #include "app/turn.h"
 #include "document/export.h"
+#include "document/files.h"
 #include "panes/account.h"
 #include "panes/panes.h"
 #include "sightline/draw.h"
@@ -12,8 +13,8 @@
 #include <errno.h>
 #include <math.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 /// It is drawn to its end.
 static void draw_window(void *user, cairo_t *cairo) {
@@ -63,29 +64,23 @@ static sl_status export_plan(app_state *app, const char *path, const char *said)
                           draw_plan);
 }
 
-void save_numbered(app_state *app, const char *ending) {
-    char path[64], chart[64], said[160];
-    if (app->desk.file.locked) return;
+sl_status save_picture(app_state *app, const char *path) {
+    char chart[4200], said[256];
+    const char *const dot = strrchr(path, '.');
+    if (app->desk.file.locked || !dot) return SL_OK;
     // Lines are drawn straight into their file; only pixels can be drawn here and written
     // elsewhere.
-    const bool now = app->ui.steady || strcmp(ending, "png") != 0;
-    if (!export_is_free(&app->exports)) {
-        ui_say(&app->ui, true, "pictures are being written; Esc stops that");
-        return;
-    }
-    for (unsigned i = 1; i < 10000; i++) {
-        snprintf(path, sizeof path, "sightline-%u.%s", i, ending);
-        snprintf(chart, sizeof chart, "sightline-%u-account.%s", i, ending);
-        if (access(path, F_OK) == 0 || access(chart, F_OK) == 0) continue;
-        snprintf(said, sizeof said, "saved %s%s%s", path, app->ui.accounts ? " and " : "",
-                 app->ui.accounts ? chart : "");
-        sl_status status = app->ui.accounts ? account_save(&app->view, chart) : SL_OK;
-        if (status == SL_OK) status = now ? save_plan(app, path) : export_plan(app, path, said);
-        if (status == SL_OK && now) ui_say(&app->ui, false, "%s", said);
-        view_check(&app->view, status);
-        return;
-    }
-    ui_say(&app->ui, true, "no free name for a picture in this folder");
+    const bool now = app->ui.steady || strcasecmp(dot, ".png") != 0;
+    if (!export_is_free(&app->exports))
+        return sl_fail(app->context, SL_BAD_ARGUMENT, "pictures are being written; Esc stops that");
+    snprintf(chart, sizeof chart, "%.*s-account%s", (int)(dot - path), path, dot);
+    snprintf(said, sizeof said, "saved %.120s%s", files_base(path),
+             app->ui.accounts ? ", and the account beside it" : "");
+    if (app->ui.accounts) SL_TRY(account_save(&app->view, chart));
+    if (!now) return export_plan(app, path, said);
+    SL_TRY(save_plan(app, path));
+    ui_say(&app->ui, false, "%s", said);
+    return SL_OK;
 }
 
 sl_status save_series(app_state *app, const char *folder, unsigned every) {

@@ -10,9 +10,9 @@ sl_status save_window(app_state *app, const char *path);
 /// The plan alone; .svg and .pdf contain lines.
 sl_status save_plan(app_state *app, const char *path);
 
-/// Saves the plan under a free name in the present folder: NAME-1.ENDING. A .png is written in the
-/// background.
-void save_numbered(app_state *app, const char *ending);
+/// Saves the plan, and says so; with the account if that is shown: NAME-account.ENDING. A .png is
+/// written in the background.
+sl_status save_picture(app_state *app, const char *path);
 
 /// One picture of so many frames is enough for a film of 30 a second.
 enum { SERIES_STEP = 2 };

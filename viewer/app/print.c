@@ -2,6 +2,7 @@
 #include "app/print.h"
 
 #include "lessons/quiz.h"
+#include "panes/panel.h"
 #include "panes/panes.h"
 #include "plan/cameras.h"
 #include "plan/heat.h"
@@ -116,6 +117,12 @@ static void print_first_person(app_state *app, FILE *out) {
             c->tinted);
 }
 
+static void print_place(app_state *app, FILE *out) {
+    char text[512];
+    pane_say_place(&app->view, text, sizeof text);
+    fprintf(out, "place: %s\n", text);
+}
+
 static void print_doors(app_state *app, FILE *out) {
     const sl_map *map = &app->document.map;
     for (size_t i = 0; i < map->door_count; i++)
@@ -174,11 +181,11 @@ bool print_state(app_state *app, const char *what, FILE *out) {
     static const struct {
         const char *name;
         void (*print)(app_state *app, FILE *out);
-    } states[] = {{"lesson", print_lesson}, {"program", print_program},
-                  {"why", print_why},       {"quiz", print_quiz},
-                  {"doors", print_doors},   {"first_person", print_first_person},
-                  {"heat", print_heat},     {"cameras", print_cameras},
-                  {"bar", print_bar},       {"legend", print_legend}};
+    } states[] = {
+        {"lesson", print_lesson}, {"program", print_program}, {"why", print_why},
+        {"quiz", print_quiz},     {"doors", print_doors},     {"first_person", print_first_person},
+        {"heat", print_heat},     {"cameras", print_cameras}, {"bar", print_bar},
+        {"legend", print_legend}, {"place", print_place}};
     for (size_t i = 0; i < sizeof states / sizeof *states; i++)
         if (strcmp(states[i].name, what) == 0) {
             states[i].print(app, out);

@@ -11,6 +11,6 @@
 bool print_state(app_state *app, const char *what, FILE *out);
 
 /// The names, with commas between.
-#define PRINT_NAMES "lesson, program, why, quiz, first_person, doors, heat, cameras"
+#define PRINT_NAMES "lesson, program, why, quiz, first_person, doors, heat, cameras, place"
 
 #endif

@@ -8,6 +8,7 @@
 #include "dialogs/question.h"
 #include "plan/cameras.h"
 #include "plan/heat.h"
+#include "plan/route.h"
 #include "plan/view_cells.h"
 
 static const dialog_row dialogs[DIALOG_KINDS] = {
@@ -84,6 +85,7 @@ void app_destroy(app_state *app) {
     heat_layer_destroy(app->context, app->view.heat);
     watch_layer_destroy(app->context, app->view.watch);
     camera_layer_destroy(app->context, app->view.cameras);
+    route_layer_destroy(app->context, app->view.route);
     seen_destroy(app->context, &app->view.seen);
     present_drop(app->context, &app->view.present);
     lesson_destroy(app->context, &app->learn.lesson);

@@ -9,11 +9,14 @@
 #include "plan/cameras.h"
 #include "plan/effects.h"
 #include "plan/heat.h"
+#include "plan/route.h"
 #include "plan/view_cells.h"
 #include "sightline/support.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
+#include <strings.h>
 
 /// A frame of a drag takes this long, where its space does not come sooner.
 #define DRAG_FRAME_SECONDS 0.014
@@ -45,6 +48,11 @@ static void say_document(app_state *app) {
     if (*app->document.inside) snprintf(inside, sizeof inside, "; %s", app->document.inside);
     if (partial[0])
         ui_say(&app->ui, false, "%s is %s", name, partial);
+    else if (app->view.mode == MODE_PLAN)
+        ui_say(&app->ui, false, "%s: %u walls%s%s", name, space->wall_count, inside,
+               *inside                ? ""
+               : *app->document.notes ? "; Ctrl+J: what was read"
+                                      : "");
     else
         ui_say(&app->ui, false, "%s: %u cells, %u portals, %u walls%s%s%s", name, space->cell_count,
                space->portal_count, space->wall_count, *calls ? "; " : "", calls,
@@ -64,6 +72,15 @@ static void say_subdivision(app_state *app, bool was_mesh) {
                "All walls are axial now: the cells are those of a kd-tree, no longer of a mesh");
 }
 
+/// Whether a file is a floor plan, by its ending: a drawing or a picture.
+static bool is_plan_file(const char *path) {
+    static const char *const endings[] = {".dxf", ".svg", ".svgz", ".geojson", ".png", ".pgm"};
+    const char *dot = path ? strrchr(path, '.') : NULL;
+    for (size_t i = 0; dot && i < sizeof endings / sizeof *endings; i++)
+        if (strcasecmp(dot, endings[i]) == 0) return true;
+    return false;
+}
+
 /// A map that was opened starts from its own start. After a change by hand the eye stays.
 static void take_document(app_state *app, bool opened) {
     drop_made(app);
@@ -81,6 +98,9 @@ static void take_document(app_state *app, bool opened) {
     app->recorder.records = app->recorder.plays = false;
     app->recorder.frames.count = 0;
     cameras_clear(&app->view);
+    route_clear(&app->view);
+    if (app->view.mode == MODE_EXPLORE && is_plan_file(app->document.source.path))
+        app->view.mode = MODE_PLAN;
     walk_home(&app->view);
     map_file_taken(&app->desk);
     say_document(app);
@@ -141,6 +161,7 @@ static void poll_all(app_state *app, bool wait) {
     view_layer_update(&app->view, wait);
     heat_layer_update(&app->view, wait);
     cameras_update(&app->view, wait);
+    route_update(&app->view);
     map_file_tick(&app->desk, wait);
     recovery_tick(&app->desk);
 }

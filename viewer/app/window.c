@@ -28,11 +28,16 @@ static sl_status fail_with(sl_context *context, const char *what) {
     return sl_fail(context, SL_IO, "%s: %s", what, SDL_GetError());
 }
 
-/// The ratio of the screen's pixels per inch to the usual 96, if it is clearly more than 1.
+/// The ratio of the screen's pixels per inch to the usual 96, if it is clearly more than 1. A
+/// screen that does not know its size has none, or 96 exactly: a very high one is taken as a dense
+/// one.
 static double density_of_screen(int screen) {
     float inch;
-    if (SDL_GetDisplayDPI(screen, &inch, NULL, NULL) != 0) return 1;
-    return inch >= 130 && inch <= 600 ? roundf(2 * inch / 96) / 2 : 1;
+    SDL_Rect bounds;
+    const bool told = SDL_GetDisplayDPI(screen, &inch, NULL, NULL) == 0 && fabsf(inch - 96) > 0.6F;
+    if (told) return inch >= 130 && inch <= 600 ? roundf(2 * inch / 96) / 2 : 1;
+    if (SDL_GetDisplayBounds(screen, &bounds) != 0) return 1;
+    return fmax(floor(2 * bounds.h / 1000.0) / 2, 1);
 }
 
 /// Pixels per point of the window if the system tells the two apart; else the ratio of the screen.

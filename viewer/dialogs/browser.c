@@ -22,7 +22,8 @@
 typedef enum browser_place { PLACE_FOLDER, PLACE_RECENT, PLACE_SAMPLES } browser_place;
 
 typedef struct browser_state {
-    bool saves, tables;      ///< tables, not maps
+    bool saves;
+    browse_kind kind;
     browser_open_file *open; ///< these two: what is done with the path
     browser_save_file *save;
     browser_place place;
@@ -34,6 +35,41 @@ typedef struct browser_state {
     bool down, all;
     char problem[256]; ///< "" for none
 } browser_state;
+
+/// What differs by kind. The first ending is put to a name that has none.
+static const struct kind_row {
+    const char *open, *save, *none, *wrong, *endings[3];
+    folder_filter opened, saved;
+} kinds[] = {
+    [BROWSE_MAPS] = {"Open a map",
+                     "Save the map",
+                     "No map in this folder. 'All files' shows the rest.",
+                     "Names end in .map (map text) or .slv (baked).",
+                     {".map", ".slv"},
+                     FILTER_READABLE,
+                     FILTER_SAVED},
+    [BROWSE_TABLES] = {"Open a table of cameras",
+                       "Save a table of cameras",
+                       "No table in this folder. 'All files' shows the rest.",
+                       "Names of tables end in .csv or .txt.",
+                       {".csv", ".txt"},
+                       FILTER_TABLES,
+                       FILTER_TABLES},
+    [BROWSE_PICTURES] = {NULL,
+                         "Save a picture of the plan",
+                         "No picture in this folder.",
+                         "Names of pictures end in .png, .svg or .pdf.",
+                         {".png", ".svg", ".pdf"},
+                         FILTER_PICTURES,
+                         FILTER_PICTURES},
+    [BROWSE_FRAMES] = {NULL,
+                       "Save the way: pictures in a new folder",
+                       "No picture in this folder.",
+                       NULL,
+                       {NULL},
+                       FILTER_PICTURES,
+                       FILTER_PICTURES},
+};
 
 enum {
     PATH_FIELD = DIALOG_OWN,
@@ -94,10 +130,9 @@ static void refill_list(desk_state *desk, browser_state *b) {
         status = folder_list_add_all(desk->context, &b->files, samples);
     else if (b->place == PLACE_FOLDER)
         status = folder_list_read(desk->context, &b->files, b->folder,
-                                  b->all      ? FILTER_ALL
-                                  : b->tables ? FILTER_TABLES
-                                  : b->saves  ? FILTER_SAVED
-                                              : FILTER_READABLE);
+                                  b->all     ? FILTER_ALL
+                                  : b->saves ? kinds[b->kind].saved
+                                             : kinds[b->kind].opened);
     b->problem[0] = '\0';
     if (status != SL_OK)
         snprintf(b->problem, sizeof b->problem, "%s", sl_context_message(desk->context));
@@ -229,34 +264,42 @@ static void save_now(desk_state *desk, const char *path) {
     desk->dialog.browser->save(desk, path);
 }
 
+/// Puts the usual ending to a name that has none.
+static void end_name(const browser_state *b, char path[2 * PATH_TEXT]) {
+    const char *ending = kinds[b->kind].endings[0];
+    if (ending && !strchr(files_base(path), '.')) strcat(path, ending);
+}
+
 /// The file is there: the dialog is still open below the question.
 static void take_replace(desk_state *desk, int answer) {
     char path[2 * PATH_TEXT];
     const browser_state *b = desk->dialog.browser;
     if (answer != 0) return;
     resolve_path(b, b->path.text, path);
-    if (!strchr(files_base(path), '.')) strcat(path, b->tables ? ".csv" : ".map");
+    end_name(b, path);
     save_now(desk, path);
 }
 
-static const char *const map_endings[] = {".map", ".slv"};
-static const char *const table_endings[] = {".csv", ".txt"};
+static bool has_right_ending(const browser_state *b, const char *path) {
+    const char *dot = strrchr(files_base(path), '.');
+    const struct kind_row *kind = &kinds[b->kind];
+    bool right = !kind->endings[0];
+    for (int i = 0; i < 3 && kind->endings[i]; i++)
+        right |= dot && strcasecmp(dot, kind->endings[i]) == 0;
+    return right;
+}
 
 static void save_as(desk_state *desk, browser_state *b, char path[2 * PATH_TEXT]) {
     static const char *const answers[] = {"R:Replace", "C:Cancel"};
     char text[2 * PATH_TEXT];
-    const char *name = files_base(path), *dot = strrchr(name, '.');
-    if (!*name) {
+    if (!*files_base(path)) {
         snprintf(b->problem, sizeof b->problem, "A name is needed.");
         return;
     }
     if (strlen(path) + 8 > PATH_TEXT) return;
-    if (!dot) strcat(path, b->tables ? ".csv" : ".map");
-    const char *const *endings = b->tables ? table_endings : map_endings;
-    if (dot && strcasecmp(dot, endings[0]) != 0 && strcasecmp(dot, endings[1]) != 0) {
-        snprintf(b->problem, sizeof b->problem,
-                 b->tables ? "Names of tables end in .csv or .txt."
-                           : "Names end in .map (map text) or .slv (baked).");
+    end_name(b, path);
+    if (!has_right_ending(b, path)) {
+        snprintf(b->problem, sizeof b->problem, "%s", kinds[b->kind].wrong);
         return;
     }
     if (!is_there(path)) {
@@ -350,11 +393,11 @@ void browser_act(desk_state *desk, int id) {
     }
 }
 
-static browser_state *show_browser(desk_state *desk, bool saves, bool tables) {
+static browser_state *show_browser(desk_state *desk, bool saves, browse_kind kind) {
     browser_state *b = state_of(desk);
     if (!b) return NULL;
     b->saves = saves;
-    b->tables = tables;
+    b->kind = kind;
     const char *path = desk->document->source.path;
     char folder[PATH_TEXT] = ".";
     const char *slash = path ? strrchr(path, '/') : NULL;
@@ -367,11 +410,12 @@ static browser_state *show_browser(desk_state *desk, bool saves, bool tables) {
     return b;
 }
 
-void browser_open(desk_state *desk, browser_open_file *then) {
-    browser_state *b = show_browser(desk, false, false);
+void browser_open(desk_state *desk, browse_kind kind, browser_open_file *then) {
+    browser_state *b = show_browser(desk, false, kind);
     sl_map_list recent = {0};
     if (!b) return;
     b->open = then;
+    if (kind != BROWSE_MAPS) return;
     // At first there is no folder of the user's: what he had last, or the samples.
     const bool any = recent_list(desk->context, &recent) == SL_OK && recent.count;
     if (!desk->document->source.path && !desk->ui->steady)
@@ -379,29 +423,31 @@ void browser_open(desk_state *desk, browser_open_file *then) {
     sl_map_list_destroy(desk->context, &recent);
 }
 
-static void save_named(desk_state *desk, bool tables, const char *name, browser_save_file *then) {
-    browser_state *b = show_browser(desk, true, tables);
+/// Puts a name into the field that no file of the folder has: "plan.png", then "plan-2.png".
+static void set_free_path(browser_state *b, const char *name) {
+    const char *dot = strrchr(name, '.');
+    const int stem = (int)(dot ? dot - name : (ptrdiff_t)strlen(name));
+    char other[280];
+    set_path(b, b->folder, name);
+    for (int i = 2; i < 10000 && is_there(b->path.text); i++) {
+        snprintf(other, sizeof other, "%.*s-%d%s", stem, name, i, name + stem);
+        set_path(b, b->folder, other);
+    }
+}
+
+void browser_save(desk_state *desk, browse_kind kind, const char *name, browser_save_file *then) {
+    browser_state *b = show_browser(desk, true, kind);
     if (!b) return;
     b->save = then;
     if (access(b->folder, W_OK) != 0) enter_folder(desk, b, getenv("HOME") ? getenv("HOME") : ".");
-    set_path(b, b->folder, name);
-}
-
-void browser_save(desk_state *desk, const char *name, browser_save_file *then) {
-    save_named(desk, false, name, then);
-}
-
-void browser_save_table(desk_state *desk, const char *name, browser_save_file *then) {
-    save_named(desk, true, name, then);
-}
-
-void browser_open_table(desk_state *desk, browser_open_file *then) {
-    browser_state *b = show_browser(desk, false, true);
-    if (b) b->open = then;
+    if (kind == BROWSE_PICTURES || kind == BROWSE_FRAMES)
+        set_free_path(b, name);
+    else
+        set_path(b, b->folder, name);
 }
 
 void browser_save_to(desk_state *desk, const char *path, browser_save_file *then) {
-    browser_state *b = show_browser(desk, true, false);
+    browser_state *b = show_browser(desk, true, BROWSE_MAPS);
     if (!b) return;
     b->save = then;
     field_set(&b->path, path);
@@ -459,8 +505,7 @@ static void draw_list(desk_state *desk, browser_state *b, sl_box box) {
                 b->place == PLACE_RECENT    ? "No file was opened yet."
                 : b->place == PLACE_SAMPLES ? "The samples are not installed."
                 : b->all                    ? "The folder is empty."
-                : b->tables                 ? "No table in this folder. 'All files' shows the rest."
-                                            : "No map in this folder. 'All files' shows the rest.");
+                                            : kinds[b->kind].none);
     for (size_t i = b->list.first; i < b->list.count && i < b->list.first + b->list.page; i++)
         draw_entry(desk->ui, dialog_list_row(&desk->dialog, LIST, frame, &b->list, i),
                    &b->files.entries.items[i]);
@@ -475,11 +520,8 @@ void browser_draw(desk_state *desk) {
     const double wide = fmin(fmax((ui->width - 12) / ui->text, 44), 58);
     const double text = fmin(ui->text, (ui->width - 12) / wide);
     const double high = fmin(fmax((ui->height - 12) / text, 24), 40);
-    const sl_box box =
-        dialog_begin(&desk->dialog, wide, high,
-                     b->tables  ? (b->saves ? "Save a table of cameras" : "Open a table of cameras")
-                     : b->saves ? "Save the map"
-                                : "Open a map");
+    const sl_box box = dialog_begin(&desk->dialog, wide, high,
+                                    b->saves ? kinds[b->kind].save : kinds[b->kind].open);
     const double t = ui->text, x0 = box.min.x, x1 = box.max.x;
     const dialog_label ends[] = {{OPTIONS, "Options..."},
                                  {DIALOG_CANCEL, "Cancel"},
@@ -488,7 +530,7 @@ void browser_draw(desk_state *desk) {
     dialog_field(&desk->dialog, PATH_FIELD, (sl_box){{x0, y}, {x1, y + 1.9 * t}}, &b->path,
                  "A path; Tab completes it");
     y += 2.6 * t;
-    const int skip = b->tables ? 2 : 0; // recent files and samples are maps
+    const int skip = b->kind == BROWSE_MAPS ? 0 : 2; // recent files and samples are maps
     dialog_buttons(&desk->dialog, x0 + dialog_buttons_width(&desk->dialog, places + skip, 4 - skip),
                    y, places + skip, 4 - skip);
     y += 2.3 * t;
@@ -501,7 +543,7 @@ void browser_draw(desk_state *desk) {
         dialog_problem(&desk->dialog, (sl_point){x0, y - 0.9 * t}, x1 - x0, b->problem);
     else
         ui_text(ui, x0, y - 0.9 * t, 1, false, ui->palette.faint, note);
-    const int from = b->saves || b->tables ? 1 : 0;
+    const int from = b->saves || b->kind != BROWSE_MAPS ? 1 : 0;
     const double left = dialog_buttons(&desk->dialog, x1, y, ends + from, 3 - from);
     if (b->place == PLACE_FOLDER)
         dialog_check(&desk->dialog, ALL_FILES,

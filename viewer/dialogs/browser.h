@@ -8,16 +8,16 @@
 typedef void browser_open_file(desk_state *desk, const char *path, bool ask);
 typedef void browser_save_file(desk_state *desk, const char *path);
 
-/// `then` opens the file that is chosen; `ask`: all its options are to be asked for.
-void browser_open(desk_state *desk, browser_open_file *then);
-/// Asks for the path to save the map under; at first it has this name.
-void browser_save(desk_state *desk, const char *name, browser_save_file *then);
-/// The same with this path in the field.
-void browser_save_to(desk_state *desk, const char *path, browser_save_file *then);
+/// What is opened or saved. Frames are a new folder of pictures.
+typedef enum browse_kind { BROWSE_MAPS, BROWSE_TABLES, BROWSE_PICTURES, BROWSE_FRAMES } browse_kind;
 
-/// The same for tables (.csv, .txt).
-void browser_open_table(desk_state *desk, browser_open_file *then);
-void browser_save_table(desk_state *desk, const char *name, browser_save_file *then);
+/// `then` opens the map or table that is chosen; `ask`: all its options are to be asked for.
+void browser_open(desk_state *desk, browse_kind kind, browser_open_file *then);
+/// Asks for the path to save under. At first it has this name; pictures and frames get a number
+/// where that is taken.
+void browser_save(desk_state *desk, browse_kind kind, const char *name, browser_save_file *then);
+/// Asks for the path to save the map under, with this one in the field.
+void browser_save_to(desk_state *desk, const char *path, browser_save_file *then);
 
 void browser_draw(desk_state *desk);
 void browser_act(desk_state *desk, int id);

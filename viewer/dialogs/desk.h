@@ -30,10 +30,16 @@ typedef struct file_state {
     session offer;       ///< an earlier one that is asked about
 } file_state;
 
-/// What is to be done with a table of cameras.
-typedef enum table_wish { TABLE_NONE, TABLE_READ, TABLE_WRITE } table_wish;
+/// What is to be done with a path that was chosen: a table of cameras, a picture, a folder of them.
+typedef enum path_wish {
+    WISH_NONE,
+    WISH_READ_TABLE,
+    WISH_WRITE_TABLE,
+    WISH_PICTURE,
+    WISH_FRAMES
+} path_wish;
 
-enum { TABLE_PATH = 4200 };
+enum { WISH_PATH = 4200 };
 
 struct desk_state {
     sl_context *context;
@@ -43,9 +49,8 @@ struct desk_state {
     file_state file;
     sl_import_options options; ///< the command line's, for files opened later too
     bool quit;
-    table_wish table_wanted; ///< these two: chosen in the browser; the app does it next
-    char table_path[TABLE_PATH];
-    bool agreed; ///< to what the app asked for itself: it does that next
+    path_wish wish; ///< these two: chosen in the browser; the app does it next
+    char wish_path[WISH_PATH];
 };
 
 enum { TITLE_TEXT = 320 };

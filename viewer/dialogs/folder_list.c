@@ -80,6 +80,7 @@ static bool is_listed(const sl_context *context, const char *path, const char *n
     const char *dot = strrchr(name, '.');
     if (filter == FILTER_ALL) return true;
     if (filter == FILTER_TABLES) return dot && has_ending(".csv .txt", dot);
+    if (filter == FILTER_PICTURES) return dot && has_ending(".png .svg .pdf", dot);
     return filter == FILTER_READABLE ? is_readable(context, path, name)
                                      : dot && has_ending(".map .slv", dot);
 }

@@ -24,6 +24,7 @@ typedef enum folder_filter {
     FILTER_READABLE, ///< those that Sightline reads: by their ending, doubtful ones by their bytes
     FILTER_SAVED,    ///< .map and .slv
     FILTER_TABLES,   ///< .csv and .txt
+    FILTER_PICTURES, ///< .png, .svg and .pdf
     FILTER_ALL,
 } folder_filter;
 

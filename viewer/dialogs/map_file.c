@@ -280,20 +280,24 @@ void map_file_save(desk_state *desk) {
         map_file_save_as(desk);
 }
 
-void map_file_save_as(desk_state *desk) {
+void map_file_name_output(const desk_state *desk, const char *ending, char text[TITLE_TEXT]) {
+    const char *map = desk->file.path ? NULL : desk->document->source.options.map;
     char name[TITLE_TEXT];
-    const char *map = desk->document->source.options.map;
-    if (!desk->document->baked) return;
-    if (map && !desk->file.path)
-        snprintf(name, sizeof name, "%.200s", map);
-    else
-        map_file_name(desk, name);
+    map_file_name(desk, name);
+    if (map) snprintf(name, sizeof name, "%.200s", map);
     char *dot = strrchr(name, '.');
-    if (dot && !(desk->file.path && document_is_baked(desk->file.path))) *dot = '\0';
+    if (dot) *dot = '\0';
     for (char *at = name; *at; at++)
         if (*at == '/' || *at == ' ') *at = '-';
-    if (!strchr(name, '.')) snprintf(name + strlen(name), sizeof name - strlen(name), ".map");
-    browser_save(desk, name, save_to);
+    snprintf(text, TITLE_TEXT, "%.300s%s", name, ending);
+}
+
+void map_file_save_as(desk_state *desk) {
+    char name[TITLE_TEXT];
+    const bool baked = desk->file.path && document_is_baked(desk->file.path);
+    if (!desk->document->baked) return;
+    map_file_name_output(desk, baked ? ".slv" : ".map", name);
+    browser_save(desk, BROWSE_MAPS, name, save_to);
 }
 
 void map_file_copy_to(desk_state *desk, const char *path) {

@@ -7,6 +7,8 @@
 
 /// The name of the map: that of its file, or "Untitled".
 void map_file_name(const desk_state *desk, char text[TITLE_TEXT]);
+/// A name for a file that is made of the map: "office.png" of office.map.
+void map_file_name_output(const desk_state *desk, const char *ending, char text[TITLE_TEXT]);
 /// The window's title. A star leads a map with changes that are not saved.
 void map_file_title(const desk_state *desk, char text[TITLE_TEXT]);
 

@@ -82,5 +82,5 @@ void files_import_again(desk_state *desk) {
 }
 
 void files_browse(desk_state *desk) {
-    browser_open(desk, files_open);
+    browser_open(desk, BROWSE_MAPS, files_open);
 }

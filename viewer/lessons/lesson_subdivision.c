@@ -32,9 +32,10 @@ static void say_split(const document_state *document, uint32_t at, char text[SEN
     const sl_space *space = &document->baked->space;
     const sl_node *node = &space->nodes[at];
     snprintf(text, SENTENCE,
-             "Split %u of %u, %u deep: the line %s = %.6g, of which walls cover %.0f %% here; %s.",
+             "Split %u of %u, %u deep: the line %s = %.*g, of which walls cover %.0f %% here; %s.",
              at + 1, space->node_count, document->splits[at].depth + 1, node->axis == 0 ? "x" : "y",
-             node->position, 100 * sli_splits_covered(document->splits, space, at),
+             sl_map_digits(&document->map), node->position,
+             100 * sli_splits_covered(document->splits, space, at),
              node->below < 0 && node->above < 0   ? "both sides are cells"
              : node->below < 0 || node->above < 0 ? "one side is a cell, the other goes on"
                                                   : "both sides go on");
@@ -105,7 +106,8 @@ static void say_stage(const lesson_state *lesson, const sl_space *space, char te
         snprintf(text, SENTENCE, "No side has to be turned.");
 }
 
-static void say_side(const sli_mesh_steps *mesh, size_t place, char text[SENTENCE]) {
+static void say_side(const sli_mesh_steps *mesh, const document_state *document, size_t place,
+                     char text[SENTENCE]) {
     const sli_mesh_side *side = &mesh->sides.items[place];
     const sli_triangulation *t = &mesh->triangles;
     const sl_point a = t->points.items[t->halves.items[side->half].from];
@@ -119,8 +121,10 @@ static void say_side(const sli_mesh_steps *mesh, size_t place, char text[SENTENC
     }
     sl_point corner[3];
     sli_mesh_steps_corner(mesh, place, corner);
+    char place_of_corner[PLACE_TEXT];
+    view_say_place(&document->map, corner[1], place_of_corner);
     snprintf(text + length, SENTENCE - (size_t)length,
-             " stays: without it the corner at %.5g, %.5g would turn %s.", corner[1].x, corner[1].y,
+             " stays: without it the corner at %s would turn %s.", place_of_corner,
              sl_orient(corner[0], corner[1], corner[2]) ? "right" : "back");
 }
 
@@ -208,7 +212,7 @@ static void say(const lesson_state *lesson, const document_state *document, char
     else if (lesson->at < FIRST_SIDE)
         say_stage(lesson, &document->baked->space, text);
     else if (place < lesson->mesh.sides.count)
-        say_side(&lesson->mesh, place, text);
+        say_side(&lesson->mesh, document, place, text);
     else
         say_cells(&lesson->mesh, document, text);
 }

@@ -8,6 +8,7 @@
 #include "plan/edit.h"
 #include "plan/effects.h"
 #include "plan/layer_draw.h"
+#include "plan/route.h"
 #include "sightline/draw.h"
 
 #include <math.h>
@@ -82,6 +83,10 @@ static void cameras_above(learn_state *learn, const sl_frame *frame) {
     cameras_draw_above(learn->view, frame);
 }
 
+static void plan_above(learn_state *learn, const sl_frame *frame) {
+    if (learn->view->tool == TOOL_PATH) route_draw(learn->view, frame);
+}
+
 static const mode_row modes[MODES] = {
     [MODE_EXPLORE] = {"W A S D and arrows walk, a click puts the eye, the wheel zooms", pane_side,
                       quiz_draw_below, quiz_draw_above, true, true},
@@ -94,6 +99,8 @@ static const mode_row modes[MODES] = {
                    false, false},
     [MODE_CAMERAS] = {"A click puts a camera; drag it, or its handle; Space finds the fewest",
                       pane_cameras, cameras_below, cameras_above, false, false},
+    [MODE_PLAN] = {"A click puts the viewpoint; 1 shows the visibility graph, 2 the next measure",
+                   pane_measures, NULL, plan_above, true, true},
 };
 
 const mode_row *mode_table(void) {

@@ -23,8 +23,8 @@ static double put_button(ui_state *ui, double x, double y, const char *name) {
 /// Modes and help are always there. The rest has the room that is left in their lines: what finds
 /// none is in the help, where a click does it too.
 /// In a presentation the button that ends it is needed too: it is the last one.
-static const char *const needed[] = {"explore", "learn", "draw",   "quiz",
-                                     "cameras", "help",  "present"};
+static const char *const needed[] = {"plan", "cameras", "explore", "learn",
+                                     "draw", "quiz",    "help",    "present"};
 static const char *const others[] = {"file", "open",    "save",       "fit",  "undo",
                                      "redo", "compare", "side_panel", "dark", "present"};
 enum {

@@ -20,6 +20,8 @@
 static unsigned scene_layers(const view_state *view) {
     const bool named = layers_shows(view, LAYER_NAMES) && !view->in_the_making;
     const bool numbers = layers_shows(view, LAYER_NUMBERS) || named;
+    if (view->mode == MODE_PLAN)
+        return SL_LAYER_WALLS | (view->show & SHOW_STARTS ? SL_LAYER_STARTS : 0u);
     return SL_LAYER_WALLS | (view->show & SHOW_CELLS ? SL_LAYER_CELLS : 0u) |
            (view->show & SHOW_PORTALS ? SL_LAYER_PORTALS : 0u) | (numbers ? SL_LAYER_NUMBERS : 0u) |
            (view->show & SHOW_STARTS ? SL_LAYER_STARTS : 0u);
@@ -65,7 +67,7 @@ static bool draw_under(view_state *view, cairo_t *cairo, const sl_frame *frame) 
     const unsigned fill = layers_fill(view);
     if ((fill == LAYER_VIEWS || fill == LAYER_HEAT) && layers_shows(view, LAYER_PORTALS))
         layers_draw_portals(view, cairo, frame, NULL, NULL);
-    if (view->show & SHOW_SPLITS)
+    if (view->show & SHOW_SPLITS && view->mode != MODE_PLAN)
         sli_draw_splits(cairo, &view->ui->palette, frame, view->document->splits,
                         view->document->baked->space.node_count, view->split_depth);
     return true;
@@ -198,7 +200,8 @@ static void show_kept(view_state *view, kept_picture *kept, bool over, const sl_
     memset(&now.key, 0, sizeof now.key);
     now.key.version = view->document->version;
     now.key.touched = over ? view->document->touched : 0;
-    now.key.show = scene_layers(view) | (view->show & SHOW_SPLITS && !over ? 2048u : 0u);
+    now.key.show = scene_layers(view) | (view->show & SHOW_SPLITS && !over ? 2048u : 0u) |
+                   (view->mode == MODE_PLAN ? 4096u : 0u);
     now.key.depth = view->show & SHOW_SPLITS && !over ? view->split_depth : 0;
     now.key.dark = view->ui->dark;
     if (!over && layers_shows(view, LAYER_VIEWS)) {

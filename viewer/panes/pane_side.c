@@ -219,21 +219,28 @@ static void describe_place(const view_state *view, sl_point at, char *text, size
     if (!view->document->baked) return;
     const sl_space *space = &view->document->baked->space;
     const uint32_t cell = sl_space_locate(space, at);
+    char place[PLACE_TEXT];
+    view_say_place(&view->document->map, at, place);
     if (cell == SL_NO_CELL) {
-        snprintf(text, room, "%.6g, %.6g: outside the map", at.x, at.y);
+        snprintf(text, room, "%s: outside the map", place);
         return;
     }
     const sl_cell *c = &space->cells[cell];
     if (c->solid) {
-        snprintf(text, room, "Solid ground at %.4g, %.4g: nobody looks from there.", at.x, at.y);
+        snprintf(text, room, "Solid ground at %s: nobody looks from there.", place);
+        return;
+    }
+    if (view->mode == MODE_PLAN) {
+        snprintf(text, room, "%s, %s.", place,
+                 !sl_baked_counts(view->document->baked, cell) ? "outside" : "inside");
         return;
     }
     const size_t word = cell / 64, bit = cell % 64;
     const bool counts = sl_baked_counts(view->document->baked, cell);
     char area[SL_COUNT_TEXT];
     write_area(view->document->areas[cell], area);
-    int length = snprintf(text, room, "Cell %u at %.4g, %.4g: %u portal%s, area %s%s.", cell, at.x,
-                          at.y, c->directed_count, c->directed_count == 1 ? "" : "s", area,
+    int length = snprintf(text, room, "Cell %u at %s: %u portal%s, area %s%s.", cell, place,
+                          c->directed_count, c->directed_count == 1 ? "" : "s", area,
                           counts ? "" : ", not inside");
     if (!view->seen.valid || !view->seen.pvs || length < 0 || (size_t)length >= room) return;
     size_t count;
@@ -257,8 +264,7 @@ static void describe_place(const view_state *view, sl_point at, char *text, size
                      : "does not see");
 }
 
-void pane_words(view_state *view, column *c) {
-    char text[512];
+bool pane_say_place(const view_state *view, char *text, size_t room) {
     sl_point at;
     const bool over = view_pointed(view, &at);
     if (!over) at = view->eye.at;
@@ -266,15 +272,25 @@ void pane_words(view_state *view, column *c) {
     const uint32_t object = explores ? object_at(view, at) : UINT32_MAX;
     const uint32_t door = over ? door_at(view, at) : UINT32_MAX;
     if (door != UINT32_MAX)
-        snprintf(text, sizeof text, "Door %s, which is %s: a click %s it.",
+        snprintf(text, room, "Door %s, which is %s: a click %s it.",
                  view->document->map.doors[door].name,
                  view->document->map.doors[door].open ? "open" : "shut",
                  view->document->map.doors[door].open ? "shuts" : "opens");
     else if (object != UINT32_MAX)
-        object_describe(view, object, text, sizeof text);
+        object_describe(view, object, text, room);
     else
-        describe_place(view, at, text, sizeof text);
-    column_heading(view->ui, c, over ? "Under the pointer" : "Under the eye", NULL);
+        describe_place(view, at, text, room);
+    return over;
+}
+
+void pane_words(view_state *view, column *c) {
+    char text[512];
+    const bool over = pane_say_place(view, text, sizeof text);
+    column_heading(view->ui, c,
+                   over                      ? "Under the pointer"
+                   : view->mode == MODE_PLAN ? "Under the viewpoint"
+                                             : "Under the eye",
+                   NULL);
     c->y = ui_paragraph(view->ui, c->left, c->y + 0.7 * view->ui->text, c->right - c->left, 0.95,
                         view->ui->palette.ink, text);
 }

@@ -8,15 +8,16 @@
 /// used, so that a file gets lines and not pixels.
 void pane_plan(learn_state *learn, sl_box box, int index, bool vector);
 
-void pane_bar(learn_state *learn, sl_box box);     ///< the buttons at the top
-void pane_side(learn_state *learn, sl_box box);    ///< layers, methods with counts, words
-void pane_learn(learn_state *learn, sl_box box);   ///< in its place: pseudo-code and account
-void pane_quiz(learn_state *learn, sl_box box);    ///< likewise: the question
-void pane_cameras(learn_state *learn, sl_box box); ///< likewise: cameras
-void pane_draw(learn_state *learn, sl_box box);    ///< likewise: walls
-void pane_time(learn_state *learn, sl_box box);    ///< a sentence, and the lesson's time line
-void pane_dual(learn_state *learn, sl_box box);    ///< lines as points
-void pane_program(learn_state *learn, sl_box box); ///< the linear program of the lesson's portals
+void pane_bar(learn_state *learn, sl_box box);      ///< the buttons at the top
+void pane_side(learn_state *learn, sl_box box);     ///< layers, methods with counts, words
+void pane_learn(learn_state *learn, sl_box box);    ///< in its place: pseudo-code and account
+void pane_quiz(learn_state *learn, sl_box box);     ///< likewise: the question
+void pane_cameras(learn_state *learn, sl_box box);  ///< likewise: cameras
+void pane_measures(learn_state *learn, sl_box box); ///< likewise: what is measured of a plan
+void pane_draw(learn_state *learn, sl_box box);     ///< likewise: walls
+void pane_time(learn_state *learn, sl_box box);     ///< a sentence, and the lesson's time line
+void pane_dual(learn_state *learn, sl_box box);     ///< lines as points
+void pane_program(learn_state *learn, sl_box box);  ///< the linear program of the lesson's portals
 void pane_first_person(learn_state *learn, sl_box box); ///< what the eye sees
 void pane_account(learn_state *learn, sl_box box);      ///< what accuracy costs
 void pane_effects(learn_state *learn, sl_box box);      ///< what the map calls for

@@ -14,6 +14,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 struct heat_layer {
@@ -31,9 +32,13 @@ struct heat_layer {
     size_t measure;  ///< of the values
     double *values;  ///< by point
     bool valued;     ///< they are there
-    uint32_t *sizes; ///< by point: of the part of the graph that it is in
-    uint32_t beyond; ///< values that are beyond the scale: of small parts
+    uint32_t *parts; ///< by point: of the graph, which no sightline joins, from the largest on
+    uint32_t part_count, part; ///< the one that has the scale: the eye's, or the largest
+    uint32_t within;           ///< points in it
+    sl_point eye;              ///< that the part was found for
     double least, most;
+    double *sorted; ///< the values with the scale, ascending
+    uint32_t sorted_count;
     uint32_t from;    ///< of steps: the point they begin at
     uint32_t *steps;  ///< by point
     uint32_t deepest; ///< of all steps that were counted
@@ -100,7 +105,8 @@ void heat_layer_destroy(sl_context *context, heat_layer *layer) {
     heat_graph_destroy(context, &layer->graph);
     sl_free(context, layer->shut);
     sl_free(context, layer->values);
-    sl_free(context, layer->sizes);
+    sl_free(context, layer->parts);
+    sl_free(context, layer->sorted);
     sl_free(context, layer->steps);
     sl_free(context, layer);
 }
@@ -231,23 +237,74 @@ static sl_status count_steps(view_state *view, heat_layer *layer) {
     layer->from = from;
     layer->least = 0;
     layer->most = layer->deepest;
-    layer->beyond = 0;
     layer->valued = true;
     view->heat_choice.stamp++;
     return SL_OK;
 }
 
-/// The sizes of the graph's parts, once.
-static sl_status find_sizes(sl_context *context, heat_layer *layer) {
-    if (layer->sizes) return SL_OK;
-    uint32_t *sizes = sl_alloc_array(context, (size_t)layer->graph.grid.count + 1, sizeof *sizes);
-    if (!sizes) return SL_NO_MEMORY;
-    const sl_status status = sl_vga_part_sizes(context, &layer->graph.graph, NULL, 0, sizes);
-    if (status == SL_OK)
-        layer->sizes = sizes;
-    else
-        sl_free(context, sizes);
-    return status;
+/// The graph's parts, once; and again where the eye has moved the one that it is in. Beside the
+/// grid the part stays. True: it is another one.
+static bool find_part(view_state *view, heat_layer *layer, sl_status *status) {
+    const heat_graph *g = &layer->graph;
+    const bool first = !layer->parts,
+               moved = layer->eye.x != view->eye.at.x || layer->eye.y != view->eye.at.y;
+    if (first) {
+        uint32_t *parts = sl_alloc_array(view->context, (size_t)g->grid.count + 1, sizeof *parts);
+        *status = parts ? sl_vga_parts(view->context, &g->graph, NULL, 0, parts, &layer->part_count)
+                        : SL_NO_MEMORY;
+        if (*status != SL_OK) sl_free(view->context, parts);
+        if (*status != SL_OK) return false;
+        layer->parts = parts;
+    }
+    if (!first && (!moved || layer->part_count < 2)) return false;
+    const uint32_t at = heat_graph_nearest(view->context, g, view->eye.at), before = layer->part;
+    layer->eye = view->eye.at;
+    if (at != UINT32_MAX) layer->part = layer->parts[at];
+    return layer->part != before;
+}
+
+/// Whether a point has no colour of its own: it is in another part than that with the scale. Steps
+/// have none there.
+static bool is_grey(const heat_layer *layer, uint32_t point) {
+    return layer->parts && layer->parts[point] != layer->part &&
+           heat_measure_part(heat_measure(layer->measure));
+}
+
+static int compare_values(const void *a, const void *b) {
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/// Puts the values that have the scale in order.
+static sl_status sort_values(sl_context *context, heat_layer *layer) {
+    const uint32_t count = layer->graph.grid.count;
+    if (!layer->sorted) layer->sorted = sl_alloc_array(context, count + 1, sizeof *layer->sorted);
+    if (!layer->sorted) return SL_NO_MEMORY;
+    layer->sorted_count = 0;
+    for (uint32_t p = 0; p < count; p++)
+        if (!is_grey(layer, p) && !isnan(layer->values[p]))
+            layer->sorted[layer->sorted_count++] = layer->values[p];
+    qsort(layer->sorted, layer->sorted_count, sizeof *layer->sorted, compare_values);
+    return SL_OK;
+}
+
+/// The value that a share of the points with the scale is below.
+static double quantile(const heat_layer *layer, double share) {
+    if (!layer->sorted_count) return NAN;
+    return layer->sorted[(uint32_t)fmin(share * layer->sorted_count, layer->sorted_count - 1.0)];
+}
+
+/// The share of values below this one.
+static double rank_of(const heat_layer *layer, double value) {
+    uint32_t low = 0, high = layer->sorted_count;
+    while (low < high) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (layer->sorted[middle] < value)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return layer->sorted_count ? (double)low / layer->sorted_count : 0;
 }
 
 static sl_status evaluate_measure(view_state *view, heat_layer *layer) {
@@ -258,14 +315,21 @@ static sl_status evaluate_measure(view_state *view, heat_layer *layer) {
     if (!layer->values) layer->values = sl_alloc_array(view->context, count, sizeof *layer->values);
     if (!layer->values) return SL_NO_MEMORY;
     if (!heat_measure_part(measure)) return count_steps(view, layer);
-    if (layer->valued) return SL_OK;
-    SL_TRY(find_sizes(view->context, layer));
-    for (uint32_t p = 0; p < count; p++)
-        layer->values[p] = sl_measure_value(measure, &layer->graph.measures[p]);
-    const sl_vga_scale scale = sl_vga_scale_of(layer->values, layer->sizes, count);
-    layer->least = scale.least;
-    layer->most = scale.most;
-    layer->beyond = scale.beyond;
+    sl_status status = SL_OK;
+    if (find_part(view, layer, &status)) layer->valued = false;
+    if (layer->valued || status != SL_OK) return status;
+    layer->least = INFINITY;
+    layer->most = -INFINITY;
+    layer->within = 0;
+    for (uint32_t p = 0; p < count; p++) {
+        const double value = sl_measure_value(measure, &layer->graph.measures[p]);
+        layer->values[p] = value;
+        if (is_grey(layer, p)) continue;
+        layer->least = fmin(layer->least, value);
+        layer->most = fmax(layer->most, value);
+        layer->within++;
+    }
+    SL_TRY(sort_values(view->context, layer));
     layer->valued = true;
     view->heat_choice.stamp++;
     return SL_OK;
@@ -345,6 +409,15 @@ void heat_toggle_steps(view_state *view) {
     choose_measure(view, next == choice->measure ? 0 : next);
 }
 
+void heat_toggle_ranks(view_state *view) {
+    heat_choice *choice = &view->heat_choice;
+    choice->ranks = !choice->ranks;
+    choice->stamp++;
+    ui_say(view->ui, false, "%s",
+           choice->ranks ? "each colour has as many points as any other"
+                         : "colours go by the values, in equal steps");
+}
+
 void heat_toggle_held(view_state *view) {
     heat_choice *choice = &view->heat_choice;
     const heat_graph *graph;
@@ -362,11 +435,21 @@ void heat_toggle_held(view_state *view) {
 
 // --- drawing
 
-/// The number of a square's colour; -1: it has none.
+enum { NO_COLOUR = -1, GREY = RAMP_STEPS };
+
+/// A scale that is kept is one of values, and so are steps.
+static bool by_rank(const view_state *view) {
+    return view->heat_choice.ranks && !view->heat_choice.held && chosen_part(view);
+}
+
+/// The number of a square's colour.
 static int step_at(const view_state *view, const heat_layer *layer, size_t square) {
     double least, most;
     const uint32_t p = layer->graph.points[square];
-    if (p == UINT32_MAX || isnan(layer->values[p])) return -1;
+    if (p == UINT32_MAX) return NO_COLOUR;
+    if (is_grey(layer, p)) return GREY;
+    if (isnan(layer->values[p])) return NO_COLOUR;
+    if (by_rank(view)) return ramp_step(rank_of(layer, layer->values[p]), 0, 1);
     heat_layer_scale(view, &least, &most);
     return ramp_step(layer->values[p], least, most);
 }
@@ -400,9 +483,11 @@ void heat_layer_draw(const view_state *view, cairo_t *cairo, const sl_frame *fra
     for (size_t i = 0; i < squares; i++) steps[i] = (signed char)step_at(view, view->heat, i);
     cairo_save(cairo);
     layers_clip_inside(view->document, cairo, frame);
-    for (int step = 0; step < RAMP_STEPS; step++) {
+    const sl_palette *palette = &view->ui->palette;
+    for (int step = 0; step <= GREY; step++) {
         add_squares(cairo, frame, g, steps, step);
-        sl_set_colour(cairo, ramp_colour(view->ui, step));
+        sl_set_colour(cairo, step == GREY ? sl_colour_mix(palette->page, palette->ink, 0.18)
+                                          : ramp_colour(view->ui, step));
         cairo_fill_preserve(cairo); // a thin stroke covers the seams
         cairo_set_line_width(cairo, 0.6);
         cairo_stroke(cairo);
@@ -454,6 +539,14 @@ static void write_pointed(const view_state *view, const heat_graph *g, char text
     write_value(p != UINT32_MAX ? view->heat->values[p] : NAN, text);
 }
 
+/// Where the colours change, with as many points in each.
+static void add_quantiles(const heat_layer *layer, legend_key *key) {
+    char text[3][32], all[100];
+    for (int i = 0; i < 3; i++) write_value(quantile(layer, 0.25 * (i + 1)), text[i]);
+    snprintf(all, sizeof all, "%s, %s, %s", text[0], text[1], text[2]);
+    legend_key_add(key, "quarters of the points end at", all);
+}
+
 bool heat_layer_key(const view_state *view, legend_key *key) {
     const heat_graph *g;
     double least, most;
@@ -461,7 +554,10 @@ bool heat_layer_key(const view_state *view, legend_key *key) {
     if (!heat_layer_values(view, &g)) return false;
     heat_layer_scale(view, &least, &most);
     *key = (legend_key){.ramp = layers_fill(view) == LAYER_HEAT};
+    char unit[SL_UNIT_TEXT];
     heat_say_measure(view, key->rows[0].label);
+    sl_measure_say_unit(chosen_measure(view), view->document->map.unit, unit);
+    snprintf(key->rows[0].text, sizeof key->rows[0].text, "%s", unit);
     write_pointed(view, g, value);
     key->count = 1;
     legend_key_add(key, "under the pointer", value);
@@ -470,9 +566,12 @@ bool heat_layer_key(const view_state *view, legend_key *key) {
     snprintf(value, sizeof value, "%.3g", g->step);
     legend_key_add(key, "from point to point", value);
     if (view->heat_choice.held) legend_key_add(key, "colour scale", "kept");
-    if (view->heat->beyond && !view->heat_choice.held) {
-        sl_text_count(view->heat->beyond, "point", count);
-        legend_key_add(key, "beyond it, in small parts", count);
+    if (by_rank(view)) add_quantiles(view->heat, key);
+    if (heat_measure_part(chosen_measure(view)) && view->heat->part_count > 1) {
+        char others[2 * SL_COUNT_TEXT];
+        sl_text_count(g->grid.count - view->heat->within, "", count);
+        snprintf(others, sizeof others, "%s points are grey", count);
+        legend_key_add(key, "in parts that the eye's does not see", others);
     }
     bool blocks = false;
     for (size_t i = 0; i < view->document->object_count; i++) blocks |= view->document->blocks[i];

@@ -36,6 +36,7 @@ bool heat_layer_key(const view_state *view, legend_key *key);
 void heat_say_measure(const view_state *view, char text[64]);
 void heat_choose(view_state *view, int by); ///< the next measure, or one before
 void heat_toggle_steps(view_state *view);   ///< steps from the pointer, or the measure before
+void heat_toggle_ranks(view_state *view);   ///< colours by rank, or by value
 void heat_toggle_held(view_state *view); ///< keeps the colour scale, or lets it follow the values
 /// The place of the grid's step among those that can be chosen, from 0 (coarse) to *last.
 int heat_step_place(const view_state *view, int *last);

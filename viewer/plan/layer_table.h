@@ -10,7 +10,8 @@
 #define IN_DRAW      4u
 #define IN_QUIZ      8u
 #define IN_CAMERAS   16u
-#define IN_ALL_MODES 31u
+#define IN_PLAN      32u
+#define IN_ALL_MODES 63u
 #define IN_CELLS     15u ///< those that show cells
 
 /// A row: LAYER(NAME, name, key, label, help, modes, calls).
@@ -23,11 +24,12 @@
     LAYER(SPLITS, "splits", "K", "Splits of the tree", "splits by depth", IN_CELLS, 0)             \
     LAYER(VIEWS, "views", "F5", "View cells by cost", "view cells that adapt, by cost",            \
           IN_EXPLORE | IN_DRAW, 0)                                                                 \
-    LAYER(HEAT, "heat", "1", "Heat map", "heat map of the visibility graph", IN_EXPLORE | IN_DRAW, \
-          0)                                                                                       \
+    LAYER(HEAT, "heat", "1", "Heat map", "heat map of the visibility graph",                       \
+          IN_EXPLORE | IN_DRAW | IN_PLAN, 0)                                                       \
     LAYER(PVS, "pvs", "V", "Visible set of the cell", "the visible set", IN_EXPLORE | IN_DRAW, 0)  \
     LAYER(CULL, "cull", "M", "Cells kept", "cells kept by culling", IN_EXPLORE | IN_DRAW, 0)       \
-    LAYER(REGION, "region", "R", "Visible region", "the visible region", IN_EXPLORE | IN_DRAW, 0)  \
+    LAYER(REGION, "region", "R", "Visible region", "the visible region",                           \
+          IN_EXPLORE | IN_DRAW | IN_PLAN, 0)                                                       \
     LAYER(TREE, "tree", "B", "Stab tree of the cell", "the stab tree", IN_EXPLORE | IN_DRAW, 0)    \
     LAYER(NODES, "nodes", "Q", "Nodes without visible sets",                                       \
           "nodes, walking without visible sets", IN_EXPLORE | IN_DRAW, 0)                          \

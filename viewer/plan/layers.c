@@ -111,7 +111,7 @@ void layers_draw_portals(const view_state *view, cairo_t *cairo, const sl_frame 
     cairo_new_path(cairo);
     for (uint32_t cell = 0; cell < space->cell_count; cell++) {
         const sl_cell *c = &space->cells[cell];
-        if (cells && !in_set(cells, without, cell)) continue;
+        if (cells ? !in_set(cells, without, cell) : !c->inside) continue;
         for (uint32_t i = 0; i < c->directed_count; i++) {
             const sl_directed_portal *d = &space->directed[c->first_directed + i];
             const bool twice = d->cell < cell && (!cells || in_set(cells, without, d->cell));

@@ -32,8 +32,8 @@ void layers_set_fill(view_state *view, unsigned layer);
 void layers_draw_set(view_state *view, const sl_frame *frame, const uint64_t *cells,
                      const uint64_t *without, tone which, bool fills);
 
-/// Draws the portals of a set of cells once more (NULL: of all): a solid fill covers those below
-/// it.
+/// Draws the portals of a set of cells once more (NULL: of those inside): a solid fill covers those
+/// below it.
 void layers_draw_portals(const view_state *view, cairo_t *cairo, const sl_frame *frame,
                          const uint64_t *cells, const uint64_t *without);
 
@@ -75,7 +75,7 @@ tone layers_method_tone(size_t method, size_t chosen);
 typedef struct legend_key {
     struct {
         char label[64], text[96];
-    } rows[8];
+    } rows[10];
     int count;
     bool ramp;
     char least[32], most[32];

@@ -68,6 +68,13 @@ bool view_pointed(const view_state *view, sl_point *at) {
     return box_has(view->plan[0], view->ui->pointer);
 }
 
+void view_say_place(const sl_map *map, sl_point at, char text[PLACE_TEXT]) {
+    const int digits = (int)fmin(fmax(sl_map_digits(map) - 2, 4), 17);
+    char whole[2 * 330]; // as far as the compiler can tell
+    snprintf(whole, sizeof whole, "%.*g, %.*g", digits, at.x, digits, at.y);
+    snprintf(text, PLACE_TEXT, "%.*s", PLACE_TEXT - 1, whole);
+}
+
 void view_mark(const view_state *view, const sl_frame *frame, sl_point place) {
     cairo_t *cairo = view->ui->cairo;
     sl_point at;

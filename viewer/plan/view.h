@@ -18,6 +18,7 @@ typedef enum view_mode {
     MODE_DRAW,
     MODE_QUIZ,
     MODE_CAMERAS,
+    MODE_PLAN,
     MODES
 } view_mode;
 
@@ -57,6 +58,9 @@ typedef struct eye_state {
     double heading, fov; ///< degrees; 360: all round
     bool flies;          ///< through walls
 } eye_state;
+
+/// What a click in the plan does in Plan mode: it puts the viewpoint, or an end of a path.
+typedef enum plan_tool { TOOL_ISOVIST, TOOL_PATH } plan_tool;
 
 typedef enum comparison { COMPARE_OFF, COMPARE_PANES, COMPARE_DIFFERENCE } comparison;
 
@@ -140,6 +144,7 @@ typedef struct heat_choice {
     size_t measure, before; ///< by heat_measure(); the one before steps were chosen
     double step;            ///< 0: the usual one
     bool held;              ///< the colour scale stays as it is
+    bool ranks;             ///< each colour has as many points as any other
     double least, most;     ///< its ends then
     uint32_t stamp;         ///< grows with every change of what is drawn
 } heat_choice;
@@ -149,6 +154,7 @@ typedef struct view_layer view_layer;
 typedef struct heat_layer heat_layer;
 typedef struct watch_layer watch_layer;
 typedef struct camera_layer camera_layer;
+typedef struct route_layer route_layer;
 
 /// What is shown and from where. Results are kept from frame to frame.
 struct view_state {
@@ -159,6 +165,7 @@ struct view_state {
     /// not wait. NULL: they are drawn to their end.
     sl_context *drawing;
     view_mode mode;
+    plan_tool tool;
     unsigned held;  ///< keys, of hold_key
     sl_box plan[2]; ///< where the plans are on the page, and how many
     int plan_count;
@@ -192,11 +199,12 @@ struct view_state {
     first_person_counts first_person; ///< of the last frame
 
     heat_choice heat_choice;
-    node_layer *nodes; ///< these five: NULL: none yet
+    node_layer *nodes; ///< these six: NULL: none yet
     view_layer *views;
     heat_layer *heat;
     watch_layer *watch;
     camera_layer *cameras;
+    route_layer *route;
 };
 
 /// Shows the message of a failure; nothing for SL_OK.
@@ -206,6 +214,10 @@ static inline void view_check(view_state *view, sl_status status) {
 
 /// The place of the map under the pointer; false: it is not over the first plan.
 bool view_pointed(const view_state *view, sl_point *at);
+
+/// "12.34, 5.6": to about a ten-thousandth of the map's size, however far from the origin it is.
+enum { PLACE_TEXT = 72 };
+void view_say_place(const sl_map *map, sl_point at, char text[PLACE_TEXT]);
 
 /// Marks a place of the map by a disc.
 void view_mark(const view_state *view, const sl_frame *frame, sl_point place);

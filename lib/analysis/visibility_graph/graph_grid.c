@@ -97,7 +97,7 @@ static sl_status take_seeds(flood *f, const sl_point *seeds, size_t count) {
         const double row = round(seeds[i].y / grid->step) - (double)grid->bottom;
         if (!(column >= 0 && column < grid->columns && row >= 0 && row < grid->rows))
             return sl_fail(f->context, SL_BAD_ARGUMENT,
-                           "%g,%g is outside the map; choose a point in a room", seeds[i].x,
+                           "%.9g,%.9g is outside the map; choose a point in a room", seeds[i].x,
                            seeds[i].y);
         SL_TRY(take(f, (uint32_t)column * grid->rows + (uint32_t)row));
     }

@@ -8,6 +8,7 @@
 #include "sightline/vga.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 /// Parts with fewer points than this share of the largest one do not set a scale.
 #define SMALL_PART 0.1
@@ -54,19 +55,9 @@ static void search_from(search *s, uint32_t first) {
     }
 }
 
-/// `sizes` counts by part first: a part has the number of its first point.
-static void count_parts(search *s, uint32_t *sizes) {
-    const uint32_t count = s->graph->count;
-    for (uint32_t p = 0; p < count; p++) sizes[p] = 0;
-    for (uint32_t p = 0; p < count; p++) {
-        s->part[p] = sl_root_of(s->parent, s->part[p]);
-        sizes[s->part[p]]++;
-    }
-    for (uint32_t p = 0; p < count; p++) sizes[p] = sizes[s->part[p]];
-}
-
-sl_status sl_vga_part_sizes(sl_context *context, const sl_vga_graph *graph,
-                            const sl_vga_link *links, size_t link_count, uint32_t *sizes) {
+/// Gives each point the first point of its part.
+static sl_status find_parts(sl_context *context, const sl_vga_graph *graph,
+                            const sl_vga_link *links, size_t link_count, uint32_t *parts) {
     const uint32_t count = graph->count;
     for (size_t i = 0; i < link_count; i++)
         if (links[i].a >= count || links[i].b >= count)
@@ -74,20 +65,71 @@ sl_status sl_vga_part_sizes(sl_context *context, const sl_vga_graph *graph,
     search s = {.graph = graph,
                 .found = sl_alloc_array(context, graph->words + 1, sizeof *s.found),
                 .own = sl_alloc_array(context, graph->words + 1, sizeof *s.own),
-                .part = sl_alloc_array(context, (size_t)count + 1, sizeof *s.part),
+                .part = parts,
                 .parent = sl_alloc_array(context, (size_t)count + 1, sizeof *s.parent),
                 .stack = sl_alloc_array(context, (size_t)count + 1, sizeof *s.stack)};
-    const bool room = s.found && s.own && s.part && s.parent && s.stack;
+    const bool room = s.found && s.own && s.parent && s.stack;
     if (room) {
         for (uint32_t p = 0; p < count; p++) s.parent[p] = p;
         for (uint32_t p = 0; p < count; p++)
             if (!sl_bits_has(s.found, p)) search_from(&s, p);
         for (size_t i = 0; i < link_count; i++) join(&s, s.part[links[i].a], s.part[links[i].b]);
-        count_parts(&s, sizes);
+        for (uint32_t p = 0; p < count; p++) s.part[p] = sl_root_of(s.parent, s.part[p]);
     }
-    void *const arrays[] = {s.found, s.own, s.part, s.parent, s.stack};
+    void *const arrays[] = {s.found, s.own, s.parent, s.stack};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) sl_free(context, arrays[i]);
     return room ? SL_OK : SL_NO_MEMORY;
+}
+
+/// A part, while parts are put in order.
+typedef struct part {
+    uint32_t first, size;
+} part;
+
+/// The larger one comes first; of two alike the one whose first point does.
+static int compare_parts(const void *a, const void *b) {
+    const part *p = a, *q = b;
+    return p->size != q->size ? (p->size < q->size) - (p->size > q->size)
+                              : (p->first > q->first) - (p->first < q->first);
+}
+
+sl_status sl_vga_parts(sl_context *context, const sl_vga_graph *graph, const sl_vga_link *links,
+                       size_t link_count, uint32_t *parts, uint32_t *part_count) {
+    const uint32_t count = graph->count;
+    part *list = sl_alloc_array(context, (size_t)count + 1, sizeof *list);
+    uint32_t *place = sl_alloc_array(context, (size_t)count + 1, sizeof *place), found = 0;
+    sl_status status = list && place ? SL_OK : SL_NO_MEMORY;
+    if (status == SL_OK) status = find_parts(context, graph, links, link_count, parts);
+    for (uint32_t p = 0; status == SL_OK && p < count; p++) {
+        if (parts[p] == p) {
+            place[p] = found;
+            list[found++] = (part){.first = p};
+        }
+        list[place[parts[p]]].size++; // a part's first point comes before the others
+    }
+    if (status == SL_OK) {
+        qsort(list, found, sizeof *list, compare_parts);
+        for (uint32_t i = 0; i < found; i++) place[list[i].first] = i;
+        for (uint32_t p = 0; p < count; p++) parts[p] = place[parts[p]];
+        *part_count = found;
+    }
+    sl_free(context, list);
+    sl_free(context, place);
+    return status;
+}
+
+sl_status sl_vga_part_sizes(sl_context *context, const sl_vga_graph *graph,
+                            const sl_vga_link *links, size_t link_count, uint32_t *sizes) {
+    const uint32_t count = graph->count;
+    uint32_t *parts = sl_alloc_array(context, (size_t)count + 1, sizeof *parts);
+    sl_status status = parts ? find_parts(context, graph, links, link_count, parts) : SL_NO_MEMORY;
+    if (status == SL_OK) {
+        for (uint32_t p = 0; p < count; p++) sizes[p] = 0;
+        for (uint32_t p = 0; p < count; p++) sizes[parts[p]]++;
+        for (uint32_t p = 0; p < count; p++) sizes[p] = sizes[parts[p]]; // first points first
+    }
+    sl_free(context, parts);
+    return status;
 }
 
 sl_vga_scale sl_vga_scale_of(const double *values, const uint32_t *sizes, uint32_t count) {

@@ -180,6 +180,9 @@ typedef struct sl_field {
     /// Values are changes: one colour for gains and one for losses, pale at 0. The scale reaches as
     /// far on both sides of 0.
     bool diverging;
+    /// Squares that are no part of the scale, though something is there: they are grey. NULL for
+    /// none. Their values are NaN.
+    const bool *grey;
 } sl_field;
 
 /// Draws a heat map over the plan with its colour scale, likewise. SL_BAD_ARGUMENT also on a scale

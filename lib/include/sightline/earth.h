@@ -9,12 +9,19 @@ extern "C" {
 #endif
 
 /// Where the point 0, 0 of a map lies on the earth (WGS 84), in degrees. The map is in metres, its
-/// x goes east and its y north. Zeroed, it is not known: the map is a plane of its own.
+/// x goes east and its y north. Zeroed, it is not known: the map is a plane of its own; or its
+/// coordinates are those of a system that the user has named.
 typedef struct sl_earth {
     bool known;
+    /// The EPSG code of the coordinate system that x and y are in, as 2056 for the Swiss one; 0:
+    /// not named, or known. It is written into GeoJSON and never computed with.
+    uint32_t epsg;
     double longitude; ///< -180 .. 180
     double latitude;  ///< -90 .. 90
 } sl_earth;
+
+/// Reads the name of a coordinate system: "EPSG:2056". False for any other text.
+SL_API bool sl_earth_read_epsg(const char *text, size_t length, uint32_t *epsg);
 
 /// The place in the map of a longitude (x) and a latitude (y), by the transverse Mercator
 /// projection about the origin's meridian, at scale 1. Angles are right. A length at a place x

@@ -53,6 +53,9 @@ typedef struct sl_import_options {
     /// Keep only what lies in `crop`, a box in the map's places (sl_map_crop).
     bool has_crop;
     sl_box crop;
+    /// The coordinate system of the map's x and y: "EPSG:2056" (sl_earth.epsg); NULL: as the file
+    /// says. Refused where the map is read from longitudes and latitudes.
+    const char *crs;
 } sl_import_options;
 
 /// The usual options: each format's own choice.

@@ -74,6 +74,10 @@ typedef struct sl_geojson_writer {
     sl_earth earth; ///< where the coordinates' plane lies
 } sl_geojson_writer;
 
+/// Writes the member "crs", with a comma behind it: the coordinate system that was named, or null.
+/// Nothing for a map that lies on the earth: it is in degrees. For writers of their own.
+SL_API void sl_geojson_put_crs(FILE *stream, const sl_earth *earth);
+
 /// Begins a collection of features of a map that lies there (sl_map.earth); NULL: in a plane of its
 /// own. Refused writes are left to the stream's error flag.
 SL_API sl_geojson_writer sl_geojson_begin(FILE *stream, const sl_earth *earth);

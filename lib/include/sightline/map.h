@@ -319,7 +319,7 @@ SL_API bool sl_coordinate_usable(double value);
 SL_API sl_box sl_map_bounds(const sl_map *map);
 
 /// How many significant digits tell places apart that are a millionth of the map's size apart: 6 to
-/// 17.
+/// 17. The size is that of the bounds, or the length of all walls where that is less.
 SL_API int sl_map_digits(const sl_map *map);
 
 /// Whether all walls, mirrors, doors, one-way glass and seams are parallel to an axis.

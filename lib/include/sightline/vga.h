@@ -195,6 +195,12 @@ SL_API sl_status sl_vga_depth_walked(sl_context *context, const sl_outline *outl
 SL_API sl_status sl_vga_part_sizes(sl_context *context, const sl_vga_graph *graph,
                                    const sl_vga_link *links, size_t link_count, uint32_t *sizes);
 
+/// The part of each point, by number: the largest is 0, of two alike the one whose first point
+/// comes first. `parts` has an entry for each point. Cost as above.
+SL_API sl_status sl_vga_parts(sl_context *context, const sl_vga_graph *graph,
+                              const sl_vga_link *links, size_t link_count, uint32_t *parts,
+                              uint32_t *part_count);
+
 /// The ends of a colour scale that small parts do not set. A courtyard that nobody looks into may
 /// score many times as high as all rooms of the plan.
 typedef struct sl_vga_scale {

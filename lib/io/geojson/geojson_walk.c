@@ -230,7 +230,7 @@ static sl_earth middle_of(sli_geo *geo, sl_box box) {
     }
     const double x = rint((box.min.x / 2 + box.max.x / 2) * 1e7) / 1e7;
     const double y = rint((box.min.y / 2 + box.max.y / 2) * 1e7) / 1e7;
-    return (sl_earth){true, remainder(x, 360), y};
+    return (sl_earth){.known = true, .longitude = remainder(x, 360), .latitude = y};
 }
 
 /// Lengths that are wrong by more than this are no plan any more.

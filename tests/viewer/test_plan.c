@@ -1,0 +1,162 @@
+// The Plan mode of the viewer: it opens for floor plans, its paths are those of the library for the
+// doors as they are now, and its colours by rank have as many points each.
+#include "viewer_app.h"
+
+#include "app/layout.h"
+#include "plan/effects.h"
+#include "plan/heat.h"
+#include "plan/route.h"
+
+#include <math.h>
+#include <string.h>
+#include <unistd.h>
+
+static app_state *start(const char *name, const char *text) {
+    char folder[] = "/tmp/sightline-plan-XXXXXX", path[64];
+    assert_non_null(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    FILE *stream = fopen(path, "w");
+    assert_non_null(stream);
+    fputs(text, stream);
+    assert_int_equal(fclose(stream), 0);
+    app_state *app = viewer_start(true);
+    viewer_open(app, path);
+    script_frame(app);
+    assert_int_equal(remove(path), 0);
+    assert_int_equal(rmdir(folder), 0);
+    return app;
+}
+
+static void press(app_state *app, const char *key) {
+    viewer_press(app, key);
+    app_tick(app, 0);
+    script_frame(app);
+}
+
+static void click_at(app_state *app, sl_point at) {
+    const sl_frame frame = camera_frame(&app->view.camera, app_layout(app).plan[0], 1);
+    const sl_point page = sl_frame_point(&frame, at);
+    input_move(app, page);
+    input_press(app, BUTTON_LEFT, page);
+    input_release(app, page);
+    app_tick(app, 0);
+}
+
+static const char svg[] = "<svg xmlns='http://www.w3.org/2000/svg' width='200' height='100'>"
+                          "<g id='walls'><path d='M0 0 H200 V100 H0 Z M100 0 V60' stroke='black' "
+                          "fill='none'/></g></svg>";
+
+/// A drawing opens in the Plan mode. A map does not, nor does a drawing once another mode is
+/// chosen.
+static void test_opens(void **state) {
+    (void)state;
+    app_state *app = start("house.svg", svg);
+    assert_int_equal(app->view.mode, MODE_PLAN);
+    assert_non_null(strstr(app->ui.message, "house.svg: "));
+    assert_null(strstr(app->ui.message, "cells"));
+    assert_false(layers_lists(&app->view, LAYER_CULL));
+    assert_false(layers_lists(&app->view, LAYER_TREE));
+    assert_int_equal(layers_fill(&app->view), LAYER_REGION);
+    press(app, "F1");
+    assert_int_equal(app->view.mode, MODE_EXPLORE);
+    press(app, "9");
+    assert_int_equal(app->view.mode, MODE_PLAN);
+    press(app, "Ctrl+2");
+    assert_int_equal(layers_fill(&app->view), LAYER_HEAT);
+    viewer_end(app);
+    app = viewer_start(true);
+    viewer_open(app, MAPS "/office.map");
+    assert_int_equal(app->view.mode, MODE_EXPLORE);
+    viewer_end(app);
+    app = viewer_start(true);
+    app->view.mode = MODE_DRAW;
+    viewer_open(app, MAPS "/keep.tmx");
+    assert_int_equal(app->view.mode, MODE_DRAW);
+    viewer_end(app);
+}
+
+static const char doors[] = "sightline 1\nunit m\nwalls 0 0 20 0 20 10 0 10 0 0\nwall 10 2 10 8\n"
+                            "door low 10 0 10 2 open\ndoor high 10 8 10 10 open\nstart 1 1 0\n";
+
+/// Two clicks; a door that is shut sends the way through the other one, or nowhere.
+static void test_path(void **state) {
+    (void)state;
+    app_state *app = start("a.map", doors);
+    press(app, "9");
+    press(app, "Ctrl+3");
+    const sl_point eye = app->view.eye.at;
+    click_at(app, (sl_point){5, 3});
+    assert_int_equal(app->view.route->clicks, 1);
+    click_at(app, (sl_point){15, 3});
+    const route_layer *layer = app->view.route;
+    assert_int_equal(layer->clicks, 2);
+    assert_true(app->view.eye.at.x == eye.x && app->view.eye.at.y == eye.y);
+    assert_true(layer->route.found && layer->route.count == 3);
+    assert_true(layer->route.points[1].x == 10 && layer->route.points[1].y == 2);
+    const double low = layer->route.length;
+    assert_true(fabs(low - 2 * hypot(5, 1)) < 0.1);
+    door_toggle(&app->view, 0);
+    app_tick(app, 0);
+    assert_true(layer->route.found && layer->route.points[1].y == 8);
+    assert_true(fabs(layer->route.length - 2 * hypot(5, 5)) < 0.1);
+    door_toggle(&app->view, 1);
+    app_tick(app, 0);
+    script_frame(app);
+    assert_false(layer->route.found);
+    door_toggle(&app->view, 0);
+    app_tick(app, 0);
+    assert_true(layer->route.length == low);
+    // A third click begins anew; Escape takes it back.
+    click_at(app, (sl_point){3, 3});
+    assert_int_equal(layer->clicks, 1);
+    press(app, "Escape");
+    assert_int_equal(layer->clicks, 0);
+    // The other tool puts the viewpoint again.
+    press(app, "Ctrl+1");
+    click_at(app, (sl_point){12, 5});
+    assert_int_equal(layer->clicks, 0);
+    assert_true(fabs(app->view.eye.at.x - 12) < 0.1);
+    viewer_end(app);
+}
+
+/// With colours by rank the key tells where quarters of the points end.
+static void test_ranks(void **state) {
+    (void)state;
+    app_state *app = start("a.map", doors);
+    const heat_graph *graph;
+    legend_key key;
+    press(app, "9");
+    press(app, "Ctrl+2");
+    const double *values = heat_layer_values(&app->view, &graph);
+    assert_non_null(values);
+    const uint32_t before = app->view.heat_choice.stamp;
+    action_run(app, action_find("heat_ranks"));
+    app_tick(app, 0);
+    assert_true(app->view.heat_choice.stamp != before);
+    assert_true(heat_layer_key(&app->view, &key));
+    double ends[3] = {0};
+    for (int i = 0; i < key.count; i++)
+        if (strstr(key.rows[i].label, "quarters"))
+            assert_int_equal(sscanf(key.rows[i].text, "%lf, %lf, %lf", ends, ends + 1, ends + 2),
+                             3);
+    for (int i = 0; i < 3; i++) {
+        uint32_t below = 0, to = 0, valued = 0;
+        for (uint32_t p = 0; p < graph->grid.count; p++) {
+            valued += !isnan(values[p]);
+            below += values[p] < ends[i] * (1 - 1e-3);
+            to += values[p] <= ends[i] * (1 + 1e-3);
+        }
+        const double share = 0.25 * (i + 1) * valued;
+        assert_true(below <= share && share <= to + 1);
+    }
+    viewer_end(app);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_opens),
+        cmocka_unit_test(test_path),
+        cmocka_unit_test(test_ranks),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

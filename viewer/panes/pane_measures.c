@@ -1,0 +1,120 @@
+/// The panel of the Plan mode: what is measured, in the units of the plan.
+#include "panes/panel.h"
+#include "panes/panes.h"
+#include "plan/heat.h"
+#include "plan/route.h"
+#include "sightline/draw.h"
+
+#include <math.h>
+#include <stdio.h>
+
+enum { VALUE_TEXT = 96 };
+
+/// "12.3 m²"
+static void write_measure(const view_state *view, double value, const char *power,
+                          char text[VALUE_TEXT]) {
+    const char *unit = view->document->map.unit;
+    snprintf(text, VALUE_TEXT, "%.4g%s%s%s", value, *unit ? " " : "", unit, *unit ? power : "");
+}
+
+/// A value stands beside its label, or below it where the panel is narrow.
+static void put_row(ui_state *ui, column *c, const char *label, const char *value) {
+    const double t = ui->text, wide = ui_text_width(ui, 0.95, false, value) + 0.6 * t;
+    const bool beside = ui_text_width(ui, 0.95, false, label) + wide <= column_width(c);
+    const double base = c->y + 1.1 * t;
+    const double end =
+        ui_lines(ui, c->left, base, column_width(c), 0.95, false, ui->palette.ink, label);
+    ui_text_right(ui, c->right, beside ? base : end, 0.95, ui->palette.ink, value);
+    c->y = end - (beside ? 0.95 : -0.3) * t;
+}
+
+// --- the plan
+
+static void draw_plan_words(const view_state *view, column *c) {
+    char area[VALUE_TEXT], text[256];
+    if (!view->document->baked) return;
+    write_measure(view, view->document->area, "\xc2\xb2", area);
+    snprintf(text, sizeof text, "%s inside.%s", area,
+             *view->document->map.unit
+                 ? ""
+                 : " The file does not say what lengths are in: Ctrl+I tells it.");
+    column_words(view->ui, c, 0.95, view->ui->palette.ink, text);
+    c->y += 0.4 * view->ui->text;
+}
+
+// --- the isovist
+
+static void draw_isovist(const view_state *view, column *c) {
+    char place[PLACE_TEXT], unit[SL_UNIT_TEXT], name[64], text[VALUE_TEXT];
+    size_t count;
+    const sl_measure *measures = sl_measures(SL_ISOVIST, &count);
+    view_say_place(&view->document->map, view->eye.at, place);
+    column_heading(view->ui, c, "Isovist", place);
+    if (!view->seen.valid) return;
+    const sl_region_measures all = sl_region_measure(&view->seen.region);
+    for (size_t i = 0; i < count; i++) {
+        const double value = sl_measure_value(&measures[i], &all);
+        sl_measure_say_unit(&measures[i], view->document->map.unit, unit);
+        snprintf(name, sizeof name, "%s", measures[i].name);
+        ui_spaces(name);
+        if (isnan(value))
+            snprintf(text, sizeof text, "not defined");
+        else
+            snprintf(text, sizeof text, "%.4g%s%s", value, *unit ? " " : "", unit);
+        put_row(view->ui, c, name, text);
+    }
+}
+
+// --- the path
+
+static void draw_route(const view_state *view, column *c) {
+    const route_layer *layer = view->route;
+    char text[VALUE_TEXT];
+    column_heading(view->ui, c, "Path", NULL);
+    if (!layer || !layer->clicks) {
+        column_words(view->ui, c, 0.95, view->ui->palette.ink, "Click where the way begins.");
+        return;
+    }
+    if (layer->clicks == 1) {
+        column_words(view->ui, c, 0.95, view->ui->palette.ink, "Click where it ends.");
+        return;
+    }
+    if (!layer->route.found) {
+        column_words(view->ui, c, 0.95, view->ui->palette.ink,
+                     "No way leads there. The ring marks the nearest place that can be reached.");
+        return;
+    }
+    write_measure(view, layer->route.length, "", text);
+    put_row(view->ui, c, "length", text);
+    write_measure(view, hypot(layer->to.x - layer->from.x, layer->to.y - layer->from.y), "", text);
+    put_row(view->ui, c, "straight line", text);
+    snprintf(text, sizeof text, "%zu", layer->route.count - 2);
+    put_row(view->ui, c, "turns at corners", text);
+    if (sl_map_limited_walls(&view->document->map))
+        column_words(view->ui, c, 0.9, view->ui->palette.faint,
+                     "Some walls stop only sight or only steps. This way goes by sight; "
+                     "'sightline path' goes by steps.");
+}
+
+void pane_measures(learn_state *learn, sl_box box) {
+    view_state *view = learn->view;
+    column c = column_begin(learn->ui, box);
+    static const char *const tools[] = {"plan_isovist", "plan_graph", "plan_path", "cameras", NULL};
+    static const char *const heat[] = {"heat_back", "heat_next", "heat_ranks", "heat_hold", NULL};
+    column_heading(learn->ui, &c, "Plan", view->document->map.unit);
+    draw_plan_words(view, &c);
+    column_buttons(learn->ui, &c, tools);
+    if (view->document->baked) {
+        if (view->tool == TOOL_PATH)
+            draw_route(view, &c);
+        else
+            draw_isovist(view, &c);
+        pane_words(view, &c);
+        column_legend(view, &c);
+        c.y += 0.3 * learn->ui->text;
+        column_sliders(learn->ui, &c);
+        if (layers_shows(view, LAYER_HEAT)) column_buttons(learn->ui, &c, heat);
+    }
+    column_layers(view, &c);
+    column_end(learn->ui, &c);
+}
