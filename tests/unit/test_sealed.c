@@ -34,7 +34,7 @@ static void find(const char *statements, move by, sl_sealed *out) {
                                   s * ends[k]->x + c * ends[k]->y + by.y};
     }
     assert_ok(context, sl_bake_space(context, &map, &options, &baked, NULL));
-    assert_ok(context, sl_find_sealed(context, &baked.space, out));
+    assert_ok(context, sl_find_sealed(context, &baked.map, &baked.space, out));
     sl_baked_destroy(context, &baked);
     sl_map_destroy(context, &map);
     sl_context_destroy(context);
@@ -59,6 +59,21 @@ static void test_counts(void **state) {
     // Nothing is closed: nothing is sealed.
     find("wall 0 0 9 0\nwall 0 5 3 7\n", still, &found);
     assert_true(found.share == 0);
+}
+
+/// Nobody walks through a window.
+static void test_window(void **state) {
+    (void)state;
+    sl_sealed found;
+    find(PASSAGE "walls 2 0 6 0 6 4 2 4\n", still, &found);
+    assert_int_equal(found.rooms, 2);
+    find("walls 0 0 2 0\nwalls 2 1 2 8 0 8 0 0\nwalls 2 0 6 0 6 4 2 4\nwall 2 0 2 1 stops steps\n",
+         still, &found);
+    assert_int_equal(found.rooms, 2);
+    assert_true(found.share > 0.49 && found.share < 0.51);
+    find("walls 0 0 2 0\nwalls 2 1 2 8 0 8 0 0\nwalls 2 0 6 0 6 4 2 4\nwall 2 0 2 1 stops sound\n",
+         still, &found);
+    assert_int_equal(found.rooms, 1);
 }
 
 /// The core of a wall and a small shaft do not count.
@@ -90,7 +105,7 @@ static void test_placed(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_counts), cmocka_unit_test(test_thin),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_counts), cmocka_unit_test(test_window), cmocka_unit_test(test_thin),
                                        cmocka_unit_test(test_placed)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

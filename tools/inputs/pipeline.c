@@ -332,7 +332,7 @@ sl_status pipeline_note_sealed(sl_context *context, const map_pipeline *pipeline
     const int digits = sl_map_digits(map);
     sl_sealed sealed;
     if (says_rooms(map) || !input_is_drawing(context, pipeline->path)) return SL_OK;
-    SL_TRY(sl_find_sealed(context, space, &sealed));
+    SL_TRY(sl_find_sealed(context, map, space, &sealed));
     if (sealed.rooms < 2 || sealed.share < SEALED) return SL_OK;
     const uint32_t count = sealed.rooms - 1;
     say_map(pipeline, &reading, path);

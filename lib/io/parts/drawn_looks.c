@@ -178,10 +178,26 @@ static double contrast(const chooser *c, const sli_look *look) {
     return fabs(lightness(&look->ink) - c->ground);
 }
 
-static void weigh_all(chooser *c) {
+static void find_ground(chooser *c) {
     c->ground = 1;
     if (c->backdrop < c->count)
         c->ground = lightness(&c->looks->items.items[c->shapes[c->backdrop].look].ink);
+}
+
+double sli_looks_ground(const sl_map *map, const sli_look_shape *shapes, size_t count,
+                        sli_looks *looks) {
+    chooser c = {.map = map, .shapes = shapes, .count = count, .looks = looks};
+    find_backdrop(&c);
+    find_ground(&c);
+    return c.ground;
+}
+
+bool sli_ink_is_ground(const sli_ink *ink, double ground) {
+    return ink->known && fabs(lightness(ink) - ground) < 0.02;
+}
+
+static void weigh_all(chooser *c) {
+    find_ground(c);
     for (size_t i = 0; i < c->looks->items.count; i++) {
         sli_look *look = &c->looks->items.items[i];
         const bool floor = is_floor(c, look);

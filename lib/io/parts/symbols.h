@@ -17,6 +17,7 @@ typedef struct sli_swing {
 typedef struct sli_symbols {
     sl_bits *gone; ///< by wall: it is a part of a symbol
     SL_ARRAY(sli_swing) swings;
+    SL_ARRAY(sli_swing) unsure; ///< the latch may be the tip
     size_t doors;  ///< swings, those among them too of which the latch is not clear
     size_t leaves; ///< walls of them
     size_t lines;  ///< walls of hatching
