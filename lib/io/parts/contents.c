@@ -549,6 +549,23 @@ static sl_status keep_walls(sli_choice *c) {
     return status;
 }
 
+/// Measures what stays, and what is passed over though its name says nothing.
+static void measure(sli_choice *c) {
+    for (size_t i = 0; i < c->contents->runs.count; i++) {
+        const sli_group_run *run = &c->contents->runs.items[i];
+        const sli_group *group = &c->contents->groups.items[run->group];
+        for (size_t k = run->first; k < run->end; k++) {
+            const sl_wall *wall = &c->map->walls[k];
+            const double length = sli_length(wall->b.x - wall->a.x, wall->b.y - wall->a.y);
+            if (sli_choice_gone(c, k)) continue;
+            if (is_taken(c, c->means[k])) c->kept_length += length;
+            if (group->taken || group->means != SLI_MEANS_NOTHING) continue;
+            c->unknown++;
+            c->unknown_length += length;
+        }
+    }
+}
+
 // --- all
 
 static sl_status choose(sli_choice *c, sli_pen *pen) {
@@ -568,6 +585,7 @@ static sl_status choose(sli_choice *c, sli_pen *pen) {
     if (!sli_contents_said(c->contents)) sli_choice_note_long_doors(c);
     if (!chosen) return SL_OK;
     SL_TRY(add_doors(c));
+    measure(c);
     SL_TRY(keep_walls(c));
     for (size_t i = 0; i < c->contents->groups.count; i++)
         pen->walls -= c->contents->groups.items[i].walls;
@@ -578,9 +596,8 @@ static sl_status choose(sli_choice *c, sli_pen *pen) {
 
 sl_status sli_contents_choose(sli_contents *contents, double metre, sli_pen *pen) {
     sli_choice c = {.contents = contents, .map = pen->map, .metre = metre};
-    if (!contents->runs.count) return SL_OK;
-    sl_status status = choose(&c, pen);
-    if (status == SL_OK && !c.walls_named && !sli_contents_said(contents))
+    sl_status status = contents->runs.count ? choose(&c, pen) : SL_OK;
+    if (status == SL_OK && !contents->options->all_layers)
         status = sli_plan_tell(contents->context, contents->file, pen->map, metre, 0);
     sl_free(contents->context, c.means);
     sli_symbols_destroy(contents->context, &c.symbols);

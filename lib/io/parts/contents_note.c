@@ -140,36 +140,44 @@ static void note_choice(const sli_choice *c) {
                 c->symbols.doors - c->doors);
 }
 
+/// How much like walls a look is that is not taken: its long lines count by their weight.
+static double likeness(const sli_look *look) {
+    return look->length * fmax(look->weight, 1e-9);
+}
+
 /// Walls by their looks, where others may be walls as well as they.
 static void note_share(const sli_choice *c) {
-    const sli_look *taken = NULL, *other = NULL;
+    const sli_look *taken = NULL, *other = NULL, *rooms = NULL;
+    const char *file = c->contents->file;
     for (size_t i = 0; i < c->contents->looks.items.count; i++) {
-        const sli_look *look = &c->contents->looks.items.items[i],
-                       **best = look->taken ? &taken : &other;
-        if (!*best || look->length > (*best)->length) *best = look;
+        const sli_look *look = &c->contents->looks.items.items[i];
+        if (look->taken && (!taken || look->length > taken->length)) taken = look;
+        if (look->taken || !look->shapes) continue;
+        if (!other || likeness(look) > likeness(other)) other = look;
+        if (look->rooms >= 3 && look->room_area >= 0.04 &&
+            (!rooms || look->room_area > rooms->room_area))
+            rooms = look;
     }
-    if (!taken || !other || c->share >= 0.4) return;
-    sl_note(
-        c->contents->context,
-        "%s: what looks like walls has only %.0f %% of the long lines: if other looks are walls, "
-        "name all that are: --layers '%s,%s'",
-        c->contents->file, 100 * c->share, taken->name, other->name);
+    if (!taken || !other) return;
+    if (c->share < 0.4)
+        sl_note(c->contents->context,
+                "%s: what looks like walls has only %.0f %% of the long lines: if other looks are "
+                "walls, name all that are: --layers '%s,%s'",
+                file, 100 * c->share, taken->name, other->name);
+    else if (rooms)
+        sl_note(c->contents->context,
+                "%s: %s: %zu shapes as large as rooms are passed over: if these are walls: "
+                "--layers '%s,%s'",
+                file, rooms->name, rooms->rooms, taken->name, rooms->name);
 }
 
 /// Layers that are passed over though their names say nothing, and that hold more than the walls.
 static void note_doubt(const sli_choice *c) {
     sli_name_list names = {.full = false};
-    size_t unknown = 0;
-    for (size_t i = 0; i < c->contents->runs.count; i++) {
-        const sli_group_run *run = &c->contents->runs.items[i];
-        const sli_group *group = &c->contents->groups.items[run->group];
-        if (group->taken || group->means != SLI_MEANS_NOTHING) continue;
-        for (size_t j = run->first; j < run->end; j++) unknown += !sli_choice_gone(c, j);
-    }
-    if (unknown <= c->kept) return;
+    if (c->unknown <= c->kept && c->unknown_length <= c->kept_length) return;
     list_groups(c, false, SLI_MEANS_NOTHING, &names);
     sl_note(c->contents->context,
-            "%s: %.300s: more lines than the walls have; if walls are among them, name all layers "
+            "%s: %.300s: more or longer lines than the walls have; if walls are among them, name all layers "
             "of walls by --layers",
             c->contents->file, names.text);
 }

@@ -24,6 +24,8 @@ typedef struct sli_look {
     size_t shapes, walls;
     double length, around, area; ///< of long walls; of all; enclosed by each shape
     sl_box box;                  ///< about the long walls
+    size_t rooms;                ///< shapes drawn by lines that are as large as rooms
+    double room_area;            ///< of their boxes, as a share of the drawing's
     double weight;               ///< how much like a wall it looks; 0: not at all
     bool taken;
 } sli_look;
