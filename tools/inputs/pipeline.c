@@ -21,8 +21,8 @@ enum { SAID = 1024 };
 /// So small a share of the area is walls that are drawn as outlines, and no room.
 static const double FEW_INSIDE = 0.1;
 
-/// Such a share of the area inside, in rooms without an opening, is worth a word. Less may be courts
-/// and shafts.
+/// Such a share of the area inside, in rooms without an opening, is worth a word. Less may be
+/// courts and shafts.
 static const double SEALED = 0.25;
 
 // --- options
@@ -341,9 +341,9 @@ sl_status pipeline_note_sealed(sl_context *context, const map_pipeline *pipeline
             "doors drawn over the walls, or is furniture among them? sightline check %s "
             "--start %.*g,%.*g -o check.png shows where; sightline info %s lists layers and looks, "
             "--layers A,B takes those of walls",
-            (unsigned)count, count == 1 ? "" : "s", 100 * sealed.share, digits,
-            sealed.largest.at.x, digits, sealed.largest.at.y, path, digits, sealed.open.at.x,
-            digits, sealed.open.at.y, pipeline->path);
+            (unsigned)count, count == 1 ? "" : "s", 100 * sealed.share, digits, sealed.largest.at.x,
+            digits, sealed.largest.at.y, path, digits, sealed.open.at.x, digits, sealed.open.at.y,
+            pipeline->path);
     return SL_OK;
 }
 

@@ -15,8 +15,8 @@ typedef struct sli_choice {
     double metre;         ///< in the map's unit, 0 for unknown
     sli_symbols symbols;
     sli_plan_parts parts;
-    size_t kept;      ///< walls and windows that stay
-    size_t unknown;   ///< walls that are passed over though their names say nothing
+    size_t kept;    ///< walls and windows that stay
+    size_t unknown; ///< walls that are passed over though their names say nothing
     double kept_length, unknown_length;
     bool walls_named; ///< some layer is named as walls
     bool by_looks;    ///< some shapes are passed over by their looks

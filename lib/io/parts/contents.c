@@ -492,9 +492,11 @@ static size_t put_pieces(const sli_choice *c, size_t wall, size_t *cut, sl_wall 
 static bool has_door(const sli_choice *c, size_t number) {
     const sli_opening_cut *cuts = c->openings.cuts.items, *own = &cuts[number];
     for (size_t i = number; i-- > 0 && cuts[i].wall == own->wall;)
-        if (!c->openings.items.items[cuts[i].opening].window && cuts[i].end > own->begin) return true;
+        if (!c->openings.items.items[cuts[i].opening].window && cuts[i].end > own->begin)
+            return true;
     for (size_t i = number + 1; i < c->openings.cuts.count && cuts[i].wall == own->wall; i++)
-        if (!c->openings.items.items[cuts[i].opening].window && cuts[i].begin < own->end) return true;
+        if (!c->openings.items.items[cuts[i].opening].window && cuts[i].begin < own->end)
+            return true;
     return false;
 }
 
@@ -538,8 +540,7 @@ static sl_status keep_walls(sli_choice *c) {
     map->wall_count = 0;
     sl_status status = sl_map_add_walls(context, map, walls, kept);
     if (status == SL_OK)
-        status =
-            sl_map_add_walls(context, map, c->openings.jambs.items, c->openings.jambs.count);
+        status = sl_map_add_walls(context, map, c->openings.jambs.items, c->openings.jambs.count);
     kept = map->wall_count;
     if (status == SL_OK) status = sl_map_add_walls(context, map, windows, count);
     if (status == SL_OK && count)

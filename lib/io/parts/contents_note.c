@@ -1,5 +1,5 @@
-/// What is said of the choice: what was taken, by what, and which option changes it; then each doubt
-/// with its next step.
+/// What is said of the choice: what was taken, by what, and which option changes it; then each
+/// doubt with its next step.
 #include "io/parts/choice.h"
 
 #include "geometry/length.h"
@@ -177,7 +177,8 @@ static void note_doubt(const sli_choice *c) {
     if (c->unknown <= c->kept && c->unknown_length <= c->kept_length) return;
     list_groups(c, false, SLI_MEANS_NOTHING, &names);
     sl_note(c->contents->context,
-            "%s: %.300s: more or longer lines than the walls have; if walls are among them, name all layers "
+            "%s: %.300s: more or longer lines than the walls have; if walls are among them, name "
+            "all layers "
             "of walls by --layers",
             c->contents->file, names.text);
 }

@@ -165,7 +165,8 @@ static void measure_shape(const chooser *c, const sli_look_shape *shape) {
     if (look->ink.line && shape->end - shape->first >= LEAST_WALLS &&
         fmin(width_of(box), height_of(box)) * ROOM > c->size) {
         look->rooms++;
-        look->room_area += width_of(box) * height_of(box) / (width_of(c->bounds) * height_of(c->bounds));
+        look->room_area +=
+            width_of(box) * height_of(box) / (width_of(c->bounds) * height_of(c->bounds));
     }
     look->area += fabs(twice) / 2;
     look->shapes++;

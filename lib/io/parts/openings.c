@@ -5,7 +5,8 @@
 ///         |   opening    |          eye they are gaps. A wall is cut where it goes through the
 ///     ====+==============+====      opening along its length, from end to end. A wall that ends
 ///                                   within, or crosses it, is left as it is: a leaf, a threshold,
-///     ----+              +----      a jamb. If two walls go through, they are the faces of one, and
+///     ----+              +----      a jamb. If two walls go through, they are the faces of one,
+///     and
 ///         |              |          jambs close it at both ends.
 ///     ----+              +----
 ///
@@ -55,11 +56,8 @@ sl_status sli_openings_add(sl_context *context, const sl_wall *walls, size_t cou
                            sli_openings *out) {
     if (count == 1) {
         const double half = fmax(wide / 2, BESIDE * apart(walls[0].a, walls[0].b));
-        const sli_opening line = {.from = walls[0].a,
-                                  .to = walls[0].b,
-                                  .half = half,
-                                  .below = below,
-                                  .shape = shape};
+        const sli_opening line = {
+            .from = walls[0].a, .to = walls[0].b, .half = half, .below = below, .shape = shape};
         return add(context, line, least, most, out);
     }
     if (count != 4 || walls[3].b.x != walls[0].a.x || walls[3].b.y != walls[0].a.y) return SL_OK;

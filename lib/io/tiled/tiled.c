@@ -543,8 +543,7 @@ static sl_status read_map(sli_tiled_reader *reader) {
     SL_TRY(sli_tiled_settle_void(reader));
     SL_TRY(sli_tiled_add_tile_walls(reader));
     const sl_map *map = reader->pen.map;
-    if (!map->wall_count && !sl_map_partial_walls(map))
-        return fail_no_walls(reader);
+    if (!map->wall_count && !sl_map_partial_walls(map)) return fail_no_walls(reader);
     SL_TRY(sli_tiled_check_guess(reader));
     strcpy(reader->pen.map->unit, "px");
     give_account(reader);

@@ -1,9 +1,10 @@
 /// Rooms without an opening.
 ///
-/// Cells that portals join, but through windows, are a room. A drawing has more of them than it has rooms: the core of a
-/// wall that is drawn by its two faces, a pipe, the leg of a chair. So only thick rooms count. The
-/// thickness of a room is 2 area / length of its walls: half the side of a square, and the width of
-/// a long passage. It is rounded, and decides what is told, never what is seen.
+/// Cells that portals join, but through windows, are a room. A drawing has more of them than it has
+/// rooms: the core of a wall that is drawn by its two faces, a pipe, the leg of a chair. So only
+/// thick rooms count. The thickness of a room is 2 area / length of its walls: half the side of a
+/// square, and the width of a long passage. It is rounded, and decides what is told, never what is
+/// seen.
 #include "geometry/length.h"
 #include "sightline/faults.h"
 #include "sightline/support.h"
@@ -28,7 +29,8 @@ static bool is_passed(const sl_map *map, const sl_space *space, uint32_t portal)
 }
 
 /// Adds up a cell: its area, and the length of its sides that are walls.
-static void measure(const sl_map *map, const sl_space *space, uint32_t number, sl_sealed_room *room) {
+static void measure(const sl_map *map, const sl_space *space, uint32_t number,
+                    sl_sealed_room *room) {
     const sl_cell *cell = &space->cells[number];
     const sl_point *corners = space->vertices + cell->first_vertex;
     room->area += sl_space_area(space, number);
@@ -45,8 +47,8 @@ static void measure(const sl_map *map, const sl_space *space, uint32_t number, s
 }
 
 /// The room of a cell that was not reached before.
-static sl_sealed_room room_of(const sl_map *map, const sl_space *space, sl_bits *reached, uint32_t *queue,
-                              uint32_t first) {
+static sl_sealed_room room_of(const sl_map *map, const sl_space *space, sl_bits *reached,
+                              uint32_t *queue, uint32_t first) {
     sl_sealed_room room = {0};
     double largest = -1;
     uint32_t end = 0;
@@ -75,7 +77,8 @@ static double thickness(const sl_sealed_room *room) {
     return room->walls > 0 ? 2 * room->area / room->walls : 0;
 }
 
-sl_status sl_find_sealed(sl_context *context, const sl_map *map, const sl_space *space, sl_sealed *out) {
+sl_status sl_find_sealed(sl_context *context, const sl_map *map, const sl_space *space,
+                         sl_sealed *out) {
     SL_ARRAY(sl_sealed_room) rooms = {0};
     sl_bits *reached = sl_alloc_array(context, sl_bits_words(space->cell_count), sizeof *reached);
     uint32_t *queue = sl_alloc_array(context, space->cell_count, sizeof *queue);
