@@ -173,7 +173,8 @@ typedef struct sl_sealed {
 /// walls are, and very small ones do not count. In a drawing many of them are a sign that doors are
 /// drawn shut, or that furniture is among the walls. `space` was made from `map`. Measures are
 /// rounded. Time O(n).
-SL_API sl_status sl_find_sealed(sl_context *context, const sl_map *map, const sl_space *space, sl_sealed *out);
+SL_API sl_status sl_find_sealed(sl_context *context, const sl_map *map, const sl_space *space,
+                                sl_sealed *out);
 
 /// What sl_map_mend did.
 typedef struct sl_mend_account {
