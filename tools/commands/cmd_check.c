@@ -126,6 +126,7 @@ static sl_status check(command_console *console, const check_plan *plan, checked
     sl_context *context = console->context;
     SL_TRY(read_map(context, &plan->pipeline, &c->map));
     SL_TRY(examine(context, plan, plan->faults.gap, c));
+    SL_TRY(pipeline_note_sealed(context, &plan->pipeline, &c->baked.map, &c->baked.space));
     faults_report report = {.input = plan->pipeline.path,
                             .found = c,
                             .thin =

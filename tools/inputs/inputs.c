@@ -20,21 +20,38 @@ static bool is_baked_name(const char *path) {
     return name_ends_with(path, ".slv");
 }
 
+/// Whether the name has an ending of a format.
+static bool has_ending(const sl_map_format *format, const char *path) {
+    for (const char *word = format->endings; *word;) {
+        const size_t length = strcspn(word, " ");
+        char ending[32];
+        snprintf(ending, sizeof ending, "%.*s", (int)length, word);
+        if (name_ends_with(path, ending)) return true;
+        word += length;
+        word += strspn(word, " ");
+    }
+    return false;
+}
+
 /// Whether the name has the ending of a map format.
 static bool is_map_name(const sl_context *context, const char *path) {
     size_t count;
     const sl_map_format *formats = sl_map_formats(context, &count);
-    for (size_t i = 0; i < count; i++) {
-        for (const char *word = formats[i].endings; *word;) {
-            const size_t length = strcspn(word, " ");
-            char ending[32];
-            snprintf(ending, sizeof ending, "%.*s", (int)length, word);
-            if (name_ends_with(path, ending)) return true;
-            word += length;
-            word += strspn(word, " ");
-        }
-    }
+    for (size_t i = 0; i < count; i++)
+        if (has_ending(&formats[i], path)) return true;
     return false;
+}
+
+bool input_is_drawing(const sl_context *context, const char *path) {
+    size_t count;
+    bool drawing = false;
+    const sl_map_format *formats = sl_map_formats(context, &count);
+    for (size_t i = 0; i < count; i++) {
+        if (!has_ending(&formats[i], path)) continue;
+        if (!(formats[i].takes & SL_TAKES_PLANS)) return false;
+        drawing = true;
+    }
+    return drawing;
 }
 
 // --- options

@@ -21,6 +21,10 @@ enum { SAID = 1024 };
 /// So small a share of the area is walls that are drawn as outlines, and no room.
 static const double FEW_INSIDE = 0.1;
 
+/// Such a share of the area inside, in rooms without an opening, is worth a word. Less may be
+/// courts and shafts.
+static const double SEALED = 0.25;
+
 // --- options
 
 map_pipeline pipeline_default(void) {
@@ -313,12 +317,43 @@ static void say_next(sl_inside doubt, const sl_map *map, const char *path, char 
     }
 }
 
+/// Whether solid ground or starts say where rooms are.
+static bool says_rooms(const sl_map *map) {
+    for (size_t i = 0; i < map->wall_count; i++)
+        if (map->walls[i].ground) return true;
+    return map->start_count > 0;
+}
+
+sl_status pipeline_note_sealed(sl_context *context, const map_pipeline *pipeline, const sl_map *map,
+                               const sl_space *space) {
+    char path[SAID];
+    map_pipeline any = pipeline_default();
+    const option_table reading = pipeline_option_table(&any);
+    const int digits = sl_map_digits(map);
+    sl_sealed sealed;
+    if (says_rooms(map) || !input_is_drawing(context, pipeline->path)) return SL_OK;
+    SL_TRY(sl_find_sealed(context, map, space, &sealed));
+    if (sealed.rooms < 2 || sealed.share < SEALED) return SL_OK;
+    const uint32_t count = sealed.rooms - 1;
+    say_map(pipeline, &reading, path);
+    sl_note(context,
+            "no opening leads to %u room%s, %.2g %% of the area inside (one about %.*g,%.*g): are "
+            "doors drawn over the walls, or is furniture among them? sightline check %s "
+            "--start %.*g,%.*g -o check.png shows where; sightline info %s lists layers and looks, "
+            "--layers A,B takes those of walls",
+            (unsigned)count, count == 1 ? "" : "s", 100 * sealed.share, digits, sealed.largest.at.x,
+            digits, sealed.largest.at.y, path, digits, sealed.open.at.x, digits, sealed.open.at.y,
+            pipeline->path);
+    return SL_OK;
+}
+
 sl_status pipeline_note_inside(sl_context *context, const map_pipeline *pipeline, const sl_map *map,
                                const sl_space *space) {
     char said[SL_INSIDE_TEXT], path[SAID], then[2 * SAID];
     map_pipeline any = pipeline_default();
     const option_table reading = pipeline_option_table(&any);
     sl_inside doubt;
+    SL_TRY(pipeline_note_sealed(context, pipeline, map, space));
     SL_TRY(sl_say_inside(context, map, space, said));
     if (!said[0]) return SL_OK;
     SL_TRY(sl_doubt_inside(context, map, space, &doubt));

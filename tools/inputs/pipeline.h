@@ -70,7 +70,11 @@ size_t pipeline_shell_word(const char *word, char *text, size_t size);
 sl_status pipeline_need_inside(sl_context *context, const map_pipeline *pipeline, const sl_map *map,
                                const sl_space *space, const char *or_else);
 
-/// Notes how much is inside if that is in doubt, and what to run next.
+/// Of a drawing: notes how many rooms have no opening, if these are many, and what to run next.
+sl_status pipeline_note_sealed(sl_context *context, const map_pipeline *pipeline, const sl_map *map,
+                               const sl_space *space);
+
+/// Notes how much is inside if that is in doubt, and what to run next; then as above.
 sl_status pipeline_note_inside(sl_context *context, const map_pipeline *pipeline, const sl_map *map,
                                const sl_space *space);
 

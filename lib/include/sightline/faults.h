@@ -154,6 +154,28 @@ SL_API sl_status sl_doubt_inside(sl_context *context, const sl_map *map, const s
 SL_API sl_status sl_say_inside(sl_context *context, const sl_map *map, const sl_space *space,
                                char text[SL_INSIDE_TEXT]);
 
+/// Cells that portals join, through doors as they are, and not through what stops steps.
+typedef struct sl_sealed_room {
+    sl_point at; ///< the middle of its largest cell
+    double area;
+    double walls; ///< the length of its walls
+} sl_sealed_room;
+
+/// Rooms that no opening joins with the largest one.
+typedef struct sl_sealed {
+    uint32_t rooms;         ///< those that count, the largest too
+    double share;           ///< of the sealed ones in the area inside: 0 to 1
+    sl_sealed_room open;    ///< the largest room
+    sl_sealed_room largest; ///< the largest of the sealed ones; an area of 0 for none
+} sl_sealed;
+
+/// Counts the rooms inside that have no opening to the largest one. Thin ones, as the cores of
+/// walls are, and very small ones do not count. In a drawing many of them are a sign that doors are
+/// drawn shut, or that furniture is among the walls. `space` was made from `map`. Measures are
+/// rounded. Time O(n).
+SL_API sl_status sl_find_sealed(sl_context *context, const sl_map *map, const sl_space *space,
+                                sl_sealed *out);
+
 /// What sl_map_mend did.
 typedef struct sl_mend_account {
     size_t moved;        ///< wall ends that moved

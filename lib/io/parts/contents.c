@@ -10,12 +10,11 @@
 #include "io/parts/contents.h"
 
 #include "geometry/length.h"
-#include "io/parts/names.h"
+#include "io/parts/choice.h"
 #include "io/parts/plan_doubt.h"
-#include "io/parts/plan_parts.h"
-#include "io/parts/symbols.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <strings.h>
 
 // --- groups and their walls
@@ -146,22 +145,7 @@ sl_status sli_contents_list(const sli_contents *contents, sl_drawing_layers *out
 
 // --- the choice
 
-typedef struct choice {
-    sli_contents *contents;
-    sl_map *map;
-    unsigned char *means; ///< by wall
-    double metre;         ///< in the map's unit, 0 for unknown
-    sli_symbols symbols;
-    sli_plan_parts parts;
-    size_t kept;      ///< walls and windows that stay
-    bool walls_named; ///< some layer is named as walls
-    bool by_looks;    ///< some shapes are passed over by their looks
-    double share;     ///< of walls by their looks in all long lines
-    size_t words;     ///< shapes that look like walls, but are lettering or the page
-    size_t doors;     ///< made
-} choice;
-
-static sl_status find_symbols(choice *c) {
+static sl_status find_symbols(sli_choice *c) {
     const bool said = sli_contents_said(c->contents);
     c->means = sl_alloc(c->contents->context, c->map->wall_count);
     if (!c->means) return SL_NO_MEMORY;
@@ -180,25 +164,21 @@ static sl_status find_symbols(choice *c) {
                             said, c->metre, &c->symbols);
 }
 
-static bool is_gone(const choice *c, size_t wall) {
-    return sl_bits_has(c->symbols.gone, wall);
-}
-
-static bool is_taken(const choice *c, sli_meaning means) {
+static bool is_taken(const sli_choice *c, sli_meaning means) {
     if (sli_contents_said(c->contents)) return means != SLI_MEANS_DOOR;
     return means == SLI_MEANS_WALL || means == SLI_MEANS_WINDOW ||
            (means == SLI_MEANS_NOTHING && !c->walls_named);
 }
 
-static void count_named(choice *c) {
+static void count_named(sli_choice *c) {
     size_t named = 0;
     for (size_t i = 0; i < c->map->wall_count; i++)
-        named += c->means[i] == SLI_MEANS_WALL && !is_gone(c, i);
+        named += c->means[i] == SLI_MEANS_WALL && !sli_choice_gone(c, i);
     c->walls_named = named >= LEAST_WALLS;
 }
 
 /// Among shapes that no name tells apart, those that do not look like walls get another meaning.
-static sl_status choose_looks(choice *c) {
+static sl_status choose_looks(sli_choice *c) {
     const sli_group_run *runs = c->contents->runs.items;
     const size_t count = c->contents->runs.count;
     if (!c->contents->has_looks || c->walls_named || sli_contents_said(c->contents)) return SL_OK;
@@ -206,7 +186,7 @@ static sl_status choose_looks(choice *c) {
     sl_bits *taken = sl_alloc_array(c->contents->context, sl_bits_words(count), sizeof *taken);
     size_t used = 0;
     for (size_t i = 0; shapes && i < count; i++)
-        if (c->means[runs[i].first] == SLI_MEANS_NOTHING && !is_gone(c, runs[i].first))
+        if (c->means[runs[i].first] == SLI_MEANS_NOTHING && !sli_choice_gone(c, runs[i].first))
             shapes[used++] = (sli_look_shape){runs[i].first, runs[i].end, runs[i].look};
     if (used && taken)
         c->share = sli_looks_choose(c->map, shapes, used, &c->contents->looks, taken, &c->by_looks);
@@ -223,7 +203,7 @@ static sl_status choose_looks(choice *c) {
 }
 
 /// Marks the groups that are taken. False where the choice is none, or changes nothing.
-static bool choose_groups(choice *c) {
+static bool choose_groups(sli_choice *c) {
     bool changes = c->by_looks || c->symbols.leaves + c->symbols.lines > 0;
     for (size_t i = 0; i < c->contents->groups.count; i++) {
         sli_group *group = &c->contents->groups.items[i];
@@ -235,24 +215,14 @@ static bool choose_groups(choice *c) {
         const sli_group_run *run = &c->contents->runs.items[i];
         if (!c->contents->groups.items[run->group].taken) continue;
         for (size_t j = run->first; j < run->end; j++)
-            c->kept += !is_gone(c, j) && is_taken(c, c->means[j]);
+            c->kept += !sli_choice_gone(c, j) && is_taken(c, c->means[j]);
     }
     return changes && (c->kept >= LEAST_WALLS || sli_contents_said(c->contents));
 }
 
-/// A metre by the doors, which are 0.6 to 1.2 m wide, where the unit does not fit them.
-static double metre_by_doors(const choice *c) {
-    const size_t count = c->symbols.swings.count;
-    double sum = 0;
-    for (size_t i = 0; i < count; i++) sum += log(c->symbols.swings.items[i].radius);
-    const double radius = count ? exp(sum / (double)count) : 0;
-    if (!(radius > 0) || (radius > 0.5 * c->metre && radius < 1.6 * c->metre)) return c->metre;
-    return radius / 0.85;
-}
-
 /// Where neither names nor looks say what is a wall: finds what is no wall by its shape, among what
 /// is taken.
-static sl_status find_parts(choice *c) {
+static sl_status find_parts(sli_choice *c) {
     sl_context *context = c->contents->context;
     if (c->walls_named || c->by_looks || sli_contents_said(c->contents)) return SL_OK;
     const size_t count = c->map->wall_count;
@@ -261,17 +231,122 @@ static sl_status find_parts(choice *c) {
     taken.walls = sl_alloc_array(context, count, sizeof *taken.walls);
     sl_status status = number && taken.walls ? SL_OK : SL_NO_MEMORY;
     for (size_t i = 0; status == SL_OK && i < count; i++) {
-        if (is_gone(c, i) || !is_taken(c, c->means[i])) continue;
+        if (sli_choice_gone(c, i) || !is_taken(c, c->means[i])) continue;
         number[taken.wall_count] = i;
         taken.walls[taken.wall_count++] = c->map->walls[i];
     }
     if (status == SL_OK)
-        status = sli_plan_parts_find(context, &taken, metre_by_doors(c), &c->parts);
+        status = sli_plan_parts_find(context, &taken, sli_choice_metre(c), &c->parts);
     for (size_t i = 0; status == SL_OK && c->parts.gone && i < taken.wall_count; i++)
         if (sl_bits_has(c->parts.gone, i)) sl_bits_add(c->symbols.gone, number[i]);
     c->kept -= sli_plan_parts_count(&c->parts);
     sl_free(context, number);
     sl_free(context, taken.walls);
+    return status;
+}
+
+// --- openings over walls
+
+/// A shape that may be an opening: one line or four, that the file has one behind another.
+static sl_status add_openings_of_run(sli_choice *c, const sli_group_run *run, double wide,
+                                     bool bar) {
+    const sl_box bounds = sl_map_bounds(c->map);
+    const double size = fmax(bounds.max.x - bounds.min.x, bounds.max.y - bounds.min.y);
+    for (size_t i = run->first, end; i < run->end; i = end) {
+        const sl_wall *walls = c->map->walls;
+        for (end = i + 1; end < run->end; end++)
+            if (walls[end].line != walls[i].line || walls[end].a.x != walls[end - 1].b.x ||
+                walls[end].a.y != walls[end - 1].b.y)
+                break;
+        if (sli_choice_gone(c, i)) continue;
+        SL_TRY(sli_openings_add(c->contents->context, walls + i, end - i, wide, size / 400,
+                                sli_choice_longest_door(c), bar ? i : c->map->wall_count, i,
+                                &c->openings));
+    }
+    return SL_OK;
+}
+
+/// Shapes in the colour of the paper, that no name tells of: bars over what is beneath them.
+static sl_status find_bars(sli_choice *c, sl_bits *bars) {
+    const sli_group_run *runs = c->contents->runs.items;
+    const size_t count = c->contents->runs.count;
+    sli_looks *looks = &c->contents->looks;
+    if (!c->contents->has_looks) return SL_OK;
+    sli_look_shape *shapes = sl_alloc_array(c->contents->context, count, sizeof *shapes);
+    if (!shapes) return SL_NO_MEMORY;
+    for (size_t i = 0; i < count; i++)
+        shapes[i] = (sli_look_shape){runs[i].first, runs[i].end, runs[i].look};
+    const double ground = sli_looks_ground(c->map, shapes, count, looks);
+    sl_free(c->contents->context, shapes);
+    for (size_t i = 0; i < count; i++) {
+        const sli_meaning means = c->contents->groups.items[runs[i].group].means;
+        const sli_ink *ink = &looks->items.items[runs[i].look].ink;
+        if ((means != SLI_MEANS_NOTHING && means != SLI_MEANS_WALL) ||
+            !sli_ink_is_ground(ink, ground))
+            continue;
+        sl_bits_add(bars, i);
+        SL_TRY(add_openings_of_run(c, &runs[i], ink->line ? ink->width : 0, true));
+    }
+    return SL_OK;
+}
+
+/// A door that is drawn open over its wall: from hinge to latch.
+static sl_status add_swing_opening(sli_choice *c, sl_point hinge, sl_point latch, double radius) {
+    const sl_wall door = {.a = hinge, .b = latch};
+    return sli_openings_add(c->contents->context, &door, 1, 0.4 * radius, 0, INFINITY,
+                            c->map->wall_count, SIZE_MAX, &c->openings);
+}
+
+static sl_status add_swing_openings(sli_choice *c) {
+    for (size_t i = 0; i < c->symbols.swings.count; i++) {
+        const sli_swing *swing = &c->symbols.swings.items[i];
+        SL_TRY(add_swing_opening(c, swing->hinge, swing->latch, swing->radius));
+    }
+    for (size_t i = 0; i < c->symbols.unsure.count; i++) {
+        const sli_swing *swing = &c->symbols.unsure.items[i];
+        SL_TRY(add_swing_opening(c, swing->hinge, swing->latch, swing->radius));
+        SL_TRY(add_swing_opening(c, swing->hinge, swing->tip, swing->radius));
+    }
+    return SL_OK;
+}
+
+/// Finds the openings that lie over walls. Bars that cut are no walls themselves. Where doors are
+/// drawn as doors, other bars are windows.
+static sl_status find_openings(sli_choice *c) {
+    sl_context *context = c->contents->context;
+    const sli_group_run *runs = c->contents->runs.items;
+    const size_t count = c->contents->runs.count;
+    sl_bits *bars = sl_alloc_array(context, sl_bits_words(count), sizeof *bars);
+    sl_bits *kept = sl_alloc_array(context, sl_bits_words(c->map->wall_count), sizeof *kept);
+    sl_status status = bars && kept ? find_bars(c, bars) : SL_NO_MEMORY;
+    const size_t first_door = c->openings.items.count;
+    for (size_t i = 0; i < first_door; i++)
+        c->openings.items.items[i].window = c->symbols.doors > 0;
+    if (status == SL_OK) status = add_swing_openings(c);
+    for (size_t i = 0; status == SL_OK && i < count; i++)
+        if (c->contents->groups.items[runs[i].group].means == SLI_MEANS_DOOR)
+            status = add_openings_of_run(c, &runs[i], 0, false);
+    for (size_t i = 0; status == SL_OK && i < count; i++)
+        for (size_t k = runs[i].first; k < runs[i].end && !sl_bits_has(bars, i); k++)
+            if (!sli_choice_gone(c, k) && is_taken(c, c->means[k]) &&
+                c->means[k] != SLI_MEANS_WINDOW)
+                sl_bits_add(kept, k);
+    if (status == SL_OK) status = sli_openings_cut(context, c->map, kept, &c->openings);
+    for (size_t i = 0; status == SL_OK && i < c->openings.items.count; i++) {
+        const sli_opening *o = &c->openings.items.items[i];
+        if (!o->cuts) continue;
+        c->cuts += !o->window;
+        c->glazed += o->window;
+        if (i >= first_door) continue;
+        for (size_t k = o->shape; k < c->map->wall_count; k++) {
+            const sl_wall *wall = &c->map->walls[k];
+            if (wall->line != c->map->walls[o->shape].line || k > o->shape + 3) break;
+            c->kept -= !sli_choice_gone(c, k) && is_taken(c, c->means[k]);
+            sl_bits_add(c->symbols.gone, k);
+        }
+    }
+    sl_free(context, bars);
+    sl_free(context, kept);
     return status;
 }
 
@@ -294,13 +369,13 @@ static void join(void *user, size_t number) {
 
 /// Moves hinges and latches to the walls that they stand at, across the frame: a shut door leaves
 /// no slit.
-static sl_status join_doors(choice *c, joints *j, size_t count, double reach) {
+static sl_status join_doors(sli_choice *c, joints *j, size_t count, double reach) {
     sl_context *context = c->contents->context;
     sli_near near = {0};
     sl_status status = sli_near_make(context, j->at, count, reach, &near);
     for (size_t i = 0; status == SL_OK && i < c->map->wall_count; i++) {
         if (i % 4096 == 0) status = sl_check_cancelled(context);
-        if (is_gone(c, i) || !is_taken(c, c->means[i])) continue;
+        if (sli_choice_gone(c, i) || !is_taken(c, c->means[i])) continue;
         j->end = c->map->walls[i].a;
         sli_near_each(&near, j->end, j, join);
         j->end = c->map->walls[i].b;
@@ -310,7 +385,7 @@ static sl_status join_doors(choice *c, joints *j, size_t count, double reach) {
     return status;
 }
 
-static sl_status add_door(choice *c, sl_point a, sl_point b, bool open) {
+static sl_status add_door(sli_choice *c, sl_point a, sl_point b, bool open) {
     char name[32];
     if (a.x == b.x && a.y == b.y) return SL_OK;
     snprintf(name, sizeof name, "door%zu", c->map->door_count + 1);
@@ -318,7 +393,7 @@ static sl_status add_door(choice *c, sl_point a, sl_point b, bool open) {
     return sl_map_add_door(c->contents->context, c->map, name, (sl_segment){a, b}, open, 0);
 }
 
-static sl_status add_swings(choice *c) {
+static sl_status add_swings(sli_choice *c) {
     sl_context *context = c->contents->context;
     const size_t count = c->symbols.swings.count;
     joints j = {.at = sl_alloc_array(context, 2 * count + 1, sizeof *j.at),
@@ -348,7 +423,7 @@ static sl_point between(sl_point a, sl_point b) {
 
 /// A door of a layer without swings: a line by itself, or the middle line of a closed outline of
 /// four corners.
-static sl_status add_drawn(choice *c, const sl_wall *walls, size_t count) {
+static sl_status add_drawn(sli_choice *c, const sl_wall *walls, size_t count) {
     const sl_wall first = walls[0], second = walls[count > 1];
     if (count == 1) return add_door(c, first.a, first.b, true);
     if (count != 4 || walls[3].b.x != first.a.x || walls[3].b.y != first.a.y) return SL_OK;
@@ -360,9 +435,14 @@ static sl_status add_drawn(choice *c, const sl_wall *walls, size_t count) {
                     between(corners[at + 2], corners[(at + 3) % 4]), true);
 }
 
-static sl_status add_doors_of_run(choice *c, const sli_group_run *run) {
+static sl_status add_doors_of_run(sli_choice *c, const sli_group_run *run) {
     for (size_t i = run->first; i < run->end; i++)
-        if (is_gone(c, i)) return SL_OK;
+        if (sli_choice_gone(c, i)) return SL_OK;
+    for (size_t i = 0; i < c->openings.items.count; i++) {
+        const sli_opening *o = &c->openings.items.items[i];
+        if (o->cuts && o->shape >= run->first && o->shape < run->end)
+            return add_door(c, o->at.a, o->at.b, true);
+    }
     for (size_t i = run->first, end; i < run->end; i = end) {
         const sl_wall *walls = c->map->walls;
         for (end = i + 1; end < run->end; end++)
@@ -374,7 +454,7 @@ static sl_status add_doors_of_run(choice *c, const sli_group_run *run) {
     return SL_OK;
 }
 
-static sl_status add_doors(choice *c) {
+static sl_status add_doors(sli_choice *c) {
     if (!c->contents->options->doors) return SL_OK;
     SL_TRY(add_swings(c));
     for (size_t i = 0; !c->symbols.doors && i < c->contents->runs.count; i++) {
@@ -387,252 +467,142 @@ static sl_status add_doors(choice *c) {
 
 // --- walls and windows
 
-/// Keeps the walls that are chosen, and makes windows of the rest.
-static sl_status keep_walls(choice *c) {
+/// Puts what openings leave of a wall behind the others. Returns how many pieces that is.
+static size_t put_pieces(const sli_choice *c, size_t wall, size_t *cut, sl_wall *out) {
+    const sli_openings *openings = &c->openings;
+    sl_wall rest = c->map->walls[wall];
+    size_t count = 0;
+    double done = 0;
+    while (*cut < openings->cuts.count && openings->cuts.items[*cut].wall < wall) ++*cut;
+    for (; *cut < openings->cuts.count && openings->cuts.items[*cut].wall == wall; ++*cut) {
+        const sli_opening_cut *taken = &openings->cuts.items[*cut];
+        if (taken->begin > done) {
+            out[count] = rest;
+            out[count++].b = taken->at.a;
+        }
+        if (taken->end <= done) continue;
+        done = taken->end;
+        rest.a = taken->at.b;
+    }
+    if (done < 1) out[count++] = rest;
+    return count;
+}
+
+/// Whether a door cuts a part of what a bar cuts out of the same wall.
+static bool has_door(const sli_choice *c, size_t number) {
+    const sli_opening_cut *cuts = c->openings.cuts.items, *own = &cuts[number];
+    for (size_t i = number; i-- > 0 && cuts[i].wall == own->wall;)
+        if (!c->openings.items.items[cuts[i].opening].window && cuts[i].end > own->begin)
+            return true;
+    for (size_t i = number + 1; i < c->openings.cuts.count && cuts[i].wall == own->wall; i++)
+        if (!c->openings.items.items[cuts[i].opening].window && cuts[i].begin < own->end)
+            return true;
+    return false;
+}
+
+/// Adds the glazed pieces of walls to the windows. Returns how many there are then.
+static size_t add_glazed(const sli_choice *c, sl_wall *windows, size_t count) {
+    for (size_t i = 0; i < c->openings.cuts.count; i++) {
+        const sli_opening_cut *cut = &c->openings.cuts.items[i];
+        if (!c->openings.items.items[cut->opening].window || has_door(c, i)) continue;
+        windows[count] = c->map->walls[cut->wall];
+        windows[count].a = cut->at.a;
+        windows[count++].b = cut->at.b;
+    }
+    return count;
+}
+
+/// Keeps the walls that are chosen, without what openings take out of them, and makes windows of
+/// the rest.
+static sl_status keep_walls(sli_choice *c) {
     sl_context *context = c->contents->context;
     sl_map *map = c->map;
     const bool said = sli_contents_said(c->contents);
-    sl_wall *windows = sl_alloc_array(context, map->wall_count, sizeof *windows);
-    if (!windows) return SL_NO_MEMORY;
-    size_t kept = 0, count = 0, run = 0;
+    const size_t room = map->wall_count + c->openings.cuts.count;
+    sl_wall *windows = sl_alloc_array(context, room, sizeof *windows);
+    sl_wall *walls = sl_alloc_array(context, room, sizeof *walls);
+    if (!windows || !walls) {
+        sl_free(context, windows);
+        sl_free(context, walls);
+        return SL_NO_MEMORY;
+    }
+    size_t kept = 0, count = 0, run = 0, cut = 0;
     for (size_t i = 0; i < map->wall_count; i++) {
         while (run < c->contents->runs.count && c->contents->runs.items[run].end <= i) run++;
         const bool own = run == c->contents->runs.count || i < c->contents->runs.items[run].first;
-        if (!own && (is_gone(c, i) || !is_taken(c, c->means[i]))) continue;
+        if (!own && (sli_choice_gone(c, i) || !is_taken(c, c->means[i]))) continue;
         if (!own && c->means[i] == SLI_MEANS_WINDOW && !said)
             windows[count++] = map->walls[i];
         else
-            map->walls[kept++] = map->walls[i];
+            kept += put_pieces(c, i, &cut, walls + kept);
     }
-    map->wall_count = kept;
-    sl_status status = sl_map_add_walls(context, map, windows, count);
+    count = add_glazed(c, windows, count);
+    map->wall_count = 0;
+    sl_status status = sl_map_add_walls(context, map, walls, kept);
+    if (status == SL_OK)
+        status = sl_map_add_walls(context, map, c->openings.jambs.items, c->openings.jambs.count);
+    kept = map->wall_count;
+    if (status == SL_OK) status = sl_map_add_walls(context, map, windows, count);
     if (status == SL_OK && count)
         status = sl_map_walls_stop(context, map, kept, SL_STOPS_STEPS | SL_STOPS_SOUND);
+    sl_free(context, walls);
     sl_free(context, windows);
     return status;
 }
 
-// --- the note
-
-/// The names of groups, taken or not, that mean this (or any of what is passed over, where it is
-/// SLI_MEANINGS); with their kinds.
-static void list_groups(const choice *c, bool taken, sli_meaning means, sli_name_list *list) {
-    for (size_t i = 0; i < c->contents->groups.count; i++) {
-        const sli_group *group = &c->contents->groups.items[i];
-        const bool same =
-            means == SLI_MEANINGS ? group->means != SLI_MEANS_DOOR : group->means == means;
-        char shown[80];
-        if (!group->walls || group->taken != taken || !same) continue;
-        const char *name = group->length ? sli_show((sli_word){group->name, group->length}).text
-                                         : "shapes without a layer";
-        if (means == SLI_MEANINGS && group->means)
-            snprintf(shown, sizeof shown, "%.50s (%s)", name, sli_meaning_text(group->means));
-        else
-            snprintf(shown, sizeof shown, "%.60s", name);
-        sli_name_list_add(list, (sli_word){shown, strlen(shown)});
-    }
-}
-
-static void add_part(char *text, size_t size, const char *format, ...) SL_PRINTF(3, 4);
-static void add_part(char *text, size_t size, const char *format, ...) {
-    const size_t used = strlen(text);
-    if (used && used + 3 < size) strcat(text, "; ");
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(text + strlen(text), size - strlen(text), format, arguments);
-    va_end(arguments);
-}
-
-/// The looks that are taken or not, with how many shapes they have; those with most long lines
-/// first.
-static void list_looks(const choice *c, bool taken, sli_name_list *list) {
-    const size_t count = c->contents->looks.items.count;
-    double below = INFINITY;
-    for (int shown = 0; shown < 6; shown++) {
-        const sli_look *next = NULL;
-        for (size_t i = 0; i < count; i++) {
-            const sli_look *look = &c->contents->looks.items.items[i];
-            const bool fits = look->shapes && look->taken == taken && look->around < below;
-            if (fits && (!next || look->around > next->around)) next = look;
-        }
-        if (!next) return;
-        char text[80];
-        snprintf(text, sizeof text, "%s: %zu shape%s", next->name, next->shapes,
-                 next->shapes == 1 ? "" : "s");
-        sli_name_list_add(list, (sli_word){text, strlen(text)});
-        below = next->around;
-    }
-}
-
-static void add_kind(char *text, size_t size, size_t lines, const char *what) {
-    const size_t used = strlen(text);
-    snprintf(text + used, size - used, "%s%zu line%s %s", used ? ", " : "", lines,
-             lines == 1 ? "" : "s", what);
-}
-
-/// What was found by its shape.
-static void note_parts(const sli_plan_parts *parts, char *text, size_t size) {
-    if (!sli_plan_parts_count(parts)) return;
-    char shown[300] = "";
-    if (parts->frame) add_kind(shown, sizeof shown, parts->frame, "of frames");
-    if (parts->dimensions) add_kind(shown, sizeof shown, parts->dimensions, "of dimensions");
-    if (parts->across) add_kind(shown, sizeof shown, parts->across, "across walls (axes, wires)");
-    if (parts->beside) add_kind(shown, sizeof shown, parts->beside, "beside the plan");
-    if (parts->loose)
-        add_kind(shown, sizeof shown, parts->loose, "that touch no wall (furniture, symbols)");
-    add_part(text, size, "no walls by their shape: %s", shown);
-}
-
-static void note_choice(const choice *c) {
-    const char *file = c->contents->file;
-    sli_name_list walls = {.full = false}, windows = walls, doors = walls, over = walls;
-    char text[900] = "";
-    if (c->by_looks)
-        list_looks(c, true, &walls);
-    else
-        list_groups(c, true, c->walls_named ? SLI_MEANS_WALL : SLI_MEANS_NOTHING, &walls);
-    if (!c->walls_named) list_groups(c, true, SLI_MEANS_WALL, &walls);
-    list_groups(c, true, SLI_MEANS_WINDOW, &windows);
-    list_groups(c, false, SLI_MEANS_DOOR, &doors);
-    if (c->by_looks) list_looks(c, false, &over);
-    list_groups(c, false, SLI_MEANINGS, &over);
-    if (*walls.text) add_part(text, sizeof text, "walls from %.200s", walls.text);
-    if (*windows.text)
-        add_part(text, sizeof text, "windows, which are seen through, from %.120s", windows.text);
-    if (*doors.text) add_part(text, sizeof text, "doors from %.120s", doors.text);
-    if (c->symbols.doors)
-        add_part(text, sizeof text, "%zu door%s drawn open%s", c->symbols.doors,
-                 c->symbols.doors == 1 ? " is" : "s are",
-                 c->contents->options->doors ? "" : ": gaps (--doors keeps doors)");
-    if (c->symbols.lines)
-        add_part(text, sizeof text, "%zu lines of hatching or steps are no walls",
-                 c->symbols.lines);
-    if (c->words)
-        add_part(text, sizeof text, "%zu shape%s of these, lettering or a page, %s no walls",
-                 c->words, c->words == 1 ? "" : "s", c->words == 1 ? "is" : "are");
-    note_parts(&c->parts, text, sizeof text);
-    if (*over.text) add_part(text, sizeof text, "passed over: %.250s", over.text);
-    sl_note(c->contents->context, "%s: %s: %s (--layers A,B chooses, --layers '*' takes all)", file,
-            c->by_looks ? "layers, and looks where no name says what is a wall" : "layers", text);
-    if (c->contents->options->doors && c->doors < c->symbols.doors)
-        sl_note(c->contents->context,
-                "%s: %zu of the doors stay gaps: both sides of their swings are drawn", file,
-                c->symbols.doors - c->doors);
-}
-
-/// Walls by their looks, where others may be walls as well as they.
-static void note_share(const choice *c) {
-    const sli_look *taken = NULL, *other = NULL;
-    for (size_t i = 0; i < c->contents->looks.items.count; i++) {
-        const sli_look *look = &c->contents->looks.items.items[i],
-                       **best = look->taken ? &taken : &other;
-        if (!*best || look->length > (*best)->length) *best = look;
-    }
-    if (!taken || !other || c->share >= 0.4) return;
-    sl_note(
-        c->contents->context,
-        "%s: what looks like walls has only %.0f %% of the long lines: if other looks are walls, "
-        "name all that are: --layers '%s,%s'",
-        c->contents->file, 100 * c->share, taken->name, other->name);
-}
-
-/// Layers that are passed over though their names say nothing, and that hold more than the walls.
-static void note_doubt(const choice *c) {
-    sli_name_list names = {.full = false};
-    size_t unknown = 0;
+/// Measures what stays, and what is passed over though its name says nothing.
+static void measure(sli_choice *c) {
     for (size_t i = 0; i < c->contents->runs.count; i++) {
         const sli_group_run *run = &c->contents->runs.items[i];
         const sli_group *group = &c->contents->groups.items[run->group];
-        if (group->taken || group->means != SLI_MEANS_NOTHING) continue;
-        for (size_t j = run->first; j < run->end; j++) unknown += !is_gone(c, j);
-    }
-    if (unknown <= c->kept) return;
-    list_groups(c, false, SLI_MEANS_NOTHING, &names);
-    sl_note(c->contents->context,
-            "%s: %.300s: more lines than the walls have; if walls are among them, name all layers "
-            "of walls by --layers",
-            c->contents->file, names.text);
-}
-
-/// What is left and not drawn as the walls are.
-static void note_rest(const choice *c) {
-    if (c->parts.rest <= 0.3) return;
-    sl_note(
-        c->contents->context,
-        "%s: %.0f %% of what is left, by length, is not drawn by pairs of lines as the walls are: "
-        "wires, counters or steps? sightline info %s lists the layers, --layers A,B takes those "
-        "of walls",
-        c->contents->file, 100 * c->parts.rest, c->contents->file);
-}
-
-/// Lines on layers of doors that are far longer than doors.
-static void note_long_doors(const choice *c) {
-    const sl_box bounds = sl_map_bounds(c->map);
-    const double size = fmax(bounds.max.x - bounds.min.x, bounds.max.y - bounds.min.y);
-    const double metre = metre_by_doors(c);
-    const double most = metre > 0 && size > 4 * metre && size < 400 * metre ? 3 * metre : size / 8;
-    size_t count = 0;
-    sli_name_list names = {.full = false};
-    for (size_t i = 0; i < c->contents->groups.count; i++)
-        c->contents->groups.items[i].long_ones = 0;
-    for (size_t i = 0; i < c->contents->runs.count; i++) {
-        const sli_group_run *run = &c->contents->runs.items[i];
-        sli_group *group = &c->contents->groups.items[run->group];
-        if (group->means != SLI_MEANS_DOOR) continue;
         for (size_t k = run->first; k < run->end; k++) {
             const sl_wall *wall = &c->map->walls[k];
             const double length = sli_length(wall->b.x - wall->a.x, wall->b.y - wall->a.y);
-            group->long_ones += length > most && !is_gone(c, k);
+            if (sli_choice_gone(c, k)) continue;
+            if (is_taken(c, c->means[k])) c->kept_length += length;
+            if (group->taken || group->means != SLI_MEANS_NOTHING) continue;
+            c->unknown++;
+            c->unknown_length += length;
         }
     }
-    for (size_t i = 0; i < c->contents->groups.count; i++) {
-        const sli_group *group = &c->contents->groups.items[i];
-        count += group->long_ones;
-        if (group->long_ones) sli_name_list_add(&names, (sli_word){group->name, group->length});
-    }
-    if (count < 2) return;
-    sl_note(c->contents->context,
-            "%s: %.120s: %zu lines on layers of doors are longer than doors: if they are walls, "
-            "--layers A,B names all layers of walls",
-            c->contents->file, names.text, count);
 }
 
 // --- all
 
-static sl_status choose(choice *c, sli_pen *pen) {
+static sl_status choose(sli_choice *c, sli_pen *pen) {
     SL_TRY(find_symbols(c));
     count_named(c);
     SL_TRY(choose_looks(c));
     bool chosen = choose_groups(c);
     SL_TRY(find_parts(c));
     chosen |= sli_plan_parts_count(&c->parts) > 0;
+    SL_TRY(find_openings(c));
+    chosen |= c->cuts + c->glazed > 0;
     for (size_t i = 0; i < c->contents->groups.count; i++) {
         const sli_group *group = &c->contents->groups.items[i];
         if (!chosen || group->taken) sli_keep_finest(&pen->finest, group->finest);
         if (chosen && !group->taken) c->contents->left_out += group->shapes;
     }
-    if (!sli_contents_said(c->contents)) note_long_doors(c);
+    if (!sli_contents_said(c->contents)) sli_choice_note_long_doors(c);
     if (!chosen) return SL_OK;
     SL_TRY(add_doors(c));
+    measure(c);
     SL_TRY(keep_walls(c));
     for (size_t i = 0; i < c->contents->groups.count; i++)
         pen->walls -= c->contents->groups.items[i].walls;
     pen->walls += c->kept;
-    note_choice(c);
-    note_rest(c);
-    if (c->walls_named && !sli_contents_said(c->contents)) note_doubt(c);
-    if (c->by_looks) note_share(c);
+    sli_choice_note(c);
     return SL_OK;
 }
 
 sl_status sli_contents_choose(sli_contents *contents, double metre, sli_pen *pen) {
-    choice c = {.contents = contents, .map = pen->map, .metre = metre};
-    if (!contents->runs.count) return SL_OK;
-    sl_status status = choose(&c, pen);
-    if (status == SL_OK && !c.walls_named && !sli_contents_said(contents))
+    sli_choice c = {.contents = contents, .map = pen->map, .metre = metre};
+    sl_status status = contents->runs.count ? choose(&c, pen) : SL_OK;
+    if (status == SL_OK && !contents->options->all_layers)
         status = sli_plan_tell(contents->context, contents->file, pen->map, metre, 0);
     sl_free(contents->context, c.means);
     sli_symbols_destroy(contents->context, &c.symbols);
+    sli_openings_destroy(contents->context, &c.openings);
     sli_plan_parts_destroy(contents->context, &c.parts);
     return status;
 }

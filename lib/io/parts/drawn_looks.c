@@ -19,11 +19,12 @@
 enum { MOST_LOOKS = 512, LEAST_WALLS = 3, LEAST_SHAPES = 8 };
 
 /// A long wall: 1/60 of the drawing, in a shape of 1/20. A floor is thicker than 1/25. A word or a
-/// symbol has no long wall, and is up to 1/4 large.
+/// symbol has no long wall, and is up to 1/4 large. A room is wider than 1/15.
 #define LONG  60
 #define LARGE 20
 #define FLOOR 25
 #define WORD  4
+#define ROOM  15
 /// Shares of the long lines: of the heaviest look, and of those beside it.
 #define FAIR   0.15
 #define BESIDE 0.02
@@ -94,7 +95,7 @@ typedef struct chooser {
     sli_looks *looks;
     sl_box bounds;
     double size;
-    size_t backdrop;
+    size_t backdrops;     ///< so many first shapes are pages
     double ground;        ///< how light what all lies on is
     double lines, floors; ///< how long all long lines are: of what may be walls, of floors
 } chooser;
@@ -125,26 +126,28 @@ static double lightness(const sli_ink *ink) {
     return (0.2126 * red + 0.7152 * green + 0.0722 * (ink->colour & 0xFF)) / 255;
 }
 
-/// The lowest filled shape, if all else lies on it. It is a page, and no floor.
+/// Whether a filled shape is a box as large as all.
+static bool is_page(const chooser *c, const sli_look_shape *shape) {
+    const sl_box box = box_of(c->map, shape);
+    return !c->looks->items.items[shape->look].ink.line && shape->end - shape->first == 4 &&
+           width_of(box) >= 0.95 * width_of(c->bounds) &&
+           height_of(box) >= 0.95 * height_of(c->bounds);
+}
+
+/// The lowest filled shapes, if all else lies on them. They are pages or grids, and no floors.
 static void find_backdrop(chooser *c) {
-    c->backdrop = c->count;
     for (size_t i = 0; i < c->count; i++) {
         const sl_box box = box_of(c->map, &c->shapes[i]);
         c->bounds = i ? sli_box_with(sli_box_with(c->bounds, box.min), box.max) : box;
     }
     c->size = extent(c->bounds);
-    if (!c->count || c->looks->items.items[c->shapes[0].look].ink.line) return;
-    const sli_look_shape *first = &c->shapes[0];
-    const sl_box box = box_of(c->map, first);
-    if (first->end - first->first != 4 || width_of(box) < 0.95 * width_of(c->bounds) ||
-        height_of(box) < 0.95 * height_of(c->bounds))
-        return;
-    c->backdrop = 0;
+    while (c->backdrops < c->count && is_page(c, &c->shapes[c->backdrops])) c->backdrops++;
 }
 
 static void measure_shape(const chooser *c, const sli_look_shape *shape) {
     sli_look *look = &c->looks->items.items[shape->look];
-    const bool large = extent(box_of(c->map, shape)) * LARGE > c->size;
+    const sl_box box = box_of(c->map, shape);
+    const bool large = extent(box) * LARGE > c->size;
     double twice = 0;
     const sl_point from = c->map->walls[shape->first].a;
     for (size_t i = shape->first; i < shape->end; i++) {
@@ -158,6 +161,12 @@ static void measure_shape(const chooser *c, const sli_look_shape *shape) {
         if (look->length == 0) look->box = sli_box_around(wall->a, wall->a);
         look->box = sli_box_with(sli_box_with(look->box, wall->a), wall->b);
         look->length += length;
+    }
+    if (look->ink.line && shape->end - shape->first >= LEAST_WALLS &&
+        fmin(width_of(box), height_of(box)) * ROOM > c->size) {
+        look->rooms++;
+        look->room_area +=
+            width_of(box) * height_of(box) / (width_of(c->bounds) * height_of(c->bounds));
     }
     look->area += fabs(twice) / 2;
     look->shapes++;
@@ -178,10 +187,28 @@ static double contrast(const chooser *c, const sli_look *look) {
     return fabs(lightness(&look->ink) - c->ground);
 }
 
-static void weigh_all(chooser *c) {
+static void find_ground(chooser *c) {
     c->ground = 1;
-    if (c->backdrop < c->count)
-        c->ground = lightness(&c->looks->items.items[c->shapes[c->backdrop].look].ink);
+    for (size_t i = 0; i < c->backdrops; i++) {
+        const sli_ink *ink = &c->looks->items.items[c->shapes[i].look].ink;
+        if (ink->known || c->backdrops == 1) c->ground = lightness(ink);
+    }
+}
+
+double sli_looks_ground(const sl_map *map, const sli_look_shape *shapes, size_t count,
+                        sli_looks *looks) {
+    chooser c = {.map = map, .shapes = shapes, .count = count, .looks = looks};
+    find_backdrop(&c);
+    find_ground(&c);
+    return c.ground;
+}
+
+bool sli_ink_is_ground(const sli_ink *ink, double ground) {
+    return ink->known && fabs(lightness(ink) - ground) < 0.02;
+}
+
+static void weigh_all(chooser *c) {
+    find_ground(c);
     for (size_t i = 0; i < c->looks->items.count; i++) {
         sli_look *look = &c->looks->items.items[i];
         const bool floor = is_floor(c, look);
@@ -241,7 +268,7 @@ static size_t take_shapes(chooser *c, sl_bits *taken) {
     size_t walls = 0;
     for (size_t i = 0; i < c->count; i++) {
         const sli_look_shape *shape = &c->shapes[i];
-        if (i == c->backdrop || !c->looks->items.items[shape->look].taken || is_word(c, shape))
+        if (i < c->backdrops || !c->looks->items.items[shape->look].taken || is_word(c, shape))
             continue;
         sl_bits_add(taken, i);
         walls += shape->end - shape->first;
@@ -275,7 +302,7 @@ double sli_looks_choose(const sl_map *map, const sli_look_shape *shapes, size_t 
     find_backdrop(&c);
     for (size_t i = 0; i < count; i++) {
         all += shapes[i].end - shapes[i].first;
-        if (i != c.backdrop) measure_shape(&c, &shapes[i]);
+        if (i >= c.backdrops) measure_shape(&c, &shapes[i]);
     }
     weigh_all(&c);
     const sli_look *best = count >= LEAST_SHAPES ? heaviest(&c) : NULL;

@@ -24,6 +24,8 @@ typedef struct sli_look {
     size_t shapes, walls;
     double length, around, area; ///< of long walls; of all; enclosed by each shape
     sl_box box;                  ///< about the long walls
+    size_t rooms;                ///< shapes drawn by lines that are as large as rooms
+    double room_area;            ///< of their boxes, as a share of the drawing's
     double weight;               ///< how much like a wall it looks; 0: not at all
     bool taken;
 } sli_look;
@@ -45,6 +47,13 @@ sl_status sli_looks_find(sl_context *context, sli_looks *looks, const sli_ink *i
 
 /// Whether a name may be that of a look.
 bool sli_look_may_be(sli_word name);
+
+/// How light what all shapes lie on is, from 0 to 1: paper is white, but for a filled shape that
+/// holds all others.
+double sli_looks_ground(const sl_map *map, const sli_look_shape *shapes, size_t count,
+                        sli_looks *looks);
+/// Whether an ink has the colour of the ground.
+bool sli_ink_is_ground(const sli_ink *ink, double ground);
 
 /// Chooses the looks that are walls, by the shapes whose names say nothing; the first shape lies
 /// lowest. `taken`, all zero, gets the shapes that are walls: those of the looks that are taken,

@@ -30,6 +30,26 @@ static sl_status count_small(sli_plan_net *n, sli_plan_look *out) {
     return SL_OK;
 }
 
+/// Walls that cross others and are short, as doors and symbols are.
+static sl_status count_across(sli_plan_net *n, sli_plan_look *out) {
+    sl_bits *across = sl_alloc_array(n->context, sl_bits_words(n->map->wall_count), sizeof *across);
+    if (!across) return SL_NO_MEMORY;
+    for (size_t i = 0; i < n->crossings.count; i++) {
+        const uint32_t both[2] = {n->crossings.items[i].wall, n->crossings.items[i].other};
+        double length[2];
+        for (int k = 0; k < 2; k++) {
+            const sl_wall *wall = &n->map->walls[both[k]];
+            length[k] = sli_length(wall->b.x - wall->a.x, wall->b.y - wall->a.y);
+        }
+        const uint32_t shorter = both[length[0] > length[1]];
+        if (fmin(length[0], length[1]) > n->size / 12 || sl_bits_has(across, shorter)) continue;
+        sl_bits_add(across, shorter);
+        out->across++;
+    }
+    sl_free(n->context, across);
+    return SL_OK;
+}
+
 /// Whether a piece of four upright and level walls has all else in it, with room on all sides, and
 /// something large among that.
 static bool is_frame(sli_plan_net *n, uint32_t piece) {
@@ -68,6 +88,7 @@ static sl_status find_all(sli_plan_net *n, sli_plan_look *out) {
     const size_t lines = count + n->ends_on_sides + n->crossings.count + pieces;
     out->walls = count;
     out->closed = lines > corners ? lines - corners : 0;
+    SL_TRY(count_across(n, out));
     return count_small(n, out);
 }
 
@@ -85,11 +106,17 @@ sl_status sli_plan_tell(sl_context *context, const char *file, const sl_map *map
                         double tolerance) {
     sli_plan_look look;
     SL_TRY(sli_plan_look_at(context, map, metre, tolerance, &look));
-    if (look.walls >= 20 && look.pieces >= 3 && 4 * look.small >= look.walls)
+    const size_t share = look.pieces >= 10 ? 7 : 4;
+    if (look.walls >= 20 && look.pieces >= 3 && share * look.small >= look.walls)
         sl_note(context,
                 "%s: %.0f %% of the lines are small pieces that touch nothing: furniture or "
                 "symbols? sightline info %s lists the layers, --layers A,B takes those of walls",
                 file, 100 * (double)look.small / (double)look.walls, file);
+    if (look.across >= 8 && 12 * look.across >= look.walls)
+        sl_note(context,
+                "%s: %zu short lines cross walls: doors or symbols drawn over them? sightline info "
+                "%s lists the layers, --layers A,B takes those of walls",
+                file, look.across, file);
     if (look.frame)
         sl_note(context,
                 "%s: a rectangle about all else touches nothing: if it is the frame of a sheet, "

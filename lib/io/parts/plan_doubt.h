@@ -11,6 +11,7 @@ typedef struct sli_plan_look {
     size_t walls;
     size_t small;  ///< walls in small pieces that touch nothing else and are no pieces of walls
     size_t pieces; ///< such pieces
+    size_t across; ///< short walls that cross others
     size_t closed; ///< how many ways round there are: 0 where nothing is enclosed
     bool frame;    ///< a rectangle holds all else, at a distance, and touches nothing
 } sli_plan_look;

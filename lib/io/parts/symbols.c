@@ -317,7 +317,12 @@ static sl_status name_ends(arc_list *list) {
         for (size_t j = 0; j < arc->count; j++) sl_bits_add(out->gone, arc->first + j);
         const size_t *by = arc->leaves;
         if (by[0] && by[1]) by = arc->nearby;
-        if (by[0] == by[1]) continue;
+        if (by[0] == by[1]) {
+            SL_TRY(SL_ARRAY_ROOM(list->f->context, &out->unsure, 1));
+            out->unsure.items[out->unsure.count++] =
+                (sli_swing){arc->hinge, arc->ends[0], arc->ends[1], arc->radius};
+            continue;
+        }
         // A leaf reaches the tip; other walls, the latch.
         const int tip = (by == arc->leaves) == (by[0] > by[1]) ? 0 : 1;
         SL_TRY(SL_ARRAY_ROOM(list->f->context, &out->swings, 1));
@@ -446,4 +451,5 @@ sl_status sli_symbols_find(sl_context *context, const sl_map *map, const unsigne
 void sli_symbols_destroy(sl_context *context, sli_symbols *symbols) {
     sl_free(context, symbols->gone);
     sl_free(context, symbols->swings.items);
+    sl_free(context, symbols->unsure.items);
 }

@@ -17,9 +17,10 @@ typedef struct sli_swing {
 typedef struct sli_symbols {
     sl_bits *gone; ///< by wall: it is a part of a symbol
     SL_ARRAY(sli_swing) swings;
-    size_t doors;  ///< swings, those among them too of which the latch is not clear
-    size_t leaves; ///< walls of them
-    size_t lines;  ///< walls of hatching
+    SL_ARRAY(sli_swing) unsure; ///< the latch may be the tip
+    size_t doors;               ///< swings, those among them too of which the latch is not clear
+    size_t leaves;              ///< walls of them
+    size_t lines;               ///< walls of hatching
 } sli_symbols;
 
 /// `means` has the meaning of each wall's layer. Hatching is looked for among walls that mean

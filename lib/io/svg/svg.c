@@ -186,25 +186,57 @@ static sl_status read_view_box(svg *s, xmlNode *node, double box[4]) {
     return status;
 }
 
-/// A drawing within the drawing: its box is fitted into its place, in the middle and not stretched.
+/// Fits a box into a place, in the middle and not stretched, unless the element says that it is.
+static void fit_box(const double box[4], xmlNode *node, sl_box into, place *at) {
+    const double width = into.max.x - into.min.x, height = into.max.y - into.min.y;
+    char *ratio = sli_xml_attribute(node, "preserveAspectRatio");
+    const bool stretched = ratio && strncmp(ratio, "none", 4) == 0;
+    const bool boxed = box[2] > 0;
+    sli_xml_free(ratio);
+    const double fit = boxed ? fmin(width / box[2], height / box[3]) : 1;
+    const double xx = boxed && stretched ? width / box[2] : fit;
+    const double yy = boxed && stretched ? height / box[3] : fit;
+    sli_affine inner = {
+        .xx = xx, .x0 = into.min.x - xx * box[0], .yy = yy, .y0 = into.min.y - yy * box[1]};
+    if (boxed) {
+        inner.x0 += (width - xx * box[2]) / 2;
+        inner.y0 += (height - yy * box[3]) / 2;
+    }
+    at->affine = sli_affine_after(at->affine, inner);
+    at->view = (sl_box){{0, 0}, boxed ? (sl_point){box[2], box[3]} : (sl_point){width, height}};
+}
+
+/// A length of an element that stays as it is where the element has none, or a share.
+static sl_status read_side(svg *s, xmlNode *node, const char *name, double *value) {
+    return sli_svg_has_percent(node, name) ? SL_OK : sli_svg_length(s, node, name, value);
+}
+
+/// A drawing within the drawing.
 static sl_status enter_drawing(svg *s, xmlNode *node, place *at) {
     double x = 0, y = 0, box[4];
     SL_TRY(read_view_box(s, node, box));
     double width = box[2], height = box[3];
     SL_TRY(sli_svg_length(s, node, "x", &x));
     SL_TRY(sli_svg_length(s, node, "y", &y));
-    if (!sli_svg_has_percent(node, "width")) SL_TRY(sli_svg_length(s, node, "width", &width));
-    if (!sli_svg_has_percent(node, "height")) SL_TRY(sli_svg_length(s, node, "height", &height));
-    const double scale = box[2] > 0 ? fmin(width / box[2], height / box[3]) : 1;
-    sli_affine inner = {
-        .xx = scale, .x0 = x - scale * box[0], .yy = scale, .y0 = y - scale * box[1]};
-    if (box[2] > 0) {
-        inner.x0 += (width - scale * box[2]) / 2;
-        inner.y0 += (height - scale * box[3]) / 2;
-    }
-    at->affine = sli_affine_after(at->affine, inner);
-    at->view =
-        (sl_box){{0, 0}, box[2] > 0 ? (sl_point){box[2], box[3]} : (sl_point){width, height}};
+    SL_TRY(read_side(s, node, "width", &width));
+    SL_TRY(read_side(s, node, "height", &height));
+    fit_box(box, node, (sl_box){{x, y}, {x + width, y + height}}, at);
+    return SL_OK;
+}
+
+/// A symbol is as large as its use says, or else as it says itself, or else as all of the drawing.
+static sl_status enter_symbol(svg *s, xmlNode *use, xmlNode *symbol, place *at) {
+    double box[4];
+    SL_TRY(sli_svg_find_group(&s->contents, symbol, &at->group));
+    SL_TRY(read_view_box(s, symbol, box));
+    if (!(box[2] > 0)) return SL_OK;
+    double width = at->view.max.x > 0 ? at->view.max.x : box[2];
+    double height = at->view.max.y > 0 ? at->view.max.y : box[3];
+    SL_TRY(read_side(s, symbol, "width", &width));
+    SL_TRY(read_side(s, symbol, "height", &height));
+    SL_TRY(read_side(s, use, "width", &width));
+    SL_TRY(read_side(s, use, "height", &height));
+    fit_box(box, symbol, (sl_box){{0, 0}, {width, height}}, at);
     return SL_OK;
 }
 
@@ -220,8 +252,9 @@ static sl_status draw_use(svg *s, xmlNode *node, place at) {
     if (!used) return sli_svg_fault(s, fault);
     at.affine = sli_affine_after(at.affine, (sli_affine){.xx = 1, .x0 = x, .yy = 1, .y0 = y});
     at.depth++;
-    if (sli_xml_is(used, "symbol")) SL_TRY(sli_svg_find_group(&s->contents, used, &at.group));
-    return sli_xml_is(used, "symbol") ? draw_children(s, used, at) : draw_or_pass(s, used, at);
+    if (!sli_xml_is(used, "symbol")) return draw_or_pass(s, used, at);
+    SL_TRY(enter_symbol(s, node, used, &at));
+    return draw_children(s, used, at);
 }
 
 static sl_status draw_group(svg *s, xmlNode *node, place at) {

@@ -107,9 +107,33 @@ void sli_svg_keep_picture(svg *s, xmlNode *node, const place *at) {
     s->picture_line = sli_xml_line(node);
 }
 
+/// The first picture that a pattern holds or uses; NULL for none.
+static const xmlNode *pattern_picture(const svg *s, const xmlNode *node, bool within) {
+    for (; node; node = node->next) {
+        if (node->type != XML_ELEMENT_NODE) continue;
+        const bool inner = within || sli_xml_is(node, "pattern");
+        if (inner && sli_xml_is(node, "image")) return node;
+        if (inner && sli_xml_is(node, "use")) {
+            char *link = sli_xml_attribute(node, "href");
+            const xmlNode *used = link && *link == '#' ? sli_svg_find(&s->ids, link + 1) : NULL;
+            sli_xml_free(link);
+            if (used && sli_xml_is(used, "image")) return used;
+        }
+        const xmlNode *found = pattern_picture(s, node->children, inner);
+        if (found) return found;
+    }
+    return NULL;
+}
+
 void sli_svg_note_picture(const svg *s) {
     const sl_box box = s->pen.map->wall_count ? sl_map_bounds(s->pen.map) : s->pen.map->source.page;
     const double area = (box.max.x - box.min.x) * (box.max.y - box.min.y);
+    const xmlNode *filled = pattern_picture(s, xmlDocGetRootElement(s->document), false);
+    if (filled && !(s->picture > 0))
+        sl_note(s->context,
+                "%s:%u: a picture fills shapes as a pattern, and is not read: if the plan is in "
+                "it, save it as a PNG file, and read that",
+                s->pen.name, (unsigned)sli_xml_line(filled));
     if (!(s->picture > 0) || s->picture * 4 < area) return;
     sl_note(
         s->context,

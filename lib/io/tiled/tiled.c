@@ -516,6 +516,24 @@ static void give_account(const sli_tiled_reader *reader) {
                 reader->doors_left_out == 1 ? "" : "s");
 }
 
+/// Says why nothing is a wall: a layer that is solid everywhere has no edge.
+static sl_status fail_no_walls(const sli_tiled_reader *reader) {
+    for (size_t i = 0; i < reader->seen.count; i++) {
+        const sli_tiled_seen *layer = &reader->seen.items[i];
+        if (!layer->taken || layer->objects || !layer->count || layer->count < layer->squares)
+            continue;
+        const sli_word name = {layer->name, strlen(layer->name)};
+        return sl_fail_at(reader->context, reader->map->file->name, sli_json_line(reader->map),
+                          "layer '%s' has a tile on every square, so all is solid and there are no "
+                          "walls; name its tiles that are solid, as in --layers '%s:28+33-35'%s",
+                          sli_show(name).text, sli_show(name).text,
+                          reader->options->layers
+                              ? ", or leave --layers out: then the tiles that look solid are taken"
+                              : "");
+    }
+    return sli_tiled_fail_unsaid(reader, "what it says is solid gives no walls");
+}
+
 static sl_status read_map(sli_tiled_reader *reader) {
     SL_TRY(read_head(reader));
     SL_TRY(sli_tiled_read_sets(reader->map, &reader->sets));
@@ -525,8 +543,7 @@ static sl_status read_map(sli_tiled_reader *reader) {
     SL_TRY(sli_tiled_settle_void(reader));
     SL_TRY(sli_tiled_add_tile_walls(reader));
     const sl_map *map = reader->pen.map;
-    if (!map->wall_count && !sl_map_partial_walls(map))
-        return sli_tiled_fail_unsaid(reader, "what it says is solid gives no walls");
+    if (!map->wall_count && !sl_map_partial_walls(map)) return fail_no_walls(reader);
     SL_TRY(sli_tiled_check_guess(reader));
     strcpy(reader->pen.map->unit, "px");
     give_account(reader);

@@ -1,0 +1,44 @@
+/// The choice among what is drawn: shared by contents.c, which makes it, and contents_note.c, which
+/// tells of it.
+#ifndef SL_CHOICE_H
+#define SL_CHOICE_H
+
+#include "io/parts/contents.h"
+#include "io/parts/openings.h"
+#include "io/parts/plan_parts.h"
+#include "io/parts/symbols.h"
+
+typedef struct sli_choice {
+    sli_contents *contents;
+    sl_map *map;
+    unsigned char *means; ///< by wall
+    double metre;         ///< in the map's unit, 0 for unknown
+    sli_symbols symbols;
+    sli_plan_parts parts;
+    size_t kept;    ///< walls and windows that stay
+    size_t unknown; ///< walls that are passed over though their names say nothing
+    double kept_length, unknown_length;
+    bool walls_named; ///< some layer is named as walls
+    bool by_looks;    ///< some shapes are passed over by their looks
+    double share;     ///< of walls by their looks in all long lines
+    size_t words;     ///< shapes that look like walls, but are lettering or the page
+    size_t doors;     ///< made
+    sli_openings openings;
+    size_t cuts, glazed; ///< openings that cut walls: doors, and windows
+} sli_choice;
+
+static inline bool sli_choice_gone(const sli_choice *c, size_t wall) {
+    return sl_bits_has(c->symbols.gone, wall);
+}
+
+/// A metre by the doors, which are 0.6 to 1.2 m wide, where the unit does not fit them.
+double sli_choice_metre(const sli_choice *c);
+/// The longest that a door may be.
+double sli_choice_longest_door(const sli_choice *c);
+
+/// Notes lines on layers of doors that are far longer than doors.
+void sli_choice_note_long_doors(const sli_choice *c);
+/// Notes what was chosen, and what is doubtful about it.
+void sli_choice_note(const sli_choice *c);
+
+#endif

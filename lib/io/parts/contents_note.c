@@ -1,0 +1,230 @@
+/// What is said of the choice: what was taken, by what, and which option changes it; then each
+/// doubt with its next step.
+#include "io/parts/choice.h"
+
+#include "geometry/length.h"
+#include "io/parts/names.h"
+
+#include <math.h>
+
+// --- measures
+
+double sli_choice_metre(const sli_choice *c) {
+    const size_t count = c->symbols.swings.count;
+    double sum = 0;
+    for (size_t i = 0; i < count; i++) sum += log(c->symbols.swings.items[i].radius);
+    const double radius = count ? exp(sum / (double)count) : 0;
+    if (!(radius > 0) || (radius > 0.5 * c->metre && radius < 1.6 * c->metre)) return c->metre;
+    return radius / 0.85;
+}
+
+double sli_choice_longest_door(const sli_choice *c) {
+    const sl_box bounds = sl_map_bounds(c->map);
+    const double size = fmax(bounds.max.x - bounds.min.x, bounds.max.y - bounds.min.y);
+    const double metre = sli_choice_metre(c);
+    return metre > 0 && size > 4 * metre && size < 400 * metre ? 3 * metre : size / 8;
+}
+
+// --- the note
+
+/// The names of groups, taken or not, that mean this (or any of what is passed over, where it is
+/// SLI_MEANINGS); with their kinds.
+static void list_groups(const sli_choice *c, bool taken, sli_meaning means, sli_name_list *list) {
+    for (size_t i = 0; i < c->contents->groups.count; i++) {
+        const sli_group *group = &c->contents->groups.items[i];
+        const bool same =
+            means == SLI_MEANINGS ? group->means != SLI_MEANS_DOOR : group->means == means;
+        char shown[80];
+        if (!group->walls || group->taken != taken || !same) continue;
+        const char *name = group->length ? sli_show((sli_word){group->name, group->length}).text
+                                         : "shapes without a layer";
+        if (means == SLI_MEANINGS && group->means)
+            snprintf(shown, sizeof shown, "%.50s (%s)", name, sli_meaning_text(group->means));
+        else
+            snprintf(shown, sizeof shown, "%.60s", name);
+        sli_name_list_add(list, (sli_word){shown, strlen(shown)});
+    }
+}
+
+static void add_part(char *text, size_t size, const char *format, ...) SL_PRINTF(3, 4);
+static void add_part(char *text, size_t size, const char *format, ...) {
+    const size_t used = strlen(text);
+    if (used && used + 3 < size) strcat(text, "; ");
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text + strlen(text), size - strlen(text), format, arguments);
+    va_end(arguments);
+}
+
+/// The looks that are taken or not, with how many shapes they have; those with most long lines
+/// first.
+static void list_looks(const sli_choice *c, bool taken, sli_name_list *list) {
+    const size_t count = c->contents->looks.items.count;
+    double below = INFINITY;
+    for (int shown = 0; shown < 6; shown++) {
+        const sli_look *next = NULL;
+        for (size_t i = 0; i < count; i++) {
+            const sli_look *look = &c->contents->looks.items.items[i];
+            const bool fits = look->shapes && look->taken == taken && look->around < below;
+            if (fits && (!next || look->around > next->around)) next = look;
+        }
+        if (!next) return;
+        char text[80];
+        snprintf(text, sizeof text, "%s: %zu shape%s", next->name, next->shapes,
+                 next->shapes == 1 ? "" : "s");
+        sli_name_list_add(list, (sli_word){text, strlen(text)});
+        below = next->around;
+    }
+}
+
+static void add_kind(char *text, size_t size, size_t lines, const char *what) {
+    const size_t used = strlen(text);
+    snprintf(text + used, size - used, "%s%zu line%s %s", used ? ", " : "", lines,
+             lines == 1 ? "" : "s", what);
+}
+
+/// What was found by its shape.
+static void note_parts(const sli_plan_parts *parts, char *text, size_t size) {
+    if (!sli_plan_parts_count(parts)) return;
+    char shown[300] = "";
+    if (parts->frame) add_kind(shown, sizeof shown, parts->frame, "of frames");
+    if (parts->dimensions) add_kind(shown, sizeof shown, parts->dimensions, "of dimensions");
+    if (parts->across) add_kind(shown, sizeof shown, parts->across, "across walls (axes, wires)");
+    if (parts->beside) add_kind(shown, sizeof shown, parts->beside, "beside the plan");
+    if (parts->loose)
+        add_kind(shown, sizeof shown, parts->loose, "that touch no wall (furniture, symbols)");
+    add_part(text, size, "no walls by their shape: %s", shown);
+}
+
+static void note_choice(const sli_choice *c) {
+    const char *file = c->contents->file;
+    sli_name_list walls = {.full = false}, windows = walls, doors = walls, over = walls;
+    char text[900] = "";
+    if (c->by_looks)
+        list_looks(c, true, &walls);
+    else
+        list_groups(c, true, c->walls_named ? SLI_MEANS_WALL : SLI_MEANS_NOTHING, &walls);
+    if (!c->walls_named) list_groups(c, true, SLI_MEANS_WALL, &walls);
+    list_groups(c, true, SLI_MEANS_WINDOW, &windows);
+    list_groups(c, false, SLI_MEANS_DOOR, &doors);
+    if (c->by_looks) list_looks(c, false, &over);
+    list_groups(c, false, SLI_MEANINGS, &over);
+    if (*walls.text) add_part(text, sizeof text, "walls from %.200s", walls.text);
+    if (*windows.text)
+        add_part(text, sizeof text, "windows, which are seen through, from %.120s", windows.text);
+    if (*doors.text) add_part(text, sizeof text, "doors from %.120s", doors.text);
+    if (c->symbols.doors)
+        add_part(text, sizeof text, "%zu door%s drawn open%s", c->symbols.doors,
+                 c->symbols.doors == 1 ? " is" : "s are",
+                 c->contents->options->doors ? "" : ": gaps (--doors keeps doors)");
+    if (c->cuts)
+        add_part(text, sizeof text, "%zu door%s or bar%s over walls %s", c->cuts,
+                 c->cuts == 1 ? "" : "s", c->cuts == 1 ? "" : "s",
+                 c->cuts == 1 ? "is a gap" : "are gaps");
+    if (c->glazed)
+        add_part(text, sizeof text, "%zu bar%s over walls %s", c->glazed, c->glazed == 1 ? "" : "s",
+                 c->glazed == 1 ? "is a window" : "are windows");
+    if (c->symbols.lines)
+        add_part(text, sizeof text, "%zu lines of hatching or steps are no walls",
+                 c->symbols.lines);
+    if (c->words)
+        add_part(text, sizeof text, "%zu shape%s of these, lettering or a page, %s no walls",
+                 c->words, c->words == 1 ? "" : "s", c->words == 1 ? "is" : "are");
+    note_parts(&c->parts, text, sizeof text);
+    if (*over.text) add_part(text, sizeof text, "passed over: %.250s", over.text);
+    sl_note(c->contents->context, "%s: %s: %s (--layers A,B chooses, --layers '*' takes all)", file,
+            c->by_looks ? "layers, and looks where no name says what is a wall" : "layers", text);
+    if (c->contents->options->doors && c->doors < c->symbols.doors)
+        sl_note(c->contents->context,
+                "%s: %zu of the doors stay gaps: both sides of their swings are drawn", file,
+                c->symbols.doors - c->doors);
+}
+
+/// How much like walls a look is that is not taken: its long lines count by their weight.
+static double likeness(const sli_look *look) {
+    return look->length * fmax(look->weight, 1e-9);
+}
+
+/// Walls by their looks, where others may be walls as well as they.
+static void note_share(const sli_choice *c) {
+    const sli_look *taken = NULL, *other = NULL, *rooms = NULL;
+    const char *file = c->contents->file;
+    for (size_t i = 0; i < c->contents->looks.items.count; i++) {
+        const sli_look *look = &c->contents->looks.items.items[i];
+        if (look->taken && (!taken || look->length > taken->length)) taken = look;
+        if (look->taken || !look->shapes) continue;
+        if (!other || likeness(look) > likeness(other)) other = look;
+        if (look->rooms >= 3 && look->room_area >= 0.04 &&
+            (!rooms || look->room_area > rooms->room_area))
+            rooms = look;
+    }
+    if (!taken || !other) return;
+    if (c->share < 0.4)
+        sl_note(c->contents->context,
+                "%s: what looks like walls has only %.0f %% of the long lines: if other looks are "
+                "walls, name all that are: --layers '%s,%s'",
+                file, 100 * c->share, taken->name, other->name);
+    else if (rooms)
+        sl_note(c->contents->context,
+                "%s: %s: %zu shapes as large as rooms are passed over: if these are walls: "
+                "--layers '%s,%s'",
+                file, rooms->name, rooms->rooms, taken->name, rooms->name);
+}
+
+/// Layers that are passed over though their names say nothing, and that hold more than the walls.
+static void note_doubt(const sli_choice *c) {
+    sli_name_list names = {.full = false};
+    if (c->unknown <= c->kept && c->unknown_length <= c->kept_length) return;
+    list_groups(c, false, SLI_MEANS_NOTHING, &names);
+    sl_note(c->contents->context,
+            "%s: %.300s: more or longer lines than the walls have; if walls are among them, name "
+            "all layers "
+            "of walls by --layers",
+            c->contents->file, names.text);
+}
+
+/// What is left and not drawn as the walls are.
+static void note_rest(const sli_choice *c) {
+    if (c->parts.rest <= 0.3) return;
+    sl_note(
+        c->contents->context,
+        "%s: %.0f %% of what is left, by length, is not drawn by pairs of lines as the walls are: "
+        "wires, counters or steps? sightline info %s lists the layers, --layers A,B takes those "
+        "of walls",
+        c->contents->file, 100 * c->parts.rest, c->contents->file);
+}
+
+void sli_choice_note_long_doors(const sli_choice *c) {
+    const double most = sli_choice_longest_door(c);
+    size_t count = 0;
+    sli_name_list names = {.full = false};
+    for (size_t i = 0; i < c->contents->groups.count; i++)
+        c->contents->groups.items[i].long_ones = 0;
+    for (size_t i = 0; i < c->contents->runs.count; i++) {
+        const sli_group_run *run = &c->contents->runs.items[i];
+        sli_group *group = &c->contents->groups.items[run->group];
+        if (group->means != SLI_MEANS_DOOR) continue;
+        for (size_t k = run->first; k < run->end; k++) {
+            const sl_wall *wall = &c->map->walls[k];
+            const double length = sli_length(wall->b.x - wall->a.x, wall->b.y - wall->a.y);
+            group->long_ones += length > most && !sli_choice_gone(c, k);
+        }
+    }
+    for (size_t i = 0; i < c->contents->groups.count; i++) {
+        const sli_group *group = &c->contents->groups.items[i];
+        count += group->long_ones;
+        if (group->long_ones) sli_name_list_add(&names, (sli_word){group->name, group->length});
+    }
+    if (count < 2) return;
+    sl_note(c->contents->context,
+            "%s: %.120s: %zu lines on layers of doors are longer than doors: if they are walls, "
+            "--layers A,B names all layers of walls",
+            c->contents->file, names.text, count);
+}
+
+void sli_choice_note(const sli_choice *c) {
+    note_choice(c);
+    note_rest(c);
+    if (c->walls_named && !sli_contents_said(c->contents)) note_doubt(c);
+    if (c->by_looks) note_share(c);
+}

@@ -1,0 +1,187 @@
+/// Openings over walls that go on beneath them.
+///
+///              wall                 A plan may be drawn in two layers: walls from end to end, and
+///     ====+==============+====      over them doors, or bars in the colour of the paper. To the
+///         |   opening    |          eye they are gaps. A wall is cut where it goes through the
+///     ====+==============+====      opening along its length, from end to end. A wall that ends
+///                                   within, or crosses it, is left as it is: a leaf, a threshold,
+///     ----+              +----      a jamb. If two walls go through, they are the faces of one,
+///     and
+///         |              |          jambs close it at both ends.
+///     ----+              +----
+///
+/// Places of cuts are rounded. All else of the drawing stays as it is.
+#include "io/parts/openings.h"
+
+#include "geometry/length.h"
+#include "space/index.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/// As shares of an opening's length: how far from its ends a wall may end, and how far beside a
+/// line a wall may lie. As a share of its half width: where a wall lies in it and not along a side.
+#define REACH  0.02
+#define BESIDE 0.02
+#define WITHIN 0.9
+
+void sli_openings_destroy(sl_context *context, sli_openings *openings) {
+    sl_free(context, openings->items.items);
+    sl_free(context, openings->cuts.items);
+    sl_free(context, openings->jambs.items);
+    *openings = (sli_openings){0};
+}
+
+// --- which there are
+
+static sl_point middle(sl_point a, sl_point b) {
+    return (sl_point){a.x / 2 + b.x / 2, a.y / 2 + b.y / 2};
+}
+
+static double apart(sl_point a, sl_point b) {
+    return sli_length(a.x - b.x, a.y - b.y);
+}
+
+static sl_status add(sl_context *context, sli_opening one, double least, double most,
+                     sli_openings *out) {
+    const double length = apart(one.from, one.to);
+    if (!(length >= least && length <= most)) return SL_OK;
+    SL_TRY(SL_ARRAY_ROOM(context, &out->items, 1));
+    out->items.items[out->items.count++] = one;
+    return SL_OK;
+}
+
+sl_status sli_openings_add(sl_context *context, const sl_wall *walls, size_t count, double wide,
+                           double least, double most, size_t below, size_t shape,
+                           sli_openings *out) {
+    if (count == 1) {
+        const double half = fmax(wide / 2, BESIDE * apart(walls[0].a, walls[0].b));
+        const sli_opening line = {
+            .from = walls[0].a, .to = walls[0].b, .half = half, .below = below, .shape = shape};
+        return add(context, line, least, most, out);
+    }
+    if (count != 4 || walls[3].b.x != walls[0].a.x || walls[3].b.y != walls[0].a.y) return SL_OK;
+    for (int i = 0; i < 3; i++)
+        if (walls[i].b.x != walls[i + 1].a.x || walls[i].b.y != walls[i + 1].a.y) return SL_OK;
+    const sl_point a = walls[0].a, b = walls[1].a, c = walls[2].a, d = walls[3].a;
+    const double sides[2] = {apart(a, b), apart(b, c)}, across = apart(a, c);
+    // A rectangle: its diagonals are alike, and meet in the middle.
+    if (fabs(apart(b, d) - across) > 0.05 * across ||
+        apart(middle(a, c), middle(b, d)) > 0.05 * across)
+        return SL_OK;
+    const sl_point ends[2][2] = {{middle(d, a), middle(b, c)}, {middle(a, b), middle(c, d)}};
+    for (int i = 0; i < 2; i++) {
+        if (sides[i] < 0.7 * sides[1 - i]) continue;
+        const sli_opening box = {.from = ends[i][0],
+                                 .to = ends[i][1],
+                                 .half = WITHIN * sides[1 - i] / 2,
+                                 .below = below,
+                                 .shape = shape};
+        SL_TRY(add(context, box, least, most, out));
+    }
+    return SL_OK;
+}
+
+// --- what they cut
+
+/// Whether a wall goes through an opening, and where.
+static bool goes_through(const sli_opening *o, const sl_wall *wall, sli_opening_cut *cut) {
+    const double length = apart(o->from, o->to);
+    const sl_point along = {(o->to.x - o->from.x) / length, (o->to.y - o->from.y) / length};
+    const sl_point a = {wall->a.x - o->from.x, wall->a.y - o->from.y};
+    const sl_point b = {wall->b.x - o->from.x, wall->b.y - o->from.y};
+    const double from = sli_dot(a, along), to = sli_dot(b, along);
+    const double beside = sli_cross(along, a), turn = sli_cross(along, b) - beside;
+    const bool back = from > to;
+    if (fmin(from, to) > REACH * length || fmax(from, to) < (1 - REACH) * length) return false;
+    const double begin = fmax(((back ? length : 0) - from) / (to - from), 0);
+    const double end = fmin(((back ? 0 : length) - from) / (to - from), 1);
+    if (!(begin < end) || fabs(beside + begin * turn) > o->half ||
+        fabs(beside + end * turn) > o->half)
+        return false;
+    cut->begin = begin;
+    cut->end = end;
+    cut->at.a = wall->a;
+    cut->at.b = wall->b;
+    if (begin > 0)
+        cut->at.a = (sl_point){wall->a.x + begin * (wall->b.x - wall->a.x),
+                               wall->a.y + begin * (wall->b.y - wall->a.y)};
+    if (end < 1)
+        cut->at.b = (sl_point){wall->a.x + end * (wall->b.x - wall->a.x),
+                               wall->a.y + end * (wall->b.y - wall->a.y)};
+    return true;
+}
+
+static sl_status add_jamb(sl_context *context, sl_point a, sl_point b, uint32_t line,
+                          sli_openings *openings) {
+    if (a.x == b.x && a.y == b.y) return SL_OK;
+    SL_TRY(SL_ARRAY_ROOM(context, &openings->jambs, 1));
+    openings->jambs.items[openings->jambs.count++] = (sl_wall){.a = a, .b = b, .line = line};
+    return SL_OK;
+}
+
+/// Jambs between the two walls that an opening cuts.
+static sl_status close_core(sl_context *context, const sl_map *map, sli_openings *openings,
+                            size_t first) {
+    if (openings->cuts.count - first != 2) return SL_OK;
+    const sli_opening_cut *cuts = openings->cuts.items + first;
+    const sl_segment one = cuts[0].at, other = cuts[1].at;
+    const sl_point u = {one.b.x - one.a.x, one.b.y - one.a.y};
+    const sl_point v = {other.b.x - other.a.x, other.b.y - other.a.y};
+    const bool same = sli_dot(u, v) > 0;
+    const uint32_t line = map->walls[cuts[0].wall].line;
+    SL_TRY(add_jamb(context, one.a, same ? other.a : other.b, line, openings));
+    return add_jamb(context, one.b, same ? other.b : other.a, line, openings);
+}
+
+static int compare_cuts(const void *left, const void *right) {
+    const sli_opening_cut *a = left, *b = right;
+    if (a->wall != b->wall) return a->wall < b->wall ? -1 : 1;
+    if (a->begin != b->begin) return a->begin < b->begin ? -1 : 1;
+    return (a->opening > b->opening) - (a->opening < b->opening);
+}
+
+/// Finds the walls that one opening cuts.
+static sl_status cut_one(sl_context *context, const sl_map *map, const sl_bits *kept,
+                         const sli_box_tree *tree, sli_box_list *near, sli_openings *openings,
+                         size_t number) {
+    sli_opening *o = &openings->items.items[number];
+    const sl_box box = {{fmin(o->from.x, o->to.x) - o->half, fmin(o->from.y, o->to.y) - o->half},
+                        {fmax(o->from.x, o->to.x) + o->half, fmax(o->from.y, o->to.y) + o->half}};
+    const size_t first = openings->cuts.count;
+    SL_TRY(sli_box_tree_find(context, tree, &box, near));
+    for (size_t i = 0; i < near->count; i++) {
+        sli_opening_cut cut = {.wall = near->items[i], .opening = number};
+        if (cut.wall >= o->below || !sl_bits_has(kept, cut.wall) ||
+            !goes_through(o, &map->walls[cut.wall], &cut))
+            continue;
+        SL_TRY(SL_ARRAY_ROOM(context, &openings->cuts, 1));
+        openings->cuts.items[openings->cuts.count++] = cut;
+        if (!o->cuts) o->at = cut.at;
+        o->cuts = true;
+    }
+    return close_core(context, map, openings, first);
+}
+
+sl_status sli_openings_cut(sl_context *context, const sl_map *map, const sl_bits *kept,
+                           sli_openings *openings) {
+    if (!openings->items.count) return SL_OK;
+    sli_box_tree tree = {0};
+    sli_box_list near = {0};
+    sl_box *boxes = sl_alloc_array(context, map->wall_count + 1, sizeof *boxes);
+    for (size_t i = 0; boxes && i < map->wall_count; i++)
+        boxes[i] = sli_box_around(map->walls[i].a, map->walls[i].b);
+    sl_status status =
+        boxes ? sli_box_tree_create(context, boxes, map->wall_count, &tree) : SL_NO_MEMORY;
+    for (size_t i = 0; status == SL_OK && i < openings->items.count; i++) {
+        status = cut_one(context, map, kept, &tree, &near, openings, i);
+        if (status == SL_OK && i % 1024 == 0) status = sl_check_cancelled(context);
+    }
+    if (openings->cuts.count)
+        qsort(openings->cuts.items, openings->cuts.count, sizeof *openings->cuts.items,
+              compare_cuts);
+    sl_free(context, boxes);
+    sl_free(context, near.items);
+    sli_box_tree_destroy(context, &tree);
+    return status;
+}
