@@ -258,6 +258,48 @@ for (const name of wanted)
             await close();
         });
 
+        test('sweep: the classes of lines are the faces of an arrangement, and touching doubles them in a row', async () => {
+            const { page, close } = await open('sweep');
+            const found = await page.evaluate(async () => {
+                const [{ classesOf, posts }, { Lab }] = await Promise.all([import('./classes.js'), import('./lab.js')]);
+                const { core } = await Lab.open(), count = (list, mayTouch) => classesOf(core, list, mayTouch).map((level) => level.length);
+                return { posts, apart: count(posts.apart, false), apartTouching: count(posts.apart, true), row: count(posts.row, false), rowTouching: count(posts.row, true) };
+            });
+            // Euler: lines that cross a square make 1 + k + c faces of it, if they cross in c places, each in a place of its own.
+            const inside = (p, q) => {
+                const slope = (p[1] - q[1]) / (p[0] - q[0]), at = (x) => p[1] + slope * (x - p[0]);
+                return at(0) > 0 && at(0) < 12 && at(24) > 0 && at(24) < 12;
+            };
+            const faces = (k) => 1 + k + found.posts.apart.slice(0, k).flatMap((p, i, list) => list.slice(0, i).filter((q) => inside(p, q))).length;
+            const counts = Array.from({ length: 9 }, (_, k) => k);
+            assert.deepEqual(found.apart, counts.map(faces));
+            assert.deepEqual(found.apartTouching, found.apart, 'no three in line: nothing only touches');
+            assert.deepEqual(found.row, counts.map((k) => Math.max(1, 2 * k)));
+            assert.deepEqual(found.rowTouching, counts.map((k) => 2 ** k));
+            await close();
+        });
+
+        test('numbers of the text are those of the figures', async () => {
+            const { page, close } = await open('sweep'), text = (await page.locator('main').textContent()).replace(/\s+/g, ' ');
+            assert.doesNotMatch(text, /\{value/);
+            const growth = page.locator('figure[data-figure=growth]'), range = growth.locator('input[type=range]');
+            const ratios = [];
+            for (const key of ['Home', 'End']) {
+                await range.press(key);
+                await growth.locator('.says').getByText('The sweep looks at').waitFor();
+                ratios.push([...(await growth.locator('.says').textContent()).matchAll(/, ([\d.]+) for each edge/g)].map(([, ratio]) => ratio));
+            }
+            const [[pieces, nodes], [piecesLast, nodesLast]] = ratios;
+            assert.ok(text.includes(`there are ${pieces} pieces for each edge, in the widest one ${piecesLast}.`), text.match(/there are [\d.]+ pieces[^.]*/)?.[0]);
+            assert.ok(text.includes(`from ${nodes} for each edge to ${nodesLast}.`));
+            await close();
+            const search = await open('search'), hall = search.page.locator('figure[data-figure=growth]');
+            await hall.locator('input[type=range]').press('End');
+            const [, steps] = /takes (\d+) steps/.exec(await hall.locator('.says').textContent());
+            assert.match(await search.page.locator('main').textContent(), new RegExp(`cells, and the search\\s+takes ${steps} steps`));
+            await search.close();
+        });
+
         test('cost: the chart fills, and each method keeps its promise', async () => {
             const { page, close } = await open('cost'), figure = page.locator('main > figure').first();
             await figure.locator('.says').getByText('All methods have run').waitFor({ timeout: 60000 });

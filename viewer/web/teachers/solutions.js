@@ -1,6 +1,6 @@
 /** The teachers' page: for each exercise of each chapter its answer, why it is right, and what is said to wrong ones. */
-import { element } from './figure.js';
-import { firstState, keepPicture, stillOf } from './still.js';
+import { element } from '../course/figure.js';
+import { firstState, keepPicture, stillOf } from '../course/still.js';
 
 export const figures = {}, exercises = {};
 
@@ -33,10 +33,10 @@ function solution(name, exercise, lab) {
         ...(wrong.length ? [element('ul', {}, ...wrong)] : []));
 }
 
-/** @param {HTMLElement} main with a section for each chapter @param {import('./lab.js').Lab} lab */
+/** @param {HTMLElement} main with a section for each chapter @param {import('../course/lab.js').Lab} lab */
 export async function fill(main, lab) {
     for (const section of main.querySelectorAll('[data-solutions]')) {
-        const chapter = await import(`./${section.dataset.solutions}.js`);
+        const chapter = await import(`../course/${section.dataset.solutions}.js`);
         section.append(...Object.entries(chapter.exercises).map(([name, exercise]) => solution(name, exercise, lab)));
     }
 }
