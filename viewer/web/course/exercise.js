@@ -23,6 +23,12 @@ export function exerciseForm(exercise, lab) {
     const form = element('form', { className: 'exercise', 'data-exercise': exercise.name, noValidate: true });
     const part = { choice: choicePart, number: numberPart, place: placePart }[exercise.kind](exercise, lab, id);
     form.append(part.node, element('button', { type: 'submit' }, 'Check'), answer);
+    const forget = () => {
+        form.dataset.result = '';
+        answer.textContent = '';
+    };
+    form.addEventListener('input', forget);
+    part.node.addEventListener('pointerdown', forget);
     form.addEventListener('submit', (event) => {
         event.preventDefault();
         const { right, text } = part.judge();

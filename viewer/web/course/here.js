@@ -45,7 +45,7 @@ const pair = {
     title: 'Two people.',
     about: 'Drag both dots. The line between them is drawn full where they see each other.',
     box: flat.box,
-    handles: [{ name: 'a', at: [3, 6.5], tone: 'from' }, { name: 'b', at: [12, 3], tone: 'to' }],
+    handles: [{ name: 'a', at: [3, 6.5], tone: 'from', letter: 'A' }, { name: 'b', at: [12, 3], tone: 'to', letter: 'B' }],
     update(state, lab) {
         const scene = lab.scene(flat.text), [[ax, ay], [bx, by]] = [state.a, state.b];
         state.sees = scene.canSee({ x: ax, y: ay }, { x: bx, y: by });

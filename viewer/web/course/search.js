@@ -78,7 +78,7 @@ const tree = {
     title: 'A stab tree.',
     about: 'Drag the dot. Each branch goes from portal to portal, and ends where no line goes further.',
     box: house.box,
-    handles: [{ name: 'dot', at: [12, 7] }],
+    handles: [{ name: 'dot', at: [12, 6.3] }],
     update(state, lab) {
         const scene = stand(state, lab, house.text, state.dot);
         state.nodes = state.cell < 0 ? [] : scene.stabTree(state.cell).nodes;

@@ -94,6 +94,15 @@ for (const name of wanted)
                 const { page, close } = await open(chapter);
                 const figures = page.locator('main > figure');
                 assert.ok((await figures.count()) >= 2);
+                const onBorders = await figures.evaluateAll((hosts) => hosts.flatMap(({ dataset, figure: { spec, state } }) => spec.handles.filter(({ name }) => {
+                    const [x, y] = state[name], around = [[1, 1], [1, -1], [-1, 1], [-1, -1]].map(([dx, dy]) => state.scene?.locate?.(x + 1e-6 * dx, y + 1e-6 * dy));
+                    return new Set(around).size > 1;
+                }).map(() => dataset.figure)));
+                assert.ok(onBorders.every((figure) => ['turn', 'table'].includes(figure)), `a dot of ${onBorders} begins on the border of two cells`);
+                await page.emulateMedia({ media: 'print' });
+                const captions = await page.locator('main > figure figcaption').evaluateAll((list) => list.map((node) => node.innerText));
+                for (const caption of captions) assert.doesNotMatch(caption, /\b(drag|slider|press)\b/i, 'a handout says what only the page can do');
+                await page.emulateMedia({ media: 'screen' });
                 for (let i = 0; i < (await figures.count()); i++) {
                     const figure = figures.nth(i), handles = await figure.evaluate((host) => host.figure.spec.handles.length);
                     let last = await picture(figure);
@@ -186,6 +195,100 @@ for (const name of wanted)
                 await close();
             });
         }
+
+        test('lecture mode goes from chapter to chapter, and the address names the slide', async () => {
+            const { page, close } = await open('rooms'), where = page.locator('.lecture-bar [role=status]');
+            const at = () => page.evaluate(() => location.pathname.split('/').at(-1) + location.hash);
+            await page.evaluate(() => history.replaceState(null, '', '#kept'));
+            await page.click('#lecture');
+            assert.equal(await at(), 'rooms.html#slide-1');
+            const next = page.locator('.lecture-bar').getByText('Next'), count = Number((await where.textContent()).split(' of ')[1]);
+            for (let i = 1; i < count; i++) await next.click();
+            assert.equal(await at(), `rooms.html#slide-${count}`);
+            await page.goBack();
+            assert.equal(await where.textContent(), `${count - 1} of ${count}`);
+            await page.goForward();
+            await next.click();
+            await page.waitForURL(/lines\.html#slide-1$/);
+            await page.locator('.lecture-bar:visible [role=status]').getByText(/^1 of/).waitFor();
+            await page.keyboard.press('PageUp');
+            await page.waitForURL(/rooms\.html#slide-last$/);
+            await page.locator('.lecture-bar:visible [role=status]').getByText(`${count} of ${count}`).waitFor();
+            await page.locator('.lecture-bar').getByText('Leave').click();
+            assert.equal(await at(), 'rooms.html');
+            await close();
+            const last = await open('cost');
+            await last.page.click('#lecture');
+            await last.page.keyboard.press('PageUp');
+            await last.page.waitForURL(/effects\.html#slide-last$/);
+            await last.close();
+            const first = await open('here');
+            await first.page.click('#lecture');
+            assert.ok(await first.page.locator('.lecture-bar').getByText('Back').isDisabled());
+            await first.page.locator('.lecture-bar').getByText('Leave').click();
+            assert.deepEqual(await first.page.locator('nav.chapters a').allTextContents(), ['All chapters', 'Next: 2. Rooms and doors']);
+            await first.close();
+        });
+
+        test('a finger that swipes over a figure leaves its dot alone', { skip: name === 'chromium' ? false : 'Chromium alone has touch here' }, async () => {
+            const { page, close } = await open('here', { viewport: { width: 390, height: 844 }, hasTouch: true });
+            const figure = page.locator('main > figure').first(), canvas = figure.locator('canvas');
+            await canvas.scrollIntoViewIfNeeded();
+            const box = await canvas.boundingBox(), before = await figure.evaluate((host) => [...host.figure.state.eye]);
+            const client = await page.context().newCDPSession(page), [x, y] = [box.x + 0.8 * box.width, box.y + 0.7 * box.height];
+            const send = (type, points) => client.send('Input.dispatchTouchEvent', { type, touchPoints: points });
+            const swipe = async (dx, dy) => {
+                await send('touchStart', [{ x, y }]);
+                for (let i = 1; i <= 6; i++) await send('touchMove', [{ x: x + (dx * i) / 6, y: y + (dy * i) / 6 }]);
+                await send('touchEnd', []);
+            };
+            for (const [dx, dy] of [[0, -90], [40, 0]]) {
+                await swipe(dx, dy);
+                assert.deepEqual(await figure.evaluate((host) => [...host.figure.state.eye]), before, `swipe by ${dx}, ${dy}`);
+            }
+            await close();
+        });
+
+        test('an answer that changes takes the remark about the old one away', async () => {
+            const { page, close } = await open('here'), form = page.locator('form[data-exercise=convex]');
+            await answer(page, form, 5);
+            await form.locator('input').fill('0');
+            assert.deepEqual([await form.getAttribute('data-result'), await form.locator('.answer').textContent()], ['', '']);
+            const guard = page.locator('form[data-exercise=guard]');
+            await answer(page, guard, [[2, 10]]);
+            await place(page, guard.locator('figure'), [[7.1, 8]]);
+            assert.equal(await guard.locator('.answer').textContent(), '');
+            await close();
+        });
+
+        test('pictures name what their words name', async () => {
+            const { page, close } = await open('here');
+            const letters = await page.locator('figure[data-figure=pair]').evaluate((host) => {
+                dispatchEvent(new Event('beforeprint'));
+                return [...host.querySelectorAll('.still text')].map((node) => node.textContent);
+            });
+            assert.deepEqual(letters, ['A', 'B']);
+            await close();
+            const frames = await open('frames');
+            const axes = await frames.page.locator('main > figure .beside svg').evaluateAll((list) => list.map((chart) => [...chart.querySelectorAll('text')].map((node) => node.textContent)));
+            assert.equal(axes.length, 2);
+            for (const [i, words] of [['frame', 'tests', '0', '50', '150'], ['view cells', 'cells to draw, expected', '5', '10']].entries())
+                for (const word of words) assert.ok(axes[i].includes(word), `${word} of ${axes[i]}`);
+            await frames.close();
+        });
+
+        test('rings of a basis cover no names', async () => {
+            const { page, close } = await open('program');
+            const { centres, names } = await page.locator('figure[data-figure=steps]').evaluate((host) => {
+                dispatchEvent(new Event('beforeprint'));
+                const rings = [...host.querySelectorAll('.still path[stroke]')].flatMap((node) => [/^M([\d.]+) ([\d.]+)a13 13/.exec(node.getAttribute('d')) ?? []]);
+                return { centres: rings.filter((found) => found.length).map(([, x, y]) => [Number(x) + 13, Number(y)]),
+                    names: [...host.querySelectorAll('.still text')].map((node) => [Number(node.getAttribute('x')), Number(node.getAttribute('y'))]) };
+            });
+            assert.equal(centres.length, 3);
+            assert.deepEqual(names.filter(([x, y]) => centres.some(([cx, cy]) => Math.hypot(x - cx, y - cy) < 14)), []);
+            await close();
+        });
 
         test('the right option stands at each place about as often', () => {
             assert.ok(places.every((count) => count >= 3), `first, second, third: ${places}`);
