@@ -3,10 +3,12 @@
  *
  * kind 'choice': `options` are pairs of an answer and what is to be said about it.
  * kind 'number': a number is typed; `low` and `high` say what a wrong one has missed.
+ * kind 'code':   a function is completed; code-lab.js runs and judges it.
  * kind 'place':  handles of `figure` are put somewhere; `solution` has right places of them, for the teachers' page.
  * `right(lab)` gives the index or the number, computed by the library where it can be; for places,
  * `judge(state, lab)` gives whether it is right and what is to be said.
  */
+import { codePart } from './code-lab.js';
 import { Figure, element } from './figure.js';
 
 let count = 0;
@@ -21,7 +23,7 @@ const shuffled = (options) => options.map(([text], i) => ({ text, i })).sort((a,
 export function exerciseForm(exercise, lab) {
     const id = `exercise-${++count}`, answer = element('p', { className: 'answer', role: 'status' });
     const form = element('form', { className: 'exercise', 'data-exercise': exercise.name, noValidate: true });
-    const part = { choice: choicePart, number: numberPart, place: placePart }[exercise.kind](exercise, lab, id);
+    const part = { choice: choicePart, number: numberPart, place: placePart, code: codePart }[exercise.kind](exercise, lab, id);
     form.append(part.node, element('button', { type: 'submit' }, 'Check'), answer);
     const forget = () => {
         form.dataset.result = '';
@@ -29,9 +31,9 @@ export function exerciseForm(exercise, lab) {
     };
     form.addEventListener('input', forget);
     part.node.addEventListener('pointerdown', forget);
-    form.addEventListener('submit', (event) => {
+    form.addEventListener('submit', async (event) => {
         event.preventDefault();
-        const { right, text } = part.judge();
+        const { right, text } = await part.judge();
         form.dataset.result = right === null ? '' : right ? 'right' : 'wrong';
         answer.textContent = right === null ? text : `${right ? 'Right.' : 'Not yet.'} ${text}`;
     });

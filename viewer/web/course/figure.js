@@ -19,7 +19,8 @@ import { drawFigure, firstState, paper, stillOf } from './still.js';
  * @property {number[]} box of the map: x0, y0, x1, y1
  * @property {{name: string, at: number[], tone?: string, letter?: string}[]} handles
  * @property {{name: string, label: string, kind: 'range' | 'check' | 'choice' | 'map', value: any,
- *   min?: number, max?: number, step?: number, options?: string[][]}[]} [controls]
+ *   min?: number, max?: number, step?: number, most?: (state: any) => number, options?: string[][]}[]} [controls] `most` is
+ *   the end of a slider that depends on the state
  * @property {(state: any, lab: import('./lab.js').Lab) => void} update
  * @property {(surface: any, camera: Camera, tones: any, state: any) => void} draw
  * @property {(state: any) => string} tell
@@ -217,6 +218,7 @@ export class Figure {
     /** Computes, says and draws. */
     change() {
         this.spec.update(this.state, this.lab);
+        for (const { name, most } of this.spec.controls ?? []) if (most) this.inputs[name].max = most(this.state);
         if (this.box !== this.shown) this.fit();
         this.says.textContent = this.spec.tell(this.state);
         if (this.spec.beside) this.beside.replaceChildren(this.spec.beside(this.state, this.tones));

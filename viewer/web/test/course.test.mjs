@@ -6,6 +6,7 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, describe, test } from 'node:test';
+import { solutions } from '../teachers/lab-solutions.js';
 import { launch, programOf, serve } from './site.mjs';
 
 const { SITE, SHOTS, TOOLS, QUICK } = process.env;
@@ -13,7 +14,7 @@ const wanted = (process.env.BROWSERS ?? 'chromium,firefox').split(',').filter(pr
 
 /** Answers that are known beforehand: [exercise, wrong, right]; places are x, y of each handle. */
 const chapters = {
-    here: [['convex', 5, 0], ['mutual', 0, 1], ['guard', [[2, 10]], [[7.1, 8]]]],
+    here: [['convex', 5, 0], ['mutual', 0, 1], ['guard', [[2, 10]], [[7.1, 8]]], ['region', { code: 'const region = () => [[0, 0], [20, 0], [20, 12], [0, 12]];' }, solutions.region]],
     rooms: [['ell', 3, 2], ['why', 0, 1], ['most', [[2, 10]], [[10, 6.5]]]],
     lines: [['count', 7, 14], ['turn', 0, 1], ['through', [[1, 2], [17, 10]], [[1, 5.5], [17, 5.6]]]],
     program: [['unknowns', 10, 3], ['negative', 0, 1], ['widen', [[9, 5.5], [9, 3]], [[9, 8], [9, 4]]]],
@@ -49,10 +50,12 @@ async function place(page, figure, places) {
 }
 
 async function answer(page, form, given) {
-    if (Array.isArray(given)) await place(page, form.locator('figure'), given);
+    if (given.code) await form.locator('textarea').fill(given.code);
+    else if (Array.isArray(given)) await place(page, form.locator('figure'), given);
     else if (await form.locator('input[type=radio]').count()) await form.locator(`input[type=radio][value="${given}"]`).check();
     else await form.locator('input[type=number]').fill(String(given));
-    await form.locator('button').click();
+    await form.locator('button[type=submit]').click();
+    await form.locator('.answer:not(:empty)').waitFor({ timeout: 30000 });
     return [await form.getAttribute('data-result'), await form.locator('.answer').textContent()];
 }
 
@@ -345,6 +348,69 @@ for (const name of wanted)
                     nearest(2n ** 54n + 6n, 0) - 2 ** 54, unitOf(1), unitOf(0.75)];
             });
             assert.deepEqual(values, [2 ** -54, 0, 0, 0, 8, 2 ** -52, 2 ** -53]);
+            await close();
+        });
+
+        test('here: the angular sweep has the area of the library, step by step, also where rays only touch', async () => {
+            const { page, close } = await open('here');
+            const { count, wrong, steps } = await page.evaluate(async () => {
+                const [{ angularSweep, isOn, onGrid }, maps, { Lab, cellAt }] = await Promise.all([import('./angular.js'), import('./maps.js'), import('./lab.js')]);
+                const lab = await Lab.open();
+                let [number, count, wrong, steps] = [7, 0, 0, true];
+                const chance = () => (number = (number * 48271) % 2147483647) / 2147483647;
+                for (const { text, box } of [maps.flat, maps.house, maps.pillars, { text: maps.hall(2), box: [0, 0, 8, 12] }, { text: maps.grid(3, 3), box: [0, 0, 12, 12] }]) {
+                    const walls = maps.segmentsOf(maps.itemsOf(text)), scene = lab.scene(text);
+                    for (let k = 0; k < 200; k++) {
+                        const place = [box[2] * chance(), box[3] * chance()], eye = k % 3 ? onGrid(place) : place.map((v) => Math.round(2 * v) / 2);
+                        if (cellAt(scene, eye) < 0 || walls.some((wall) => isOn(eye, wall))) continue;
+                        const sweep = angularSweep(eye, walls), area = sweep.corners.reduce((sum, [x, y], i, all) => {
+                            const [u, v] = all[(i + 1) % all.length];
+                            return sum + (x * v - y * u) / 2;
+                        }, 0), exact = scene.isovist(...eye).area;
+                        if (!(Math.abs(area - exact) <= 1e-12 * exact)) wrong++;
+                        // Each wall comes and goes once, and the status is what has come and not gone, with the walls of the first ray.
+                        const first = sweep.steps[1].status, now = new Set(first);
+                        for (const { kind, event, status } of sweep.steps.slice(1)) {
+                            const { wall } = sweep.events[event] ?? {};
+                            if (kind === 'insert') now.add(wall.number);
+                            if (kind === 'remove') now.delete(wall.number);
+                            steps &&= String([...status].sort()) === String([...now].sort());
+                        }
+                        steps &&= String([...now].sort()) === String([...first].sort());
+                        count++;
+                    }
+                }
+                return { count, wrong, steps };
+            });
+            assert.ok(count > 700);
+            assert.deepEqual([wrong, steps], [0, true]);
+            const figure = page.locator('figure[data-figure=sweep]'), lit = () => figure.locator('pre b').allTextContents();
+            await figure.locator('input[type=range]').press('Home');
+            assert.deepEqual(await lit(), ['sort the ends of walls by angle']);
+            await figure.locator('input[type=range]').press('End');
+            assert.deepEqual(await lit(), ['return the corners']);
+            assert.match(await figure.locator('.says').textContent(), /^Step (\d+) of \1: .* n log n is 110 for 24 ends/);
+            await close();
+        });
+
+        test('here: the lab finds what is wrong with code, and stops it', async () => {
+            const { page, close } = await open('here'), form = page.locator('form[data-exercise=region]'), { code } = solutions.region;
+            const say = async (text) => (await answer(page, form, { code: text }))[1];
+            assert.match(await say(await form.locator('textarea').inputValue()), /no list of places/);
+            assert.match(await say('function region() { for (;;); }'), /no answer within 3 seconds/);
+            assert.match(await say('function region( {'), /SyntaxError/);
+            assert.match(await say('function region() { return document.title; }'), /ReferenceError/);
+            for (const [from, to] of [['s >= 0 && s <= 1', 's >= 0'], ['t > 0 && ', ''], ['Math.min(best, t)', 'Math.max(best === Infinity ? 0 : best, t)'], ['angle - 1e-9', 'angle'], ['1e-9, angle', '0.05, angle']]) {
+                assert.ok(code.includes(from));
+                assert.match(await say(code.replace(from, to)), /On map \d+ of 20.*(Your region says otherwise|no list of places)/, to);
+                assert.ok(await form.locator('.counterexample svg').isVisible());
+            }
+            assert.match(await say(code), /^Right\. It agrees/);
+            assert.ok(await form.locator('.counterexample').isHidden());
+            await form.getByText('Begin anew').click();
+            assert.match(await form.locator('textarea').inputValue(), /Your lines/);
+            const sweep = await page.evaluate(async () => (await (await fetch('angular.js')).text()).replaceAll('export ', ''));
+            assert.match(await say(`${sweep}\nconst region = (eye, walls) => angularSweep(eye, walls).corners;`), /^Right/);
             await close();
         });
 

@@ -110,7 +110,7 @@ describe('pages for teachers', { skip: hasChromium ? false : 'Chromium is missin
                 const kind = chapters[name][i][1];
                 assert.doesNotMatch(answer, /undefined|NaN|no example/, `${name}, ${key}`);
                 assert.ok(length > answer.length + 20, `${name}, ${key}: why?`);
-                assert.deepEqual([pictures, remarks], kind === 'place' ? [1, 0] : [0, 2], `${name}, ${key}`);
+                assert.deepEqual([pictures, remarks], { place: [1, 0], code: [0, 0] }[kind] ?? [0, 2], `${name}, ${key}`);
             }
         }
         assert.match(await page.locator('[data-solution=count] strong').textContent(), /^Answer: 14\.$/);
@@ -193,7 +193,7 @@ describe('pages for teachers', { skip: hasChromium ? false : 'Chromium is missin
                 (error, out, words) => resolve(error ? words : '')));
             assert.equal(built, '');
             assert.deepEqual(files(plain).filter((file) => /solution|teachers/.test(file)), []);
-            assert.deepEqual(files(SITE).filter((file) => /solution/.test(file)).sort(), ['teachers/solutions.html', 'teachers/solutions.js']);
+            assert.deepEqual(files(SITE).filter((file) => /solution/.test(file)).sort(), ['teachers/lab-solutions.js', 'teachers/solutions.html', 'teachers/solutions.js']);
             for (const file of files(SITE).filter((name) => name.endsWith('.html')))
                 assert.doesNotMatch(readFileSync(join(SITE, file), 'utf8'), /href="[^"]*solutions\.html/, file);
         } finally {
