@@ -170,7 +170,7 @@ function neighbours(chapters, name) {
     const at = chapters.findIndex((chapter) => chapter.name === name);
     if (at < 0) return '';
     const link = (chapter, rel, mark) => (chapter ? `<a rel="${rel}" href="${chapter.name}.html">${mark} ${chapter.title}</a>` : '');
-    const links = [link(chapters[at - 1], 'prev', 'Back:'), '<a href="index.html">All chapters</a>', link(chapters[at + 1], 'next', 'Next:')];
+    const links = [link(chapters[at - 1], 'prev', 'Back:'), '<a href="index.html">All chapters</a>', '<a href="answers.html">My answers</a>', link(chapters[at + 1], 'next', 'Next:')];
     return `\n<nav class="chapters" aria-label="Chapters">\n${links.filter(Boolean).join('\n')}\n</nav>`;
 }
 

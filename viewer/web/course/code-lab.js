@@ -150,5 +150,5 @@ export function codePart(exercise, lab, id) {
         if (draw) keepPicture(picture, draw);
         return said;
     };
-    return { node, judge, read: () => area.value, write: (text) => (area.value = text) };
+    return { node, judge, read: () => area.value, write: (text) => (typeof text === 'string' ? (area.value = text) && true : false) };
 }

@@ -229,7 +229,7 @@ for (const name of wanted)
             await first.page.click('#lecture');
             assert.ok(await first.page.locator('.lecture-bar').getByText('Back').isDisabled());
             await first.page.locator('.lecture-bar').getByText('Leave').click();
-            assert.deepEqual(await first.page.locator('nav.chapters a').allTextContents(), ['All chapters', 'Next: 2. Rooms and doors']);
+            assert.deepEqual(await first.page.locator('nav.chapters a').allTextContents(), ['All chapters', 'My answers', 'Next: 2. Rooms and doors']);
             await first.close();
         });
 
@@ -261,6 +261,56 @@ for (const name of wanted)
             await answer(page, guard, [[2, 10]]);
             await place(page, guard.locator('figure'), [[7.1, 8]]);
             assert.equal(await guard.locator('.answer').textContent(), '');
+            await close();
+        });
+
+        test('answers are kept in the browser, exported with a name, and read back', async () => {
+            const { page, close } = await open('here'), at = (chapter) => page.goto(`${site.address}/course/${chapter}.html`).then(() => page.waitForSelector('main[data-ready]'));
+            const given = { convex: 5, mutual: 1, guard: [[7.1, 8]], region: { code: '// mine\nconst region = () => [];' } };
+            const shown = () => page.locator('form.exercise').evaluateAll((forms) => forms.map((form) => [form.dataset.exercise, form.dataset.result,
+                form.querySelector('.answer').textContent, form.querySelector('input:checked, input[type=number], textarea')?.value ?? form.querySelector('figure')?.figure.state.eye.map((v) => v.toFixed(3)).join()]));
+            for (const [exercise, value] of Object.entries(given)) await answer(page, page.locator(`form[data-exercise=${exercise}]`), value);
+            await answer(page, page.locator('form[data-exercise=convex]'), 0);
+            const before = await shown();
+            assert.deepEqual(before.map(([, result]) => result), ['right', 'right', 'right', 'wrong']);
+            await at('here');
+            assert.deepEqual(await shown(), before);
+            await at('index');
+            assert.match(await page.locator('main td').first().textContent(), /\(3 of 4 answers right\)/);
+            await at('answers');
+            await page.locator('#name').fill('Ada Lovelace');
+            assert.match(await page.locator('main .says').textContent(), /^4 answers, 3 of them right/);
+            const texts = await page.locator('main article').allTextContents();
+            assert.match(texts[0], /How long are all occluding.*Answer: 0Right, after 2 tries/);
+            assert.match(texts[1], /Answer: Yes, always\.Right, after 1 try/);
+            assert.match(texts[3], /const region = \(\) => \[\];Not yet right/);
+            const saved = await page.evaluate(async () => {
+                const make = URL.createObjectURL;
+                const blob = new Promise((resolve) => (URL.createObjectURL = (given) => (resolve(given), make.call(URL, given))));
+                [...document.querySelectorAll('button')].find((node) => node.textContent === 'Export my answers').click();
+                return (await blob).text();
+            });
+            const file = JSON.parse(saved);
+            assert.deepEqual([file.name, Object.keys(file.answers)], ['Ada Lovelace', Object.keys(given).map((exercise) => `here/${exercise}`)]);
+            assert.equal(file.answers['here/convex'].tries, 2);
+            page.on('dialog', (dialog) => dialog.accept());
+            await page.getByText('Forget my answers').click();
+            assert.match(await page.locator('main .says').textContent(), /no answers yet/);
+            await at('here');
+            assert.deepEqual((await shown()).map(([, result, remark]) => result || remark), ['', '', '', '']);
+            await at('answers');
+            const read = (text) => page.locator('#answers-file').setInputFiles({ name: 'a.json', mimeType: 'application/json', buffer: Buffer.from(text) });
+            for (const [text, about] of [['no', /no file of answers/], ['{}', /no file of answers/], [saved.replace('"version": 1', '"version": 2'), /version 2/],
+                [saved.replace('"tries": 2', '"tries": "2"'), /here\/convex of the file is not complete/], [saved.replace('"here/convex"', '"<b>"'), /<b> of the file/]]) {
+                await read(text);
+                await page.locator('main .says').getByText(about).waitFor();
+            }
+            assert.equal(await page.locator('main article').count(), 0, 'nothing is half read');
+            await read(saved);
+            await page.locator('main .says').getByText('4 answers').waitFor();
+            assert.equal(await page.locator('#name').inputValue(), 'Ada Lovelace');
+            await at('here');
+            assert.deepEqual(await shown(), before);
             await close();
         });
 
