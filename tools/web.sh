@@ -2,6 +2,7 @@
 # The npm package and the site, in a folder: sh tools/web.sh --build DIR
 # gives DIR/package (the package `sightline`) and, where viewer/web is there, DIR/site.
 # --package DIR stops after the package. --handouts DIR writes the course as PDF, for paper of A4 and of Letter size.
+# --teachers adds teachers/solutions.html, the answers of all exercises, to which no page leads.
 # --glpk adds a page of GLPK's answers to the site. It loads GLPK's sources by apt-get, and the page falls under the GPL 3.
 # Without a folder it serves the site of build/web, which it builds first.
 set -eu
@@ -11,7 +12,8 @@ serve=yes
 site=yes
 handouts=
 glpk=
-usage='usage: sh tools/web.sh [--build DIR | --package DIR | --handouts DIR] [--glpk]'
+teachers=
+usage='usage: sh tools/web.sh [--build DIR | --package DIR | --handouts DIR] [--teachers] [--glpk]'
 while [ $# -gt 0 ]; do
     case $1 in
     --build | --package)
@@ -29,8 +31,9 @@ while [ $# -gt 0 ]; do
         shift
         ;;
     --glpk) glpk=yes ;;
+    --teachers) teachers=yes ;;
     -h | --help)
-        sed -n '2,6s/^# //p' "$0"
+        sed -n '2,7s/^# //p' "$0"
         echo "$usage"
         exit 0
         ;;
@@ -108,7 +111,7 @@ if [ $site = yes ] && [ -f "$root/viewer/web/build.mjs" ]; then
         cp "$folder/wasm/glpk/glpk.wasm" "$glpk/sources/COPYING" "$glpk/page/"
         cp "$glpk"/glpk_*.orig.tar.gz "$glpk/page/glpk-source.tar.gz"
     fi
-    node "$root/viewer/web/build.mjs" --package "$folder/package" --out "$folder/site" ${glpk:+--glpk "$glpk/page"}
+    node "$root/viewer/web/build.mjs" --package "$folder/package" --out "$folder/site" ${glpk:+--glpk "$glpk/page"} ${teachers:+--teachers}
     echo "web: $folder/site"
 fi
 if [ -n "$handouts" ]; then

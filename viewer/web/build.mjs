@@ -1,14 +1,16 @@
 /**
- * Makes the site: node viewer/web/build.mjs --package PACKAGE --out SITE [--glpk FOLDER]
+ * Makes the site: node viewer/web/build.mjs --package PACKAGE --out SITE [--glpk FOLDER] [--teachers]
  *
  * FOLDER holds glpk.wasm, the licence and the sources of GLPK: with them, the site has a page of GLPK's answers.
+ * With --teachers it has teachers/solutions.html as well, to which no page leads.
  * PACKAGE is the built npm package, SITE the folder to write. The site is plain files: this folder,
  * the package, the maps of maps/, the course, and a page from each document for an audience.
  */
 import { cpSync, existsSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { basename, dirname, join, posix, relative } from 'node:path';
-import { fileURLToPath } from 'node:url';
+import { fileURLToPath, pathToFileURL } from 'node:url';
 import { anchorOf, anchorsOf, titleOf, toHtml } from './markdown.mjs';
+import { readReferences, referenceLine } from './references.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url)), root = join(here, '../..');
 
@@ -60,7 +62,7 @@ const page = (title, body, { chapter = '', isCourse = Boolean(chapter), isSecret
 <meta http-equiv="Content-Security-Policy" content="default-src 'self'${chapter ? "; script-src 'self' 'wasm-unsafe-eval'" : ''}">
 <title>${title} - Sightline</title>
 <link rel="icon" href="../icon.svg">
-<link rel="stylesheet" href="../style.css">${isCourse ? '\n<link rel="stylesheet" href="course.css">' : ''}${chapter ? '\n<script type="module" src="course.js"></script>' : ''}
+<link rel="stylesheet" href="../style.css">${isCourse ? '\n<link rel="stylesheet" href="../course/course.css">' : ''}${chapter ? '\n<script type="module" src="../course/course.js"></script>' : ''}
 </head>
 <body${chapter ? ` data-chapter="${chapter}"` : ''}>
 <header><nav aria-label="Pages">
@@ -107,58 +109,87 @@ function listTerms(text) {
 
 /**
  * The course: index.md lists the chapters, and each has its text and a module of one name. Lines such as
- * {figure: eye}, {exercise: eye} and {picture: eye} are places that the module fills. {solutions} is a place for
- * each chapter, {chapter: 3} names one and links to it if it is listed, and {terms} lists the headings of
- * level 3. A link or an anchor that leads nowhere ends the build.
+ * {figure: eye}, {exercise: eye} and {picture: eye} are places that the module fills. {value: edges} is a number or words
+ * that `values` of the module computes by the library, here. {references: KEY, KEY} lists sources of references.bib.
+ * {solutions} is a place for each chapter, {chapter: 3} names one and links to it if it is listed, and {terms} lists the
+ * headings of level 3. A link, an anchor, a value or a source that leads nowhere ends the build.
  */
-function writeCourse(site) {
-    const folder = join(here, 'course');
-    const chapters = [...readFileSync(join(folder, 'index.md'), 'utf8').matchAll(/^\| \[([^\]]+)\]\(([\w-]+)\.md\)/gm)];
-    const solutions = chapters.map(([, title, name]) =>
-        `<h2 id="${name}">${title}</h2>\n<section data-solutions="${name}" aria-labelledby="${name}"></section>`).join('\n');
-    for (const file of readdirSync(folder).filter((name) => name.endsWith('.md'))) {
-        const name = file.slice(0, -3), text = readFileSync(join(folder, file), 'utf8').replace(/\{chapter: (\d+)\}/g, (_, number) => {
-            const [, , chapter] = chapters.find(([, title]) => title.startsWith(`${number}. `)) ?? [];
-            return chapter ? `[chapter ${number}](${chapter}.md)` : `chapter ${number}`;
-        });
-        const chapter = existsSync(join(folder, `${name}.js`)) ? name : '';
-        const link = (target) => {
-            const [path, anchor = ''] = target.split('#'), end = anchor && `#${anchor}`, other = join(folder, path || file);
-            const isThere = existsSync(other) && (!anchor || anchorsOf(readFileSync(other, 'utf8')).includes(anchor));
-            if (!isThere) throw new Error(`course/${file}: the link ${target} leads nowhere`);
-            if (!path) return end;
-            const source = posix.join('viewer/web/course', path), document = documents[source];
-            if (!document && source.endsWith('.md') && posix.dirname(source) !== 'viewer/web/course') return null;
-            return document ? `../pages/${document}.html${end}` : path.replace(/\.md$/, '.html') + end;
-        };
-        const body = toHtml(text, link)
-            .replace(/<p>\{figure: ([\w-]+)\}<\/p>/g, '<figure data-figure="$1"></figure>')
-            .replace(/<p>\{exercise: ([\w-]+)\}<\/p>/g, '<div data-exercise="$1"></div>')
-            .replace(/<p>\{picture: ([\w-]+)\}<\/p>/g, '<figure data-picture="$1"></figure>')
-            .replace(/<h3 [^]*?<\/figure>\n<p>[^]*?<\/p>/g, (entry) => (entry.includes('data-picture') ? `<div class="term">${entry}</div>` : entry))
-            .replace('<p>{terms}</p>', () => listTerms(text))
-            .replace('<p>{solutions}</p>', () => solutions);
-        writeFileSync(join(site, 'course', `${name}.html`), page(titleOf(text), body, { chapter, isCourse: true, isSecret: name === 'solutions' }));
-        rmSync(join(site, 'course', file));
-    }
+async function writeCourse(site, folders) {
+    const course = join(here, 'course');
+    const chapters = [...readFileSync(join(course, 'index.md'), 'utf8').matchAll(/^\| \[([^\]]+)\]\(([\w-]+)\.md\)/gm)]
+        .map(([, title, name]) => ({ title, name }));
+    const sources = readReferences(readFileSync(join(course, 'references.bib'), 'utf8')), used = new Set();
+    const { Lab } = await import(pathToFileURL(join(site, 'course/lab.js')).href), lab = await Lab.open();
+    for (const folder of folders)
+        for (const file of readdirSync(join(here, folder)).filter((name) => name.endsWith('.md'))) {
+            const name = file.slice(0, -3), isChapter = existsSync(join(here, folder, `${name}.js`));
+            const module = isChapter ? await import(pathToFileURL(join(site, folder, `${name}.js`)).href) : {};
+            const fail = (what) => { throw new Error(`${folder}/${file}: ${what}`); };
+            const text = readFileSync(join(here, folder, file), 'utf8')
+                .replace(/\{chapter: (\d+)\}/g, (_, number) => {
+                    const chapter = chapters.find(({ title }) => title.startsWith(`${number}. `));
+                    return chapter ? `[chapter ${number}](${chapter.name}.md)` : `chapter ${number}`;
+                })
+                .replace(/\{value: ([\w-]+)\}/g, (_, value) => module.values?.[value]?.(lab) ?? fail(`no value ${value}`))
+                .replace(/^\{references: (.*)\}$/m, (_, keys) => keys.split(', ').map((key) => {
+                    used.add(key);
+                    return `- ${referenceLine(sources.get(key) ?? fail(`no source ${key}`))}`;
+                }).join('\n') + '\n\nAll sources of the course: [BibTeX](references.bib).');
+            const link = linkOf(folder, file, fail);
+            const body = fillPlaces(toHtml(text, link), text, chapters) + (folder === 'course' ? neighbours(chapters, name) : '');
+            const chapter = isChapter ? (folder === 'course' ? name : `../${folder}/${name}`) : '';
+            writeFileSync(join(site, folder, `${name}.html`), page(titleOf(text), body, { chapter, isCourse: true, isSecret: folder !== 'course' }));
+            rmSync(join(site, folder, file));
+        }
+    for (const key of sources.keys()) if (!used.has(key)) throw new Error(`course/references.bib: no chapter names ${key}`);
+}
+
+/** Where links of a page of the course lead; those to sources stay words. */
+const linkOf = (folder, file, fail) => (target) => {
+    if (/^https:/.test(target)) return target;
+    const [path, anchor = ''] = target.split('#'), end = anchor && `#${anchor}`, other = join(here, folder, path || file);
+    if (!existsSync(other) || (anchor && !anchorsOf(readFileSync(other, 'utf8')).includes(anchor))) fail(`the link ${target} leads nowhere`);
+    if (!path) return end;
+    const source = posix.join('viewer/web', folder, path), document = documents[source];
+    if (!document && source.endsWith('.md') && posix.dirname(source) !== 'viewer/web/course') return null;
+    return document ? `../pages/${document}.html${end}` : path.replace(/\.md$/, '.html') + end;
+};
+
+/** Places of a page for its module, and lists that the build makes. */
+const fillPlaces = (html, text, chapters) => html
+    .replace(/<p>\{figure: ([\w-]+)\}<\/p>/g, '<figure data-figure="$1"></figure>')
+    .replace(/<p>\{exercise: ([\w-]+)\}<\/p>/g, '<div data-exercise="$1"></div>')
+    .replace(/<p>\{picture: ([\w-]+)\}<\/p>/g, '<figure data-picture="$1"></figure>')
+    .replace(/<h3 [^]*?<\/figure>\n<p>[^]*?<\/p>/g, (entry) => (entry.includes('data-picture') ? `<div class="term">${entry}</div>` : entry))
+    .replace('<p>{terms}</p>', () => listTerms(text))
+    .replace('<p>{solutions}</p>', () => chapters.map(({ title, name }) =>
+        `<h2 id="${name}">${title}</h2>\n<section data-solutions="${name}" aria-labelledby="${name}"></section>`).join('\n'));
+
+/** Links to the chapters before and after one, for its end. */
+function neighbours(chapters, name) {
+    const at = chapters.findIndex((chapter) => chapter.name === name);
+    if (at < 0) return '';
+    const link = (chapter, rel, mark) => (chapter ? `<a rel="${rel}" href="${chapter.name}.html">${mark} ${chapter.title}</a>` : '');
+    const links = [link(chapters[at - 1], 'prev', 'Back:'), '<a href="index.html">All chapters</a>', '<a href="answers.html">My answers</a>', link(chapters[at + 1], 'next', 'Next:')];
+    return `\n<nav class="chapters" aria-label="Chapters">\n${links.filter(Boolean).join('\n')}\n</nav>`;
 }
 
 const has = (name) => process.argv.includes(name), valueOf = (name) => process.argv[process.argv.indexOf(name) + 1];
 const [site, library] = [valueOf('--out'), valueOf('--package')];
-if (process.argv.length !== (has('--glpk') ? 8 : 6) || !has('--out') || !has('--package')) {
-    console.error('usage: node build.mjs --package PACKAGE --out SITE [--glpk FOLDER]');
+if (process.argv.length !== 6 + (has('--glpk') ? 2 : 0) + (has('--teachers') ? 1 : 0) || !has('--out') || !has('--package')) {
+    console.error('usage: node build.mjs --package PACKAGE --out SITE [--glpk FOLDER] [--teachers]');
     process.exit(2);
 }
 if (!existsSync(join(library, 'sightline.js'))) {
     console.error(`build.mjs: there is no built package in ${library}`);
     process.exit(2);
 }
-for (const part of [...parts, 'package', 'maps', 'pages', 'glpk']) rmSync(join(site, part), { recursive: true, force: true });
+for (const part of [...parts, 'package', 'maps', 'pages', 'glpk', 'teachers']) rmSync(join(site, part), { recursive: true, force: true });
 mkdirSync(site, { recursive: true });
-for (const part of parts)
+for (const part of [...parts, ...(has('--teachers') ? ['teachers'] : [])])
     if (existsSync(join(here, part))) cpSync(join(here, part), join(site, part), { recursive: true });
 cpSync(library, join(site, 'package'), { recursive: true });
 writeGallery(site);
 writePages(site);
-writeCourse(site);
+await writeCourse(site, ['course', ...(has('--teachers') ? ['teachers'] : [])]);
 if (has('--glpk')) for (const folder of [join(here, 'glpk'), valueOf('--glpk')]) cpSync(folder, join(site, 'glpk'), { recursive: true });

@@ -2,7 +2,7 @@
  * Handouts of the course as PDF: node viewer/web/handouts.mjs --site SITE --out DIR [--paper a4|letter] [--only NAME]
  *
  * Chromium prints the pages of a built site. DIR/students gets the chapters, the glossary and the plan of
- * the course, DIR/teachers the solutions. Without --paper both sizes are made. --only makes one page, such as
+ * the course, DIR/teachers the solutions, if the site has them. Without --paper both sizes are made. --only makes one page, such as
  * `here`. Chromium is driven by its own protocol over a pipe, so no package is needed.
  */
 import { spawn } from 'node:child_process';
@@ -37,10 +37,10 @@ function listPages(site) {
     const file = join(site, 'course/index.html');
     if (!existsSync(file)) stop(`there is no built site in ${site}`);
     const rows = [...readFileSync(file, 'utf8').matchAll(/<td><a href="([\w-]+)\.html">(?:(\d+)\. )?/g)];
-    const chapters = rows.map(([, name, number]) => ({ name, file: number ? `${number.padStart(2, '0')}-${name}` : name, folder: 'students' }));
-    const more = [['glossary', 'students'], ['weeks', 'students'], ['solutions', 'teachers']]
-        .filter(([name]) => existsSync(join(site, `course/${name}.html`)))
-        .map(([name, folder]) => ({ name, file: name, folder }));
+    const chapters = rows.map(([, name, number]) => ({ name, path: `course/${name}`, file: number ? `${number.padStart(2, '0')}-${name}` : name, folder: 'students' }));
+    const more = [['course/glossary', 'students'], ['course/weeks', 'students'], ['teachers/solutions', 'teachers']]
+        .filter(([path]) => existsSync(join(site, `${path}.html`)))
+        .map(([path, folder]) => ({ name: path.split('/')[1], path, file: path.split('/')[1], folder }));
     return [...chapters, ...more];
 }
 
@@ -150,9 +150,9 @@ if (!pages.length) stop(`the course has no page ${only}`);
 if (!program) stop('Chromium is missing', 77);
 const server = await serve(site), browser = new Browser(program);
 try {
-    for (const { name, file, folder } of pages) {
+    for (const { name, path: page, file, folder } of pages) {
         mkdirSync(join(out, folder), { recursive: true });
-        const made = await print(browser, `${server.address}/course/${name}.html`, paper ? [paper] : Object.keys(papers))
+        const made = await print(browser, `${server.address}/${page}.html`, paper ? [paper] : Object.keys(papers))
             .catch((error) => Promise.reject(new Error(`${name}: ${error.message}`)));
         for (const [size, bytes] of made) {
             const path = join(out, folder, `${file}-${size}.pdf`);

@@ -7,10 +7,11 @@ import { lectureMode } from './lecture.js';
 const main = document.querySelector('main');
 
 async function begin() {
-    const [lab, chapter] = await Promise.all([Lab.open(), import(`./${document.body.dataset.chapter}.js`)]);
+    const name = document.body.dataset.chapter, needsLab = main.querySelector('[data-figure], [data-exercise], [data-picture], [data-solutions]');
+    const [lab, chapter] = await Promise.all([needsLab && Lab.open(), import(`./${name}.js`)]);
     for (const host of main.querySelectorAll('figure[data-figure]')) new Figure(host, chapter.figures[host.dataset.figure], lab);
     for (const host of main.querySelectorAll('div[data-exercise]'))
-        host.replaceWith(exerciseForm({ ...chapter.exercises[host.dataset.exercise], name: host.dataset.exercise }, lab));
+        host.replaceWith(exerciseForm({ ...chapter.exercises[host.dataset.exercise], name: host.dataset.exercise, chapter: name }, lab));
     await chapter.fill?.(main, lab);
     lectureMode(main);
     main.dataset.ready = 'yes';

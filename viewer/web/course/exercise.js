@@ -3,11 +3,15 @@
  *
  * kind 'choice': `options` are pairs of an answer and what is to be said about it.
  * kind 'number': a number is typed; `low` and `high` say what a wrong one has missed.
+ * kind 'code':   a function is completed; code-lab.js runs and judges it.
  * kind 'place':  handles of `figure` are put somewhere; `solution` has right places of them, for the teachers' page.
+ * Each part of a form can `judge` the answer, `read` it as a value, say it in words (`given`) and `write` a value that was kept.
  * `right(lab)` gives the index or the number, computed by the library where it can be; for places,
  * `judge(state, lab)` gives whether it is right and what is to be said.
  */
+import { codePart } from './code-lab.js';
 import { Figure, element } from './figure.js';
+import { loadProgress, recordAnswer } from './progress.js';
 
 let count = 0;
 
@@ -21,14 +25,30 @@ const shuffled = (options) => options.map(([text], i) => ({ text, i })).sort((a,
 export function exerciseForm(exercise, lab) {
     const id = `exercise-${++count}`, answer = element('p', { className: 'answer', role: 'status' });
     const form = element('form', { className: 'exercise', 'data-exercise': exercise.name, noValidate: true });
-    const part = { choice: choicePart, number: numberPart, place: placePart }[exercise.kind](exercise, lab, id);
+    const part = { choice: choicePart, number: numberPart, place: placePart, code: codePart }[exercise.kind](exercise, lab, id);
     form.append(part.node, element('button', { type: 'submit' }, 'Check'), answer);
-    form.addEventListener('submit', (event) => {
+    const key = `${exercise.chapter}/${exercise.name}`;
+    const show = (result, text) => {
+        form.dataset.result = result;
+        answer.textContent = text;
+    };
+    const forget = () => show('', '');
+    form.addEventListener('input', forget);
+    part.node.addEventListener('pointerdown', forget);
+    form.addEventListener('submit', async (event) => {
         event.preventDefault();
-        const { right, text } = part.judge();
-        form.dataset.result = right === null ? '' : right ? 'right' : 'wrong';
-        answer.textContent = right === null ? text : `${right ? 'Right.' : 'Not yet.'} ${text}`;
+        const { right, text } = await part.judge();
+        if (right === null) {
+            forget();
+            answer.textContent = text;
+        } else {
+            const result = right ? 'right' : 'wrong', value = part.read();
+            show(result, `${right ? 'Right.' : 'Not yet.'} ${text}`);
+            recordAnswer(key, { chapter: document.querySelector('h1').textContent, question: exercise.question, value, given: part.given?.() ?? String(value), result, remark: answer.textContent });
+        }
     });
+    const kept = loadProgress().answers[key];
+    if (kept && part.write(kept.value) !== false) show(kept.result, kept.remark);
     return form;
 }
 
@@ -41,7 +61,13 @@ function choicePart(exercise, lab, id) {
         if (!chosen) return { right: null, text: 'Choose an answer first.' };
         return { right: Number(chosen.value) === exercise.right(lab), text: exercise.options[Number(chosen.value)][1] };
     };
-    return { node, judge };
+    const read = () => Number(node.querySelector('input:checked').value), given = () => exercise.options[read()][0];
+    const write = (value) => {
+        const option = [...node.querySelectorAll('input')].find((input) => Number(input.value) === value);
+        if (!option) return false;
+        option.checked = true;
+    };
+    return { node, judge, read, given, write };
 }
 
 function numberPart(exercise, lab, id) {
@@ -53,11 +79,19 @@ function numberPart(exercise, lab, id) {
         if (given === wanted) return { right: true, text: exercise.why };
         return { right: false, text: given < wanted ? exercise.low : exercise.high };
     };
-    return { node, judge };
+    return { node, judge, read: () => Number(input.value), write: (value) => (typeof value === 'number' ? (input.value = String(value)) && true : false) };
 }
 
 function placePart(exercise, lab) {
     const host = element('figure'), node = element('div', {}, element('p', {}, exercise.question), host);
     const figure = new Figure(host, exercise.figure, lab);
-    return { node, judge: () => exercise.judge(figure.state, lab) };
+    const names = exercise.figure.handles.map((handle) => handle.name), read = () => names.map((name) => [...figure.state[name]]);
+    const given = () => read().map((at) => `(${at.map((v) => Number(v.toFixed(2))).join(', ')})`).join(' and ');
+    const write = (value) => {
+        const isPlaces = Array.isArray(value) && value.length === names.length && value.every((at) => Array.isArray(at) && at.length === 2 && at.every(Number.isFinite));
+        if (!isPlaces) return false;
+        names.forEach((name, i) => (figure.state[name] = value[i]));
+        figure.change();
+    };
+    return { node, judge: () => exercise.judge(figure.state, lab), read, given, write };
 }

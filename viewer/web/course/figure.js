@@ -17,9 +17,10 @@ import { drawFigure, firstState, paper, stillOf } from './still.js';
  * @typedef {Object} Spec
  * @property {string} title @property {string} about what the reader can do
  * @property {number[]} box of the map: x0, y0, x1, y1
- * @property {{name: string, at: number[], tone?: string}[]} handles
+ * @property {{name: string, at: number[], tone?: string, letter?: string}[]} handles
  * @property {{name: string, label: string, kind: 'range' | 'check' | 'choice' | 'map', value: any,
- *   min?: number, max?: number, step?: number, options?: string[][]}[]} [controls]
+ *   min?: number, max?: number, step?: number, most?: (state: any) => number, options?: string[][]}[]} [controls] `most` is
+ *   the end of a slider that depends on the state
  * @property {(state: any, lab: import('./lab.js').Lab) => void} update
  * @property {(surface: any, camera: Camera, tones: any, state: any) => void} draw
  * @property {(state: any) => string} tell
@@ -49,6 +50,13 @@ export function table(head, rows) {
 
 /** How near a pointer must be to a handle to take it, in pixels. */
 const NEAR = 28;
+
+/** A finger that moves farther than this, in pixels, does not tap. */
+const TAP = 10;
+
+/** The words below a picture: sentences that say what to do are left out of handouts. @param {string} about */
+const captionOf = (about) => about.split(/(?<=[.!?]) (?=[A-Z])/).flatMap((sentence) => [' ',
+    /\b(drag|sliders?|press|choose)\b/i.test(sentence) ? element('span', { className: 'keys' }, sentence) : sentence]);
 
 /** In lecture mode lines and letters are up to LARGER times as large, as long as LEAST_WIDTH of their own pixels fit across. */
 const [LARGER, LEAST_WIDTH] = [2, 360];
@@ -89,7 +97,7 @@ export class Figure {
         this.still = element('div', { className: 'still' });
         this.beside = element('div', { className: spec.wide ? 'beside wide' : 'beside' });
         this.says = element('p', { className: 'says', id: `${id}-says`, role: 'status' });
-        const caption = element('figcaption', { id: `${id}-about` }, element('strong', {}, spec.title), ` ${spec.about}`, element('span', { className: 'keys' }, keys));
+        const caption = element('figcaption', { id: `${id}-about` }, element('strong', {}, spec.title), ...captionOf(spec.about), element('span', { className: 'keys' }, keys));
         this.controls = element('div', { className: 'controls' });
         for (const control of spec.controls ?? []) this.controls.append(this.field(control, id));
         host.replaceChildren(element('div', { className: 'pictures' }, this.canvas, this.still, ...(spec.beside ? [this.beside] : [])),
@@ -128,8 +136,10 @@ export class Figure {
         };
         this.canvas.addEventListener('pointerdown', (event) => {
             if (this.spec.press) this.press(at(event));
-            const { handle } = this.nearest(at(event));
+            const { handle, distance } = this.nearest(at(event)), isTouch = event.pointerType === 'touch';
             if (handle < 0) return;
+            this.tap = isTouch && distance >= NEAR ? { handle, at: at(event) } : null;
+            if (this.tap) return;
             this.active = handle;
             this.dragged = event.pointerId;
             this.canvas.setPointerCapture(event.pointerId);
@@ -139,11 +149,13 @@ export class Figure {
             if (this.dragged === event.pointerId) this.moveTo(this.camera.toMap(...at(event)));
         });
         this.canvas.addEventListener('pointerup', (event) => {
-            if (this.dragged === event.pointerId) this.moveTo(this.camera.toMap(...at(event)));
-            this.dragged = undefined;
+            const [x, y] = at(event), { tap } = this, isTap = tap && Math.hypot(x - tap.at[0], y - tap.at[1]) < TAP;
+            if (isTap) this.active = tap.handle;
+            if (isTap || this.dragged === event.pointerId) this.moveTo(this.camera.toMap(x, y));
+            this.dragged = this.tap = undefined;
         });
-        this.canvas.addEventListener('pointercancel', () => (this.dragged = undefined));
-        // A finger on a handle drags it; elsewhere it scrolls the page, and a tap brings the handle.
+        this.canvas.addEventListener('pointercancel', () => (this.dragged = this.tap = undefined));
+        // A finger on a handle drags it; elsewhere it scrolls the page, and a tap brings the nearest handle.
         this.canvas.addEventListener('touchstart', (event) => {
             if (this.nearest(at(event.touches[0])).distance < NEAR) event.preventDefault();
         }, { passive: false });
@@ -206,6 +218,7 @@ export class Figure {
     /** Computes, says and draws. */
     change() {
         this.spec.update(this.state, this.lab);
+        for (const { name, most } of this.spec.controls ?? []) if (most) this.inputs[name].max = most(this.state);
         if (this.box !== this.shown) this.fit();
         this.says.textContent = this.spec.tell(this.state);
         if (this.spec.beside) this.beside.replaceChildren(this.spec.beside(this.state, this.tones));

@@ -130,15 +130,29 @@ const svg = (tag, attributes, ...children) => {
     return node;
 };
 
-/** Curves over a common scale, with a title for those who cannot see them. */
-function chart(title, curves, tones, at) {
-    const most = Math.max(1, ...curves.flatMap((curve) => curve.values)), count = curves[0].values.length - 1;
-    const x = (i) => 10 + (280 * i) / count, y = (v) => 190 - (165 * v) / most;
-    return svg('svg', { viewBox: '0 0 300 200', role: 'img', 'aria-label': title },
+/** A step of 1, 2 or 5 times a power of ten that divides a length into up to five parts. */
+const stepOf = (length) => [1, 2, 5, 10].map((f) => f * 10 ** Math.floor(Math.log10(length / 5))).find((step) => length / step <= 5);
+
+/**
+ * Curves over a common scale, with a title for those who cannot see them.
+ * @param {{title: string, across: string, up: string, from?: (i: number) => number}} words `from` numbers the axis across
+ * @param {{name: string, values: number[], tone: string}[]} curves @param {number} at the place across that is marked
+ */
+function chart({ title, across, up, from = (i) => i }, curves, tones, at) {
+    const [left, right, top, bottom] = [34, 292, 42, 172], most = Math.max(1, ...curves.flatMap((curve) => curve.values)), count = curves[0].values.length - 1;
+    const x = (i) => left + ((right - left) * i) / count, y = (v) => bottom - ((bottom - top) * v) / most;
+    const line = (x1, y1, x2, y2, stroke) => svg('line', { x1, y1, x2, y2, stroke }), words = (at, text) => svg('text', { 'font-size': 11, fill: tones.ink, ...at }, text);
+    const marks = (low, high) => Array.from({ length: Math.floor(high / stepOf(high - low)) + 1 }, (_, i) => i * stepOf(high - low)).filter((v) => v >= low);
+    const [low, high] = [from(0), from(count)].sort((a, b) => a - b), placeOf = (number) => x(from(0) < from(count) ? number - low : high - number);
+    return svg('svg', { viewBox: '0 0 300 204', role: 'img', 'aria-label': title },
+        ...marks(0, most).flatMap((v) => [line(left, y(v), right, y(v), tones.outline), words({ x: left - 4, y: y(v) + 4, 'text-anchor': 'end' }, String(v))]),
+        ...marks(low, high).flatMap((v) => [line(placeOf(v), bottom, placeOf(v), bottom + 4, tones.ink), words({ x: placeOf(v), y: bottom + 15, 'text-anchor': 'middle' }, String(v))]),
+        line(left, bottom, right, bottom, tones.ink), line(left, top, left, bottom, tones.ink),
+        words({ x: 4, y: 30 }, up), words({ x: (left + right) / 2, y: 201, 'text-anchor': 'middle' }, across),
         ...curves.flatMap(({ name, values, tone }, k) => [
             svg('polyline', { points: values.map((v, i) => `${x(i).toFixed(1)},${y(v).toFixed(1)}`).join(' '), fill: 'none', stroke: tones[tone], 'stroke-width': 1.5 }),
-            svg('text', { x: 12 + 92 * k, y: 14, 'font-size': 11, fill: tones[tone] }, name)]),
-        svg('line', { x1: x(at), x2: x(at), y1: 20, y2: 192, stroke: tones.ink, 'stroke-dasharray': '3 3' }));
+            svg('text', { x: 4 + 96 * k, y: 13, 'font-size': 11, fill: tones[tone] }, name)]),
+        svg('line', { x1: x(at), x2: x(at), y1: top, y2: bottom, stroke: tones.ink, 'stroke-dasharray': '3 3' }));
 }
 
 const coherence = {
@@ -169,7 +183,7 @@ const coherence = {
         strokeLines(surface, camera, [way.flat()], tones.path, 1.5, [6, 4]);
         fillPolygons(surface, camera, [[-0.4, -0.4, 0.4, -0.4, 0.4, 0.4, -0.4, 0.4].map((v, k) => v + state.eye[k % 2])], tones.sourceEdge);
     },
-    beside: (state, tones) => chart('Tests in each frame, by three methods', [
+    beside: (state, tones) => chart({ title: 'Tests in each frame, by three methods', across: 'frame', up: 'tests' }, [
         { name: 'from the root', values: state.curves[0], tone: 'ink' }, { name: 'updating', values: state.curves[1], tone: 'glass' },
         { name: 'and skipping', values: state.curves[2], tone: 'start' }], tones, state.frame),
     tell(state) {
@@ -242,7 +256,7 @@ const cells = {
     ],
     update: viewCells,
     draw: drawGroups,
-    beside: ({ merges, at }, tones) => chart('Cost over merges, for both ways to choose', [
+    beside: ({ merges, at }, tones) => chart({ title: 'Cost over view cells, for both ways to merge', across: 'view cells', up: 'cells to draw, expected', from: (i) => merges.adaptive.costs.length - i }, [
         { name: 'costs least', values: merges.adaptive.costs, tone: 'glass' }, { name: 'is smallest', values: merges.blind.costs, tone: 'start' }], tones, at),
     tell: ({ groups, merges, at, group }) => `${plural(groups.length, 'view cell')}. Expected cells to draw: ${round(merges.adaptive.costs[at], 2)} if the ` +
         `cheapest pair is merged, ${round(merges.blind.costs[at], 2)} if the smallest. ${group ? `The dot's view cell sees ${group.seen.size}.` : 'The dot is nowhere.'}`,

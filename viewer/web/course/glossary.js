@@ -9,7 +9,7 @@ import { figures as frames } from './frames.js';
 import { drawHull, figures as hidden } from './hidden.js';
 import { cellAt, middleOf, planLine } from './lab.js';
 import { drawPortals, given, figures as lines, side } from './lines.js';
-import { drawWalls, flat, house, itemsOf, pillars } from './maps.js';
+import { drawText, drawWalls, flat, house, itemsOf, pillars } from './maps.js';
 import { figures as program } from './program.js';
 import { figures as regions } from './regions.js';
 import { figures as rooms } from './rooms.js';
@@ -22,12 +22,6 @@ export const figures = {}, exercises = {};
 const items = { flat: itemsOf(flat.text), house: itemsOf(house.text), pillars: itemsOf(pillars.text) };
 const blank = [0, 0, 18, 12];
 
-function label(surface, camera, [x, y], text, tones) {
-    const [px, py] = camera.toScreen(x, y);
-    Object.assign(surface, { fillStyle: tones.ink, font: 'bold 14px sans-serif', textAlign: 'center', textBaseline: 'middle' });
-    surface.fillText(text, px, py);
-}
-
 /** A plan with what `scene` has, its walls on top. */
 function drawMap(p, name, scene = {}) {
     drawPlan(p.surface, p.camera, scene, p.tones);
@@ -36,7 +30,7 @@ function drawMap(p, name, scene = {}) {
 
 const stroke = (p, list, tone, width = 2, dash = [], closed = false) => strokeLines(p.surface, p.camera, list, p.tones[tone], width, dash, closed);
 const dot = (p, at, tone = 'sourceEdge', radius = 5) => drawDot(p.surface, p.camera, at, radius, p.tones[tone], p.tones.page);
-const say = (p, at, text) => label(p.surface, p.camera, at, text, p.tones);
+const say = (p, at, text) => drawText(p.surface, p.camera, at, text, p.tones);
 
 /** The visible region of a place, with its eye. */
 function drawLook(p, at, options, text = flat.text) {

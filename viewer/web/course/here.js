@@ -1,6 +1,7 @@
 /** Chapter 1: visible regions, what bounds them, and their measures. */
 import { drawPlan, fillPolygons, strokeLines } from '../parts/plan.js';
 import { mix } from '../parts/tones.js';
+import { sweepFigure } from './angular-figure.js';
 import { cellAt, floorArea, round } from './lab.js';
 import { drawWalls, flat, itemsOf, pillars } from './maps.js';
 
@@ -45,7 +46,7 @@ const pair = {
     title: 'Two people.',
     about: 'Drag both dots. The line between them is drawn full where they see each other.',
     box: flat.box,
-    handles: [{ name: 'a', at: [3, 6.5], tone: 'from' }, { name: 'b', at: [12, 3], tone: 'to' }],
+    handles: [{ name: 'a', at: [3, 6.5], tone: 'from', letter: 'A' }, { name: 'b', at: [12, 3], tone: 'to', letter: 'B' }],
     update(state, lab) {
         const scene = lab.scene(flat.text), [[ax, ay], [bx, by]] = [state.a, state.b];
         state.sees = scene.canSee({ x: ax, y: ay }, { x: bx, y: by });
@@ -109,7 +110,7 @@ const field = {
     },
 };
 
-export const figures = { eye, pair, field };
+export const figures = { eye, sweep: sweepFigure, pair, field };
 
 export const exercises = {
     convex: {
@@ -132,6 +133,38 @@ export const exercises = {
             const scene = lab.scene(flat.text), a = { x: 3, y: 6.5 }, b = { x: 10, y: 6 };
             return scene.canSee(a, b) && scene.canSee(b, a) ? 1 : -1;
         },
+    },
+    region: {
+        kind: 'code',
+        question: 'Complete the function. It gives the corners of the visible region, in the order of their angles.',
+        code: `// eye: [x, y]; walls: [[ax, ay, bx, by], ...], which may touch, but do not cross.
+function region(eye, walls) {
+    const angles = [];
+    for (const [ax, ay, bx, by] of walls)
+        for (const [x, y] of [[ax, ay], [bx, by]]) {
+            const angle = Math.atan2(y - eye[1], x - eye[0]);
+            angles.push(angle - 1e-9, angle + 1e-9);
+        }
+    angles.sort((a, b) => a - b);
+
+    const corners = [];
+    for (const angle of angles) {
+        const direction = [Math.cos(angle), Math.sin(angle)];
+        const distance = nearest(eye, direction, walls);
+        corners.push([eye[0] + distance * direction[0], eye[1] + distance * direction[1]]);
+    }
+    return corners;
+}
+
+// How far the ray from the eye goes until it meets a wall.
+function nearest(eye, [dx, dy], walls) {
+    let best = Infinity;
+    for (const [ax, ay, bx, by] of walls) {
+        // Your lines: where does the ray meet the wall from a to b?
+        // Is that before the eye, beside the wall, or on it? Keep the least distance in best.
+    }
+    return best;
+}`,
     },
     guard: {
         kind: 'place',

@@ -1,25 +1,35 @@
 /**
  * Lecture mode: the whole screen, large type, one figure or exercise at a time with its heading.
- * Right, Page Down and Space go on; Left and Page Up go back; Escape leaves.
+ * Right, Page Down and Space go on; Left and Page Up go back; Escape leaves. The slides of all chapters are one row:
+ * after the last slide of a chapter comes the first one of the next. The address names the slide, as in #slide-3, so
+ * it can be kept, and the browser's own Back goes to the slide before.
  */
 import { element } from './figure.js';
+
+/** The slide that an address names, from 0 on; -1 for none. @param {number} count of slides */
+function slideOf(hash, count) {
+    const found = /^#slide-(\d+|last)$/.exec(hash);
+    return !found ? -1 : found[1] === 'last' ? count - 1 : Math.min(count, Math.max(1, Number(found[1]))) - 1;
+}
 
 /** @param {HTMLElement} main whose children are headings, text, figures and exercises */
 export function lectureMode(main) {
     const slides = [...main.querySelectorAll(':scope > figure[data-figure], :scope > form')];
     if (!slides.length) return;
-    let at = -1;
+    let at = -1, address = '';
     const where = element('span', { role: 'status' });
     const button = (text, action) => {
         const node = element('button', { type: 'button' }, text);
         node.addEventListener('click', action);
         return node;
     };
-    const bar = element('div', { className: 'lecture-bar', role: 'group', 'aria-label': 'Lecture', hidden: true },
-        button('Back', () => show(at - 1)), button('Next', () => show(at + 1)), where, button('Leave', () => leave()));
+    const chapter = (rel) => main.querySelector(`.chapters a[rel=${rel}]`)?.href;
+    const back = button('Back', () => go(-1)), next = button('Next', () => go(1));
+    const bar = element('div', { className: 'lecture-bar', role: 'group', 'aria-label': 'Lecture', hidden: true }, back, next, where, button('Leave', () => leave()));
     const begin = button('Lecture mode', () => {
         document.documentElement.requestFullscreen?.().catch(() => {});
-        show(0);
+        address = location.hash;
+        show(0, true);
     });
     begin.id = 'lecture';
     /** The picture of the slide for a screen of another size. */
@@ -27,8 +37,17 @@ export function lectureMode(main) {
     main.querySelector('h1').after(begin);
     main.append(bar);
 
-    function show(wanted) {
-        at = Math.min(slides.length - 1, Math.max(0, wanted));
+    /** A step; behind the last slide and before the first one into the next chapter. */
+    function go(by) {
+        const wanted = at + by, other = wanted < 0 ? chapter('prev') : wanted >= slides.length ? chapter('next') : null;
+        if (other) location.href = `${other}#slide-${by > 0 ? '1' : 'last'}`;
+        else if (slides[wanted]) show(wanted, true);
+    }
+
+    /** @param {boolean} [isNew] the address does not name the slide yet */
+    function show(wanted, isNew = false) {
+        at = wanted;
+        if (isNew) history.pushState(null, '', `#slide-${at + 1}`);
         document.body.classList.add('lecture');
         bar.hidden = false;
         for (const node of main.querySelectorAll(':scope > .on')) node.classList.remove('on');
@@ -36,6 +55,8 @@ export function lectureMode(main) {
         let heading = slides[at].previousElementSibling;
         while (heading && heading.tagName !== 'H2') heading = heading.previousElementSibling;
         heading?.classList.add('on');
+        back.disabled = at === 0 && !chapter('prev');
+        next.disabled = at === slides.length - 1 && !chapter('next');
         fit();
         where.textContent = `${at + 1} of ${slides.length}`;
         window.scrollTo(0, 0);
@@ -47,15 +68,23 @@ export function lectureMode(main) {
         fit();
         slides[at].scrollIntoView();
         at = -1;
+        history.replaceState(null, '', location.pathname + location.search + address);
         begin.focus({ preventScroll: true });
     }
+    const follow = () => {
+        const wanted = slideOf(location.hash, slides.length);
+        if (wanted >= 0) show(wanted);
+        else if (at >= 0) leave();
+    };
+    addEventListener('popstate', follow);
+    follow();
     document.addEventListener('fullscreenchange', () => at >= 0 && !document.fullscreenElement && leave());
     document.addEventListener('keydown', (event) => {
         if (at < 0) return;
-        const isField = /^(INPUT|SELECT|BUTTON|CANVAS)$/.test(document.activeElement?.tagName ?? '');
+        const isField = /^(INPUT|SELECT|BUTTON|CANVAS|TEXTAREA)$/.test(document.activeElement?.tagName ?? '');
         const by = { PageDown: 1, PageUp: -1, ...(isField ? {} : { ArrowRight: 1, ArrowLeft: -1, ' ': 1 }) }[event.key];
         if (event.key === 'Escape') leave();
-        else if (by) show(at + by);
+        else if (by) go(by);
         else return;
         event.preventDefault();
     });

@@ -12,7 +12,7 @@ export const box = [0, 0, 18, 12];
 export const given = [[4, 7, 4, 4], [9, 6, 9, 3], [14, 8, 14, 5]];
 
 /** The wall above and below each portal, and the portal with its ends. */
-export function drawPortals(surface, camera, tones, portals, bad = []) {
+export function drawPortals(surface, camera, tones, portals, bad = [], right = 10) {
     drawPlan(surface, camera, {}, tones);
     strokeLines(surface, camera, portals.flatMap(([lx, ly, rx, ry]) => [[lx, ly, lx, box[3]], [rx, ry, rx, box[1]]]), tones.wall, 3);
     strokeLines(surface, camera, portals, tones.portal, 2);
@@ -25,7 +25,7 @@ export function drawPortals(surface, camera, tones, portals, bad = []) {
             surface.font = 'bold 13px sans-serif';
             surface.textAlign = 'left';
             surface.textBaseline = 'middle';
-            surface.fillText(nameOf({ side: name, portal: i }), px + 10, py);
+            surface.fillText(nameOf({ side: name, portal: i }), px + right, py);
         }
 }
 

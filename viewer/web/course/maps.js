@@ -60,6 +60,20 @@ export const itemsOf = (text) => text.split('\n').flatMap((line) => {
     return ['wall', 'walls', 'solid'].includes(kind) ? [{ kind, points: points.map(Number) }] : [];
 });
 
+/** Walls as single segments. @param {import('../formats/map-text.js').Item[]} list */
+export const segmentsOf = (list) => list.map(itemLine).flatMap((line) =>
+    Array.from({ length: line.length / 2 - 1 }, (_, i) => line.slice(2 * i, 2 * i + 4)));
+
+/** A few letters in a plan, with their middle `right` and `down` pixels from a place. */
+export function drawText(surface, camera, [x, y], text, tones, right = 0, down = 0) {
+    const [px, py] = camera.toScreen(x, y);
+    surface.fillStyle = tones.ink;
+    surface.font = '600 13px system-ui, sans-serif';
+    surface.textAlign = 'center';
+    surface.textBaseline = 'middle';
+    surface.fillText(text, px + right, py + down);
+}
+
 /** Walls over a picture that is drawn already. @param {import('../formats/map-text.js').Item[]} items */
 export function drawWalls(surface, camera, items, tones) {
     fillPolygons(surface, camera, items.filter((item) => item.kind === 'solid').map((item) => item.points), tones.solid);

@@ -41,6 +41,9 @@ const byHand = {
         (state.least < 0 ? 'So this line is blocked.' : state.best - state.least < 0.05 ? 'That is as good as it gets.' : 'There is a better one.'),
 };
 
+/** The radius of a dot that marks an end of the basis. Names of ends stand beside it. */
+const RING = 13;
+
 /** Portals for which the method takes some steps. */
 const crooked = [[2, 11.5, 2, 7.5], [5.5, 9.5, 5.5, 6.5], [9, 10.5, 9, 8], [12.5, 10.5, 12.5, 7], [16, 9, 16, 5.5]];
 
@@ -58,10 +61,10 @@ const steps = {
         state.now = state.all[state.at];
     },
     draw(surface, camera, tones, { portals, rows, now }) {
-        drawPortals(surface, camera, tones, portals);
+        drawPortals(surface, camera, tones, portals, [], RING + 4);
         strokeLines(surface, camera, strip(now), tones.faint, 1);
         strokeLines(surface, camera, [segment(now)], now.m < 0 ? tones.ink : tones.sourceEdge, 2.5);
-        for (const i of now.basis) drawDot(surface, camera, [rows[i].x, rows[i].y], 13, tones.ink, tones.page);
+        for (const i of now.basis) drawDot(surface, camera, [rows[i].x, rows[i].y], RING, tones.ink, tones.page);
         if (now.comes >= 0) drawDot(surface, camera, [rows[now.comes].x, rows[now.comes].y], 11, tones.page, tones.ink);
     },
     beside: ({ rows, now }) => table(['  end   distance  weight', ...rows.map((row, i) => {

@@ -2,6 +2,7 @@
 import { plural } from '../formats/words.js';
 import { drawDot, drawPlan, strokeLines } from '../parts/plan.js';
 import { element } from './figure.js';
+import { WIDEST } from './halls.js';
 import { middleOf, planLine, round, stand, within } from './lab.js';
 import { drawWalls, flat, hall, house, itemsOf, threeRooms } from './maps.js';
 
@@ -77,7 +78,7 @@ const tree = {
     title: 'A stab tree.',
     about: 'Drag the dot. Each branch goes from portal to portal, and ends where no line goes further.',
     box: house.box,
-    handles: [{ name: 'dot', at: [12, 7] }],
+    handles: [{ name: 'dot', at: [12, 6.3] }],
     update(state, lab) {
         const scene = stand(state, lab, house.text, state.dot);
         state.nodes = state.cell < 0 ? [] : scene.stabTree(state.cell).nodes;
@@ -104,7 +105,7 @@ const growth = {
     about: 'The slider adds columns of pillars. The dot chooses the cell that the search starts in.',
     box: [0, 0, 24, 12],
     handles: [{ name: 'dot', at: [0.3, 0.3] }],
-    controls: [{ name: 'columns', label: 'columns', kind: 'range', value: 3, min: 1, max: 6 }],
+    controls: [{ name: 'columns', label: 'columns', kind: 'range', value: 3, min: 1, max: WIDEST }],
     update(state, lab) {
         state.text = hall(state.columns);
         const scene = stand(state, lab, state.text, state.dot);
@@ -121,6 +122,15 @@ const growth = {
 };
 
 export const figures = { walk, tree, growth };
+
+/** Numbers of the text: the least hall and the widest one, from the corner where the dot stands first. */
+const hallSteps = (lab, columns) => lab.scene(hall(columns)).steps({ x: growth.handles[0].at[0], y: growth.handles[0].at[1] }, { most: 20000 }).steps.length;
+export const values = {
+    'cells-first': (lab) => lab.scene(hall(1)).insideCount,
+    'cells-last': (lab) => lab.scene(hall(WIDEST)).insideCount,
+    'steps-first': (lab) => hallSteps(lab, 1),
+    'steps-last': (lab) => hallSteps(lab, WIDEST),
+};
 
 const treeSize = (scene, cell) => scene.stabTree(cell).nodes.length;
 

@@ -6,6 +6,7 @@ import { Camera } from '../parts/camera.js';
 import { drawDot } from '../parts/plan.js';
 import { SvgSurface } from '../parts/svg-surface.js';
 import { makeTones, watchTones } from '../parts/tones.js';
+import { drawText } from './maps.js';
 
 export const paper = makeTones(false);
 
@@ -20,9 +21,10 @@ export function firstState(spec) {
 /** The picture with its handles. `active` is the number of the one that keys move; -1 for none. */
 export function drawFigure(surface, camera, tones, spec, state, active = -1) {
     spec.draw(surface, camera, tones, state);
-    spec.handles.forEach(({ name, tone }, i) => {
+    spec.handles.forEach(({ name, tone, letter }, i) => {
         const isActive = spec.handles.length > 1 && i === active;
         drawDot(surface, camera, state[name], isActive ? 9 : 7, tones[tone ?? 'sourceEdge'], isActive ? tones.ink : tones.page);
+        if (letter) drawText(surface, camera, state[name], letter, tones, 16, -10);
     });
 }
 

@@ -2,9 +2,11 @@
 import { plural } from '../formats/words.js';
 import { svg } from '../parts/dual.js';
 import { drawDot, drawPlan, fillPolygons, strokeLines } from '../parts/plan.js';
+import { classes, classValues } from './classes.js';
 import { table } from './figure.js';
+import { hallOf, WIDEST } from './halls.js';
 import { cellAt, middleOf, round, within } from './lab.js';
-import { drawWalls, flat, hall, house, itemsOf } from './maps.js';
+import { drawText, drawWalls, flat, hall, house, itemsOf } from './maps.js';
 import { Pairs, joinAll, pivotsOf, rotate, seenFrom } from './rotate.js';
 
 const houseItems = itemsOf(house.text), flatItems = itemsOf(flat.text);
@@ -40,7 +42,7 @@ const list = (cells) => (cells.length ? cells.join(', ') : 'none');
 
 const turn = {
     title: 'A line rotates.',
-    about: 'The dot chooses a corner, the slider the direction. Blue cells lie before the corner, yellow ones behind it. Green lines join cells that are new to each other at this corner: two pairs, one for each direction.',
+    about: 'The dot chooses a corner, the slider the direction. Blue cells lie before the corner, yellow ones behind it. Cells of new pairs have a green outline, and the sentence lists the pairs.',
     box: house.box,
     handles: [{ name: 'dot', at: [12, 5] }],
     controls: [{ name: 'at', label: 'direction', kind: 'range', value: 26, min: 1, max: 119 }],
@@ -64,12 +66,13 @@ const turn = {
         fillPolygons(surface, camera, behind.map((cell) => scene.corners(cell)), tones.region, 0.75);
         strokeLines(surface, camera, before.map((cell) => scene.corners(cell)), tones.glass, 1.5, [], true);
         drawWalls(surface, camera, houseItems, tones);
-        strokeLines(surface, camera, state.fresh.map(([a, b]) => [...middleOf(scene, a), ...middleOf(scene, b)]), tones.portal, 3);
+        strokeLines(surface, camera, [...new Set(state.fresh.flat())].map((cell) => scene.corners(cell)), tones.portal, 3, [], true);
+        for (const cell of [...before, ...behind]) drawText(surface, camera, middleOf(scene, cell), String(cell), tones);
         strokeLines(surface, camera, [state.line], tones.sourceEdge, 2.5);
         drawDot(surface, camera, state.corner, 5, tones.start, tones.page);
     },
     tell: ({ corner, now, count, degrees, stretch, fresh }) => `Corner at ${corner.join(', ')}, direction ${round(degrees)}°, after ${now} of ${plural(count - 1, 'event')}. ` +
-        `Before: cells ${list(stretch.before)}. Behind: cells ${list(stretch.behind)}. ${plural(2 * fresh.length, 'new pair')}.`,
+        `Before: cells ${list(stretch.before)}. Behind: cells ${list(stretch.behind)}. ${fresh.length ? `New: ${fresh.map(([a, b]) => `${a} with ${b}`).join(', ')}` : 'No new pairs'}.`,
 };
 
 /** As the command `compare` counts: ordered pairs, and each cell with itself. */
@@ -117,21 +120,18 @@ const every = {
         (state.cell < 0 ? 'The dot is in no cell.' : `Cell ${state.cell} is joined with ${plural(state.seen.size, 'cell')}, and ${state.missing.length} more will come.`),
 };
 
+/** Halls by columns, as they come from the worker. */
 const halls = [];
+let figureOfHalls = null;
 
-/** The hall with some columns, its visibility graph, and what two methods do in it. */
-function hallOf(lab, columns) {
-    if (halls[columns]) return halls[columns];
-    const text = hall(columns), scene = lab.scene(text), { pieces } = scene.account, places = new Map();
-    for (let i = 0; i < scene.wallCount; i++)
-        for (const at of [5 * i, 5 * i + 2]) {
-            const [x, y] = scene.wallEnds.subarray(at, at + 2);
-            places.set(`${x} ${y}`, { at: [x, y] });
-        }
-    const corners = [...places.values()], sees = (a, b) => scene.canSee({ x: a.at[0], y: a.at[1] }, { x: b.at[0], y: b.at[1] });
-    const edges = corners.flatMap((a, i) => corners.slice(i + 1).filter((b) => sees(a, b)).map((b) => [...a.at, ...b.at]));
-    const { nodes } = lab.scene(text, { method: 'dfs' }).account;
-    return (halls[columns] = { text, corners, edges, row: [columns, scene.insideCount, edges.length, pieces, nodes] });
+function computeHalls() {
+    const worker = new Worker(new URL('./halls-worker.js', import.meta.url), { type: 'module' });
+    worker.addEventListener('message', ({ data }) => {
+        halls[data.columns] = data;
+        if (data.columns === WIDEST) worker.terminate();
+        figureOfHalls.change();
+    });
+    worker.addEventListener('error', (event) => console.error(event.message));
 }
 
 const growth = {
@@ -139,31 +139,53 @@ const growth = {
     about: 'The slider adds columns of pillars. Lines are the visibility graph: corners that see each other. The dot chooses a corner.',
     box: [0, 0, 24, 12],
     handles: [{ name: 'dot', at: [5.8, 4.7] }],
-    controls: [{ name: 'columns', label: 'columns', kind: 'range', value: 3, min: 1, max: 6 }],
-    update(state, lab) {
-        Object.assign(state, hallOf(lab, state.columns));
-        state.scene = lab.scene(state.text);
-        state.corner = state.corners[nearestTo(state.dot, state.corners)].at;
-        state.rows = Array.from({ length: state.columns }, (_, i) => hallOf(lab, i + 1).row);
-        const [x, y] = state.corner;
-        state.own = state.edges.filter(([a, b, c, d]) => (a === x && b === y) || (c === x && d === y));
+    controls: [{ name: 'columns', label: 'columns', kind: 'range', value: 3, min: 1, max: WIDEST }],
+    start(figure) {
+        figureOfHalls = figure;
+        computeHalls();
     },
-    draw(surface, camera, tones, state) {
-        drawPlan(surface, camera, { space: state.scene, show: { portals: false } }, tones);
-        strokeLines(surface, camera, state.edges, tones.outline, 0.75);
-        strokeLines(surface, camera, state.own, tones.glass, 1.5);
-        drawWalls(surface, camera, itemsOf(state.text), tones);
-        drawDot(surface, camera, state.corner, 5, tones.start, tones.page);
+    isReady: () => Boolean(halls[WIDEST]),
+    update(state) {
+        const known = (state.known = halls[state.columns]);
+        state.rows = halls.slice(1, state.columns + 1).map(({ row }) => row);
+        state.items = itemsOf(hall(state.columns));
+        if (!known) return;
+        const [x, y] = (state.corner = known.corners[nearestTo(state.dot, known.corners)].at);
+        state.own = known.edges.filter(([a, b, c, d]) => (a === x && b === y) || (c === x && d === y));
+    },
+    draw(surface, camera, tones, { known, items, own, corner }) {
+        drawPlan(surface, camera, { items }, tones);
+        if (!known) return;
+        strokeLines(surface, camera, known.edges, tones.outline, 0.75);
+        strokeLines(surface, camera, own, tones.glass, 1.5);
+        drawWalls(surface, camera, items, tones);
+        drawDot(surface, camera, corner, 5, tones.start, tones.page);
     },
     beside: (state) => table(['columns', 'cells', 'edges', 'sweep', 'search'], state.rows),
-    tell(state) {
-        const [columns, cells, edges, pieces, nodes] = state.row;
-        return `${plural(columns, 'column')}, ${plural(cells, 'cell')}, ${plural(edges, 'edge')} of the visibility graph, ${state.own.length} of them at this corner. ` +
+    tell({ known, own, columns: wanted }) {
+        if (!known) return `The hall with ${plural(wanted, 'column')} is being computed.`;
+        const [columns, cells, edges, pieces, nodes] = known.row;
+        return `${plural(columns, 'column')}, ${plural(cells, 'cell')}, ${plural(edges, 'edge')} of the visibility graph, ${own.length} of them at this corner. ` +
             `The sweep looks at ${pieces} pieces, ${round(pieces / edges)} for each edge. The search enters ${nodes} nodes, ${round(nodes / edges)} for each edge.`;
     },
 };
 
-export const figures = { turn, every, growth };
+/** Numbers of the text, from the least hall and the widest one. */
+const rows = [];
+const rowOf = (lab, columns) => (rows[columns] ??= hallOf(lab, columns).row);
+const times = (lab, at) => rowOf(lab, WIDEST)[at] / rowOf(lab, 1)[at];
+export const values = {
+    ...classValues,
+    'pieces-first': (lab) => round(rowOf(lab, 1)[3] / rowOf(lab, 1)[2]),
+    'pieces-last': (lab) => round(rowOf(lab, WIDEST)[3] / rowOf(lab, WIDEST)[2]),
+    'nodes-first': (lab) => round(rowOf(lab, 1)[4] / rowOf(lab, 1)[2]),
+    'nodes-last': (lab) => round(rowOf(lab, WIDEST)[4] / rowOf(lab, WIDEST)[2]),
+    'cells-times': (lab) => round(times(lab, 1)),
+    'nodes-times': (lab) => Math.round(times(lab, 4)),
+    'power': (lab) => round(Math.log(times(lab, 4)) / Math.log(times(lab, 1))),
+};
+
+export const figures = { turn, every, growth, classes };
 
 const pillar = 'sightline 1\nwalls 0 0 10 0 10 10 0 10 0 0\nsolid 4 4 6 4 6 6 4 6\n';
 
@@ -173,7 +195,7 @@ const far = (scene) => [scene.locate(1, 1), scene.locate(16, 11)];
 export const exercises = {
     corners: {
         kind: 'number',
-        question: 'A square room has one square pillar in its middle. About how many corners must the line rotate?',
+        question: 'A square room has one square pillar in its middle. How many corners must the line rotate about?',
         right: (lab) => pivotsOf(lab.scene(pillar)).length,
         why: 'Each corner of the pillar has walls on one side, and free space over three quarters of a turn. The corners of the room have a quarter only.',
         low: 'Which corners can a line touch and go on, on both sides of them? Look at the pillar.',

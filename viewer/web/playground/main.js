@@ -63,7 +63,7 @@ class Playground extends Sight {
             this.tones = this.view.tones = tones;
             panel.showKey([['seen from the cell', tones.seen[0]], ['visible region', tones.region],
                 ['seen in mirrors', tones.image],
-                ['portal', tones.portal], ['door', tones.door]]);
+                ['portal', tones.portal], ['door', tones.door], ['path', tones.path], ['box', tones.object]]);
             this.heat?.showLegend();
             this.redraw();
         });
@@ -76,11 +76,20 @@ class Playground extends Sight {
         get('range').value = items.find((item) => item.kind === 'range')?.value ?? '';
         get('done').textContent = tellChange(before, items);
         this.showOrigin();
+        panel.dropNote();
+        this.leaveShared();
         this.bake();
         this.heat.drop();
         clearTimeout(this.keeping);
         this.keeping = setTimeout(() => this.keep(), 400);
         this.redraw();
+    }
+
+    /** The address holds a shared map as long as that is the map. Otherwise it would come back at the next load. */
+    leaveShared() {
+        if (this.shared === undefined || this.shared === this.doc.text()) return;
+        this.shared = undefined;
+        history.replaceState(null, '', location.pathname + location.search);
     }
 
     /** @param {(item: any) => any} make what is chosen, changed */
@@ -112,7 +121,7 @@ class Playground extends Sight {
         change();
         get('done').textContent = '';
         this.act('fit');
-        if (message) panel.showMessage(message);
+        if (message) panel.showNote(message);
     }
 
     /** @param {import('../formats/map-text.js').Item[]} items @param {string} name @param {string} [file] in the list of maps */
@@ -142,7 +151,7 @@ class Playground extends Sight {
             const left = notes.length ? ` Left out or guessed: ${notes.join('; ')}.` : '';
             this.load(items, file.name, quiet ? '' : `${file.name} was read as ${format}.${left}`, listed);
         } catch (error) {
-            panel.showMessage(error.message, true);
+            panel.showNote(error.message, true);
         }
     }
 
@@ -154,17 +163,19 @@ class Playground extends Sight {
             if (!answer.ok) throw new Error(`the server answered ${answer.status}`);
             await this.openFile(new File([await answer.blob()], name), quiet, name);
         } catch (error) {
-            panel.showMessage(`${name} was not loaded: ${error.message}`, true);
+            panel.showNote(`${name} was not loaded: ${error.message}`, true);
         }
     }
 
     async openShared() {
         try {
             const text = await unpackMap(location.hash);
+            if (text !== null) this.shared = text;
             if (text === null || text === this.doc.text()) return false;
             const items = parseMap(text), own = this.doc.items.length > 0;
             if (own) keepWork(this.doc.text(), 'own');
             this.load(items, 'the shared map', own ? 'This is a shared map. Undo brings back your own; it is in the list of maps too.' : '');
+            this.shared = this.doc.text();
             this.offerOwn();
             return true;
         } catch (error) {
@@ -320,19 +331,20 @@ class Playground extends Sight {
         try {
             save(new Blob([await this.client.call('slv', {})], { type: 'application/octet-stream' }), 'plan.slv');
         } catch (error) {
-            panel.showMessage(`The .slv file was not saved: ${error.message}`, true);
+            panel.showNote(`The .slv file was not saved: ${error.message}`, true);
         }
     }
 
     async share() {
-        const fragment = await packMap(this.doc.text());
+        this.shared = this.doc.text();
+        const fragment = await packMap(this.shared);
         history.replaceState(null, '', `#${fragment}`);
         const long = fragment.length > LONG_ADDRESS ? ' It is long: some programs may cut it off.' : '';
         try {
             await navigator.clipboard.writeText(location.href);
-            panel.showMessage(`The address was copied. It holds the whole map.${long}`);
+            panel.showNote(`The address was copied. It holds the whole map.${long}`);
         } catch {
-            panel.showMessage(`The address of this page now holds the whole map. Copy it from the address bar.${long}`);
+            panel.showNote(`The address of this page now holds the whole map. Copy it from the address bar.${long}`);
         }
     }
 

@@ -75,11 +75,23 @@ export function showKey(entries) {
     }));
 }
 
-/** @param {string} text @param {boolean} [isError] */
+/** Says what is so of the map. @param {string} text @param {boolean} [isError] */
 export function showMessage(text, isError = false) {
     const message = get('message');
     message.textContent = text;
     message.classList.toggle('error', isError);
+    message.classList.remove('note', 'past');
+}
+
+/** Says what has happened, until the map changes. @param {string} text @param {boolean} [isError] */
+export function showNote(text, isError = false) {
+    showMessage(text, isError);
+    get('message').classList.add('note');
+}
+
+/** The map has changed, so what has happened before is of no interest. The place stays, so that the plan does not move. */
+export function dropNote() {
+    get('message').classList.toggle('past', get('message').classList.contains('note'));
 }
 
 /** @param {string} text '' to hide */

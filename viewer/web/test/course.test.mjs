@@ -6,6 +6,7 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, describe, test } from 'node:test';
+import { solutions } from '../teachers/lab-solutions.js';
 import { launch, programOf, serve } from './site.mjs';
 
 const { SITE, SHOTS, TOOLS, QUICK } = process.env;
@@ -13,7 +14,7 @@ const wanted = (process.env.BROWSERS ?? 'chromium,firefox').split(',').filter(pr
 
 /** Answers that are known beforehand: [exercise, wrong, right]; places are x, y of each handle. */
 const chapters = {
-    here: [['convex', 5, 0], ['mutual', 0, 1], ['guard', [[2, 10]], [[7.1, 8]]]],
+    here: [['convex', 5, 0], ['mutual', 0, 1], ['guard', [[2, 10]], [[7.1, 8]]], ['region', { code: 'const region = () => [[0, 0], [20, 0], [20, 12], [0, 12]];' }, solutions.region]],
     rooms: [['ell', 3, 2], ['why', 0, 1], ['most', [[2, 10]], [[10, 6.5]]]],
     lines: [['count', 7, 14], ['turn', 0, 1], ['through', [[1, 2], [17, 10]], [[1, 5.5], [17, 5.6]]]],
     program: [['unknowns', 10, 3], ['negative', 0, 1], ['widen', [[9, 5.5], [9, 3]], [[9, 8], [9, 4]]]],
@@ -49,10 +50,12 @@ async function place(page, figure, places) {
 }
 
 async function answer(page, form, given) {
-    if (Array.isArray(given)) await place(page, form.locator('figure'), given);
+    if (given.code) await form.locator('textarea').fill(given.code);
+    else if (Array.isArray(given)) await place(page, form.locator('figure'), given);
     else if (await form.locator('input[type=radio]').count()) await form.locator(`input[type=radio][value="${given}"]`).check();
     else await form.locator('input[type=number]').fill(String(given));
-    await form.locator('button').click();
+    await form.locator('button[type=submit]').click();
+    await form.locator('.answer:not(:empty)').waitFor({ timeout: 30000 });
     return [await form.getAttribute('data-result'), await form.locator('.answer').textContent()];
 }
 
@@ -94,6 +97,15 @@ for (const name of wanted)
                 const { page, close } = await open(chapter);
                 const figures = page.locator('main > figure');
                 assert.ok((await figures.count()) >= 2);
+                const onBorders = await figures.evaluateAll((hosts) => hosts.flatMap(({ dataset, figure: { spec, state } }) => spec.handles.filter(({ name }) => {
+                    const [x, y] = state[name], around = [[1, 1], [1, -1], [-1, 1], [-1, -1]].map(([dx, dy]) => state.scene?.locate?.(x + 1e-6 * dx, y + 1e-6 * dy));
+                    return new Set(around).size > 1;
+                }).map(() => dataset.figure)));
+                assert.ok(onBorders.every((figure) => ['turn', 'table'].includes(figure)), `a dot of ${onBorders} begins on the border of two cells`);
+                await page.emulateMedia({ media: 'print' });
+                const captions = await page.locator('main > figure figcaption').evaluateAll((list) => list.map((node) => node.innerText));
+                for (const caption of captions) assert.doesNotMatch(caption, /\b(drag|slider|press)\b/i, 'a handout says what only the page can do');
+                await page.emulateMedia({ media: 'screen' });
                 for (let i = 0; i < (await figures.count()); i++) {
                     const figure = figures.nth(i), handles = await figure.evaluate((host) => host.figure.spec.handles.length);
                     let last = await picture(figure);
@@ -187,6 +199,150 @@ for (const name of wanted)
             });
         }
 
+        test('lecture mode goes from chapter to chapter, and the address names the slide', async () => {
+            const { page, close } = await open('rooms'), where = page.locator('.lecture-bar [role=status]');
+            const at = () => page.evaluate(() => location.pathname.split('/').at(-1) + location.hash);
+            await page.evaluate(() => history.replaceState(null, '', '#kept'));
+            await page.click('#lecture');
+            assert.equal(await at(), 'rooms.html#slide-1');
+            const next = page.locator('.lecture-bar').getByText('Next'), count = Number((await where.textContent()).split(' of ')[1]);
+            for (let i = 1; i < count; i++) await next.click();
+            assert.equal(await at(), `rooms.html#slide-${count}`);
+            await page.goBack();
+            assert.equal(await where.textContent(), `${count - 1} of ${count}`);
+            await page.goForward();
+            await next.click();
+            await page.waitForURL(/lines\.html#slide-1$/);
+            await page.locator('.lecture-bar:visible [role=status]').getByText(/^1 of/).waitFor();
+            await page.keyboard.press('PageUp');
+            await page.waitForURL(/rooms\.html#slide-last$/);
+            await page.locator('.lecture-bar:visible [role=status]').getByText(`${count} of ${count}`).waitFor();
+            await page.locator('.lecture-bar').getByText('Leave').click();
+            assert.equal(await at(), 'rooms.html');
+            await close();
+            const last = await open('cost');
+            await last.page.click('#lecture');
+            await last.page.keyboard.press('PageUp');
+            await last.page.waitForURL(/effects\.html#slide-last$/);
+            await last.close();
+            const first = await open('here');
+            await first.page.click('#lecture');
+            assert.ok(await first.page.locator('.lecture-bar').getByText('Back').isDisabled());
+            await first.page.locator('.lecture-bar').getByText('Leave').click();
+            assert.deepEqual(await first.page.locator('nav.chapters a').allTextContents(), ['All chapters', 'My answers', 'Next: 2. Rooms and doors']);
+            await first.close();
+        });
+
+        test('a finger that swipes over a figure leaves its dot alone', { skip: name === 'chromium' ? false : 'Chromium alone has touch here' }, async () => {
+            const { page, close } = await open('here', { viewport: { width: 390, height: 844 }, hasTouch: true });
+            const figure = page.locator('main > figure').first(), canvas = figure.locator('canvas');
+            await canvas.scrollIntoViewIfNeeded();
+            const box = await canvas.boundingBox(), before = await figure.evaluate((host) => [...host.figure.state.eye]);
+            const client = await page.context().newCDPSession(page), [x, y] = [box.x + 0.8 * box.width, box.y + 0.7 * box.height];
+            const send = (type, points) => client.send('Input.dispatchTouchEvent', { type, touchPoints: points });
+            const swipe = async (dx, dy) => {
+                await send('touchStart', [{ x, y }]);
+                for (let i = 1; i <= 6; i++) await send('touchMove', [{ x: x + (dx * i) / 6, y: y + (dy * i) / 6 }]);
+                await send('touchEnd', []);
+            };
+            for (const [dx, dy] of [[0, -90], [40, 0]]) {
+                await swipe(dx, dy);
+                assert.deepEqual(await figure.evaluate((host) => [...host.figure.state.eye]), before, `swipe by ${dx}, ${dy}`);
+            }
+            await close();
+        });
+
+        test('an answer that changes takes the remark about the old one away', async () => {
+            const { page, close } = await open('here'), form = page.locator('form[data-exercise=convex]');
+            await answer(page, form, 5);
+            await form.locator('input').fill('0');
+            assert.deepEqual([await form.getAttribute('data-result'), await form.locator('.answer').textContent()], ['', '']);
+            const guard = page.locator('form[data-exercise=guard]');
+            await answer(page, guard, [[2, 10]]);
+            await place(page, guard.locator('figure'), [[7.1, 8]]);
+            assert.equal(await guard.locator('.answer').textContent(), '');
+            await close();
+        });
+
+        test('answers are kept in the browser, exported with a name, and read back', async () => {
+            const { page, close } = await open('here'), at = (chapter) => page.goto(`${site.address}/course/${chapter}.html`).then(() => page.waitForSelector('main[data-ready]'));
+            const given = { convex: 5, mutual: 1, guard: [[7.1, 8]], region: { code: '// mine\nconst region = () => [];' } };
+            const shown = () => page.locator('form.exercise').evaluateAll((forms) => forms.map((form) => [form.dataset.exercise, form.dataset.result,
+                form.querySelector('.answer').textContent, form.querySelector('input:checked, input[type=number], textarea')?.value ?? form.querySelector('figure')?.figure.state.eye.map((v) => v.toFixed(3)).join()]));
+            for (const [exercise, value] of Object.entries(given)) await answer(page, page.locator(`form[data-exercise=${exercise}]`), value);
+            await answer(page, page.locator('form[data-exercise=convex]'), 0);
+            const before = await shown();
+            assert.deepEqual(before.map(([, result]) => result), ['right', 'right', 'right', 'wrong']);
+            await at('here');
+            assert.deepEqual(await shown(), before);
+            await at('index');
+            assert.match(await page.locator('main td').first().textContent(), /\(3 of 4 answers right\)/);
+            await at('answers');
+            await page.locator('#name').fill('Ada Lovelace');
+            assert.match(await page.locator('main .says').textContent(), /^4 answers, 3 of them right/);
+            const texts = await page.locator('main article').allTextContents();
+            assert.match(texts[0], /How long are all occluding.*Answer: 0Right, after 2 tries/);
+            assert.match(texts[1], /Answer: Yes, always\.Right, after 1 try/);
+            assert.match(texts[3], /const region = \(\) => \[\];Not yet right/);
+            const saved = await page.evaluate(async () => {
+                const make = URL.createObjectURL;
+                const blob = new Promise((resolve) => (URL.createObjectURL = (given) => (resolve(given), make.call(URL, given))));
+                [...document.querySelectorAll('button')].find((node) => node.textContent === 'Export my answers').click();
+                return (await blob).text();
+            });
+            const file = JSON.parse(saved);
+            assert.deepEqual([file.name, Object.keys(file.answers)], ['Ada Lovelace', Object.keys(given).map((exercise) => `here/${exercise}`)]);
+            assert.equal(file.answers['here/convex'].tries, 2);
+            page.on('dialog', (dialog) => dialog.accept());
+            await page.getByText('Forget my answers').click();
+            assert.match(await page.locator('main .says').textContent(), /no answers yet/);
+            await at('here');
+            assert.deepEqual((await shown()).map(([, result, remark]) => result || remark), ['', '', '', '']);
+            await at('answers');
+            const read = (text) => page.locator('#answers-file').setInputFiles({ name: 'a.json', mimeType: 'application/json', buffer: Buffer.from(text) });
+            for (const [text, about] of [['no', /no file of answers/], ['{}', /no file of answers/], [saved.replace('"version": 1', '"version": 2'), /version 2/],
+                [saved.replace('"tries": 2', '"tries": "2"'), /here\/convex of the file is not complete/], [saved.replace('"here/convex"', '"<b>"'), /<b> of the file/]]) {
+                await read(text);
+                await page.locator('main .says').getByText(about).waitFor();
+            }
+            assert.equal(await page.locator('main article').count(), 0, 'nothing is half read');
+            await read(saved);
+            await page.locator('main .says').getByText('4 answers').waitFor();
+            assert.equal(await page.locator('#name').inputValue(), 'Ada Lovelace');
+            await at('here');
+            assert.deepEqual(await shown(), before);
+            await close();
+        });
+
+        test('pictures name what their words name', async () => {
+            const { page, close } = await open('here');
+            const letters = await page.locator('figure[data-figure=pair]').evaluate((host) => {
+                dispatchEvent(new Event('beforeprint'));
+                return [...host.querySelectorAll('.still text')].map((node) => node.textContent);
+            });
+            assert.deepEqual(letters, ['A', 'B']);
+            await close();
+            const frames = await open('frames');
+            const axes = await frames.page.locator('main > figure .beside svg').evaluateAll((list) => list.map((chart) => [...chart.querySelectorAll('text')].map((node) => node.textContent)));
+            assert.equal(axes.length, 2);
+            for (const [i, words] of [['frame', 'tests', '0', '50', '150'], ['view cells', 'cells to draw, expected', '5', '10']].entries())
+                for (const word of words) assert.ok(axes[i].includes(word), `${word} of ${axes[i]}`);
+            await frames.close();
+        });
+
+        test('rings of a basis cover no names', async () => {
+            const { page, close } = await open('program');
+            const { centres, names } = await page.locator('figure[data-figure=steps]').evaluate((host) => {
+                dispatchEvent(new Event('beforeprint'));
+                const rings = [...host.querySelectorAll('.still path[stroke]')].flatMap((node) => [/^M([\d.]+) ([\d.]+)a13 13/.exec(node.getAttribute('d')) ?? []]);
+                return { centres: rings.filter((found) => found.length).map(([, x, y]) => [Number(x) + 13, Number(y)]),
+                    names: [...host.querySelectorAll('.still text')].map((node) => [Number(node.getAttribute('x')), Number(node.getAttribute('y'))]) };
+            });
+            assert.equal(centres.length, 3);
+            assert.deepEqual(names.filter(([x, y]) => centres.some(([cx, cy]) => Math.hypot(x - cx, y - cy) < 14)), []);
+            await close();
+        });
+
         test('the right option stands at each place about as often', () => {
             assert.ok(places.every((count) => count >= 3), `first, second, third: ${places}`);
         });
@@ -245,6 +401,69 @@ for (const name of wanted)
             await close();
         });
 
+        test('here: the angular sweep has the area of the library, step by step, also where rays only touch', async () => {
+            const { page, close } = await open('here');
+            const { count, wrong, steps } = await page.evaluate(async () => {
+                const [{ angularSweep, isOn, onGrid }, maps, { Lab, cellAt }] = await Promise.all([import('./angular.js'), import('./maps.js'), import('./lab.js')]);
+                const lab = await Lab.open();
+                let [number, count, wrong, steps] = [7, 0, 0, true];
+                const chance = () => (number = (number * 48271) % 2147483647) / 2147483647;
+                for (const { text, box } of [maps.flat, maps.house, maps.pillars, { text: maps.hall(2), box: [0, 0, 8, 12] }, { text: maps.grid(3, 3), box: [0, 0, 12, 12] }]) {
+                    const walls = maps.segmentsOf(maps.itemsOf(text)), scene = lab.scene(text);
+                    for (let k = 0; k < 200; k++) {
+                        const place = [box[2] * chance(), box[3] * chance()], eye = k % 3 ? onGrid(place) : place.map((v) => Math.round(2 * v) / 2);
+                        if (cellAt(scene, eye) < 0 || walls.some((wall) => isOn(eye, wall))) continue;
+                        const sweep = angularSweep(eye, walls), area = sweep.corners.reduce((sum, [x, y], i, all) => {
+                            const [u, v] = all[(i + 1) % all.length];
+                            return sum + (x * v - y * u) / 2;
+                        }, 0), exact = scene.isovist(...eye).area;
+                        if (!(Math.abs(area - exact) <= 1e-12 * exact)) wrong++;
+                        // Each wall comes and goes once, and the status is what has come and not gone, with the walls of the first ray.
+                        const first = sweep.steps[1].status, now = new Set(first);
+                        for (const { kind, event, status } of sweep.steps.slice(1)) {
+                            const { wall } = sweep.events[event] ?? {};
+                            if (kind === 'insert') now.add(wall.number);
+                            if (kind === 'remove') now.delete(wall.number);
+                            steps &&= String([...status].sort()) === String([...now].sort());
+                        }
+                        steps &&= String([...now].sort()) === String([...first].sort());
+                        count++;
+                    }
+                }
+                return { count, wrong, steps };
+            });
+            assert.ok(count > 700);
+            assert.deepEqual([wrong, steps], [0, true]);
+            const figure = page.locator('figure[data-figure=sweep]'), lit = () => figure.locator('pre b').allTextContents();
+            await figure.locator('input[type=range]').press('Home');
+            assert.deepEqual(await lit(), ['sort the ends of walls by angle']);
+            await figure.locator('input[type=range]').press('End');
+            assert.deepEqual(await lit(), ['return the corners']);
+            assert.match(await figure.locator('.says').textContent(), /^Step (\d+) of \1: .* n log n is 110 for 24 ends/);
+            await close();
+        });
+
+        test('here: the lab finds what is wrong with code, and stops it', async () => {
+            const { page, close } = await open('here'), form = page.locator('form[data-exercise=region]'), { code } = solutions.region;
+            const say = async (text) => (await answer(page, form, { code: text }))[1];
+            assert.match(await say(await form.locator('textarea').inputValue()), /no list of places/);
+            assert.match(await say('function region() { for (;;); }'), /no answer within 3 seconds/);
+            assert.match(await say('function region( {'), /SyntaxError/);
+            assert.match(await say('function region() { return document.title; }'), /ReferenceError/);
+            for (const [from, to] of [['s >= 0 && s <= 1', 's >= 0'], ['t > 0 && ', ''], ['Math.min(best, t)', 'Math.max(best === Infinity ? 0 : best, t)'], ['angle - 1e-9', 'angle'], ['1e-9, angle', '0.05, angle']]) {
+                assert.ok(code.includes(from));
+                assert.match(await say(code.replace(from, to)), /On map \d+ of 20.*(Your region says otherwise|no list of places)/, to);
+                assert.ok(await form.locator('.counterexample svg').isVisible());
+            }
+            assert.match(await say(code), /^Right\. It agrees/);
+            assert.ok(await form.locator('.counterexample').isHidden());
+            await form.getByText('Begin anew').click();
+            assert.match(await form.locator('textarea').inputValue(), /Your lines/);
+            const sweep = await page.evaluate(async () => (await (await fetch('angular.js')).text()).replaceAll('export ', ''));
+            assert.match(await say(`${sweep}\nconst region = (eye, walls) => angularSweep(eye, walls).corners;`), /^Right/);
+            await close();
+        });
+
         test('sweep: the rotating line finds the pairs of the library', async () => {
             const { page, close } = await open('sweep');
             const found = await page.evaluate(async () => {
@@ -256,6 +475,48 @@ for (const name of wanted)
             assert.deepEqual(found.map(({ pairs }) => pairs), [30, 62, 64, 290, 65]);
             assert.ok(found.some(({ late }) => late > 0), 'the second step is not needed');
             await close();
+        });
+
+        test('sweep: the classes of lines are the faces of an arrangement, and touching doubles them in a row', async () => {
+            const { page, close } = await open('sweep');
+            const found = await page.evaluate(async () => {
+                const [{ classesOf, posts }, { Lab }] = await Promise.all([import('./classes.js'), import('./lab.js')]);
+                const { core } = await Lab.open(), count = (list, mayTouch) => classesOf(core, list, mayTouch).map((level) => level.length);
+                return { posts, apart: count(posts.apart, false), apartTouching: count(posts.apart, true), row: count(posts.row, false), rowTouching: count(posts.row, true) };
+            });
+            // Euler: lines that cross a square make 1 + k + c faces of it, if they cross in c places, each in a place of its own.
+            const inside = (p, q) => {
+                const slope = (p[1] - q[1]) / (p[0] - q[0]), at = (x) => p[1] + slope * (x - p[0]);
+                return at(0) > 0 && at(0) < 12 && at(24) > 0 && at(24) < 12;
+            };
+            const faces = (k) => 1 + k + found.posts.apart.slice(0, k).flatMap((p, i, list) => list.slice(0, i).filter((q) => inside(p, q))).length;
+            const counts = Array.from({ length: 9 }, (_, k) => k);
+            assert.deepEqual(found.apart, counts.map(faces));
+            assert.deepEqual(found.apartTouching, found.apart, 'no three in line: nothing only touches');
+            assert.deepEqual(found.row, counts.map((k) => Math.max(1, 2 * k)));
+            assert.deepEqual(found.rowTouching, counts.map((k) => 2 ** k));
+            await close();
+        });
+
+        test('numbers of the text are those of the figures', async () => {
+            const { page, close } = await open('sweep'), text = (await page.locator('main').textContent()).replace(/\s+/g, ' ');
+            assert.doesNotMatch(text, /\{value/);
+            const growth = page.locator('figure[data-figure=growth]'), range = growth.locator('input[type=range]');
+            const ratios = [];
+            for (const key of ['Home', 'End']) {
+                await range.press(key);
+                await growth.locator('.says').getByText('The sweep looks at').waitFor();
+                ratios.push([...(await growth.locator('.says').textContent()).matchAll(/, ([\d.]+) for each edge/g)].map(([, ratio]) => ratio));
+            }
+            const [[pieces, nodes], [piecesLast, nodesLast]] = ratios;
+            assert.ok(text.includes(`there are ${pieces} pieces for each edge, in the widest one ${piecesLast}.`), text.match(/there are [\d.]+ pieces[^.]*/)?.[0]);
+            assert.ok(text.includes(`from ${nodes} for each edge to ${nodesLast}.`));
+            await close();
+            const search = await open('search'), hall = search.page.locator('figure[data-figure=growth]');
+            await hall.locator('input[type=range]').press('End');
+            const [, steps] = /takes (\d+) steps/.exec(await hall.locator('.says').textContent());
+            assert.match(await search.page.locator('main').textContent(), new RegExp(`cells, and the search\\s+takes ${steps} steps`));
+            await search.close();
         });
 
         test('cost: the chart fills, and each method keeps its promise', async () => {

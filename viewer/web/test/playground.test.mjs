@@ -323,6 +323,34 @@ for (const name of wanted)
             await context.close();
         });
 
+        test('a map that was shared and then changed does not come back, nor do messages about it', async () => {
+            const page = await open(), text = () => page.evaluate(() => window.playground.doc.text());
+            await page.click('[data-do=share]');
+            await page.waitForFunction(() => location.hash.length > 5);
+            assert.match(await message(page), /address/);
+            await page.check('input[value=start]');
+            await page.mouse.click(...(await screen(page, 15, 5)));
+            const changed = await text();
+            assert.notEqual(changed, room);
+            assert.equal(new URL(page.url()).hash, '');
+            assert.ok(await page.locator('#message').isHidden());
+            await page.reload();
+            await settled(page);
+            assert.equal(await text(), changed);
+            await context.close();
+        });
+
+        test('the key names all that has a colour of its own, and a phone shows all tools', async () => {
+            const page = await open({ viewport: { width: 390, height: 844 } });
+            assert.deepEqual((await page.locator('#key li').allTextContents()).slice(-2), ['path', 'box']);
+            const cut = await page.locator('#tools span, #edit button').evaluateAll((list) => list.map((node) => node.getBoundingClientRect())
+                .filter(({ left, right }) => left < 0 || right > 390).length);
+            assert.equal(cut, 0, 'tools are cut off');
+            assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= 390));
+            await shot(page, `${name}-phone-tools`);
+            await context.close();
+        });
+
         test('shares a map by its address, and keeps work', async () => {
             const page = await open();
             await page.click('[data-do=share]');

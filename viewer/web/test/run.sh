@@ -35,7 +35,7 @@ fi
 more=
 [ "$what" != glpk ] || more=--glpk
 if [ -z "${SITE:-}" ]; then
-    sh "$here/../../../tools/web.sh" --build "$folder" $more >"$folder/build.log" 2>&1 || {
+    sh "$here/../../../tools/web.sh" --build "$folder" --teachers $more >"$folder/build.log" 2>&1 || {
         status=$?
         tail -n 20 "$folder/build.log" >&2
         exit $status

@@ -86,7 +86,7 @@ describe('pages for teachers', { skip: hasChromium ? false : 'Chromium is missin
     async function open(name, options = {}) {
         const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, ...options }), page = await context.newPage(), errors = [];
         page.on('pageerror', (error) => errors.push(error.message));
-        await page.goto(`${site.address}/course/${name}.html`);
+        await page.goto(`${site.address}/${name === 'solutions' ? 'teachers' : 'course'}/${name}.html`);
         await page.waitForSelector('main[data-ready], body:not([data-chapter])', { timeout: 20000 });
         const close = async () => {
             await context.close();
@@ -101,7 +101,7 @@ describe('pages for teachers', { skip: hasChromium ? false : 'Chromium is missin
             [...section.children].map((node) => [node.dataset.solution, node.querySelector('strong').textContent,
                 node.querySelector('strong').parentElement.textContent.length, node.querySelectorAll('svg').length, node.querySelectorAll('li').length])]));
         const chapters = await page.evaluate(async (names) => Object.fromEntries(await Promise.all(names.map(async (name) =>
-            [name, Object.entries((await import(`./${name}.js`)).exercises).map(([key, { kind }]) => [key, kind])]))), shown.map(([name]) => name));
+            [name, Object.entries((await import(`../course/${name}.js`)).exercises).map(([key, { kind }]) => [key, kind])]))), shown.map(([name]) => name));
         const listed = [...readFileSync(join(SITE, 'course/index.html'), 'utf8').matchAll(/<td><a href="([\w-]+)\.html">/g)].map(([, name]) => name);
         assert.deepEqual(shown.map(([name]) => name), listed);
         for (const [name, solutions] of shown) {
@@ -110,7 +110,7 @@ describe('pages for teachers', { skip: hasChromium ? false : 'Chromium is missin
                 const kind = chapters[name][i][1];
                 assert.doesNotMatch(answer, /undefined|NaN|no example/, `${name}, ${key}`);
                 assert.ok(length > answer.length + 20, `${name}, ${key}: why?`);
-                assert.deepEqual([pictures, remarks], kind === 'place' ? [1, 0] : [0, 2], `${name}, ${key}`);
+                assert.deepEqual([pictures, remarks], { place: [1, 0], code: [0, 0] }[kind] ?? [0, 2], `${name}, ${key}`);
             }
         }
         assert.match(await page.locator('[data-solution=count] strong').textContent(), /^Answer: 14\.$/);
@@ -172,7 +172,7 @@ describe('pages for teachers', { skip: hasChromium ? false : 'Chromium is missin
     });
 
     for (const name of ['glossary', 'solutions', 'weeks'])
-        test(`${name}: fits a phone, and axe-core finds nothing`, { skip: existsSync(join(SITE ?? '', `course/${name}.html`)) ? false : 'not there' }, async () => {
+        test(`${name}: fits a phone, and axe-core finds nothing`, { skip: ['course', 'teachers'].some((folder) => existsSync(join(SITE ?? '', `${folder}/${name}.html`))) ? false : 'not there' }, async () => {
             for (const colorScheme of ['light', 'dark']) {
                 const { page, close } = await open(name, { viewport: { width: 390, height: 844 }, colorScheme, bypassCSP: true });
                 assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= 390));
@@ -186,11 +186,37 @@ describe('pages for teachers', { skip: hasChromium ? false : 'Chromium is missin
             }
         });
 
-    test('teachers are led to the solutions, and students are not', () => {
-        for (const folder of ['course', 'pages'])
-            for (const file of readdirSync(join(SITE, folder)).filter((name) => name.endsWith('.html'))) {
-                const links = /href="[^"]*solutions\.html/.test(readFileSync(join(SITE, folder, file), 'utf8'));
-                assert.equal(links, file === 'teaching.html', file);
-            }
+    test('solutions are in a folder of their own, no page leads there, and without --teachers there are none', async () => {
+        const plain = mkdtempSync(join(tmpdir(), 'site-test-')), files = (site) => readdirSync(site, { recursive: true }).map(String);
+        try {
+            const built = await new Promise((resolve) => execFile(process.execPath, [join(web, 'build.mjs'), '--package', join(SITE, 'package'), '--out', plain],
+                (error, out, words) => resolve(error ? words : '')));
+            assert.equal(built, '');
+            assert.deepEqual(files(plain).filter((file) => /solution|teachers/.test(file)), []);
+            assert.deepEqual(files(SITE).filter((file) => /solution/.test(file)).sort(), ['teachers/lab-solutions.js', 'teachers/solutions.html', 'teachers/solutions.js']);
+            for (const file of files(SITE).filter((name) => name.endsWith('.html')))
+                assert.doesNotMatch(readFileSync(join(SITE, file), 'utf8'), /href="[^"]*solutions\.html/, file);
+        } finally {
+            rmSync(plain, { recursive: true });
+        }
+    });
+
+    test('each chapter lists its sources, with addresses that can be followed, and all are one BibTeX file', async () => {
+        const { readReferences, referenceLine } = await import('../references.mjs');
+        const sources = readReferences(readFileSync(join(SITE, 'course/references.bib'), 'utf8'));
+        assert.ok(sources.size > 30);
+        for (const [key, { doi, year }] of sources) {
+            assert.match(year, /^(19|20)\d\d$/, key);
+            if (doi) assert.match(doi, /^10\.\d{4,}\/\S+$/, key);
+        }
+        assert.equal(referenceLine(sources.get('welzl1985')), 'Emo Welzl: Constructing the visibility graph for n line segments in O(n²) time. ' +
+            '*Information Processing Letters* 20(4), 167–171, 1985. [doi:10.1016/0020-0190(85)90044-4](https://doi.org/10.1016/0020-0190%2885%2990044-4)');
+        for (const [, name] of readFileSync(join(SITE, 'course/index.html'), 'utf8').matchAll(/<td><a href="([\w-]+)\.html">/g)) {
+            const text = readFileSync(join(SITE, `course/${name}.html`), 'utf8'), list = text.slice(text.indexOf('id="references"'));
+            assert.ok((list.match(/<li>/g) ?? []).length >= 2, name);
+            assert.match(list, /href="references\.bib"/, name);
+        }
+        for (const [broken, about] of [['@article{a,\n  title = {T}\n}', /a has no author/], ['@web{a,\n}', /unknown kind/], ['@book{a,\nx\n}', /what is "x"/]])
+            assert.throws(() => readReferences(broken), about);
     });
 });

@@ -1,6 +1,7 @@
 /** The teachers' page: for each exercise of each chapter its answer, why it is right, and what is said to wrong ones. */
-import { element } from './figure.js';
-import { firstState, keepPicture, stillOf } from './still.js';
+import { element } from '../course/figure.js';
+import { firstState, keepPicture, stillOf } from '../course/still.js';
+import { solutions } from './lab-solutions.js';
 
 export const figures = {}, exercises = {};
 
@@ -13,6 +14,8 @@ function choice(exercise, lab) {
 
 const number = (exercise, lab) => ({ answer: String(exercise.right(lab)), why: exercise.why,
     wrong: [said(`Too low: ${exercise.low}`), said(`Too high: ${exercise.high}`)] });
+
+const code = ({ name }) => ({ answer: 'for example this code', why: solutions[name].why, wrong: [], host: element('pre', { tabIndex: 0 }, solutions[name].code) });
 
 /** The picture with its handles in right places. Whether they are right is judged as a student's are. */
 function place(exercise, lab) {
@@ -27,16 +30,16 @@ function place(exercise, lab) {
 }
 
 function solution(name, exercise, lab) {
-    const { answer, why, wrong, host } = { choice, number, place }[exercise.kind](exercise, lab);
+    const { answer, why, wrong, host } = { choice, number, place, code }[exercise.kind]({ ...exercise, name }, lab);
     return element('article', { className: 'exercise', 'data-solution': name }, element('p', {}, exercise.question), ...(host ? [host] : []),
         element('p', {}, element('strong', {}, `Answer: ${answer}${/[.?]$/.test(answer) ? '' : '.'}`), ` ${why}`),
         ...(wrong.length ? [element('ul', {}, ...wrong)] : []));
 }
 
-/** @param {HTMLElement} main with a section for each chapter @param {import('./lab.js').Lab} lab */
+/** @param {HTMLElement} main with a section for each chapter @param {import('../course/lab.js').Lab} lab */
 export async function fill(main, lab) {
     for (const section of main.querySelectorAll('[data-solutions]')) {
-        const chapter = await import(`./${section.dataset.solutions}.js`);
+        const chapter = await import(`../course/${section.dataset.solutions}.js`);
         section.append(...Object.entries(chapter.exercises).map(([name, exercise]) => solution(name, exercise, lab)));
     }
 }
