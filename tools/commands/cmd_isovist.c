@@ -325,7 +325,7 @@ static sl_status draw_union(sl_context *context, const isovist_plan *plan, const
                                  &coverage};
     if (status == SL_OK) {
         cover_sentence(&report, caption, sizeof caption);
-        status = cover_draw(context, &report, caption, &plan->drawing, plan->picture);
+        status = cover_draw(context, &report, NULL, caption, &plan->drawing, plan->picture);
     }
     sl_coverage_destroy(context, &coverage);
     sl_free(context, viewpoints);

@@ -53,6 +53,7 @@ void cover_path_destroy(sl_context *context, cover_path *path) {
 void cover_path_print(const cover_report *r, const cover_path *path) {
     const sl_path_parts *p = &path->found;
     const char *unit = r->baked->map.unit, *space = *unit ? " " : "";
+    const int digits = sl_map_digits(&r->baked->map);
     if (!p->count) {
         printf("\n  all of the path is seen (%.4g%s%s)\n", p->length, space, unit);
         return;
@@ -62,8 +63,8 @@ void cover_path_print(const cover_report *r, const cover_path *path) {
            p->count > PARTS_MOST ? ", the first parts:" : ":");
     for (size_t i = 0; i < p->count && i < PARTS_MOST; i++) {
         const sl_path_part *part = &p->parts[i];
-        printf("  %10.4g to %-10.4g from %.6g,%.6g to %.6g,%.6g\n", part->from, part->to,
-               part->start.x, part->start.y, part->end.x, part->end.y);
+        printf("  %10.4g to %-10.4g from %.*g,%.*g to %.*g,%.*g\n", part->from, part->to, digits,
+               part->start.x, digits, part->start.y, digits, part->end.x, digits, part->end.y);
     }
 }
 

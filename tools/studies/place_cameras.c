@@ -439,16 +439,16 @@ void camera_work_add_json(json_fields *f, const camera_work *w) {
 }
 
 /// What of walls none of the places scans.
-static void print_blind_walls(const camera_work *w, const char *unit) {
+static void print_blind_walls(const camera_work *w, int digits, const char *unit) {
     const sl_area_placement *p = &w->placed;
     const char *const gap = *unit ? " " : "";
     printf(
         "\n%.4g%s%s of walls %s of these places scan%s, whatever is chosen: %.3g %%. The longest "
-        "of %u part%s has %.4g%s%s at %.6g,%.6g.\n",
+        "of %u part%s has %.4g%s%s at %.*g,%.*g.\n",
         p->blind_area, gap, unit, w->task.cover > 1 ? "too few" : "none",
         w->task.cover > 1 ? "" : "s", 100 * p->blind_area / p->area, (unsigned)p->blind_count,
-        p->blind_count == 1 ? "" : "s", p->blind[0].area, gap, unit, p->blind[0].at.x,
-        p->blind[0].at.y);
+        p->blind_count == 1 ? "" : "s", p->blind[0].area, gap, unit, digits,
+        p->blind[0].at.x, digits, p->blind[0].at.y);
 }
 
 sl_status camera_work_print_blind(sl_context *context, const camera_work *w,
@@ -458,7 +458,7 @@ sl_status camera_work_print_blind(sl_context *context, const camera_work *w,
     const char *const squared = *unit ? "\xc2\xb2" : "", *const gap = *unit ? " " : "";
     if (!p->blind_count) return SL_OK;
     if (scans(w)) {
-        print_blind_walls(w, unit);
+        print_blind_walls(w, digits, unit);
         return SL_OK;
     }
     printf(
