@@ -148,7 +148,7 @@ const bounds = {
         for (const { x, y } of seen) drawDot(surface, camera, [x, y], 6, tones.to, tones.ink);
         for (const guard of viewpoints) drawDot(surface, camera, [guard.x, guard.y], guard === at ? 9 : 7, tones.sourceEdge, guard === at ? tones.ink : tones.page);
     },
-    beside: ({ job }) => element('div', {}, table(['', 'at least', 'at most'], (job?.bounds ?? []).map(({ lower, upper }, i) => [i + 1, lower, upper]))),
+    beside: ({ job }) => element('div', {}, table(['round', 'at least', 'at most'], (job?.bounds ?? []).map(({ lower, upper }, i) => [i + 1, lower, upper]))),
     tell({ job, seen, at, guard }) {
         if (job?.trouble) return job.trouble;
         if (!job?.placement) return job?.bounds.length ? `At least ${job.bounds.at(-1).lower}, at most ${job.bounds.at(-1).upper} guards so far.` : 'The search begins.';
