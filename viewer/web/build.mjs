@@ -125,12 +125,14 @@ async function writeCourse(site, folders) {
             const name = file.slice(0, -3), isChapter = existsSync(join(here, folder, `${name}.js`));
             const module = isChapter ? await import(pathToFileURL(join(site, folder, `${name}.js`)).href) : {};
             const fail = (what) => { throw new Error(`${folder}/${file}: ${what}`); };
-            const text = readFileSync(join(here, folder, file), 'utf8')
+            const raw = readFileSync(join(here, folder, file), 'utf8'), values = new Map();
+            for (const [, value] of raw.matchAll(/\{value: ([\w-]+)\}/g)) values.set(value, (await module.values?.[value]?.(lab)) ?? fail(`no value ${value}`));
+            const text = raw
                 .replace(/\{chapter: (\d+)\}/g, (_, number) => {
                     const chapter = chapters.find(({ title }) => title.startsWith(`${number}. `));
                     return chapter ? `[chapter ${number}](${chapter.name}.md)` : `chapter ${number}`;
                 })
-                .replace(/\{value: ([\w-]+)\}/g, (_, value) => module.values?.[value]?.(lab) ?? fail(`no value ${value}`))
+                .replace(/\{value: ([\w-]+)\}/g, (_, value) => values.get(value))
                 .replace(/^\{references: (.*)\}$/m, (_, keys) => keys.split(', ').map((key) => {
                     used.add(key);
                     return `- ${referenceLine(sources.get(key) ?? fail(`no source ${key}`))}`;

@@ -48,6 +48,21 @@ export function grid(columns, rows) {
     return plan(4 * columns, 4 * rows, ...lines).text;
 }
 
+/** A room with an outline of its own. @param {number[][]} corners counter-clockwise */
+const outlined = (width, height, corners) => ({ box: [0, 0, width, height], text: `sightline 1\nwalls ${[...corners, corners[0]].flat().join(' ')}\n` });
+
+/** A gallery with nooks. */
+export const gallery = outlined(18, 12, [[0, 0], [7, 0], [7, 3], [10, 3], [10, 0], [18, 0], [18, 5], [13, 5], [13, 8], [18, 8], [18, 12], [9, 12], [8, 7], [5, 7], [4, 12], [0, 12]]);
+
+/** A comb with four teeth (Chvátal): each tooth needs a guard of its own. */
+export const comb = outlined(20, 10, [[0, 0], [20, 0], [18.5, 10], [16.5, 2], [14.5, 2], [13.5, 10], [11.5, 2], [9, 2], [8, 10], [6, 2], [4, 2], [1.5, 10]]);
+
+/** Two legs on a common floor. */
+export const uShape = outlined(12, 8, [[0, 0], [12, 0], [12, 8], [8, 8], [8, 3], [4, 3], [4, 8], [0, 8]]);
+
+/** Rooms in a small grid. */
+export const rooms = { text: grid(4, 3), box: [0, 0, 16, 12] };
+
 /** Plans that figures offer for a choice. */
 export const plans = {
     flat, house, pillars, hall: { text: hall(3), box: [0, 0, 12, 12] },

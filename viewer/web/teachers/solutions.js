@@ -18,19 +18,19 @@ const number = (exercise, lab) => ({ answer: String(exercise.right(lab)), why: e
 const code = ({ name }) => ({ answer: 'for example this code', why: solutions[name].why, wrong: [], host: element('pre', { tabIndex: 0 }, solutions[name].code) });
 
 /** The picture with its handles in right places. Whether they are right is judged as a student's are. */
-function place(exercise, lab) {
+async function place(exercise, lab) {
     if (!exercise.solution) return { answer: 'no example is stored', why: '', wrong: [] };
     const spec = { ...exercise.figure, handles: exercise.figure.handles.map((handle, i) => ({ ...handle, at: exercise.solution[i] })) };
     const state = firstState(spec);
     spec.update(state, lab);
-    const { right, text } = exercise.judge(state, lab), host = element('figure');
+    const { right, text } = await exercise.judge(state, lab), host = element('figure');
     if (!right) throw new Error(`the solution of "${exercise.question}" is wrong: ${text}`);
     keepPicture(host, (tones) => stillOf(spec, state, tones));
     return { answer: `for example ${exercise.solution.map((at) => `(${at.join(', ')})`).join(' and ')}`, why: text, wrong: [], host };
 }
 
-function solution(name, exercise, lab) {
-    const { answer, why, wrong, host } = { choice, number, place, code }[exercise.kind]({ ...exercise, name }, lab);
+async function solution(name, exercise, lab) {
+    const { answer, why, wrong, host } = await { choice, number, place, code }[exercise.kind]({ ...exercise, name }, lab);
     return element('article', { className: 'exercise', 'data-solution': name }, element('p', {}, exercise.question), ...(host ? [host] : []),
         element('p', {}, element('strong', {}, `Answer: ${answer}${/[.?]$/.test(answer) ? '' : '.'}`), ` ${why}`),
         ...(wrong.length ? [element('ul', {}, ...wrong)] : []));
@@ -40,6 +40,6 @@ function solution(name, exercise, lab) {
 export async function fill(main, lab) {
     for (const section of main.querySelectorAll('[data-solutions]')) {
         const chapter = await import(`../course/${section.dataset.solutions}.js`);
-        section.append(...Object.entries(chapter.exercises).map(([name, exercise]) => solution(name, exercise, lab)));
+        section.append(...(await Promise.all(Object.entries(chapter.exercises).map(([name, exercise]) => solution(name, exercise, lab)))));
     }
 }

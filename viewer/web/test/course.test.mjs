@@ -27,6 +27,7 @@ const chapters = {
     frames: [['tests', 15, 7], ['safe', 0, 1], ['costly', [[3, 11.5]], [[8, 8]]]],
     effects: [['states', 20, 1024], ['turned', 0, 1], ['corner', [[10, 9]], [[4, 9]]]],
     cost: [['safe', 0, 1], ['added', 0, 16], ['misses', [[6, 6.3]], [[4, 6.3]]]],
+    gallery: [['enough', 7, 6], ['colour', 1, 0], ['two', [[2, 7], [6, 1.5]], [[2, 1.5], [10, 1.5]]]],
 };
 
 let site;
@@ -461,6 +462,57 @@ for (const name of wanted)
             assert.match(await form.locator('textarea').inputValue(), /Your lines/);
             const sweep = await page.evaluate(async () => (await (await fetch('angular.js')).text()).replaceAll('export ', ''));
             assert.match(await say(`${sweep}\nconst region = (eye, walls) => angularSweep(eye, walls).corners;`), /^Right/);
+            await close();
+        });
+
+        test('gallery: guards of Fisk\'s colouring are a third at most, and the library says that they see everything', async () => {
+            const { page, close } = await open('gallery');
+            const found = await page.evaluate(async () => {
+                const [{ coloursOf, earsOf, guardsOf, isSimple }, { onGrid }, { Lab }] = await Promise.all([import('./fisk.js'), import('./angular.js'), import('./lab.js')]);
+                const { core } = await Lab.open(), area = (p) => p.reduce((sum, [x, y], i) => sum + x * p[(i + 1) % p.length][1] - y * p[(i + 1) % p.length][0], 0) / 2;
+                let [number, simple, crossing] = [3, 0, 0];
+                const wrong = [], chance = () => (number = (number * 48271) % 2147483647) / 2147483647;
+                const star = (count) => Array.from({ length: count }, (_, i) => {
+                    const angle = (2 * Math.PI * (i + 0.8 * chance())) / count, r = 1 + 8 * chance();
+                    return onGrid([10 + r * Math.cos(angle), 10 + r * Math.sin(angle)]);
+                });
+                const stars = Array.from({ length: 150 }, () => star(5 + Math.floor(14 * chance())));
+                const flat = [[0, 0], [4, 0], [8, 0], [8, 4], [8, 8], [4, 8], [4, 4], [0, 4]], spiral = [[0, 0], [9, 0], [9, 9], [2, 9], [2, 3], [6, 3], [6, 6], [5, 6], [5, 4], [3, 4], [3, 8], [8, 8], [8, 1], [0, 1]];
+                for (const points of [...stars, flat, spiral, [[0, 0], [4, 4], [4, 0], [0, 4]], [[0, 0], [4, 0], [2, 0], [2, 3]]]) {
+                    if (area(points) <= 0 || !isSimple(points)) {
+                        crossing++;
+                        continue;
+                    }
+                    simple++;
+                    const ears = earsOf(points), colours = coloursOf(ears, points.length), guards = guardsOf(colours);
+                    const sum = ears.reduce((all, ear) => all + area(ear.map((i) => points[i])), 0), scene = core.open(`sightline 1\nwalls ${[...points, points[0]].flat().join(' ')}\n`);
+                    // In each triangle a guard stands, and sees it: from a place beside the corner, to places beside the others and in the middle.
+                    const isSeen = ears.every((ear) => {
+                        const corners = ear.map((i) => points[i]), middle = [0, 1].map((k) => corners.reduce((all, p) => all + p[k], 0) / 3);
+                        const places = corners.map((p) => ({ x: p[0] + 0.01 * (middle[0] - p[0]), y: p[1] + 0.01 * (middle[1] - p[1]) }));
+                        const guard = ear.findIndex((i) => guards.includes(i)), isFlat = area(corners) === 0;
+                        return guard >= 0 && (isFlat || [...places, { x: middle[0], y: middle[1] }].every((place) => scene.canSee(places[guard], place)));
+                    });
+                    scene.close();
+                    const isFine = ears.length === points.length - 2 && ears.every((ear) => ear.map((i) => colours[i]).sort().join() === '0,1,2') &&
+                        Math.abs(sum - area(points)) < 1e-9 && guards.length <= points.length / 3 && isSeen;
+                    if (!isFine) wrong.push([points, guards, isSeen]);
+                }
+                return { simple, crossing, wrong };
+            });
+            assert.ok(found.simple > 100 && found.crossing >= 2, `${found.simple} polygons`);
+            assert.deepEqual(found.wrong, []);
+            const figure = page.locator('figure[data-figure=bounds]'), list = figure.locator('select');
+            for (const [plan, guards] of [['house', 6], ['comb', 4], ['pillars', 2]]) {
+                await list.selectOption(plan);
+                await figure.locator('.says').getByText(`${guards} guards, and no fewer can do it.`).waitFor();
+                assert.deepEqual((await figure.locator('tbody tr').last().locator('td').allTextContents()).slice(1), [String(guards), String(guards)]);
+                // Each witness is seen by a guard.
+                assert.ok(await figure.evaluate(async (host) => {
+                    const { viewpoints, witnesses } = host.figure.state.job.placement, scene = host.figure.lab.scene(host.figure.state.text);
+                    return witnesses.length > 0 && witnesses.every((witness) => viewpoints.some((guard) => scene.canSee(guard, witness)));
+                }), plan);
+            }
             await close();
         });
 
