@@ -20,8 +20,8 @@
 enum { GUARDS = 16, POINTS = 4096, PIXELS = 36 }; /* PIXELS: in a unit of the map */
 enum { SETTLE_PORTALS = 10000 };                  /* in a frame: about a millisecond */
 static const double RADIUS = 0.3, PACE = 0.15, GUARD_PACE = 0.06, REACH = 1.2, TILE = 0.25;
-static const double PLAYER_RANGE = 10, GUARD_RANGE = 9,
-                    TAN_HALF = 1.732; /* a cone of 120 degrees */
+static const double PLAYER_RANGE = 10, GUARD_RANGE = 9;
+static const double TAN_HALF = 1.732; /* guards look 120 degrees wide */
 
 typedef struct guard {
     double x, y, look_x, look_y;
@@ -240,12 +240,13 @@ static void draw_guards(SDL_Renderer *out, const game *g) {
 
 /* What was not explored is black. */
 static void draw_fog(SDL_Renderer *out, const game *g) {
-    const SDL_Color black = {0, 0, 0, 255};
+    const float size = (float)TILE * PIXELS,
+                top = (float)(g->level.max_y - g->level.min_y) * PIXELS;
+    SDL_SetRenderDrawColor(out, 0, 0, 0, 255);
     for (uint32_t i = 0; i < g->fog.columns * g->fog.rows; i++) {
-        const double x = g->fog.min_x + i % g->fog.columns * TILE;
-        const double y = g->fog.min_y + i / g->fog.columns * TILE;
-        const double tile[8] = {x, y, x + TILE, y, x + TILE, y + TILE, x, y + TILE};
-        if (!(g->fog.bits[i / 8] >> i % 8 & 1)) fill(out, g, x, y, tile, 4, black);
+        const float x = (float)(i % g->fog.columns), y = (float)(i / g->fog.columns + 1);
+        const SDL_FRect tile = {x * size, top - y * size, size, size};
+        if (!(g->fog.bits[i / 8] >> i % 8 & 1)) SDL_RenderFillRectF(out, &tile);
     }
 }
 
@@ -270,8 +271,8 @@ static void play(SDL_Renderer *out, game *g) {
         SDL_Event event;
         while (SDL_PollEvent(&event)) {
             if (event.type == SDL_QUIT) return;
-            if (event.type == SDL_KEYDOWN && !event.key.repeat)
-                acts = acts || event.key.keysym.scancode == SDL_SCANCODE_E;
+            acts |=
+                event.type == SDL_KEYDOWN && !event.key.repeat && event.key.keysym.sym == SDLK_e;
         }
         step(g, down[SDL_SCANCODE_D] - down[SDL_SCANCODE_A],
              down[SDL_SCANCODE_W] - down[SDL_SCANCODE_S], acts);
