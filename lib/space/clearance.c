@@ -151,8 +151,11 @@ static double limit_of(const sli_clearance *c, uint32_t half) {
     return ends ? fmin(least, 0.578 * longest) : least;
 }
 
+/// So many parts of a triangle are looked at: a sliver among corners has any number of them.
+enum { MOST_PARTS = 1 << 15 };
+
 static sl_status search(sli_clearance *c, uint32_t half, const triangle *t, double wanted,
-                        sl_point *place, bool *out) {
+                        uint32_t *parts_left, sl_point *place, bool *out) {
     const sl_point middle = middle_of(t);
     double own, radius = 0, farthest = 0;
     sl_segment wall;
@@ -160,6 +163,7 @@ static sl_status search(sli_clearance *c, uint32_t half, const triangle *t, doub
     SL_TRY(clearance_at(c, half, middle, wanted + radius, &own, &wall));
     *out = own >= wanted;
     if (*out) *place = middle;
+    if (!*parts_left || !--*parts_left) return SL_OK;
     if (*out || own + radius < wanted || radius < wanted / 16) return SL_OK;
     for (int i = 0; i < 3; i++) farthest = fmax(farthest, to_segment(t->corner[i], wall.a, wall.b));
     if (farthest < wanted) return SL_OK;
@@ -169,7 +173,8 @@ static sl_status search(sli_clearance *c, uint32_t half, const triangle *t, doub
         m[i] = (sl_point){p[i].x / 2 + p[(i + 1) % 3].x / 2, p[i].y / 2 + p[(i + 1) % 3].y / 2};
     const triangle parts[4] = {
         {{m[0], m[1], m[2]}}, {{p[0], m[0], m[2]}}, {{m[0], p[1], m[1]}}, {{m[2], m[1], p[2]}}};
-    for (int i = 0; i < 4 && !*out; i++) SL_TRY(search(c, half, &parts[i], wanted, place, out));
+    for (int i = 0; i < 4 && !*out; i++)
+        SL_TRY(search(c, half, &parts[i], wanted, parts_left, place, out));
     return SL_OK;
 }
 
@@ -178,5 +183,6 @@ sl_status sli_clearance_reaches(sli_clearance *c, uint32_t half, double wanted, 
     *out = false;
     if (limit_of(c, half) < wanted) return SL_OK;
     const triangle t = corners_of(c, half);
-    return search(c, half, &t, wanted, place, out);
+    uint32_t parts_left = MOST_PARTS;
+    return search(c, half, &t, wanted, &parts_left, place, out);
 }

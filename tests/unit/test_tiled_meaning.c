@@ -74,8 +74,10 @@ static void test_guess(void **state) {
                                                              "name='Player' x='4' y='4'/>"
                                                              "</objectgroup>"),
                    "f:1: nothing in it says what is solid, and a start stands on what looks so");
-    assert_refused(MAP(SET LAYER("walls", CSV("1,1,1,1,1,1"))),
-                   "f:1: what it says is solid gives no walls; --layers NAME takes");
+    assert_refused(
+        MAP(SET LAYER("walls", CSV("1,1,1,1,1,1"))),
+        "f:1: layer 'walls' has a tile on every square, so all is solid and there are no "
+        "walls; name its tiles that are solid, as in --layers 'walls:28+33-35'");
     assert_refused(MAP(SET LAYER("a", CSV("0,0,0,0,0,0"))),
                    "f:1: nothing in it says what is solid; all its layers are empty");
     assert_refused(MAP(""), "f:1: nothing in it says what is solid; it has no layers");
