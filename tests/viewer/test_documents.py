@@ -306,6 +306,22 @@ class Cases:
         self.run("oblique", path, OBLIQUE + "expect A wall is oblique now\nkey Ctrl+Z\n"
                  "expect All walls are axial now\n")
 
+    def lists_layers_of_a_drawing(self):
+        """Ctrl+I: layers with what is on them; a part of a name filters; what is marked is walls."""
+        layers = "".join(f"<g id='part-{i}'><path d='M{i} 0 V4' stroke='black'/></g>" for i in range(9))
+        path = self.write("house.svg", "<svg xmlns='http://www.w3.org/2000/svg' width='90' height='50'>"
+                          "<g id='Mauer'><path d='M0 0 H90 V50 H0 Z M40 0 V30' stroke='black' fill='none'/>"
+                          f"</g>{layers}</svg>")
+        ask = "key Ctrl+I\nexpect Open house.svg\nfits\n"
+        self.run("layers", path, ask + "type mau\nkey Tab\nkey Space\nkey Return\n"
+                 "key Ctrl+Shift+S\nkey Ctrl+U\ntype walls\nkey Return\nexpect walls.map\n")
+        walls = [line for line in statements((self.folder / "walls.map").read_text())
+                 if line[0].startswith("wall")]
+        self.check(walls and all(float(line[1]) in (0, 40, 90) for line in walls), f"Mauer: {walls}")
+        # What was chosen is marked the next time; letters press no button.
+        self.run("one part", path, ask + "type PART-3\nkey Tab\nkey Space\nkey Return\n"
+                 "expect 1 wall\nkey Ctrl+I\ntype o\nexpect Open house.svg\nkey Escape\n")
+
     def asks_before_pictures(self):
         """A picture goes beside the map, under the map's name or the one that is typed."""
         (self.folder / "plans").mkdir()

@@ -49,7 +49,8 @@ static void say_document(app_state *app) {
     if (partial[0])
         ui_say(&app->ui, false, "%s is %s", name, partial);
     else if (app->view.mode == MODE_PLAN)
-        ui_say(&app->ui, false, "%s: %u walls%s%s", name, space->wall_count, inside,
+        ui_say(&app->ui, false, "%s: %u wall%s%s%s", name, space->wall_count,
+               space->wall_count == 1 ? "" : "s", inside,
                *inside                ? ""
                : *app->document.notes ? "; Ctrl+J: what was read"
                                       : "");

@@ -5,10 +5,12 @@
 #include "document/files.h"
 #include "sightline/draw.h"
 #include "sightline/faults.h"
+#include "sightline/io.h"
 #include "sightline/support.h"
 
 #include <math.h>
 #include <string.h>
+#include <strings.h>
 
 typedef enum field_name {
     FIELD_SLICE,
@@ -27,8 +29,11 @@ typedef struct import_state {
     void (*then)(desk_state *desk, const document_source *source);
     document_source source;
     sl_map_choice choice;
-    dialog_list maps, layers;
-    bool *taken; ///< by layer
+    dialog_list maps, layers; ///< the latter has those that the filter leaves
+    bool *taken;              ///< by layer
+    size_t *shown;            ///< by row of the list: the layer
+    sl_drawing_layers drawn;  ///< of a drawing: its layers, with what is on them
+    text_field filter;
     bool more, doors, cells;
     text_field fields[FIELDS];
     char problem[512]; ///< "" for none
@@ -40,7 +45,7 @@ typedef struct import_state {
     } * weld;
 } import_state;
 
-enum { MAPS = DIALOG_OWN, LAYERS_LIST, DOORS, CELLS, MORE, SUGGEST, FIRST_FIELD };
+enum { MAPS = DIALOG_OWN, LAYERS_LIST, DOORS, CELLS, MORE, SUGGEST, FILTER, FIRST_FIELD };
 
 static const struct {
     const char *label, *hint;
@@ -68,7 +73,9 @@ void import_destroy(desk_state *desk) {
     }
     document_source_destroy(desk->context, &s->source);
     sl_map_choice_destroy(desk->context, &s->choice);
+    sl_drawing_layers_destroy(desk->context, &s->drawn);
     sl_free(desk->context, s->taken);
+    sl_free(desk->context, s->shown);
     sl_free(desk->context, s);
     desk->dialog.import = NULL;
 }
@@ -115,6 +122,47 @@ static void fill_layers(import_state *s) {
     }
 }
 
+// --- the list of layers
+
+/// Whether a name holds a part, in capitals or not.
+static bool holds(const char *name, const char *part) {
+    const size_t length = strlen(part);
+    for (; *name && strncasecmp(name, part, length) != 0; name++)
+        ;
+    return *name || !length;
+}
+
+/// Lists the layers that the filter leaves.
+static void filter_layers(import_state *s) {
+    size_t count = 0;
+    for (size_t i = 0; i < s->choice.layers.count; i++)
+        if (holds(s->choice.layers.names[i], s->filter.text)) s->shown[count++] = i;
+    s->layers.count = count;
+    s->layers.at = s->layers.first = 0;
+}
+
+/// A long list has a filter.
+static bool has_filter(const import_state *s) {
+    return s->choice.layers.count > 8;
+}
+
+/// The layers of a drawing, which its format does not list by itself.
+static sl_status list_drawn(sl_context *context, import_state *s) {
+    const char *name = s->choice.format ? s->choice.format->name : "";
+    const bool dxf = strcmp(name, "dxf") == 0;
+    sl_bytes bytes;
+    if (s->choice.layers.count || (!dxf && strcmp(name, "svg") != 0)) return SL_OK;
+    SL_TRY(sl_file_read(context, s->source.path, &bytes));
+    sl_status status =
+        dxf ? sl_drawing_layers_dxf(context, s->source.path, bytes.data, bytes.size, &s->drawn)
+            : sl_drawing_layers_svg(context, s->source.path, bytes.data, bytes.size, &s->drawn);
+    sl_free(context, bytes.data);
+    for (size_t i = 0; i < s->drawn.count && status == SL_OK; i++)
+        status = sl_map_list_add(context, &s->choice.layers, s->drawn.items[i].name,
+                                 strlen(s->drawn.items[i].name));
+    return status;
+}
+
 static bool asks_map(const import_state *s) {
     return s->choice.maps.count > 1;
 }
@@ -130,23 +178,28 @@ sl_status import_open(desk_state *desk, const document_source *source, sl_map_ch
     import_state *s = sl_alloc_array(desk->context, 1, sizeof *s);
     if (!s) return SL_NO_MEMORY;
     desk->dialog.import = s;
-    s->taken = sl_alloc_array(desk->context, choice->layers.count, sizeof *s->taken);
-    SL_TRY(s->taken ? SL_OK : SL_NO_MEMORY);
     SL_TRY(document_source_copy(desk->context, source, &s->source));
     s->choice = *choice;
     *choice = (sl_map_choice){.format = choice->format};
+    if (all) SL_TRY(list_drawn(desk->context, s));
+    const size_t layers = s->choice.layers.count;
+    s->taken = sl_alloc_array(desk->context, layers + 1, sizeof *s->taken);
+    s->shown = sl_alloc_array(desk->context, layers + 1, sizeof *s->shown);
+    if (!s->taken || !s->shown) return SL_NO_MEMORY;
     s->then = then;
     s->more = all;
     s->maps = (dialog_list){.count = s->choice.maps.count};
     for (size_t i = 0; source->options.map && i < s->maps.count; i++)
         if (strcmp(s->choice.maps.names[i], s->source.options.map) == 0) s->maps.at = i;
-    s->layers = (dialog_list){.count = s->choice.layers.count, .acts = true, .marks = true};
+    s->layers = (dialog_list){.acts = true, .marks = true};
+    filter_layers(s);
     fill_fields(s);
     fill_layers(s);
     dialog_push(&desk->dialog, DIALOG_IMPORT,
-                asks_map(s)      ? MAPS
-                : asks_layers(s) ? LAYERS_LIST
-                                 : DIALOG_MAIN);
+                asks_map(s)                       ? MAPS
+                : asks_layers(s) && has_filter(s) ? FILTER
+                : asks_layers(s)                  ? LAYERS_LIST
+                                                  : DIALOG_MAIN);
     return SL_OK;
 }
 
@@ -299,7 +352,7 @@ void import_act(desk_state *desk, int id) {
         accept(desk, s);
         break;
     case LAYERS_LIST:
-        if (s->layers.at < s->layers.count) s->taken[s->layers.at] ^= true;
+        if (s->layers.at < s->layers.count) s->taken[s->shown[s->layers.at]] ^= true;
         break;
     case DOORS:
         s->doors = !s->doors;
@@ -320,7 +373,7 @@ void import_act(desk_state *desk, int id) {
 }
 
 void import_edited(desk_state *desk, int id) {
-    (void)id;
+    if (id == FILTER) filter_layers(desk->dialog.import);
     desk->dialog.import->problem[0] = '\0';
 }
 
@@ -361,15 +414,30 @@ static double draw_layers(desk_state *desk, import_state *s, sl_box box, double 
         ui, box.min.x, y + 1.2 * t, 1, false, ui->palette.ink,
         s->choice.layers_unsaid
             ? "Which layers are solid? The file does not say. None: by their names, if these tell"
-            : "Solid layers; none: those that the file marks");
+        : s->drawn.count ? "Layers that are walls; none: those whose names or looks say so"
+                         : "Solid layers; none: those that the file marks");
+    if (has_filter(s)) {
+        dialog_field(
+            &desk->dialog, FILTER,
+            (sl_box){{box.min.x, frame.max.y + 0.4 * t}, {box.max.x, frame.max.y + 2.2 * t}},
+            &s->filter, "A part of a name leaves those layers in the list");
+    }
     dialog_list_frame(&desk->dialog, LAYERS_LIST, frame, &s->layers);
     for (size_t i = s->layers.first; i < s->layers.count && i < s->layers.first + s->layers.page;
          i++) {
         const sl_box row = dialog_list_row(&desk->dialog, LAYERS_LIST, frame, &s->layers, i);
-        ui_check(ui, row, s->choice.layers.names[i], NULL, s->taken[i], -1);
+        const size_t layer = s->shown[i];
+        char count[SL_COUNT_TEXT + 8] = "";
+        if (layer < s->drawn.count) {
+            char number[SL_COUNT_TEXT];
+            sl_text_count(s->drawn.items[layer].entities, "", number);
+            snprintf(count, sizeof count, "%s%s", number, s->drawn.items[layer].on ? "" : ", off");
+        }
+        ui_check(ui, row, s->choice.layers.names[layer], *count ? count : NULL, s->taken[layer],
+                 -1);
         ui_hit(ui, HIT_DIALOG, LAYERS_LIST | ((int)i + 1) << 8, row);
     }
-    return frame.max.y + 0.7 * t;
+    return frame.max.y + (has_filter(s) ? 2.9 : 0.7) * t;
 }
 
 static double draw_field(desk_state *desk, import_state *s, sl_box box, double y, field_name name) {
@@ -382,7 +450,9 @@ static double draw_field(desk_state *desk, import_state *s, sl_box box, double y
     snprintf(hint, sizeof hint, "%s", fields[name].hint);
     snprintf(label, sizeof label, "%s", fields[name].label);
     if (name == FIELD_LAYERS && s->choice.layers.count)
-        snprintf(hint, sizeof hint, "instead of the list: NAME,NAME:TILE+TILE");
+        snprintf(hint, sizeof hint,
+                 s->drawn.count ? "instead of the list: NAME,NAME; *: all"
+                                : "instead of the list: NAME,NAME:TILE+TILE");
     if (name == FIELD_SLICE)
         snprintf(label, sizeof label, "Cut, %.5g to %.5g", s->source.lowest, s->source.highest);
     ui_text(ui, box.min.x, y + 1.25 * t, 1, false, ui->palette.ink, label);
@@ -419,7 +489,8 @@ void import_draw(desk_state *desk) {
     snprintf(title, sizeof title, "Open %.300s", files_base(s->source.path));
     const int rows = count_rows(s);
     // Lists have 4 to 12 rows, as there is room.
-    const double lists = asks_map(s) + asks_layers(s), rest = 8.8 + DIALOG_ROW * rows;
+    const double lists = asks_map(s) + asks_layers(s);
+    const double rest = 8.8 + DIALOG_ROW * rows + (asks_layers(s) && has_filter(s) ? 2.2 : 0);
     const double text = fmin(ui->text, (ui->width - 12) / 50.0);
     const double room = ((ui->height - 12) / text - rest) / fmax(lists, 1) - 2.7;
     const double most = fmin(fmax(floor(room / 1.7), 4), 12);
