@@ -592,9 +592,20 @@ static sl_status read_map_back(sl_context *context, const void *user, const char
     return status;
 }
 
+/// Only map text has kinds of doors.
+static void tell_kinds(sl_context *context, const sl_map *map, const sl_map_format *format,
+                       const char *path) {
+    size_t count = 0;
+    for (size_t i = 0; i < map->door_count; i++) count += map->doors[i].kind != SL_DOOR_PLAIN;
+    if (count && format->keeps & SL_KEEPS_DOORS && format->write != sli_map_print_text)
+        sl_note(context, "%s: %s has no place for walls that break and sites: %zu become doors",
+                path, format->what, count);
+}
+
 static sl_status write_map(sl_context *context, const sl_map *map, const sl_map_format *format,
                            const char *path) {
     tell_left_out(context, map, format, path);
+    tell_kinds(context, map, format, path);
     const map_file file = {map, format};
     const sli_to_write written = {&file, print_map, read_map_back};
     return sli_file_write(context, path, &written);
