@@ -447,8 +447,8 @@ static void print_blind_walls(const camera_work *w, int digits, const char *unit
         "of %u part%s has %.4g%s%s at %.*g,%.*g.\n",
         p->blind_area, gap, unit, w->task.cover > 1 ? "too few" : "none",
         w->task.cover > 1 ? "" : "s", 100 * p->blind_area / p->area, (unsigned)p->blind_count,
-        p->blind_count == 1 ? "" : "s", p->blind[0].area, gap, unit, digits,
-        p->blind[0].at.x, digits, p->blind[0].at.y);
+        p->blind_count == 1 ? "" : "s", p->blind[0].area, gap, unit, digits, p->blind[0].at.x,
+        digits, p->blind[0].at.y);
 }
 
 sl_status camera_work_print_blind(sl_context *context, const camera_work *w,
