@@ -29,7 +29,8 @@
 #define OFF_WALL 0x1p-20
 #define RADIAN   0.017453292519943295
 
-enum { TARGET = UINT32_MAX, CROSSING = UINT32_MAX - 1 };
+#define TARGET   UINT32_MAX
+#define CROSSING (UINT32_MAX - 1)
 
 /// A part of a side of a wall, by the distance from the wall's first point.
 typedef struct span {
