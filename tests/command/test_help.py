@@ -50,7 +50,7 @@ class Help(sandbox.ProgramTest):
     def test_bash_completes(self):
         if not shutil.which("bash"):
             self.skipTest("there is no bash")
-        for typed, wanted in [(["ba"], "bake"), (["bake", "--stab"], "--stab-trees"),
+        for typed, wanted in [(["bak"], "bake"), (["bake", "--stab"], "--stab-trees"),
                               (["bake", "--subdivide", "m"], "mesh"), (["bake", "--method", "sw"], "sweep")]:
             script = (f". {COMPLETION}/sightline.bash; COMP_WORDS=({self.program} {' '.join(typed)}); "
                       f"COMP_CWORD={len(typed)}; _sightline; echo \"${{COMPREPLY[*]}}\"")

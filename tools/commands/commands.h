@@ -7,6 +7,7 @@
 /// argv[0] is the name of the command. The message of a failure is in the console's context.
 sl_status cmd_axial(command_console *console, int argc, char **argv);
 sl_status cmd_bake(command_console *console, int argc, char **argv);
+sl_status cmd_batch(command_console *console, int argc, char **argv);
 sl_status cmd_check(command_console *console, int argc, char **argv);
 sl_status cmd_compare(command_console *console, int argc, char **argv);
 sl_status cmd_convert(command_console *console, int argc, char **argv);

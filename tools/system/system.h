@@ -38,6 +38,15 @@ bool system_move(const char *from, const char *to);
 void system_remove_file(const char *path);
 void system_remove_folder(const char *path);
 
+/// A file without a name, to write and read; it goes when it is closed. NULL: errno says why.
+FILE *system_open_scratch(void);
+/// Runs this program with other words, of which words[0] is its own path or name and the last is
+/// NULL. `out` and `err` take what it writes; it reads nothing. `stops` is asked now and then:
+/// when it is true, the process is ended. Waits for the end and gives the exit status, 128 and the
+/// number of a signal that ended it. False where it cannot be started; errno says why.
+bool system_run(char *const *words, FILE *out, FILE *err, bool (*stops)(void *user), void *user,
+                int *exit_status);
+
 /// The most memory that the program has had, in bytes; 0 where it is not known.
 uint64_t system_peak_memory(void);
 

@@ -5,10 +5,13 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
+#include <spawn.h>
 #include <stdlib.h>
 #include <sys/ioctl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 static void set_handler(int number, void (*handler)(int)) {
@@ -100,6 +103,46 @@ void system_remove_file(const char *path) {
 
 void system_remove_folder(const char *path) {
     rmdir(path);
+}
+
+FILE *system_open_scratch(void) {
+    FILE *file = tmpfile();
+    // Programs that are started meanwhile need not hold it.
+    if (file) (void)fcntl(fileno(file), F_SETFD, FD_CLOEXEC);
+    return file;
+}
+
+extern char **environ;
+
+static int start(char *const *words, FILE *out, FILE *err, pid_t *process) {
+    posix_spawn_file_actions_t files;
+    int error = posix_spawn_file_actions_init(&files);
+    if (error) return error;
+    error = posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    if (!error) error = posix_spawn_file_actions_adddup2(&files, fileno(out), STDOUT_FILENO);
+    if (!error) error = posix_spawn_file_actions_adddup2(&files, fileno(err), STDERR_FILENO);
+    if (!error) error = posix_spawnp(process, words[0], &files, NULL, words, environ);
+    posix_spawn_file_actions_destroy(&files);
+    return error;
+}
+
+bool system_run(char *const *words, FILE *out, FILE *err, bool (*stops)(void *user), void *user,
+                int *exit_status) {
+    pid_t process;
+    const int error = start(words, out, err, &process);
+    errno = error;
+    if (error) return false;
+    int state;
+    bool ended = false;
+    long wait = 1000000; // nanoseconds; grows to a twentieth of a second
+    for (pid_t done; (done = waitpid(process, &state, WNOHANG)) != process;) {
+        if (done < 0 && errno != EINTR) return false;
+        if (!ended && stops(user)) ended = kill(process, SIGTERM) == 0;
+        nanosleep(&(struct timespec){.tv_nsec = wait}, NULL);
+        if (wait < 50000000) wait += wait / 4;
+    }
+    *exit_status = WIFEXITED(state) ? WEXITSTATUS(state) : 128 + WTERMSIG(state);
+    return true;
 }
 
 uint64_t system_peak_memory(void) {

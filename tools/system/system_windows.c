@@ -136,6 +136,69 @@ void system_remove_folder(const char *path) {
     if (widen(path, wide)) _wrmdir(wide);
 }
 
+FILE *system_open_scratch(void) {
+    wchar_t folder[PATH_ROOM], path[MAX_PATH];
+    const DWORD length = GetTempPathW(PATH_ROOM, folder);
+    errno = EACCES;
+    if (!length || length >= PATH_ROOM || !GetTempFileNameW(folder, L"sl", 0, path)) return NULL;
+    return _wfopen(path, L"w+bD"); // D: it goes when it is closed
+}
+
+/// Adds a word to a command line so that the program finds it again: quotes around it, a backslash
+/// before each quote and each backslash that stands before a quote.
+static bool add_word(wchar_t *line, size_t *used, size_t room, const char *word) {
+    wchar_t wide[PATH_ROOM];
+    if (!widen(word, wide) || *used + 2 * wcslen(wide) + 5 > room) return false;
+    size_t slashes = 0;
+    if (*used) line[(*used)++] = L' ';
+    line[(*used)++] = L'"';
+    for (const wchar_t *c = wide;; c++) {
+        const bool quote = *c == L'"' || !*c;
+        for (size_t i = 0; quote && i < slashes; i++) line[(*used)++] = L'\\';
+        slashes = *c == L'\\' ? slashes + 1 : 0;
+        if (!*c) break;
+        if (quote) line[(*used)++] = L'\\';
+        line[(*used)++] = *c;
+    }
+    line[(*used)++] = L'"';
+    line[*used] = L'\0';
+    return true;
+}
+
+static HANDLE to_inherit(FILE *file) {
+    const HANDLE handle = (HANDLE)_get_osfhandle(_fileno(file));
+    SetHandleInformation(handle, HANDLE_FLAG_INHERIT, HANDLE_FLAG_INHERIT);
+    return handle;
+}
+
+bool system_run(char *const *words, FILE *out, FILE *err, bool (*stops)(void *user), void *user,
+                int *exit_status) {
+    enum { LINE_ROOM = 32767 }; // the most that Windows takes
+    wchar_t program[PATH_ROOM], *line = malloc(LINE_ROOM * sizeof *line);
+    size_t used = 0;
+    bool fits = line && GetModuleFileNameW(NULL, program, PATH_ROOM) < PATH_ROOM;
+    for (size_t i = 0; fits && words[i]; i++) fits = add_word(line, &used, LINE_ROOM, words[i]);
+    STARTUPINFOW start = {.cb = sizeof start,
+                          .dwFlags = STARTF_USESTDHANDLES,
+                          .hStdOutput = to_inherit(out),
+                          .hStdError = to_inherit(err)};
+    PROCESS_INFORMATION process;
+    const bool runs =
+        fits && CreateProcessW(program, line, NULL, NULL, TRUE, 0, NULL, NULL, &start, &process);
+    free(line);
+    errno = fits ? EACCES : E2BIG;
+    if (!runs) return false;
+    bool ended = false;
+    while (WaitForSingleObject(process.hProcess, 50) == WAIT_TIMEOUT)
+        if (!ended && stops(user)) ended = TerminateProcess(process.hProcess, 1) != 0;
+    DWORD code = 1;
+    GetExitCodeProcess(process.hProcess, &code);
+    CloseHandle(process.hThread);
+    CloseHandle(process.hProcess);
+    *exit_status = (int)code;
+    return true;
+}
+
 uint64_t system_peak_memory(void) {
     PROCESS_MEMORY_COUNTERS memory;
     if (!GetProcessMemoryInfo(GetCurrentProcess(), &memory, sizeof memory)) return 0;

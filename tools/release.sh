@@ -1,0 +1,139 @@
+#!/bin/sh
+# All files of a release, and SHA256SUMS, in a folder: sh tools/release.sh FOLDER [PART...]
+#
+# source   the archive of the commit that is checked out; all else is built from it, unpacked
+# command  the command for Linux, static, with its manual pages, completion and licence
+# npm      the npm package: needs what 'sh tools/setup.sh --web' installs, and npm
+#
+# Without a PART, all. Each is tried in an empty folder before it is put into FOLDER. The same commit gives the same
+# bytes with the same compilers. The static command reads map text, ASCII plans and baked files alone.
+set -eu
+root=$(cd "$(dirname "$0")/.." && pwd)
+usage='usage: sh tools/release.sh FOLDER [source | command | npm]...'
+fail() {
+    echo "release: $1" >&2
+    exit "${2:-1}"
+}
+case ${1:-} in
+-h | --help)
+    sed -n '2,9s/^# \{0,1\}//p' "$0"
+    exit 0
+    ;;
+'' | -*) fail "$usage" 2 ;;
+esac
+mkdir -p "$1"
+folder=$(cd "$1" && pwd)
+shift
+for part in "$@"; do
+    case $part in source | command | npm) ;; *) fail "there is no part '$part'; $usage" 2 ;; esac
+done
+parts=" ${*:-source command npm} "
+[ -e "$root/.git" ] || fail "a clone is needed: the archive is that of a commit" 2
+[ -z "$(git -C "$root" status --porcelain)" ] || fail "commit or drop the changes first" 2
+
+version=$(sed -n 's/^#define SL_VERSION_M[AI][JN]OR \([0-9]*\).*/\1/p;s/^#define SL_VERSION_PATCH \([0-9]*\).*/\1/p' \
+    "$root/lib/include/sightline/version.h" | paste -sd.)
+tag=$(git -C "$root" tag --points-at HEAD | head -n 1)
+case $tag in
+'' | "v$version" | "$version") ;;
+*) fail "the tag is $tag, the version $version: lib/include/sightline/version.h" 2 ;;
+esac
+name=sightline-$version
+SOURCE_DATE_EPOCH=$(git -C "$root" log -1 --format=%ct)
+export SOURCE_DATE_EPOCH
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+
+# What a step says matters only where it fails.
+quietly() {
+    "$@" >"$scratch/log" 2>&1 || {
+        tail -n 30 "$scratch/log" >&2
+        fail "it fails: $*"
+    }
+}
+
+# pack NAME FOLDER: the archive of a folder of $scratch, whatever its times, owners and order are.
+pack() {
+    tar -C "$scratch" --format=ustar --sort=name --mtime="@$SOURCE_DATE_EPOCH" --owner=0 --group=0 \
+        --numeric-owner --mode=u=rwX,go=rX -cf "$scratch/$1.tar" "$2"
+    gzip -9n "$scratch/$1.tar"
+}
+
+# keep FILE: what is tried takes its place.
+keep() {
+    mv "$1" "$folder/"
+    made="${made:-} $(basename "$1")"
+    echo "release: $folder/$(basename "$1")"
+}
+
+# try_command PROGRAM: from an empty folder to a baked file.
+try_command() {
+    mkdir "$scratch/try"
+    (
+        cd "$scratch/try" &&
+            env -i "$1" --version | grep -qx "sightline $version" &&
+            env -i "$1" generate office --quiet -o office.map &&
+            env -i "$1" bake office.map --check --quiet -o office.slv &&
+            env -i "$1" info office.slv --json | grep -q '"cells": [1-9]'
+    ) || fail "the command does not work"
+    rm -r "$scratch/try"
+}
+
+# ---- source ----
+git -C "$root" archive --prefix="$name/" HEAD | tar -x -C "$scratch"
+sources=$scratch/$name
+[ -f "$sources/CMakeLists.txt" ] && [ -f "$sources/LICENSE" ] || fail "the archive lacks the sources"
+
+# ---- command ----
+case $parts in *" command "*)
+    machine=$(uname -m)
+    # A warning stops a release.
+    quietly cmake -S "$sources" -B "$sources/build/release" -G Ninja -DCMAKE_BUILD_TYPE=Release \
+        -DSIGHTLINE_WERROR=ON -DCMAKE_EXE_LINKER_FLAGS="-static -Wl,--build-id=none" \
+        -DBUILD_SHARED_LIBS=OFF -DSIGHTLINE_GLPK=OFF -DSIGHTLINE_DRAW=OFF \
+        -DSIGHTLINE_IO=OFF -DSIGHTLINE_VIEWER=OFF -DSIGHTLINE_PYTHON=OFF -DSIGHTLINE_TESTS=OFF -DSIGHTLINE_INSTALL=OFF
+    quietly cmake --build "$sources/build/release" -j2 --target sightline_command sightline_manual
+    bin=$name-linux-$machine
+    mkdir -p "$scratch/$bin/man"
+    strip -o "$scratch/$bin/sightline" "$sources/build/release/tools/sightline"
+    cp "$sources"/build/release/tools/manual/*.1 "$scratch/$bin/man/"
+    cp -R "$sources/LICENSE" "$sources/tools/completion" "$scratch/$bin/"
+    pack "$bin" "$bin"
+    mkdir "$scratch/unpacked"
+    tar -xzf "$scratch/$bin.tar.gz" -C "$scratch/unpacked"
+    if readelf -d "$scratch/unpacked/$bin/sightline" | grep -q NEEDED; then fail "the command is not static"; fi
+    try_command "$scratch/unpacked/$bin/sightline"
+    keep "$scratch/$bin.tar.gz"
+    ;;
+esac
+
+# ---- npm ----
+case $parts in *" npm "*)
+    command -v npm >/dev/null || fail "npm is missing" 77
+    quietly sh "$sources/tools/web.sh" --package "$scratch/web"
+    (cd "$scratch/web/package" && quietly npm pack --offline --pack-destination "$scratch")
+    mkdir "$scratch/project"
+    (
+        cd "$scratch/project" &&
+            echo '{"type": "module"}' >package.json &&
+            quietly npm install --offline --no-audit --no-fund "$scratch/$name.tgz" &&
+            node -e "import('sightline/bake').then(async ({ bake, describe }) => {
+            const slv = await bake({ walls: [[0, 0, 4, 0], [4, 0, 4, 4], [4, 4, 0, 4], [0, 4, 0, 0]] })
+            const { Level } = await import('sightline')
+            if (!(await Level.open(slv)).canSee([1, 1], [3, 3])) process.exit(1)
+        })"
+    ) || fail "the npm package does not work"
+    keep "$scratch/$name.tgz"
+    ;;
+esac
+
+# ---- the archive of the sources: last, since what it gives has now been built ----
+case $parts in *" source "*)
+    rm -rf "$sources/build"
+    pack "$name" "$name"
+    keep "$scratch/$name.tar.gz"
+    ;;
+esac
+# shellcheck disable=SC2086
+(cd "$folder" && sha256sum $made >SHA256SUMS && sha256sum -c --quiet SHA256SUMS)
+echo "release: $folder/SHA256SUMS"
