@@ -9,6 +9,7 @@
  * @property {number[]} points x, y, x, y ...
  * @property {string} [name] of a door, a path or an object
  * @property {string} [state] the word at the end: open, shut, solid, one, both
+ * @property {string} [change] of a door that changes once: breakable, site
  * @property {string} [stops] of a wall: what it stops, such as 'sight,steps'; without it, all
  * @property {number} [heading] of a start @property {number} [value] of range, snap and precision
  * @property {string} [text] of comments and notes
@@ -25,15 +26,15 @@ export class FormatError extends Error {
 }
 
 /**
- * name: a word comes first; points: at least and at most that many; words: what may end it; stops: before
- * what it stops, which the core checks.
+ * name: a word comes first; points: at least and at most that many; words: what may end it; changes: after
+ * that; stops: before what it stops, which the core checks; whole: all that follows is its name.
  */
 const statements = {
     wall: { points: [2, 2], words: ['solid'], stops: true },
     walls: { points: [2, Infinity], stops: true },
     solid: { points: [3, Infinity], stops: true },
     open: { points: [3, Infinity] },
-    door: { name: true, points: [2, 2], words: ['open', 'shut'] },
+    door: { name: true, points: [2, 2], words: ['open', 'shut'], changes: ['breakable', 'site'] },
     mirror: { points: [2, 2], words: ['one', 'both'] },
     oneway: { points: [2, 2] },
     seam: { points: [2, 2] },
@@ -43,6 +44,10 @@ const statements = {
     range: { value: true },
     snap: { value: true },
     precision: { value: true },
+    entrance: { value: true },
+    unit: { whole: true, points: [0, 0] },
+    earth: { whole: true, points: [0, 0] },
+    crs: { whole: true, points: [0, 0] },
     start: { heading: true },
 };
 
@@ -63,7 +68,9 @@ function readStatement(words, line) {
     /** @type {Item} */
     const item = { kind, points: [] };
     if (form.name) item.name = rest.shift();
+    if (form.whole) item.name = rest.splice(0).join(' ');
     if (form.stops && rest[rest.length - 2] === 'stops') item.stops = rest.splice(-2)[1];
+    if (form.changes?.includes(rest[rest.length - 1])) item.change = rest.pop();
     if (form.words?.includes(rest[rest.length - 1])) item.state = rest.pop();
     const numbers = rest.map((word) => readNumber(word, line));
     const wrong = () => new FormatError(`'${kind}' has the wrong number of values`, line);
@@ -111,6 +118,7 @@ export function writeItem(item) {
     if (item.heading !== undefined) text += ` ${item.heading}`;
     if (item.value !== undefined) text += ` ${item.value}`;
     if (item.state) text += ` ${item.state}`;
+    if (item.change) text += ` ${item.change}`;
     return item.stops ? `${text} stops ${item.stops}` : text;
 }
 
