@@ -1,24 +1,50 @@
-/// Clearances, by the triangles between walls. The nearest wall of a point is found through the
-/// sides of triangles that are nearer than the best wall so far. The clearance changes by no more
-/// than one goes, so a triangle whose middle has clearance c has none above c + r, where r is its
-/// radius. Nor has it any above the largest distance of a corner from the wall that is nearest to
-/// the middle, as distances from a segment are convex: so slivers between walls are not cut on and
-/// on. The search for a place with more cuts triangles in four until that decides.
+/// Clearances, by the walls of channels. The wall that is nearest to a place, of all walls, can be
+/// reached from there: a wall between would be nearer. So a tree of boxes finds it, however many
+/// channels lie around, in about O(log n). No more than a wall as near as `least` is looked for
+/// where places count that are farther; and the wall found last is tried first. So most triangles
+/// of a group take one look.
+///
+/// The clearance changes by no more than one goes, so a triangle whose middle has clearance c has
+/// none above c + r, where r is its radius. Nor has it any above the largest distance of a corner
+/// from the wall that is nearest to the middle, as distances from a segment are convex: so slivers
+/// between walls are not cut on and on. The search for a place with more cuts triangles in four
+/// until that decides. A sliver as long as n times the clearance wanted may have so n² parts, but
+/// only about n if it is cut across its longest side: so that is tried first where it may show that
+/// there is no place, and last where there are too many parts.
 #include "space/clearance.h"
 
 #include "geometry/length.h"
 #include "geometry/orient.h"
 
+enum { STEPS_A_QUESTION = 1 << 16 };
+
 sl_status sli_clearance_make(sl_context *context, const sli_channels *channels,
                              sli_clearance *out) {
+    const sli_triangulation *t = &channels->triangles;
+    const size_t edges = t->halves.count / 2;
+    size_t count = 0;
     *out = (sli_clearance){.context = context, .channels = channels};
-    out->seen = sl_alloc_array(context, channels->triangles.halves.count, sizeof *out->seen);
-    return out->seen ? SL_OK : SL_NO_MEMORY;
+    for (size_t i = 0; i < edges; i++) count += channels->label[i] == SLI_WALL;
+    sl_box *boxes = sl_alloc_array(context, count, sizeof *boxes);
+    out->walls = sl_alloc_array(context, count, sizeof *out->walls);
+    sl_status status = boxes && out->walls ? SL_OK : SL_NO_MEMORY;
+    count = 0;
+    for (uint32_t i = 0; status == SL_OK && i < edges; i++) {
+        if (channels->label[i] != SLI_WALL) continue;
+        const sli_half_edge *halves = &t->halves.items[2 * (size_t)i];
+        boxes[count] =
+            sli_box_around(t->points.items[halves[0].from], t->points.items[halves[1].from]);
+        out->walls[count++] = i;
+    }
+    if (status == SL_OK) status = sli_box_tree_create(context, boxes, count, &out->tree);
+    if (count && status == SL_OK) out->last = out->walls[0];
+    sl_free(context, boxes);
+    return status;
 }
 
 void sli_clearance_destroy(sli_clearance *c) {
-    sl_free(c->context, c->seen);
-    sl_free(c->context, c->stack.items);
+    sl_free(c->context, c->walls);
+    sli_box_tree_destroy(c->context, &c->tree);
     *c = (sli_clearance){0};
 }
 
@@ -42,51 +68,55 @@ static sl_point start_of(const sli_clearance *c, uint32_t half) {
     return t->points.items[t->halves.items[half].from];
 }
 
-static sl_status push_half_edge(sli_clearance *c, uint32_t half) {
-    SL_TRY(SL_ARRAY_ROOM(c->context, &c->stack, 1));
-    c->stack.items[c->stack.count++] = half;
-    return SL_OK;
+/// A search for the wall that is nearest to a point.
+typedef struct nearest_wall {
+    sli_clearance *c;
+    sl_point point;
+    double best;
+    sl_segment at; ///< the wall, or its end, twice
+} nearest_wall;
+
+/// Looks at one wall, from the side on which the point is.
+static void look_at_edge(nearest_wall *n, uint32_t edge) {
+    sl_point a = start_of(n->c, 2 * edge), b = start_of(n->c, 2 * edge + 1);
+    const sl_point p = n->point;
+    if (sli_cross((sl_point){b.x - a.x, b.y - a.y}, (sl_point){p.x - a.x, p.y - a.y}) < 0) {
+        const sl_point start = a;
+        a = b;
+        b = start;
+    }
+    n->c->steps++;
+    const double distance = to_segment(p, a, b), ends[2] = {apart(p, a), apart(p, b)};
+    for (int i = 0; i < 2; i++) {
+        if (!(ends[i] < n->best)) continue;
+        n->best = ends[i];
+        n->at = i ? (sl_segment){b, b} : (sl_segment){a, a};
+        n->c->last = edge;
+    }
+    if (!(distance <= n->best)) return;
+    n->best = distance;
+    n->at = (sl_segment){a, b};
+    n->c->last = edge;
 }
 
-/// The distance from a point to the nearest wall that it can be reached from, rounded; `most` if
-/// that is less. `half` is a half-edge of the triangle that holds the point. `wall`, where not
-/// NULL, gets that wall, if it is nearer.
-static sl_status clearance_at(sli_clearance *c, uint32_t half, sl_point point, double most,
+static void look_at_wall(void *user, uint32_t box) {
+    nearest_wall *n = user;
+    look_at_edge(n, n->c->walls[box]);
+}
+
+/// The distance from a point to the nearest wall, rounded; `most` if that is less. As soon as it is
+/// not above `least`, it may be that of any wall. `wall`, where not NULL, gets the wall, if it is
+/// nearer.
+static sl_status clearance_at(sli_clearance *c, sl_point point, double least, double most,
                               double *out, sl_segment *wall) {
-    const sli_triangulation *t = &c->channels->triangles;
-    double best = most;
-    sl_segment nearest = {point, point};
-    c->stamp++;
-    SL_TRY(push_half_edge(c, half));
-    while (c->stack.count) {
-        uint32_t side = c->stack.items[--c->stack.count];
-        if (c->seen[side] == c->stamp) continue;
-        // A wall that hides an end is nearer than the end, and is found.
-        for (int i = 0; i < 3; i++, side = t->halves.items[side].next) {
-            const sl_point corner = start_of(c, side);
-            if (!sl_bits_has(c->channels->solid, t->halves.items[side].from)) continue;
-            if (!(apart(point, corner) < best)) continue;
-            best = apart(point, corner);
-            nearest = (sl_segment){corner, corner};
-        }
-        for (int i = 0; i < 3; i++, side = t->halves.items[side].next) {
-            c->seen[side] = c->stamp;
-            const uint32_t twin = side ^ 1;
-            const sl_segment at = {start_of(c, side), start_of(c, twin)};
-            const double distance = to_segment(point, at.a, at.b);
-            const bool is_wall = c->channels->label[side / 2] == SLI_WALL;
-            if (!(distance < best) && !(is_wall && distance == best)) continue;
-            if (is_wall) {
-                best = distance;
-                nearest = at;
-            } else if (!sli_half_is_outside(t, twin) && c->seen[twin] != c->stamp) {
-                SL_TRY(push_half_edge(c, twin));
-            }
-        }
-    }
-    if (wall) *wall = nearest;
-    *out = best;
-    return SL_OK;
+    nearest_wall n = {c, point, most, {point, point}};
+    if (c->tree.levels) look_at_edge(&n, c->last);
+    if (n.best > least) c->steps += sli_box_tree_near(&c->tree, point, &n.best, look_at_wall, &n);
+    if (wall) *wall = n.at;
+    *out = n.best;
+    if (c->steps - c->asked < STEPS_A_QUESTION) return SL_OK;
+    c->asked = c->steps;
+    return sl_check_cancelled(c->context);
 }
 
 typedef struct triangle {
@@ -119,15 +149,16 @@ static sl_point circle_middle(const triangle *t) {
     return (sl_point){a.x + (d.y * b2 - b.y * d2) / twice, a.y + (b.x * d2 - d.x * b2) / twice};
 }
 
-sl_status sli_clearance_of(sli_clearance *c, uint32_t half, sl_point *place, double *out) {
+sl_status sli_clearance_of(sli_clearance *c, uint32_t half, double least, sl_point *place,
+                           double *out) {
     const triangle t = corners_of(c, half);
     const sl_point tried[2] = {middle_of(&t), circle_middle(&t)};
     *out = -1;
     for (int i = 0; i < 2; i++) {
         double own;
         if (!holds(&t, tried[i])) continue;
-        SL_TRY(clearance_at(c, half, tried[i], INFINITY, &own, NULL));
-        if (own <= *out) continue;
+        SL_TRY(clearance_at(c, tried[i], fmax(least, *out), INFINITY, &own, NULL));
+        if (own <= *out || own <= least) continue;
         *out = own;
         *place = tried[i];
     }
@@ -151,31 +182,70 @@ static double limit_of(const sli_clearance *c, uint32_t half) {
     return ends ? fmin(least, 0.578 * longest) : least;
 }
 
-/// So many parts of a triangle are looked at: a sliver among corners has any number of them.
+/// So many parts of a triangle are looked at in each of two ways.
 enum { MOST_PARTS = 1 << 15 };
 
-static sl_status search(sli_clearance *c, uint32_t half, const triangle *t, double wanted,
-                        uint32_t *parts_left, sl_point *place, bool *out) {
-    const sl_point middle = middle_of(t);
-    double own, radius = 0, farthest = 0;
-    sl_segment wall;
-    for (int i = 0; i < 3; i++) radius = fmax(radius, apart(middle, t->corner[i]));
-    SL_TRY(clearance_at(c, half, middle, wanted + radius, &own, &wall));
-    *out = own >= wanted;
-    if (*out) *place = middle;
-    if (!*parts_left || !--*parts_left) return SL_OK;
-    if (*out || own + radius < wanted || radius < wanted / 16) return SL_OK;
-    for (int i = 0; i < 3; i++) farthest = fmax(farthest, to_segment(t->corner[i], wall.a, wall.b));
-    if (farthest < wanted) return SL_OK;
+/// A search for a place in a triangle.
+typedef struct place_search {
+    sli_clearance *c;
+    double wanted;
+    bool halves; ///< parts are cut in two across the longest side; else in four
+    bool proves; ///< ends as soon as it is not plain that there is no place
+    uint32_t parts_left;
+    bool found, close; ///< `close`: a part was too small to be cut
+    sl_point place;
+} place_search;
+
+/// Cuts a triangle into the parts to look at next, and returns their count.
+static int cut(const triangle *t, bool halves, triangle parts[4]) {
     const sl_point *p = t->corner;
     sl_point m[3];
     for (int i = 0; i < 3; i++)
         m[i] = (sl_point){p[i].x / 2 + p[(i + 1) % 3].x / 2, p[i].y / 2 + p[(i + 1) % 3].y / 2};
-    const triangle parts[4] = {
-        {{m[0], m[1], m[2]}}, {{p[0], m[0], m[2]}}, {{m[0], p[1], m[1]}}, {{m[2], m[1], p[2]}}};
-    for (int i = 0; i < 4 && !*out; i++)
-        SL_TRY(search(c, half, &parts[i], wanted, parts_left, place, out));
+    if (halves) {
+        int longest = 0;
+        for (int i = 1; i < 3; i++)
+            if (apart(p[i], p[(i + 1) % 3]) > apart(p[longest], p[(longest + 1) % 3])) longest = i;
+        const sl_point a = p[longest], b = p[(longest + 1) % 3], c = p[(longest + 2) % 3];
+        parts[0] = (triangle){{a, m[longest], c}};
+        parts[1] = (triangle){{m[longest], b, c}};
+        return 2;
+    }
+    parts[0] = (triangle){{m[0], m[1], m[2]}};
+    parts[1] = (triangle){{p[0], m[0], m[2]}};
+    parts[2] = (triangle){{m[0], p[1], m[1]}};
+    parts[3] = (triangle){{m[2], m[1], p[2]}};
+    return 4;
+}
+
+static sl_status search(place_search *s, const triangle *t) {
+    const sl_point middle = middle_of(t);
+    const double wanted = s->wanted;
+    double own, radius = 0, farthest = 0;
+    sl_segment wall;
+    triangle parts[4];
+    if (!s->parts_left) return SL_OK;
+    s->parts_left--;
+    for (int i = 0; i < 3; i++) radius = fmax(radius, apart(middle, t->corner[i]));
+    SL_TRY(clearance_at(s->c, middle, -1, wanted + radius, &own, &wall));
+    s->found = own >= wanted;
+    if (s->found) s->place = middle;
+    if (s->found || own + radius < wanted) return SL_OK;
+    if (radius < wanted / 16) {
+        s->close = true;
+        return SL_OK;
+    }
+    for (int i = 0; i < 3; i++) farthest = fmax(farthest, to_segment(t->corner[i], wall.a, wall.b));
+    if (farthest < wanted) return SL_OK;
+    const int count = cut(t, s->halves, parts);
+    for (int i = 0; i < count && !s->found && !(s->proves && s->close); i++)
+        SL_TRY(search(s, &parts[i]));
     return SL_OK;
+}
+
+/// Whether a triangle is so long that to cut it in four gives very many parts.
+static bool is_long(const triangle *t, double wanted) {
+    return apart(t->corner[0], t->corner[1]) + apart(t->corner[1], t->corner[2]) > 32 * wanted;
 }
 
 sl_status sli_clearance_reaches(sli_clearance *c, uint32_t half, double wanted, sl_point *place,
@@ -183,6 +253,20 @@ sl_status sli_clearance_reaches(sli_clearance *c, uint32_t half, double wanted, 
     *out = false;
     if (limit_of(c, half) < wanted) return SL_OK;
     const triangle t = corners_of(c, half);
-    uint32_t parts_left = MOST_PARTS;
-    return search(c, half, &t, wanted, &parts_left, place, out);
+    const place_search by_halves = {
+        .c = c, .wanted = wanted, .halves = true, .parts_left = MOST_PARTS};
+    place_search s = by_halves;
+    s.proves = true;
+    if (is_long(&t, wanted)) SL_TRY(search(&s, &t));
+    if (s.parts_left && s.parts_left < MOST_PARTS && !s.found && !s.close) return SL_OK;
+    s = (place_search){.c = c, .wanted = wanted, .parts_left = MOST_PARTS};
+    SL_TRY(search(&s, &t));
+    if (!s.found && !s.parts_left) {
+        s = by_halves;
+        SL_TRY(search(&s, &t));
+        c->cut_short += !s.found && !s.parts_left;
+    }
+    *out = s.found;
+    if (s.found) *place = s.place;
+    return SL_OK;
 }

@@ -33,6 +33,7 @@
 #include "geometry/length.h"
 #include "geometry/orient.h"
 #include "map/scan.h"
+#include "map/source.h"
 #include "map/unit.h"
 
 #include <stdlib.h>
@@ -227,7 +228,7 @@ static sl_status take_triangle(finder *f, const choice *c, uint32_t triangle, ui
     sl_point place;
     g->access = fmax(g->access, f->access[triangle]);
     g->area += area_of(f, half);
-    SL_TRY(sli_clearance_of(&f->clearance, half, &place, &clearance));
+    SL_TRY(sli_clearance_of(&f->clearance, half, g->clearance, &place, &clearance));
     if (clearance > g->clearance && sli_box_holds(&f->bounds, place)) {
         g->clearance = clearance;
         g->place = place;
@@ -797,6 +798,11 @@ static sl_status try_by(sl_context *context, sl_map *map, sl_entrance by, double
     if (status == SL_OK && *found) status = add_seams(&f, axial);
     if (status == SL_OK && *found) status = add_places(&f);
     if (status == SL_OK && !*found) status = find_roomiest(&f, most);
+    if (status == SL_OK && f.clearance.cut_short)
+        sl_note(context,
+                "%s: the search for rooms was cut short in gaps that are long and thin (triangles: "
+                "%zu); if a room counts as outside, name a place in it by --start X,Y",
+                sli_map_name(map), f.clearance.cut_short);
     destroy(&f);
     if (status == SL_OK && *found)
         map->interior = f.found;

@@ -1,9 +1,9 @@
 /// Three indexes, each for one question.
 ///
-/// Boxes in a tree: which of many boxes meet a box? A packed R-tree (Kamel & Faloutsos 1993, On
-/// packing R-trees). The boxes are sorted along the Z-order curve, which keeps neighbours together.
-/// It goes by the ranks of their middles, in x and in y: so one box far away, or many in one spot,
-/// do no harm. Then each level has one box around every 8 of the level below:
+/// Boxes in a tree: which of many boxes meet a box, or are near a point? A packed R-tree (Kamel &
+/// Faloutsos 1993, On packing R-trees). The boxes are sorted along the Z-order curve, which keeps
+/// neighbours together. It goes by the ranks of their middles, in x and in y: so one box far away,
+/// or many in one spot, do no harm. Then each level has one box around every 8 of the level below:
 ///
 ///     level 1        [--------- 0 .. 7 ---------][--------- 8 .. 15 ...
 ///     level 0        [0][1][2][3][4][5][6][7]     [8][9] ...
@@ -201,6 +201,52 @@ sl_status sli_box_tree_find(sl_context *context, const sli_box_tree *tree, const
     SL_TRY(find_below(context, tree, tree->levels - 1, 0, box, found));
     sort_found(found->items, found->count);
     return SL_OK;
+}
+
+/// What goes down the levels of a search for near boxes.
+typedef struct near_search {
+    const sli_box_tree *tree;
+    sl_point point;
+    const double *most;
+    void (*look)(void *user, uint32_t item);
+    void *user;
+    size_t looked;
+} near_search;
+
+/// Less a rounding, so that no box is passed over that is as near as *most.
+static double least_distance(const sl_box *box, sl_point p) {
+    const double left = box->min.x - p.x, right = p.x - box->max.x;
+    const double below = box->min.y - p.y, above = p.y - box->max.y;
+    const double x = left > 0 ? left : right > 0 ? right : 0;
+    const double y = below > 0 ? below : above > 0 ? above : 0;
+    return sli_length(x, y) * (1 - 0x1p-40);
+}
+
+static void near_below(near_search *s, uint32_t level, size_t begin) {
+    const size_t first = s->tree->first[level], count = s->tree->first[level + 1] - first;
+    const size_t here = count - begin < FAN ? count - begin : FAN;
+    double distance[FAN];
+    for (size_t i = 0; i < here; i++)
+        distance[i] = least_distance(&s->tree->boxes[first + begin + i], s->point);
+    s->looked += here;
+    for (uint32_t left = (1u << here) - 1; left;) {
+        size_t nearest = here;
+        for (size_t i = 0; i < here; i++)
+            if (left >> i & 1 && (nearest == here || distance[i] < distance[nearest])) nearest = i;
+        if (!(distance[nearest] <= *s->most)) return;
+        left &= ~(1u << nearest);
+        if (level)
+            near_below(s, level - 1, (begin + nearest) * FAN);
+        else
+            s->look(s->user, s->tree->items[begin + nearest]);
+    }
+}
+
+size_t sli_box_tree_near(const sli_box_tree *tree, sl_point point, const double *most,
+                         void (*look)(void *user, uint32_t item), void *user) {
+    near_search s = {tree, point, most, look, user, 0};
+    if (tree->levels) near_below(&s, tree->levels - 1, 0);
+    return s.looked;
 }
 
 // --- walls in a tree

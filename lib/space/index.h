@@ -53,6 +53,12 @@ void sli_box_tree_destroy(sl_context *context, sli_box_tree *tree); ///< and zer
 sl_status sli_box_tree_find(sl_context *context, const sli_box_tree *tree, const sl_box *box,
                             sli_box_list *found);
 
+/// Calls `look` with the number of each box whose distance from a point is at most *most, nearest
+/// branches first. `look` may lessen *most. Boxes that are farther by a rounding come, too.
+/// Returns how many boxes were looked at.
+size_t sli_box_tree_near(const sli_box_tree *tree, sl_point point, const double *most,
+                         void (*look)(void *user, uint32_t item), void *user);
+
 // --- walls in a tree
 
 /// Zeroed, it is empty.
