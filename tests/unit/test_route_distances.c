@@ -146,8 +146,8 @@ static void test_memory(void **state) {
     for (long fail_at = 1, done = 0; !done; fail_at++) {
         testing_memory memory = {0};
         plan p = {.context = testing_context(&memory)};
-        assert_ok(p.context, sl_map_parse(p.context, "test.map", two_rooms, strlen(two_rooms), NULL,
-                                          &p.map));
+        assert_ok(p.context,
+                  sl_map_parse(p.context, "test.map", two_rooms, strlen(two_rooms), NULL, &p.map));
         assert_ok(p.context, sl_map_clean(p.context, &p.map, NULL, NULL));
         open_plan(&p);
         sl_route_near cells[64];
@@ -303,8 +303,8 @@ static void check_cell(plan *p, sl_random *random, sl_point from, uint32_t c,
                        const sl_route_near *near, uint64_t seed) {
     const sl_cell *cell = &p->space.cells[c];
     const sl_box *b = &p->space.bounds;
-    const double slack = 1e-12 * (fmax(fabs(b->max.x), fabs(b->min.x)) +
-                                  fmax(fabs(b->max.y), fabs(b->min.y)));
+    const double slack =
+        1e-12 * (fmax(fabs(b->max.x), fabs(b->min.x)) + fmax(fabs(b->max.y), fabs(b->min.y)));
     const sl_point middle = sl_space_middle(&p->space, c);
     for (uint32_t k = 0; k < cell->vertex_count; k++) {
         const sl_point vertex = p->space.vertices[cell->first_vertex + k],

@@ -146,8 +146,8 @@ sl_point sli_route_nearest(sl_route_finder *f, sl_point to) {
         const sl_cell *cell = &s->cells[f->list[i]];
         const sl_point *corners = s->vertices + cell->first_vertex;
         for (uint32_t k = 0; k < cell->vertex_count; k++) {
-            const sl_point at =
-                sli_route_nearest_on(corners[k], corners[k + 1 < cell->vertex_count ? k + 1 : 0], to);
+            const sl_point at = sli_route_nearest_on(
+                corners[k], corners[k + 1 < cell->vertex_count ? k + 1 : 0], to);
             const double away = sli_length(at.x - to.x, at.y - to.y);
             if (!(away < least)) continue;
             least = away;

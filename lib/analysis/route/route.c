@@ -41,7 +41,8 @@ static sl_status make_losses(sl_context *context, sl_route_finder *f, const sl_s
 }
 
 static sl_status make_tables(sl_context *context, sl_route_finder *f, const sl_space *space) {
-    const size_t ends = (f->by_door ? 4 : 2) * (size_t)space->portal_count, sides = 2 * (size_t)space->directed_count;
+    const size_t ends = (f->by_door ? 4 : 2) * (size_t)space->portal_count,
+                 sides = 2 * (size_t)space->directed_count;
     f->corner_of = sl_alloc_array(context, sides, sizeof *f->corner_of);
     f->part_of = sl_alloc_array(context, space->cell_count, sizeof *f->part_of);
     f->ends = sl_alloc_array(context, ends, sizeof *f->ends);

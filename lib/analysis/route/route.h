@@ -65,8 +65,8 @@ struct sl_route_finder {
     uint32_t *counts;    ///< by end of a portal, likewise
     double *by_door;     ///< the loss by door of the map; NULL: none
     size_t door_count;
-    double *losses;      ///< by portal; NULL: none
-    double *upper;       ///< by cell: no point of it is farther (sl_route_distances)
+    double *losses;               ///< by portal; NULL: none
+    double *upper;                ///< by cell: no point of it is farther (sl_route_distances)
     sli_route_corner *corners;    ///< by corner: the end of a portal that stands for it
     sli_route_turn *turns;        ///< by directed portal and side
     uint32_t *at_start, *at_goal; ///< by cell: the search in which it is there

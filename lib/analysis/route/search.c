@@ -216,8 +216,7 @@ static sl_status push_across(search *s, sli_route_node *node, uint32_t across) {
     if (!s->cells) return push(s, node, node->g + bound(s, node));
     const sl_point at = nearest_passed(s, node);
     const double f = node->g + sli_length(at.x, at.y) / s->scale;
-    return f * (1 - SAME) > fmin(s->limit, s->finder->upper[node->cell]) ? SL_OK
-                                                                         : push(s, node, f);
+    return f * (1 - SAME) > fmin(s->limit, s->finder->upper[node->cell]) ? SL_OK : push(s, node, f);
 }
 
 /// A portal that is seen edge-on: straight to its nearer end, and around that. A root on the portal
@@ -342,7 +341,8 @@ static sl_status start_at(search *s, sl_point from) {
 
 sl_status sli_route_search(sl_context *context, sl_route_finder *finder, sl_point from, sl_point to,
                            uint64_t *expanded, uint32_t *out) {
-    search s = {.context = context, .finder = finder, .space = finder->space, .from = from, .goal = to};
+    search s = {
+        .context = context, .finder = finder, .space = finder->space, .from = from, .goal = to};
     *expanded = 0;
     *out = SLI_ROUTE_NONE;
     SL_TRY(start_at(&s, from));
