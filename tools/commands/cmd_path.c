@@ -370,7 +370,7 @@ sl_status cmd_path(command_console *console, int argc, char **argv) {
     };
     const command_usage usage = {
         .name = "path",
-        .synopsis = "MAP|FILE.slv --from X,Y --to X,Y | --from X,Y --distances [options]",
+        .synopsis = "MAP|FILE.slv --from X,Y --to X,Y [options]",
         .operands = {"MAP|FILE.slv"},
         .what = "Finds the shortest way among the walls between two points, for a walker without "
                 "width. It turns at ends of walls, and it does not pass between walls that meet in "
