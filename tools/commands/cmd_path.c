@@ -19,7 +19,8 @@ typedef struct path_plan {
     map_pipeline pipeline;
     door_choice doors;
     sl_draw_options drawing;
-    bool json;
+    double loss, audible; ///< NAN: not given
+    bool distances, json;
 } path_plan;
 
 typedef struct path_work {
@@ -27,7 +28,10 @@ typedef struct path_work {
     sl_query *query;
     sl_route_finder *finder;
     sl_route route;
-    bool *shut; ///< by door of the map
+    bool *shut;     ///< by door of the map
+    bool all_open;  ///< shut doors are passed at a loss
+    double *losses; ///< by door of the map
+    sl_route_near *cells;
 } path_work;
 
 // --- why there is no way
@@ -56,7 +60,7 @@ static sl_status find_doors(sl_context *context, path_work *w, sl_point from, sl
                             char *text, size_t size) {
     sl_route way = {0};
     text[0] = '\0';
-    if (!w->baked.map.door_count) return SL_OK;
+    if (!w->baked.map.door_count || w->all_open) return SL_OK;
     sl_query_set_doors(context, w->query, true);
     sl_status status = sl_route_finder_update(context, w->finder);
     if (status == SL_OK) status = sl_route_find(context, w->finder, from, to, &way);
@@ -168,6 +172,60 @@ static sl_status find_one(command_console *console, const path_plan *plan, path_
     return SL_OK;
 }
 
+// --- how far all cells are
+
+static sl_status put_cells(const path_work *w, uint32_t count, FILE *out) {
+    fputs("cell,distance,x,y\n", out);
+    for (uint32_t c = 0; c < count; c++) {
+        if (isinf(w->cells[c].distance)) continue;
+        fprintf(out, "%u,", c);
+        put(out, w->cells[c].distance, ",");
+        put(out, w->cells[c].at.x, ",");
+        put(out, w->cells[c].at.y, "\n");
+    }
+    return SL_OK;
+}
+
+static sl_status print_cells_json(sl_context *context, const path_work *w, uint32_t count) {
+    json_fields fields = json_begin();
+    sl_json_writer *json = json_add(&fields, "cells");
+    sl_json_put_list(json);
+    for (uint32_t c = 0; c < count; c++) {
+        if (isinf(w->cells[c].distance)) continue;
+        sl_json_put_object(json);
+        sl_json_put_key(json, "cell");
+        sl_json_put_integer(json, c);
+        sl_json_put_key(json, "distance");
+        sl_json_put_real(json, w->cells[c].distance);
+        sl_json_put_key(json, "nearest");
+        sl_json_put_list(json);
+        sl_json_put_real(json, w->cells[c].at.x);
+        sl_json_put_real(json, w->cells[c].at.y);
+        sl_json_put_end(json, ']');
+        sl_json_put_end(json, '}');
+    }
+    sl_json_put_end(json, ']');
+    return json_print(context, &fields);
+}
+
+/// The cells within the range of hearing, or all that a way leads to.
+static sl_status find_cells(command_console *console, const path_plan *plan, path_work *w) {
+    sl_context *context = console->context;
+    const uint32_t count = w->baked.space.cell_count;
+    SL_TRY(input_locate(context, "--from", plan->from_text, &w->baked.space, plan->from, NULL));
+    w->cells = sl_alloc_array(context, count, sizeof *w->cells);
+    if (!w->cells) return SL_NO_MEMORY;
+    SL_TRY(sl_route_distances(context, w->finder, plan->from,
+                              isnan(plan->audible) ? (double)INFINITY : plan->audible, w->cells));
+    if (plan->output || !plan->json) {
+        sl_output output;
+        SL_TRY(sl_output_open(context, plan->output ? plan->output : "-", &output));
+        SL_TRY(sl_output_close(context, &output, put_cells(w, count, output.stream)));
+    }
+    progress_line_clear(&console->line);
+    return plan->json ? print_cells_json(context, w, count) : SL_OK;
+}
+
 // --- a table of questions
 
 static sl_status put_rows(sl_context *context, const number_table *table, path_work *w, bool *all,
@@ -224,10 +282,15 @@ static sl_status find_many(command_console *console, const path_plan *plan, path
 // --- the command
 
 static sl_status check_plan(sl_context *context, path_plan *plan) {
+    plan->distances |= !isnan(plan->audible);
     if (plan->pairs && (plan->from_text || plan->to_text || plan->picture || plan->json))
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "--pairs makes a table: it goes without --from, --to, --picture and --json");
-    if (!plan->pairs && (!plan->from_text || !plan->to_text))
+    if (plan->distances && (plan->pairs || plan->to_text || plan->picture))
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "--distances makes a table of cells: it goes without --to, --pairs and "
+                       "--picture");
+    if (!plan->pairs && (!plan->from_text || !(plan->to_text || plan->distances)))
         return sl_fail(context, SL_BAD_ARGUMENT, "--%s is missing: where the way %s",
                        plan->from_text ? "to" : "from", plan->from_text ? "ends" : "begins");
     return pipeline_plan(context, plan->input, &plan->pipeline);
@@ -250,19 +313,28 @@ static sl_status work(command_console *console, path_plan *plan, path_work *w) {
         SL_EFFECT_DOOR | SL_EFFECT_ONEWAY | SL_EFFECT_MIRROR | SL_EFFECT_RANGE, NULL, &w->baked));
     SL_TRY(check_channel(context, plan, w));
     w->shut = sl_alloc_array(context, w->baked.map.door_count, sizeof *w->shut);
-    if (!w->shut) return SL_NO_MEMORY;
+    w->losses = sl_alloc_array(context, w->baked.map.door_count, sizeof *w->losses);
+    if (!w->shut || !w->losses) return SL_NO_MEMORY;
+    w->all_open = !isnan(plan->loss);
     SL_TRY(doors_read(context, &plan->doors, &w->baked.map, w->shut));
     SL_TRY(sl_query_over(context, &w->baked.space, &w->baked.map, NULL, &w->query));
     for (size_t i = 0; i < w->baked.map.door_count; i++) {
         w->baked.map.doors[i].open = !w->shut[i];
-        sl_query_set_door_at(context, w->query, i, !w->shut[i]);
+        w->losses[i] = w->shut[i] ? plan->loss : 0;
+        sl_query_set_door_at(context, w->query, i, w->all_open || !w->shut[i]);
     }
     SL_TRY(sl_route_finder_create(context, w->query, &w->finder));
+    if (w->all_open)
+        SL_TRY(sl_route_finder_set_losses(context, w->finder, w->losses, w->baked.map.door_count));
+    if (plan->distances) return find_cells(console, plan, w);
     return plan->pairs ? find_many(console, plan, w) : find_one(console, plan, w);
 }
 
 sl_status cmd_path(command_console *console, int argc, char **argv) {
-    path_plan plan = {.pipeline = pipeline_default(), .drawing = built_draw_options()};
+    path_plan plan = {.pipeline = pipeline_default(),
+                      .drawing = built_draw_options(),
+                      .loss = NAN,
+                      .audible = NAN};
     plan.pipeline.channel = SL_STOPS_STEPS;
     const option_table pipeline = pipeline_option_table(&plan.pipeline),
                        picture = picture_option_table(&plan.drawing, "picture", true),
@@ -273,13 +345,25 @@ sl_status cmd_path(command_console *console, int argc, char **argv) {
         {"pairs", 0, "CSV",
          "a table of ways, from_x,from_y,to_x,to_y: its first line may name the columns",
          .text = &plan.pairs, .is_input = true},
+        {"distances", 0, NULL,
+         "instead of --to: how far each cell is, to its nearest point: cell,distance,x,y",
+         .flag = &plan.distances},
+        {"audible", 0, "R",
+         "as --distances, for the cells that a sound with range R reaches, in map units: those "
+         "whose nearest point is within R",
+         .number = &plan.audible, .needs = "a range of 0 or more"},
+        {"loss", 0, "L",
+         "shut doors do not block: passing one counts as L more map units (0 or more), as for "
+         "sound",
+         .number = &plan.loss, .needs = "a length of 0 or more"},
         {"output", 'o', "FILE.csv",
-         "the points of the way as a table, or with --pairs the lengths (default: standard "
-         "output)",
+         "the points of the way as a table, with --pairs the lengths, with --distances the cells "
+         "(default: standard output)",
          .text = &plan.output, .check = CHECK_TABLE},
         {"picture", 0, "PICTURE", "draw the way: .png, .svg or .pdf", .text = &plan.picture,
          .check = CHECK_PICTURE},
-        {"json", 0, NULL, "print one JSON object: the length and the points", .flag = &plan.json},
+        {"json", 0, NULL, "print one JSON object: the length and the points, or the cells",
+         .flag = &plan.json},
         {.group = &doors},
         {.group = &picture},
         {.group = &pipeline},
@@ -294,7 +378,8 @@ sl_status cmd_path(command_console *console, int argc, char **argv) {
                 "3 if there is no way.",
         .examples = "  sightline path office.map --from 3,3 --to 53,20\n"
                     "  sightline path office.map --from 3,3 --to 53,20 --picture way.png\n"
-                    "  sightline path office.map --pairs desks.csv -o lengths.csv",
+                    "  sightline path office.map --pairs desks.csv -o lengths.csv\n"
+                    "  sightline path office.map --from 3,3 --audible 20 --loss 5",
         .options = options,
         .option_count = sizeof options / sizeof *options,
         .given = &plan.pipeline.given,
@@ -308,6 +393,8 @@ sl_status cmd_path(command_console *console, int argc, char **argv) {
     sl_route_finder_destroy(console->context, w.finder);
     sl_query_destroy(console->context, w.query);
     sl_free(console->context, w.shut);
+    sl_free(console->context, w.losses);
+    sl_free(console->context, w.cells);
     sl_baked_destroy(console->context, &w.baked);
     return status;
 }

@@ -7,6 +7,9 @@
 ///     ....+....      C in one row, those of B and D in another one. No way leads from one row to
 ///       C | D        the other here.
 ///
+/// A door that is passed at a loss parts what is around its ends, as a wall does: its two sides
+/// are reached at different costs, so they have corners of their own.
+///
 /// A row that closes to a ring has no wall at its point: there is nothing to turn around. So a row
 /// of n portals is a corner if they are joined n - 1 times.
 #include "analysis/route/route.h"
@@ -31,10 +34,20 @@ static void join(uint32_t *parents, uint32_t a, uint32_t b) {
         parents[a] = b;
 }
 
-/// The number of a portal's end among all ends.
-static uint32_t end_of(const sl_space *space, const sl_directed_portal *d, int side) {
+/// The number of a portal's end among all ends: on the side of the cell that the directed portal
+/// leaves, or on the side beyond it.
+static uint32_t end_of(const sl_route_finder *f, const sl_directed_portal *d, int side,
+                       bool beyond) {
+    const sl_portal *portal = &f->space->portals[d->portal];
     const sl_point at = side == SLI_ROUTE_LEFT ? d->left : d->right;
-    return 2 * d->portal + !sli_same_point(at, space->portals[d->portal].left);
+    const uint32_t end = 2 * d->portal + !sli_same_point(at, portal->left);
+    const bool second = !sli_same_point(d->left, portal->left);
+    return sli_route_loss(f, d->portal) > 0 && second != beyond ? end + 2 * f->space->portal_count
+                                                                : end;
+}
+
+static uint32_t end_count(const sl_route_finder *f) {
+    return (f->losses ? 4 : 2) * f->space->portal_count;
 }
 
 /// Whether two portals of a cell, one after the other, meet in a point.
@@ -44,7 +57,7 @@ static bool meet(const sl_directed_portal *d, const sl_directed_portal *next) {
 
 static void join_ends(sl_route_finder *f) {
     const sl_space *s = f->space;
-    for (uint32_t i = 0; i < 2 * s->portal_count; i++) f->ends[i] = i;
+    for (uint32_t i = 0; i < end_count(f); i++) f->ends[i] = i;
     for (uint32_t c = 0; c < s->cell_count; c++) {
         const sl_directed_portal *first = s->directed + s->cells[c].first_directed;
         const uint32_t count = s->cells[c].directed_count;
@@ -52,8 +65,8 @@ static void join_ends(sl_route_finder *f) {
             const sl_directed_portal *next = &first[i + 1 < count ? i + 1 : 0];
             join(f->part_of, c, first[i].cell);
             if (meet(&first[i], next))
-                join(f->ends, end_of(s, &first[i], SLI_ROUTE_LEFT),
-                     end_of(s, next, SLI_ROUTE_RIGHT));
+                join(f->ends, end_of(f, &first[i], SLI_ROUTE_LEFT, false),
+                     end_of(f, next, SLI_ROUTE_RIGHT, false));
         }
     }
 }
@@ -62,14 +75,14 @@ static void join_ends(sl_route_finder *f) {
 /// joined. One-way glass is in one cell only; a row with it is never taken for a ring.
 static void count_rows(sl_route_finder *f) {
     const sl_space *s = f->space;
-    memset(f->counts, 0, 2 * (size_t)s->portal_count * sizeof *f->counts);
-    for (uint32_t e = 0; e < 2 * s->portal_count; e++) f->counts[find_root(f->ends, e)]++;
+    memset(f->counts, 0, end_count(f) * sizeof *f->counts);
+    for (uint32_t e = 0; e < end_count(f); e++) f->counts[find_root(f->ends, e)]++;
     for (uint32_t c = 0; c < s->cell_count; c++) {
         const sl_directed_portal *first = s->directed + s->cells[c].first_directed;
         const uint32_t count = s->cells[c].directed_count;
         for (uint32_t i = 0; i < count; i++)
             if (meet(&first[i], &first[i + 1 < count ? i + 1 : 0]))
-                f->counts[find_root(f->ends, end_of(s, &first[i], SLI_ROUTE_LEFT))]--;
+                f->counts[find_root(f->ends, end_of(f, &first[i], SLI_ROUTE_LEFT, false))]--;
     }
 }
 
@@ -84,7 +97,7 @@ void sli_route_corners(sl_route_finder *f) {
         for (uint32_t d = cell->first_directed; d < cell->first_directed + cell->directed_count;
              d++)
             for (int side = 0; side < 2; side++) {
-                const uint32_t row = find_root(f->ends, end_of(s, &s->directed[d], side));
+                const uint32_t row = find_root(f->ends, end_of(f, &s->directed[d], side, true));
                 f->corner_of[2 * (size_t)d + (size_t)side] = f->counts[row] ? row : SLI_ROUTE_NONE;
             }
     }
@@ -105,7 +118,9 @@ uint32_t sli_route_stand(sl_route_finder *f, sl_point point, uint32_t first, uin
         const sl_cell *cell = &s->cells[f->list[i]];
         for (uint32_t k = 0; k < cell->directed_count; k++) {
             const sl_directed_portal *d = &s->directed[cell->first_directed + k];
-            if (marks[d->cell] == f->stamp || !touches(d, point)) continue;
+            if (marks[d->cell] == f->stamp || sli_route_loss(f, d->portal) > 0 ||
+                !touches(d, point))
+                continue;
             marks[d->cell] = f->stamp;
             f->list[count++] = d->cell;
         }
@@ -113,8 +128,7 @@ uint32_t sli_route_stand(sl_route_finder *f, sl_point point, uint32_t first, uin
     return count;
 }
 
-/// The point of a segment that is nearest to a place, rounded.
-static sl_point nearest_on(sl_point a, sl_point b, sl_point to) {
+sl_point sli_route_nearest_on(sl_point a, sl_point b, sl_point to) {
     const double x = b.x - a.x, y = b.y - a.y, square = x * x + y * y;
     const double along = ((to.x - a.x) * x + (to.y - a.y) * y) / square;
     if (!(along > 0)) return a;
@@ -132,8 +146,8 @@ sl_point sli_route_nearest(sl_route_finder *f, sl_point to) {
         const sl_cell *cell = &s->cells[f->list[i]];
         const sl_point *corners = s->vertices + cell->first_vertex;
         for (uint32_t k = 0; k < cell->vertex_count; k++) {
-            const sl_point at =
-                nearest_on(corners[k], corners[k + 1 < cell->vertex_count ? k + 1 : 0], to);
+            const sl_point at = sli_route_nearest_on(
+                corners[k], corners[k + 1 < cell->vertex_count ? k + 1 : 0], to);
             const double away = sli_length(at.x - to.x, at.y - to.y);
             if (!(away < least)) continue;
             least = away;

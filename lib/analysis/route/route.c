@@ -18,14 +18,31 @@ static void drop_tables(sl_context *context, sl_route_finder *f) {
     sl_free(context, f->at_start);
     sl_free(context, f->at_goal);
     sl_free(context, f->list);
+    sl_free(context, f->losses);
+    sl_free(context, f->upper);
+    f->losses = f->upper = NULL;
     f->corner_of = f->part_of = f->ends = f->counts = f->at_start = f->at_goal = f->list = NULL;
     f->corners = NULL;
     f->turns = NULL;
     f->space = NULL;
 }
 
+/// The losses of the doors, by portal.
+static sl_status make_losses(sl_context *context, sl_route_finder *f, const sl_space *space) {
+    if (!f->by_door) return SL_OK;
+    f->losses = sl_alloc_array(context, space->portal_count, sizeof *f->losses);
+    if (!f->losses) return SL_NO_MEMORY;
+    for (uint32_t i = 0; i < space->seam_portal_count; i++) {
+        const sl_seam *seam = &space->seams[space->seam_portals[i].seam];
+        if (seam->kind == SL_SEAM_DOOR && seam->number < f->door_count)
+            f->losses[space->seam_portals[i].portal] += f->by_door[seam->number];
+    }
+    return SL_OK;
+}
+
 static sl_status make_tables(sl_context *context, sl_route_finder *f, const sl_space *space) {
-    const size_t ends = 2 * (size_t)space->portal_count, sides = 2 * (size_t)space->directed_count;
+    const size_t ends = (f->by_door ? 4 : 2) * (size_t)space->portal_count,
+                 sides = 2 * (size_t)space->directed_count;
     f->corner_of = sl_alloc_array(context, sides, sizeof *f->corner_of);
     f->part_of = sl_alloc_array(context, space->cell_count, sizeof *f->part_of);
     f->ends = sl_alloc_array(context, ends, sizeof *f->ends);
@@ -38,6 +55,7 @@ static sl_status make_tables(sl_context *context, sl_route_finder *f, const sl_s
     if (!f->corner_of || !f->part_of || !f->ends || !f->counts || !f->corners || !f->turns ||
         !f->at_start || !f->at_goal || !f->list)
         return SL_NO_MEMORY;
+    SL_TRY(make_losses(context, f, space));
     f->space = space;
     f->stamp = 0;
     sli_route_corners(f);
@@ -52,6 +70,21 @@ sl_status sl_route_finder_update(sl_context *context, sl_route_finder *finder) {
         return sl_fail(context, SL_UNSUPPORTED,
                        "ways need a space without gaps: bake the map again");
     return make_tables(context, finder, space);
+}
+
+sl_status sl_route_finder_set_losses(sl_context *context, sl_route_finder *finder,
+                                     const double *losses, size_t count) {
+    double *own = NULL;
+    for (size_t i = 0; losses && i < count; i++)
+        if (!(losses[i] >= 0 && isfinite(losses[i])))
+            return sl_fail(context, SL_BAD_ARGUMENT,
+                           "the loss of door %zu is %.9g: it must be 0 or more", i, losses[i]);
+    if (losses && !(own = sl_alloc_array(context, count, sizeof *own))) return SL_NO_MEMORY;
+    for (size_t i = 0; losses && i < count; i++) own[i] = losses[i];
+    sl_free(context, finder->by_door);
+    finder->by_door = own;
+    finder->door_count = own ? count : 0;
+    return sl_route_finder_update(context, finder);
 }
 
 sl_status sl_route_finder_create(sl_context *context, sl_query *query, sl_route_finder **out) {
@@ -69,6 +102,7 @@ sl_status sl_route_finder_create(sl_context *context, sl_query *query, sl_route_
 void sl_route_finder_destroy(sl_context *context, sl_route_finder *finder) {
     if (!finder) return;
     drop_tables(context, finder);
+    sl_free(context, finder->by_door);
     sl_free(context, finder->nodes.items);
     sl_free(context, finder->open.items);
     sl_free(context, finder);
@@ -103,8 +137,10 @@ static void turn_over(void *items, size_t count, size_t size) {
     }
 }
 
-static double length_of(const sl_route *route) {
+/// The sum of the pieces and of the losses on the way.
+static double length_of(const sl_route_finder *f, const sl_route *route) {
     double sum = 0, rest = 0;
+    for (size_t i = 0; i < route->portal_count; i++) sum += sli_route_loss(f, route->portals[i]);
     for (size_t i = 1; i < route->count; i++) {
         const sl_point a = route->points[i - 1], b = route->points[i];
         double left_out;
@@ -138,7 +174,7 @@ static sl_status read_way(sl_context *context, const sl_route_finder *f, uint32_
     if (route->count == 1) route->points[route->count++] = from; // the two points are one
     turn_over(route->points, route->count, sizeof *route->points);
     turn_over(route->portals, route->portal_count, sizeof *route->portals);
-    route->length = length_of(route);
+    route->length = length_of(f, route);
     route->found = true;
     return SL_OK;
 }
@@ -162,7 +198,8 @@ static void begin(sl_route_finder *f) {
     const size_t cells = f->space->cell_count;
     memset(f->at_start, 0, cells * sizeof *f->at_start);
     memset(f->at_goal, 0, cells * sizeof *f->at_goal);
-    memset(f->corners, 0, 2 * (size_t)f->space->portal_count * sizeof *f->corners);
+    memset(f->corners, 0,
+           (f->losses ? 4 : 2) * (size_t)f->space->portal_count * sizeof *f->corners);
     memset(f->turns, 0, 2 * (size_t)f->space->directed_count * sizeof *f->turns);
     f->stamp = 1;
 }
@@ -184,4 +221,17 @@ sl_status sl_route_find(sl_context *context, sl_route_finder *finder, sl_point f
     sli_route_stand(finder, from, start, finder->at_start);
     route->nearest = sli_route_nearest(finder, to);
     return SL_OK;
+}
+
+sl_status sl_route_distances(sl_context *context, sl_route_finder *finder, sl_point from,
+                             double limit, sl_route_near *cells) {
+    uint32_t start;
+    if (!(limit >= 0))
+        return sl_fail(context, SL_BAD_ARGUMENT, "the limit is %.9g: it must be 0 or more", limit);
+    SL_TRY(stand(context, finder->space, "from", from, &start));
+    if (!finder->upper)
+        finder->upper = sl_alloc_array(context, finder->space->cell_count, sizeof *finder->upper);
+    if (!finder->upper) return SL_NO_MEMORY;
+    begin(finder);
+    return sli_route_spread(context, finder, from, limit, cells);
 }

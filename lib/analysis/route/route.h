@@ -60,8 +60,13 @@ struct sl_route_finder {
     uint32_t *corner_of; ///< by directed portal and side: the corner there, SLI_ROUTE_NONE where
                          ///< nothing is to turn around
     uint32_t *part_of;   ///< by cell: the part of the space that portals join it with
-    uint32_t *ends;      ///< by end of a portal: for union-find
+    uint32_t *ends;      ///< by end of a portal: for union-find. Where passing a portal has a loss,
+                         ///< its ends are two: those of its second directed portal follow all
     uint32_t *counts;    ///< by end of a portal, likewise
+    double *by_door;     ///< the loss by door of the map; NULL: none
+    size_t door_count;
+    double *losses;               ///< by portal; NULL: none
+    double *upper;                ///< by cell: no point of it is farther (sl_route_distances)
     sli_route_corner *corners;    ///< by corner: the end of a portal that stands for it
     sli_route_turn *turns;        ///< by directed portal and side
     uint32_t *at_start, *at_goal; ///< by cell: the search in which it is there
@@ -77,6 +82,9 @@ void sli_route_corners(sl_route_finder *finder);
 /// The cells that a point stands in (view.h): marks them, and writes their number.
 uint32_t sli_route_stand(sl_route_finder *finder, sl_point point, uint32_t first, uint32_t *marks);
 
+/// The point of a segment that is nearest to a place, rounded.
+sl_point sli_route_nearest_on(sl_point a, sl_point b, sl_point to);
+
 /// A place that can be reached from the cells marked as the start, next to the one that is nearest
 /// to `to`.
 sl_point sli_route_nearest(sl_route_finder *finder, sl_point to);
@@ -85,5 +93,14 @@ sl_point sli_route_nearest(sl_route_finder *finder, sl_point to);
 /// SLI_ROUTE_NONE for none.
 sl_status sli_route_search(sl_context *context, sl_route_finder *finder, sl_point from, sl_point to,
                            uint64_t *expanded, uint32_t *out);
+
+/// How far each cell is from a point, up to a limit (sl_route_distances).
+sl_status sli_route_spread(sl_context *context, sl_route_finder *finder, sl_point from,
+                           double limit, sl_route_near *cells);
+
+/// What passing a portal costs beside its length.
+static inline double sli_route_loss(const sl_route_finder *finder, uint32_t portal) {
+    return finder->losses ? finder->losses[portal] : 0;
+}
 
 #endif

@@ -20,6 +20,11 @@
 /// A corner is turned at by the shortest way to it only. Of ways of the same length (SAME), those
 /// count from which most can be turned to: so a corner is left by a few nodes, and the cost does
 /// not grow with the number of ways of the same length.
+///
+/// For the distances of all cells from a point (sli_route_spread) there is no goal: the bound of a
+/// node is how far the piece of its portal is, so the first node that enters a cell has the cell's
+/// distance. A cell is convex, so all of it is known to be within a distance then, by way of that
+/// node's nearest point. Nodes that come from farther away bring nothing.
 #include "analysis/route/route.h"
 
 #include "geometry/length.h"
@@ -32,7 +37,9 @@ typedef struct search {
     sl_context *context;
     sl_route_finder *finder;
     const sl_space *space;
-    sl_point goal;
+    sl_point from, goal;
+    const sl_route_near *cells; ///< by cell: what is known of it; NULL: one goal is searched
+    double limit;               ///< nodes with a higher bound are left out
     double scale; ///< a power of two that brings the bounds to about 1: products neither overflow
                   ///< nor underflow
 } search;
@@ -107,6 +114,14 @@ static double bound(const search *s, const sli_route_node *n) {
     else
         h = sli_length(t.x, t.y);
     return fmax(distance(n->root, s->goal), (h - 0x1p-46 * reach) / s->scale);
+}
+
+/// The nearest point to a node's root on the piece of its portal, from the root, scaled.
+static sl_point nearest_passed(const search *s, const sli_route_node *n) {
+    const sl_directed_portal *d = &s->space->directed[n->entry];
+    const sl_point start = offset(s, n->root, d->right), end = offset(s, n->root, d->left);
+    return sli_route_nearest_on(passed_end(s, n, SLI_ROUTE_RIGHT, start, end),
+                                passed_end(s, n, SLI_ROUTE_LEFT, start, end), (sl_point){0, 0});
 }
 
 // --- the open nodes: a heap
@@ -198,34 +213,56 @@ static bool turn_at(search *s, sli_route_node *n, uint32_t entry, int side) {
 static sl_status push_across(search *s, sli_route_node *node, uint32_t across) {
     node->entry = across;
     node->cell = s->space->directed[across].cell;
-    return push(s, node, node->g + bound(s, node));
+    if (!s->cells) return push(s, node, node->g + bound(s, node));
+    const sl_point at = nearest_passed(s, node);
+    const double f = node->g + sli_length(at.x, at.y) / s->scale;
+    return f * (1 - SAME) > fmin(s->limit, s->finder->upper[node->cell]) ? SL_OK : push(s, node, f);
 }
 
-/// A portal that is seen edge-on: straight to its nearer end, and around that.
+/// A portal that is seen edge-on: straight to its nearer end, and around that. A root on the portal
+/// is the start, which stands in the cell behind it, too; where there is a loss, it does not.
 static sl_status cross_edge_on(search *s, const sli_route_node *from, uint32_t across) {
     const sl_directed_portal *d = &s->space->directed[across];
+    const double loss = sli_route_loss(s->finder, d->portal);
     sli_route_node node = *from;
     int side;
+    node.g += loss;
     if (sli_goes_on(node.root, d->right, d->left))
         side = SLI_ROUTE_RIGHT;
     else if (sli_goes_on(node.root, d->left, d->right))
         side = SLI_ROUTE_LEFT;
     else
-        return SL_OK; // the root is on it: the start, which stands in the cell behind it, too
+        return loss > 0 ? push_across(s, &node, across) : SL_OK;
     const sl_point end = side == SLI_ROUTE_LEFT ? d->left : d->right;
     if (is_beyond(&node, SLI_ROUTE_RIGHT, end) || is_beyond(&node, SLI_ROUTE_LEFT, end))
         return SL_OK;
     return turn_at(s, &node, across, side) ? push_across(s, &node, across) : SL_OK;
 }
 
+/// Whether a root is the start, and the start stands in a cell: turning around it leads nowhere.
+static bool stands_there(const search *s, sl_point root, uint32_t cell) {
+    return sli_same_point(root, s->from) && s->finder->at_start[cell] == s->finder->stamp;
+}
+
+/// Whether a portal around the root ends just where the way came from. Nobody needs to pass it: the
+/// way came along its other side.
+static bool turns_back(const sli_route_node *n, int side, sl_point end) {
+    return n->limit[side].kind == SLI_LIMIT_ON && limit_side(n, side, end) == 0 &&
+           !sli_goes_on(n->limit[side].point, n->root, end);
+}
+
 /// Takes a node through a portal of its cell.
 static sl_status cross(search *s, const sli_route_node *from, uint32_t across) {
     const sl_directed_portal *d = &s->space->directed[across];
     const sl_point ends[2] = {d->right, d->left};
+    const double loss = sli_route_loss(s->finder, d->portal);
     sli_route_node node = *from;
+    node.g += loss;
     for (int side = 0; side < 2; side++)
         if (sli_same_point(node.root, ends[side])) { // around the root
-            if (from->entry == SLI_ROUTE_NONE || is_beyond(from, !side, ends[!side])) return SL_OK;
+            if (is_beyond(from, !side, ends[!side]) || turns_back(from, !side, ends[!side]) ||
+                stands_there(s, node.root, d->cell))
+                return SL_OK;
             node.limit[side].kind = SLI_LIMIT_NONE;
             return push_across(s, &node, across);
         }
@@ -282,24 +319,33 @@ static sl_status expand(search *s, uint32_t number) {
     return SL_OK;
 }
 
-sl_status sli_route_search(sl_context *context, sl_route_finder *finder, sl_point from, sl_point to,
-                           uint64_t *expanded, uint32_t *out) {
-    const sl_box *b = &finder->space->bounds;
+/// Opens the cells that a point stands in.
+static sl_status start_at(search *s, sl_point from) {
+    sl_route_finder *finder = s->finder;
+    const sl_box *b = &s->space->bounds;
     int exponent;
     frexp(sli_greater(b->max.x - b->min.x, b->max.y - b->min.y), &exponent);
-    search s = {context, finder, finder->space, to, ldexp(1, -exponent)};
+    s->scale = ldexp(1, -exponent);
     const uint32_t count =
-        sli_route_stand(finder, from, sl_space_locate(finder->space, from), finder->at_start);
+        sli_route_stand(finder, from, sl_space_locate(s->space, from), finder->at_start);
     finder->nodes.count = finder->open.count = 0;
-    *expanded = 0;
-    *out = SLI_ROUTE_NONE;
     for (uint32_t i = 0; i < count; i++) {
         const sli_route_node node = {.root = from,
                                      .parent = SLI_ROUTE_NONE,
                                      .entry = SLI_ROUTE_NONE,
                                      .cell = finder->list[i]};
-        SL_TRY(push(&s, &node, 0));
+        SL_TRY(push(s, &node, 0));
     }
+    return SL_OK;
+}
+
+sl_status sli_route_search(sl_context *context, sl_route_finder *finder, sl_point from, sl_point to,
+                           uint64_t *expanded, uint32_t *out) {
+    search s = {
+        .context = context, .finder = finder, .space = finder->space, .from = from, .goal = to};
+    *expanded = 0;
+    *out = SLI_ROUTE_NONE;
+    SL_TRY(start_at(&s, from));
     while (finder->open.count) {
         const uint32_t next = pop(finder);
         if (finder->nodes.items[next].is_last) {
@@ -307,6 +353,47 @@ sl_status sli_route_search(sl_context *context, sl_route_finder *finder, sl_poin
             return SL_OK;
         }
         if ((++*expanded & 0xfff) == 0) SL_TRY(sl_check_cancelled(context));
+        SL_TRY(expand(&s, next));
+    }
+    return SL_OK;
+}
+
+/// No point of a cell is farther than a known one and the way from there straight to it.
+static double farthest(const sl_space *space, uint32_t cell, const sl_route_near *known) {
+    const sl_cell *c = &space->cells[cell];
+    double most = 0;
+    for (uint32_t k = 0; k < c->vertex_count; k++)
+        most = fmax(most, distance(known->at, space->vertices[c->first_vertex + k]));
+    return (known->distance + most) * (1 + SAME);
+}
+
+sl_status sli_route_spread(sl_context *context, sl_route_finder *finder, sl_point from,
+                           double limit, sl_route_near *cells) {
+    search s = {.context = context,
+                .finder = finder,
+                .space = finder->space,
+                .from = from,
+                .cells = cells,
+                .limit = limit};
+    for (uint32_t c = 0; c < s.space->cell_count; c++) {
+        finder->upper[c] = INFINITY;
+        cells[c] = (sl_route_near){INFINITY, {0, 0}};
+    }
+    SL_TRY(start_at(&s, from));
+    for (uint64_t expanded = 1; finder->open.count; expanded++) {
+        const uint32_t next = pop(finder);
+        const sli_route_node node = finder->nodes.items[next];
+        sl_route_near here = {0, from};
+        if (node.entry != SLI_ROUTE_NONE) {
+            const sl_point at = nearest_passed(&s, &node);
+            here.distance = node.g + sli_length(at.x, at.y) / s.scale;
+            here.at = (sl_point){node.root.x + at.x / s.scale, node.root.y + at.y / s.scale};
+        }
+        if (here.distance * (1 - SAME) > finder->upper[node.cell]) continue;
+        if (here.distance < cells[node.cell].distance) cells[node.cell] = here;
+        finder->upper[node.cell] =
+            fmin(finder->upper[node.cell], farthest(s.space, node.cell, &here));
+        if ((expanded & 0xfff) == 0) SL_TRY(sl_check_cancelled(context));
         SL_TRY(expand(&s, next));
     }
     return SL_OK;

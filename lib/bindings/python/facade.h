@@ -12,6 +12,7 @@
 #include "sightline/coverage.h"
 #include "sightline/explain.h"
 #include "sightline/faults.h"
+#include "sightline/path.h"
 #include "sightline/place.h"
 #include "sightline/support.h"
 #include "sightline/vga.h"
@@ -63,6 +64,7 @@ typedef struct slp_level {
     sl_vga_measures *measures;
     uint32_t *depths;
     sl_effect_explanation explanation;
+    sl_route route;     ///< the last way
     sl_cameras cameras; ///< of `coverage`: given, or those of `placement`
     sl_coverage coverage;
     sl_path_parts unseen; ///< of a path, by `coverage`
@@ -213,6 +215,16 @@ SLP_API int slp_level_exposure(slp_level *level, const double *path, size_t path
 SLP_API int slp_level_sees_within(slp_level *level, const double *from, double from_radius,
                                   const double *to, double to_radius, size_t count, int on_foot,
                                   uint8_t *sees);
+
+/// The shortest way, which is kept. `loss`: of doors that are shut; NAN: they block. Without a way
+/// the length is INFINITY.
+SLP_API int slp_level_path(slp_level *level, const double *from, const double *to, double loss,
+                           double *length);
+/// Copies its points, unless `points` is NULL. Returns how many there are.
+SLP_API size_t slp_level_path_points(const slp_level *level, double *points);
+/// How far each cell is, and its nearest point, or NAN.
+SLP_API int slp_level_distances(slp_level *level, const double *from, double loss, double limit,
+                                double *distances, double *nearest);
 
 /// As sl_vga_options. `parts` are bits of sl_vga_part; 0 for the grid alone.
 typedef struct slp_vga {

@@ -31,6 +31,7 @@ void slp_level_forget(slp_level *level) {
     sl_free(context, level->depths);
     level->depths = NULL;
     sl_effect_explanation_destroy(context, &level->explanation);
+    sl_route_destroy(context, &level->route);
 }
 
 void slp_level_free(slp_level *level) {

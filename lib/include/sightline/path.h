@@ -16,6 +16,9 @@
 ///
 /// A point on a wall stands on one side of it, as an eye does (view.h). So without one-way glass
 /// the distance is the same both ways, and no longer than by way of a third point.
+///
+/// How far sound goes: open all doors in the query, and give those that are shut a loss
+/// (sl_route_finder_set_losses). They are passed then, each as if it was so much farther.
 #ifndef SIGHTLINE_PATH_H
 #define SIGHTLINE_PATH_H
 
@@ -55,6 +58,14 @@ SL_API void sl_route_finder_destroy(sl_context *context, sl_route_finder *finder
 /// next question. Time O(portals). After a failure it must be called again.
 SL_API sl_status sl_route_finder_update(sl_context *context, sl_route_finder *finder);
 
+/// Passing door i of the map costs losses[i] in map units, as if the way was longer by that.
+/// `count` losses, each finite and 0 or more; other doors have none. NULL: no losses. They are part
+/// of lengths and distances from now on. The query says which doors are open: one that is shut
+/// there is not passed. A door with a loss above 0 parts its two sides: a point on it stands on one
+/// of them. Updates the finder. SL_BAD_ARGUMENT for other losses; nothing has changed then.
+SL_API sl_status sl_route_finder_set_losses(sl_context *context, sl_route_finder *finder,
+                                            const double *losses, size_t count);
+
 /// The shortest way from one point to another (Cui, Harabor and Grastien 2017, Compromise-free
 /// Pathfinding on a Navigation Mesh: Polyanya, on the convex cells).
 ///
@@ -68,6 +79,25 @@ SL_API sl_status sl_route_finder_update(sl_context *context, sl_route_finder *fi
 /// memory is allocated once `route` and the finder have grown.
 SL_API sl_status sl_route_find(sl_context *context, sl_route_finder *finder, sl_point from,
                                sl_point to, sl_route *route);
+
+/// How far a cell is: the length of the shortest way to its nearest point.
+typedef struct sl_route_near {
+    double distance; ///< in map units; INFINITY: no way leads there, or the cell is too far
+    sl_point at;     ///< the nearest point, rounded; of several, any
+} sl_route_near;
+
+/// How far each cell of the query's space is from a point: cells[c], of all sl_space.cell_count.
+/// Cells that are farther than `limit` (0 or more; INFINITY: none) are INFINITY. With losses, the
+/// others are the cells that a sound with that range reaches.
+///
+/// Signs are exact, as in sl_route_find(). Distances are rounded: off by at most a relative 2^-40
+/// for each corner, and 2^-40 of the bounds' greater side. The limit takes cells in that are at it
+/// as doubles, up to a relative 2^-42. Time and memory grow with the cells that corners see, not
+/// with pairs of cells: nodes that bring nothing to a cell are left out.
+///
+/// SL_BAD_ARGUMENT for a point outside the bounds or in solid ground, or another limit.
+SL_API sl_status sl_route_distances(sl_context *context, sl_route_finder *finder, sl_point from,
+                                    double limit, sl_route_near *cells);
 
 #ifdef __cplusplus
 }

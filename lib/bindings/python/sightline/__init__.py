@@ -24,12 +24,13 @@ from .level import Explanation, Level, Measure, PortalSequence, measures_of as _
 from .placement import Coverage, Placement
 from .plan import Plan
 from .transform import Transform
+from .ways import Path
 from .world import World
 
 __version__: str = _said(_call.version())
 
 __all__ = ["BadArgument", "BadInput", "Cancelled", "Closed", "Coverage", "Doors", "Explanation", "FileError",
-           "Level", "Measure", "OutOfMemory", "Placement", "Plan", "PortalSequence", "SightlineError", "SightlineWarning",
+           "Level", "Measure", "OutOfMemory", "Path", "Placement", "Plan", "PortalSequence", "SightlineError", "SightlineWarning",
            "Transform", "Unsupported", "World", "eye_methods", "exports", "formats", "heat_map", "measures", "methods"]
 
 

@@ -14,6 +14,7 @@ from ._library import (Floats, Handle, Integers, MapHandle, Vga, address, as_cou
                        as_point, as_points, as_reals, call, existing, path_text, said, text)
 from .placement import Viewpoints
 from .sets import Sets
+from .ways import Ways
 
 # Questions up to this number are answered at once; Ctrl-C waits for them.
 FEW = 16
@@ -110,7 +111,7 @@ class Explanation:
         return why
 
 
-class Level(Viewpoints, Sets, drawing.InNotebooks, MapHandle):
+class Level(Viewpoints, Sets, Ways, drawing.InNotebooks, MapHandle):
     """A baked plan: cells, the portals between them, and which cells see each other.
 
     `Plan.bake` makes one, and `Level.open` reads one. Several threads may use a level: they take

@@ -17,6 +17,7 @@ from ._library import (Bake, Floats, Handle, Import, MapHandle, as_count, as_fla
 from .errors import SightlineWarning
 from .level import Level
 from .placement import Coverage, Placement
+from .ways import Path
 from .world import World
 
 EFFECTS = ("door", "mirror", "oneway", "range")
@@ -464,6 +465,14 @@ class Plan(drawing.InNotebooks, MapHandle):
     def exposure(self, path: ArrayLike, things: Any, **options: Any) -> Any:
         """As `Level.exposure`."""
         return self._own_space().exposure(path, things, **options)
+
+    def path(self, start: ArrayLike, end: ArrayLike, **options: Any) -> Path:
+        """As `Level.path`."""
+        return self._own_space().path(start, end, **options)
+
+    def distances(self, start: ArrayLike, **options: Any) -> Any:
+        """As `Level.distances`."""
+        return self._own_space().distances(start, **options)
 
     def sees_within(self, start: ArrayLike, start_radius: float, end: ArrayLike, end_radius: float,
                     **options: Any) -> Any:

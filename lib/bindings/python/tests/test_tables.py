@@ -161,7 +161,7 @@ class Pictures(unittest.TestCase):
 
 
 def load_tests(loader, tests, pattern):
-    for module in (sightline, sightline.plan, sightline.level, sightline.drawing):
+    for module in (sightline, sightline.plan, sightline.level, sightline.ways, sightline.drawing):
         tests.addTests(doctest.DocTestSuite(module))
     try:
         need("pandas")
