@@ -75,11 +75,11 @@ static sl_status read_row(reader *r, const char *line, size_t length) {
     const size_t count = count_fields(r->separator, line, length);
     if (count != to->columns && !to->rows && to->names)
         return sl_fail_at(r->context, to->path, to->first_line,
-                          "%zu name%s of columns; line %u has %zu columns", to->columns,
-                          to->columns == 1 ? "" : "s", r->line, count);
+                          "%zu name%s of columns; line %u has %zu column%s", to->columns,
+                          to->columns == 1 ? "" : "s", r->line, count, count == 1 ? "" : "s");
     if (count != to->columns)
-        return sl_fail_at(r->context, to->path, r->line, "%zu columns; the first line has %zu",
-                          count, to->columns);
+        return sl_fail_at(r->context, to->path, r->line, "%zu column%s; the first line has %zu",
+                          count, count == 1 ? "" : "s", to->columns);
     SL_TRY(sl_reserve(r->context, &to->lines, &r->row_room, to->rows + 1, sizeof *to->lines));
     SL_TRY(sl_reserve(r->context, &to->values, &r->value_room, r->value_count + count,
                       sizeof *to->values));

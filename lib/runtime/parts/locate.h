@@ -105,9 +105,8 @@ SL_RUNTIME_API uint32_t sl_runtime_locate(const sl_runtime *runtime, double x, d
     if (!runtime->nodes) return slrt_locate_by_grid(runtime, x, y);
     found = slrt_descend(runtime, slrt_start(runtime, x, y), x, y);
     for (side = 1; side < 4 && !sl_runtime_is_inside(runtime, found); side++) {
-        const uint32_t cell =
-            slrt_descend(runtime, runtime->root, side & 1 ? slrt_before(x) : x,
-                         side & 2 ? slrt_before(y) : y);
+        const uint32_t cell = slrt_descend(runtime, runtime->root, side & 1 ? slrt_before(x) : x,
+                                           side & 2 ? slrt_before(y) : y);
         if (slrt_claim(runtime, cell) > slrt_claim(runtime, found)) found = cell;
     }
     return found;
