@@ -109,6 +109,15 @@ static inline void testing_subdivide(sl_context *context, sl_map *map, sl_space 
     assert_ok(context, sl_subdivision_for(map)->subdivide(context, map, NULL, space));
 }
 
+/// Gives cells that were cut anew, within those of a space, what these say of inside: boxes' sides
+/// enclose nothing.
+static inline void testing_take_inside(const sl_space *from, sl_space *cut) {
+    for (uint32_t i = 0; i < cut->cell_count; i++) {
+        const uint32_t cell = sl_space_locate(from, sl_space_middle(cut, i));
+        cut->cells[i].inside = cell != SL_NO_CELL && from->cells[cell].inside;
+    }
+}
+
 /// A cleaned map and its space, from map text without its first line.
 static inline void testing_space(sl_context *context, const char *statements, sl_map *map,
                                  sl_space *space) {

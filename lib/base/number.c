@@ -149,3 +149,18 @@ bool sl_number_read(const char *text, size_t length, double *value) {
     *value = strtod(copy, NULL);
     return true;
 }
+
+// --- of tables
+
+char sl_table_separator(const char *line, size_t length) {
+    return memchr(line, ';', length) ? ';' : memchr(line, '\t', length) ? '\t' : ',';
+}
+
+bool sl_table_number_read(char separator, const char *text, size_t length, double *value) {
+    char copy[MOST_CHARACTERS];
+    const char *const comma = separator == ',' ? NULL : memchr(text, ',', length);
+    if (!comma || length > sizeof copy) return sl_number_read(text, length, value);
+    memcpy(copy, text, length);
+    copy[comma - text] = '.';
+    return sl_number_read(copy, length, value);
+}

@@ -143,10 +143,10 @@ SL_RUNTIME_API const char *sl_runtime_status_text(sl_runtime_status status);
 /// cells of one bucket. In a loose file, gaps give SL_RUNTIME_NO_CELL; version 1 takes the time of
 /// all cells.
 ///
-/// On the border of solid ground, such as the side of a tile, a cell that is not solid comes first.
-/// If all walls are axial, these are asked in turn: the cell right of the point and over it, left
-/// and over, right and under, left and under. In other maps, the lowest number that is not solid
-/// counts. So an eye that leans against rock sees.
+/// Of the cells that hold the point, one that is inside comes first, then one that is not solid. So
+/// an eye that leans against rock, or against the wall around the map, sees what is inside. Of
+/// several, the lowest number counts; if all walls are axial, the first in this order does: the
+/// cell right of the point and over it, left and over, right and under, left and under.
 SL_RUNTIME_API uint32_t sl_runtime_locate(const sl_runtime *runtime, double x, double y);
 
 /// Finds the cells that a box lies in or touches, ascending. Returns their number, and puts the
@@ -2637,24 +2637,30 @@ static size_t slrt_bucket(const sl_runtime *rt, uint32_t columns, uint32_t rows,
            slrt_step(x, rt->min_x, rt->max_x, columns);
 }
 
-/// The first cell that holds a point and is not solid, else the first that holds it. It is among
-/// those of the point's bucket, or among all without a grid. Cells tile the bounds, so the last one
-/// holds the point if no other does.
+/// Of the cells that hold a point, the one with the highest number here counts.
+static int slrt_claim(const sl_runtime *rt, uint32_t cell) {
+    return sl_runtime_is_inside(rt, cell) ? 2 : !sl_runtime_is_solid(rt, cell);
+}
+
+/// The first cell that holds a point and is inside, else the first that is not solid, else the
+/// first. It is among those of the point's bucket, or among all without a grid. Cells tile the
+/// bounds, so the last one holds the point if no other does.
 static uint32_t slrt_locate_by_grid(const sl_runtime *rt, double x, double y) {
     uint32_t at = 0, end = rt->cell_count, found = SL_RUNTIME_NO_CELL;
+    int best = -1;
     if (rt->grid_cells) {
         const unsigned char *bucket =
             rt->grid_offsets + slrt_bucket(rt, rt->grid_columns, rt->grid_rows, x, y) * 4;
         at = slrt_u32(bucket);
         end = slrt_u32(bucket + 4);
     }
-    for (; at < end; at++) {
+    for (; at < end && best < 2; at++) {
         const uint32_t cell = rt->grid_cells ? slrt_u32(rt->grid_cells + (size_t)at * 4) : at;
-        const bool solid = sl_runtime_is_solid(rt, cell), none = found == SL_RUNTIME_NO_CELL;
-        if (!none && solid) continue;
-        if (!(none && at + 1 == end && !rt->loose) && !slrt_holds(rt, cell, x, y)) continue;
+        const int claim = slrt_claim(rt, cell);
+        if (claim <= best) continue;
+        if (!(best < 0 && at + 1 == end && !rt->loose) && !slrt_holds(rt, cell, x, y)) continue;
         found = cell;
-        if (!solid) break;
+        best = claim;
     }
     return found;
 }
@@ -2689,18 +2695,17 @@ static bool slrt_in_bounds(const sl_runtime *rt, double x, double y) {
 }
 
 SL_RUNTIME_API uint32_t sl_runtime_locate(const sl_runtime *runtime, double x, double y) {
-    uint32_t first = SL_RUNTIME_NO_CELL;
+    uint32_t found;
     int side;
     if (!slrt_in_bounds(runtime, x, y)) return SL_RUNTIME_NO_CELL;
     if (!runtime->nodes) return slrt_locate_by_grid(runtime, x, y);
-    for (side = 0; side < 4; side++) {
-        const uint32_t cell =
-            slrt_descend(runtime, side ? runtime->root : slrt_start(runtime, x, y),
-                         side & 1 ? slrt_before(x) : x, side & 2 ? slrt_before(y) : y);
-        if (!sl_runtime_is_solid(runtime, cell)) return cell;
-        if (!side) first = cell;
+    found = slrt_descend(runtime, slrt_start(runtime, x, y), x, y);
+    for (side = 1; side < 4 && !sl_runtime_is_inside(runtime, found); side++) {
+        const uint32_t cell = slrt_descend(runtime, runtime->root, side & 1 ? slrt_before(x) : x,
+                                           side & 2 ? slrt_before(y) : y);
+        if (slrt_claim(runtime, cell) > slrt_claim(runtime, found)) found = cell;
     }
-    return first;
+    return found;
 }
 
 // --- from box to cells

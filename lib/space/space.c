@@ -3,8 +3,9 @@
 /// The kd-tree finds the cell of a point from the root down: at each node, below or above the
 /// split. A mesh looks into the one bucket of its grid, and asks each cell there for the exact side
 /// of each of its edges. The last cell of a bucket needs no test, as the cells leave nothing out.
-/// A point on the border of solid ground is in a cell beside it: a kd-tree then asks for the cells
-/// at the other sides of the point, as each cell at a point covers one of its four quadrants.
+/// A point on the border of what is inside is in a cell beside it that is: a kd-tree then asks for
+/// the cells at the other sides of the point, as each cell at a point covers one of its four
+/// quadrants.
 #include "sightline/space.h"
 
 #include "geometry/length.h"
@@ -97,18 +98,25 @@ bool sli_cell_holds(const sl_space *space, uint32_t number, sl_point point) {
     return true;
 }
 
-/// The first cell of a bucket that holds a point and is not solid, else the first that holds it.
-/// Cells tile the bounds, so the last one holds it if no other does.
+/// Of the cells that hold a point, the one with the highest number here counts.
+static int claim_of(const sl_cell *cell) {
+    return cell->inside ? 2 : !cell->solid;
+}
+
+/// The first cell of a bucket that holds a point and is inside, else the first that is not solid,
+/// else the first. Cells tile the bounds, so the last one holds it if no other does.
 static uint32_t locate_in_bucket(const sl_space *space, sl_point point) {
     const uint32_t bucket = sli_cell_grid_bucket(space, point);
     const uint32_t *cells = space->grid.cells, end = sli_cell_grid_stop(&space->grid, bucket);
     uint32_t found = SL_NO_CELL;
-    for (uint32_t i = space->grid.first[bucket]; i < end; i++) {
-        const bool solid = space->cells[cells[i]].solid, last = i + 1 == end && !space->loose;
-        if (found != SL_NO_CELL && solid) continue;
-        if (!(last && found == SL_NO_CELL) && !sli_cell_holds(space, cells[i], point)) continue;
+    int best = -1;
+    for (uint32_t i = space->grid.first[bucket]; i < end && best < 2; i++) {
+        const bool last = i + 1 == end && !space->loose;
+        const int claim = claim_of(&space->cells[cells[i]]);
+        if (claim <= best) continue;
+        if (!(last && best < 0) && !sli_cell_holds(space, cells[i], point)) continue;
         found = cells[i];
-        if (!solid) break;
+        best = claim;
     }
     return found;
 }
@@ -129,13 +137,15 @@ uint32_t sl_space_locate(const sl_space *space, sl_point point) {
         !(point.y >= b->min.y && point.y <= b->max.y))
         return SL_NO_CELL;
     if (space->neighbour) return locate_in_bucket(space, point);
-    const uint32_t first = descend(space, point);
-    uint32_t cell = first;
+    uint32_t found = descend(space, point);
     // The next smaller number is below the same split lines, and below one through the point.
-    for (int side = 1; side < 4 && space->cells[cell].solid; side++)
-        cell = descend(space, (sl_point){side & 1 ? nextafter(point.x, -INFINITY) : point.x,
-                                         side & 2 ? nextafter(point.y, -INFINITY) : point.y});
-    return space->cells[cell].solid ? first : cell;
+    for (int side = 1; side < 4 && !space->cells[found].inside; side++) {
+        const sl_point beside = {side & 1 ? nextafter(point.x, -INFINITY) : point.x,
+                                 side & 2 ? nextafter(point.y, -INFINITY) : point.y};
+        const uint32_t cell = descend(space, beside);
+        if (claim_of(&space->cells[cell]) > claim_of(&space->cells[found])) found = cell;
+    }
+    return found;
 }
 
 double sl_space_area(const sl_space *space, uint32_t cell) {

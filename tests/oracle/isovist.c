@@ -109,6 +109,35 @@ static void sort_directions(sweeper *s) {
     s->direction_count = kept;
 }
 
+/// Whether a number is in a cell's reach, or on the border that the eye looks in from.
+static bool is_beside(double low, double at, double high, int side) {
+    return side > 0 ? low <= at && at < high : low < at && at <= high;
+}
+
+/// The first quadrant at the eye whose cell is inside, else the first not in solid ground.
+static void find_side(sweeper *s, const sl_space *space, sl_point eye) {
+    int best = -1;
+    for (int q = 0; q < 4; q++) {
+        const int right = q & 1 ? -1 : 1, up = q & 2 ? -1 : 1;
+        for (uint32_t i = 0; i < space->cell_count; i++) {
+            const sl_cell *cell = &space->cells[i];
+            const sl_point *v = space->vertices + cell->first_vertex;
+            sl_box box = {v[0], v[0]};
+            for (uint32_t k = 1; k < cell->vertex_count; k++) {
+                box.min = (sl_point){fmin(box.min.x, v[k].x), fmin(box.min.y, v[k].y)};
+                box.max = (sl_point){fmax(box.max.x, v[k].x), fmax(box.max.y, v[k].y)};
+            }
+            const int worth = cell->inside ? 2 : !cell->solid;
+            if (worth <= best || !is_beside(box.min.x, eye.x, box.max.x, right) ||
+                !is_beside(box.min.y, eye.y, box.max.y, up))
+                continue;
+            best = worth;
+            s->side[0] = right;
+            s->side[1] = up;
+        }
+    }
+}
+
 static void start(sweeper *s, const sl_space *space) {
     const sl_box *b = &space->bounds;
     const sl_point eye = s->view->eye;
@@ -137,8 +166,7 @@ static void start(sweeper *s, const sl_space *space) {
     }
     add_axes(s);
     sort_directions(s);
-    s->side[0] = eye.x == b->max.x ? -1 : 1;
-    s->side[1] = eye.y == b->max.y ? -1 : 1;
+    find_side(s, space, eye);
 }
 
 static void end(sweeper *s) {

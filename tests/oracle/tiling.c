@@ -252,7 +252,7 @@ bool oracle_is_tiling(const sl_space *space, char why[ORACLE_WHY]) {
 }
 
 uint32_t oracle_locate(const sl_space *space, sl_point point) {
-    uint32_t solid = SL_NO_CELL;
+    uint32_t open = SL_NO_CELL, solid = SL_NO_CELL;
     for (uint32_t i = 0; i < space->cell_count; i++) {
         uint32_t k = 0;
         for (; k < space->cells[i].vertex_count; k++) {
@@ -260,8 +260,9 @@ uint32_t oracle_locate(const sl_space *space, sl_point point) {
             if (blockers_turn(side.a, side.b, point) < 0) break;
         }
         if (k < space->cells[i].vertex_count) continue;
-        if (!space->cells[i].solid) return i;
+        if (space->cells[i].inside) return i;
+        if (!space->cells[i].solid && open == SL_NO_CELL) open = i;
         if (solid == SL_NO_CELL) solid = i;
     }
-    return solid;
+    return open != SL_NO_CELL ? open : solid;
 }

@@ -12,8 +12,8 @@
 /// fault found is put into `why`.
 bool oracle_is_tiling(const sl_space *space, char why[ORACLE_WHY]);
 
-/// The cell of the lowest number that holds a point, of those that are not solid if any is not;
-/// SL_NO_CELL for none.
+/// The cell of the lowest number that holds a point, of those that are inside if any is, else of
+/// those that are not solid if any is not; SL_NO_CELL for none.
 uint32_t oracle_locate(const sl_space *space, sl_point point);
 
 #endif

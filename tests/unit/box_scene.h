@@ -102,6 +102,7 @@ static inline bool make_scene(scene *s, uint64_t seed, double degrees, double mo
     wall_boxes(s);
     assert_ok(s->context, sl_map_clean(s->context, &s->walled, NULL, NULL));
     subdivide(s, &s->walled, &s->other);
+    testing_take_inside(&s->space, &s->other);
     assert_ok(s->context, sl_query_over(s->context, &s->space, &s->map, NULL, &s->query));
     assert_ok(s->context, sl_query_set_boxes(s->context, s->query, s->boxes, s->box_count));
     return true;

@@ -94,6 +94,27 @@ static void only_decimals_are_numbers(void **state) {
         if (sl_number_read(bad[i], strlen(bad[i]), &value)) fail_msg("'%s' was read", bad[i]);
 }
 
+/// The first line of a table decides what stands between fields, and so what a comma is.
+static void numbers_of_tables(void **state) {
+    (void)state;
+    static const struct {
+        const char *line;
+        char separator;
+    } lines[] = {{"1,2", ','}, {"3,5;4", ';'},    {"3,5\t4", '\t'},
+                 {"3.5", ','}, {"a\tb,c;d", ';'}, {"", ','}};
+    double value;
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++)
+        assert_int_equal(sl_table_separator(lines[i].line, strlen(lines[i].line)),
+                         lines[i].separator);
+    assert_true(sl_table_number_read(';', "3,5", 3, &value) && value == 3.5);
+    assert_true(sl_table_number_read('\t', "-3.5e1", 6, &value) && value == -35);
+    assert_true(sl_table_number_read(',', "3.5", 3, &value) && value == 3.5);
+    assert_false(sl_table_number_read(',', "3,5", 3, &value));
+    assert_false(sl_table_number_read(';', "3,5,1", 5, &value));
+    assert_false(sl_table_number_read(';', "3,5.1", 5, &value));
+    assert_false(sl_table_number_read(';', "", 0, &value));
+}
+
 static void a_failed_write_leaves_the_old_file(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
@@ -252,6 +273,7 @@ int main(void) {
         cmocka_unit_test(one_version_everywhere),
         cmocka_unit_test(a_path_ends_in_a_name),
         cmocka_unit_test(numbers_read_back_to_the_same_double),
+        cmocka_unit_test(numbers_of_tables),
         cmocka_unit_test(numbers_are_short),
         cmocka_unit_test(numbers_are_those_of_printf),
         cmocka_unit_test(only_decimals_are_numbers),

@@ -102,6 +102,7 @@ static void subdivide_anew(trial *t, size_t without, sl_space *out) {
     assert_ok(context, sl_map_clean(context, &map, NULL, NULL));
     const sl_subdivide_options options = sl_subdivide_options_default();
     assert_ok(context, sli_subdivide_kd(context, &map, &options, out));
+    testing_take_inside(&t->space, out);
     sl_map_destroy(context, &map);
 }
 

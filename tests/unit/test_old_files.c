@@ -54,9 +54,12 @@ static void check_place(const baked_file *f, double x, double y) {
                         y <= s->bounds.max.y;
     assert_int_equal(cell, sl_space_locate(s, (sl_point){x, y}));
     if (!s->loose) return;
-    uint32_t first = within ? 0 : s->cell_count;
-    while (first < s->cell_count && !holds(s, first, (sl_point){x, y})) first++;
-    assert_int_equal(cell, first < s->cell_count ? first : SL_NO_CELL);
+    uint32_t first = SL_NO_CELL;
+    for (uint32_t i = 0; within && i < s->cell_count; i++) {
+        const bool better = first == SL_NO_CELL || (s->cells[i].inside && !s->cells[first].inside);
+        if (better && holds(s, i, (sl_point){x, y})) first = i;
+    }
+    assert_int_equal(cell, first);
 }
 
 /// Corners, a step of rounding about them, and anywhere.

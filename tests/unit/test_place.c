@@ -4,6 +4,7 @@
 
 #include "sightline/generate.h"
 #include "sightline/place.h"
+#include "sightline/place_proof.h"
 #include "sightline/support.h"
 
 #include <math.h>
@@ -384,6 +385,42 @@ static void refusals(void **state) {
     end(&p);
 }
 
+/// Messages tell places apart that are far from the origin.
+static void places_far_away(void **state) {
+    (void)state;
+    plan p;
+    sl_placement placed = {0};
+    begin(&p);
+    testing_space(p.context,
+                  "walls 2000000 0 2000010 0 2000010 10 2000000 10 2000000 0\n"
+                  "wall 2000005 0 2000005 9\n",
+                  &p.map, &p.space);
+    assert_ok(p.context, sl_query_over(p.context, &p.space, &p.map, NULL, &p.query));
+    const sl_point outside = {2000010.75, 5}, one = {2000001.25, 1};
+    sl_place_options options = sl_place_options_default();
+    options.place_count = 1;
+    options.places = &outside;
+    assert_int_equal(sl_place(p.context, p.query, &options, &placed), SL_BAD_ARGUMENT);
+    assert_non_null(strstr(sl_context_message(p.context), "place 1 at (2000010.75, 5) is not"));
+    options.places = &one;
+    assert_int_equal(sl_place(p.context, p.query, &options, &placed), SL_BAD_ARGUMENT);
+    double x;
+    assert_int_equal(sscanf(sl_context_message(p.context), "(%lf, ", &x), 1);
+    assert_true(x > 2000005 && x < 2000010);
+    const sl_viewpoint blind = {.at = one, .fov = 360};
+    const sl_point target = {2000009.25, 1};
+    const sl_place_list list = {
+        .places = &blind, .place_count = 1, .targets = &target, .target_count = 1};
+    assert_int_equal(sl_place_among(p.context, p.query, &list, NULL, &placed), SL_BAD_ARGUMENT);
+    assert_non_null(strstr(sl_context_message(p.context), "target 1 at (2000009.25, 1)"));
+    sl_viewpoint claimed = {.at = outside, .fov = 360};
+    const sl_placement claim = {.viewpoints = &claimed, .count = 1};
+    sl_place_verdict verdict;
+    assert_int_equal(sl_place_proof_check(p.context, p.query, &claim, &verdict), SL_BAD_ARGUMENT);
+    assert_non_null(strstr(sl_context_message(p.context), "viewpoint 1 at (2000010.75, 5) is not"));
+    end(&p);
+}
+
 static bool is_over(void *user) {
     int *left = user;
     return --*left < 0;
@@ -458,6 +495,7 @@ int main(void) {
         cmocka_unit_test(same_input_same_result),
         cmocka_unit_test(given_places),
         cmocka_unit_test(refusals),
+        cmocka_unit_test(places_far_away),
         cmocka_unit_test(cancelled),
         cmocka_unit_test(without_memory),
     };

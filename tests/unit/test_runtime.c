@@ -163,14 +163,17 @@ static bool holds(const sl_space *s, uint32_t cell, sl_point p) {
     return k == c->vertex_count;
 }
 
-/// The first cell that holds a point, of all that are not solid; else of all.
+/// The first cell that holds a point, of all that are inside; else of all that are not solid; else
+/// of all.
 static uint32_t first_that_holds(const sl_space *s, sl_point p) {
-    uint32_t found = SL_NO_CELL;
-    for (uint32_t i = 0; i < s->cell_count; i++) {
-        if (found != SL_NO_CELL && (s->cells[i].solid || !s->cells[found].solid)) continue;
-        if (holds(s, i, p)) found = i;
+    uint32_t inside = SL_NO_CELL, open = SL_NO_CELL, any = SL_NO_CELL;
+    for (uint32_t i = s->cell_count; i-- > 0;) {
+        if (!holds(s, i, p)) continue;
+        any = i;
+        if (!s->cells[i].solid) open = i;
+        if (s->cells[i].inside) inside = i;
     }
-    return found;
+    return inside != SL_NO_CELL ? inside : open != SL_NO_CELL ? open : any;
 }
 
 /// A corner, a place on a side, a place where buckets meet, or any.

@@ -10,7 +10,7 @@
 
 /// The lines of the strays in a map text, each after a blank.
 static void assert_strays(const char *statements, const char *expected) {
-    testing_memory memory;
+    testing_memory memory = {0};
     sl_context *context = testing_context(&memory);
     sl_map map = {0};
     sl_strays strays = {0};

@@ -1,4 +1,5 @@
-/// Reads a table line by line: the first line may name the columns.
+/// Reads a table line by line: the first line may name the columns. What stands between its fields
+/// is the separator of all lines.
 #include "inputs/number_table.h"
 
 #include <math.h>
@@ -7,6 +8,7 @@
 typedef struct reader {
     sl_context *context;
     number_table *to;
+    char separator;
     unsigned line;
     size_t row_room, value_room, value_count;
 } reader;
@@ -33,24 +35,23 @@ static size_t trim(const char **field, size_t length) {
 }
 
 /// The length of the field at the start of text[0 .. length).
-static size_t field_length(const char *text, size_t length) {
-    size_t end = 0;
-    while (end < length && !strchr(",;\t", text[end])) end++;
-    return end;
+static size_t field_length(char separator, const char *text, size_t length) {
+    const char *end = memchr(text, separator, length);
+    return end ? (size_t)(end - text) : length;
 }
 
-static size_t count_fields(const char *line, size_t length) {
+static size_t count_fields(char separator, const char *line, size_t length) {
     size_t count = 1;
-    for (size_t i = 0; i < length; i++) count += strchr(",;\t", line[i]) != NULL;
+    for (size_t i = 0; i < length; i++) count += line[i] == separator;
     return count;
 }
 
 /// A line whose first field is no number holds names.
-static bool has_names(const char *line, size_t length) {
+static bool has_names(char separator, const char *line, size_t length) {
     double value;
     const char *first = line;
-    const size_t wide = trim(&first, field_length(line, length));
-    return wide && !sl_number_read(first, wide, &value);
+    const size_t wide = trim(&first, field_length(separator, line, length));
+    return wide && !sl_table_number_read(separator, first, wide, &value);
 }
 
 static sl_status read_names(reader *r, const char *line, size_t length) {
@@ -58,7 +59,7 @@ static sl_status read_names(reader *r, const char *line, size_t length) {
     to->names = sl_alloc_array(r->context, to->columns, sizeof *to->names);
     if (!to->names) return SL_NO_MEMORY;
     for (size_t i = 0; i < to->columns; i++) {
-        const size_t wide = field_length(line, length);
+        const size_t wide = field_length(r->separator, line, length);
         const char *field = line;
         const size_t trimmed = trim(&field, wide), taken = wide < length ? wide + 1 : wide;
         to->names[i] = sl_copy_text(r->context, field, trimmed);
@@ -71,24 +72,25 @@ static sl_status read_names(reader *r, const char *line, size_t length) {
 
 static sl_status read_row(reader *r, const char *line, size_t length) {
     number_table *to = r->to;
-    const size_t count = count_fields(line, length);
+    const size_t count = count_fields(r->separator, line, length);
     if (count != to->columns && !to->rows && to->names)
         return sl_fail_at(r->context, to->path, to->first_line,
-                          "%zu name%s of columns; line %u has %zu columns", to->columns,
-                          to->columns == 1 ? "" : "s", r->line, count);
+                          "%zu name%s of columns; line %u has %zu column%s", to->columns,
+                          to->columns == 1 ? "" : "s", r->line, count, count == 1 ? "" : "s");
     if (count != to->columns)
-        return sl_fail_at(r->context, to->path, r->line, "%zu columns; the first line has %zu",
-                          count, to->columns);
+        return sl_fail_at(r->context, to->path, r->line, "%zu column%s; the first line has %zu",
+                          count, count == 1 ? "" : "s", to->columns);
     SL_TRY(sl_reserve(r->context, &to->lines, &r->row_room, to->rows + 1, sizeof *to->lines));
     SL_TRY(sl_reserve(r->context, &to->values, &r->value_room, r->value_count + count,
                       sizeof *to->values));
     to->lines[to->rows++] = r->line;
     for (size_t i = 0; i < count; i++) {
-        const size_t wide = field_length(line, length);
+        const size_t wide = field_length(r->separator, line, length);
         const char *field = line;
         const size_t trimmed = trim(&field, wide);
         double value = NAN;
-        if (trimmed && (!sl_number_read(field, trimmed, &value) || !isfinite(value)))
+        if (trimmed &&
+            !(sl_table_number_read(r->separator, field, trimmed, &value) && isfinite(value)))
             return sl_fail_at(r->context, to->path, r->line, "column %zu is no finite number",
                               i + 1);
         to->values[r->value_count++] = value;
@@ -117,9 +119,11 @@ static sl_status read_lines(reader *r, const char *text, size_t size) {
             SL_TRY(read_row(r, line, length));
             continue;
         }
-        to->columns = count_fields(line, length);
+        r->separator = sl_table_separator(line, length);
+        to->columns = count_fields(r->separator, line, length);
         to->first_line = r->line;
-        SL_TRY(has_names(line, length) ? read_names(r, line, length) : read_row(r, line, length));
+        SL_TRY(has_names(r->separator, line, length) ? read_names(r, line, length)
+                                                     : read_row(r, line, length));
     }
     return SL_OK;
 }
@@ -128,7 +132,8 @@ bool number_table_begins(const char *text, size_t size, size_t columns) {
     const size_t marked = size >= sizeof mark && memcmp(text, mark, sizeof mark) == 0 ? 3 : 0;
     const char *line = text + marked;
     const size_t length = strcspn(line, "\r\n");
-    return length && !strchr("#{[<", *line) && count_fields(line, length) >= columns;
+    return length && !strchr("#{[<", *line) &&
+           count_fields(sl_table_separator(line, length), line, length) >= columns;
 }
 
 sl_status number_table_parse(sl_context *context, const char *path, const char *text, size_t size,

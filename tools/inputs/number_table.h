@@ -1,4 +1,5 @@
-/// Tables of numbers out of files: CSV, or with tabs or semicolons between the columns.
+/// Tables of numbers out of files: CSV, or with tabs or semicolons between the columns. The first
+/// line decides what stands between them. With semicolons or tabs, numbers may have decimal commas.
 #ifndef NUMBER_TABLE_H
 #define NUMBER_TABLE_H
 

@@ -116,13 +116,8 @@ static bool next_field(const reader *r, const char *line, size_t length, size_t 
     return true;
 }
 
-/// A number, with a decimal comma where commas do not part fields.
 static bool read_number(const reader *r, const field *f, double *value) {
-    char text[FIELD_TEXT];
-    memcpy(text, f->text, f->length + 1);
-    char *const comma = r->separator == ',' ? NULL : strchr(text, ',');
-    if (comma) *comma = '.';
-    return sl_number_read(text, f->length, value) && isfinite(*value);
+    return sl_table_number_read(r->separator, f->text, f->length, value) && isfinite(*value);
 }
 
 static bool same_word(const char *a, const char *b) {
@@ -138,10 +133,6 @@ static column column_of(const field *f) {
 }
 
 // --- the first line
-
-static void find_separator(reader *r, const char *line, size_t length) {
-    r->separator = memchr(line, ';', length) ? ';' : memchr(line, '\t', length) ? '\t' : ',';
-}
 
 /// Notes the columns that are passed over.
 static sl_status name_columns(reader *r, const char *line, size_t length) {
@@ -255,7 +246,7 @@ static sl_status read_row(reader *r, const char *line, size_t length) {
 }
 
 static sl_status first_line(reader *r, const char *line, size_t length) {
-    find_separator(r, line, length);
+    r->separator = sl_table_separator(line, length);
     r->named = has_names(r, line, length);
     if (r->named) return name_columns(r, line, length);
     field f;

@@ -215,6 +215,12 @@ sl_cover_options sli_cover_options(const sli_placer *p) {
     return options;
 }
 
+sl_status sli_fail_unseen(const sli_placer *p, sl_point at) {
+    const int digits = sl_map_digits(sl_query_map(p->query));
+    return sl_fail(p->context, SL_BAD_ARGUMENT, "(%.*g, %.*g) is seen from none of the places",
+                   digits, at.x, digits, at.y);
+}
+
 /// Candidates for witnesses that none of them sees.
 static sl_status complete(sli_placer *p) {
     bool *seen = sl_alloc_array(p->context, p->witnesses.count, sizeof *seen);
@@ -227,11 +233,7 @@ static sl_status complete(sli_placer *p) {
         uint32_t number;
         if (seen[i]) continue;
         const sl_point at = p->witnesses.items[i].eye;
-        if (p->listed)
-            status = sl_fail(p->context, SL_BAD_ARGUMENT,
-                             "(%g, %g) is seen from none of the places", at.x, at.y);
-        else
-            status = sli_add_candidate(p, at, &number);
+        status = p->listed ? sli_fail_unseen(p, at) : sli_add_candidate(p, at, &number);
     }
     sl_free(p->context, seen);
     return status;

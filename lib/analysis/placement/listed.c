@@ -99,10 +99,11 @@ static sl_status check_targets(lister *l) {
     for (uint32_t t = 0; status == SL_OK && t < l->list->target_count; t++)
         if (seers[t] < l->demands[t]) {
             const sl_point at = l->list->targets[t];
-            status =
-                sl_fail(l->context, SL_BAD_ARGUMENT,
-                        "target %u at (%g, %g): %u more must see it, and %u of the other places do",
-                        t + 1, at.x, at.y, l->demands[t], seers[t]);
+            const int digits = sl_map_digits(sl_query_map(l->query));
+            status = sl_fail(
+                l->context, SL_BAD_ARGUMENT,
+                "target %u at (%.*g, %.*g): %u more must see it, and %u of the other places do",
+                t + 1, digits, at.x, digits, at.y, l->demands[t], seers[t]);
         }
     sl_free(l->context, seers);
     return status;

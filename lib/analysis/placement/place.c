@@ -290,9 +290,10 @@ static sl_status take_listed(sli_placer *p) {
     for (uint32_t i = 0; i < o->place_count; i++) {
         uint32_t number;
         SL_TRY(sli_add_candidate(p, o->places[i], &number));
-        if (number == UINT32_MAX)
-            return sl_fail(p->context, SL_BAD_ARGUMENT, "place %u at (%g, %g) is not inside", i + 1,
-                           o->places[i].x, o->places[i].y);
+        if (number != UINT32_MAX) continue;
+        const int digits = sl_map_digits(sl_query_map(p->query));
+        return sl_fail(p->context, SL_BAD_ARGUMENT, "place %u at (%.*g, %.*g) is not inside", i + 1,
+                       digits, o->places[i].x, digits, o->places[i].y);
     }
     p->listed = true;
     SL_TRY(SL_ARRAY_ROOM(p->context, &p->chosen, p->candidates.count));
@@ -300,9 +301,7 @@ static sl_status take_listed(sli_placer *p) {
     SL_TRY(find_unseen(p, &none, &added));
     p->out->count = UINT32_MAX;
     if (!p->witnesses.count) return keep_chosen(p);
-    const sl_point at = p->witnesses.items[p->witnesses.count - 1].eye;
-    return sl_fail(p->context, SL_BAD_ARGUMENT, "(%g, %g) is seen from none of the places", at.x,
-                   at.y);
+    return sli_fail_unseen(p, p->witnesses.items[p->witnesses.count - 1].eye);
 }
 
 static sl_status step_listed(sli_placer *p, bool *added) {

@@ -78,6 +78,8 @@ sl_status sli_choose_for_gaps(sli_placer *placer, bool *more);
 
 /// Adds a candidate, once; *number is UINT32_MAX where nothing can be seen from there.
 sl_status sli_add_candidate(sli_placer *placer, sl_point at, uint32_t *number);
+/// Fails: no place that is given sees a point.
+sl_status sli_fail_unseen(const sli_placer *placer, sl_point at);
 /// Adds the corners that hide something from a witness.
 sl_status sli_add_corners(sli_placer *placer);
 /// Adds places in line with walls, or with two corners, that the chosen ones have gaps at.

@@ -31,6 +31,7 @@ typedef sl_segment direction;
 typedef struct checker {
     sl_context *context;
     const sl_space *space;
+    int digits; ///< of coordinates in messages
     sli_proof_scene scene;
     sli_eye *eyes;
     sl_box *eye_boxes; ///< by eye: they hold all that it sees
@@ -477,19 +478,19 @@ static sl_status make_eye(checker *c, uint32_t i, sl_point at, bool witness) {
     bool on_wall = false;
     const char *what = witness ? "witness" : "viewpoint";
     if (!sl_space_is_inside(c->space, at))
-        return sl_fail(c->context, SL_BAD_ARGUMENT, "%s %u at (%g, %g) is not inside", what, i + 1,
-                       at.x, at.y);
+        return sl_fail(c->context, SL_BAD_ARGUMENT, "%s %u at (%.*g, %.*g) is not inside", what,
+                       i + 1, c->digits, at.x, c->digits, at.y);
     SL_TRY(sli_eye_make(c->context, &c->scene, at, &c->eyes[i], &on_wall));
     c->eye_boxes[i] = box_of_eye(c, &c->eyes[i]);
     if (witness && on_wall)
-        return sl_fail(c->context, SL_BAD_ARGUMENT, "witness %u at (%g, %g) is on a wall", i + 1,
-                       at.x, at.y);
+        return sl_fail(c->context, SL_BAD_ARGUMENT, "witness %u at (%.*g, %.*g) is on a wall",
+                       i + 1, c->digits, at.x, c->digits, at.y);
     return SL_OK;
 }
 
 static sl_status check_bound(sl_context *context, const sl_space *space, const sl_map *map,
                              const sl_placement *claim, bool lower, sl_place_verdict *out) {
-    checker c = {.context = context, .space = space, .out = out};
+    checker c = {.context = context, .space = space, .digits = sl_map_digits(map), .out = out};
     c.eye_count = lower ? claim->witness_count : claim->count;
     sl_status status = sli_proof_scene_make(context, space, map, &c.scene);
     c.eyes = sl_alloc_array(context, c.eye_count, sizeof *c.eyes);

@@ -222,9 +222,10 @@ SL_API sl_status sl_map_settle_ground(sl_context *context, sl_map *map);
 /// mesh, a point on a border between cells is in the one of the lowest number. Time: the cells of
 /// one bucket. A gap of a loose space gives SL_NO_CELL.
 ///
-/// On the border of solid ground, a cell that is not solid comes first. In a kd-tree's space, these
-/// are asked in turn: the cell right of the point and over it, left and over, right and under, left
-/// and under. In a mesh, the lowest number that is not solid counts.
+/// Of the cells that hold the point, one that is inside comes first, then one that is not solid. So
+/// who stands on the border of what is inside stands inside. Of several, in a mesh, the lowest
+/// number counts. In a kd-tree's space, the first in this order does: the cell right of the point
+/// and over it, left and over, right and under, left and under.
 SL_API uint32_t sl_space_locate(const sl_space *space, sl_point point);
 
 /// Whether a point is inside: in a cell that is (sl_space_locate).

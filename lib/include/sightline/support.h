@@ -168,6 +168,14 @@ SL_API void sl_number_write(double value, char text[SL_NUMBER_TEXT]);
 /// large reads as an infinity, one too small as the nearest double, which may be 0.
 SL_API bool sl_number_read(const char *text, size_t length, double *value);
 
+/// What stands between the fields of a table, by its first line: ';' where that has one, else a
+/// tab where it has one, else ','.
+SL_API char sl_table_separator(const char *line, size_t length);
+
+/// Reads a number of a table as sl_number_read. Where the separator is no comma, a comma is read as
+/// the decimal point.
+SL_API bool sl_table_number_read(char separator, const char *text, size_t length, double *value);
+
 // --- whole files: a file is written beside its target and renamed, so that a failure leaves the
 // --- old one as it was and nothing half-written. A program that is killed meanwhile may leave
 // --- the file beside it: the target's name, a dot and six characters. It may be deleted.

@@ -9,7 +9,7 @@
 /// - At the end of a wall, and at a corner of solid ground, it sees all around, but for what lies
 ///   behind the wall or in the solid ground. No direction along the wall hides anything.
 /// - Within a wall, between its ends, it sees one side, that of its cell. So nobody looks through a
-///   wall that has no thickness.
+///   wall that has no thickness. Where one side is inside, it is that one.
 /// - Where walls meet, they part what is around the eye. It sees the part that has its cell.
 /// - A shut door is a wall. So is one-way glass for an eye on its dark side. For an eye in line
 ///   with glass, it is dark if any of the cell that sl_space_locate gives is on its dark side.

@@ -83,12 +83,14 @@ class Level:
         (self.shut.add if state == "shut" else self.shut.discard)(name)
 
     def locate(self, eye):
-        """The cell of the eye, as the runtime header has it: one that is not solid, if the eye is on
-        its border. If all cells are boxes, the one over the eye and right of it comes first."""
+        """The cell of the eye, as the runtime header has it: of those that hold the eye one that is
+        inside, else one that is not solid. If all cells are boxes, the one over the eye and right of
+        it comes first."""
         def rank(cell):
             x, y = zip(*self.data["cells"][cell]["polygon"])
             side = (max(y) <= eye[1], max(x) <= eye[0]) if self.is_axial else ()
-            return bool(self.data["cells"][cell].get("solid")), side, cell
+            ground = self.data["cells"][cell]
+            return not ground["inside"], bool(ground.get("solid")), side, cell
 
         here = [cell for cell, pieces in enumerate(self.pieces)
                 if all(cross(to(a, b), to(a, eye)) >= 0 for a, b, _ in pieces)]

@@ -143,10 +143,10 @@ SL_RUNTIME_API const char *sl_runtime_status_text(sl_runtime_status status);
 /// cells of one bucket. In a loose file, gaps give SL_RUNTIME_NO_CELL; version 1 takes the time of
 /// all cells.
 ///
-/// On the border of solid ground, such as the side of a tile, a cell that is not solid comes first.
-/// If all walls are axial, these are asked in turn: the cell right of the point and over it, left
-/// and over, right and under, left and under. In other maps, the lowest number that is not solid
-/// counts. So an eye that leans against rock sees.
+/// Of the cells that hold the point, one that is inside comes first, then one that is not solid. So
+/// an eye that leans against rock, or against the wall around the map, sees what is inside. Of
+/// several, the lowest number counts; if all walls are axial, the first in this order does: the
+/// cell right of the point and over it, left and over, right and under, left and under.
 SL_RUNTIME_API uint32_t sl_runtime_locate(const sl_runtime *runtime, double x, double y);
 
 /// Finds the cells that a box lies in or touches, ascending. Returns their number, and puts the
