@@ -315,7 +315,9 @@ static sl_status draw_union(sl_context *context, const isovist_plan *plan, const
     sl_cameras cameras = {0};
     sl_coverage coverage = {0};
     sl_viewpoint *viewpoints = NULL;
-    sl_status status = list_cameras(context, plan, w, &cameras);
+    // What was asked last has left its own range.
+    sl_status status = sl_query_set_range(context, w->query, plan->range);
+    if (status == SL_OK) status = list_cameras(context, plan, w, &cameras);
     if (status == SL_OK) status = cover_viewpoints(context, &cameras, &viewpoints);
     if (status == SL_OK)
         status = sl_coverage_make(context, w->query, viewpoints, cameras.count, &coverage);

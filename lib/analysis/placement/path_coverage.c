@@ -50,10 +50,7 @@ sl_status sl_coverage_of_path(sl_context *context, sl_query *query, const sl_cov
         const sl_viewpoint *v = &viewpoints[i];
         w.views[i] = sl_query_view(query, sli_viewpoint_eye(c.space, v), v->heading, v->fov);
     }
-    const double before = sl_query_range(query);
-    sl_status status = sl_query_set_range(context, query, sli_view_range_most(query));
-    if (status == SL_OK) status = sli_path_parts(&c, path, count, out);
-    const sl_status reset = sl_query_set_range(context, query, before);
+    const sl_status status = sli_path_parts(&c, path, count, out);
     sl_free(context, w.views);
-    return status == SL_OK ? reset : status;
+    return status;
 }

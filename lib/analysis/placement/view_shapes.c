@@ -49,13 +49,8 @@ sl_status sli_refuse_signs(sl_context *context, const sl_viewpoint *viewpoints, 
     return SL_OK;
 }
 
-double sli_view_range_most(const sl_query *query) {
-    const sl_map *map = sl_query_map(query);
-    return map ? map->range : 0;
-}
-
 double sli_view_range(const sl_query *query, const sl_viewpoint *v) {
-    const double most = sli_view_range_most(query);
+    const double most = sl_query_range(query);
     return most > 0 && !(v->range > 0 && v->range < most) ? most : v->range;
 }
 
@@ -78,11 +73,11 @@ static sl_status end_shape(sl_context *context, sli_view_shapes *s) {
 /// Adds the region of a viewpoint up to a range as a loop.
 static sl_status add_loop(sl_context *context, sl_query *query, const sl_viewpoint *v, double range,
                           bool clockwise, sl_region *region, sli_view_shapes *s) {
-    const double before = sl_query_range(query);
+    const double most = sl_query_range(query);
     const sl_view view = sl_query_view(query, v->at, v->heading, v->fov);
     SL_TRY(sl_query_set_range(context, query, range));
     const sl_status status = sl_query_region(context, query, &view, region);
-    SL_TRY(sl_query_set_range(context, query, before));
+    SL_TRY(sl_query_set_range(context, query, most));
     SL_TRY(status);
     const double tolerance = CHORD * range;
     const size_t count = sl_region_flatten(region, tolerance, NULL, 0);

@@ -21,9 +21,7 @@ sl_status sli_check_viewpoints(sl_context *context, const sl_viewpoint *viewpoin
 /// Refuses signs, for `what` does not know them.
 sl_status sli_refuse_signs(sl_context *context, const sl_viewpoint *viewpoints, size_t count,
                            const char *what);
-/// How far any viewpoint sees at most: the map's range, whatever is set in the query; 0: no limit.
-double sli_view_range_most(const sl_query *query);
-/// The range that counts for a viewpoint, the map's included; 0: no limit.
+/// The range that counts for a viewpoint, the query's included; 0: no limit.
 double sli_view_range(const sl_query *query, const sl_viewpoint *viewpoint);
 /// Where it looks from: its place; of a sign, just before it.
 sl_point sli_viewpoint_eye(const sl_space *space, const sl_viewpoint *viewpoint);

@@ -49,15 +49,14 @@ typedef struct sl_coverage {
 ///
 /// SL_BAD_ARGUMENT, with the number of the viewpoint, for a cone, range or dead zone that is none.
 /// SL_UNSUPPORTED for signs and one-way glass.
-/// A viewpoint's range is its own: 0 is no limit, whatever is set in the query. Only the map's
-/// range, where it has one, is the most that counts. The query keeps its settings.
+/// The query's range is the most that counts. The query has its own settings again afterwards.
 /// Time: the regions, and O((n + k) log n) for n corners and k crossings of their borders.
 SL_API sl_status sl_coverage_make(sl_context *context, sl_query *query,
                                   const sl_viewpoint *viewpoints, size_t count, sl_coverage *out);
 SL_API void sl_coverage_destroy(sl_context *context, sl_coverage *coverage); ///< and zeroes it
 
 /// The parts of a path from which no sign can be read, or which no camera sees. `coverage` is of
-/// these viewpoints and the query as it is. Ranges count as there.
+/// these viewpoints and the query as it is.
 ///
 /// Where a part begins and ends is computed in doubles, from all borders of regions that cross the
 /// path; whether it is seen is decided in its middle, exactly but for a sign's disc: by

@@ -75,8 +75,7 @@ typedef struct sl_area_placement {
 /// Finds the cheapest places that see the area, as far as these places can see it; or, with
 /// `count`, places that see as much of it as so many can.
 ///
-/// Doors count as the query has them, and one-way glass. A place's range is its own; only the map's
-/// is the most that counts.
+/// Doors count as the query has them, and one-way glass; the query's range is the most that counts.
 /// SL_BAD_ARGUMENT with the number of a place that is none, where nothing is to be seen, where no
 /// place sees anything of it, where no network sees all that places see, and for `count` with
 /// `cover` or `network`. SL_UNSUPPORTED for mirrors and boxes.

@@ -184,8 +184,8 @@ class Viewpoints(Handle):
               path: Optional[ArrayLike] = None, arrays: bool = False) -> Coverage:
         """What viewpoints see together: areas by how many see them, and blind spots.
 
-        Doors count as they are. Ranges are those of the viewpoints, and at most the map's. What is
-        seen by mirror does not count. A viewpoint that is not inside sees nothing that counts.
+        Doors and the range count as they are. What is seen by mirror does not. A viewpoint that is
+        not inside sees nothing that counts.
 
         Parameters
         ----------
