@@ -11,6 +11,9 @@
 /// What one viewpoint and one blind spot give to JavaScript.
 enum { GIVEN = 6, SEEN = 3, SPOT = 7 };
 
+// place.js reads them where they lie.
+_Static_assert(sizeof(sl_viewpoint) == 7 * sizeof(double), "viewpoints as place.js knows them");
+
 typedef struct floor_plan {
     sl_baked baked; ///< its space alone, where it comes from a map
     sl_query *query;

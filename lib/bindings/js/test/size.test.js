@@ -16,19 +16,19 @@ test('the runtime is at most 25 kB', () => {
   assert.ok(bytes <= 25000, said(bytes))
 })
 
-test('the whole library is at most 211 kB', () => {
+test('the whole library is at most 214 kB', () => {
   const bytes = size('bake.js', 'arguments.js', 'maptext.js', 'scene.js', 'host.js', 'module.js', 'core.wasm')
-  assert.ok(bytes <= 211000, said(bytes))
+  assert.ok(bytes <= 214000, said(bytes))
 })
 
-test('visibility graph analysis is at most 134 kB', () => {
+test('visibility graph analysis is at most 137 kB', () => {
   const bytes = size('graph.js', 'arguments.js', 'maptext.js', 'host.js', 'module.js', 'graph.wasm')
-  assert.ok(bytes <= 134000, said(bytes))
+  assert.ok(bytes <= 137000, said(bytes))
 })
 
-test('placement is at most 145 kB', () => {
+test('placement is at most 149 kB', () => {
   const bytes = size('place.js', 'arguments.js', 'maptext.js', 'host.js', 'module.js', 'place.wasm')
-  assert.ok(bytes <= 145000, said(bytes))
+  assert.ok(bytes <= 149000, said(bytes))
 })
 
 test('the package needs no other, and has what it says', async () => {
