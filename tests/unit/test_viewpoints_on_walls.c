@@ -140,8 +140,8 @@ static wedge look(const ring *r, sl_point eye, const bool *at_eye, sl_point righ
         if (!(far > 0 && far < least)) continue;
         const double to_right = meet(right, a, b), to_left = meet(left, a, b);
         least = far;
-        found = (wedge){{to_right * right.x, to_right * right.y},
-                        {to_left * left.x, to_left * left.y}};
+        found =
+            (wedge){{to_right * right.x, to_right * right.y}, {to_left * left.x, to_left * left.y}};
     }
     assert_true(least < INFINITY);
     return found;
@@ -254,9 +254,7 @@ static size_t check_outline(sl_context *context, const ring *outline) {
 
 static void corners_and_walls(void **state) {
     (void)state;
-    static const struct {
-        double degrees, offset;
-    } turns[] = {{0, 0}, {17.3, 0}, {17.3, 4096}};
+    static const struct { double degrees, offset; } turns[] = {{0, 0}, {17.3, 0}, {17.3, 4096}};
     sl_context *context = testing_context(NULL);
     size_t within = 0;
     for (uint64_t seed = 1; seed <= testing_seeds(OUTLINES); seed++)
