@@ -360,7 +360,8 @@ static sl_status judge(command_console *console, const batch *b) {
     }
     if (!failed) return SL_OK;
     return sl_fail(console->context, wrong ? SL_BAD_INPUT : SL_IO,
-                   "%zu of %zu plans failed; the table says why", failed, b->plans.count);
+                   "%zu of %zu plan%s failed; the table says why", failed, b->plans.count,
+                   b->plans.count == 1 ? "" : "s");
 }
 
 static sl_status run_all(command_console *console, batch *b, uint32_t jobs) {
@@ -380,7 +381,8 @@ static sl_status run_all(command_console *console, batch *b, uint32_t jobs) {
     }
     SL_TRY(status);
     SL_TRY(batch_write(context, b->rows, b->plans.count, b->output));
-    if (is_file && !console->quiet) printf("%zu plans: %s\n", done, b->output);
+    if (is_file && !console->quiet)
+        printf("%zu plan%s: %s\n", done, done == 1 ? "" : "s", b->output);
     return judge(console, b);
 }
 
@@ -437,6 +439,10 @@ sl_status cmd_batch(command_console *console, int argc, char **argv) {
     SL_TRY(options_parse(console, &usage, argc, argv, operands, &helped));
     if (helped) return SL_OK;
     SL_TRY(read_choice(console->context, "COMMAND", operands[0], &names, &index));
+    if (own.count && (own.items[0][0] != '-' || !own.items[0][1]))
+        return sl_fail(console->context, SL_BAD_ARGUMENT,
+                       "'%s' is one argument too many; the options of %s come after '--'",
+                       own.items[0], operands[0]);
     if (resume && strcmp(output, "-") == 0)
         return sl_fail(console->context, SL_BAD_ARGUMENT, "--resume needs a file: -o FILE.csv");
     batch b = {.command = &commands[index],
