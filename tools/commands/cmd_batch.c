@@ -299,7 +299,7 @@ static sl_status run_plan(sl_context *context, const batch *b, const char *plan,
 
 static int exit_status_of(const batch_row *row) {
     const char *text = batch_row_at(row, COLUMN_STATUS);
-    return text ? atoi(text) : 1;
+    return text ? (int)strtol(text, NULL, 10) : 1;
 }
 
 /// The row of the plan in the table that is resumed; NULL: it must be made.
