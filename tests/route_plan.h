@@ -5,6 +5,8 @@
 #include "testing.h"
 
 #include "geometry/orient.h"
+#include "oracle/random_map.h"
+#include "oracle/random_oblique.h"
 #include "oracle/walks.h"
 #include "sightline/path.h"
 
@@ -106,6 +108,43 @@ static inline sl_point random_place(sl_random *random, const plan *p) {
         return p->space.vertices[sl_random_below(random, p->space.vertex_count)];
     default:
         return any;
+    }
+}
+
+/// What is checked of a random plan; it closes it.
+typedef void (*plan_check)(plan *p, uint64_t seed);
+
+static inline void each_axial_plan(uint64_t count, plan_check check) {
+    for (uint64_t seed = 0; seed < count; seed++) {
+        plan p = {.context = testing_context(NULL)};
+        assert_ok(p.context, oracle_random_map(p.context, seed, (oracle_grid)(seed % 3), &p.map));
+        if (sl_map_clean(p.context, &p.map, NULL, NULL) == SL_OK && p.map.wall_count)
+            check(&p, seed);
+        else
+            close_plan(&p);
+    }
+}
+
+/// By 17.3 and 45 degrees, some of them far from the origin.
+static inline void each_turned_plan(uint64_t count, plan_check check) {
+    for (uint64_t seed = 0; seed < count; seed++) {
+        plan p = {.context = testing_context(NULL)};
+        assert_ok(p.context, oracle_random_map(p.context, seed, ORACLE_GRID_INTEGER, &p.map));
+        oblique_turn_map(&p.map, seed % 2 ? 17.3 : 45, seed % 3 ? 0 : 1e7);
+        assert_ok(p.context, sl_map_clean(p.context, &p.map, NULL, NULL));
+        check(&p, seed);
+    }
+}
+
+static inline void each_oblique_plan(uint64_t count, plan_check check) {
+    for (uint64_t seed = 0; seed < count; seed++) {
+        plan p = {.context = testing_context(NULL)};
+        assert_ok(p.context, oblique_random_map(p.context, seed,
+                                                (oblique_grid)(seed % OBLIQUE_GRIDS), 9, &p.map));
+        if (sl_map_clean(p.context, &p.map, NULL, NULL) == SL_OK && p.map.wall_count)
+            check(&p, seed);
+        else
+            close_plan(&p);
     }
 }
 

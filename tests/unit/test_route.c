@@ -2,8 +2,6 @@
 #include "testing.h"
 
 #include "oracle/random_effects.h"
-#include "oracle/random_map.h"
-#include "oracle/random_oblique.h"
 #include "route_plan.h"
 
 // --- by hand
@@ -217,36 +215,17 @@ static void check_plan(plan *p, uint64_t seed) {
 
 static void test_axial(void **state) {
     (void)state;
-    for (uint64_t seed = 0, count = testing_seeds(150); seed < count; seed++) {
-        plan p = {.context = testing_context(NULL)};
-        assert_ok(p.context, oracle_random_map(p.context, seed, (oracle_grid)(seed % 3), &p.map));
-        if (sl_map_clean(p.context, &p.map, NULL, NULL) == SL_OK && p.map.wall_count)
-            check_plan(&p, seed);
-    }
+    each_axial_plan(testing_seeds(150), check_plan);
 }
 
 static void test_turned(void **state) {
     (void)state;
-    for (uint64_t seed = 0, count = testing_seeds(120); seed < count; seed++) {
-        plan p = {.context = testing_context(NULL)};
-        assert_ok(p.context, oracle_random_map(p.context, seed, ORACLE_GRID_INTEGER, &p.map));
-        oblique_turn_map(&p.map, seed % 2 ? 17.3 : 45, seed % 3 ? 0 : 1e7);
-        assert_ok(p.context, sl_map_clean(p.context, &p.map, NULL, NULL));
-        check_plan(&p, seed);
-    }
+    each_turned_plan(testing_seeds(120), check_plan);
 }
 
 static void test_oblique(void **state) {
     (void)state;
-    for (uint64_t seed = 0, count = testing_seeds(300); seed < count; seed++) {
-        plan p = {.context = testing_context(NULL)};
-        assert_ok(p.context, oblique_random_map(p.context, seed,
-                                                (oblique_grid)(seed % OBLIQUE_GRIDS), 9, &p.map));
-        if (sl_map_clean(p.context, &p.map, NULL, NULL) == SL_OK && p.map.wall_count)
-            check_plan(&p, seed);
-        else
-            close_plan(&p);
-    }
+    each_oblique_plan(testing_seeds(300), check_plan);
 }
 
 static void test_random_doors(void **state) {
