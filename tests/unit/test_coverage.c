@@ -1,5 +1,5 @@
 /// What viewpoints see together: by hand in small rooms, and on random maps against sl_query_sees.
-#include "testing.h"
+#include "room.h"
 
 #include "oracle/random_map.h"
 #include "oracle/random_oblique.h"
@@ -7,14 +7,7 @@
 
 #include <math.h>
 
-typedef struct room {
-    sl_context *context;
-    sl_map map;
-    sl_space space;
-    sl_query *query;
-} room;
-
-static room make_room(const char *statements) {
+static room make_space(const char *statements) {
     room r = {.context = testing_context(NULL)};
     testing_space(r.context, statements, &r.map, &r.space);
     return r;
@@ -22,13 +15,6 @@ static room make_room(const char *statements) {
 
 static void open_query(room *r) {
     assert_ok(r->context, sl_query_over(r->context, &r->space, &r->map, NULL, &r->query));
-}
-
-static void end_room(room *r) {
-    sl_query_destroy(r->context, r->query);
-    sl_space_destroy(r->context, &r->space);
-    sl_map_destroy(r->context, &r->map);
-    sl_context_destroy(r->context);
 }
 
 static const char two_rooms[] = "walls 0 0 20 0 20 10 0 10 0 0\nwall 10 0 10 4\nwall 10 6 10 10\n"
@@ -40,7 +26,7 @@ static bool is_near(double a, double b, double tolerance) {
 
 static void one_room_of_two(void **state) {
     (void)state;
-    room r = make_room(two_rooms);
+    room r = make_space(two_rooms);
     open_query(&r);
     const sl_viewpoint eye = {.at = {3, 4}, .fov = 360};
     sl_coverage c;
@@ -60,7 +46,7 @@ static void one_room_of_two(void **state) {
 /// No viewpoint: the wall between the rooms parts the blind spots.
 static void nobody_sees(void **state) {
     (void)state;
-    room r = make_room(two_rooms);
+    room r = make_space(two_rooms);
     open_query(&r);
     sl_coverage c;
     assert_ok(r.context, sl_coverage_make(r.context, r.query, NULL, 0, &c));
@@ -77,7 +63,7 @@ static void nobody_sees(void **state) {
 
 static void spare_and_needed(void **state) {
     (void)state;
-    room r = make_room(two_rooms);
+    room r = make_space(two_rooms);
     open_query(&r);
     const sl_viewpoint eyes[] = {
         {.at = {3, 4}, .fov = 360}, {.at = {8, 9}, .fov = 360}, {.at = {15, 5}, .fov = 360}};
@@ -94,7 +80,7 @@ static void spare_and_needed(void **state) {
 /// A ring of a quarter of a turn: cone, range and dead zone.
 static void cone_range_and_dead_zone(void **state) {
     (void)state;
-    room r = make_room("walls 0 0 20 0 20 20 0 20 0 0\nstart 2 5 0\n");
+    room r = make_space("walls 0 0 20 0 20 20 0 20 0 0\nstart 2 5 0\n");
     open_query(&r);
     assert_ok(r.context, sl_query_set_range(r.context, r.query, 9));
     const sl_viewpoint eyes[] = {
@@ -127,7 +113,7 @@ static void tilted_cameras(void **state) {
 
 static void wrong_viewpoints(void **state) {
     (void)state;
-    room r = make_room(two_rooms);
+    room r = make_space(two_rooms);
     open_query(&r);
     const sl_viewpoint wrong[] = {{.at = {3, 4}, .fov = 0},
                                   {.at = {3, 4}, .fov = 361},

@@ -1,31 +1,11 @@
 /// Exposure: by hand in small rooms, and on random maps by many places on the path and on things.
-#include "testing.h"
+#include "room.h"
 
 #include "oracle/random_map.h"
 #include "oracle/random_oblique.h"
 #include "sightline/exposure.h"
 
 #include <math.h>
-
-typedef struct room {
-    sl_context *context;
-    sl_map map;
-    sl_space space;
-    sl_query *query;
-} room;
-
-static void make_room(room *r, testing_memory *memory, const char *statements) {
-    *r = (room){.context = testing_context(memory)};
-    testing_space(r->context, statements, &r->map, &r->space);
-    assert_ok(r->context, sl_query_over(r->context, &r->space, &r->map, NULL, &r->query));
-}
-
-static void end_room(room *r) {
-    sl_query_destroy(r->context, r->query);
-    sl_space_destroy(r->context, &r->space);
-    sl_map_destroy(r->context, &r->map);
-    sl_context_destroy(r->context);
-}
 
 static void assert_near(double a, double b) {
     if (!(fabs(a - b) <= 1e-9 * (1 + fabs(b)))) fail_msg("%.17g, not %.17g", a, b);

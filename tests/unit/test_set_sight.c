@@ -1,7 +1,7 @@
 /// Sight from lines and areas: by hand in small rooms, by exact arithmetic on random maps (the
 /// crossings of all lines through a point and the ends of walls, in rational numbers), and by many
 /// eyes.
-#include "testing.h"
+#include "room.h"
 
 #include "oracle/random_map.h"
 #include "oracle/random_oblique.h"
@@ -9,30 +9,6 @@
 
 #include <gmp.h>
 #include <math.h>
-
-typedef struct room {
-    sl_context *context;
-    sl_map map;
-    sl_space space;
-    sl_query *query;
-} room;
-
-static void make_room(room *r, const char *statements) {
-    *r = (room){.context = testing_context(NULL)};
-    testing_space(r->context, statements, &r->map, &r->space);
-    assert_ok(r->context, sl_query_over(r->context, &r->space, &r->map, NULL, &r->query));
-}
-
-static void end_map(room *r) {
-    sl_query_destroy(r->context, r->query);
-    sl_space_destroy(r->context, &r->space);
-    sl_map_destroy(r->context, &r->map);
-}
-
-static void end_room(room *r) {
-    end_map(r);
-    sl_context_destroy(r->context);
-}
 
 static double area_of(const room *r, const sl_point *points, size_t count, sl_set_kind kind,
                       sl_set_seen seen) {
@@ -64,7 +40,7 @@ static void assert_area(const room *r, const sl_point *points, size_t count, sl_
 static void behind_a_wall(void **state) {
     (void)state;
     room r;
-    make_room(&r, "walls 0 0 20 0 20 10 0 10 0 0\nwall 9 5 11 5\nstart 2 5 0\n");
+    make_room(&r, NULL, "walls 0 0 20 0 20 10 0 10 0 0\nwall 9 5 11 5\nstart 2 5 0\n");
     const sl_point line[] = {{6, 3}, {14, 3}};
     // Hidden from all: below the rays from (6, 3) past (9, 5) and from (14, 3) past (11, 5). They
     // meet at x = 10, 2 / 3 above the wall.
@@ -78,8 +54,9 @@ static void behind_a_wall(void **state) {
 static void rooms_and_doors(void **state) {
     (void)state;
     room r;
-    make_room(&r, "walls 0 0 20 0 20 10 0 10 0 0\nwall 10 0 10 4\nwall 10 6 10 10\n"
-                  "start 2 5 0\ndoor middle 10 4 10 6 shut\n");
+    make_room(&r, NULL,
+              "walls 0 0 20 0 20 10 0 10 0 0\nwall 10 0 10 4\nwall 10 6 10 10\n"
+              "start 2 5 0\ndoor middle 10 4 10 6 shut\n");
     const sl_point across[] = {{2, 5}, {18, 5}}, left[] = {{2, 5}, {8, 5}};
     assert_area(&r, left, 2, SL_SET_LINE, SL_SEEN_FROM_SOME, 100);
     assert_area(&r, left, 2, SL_SET_LINE, SL_SEEN_FROM_ALL, 100);
@@ -99,7 +76,7 @@ static void rooms_and_doors(void **state) {
 static void on_a_wall(void **state) {
     (void)state;
     room r;
-    make_room(&r, "walls 0 0 20 0 20 10 0 10 0 0\nwall 10 0 10 10\nstart 2 5 0\n");
+    make_room(&r, NULL, "walls 0 0 20 0 20 10 0 10 0 0\nwall 10 0 10 10\nstart 2 5 0\n");
     const sl_point wall[] = {{10, 2}, {10, 8}}, both[] = {{10, 0}, {10, 10}};
     assert_area(&r, wall, 2, SL_SET_LINE, SL_SEEN_FROM_SOME, 200);
     assert_area(&r, wall, 2, SL_SET_LINE, SL_SEEN_FROM_ALL, 200);
@@ -116,7 +93,8 @@ static void on_a_wall(void **state) {
 static void areas(void **state) {
     (void)state;
     room r;
-    make_room(&r, "walls 0 0 20 0 20 10 0 10 0 0\nwalls 9 4 11 4 11 6 9 6 9 4\nstart 2 5 0\n");
+    make_room(&r, NULL,
+              "walls 0 0 20 0 20 10 0 10 0 0\nwalls 9 4 11 4 11 6 9 6 9 4\nstart 2 5 0\n");
     const sl_point area[] = {{8, 3}, {12, 3}, {12, 7}, {8, 7}};
     assert_area(&r, area, 4, SL_SET_AREA, SL_SEEN_FROM_SOME, 200);
     const sl_point turned[] = {{8, 7}, {12, 7}, {12, 3}, {8, 3}};
@@ -142,7 +120,7 @@ static void many_slits(void **state) {
                              i < SLITS ? 10 * i + 9 + (i * (7 + wall) % 13) * 0.05 : 800.0,
                              20 + 20 * wall);
     room r;
-    make_room(&r, text);
+    make_room(&r, NULL, text);
     free(text);
     const sl_point line[] = {{1, 2}, {799, 2}};
     sl_set_sight *sight;
@@ -161,7 +139,7 @@ static void many_slits(void **state) {
 static void wrong_sets(void **state) {
     (void)state;
     room r;
-    make_room(&r, "walls 0 0 20 0 20 10 0 10 0 0\nstart 2 5 0\n");
+    make_room(&r, NULL, "walls 0 0 20 0 20 10 0 10 0 0\nstart 2 5 0\n");
     sl_set_sight *sight;
     const sl_point outside[] = {{1, 1}, {30, 1}}, nan[] = {{1, 1}, {NAN, 1}};
     const sl_point star[] = {{5, 1}, {7, 9}, {2, 4}, {8, 4}, {3, 9}};
@@ -558,7 +536,7 @@ static void check_eyes(const room *r, const sl_point *points, size_t count, sl_s
 static void many_eyes(void **state) {
     (void)state;
     room r;
-    make_room(&r, plan);
+    make_room(&r, NULL, plan);
     const sl_point bend[] = {{2, 2}, {6, 7}, {12, 7.5}, {12.5, 14}}, line[] = {{9, 1}, {15, 14}};
     const sl_point area[] = {{9.2, 8.1}, {12.3, 8.4}, {12.1, 11.3}, {9.7, 10.8}};
     const sl_point court[] = {{18, 8}, {22, 8}, {22, 12}, {18, 12}},
@@ -588,7 +566,7 @@ static void many_eyes(void **state) {
 static void one_point(void **state) {
     (void)state;
     room r;
-    make_room(&r, plan);
+    make_room(&r, NULL, plan);
     const sl_point eye = {5, 7};
     const sl_view view = sl_view_all_round(eye);
     sl_region region = {0};
@@ -618,7 +596,7 @@ static void tiny_and_huge(void **state) {
                 text + length, sizeof text - length, "wall %.17g %.17g %.17g %.17g\n",
                 ldexp(walls[i].a.x, exponent), ldexp(walls[i].a.y, exponent),
                 ldexp(walls[i].b.x, exponent), ldexp(walls[i].b.y, exponent));
-        make_room(&r, text);
+        make_room(&r, NULL, text);
         const sl_point line[] = {{ldexp(5, exponent), ldexp(2, exponent)},
                                  {ldexp(14, exponent), ldexp(3, exponent)}};
         for (int seen = 0; seen < 2; seen++) {

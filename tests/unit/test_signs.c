@@ -1,6 +1,6 @@
 /// Signs, and the parts of paths that no viewpoint sees: by hand, and on random maps against the
 /// law of the visibility catchment area and sl_query_sees, point by point.
-#include "testing.h"
+#include "room.h"
 
 #include "oracle/random_map.h"
 #include "oracle/random_oblique.h"
@@ -11,26 +11,6 @@
 #include <math.h>
 
 static const double PI = 3.14159265358979323846;
-
-typedef struct room {
-    sl_context *context;
-    sl_map map;
-    sl_space space;
-    sl_query *query;
-} room;
-
-static void make_room(room *r, testing_memory *memory, const char *statements) {
-    *r = (room){.context = testing_context(memory)};
-    testing_space(r->context, statements, &r->map, &r->space);
-    assert_ok(r->context, sl_query_over(r->context, &r->space, &r->map, NULL, &r->query));
-}
-
-static void end_room(room *r) {
-    sl_query_destroy(r->context, r->query);
-    sl_space_destroy(r->context, &r->space);
-    sl_map_destroy(r->context, &r->map);
-    sl_context_destroy(r->context);
-}
 
 static bool is_near(double a, double b, double tolerance) {
     return fabs(a - b) <= tolerance;
