@@ -3,20 +3,22 @@
 #
 # source   the archive of the commit that is checked out; all else is built from it, unpacked
 # command  the command for Linux, static, with its manual pages, completion and licence
-# npm      the npm package: needs what 'sh tools/setup.sh --web' installs, and npm
+# npm      the npm package
+# python   the Python package: its sources in one file, and a wheel that has the libraries it needs
 #
-# Without a PART, all. Each is tried in an empty folder before it is put into FOLDER. The same commit gives the same
-# bytes with the same compilers. The static command reads map text, ASCII plans and baked files alone.
+# 'sh tools/setup.sh --release' installs what they need. Without a PART, all. Each is tried in an empty folder before it is
+# put into FOLDER. The same commit gives the same bytes with the same compilers. The static command reads map text, ASCII
+# plans and baked files alone. The wheel is for Linux with the glibc that its name says, or newer.
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
-usage='usage: sh tools/release.sh FOLDER [source | command | npm]...'
+usage='usage: sh tools/release.sh FOLDER [source | command | npm | python]...'
 fail() {
     echo "release: $1" >&2
     exit "${2:-1}"
 }
 case ${1:-} in
 -h | --help)
-    sed -n '2,9s/^# \{0,1\}//p' "$0"
+    sed -n '2,12s/^# \{0,1\}//p' "$0"
     exit 0
     ;;
 '' | -*) fail "$usage" 2 ;;
@@ -25,9 +27,9 @@ mkdir -p "$1"
 folder=$(cd "$1" && pwd)
 shift
 for part in "$@"; do
-    case $part in source | command | npm) ;; *) fail "there is no part '$part'; $usage" 2 ;; esac
+    case $part in source | command | npm | python) ;; *) fail "there is no part '$part'; $usage" 2 ;; esac
 done
-parts=" ${*:-source command npm} "
+parts=" ${*:-source command npm python} "
 [ -e "$root/.git" ] || fail "a clone is needed: the archive is that of a commit" 2
 [ -z "$(git -C "$root" status --porcelain)" ] || fail "commit or drop the changes first" 2
 
@@ -52,18 +54,20 @@ quietly() {
     }
 }
 
-# pack NAME FOLDER: the archive of a folder of $scratch, whatever its times, owners and order are.
+# pack NAME FOLDER [BASE]: the archive of a folder of $scratch, or BASE, whatever its times, owners and order are.
 pack() {
-    tar -C "$scratch" --format=ustar --sort=name --mtime="@$SOURCE_DATE_EPOCH" --owner=0 --group=0 \
+    tar -C "${3:-$scratch}" --format=ustar --sort=name --mtime="@$SOURCE_DATE_EPOCH" --owner=0 --group=0 \
         --numeric-owner --mode=u=rwX,go=rX -cf "$scratch/$1.tar" "$2"
     gzip -9n "$scratch/$1.tar"
 }
 
-# keep FILE: what is tried takes its place.
+# keep FILE [FOLDER/]: what is tried takes its place.
 keep() {
-    mv "$1" "$folder/"
-    made="${made:-} $(basename "$1")"
-    echo "release: $folder/$(basename "$1")"
+    target=${2:-}$(basename "$1")
+    mkdir -p "$(dirname "$folder/$target")"
+    mv "$1" "$folder/$target"
+    made="${made:-} $target"
+    echo "release: $folder/$target"
 }
 
 # try_command PROGRAM: from an empty folder to a baked file.
@@ -124,6 +128,30 @@ case $parts in *" npm "*)
         })"
     ) || fail "the npm package does not work"
     keep "$scratch/$name.tgz"
+    ;;
+esac
+
+# ---- python: the wheel is built from the file of the sources alone ----
+case $parts in *" python "*)
+    python=/usr/bin/python3 # which has what the set-up installs
+    command -v patchelf >/dev/null || fail "patchelf is missing" 77
+    (cd "$sources/lib/bindings/python" && quietly $python setup.py --quiet sdist --dist-dir "$scratch/sdist")
+    mkdir "$scratch/python" "$scratch/wheel"
+    tar -xzf "$scratch/sdist/$name.tar.gz" -C "$scratch/python"
+    pack sdist "$name" "$scratch/python"
+    (cd "$scratch/python" &&
+        quietly $python -m pip wheel --no-index --no-deps --no-build-isolation -w "$scratch/wheel" ../sdist.tar.gz)
+    wheel=$($python "$sources/tools/packages/python/standalone.py" "$scratch"/wheel/*.whl "$scratch")
+    quietly $python -m pip install --no-index --no-deps --target "$scratch/installed" "$wheel"
+    (
+        cd "$scratch/wheel" && PYTHONPATH=$scratch/installed $python -c "
+import sightline
+room = sightline.Plan.from_segments([[0, 0, 4, 0], [4, 0, 4, 4], [4, 4, 0, 4], [0, 4, 0, 0]])
+assert room.bake().can_see((1, 1), (3, 3)) and sightline.__version__ == '$version'"
+    ) || fail "the wheel does not work"
+    mv "$scratch/sdist.tar.gz" "$scratch/python/$name.tar.gz"
+    keep "$scratch/python/$name.tar.gz" python/
+    keep "$wheel" python/
     ;;
 esac
 

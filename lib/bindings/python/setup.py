@@ -1,4 +1,5 @@
-"""Builds the library of the package with CMake, in the project that this folder is a part of.
+"""Builds the library of the package with CMake, in the project that this folder is a part of, or in the
+copy of it that a source distribution carries.
 
 SIGHTLINE_PYTHON_LIBRARY names a library that is built already, to be taken as it is.
 """
@@ -11,6 +12,7 @@ import tempfile
 
 from setuptools import Distribution, setup
 from setuptools.command.build_py import build_py
+from setuptools.command.sdist import sdist
 
 try:
     from wheel.bdist_wheel import bdist_wheel
@@ -18,12 +20,13 @@ except ImportError:
     from setuptools.command.bdist_wheel import bdist_wheel
 
 HERE = pathlib.Path(__file__).resolve().parent
-ROOT = HERE.parents[2]
+CARRIED = HERE / "project"
+ROOT = CARRIED if CARRIED.is_dir() else HERE.parents[2]
 NAME = "libsightline_python.so"
 # One library with all that it needs of the project; nothing else is built.
 OPTIONS = ["-DCMAKE_BUILD_TYPE=Release", "-DBUILD_SHARED_LIBS=OFF", "-DSIGHTLINE_PYTHON=ON",
            "-DSIGHTLINE_ANALYSIS=ON", "-DSIGHTLINE_IO=ON", *(f"-DSIGHTLINE_{part}=OFF" for part in
-                                  ("STUDY", "GLPK", "DRAW", "TOOLS", "VIEWER", "TESTS", "INSTALL"))]
+                                  ("STUDY", "GLPK", "DRAW", "LEVEL", "TOOLS", "VIEWER", "TESTS", "INSTALL"))]
 
 
 def version():
@@ -47,6 +50,20 @@ class BuildWithLibrary(build_py):
             shutil.copy(os.environ.get("SIGHTLINE_PYTHON_LIBRARY") or build_library(scratch), target)
 
 
+class WithProject(sdist):
+    """What the library is built of goes along: no file is looked for beside the archive."""
+
+    def make_release_tree(self, base_dir, files):
+        super().make_release_tree(base_dir, files)
+        carried = pathlib.Path(base_dir, CARRIED.name)
+        left_out = shutil.ignore_patterns("js", "level", "notebooks", "bench", "tests", "project", "build",
+                                          "*.egg-info", "__pycache__", "*.so")
+        shutil.copytree(ROOT / "lib", carried / "lib", ignore=lambda folder, names: (
+            left_out(folder, names) if "bindings" in pathlib.Path(folder).parts else ()))
+        shutil.copy(ROOT / "CMakeLists.txt", carried)
+        shutil.copy((HERE if ROOT == CARRIED else ROOT) / "LICENSE", base_dir)
+
+
 class WithLibrary(Distribution):
     def has_ext_modules(self):
         return True
@@ -60,4 +77,4 @@ class WheelForThisMachine(bdist_wheel):
 
 
 setup(version=version(), distclass=WithLibrary,
-      cmdclass={"build_py": BuildWithLibrary, "bdist_wheel": WheelForThisMachine})
+      cmdclass={"build_py": BuildWithLibrary, "bdist_wheel": WheelForThisMachine, "sdist": WithProject})

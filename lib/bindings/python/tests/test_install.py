@@ -13,6 +13,14 @@ import unittest
 import sightline
 import support
 
+# What setup.py would build, without building it.
+ASKED = """
+import json, runpy, setuptools
+setuptools.setup = lambda **_: None
+package = runpy.run_path("setup.py")
+print(json.dumps([str(package["ROOT"]), package["version"](), package["OPTIONS"]]))
+"""
+
 
 @unittest.skipUnless(all(importlib.util.find_spec(name) for name in ("pip", "setuptools", "wheel")),
                      "this Python has no pip, setuptools or wheel")
@@ -44,6 +52,28 @@ class Wheel(unittest.TestCase):
             ours = (place / "sightline/level.py").read_bytes()
             self.assertEqual(ours, (support.ROOT / "lib/bindings/python/sightline/level.py")
                              .read_bytes())
+
+    def test_a_source_distribution_needs_nothing_beside_it(self):
+        with tempfile.TemporaryDirectory() as scratch:
+            clone, made = pathlib.Path(scratch, "clone"), pathlib.Path(scratch, "made")
+            shutil.copytree(support.ROOT / "lib", clone / "lib")
+            for name in ("CMakeLists.txt", "LICENSE"):
+                shutil.copy(support.ROOT / name, clone)
+            done = subprocess.run([sys.executable, "setup.py", "--quiet", "sdist", "--dist-dir", str(made)],
+                                  cwd=clone / "lib/bindings/python", stdout=subprocess.PIPE,
+                                  stderr=subprocess.STDOUT, text=True)
+            self.assertEqual(done.returncode, 0, done.stdout)
+            shutil.rmtree(clone)
+            name = f"sightline-{sightline.__version__}"
+            shutil.unpack_archive(str(made / f"{name}.tar.gz"), str(made))
+            done = subprocess.run([sys.executable, "-c", ASKED], cwd=made / name, stdout=subprocess.PIPE,
+                                  text=True, check=True)
+            root, version, options = json.loads(done.stdout)
+            self.assertEqual((root, version), (str((made / name / "project").resolve()), sightline.__version__))
+            self.assertTrue((made / name / "LICENSE").is_file())
+            done = subprocess.run(["cmake", "-S", root, "-B", pathlib.Path(scratch, "build"), *options],
+                                  stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+            self.assertEqual(done.returncode, 0, done.stdout)
 
 
 class Metadata(unittest.TestCase):
