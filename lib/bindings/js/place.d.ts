@@ -1,8 +1,10 @@
 /** Viewpoints: what given ones see together, and where the fewest must stand. */
 import { SightlineError } from './sightline.js'
 import type { MapInput } from './bake.js'
+import type { FloorCore, OpenFloor, OpenOptions } from './floor.js'
 
 export { SightlineError }
+export type { OpenOptions }
 
 export interface Viewpoint {
   x: number
@@ -67,31 +69,15 @@ export interface Placement {
   proof: string
 }
 
-export class Floor {
+export class Floor extends OpenFloor {
   private constructor()
-  setDoor(name: string, open: boolean): void
   /** What viewpoints see together. */
   cover(viewpoints: readonly Viewpoint[]): Coverage
   /** The fewest viewpoints that see all that is inside. It may take long: ask in a worker. */
   place(options?: PlaceOptions): Placement
-  close(): void
-}
-
-export interface OpenOptions {
-  /** Doors that do not stand as the map says, by name: whether they are open. */
-  doors?: Record<string, boolean>
-  /** How wide openings to the outside are at most; by default, and for 0, as the map says. */
-  entrance?: number
-  /** The name of the map in messages. */
-  name?: string
-}
-
-export interface PlaceCore {
-  readonly version: string
-  open(map: MapInput, options?: OpenOptions): Floor
 }
 
 /** Loads the module, for calls without promises. `memory`: the most bytes that it may take. */
-export function load(options?: { memory?: number }): Promise<PlaceCore>
+export function load(options?: { memory?: number }): Promise<FloorCore<Floor>>
 /** Reads a map for questions about viewpoints. Close it. */
 export function open(map: MapInput, options?: OpenOptions): Promise<Floor>

@@ -4,10 +4,9 @@
  *
  * All work is done before a call returns: where a page must not wait, ask in a worker.
  */
-import { flagOf, listOf, numberOf, objectOf, optionsOf, textOf } from './arguments.js'
-import { SightlineError, bytesOf } from './host.js'
-import { isBaked } from './maptext.js'
-import { Module, instantiable } from './module.js'
+import { listOf, numberOf, objectOf, optionsOf } from './arguments.js'
+import { OpenFloor, floorsOf } from './floor.js'
+import { SightlineError } from './host.js'
 
 export { SightlineError }
 
@@ -32,43 +31,16 @@ function proofOf(lower, upper, witnesses, where) {
     : `At least ${lower} are needed: ${seen} need so many, ${where}.`
 }
 
-/** The inside of a map, for viewpoints. Close it. */
-export class Floor {
-  #core
-  #at
-  #generation
-
-  /** Use open(). */
-  constructor(core, at) {
-    this.#core = core
-    this.#at = at
-    this.#generation = core.generation
-  }
-
-  get #place() {
-    if (this.#at && this.#generation === this.#core.generation) return this.#at
-    throw new SightlineError(this.#at ? 'the module stopped, and the floor is lost' : 'the floor is closed')
-  }
-
-  /** Opens or shuts a door. */
-  setDoor(name, open) {
-    const at = this.#place
-    flagOf(`door '${textOf('door', name)}'`, open)
-    this.#core.withBytes([name], (nameAt) => this.#core.ask((core) => core.floor_set_door(at, nameAt, +open)))
-  }
-
-  #numbers(at, count) {
-    return new Float64Array(this.#core.memory.buffer, at, count).slice()
-  }
-
+/** The inside of a map, for viewpoints. Close it. Use open(). */
+export class Floor extends OpenFloor {
   /** What viewpoints see together. */
   cover(viewpoints) {
-    const at = this.#place, core = this.#core
+    const { at, core } = this
     const given = listOf('viewpoints', viewpoints), rows = Float64Array.from(given.flatMap(rowOf))
     core.withBytes([new Uint8Array(rows.buffer)], (rowsAt) => core.ask((its) => its.floor_cover(at, rowsAt, given.length)))
     const [count, corners, spots, piecesAt, cornersAt, rowsAt] = core.given(6)
-    const pieces = new Uint32Array(core.memory.buffer, piecesAt, 3 * count), xy = this.#numbers(cornersAt, 2 * corners)
-    const table = this.#numbers(rowsAt, 3 * given.length + 7 * spots)
+    const pieces = new Uint32Array(core.memory.buffer, piecesAt, 3 * count), xy = this.numbers(cornersAt, 2 * corners)
+    const table = this.numbers(rowsAt, 3 * given.length + 7 * spots)
     let from = 0
     return {
       areas: [...core.givenNumbers(4)],
@@ -91,7 +63,7 @@ export class Floor {
 
   /** The fewest viewpoints that see all, with both bounds. Stopped, it gives what it has. */
   place(given) {
-    const options = optionsOf(given, 'from', 'step', 'progress', 'timeLimit'), at = this.#place, core = this.#core
+    const options = optionsOf(given, 'from', 'step', 'progress', 'timeLimit'), { at, core } = this
     const { from = 'anywhere', step = 0 } = options
     if (!FROM.includes(from)) throw new SightlineError(`from: one of ${FROM.join(', ')} is needed`)
     numberOf('step', step, 0)
@@ -99,7 +71,7 @@ export class Floor {
     const [lower, upper, count, viewpointsAt, witnessesAt, rounds, slivers, stopped] = core.given(8)
     const [unseenArea] = core.givenNumbers(1)
     // x, y, heading, fov, range, nearest and a flag in 8 bytes; x, y and a flag in 8 bytes
-    const rows = this.#numbers(viewpointsAt, 7 * upper), places = this.#numbers(witnessesAt, 3 * count)
+    const rows = this.numbers(viewpointsAt, 7 * upper), places = this.numbers(witnessesAt, 3 * count)
     const where = from === 'anywhere' ? 'wherever they stand' : 'if they stand at these places'
     const made = {
       lower, upper, optimal: lower === upper, stopped: stopped === 1, rounds, slivers, unseenArea,
@@ -114,64 +86,10 @@ export class Floor {
         { code: 'unsupported' })
     return made
   }
-
-  /** Gives back the memory. */
-  close() {
-    if (this.#at && this.#generation === this.#core.generation) this.#core.core.floor_close(this.#at)
-    this.#at = 0
-  }
-}
-
-/** The loaded module, for calls without promises. */
-class PlaceCore extends Module {
-  #read(map, { name, entrance = 0 }) {
-    if (!isBaked(map))
-      return this.withMap(map, { name }, (nameAt, at, size, items) => {
-        const floor = this.run((core) => core.floor_open(nameAt, at, size, 0, entrance))
-        if (!floor) throw this.failure(items)
-        return floor
-      })
-    const bytes = bytesOf(map)
-    return this.withBytes([textOf('name', name ?? 'map.slv'), bytes], (nameAt, at) => {
-      const floor = this.run((core) => core.floor_open(nameAt, at, bytes.length, 1, 0))
-      if (!floor) throw this.failure()
-      return floor
-    })
-  }
-
-  /** Reads a map. Close the floor. */
-  open(map, given) {
-    const options = optionsOf(given, 'doors', 'entrance', 'name')
-    numberOf('entrance', options.entrance ?? 0, 0)
-    const doors = Object.entries(objectOf('doors', options.doors ?? {}))
-    const floor = new Floor(this, this.#read(map, options))
-    try {
-      for (const [name, open] of doors) floor.setDoor(name, open)
-      return floor
-    } catch (error) {
-      floor.close()
-      throw error
-    }
-  }
 }
 
 /**
- * Loads the module. `memory`: the most bytes that it may take, 4 GiB by default.
- *
- * @param {{memory?: number}} [options]
+ * Loads the module, for calls without promises. `memory`: the most bytes that it may take, 4 GiB by default.
+ * Reads a map for questions about viewpoints.
  */
-export async function load(options) {
-  return new PlaceCore(...(await instantiable('place', options)))
-}
-
-/** @type {Promise<PlaceCore> | undefined} */
-let shared
-
-/** Reads a map for questions about viewpoints. Close it. */
-export async function open(map, options) {
-  shared ??= load().catch((error) => {
-    shared = undefined
-    throw error
-  })
-  return (await shared).open(map, options)
-}
+export const { load, open } = floorsOf('place', Floor)

@@ -1,10 +1,8 @@
 /// Viewpoints for JavaScript: place.js asks, analysis/placement/ answers: what given viewpoints see
 /// together, and where the fewest must stand. Results stay until the next call.
 #include "sightline/place.h"
-#include "bindings/js/src/bindings.h"
-#include "sightline/bake.h"
+#include "bindings/js/src/floor.h"
 #include "sightline/coverage.h"
-#include "sightline/import.h"
 
 #include <string.h>
 
@@ -14,97 +12,66 @@ enum { GIVEN = 6, SEEN = 3, SPOT = 7 };
 // place.js reads them where they lie.
 _Static_assert(sizeof(sl_viewpoint) == 7 * sizeof(double), "viewpoints as place.js knows them");
 
-typedef struct floor_plan {
-    sl_baked baked; ///< its space alone, where it comes from a map
-    sl_query *query;
+struct sli_answers {
     sl_coverage coverage;
     sl_placement placement;
     uint32_t *pieces; ///< by piece that is inside: its corners, how many see it, its blind spot
     double *corners;
     double *rows; ///< of viewpoints, then of blind spots
-} floor_plan;
+};
 
 static sl_context *context(void) {
     return sli_module.context;
 }
 
-static void forget(floor_plan *f) {
-    sl_free(context(), f->pieces);
-    sl_free(context(), f->corners);
-    sl_free(context(), f->rows);
-    f->pieces = NULL, f->corners = NULL, f->rows = NULL;
-    sl_coverage_destroy(context(), &f->coverage);
+static void forget_coverage(struct sli_answers *a) {
+    sl_free(context(), a->pieces);
+    sl_free(context(), a->corners);
+    sl_free(context(), a->rows);
+    a->pieces = NULL, a->corners = NULL, a->rows = NULL;
+    sl_coverage_destroy(context(), &a->coverage);
 }
 
-SLI_EXPORT(void, floor_close, floor_plan *f) {
-    if (!f) return;
-    forget(f);
-    sl_placement_destroy(context(), &f->placement);
-    sl_query_destroy(context(), f->query);
-    sl_baked_destroy(context(), &f->baked);
-    sl_free(context(), f);
+void sli_answers_destroy(struct sli_answers *a) {
+    if (!a) return;
+    forget_coverage(a);
+    sl_placement_destroy(context(), &a->placement);
+    sl_free(context(), a);
 }
 
-static sl_status make_space(floor_plan *f, const char *name, const char *text, size_t size,
-                            double entrance) {
-    const sl_import_options import = {.entrance = entrance};
-    sl_map map = {0};
-    sl_status status = sl_map_parse(context(), name, text, size, &import, &map);
-    if (status == SL_OK) status = sl_bake_cells(context(), &map, NULL, &f->baked);
-    sl_map_destroy(context(), &map);
-    return status;
-}
-
-static sl_status open_map(floor_plan *f, const char *name, const char *bytes, size_t size,
-                          int baked, double entrance) {
-    SL_TRY(baked ? sl_baked_parse(context(), name, bytes, size, &f->baked)
-                 : make_space(f, name, bytes, size, entrance));
-    return sl_query_over(context(), &f->baked.space, &f->baked.map, NULL, &f->query);
-}
-
-/// Reads a map, or with `baked` a baked file. `entrance`: the width of entrances; 0: as the map
-/// says.
-SLI_EXPORT(floor_plan *, floor_open, const char *name, const char *bytes, size_t size, int baked,
-           double entrance) {
-    floor_plan *f = sl_alloc_array(context(), 1, sizeof *f);
-    if (sli_done(f ? open_map(f, name, bytes, size, baked, entrance) : SL_NO_MEMORY)) return f;
-    floor_close(f);
-    return NULL;
-}
-
-SLI_EXPORT(int, floor_set_door, floor_plan *f, const char *name, int open) {
-    sli_done(sl_query_set_door(context(), f->query, name, open));
-    return (int)sli_module.status;
+static sl_status make_answers(sli_floor *f) {
+    if (!f->answers) f->answers = sl_alloc_array(context(), 1, sizeof *f->answers);
+    return f->answers ? SL_OK : SL_NO_MEMORY;
 }
 
 // --- coverage
 
 /// Copies the pieces that are inside.
-static sl_status put_pieces(floor_plan *f, uint32_t *count, uint32_t *corners) {
-    const sl_overlay *overlay = &f->coverage.overlay;
+static sl_status put_pieces(struct sli_answers *a, uint32_t *count, uint32_t *corners) {
+    const sl_overlay *overlay = &a->coverage.overlay;
     const sl_space *s = &overlay->pieces;
-    f->pieces = sl_alloc_array(context(), 3 * (size_t)s->cell_count + 1, sizeof *f->pieces);
-    f->corners = sl_alloc_array(context(), 2 * (size_t)s->vertex_count + 1, sizeof *f->corners);
-    if (!f->pieces || !f->corners) return SL_NO_MEMORY;
+    a->pieces = sl_alloc_array(context(), 3 * (size_t)s->cell_count + 1, sizeof *a->pieces);
+    a->corners = sl_alloc_array(context(), 2 * (size_t)s->vertex_count + 1, sizeof *a->corners);
+    if (!a->pieces || !a->corners) return SL_NO_MEMORY;
     for (uint32_t c = 0; c < s->cell_count; c++) {
         const sl_cell *cell = &s->cells[c];
         if (!cell->inside) continue;
-        const uint32_t row[3] = {cell->vertex_count, overlay->counts[c], f->coverage.spots[c]};
-        memcpy(f->pieces + 3 * (size_t)(*count)++, row, sizeof row);
+        const uint32_t row[3] = {cell->vertex_count, overlay->counts[c], a->coverage.spots[c]};
+        memcpy(a->pieces + 3 * (size_t)(*count)++, row, sizeof row);
         for (uint32_t i = 0; i < cell->vertex_count; i++, ++*corners) {
-            f->corners[2 * *corners] = s->vertices[cell->first_vertex + i].x;
-            f->corners[2 * *corners + 1] = s->vertices[cell->first_vertex + i].y;
+            a->corners[2 * *corners] = s->vertices[cell->first_vertex + i].x;
+            a->corners[2 * *corners + 1] = s->vertices[cell->first_vertex + i].y;
         }
     }
     return SL_OK;
 }
 
-static sl_status put_rows(floor_plan *f) {
-    const sl_coverage *c = &f->coverage;
+static sl_status put_rows(struct sli_answers *a) {
+    const sl_coverage *c = &a->coverage;
     const size_t size = SEEN * c->count + SPOT * (size_t)c->blind_count + 1;
-    f->rows = sl_alloc_array(context(), size, sizeof *f->rows);
-    if (!f->rows) return SL_NO_MEMORY;
-    double *to = f->rows;
+    a->rows = sl_alloc_array(context(), size, sizeof *a->rows);
+    if (!a->rows) return SL_NO_MEMORY;
+    double *to = a->rows;
     for (size_t i = 0; i < c->count; i++, to += SEEN)
         to[0] = c->seen[i], to[1] = c->alone[i], to[2] = sl_coverage_is_spare(c, i);
     for (uint32_t i = 0; i < c->blind_count; i++, to += SPOT) {
@@ -126,26 +93,28 @@ static void put_areas(const sl_coverage *c) {
     }
 }
 
-static sl_status cover(floor_plan *f, const sl_viewpoint *viewpoints, size_t count) {
-    forget(f);
-    SL_TRY(sl_coverage_make(context(), f->query, viewpoints, count, &f->coverage));
+static sl_status cover(sli_floor *f, const sl_viewpoint *viewpoints, size_t count) {
+    SL_TRY(make_answers(f));
+    struct sli_answers *a = f->answers;
+    forget_coverage(a);
+    SL_TRY(sl_coverage_make(context(), f->query, viewpoints, count, &a->coverage));
     uint32_t pieces = 0, corners = 0;
-    SL_TRY(put_pieces(f, &pieces, &corners));
-    SL_TRY(put_rows(f));
+    SL_TRY(put_pieces(a, &pieces, &corners));
+    SL_TRY(put_rows(a));
     const uint32_t all[6] = {pieces,
                              corners,
-                             f->coverage.blind_count,
-                             (uint32_t)(uintptr_t)f->pieces,
-                             (uint32_t)(uintptr_t)f->corners,
-                             (uint32_t)(uintptr_t)f->rows};
+                             a->coverage.blind_count,
+                             (uint32_t)(uintptr_t)a->pieces,
+                             (uint32_t)(uintptr_t)a->corners,
+                             (uint32_t)(uintptr_t)a->rows};
     memcpy(sli_module.integers, all, sizeof all);
-    put_areas(&f->coverage);
+    put_areas(&a->coverage);
     return SL_OK;
 }
 
 /// Rows of viewpoints: x, y, heading, fov, range, nearest. integers: pieces, their corners, blind
 /// spots, and where pieces, corners and rows lie.
-SLI_EXPORT(int, floor_cover, floor_plan *f, const double *given, size_t count) {
+SLI_EXPORT(int, floor_cover, sli_floor *f, const double *given, size_t count) {
     sl_viewpoint *viewpoints = sl_alloc_array(context(), count + 1, sizeof *viewpoints);
     for (size_t i = 0; viewpoints && i < count; i++, given += GIVEN)
         viewpoints[i] = (sl_viewpoint){.at = {given[0], given[1]},
@@ -160,14 +129,14 @@ SLI_EXPORT(int, floor_cover, floor_plan *f, const double *given, size_t count) {
 
 // --- placement
 
-static sl_status choose(floor_plan *f, int from, double step, const sl_place_options *usual) {
+static sl_status choose(sli_floor *f, int from, double step, const sl_place_options *usual) {
     sl_place_options options = *usual;
     sl_point *places = NULL;
     if (from >= 0)
         SL_TRY(sl_place_points(context(), f->query, (sl_place_from)from, step, &places,
                                &options.place_count));
     options.places = places;
-    const sl_status status = sl_place(context(), f->query, &options, &f->placement);
+    const sl_status status = sl_place(context(), f->query, &options, &f->answers->placement);
     sl_free(context(), places);
     return status;
 }
@@ -175,9 +144,10 @@ static sl_status choose(floor_plan *f, int from, double step, const sl_place_opt
 /// Finds the fewest viewpoints: from anywhere (-1), or of a sl_place_from. Stopped, it keeps what
 /// there is. integers: lower, upper, witnesses, where the sl_viewpoints and the witnesses lie,
 /// rounds, slivers, whether it was stopped. numbers: the area of slivers.
-SLI_EXPORT(int, floor_place, floor_plan *f, int from, double step) {
+SLI_EXPORT(int, floor_place, sli_floor *f, int from, double step) {
     const sl_place_options options = sl_place_options_default();
-    sl_placement *p = &f->placement;
+    if (!sli_done(make_answers(f))) return (int)sli_module.status;
+    sl_placement *p = &f->answers->placement;
     sl_placement_destroy(context(), p);
     sl_status status = choose(f, from, step, &options);
     const bool stopped = status == SL_CANCELLED && p->count;

@@ -27,8 +27,18 @@ test('visibility graph analysis is at most 137 kB', () => {
 })
 
 test('placement is at most 149 kB', () => {
-  const bytes = size('place.js', 'arguments.js', 'maptext.js', 'host.js', 'module.js', 'place.wasm')
+  const bytes = size('place.js', 'floor.js', 'arguments.js', 'maptext.js', 'host.js', 'module.js', 'place.wasm')
   assert.ok(bytes <= 149000, said(bytes))
+})
+
+test('lines, areas and ways are at most 145 kB', () => {
+  const bytes = size('ways.js', 'floor.js', 'arguments.js', 'maptext.js', 'host.js', 'module.js', 'ways.wasm')
+  assert.ok(bytes <= 145000, said(bytes))
+})
+
+test('worlds are at most 138 kB', () => {
+  const bytes = size('world.js', 'arguments.js', 'maptext.js', 'host.js', 'module.js', 'world.wasm')
+  assert.ok(bytes <= 138000, said(bytes))
 })
 
 test('the package needs no other, and has what it says', async () => {
