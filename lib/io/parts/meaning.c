@@ -282,7 +282,9 @@ static bool fits(sli_word word, sli_word pattern) {
 static bool fits_any(sli_word word, const char *patterns) {
     for (const char *at = patterns; *at;) {
         const size_t length = strcspn(at, " ");
-        if (fits(word, (sli_word){at, length})) return true;
+        // The first letter tells most of them apart.
+        const bool may = *at == '*' || (word.length && *at == *word.at);
+        if (may && fits(word, (sli_word){at, length})) return true;
         at += length + (at[length] == ' ');
     }
     return false;
