@@ -87,7 +87,8 @@ static const word_list lists[SLI_MEANINGS] = {
          "*도로*"},
     [SLI_MEANS_GRID] =
         {"grid",
-         "grid* axis axes axe paths route* waypoint* wayfinding graph* node rfid* reader* coordinate* "
+         "grid* axis axes axe paths route* waypoint* wayfinding graph* node rfid* reader* "
+         "coordinate* "
          "centerline* centreline* center "
          "centre cntr guide* datum dote achse* "
          "raster* hilfslinie* mittellinie* trame asse assi interass* eje eixo stramien* assen ось "
