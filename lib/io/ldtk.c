@@ -243,7 +243,7 @@ static sl_status read_file(sli_ldtk *reader, sl_map *map) {
     bool ground_solid = false, unsure = false;
     SL_TRY(sli_json_object(&reader->root));
     SL_TRY(levels.value || worlds.value ? read_project(reader) : read_alone(reader));
-    sli_ldtk_settle_ground(&reader->tiles, &reader->things, &ground_solid, &unsure);
+    sli_ldtk_settle_ground(reader, &ground_solid, &unsure);
     SL_TRY(check_any(reader, unsure));
     reader->things.top = reader->bottom;
     const sli_tiles_options options = {.top = reader->bottom,
@@ -319,6 +319,7 @@ sl_status sli_map_read_ldtk(sl_context *context, const char *name, const char *t
     const sl_status status = read_file(&reader, &read);
     sli_tiles_destroy(context, &reader.tiles);
     sli_things_destroy(&reader.things);
+    sl_free(context, reader.others.items);
     sli_json_close(&file);
     if (status == SL_OK)
         *map = read;

@@ -39,11 +39,6 @@ sli_ldtk_cell sli_ldtk_meaning(const sli_json *values, const sli_ldtk_layer *lay
 /// has for single tiles; 0 for a tile that says nothing. `tiles` has the definition of the tileset.
 char sli_ldtk_tile(const sli_json *tileset, int64_t tile);
 
-/// Decides what ground is, and puts '#' or '.' in its place: where starts stand on it or on what is
-/// empty; else it is the solid ground of a platformer if most squares around it are empty, and open
-/// if hardly any are. `*unsure` where nothing tells; `*solid` where it is solid.
-void sli_ldtk_settle_ground(sli_tiles *tiles, const sli_things *things, bool *solid, bool *unsure);
-
 /// A file that is read.
 typedef struct sli_ldtk {
     sl_context *context;
@@ -53,6 +48,7 @@ typedef struct sli_ldtk {
     sli_json project; ///< has the definitions
     sli_tiles tiles;
     sli_things things;
+    SL_ARRAY(sl_point) others; ///< middles of entities that are neither starts nor doors
     double bottom;   ///< the largest y of the levels taken, in pixels from the world's origin
     int64_t depth;   ///< of the levels taken
     char taken[160]; ///< the first level that is taken, as the account shows it
@@ -63,6 +59,12 @@ typedef struct sli_ldtk {
     size_t levels, other_levels, other_depths;
     size_t layers, tile_layers, other_layers, entities;
 } sli_ldtk;
+
+/// Decides what ground is, and puts '#' or '.' in its place: where starts stand on it or on what is
+/// empty; else it is open where two or more other entities stand on it, twice as many as on what is
+/// empty; else it is the solid ground of a platformer if most squares around it are empty, and open
+/// if hardly any are. `*unsure` where nothing tells; `*solid` where it is solid.
+void sli_ldtk_settle_ground(sli_ldtk *reader, bool *solid, bool *unsure);
 
 /// A level's place in its world, in pixels, y down.
 typedef struct sli_ldtk_place {

@@ -115,10 +115,22 @@ static char square_at(const sli_tile_block *block, sl_point at) {
     return block->squares[(size_t)y * block->columns + (size_t)x];
 }
 
-void sli_ldtk_settle_ground(sli_tiles *tiles, const sli_things *things, bool *solid, bool *unsure) {
-    size_t ground = 0, empty = 0, all = 0, on_ground = 0, on_empty = 0;
-    for (size_t i = 0; i < tiles->blocks.count; i++) {
-        const sli_tile_block *block = &tiles->blocks.items[i];
+/// How many stand on ground, and on what is empty.
+typedef struct votes {
+    size_t ground, empty;
+} votes;
+
+static void vote(votes *of, const sli_tile_block *block, sl_point at) {
+    const char square = square_at(block, at);
+    of->ground += square == SLI_LDTK_GROUND;
+    of->empty += square == '.';
+}
+
+void sli_ldtk_settle_ground(sli_ldtk *reader, bool *solid, bool *unsure) {
+    size_t ground = 0, empty = 0, all = 0;
+    votes starts = {0}, others = {0};
+    for (size_t i = 0; i < reader->tiles.blocks.count; i++) {
+        const sli_tile_block *block = &reader->tiles.blocks.items[i];
         const size_t count = block->columns * block->rows;
         if (!memchr(block->squares, SLI_LDTK_GROUND, count)) continue;
         for (size_t k = 0; k < count; k++) {
@@ -126,19 +138,19 @@ void sli_ldtk_settle_ground(sli_tiles *tiles, const sli_things *things, bool *so
             empty += block->squares[k] == '.';
         }
         all += count;
-        for (size_t k = 0; k < things->items.count; k++) {
-            const sli_thing *thing = &things->items.items[k];
-            if (thing->kind != SLI_THING_START) continue;
-            const char at = square_at(block, thing->middle);
-            on_ground += at == SLI_LDTK_GROUND;
-            on_empty += at == '.';
-        }
+        for (size_t k = 0; k < reader->things.items.count; k++)
+            if (reader->things.items.items[k].kind == SLI_THING_START)
+                vote(&starts, block, reader->things.items.items[k].middle);
+        for (size_t k = 0; k < reader->others.count; k++)
+            vote(&others, block, reader->others.items[k]);
     }
     if (!ground) return;
-    *solid = on_ground != on_empty ? on_empty > on_ground : 5 * empty >= 2 * all;
-    *unsure = on_ground == on_empty && !*solid && 10 * empty > all;
-    for (size_t i = 0; i < tiles->blocks.count; i++) {
-        const sli_tile_block *block = &tiles->blocks.items[i];
+    const bool told = starts.ground != starts.empty;
+    const bool stood_on = others.ground >= 2 && others.ground >= 2 * others.empty;
+    *solid = told ? starts.empty > starts.ground : !stood_on && 5 * empty >= 2 * all;
+    *unsure = !told && !stood_on && !*solid && 10 * empty > all;
+    for (size_t i = 0; i < reader->tiles.blocks.count; i++) {
+        const sli_tile_block *block = &reader->tiles.blocks.items[i];
         for (size_t k = 0; k < block->columns * block->rows; k++)
             if (block->squares[k] == SLI_LDTK_GROUND) block->squares[k] = *solid ? '#' : '.';
     }

@@ -238,7 +238,8 @@ static void read_fields(const sli_json *entity, sli_says *says, double *heading,
     }
 }
 
-/// Adds an entity that is a start or a door. Its pivot is at its place "px".
+/// Adds an entity that is a start or a door; keeps the place of any other. Its pivot is at its
+/// place "px".
 static sl_status read_entity(sli_ldtk *reader, const sli_json *entity, sl_point corner,
                              double step) {
     const char *name = sli_json_text_of(entity, "__identifier");
@@ -248,23 +249,27 @@ static sl_status read_entity(sli_ldtk *reader, const sli_json *entity, sl_point 
     read_fields(entity, &says, &heading, &own);
     if (says.kind == SLI_THING_DOOR && own != name) says.name = own;
     SL_TRY(sli_things_ask(&reader->things, name, NULL, &says));
-    if (!says.kind) {
-        sli_things_leave(&reader->things, name);
-        return SL_OK;
-    }
     const sli_json px = sli_json_member(entity, "px"), pivot = sli_json_member(entity, "__pivot");
     const sli_json width = sli_json_member(entity, "width");
     const sli_json height = sli_json_member(entity, "height");
     sl_point at = {0}, part = {0}, size = {step, step};
+    if (!says.kind) sli_things_leave(&reader->things, name);
+    if (!px.value && !says.kind) return SL_OK;
     if (!px.value) return sli_json_fail(&px, "expected two numbers, found nothing");
     SL_TRY(read_pair(&px, &at));
     SL_TRY(read_pair(&pivot, &part));
     SL_TRY(sli_json_number_if(&width, &size.x));
     SL_TRY(sli_json_number_if(&height, &size.y));
+    const sl_point middle = {corner.x + at.x + (0.5 - part.x) * size.x,
+                             corner.y + at.y + (0.5 - part.y) * size.y};
+    if (!says.kind) {
+        SL_TRY(SL_ARRAY_ROOM(reader->context, &reader->others, 1));
+        reader->others.items[reader->others.count++] = middle;
+        return SL_OK;
+    }
     reader->entities--;
     const sli_thing thing = {.kind = says.kind,
-                             .middle = {corner.x + at.x + (0.5 - part.x) * size.x,
-                                        corner.y + at.y + (0.5 - part.y) * size.y},
+                             .middle = middle,
                              .u = {size.x / 2, 0},
                              .v = {0, size.y / 2},
                              .open = says.state != SLI_DOOR_SHUT,

@@ -12,7 +12,7 @@
 ///                            or with solid ground.
 ///
 /// These are rules of thumb: they decide what is offered, and never what is seen. All is measured
-/// in the directions of the longest wall, so turned sheets are sheets too. Time O(n log n) for each
+/// in the directions of most walls, so turned sheets are sheets too. Time O(n log n) for each
 /// of few passes.
 #include "map/plans.h"
 
@@ -22,13 +22,15 @@
 #include "sightline/support.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 /// The least gap, as a share of the largest plan's longer side; the least size of a plan, as a
 /// share of the largest; how well rows agree, as a share of the largest plan; how near to the
-/// border of the sheet its frame is, and how long, as shares of the sheet.
-static const double GAP = 0.1, SIZE = 0.5, ROW = 0.05, FRAME = 0.02, LONG = 0.9;
+/// border of the sheet its frame is, and how long, as shares of the sheet; how much of a plan the
+/// boxes of its pieces cover.
+static const double GAP = 0.1, SIZE = 0.5, ROW = 0.05, FRAME = 0.02, LONG = 0.9, COVER = 0.75;
 enum { LEAST_FACES = 3, MOST_PARTS = 256, PASSES = 8 };
 
 typedef struct item {
@@ -93,18 +95,23 @@ static bool line_of(const sl_map *map, size_t i, sl_segment *at) {
     return false;
 }
 
-/// The direction of the longest line, turned by quarters to be nearest to x.
+/// x where half of all lines, by length, are axial; else the direction of the longest line, turned
+/// by quarters to be nearest to x.
 static sl_point direction_of(const sl_map *map) {
-    double most = 0;
+    double most = 0, all = 0, axial = 0;
     sl_segment at;
     sl_point best = {1, 0};
     for (size_t i = 0; line_of(map, i, &at); i++) {
         const sl_point d = {at.b.x - at.a.x, at.b.y - at.a.y};
         const double length = sli_length(d.x, d.y);
-        if (!(length > most) || !isfinite(length)) continue;
+        if (!isfinite(length)) continue;
+        all += length;
+        axial += d.x == 0 || d.y == 0 ? length : 0;
+        if (!(length > most)) continue;
         most = length;
         best = (sl_point){d.x / length, d.y / length};
     }
+    if (2 * axial >= all) return (sl_point){1, 0};
     if (fabs(best.x) < fabs(best.y)) best = (sl_point){best.y, -best.x};
     return best.x < 0 ? (sl_point){-best.x, -best.y} : best;
 }
@@ -197,15 +204,52 @@ static double find_parts(sheet *s) {
     return largest;
 }
 
-/// Whether the lines of a part enclose enough faces: edges - points + 1, if all hang together.
+/// The point that stands for a piece of a graph.
+static uint32_t first_of(uint32_t *piece, uint32_t at) {
+    while (piece[at] != at) at = piece[at] = piece[piece[at]];
+    return at;
+}
+
+/// Counts the pieces of a graph that hang together. `*area` gets that of their boxes.
+static sl_status count_pieces(sl_context *context, const sli_planar *graph, size_t *pieces,
+                              double *area) {
+    const uint32_t count = (uint32_t)graph->point_count;
+    uint32_t *piece = sl_alloc_array(context, count, sizeof *piece);
+    sl_box *boxes = sl_alloc_array(context, count, sizeof *boxes);
+    const bool room = piece && boxes;
+    for (uint32_t i = 0; room && i < count; i++) {
+        piece[i] = i;
+        boxes[i] = (sl_box){graph->points[i], graph->points[i]};
+    }
+    for (size_t i = 0; room && i < graph->edge_count; i++)
+        piece[first_of(piece, graph->edges[i].a)] = first_of(piece, graph->edges[i].b);
+    for (uint32_t i = 0; room && i < count; i++) grow(&boxes[first_of(piece, i)], boxes[i]);
+    for (uint32_t i = 0; room && i < count; i++) {
+        if (piece[i] != i) continue;
+        ++*pieces;
+        *area += (boxes[i].max.x - boxes[i].min.x) * (boxes[i].max.y - boxes[i].min.y);
+    }
+    sl_free(context, piece);
+    sl_free(context, boxes);
+    return room ? SL_OK : SL_NO_MEMORY;
+}
+
+/// Whether the lines of a part enclose enough faces: edges - points + pieces. Pieces that stand
+/// freely, as houses of a town, count as one; walls of a plan, between openings, have boxes that
+/// cover most of it.
 static sl_status has_rooms(const sheet *s, const part *p, double weld, bool *out) {
     sli_planar graph = {0};
     sl_segment *lines = sl_alloc_array(s->context, p->count, sizeof *lines);
     if (!lines) return SL_NO_MEMORY;
     for (size_t i = 0; i < p->count; i++) lines[i] = s->items.items[p->first + i].at;
-    const sl_status status =
-        sli_planar_make(s->context, "the sheet", lines, p->count, weld, &graph);
-    *out = status == SL_OK && graph.edge_count + 1 >= graph.point_count + LEAST_FACES;
+    sl_status status = sli_planar_make(s->context, "the sheet", lines, p->count, weld, &graph);
+    size_t pieces = 0;
+    double area = 0;
+    if (status == SL_OK) status = count_pieces(s->context, &graph, &pieces, &area);
+    sl_box box = box_of((sl_point){1, 0}, lines[0]);
+    for (size_t i = 1; i < p->count; i++) grow(&box, box_of((sl_point){1, 0}, lines[i]));
+    if (area < COVER * (box.max.x - box.min.x) * (box.max.y - box.min.y)) pieces = 1;
+    *out = status == SL_OK && graph.edge_count + pieces >= graph.point_count + LEAST_FACES;
     sli_planar_destroy(s->context, &graph);
     sl_free(s->context, lines);
     return status == SL_UNSUPPORTED ? SL_OK : status;

@@ -4,7 +4,7 @@
 
 #include "sightline/map.h"
 
-/// A plan of a sheet. Boxes are in the sheet's own directions: x along its longest wall, nearest to
+/// A plan of a sheet. Boxes are in the sheet's own directions: x along its walls, nearest to
 /// the map's x.
 typedef struct sli_plan {
     sl_box box;    ///< in the sheet's directions

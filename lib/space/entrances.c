@@ -29,6 +29,7 @@
 /// sides. Time O(n log n), and what channels take.
 #include "sightline/space.h"
 #include "space/clearance.h"
+#include "space/kd_tree.h"
 
 #include "geometry/length.h"
 #include "geometry/orient.h"
@@ -80,6 +81,7 @@ typedef struct finder {
     sl_map *map;
     double weld;
     sl_box bounds;
+    sl_box border; ///< of the space: farther out where the map ends at a window
     sli_channels channels;
     sli_clearance clearance;
     uint32_t *triangle; ///< by half-edge; NONE outside of the box
@@ -345,9 +347,12 @@ static sl_status find_width(finder *f, double most, double *out) {
         status = fits(f, g, ROOMIER * g->access, &roomier);
         if (roomier) widths[count++] = g->access;
     }
-    count = drop_slits(widths, status == SL_OK ? count : 0, fmax(width, height) / SLIT);
+    const double slit = fmax(width, height) / SLIT;
+    count = drop_slits(widths, status == SL_OK ? count : 0, slit);
     const double best = status == SL_OK ? before_step(widths, count, most) : 0;
-    double widest = best; // both faces of a door frame are openings
+    // Where there are only slits, all of them are entrances: many are no wider than rounding.
+    double widest = best > 0 ? fmax(best, fmin(slit, most)) : 0;
+    // Both faces of a door frame are openings.
     for (size_t i = 0; i < f->groups.count; i++)
         if (f->groups.items[i].access <= 1.01 * best)
             widest = fmax(widest, f->groups.items[i].access);
@@ -627,9 +632,9 @@ static bool is_building(const finder *f, bool opened) {
     return inside > 0 && inside >= all / 3;
 }
 
-/// Whether a segment lies on the border of the map: no cell is beyond it.
+/// Whether a segment lies on the border of the space: no cell is beyond it.
 static bool on_border(const finder *f, sl_segment at) {
-    const sl_box *b = &f->bounds;
+    const sl_box *b = &f->border;
     return (at.a.x == at.b.x && (at.a.x == b->min.x || at.a.x == b->max.x)) ||
            (at.a.y == at.b.y && (at.a.y == b->min.y || at.a.y == b->max.y));
 }
@@ -746,7 +751,10 @@ static sl_status find_by(finder *f, sl_entrance by, double width, double most, b
 }
 
 static sl_status begin_search_of_entrances(finder *f, sl_context *context, sl_map *map) {
-    *f = (finder){.context = context, .map = map, .bounds = sl_map_bounds(map)};
+    *f = (finder){.context = context,
+                  .map = map,
+                  .bounds = sl_map_bounds(map),
+                  .border = sli_space_bounds(map)};
     f->weld = sli_planar_tolerance(&f->bounds);
     return SL_OK;
 }

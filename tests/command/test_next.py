@@ -141,6 +141,15 @@ class Next(sandbox.ProgramTest):
         self.assertEqual(commands, [["check", name], ["check", name, "--start", "5,3"],
                                     ["bake", name, "--start", "5,3"]])
 
+    def test_entrance_goes_first(self):
+        """Where inside hangs on a wide opening, that is what to say first, and then the gap."""
+        plan = [(0, 0, 20, 0), (20, 0, 20, 10), (20, 10, 0, 10), (0, 10, 0, 6), (0, 3.5, 0, 0),
+                (10, 0.02, 10, 4), (10, 6, 10, 10)]
+        name = self.write("hall.map", map_text(plan) + "unit m\n")
+        commands, _ = self.go_on(name, "--gap", "0.05")
+        self.assertEqual(commands[1], ["check", name, "--gap", "0.05", "--entrance", "2.5"])
+        self.assertEqual(commands[2][-2:], ["--snap", "hall-fixed.map"])
+
     def test_dxf(self):
         millimetres = [tuple(1000 * value for value in line) for line in PLAN]
         drawn = turned(millimetres, 17.3, (500, 900))

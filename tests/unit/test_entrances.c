@@ -557,7 +557,30 @@ static void test_slits(void **state) {
         turn_plan(text, &t, &p);
         assert_true(is_inside(&p, turn(&t, 8, 4)));
         assert_int_equal(is_inside(&p, turn(&t, 3, 4)), plans[i / 3].hall);
-        if (i < 3) assert_true(p.map.interior.width >= 1 && p.map.interior.width < 1.1);
+        const double width = p.map.interior.width; // that of a slit is one that people can see
+        if (i < 3) assert_true(width >= 1 && width < 1.1);
+        if (i >= 3) assert_true(width >= 0.01 && width < 0.015);
+        close_plan(&p);
+    }
+}
+
+/// Where a window is at the border of the map, the space goes on beyond it, and inside still ends
+/// at the entrances that lie on that border.
+static void test_window_at_border(void **state) {
+    (void)state;
+    static const char *const windows[] = {"", "wall 10 2 10 5 stops steps,sound\n",
+                                          "wall 7 0 9 0 stops steps,sound\n"};
+    for (int i = 0; i < 3; i++) {
+        const turned t = turned_by(0, 1, 0, 0);
+        char text[4000];
+        plan p;
+        snprintf(text, sizeof text, "unit m\nwalls 4 0 10 0 10 8 0 8 0 0 3 0\n%s", windows[i]);
+        turn_plan(text, &t, &p);
+        assert_true(is_inside(&p, (sl_point){5, 4}));
+        assert_int_equal(doubt_of(&p), SL_INSIDE_SURE);
+        assert_int_equal(p.map.interior.entrances, 1);
+        for (int k = 0; k < 4 && i; k++)
+            assert_false(is_inside(&p, (sl_point){k % 2 ? 3.5 : 10.3, k / 2 ? 8.3 : -0.3}));
         close_plan(&p);
     }
 }
@@ -571,13 +594,21 @@ static void test_units(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_house),         cmocka_unit_test(test_enclosed),
-        cmocka_unit_test(test_wide_entrance), cmocka_unit_test(test_exact),
-        cmocka_unit_test(test_disc),          cmocka_unit_test(test_outdoors),
-        cmocka_unit_test(test_closed),        cmocka_unit_test(test_again),
-        cmocka_unit_test(test_memory),        cmocka_unit_test(test_units),
-        cmocka_unit_test(test_corridor),      cmocka_unit_test(test_thick_walls),
-        cmocka_unit_test(test_roomiest),      cmocka_unit_test(test_slits),
+        cmocka_unit_test(test_house),
+        cmocka_unit_test(test_enclosed),
+        cmocka_unit_test(test_wide_entrance),
+        cmocka_unit_test(test_exact),
+        cmocka_unit_test(test_disc),
+        cmocka_unit_test(test_outdoors),
+        cmocka_unit_test(test_closed),
+        cmocka_unit_test(test_again),
+        cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_units),
+        cmocka_unit_test(test_corridor),
+        cmocka_unit_test(test_thick_walls),
+        cmocka_unit_test(test_roomiest),
+        cmocka_unit_test(test_slits),
+        cmocka_unit_test(test_window_at_border),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -246,6 +246,7 @@ static void test_textmap(void **state) {
                    "arg0 = 5; id = 9; }\n"
                    "linedef { v1 = 1; v2 = 1; sidefront = 0; }\n"
                    "linedef { v1 = 0; v2 = 2; sidefront = -1; }\n"
+                   "linedef { v1 = 0; v2 = 2; }\n" // a stray one, without sides
                    "thing { x = 1; y = 2.25; type = 1; angle = -45; } weird { a = b; }");
     sl_map map = {0};
     assert_ok(context, read_wad(context, &wad, "MAP01", true, &map));
@@ -440,8 +441,8 @@ static void test_textmap_broken(void **state) {
          "in.wad:1: map MAP01, lump TEXTMAP: sector: expected a whole number, found '0.5'"},
         {"sidedef { sector = 0x100000000; }",
          "in.wad:1: map MAP01, lump TEXTMAP: sector: expected a whole number, found '0x100000000'"},
-        {"linedef { v1 = 0; v2 = 1; }",
-         "in.wad:1: map MAP01, lump TEXTMAP: this linedef has no sidefront"},
+        {"linedef { v1 = 0; sidefront = 0; }",
+         "in.wad:1: map MAP01, lump TEXTMAP: this linedef has no v2"},
         {SQUARE "linedef { v1 = 0; v2 = 3; sidefront = 0; }",
          "in.wad:4: map MAP01, linedef 0: vertex 3, but there are 3"},
         {SQUARE "\nlinedef { v1 = 0; v2 = 1; sidefront = 2; }",
@@ -530,6 +531,14 @@ static void test_lumps_broken(void **state) {
         }
         free(wad.bytes);
     }
+    // Doom 64 has the names of Doom's lumps, and other records.
+    wad_made wad;
+    wad_begin(&wad);
+    wad_two_rooms(&wad, "MAP01", 0, 0, 0, NULL);
+    wad_lump(&wad, "LEAFS", NULL, 0);
+    wad_end(&wad);
+    expect_broken(context, &wad, "map MAP01 is one of Doom 64");
+    free(wad.bytes);
     sl_context_destroy(context);
 }
 

@@ -29,7 +29,7 @@ static void test_standards(void **state) {
     MEANS(SLI_MEANS_TEXT, "A-ANNO-DIMS", "A-WALL-IDEN", "PUB_DIM", "A-21----T-N----", "mtext");
     MEANS(SLI_MEANS_HATCH, "A-WALL-PATT", "A-21----H-");
     MEANS(SLI_MEANS_STAIRS, "A-FLOR-STRS", "A-24----E-");
-    MEANS(SLI_MEANS_GRID, "S-GRID", "DOTE", "A-WALL-CNTR");
+    MEANS(SLI_MEANS_GRID, "S-GRID", "DOTE", "A-WALL-CNTR", "walking graph", "nodes", "rfid2");
     MEANS(SLI_MEANS_SITE, "C-TOPO", "L-PLNT");
     MEANS(SLI_MEANS_FRAME, "G-ANNO|TTLB", "Defpoints", "VIEWPORT");
     MEANS(SLI_MEANS_OTHER, "A-CLNG", "A-WALL-DEMO", "A-ROOF", "A-27----E-");

@@ -1,6 +1,7 @@
 // What a plan has beside walls, by shape alone: frames, dimensions, axes, legends, furniture.
 #include "testing.h"
 
+#include "io/parts/plan_doubt.h"
 #include "io/parts/plan_parts.h"
 
 #include <math.h>
@@ -241,11 +242,28 @@ static void test_memory(void **state) {
     sl_context_destroy(d.context);
 }
 
+/// What is too dense to look at is said to be so, and is not taken for looked at.
+static void test_crowded(void **state) {
+    (void)state;
+    drawing d = {.context = testing_context(NULL)};
+    sli_plan_look look;
+    house(&d);
+    assert_ok(d.context, sli_plan_look_at(d.context, &d.map, 1, 0, &look));
+    assert_true(!look.crowded && look.walls == d.map.wall_count && look.closed > 0);
+    for (int i = 0; i < 6000; i++) line(&d, 0, 0.001 * i, 12, 6 - 0.001 * i);
+    assert_ok(d.context, sli_plan_look_at(d.context, &d.map, 1, 0, &look));
+    assert_true(look.crowded && look.walls == 0);
+    sl_map_destroy(d.context, &d.map);
+    assert_ok(d.context, sli_plan_look_at(d.context, &d.map, 1, 0, &look));
+    assert_false(look.crowded);
+    sl_context_destroy(d.context);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_found),  cmocka_unit_test(test_all_together),
         cmocka_unit_test(test_kept),   cmocka_unit_test(test_rest),
-        cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_memory), cmocka_unit_test(test_crowded),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

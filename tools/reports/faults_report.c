@@ -387,11 +387,18 @@ static bool needs_start(const checked *found) {
     return !found->faults.has_starts && found->inside != SL_INSIDE_NONE && !has_entrances(found);
 }
 
+/// Whether inside hangs on an opening that is too wide for snapping.
+static bool needs_entrance(const faults_report *report, const checked *found) {
+    return found->inside == SL_INSIDE_OPENING &&
+           found->baked.map.interior.doubtful_width > report->found->gap;
+}
+
 static void print_next_of_mended(const faults_report *report) {
     const uint32_t *counts = report->left->faults.counts;
     const bool left = counts[SL_FAULT_LEAK] || counts[SL_FAULT_GAP];
     bool gap_given = false;
-    if (!left && report->left->inside == SL_INSIDE_OPENING) {
+    if (needs_entrance(report, report->left) ||
+        (!left && report->left->inside == SL_INSIDE_OPENING)) {
         print_next_entrance(report, NEXT_CHECK_MENDED, report->left);
         return;
     }
@@ -421,6 +428,8 @@ static void print_next(const faults_report *report) {
     const bool grave = faults->counts[SL_FAULT_LEAK] || faults->counts[SL_FAULT_GAP];
     if (report->mended) {
         print_next_of_mended(report);
+    } else if (needs_entrance(report, report->found)) {
+        print_next_entrance(report, NEXT_CHECK, report->found);
     } else if (report->helps > 0) {
         print_command(report, NEXT_CHECK, report->helps);
         print_name(report, " --snap ", "-fixed.map");

@@ -155,6 +155,11 @@ static sl_status read_things(sl_context *context, const sli_wad *wad, const sli_
 static sl_status doom_read_lumps(sl_context *context, const sli_wad *wad, const sli_wad_map *map,
                                  doom_records *records) {
     const bool hexen = sli_wad_find_lump(wad, map, "BEHAVIOR") < wad->lump_count;
+    if (sli_wad_find_lump(wad, map, "LEAFS") < wad->lump_count)
+        return sl_fail_at(context, wad->name, 0,
+                          "map %s is one of Doom 64 (it has a lump LEAFS), whose records are not "
+                          "read: save it in the format UDMF or Doom with a level editor",
+                          map->name);
     records->format = hexen ? "Hexen" : "Doom";
     records->hexen_specials = hexen;
     SL_TRY(read_vertices(context, wad, map, records));
@@ -370,7 +375,7 @@ static sl_status read_linedef(text_map *text, uint32_t line) {
     field fields[] = {
         {.name = "v1", .whole = &linedef.vertex[0], .needed = true},
         {.name = "v2", .whole = &linedef.vertex[1], .needed = true},
-        {.name = "sidefront", .whole = &linedef.side[0], .needed = true},
+        {.name = "sidefront", .whole = &linedef.side[0]},
         {.name = "sideback", .whole = &linedef.side[1]},
         {.name = "special", .whole = &special},
         {.name = "id", .whole = &id},

@@ -38,6 +38,8 @@ double sli_choice_longest_door(const sli_choice *c);
 
 /// Notes lines on layers of doors that are far longer than doors.
 void sli_choice_note_long_doors(const sli_choice *c);
+/// Notes the layers of a drawing all of which are walls, where there are several.
+void sli_choice_note_all(const sli_choice *c);
 /// Notes what was chosen, and what is doubtful about it.
 void sli_choice_note(const sli_choice *c);
 

@@ -584,7 +584,10 @@ static sl_status choose(sli_choice *c, sli_pen *pen) {
         if (chosen && !group->taken) c->contents->left_out += group->shapes;
     }
     if (!sli_contents_said(c->contents)) sli_choice_note_long_doors(c);
-    if (!chosen) return SL_OK;
+    if (!chosen) {
+        sli_choice_note_all(c);
+        return SL_OK;
+    }
     SL_TRY(add_doors(c));
     measure(c);
     SL_TRY(keep_walls(c));

@@ -140,6 +140,17 @@ static void note_choice(const sli_choice *c) {
                 c->symbols.doors - c->doors);
 }
 
+void sli_choice_note_all(const sli_choice *c) {
+    sli_name_list names = {.full = false};
+    size_t count = 0;
+    for (size_t i = 0; i < c->contents->groups.count; i++)
+        count += c->contents->groups.items[i].walls && c->contents->groups.items[i].length;
+    if (count < 2 || c->contents->has_looks || sli_contents_said(c->contents)) return;
+    list_groups(c, true, SLI_MEANINGS, &names);
+    sl_note(c->contents->context, "%s: layers: all are walls: %.300s (--layers A,B chooses)",
+            c->contents->file, names.text);
+}
+
 /// How much like walls a look is that is not taken: its long lines count by their weight.
 static double likeness(const sli_look *look) {
     return look->length * fmax(look->weight, 1e-9);

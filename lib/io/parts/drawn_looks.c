@@ -200,7 +200,9 @@ double sli_looks_ground(const sl_map *map, const sli_look_shape *shapes, size_t 
     chooser c = {.map = map, .shapes = shapes, .count = count, .looks = looks};
     find_backdrop(&c);
     find_ground(&c);
-    return c.ground;
+    // A pattern is that of squared paper: what covers it up is white.
+    const bool squared = c.backdrops == 1 && !looks->items.items[shapes[0].look].ink.known;
+    return squared ? 1 : c.ground;
 }
 
 bool sli_ink_is_ground(const sli_ink *ink, double ground) {

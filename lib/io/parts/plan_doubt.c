@@ -98,6 +98,7 @@ sl_status sli_plan_look_at(sl_context *context, const sl_map *map, double metre,
     *out = (sli_plan_look){0};
     sl_status status = sli_plan_net_make(context, map, 0.05 * metre, 0.6 * metre, tolerance, &net);
     if (status == SL_OK && net.whole) status = find_all(&net, out);
+    out->crowded = status == SL_OK && map->wall_count && !net.whole;
     sli_plan_net_destroy(&net);
     return status;
 }
@@ -106,6 +107,12 @@ sl_status sli_plan_tell(sl_context *context, const char *file, const sl_map *map
                         double tolerance) {
     sli_plan_look look;
     SL_TRY(sli_plan_look_at(context, map, metre, tolerance, &look));
+    if (look.crowded)
+        sl_note(context,
+                "%s: %zu lines are too many, or too dense, to look for furniture, lettering and "
+                "dimensions among them: all of them are walls; sightline info %s lists the layers, "
+                "--layers A,B takes those of walls",
+                file, map->wall_count, file);
     const size_t share = look.pieces >= 10 ? 7 : 4;
     if (look.walls >= 20 && look.pieces >= 3 && share * look.small >= look.walls)
         sl_note(context,

@@ -13,12 +13,12 @@ typedef struct sli_plan_look {
     size_t pieces; ///< such pieces
     size_t across; ///< short walls that cross others
     size_t closed; ///< how many ways round there are: 0 where nothing is enclosed
+    bool crowded;  ///< too many walls, or crowds of them, to look at: all else is 0
     bool frame;    ///< a rectangle holds all else, at a distance, and touches nothing
 } sli_plan_look;
 
 /// `metre` is a metre in the map's unit, 0 for unknown; `tolerance` how far apart ends may be that
-/// meet. Drawings of very many walls, or of crowds of them, are not looked at: all is 0 then. Time
-/// O(n log n) where few lines are near each other.
+/// meet. Time O(n log n) where few lines are near each other.
 sl_status sli_plan_look_at(sl_context *context, const sl_map *map, double metre, double tolerance,
                            sli_plan_look *out);
 

@@ -313,7 +313,7 @@ static sl_status draw_placed(svg *s, xmlNode *node, sli_svg_shape kind, place at
         if (own) at.layer = own;
         return draw_group(s, node, at);
     }
-    SL_TRY(sli_svg_find_look(s, &at));
+    SL_TRY(sli_svg_find_look(s, kind, &at));
     if (!at.taken) return SL_OK;
     // Layers of our own say what they hold, however it is painted.
     if (at.layer ? at.paint.hidden : !sli_svg_is_seen(at.paint, !s->style.paint_unread)) {

@@ -84,7 +84,7 @@ bool sli_svg_has_percent(xmlNode *node, const char *name);
 /// unless it is one of walls: "axes_1", "Section A".
 sl_status sli_svg_group_of(sli_svg *s, xmlNode *node, sli_svg_shape kind, uint32_t *group);
 /// Tells how a shape looks, where styles are known. It may be asked for by that.
-sl_status sli_svg_find_look(sli_svg *s, sli_svg_place *at);
+sl_status sli_svg_find_look(sli_svg *s, sli_svg_shape kind, sli_svg_place *at);
 /// Keeps the width of a line that is drawn by its stroke alone.
 sl_status sli_svg_keep_stroke(sli_svg *s, const sli_svg_place *at);
 /// Walls run along the middle of lines: notes wide ones, which may be meant as walls of that width.

@@ -34,7 +34,10 @@ sl_status sli_svg_group_of(svg *s, xmlNode *node, sli_svg_shape kind, uint32_t *
     return SL_OK;
 }
 
-sl_status sli_svg_find_look(svg *s, place *at) {
+sl_status sli_svg_find_look(svg *s, sli_svg_shape kind, place *at) {
+    // A line that is drawn has no inside, though by default it is "filled".
+    if (kind == SLI_SVG_LINE && at->paint.stroke && !at->paint.clear_stroke && !at->paint.thin)
+        at->paint.no_fill = true;
     const sli_affine *affine = &at->affine;
     const double scale = sqrt(fabs(affine->xx * affine->yy - affine->xy * affine->yx));
     const sli_ink ink = sli_svg_ink(&at->paint, scale);
