@@ -66,6 +66,24 @@ SL_API sl_status sl_route_finder_update(sl_context *context, sl_route_finder *fi
 SL_API sl_status sl_route_finder_set_losses(sl_context *context, sl_route_finder *finder,
                                             const double *losses, size_t count);
 
+/// How far from walls a walker with a radius must stand at both ends of its way, as a multiple of
+/// the radius: 1 / cos(pi / 64), rounded up.
+#define SL_ROUTE_ROOM 1.0013
+
+/// Ways for a walker that is a disc of this radius, in map units: 0 or more; 0, as at first, is a
+/// point. The way of its middle stays farther than the radius from all walls. It is no longer than
+/// the shortest way of a disc whose radius is SL_ROUTE_ROOM times as large: arcs around ends of
+/// walls are replaced by tangents. So a gap that is exactly as wide as the walker is not passed.
+/// The bounds stop the middle of the walker only. Both ends of a way must have room for the larger
+/// disc; 2^-39 of the largest coordinate is added to all this for rounding.
+///
+/// The way then turns at corners of the tangents, and it has no portals: those of the query's space
+/// are not searched. Updates the finder: time and memory of cleaning and cutting a map that has the
+/// outline of the grown walls. SL_UNSUPPORTED with one-way glass, losses, and sl_route_distances().
+/// SL_BAD_ARGUMENT for another radius.
+SL_API sl_status sl_route_finder_set_radius(sl_context *context, sl_route_finder *finder,
+                                            double radius);
+
 /// The shortest way from one point to another (Cui, Harabor and Grastien 2017, Compromise-free
 /// Pathfinding on a Navigation Mesh: Polyanya, on the convex cells).
 ///
@@ -75,8 +93,8 @@ SL_API sl_status sl_route_finder_set_losses(sl_context *context, sl_route_finder
 /// the same length one is chosen by the order of the cells and portals, so the same input gives
 /// the same way.
 ///
-/// SL_BAD_ARGUMENT for a point outside the bounds or in solid ground. No way is no failure. No
-/// memory is allocated once `route` and the finder have grown.
+/// SL_BAD_ARGUMENT for a point outside the bounds or in solid ground, or without room for the
+/// walker. No way is no failure. No memory is allocated once `route` and the finder have grown.
 SL_API sl_status sl_route_find(sl_context *context, sl_route_finder *finder, sl_point from,
                                sl_point to, sl_route *route);
 
