@@ -1,7 +1,7 @@
-/// The points around an end of a wall are the corners of a polygon of POINTS sides. A disc of radius
-/// R goes around it no shorter than around the polygon whose corners are on its circle. It can go
-/// around the polygon whose sides touch its circle. So both bounds are lengths in such a graph; in
-/// the first one, pieces may come as near to walls as the sides of its polygon do.
+/// The points around an end of a wall are the corners of a polygon of POINTS sides. A disc of
+/// radius R goes around it no shorter than around the polygon whose corners are on its circle. It
+/// can go around the polygon whose sides touch its circle. So both bounds are lengths in such a
+/// graph; in the first one, pieces may come as near to walls as the sides of its polygon do.
 #include "oracle/wide_walks.h"
 #include "oracle/blockers.h"
 #include "oracle/must.h"

@@ -152,8 +152,8 @@ static bool has_room(const barrier *b, sl_point at, double radius) {
 /// slack that ways keep.
 static void check_clearance(const plan *p, const barrier *b, double radius, uint64_t seed) {
     const sl_box *s = &p->space.bounds;
-    const double most = fmax(fmax(fabs(s->min.x), fabs(s->max.x)),
-                             fmax(fabs(s->min.y), fabs(s->max.y)));
+    const double most =
+        fmax(fmax(fabs(s->min.x), fabs(s->max.x)), fmax(fabs(s->min.y), fabs(s->max.y)));
     for (size_t i = 1; i < p->route.count; i++) {
         const sl_segment piece = {p->route.points[i - 1], p->route.points[i]};
         const double room = oracle_room(b->walls, b->count, piece);
@@ -169,8 +169,8 @@ static uint64_t checked, found;
 static void check_way(plan *p, const barrier *b, double radius, sl_point from, sl_point to,
                       uint64_t seed) {
     const double length = way(p, from.x, from.y, to.x, to.y);
-    const double least = oracle_wide_walk_least(b->walls, b->count, p->space.bounds, from, to,
-                                                radius),
+    const double least =
+                     oracle_wide_walk_least(b->walls, b->count, p->space.bounds, from, to, radius),
                  most = oracle_wide_walk_most(b->walls, b->count, p->space.bounds, from, to,
                                               SL_ROUTE_ROOM * radius);
     if (length < least * (1 - 1e-12) || length > most * (1 + 1e-12))

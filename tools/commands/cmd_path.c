@@ -346,8 +346,7 @@ static sl_status work(command_console *console, path_plan *plan, path_work *w) {
     SL_TRY(sl_route_finder_create(context, w->query, &w->finder));
     if (w->all_open)
         SL_TRY(sl_route_finder_set_losses(context, w->finder, w->losses, w->baked.map.door_count));
-    if (plan->radius > 0)
-        SL_TRY(sl_route_finder_set_radius(context, w->finder, plan->radius));
+    if (plan->radius > 0) SL_TRY(sl_route_finder_set_radius(context, w->finder, plan->radius));
     if (plan->distances) return find_cells(console, plan, w);
     return plan->pairs ? find_many(console, plan, w) : find_one(console, plan, w);
 }
@@ -399,7 +398,8 @@ sl_status cmd_path(command_console *console, int argc, char **argv) {
         .synopsis = "MAP|FILE.slv --from X,Y --to X,Y [options]",
         .operands = {"MAP|FILE.slv"},
         .what = "Finds the shortest way among the walls between two points, for a point or for a "
-                "walker with a radius. It turns at ends of walls, and it does not pass between walls that meet in "
+                "walker with a radius. It turns at ends of walls, and it does not pass between "
+                "walls that meet in "
                 "a point. Shut doors block it, and one-way glass from one side. The exit status is "
                 "3 if there is no way.",
         .examples = "  sightline path office.map --from 3,3 --to 53,20\n"

@@ -25,7 +25,8 @@
 /// Neighbouring tangents turn by at most pi / 32, of which this is the cosine.
 static const double STEP = 0.99518472667219688;
 
-/// Normals whose cosine is this or more are one: the arc between them is flatter than the slack.
+/// Two normals whose cosine is this or more are one: the arc between them is flatter than the
+/// slack.
 static const double FLAT = 1 - 0x1p-41;
 
 /// Walls that lie apart by half a turn less this sine are met as if it was half a turn.
@@ -96,8 +97,9 @@ static sl_status add_tangents(growth *g, sl_point at, sl_point from, sl_point to
     const double cosine = sli_dot(from, to);
     if (cosine >= FLAT) return SL_OK;
     if (cosine >= STEP)
-        return go_to(g, moved(g, at, (sl_point){(from.x + to.x) / (1 + cosine),
-                                                (from.y + to.y) / (1 + cosine)}));
+        return go_to(
+            g, moved(g, at,
+                     (sl_point){(from.x + to.x) / (1 + cosine), (from.y + to.y) / (1 + cosine)}));
     const sl_point middle = middle_of(from, to, cosine);
     SL_TRY(add_tangents(g, at, from, middle));
     return add_tangents(g, at, middle, to);

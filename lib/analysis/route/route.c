@@ -258,6 +258,12 @@ sl_status sl_route_find(sl_context *context, sl_route_finder *finder, sl_point f
     return SL_OK;
 }
 
+/// A limit that no cell misses by the rounding of its distance.
+static double widened(const sl_space *space, double limit) {
+    const sl_box *b = &space->bounds;
+    return limit * (1 + 0x1p-30) + 0x1p-38 * sli_greater(b->max.x - b->min.x, b->max.y - b->min.y);
+}
+
 sl_status sl_route_distances(sl_context *context, sl_route_finder *finder, sl_point from,
                              double limit, sl_route_near *cells) {
     uint32_t start;
@@ -271,5 +277,5 @@ sl_status sl_route_distances(sl_context *context, sl_route_finder *finder, sl_po
         finder->upper = sl_alloc_array(context, finder->space->cell_count, sizeof *finder->upper);
     if (!finder->upper) return SL_NO_MEMORY;
     begin(finder);
-    return sli_route_spread(context, finder, from, limit, cells);
+    return sli_route_spread(context, finder, from, widened(finder->space, limit), cells);
 }

@@ -109,9 +109,10 @@ typedef struct sl_route_near {
 /// others are the cells that a sound with that range reaches.
 ///
 /// Signs are exact, as in sl_route_find(). Distances are rounded: off by at most a relative 2^-40
-/// for each corner, and 2^-40 of the bounds' greater side. The limit takes cells in that are at it
-/// as doubles, up to a relative 2^-42. Time and memory grow with the cells that corners see, not
-/// with pairs of cells: nodes that bring nothing to a cell are left out.
+/// for each corner, and 2^-40 of the bounds' greater side. The limit is conservative: it leaves out
+/// no cell within it, for ways with up to 1000 corners. Cells that are farther by up to a relative
+/// 2^-30 and 2^-38 of that side may be in. Time and memory grow with the cells that corners see,
+/// not with pairs of cells: nodes that bring nothing to a cell are left out.
 ///
 /// SL_BAD_ARGUMENT for a point outside the bounds or in solid ground, or another limit.
 SL_API sl_status sl_route_distances(sl_context *context, sl_route_finder *finder, sl_point from,
