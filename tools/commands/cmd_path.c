@@ -20,6 +20,7 @@ typedef struct path_plan {
     door_choice doors;
     sl_draw_options drawing;
     double loss, audible; ///< NAN: not given
+    double radius;
     bool distances, json;
 } path_plan;
 
@@ -142,10 +143,31 @@ static sl_status put_points(const sl_route *route, FILE *out) {
     return SL_OK;
 }
 
+/// Says why there is no way, and how far one comes.
+static sl_status print_no_way(command_console *console, const path_plan *plan, path_work *w) {
+    sl_context *context = console->context;
+    const sl_point nearest = w->route.nearest;
+    const int digits = sl_map_digits(&w->baked.map);
+    char doors[512], why[640];
+    if (plan->radius > 0) { // is it the width?
+        SL_TRY(sl_route_finder_set_radius(context, w->finder, 0));
+        SL_TRY(sl_route_find(context, w->finder, plan->from, plan->to, &w->route));
+    }
+    SL_TRY(find_doors(context, w, plan->from, plan->to, doors, sizeof doors));
+    if (w->route.found)
+        snprintf(why, sizeof why, "it is too narrow for radius %.9g", plan->radius);
+    else if (*doors)
+        snprintf(why, sizeof why, "shut doors on it:%s (--open opens them)", doors);
+    else
+        snprintf(why, sizeof why, "walls are between");
+    printf("no way: %s; the nearest place that can be reached: %.*g,%.*g\n", why, digits, nearest.x,
+           digits, nearest.y);
+    return SL_OK;
+}
+
 /// One way. Without one, the exit status is 3.
 static sl_status find_one(command_console *console, const path_plan *plan, path_work *w) {
     sl_context *context = console->context;
-    char doors[512];
     SL_TRY(input_locate(context, "--from", plan->from_text, &w->baked.space, plan->from, NULL));
     SL_TRY(input_locate(context, "--to", plan->to_text, &w->baked.space, plan->to, NULL));
     SL_TRY(sl_route_find(context, w->finder, plan->from, plan->to, &w->route));
@@ -163,13 +185,7 @@ static sl_status find_one(command_console *console, const path_plan *plan, path_
         if (!quiet && (!plan->output || output_is_plain_file(plan->output))) print_way(w);
         return SL_OK;
     }
-    SL_TRY(find_doors(context, w, plan->from, plan->to, doors, sizeof doors));
-    const int digits = sl_map_digits(&w->baked.map);
-    printf("no way: %s%s%s; the nearest place that can be reached: %.*g,%.*g\n",
-           *doors ? "shut doors on it:" : "walls are between", doors,
-           *doors ? " (--open opens them)" : "", digits, w->route.nearest.x, digits,
-           w->route.nearest.y);
-    return SL_OK;
+    return print_no_way(console, plan, w);
 }
 
 // --- how far all cells are
@@ -290,6 +306,10 @@ static sl_status check_plan(sl_context *context, path_plan *plan) {
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "--distances makes a table of cells: it goes without --to, --pairs and "
                        "--picture");
+    if (plan->radius > 0 && (plan->distances || !isnan(plan->loss)))
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "--radius goes without %s: cells and sounds have no width",
+                       plan->distances ? "--distances and --audible" : "--loss");
     if (!plan->pairs && (!plan->from_text || !(plan->to_text || plan->distances)))
         return sl_fail(context, SL_BAD_ARGUMENT, "--%s is missing: where the way %s",
                        plan->from_text ? "to" : "from", plan->from_text ? "ends" : "begins");
@@ -326,6 +346,7 @@ static sl_status work(command_console *console, path_plan *plan, path_work *w) {
     SL_TRY(sl_route_finder_create(context, w->query, &w->finder));
     if (w->all_open)
         SL_TRY(sl_route_finder_set_losses(context, w->finder, w->losses, w->baked.map.door_count));
+    if (plan->radius > 0) SL_TRY(sl_route_finder_set_radius(context, w->finder, plan->radius));
     if (plan->distances) return find_cells(console, plan, w);
     return plan->pairs ? find_many(console, plan, w) : find_one(console, plan, w);
 }
@@ -356,6 +377,10 @@ sl_status cmd_path(command_console *console, int argc, char **argv) {
          "shut doors do not block: passing one counts as L more map units (0 or more), as for "
          "sound",
          .number = &plan.loss, .needs = "a length of 0 or more"},
+        {"radius", 0, "R",
+         "radius of the walker (default 0, a point): its middle stays farther than R from all "
+         "walls. The way is no longer than the shortest one for radius 1.0013 R",
+         .number = &plan.radius, .needs = "a radius of 0 or more"},
         {"output", 'o', "FILE.csv",
          "the points of the way as a table, with --pairs the lengths, with --distances the cells "
          "(default: standard output)",
@@ -372,13 +397,15 @@ sl_status cmd_path(command_console *console, int argc, char **argv) {
         .name = "path",
         .synopsis = "MAP|FILE.slv --from X,Y --to X,Y [options]",
         .operands = {"MAP|FILE.slv"},
-        .what = "Finds the shortest way among the walls between two points, for a walker without "
-                "width. It turns at ends of walls, and it does not pass between walls that meet in "
+        .what = "Finds the shortest way among the walls between two points, for a point or for a "
+                "walker with a radius. It turns at ends of walls, and it does not pass between "
+                "walls that meet in "
                 "a point. Shut doors block it, and one-way glass from one side. The exit status is "
                 "3 if there is no way.",
         .examples = "  sightline path office.map --from 3,3 --to 53,20\n"
                     "  sightline path office.map --from 3,3 --to 53,20 --picture way.png\n"
                     "  sightline path office.map --pairs desks.csv -o lengths.csv\n"
+                    "  sightline path office.map --from 3,3 --to 53,20 --radius 0.3\n"
                     "  sightline path office.map --from 3,3 --audible 20 --loss 5",
         .options = options,
         .option_count = sizeof options / sizeof *options,

@@ -25,6 +25,7 @@ static void drop_tables(sl_context *context, sl_route_finder *f) {
     f->corners = NULL;
     f->turns = NULL;
     f->space = NULL;
+    sl_space_destroy(context, &f->room);
 }
 
 /// The losses of the doors, by portal.
@@ -62,6 +63,16 @@ static sl_status make_tables(sl_context *context, sl_route_finder *f, const sl_s
     return SL_OK;
 }
 
+/// The middle of a walker is on one side of glass, and the rest of it on the other.
+static sl_status check_glass(sl_context *context, const sl_space *space) {
+    for (uint32_t i = 0; i < space->seam_count; i++)
+        if (space->seams[i].kind == SL_SEAM_ONEWAY)
+            return sl_fail(context, SL_UNSUPPORTED,
+                           "ways for a walker with a radius do not pass one-way glass: use radius "
+                           "0, or a map without it");
+    return SL_OK;
+}
+
 sl_status sl_route_finder_update(sl_context *context, sl_route_finder *finder) {
     const sl_space *space;
     drop_tables(context, finder);
@@ -69,12 +80,27 @@ sl_status sl_route_finder_update(sl_context *context, sl_route_finder *finder) {
     if (space->loose)
         return sl_fail(context, SL_UNSUPPORTED,
                        "ways need a space without gaps: bake the map again");
-    return make_tables(context, finder, space);
+    if (!(finder->radius > 0)) return make_tables(context, finder, space);
+    SL_TRY(check_glass(context, space));
+    SL_TRY(sli_route_grow(context, space, finder->radius, &finder->room));
+    return make_tables(context, finder, &finder->room);
+}
+
+sl_status sl_route_finder_set_radius(sl_context *context, sl_route_finder *finder, double radius) {
+    if (!(radius >= 0 && radius <= SL_COORDINATE_MAX))
+        return sl_fail(context, SL_BAD_ARGUMENT, "the radius is %.9g: it must be 0 or more",
+                       radius);
+    if (radius > 0 && finder->by_door)
+        return sl_fail(context, SL_UNSUPPORTED, "a walker with a radius passes no door at a loss");
+    finder->radius = radius;
+    return sl_route_finder_update(context, finder);
 }
 
 sl_status sl_route_finder_set_losses(sl_context *context, sl_route_finder *finder,
                                      const double *losses, size_t count) {
     double *own = NULL;
+    if (losses && finder->radius > 0)
+        return sl_fail(context, SL_UNSUPPORTED, "a walker with a radius passes no door at a loss");
     for (size_t i = 0; losses && i < count; i++)
         if (!(losses[i] >= 0 && isfinite(losses[i])))
             return sl_fail(context, SL_BAD_ARGUMENT,
@@ -180,8 +206,10 @@ static sl_status read_way(sl_context *context, const sl_route_finder *f, uint32_
 }
 
 /// The cell that a point stands in, if it can be walked in.
-static sl_status stand(sl_context *context, const sl_space *space, const char *name, sl_point at,
+static sl_status stand(sl_context *context, const sl_route_finder *f, const char *name, sl_point at,
                        uint32_t *cell) {
+    const sl_space *space;
+    SL_TRY(sl_query_space(context, f->query, &space, NULL));
     *cell = sl_space_locate(space, at);
     if (*cell == SL_NO_CELL)
         return sl_fail(context, SL_BAD_ARGUMENT, "%s %.9g,%.9g is outside the map's bounds", name,
@@ -189,6 +217,9 @@ static sl_status stand(sl_context *context, const sl_space *space, const char *n
     if (space->cells[*cell].solid)
         return sl_fail(context, SL_BAD_ARGUMENT, "%s %.9g,%.9g is in solid ground", name, at.x,
                        at.y);
+    if (!(f->radius > 0)) return SL_OK;
+    SL_TRY(sli_route_check_room(context, space, f->radius, name, at));
+    *cell = sl_space_locate(f->space, at);
     return SL_OK;
 }
 
@@ -211,27 +242,40 @@ sl_status sl_route_find(sl_context *context, sl_route_finder *finder, sl_point f
     route->count = route->portal_count = 0;
     route->length = 0;
     route->nodes = 0;
-    SL_TRY(stand(context, finder->space, "from", from, &start));
-    SL_TRY(stand(context, finder->space, "to", to, &goal));
+    SL_TRY(stand(context, finder, "from", from, &start));
+    SL_TRY(stand(context, finder, "to", to, &goal));
     begin(finder);
     sli_route_stand(finder, to, goal, finder->at_goal);
     if (finder->part_of[start] == finder->part_of[goal])
         SL_TRY(sli_route_search(context, finder, from, to, &route->nodes, &last));
-    if (last != SLI_ROUTE_NONE) return read_way(context, finder, last, from, to, route);
+    if (last != SLI_ROUTE_NONE) {
+        SL_TRY(read_way(context, finder, last, from, to, route));
+        if (finder->radius > 0) route->portal_count = 0; // they are not the query's
+        return SL_OK;
+    }
     sli_route_stand(finder, from, start, finder->at_start);
     route->nearest = sli_route_nearest(finder, to);
     return SL_OK;
 }
 
+/// A limit that no cell misses by the rounding of its distance.
+static double widened(const sl_space *space, double limit) {
+    const sl_box *b = &space->bounds;
+    return limit * (1 + 0x1p-30) + 0x1p-38 * sli_greater(b->max.x - b->min.x, b->max.y - b->min.y);
+}
+
 sl_status sl_route_distances(sl_context *context, sl_route_finder *finder, sl_point from,
                              double limit, sl_route_near *cells) {
     uint32_t start;
+    if (finder->radius > 0)
+        return sl_fail(context, SL_UNSUPPORTED,
+                       "distances of cells are those of a walker without a radius");
     if (!(limit >= 0))
         return sl_fail(context, SL_BAD_ARGUMENT, "the limit is %.9g: it must be 0 or more", limit);
-    SL_TRY(stand(context, finder->space, "from", from, &start));
+    SL_TRY(stand(context, finder, "from", from, &start));
     if (!finder->upper)
         finder->upper = sl_alloc_array(context, finder->space->cell_count, sizeof *finder->upper);
     if (!finder->upper) return SL_NO_MEMORY;
     begin(finder);
-    return sli_route_spread(context, finder, from, limit, cells);
+    return sli_route_spread(context, finder, from, widened(finder->space, limit), cells);
 }

@@ -66,6 +66,8 @@ struct sl_route_finder {
     double *by_door;     ///< the loss by door of the map; NULL: none
     size_t door_count;
     double *losses;               ///< by portal; NULL: none
+    double radius;                ///< of the walker
+    sl_space room;                ///< where its middle may be, for a radius above 0: `space`
     double *upper;                ///< by cell: no point of it is farther (sl_route_distances)
     sli_route_corner *corners;    ///< by corner: the end of a portal that stands for it
     sli_route_turn *turns;        ///< by directed portal and side
@@ -97,6 +99,13 @@ sl_status sli_route_search(sl_context *context, sl_route_finder *finder, sl_poin
 /// How far each cell is from a point, up to a limit (sl_route_distances).
 sl_status sli_route_spread(sl_context *context, sl_route_finder *finder, sl_point from,
                            double limit, sl_route_near *cells);
+
+/// The cells between the walls of a space, grown by a radius above 0; `out` must be empty.
+sl_status sli_route_grow(sl_context *context, const sl_space *space, double radius, sl_space *out);
+
+/// Fails where a place is too near to a wall of the space for a walker with a radius.
+sl_status sli_route_check_room(sl_context *context, const sl_space *space, double radius,
+                               const char *name, sl_point at);
 
 /// What passing a portal costs beside its length.
 static inline double sli_route_loss(const sl_route_finder *finder, uint32_t portal) {

@@ -217,9 +217,9 @@ SLP_API int slp_level_sees_within(slp_level *level, const double *from, double f
                                   uint8_t *sees);
 
 /// The shortest way, which is kept. `loss`: of doors that are shut; NAN: they block. Without a way
-/// the length is INFINITY.
+/// the length is INFINITY. `radius`: of the walker.
 SLP_API int slp_level_path(slp_level *level, const double *from, const double *to, double loss,
-                           double *length);
+                           double radius, double *length);
 /// Copies its points, unless `points` is NULL. Returns how many there are.
 SLP_API size_t slp_level_path_points(const slp_level *level, double *points);
 /// How far each cell is, and its nearest point, or NAN.

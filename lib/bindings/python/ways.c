@@ -34,12 +34,13 @@ static void finish(slp_level *level, sl_query *query, sl_route_finder *finder) {
 }
 
 int slp_level_path(slp_level *level, const double *from, const double *to, double loss,
-                   double *length) {
+                   double radius, double *length) {
     sl_context *context = level->base.context;
     sl_query *query;
     sl_route_finder *finder;
     slp_level_forget(level);
     sl_status status = begin(level, loss, &query, &finder);
+    if (status == SL_OK && radius > 0) status = sl_route_finder_set_radius(context, finder, radius);
     if (status == SL_OK)
         status = sl_route_find(context, finder, (sl_point){from[0], from[1]},
                                (sl_point){to[0], to[1]}, &level->route);

@@ -66,6 +66,24 @@ SL_API sl_status sl_route_finder_update(sl_context *context, sl_route_finder *fi
 SL_API sl_status sl_route_finder_set_losses(sl_context *context, sl_route_finder *finder,
                                             const double *losses, size_t count);
 
+/// How far from walls a walker with a radius must stand at both ends of its way, as a multiple of
+/// the radius: 1 / cos(pi / 64), rounded up.
+#define SL_ROUTE_ROOM 1.0013
+
+/// Ways for a walker that is a disc of this radius, in map units: 0 or more; 0, as at first, is a
+/// point. The way of its middle stays farther than the radius from all walls. It is no longer than
+/// the shortest way of a disc whose radius is SL_ROUTE_ROOM times as large: arcs around ends of
+/// walls are replaced by tangents. So a gap that is exactly as wide as the walker is not passed.
+/// The bounds stop the middle of the walker only. Both ends of a way must have room for the larger
+/// disc; 2^-39 of the largest coordinate is added to all this for rounding.
+///
+/// The way then turns at corners of the tangents, and it has no portals: those of the query's space
+/// are not searched. Updates the finder: time and memory of cleaning and cutting a map that has the
+/// outline of the grown walls. SL_UNSUPPORTED with one-way glass, losses, and sl_route_distances().
+/// SL_BAD_ARGUMENT for another radius.
+SL_API sl_status sl_route_finder_set_radius(sl_context *context, sl_route_finder *finder,
+                                            double radius);
+
 /// The shortest way from one point to another (Cui, Harabor and Grastien 2017, Compromise-free
 /// Pathfinding on a Navigation Mesh: Polyanya, on the convex cells).
 ///
@@ -75,8 +93,8 @@ SL_API sl_status sl_route_finder_set_losses(sl_context *context, sl_route_finder
 /// the same length one is chosen by the order of the cells and portals, so the same input gives
 /// the same way.
 ///
-/// SL_BAD_ARGUMENT for a point outside the bounds or in solid ground. No way is no failure. No
-/// memory is allocated once `route` and the finder have grown.
+/// SL_BAD_ARGUMENT for a point outside the bounds or in solid ground, or without room for the
+/// walker. No way is no failure. No memory is allocated once `route` and the finder have grown.
 SL_API sl_status sl_route_find(sl_context *context, sl_route_finder *finder, sl_point from,
                                sl_point to, sl_route *route);
 
@@ -91,9 +109,10 @@ typedef struct sl_route_near {
 /// others are the cells that a sound with that range reaches.
 ///
 /// Signs are exact, as in sl_route_find(). Distances are rounded: off by at most a relative 2^-40
-/// for each corner, and 2^-40 of the bounds' greater side. The limit takes cells in that are at it
-/// as doubles, up to a relative 2^-42. Time and memory grow with the cells that corners see, not
-/// with pairs of cells: nodes that bring nothing to a cell are left out.
+/// for each corner, and 2^-40 of the bounds' greater side. The limit is conservative: it leaves out
+/// no cell within it, for ways with up to 1000 corners. Cells that are farther by up to a relative
+/// 2^-30 and 2^-38 of that side may be in. Time and memory grow with the cells that corners see,
+/// not with pairs of cells: nodes that bring nothing to a cell are left out.
 ///
 /// SL_BAD_ARGUMENT for a point outside the bounds or in solid ground, or another limit.
 SL_API sl_status sl_route_distances(sl_context *context, sl_route_finder *finder, sl_point from,

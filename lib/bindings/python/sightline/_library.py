@@ -122,7 +122,7 @@ _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     "level_set_sees": (_int, [_handle, _doubles, _size, _int, _int, _doubles, _size, _bytes]),
     "level_exposure": (_int, [_handle, _doubles, _size, _doubles, _integers, _size, _int, _doubles]),
     "level_sees_within": (_int, [_handle, _doubles, _double, _doubles, _double, _size, _int, _bytes]),
-    "level_path": (_int, [_handle, _doubles, _doubles, _double, _doubles]),
+    "level_path": (_int, [_handle, _doubles, _doubles, _double, _double, _doubles]),
     "level_path_points": (_size, [_handle, _any]),
     "level_distances": (_int, [_handle, _doubles, _double, _double, _doubles, _doubles]),
     "level_vga": (_int, [_handle, ctypes.POINTER(Vga), _doubles, _size, _doubles, _size]),
