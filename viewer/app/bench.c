@@ -174,7 +174,7 @@ sl_status bench_run(app_state *app, unsigned frames) {
             status = window_show(window);
             // The first frames make what is kept from then on.
             if (i >= 5) meter_add(meter, sl_seconds() - before);
-            if (i >= 5) late += document_is_late(&app->document);
+            if (i >= 5) late += view_is_late(&app->view);
         }
         if (status == SL_OK)
             print_row(&app->document, parts[part], meter, processor_seconds() - processor, late);

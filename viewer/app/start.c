@@ -7,6 +7,7 @@
 #include "dialogs/map_file.h"
 #include "dialogs/question.h"
 #include "plan/cameras.h"
+#include "plan/drag_world.h"
 #include "plan/heat.h"
 #include "plan/route.h"
 #include "plan/view_cells.h"
@@ -36,6 +37,7 @@ void app_init(app_state *app, sl_context *context) {
                  .last_filled = 1,
                  .split_depth = 6,
                  .tree_depth = 64,
+                 .world_walls = 2000,
                  .method = count - 1},
         .learn = {.context = context,
                   .ui = &app->ui,
@@ -86,6 +88,7 @@ void app_destroy(app_state *app) {
     watch_layer_destroy(app->context, app->view.watch);
     camera_layer_destroy(app->context, app->view.cameras);
     route_layer_destroy(app->context, app->view.route);
+    drag_world_drop(&app->view);
     seen_destroy(app->context, &app->view.seen);
     present_drop(app->context, &app->view.present);
     lesson_destroy(app->context, &app->learn.lesson);

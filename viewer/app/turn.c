@@ -7,6 +7,7 @@
 #include "document/files.h"
 #include "lessons/quiz.h"
 #include "plan/cameras.h"
+#include "plan/drag_world.h"
 #include "plan/effects.h"
 #include "plan/heat.h"
 #include "plan/route.h"
@@ -157,7 +158,8 @@ static void poll_all(app_state *app, bool wait) {
         view_check(&app->view, document_keep_up(app->context, &app->document));
         if (!wait) wait_for_drag(app);
         take_results(app, wait);
-    } while (wait && app->document.stale);
+        drag_world_update(&app->view, wait); // it may have a bake begin
+    } while (wait && (app->document.stale || app->document.job));
     view_check(&app->view, document_keep_up(app->context, &app->document));
     view_layer_update(&app->view, wait);
     heat_layer_update(&app->view, wait);
@@ -185,8 +187,11 @@ static void look_again(app_state *app) {
     follow_document(app);
     app->view.seen.patient = app->ui.steady;
     const sl_view view = eye_view(app);
-    view_check(&app->view, seen_update(app->context, &app->view.seen, &app->document,
-                                       &app->view.present, &view));
+    sl_query *dragged = drag_world_query(&app->view);
+    view_check(&app->view, dragged ? seen_update_region(app->context, &app->view.seen,
+                                                        &app->document, dragged, &view)
+                                   : seen_update(app->context, &app->view.seen, &app->document,
+                                                 &app->view.present, &view));
     if (app->view.mode == MODE_LEARN)
         view_check(&app->view, lesson_update(app->context, &app->learn.lesson, &app->document,
                                              view_eye_cell(&app->view)));

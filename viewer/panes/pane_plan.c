@@ -2,6 +2,7 @@
 #include "panes/panes.h"
 
 #include "panes/modes.h"
+#include "plan/drag_world.h"
 #include "plan/heat.h"
 #include "plan/view_cells.h"
 
@@ -75,7 +76,8 @@ static bool draw_under(view_state *view, cairo_t *cairo, const sl_frame *frame) 
 
 /// Draws what is over it: walls and other things of the map.
 static bool draw_over(view_state *view, cairo_t *cairo, const sl_frame *frame) {
-    return sl_draw_walls(drawing(view), cairo, view->scene, frame) == SL_OK;
+    const sl_scene *dragged = drag_world_walls(view, view->scene);
+    return sl_draw_walls(drawing(view), cairo, dragged ? dragged : view->scene, frame) == SL_OK;
 }
 
 /// The frame of a pane with its upper left at the origin.
@@ -162,7 +164,7 @@ static bool remake_picture(view_state *view, kept_picture *kept, bool over, cons
     cairo_destroy(cairo);
     kept->items.count = 0;
     if (!good) kept->key.version = view->document->version - 1; // it is drawn again
-    if (good && view->drag.changed)
+    if (good && view->drag.changed && !view->drag_world)
         view_check(view, plan_items_list(view->context, view->document->baked, view->scene, over,
                                          &kept->items));
     kept->seconds = sl_seconds() - before;
@@ -209,6 +211,7 @@ static void show_kept(view_state *view, kept_picture *kept, bool over, const sl_
         now.key.mark = view_layer_marked(view->views);
     }
     if (!over && layers_fill(view) == LAYER_HEAT) now.key.heat = view->heat_choice.stamp + 1;
+    if (over && drag_world_query(view)) now.key.drag = view->drag_worlds;
     now.key.frame = at_origin(*frame);
     const bool same = kept->surface && memcmp(&kept->key, &now.key, sizeof now.key) == 0;
     if (!same) {
@@ -287,7 +290,7 @@ static void draw_cursor(ui_state *ui, sl_box box) {
 
 /// Says that the plan is not that of the map as it is now.
 static void draw_late(view_state *view, sl_box box) {
-    if (!document_is_late(view->document)) return;
+    if (!view_is_late(view)) return;
     ui_state *ui = view->ui;
     const double t = ui->text;
     const char *text = view->document->stale || view->document->job
@@ -327,6 +330,7 @@ void pane_plan(learn_state *learn, sl_box box, int index, bool vector) {
         draw_over(view, ui->cairo, &frame);
     else
         show_kept(view, &view->over, true, &frame);
+    drag_world_draw(view, &frame);
     modes_draw_above(learn, &frame);
     if (!index) legend_over_plan(view, &frame, vector);
     const bool panes = view->compare == COMPARE_PANES && view->mode == MODE_EXPLORE;

@@ -2,6 +2,7 @@
 #include "plan/edit.h"
 #include "plan/grid.h"
 
+#include "plan/drag_world.h"
 #include "plan/effects.h"
 #include "sightline/draw.h"
 #include "sightline/support.h"
@@ -27,22 +28,19 @@ static uint32_t pick_along(const view_state *view, sl_point from, sl_point to) {
 
 // --- what is held
 
-/// The kinds of segments whose ends can be held.
-enum { WALLS, DOORS, MIRRORS, ONEWAYS, SEAMS, KINDS };
-
 static size_t count_of(const sl_map *map, int kind) {
-    const size_t counts[KINDS] = {map->wall_count, map->door_count, map->mirror_count,
-                                  map->oneway_count, map->seam_count};
+    const size_t counts[HELD_KINDS] = {map->wall_count, map->door_count, map->mirror_count,
+                                       map->oneway_count, map->seam_count};
     return counts[kind];
 }
 
 /// The first end of a segment, or its second one.
 static sl_point *end_of(const sl_map *map, int kind, size_t index, bool second) {
-    if (kind == WALLS) return second ? &map->walls[index].b : &map->walls[index].a;
-    sl_segment *at = kind == DOORS     ? &map->doors[index].segment
-                     : kind == MIRRORS ? &map->mirrors[index].segment
-                     : kind == ONEWAYS ? &map->oneways[index].segment
-                                       : &map->seams[index].segment;
+    if (kind == HELD_WALL) return second ? &map->walls[index].b : &map->walls[index].a;
+    sl_segment *at = kind == HELD_DOOR     ? &map->doors[index].segment
+                     : kind == HELD_MIRROR ? &map->mirrors[index].segment
+                     : kind == HELD_ONEWAY ? &map->oneways[index].segment
+                                           : &map->seams[index].segment;
     return second ? &at->b : &at->a;
 }
 
@@ -58,14 +56,14 @@ static bool hold_end(view_state *view, int kind, size_t index, bool second) {
 /// A baked file has its doors and glass cut to pieces: they stay where they are.
 static int kinds_that_move(const view_state *view) {
     const char *path = view->document->source.path;
-    return path && document_is_baked(path) ? DOORS : KINDS;
+    return path && document_is_baked(path) ? HELD_DOOR : HELD_KINDS;
 }
 
 /// The end of a wall or door under a place. Short walls keep room between their corners.
 static bool find_corner(const view_state *view, sl_point at, sl_point *found) {
     const sl_map *map = &view->document->map;
     double nearest = INFINITY;
-    for (int kind = WALLS; kind <= DOORS && kind < kinds_that_move(view); kind++)
+    for (int kind = HELD_WALL; kind <= HELD_DOOR && kind < kinds_that_move(view); kind++)
         for (size_t i = 0; i < count_of(map, kind); i++) {
             const sl_point ends[2] = {*end_of(map, kind, i, false), *end_of(map, kind, i, true)};
             const double length = hypot(ends[1].x - ends[0].x, ends[1].y - ends[0].y);
@@ -83,7 +81,7 @@ static bool find_corner(const view_state *view, sl_point at, sl_point *found) {
 /// Holds all ends at a corner. Ends that cleaning would weld are at one corner.
 static void hold_corner(view_state *view, sl_point at) {
     const sl_map *map = &view->document->map;
-    for (int kind = 0; kind < kinds_that_move(view); kind++)
+    for (int kind = HELD_WALL; kind < kinds_that_move(view); kind++)
         for (size_t i = 0; i < count_of(map, kind); i++)
             for (int k = 0; k < 2; k++) {
                 const sl_point end = *end_of(map, kind, i, k);
@@ -93,12 +91,13 @@ static void hold_corner(view_state *view, sl_point at) {
 }
 
 static uint32_t pick_door(const view_state *view, sl_point at) {
-    return kinds_that_move(view) > DOORS ? door_at(view, at) : UINT32_MAX;
+    return kinds_that_move(view) > HELD_DOOR ? door_at(view, at) : UINT32_MAX;
 }
 
 drag_kind edit_take(view_state *view, drag_state *drag) {
     sl_point corner;
     view->edit.ends.count = 0;
+    view->edit.bakes = false;
     drag->segment = (sl_segment){{0, 0}, {0, 0}};
     view->edit.chosen = UINT32_MAX;
     if (!view->edit.draws_doors && find_corner(view, drag->at, &corner)) {
@@ -106,14 +105,14 @@ drag_kind edit_take(view_state *view, drag_state *drag) {
         return DRAG_CORNER;
     }
     const uint32_t door = pick_door(view, drag->at);
-    const int kind = door == UINT32_MAX ? WALLS : DOORS;
-    if (view->edit.draws_doors && kind == WALLS) return DRAG_NEW_DOOR;
+    const int kind = door == UINT32_MAX ? HELD_WALL : HELD_DOOR;
+    if (view->edit.draws_doors && kind == HELD_WALL) return DRAG_NEW_DOOR;
     view->edit.chosen_kind = kind;
-    view->edit.chosen = kind == WALLS ? pick_along(view, drag->at, drag->at) : door;
+    view->edit.chosen = kind == HELD_WALL ? pick_along(view, drag->at, drag->at) : door;
     if (view->edit.chosen == UINT32_MAX) return DRAG_NEW_WALL;
     hold_end(view, kind, view->edit.chosen, false);
     hold_end(view, kind, view->edit.chosen, true);
-    return kind == WALLS ? DRAG_WALL : DRAG_DOOR;
+    return kind == HELD_WALL ? DRAG_WALL : DRAG_DOOR;
 }
 
 static bool is_same(sl_point a, sl_point b) {
@@ -151,6 +150,7 @@ static bool can_go(const view_state *view, const drag_state *drag, sl_point now)
 /// the file speaks of: where they contradict each other, ground is open from now on.
 static void begin_change(view_state *view, drag_state *drag) {
     view_before_edit(view);
+    drag_world_drop(view); // of the drag before
     view->document->map.ground_guessed = true;
     drag->changed = true;
 }
@@ -162,7 +162,7 @@ static bool begin_wall(view_state *view, drag_state *drag, sl_point now) {
     begin_change(view, drag);
     const sl_status status = sl_map_add_wall(view->context, &view->document->map, from, to, 0);
     view_check(view, status);
-    return status == SL_OK && hold_end(view, WALLS, view->document->map.wall_count - 1, true);
+    return status == SL_OK && hold_end(view, HELD_WALL, view->document->map.wall_count - 1, true);
 }
 
 // --- new doors
@@ -210,8 +210,8 @@ static bool begin_door(view_state *view, drag_state *drag, sl_segment at) {
     name_door(map, name);
     const sl_status status = sl_map_add_door(view->context, map, name, at, true, 0);
     view_check(view, status);
-    return status == SL_OK && hold_end(view, DOORS, map->door_count - 1, false) &&
-           hold_end(view, DOORS, map->door_count - 1, true);
+    return status == SL_OK && hold_end(view, HELD_DOOR, map->door_count - 1, false) &&
+           hold_end(view, HELD_DOOR, map->door_count - 1, true);
 }
 
 /// The drag's index is the wall that the door lies in.
@@ -279,7 +279,7 @@ static void say_moved(view_state *view, const drag_state *drag) {
     const held_end *e = &view->edit.ends.items[0];
     const sl_point at = *end_of(&view->document->map, e->kind, e->index, e->second);
     if (drag->kind == DRAG_NEW_WALL) {
-        const sl_point from = *end_of(&view->document->map, WALLS, e->index, false);
+        const sl_point from = *end_of(&view->document->map, HELD_WALL, e->index, false);
         ui_say(view->ui, false, "wall from %.10g,%.10g to %.10g,%.10g", from.x, from.y, at.x, at.y);
     } else if (drag->kind == DRAG_NEW_DOOR) {
         const sl_door *door = &view->document->map.doors[e->index];
@@ -294,6 +294,12 @@ static void say_moved(view_state *view, const drag_state *drag) {
         ui_say(view->ui, false, "%s moved by %g,%g", drag->kind == DRAG_DOOR ? "door" : "wall",
                at.x - e->was.x, at.y - e->was.y);
     }
+}
+
+/// The map is as it was before the drag.
+static bool take_back(view_state *view) {
+    drag_world_drop(view);
+    return history_take_back(view->context, &view->document->history, &view->document->map);
 }
 
 void edit_drop(view_state *view, const drag_state *drag) {
@@ -311,7 +317,7 @@ void edit_drop(view_state *view, const drag_state *drag) {
             say_last_wall(view->ui);
             moved = false;
         }
-        if (!moved) history_take_back(view->context, &view->document->history, map);
+        if (!moved) take_back(view);
         view->edit.chosen = UINT32_MAX;
         view_after_edit(view);
     }
@@ -323,8 +329,7 @@ bool edit_cancel(view_state *view) {
     if (drag.kind < DRAG_NEW_WALL || drag.kind > DRAG_MIRROR) return false;
     view->drag = (drag_state){0};
     view->edit.ends.count = 0;
-    if (drag.changed &&
-        history_take_back(view->context, &view->document->history, &view->document->map)) {
+    if (drag.changed && take_back(view)) {
         view->edit.chosen = UINT32_MAX;
         ui_say(view->ui, false, "everything is back where it was");
         view_after_edit(view);
@@ -342,7 +347,7 @@ static void drop_door(view_state *view, uint32_t door) {
 void edit_delete(view_state *view) {
     sl_map *map = &view->document->map;
     const uint32_t chosen = view->edit.chosen;
-    const bool door = view->edit.chosen_kind == DOORS;
+    const bool door = view->edit.chosen_kind == HELD_DOOR;
     if (view->drag.changed) return; // what is held stays
     if (chosen >= count_of(map, view->edit.chosen_kind)) {
         ui_say(view->ui, false, "nothing is chosen: click on a wall or a door");

@@ -237,6 +237,30 @@ bool seen_same_view(const sl_view *a, const sl_view *b) {
                         a->right.x == b->right.x && a->right.y == b->right.y));
 }
 
+/// Finds the region, and for how long that takes.
+static sl_status find_region(sl_context *context, seen_state *seen, sl_query *query) {
+    const double before = sl_seconds();
+    const sl_status status = sl_query_region(context, query, &seen->view, &seen->region);
+    const double seconds = sl_seconds() - before;
+    seen->region_seconds =
+        seen->region_seconds > 0 ? 0.9 * seen->region_seconds + 0.1 * seconds : seconds;
+    seen->region_area = sl_region_area(&seen->region);
+    return status;
+}
+
+sl_status seen_update_region(sl_context *context, seen_state *seen, const document_state *document,
+                             sl_query *query, const sl_view *view) {
+    if (seen->valid && seen_same_view(&seen->view, view)) return SL_OK;
+    forget_mirrors(context, seen);
+    SL_TRY(make_sets(context, seen, document));
+    seen->view = *view;
+    seen->valid = true;
+    seen->cell = SL_NO_CELL;
+    seen->pvs_count = 0;
+    seen->pvs_area = 0;
+    return find_region(context, seen, query);
+}
+
 sl_status seen_update(sl_context *context, seen_state *seen, const document_state *document,
                       const present_state *present, const sl_view *view) {
     const double range = document->map.range;
@@ -259,12 +283,6 @@ sl_status seen_update(sl_context *context, seen_state *seen, const document_stat
     for (size_t i = 0; i < count && i < SEEN_MOST; i++)
         look_by_method(context, &seen->methods[i], &methods[i], document, present->query, view);
     SL_TRY(look_at_objects(context, seen, document, present));
-    const double before = sl_seconds();
-    const sl_status status = sl_query_region(context, present->query, view, &seen->region);
-    const double seconds = sl_seconds() - before;
-    seen->region_seconds =
-        seen->region_seconds > 0 ? 0.9 * seen->region_seconds + 0.1 * seconds : seconds;
-    seen->region_area = sl_region_area(&seen->region);
-    SL_TRY(status);
+    SL_TRY(find_region(context, seen, present->query));
     return look_into_mirrors(context, seen, document, present);
 }

@@ -45,6 +45,9 @@ typedef struct seen_state {
 /// Looks again where the view, the range or the map changed.
 sl_status seen_update(sl_context *context, seen_state *seen, const document_state *document,
                       const present_state *present, const sl_view *view);
+/// The region alone, by a query to other walls than the document's: no method knows anything.
+sl_status seen_update_region(sl_context *context, seen_state *seen, const document_state *document,
+                             sl_query *query, const sl_view *view);
 /// Whether two views are equal.
 bool seen_same_view(const sl_view *a, const sl_view *b);
 void seen_destroy(sl_context *context, seen_state *seen);

@@ -1,6 +1,8 @@
 /// The camera over the plan, the eye that walks through the map, and changes by hand.
 #include "plan/view.h"
 
+#include "plan/drag_world.h"
+
 #include <math.h>
 
 // --- the camera
@@ -122,8 +124,13 @@ void view_after_edit(view_state *view) {
 }
 
 void view_after_step(view_state *view) {
+    if (drag_world_step(view)) return;
     view->document->stale = true;
     view_check(view, document_keep_up(view->context, view->document));
+}
+
+bool view_is_late(const view_state *view) {
+    return document_is_late(view->document) || drag_world_is_late(view);
 }
 
 void view_after_touch(view_state *view) {

@@ -68,7 +68,7 @@ typedef enum comparison { COMPARE_OFF, COMPARE_PANES, COMPARE_DIFFERENCE } compa
 typedef struct kept_picture {
     cairo_surface_t *surface;
     struct {
-        uint32_t version, touched, show, depth, dark, views, mark, heat;
+        uint32_t version, touched, show, depth, dark, views, mark, heat, drag;
         sl_frame frame;
     } key;
     double seconds;   ///< that drawing it took
@@ -123,9 +123,19 @@ typedef struct drag_state {
     bool changed;
 } drag_state;
 
+/// What segments can be held by an end.
+typedef enum held_kind {
+    HELD_WALL,
+    HELD_DOOR,
+    HELD_MIRROR,
+    HELD_ONEWAY,
+    HELD_SEAM,
+    HELD_KINDS
+} held_kind;
+
 /// An end of a wall, a door or glass that is dragged, and where it was.
 typedef struct held_end {
-    int kind; ///< of edit.c
+    held_kind kind;
     size_t index;
     bool second;
     sl_point was;
@@ -133,10 +143,11 @@ typedef struct held_end {
 
 /// What is edited by hand.
 typedef struct edit_state {
-    bool draws_doors;        ///< new doors instead of walls
-    int chosen_kind;         ///< of edit.c
+    bool draws_doors; ///< new doors instead of walls
+    held_kind chosen_kind;
     uint32_t chosen;         ///< a wall or a door of the map; UINT32_MAX: none
     SL_ARRAY(held_end) ends; ///< that are dragged
+    bool bakes;              ///< the drag at hand is one that worlds do not serve
 } edit_state;
 
 /// What is chosen of it. Zeroed: the first measure, on a grid of the usual step.
@@ -155,6 +166,7 @@ typedef struct heat_layer heat_layer;
 typedef struct watch_layer watch_layer;
 typedef struct camera_layer camera_layer;
 typedef struct route_layer route_layer;
+typedef struct drag_world drag_world;
 
 /// What is shown and from where. Results are kept from frame to frame.
 struct view_state {
@@ -205,6 +217,9 @@ struct view_state {
     watch_layer *watch;
     camera_layer *cameras;
     route_layer *route;
+    drag_world *drag_world; ///< NULL: none
+    uint32_t drag_worlds;   ///< how many there were
+    size_t world_walls;     ///< maps with as many walls are dragged in by worlds
 };
 
 /// Shows the message of a failure; nothing for SL_OK.
@@ -241,8 +256,11 @@ void view_keep(view_state *view);
 /// The same where the change needs a new bake. Call view_after_edit after it: that starts the bake.
 void view_before_edit(view_state *view);
 void view_after_edit(view_state *view);
-/// Call after each step of a drag that changed the map: the space follows, visible sets do not.
+/// Call after each step of a drag that changed the map: the space follows, visible sets do not. Of
+/// a large map what the eye sees follows alone (drag_world.h).
 void view_after_step(view_state *view);
+/// Whether what is shown is not that of the map as it is now.
+bool view_is_late(const view_state *view);
 /// Call after a change that needs no new bake.
 void view_after_touch(view_state *view);
 
