@@ -63,7 +63,10 @@ bool camera_plan_chooses(const camera_plan *p) {
            p->scan_range > 0;
 }
 
-sl_status camera_plan_check(sl_context *context, const camera_plan *p) {
+sl_status camera_plan_check(sl_context *context, const camera_plan *p, const char *proof) {
+    if (proof && (p->count || p->network || p->scan_angle > 0 || p->scan_range > 0))
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "--%s does not go with --count, --network and scans of walls", proof);
     if (p->from && strcmp(p->from, "anywhere") == 0 && camera_plan_chooses(p))
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "--from anywhere: viewpoints anywhere look all round, without limit, at all "
@@ -370,6 +373,74 @@ void camera_work_say(const camera_work *w, bool stopped, char *text, size_t size
                  (unsigned)w->task.fixed_count, w->task.fixed_count == 1 ? "s" : "");
 }
 
+/// A cost as in the tables: a whole number where they have no decimals.
+static void add_cost(json_fields *f, const char *key, const camera_work *w, uint64_t cost) {
+    if (w->scale > 1)
+        json_add_real(f, key, (double)cost / w->scale);
+    else
+        json_add_count(f, key, cost);
+}
+
+/// Whether some place has a range or a dead zone.
+static bool has_circles(const camera_work *w) {
+    for (uint32_t i = 0; i < w->task.place_count; i++)
+        if (w->views[i].range > 0 || w->views[i].nearest > 0) return true;
+    return false;
+}
+
+/// A cost as in the tables, with its noun.
+static void say_cost(const camera_work *w, uint64_t cost, char *text, size_t size) {
+    const double value = (double)cost / w->scale;
+    if (has_costs(w))
+        snprintf(text, size, "a cost of %.10g", value);
+    else
+        snprintf(text, size, "%.10g viewpoint%s", value, value == 1 ? "" : "s");
+}
+
+void camera_work_print_verdict(const camera_work *w, const sl_place_area_verdict *v, int digits) {
+    char among[128], cost[64];
+    const sl_area_placement *p = &w->placed;
+    say_among(w, among, sizeof among);
+    const unsigned count = (unsigned)p->count;
+    const char *const often = w->task.cover > 1 ? ", as often as asked or as they can" : "";
+    if (v->sees_all)
+        printf("The %u viewpoints see all that is to be seen%s.\n", count,
+               w->task.cover > 1 ? ", as often as asked" : "");
+    else if (v->sees_as_all)
+        printf("The %u viewpoints see all that any %s sees%s%s.\n", count, among, often,
+               has_circles(w) ? " (from up to 99.95 percent of its range, and beyond 100.06 "
+                                "percent of its dead zone)"
+                              : "");
+    else
+        printf("The viewpoints do not see all that the others do: beside (%.*g, %.*g), place %u "
+               "sees more.\n",
+               digits, v->unseen.x, digits, v->unseen.y, (unsigned)v->place + 1);
+    say_cost(w, v->lower, cost, sizeof cost);
+    if (v->weak != UINT32_MAX)
+        printf("The lower bound does not hold: witness %u demands more than the places must see.\n",
+               (unsigned)v->weak + 1);
+    else if (v->lower < p->lower)
+        printf("The lower bound does not hold: %s is proven.\n", cost);
+    else
+        printf("All that %s see needs at least %s%s.\n", among + 3, cost, often);
+    if (v->upper > p->upper) {
+        say_cost(w, v->upper, cost, sizeof cost);
+        printf("The viewpoints need %s, more than the proof says.\n", cost);
+    } else if (v->sees_as_all && v->lower == v->upper) {
+        printf("So no %s can do it.\n", has_costs(w) ? "cheaper choice" : "fewer");
+    }
+}
+
+void camera_work_add_verdict_json(json_fields *f, const camera_work *w,
+                                  const sl_place_area_verdict *v) {
+    add_cost(f, "lower", w, v->lower);
+    add_cost(f, "upper", w, v->upper);
+    json_add_flag(f, "sees_all", v->sees_all);
+    json_add_flag(f, "sees_as_all", v->sees_as_all);
+    json_add_flag(f, "optimal", v->sees_as_all && v->lower == v->upper);
+    json_add_count(f, "places", w->task.place_count);
+}
+
 sl_status camera_work_check_zones(sl_context *context, const camera_work *w,
                                   const camera_plan *plan, sl_query *query,
                                   const zone_cover *covers) {
@@ -396,14 +467,6 @@ sl_status camera_work_check_zones(sl_context *context, const camera_work *w,
                                name);
     }
     return SL_OK;
-}
-
-/// A cost as in the tables: a whole number where they have no decimals.
-static void add_cost(json_fields *f, const char *key, const camera_work *w, uint64_t cost) {
-    if (w->scale > 1)
-        json_add_real(f, key, (double)cost / w->scale);
-    else
-        json_add_count(f, key, cost);
 }
 
 void camera_work_add_json(json_fields *f, const camera_work *w) {

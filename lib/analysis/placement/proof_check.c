@@ -145,22 +145,11 @@ static sl_status check_lower(checker *c, const sl_placement *claim) {
 
 // --- the upper bound
 
-static bool is_cell_at(const checker *c, uint32_t cell, const sli_meet *p) {
+static sl_status check_cell_at(checker *c, uint32_t cell, const sli_meet *p, bool *seen) {
     const sl_cell *k = &c->space->cells[cell];
     const sl_point *corners = c->space->vertices + k->first_vertex;
-    if (!k->inside || !sli_box_may_hold(&c->cell_boxes[cell], p)) return false;
-    for (uint32_t i = 0; i < k->vertex_count; i++)
-        if (sli_meet_side(p, corners[i], corners[(i + 1) % k->vertex_count]) < 0) return false;
-    return true;
-}
-
-static sl_status check_cell_at(checker *c, const sl_cell *k, const sli_meet *p, bool *seen) {
-    const sl_point *corners = c->space->vertices + k->first_vertex;
     c->around.count = 0;
-    for (uint32_t i = 0; i < k->vertex_count; i++) {
-        const sl_point a = corners[i], b = corners[(i + 1) % k->vertex_count];
-        if (!sli_meet_side(p, a, b)) SL_TRY(sli_directions_add(c->context, a, b, &c->around));
-    }
+    SL_TRY(sli_directions_add_cell(c->context, c->space, cell, p, &c->around));
     for (uint32_t i = 0; i < c->eye_count; i++)
         if (sli_box_may_hold(&c->eye_boxes[i], p))
             SL_TRY(sli_directions_add_eye(c->context, &c->scene, &c->eyes[i], p, &c->around));
@@ -193,7 +182,8 @@ static sl_status visit_for_viewpoints(void *data, const sli_meet *p, int32_t wal
     if (seen) return SL_OK;
     for (uint32_t k = 0; k < c->space->cell_count; k++) {
         seen = true;
-        if (is_cell_at(c, k, p)) SL_TRY(check_cell_at(c, &c->space->cells[k], p, &seen));
+        if (sli_cell_has_meet(c->space, k, &c->cell_boxes[k], p))
+            SL_TRY(check_cell_at(c, k, p, &seen));
         if (seen) continue;
         c->out->sees_all = false;
         c->out->unseen = p->at;
@@ -203,14 +193,7 @@ static sl_status visit_for_viewpoints(void *data, const sli_meet *p, int32_t wal
 }
 
 static sl_status add_border(checker *c, sl_point a, sl_point b) {
-    return sli_ray_add(c->context,
-                       (sli_ray_part){.line = {a, b},
-                                      .from = a,
-                                      .to = sli_meet_point(b),
-                                      .group = UINT32_MAX,
-                                      .wall = SLI_NO_WALL,
-                                      .kind = SLI_PART_BORDER},
-                       &c->rays);
+    return sli_ray_add(c->context, sli_ray_between(a, b, UINT32_MAX, SLI_PART_BORDER), &c->rays);
 }
 
 /// Borders of what is inside that are no walls: openings, and the bounds.
@@ -232,14 +215,7 @@ static sl_status check_upper(checker *c) {
     c->out->sees_all = true;
     c->cell_boxes = sl_alloc_array(c->context, s->cell_count, sizeof *c->cell_boxes);
     if (!c->cell_boxes) return SL_NO_MEMORY;
-    for (uint32_t k = 0; k < s->cell_count; k++) {
-        const sl_point *corners = s->vertices + s->cells[k].first_vertex;
-        c->cell_boxes[k] = (sl_box){corners[0], corners[0]};
-        for (uint32_t i = 1; i < s->cells[k].vertex_count; i++) {
-            const sli_meet p = sli_meet_point(corners[i]);
-            sli_box_widen(&c->cell_boxes[k], &p);
-        }
-    }
+    for (uint32_t k = 0; k < s->cell_count; k++) c->cell_boxes[k] = sli_box_of_cell(s, k);
     for (uint32_t i = 0; i < c->eye_count; i++)
         SL_TRY(sli_ray_add_eye(c->context, &c->scene, &c->eyes[i], i, &c->rays));
     SL_TRY(add_borders(c));

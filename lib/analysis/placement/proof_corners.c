@@ -22,6 +22,16 @@ bool sli_box_may_hold(const sl_box *box, const sli_meet *p) {
            !(p->at.y + p->error < box->min.y) && !(p->at.y - p->error > box->max.y);
 }
 
+sl_box sli_box_of_cell(const sl_space *space, uint32_t cell) {
+    const sl_point *corners = space->vertices + space->cells[cell].first_vertex;
+    sl_box box = {corners[0], corners[0]};
+    for (uint32_t i = 1; i < space->cells[cell].vertex_count; i++) {
+        const sli_meet p = sli_meet_point(corners[i]);
+        sli_box_widen(&box, &p);
+    }
+    return box;
+}
+
 /// Each cone of an eye is a triangle, from the eye to the wall that ends it. On the rays themselves
 /// sight may go farther.
 sl_box sli_box_of_eye(const sli_proof_scene *scene, const sli_eye *e) {
@@ -52,20 +62,33 @@ sl_status sli_ray_add(sl_context *context, sli_ray_part part, sli_ray_parts *par
     return SL_OK;
 }
 
+sli_ray_part sli_ray_between(sl_point a, sl_point b, uint32_t group, sli_part_kind kind) {
+    return (sli_ray_part){.line = {a, b},
+                          .from = a,
+                          .to = sli_meet_point(b),
+                          .group = group,
+                          .wall = SLI_NO_WALL,
+                          .kind = kind};
+}
+
+bool sli_ray_of_eye(const sli_proof_scene *scene, const sli_eye *e, uint32_t ray, uint32_t group,
+                    sli_ray_part *out) {
+    const sli_proof_ray *r = &e->rays[ray];
+    const sl_segment line = {e->at, r->to};
+    if (!r->window) return false;
+    *out = (sli_ray_part){.line = line,
+                          .from = r->to,
+                          .to = sli_meet_lines(line, scene->walls[r->end]),
+                          .group = group,
+                          .wall = r->end};
+    return true;
+}
+
 sl_status sli_ray_add_eye(sl_context *context, const sli_proof_scene *scene, const sli_eye *e,
                           uint32_t group, sli_ray_parts *parts) {
-    for (uint32_t i = 0; i < e->ray_count; i++) {
-        const sli_proof_ray *r = &e->rays[i];
-        const sl_segment line = {e->at, r->to};
-        if (!r->window) continue;
-        SL_TRY(sli_ray_add(context,
-                           (sli_ray_part){.line = line,
-                                          .from = r->to,
-                                          .to = sli_meet_lines(line, scene->walls[r->end]),
-                                          .group = group,
-                                          .wall = r->end},
-                           parts));
-    }
+    sli_ray_part part;
+    for (uint32_t i = 0; i < e->ray_count; i++)
+        if (sli_ray_of_eye(scene, e, i, group, &part)) SL_TRY(sli_ray_add(context, part, parts));
     return SL_OK;
 }
 
@@ -137,7 +160,27 @@ sl_status sli_rays_visit(sl_context *context, const sli_proof_scene *scene, sli_
     return SL_OK;
 }
 
+bool sli_cell_has_meet(const sl_space *space, uint32_t cell, const sl_box *box, const sli_meet *p) {
+    const sl_cell *k = &space->cells[cell];
+    const sl_point *corners = space->vertices + k->first_vertex;
+    if (!k->inside || !sli_box_may_hold(box, p)) return false;
+    for (uint32_t i = 0; i < k->vertex_count; i++)
+        if (sli_meet_side(p, corners[i], corners[(i + 1) % k->vertex_count]) < 0) return false;
+    return true;
+}
+
 // --- directions
+
+sl_status sli_directions_add_cell(sl_context *context, const sl_space *space, uint32_t cell,
+                                  const sli_meet *p, sli_directions *out) {
+    const sl_cell *k = &space->cells[cell];
+    const sl_point *corners = space->vertices + k->first_vertex;
+    for (uint32_t i = 0; i < k->vertex_count; i++) {
+        const sl_point a = corners[i], b = corners[(i + 1) % k->vertex_count];
+        if (!sli_meet_side(p, a, b)) SL_TRY(sli_directions_add(context, a, b, out));
+    }
+    return SL_OK;
+}
 
 sl_status sli_directions_add(sl_context *context, sl_point a, sl_point b, sli_directions *out) {
     SL_TRY(SL_ARRAY_ROOM(context, out, 2));
@@ -193,13 +236,16 @@ int sli_sector_side(sli_direction line, const sli_direction *sector) {
                                                                                               : -1;
 }
 
+bool sli_sector_is_left(sl_point a, sl_point b, const sli_meet *p, const sli_direction *sector) {
+    const int side = sli_meet_side(p, a, b);
+    return side ? side > 0 : sli_sector_side((sli_direction){a, b}, sector) > 0;
+}
+
 bool sli_polygon_has_sector(const sl_point *corners, size_t count, const sli_meet *p,
                             const sli_direction *sector) {
-    for (size_t i = 0; i < count; i++) {
-        const sli_direction edge = {corners[i], corners[i + 1 < count ? i + 1 : 0]};
-        const int side = sli_meet_side(p, edge.a, edge.b);
-        if (side < 0 || (!side && sli_sector_side(edge, sector) < 0)) return false;
-    }
+    for (size_t i = 0; i < count; i++)
+        if (!sli_sector_is_left(corners[i], corners[i + 1 < count ? i + 1 : 0], p, sector))
+            return false;
     return true;
 }
 

@@ -37,10 +37,17 @@ typedef sl_status (*sli_corner_visit)(void *data, const sli_meet *p, int32_t wal
 
 bool sli_box_may_hold(const sl_box *box, const sli_meet *p);
 void sli_box_widen(sl_box *box, const sli_meet *p);
+/// Holds a cell.
+sl_box sli_box_of_cell(const sl_space *space, uint32_t cell);
 /// Holds all that an eye sees.
 sl_box sli_box_of_eye(const sli_proof_scene *scene, const sli_eye *eye);
 
 sl_status sli_ray_add(sl_context *context, sli_ray_part part, sli_ray_parts *parts);
+/// From a to b, with no corner at its end.
+sli_ray_part sli_ray_between(sl_point a, sl_point b, uint32_t group, sli_part_kind kind);
+/// The part of an eye's ray on which its region ends; false where it ends on none.
+bool sli_ray_of_eye(const sli_proof_scene *scene, const sli_eye *eye, uint32_t ray, uint32_t group,
+                    sli_ray_part *out);
 /// The rays on which the region of an eye ends; its number is their group.
 sl_status sli_ray_add_eye(sl_context *context, const sli_proof_scene *scene, const sli_eye *eye,
                           uint32_t group, sli_ray_parts *parts);
@@ -56,6 +63,9 @@ bool sli_is_wall_corner(const sli_proof_scene *scene, const sli_meet *p);
 sl_status sli_rays_visit(sl_context *context, const sli_proof_scene *scene, sli_ray_parts *parts,
                          sli_corner_visit visit, void *data);
 
+/// Whether a closed cell that is inside has a place. `box`: of the cell.
+bool sli_cell_has_meet(const sl_space *space, uint32_t cell, const sl_box *box, const sli_meet *p);
+
 // --- directions around a corner
 
 /// Adds a direction, and the one back.
@@ -63,6 +73,9 @@ sl_status sli_directions_add(sl_context *context, sl_point a, sl_point b, sli_di
 /// Adds those of lines through a place at which the region of an eye ends.
 sl_status sli_directions_add_eye(sl_context *context, const sli_proof_scene *scene,
                                  const sli_eye *eye, const sli_meet *p, sli_directions *out);
+/// Adds those of a cell's sides that a place is on.
+sl_status sli_directions_add_cell(sl_context *context, const sl_space *space, uint32_t cell,
+                                  const sli_meet *p, sli_directions *out);
 /// Counter-clockwise, one of each.
 void sli_directions_sort(sli_directions *directions);
 
@@ -71,6 +84,8 @@ void sli_directions_sort(sli_directions *directions);
 /// On which side of a line through its corner a sector is: 1 left, -1 right. No line of the corner
 /// is within the sector.
 int sli_sector_side(sli_direction line, const sli_direction *sector);
+/// Whether the beginning of a sector at a place is left of a line.
+bool sli_sector_is_left(sl_point a, sl_point b, const sli_meet *p, const sli_direction *sector);
 /// Whether a convex polygon, counter-clockwise, has the beginning of a sector at a place.
 bool sli_polygon_has_sector(const sl_point *corners, size_t count, const sli_meet *p,
                             const sli_direction *sector);
