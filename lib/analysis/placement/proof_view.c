@@ -12,23 +12,26 @@ enum { RING_WHOLE = 2048, RING_LESS = 128 };
 /// A bound on what rounding does to a distance, as a share of it.
 #define ROUNDING 1e-9
 /// A polygon is nearer to its eye than its circle, or farther away, by this share.
-#define WHOLE_MARGIN      4e-9
+#define MARGIN            4e-9
 #define LESS_MARGIN_REACH 1.9e-4
 #define LESS_MARGIN_DEAD  2.5e-4
 
 // --- polygons
 
-/// Corners at a distance from a point. They turn left, or the circle is too small.
+/// Corners at a distance from a point, by angle from +x; `shift`: the first one's, in steps. They
+/// turn left, or the circle is too small.
 static sl_status make_ring(sl_context *context, sl_point at, double radius, uint32_t count,
-                           sli_ring *out) {
+                           double shift, sli_ring *out) {
     const double turn = 8 * atan(1) / count;
     out->corners = sl_alloc_array(context, count, sizeof *out->corners);
     if (!out->corners) return SL_NO_MEMORY;
     out->count = count;
-    out->inner = radius * cos(turn / 2) * (1 - 2 * ROUNDING);
-    out->outer = radius * (1 + 2 * ROUNDING);
+    out->shift = shift;
+    out->inner = radius * cos(turn / 2) * (1 - MARGIN);
+    out->outer = radius * (1 + MARGIN);
     for (uint32_t i = 0; i < count; i++)
-        out->corners[i] = (sl_point){at.x + radius * cos(i * turn), at.y + radius * sin(i * turn)};
+        out->corners[i] = (sl_point){at.x + radius * cos((i + shift) * turn),
+                                     at.y + radius * sin((i + shift) * turn)};
     for (uint32_t i = 0; i < count; i++) {
         const sl_point a = out->corners[i], b = out->corners[(i + 1) % count],
                        c = out->corners[(i + 2) % count];
@@ -42,23 +45,49 @@ static sl_status make_ring(sl_context *context, sl_point at, double radius, uint
     return SL_OK;
 }
 
+static const sl_point axes[] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
+
+/// Circles about places on a grid often touch in one point, on an axis. There the polygons have no
+/// margin, so that nothing is left between them: a range has its corner,
+static void meet_range(const sli_proof_view *v, sl_point at, sli_ring *ring) {
+    for (uint32_t k = 0; k < 4; k++) {
+        const sl_point p = {at.x + v->range * axes[k].x, at.y + v->range * axes[k].y};
+        if (sli_distance_compare(at, p, v->range) <= 0) ring->corners[k * ring->count / 4] = p;
+    }
+}
+
+/// and a dead zone its edge.
+static void meet_dead_zone(const sli_proof_view *v, sl_point at, sli_ring *ring) {
+    for (uint32_t k = 0; k < 4; k++) {
+        const sl_point p = {at.x + v->nearest * axes[k].x, at.y + v->nearest * axes[k].y};
+        const uint32_t next = k * ring->count / 4;
+        sl_point *ends[] = {&ring->corners[next], &ring->corners[(next ? next : ring->count) - 1]};
+        if (sli_distance_compare(at, p, v->nearest) < 0) continue;
+        for (int e = 0; e < 2; e++) {
+            if (k % 2)
+                ends[e]->y = p.y;
+            else
+                ends[e]->x = p.x;
+        }
+    }
+}
+
 static sl_status make_rings(sl_context *context, sl_point at, sli_view_share share,
                             sli_proof_view *out) {
     const bool whole = share == SLI_VIEW_WHOLE;
     const uint32_t count = whole ? RING_WHOLE : RING_LESS;
-    const double off = cos(4 * atan(1) / count);
-    if (out->range > 0)
-        SL_TRY(make_ring(context, at, out->range * (1 - (whole ? WHOLE_MARGIN : LESS_MARGIN_REACH)),
-                         count, &out->reach));
+    const double reach = out->range * (1 - (whole ? MARGIN : LESS_MARGIN_REACH)),
+                 dead = out->nearest * (1 + (whole ? MARGIN : LESS_MARGIN_DEAD)) /
+                        cos(4 * atan(1) / count);
+    if (out->range > 0) SL_TRY(make_ring(context, at, reach, count, 0, &out->reach));
+    if (out->nearest > 0) SL_TRY(make_ring(context, at, dead, count, 0.5, &out->dead));
+    if (out->range > 0 && whole) meet_range(out, at, &out->reach);
+    if (out->nearest > 0 && whole) meet_dead_zone(out, at, &out->dead);
     for (uint32_t i = 0; i < out->reach.count; i++) {
         const sli_meet corner = sli_meet_point(out->reach.corners[i]);
         if (!i) out->box = (sl_box){at, at};
         sli_box_widen(&out->box, &corner);
     }
-    if (out->nearest > 0)
-        SL_TRY(make_ring(context, at,
-                         out->nearest * (1 + (whole ? WHOLE_MARGIN : LESS_MARGIN_DEAD)) / off,
-                         count, &out->dead));
     return SL_OK;
 }
 
@@ -123,10 +152,28 @@ bool sli_proof_view_sees_around(const sli_proof_scene *scene, const sli_proof_vi
     return sli_eye_sees_around(scene, v->eye, p);
 }
 
+/// The edges near a place that is between the two circles of a ring, *count of them; it is left of
+/// the others.
+static uint32_t edges_near(const sli_ring *ring, sl_point eye, const sli_meet *p, uint32_t *count) {
+    *count = ring->count;
+    if (!(p->error < ROUNDING * ring->inner)) return 0;
+    const double turn = 8 * atan(1) / ring->count;
+    const double at = atan2(p->at.y - eye.y, p->at.x - eye.x) / turn - ring->shift;
+    *count = 5;
+    return (uint32_t)(floor(at) + 2 * ring->count - 2) % ring->count;
+}
+
 static bool ring_has_sector(const sli_ring *ring, sl_point eye, const sli_meet *p,
                             const sli_direction *sector) {
     const int place = place_in_ring(ring, eye, p);
-    return place ? place > 0 : sli_polygon_has_sector(ring->corners, ring->count, p, sector);
+    if (place) return place > 0;
+    uint32_t count;
+    const uint32_t first = edges_near(ring, eye, p, &count);
+    for (uint32_t i = first; i < first + count; i++)
+        if (!sli_sector_is_left(ring->corners[i % ring->count],
+                                ring->corners[(i + 1) % ring->count], p, sector))
+            return false;
+    return true;
 }
 
 bool sli_proof_view_sees_sector(const sli_proof_scene *scene, const sli_proof_view *v,
@@ -148,8 +195,10 @@ bool sli_proof_view_sees_sector(const sli_proof_scene *scene, const sli_proof_vi
 static sl_status add_ring_directions(sl_context *context, const sli_ring *ring, sl_point eye,
                                      const sli_meet *p, sli_directions *out) {
     if (!ring->count || place_in_ring(ring, eye, p)) return SL_OK;
-    for (uint32_t i = 0; i < ring->count; i++) {
-        const sl_point a = ring->corners[i], b = ring->corners[(i + 1) % ring->count];
+    uint32_t count;
+    const uint32_t first = edges_near(ring, eye, p, &count);
+    for (uint32_t i = first; i < first + count; i++) {
+        const sl_point a = ring->corners[i % ring->count], b = ring->corners[(i + 1) % ring->count];
         if (!sli_meet_side(p, a, b)) SL_TRY(sli_directions_add(context, a, b, out));
     }
     return SL_OK;

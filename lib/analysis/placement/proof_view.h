@@ -16,6 +16,7 @@
 typedef struct sli_ring {
     sl_point *corners;
     uint32_t count;
+    double shift;        ///< angle of the first corner from +x, in steps from one to the next
     double inner, outer; ///< distances from the eye between which all its edges are
 } sli_ring;
 
