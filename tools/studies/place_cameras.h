@@ -49,6 +49,9 @@ sl_status camera_work_prepare(sl_context *context, const camera_plan *plan,
                               const input_options *input, const sl_baked *baked, sl_query *query,
                               camera_work *w);
 
+/// Whether walls are to be seen, and not the area.
+bool camera_work_scans(const camera_work *w);
+
 /// The chosen places, to print and draw.
 sl_status camera_work_chosen(sl_context *context, const camera_work *w, sl_cameras *out);
 

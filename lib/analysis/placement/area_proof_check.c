@@ -11,10 +11,9 @@
 /// then the lowest point of this part is a corner: of that arrangement, or with lines of the place.
 /// So these are looked at for each place, within the boxes.
 #include "analysis/placement/area_proof.h"
+#include "analysis/placement/proof_outline.h"
 #include "analysis/placement/proof_view.h"
 #include "geometry/orient.h"
-
-#include <math.h>
 
 /// What is left in a cell beside a corner.
 typedef struct left_over {
@@ -55,49 +54,6 @@ typedef struct checker {
 
 // --- the area
 
-static bool is_above(const checker *c, const sli_meet *p, sl_point at,
-                     const sli_direction *sector) {
-    const double width = c->scene.bounds.max.x - c->scene.bounds.min.x;
-    return sli_sector_is_left(at, (sl_point){at.x + fmax(width, fabs(at.x)), at.y}, p, sector);
-}
-
-/// Whether the loops of what is to be seen go around the beginning of a sector.
-static bool is_asked(const checker *c, const sli_meet *p, const sli_direction *sector) {
-    const sl_shape *see = c->area->see;
-    int winding = 0;
-    size_t first = 0;
-    for (size_t l = 0; see && l < see->count; first = see->ends[l++])
-        for (size_t i = first; i < see->ends[l]; i++) {
-            const sl_point a = see->points[i];
-            const sl_point b = see->points[i + 1 < see->ends[l] ? i + 1 : first];
-            const bool over_a = is_above(c, p, a, sector), over_b = is_above(c, p, b, sector);
-            if (over_a == over_b) continue;
-            const bool left = sli_sector_is_left(a, b, p, sector);
-            if (over_a && left) winding++;
-            if (over_b && !left) winding--;
-        }
-    return !see || winding != 0;
-}
-
-/// Adds the edges of what is to be seen as parts; with `p`, as directions there.
-static sl_status add_outline(checker *c, const sli_meet *p) {
-    const sl_shape *see = c->area->see;
-    size_t first = 0;
-    uint32_t group = UINT32_MAX;
-    for (size_t l = 0; see && l < see->count; first = see->ends[l++])
-        for (size_t i = first; i < see->ends[l]; i++) {
-            const sl_point a = see->points[i];
-            const sl_point b = see->points[i + 1 < see->ends[l] ? i + 1 : first];
-            if (sli_same_point(a, b)) continue;
-            if (p && !sli_meet_side(p, a, b))
-                SL_TRY(sli_directions_add(c->context, a, b, &c->around));
-            if (!p)
-                SL_TRY(sli_ray_add(c->context, sli_ray_between(a, b, --group, SLI_PART_EDGE),
-                                   &c->parts));
-        }
-    return SL_OK;
-}
-
 static sl_status add_line(checker *c, sl_point a, sl_point b, sli_part_kind kind) {
     return sli_ray_add(c->context, sli_ray_between(a, b, UINT32_MAX, kind), &c->parts);
 }
@@ -112,7 +68,7 @@ static sl_status add_lines(checker *c) {
     for (int i = 0; i < 4; i++) SL_TRY(add_line(c, box[i], box[(i + 1) % 4], SLI_PART_BORDER));
     for (uint32_t i = 0; i < c->scene.wall_count; i++)
         SL_TRY(add_line(c, c->scene.walls[i].a, c->scene.walls[i].b, SLI_PART_WALL));
-    return add_outline(c, NULL);
+    return sli_outline_add_parts(c->context, c->area->see, UINT32_MAX - 1, &c->parts);
 }
 
 // --- corners
@@ -124,7 +80,7 @@ static sl_status find_directions(checker *c, uint32_t cell, const sli_meet *p) {
         SL_TRY(sli_proof_view_add_directions(c->context, &c->scene, &c->views[i], p, &c->around));
     if (c->other)
         SL_TRY(sli_proof_view_add_directions(c->context, &c->scene, c->other, p, &c->around));
-    SL_TRY(add_outline(c, p));
+    SL_TRY(sli_outline_add_directions(c->context, c->area->see, p, &c->around));
     if (!c->around.count)
         SL_TRY(
             sli_directions_add(c->context, c->scene.bounds.min, c->scene.bounds.max, &c->around));
@@ -137,7 +93,8 @@ static bool is_left(const checker *c, const sl_cell *k, const sli_meet *p,
                     const sli_direction *sector) {
     uint32_t seen = 0;
     const sl_point *corners = c->space->vertices + k->first_vertex;
-    if (!sli_polygon_has_sector(corners, k->vertex_count, p, sector) || !is_asked(c, p, sector))
+    if (!sli_polygon_has_sector(corners, k->vertex_count, p, sector) ||
+        !sli_outline_has_sector(&c->scene, c->area->see, p, sector))
         return false;
     for (uint32_t i = 0; i < c->view_count && seen < c->cover; i++)
         seen += sli_proof_view_sees_sector(&c->scene, &c->views[i], p, sector);
@@ -350,26 +307,6 @@ static sl_status check_places(checker *c) {
     return status;
 }
 
-/// Whether a witness is within what is to be seen, and not on its outline.
-static bool is_within(const checker *c, sl_point at) {
-    const sli_direction any[] = {{c->scene.bounds.min, c->scene.bounds.max},
-                                 {c->scene.bounds.max, c->scene.bounds.min}};
-    const sli_meet p = sli_meet_point(at);
-    const sl_shape *see = c->area->see;
-    size_t first = 0;
-    for (size_t l = 0; see && l < see->count; first = see->ends[l++])
-        for (size_t i = first; i < see->ends[l]; i++) {
-            const sl_point a = see->points[i];
-            const sl_point b = see->points[i + 1 < see->ends[l] ? i + 1 : first];
-            if (!sli_same_point(a, b) && !sli_orient(a, b, at)) {
-                const sl_box box = {{fmin(a.x, b.x), fmin(a.y, b.y)},
-                                    {fmax(a.x, b.x), fmax(a.y, b.y)}};
-                if (sli_box_holds(&box, at)) return false;
-            }
-        }
-    return is_asked(c, &p, any);
-}
-
 static sl_status check_lower(checker *c) {
     const sl_area_placement *claim = c->claim;
     uint64_t fixed = 0, rest = 0;
@@ -377,7 +314,9 @@ static sl_status check_lower(checker *c) {
         const uint32_t demand = claim->columns.demands[w];
         if (!demand) continue;
         const uint64_t most = c->sure[w] < c->cover ? c->sure[w] : c->cover;
-        if ((uint64_t)demand + c->held[w] <= most && is_within(c, claim->witnesses[w])) continue;
+        if ((uint64_t)demand + c->held[w] <= most &&
+            sli_outline_holds(&c->scene, c->area->see, claim->witnesses[w]))
+            continue;
         c->out->weak = w;
         return SL_OK;
     }
