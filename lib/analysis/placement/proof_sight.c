@@ -37,7 +37,27 @@ static bool is_line(const sl_segment *s, sl_point a, sl_point b) {
            (sli_same_point(s->a, b) && sli_same_point(s->b, a));
 }
 
+static int order_of(double a, double b) {
+    return (a > b) - (a < b);
+}
+
+/// Quick for lines along an axis, on which many points are: whether the side is known, *side.
+static bool is_axial_side(const sli_meet *p, sl_point a, sl_point b, int *side) {
+    const bool level = a.y == b.y;
+    if (!level && a.x != b.x) return false;
+    if (p->given) {
+        *side = level ? order_of(b.x, a.x) * order_of(p->at.y, a.y)
+                      : order_of(a.y, b.y) * order_of(p->at.x, a.x);
+        return true;
+    }
+    *side = 0;
+    return level ? (p->s.a.y == a.y && p->s.b.y == a.y) || (p->t.a.y == a.y && p->t.b.y == a.y)
+                 : (p->s.a.x == a.x && p->s.b.x == a.x) || (p->t.a.x == a.x && p->t.b.x == a.x);
+}
+
 int sli_meet_side(const sli_meet *p, sl_point a, sl_point b) {
+    int side;
+    if (is_axial_side(p, a, b, &side)) return side;
     if (p->given) return sli_orient(a, b, p->at);
     const sl_point u = {b.x - a.x, b.y - a.y}, v = {p->at.x - a.x, p->at.y - a.y};
     const double left = u.x * v.y, right = u.y * v.x, value = left - right;
@@ -48,6 +68,7 @@ int sli_meet_side(const sli_meet *p, sl_point a, sl_point b) {
     if (is_line(&p->s, a, b) || is_line(&p->t, a, b)) return 0;
     const int turn = sli_turn(a, b, p->s.a, p->s.b);
     if (!turn) return sli_orient(a, b, p->s.a);
+    if (!sli_turn(a, b, p->t.a, p->t.b)) return sli_orient(a, b, p->t.a);
     return turn * sli_meet_order(p->s, p->t, (sl_segment){a, b});
 }
 
