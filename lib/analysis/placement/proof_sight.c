@@ -11,8 +11,18 @@ sli_meet sli_meet_point(sl_point at) {
     return (sli_meet){.given = true, .at = at};
 }
 
+/// Where lines meet that are nearly parallel: exactly, then rounded.
+static void meet_exactly(sli_meet *p) {
+    p->error = INFINITY;
+    if (!sli_turn(p->s.a, p->s.b, p->t.a, p->t.b)) return;
+    const sl_point at = sli_crossing(p->s, p->t);
+    if (!sl_coordinate_usable(at.x) || !sl_coordinate_usable(at.y)) return;
+    p->at = at;
+    p->error = 0x1p-50 * fmax(fabs(at.x), fabs(at.y)) + 2 * SL_COORDINATE_MIN;
+}
+
 /// Rounded products of rounded differences are wrong by less than 8 units of rounding of what is
-/// added up. A divisor that is near its own error leaves the place open: the error is infinite.
+/// added up. A divisor that is near its own error leaves the place open, or nearly so.
 sli_meet sli_meet_lines(sl_segment s, sl_segment t) {
     const double unit = 0x1p-50;
     const sl_point u = {s.b.x - s.a.x, s.b.y - s.a.y}, v = {t.b.x - t.a.x, t.b.y - t.a.y},
@@ -22,13 +32,16 @@ sli_meet sli_meet_lines(sl_segment s, sl_segment t) {
     const double below_error = unit * (fabs(u.x * v.y) + fabs(u.y * v.x)) + 0x1p-900;
     const double share = above / below;
     sli_meet p = {.s = s, .t = t, .at = s.a, .error = INFINITY};
-    if (!(fabs(below) > 4 * below_error) || !isfinite(share)) return p;
-    const double error =
-        2 * (above_error + fabs(share) * below_error) / fabs(below) + unit * fabs(share);
-    const double x = fabs(u.x) * error + unit * (fabs(s.a.x) + fabs(share * u.x)),
-                 y = fabs(u.y) * error + unit * (fabs(s.a.y) + fabs(share * u.y));
-    p.at = (sl_point){s.a.x + share * u.x, s.a.y + share * u.y};
-    p.error = x > y ? x : y;
+    if (fabs(below) > 4 * below_error && isfinite(share)) {
+        const double error =
+            2 * (above_error + fabs(share) * below_error) / fabs(below) + unit * fabs(share);
+        const double x = fabs(u.x) * error + unit * (fabs(s.a.x) + fabs(share * u.x)),
+                     y = fabs(u.y) * error + unit * (fabs(s.a.y) + fabs(share * u.y));
+        p.at = (sl_point){s.a.x + share * u.x, s.a.y + share * u.y};
+        p.error = x > y ? x : y;
+    }
+    const double size = fabs(s.a.x) + fabs(s.a.y) + fabs(t.a.x) + fabs(t.a.y);
+    if (!(p.error <= 0x1p-30 * size)) meet_exactly(&p);
     return p;
 }
 
