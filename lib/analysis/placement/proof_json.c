@@ -276,8 +276,10 @@ sl_status sli_proof_read_head(sli_proof_reader *r, uint64_t known, const sl_spac
         return sl_fail_at(r->context, r->path, r->line,
                           "this proof is of viewpoints anywhere, not among given places");
     if (version == SLI_PROOF_AREA && known == SLI_PROOF_ANYWHERE)
-        return sl_fail_at(r->context, r->path, r->line,
-                          "this proof is of viewpoints among given places, not anywhere");
+        return sl_fail_at(
+            r->context, r->path, r->line,
+            "this proof is of viewpoints among given places, not anywhere: give these "
+            "places, as in the run that wrote it");
     if (version != known) return sli_proof_fail(r, "this version is not known");
     SL_TRY(sli_proof_member(r, "walls", UINT64_MAX, &walls));
     SL_TRY(sli_proof_member(r, "walls_sum", UINT64_MAX, &sum));
