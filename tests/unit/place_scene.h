@@ -58,6 +58,31 @@ static inline void end(scene *s) {
     assert_int_equal(s->memory.live, 0);
 }
 
+/// Whether a place sees a point. *near: this hangs on the chords of a range.
+static inline bool sees(scene *s, const sl_viewpoint *p, sl_point at, bool *near) {
+    bool is_seen;
+    const double x = at.x - p->at.x, y = at.y - p->at.y, distance = hypot(x, y);
+    if (p->range > 0) *near |= fabs(distance / p->range - 1) < 5e-4;
+    if (p->nearest > 0) *near |= fabs(distance / p->nearest - 1) < 5e-4;
+    if ((p->range > 0 && distance > p->range) || distance < p->nearest) return false;
+    const double off = fabs(remainder(atan2(y, x) - p->heading * DEGREE, 360 * DEGREE));
+    *near |= p->fov < 360 && fabs(off - p->fov * DEGREE / 2) < 1e-9;
+    assert_ok(s->context, sl_query_sees(s->context, s->query, p->at, at, &is_seen));
+    return is_seen && (p->fov >= 360 || off <= p->fov * DEGREE / 2);
+}
+
+/// A point inside; every other one is close to a corner of the walls.
+static inline sl_point sample(scene *s, sl_random *random, int number) {
+    if (number % 2 || !s->space.wall_count) return draw(s, random);
+    for (;;) {
+        const sl_wall *wall = &s->space.walls[sl_random_below(random, s->space.wall_count)];
+        const double size = exp(-18 * sl_random_unit(random));
+        const sl_point at = {wall->a.x + size * (sl_random_unit(random) - 0.5),
+                             wall->a.y + size * (sl_random_unit(random) - 0.5)};
+        if (sl_space_is_inside(&s->space, at)) return at;
+    }
+}
+
 static inline uint64_t cost_of(const scene *s, uint32_t set) {
     uint64_t cost = 0;
     for (int i = 0; i < PLACES; i++)

@@ -92,9 +92,31 @@ static sl_status print_json(sl_context *context, const place_work *w, const cove
     return json_print(context, &fields);
 }
 
+/// The same of a proof among given places.
+static sl_status verify_chosen(command_console *console, const place_plan *plan, place_work *w) {
+    sl_place_area_verdict v;
+    sl_context *context = console->context;
+    const sl_place_area *task = &w->chosen.task;
+    SL_TRY(sl_place_area_proof_read(context, w->query, task, plan->verify, &w->chosen.placed));
+    SL_TRY(sl_place_area_proof_check(context, w->query, task, &w->chosen.placed, &v));
+    console->refuted =
+        v.lower < w->chosen.placed.lower || v.upper > w->chosen.placed.upper || !v.sees_as_all;
+    progress_line_clear(&console->line);
+    if (!plan->json) {
+        camera_work_print_verdict(&w->chosen, &v, sl_map_digits(sl_query_map(w->query)));
+        return SL_OK;
+    }
+    json_fields fields = json_begin();
+    json_add_text(&fields, "input", plan->input);
+    json_add_flag(&fields, "verified", !console->refuted);
+    camera_work_add_verdict_json(&fields, &w->chosen, &v);
+    return json_print(context, &fields);
+}
+
 /// Checks a proof by other code than that which found it, and says what holds.
 static sl_status verify(command_console *console, const place_plan *plan, place_work *w) {
     sl_place_verdict v;
+    if (w->chooses) return verify_chosen(console, plan, w);
     SL_TRY(sl_place_proof_read(console->context, w->query, plan->verify, &w->placement));
     SL_TRY(sl_place_proof_check(console->context, w->query, &w->placement, &v));
     const sl_placement *p = &w->placement;
@@ -129,34 +151,30 @@ static sl_status verify(command_console *console, const place_plan *plan, place_
     return SL_OK;
 }
 
-/// Refuses what proofs do not know.
-static sl_status check_plan(sl_context *context, const place_plan *plan, bool chooses) {
-    SL_TRY(camera_plan_check(context, &plan->cameras));
-    if (chooses && (plan->proof || plan->verify))
-        return sl_fail(context, SL_BAD_ARGUMENT,
-                       "--%s is for viewpoints anywhere, that look all round: leave out --from and "
-                       "the options with it",
-                       plan->proof ? "proof" : "verify");
-    return SL_OK;
-}
-
 static sl_status work(command_console *console, const place_plan *plan, place_work *w) {
     sl_context *context = console->context;
     const sl_baked *baked = &w->baked;
     w->chooses = camera_plan_chooses(&plan->cameras);
-    SL_TRY(check_plan(context, plan, w->chooses));
+    SL_TRY(camera_plan_check(context, &plan->cameras,
+                             plan->proof    ? "proof"
+                             : plan->verify ? "verify"
+                                            : NULL));
     const unsigned effects =
         SL_EFFECT_DOOR | (w->chooses ? SL_EFFECT_RANGE | SL_EFFECT_ONEWAY : 0u);
     SL_TRY(pipeline_read_space(context, &plan->pipeline, "place", effects, NULL, &w->baked));
     SL_TRY(pipeline_need_inside(context, &plan->pipeline, &baked->map, &baked->space, ""));
     SL_TRY(doors_shut(context, &plan->doors, &w->baked));
     SL_TRY(sl_query_over(context, &baked->space, &baked->map, NULL, &w->query));
-    if (plan->verify) return verify(console, plan, w);
     if (w->chooses)
         SL_TRY(camera_work_prepare(context, &plan->cameras, &plan->pipeline.input, baked, w->query,
                                    &w->chosen));
+    if (plan->verify) return verify(console, plan, w);
     SL_TRY(place(console, plan, w));
-    if (plan->proof) SL_TRY(sl_place_proof_write(context, w->query, &w->placement, plan->proof));
+    if (plan->proof && w->chooses)
+        SL_TRY(sl_place_area_proof_write(context, w->query, &w->chosen.task, &w->chosen.placed,
+                                         plan->proof));
+    else if (plan->proof)
+        SL_TRY(sl_place_proof_write(context, w->query, &w->placement, plan->proof));
     SL_TRY(survey(context, w));
     const cover_report report = {plan->input, plan->pipeline.input.import.map, baked, &w->cameras,
                                  &w->coverage};
@@ -215,8 +233,9 @@ sl_status cmd_place(command_console *console, int argc, char **argv) {
         {"proof", 0, "FILE", "write a proof of both bounds (.json), for --verify",
          .text = &plan.proof, .check = CHECK_FILE, .endings = ".json"},
         {"verify", 0, "FILE",
-         "check a proof for this map by other code, and trust nothing in it; exit with status 1 if "
-         "it does not hold",
+         "check a proof for this map by other code, and trust nothing in it; --from and the "
+         "options "
+         "with it are those of the run that wrote it; exit with status 1 if it does not hold",
          .text = &plan.verify, .rare = true},
         {"time-limit", 0, "SECONDS",
          "stop then, and give the best set and both bounds; so does Ctrl-C (default: no limit)",
@@ -240,7 +259,9 @@ sl_status cmd_place(command_console *console, int argc, char **argv) {
                     "  sightline place office.map --from walls --fov 90 --range 12 -o cameras.csv\n"
                     "  sightline place office.map --from grid:2 --count 4 --json\n"
                     "  sightline place office.map --proof proof.json\n"
-                    "  sightline place --verify proof.json office.map",
+                    "  sightline place --verify proof.json office.map\n"
+                    "  sightline place office.map --from walls --fov 90 --proof cameras.json\n"
+                    "  sightline place office.map --from walls --fov 90 --verify cameras.json",
         .options = options,
         .option_count = sizeof options / sizeof *options,
         .given = &plan.pipeline.given,

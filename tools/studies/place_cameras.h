@@ -5,7 +5,7 @@
 
 #include "inputs/pipeline.h"
 #include "reports/json_print.h"
-#include "sightline/place_area.h"
+#include "sightline/place_proof.h"
 #include "studies/cover_zones.h"
 
 /// What the options say.
@@ -39,14 +39,18 @@ option_table camera_option_table(camera_plan *plan);
 /// Whether the options ask for chosen places, and not for viewpoints anywhere.
 bool camera_plan_chooses(const camera_plan *plan);
 
-/// Refuses options that say too little or contradict each other.
-sl_status camera_plan_check(sl_context *context, const camera_plan *plan);
+/// Refuses options that say too little or contradict each other. `proof`: the name of an option for
+/// proofs, which goes with less; NULL without one.
+sl_status camera_plan_check(sl_context *context, const camera_plan *plan, const char *proof);
 
 /// The places to choose from, and what is to be seen. `step`: between places along walls, where the
 /// options do not say.
 sl_status camera_work_prepare(sl_context *context, const camera_plan *plan,
                               const input_options *input, const sl_baked *baked, sl_query *query,
                               camera_work *w);
+
+/// Whether walls are to be seen, and not the area.
+bool camera_work_scans(const camera_work *w);
 
 /// The chosen places, to print and draw.
 sl_status camera_work_chosen(sl_context *context, const camera_work *w, sl_cameras *out);
@@ -56,6 +60,11 @@ void camera_work_say(const camera_work *w, bool stopped, char *text, size_t size
 
 /// Bounds, and areas of what is to be seen.
 void camera_work_add_json(json_fields *fields, const camera_work *w);
+
+/// What holds of a proof.
+void camera_work_print_verdict(const camera_work *w, const sl_place_area_verdict *v, int digits);
+void camera_work_add_verdict_json(json_fields *fields, const camera_work *w,
+                                  const sl_place_area_verdict *v);
 
 /// Refuses a zone of which nothing is inside, or that no place sees: names it, and the nearest
 /// place that could see it. `covers`: what the chosen places see, by zone.

@@ -20,6 +20,7 @@ sl_status sli_cover_make(sl_context *context, uint32_t rows, uint32_t columns, s
 /// Makes the lists by row of those by column.
 void sli_cover_turn(sli_cover *cover);
 void sli_cover_destroy(sl_context *context, sli_cover *cover);
+void sli_cover_proof_destroy(sl_context *context, sl_cover_proof *proof); ///< and zeroes it
 /// The caller's problem, its columns checked; costs are divided, and 1 each where `divisor` is 0.
 sl_status sli_cover_read(sl_context *context, const sl_cover_problem *problem, uint32_t divisor,
                          sli_cover *out);

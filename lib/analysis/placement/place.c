@@ -15,6 +15,7 @@
 /// active witnesses, are ours.
 #include "sightline/place.h"
 
+#include "analysis/placement/cover.h"
 #include "analysis/placement/placer.h"
 #include "geometry/length.h"
 #include "geometry/orient.h"
@@ -29,8 +30,7 @@ sl_place_options sl_place_options_default(void) {
 }
 
 static void destroy_lower(sl_context *context, sl_placement *p) {
-    sl_cover_result owner = {.proof = p->proof};
-    sl_cover_result_destroy(context, &owner);
+    sli_cover_proof_destroy(context, &p->proof);
     sl_free(context, p->witnesses);
     sl_free(context, p->places);
     sl_free(context, (void *)(uintptr_t)p->columns.ends);

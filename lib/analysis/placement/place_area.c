@@ -269,6 +269,25 @@ static sl_status complete(finder *f, bool *clean) {
     return SL_OK;
 }
 
+/// Keeps the proof of a lower bound that is better than those before it. Takes both.
+static sl_status keep_proof(sli_area *a, sl_cover_problem *problem, sl_cover_proof *proof) {
+    sl_area_placement *out = a->out;
+    const size_t count = a->witnesses.count;
+    sl_point *witnesses = sl_alloc_array(a->context, count, sizeof *witnesses);
+    if (!witnesses) return SL_NO_MEMORY;
+    if (count) memcpy(witnesses, a->witnesses.items, count * sizeof *witnesses);
+    sl_free(a->context, out->witnesses);
+    sli_area_problem_destroy(a->context, &out->columns);
+    sli_cover_proof_destroy(a->context, &out->proof);
+    out->witnesses = witnesses;
+    out->columns = *problem;
+    out->columns.costs = NULL;
+    out->proof = *proof;
+    *problem = (sl_cover_problem){0};
+    *proof = (sl_cover_proof){0};
+    return SL_OK;
+}
+
 /// The cheapest places that see all witnesses, into `now`, or with `wide` nowhere; betters the
 /// lower bound. Where ranges are not the true ones, they give none.
 static sl_status choose(finder *f, bool wide) {
@@ -289,8 +308,11 @@ static sl_status choose(finder *f, bool wide) {
     options.start = start;
     if (status == SL_OK) status = sl_cover_solve(a->context, &problem, &options, &cover);
     if ((status == SL_OK || (status == SL_CANCELLED && cover.columns)) &&
-        (wide || !a->wide_count) && !a->network.is_rounded && cover.lower + fixed > a->out->lower)
+        (wide || !a->wide_count) && !a->network.is_rounded && cover.lower + fixed > a->out->lower) {
         a->out->lower = cover.lower + fixed;
+        const sl_status kept = keep_proof(a, &problem, &cover.proof);
+        if (kept != SL_OK) status = kept;
+    }
     if (status == SL_OK && !wide) {
         for (uint32_t i = 0; i < a->task->place_count; i++) f->now[i] = a->fixed[i];
         for (uint32_t i = 0; i < cover.count; i++) f->now[cover.columns[i]] = 1;
@@ -385,5 +407,8 @@ sl_status sl_place_area_cover(sl_context *context, sl_query *query, const sl_pla
 void sl_area_placement_destroy(sl_context *context, sl_area_placement *p) {
     sl_free(context, p->chosen);
     sl_free(context, p->blind);
+    sl_free(context, p->witnesses);
+    sli_area_problem_destroy(context, &p->columns);
+    sli_cover_proof_destroy(context, &p->proof);
     *p = (sl_area_placement){0};
 }

@@ -11,8 +11,18 @@ sli_meet sli_meet_point(sl_point at) {
     return (sli_meet){.given = true, .at = at};
 }
 
+/// Where lines meet that are nearly parallel: exactly, then rounded.
+static void meet_exactly(sli_meet *p) {
+    p->error = INFINITY;
+    if (!sli_turn(p->s.a, p->s.b, p->t.a, p->t.b)) return;
+    const sl_point at = sli_crossing(p->s, p->t);
+    if (!sl_coordinate_usable(at.x) || !sl_coordinate_usable(at.y)) return;
+    p->at = at;
+    p->error = 0x1p-50 * fmax(fabs(at.x), fabs(at.y)) + 2 * SL_COORDINATE_MIN;
+}
+
 /// Rounded products of rounded differences are wrong by less than 8 units of rounding of what is
-/// added up. A divisor that is near its own error leaves the place open: the error is infinite.
+/// added up. A divisor that is near its own error leaves the place open, or nearly so.
 sli_meet sli_meet_lines(sl_segment s, sl_segment t) {
     const double unit = 0x1p-50;
     const sl_point u = {s.b.x - s.a.x, s.b.y - s.a.y}, v = {t.b.x - t.a.x, t.b.y - t.a.y},
@@ -22,13 +32,16 @@ sli_meet sli_meet_lines(sl_segment s, sl_segment t) {
     const double below_error = unit * (fabs(u.x * v.y) + fabs(u.y * v.x)) + 0x1p-900;
     const double share = above / below;
     sli_meet p = {.s = s, .t = t, .at = s.a, .error = INFINITY};
-    if (!(fabs(below) > 4 * below_error) || !isfinite(share)) return p;
-    const double error =
-        2 * (above_error + fabs(share) * below_error) / fabs(below) + unit * fabs(share);
-    const double x = fabs(u.x) * error + unit * (fabs(s.a.x) + fabs(share * u.x)),
-                 y = fabs(u.y) * error + unit * (fabs(s.a.y) + fabs(share * u.y));
-    p.at = (sl_point){s.a.x + share * u.x, s.a.y + share * u.y};
-    p.error = x > y ? x : y;
+    if (fabs(below) > 4 * below_error && isfinite(share)) {
+        const double error =
+            2 * (above_error + fabs(share) * below_error) / fabs(below) + unit * fabs(share);
+        const double x = fabs(u.x) * error + unit * (fabs(s.a.x) + fabs(share * u.x)),
+                     y = fabs(u.y) * error + unit * (fabs(s.a.y) + fabs(share * u.y));
+        p.at = (sl_point){s.a.x + share * u.x, s.a.y + share * u.y};
+        p.error = x > y ? x : y;
+    }
+    const double size = fabs(s.a.x) + fabs(s.a.y) + fabs(t.a.x) + fabs(t.a.y);
+    if (!(p.error <= 0x1p-30 * size)) meet_exactly(&p);
     return p;
 }
 
@@ -37,7 +50,27 @@ static bool is_line(const sl_segment *s, sl_point a, sl_point b) {
            (sli_same_point(s->a, b) && sli_same_point(s->b, a));
 }
 
+static int order_of(double a, double b) {
+    return (a > b) - (a < b);
+}
+
+/// Quick for lines along an axis, on which many points are: whether the side is known, *side.
+static bool is_axial_side(const sli_meet *p, sl_point a, sl_point b, int *side) {
+    const bool level = a.y == b.y;
+    if (!level && a.x != b.x) return false;
+    if (p->given) {
+        *side = level ? order_of(b.x, a.x) * order_of(p->at.y, a.y)
+                      : order_of(a.y, b.y) * order_of(p->at.x, a.x);
+        return true;
+    }
+    *side = 0;
+    return level ? (p->s.a.y == a.y && p->s.b.y == a.y) || (p->t.a.y == a.y && p->t.b.y == a.y)
+                 : (p->s.a.x == a.x && p->s.b.x == a.x) || (p->t.a.x == a.x && p->t.b.x == a.x);
+}
+
 int sli_meet_side(const sli_meet *p, sl_point a, sl_point b) {
+    int side;
+    if (is_axial_side(p, a, b, &side)) return side;
     if (p->given) return sli_orient(a, b, p->at);
     const sl_point u = {b.x - a.x, b.y - a.y}, v = {p->at.x - a.x, p->at.y - a.y};
     const double left = u.x * v.y, right = u.y * v.x, value = left - right;
@@ -48,6 +81,7 @@ int sli_meet_side(const sli_meet *p, sl_point a, sl_point b) {
     if (is_line(&p->s, a, b) || is_line(&p->t, a, b)) return 0;
     const int turn = sli_turn(a, b, p->s.a, p->s.b);
     if (!turn) return sli_orient(a, b, p->s.a);
+    if (!sli_turn(a, b, p->t.a, p->t.b)) return sli_orient(a, b, p->t.a);
     return turn * sli_meet_order(p->s, p->t, (sl_segment){a, b});
 }
 

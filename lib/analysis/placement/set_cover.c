@@ -17,12 +17,17 @@ sl_cover_options sl_cover_options_default(void) {
     return (sl_cover_options){.nodes = 10000, .iterations = 50000};
 }
 
+void sli_cover_proof_destroy(sl_context *context, sl_cover_proof *proof) {
+    sl_free(context, proof->steps);
+    sl_free(context, proof->parts);
+    sl_free(context, proof->nodes);
+    sl_free(context, proof->duals);
+    *proof = (sl_cover_proof){0};
+}
+
 void sl_cover_result_destroy(sl_context *context, sl_cover_result *r) {
     sl_free(context, r->columns);
-    sl_free(context, r->proof.steps);
-    sl_free(context, r->proof.parts);
-    sl_free(context, r->proof.nodes);
-    sl_free(context, r->proof.duals);
+    sli_cover_proof_destroy(context, &r->proof);
     *r = (sl_cover_result){0};
 }
 

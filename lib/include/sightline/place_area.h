@@ -70,6 +70,12 @@ typedef struct sl_area_placement {
     uint32_t blind_count;
     uint32_t witness_count;
     uint64_t rounds;
+    /// Of `lower`, but for the costs of fixed places: by row of `columns` a witness, which places
+    /// see it up to their true ranges, and what the fixed ones leave of its demand. The proof is of
+    /// these columns, with the costs of the places (columns.costs is NULL). Empty with `count`.
+    sl_point *witnesses;
+    sl_cover_problem columns;
+    sl_cover_proof proof;
 } sl_area_placement;
 
 /// Finds the cheapest places that see the area, as far as these places can see it; or, with

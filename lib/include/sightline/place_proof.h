@@ -20,10 +20,27 @@
 /// - The upper bound. Each point inside or on the border of what is inside is in the closed visible
 ///   region of a viewpoint: all but single directions of what straight lines from it reach without
 ///   crossing a wall. A viewpoint on a wall stands in the cell that sl_space_locate gives.
+///
+/// A proof holds one integer program, that of the lower bound. The upper bound needs none: it does
+/// not matter how the viewpoints were found, only that they see everything, and this is checked.
+///
+/// Placements among given places (place_area.h) have proofs, too. Who checks one says again which
+/// places there are and what is to be seen; the file only says which of them were chosen, and why
+/// no cheaper ones do it:
+///
+/// - The lower bound: the check asks each place which witnesses it sees, within its cone and its
+///   true range. Around a witness, at least as many places see as the witness demands. So any
+///   choice that sees all that these places can see, as often as asked or as they can, sees the
+///   witnesses so often. The set cover of places and witnesses is bounded in whole numbers.
+/// - The upper bound: the chosen places see each point of the area, as often as is asked; or each
+///   that some other place sees, from up to 0.9995 of its range, and from beyond 1.0006 of its dead
+///   zone. Polygons up to 2e-6 within a range, and around a dead zone, stand for those of the
+///   chosen places. All else is exact: the check knows no slivers.
 #ifndef SIGHTLINE_PLACE_PROOF_H
 #define SIGHTLINE_PLACE_PROOF_H
 
 #include "sightline/place.h"
+#include "sightline/place_area.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -65,6 +82,55 @@ typedef struct sl_place_verdict {
 /// witnesses on walls. SL_UNSUPPORTED as sl_place.
 SL_API sl_status sl_place_proof_check(sl_context *context, sl_query *query,
                                       const sl_placement *claim, sl_place_verdict *out);
+
+// --- among given places
+
+/// Writes a placement among the places of an area. Members of the file: `sightline_proof` (2),
+/// `walls`, `walls_sum`, `places` and `places_sum` (which places and which area), `lower`, `upper`
+/// (costs), `chosen` (numbers of places), `witnesses`, `demands` (what the fixed places leave of
+/// them), the parts of an sl_cover_proof and `program` as above.
+///
+/// SL_UNSUPPORTED for networks, for the most that a number of places sees, for walls to scan, and
+/// as sl_place_proof_check.
+SL_API sl_status sl_place_area_proof_write(sl_context *context, sl_query *query,
+                                           const sl_place_area *area,
+                                           const sl_area_placement *placement, const char *path);
+/// The same into a stream. Refused writes are left to the stream's error flag.
+SL_API sl_status sl_place_area_proof_print(sl_context *context, sl_query *query,
+                                           const sl_place_area *area,
+                                           const sl_area_placement *placement, FILE *stream);
+/// Reads what sl_place_area_proof_write() wrote, for the same walls, places and area: bounds,
+/// chosen places, witnesses, demands and proof. SL_BAD_INPUT, with file and line, for anything
+/// else.
+SL_API sl_status sl_place_area_proof_read(sl_context *context, sl_query *query,
+                                          const sl_place_area *area, const char *path,
+                                          sl_area_placement *out);
+/// The same from memory; `path` is for messages.
+SL_API sl_status sl_place_area_proof_parse(sl_context *context, sl_query *query,
+                                           const sl_place_area *area, const char *path,
+                                           const char *text, size_t size, sl_area_placement *out);
+
+/// What holds of a claim.
+typedef struct sl_place_area_verdict {
+    uint64_t lower;   ///< no choice that costs less sees all that the places can see; 0: not proven
+    uint64_t upper;   ///< cost of the chosen places
+    bool sees_all;    ///< they see all that is to be seen, as often as asked
+    bool sees_as_all; ///< they see as much of it as all places do
+    uint64_t corners; ///< places that were tried for the upper bound
+    sl_point unseen;  ///< where sees_as_all is false: next to this point,
+    uint32_t place;   ///< this place sees something that too few of the chosen ones see
+    uint32_t weak;    ///< where lower is 0: a witness that demands more than is seen all around it,
+                      ///< or is on no part of the area; UINT32_MAX: none
+} sl_place_area_verdict;
+
+/// Checks a claim. SL_BAD_ARGUMENT for chosen places that are none or are named twice, where a
+/// fixed place is not chosen, and for witnesses that are not inside. SL_UNSUPPORTED as
+/// sl_place_area_proof_write, and for a range that is too small for its coordinates. Reports stage
+/// "place".
+SL_API sl_status sl_place_area_proof_check(sl_context *context, sl_query *query,
+                                           const sl_place_area *area,
+                                           const sl_area_placement *claim,
+                                           sl_place_area_verdict *out);
 
 #ifdef __cplusplus
 }
