@@ -60,7 +60,12 @@ void sli_placer_destroy(sli_placer *p) {
     sl_free(p->context, p->germs.items);
     sl_free(p->context, p->spans.items);
     sl_free(p->context, p->active.items);
+    sl_free(p->context, p->is_active.items);
     sl_free(p->context, p->chosen.items);
+    sli_nearby_destroy(p->context, &p->witness_points);
+    sli_nearby_destroy(p->context, &p->germ_points);
+    sli_nearby_destroy(p->context, &p->candidate_bounds);
+    sli_nearby_destroy(p->context, &p->chosen_bounds);
     sl_free(p->context, (void *)p->looks.items);
     sl_free(p->context, p->unseen.items);
     sli_crossings_destroy(p->context, &p->crossings);
@@ -223,7 +228,7 @@ static sl_status use_columns(sli_placer *p, sli_place_columns *c) {
     const sl_cover_options options = sli_cover_options(p);
     sl_cover_result cover = {0};
     sl_status status = sl_cover_solve(p->context, &problem, &options, &cover);
-    p->chosen.count = 0;
+    sli_choose_none(p);
     for (uint32_t i = 0; status == SL_OK && i < cover.count; i++)
         status = sli_choose_column(p, c, cover.columns[i]);
     if (status == SL_OK && cover.lower > p->out->lower) status = keep_lower(p, c, &cover);
@@ -296,8 +301,7 @@ static sl_status take_listed(sli_placer *p) {
                        digits, o->places[i].x, digits, o->places[i].y);
     }
     p->listed = true;
-    SL_TRY(SL_ARRAY_ROOM(p->context, &p->chosen, p->candidates.count));
-    for (uint32_t i = 0; i < p->candidates.count; i++) p->chosen.items[p->chosen.count++] = i;
+    for (uint32_t i = 0; i < p->candidates.count; i++) SL_TRY(sli_choose(p, i));
     SL_TRY(find_unseen(p, &none, &added));
     p->out->count = UINT32_MAX;
     if (!p->witnesses.count) return keep_chosen(p);
