@@ -22,7 +22,8 @@
 
 #include <stdio.h>
 
-enum { USUAL_ROUNDS = 400, UPPER_STEPS = 30 };
+/// One of FEW_OF is few: what is left of so many is dealt with in the next round.
+enum { USUAL_ROUNDS = 400, UPPER_STEPS = 30, COARSE_STEPS = 8, FEW_OF = 100 };
 
 sl_place_options sl_place_options_default(void) {
     return (sl_place_options){.nodes = 10000};
@@ -166,7 +167,8 @@ static sl_status complete(sli_placer *p) {
 }
 
 static sl_status bound_above(sli_placer *p, bool *added) {
-    for (int i = 0; i < UPPER_STEPS; i++) {
+    const int most = p->coarse ? COARSE_STEPS : UPPER_STEPS;
+    for (int i = 0; i < most; i++) {
         bool none, one = false;
         sl_cover_problem problem = {0};
         sl_cover_result cover = {0};
@@ -177,7 +179,7 @@ static sl_status bound_above(sli_placer *p, bool *added) {
         SL_TRY(find_unseen(p, &none, &one));
         *added = *added || one;
         if (none) return keep_chosen(p);
-        if (!one) break;
+        if (!one || (p->coarse && p->gaps.count <= p->chosen.count / FEW_OF)) break;
     }
     return complete(p);
 }
@@ -241,6 +243,7 @@ static sl_status use_columns(sli_placer *p, sli_place_columns *c) {
 static sl_status bound_below(sli_placer *p, bool *gaps, bool *added) {
     sli_place_columns c;
     bool none = false;
+    const uint64_t lower = p->out->lower;
     p->looks.count = 0;
     SL_TRY(SL_ARRAY_ROOM(p->context, &p->looks, p->active.count));
     for (size_t i = 0; i < p->active.count; i++)
@@ -251,8 +254,12 @@ static sl_status bound_below(sli_placer *p, bool *gaps, bool *added) {
     sli_place_columns_destroy(p->context, &c);
     SL_TRY(status);
     *gaps = false;
+    const size_t active = p->active.count;
     SL_TRY(sli_activate(p, added));
-    if (*added) return SL_OK;
+    // On a large map the last few take many steps, and gaps lead to better ones.
+    const bool few =
+        p->active.count - active <= active / FEW_OF && p->out->lower - lower <= lower / FEW_OF;
+    if (*added && !few) return SL_OK;
     SL_TRY(find_unseen(p, &none, added));
     if (none) return keep_chosen(p);
     *gaps = true;
