@@ -97,6 +97,8 @@ def measure(program, name, limit, options, folder):
 
 def main():
     parsed, options = arguments()
+    # A shell's background jobs ignore interrupts, and so would their children.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     print("\t".join(COLUMNS), flush=True)
     held = True
     with tempfile.TemporaryDirectory() as folder:
