@@ -21,8 +21,11 @@ sl_status sli_try_seeing(sli_placer *p, size_t number, uint32_t witness) {
 sl_status sli_add_candidate(sli_placer *p, sl_point at, uint32_t *number) {
     bool clean;
     at = sli_coordinates(at);
-    for (*number = 0; *number < p->candidates.count; ++*number)
+    SL_TRY(sli_nearby_find_at(p->context, &p->candidate_bounds, at));
+    for (size_t i = 0; i < p->candidate_bounds.found.count; i++) {
+        *number = p->candidate_bounds.found.items[i];
         if (sli_same_point(p->candidates.items[*number].look.eye, at)) return SL_OK;
+    }
     SL_TRY(SL_ARRAY_ROOM(p->context, &p->candidates, 1));
     sli_candidate *c = &p->candidates.items[p->candidates.count];
     *c = (sli_candidate){0};
@@ -31,7 +34,10 @@ sl_status sli_add_candidate(sli_placer *p, sl_point at, uint32_t *number) {
     SL_TRY(sli_look_make(p->context, p->query, &p->memory, at, &c->look, &clean));
     if (!clean) return SL_OK;
     *number = (uint32_t)p->candidates.count++;
-    for (uint32_t i = 0; i < p->witnesses.count; i++) SL_TRY(sli_try_seeing(p, *number, i));
+    SL_TRY(sli_nearby_add(p->context, &p->candidate_bounds, c->look.bounds));
+    SL_TRY(sli_nearby_find(p->context, &p->witness_points, c->look.bounds));
+    for (size_t i = 0; i < p->witness_points.found.count; i++)
+        SL_TRY(sli_try_seeing(p, *number, p->witness_points.found.items[i]));
     return sli_try_germs(p, *number);
 }
 
@@ -39,12 +45,25 @@ const sli_look *sli_chosen_look(const sli_placer *p, size_t i) {
     return &p->candidates.items[p->chosen.items[i]].look;
 }
 
-bool sli_is_seen(const sli_placer *p, sl_point at) {
-    for (size_t i = 0; i < p->chosen.count; i++)
-        if (sli_box_holds(&sli_chosen_look(p, i)->bounds, at) &&
-            sli_look_holds(sli_chosen_look(p, i), at))
-            return true;
-    return false;
+sl_status sli_is_seen(sli_placer *p, sl_point at, bool *seen) {
+    const sli_box_list *found = &p->chosen_bounds.found;
+    *seen = false;
+    SL_TRY(sli_nearby_find_at(p->context, &p->chosen_bounds, at));
+    for (size_t i = 0; i < found->count && !*seen; i++)
+        *seen = sli_look_holds(sli_chosen_look(p, found->items[i]), at);
+    return SL_OK;
+}
+
+void sli_choose_none(sli_placer *p) {
+    p->chosen.count = 0;
+    sli_nearby_clear(p->context, &p->chosen_bounds);
+}
+
+sl_status sli_choose(sli_placer *p, uint32_t candidate) {
+    SL_TRY(SL_ARRAY_ROOM(p->context, &p->chosen, 1));
+    p->chosen.items[p->chosen.count++] = candidate;
+    return sli_nearby_add(p->context, &p->chosen_bounds,
+                          p->candidates.items[candidate].look.bounds);
 }
 
 sl_status sli_add_corners(sli_placer *p) {
@@ -92,10 +111,8 @@ static sl_point place_of(const sli_placer *p, const sli_place_columns *c, uint32
 
 sl_status sli_choose_column(sli_placer *p, const sli_place_columns *c, uint32_t column) {
     uint32_t number;
-    SL_TRY(SL_ARRAY_ROOM(p->context, &p->chosen, 1));
     SL_TRY(sli_add_candidate(p, place_of(p, c, column), &number));
-    if (number != UINT32_MAX) p->chosen.items[p->chosen.count++] = number;
-    return SL_OK;
+    return number == UINT32_MAX ? SL_OK : sli_choose(p, number);
 }
 
 // --- places on the lines of walls
@@ -260,10 +277,8 @@ sl_status sli_choose_fewest(sli_placer *p, sl_cover_problem *problem, sl_cover_r
     }
     const sl_cover_options options = sli_cover_options(p);
     SL_TRY(sl_cover_solve(p->context, problem, &options, cover));
-    p->chosen.count = 0;
-    SL_TRY(SL_ARRAY_ROOM(p->context, &p->chosen, cover->count));
-    for (uint32_t i = 0; i < cover->count; i++)
-        p->chosen.items[p->chosen.count++] = cover->columns[i];
+    sli_choose_none(p);
+    for (uint32_t i = 0; i < cover->count; i++) SL_TRY(sli_choose(p, cover->columns[i]));
     return SL_OK;
 }
 

@@ -28,6 +28,7 @@ void sli_crossings_destroy(sl_context *context, sli_crossings *crossings) {
     for (size_t i = 0; i < crossings->windows.count; i++)
         sl_free(context, crossings->windows.items[i].items);
     sl_free(context, crossings->windows.items);
+    sli_nearby_destroy(context, &crossings->near);
     *crossings = (sli_crossings){0};
 }
 
@@ -153,9 +154,12 @@ static bool is_parted(const collector *c, const sli_track *track, const sli_span
 
 /// The events of looks from `from` on, sorted.
 static sl_status list_events(collector *c, const sli_track *track, uint32_t mine, uint32_t from) {
+    sli_nearby *near = &c->crossings->near;
     c->fresh.count = 0;
-    for (uint32_t j = from; j < c->count; j++) {
-        if (j == mine) continue;
+    SL_TRY(sli_nearby_find(c->context, near, sli_track_box(track, &c->ground->space->bounds)));
+    for (size_t k = 0; k < near->found.count; k++) {
+        const uint32_t j = near->found.items[k];
+        if (j == mine || j < from) continue;
         SL_TRY(sli_track_spans(c->context, track, c->looks[j], false, &c->spans));
         SL_TRY(SL_ARRAY_ROOM(c->context, &c->fresh, 2 * c->spans.count));
         for (size_t i = 0; i < c->spans.count; i++) {
@@ -216,7 +220,9 @@ static sl_status add_whole(collector *c, uint32_t mine) {
     c->here_count = 0;
     c->hash = 0;
     for (uint32_t j = 0; j < c->count; j++)
-        if (sli_look_holds(c->looks[mine], c->looks[j]->eye)) enter(c, j);
+        if (sli_box_holds(&c->looks[mine]->bounds, c->looks[j]->eye) &&
+            sli_look_holds(c->looks[mine], c->looks[j]->eye))
+            enter(c, j);
     return emit(c, (sli_window_part){mine, SLI_NO_WINDOW, 0, 0});
 }
 
@@ -228,6 +234,8 @@ static sl_status collect(collector *c) {
     size_t at = 0, windows = 0;
     sli_crossings *all = c->crossings;
     for (uint32_t i = 0; i < c->count; i++) windows += c->looks[i]->window_count;
+    for (size_t i = all->near.boxes.count; i < c->count; i++)
+        SL_TRY(sli_nearby_add(c->context, &all->near, c->looks[i]->bounds));
     SL_TRY(SL_ARRAY_ROOM(c->context, &all->windows, windows - all->windows.count));
     while (all->windows.count < windows)
         all->windows.items[all->windows.count++] = (sli_crossing_events){0};

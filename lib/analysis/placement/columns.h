@@ -2,6 +2,7 @@
 #ifndef SLI_PLACE_COLUMNS_H
 #define SLI_PLACE_COLUMNS_H
 
+#include "analysis/placement/nearby.h"
 #include "analysis/placement/place_ground.h"
 #include "analysis/placement/spans.h"
 
@@ -36,6 +37,7 @@ typedef SL_ARRAY(sli_crossing_event) sli_crossing_events;
 typedef struct sli_crossings {
     uint32_t known; ///< looks whose events are there
     SL_ARRAY(sli_crossing_events) windows;
+    sli_nearby near; ///< bounds of looks
 } sli_crossings;
 
 void sli_crossings_destroy(sl_context *context, sli_crossings *crossings); ///< and zeroes it

@@ -18,6 +18,8 @@ typedef struct gap_finder {
     const sli_look *const *looks;
     uint32_t count;
     sli_spans spans, one;
+    sli_nearby near;    ///< bounds of looks
+    sli_box_list found; ///< walls or cells near a window
     sli_window_parts *out;
 } gap_finder;
 
@@ -31,8 +33,10 @@ static sl_status add_span(gap_finder *g, const sl_segment *line, sli_spot a, sli
 /// A wall along a window is a border of what is beyond.
 static sl_status add_wall_spans(gap_finder *g, const sli_track *track) {
     const sl_segment *line = &track->line;
-    for (uint32_t i = 0; i < g->ground->space->wall_count; i++) {
-        const sl_wall *w = &g->ground->space->walls[i];
+    const sl_box box = sli_track_box(track, &g->ground->space->bounds);
+    SL_TRY(sli_box_tree_find(g->context, &g->ground->walls, &box, &g->found));
+    for (size_t i = 0; i < g->found.count; i++) {
+        const sl_wall *w = &g->ground->space->walls[g->found.items[i]];
         if (sli_orient(line->a, line->b, w->a) || sli_orient(line->a, line->b, w->b)) continue;
         SL_TRY(add_span(g, line, sli_spot_of_point(line, w->a), sli_spot_of_point(line, w->b)));
     }
@@ -71,8 +75,10 @@ static sl_status add_cell_span(gap_finder *g, const sli_track *track, const sl_c
 /// What is not inside need not be seen.
 static sl_status add_outside_spans(gap_finder *g, const sli_track *track) {
     const sl_space *space = g->ground->space;
-    for (uint32_t c = 0; g->ground->open && c < space->cell_count; c++)
-        if (!space->cells[c].inside) SL_TRY(add_cell_span(g, track, &space->cells[c]));
+    const sl_box box = sli_track_box(track, &space->bounds);
+    SL_TRY(sli_box_tree_find(g->context, &g->ground->outside, &box, &g->found));
+    for (size_t i = 0; i < g->found.count; i++)
+        SL_TRY(add_cell_span(g, track, &space->cells[g->ground->outer[g->found.items[i]]]));
     return SL_OK;
 }
 
@@ -113,7 +119,9 @@ static sl_status check_window(gap_finder *g, uint32_t mine, uint32_t window) {
     const sli_track track = sli_track_of(g->looks[mine], window);
     bool any;
     g->spans.count = 0;
-    for (uint32_t j = 0; j < g->count; j++) {
+    SL_TRY(sli_nearby_find(g->context, &g->near, sli_track_box(&track, &g->ground->space->bounds)));
+    for (size_t k = 0; k < g->near.found.count; k++) {
+        const uint32_t j = g->near.found.items[k];
         if (j == mine) continue;
         SL_TRY(sli_track_spans(g->context, &track, g->looks[j], true, &g->one));
         SL_TRY(SL_ARRAY_ROOM(g->context, &g->spans, g->one.count));
@@ -128,6 +136,8 @@ static sl_status check_window(gap_finder *g, uint32_t mine, uint32_t window) {
 }
 
 static sl_status find_gaps(gap_finder *g) {
+    for (uint32_t i = 0; i < g->count; i++)
+        SL_TRY(sli_nearby_add(g->context, &g->near, g->looks[i]->bounds));
     for (uint32_t i = 0; i < g->count; i++) {
         SL_TRY(sl_check_cancelled(g->context));
         for (uint32_t w = 0; w < g->looks[i]->window_count; w++) SL_TRY(check_window(g, i, w));
@@ -137,10 +147,13 @@ static sl_status find_gaps(gap_finder *g) {
 
 sl_status sli_gaps_find(sl_context *context, const sli_ground *ground, const sli_look *const *looks,
                         uint32_t count, sli_window_parts *out) {
-    gap_finder g = {context, ground, looks, count, {0}, {0}, out};
+    gap_finder g = {
+        .context = context, .ground = ground, .looks = looks, .count = count, .out = out};
     out->count = 0;
     const sl_status status = find_gaps(&g);
     sl_free(context, g.spans.items);
     sl_free(context, g.one.items);
+    sl_free(context, g.found.items);
+    sli_nearby_destroy(context, &g.near);
     return status;
 }

@@ -27,7 +27,10 @@ static sl_status try_germ(sli_placer *p, size_t number, uint32_t germ) {
 }
 
 sl_status sli_try_germs(sli_placer *p, size_t candidate) {
-    for (uint32_t i = 0; i < p->germs.count; i++) SL_TRY(try_germ(p, candidate, i));
+    const sl_box bounds = p->candidates.items[candidate].look.bounds;
+    SL_TRY(sli_nearby_find(p->context, &p->germ_points, bounds));
+    for (size_t i = 0; i < p->germ_points.found.count; i++)
+        SL_TRY(try_germ(p, candidate, p->germ_points.found.items[i]));
     return SL_OK;
 }
 
@@ -37,8 +40,9 @@ sl_status sli_add_germ(sli_placer *p, const sli_window_part *gap, bool *added) {
     uint32_t number;
     germ.at = sli_track_at(&germ.track, germ.share);
     *added = false;
-    for (size_t i = 0; i < p->germs.count; i++) {
-        const sli_germ *g = &p->germs.items[i];
+    SL_TRY(sli_nearby_find_at(p->context, &p->germ_points, germ.at));
+    for (size_t i = 0; i < p->germ_points.found.count; i++) {
+        const sli_germ *g = &p->germs.items[p->germ_points.found.items[i]];
         if (g->share == germ.share && g->track.seen == germ.track.seen &&
             sli_same_point(g->track.line.a, germ.track.line.a) &&
             sli_same_point(g->track.line.b, germ.track.line.b))
@@ -47,13 +51,16 @@ sl_status sli_add_germ(sli_placer *p, const sli_window_part *gap, bool *added) {
     if (!p->listed) SL_TRY(sli_add_candidate(p, germ.track.line.b, &number));
     SL_TRY(SL_ARRAY_ROOM(p->context, &p->germs, 1));
     p->germs.items[p->germs.count] = germ;
-    for (size_t i = 0; i < p->candidates.count; i++) {
-        const size_t before = p->candidates.items[i].germs.count;
-        SL_TRY(try_germ(p, i, (uint32_t)p->germs.count));
-        *added = *added || p->candidates.items[i].germs.count > before;
+    SL_TRY(sli_nearby_find_at(p->context, &p->candidate_bounds, germ.at));
+    for (size_t i = 0; i < p->candidate_bounds.found.count; i++) {
+        const uint32_t candidate = p->candidate_bounds.found.items[i];
+        const size_t before = p->candidates.items[candidate].germs.count;
+        SL_TRY(try_germ(p, candidate, (uint32_t)p->germs.count));
+        *added = *added || p->candidates.items[candidate].germs.count > before;
     }
-    p->germs.count += *added;
-    return SL_OK;
+    if (!*added) return SL_OK;
+    p->germs.count++;
+    return sli_nearby_add(p->context, &p->germ_points, (sl_box){germ.at, germ.at});
 }
 
 /// The candidate that sees most of the germs from `first` on that are not seen; UINT32_MAX: none.
@@ -74,8 +81,7 @@ static sl_status choose_for(sli_placer *p, size_t first, bool *seen) {
     for (;;) {
         const uint32_t best = best_for(p, first, seen);
         if (best == UINT32_MAX) return SL_OK;
-        SL_TRY(SL_ARRAY_ROOM(p->context, &p->chosen, 1));
-        p->chosen.items[p->chosen.count++] = best;
+        SL_TRY(sli_choose(p, best));
         const sli_candidate *c = &p->candidates.items[best];
         for (size_t k = 0; k < c->germs.count; k++) seen[c->germs.items[k]] = true;
     }
@@ -97,8 +103,7 @@ sl_status sli_choose_for_gaps(sli_placer *p, bool *more) {
         status = sli_add_candidate(p, apex, &number);
         bool there = number == UINT32_MAX;
         for (size_t k = 0; k < p->chosen.count; k++) there = there || p->chosen.items[k] == number;
-        if (status == SL_OK) status = SL_ARRAY_ROOM(p->context, &p->chosen, 1);
-        if (status == SL_OK && !there) p->chosen.items[p->chosen.count++] = number;
+        if (status == SL_OK && !there) status = sli_choose(p, number);
     }
     *more = p->chosen.count > before;
     return status;

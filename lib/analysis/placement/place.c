@@ -23,7 +23,8 @@
 
 #include <stdio.h>
 
-enum { USUAL_ROUNDS = 400, UPPER_STEPS = 30 };
+/// One of FEW_OF is few: what is left of so many is dealt with in the next round.
+enum { USUAL_ROUNDS = 400, UPPER_STEPS = 30, COARSE_STEPS = 8, FEW_OF = 100 };
 
 sl_place_options sl_place_options_default(void) {
     return (sl_place_options){.nodes = 10000};
@@ -60,7 +61,12 @@ void sli_placer_destroy(sli_placer *p) {
     sl_free(p->context, p->germs.items);
     sl_free(p->context, p->spans.items);
     sl_free(p->context, p->active.items);
+    sl_free(p->context, p->is_active.items);
     sl_free(p->context, p->chosen.items);
+    sli_nearby_destroy(p->context, &p->witness_points);
+    sli_nearby_destroy(p->context, &p->germ_points);
+    sli_nearby_destroy(p->context, &p->candidate_bounds);
+    sli_nearby_destroy(p->context, &p->chosen_bounds);
     sl_free(p->context, (void *)p->looks.items);
     sl_free(p->context, p->unseen.items);
     sli_crossings_destroy(p->context, &p->crossings);
@@ -161,7 +167,8 @@ static sl_status complete(sli_placer *p) {
 }
 
 static sl_status bound_above(sli_placer *p, bool *added) {
-    for (int i = 0; i < UPPER_STEPS; i++) {
+    const int most = p->coarse ? COARSE_STEPS : UPPER_STEPS;
+    for (int i = 0; i < most; i++) {
         bool none, one = false;
         sl_cover_problem problem = {0};
         sl_cover_result cover = {0};
@@ -172,7 +179,7 @@ static sl_status bound_above(sli_placer *p, bool *added) {
         SL_TRY(find_unseen(p, &none, &one));
         *added = *added || one;
         if (none) return keep_chosen(p);
-        if (!one) break;
+        if (!one || (p->coarse && p->gaps.count <= p->chosen.count / FEW_OF)) break;
     }
     return complete(p);
 }
@@ -223,7 +230,7 @@ static sl_status use_columns(sli_placer *p, sli_place_columns *c) {
     const sl_cover_options options = sli_cover_options(p);
     sl_cover_result cover = {0};
     sl_status status = sl_cover_solve(p->context, &problem, &options, &cover);
-    p->chosen.count = 0;
+    sli_choose_none(p);
     for (uint32_t i = 0; status == SL_OK && i < cover.count; i++)
         status = sli_choose_column(p, c, cover.columns[i]);
     if (status == SL_OK && cover.lower > p->out->lower) status = keep_lower(p, c, &cover);
@@ -236,6 +243,7 @@ static sl_status use_columns(sli_placer *p, sli_place_columns *c) {
 static sl_status bound_below(sli_placer *p, bool *gaps, bool *added) {
     sli_place_columns c;
     bool none = false;
+    const uint64_t lower = p->out->lower;
     p->looks.count = 0;
     SL_TRY(SL_ARRAY_ROOM(p->context, &p->looks, p->active.count));
     for (size_t i = 0; i < p->active.count; i++)
@@ -246,8 +254,12 @@ static sl_status bound_below(sli_placer *p, bool *gaps, bool *added) {
     sli_place_columns_destroy(p->context, &c);
     SL_TRY(status);
     *gaps = false;
+    const size_t active = p->active.count;
     SL_TRY(sli_activate(p, added));
-    if (*added) return SL_OK;
+    // On a large map the last few take many steps, and gaps lead to better ones.
+    const bool few =
+        p->active.count - active <= active / FEW_OF && p->out->lower - lower <= lower / FEW_OF;
+    if (*added && !few) return SL_OK;
     SL_TRY(find_unseen(p, &none, added));
     if (none) return keep_chosen(p);
     *gaps = true;
@@ -296,8 +308,7 @@ static sl_status take_listed(sli_placer *p) {
                        digits, o->places[i].x, digits, o->places[i].y);
     }
     p->listed = true;
-    SL_TRY(SL_ARRAY_ROOM(p->context, &p->chosen, p->candidates.count));
-    for (uint32_t i = 0; i < p->candidates.count; i++) p->chosen.items[p->chosen.count++] = i;
+    for (uint32_t i = 0; i < p->candidates.count; i++) SL_TRY(sli_choose(p, i));
     SL_TRY(find_unseen(p, &none, &added));
     p->out->count = UINT32_MAX;
     if (!p->witnesses.count) return keep_chosen(p);

@@ -33,6 +33,36 @@ static sl_status cut_at(sl_context *context, const sl_space *space, sl_point at,
     return SL_OK;
 }
 
+static sl_status index_walls(sl_context *context, sli_ground *out) {
+    const sl_space *space = out->space;
+    sl_box *boxes = sl_alloc_array(context, space->wall_count, sizeof *boxes);
+    if (!boxes) return SL_NO_MEMORY;
+    for (uint32_t i = 0; i < space->wall_count; i++)
+        boxes[i] = sli_box_around(space->walls[i].a, space->walls[i].b);
+    const sl_status status = sli_box_tree_create(context, boxes, space->wall_count, &out->walls);
+    sl_free(context, boxes);
+    return status;
+}
+
+static sl_status index_outside(sl_context *context, sli_ground *out) {
+    const sl_space *space = out->space;
+    sl_box *boxes = sl_alloc_array(context, space->cell_count, sizeof *boxes);
+    out->outer = sl_alloc_array(context, space->cell_count, sizeof *out->outer);
+    uint32_t count = 0;
+    sl_status status = boxes && out->outer ? SL_OK : SL_NO_MEMORY;
+    for (uint32_t c = 0; status == SL_OK && c < space->cell_count; c++) {
+        const sl_point *corners = space->vertices + space->cells[c].first_vertex;
+        if (space->cells[c].inside) continue;
+        boxes[count] = sli_box_around(corners[0], corners[0]);
+        for (uint32_t i = 1; i < space->cells[c].vertex_count; i++)
+            boxes[count] = sli_box_with(boxes[count], corners[i]);
+        out->outer[count++] = c;
+    }
+    if (status == SL_OK) status = sli_box_tree_create(context, boxes, count, &out->outside);
+    sl_free(context, boxes);
+    return status;
+}
+
 sl_status sli_ground_make(sl_context *context, const sl_space *space, const sl_map *map,
                           sli_ground *out) {
     *out = (sli_ground){.space = space, .end_count = 2 * (size_t)space->wall_count};
@@ -55,11 +85,15 @@ sl_status sli_ground_make(sl_context *context, const sl_space *space, const sl_m
         const uint32_t *cell = space->portals[i].cell;
         if (space->cells[cell[0]].inside != space->cells[cell[1]].inside) out->open = true;
     }
-    return SL_OK;
+    SL_TRY(index_walls(context, out));
+    return out->open ? index_outside(context, out) : SL_OK;
 }
 
 void sli_ground_destroy(sl_context *context, sli_ground *ground) {
     sl_free(context, ground->ends);
+    sl_free(context, ground->outer);
+    sli_box_tree_destroy(context, &ground->walls);
+    sli_box_tree_destroy(context, &ground->outside);
     *ground = (sli_ground){0};
 }
 

@@ -2,6 +2,7 @@
 #ifndef SLI_PLACE_GROUND_H
 #define SLI_PLACE_GROUND_H
 
+#include "analysis/placement/nearby.h"
 #include "sightline/map.h"
 #include "sightline/space.h"
 
@@ -15,6 +16,9 @@ typedef struct sli_ground {
     bool open;          ///< portals lead out of what is inside: windows may, too
     sli_wall_end *ends; ///< sorted by their points
     size_t end_count;
+    sli_box_tree walls;   ///< boxes of the space's walls
+    sli_box_tree outside; ///< of its cells that are not inside, where it is open; no others
+    uint32_t *outer;      ///< their numbers
 } sli_ground;
 
 /// Walls meet at common ends only, but for shut doors, which may end within others: those are cut

@@ -34,12 +34,17 @@ typedef struct sli_placer {
     bool coarse; ///< set covers without trees
     sl_region memory;
     sl_random random;
-    SL_ARRAY(sli_look) witnesses;       ///< all that were made: the rows of the upper bound
-    SL_ARRAY(sli_germ) germs;           ///< more rows of the upper bound
+    SL_ARRAY(sli_look) witnesses; ///< all that were made: the rows of the upper bound
+    sli_nearby witness_points;
+    SL_ARRAY(sli_germ) germs; ///< more rows of the upper bound
+    sli_nearby germ_points;
     sli_spans spans;                    ///< scratch
     SL_ARRAY(uint32_t) active;          ///< those of the lower bound
+    SL_ARRAY(bool) is_active;           ///< by witness
     SL_ARRAY(sli_candidate) candidates; ///< the columns of the upper bound
+    sli_nearby candidate_bounds;        ///< of what they see
     SL_ARRAY(uint32_t) chosen;          ///< candidates
+    sli_nearby chosen_bounds;           ///< of what they see
     SL_ARRAY(const sli_look *) looks;   ///< scratch
     SL_ARRAY(sli_hard_witness) unseen;  ///< scratch
     SL_ARRAY(sl_segment) lines;         ///< of walls that gaps' apexes hid, and through two corners
@@ -96,6 +101,9 @@ void sli_choice_destroy(sl_context *context, sl_cover_problem *problem, sl_cover
 /// Notes a witness where a candidate sees it.
 sl_status sli_try_seeing(sli_placer *placer, size_t candidate, uint32_t witness);
 const sli_look *sli_chosen_look(const sli_placer *placer, size_t i);
-bool sli_is_seen(const sli_placer *placer, sl_point at); ///< by a chosen candidate
+sl_status sli_is_seen(sli_placer *placer, sl_point at, bool *seen); ///< by a chosen candidate
+/// Chooses no candidate; and one more.
+void sli_choose_none(sli_placer *placer);
+sl_status sli_choose(sli_placer *placer, uint32_t candidate);
 
 #endif

@@ -289,6 +289,14 @@ static bool may_meet(const sli_track *track, const sl_box *box) {
            sli_lesser(p.y, q.y) <= box->max.y + y && sli_greater(p.y, q.y) >= box->min.y - y;
 }
 
+sl_box sli_track_box(const sli_track *track, const sl_box *bounds) {
+    const double x = 0x1p-38 * fmax(fabs(bounds->min.x), fabs(bounds->max.x));
+    const double y = 0x1p-38 * fmax(fabs(bounds->min.y), fabs(bounds->max.y));
+    const sl_point p = track->line.b, q = track->far;
+    return (sl_box){{sli_lesser(p.x, q.x) - x, sli_lesser(p.y, q.y) - y},
+                    {sli_greater(p.x, q.x) + x, sli_greater(p.y, q.y) + y}};
+}
+
 sl_status sli_track_spans(sl_context *context, const sli_track *track, const sli_look *look,
                           bool beyond, sli_spans *out) {
     const spanner s = {context, track, look, beyond, out};

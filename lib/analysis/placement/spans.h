@@ -43,6 +43,10 @@ sl_point sli_track_at(const sli_track *track, double share);
 /// rounded.
 sl_point sli_track_beside(const sli_track *track, double share, int side, double depth);
 
+/// The box around a track, wide enough for all that was rounded on a map without coordinates beyond
+/// `bounds`: only regions whose bounds meet it have parts of the track.
+sl_box sli_track_box(const sli_track *track, const sl_box *bounds);
+
 /// The parts of a track in the region of a look, ascending: they do not touch. `beyond`: those
 /// where, but for single points, what is just beyond the window (at its unseen side) is in the
 /// region, too. Else those with any point in the closed region, single spots among them.

@@ -55,7 +55,12 @@ sl_status sli_add_witness(sli_placer *p, sl_point at, bool *added) {
     }
     const uint32_t number = (uint32_t)p->witnesses.count;
     p->witnesses.items[p->witnesses.count++] = look;
-    for (size_t i = 0; i < p->candidates.count; i++) SL_TRY(sli_try_seeing(p, i, number));
+    SL_TRY(SL_ARRAY_ROOM(p->context, &p->is_active, 1));
+    p->is_active.items[p->is_active.count++] = false;
+    SL_TRY(sli_nearby_add(p->context, &p->witness_points, (sl_box){at, at}));
+    SL_TRY(sli_nearby_find_at(p->context, &p->candidate_bounds, at));
+    for (size_t i = 0; i < p->candidate_bounds.found.count; i++)
+        SL_TRY(sli_try_seeing(p, p->candidate_bounds.found.items[i], number));
     return SL_OK;
 }
 
@@ -76,29 +81,32 @@ static bool is_convex(const sl_outline *o, uint32_t i) {
            sli_orient(s->start, next->start, side_of(o, next->next)->start) > 0;
 }
 
+/// One in the corner behind side i, where it is convex; one before the side, where it is between
+/// two corners that are not.
+static sl_status add_at_side(sli_placer *p, const sl_outline *o, uint32_t i, uint32_t before) {
+    const sl_side *s = side_of(o, i), *next = side_of(o, s->next);
+    const sl_point a = s->start, b = next->start;
+    bool added = false;
+    if (is_convex(o, i)) return add_near(p, b, a, side_of(o, next->next)->start, 1e-4);
+    if (is_convex(o, before)) return SL_OK;
+    const sl_point m = from_to(a, b, 0.25 + 0.5 * some(p) / 1.5);
+    for (double h = 1e-3; !added && h > 1e-8; h /= 8)
+        SL_TRY(
+            sli_add_witness(p, (sl_point){m.x - h * (b.y - a.y), m.y + h * (b.x - a.x)}, &added));
+    return SL_OK;
+}
+
 sl_status sli_add_first_witnesses(sli_placer *p) {
     const sl_outline *o;
     SL_TRY(sl_query_outline(p->context, p->query, &o));
-    const uint32_t rooms = o->room_count;
-    for (uint32_t r = 0; r < rooms; r++)
-        for (uint32_t i = o->first[r]; i < o->first[r + 1]; i++) {
-            const sl_side *s = side_of(o, i), *next = side_of(o, s->next);
-            if (sl_side_is_portal(s)) continue;
-            const sl_point end = side_of(o, next->next)->start;
-            uint32_t before = i;
-            while (side_of(o, before)->next != i) before = side_of(o, before)->next;
-            if (is_convex(o, i))
-                SL_TRY(add_near(p, next->start, s->start, end, 1e-4));
-            else if (!is_convex(o, before)) {
-                bool added = false;
-                const sl_point a = s->start, b = next->start;
-                const sl_point m = from_to(a, b, 0.25 + 0.5 * some(p) / 1.5);
-                for (double h = 1e-3; !added && h > 1e-8; h /= 8)
-                    SL_TRY(sli_add_witness(
-                        p, (sl_point){m.x - h * (b.y - a.y), m.y + h * (b.x - a.x)}, &added));
-            }
-        }
-    return SL_OK;
+    uint32_t *before = sl_alloc_array(p->context, o->side_count, sizeof *before);
+    if (!before) return SL_NO_MEMORY;
+    for (uint32_t i = 0; i < o->side_count; i++) before[side_of(o, i)->next] = i;
+    sl_status status = SL_OK;
+    for (uint32_t i = 0; i < o->first[o->room_count] && status == SL_OK; i++)
+        if (!sl_side_is_portal(side_of(o, i))) status = add_at_side(p, o, i, before[i]);
+    sl_free(p->context, before);
+    return status;
 }
 
 sl_status sli_add_beyond(sli_placer *p, const sli_window_part *gap, bool *added) {
@@ -114,7 +122,9 @@ sl_status sli_add_beyond(sli_placer *p, const sli_window_part *gap, bool *added)
             const double share = shares[s] + 0.04 * (some(p) - 0.75);
             const sl_point at = sli_track_beside(&t, gap->from + share * (gap->to - gap->from), -1,
                                                  depths[d] * length);
-            if (!sl_space_is_inside(p->ground.space, at) || sli_is_seen(p, at)) continue;
+            bool seen = true;
+            if (sl_space_is_inside(p->ground.space, at)) SL_TRY(sli_is_seen(p, at, &seen));
+            if (seen) continue;
             SL_TRY(sli_add_witness(p, at, added));
             if (*added) return SL_OK;
         }
@@ -127,18 +137,33 @@ static int compare_areas(const void *left, const void *right) {
     return (a->witness > b->witness) - (a->witness < b->witness);
 }
 
-static bool is_active(const sli_placer *p, uint32_t witness) {
-    for (size_t i = 0; i < p->active.count; i++)
-        if (p->active.items[i] == witness) return true;
-    return false;
+/// Whether one that has just become active sees a witness; `fresh` has their bounds.
+static sl_status is_seen_by_fresh(sli_placer *p, sli_nearby *fresh, size_t before, uint32_t witness,
+                                  bool *seen) {
+    const sl_point at = p->witnesses.items[witness].eye;
+    *seen = false;
+    SL_TRY(sli_nearby_find_at(p->context, fresh, at));
+    for (size_t i = 0; i < fresh->found.count && !*seen; i++) {
+        const uint32_t other = p->active.items[before + fresh->found.items[i]];
+        *seen = sli_look_holds(&p->witnesses.items[other], at);
+    }
+    return SL_OK;
 }
 
-/// Whether a witness sees one that has become active since `from`.
-static bool sees_one_since(const sli_placer *p, size_t from, uint32_t witness) {
-    const sl_point at = p->witnesses.items[witness].eye;
-    for (size_t i = from; i < p->active.count; i++)
-        if (sli_look_holds(&p->witnesses.items[p->active.items[i]], at)) return true;
-    return false;
+static sl_status activate(sli_placer *p, sli_nearby *fresh) {
+    const size_t before = p->active.count, room = before / 4 + 16;
+    SL_TRY(SL_ARRAY_ROOM(p->context, &p->active, p->unseen.count));
+    for (int pass = 0; pass < 2; pass++)
+        for (size_t i = 0; i < p->unseen.count && (!pass || p->active.count < before + room); i++) {
+            const uint32_t witness = p->unseen.items[i].witness;
+            bool seen = p->is_active.items[witness];
+            if (!pass) SL_TRY(is_seen_by_fresh(p, fresh, before, witness, &seen));
+            if (seen) continue;
+            p->active.items[p->active.count++] = witness;
+            p->is_active.items[witness] = true;
+            SL_TRY(sli_nearby_add(p->context, fresh, p->witnesses.items[witness].bounds));
+        }
+    return SL_OK;
 }
 
 sl_status sli_activate(sli_placer *p, bool *added) {
@@ -146,23 +171,19 @@ sl_status sli_activate(sli_placer *p, bool *added) {
     p->unseen.count = 0;
     for (uint32_t i = 0; i < p->witnesses.count; i++) {
         const sli_look *w = &p->witnesses.items[i];
-        if (is_active(p, i) || sli_is_seen(p, w->eye)) continue;
+        bool seen = p->is_active.items[i];
+        if (!seen) SL_TRY(sli_is_seen(p, w->eye, &seen));
+        if (seen) continue;
         SL_TRY(SL_ARRAY_ROOM(p->context, &p->unseen, 1));
         p->unseen.items[p->unseen.count++] = (sli_hard_witness){w->area, i};
     }
     if (p->unseen.count)
         qsort(p->unseen.items, p->unseen.count, sizeof *p->unseen.items, compare_areas);
-    const size_t room = before / 4 + 16;
-    SL_TRY(SL_ARRAY_ROOM(p->context, &p->active, p->unseen.count));
-    for (int pass = 0; pass < 2; pass++)
-        for (size_t i = 0; i < p->unseen.count && (!pass || p->active.count < before + room); i++) {
-            const uint32_t witness = p->unseen.items[i].witness;
-            if (witness == UINT32_MAX || (!pass && sees_one_since(p, before, witness))) continue;
-            p->active.items[p->active.count++] = witness;
-            p->unseen.items[i].witness = UINT32_MAX;
-        }
+    sli_nearby fresh = {0};
+    const sl_status status = activate(p, &fresh);
+    sli_nearby_destroy(p->context, &fresh);
     *added = p->active.count > before;
-    return SL_OK;
+    return status;
 }
 
 // --- parts of the plan
