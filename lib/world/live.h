@@ -94,6 +94,7 @@ typedef struct sli_live {
     SL_ARRAY(sli_live_cell) cells;
     sli_bucket_list new_buckets, old_buckets;
     SL_ARRAY(sl_point) loop;
+    sl_cell ground;         ///< what new cells have for `inside` and `solid`
     sli_numbers gone, came; ///< cells, as of the last edit
 } sli_live;
 

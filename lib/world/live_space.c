@@ -217,11 +217,25 @@ static void drop_cell(sli_live *l, uint32_t number) {
         l->room_of[i] = SL_NO_CELL;
     }
     sli_block_give(&l->corners, s->neighbour, first, cell->vertex_count);
+    s->inside_count -= cell->inside;
     *cell = (sl_cell){0};
     l->half_of[number] = l->free_cell;
     l->free_cell = number + 1;
     l->live_count--;
     l->gone.items[l->gone.count++] = number;
+}
+
+/// What the cells that go have in common. Where they differ, new ones count as inside.
+static void find_ground(sli_live *l) {
+    const sl_cell *first = NULL;
+    l->ground = (sl_cell){.inside = 1};
+    for (size_t i = 0; i < l->old.count; i++) {
+        const sl_cell *cell = &l->space.cells[l->old.items[i]];
+        if (l->dissolved[l->old.items[i]] != l->now) continue;
+        if (!first) first = cell;
+        if (cell->inside != first->inside || cell->solid != first->solid) return;
+    }
+    if (first) l->ground = (sl_cell){.inside = first->inside, .solid = first->solid};
 }
 
 static void drop_old(sli_live *l) {
@@ -249,8 +263,12 @@ static void place_cell(sli_live *l, sli_live_cell *c) {
         for (int k = 0; k < 3; k++, half = sli_live_next(l, half)) l->owner[half] = number;
     }
     const uint32_t first = sli_block_take(&l->corners, s->neighbour, c->corners);
-    s->cells[number] = (sl_cell){
-        .first_vertex = first, .vertex_count = c->corners, .first_directed = first, .inside = 1};
+    s->cells[number] = (sl_cell){.first_vertex = first,
+                                 .vertex_count = c->corners,
+                                 .first_directed = first,
+                                 .inside = l->ground.inside,
+                                 .solid = l->ground.solid};
+    s->inside_count += l->ground.inside;
     l->outline.first[number] = first;
     l->half_of[number] = c->half;
     uint32_t half = c->half;
@@ -358,6 +376,7 @@ static void write_cell(sli_live *l, const sli_live_cell *c) {
 
 void sli_live_write(sli_live *l) {
     drop_glass(l);
+    find_ground(l);
     drop_old(l);
     size_t fresh = 0;
     for (size_t i = 0; i < l->cells.count; i++) {
@@ -366,6 +385,5 @@ void sli_live_write(sli_live *l) {
         l->cells.items[fresh++] = l->cells.items[i];
     }
     for (size_t i = 0; i < fresh; i++) write_cell(l, &l->cells.items[i]);
-    l->space.inside_count = l->live_count;
     if (l->new_glass) sort_glass(l);
 }

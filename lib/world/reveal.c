@@ -5,8 +5,8 @@
 /// other cells see these. And two cells that stay see each other newly by lines through a wall that
 /// went: a search with that wall as the first portal of its sequence follows no others. Both cells
 /// saw a cell that went (world_rows.h), so the search enters no cells but those and the ones that
-/// came. It starts where some cell that it may find is not in the row yet, and ends when it has
-/// found all of these.
+/// came. It starts where some cell that it may find is not in the row yet, goes where these may be
+/// (aim.c), and ends when it has found all of them.
 ///
 ///          a       |            The lines from a through the wall w are few:
 ///            `.    w            a narrow cone, and what it meets behind w.
@@ -130,6 +130,7 @@ static sl_status reveal(sl_context *context, const sli_live *live, sli_world_row
     SL_TRY(SL_ARRAY_ROOM(context, &r->wanted, r->changed.count));
     SL_TRY(see_from_new(context, live, r));
     for (size_t i = 0; i < count; i++) SL_TRY(see_through(context, live, r, opened[i]));
+    r->wanted_count = 0;
     SL_TRY(sli_reveal_along(context, live, r));
     SL_TRY(SL_ARRAY_ROOM(context, &r->first, r->stayed + 1));
     SL_TRY(SL_ARRAY_ROOM(context, &r->more, r->pairs.count));

@@ -302,3 +302,21 @@ sl_status sl_world_copy_space(sl_context *context, const sl_world *world, uint32
         sl_space_destroy(context, &space);
     return status;
 }
+
+sl_status sl_world_mark_inside(sl_context *context, sl_world *world) {
+    sl_space *live = &world->live.space;
+    sl_space space = {0};
+    uint32_t *numbers = sl_alloc_array(context, live->cell_count, sizeof *numbers);
+    sl_status status = numbers ? SL_OK : SL_NO_MEMORY;
+    if (status == SL_OK) status = sl_world_copy_space(context, world, numbers, &space);
+    for (uint32_t c = 0; c < live->cell_count && status == SL_OK; c++) {
+        if (numbers[c] == SL_NO_CELL) continue;
+        live->cells[c].inside = space.cells[numbers[c]].inside;
+        live->cells[c].solid = space.cells[numbers[c]].solid;
+    }
+    if (status == SL_OK) live->inside_count = space.inside_count;
+    sli_query_space_changed(context, world->query, &world->live.outline);
+    sl_space_destroy(context, &space);
+    sl_free(context, numbers);
+    return status;
+}

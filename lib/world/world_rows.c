@@ -5,7 +5,7 @@
 /// portal sequence that is seen, and for each portal that leads out of it. Where few walls stand in
 /// open ground there are many sequences. Once the tests have cost as much as the default method
 /// would, that one sees all cells of a copy, and the rows that are not settled are taken from it.
-#include "world/world_rows.h"
+#include "world/aim.h"
 
 #include "cell_to_cell/search/directions.h"
 #include "sightline/effects.h"
@@ -84,6 +84,7 @@ typedef struct step {
     bool grazing; ///< the sequence is no more than grazed
     /// As of sli_directions: the portals whose directions bound those of all; NULL for none yet.
     const sl_directed_portal *least, *most;
+    const sl_directed_portal *first; ///< that was crossed; NULL for none yet
 } step;
 
 static sl_status see(sl_context *context, sli_world_rows *r, uint32_t cell) {
@@ -125,7 +126,10 @@ SLI_VISIT sl_status cross(sl_context *context, void *job, const void *last, void
     sli_world_rows *r = job;
     const step *from = last;
     const sl_directed_portal *directed = &r->search.space->directed[number];
-    step to = {.at.cell = directed->cell, .least = from->least, .most = from->most};
+    step to = {.at.cell = directed->cell,
+               .least = from->least,
+               .most = from->most,
+               .first = from->first ? from->first : directed};
     sl_stab_verdict verdict;
     if (r->within_places && !r->places[directed->cell]) return SL_OK;
     if (!add_direction(&to, directed)) return SL_OK;
@@ -137,9 +141,13 @@ SLI_VISIT sl_status cross(sl_context *context, void *job, const void *last, void
         sli_portal_search_pop(&r->search);
         return SL_OK;
     }
+    SL_TRY(see(context, r, directed->cell));
+    if (!sli_aim_may_hit(r, to.first, directed)) {
+        sli_portal_search_pop(&r->search);
+        return SL_OK;
+    }
     *(step *)next = to;
     r->search.count++;
-    SL_TRY(see(context, r, directed->cell));
     return r->seen.count % 64 ? SL_OK : sl_check_cancelled(context);
 }
 
@@ -170,6 +178,7 @@ static sl_status search(sl_context *context, const sli_live *live, sli_world_row
     sli_world_rows_next_mark(r);
     r->seen.count = 0;
     SL_TRY(start_search(context, live, r));
+    SL_TRY(sli_aim(context, r));
     sl_status status = SL_OK;
     for (size_t i = 0; i < count && status == SL_OK; i++)
         status = sli_portal_search_push(context, &r->search, held[i].left, held[i].right, &verdict);
@@ -414,6 +423,7 @@ void sli_world_rows_destroy(sl_context *context, sli_world_rows *r) {
     sl_free(context, r->unsettled.items);
     sl_free(context, r->seen.items);
     sl_free(context, r->wanted.items);
+    sl_free(context, r->targets.items);
     sl_free(context, r->sides.items);
     sl_free(context, r->first.items);
     sl_free(context, r->more.items);

@@ -42,6 +42,7 @@ typedef struct sli_world_rows {
     bool within_places;  ///< the search enters cells with places only
     size_t wanted_count; ///< cells that the search still has to see, then it stops; 0: no such end
     SL_ARRAY(bool) wanted;        ///< by place: they are such
+    sli_numbers targets;          ///< cells that are wanted and not seen yet (aim.c)
     SL_ARRAY(uint8_t) sides;      ///< by place: where it lies, seen along a wall
     sli_reveal_pairs pairs;       ///< that came
     sli_numbers first, more;      ///< of the same: by place, the others

@@ -1,9 +1,11 @@
 // What an edit of a world costs (sightline/world.h).
 //   bench_world KIND:N[:DEGREES] ...    generated maps, turned: city:1000 city:1000:17.3
 // CSV: map, which visible sets are kept, walls, cells, milliseconds to make the world; microseconds
-// to remove a wall chosen by chance and to add it again, median and 95th percentile; to move a wall
-// by a step with a region asked near it; and to remove all walls one by one, on average (of at most
-// 3,000). City:4 has about 1,000 walls, city:12 10,000, city:38 100,000.
+// to remove a wall chosen by chance or to add it again, with all sets that are kept "now" exact,
+// and then to answer whether an eye beside it sees a place and what region it has, median and 95th
+// percentile; to move a wall by a step with a region asked near it; and to remove all walls one by
+// one, on average (of at most 3,000). City:4 has about 1,000 walls, city:12 10,000, city:38
+// 100,000, city:122 1,000,000.
 #include "bench.h"
 
 #include "sightline/query.h"
@@ -16,6 +18,7 @@ typedef struct bench {
     sl_context *context;
     sl_world *world;
     sl_random random;
+    sl_region region;
     double times[2 * EDITS];
 } bench;
 
@@ -36,9 +39,22 @@ static uint32_t random_wall(bench *b, sl_segment *at) {
     }
 }
 
-static void time_commit(bench *b, size_t at) {
+/// Asks what an eye beside a wall sees.
+static void ask(bench *b, sl_segment at) {
+    const double x = at.b.x - at.a.x, y = at.b.y - at.a.y;
+    const sl_point eye = {(at.a.x + at.b.x) / 2 - y / 7, (at.a.y + at.b.y) / 2 + x / 7};
+    const sl_point place = {eye.x + 2 * y / 7, eye.y - 2 * x / 7};
+    const sl_view view = sl_view_all_round(eye);
+    sl_query *query = sl_world_query(b->world);
+    bool sees;
+    bench_must(b->context, sl_query_sees(b->context, query, eye, place, &sees));
+    bench_must(b->context, sl_query_region(b->context, query, &view, &b->region));
+}
+
+static void time_commit(bench *b, sl_segment wall, size_t at) {
     const double start = bench_seconds();
     bench_must(b->context, sl_world_commit(b->context, b->world, NULL));
+    ask(b, wall);
     b->times[at] = bench_seconds() - start;
     bench_must(b->context, sl_world_settle(b->context, b->world, SETTLE_MS, NULL));
 }
@@ -48,15 +64,14 @@ static void change_walls(bench *b) {
         sl_segment at;
         uint32_t wall = random_wall(b, &at);
         bench_must(b->context, sl_world_remove(b->context, b->world, wall));
-        time_commit(b, 2 * i);
+        time_commit(b, at, 2 * i);
         bench_must(b->context, sl_world_add_wall(b->context, b->world, at, &wall));
-        time_commit(b, 2 * i + 1);
+        time_commit(b, at, 2 * i + 1);
     }
 }
 
 /// A wall that is dragged, and the region of an eye beside it.
 static void drag_wall(bench *b) {
-    sl_region region = {0};
     sl_segment at;
     const uint32_t wall = random_wall(b, &at);
     const double size = (at.b.x - at.a.x) + (at.b.y - at.a.y);
@@ -67,11 +82,10 @@ static void drag_wall(bench *b) {
         bench_must(b->context, sl_world_move(b->context, b->world, wall, at));
         bench_must(b->context, sl_world_commit(b->context, b->world, NULL));
         bench_must(b->context,
-                   sl_query_region(b->context, sl_world_query(b->world), &view, &region));
+                   sl_query_region(b->context, sl_world_query(b->world), &view, &b->region));
         bench_must(b->context, sl_world_settle(b->context, b->world, 1, NULL));
         b->times[i] = bench_seconds() - start;
     }
-    sl_region_destroy(b->context, &region);
 }
 
 /// Removes walls one by one; microseconds for one.
@@ -108,6 +122,7 @@ static void print_row(const char *what, const sl_map *map, sl_world_rows rows) {
     printf("%s,%s,%zu,%u,%.0f,%.1f,%.1f,%.1f,%.1f,%.1f\n", what, names[rows], map->wall_count,
            cells, made, median, high, drag, slow_drag, remove_all(&b));
     fflush(stdout);
+    sl_region_destroy(b.context, &b.region);
     sl_world_destroy(b.context, b.world);
     sl_context_destroy(b.context);
 }

@@ -222,6 +222,14 @@ static bool is_on(sl_segment w, sl_point eye) {
            eye.y <= fmax(w.a.y, w.b.y);
 }
 
+static bool has_corner(const trial *t, sl_point eye) {
+    for (uint32_t i = 0; i < t->fresh.wall_count; i++)
+        if (testing_same_point(eye, t->fresh.walls[i].a) ||
+            testing_same_point(eye, t->fresh.walls[i].b))
+            return true;
+    return false;
+}
+
 /// Whether what an eye sees depends on the numbers of cells: it is within a wall, or where two meet
 /// (view.h), or on glass or a door.
 static bool has_sides(const trial *t, sl_point eye) {
@@ -376,6 +384,19 @@ static void settle(trial *t) {
     compare_rows(t, true);
 }
 
+/// An eye on the outline looks inwards, once cells are marked.
+static void compare_on_outline(trial *t) {
+    const bool far = t->shape == SHAPE_FAR; // there, places are too coarse
+    const double x = far ? 1 + (double)below(t, SIZE - 1) : SIZE * sl_random_unit(&t->random);
+    const sl_point eye = placed(t, x, 0);
+    assert_ok(t->context, sl_world_mark_inside(t->context, t->world));
+    if (has_corner(t, eye)) return;
+    // Turned places are rounded: some are beyond the wall.
+    const sl_query *query = sl_world_query(t->world);
+    const sl_cell *cell = &sl_query_asked(query)->cells[sl_query_locate(query, eye)];
+    if (cell->inside || t->shape != SHAPE_TURNED) compare_regions(t, eye);
+}
+
 static void compare(trial *t) {
     refresh(t);
     check_mesh(t);
@@ -385,6 +406,7 @@ static void compare(trial *t) {
         compare_regions(t, eye);
         for (int k = 0; k < 4; k++) compare_sees(t, eye, random_point(t));
     }
+    if (below(t, 4) == 0) compare_on_outline(t);
     if (t->shape != SHAPE_FAR) compare_looks(t, free_point(t)); // there, places are too coarse
 }
 

@@ -161,10 +161,58 @@ static void test_effects_by_hand(void **state) {
     sl_context_destroy(t.context);
 }
 
+/// How much an eye sees.
+static double area_seen(trial *t, sl_point eye) {
+    sl_region region = {0};
+    const sl_view view = sl_view_all_round(eye);
+    assert_ok(t->context, sl_query_region(t->context, sl_world_query(t->world), &view, &region));
+    const double area = sl_region_area(&region);
+    sl_region_destroy(t->context, &region);
+    return area;
+}
+
+/// Eyes on the outline of a room look into it, also after edits within and beyond.
+static void test_inside_by_hand(void **state) {
+    (void)state;
+    static const sl_point eyes[] = {{3, 0}, {10, 7}, {6, 10}, {0, 2}};
+    trial t = {testing_context(NULL), NULL};
+    sl_map map = {0};
+    sl_world_options options = sl_world_options_default();
+    uint32_t within, beyond;
+    options.bounds = (sl_box){{-9, -9}, {19, 19}};
+    for (int i = 0; i < FRAME; i++) {
+        static const sl_point corners[] = {{0, 0}, {10, 0}, {10, 10}, {0, 10}, {0, 0}};
+        assert_ok(t.context, sl_map_add_wall(t.context, &map, corners[i], corners[i + 1], 0));
+    }
+    assert_ok(t.context, sl_world_create(t.context, &map, &options, &t.world));
+    assert_ok(t.context, sl_world_mark_inside(t.context, t.world));
+    for (int i = 0; i < FRAME; i++) assert_true(area_seen(&t, eyes[i]) == 100);
+    assert_ok(t.context,
+              sl_world_add_wall(t.context, t.world, (sl_segment){{4, 4}, {6, 7}}, &within));
+    assert_ok(t.context,
+              sl_world_add_wall(t.context, t.world, (sl_segment){{-5, 3}, {-2, 14}}, &beyond));
+    commit(&t);
+    assert_ok(t.context, sl_world_remove(t.context, t.world, within));
+    commit(&t);
+    assert_ok(t.context, sl_world_move(t.context, t.world, beyond, (sl_segment){{3, -4}, {7, -2}}));
+    commit(&t);
+    for (int i = 0; i < FRAME; i++) assert_true(area_seen(&t, eyes[i]) == 100);
+    // Without a wall there is no inside, and both sides count.
+    assert_ok(t.context, sl_world_remove(t.context, t.world, 0));
+    commit(&t);
+    assert_ok(t.context, sl_world_mark_inside(t.context, t.world));
+    const sl_space *space = sl_query_asked(sl_world_query(t.world));
+    assert_int_equal(space->inside_count, sl_world_cell_count(t.world));
+    sl_map_destroy(t.context, &map);
+    sl_world_destroy(t.context, t.world);
+    sl_context_destroy(t.context);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_edits_by_hand),
         cmocka_unit_test(test_effects_by_hand),
+        cmocka_unit_test(test_inside_by_hand),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

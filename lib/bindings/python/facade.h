@@ -293,9 +293,12 @@ SLP_API void slp_level_cover_pieces(const slp_level *level, int64_t *offsets, in
 SLP_API slp_world *slp_world_new(void);
 SLP_API void slp_world_free(slp_world *world);
 /// Makes the world of a plan's map. `box`: its bounds x0, y0, x1, y1; NULL for those of the map.
-SLP_API int slp_world_begin(slp_world *world, const slp_plan *plan, const double *box);
+/// `rows`: which visible sets it keeps, of sl_world_rows. `open`: by open sight.
+SLP_API int slp_world_begin(slp_world *world, const slp_plan *plan, const double *box, int rows,
+                            int open);
 /// Adds `count` segments, rows of 4 doubles, of one kind: "wall", "door", "oneway", "seam".
-SLP_API int slp_world_add(slp_world *world, const char *kind, const char *name, int open,
+/// `stops`: what walls stop, as bits of SL_STOPS_SIGHT ...
+SLP_API int slp_world_add(slp_world *world, const char *kind, const char *name, int open, int stops,
                           const double *segments, size_t count, int64_t *numbers);
 SLP_API int slp_world_add_solid(slp_world *world, const double *corners, size_t count,
                                 int64_t *numbers);
@@ -304,11 +307,16 @@ SLP_API int slp_world_move(slp_world *world, int64_t number, const double *segme
 SLP_API int slp_world_set_open(slp_world *world, int64_t number, int open);
 SLP_API int slp_world_commit(slp_world *world);
 SLP_API void slp_world_discard(slp_world *world);
+/// Makes visible sets exact for a time. *left: how many are not yet.
+SLP_API int slp_world_settle(slp_world *world, double milliseconds, int64_t *left);
 /// Copies the walls as they are into a plan.
 SLP_API int slp_world_plan(slp_world *world, slp_plan *plan);
 SLP_API int slp_world_can_see(slp_world *world, const double *eyes, const double *points,
                               size_t count, uint8_t *sees);
 /// Finds what an eye sees; *corners: of its polygon, with arcs as chords within `tolerance`.
+/// By visible sets: whether the cell of a place may see that of another one.
+SLP_API int slp_world_may_see(slp_world *world, const double *eyes, const double *points,
+                              size_t count, uint8_t *sees);
 SLP_API int slp_world_region(slp_world *world, const double *eye, double heading, double fov,
                              double tolerance, int64_t *corners);
 SLP_API void slp_world_region_points(const slp_world *world, double tolerance, double *points,

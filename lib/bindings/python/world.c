@@ -20,8 +20,10 @@ void slp_world_free(slp_world *world) {
     free(world);
 }
 
-int slp_world_begin(slp_world *world, const slp_plan *plan, const double *box) {
+int slp_world_begin(slp_world *world, const slp_plan *plan, const double *box, int rows, int open) {
     sl_world_options options = sl_world_options_default();
+    options.rows = (sl_world_rows)rows;
+    options.sight = open ? SL_OPEN : SL_CLOSED;
     if (box) options.bounds = (sl_box){{box[0], box[1]}, {box[2], box[3]}};
     return sl_world_create(world->base.context, &plan->map, &options, &world->world);
 }
@@ -37,10 +39,11 @@ static uint32_t wall_of(int64_t number) {
     return number < 0 || number > UINT32_MAX ? UINT32_MAX : (uint32_t)number;
 }
 
-static sl_status add_one(slp_world *w, const char *kind, const char *name, int open, sl_segment at,
-                         uint32_t *wall) {
+static sl_status add_one(slp_world *w, const char *kind, const char *name, int open, int stops,
+                         sl_segment at, uint32_t *wall) {
     sl_context *context = w->base.context;
-    if (strcmp(kind, "wall") == 0) return sl_world_add_wall(context, w->world, at, wall);
+    if (strcmp(kind, "wall") == 0)
+        return sl_world_add_partial(context, w->world, at, (uint32_t)stops, wall);
     if (strcmp(kind, "door") == 0)
         return sl_world_add_door(context, w->world, name, at, open != 0, wall);
     if (strcmp(kind, "oneway") == 0) return sl_world_add_oneway(context, w->world, at, wall);
@@ -49,13 +52,13 @@ static sl_status add_one(slp_world *w, const char *kind, const char *name, int o
                    "there is no kind '%.40s'; kinds: wall, door, oneway, seam", kind);
 }
 
-int slp_world_add(slp_world *world, const char *kind, const char *name, int open,
+int slp_world_add(slp_world *world, const char *kind, const char *name, int open, int stops,
                   const double *segments, size_t count, int64_t *numbers) {
     sl_status status = SL_OK;
     size_t made = 0;
     for (; made < count && status == SL_OK; made++) {
         uint32_t wall;
-        status = add_one(world, kind, name, open, segment_at(segments + 4 * made), &wall);
+        status = add_one(world, kind, name, open, stops, segment_at(segments + 4 * made), &wall);
         if (status != SL_OK) break;
         numbers[made] = wall;
     }
@@ -101,6 +104,13 @@ void slp_world_discard(slp_world *world) {
     sl_world_discard(world->world);
 }
 
+int slp_world_settle(slp_world *world, double milliseconds, int64_t *left) {
+    size_t count = 0;
+    SL_TRY(sl_world_settle(world->base.context, world->world, milliseconds, &count));
+    *left = (int64_t)count;
+    return SL_OK;
+}
+
 int slp_world_plan(slp_world *world, slp_plan *plan) {
     sl_map map = {0};
     SL_TRY(sl_world_copy_map(plan->base.context, world->world, NULL, &map));
@@ -121,6 +131,21 @@ int slp_world_can_see(slp_world *world, const double *eyes, const double *points
         SL_TRY(sl_query_sees(context, sl_world_query(world->world), eye, at, &seen));
         sees[i] = seen;
         if (i % 256 == 0) SL_TRY(sl_check_cancelled(context));
+    }
+    return SL_OK;
+}
+
+int slp_world_may_see(slp_world *world, const double *eyes, const double *points, size_t count,
+                      uint8_t *sees) {
+    const sl_pvs *pvs = &sl_world_visibility(world->world)->pvs;
+    const sl_query *query = sl_world_query(world->world);
+    if (!pvs->cell_count)
+        return sl_fail(world->base.context, SL_BAD_ARGUMENT,
+                       "this world keeps no visible sets: give edit() rows='now' or 'later'");
+    for (size_t i = 0; i < count; i++) {
+        const uint32_t a = sl_query_locate(query, (sl_point){eyes[2 * i], eyes[2 * i + 1]});
+        const uint32_t b = sl_query_locate(query, (sl_point){points[2 * i], points[2 * i + 1]});
+        sees[i] = a != SL_NO_CELL && b != SL_NO_CELL && sl_pvs_sees(pvs, a, b);
     }
     return SL_OK;
 }

@@ -16,7 +16,7 @@
 /// walls as they are now (the subdivision "mesh"), exactly, and right after the commit. Two things
 /// depend on what was edited before: how the plane is cut into cells, and their numbers. So compare
 /// points, not cells. And an eye that is within a wall, or where walls meet, sees the side of its
-/// cell (view.h), which their numbers decide.
+/// cell (view.h), which their numbers decide, and what is inside (sl_world_mark_inside).
 ///
 /// Where walls cross or touch they are cut, as by the mesh. Each wall keeps the place that it was
 /// given: when another one goes, it is as if that had never been there. Places where oblique walls
@@ -175,6 +175,14 @@ SL_API sl_status sl_world_copy_map(sl_context *context, const sl_world *world, u
 /// none.
 SL_API sl_status sl_world_copy_space(sl_context *context, const sl_world *world, uint32_t *numbers,
                                      sl_space *out);
+
+/// Marks which cells are inside and which are solid ground (sl_space), as in a copy of the space.
+/// An eye on a wall with the inside on one side alone then stands there, as in a bake. Before, all
+/// cells count as inside. A new cell has the mark of those that went where these have the same one,
+/// else it counts as inside: mark again after edits that open or close the outline. Starts of the
+/// map do not count here. Fails as sl_world_copy_space, and leaves the marks then. Time: that of
+/// the copy, which grows with the world.
+SL_API sl_status sl_world_mark_inside(sl_context *context, sl_world *world);
 
 #ifdef __cplusplus
 }

@@ -397,7 +397,8 @@ class Plan(drawing.InNotebooks, MapHandle):
         """
         return self._bake(None, "closed", subdivide, start, weld, without, False, 1, 16, 0, False)
 
-    def edit(self, *, bounds: Optional[ArrayLike] = None) -> World:
+    def edit(self, *, bounds: Optional[ArrayLike] = None, rows: str = "none",
+             sight: str = "closed") -> World:
         """The walls as a `World`: they change, and answers follow without a bake.
 
         Parameters
@@ -405,8 +406,13 @@ class Plan(drawing.InNotebooks, MapHandle):
         bounds
             x0, y0, x1, y1: where walls may be. By default those of the plan, and an eighth of their
             size more on each side.
+        rows
+            Visible sets for `World.may_see`: "none"; "now", exact after each commit; or "later",
+            which miss nothing after a commit, and are exact once `World.settle` says so.
+        sight
+            As of `bake`.
         """
-        return World(self, bounds)
+        return World(self, bounds, rows, sight)
 
     def _bake(self, method: Optional[str], sight: str, subdivide: Optional[str],
               start: Optional[ArrayLike], weld: Optional[float], without: Sequence[str],

@@ -1,7 +1,7 @@
 """Worlds: walls that change, and questions in between."""
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Optional
+from typing import TYPE_CHECKING, Any, Optional, Sequence, Union
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,6 +12,17 @@ from ._library import (Floats, Handle, Integers, address, as_flag, as_number, as
 
 if TYPE_CHECKING:
     from .plan import Plan
+
+
+ROWS = ("none", "now", "later")
+SIGHTS = ("closed", "open")
+STOPS = ("sight", "steps", "sound")
+
+
+def _choice(value: str, name: str, names: Sequence[str]) -> int:
+    if value not in names:
+        raise ValueError(f"{name} must be one of {', '.join(map(repr, names))}, not {value!r:.40}")
+    return names.index(value)
 
 
 def _one_segment(value: ArrayLike) -> Floats:
@@ -52,16 +63,19 @@ class World(Handle):
     True
     """
 
-    def __init__(self, plan: "Plan", bounds: Optional[ArrayLike] = None) -> None:
+    def __init__(self, plan: "Plan", bounds: Optional[ArrayLike] = None, rows: str = "none",
+                 sight: str = "closed") -> None:
+        kept, open_sight = _choice(rows, "rows", ROWS), _choice(sight, "sight", SIGHTS)
         super().__init__(call.world_new(), call.world_free)
         box = None if bounds is None else as_reals(bounds, "bounds")
         if box is not None and box.shape != (4,):
             raise ValueError("bounds must be x0, y0, x1, y1")
         with plan._lock:
-            self._ask(call.world_begin, plan._open_pointer(), None if box is None else address(box))
+            self._ask(call.world_begin, plan._open_pointer(), None if box is None else address(box),
+                      kept, open_sight)
 
     def add(self, segments: ArrayLike, kind: str = "wall", *, name: str = "door",
-            open: bool = False) -> Any:
+            open: bool = False, stops: Union[str, Sequence[str]] = STOPS) -> Any:
         """Add walls at the next commit. All of them, or none where one is refused.
 
         Parameters
@@ -72,11 +86,17 @@ class World(Handle):
             "wall", "door", "oneway" (seen through from its right to its left), or "seam".
         name, open
             Of doors.
+        stops
+            What walls stop, of "sight", "steps" and "sound": one of them, or several. So a window
+            is ("steps", "sound"), and a curtain is "sight".
         """
         rows = as_segments(segments, "segments")
+        bits = 0
+        for what in (stops,) if isinstance(stops, str) else stops:
+            bits |= 1 << _choice(what, "stops", STOPS)
         numbers: Integers = np.zeros(len(rows), np.int64)
-        self._ask(call.world_add, text(kind, "kind"), text(name, "name"), as_flag(open, "open"), rows,
-                  len(rows), numbers)
+        self._ask(call.world_add, text(kind, "kind"), text(name, "name"), as_flag(open, "open"), bits,
+                  rows, len(rows), numbers)
         return int(numbers[0]) if np.ndim(segments) == 1 else numbers
 
     def add_solid(self, corners: ArrayLike) -> Integers:
@@ -111,6 +131,12 @@ class World(Handle):
         with self._lock:
             call.world_discard(self._open_pointer())
 
+    def settle(self, milliseconds: float) -> int:
+        """Make visible sets exact for about so long, at least one. How many are not exact yet."""
+        left: Integers = np.zeros(1, np.int64)
+        self._ask_long(call.world_settle, as_number(milliseconds, "milliseconds", least=0), left)
+        return int(left[0])
+
     def plan(self) -> "Plan":
         """The walls as they are, as a plan of its own: for files and bakes."""
         from .plan import Plan
@@ -121,10 +147,20 @@ class World(Handle):
 
     def can_see(self, a: ArrayLike, b: ArrayLike) -> Any:
         """Whether points see each other directly. Exact. Arrays (..., 2) broadcast."""
+        return self._ask_pairs(call.world_can_see, a, b)
+
+    def may_see(self, a: ArrayLike, b: ArrayLike) -> Any:
+        """Whether the cells that points are in see each other, by visible sets (`Plan.edit`).
+
+        False: no place of the one sees one of the other. Arrays (..., 2) broadcast.
+        """
+        return self._ask_pairs(call.world_may_see, a, b)
+
+    def _ask_pairs(self, question: Any, a: ArrayLike, b: ArrayLike) -> Any:
         eyes, places = np.broadcast_arrays(as_points(a, "a"), as_points(b, "b"))
         eyes, places = np.ascontiguousarray(eyes), np.ascontiguousarray(places)
         sees = np.zeros(eyes.shape[:-1], np.uint8)
-        self._ask_long(call.world_can_see, eyes, places, sees.size, sees.reshape(-1))
+        self._ask_long(question, eyes, places, sees.size, sees.reshape(-1))
         return bool(sees) if sees.ndim == 0 else sees.view(bool)
 
     def region(self, eye: ArrayLike, heading: float = 0, fov: float = 360, *,

@@ -48,6 +48,45 @@ class Worlds(unittest.TestCase):
         world.commit()
         self.assertFalse(world.can_see((0.5, 1.5), (2.5, 1.5)))
 
+    def test_walls_that_stop_some_things(self):
+        world = self.plan.edit()
+        window = world.add((2, 0, 2, 4), stops=("steps", "sound"))
+        world.commit()
+        self.assertTrue(world.can_see((1, 2), (3, 2)))
+        world.remove(window)
+        world.add((2, 0, 2, 4), stops="sight")
+        world.commit()
+        self.assertFalse(world.can_see((1, 2), (3, 2)))
+        with self.assertRaises(ValueError):
+            world.add((2, 0, 2, 4), stops="smell")
+
+    def test_visible_sets(self):
+        points = support.random_points(self.plan, 30, 6)
+        eyes = points[:10, None, :]
+        now, later = self.plan.edit(rows="now"), self.plan.edit(rows="later", sight="closed")
+        for segment in ((1, 1, 3, 2), (2, 0, 2, 3.5), (5, 1, 7, 2.5)):
+            for world in (now, later):
+                world.add(segment)
+                world.commit()
+            exact = now.may_see(eyes, points)
+            self.assertTrue((now.can_see(eyes, points) <= exact).all())
+            self.assertTrue((exact <= later.may_see(eyes, points)).all())
+            self.assertEqual(now.settle(0), 0)
+            before = later.settle(0)
+            while before:
+                left = later.settle(0)
+                self.assertLess(left, before)
+                before = left
+            self.assertTrue((exact == later.may_see(eyes, points)).all())
+        self.assertFalse(exact.all())
+        with self.assertRaises(sightline.BadArgument):
+            self.plan.edit().may_see((1, 1), (2, 2))
+        for wrong in ({"rows": "soon"}, {"sight": "far"}):
+            with self.assertRaises(ValueError):
+                self.plan.edit(**wrong)
+        with self.assertRaises(ValueError):
+            now.settle(-1)
+
     def test_what_is_refused_changes_nothing(self):
         world = self.plan.edit(bounds=(-1, -1, 9, 5))
         with self.assertRaises(sightline.BadArgument):
