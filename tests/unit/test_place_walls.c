@@ -84,7 +84,7 @@ static void sample_side(scene *s, const sl_wall *wall, double side, samples *all
 }
 
 /// One-way glass is a wall to its left alone; such walls come after those of the map.
-static samples sample(scene *s) {
+static samples sample_walls(scene *s) {
     samples all = {0};
     const sl_space *space;
     assert_ok(s->context, sl_query_space(s->context, s->query, &space, NULL));
@@ -153,7 +153,7 @@ static void test_fewest(void **state) {
         begin_scan(&s, k, kinds[k / 2]);
         if (k % 4 == 1) s.area.costs = s.costs;
         if (k % 5 == 2) s.area.cover = 2;
-        samples all = sample(&s);
+        samples all = sample_walls(&s);
         sl_area_placement placed = place(&s);
         assert_int_equal(placed.lower, placed.upper);
         assert_true(does(&s, &all, set_of(&placed)));
@@ -178,7 +178,7 @@ static void test_most(void **state) {
         scene s;
         begin_scan(&s, 20 + k, kinds[k]);
         s.area.count = 1 + k % 3;
-        samples all = sample(&s);
+        samples all = sample_walls(&s);
         sl_area_placement placed = place(&s);
         const double off = 0.01 * all.length;
         assert_int_equal(placed.count, s.area.count);
