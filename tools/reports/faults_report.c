@@ -426,18 +426,16 @@ static bool has_startless(const faults_report *report) {
 static void print_next(const faults_report *report) {
     const sl_faults *faults = &report->found->faults;
     const bool grave = faults->counts[SL_FAULT_LEAK] || faults->counts[SL_FAULT_GAP];
+    const bool closes =
+        report->helps > 0 || closable(faults, SL_FAULT_GAP) || closable(faults, SL_FAULT_LEAK);
     if (report->mended) {
         print_next_of_mended(report);
-    } else if (needs_entrance(report, report->found)) {
+    } else if (needs_entrance(report, report->found) ||
+               (!closes && report->found->inside == SL_INSIDE_OPENING)) {
         print_next_entrance(report, NEXT_CHECK, report->found);
-    } else if (report->helps > 0) {
-        print_command(report, NEXT_CHECK, report->helps);
+    } else if (closes) {
+        print_command(report, NEXT_CHECK, report->helps > 0 ? report->helps : 0);
         print_name(report, " --snap ", "-fixed.map");
-    } else if (closable(faults, SL_FAULT_GAP) || closable(faults, SL_FAULT_LEAK)) {
-        print_command(report, NEXT_CHECK, 0);
-        print_name(report, " --snap ", "-fixed.map");
-    } else if (report->found->inside == SL_INSIDE_OPENING) {
-        print_next_entrance(report, NEXT_CHECK, report->found);
     } else if (needs_start(report->found)) {
         print_next_start(report, NEXT_CHECK, report->found);
     } else if (has_startless(report)) {
