@@ -238,6 +238,26 @@ static void read_fields(const sli_json *entity, sli_says *says, double *heading,
     }
 }
 
+/// The number of that index in a member; 0 without one.
+static double number_in(const sli_json *entity, const char *key, size_t index) {
+    const sli_json pair = sli_json_member(entity, key), number = sli_json_item(&pair, index);
+    return sli_json_number_or_0(&number);
+}
+
+/// Keeps the middle of an entity that is neither a start nor a door. What is wrong with it loses
+/// nobody's file: it counts as 0.
+static sl_status keep_other(sli_ldtk *reader, const sli_json *entity, sl_point corner) {
+    const sli_json width = sli_json_member(entity, "width");
+    const sli_json height = sli_json_member(entity, "height");
+    SL_TRY(SL_ARRAY_ROOM(reader->context, &reader->others, 1));
+    reader->others.items[reader->others.count++] =
+        (sl_point){corner.x + number_in(entity, "px", 0) +
+                       (0.5 - number_in(entity, "__pivot", 0)) * sli_json_number_or_0(&width),
+                   corner.y + number_in(entity, "px", 1) +
+                       (0.5 - number_in(entity, "__pivot", 1)) * sli_json_number_or_0(&height)};
+    return SL_OK;
+}
+
 /// Adds an entity that is a start or a door; keeps the place of any other. Its pivot is at its
 /// place "px".
 static sl_status read_entity(sli_ldtk *reader, const sli_json *entity, sl_point corner,
@@ -249,27 +269,23 @@ static sl_status read_entity(sli_ldtk *reader, const sli_json *entity, sl_point 
     read_fields(entity, &says, &heading, &own);
     if (says.kind == SLI_THING_DOOR && own != name) says.name = own;
     SL_TRY(sli_things_ask(&reader->things, name, NULL, &says));
+    if (!says.kind) {
+        sli_things_leave(&reader->things, name);
+        return keep_other(reader, entity, corner);
+    }
     const sli_json px = sli_json_member(entity, "px"), pivot = sli_json_member(entity, "__pivot");
     const sli_json width = sli_json_member(entity, "width");
     const sli_json height = sli_json_member(entity, "height");
     sl_point at = {0}, part = {0}, size = {step, step};
-    if (!says.kind) sli_things_leave(&reader->things, name);
-    if (!px.value && !says.kind) return SL_OK;
     if (!px.value) return sli_json_fail(&px, "expected two numbers, found nothing");
     SL_TRY(read_pair(&px, &at));
     SL_TRY(read_pair(&pivot, &part));
     SL_TRY(sli_json_number_if(&width, &size.x));
     SL_TRY(sli_json_number_if(&height, &size.y));
-    const sl_point middle = {corner.x + at.x + (0.5 - part.x) * size.x,
-                             corner.y + at.y + (0.5 - part.y) * size.y};
-    if (!says.kind) {
-        SL_TRY(SL_ARRAY_ROOM(reader->context, &reader->others, 1));
-        reader->others.items[reader->others.count++] = middle;
-        return SL_OK;
-    }
     reader->entities--;
     const sli_thing thing = {.kind = says.kind,
-                             .middle = middle,
+                             .middle = {corner.x + at.x + (0.5 - part.x) * size.x,
+                                        corner.y + at.y + (0.5 - part.y) * size.y},
                              .u = {size.x / 2, 0},
                              .v = {0, size.y / 2},
                              .open = says.state != SLI_DOOR_SHUT,

@@ -88,9 +88,7 @@ static const word_list lists[SLI_MEANINGS] = {
     [SLI_MEANS_GRID] =
         {"grid",
          "grid* axis axes axe paths route* waypoint* wayfinding graph* node rfid* reader* "
-         "coordinate* "
-         "centerline* centreline* center "
-         "centre cntr guide* datum dote achse* "
+         "coordinate* centerline* centreline* center centre cntr guide* datum dote achse* "
          "raster* hilfslinie* mittellinie* trame asse assi interass* eje eixo stramien* assen ось "
          "оси осеи осей осев* os osi osie osy aks akslar axel stomlinj* modullinj* akse akser "
          "*轴* *軸* *通り芯* *通芯* *基準線* *축* *중심선*"},
@@ -284,9 +282,7 @@ static bool fits(sli_word word, sli_word pattern) {
 static bool fits_any(sli_word word, const char *patterns) {
     for (const char *at = patterns; *at;) {
         const size_t length = strcspn(at, " ");
-        // The first letter tells most of them apart.
-        const bool may = *at == '*' || (word.length && *at == *word.at);
-        if (may && fits(word, (sli_word){at, length})) return true;
+        if (fits(word, (sli_word){at, length})) return true;
         at += length + (at[length] == ' ');
     }
     return false;
