@@ -243,7 +243,7 @@ static sl_status commit(sl_world *s) {
     }
     sli_live_apply(&s->live);
     sli_world_settle_chains(s);
-    follow_rows(s, opens(s));
+    const bool opened = opens(s);
     for (size_t i = 0; i < s->pending.count; i++) {
         sli_world_line *line = &s->lines.items[s->pending.items[i]];
         line->at = line->next_at;
@@ -252,6 +252,7 @@ static sl_status commit(sl_world *s) {
         line->stands = line->next_stands;
     }
     follow_glass(s);
+    follow_rows(s, opened); // a copy for rows has the new glass, too
     sli_query_space_changed(s->context, s->query, &s->live.outline);
     return SL_OK;
 }

@@ -446,6 +446,37 @@ static void test_random_edits(void **state) {
     }
 }
 
+/// New glass counts in rows that are taken from a copy: where many walls stand freely, searches
+/// cost more than that.
+static void test_glass_in_rows_of_a_copy(void **state) {
+    (void)state;
+    testing_memory memory = {0};
+    for (uint64_t seed = 0; seed < 3; seed++) {
+        trial t = {.context = testing_context(&memory),
+                   .seed = seed,
+                   .shape = SHAPE_FREE,
+                   .rows = SL_WORLD_ROWS_NOW,
+                   .random = {seed}};
+        uint32_t wall;
+        start(&t);
+        for (int i = 0; i < 40; i++) {
+            const sl_point from = random_point(&t);
+            const sl_segment at = {from, {from.x + 0.1, from.y + sl_random_unit(&t.random) / 10}};
+            assert_ok(t.context, sl_world_add_wall(t.context, t.world, at, &wall));
+        }
+        assert_ok(t.context, sl_world_commit(t.context, t.world, NULL));
+        for (int i = 0; i < 5; i++) {
+            const sl_segment at = {placed(&t, 1 + 2 * i, 1), placed(&t, 2 + 2 * i, SIZE - 1)};
+            assert_ok(t.context, sl_world_add_oneway(t.context, t.world, at, &wall));
+            assert_ok(t.context, sl_world_commit(t.context, t.world, NULL));
+            refresh(&t);
+            compare_rows(&t, true);
+        }
+        end(&t);
+        assert_int_equal(memory.live, 0);
+    }
+}
+
 // --- by hand
 
 /// Two walls that nearly are one cross at a place that is rounded. A third one that ends there
@@ -557,6 +588,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_wall_ends_where_rounding_bent_others),
         cmocka_unit_test(test_random_edits),
+        cmocka_unit_test(test_glass_in_rows_of_a_copy),
         cmocka_unit_test(test_memory_may_fail_at_any_call),
         cmocka_unit_test(test_memory_stays),
     };
