@@ -92,15 +92,33 @@ static sl_status print_json(sl_context *context, const place_work *w, const cove
     return json_print(context, &fields);
 }
 
-/// The same of a proof among given places.
+/// Whether the check confirms less than a proof among given places says.
+static bool is_refuted(const sl_area_placement *placed, const sl_place_area_verdict *v) {
+    return v->lower < placed->lower || v->upper > placed->upper || !v->sees_as_all;
+}
+
+/// Writes the proof of a choice, if --verify is going to confirm it.
+static sl_status write_chosen_proof(sl_context *context, const place_plan *plan, place_work *w) {
+    const sl_area_placement *placed = &w->chosen.placed;
+    sl_place_area_verdict v;
+    SL_TRY(sl_place_area_proof_check(context, w->query, &w->chosen.task, placed, &v));
+    if (is_refuted(placed, &v))
+        return sl_fail(context, SL_UNSUPPORTED,
+                       "the check of the proof does not confirm it, as where borders of several "
+                       "views lie on one line but for rounding: %s is not written. Turn or move "
+                       "such places a little, or leave --proof out",
+                       plan->proof);
+    return sl_place_area_proof_write(context, w->query, &w->chosen.task, placed, plan->proof);
+}
+
+/// Checks a proof among given places.
 static sl_status verify_chosen(command_console *console, const place_plan *plan, place_work *w) {
     sl_place_area_verdict v;
     sl_context *context = console->context;
     const sl_place_area *task = &w->chosen.task;
     SL_TRY(sl_place_area_proof_read(context, w->query, task, plan->verify, &w->chosen.placed));
     SL_TRY(sl_place_area_proof_check(context, w->query, task, &w->chosen.placed, &v));
-    console->refuted =
-        v.lower < w->chosen.placed.lower || v.upper > w->chosen.placed.upper || !v.sees_as_all;
+    console->refuted = is_refuted(&w->chosen.placed, &v);
     progress_line_clear(&console->line);
     if (!plan->json) {
         camera_work_print_verdict(&w->chosen, &v, sl_map_digits(sl_query_map(w->query)));
@@ -171,8 +189,7 @@ static sl_status work(command_console *console, const place_plan *plan, place_wo
     if (plan->verify) return verify(console, plan, w);
     SL_TRY(place(console, plan, w));
     if (plan->proof && w->chooses)
-        SL_TRY(sl_place_area_proof_write(context, w->query, &w->chosen.task, &w->chosen.placed,
-                                         plan->proof));
+        SL_TRY(write_chosen_proof(context, plan, w));
     else if (plan->proof)
         SL_TRY(sl_place_proof_write(context, w->query, &w->placement, plan->proof));
     SL_TRY(survey(context, w));
