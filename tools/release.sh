@@ -4,6 +4,7 @@
 # source   the archive of the commit that is checked out; all else is built from it, unpacked
 # command  the command for Linux, static, with its manual pages, completion and licence
 # npm      the npm package
+# foundry  the module for Foundry Virtual Tabletop, with the npm package in it
 # python   the Python package: its sources in one file, and a wheel that has the libraries it needs
 #
 # 'sh tools/setup.sh --release' installs what they need. Without a PART, all. Each is tried in an empty folder before it is
@@ -11,14 +12,14 @@
 # plans and baked files alone. The wheel is for Linux with the glibc that its name says, or newer.
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
-usage='usage: sh tools/release.sh FOLDER [source | command | npm | python]...'
+usage='usage: sh tools/release.sh FOLDER [source | command | npm | foundry | python]...'
 fail() {
     echo "release: $1" >&2
     exit "${2:-1}"
 }
 case ${1:-} in
 -h | --help)
-    sed -n '2,12s/^# \{0,1\}//p' "$0"
+    sed -n '2,13s/^# \{0,1\}//p' "$0"
     exit 0
     ;;
 '' | -*) fail "$usage" 2 ;;
@@ -27,9 +28,9 @@ mkdir -p "$1"
 folder=$(cd "$1" && pwd)
 shift
 for part in "$@"; do
-    case $part in source | command | npm | python) ;; *) fail "there is no part '$part'; $usage" 2 ;; esac
+    case $part in source | command | npm | foundry | python) ;; *) fail "there is no part '$part'; $usage" 2 ;; esac
 done
-parts=" ${*:-source command npm python} "
+parts=" ${*:-source command npm foundry python} "
 [ -e "$root/.git" ] || fail "a clone is needed: the archive is that of a commit" 2
 [ -z "$(git -C "$root" status --porcelain)" ] || fail "commit or drop the changes first" 2
 
@@ -111,10 +112,13 @@ case $parts in *" command "*)
     ;;
 esac
 
-# ---- npm ----
-case $parts in *" npm "*)
+# ---- npm, foundry ----
+case $parts in *" npm "* | *" foundry "*)
     command -v npm >/dev/null || fail "npm is missing" 77
     quietly sh "$sources/tools/web.sh" --package "$scratch/web"
+    ;;
+esac
+case $parts in *" npm "*)
     (cd "$scratch/web/package" && quietly npm pack --offline --pack-destination "$scratch")
     mkdir "$scratch/project"
     (
@@ -128,6 +132,30 @@ case $parts in *" npm "*)
         })"
     ) || fail "the npm package does not work"
     keep "$scratch/$name.tgz"
+    ;;
+esac
+
+case $parts in *" foundry "*)
+    mkdir "$scratch/sightline"
+    (
+        cd "$scratch/sightline" &&
+            cp -R "$sources/lib/bindings/foundry/." "$sources/LICENSE" . &&
+            cp -R "$scratch/web/package" scripts/ && chmod -R u=rwX,go=rX . &&
+            cd .. &&
+            find sightline -type f | LC_ALL=C sort | quietly python3 -c "
+import sys, zipfile
+with zipfile.ZipFile(sys.argv[1], 'w') as archive:
+    for name in sys.stdin.read().splitlines():
+        archive.writestr(zipfile.ZipInfo(name), open(name, 'rb').read(), zipfile.ZIP_DEFLATED)" "$name-foundry.zip" &&
+            mkdir foundry && cd foundry && quietly python3 -m zipfile -e "../$name-foundry.zip" . &&
+            node -e "import('$scratch/foundry/sightline/scripts/watch.mjs').then(async ({ Watch }) => {
+            const [{ Level }, { bake }] = await Promise.all(['sightline', 'bake'].map((file) =>
+                import('$scratch/foundry/sightline/scripts/package/' + file + '.js')))
+            const watch = await Watch.of([{ c: [1, 0, 1, 2] }], { x: 0, y: 0, width: 2, height: 3 }, { Level, bake })
+            if (watch.sees({ x: 0.5, y: 1 }, { x: 1.5, y: 1 })) process.exit(1)
+        })"
+    ) || fail "the module for Foundry does not work"
+    keep "$scratch/$name-foundry.zip"
     ;;
 esac
 
