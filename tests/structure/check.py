@@ -276,6 +276,7 @@ def check_silent(root):
 # Where the version stands besides version.h: what CMake does not write.
 VERSIONS = {
     "lib/CHANGELOG.md": r"^## (\d\S*?),",
+    "lib/bindings/foundry/module.json": r'"version": "([^"]*)"',
     "lib/bindings/js/package.json": r'"version": "([^"]*)"',
     "tools/packages/conan/conanfile.py": r'version = "([^"]*)"',
     "tools/packages/debian/changelog": r"^sightline \((\S*)\)",

@@ -1,6 +1,6 @@
 /** The module for Foundry: its answers are those of the command's own reader of the same scene. */
 import assert from 'node:assert/strict'
-import { cpSync, readFileSync, writeFileSync } from 'node:fs'
+import { cpSync, writeFileSync } from 'node:fs'
 import { join } from 'node:path'
 import { pathToFileURL } from 'node:url'
 import test from 'node:test'
@@ -66,11 +66,6 @@ test('a scene without walls is seen all over, up to its edge', async () => {
   assert.equal(watch.sees({ x: 10, y: 10 }, { x: 1990, y: 1490 }), true)
   assert.equal(watch.polygon({ x: 1000, y: 750 }).length, 8)
   watch.close()
-})
-
-test('the module has the version of the package', () => {
-  const versionOf = (path) => JSON.parse(readFileSync(path, 'utf8')).version
-  assert.equal(versionOf(join(root, 'lib/bindings/foundry/module.json')), versionOf(join(folder, 'package.json')))
 })
 
 test('one-way walls keep their side, and points are left out', () => {
