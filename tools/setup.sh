@@ -3,7 +3,7 @@
 # It looks at what is really there, asks the system's package manager for the rest, and does nothing
 # when all is there. --ci adds what the checks of .ci/run need: clang, its sanitizers, clang-format,
 # clang-tidy, ccache, doxygen, a display that is none, with keys to press (Xvfb, xdotool), MPI, node,
-# aspell, groff, abidw, LuaJIT, Mono, the Python package jsonschema, what the tests of our own Python package use, and
+# aspell, groff, abidw, LuaJIT, Mono, Tiled, the Python package jsonschema, what the tests of our own Python package use, and
 # Chromium and npm for the tests of the pages; on Debian also compilers and emulators for two other
 # machines. --web adds what tools/web.sh needs: clang, lld, wasi-libc, compiler-rt for WebAssembly,
 # binaryen and node. --release adds what tools/release.sh needs beside that: npm, pip, wheel, numpy and
@@ -108,7 +108,7 @@ is_there() {
     abidw) has abidw ;;
     x11) module x11 ;;
     font) font ;;
-    clang | clang-format | clang-tidy | ccache | doxygen | llvm-symbolizer | luajit | node | npm | patchelf) has "$1" ;;
+    clang | clang-format | clang-tidy | ccache | doxygen | llvm-symbolizer | luajit | node | npm | patchelf | tiled) has "$1" ;;
     mono) has mono && has mcs ;;
     chromium) has chromium || has chromium-browser ;;
     clang-sanitizers) clang_sanitizes ;;
@@ -243,7 +243,7 @@ install_packages() { # system package...
 # ---- What to do ----
 
 things="c c++ cmake ninja pkg-config python3 zlib jansson libpng libxml2 libyaml zstd glpk cairo pango sdl2 font cmocka gmp"
-[ $ci = yes ] && things="$things clang clang-sanitizers llvm-symbolizer clang-format clang-tidy ccache doxygen xvfb xdotool x11 mpi node npm chromium jsonschema aspell groff abidw numpy scipy pandas geopandas matplotlib nbconvert ipykernel wheel pip luajit mono"
+[ $ci = yes ] && things="$things clang clang-sanitizers llvm-symbolizer clang-format clang-tidy ccache doxygen xvfb xdotool x11 mpi node npm chromium jsonschema aspell groff abidw numpy scipy pandas geopandas matplotlib nbconvert ipykernel wheel pip luajit mono tiled"
 [ $ci = yes ] && has apt-get && things="$things aarch64 windows" # tests/everywhere
 [ $web = yes ] && things="$things clang wasm binaryen node"
 [ $release = yes ] && things="$things npm pip wheel numpy patchelf"

@@ -27,6 +27,13 @@ class SlvFormat(sandbox.ProgramTest):
         for key, tag in COUNTS.items():
             self.assertEqual(len(slv.items(tag)), info[key], key)
         self.assertEqual(slv.info["pairs"], info["pairs"])
+        place, = slv.items("MAPI")
+        if place["scale"]:
+            told = info["transform"]
+            self.assertEqual([place["origin_x"], place["origin_y"], place["scale"], place["y_down"]],
+                             [told["x"], told["y"], told["scale"], int(told["y_down"])])
+        else:
+            self.assertNotIn("transform", info)
         self.assertEqual(slv.info["method"].rstrip(b"\0").decode(), info["method"])
         self.assertEqual("PART" in slv.table, not info["finished"])
         vertices = slv.items("VERT")

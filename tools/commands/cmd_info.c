@@ -223,6 +223,18 @@ static void add_layers_json(json_fields *fields, const sl_drawing_layers *layers
     json_close_list(fields);
 }
 
+/// How places of the file that was read stand to those of the map, as sl_transform says it; nothing
+/// where it is not known. "transform": {"x": 0, "y": 1200, "scale": 1, "y_down": true}
+static void add_transform_json(json_fields *fields, const sl_transform *transform) {
+    if (!(transform->scale > 0)) return;
+    json_open(fields, "transform");
+    json_add_real(fields, "x", transform->origin.x);
+    json_add_real(fields, "y", transform->origin.y);
+    json_add_real(fields, "scale", transform->scale);
+    json_add_flag(fields, "y_down", transform->y_down);
+    json_close(fields);
+}
+
 static sl_status print_map_json(sl_context *context, const info_request *request, const sl_map *map,
                                 const walls_read *walls, const sl_clean_account *cleaning) {
     map_count counts[MAP_COUNTS];
@@ -231,6 +243,7 @@ static sl_status print_map_json(sl_context *context, const info_request *request
     json_add_text(&fields, "file", request->path);
     json_add_text(&fields, "kind", "map");
     json_add_box(&fields, "bounds", sl_map_bounds(map));
+    add_transform_json(&fields, &map->source.transform);
     if (*map->unit) json_add_text(&fields, "unit", map->unit);
     json_add_count(&fields, "walls", walls->count);
     json_add_count(&fields, "oblique_walls", walls->oblique);
@@ -406,6 +419,7 @@ static sl_status print_baked_json(sl_context *context, const info_request *reque
     json_add_text(&fields, "file", request->path);
     json_add_text(&fields, "kind", "baked");
     json_add_box(&fields, "bounds", baked->space.bounds);
+    add_transform_json(&fields, &baked->map.source.transform);
     json_add_text(&fields, "sight", sight_name(baked->visibility.sight));
     json_add_text(&fields, "method", baked->method);
     json_add_text(&fields, "solver", baked->solver[0] ? baked->solver : NULL);
