@@ -8,6 +8,7 @@
 #include "dialogs/question.h"
 #include "plan/cameras.h"
 #include "plan/drag_world.h"
+#include "plan/from_line.h"
 #include "plan/heat.h"
 #include "plan/route.h"
 #include "plan/view_cells.h"
@@ -88,6 +89,7 @@ void app_destroy(app_state *app) {
     watch_layer_destroy(app->context, app->view.watch);
     camera_layer_destroy(app->context, app->view.cameras);
     route_layer_destroy(app->context, app->view.route);
+    from_line_destroy(app->context, app->view.from_line);
     drag_world_drop(&app->view);
     seen_destroy(app->context, &app->view.seen);
     present_drop(app->context, &app->view.present);

@@ -21,6 +21,7 @@ static const struct {
     {"Learn: the steps of a lesson", "step_next"},
     {"Change the map", "undo"},
     {"Quiz", "answer_yes"},
+    {"Plan: tools and measures", "plan_isovist"},
     {"Cameras", "camera_find"},
     {"A way: record and play", "record"},
     {"Files", "file"},

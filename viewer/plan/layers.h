@@ -24,6 +24,8 @@ bool layers_shows(const view_state *view, unsigned layer);
 
 /// The layer that fills the plan: the one that was switched on last; LAYER_COUNT: none.
 unsigned layers_fill(const view_state *view);
+/// Switches it on, and then it fills the plan if it can; or off.
+void layers_toggle(view_state *view, unsigned layer);
 /// Has it fill the plan. Once it is switched off, the layer does that did before.
 void layers_set_fill(view_state *view, unsigned layer);
 

@@ -92,7 +92,7 @@ typedef struct ui_slider_row {
     char text[32]; ///< its value
 } ui_slider_row;
 
-enum { ACTIONS_MOST = 160, SLIDERS_MOST = 12 };
+enum { ACTIONS_MOST = 160, SLIDERS_MOST = 16 };
 
 /// The page and its widgets: what a frame is drawn with, panels, messages. A frame starts without
 /// hits.
