@@ -30,6 +30,8 @@ SCENES = {
     "cameras": ("office.map", "key 8\nclick 200 300\nkey ,\nclick 300 340\nkey B\n"),
     "plan": ("office.map", "key 9\nkey Ctrl+2\naction heat_ranks\n"),
     "path": ("office.map", "key 9\nkey Ctrl+3\nclick 100 250\nclick 200 300\n"),
+    "axial": ("office.map", "key 9\nkey Ctrl+5\naction heat_ranks\n"),
+    "table": ("office.map", "key 9\nkey Ctrl+6\nkey Ctrl+L\n"),
     "from_line": ("office.map", "key 9\nkey Ctrl+4\ndrag 100 250 130 280\n"),
     "fewest": ("oblique/comb.map", "key 8\nkey Space\n"),
     "tables": ("office.map", "key 8\nkey Ctrl+Shift+O\n"),

@@ -18,7 +18,9 @@
 #include "plan/effects.h"
 #include "plan/from_line.h"
 #include "plan/heat.h"
+#include "plan/line_map.h"
 #include "plan/route.h"
+#include "plan/table.h"
 #include "plan/view.h"
 #include "plan/view_cells.h"
 
@@ -466,6 +468,8 @@ static void escape(app_state *app) {
         ui_say(&app->ui, false, "stopped; F5 twice makes view cells again");
     else if (cameras_stop(&app->view))
         ui_say(&app->ui, false, "stopping: the best cameras so far stay");
+    else if (line_map_stop(&app->view))
+        ui_say(&app->ui, false, "stopped; the tool finds lines again once doors or walls change");
     else if (heat_layer_stop(&app->view))
         ui_say(&app->ui, false, "stopped; 1 twice makes the heat map again");
     else if (app->view.mode == MODE_LEARN && app->learn.lesson.chosen_next)
@@ -660,10 +664,13 @@ static void take_wish(app_state *app) {
     const char *path = app->desk.wish_path;
     sl_status status = SL_OK;
     app->desk.wish = WISH_NONE;
+    if (app->desk.file.locked) return;
     if (wish == WISH_READ_TABLE)
         status = cameras_read(&app->view, path);
     else if (wish == WISH_WRITE_TABLE)
         status = cameras_write(&app->view, path);
+    else if (wish == WISH_WRITE_VALUES)
+        status = table_write(&app->view, path);
     else if (wish == WISH_PICTURE)
         status = save_picture(app, path);
     else if (wish == WISH_FRAMES)

@@ -2,10 +2,15 @@
 #include "app/action_parts.h"
 
 #include "dialogs/browser.h"
+#include "dialogs/map_file.h"
 #include "plan/cameras.h"
 #include "plan/from_line.h"
 #include "plan/heat.h"
 #include "plan/layers.h"
+#include "plan/line_map.h"
+#include "plan/table.h"
+
+#include <stdio.h>
 
 // --- tools of the Plan mode
 
@@ -21,6 +26,36 @@ TOOL(plan_isovist, TOOL_ISOVIST, "click where the viewpoint is to stand")
 TOOL(plan_line, TOOL_FROM_LINE, "drag a line: what is seen from it, and what from all of it")
 TOOL(plan_path, TOOL_PATH, "click where the way begins, then where it ends")
 
+TOOL(plan_axial, TOOL_AXIAL, "the fewest lines of sight that cover the plan; 2 the next measure")
+TOOL(plan_segments, TOOL_SEGMENTS, "axial lines, cut where they cross; 2 the next measure")
+DO(plan_drawn, line_map_toggle_drawn(&app->view))
+IS(plan_drawn, app->view.drawn_lines)
+
+// --- the table
+
+DO(table, app->ui.table = !app->ui.table)
+IS(table, app->ui.table)
+DO(table_left, table_shift(&app->view, -1))
+DO(table_right, table_shift(&app->view, 1))
+DO(table_next, table_step(&app->view, 1))
+DO(table_back, table_step(&app->view, -1))
+
+static void export_values(desk_state *desk, const char *path) {
+    wish_for(desk, WISH_WRITE_VALUES, path);
+}
+
+static void table_export(app_state *app) {
+    char name[TITLE_TEXT], ending[32];
+    const table_source *of = table_source_now(&app->view);
+    if (!of) {
+        ui_say(&app->ui, false, "this tool has no table yet");
+        return;
+    }
+    snprintf(ending, sizeof ending, "-%ss.csv", of->noun);
+    map_file_name_output(&app->desk, ending, name);
+    browser_save(&app->desk, BROWSE_VALUES, name, export_values);
+}
+
 /// A tool that paints the plan itself gives way to it.
 static void plan_graph(app_state *app) {
     const bool hidden = tool_paints(app->view.tool);
@@ -32,8 +67,16 @@ IS(plan_graph, app->view.show &SHOW_HEAT && !tool_paints(app->view.tool))
 
 // --- the heat map
 
-DO(heat_next, heat_choose(&app->view, 1))
-DO(heat_back, heat_choose(&app->view, -1))
+/// Of the tool at hand.
+static void choose_measure(app_state *app, int by) {
+    if (line_map_choice(&app->view))
+        line_map_choose(&app->view, by);
+    else
+        heat_choose(&app->view, by);
+}
+
+DO(heat_next, choose_measure(app, 1))
+DO(heat_back, choose_measure(app, -1))
 DO(heat_steps, heat_toggle_steps(&app->view))
 
 static bool is_heat_steps(const app_state *app) {
@@ -92,8 +135,24 @@ static const action_row rows[] = {
      0, plan_graph, is_plan_graph},
     {"plan_line", "Ctrl+4", "From a line", "plan: drag a line, and what is seen from it", PLAN, 0,
      plan_line, is_plan_line},
+    {"plan_axial", "Ctrl+5", "Axial", "plan: axial lines, by a measure", PLAN, 0, plan_axial,
+     is_plan_axial},
+    {"plan_segments", "Ctrl+6", "Segments", "plan: axial lines cut into segments, by a measure",
+     PLAN, 0, plan_segments, is_plan_segments},
+    {"plan_drawn", NULL, "Drawn lines", "plan: axial lines and segments are those of the drawing",
+     PLAN, 0, plan_drawn, is_plan_drawn},
     {"plan_path", "Ctrl+3", "Path", "plan: two clicks, and the shortest way between them", PLAN, 0,
      plan_path, is_plan_path},
+    {"table", "Ctrl+L", "Table", "plan: the table of what the tool has computed", PLAN, 0, table,
+     is_table},
+    {"table_left", "Shift+Home", "\xe2\x97\x80", "table: columns to the left", PLAN, 0, table_left,
+     NULL},
+    {"table_right", "Shift+End", "\xe2\x96\xb6", "table: columns to the right", PLAN, 0,
+     table_right, NULL},
+    {"table_next", "Shift+PageDown", NULL, "table: the next row", PLAN, 0, table_next, NULL},
+    {"table_back", "Shift+PageUp", NULL, "table: the row before", PLAN, 0, table_back, NULL},
+    {"table_export", "Ctrl+Shift+E", "Export", "table: write it as CSV", PLAN, 0, table_export,
+     NULL},
     {"heat_next", "2", "Next measure", "heat map: the next measure", NOT_LEARN, 0, heat_next, NULL},
     {"heat_back", "3", "Back", "heat map: the measure before", NOT_LEARN, 0, heat_back, NULL},
     {"heat_coarser", "4", "Coarser", "heat map: a coarser grid", NOT_LEARN, 0, heat_coarser, NULL},

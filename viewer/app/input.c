@@ -12,7 +12,9 @@
 #include "plan/effects.h"
 #include "plan/from_line.h"
 #include "plan/grid.h"
+#include "plan/line_map.h"
 #include "plan/route.h"
+#include "plan/table.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -319,6 +321,12 @@ static void click_widget(app_state *app, const hit_area *hit) {
         app->learn.lesson.chosen_next = (uint32_t)hit->value + 2;
     } else if (hit->kind == HIT_CAMERA && app->view.cameras) {
         app->view.cameras->chosen = (size_t)hit->value;
+    } else if (hit->kind == HIT_HEAD) {
+        table_sort(&app->view, (size_t)hit->value);
+    } else if (hit->kind == HIT_ROW) {
+        table_choose(&app->view, (size_t)hit->value);
+    } else if (hit->kind == HIT_MEASURE && line_map_choice(&app->view)) {
+        line_map_choose(&app->view, hit->value - (int)*line_map_choice(&app->view));
     } else if (hit->kind == HIT_SPOT) {
         camera_go_to_spot(&app->view, (uint32_t)hit->value);
     }
@@ -475,6 +483,8 @@ void input_release(app_state *app, sl_point at) {
         door_toggle(&app->view, door);
     } else if (puts && app->view.mode == MODE_PLAN && app->view.tool == TOOL_PATH) {
         route_click(&app->view, now);
+    } else if (puts && line_map_choice(&app->view)) {
+        table_pick(&app->view, now);
     } else if (drag.kind == DRAG_FROM_LINE) {
         if (puts) ui_say(&app->ui, false, "drag a line: press where it begins, release at its end");
     } else if (puts && view_is_solid(&app->view, now)) {
@@ -482,6 +492,7 @@ void input_release(app_state *app, sl_point at) {
     } else if (puts && sl_space_locate(&app->document.baked->space, now) != SL_NO_CELL) {
         app->view.eye.at = now;
         app->recorder.plays = false;
+        if (app->view.mode == MODE_PLAN) table_pick(&app->view, now);
         if (app->view.mode == MODE_EXPLORE) quiz_forget(&app->learn);
     }
 }

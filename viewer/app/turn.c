@@ -11,6 +11,7 @@
 #include "plan/effects.h"
 #include "plan/from_line.h"
 #include "plan/heat.h"
+#include "plan/line_map.h"
 #include "plan/route.h"
 #include "plan/view_cells.h"
 #include "sightline/support.h"
@@ -168,6 +169,7 @@ static void poll_all(app_state *app, bool wait) {
     cameras_update(&app->view, wait);
     route_update(&app->view);
     from_line_update(&app->view, wait);
+    line_map_update(&app->view, wait);
     map_file_tick(&app->desk, wait);
     recovery_tick(&app->desk);
 }
@@ -185,7 +187,9 @@ job_progress app_progress(const app_state *app) {
     if (cameras.running) return cameras;
     const job_progress line =
         app->view.from_line ? tool_job_progress(&app->view.from_line->job) : (job_progress){0};
-    return line.running ? line : heat_layer_progress(app->view.heat);
+    if (line.running) return line;
+    const job_progress lines = line_map_progress(&app->view);
+    return lines.running ? lines : heat_layer_progress(app->view.heat);
 }
 
 static void look_again(app_state *app) {

@@ -7,6 +7,7 @@
 #include "draw/marks.h" // private: samples are the marks of the plan
 #include "plan/from_line.h"
 #include "plan/heat.h"
+#include "plan/line_map.h"
 #include "plan/view_cells.h"
 
 #include <math.h>
@@ -231,7 +232,7 @@ static double draw_row(ui_state *ui, double left, double right, double y, const 
 
 // --- keys of layers that are coloured by values
 
-enum { KEYS_MOST = 2 };
+enum { KEYS_MOST = 3 };
 
 /// The keys of the layers that are shown.
 static int list_keys(const view_state *view, legend_key keys[KEYS_MOST]) {
@@ -239,6 +240,7 @@ static int list_keys(const view_state *view, legend_key keys[KEYS_MOST]) {
     if (!view->seen.valid) return 0;
     count += view_layer_key(view, &keys[count]);
     count += heat_layer_key(view, &keys[count]);
+    count += line_map_key(view, &keys[count]);
     return count;
 }
 
@@ -252,7 +254,7 @@ static void draw_ramp(ui_state *ui, const legend_key *key, double left, double r
     const double from = left + side, wide = (right - left - 2 * side) / RAMP_STEPS;
     for (int step = 0; step < RAMP_STEPS; step++)
         ui_fill(ui, (sl_box){{from + wide * step, base - 0.8 * t}, {right - side, base + 0.1 * t}},
-                ramp_colour(ui, step));
+                ramp_colour(ui, key->ramp, step));
 }
 
 /// Draws a key, or finds its lower edge alone. A narrow key has values below their labels.

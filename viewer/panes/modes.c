@@ -9,7 +9,9 @@
 #include "plan/effects.h"
 #include "plan/from_line.h"
 #include "plan/layer_draw.h"
+#include "plan/line_map.h"
 #include "plan/route.h"
+#include "plan/table.h"
 #include "sightline/draw.h"
 
 #include <math.h>
@@ -90,7 +92,9 @@ static void plan_below(learn_state *learn, const sl_frame *frame) {
 
 static void plan_above(learn_state *learn, const sl_frame *frame) {
     if (learn->view->tool == TOOL_FROM_LINE) from_line_draw_above(learn->view, frame);
+    line_map_draw(learn->view, frame);
     if (learn->view->tool == TOOL_PATH) route_draw(learn->view, frame);
+    table_draw_chosen(learn->view, frame);
 }
 
 static const mode_row modes[MODES] = {
@@ -181,12 +185,17 @@ static double effects_lines(const learn_state *learn) {
     return 4.5 + 1.5 * __builtin_popcount(sl_plan_make(&learn->document->map).effects);
 }
 
+static bool table_shown(const learn_state *learn) {
+    return learn->ui->table && learn->view->mode == MODE_PLAN;
+}
+
 static const pane_below panes[PANES_BELOW] = {
     [PANE_DUAL] = {dual_shown, pane_dual, NULL},
     [PANE_PROGRAM] = {program_shown, pane_program, NULL},
     [PANE_FIRST_PERSON] = {first_person_shown, pane_first_person, NULL},
     [PANE_ACCOUNT] = {account_shown, pane_account, NULL},
     [PANE_EFFECTS] = {effects_shown, pane_effects, effects_lines},
+    [PANE_TABLE] = {table_shown, pane_table, NULL},
 };
 
 const pane_below *panes_below(void) {

@@ -446,7 +446,7 @@ void heat_layer_draw(const view_state *view, cairo_t *cairo, const sl_frame *fra
     for (int step = 0; step <= GREY; step++) {
         add_squares(cairo, frame, g, steps, step);
         sl_set_colour(cairo, step == GREY ? sl_colour_mix(palette->page, palette->ink, 0.18)
-                                          : ramp_colour(view->ui, step));
+                                          : ramp_colour(view->ui, RAMP_AREAS, step));
         cairo_fill_preserve(cairo); // a thin stroke covers the seams
         cairo_set_line_width(cairo, 0.6);
         cairo_stroke(cairo);
@@ -496,7 +496,7 @@ bool heat_layer_key(const view_state *view, legend_key *key) {
     char value[32], count[SL_COUNT_TEXT];
     if (!heat_layer_values(view, &g)) return false;
     heat_layer_scale(view, &least, &most);
-    *key = (legend_key){.ramp = layers_fill(view) == LAYER_HEAT};
+    *key = (legend_key){.ramp = layers_fill(view) == LAYER_HEAT ? RAMP_AREAS : RAMP_NONE};
     char unit[SL_UNIT_TEXT];
     heat_say_measure(view, key->rows[0].label);
     sl_measure_say_unit(chosen_measure(view), view->document->map.unit, unit);

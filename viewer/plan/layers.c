@@ -203,8 +203,10 @@ int ramp_step(double value, double least, double most) {
     return (int)fmin(fmax(share, 0) * RAMP_STEPS, RAMP_STEPS - 1);
 }
 
-sl_colour ramp_colour(const ui_state *ui, int step) {
-    return sl_palette_ramp(ui->dark, (step + 0.5) / RAMP_STEPS);
+sl_colour ramp_colour(const ui_state *ui, ramp_kind kind, int step) {
+    const double place = (step + 0.5) / RAMP_STEPS;
+    if (kind == RAMP_CHANGES) return sl_palette_changes(ui->dark, place);
+    return sl_palette_ramp(ui->dark, kind == RAMP_LINES ? 0.2 + 0.8 * place : place);
 }
 
 void legend_key_add(legend_key *key, const char *label, const char *text) {

@@ -60,12 +60,19 @@ typedef struct eye_state {
 } eye_state;
 
 /// What the pointer does in Plan mode: it puts the viewpoint, drags a line to see from, puts an end
-/// of a path.
-typedef enum plan_tool { TOOL_ISOVIST, TOOL_FROM_LINE, TOOL_PATH, TOOLS } plan_tool;
+/// of a path, chooses an axial line or a segment.
+typedef enum plan_tool {
+    TOOL_ISOVIST,
+    TOOL_FROM_LINE,
+    TOOL_PATH,
+    TOOL_AXIAL,
+    TOOL_SEGMENTS,
+    TOOLS
+} plan_tool;
 
 /// Whether a tool paints the plan itself: no layer fills it then, and the eye is not shown.
 static inline bool tool_paints(plan_tool tool) {
-    return tool == TOOL_FROM_LINE;
+    return tool == TOOL_FROM_LINE || tool == TOOL_AXIAL || tool == TOOL_SEGMENTS;
 }
 
 typedef enum comparison { COMPARE_OFF, COMPARE_PANES, COMPARE_DIFFERENCE } comparison;
@@ -167,6 +174,22 @@ typedef struct heat_choice {
     uint32_t stamp;         ///< grows with every change of what is drawn
 } heat_choice;
 
+typedef struct table_source table_source;
+
+/// How the table of a tool is shown (table.h). Zeroed, but for `chosen`, which is SIZE_MAX.
+typedef struct table_state {
+    const table_source *of; ///< these four: what the order is of
+    size_t rows;
+    uint32_t stamp;
+    bool sorted; ///< by a column; else as the rows come
+    size_t column;
+    bool down;
+    size_t *order;       ///< rows as they are shown; NULL: as they come
+    size_t chosen;       ///< a row; SIZE_MAX: none
+    size_t first_column; ///< that is shown
+    bool reveal;         ///< scroll to the chosen row
+} table_state;
+
 typedef struct node_layer node_layer;
 typedef struct view_layer view_layer;
 typedef struct heat_layer heat_layer;
@@ -174,6 +197,7 @@ typedef struct watch_layer watch_layer;
 typedef struct camera_layer camera_layer;
 typedef struct route_layer route_layer;
 typedef struct from_line from_line;
+typedef struct line_map line_map;
 typedef struct drag_world drag_world;
 
 /// What is shown and from where. Results are kept from frame to frame.
@@ -220,13 +244,17 @@ struct view_state {
     first_person_counts first_person; ///< of the last frame
 
     heat_choice heat_choice;
-    node_layer *nodes; ///< these seven: NULL: none yet
+    node_layer *nodes; ///< these nine: NULL: none yet
     view_layer *views;
     heat_layer *heat;
     watch_layer *watch;
     camera_layer *cameras;
     route_layer *route;
     from_line *from_line;
+    line_map *lines[2];     ///< axial lines, and segments
+    size_t line_measure[2]; ///< the chosen measures of both
+    table_state table;
+    bool drawn_lines;       ///< both are of the lines as they are drawn
     drag_world *drag_world; ///< NULL: none
     uint32_t drag_worlds;   ///< how many there were
     size_t world_walls;     ///< maps with as many walls are dragged in by worlds
