@@ -36,17 +36,11 @@ typedef struct picture {
     bool diverging;     ///< from losses over 0 to gains
 } picture;
 
-/// The colour of a place on the scale, 0 to 1. Of changes: blue for losses, the page's grey at 0,
-/// red for gains, equally strong (the ends of RdBu, Harrower and Brewer 2003).
+/// The colour of a place on the scale, 0 to 1.
 static sl_colour ramp_colour(const picture *p, double place) {
-    static const sl_colour ends[2][3] = {
-        {{0.130, 0.400, 0.675}, {0.930, 0.930, 0.930}, {0.700, 0.095, 0.170}},
-        {{0.400, 0.690, 0.940}, {0.220, 0.230, 0.250}, {0.960, 0.520, 0.400}}};
     const bool dark = p->scene.palette.dark;
     if (p->lines) place = 0.2 + 0.8 * place; // thin lines in the page's colour would be lost
-    if (!p->diverging) return sl_palette_ramp(dark, place);
-    const double far = fabs(2 * place - 1);
-    return sl_colour_mix(ends[dark][1], ends[dark][place < 0.5 ? 0 : 2], fmin(far, 1));
+    return p->diverging ? sl_palette_changes(dark, place) : sl_palette_ramp(dark, place);
 }
 
 /// Values that differ by less than this share of themselves are equal but for rounding.

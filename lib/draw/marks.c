@@ -121,6 +121,14 @@ sl_colour sl_palette_ramp(bool is_dark, double value) {
                       from[2] + (to[2] - from[2]) * share);
 }
 
+sl_colour sl_palette_changes(bool is_dark, double value) {
+    static const sl_colour ends[2][3] = {
+        {{0.130, 0.400, 0.675}, {0.930, 0.930, 0.930}, {0.700, 0.095, 0.170}},
+        {{0.400, 0.690, 0.940}, {0.220, 0.230, 0.250}, {0.960, 0.520, 0.400}}};
+    const double far = fabs(2 * value - 1);
+    return sl_colour_mix(ends[is_dark][1], ends[is_dark][value < 0.5 ? 0 : 2], fmin(far, 1));
+}
+
 // --- pens and marks
 
 sli_pens sli_pens_for(const sl_scene *scene, const sl_frame *frame) {

@@ -4,6 +4,7 @@
 
 #include "app/layout.h"
 #include "plan/effects.h"
+#include "plan/from_line.h"
 #include "plan/heat.h"
 #include "plan/route.h"
 
@@ -40,6 +41,18 @@ static void click_at(app_state *app, sl_point at) {
     input_press(app, BUTTON_LEFT, page);
     input_release(app, page);
     app_tick(app, 0);
+}
+
+static void drag(app_state *app, sl_point from, sl_point to) {
+    const sl_frame frame = camera_frame(&app->view.camera, app_layout(app).plan[0], 1);
+    const sl_point a = sl_frame_point(&frame, from), b = sl_frame_point(&frame, to);
+    input_move(app, a);
+    input_press(app, BUTTON_LEFT, a);
+    input_move(app, b);
+    script_frame(app);
+    input_release(app, b);
+    app_tick(app, 0);
+    script_frame(app);
 }
 
 static const char svg[] = "<svg xmlns='http://www.w3.org/2000/svg' width='200' height='100'>"
@@ -119,6 +132,87 @@ static void test_path(void **state) {
     viewer_end(app);
 }
 
+/// A walker with a radius keeps away from walls, and does not pass a door that is too narrow.
+static void test_walker(void **state) {
+    (void)state;
+    app_state *app = start("a.map", doors);
+    press(app, "9");
+    press(app, "Ctrl+3");
+    click_at(app, (sl_point){5, 5});
+    click_at(app, (sl_point){15, 5});
+    const route_layer *layer = app->view.route;
+    const double thin = layer->route.length;
+    app->view.walker = 0.4;
+    app_tick(app, 0);
+    script_frame(app);
+    assert_true(layer->route.found && layer->route.length > thin);
+    for (size_t i = 1; i + 1 < layer->route.count; i++) {
+        const sl_point p = layer->route.points[i];
+        const bool low = p.y < 5;
+        assert_true(hypot(p.x - 10, p.y - (low ? 2 : 8)) >= 0.4);
+    }
+    app->view.walker = 1.1; // the doors are 2 wide
+    app_tick(app, 0);
+    script_frame(app);
+    assert_false(layer->route.found || layer->tight);
+    app->view.walker = 6; // more than the room is
+    app_tick(app, 0);
+    script_frame(app);
+    assert_true(layer->tight && layer->clicks == 2);
+    app->view.walker = 0;
+    app_tick(app, 0);
+    assert_true(layer->route.found && layer->route.length == thin);
+    viewer_end(app);
+}
+
+/// The regions of a line that is dragged are those of the library, for the doors as they are.
+static void test_from_line(void **state) {
+    (void)state;
+    app_state *app = start("a.map", doors);
+    press(app, "9");
+    press(app, "Ctrl+4");
+    assert_null(from_line_seen(&app->view));
+    const sl_point eye = app->view.eye.at;
+    for (int shut = 0; shut < 2; shut++) {
+        if (shut)
+            door_toggle(&app->view, 0);
+        else
+            drag(app, (sl_point){3, 3}, (sl_point){7, 8});
+        app_tick(app, 0);
+        script_frame(app);
+        const from_line *layer = from_line_seen(&app->view);
+        sl_query *query;
+        sl_set_sight *sight;
+        assert_non_null(layer);
+        assert_true(hypot(layer->ends[0].x - 3, layer->ends[0].y - 3) < 0.1);
+        assert_true(hypot(layer->ends[1].x - 7, layer->ends[1].y - 8) < 0.1);
+        assert_int_equal(sl_query_copy(app->context, app->view.present.query, &query), SL_OK);
+        assert_int_equal(
+            sl_set_sight_create(app->context, query, layer->ends, 2, SL_SET_LINE, &sight), SL_OK);
+        for (int i = 0; i < 2; i++) {
+            sl_set_region region = {0};
+            assert_int_equal(sl_set_sight_region(app->context, sight, (sl_set_seen)i, &region),
+                             SL_OK);
+            assert_true(region.area > 90 && region.area == layer->seen[i].area);
+            sl_set_region_destroy(app->context, &region);
+        }
+        assert_true(layer->seen[0].area > layer->seen[1].area);
+        sl_set_sight_destroy(app->context, sight);
+        sl_query_destroy(app->context, query);
+    }
+    assert_true(app->view.eye.at.x == eye.x && app->view.eye.at.y == eye.y);
+    assert_int_equal(layers_fill(&app->view), LAYER_COUNT);
+    press(app, "Escape");
+    assert_null(from_line_seen(&app->view));
+    // A click is no line; another tool brings layers back.
+    click_at(app, (sl_point){12, 5});
+    assert_true(app->view.eye.at.x == eye.x && !app->view.from_line->drawn);
+    press(app, "Ctrl+2");
+    assert_int_equal(app->view.tool, TOOL_ISOVIST);
+    assert_int_equal(layers_fill(&app->view), LAYER_HEAT);
+    viewer_end(app);
+}
+
 /// With colours by rank the key tells where quarters of the points end.
 static void test_ranks(void **state) {
     (void)state;
@@ -154,8 +248,8 @@ static void test_ranks(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_opens),
-        cmocka_unit_test(test_path),
+        cmocka_unit_test(test_opens),  cmocka_unit_test(test_path),
+        cmocka_unit_test(test_walker), cmocka_unit_test(test_from_line),
         cmocka_unit_test(test_ranks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,6 +1,7 @@
 /// What actions do, by topic, and the table that names them.
 #include "app/actions.h"
 
+#include "app/action_parts.h"
 #include "app/layout.h"
 #include "app/pictures.h"
 #include "app/turn.h"
@@ -15,35 +16,17 @@
 #include "plan/cameras.h"
 #include "plan/edit.h"
 #include "plan/effects.h"
+#include "plan/from_line.h"
 #include "plan/heat.h"
+#include "plan/line_map.h"
 #include "plan/route.h"
+#include "plan/table.h"
 #include "plan/view.h"
 #include "plan/view_cells.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-
-enum {
-    EXPLORE = 1 << MODE_EXPLORE,
-    LEARN = 1 << MODE_LEARN,
-    DRAW = 1 << MODE_DRAW,
-    QUIZ = 1 << MODE_QUIZ,
-    CAMERAS = 1 << MODE_CAMERAS,
-    PLAN = 1 << MODE_PLAN,
-    NOT_LEARN = EXPLORE | DRAW | QUIZ | PLAN,
-    WALKS = EXPLORE | DRAW | LEARN | PLAN,
-};
-
-/// An action of one statement, and whether a switch is on.
-#define DO(name, statement)                                                                        \
-    static void name(app_state *app) {                                                             \
-        statement;                                                                                 \
-    }
-#define IS(name, value)                                                                            \
-    static bool is_##name(const app_state *app) {                                                  \
-        return value;                                                                              \
-    }
 
 // --- modes
 
@@ -67,24 +50,11 @@ MODE(quiz, MODE_QUIZ)
 MODE(cameras, MODE_CAMERAS)
 MODE(plan, MODE_PLAN)
 
-// --- tools of the Plan mode
-
-DO(plan_isovist, app->view.tool = TOOL_ISOVIST)
-IS(plan_isovist, app->view.tool == TOOL_ISOVIST)
-
-static void plan_path(app_state *app) {
-    app->view.tool = TOOL_PATH;
-    ui_say(&app->ui, false, "click where the way begins, then where it ends");
-}
-
-IS(plan_path, app->view.tool == TOOL_PATH)
-
 // --- layers
 
 #define TOGGLE(NAME, ...)                                                                          \
     static void toggle_##NAME(app_state *app) {                                                    \
-        app->view.show ^= SHOW_##NAME;                                                             \
-        if (app->view.show & SHOW_FILLS & SHOW_##NAME) layers_set_fill(&app->view, LAYER_##NAME);  \
+        layers_toggle(&app->view, LAYER_##NAME);                                                   \
     }                                                                                              \
     static bool is_##NAME(const app_state *app) {                                                  \
         return (app->view.show & SHOW_##NAME) != 0;                                                \
@@ -155,33 +125,6 @@ static void views_merge(app_state *app) {
 
 DO(views_split, view_layer_go(&app->view, view_layer_shown(app->view.views) + 1))
 DO(views_largest, view_layer_mark_next(&app->view))
-DO(heat_next, heat_choose(&app->view, 1))
-DO(heat_back, heat_choose(&app->view, -1))
-DO(heat_steps, heat_toggle_steps(&app->view))
-
-static bool is_heat_steps(const app_state *app) {
-    return !heat_measure_part(heat_measure(app->view.heat_choice.measure));
-}
-
-static void plan_graph(app_state *app) {
-    toggle_HEAT(app);
-}
-
-IS(plan_graph, is_HEAT(app))
-DO(heat_ranks, heat_toggle_ranks(&app->view))
-IS(heat_ranks, app->view.heat_choice.ranks)
-DO(heat_hold, heat_toggle_held(&app->view))
-IS(heat_hold, app->view.heat_choice.held)
-
-static void heat_step_by(app_state *app, int by) {
-    int last;
-    heat_set_step(&app->view, heat_step_place(&app->view, &last) + by);
-    ui_say(&app->ui, false, "heat map: %.3g from point to point", heat_step(&app->view));
-}
-
-DO(heat_coarser, heat_step_by(app, -1))
-DO(heat_finer, heat_step_by(app, 1))
-
 // --- view
 
 /// Shows what lies beside the part of the map that is shown, an eighth of the plan further.
@@ -389,42 +332,6 @@ static void draw_doors(app_state *app) {
 
 IS(draw_doors, app->view.edit.draws_doors)
 
-// --- cameras
-
-DO(camera_left, camera_turn(&app->view, 5))
-DO(camera_right, camera_turn(&app->view, -5))
-DO(camera_narrower, camera_widen(&app->view, -5))
-DO(camera_wider, camera_widen(&app->view, 5))
-DO(camera_nearer, camera_reach(&app->view, 1 / 1.1))
-DO(camera_farther, camera_reach(&app->view, 1.1))
-DO(camera_copied, camera_copy(&app->view))
-DO(camera_deleted, camera_delete(&app->view))
-DO(camera_next, camera_choose(&app->view, 1))
-DO(camera_back, camera_choose(&app->view, -1))
-DO(camera_spot, camera_go_to_spot(&app->view, app->view.cameras ? app->view.cameras->spot : 0))
-DO(camera_find, cameras_find(&app->view))
-
-static bool is_camera_find(const app_state *app) {
-    return cameras_progress(app->view.cameras).running;
-}
-
-static void wish_for(desk_state *desk, path_wish wish, const char *path) {
-    desk->wish = wish;
-    snprintf(desk->wish_path, sizeof desk->wish_path, "%s", path);
-}
-
-static void import_table(desk_state *desk, const char *path, bool ask) {
-    (void)ask;
-    wish_for(desk, WISH_READ_TABLE, path);
-}
-
-static void export_table(desk_state *desk, const char *path) {
-    wish_for(desk, WISH_WRITE_TABLE, path);
-}
-
-DO(camera_import, browser_open(&app->desk, BROWSE_TABLES, import_table))
-DO(camera_export, browser_save(&app->desk, BROWSE_TABLES, "cameras.csv", export_table))
-
 // --- doors
 
 DO(nearest_door, door_toggle_nearest(&app->view))
@@ -465,6 +372,11 @@ static void play(app_state *app) {
 }
 
 IS(play, app->recorder.plays)
+
+void wish_for(desk_state *desk, path_wish wish, const char *path) {
+    desk->wish = wish;
+    snprintf(desk->wish_path, sizeof desk->wish_path, "%s", path);
+}
 
 static void take_frames(desk_state *desk, const char *path) {
     wish_for(desk, WISH_FRAMES, path);
@@ -544,6 +456,9 @@ static void escape(app_state *app) {
         ;
     else if (app->view.mode == MODE_PLAN && app->view.tool == TOOL_PATH && route_clear(&app->view))
         ui_say(&app->ui, false, "the way is gone");
+    else if (app->view.mode == MODE_PLAN && app->view.tool == TOOL_FROM_LINE &&
+             from_line_clear(&app->view))
+        ui_say(&app->ui, false, "the line is gone");
     else if (app->document.job) {
         document_cancel(app->context, &app->document);
         ui_say(&app->ui, false, "stopped; what is there stays");
@@ -553,6 +468,8 @@ static void escape(app_state *app) {
         ui_say(&app->ui, false, "stopped; F5 twice makes view cells again");
     else if (cameras_stop(&app->view))
         ui_say(&app->ui, false, "stopping: the best cameras so far stay");
+    else if (line_map_stop(&app->view))
+        ui_say(&app->ui, false, "stopped; the tool finds lines again once doors or walls change");
     else if (heat_layer_stop(&app->view))
         ui_say(&app->ui, false, "stopped; 1 twice makes the heat map again");
     else if (app->view.mode == MODE_LEARN && app->learn.lesson.chosen_next)
@@ -571,7 +488,7 @@ static void escape(app_state *app) {
 #define LAYER_ROW(NAME, name, key, label, help, modes, calls)                                      \
     {name, key, label, "layer: " help, modes, 0, toggle_##NAME, is_##NAME},
 
-static const action_row actions[] = {
+static const action_row first[] = {
     {"explore", "F1", "Explore", "explore: walk about", 0, 0, explore, is_explore},
     {"learn", "F2", "Learn", "learn: step by step", 0, 0, learn, is_learn},
     {"draw", "F3", "Draw", "draw: walls and doors by hand", 0, 0, draw, is_draw},
@@ -604,22 +521,6 @@ static const action_row actions[] = {
     {"views_split", "Ctrl+Right", "Split", "view cells: one more", NOT_LEARN, 0, views_split, NULL},
     {"views_largest", "F6", "Largest cost", "view cells: the largest cost, then the next", 0, 0,
      views_largest, NULL},
-    {"heat_next", "2", "Next measure", "heat map: the next measure", NOT_LEARN, 0, heat_next, NULL},
-    {"heat_back", "3", "Back", "heat map: the measure before", NOT_LEARN, 0, heat_back, NULL},
-    {"heat_coarser", "4", "Coarser", "heat map: a coarser grid", NOT_LEARN, 0, heat_coarser, NULL},
-    {"heat_finer", "5", "Finer", "heat map: a finer grid", NOT_LEARN, 0, heat_finer, NULL},
-    {"heat_steps", "6", "Steps", "heat map: steps from the pointer, live", NOT_LEARN, 0, heat_steps,
-     is_heat_steps},
-    {"heat_hold", "7", "Keep colours", "heat map: keep the colour scale, to compare", NOT_LEARN, 0,
-     heat_hold, is_heat_hold},
-    {"heat_ranks", NULL, "Equal shares", "heat map: as many points in each colour", NOT_LEARN, 0,
-     heat_ranks, is_heat_ranks},
-    {"plan_isovist", "Ctrl+1", "Isovist", "plan: a click puts the viewpoint", PLAN, 0, plan_isovist,
-     is_plan_isovist},
-    {"plan_graph", "Ctrl+2", "Visibility graph", "plan: the heat map of the visibility graph", PLAN,
-     0, plan_graph, is_plan_graph},
-    {"plan_path", "Ctrl+3", "Path", "plan: two clicks, and the shortest way between them", PLAN, 0,
-     plan_path, is_plan_path},
     {"first_person", "I", "First person", "first-person pane", 0, 0, first_person, is_first_person},
     {"account", "L", "What accuracy costs", "what accuracy costs, as a chart", 0, 0, account,
      is_account},
@@ -667,28 +568,9 @@ static const action_row actions[] = {
     {"next_question", "Space", "Next (Space)", "quiz: the next question", QUIZ, 0, next_question,
      NULL},
 
-    {"camera_find", "Space", "Find the fewest", "cameras: the fewest that see everything", CAMERAS,
-     0, camera_find, is_camera_find},
-    {"camera_left", "Left", NULL, "cameras: turn the chosen one left", CAMERAS, 0, camera_left,
-     NULL},
-    {"camera_right", "Right", NULL, "cameras: turn it right", CAMERAS, 0, camera_right, NULL},
-    {"camera_narrower", ",", NULL, "cameras: narrower field of view", CAMERAS, 0, camera_narrower,
-     NULL},
-    {"camera_wider", ".", NULL, "cameras: wider field of view", CAMERAS, 0, camera_wider, NULL},
-    {"camera_nearer", "-", NULL, "cameras: shorter range", CAMERAS, 0, camera_nearer, NULL},
-    {"camera_farther", "=", NULL, "cameras: longer range", CAMERAS, 0, camera_farther, NULL},
-    {"camera_copy", "Ctrl+C", "Copy", "cameras: copy the chosen one", CAMERAS, 0, camera_copied,
-     NULL},
-    {"camera_delete", "Delete", "Delete", "cameras: delete it", CAMERAS, 0, camera_deleted, NULL},
-    {"camera_next", "Down", "Next", "cameras: choose the next one", CAMERAS, 0, camera_next, NULL},
-    {"camera_back", "Up", "Back", "cameras: choose the one before", CAMERAS, 0, camera_back, NULL},
-    {"camera_spot", "B", "Next blind spot", "cameras: go to the next blind spot", CAMERAS, 0,
-     camera_spot, NULL},
-    {"camera_import", "Ctrl+Shift+O", "Import",
-     "cameras: read a table (name,x,y,heading,fov,range)", CAMERAS, 0, camera_import, NULL},
-    {"camera_export", "Ctrl+Shift+E", "Export", "cameras: write the table", CAMERAS, 0,
-     camera_export, NULL},
+};
 
+static const action_row last[] = {
     {"record", "F9", "Record", "record the eye's way", 0, 0, record, is_record},
     {"play", "F10", "Play", "play it, or the map's path", 0, 0, play, is_play},
     {"export_series", NULL, "Save the way", "save pictures of the way", 0, 0, export_frames, NULL},
@@ -729,32 +611,48 @@ static const action_row actions[] = {
     {"escape", "Escape", "Stop", "stop, close, end the presentation", 0, 0, escape, NULL},
     {"quit", "Ctrl+Q", NULL, "quit", 0, 0, quit, NULL},
 };
-enum { COUNT = sizeof actions / sizeof *actions };
-_Static_assert((int)COUNT <= (int)ACTIONS_MOST, "the page has room for all");
+/// The parts of the table, in the order of the help.
+enum { PARTS = 3 };
+static void list_parts(action_part parts[PARTS]) {
+    parts[0] = (action_part){first, sizeof first / sizeof *first};
+    parts[1] = actions_plan();
+    parts[2] = (action_part){last, sizeof last / sizeof *last};
+}
 
-const action_row *action_table(size_t *count) {
-    *count = COUNT;
-    return actions;
+int action_count(void) {
+    action_part parts[PARTS];
+    int count = 0;
+    list_parts(parts);
+    for (int i = 0; i < PARTS; i++) count += parts[i].count;
+    return count;
+}
+
+const action_row *action_at(int number) {
+    action_part parts[PARTS];
+    int part = 0;
+    list_parts(parts);
+    for (; number >= parts[part].count; part++) number -= parts[part].count;
+    return &parts[part].rows[number];
 }
 
 int action_find(const char *name) {
-    for (int i = 0; i < COUNT; i++)
-        if (strcmp(actions[i].name, name) == 0) return i;
+    for (int i = 0; i < action_count(); i++)
+        if (strcmp(action_at(i)->name, name) == 0) return i;
     return -1;
 }
 
 int action_of_key(const char *key, view_mode mode) {
-    for (int i = 0; i < COUNT; i++)
-        if (actions[i].key && strcmp(actions[i].key, key) == 0 &&
-            (!actions[i].modes || actions[i].modes & 1u << mode))
-            return i;
+    for (int i = 0; i < action_count(); i++) {
+        const action_row *a = action_at(i);
+        if (a->key && strcmp(a->key, key) == 0 && (!a->modes || a->modes & 1u << mode)) return i;
+    }
     return -1;
 }
 
 void actions_show(app_state *app) {
-    app->ui.action_count = COUNT;
-    for (int i = 0; i < COUNT; i++) {
-        const action_row *a = &actions[i];
+    app->ui.action_count = action_count();
+    for (int i = 0; i < app->ui.action_count && i < ACTIONS_MOST; i++) {
+        const action_row *a = action_at(i);
         app->ui.actions[i] =
             (ui_action){a->name, a->key, a->label, a->help, a->on && a->on(app), a->hold != 0};
     }
@@ -766,10 +664,13 @@ static void take_wish(app_state *app) {
     const char *path = app->desk.wish_path;
     sl_status status = SL_OK;
     app->desk.wish = WISH_NONE;
+    if (app->desk.file.locked) return;
     if (wish == WISH_READ_TABLE)
         status = cameras_read(&app->view, path);
     else if (wish == WISH_WRITE_TABLE)
         status = cameras_write(&app->view, path);
+    else if (wish == WISH_WRITE_VALUES)
+        status = table_write(&app->view, path);
     else if (wish == WISH_PICTURE)
         status = save_picture(app, path);
     else if (wish == WISH_FRAMES)
@@ -785,9 +686,10 @@ void actions_answered(app_state *app) {
 }
 
 void action_run(app_state *app, int action) {
-    if (action < 0 || action >= COUNT) return;
-    if (actions[action].run)
-        actions[action].run(app);
+    if (action < 0 || action >= action_count()) return;
+    const action_row *a = action_at(action);
+    if (a->run)
+        a->run(app);
     else
-        app->view.held |= actions[action].hold;
+        app->view.held |= a->hold;
 }

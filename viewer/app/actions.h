@@ -15,7 +15,9 @@ typedef struct action_row {
     bool (*on)(const app_state *app); ///< whether it is switched on; NULL for what is no switch
 } action_row;
 
-const action_row *action_table(size_t *count);
+int action_count(void);
+/// The row of an action, from 0. Numbers go by the order of the help.
+const action_row *action_at(int number);
 
 /// Has the page show the actions as they are now.
 void actions_show(app_state *app);

@@ -198,9 +198,7 @@ static sl_point random_place(const ui_state *ui, sl_random *random) {
 }
 
 static void random_key(app_state *app, sl_random *random) {
-    size_t count;
-    const action_row *action = &action_table(&count)[0];
-    action += sl_random_below(random, count);
+    const action_row *action = action_at((int)sl_random_below(random, (uint64_t)action_count()));
     if (!action->key || !is_harmless(action->name)) return;
     // A layout that never turns back to small text would make everything slow.
     if (app->ui.text_scale > 1.8) app->ui.text_scale = 1;
@@ -215,18 +213,16 @@ static void random_focus_key(app_state *app, sl_random *random) {
                                        "Up",     "Down",         "Space", "Backspace"};
     const hit_area focused = ui_focused(&app->ui);
     const char *key = keys[sl_random_below(random, sizeof keys / sizeof *keys)];
-    size_t count;
     const bool writes = focused.kind == HIT_ACTION && focused.value >= 0 &&
-                        !is_harmless(action_table(&count)[focused.value].name);
+                        !is_harmless(action_at(focused.value)->name);
     input_key(app, writes ? "Tab" : key, true);
     input_key(app, key, false);
     if (!sl_random_below(random, 4)) input_text(app, "wall");
 }
 
 static bool is_file_button(const ui_state *ui, sl_point at) {
-    size_t count;
     const hit_area hit = ui_find(ui, at);
-    return hit.kind == HIT_ACTION && !is_harmless(action_table(&count)[hit.value].name);
+    return hit.kind == HIT_ACTION && !is_harmless(action_at(hit.value)->name);
 }
 
 static void random_drag(app_state *app, sl_random *random) {

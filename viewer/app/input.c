@@ -10,8 +10,11 @@
 #include "plan/cameras.h"
 #include "plan/edit.h"
 #include "plan/effects.h"
+#include "plan/from_line.h"
 #include "plan/grid.h"
+#include "plan/line_map.h"
 #include "plan/route.h"
+#include "plan/table.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -193,7 +196,6 @@ static bool own_key(app_state *app, const char *key, bool down) {
 }
 
 void input_key(app_state *app, const char *key, bool down) {
-    size_t count;
     const text_field *before = app->ui.field;
     if (dialog_open_now(&app->desk.dialog) != DIALOG_NONE) {
         dialog_key(&app->desk.dialog, key, down);
@@ -203,10 +205,9 @@ void input_key(app_state *app, const char *key, bool down) {
     if (!down) app->ui.field_mutes = false;
     if (own_key(app, key, down)) return;
     if (strcmp(key, "Backspace") == 0) key = "Delete";
-    const action_row *actions = action_table(&count);
     const int number = action_of_key(key, app->view.mode);
     if (number < 0) return;
-    const action_row *action = &actions[number];
+    const action_row *action = action_at(number);
     if (action->hold) {
         app->view.held = down ? app->view.held | action->hold : app->view.held & ~action->hold;
         if (down) app->recorder.plays = false;
@@ -293,6 +294,7 @@ static drag_kind plan_drag(app_state *app, drag_state *drag) {
     if (moves && mirror_take(&app->view, drag)) return DRAG_MIRROR;
     if (app->view.mode == MODE_EXPLORE && object_take(&app->view, drag)) return DRAG_OBJECT;
     if (app->view.mode == MODE_CAMERAS && camera_take(&app->view, drag)) return DRAG_CAMERA;
+    if (app->view.mode == MODE_PLAN && app->view.tool == TOOL_FROM_LINE) return DRAG_FROM_LINE;
     if (app->view.mode != MODE_DRAW) return DRAG_PAN;
     return edit_take(&app->view, drag);
 }
@@ -319,6 +321,12 @@ static void click_widget(app_state *app, const hit_area *hit) {
         app->learn.lesson.chosen_next = (uint32_t)hit->value + 2;
     } else if (hit->kind == HIT_CAMERA && app->view.cameras) {
         app->view.cameras->chosen = (size_t)hit->value;
+    } else if (hit->kind == HIT_HEAD) {
+        table_sort(&app->view, (size_t)hit->value);
+    } else if (hit->kind == HIT_ROW) {
+        table_choose(&app->view, (size_t)hit->value);
+    } else if (hit->kind == HIT_MEASURE && line_map_choice(&app->view)) {
+        line_map_choose(&app->view, hit->value - (int)*line_map_choice(&app->view));
     } else if (hit->kind == HIT_SPOT) {
         camera_go_to_spot(&app->view, (uint32_t)hit->value);
     }
@@ -431,6 +439,11 @@ static void input_point(app_state *app, sl_point to) {
     case DRAG_CAMERA:
         if (drag->moved) camera_move(&app->view, drag, now);
         break;
+    case DRAG_FROM_LINE:
+        if (drag->moved && !drag->changed) from_line_begin(&app->view, drag->at);
+        drag->changed |= drag->moved;
+        if (drag->moved) from_line_move(&app->view, now);
+        break;
     case DRAG_NEW_WALL:
     case DRAG_NEW_DOOR:
     case DRAG_WALL:
@@ -460,8 +473,8 @@ void input_release(app_state *app, sl_point at) {
     const sl_point now = to_map(app, drag.hit.value, at);
     if (drag.kind == DRAG_MIRROR) mirror_drop(&app->view, &drag);
     if (drag.kind == DRAG_OBJECT && !drag.moved) object_toggle(&app->view, drag.index);
-    const bool holds =
-        drag.kind == DRAG_PAN || (drag.kind == DRAG_MIRROR && app->view.mode == MODE_EXPLORE);
+    const bool holds = drag.kind == DRAG_PAN || drag.kind == DRAG_FROM_LINE ||
+                       (drag.kind == DRAG_MIRROR && app->view.mode == MODE_EXPLORE);
     const bool puts = holds && !drag.moved && app->view.mode != MODE_QUIZ;
     const uint32_t door = puts ? door_at(&app->view, now) : UINT32_MAX;
     if (door == UINT32_MAX && puts && app->view.mode == MODE_CAMERAS) {
@@ -470,11 +483,16 @@ void input_release(app_state *app, sl_point at) {
         door_toggle(&app->view, door);
     } else if (puts && app->view.mode == MODE_PLAN && app->view.tool == TOOL_PATH) {
         route_click(&app->view, now);
+    } else if (puts && line_map_choice(&app->view)) {
+        table_pick(&app->view, now);
+    } else if (drag.kind == DRAG_FROM_LINE) {
+        if (puts) ui_say(&app->ui, false, "drag a line: press where it begins, release at its end");
     } else if (puts && view_is_solid(&app->view, now)) {
         ui_say(&app->ui, false, "this is solid ground: the eye stays; click in a room");
     } else if (puts && sl_space_locate(&app->document.baked->space, now) != SL_NO_CELL) {
         app->view.eye.at = now;
         app->recorder.plays = false;
+        if (app->view.mode == MODE_PLAN) table_pick(&app->view, now);
         if (app->view.mode == MODE_EXPLORE) quiz_forget(&app->learn);
     }
 }

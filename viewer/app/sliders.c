@@ -14,7 +14,8 @@
 // --- the view cone: finer where it is narrow
 
 static bool has_eye(const app_state *app) {
-    return app->view.mode != MODE_CAMERAS;
+    return app->view.mode != MODE_CAMERAS &&
+           !(app->view.mode == MODE_PLAN && tool_paints(app->view.tool));
 }
 
 static double cone_share(const app_state *app) {
@@ -225,9 +226,41 @@ static void set_camera_range(app_state *app, double share) {
     camera_changed(&app->view);
 }
 
+// --- who walks a path: finer where it is thin
+
+static bool has_walker(const app_state *app) {
+    return app->view.mode == MODE_PLAN && app->view.tool == TOOL_PATH && app->document.baked;
+}
+
+/// The widest walker, by the map's size.
+static double widest_walker(const app_state *app) {
+    const sl_box b = app->document.baked->space.bounds;
+    return fmin(b.max.x - b.min.x, b.max.y - b.min.y) / 20;
+}
+
+static double walker_share(const app_state *app) {
+    return sqrt(fmin(app->view.walker / widest_walker(app), 1));
+}
+
+static void walker_text(const app_state *app, char text[SLIDER_TEXT]) {
+    const char *unit = app->document.map.unit;
+    if (app->view.walker > 0)
+        snprintf(text, SLIDER_TEXT, "%.3g%s%s", app->view.walker, *unit ? " " : "", unit);
+    else
+        snprintf(text, SLIDER_TEXT, "a point");
+}
+
+static void set_walker(app_state *app, double share) {
+    const double radius = share * share * widest_walker(app);
+    const double digit = pow(10, floor(log10(fmax(radius, 1e-300))) - 1);
+    app->view.walker = share > 0.01 ? digit * round(radius / digit) : 0;
+}
+
 static const slider_row sliders[] = {
     {"View cone", has_eye, cone_share, cone_text, set_cone, NULL, NULL,
      "How wide the eye sees (, and .)"},
+    {"Radius", has_walker, walker_share, walker_text, set_walker, NULL, NULL,
+     "Half the width of who walks the path: gaps that are too narrow are not passed"},
     {"View range", has_range, range_share, range_text, set_range, view_keep, range_settle,
      "Nothing farther than this is seen (Ctrl+R sets and lifts it)"},
     {"Reflections", has_mirrors, depth_share, depth_text, set_depth, NULL, mirror_settle_depth,

@@ -8,8 +8,11 @@
 #include "dialogs/question.h"
 #include "plan/cameras.h"
 #include "plan/drag_world.h"
+#include "plan/from_line.h"
 #include "plan/heat.h"
+#include "plan/line_map.h"
 #include "plan/route.h"
+#include "plan/table.h"
 #include "plan/view_cells.h"
 
 static const dialog_row dialogs[DIALOG_KINDS] = {
@@ -37,6 +40,9 @@ void app_init(app_state *app, sl_context *context) {
                  .last_filled = 1,
                  .split_depth = 6,
                  .tree_depth = 64,
+                 .line_measure = {sl_measure_find(SL_AXIAL, "integration_hh"),
+                                  sl_measure_find(SL_SEGMENTS, "t1024_choice")},
+                 .table = {.chosen = SIZE_MAX},
                  .world_walls = 2000,
                  .method = count - 1},
         .learn = {.context = context,
@@ -88,6 +94,9 @@ void app_destroy(app_state *app) {
     watch_layer_destroy(app->context, app->view.watch);
     camera_layer_destroy(app->context, app->view.cameras);
     route_layer_destroy(app->context, app->view.route);
+    from_line_destroy(app->context, app->view.from_line);
+    table_destroy(app->context, &app->view.table);
+    for (int i = 0; i < 2; i++) line_map_destroy(app->context, app->view.lines[i]);
     drag_world_drop(&app->view);
     seen_destroy(app->context, &app->view.seen);
     present_drop(app->context, &app->view.present);

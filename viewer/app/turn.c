@@ -9,7 +9,9 @@
 #include "plan/cameras.h"
 #include "plan/drag_world.h"
 #include "plan/effects.h"
+#include "plan/from_line.h"
 #include "plan/heat.h"
+#include "plan/line_map.h"
 #include "plan/route.h"
 #include "plan/view_cells.h"
 #include "sightline/support.h"
@@ -101,6 +103,7 @@ static void take_document(app_state *app, bool opened) {
     app->recorder.frames.count = 0;
     cameras_clear(&app->view);
     route_clear(&app->view);
+    from_line_clear(&app->view);
     if (app->view.mode == MODE_EXPLORE && is_plan_file(app->document.source.path))
         app->view.mode = MODE_PLAN;
     walk_home(&app->view);
@@ -165,6 +168,8 @@ static void poll_all(app_state *app, bool wait) {
     heat_layer_update(&app->view, wait);
     cameras_update(&app->view, wait);
     route_update(&app->view);
+    from_line_update(&app->view, wait);
+    line_map_update(&app->view, wait);
     map_file_tick(&app->desk, wait);
     recovery_tick(&app->desk);
 }
@@ -179,7 +184,12 @@ job_progress app_progress(const app_state *app) {
     const job_progress views = view_layer_progress(app->view.views);
     if (views.running) return views;
     const job_progress cameras = cameras_progress(app->view.cameras);
-    return cameras.running ? cameras : heat_layer_progress(app->view.heat);
+    if (cameras.running) return cameras;
+    const job_progress line =
+        app->view.from_line ? tool_job_progress(&app->view.from_line->job) : (job_progress){0};
+    if (line.running) return line;
+    const job_progress lines = line_map_progress(&app->view);
+    return lines.running ? lines : heat_layer_progress(app->view.heat);
 }
 
 static void look_again(app_state *app) {

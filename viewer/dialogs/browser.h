@@ -9,7 +9,13 @@ typedef void browser_open_file(desk_state *desk, const char *path, bool ask);
 typedef void browser_save_file(desk_state *desk, const char *path);
 
 /// What is opened or saved. Frames are a new folder of pictures.
-typedef enum browse_kind { BROWSE_MAPS, BROWSE_TABLES, BROWSE_PICTURES, BROWSE_FRAMES } browse_kind;
+typedef enum browse_kind {
+    BROWSE_MAPS,
+    BROWSE_TABLES,
+    BROWSE_VALUES,
+    BROWSE_PICTURES,
+    BROWSE_FRAMES
+} browse_kind;
 
 /// `then` opens the map or table that is chosen; `ask`: all its options are to be asked for.
 void browser_open(desk_state *desk, browse_kind kind, browser_open_file *then);

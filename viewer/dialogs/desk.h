@@ -30,11 +30,13 @@ typedef struct file_state {
     session offer;       ///< an earlier one that is asked about
 } file_state;
 
-/// What is to be done with a path that was chosen: a table of cameras, a picture, a folder of them.
+/// What is to be done with a path that was chosen: a table of cameras or of what
+/// a tool has computed, a picture, a folder of them.
 typedef enum path_wish {
     WISH_NONE,
     WISH_READ_TABLE,
     WISH_WRITE_TABLE,
+    WISH_WRITE_VALUES,
     WISH_PICTURE,
     WISH_FRAMES
 } path_wish;

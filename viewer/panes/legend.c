@@ -5,7 +5,9 @@
 #include "panes/panes.h"
 
 #include "draw/marks.h" // private: samples are the marks of the plan
+#include "plan/from_line.h"
 #include "plan/heat.h"
+#include "plan/line_map.h"
 #include "plan/view_cells.h"
 
 #include <math.h>
@@ -69,12 +71,27 @@ static bool has_outside(const view_state *view) {
     return space->inside_count + view->document->solid < space->cell_count;
 }
 
+/// What is seen from a line, with its area.
+static int add_from_line(const view_state *view, legend_row *rows) {
+    static const char *const labels[] = {"seen from some point", "seen from all points"};
+    const from_line *layer = from_line_seen(view);
+    if (view->mode != MODE_PLAN || view->tool != TOOL_FROM_LINE || !layer) return 0;
+    for (int i = 0; i < 2; i++) {
+        rows[i] = (legend_row){.label = labels[i],
+                               .mark = LEGEND_PLAIN,
+                               .colour = sl_coverage_colour(&view->ui->palette, i ? 3 : 1)};
+        snprintf(rows[i].value, sizeof rows[i].value, "%.4g", layer->seen[i].area);
+    }
+    return 2;
+}
+
 /// Writes what is shown now, and how. Returns the number of rows.
 static int list_rows(const view_state *view, legend_row rows[LEGEND_MOST]) {
     const sl_palette *palette = &view->ui->palette;
     const sl_map *map = &view->document->map;
     if (!view->document->baked) return 0;
     int at = add_layers(view, rows);
+    at += add_from_line(view, rows + at);
     if (layers_shows(view, LAYER_VIEWS) && view_layer_shown(view->views))
         rows[at++] = stroke_row("border of a view cell", palette->wall, false);
     const heat_graph *graph;
@@ -86,7 +103,8 @@ static int list_rows(const view_state *view, legend_row rows[LEGEND_MOST]) {
     if (layers_shows(view, LAYER_PORTALS)) rows[at++] = stroke_row("portal", palette->portal, true);
     if (layers_shows(view, LAYER_STARTS) && map->path_count)
         rows[at++] = stroke_row("path", palette->path, true);
-    const bool eye = view->mode != MODE_QUIZ && view->mode != MODE_CAMERAS;
+    const bool eye = view->mode != MODE_QUIZ && view->mode != MODE_CAMERAS &&
+                     !(view->mode == MODE_PLAN && tool_paints(view->tool));
     if (map->range > 0 && eye) rows[at++] = stroke_row("view range", palette->start, true);
     const struct {
         const char *label;
@@ -214,7 +232,7 @@ static double draw_row(ui_state *ui, double left, double right, double y, const 
 
 // --- keys of layers that are coloured by values
 
-enum { KEYS_MOST = 2 };
+enum { KEYS_MOST = 3 };
 
 /// The keys of the layers that are shown.
 static int list_keys(const view_state *view, legend_key keys[KEYS_MOST]) {
@@ -222,6 +240,7 @@ static int list_keys(const view_state *view, legend_key keys[KEYS_MOST]) {
     if (!view->seen.valid) return 0;
     count += view_layer_key(view, &keys[count]);
     count += heat_layer_key(view, &keys[count]);
+    count += line_map_key(view, &keys[count]);
     return count;
 }
 
@@ -235,7 +254,7 @@ static void draw_ramp(ui_state *ui, const legend_key *key, double left, double r
     const double from = left + side, wide = (right - left - 2 * side) / RAMP_STEPS;
     for (int step = 0; step < RAMP_STEPS; step++)
         ui_fill(ui, (sl_box){{from + wide * step, base - 0.8 * t}, {right - side, base + 0.1 * t}},
-                ramp_colour(ui, step));
+                ramp_colour(ui, key->ramp, step));
 }
 
 /// Draws a key, or finds its lower edge alone. A narrow key has values below their labels.

@@ -7,8 +7,11 @@
 #include "plan/cameras.h"
 #include "plan/edit.h"
 #include "plan/effects.h"
+#include "plan/from_line.h"
 #include "plan/layer_draw.h"
+#include "plan/line_map.h"
 #include "plan/route.h"
+#include "plan/table.h"
 #include "sightline/draw.h"
 
 #include <math.h>
@@ -83,8 +86,15 @@ static void cameras_above(learn_state *learn, const sl_frame *frame) {
     cameras_draw_above(learn->view, frame);
 }
 
+static void plan_below(learn_state *learn, const sl_frame *frame) {
+    if (learn->view->tool == TOOL_FROM_LINE) from_line_draw_below(learn->view, frame);
+}
+
 static void plan_above(learn_state *learn, const sl_frame *frame) {
+    if (learn->view->tool == TOOL_FROM_LINE) from_line_draw_above(learn->view, frame);
+    line_map_draw(learn->view, frame);
     if (learn->view->tool == TOOL_PATH) route_draw(learn->view, frame);
+    table_draw_chosen(learn->view, frame);
 }
 
 static const mode_row modes[MODES] = {
@@ -100,7 +110,7 @@ static const mode_row modes[MODES] = {
     [MODE_CAMERAS] = {"A click puts a camera; drag it, or its handle; Space finds the fewest",
                       pane_cameras, cameras_below, cameras_above, false, false},
     [MODE_PLAN] = {"A click puts the viewpoint; 1 shows the visibility graph, 2 the next measure",
-                   pane_measures, NULL, plan_above, true, true},
+                   pane_measures, plan_below, plan_above, true, true},
 };
 
 const mode_row *mode_table(void) {
@@ -133,16 +143,17 @@ void modes_draw_above(learn_state *learn, const sl_frame *frame) {
     const mode_row *mode = &modes[view->mode];
     if (mode->above) mode->above(learn, frame);
     draw_kept(view, frame);
-    if (mode->cone)
+    const bool paints = view->mode == MODE_PLAN && tool_paints(view->tool);
+    if (mode->cone && !paints)
         sl_draw_cone(ui->cairo, frame, view->eye.at, view->eye.heading, view->eye.fov,
                      78 * ui_scale(ui), ui->palette.start);
     if (mode->eye) range_draw(view, frame);
     if (mode->eye) mirror_draw(view, frame);
     if (view->mode == MODE_EXPLORE) object_draw(view, frame);
-    if (mode->eye)
+    if (mode->eye && !paints)
         sl_draw_eye_mark(ui->cairo, &ui->palette, frame, view->eye.at, view->eye.heading,
                          6.5 * ui_scale(ui));
-    if (mode->eye && view_is_solid(view, view->eye.at)) draw_rock_note(ui, frame);
+    if (mode->eye && !paints && view_is_solid(view, view->eye.at)) draw_rock_note(ui, frame);
 }
 
 // --- panes below the plan
@@ -174,12 +185,17 @@ static double effects_lines(const learn_state *learn) {
     return 4.5 + 1.5 * __builtin_popcount(sl_plan_make(&learn->document->map).effects);
 }
 
+static bool table_shown(const learn_state *learn) {
+    return learn->ui->table && learn->view->mode == MODE_PLAN;
+}
+
 static const pane_below panes[PANES_BELOW] = {
     [PANE_DUAL] = {dual_shown, pane_dual, NULL},
     [PANE_PROGRAM] = {program_shown, pane_program, NULL},
     [PANE_FIRST_PERSON] = {first_person_shown, pane_first_person, NULL},
     [PANE_ACCOUNT] = {account_shown, pane_account, NULL},
     [PANE_EFFECTS] = {effects_shown, pane_effects, effects_lines},
+    [PANE_TABLE] = {table_shown, pane_table, NULL},
 };
 
 const pane_below *panes_below(void) {

@@ -5,7 +5,15 @@
 #include "lessons/learn.h"
 
 /// The panes below the plan, side by side: rows of the table in modes.c.
-enum { PANE_DUAL, PANE_PROGRAM, PANE_FIRST_PERSON, PANE_ACCOUNT, PANE_EFFECTS, PANES_BELOW };
+enum {
+    PANE_DUAL,
+    PANE_PROGRAM,
+    PANE_FIRST_PERSON,
+    PANE_ACCOUNT,
+    PANE_EFFECTS,
+    PANE_TABLE,
+    PANES_BELOW
+};
 
 /// A pane below the plan. A row of the table in modes.c says when it is shown.
 typedef struct pane_below {

@@ -19,33 +19,6 @@ static void area_text(const camera_layer *layer, double area, char text[AREA_TEX
     snprintf(text, AREA_TEXT, "%.4g   %s", area, share);
 }
 
-/// A row with a colour, a label and a value at the right. Returns its box; the column moves on.
-static sl_box draw_row(ui_state *ui, column *c, const sl_colour *colour, const char *label,
-                       const char *value, bool chosen) {
-    const double t = ui->text, out = fmin(0.4 * t, c->left - c->box.min.x);
-    const double left = c->left + (colour ? 1.5 * t : 0), room = c->right - left;
-    const double wide = ui_text_width(ui, 0.95, false, value);
-    const bool below = ui_text_width(ui, 0.95, false, label) + wide + t > room;
-    const double more = below ? ui_lines_height(ui, room, 0.95, false, value) : 0;
-    const double high = 1.55 * t + more;
-    const sl_box row = {{c->left - out, c->y}, {c->right + out, c->y + high}};
-    if (chosen || box_has(row, ui->pointer))
-        ui_fill_round(ui, row, 0.25 * t,
-                      sl_colour_mix(ui->palette.page, ui->palette.glass, chosen ? 0.22 : 0.1));
-    if (colour)
-        ui_fill_round(ui,
-                      (sl_box){{c->left, c->y + 0.25 * t}, {c->left + 1.05 * t, c->y + 1.3 * t}},
-                      0.2 * t, *colour);
-    ui_text_within(ui, left, c->y + 1.12 * t, below ? room : room - wide - t, 0.95, ui->palette.ink,
-                   label);
-    if (below)
-        ui_lines(ui, left, c->y + 2.45 * t, room, 0.95, false, ui->palette.faint, value);
-    else
-        ui_text_right(ui, c->right, c->y + 1.12 * t, 0.95, ui->palette.faint, value);
-    c->y = row.max.y;
-    return row;
-}
-
 static void draw_classes(view_state *view, column *c) {
     static const char *const names[SL_COVERAGE_CLASSES] = {"not seen", "seen by 1", "seen by 2",
                                                            "seen by 3 or more"};
@@ -56,7 +29,7 @@ static void draw_classes(view_state *view, column *c) {
         const sl_colour colour = sl_coverage_colour(&view->ui->palette, i);
         char text[AREA_TEXT];
         area_text(layer, area, text);
-        draw_row(view->ui, c, &colour, names[i], text, false);
+        column_row(view->ui, c, &colour, names[i], text, false);
     }
 }
 
@@ -104,7 +77,7 @@ static void draw_list(view_state *view, column *c) {
         else if (now)
             snprintf(text, sizeof text, "sees %.4g, alone %.4g", layer->coverage.seen[i],
                      layer->coverage.alone[i]);
-        const sl_box row = draw_row(view->ui, c, &colour, name, text, i == layer->chosen);
+        const sl_box row = column_row(view->ui, c, &colour, name, text, i == layer->chosen);
         ui_hit_focus(view->ui, HIT_CAMERA, (int)i, row);
     }
     if (layer->table.count > CAMERAS_LISTED)
@@ -125,7 +98,7 @@ static void draw_spots(view_state *view, column *c) {
     for (uint32_t i = 0; i < layer->coverage.blind_count && i < SPOTS_LISTED; i++) {
         snprintf(name, sizeof name, "blind %u", i + 1);
         area_text(layer, layer->coverage.blind[i].area, text);
-        const sl_box row = draw_row(view->ui, c, NULL, name, text, i + 1 == layer->spot);
+        const sl_box row = column_row(view->ui, c, NULL, name, text, i + 1 == layer->spot);
         ui_hit_focus(view->ui, HIT_SPOT, (int)i, row);
     }
     static const char *const next[] = {"camera_spot", NULL};

@@ -21,6 +21,7 @@ static const struct {
     {"Learn: the steps of a lesson", "step_next"},
     {"Change the map", "undo"},
     {"Quiz", "answer_yes"},
+    {"Plan: tools and measures", "plan_isovist"},
     {"Cameras", "camera_find"},
     {"A way: record and play", "record"},
     {"Files", "file"},
@@ -216,6 +217,13 @@ static void write_tip(const ui_state *ui, const hit_area *hit, char text[UI_TIP_
         break;
     case HIT_END:
         snprintf(text, UI_TIP_TEXT, "A click chooses this portal end: arrows move it");
+        break;
+    case HIT_HEAD:
+        snprintf(text, UI_TIP_TEXT,
+                 "A click sorts by this column, largest first; another one turns it round");
+        break;
+    case HIT_MEASURE:
+        snprintf(text, UI_TIP_TEXT, "A click colours the plan by this measure (2, 3)");
         break;
     case HIT_EDGE:
         snprintf(text, UI_TIP_TEXT, "Drag: the size of the panel");

@@ -1,7 +1,9 @@
 /// The panel of the Plan mode: what is measured, in the units of the plan.
 #include "panes/panel.h"
 #include "panes/panes.h"
+#include "plan/from_line.h"
 #include "plan/heat.h"
+#include "plan/line_map.h"
 #include "plan/route.h"
 #include "sightline/draw.h"
 
@@ -79,6 +81,11 @@ static void draw_route(const view_state *view, column *c) {
         column_words(view->ui, c, 0.95, view->ui->palette.ink, "Click where it ends.");
         return;
     }
+    if (layer->tight) {
+        column_words(view->ui, c, 0.95, view->ui->palette.ink,
+                     "An end of the way has no room for this radius.");
+        return;
+    }
     if (!layer->route.found) {
         column_words(view->ui, c, 0.95, view->ui->palette.ink,
                      "No way leads there. The ring marks the nearest place that can be reached.");
@@ -96,24 +103,88 @@ static void draw_route(const view_state *view, column *c) {
                      "'sightline path' goes by steps.");
 }
 
+// --- from a line
+
+static void draw_from_line(const view_state *view, column *c) {
+    static const char *const labels[] = {"seen from some point", "seen from all points"};
+    const from_line *layer = from_line_seen(view);
+    char text[VALUE_TEXT], name[64];
+    column_heading(view->ui, c, "From a line", NULL);
+    if (!view->from_line || !view->from_line->drawn) {
+        column_words(view->ui, c, 0.95, view->ui->palette.ink,
+                     "Drag a line in the plan. Some of its points see the light area; all of them "
+                     "see the dark one.");
+        return;
+    }
+    const sl_point *ends = view->from_line->ends;
+    write_measure(view, hypot(ends[1].x - ends[0].x, ends[1].y - ends[0].y), "", text);
+    put_row(view->ui, c, "length of the line", text);
+    for (int i = 0; layer && i < 2; i++) {
+        write_measure(view, layer->seen[i].area, "\xc2\xb2", text);
+        put_row(view->ui, c, labels[i], text);
+        snprintf(name, sizeof name, "%s, share", i ? "from all" : "from some");
+        sl_text_percent(view->document->area > 0 ? layer->seen[i].area / view->document->area : 0,
+                        text);
+        put_row(view->ui, c, name, text);
+    }
+    if (layer && layer->seen[SL_SEEN_FROM_ALL].walled)
+        column_words(view->ui, c, 0.9, view->ui->palette.faint,
+                     "A wall crosses the line, so no place is seen from all of it.");
+}
+
+// --- axial lines and segments
+
+static void list_measure(const view_state *view, column *c, const sl_measure *measure, int number,
+                         bool chosen, double value) {
+    char name[64], text[SCALE_TEXT] = "";
+    snprintf(name, sizeof name, "%s", measure->name);
+    ui_spaces(name);
+    if (!isnan(value)) value_scale_say(value, text);
+    ui_hit_focus(view->ui, HIT_MEASURE, number, column_row(view->ui, c, NULL, name, text, chosen));
+}
+
+/// The measures, with those of the chosen line.
+static void draw_lines(const view_state *view, column *c) {
+    const line_map *map = line_map_shown(view);
+    const bool segments = view->tool == TOOL_SEGMENTS;
+    size_t count;
+    column_heading(view->ui, c, segments ? "Segments" : "Axial lines",
+                   map && map->chosen < map->count ? "chosen" : NULL);
+    const sl_measure *measures = sl_measures(segments ? SL_SEGMENTS : SL_AXIAL, &count);
+    for (size_t k = 0; k < count; k++)
+        list_measure(view, c, &measures[k], (int)k, k == view->line_measure[segments],
+                     map && map->chosen < map->count ? line_map_value(map, k, map->chosen) : NAN);
+    if (map && map->part_count > 1)
+        column_words(view->ui, c, 0.9, view->ui->palette.faint,
+                     "The colours are those of the largest part, or of the one that you click. "
+                     "Lines that are not joined to it are grey.");
+}
+
 void pane_measures(learn_state *learn, sl_box box) {
     view_state *view = learn->view;
     column c = column_begin(learn->ui, box);
-    static const char *const tools[] = {"plan_isovist", "plan_graph", "plan_path", "cameras", NULL};
+    static const char *const tools[] = {"plan_isovist", "plan_line",     "plan_graph",
+                                        "plan_axial",   "plan_segments", "plan_path",
+                                        "table",        "cameras",       NULL};
+    static const char *const lines[] = {"heat_back", "heat_next", "heat_ranks", "plan_drawn", NULL};
+    static void (*const panels[TOOLS])(const view_state *view,
+                                       column *c) = {[TOOL_ISOVIST] = draw_isovist,
+                                                     [TOOL_FROM_LINE] = draw_from_line,
+                                                     [TOOL_PATH] = draw_route,
+                                                     [TOOL_AXIAL] = draw_lines,
+                                                     [TOOL_SEGMENTS] = draw_lines};
     static const char *const heat[] = {"heat_back", "heat_next", "heat_ranks", "heat_hold", NULL};
     column_heading(learn->ui, &c, "Plan", view->document->map.unit);
     draw_plan_words(view, &c);
     column_buttons(learn->ui, &c, tools);
     if (view->document->baked) {
-        if (view->tool == TOOL_PATH)
-            draw_route(view, &c);
-        else
-            draw_isovist(view, &c);
+        panels[view->tool](view, &c);
         pane_words(view, &c);
         column_legend(view, &c);
         c.y += 0.3 * learn->ui->text;
         column_sliders(learn->ui, &c);
         if (layers_shows(view, LAYER_HEAT)) column_buttons(learn->ui, &c, heat);
+        if (line_map_choice(view)) column_buttons(learn->ui, &c, lines);
     }
     column_layers(view, &c);
     column_end(learn->ui, &c);

@@ -20,6 +20,7 @@ void pane_dual(learn_state *learn, sl_box box);     ///< lines as points
 void pane_program(learn_state *learn, sl_box box);  ///< the linear program of the lesson's portals
 void pane_first_person(learn_state *learn, sl_box box); ///< what the eye sees
 void pane_account(learn_state *learn, sl_box box);      ///< what accuracy costs
+void pane_table(learn_state *learn, sl_box box);        ///< what a tool of the Plan mode computed
 void pane_effects(learn_state *learn, sl_box box);      ///< what the map calls for
 void pane_help(ui_state *ui);                           ///< over all
 void pane_tip(ui_state *ui);                            ///< over all: what the pointer is over

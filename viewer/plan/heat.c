@@ -10,11 +10,11 @@
 #include "plan/heat.h"
 
 #include "document/task.h"
+#include "plan/value_scale.h"
 #include "sightline/support.h"
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 struct heat_layer {
@@ -36,12 +36,10 @@ struct heat_layer {
     uint32_t part_count, part; ///< the one that has the scale: the eye's, or the largest
     uint32_t within;           ///< points in it
     sl_point eye;              ///< that the part was found for
-    double least, most;
-    double *sorted; ///< the values with the scale, ascending
-    uint32_t sorted_count;
-    uint32_t from;    ///< of steps: the point they begin at
-    uint32_t *steps;  ///< by point
-    uint32_t deepest; ///< of all steps that were counted
+    value_scale scale;         ///< of the values that have it
+    uint32_t from;             ///< of steps: the point they begin at
+    uint32_t *steps;           ///< by point
+    uint32_t deepest;          ///< of all steps that were counted
 };
 
 // --- the grid
@@ -106,7 +104,7 @@ void heat_layer_destroy(sl_context *context, heat_layer *layer) {
     sl_free(context, layer->shut);
     sl_free(context, layer->values);
     sl_free(context, layer->parts);
-    sl_free(context, layer->sorted);
+    value_scale_destroy(context, &layer->scale);
     sl_free(context, layer->steps);
     sl_free(context, layer);
 }
@@ -235,8 +233,8 @@ static sl_status count_steps(view_state *view, heat_layer *layer) {
         layer->values[p] =
             from == UINT32_MAX || layer->steps[p] == UINT32_MAX ? NAN : layer->steps[p];
     layer->from = from;
-    layer->least = 0;
-    layer->most = layer->deepest;
+    layer->scale.least = 0;
+    layer->scale.most = layer->deepest;
     layer->valued = true;
     view->heat_choice.stamp++;
     return SL_OK;
@@ -270,43 +268,6 @@ static bool is_grey(const heat_layer *layer, uint32_t point) {
            heat_measure_part(heat_measure(layer->measure));
 }
 
-static int compare_values(const void *a, const void *b) {
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-/// Puts the values that have the scale in order.
-static sl_status sort_values(sl_context *context, heat_layer *layer) {
-    const uint32_t count = layer->graph.grid.count;
-    if (!layer->sorted) layer->sorted = sl_alloc_array(context, count + 1, sizeof *layer->sorted);
-    if (!layer->sorted) return SL_NO_MEMORY;
-    layer->sorted_count = 0;
-    for (uint32_t p = 0; p < count; p++)
-        if (!is_grey(layer, p) && !isnan(layer->values[p]))
-            layer->sorted[layer->sorted_count++] = layer->values[p];
-    qsort(layer->sorted, layer->sorted_count, sizeof *layer->sorted, compare_values);
-    return SL_OK;
-}
-
-/// The value that a share of the points with the scale is below.
-static double quantile(const heat_layer *layer, double share) {
-    if (!layer->sorted_count) return NAN;
-    return layer->sorted[(uint32_t)fmin(share * layer->sorted_count, layer->sorted_count - 1.0)];
-}
-
-/// The share of values below this one.
-static double rank_of(const heat_layer *layer, double value) {
-    uint32_t low = 0, high = layer->sorted_count;
-    while (low < high) {
-        const uint32_t middle = low + (high - low) / 2;
-        if (layer->sorted[middle] < value)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return layer->sorted_count ? (double)low / layer->sorted_count : 0;
-}
-
 static sl_status evaluate_measure(view_state *view, heat_layer *layer) {
     const sl_measure *measure = chosen_measure(view);
     const uint32_t count = layer->graph.grid.count;
@@ -318,18 +279,16 @@ static sl_status evaluate_measure(view_state *view, heat_layer *layer) {
     sl_status status = SL_OK;
     if (find_part(view, layer, &status)) layer->valued = false;
     if (layer->valued || status != SL_OK) return status;
-    layer->least = INFINITY;
-    layer->most = -INFINITY;
+    SL_TRY(value_scale_begin(view->context, &layer->scale, count));
     layer->within = 0;
     for (uint32_t p = 0; p < count; p++) {
         const double value = sl_measure_value(measure, &layer->graph.measures[p]);
         layer->values[p] = value;
         if (is_grey(layer, p)) continue;
-        layer->least = fmin(layer->least, value);
-        layer->most = fmax(layer->most, value);
+        value_scale_add(&layer->scale, value);
         layer->within++;
     }
-    SL_TRY(sort_values(view->context, layer));
+    value_scale_end(&layer->scale);
     layer->valued = true;
     view->heat_choice.stamp++;
     return SL_OK;
@@ -375,8 +334,8 @@ const double *heat_layer_values(const view_state *view, const heat_graph **graph
 
 void heat_layer_scale(const view_state *view, double *least, double *most) {
     const heat_choice *choice = &view->heat_choice;
-    *least = choice->held ? choice->least : view->heat->least;
-    *most = choice->held ? choice->most : view->heat->most;
+    *least = choice->held ? choice->least : view->heat->scale.least;
+    *most = choice->held ? choice->most : view->heat->scale.most;
 }
 
 // --- choices
@@ -449,7 +408,7 @@ static int step_at(const view_state *view, const heat_layer *layer, size_t squar
     if (p == UINT32_MAX) return NO_COLOUR;
     if (is_grey(layer, p)) return GREY;
     if (isnan(layer->values[p])) return NO_COLOUR;
-    if (by_rank(view)) return ramp_step(rank_of(layer, layer->values[p]), 0, 1);
+    if (by_rank(view)) return ramp_step(value_scale_rank(&layer->scale, layer->values[p]), 0, 1);
     heat_layer_scale(view, &least, &most);
     return ramp_step(layer->values[p], least, most);
 }
@@ -487,7 +446,7 @@ void heat_layer_draw(const view_state *view, cairo_t *cairo, const sl_frame *fra
     for (int step = 0; step <= GREY; step++) {
         add_squares(cairo, frame, g, steps, step);
         sl_set_colour(cairo, step == GREY ? sl_colour_mix(palette->page, palette->ink, 0.18)
-                                          : ramp_colour(view->ui, step));
+                                          : ramp_colour(view->ui, RAMP_AREAS, step));
         cairo_fill_preserve(cairo); // a thin stroke covers the seams
         cairo_set_line_width(cairo, 0.6);
         cairo_stroke(cairo);
@@ -523,28 +482,12 @@ void layer_heat(view_state *view, const sl_frame *frame, int index) {
 
 // --- the key
 
-/// A dash stands for no value.
-static void write_value(double value, char text[32]) {
-    if (isnan(value))
-        snprintf(text, 32, "\xe2\x80\x93");
-    else
-        snprintf(text, 32, value != round(value) || fabs(value) >= 1e6 ? "%.4g" : "%.0f", value);
-}
-
 /// The value of the square under the pointer; a dash where there is none.
-static void write_pointed(const view_state *view, const heat_graph *g, char text[32]) {
+static void write_pointed(const view_state *view, const heat_graph *g, char text[SCALE_TEXT]) {
     sl_point at;
     uint32_t p = UINT32_MAX;
     if (find_pointed(view, &at)) p = heat_graph_square(g, at);
-    write_value(p != UINT32_MAX ? view->heat->values[p] : NAN, text);
-}
-
-/// Where the colours change, with as many points in each.
-static void add_quantiles(const heat_layer *layer, legend_key *key) {
-    char text[3][32], all[100];
-    for (int i = 0; i < 3; i++) write_value(quantile(layer, 0.25 * (i + 1)), text[i]);
-    snprintf(all, sizeof all, "%s, %s, %s", text[0], text[1], text[2]);
-    legend_key_add(key, "quarters of the points end at", all);
+    value_scale_say(p != UINT32_MAX ? view->heat->values[p] : NAN, text);
 }
 
 bool heat_layer_key(const view_state *view, legend_key *key) {
@@ -553,7 +496,7 @@ bool heat_layer_key(const view_state *view, legend_key *key) {
     char value[32], count[SL_COUNT_TEXT];
     if (!heat_layer_values(view, &g)) return false;
     heat_layer_scale(view, &least, &most);
-    *key = (legend_key){.ramp = layers_fill(view) == LAYER_HEAT};
+    *key = (legend_key){.ramp = layers_fill(view) == LAYER_HEAT ? RAMP_AREAS : RAMP_NONE};
     char unit[SL_UNIT_TEXT];
     heat_say_measure(view, key->rows[0].label);
     sl_measure_say_unit(chosen_measure(view), view->document->map.unit, unit);
@@ -566,7 +509,7 @@ bool heat_layer_key(const view_state *view, legend_key *key) {
     snprintf(value, sizeof value, "%.3g", g->step);
     legend_key_add(key, "from point to point", value);
     if (view->heat_choice.held) legend_key_add(key, "colour scale", "kept");
-    if (by_rank(view)) add_quantiles(view->heat, key);
+    if (by_rank(view)) value_scale_quarters(&view->heat->scale, "points", key);
     if (heat_measure_part(chosen_measure(view)) && view->heat->part_count > 1) {
         char others[2 * SL_COUNT_TEXT];
         sl_text_count(g->grid.count - view->heat->within, "", count);
@@ -580,7 +523,7 @@ bool heat_layer_key(const view_state *view, legend_key *key) {
         legend_key_add(key, "no point has a value",
                        view->document->map.start_count ? "not defined here"
                                                        : "put a start in a room");
-    write_value(least <= most ? least : NAN, key->least);
-    write_value(least <= most ? most : NAN, key->most);
+    value_scale_say(least <= most ? least : NAN, key->least);
+    value_scale_say(least <= most ? most : NAN, key->most);
     return true;
 }

@@ -19,6 +19,7 @@ bool layers_lists(const view_state *view, unsigned layer) {
     const unsigned calls = rows[layer].calls;
     const sl_baked *baked = view->document->baked;
     if (layer == LAYER_SPLITS && baked && !baked->space.node_count) return false;
+    if (view->mode == MODE_PLAN && tool_paints(view->tool) && SHOW_FILLS >> layer & 1) return false;
     return rows[layer].modes >> view->mode & 1 &&
            (!calls || calls & sl_plan_make(&view->document->map).effects);
 }
@@ -38,6 +39,11 @@ unsigned layers_fill(const view_state *view) {
 
 void layers_set_fill(view_state *view, unsigned layer) {
     if (layer < LAYER_COUNT) view->filled[layer] = ++view->last_filled;
+}
+
+void layers_toggle(view_state *view, unsigned layer) {
+    view->show ^= 1u << layer;
+    if (view->show & SHOW_FILLS & 1u << layer) layers_set_fill(view, layer);
 }
 
 void layers_clip_inside(const document_state *document, cairo_t *cairo, const sl_frame *frame) {
@@ -197,8 +203,10 @@ int ramp_step(double value, double least, double most) {
     return (int)fmin(fmax(share, 0) * RAMP_STEPS, RAMP_STEPS - 1);
 }
 
-sl_colour ramp_colour(const ui_state *ui, int step) {
-    return sl_palette_ramp(ui->dark, (step + 0.5) / RAMP_STEPS);
+sl_colour ramp_colour(const ui_state *ui, ramp_kind kind, int step) {
+    const double place = (step + 0.5) / RAMP_STEPS;
+    if (kind == RAMP_CHANGES) return sl_palette_changes(ui->dark, place);
+    return sl_palette_ramp(ui->dark, kind == RAMP_LINES ? 0.2 + 0.8 * place : place);
 }
 
 void legend_key_add(legend_key *key, const char *label, const char *text) {

@@ -24,6 +24,8 @@ bool layers_shows(const view_state *view, unsigned layer);
 
 /// The layer that fills the plan: the one that was switched on last; LAYER_COUNT: none.
 unsigned layers_fill(const view_state *view);
+/// Switches it on, and then it fills the plan if it can; or off.
+void layers_toggle(view_state *view, unsigned layer);
 /// Has it fill the plan. Once it is switched off, the layer does that did before.
 void layers_set_fill(view_state *view, unsigned layer);
 
@@ -71,13 +73,17 @@ typedef struct legend_row {
 /// The tone of a culling method, when another one or itself is chosen.
 tone layers_method_tone(size_t method, size_t chosen);
 
+/// Colours of values: over areas, of lines, which would be lost in the page's colour, and of
+/// changes.
+typedef enum ramp_kind { RAMP_NONE, RAMP_AREAS, RAMP_LINES, RAMP_CHANGES } ramp_kind;
+
 /// The key of a layer that is coloured by values: rows of words, and the ramp between its ends.
 typedef struct legend_key {
     struct {
         char label[64], text[96];
     } rows[10];
     int count;
-    bool ramp;
+    ramp_kind ramp;
     char least[32], most[32];
 } legend_key;
 
@@ -86,7 +92,7 @@ void legend_key_add(legend_key *key, const char *label, const char *text);
 /// The number of a value's colour, and that colour.
 enum { RAMP_STEPS = 32 };
 int ramp_step(double value, double least, double most);
-sl_colour ramp_colour(const ui_state *ui, int step);
+sl_colour ramp_colour(const ui_state *ui, ramp_kind kind, int step);
 
 /// Clips to the cells inside: squares and view cells reach into walled-in space.
 void layers_clip_inside(const document_state *document, cairo_t *cairo, const sl_frame *frame);

@@ -22,16 +22,20 @@ void route_layer_destroy(sl_context *context, route_layer *layer) {
 static sl_status find_way(view_state *view, route_layer *layer) {
     if (!layer->finder) {
         layer->version = view->present.version;
+        layer->walker = view->walker;
         SL_TRY(sl_query_copy(view->context, view->present.query, &layer->query));
         SL_TRY(sl_route_finder_create(view->context, layer->query, &layer->finder));
+        SL_TRY(sl_route_finder_set_radius(view->context, layer->finder, view->walker));
     }
     return sl_route_find(view->context, layer->finder, layer->from, layer->to, &layer->route);
 }
 
-/// A failure takes the way back.
+/// A failure takes the way back, unless a thinner walker may find one.
 static void find_again(view_state *view, route_layer *layer) {
     const sl_status status = find_way(view, layer);
-    if (status != SL_OK) layer->clicks = 0;
+    layer->tight = status == SL_BAD_ARGUMENT && view->walker > 0;
+    if (status != SL_OK) sl_route_destroy(view->context, &layer->route);
+    if (status != SL_OK && !layer->tight) layer->clicks = 0;
     view_check(view, status);
 }
 
@@ -51,7 +55,7 @@ void route_click(view_state *view, sl_point at) {
     }
     layer->to = at;
     find_again(view, layer);
-    if (layer->clicks == 2)
+    if (layer->clicks == 2 && !layer->tight)
         ui_say(view->ui, false,
                layer->route.found ? "the way is %.4g%s%s long" : "no way leads there",
                layer->route.length, *view->document->map.unit ? " " : "", view->document->map.unit);
@@ -59,7 +63,10 @@ void route_click(view_state *view, sl_point at) {
 
 void route_update(view_state *view) {
     route_layer *layer = view->route;
-    if (!layer || layer->version == view->present.version) return;
+    const bool slides = view->drag.kind == DRAG_HIT; // the radius follows when the slider is let go
+    if (!layer ||
+        (layer->version == view->present.version && (layer->walker == view->walker || slides)))
+        return;
     drop_finder(view->context, layer);
     if (layer->clicks == 2 && view->present.query) find_again(view, layer);
 }
@@ -82,7 +89,7 @@ void route_draw(const view_state *view, const sl_frame *frame) {
     view_mark(view, frame, layer->from);
     if (layer->clicks < 2) return;
     view_mark(view, frame, layer->to);
-    if (!layer->route.found)
+    if (!layer->route.found && !layer->tight)
         sl_draw_ring(cairo, frame, layer->route.nearest, 9 * frame->unit, palette->start,
                      2 * frame->unit);
 }

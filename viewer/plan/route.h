@@ -10,6 +10,8 @@ struct route_layer {
     sl_query *query; ///< a copy of its own; NULL: none yet
     sl_route_finder *finder;
     uint32_t version; ///< of what is present that they are of
+    double walker;    ///< the radius that they are for
+    bool tight;       ///< an end of the way has no room for it
     int clicks;       ///< 0: none, 1: the way begins at `from`, 2: it ends at `to`
     sl_point from, to;
     sl_route route;
@@ -17,7 +19,7 @@ struct route_layer {
 
 /// Takes a click: where the way begins, where it ends, and then anew.
 void route_click(view_state *view, sl_point at);
-/// Finds the way again where doors or walls have changed.
+/// Finds the way again where doors, walls or the walker's radius have changed.
 void route_update(view_state *view);
 void route_draw(const view_state *view, const sl_frame *frame);
 /// Forgets the way. False where there was none.

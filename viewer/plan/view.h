@@ -59,8 +59,21 @@ typedef struct eye_state {
     bool flies;          ///< through walls
 } eye_state;
 
-/// What a click in the plan does in Plan mode: it puts the viewpoint, or an end of a path.
-typedef enum plan_tool { TOOL_ISOVIST, TOOL_PATH } plan_tool;
+/// What the pointer does in Plan mode: it puts the viewpoint, drags a line to see from, puts an end
+/// of a path, chooses an axial line or a segment.
+typedef enum plan_tool {
+    TOOL_ISOVIST,
+    TOOL_FROM_LINE,
+    TOOL_PATH,
+    TOOL_AXIAL,
+    TOOL_SEGMENTS,
+    TOOLS
+} plan_tool;
+
+/// Whether a tool paints the plan itself: no layer fills it then, and the eye is not shown.
+static inline bool tool_paints(plan_tool tool) {
+    return tool == TOOL_FROM_LINE || tool == TOOL_AXIAL || tool == TOOL_SEGMENTS;
+}
 
 typedef enum comparison { COMPARE_OFF, COMPARE_PANES, COMPARE_DIFFERENCE } comparison;
 
@@ -107,6 +120,7 @@ typedef enum drag_kind {
     DRAG_MIRROR,
     DRAG_OBJECT,
     DRAG_CAMERA,
+    DRAG_FROM_LINE,
 } drag_kind;
 
 typedef struct drag_state {
@@ -160,12 +174,30 @@ typedef struct heat_choice {
     uint32_t stamp;         ///< grows with every change of what is drawn
 } heat_choice;
 
+typedef struct table_source table_source;
+
+/// How the table of a tool is shown (table.h). Zeroed, but for `chosen`, which is SIZE_MAX.
+typedef struct table_state {
+    const table_source *of; ///< these four: what the order is of
+    size_t rows;
+    uint32_t stamp;
+    bool sorted; ///< by a column; else as the rows come
+    size_t column;
+    bool down;
+    size_t *order;       ///< rows as they are shown; NULL: as they come
+    size_t chosen;       ///< a row; SIZE_MAX: none
+    size_t first_column; ///< that is shown
+    bool reveal;         ///< scroll to the chosen row
+} table_state;
+
 typedef struct node_layer node_layer;
 typedef struct view_layer view_layer;
 typedef struct heat_layer heat_layer;
 typedef struct watch_layer watch_layer;
 typedef struct camera_layer camera_layer;
 typedef struct route_layer route_layer;
+typedef struct from_line from_line;
+typedef struct line_map line_map;
 typedef struct drag_world drag_world;
 
 /// What is shown and from where. Results are kept from frame to frame.
@@ -178,6 +210,7 @@ struct view_state {
     sl_context *drawing;
     view_mode mode;
     plan_tool tool;
+    double walker;  ///< the radius of who walks a path; 0: a point
     unsigned held;  ///< keys, of hold_key
     sl_box plan[2]; ///< where the plans are on the page, and how many
     int plan_count;
@@ -211,12 +244,17 @@ struct view_state {
     first_person_counts first_person; ///< of the last frame
 
     heat_choice heat_choice;
-    node_layer *nodes; ///< these six: NULL: none yet
+    node_layer *nodes; ///< these nine: NULL: none yet
     view_layer *views;
     heat_layer *heat;
     watch_layer *watch;
     camera_layer *cameras;
     route_layer *route;
+    from_line *from_line;
+    line_map *lines[2];     ///< axial lines, and segments
+    size_t line_measure[2]; ///< the chosen measures of both
+    table_state table;
+    bool drawn_lines;       ///< both are of the lines as they are drawn
     drag_world *drag_world; ///< NULL: none
     uint32_t drag_worlds;   ///< how many there were
     size_t world_walls;     ///< maps with as many walls are dragged in by worlds

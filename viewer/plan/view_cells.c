@@ -377,7 +377,7 @@ static void draw_cells(const view_state *view, cairo_t *cairo, const sl_frame *f
             if (step_of(layer, cost_of(layer, layer->view_cells[i])) == step)
                 sl_path_polygon(cairo, frame, tree->corners + tree->first[i],
                                 tree->first[i + 1] - tree->first[i]);
-        sl_set_colour(cairo, ramp_colour(view->ui, step));
+        sl_set_colour(cairo, ramp_colour(view->ui, RAMP_AREAS, step));
         cairo_fill_preserve(cairo);
         cairo_set_line_width(cairo, 0.6);
         cairo_stroke(cairo);
@@ -422,7 +422,7 @@ bool view_layer_key(const view_state *view, legend_key *key) {
     if (!view_layer_shown(layer) || !layers_shows(view, LAYER_VIEWS)) return false;
     const uint32_t most = view_layer_most(layer);
     char text[96], cost[32];
-    *key = (legend_key){.ramp = layers_fill(view) == LAYER_VIEWS};
+    *key = (legend_key){.ramp = layers_fill(view) == LAYER_VIEWS ? RAMP_AREAS : RAMP_NONE};
     snprintf(text, sizeof text, "%u of %u", layer->cells, most);
     legend_key_add(key, "view cells", text);
     write_cost(layer->costs[layer->cells - 1], cost);

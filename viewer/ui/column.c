@@ -45,6 +45,32 @@ void column_check(ui_state *ui, column *c, const char *name) {
                     action->label, action->key, action->on, number);
 }
 
+sl_box column_row(ui_state *ui, column *c, const sl_colour *colour, const char *label,
+                  const char *value, bool chosen) {
+    const double t = ui->text, out = fmin(0.4 * t, c->left - c->box.min.x);
+    const double left = c->left + (colour ? 1.5 * t : 0), room = c->right - left;
+    const double wide = ui_text_width(ui, 0.95, false, value);
+    const bool below = ui_text_width(ui, 0.95, false, label) + wide + t > room;
+    const double more = below ? ui_lines_height(ui, room, 0.95, false, value) : 0;
+    const double high = 1.55 * t + more;
+    const sl_box row = {{c->left - out, c->y}, {c->right + out, c->y + high}};
+    if (chosen || box_has(row, ui->pointer))
+        ui_fill_round(ui, row, 0.25 * t,
+                      sl_colour_mix(ui->palette.page, ui->palette.glass, chosen ? 0.22 : 0.1));
+    if (colour)
+        ui_fill_round(ui,
+                      (sl_box){{c->left, c->y + 0.25 * t}, {c->left + 1.05 * t, c->y + 1.3 * t}},
+                      0.2 * t, *colour);
+    ui_text_within(ui, left, c->y + 1.12 * t, below ? room : room - wide - t, 0.95, ui->palette.ink,
+                   label);
+    if (below)
+        ui_lines(ui, left, c->y + 2.45 * t, room, 0.95, false, ui->palette.faint, value);
+    else
+        ui_text_right(ui, c->right, c->y + 1.12 * t, 0.95, ui->palette.faint, value);
+    c->y = row.max.y;
+    return row;
+}
+
 double column_button(ui_state *ui, column *c, double x, const char *label, bool on, int action) {
     const double t = ui->text;
     if (x > c->left && x + ui_button_width(ui, label) > c->right) {

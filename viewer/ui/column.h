@@ -23,6 +23,10 @@ void column_heading(ui_state *ui, column *c, const char *text, const char *right
 void column_words(ui_state *ui, column *c, double size, sl_colour colour, const char *text);
 /// The row of a switch, with its key; `name` is an action's.
 void column_check(ui_state *ui, column *c, const char *name);
+/// A row with a colour (NULL: none), a label and a value at the right; the caller makes it a hit.
+/// Returns its box.
+sl_box column_row(ui_state *ui, column *c, const sl_colour *colour, const char *label,
+                  const char *value, bool chosen);
 /// A button from x on, or on the next line where it has no room. Returns where the next one begins.
 double column_button(ui_state *ui, column *c, double x, const char *label, bool on, int action);
 /// The buttons of actions, on as many lines as they need; the names end with NULL.

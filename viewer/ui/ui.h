@@ -28,6 +28,9 @@ typedef enum hit_kind {
     HIT_END,     ///< value: a portal end of the lesson
     HIT_CAMERA,  ///< value: a camera of the table
     HIT_SPOT,    ///< value: a blind spot
+    HIT_HEAD,    ///< value: a column of the table
+    HIT_ROW,     ///< value: a row of it
+    HIT_MEASURE, ///< value: a measure of the tool at hand
 } hit_kind;
 
 typedef struct hit_area {
@@ -51,6 +54,7 @@ enum ui_scrolls {
     SCROLL_TIME,
     SCROLL_PROGRAM,
     SCROLL_DIALOG,
+    SCROLL_TABLE,
     SCROLLS
 };
 
@@ -92,7 +96,7 @@ typedef struct ui_slider_row {
     char text[32]; ///< its value
 } ui_slider_row;
 
-enum { ACTIONS_MOST = 160, SLIDERS_MOST = 12 };
+enum { ACTIONS_MOST = 160, SLIDERS_MOST = 16 };
 
 /// The page and its widgets: what a frame is drawn with, panels, messages. A frame starts without
 /// hits.
@@ -115,8 +119,8 @@ typedef struct ui_state {
     bool presents; ///< for a projector: large text, strong lines, no panel at the right
     bool legend;   ///< over the plan, where there is no panel
     bool legend_over, legend_folded; ///< in a presentation: over the map too; a button now
-    bool side_panel, first_person, accounts, effects, program, help; ///< panels shown
-    char message[512];                                               ///< the last thing to say
+    bool side_panel, first_person, accounts, effects, program, table, help; ///< panels shown
+    char message[512]; ///< the last thing to say
     bool message_is_error, message_is_working;
     double message_seconds; ///< for which it has been there
     double frame_seconds;   ///< smoothed; shown in the corner unless steady

@@ -358,6 +358,10 @@ SL_API sl_palette sl_palette_make(bool dark);
 /// that the order holds for every eye and in grey print.
 SL_API sl_colour sl_palette_ramp(bool dark, double value);
 
+/// The ramp of changes, `value` from 0 to 1: blue for losses, the page's grey at 0.5, red for
+/// gains, equally strong (the ends of RdBu, Harrower and Brewer 2003).
+SL_API sl_colour sl_palette_changes(bool dark, double value);
+
 /// A colour between two, in sRGB: `share` 0 gives a, 1 gives b.
 SL_API sl_colour sl_colour_mix(sl_colour a, sl_colour b, double share);
 

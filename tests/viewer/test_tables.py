@@ -1,0 +1,67 @@
+"""Tables of the Plan mode beside those of the command: VIEW SAME ROOT SIGHTLINE.
+
+The viewer's table of axial lines, of segments and of the visibility graph is what `sightline axial`,
+`segments` and `vga` write for the same plan. Each is exported through the dialog, by keys.
+"""
+import csv
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+from viewing import Viewer
+
+
+def export(keys, path):
+    return f"{keys}key Ctrl+Shift+E\nkey Ctrl+A\ntype {path}\nkey Return\nexpect written to\n"
+
+
+PROGRAM = pathlib.Path(sys.argv[4]).resolve()
+
+
+def command(viewer, folder, *arguments):
+    done = subprocess.run([PROGRAM, *map(str, arguments), "--quiet"], cwd=folder, text=True,
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=60)
+    viewer.check(done.returncode == 0, f"sightline {arguments[0]}: {done.stderr}")
+
+
+def rows(path):
+    with open(path, newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def check_same(viewer, folder, name):
+    """Each column of the viewer's table is one of the command's, with the same values."""
+    shown, told = rows(folder / f"{name}-shown.csv"), rows(folder / f"{name}.csv")
+    viewer.check(len(shown) == len(told) > 0, f"{name}: {len(shown)} rows, not {len(told)}")
+    for one, other in zip(shown, told):
+        wrong = [key for key in one if one[key] != other.get(key)]
+        viewer.check(not wrong, f"{name}: {wrong} of {one} are others in {other}")
+        if wrong:
+            return
+    viewer.check(bool(shown) and len(shown[0]) > 6, f"{name}: only {len(shown[0])} columns")
+
+
+def check_map(viewer, folder, plan):
+    viewer.script(folder, plan, "key 9\n" + export("key Ctrl+5\n", folder / "axial-shown.csv") +
+                  export("key Ctrl+6\n", folder / "segments-shown.csv") +
+                  export("key Ctrl+2\n", folder / "vga-shown.csv"))
+    step = float(rows(folder / "vga-shown.csv")[1]["y"]) - float(rows(folder / "vga-shown.csv")[0]["y"])
+    command(viewer, folder, "axial", viewer.root / "maps" / plan, "-o", "axial.csv")
+    command(viewer, folder, "segments", "axial.csv", "-o", "segments.csv")
+    command(viewer, folder, "vga", viewer.root / "maps" / plan, "--grid", f"{step:.6g}", "--measures", "visual",
+            "-o", "vga.csv")
+    for name in ("axial", "segments", "vga"):
+        check_same(viewer, folder, name)
+
+
+def main():
+    viewer = Viewer(sys.argv)
+    for plan in ("office.map", "oblique/comb.map"):
+        with tempfile.TemporaryDirectory() as name:
+            check_map(viewer, pathlib.Path(name), plan)
+    viewer.end()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,191 @@
+/// Actions of the Plan mode and of the Cameras mode: tools, measures of the heat map, cameras.
+#include "app/action_parts.h"
+
+#include "dialogs/browser.h"
+#include "dialogs/map_file.h"
+#include "plan/cameras.h"
+#include "plan/from_line.h"
+#include "plan/heat.h"
+#include "plan/layers.h"
+#include "plan/line_map.h"
+#include "plan/table.h"
+
+#include <stdio.h>
+
+// --- tools of the Plan mode
+
+static void choose_tool(app_state *app, plan_tool tool, const char *hint) {
+    app->view.tool = tool;
+    ui_say(&app->ui, false, "%s", hint);
+}
+
+#define TOOL(name, value, hint)                                                                    \
+    DO(name, choose_tool(app, value, hint))                                                        \
+    IS(name, app->view.tool == (value))
+TOOL(plan_isovist, TOOL_ISOVIST, "click where the viewpoint is to stand")
+TOOL(plan_line, TOOL_FROM_LINE, "drag a line: what is seen from it, and what from all of it")
+TOOL(plan_path, TOOL_PATH, "click where the way begins, then where it ends")
+
+TOOL(plan_axial, TOOL_AXIAL, "the fewest lines of sight that cover the plan; 2 the next measure")
+TOOL(plan_segments, TOOL_SEGMENTS, "axial lines, cut where they cross; 2 the next measure")
+DO(plan_drawn, line_map_toggle_drawn(&app->view))
+IS(plan_drawn, app->view.drawn_lines)
+
+// --- the table
+
+DO(table, app->ui.table = !app->ui.table)
+IS(table, app->ui.table)
+DO(table_left, table_shift(&app->view, -1))
+DO(table_right, table_shift(&app->view, 1))
+DO(table_next, table_step(&app->view, 1))
+DO(table_back, table_step(&app->view, -1))
+
+static void export_values(desk_state *desk, const char *path) {
+    wish_for(desk, WISH_WRITE_VALUES, path);
+}
+
+static void table_export(app_state *app) {
+    char name[TITLE_TEXT], ending[32];
+    const table_source *of = table_source_now(&app->view);
+    if (!of) {
+        ui_say(&app->ui, false, "this tool has no table yet");
+        return;
+    }
+    snprintf(ending, sizeof ending, "-%ss.csv", of->noun);
+    map_file_name_output(&app->desk, ending, name);
+    browser_save(&app->desk, BROWSE_VALUES, name, export_values);
+}
+
+/// A tool that paints the plan itself gives way to it.
+static void plan_graph(app_state *app) {
+    const bool hidden = tool_paints(app->view.tool);
+    if (hidden) app->view.tool = TOOL_ISOVIST;
+    if (!hidden || !(app->view.show & SHOW_HEAT)) layers_toggle(&app->view, LAYER_HEAT);
+}
+
+IS(plan_graph, app->view.show &SHOW_HEAT && !tool_paints(app->view.tool))
+
+// --- the heat map
+
+/// Of the tool at hand.
+static void choose_measure(app_state *app, int by) {
+    if (line_map_choice(&app->view))
+        line_map_choose(&app->view, by);
+    else
+        heat_choose(&app->view, by);
+}
+
+DO(heat_next, choose_measure(app, 1))
+DO(heat_back, choose_measure(app, -1))
+DO(heat_steps, heat_toggle_steps(&app->view))
+
+static bool is_heat_steps(const app_state *app) {
+    return !heat_measure_part(heat_measure(app->view.heat_choice.measure));
+}
+
+DO(heat_ranks, heat_toggle_ranks(&app->view))
+IS(heat_ranks, app->view.heat_choice.ranks)
+DO(heat_hold, heat_toggle_held(&app->view))
+IS(heat_hold, app->view.heat_choice.held)
+
+static void heat_step_by(app_state *app, int by) {
+    int last;
+    heat_set_step(&app->view, heat_step_place(&app->view, &last) + by);
+    ui_say(&app->ui, false, "heat map: %.3g from point to point", heat_step(&app->view));
+}
+
+DO(heat_coarser, heat_step_by(app, -1))
+DO(heat_finer, heat_step_by(app, 1))
+
+// --- cameras
+
+DO(camera_left, camera_turn(&app->view, 5))
+DO(camera_right, camera_turn(&app->view, -5))
+DO(camera_narrower, camera_widen(&app->view, -5))
+DO(camera_wider, camera_widen(&app->view, 5))
+DO(camera_nearer, camera_reach(&app->view, 1 / 1.1))
+DO(camera_farther, camera_reach(&app->view, 1.1))
+DO(camera_copied, camera_copy(&app->view))
+DO(camera_deleted, camera_delete(&app->view))
+DO(camera_next, camera_choose(&app->view, 1))
+DO(camera_back, camera_choose(&app->view, -1))
+DO(camera_spot, camera_go_to_spot(&app->view, app->view.cameras ? app->view.cameras->spot : 0))
+DO(camera_find, cameras_find(&app->view))
+
+static bool is_camera_find(const app_state *app) {
+    return cameras_progress(app->view.cameras).running;
+}
+
+static void import_table(desk_state *desk, const char *path, bool ask) {
+    (void)ask;
+    wish_for(desk, WISH_READ_TABLE, path);
+}
+
+static void export_table(desk_state *desk, const char *path) {
+    wish_for(desk, WISH_WRITE_TABLE, path);
+}
+
+DO(camera_import, browser_open(&app->desk, BROWSE_TABLES, import_table))
+DO(camera_export, browser_save(&app->desk, BROWSE_TABLES, "cameras.csv", export_table))
+
+static const action_row rows[] = {
+    {"plan_isovist", "Ctrl+1", "Isovist", "plan: a click puts the viewpoint", PLAN, 0, plan_isovist,
+     is_plan_isovist},
+    {"plan_graph", "Ctrl+2", "Visibility graph", "plan: the heat map of the visibility graph", PLAN,
+     0, plan_graph, is_plan_graph},
+    {"plan_line", "Ctrl+4", "From a line", "plan: drag a line, and what is seen from it", PLAN, 0,
+     plan_line, is_plan_line},
+    {"plan_axial", "Ctrl+5", "Axial", "plan: axial lines, by a measure", PLAN, 0, plan_axial,
+     is_plan_axial},
+    {"plan_segments", "Ctrl+6", "Segments", "plan: axial lines cut into segments, by a measure",
+     PLAN, 0, plan_segments, is_plan_segments},
+    {"plan_drawn", NULL, "Drawn lines", "plan: axial lines and segments are those of the drawing",
+     PLAN, 0, plan_drawn, is_plan_drawn},
+    {"plan_path", "Ctrl+3", "Path", "plan: two clicks, and the shortest way between them", PLAN, 0,
+     plan_path, is_plan_path},
+    {"table", "Ctrl+L", "Table", "plan: the table of what the tool has computed", PLAN, 0, table,
+     is_table},
+    {"table_left", "Shift+Home", "\xe2\x97\x80", "table: columns to the left", PLAN, 0, table_left,
+     NULL},
+    {"table_right", "Shift+End", "\xe2\x96\xb6", "table: columns to the right", PLAN, 0,
+     table_right, NULL},
+    {"table_next", "Shift+PageDown", NULL, "table: the next row", PLAN, 0, table_next, NULL},
+    {"table_back", "Shift+PageUp", NULL, "table: the row before", PLAN, 0, table_back, NULL},
+    {"table_export", "Ctrl+Shift+E", "Export", "table: write it as CSV", PLAN, 0, table_export,
+     NULL},
+    {"heat_next", "2", "Next measure", "heat map: the next measure", NOT_LEARN, 0, heat_next, NULL},
+    {"heat_back", "3", "Back", "heat map: the measure before", NOT_LEARN, 0, heat_back, NULL},
+    {"heat_coarser", "4", "Coarser", "heat map: a coarser grid", NOT_LEARN, 0, heat_coarser, NULL},
+    {"heat_finer", "5", "Finer", "heat map: a finer grid", NOT_LEARN, 0, heat_finer, NULL},
+    {"heat_steps", "6", "Steps", "heat map: steps from the pointer, live", NOT_LEARN, 0, heat_steps,
+     is_heat_steps},
+    {"heat_hold", "7", "Keep colours", "heat map: keep the colour scale, to compare", NOT_LEARN, 0,
+     heat_hold, is_heat_hold},
+    {"heat_ranks", NULL, "Equal shares", "heat map: as many points in each colour", NOT_LEARN, 0,
+     heat_ranks, is_heat_ranks},
+    {"camera_find", "Space", "Find the fewest", "cameras: the fewest that see everything", CAMERAS,
+     0, camera_find, is_camera_find},
+    {"camera_left", "Left", NULL, "cameras: turn the chosen one left", CAMERAS, 0, camera_left,
+     NULL},
+    {"camera_right", "Right", NULL, "cameras: turn it right", CAMERAS, 0, camera_right, NULL},
+    {"camera_narrower", ",", NULL, "cameras: narrower field of view", CAMERAS, 0, camera_narrower,
+     NULL},
+    {"camera_wider", ".", NULL, "cameras: wider field of view", CAMERAS, 0, camera_wider, NULL},
+    {"camera_nearer", "-", NULL, "cameras: shorter range", CAMERAS, 0, camera_nearer, NULL},
+    {"camera_farther", "=", NULL, "cameras: longer range", CAMERAS, 0, camera_farther, NULL},
+    {"camera_copy", "Ctrl+C", "Copy", "cameras: copy the chosen one", CAMERAS, 0, camera_copied,
+     NULL},
+    {"camera_delete", "Delete", "Delete", "cameras: delete it", CAMERAS, 0, camera_deleted, NULL},
+    {"camera_next", "Down", "Next", "cameras: choose the next one", CAMERAS, 0, camera_next, NULL},
+    {"camera_back", "Up", "Back", "cameras: choose the one before", CAMERAS, 0, camera_back, NULL},
+    {"camera_spot", "B", "Next blind spot", "cameras: go to the next blind spot", CAMERAS, 0,
+     camera_spot, NULL},
+    {"camera_import", "Ctrl+Shift+O", "Import",
+     "cameras: read a table (name,x,y,heading,fov,range)", CAMERAS, 0, camera_import, NULL},
+    {"camera_export", "Ctrl+Shift+E", "Export", "cameras: write the table", CAMERAS, 0,
+     camera_export, NULL},
+};
+
+action_part actions_plan(void) {
+    return (action_part){rows, sizeof rows / sizeof *rows};
+}
