@@ -601,6 +601,8 @@ static sl_status choose(sli_choice *c, sli_pen *pen) {
 sl_status sli_contents_choose(sli_contents *contents, double metre, sli_pen *pen) {
     sli_choice c = {.contents = contents, .map = pen->map, .metre = metre};
     sl_status status = contents->runs.count ? choose(&c, pen) : SL_OK;
+    contents->doors = c.symbols.swings.count;
+    contents->door = sli_choice_door(&c);
     if (status == SL_OK && !contents->options->all_layers)
         status = sli_plan_tell(contents->context, contents->file, pen->map, metre, 0);
     sl_free(contents->context, c.means);

@@ -44,6 +44,8 @@ typedef struct sli_contents {
     size_t first;    ///< wall of a shape
     size_t left_out; ///< shapes that are passed over
     sli_looks looks; ///< how shapes look
+    size_t doors;    ///< doors that are drawn open, once the choice is made
+    double door;     ///< how wide these are, usually
     bool has_looks;  ///< the reader tells them: `look` is that of the shape at hand
     uint32_t look;
 } sli_contents;

@@ -9,11 +9,15 @@
 
 // --- measures
 
-double sli_choice_metre(const sli_choice *c) {
+double sli_choice_door(const sli_choice *c) {
     const size_t count = c->symbols.swings.count;
     double sum = 0;
     for (size_t i = 0; i < count; i++) sum += log(c->symbols.swings.items[i].radius);
-    const double radius = count ? exp(sum / (double)count) : 0;
+    return count ? exp(sum / (double)count) : 0;
+}
+
+double sli_choice_metre(const sli_choice *c) {
+    const double radius = sli_choice_door(c);
     if (!(radius > 0) || (radius > 0.5 * c->metre && radius < 1.6 * c->metre)) return c->metre;
     return radius / 0.85;
 }
