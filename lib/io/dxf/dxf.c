@@ -203,12 +203,13 @@ static void drawing_destroy(sli_dxf *dxf) {
 
 sl_status sli_map_read_dxf(sl_context *context, const char *name, const char *text, size_t size,
                            const sl_import_options *options, sl_map *map) {
-    const sl_import_options own = sli_drawing_options(options);
+    bool large;
+    const sl_import_options own = sli_drawing_options(options, &large);
     sl_map read = {0};
     sli_dxf dxf = {.context = context,
                    .name = name,
                    .options = &own,
-                   .contents = {.context = context, .file = name, .options = &own},
+                   .contents = {.context = context, .file = name, .options = &own, .large = large},
                    .pen = {.context = context,
                            .name = name,
                            .map = &read,
