@@ -157,7 +157,7 @@ def cases():
     yield "arrays.dxf", nested_arrays(), "entities, more than the limit of 16777216; --max-entities", []
     yield "itself.dxf", dxf([("A", LINE + array("A", 100, 100))], array("A", 9, 9)), \
         "block 'A' is inserted in itself", []
-    yield "deep.dxf", deep_blocks(50000), "more than the limit of 128; --max-depth raises it", []
+    yield "deep.dxf", deep_blocks(50000), "more than the limit of 512; --max-depth raises it", []
     yield "circles.dxf", circles(), "128000000 walls, more than the limit of 16777216; --max-walls", []
     yield "ellipses.dxf", curves("ellipse"), "the drawing's blocks give: 32000000 walls", []
     yield "bulges.dxf", curves("bulges"), "the drawing's blocks give: ", []

@@ -89,6 +89,49 @@ class Units(Plans):
                       "sightline info flat.dxf --layers A-WALL --unit m", told)
 
 
+class DoubtfulUnits(Plans):
+    """The unit in a drawing's header is often that of the program, not that of the plan."""
+
+    def told(self, text, *options):
+        self.write("a.dxf", text)
+        result = self.box.run(["convert", "a.dxf", *options, "-o", "a.map"])
+        self.assertEqual(result.status, 0, result.text())
+        return [line for line in result.stderr.splitlines() if "the drawing says" in line]
+
+    @staticmethod
+    def doors(unit, scale):
+        """A plan of 12 m with two doors that are drawn open."""
+        drawing = flat(unit, scale)
+        for at in (2000, 7000):
+            drawing.line("A-DOOR", *(value * scale for value in (at, 0, at, 900)))
+            drawing.add("ARC", "A-DOOR", (10, at * scale), (20, 0), (40, 900 * scale), (50, 0), (51, 90))
+        return drawing
+
+    def test_by_its_doors(self):
+        """In inches they are 23 m wide."""
+        told = self.told(self.doors(1, 1))
+        self.assertEqual(len(told), 1)
+        self.assertIn("the drawing says inches, but its doors are 22.9 m wide then: in millimetres they are 0.9 m "
+                      "wide, and the plan is 12 m long: --unit mm=m reads it so", told[0])
+        self.assertEqual(self.told(self.doors(1, 1), "--unit", "mm=m"), [])
+        self.assertEqual(self.told(self.doors(4, 1)), [])
+        self.assertEqual(self.told(self.doors(0, 1)), [])
+
+    def test_by_its_size(self):
+        told = self.told(flat(4, 0.04))
+        self.assertEqual(len(told), 1)
+        self.assertIn("the drawing says millimetres, and is 0.48 m long then: if this is the plan of a building, "
+                      "another unit is meant: in inches it is 12.2 m long (--unit in=m)", told[0])
+        self.assertEqual(self.told(flat(4, 0.04), "--unit", "in=m"), [])
+        self.assertEqual(self.told(flat(6, 0.001)), [])
+        self.assertIn("in millimetres it is 50.4 m long (--unit mm=m)", self.told(flat(1, 4.2))[0])
+
+    def test_where_no_unit_fits(self):
+        told = self.told(flat(6, 0.00015))
+        self.assertIn("is 1.8 m long then", told[0])
+        self.assertIn("--entrance W says how wide its entrances are", told[0])
+
+
 class Closed(Plans):
     def test_what_is_closed_by_digits_stays_closed_in_map_text(self):
         def leaks(name, *options):

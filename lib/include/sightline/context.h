@@ -88,7 +88,7 @@ typedef struct sl_limits {
     uint64_t pixels;   ///< of a picture; usual 2^28
     uint64_t walls;    ///< drawn by lines and curves; usual 2^24
     uint64_t entities; ///< shapes of a drawing, as often as blocks and uses repeat them; usual 2^24
-    uint64_t depth;    ///< blocks in blocks, groups and uses in groups; usual 128
+    uint64_t depth;    ///< blocks in blocks, groups and uses in groups; usual 512
 } sl_limits;
 
 /// Sets the limits of all reading with this context; NULL for the usual ones.

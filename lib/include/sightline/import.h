@@ -21,7 +21,8 @@ typedef struct sl_import_options {
     /// that is called by itself takes the first).
     const char *map;
     /// The layers to take, by name, with commas between; NULL for the format's own choice. "*" for
-    /// all visible layers of a drawing (DXF, SVG).
+    /// all visible layers of a drawing (DXF, SVG), "large" or "large,A,B" for a drawing without
+    /// small closed pieces that touch nothing.
     const char *layers;
     /// The names of objects that are starts, with commas between; "" or "none" for no starts; NULL
     /// for the usual names (player, spawn, start ...). Letters and capitals are the same.

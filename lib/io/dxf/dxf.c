@@ -5,6 +5,7 @@
 #include "io/dxf/dxf.h"
 
 #include "io/io_formats.h"
+#include "io/parts/plan_unit.h"
 #include "map/source.h"
 #include "map/unit.h"
 
@@ -161,6 +162,18 @@ static void note_drawing(const sli_dxf *dxf) {
     sli_layers_note(dxf->context, dxf->name, dxf->pen.map);
 }
 
+/// Whether the unit fits, unless an option says which one it is.
+static void tell_unit(const sli_dxf *dxf) {
+    const char *asked = dxf->options->unit;
+    const bool named = dxf->unit >= 0 && dxf->unit < SLI_UNITS;
+    const sli_plan_size plan = {.unit = named ? dxf->unit : 0,
+                                .scale = dxf->pen.affine.xx,
+                                .door = dxf->contents.door,
+                                .doors = dxf->contents.doors};
+    if (asked && strchr(asked, '=')) return;
+    sli_plan_unit_tell(dxf->context, dxf->name, dxf->pen.map, &plan);
+}
+
 static sl_status read_drawing(sli_dxf *dxf, const char *text, size_t size) {
     SL_TRY(draw_drawing(dxf, text, size));
     SL_TRY(name_walls(dxf));
@@ -173,6 +186,7 @@ static sl_status read_drawing(sli_dxf *dxf, const char *text, size_t size) {
         sli_marked_precision(dxf->pen.map, dxf->pen.finest, mark, dxf->pen.sum);
     sl_free(dxf->context, mark);
     note_drawing(dxf);
+    tell_unit(dxf);
     return SL_OK;
 }
 
@@ -189,12 +203,13 @@ static void drawing_destroy(sli_dxf *dxf) {
 
 sl_status sli_map_read_dxf(sl_context *context, const char *name, const char *text, size_t size,
                            const sl_import_options *options, sl_map *map) {
-    const sl_import_options own = sli_drawing_options(options);
+    bool large;
+    const sl_import_options own = sli_drawing_options(options, &large);
     sl_map read = {0};
     sli_dxf dxf = {.context = context,
                    .name = name,
                    .options = &own,
-                   .contents = {.context = context, .file = name, .options = &own},
+                   .contents = {.context = context, .file = name, .options = &own, .large = large},
                    .pen = {.context = context,
                            .name = name,
                            .map = &read,

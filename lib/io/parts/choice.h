@@ -31,6 +31,8 @@ static inline bool sli_choice_gone(const sli_choice *c, size_t wall) {
     return sl_bits_has(c->symbols.gone, wall);
 }
 
+/// The usual width of doors that are drawn open; 0 where none are.
+double sli_choice_door(const sli_choice *c);
 /// A metre by the doors, which are 0.6 to 1.2 m wide, where the unit does not fit them.
 double sli_choice_metre(const sli_choice *c);
 /// The longest that a door may be.

@@ -598,11 +598,31 @@ static sl_status choose(sli_choice *c, sli_pen *pen) {
     return SL_OK;
 }
 
+/// Takes small pieces out of what was chosen, and says so.
+static sl_status keep_large(sli_contents *contents, double metre, sli_pen *pen) {
+    sli_plan_look look;
+    SL_TRY(sli_plan_keep_large(contents->context, pen->map, metre, &look));
+    const size_t gone = look.walls - pen->map->wall_count;
+    pen->walls -= gone;
+    if (look.crowded)
+        sl_note(contents->context, "%s: %zu lines are too many, or too dense, for --layers %s",
+                contents->file, look.walls, SLI_LAYERS_LARGE);
+    else
+        sl_note(contents->context,
+                "%s: --layers %s leaves out %zu line%s, in small closed pieces that touch nothing",
+                contents->file, SLI_LAYERS_LARGE, gone, gone == 1 ? "" : "s");
+    return SL_OK;
+}
+
 sl_status sli_contents_choose(sli_contents *contents, double metre, sli_pen *pen) {
     sli_choice c = {.contents = contents, .map = pen->map, .metre = metre};
     sl_status status = contents->runs.count ? choose(&c, pen) : SL_OK;
+    contents->doors = c.symbols.swings.count;
+    contents->door = sli_choice_door(&c);
+    if (status == SL_OK && contents->large) status = keep_large(contents, metre, pen);
     if (status == SL_OK && !contents->options->all_layers)
-        status = sli_plan_tell(contents->context, contents->file, pen->map, metre, 0);
+        status = sli_plan_tell(contents->context, contents->file, contents->options->layers,
+                               pen->map, metre, 0);
     sl_free(contents->context, c.means);
     sli_symbols_destroy(contents->context, &c.symbols);
     sli_openings_destroy(contents->context, &c.openings);

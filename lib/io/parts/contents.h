@@ -6,6 +6,7 @@
 
 #include "io/parts/drawn_looks.h"
 #include "io/parts/meaning.h"
+#include "io/parts/names.h"
 #include "io/parts/shapes.h"
 #include "sightline/import.h"
 #include "sightline/io.h"
@@ -30,11 +31,12 @@ typedef struct sli_group_run {
     uint32_t look; ///< of the one shape, where looks are told
 } sli_group_run;
 
-/// Set the first three, zero the rest.
+/// Set the first four, zero the rest.
 typedef struct sli_contents {
     sl_context *context;
     const char *file;                 ///< its name, for messages
     const sl_import_options *options; ///< as sli_drawing_options() gives them
+    bool large;                       ///< small pieces that touch nothing are left out
     SL_ARRAY(sli_group) groups;       ///< the first one has no name: what no layer is said of
     SL_ARRAY(sli_group_run) runs;
     uint32_t *table; ///< groups by their names: numbers, 0 for none
@@ -44,13 +46,21 @@ typedef struct sli_contents {
     size_t first;    ///< wall of a shape
     size_t left_out; ///< shapes that are passed over
     sli_looks looks; ///< how shapes look
+    size_t doors;    ///< doors that are drawn open, once the choice is made
+    double door;     ///< how wide these are, usually
     bool has_looks;  ///< the reader tells them: `look` is that of the shape at hand
     uint32_t look;
 } sli_contents;
 
-/// The options with layers "*" as all_layers.
-static inline sl_import_options sli_drawing_options(const sl_import_options *options) {
+/// The options with layers "*" as all_layers, and without a "large" before the layers: `*large` is
+/// set then.
+static inline sl_import_options sli_drawing_options(const sl_import_options *options, bool *large) {
+    const size_t length = strlen(SLI_LAYERS_LARGE);
     sl_import_options own = *options;
+    const char *layers = own.layers;
+    *large = layers && strncmp(layers, SLI_LAYERS_LARGE, length) == 0 &&
+             (layers[length] == '\0' || layers[length] == ',');
+    if (*large) own.layers = layers[length] ? layers + length + 1 : NULL;
     if (own.layers && strcmp(own.layers, "*") == 0) {
         own.layers = NULL;
         own.all_layers = true;

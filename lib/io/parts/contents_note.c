@@ -9,11 +9,15 @@
 
 // --- measures
 
-double sli_choice_metre(const sli_choice *c) {
+double sli_choice_door(const sli_choice *c) {
     const size_t count = c->symbols.swings.count;
     double sum = 0;
     for (size_t i = 0; i < count; i++) sum += log(c->symbols.swings.items[i].radius);
-    const double radius = count ? exp(sum / (double)count) : 0;
+    return count ? exp(sum / (double)count) : 0;
+}
+
+double sli_choice_metre(const sli_choice *c) {
+    const double radius = sli_choice_door(c);
     if (!(radius > 0) || (radius > 0.5 * c->metre && radius < 1.6 * c->metre)) return c->metre;
     return radius / 0.85;
 }
@@ -205,6 +209,28 @@ static void note_rest(const sli_choice *c) {
         c->contents->file, 100 * c->parts.rest, c->contents->file);
 }
 
+/// The layers of walls and those with lines that are longer than doors, as --layers takes them;
+/// "A,B" where they are too many, or a name is not to be typed.
+static void say_with_doors(const sli_choice *c, char *text, size_t size) {
+    text[0] = '\0';
+    for (size_t i = 0; i < c->contents->groups.count; i++) {
+        const sli_group *group = &c->contents->groups.items[i];
+        const size_t used = strlen(text);
+        if (!group->walls || !(group->long_ones ||
+                               (group->taken && !c->by_looks && group->means != SLI_MEANS_WINDOW)))
+            continue;
+        bool plain = group->length > 0 && used + group->length + 2 < size;
+        for (size_t k = 0; plain && k < group->length; k++)
+            plain = (unsigned char)group->name[k] >= ' ' && !strchr("',\x7f", group->name[k]);
+        if (!plain) {
+            snprintf(text, size, "A,B");
+            return;
+        }
+        snprintf(text + used, size - used, "%s%.*s", used ? "," : "", (int)group->length,
+                 group->name);
+    }
+}
+
 void sli_choice_note_long_doors(const sli_choice *c) {
     const double most = sli_choice_longest_door(c);
     size_t count = 0;
@@ -227,10 +253,12 @@ void sli_choice_note_long_doors(const sli_choice *c) {
         if (group->long_ones) sli_name_list_add(&names, (sli_word){group->name, group->length});
     }
     if (count < 2) return;
+    char layers[300];
+    say_with_doors(c, layers, sizeof layers);
     sl_note(c->contents->context,
             "%s: %.120s: %zu lines on layers of doors are longer than doors: if they are walls, "
-            "--layers A,B names all layers of walls",
-            c->contents->file, names.text, count);
+            "name all layers of walls: --layers '%s'",
+            c->contents->file, names.text, count, layers);
 }
 
 void sli_choice_note(const sli_choice *c) {

@@ -14,7 +14,7 @@ static const struct {
     [SLI_LIMIT_PIXELS] = {"max-pixels", "pixels", (uint64_t)1 << 28},
     [SLI_LIMIT_WALLS] = {"max-walls", "walls", (uint64_t)1 << 24},
     [SLI_LIMIT_ENTITIES] = {"max-entities", "entities", (uint64_t)1 << 24},
-    [SLI_LIMIT_DEPTH] = {"max-depth", "levels", 128},
+    [SLI_LIMIT_DEPTH] = {"max-depth", "levels", 512},
 };
 
 /// That of the context, or the usual one.

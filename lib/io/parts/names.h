@@ -12,6 +12,9 @@
 
 // --- layers: names with commas between
 
+/// The first name of a list that asks for large pieces only, in small letters.
+#define SLI_LAYERS_LARGE "large"
+
 /// The next name of a list, moving `*list` behind it, without the blanks about it; false at the
 /// end. Empty names are passed over.
 static inline bool sli_layers_next(const char **list, sli_word *name) {

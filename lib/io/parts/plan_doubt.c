@@ -4,30 +4,46 @@
 /// into trees: where that is 0 nothing is enclosed (Euler).
 #include "io/parts/plan_doubt.h"
 
+#include "io/parts/names.h"
 #include "io/parts/plan_net.h"
 
 #include <math.h>
+#include <string.h>
 
 // --- what is told
 
-/// Small pieces, but for those that are long or have the sides of walls.
-static sl_status count_small(sli_plan_net *n, sli_plan_look *out) {
+/// Counts the corners of each piece.
+static void count_corners(sli_plan_net *n, uint32_t *corners) {
+    for (uint32_t end = 0; end < 2 * (uint32_t)n->map->wall_count; end++)
+        if (sli_plan_first(n->corner, end) == end) corners[sli_plan_first(n->piece, end / 2)]++;
+}
+
+/// Small pieces, but for those that are long or have the sides of walls. `closed`, where not NULL,
+/// gets the walls of those that enclose something: furniture does, and the end of a wall does not.
+static sl_status find_small(sli_plan_net *n, sl_bits *closed, sli_plan_look *out) {
     const uint32_t count = (uint32_t)n->map->wall_count;
     sl_bits *walls = sl_alloc_array(n->context, sl_bits_words(count), sizeof *walls);
-    if (!walls) return SL_NO_MEMORY;
-    for (size_t i = 0; i < n->pairs.count; i++) {
+    uint32_t *corners = sl_alloc_array(n->context, count, sizeof *corners);
+    const bool room = walls && corners;
+    for (size_t i = 0; room && i < n->pairs.count; i++) {
         sl_bits_add(walls, sli_plan_first(n->piece, n->pairs.items[i].wall));
         sl_bits_add(walls, sli_plan_first(n->piece, n->pairs.items[i].other));
     }
-    for (uint32_t i = 0; i < count; i++) {
-        const double w = sli_box_width(n->boxes[i]), h = sli_box_height(n->boxes[i]);
-        if (sli_plan_first(n->piece, i) != i || sl_bits_has(walls, i)) continue;
+    if (room) count_corners(n, corners);
+    for (uint32_t i = 0; room && i < count; i++) {
+        const uint32_t first = sli_plan_first(n->piece, i);
+        const double w = sli_box_width(n->boxes[first]), h = sli_box_height(n->boxes[first]);
+        if (sl_bits_has(walls, first)) continue;
         if (fmax(w, h) > n->size / 12 || fmax(w, h) > 3 * fmin(w, h)) continue;
-        out->pieces++;
-        out->small += n->counts[i];
+        out->pieces += first == i;
+        out->small++;
+        if (n->counts[first] < corners[first]) continue;
+        out->small_closed++;
+        if (closed) sl_bits_add(closed, i);
     }
     sl_free(n->context, walls);
-    return SL_OK;
+    sl_free(n->context, corners);
+    return room ? SL_OK : SL_NO_MEMORY;
 }
 
 /// Walls that cross others and are short, as doors and symbols are.
@@ -89,7 +105,7 @@ static sl_status find_all(sli_plan_net *n, sli_plan_look *out) {
     out->walls = count;
     out->closed = lines > corners ? lines - corners : 0;
     SL_TRY(count_across(n, out));
-    return count_small(n, out);
+    return find_small(n, NULL, out);
 }
 
 sl_status sli_plan_look_at(sl_context *context, const sl_map *map, double metre, double tolerance,
@@ -103,8 +119,66 @@ sl_status sli_plan_look_at(sl_context *context, const sl_map *map, double metre,
     return status;
 }
 
-sl_status sli_plan_tell(sl_context *context, const char *file, const sl_map *map, double metre,
-                        double tolerance) {
+/// The lines of a map, its windows and its doors; the walls first.
+static sl_status copy_lines(sl_context *context, const sl_map *map, sl_map *out) {
+    const size_t count = map->wall_count + map->seam_count + map->door_count;
+    out->walls = sl_alloc_array(context, count, sizeof *out->walls);
+    if (!out->walls) return SL_NO_MEMORY;
+    memcpy(out->walls, map->walls, map->wall_count * sizeof *out->walls);
+    out->wall_count = map->wall_count;
+    for (size_t i = 0; i < map->seam_count; i++) {
+        const sl_segment at = map->seams[i].segment;
+        out->walls[out->wall_count++] = (sl_wall){.a = at.a, .b = at.b};
+    }
+    for (size_t i = 0; i < map->door_count; i++) {
+        const sl_segment at = map->doors[i].segment;
+        out->walls[out->wall_count++] = (sl_wall){.a = at.a, .b = at.b};
+    }
+    return SL_OK;
+}
+
+sl_status sli_plan_keep_large(sl_context *context, sl_map *map, double metre, sli_plan_look *out) {
+    sli_plan_net net = {0};
+    sl_map lines = {0};
+    *out = (sli_plan_look){.walls = map->wall_count};
+    sl_bits *small = NULL;
+    sl_status status = copy_lines(context, map, &lines);
+    if (status == SL_OK)
+        status = sli_plan_net_make(context, &lines, 0.05 * metre, 0.6 * metre, 0, &net);
+    out->crowded = status == SL_OK && lines.wall_count && !net.whole;
+    if (status == SL_OK && net.whole) {
+        small = sl_alloc_array(context, sl_bits_words(lines.wall_count), sizeof *small);
+        status = small ? find_small(&net, small, out) : SL_NO_MEMORY;
+    }
+    size_t kept = 0;
+    for (size_t i = 0; status == SL_OK && small && i < map->wall_count; i++)
+        if (!sl_bits_has(small, i)) map->walls[kept++] = map->walls[i];
+    if (status == SL_OK && small) map->wall_count = kept;
+    sl_free(context, small);
+    sl_free(context, lines.walls);
+    sli_plan_net_destroy(&net);
+    return status;
+}
+
+/// Small pieces, with the option that leaves them out, where most of them are closed.
+static void note_small(sl_context *context, const char *file, const char *layers,
+                       const sli_plan_look *look) {
+    const double share = 100 * (double)look->small / (double)look->walls;
+    if (2 * look->small_closed >= look->small)
+        sl_note(context,
+                "%s: %.0f %% of the lines are small pieces that touch nothing: furniture or "
+                "symbols? --layers %s" SLI_LAYERS_LARGE "%s%s%s leaves out those that are closed",
+                file, share, layers ? "'" : "", layers ? "," : "", layers ? layers : "",
+                layers ? "'" : "");
+    else
+        sl_note(context,
+                "%s: %.0f %% of the lines are small pieces that touch nothing: furniture or "
+                "symbols? sightline info %s lists the layers, --layers A,B takes those of walls",
+                file, share, file);
+}
+
+sl_status sli_plan_tell(sl_context *context, const char *file, const char *layers,
+                        const sl_map *map, double metre, double tolerance) {
     sli_plan_look look;
     SL_TRY(sli_plan_look_at(context, map, metre, tolerance, &look));
     if (look.crowded)
@@ -115,10 +189,7 @@ sl_status sli_plan_tell(sl_context *context, const char *file, const sl_map *map
                 file, map->wall_count, file);
     const size_t share = look.pieces >= 10 ? 7 : 4;
     if (look.walls >= 20 && look.pieces >= 3 && share * look.small >= look.walls)
-        sl_note(context,
-                "%s: %.0f %% of the lines are small pieces that touch nothing: furniture or "
-                "symbols? sightline info %s lists the layers, --layers A,B takes those of walls",
-                file, 100 * (double)look.small / (double)look.walls, file);
+        note_small(context, file, layers, &look);
     if (look.across >= 8 && 12 * look.across >= look.walls)
         sl_note(context,
                 "%s: %zu short lines cross walls: doors or symbols drawn over them? sightline info "

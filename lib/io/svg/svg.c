@@ -528,10 +528,11 @@ static sl_status draw_document(svg *s, const char *text, size_t size) {
 static sl_status read_drawing(sl_context *context, const char *name, const char *text, size_t size,
                               const sl_import_options *options, sl_map *map,
                               sl_drawing_layers *list) {
-    const sl_import_options own = sli_drawing_options(options);
+    bool large;
+    const sl_import_options own = sli_drawing_options(options, &large);
     sli_svg s = {.context = context,
                  .options = &own,
-                 .contents = {.context = context, .file = name, .options = &own},
+                 .contents = {.context = context, .file = name, .options = &own, .large = large},
                  .list = list,
                  .pen = {.context = context, .name = name, .map = map, .tolerance = own.tolerance}};
     const sl_status status = draw_document(&s, text, size);
