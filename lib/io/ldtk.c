@@ -179,9 +179,11 @@ static sl_status check_any(const sli_ldtk *reader, bool unsure) {
     char next[600] = "; it has no tiles";
     if (*reader->tiles_name)
         snprintf(next, sizeof next,
-                 "; layers of tiles: %.150s; --layers takes all tiles of one, as in: sightline "
-                 "check '%.80s' --map %.40s --layers %.40s -o map.png",
-                 reader->tile_names.text, reader->name, reader->taken, reader->tiles_name);
+                 "; layers of tiles: %.150s; --layers NAME takes all tiles of one, NAME:1+3-5 "
+                 "tiles of it, as in: sightline check '%.80s' --map '%.40s' --layers '%.40s%s' -o "
+                 "map.png",
+                 reader->tile_names.text, reader->name, reader->taken, reader->tiles_name,
+                 reader->tiles_asked);
     if (!reader->layers && !reader->tile_layers)
         return sli_json_fail(&reader->root,
                              "level %s has no IntGrid layer, and no layer of tiles whose name or "

@@ -121,6 +121,11 @@ static void test_tiles(void **state) {
     assert_walls(OF_TILES("Walls", ""), NULL, NULL, three);
     assert_walls(OF_TILES("Any", ""), NULL, "Any", three);
     assert_refused(OF_TILES("Any", ""), "f: level A has no IntGrid layer, and no layer of tiles");
+    // Some of the tiles, by their numbers; by a short word.
+    assert_walls(OF_TILES("Any", ""), NULL, "Any:5-6", TWO_TILES);
+    assert_walls(OF_TILES("Any", ", \"customData\": [{\"tileId\": 5, \"data\": \"coll\"}, "
+                                 "{\"tileId\": 6, \"data\": \"coll\"}]"),
+                 NULL, NULL, TWO_TILES);
     assert_no_such(OF_TILES("Any", ""), NULL, "Other",
                    "f: there is no layer 'Other' in the level; it has Any");
 }

@@ -139,6 +139,17 @@ bool sli_game_says_stops(const char *name) {
     return false;
 }
 
+bool sli_game_says_beside_player(const char *name) {
+    static const char *const sides[] = {"below", "above", "under", "over", "beneath", "behind"};
+    static const char *const players[] = {"player", "players", "hero", "character", "char"};
+    bool side = false, player = false;
+    for (sli_name_word word; sli_word_next(&name, &word);) {
+        side |= IS_ONE_OF(&word, sides);
+        player |= IS_ONE_OF(&word, players);
+    }
+    return side && player;
+}
+
 bool sli_game_says_inside(const char *name) {
     for (sli_name_word word; sli_word_next(&name, &word);)
         if (IS_ONE_OF(&word, inside_words)) return true;
