@@ -52,6 +52,8 @@ static sl_status read_cells(sli_ldtk *reader, const sli_json *layer, const sli_j
     const sli_json values = sli_json_member(&definition, "intGridValues");
     sli_ldtk_layer of = layer_of(reader, layer);
     of.by_name = sli_ldtk_any_solid(&values);
+    of.only_walkable = sli_ldtk_only_walkable(&values);
+    const bool takes_empty = of.numbers.length ? sli_numbers_have(of.numbers, 0) : of.only_walkable;
     known_cells *known = sl_alloc(reader->context, sizeof *known);
     if (!known) return SL_NO_MEMORY;
     *known = (known_cells){0};
@@ -61,7 +63,7 @@ static sl_status read_cells(sli_ldtk *reader, const sli_json *layer, const sli_j
         const sli_json item = sli_json_item(cells, i);
         int64_t value = 0;
         if (status == SL_OK) status = sli_json_whole(&item, 0, INT32_MAX, &value);
-        if (status != SL_OK || !value) continue;
+        if (status != SL_OK || (!value && !takes_empty)) continue;
         const size_t at = (size_t)value % KNOWN;
         if (!known->items[at].is_known || known->items[at].value != value) {
             known->items[at].is_known = true;
@@ -393,7 +395,8 @@ static sl_status check_layers(const sli_ldtk *reader, const sli_json *layers) {
     return SL_OK;
 }
 
-/// Where lists of tiles cover the first layer: its tiles but the most frequent one, for the message.
+/// Where lists of tiles cover the first layer: its tiles but the most frequent one, for the
+/// message.
 static sl_status choose_tiles(sli_ldtk *reader, const sli_json *layer, const sli_json lists[2]) {
     const sli_json width = sli_json_member(layer, "__cWid"),
                    height = sli_json_member(layer, "__cHei");

@@ -87,6 +87,33 @@ static void test_values_by_meaning(void **state) {
                    "f: layer 'Any:x': expected values such as 1+3-5");
 }
 
+#define STAND(x)                                                                                   \
+    "{\"__identifier\": \"Chest\", \"px\": [" x                                                    \
+    "], \"width\": 8, \"height\": 8, \"__pivot\": [0, 0]}"
+
+/// Where only what is walkable has a value, the rest is solid; stone that entities stand on is a
+/// floor.
+static void test_values_by_what_stands(void **state) {
+    (void)state;
+    assert_walls(NAMED("Any", "1,0,0,1,1,1", VALUE("1", "WALKABLE")), NULL, NULL, TWO_TILES);
+    assert_walls(NAMED("Any", "1,0,0,1,1,1", VALUE("1", "Grass")), NULL, "Any:0", TWO_TILES);
+    // One passes through a thin platform, and stands on it.
+    assert_walls(NAMED("Any", "1,0,0,0,0,0", VALUE("1", "pass_through")), NULL, NULL,
+                 "wall 0 16 24 16\nwall 0 0 24 0\nwall 0 0 0 16\nwall 24 0 24 16\n");
+#define STONES(entities)                                                                           \
+    PROJECT(", \"defs\": {\"layers\": [{\"uid\": 7, \"intGridValues\": [" VALUE(                   \
+                "1", "Wall") "," VALUE("2", "StoneTile") "]}]}",                                   \
+            LEVEL("A", "0", "0",                                                                   \
+                  GRID("Any", "2,1,1,2,2,2", "") ",{\"__type\": \"Entities\", \"__gridSize\": 8, " \
+                                                 "\"entityInstances\": [" entities "]}"))
+    assert_walls(STONES(STAND("0, 0") "," STAND("0, 8") "," STAND("8, 8")), NULL, NULL, TWO_TILES);
+    assert_refused(
+        STONES(STAND("0, 0") "," STAND("0, 8")),
+        "f: level A: every cell is solid, so there are no walls; --layers Any:1+3-5 takes "
+        "the values of these numbers alone, as in: sightline check 'f' --map 'A' --layers "
+        "'Any:1' -o map.png");
+}
+
 #define TILE(px, id) "{\"px\": [" px "], \"t\": " id "}"
 #define OF_TILES(name, tilesets)                                                                   \
     PROJECT(", \"defs\": {\"layers\": [], \"tilesets\": [{\"uid\": 3" tilesets "}]}",              \
@@ -347,6 +374,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_values_by_meaning),
         cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_values_by_what_stands),
         cmocka_unit_test(test_tiles),
         cmocka_unit_test(test_project_of_a_level),
         cmocka_unit_test(test_values),

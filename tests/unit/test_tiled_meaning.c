@@ -124,6 +124,8 @@ static void test_beside_player(void **state) {
                  TWO_TILES);
     assert_walls(MAP(TILE_1_COLLIDES LAYER("Below Player", ONE_BELOW) LAYER("Walls", TILES)),
                  TWO_TILES);
+    assert_walls(MAP(TILE_1_COLLIDES LAYER("belowplayer", ONE_BELOW) LAYER("World", TILES)),
+                 TWO_TILES);
     // Alone they count.
     assert_walls(MAP(TILE_1_COLLIDES LAYER("Below Player", TILES)), TWO_TILES);
     // A name that does not say so much is no reason.

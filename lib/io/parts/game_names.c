@@ -142,10 +142,12 @@ bool sli_game_says_stops(const char *name) {
 bool sli_game_says_beside_player(const char *name) {
     static const char *const sides[] = {"below", "above", "under", "over", "beneath", "behind"};
     static const char *const players[] = {"player", "players", "hero", "character", "char"};
+    static const char *const both[] = {"belowplayer", "aboveplayer", "underplayer", "overplayer",
+                                       "behindplayer"};
     bool side = false, player = false;
     for (sli_name_word word; sli_word_next(&name, &word);) {
-        side |= IS_ONE_OF(&word, sides);
-        player |= IS_ONE_OF(&word, players);
+        side |= IS_ONE_OF(&word, sides) || IS_ONE_OF(&word, both);
+        player |= IS_ONE_OF(&word, players) || IS_ONE_OF(&word, both);
     }
     return side && player;
 }
