@@ -181,11 +181,11 @@ static void give_account(const sli_ldtk *reader, const sl_map *map, const sli_ld
 
 /// SL_BAD_INPUT where the level has nothing that says what is solid.
 static sl_status check_any(const sli_ldtk *reader, bool unsure) {
-    char next[600] = "; it has no tiles";
+    char next[900] = "; it has no tiles";
     if (*reader->tiles_name)
         snprintf(next, sizeof next,
                  "; layers of tiles: %.150s; --layers NAME takes all tiles of one, NAME:1+3-5 "
-                 "tiles of it, as in: sightline check '%.80s' --map '%.40s' --layers '%.40s%s' -o "
+                 "tiles of it, as in: sightline check '%.300s' --map '%.40s' --layers '%.40s%s' -o "
                  "map.png",
                  reader->tile_names.text, reader->name, reader->taken, reader->tiles_name,
                  reader->tiles_asked);
@@ -205,12 +205,12 @@ static sl_status check_any(const sli_ldtk *reader, bool unsure) {
 
 /// SL_BAD_INPUT where all is solid: nothing is left to see.
 static sl_status check_walls(const sli_ldtk *reader, const sl_map *map) {
-    char next[400] = "";
+    char next[600] = "";
     if (map->wall_count || sl_map_partial_walls(map)) return SL_OK;
     if (reader->layers)
         snprintf(next, sizeof next,
                  "; --layers %.40s:1+3-5 takes the values of these numbers alone, as in: sightline "
-                 "check '%.80s' --map '%.40s' --layers '%.40s:1' -o map.png",
+                 "check '%.300s' --map '%.40s' --layers '%.40s:1' -o map.png",
                  reader->asked, reader->name, reader->taken, reader->asked);
     return sl_fail_at(reader->context, reader->name, 0,
                       "level %s: every cell is solid, so there are no walls%s", reader->taken,

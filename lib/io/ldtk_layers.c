@@ -107,6 +107,9 @@ static sl_status read_layer(sli_ldtk *reader, const sli_json *layer, sli_ldtk_pl
     frame of;
     size_t count;
     SL_TRY(read_frame(layer, at, &of));
+    if (!cells.value && sli_json_member(layer, "intGrid").value)
+        return sli_json_fail(layer, "an LDtk before 0.8 wrote these cells, in a form that is not "
+                                    "read: open the project in a newer LDtk and save it");
     SL_TRY(sli_json_array(&cells, &count));
     if (count / (size_t)of.columns != (size_t)of.rows || count % (size_t)of.columns)
         return sli_json_fail(&cells, "%lld x %lld cells are %lld, found %zu", (long long)of.columns,

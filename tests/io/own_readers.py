@@ -29,6 +29,8 @@ class Drawing:
         self.squares = collections.defaultdict(set)  # (layer, tile): (column, row)
         self.size = None  # of a square
         self.extent = None  # columns and rows, if there are squares
+        self.origin = 0, 0  # the first column and row
+        self.gaps = []  # openings that cut the walls that run along them
         self.top = None  # the map's y is this less the file's, if the file says so
         self.unread = collections.Counter()
 
@@ -218,6 +220,10 @@ def tiled(path):
     if data.get("orientation", "orthogonal") != "orthogonal":
         drawing.unread["orientation"] += 1
     tiled_layers(drawing, layers)
+    places = [place for own in drawing.squares.values() for place in own]
+    if places and data.get("infinite"):
+        low, high = ([end(p[i] for p in places) for i in (0, 1)] for end in (min, max))
+        drawing.origin, drawing.extent = tuple(low), (high[0] - low[0] + 1, high[1] - low[1] + 1)
     yield drawing
 
 
@@ -381,9 +387,17 @@ def geojson(path):
             for line in lines:
                 drawing.line(layer, [tuple(place[:2]) for place in line])
 
-    data = json.loads(path.read_text(encoding="utf-8"))
-    for feature in data.get("features", [data]):
+    features = json.loads(path.read_text(encoding="utf-8"))
+    features = features.get("features", [features])
+    beside = path.parent / "opening.geojson"
+    if path.name == "unit.geojson" and beside.exists():
+        openings = json.loads(beside.read_text(encoding="utf-8"))
+        features += openings.get("features", [openings])
+    for feature in features:
         shape = feature.get("geometry", feature if "coordinates" in feature else None)
+        if shape and feature.get("feature_type") == "opening":
+            drawing.gaps += [(*a[:2], *b[:2]) for a, b in zip(shape["coordinates"], shape["coordinates"][1:])]
+            continue
         if shape:
             properties = feature.get("properties") or {}
             layer = feature.get("feature_type") or properties.get("category") or properties.get("indoor")

@@ -275,6 +275,12 @@ static void test_refused(void **state) {
     assert_refused("[]", "f: expected an object, found an array");
     assert_refused("{\"levels\": 7}", "f: levels: expected an array, found 7");
     assert_refused("{\"levels\": [7]}", "f: levels[0]: expected an object, found 7");
+    assert_refused(
+        LEVEL("A", "0", "0",
+              "{\"__identifier\": \"Any\", \"__type\": \"IntGrid\", \"__cWid\": 3, "
+              "\"__cHei\": 2, \"__gridSize\": 8, \"intGrid\": [{\"coordId\": 1, \"v\": 0}]}"),
+        "f: layerInstances[0]: an LDtk before 0.8 wrote these cells, in a form that is "
+        "not read: open the project in a newer LDtk and save it");
     assert_refused("{\"levels\": [{}]}", "f: levels[0].pxHei: expected a whole number");
     assert_refused(PROJECT("", "{\"pxHei\": 1.5}"), "f: levels[0].pxHei: expected a whole number, "
                                                     "found 1.5");
