@@ -374,32 +374,39 @@ def dxf(path):
 # GeoJSON
 
 
+def features_of(path):
+    data = json.loads(path.read_text(encoding="utf-8")) if path.exists() else {"features": []}
+    return data.get("features", [data])
+
+
+def lines_of(shape):
+    kind, places = shape["type"], shape.get("coordinates", [])
+    if kind == "GeometryCollection":
+        return [line for part in shape["geometries"] for line in lines_of(part)]
+    lines = {"LineString": [places], "MultiPolygon": [ring for part in places for ring in part],
+             "Polygon": places, "MultiLineString": places}.get(kind, [])
+    return [[tuple(place[:2]) for place in line] for line in lines]
+
+
 def geojson(path):
-    drawing = Drawing()
-
-    def geometry(shape, layer):
-        kind, places = shape["type"], shape.get("coordinates", [])
-        if kind == "GeometryCollection":
-            for part in shape["geometries"]:
-                geometry(part, layer)
-        elif kind in ("LineString", "Polygon", "MultiLineString", "MultiPolygon"):
-            lines = {"LineString": [places], "MultiPolygon": [r for p in places for r in p]}.get(kind, places)
-            for line in lines:
-                drawing.line(layer, [tuple(place[:2]) for place in line])
-
-    features = json.loads(path.read_text(encoding="utf-8"))
-    features = features.get("features", [features])
-    beside = path.parent / "opening.geojson"
-    if path.name == "unit.geojson" and beside.exists():
-        openings = json.loads(beside.read_text(encoding="utf-8"))
-        features += openings.get("features", [openings])
+    """One drawing, or one for each level of a set of IMDF, by its ordinal."""
+    indoor = path.name == "unit.geojson"
+    features = features_of(path) + (features_of(path.parent / "opening.geojson") if indoor else [])
+    levels = {level["id"]: level["properties"]["ordinal"]
+              for level in features_of(path.parent / "level.geojson") if indoor}
+    drawings = {}
     for feature in features:
         shape = feature.get("geometry", feature if "coordinates" in feature else None)
-        if shape and feature.get("feature_type") == "opening":
-            drawing.gaps += [(*a[:2], *b[:2]) for a, b in zip(shape["coordinates"], shape["coordinates"][1:])]
+        properties = feature.get("properties") or {}
+        level = levels.get(properties.get("level_id"))
+        drawing = drawings.setdefault(level, Drawing(None if level is None else str(level)))
+        layer = feature.get("feature_type") or properties.get("category") or properties.get("indoor")
+        if indoor and properties.get("category") in ("unenclosedarea", "opentobelow"):
+            drawing.unread["units without walls"] += 1
             continue
-        if shape:
-            properties = feature.get("properties") or {}
-            layer = feature.get("feature_type") or properties.get("category") or properties.get("indoor")
-            geometry(shape, str(layer or shape["type"]))
-    yield drawing
+        for line in lines_of(shape) if shape else []:
+            if layer == "opening":
+                drawing.gaps += [(*a, *b) for a, b in zip(line, line[1:])]
+            else:
+                drawing.line(str(layer or shape["type"]), line)
+    yield from drawings.values()
