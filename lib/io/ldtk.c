@@ -191,9 +191,9 @@ static sl_status check_any(const sli_ldtk *reader, bool unsure) {
                  reader->tiles_asked);
     if (!reader->layers && !reader->tile_layers)
         return sli_json_fail(&reader->root,
-                             "level %s has no IntGrid layer, and no layer of tiles whose name or "
+                             "level %s has no IntGrid layer%s, and no layer of tiles whose name or "
                              "whose tileset's enums say what is solid (Wall, Solid, Collision)%s",
-                             reader->taken, next);
+                             reader->taken, reader->empty_cells ? " with values" : "", next);
     if (unsure)
         return sl_fail_at(reader->context, reader->name, 0,
                           "the values %s may be walls or open ground; --layers %s:1+3-5 takes the "

@@ -365,14 +365,34 @@ static bool is_taken(const sli_ldtk *reader, const sli_json *layer, said all) {
     return !all.plain || is_plain(layer);
 }
 
-/// Whether the level has layers of cells: those of tiles count only where it has not.
-static bool has_cells(const sli_json *layers) {
-    bool any = false;
-    for (size_t i = 0; i < json_array_size(layers->value); i++) {
-        const sli_json layer = sli_json_item(layers, i);
-        any |= is_int_grid(&layer);
+/// Whether a layer of cells has a value anywhere. What is no list of numbers is for its reader.
+static bool has_values(const sli_json *layer) {
+    const sli_json cells = sli_json_member(layer, "intGridCsv");
+    bool any = !json_is_array(cells.value);
+    for (size_t i = 0; i < json_array_size(cells.value) && !any; i++) {
+        const json_t *value = json_array_get(cells.value, i);
+        any = !json_is_integer(value) || json_integer_value(value) != 0;
     }
     return any;
+}
+
+static bool has_tiles(const sli_json *layer) {
+    const sli_json by_hand = sli_json_member(layer, "gridTiles");
+    const sli_json by_rules = sli_json_member(layer, "autoLayerTiles");
+    return json_array_size(by_hand.value) || json_array_size(by_rules.value);
+}
+
+/// Whether the level has layers of cells: those of tiles count only where it has not, or where all
+/// cells are empty and no layer is named for what is solid. An empty layer of walls is a hall.
+static bool has_cells(const sli_json *layers) {
+    bool any = false, full = false, tiles = false;
+    for (size_t i = 0; i < json_array_size(layers->value); i++) {
+        const sli_json layer = sli_json_item(layers, i);
+        full |= is_int_grid(&layer) && (says_solid(&layer) || has_values(&layer));
+        any |= is_int_grid(&layer);
+        tiles |= is_tiles(&layer) && has_tiles(&layer);
+    }
+    return any && (full || !tiles);
 }
 
 static sl_status check_layers(const sli_ldtk *reader, const sli_json *layers) {
@@ -384,9 +404,10 @@ static sl_status check_layers(const sli_ldtk *reader, const sli_json *layers) {
         sli_name_list there = {.full = false};
         for (size_t i = 0; i < json_array_size(layers->value); i++) {
             const sli_json layer = sli_json_item(layers, i);
-            if (cells ? !is_int_grid(&layer) : !is_tiles(&layer)) continue;
+            if (!is_int_grid(&layer) && !is_tiles(&layer)) continue;
             const char *own = sli_json_text_of(&layer, "__identifier");
             known |= sli_layers_name(name, own, &numbers);
+            if (cells != is_int_grid(&layer)) continue;
             sli_name_list_add(&there, (sli_word){own, strlen(own)});
         }
         if (!known) return sli_fail_layer(reader->context, reader->name, name, "level", &there);
@@ -451,14 +472,17 @@ sl_status sli_ldtk_read_layers(sli_ldtk *reader, const sli_json *layers, sli_ldt
         const sli_json layer = sli_json_item(layers, i);
         const size_t before = reader->layers + reader->tile_layers;
         sli_word numbers;
-        const bool asked = !reader->options->layers ||
-                           sli_layers_ask(reader->options->layers,
-                                          sli_json_text_of(&layer, "__identifier"), &numbers);
+        const bool asked = reader->options->layers
+                               ? sli_layers_ask(reader->options->layers,
+                                                sli_json_text_of(&layer, "__identifier"), &numbers)
+                               : !cells;
         if (is_tiles(&layer)) SL_TRY(name_tiles(reader, &layer));
         SL_TRY(read_entities(reader, &layer, at));
-        if (is_taken(reader, &layer, all)) SL_TRY(read_layer(reader, &layer, at));
-        if (!cells && asked && is_tiles(&layer)) SL_TRY(read_tiles(reader, &layer, at));
+        if (is_taken(reader, &layer, all) && (cells || reader->options->layers))
+            SL_TRY(read_layer(reader, &layer, at));
+        if (asked && is_tiles(&layer)) SL_TRY(read_tiles(reader, &layer, at));
         reader->other_layers += before == reader->layers + reader->tile_layers;
+        reader->empty_cells |= !cells && is_int_grid(&layer);
     }
     return SL_OK;
 }

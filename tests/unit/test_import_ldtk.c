@@ -127,6 +127,25 @@ static void test_values_by_what_stands(void **state) {
                                                                         "5") "," TILE("0, 8",      \
                                                                                       "7") "]}"))
 
+/// Cells that are all empty say nothing where there are tiles, but in a layer of walls.
+static void test_empty_cells(void **state) {
+    (void)state;
+#define EMPTY(name, tiles)                                                                         \
+    PROJECT("",                                                                                    \
+            LEVEL("A", "0", "0",                                                                   \
+                  GRID(name, "0,0,0,0,0,0", "") ",{\"__identifier\": \"Terrain\", \"__type\": "    \
+                                                "\"Tiles\", \"__cWid\": 3, \"__cHei\": 2, "        \
+                                                "\"__gridSize\": 8, \"gridTiles\": [" tiles "]}"))
+    assert_refused(EMPTY("Any", TILE("8, 0", "5")),
+                   "f: level A has no IntGrid layer with values, and no layer of tiles whose name");
+    static const char frame[] = "wall 0 16 24 16\nwall 0 0 24 0\nwall 0 0 0 16\nwall 24 0 24 16\n";
+    assert_walls(EMPTY("Walls", TILE("8, 0", "5")), NULL, NULL, frame);
+    assert_walls(EMPTY("Any", ""), NULL, NULL, frame);
+    // Tiles can be asked for beside cells.
+    assert_walls(EMPTY("Walls", TILE("8, 0", "5") "," TILE("16, 0", "6")), NULL, "Terrain",
+                 TWO_TILES);
+}
+
 /// Where a level has no cells its tiles do, by their layer's name or their tileset.
 static void test_tiles(void **state) {
     (void)state;
@@ -381,6 +400,7 @@ int main(void) {
         cmocka_unit_test(test_values_by_meaning),
         cmocka_unit_test(test_memory),
         cmocka_unit_test(test_values_by_what_stands),
+        cmocka_unit_test(test_empty_cells),
         cmocka_unit_test(test_tiles),
         cmocka_unit_test(test_project_of_a_level),
         cmocka_unit_test(test_values),
