@@ -59,6 +59,10 @@ static void test_guess(void **state) {
     const char *dungeon = WIDE("<tileset firstgid='1' name='dungeon_tiles' tilewidth='8' "
                                "tileheight='8'/>" WIDE_LAYER("Bottom", GRASS));
     assert_walls(dungeon, RING_WALLS);
+    // Of what is named for ground that tile is none.
+    assert_refused(WIDE("<tileset firstgid='1' name='dungeon_tiles' tilewidth='8' "
+                        "tileheight='8'/>" WIDE_LAYER("Ground/terrain", GRASS)),
+                   "f:1: nothing in it says what is solid; --layers NAME takes a layer as solid");
     // The same tiles as a meadow; a layer beside the floor; a layer that is full.
 #define UNSAID "f:1: nothing in it says what is solid; --layers NAME takes a layer as solid"
     assert_refused(WIDE(SET WIDE_LAYER("Ground", GRASS)), UNSAID);

@@ -41,6 +41,8 @@ static const char *const solid_words[] = {
     "barrier",
     "boundary",
     "boundaries",
+    "boundry",
+    "boundries",
     "bounds",
     // German, French, Spanish, Portuguese, Italian, Swedish, Polish
     "mauer",

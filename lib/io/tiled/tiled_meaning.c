@@ -6,7 +6,8 @@
 ///
 /// - Where the only layer of tiles is named for a floor, there is a wall where it has no tile.
 /// - Where the map or a tileset is named for a dungeon or a sewer, and one tile covers at least
-///   half of the lowest layer and of its edge, that tile is rock.
+///   half of the lowest layer and of its edge, that tile is rock, unless the layer is named for
+///   ground or floor.
 /// - Where the only layer has tiles all around its edge, or below and not above, and is empty for
 ///   a good part, the tiles are walls or the ground of a platformer.
 ///
@@ -211,13 +212,16 @@ sl_status sli_tiled_guess(sli_tiled_reader *reader, const uint32_t *gids, size_t
     const size_t count = columns * rows, edge = 2 * (columns + rows);
     const size_t empty = count - (size_t)layer->count, bare = on_edge(&at, 0);
     const bool only = count_plain(reader) == 1, floor = layer->kind == SLI_GAME_FLOOR;
+    // The most frequent tile of what is named for ground is no rock.
+    const bool ground = floor || layer->kind == SLI_GAME_GROUND;
     size_t most;
     uint32_t gid = 0;
     if (layer->squares != count) return SL_OK; // one chunk of several
     SL_TRY(find_most(reader->context, &at, &gid, &most));
     if (only && floor && empty) {
         reader->guess_why = "where the floor has no tile is a wall";
-    } else if (is_inside(reader) && 2 * most >= count && 2 * on_edge(&at, gid) >= edge) {
+    } else if (is_inside(reader) && !(gid && ground) && 2 * most >= count &&
+               2 * on_edge(&at, gid) >= edge) {
         reader->guessed = gid;
         reader->guess_why = gid ? "the most frequent tile of a dungeon, which is on its edge too"
                                 : "the empty squares of a dungeon";
