@@ -136,13 +136,18 @@ static void add_list(char *text, size_t size, const char *lead, const sli_name_l
 }
 
 /// Tells what the values are taken for, and what changes it.
-static void tell_values(const sli_ldtk *reader, bool ground_solid) {
+static void tell_values(const sli_ldtk *reader, const sli_ldtk_settled *as) {
     char text[900] = "";
     const sli_ldtk_told *told = &reader->told;
     if (!told->named || reader->options->layers) return;
     add_list(text, sizeof text, "solid: ", &told->solid);
     add_list(text, sizeof text,
-             ground_solid ? "; solid ground: " : "; open ground: ", &told->ground);
+             as->stands_open     ? "; floor, as entities stand on it: "
+             : *told->solid.text ? ", "
+                                 : "solid: ",
+             &told->stands);
+    add_list(text, sizeof text,
+             as->ground_solid ? "; solid ground: " : "; open ground: ", &told->ground);
     add_list(text, sizeof text, "; stops steps, not sight: ", &told->water);
     add_list(text, sizeof text, "; open: ", &told->open);
     const char *own = *text == ';' ? text + 2 : text;
@@ -151,7 +156,7 @@ static void tell_values(const sli_ldtk *reader, bool ground_solid) {
 }
 
 /// What was taken, merged and left out.
-static void give_account(const sli_ldtk *reader, const sl_map *map, bool ground_solid) {
+static void give_account(const sli_ldtk *reader, const sl_map *map, const sli_ldtk_settled *as) {
     char bottom[SL_NUMBER_TEXT];
     sl_number_write(reader->bottom, bottom);
     const sli_tally left[] = {
@@ -171,22 +176,24 @@ static void give_account(const sli_ldtk *reader, const sl_map *map, bool ground_
             : reader->told.named ? "values by their names"
                                  : "all values but 0",
             sli_tally_write("; left out: ", left, 4, without), bottom);
-    tell_values(reader, ground_solid);
+    tell_values(reader, as);
 }
 
 /// SL_BAD_INPUT where the level has nothing that says what is solid.
 static sl_status check_any(const sli_ldtk *reader, bool unsure) {
-    char next[600] = "; it has no tiles";
+    char next[900] = "; it has no tiles";
     if (*reader->tiles_name)
         snprintf(next, sizeof next,
-                 "; layers of tiles: %.150s; --layers takes all tiles of one, as in: sightline "
-                 "check '%.80s' --map %.40s --layers %.40s -o map.png",
-                 reader->tile_names.text, reader->name, reader->taken, reader->tiles_name);
+                 "; layers of tiles: %.150s; --layers NAME takes all tiles of one, NAME:1+3-5 "
+                 "tiles of it, as in: sightline check '%.300s' --map '%.40s' --layers '%.40s%s' -o "
+                 "map.png",
+                 reader->tile_names.text, reader->name, reader->taken, reader->tiles_name,
+                 reader->tiles_asked);
     if (!reader->layers && !reader->tile_layers)
         return sli_json_fail(&reader->root,
-                             "level %s has no IntGrid layer, and no layer of tiles whose name or "
+                             "level %s has no IntGrid layer%s, and no layer of tiles whose name or "
                              "whose tileset's enums say what is solid (Wall, Solid, Collision)%s",
-                             reader->taken, next);
+                             reader->taken, reader->empty_cells ? " with values" : "", next);
     if (unsure)
         return sl_fail_at(reader->context, reader->name, 0,
                           "the values %s may be walls or open ground; --layers %s:1+3-5 takes the "
@@ -194,6 +201,20 @@ static sl_status check_any(const sli_ldtk *reader, bool unsure) {
                           "--layers %s -o map.png",
                           reader->told.ground.text, reader->asked, reader->name, reader->asked);
     return SL_OK;
+}
+
+/// SL_BAD_INPUT where all is solid: nothing is left to see.
+static sl_status check_walls(const sli_ldtk *reader, const sl_map *map) {
+    char next[600] = "";
+    if (map->wall_count || sl_map_partial_walls(map)) return SL_OK;
+    if (reader->layers)
+        snprintf(next, sizeof next,
+                 "; --layers %.40s:1+3-5 takes the values of these numbers alone, as in: sightline "
+                 "check '%.300s' --map '%.40s' --layers '%.40s:1' -o map.png",
+                 reader->asked, reader->name, reader->taken, reader->asked);
+    return sl_fail_at(reader->context, reader->name, 0,
+                      "level %s: every cell is solid, so there are no walls%s", reader->taken,
+                      next);
 }
 
 /// The project of a level's file: NAME.ldtk beside the folder NAME that it lies in. Its definitions
@@ -240,11 +261,11 @@ static sl_status read_alone(sli_ldtk *reader) {
 static sl_status read_file(sli_ldtk *reader, sl_map *map) {
     const sli_json levels = sli_json_member(&reader->root, "levels");
     const sli_json worlds = sli_json_member(&reader->root, "worlds");
-    bool ground_solid = false, unsure = false;
+    sli_ldtk_settled settled;
     SL_TRY(sli_json_object(&reader->root));
     SL_TRY(levels.value || worlds.value ? read_project(reader) : read_alone(reader));
-    sli_ldtk_settle_ground(reader, &ground_solid, &unsure);
-    SL_TRY(check_any(reader, unsure));
+    sli_ldtk_settle_ground(reader, &settled);
+    SL_TRY(check_any(reader, settled.unsure));
     reader->things.top = reader->bottom;
     const sli_tiles_options options = {.top = reader->bottom,
                                        .solid_between = true,
@@ -253,7 +274,8 @@ static sl_status read_file(sli_ldtk *reader, sl_map *map) {
     SL_TRY(sli_tiles_add_walls(reader->context, &reader->tiles, reader->name, &options, map));
     strcpy(map->unit, "px");
     map->source.transform = sli_y_down(reader->bottom, 1);
-    give_account(reader, map, ground_solid);
+    give_account(reader, map, &settled);
+    SL_TRY(check_walls(reader, map));
     return sli_things_finish(&reader->things, map);
 }
 

@@ -8,13 +8,15 @@
 #include "io/parts/things.h"
 #include "sightline/import.h"
 
-/// What a cell is, as the characters of sli_tile_block; ground is decided once all is read.
-enum { SLI_LDTK_GROUND = 'g' };
+/// What a cell is, as the characters of sli_tile_block; ground, and rock and the like beside walls,
+/// are decided once all is read.
+enum { SLI_LDTK_GROUND = 'g', SLI_LDTK_STANDS = 's' };
 
 /// What the values of a layer mean, or the tiles of its tileset.
 typedef struct sli_ldtk_layer {
     sli_game_kind kind; ///< by its name; SOLID where it is asked for
     bool by_name;       ///< some value is named for what is solid: the others are not, but for rock
+    bool only_walkable; ///< all values are named for where one walks: empty cells are solid
     sli_word numbers;   ///< of the values that are asked for; of no length for all
 } sli_ldtk_layer;
 
@@ -26,11 +28,13 @@ typedef struct sli_ldtk_cell {
 
 /// What is told: the values by what became of them.
 typedef struct sli_ldtk_told {
-    sli_name_list solid, water, ground, open;
+    sli_name_list solid, stands, water, ground, open;
     bool named; ///< some value has a name
 } sli_ldtk_told;
 
 bool sli_ldtk_any_solid(const sli_json *values);
+/// Whether all values of a layer are named for where one walks, so that one does not elsewhere.
+bool sli_ldtk_only_walkable(const sli_json *values);
 /// What a value other than 0 means; `values` are its layer's definitions.
 sli_ldtk_cell sli_ldtk_meaning(const sli_json *values, const sli_ldtk_layer *layer, int64_t value,
                                sli_ldtk_told *told);
@@ -55,16 +59,25 @@ typedef struct sli_ldtk {
     sli_ldtk_told told;
     char asked[80];           ///< a layer with values that chooses, for the message
     char tiles_name[80];      ///< the first layer of tiles; "" for none
+    char tiles_asked[80];     ///< where it is full: its tiles but the most frequent one, ":1+3-5"
     sli_name_list tile_names; ///< all of them
+    bool empty_cells; ///< a level has layers of cells, which are empty: its tiles count
     size_t levels, other_levels, other_depths;
     size_t layers, tile_layers, other_layers, entities;
 } sli_ldtk;
 
+/// What is found out from what stands where.
+typedef struct sli_ldtk_settled {
+    bool ground_solid, unsure; ///< unsure: nothing tells what ground is
+    bool stands_open;          ///< what is named for stone and the like is a floor
+} sli_ldtk_settled;
+
 /// Decides what ground is, and puts '#' or '.' in its place: where starts stand on it or on what is
 /// empty; else it is open where two or more other entities stand on it, twice as many as on what is
 /// empty; else it is the solid ground of a platformer if most squares around it are empty, and open
-/// if hardly any are. `*unsure` where nothing tells; `*solid` where it is solid.
-void sli_ldtk_settle_ground(sli_ldtk *reader, bool *solid, bool *unsure);
+/// if hardly any are. Rock and the like beside walls is a floor where starts stand on it and not on
+/// open cells; else where three or more other entities do, twice as many as on open cells.
+void sli_ldtk_settle_ground(sli_ldtk *reader, sli_ldtk_settled *out);
 
 /// A level's place in its world, in pixels, y down.
 typedef struct sli_ldtk_place {

@@ -20,13 +20,31 @@ bool sli_ldtk_any_solid(const sli_json *values) {
     return false;
 }
 
+/// One passes through a thin platform, and stands on it.
+static bool says_through(const char *name) {
+    for (sli_name_word word; sli_word_next(&name, &word);)
+        if (strstr(word.text, "through")) return true;
+    return false;
+}
+
+bool sli_ldtk_only_walkable(const sli_json *values) {
+    bool any = false;
+    for (size_t i = 0; i < json_array_size(values->value); i++) {
+        const sli_json value = sli_json_item(values, i);
+        const char *name = sli_json_text_of(&value, "identifier");
+        if (!sli_says_walkable(name) || says_through(name)) return false;
+        any = true;
+    }
+    return any;
+}
+
 /// The square of a value of this name in a layer, where no numbers are asked for.
 static char square_of(const sli_ldtk_layer *layer, const char *name) {
     const sli_game_kind kind = sli_game_kind_of(name);
     if (kind == SLI_GAME_WATER) return '~';
     if (kind >= SLI_GAME_STANDS &&
         !(layer->by_name && kind == SLI_GAME_LIKELY && !is_firm(kind, name)))
-        return '#';
+        return layer->by_name && kind == SLI_GAME_STANDS ? SLI_LDTK_STANDS : '#';
     if (layer->by_name || kind == SLI_GAME_PASS || kind == SLI_GAME_DRAWN) return '.';
     if (layer->kind == SLI_GAME_WATER) return '~';
     if (kind == SLI_GAME_UNSAID || layer->kind == SLI_GAME_SOLID) return '#';
@@ -35,6 +53,7 @@ static char square_of(const sli_ldtk_layer *layer, const char *name) {
 
 static void tell(sli_ldtk_told *told, char square, const char *name, int64_t value) {
     sli_name_list *list = square == '#'               ? &told->solid
+                          : square == SLI_LDTK_STANDS ? &told->stands
                           : square == '~'             ? &told->water
                           : square == SLI_LDTK_GROUND ? &told->ground
                                                       : &told->open;
@@ -60,6 +79,8 @@ sli_ldtk_cell sli_ldtk_meaning(const sli_json *values, const sli_ldtk_layer *lay
         break;
     }
     sli_ldtk_cell cell = {.square = square_of(layer, name), .says = sli_says_of(name, NULL)};
+    if (!value) name = "empty";
+    if (!value) cell.square = layer->only_walkable ? '#' : '.';
     if (layer->numbers.length)
         cell.square = sli_numbers_have(layer->numbers, (uint64_t)value) ? '#' : '.';
     // A door is solid until a passage is found for it.
@@ -117,24 +138,40 @@ static char square_at(const sli_tile_block *block, sl_point at) {
 
 /// How many stand on ground, and on what is empty.
 typedef struct votes {
-    size_t ground, empty;
+    size_t ground, stands, empty;
 } votes;
 
 static void vote(votes *of, const sli_tile_block *block, sl_point at) {
     const char square = square_at(block, at);
     of->ground += square == SLI_LDTK_GROUND;
+    of->stands += square == SLI_LDTK_STANDS;
     of->empty += square == '.';
 }
 
-void sli_ldtk_settle_ground(sli_ldtk *reader, bool *solid, bool *unsure) {
-    size_t ground = 0, empty = 0, all = 0;
+/// Puts what was found out into all squares.
+static void settle(const sli_ldtk *reader, const sli_ldtk_settled *as) {
+    for (size_t i = 0; i < reader->tiles.blocks.count; i++) {
+        const sli_tile_block *block = &reader->tiles.blocks.items[i];
+        for (size_t k = 0; k < block->columns * block->rows; k++) {
+            char *square = &block->squares[k];
+            if (*square == SLI_LDTK_GROUND) *square = as->ground_solid ? '#' : '.';
+            if (*square == SLI_LDTK_STANDS) *square = as->stands_open ? '.' : '#';
+        }
+    }
+}
+
+void sli_ldtk_settle_ground(sli_ldtk *reader, sli_ldtk_settled *out) {
+    size_t ground = 0, stands = 0, empty = 0, all = 0;
     votes starts = {0}, others = {0};
     for (size_t i = 0; i < reader->tiles.blocks.count; i++) {
         const sli_tile_block *block = &reader->tiles.blocks.items[i];
         const size_t count = block->columns * block->rows;
-        if (!memchr(block->squares, SLI_LDTK_GROUND, count)) continue;
+        if (!memchr(block->squares, SLI_LDTK_GROUND, count) &&
+            !memchr(block->squares, SLI_LDTK_STANDS, count))
+            continue;
         for (size_t k = 0; k < count; k++) {
             ground += block->squares[k] == SLI_LDTK_GROUND;
+            stands += block->squares[k] == SLI_LDTK_STANDS;
             empty += block->squares[k] == '.';
         }
         all += count;
@@ -144,14 +181,16 @@ void sli_ldtk_settle_ground(sli_ldtk *reader, bool *solid, bool *unsure) {
         for (size_t k = 0; k < reader->others.count; k++)
             vote(&others, block, reader->others.items[k]);
     }
-    if (!ground) return;
-    const bool told = starts.ground != starts.empty;
-    const bool stood_on = others.ground >= 2 && others.ground >= 2 * others.empty;
-    *solid = told ? starts.empty > starts.ground : !stood_on && 5 * empty >= 2 * all;
-    *unsure = !told && !stood_on && !*solid && 10 * empty > all;
-    for (size_t i = 0; i < reader->tiles.blocks.count; i++) {
-        const sli_tile_block *block = &reader->tiles.blocks.items[i];
-        for (size_t k = 0; k < block->columns * block->rows; k++)
-            if (block->squares[k] == SLI_LDTK_GROUND) block->squares[k] = *solid ? '#' : '.';
+    *out = (sli_ldtk_settled){0};
+    if (ground) {
+        const bool told = starts.ground != starts.empty;
+        const bool stood_on = others.ground >= 2 && others.ground >= 2 * others.empty;
+        out->ground_solid = told ? starts.empty > starts.ground : !stood_on && 5 * empty >= 2 * all;
+        out->unsure = !told && !stood_on && !out->ground_solid && 10 * empty > all;
     }
+    if (stands)
+        out->stands_open = starts.stands || starts.empty
+                               ? starts.stands > starts.empty
+                               : others.stands >= 3 && others.stands >= 2 * others.empty;
+    settle(reader, out);
 }

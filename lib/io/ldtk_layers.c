@@ -52,6 +52,8 @@ static sl_status read_cells(sli_ldtk *reader, const sli_json *layer, const sli_j
     const sli_json values = sli_json_member(&definition, "intGridValues");
     sli_ldtk_layer of = layer_of(reader, layer);
     of.by_name = sli_ldtk_any_solid(&values);
+    of.only_walkable = sli_ldtk_only_walkable(&values);
+    const bool takes_empty = of.numbers.length ? sli_numbers_have(of.numbers, 0) : of.only_walkable;
     known_cells *known = sl_alloc(reader->context, sizeof *known);
     if (!known) return SL_NO_MEMORY;
     *known = (known_cells){0};
@@ -61,7 +63,7 @@ static sl_status read_cells(sli_ldtk *reader, const sli_json *layer, const sli_j
         const sli_json item = sli_json_item(cells, i);
         int64_t value = 0;
         if (status == SL_OK) status = sli_json_whole(&item, 0, INT32_MAX, &value);
-        if (status != SL_OK || !value) continue;
+        if (status != SL_OK || (!value && !takes_empty)) continue;
         const size_t at = (size_t)value % KNOWN;
         if (!known->items[at].is_known || known->items[at].value != value) {
             known->items[at].is_known = true;
@@ -105,6 +107,9 @@ static sl_status read_layer(sli_ldtk *reader, const sli_json *layer, sli_ldtk_pl
     frame of;
     size_t count;
     SL_TRY(read_frame(layer, at, &of));
+    if (!cells.value && sli_json_member(layer, "intGrid").value)
+        return sli_json_fail(layer, "an LDtk before 0.8 wrote these cells, in a form that is not "
+                                    "read: open the project in a newer LDtk and save it");
     SL_TRY(sli_json_array(&cells, &count));
     if (count / (size_t)of.columns != (size_t)of.rows || count % (size_t)of.columns)
         return sli_json_fail(&cells, "%lld x %lld cells are %lld, found %zu", (long long)of.columns,
@@ -134,9 +139,16 @@ static bool find_square(const sli_json *tile, const frame *of, size_t *at) {
     return true;
 }
 
-/// Puts the tiles of one list into their squares. All are solid where the layer says so.
+/// What a tile makes of its square. All are solid where the layer says so, or those asked for.
+static char square_of_tile(const sli_ldtk_layer *layer, const sli_json *tileset, int64_t number) {
+    if (layer->kind != SLI_GAME_SOLID) return sli_ldtk_tile(tileset, number);
+    return sli_numbers_have(layer->numbers, (uint64_t)number) ? '#' : 0;
+}
+
+/// Puts the tiles of one list into their squares.
 static sl_status read_tile_list(sli_ldtk *reader, const sli_json *list, const sli_json *tileset,
-                                bool whole, const frame *of, char *squares, bool *any) {
+                                const sli_ldtk_layer *layer, const frame *of, char *squares,
+                                bool *any) {
     struct {
         bool is_known;
         int64_t tile;
@@ -152,7 +164,7 @@ static sl_status read_tile_list(sli_ldtk *reader, const sli_json *list, const sl
         if (!known[slot].is_known || known[slot].tile != number) {
             known[slot].is_known = true;
             known[slot].tile = number;
-            known[slot].square = whole ? '#' : sli_ldtk_tile(tileset, number);
+            known[slot].square = square_of_tile(layer, tileset, number);
         }
         const char square = known[slot].square;
         if (!square || squares[at] == '#') continue;
@@ -170,7 +182,7 @@ static sl_status read_tiles(sli_ldtk *reader, const sli_json *layer, sli_ldtk_pl
     const sli_json tileset = find_definition(reader, "tilesets", &uid, defs);
     const sli_json by_hand = sli_json_member(layer, "gridTiles");
     const sli_json by_rules = sli_json_member(layer, "autoLayerTiles");
-    const bool whole = layer_of(reader, layer).kind == SLI_GAME_SOLID;
+    const sli_ldtk_layer says = layer_of(reader, layer);
     frame of;
     bool any = false;
     char *squares;
@@ -181,8 +193,8 @@ static sl_status read_tiles(sli_ldtk *reader, const sli_json *layer, sli_ldtk_pl
     SL_TRY(sli_tiles_add(reader->context, &reader->tiles, reader->name, of.corner,
                          (sl_point){(double)of.step, (double)of.step}, (size_t)of.columns,
                          (size_t)of.rows, &squares));
-    SL_TRY(read_tile_list(reader, &by_hand, &tileset, whole, &of, squares, &any));
-    SL_TRY(read_tile_list(reader, &by_rules, &tileset, whole, &of, squares, &any));
+    SL_TRY(read_tile_list(reader, &by_hand, &tileset, &says, &of, squares, &any));
+    SL_TRY(read_tile_list(reader, &by_rules, &tileset, &says, &of, squares, &any));
     reader->tile_layers += any;
     return SL_OK;
 }
@@ -353,14 +365,34 @@ static bool is_taken(const sli_ldtk *reader, const sli_json *layer, said all) {
     return !all.plain || is_plain(layer);
 }
 
-/// Whether the level has layers of cells: those of tiles count only where it has not.
-static bool has_cells(const sli_json *layers) {
-    bool any = false;
-    for (size_t i = 0; i < json_array_size(layers->value); i++) {
-        const sli_json layer = sli_json_item(layers, i);
-        any |= is_int_grid(&layer);
+/// Whether a layer of cells has a value anywhere. What is no list of numbers is for its reader.
+static bool has_values(const sli_json *layer) {
+    const sli_json cells = sli_json_member(layer, "intGridCsv");
+    bool any = !json_is_array(cells.value);
+    for (size_t i = 0; i < json_array_size(cells.value) && !any; i++) {
+        const json_t *value = json_array_get(cells.value, i);
+        any = !json_is_integer(value) || json_integer_value(value) != 0;
     }
     return any;
+}
+
+static bool has_tiles(const sli_json *layer) {
+    const sli_json by_hand = sli_json_member(layer, "gridTiles");
+    const sli_json by_rules = sli_json_member(layer, "autoLayerTiles");
+    return json_array_size(by_hand.value) || json_array_size(by_rules.value);
+}
+
+/// Whether the level has layers of cells: those of tiles count only where it has not, or where all
+/// cells are empty and no layer is named for what is solid. An empty layer of walls is a hall.
+static bool has_cells(const sli_json *layers) {
+    bool any = false, full = false, tiles = false;
+    for (size_t i = 0; i < json_array_size(layers->value); i++) {
+        const sli_json layer = sli_json_item(layers, i);
+        full |= is_int_grid(&layer) && (says_solid(&layer) || has_values(&layer));
+        any |= is_int_grid(&layer);
+        tiles |= is_tiles(&layer) && has_tiles(&layer);
+    }
+    return any && (full || !tiles);
 }
 
 static sl_status check_layers(const sli_ldtk *reader, const sli_json *layers) {
@@ -372,9 +404,10 @@ static sl_status check_layers(const sli_ldtk *reader, const sli_json *layers) {
         sli_name_list there = {.full = false};
         for (size_t i = 0; i < json_array_size(layers->value); i++) {
             const sli_json layer = sli_json_item(layers, i);
-            if (cells ? !is_int_grid(&layer) : !is_tiles(&layer)) continue;
+            if (!is_int_grid(&layer) && !is_tiles(&layer)) continue;
             const char *own = sli_json_text_of(&layer, "__identifier");
             known |= sli_layers_name(name, own, &numbers);
+            if (cells != is_int_grid(&layer)) continue;
             sli_name_list_add(&there, (sli_word){own, strlen(own)});
         }
         if (!known) return sli_fail_layer(reader->context, reader->name, name, "level", &there);
@@ -386,14 +419,41 @@ static sl_status check_layers(const sli_ldtk *reader, const sli_json *layers) {
     return SL_OK;
 }
 
+/// Where lists of tiles cover the first layer: its tiles but the most frequent one, for the
+/// message.
+static sl_status choose_tiles(sli_ldtk *reader, const sli_json *layer, const sli_json lists[2]) {
+    const sli_json width = sli_json_member(layer, "__cWid"),
+                   height = sli_json_member(layer, "__cHei");
+    const double squares = sli_json_number_or_0(&width) * sli_json_number_or_0(&height);
+    const size_t most = json_array_size(lists[0].value) + json_array_size(lists[1].value);
+    size_t count = 0;
+    if ((double)most < squares) return SL_OK;
+    uint32_t *tiles = sl_alloc_array(reader->context, most, sizeof *tiles);
+    if (!tiles) return SL_NO_MEMORY;
+    for (size_t k = 0; k < 2; k++)
+        for (size_t i = 0; i < json_array_size(lists[k].value); i++) {
+            const sli_json tile = sli_json_item(&lists[k], i), id = sli_json_member(&tile, "t");
+            const json_int_t number = json_integer_value(id.value);
+            if (number >= 0 && number <= UINT32_MAX) tiles[count++] = (uint32_t)number;
+        }
+    char *text = reader->tiles_asked;
+    const sl_status status = sli_numbers_but_commonest(reader->context, tiles, count, text + 1,
+                                                       sizeof reader->tiles_asked - 1);
+    if (status == SL_OK && text[1]) *text = ':';
+    sl_free(reader->context, tiles);
+    return status;
+}
+
 /// Remembers a layer of tiles, for the message that nothing says what is solid.
-static void name_tiles(sli_ldtk *reader, const sli_json *layer) {
+static sl_status name_tiles(sli_ldtk *reader, const sli_json *layer) {
     const char *name = sli_json_text_of(layer, "__identifier");
-    const sli_json by_hand = sli_json_member(layer, "gridTiles");
-    const sli_json by_rules = sli_json_member(layer, "autoLayerTiles");
-    if (!json_array_size(by_hand.value) && !json_array_size(by_rules.value)) return;
+    const sli_json lists[2] = {sli_json_member(layer, "gridTiles"),
+                               sli_json_member(layer, "autoLayerTiles")};
+    if (!json_array_size(lists[0].value) && !json_array_size(lists[1].value)) return SL_OK;
+    if (!*reader->tiles_name) SL_TRY(choose_tiles(reader, layer, lists));
     keep_name(reader->tiles_name, sizeof reader->tiles_name, name);
     sli_name_list_add(&reader->tile_names, (sli_word){name, strlen(name)});
+    return SL_OK;
 }
 
 sl_status sli_ldtk_read_layers(sli_ldtk *reader, const sli_json *layers, sli_ldtk_place at) {
@@ -412,14 +472,17 @@ sl_status sli_ldtk_read_layers(sli_ldtk *reader, const sli_json *layers, sli_ldt
         const sli_json layer = sli_json_item(layers, i);
         const size_t before = reader->layers + reader->tile_layers;
         sli_word numbers;
-        const bool asked = !reader->options->layers ||
-                           sli_layers_ask(reader->options->layers,
-                                          sli_json_text_of(&layer, "__identifier"), &numbers);
-        if (is_tiles(&layer)) name_tiles(reader, &layer);
+        const bool asked = reader->options->layers
+                               ? sli_layers_ask(reader->options->layers,
+                                                sli_json_text_of(&layer, "__identifier"), &numbers)
+                               : !cells;
+        if (is_tiles(&layer)) SL_TRY(name_tiles(reader, &layer));
         SL_TRY(read_entities(reader, &layer, at));
-        if (is_taken(reader, &layer, all)) SL_TRY(read_layer(reader, &layer, at));
-        if (!cells && asked && is_tiles(&layer)) SL_TRY(read_tiles(reader, &layer, at));
+        if (is_taken(reader, &layer, all) && (cells || reader->options->layers))
+            SL_TRY(read_layer(reader, &layer, at));
+        if (asked && is_tiles(&layer)) SL_TRY(read_tiles(reader, &layer, at));
         reader->other_layers += before == reader->layers + reader->tile_layers;
+        reader->empty_cells |= !cells && is_int_grid(&layer);
     }
     return SL_OK;
 }

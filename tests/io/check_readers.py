@@ -5,7 +5,8 @@ check_readers.py PROGRAM FOLDER       all files of a folder, and what was found 
 
 A sightline is a short segment over a wall, at a random angle. Of a layer that the program takes (most
 of its length lies on walls of the map) no wall may be lost: what crosses it is blocked in the map. The
-other way round, what the map blocks crosses a wall of the author. Of tiles, squares that the program
+other way round, what the map blocks crosses a wall of the author. Layers that the program says are not solid
+do not count. Of tiles, squares that the program
 takes as solid are those behind the outlines of the map; a tile of a layer is solid everywhere or nowhere.
 
 Exit status: 0 nothing is lost, 1 something is.
@@ -21,17 +22,20 @@ import sys
 import tempfile
 
 import own_files
+import own_grounds
 import own_readers
 import own_svg
 
 READERS = {".uvtt": own_readers.uvtt, ".dd2vtt": own_readers.uvtt, ".df2vtt": own_readers.uvtt,
            ".db": own_readers.foundry, ".tmx": own_readers.tiled, ".tmj": own_readers.tiled,
            ".ldtk": own_readers.ldtk, ".dxf": own_readers.dxf, ".svg": own_svg.svg,
-           ".geojson": own_readers.geojson}
+           ".geojson": own_readers.geojson, ".wad": own_grounds.wad, ".yaml": own_grounds.ros}
 SIGHTLINES = 1500
 MAPS = 3  # of a file that holds several
 NEAR = 2e-4  # of the larger side: chords and welded ends
 OPEN = ("open", "seen through")  # doors and walls of tabletops that stop no sight
+NOT_SOLID = re.compile(r"not (?:solid|taken): (.*)")
+NAMED = re.compile(r"'((?:[^']|'(?! \())*)' \(\d+ ")
 FLIPPED = re.compile(r"y = (-?[\d.e+-]+) - the file's y")
 
 
@@ -134,23 +138,24 @@ def flipped(segments, top):
 def solid_squares(drawing, outlines, top):
     """Squares on the other side of an odd number of outlines than the ground beyond them."""
     columns, rows = drawing.extent
+    left, top_row = drawing.origin
     size, crossed = drawing.size, collections.Counter()
     for a, b, c, d in (s for outline in outlines for s in flipped(outline, top)):
         if a == c and a % size == 0:
             for row in range(round(min(b, d) / size), round(max(b, d) / size)):
                 crossed[round(a / size), row] += 1
     inner = set()
-    for row in range(rows):
+    for row in range(top_row, top_row + rows):
         odd = False
-        for column in range(columns):
+        for column in range(left, left + columns):
             odd ^= crossed[column, row] % 2 == 1
             if odd:
                 inner.add((column, row))
-    everything = {(x, y) for x in range(columns) for y in range(rows)}
+    everything = {(left + x, top_row + y) for x in range(columns) for y in range(rows)}
     return inner, everything - inner
 
 
-def compare_tiles(drawing, outlines, top):
+def compare_tiles(drawing, outlines, top, left_out=()):
     """(squares lost, squares too many, of how many): by the tiles that lie in solid squares alone."""
     best = None
     for solid in solid_squares(drawing, outlines, top):
@@ -160,8 +165,10 @@ def compare_tiles(drawing, outlines, top):
                 layers[layer] |= places
         kinds = {**{(layer,): places for layer, places in layers.items()}, **drawing.squares}
         said, lost = set(), set()
-        for places in kinds.values():
+        for kind, places in kinds.items():
             outside = places - solid
+            if kind[0] in left_out and outside:
+                continue
             if not outside:
                 said |= places
             elif len(places) >= 20 and len(outside) <= len(places) / 50:
@@ -172,9 +179,9 @@ def compare_tiles(drawing, outlines, top):
     return best or (0, 0, 0)
 
 
-def fitted(segments, grid):
-    """Segments moved and scaled along both axes so that their box is that of a grid."""
-    own = Grid(segments).box
+def fitted(segments, grid, by=None):
+    """Segments moved and scaled along both axes so that their box (or that of others) is a grid's."""
+    own = Grid(by or segments).box
     scale = [(grid.box[i + 2] - grid.box[i]) / ((own[i + 2] - own[i]) or 1) for i in (0, 1)]
     return [tuple(grid.box[i % 2] + (v - own[i % 2]) * scale[i % 2] for i, v in enumerate(s))
             for s in segments]
@@ -194,20 +201,33 @@ def taken(segments, grid):
     return on / total if total else 0.0
 
 
-def compare_walls(drawing, text, top, world, random_numbers):
+def beside_gaps(gaps, sight, side):
+    """Whether an opening, or a wall beside it that it cuts, may be what a sightline crosses."""
+    for x0, y0, x1, y1 in gaps:
+        reach = math.hypot(x1 - x0, y1 - y0) * 0.85 + side * 40 * NEAR
+        if math.hypot(sight[0] - (x0 + x1) / 2, sight[1] - (y0 + y1) / 2) < reach:
+            return True
+    return False
+
+
+def compare_walls(drawing, text, top, world, random_numbers, left_out=()):
     """(lost, of how many, too many, of how many, layers taken, layers left)"""
     sight, any_wall, outlines = read_map(text)
     every, on_map = Grid(any_wall), Grid(sight)
     layers = {layer: flipped(walls, top) for layer, walls in drawing.walls.items() if walls}
+    gaps = flipped(drawing.gaps, top)
     if world:
-        everything = fitted([s for walls in layers.values() for s in walls], every)
-        layers = {"all": everything}
+        everything = [s for walls in layers.values() for s in walls]
+        gaps = fitted(gaps, every, everything) if gaps and everything else []
+        layers = {"all": fitted(everything, every)}
     took = {layer: walls for layer, walls in layers.items()
-            if not layer.endswith(OPEN) and taken(walls, every) > (0.95 if drawing.size else 0.5)}
+            if not layer.endswith(OPEN) and layer.rsplit(" (", 1)[0] not in left_out and taken(walls, every) > (0.95 if drawing.size else 0.5)}
     chosen = [s for walls in took.values() for s in walls]
     lost = trials = extra = others = 0
     if chosen and any_wall:
         for line in over_walls(chosen, every.side, random_numbers):
+            if beside_gaps(gaps, line, every.side):
+                continue
             trials += 1
             lost += not blocked(every, line, every.side * NEAR)
     if layers and not drawing.squares and any_wall:
@@ -239,8 +259,11 @@ def check(program, path, random_numbers):
             continue
         top = FLIPPED.search(said)
         top = float(top.group(1)) if top else drawing.top
-        result = compare_walls(drawing, text, top, reader is own_readers.geojson, random_numbers)
-        tiles = compare_tiles(drawing, result[6], top) if drawing.squares else (0, 0, 0)
+        named = NOT_SOLID.search(said)
+        left_out = set(NAMED.findall(named.group(1))) if named else ()
+        world = reader is own_readers.geojson
+        result = compare_walls(drawing, text, top, world, random_numbers, left_out)
+        tiles = compare_tiles(drawing, result[6], top, left_out) if drawing.squares else (0, 0, 0)
         yield [drawing.name, *result[:4], *tiles, ";".join(result[4]), ";".join(result[5]),
                dict(drawing.unread)]
 
@@ -262,7 +285,7 @@ def main():
     with tempfile.TemporaryDirectory(prefix="sightline-own-") as own:
         if not folder:
             for name, text in own_files.FILES.items():
-                pathlib.Path(own, name).write_text(text, encoding="utf-8")
+                pathlib.Path(own, name).write_bytes(text if isinstance(text, bytes) else text.encode())
             can_fail(program, pathlib.Path(own, "plan.dxf"))
         for path in sorted(p for p in pathlib.Path(folder or own).rglob("*") if reader_of(p)):
             try:

@@ -1,8 +1,13 @@
 """Small files of other programs, for check_readers.py: what authors do, one or two things a file."""
 import base64
 import json
+import pathlib
 import struct
+import sys
 import zlib
+
+sys.path.append(str(pathlib.Path(__file__).parent.parent / "command"))
+import wad  # noqa: E402
 
 ROOM = [(0, 0), (90, 0), (90, 60), (0, 60), (0, 0)]
 
@@ -99,5 +104,20 @@ SVG = """<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 80" width="100
 </svg>
 """
 
+ROS = "image: floor.pgm\nresolution: 0.05\norigin: [-1.5, 2.0, 0.0]\nnegate: 0\n" \
+      "occupied_thresh: 0.65\nfree_thresh: 0.196\n"
+
+
+def floor():
+    pixels = [0 if wall else 254 for wall in ring(9, 7, 1)]
+    pixels[12] = 205
+    return b"P5\n# ROS\n9 7\n255\n" + bytes(pixels)
+
+
+LEVELS = wad.make_wad(wad.rooms("MAP01", 4), [("A_START", b""), ("BEHAVIOR", b"ACS")],
+                      wad.text_of_map("MAP02", [(0, 0, 0, 64, 0, None), (0, 64, 64, 0, 0, None),
+                                                (64, 0, 0, 0, 0, None)], 1, {}))
+
 FILES = {"scene.json": scene(), "map.dd2vtt": battle_map(), "layers.tmx": tmx(), "objects.tmj": tmj(),
-         "project.ldtk": project(), "plan.dxf": dxf(), "plan.svg": SVG}
+         "project.ldtk": project(), "plan.dxf": dxf(), "plan.svg": SVG, "level.wad": LEVELS, "floor.pgm": floor(),
+         "floor.yaml": ROS}

@@ -29,6 +29,8 @@ class Drawing:
         self.squares = collections.defaultdict(set)  # (layer, tile): (column, row)
         self.size = None  # of a square
         self.extent = None  # columns and rows, if there are squares
+        self.origin = 0, 0  # the first column and row
+        self.gaps = []  # openings that cut the walls that run along them
         self.top = None  # the map's y is this less the file's, if the file says so
         self.unread = collections.Counter()
 
@@ -218,6 +220,10 @@ def tiled(path):
     if data.get("orientation", "orthogonal") != "orthogonal":
         drawing.unread["orientation"] += 1
     tiled_layers(drawing, layers)
+    places = [place for own in drawing.squares.values() for place in own]
+    if places and data.get("infinite"):
+        low, high = ([end(p[i] for p in places) for i in (0, 1)] for end in (min, max))
+        drawing.origin, drawing.extent = tuple(low), (high[0] - low[0] + 1, high[1] - low[1] + 1)
     yield drawing
 
 
@@ -368,24 +374,39 @@ def dxf(path):
 # GeoJSON
 
 
+def features_of(path):
+    data = json.loads(path.read_text(encoding="utf-8")) if path.exists() else {"features": []}
+    return data.get("features", [data])
+
+
+def lines_of(shape):
+    kind, places = shape["type"], shape.get("coordinates", [])
+    if kind == "GeometryCollection":
+        return [line for part in shape["geometries"] for line in lines_of(part)]
+    lines = {"LineString": [places], "MultiPolygon": [ring for part in places for ring in part],
+             "Polygon": places, "MultiLineString": places}.get(kind, [])
+    return [[tuple(place[:2]) for place in line] for line in lines]
+
+
 def geojson(path):
-    drawing = Drawing()
-
-    def geometry(shape, layer):
-        kind, places = shape["type"], shape.get("coordinates", [])
-        if kind == "GeometryCollection":
-            for part in shape["geometries"]:
-                geometry(part, layer)
-        elif kind in ("LineString", "Polygon", "MultiLineString", "MultiPolygon"):
-            lines = {"LineString": [places], "MultiPolygon": [r for p in places for r in p]}.get(kind, places)
-            for line in lines:
-                drawing.line(layer, [tuple(place[:2]) for place in line])
-
-    data = json.loads(path.read_text(encoding="utf-8"))
-    for feature in data.get("features", [data]):
+    """One drawing, or one for each level of a set of IMDF, by its ordinal."""
+    indoor = path.name == "unit.geojson"
+    features = features_of(path) + (features_of(path.parent / "opening.geojson") if indoor else [])
+    levels = {level["id"]: level["properties"]["ordinal"]
+              for level in features_of(path.parent / "level.geojson") if indoor}
+    drawings = {}
+    for feature in features:
         shape = feature.get("geometry", feature if "coordinates" in feature else None)
-        if shape:
-            properties = feature.get("properties") or {}
-            layer = feature.get("feature_type") or properties.get("category") or properties.get("indoor")
-            geometry(shape, str(layer or shape["type"]))
-    yield drawing
+        properties = feature.get("properties") or {}
+        level = levels.get(properties.get("level_id"))
+        drawing = drawings.setdefault(level, Drawing(None if level is None else str(level)))
+        layer = feature.get("feature_type") or properties.get("category") or properties.get("indoor")
+        if indoor and properties.get("category") in ("unenclosedarea", "opentobelow"):
+            drawing.unread["units without walls"] += 1
+            continue
+        for line in lines_of(shape) if shape else []:
+            if layer == "opening":
+                drawing.gaps += [(*a, *b) for a, b in zip(line, line[1:])]
+            else:
+                drawing.line(str(layer or shape["type"]), line)
+    yield from drawings.values()

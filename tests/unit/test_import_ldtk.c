@@ -87,6 +87,33 @@ static void test_values_by_meaning(void **state) {
                    "f: layer 'Any:x': expected values such as 1+3-5");
 }
 
+#define STAND(x)                                                                                   \
+    "{\"__identifier\": \"Chest\", \"px\": [" x                                                    \
+    "], \"width\": 8, \"height\": 8, \"__pivot\": [0, 0]}"
+
+/// Where only what is walkable has a value, the rest is solid; stone that entities stand on is a
+/// floor.
+static void test_values_by_what_stands(void **state) {
+    (void)state;
+    assert_walls(NAMED("Any", "1,0,0,1,1,1", VALUE("1", "WALKABLE")), NULL, NULL, TWO_TILES);
+    assert_walls(NAMED("Any", "1,0,0,1,1,1", VALUE("1", "Grass")), NULL, "Any:0", TWO_TILES);
+    // One passes through a thin platform, and stands on it.
+    assert_walls(NAMED("Any", "1,0,0,0,0,0", VALUE("1", "pass_through")), NULL, NULL,
+                 "wall 0 16 24 16\nwall 0 0 24 0\nwall 0 0 0 16\nwall 24 0 24 16\n");
+#define STONES(entities)                                                                           \
+    PROJECT(", \"defs\": {\"layers\": [{\"uid\": 7, \"intGridValues\": [" VALUE(                   \
+                "1", "Wall") "," VALUE("2", "StoneTile") "]}]}",                                   \
+            LEVEL("A", "0", "0",                                                                   \
+                  GRID("Any", "2,1,1,2,2,2", "") ",{\"__type\": \"Entities\", \"__gridSize\": 8, " \
+                                                 "\"entityInstances\": [" entities "]}"))
+    assert_walls(STONES(STAND("0, 0") "," STAND("0, 8") "," STAND("8, 8")), NULL, NULL, TWO_TILES);
+    assert_refused(
+        STONES(STAND("0, 0") "," STAND("0, 8")),
+        "f: level A: every cell is solid, so there are no walls; --layers Any:1+3-5 takes "
+        "the values of these numbers alone, as in: sightline check 'f' --map 'A' --layers "
+        "'Any:1' -o map.png");
+}
+
 #define TILE(px, id) "{\"px\": [" px "], \"t\": " id "}"
 #define OF_TILES(name, tilesets)                                                                   \
     PROJECT(", \"defs\": {\"layers\": [], \"tilesets\": [{\"uid\": 3" tilesets "}]}",              \
@@ -99,6 +126,25 @@ static void test_values_by_meaning(void **state) {
                                                           "5") "," TILE("-8, 0",                   \
                                                                         "5") "," TILE("0, 8",      \
                                                                                       "7") "]}"))
+
+/// Cells that are all empty say nothing where there are tiles, but in a layer of walls.
+static void test_empty_cells(void **state) {
+    (void)state;
+#define EMPTY(name, tiles)                                                                         \
+    PROJECT("",                                                                                    \
+            LEVEL("A", "0", "0",                                                                   \
+                  GRID(name, "0,0,0,0,0,0", "") ",{\"__identifier\": \"Terrain\", \"__type\": "    \
+                                                "\"Tiles\", \"__cWid\": 3, \"__cHei\": 2, "        \
+                                                "\"__gridSize\": 8, \"gridTiles\": [" tiles "]}"))
+    assert_refused(EMPTY("Any", TILE("8, 0", "5")),
+                   "f: level A has no IntGrid layer with values, and no layer of tiles whose name");
+    static const char frame[] = "wall 0 16 24 16\nwall 0 0 24 0\nwall 0 0 0 16\nwall 24 0 24 16\n";
+    assert_walls(EMPTY("Walls", TILE("8, 0", "5")), NULL, NULL, frame);
+    assert_walls(EMPTY("Any", ""), NULL, NULL, frame);
+    // Tiles can be asked for beside cells.
+    assert_walls(EMPTY("Walls", TILE("8, 0", "5") "," TILE("16, 0", "6")), NULL, "Terrain",
+                 TWO_TILES);
+}
 
 /// Where a level has no cells its tiles do, by their layer's name or their tileset.
 static void test_tiles(void **state) {
@@ -121,6 +167,11 @@ static void test_tiles(void **state) {
     assert_walls(OF_TILES("Walls", ""), NULL, NULL, three);
     assert_walls(OF_TILES("Any", ""), NULL, "Any", three);
     assert_refused(OF_TILES("Any", ""), "f: level A has no IntGrid layer, and no layer of tiles");
+    // Some of the tiles, by their numbers; by a short word.
+    assert_walls(OF_TILES("Any", ""), NULL, "Any:5-6", TWO_TILES);
+    assert_walls(OF_TILES("Any", ", \"customData\": [{\"tileId\": 5, \"data\": \"coll\"}, "
+                                 "{\"tileId\": 6, \"data\": \"coll\"}]"),
+                 NULL, NULL, TWO_TILES);
     assert_no_such(OF_TILES("Any", ""), NULL, "Other",
                    "f: there is no layer 'Other' in the level; it has Any");
 }
@@ -243,6 +294,12 @@ static void test_refused(void **state) {
     assert_refused("[]", "f: expected an object, found an array");
     assert_refused("{\"levels\": 7}", "f: levels: expected an array, found 7");
     assert_refused("{\"levels\": [7]}", "f: levels[0]: expected an object, found 7");
+    assert_refused(
+        LEVEL("A", "0", "0",
+              "{\"__identifier\": \"Any\", \"__type\": \"IntGrid\", \"__cWid\": 3, "
+              "\"__cHei\": 2, \"__gridSize\": 8, \"intGrid\": [{\"coordId\": 1, \"v\": 0}]}"),
+        "f: layerInstances[0]: an LDtk before 0.8 wrote these cells, in a form that is "
+        "not read: open the project in a newer LDtk and save it");
     assert_refused("{\"levels\": [{}]}", "f: levels[0].pxHei: expected a whole number");
     assert_refused(PROJECT("", "{\"pxHei\": 1.5}"), "f: levels[0].pxHei: expected a whole number, "
                                                     "found 1.5");
@@ -342,6 +399,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_values_by_meaning),
         cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_values_by_what_stands),
+        cmocka_unit_test(test_empty_cells),
         cmocka_unit_test(test_tiles),
         cmocka_unit_test(test_project_of_a_level),
         cmocka_unit_test(test_values),

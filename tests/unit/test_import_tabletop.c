@@ -59,6 +59,10 @@ static void test_uvtt_refused(void **state) {
     assert_uvtt_refused(UVTT("\"line_of_sight\": [[" POINT("1e308", "0") "]]"),
                         "f: line_of_sight[0][0].x: 1e+308 is out of range");
     assert_uvtt_refused(UVTT("\"line_of_sight\": [[" POINT("NaN", "0") "]]"), "f:2: column ");
+    assert_uvtt_refused(
+        UVTT("\"line_of_sight\": [], \"portals\": []"),
+        "f: the map has no walls and no doors, so nothing is hidden in it: draw them "
+        "in the program that wrote it, and export it again");
     assert_uvtt_refused(UVTT("\"line_of_sight\": [], \"portals\": [{}]"),
                         "f: portals[0].bounds: expected an array");
     assert_uvtt_refused(UVTT("\"line_of_sight\": [], \"portals\": [{\"bounds\": [1]}]"),

@@ -501,6 +501,36 @@ static void test_directory_broken(void **state) {
     sl_context_destroy(context);
 }
 
+/// Lumps of scripts behind a name are no map, whatever the name is: libraries have them, too.
+static void test_scripts_alone(void **state) {
+    (void)state;
+    static const char *const libraries[] = {"A_END", "MAP01"};
+    sl_context *context = testing_context(NULL);
+    wad_made wad;
+    wad_begin(&wad);
+    wad_text(&wad, "A_START", "");
+    wad_text(&wad, "BEHAVIOR", "ACS");
+    wad_text(&wad, "SCRIPTS", "script");
+    wad_two_rooms(&wad, "MAP01", 0, 0, 0, NULL);
+    for (size_t i = 0; i < 2; i++) {
+        wad_text(&wad, libraries[i], "");
+        wad_text(&wad, "BEHAVIOR", "ACS");
+    }
+    wad_end(&wad);
+    sl_map map = {0};
+    assert_ok(context, read_wad(context, &wad, NULL, false, &map));
+    assert_int_equal(map.wall_count, 12);
+    sl_map_destroy(context, &map);
+    free(wad.bytes);
+    wad_begin(&wad);
+    wad_text(&wad, "MAP01", "");
+    wad_text(&wad, "BEHAVIOR", "ACS");
+    wad_end(&wad);
+    expect_broken(context, &wad, "holds no map");
+    free(wad.bytes);
+    sl_context_destroy(context);
+}
+
 static void test_lumps_broken(void **state) {
     (void)state;
     static const char *const needed[] = {"THINGS", "LINEDEFS", "SIDEDEFS", "VERTEXES", "SECTORS"};
@@ -597,13 +627,21 @@ static void test_memory(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_lines),          cmocka_unit_test(test_doors),
-        cmocka_unit_test(test_list),           cmocka_unit_test(test_choice),
-        cmocka_unit_test(test_hexen),          cmocka_unit_test(test_textmap),
-        cmocka_unit_test(test_textmap_broken), cmocka_unit_test(test_directory_broken),
-        cmocka_unit_test(test_lumps_broken),   cmocka_unit_test(test_references_broken),
-        cmocka_unit_test(test_memory),         cmocka_unit_test(test_starts),
-        cmocka_unit_test(test_polyobjects),    cmocka_unit_test(test_starts_that_reach),
+        cmocka_unit_test(test_lines),
+        cmocka_unit_test(test_doors),
+        cmocka_unit_test(test_list),
+        cmocka_unit_test(test_choice),
+        cmocka_unit_test(test_hexen),
+        cmocka_unit_test(test_textmap),
+        cmocka_unit_test(test_textmap_broken),
+        cmocka_unit_test(test_directory_broken),
+        cmocka_unit_test(test_scripts_alone),
+        cmocka_unit_test(test_lumps_broken),
+        cmocka_unit_test(test_references_broken),
+        cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_starts),
+        cmocka_unit_test(test_polyobjects),
+        cmocka_unit_test(test_starts_that_reach),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -59,6 +59,10 @@ static void test_guess(void **state) {
     const char *dungeon = WIDE("<tileset firstgid='1' name='dungeon_tiles' tilewidth='8' "
                                "tileheight='8'/>" WIDE_LAYER("Bottom", GRASS));
     assert_walls(dungeon, RING_WALLS);
+    // Of what is named for ground that tile is none.
+    assert_refused(WIDE("<tileset firstgid='1' name='dungeon_tiles' tilewidth='8' "
+                        "tileheight='8'/>" WIDE_LAYER("Ground/terrain", GRASS)),
+                   "f:1: nothing in it says what is solid; --layers NAME takes a layer as solid");
     // The same tiles as a meadow; a layer beside the floor; a layer that is full.
 #define UNSAID "f:1: nothing in it says what is solid; --layers NAME takes a layer as solid"
     assert_refused(WIDE(SET WIDE_LAYER("Ground", GRASS)), UNSAID);
@@ -69,6 +73,13 @@ static void test_guess(void **state) {
     assert_refused(MAP(SET LAYER("a", CSV("1,1,1,1,1,1")) "<group name='g'><objectgroup name='b'/>"
                                                           "</group>"),
                    UNSAID);
+    // Of a full layer the command asks for the tiles but the most frequent one.
+    assert_refused(WIDE(SET WIDE_LAYER("Ground", GRASS)),
+                   UNSAID ", NAME:28+33-35 tiles of it, as in: sightline check 'f' --layers "
+                          "'Ground:1-6+8-9' -o map.png; layers: 'Ground' (24 tiles)");
+    assert_refused(MAP(SET LAYER("Ground", FULL)),
+                   UNSAID ", NAME:28+33-35 tiles of it (all tiles of 'Ground' are the same: draw "
+                          "walls in a layer Collision); layers: 'Ground' (6 tiles)");
     // One that starts inside the wall says that the guess is wrong.
     assert_refused(WIDE(SET WIDE_LAYER("Tile Layer 1", RING) "<objectgroup name='o'><object "
                                                              "name='Player' x='4' y='4'/>"
@@ -104,6 +115,27 @@ static void test_pictures_of_walls(void **state) {
                  "16 0 16 8\n");
     assert_walls(MAP(SET LAYER("walls", TILES) LAYER("enemy collision", DOORWAY)), TWO_TILES);
     assert_walls(MAP(SET LAYER("walls", TILES) LAYER("Light-Collisions", DOORWAY)), TWO_TILES);
+}
+
+/// What the player goes over or under is not solid beside a layer that is, whatever its tiles say.
+static void test_beside_player(void **state) {
+    (void)state;
+#define TILE_1_COLLIDES SET_OF("<tile id='0'>" TRUE("collides") "</tile>")
+#define ONE_BELOW       CSV("0,0,0,1,0,2")
+    assert_walls(MAP(TILE_1_COLLIDES LAYER("Below Player", ONE_BELOW) LAYER("World", TILES)),
+                 TWO_TILES);
+    assert_walls(MAP(TILE_1_COLLIDES LAYER("World", TILES) LAYER("abovePlayer", ONE_BELOW)),
+                 TWO_TILES);
+    assert_walls(MAP(TILE_1_COLLIDES LAYER("Below Player", ONE_BELOW) LAYER("Walls", TILES)),
+                 TWO_TILES);
+    assert_walls(MAP(TILE_1_COLLIDES LAYER("belowplayer", ONE_BELOW) LAYER("World", TILES)),
+                 TWO_TILES);
+    // Alone they count.
+    assert_walls(MAP(TILE_1_COLLIDES LAYER("Below Player", TILES)), TWO_TILES);
+    // A name that does not say so much is no reason.
+    assert_walls(
+        MAP(TILE_1_COLLIDES LAYER("Below", CSV("0,1,0,0,0,0")) LAYER("World", CSV("0,0,1,0,0,0"))),
+        TWO_TILES);
 }
 
 /// A property on nearly all tiles, the floor's too, says nothing.
@@ -367,6 +399,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_guess),
         cmocka_unit_test(test_pictures_of_walls),
+        cmocka_unit_test(test_beside_player),
         cmocka_unit_test(test_all_solid),
         cmocka_unit_test(test_tile_size),
         cmocka_unit_test(test_passing_objects),

@@ -76,6 +76,11 @@ static bool is_record_lump(const char name[SLI_LUMP_NAME]) {
     return false;
 }
 
+/// A lump of scripts. Libraries of scripts keep them behind names of their own, without a map.
+static bool is_script(const char name[SLI_LUMP_NAME]) {
+    return strcmp(name, "BEHAVIOR") == 0 || strcmp(name, "SCRIPTS") == 0;
+}
+
 /// A name that a map may have: any readable one that could not be a lump within a map.
 static bool is_map_name(const char name[SLI_LUMP_NAME]) {
     for (const char *at = name; *at; at++)
@@ -91,10 +96,16 @@ bool sli_wad_next_map(const sli_wad *wad, uint32_t *at, sli_wad_map *map) {
         sli_wad_lump_name(wad, i + 1, next);
         const bool is_text = strcmp(next, "TEXTMAP") == 0;
         if (!is_map_name(name) || !(is_text || is_record_lump(next))) continue;
+        bool is_map = is_text || !is_script(next);
         uint32_t end = i + 2;
         for (; end < wad->lump_count; end++) {
             sli_wad_lump_name(wad, end, next);
             if (is_text ? strcmp(next, "ENDMAP") == 0 : !is_record_lump(next)) break;
+            is_map |= !is_script(next);
+        }
+        if (!is_map) {
+            i = end - 1; // `next` is the name of the lump at `end`
+            continue;
         }
         *map = (sli_wad_map){.header = i, .end = end, .is_text = is_text};
         memcpy(map->name, name, sizeof name);

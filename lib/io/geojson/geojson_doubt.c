@@ -12,7 +12,9 @@ sl_status sli_geo_refuse_points(const sli_geo *geo) {
         if (geo->lines.items[i].count > 1) return SL_OK;
         points += geo->lines.items[i].count;
     }
-    if (!points) return SL_OK;
+    if (!points)
+        return sl_fail_at(geo->context, geo->name, 0,
+                          "none of its features has lines or outlines that walls could be");
     return sl_fail_at(geo->context, geo->name, 0,
                       "it has %zu point%s, and no lines or outlines that walls could be", points,
                       points == 1 ? "" : "s");

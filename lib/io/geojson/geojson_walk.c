@@ -5,8 +5,8 @@
 ///
 /// Coordinates are longitude and latitude by the RFC. But many plans are in metres, and older files
 /// name a coordinate system ("crs", The GeoJSON Format Specification, 2008). So they are degrees if
-/// all are within 180 and 90, with four decimals or more: three are 100 m. Degrees are laid in a
-/// plane about the middle of the file (sightline/earth.h).
+/// all are within 180 and 90, with four decimals or more: three are 100 m. Files of IMDF are always
+/// in degrees. Degrees are laid in a plane about the middle of the file (sightline/earth.h).
 #include "io/geojson/geojson.h"
 #include "io/parts/names.h"
 #include "io/parts/shapes.h"
@@ -194,6 +194,14 @@ static sl_box bounds_of(const sli_geo *geo) {
     return box;
 }
 
+/// Whether it is of a set of IMDF, which is in degrees however few decimals they have.
+static bool is_indoor_mapping(const sli_geo *geo) {
+    for (size_t i = 0; i < geo->features.count; i++)
+        if (json_is_string(json_object_get(geo->features.items[i].feature, "feature_type")))
+            return true;
+    return false;
+}
+
 /// Sets *degrees, or fails where the options cannot be so.
 static sl_status choose_degrees(const sli_geo *geo, sl_box box, bool *degrees) {
     const sl_import_options *options = geo->options;
@@ -212,7 +220,8 @@ static sl_status choose_degrees(const sli_geo *geo, sl_box box, bool *degrees) {
                     crs);
         return SL_OK;
     }
-    *degrees = within && (options->degrees || says == SAYS_DEGREES || geo->finest < 1.5e-4);
+    *degrees = within && (options->degrees || says == SAYS_DEGREES || geo->finest < 1.5e-4 ||
+                          is_indoor_mapping(geo));
     if (within && !*degrees)
         sl_note(geo->context,
                 "%s: coordinates have fewer than four decimals: taken as plain units, not as "

@@ -30,9 +30,10 @@ static const char *const ground_words[] = {
     "weg",      "chemin",   "camino", "地面",   "草地",
 };
 static const char *const pass_words[] = {
-    "bridge",   "ladder",   "stair", "step", "door",    "gate", "air",  "empty",  "open",
-    "walkable", "passable", "void",  "none", "nothing", "rope", "vine", "climb",  "climbable",
-    "spawn",    "start",    "exit",  "zone", "trigger", "coin", "item", "player", "enemy",
+    "bridge", "ladder",    "stair",    "step",    "door",  "gate",    "air",     "empty",
+    "open",   "walkable",  "passable", "void",    "none",  "nothing", "rope",    "vine",
+    "climb",  "climbable", "spawn",    "start",   "exit",  "zone",    "trigger", "coin",
+    "item",   "player",    "enemy",    "emitter", "trail",
 };
 static const char *const water_words[] = {
     "water",   "lava",   "pit",   "river", "lake",   "sea",   "ocean", "pond",
@@ -137,6 +138,19 @@ bool sli_game_says_stops(const char *name) {
     for (sli_name_word word; sli_word_next(&name, &word);)
         if (IS_ONE_OF(&word, stop_words)) return true;
     return false;
+}
+
+bool sli_game_says_beside_player(const char *name) {
+    static const char *const sides[] = {"below", "above", "under", "over", "beneath", "behind"};
+    static const char *const players[] = {"player", "players", "hero", "character", "char"};
+    static const char *const both[] = {"belowplayer", "aboveplayer", "underplayer", "overplayer",
+                                       "behindplayer"};
+    bool side = false, player = false;
+    for (sli_name_word word; sli_word_next(&name, &word);) {
+        side |= IS_ONE_OF(&word, sides) || IS_ONE_OF(&word, both);
+        player |= IS_ONE_OF(&word, players) || IS_ONE_OF(&word, both);
+    }
+    return side && player;
 }
 
 bool sli_game_says_inside(const char *name) {

@@ -24,6 +24,9 @@ sli_game_kind sli_game_kind_of(const char *name);
 /// "CollisionHorizontal", but not "walls", "light collisions", "enemy collision".
 bool sli_game_says_stops(const char *name);
 
+/// Whether the name is of what is drawn below or above the player: "Below Player", "abovePlayer".
+bool sli_game_says_beside_player(const char *name);
+
 /// Whether the name is of a dungeon, a cave, a sewer ..., where most of a map is rock.
 bool sli_game_says_inside(const char *name);
 

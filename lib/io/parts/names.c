@@ -6,6 +6,7 @@
 #include <errno.h>
 #include <stddef.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -30,6 +31,7 @@ static const char *const solid_words[] = {
     "opaque",
     "impassable",
     "collides",
+    "coll",
     "impassible",
     "unpassable",
     "unwalkable",
@@ -39,6 +41,8 @@ static const char *const solid_words[] = {
     "barrier",
     "boundary",
     "boundaries",
+    "boundry",
+    "boundries",
     "bounds",
     // German, French, Spanish, Portuguese, Italian, Swedish, Polish
     "mauer",
@@ -349,6 +353,52 @@ bool sli_numbers_good(sli_word numbers) {
     for (uint64_t low, high; numbers.length;)
         if (!next_range(&numbers, &low, &high)) return false;
     return true;
+}
+
+static int compare_numbers(const void *left, const void *right) {
+    const uint32_t *a = left, *b = right;
+    return (*a > *b) - (*a < *b);
+}
+
+/// The most frequent of sorted numbers, the lowest of those.
+static uint32_t find_commonest(const uint32_t *sorted, size_t count) {
+    uint32_t commonest = 0;
+    for (size_t i = 0, next, most = 0; i < count; i = next) {
+        for (next = i; next < count && sorted[next] == sorted[i]; next++) continue;
+        if (next - i <= most) continue;
+        most = next - i;
+        commonest = sorted[i];
+    }
+    return commonest;
+}
+
+sl_status sli_numbers_but_commonest(sl_context *context, const uint32_t *numbers, size_t count,
+                                    char *text, size_t size) {
+    uint32_t *sorted = sl_alloc_array(context, count ? count : 1, sizeof *sorted);
+    if (!sorted) return SL_NO_MEMORY;
+    if (count) memcpy(sorted, numbers, count * sizeof *sorted);
+    qsort(sorted, count, sizeof *sorted, compare_numbers);
+    const uint32_t commonest = find_commonest(sorted, count);
+    size_t used = 0;
+    *text = '\0';
+    for (size_t i = 0, next; i < count; i = next) {
+        for (next = i + 1;
+             next < count && sorted[next] <= sorted[next - 1] + 1 && sorted[next] != commonest;)
+            next++;
+        if (sorted[i] == commonest) {
+            for (next = i; next < count && sorted[next] == commonest;) next++;
+            continue;
+        }
+        char own[40];
+        const int length =
+            snprintf(own, sizeof own, sorted[i] == sorted[next - 1] ? "%s%u" : "%s%u-%u",
+                     used ? "+" : "", (unsigned)sorted[i], (unsigned)sorted[next - 1]);
+        if (used + (size_t)length + 1 > size) break;
+        memcpy(text + used, own, (size_t)length + 1);
+        used += (size_t)length;
+    }
+    sl_free(context, sorted);
+    return SL_OK;
 }
 
 // --- files beside a file

@@ -313,7 +313,8 @@ sl_status sli_edge_add(const sli_edge *edge, sl_map *map, uint32_t item) {
     if (percent >= 1)
         sl_note(edge->context,
                 "%s: %.0f %% of the scene lies beyond closed walls and is not inside; "
-                "--layers %s takes them in",
+                "--layers %s takes them in: all of the scene is inside then, whatever openings "
+                "it has",
                 edge->file, percent, edge->all);
     if (!count) return SL_OK;
     map->source.lines_are_items = true;

@@ -238,6 +238,11 @@ static sl_status read_uvtt(uvtt *reader, const sli_json *root) {
     if (takes(reader, layer_names[1]) && objects.value)
         SL_TRY(read_polylines(reader, layer_names[1], &objects));
     if (takes(reader, layer_names[2]) && portals.value) SL_TRY(read_portals(reader, &portals));
+    if (!reader->options->layers && !reader->walls && !reader->closed && !reader->open)
+        return sl_fail_at(
+            reader->context, root->file->name, 0,
+            "the map has no walls and no doors, so nothing is hidden in it: draw them "
+            "in the program that wrote it, and export it again");
     SL_TRY(read_starts(reader, root));
     reader->map->precision =
         sli_marked_precision(reader->map, reader->finest, reader->mark, reader->sum);

@@ -103,6 +103,7 @@ static sli_tiled_word word_of_layer(const sli_tiled_reader *reader, const sli_js
     case SLI_TILED_BY_TERRAIN:
     case SLI_TILED_BY_SET:
         return own->kind == SLI_GAME_DRAWN || own->moves ? SLI_TILED_OPEN : SLI_TILED_UNSAID;
+    case SLI_TILED_BY_BESIDE:
     case SLI_TILED_BY_GUESS:
         break;
     }
@@ -124,6 +125,7 @@ static sl_status find_place(const sli_tiled_reader *reader, const sli_json *laye
     *own = *outer;
     own->offset = (sl_point){outer->offset.x + offset.x, outer->offset.y + offset.y};
     own->moves |= moves.x != 1 || moves.y != 1;
+    own->beside |= sli_game_says_beside_player(name);
     const sli_game_kind kind = sli_game_kind_of(name);
     if (kind != SLI_GAME_UNSAID) own->kind = kind;
     SL_TRY(read_stops(layer, &own->stops));
@@ -401,6 +403,7 @@ static sl_status see_layer(sli_tiled_reader *reader, const sli_json *layer,
     SL_TRY(SL_ARRAY_ROOM(reader->context, &reader->seen, 1));
     reader->seen.items[reader->seen.count++] =
         (sli_tiled_seen){.name = sli_json_text_of(layer, "name"),
+                         .layer = layer->value,
                          .objects = objects,
                          .moves = own->moves,
                          .kind = own->kind};
@@ -516,24 +519,6 @@ static void give_account(const sli_tiled_reader *reader) {
                 reader->doors_left_out == 1 ? "" : "s");
 }
 
-/// Says why nothing is a wall: a layer that is solid everywhere has no edge.
-static sl_status fail_no_walls(const sli_tiled_reader *reader) {
-    for (size_t i = 0; i < reader->seen.count; i++) {
-        const sli_tiled_seen *layer = &reader->seen.items[i];
-        if (!layer->taken || layer->objects || !layer->count || layer->count < layer->squares)
-            continue;
-        const sli_word name = {layer->name, strlen(layer->name)};
-        return sl_fail_at(reader->context, reader->map->file->name, sli_json_line(reader->map),
-                          "layer '%s' has a tile on every square, so all is solid and there are no "
-                          "walls; name its tiles that are solid, as in --layers '%s:28+33-35'%s",
-                          sli_show(name).text, sli_show(name).text,
-                          reader->options->layers
-                              ? ", or leave --layers out: then the tiles that look solid are taken"
-                              : "");
-    }
-    return sli_tiled_fail_unsaid(reader, "what it says is solid gives no walls");
-}
-
 static sl_status read_map(sli_tiled_reader *reader) {
     SL_TRY(read_head(reader));
     SL_TRY(sli_tiled_read_sets(reader->map, &reader->sets));
@@ -543,7 +528,7 @@ static sl_status read_map(sli_tiled_reader *reader) {
     SL_TRY(sli_tiled_settle_void(reader));
     SL_TRY(sli_tiled_add_tile_walls(reader));
     const sl_map *map = reader->pen.map;
-    if (!map->wall_count && !sl_map_partial_walls(map)) return fail_no_walls(reader);
+    if (!map->wall_count && !sl_map_partial_walls(map)) return sli_tiled_fail_no_walls(reader);
     SL_TRY(sli_tiled_check_guess(reader));
     strcpy(reader->pen.map->unit, "px");
     give_account(reader);

@@ -222,6 +222,7 @@ sl_status sli_tiled_take_thing(sli_things *things, const sli_says *says,
 /// How it is found out what is solid, the firmest first. Each is a reading of all layers.
 typedef enum sli_tiled_by {
     SLI_TILED_BY_WORD,    ///< layers, tiles and objects say it
+    SLI_TILED_BY_BESIDE,  ///< tiles of layers below and above the player, where nothing else does
     SLI_TILED_BY_NAME,    ///< names of layers let expect it: trees, platforms
     SLI_TILED_BY_TERRAIN, ///< tiles' terrains
     SLI_TILED_BY_SET,     ///< names of tilesets
@@ -231,8 +232,10 @@ typedef enum sli_tiled_by {
 /// A layer of tiles or objects as the first reading found it.
 typedef struct sli_tiled_seen {
     const char *name;
+    json_t *layer;       ///< in the map's tree
     bool objects, moves; ///< moves: by a parallax of its own
     bool taken;          ///< something of it is solid
+    size_t beside;       ///< solid tiles that are not taken, as the player goes over or under them
     sli_game_kind kind;  ///< by its name, else by that of its group
     uint64_t count, squares;
 } sli_tiled_seen;
@@ -268,6 +271,7 @@ typedef struct sli_tiled_reader {
     size_t lost_tiles;                                 ///< the same, in solid layers too
     size_t lost_shapes;                                ///< of tiles as objects, not orthogonal
     size_t doors_left_out;                             ///< tiles that are doors and hexagons
+    size_t beside_tiles; ///< solid ones of layers below and above the player
     sli_things things;
     const json_t *start_layer; ///< a layer of chunks that is a start,
     size_t start_tiles;        ///< the tiles of the chunk that it was put into,
@@ -282,6 +286,7 @@ typedef struct sli_tiled_place {
     sli_game_kind kind; ///< by its name
     bool moves;         ///< against what is behind it: by a parallax
     bool others;        ///< its objects are enemies, items, triggers
+    bool beside;        ///< it is drawn below or above the player
     sli_word gids;      ///< the tiles that are asked for; of no length for all
     bool asked;
     uint32_t stops; ///< what walls of its objects stop; 0 where nothing is said
@@ -344,6 +349,8 @@ static inline size_t sli_tiled_taken(const sli_tiled_reader *reader) {
 sl_status sli_tiled_find_meaning(sli_tiled_reader *reader);
 /// SL_BAD_INPUT, with the layers and what to type.
 sl_status sli_tiled_fail_unsaid(const sli_tiled_reader *reader, const char *why);
+/// The same where nothing is a wall: a layer that is solid everywhere has no edge.
+sl_status sli_tiled_fail_no_walls(const sli_tiled_reader *reader);
 /// Tells what is solid and by what, and which layers are not.
 void sli_tiled_tell_meaning(const sli_tiled_reader *reader);
 /// SL_BAD_INPUT where a start stands on what was guessed to be solid.

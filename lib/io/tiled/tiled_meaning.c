@@ -6,7 +6,8 @@
 ///
 /// - Where the only layer of tiles is named for a floor, there is a wall where it has no tile.
 /// - Where the map or a tileset is named for a dungeon or a sewer, and one tile covers at least
-///   half of the lowest layer and of its edge, that tile is rock.
+///   half of the lowest layer and of its edge, that tile is rock, unless the layer is named for
+///   ground or floor.
 /// - Where the only layer has tiles all around its edge, or below and not above, and is empty for
 ///   a good part, the tiles are walls or the ground of a platformer.
 ///
@@ -64,6 +65,33 @@ static const sli_tiled_seen *find_example(const sli_tiled_reader *reader) {
     return best;
 }
 
+static const sli_tiled_seen *find_objects(const sli_tiled_reader *reader) {
+    for (size_t i = 0; i < reader->seen.count; i++) {
+        const sli_tiled_seen *layer = &reader->seen.items[i];
+        if (layer->objects && layer->count && *layer->name) return layer;
+    }
+    return NULL;
+}
+
+/// Where a layer is full, all of it would be solid: its tiles but the most frequent one, as
+/// ":28+33-35"; "" where there are none, or the layer has squares without tiles.
+static sl_status choose_tiles(const sli_tiled_reader *reader, const sli_tiled_seen *seen,
+                              char *text, size_t size) {
+    const sli_json layer = {.file = reader->map->file, .value = seen->layer};
+    const sli_json data = sli_json_member(&layer, "data");
+    const size_t count = (size_t)seen->squares;
+    uint32_t *gids;
+    *text = '\0';
+    if (seen->objects || seen->count < seen->squares || !data.value) return SL_OK;
+    SL_TRY(sli_tiled_read_data(&layer, &data, count, &gids));
+    for (size_t i = 0; i < count; i++) gids[i] &= SLI_TILED_TILE;
+    const sl_status status =
+        sli_numbers_but_commonest(reader->context, gids, count, text + 1, size - 1);
+    sl_free(reader->context, gids);
+    if (status == SL_OK && text[1]) *text = ':';
+    return status;
+}
+
 sl_status sli_tiled_fail_unsaid(const sli_tiled_reader *reader, const char *why) {
     const char *file = reader->map->file->name;
     const sli_tiled_seen *example = find_example(reader);
@@ -71,11 +99,41 @@ sl_status sli_tiled_fail_unsaid(const sli_tiled_reader *reader, const char *why)
     const char *between = taken.count && others.count ? ", " : "";
     if (!reader->seen.count) return sli_json_fail(reader->map, "%s; it has no layers", why);
     if (!example) return sli_json_fail(reader->map, "%s; all its layers are empty", why);
+    char tiles[120], as[400];
+    SL_TRY(choose_tiles(reader, example, tiles, sizeof tiles));
+    const bool same = !example->objects && example->count == example->squares && !*tiles;
+    const sli_tiled_seen *objects = same ? find_objects(reader) : NULL;
+    if (objects) example = objects;
+    const sli_shown name = sli_show((sli_word){example->name, strlen(example->name)});
+    if (same && !objects)
+        snprintf(as, sizeof as,
+                 " (all tiles of '%s' are the same: draw walls in a layer Collision)", name.text);
+    else
+        snprintf(as, sizeof as, ", as in: sightline check '%.150s' --layers '%s%s' -o map.png",
+                 file, name.text, tiles);
     return sl_fail_at(reader->context, file, sli_json_line(reader->map),
-                      "%s; --layers NAME takes a layer as solid, NAME:28+33-35 tiles of it, as in: "
-                      "sightline check '%.150s' --layers '%s' -o map.png; layers: %s%s%s",
-                      why, file, sli_show((sli_word){example->name, strlen(example->name)}).text,
-                      taken.text, between, others.text);
+                      "%s; --layers NAME takes a layer as solid, NAME:28+33-35 tiles of it%s; "
+                      "layers: %s%s%s",
+                      why, as, taken.text, between, others.text);
+}
+
+sl_status sli_tiled_fail_no_walls(const sli_tiled_reader *reader) {
+    for (size_t i = 0; i < reader->seen.count; i++) {
+        const sli_tiled_seen *layer = &reader->seen.items[i];
+        if (!layer->taken || layer->objects || !layer->count || layer->count < layer->squares)
+            continue;
+        const sli_word name = {layer->name, strlen(layer->name)};
+        char tiles[120];
+        SL_TRY(choose_tiles(reader, layer, tiles, sizeof tiles));
+        return sl_fail_at(reader->context, reader->map->file->name, sli_json_line(reader->map),
+                          "layer '%s' has a tile on every square, so all is solid and there are no "
+                          "walls; name its tiles that are solid, as in --layers '%s%s'%s",
+                          sli_show(name).text, sli_show(name).text, *tiles ? tiles : ":28+33-35",
+                          reader->options->layers
+                              ? ", or leave --layers out: then the tiles that look solid are taken"
+                              : "");
+    }
+    return sli_tiled_fail_unsaid(reader, "what it says is solid gives no walls");
 }
 
 // --- the guess
@@ -154,13 +212,16 @@ sl_status sli_tiled_guess(sli_tiled_reader *reader, const uint32_t *gids, size_t
     const size_t count = columns * rows, edge = 2 * (columns + rows);
     const size_t empty = count - (size_t)layer->count, bare = on_edge(&at, 0);
     const bool only = count_plain(reader) == 1, floor = layer->kind == SLI_GAME_FLOOR;
+    // The most frequent tile of what is named for ground is no rock.
+    const bool ground = floor || layer->kind == SLI_GAME_GROUND;
     size_t most;
     uint32_t gid = 0;
     if (layer->squares != count) return SL_OK; // one chunk of several
     SL_TRY(find_most(reader->context, &at, &gid, &most));
     if (only && floor && empty) {
         reader->guess_why = "where the floor has no tile is a wall";
-    } else if (is_inside(reader) && 2 * most >= count && 2 * on_edge(&at, gid) >= edge) {
+    } else if (is_inside(reader) && !(gid && ground) && 2 * most >= count &&
+               2 * on_edge(&at, gid) >= edge) {
         reader->guessed = gid;
         reader->guess_why = gid ? "the most frequent tile of a dungeon, which is on its edge too"
                                 : "the empty squares of a dungeon";
@@ -187,7 +248,7 @@ static sl_status guess(sli_tiled_reader *reader) {
 }
 
 sl_status sli_tiled_check_guess(const sli_tiled_reader *reader) {
-    for (size_t i = 0; reader->by && i < reader->things.items.count; i++) {
+    for (size_t i = 0; reader->by > SLI_TILED_BY_BESIDE && i < reader->things.items.count; i++) {
         const sli_thing *thing = &reader->things.items.items[i];
         if (thing->kind == SLI_THING_START && thing->solid)
             return sli_tiled_fail_unsaid(
@@ -228,6 +289,11 @@ static sl_status fail_missing(const sli_tiled_reader *reader) {
 sl_status sli_tiled_find_meaning(sli_tiled_reader *reader) {
     if (reader->unknown_tiles) return fail_missing(reader);
     if (sli_tiled_taken(reader)) return SL_OK;
+    if (reader->beside_tiles) {
+        reader->by = SLI_TILED_BY_BESIDE;
+        SL_TRY(sli_tiled_read_again(reader));
+        if (sli_tiled_taken(reader)) return SL_OK;
+    }
     reader->best = find_best(reader);
     for (int by = SLI_TILED_BY_NAME; by < SLI_TILED_BY_GUESS; by++) {
         if (by == SLI_TILED_BY_NAME && !reader->best) continue;
@@ -249,8 +315,23 @@ sl_status sli_tiled_find_meaning(sli_tiled_reader *reader) {
 
 // --- what is told
 
+/// Layers below and above the player whose tiles say that they are solid, and are not taken.
+static void tell_beside(const sli_tiled_reader *reader) {
+    for (size_t i = 0; i < reader->seen.count; i++) {
+        const sli_tiled_seen *layer = &reader->seen.items[i];
+        if (!layer->beside) continue;
+        const sli_shown name = sli_show((sli_word){layer->name, strlen(layer->name)});
+        sl_note(reader->context,
+                "%s: layer '%s' is below or above the player: %zu of its tiles say that they are "
+                "solid and are not taken, as other layers are solid; if they stop the player, give "
+                "them by number: --layers '...,%s:28+33-35'",
+                reader->map->file->name, name.text, layer->beside, name.text);
+    }
+}
+
 void sli_tiled_tell_meaning(const sli_tiled_reader *reader) {
-    static const char *const by[] = {"", "names of layers", "terrains", "names of tilesets"};
+    static const char *const by[] = {"", "tiles that say so of layers below and above the player",
+                                     "names of layers", "terrains", "names of tilesets"};
     const layer_text taken = list_layers(reader, true), others = list_layers(reader, false);
     const char *file = reader->map->file->name;
     if (reader->sets.missing && reader->lost_tiles)
@@ -265,6 +346,7 @@ void sli_tiled_tell_meaning(const sli_tiled_reader *reader) {
                 "this is not believed",
                 file,
                 sli_show((sli_word){reader->believed_not, strlen(reader->believed_not)}).text);
+    if (!reader->by) tell_beside(reader);
     if (reader->by == SLI_TILED_BY_GUESS) {
         const sli_tiled_seen *layer = &reader->seen.items[reader->guess_layer];
         char tile[64] = "its empty squares are";

@@ -283,6 +283,11 @@ static sl_status take_tile(sli_tiled_reader *reader, const sli_tiled_place *at, 
     const sli_tiled_tile *tile = set ? sli_tiled_find_tile(set, gid) : NULL;
     sli_tiled_word word = word_by(reader, set, tile);
     if (all->says_too_much && word == SLI_TILED_SOLID) word = SLI_TILED_UNSAID;
+    if (at->beside && at->word == SLI_TILED_UNSAID && word == SLI_TILED_SOLID && !reader->by) {
+        reader->beside_tiles++;
+        reader->seen.items[reader->at_layer].beside++;
+        return SL_OK;
+    }
     if (set && set->missing) reader->lost_tiles++;
     if (tile && tile->says.kind == SLI_THING_DOOR && !at->gids.length)
         return take_door(reader, at, all, i, tile);
