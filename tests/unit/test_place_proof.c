@@ -2,6 +2,7 @@
 // holes, and no change of a proof makes it prove more than is true.
 #include "testing.h"
 
+#include "sightline/generate.h"
 #include "sightline/place_proof.h"
 #include "sightline/support.h"
 
@@ -127,6 +128,35 @@ static void other_code_confirms_polygons(void **state) {
             confirm(&p);
             end(&p);
         }
+}
+
+/// Witnesses that others imply may go: the bounds stay, and so does their proof.
+static void implied_witnesses_may_go(void **state) {
+    (void)state;
+    sl_place_options options = sl_place_options_default();
+    sl_generate_options city = sl_generate_options_default();
+    plan p = {0};
+    p.context = testing_context(&p.memory);
+    size_t kinds, k = 0;
+    const sl_map_kind *all = sl_map_kinds(&kinds);
+    while (strcmp(all[k].name, "city") != 0) k++;
+    city.walls = SL_GENERATE_WALLS_LEAST;
+    city.seed = 3;
+    assert_ok(p.context, sl_generate(p.context, &all[k], &city, &p.map));
+    testing_subdivide(p.context, &p.map, &p.space);
+    solve(&p);
+    sl_placement usual = p.placed;
+    p.placed = (sl_placement){0};
+    options.many_entries = 0;
+    assert_ok(p.context, sl_place(p.context, p.query, &options, &p.placed));
+    const sl_place_verdict verdict = check(&p, &p.placed);
+    assert_true(verdict.sees_all);
+    assert_int_equal(verdict.lower, usual.lower);
+    assert_true(p.placed.witness_count < usual.witness_count);
+    assert_int_equal(p.placed.lower, usual.lower);
+    assert_int_equal(p.placed.upper, usual.upper);
+    sl_placement_destroy(p.context, &usual);
+    end(&p);
 }
 
 /// What is read back is what was written.
@@ -255,6 +285,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(other_code_confirms_plans),
         cmocka_unit_test(other_code_confirms_polygons),
+        cmocka_unit_test(implied_witnesses_may_go),
         cmocka_unit_test(files_keep_it),
         cmocka_unit_test(other_maps_are_refused),
         cmocka_unit_test(no_number_can_be_changed),

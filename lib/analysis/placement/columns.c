@@ -32,6 +32,41 @@ void sli_crossings_destroy(sl_context *context, sli_crossings *crossings) {
     *crossings = (sli_crossings){0};
 }
 
+/// Keeps events of looks that have a number.
+static void keep_events(sli_crossing_events *all, const uint32_t *numbers) {
+    size_t count = 0;
+    for (size_t i = 0; i < all->count; i++) {
+        sli_crossing_event e = all->items[i];
+        e.look = numbers[e.look];
+        if (e.look != UINT32_MAX) all->items[count++] = e;
+    }
+    all->count = count;
+}
+
+sl_status sli_crossings_keep(sl_context *context, sli_crossings *all, const sli_look *const *looks,
+                             const bool *kept) {
+    uint32_t *numbers = sl_alloc_array(context, all->known, sizeof *numbers);
+    if (!numbers) return SL_NO_MEMORY;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < all->known; i++) numbers[i] = kept[i] ? count++ : UINT32_MAX;
+    size_t from = 0, to = 0;
+    for (uint32_t i = 0; i < all->known; i++)
+        for (uint32_t w = 0; w < looks[i]->window_count; w++, from++) {
+            sli_crossing_events events = all->windows.items[from];
+            if (kept[i]) {
+                keep_events(&events, numbers);
+                all->windows.items[to++] = events;
+            } else {
+                sl_free(context, events.items);
+            }
+        }
+    all->windows.count = to;
+    all->known = count;
+    sli_nearby_clear(context, &all->near);
+    sl_free(context, numbers);
+    return SL_OK;
+}
+
 typedef sli_crossing_event event;
 
 typedef struct collector {

@@ -42,6 +42,10 @@ typedef struct sli_crossings {
 
 void sli_crossings_destroy(sl_context *context, sli_crossings *crossings); ///< and zeroes it
 
+/// Keeps the events of some of the known looks, which move up to fill the list; `kept` by look.
+sl_status sli_crossings_keep(sl_context *context, sli_crossings *crossings,
+                             const sli_look *const *looks, const bool *kept);
+
 /// All largest sets of general looks (sli_look.general) that some viewpoint is in the regions of,
 /// and perhaps others. Exact.
 sl_status sli_place_columns_make(sl_context *context, const sli_ground *ground,

@@ -27,7 +27,7 @@
 enum { USUAL_ROUNDS = 400, UPPER_STEPS = 30, COARSE_STEPS = 8, FEW_OF = 100 };
 
 sl_place_options sl_place_options_default(void) {
-    return (sl_place_options){.nodes = 10000};
+    return (sl_place_options){.nodes = 10000, .many_entries = 1 << 20};
 }
 
 static void destroy_lower(sl_context *context, sl_placement *p) {
@@ -61,7 +61,7 @@ void sli_placer_destroy(sli_placer *p) {
     sl_free(p->context, p->germs.items);
     sl_free(p->context, p->spans.items);
     sl_free(p->context, p->active.items);
-    sl_free(p->context, p->is_active.items);
+    sl_free(p->context, p->standings.items);
     sl_free(p->context, p->chosen.items);
     sli_nearby_destroy(p->context, &p->witness_points);
     sli_nearby_destroy(p->context, &p->germ_points);
@@ -227,13 +227,17 @@ static sl_status use_columns(sli_placer *p, sli_place_columns *c) {
                                       c->entries.items,
                                       NULL,
                                       NULL};
+    const bool drops = p->drops && c->entries.count >= p->options->many_entries;
     const sl_cover_options options = sli_cover_options(p);
     sl_cover_result cover = {0};
     sl_status status = sl_cover_solve(p->context, &problem, &options, &cover);
     sli_choose_none(p);
     for (uint32_t i = 0; status == SL_OK && i < cover.count; i++)
         status = sli_choose_column(p, c, cover.columns[i]);
-    if (status == SL_OK && cover.lower > p->out->lower) status = keep_lower(p, c, &cover);
+    const bool better = cover.lower > p->out->lower;
+    if (status == SL_OK && better) status = keep_lower(p, c, &cover);
+    if (status == SL_OK && drops)
+        status = sli_drop_implied(p, better ? &p->out->proof : &cover.proof);
     sl_cover_result_destroy(p->context, &cover);
     return status;
 }
@@ -253,7 +257,7 @@ static sl_status bound_below(sli_placer *p, bool *gaps, bool *added) {
     const sl_status status = use_columns(p, &c);
     sli_place_columns_destroy(p->context, &c);
     SL_TRY(status);
-    *gaps = false;
+    *gaps = p->drops = false;
     const size_t active = p->active.count;
     SL_TRY(sli_activate(p, added));
     // On a large map the last few take many steps, and gaps lead to better ones.
@@ -262,7 +266,7 @@ static sl_status bound_below(sli_placer *p, bool *gaps, bool *added) {
     if (*added && !few) return SL_OK;
     SL_TRY(find_unseen(p, &none, added));
     if (none) return keep_chosen(p);
-    *gaps = true;
+    *gaps = p->drops = true;
     return sli_activate(p, added);
 }
 

@@ -18,6 +18,10 @@ typedef struct sli_hard_witness {
     uint32_t witness;
 } sli_hard_witness;
 
+/// Where a witness stands in the lower bound. One that came back stays: else they would come and go
+/// in circles.
+typedef enum sli_standing { SLI_IDLE, SLI_ACTIVE, SLI_DROPPED, SLI_BACK } sli_standing;
+
 /// What is just beyond a window, at a share of its way.
 typedef struct sli_germ {
     sli_track track;
@@ -32,6 +36,7 @@ typedef struct sli_placer {
     sli_ground ground;
     bool listed; ///< candidates are given: none is added
     bool coarse; ///< set covers without trees
+    bool drops;  ///< the next lower bound drops what others imply: once a round
     sl_region memory;
     sl_random random;
     SL_ARRAY(sli_look) witnesses; ///< all that were made: the rows of the upper bound
@@ -40,7 +45,7 @@ typedef struct sli_placer {
     sli_nearby germ_points;
     sli_spans spans;                    ///< scratch
     SL_ARRAY(uint32_t) active;          ///< those of the lower bound
-    SL_ARRAY(bool) is_active;           ///< by witness
+    SL_ARRAY(sli_standing) standings;   ///< by witness
     SL_ARRAY(sli_candidate) candidates; ///< the columns of the upper bound
     sli_nearby candidate_bounds;        ///< of what they see
     SL_ARRAY(uint32_t) chosen;          ///< candidates
@@ -68,6 +73,8 @@ sl_status sli_add_beyond(sli_placer *placer, const sli_window_part *gap, bool *a
 /// Takes witnesses that no chosen candidate sees into the lower bound: those with the smallest
 /// regions first. Of those that see each other it takes one, and others while they are few.
 sl_status sli_activate(sli_placer *placer, bool *added);
+/// Drops active witnesses that others imply, by the steps of the proof for their columns.
+sl_status sli_drop_implied(sli_placer *placer, const sl_cover_proof *proof);
 
 // --- germs (germs.c)
 

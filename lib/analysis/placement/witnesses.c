@@ -55,8 +55,8 @@ sl_status sli_add_witness(sli_placer *p, sl_point at, bool *added) {
     }
     const uint32_t number = (uint32_t)p->witnesses.count;
     p->witnesses.items[p->witnesses.count++] = look;
-    SL_TRY(SL_ARRAY_ROOM(p->context, &p->is_active, 1));
-    p->is_active.items[p->is_active.count++] = false;
+    SL_TRY(SL_ARRAY_ROOM(p->context, &p->standings, 1));
+    p->standings.items[p->standings.count++] = SLI_IDLE;
     SL_TRY(sli_nearby_add(p->context, &p->witness_points, (sl_box){at, at}));
     SL_TRY(sli_nearby_find_at(p->context, &p->candidate_bounds, at));
     for (size_t i = 0; i < p->candidate_bounds.found.count; i++)
@@ -150,17 +150,23 @@ static sl_status is_seen_by_fresh(sli_placer *p, sli_nearby *fresh, size_t befor
     return SL_OK;
 }
 
+static bool is_active(const sli_placer *p, uint32_t witness) {
+    const sli_standing standing = p->standings.items[witness];
+    return standing == SLI_ACTIVE || standing == SLI_BACK;
+}
+
 static sl_status activate(sli_placer *p, sli_nearby *fresh) {
     const size_t before = p->active.count, room = before / 4 + 16;
     SL_TRY(SL_ARRAY_ROOM(p->context, &p->active, p->unseen.count));
     for (int pass = 0; pass < 2; pass++)
         for (size_t i = 0; i < p->unseen.count && (!pass || p->active.count < before + room); i++) {
             const uint32_t witness = p->unseen.items[i].witness;
-            bool seen = p->is_active.items[witness];
+            bool seen = is_active(p, witness);
             if (!pass) SL_TRY(is_seen_by_fresh(p, fresh, before, witness, &seen));
             if (seen) continue;
             p->active.items[p->active.count++] = witness;
-            p->is_active.items[witness] = true;
+            sli_standing *standing = &p->standings.items[witness];
+            *standing = *standing == SLI_DROPPED ? SLI_BACK : SLI_ACTIVE;
             SL_TRY(sli_nearby_add(p->context, fresh, p->witnesses.items[witness].bounds));
         }
     return SL_OK;
@@ -171,7 +177,7 @@ sl_status sli_activate(sli_placer *p, bool *added) {
     p->unseen.count = 0;
     for (uint32_t i = 0; i < p->witnesses.count; i++) {
         const sli_look *w = &p->witnesses.items[i];
-        bool seen = p->is_active.items[i];
+        bool seen = is_active(p, i);
         if (!seen) SL_TRY(sli_is_seen(p, w->eye, &seen));
         if (seen) continue;
         SL_TRY(SL_ARRAY_ROOM(p->context, &p->unseen, 1));
@@ -183,6 +189,26 @@ sl_status sli_activate(sli_placer *p, bool *added) {
     const sl_status status = activate(p, &fresh);
     sli_nearby_destroy(p->context, &fresh);
     *added = p->active.count > before;
+    return status;
+}
+
+sl_status sli_drop_implied(sli_placer *p, const sl_cover_proof *proof) {
+    const size_t before = p->active.count;
+    bool *kept = sl_alloc_array(p->context, before, sizeof *kept);
+    if (!kept) return SL_NO_MEMORY;
+    for (size_t i = 0; i < before; i++) kept[i] = true;
+    for (uint32_t i = 0; i < proof->step_count; i++) {
+        const uint32_t row = proof->steps[i].what;
+        if (proof->steps[i].kind != SL_COVER_ROW_GOES) continue;
+        sli_standing *standing = &p->standings.items[p->active.items[row]];
+        kept[row] = *standing == SLI_BACK;
+        if (!kept[row]) *standing = SLI_DROPPED;
+    }
+    const sl_status status = sli_crossings_keep(p->context, &p->crossings, p->looks.items, kept);
+    p->active.count = 0;
+    for (size_t i = 0; i < before; i++)
+        if (kept[i]) p->active.items[p->active.count++] = p->active.items[i];
+    sl_free(p->context, kept);
     return status;
 }
 

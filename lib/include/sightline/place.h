@@ -39,6 +39,9 @@ typedef struct sl_place_options {
     uint32_t place_count;
     uint64_t rounds; ///< up to this number; 0: up to 400, and no limit among given places
     uint64_t nodes;  ///< of the branching tree of each set cover, at most
+    /// Entries of columns from which a round drops witnesses that others imply: it saves memory on
+    /// large maps, and costs rounds.
+    uint64_t many_entries;
 } sl_place_options;
 
 /// Anywhere, without a linear program.
