@@ -14,6 +14,11 @@ bool camera_work_scans(const camera_work *w) {
     return w->task.scan_angle > 0 || w->task.scan_range > 0;
 }
 
+/// Whether lines are to be seen, and no area: areas are lengths then.
+static bool has_only_lines(const camera_work *w) {
+    return w->task.line_count && !w->task.see;
+}
+
 /// "of these 96 places", "of these 96 places and headings at 12 points"
 static void say_among(const camera_work *w, char *text, size_t size) {
     const unsigned places = (unsigned)w->task.place_count;
@@ -30,8 +35,10 @@ static void say_fewest(const camera_work *w, const char *among, bool stopped, ch
     const sl_area_placement *p = &w->placed;
     const bool costs = has_costs(w);
     char points[64];
-    snprintf(points, sizeof points, "%u points %s%s", (unsigned)p->witness_count,
-             camera_work_scans(w) ? "on walls" : "inside", w->task.network ? " and a network" : "");
+    const bool one = p->witness_count == 1 && !w->task.network;
+    snprintf(points, sizeof points, "%u point%s %s%s", (unsigned)p->witness_count,
+             p->witness_count == 1 ? "" : "s", camera_work_scans(w) ? "on walls" : "inside",
+             w->task.network ? " and a network" : "");
     char lower[64];
     const double least = (double)p->lower / w->scale;
     snprintf(lower, sizeof lower, "%s%.10g%s", costs ? "a cost of " : "", least,
@@ -39,24 +46,28 @@ static void say_fewest(const camera_work *w, const char *among, bool stopped, ch
              : least == 1 ? " viewpoint"
                           : " viewpoints");
     if (p->lower == p->upper)
-        snprintf(text, size, "No %s can, %s: %s need %s.", costs ? "cheaper choice" : "fewer",
-                 among, points, lower);
+        snprintf(text, size, "No %s can, %s: %s need%s %s.", costs ? "cheaper choice" : "fewer",
+                 among, points, one ? "s" : "", lower);
     else
-        snprintf(text, size, "%s need at least %s, %s: a gap of %.2g %%.%s", points, lower, among,
+        snprintf(text, size, "%s need%s at least %s, %s: a gap of %.2g %%.%s", points,
+                 one ? "s" : "", lower, among,
                  100.0 * (double)(p->upper - p->lower) / (double)p->upper,
                  stopped ? " Stopped early: more time may close it." : "");
 }
 
 void camera_work_say(const camera_work *w, bool stopped, char *text, size_t size) {
     const sl_area_placement *p = &w->placed;
+    const char *const verb = camera_work_scans(w) ? "scan" : "see";
     char among[128];
     int used = 0;
     if (camera_work_scans(w))
         used = snprintf(text, size, "Of walls %.4g long, they scan %.4g. ", p->area, p->seen);
     else if (w->weights)
-        used = snprintf(text, size,
-                        "By their weights, the zones are worth %.4g, and what is seen %.4g. ",
-                        p->area, p->seen);
+        used =
+            snprintf(text, size, "By their weights, the %s are worth %.4g, and what is seen %.4g. ",
+                     w->task.see ? "zones" : "lines", p->area, p->seen);
+    else if (has_only_lines(w))
+        used = snprintf(text, size, "Of lines %.4g long, they see %.4g. ", p->area, p->seen);
     else if (w->task.see)
         used = snprintf(text, size, "Of the %.4g that must be seen, they see %.4g. ", p->area,
                         p->seen);
@@ -66,10 +77,11 @@ void camera_work_say(const camera_work *w, bool stopped, char *text, size_t size
     if (!w->task.count)
         say_fewest(w, among, stopped, text, size);
     else
-        snprintf(text, size, "They %s %.4g %%; no %u %s %s more than %.4g %%.%s",
-                 camera_work_scans(w) ? "scan" : "see", 100 * p->seen / p->area,
-                 (unsigned)w->task.count, among, camera_work_scans(w) ? "scan" : "see",
-                 100 * p->seen_most / p->area, stopped ? " Stopped early." : "");
+        snprintf(text, size, "%s %s%s %.4g %%; no %u %s %s%s more than %.4g %%.%s",
+                 p->count == 1 ? "It" : "They", verb, p->count == 1 ? "s" : "",
+                 100 * p->seen / p->area, (unsigned)w->task.count, among, verb,
+                 w->task.count == 1 ? "s" : "", 100 * p->seen_most / p->area,
+                 stopped ? " Stopped early." : "");
     const size_t end = strlen(text);
     if (w->task.fixed_count)
         snprintf(text + end, size - end, " %u of them stand%s already.",
@@ -146,7 +158,7 @@ void camera_work_add_verdict_json(json_fields *f, const camera_work *w,
 
 void camera_work_add_json(json_fields *f, const camera_work *w) {
     const sl_area_placement *p = &w->placed;
-    const bool walls = camera_work_scans(w);
+    const bool walls = camera_work_scans(w), lines = has_only_lines(w);
     add_cost(f, "lower", w, p->lower);
     add_cost(f, "upper", w, p->upper);
     if (w->task.count) {
@@ -154,12 +166,13 @@ void camera_work_add_json(json_fields *f, const camera_work *w) {
         json_add_real(f,
                       walls        ? "scanned_length_bound"
                       : w->weights ? "seen_worth_bound"
+                      : lines      ? "seen_length_bound"
                                    : "seen_area_bound",
                       p->seen_most);
     } else {
         json_add_flag(f, "optimal", p->lower == p->upper);
-        json_add_real(f, walls ? "hidden_length" : "hidden_area", p->blind_area);
-        json_add_real(f, walls ? "rounding_length" : "rounding_area", p->rounding);
+        json_add_real(f, walls || lines ? "hidden_length" : "hidden_area", p->blind_area);
+        json_add_real(f, walls || lines ? "rounding_length" : "rounding_area", p->rounding);
     }
     json_add_count(f, "witnesses", p->witness_count);
     json_add_count(f, "rounds", p->rounds);
@@ -167,38 +180,34 @@ void camera_work_add_json(json_fields *f, const camera_work *w) {
     json_add_real(f,
                   walls        ? "to_scan_length"
                   : w->weights ? "to_see_worth"
+                  : lines      ? "to_see_length"
                                : "to_see_area",
                   p->area);
     json_add_real(f,
                   walls        ? "scanned_length"
                   : w->weights ? "seen_worth"
+                  : lines      ? "to_see_seen_length"
                                : "to_see_seen_area",
                   p->seen);
 }
 
-/// What of walls none of the places scans.
-static void print_blind_walls(const camera_work *w, int digits, const char *unit) {
+/// What of walls none of the places scans, or of lines none sees.
+static void print_blind_lengths(const camera_work *w, int digits, const char *unit) {
     const sl_area_placement *p = &w->placed;
     const char *const gap = *unit ? " " : "";
-    printf(
-        "\n%.4g%s%s of walls %s of these places scan%s, whatever is chosen: %.3g %%. The longest "
-        "of %u part%s has %.4g%s%s at %.*g,%.*g.\n",
-        p->blind_area, gap, unit, w->task.cover > 1 ? "too few" : "none",
-        w->task.cover > 1 ? "" : "s", 100 * p->blind_area / p->area, (unsigned)p->blind_count,
-        p->blind_count == 1 ? "" : "s", p->blind[0].area, gap, unit, digits, p->blind[0].at.x,
-        digits, p->blind[0].at.y);
+    const bool walls = camera_work_scans(w);
+    printf("\n%.4g%s%s of %s %s of these places %s%s, whatever is chosen: %.3g %%. The longest "
+           "of %u part%s has %.4g%s%s at %.*g,%.*g.\n",
+           p->blind_area, gap, unit, walls ? "walls" : "lines",
+           w->task.cover > 1 ? "too few" : "none", walls ? "scan" : "see",
+           w->task.cover > 1 ? "" : "s", 100 * p->blind_area / p->area, (unsigned)p->blind_count,
+           p->blind_count == 1 ? "" : "s", p->blind[0].area, gap, unit, digits, p->blind[0].at.x,
+           digits, p->blind[0].at.y);
 }
 
-sl_status camera_work_print_blind(sl_context *context, const camera_work *w,
-                                  const camera_plan *plan, sl_query *query, const char *unit) {
+static void print_blind_area(const camera_work *w, int digits, const char *unit) {
     const sl_area_placement *p = &w->placed;
-    const int digits = sl_map_digits(sl_query_map(query));
     const char *const squared = *unit ? "\xc2\xb2" : "", *const gap = *unit ? " " : "";
-    if (!p->blind_count) return SL_OK;
-    if (camera_work_scans(w)) {
-        print_blind_walls(w, digits, unit);
-        return SL_OK;
-    }
     printf(
         "\n%.4g%s%s%s of it %s of these places see%s, whatever is chosen: %.3g %%. The largest of "
         "%u part%s has %.4g%s%s%s at %.*g,%.*g.\n",
@@ -206,6 +215,18 @@ sl_status camera_work_print_blind(sl_context *context, const camera_work *w,
         w->task.cover > 1 ? "" : "s", 100 * p->blind_area / p->area, (unsigned)p->blind_count,
         p->blind_count == 1 ? "" : "s", p->blind[0].area, gap, unit, squared, digits,
         p->blind[0].at.x, digits, p->blind[0].at.y);
+}
+
+sl_status camera_work_print_blind(sl_context *context, const camera_work *w,
+                                  const camera_plan *plan, sl_query *query, const char *unit) {
+    const sl_area_placement *p = &w->placed;
+    const int digits = sl_map_digits(sl_query_map(query));
+    if (!p->blind_count) return SL_OK;
+    if (camera_work_scans(w) || has_only_lines(w))
+        print_blind_lengths(w, digits, unit);
+    else
+        print_blind_area(w, digits, unit);
+    if (camera_work_scans(w)) return SL_OK;
     sl_point at;
     bool found;
     SL_TRY(sl_place_nearest(context, query, &plan->like, p->blind[0].at, w->task.places,

@@ -23,14 +23,6 @@ function rowOf(given) {
   return [x, y, heading, fov, range, nearest]
 }
 
-/** What is proven, in a sentence. */
-function proofOf(lower, upper, witnesses, where) {
-  const seen = `${witnesses} witness${witnesses === 1 ? '' : 'es'} inside`
-  return lower === upper
-    ? `No fewer can: ${seen} need${witnesses === 1 ? 's' : ''} ${lower} viewpoint${lower === 1 ? '' : 's'}, ${where}.`
-    : `At least ${lower} are needed: ${seen} need so many, ${where}.`
-}
-
 /** The inside of a map, for viewpoints. Close it. Use open(). */
 export class Floor extends OpenFloor {
   /** What viewpoints see together. */
@@ -72,12 +64,11 @@ export class Floor extends OpenFloor {
     const [unseenArea] = core.givenNumbers(1)
     // x, y, heading, fov, range, nearest and a flag in 8 bytes; x, y and a flag in 8 bytes
     const rows = this.numbers(viewpointsAt, 7 * upper), places = this.numbers(witnessesAt, 3 * count)
-    const where = from === 'anywhere' ? 'wherever they stand' : 'if they stand at these places'
     const made = {
       lower, upper, optimal: lower === upper, stopped: stopped === 1, rounds, slivers, unseenArea,
       viewpoints: Array.from({ length: upper }, (_, i) => ({ x: rows[7 * i], y: rows[7 * i + 1] })),
       witnesses: Array.from({ length: count }, (_, i) => ({ x: places[3 * i], y: places[3 * i + 1] })),
-      proof: proofOf(lower, upper, count, where),
+      proof: core.textAt(core.core.floor_proof(at)),
     }
     // Laid over the inside anew: whatever went wrong before, they see it all.
     const { areas } = this.cover(made.viewpoints), all = areas.reduce((sum, area) => sum + area, 0)

@@ -54,6 +54,12 @@ typedef struct sl_place_area {
     /// angle of at least `scan_angle` degrees with the wall. Shut doors are walls,
     /// and so are dark sides of glass. The areas of the result are lengths of walls then.
     double scan_angle, scan_range;
+    /// Segments of which each point is to be seen: routes, doors. With `see`, beside that area;
+    /// else in its place, and the areas of the result are lengths of lines then. Only what is
+    /// inside counts. Not with scans of walls; with `count`, not beside an area.
+    const sl_segment *lines;
+    const double *line_weights; ///< with `count`: by line, what its length is worth; NULL: 1 each
+    uint32_t line_count;
 } sl_place_area;
 
 /// Zeroed, it is empty.
@@ -76,6 +82,7 @@ typedef struct sl_area_placement {
     sl_point *witnesses;
     sl_cover_problem columns;
     sl_cover_proof proof;
+    double *line_lengths; ///< by line, what of it is inside; NULL without lines
 } sl_area_placement;
 
 /// Finds the cheapest places that see the area, as far as these places can see it; or, with

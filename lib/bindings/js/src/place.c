@@ -18,6 +18,8 @@ struct sli_answers {
     uint32_t *pieces; ///< by piece that is inside: its corners, how many see it, its blind spot
     double *corners;
     double *rows; ///< of viewpoints, then of blind spots
+    bool stopped;
+    char proof[256];
 };
 
 static sl_context *context(void) {
@@ -150,7 +152,7 @@ SLI_EXPORT(int, floor_place, sli_floor *f, int from, double step) {
     sl_placement *p = &f->answers->placement;
     sl_placement_destroy(context(), p);
     sl_status status = choose(f, from, step, &options);
-    const bool stopped = status == SL_CANCELLED && p->count;
+    const bool stopped = f->answers->stopped = status == SL_CANCELLED && p->count;
     if (stopped) status = SL_OK;
     const uint32_t all[8] = {(uint32_t)p->lower,
                              (uint32_t)p->upper,
@@ -164,4 +166,11 @@ SLI_EXPORT(int, floor_place, sli_floor *f, int from, double step) {
     sli_module.numbers[0] = p->unseen_area;
     sli_done(status);
     return (int)sli_module.status;
+}
+
+/// What is proven of the last placement, in a sentence or two.
+SLI_EXPORT(const char *, floor_proof, sli_floor *f) {
+    struct sli_answers *a = f->answers;
+    sl_placement_say(&a->placement, "viewpoint", a->stopped, a->proof, sizeof a->proof);
+    return a->proof;
 }
