@@ -304,11 +304,31 @@ static sl_status read_things(sl_context *context, const camera_plan *plan,
     return plan->weight ? make_weights(context, plan, w) : SL_OK;
 }
 
+/// Notes a range that limits nothing: often the map's unit is another one.
+static void note_long_range(sl_context *context, const camera_plan *plan, const sl_baked *baked) {
+    const sl_space *s = &baked->space;
+    const char *unit = baked->map.unit;
+    sl_box box = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+    for (uint32_t c = 0; c < s->cell_count; c++)
+        for (uint32_t i = 0; s->cells[c].inside && i < s->cells[c].vertex_count; i++) {
+            const sl_point p = s->vertices[s->cells[c].first_vertex + i];
+            box.min = (sl_point){fmin(box.min.x, p.x), fmin(box.min.y, p.y)};
+            box.max = (sl_point){fmax(box.max.x, p.x), fmax(box.max.y, p.y)};
+        }
+    const double width = box.max.x - box.min.x, height = box.max.y - box.min.y;
+    if (!(plan->like.range > hypot(width, height))) return;
+    sl_note(context,
+            "--range %g reaches over the whole plan of %.3g by %.3g%s%s, so it limits nothing%s",
+            plan->like.range, width, height, *unit ? " " : "", unit,
+            *unit ? "; if the drawing is in another unit, say so: --unit mm=m" : "");
+}
+
 sl_status camera_work_prepare(sl_context *context, const camera_plan *plan,
                               const input_options *input, const sl_baked *baked, sl_query *query,
                               camera_work *w) {
     const sl_space *space = &baked->space;
     zone_list forbid = {0};
+    note_long_range(context, plan, baked);
     SL_TRY(read_things(context, plan, input, baked, w));
     if (plan->fixed) SL_TRY(add_fixed(context, plan, space, w));
     if (plan->forbid)

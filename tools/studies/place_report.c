@@ -19,12 +19,14 @@ static bool has_only_lines(const camera_work *w) {
     return w->task.line_count && !w->task.see;
 }
 
-/// "of these 96 places", "of these 96 places and headings at 12 points"
+/// "of these 96 places", "of these 96 places and headings at 12 points", "of this place"
 static void say_among(const camera_work *w, char *text, size_t size) {
     const unsigned places = (unsigned)w->task.place_count;
     const size_t points = w->points + w->task.fixed_count;
-    if (points == places)
-        snprintf(text, size, "of these %u place%s", places, places == 1 ? "" : "s");
+    if (places == 1)
+        snprintf(text, size, "of this place");
+    else if (points == places)
+        snprintf(text, size, "of these %u places", places);
     else
         snprintf(text, size, "of these %u places and headings at %zu point%s", places, points,
                  points == 1 ? "" : "s");

@@ -78,7 +78,10 @@ void sl_placement_say(const sl_placement *p, const char *noun, bool stopped, cha
                       size_t size) {
     const unsigned lower = (unsigned)p->lower, witnesses = (unsigned)p->witness_count;
     const char *const where = p->given ? "if they stand at these places" : "wherever they stand";
-    if (p->lower == p->upper)
+    if (!witnesses)
+        snprintf(text, size,
+                 "The work ended early, before a lower bound was found: give more time.");
+    else if (p->lower == p->upper)
         snprintf(text, size, "No fewer can: %u witness%s inside need%s %u %s%s, %s.", witnesses,
                  witnesses == 1 ? "" : "es", witnesses == 1 ? "s" : "", lower, noun,
                  lower == 1 ? "" : "s", where);
