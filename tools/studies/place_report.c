@@ -4,12 +4,6 @@
 #include <stdio.h>
 #include <string.h>
 
-static bool has_costs(const camera_work *w) {
-    for (uint32_t i = 1; i < w->task.place_count; i++)
-        if (w->costs[i] != w->costs[0]) return true;
-    return w->scale * 1.0 != w->costs[0];
-}
-
 bool camera_work_scans(const camera_work *w) {
     return w->task.scan_angle > 0 || w->task.scan_range > 0;
 }
@@ -19,75 +13,8 @@ static bool has_only_lines(const camera_work *w) {
     return w->task.line_count && !w->task.see;
 }
 
-/// "of these 96 places", "of these 96 places and headings at 12 points", "of this place"
-static void say_among(const camera_work *w, char *text, size_t size) {
-    const unsigned places = (unsigned)w->task.place_count;
-    const size_t points = w->points + w->task.fixed_count;
-    if (places == 1)
-        snprintf(text, size, "of this place");
-    else if (points == places)
-        snprintf(text, size, "of these %u places", places);
-    else
-        snprintf(text, size, "of these %u places and headings at %zu point%s", places, points,
-                 points == 1 ? "" : "s");
-}
-
-static void say_fewest(const camera_work *w, const char *among, bool stopped, char *text,
-                       size_t size) {
-    const sl_area_placement *p = &w->placed;
-    const bool costs = has_costs(w);
-    char points[64];
-    const bool one = p->witness_count == 1 && !w->task.network;
-    snprintf(points, sizeof points, "%u point%s %s%s", (unsigned)p->witness_count,
-             p->witness_count == 1 ? "" : "s", camera_work_scans(w) ? "on walls" : "inside",
-             w->task.network ? " and a network" : "");
-    char lower[64];
-    const double least = (double)p->lower / w->scale;
-    snprintf(lower, sizeof lower, "%s%.10g%s", costs ? "a cost of " : "", least,
-             costs        ? ""
-             : least == 1 ? " viewpoint"
-                          : " viewpoints");
-    if (p->lower == p->upper)
-        snprintf(text, size, "No %s can, %s: %s need%s %s.", costs ? "cheaper choice" : "fewer",
-                 among, points, one ? "s" : "", lower);
-    else
-        snprintf(text, size, "%s need%s at least %s, %s: a gap of %.2g %%.%s", points,
-                 one ? "s" : "", lower, among,
-                 100.0 * (double)(p->upper - p->lower) / (double)p->upper,
-                 stopped ? " Stopped early: more time may close it." : "");
-}
-
 void camera_work_say(const camera_work *w, bool stopped, char *text, size_t size) {
-    const sl_area_placement *p = &w->placed;
-    const char *const verb = camera_work_scans(w) ? "scan" : "see";
-    char among[128];
-    int used = 0;
-    if (camera_work_scans(w))
-        used = snprintf(text, size, "Of walls %.4g long, they scan %.4g. ", p->area, p->seen);
-    else if (w->weights)
-        used =
-            snprintf(text, size, "By their weights, the %s are worth %.4g, and what is seen %.4g. ",
-                     w->task.see ? "zones" : "lines", p->area, p->seen);
-    else if (has_only_lines(w))
-        used = snprintf(text, size, "Of lines %.4g long, they see %.4g. ", p->area, p->seen);
-    else if (w->task.see)
-        used = snprintf(text, size, "Of the %.4g that must be seen, they see %.4g. ", p->area,
-                        p->seen);
-    text += used;
-    size -= (size_t)used;
-    say_among(w, among, sizeof among);
-    if (!w->task.count)
-        say_fewest(w, among, stopped, text, size);
-    else
-        snprintf(text, size, "%s %s%s %.4g %%; no %u %s %s%s more than %.4g %%.%s",
-                 p->count == 1 ? "It" : "They", verb, p->count == 1 ? "s" : "",
-                 100 * p->seen / p->area, (unsigned)w->task.count, among, verb,
-                 w->task.count == 1 ? "s" : "", 100 * p->seen_most / p->area,
-                 stopped ? " Stopped early." : "");
-    const size_t end = strlen(text);
-    if (w->task.fixed_count)
-        snprintf(text + end, size - end, " %u of them stand%s already.",
-                 (unsigned)w->task.fixed_count, w->task.fixed_count == 1 ? "s" : "");
+    sl_area_placement_say(&w->task, &w->placed, w->scale, stopped, text, size);
 }
 
 /// A cost as in the tables: a whole number where they have no decimals.
@@ -105,19 +32,10 @@ static bool has_circles(const camera_work *w) {
     return false;
 }
 
-/// A cost as in the tables, with its noun.
-static void say_cost(const camera_work *w, uint64_t cost, char *text, size_t size) {
-    const double value = (double)cost / w->scale;
-    if (has_costs(w))
-        snprintf(text, size, "a cost of %.10g", value);
-    else
-        snprintf(text, size, "%.10g viewpoint%s", value, value == 1 ? "" : "s");
-}
-
 void camera_work_print_verdict(const camera_work *w, const sl_place_area_verdict *v, int digits) {
     char among[128], cost[64];
     const sl_area_placement *p = &w->placed;
-    say_among(w, among, sizeof among);
+    sl_place_area_say_among(&w->task, among, sizeof among);
     const unsigned count = (unsigned)p->count;
     const char *const often = w->task.cover > 1 ? ", as often as asked or as they can" : "";
     if (v->sees_all)
@@ -132,7 +50,7 @@ void camera_work_print_verdict(const camera_work *w, const sl_place_area_verdict
         printf("The viewpoints do not see all that the others do: beside (%.*g, %.*g), place %u "
                "sees more.\n",
                digits, v->unseen.x, digits, v->unseen.y, (unsigned)v->place + 1);
-    say_cost(w, v->lower, cost, sizeof cost);
+    sl_place_area_say_cost(&w->task, w->scale, v->lower, cost, sizeof cost);
     if (v->weak != UINT32_MAX)
         printf("The lower bound does not hold: witness %u demands more than the places must see.\n",
                (unsigned)v->weak + 1);
@@ -141,10 +59,11 @@ void camera_work_print_verdict(const camera_work *w, const sl_place_area_verdict
     else
         printf("All that %s see needs at least %s%s.\n", among + 3, cost, often);
     if (v->upper > p->upper) {
-        say_cost(w, v->upper, cost, sizeof cost);
+        sl_place_area_say_cost(&w->task, w->scale, v->upper, cost, sizeof cost);
         printf("The viewpoints need %s, more than the proof says.\n", cost);
     } else if (v->sees_as_all && v->lower == v->upper) {
-        printf("So no %s can do it.\n", has_costs(w) ? "cheaper choice" : "fewer");
+        printf("So no %s can do it.\n",
+               strncmp(cost, "a cost", 6) == 0 ? "cheaper choice" : "fewer");
     }
 }
 

@@ -97,6 +97,16 @@ typedef struct sl_area_placement {
 SL_API sl_status sl_place_area_cover(sl_context *context, sl_query *query,
                                      const sl_place_area *area, const sl_place_options *options,
                                      sl_area_placement *out);
+/// What is proven of a choice, in a sentence or two: "No fewer can, of these 96 places: 31 points
+/// inside need 4 viewpoints." Costs are divided by `scale`. `stopped`: the work ended early. Cut to
+/// fit `size`.
+SL_API void sl_area_placement_say(const sl_place_area *area, const sl_area_placement *placement,
+                                  double scale, bool stopped, char *text, size_t size);
+/// "of these 96 places and headings at 12 points"
+SL_API void sl_place_area_say_among(const sl_place_area *area, char *text, size_t size);
+/// "4 viewpoints"; where places have costs of their own, "a cost of 7.5".
+SL_API void sl_place_area_say_cost(const sl_place_area *area, double scale, uint64_t cost,
+                                   char *text, size_t size);
 SL_API void sl_area_placement_destroy(sl_context *context,
                                       sl_area_placement *placement); ///< and zeroes it
 
