@@ -53,7 +53,14 @@ static sl_status place(command_console *console, const place_plan *plan, place_w
         status = SL_OK;
         w->late = true;
     }
-    if (status == SL_CANCELLED && limit.late)
+    const unsigned places = (unsigned)w->chosen.task.place_count;
+    if (status == SL_CANCELLED && limit.late && places)
+        status = sl_fail(console->context, SL_CANCELLED,
+                         "no set of viewpoints was found in time: give more with --time-limit, or "
+                         "choose among fewer than %u places and headings: a longer step, as "
+                         "--from grid:STEP, or fewer --headings",
+                         places);
+    else if (status == SL_CANCELLED && limit.late)
         status = sl_fail(console->context, SL_CANCELLED,
                          "no set of viewpoints was found in time: give more with --time-limit");
     else if (status != SL_OK)
