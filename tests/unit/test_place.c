@@ -246,6 +246,42 @@ static void door_in_thin_wall(void **state) {
     }
 }
 
+/// Two guards must stand where the edges of three spikes meet, at (0, 10) and (10, 0). What one of
+/// them leaves of a niche ends in line with the reflex corner a and the ridge t, and no wall is on
+/// that line; so the third guard sees the rest only from where two such lines meet, the origin.
+///
+///          t             Three spikes ask for a guard each, so 3 are needed. Anywhere but there, a
+///        / | \           third guard leaves a sliver, and there would be 4.
+///       |  1  |
+///       |  |/-- b
+///       | .+----+        The same is at the right, mirrored, and a spike at the lower right has an
+///       '.:|    |        edge on the third line, x + y = 0.
+///     ----'a    +---
+///          |
+///          3  ... 2
+static void in_line_with_two_corners(void **state) {
+    (void)state;
+    static const sl_point niche[] = {
+        {2, 3},    {2, 6},  {0, 6},  {1, 8},   {1, 9},    {5, 7.5},  {1, 9.5}, {1, 10},   {5, 10},
+        {1, 10.5}, {1, 12}, {0, 15}, {-1, 12}, {-1, 9.5}, {-5, 7.5}, {-1, 9},  {-1, 3.5}, {0, 3},
+    };
+    enum { NICHE = sizeof niche / sizeof *niche };
+    static const double maps[][4] = {{1, 0, 0, 1}, {2, 1, 1, 3}, {3, -2, 2, 5}, {-7, 1, 3, -4}};
+    sl_point corners[2 * NICHE + 6] = {{-3, -3}, {2.5, -3}, {6, -6}, {3, -3}};
+    size_t count = 4;
+    for (int i = NICHE - 1; i >= 0; i--) corners[count++] = (sl_point){niche[i].y, niche[i].x};
+    corners[count++] = (sl_point){3, 3};
+    for (int i = 0; i < NICHE; i++) corners[count++] = niche[i];
+    corners[count++] = (sl_point){-3, 3};
+    for (size_t m = 0; m < sizeof maps / sizeof *maps; m++) {
+        sl_point moved[2 * NICHE + 6];
+        for (size_t i = 0; i < count; i++)
+            moved[i] = (sl_point){maps[m][0] * corners[i].x + maps[m][1] * corners[i].y,
+                                  maps[m][2] * corners[i].x + maps[m][3] * corners[i].y};
+        assert_int_equal(optimum_of(moved, count, 0), 3);
+    }
+}
+
 /// Maps of a generator, solid ground and thin walls, as they are and turned: a few rounds.
 static void generated_maps(void **state) {
     (void)state;
@@ -490,6 +526,7 @@ int main(void) {
         cmocka_unit_test(one_suffices),
         cmocka_unit_test(other_plans),
         cmocka_unit_test(door_in_thin_wall),
+        cmocka_unit_test(in_line_with_two_corners),
         cmocka_unit_test(generated_maps),
         cmocka_unit_test(changes_keep_the_optimum),
         cmocka_unit_test(same_input_same_result),

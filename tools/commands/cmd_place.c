@@ -31,7 +31,7 @@ typedef struct place_work {
     sl_cameras cameras; ///< the viewpoints of the placement
     sl_viewpoint *viewpoints;
     sl_coverage coverage;
-    zone_cover *covers; ///< by zone of --see
+    cover_path route; ///< a single one that is to be seen, to draw it
     double seconds;
     bool late; ///< the time limit or Ctrl-C ended it
 } place_work;
@@ -39,6 +39,7 @@ typedef struct place_work {
 /// Keeps what there is when the time is over.
 static sl_status place(command_console *console, const place_plan *plan, place_work *w) {
     const double start = sl_seconds();
+    const char *const things = plan->cameras.see ? plan->cameras.see : plan->cameras.path;
     deadline limit = {.at = plan->time_limit > 0 ? start + plan->time_limit : INFINITY,
                       .asks = true};
     sl_context *context;
@@ -52,11 +53,19 @@ static sl_status place(command_console *console, const place_plan *plan, place_w
         status = SL_OK;
         w->late = true;
     }
-    if (status == SL_CANCELLED && limit.late)
+    const unsigned places = (unsigned)w->chosen.task.place_count;
+    if (status == SL_CANCELLED && limit.late && places)
+        status = sl_fail(console->context, SL_CANCELLED,
+                         "no set of viewpoints was found in time: give more with --time-limit, or "
+                         "choose among fewer than %u places and headings: a longer step, as "
+                         "--from grid:STEP, or fewer --headings",
+                         places);
+    else if (status == SL_CANCELLED && limit.late)
         status = sl_fail(console->context, SL_CANCELLED,
                          "no set of viewpoints was found in time: give more with --time-limit");
     else if (status != SL_OK)
-        sl_fail(console->context, status, "%s", sl_context_message(context));
+        sl_fail(console->context, status, "%s%s%s", things ? things : "", things ? ": " : "",
+                sl_context_message(context));
     sl_context_destroy(context);
     w->seconds = sl_seconds() - start;
     return status;
@@ -88,7 +97,7 @@ static sl_status print_json(sl_context *context, const place_work *w, const cove
     }
     json_add_real(&fields, "seconds", w->seconds);
     cover_add_json(&fields, report);
-    if (w->covers) cover_zones_add_json(&fields, &w->chosen.see, w->covers);
+    camera_work_add_things_json(&fields, &w->chosen);
     return json_print(context, &fields);
 }
 
@@ -186,6 +195,10 @@ static sl_status work(command_console *console, const place_plan *plan, place_wo
     if (w->chooses)
         SL_TRY(camera_work_prepare(context, &plan->cameras, &plan->pipeline.input, baked, w->query,
                                    &w->chosen));
+    if ((plan->proof || plan->verify) && w->chosen.task.line_count)
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "--%s does not go with doors and paths that must be seen",
+                       plan->proof ? "proof" : "verify");
     if (plan->verify) return verify(console, plan, w);
     SL_TRY(place(console, plan, w));
     if (plan->proof && w->chooses)
@@ -196,10 +209,9 @@ static sl_status work(command_console *console, const place_plan *plan, place_wo
     const cover_report report = {plan->input, plan->pipeline.input.import.map, baked, &w->cameras,
                                  &w->coverage};
     char sentence[256], proof[320], caption[600];
-    if (plan->cameras.see) {
-        SL_TRY(cover_zones_make(context, &report, &w->chosen.see, &w->covers));
-        SL_TRY(camera_work_check_zones(context, &w->chosen, &plan->cameras, w->query, w->covers));
-    }
+    if (w->chooses)
+        SL_TRY(camera_work_survey(context, &plan->cameras, w->query, &report, w->viewpoints,
+                                  &w->chosen));
     cover_sentence(&report, sentence, sizeof sentence);
     if (w->chooses)
         camera_work_say(&w->chosen, w->late, proof, sizeof proof);
@@ -207,13 +219,16 @@ static sl_status work(command_console *console, const place_plan *plan, place_wo
         sl_placement_say(&w->placement, "viewpoint", w->late, proof, sizeof proof);
     snprintf(caption, sizeof caption, "%s.\n%s", sentence, proof);
     if (plan->output) SL_TRY(sl_cameras_write(context, &w->cameras, plan->output));
-    if (plan->picture)
-        SL_TRY(cover_draw(context, &report, NULL, caption, &plan->drawing, plan->picture));
+    if (plan->picture) {
+        SL_TRY(camera_work_trace(context, &report, w->query, w->viewpoints, &w->chosen, &w->route));
+        SL_TRY(cover_draw(context, &report, w->route.count ? &w->route : NULL, caption,
+                          &plan->drawing, plan->picture));
+    }
     progress_line_clear(&console->line);
     if (plan->json) return print_json(context, w, &report);
     if (console->quiet) return SL_OK;
     cover_print(&report);
-    if (w->covers) cover_zones_print(&report, &w->chosen.see, w->covers);
+    camera_work_print_things(&w->chosen, &report);
     printf("\n%s\n", proof);
     return w->chooses ? camera_work_print_blind(context, &w->chosen, &plan->cameras, w->query,
                                                 baked->map.unit)
@@ -225,7 +240,7 @@ static void clear(sl_context *context, place_work *w) {
     sl_free(context, w->viewpoints);
     sl_cameras_destroy(context, &w->cameras);
     sl_placement_destroy(context, &w->placement);
-    sl_free(context, w->covers);
+    cover_path_destroy(context, &w->route);
     camera_work_destroy(context, &w->chosen);
     sl_query_destroy(context, w->query);
     sl_baked_destroy(context, &w->baked);

@@ -31,15 +31,21 @@ static sl_status add_part(sl_context *context, cover_path *path, const sl_path_p
     return add_piece(context, path, from, part->end);
 }
 
+sl_status cover_path_find(sl_context *context, const cover_report *r, sl_query *query,
+                          const sl_viewpoint *viewpoints, cover_path *path) {
+    SL_TRY(sl_coverage_of_path(context, query, r->coverage, viewpoints, path->points, path->count,
+                               &path->found));
+    for (size_t i = 0; i < path->found.count; i++)
+        SL_TRY(add_part(context, path, &path->found.parts[i]));
+    return SL_OK;
+}
+
 sl_status cover_path_make(sl_context *context, const cover_report *r, sl_query *query,
                           const sl_viewpoint *viewpoints, const char *name, cover_path *out) {
     char what[128];
     snprintf(what, sizeof what, "--path %s", name);
     SL_TRY(path_points_read(context, "path", name, &r->baked->map, &out->points, &out->count));
-    SL_TRY(sl_coverage_of_path(context, query, r->coverage, viewpoints, out->points, out->count,
-                               &out->found));
-    for (size_t i = 0; i < out->found.count; i++)
-        SL_TRY(add_part(context, out, &out->found.parts[i]));
+    SL_TRY(cover_path_find(context, r, query, viewpoints, out));
     return places_note_path(context, what, r->baked, out->points, out->count);
 }
 

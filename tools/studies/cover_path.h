@@ -17,6 +17,9 @@ typedef struct cover_path {
 /// Reads the path --path NAME, of the map or a table, and finds the parts. Notes walls across it.
 sl_status cover_path_make(sl_context *context, const cover_report *report, sl_query *query,
                           const sl_viewpoint *viewpoints, const char *name, cover_path *out);
+/// Finds the parts of the path whose points are there.
+sl_status cover_path_find(sl_context *context, const cover_report *report, sl_query *query,
+                          const sl_viewpoint *viewpoints, cover_path *path);
 void cover_path_destroy(sl_context *context, cover_path *path);
 
 /// A line for the path, and one for each of the longest parts.

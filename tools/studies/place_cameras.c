@@ -1,6 +1,8 @@
 /// Places to choose from, and what is said of the choice.
 #include "studies/place_cameras.h"
 
+#include "arguments/names.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -40,15 +42,21 @@ option_table camera_option_table(camera_plan *plan) {
          .number = &plan->scan_range, .over_0 = true, .rare = true},
         {"fixed", 0, "TABLE", "viewpoints that stand already", .text = &plan->fixed,
          .is_input = true},
-        {"see", 0, "ZONES",
-         "what must be seen: names of objects in the map, a drawing of closed outlines, or a table "
-         "of corners (.csv: name,x,y) (default: all that is inside)",
+        {"see", 0, "THINGS",
+         "what must be seen: names of objects, doors and paths in the map (of shut doors both "
+         "sides), a drawing of closed outlines, or a table of corners (.csv: name,x,y) (default: "
+         "all that is inside)",
          .text = &plan->see},
+        {"path", 0, "PATH",
+         "a route that must be seen: a path of the map, or the points of a CSV table",
+         .text = &plan->path},
         {"weight", 0, "NAME=W,...",
-         "with --count and --see: what the area of these zones is worth (default: 1); where zones "
-         "overlap, both count",
+         "with --count: what the area of zones of --see, or the length of lines, is worth "
+         "(default: "
+         "1); where they overlap, both count",
          .text = &plan->weight, .rare = true},
-        {"forbid", 0, "ZONES", "where no viewpoint may stand, given as --see is",
+        {"forbid", 0, "ZONES",
+         "where no viewpoint may stand: names of objects, outlines or a table, as --see has them",
          .text = &plan->forbid},
     };
     option_table table = {0};
@@ -57,10 +65,10 @@ option_table camera_option_table(camera_plan *plan) {
 }
 
 bool camera_plan_chooses(const camera_plan *p) {
-    return (p->from && strcmp(p->from, "anywhere") != 0) || p->see || p->forbid || p->fixed ||
-           p->like.fov < 360 || p->headings || p->like.range > 0 || p->like.nearest > 0 ||
-           p->cover || p->count || p->weight || p->network || p->scan_angle > 0 ||
-           p->scan_range > 0;
+    return (p->from && strcmp(p->from, "anywhere") != 0) || p->see || p->path || p->forbid ||
+           p->fixed || p->like.fov < 360 || p->headings || p->like.range > 0 ||
+           p->like.nearest > 0 || p->cover || p->count || p->weight || p->network ||
+           p->scan_angle > 0 || p->scan_range > 0;
 }
 
 sl_status camera_plan_check(sl_context *context, const camera_plan *p, const char *proof) {
@@ -73,9 +81,11 @@ sl_status camera_plan_check(sl_context *context, const camera_plan *p, const cha
                        "that is inside; take --from walls, corners, grid:STEP or a table");
     if (p->like.range > 0 && p->like.nearest >= p->like.range)
         return sl_fail(context, SL_BAD_ARGUMENT, "--nearest must be less than --range");
-    if (p->weight && (!p->count || !p->see || p->scan_angle > 0 || p->scan_range > 0))
+    if (p->weight && (!p->count || !(p->see || p->path) || p->scan_angle > 0 || p->scan_range > 0))
         return sl_fail(context, SL_BAD_ARGUMENT,
-                       "--weight goes with --count and --see, and with no scan of walls");
+                       "--weight goes with --count and --see or --path, and with no scan of walls");
+    if (p->path && proof)
+        return sl_fail(context, SL_BAD_ARGUMENT, "--%s does not go with --path", proof);
     if (p->count && p->network)
         return sl_fail(context, SL_BAD_ARGUMENT, "--count and --network do not go together");
     if (p->count && p->cover > 1)
@@ -235,16 +245,24 @@ static sl_status read_weight(sl_context *context, const char *text, size_t lengt
         w->weights[z] = weight;
         found = true;
     }
+    for (size_t i = 0; i < w->lines.segments.count; i++) {
+        if (strcmp(w->lines.names.items[see_lines_of(&w->lines, i)], name) != 0) continue;
+        w->line_weights[i] = weight;
+        found = true;
+    }
     return found ? SL_OK
-                 : sl_fail(context, SL_BAD_ARGUMENT, "--weight: --see has no zone '%s'", name);
+                 : sl_fail(context, SL_BAD_ARGUMENT, "--weight: '%s' is none of what is to be seen",
+                           name);
 }
 
 static sl_status make_weights(sl_context *context, const camera_plan *plan, camera_work *w) {
-    const size_t count = w->see.ends.count;
+    const size_t count = w->see.ends.count, lines = w->lines.segments.count;
     w->zones = sl_alloc_array(context, count, sizeof *w->zones);
     w->zone_ends = sl_alloc_array(context, count, sizeof *w->zone_ends);
     w->weights = sl_alloc_array(context, count, sizeof *w->weights);
-    if (!w->zones || !w->zone_ends || !w->weights) return SL_NO_MEMORY;
+    w->line_weights = sl_alloc_array(context, lines, sizeof *w->line_weights);
+    if (!w->zones || !w->zone_ends || !w->weights || !w->line_weights) return SL_NO_MEMORY;
+    for (size_t i = 0; i < lines; i++) w->line_weights[i] = 1;
     for (size_t z = 0; z < count; z++) {
         w->zones[z] = zones_shape_of(&w->see, z, &w->zone_ends[z]);
         w->weights[z] = 1;
@@ -257,7 +275,52 @@ static sl_status make_weights(sl_context *context, const camera_plan *plan, came
     w->task.zones = w->zones;
     w->task.weights = w->weights;
     w->task.zone_count = (uint32_t)count;
+    w->task.line_weights = w->line_weights;
     return SL_OK;
+}
+
+/// What is to be seen: zones and lines.
+static sl_status read_things(sl_context *context, const camera_plan *plan,
+                             const input_options *input, const sl_baked *baked, camera_work *w) {
+    char *rest = NULL;
+    sl_status status = SL_OK;
+    if (plan->see && (sl_path_look(plan->see) == SL_PATH_FILE || name_ends_with(plan->see, ".csv")))
+        status = zones_read(context, "see", plan->see, input, &baked->map, &w->see);
+    else if (plan->see)
+        status = see_lines_take(context, plan->see, baked, &w->lines, &rest);
+    if (status == SL_OK && rest && *rest)
+        status = zones_read(context, "see", rest, input, &baked->map, &w->see);
+    sl_free(context, rest);
+    if (status == SL_OK && plan->path)
+        status = see_lines_add_path(context, plan->path, &baked->map, &w->lines);
+    SL_TRY(status);
+    SL_TRY(see_lines_check(context, baked, &w->lines));
+    if (w->see.ends.count) {
+        w->shape = zones_shape(&w->see);
+        w->task.see = &w->shape;
+    }
+    w->task.lines = w->lines.segments.items;
+    w->task.line_count = (uint32_t)w->lines.segments.count;
+    return plan->weight ? make_weights(context, plan, w) : SL_OK;
+}
+
+/// Notes a range that limits nothing: often the map's unit is another one.
+static void note_long_range(sl_context *context, const camera_plan *plan, const sl_baked *baked) {
+    const sl_space *s = &baked->space;
+    const char *unit = baked->map.unit;
+    sl_box box = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+    for (uint32_t c = 0; c < s->cell_count; c++)
+        for (uint32_t i = 0; s->cells[c].inside && i < s->cells[c].vertex_count; i++) {
+            const sl_point p = s->vertices[s->cells[c].first_vertex + i];
+            box.min = (sl_point){fmin(box.min.x, p.x), fmin(box.min.y, p.y)};
+            box.max = (sl_point){fmax(box.max.x, p.x), fmax(box.max.y, p.y)};
+        }
+    const double width = box.max.x - box.min.x, height = box.max.y - box.min.y;
+    if (!(plan->like.range > hypot(width, height))) return;
+    sl_note(context,
+            "--range %g reaches over the whole plan of %.3g by %.3g%s%s, so it limits nothing%s",
+            plan->like.range, width, height, *unit ? " " : "", unit,
+            *unit ? "; if the drawing is in another unit, say so: --unit mm=m" : "");
 }
 
 sl_status camera_work_prepare(sl_context *context, const camera_plan *plan,
@@ -265,12 +328,8 @@ sl_status camera_work_prepare(sl_context *context, const camera_plan *plan,
                               camera_work *w) {
     const sl_space *space = &baked->space;
     zone_list forbid = {0};
-    if (plan->see) {
-        SL_TRY(zones_read(context, "see", plan->see, input, &baked->map, &w->see));
-        w->shape = zones_shape(&w->see);
-        w->task.see = &w->shape;
-        if (plan->weight) SL_TRY(make_weights(context, plan, w));
-    }
+    note_long_range(context, plan, baked);
+    SL_TRY(read_things(context, plan, input, baked, w));
     if (plan->fixed) SL_TRY(add_fixed(context, plan, space, w));
     if (plan->forbid)
         SL_TRY(zones_read(context, "forbid", plan->forbid, input, &baked->map, &forbid));
@@ -299,34 +358,6 @@ sl_status camera_work_chosen(sl_context *context, const camera_work *w, sl_camer
     return SL_OK;
 }
 
-sl_status camera_work_check_zones(sl_context *context, const camera_work *w,
-                                  const camera_plan *plan, sl_query *query,
-                                  const zone_cover *covers) {
-    const int digits = sl_map_digits(sl_query_map(query));
-    for (size_t z = 0; z < w->see.ends.count && !w->task.count && !camera_work_scans(w); z++) {
-        const char *name = w->see.names.items[z];
-        if (!(covers[z].inside > 0))
-            return sl_fail(context, SL_BAD_ARGUMENT, "--see: nothing of zone '%s' is inside", name);
-        if (covers[z].seen > 0) continue;
-        sl_point at = {0, 0};
-        bool found = false;
-        size_t end;
-        const sl_shape zone = zones_shape_of(&w->see, z, &end);
-        for (uint32_t i = 0; i < w->placed.blind_count && !found; i++) {
-            if (!zones_shape_holds(&zone, w->placed.blind[i].at)) continue;
-            SL_TRY(sl_place_nearest(context, query, &plan->like, w->placed.blind[i].at,
-                                    w->task.places, w->task.place_count, &at, &found));
-        }
-        return found ? sl_fail(context, SL_BAD_ARGUMENT,
-                               "--see: none of the places sees zone '%s'; the nearest one that "
-                               "could is at %.*g,%.*g",
-                               name, digits, at.x, digits, at.y)
-                     : sl_fail(context, SL_BAD_ARGUMENT, "--see: none of the places sees zone '%s'",
-                               name);
-    }
-    return SL_OK;
-}
-
 void camera_work_destroy(sl_context *context, camera_work *w) {
     sl_cameras_destroy(context, &w->places);
     sl_free(context, w->views);
@@ -336,5 +367,9 @@ void camera_work_destroy(sl_context *context, camera_work *w) {
     sl_free(context, w->zones);
     sl_free(context, w->zone_ends);
     sl_free(context, w->weights);
+    see_lines_destroy(context, &w->lines);
+    sl_free(context, w->line_weights);
+    sl_free(context, w->covers);
+    sl_free(context, w->line_covers);
     sl_area_placement_destroy(context, &w->placed);
 }

@@ -4,13 +4,20 @@
 #define PLACE_CAMERAS_H
 
 #include "inputs/pipeline.h"
+#include "inputs/see_lines.h"
 #include "reports/json_print.h"
 #include "sightline/place_proof.h"
+#include "studies/cover_path.h"
 #include "studies/cover_zones.h"
+
+/// Lengths of a thing made of lines: inside, and what is seen of that.
+typedef struct line_cover {
+    double inside, seen;
+} line_cover;
 
 /// What the options say.
 typedef struct camera_plan {
-    const char *from, *see, *forbid, *fixed, *weight;
+    const char *from, *see, *path, *forbid, *fixed, *weight;
     sl_viewpoint like; ///< what a table leaves out, and all other places
     uint32_t headings, cover, count;
     bool network;                  ///< lines of sight join all viewpoints
@@ -29,8 +36,12 @@ typedef struct camera_work {
     sl_shape *zones; ///< of `see`, with `zone_ends` and `weights`; NULL where no weight is given
     size_t *zone_ends;
     double *weights;
+    see_lines lines;      ///< to be seen: doors and routes
+    double *line_weights; ///< by segment of `lines`, with `weights`
     sl_place_area task;
     sl_area_placement placed;
+    zone_cover *covers; ///< by zone of `see`, and by thing of `lines`: what is seen in the end
+    line_cover *line_covers;
 } camera_work;
 
 camera_plan camera_plan_default(void);
@@ -66,11 +77,18 @@ void camera_work_print_verdict(const camera_work *w, const sl_place_area_verdict
 void camera_work_add_verdict_json(json_fields *fields, const camera_work *w,
                                   const sl_place_area_verdict *v);
 
-/// Refuses a zone of which nothing is inside, or that no place sees: names it, and the nearest
-/// place that could see it. `covers`: what the chosen places see, by zone.
-sl_status camera_work_check_zones(sl_context *context, const camera_work *w,
-                                  const camera_plan *plan, sl_query *query,
-                                  const zone_cover *covers);
+/// What the chosen places see of each thing that is to be seen. Refuses a thing of which nothing is
+/// inside, or that no place sees: names it, and the nearest place that could see it.
+sl_status camera_work_survey(sl_context *context, const camera_plan *plan, sl_query *query,
+                             const cover_report *report, const sl_viewpoint *viewpoints,
+                             camera_work *w);
+/// A single route that is to be seen, for pictures; else `out` stays empty.
+sl_status camera_work_trace(sl_context *context, const cover_report *report, sl_query *query,
+                            const sl_viewpoint *viewpoints, const camera_work *w, cover_path *out);
+/// A line for each thing that is to be seen.
+void camera_work_print_things(const camera_work *w, const cover_report *report);
+/// "zones" and "lines"
+void camera_work_add_things_json(json_fields *fields, const camera_work *w);
 
 /// Prints what no place sees, and a place that could see the largest part of it.
 sl_status camera_work_print_blind(sl_context *context, const camera_work *w,

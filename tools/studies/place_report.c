@@ -4,76 +4,17 @@
 #include <stdio.h>
 #include <string.h>
 
-static bool has_costs(const camera_work *w) {
-    for (uint32_t i = 1; i < w->task.place_count; i++)
-        if (w->costs[i] != w->costs[0]) return true;
-    return w->scale * 1.0 != w->costs[0];
-}
-
 bool camera_work_scans(const camera_work *w) {
     return w->task.scan_angle > 0 || w->task.scan_range > 0;
 }
 
-/// "of these 96 places", "of these 96 places and headings at 12 points"
-static void say_among(const camera_work *w, char *text, size_t size) {
-    const unsigned places = (unsigned)w->task.place_count;
-    const size_t points = w->points + w->task.fixed_count;
-    if (points == places)
-        snprintf(text, size, "of these %u place%s", places, places == 1 ? "" : "s");
-    else
-        snprintf(text, size, "of these %u places and headings at %zu point%s", places, points,
-                 points == 1 ? "" : "s");
-}
-
-static void say_fewest(const camera_work *w, const char *among, bool stopped, char *text,
-                       size_t size) {
-    const sl_area_placement *p = &w->placed;
-    const bool costs = has_costs(w);
-    char points[64];
-    snprintf(points, sizeof points, "%u points %s%s", (unsigned)p->witness_count,
-             camera_work_scans(w) ? "on walls" : "inside", w->task.network ? " and a network" : "");
-    char lower[64];
-    const double least = (double)p->lower / w->scale;
-    snprintf(lower, sizeof lower, "%s%.10g%s", costs ? "a cost of " : "", least,
-             costs        ? ""
-             : least == 1 ? " viewpoint"
-                          : " viewpoints");
-    if (p->lower == p->upper)
-        snprintf(text, size, "No %s can, %s: %s need %s.", costs ? "cheaper choice" : "fewer",
-                 among, points, lower);
-    else
-        snprintf(text, size, "%s need at least %s, %s: a gap of %.2g %%.%s", points, lower, among,
-                 100.0 * (double)(p->upper - p->lower) / (double)p->upper,
-                 stopped ? " Stopped early: more time may close it." : "");
+/// Whether lines are to be seen, and no area: areas are lengths then.
+static bool has_only_lines(const camera_work *w) {
+    return w->task.line_count && !w->task.see;
 }
 
 void camera_work_say(const camera_work *w, bool stopped, char *text, size_t size) {
-    const sl_area_placement *p = &w->placed;
-    char among[128];
-    int used = 0;
-    if (camera_work_scans(w))
-        used = snprintf(text, size, "Of walls %.4g long, they scan %.4g. ", p->area, p->seen);
-    else if (w->weights)
-        used = snprintf(text, size,
-                        "By their weights, the zones are worth %.4g, and what is seen %.4g. ",
-                        p->area, p->seen);
-    else if (w->task.see)
-        used = snprintf(text, size, "Of the %.4g that must be seen, they see %.4g. ", p->area,
-                        p->seen);
-    text += used;
-    size -= (size_t)used;
-    say_among(w, among, sizeof among);
-    if (!w->task.count)
-        say_fewest(w, among, stopped, text, size);
-    else
-        snprintf(text, size, "They %s %.4g %%; no %u %s %s more than %.4g %%.%s",
-                 camera_work_scans(w) ? "scan" : "see", 100 * p->seen / p->area,
-                 (unsigned)w->task.count, among, camera_work_scans(w) ? "scan" : "see",
-                 100 * p->seen_most / p->area, stopped ? " Stopped early." : "");
-    const size_t end = strlen(text);
-    if (w->task.fixed_count)
-        snprintf(text + end, size - end, " %u of them stand%s already.",
-                 (unsigned)w->task.fixed_count, w->task.fixed_count == 1 ? "s" : "");
+    sl_area_placement_say(&w->task, &w->placed, w->scale, stopped, text, size);
 }
 
 /// A cost as in the tables: a whole number where they have no decimals.
@@ -91,19 +32,10 @@ static bool has_circles(const camera_work *w) {
     return false;
 }
 
-/// A cost as in the tables, with its noun.
-static void say_cost(const camera_work *w, uint64_t cost, char *text, size_t size) {
-    const double value = (double)cost / w->scale;
-    if (has_costs(w))
-        snprintf(text, size, "a cost of %.10g", value);
-    else
-        snprintf(text, size, "%.10g viewpoint%s", value, value == 1 ? "" : "s");
-}
-
 void camera_work_print_verdict(const camera_work *w, const sl_place_area_verdict *v, int digits) {
     char among[128], cost[64];
     const sl_area_placement *p = &w->placed;
-    say_among(w, among, sizeof among);
+    sl_place_area_say_among(&w->task, among, sizeof among);
     const unsigned count = (unsigned)p->count;
     const char *const often = w->task.cover > 1 ? ", as often as asked or as they can" : "";
     if (v->sees_all)
@@ -118,7 +50,7 @@ void camera_work_print_verdict(const camera_work *w, const sl_place_area_verdict
         printf("The viewpoints do not see all that the others do: beside (%.*g, %.*g), place %u "
                "sees more.\n",
                digits, v->unseen.x, digits, v->unseen.y, (unsigned)v->place + 1);
-    say_cost(w, v->lower, cost, sizeof cost);
+    sl_place_area_say_cost(&w->task, w->scale, v->lower, cost, sizeof cost);
     if (v->weak != UINT32_MAX)
         printf("The lower bound does not hold: witness %u demands more than the places must see.\n",
                (unsigned)v->weak + 1);
@@ -127,10 +59,11 @@ void camera_work_print_verdict(const camera_work *w, const sl_place_area_verdict
     else
         printf("All that %s see needs at least %s%s.\n", among + 3, cost, often);
     if (v->upper > p->upper) {
-        say_cost(w, v->upper, cost, sizeof cost);
+        sl_place_area_say_cost(&w->task, w->scale, v->upper, cost, sizeof cost);
         printf("The viewpoints need %s, more than the proof says.\n", cost);
     } else if (v->sees_as_all && v->lower == v->upper) {
-        printf("So no %s can do it.\n", has_costs(w) ? "cheaper choice" : "fewer");
+        printf("So no %s can do it.\n",
+               strncmp(cost, "a cost", 6) == 0 ? "cheaper choice" : "fewer");
     }
 }
 
@@ -146,7 +79,7 @@ void camera_work_add_verdict_json(json_fields *f, const camera_work *w,
 
 void camera_work_add_json(json_fields *f, const camera_work *w) {
     const sl_area_placement *p = &w->placed;
-    const bool walls = camera_work_scans(w);
+    const bool walls = camera_work_scans(w), lines = has_only_lines(w);
     add_cost(f, "lower", w, p->lower);
     add_cost(f, "upper", w, p->upper);
     if (w->task.count) {
@@ -154,12 +87,13 @@ void camera_work_add_json(json_fields *f, const camera_work *w) {
         json_add_real(f,
                       walls        ? "scanned_length_bound"
                       : w->weights ? "seen_worth_bound"
+                      : lines      ? "seen_length_bound"
                                    : "seen_area_bound",
                       p->seen_most);
     } else {
         json_add_flag(f, "optimal", p->lower == p->upper);
-        json_add_real(f, walls ? "hidden_length" : "hidden_area", p->blind_area);
-        json_add_real(f, walls ? "rounding_length" : "rounding_area", p->rounding);
+        json_add_real(f, walls || lines ? "hidden_length" : "hidden_area", p->blind_area);
+        json_add_real(f, walls || lines ? "rounding_length" : "rounding_area", p->rounding);
     }
     json_add_count(f, "witnesses", p->witness_count);
     json_add_count(f, "rounds", p->rounds);
@@ -167,38 +101,34 @@ void camera_work_add_json(json_fields *f, const camera_work *w) {
     json_add_real(f,
                   walls        ? "to_scan_length"
                   : w->weights ? "to_see_worth"
+                  : lines      ? "to_see_length"
                                : "to_see_area",
                   p->area);
     json_add_real(f,
                   walls        ? "scanned_length"
                   : w->weights ? "seen_worth"
+                  : lines      ? "to_see_seen_length"
                                : "to_see_seen_area",
                   p->seen);
 }
 
-/// What of walls none of the places scans.
-static void print_blind_walls(const camera_work *w, int digits, const char *unit) {
+/// What of walls none of the places scans, or of lines none sees.
+static void print_blind_lengths(const camera_work *w, int digits, const char *unit) {
     const sl_area_placement *p = &w->placed;
     const char *const gap = *unit ? " " : "";
-    printf(
-        "\n%.4g%s%s of walls %s of these places scan%s, whatever is chosen: %.3g %%. The longest "
-        "of %u part%s has %.4g%s%s at %.*g,%.*g.\n",
-        p->blind_area, gap, unit, w->task.cover > 1 ? "too few" : "none",
-        w->task.cover > 1 ? "" : "s", 100 * p->blind_area / p->area, (unsigned)p->blind_count,
-        p->blind_count == 1 ? "" : "s", p->blind[0].area, gap, unit, digits, p->blind[0].at.x,
-        digits, p->blind[0].at.y);
+    const bool walls = camera_work_scans(w);
+    printf("\n%.4g%s%s of %s %s of these places %s%s, whatever is chosen: %.3g %%. The longest "
+           "of %u part%s has %.4g%s%s at %.*g,%.*g.\n",
+           p->blind_area, gap, unit, walls ? "walls" : "lines",
+           w->task.cover > 1 ? "too few" : "none", walls ? "scan" : "see",
+           w->task.cover > 1 ? "" : "s", 100 * p->blind_area / p->area, (unsigned)p->blind_count,
+           p->blind_count == 1 ? "" : "s", p->blind[0].area, gap, unit, digits, p->blind[0].at.x,
+           digits, p->blind[0].at.y);
 }
 
-sl_status camera_work_print_blind(sl_context *context, const camera_work *w,
-                                  const camera_plan *plan, sl_query *query, const char *unit) {
+static void print_blind_area(const camera_work *w, int digits, const char *unit) {
     const sl_area_placement *p = &w->placed;
-    const int digits = sl_map_digits(sl_query_map(query));
     const char *const squared = *unit ? "\xc2\xb2" : "", *const gap = *unit ? " " : "";
-    if (!p->blind_count) return SL_OK;
-    if (camera_work_scans(w)) {
-        print_blind_walls(w, digits, unit);
-        return SL_OK;
-    }
     printf(
         "\n%.4g%s%s%s of it %s of these places see%s, whatever is chosen: %.3g %%. The largest of "
         "%u part%s has %.4g%s%s%s at %.*g,%.*g.\n",
@@ -206,6 +136,18 @@ sl_status camera_work_print_blind(sl_context *context, const camera_work *w,
         w->task.cover > 1 ? "" : "s", 100 * p->blind_area / p->area, (unsigned)p->blind_count,
         p->blind_count == 1 ? "" : "s", p->blind[0].area, gap, unit, squared, digits,
         p->blind[0].at.x, digits, p->blind[0].at.y);
+}
+
+sl_status camera_work_print_blind(sl_context *context, const camera_work *w,
+                                  const camera_plan *plan, sl_query *query, const char *unit) {
+    const sl_area_placement *p = &w->placed;
+    const int digits = sl_map_digits(sl_query_map(query));
+    if (!p->blind_count) return SL_OK;
+    if (camera_work_scans(w) || has_only_lines(w))
+        print_blind_lengths(w, digits, unit);
+    else
+        print_blind_area(w, digits, unit);
+    if (camera_work_scans(w)) return SL_OK;
     sl_point at;
     bool found;
     SL_TRY(sl_place_nearest(context, query, &plan->like, p->blind[0].at, w->task.places,

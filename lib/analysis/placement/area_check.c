@@ -275,7 +275,8 @@ static sl_status conclude(checker *c) {
 
 sl_status sli_area_check(sli_area *a, const uint8_t *chosen, uint32_t *added) {
     *added = 0;
-    if (sli_area_scans(a)) return SL_OK; // all pieces of walls are rows
+    // All pieces of walls and lines are rows.
+    if (sli_area_scans(a) || sli_area_has_only_lines(a)) return SL_OK;
     checker c = {.a = a, .chosen = chosen};
     sl_status status = lay(&c);
     if (status == SL_OK) status = list_unseen(&c);

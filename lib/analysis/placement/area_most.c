@@ -11,7 +11,8 @@
 /// sl_cover_most, for squares of which a place sees at least half. What it sees is then found
 /// exactly. Where zones have weights, a_cj and A_j are what they are worth.
 ///
-/// Of walls to scan there are rows already (area_walls.c): their lengths are the weights.
+/// Of walls to scan and lines there are rows already (area_walls.c, area_lines.c): their lengths
+/// are the weights.
 #include "analysis/placement/place_area.h"
 
 #include <math.h>
@@ -387,7 +388,7 @@ static sl_status descend(counter *k) {
     return SL_OK;
 }
 
-// --- walls to scan
+// --- walls to scan, and lines
 
 /// The most length that so many places see: their bytes into `now` unless it is NULL.
 static sl_status choose_most(sli_area *a, bool wide, uint8_t *now, double *seen, double *bound) {
@@ -421,10 +422,10 @@ static sl_status choose_most(sli_area *a, bool wide, uint8_t *now, double *seen,
     return status;
 }
 
-static sl_status find_most_of_walls(sli_area *a) {
+static sl_status find_most_of_rows(sli_area *a) {
     sl_area_placement *out = a->out;
     double seen, bound;
-    SL_TRY(sli_area_walls(a));
+    SL_TRY(sli_area_scans(a) ? sli_area_walls(a) : sli_area_lines(a));
     uint8_t *now = sl_alloc_array(a->context, a->task->place_count, 1);
     uint32_t *chosen = sl_alloc_array(a->context, a->task->place_count, sizeof *chosen);
     sl_status status =
@@ -444,7 +445,7 @@ static sl_status find_most_of_walls(sli_area *a) {
 
 sl_status sli_area_most(sli_area *a) {
     const sl_place_area *task = a->task;
-    if (sli_area_scans(a)) return find_most_of_walls(a);
+    if (sli_area_scans(a) || task->line_count) return find_most_of_rows(a);
     counter k = {.a = a};
     k.count = task->count > task->fixed_count ? task->count - task->fixed_count : 0;
     uint8_t *now = sl_alloc_array(a->context, task->place_count, 1);

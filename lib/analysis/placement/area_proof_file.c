@@ -6,8 +6,9 @@
 
 sl_status sli_area_proof_refuse(sl_context *context, sl_query *query, const sl_place_area *area) {
     const sl_map *map = sl_query_map(query);
-    const char *what = area->network ? "networks"
-                       : area->count ? "the most that a number of places sees"
+    const char *what = area->network      ? "networks"
+                       : area->count      ? "the most that a number of places sees"
+                       : area->line_count ? "lines to be seen"
                        : area->scan_angle > 0 || area->scan_range > 0 ? "walls to scan"
                        : map->mirror_count                            ? "mirrors"
                        : map->oneway_count                            ? "one-way glass"

@@ -101,7 +101,8 @@ static sl_status walk_segment(sli_path_cut *w, sl_point p, sl_point q) {
     for (size_t i = 0; i < w->cuts.count; i++) {
         const double to = w->cuts.items[i];
         bool holds;
-        if (!((to - from) * length > w->least)) continue;
+        w->piece = (to - from) * length;
+        if (!(w->piece > w->least)) continue;
         SL_TRY(w->holds(w, between(p, q, from + (to - from) / 2), &holds));
         if (holds) SL_TRY(add_part(w, p, q, from, to, length));
         from = to;

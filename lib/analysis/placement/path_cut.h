@@ -17,6 +17,7 @@ typedef struct sli_path_cut {
     void *of;
     SL_ARRAY(double) cuts; ///< of the segment at hand, 0 to 1
     SL_ARRAY(sl_path_part) parts;
+    double piece;       ///< length of the piece that is asked
     double done, least; ///< length of the segments before; of parts
 } sli_path_cut;
 

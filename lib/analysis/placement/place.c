@@ -77,15 +77,17 @@ void sli_placer_destroy(sli_placer *p) {
 void sl_placement_say(const sl_placement *p, const char *noun, bool stopped, char *text,
                       size_t size) {
     const unsigned lower = (unsigned)p->lower, witnesses = (unsigned)p->witness_count;
-    if (p->lower == p->upper)
+    const char *const where = p->given ? "if they stand at these places" : "wherever they stand";
+    if (!witnesses)
         snprintf(text, size,
-                 "No fewer can: %u witness%s inside need%s %u %s%s, wherever they stand.",
-                 witnesses, witnesses == 1 ? "" : "es", witnesses == 1 ? "s" : "", lower, noun,
-                 lower == 1 ? "" : "s");
+                 "The work ended early, before a lower bound was found: give more time.");
+    else if (p->lower == p->upper)
+        snprintf(text, size, "No fewer can: %u witness%s inside need%s %u %s%s, %s.", witnesses,
+                 witnesses == 1 ? "" : "es", witnesses == 1 ? "s" : "", lower, noun,
+                 lower == 1 ? "" : "s", where);
     else
-        snprintf(text, size,
-                 "At least %u are needed: %u witnesses inside need so many, wherever they stand.%s",
-                 lower, witnesses,
+        snprintf(text, size, "At least %u are needed: %u witnesses inside need so many, %s.%s",
+                 lower, witnesses, where,
                  stopped ? " The work ended early; more time may close the gap." : "");
 }
 
@@ -422,7 +424,7 @@ sl_status sl_place(sl_context *context, sl_query *query, const sl_place_options 
                    sl_placement *out) {
     const sl_place_options usual = sl_place_options_default();
     const sl_space *space;
-    sl_placement made = {0};
+    sl_placement made = {.given = options && options->places};
     SL_TRY(check(context, query));
     SL_TRY(sl_query_space(context, query, &space, NULL));
     sli_placer p = {

@@ -52,6 +52,14 @@ static sl_status check_task(sl_context *context, const sl_place_area *t) {
     if (t->zone_count && (!t->count || t->scan_angle > 0 || t->scan_range > 0))
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "weights are for the most area that a number of places sees");
+    for (uint32_t i = 0; t->line_weights && i < t->line_count; i++)
+        if (!(t->line_weights[i] > 0) || !isfinite(t->line_weights[i]))
+            return sl_fail(context, SL_BAD_ARGUMENT, "line %u: its weight must be over 0", i + 1);
+    if (t->line_count && (t->scan_angle > 0 || t->scan_range > 0))
+        return sl_fail(context, SL_BAD_ARGUMENT, "lines are not seen with scans of walls");
+    if (t->line_count && t->count && t->see)
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "the most that a number of places sees is of an area or of lines, not both");
     if (t->count && t->network)
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "a network sees everything: not the most that a number of places sees");
@@ -327,18 +335,19 @@ static sl_status choose(finder *f, bool wide) {
 static sl_status refuse_blind(sli_area *a) {
     const sl_place_area *t = a->task;
     const sl_point at = a->out->blind[0].at;
+    const char *const what = sli_area_has_only_lines(a) ? "lines" : "area";
     sl_point nearest;
     bool found;
     SL_TRY(sl_place_nearest(a->context, a->query, t->places, at, t->places, t->place_count,
                             &nearest, &found));
     if (!found)
         return sl_fail(a->context, SL_BAD_ARGUMENT,
-                       "none of the %u places sees any of the area, at (%.9g, %.9g)",
-                       t->place_count, at.x, at.y);
+                       "none of the %u places sees any of the %s, at (%.9g, %.9g)", t->place_count,
+                       what, at.x, at.y);
     return sl_fail(a->context, SL_BAD_ARGUMENT,
-                   "none of the %u places sees any of the area, at (%.9g, %.9g); the nearest place "
+                   "none of the %u places sees any of the %s, at (%.9g, %.9g); the nearest place "
                    "that could is at (%.9g, %.9g)",
-                   t->place_count, at.x, at.y, nearest.x, nearest.y);
+                   t->place_count, what, at.x, at.y, nearest.x, nearest.y);
 }
 
 /// Whether the bounds have not closed in for long.
@@ -349,12 +358,18 @@ static bool is_stalled(finder *f) {
     return ++f->since > NETWORK_ROUNDS;
 }
 
+static sl_status add_first_rows(sli_area *a) {
+    if (sli_area_scans(a)) return sli_area_walls(a);
+    if (a->task->line_count) SL_TRY(sli_area_lines(a));
+    return sli_area_has_only_lines(a) ? SL_OK : sli_area_first_witnesses(a);
+}
+
 static sl_status find(finder *f) {
     sli_area *a = f->a;
     bool clean;
     uint32_t rows = 0;
     for (uint32_t i = 0; i < a->task->place_count; i++) f->now[i] = a->fixed[i];
-    SL_TRY(sli_area_scans(a) ? sli_area_walls(a) : sli_area_first_witnesses(a));
+    SL_TRY(add_first_rows(a));
     SL_TRY(take_more(f, true));
     SL_TRY(complete(f, &clean));
     if (!(a->out->seen > a->negligible)) return refuse_blind(a);
@@ -408,6 +423,7 @@ void sl_area_placement_destroy(sl_context *context, sl_area_placement *p) {
     sl_free(context, p->chosen);
     sl_free(context, p->blind);
     sl_free(context, p->witnesses);
+    sl_free(context, p->line_lengths);
     sli_area_problem_destroy(context, &p->columns);
     sli_cover_proof_destroy(context, &p->proof);
     *p = (sl_area_placement){0};

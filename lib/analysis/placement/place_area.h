@@ -106,6 +106,13 @@ bool sli_area_scans(const sli_area *a);
 /// Adds all rows. `out` gets the length that is to be seen, and what is blind of it.
 sl_status sli_area_walls(sli_area *a);
 
+// --- lines to be seen (area_lines.c)
+
+/// Whether lines are to be seen, and no area.
+bool sli_area_has_only_lines(const sli_area *a);
+/// Adds all rows. `out` gets the lengths of the lines, and without an area what is blind of them.
+sl_status sli_area_lines(sli_area *a);
+
 // --- networks (area_network.c)
 
 sl_status sli_network_begin(sli_area *a);

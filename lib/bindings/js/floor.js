@@ -1,6 +1,6 @@
 /**
  * A map or a baked file that is open for questions, and the module that opens it. What may be asked,
- * place.js and ways.js say.
+ * place.js, cameras.js and ways.js say.
  */
 import { flagOf, numberOf, objectOf, optionsOf, textOf } from './arguments.js'
 import { SightlineError, bytesOf } from './host.js'

@@ -69,6 +69,8 @@ typedef struct slp_level {
     sl_coverage coverage;
     sl_path_parts unseen; ///< of a path, by `coverage`
     sl_placement placement;
+    bool placed_late; ///< the time limit ended the placement
+    char proof[256];
 } slp_level;
 
 /// A world of walls that change, and the last region asked.
@@ -275,6 +277,8 @@ SLP_API int slp_level_place(slp_level *level, const slp_place *options);
 /// NULL.
 SLP_API void slp_level_placed(const slp_level *level, int64_t numbers[5], double *unseen,
                               double *points);
+/// What is proven of the placement kept, in a sentence or two.
+SLP_API const char *slp_level_place_proof(slp_level *level);
 /// Of the coverage kept: viewpoints, blind spots, pieces that are inside, their corners.
 SLP_API void slp_level_cover_counts(const slp_level *level, int64_t counts[4]);
 /// The name of a viewpoint; NULL for none.

@@ -99,6 +99,7 @@ static sl_status place(slp_level *level, double seconds, const sl_place_options 
     const sl_status status =
         sl_place(base->context, level->queries.items[0], options, &level->placement);
     base->until = 0;
+    level->placed_late = status == SL_CANCELLED;
     if (status != SL_CANCELLED || atomic_load(&base->cancelled)) return status;
     if (level->placement.count) return SL_OK;
     return sl_fail(base->context, SL_CANCELLED,
@@ -142,6 +143,12 @@ void slp_level_placed(const slp_level *level, int64_t numbers[5], double *unseen
         points[2 * i] = p->witnesses[i].at.x;
         points[2 * i + 1] = p->witnesses[i].at.y;
     }
+}
+
+const char *slp_level_place_proof(slp_level *level) {
+    sl_placement_say(&level->placement, "viewpoint", level->placed_late, level->proof,
+                     sizeof level->proof);
+    return level->proof;
 }
 
 // --- what is kept

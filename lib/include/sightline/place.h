@@ -75,6 +75,7 @@ typedef struct sl_placement {
     double unseen_area;      ///< of the slivers, rounded
     double seen, seen_bound; ///< of sl_place_list.count: the weight that is seen; no set of so many
                              ///< places sees more than the bound
+    bool given;              ///< among given places: both bounds are for these alone
 } sl_placement;
 
 /// Finds viewpoints for all that is inside of a query's space, with its doors as they are. They may
@@ -129,9 +130,9 @@ typedef struct sl_place_list {
 SL_API sl_status sl_place_among(sl_context *context, sl_query *query, const sl_place_list *list,
                                 const sl_place_options *options, sl_placement *out);
 
-/// What is proven, in a sentence or two: "No fewer can: 12 witnesses inside need 4 cameras,
-/// wherever they stand." `noun`: what to call a viewpoint, "camera". `stopped`: the work ended
-/// early. For viewpoints anywhere. Cut to fit `size`.
+/// What sl_place has proven, in a sentence or two: "No fewer can: 12 witnesses inside need 4
+/// cameras, wherever they stand." `noun`: what to call a viewpoint, "camera". `stopped`: the work
+/// ended early. Cut to fit `size`.
 SL_API void sl_placement_say(const sl_placement *placement, const char *noun, bool stopped,
                              char *text, size_t size);
 SL_API void sl_placement_destroy(sl_context *context, sl_placement *placement); ///< and zeroes it

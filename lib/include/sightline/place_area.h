@@ -54,6 +54,12 @@ typedef struct sl_place_area {
     /// angle of at least `scan_angle` degrees with the wall. Shut doors are walls,
     /// and so are dark sides of glass. The areas of the result are lengths of walls then.
     double scan_angle, scan_range;
+    /// Segments of which each point is to be seen: routes, doors. With `see`, beside that area;
+    /// else in its place, and the areas of the result are lengths of lines then. Only what is
+    /// inside counts. Not with scans of walls; with `count`, not beside an area.
+    const sl_segment *lines;
+    const double *line_weights; ///< with `count`: by line, what its length is worth; NULL: 1 each
+    uint32_t line_count;
 } sl_place_area;
 
 /// Zeroed, it is empty.
@@ -76,6 +82,7 @@ typedef struct sl_area_placement {
     sl_point *witnesses;
     sl_cover_problem columns;
     sl_cover_proof proof;
+    double *line_lengths; ///< by line, what of it is inside; NULL without lines
 } sl_area_placement;
 
 /// Finds the cheapest places that see the area, as far as these places can see it; or, with
@@ -90,6 +97,16 @@ typedef struct sl_area_placement {
 SL_API sl_status sl_place_area_cover(sl_context *context, sl_query *query,
                                      const sl_place_area *area, const sl_place_options *options,
                                      sl_area_placement *out);
+/// What is proven of a choice, in a sentence or two: "No fewer can, of these 96 places: 31 points
+/// inside need 4 viewpoints." Costs are divided by `scale`. `stopped`: the work ended early. Cut to
+/// fit `size`.
+SL_API void sl_area_placement_say(const sl_place_area *area, const sl_area_placement *placement,
+                                  double scale, bool stopped, char *text, size_t size);
+/// "of these 96 places and headings at 12 points"
+SL_API void sl_place_area_say_among(const sl_place_area *area, char *text, size_t size);
+/// "4 viewpoints"; where places have costs of their own, "a cost of 7.5".
+SL_API void sl_place_area_say_cost(const sl_place_area *area, double scale, uint64_t cost,
+                                   char *text, size_t size);
 SL_API void sl_area_placement_destroy(sl_context *context,
                                       sl_area_placement *placement); ///< and zeroes it
 

@@ -3,8 +3,9 @@ import { CoreClient, CoreError } from '../core/client.js';
 import { countWalls, parseMap } from '../formats/map-text.js';
 import { roundStep } from '../parts/camera.js';
 import { drawDot, itemLine, strokeLines } from '../parts/plan.js';
-import { watchTones } from '../parts/tones.js';
+import { makeTones, watchTones } from '../parts/tones.js';
 import { drawWhy } from '../parts/why-scene.js';
+import { Cameras } from './cameras.js';
 import { MapDocument } from './document.js';
 import { acceptDrops, readFile, save, savePng, saveSvg } from './files.js';
 import { HeatMap } from './heat.js';
@@ -34,6 +35,8 @@ class Playground extends Sight {
         this.view.fitTo = () => this.view.camera.fit(this.doc.bounds());
         this.heat = new HeatMap(this, memory > 0 ? memory * 2 ** 20 : undefined);
         this.keys = new Keys(get('plan'), this);
+        this.tones = makeTones(matchMedia('(prefers-color-scheme: dark)').matches);
+        this.cameras = new Cameras(this, memory > 0 ? memory * 2 ** 20 : undefined);
         this.listen();
     }
 
@@ -65,6 +68,7 @@ class Playground extends Sight {
                 ['seen in mirrors', tones.image],
                 ['portal', tones.portal], ['door', tones.door], ['path', tones.path], ['box', tones.object]]);
             this.heat?.showLegend();
+            this.cameras?.show();
             this.redraw();
         });
     }
@@ -80,6 +84,7 @@ class Playground extends Sight {
         this.leaveShared();
         this.bake();
         this.heat.drop();
+        this.cameras.drop();
         clearTimeout(this.keeping);
         this.keeping = setTimeout(() => this.keep(), 400);
         this.redraw();
@@ -115,6 +120,7 @@ class Playground extends Sight {
     arrive(change, message) {
         this.eye = this.places = this.pair = this.why = this.seen = null;
         this.doors = {};
+        this.cameras.set([]);
         panel.showWhy('');
         this.tools.look.pinned = false;
         this.doc.select(-1);
@@ -202,16 +208,17 @@ class Playground extends Sight {
     }
 
     scene() {
-        const asks = this.tool === 'why' && this.pair, heat = asks ? null : this.heat.layer;
+        const asks = this.tool === 'why' && this.pair, isCameras = this.tool === 'cameras';
+        const heat = asks ? null : (isCameras && this.cameras.layer) || this.heat.layer;
         return {
             space: this.plan,
             items: this.doc.items,
             shut: this.shut,
             heat,
-            seen: asks || heat || !isOn('show-set') ? null : this.seen?.set,
-            region: asks || heat || !isOn('show-region') ? null : this.seen?.region,
-            mirrored: asks || heat || !isOn('show-region') ? null : this.seen?.mirrored,
-            eye: asks ? null : this.eye,
+            seen: asks || isCameras || heat || !isOn('show-set') ? null : this.seen?.set,
+            region: asks || isCameras || heat || !isOn('show-region') ? null : this.seen?.region,
+            mirrored: asks || isCameras || heat || !isOn('show-region') ? null : this.seen?.mirrored,
+            eye: asks || isCameras ? null : this.eye,
             from: asks ? this.pair[0] : undefined,
             to: asks ? this.pair[1] : undefined,
             show: { cells: isOn('show-cells'), portals: isOn('show-portals'), grid: isOn('snap') ? roundStep(this.view.camera.scale, 40) : 0 },
@@ -240,10 +247,11 @@ class Playground extends Sight {
 
     overPicture(surface, camera, tones) {
         if (this.tool === 'why' && this.why) drawWhy(surface, camera, this.why, tones);
+        this.cameras.draw(surface, camera, tones);
     }
 
     redraw() {
-        for (const [name, able] of [['undo', this.doc.canUndo], ['redo', this.doc.canRedo], ['remove', this.doc.selected >= 0]])
+        for (const [name, able] of [['undo', this.doc.canUndo], ['redo', this.doc.canRedo], ['remove', this.tool === 'cameras' ? this.cameras.chosen >= 0 : this.doc.selected >= 0]])
             document.querySelector(`[data-do=${name}]`).disabled = !able;
         panel.showChosen(this.doc.items[this.doc.selected]);
         clearTimeout(this.drawing);
@@ -283,6 +291,7 @@ class Playground extends Sight {
         this.tools[this.tool].cancel?.();
         this.tool = name;
         document.querySelector(`input[name=tool][value=${name}]`).checked = true;
+        this.cameras.show();
         this.redraw();
     }
     cancelTool() {
@@ -308,7 +317,7 @@ class Playground extends Sight {
         const acts = {
             undo: () => this.travel('undo'),
             redo: () => this.travel('redo'),
-            remove: () => this.doc.selected >= 0 && this.doc.remove(this.doc.selected),
+            remove: () => (this.tool === 'cameras' ? this.cameras.remove() : this.doc.selected >= 0 && this.doc.remove(this.doc.selected)),
             turn: () => this.changeChosen((item) => ({ ...item, points: [...item.points.slice(2), ...item.points.slice(0, 2)] })),
             zoomIn: () => this.view.zoom(1.4),
             zoomOut: () => this.view.zoom(1 / 1.4),
@@ -318,6 +327,7 @@ class Playground extends Sight {
             open: () => get('file').click(),
             share: () => this.share(),
             saveMap: () => save(new Blob([this.doc.text()], { type: 'text/plain' }), 'plan.map'),
+            saveCameras: () => this.cameras.saveTable(),
             saveSlv: () => this.saveSlv(),
             savePng: () => savePng(...picture()),
             saveSvg: () => saveSvg(...picture()),

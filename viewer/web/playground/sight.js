@@ -101,6 +101,7 @@ export class Sight {
         else this.setEye(largestCell(plan));
         if (this.places) this.questions.want(this.places);
         this.heat.changed();
+        this.cameras.changed();
         this.redraw();
     }
 
@@ -149,6 +150,7 @@ export class Sight {
         if (open) this.shut.delete(name);
         else this.shut.add(name);
         this.heat.changed();
+        this.cameras.changed();
         this.setEye(this.eye);
     }
 

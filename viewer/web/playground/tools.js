@@ -2,6 +2,7 @@
  * What a press, a move and a release do with each tool. Places are in map units, so the pointer, a
  * finger and the keyboard's cross all work in the same way.
  */
+import { CameraTool } from './cameras.js';
 import { moveEnds, pick, shiftItem } from './pick.js';
 
 /** @typedef {[number, number]} Place */
@@ -158,5 +159,6 @@ export function makeTools(app) {
         door: new DrawTool(app, 'door'),
         mirror: new DrawTool(app, 'mirror'),
         oneway: new DrawTool(app, 'oneway'),
+        cameras: new CameraTool(app),
     };
 }

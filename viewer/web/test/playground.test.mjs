@@ -546,6 +546,66 @@ for (const name of wanted)
             await context.close();
         });
 
+        test('cameras: put, turned, moved by mouse and keys, chosen, and saved as a table', async () => {
+            const page = await open(), text = () => page.locator('#camera-text').textContent();
+            const list = () => page.evaluate(() => window.playground.cameras.list);
+            const shown = () => page.waitForFunction(() => window.playground.cameras.coverage && !window.playground.cameras.jobs.running && !window.playground.cameras.choosing);
+            const areas = () => page.evaluate(() => window.playground.cameras.coverage.areas);
+            assert.equal(await page.evaluate(() => performance.getEntriesByType('resource').some((r) => /cameras\.wasm/.test(r.name))), false);
+            await page.check('input[value=cameras]');
+            await page.mouse.move(...(await screen(page, 2, 5)));
+            await page.mouse.down();
+            await page.mouse.move(...(await screen(page, 2, 9)), { steps: 4 });
+            await page.mouse.up();
+            await shown();
+            assert.deepEqual(await list(), [{ x: 2, y: 5, heading: 90, fov: 90, range: 0 }]);
+            // A camera that looks up sees the part of its room above its cone's sides.
+            const [blind, one] = await areas();
+            assert.ok(Math.abs(blind + one - 200) < 1e-6 && one > 20 && one < 40, String(one));
+            await page.mouse.move(...(await screen(page, 2, 5)));
+            await page.mouse.down();
+            await page.mouse.move(...(await screen(page, 4, 6)), { steps: 4 });
+            await page.mouse.up();
+            await page.fill('#camera-heading', '0');
+            await page.press('#camera-heading', 'Enter');
+            await shown();
+            assert.deepEqual(await list(), [{ x: 4, y: 6, heading: 0, fov: 90, range: 0 }]);
+            await page.locator('#plan').focus();
+            await page.keyboard.press('Enter');
+            await shown();
+            assert.equal((await list()).length, 2);
+            await page.keyboard.press('Delete');
+            await shown();
+            assert.equal((await list()).length, 1);
+            // One all-round camera in the opening sees both rooms.
+            await page.fill('#camera-fov', '360');
+            await page.press('#camera-fov', 'Enter');
+            await page.selectOption('#camera-from', 'anywhere');
+            await page.click('#camera-fewest');
+            await page.waitForFunction(() => /No fewer can/.test(document.getElementById('camera-text').textContent));
+            assert.match(await text(), /^1 camera\. No fewer can: \d+ witnesses inside need 1 viewpoint, wherever they stand\.$/);
+            assert.equal((await areas())[0], 0);
+            await page.selectOption('#camera-from', 'walls');
+            await page.fill('#camera-count', '1');
+            await page.click('#camera-best');
+            await page.waitForFunction(() => /^1 camera\./.test(document.getElementById('camera-text').textContent) && !window.playground.cameras.choosing);
+            assert.match(await text(), /It sees [\d.]+ %; no 1 of these \d+ places sees more than [\d.]+ %\.$/);
+            assert.match(await page.locator('#camera-key').textContent(), /not seen.*seen by 3 or more/);
+            await shot(page, `${name}-cameras`);
+            const table = (await saved(page, 'saveCameras')).toString();
+            assert.match(table, /^name,x,y,heading,fov,range\ncamera 1,[\d.]+,[\d.]+,,,\n$/);
+            // A wall that comes changes what is seen, and the proof is of another map.
+            const before = await areas();
+            await page.evaluate(() => window.playground.doc.add({ kind: 'wall', points: [3, 0, 3, 10] }));
+            await settled(page);
+            await shown();
+            assert.notDeepEqual(await areas(), before);
+            assert.match(await text(), /^1 camera\.( 1 of them sees nothing of the inside\.)?$/);
+            await page.click('#camera-clear');
+            assert.match(await text(), /A click in a room/);
+            await context.close();
+        });
+
         test('a map with all effects: each is edited, and eye, region and pairs are answered', async () => {
             const all = `${room}door front 10 4 10 6 open\nwall 15 0 15 3\ndoor back 15 3 15 10 shut\nmirror 19 1 19 9\noneway 4 0 4 10\nrange 14\n`;
             const page = await open({}, '', all);

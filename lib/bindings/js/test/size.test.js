@@ -27,8 +27,13 @@ test('visibility graph analysis is at most 137 kB', () => {
 })
 
 test('placement is at most 149 kB', () => {
-  const bytes = size('place.js', 'floor.js', 'arguments.js', 'maptext.js', 'host.js', 'module.js', 'place.wasm')
+  const bytes = size('place.js', 'coverage.js', 'floor.js', 'arguments.js', 'maptext.js', 'host.js', 'module.js', 'place.wasm')
   assert.ok(bytes <= 149000, said(bytes))
+})
+
+test('the choice of cameras is at most 158 kB', () => {
+  const bytes = size('cameras.js', 'coverage.js', 'floor.js', 'arguments.js', 'maptext.js', 'host.js', 'module.js', 'cameras.wasm')
+  assert.ok(bytes <= 158000, said(bytes))
 })
 
 test('lines, areas and ways are at most 145 kB', () => {

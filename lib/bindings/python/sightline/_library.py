@@ -136,6 +136,7 @@ _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     "level_unseen": (_size, [_handle, _any]),
     "level_place": (_int, [_handle, ctypes.POINTER(Place)]),
     "level_placed": (None, [_handle, _integers, _doubles, _any]),
+    "level_place_proof": (_text, [_handle]),
     "level_cover_counts": (None, [_handle, _integers]),
     "level_cover_name": (_text, [_handle, _size]),
     "level_cover_copy": (None, [_handle, _doubles, _doubles, _doubles]),

@@ -167,14 +167,6 @@ class Placement:
         return f"<Placement: {most}, {'no fewer can' if self.optimal else f'at least {self.lower}'}>"
 
 
-def _proof(lower: int, upper: int, witnesses: int, where: str) -> str:
-    seen = f"{witnesses} witness{'' if witnesses == 1 else 'es'} inside"
-    if lower == upper:
-        return f"No fewer can: {seen} need{'s' if witnesses == 1 else ''} {lower} viewpoint" \
-               f"{'' if lower == 1 else 's'}, {where}."
-    return f"At least {lower} are needed: {seen} need so many, {where}."
-
-
 class Viewpoints(Handle):
     """Questions of a level about viewpoints."""
 
@@ -291,10 +283,9 @@ class Viewpoints(Handle):
             witnesses = np.empty((count, 2))
             call.level_placed(pointer, numbers, unseen, address(witnesses))
             coverage = self._coverage(arrays)
-        where = "wherever they stand" if isinstance(places, str) and places == "anywhere" \
-            else "if they stand at these places"
-        return Placement(lower, upper, _proof(lower, upper, count, where), witnesses, rounds,
-                         slivers, float(unseen[0]), seconds, coverage)
+            proof = said(call.level_place_proof(pointer))
+        return Placement(lower, upper, proof, witnesses, rounds, slivers, float(unseen[0]), seconds,
+                         coverage)
 
     def _coverage(self, arrays: bool, has_path: bool = False) -> Coverage:
         """A copy of what the library keeps."""
