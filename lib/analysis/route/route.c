@@ -26,6 +26,7 @@ static void drop_tables(sl_context *context, sl_route_finder *f) {
     f->turns = NULL;
     f->space = NULL;
     sl_space_destroy(context, &f->room);
+    sli_box_tree_destroy(context, &f->walls);
 }
 
 /// The losses of the doors, by portal.
@@ -82,6 +83,7 @@ sl_status sl_route_finder_update(sl_context *context, sl_route_finder *finder) {
                        "ways need a space without gaps: bake the map again");
     if (!(finder->radius > 0)) return make_tables(context, finder, space);
     SL_TRY(check_glass(context, space));
+    SL_TRY(sli_route_index_walls(context, space, &finder->walls));
     SL_TRY(sli_route_grow(context, space, finder->radius, &finder->room));
     return make_tables(context, finder, &finder->room);
 }
@@ -218,7 +220,7 @@ static sl_status stand(sl_context *context, const sl_route_finder *f, const char
         return sl_fail(context, SL_BAD_ARGUMENT, "%s %.9g,%.9g is in solid ground", name, at.x,
                        at.y);
     if (!(f->radius > 0)) return SL_OK;
-    SL_TRY(sli_route_check_room(context, space, f->radius, name, at));
+    SL_TRY(sli_route_check_room(context, space, &f->walls, f->radius, name, at));
     *cell = sl_space_locate(f->space, at);
     return SL_OK;
 }

@@ -4,6 +4,7 @@
 
 #include "sightline/path.h"
 #include "sightline/support.h"
+#include "space/index.h"
 
 /// No corner, no node, no directed portal.
 #define SLI_ROUTE_NONE UINT32_MAX
@@ -68,6 +69,7 @@ struct sl_route_finder {
     double *losses;               ///< by portal; NULL: none
     double radius;                ///< of the walker
     sl_space room;                ///< where its middle may be, for a radius above 0: `space`
+    sli_box_tree walls;           ///< boxes of the walls that it must stay away from
     double *upper;                ///< by cell: no point of it is farther (sl_route_distances)
     sli_route_corner *corners;    ///< by corner: the end of a portal that stands for it
     sli_route_turn *turns;        ///< by directed portal and side
@@ -103,9 +105,14 @@ sl_status sli_route_spread(sl_context *context, sl_route_finder *finder, sl_poin
 /// The cells between the walls of a space, grown by a radius above 0; `out` must be empty.
 sl_status sli_route_grow(sl_context *context, const sl_space *space, double radius, sl_space *out);
 
-/// Fails where a place is too near to a wall of the space for a walker with a radius.
-sl_status sli_route_check_room(sl_context *context, const sl_space *space, double radius,
-                               const char *name, sl_point at);
+/// The boxes of a space's walls, for sli_route_check_room(). `out` must be empty.
+sl_status sli_route_index_walls(sl_context *context, const sl_space *space, sli_box_tree *out);
+
+/// Fails where a place is too near to a wall of the space for a walker with a radius. `walls` is of
+/// sli_route_index_walls().
+sl_status sli_route_check_room(sl_context *context, const sl_space *space,
+                               const sli_box_tree *walls, double radius, const char *name,
+                               sl_point at);
 
 /// What passing a portal costs beside its length.
 static inline double sli_route_loss(const sl_route_finder *finder, uint32_t portal) {
