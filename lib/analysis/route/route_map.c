@@ -20,7 +20,6 @@ struct sl_route_map {
     double limit;    ///< widened
     uint32_t *first; ///< by cell, and one more: nodes[first[c] .. first[c + 1])
     SL_ARRAY(sli_route_node) nodes;
-    SL_ARRAY(sl_point) roots;
 };
 
 static sl_status take(sl_context *context, const sli_route_node *node, void *user) {
@@ -37,10 +36,6 @@ static int compare_nodes(const void *left, const void *right) {
     return sli_compare_points(a->root, b->root);
 }
 
-static int compare_places(const void *left, const void *right) {
-    return sli_compare_points(*(const sl_point *)left, *(const sl_point *)right);
-}
-
 /// The nodes by cell.
 static void index_nodes(sl_route_map *map) {
     const uint32_t cells = map->finder->space->cell_count;
@@ -48,20 +43,6 @@ static void index_nodes(sl_route_map *map) {
         qsort(map->nodes.items, map->nodes.count, sizeof *map->nodes.items, compare_nodes);
     for (size_t i = 0; i < map->nodes.count; i++) map->first[map->nodes.items[i].cell + 1]++;
     for (uint32_t c = 0; c < cells; c++) map->first[c + 1] += map->first[c];
-}
-
-static sl_status find_roots(sl_context *context, sl_route_map *map) {
-    size_t kept = 0;
-    SL_TRY(SL_ARRAY_ROOM(context, &map->roots, map->nodes.count));
-    sl_point *roots = map->roots.items;
-    for (size_t i = 0; i < map->nodes.count; i++)
-        if (!sli_same_point(map->nodes.items[i].root, map->from))
-            roots[map->roots.count++] = map->nodes.items[i].root;
-    if (map->roots.count) qsort(roots, map->roots.count, sizeof *roots, compare_places);
-    for (size_t i = 0; i < map->roots.count; i++)
-        if (!kept || !sli_same_point(roots[kept - 1], roots[i])) roots[kept++] = roots[i];
-    map->roots.count = kept;
-    return SL_OK;
 }
 
 static sl_status fill(sl_context *context, sl_route_map *map, sl_route_near *cells) {
@@ -73,7 +54,7 @@ static sl_status fill(sl_context *context, sl_route_map *map, sl_route_near *cel
     SL_TRY(sli_route_spread(context, finder, map->from, map->limit, cells, take, map));
     if (map->nodes.count >= UINT32_MAX) return sl_fail(context, SL_NO_MEMORY, "too many nodes");
     index_nodes(map);
-    return find_roots(context, map);
+    return SL_OK;
 }
 
 sl_status sl_route_map_create(sl_context *context, sl_route_finder *finder, sl_point from,
@@ -104,13 +85,7 @@ void sl_route_map_destroy(sl_context *context, sl_route_map *map) {
     if (!map) return;
     sl_free(context, map->first);
     sl_free(context, map->nodes.items);
-    sl_free(context, map->roots.items);
     sl_free(context, map);
-}
-
-size_t sl_route_map_roots(const sl_route_map *map, const sl_point **out) {
-    *out = map->roots.items;
-    return map->roots.count;
 }
 
 static void look_in(const sl_route_map *map, uint32_t cell, sl_point to, sl_route_place *out) {

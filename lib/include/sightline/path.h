@@ -145,10 +145,6 @@ SL_API void sl_route_map_destroy(sl_context *context, sl_route_map *map); ///< N
 /// cells keep.
 SL_API void sl_route_map_at(sl_route_map *map, sl_point to, sl_route_place *out);
 
-/// The places where ways turn, each once, sorted by x and y: all roots but `from`. They are the
-/// map's. Returns how many there are.
-SL_API size_t sl_route_map_roots(const sl_route_map *map, const sl_point **out);
-
 #ifdef __cplusplus
 }
 #endif
