@@ -1,7 +1,9 @@
 // What a shortest way costs. Random pairs of points inside, each asked once.
-//   bench_route MAP [Z]    CSV: machine, map, walls, cells, milliseconds to make the finder, ways,
-//                          ways found, microseconds a way, search nodes and corners of a way, and
-//                          the mean length
+//   bench_route MAP [Z [R]]   CSV: machine, map, walls, cells, milliseconds to make the finder,
+//   ways,
+//                             ways found, microseconds a way and their median, search nodes and
+//                             corners of a way, and the mean length. Z: the slice of a 3D model, or
+//                             -. R: the walker's radius; pairs without room for it do not count.
 #include "bench.h"
 
 #include "sightline/path.h"
@@ -20,48 +22,59 @@ static sl_point random_inside(sl_random *random, const sl_space *space) {
     }
 }
 
-static void measure(sl_context *context, const char *name, const sl_space *space, sl_query *query) {
+static int compare_numbers(const void *left, const void *right) {
+    const double a = *(const double *)left, b = *(const double *)right;
+    return (a > b) - (a < b);
+}
+
+static void measure(sl_context *context, const char *name, const sl_space *space, sl_query *query,
+                    double radius) {
     sl_route_finder *finder;
     sl_route route = {0};
     sl_random random = {7};
     uint64_t nodes = 0, corners = 0, found = 0;
-    double length = 0;
-    double start = bench_seconds();
+    double length = 0, took = 0, times[WAYS];
+    const double start = bench_seconds();
     bench_must(context, sl_route_finder_create(context, query, &finder));
+    if (radius > 0) bench_must(context, sl_route_finder_set_radius(context, finder, radius));
     const double made = bench_seconds() - start;
-    start = bench_seconds();
-    for (int i = 0; i < WAYS; i++) {
+    for (int i = 0; i < WAYS;) {
         const sl_point from = random_inside(&random, space), to = random_inside(&random, space);
-        bench_must(context, sl_route_find(context, finder, from, to, &route));
+        const double began = bench_seconds();
+        const sl_status status = sl_route_find(context, finder, from, to, &route);
+        times[i] = bench_seconds() - began;
+        if (radius > 0 && status == SL_BAD_ARGUMENT) continue; // no room
+        bench_must(context, status);
+        took += times[i++];
         nodes += route.nodes;
         found += route.found;
         if (route.found) corners += route.count - 2;
         length += route.length;
     }
-    const double took = bench_seconds() - start;
+    qsort(times, WAYS, sizeof *times, compare_numbers);
     struct utsname machine;
     uname(&machine);
-    puts("machine,map,walls,cells,ms_to_make,ways,found,us_a_way,nodes,corners,length");
-    printf("%s %s,%s,%u,%u,%.1f,%d,%llu,%.1f,%.1f,%.1f,%.6g\n", machine.sysname, machine.machine,
-           name, space->wall_count, space->cell_count, 1e3 * made, WAYS, (unsigned long long)found,
-           1e6 * took / WAYS, (double)nodes / WAYS, (double)corners / WAYS,
-           found ? length / (double)found : 0);
+    puts("machine,map,walls,cells,ms_to_make,ways,found,us_a_way,us_median,nodes,corners,length");
+    printf("%s %s,%s,%u,%u,%.1f,%d,%llu,%.1f,%.1f,%.1f,%.1f,%.6g\n", machine.sysname,
+           machine.machine, name, space->wall_count, space->cell_count, 1e3 * made, WAYS,
+           (unsigned long long)found, 1e6 * took / WAYS, 1e6 * times[WAYS / 2],
+           (double)nodes / WAYS, (double)corners / WAYS, found ? length / (double)found : 0);
     sl_route_destroy(context, &route);
     sl_route_finder_destroy(context, finder);
 }
 
 int main(int argc, char **argv) {
-    if (argc < 2) bench_fail("usage: bench_route MAP [Z]");
+    if (argc < 2) bench_fail("usage: bench_route MAP [Z [R]]");
     sl_map map = {0};
     sl_space space = {0};
     sl_query *query;
     sl_context *context = sl_context_create(NULL);
     if (!context) return 1;
-    bench_read_map(context, argv[1], argc > 2 ? argv[2] : NULL, &map);
+    bench_read_map(context, argv[1], argc > 2 && strcmp(argv[2], "-") != 0 ? argv[2] : NULL, &map);
     bench_must(context, sl_subdivision_for(&map)->subdivide(context, &map, NULL, &space));
     if (!space.inside_count) bench_fail("nothing in the map is inside");
     bench_must(context, sl_query_over(context, &space, &map, NULL, &query));
-    measure(context, argv[1], &space, query);
+    measure(context, argv[1], &space, query, argc > 3 ? strtod(argv[3], NULL) : 0);
     sl_query_destroy(context, query);
     sl_space_destroy(context, &space);
     sl_map_destroy(context, &map);

@@ -7,6 +7,8 @@
 #include "sightline/draw.h"
 #include "sightline/path.h"
 #include "sightline/support.h"
+#include "studies/distance_map.h"
+#include "studies/isovist.h"
 #include "system/built.h"
 
 #include <math.h>
@@ -20,7 +22,7 @@ typedef struct path_plan {
     door_choice doors;
     sl_draw_options drawing;
     double loss, audible; ///< NAN: not given
-    double radius;
+    double radius, grid;
     bool distances, json;
 } path_plan;
 
@@ -33,6 +35,8 @@ typedef struct path_work {
     bool all_open;  ///< shut doors are passed at a loss
     double *losses; ///< by door of the map
     sl_route_near *cells;
+    sl_route_map *map;
+    eye_places places; ///< of a grid
 } path_work;
 
 // --- why there is no way
@@ -224,6 +228,48 @@ static sl_status print_cells_json(sl_context *context, const path_work *w, uint3
     return json_print(context, &fields);
 }
 
+static double limit_of(const path_plan *plan) {
+    return isnan(plan->audible) ? (double)INFINITY : plan->audible;
+}
+
+/// How far the places of the plan are, drawn.
+static sl_status draw_map(sl_context *context, const path_plan *plan, path_work *w) {
+    const sl_space *space;
+    SL_TRY(sl_query_space(context, w->query, &space, NULL));
+    return distance_map_draw(context, &w->baked, space, w->finder, plan->from, limit_of(plan),
+                             &plan->drawing, plan->picture);
+}
+
+static void put_places(path_work *w, FILE *out) {
+    fputs("x,y,distance,root_x,root_y\n", out);
+    for (size_t i = 0; i < w->places.list.count; i++) {
+        const sl_point at = w->places.list.items[i].at;
+        sl_route_place place;
+        sl_route_map_at(w->map, at, &place);
+        if (isinf(place.distance)) continue;
+        put(out, at.x, ",");
+        put(out, at.y, ",");
+        put(out, place.distance, ",");
+        put(out, place.root.x, ",");
+        put(out, place.root.y, "\n");
+    }
+}
+
+/// The points of a grid within the range, or all that a way leads to.
+static sl_status find_places(command_console *console, const path_plan *plan, path_work *w) {
+    sl_context *context = console->context;
+    SL_TRY(input_locate(context, "--from", plan->from_text, &w->baked.space, plan->from, NULL));
+    SL_TRY(eyes_add_grid(context, &w->baked.space, plan->grid, (eye_place){0}, &w->places));
+    SL_TRY(sl_route_map_create(context, w->finder, plan->from, limit_of(plan), &w->map));
+    if (plan->picture) SL_TRY(draw_map(context, plan, w));
+    progress_line_clear(&console->line);
+    if (plan->picture && !plan->output) return SL_OK; // a long table
+    sl_output output;
+    SL_TRY(sl_output_open(context, plan->output ? plan->output : "-", &output));
+    put_places(w, output.stream);
+    return sl_output_close(context, &output, SL_OK);
+}
+
 /// The cells within the range of hearing, or all that a way leads to.
 static sl_status find_cells(command_console *console, const path_plan *plan, path_work *w) {
     sl_context *context = console->context;
@@ -231,9 +277,9 @@ static sl_status find_cells(command_console *console, const path_plan *plan, pat
     SL_TRY(input_locate(context, "--from", plan->from_text, &w->baked.space, plan->from, NULL));
     w->cells = sl_alloc_array(context, count, sizeof *w->cells);
     if (!w->cells) return SL_NO_MEMORY;
-    SL_TRY(sl_route_distances(context, w->finder, plan->from,
-                              isnan(plan->audible) ? (double)INFINITY : plan->audible, w->cells));
-    if (plan->output || !plan->json) {
+    SL_TRY(sl_route_distances(context, w->finder, plan->from, limit_of(plan), w->cells));
+    if (plan->picture) SL_TRY(draw_map(context, plan, w));
+    if (plan->output || !(plan->json || plan->picture)) {
         sl_output output;
         SL_TRY(sl_output_open(context, plan->output ? plan->output : "-", &output));
         SL_TRY(sl_output_close(context, &output, put_cells(w, count, output.stream)));
@@ -298,19 +344,25 @@ static sl_status find_many(command_console *console, const path_plan *plan, path
 // --- the command
 
 static sl_status check_plan(sl_context *context, path_plan *plan) {
-    plan->distances |= !isnan(plan->audible);
+    const bool grid = plan->grid > 0;
+    plan->distances |= !isnan(plan->audible) && !grid;
+    if (grid && (plan->distances || plan->pairs || plan->to_text || plan->json))
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "--grid makes a table of points: it goes without --to, --pairs, --distances "
+                       "and --json");
     if (plan->pairs && (plan->from_text || plan->to_text || plan->picture || plan->json))
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "--pairs makes a table: it goes without --from, --to, --picture and --json");
-    if (plan->distances && (plan->pairs || plan->to_text || plan->picture))
+    if (plan->distances && (plan->pairs || plan->to_text))
         return sl_fail(context, SL_BAD_ARGUMENT,
-                       "--distances makes a table of cells: it goes without --to, --pairs and "
-                       "--picture");
-    if (plan->radius > 0 && (plan->distances || !isnan(plan->loss)))
+                       "--distances makes a table of cells: it goes without --to and --pairs");
+    if (plan->radius > 0 && (plan->distances || grid || !isnan(plan->loss)))
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "--radius goes without %s: cells and sounds have no width",
-                       plan->distances ? "--distances and --audible" : "--loss");
-    if (!plan->pairs && (!plan->from_text || !(plan->to_text || plan->distances)))
+                       grid              ? "--grid"
+                       : plan->distances ? "--distances and --audible"
+                                         : "--loss");
+    if (!plan->pairs && (!plan->from_text || !(plan->to_text || plan->distances || grid)))
         return sl_fail(context, SL_BAD_ARGUMENT, "--%s is missing: where the way %s",
                        plan->from_text ? "to" : "from", plan->from_text ? "ends" : "begins");
     return pipeline_plan(context, plan->input, &plan->pipeline);
@@ -347,6 +399,7 @@ static sl_status work(command_console *console, path_plan *plan, path_work *w) {
     if (w->all_open)
         SL_TRY(sl_route_finder_set_losses(context, w->finder, w->losses, w->baked.map.door_count));
     if (plan->radius > 0) SL_TRY(sl_route_finder_set_radius(context, w->finder, plan->radius));
+    if (plan->grid > 0) return find_places(console, plan, w);
     if (plan->distances) return find_cells(console, plan, w);
     return plan->pairs ? find_many(console, plan, w) : find_one(console, plan, w);
 }
@@ -369,9 +422,13 @@ sl_status cmd_path(command_console *console, int argc, char **argv) {
         {"distances", 0, NULL,
          "instead of --to: how far each cell is, to its nearest point: cell,distance,x,y",
          .flag = &plan.distances},
+        {"grid", 0, "STEP",
+         "instead of --to: how far the points of a grid are that are inside, and where the way to "
+         "each turns last: x,y,distance,root_x,root_y",
+         .number = &plan.grid, .over_0 = true},
         {"audible", 0, "R",
          "as --distances, for the cells that a sound with range R reaches, in map units: those "
-         "whose nearest point is within R",
+         "whose nearest point is within R; with --grid its points within R",
          .number = &plan.audible, .needs = "a range of 0 or more"},
         {"loss", 0, "L",
          "shut doors do not block: passing one counts as L more map units (0 or more), as for "
@@ -385,8 +442,10 @@ sl_status cmd_path(command_console *console, int argc, char **argv) {
          "the points of the way as a table, with --pairs the lengths, with --distances the cells "
          "(default: standard output)",
          .text = &plan.output, .check = CHECK_TABLE},
-        {"picture", 0, "PICTURE", "draw the way: .png, .svg or .pdf", .text = &plan.picture,
-         .check = CHECK_PICTURE},
+        {"picture", 0, "PICTURE",
+         "draw the way: .png, .svg or .pdf; with --distances, --audible and --grid how far all "
+         "places are, with lines of equal distance (and no table without -o)",
+         .text = &plan.picture, .check = CHECK_PICTURE},
         {"json", 0, NULL, "print one JSON object: the length and the points, or the cells",
          .flag = &plan.json},
         {.group = &doors},
@@ -406,7 +465,8 @@ sl_status cmd_path(command_console *console, int argc, char **argv) {
                     "  sightline path office.map --from 3,3 --to 53,20 --picture way.png\n"
                     "  sightline path office.map --pairs desks.csv -o lengths.csv\n"
                     "  sightline path office.map --from 3,3 --to 53,20 --radius 0.3\n"
-                    "  sightline path office.map --from 3,3 --audible 20 --loss 5",
+                    "  sightline path office.map --from 3,3 --audible 20 --loss 5\n"
+                    "  sightline path office.map --from 3,3 --distances --picture far.png",
         .options = options,
         .option_count = sizeof options / sizeof *options,
         .given = &plan.pipeline.given,
@@ -417,6 +477,8 @@ sl_status cmd_path(command_console *console, int argc, char **argv) {
     path_work w = {0};
     const sl_status status = work(console, &plan, &w);
     sl_route_destroy(console->context, &w.route);
+    sl_route_map_destroy(console->context, w.map);
+    eyes_destroy(console->context, &w.places);
     sl_route_finder_destroy(console->context, w.finder);
     sl_query_destroy(console->context, w.query);
     sl_free(console->context, w.shut);

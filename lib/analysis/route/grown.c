@@ -186,23 +186,44 @@ sl_status sli_route_grow(sl_context *context, const sl_space *space, double radi
     return status;
 }
 
-sl_status sli_route_check_room(sl_context *context, const sl_space *space, double radius,
-                               const char *name, sl_point at) {
+sl_status sli_route_index_walls(sl_context *context, const sl_space *space, sli_box_tree *out) {
+    sl_box *boxes = sl_alloc_array(context, space->wall_count, sizeof *boxes);
+    if (!boxes) return SL_NO_MEMORY;
+    for (uint32_t i = 0; i < space->wall_count; i++)
+        boxes[i] = sli_box_around(space->walls[i].a, space->walls[i].b);
+    const sl_status status = sli_box_tree_create(context, boxes, space->wall_count, out);
+    sl_free(context, boxes);
+    return status;
+}
+
+/// The wall that is nearest to a place, of those within `least`.
+typedef struct nearest_wall {
+    const sl_space *space;
+    sl_point at;
+    double least;
+    const sl_wall *wall; ///< NULL: all are farther
+} nearest_wall;
+
+static void look_at_wall(void *user, uint32_t number) {
+    nearest_wall *n = user;
+    const sl_wall *wall = &n->space->walls[number];
+    const sl_point on = sli_route_nearest_on(wall->a, wall->b, n->at);
+    const double away = sli_length(on.x - n->at.x, on.y - n->at.y);
+    if (!(away < n->least)) return;
+    n->least = away;
+    n->wall = wall;
+}
+
+sl_status sli_route_check_room(sl_context *context, const sl_space *space,
+                               const sli_box_tree *walls, double radius, const char *name,
+                               sl_point at) {
     const double needed = SL_ROUTE_ROOM * radius + 2 * slack_of(&space->bounds, radius);
-    const sl_wall *nearest = NULL;
-    double least = INFINITY;
-    for (uint32_t i = 0; i < space->wall_count; i++) {
-        const sl_wall *wall = &space->walls[i];
-        const sl_point on = sli_route_nearest_on(wall->a, wall->b, at);
-        const double away = sli_length(on.x - at.x, on.y - at.y);
-        if (!(away < least)) continue;
-        least = away;
-        nearest = wall;
-    }
-    if (least >= needed) return SL_OK;
+    nearest_wall n = {space, at, needed, NULL};
+    sli_box_tree_near(walls, at, &n.least, look_at_wall, &n);
+    if (!n.wall) return SL_OK;
     return sl_fail(context, SL_BAD_ARGUMENT,
                    "%s %.9g,%.9g is too near to the wall from %.9g,%.9g to %.9g,%.9g: %.4g, and a "
                    "walker with radius %.9g needs %.4g",
-                   name, at.x, at.y, nearest->a.x, nearest->a.y, nearest->b.x, nearest->b.y, least,
+                   name, at.x, at.y, n.wall->a.x, n.wall->a.y, n.wall->b.x, n.wall->b.y, n.least,
                    radius, needed);
 }

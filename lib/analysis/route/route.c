@@ -26,6 +26,7 @@ static void drop_tables(sl_context *context, sl_route_finder *f) {
     f->turns = NULL;
     f->space = NULL;
     sl_space_destroy(context, &f->room);
+    sli_box_tree_destroy(context, &f->walls);
 }
 
 /// The losses of the doors, by portal.
@@ -82,6 +83,7 @@ sl_status sl_route_finder_update(sl_context *context, sl_route_finder *finder) {
                        "ways need a space without gaps: bake the map again");
     if (!(finder->radius > 0)) return make_tables(context, finder, space);
     SL_TRY(check_glass(context, space));
+    SL_TRY(sli_route_index_walls(context, space, &finder->walls));
     SL_TRY(sli_route_grow(context, space, finder->radius, &finder->room));
     return make_tables(context, finder, &finder->room);
 }
@@ -205,9 +207,8 @@ static sl_status read_way(sl_context *context, const sl_route_finder *f, uint32_
     return SL_OK;
 }
 
-/// The cell that a point stands in, if it can be walked in.
-static sl_status stand(sl_context *context, const sl_route_finder *f, const char *name, sl_point at,
-                       uint32_t *cell) {
+sl_status sli_route_stand_in(sl_context *context, const sl_route_finder *f, const char *name,
+                             sl_point at, uint32_t *cell) {
     const sl_space *space;
     SL_TRY(sl_query_space(context, f->query, &space, NULL));
     *cell = sl_space_locate(space, at);
@@ -218,13 +219,12 @@ static sl_status stand(sl_context *context, const sl_route_finder *f, const char
         return sl_fail(context, SL_BAD_ARGUMENT, "%s %.9g,%.9g is in solid ground", name, at.x,
                        at.y);
     if (!(f->radius > 0)) return SL_OK;
-    SL_TRY(sli_route_check_room(context, space, f->radius, name, at));
+    SL_TRY(sli_route_check_room(context, space, &f->walls, f->radius, name, at));
     *cell = sl_space_locate(f->space, at);
     return SL_OK;
 }
 
-/// A new search: no mark of an earlier one counts.
-static void begin(sl_route_finder *f) {
+void sli_route_begin(sl_route_finder *f) {
     if (++f->stamp) return;
     const size_t cells = f->space->cell_count;
     memset(f->at_start, 0, cells * sizeof *f->at_start);
@@ -242,9 +242,9 @@ sl_status sl_route_find(sl_context *context, sl_route_finder *finder, sl_point f
     route->count = route->portal_count = 0;
     route->length = 0;
     route->nodes = 0;
-    SL_TRY(stand(context, finder, "from", from, &start));
-    SL_TRY(stand(context, finder, "to", to, &goal));
-    begin(finder);
+    SL_TRY(sli_route_stand_in(context, finder, "from", from, &start));
+    SL_TRY(sli_route_stand_in(context, finder, "to", to, &goal));
+    sli_route_begin(finder);
     sli_route_stand(finder, to, goal, finder->at_goal);
     if (finder->part_of[start] == finder->part_of[goal])
         SL_TRY(sli_route_search(context, finder, from, to, &route->nodes, &last));
@@ -258,24 +258,30 @@ sl_status sl_route_find(sl_context *context, sl_route_finder *finder, sl_point f
     return SL_OK;
 }
 
-/// A limit that no cell misses by the rounding of its distance.
-static double widened(const sl_space *space, double limit) {
+sl_status sli_route_widen(sl_context *context, const sl_space *space, double limit, double *out) {
     const sl_box *b = &space->bounds;
-    return limit * (1 + 0x1p-30) + 0x1p-38 * sli_greater(b->max.x - b->min.x, b->max.y - b->min.y);
+    if (!(limit >= 0))
+        return sl_fail(context, SL_BAD_ARGUMENT, "the limit is %.9g: it must be 0 or more", limit);
+    *out = limit * (1 + 0x1p-30) + 0x1p-38 * sli_greater(b->max.x - b->min.x, b->max.y - b->min.y);
+    return SL_OK;
+}
+
+sl_status sli_route_make_upper(sl_context *context, sl_route_finder *finder) {
+    if (!finder->upper)
+        finder->upper = sl_alloc_array(context, finder->space->cell_count, sizeof *finder->upper);
+    return finder->upper ? SL_OK : SL_NO_MEMORY;
 }
 
 sl_status sl_route_distances(sl_context *context, sl_route_finder *finder, sl_point from,
                              double limit, sl_route_near *cells) {
     uint32_t start;
+    double most = 0;
     if (finder->radius > 0)
         return sl_fail(context, SL_UNSUPPORTED,
                        "distances of cells are those of a walker without a radius");
-    if (!(limit >= 0))
-        return sl_fail(context, SL_BAD_ARGUMENT, "the limit is %.9g: it must be 0 or more", limit);
-    SL_TRY(stand(context, finder, "from", from, &start));
-    if (!finder->upper)
-        finder->upper = sl_alloc_array(context, finder->space->cell_count, sizeof *finder->upper);
-    if (!finder->upper) return SL_NO_MEMORY;
-    begin(finder);
-    return sli_route_spread(context, finder, from, widened(finder->space, limit), cells);
+    SL_TRY(sli_route_widen(context, finder->space, limit, &most));
+    SL_TRY(sli_route_stand_in(context, finder, "from", from, &start));
+    SL_TRY(sli_route_make_upper(context, finder));
+    sli_route_begin(finder);
+    return sli_route_spread(context, finder, from, most, cells, NULL, NULL);
 }

@@ -4,6 +4,7 @@
 
 #include "sightline/path.h"
 #include "sightline/support.h"
+#include "space/index.h"
 
 /// No corner, no node, no directed portal.
 #define SLI_ROUTE_NONE UINT32_MAX
@@ -68,6 +69,7 @@ struct sl_route_finder {
     double *losses;               ///< by portal; NULL: none
     double radius;                ///< of the walker
     sl_space room;                ///< where its middle may be, for a radius above 0: `space`
+    sli_box_tree walls;           ///< boxes of the walls that it must stay away from
     double *upper;                ///< by cell: no point of it is farther (sl_route_distances)
     sli_route_corner *corners;    ///< by corner: the end of a portal that stands for it
     sli_route_turn *turns;        ///< by directed portal and side
@@ -96,16 +98,41 @@ sl_point sli_route_nearest(sl_route_finder *finder, sl_point to);
 sl_status sli_route_search(sl_context *context, sl_route_finder *finder, sl_point from, sl_point to,
                            uint64_t *expanded, uint32_t *out);
 
-/// How far each cell is from a point, up to a limit (sl_route_distances).
+/// Takes a node that goes on straight into its cell.
+typedef sl_status (*sli_route_take)(sl_context *context, const sli_route_node *node, void *user);
+
+/// How far each cell is from a point, up to a limit (sl_route_distances). `take`, which may be
+/// NULL, is called for all nodes that bring something to their cells.
 sl_status sli_route_spread(sl_context *context, sl_route_finder *finder, sl_point from,
-                           double limit, sl_route_near *cells);
+                           double limit, sl_route_near *cells, sli_route_take take, void *user);
+
+/// The side of a node's limit that a point lies on is out of its directions, strictly.
+bool sli_route_is_beyond(const sli_route_node *node, int side, sl_point p);
+
+/// A new search: no mark of an earlier one counts.
+void sli_route_begin(sl_route_finder *finder);
+
+/// The cell that a point stands in, if it can be walked in.
+sl_status sli_route_stand_in(sl_context *context, const sl_route_finder *finder, const char *name,
+                             sl_point at, uint32_t *cell);
+
+/// A limit of distances that no cell misses by the rounding of its distance. Fails for no limit.
+sl_status sli_route_widen(sl_context *context, const sl_space *space, double limit, double *out);
+
+/// Makes room for sli_route_spread().
+sl_status sli_route_make_upper(sl_context *context, sl_route_finder *finder);
 
 /// The cells between the walls of a space, grown by a radius above 0; `out` must be empty.
 sl_status sli_route_grow(sl_context *context, const sl_space *space, double radius, sl_space *out);
 
-/// Fails where a place is too near to a wall of the space for a walker with a radius.
-sl_status sli_route_check_room(sl_context *context, const sl_space *space, double radius,
-                               const char *name, sl_point at);
+/// The boxes of a space's walls, for sli_route_check_room(). `out` must be empty.
+sl_status sli_route_index_walls(sl_context *context, const sl_space *space, sli_box_tree *out);
+
+/// Fails where a place is too near to a wall of the space for a walker with a radius. `walls` is of
+/// sli_route_index_walls().
+sl_status sli_route_check_room(sl_context *context, const sl_space *space,
+                               const sli_box_tree *walls, double radius, const char *name,
+                               sl_point at);
 
 /// What passing a portal costs beside its length.
 static inline double sli_route_loss(const sl_route_finder *finder, uint32_t portal) {

@@ -40,6 +40,8 @@ typedef struct search {
     sl_point from, goal;
     const sl_route_near *cells; ///< by cell: what is known of it; NULL: one goal is searched
     double limit;               ///< nodes with a higher bound are left out
+    sli_route_take take;        ///< NULL: nobody asks for the nodes
+    void *user;
     double scale; ///< a power of two that brings the bounds to about 1: products neither overflow
                   ///< nor underflow
 } search;
@@ -55,8 +57,7 @@ static int limit_side(const sli_route_node *n, int side, sl_point p) {
                                         : sli_orient(limit->point, n->root, p);
 }
 
-/// Whether a point is strictly out of a node's directions at one side.
-static bool is_beyond(const sli_route_node *n, int side, sl_point p) {
+bool sli_route_is_beyond(const sli_route_node *n, int side, sl_point p) {
     return n->limit[side].kind != SLI_LIMIT_NONE &&
            limit_side(n, side, p) == (side == SLI_ROUTE_LEFT ? 1 : -1);
 }
@@ -80,7 +81,7 @@ static sl_point passed_end(const search *s, const sli_route_node *n, int side, s
     const sli_route_limit *limit = &n->limit[side];
     const sl_point whole = side == SLI_ROUTE_LEFT ? l : r;
     if (limit->kind == SLI_LIMIT_NONE ||
-        !is_beyond(n, side, side == SLI_ROUTE_LEFT ? d->left : d->right))
+        !sli_route_is_beyond(n, side, side == SLI_ROUTE_LEFT ? d->left : d->right))
         return whole;
     const sl_point ray = limit->kind == SLI_LIMIT_RAY ? offset(s, n->root, limit->point)
                                                       : offset(s, limit->point, n->root);
@@ -234,7 +235,8 @@ static sl_status cross_edge_on(search *s, const sli_route_node *from, uint32_t a
     else
         return loss > 0 ? push_across(s, &node, across) : SL_OK;
     const sl_point end = side == SLI_ROUTE_LEFT ? d->left : d->right;
-    if (is_beyond(&node, SLI_ROUTE_RIGHT, end) || is_beyond(&node, SLI_ROUTE_LEFT, end))
+    if (sli_route_is_beyond(&node, SLI_ROUTE_RIGHT, end) ||
+        sli_route_is_beyond(&node, SLI_ROUTE_LEFT, end))
         return SL_OK;
     return turn_at(s, &node, across, side) ? push_across(s, &node, across) : SL_OK;
 }
@@ -260,8 +262,8 @@ static sl_status cross(search *s, const sli_route_node *from, uint32_t across) {
     node.g += loss;
     for (int side = 0; side < 2; side++)
         if (sli_same_point(node.root, ends[side])) { // around the root
-            if (is_beyond(from, !side, ends[!side]) || turns_back(from, !side, ends[!side]) ||
-                stands_there(s, node.root, d->cell))
+            if (sli_route_is_beyond(from, !side, ends[!side]) ||
+                turns_back(from, !side, ends[!side]) || stands_there(s, node.root, d->cell))
                 return SL_OK;
             node.limit[side].kind = SLI_LIMIT_NONE;
             return push_across(s, &node, across);
@@ -284,11 +286,13 @@ static sl_status cross(search *s, const sli_route_node *from, uint32_t across) {
 
 /// Straight on from a node's root: to the goal if it is in the cell, and through the portals.
 static sl_status go_on(search *s, const sli_route_node *node) {
+    if (s->take) SL_TRY(s->take(s->context, node, s->user));
     const sl_cell *cell = &s->space->cells[node->cell];
     const uint32_t back =
         node->entry == SLI_ROUTE_NONE ? SLI_ROUTE_NONE : s->space->directed[node->entry].portal;
     if (s->finder->at_goal[node->cell] == s->finder->stamp &&
-        !is_beyond(node, SLI_ROUTE_RIGHT, s->goal) && !is_beyond(node, SLI_ROUTE_LEFT, s->goal)) {
+        !sli_route_is_beyond(node, SLI_ROUTE_RIGHT, s->goal) &&
+        !sli_route_is_beyond(node, SLI_ROUTE_LEFT, s->goal)) {
         sli_route_node last = *node;
         last.is_last = true;
         SL_TRY(push(s, &last, node->g + distance(node->root, s->goal)));
@@ -368,13 +372,15 @@ static double farthest(const sl_space *space, uint32_t cell, const sl_route_near
 }
 
 sl_status sli_route_spread(sl_context *context, sl_route_finder *finder, sl_point from,
-                           double limit, sl_route_near *cells) {
+                           double limit, sl_route_near *cells, sli_route_take take, void *user) {
     search s = {.context = context,
                 .finder = finder,
                 .space = finder->space,
                 .from = from,
                 .cells = cells,
-                .limit = limit};
+                .limit = limit,
+                .take = take,
+                .user = user};
     for (uint32_t c = 0; c < s.space->cell_count; c++) {
         finder->upper[c] = INFINITY;
         cells[c] = (sl_route_near){INFINITY, {0, 0}};

@@ -120,7 +120,7 @@ typedef struct reach {
     struct sl_set_sight *sight;
     sl_segment segment;
     int eye_side;
-    bool reached, stopped;
+    bool reached, near, stopped; ///< near: some that is reached is in range
 } reach;
 
 /// Where a ray from the eye meets a side: 1 beyond the line of the segment, 0 on it, -1 before it.
@@ -133,8 +133,13 @@ static int compare_on_ray(const reach *r, sl_point eye, const sli_ray *ray, sl_p
            sli_crossing_side(from, to, (sl_segment){a, b}, (sl_segment){eye, ray->through});
 }
 
-static sl_status add_seen(sl_context *context, struct sl_set_sight *s, sl_point eye,
-                          const sli_beam *beam) {
+/// Takes a piece of the segment, if some of it is in range.
+static sl_status add_seen(sl_context *context, reach *r, sl_point eye, const sli_beam *beam) {
+    struct sl_set_sight *s = r->sight;
+    const sl_segment turned = {r->segment.b, r->segment.a};
+    r->reached = true;
+    if (!sli_is_in_range(s, eye, beam, r->eye_side > 0 ? r->segment : turned)) return SL_OK;
+    r->near = true;
     sli_beam *last = s->seen.count ? &s->seen.items[s->seen.count - 1] : NULL;
     if (last && sli_ray_turn(eye, &last->left, &beam->right) == 0) {
         last->left = beam->left;
@@ -160,7 +165,7 @@ static sl_status add_part_seen(sli_walk *w, reach *r, const sl_segment *side, co
         sli_ray_turn(w->eye, &beam->right, &part.right) < 0 ||
         sli_ray_turn(w->eye, &part.left, &beam->left) < 0)
         return SL_OK; // thinner than rounding
-    return add_seen(w->context, r->sight, w->eye, &part);
+    return add_seen(w->context, r, w->eye, &part);
 }
 
 static sl_status reach_side(sli_walk *w, uint32_t side, const sli_beam *beam, bool *enter) {
@@ -170,10 +175,12 @@ static sl_status reach_side(sli_walk *w, uint32_t side, const sli_beam *beam, bo
     const int left = compare_on_ray(r, w->eye, &beam->left, at.a, at.b);
     if (right >= 0 && left >= 0) {
         *enter = false;
-        r->reached = true;
-        return add_seen(w->context, r->sight, w->eye, beam);
+        return add_seen(w->context, r, w->eye, beam);
     }
-    if (*enter) return SL_OK;
+    if (*enter) {
+        *enter = sli_is_in_range(r->sight, w->eye, beam, at);
+        return SL_OK;
+    }
     if (right <= 0 && left <= 0) {
         r->stopped = true;
         return SL_OK;
@@ -183,7 +190,7 @@ static sl_status reach_side(sli_walk *w, uint32_t side, const sli_beam *beam, bo
 
 sl_status sli_reach(sl_context *context, struct sl_set_sight *s, const sli_spot *spot,
                     sl_segment segment, bool *some, bool *whole) {
-    reach r = {s, segment, sli_orient(segment.a, segment.b, spot->at), false, false};
+    reach r = {s, segment, sli_orient(segment.a, segment.b, spot->at), false, false, false};
     const sli_ray a = {segment.a, false}, b = {segment.b, false};
     const sli_beam triangle = r.eye_side > 0 ? (sli_beam){a, b} : (sli_beam){b, a};
     sli_walk *w = &s->walk;
@@ -196,7 +203,7 @@ sl_status sli_reach(sl_context *context, struct sl_set_sight *s, const sli_spot 
     s->seen.count = 0;
     for (size_t i = 0; i < spot->rooms.count; i++)
         SL_TRY(sli_walk_from(w, spot->rooms.items[i], &triangle));
-    *some = r.reached;
+    *some = r.near;
     *whole = r.reached && !r.stopped;
     return SL_OK;
 }
@@ -250,9 +257,50 @@ static sl_point meet(sl_point eye, const sli_ray *ray, sl_point a, sl_point b) {
     return sli_crossing((sl_segment){eye, ray->through}, (sl_segment){a, b});
 }
 
+/// How far a point is beyond a chord, times the chord's length. Rounded.
+static double beyond(const sl_segment *chord, sl_point p) {
+    const sl_point way = {chord->b.x - chord->a.x, chord->b.y - chord->a.y};
+    return sli_cross((sl_point){p.x - chord->a.x, p.y - chord->a.y}, way);
+}
+
+/// Where a ray meets a chord, never off it: a chord may lie nearly along a ray.
+static sl_point meet_chord(sl_point eye, const sli_ray *ray, const sl_segment *chord) {
+    const sl_point way = {ray->through.x - eye.x, ray->through.y - eye.y};
+    const double a = sli_cross(way, (sl_point){chord->a.x - eye.x, chord->a.y - eye.y}),
+                 b = sli_cross(way, (sl_point){chord->b.x - eye.x, chord->b.y - eye.y});
+    const double share = a / (a - b);
+    if (!(share > 0)) return chord->a;
+    if (share >= 1) return chord->b;
+    return (sl_point){chord->a.x + share * (chord->b.x - chord->a.x),
+                      chord->a.y + share * (chord->b.y - chord->a.y)};
+}
+
+/// Adds what a beam sees of a side, or the part of the chord before it.
+static sl_status add_met(sli_walk *w, sli_parts *parts, const sli_beam *beam, sl_point right,
+                         sl_point left) {
+    const sl_segment *chord = parts->chord;
+    const double far_right = chord ? beyond(chord, right) : 0,
+                 far_left = chord ? beyond(chord, left) : 0;
+    SL_TRY(add_point(w->context, parts,
+                     far_right > 0 ? meet_chord(w->eye, &beam->right, chord) : right));
+    if ((far_right > 0) != (far_left > 0)) {
+        const double share = far_right / (far_right - far_left);
+        const sl_point middle = {right.x + share * (left.x - right.x),
+                                 right.y + share * (left.y - right.y)};
+        SL_TRY(add_point(w->context, parts, middle));
+    }
+    return add_point(w->context, parts,
+                     far_left > 0 ? meet_chord(w->eye, &beam->left, chord) : left);
+}
+
 static sl_status add_side(sli_walk *w, uint32_t side, const sli_beam *beam, bool *enter) {
     sli_parts *parts = w->data;
-    if (*enter) return SL_OK;
+    const sl_point a = sli_side(w->rooms, side)->start, b = sli_side_end(w->rooms, side);
+    if (*enter && !parts->chord) return SL_OK;
+    const sl_point right = meet(w->eye, &beam->right, a, b), left = meet(w->eye, &beam->left, a, b);
+    if (*enter && !(beyond(parts->chord, right) > 0 && beyond(parts->chord, left) > 0))
+        return SL_OK;
+    *enter = false;
     const bool goes_on = parts->points.count > parts->open &&
                          sli_same_point(parts->points.items[parts->open], w->eye) &&
                          same_ray(w->eye, &parts->last, &beam->right);
@@ -260,10 +308,8 @@ static sl_status add_side(sli_walk *w, uint32_t side, const sli_beam *beam, bool
         SL_TRY(sli_parts_close(w->context, parts));
         SL_TRY(add_point(w->context, parts, w->eye));
     }
-    const sl_point a = sli_side(w->rooms, side)->start, b = sli_side_end(w->rooms, side);
-    SL_TRY(add_point(w->context, parts, meet(w->eye, &beam->right, a, b)));
     parts->last = beam->left;
-    return add_point(w->context, parts, meet(w->eye, &beam->left, a, b));
+    return add_met(w, parts, beam, right, left);
 }
 
 /// A walk from a spot that adds what it sees to parts.
@@ -279,12 +325,15 @@ static sli_walk *begin_walk(sl_context *context, struct sl_set_sight *s, const s
     return w;
 }
 
-static sl_status add_beam(sl_context *context, struct sl_set_sight *s, const sli_spot *spot,
-                          const sli_beam *beam, sli_parts *parts) {
+sl_status sli_add_beam(sl_context *context, struct sl_set_sight *s, const sli_spot *spot,
+                       const sli_beam *beam, const sl_segment *chord, sli_parts *parts) {
     sli_walk *w = begin_walk(context, s, spot, parts);
-    for (size_t i = 0; i < spot->rooms.count; i++)
-        SL_TRY(sli_walk_from(w, spot->rooms.items[i], beam));
-    return SL_OK;
+    sl_status status = SL_OK;
+    parts->chord = chord;
+    for (size_t i = 0; i < spot->rooms.count && status == SL_OK; i++)
+        status = sli_walk_from(w, spot->rooms.items[i], beam);
+    parts->chord = NULL;
+    return status;
 }
 
 // --- beams cut at the walls of a spot
@@ -340,7 +389,7 @@ static bool grazes(const sli_spot *spot, const sli_beam *beam) {
 
 /// The cones of a spot from what it sees of a segment, at s->seen.items[k].
 static sl_status add_cones_of(sl_context *context, struct sl_set_sight *s, const sli_spot *spot,
-                              sli_parts *parts) {
+                              sl_segment segment, sli_parts *parts) {
     for (size_t k = 0; k < s->seen.count; k++) {
         sli_beam behind = s->seen.items[k];
         behind.right.away = !behind.right.away;
@@ -351,7 +400,8 @@ static sl_status add_cones_of(sl_context *context, struct sl_set_sight *s, const
             if (sli_ray_turn(spot->at, &cone.right, &cone.left) <= 0 || !grazes(spot, &cone))
                 continue;
             parts->cones++;
-            SL_TRY(add_beam(context, s, spot, &cone, parts));
+            SL_TRY(s->within > 0 ? sli_add_cone_in_range(context, s, spot, segment, &cone, parts)
+                                 : sli_add_beam(context, s, spot, &cone, NULL, parts));
         }
     }
     return SL_OK;
@@ -373,7 +423,7 @@ sl_status sli_add_cones(sl_context *context, struct sl_set_sight *s, sl_segment 
         if (!s->corner.blocks.count || sli_orient(segment.a, segment.b, at) == 0) continue;
         bool some, whole;
         SL_TRY(sli_reach(context, s, &s->corner, segment, &some, &whole));
-        SL_TRY(add_cones_of(context, s, &s->corner, parts));
+        SL_TRY(add_cones_of(context, s, &s->corner, segment, parts));
     }
     return sli_parts_close(context, parts);
 }
@@ -416,7 +466,8 @@ static sl_status add_room_beams(sl_context *context, struct sl_set_sight *s, con
 sl_status sli_add_eye(sl_context *context, struct sl_set_sight *s, const sli_spot *spot,
                       const sl_point *towards, sli_parts *parts) {
     if (!towards)
-        SL_TRY(add_beam(context, s, spot, NULL, parts));
+        SL_TRY(s->within > 0 ? sli_add_eye_in_range(context, s, spot, parts)
+                             : sli_add_beam(context, s, spot, NULL, NULL, parts));
     else {
         begin_walk(context, s, spot, parts);
         for (size_t i = 0; i < spot->rooms.count; i++)

@@ -121,6 +121,8 @@ static sl_status expose(exposer *e, const sl_exposed *thing, sl_exposure *out) {
 
 static sl_status make(exposer *e, const sl_exposed *things, size_t count, sl_exposure *out) {
     const sl_shape path = {e->path, &e->path_count, 1};
+    if (sl_query_range(e->query) > 0)
+        return sl_fail(e->context, SL_UNSUPPORTED, "exposure does not support a view range");
     SL_TRY(sl_query_space(e->context, e->query, &e->space, NULL));
     SL_TRY(make_gaze(e->context, e->query, &path, SL_SET_LINE, &e->from_path));
     SL_TRY(look(e->context, &e->from_path, SL_SEEN_FROM_SOME));

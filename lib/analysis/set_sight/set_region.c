@@ -35,7 +35,8 @@ typedef struct maker {
     sli_parts cones;         ///< and all that weak visibility is made of
     SL_ARRAY(size_t) pieces; ///< by piece: the loops up to its last one
     SL_ARRAY(cut) cuts;
-    bool through; ///< the set crosses a wall
+    SL_ARRAY(sl_segment) along; ///< within a range: walls that touch the segment, but for rounding
+    bool through;               ///< the set crosses a wall
 } maker;
 
 // --- the pieces of a segment
@@ -60,6 +61,29 @@ static bool is_between(sl_segment s, sl_point p) {
     return sli_box_holds(&box, p) && !sli_same_point(p, s.a) && !sli_same_point(p, s.b);
 }
 
+static double away_from(sl_segment s, sl_point p) {
+    const sl_point way = {s.b.x - s.a.x, s.b.y - s.a.y}, to = {p.x - s.a.x, p.y - s.a.y};
+    const double share = fmin(1, fmax(0, sli_dot(way, to) / sli_dot(way, way)));
+    return sli_length(to.x - share * way.x, to.y - share * way.y);
+}
+
+/// More than rounding moves places of the map.
+static double slack_of(const maker *m) {
+    const sl_box *b = &m->sight->rooms.outline->space->bounds;
+    return 0x1p-44 * sli_greater(sli_greater(fabs(b->min.x), fabs(b->max.x)),
+                                 sli_greater(fabs(b->min.y), fabs(b->max.y)));
+}
+
+/// Keeps a wall that the segment does not cross, if it touches it but for rounding.
+static sl_status keep_along(maker *m, sl_segment s, sl_segment wall) {
+    const double apart = fmin(fmin(away_from(wall, s.a), away_from(wall, s.b)),
+                              fmin(away_from(s, wall.a), away_from(s, wall.b)));
+    if (apart > 4 * slack_of(m)) return SL_OK;
+    SL_TRY(SL_ARRAY_ROOM(m->context, &m->along, 1));
+    m->along.items[m->along.count++] = wall;
+    return SL_OK;
+}
+
 /// Cuts a segment at one side that stops sight.
 static sl_status cut_at(maker *m, sl_segment s, uint32_t side) {
     const sli_beam_rooms *rooms = &m->sight->rooms;
@@ -68,13 +92,13 @@ static sl_status cut_at(maker *m, sl_segment s, uint32_t side) {
     if (a == 0 && is_between(s, wall.a)) SL_TRY(add_cut(m, s, wall.a, NULL));
     if (b == 0 && is_between(s, wall.b)) SL_TRY(add_cut(m, s, wall.b, NULL));
     if (a * b >= 0 || sli_orient(wall.a, wall.b, s.a) * sli_orient(wall.a, wall.b, s.b) >= 0)
-        return SL_OK;
+        return m->sight->within > 0 ? keep_along(m, s, wall) : SL_OK;
     m->through |= sli_side_across(rooms, side) == SL_NO_WALL;
     return add_cut(m, s, sli_crossing(s, wall), &wall);
 }
 
 static sl_status cut_segment(maker *m, sl_segment s) {
-    m->cuts.count = 0;
+    m->cuts.count = m->along.count = 0;
     SL_TRY(add_cut(m, s, s.a, NULL));
     SL_TRY(add_cut(m, s, s.b, NULL));
     for (uint32_t i = 0; i < m->sight->stop_count; i++) SL_TRY(cut_at(m, s, m->sight->stops[i]));
@@ -122,12 +146,67 @@ static sl_status end_piece(maker *m) {
     return SL_OK;
 }
 
+/// The side of a wall that a segment is on that does not cross it; 0: it is in line with it, or
+/// only one point of it is on the wall's line.
+static int side_of_segment(sl_segment wall, sl_segment s) {
+    const int a = side_of(wall, s.a), b = side_of(wall, s.b);
+    return a * b < 0 ? 0 : a ? a : b;
+}
+
+/// Adds an eye of the segment. Next to a wall along it, rounding might move the eye across. So it
+/// steps to the side of the wall that the segment is on; if that is in line with it, to `side`.
+static sl_status add_eye_aside(maker *m, sl_segment s, sl_point at, int side) {
+    const double slack = slack_of(m);
+    sl_point aside = at;
+    bool in_line = false;
+    for (size_t i = 0; i < m->along.count; i++) {
+        const sl_segment w = m->along.items[i];
+        if (away_from(w, at) > 2 * slack) continue;
+        const double x = w.b.x - w.a.x, y = w.b.y - w.a.y;
+        const int on = side_of_segment(w, s);
+        const double step = (on ? on : side) * slack / sli_length(x, y);
+        aside = (sl_point){at.x - step * y, at.y + step * x};
+        in_line = !on;
+        break;
+    }
+    if (side < 0 && !in_line) return SL_OK; // one eye is enough
+    for (size_t i = 0; i < m->along.count; i++) {
+        const sl_segment w = m->along.items[i];
+        const int on = side_of_segment(w, s), is = side_of(w, aside);
+        if (away_from(w, at) <= 2 * slack && (on ? is != on : !is)) return SL_OK;
+    }
+    return add_eye(m, aside, NULL, &m->cones);
+}
+
+/// Eyes along a piece, near enough to each other for the range, and next to its ends where walls
+/// cross the segment.
+static sl_status add_eyes_between(maker *m, sl_segment s, const cut *from, const cut *to) {
+    const double range = m->sight->range;
+    const sl_point a = from->at, way = {to->at.x - a.x, to->at.y - a.y};
+    const double length = sli_length(way.x, way.y),
+                 beside = fmin(0.5, sli_range_beside(range) / length);
+    const double first = from->exact ? 0 : beside, last = to->exact ? 1 : 1 - beside;
+    const double steps = ceil((last - first) * length / sli_range_step(range));
+    if (!(steps <= SL_SET_REGION_CORNERS))
+        return sl_fail(m->context, SL_UNSUPPORTED,
+                       "the set is too long for the range %.9g: a piece of it has length %.9g",
+                       range, length);
+    for (double i = from->exact ? 1 : 0; i <= steps - (to->exact ? 1 : 0); i++) {
+        const double share = first + (last - first) * (steps > 0 ? i / steps : 0);
+        const sl_point at = {a.x + share * way.x, a.y + share * way.y};
+        SL_TRY(add_eye_aside(m, s, at, 1));
+        SL_TRY(add_eye_aside(m, s, at, -1));
+    }
+    return SL_OK;
+}
+
 static sl_status add_weak_eyes(maker *m, sl_segment s) {
     for (size_t i = 0; i < m->cuts.count; i++) {
         const cut *at = &m->cuts.items[i];
         if (at->exact) SL_TRY(add_eye(m, at->at, NULL, &m->cones));
         if (i && !at->exact && !at[-1].exact)
             SL_TRY(add_eye(m, between_walls(s, at - 1, at), NULL, &m->cones));
+        if (i && m->sight->within > 0) SL_TRY(add_eyes_between(m, s, at - 1, at));
     }
     return SL_OK;
 }
@@ -274,6 +353,16 @@ static sl_status subtract(sl_context *context, const sl_shape *base, const sl_sh
     return status;
 }
 
+/// Adds what is in range of the set's points, each a piece of its own. All between them is nearer.
+static sl_status add_circles(maker *m) {
+    const sl_set_sight *s = m->sight;
+    for (size_t i = 0; i < s->count; i++) {
+        SL_TRY(sli_add_circle(m->context, s, s->points[i], &m->eyes));
+        SL_TRY(end_piece(m));
+    }
+    return SL_OK;
+}
+
 static sl_status join_complete(maker *m, sl_shape *out) {
     const size_t count = m->pieces.count;
     sl_shape all = {0}, off = {0};
@@ -339,7 +428,10 @@ sl_status sl_set_sight_region(sl_context *context, sl_set_sight *sight, sl_set_s
     maker m = {.context = context, .sight = sight, .seen = seen};
     sl_shape joined = {0};
     sl_set_region_destroy(context, out);
+    sight->within = seen == SL_SEEN_FROM_SOME ? sight->range : 0;
     sl_status status = add_parts(&m);
+    if (status == SL_OK && seen == SL_SEEN_FROM_ALL && sight->range > 0 && m.pieces.count)
+        status = add_circles(&m);
     const sl_shape parts = shape_of(&m.cones);
     if (status == SL_OK)
         status = seen == SL_SEEN_FROM_SOME ? join(context, &parts, 1, 1, &joined)
@@ -354,6 +446,7 @@ sl_status sl_set_sight_region(sl_context *context, sl_set_sight *sight, sl_set_s
     sli_parts_destroy(context, &m.cones);
     sl_free(context, m.pieces.items);
     sl_free(context, m.cuts.items);
+    sl_free(context, m.along.items);
     return status;
 }
 

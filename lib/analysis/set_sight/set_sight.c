@@ -1,6 +1,7 @@
 /// The sight of a set: its settings, and single points that are seen from it.
 #include "analysis/set_sight/set_sight.h"
 
+#include "geometry/crossing.h"
 #include "geometry/length.h"
 #include "geometry/orient.h"
 
@@ -109,8 +110,6 @@ static sl_status check_settings(sl_context *context, sl_query *query, const sl_o
     SL_TRY(sl_query_outline(context, query, outline));
     if (sl_query_map(query)->mirror_count)
         what = "mirrors";
-    else if (sl_query_range(query) > 0)
-        what = "a view range";
     else if (parents)
         what = "boxes that block";
     else if ((*outline)->limited)
@@ -126,6 +125,8 @@ static sl_status fill(sl_context *context, sl_set_sight *s, const sl_point *poin
     const sl_outline *outline;
     SL_TRY(check_settings(context, s->query, &outline));
     SL_TRY(check_points(context, outline->space, points, count));
+    s->range = sl_query_range(s->query);
+    sli_range_directions(s->directions);
     s->points = sl_alloc_array(context, count, sizeof *s->points);
     if (!s->points) return SL_NO_MEMORY;
     if (s->kind == SL_SET_AREA)
@@ -198,6 +199,13 @@ static sl_status sees_point(sl_context *context, sl_set_sight *s, sl_point from,
     return *out ? SL_OK : sl_query_sees(context, s->query, from, to, out);
 }
 
+/// Whether all points of the set are in range of a point: its corners, and so what is between them.
+static bool is_all_in_range(const sl_set_sight *s, sl_point point) {
+    for (size_t i = 0; s->range > 0 && i < s->count; i++)
+        if (sli_distance_compare(point, s->points[i], s->range) > 0) return false;
+    return true;
+}
+
 static sl_status sees_segment(sl_context *context, sl_set_sight *s, sl_segment segment,
                               sl_set_seen seen, const sli_spot *spot, bool *out) {
     const bool some = seen == SL_SEEN_FROM_SOME;
@@ -225,6 +233,8 @@ sl_status sl_set_sight_sees(sl_context *context, sl_set_sight *sight, sl_set_see
     SL_TRY(sli_spot_find(context, sight, point, &sight->spot));
     if (!sight->spot.rooms.count) return SL_OK;
     const bool some = seen == SL_SEEN_FROM_SOME;
+    sight->within = some ? sight->range : 0;
+    if (!some && !is_all_in_range(sight, point)) return SL_OK;
     if (sight->kind == SL_SET_LINE && sight->count == 1)
         return sees_point(context, sight, sight->points[0], point, out);
     if (some && sight->kind == SL_SET_AREA && holds(sight, point)) {

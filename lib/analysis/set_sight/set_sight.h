@@ -23,14 +23,21 @@ typedef struct sli_spot {
 /// Parts of a region: loops, and of which shape each is.
 typedef struct sli_parts {
     SL_ARRAY(sl_point) points;
-    SL_ARRAY(size_t) ends; ///< by loop, as sl_shape has them
-    size_t open;           ///< the first point of the loop that grows
-    sli_ray last;          ///< where it ends
+    SL_ARRAY(size_t) ends;   ///< by loop, as sl_shape has them
+    size_t open;             ///< the first point of the loop that grows
+    sli_ray last;            ///< where it ends
+    const sl_segment *chord; ///< beyond it nothing is added now; NULL: all is
     uint64_t cones;
 } sli_parts;
 
+/// A circle is as many chords.
+enum { SLI_RANGE_SECTORS = 64 };
+
 struct sl_set_sight {
     sl_query *query;
+    double range;  ///< 0: none
+    double within; ///< as far as walks go: the range, or 0 for all, as for complete visibility
+    sl_point directions[SLI_RANGE_SECTORS]; ///< of the ends of a circle's chords
     sli_beam_rooms rooms;
     sl_set_kind kind;
     sl_point *points;
@@ -62,8 +69,8 @@ sl_status sli_spot_of_corner(sl_context *context, struct sl_set_sight *s, uint32
                              uint32_t count, sli_spot *out);
 
 /// From where on a segment a spot is seen that is not in line with it, as beams from the spot
-/// (s->seen); those that are thinner than rounding are left out. Exact: from some piece, and from
-/// the whole segment.
+/// (s->seen); those that are thinner than rounding are left out. Exact: from some piece that is in
+/// range, and from the whole segment, of which some is in range.
 sl_status sli_reach(sl_context *context, struct sl_set_sight *s, const sli_spot *spot,
                     sl_segment segment, bool *some, bool *whole);
 
@@ -75,6 +82,34 @@ sl_status sli_add_cones(sl_context *context, struct sl_set_sight *s, sl_segment 
 /// the way to this point.
 sl_status sli_add_eye(sl_context *context, struct sl_set_sight *s, const sli_spot *spot,
                       const sl_point *towards, sli_parts *parts);
+
+/// Adds what is seen within a beam from a spot, and before a chord across it, if that is not NULL.
+/// `beam` NULL: all around.
+sl_status sli_add_beam(sl_context *context, struct sl_set_sight *s, const sli_spot *spot,
+                       const sli_beam *beam, const sl_segment *chord, sli_parts *parts);
+
+// --- within a range (range.c)
+
+void sli_range_directions(sl_point out[SLI_RANGE_SECTORS]);
+
+/// How far eyes on a segment may stand apart, and how far from the crossing of a wall.
+double sli_range_step(double range);
+double sli_range_beside(double range);
+
+/// Adds the circle about a place.
+sl_status sli_add_circle(sl_context *context, const struct sl_set_sight *s, sl_point at,
+                         sli_parts *parts);
+
+/// As sli_add_eye() and for one cone, within the range.
+sl_status sli_add_eye_in_range(sl_context *context, struct sl_set_sight *s, const sli_spot *spot,
+                               sli_parts *parts);
+sl_status sli_add_cone_in_range(sl_context *context, struct sl_set_sight *s, const sli_spot *spot,
+                                sl_segment segment, const sli_beam *beam, sli_parts *parts);
+
+/// Whether some of a side, from its right end to its left one as the eye sees it, is in range of
+/// the eye within a beam that meets all of it. Exact. Always without a range.
+bool sli_is_in_range(const struct sl_set_sight *s, sl_point eye, const sli_beam *beam,
+                     sl_segment side);
 
 /// Ends the last loop. Loops without an area are dropped.
 sl_status sli_parts_close(sl_context *context, sli_parts *parts);

@@ -43,7 +43,10 @@ export interface Path {
 
 export class Floor extends OpenFloor {
   private constructor()
-  /** What is seen from a line or an area. Corners that are no ends of walls are rounded. */
+  /**
+   * What is seen from a line or an area. Corners that are no ends of walls are rounded. Within the
+   * map's range, bent borders are chords: what is seen from as far as 255/256 of it is in the region.
+   */
   regionFrom(points: readonly Place[], options?: SetOptions): SetRegion
   /** Which places are seen from it. Exact. */
   seenFrom(points: readonly Place[], places: readonly Place[], options?: SetOptions): boolean[]

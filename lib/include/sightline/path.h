@@ -118,6 +118,33 @@ typedef struct sl_route_near {
 SL_API sl_status sl_route_distances(sl_context *context, sl_route_finder *finder, sl_point from,
                                     double limit, sl_route_near *cells);
 
+/// A shortest path map: how far all places are from one. Serves one thread at a time.
+typedef struct sl_route_map sl_route_map;
+
+/// How far a place is.
+typedef struct sl_route_place {
+    double distance; ///< in map units; INFINITY: no way leads there, or it is too far
+    sl_point root;   ///< where the shortest way turns last before it; `from` if it is straight
+} sl_route_place;
+
+/// Makes the map of the shortest ways from a point. Each cell keeps the last corners of ways into
+/// it, each with the directions that it serves; those that bring nothing to the cell are left out.
+/// So its parts by last corner, which have bent borders, are found where they are asked for.
+///
+/// `limit` is as for sl_route_distances(): places that are farther may be INFINITY; those within it
+/// are not. The finder must outlive the map, and must not be updated until then. SL_BAD_ARGUMENT
+/// for a point outside the bounds or in solid ground, or another limit; SL_UNSUPPORTED with a
+/// radius. Time as for sl_route_distances(); memory: the corners that cells keep.
+SL_API sl_status sl_route_map_create(sl_context *context, sl_route_finder *finder, sl_point from,
+                                     double limit, sl_route_map **out);
+SL_API void sl_route_map_destroy(sl_context *context, sl_route_map *map); ///< NULL is allowed
+
+/// How far a place is, as sl_route_find() says it, and where the way to it turns last. Of ways that
+/// are as long, any. Signs are exact; the distance is off by at most a relative 2^-40 for each
+/// corner. INFINITY for a place outside the bounds or in solid ground. Time: the corners that its
+/// cells keep.
+SL_API void sl_route_map_at(sl_route_map *map, sl_point to, sl_route_place *out);
+
 #ifdef __cplusplus
 }
 #endif

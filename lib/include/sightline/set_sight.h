@@ -13,7 +13,7 @@
 /// A point p of the set sees a point x if the segment from p to x crosses no wall. It may graze
 /// walls on either side. Neither has a side: a set that lies on a wall looks to both sides of it,
 /// and a point on a wall is seen from both. Shut doors are walls, and one-way glass is passed the
-/// way that it is seen through.
+/// way that it is seen through. Within a view range, the segment must be no longer than it.
 ///
 /// How the region is found: while p moves along the set, what it sees changes only along the rays
 /// that graze the end of a wall. Such a ray from p through the end u sweeps a cone behind u, as far
@@ -41,6 +41,11 @@ extern "C" {
 #define SL_SET_REGION_CORNERS 4000000
 /// The most crossings of their borders, which are found when they are joined.
 #define SL_SET_REGION_CROSSINGS 2000000
+
+/// Within a range R, the region from some point is a part of the true one: its bent borders are
+/// chords. A point that is seen from some point of the set is in it if one is at most (1 - this) R
+/// away. The region from all points has chords of circles, too.
+#define SL_SET_RANGE_SHARE (1 / 256.0)
 
 /// What the points of a set are.
 typedef enum sl_set_kind {
@@ -72,8 +77,8 @@ SL_API void sl_set_region_destroy(sl_context *context, sl_set_region *region); /
 /// must stay as they are until then.
 ///
 /// SL_BAD_ARGUMENT for a point that is outside the bounds or not finite, and for an area that is
-/// not convex or has none. SL_UNSUPPORTED, by name, for mirrors, a range, boxes that block, limited
-/// walls and loose spaces. Time O(n log n), n walls.
+/// not convex or has none. SL_UNSUPPORTED, by name, for mirrors, boxes that block, limited walls
+/// and loose spaces. Time O(n log n), n walls.
 SL_API sl_status sl_set_sight_create(sl_context *context, sl_query *query, const sl_point *points,
                                      size_t count, sl_set_kind kind, sl_set_sight **out);
 SL_API void sl_set_sight_destroy(sl_context *context, sl_set_sight *sight); ///< NULL is allowed
@@ -86,6 +91,8 @@ SL_API void sl_set_sight_destroy(sl_context *context, sl_set_sight *sight); ///<
 /// seen along single lines only, and of pieces of the set shorter than that. An area is seen from
 /// itself, but for its solid ground.
 ///
+/// Within a range, corners are rounded all the more (SL_SET_RANGE_SHARE).
+///
 /// SL_UNSUPPORTED over SL_SET_REGION_CORNERS and SL_SET_REGION_CROSSINGS. On failure the region is
 /// empty.
 ///
@@ -94,7 +101,9 @@ SL_API void sl_set_sight_destroy(sl_context *context, sl_set_sight *sight); ///<
 SL_API sl_status sl_set_sight_region(sl_context *context, sl_set_sight *sight, sl_set_seen seen,
                                      sl_set_region *out);
 
-/// Whether a point is seen from some point of the set, or from all. Exact. Seen from some: it sees
+/// Whether a point is seen from some point of the set, or from all. Exact, within a range, too: a
+/// point that is as far as the range is seen. Only where a wall crosses the set, and that place is
+/// the nearest one that sees the point, its distance is rounded. Seen from some: it sees
 /// a piece of the set of some length, or one of its points that was given, or the end of a wall
 /// that lies on the set. One that is seen along a single line only, past ends of walls on both
 /// sides of it, does not count. Where single points must tell, as for a point in line with a

@@ -24,6 +24,9 @@ class Sets(Handle):
                     as_array: bool = False) -> Any:
         """The region that is seen from some point of a line or an area, or from all of its points.
 
+        Within the `range`, bent borders are chords: a point that is seen from as far as 255/256 of
+        the range is in the region.
+
         Parameters
         ----------
         points

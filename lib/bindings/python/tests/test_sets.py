@@ -42,6 +42,16 @@ class Sets(unittest.TestCase):
         weights = np.random.default_rng(3).dirichlet(np.ones(4), 4000)
         self.check(corners, weights @ corners, True)
 
+    def test_range(self):
+        hall = sightline.Plan.from_segments([(0, 0, 30, 0), (30, 0, 30, 20), (30, 20, 0, 20), (0, 20, 0, 0)])
+        hall.range = 5
+        line = [(10, 10), (16, 10)]
+        area = area_of(hall.region_from(line, as_array=True))
+        self.assertLess(area, 60 + 25 * np.pi)
+        self.assertGreater(area, (60 + 25 * np.pi) * (1 - 1 / 128))
+        seen = hall.seen_from(line, [(12, 15), (12, 15.001), (19, 14), (19, 14.001)])
+        self.assertEqual(seen.tolist(), [True, False, True, False])
+
     def test_shapes_of_shapely(self):
         if not importlib.util.find_spec("shapely"):
             self.skipTest("there is no shapely")
