@@ -299,7 +299,7 @@ SLP_API int slp_world_begin(slp_world *world, const slp_plan *plan, const double
 /// Adds `count` segments, rows of 4 doubles, of one kind: "wall", "door", "oneway", "seam".
 /// `stops`: what walls stop, as bits of SL_STOPS_SIGHT ...
 SLP_API int slp_world_add(slp_world *world, const char *kind, const char *name, int open, int stops,
-                          const double *segments, size_t count, int64_t *numbers);
+                          int one_sided, const double *segments, size_t count, int64_t *numbers);
 SLP_API int slp_world_add_solid(slp_world *world, const double *corners, size_t count,
                                 int64_t *numbers);
 SLP_API int slp_world_remove(slp_world *world, const int64_t *numbers, size_t count);

@@ -143,7 +143,7 @@ _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     "world_new": (_handle, []),
     "world_free": (None, [_handle]),
     "world_begin": (_int, [_handle, _handle, _any, _int, _int]),
-    "world_add": (_int, [_handle, _text, _text, _int, _int, _doubles, _size, _integers]),
+    "world_add": (_int, [_handle, _text, _text, _int, _int, _int, _doubles, _size, _integers]),
     "world_add_solid": (_int, [_handle, _doubles, _size, _integers]),
     "world_remove": (_int, [_handle, _integers, _size]),
     "world_move": (_int, [_handle, ctypes.c_int64, _doubles]),
