@@ -6,11 +6,16 @@
 // percentile; to move a wall by a step with a region asked near it; and to remove all walls one by
 // one, on average (of at most 3,000). City:4 has about 1,000 walls, city:12 10,000, city:38
 // 100,000, city:122 1,000,000.
+//   bench_world --often COUNT KIND:N ...    memory and speed after many edits
+// CSV, a line for each power of ten up to COUNT: so many walls were removed or added again, KB that
+// the world then has, and microseconds of an edit since the line before. All sets are exact.
 #include "bench.h"
 
 #include "sightline/query.h"
 #include "sightline/support.h"
 #include "sightline/world.h"
+
+#include <string.h>
 
 enum { EDITS = 1000, STEPS = 200, REMOVED_MOST = 3000, SETTLE_MS = 100 };
 
@@ -88,6 +93,57 @@ static void drag_wall(bench *b) {
     }
 }
 
+/// An allocator that counts bytes.
+static void *counting_resize(void *user, void *block, size_t bytes) {
+    size_t *total = user, *old = block ? (size_t *)block - 2 : NULL;
+    if (old) *total -= *old;
+    if (!bytes) {
+        free(old);
+        return NULL;
+    }
+    size_t *fresh = realloc(old, bytes + 2 * sizeof *fresh);
+    if (!fresh) bench_fail("out of memory");
+    *fresh = bytes;
+    *total += bytes;
+    return fresh + 2;
+}
+
+/// Removes a wall and adds it again, over and over.
+static void print_often(const char *what, size_t most) {
+    size_t bytes = 0;
+    const sl_hooks hooks = {.user = &bytes, .resize = counting_resize};
+    bench b = {.context = sl_context_create(&hooks), .random = {3}};
+    sl_map map = {0};
+    if (!b.context) bench_fail("out of memory");
+    bench_read_map(b.context, what, NULL, &map);
+    bench_must(b.context, sl_map_clean(b.context, &map, NULL, NULL));
+    const size_t before = bytes;
+    sl_world_options options = sl_world_options_default();
+    options.rows = SL_WORLD_ROWS_NOW;
+    bench_must(b.context, sl_world_create(b.context, &map, &options, &b.world));
+    size_t done = 0, told = 0;
+    double start = bench_seconds();
+    for (size_t next = 1000; next <= most; next *= 10) {
+        for (; done < next; done += 2) {
+            sl_segment at;
+            uint32_t wall = random_wall(&b, &at);
+            bench_must(b.context, sl_world_remove(b.context, b.world, wall));
+            bench_must(b.context, sl_world_commit(b.context, b.world, NULL));
+            bench_must(b.context, sl_world_add_wall(b.context, b.world, at, &wall));
+            bench_must(b.context, sl_world_commit(b.context, b.world, NULL));
+        }
+        const double end = bench_seconds();
+        printf("%s,%zu,%zu,%.1f\n", what, done, (bytes - before) / 1000,
+               1e6 * (end - start) / (double)(done - told));
+        fflush(stdout);
+        start = end;
+        told = done;
+    }
+    sl_world_destroy(b.context, b.world);
+    sl_map_destroy(b.context, &map);
+    sl_context_destroy(b.context);
+}
+
 /// Removes walls one by one; microseconds for one.
 static double remove_all(bench *b) {
     const uint32_t count = sl_world_wall_count(b->world);
@@ -140,7 +196,13 @@ static void print_map(const char *what) {
 }
 
 int main(int argc, char **argv) {
-    if (argc < 2) bench_fail("usage: bench_world KIND:N[:DEGREES] ...");
+    const bool often = argc > 3 && strcmp(argv[1], "--often") == 0;
+    if (argc < 2) bench_fail("usage: bench_world [--often COUNT] KIND:N[:DEGREES] ...");
+    if (often) {
+        puts("map,edits,kb,edit_us");
+        for (int i = 3; i < argc; i++) print_often(argv[i], strtoul(argv[2], NULL, 10));
+        return 0;
+    }
     puts("map,rows,walls,cells,make_ms,edit_us,edit_95_us,drag_us,drag_95_us,remove_us");
     for (int i = 1; i < argc; i++) print_map(argv[i]);
     return 0;
