@@ -9,6 +9,7 @@ import { MapDocument } from './document.js';
 import { acceptDrops, readFile, save, savePng, saveSvg } from './files.js';
 import { HeatMap } from './heat.js';
 import { Keys, onChosen } from './keys.js';
+import { Live } from './live.js';
 import * as panel from './panel.js';
 import { snapTo } from './pick.js';
 import { keepWork, loadWork, LONG_ADDRESS, packMap, unpackMap } from './share.js';
@@ -34,6 +35,7 @@ class Playground extends Sight {
         this.view.fitTo = () => this.view.camera.fit(this.doc.bounds());
         this.heat = new HeatMap(this, memory > 0 ? memory * 2 ** 20 : undefined);
         this.keys = new Keys(get('plan'), this);
+        this.live = new Live(this, memory > 0 ? memory * 2 ** 20 : undefined, (seen) => this.followed(seen));
         this.listen();
     }
 
@@ -78,10 +80,19 @@ class Playground extends Sight {
         this.showOrigin();
         panel.dropNote();
         this.leaveShared();
-        this.bake();
+        const { held } = this.tools.move;
+        if (!held || !this.live.follow(held.items)) this.bake();
         this.heat.drop();
         clearTimeout(this.keeping);
         this.keeping = setTimeout(() => this.keep(), 400);
+        this.redraw();
+    }
+
+    /** What the eye sees while a wall of a large map is dragged. */
+    followed({ region }) {
+        this.seen = region && { region };
+        this.plan = null;
+        this.showFacts();
         this.redraw();
     }
 
