@@ -4,7 +4,7 @@
  */
 import { load } from '../package/world.js';
 
-let core = null, world = null, numbers = null;
+let core = null, world = null, numbers = null, mirrors = false;
 
 /** Walls by their ends, as they go either way. */
 const keyOf = ([ax, ay, bx, by]) => (ax < bx || (ax === bx && ay < by) ? [ax, ay, bx, by] : [bx, by, ax, ay]).join();
@@ -30,8 +30,10 @@ const tasks = {
         world = null;
         world = core.open(text, { bounds });
         numbers = new Map();
+        mirrors = false;
         for (const { number, kind, segment, name, open } of world.walls) {
             listAt(segment).push(number);
+            mirrors ||= kind === 'mirror';
             if (kind === 'door' && Object.hasOwn(doors, name) && doors[name] !== open) world.setOpen(number, doors[name]);
         }
         world.commit();
@@ -41,8 +43,10 @@ const tasks = {
         const started = performance.now();
         for (const each of moves) move(each);
         world.commit();
-        const region = eye && world.locate(...eye) >= 0 ? world.visiblePolygon(...eye) : null;
-        return { region, time: performance.now() - started };
+        const stands = eye && world.locate(...eye) >= 0;
+        const region = stands ? world.visiblePolygon(...eye) : null;
+        const mirrored = stands && mirrors ? world.mirroredPolygons(...eye).map(({ polygon }) => polygon) : [];
+        return { region, mirrored, time: performance.now() - started };
     },
     close() {
         world?.close();

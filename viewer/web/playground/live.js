@@ -50,7 +50,7 @@ function roomOf(items) {
 export class Live {
     /**
      * @param {import('./sight.js').Sight} app @param {number} [memory]
-     * @param {(seen: {region: Float64Array | null, time: number}) => void} show
+     * @param {(seen: {region: Float64Array | null, mirrored: Float64Array[], time: number}) => void} show
      */
     constructor(app, memory, show) {
         this.app = app;

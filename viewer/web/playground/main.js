@@ -89,8 +89,8 @@ class Playground extends Sight {
     }
 
     /** What the eye sees while a wall of a large map is dragged. */
-    followed({ region }) {
-        this.seen = region && { region };
+    followed({ region, mirrored }) {
+        this.seen = region && { region, mirrored };
         this.plan = null;
         this.showFacts();
         this.redraw();
