@@ -41,6 +41,11 @@ test('worlds are at most 142 kB', () => {
   assert.ok(bytes <= 142000, said(bytes))
 })
 
+test('explored areas are at most 45 kB', () => {
+  const bytes = size('explored.js', 'arguments.js', 'maptext.js', 'host.js', 'module.js', 'explored.wasm')
+  assert.ok(bytes <= 45000, said(bytes))
+})
+
 test('the package needs no other, and has what it says', async () => {
   const about = JSON.parse(readFileSync(join(folder, 'package.json'), 'utf8'))
   assert.equal(about.license, 'MIT')
