@@ -1,5 +1,5 @@
 // What an edit of a world costs (sightline/world.h).
-//   bench_world KIND:N[:DEGREES] ...    generated maps, turned: city:1000 city:1000:17.3
+//   bench_world [--rows none|now|later] KIND:N[:DEGREES] ...    generated maps: city:4 city:4:17.3
 // CSV: map, which visible sets are kept, walls, cells, milliseconds to make the world; microseconds
 // to remove a wall chosen by chance or to add it again, with all sets that are kept "now" exact,
 // and then to answer whether an eye beside it sees a place and what region it has, median and 95th
@@ -161,8 +161,9 @@ static double remove_all(bench *b) {
     return 1e6 * (bench_seconds() - start) / removed;
 }
 
+static const char *const names[] = {"none", "now", "later"};
+
 static void print_row(const char *what, const sl_map *map, sl_world_rows rows) {
-    static const char *const names[] = {"none", "now", "later"};
     bench b = {.context = sl_context_create(NULL), .random = {3}};
     if (!b.context) bench_fail("out of memory");
     sl_world_options options = sl_world_options_default();
@@ -183,27 +184,30 @@ static void print_row(const char *what, const sl_map *map, sl_world_rows rows) {
     sl_context_destroy(b.context);
 }
 
-static void print_map(const char *what) {
+/// `only`: which visible sets; NULL for all.
+static void print_map(const char *what, const char *only) {
     sl_context *context = sl_context_create(NULL);
     sl_map map = {0};
     if (!context) bench_fail("out of memory");
     bench_read_map(context, what, NULL, &map);
     bench_must(context, sl_map_clean(context, &map, NULL, NULL));
     for (int rows = SL_WORLD_NO_ROWS; rows <= SL_WORLD_ROWS_LATER; rows++)
-        print_row(what, &map, (sl_world_rows)rows);
+        if (!only || strcmp(only, names[rows]) == 0) print_row(what, &map, (sl_world_rows)rows);
     sl_map_destroy(context, &map);
     sl_context_destroy(context);
 }
 
 int main(int argc, char **argv) {
     const bool often = argc > 3 && strcmp(argv[1], "--often") == 0;
-    if (argc < 2) bench_fail("usage: bench_world [--often COUNT] KIND:N[:DEGREES] ...");
+    if (argc < 2)
+        bench_fail("usage: bench_world [--often COUNT | --rows ROWS] KIND:N[:DEGREES] ...");
     if (often) {
         puts("map,edits,kb,edit_us");
         for (int i = 3; i < argc; i++) print_often(argv[i], strtoul(argv[2], NULL, 10));
         return 0;
     }
     puts("map,rows,walls,cells,make_ms,edit_us,edit_95_us,drag_us,drag_95_us,remove_us");
-    for (int i = 1; i < argc; i++) print_map(argv[i]);
+    const char *only = argc > 3 && strcmp(argv[1], "--rows") == 0 ? argv[2] : NULL;
+    for (int i = only ? 3 : 1; i < argc; i++) print_map(argv[i], only);
     return 0;
 }
