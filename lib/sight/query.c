@@ -81,6 +81,10 @@ static bool is_turned(const sl_query *q) {
     return q->backwards && q->map->oneway_count;
 }
 
+static bool has_mirrors(const sl_query *q) {
+    return q->map->mirror_count && q->mirror_depth;
+}
+
 static void drop_search(sl_context *context, sl_query *q) {
     if (q->search) sli_eye_search_destroy(context, q->search);
     q->search = NULL;
@@ -134,14 +138,16 @@ void sli_query_space_changed(sl_context *context, sl_query *q, const sl_outline 
     const bool grown = q->ready && q->sight.space.cell_count != q->asked->cell_count;
     const bool rows = q->visibility && q->visibility->pvs.cell_count;
     q->given = outline;
-    if (q->sight.own || q->asked->seam_portal_count || is_turned(q)) {
+    if (q->sight.own || q->map->oneway_count || is_turned(q)) {
         drop_all(context, q);
         return;
     }
     drop_moving(context, q);
     drop_mirrors(context, q);
     if (SLI_BOXES) sli_box_lists_destroy(context, &q->lists);
-    if (grown || (q->search && q->search->has_pvs != rows)) drop_search(context, q);
+    if (grown || (q->search && (q->search->has_pvs != rows || q->search->limited ||
+                                q->search->mirrors || outline->limited || has_mirrors(q))))
+        drop_search(context, q);
     if (q->ready) q->sight.space = *q->asked;
     q->settled = false;
 }
@@ -378,10 +384,6 @@ static bool has_blocks(const sl_query *q) {
     return SLI_BOXES && q->any_blocks;
 }
 
-static bool has_mirrors(const sl_query *q) {
-    return q->map->mirror_count && q->mirror_depth;
-}
-
 // --- what answers
 
 /// What is seen by mirror does not count limited walls.
@@ -533,6 +535,8 @@ sl_status sl_query_row(sl_context *context, sl_query *query, uint32_t cell, bool
     SL_TRY(check_rows(context, query, cell, cell));
     const sl_pvs *pvs = mirrored ? &v->mirrored : &v->pvs;
     const sl_door_sets *doors = mirrored ? &v->mirrored_doors : &v->doors;
+    if (mirrored && has_mirrors(query))
+        SL_TRY(refuse_living(context, query, "no sets by mirror are kept of"));
     memset(cells, 0, sl_eye_words(query->asked) * sizeof *cells);
     if (!pvs->cell_count) return SL_OK;
     if (!query->backwards) sli_row_add_open_to(pvs, doors, cell, shut_of(query), cells);
@@ -714,7 +718,9 @@ sl_status sl_query_look_mirrored(sl_context *context, sl_query *query, const sl_
     if (!method->mirrored)
         return sl_fail(context, SL_UNSUPPORTED, "the method '%s' does not know mirrors",
                        method->name);
-    if (method == exact_method()) SL_TRY(check_mirrors(context, query));
+    SL_TRY(method == exact_method()
+               ? check_mirrors(context, query)
+               : refuse_living(context, query, "no sets by mirror are kept of"));
     SL_TRY(make_layers(context, query));
     if (has_blocks(query) && method == exact_method())
         return look_past(context, query, view, true, cells, NULL, account);

@@ -280,6 +280,11 @@ static sl_status copy_given(sl_context *context, sli_sight_space *s) {
     memcpy(o->first_part, s->given->first_part,
            ((size_t)base->cell_count + 1) * sizeof *o->first_part);
     memcpy(o->parts, s->given->parts, base->cell_count * sizeof *o->parts);
+    if (s->given->limited) {
+        o->limited = sl_alloc_array(context, sides, sizeof *o->limited);
+        if (!o->limited) return SL_NO_MEMORY;
+        memcpy(o->limited, s->given->limited, sides * sizeof *o->limited);
+    }
     o->side_count = s->given->side_count;
     o->room_count = s->given->room_count;
     o->room_of = s->given->room_of;

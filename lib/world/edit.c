@@ -62,15 +62,16 @@ void sli_world_drop_uses(sl_world *s) {
 }
 
 static bool is_wall(const sl_world *s, uint32_t use) {
-    return s->lines.items[s->uses.items[use - 1].line].kind != SL_WORLD_ONEWAY;
+    return !sli_world_is_seam(&s->lines.items[s->uses.items[use - 1].line]);
 }
 
-bool sli_world_glass(void *world, uint32_t label, uint32_t k, uint32_t *seam, uint32_t *from) {
+bool sli_world_seams(void *world, uint32_t label, uint32_t k, sli_live_seam *out) {
     const sl_world *s = world;
     for (uint32_t at = label; at; at = s->uses.items[at - 1].next) {
         if (is_wall(s, at) || k--) continue;
-        *seam = s->uses.items[at - 1].line;
-        *from = s->uses.items[at - 1].from;
+        const sli_world_use *use = &s->uses.items[at - 1];
+        *out = (sli_live_seam){use->line, use->from,
+                               s->lines.items[use->line].kind != SL_WORLD_ONEWAY};
         return true;
     }
     return false;

@@ -14,7 +14,15 @@ static bool is_within(const sl_box *box, sl_point p) {
 /// Whether a line will be in the mesh.
 static bool stands(const sli_world_line *line) {
     return line->next_there && !(line->kind == SL_WORLD_DOOR && line->next_open) &&
-           line->stops & SL_STOPS_SIGHT;
+           line->stops & (SL_STOPS_SIGHT | SL_STOPS_LIMITED);
+}
+
+/// Lists a line if the query must know of it. There is room.
+static void list(sl_world *s, uint32_t number) {
+    sli_world_line *line = &s->lines.items[number];
+    if (line->listed || !sli_world_is_special(line)) return;
+    s->special.items[s->special.count++] = number;
+    line->listed = true;
 }
 
 // --- from a map
@@ -23,7 +31,7 @@ static bool stands(const sli_world_line *line) {
 static sl_status take_line(sl_world *s, const sl_map *map, const sl_box *bounds,
                            sli_world_line line) {
     char text[SL_LINE_TEXT];
-    const char *const kinds[] = {"wall", "door", "one-way glass", "seam"};
+    const char *const kinds[] = {"wall", "door", "one-way glass", "seam", "mirror"};
     sl_map_say_line(map, line.file_line, text);
     if (!is_within(bounds, line.at.a) || !is_within(bounds, line.at.b))
         return sl_fail(s->context, SL_BAD_INPUT,
@@ -33,12 +41,13 @@ static sl_status take_line(sl_world *s, const sl_map *map, const sl_box *bounds,
         return sl_fail(s->context, SL_BAD_INPUT, "%s %zu (%s) has no length: clean the map first",
                        kinds[line.kind], s->lines.count, text);
     SL_TRY(SL_ARRAY_ROOM(s->context, &s->lines, 1));
+    SL_TRY(SL_ARRAY_ROOM(s->context, &s->special, 1));
     line.there = line.next_there = true;
     line.next_at = line.at;
     line.next_open = line.open;
     line.stands = line.next_stands = stands(&line);
-    s->oneway_count += line.kind == SL_WORLD_ONEWAY;
     s->lines.items[s->lines.count++] = line;
+    list(s, (uint32_t)s->lines.count - 1);
     return SL_OK;
 }
 
@@ -76,6 +85,13 @@ sl_status sli_world_take(sl_world *s, const sl_map *map, const sl_box *bounds) {
                                           .stops = map->seams[i].stops,
                                           .file_line = map->seams[i].line,
                                           .ground = map->seams[i].ground}));
+    for (size_t i = 0; i < map->mirror_count; i++)
+        SL_TRY(take_line(s, map, bounds,
+                         (sli_world_line){.at = map->mirrors[i].segment,
+                                          .kind = SL_WORLD_MIRROR,
+                                          .stops = SL_STOPS_ALL,
+                                          .one_sided = map->mirrors[i].one_sided,
+                                          .file_line = map->mirrors[i].line}));
     return SL_OK;
 }
 
@@ -119,13 +135,13 @@ static sl_status add_line(sl_context *context, sl_world *s, sl_segment at, sl_wo
         s->free_line = (uint32_t)++s->lines.count;
     }
     const uint32_t number = s->free_line - 1;
+    SL_TRY(SL_ARRAY_ROOM(context, &s->special, 1));
     SL_TRY(note_edit(context, s, number));
     sli_world_line *line = &s->lines.items[number];
     s->free_line = line->next_free;
     sl_free(context, line->name);
-    s->oneway_count += kind == SL_WORLD_ONEWAY;
-    s->oneway_count -= line->kind == SL_WORLD_ONEWAY;
     line->name = NULL;
+    line->one_sided = false;
     line->kind = (uint8_t)kind;
     line->stops = (uint8_t)stops;
     line->file_line = line->ground = 0;
@@ -133,6 +149,7 @@ static sl_status add_line(sl_context *context, sl_world *s, sl_segment at, sl_wo
     line->next_there = true;
     line->next_open = false;
     line->next_stands = stands(line);
+    list(s, number);
     *wall = number;
     return SL_OK;
 }
@@ -145,12 +162,19 @@ sl_status sl_world_add_oneway(sl_context *context, sl_world *s, sl_segment at, u
     return add_line(context, s, at, SL_WORLD_ONEWAY, SL_STOPS_ALL, wall);
 }
 
+sl_status sl_world_add_mirror(sl_context *context, sl_world *s, sl_segment at, bool one_sided,
+                              uint32_t *wall) {
+    SL_TRY(add_line(context, s, at, SL_WORLD_MIRROR, SL_STOPS_ALL, wall));
+    s->lines.items[*wall].one_sided = one_sided;
+    return SL_OK;
+}
+
 sl_status sl_world_add_partial(sl_context *context, sl_world *s, sl_segment at, uint32_t stops,
                                uint32_t *wall) {
-    if (stops & SL_STOPS_LIMITED)
-        return sl_fail(context, SL_UNSUPPORTED, "a world does not know limited walls");
-    if (stops & ~(uint32_t)SL_STOPS_ALL)
+    if (stops & ~(uint32_t)(SL_STOPS_ALL | SL_STOPS_LIMITED))
         return sl_fail(context, SL_BAD_ARGUMENT, "a wall stops sight, steps, sound or several");
+    if (stops & SL_STOPS_LIMITED && stops & SL_STOPS_SIGHT)
+        return sl_fail(context, SL_BAD_ARGUMENT, "a wall stops sight, or limits it");
     return add_line(context, s, at, stops == SL_STOPS_ALL ? SL_WORLD_WALL : SL_WORLD_SEAM, stops,
                     wall);
 }
@@ -268,6 +292,12 @@ static sl_status copy_line(sl_context *context, const sli_world_line *line, sl_m
     if (line->kind == SL_WORLD_DOOR) {
         *number = map->door_count;
         return sl_map_add_door(context, map, line->name, line->at, line->open, line->file_line);
+    }
+    if (line->kind == SL_WORLD_MIRROR) {
+        *number = map->mirror_count;
+        SL_TRY(sl_map_add_mirror(context, map, line->at, line->file_line));
+        map->mirrors[*number].one_sided = line->one_sided;
+        return SL_OK;
     }
     if (line->kind == SL_WORLD_ONEWAY) {
         *number = map->oneway_count;

@@ -329,8 +329,8 @@ void sli_live_go_near(sli_live *l, sl_point at) {
 // --- making one
 
 sl_status sli_live_create(sl_context *context, const sli_planar *graph, const sl_box *bounds,
-                          sli_live_label *label, sli_live_glass *glass, void *user, sli_live *out) {
-    *out = (sli_live){.context = context, .label = label, .glass = glass, .user = user, .now = 2};
+                          sli_live_label *label, sli_live_seams *seams, void *user, sli_live *out) {
+    *out = (sli_live){.context = context, .label = label, .seams = seams, .user = user, .now = 2};
     out->space.bounds = *bounds;
     SL_TRY(sli_triangulate(context, graph, bounds, &out->triangles));
     out->triangles.out_room = out->triangles.points.count;
@@ -368,6 +368,7 @@ void sli_live_destroy(sl_context *context, sli_live *l) {
                             s->grid.cells,
                             l->bucket_class,
                             o->sides,
+                            o->limited,
                             o->first,
                             o->first_part,
                             o->parts,

@@ -28,9 +28,14 @@ typedef struct sli_live_edge {
 /// Says what the edge with a label is.
 typedef sli_live_edge sli_live_label(void *user, uint32_t label);
 
-/// Says which seams of glass are on an edge with a label: seam k, and the point where the glass
-/// starts; false where there are no more.
-typedef bool sli_live_glass(void *user, uint32_t label, uint32_t k, uint32_t *seam, uint32_t *from);
+/// A seam on an edge: one-way glass, or a limited wall.
+typedef struct sli_live_seam {
+    uint32_t seam, from; ///< its number, and the point where it starts
+    bool limits;         ///< a limited wall
+} sli_live_seam;
+
+/// Says which seams are on an edge with a label: the k-th one; false where there are no more.
+typedef bool sli_live_seams(void *user, uint32_t label, uint32_t k, sli_live_seam *out);
 
 /// A cell to come.
 typedef struct sli_live_cell {
@@ -54,10 +59,11 @@ typedef struct sli_live {
     sli_triangulation triangles;
     sli_triangulator maker;
     sli_live_label *label;
-    sli_live_glass *glass;
+    sli_live_seams *seams;
     void *user;
     size_t seam_room;
-    bool new_glass; ///< some was written, so the list of seam portals is to be sorted
+    bool new_seams; ///< some were written, so the list of seam portals is to be sorted
+    bool limits;    ///< there are limited walls, or were: the outline lists them
 
     // By half-edge.
     uint32_t *owner; ///< the cell of its triangle; SL_NO_CELL outside
@@ -101,7 +107,7 @@ typedef struct sli_live {
 /// Makes the mesh of a graph, with a label 1 + its number for each edge. Destroy it also on
 /// failure.
 sl_status sli_live_create(sl_context *context, const sli_planar *graph, const sl_box *bounds,
-                          sli_live_label *label, sli_live_glass *glass, void *user, sli_live *out);
+                          sli_live_label *label, sli_live_seams *seams, void *user, sli_live *out);
 void sli_live_destroy(sl_context *context, sli_live *live); ///< and zeroes it
 
 /// A half-edge near a point, to start walks.

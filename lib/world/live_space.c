@@ -48,6 +48,12 @@ static sl_status grow_cells(sli_live *l, size_t needed) {
     return SL_OK;
 }
 
+static sl_status grow_limited(sli_live *l, size_t old, size_t room) {
+    GROW(l->outline.limited, old, room);
+    for (size_t i = old; i < room; i++) l->outline.limited[i] = SL_NO_SEAM;
+    return SL_OK;
+}
+
 static sl_status grow_corners(sli_live *l, size_t needed) {
     const size_t old = l->corner_room, room = more(needed);
     sl_space *s = &l->space;
@@ -65,6 +71,7 @@ static sl_status grow_corners(sli_live *l, size_t needed) {
         l->outline.sides[i] = (sl_side){s->bounds.min, (uint32_t)i, SL_SIDE_BORDER};
         l->room_of[i] = SL_NO_CELL;
     }
+    if (l->outline.limited) SL_TRY(grow_limited(l, old, room));
     l->outline.room_of = l->room_of;
     l->corner_room = room;
     s->vertex_count = s->directed_count = l->outline.side_count = (uint32_t)room;
@@ -105,17 +112,20 @@ static sl_status grow_entries(sli_live *l, uint32_t new_cells) {
     return SL_OK;
 }
 
-/// Room for what glass there is on the sides of new cells.
+/// Room for the seams on the sides of new cells.
 static sl_status grow_seams(sli_live *l) {
     sl_space *s = &l->space;
     size_t needed = s->seam_portal_count;
-    uint32_t seam, from;
+    sli_live_seam on;
     for (size_t i = 0; i < l->cells.count; i++) {
         const sli_live_cell *cell = &l->cells.items[i];
         uint32_t half = cell->half;
         for (uint32_t k = 0; k < cell->corners; k++, half = sli_live_next_side(l, half)) {
             const uint32_t label = l->triangles.labels[half / 2];
-            for (uint32_t g = 0; label && l->glass(l->user, label, g, &seam, &from); g++) needed++;
+            for (uint32_t g = 0; label && l->seams(l->user, label, g, &on); g++) {
+                l->limits |= on.limits;
+                needed++;
+            }
         }
     }
     if (needed > INT32_MAX) return sl_fail_memory(l->context);
@@ -135,6 +145,7 @@ sl_status sli_live_room(sli_live *l) {
     SL_TRY(grow_corners(l, corners));
     SL_TRY(grow_edges(l));
     SL_TRY(grow_seams(l));
+    if (l->limits && !l->outline.limited) SL_TRY(grow_limited(l, 0, l->corner_room));
     l->gone.count = l->came.count = 0;
     SL_TRY(SL_ARRAY_ROOM(l->context, &l->gone, l->old.count));
     SL_TRY(SL_ARRAY_ROOM(l->context, &l->came, cells));
@@ -214,6 +225,7 @@ static void drop_cell(sli_live *l, uint32_t number) {
         if (s->neighbour[i] < SL_NEIGHBOUR_BORDER)
             clear_edge(l, s->neighbour[i] & ~SL_NEIGHBOUR_RIGHT);
         l->outline.sides[i] = (sl_side){s->bounds.min, i, SL_SIDE_BORDER};
+        if (l->outline.limited) l->outline.limited[i] = SL_NO_SEAM;
         l->room_of[i] = SL_NO_CELL;
     }
     sli_block_give(&l->corners, s->neighbour, first, cell->vertex_count);
@@ -278,18 +290,24 @@ static void place_cell(sli_live *l, sli_live_cell *c) {
         enter_bucket(l, l->new_buckets.items[c->first_bucket + i], number);
 }
 
-/// Notes the glass on a portal.
-static void write_glass(sli_live *l, uint32_t edge) {
+/// Notes the seams on the portal of a side, and at both of its sides whether they limit sight.
+static void write_seams(sli_live *l, uint32_t half) {
     sl_space *s = &l->space;
-    uint32_t seam, from;
-    for (uint32_t k = 0; l->glass(l->user, l->triangles.labels[edge], k, &seam, &from); k++) {
+    const uint32_t edge = half / 2;
+    uint32_t limited = SL_NO_SEAM;
+    sli_live_seam on;
+    for (uint32_t k = 0; l->seams(l->user, l->triangles.labels[edge], k, &on); k++) {
         s->seam_portals[s->seam_portal_count++] = (sl_seam_portal){
-            edge, seam, sli_same_point(l->triangles.points.items[from], s->portals[edge].left)};
-        l->new_glass = true;
+            edge, on.seam,
+            sli_same_point(l->triangles.points.items[on.from], s->portals[edge].left)};
+        l->new_seams = true;
+        if (on.limits && on.seam < limited) limited = on.seam;
     }
+    if (!l->outline.limited) return;
+    l->outline.limited[l->place[half]] = l->outline.limited[l->place[half ^ 1]] = limited;
 }
 
-/// Glass that rounding has folded lies on a portal both ways.
+/// A seam that rounding has folded lies on a portal both ways.
 static int compare_seam_portals(const void *left, const void *right) {
     const sl_seam_portal *a = left, *b = right;
     if (a->portal != b->portal) return a->portal > b->portal ? 1 : -1;
@@ -297,8 +315,8 @@ static int compare_seam_portals(const void *left, const void *right) {
     return (a->forward > b->forward) - (a->forward < b->forward);
 }
 
-/// Sorts the glass of portals. Two new cells have both written what is between them.
-static void sort_glass(sli_live *l) {
+/// Sorts the seams of portals. Two new cells have both written what is between them.
+static void sort_seams(sli_live *l) {
     sl_seam_portal *items = l->space.seam_portals;
     const uint32_t all = l->space.seam_portal_count;
     uint32_t count = 0;
@@ -307,11 +325,11 @@ static void sort_glass(sli_live *l) {
         if (!count || compare_seam_portals(&items[count - 1], &items[i]) != 0)
             items[count++] = items[i];
     l->space.seam_portal_count = count;
-    l->new_glass = false;
+    l->new_seams = false;
 }
 
-/// Drops the glass of portals that cells are about to lose, or that they write again.
-static void drop_glass(sli_live *l) {
+/// Drops the seams of portals that cells are about to lose, or that they write again.
+static void drop_seams(sli_live *l) {
     sl_space *s = &l->space;
     uint32_t count = 0;
     for (uint32_t i = 0; i < s->seam_portal_count; i++) {
@@ -358,6 +376,7 @@ static void write_cell(sli_live *l, const sli_live_cell *c) {
         *side = (sl_side){a, i + 1 < first + c->corners ? i + 1 : first, 0};
         s->vertices[i] = a;
         l->room_of[i] = c->number;
+        if (l->outline.limited) l->outline.limited[i] = SL_NO_SEAM;
         if (is.wall) {
             const bool along = is.from == l->triangles.halves.items[half].from;
             s->neighbour[i] = edge | (along ? 0 : SL_NEIGHBOUR_RIGHT);
@@ -369,13 +388,13 @@ static void write_cell(sli_live *l, const sli_live_cell *c) {
         } else {
             s->neighbour[i] = SL_NEIGHBOUR_PORTAL;
             side->neighbour = write_portal(l, cell, c->number, half);
-            if (label) write_glass(l, edge);
+            if (label) write_seams(l, half);
         }
     }
 }
 
 void sli_live_write(sli_live *l) {
-    drop_glass(l);
+    drop_seams(l);
     find_ground(l);
     drop_old(l);
     size_t fresh = 0;
@@ -385,5 +404,5 @@ void sli_live_write(sli_live *l) {
         l->cells.items[fresh++] = l->cells.items[i];
     }
     for (size_t i = 0; i < fresh; i++) write_cell(l, &l->cells.items[i]);
-    if (l->new_glass) sort_glass(l);
+    if (l->new_seams) sort_seams(l);
 }

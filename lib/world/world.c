@@ -36,7 +36,8 @@ void sl_world_destroy(sl_context *context, sl_world *s) {
                             s->uses.items,     s->fresh.items,        s->stale.items,
                             s->involved.items, s->segments.items,     s->corners.items,
                             s->chain.items,    s->first_corner.items, s->doubtful.items,
-                            s->wanted,         s->flood.items,        s->opened.items};
+                            s->wanted,         s->flood.items,        s->opened.items,
+                            s->special.items,  s->mirror_walls.items};
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) sl_free(context, blocks[i]);
     sl_free(context, s);
 }
@@ -44,12 +45,9 @@ void sl_world_destroy(sl_context *context, sl_world *s) {
 // --- making one
 
 static sl_status refuse(sl_context *context, const sl_map *map) {
-    const char *what = map->mirror_count               ? "mirrors"
-                       : sl_map_limited_walls(map) > 0 ? "limited walls"
-                       : map->cell_count               ? "cells of its own"
-                                                       : NULL;
-    if (!what) return SL_OK;
-    return sl_fail(context, SL_UNSUPPORTED, "a world does not know %s yet: leave them out", what);
+    if (!map->cell_count) return SL_OK;
+    return sl_fail(context, SL_UNSUPPORTED,
+                   "a world cuts its cells itself: leave out those of the map");
 }
 
 /// The bounds by the map: an eighth more on each side.
@@ -60,17 +58,6 @@ static sl_box bounds_of(const sl_map *map) {
     b.min = (sl_point){b.min.x - more, b.min.y - more};
     b.max = (sl_point){b.max.x + more, b.max.y + more};
     return b;
-}
-
-/// Room for the seams of glass: seam i is line i.
-static sl_status grow_seams(sl_world *s) {
-    sl_space *space = &s->live.space;
-    size_t room = space->seam_count;
-    if (!s->oneway_count || s->lines.count <= room) return SL_OK;
-    SL_TRY(sl_reserve(s->context, &space->seams, &room, s->lines.count, sizeof *space->seams));
-    memset(space->seams + space->seam_count, 0, (room - space->seam_count) * sizeof *space->seams);
-    space->seam_count = (uint32_t)room;
-    return SL_OK;
 }
 
 /// Notes a line on an edge of the graph. Use e is the first one of edge e.
@@ -125,39 +112,18 @@ static sl_status make_mesh(sl_world *s, const sl_box *bounds) {
     sl_free(s->context, segments);
     if (status == SL_OK) status = take_graph(s, &graph, count);
     if (status == SL_OK)
-        status = sli_live_create(s->context, &graph, bounds, sli_world_edge, sli_world_glass, s,
+        status = sli_live_create(s->context, &graph, bounds, sli_world_edge, sli_world_seams, s,
                                  &s->live);
     sli_planar_destroy(s->context, &graph);
     return status;
-}
-
-/// Gives the space the seams of glass, and the query's map its glass. Room is there.
-static void follow_glass(sl_world *s) {
-    s->map.oneway_count = 0;
-    for (size_t i = 0; i < s->lines.count && s->oneway_count; i++) {
-        const sli_world_line *line = &s->lines.items[i];
-        if (line->kind != SL_WORLD_ONEWAY || !line->stands) continue;
-        s->live.space.seams[i] = (sl_seam){line->at, SL_SEAM_ONEWAY, (uint32_t)s->map.oneway_count};
-        s->map.oneways[s->map.oneway_count++] =
-            (sl_glass){.segment = line->at, .line = line->file_line};
-    }
-}
-
-/// Makes room for all glass that there may be.
-static sl_status prepare_glass(sl_world *s) {
-    if (!s->oneway_count) return SL_OK;
-    SL_TRY(grow_seams(s));
-    SL_TRY(sl_reserve(s->context, &s->map.oneways, &s->oneway_room, s->oneway_count,
-                      sizeof *s->map.oneways));
-    return SL_OK;
 }
 
 static sl_status start(sl_world *s, const sl_map *map, const sl_box *bounds, sl_sight sight) {
     const sl_visibility *visibility = s->mode == SL_WORLD_NO_ROWS ? NULL : &s->rows.visibility;
     SL_TRY(sli_world_take(s, map, bounds));
     SL_TRY(make_mesh(s, bounds));
-    SL_TRY(prepare_glass(s));
-    follow_glass(s);
+    SL_TRY(sli_world_prepare_special(s));
+    sli_world_follow_special(s);
     if (visibility) SL_TRY(sli_world_rows_start(s->context, &s->live, sight, &s->rows));
     s->rows.visibility.sight = sight;
     SL_TRY(sl_query_over(s->context, &s->live.space, &s->map, visibility, &s->query));
@@ -173,7 +139,9 @@ sl_status sl_world_create(sl_context *context, const sl_map *map, const sl_world
     const sl_box b = how.bounds;
     const sl_box bounds = b.max.x > b.min.x && b.max.y > b.min.y ? b : bounds_of(map);
     SL_TRY(refuse(context, map));
-    if (map->wall_count + map->door_count + map->oneway_count + map->seam_count > INT32_MAX / 2)
+    if (map->wall_count + map->door_count + map->oneway_count + map->seam_count +
+            map->mirror_count >
+        INT32_MAX / 2)
         return sl_fail_memory(context);
     sl_world *s = sl_alloc_array(context, 1, sizeof *s);
     if (!s) return SL_NO_MEMORY;
@@ -195,7 +163,7 @@ sl_query *sl_world_query(sl_world *world) {
 
 /// Whether the edit takes walls away and does nothing else, and rows are exact and stay so.
 static bool reveals(const sl_world *s) {
-    return s->only_opens && !s->oneway_count && s->rows.kept && s->mode == SL_WORLD_ROWS_NOW &&
+    return s->only_opens && !s->has_seams && s->rows.kept && s->mode == SL_WORLD_ROWS_NOW &&
            s->rows.visibility.guarantee == SL_EXACT;
 }
 
@@ -231,9 +199,9 @@ static void follow_rows(sl_world *s, bool opened) {
 }
 
 static sl_status commit(sl_world *s) {
-    SL_TRY(prepare_glass(s));
     SL_TRY(sli_world_involve(s));
     SL_TRY(sli_world_find_opened(s));
+    SL_TRY(sli_world_prepare_special(s));
     sli_triangulator_begin(&s->live.maker);
     const sl_status status = prepare(s);
     if (status != SL_OK) {
@@ -251,8 +219,8 @@ static sl_status commit(sl_world *s) {
         line->open = line->next_open;
         line->stands = line->next_stands;
     }
-    follow_glass(s);
-    follow_rows(s, opened); // a copy for rows has the new glass, too
+    sli_world_follow_special(s);
+    follow_rows(s, opened); // a copy for rows has the new seams, too
     sli_query_space_changed(s->context, s->query, &s->live.outline);
     return SL_OK;
 }

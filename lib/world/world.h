@@ -14,6 +14,8 @@ typedef struct sli_world_line {
     bool stands, next_stands;   ///< likewise: it is in the mesh
     uint8_t kind;               ///< of sl_world_kind
     uint8_t stops;              ///< of sl_glass, for one that does not stop all
+    bool one_sided;             ///< of a mirror
+    bool listed;                ///< it is in `special`
     char *name;                 ///< of a door; else NULL
     bool pending;               ///< it has edits
     uint32_t file_line, ground; ///< of sl_wall
@@ -61,9 +63,27 @@ struct sl_world {
     sli_numbers flood;           ///< triangles that a segment meets
     SL_ARRAY(sl_segment) opened; ///< where walls go
     bool only_opens;             ///< the edit takes walls away and does nothing else
-    size_t oneway_room;          ///< of the map's
-    uint32_t oneway_count;       ///< of lines, also those that are not there any more
+
+    sli_numbers special;      ///< lines that the query must know (special.c)
+    sli_numbers mirror_walls; ///< by mirror of the map: the line
+    bool has_seams;           ///< some of them are seams of the space, before or after the edit
 };
+
+/// Whether a line is a seam of the space: glass, or a limited wall.
+static inline bool sli_world_is_seam(const sli_world_line *line) {
+    return line->kind == SL_WORLD_ONEWAY || line->stops & SL_STOPS_LIMITED;
+}
+
+/// Whether the query must know of a line.
+static inline bool sli_world_is_special(const sli_world_line *line) {
+    return line->kind == SL_WORLD_MIRROR || sli_world_is_seam(line);
+}
+
+/// Makes room in `special`, then in what the query knows, before an edit; the lines of its chains
+/// are known then.
+sl_status sli_world_prepare_special(sl_world *world);
+/// Gives the space its seams, and the query's map its glass, limited walls and mirrors.
+void sli_world_follow_special(sl_world *world);
 
 /// Takes the walls of a map, of all kinds.
 sl_status sli_world_take(sl_world *world, const sl_map *map, const sl_box *bounds);
@@ -82,7 +102,7 @@ void sli_world_drop_uses(sl_world *world);
 
 /// What an edge with a label is (sli_live_label).
 sli_live_edge sli_world_edge(void *world, uint32_t label);
-/// The glass on it (sli_live_glass).
-bool sli_world_glass(void *world, uint32_t label, uint32_t k, uint32_t *seam, uint32_t *from);
+/// The seams on it (sli_live_seams).
+bool sli_world_seams(void *world, uint32_t label, uint32_t k, sli_live_seam *out);
 
 #endif

@@ -117,7 +117,7 @@ static bool is_blocked(const sli_world_rows *r, uint32_t cell, uint32_t number) 
     size_t count;
     const sl_seam_portal *on = sl_space_seams_of(s, portal, &count);
     for (size_t i = 0; i < count; i++)
-        if (on[i].forward != forward) return true;
+        if (s->seams[on[i].seam].kind == SL_SEAM_ONEWAY && on[i].forward != forward) return true;
     return false;
 }
 
@@ -387,7 +387,7 @@ sl_status sli_world_rows_settle(sl_context *context, const sli_live *live, sli_w
     SL_TRY(settle_by_search(context, live, r, sl_seconds() + seconds));
     if (r->tests > r->most_tests) SL_TRY(settle_by_copy(context, live, r));
     if (r->unsettled.count) return SL_OK;
-    r->visibility.guarantee = SL_EXACT;
+    r->visibility.guarantee = r->limits ? SL_CONSERVATIVE : SL_EXACT;
     r->visibility.pvs.cell_count = live->space.cell_count;
     return SL_OK;
 }

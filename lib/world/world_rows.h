@@ -29,6 +29,7 @@ typedef struct sli_world_rows {
     uint32_t *words; ///< by cell: how many the row's block was taken for; 0 for none
     uint32_t *marks; ///< by cell: the search that saw it, or that lists it
     uint8_t *loose;  ///< by cell: its set is conservative
+    bool limits;     ///< there are limited walls, which the sets take as open
     size_t cell_room;
     uint32_t now;          ///< the last mark
     sli_numbers changed;   ///< cells whose rows the last edit may have changed

@@ -243,6 +243,55 @@ static void on_maps(void **state) {
     assert_true(count > 0);
 }
 
+/// Rooms side by side, each two with a wall between them half of which breaks.
+static void make_rooms(game *g) {
+    enum { ROOMS = 5, WIDTH = 3 * ROOMS };
+    sl_map *map = &g->file.baked.map;
+    const sl_point corners[] = {{0, 0}, {WIDTH, 0}, {WIDTH, WIDTH}, {0, WIDTH}, {0, 0}};
+    for (int i = 0; i < 4; i++)
+        assert_ok(g->context, sl_map_add_wall(g->context, map, corners[i], corners[i + 1], 0));
+    for (int i = 3; i < WIDTH; i += 3)
+        for (int k = 0; k < WIDTH; k += 3) {
+            const sl_segment upright = {{i, k + 2}, {i, k + 3}}, level = {{k + 1, i}, {k + 3, i}};
+            const sl_point low = {i, k}, left = {k, i};
+            char name[16];
+            assert_ok(g->context, sl_map_add_wall(g->context, map, low, upright.a, 0));
+            assert_ok(g->context, sl_map_add_wall(g->context, map, left, level.a, 0));
+            snprintf(name, sizeof name, "u%d-%d", i, k);
+            assert_ok(g->context, sl_map_add_door(g->context, map, name, upright, false, 0));
+            name[0] = 'l';
+            assert_ok(g->context, sl_map_add_door(g->context, map, name, level, false, 0));
+        }
+    make(g, 0);
+}
+
+/// Opens all doors, and counts the calls with so many portals until all is settled.
+static uint64_t calls_with(uint32_t portals) {
+    game g = {.context = testing_context(NULL), .random = {seed}};
+    uint64_t calls = 1;
+    make_rooms(&g);
+    start(&g);
+    settle(&g);
+    for (uint32_t i = 0; i < g.file.runtime.door_count; i++)
+        assert_true(sl_runtime_state_set_door(&g.state, i, false));
+    while (sl_runtime_settle(&g.state, portals)) calls++;
+    end(&g);
+    sl_context_destroy(g.context);
+    return calls;
+}
+
+/// A call with one portal does one step at most. So one with more does no more steps than it is
+/// told to, if there are enough such calls: a row that begins counts as one of them at least.
+static void no_call_does_more_than_it_is_told(void **state) {
+    (void)state;
+    const uint64_t steps = calls_with(1);
+    assert_true(steps > 1000);
+    for (uint32_t portals = 10; portals <= 1000; portals *= 10) {
+        const uint64_t calls = calls_with(portals);
+        assert_true(calls * portals >= steps && calls < steps);
+    }
+}
+
 /// What is broken stays broken, and what is built stays built; parts of one name go together.
 static void kinds_keep(void **state) {
     (void)state;
@@ -287,10 +336,13 @@ static void kinds_keep(void **state) {
 }
 
 int main(int argc, char **argv) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(kinds_keep),     cmocka_unit_test(on_a_grid),
-        cmocka_unit_test(turned_exactly), cmocka_unit_test(turned_by_17_degrees_far_away),
-        cmocka_unit_test(tiny),           cmocka_unit_test(on_maps)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(no_call_does_more_than_it_is_told),
+                                       cmocka_unit_test(kinds_keep),
+                                       cmocka_unit_test(on_a_grid),
+                                       cmocka_unit_test(turned_exactly),
+                                       cmocka_unit_test(turned_by_17_degrees_far_away),
+                                       cmocka_unit_test(tiny),
+                                       cmocka_unit_test(on_maps)};
     if (argc > 1) maps = strtoull(argv[1], NULL, 10);
     if (argc > 2) seed = strtoull(argv[2], NULL, 10);
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -3,6 +3,7 @@
 /// SIGHTLINE_SEEDS in the environment: how many maps (30 by default), SIGHTLINE_EDITS: how many
 /// commits each (40). The long run, 10^5 commits over 100 maps, takes some minutes:
 ///     SIGHTLINE_SEEDS=100 SIGHTLINE_EDITS=1000 test_world
+#include "mirror_rays.h"
 #include "polygon_same.h"
 #include "space/subdivide.h"
 #include "testing.h"
@@ -11,7 +12,7 @@
 
 #include <math.h>
 
-enum { FRAME = 4, SIZE = 12, QUESTIONS = 12, WALLS_MOST = 60 };
+enum { FRAME = 4, SIZE = 12, QUESTIONS = 12, WALLS_MOST = 60, MIRROR_LINE = 1000000 };
 
 /// How the places of a map are chosen.
 typedef enum shape { SHAPE_GRID, SHAPE_OBLIQUE, SHAPE_TURNED, SHAPE_FREE, SHAPE_FAR, SHAPES } shape;
@@ -30,7 +31,7 @@ typedef struct trial {
     sl_space raw_space;
     sl_query *raw_query;
     sl_region here, there;
-    bool effects; ///< doors, one-way glass, walls that do not stop sight
+    bool effects; ///< doors, one-way glass, mirrors, walls that do not stop sight
     sl_segment frame[FRAME];
     uint64_t refused; ///< edits
 } trial;
@@ -112,10 +113,15 @@ static bool random_number(trial *t, uint32_t *wall) {
 
 /// Adds a wall of any kind.
 static void add(trial *t) {
-    static const uint32_t stops[] = {0, SL_STOPS_STEPS, SL_STOPS_SIGHT, SL_STOPS_ALL};
+    static const uint32_t stops[] = {0,
+                                     SL_STOPS_STEPS | SL_STOPS_LIMITED,
+                                     SL_STOPS_SIGHT,
+                                     SL_STOPS_ALL,
+                                     SL_STOPS_LIMITED,
+                                     SL_STOPS_LIMITED};
     const sl_segment at = random_wall(t);
     uint32_t wall;
-    switch (t->effects ? below(t, 6) : 5) {
+    switch (t->effects ? below(t, 7) : 6) {
     case 0:
     case 1:
         assert_ok(t->context,
@@ -126,7 +132,11 @@ static void add(trial *t) {
         break;
     case 3:
         assert_ok(t->context,
-                  sl_world_add_partial(t->context, t->world, at, stops[below(t, 4)], &wall));
+                  sl_world_add_partial(t->context, t->world, at, stops[below(t, 6)], &wall));
+        break;
+    case 4:
+        assert_ok(t->context, sl_world_add_mirror(t->context, t->world, at,
+                                                  t->shape == SHAPE_GRID && below(t, 2), &wall));
         break;
     default:
         assert_ok(t->context, sl_world_add_wall(t->context, t->world, at, &wall));
@@ -178,10 +188,55 @@ static void forget(trial *t) {
     t->query = t->raw_query = NULL;
 }
 
+/// Mirrors are walls, the first ones of the map, so that their pieces have their lines.
+static void add_walls_of_mirrors(trial *t) {
+    sl_map *map = &t->map;
+    for (uint32_t i = 0; i < map->mirror_count; i++) {
+        const sl_segment at = map->mirrors[i].segment;
+        assert_ok(t->context, sl_map_add_wall(t->context, map, at.a, at.b, MIRROR_LINE + i));
+        const sl_wall last = map->walls[map->wall_count - 1];
+        map->walls[map->wall_count - 1] = map->walls[i];
+        map->walls[i] = last;
+    }
+}
+
+/// Makes walls of those that stop sight. Of the others those that limit it stay.
+static void settle_stops(trial *t) {
+    sl_map *map = &t->map, all = {0};
+    assert_ok(t->context, sl_map_copy(t->context, map, &all));
+    assert_ok(t->context, sl_map_settle_stops(t->context, map, NULL));
+    for (size_t i = 0; i < all.seam_count; i++) {
+        if (!(all.seams[i].stops & SL_STOPS_LIMITED)) continue;
+        assert_ok(t->context, sl_map_add_seam(t->context, map, all.seams[i].segment, 0));
+        map->seams[map->seam_count - 1].stops = SL_STOPS_LIMITED;
+    }
+    sl_map_destroy(t->context, &all);
+}
+
+/// Drops the seams that do not limit sight.
+static void keep_limited(sl_map *map) {
+    size_t kept = 0;
+    for (size_t i = 0; i < map->seam_count; i++)
+        if (map->seams[i].stops & SL_STOPS_LIMITED) map->seams[kept++] = map->seams[i];
+    map->seam_count = kept;
+}
+
+/// Puts mirrors on the pieces that their walls have become.
+static void bend_mirrors(trial *t) {
+    t->map.mirror_count = 0;
+    for (uint32_t i = 0; i < t->fresh.wall_count; i++) {
+        const sl_wall *w = &t->fresh.walls[i];
+        if (w->line < MIRROR_LINE) continue;
+        assert_ok(t->context,
+                  sl_map_add_mirror(t->context, &t->map, (sl_segment){w->a, w->b}, w->line));
+    }
+}
+
 static void refresh(trial *t) {
     forget(t);
     assert_ok(t->context, sl_world_copy_map(t->context, t->world, NULL, &t->map));
-    assert_ok(t->context, sl_map_settle_stops(t->context, &t->map, NULL));
+    settle_stops(t);
+    add_walls_of_mirrors(t);
     // What is not there for sight bends oblique walls that cross it, where a mesh is made of it.
     if (t->map.door_count && (t->shape == SHAPE_GRID || t->shape == SHAPE_FAR)) {
         assert_ok(t->context, sl_map_copy(t->context, &t->map, &t->raw));
@@ -190,8 +245,9 @@ static void refresh(trial *t) {
                   sl_query_over(t->context, &t->raw_space, &t->raw, NULL, &t->raw_query));
     }
     assert_ok(t->context, sl_effects_settle_doors(t->context, &t->map));
-    t->map.seam_count = 0;
+    keep_limited(&t->map);
     assert_ok(t->context, sli_subdivide_mesh(t->context, &t->map, &t->fresh));
+    if (t->shape != SHAPE_GRID) bend_mirrors(t);
     assert_ok(t->context, sl_query_over(t->context, &t->fresh, &t->map, NULL, &t->query));
 }
 
@@ -285,6 +341,13 @@ static bool is_same_corner(const trial *t, size_t here, size_t there) {
            t->here.edges[here].kind == t->there.edges[there].kind;
 }
 
+/// A limited wall that rounding has bent is one seam in a world, and one for each piece where it is
+/// made anew. So corners in line differ, and spikes without width between such walls.
+static bool have_same_area(const trial *t) {
+    return fabs(sl_region_area(&t->here) - sl_region_area(&t->there)) <=
+           8 * SIZE * polygon_error(&t->fresh.bounds);
+}
+
 static void compare_regions(trial *t, sl_point eye) {
     const sl_view view = sl_view_all_round(eye);
     assert_ok(t->context, sl_query_region(t->context, sl_world_query(t->world), &view, &t->here));
@@ -301,6 +364,7 @@ static void compare_regions(trial *t, sl_point eye) {
             same = is_same_corner(t, here[i], there[(first + i) % count]);
     }
     free(here);
+    if (!same && t->map.seam_count) same = have_same_area(t);
     if (!same)
         fail_msg("seed %llu: the region of %.17g %.17g has %zu corners, made anew %zu",
                  (unsigned long long)t->seed, eye.x, eye.y, t->here.count, t->there.count);
@@ -345,7 +409,7 @@ static void compare_rows(trial *t, bool exact) {
     sl_see_options options = sl_see_options_default();
     const sl_plan plan = {.effects = SL_EFFECT_ONEWAY};
     options.threads = 1;
-    if (t->map.oneway_count) options.plan = &plan;
+    if (t->map.oneway_count || t->map.seam_count) options.plan = &plan;
     uint32_t *numbers = calloc(count, sizeof *numbers);
     sl_space space = {0};
     sl_visibility seen = {0};
@@ -375,12 +439,15 @@ static void settle(trial *t) {
     if (!sl_world_visibility(t->world)->pvs.cell_count)
         while (left) assert_ok(t->context, sl_world_settle(t->context, t->world, 1, &left));
     left = 1;
-    const bool exact = sl_world_visibility(t->world)->guarantee == SL_EXACT;
-    assert_true(exact || t->rows == SL_WORLD_ROWS_LATER);
+    // Sets take limited walls as open.
+    const sl_guarantee best = t->map.seam_count ? SL_CONSERVATIVE : SL_EXACT;
+    const bool exact =
+        t->rows == SL_WORLD_ROWS_NOW || sl_world_visibility(t->world)->guarantee == SL_EXACT;
+    if (exact) assert_int_equal(sl_world_visibility(t->world)->guarantee, best);
     compare_rows(t, exact);
     if (exact || below(t, 2)) return;
     while (left) assert_ok(t->context, sl_world_settle(t->context, t->world, 0, &left));
-    assert_int_equal(sl_world_visibility(t->world)->guarantee, SL_EXACT);
+    assert_int_equal(sl_world_visibility(t->world)->guarantee, best);
     compare_rows(t, true);
 }
 
@@ -397,6 +464,46 @@ static void compare_on_outline(trial *t) {
     if (cell->inside || t->shape != SHAPE_TURNED) compare_regions(t, eye);
 }
 
+/// Whether a point is at the eye's side of a mirror.
+static bool is_before(const sl_segment *mirror, sl_point eye, sl_point at) {
+    return sl_orient(mirror->a, mirror->b, eye) == sl_orient(mirror->a, mirror->b, at);
+}
+
+/// How much is seen by mirror, whether places are, and that a look by mirror has their cells.
+static void compare_mirrored(trial *t, sl_point eye) {
+    const sl_view view = sl_view_all_round(eye);
+    sl_query *query = sl_world_query(t->world);
+    sl_mirrored_region here = {0}, there = {0};
+    if (t->map.seam_count) { // by mirror, limited walls do not count
+        assert_int_equal(sl_query_mirrored_region(t->context, query, &view, &here),
+                         t->map.mirror_count ? SL_UNSUPPORTED : SL_OK);
+        sl_mirrored_region_destroy(t->context, &here);
+        return;
+    }
+    assert_ok(t->context, sl_query_mirrored_region(t->context, query, &view, &here));
+    assert_ok(t->context, sl_query_mirrored_region(t->context, t->query, &view, &there));
+    const double one = sl_mirrored_area(&here), other = sl_mirrored_area(&there);
+    if (fabs(one - other) > 1e-9 * SIZE * SIZE)
+        fail_msg("seed %llu: %.17g %.17g sees %.17g by mirror, made anew %.17g",
+                 (unsigned long long)t->seed, eye.x, eye.y, one, other);
+    uint64_t *cells = calloc(sl_eye_words(sl_query_asked(query)) + 1, sizeof *cells);
+    assert_non_null(cells);
+    assert_ok(t->context, sl_query_look_mirrored(t->context, query, &view, NULL, cells, NULL));
+    for (int k = 0; k < QUESTIONS && there.part_count; k++) {
+        const sl_point at = free_point(t);
+        bool shown = false;
+        for (size_t i = 0; i < there.part_count && !shown; i++)
+            shown = mirror_rays_holds(&there.parts[i].region, at) &&
+                    is_before(&t->map.mirrors[there.parts[i].mirror].segment, eye, at);
+        if (shown && !sl_eye_sees(cells, sl_query_locate(query, at)))
+            fail_msg("seed %llu: the cell of %.17g %.17g is not seen by mirror",
+                     (unsigned long long)t->seed, at.x, at.y);
+    }
+    free(cells);
+    sl_mirrored_region_destroy(t->context, &here);
+    sl_mirrored_region_destroy(t->context, &there);
+}
+
 static void compare(trial *t) {
     refresh(t);
     check_mesh(t);
@@ -407,7 +514,9 @@ static void compare(trial *t) {
         for (int k = 0; k < 4; k++) compare_sees(t, eye, random_point(t));
     }
     if (below(t, 4) == 0) compare_on_outline(t);
-    if (t->shape != SHAPE_FAR) compare_looks(t, free_point(t)); // there, places are too coarse
+    if (t->shape == SHAPE_FAR) return; // there, places are too coarse
+    compare_looks(t, free_point(t));
+    if (t->effects) compare_mirrored(t, free_point(t));
 }
 
 static void end(trial *t) {

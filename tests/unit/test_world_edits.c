@@ -2,6 +2,7 @@
 /// test_world.c compares worlds with spaces made anew.
 #include "testing.h"
 
+#include <math.h>
 #include <string.h>
 
 enum { FRAME = 4 };
@@ -130,8 +131,8 @@ static void test_effects_by_hand(void **state) {
     commit(&t);
     assert_true(sees(&t, west, east) && sees(&t, east, west));
     assert_int_equal(sl_world_add_partial(t.context, t.world, (sl_segment){{5, 4}, {5, 6}},
-                                          SL_STOPS_LIMITED, &wall),
-                     SL_UNSUPPORTED);
+                                          SL_STOPS_LIMITED | SL_STOPS_SIGHT, &wall),
+                     SL_BAD_ARGUMENT);
     // Solid ground, and its walls gone.
     assert_ok(t.context, sl_world_add_solid(t.context, t.world, crate, 4, sides));
     commit(&t);
@@ -150,11 +151,6 @@ static void test_effects_by_hand(void **state) {
         SL_BAD_ARGUMENT);
     commit(&t);
     assert_true(sees(&t, west, east));
-    // Mirrors are refused by name.
-    sl_world *other;
-    assert_ok(t.context, sl_map_add_mirror(t.context, &map, (sl_segment){{1, 1}, {2, 1}}, 0));
-    assert_int_equal(sl_world_create(t.context, &map, NULL, &other), SL_UNSUPPORTED);
-    assert_non_null(strstr(sl_context_message(t.context), "mirrors"));
     sl_space_destroy(t.context, &space);
     sl_map_destroy(t.context, &map);
     sl_world_destroy(t.context, t.world);
@@ -169,6 +165,92 @@ static double area_seen(trial *t, sl_point eye) {
     const double area = sl_region_area(&region);
     sl_region_destroy(t->context, &region);
     return area;
+}
+
+/// How much an eye sees by mirror.
+static double area_mirrored(trial *t, sl_point eye, uint32_t *wall) {
+    sl_mirrored_region region = {0};
+    const sl_view view = sl_view_all_round(eye);
+    assert_ok(t->context,
+              sl_query_mirrored_region(t->context, sl_world_query(t->world), &view, &region));
+    const double area = sl_mirrored_area(&region);
+    *wall = region.part_count ? sl_world_mirror_wall(t->world, region.parts[0].mirror) : UINT32_MAX;
+    sl_mirrored_region_destroy(t->context, &region);
+    return area;
+}
+
+/// A room with a mirror that moves, turns and goes, and limited walls of which sight passes one.
+static void test_mirrors_and_limited_walls_by_hand(void **state) {
+    (void)state;
+    const sl_point west = {1, 5}, east = {9, 5}, middle = {5, 5};
+    trial t = {testing_context(NULL), NULL};
+    sl_map map = {0}, copy = {0};
+    uint32_t first = 1, mirror, one, other, seen;
+    uint64_t cells[8];
+    for (int i = 0; i < FRAME; i++) {
+        static const sl_point corners[] = {{0, 0}, {10, 0}, {10, 10}, {0, 10}, {0, 0}};
+        assert_ok(t.context, sl_map_add_wall(t.context, &map, corners[i], corners[i + 1], 0));
+    }
+    assert_ok(t.context, sl_map_add_mirror(t.context, &map, (sl_segment){{0, 4}, {0, 6}}, 7));
+    sl_world_options options = sl_world_options_default();
+    options.rows = SL_WORLD_ROWS_NOW;
+    assert_ok(t.context, sl_world_create(t.context, &map, &options, &t.world));
+    assert_int_equal(sl_world_kind_of(t.world, FRAME), SL_WORLD_MIRROR);
+    // From 2 5 by the mirror at x = 0: as wide as far away from the image at -2 5, and no wider
+    // than the room.
+    const double all = area_mirrored(&t, (sl_point){2, 5}, &first);
+    assert_true(fabs(all - 68) < 1e-9 && first == FRAME);
+    assert_ok(t.context, sl_world_remove(t.context, t.world, FRAME));
+    commit(&t);
+    assert_true(area_mirrored(&t, (sl_point){2, 5}, &seen) == 0 && seen == UINT32_MAX);
+    assert_int_equal(sl_world_mirror_wall(t.world, 0), UINT32_MAX);
+    // One that reflects eastwards alone, for going from a to b the east is at its left.
+    assert_ok(t.context,
+              sl_world_add_mirror(t.context, t.world, (sl_segment){{5, 6}, {5, 4}}, true, &mirror));
+    commit(&t);
+    assert_true(area_mirrored(&t, east, &seen) > 1 && seen == mirror);
+    assert_true(area_mirrored(&t, west, &seen) == 0);
+    assert_false(sees(&t, west, east));
+    assert_ok(t.context, sl_world_move(t.context, t.world, mirror, (sl_segment){{5, 4}, {5, 6}}));
+    commit(&t);
+    assert_true(area_mirrored(&t, east, &seen) == 0);
+    assert_true(area_mirrored(&t, west, &seen) > 1);
+    assert_ok(t.context, sl_world_copy_map(t.context, t.world, NULL, &copy));
+    assert_true(copy.mirror_count == 1 && copy.mirrors[0].one_sided && copy.wall_count == FRAME);
+    sl_map_destroy(t.context, &copy);
+    // Sets by mirror are not kept, and said not to be.
+    sl_query *query = sl_world_query(t.world);
+    const sl_view view = sl_view_all_round(west);
+    assert_true(sl_eye_words(sl_query_asked(query)) <= 8);
+    assert_int_equal(sl_query_row(t.context, query, sl_query_locate(query, west), true, cells),
+                     SL_UNSUPPORTED);
+    assert_ok(t.context, sl_query_look_mirrored(t.context, query, &view, NULL, cells, NULL));
+    assert_true(sl_eye_sees(cells, sl_query_locate(query, west)));
+    assert_ok(t.context, sl_world_remove(t.context, t.world, mirror));
+    // Limited walls: one is passed, two are not.
+    assert_ok(t.context, sl_world_add_partial(t.context, t.world, (sl_segment){{3, 1}, {3, 9}},
+                                              SL_STOPS_LIMITED, &one));
+    commit(&t);
+    assert_true(sees(&t, west, east));
+    assert_int_equal(sl_world_visibility(t.world)->guarantee, SL_CONSERVATIVE);
+    assert_ok(t.context, sl_world_add_partial(t.context, t.world, (sl_segment){{7, 1}, {7, 9}},
+                                              SL_STOPS_LIMITED | SL_STOPS_STEPS, &other));
+    commit(&t);
+    assert_false(sees(&t, west, east));
+    assert_true(sees(&t, west, middle) && sees(&t, middle, east));
+    assert_ok(t.context, sl_world_copy_map(t.context, t.world, NULL, &copy));
+    assert_int_equal(sl_map_limited_walls(&copy), 2);
+    sl_map_destroy(t.context, &copy);
+    assert_ok(t.context, sl_world_move(t.context, t.world, one, (sl_segment){{3, 1}, {3, 2}}));
+    commit(&t);
+    assert_true(sees(&t, west, east));
+    assert_ok(t.context, sl_world_remove(t.context, t.world, one));
+    assert_ok(t.context, sl_world_remove(t.context, t.world, other));
+    commit(&t);
+    assert_int_equal(sl_world_visibility(t.world)->guarantee, SL_EXACT);
+    sl_map_destroy(t.context, &map);
+    sl_world_destroy(t.context, t.world);
+    sl_context_destroy(t.context);
 }
 
 /// Eyes on the outline of a room look into it, also after edits within and beyond.
@@ -212,6 +294,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_edits_by_hand),
         cmocka_unit_test(test_effects_by_hand),
+        cmocka_unit_test(test_mirrors_and_limited_walls_by_hand),
         cmocka_unit_test(test_inside_by_hand),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -6,8 +6,9 @@ import type { MapInput } from './bake.js'
 export { SightlineError }
 
 /** 'seam': what does not stop all of sight, steps and sound. */
-export type WallKind = 'wall' | 'door' | 'oneway' | 'seam'
-export type Stop = 'sight' | 'steps' | 'sound'
+export type WallKind = 'wall' | 'door' | 'oneway' | 'seam' | 'mirror'
+/** 'limited': sight passes one such wall, not two. */
+export type Stop = 'sight' | 'steps' | 'sound' | 'limited'
 
 export interface WallOptions {
   /** 'wall' by default. Glass is seen through from its right to its left, going along it. */
@@ -17,6 +18,8 @@ export interface WallOptions {
   open?: boolean
   /** What alone a wall stops; it is a seam then. */
   stops?: readonly Stop[]
+  /** Of a mirror: it reflects on its left alone, going along it. */
+  oneSided?: boolean
 }
 
 export interface Wall {
@@ -28,6 +31,8 @@ export interface Wall {
   open?: boolean
   /** Of a seam. */
   stops?: Stop[]
+  /** Of a mirror. */
+  oneSided?: boolean
 }
 
 /** What a commit did to the cells. A number may be in both: it then stands for another cell. */
@@ -51,7 +56,7 @@ export interface WorldOptions {
 
 /**
  * Walls have numbers, from when they are added until they are removed: first the map's walls, then
- * its doors, its one-way glass and its seams. Answers are those of a map that is opened anew. Edits
+ * its doors, its one-way glass, its seams and its mirrors. Answers are those of a map that is opened anew. Edits
  * count from the next commit on.
  */
 export class World {
@@ -86,7 +91,14 @@ export class World {
   canSee(a: Place, b: Place): boolean
   /** The polygon that an eye sees: x, y ... counter-clockwise; arcs as chords. */
   visiblePolygon(x: number, y: number, options?: View & { tolerance?: number }): Float64Array
-  /** The visible set of a cell. */
+  /**
+   * The polygons that an eye sees by mirror, after up to `depth` reflections (1 by default): the number of the mirror
+   * last looked into and how many reflections lead there. The first call after a commit takes time that grows with
+   * the world.
+   */
+  mirroredPolygons(x: number, y: number, options?: View & { tolerance?: number, depth?: number }):
+    { wall: number, depth: number, polygon: Float64Array }[]
+  /** The visible set of a cell. It knows nothing of mirrors, and takes limited walls as open. */
   row(cell: number): Uint32Array
   /** Makes visible sets exact, for about so many milliseconds; how many are left. */
   settle(milliseconds?: number): number

@@ -9,9 +9,9 @@ import { Module, instantiable } from './module.js'
 
 export { SightlineError }
 
-const KINDS = ['wall', 'door', 'oneway', 'seam']
+const KINDS = ['wall', 'door', 'oneway', 'seam', 'mirror']
 const ROWS = ['none', 'now', 'later']
-const STOPS = ['sight', 'steps', 'sound'], ALL = 7
+const STOPS = ['sight', 'steps', 'sound', 'limited'], ALL = 7, MOST_MIRRORS = 16
 const MOST = 0xffffffff
 
 /** Four numbers of a segment: [x0, y0, x1, y1]. */
@@ -62,24 +62,26 @@ export class World {
 
   // --- edits
 
-  #put({ kind, segment, name = '', open = false, stops = STOPS }, ground = false) {
+  #put({ kind, segment, name = '', open = false, stops = [], oneSided = false }, ground = false) {
     const bits = bitsOf(stops)
     const number = this.#core.withBytes([name], (nameAt) =>
-      this.#ask((its, at) => its.world_add(at, KINDS.indexOf(kind), nameAt, +open, bits, ...segment))[0])
-    this.#added.set(number, { ...(kind === 'door' && { name }), ...(kind === 'seam' && { stops: [...stops] }), ground })
+      this.#ask((its, at) => its.world_add(at, KINDS.indexOf(kind), nameAt, +open, bits, +oneSided, ...segment))[0])
+    this.#added.set(number, { ...(kind === 'door' && { name }), ...(kind === 'seam' && { stops: [...stops] }),
+      ...(kind === 'mirror' && { oneSided }), ground })
     return number
   }
 
   /** Adds a wall; its number. */
   add(segment, given) {
-    const options = optionsOf(given, 'kind', 'name', 'open', 'stops')
-    const { kind = options.stops ? 'seam' : 'wall', name = 'door', open = false, stops = kind === 'seam' ? [] : STOPS } = options
+    const options = optionsOf(given, 'kind', 'name', 'open', 'stops', 'oneSided')
+    const { kind = options.stops ? 'seam' : 'wall', name = 'door', open = false, stops = [], oneSided = false } = options
     if (!KINDS.includes(kind)) throw new SightlineError(`kind: one of ${KINDS.join(', ')} is needed`)
     textOf('name', name)
     flagOf('open', open)
+    flagOf('oneSided', oneSided)
     if (options.stops && kind !== 'seam') throw new SightlineError(`stops: a ${kind} has none`)
     const whole = bitsOf(stops) === ALL && kind === 'seam'
-    const number = this.#put({ kind: whole ? 'wall' : kind, segment: segmentOf(segment), name, open, stops })
+    const number = this.#put({ kind: whole ? 'wall' : kind, segment: segmentOf(segment), name, open, stops, oneSided })
     this.#edits.push(() => this.#takeBack(number))
     return number
   }
@@ -177,9 +179,9 @@ export class World {
 
   /** The wall that world_wall() found. */
   #told(number) {
-    const [kind, open, stops, ground, nameAt] = this.#core.given(5), added = this.#added.get(number)
+    const [kind, open, stops, ground, nameAt, oneSided] = this.#core.given(6), added = this.#added.get(number)
     const source = { ground: ground !== 0, ...(kind === 1 && { name: nameAt ? this.#core.textAt(nameAt) : 'door' }),
-      ...(kind === 3 && { stops: STOPS.filter((_, i) => stops & (1 << i)) }) }
+      ...(kind === 3 && { stops: STOPS.filter((_, i) => stops & (1 << i)) }), ...(kind === 4 && { oneSided: oneSided === 1 }) }
     return { number, kind: KINDS[kind], segment: [...this.#core.givenNumbers(4)], ...(kind === 1 && { open: open === 1 }),
       ...(added ?? source) }
   }
@@ -232,6 +234,19 @@ export class World {
     numberOf('tolerance', tolerance, 0)
     const [count, cornersAt] = this.#ask((its, at) => its.world_region(at, ...eye, heading, fov, range, tolerance))
     return new Float64Array(this.#core.memory.buffer, cornersAt, 2 * count).slice()
+  }
+
+  /** The polygons that an eye sees by mirror: the mirror's wall and the number of reflections of each. */
+  mirroredPolygons(x, y, options) {
+    const { tolerance = 0, depth = 1, ...rest } = optionsOf(options, 'heading', 'fov', 'range', 'tolerance', 'depth')
+    const { heading, fov, range } = viewOf(rest), eye = [numberOf('x', x), numberOf('y', y)]
+    numberOf('tolerance', tolerance, 0)
+    wholeOf('depth', depth, MOST_MIRRORS)
+    const [parts] = this.#ask((its, at) => its.world_mirrored(at, ...eye, heading, fov, range, depth))
+    return Array.from({ length: parts }, (_, part) => {
+      const [count, cornersAt, wall, reflections] = this.#ask((its, at) => its.world_mirror_part(at, part, tolerance))
+      return { wall, depth: reflections, polygon: new Float64Array(this.#core.memory.buffer, cornersAt, 2 * count).slice() }
+    })
   }
 
   /** The visible set of a cell, where the world keeps them. */

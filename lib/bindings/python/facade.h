@@ -11,6 +11,7 @@
 #include "sightline/bake.h"
 #include "sightline/coverage.h"
 #include "sightline/explain.h"
+#include "sightline/explored.h"
 #include "sightline/faults.h"
 #include "sightline/path.h"
 #include "sightline/place.h"
@@ -79,6 +80,13 @@ typedef struct slp_world {
     sl_world *world;
     sl_region region;
 } slp_world;
+
+/// An area that was explored, and its text.
+typedef struct slp_explored {
+    slp_base base;
+    sl_explored *area;
+    sl_bytes text;
+} slp_explored;
 
 /// Makes the context of a new handle; false without memory. slp_base_end undoes it.
 bool slp_base_begin(slp_base *base);
@@ -300,10 +308,10 @@ SLP_API void slp_world_free(slp_world *world);
 /// `rows`: which visible sets it keeps, of sl_world_rows. `open`: by open sight.
 SLP_API int slp_world_begin(slp_world *world, const slp_plan *plan, const double *box, int rows,
                             int open);
-/// Adds `count` segments, rows of 4 doubles, of one kind: "wall", "door", "oneway", "seam".
-/// `stops`: what walls stop, as bits of SL_STOPS_SIGHT ...
+/// Adds `count` segments, rows of 4 doubles, of one kind: "wall", "door", "oneway", "seam",
+/// "mirror". `stops`: what walls stop, as bits of SL_STOPS_SIGHT ...
 SLP_API int slp_world_add(slp_world *world, const char *kind, const char *name, int open, int stops,
-                          const double *segments, size_t count, int64_t *numbers);
+                          int one_sided, const double *segments, size_t count, int64_t *numbers);
 SLP_API int slp_world_add_solid(slp_world *world, const double *corners, size_t count,
                                 int64_t *numbers);
 SLP_API int slp_world_remove(slp_world *world, const int64_t *numbers, size_t count);
@@ -317,13 +325,31 @@ SLP_API int slp_world_settle(slp_world *world, double milliseconds, int64_t *lef
 SLP_API int slp_world_plan(slp_world *world, slp_plan *plan);
 SLP_API int slp_world_can_see(slp_world *world, const double *eyes, const double *points,
                               size_t count, uint8_t *sees);
-/// Finds what an eye sees; *corners: of its polygon, with arcs as chords within `tolerance`.
 /// By visible sets: whether the cell of a place may see that of another one.
 SLP_API int slp_world_may_see(slp_world *world, const double *eyes, const double *points,
                               size_t count, uint8_t *sees);
+/// Finds what an eye sees; *corners: of its polygon, with arcs as chords within `tolerance`.
 SLP_API int slp_world_region(slp_world *world, const double *eye, double heading, double fov,
                              double tolerance, int64_t *corners);
 SLP_API void slp_world_region_points(const slp_world *world, double tolerance, double *points,
                                      size_t count);
+
+// --- explored areas; a shape is the corners of its loops, and by loop how many there are up to it
+
+SLP_API slp_explored *slp_explored_new(void);
+SLP_API void slp_explored_free(slp_explored *explored);
+SLP_API int slp_explored_begin(slp_explored *explored, double resolution);
+SLP_API int slp_explored_read(slp_explored *explored, const char *name, const char *text,
+                              size_t length);
+SLP_API int slp_explored_add(slp_explored *explored, const double *corners, const int64_t *ends,
+                             size_t count);
+/// Loops and corners of the area.
+SLP_API int slp_explored_counts(slp_explored *explored, int64_t counts[2]);
+SLP_API int slp_explored_copy(slp_explored *explored, int64_t *ends, double *corners);
+SLP_API int slp_explored_holds(slp_explored *explored, const double *points, size_t count,
+                               uint8_t *holds);
+/// Makes the text; *length: its bytes. slp_explored_text copies them.
+SLP_API int slp_explored_write(slp_explored *explored, int64_t *length);
+SLP_API void slp_explored_text(const slp_explored *explored, char *text);
 
 #endif

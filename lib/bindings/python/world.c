@@ -40,7 +40,7 @@ static uint32_t wall_of(int64_t number) {
 }
 
 static sl_status add_one(slp_world *w, const char *kind, const char *name, int open, int stops,
-                         sl_segment at, uint32_t *wall) {
+                         bool one_sided, sl_segment at, uint32_t *wall) {
     sl_context *context = w->base.context;
     if (strcmp(kind, "wall") == 0)
         return sl_world_add_partial(context, w->world, at, (uint32_t)stops, wall);
@@ -48,17 +48,20 @@ static sl_status add_one(slp_world *w, const char *kind, const char *name, int o
         return sl_world_add_door(context, w->world, name, at, open != 0, wall);
     if (strcmp(kind, "oneway") == 0) return sl_world_add_oneway(context, w->world, at, wall);
     if (strcmp(kind, "seam") == 0) return sl_world_add_partial(context, w->world, at, 0, wall);
+    if (strcmp(kind, "mirror") == 0)
+        return sl_world_add_mirror(context, w->world, at, one_sided, wall);
     return sl_fail(context, SL_BAD_ARGUMENT,
-                   "there is no kind '%.40s'; kinds: wall, door, oneway, seam", kind);
+                   "there is no kind '%.40s'; kinds: wall, door, oneway, seam, mirror", kind);
 }
 
 int slp_world_add(slp_world *world, const char *kind, const char *name, int open, int stops,
-                  const double *segments, size_t count, int64_t *numbers) {
+                  int one_sided, const double *segments, size_t count, int64_t *numbers) {
     sl_status status = SL_OK;
     size_t made = 0;
     for (; made < count && status == SL_OK; made++) {
         uint32_t wall;
-        status = add_one(world, kind, name, open, stops, segment_at(segments + 4 * made), &wall);
+        status = add_one(world, kind, name, open, stops, one_sided != 0,
+                         segment_at(segments + 4 * made), &wall);
         if (status != SL_OK) break;
         numbers[made] = wall;
     }

@@ -22,9 +22,14 @@
 /// given: when another one goes, it is as if that had never been there. Places where oblique walls
 /// cross are rounded to the nearest doubles, as in a clean map.
 ///
-/// Doors, one-way glass and walls that do not stop sight are walls of other kinds, with numbers of
-/// the same row. A shut door is a wall, an open one is not there for sight, nor is a wall that does
-/// not stop it; neither cuts cells. The query knows nothing of doors: they open by edits.
+/// Doors, one-way glass, mirrors and walls that do not stop sight are walls of other kinds, with
+/// numbers of the same row. A shut door is a wall, an open one is not there for sight, nor is a
+/// wall that neither stops nor limits it; these do not cut cells. The query knows nothing of doors:
+/// they open by edits.
+///
+/// A mirror is a wall, too. Regions and looks by mirror are those of the query
+/// (sl_query_mirrored_region, sl_query_look_mirrored); the first after a commit takes time that
+/// grows with the world. Where there are mirrors or limited walls, so does the first look.
 ///
 /// Numbers have gaps. In the space that is asked (sl_query_asked), a number without a cell has no
 /// corners, one without a portal has SL_NO_CELL for its cells, and one without a wall has no
@@ -69,11 +74,13 @@ typedef enum sl_world_kind {
     SL_WORLD_DOOR,   ///< a wall that opens
     SL_WORLD_ONEWAY, ///< one-way glass
     SL_WORLD_SEAM,   ///< a wall that does not stop sight, or a seam of the map
+    SL_WORLD_MIRROR,
 } sl_world_kind;
 
 /// Makes a world of the walls of a map, which is copied. Wall i of the map is wall i of the world;
-/// then come its doors, its one-way glass and its seams. `options`: NULL for the usual ones.
-/// SL_UNSUPPORTED for a map with mirrors, limited walls or cells of its own; SL_BAD_INPUT for a
+/// then come its doors, its one-way glass, its seams and its mirrors. In a clean map a wall lies
+/// beneath each mirror, and stays when the mirror goes. `options`: NULL for the usual ones.
+/// SL_UNSUPPORTED for a map with cells of its own, which a world would cut anew; SL_BAD_INPUT for a
 /// wall outside the bounds, and as the mesh refuses a map that is not clean. Time: that of the
 /// mesh.
 SL_API sl_status sl_world_create(sl_context *context, const sl_map *map,
@@ -102,8 +109,12 @@ SL_API sl_status sl_world_add_door(sl_context *context, sl_world *world, const c
 /// is some, the first question after a commit takes time that grows with the world.
 SL_API sl_status sl_world_add_oneway(sl_context *context, sl_world *world, sl_segment at,
                                      uint32_t *wall);
+/// Adds a mirror, which reflects on its left alone, going from a to b, or on both sides. As
+/// sl_world_add_wall.
+SL_API sl_status sl_world_add_mirror(sl_context *context, sl_world *world, sl_segment at,
+                                     bool one_sided, uint32_t *wall);
 /// Adds a wall that stops only what the bits of SL_STOPS_SIGHT ... say, and nothing for 0. As
-/// sl_world_add_wall; SL_UNSUPPORTED for SL_STOPS_LIMITED.
+/// sl_world_add_wall; SL_BAD_ARGUMENT for SL_STOPS_SIGHT with SL_STOPS_LIMITED.
 SL_API sl_status sl_world_add_partial(sl_context *context, sl_world *world, sl_segment at,
                                       uint32_t stops, uint32_t *wall);
 /// Adds a polygon of solid ground: its walls, which get the numbers walls[0 .. count). It goes when
@@ -148,7 +159,9 @@ SL_API sl_status sl_world_settle(sl_context *context, sl_world *world, double mi
                                  size_t *left);
 
 /// The visible sets, by cell of the world, also as the query has them; without rows where there are
-/// none. `guarantee` says whether they are exact now. Valid until the next commit.
+/// none. `guarantee` says whether they are exact now: as those of a bake they take limited walls as
+/// open, and are SL_CONSERVATIVE while there are some. They know nothing of mirrors. Valid until
+/// the next commit.
 SL_API const sl_visibility *sl_world_visibility(const sl_world *world);
 
 // --- what there is
@@ -161,12 +174,16 @@ SL_API bool sl_world_wall(const sl_world *world, uint32_t wall, sl_segment *at);
 SL_API sl_world_kind sl_world_kind_of(const sl_world *world, uint32_t wall);
 /// Whether a door is open, at the last commit; false for what is none.
 SL_API bool sl_world_is_open(const sl_world *world, uint32_t wall);
+/// The wall that a mirror of the query's map is (sl_mirror_part.mirror; sl_query_map), or is a
+/// piece of, as of the last commit: rounding may have bent it where others cross it. UINT32_MAX if
+/// there is none of that number.
+SL_API uint32_t sl_world_mirror_wall(const sl_world *world, uint32_t mirror);
 /// How many cells there are.
 SL_API uint32_t sl_world_cell_count(const sl_world *world);
 
 /// The walls as they were given, at the last commit, as a map of its own: for files, bakes and
 /// other work. `numbers`, NULL for none: by wall of the world, its number among the map's walls,
-/// doors, one-way glass or seams; UINT32_MAX for none.
+/// doors, one-way glass, seams or mirrors; UINT32_MAX for none.
 SL_API sl_status sl_world_copy_map(sl_context *context, const sl_world *world, uint32_t *numbers,
                                    sl_map *out);
 /// The space as it is, as a copy without gaps in its numbers; it passes sl_space_check. Shut doors

@@ -10,6 +10,7 @@ import { MapDocument } from './document.js';
 import { acceptDrops, readFile, save, savePng, saveSvg } from './files.js';
 import { HeatMap } from './heat.js';
 import { Keys, onChosen } from './keys.js';
+import { Live } from './live.js';
 import * as panel from './panel.js';
 import { snapTo } from './pick.js';
 import { keepWork, loadWork, LONG_ADDRESS, packMap, unpackMap } from './share.js';
@@ -37,6 +38,7 @@ class Playground extends Sight {
         this.keys = new Keys(get('plan'), this);
         this.tones = makeTones(matchMedia('(prefers-color-scheme: dark)').matches);
         this.cameras = new Cameras(this, memory > 0 ? memory * 2 ** 20 : undefined);
+        this.live = new Live(this, memory > 0 ? memory * 2 ** 20 : undefined, (seen) => this.followed(seen));
         this.listen();
     }
 
@@ -82,11 +84,20 @@ class Playground extends Sight {
         this.showOrigin();
         panel.dropNote();
         this.leaveShared();
-        this.bake();
+        const { held } = this.tools.move;
+        if (!held || !this.live.follow(held.items)) this.bake();
         this.heat.drop();
         this.cameras.drop();
         clearTimeout(this.keeping);
         this.keeping = setTimeout(() => this.keep(), 400);
+        this.redraw();
+    }
+
+    /** What the eye sees while a wall of a large map is dragged. */
+    followed({ region, mirrored }) {
+        this.seen = region && { region, mirrored };
+        this.plan = null;
+        this.showFacts();
         this.redraw();
     }
 

@@ -163,8 +163,8 @@ export class Sight {
             ['Pairs that see each other', plan?.pairs],
             ['Baked in', plan && `${this.bakeTime.toFixed(1)} ms`],
             ['Cell of the eye', seen?.cell],
-            ['The cell sees', seen && `${seen.set.size} cells`],
-            ['The eye sees', seen && `${seen.kept} cells`],
+            ['The cell sees', seen?.set && `${seen.set.size} cells`],
+            ['The eye sees', seen?.set && `${seen.kept} cells`],
             ['Area in sight', seen && Number(measureOutline(seen.region).area.toPrecision(6))],
             ['Its perimeter', seen && Number(measureOutline(seen.region).perimeter.toPrecision(6))],
         ]);

@@ -64,6 +64,7 @@ class MoveTool {
         const item = doc.items[found.index];
         const at = found.end < 0 ? null : /** @type {Place} */ (item.points.slice(found.end, found.end + 2));
         this.held = { index: found.index, at, item, from: raw, items: doc.items, step: {} };
+        this.app.live.begin(item);
     }
     move(raw) {
         const { doc } = this.app, h = this.held;
@@ -83,10 +84,13 @@ class MoveTool {
     }
     release() {
         this.held = null;
+        if (this.app.live.end()) this.app.bake();
     }
     cancel() {
-        if (this.held && this.app.doc.items !== this.held.items) this.app.doc.undo();
+        const { held } = this;
         this.held = null;
+        this.app.live.end();
+        if (held && this.app.doc.items !== held.items) this.app.doc.undo();
         this.app.doc.select(-1);
     }
 }

@@ -9,6 +9,7 @@
  * least processor time of a bake and of a look from the eye. Chromium: the processor time of a step, on average over
  * the steps of a round, of the page alone (it draws) and of its whole process, with the worker; and the median time from
  * the move to the picture. Of rounds the least counts. A figure: the least time from a move to the last line drawn.
+ * Large maps: a bake, the median of what a world takes for a step, and the median time between two frames.
  */
 import { execFileSync } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
@@ -94,6 +95,37 @@ async function inPage(page, session, text) {
         cells: await page.evaluate(() => window.playground.plan.cellCount), walls: await page.evaluate(() => window.playground.doc.items.filter((item) => item.kind === 'wall').length) };
 }
 
+/** Drags a wall of a large map by the tool, a step for each frame: what a world takes, and between two frames. */
+async function follow(page, text) {
+    await page.evaluate((map) => {
+        const { playground } = /** @type {any} */ (window), data = new DataTransfer();
+        data.items.add(new File([map], 'large.map'));
+        playground.plan = null;
+        document.body.dispatchEvent(new DragEvent('drop', { dataTransfer: data, bubbles: true, cancelable: true }));
+    }, text);
+    await page.waitForFunction(() => window.playground.plan && window.playground.seen && !window.playground.bakes.running, null, { timeout: 300000 });
+    return page.evaluate(async (frames) => {
+        const { playground } = /** @type {any} */ (window), { eye, bakeTime, live } = playground, free = { altKey: true };
+        const middleOf = ({ points: [a, b, c, d] }) => [(a + c) / 2, (b + d) / 2];
+        const walls = playground.doc.items.filter(({ kind }) => kind === 'wall');
+        const [x, y] = walls.map(middleOf).sort((a, b) => Math.hypot(a[0] - eye[0], a[1] - eye[1]) - Math.hypot(b[0] - eye[0], b[1] - eye[1]))[4];
+        const frame = () => new Promise(requestAnimationFrame), gaps = [], times = [], { show } = live;
+        live.show = (seen) => (times.push(seen.time), show(seen));
+        playground.chooseTool('move');
+        playground.press([x, y], free);
+        for (let i = 1, last = await frame(); i <= frames; i++) {
+            playground.move([x + 0.007 * i, y + 0.009 * i], true, free);
+            const now = await frame();
+            if (times.length) gaps.push(now - last);
+            last = now;
+        }
+        playground.release([x, y]);
+        live.show = show;
+        const middle = (list) => list.sort((a, b) => a - b)[list.length >> 1];
+        return { walls: walls.length, bake: bakeTime, world: middle(times), frame: middle(gaps) };
+    }, 240);
+}
+
 /** By chapter, the milliseconds of each of its figures. */
 async function figuresOf(page) {
     await page.goto(`${site.address}/course/index.html`);
@@ -129,6 +161,12 @@ try {
         const text = readFileSync(path('x.map'), 'utf8'), shown = await inPage(page, session, text), node = await inNode(text, shown.eye);
         const times = [nativeBake(path('x.map')), node.bake, node.look, shown.page, shown.all, shown.median].map((time) => time.toPrecision(3));
         console.log(`| ${kind}${turn.length ? ', turned' : ''} | ${shown.walls} | ${shown.cells} | ${times.join(' | ')} |`);
+    }
+    console.log('\n| large map | walls | bake | world | from frame to frame |\n| --- | --- | --- | --- | --- |');
+    for (const [count, ...turn] of [[10000], [10000, '--turned', '30'], [100000]]) {
+        native('generate', 'city', '--walls', String(count), '-o', path('x.map'), ...turn);
+        const { walls, bake, world, frame } = await follow(page, readFileSync(path('x.map'), 'utf8'));
+        console.log(`| city${turn.length ? ', turned' : ''} | ${walls} | ${bake.toFixed(0)} | ${world.toFixed(1)} | ${frame.toFixed(1)} |`);
     }
     console.log('\n| chapter | its figures |\n| --- | --- |');
     for (const [chapter, times] of await figuresOf(page)) console.log(`| ${chapter} | ${times.map((time) => time.toPrecision(2)).join(', ')} |`);

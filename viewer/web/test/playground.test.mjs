@@ -172,6 +172,53 @@ for (const name of wanted)
             await context.close();
         });
 
+        test('what is seen follows a wall of a large map that is dragged, and cells come back after it', async () => {
+            const page = await open();
+            let rooms = 'sightline 1\n';
+            for (let i = 0; i < 33; i++)
+                for (let k = 0; k < 32; k++) rooms += `wall ${k} ${i} ${k + 1} ${i}\nwall ${i} ${k} ${i} ${k + 1}\n`;
+            await drop(page, 'rooms.map', rooms);
+            await page.waitForFunction(() => window.playground.doc.items.length === 2112);
+            await settled(page);
+            const area = () => page.evaluate(() => {
+                const p = window.playground.seen.region;
+                let sum = 0;
+                for (let i = 0; i < p.length; i += 2) sum += (p[i] * p[(i + 3) % p.length] - p[(i + 2) % p.length] * p[i + 1]) / 2;
+                return Number(sum.toFixed(9));
+            });
+            await page.evaluate(() => window.playground.setEye([16.5, 15.5]));
+            await page.waitForFunction(() => !window.playground.looks.running);
+            assert.equal(await area(), 1);
+            await page.evaluate(() => {
+                const { playground } = /** @type {any} */ (window), free = { altKey: true };
+                playground.chooseTool('move');
+                playground.view.zoom(4);
+                playground.press([16.5, 16], free);
+                playground.move([16.5, 16.25], true, free);
+            });
+            await page.waitForFunction(() => !window.playground.plan && window.playground.seen && !window.playground.live.steps.running);
+            assert.equal(await area(), 1.25);
+            assert.equal(await page.evaluate(() => window.playground.bakes.running), false);
+            await shot(page, `${name}-dragged`);
+            // Out of the bounds of the world it is baked step by step.
+            await page.evaluate(() => {
+                window.playground.move([16.5, 1000], true, { altKey: true });
+            });
+            await settled(page);
+            assert.equal(await area(), 2);
+            await page.evaluate(() => {
+                window.playground.move([16.5, 16.5], true, { altKey: true });
+                window.playground.release([16.5, 16.5]);
+            });
+            await settled(page);
+            assert.equal(await area(), 1.5);
+            assert.ok(await page.evaluate(() => window.playground.plan.cellCount > 1000));
+            await page.click('[data-do=undo]');
+            await settled(page);
+            assert.equal(await area(), 1);
+            await context.close();
+        });
+
         test('does the same by keyboard', async () => {
             const page = await open();
             await page.focus('#plan');

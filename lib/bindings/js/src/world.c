@@ -10,6 +10,7 @@ typedef struct world {
     sl_world *world;
     sl_map map; ///< as it was opened: world.h has no names of doors, and not what walls stop
     sl_region region;
+    sl_mirrored_region mirrored;
     sl_point *flat; ///< the last region with arcs as chords
     size_t flat_room;
     uint64_t *bits; ///< of a visible set
@@ -23,6 +24,7 @@ static sl_context *context(void) {
 SLI_EXPORT(void, world_close, world *w) {
     if (!w) return;
     sl_region_destroy(context(), &w->region);
+    sl_mirrored_region_destroy(context(), &w->mirrored);
     sl_free(context(), w->flat);
     sl_free(context(), w->bits);
     sl_free(context(), w->row);
@@ -62,9 +64,9 @@ static int done(sl_status status, uint32_t wall) {
     return (int)(sli_module.status = status);
 }
 
-/// `stops`: of SL_WORLD_SEAM. integers: the wall.
+/// `stops`: of SL_WORLD_SEAM; `one_sided`: of mirrors. integers: the wall.
 SLI_EXPORT(int, world_add, world *w, int kind, const char *name, int open, uint32_t stops,
-           double x0, double y0, double x1, double y1) {
+           int one_sided, double x0, double y0, double x1, double y1) {
     const sl_segment at = {{x0, y0}, {x1, y1}};
     uint32_t wall = 0;
     if (kind == SL_WORLD_DOOR)
@@ -73,6 +75,8 @@ SLI_EXPORT(int, world_add, world *w, int kind, const char *name, int open, uint3
         return done(sl_world_add_oneway(context(), w->world, at, &wall), wall);
     if (kind == SL_WORLD_SEAM)
         return done(sl_world_add_partial(context(), w->world, at, stops, &wall), wall);
+    if (kind == SL_WORLD_MIRROR)
+        return done(sl_world_add_mirror(context(), w->world, at, one_sided != 0, &wall), wall);
     return done(sl_world_add_wall(context(), w->world, at, &wall), wall);
 }
 
@@ -109,12 +113,13 @@ SLI_EXPORT(int, world_commit, world *w) {
 
 // --- what there is
 
-/// Of the walls of the map that was opened: the name of a door, what a wall stops, and its ground.
+/// Of the walls of the map that was opened: the name of a door, what a wall stops, its ground, and
+/// whether a mirror has one side.
 static const char *put_source(const world *w, uint32_t wall) {
     const sl_map *map = &w->map;
     size_t i = wall;
     sli_module.integers[2] = SL_STOPS_ALL;
-    sli_module.integers[3] = 0;
+    sli_module.integers[3] = sli_module.integers[5] = 0;
     if (i < map->wall_count) sli_module.integers[3] = map->walls[i].ground;
     if (i < map->wall_count) return NULL;
     i -= map->wall_count;
@@ -122,9 +127,13 @@ static const char *put_source(const world *w, uint32_t wall) {
     i -= map->door_count;
     if (i < map->oneway_count) return NULL;
     i -= map->oneway_count;
-    if (i >= map->seam_count) return NULL;
-    sli_module.integers[2] = map->seams[i].stops;
-    sli_module.integers[3] = map->seams[i].ground;
+    if (i < map->seam_count) {
+        sli_module.integers[2] = map->seams[i].stops;
+        sli_module.integers[3] = map->seams[i].ground;
+        return NULL;
+    }
+    i -= map->seam_count;
+    if (i < map->mirror_count) sli_module.integers[5] = map->mirrors[i].one_sided;
     return NULL;
 }
 
@@ -132,8 +141,9 @@ SLI_EXPORT(uint32_t, world_wall_count, const world *w) {
     return sl_world_wall_count(w->world);
 }
 
-/// integers: kind, whether open, and of the map that was opened what it stops, its ground and where
-/// its name lies; numbers: its ends. False if there is none of that number.
+/// integers: kind, whether open, and of the map that was opened what it stops, its ground, where
+/// its name lies and whether it has one side; numbers: its ends. False if there is none of that
+/// number.
 SLI_EXPORT(int, world_wall, const world *w, uint32_t wall) {
     sl_segment at;
     if (!sl_world_wall(w->world, wall, &at)) return false;
@@ -207,26 +217,54 @@ SLI_EXPORT(int, world_can_see, world *w, double x0, double y0, double x1, double
     return done(status, sees);
 }
 
-/// The visible polygon of a view; `range` below 0: the map's. integers: its corners, their place.
-static sl_status make_region(world *w, sl_point eye, double heading, double fov, double range,
-                             double tolerance) {
-    sl_query *query = query_of(w);
-    SL_TRY(sl_query_set_range(context(), query, range < 0 ? w->map.range : range));
-    const sl_view view = sl_query_view(query, eye, heading, fov);
-    SL_TRY(sl_query_region(context(), query, &view, &w->region));
-    if (!(tolerance > 0)) tolerance = sl_query_range(query) / 1000;
-    size_t count = sl_region_flatten(&w->region, tolerance, w->flat, w->flat_room);
+/// integers: the corners of a region with arcs as chords, and their place.
+static sl_status put_region(world *w, const sl_region *region, double tolerance) {
+    if (!(tolerance > 0)) tolerance = sl_query_range(query_of(w)) / 1000;
+    size_t count = sl_region_flatten(region, tolerance, w->flat, w->flat_room);
     if (count > w->flat_room) {
         SL_TRY(sl_reserve(context(), &w->flat, &w->flat_room, count, sizeof *w->flat));
-        count = sl_region_flatten(&w->region, tolerance, w->flat, w->flat_room);
+        count = sl_region_flatten(region, tolerance, w->flat, w->flat_room);
     }
     sli_module.integers[0] = (uint32_t)count;
     sli_module.integers[1] = (uint32_t)(uintptr_t)w->flat;
     return SL_OK;
 }
 
+static sl_status set_range(const world *w, double range) {
+    return sl_query_set_range(context(), query_of(w), range < 0 ? w->map.range : range);
+}
+
+/// The visible polygon of a view; `range` below 0: the map's. integers: as put_region().
+static sl_status make_region(world *w, sl_point eye, double heading, double fov, double range,
+                             double tolerance) {
+    SL_TRY(set_range(w, range));
+    const sl_view view = sl_query_view(query_of(w), eye, heading, fov);
+    SL_TRY(sl_query_region(context(), query_of(w), &view, &w->region));
+    return put_region(w, &w->region, tolerance);
+}
+
 SLI_EXPORT(int, world_region, world *w, double x, double y, double heading, double fov,
            double range, double tolerance) {
     sli_done(make_region(w, (sl_point){x, y}, heading, fov, range, tolerance));
     return (int)sli_module.status;
+}
+
+/// What is seen by mirror, up to `depth` reflections. integers: how many parts there are.
+SLI_EXPORT(int, world_mirrored, world *w, double x, double y, double heading, double fov,
+           double range, uint32_t depth) {
+    sl_query *query = query_of(w);
+    sl_status status = set_range(w, range);
+    const sl_view view = sl_query_view(query, (sl_point){x, y}, heading, fov);
+    if (status == SL_OK)
+        status = sl_query_mirrored_region_to(context(), query, &view, depth, &w->mirrored);
+    return done(status, status == SL_OK ? (uint32_t)w->mirrored.part_count : 0);
+}
+
+/// A part of the last answer of world_mirrored(). integers: as put_region(), then the mirror's wall
+/// and how many reflections lead there.
+SLI_EXPORT(int, world_mirror_part, world *w, uint32_t number, double tolerance) {
+    const sl_mirror_part *part = &w->mirrored.parts[number];
+    sli_module.integers[2] = sl_world_mirror_wall(w->world, part->mirror);
+    sli_module.integers[3] = part->depth;
+    return (int)(sli_module.status = put_region(w, &part->region, tolerance));
 }

@@ -56,9 +56,10 @@ test('types name all that the classes have', async () => {
   const { Level } = await load('sightline.js')
   const { Graph } = await load('graph.js')
   const { World } = await load('world.js')
+  const { Explored } = await load('explored.js')
   const { Core, Scene } = { ...(await load('bake.js')), ...(await load('scene.js')) }
   const own = ['constructor', 'run', 'ask', 'failure', 'given', 'givenNumbers', 'written', 'writtenText', 'withBytes', 'textAt']
-  for (const [type, file] of [[Level, 'sightline.d.ts'], [Core, 'bake.d.ts'], [Scene, 'bake.d.ts'], [Graph, 'graph.d.ts'], [World, 'world.d.ts']]) {
+  for (const [type, file] of [[Level, 'sightline.d.ts'], [Core, 'bake.d.ts'], [Scene, 'bake.d.ts'], [Graph, 'graph.d.ts'], [World, 'world.d.ts'], [Explored, 'explored.d.ts']]) {
     const text = readFileSync(join(folder, file), 'utf8')
     const declared = text.slice(text.indexOf(`class ${type.name} {`))
     for (const name of Object.getOwnPropertyNames(type.prototype))

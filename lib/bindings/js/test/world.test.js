@@ -70,6 +70,37 @@ test('glass, seams and solid ground are edits, too', () => {
   world.close()
 })
 
+test('mirrors and limited walls are edits, too', () => {
+  const walls = [[0, 0, 8, 0], [8, 0, 8, 4], [8, 4, 0, 4], [0, 4, 0, 0]]
+  const world = core.open({ walls, mirrors: [[0, 1, 0, 3]] })
+  assert.deepEqual(world.wall(4), { number: 4, kind: 'mirror', segment: [0, 1, 0, 3], oneSided: false })
+  const scene = bakes.open({ walls, mirrors: [[0, 1, 0, 3]] }, { subdivide: 'mesh' })
+  const [seen] = world.mirroredPolygons(2, 2), [part] = scene.mirroredParts(2, 2)
+  assert.deepEqual([seen.wall, seen.depth], [4, 1])
+  assert.equal(area(seen.polygon).toFixed(9), area(part.polygon).toFixed(9))
+  scene.close()
+  world.remove(4)
+  world.commit()
+  assert.deepEqual(world.mirroredPolygons(2, 2), [])
+  assert.ok(world.undo())
+  assert.equal(area(world.mirroredPolygons(2, 2)[0].polygon), area(seen.polygon))
+  const mirror = world.add([4, 0, 4, 4], { kind: 'mirror', oneSided: true }) // going up: it reflects to the west
+  world.commit()
+  assert.deepEqual(world.mirroredPolygons(2, 2).map(({ wall }) => wall).sort(), [4, mirror])
+  assert.deepEqual(world.mirroredPolygons(6, 2), [])
+  assert.equal(world.wall(mirror).oneSided, true)
+  assert.ok(world.mirroredPolygons(2, 2, { depth: 2 }).some(({ depth }) => depth === 2))
+  world.remove(mirror)
+  const low = [3, 5].map((x) => world.add([x, 0, x, 4], { stops: ['limited'] }))
+  world.commit()
+  assert.deepEqual([world.canSee([1, 2], [7, 2]), world.canSee([1, 2], [4, 2])], [false, true])
+  assert.throws(() => world.mirroredPolygons(2, 2), /limit/)
+  world.remove(low[0])
+  world.commit()
+  assert.equal(world.canSee([1, 2], [7, 2]), true)
+  world.close()
+})
+
 test('undo brings walls back with their numbers, commit by commit', () => {
   const world = core.open(room, { bounds }), at = [JSON.stringify(world.walls)], next = random(3)
   for (let i = 0; i < 40; i++) {
@@ -138,7 +169,9 @@ test('what cannot be is refused with its reason, and the world stays as it was',
     [() => world.remove(-1), /a whole number/], [() => world.move(0, [0, 0, NaN, 1]), /a number/], [() => world.setOpen(0, true), /no door/],
     [() => world.add([1, 1, 2, 1], { stops: ['light'] }), /sight, steps, sound/], [() => world.row(0), /visible sets|row|cell/],
     [() => world.addSolid([[1, 1], [2, 2]]), /./], [() => core.open(room, { rows: 'soon' }), /none, now, later/],
-    [() => core.open('sightline 1\nwall 0 0 1 0\nmirror 0 1 1 1\n'), /mirror/],
+    [() => core.open('sightline 1\nwall 0 0 1 0\ncell 0 0 1 0 1 1\n'), /cells/],
+    [() => world.add([1, 1, 2, 1], { stops: ['sight', 'limited'] }), /limits/], [() => world.mirroredPolygons(1, 1, { depth: 99 }), /depth/],
+    [() => world.add([1, 1, 2, 1], { kind: 'mirror', oneSided: 1 }), /oneSided/],
   ]) assert.throws(call, (error) => error instanceof SightlineError && message.test(error.message), String(message))
   world.commit()
   assert.equal(world.walls.length, 8)

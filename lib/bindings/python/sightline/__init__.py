@@ -20,6 +20,7 @@ from ._library import said as _said
 from .drawing import heat_map
 from .errors import (BadArgument, BadInput, Cancelled, Closed, FileError, OutOfMemory,
                      SightlineError, SightlineWarning, Unsupported)
+from .explored import Explored
 from .level import Explanation, Level, Measure, PortalSequence, measures_of as _measures_of
 from .placement import Coverage, Placement
 from .plan import Plan
@@ -29,7 +30,7 @@ from .world import World
 
 __version__: str = _said(_call.version())
 
-__all__ = ["BadArgument", "BadInput", "Cancelled", "Closed", "Coverage", "Doors", "Explanation", "FileError",
+__all__ = ["BadArgument", "BadInput", "Cancelled", "Closed", "Coverage", "Doors", "Explanation", "Explored", "FileError",
            "Level", "Measure", "OutOfMemory", "Path", "Placement", "Plan", "PortalSequence", "SightlineError", "SightlineWarning",
            "Transform", "Unsupported", "World", "eye_methods", "exports", "formats", "heat_map", "measures", "methods"]
 

@@ -141,10 +141,20 @@ _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     "level_cover_name": (_text, [_handle, _size]),
     "level_cover_copy": (None, [_handle, _doubles, _doubles, _doubles]),
     "level_cover_pieces": (None, [_handle, _integers, _integers, _integers, _doubles]),
+    "explored_new": (_handle, []),
+    "explored_free": (None, [_handle]),
+    "explored_begin": (_int, [_handle, _double]),
+    "explored_read": (_int, [_handle, _text, _text, _size]),
+    "explored_add": (_int, [_handle, _doubles, _integers, _size]),
+    "explored_counts": (_int, [_handle, _integers]),
+    "explored_copy": (_int, [_handle, _integers, _doubles]),
+    "explored_holds": (_int, [_handle, _doubles, _size, _bytes]),
+    "explored_write": (_int, [_handle, _integers]),
+    "explored_text": (None, [_handle, _any]),
     "world_new": (_handle, []),
     "world_free": (None, [_handle]),
     "world_begin": (_int, [_handle, _handle, _any, _int, _int]),
-    "world_add": (_int, [_handle, _text, _text, _int, _int, _doubles, _size, _integers]),
+    "world_add": (_int, [_handle, _text, _text, _int, _int, _int, _doubles, _size, _integers]),
     "world_add_solid": (_int, [_handle, _doubles, _size, _integers]),
     "world_remove": (_int, [_handle, _integers, _size]),
     "world_move": (_int, [_handle, ctypes.c_int64, _doubles]),
@@ -354,7 +364,7 @@ def _fixed(array: NDArray[Any]) -> NDArray[Any]:
 
 
 class Handle:
-    """A plan, level or world of the library, with a lock. It can be closed, also by `with`."""
+    """A plan, level, world or explored area of the library, with a lock. It can be closed, also by `with`."""
 
     _is_level = 0
     _pointer: Optional[int]

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 ROWS = ("none", "now", "later")
 SIGHTS = ("closed", "open")
 STOPS = ("sight", "steps", "sound")
+MAY_STOP = (*STOPS, "limited")
 
 
 def _choice(value: str, name: str, names: Sequence[str]) -> int:
@@ -43,7 +44,7 @@ class World(Handle):
     """Walls that change: an edit costs what it touches, and no bake. `Plan.edit` makes one.
 
     Walls have numbers, from when they are added until they are removed: first those of the plan's
-    walls, then of its doors, its one-way glass and its seams. Edits count from `commit` on. Answers
+    walls, then of its doors, its one-way glass, its seams and its mirrors. Edits count from `commit` on. Answers
     are those of a plan that is made anew.
 
     Examples
@@ -75,7 +76,8 @@ class World(Handle):
                       kept, open_sight)
 
     def add(self, segments: ArrayLike, kind: str = "wall", *, name: str = "door",
-            open: bool = False, stops: Union[str, Sequence[str]] = STOPS) -> Any:
+            open: bool = False, stops: Union[str, Sequence[str]] = STOPS,
+            one_sided: bool = False) -> Any:
         """Add walls at the next commit. All of them, or none where one is refused.
 
         Parameters
@@ -83,20 +85,23 @@ class World(Handle):
         segments
             One (4,), which gives a number, or several (n, 4), which give an array of numbers.
         kind
-            "wall", "door", "oneway" (seen through from its right to its left), or "seam".
+            "wall", "door", "oneway" (seen through from its right to its left), "seam", or "mirror".
         name, open
             Of doors.
         stops
             What walls stop, of "sight", "steps" and "sound": one of them, or several. So a window
-            is ("steps", "sound"), and a curtain is "sight".
+            is ("steps", "sound"), and a curtain is "sight". "limited" is in place of "sight": it
+            passes one such wall, not two.
+        one_sided
+            Of mirrors: they reflect on their left alone, going along them.
         """
         rows = as_segments(segments, "segments")
         bits = 0
         for what in (stops,) if isinstance(stops, str) else stops:
-            bits |= 1 << _choice(what, "stops", STOPS)
+            bits |= 1 << _choice(what, "stops", MAY_STOP)
         numbers: Integers = np.zeros(len(rows), np.int64)
         self._ask(call.world_add, text(kind, "kind"), text(name, "name"), as_flag(open, "open"), bits,
-                  rows, len(rows), numbers)
+                  as_flag(one_sided, "one_sided"), rows, len(rows), numbers)
         return int(numbers[0]) if np.ndim(segments) == 1 else numbers
 
     def add_solid(self, corners: ArrayLike) -> Integers:

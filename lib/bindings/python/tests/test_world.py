@@ -60,6 +60,18 @@ class Worlds(unittest.TestCase):
         with self.assertRaises(ValueError):
             world.add((2, 0, 2, 4), stops="smell")
 
+    def test_mirrors_and_limited_walls(self):
+        world = self.plan.edit()
+        fences = [world.add((x, 0, x, 4), stops="limited") for x in (1, 2, 3)]
+        world.commit()
+        self.assertEqual(world.can_see((0.5, 2), [(1.5, 2), (2.5, 2)]).tolist(), [True, False])
+        world.remove(fences)
+        world.add((2, 0, 2, 4), "mirror", one_sided=True)
+        world.commit()
+        self.assertFalse(world.can_see((1, 2), (3, 2)))
+        self.assertEqual(world.plan().mirrors.tolist(), [[2, 0, 2, 4]])
+        self.compare(world)
+
     def test_visible_sets(self):
         points = support.random_points(self.plan, 30, 6)
         eyes = points[:10, None, :]
