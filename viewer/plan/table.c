@@ -2,6 +2,7 @@
 /// nothing of tools.
 #include "plan/table.h"
 
+#include "plan/compare.h"
 #include "plan/from_line.h"
 #include "plan/heat.h"
 #include "plan/line_map.h"
@@ -73,6 +74,34 @@ static sl_segment graph_place(const view_state *view, size_t row) {
 
 static uint32_t graph_stamp(const view_state *view) {
     return view->heat_choice.stamp;
+}
+
+// --- changes: the measure in this plan, in the other one, and what it gains
+
+static size_t five(const view_state *view) {
+    (void)view;
+    return 5;
+}
+
+static void change_name(const view_state *view, size_t column, char text[TABLE_NAME]) {
+    static const char *const endings[] = {"", "_other", "_change"};
+    if (column < 2)
+        snprintf(text, TABLE_NAME, "%s", column ? "y" : "x");
+    else
+        snprintf(text, TABLE_NAME, "%.50s%s", heat_measure(view->heat_choice.measure)->name,
+                 endings[column - 2]);
+}
+
+static double change_value(const view_state *view, size_t row, size_t column) {
+    const sl_measure *measure = heat_measure(view->heat_choice.measure);
+    const heat_graph *graph, *other = compare_graph(view, heat_measure_part(measure));
+    const double *changes = heat_layer_values(view, &graph);
+    const sl_point at = graph->grid.points[row];
+    if (column < 2) return of_point(at, column);
+    if (column == 2) return sl_measure_value(measure, &graph->measures[row]);
+    const uint32_t p = other ? heat_graph_square(other, at) : UINT32_MAX;
+    if (column == 3) return p == UINT32_MAX ? NAN : sl_measure_value(measure, &other->measures[p]);
+    return changes[row];
 }
 
 // --- axial lines and segments
@@ -198,16 +227,20 @@ static sl_segment isovist_place(const view_state *view, size_t row) {
 // --- which one
 
 const table_source *table_source_now(const view_state *view) {
-    static const table_source
-        graph = {"point",    2,           graph_rows,  graph_columns,
-                 graph_name, graph_value, graph_place, graph_stamp},
-        axial = {"line", 4, line_rows, line_columns, line_name, line_value, line_place, no_stamp},
-        segments = {"segment", 4,          line_rows,  line_columns,
-                    line_name, line_value, line_place, no_stamp},
-        route = {"corner", 0, route_rows, three, route_name, route_value, route_place, no_stamp},
-        areas = {"area", 0, two, three, from_line_name, from_line_value, from_line_place, no_stamp},
-        isovist = {"isovist",     2,       one, isovist_columns, isovist_name, isovist_value,
-                   isovist_place, no_stamp};
+    static const table_source graph = {"point",    2,           graph_rows,  graph_columns,
+                                       graph_name, graph_value, graph_place, graph_stamp};
+    static const table_source changes = {"place",      2,           graph_rows, five, change_name,
+                                         change_value, graph_place, graph_stamp};
+    static const table_source axial = {"line",    4,          line_rows,  line_columns,
+                                       line_name, line_value, line_place, no_stamp};
+    static const table_source segments = {"segment", 4,          line_rows,  line_columns,
+                                          line_name, line_value, line_place, no_stamp};
+    static const table_source route = {"corner",   0,           route_rows,  three,
+                                       route_name, route_value, route_place, no_stamp};
+    static const table_source areas = {
+        "area", 0, two, three, from_line_name, from_line_value, from_line_place, no_stamp};
+    static const table_source isovist = {
+        "isovist", 2, one, isovist_columns, isovist_name, isovist_value, isovist_place, no_stamp};
     if (view->mode != MODE_PLAN || !view->document->baked) return NULL;
     switch (view->tool) {
     case TOOL_AXIAL:
@@ -219,7 +252,8 @@ const table_source *table_source_now(const view_state *view) {
     case TOOL_FROM_LINE:
         return from_line_seen(view) ? &areas : NULL;
     default:
-        return graph_of(view) ? &graph : view->seen.valid ? &isovist : NULL;
+        if (!graph_of(view)) return view->seen.valid ? &isovist : NULL;
+        return heat_layer_changes(view) ? &changes : &graph;
     }
 }
 
