@@ -450,9 +450,7 @@ static void escape(app_state *app) {
         ui_shut_help(&app->ui);
     else if (map_file_stop(&app->desk))
         ui_say(&app->ui, false, "stopped; the map is not saved");
-    else if (edit_cancel(&app->view))
-        ;
-    else if (plan_escape(app))
+    else if (edit_cancel(&app->view) || plan_escape(app))
         ;
     else if (app->document.job) {
         document_cancel(app->context, &app->document);

@@ -2,6 +2,7 @@
 /// each change; its graph is measured once the heat map shows a measure.
 #include "plan/compare.h"
 
+#include "document/files.h"
 #include "plan/heat.h"
 #include "plan/layers.h"
 #include "sightline/draw.h"
@@ -105,7 +106,7 @@ static void take_plan(view_state *view, plan_compare *c) {
     c->read = true;
     for (uint32_t i = 0; i < c->baked.space.cell_count; i++)
         if (sl_baked_counts(&c->baked, i)) c->area += sl_space_area(&c->baked.space, i);
-    ui_say(view->ui, false, "compared with %s", c->source.path);
+    ui_say(view->ui, false, "compared with %s", files_base(c->source.path));
 }
 
 // --- walls
