@@ -14,6 +14,7 @@
 #include "plan/heat.h"
 #include "plan/line_map.h"
 #include "plan/route.h"
+#include "plan/table.h"
 #include "plan/view_cells.h"
 #include "sightline/support.h"
 
@@ -173,6 +174,7 @@ static void poll_all(app_state *app, bool wait) {
     route_update(&app->view);
     from_line_update(&app->view, wait);
     line_map_update(&app->view, wait);
+    table_update(&app->view);
     map_file_tick(&app->desk, wait);
     recovery_tick(&app->desk);
 }

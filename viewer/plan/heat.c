@@ -284,11 +284,15 @@ static sl_status evaluate_measure(view_state *view, heat_layer *layer) {
     layer->measure = view->heat_choice.measure;
     if (!layer->values) layer->values = sl_alloc_array(view->context, count, sizeof *layer->values);
     if (!layer->values) return SL_NO_MEMORY;
-    if (!heat_measure_part(measure)) return count_steps(view, layer);
+    if (!heat_measure_part(measure)) {
+        layer->changes = false;
+        return count_steps(view, layer);
+    }
     sl_status status = SL_OK;
     const bool changes = compare_changes(view);
     const heat_graph *other = compare_graph(view, heat_measure_part(measure));
     if (find_part(view, layer, &status)) layer->valued = false;
+    if (changes != layer->changes) view->heat_choice.held = false; // that is the other's scale
     if (changes != layer->changes || (changes && layer->compared != view->compared->stamp))
         layer->valued = false;
     if (layer->valued || status != SL_OK || (changes && !other)) return status;

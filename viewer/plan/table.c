@@ -130,6 +130,11 @@ static double line_value(const view_state *view, size_t row, size_t column) {
     return line_map_value(map, column - 4, (uint32_t)row);
 }
 
+/// Lines of the plan and those of the drawing.
+static uint32_t line_stamp(const view_state *view) {
+    return 2 * view->present.version + line_map_shown(view)->drawn;
+}
+
 static sl_segment line_place(const view_state *view, size_t row) {
     return line_map_shown(view)->lines[row];
 }
@@ -232,9 +237,9 @@ const table_source *table_source_now(const view_state *view) {
     static const table_source changes = {"place",      2,           graph_rows, five, change_name,
                                          change_value, graph_place, graph_stamp};
     static const table_source axial = {"line",    4,          line_rows,  line_columns,
-                                       line_name, line_value, line_place, no_stamp};
+                                       line_name, line_value, line_place, line_stamp};
     static const table_source segments = {"segment", 4,          line_rows,  line_columns,
-                                          line_name, line_value, line_place, no_stamp};
+                                          line_name, line_value, line_place, line_stamp};
     static const table_source route = {"corner",   0,           route_rows,  three,
                                        route_name, route_value, route_place, no_stamp};
     static const table_source areas = {
@@ -302,6 +307,9 @@ void table_destroy(sl_context *context, table_state *table) {
     *table = (table_state){.chosen = SIZE_MAX};
 }
 
+/// Short tables are sorted in each frame: a path has another length without another stamp.
+#define ALWAYS_SORTED 1000
+
 /// Another tool's table begins as its rows come; new values of the same keep the column.
 void table_update(view_state *view) {
     table_state *t = &view->table;
@@ -312,7 +320,8 @@ void table_update(view_state *view) {
     if (!of) return;
     const size_t rows = of->rows(view);
     const uint32_t stamp = of->stamp(view);
-    if (rows == t->rows && stamp == t->stamp) return;
+    const bool same = rows == t->rows && stamp == t->stamp;
+    if (same && (!t->sorted || rows > ALWAYS_SORTED)) return;
     if (rows != t->rows || t->chosen >= rows) t->chosen = SIZE_MAX;
     t->rows = rows;
     t->stamp = stamp;
