@@ -18,6 +18,7 @@
 
 static void choose_tool(app_state *app, plan_tool tool, const char *hint) {
     app->view.tool = tool;
+    line_map_try_again(&app->view);
     ui_say(&app->ui, false, "%s", hint);
 }
 
@@ -97,7 +98,7 @@ bool plan_escape(app_state *app) {
     if (compare_stop(view))
         said = "stopped comparing";
     else if (line_map_stop(view))
-        said = "stopped; the tool finds lines again once doors or walls change";
+        said = "stopped; choose the tool once more to begin anew";
     else if (view->tool == TOOL_PATH && route_clear(view))
         said = "the way is gone";
     else if (view->tool == TOOL_FROM_LINE && from_line_clear(view))
