@@ -207,6 +207,7 @@ void pane_measures(learn_state *learn, sl_box box) {
         [TOOL_PATH] = draw_route,      [TOOL_AXIAL] = draw_lines,
         [TOOL_SEGMENTS] = draw_lines,  [TOOL_COMPARE] = draw_compare};
     static const char *const heat[] = {"heat_back", "heat_next", "heat_ranks", "heat_hold", NULL};
+    static const char *const changes[] = {"heat_back", "heat_next", "heat_hold", NULL};
     column_heading(learn->ui, &c, "Plan", view->document->map.unit);
     draw_plan_words(view, &c);
     column_buttons(learn->ui, &c, tools);
@@ -216,7 +217,8 @@ void pane_measures(learn_state *learn, sl_box box) {
         column_legend(view, &c);
         c.y += 0.3 * learn->ui->text;
         column_sliders(learn->ui, &c);
-        if (layers_shows(view, LAYER_HEAT)) column_buttons(learn->ui, &c, heat);
+        if (layers_shows(view, LAYER_HEAT))
+            column_buttons(learn->ui, &c, heat_layer_changes(view) ? changes : heat);
         if (line_map_choice(view)) column_buttons(learn->ui, &c, lines);
     }
     column_layers(view, &c);
