@@ -25,6 +25,25 @@ click 60 130
 click 500 420
 move 300 300
 END
+shoot office.map axial <<'END'
+key 9
+key Ctrl+5
+key Ctrl+L
+action table_right
+action table_right
+key Ctrl+PageDown
+key Ctrl+PageDown
+END
+sed 's/^wall 20 0 20 6.5$/wall 22 0 22 6.5/; /^wall 44 0 44 6.5$/d' maps/office.map >"$scratch/later.map"
+shoot office.map compare <<END
+key 9
+key Ctrl+7
+key Ctrl+U
+type $scratch/later.map
+key Return
+key R
+key 1
+END
 shoot office.map explore <<'END'
 eye 53 20 160 90
 key B

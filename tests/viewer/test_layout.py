@@ -32,6 +32,7 @@ SCENES = {
     "path": ("office.map", "key 9\nkey Ctrl+3\nclick 100 250\nclick 200 300\n"),
     "axial": ("office.map", "key 9\nkey Ctrl+5\naction heat_ranks\n"),
     "table": ("office.map", "key 9\nkey Ctrl+6\nkey Ctrl+L\n"),
+    "compare": ("office.map", "key 9\nkey Ctrl+7\nkey Ctrl+A\ntype {maps}/courtyard.map\nkey Return\nkey 1\n"),
     "from_line": ("office.map", "key 9\nkey Ctrl+4\ndrag 100 250 130 280\n"),
     "fewest": ("oblique/comb.map", "key 8\nkey Space\n"),
     "tables": ("office.map", "key 8\nkey Ctrl+Shift+O\n"),
@@ -55,6 +56,7 @@ SCENES = {
 def check_fits(viewer, folder, pictures, brief):
     sizes, texts = (SIZES[::3], TEXTS[::3]) if brief else (SIZES, TEXTS)
     for name, (map_name, script) in SCENES.items():
+        script = script.replace("{maps}", str(viewer.root / "maps"))
         for size, text in itertools.product(sizes, texts):
             script += f"size {size}\ntext {text}\nfits\n"
             if pictures:

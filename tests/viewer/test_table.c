@@ -125,9 +125,9 @@ static void test_chosen(void **state) {
     assert_true(seen);
     // By keys: the next row, around the end.
     table_choose(&app->view, last);
-    press(app, "Shift+PageDown");
+    press(app, "Ctrl+PageDown");
     assert_int_equal(t->chosen, 0);
-    press(app, "Shift+PageUp");
+    press(app, "Ctrl+PageUp");
     assert_int_equal(t->chosen, last);
     // On free ground nothing is chosen.
     click_at(app, (sl_point){-1, -1});
@@ -263,11 +263,30 @@ static void test_measures(void **state) {
     viewer_end(app);
 }
 
+/// Work that is stopped begins anew when the tool is chosen once more.
+static void test_stopped(void **state) {
+    (void)state;
+    app_state *app = viewer_start(false);
+    viewer_open(app, MAPS "/office.map");
+    press(app, "9");
+    viewer_press(app, "Ctrl+5");
+    app_tick(app, 0);
+    viewer_press(app, "Escape");
+    assert_non_null(strstr(app->ui.message, "stopped"));
+    show(app);
+    assert_null(line_map_shown(&app->view));
+    viewer_press(app, "Ctrl+5");
+    app_settle(app);
+    assert_non_null(line_map_shown(&app->view));
+    viewer_end(app);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_sorted), cmocka_unit_test(test_chosen),
-        cmocka_unit_test(test_tools),  cmocka_unit_test(test_written),
-        cmocka_unit_test(test_parts),  cmocka_unit_test(test_measures),
+        cmocka_unit_test(test_sorted),  cmocka_unit_test(test_chosen),
+        cmocka_unit_test(test_tools),   cmocka_unit_test(test_written),
+        cmocka_unit_test(test_parts),   cmocka_unit_test(test_measures),
+        cmocka_unit_test(test_stopped),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

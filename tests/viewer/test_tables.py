@@ -55,11 +55,45 @@ def check_map(viewer, folder, plan):
         check_same(viewer, folder, name)
 
 
+# In the office: a wall stands elsewhere, and another one is gone.
+BEFORE = ["wall 20 0 20 6.5\n", "wall 44 0 44 6.5\n"]
+AFTER = ["wall 22 0 22 6.5\n", ""]
+
+
+def check_changes(viewer, folder):
+    """The table of changes is that of `sightline vga --compare`, for the points of the first plan."""
+    plan = viewer.root / "maps/office.map"
+    text = plan.read_text()
+    for before, after in zip(BEFORE, AFTER):
+        viewer.check(before in text, f"the office has no '{before.strip()}'")
+        text = text.replace(before, after)
+    other = folder / "other.map"
+    other.write_text(text)
+    viewer.script(folder, "office.map",
+                  f"key 9\nkey Ctrl+7\nkey Ctrl+A\ntype {other}\nkey Return\n" +
+                  export("key 1\n", folder / "shown.csv"))
+    command(viewer, folder, "vga", plan, "--compare", other, "--grid", "1", "--measures", "visual", "-o",
+            "told.csv")
+    told = {(row["x"], row["y"]): row for row in rows(folder / "told.csv")}
+    shown = rows(folder / "shown.csv")
+    changed = 0
+    for row in shown:
+        same = told.get((row["x"], row["y"]), {})
+        wrong = [key for key in row if row[key] != same.get(key)]
+        viewer.check(not wrong, f"changes: {wrong} of {row} are others in {same}")
+        changed += row["visual_integration_hh_change"] not in ("", "0")
+        if wrong:
+            break
+    viewer.check(changed > 1000, f"changes at {changed} of {len(shown)} places")
+
+
 def main():
     viewer = Viewer(sys.argv)
     for plan in ("office.map", "oblique/comb.map"):
         with tempfile.TemporaryDirectory() as name:
             check_map(viewer, pathlib.Path(name), plan)
+    with tempfile.TemporaryDirectory() as name:
+        check_changes(viewer, pathlib.Path(name))
     viewer.end()
 
 

@@ -35,6 +35,9 @@ typedef struct action_part {
 /// Tools of the Plan mode, measures, cameras (actions_plan.c).
 action_part actions_plan(void);
 
+/// Escape in the Plan mode: stops the work of its tools, or forgets what they show. False: nothing.
+bool plan_escape(app_state *app);
+
 /// Has the app do something with a path once the dialog is shut.
 void wish_for(desk_state *desk, path_wish wish, const char *path);
 

@@ -14,12 +14,10 @@
 #include "lessons/why.h"
 #include "panes/modes.h"
 #include "plan/cameras.h"
+#include "plan/compare.h"
 #include "plan/edit.h"
 #include "plan/effects.h"
-#include "plan/from_line.h"
 #include "plan/heat.h"
-#include "plan/line_map.h"
-#include "plan/route.h"
 #include "plan/table.h"
 #include "plan/view.h"
 #include "plan/view_cells.h"
@@ -452,13 +450,8 @@ static void escape(app_state *app) {
         ui_shut_help(&app->ui);
     else if (map_file_stop(&app->desk))
         ui_say(&app->ui, false, "stopped; the map is not saved");
-    else if (edit_cancel(&app->view))
+    else if (edit_cancel(&app->view) || plan_escape(app))
         ;
-    else if (app->view.mode == MODE_PLAN && app->view.tool == TOOL_PATH && route_clear(&app->view))
-        ui_say(&app->ui, false, "the way is gone");
-    else if (app->view.mode == MODE_PLAN && app->view.tool == TOOL_FROM_LINE &&
-             from_line_clear(&app->view))
-        ui_say(&app->ui, false, "the line is gone");
     else if (app->document.job) {
         document_cancel(app->context, &app->document);
         ui_say(&app->ui, false, "stopped; what is there stays");
@@ -468,8 +461,6 @@ static void escape(app_state *app) {
         ui_say(&app->ui, false, "stopped; F5 twice makes view cells again");
     else if (cameras_stop(&app->view))
         ui_say(&app->ui, false, "stopping: the best cameras so far stay");
-    else if (line_map_stop(&app->view))
-        ui_say(&app->ui, false, "stopped; the tool finds lines again once doors or walls change");
     else if (heat_layer_stop(&app->view))
         ui_say(&app->ui, false, "stopped; 1 twice makes the heat map again");
     else if (app->view.mode == MODE_LEARN && app->learn.lesson.chosen_next)
@@ -664,13 +655,15 @@ static void take_wish(app_state *app) {
     const char *path = app->desk.wish_path;
     sl_status status = SL_OK;
     app->desk.wish = WISH_NONE;
-    if (app->desk.file.locked) return;
+    if (app->desk.file.locked && wish != WISH_READ_TABLE && wish != WISH_COMPARE) return;
     if (wish == WISH_READ_TABLE)
         status = cameras_read(&app->view, path);
     else if (wish == WISH_WRITE_TABLE)
         status = cameras_write(&app->view, path);
     else if (wish == WISH_WRITE_VALUES)
         status = table_write(&app->view, path);
+    else if (wish == WISH_COMPARE)
+        compare_open(&app->view, path);
     else if (wish == WISH_PICTURE)
         status = save_picture(app, path);
     else if (wish == WISH_FRAMES)

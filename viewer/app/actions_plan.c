@@ -4,10 +4,12 @@
 #include "dialogs/browser.h"
 #include "dialogs/map_file.h"
 #include "plan/cameras.h"
+#include "plan/compare.h"
 #include "plan/from_line.h"
 #include "plan/heat.h"
 #include "plan/layers.h"
 #include "plan/line_map.h"
+#include "plan/route.h"
 #include "plan/table.h"
 
 #include <stdio.h>
@@ -16,6 +18,7 @@
 
 static void choose_tool(app_state *app, plan_tool tool, const char *hint) {
     app->view.tool = tool;
+    line_map_try_again(&app->view);
     ui_say(&app->ui, false, "%s", hint);
 }
 
@@ -30,6 +33,29 @@ TOOL(plan_axial, TOOL_AXIAL, "the fewest lines of sight that cover the plan; 2 t
 TOOL(plan_segments, TOOL_SEGMENTS, "axial lines, cut where they cross; 2 the next measure")
 DO(plan_drawn, line_map_toggle_drawn(&app->view))
 IS(plan_drawn, app->view.drawn_lines)
+
+// --- another plan
+
+static void take_other(desk_state *desk, const char *path, bool ask) {
+    (void)ask;
+    wish_for(desk, WISH_COMPARE, path);
+}
+
+static void choose_other(app_state *app) {
+    app->view.tool = TOOL_COMPARE;
+    browser_open(&app->desk, BROWSE_PLANS, take_other);
+}
+
+/// The first time it asks for the other plan.
+static void plan_compared(app_state *app) {
+    if (app->view.compared)
+        choose_tool(app, TOOL_COMPARE,
+                    "1 shows what each place gains and loses, 2 the next measure");
+    else if (app->document.baked)
+        choose_other(app);
+}
+
+IS(plan_compared, app->view.tool == TOOL_COMPARE)
 
 // --- the table
 
@@ -63,7 +89,23 @@ static void plan_graph(app_state *app) {
     if (!hidden || !(app->view.show & SHOW_HEAT)) layers_toggle(&app->view, LAYER_HEAT);
 }
 
-IS(plan_graph, app->view.show &SHOW_HEAT && !tool_paints(app->view.tool))
+IS(plan_graph, (app->view.show & SHOW_HEAT) != 0 && !tool_paints(app->view.tool))
+
+bool plan_escape(app_state *app) {
+    view_state *view = &app->view;
+    const char *said = NULL;
+    if (view->mode != MODE_PLAN) return false;
+    if (compare_stop(view))
+        said = "stopped comparing";
+    else if (line_map_stop(view))
+        said = "stopped; choose the tool once more to begin anew";
+    else if (view->tool == TOOL_PATH && route_clear(view))
+        said = "the way is gone";
+    else if (view->tool == TOOL_FROM_LINE && from_line_clear(view))
+        said = "the line is gone";
+    if (said) ui_say(&app->ui, false, "%s", said);
+    return said != NULL;
+}
 
 // --- the heat map
 
@@ -141,16 +183,20 @@ static const action_row rows[] = {
      PLAN, 0, plan_segments, is_plan_segments},
     {"plan_drawn", NULL, "Drawn lines", "plan: axial lines and segments are those of the drawing",
      PLAN, 0, plan_drawn, is_plan_drawn},
+    {"plan_compare", "Ctrl+7", "Compare", "plan: another plan over this one, and what changes",
+     PLAN, 0, plan_compared, is_plan_compared},
+    {"plan_other", NULL, "Other plan", "plan: choose the plan to compare with", PLAN, 0,
+     choose_other, NULL},
     {"plan_path", "Ctrl+3", "Path", "plan: two clicks, and the shortest way between them", PLAN, 0,
      plan_path, is_plan_path},
     {"table", "Ctrl+L", "Table", "plan: the table of what the tool has computed", PLAN, 0, table,
      is_table},
-    {"table_left", "Shift+Home", "\xe2\x97\x80", "table: columns to the left", PLAN, 0, table_left,
+    {"table_left", "Ctrl+Home", "\xe2\x97\x80", "table: columns to the left", PLAN, 0, table_left,
      NULL},
-    {"table_right", "Shift+End", "\xe2\x96\xb6", "table: columns to the right", PLAN, 0,
-     table_right, NULL},
-    {"table_next", "Shift+PageDown", NULL, "table: the next row", PLAN, 0, table_next, NULL},
-    {"table_back", "Shift+PageUp", NULL, "table: the row before", PLAN, 0, table_back, NULL},
+    {"table_right", "Ctrl+End", "\xe2\x96\xb6", "table: columns to the right", PLAN, 0, table_right,
+     NULL},
+    {"table_next", "Ctrl+PageDown", NULL, "table: the next row", PLAN, 0, table_next, NULL},
+    {"table_back", "Ctrl+PageUp", NULL, "table: the row before", PLAN, 0, table_back, NULL},
     {"table_export", "Ctrl+Shift+E", "Export", "table: write it as CSV", PLAN, 0, table_export,
      NULL},
     {"heat_next", "2", "Next measure", "heat map: the next measure", NOT_LEARN, 0, heat_next, NULL},

@@ -69,7 +69,8 @@ enum { OPTION_COUNT = sizeof option_rows / sizeof *option_rows };
 #define SCRIPTS                                                                                    \
     "A script has a command on each line: open FILE; key NAME; down NAME; up NAME;\n"              \
     "action NAME; move X Y; click X Y; right X Y; drag X Y X2 Y2; wheel STEPS;\n"                  \
-    "wait FRAMES; size W H; eye X Y HEADING [CONE]; text SCALE; screenshot FILE;\n"                \
+    "wait FRAMES; size W H; eye X Y HEADING [CONE]; text SCALE; density PIXELS; screenshot "       \
+    "FILE;\n"                                                                                      \
     "save FILE; account FILE; export FOLDER; cameras FILE; save_cameras FILE;\n"                   \
     "drop FILE; type TEXT; expect TEXT;\n"                                                         \
     "print STATE (" PRINT_NAMES ");\n"                                                             \

@@ -196,6 +196,12 @@ static sl_status do_text(reader *r, const words *w) {
     return SL_OK;
 }
 
+/// Of the screen: pixels where a common one has 1.
+static sl_status do_density(reader *r, const words *w) {
+    r->app->ui.density = fmin(fmax(w->numbers[0], 1), 4);
+    return SL_OK;
+}
+
 static sl_status do_screenshot(reader *r, const words *w) {
     app_tick(r->app, 0);
     return save_window(r->app, w->rest);
@@ -260,31 +266,19 @@ static const struct command {
     int numbers; ///< that must follow; -1: text, -2: any numbers
     sl_status (*run)(reader *r, const words *w);
 } commands[] = {
-    {"open", -1, do_open},
-    {"key", -1, do_key},
-    {"down", -1, do_down},
-    {"up", -1, do_up},
-    {"action", -1, do_action},
-    {"move", 2, do_move},
-    {"click", 2, do_click},
-    {"right", 2, do_right},
-    {"drag", 4, do_drag},
-    {"wheel", 1, do_wheel},
-    {"wait", 1, do_wait},
-    {"size", 2, do_size},
-    {"eye", -2, do_eye},
-    {"text", 1, do_text},
-    {"screenshot", -1, do_screenshot},
-    {"save", -1, do_save},
-    {"export", -1, do_export},
-    {"account", -1, do_account},
-    {"drop", -1, do_drop},
-    {"type", -1, do_type},
-    {"expect", -1, do_expect},
-    {"fits", 0, do_fits},
-    {"print", -1, do_print},
-    {"cameras", -1, do_cameras},
-    {"save_cameras", -1, do_save_cameras},
+    {"open", -1, do_open},       {"key", -1, do_key},
+    {"down", -1, do_down},       {"up", -1, do_up},
+    {"action", -1, do_action},   {"move", 2, do_move},
+    {"click", 2, do_click},      {"right", 2, do_right},
+    {"drag", 4, do_drag},        {"wheel", 1, do_wheel},
+    {"wait", 1, do_wait},        {"size", 2, do_size},
+    {"eye", -2, do_eye},         {"text", 1, do_text},
+    {"density", 1, do_density},  {"screenshot", -1, do_screenshot},
+    {"save", -1, do_save},       {"export", -1, do_export},
+    {"account", -1, do_account}, {"drop", -1, do_drop},
+    {"type", -1, do_type},       {"expect", -1, do_expect},
+    {"fits", 0, do_fits},        {"print", -1, do_print},
+    {"cameras", -1, do_cameras}, {"save_cameras", -1, do_save_cameras},
 };
 
 static sl_status run_command(reader *r, const struct command *command, words *w) {

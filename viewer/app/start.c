@@ -7,6 +7,7 @@
 #include "dialogs/map_file.h"
 #include "dialogs/question.h"
 #include "plan/cameras.h"
+#include "plan/compare.h"
 #include "plan/drag_world.h"
 #include "plan/from_line.h"
 #include "plan/heat.h"
@@ -95,6 +96,7 @@ void app_destroy(app_state *app) {
     camera_layer_destroy(app->context, app->view.cameras);
     route_layer_destroy(app->context, app->view.route);
     from_line_destroy(app->context, app->view.from_line);
+    compare_clear(&app->view);
     table_destroy(app->context, &app->view.table);
     for (int i = 0; i < 2; i++) line_map_destroy(app->context, app->view.lines[i]);
     drag_world_drop(&app->view);

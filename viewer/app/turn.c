@@ -7,12 +7,14 @@
 #include "document/files.h"
 #include "lessons/quiz.h"
 #include "plan/cameras.h"
+#include "plan/compare.h"
 #include "plan/drag_world.h"
 #include "plan/effects.h"
 #include "plan/from_line.h"
 #include "plan/heat.h"
 #include "plan/line_map.h"
 #include "plan/route.h"
+#include "plan/table.h"
 #include "plan/view_cells.h"
 #include "sightline/support.h"
 
@@ -104,6 +106,7 @@ static void take_document(app_state *app, bool opened) {
     cameras_clear(&app->view);
     route_clear(&app->view);
     from_line_clear(&app->view);
+    compare_clear(&app->view);
     if (app->view.mode == MODE_EXPLORE && is_plan_file(app->document.source.path))
         app->view.mode = MODE_PLAN;
     walk_home(&app->view);
@@ -165,11 +168,13 @@ static void poll_all(app_state *app, bool wait) {
     } while (wait && (app->document.stale || app->document.job));
     view_check(&app->view, document_keep_up(app->context, &app->document));
     view_layer_update(&app->view, wait);
+    compare_update(&app->view, wait);
     heat_layer_update(&app->view, wait);
     cameras_update(&app->view, wait);
     route_update(&app->view);
     from_line_update(&app->view, wait);
     line_map_update(&app->view, wait);
+    table_update(&app->view);
     map_file_tick(&app->desk, wait);
     recovery_tick(&app->desk);
 }
@@ -188,6 +193,8 @@ job_progress app_progress(const app_state *app) {
     const job_progress line =
         app->view.from_line ? tool_job_progress(&app->view.from_line->job) : (job_progress){0};
     if (line.running) return line;
+    const job_progress other = compare_progress(&app->view);
+    if (other.running) return other;
     const job_progress lines = line_map_progress(&app->view);
     return lines.running ? lines : heat_layer_progress(app->view.heat);
 }

@@ -11,6 +11,7 @@ typedef void browser_save_file(desk_state *desk, const char *path);
 /// What is opened or saved. Frames are a new folder of pictures.
 typedef enum browse_kind {
     BROWSE_MAPS,
+    BROWSE_PLANS,
     BROWSE_TABLES,
     BROWSE_VALUES,
     BROWSE_PICTURES,

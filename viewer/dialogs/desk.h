@@ -31,12 +31,14 @@ typedef struct file_state {
 } file_state;
 
 /// What is to be done with a path that was chosen: a table of cameras or of what
-/// a tool has computed, a picture, a folder of them.
+/// a tool has computed, a plan to compare with,
+/// a picture, a folder of them.
 typedef enum path_wish {
     WISH_NONE,
     WISH_READ_TABLE,
     WISH_WRITE_TABLE,
     WISH_WRITE_VALUES,
+    WISH_COMPARE,
     WISH_PICTURE,
     WISH_FRAMES
 } path_wish;

@@ -5,6 +5,7 @@
 #include "panes/panes.h"
 
 #include "draw/marks.h" // private: samples are the marks of the plan
+#include "plan/compare.h"
 #include "plan/from_line.h"
 #include "plan/heat.h"
 #include "plan/line_map.h"
@@ -92,6 +93,11 @@ static int list_rows(const view_state *view, legend_row rows[LEGEND_MOST]) {
     if (!view->document->baked) return 0;
     int at = add_layers(view, rows);
     at += add_from_line(view, rows + at);
+    if (compare_shown(view)) {
+        rows[at++] =
+            stroke_row("wall of the other plan alone", compare_colour(view->ui, true), false);
+        rows[at++] = stroke_row("wall of this plan alone", compare_colour(view->ui, false), true);
+    }
     if (layers_shows(view, LAYER_VIEWS) && view_layer_shown(view->views))
         rows[at++] = stroke_row("border of a view cell", palette->wall, false);
     const heat_graph *graph;

@@ -5,6 +5,7 @@
 #include "lessons/quiz.h"
 #include "panes/panes.h"
 #include "plan/cameras.h"
+#include "plan/compare.h"
 #include "plan/edit.h"
 #include "plan/effects.h"
 #include "plan/from_line.h"
@@ -93,6 +94,7 @@ static void plan_below(learn_state *learn, const sl_frame *frame) {
 static void plan_above(learn_state *learn, const sl_frame *frame) {
     if (learn->view->tool == TOOL_FROM_LINE) from_line_draw_above(learn->view, frame);
     line_map_draw(learn->view, frame);
+    compare_draw(learn->view, frame);
     if (learn->view->tool == TOOL_PATH) route_draw(learn->view, frame);
     table_draw_chosen(learn->view, frame);
 }

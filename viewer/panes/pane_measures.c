@@ -1,6 +1,8 @@
 /// The panel of the Plan mode: what is measured, in the units of the plan.
+#include "document/files.h"
 #include "panes/panel.h"
 #include "panes/panes.h"
+#include "plan/compare.h"
 #include "plan/from_line.h"
 #include "plan/heat.h"
 #include "plan/line_map.h"
@@ -160,20 +162,52 @@ static void draw_lines(const view_state *view, column *c) {
                      "Lines that are not joined to it are grey.");
 }
 
+// --- another plan
+
+static void put_walls(const view_state *view, column *c, const char *label,
+                      const wall_list *walls) {
+    char text[VALUE_TEXT];
+    write_measure(view, wall_change_length(walls), "", text);
+    put_row(view->ui, c, label, text);
+}
+
+static void draw_compare(const view_state *view, column *c) {
+    const plan_compare *other = compare_shown(view);
+    const char *path = view->compared ? view->compared->source.path : NULL;
+    char text[VALUE_TEXT];
+    column_heading(view->ui, c, "Compare", path ? files_base(path) : NULL);
+    if (!other)
+        column_words(view->ui, c, 0.95, view->ui->palette.ink,
+                     path ? "Reading the other plan ..." : "Choose the other plan.");
+    if (other) {
+        write_measure(view, view->document->area, "\xc2\xb2", text);
+        put_row(view->ui, c, "inside this plan", text);
+        write_measure(view, other->area, "\xc2\xb2", text);
+        put_row(view->ui, c, "inside the other plan", text);
+        if (other->job.made) {
+            put_walls(view, c, "walls of the other alone", &other->added);
+            put_walls(view, c, "walls of this one alone", &other->removed);
+        }
+        column_words(view->ui, c, 0.9, view->ui->palette.faint,
+                     "1 colours what each place gains (red) or loses (blue) in the other plan.");
+    }
+    static const char *const buttons[] = {"plan_other", NULL};
+    column_buttons(view->ui, c, buttons);
+}
+
 void pane_measures(learn_state *learn, sl_box box) {
     view_state *view = learn->view;
     column c = column_begin(learn->ui, box);
-    static const char *const tools[] = {"plan_isovist", "plan_line",     "plan_graph",
-                                        "plan_axial",   "plan_segments", "plan_path",
-                                        "table",        "cameras",       NULL};
+    static const char *const tools[] = {"plan_isovist",  "plan_line", "plan_graph",   "plan_axial",
+                                        "plan_segments", "plan_path", "plan_compare", "table",
+                                        "cameras",       NULL};
     static const char *const lines[] = {"heat_back", "heat_next", "heat_ranks", "plan_drawn", NULL};
-    static void (*const panels[TOOLS])(const view_state *view,
-                                       column *c) = {[TOOL_ISOVIST] = draw_isovist,
-                                                     [TOOL_FROM_LINE] = draw_from_line,
-                                                     [TOOL_PATH] = draw_route,
-                                                     [TOOL_AXIAL] = draw_lines,
-                                                     [TOOL_SEGMENTS] = draw_lines};
+    static void (*const panels[TOOLS])(const view_state *view, column *c) = {
+        [TOOL_ISOVIST] = draw_isovist, [TOOL_FROM_LINE] = draw_from_line,
+        [TOOL_PATH] = draw_route,      [TOOL_AXIAL] = draw_lines,
+        [TOOL_SEGMENTS] = draw_lines,  [TOOL_COMPARE] = draw_compare};
     static const char *const heat[] = {"heat_back", "heat_next", "heat_ranks", "heat_hold", NULL};
+    static const char *const changes[] = {"heat_back", "heat_next", "heat_hold", NULL};
     column_heading(learn->ui, &c, "Plan", view->document->map.unit);
     draw_plan_words(view, &c);
     column_buttons(learn->ui, &c, tools);
@@ -183,7 +217,8 @@ void pane_measures(learn_state *learn, sl_box box) {
         column_legend(view, &c);
         c.y += 0.3 * learn->ui->text;
         column_sliders(learn->ui, &c);
-        if (layers_shows(view, LAYER_HEAT)) column_buttons(learn->ui, &c, heat);
+        if (layers_shows(view, LAYER_HEAT))
+            column_buttons(learn->ui, &c, heat_layer_changes(view) ? changes : heat);
         if (line_map_choice(view)) column_buttons(learn->ui, &c, lines);
     }
     column_layers(view, &c);

@@ -8,8 +8,9 @@
 #include <math.h>
 #include <stdio.h>
 
-#define ROW_HIGH 1.55 ///< these two: plain texts
-#define WIDE     9.5
+#define ROW_HIGH   1.55 ///< these three: plain texts
+#define LEAST_WIDE 9.5
+#define MOST_WIDE  17
 
 /// Scrolls so that the chosen row is in sight.
 static void reveal_row(table_state *t, ui_scroll *scroll, double high) {
@@ -23,17 +24,24 @@ static void reveal_row(table_state *t, ui_scroll *scroll, double high) {
     if (top + high > scroll->at + scroll->room) scroll->at = top + high - scroll->room;
 }
 
-/// The columns that have room, from the first one shown on.
-static size_t columns_shown(const view_state *view, double width) {
-    const size_t columns = view->table.of->columns(view), first = view->table.first_column;
-    const size_t room = (size_t)fmax(floor(width / (WIDE * view->ui->text)), 1);
-    return columns - first < room ? columns - first : room;
+/// How wide a column is: wider where few of them share the room.
+static double column_wide(const view_state *view, double width) {
+    const size_t left = view->table.of->columns(view) - view->table.first_column;
+    const double t = view->ui->text;
+    return fmin(fmax(width / (double)left, LEAST_WIDE * t), MOST_WIDE * t);
 }
 
-static void draw_heads(view_state *view, sl_box box, size_t shown) {
+/// The columns that have room, from the first one shown on.
+static size_t columns_shown(const view_state *view, double width, double wide) {
+    const size_t left = view->table.of->columns(view) - view->table.first_column;
+    const size_t room = (size_t)fmax(floor(width / wide), 1);
+    return left < room ? left : room;
+}
+
+static void draw_heads(view_state *view, sl_box box, double wide, size_t shown) {
     ui_state *ui = view->ui;
     const table_state *t = &view->table;
-    const double tx = ui->text, wide = WIDE * tx;
+    const double tx = ui->text;
     char name[TABLE_NAME], text[TABLE_NAME + 8];
     for (size_t i = 0; i < shown; i++) {
         const size_t at = t->first_column + i;
@@ -55,10 +63,10 @@ static void draw_heads(view_state *view, sl_box box, size_t shown) {
     ui_line(ui, box.min.x, box.max.y - 0.5, box.max.x, box.max.y - 0.5, ui->palette.outline);
 }
 
-static void draw_rows(view_state *view, sl_box box, size_t shown) {
+static void draw_rows(view_state *view, sl_box box, double wide, size_t shown) {
     ui_state *ui = view->ui;
     table_state *t = &view->table;
-    const double tx = ui->text, high = ROW_HIGH * tx, wide = WIDE * tx;
+    const double tx = ui->text, high = ROW_HIGH * tx;
     reveal_row(t, &ui->scrolls[SCROLL_TABLE], high);
     const double top = ui_begin_scroll(ui, SCROLL_TABLE, box);
     const size_t first = (size_t)fmax(floor((box.min.y - top) / high), 0);
@@ -96,9 +104,10 @@ void pane_table(learn_state *learn, sl_box box) {
     if (view->table.of) {
         const sl_box heads = {{c.left, c.y + 0.2 * t}, {c.right, c.y + 1.8 * t}};
         const sl_box rows = {{c.left, heads.max.y}, {box.max.x, box.max.y}};
-        const size_t shown = columns_shown(view, box_width(heads));
-        draw_heads(view, heads, shown);
-        if (box_height(rows) > 0) draw_rows(view, rows, shown);
+        const double wide = column_wide(view, box_width(heads));
+        const size_t shown = columns_shown(view, box_width(heads), wide);
+        draw_heads(view, heads, wide, shown);
+        if (box_height(rows) > 0) draw_rows(view, rows, wide, shown);
     } else {
         ui_text_within(ui, c.left, c.y + 1.3 * t, column_width(&c), 0.95, ui->palette.faint,
                        "This tool has no values yet.");

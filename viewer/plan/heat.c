@@ -10,6 +10,7 @@
 #include "plan/heat.h"
 
 #include "document/task.h"
+#include "plan/compare.h"
 #include "plan/value_scale.h"
 #include "sightline/support.h"
 
@@ -37,6 +38,9 @@ struct heat_layer {
     uint32_t within;           ///< points in it
     sl_point eye;              ///< that the part was found for
     value_scale scale;         ///< of the values that have it
+    bool changes;              ///< the values are the other plan's less those of this one
+    uint32_t compared;         ///< the other plan's stamp then
+    uint32_t alone;            ///< points that the other plan alone has
     uint32_t from;             ///< of steps: the point they begin at
     uint32_t *steps;           ///< by point
     uint32_t deepest;          ///< of all steps that were counted
@@ -153,18 +157,14 @@ static sl_status begin_layer(view_state *view) {
     view->heat = layer;
     layer->stopped = true;
     layer->version = document->version;
-    layer->range = layer->graph.range = document->map.range;
-    layer->graph.step = heat_step(view);
+    layer->range = document->map.range;
+    layer->graph.step = heat_step(view); // what is old is told by it, where this fails too
     layer->shut = sl_alloc_array(view->context, map->door_count + 1, sizeof *layer->shut);
     if (!layer->shut) return SL_NO_MEMORY;
     layer->door_count = map->door_count;
     for (size_t i = 0; i < map->door_count; i++) layer->shut[i] = !map->doors[i].open;
-    SL_TRY(sl_effects_check(view->context, map, "the heat map", ~(unsigned)SL_EFFECT_MIRROR,
-                            "steps and paths lead straight to points, not to mirror "
-                            "images"));
-    SL_TRY(sl_query_copy(view->context, view->present.query, &layer->graph.query));
-    SL_TRY(sl_vga_steps_create(view->context, document->baked, layer->graph.query, NULL,
-                               &layer->graph.steps));
+    SL_TRY(heat_graph_begin(view->context, document->baked, view->present.query, layer->graph.step,
+                            layer->range, &layer->graph));
     return start_work(view, layer);
 }
 
@@ -264,8 +264,17 @@ static bool find_part(view_state *view, heat_layer *layer, sl_status *status) {
 /// Whether a point has no colour of its own: it is in another part than that with the scale. Steps
 /// have none there.
 static bool is_grey(const heat_layer *layer, uint32_t point) {
-    return layer->parts && layer->parts[point] != layer->part &&
+    return !layer->changes && layer->parts && layer->parts[point] != layer->part &&
            heat_measure_part(heat_measure(layer->measure));
+}
+
+/// The value of a point in the other plan; NAN where it has none.
+static double other_value(heat_layer *layer, const heat_graph *other, const sl_measure *measure,
+                          uint32_t point) {
+    const uint32_t p = heat_graph_square(other, layer->graph.grid.points[point]);
+    if (p == UINT32_MAX) return NAN;
+    layer->alone--;
+    return sl_measure_value(measure, &other->measures[p]);
 }
 
 static sl_status evaluate_measure(view_state *view, heat_layer *layer) {
@@ -275,20 +284,36 @@ static sl_status evaluate_measure(view_state *view, heat_layer *layer) {
     layer->measure = view->heat_choice.measure;
     if (!layer->values) layer->values = sl_alloc_array(view->context, count, sizeof *layer->values);
     if (!layer->values) return SL_NO_MEMORY;
-    if (!heat_measure_part(measure)) return count_steps(view, layer);
+    if (!heat_measure_part(measure)) {
+        layer->changes = false;
+        return count_steps(view, layer);
+    }
     sl_status status = SL_OK;
+    const bool changes = compare_changes(view);
+    const heat_graph *other = compare_graph(view, heat_measure_part(measure));
     if (find_part(view, layer, &status)) layer->valued = false;
-    if (layer->valued || status != SL_OK) return status;
+    if (changes != layer->changes) view->heat_choice.held = false; // that is the other's scale
+    if (changes != layer->changes || (changes && layer->compared != view->compared->stamp))
+        layer->valued = false;
+    if (layer->valued || status != SL_OK || (changes && !other)) return status;
+    layer->changes = changes;
+    if (changes) layer->compared = view->compared->stamp;
+    layer->alone = changes ? other->grid.count : 0;
     SL_TRY(value_scale_begin(view->context, &layer->scale, count));
     layer->within = 0;
     for (uint32_t p = 0; p < count; p++) {
-        const double value = sl_measure_value(measure, &layer->graph.measures[p]);
+        double value = sl_measure_value(measure, &layer->graph.measures[p]);
+        if (changes) value = other_value(layer, other, measure, p) - value;
         layer->values[p] = value;
         if (is_grey(layer, p)) continue;
         value_scale_add(&layer->scale, value);
         layer->within++;
     }
     value_scale_end(&layer->scale);
+    if (changes && layer->scale.count) { // as far on both sides of 0
+        layer->scale.most = fmax(fabs(layer->scale.least), fabs(layer->scale.most));
+        layer->scale.least = -layer->scale.most;
+    }
     layer->valued = true;
     view->heat_choice.stamp++;
     return SL_OK;
@@ -330,6 +355,11 @@ const double *heat_layer_values(const view_state *view, const heat_graph **graph
                        layers_shows(view, LAYER_HEAT);
     if (shown) *graph = &layer->graph;
     return shown ? layer->values : NULL;
+}
+
+bool heat_layer_changes(const view_state *view) {
+    const heat_graph *graph;
+    return heat_layer_values(view, &graph) && view->heat->changes;
 }
 
 void heat_layer_scale(const view_state *view, double *least, double *most) {
@@ -398,7 +428,8 @@ enum { NO_COLOUR = -1, GREY = RAMP_STEPS };
 
 /// A scale that is kept is one of values, and so are steps.
 static bool by_rank(const view_state *view) {
-    return view->heat_choice.ranks && !view->heat_choice.held && chosen_part(view);
+    return view->heat_choice.ranks && !view->heat_choice.held && chosen_part(view) &&
+           !view->heat->changes;
 }
 
 /// The number of a square's colour.
@@ -433,6 +464,10 @@ static void add_squares(cairo_t *cairo, const sl_frame *frame, const heat_graph 
         }
 }
 
+static ramp_kind ramp_of(const heat_layer *layer) {
+    return layer->changes ? RAMP_CHANGES : RAMP_AREAS;
+}
+
 void heat_layer_draw(const view_state *view, cairo_t *cairo, const sl_frame *frame) {
     const heat_graph *g;
     if (!heat_layer_values(view, &g) || layers_fill(view) != LAYER_HEAT) return;
@@ -446,7 +481,7 @@ void heat_layer_draw(const view_state *view, cairo_t *cairo, const sl_frame *fra
     for (int step = 0; step <= GREY; step++) {
         add_squares(cairo, frame, g, steps, step);
         sl_set_colour(cairo, step == GREY ? sl_colour_mix(palette->page, palette->ink, 0.18)
-                                          : ramp_colour(view->ui, RAMP_AREAS, step));
+                                          : ramp_colour(view->ui, ramp_of(view->heat), step));
         cairo_fill_preserve(cairo); // a thin stroke covers the seams
         cairo_set_line_width(cairo, 0.6);
         cairo_stroke(cairo);
@@ -496,9 +531,14 @@ bool heat_layer_key(const view_state *view, legend_key *key) {
     char value[32], count[SL_COUNT_TEXT];
     if (!heat_layer_values(view, &g)) return false;
     heat_layer_scale(view, &least, &most);
-    *key = (legend_key){.ramp = layers_fill(view) == LAYER_HEAT ? RAMP_AREAS : RAMP_NONE};
+    *key = (legend_key){.ramp = layers_fill(view) == LAYER_HEAT ? ramp_of(view->heat) : RAMP_NONE};
     char unit[SL_UNIT_TEXT];
     heat_say_measure(view, key->rows[0].label);
+    if (view->heat->changes) {
+        char name[64];
+        heat_say_measure(view, name);
+        snprintf(key->rows[0].label, sizeof key->rows[0].label, "change of %.50s", name);
+    }
     sl_measure_say_unit(chosen_measure(view), view->document->map.unit, unit);
     snprintf(key->rows[0].text, sizeof key->rows[0].text, "%s", unit);
     write_pointed(view, g, value);
@@ -510,7 +550,12 @@ bool heat_layer_key(const view_state *view, legend_key *key) {
     legend_key_add(key, "from point to point", value);
     if (view->heat_choice.held) legend_key_add(key, "colour scale", "kept");
     if (by_rank(view)) value_scale_quarters(&view->heat->scale, "points", key);
-    if (heat_measure_part(chosen_measure(view)) && view->heat->part_count > 1) {
+    if (view->heat->alone) {
+        sl_text_count(view->heat->alone, "point", count);
+        legend_key_add(key, "in the other plan alone", count);
+    }
+    if (heat_measure_part(chosen_measure(view)) && view->heat->part_count > 1 &&
+        !view->heat->changes) {
         char others[2 * SL_COUNT_TEXT];
         sl_text_count(g->grid.count - view->heat->within, "", count);
         snprintf(others, sizeof others, "%s points are grey", count);

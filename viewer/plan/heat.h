@@ -20,6 +20,8 @@ job_progress heat_layer_progress(const heat_layer *layer);
 
 /// The values that are shown, by point, and their graph; NULL: none are.
 const double *heat_layer_values(const view_state *view, const heat_graph **graph);
+/// Whether they are changes: those of another plan less those of this one.
+bool heat_layer_changes(const view_state *view);
 /// The ends of the colour scale. Only where values are shown.
 void heat_layer_scale(const view_state *view, double *least, double *most);
 

@@ -32,6 +32,16 @@ unsigned heat_measure_part(const sl_measure *measure) {
 
 // --- the work
 
+sl_status heat_graph_begin(sl_context *context, const sl_baked *baked, const sl_query *query,
+                           double step, double range, heat_graph *graph) {
+    graph->step = step;
+    graph->range = range;
+    SL_TRY(sl_effects_check(context, &baked->map, "the heat map", ~(unsigned)SL_EFFECT_MIRROR,
+                            "steps and paths lead straight to points, not to mirror images"));
+    SL_TRY(sl_query_copy(context, query, &graph->query));
+    return sl_vga_steps_create(context, baked, graph->query, NULL, &graph->steps);
+}
+
 static sl_status make_graph(sl_context *context, heat_graph *g) {
     SL_TRY(sl_query_outline(context, g->query, &g->outline));
     SL_TRY(sl_vga_grid_make(context, sl_vga_steps_outline(g->steps, g->outline), g->step, NULL, 0,

@@ -31,6 +31,10 @@ typedef struct heat_graph {
     bool made;                 ///< the graph is there
 } heat_graph;
 
+/// Takes a copy of the query of a plan for the graph. SL_UNSUPPORTED for mirrors.
+sl_status heat_graph_begin(sl_context *context, const sl_baked *baked, const sl_query *query,
+                           double step, double range, heat_graph *graph);
+
 /// A grid has no more points than this: the bits of their graph take 50 MB.
 enum { HEAT_POINTS_MOST = 20000 };
 

@@ -205,6 +205,11 @@ const line_map *line_map_shown(const view_state *view) {
     return map && map->job.made && map->scaled ? map : NULL;
 }
 
+void line_map_try_again(view_state *view) {
+    line_map *map = is_at_hand(view) ? *place_of(view) : NULL;
+    if (map && map->job.stopped) forget(view->context, map);
+}
+
 bool line_map_stop(view_state *view) {
     bool any = false;
     for (int i = 0; i < 2; i++)

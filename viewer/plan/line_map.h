@@ -29,6 +29,8 @@ struct line_map {
 void line_map_update(view_state *view, bool wait);
 /// What is shown now; NULL: nothing.
 const line_map *line_map_shown(const view_state *view);
+/// Begins work anew that was stopped or has failed.
+void line_map_try_again(view_state *view);
 /// Stops the work; false if none runs.
 bool line_map_stop(view_state *view);
 job_progress line_map_progress(const view_state *view);

@@ -2,6 +2,7 @@
 /// nothing of tools.
 #include "plan/table.h"
 
+#include "plan/compare.h"
 #include "plan/from_line.h"
 #include "plan/heat.h"
 #include "plan/line_map.h"
@@ -75,6 +76,34 @@ static uint32_t graph_stamp(const view_state *view) {
     return view->heat_choice.stamp;
 }
 
+// --- changes: the measure in this plan, in the other one, and what it gains
+
+static size_t five(const view_state *view) {
+    (void)view;
+    return 5;
+}
+
+static void change_name(const view_state *view, size_t column, char text[TABLE_NAME]) {
+    static const char *const endings[] = {"", "_other", "_change"};
+    if (column < 2)
+        snprintf(text, TABLE_NAME, "%s", column ? "y" : "x");
+    else
+        snprintf(text, TABLE_NAME, "%.50s%s", heat_measure(view->heat_choice.measure)->name,
+                 endings[column - 2]);
+}
+
+static double change_value(const view_state *view, size_t row, size_t column) {
+    const sl_measure *measure = heat_measure(view->heat_choice.measure);
+    const heat_graph *graph, *other = compare_graph(view, heat_measure_part(measure));
+    const double *changes = heat_layer_values(view, &graph);
+    const sl_point at = graph->grid.points[row];
+    if (column < 2) return of_point(at, column);
+    if (column == 2) return sl_measure_value(measure, &graph->measures[row]);
+    const uint32_t p = other ? heat_graph_square(other, at) : UINT32_MAX;
+    if (column == 3) return p == UINT32_MAX ? NAN : sl_measure_value(measure, &other->measures[p]);
+    return changes[row];
+}
+
 // --- axial lines and segments
 
 static size_t line_rows(const view_state *view) {
@@ -99,6 +128,11 @@ static double line_value(const view_state *view, size_t row, size_t column) {
     const line_map *map = line_map_shown(view);
     if (column < 4) return of_point(column < 2 ? map->lines[row].a : map->lines[row].b, column % 2);
     return line_map_value(map, column - 4, (uint32_t)row);
+}
+
+/// Lines of the plan and those of the drawing.
+static uint32_t line_stamp(const view_state *view) {
+    return 2 * view->present.version + line_map_shown(view)->drawn;
 }
 
 static sl_segment line_place(const view_state *view, size_t row) {
@@ -198,16 +232,20 @@ static sl_segment isovist_place(const view_state *view, size_t row) {
 // --- which one
 
 const table_source *table_source_now(const view_state *view) {
-    static const table_source
-        graph = {"point",    2,           graph_rows,  graph_columns,
-                 graph_name, graph_value, graph_place, graph_stamp},
-        axial = {"line", 4, line_rows, line_columns, line_name, line_value, line_place, no_stamp},
-        segments = {"segment", 4,          line_rows,  line_columns,
-                    line_name, line_value, line_place, no_stamp},
-        route = {"corner", 0, route_rows, three, route_name, route_value, route_place, no_stamp},
-        areas = {"area", 0, two, three, from_line_name, from_line_value, from_line_place, no_stamp},
-        isovist = {"isovist",     2,       one, isovist_columns, isovist_name, isovist_value,
-                   isovist_place, no_stamp};
+    static const table_source graph = {"point",    2,           graph_rows,  graph_columns,
+                                       graph_name, graph_value, graph_place, graph_stamp};
+    static const table_source changes = {"place",      2,           graph_rows, five, change_name,
+                                         change_value, graph_place, graph_stamp};
+    static const table_source axial = {"line",    4,          line_rows,  line_columns,
+                                       line_name, line_value, line_place, line_stamp};
+    static const table_source segments = {"segment", 4,          line_rows,  line_columns,
+                                          line_name, line_value, line_place, line_stamp};
+    static const table_source route = {"corner",   0,           route_rows,  three,
+                                       route_name, route_value, route_place, no_stamp};
+    static const table_source areas = {
+        "area", 0, two, three, from_line_name, from_line_value, from_line_place, no_stamp};
+    static const table_source isovist = {
+        "isovist", 2, one, isovist_columns, isovist_name, isovist_value, isovist_place, no_stamp};
     if (view->mode != MODE_PLAN || !view->document->baked) return NULL;
     switch (view->tool) {
     case TOOL_AXIAL:
@@ -219,7 +257,8 @@ const table_source *table_source_now(const view_state *view) {
     case TOOL_FROM_LINE:
         return from_line_seen(view) ? &areas : NULL;
     default:
-        return graph_of(view) ? &graph : view->seen.valid ? &isovist : NULL;
+        if (!graph_of(view)) return view->seen.valid ? &isovist : NULL;
+        return heat_layer_changes(view) ? &changes : &graph;
     }
 }
 
@@ -268,6 +307,9 @@ void table_destroy(sl_context *context, table_state *table) {
     *table = (table_state){.chosen = SIZE_MAX};
 }
 
+/// Short tables are sorted in each frame: a path has another length without another stamp.
+#define ALWAYS_SORTED 1000
+
 /// Another tool's table begins as its rows come; new values of the same keep the column.
 void table_update(view_state *view) {
     table_state *t = &view->table;
@@ -278,7 +320,8 @@ void table_update(view_state *view) {
     if (!of) return;
     const size_t rows = of->rows(view);
     const uint32_t stamp = of->stamp(view);
-    if (rows == t->rows && stamp == t->stamp) return;
+    const bool same = rows == t->rows && stamp == t->stamp;
+    if (same && (!t->sorted || rows > ALWAYS_SORTED)) return;
     if (rows != t->rows || t->chosen >= rows) t->chosen = SIZE_MAX;
     t->rows = rows;
     t->stamp = stamp;

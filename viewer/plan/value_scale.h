@@ -1,4 +1,4 @@
-/// The scale of a set of values: its ends, its quantiles, and the number of a value's colour.
+/// The scale of a set of values: its ends, its quarters, and the number of a value's colour.
 #ifndef VIEWER_VALUE_SCALE_H
 #define VIEWER_VALUE_SCALE_H
 

@@ -67,6 +67,7 @@ typedef enum plan_tool {
     TOOL_PATH,
     TOOL_AXIAL,
     TOOL_SEGMENTS,
+    TOOL_COMPARE,
     TOOLS
 } plan_tool;
 
@@ -198,6 +199,7 @@ typedef struct camera_layer camera_layer;
 typedef struct route_layer route_layer;
 typedef struct from_line from_line;
 typedef struct line_map line_map;
+typedef struct plan_compare plan_compare;
 typedef struct drag_world drag_world;
 
 /// What is shown and from where. Results are kept from frame to frame.
@@ -254,6 +256,7 @@ struct view_state {
     line_map *lines[2];     ///< axial lines, and segments
     size_t line_measure[2]; ///< the chosen measures of both
     table_state table;
+    plan_compare *compared; ///< NULL: none
     bool drawn_lines;       ///< both are of the lines as they are drawn
     drag_world *drag_world; ///< NULL: none
     uint32_t drag_worlds;   ///< how many there were

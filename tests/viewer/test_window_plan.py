@@ -1,0 +1,106 @@
+"""The tools of the Plan mode in a window of a virtual display, by mouse and keys: VIEW SAME ROOT.
+
+In a small window and on a large dense screen, where the window is not tiny: what each tool shows is
+what the same script shows without a window, and tables that are exported hold the same. Skipped (77)
+where Xvfb or xdotool is not there.
+"""
+import pathlib
+import shutil
+import sys
+import tempfile
+import time
+
+from test_window import SKIP, TOLERANCE, Window, start_display, wait_for_file
+from test_window_documents import Session
+from viewing import Viewer, environment
+
+
+# The screen, the window, and the density of pixels that the viewer finds there.
+SCREENS = [("1024x768", (1000, 700), 1), ("2880x1800", (1800, 1140), 1.5)]
+
+
+def steps(width, height, other):
+    """name, acts in the window, and the same for the script, by the size of the plan."""
+    def at(x, y):
+        return round(x * width), round(y * height)
+
+    a, b, c, d = at(0.12, 0.3), at(0.5, 0.5), at(0.08, 0.2), at(0.2, 0.22)
+    drag = (*c, *d)
+    return [
+        ("plan", ["9"], "key 9\n"),
+        ("line", ["ctrl+4", ("drag", *drag)], f"key Ctrl+4\ndrag {c[0]} {c[1]} {d[0]} {d[1]}\n"),
+        ("path", ["ctrl+3", ("drag", *a, *a), ("drag", *b, *b)],
+         f"key Ctrl+3\nclick {a[0]} {a[1]}\nclick {b[0]} {b[1]}\n"),
+        ("axial", ["ctrl+5"], "key Ctrl+5\n"),
+        ("measure", ["2"], "key 2\n"),
+        ("segments", ["ctrl+6"], "key Ctrl+6\n"),
+        ("table", ["ctrl+5", "ctrl+l"], "key Ctrl+5\nkey Ctrl+L\n"),
+        ("row", ["ctrl+Next", "ctrl+Next"], "key Ctrl+PageDown\nkey Ctrl+PageDown\n"),
+        ("no table", ["ctrl+l"], "key Ctrl+L\n"),
+        ("compared", ["ctrl+7", ("choose", other)],
+         f"key Ctrl+7\nkey Ctrl+U\ntype {other}\nkey Return\n"),
+        ("changes", ["1"], "key 1\n"),
+        ("lines again", ["1", "ctrl+5"], "key 1\nkey Ctrl+5\n"),
+    ]
+
+
+def export(window, folder):
+    """The table of the tool at hand, by keys alone."""
+    path = folder / "exported.csv"
+    window.do("key", "ctrl+shift+e")
+    time.sleep(0.3)
+    window.choose(path)
+    window.viewer.check(wait_for_file(path), "no table was written")
+    return path.read_text() if path.exists() else ""
+
+
+def in_window(viewer, display, size, density):
+    """What each tool shows in a window of that size; its table of axial lines."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        width, height = size
+        shown = environment(DISPLAY=display, XDG_CONFIG_HOME=str(folder / "config"),
+                            XDG_STATE_HOME=str(folder / "state"))
+        conf = folder / "config/sightline/view.conf"
+        conf.parent.mkdir(parents=True)
+        conf.write_text(f"width {width / density:g}\nheight {height / density:g}\n")
+        all_steps = steps(width, height, viewer.root / "maps/courtyard.map")
+        script = f"size {width} {height}\ndensity {density}\n"
+        for step, _, commands in all_steps:
+            script += f"{commands}move 5 5\nsave {step}.png\n"
+        viewer.script(folder, "office.map", script)
+        session = Session(viewer, folder, shown, viewer.root / "maps/office.map")
+        window = session.window
+        place = window.do("getwindowgeometry", window.id)
+        viewer.check(f"Geometry: {width}x{height}" in place, f"not {width} x {height}: {place}")
+        for step, acts, _ in all_steps:
+            for act in acts:
+                window.act(act)
+            share = window.shows(folder / f"{step}.png")
+            viewer.check(share <= TOLERANCE, f"{size}, {step}: {share:.2%} is otherwise")
+        table = export(window, folder)
+        session.keys("ctrl+q")
+        session.ends(f"{size}")
+        return table
+
+
+def main():
+    if not shutil.which("Xvfb") or not shutil.which("xdotool"):
+        print("Xvfb or xdotool is not here")
+        sys.exit(SKIP)
+    viewer = Viewer(sys.argv)
+    tables = []
+    for screen, size, density in SCREENS:
+        server, display = start_display(screen)
+        try:
+            tables.append(in_window(viewer, display, size, density))
+        finally:
+            server.terminate()
+            server.wait()
+    viewer.check(tables[0].startswith("x1,y1,x2,y2,connectivity") and tables[0] == tables[1],
+                 "the tables are not the same in both windows")
+    viewer.end()
+
+
+if __name__ == "__main__":
+    main()
