@@ -61,7 +61,7 @@ typedef struct sli_ldtk {
     char tiles_name[80];      ///< the first layer of tiles; "" for none
     char tiles_asked[80];     ///< where it is full: its tiles but the most frequent one, ":1+3-5"
     sli_name_list tile_names; ///< all of them
-    bool empty_cells; ///< a level has layers of cells, which are empty: its tiles count
+    bool empty_cells;         ///< a level has layers of cells, which are empty: its tiles count
     size_t levels, other_levels, other_depths;
     size_t layers, tile_layers, other_layers, entities;
 } sli_ldtk;

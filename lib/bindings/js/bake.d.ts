@@ -53,6 +53,12 @@ export interface BakeOptions {
   seed?: number
   /** How wide openings to the outside are at most; by default, and for 0, as the map says. */
   entrance?: number
+  /** One more start: inside is all that starts reach. */
+  start?: { x: number; y: number } | [number, number]
+  /** Which walls count: those that stop this; 'sight' by default. */
+  stops?: 'sight' | 'steps' | 'sound'
+  /** Effects of the map that are left out. */
+  without?: ('door' | 'mirror' | 'oneway' | 'range')[]
   /** The name of the map in messages; with the ending .txt it is an ASCII plan. */
   name?: string
   /** Return false to stop. */

@@ -6,7 +6,7 @@
  * Where a call fails, SightlineError tells the line. Where the module itself stops (a stack that
  * overflows), its scenes are lost: the instance is replaced, and calls about them say so.
  */
-import { flagOf, given, numberOf, optionsOf, pick, textOf, wholeOf } from './arguments.js'
+import { flagOf, given, listOf, numberOf, optionsOf, pick, pointOf, textOf, wholeOf } from './arguments.js'
 import { SightlineError, bytesOf } from './host.js'
 import { isBaked, mapText } from './maptext.js'
 import { Module, instantiable } from './module.js'
@@ -27,7 +27,8 @@ export class Core extends Module {
   /** The options, checked; those of the bake are set. `more`: the options of the call beside these. */
   #configure(asked, ...more) {
     const options = optionsOf(asked, 'method', 'subdivide', 'sight', 'insideOnly', 'stabTrees', 'check', 'weld',
-      'mirrorDepth', 'doorLimit', 'samples', 'seed', 'entrance', 'name', 'progress', 'timeLimit', ...more)
+      'mirrorDepth', 'doorLimit', 'samples', 'seed', 'entrance', 'start', 'stops', 'without', 'name', 'progress',
+      'timeLimit', ...more)
     const { method = '', subdivide = '', sight = 'closed', insideOnly = false, stabTrees = false, check = false } = options
     if (!['closed', 'open'].includes(sight)) throw new SightlineError("sight: 'closed' or 'open' is needed")
     const flags = { insideOnly, stabTrees, check }
@@ -39,7 +40,18 @@ export class Core extends Module {
     this.withBytes([textOf('method', method), textOf('subdivide', subdivide)], (a, b) =>
       this.ask((core) => core.options(a, b, +(sight === 'open'), +insideOnly, +stabTrees,
         +check, ...numbers)))
+    this.#chooseMap(options)
     return options
+  }
+
+  /** What is made of a map that is read. */
+  #chooseMap({ start, stops = 'sight', without = [] }) {
+    const at = ['sight', 'steps', 'sound'].indexOf(stops)
+    if (at < 0) throw new SightlineError("stops: 'sight', 'steps' or 'sound' is needed")
+    const names = listOf('without', without).map((name) => textOf('without', name)).join(',')
+    const place = Float64Array.from(start ? pointOf('start', start) : [])
+    this.withBytes([new Uint8Array(place.buffer), names], (startAt, namesAt) =>
+      this.ask((core) => core.map_options(start ? startAt : 0, at, namesAt)))
   }
 
   /** Bakes a map, or opens a baked file, and keeps it for questions. Close it. */

@@ -79,12 +79,59 @@ SLI_EXPORT(int, options, const char *method, const char *subdivide, int open_sig
 
 // --- maps
 
+/// What is made of a map once it is read, as the options of the command.
+static struct {
+    bool has_start;
+    sl_point start;
+    uint32_t channel; ///< 0: sight
+    unsigned without;
+} reading;
+
+static sl_status find_effects(const char *list, unsigned *out) {
+    size_t count;
+    const sl_effect *const *all = sl_effects(&count);
+    for (size_t length, i; *list; list += length + (list[length] != '\0')) {
+        length = strcspn(list, ",");
+        for (i = 0; i < count; i++)
+            if (strlen(all[i]->name) == length && memcmp(all[i]->name, list, length) == 0) break;
+        if (i == count)
+            return sl_fail(sli_module.context, SL_BAD_ARGUMENT,
+                           "without: there is no effect '%.*s'", (int)(length < 40 ? length : 40),
+                           list);
+        *out |= 1u << i;
+    }
+    return SL_OK;
+}
+
+/// Options of the next maps that are read. `start` may be NULL; `stops`: 0 for sight, 1 for steps,
+/// 2 for sound; `without`: names of effects with commas between.
+SLI_EXPORT(int, map_options, const sl_point *start, int stops, const char *without) {
+    memset(&reading, 0, sizeof reading);
+    reading.has_start = start != NULL;
+    if (start) reading.start = *start;
+    reading.channel = stops ? UINT32_C(1) << stops : 0;
+    sli_done(find_effects(without, &reading.without));
+    return (int)sli_module.status;
+}
+
+static sl_status add_start(sl_map *map) {
+    const sl_box b = sl_map_bounds(map);
+    const sl_point at = reading.start;
+    if (!reading.has_start) return SL_OK;
+    if (at.x < b.min.x || at.x > b.max.x || at.y < b.min.y || at.y > b.max.y)
+        return sl_fail(sli_module.context, SL_BAD_ARGUMENT, "start: outside the map");
+    return sl_map_add_start(sli_module.context, map, at, 0, 0);
+}
+
 /// `name` is for messages, and its ending says what the text is.
 static sl_status read_map(const char *name, const char *text, size_t size, sl_map *map) {
     const sl_subdivision *way = bake_options.subdivision;
     const sl_import_options import = {.cells = way && way->takes_cells, .entrance = entrance};
     SL_TRY(sl_map_parse(sli_module.context, name, text, size, &import, map));
     if (way && !way->takes_cells) sl_map_drop_cells(sli_module.context, map);
+    SL_TRY(add_start(map));
+    if (reading.channel) map->channel = reading.channel;
+    sl_effects_leave_out(sli_module.context, map, reading.without);
     return SL_OK;
 }
 

@@ -31,6 +31,33 @@ test('200 generated maps have the native bytes', () => {
   }
 })
 
+test('options of the map are those of the command', () => {
+  const path = place('parts.map')
+  const text = `sightline 1
+walls 0 0 20 0 20 10 0 10 0 0
+wall 10 0 10 4
+door front 10 4 10 6 shut
+wall 10 6 10 10
+wall 14 0 14 5 stops steps
+mirror 3 0 6 0
+range 50
+`
+  writeFileSync(path, text)
+  const cases = [[{ start: { x: 5, y: 5 } }, ['--start', '5,5']],
+    [{ stops: 'steps' }, ['--stops', 'steps']], [{ without: ['door', 'range'] }, ['--without', 'door,range']],
+    [{ start: [12, 5], without: ['mirror'], stops: 'sound' }, ['--start', '12,5', '--without', 'mirror', '--stops', 'sound']], [{}, []]]
+  const seen = new Set()
+  for (const [own, options] of cases) {
+    const got = core.bake(text, own)
+    assert.ok(nativeBake(path, ...options).bytes.equals(got), options.join(' '))
+    seen.add(Buffer.from(got).toString('latin1'))
+  }
+  assert.equal(seen.size, cases.length)
+  assert.throws(() => core.bake(text, { start: [50, 5] }), /start: outside the map/)
+  assert.throws(() => core.bake(text, { stops: 'light' }), /stops:/)
+  assert.throws(() => core.bake(text, { without: ['doors'] }), /there is no effect 'doors'/)
+})
+
 test('describe() is the JSON export, explain() the command', () => {
   for (const path of maps) {
     const { path: slv, bytes } = nativeBake(path)
