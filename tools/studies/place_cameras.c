@@ -49,7 +49,7 @@ option_table camera_option_table(camera_plan *plan) {
          .text = &plan->see},
         {"path", 0, "PATH",
          "a route that must be seen: a path of the map, or the points of a CSV table",
-         .text = &plan->path},
+         .text = &plan->path, .rare = true},
         {"weight", 0, "NAME=W,...",
          "with --count: what the area of zones of --see, or the length of lines, is worth "
          "(default: "
