@@ -330,7 +330,8 @@ static void test_network(void **state) {
         sl_area_placement_destroy(s.context, &placed);
         end(&s);
     }
-    assert_true(dearer > 1 && refused > 1 && proven > 5);
+    assert_true(dearer > 1 && refused > 1);
+    assert_int_equal(proven + refused, 24);
 }
 
 /// What is blind, and a place that could see it.

@@ -6,10 +6,11 @@
 #include "studies/cover_path.h"
 #include "system/built.h"
 
+#include <math.h>
 #include <stdio.h>
 
 /// Classes: 0, 1, 2, 3 and more. And so many blind spots are printed, and numbered in pictures.
-enum { CLASSES = 4, BLIND_MOST = 10, AREA_TEXT = 64 };
+enum { CLASSES = 4, BLIND_MOST = 10 };
 
 sl_status cover_viewpoints(sl_context *context, const sl_cameras *cameras, sl_viewpoint **out) {
     *out = sl_alloc_array(context, cameras->count, sizeof **out);
@@ -18,10 +19,13 @@ sl_status cover_viewpoints(sl_context *context, const sl_cameras *cameras, sl_vi
     return SL_OK;
 }
 
-/// "52 m²"
-static const char *area_text(const cover_report *r, double area, char text[AREA_TEXT]) {
+const char *cover_area_text(const cover_report *r, double area, char text[AREA_TEXT]) {
     const char *unit = r->baked->map.unit;
-    snprintf(text, AREA_TEXT, "%.4g%s%s%s", area, *unit ? " " : "", unit, *unit ? "\xc2\xb2" : "");
+    // Four digits, also where %g would write an exponent.
+    const double step = area >= 1e4 && area < 1e15 ? pow(10, floor(log10(area)) - 3) : 0;
+    snprintf(text, AREA_TEXT, step > 0 ? "%.0f%s%s%s" : "%.4g%s%s%s",
+             step > 0 ? step * round(area / step) : area, *unit ? " " : "", unit,
+             *unit ? "\xc2\xb2" : "");
     return text;
 }
 
@@ -45,10 +49,10 @@ void cover_sentence(const cover_report *r, char *text, size_t size) {
                                        : "signs can be read from";
     if (!(blind > 0))
         snprintf(text, size, "%zu %s all that is inside (%s)", c->count, see,
-                 area_text(r, inside, all));
+                 cover_area_text(r, inside, all));
     else
         snprintf(text, size, "%zu %s %s of %s inside (%.3g %%)", c->count, see,
-                 area_text(r, inside - blind, seen), area_text(r, inside, all),
+                 cover_area_text(r, inside - blind, seen), cover_area_text(r, inside, all),
                  100 * (inside - blind) / inside);
 }
 
@@ -66,7 +70,7 @@ static void print_classes(const cover_report *r) {
     for (size_t k = 0; k < CLASSES; k++) {
         const double area = class_area(r->coverage, k);
         if (area > 0)
-            printf("  %-18s %12s  %5.1f %%\n", names[k], area_text(r, area, text),
+            printf("  %-18s %12s  %5.1f %%\n", names[k], cover_area_text(r, area, text),
                    100 * area / r->coverage->overlay.areas[0]);
     }
 }
@@ -83,8 +87,9 @@ static void print_viewpoints(const cover_report *r) {
         name_of(camera, i, name, sizeof name);
         const bool is_spare = sl_coverage_is_spare(r->coverage, i);
         spare += is_spare;
-        printf("  %-18s %-18s %10s  %10s%s\n", name, at, area_text(r, r->coverage->seen[i], seen),
-               area_text(r, is_spare ? 0 : r->coverage->alone[i], alone),
+        printf("  %-18s %-18s %10s  %10s%s\n", name, at,
+               cover_area_text(r, r->coverage->seen[i], seen),
+               cover_area_text(r, is_spare ? 0 : r->coverage->alone[i], alone),
                is_spare ? "  spare" : "");
     }
     if (spare > 1)
@@ -102,8 +107,9 @@ static void print_blind(const cover_report *r) {
     printf("\n  %u blind spot%s", (unsigned)c->blind_count, c->blind_count == 1 ? "" : "s");
     printf(c->blind_count > BLIND_MOST ? ", the largest %d:\n" : ":\n", BLIND_MOST);
     for (uint32_t i = 0; i < c->blind_count && i < BLIND_MOST; i++)
-        printf("  %4u %12s  at %.*g,%.*g\n", (unsigned)i + 1, area_text(r, c->blind[i].area, text),
-               digits, c->blind[i].at.x, digits, c->blind[i].at.y);
+        printf("  %4u %12s  at %.*g,%.*g\n", (unsigned)i + 1,
+               cover_area_text(r, c->blind[i].area, text), digits, c->blind[i].at.x, digits,
+               c->blind[i].at.y);
 }
 
 void cover_print(const cover_report *r) {

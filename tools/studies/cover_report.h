@@ -15,8 +15,13 @@ typedef struct cover_report {
     const sl_coverage *coverage;
 } cover_report;
 
+enum { AREA_TEXT = 64 };
+
 /// The viewpoints of cameras. The caller frees them (sl_free).
 sl_status cover_viewpoints(sl_context *context, const sl_cameras *cameras, sl_viewpoint **out);
+
+/// "52 m²", with four digits.
+const char *cover_area_text(const cover_report *report, double area, char text[AREA_TEXT]);
 
 /// "3 viewpoints see 52 m² of 60 m² inside (87 %)"; where all are signs: "3 signs can be read from
 /// 52 m² of 60 m² inside (87 %)"

@@ -55,15 +55,13 @@ static double percent(double part, double all) {
 }
 
 void cover_zones_print(const cover_report *r, const zone_list *zones, const zone_cover *covers) {
-    const char *unit = r->baked->map.unit;
     printf("\n  zone                    inside      seen  by 2 or more  viewpoints\n");
     for (size_t z = 0; z < zones->ends.count; z++) {
         const zone_cover *c = &covers[z];
-        char area[64];
-        snprintf(area, sizeof area, "%.4g%s%s%s", c->inside, *unit ? " " : "", unit,
-                 *unit ? "\xc2\xb2" : "");
-        printf("  %-18s %11s  %6.1f %%      %6.1f %%  %10u\n", zones->names.items[z], area,
-               percent(c->seen, c->inside), percent(c->by_two, c->inside), (unsigned)c->viewpoints);
+        char area[AREA_TEXT];
+        printf("  %-18s %11s  %6.1f %%      %6.1f %%  %10u\n", zones->names.items[z],
+               cover_area_text(r, c->inside, area), percent(c->seen, c->inside),
+               percent(c->by_two, c->inside), (unsigned)c->viewpoints);
     }
 }
 

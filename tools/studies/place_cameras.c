@@ -49,7 +49,7 @@ option_table camera_option_table(camera_plan *plan) {
          .text = &plan->see},
         {"path", 0, "PATH",
          "a route that must be seen: a path of the map, or the points of a CSV table",
-         .text = &plan->path},
+         .text = &plan->path, .rare = true},
         {"weight", 0, "NAME=W,...",
          "with --count: what the area of zones of --see, or the length of lines, is worth "
          "(default: "
@@ -320,7 +320,7 @@ static void note_long_range(sl_context *context, const camera_plan *plan, const 
     sl_note(context,
             "--range %g reaches over the whole plan of %.3g by %.3g%s%s, so it limits nothing%s",
             plan->like.range, width, height, *unit ? " " : "", unit,
-            *unit ? "; if the drawing is in another unit, say so: --unit mm=m" : "");
+            *unit ? "; if a drawing is in another unit, --unit says so, as --unit ft=m" : "");
 }
 
 sl_status camera_work_prepare(sl_context *context, const camera_plan *plan,

@@ -295,8 +295,10 @@ static bool is_needed(const sli_cover *cover, const uint32_t *counts, uint32_t p
     return false;
 }
 
-/// Drops places without which the rest is a network that covers all rows: the dear ones first.
-static sl_status drop_unneeded(sli_area *a, const sli_cover *cover, uint8_t *chosen) {
+/// Drops places without which the rest is a network that covers all rows: the dear ones first, of
+/// these from `start` on.
+static sl_status drop_unneeded(sli_area *a, const sli_cover *cover, uint32_t start,
+                               uint8_t *chosen) {
     uint32_t most = 0;
     uint32_t *counts = sl_alloc_array(a->context, cover->rows, sizeof *counts);
     if (!counts) return SL_NO_MEMORY;
@@ -307,7 +309,9 @@ static sl_status drop_unneeded(sli_area *a, const sli_cover *cover, uint8_t *cho
             counts[cover->column_rows[i]]++;
     }
     for (uint32_t next = 0; most; most = next, next = 0)
-        for (uint32_t p = 0; p < cover->columns; p++) {
+        for (uint32_t k = 0; k < cover->columns; k++) {
+            const uint32_t p =
+                k < cover->columns - start ? start + k : k - (cover->columns - start);
             if (!chosen[p] || a->fixed[p]) continue;
             if (cover->costs[p] < most && cover->costs[p] > next) next = cover->costs[p];
             if (cover->costs[p] != most || is_needed(cover, counts, p)) continue;
@@ -331,26 +335,33 @@ static void take_region(sli_area *a, uint8_t *chosen) {
         chosen[p] = n->region[n->group_of[p]] == region;
 }
 
-sl_status sli_network_join(sli_area *a, uint8_t *chosen) {
+sl_status sli_network_join_by(sli_area *a, const sli_cover *cover, uint32_t start, uint8_t *chosen,
+                              bool *joined) {
     joiner j = {.a = a};
-    sl_cover_problem problem = {0};
-    sli_cover cover = {0};
     sl_status status = SL_OK;
-    bool joined = true;
+    *joined = true;
     j.cost = sl_alloc_array(a->context, a->group_count, sizeof *j.cost);
     j.from = sl_alloc_array(a->context, a->group_count, sizeof *j.from);
     if (!j.cost || !j.from) status = SL_NO_MEMORY;
-    while (status == SL_OK && joined && find_parts(a, chosen) > 1)
-        status = add_chain(&j, chosen, &joined);
-    if (status == SL_OK && !joined) take_region(a, chosen);
-    if (status == SL_OK) status = sli_area_problem(a, false, &problem);
-    if (status == SL_OK) status = sli_cover_read(a->context, &problem, 1, &cover);
-    if (status == SL_OK) status = drop_unneeded(a, &cover, chosen);
-    sli_cover_destroy(a->context, &cover);
-    sli_area_problem_destroy(a->context, &problem);
+    while (status == SL_OK && *joined && find_parts(a, chosen) > 1)
+        status = add_chain(&j, chosen, joined);
+    if (status == SL_OK && !*joined) take_region(a, chosen);
+    if (status == SL_OK) status = drop_unneeded(a, cover, start, chosen);
     sl_free(a->context, j.cost);
     sl_free(a->context, j.from);
     sl_free(a->context, j.heap.items);
+    return status;
+}
+
+sl_status sli_network_join(sli_area *a, uint8_t *chosen) {
+    sl_cover_problem problem = {0};
+    sli_cover cover = {0};
+    bool joined;
+    sl_status status = sli_area_problem(a, false, &problem);
+    if (status == SL_OK) status = sli_cover_read(a->context, &problem, 1, &cover);
+    if (status == SL_OK) status = sli_network_join_by(a, &cover, 0, chosen, &joined);
+    sli_cover_destroy(a->context, &cover);
+    sli_area_problem_destroy(a->context, &problem);
     return status;
 }
 

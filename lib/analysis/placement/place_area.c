@@ -7,8 +7,9 @@
 ///    gives more witnesses; more places complete them, maybe to a better upper bound. Again, until
 ///    they leave nothing.
 ///
-/// For a network, chosen places are joined before they are checked, and rows of a set cover that is
-/// none are added beside witnesses (area_network.c).
+/// For a network, chosen places are joined before they are checked, rows of a set cover that is
+/// none are added beside witnesses (area_network.c), and what sees everything is bettered by local
+/// search (area_network_search.c).
 ///
 /// While places are completed, local search betters them, so that few witnesses are added by each
 /// round. The first set cover goes without a tree. Rows are only added, so each bound holds.
@@ -25,6 +26,8 @@
 
 /// Without a better bound for NETWORK_ROUNDS, no more rows of a network are sought.
 enum { NETWORK_ROUNDS = 20 };
+/// Local searches for a network, at most, while places are completed once.
+enum { SEARCHES = 8 };
 enum { ROUNDS = 400, COARSE_ITERATIONS = 20000, SEARCH_ITERATIONS = 5000, SEARCH_LEAST = 300 };
 /// Entries that a local search may touch, about.
 #define SEARCH_WORK 2e7
@@ -263,16 +266,31 @@ static sl_status keep(finder *f) {
 }
 
 /// Adds witnesses and places until `now` leaves nothing. *clean: it left nothing at first.
-static sl_status complete(finder *f, bool *clean) {
+static sl_status fill(finder *f, bool *clean) {
     uint32_t added;
     *clean = true;
     for (int round = 0; round < ROUNDS; round++) {
         sl_report(f->a->context, "place", "witnesses", f->a->witnesses.count, 0);
         if (f->a->task->network) SL_TRY(sli_network_join(f->a, f->now));
         SL_TRY(sli_area_check(f->a, f->now, &added));
-        if (!added) return keep(f);
+        if (!added) return SL_OK;
         *clean = false;
         SL_TRY(take_more(f, !f->complete));
+    }
+    return SL_OK;
+}
+
+/// Fills `now`, keeps it, and for a network betters it.
+static sl_status complete(finder *f, bool *clean) {
+    bool again;
+    SL_TRY(fill(f, clean));
+    SL_TRY(keep(f));
+    for (int i = 0; f->a->task->network && i < SEARCHES; i++) {
+        const uint64_t cost = cost_of(f->a, f->now);
+        SL_TRY(sli_network_search(f->a, f->now));
+        if (cost_of(f->a, f->now) >= cost) return SL_OK;
+        SL_TRY(fill(f, &again));
+        SL_TRY(keep(f));
     }
     return SL_OK;
 }
@@ -364,6 +382,30 @@ static sl_status add_first_rows(sli_area *a) {
     return sli_area_has_only_lines(a) ? SL_OK : sli_area_first_witnesses(a);
 }
 
+/// The lower bound of all sets, networks or not: it holds for networks, and what these sets leave
+/// unseen gives witnesses that networks do not ask for.
+static sl_status bound_without_network(finder *f) {
+    sli_area *a = f->a;
+    const sl_place_area *task = a->task;
+    sl_place_area plain = *task;
+    uint64_t least = UINT64_MAX;
+    sl_status status = SL_OK;
+    bool clean = false;
+    plain.network = false;
+    a->task = &plain;
+    for (int round = 0; status == SL_OK && round < ROUNDS && a->out->lower < least; round++) {
+        status = choose(f, false);
+        if (status == SL_OK) status = fill(f, &clean);
+        if (status == SL_OK && cost_of(a, f->now) < least) least = cost_of(a, f->now);
+        if (status == SL_OK && f->fine && a->wide_count) status = choose(f, true);
+        if (clean && f->fine) break;
+        f->fine = true;
+    }
+    f->fine = false;
+    a->task = task;
+    return status;
+}
+
 static sl_status find(finder *f) {
     sli_area *a = f->a;
     bool clean;
@@ -371,8 +413,10 @@ static sl_status find(finder *f) {
     for (uint32_t i = 0; i < a->task->place_count; i++) f->now[i] = a->fixed[i];
     SL_TRY(add_first_rows(a));
     SL_TRY(take_more(f, true));
-    SL_TRY(complete(f, &clean));
+    SL_TRY(fill(f, &clean));
+    SL_TRY(keep(f));
     if (!(a->out->seen > a->negligible)) return refuse_blind(a);
+    if (a->task->network) SL_TRY(bound_without_network(f));
     for (a->out->rounds = 1; a->out->rounds < ROUNDS; a->out->rounds++) {
         rows = 0;
         SL_TRY(choose(f, false));

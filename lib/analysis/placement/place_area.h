@@ -2,6 +2,7 @@
 #ifndef SLI_PLACE_AREA_H
 #define SLI_PLACE_AREA_H
 
+#include "analysis/placement/cover.h"
 #include "analysis/placement/view_shapes.h"
 #include "sightline/place_area.h"
 
@@ -124,6 +125,12 @@ bool sli_network_allows(const sli_area *a, uint32_t place);
 /// Adds places to chosen ones until lines of sight join all, and drops what is not needed for that
 /// nor for the rows.
 sl_status sli_network_join(sli_area *a, uint8_t *chosen);
+/// The same for a cover that is read already. Of places that are as dear, what is not needed goes
+/// from `start` on. *joined: false where a whole part of all places was taken.
+sl_status sli_network_join_by(sli_area *a, const sli_cover *cover, uint32_t start, uint8_t *chosen,
+                              bool *joined);
+/// Looks for a cheaper network that covers all rows (area_network_search.c).
+sl_status sli_network_search(sli_area *a, uint8_t *chosen);
 /// Adds rows that all networks cover, and chosen places in parts do not, *added of them. Maybe none
 /// for demands of several.
 sl_status sli_network_cut(sli_area *a, const uint8_t *chosen, uint32_t *added);
