@@ -225,6 +225,10 @@ SLP_API size_t slp_level_path_points(const slp_level *level, double *points);
 /// How far each cell is, and its nearest point, or NAN.
 SLP_API int slp_level_distances(slp_level *level, const double *from, double loss, double limit,
                                 double *distances, double *nearest);
+/// How far places are, and where the way to each turns last, or NAN.
+SLP_API int slp_level_distances_to(slp_level *level, const double *from, double loss, double limit,
+                                   const double *places, size_t count, double *distances,
+                                   double *roots);
 
 /// As sl_vga_options. `parts` are bits of sl_vga_part; 0 for the grid alone.
 typedef struct slp_vga {

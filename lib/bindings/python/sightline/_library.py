@@ -125,6 +125,7 @@ _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     "level_path": (_int, [_handle, _doubles, _doubles, _double, _double, _doubles]),
     "level_path_points": (_size, [_handle, _any]),
     "level_distances": (_int, [_handle, _doubles, _double, _double, _doubles, _doubles]),
+    "level_distances_to": (_int, [_handle, _doubles, _double, _double, _doubles, _size, _doubles, _doubles]),
     "level_vga": (_int, [_handle, ctypes.POINTER(Vga), _doubles, _size, _doubles, _size]),
     "level_vga_copy": (_size, [_handle, _any, _any, _any]),
     "level_explain": (_int, [_handle, ctypes.c_int64, ctypes.c_int64, _uint32, _integers,
