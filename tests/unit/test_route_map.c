@@ -73,6 +73,29 @@ static void test_losses_and_refusals(void **state) {
     close_plan(&p);
 }
 
+/// Each allocation that fails leaves nothing behind.
+static void test_memory(void **state) {
+    (void)state;
+    sl_status status = SL_NO_MEMORY;
+    for (long fail_at = 1; status != SL_OK; fail_at++) {
+        testing_memory memory = {0};
+        plan p = {.context = testing_context(&memory)};
+        assert_ok(p.context,
+                  sl_map_parse(p.context, "test.map", two_rooms, strlen(two_rooms), NULL, &p.map));
+        assert_ok(p.context, sl_map_clean(p.context, &p.map, NULL, NULL));
+        open_plan(&p);
+        sl_route_map *map = NULL;
+        memory.calls = 0;
+        memory.fail_at = fail_at;
+        status = sl_route_map_create(p.context, p.finder, (sl_point){1, 1}, INFINITY, &map);
+        assert_true(status == SL_OK || status == SL_NO_MEMORY);
+        memory.fail_at = 0;
+        sl_route_map_destroy(p.context, map);
+        close_plan(&p);
+        assert_int_equal(memory.live, 0);
+    }
+}
+
 /// Both are within the stated share of the true distance.
 static bool is_same(double a, double b, size_t corners) {
     return isinf(a) ? isinf(b) : fabs(a - b) <= b * 0x1p-39 * (double)(corners + 2);
@@ -158,7 +181,7 @@ int main(void) {
         cmocka_unit_test(test_two_rooms), cmocka_unit_test(test_losses_and_refusals),
         cmocka_unit_test(test_axial),     cmocka_unit_test(test_turned),
         cmocka_unit_test(test_oblique),   cmocka_unit_test(test_effects),
-        cmocka_unit_test(test_roots),
+        cmocka_unit_test(test_roots),     cmocka_unit_test(test_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -270,11 +270,42 @@ static void too_long(void **state) {
     end_room(&r);
 }
 
+/// Each allocation that fails leaves nothing behind.
+static void memory_that_ends(void **state) {
+    (void)state;
+    testing_memory memory = {0};
+    room r = {.context = testing_context(&memory)};
+    testing_space(r.context, "walls 0 0 20 0 20 10 0 10 0 0\nwall 9 5 11 5\nstart 2 5 0\n", &r.map,
+                  &r.space);
+    assert_ok(r.context, sl_query_over(r.context, &r.space, &r.map, NULL, &r.query));
+    assert_ok(r.context, sl_query_set_range(r.context, r.query, 6));
+    assert_ok(r.context, sl_query_prepare(r.context, r.query));
+    const sl_point line[] = {{9, 3}, {9.5, 3}};
+    sl_status status = SL_NO_MEMORY;
+    for (long at = 1; status != SL_OK; at++) {
+        const long live = memory.live;
+        sl_set_sight *sight = NULL;
+        sl_set_region regions[2] = {0};
+        memory.calls = 0;
+        memory.fail_at = at;
+        memory.once = true;
+        status = sl_set_sight_create(r.context, r.query, line, 2, SL_SET_LINE, &sight);
+        for (int k = 0; k < 2 && status == SL_OK; k++)
+            status = sl_set_sight_region(r.context, sight, (sl_set_seen)k, &regions[k]);
+        for (int k = 0; k < 2; k++) sl_set_region_destroy(r.context, &regions[k]);
+        sl_set_sight_destroy(r.context, sight);
+        assert_true(status == SL_OK || status == SL_NO_MEMORY);
+        assert_int_equal(memory.live, live);
+    }
+    memory.fail_at = 0;
+    end_room(&r);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(free_ground), cmocka_unit_test(exactly_as_far),
         cmocka_unit_test(random_maps), cmocka_unit_test(many_eyes),
-        cmocka_unit_test(too_long),
+        cmocka_unit_test(too_long),    cmocka_unit_test(memory_that_ends),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -425,7 +425,7 @@ sl_status cmd_path(command_console *console, int argc, char **argv) {
         {"grid", 0, "STEP",
          "instead of --to: how far the points of a grid are that are inside, and where the way to "
          "each turns last: x,y,distance,root_x,root_y",
-         .number = &plan.grid, .over_0 = true},
+         .number = &plan.grid, .over_0 = true, .rare = true},
         {"audible", 0, "R",
          "as --distances, for the cells that a sound with range R reaches, in map units: those "
          "whose nearest point is within R; with --grid its points within R",

@@ -210,11 +210,12 @@ SLP_API void slp_level_polygon_points(const slp_level *level, double *points);
 
 /// What is seen from a line or an area, points as rows of x, y: from some point, or from all. Its
 /// loops are kept as polygons without reflections.
+/// One point with a radius over 0 is a disc.
 SLP_API int slp_level_set_region(slp_level *level, const double *points, size_t count, int is_area,
-                                 int from_all, double *area);
+                                 double radius, int from_all, double *area);
 SLP_API int slp_level_set_sees(slp_level *level, const double *points, size_t count, int is_area,
-                               int from_all, const double *places, size_t place_count,
-                               uint8_t *sees);
+                               double radius, int from_all, const double *places,
+                               size_t place_count, uint8_t *sees);
 /// What of things a path sees: each is a line, or a convex area, of the points up to its end. A row
 /// is its size, what of that is seen, the lengths of the path that see some of it and all of it,
 /// and how far along the path it is seen first, or NAN.
@@ -235,6 +236,10 @@ SLP_API size_t slp_level_path_points(const slp_level *level, double *points);
 /// How far each cell is, and its nearest point, or NAN.
 SLP_API int slp_level_distances(slp_level *level, const double *from, double loss, double limit,
                                 double *distances, double *nearest);
+/// How far places are, and where the way to each turns last, or NAN.
+SLP_API int slp_level_distances_to(slp_level *level, const double *from, double loss, double limit,
+                                   const double *places, size_t count, double *distances,
+                                   double *roots);
 
 /// As sl_vga_options. `parts` are bits of sl_vga_part; 0 for the grid alone.
 typedef struct slp_vga {

@@ -6,16 +6,33 @@
 
 #include <math.h>
 
+/// The points of a set. One point with a radius is a disc: the corners of a polygon in it, with
+/// chords within a thousandth of the radius.
+static sl_status take_points(sl_context *context, const double *points, size_t count, double radius,
+                             sl_point **out, size_t *out_count) {
+    const bool disc = radius > 0 && count == 1;
+    const sl_point middle = {count ? points[0] : 0, count ? points[1] : 0};
+    *out_count = disc ? sl_set_of_disc(middle, radius, radius / 1000, NULL, 0) : count;
+    *out = sl_alloc_array(context, *out_count, sizeof **out);
+    if (!*out) return SL_NO_MEMORY;
+    if (disc)
+        sl_set_of_disc(middle, radius, radius / 1000, *out, *out_count);
+    else
+        for (size_t i = 0; i < count; i++) (*out)[i] = (sl_point){points[2 * i], points[2 * i + 1]};
+    return SL_OK;
+}
+
 /// The sight of a set with the level's settings.
 static sl_status begin(slp_level *level, const double *points, size_t count, int is_area,
-                       sl_set_sight **out) {
+                       double radius, sl_set_sight **out) {
     sl_context *context = level->base.context;
+    sl_point *set = NULL;
+    size_t set_count = 0;
     SL_TRY(slp_level_queries(level, 1));
-    sl_point *set = sl_alloc_array(context, count, sizeof *set);
-    if (!set) return SL_NO_MEMORY;
-    for (size_t i = 0; i < count; i++) set[i] = (sl_point){points[2 * i], points[2 * i + 1]};
-    const sl_status status = sl_set_sight_create(context, level->queries.items[0], set, count,
-                                                 is_area ? SL_SET_AREA : SL_SET_LINE, out);
+    sl_status status = take_points(context, points, count, radius, &set, &set_count);
+    if (status == SL_OK)
+        status = sl_set_sight_create(context, level->queries.items[0], set, set_count,
+                                     is_area || radius > 0 ? SL_SET_AREA : SL_SET_LINE, out);
     sl_free(context, set);
     return status;
 }
@@ -35,12 +52,12 @@ static sl_status keep_loops(sl_context *context, const sl_shape *shape, slp_poly
 }
 
 int slp_level_set_region(slp_level *level, const double *points, size_t count, int is_area,
-                         int from_all, double *area) {
+                         double radius, int from_all, double *area) {
     sl_context *context = level->base.context;
     sl_set_sight *sight;
     sl_set_region region = {0};
     slp_level_forget(level);
-    SL_TRY(begin(level, points, count, is_area, &sight));
+    SL_TRY(begin(level, points, count, is_area, radius, &sight));
     sl_status status = sl_set_sight_region(
         context, sight, from_all ? SL_SEEN_FROM_ALL : SL_SEEN_FROM_SOME, &region);
     if (status == SL_OK) {
@@ -58,10 +75,11 @@ int slp_level_set_region(slp_level *level, const double *points, size_t count, i
 }
 
 int slp_level_set_sees(slp_level *level, const double *points, size_t count, int is_area,
-                       int from_all, const double *places, size_t place_count, uint8_t *sees) {
+                       double radius, int from_all, const double *places, size_t place_count,
+                       uint8_t *sees) {
     sl_context *context = level->base.context;
     sl_set_sight *sight;
-    SL_TRY(begin(level, points, count, is_area, &sight));
+    SL_TRY(begin(level, points, count, is_area, radius, &sight));
     sl_status status = SL_OK;
     for (size_t i = 0; i < place_count && status == SL_OK; i++) {
         bool seen = false;

@@ -78,3 +78,25 @@ int slp_level_distances(slp_level *level, const double *from, double loss, doubl
     sl_free(context, cells);
     return status;
 }
+
+int slp_level_distances_to(slp_level *level, const double *from, double loss, double limit,
+                           const double *places, size_t count, double *distances, double *roots) {
+    sl_context *context = level->base.context;
+    sl_query *query;
+    sl_route_finder *finder;
+    sl_route_map *map = NULL;
+    sl_status status = begin(level, loss, &query, &finder);
+    if (status == SL_OK)
+        status = sl_route_map_create(context, finder, (sl_point){from[0], from[1]}, limit, &map);
+    for (size_t i = 0; status == SL_OK && i < count; i++) {
+        sl_route_place place;
+        sl_route_map_at(map, (sl_point){places[2 * i], places[2 * i + 1]}, &place);
+        const bool reached = isfinite(place.distance);
+        distances[i] = place.distance;
+        roots[2 * i] = reached ? place.root.x : (double)NAN;
+        roots[2 * i + 1] = reached ? place.root.y : (double)NAN;
+    }
+    sl_route_map_destroy(context, map);
+    finish(level, query, finder);
+    return status;
+}

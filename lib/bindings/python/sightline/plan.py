@@ -480,6 +480,10 @@ class Plan(drawing.InNotebooks, MapHandle):
         """As `Level.distances`."""
         return self._own_space().distances(start, **options)
 
+    def distances_to(self, start: ArrayLike, places: ArrayLike, **options: Any) -> Any:
+        """As `Level.distances_to`."""
+        return self._own_space().distances_to(start, places, **options)
+
     def sees_within(self, start: ArrayLike, start_radius: float, end: ArrayLike, end_radius: float,
                     **options: Any) -> Any:
         """As `Level.sees_within`."""

@@ -10,18 +10,21 @@ from . import tables
 from ._library import Floats, Handle, address, as_flag, as_number, as_points, call
 
 
-def _asked(points: ArrayLike, seen: str) -> tuple[Floats, bool]:
-    """The points of a set, and whether all of them must see."""
+def _asked(points: ArrayLike, seen: str, radius: float) -> tuple[Floats, float, bool]:
+    """The points of a set, the radius of a disc, and whether all of them must see."""
     if seen not in ("some", "all"):
         raise ValueError(f"seen must be 'some' or 'all', not {seen!r}")
-    return as_points(points, "points").reshape(-1, 2), seen == "all"
+    given, wide = as_points(points, "points").reshape(-1, 2), as_number(radius, "radius", least=0)
+    if wide > 0 and len(given) != 1:
+        raise ValueError(f"radius is for one point, the middle of a disc, not for {len(given)}")
+    return np.ascontiguousarray(given), wide, seen == "all"
 
 
 class Sets(Handle):
     """What levels answer about lines and areas."""
 
-    def region_from(self, points: ArrayLike, *, area: bool = False, seen: str = "some",
-                    as_array: bool = False) -> Any:
+    def region_from(self, points: ArrayLike, *, area: bool = False, radius: float = 0,
+                    seen: str = "some", as_array: bool = False) -> Any:
         """The region that is seen from some point of a line or an area, or from all of its points.
 
         Within the `range`, bent borders are chords: a point that is seen from as far as 255/256 of
@@ -33,6 +36,8 @@ class Sets(Handle):
             The points of a line (n, 2), or the corners of a convex area.
         area
             The points are the corners of an area.
+        radius
+            Of a disc about one point: as a polygon in it, with chords within a thousandth of this.
         seen
             "some": from some point (weak visibility). "all": from all (complete visibility).
         as_array
@@ -47,12 +52,11 @@ class Sets(Handle):
         >>> len(room.region_from([(1, 1), (3, 1)], seen="some", as_array=True))
         1
         """
-        given, from_all = _asked(points, seen)
+        given, wide, from_all = _asked(points, seen, radius)
         is_area, as_array = as_flag(area, "area"), as_flag(as_array, "as_array")
         size = np.zeros(1)
         with self._lock:
-            self._ask_long(call.level_set_region, np.ascontiguousarray(given), len(given), is_area,
-                           from_all, size)
+            self._ask_long(call.level_set_region, given, len(given), is_area, wide, from_all, size)
             pointer = self._open_pointer()
             found = np.empty((3, call.level_polygons(pointer, None, None, None)), np.int64)
             call.level_polygons(pointer, *(address(row) for row in found))
@@ -144,7 +148,7 @@ class Sets(Handle):
         return bool(sees) if sees.ndim == 0 else sees.view(bool)
 
     def seen_from(self, points: ArrayLike, places: ArrayLike, *, area: bool = False,
-                  seen: str = "some") -> Any:
+                  radius: float = 0, seen: str = "some") -> Any:
         """Whether places (..., 2) are seen from some point of a line or an area, or from all. Exact.
 
         Parameters are those of `region_from`.
@@ -157,9 +161,9 @@ class Sets(Handle):
         >>> room.seen_from([(1, 1), (1, 2.5)], [(1.5, 0.5), (3.5, 2.9), (3.5, 0.1)]).tolist()
         [True, True, False]
         """
-        given, from_all = _asked(points, seen)
+        given, wide, from_all = _asked(points, seen, radius)
         at = np.ascontiguousarray(as_points(places, "places"))
         sees: NDArray[np.uint8] = np.zeros(at.shape[:-1], np.uint8)
-        self._ask_long(call.level_set_sees, np.ascontiguousarray(given), len(given),
-                       as_flag(area, "area"), from_all, at, sees.size, sees.reshape(-1))
+        self._ask_long(call.level_set_sees, given, len(given), as_flag(area, "area"), wide, from_all,
+                       at, sees.size, sees.reshape(-1))
         return bool(sees) if sees.ndim == 0 else sees.view(bool)

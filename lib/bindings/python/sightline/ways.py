@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import tables
-from ._library import Floats, Handle, as_flag, as_number, as_point, call
+from ._library import Floats, Handle, as_flag, as_number, as_point, as_points, call
 
 
 class Path(NamedTuple):
@@ -103,4 +103,40 @@ class Ways(Handle):
             distance, nearest = np.empty(int(counts[0])), np.empty((int(counts[0]), 2))
             self._ask_long(call.level_distances, given, least, most, distance, nearest)
         columns = {"distance": distance, "x": nearest[:, 0].copy(), "y": nearest[:, 1].copy()}
+        return tables.frame(columns, arrays=arrays)
+
+    def distances_to(self, start: ArrayLike, places: ArrayLike, *, loss: Optional[float] = None,
+                     limit: float = math.inf, arrays: bool = False) -> Any:
+        """How far places are from one, all at once: the shortest path map of a point.
+
+        Parameters
+        ----------
+        start
+            A point (2,).
+        places
+            Points (n, 2).
+        loss, limit, arrays
+            As for `distances`.
+
+        Returns
+        -------
+        A table with a row for each place: `distance`, or inf, and `root_x`, `root_y`, where the
+        way turns last (`start` if it is straight), or nan.
+
+        Examples
+        --------
+        >>> import sightline
+        >>> room = sightline.Plan.from_segments([(0, 0, 10, 0), (10, 0, 10, 9), (10, 9, 0, 9),
+        ...                                      (0, 9, 0, 0), (5, 0, 5, 6)])
+        >>> far = room.distances_to((2, 2), [(2, 5), (8, 2)], arrays=True)
+        >>> far["distance"].tolist(), far["root_x"].tolist()
+        ([3.0, 10.0], [2.0, 5.0])
+        """
+        given, least = as_point(start, "start"), _as_loss(loss)
+        most = limit if limit == math.inf else as_number(limit, "limit", least=0)
+        asked, arrays = np.ascontiguousarray(as_points(places, "places").reshape(-1, 2)), as_flag(arrays, "arrays")
+        distance, root = np.empty(len(asked)), np.empty((len(asked), 2))
+        with self._lock:
+            self._ask_long(call.level_distances_to, given, least, most, asked, len(asked), distance, root)
+        columns = {"distance": distance, "root_x": root[:, 0].copy(), "root_y": root[:, 1].copy()}
         return tables.frame(columns, arrays=arrays)

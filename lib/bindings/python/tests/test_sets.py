@@ -52,6 +52,18 @@ class Sets(unittest.TestCase):
         seen = hall.seen_from(line, [(12, 15), (12, 15.001), (19, 14), (19, 14.001)])
         self.assertEqual(seen.tolist(), [True, False, True, False])
 
+    def test_disc(self):
+        hall = sightline.Plan.from_segments([(0, 0, 30, 0), (30, 0, 30, 20), (30, 20, 0, 20), (0, 20, 0, 0)])
+        hall.range = 5
+        area = area_of(hall.region_from((10, 10), radius=2, as_array=True))
+        self.assertLess(area, 49 * np.pi)
+        self.assertGreater(area, 48 * np.pi)
+        self.assertEqual(hall.seen_from((10, 10), [(16.9, 10), (17.1, 10)], radius=2).tolist(), [True, False])
+        self.assertEqual(hall.seen_from((10, 10), [(12.9, 10), (13.1, 10)], radius=2, seen="all").tolist(),
+                         [True, False])
+        with self.assertRaises(ValueError):
+            hall.region_from([(1, 1), (2, 2)], radius=1)
+
     def test_shapes_of_shapely(self):
         if not importlib.util.find_spec("shapely"):
             self.skipTest("there is no shapely")

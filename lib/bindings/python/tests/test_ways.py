@@ -43,6 +43,18 @@ class Ways(unittest.TestCase):
             self.assertGreaterEqual(length, least - 1e-9)
             self.assertGreaterEqual(length, np.hypot(*(place - places[0])) - 1e-9)
 
+    def test_places(self):
+        plan = sightline.Plan.from_file(support.MAPS / "office.map")
+        places = support.inside_points(plan.space(), 40, 3)
+        far = plan.distances_to(places[0], places, arrays=True)
+        for place, length, *root in zip(places, far["distance"], far["root_x"], far["root_y"]):
+            way = plan.path(places[0], place)
+            self.assertAlmostEqual(way.length, length, places=9)
+            self.assertEqual(root, way.points[-2 if length else 0].tolist())
+        shut = self.plan.distances_to((2, 5), [(8, 5), (2, 7)], limit=3, arrays=True)
+        self.assertEqual(shut["distance"].tolist(), [math.inf, 2])
+        self.assertTrue(np.isnan(shut["root_x"][0]))
+
     def test_refusals(self):
         for ask in (lambda: self.plan.path((2, 5), (12, 5)), lambda: self.plan.distances((12, 5)),
                     lambda: self.plan.path((2, 5), (8, 5), loss=-1), lambda: self.plan.distances((2, 5), limit=-1),
