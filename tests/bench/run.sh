@@ -102,6 +102,12 @@ changes() {
     bench_changes city:{4,12,39} city:{4,12,39}:17.3
 }
 
+worlds() {
+    bench_world --rows none city:{4,12,38} city:{4,12,38}:17.3
+    bench_world --rows now city:{4,12,38} city:{4,12,38}:17.3
+    bench_world --often 100000 city:2
+}
+
 polygons() {
     local level
     sightline bake maps/office.map -o "$out/office.slv" --quiet
@@ -253,6 +259,7 @@ run parts "$doom2"
 run floor "$soda" "$doom2"
 run games "$soda" "$doom2"
 run changes
+run worlds
 run polygons "$soda" "$doom1"
 run effects
 run vga "$gallery"

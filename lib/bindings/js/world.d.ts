@@ -56,8 +56,9 @@ export interface WorldOptions {
 
 /**
  * Walls have numbers, from when they are added until they are removed: first the map's walls, then
- * its doors, its one-way glass, its seams and its mirrors. Answers are those of a map that is opened anew. Edits
- * count from the next commit on.
+ * its doors, its one-way glass, its seams and its mirrors. Answers are those of a map that is opened anew, but
+ * nothing is welded: where ends of walls meet but for rounding, slits stay that a bake closes. Edits count from the next
+ * commit on.
  */
 export class World {
   private constructor()

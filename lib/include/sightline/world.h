@@ -18,6 +18,9 @@
 /// points, not cells. And an eye that is within a wall, or where walls meet, sees the side of its
 /// cell (view.h), which their numbers decide, and what is inside (sl_world_mark_inside).
 ///
+/// Nothing is welded: where walls of a file meet but for rounding, clean the map first
+/// (sl_map_clean), or slits stay that a bake closes.
+///
 /// Where walls cross or touch they are cut, as by the mesh. Each wall keeps the place that it was
 /// given: when another one goes, it is as if that had never been there. Places where oblique walls
 /// cross are rounded to the nearest doubles, as in a clean map.

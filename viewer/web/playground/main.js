@@ -93,6 +93,11 @@ class Playground extends Sight {
         this.redraw();
     }
 
+    /** A bake from before a drag that a world follows comes too late: the end of the drag has one of its own. */
+    baked(answer) {
+        if (!this.live.on) super.baked(answer);
+    }
+
     /** What the eye sees while a wall of a large map is dragged. */
     followed({ region, mirrored }) {
         this.seen = region && { region, mirrored };

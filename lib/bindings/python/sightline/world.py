@@ -45,7 +45,8 @@ class World(Handle):
 
     Walls have numbers, from when they are added until they are removed: first those of the plan's
     walls, then of its doors, its one-way glass, its seams and its mirrors. Edits count from `commit` on. Answers
-    are those of a plan that is made anew.
+    are those of a plan that is made anew, but nothing is welded: where ends of walls meet but for
+    rounding, slits stay that a bake closes.
 
     Examples
     --------
