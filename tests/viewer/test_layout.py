@@ -86,6 +86,10 @@ HANDS = {
     "wall": ("office.map", "key F3\n", "drag 200 100 200 300\n",
              "move 200 100\nkey Tab\nkey Space\n" + "key Down\n" * GRID_STEPS +
              "key Space\nkey Escape\n"),
+    "line": ("office.map", "key 9\nkey Ctrl+4\n", "drag 200 300 300 300\n",
+             "move 200 300\nkey Tab\nkey Space\n" + "key Right\n" * 10 + "key Space\nkey Escape\n"),
+    "path": ("office.map", "key 9\nkey Ctrl+3\n", "click 200 300\nclick 300 300\n",
+             "move 200 300\nkey Tab\nkey Return\n" + "key Right\n" * 10 + "key Return\nkey Escape\n"),
     "layer": ("office.map", "", "key V\n", "key ?\ntype none\nkey Ctrl+A\ntype visible set\nkey Tab\nkey Tab\n"
                                             "key Return\n"),
     "door": ("effects/doors.map", "", "action nearest_door\n", "key ?\ntype nearest door\nkey Tab\n"
