@@ -116,6 +116,9 @@ class DoubtfulUnits(Plans):
         self.assertEqual(self.told(self.doors(1, 1), "--unit", "mm=m"), [])
         self.assertEqual(self.told(self.doors(4, 1)), [])
         self.assertEqual(self.told(self.doors(0, 1)), [])
+        # Plans are not drawn in yards.
+        self.assertIn("in metres they are 0.9 m wide, and the plan is 12 m long: --unit m=m reads it so",
+                      self.told(self.doors(1, 0.001))[0])
 
     def test_by_its_size(self):
         told = self.told(flat(4, 0.04))

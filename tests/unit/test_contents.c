@@ -311,6 +311,7 @@ static void test_walls_on_doors(void **state) {
         LINE("A-DOOR", 6, 4, 6, 8) TAIL;
     assert_int_equal(read_noted(text, NULL, notes), 5);
     assert_non_null(strstr(notes, "A-DOOR: 2 lines on layers of doors are longer than doors"));
+    assert_non_null(strstr(notes, "name all layers of walls: --layers 'A-WALL,A-DOOR'"));
     assert_int_equal(read_noted(HEAD ROOM("A-WALL") SWING("A-DOOR") TAIL, NULL, notes), 5);
     assert_null(strstr(notes, "longer"));
 }

@@ -209,26 +209,28 @@ static void note_rest(const sli_choice *c) {
         c->contents->file, 100 * c->parts.rest, c->contents->file);
 }
 
+/// Whether a group is to be named for its walls, where layers of doors have some.
+static bool has_walls(const sli_group *group) {
+    return group->walls && (group->long_ones || (group->taken && group->means != SLI_MEANS_WINDOW));
+}
+
 /// The layers of walls and those with lines that are longer than doors, as --layers takes them;
-/// "A,B" where they are too many, or a name is not to be typed.
+/// "A,B" where looks say what is a wall, where they are too many, or a name is not to be typed.
 static void say_with_doors(const sli_choice *c, char *text, size_t size) {
+    bool plain = !c->by_looks;
     text[0] = '\0';
-    for (size_t i = 0; i < c->contents->groups.count; i++) {
+    for (size_t i = 0; plain && i < c->contents->groups.count; i++) {
         const sli_group *group = &c->contents->groups.items[i];
         const size_t used = strlen(text);
-        if (!group->walls || !(group->long_ones ||
-                               (group->taken && !c->by_looks && group->means != SLI_MEANS_WINDOW)))
-            continue;
-        bool plain = group->length > 0 && used + group->length + 2 < size;
+        if (!has_walls(group)) continue;
+        plain = group->length > 0 && used + group->length + 2 < size;
         for (size_t k = 0; plain && k < group->length; k++)
             plain = (unsigned char)group->name[k] >= ' ' && !strchr("',\x7f", group->name[k]);
-        if (!plain) {
-            snprintf(text, size, "A,B");
-            return;
-        }
-        snprintf(text + used, size - used, "%s%.*s", used ? "," : "", (int)group->length,
-                 group->name);
+        if (plain)
+            snprintf(text + used, size - used, "%s%.*s", used ? "," : "", (int)group->length,
+                     group->name);
     }
+    if (!plain) snprintf(text, size, "A,B");
 }
 
 void sli_choice_note_long_doors(const sli_choice *c) {

@@ -1,5 +1,5 @@
-/// Compares a drawing with what buildings are like: doors are 0.4 to 1.6 m wide, plans 3 m to 1 km
-/// long. Plans of many walls are longer; towns are drawn in metres and larger units. These are
+/// Compares a drawing with what buildings are like: doors are 0.4 to 1.6 m wide, plans 2.5 m to 1
+/// km long. Plans of many walls are longer; towns are drawn in metres and larger units. These are
 /// rules of thumb, so all that follows is a note.
 #include "io/parts/plan_unit.h"
 
@@ -7,19 +7,26 @@
 #include "map/unit.h"
 
 #include <math.h>
+#include <string.h>
 
 /// In metres: the least length of a plan, and of one with many walls; the largest, and that of a
 /// town; the lengths that a unit is offered for; the usual, least and largest width of a door.
-static const double SHORT = 3, SHORT_OF_MANY = 8, LONG = 1000, LONG_TOWN = 10000, OFFER_SHORT = 6,
+static const double SHORT = 2.5, SHORT_OF_MANY = 8, LONG = 1000, LONG_TOWN = 10000, OFFER_SHORT = 6,
                     OFFER_LONG = 500, DOOR = 0.85, DOOR_LEAST = 0.4, DOOR_MOST = 1.6;
 enum { FEW_WALLS = 5, MANY_WALLS = 200, SURE_DOORS = 2 };
+
+/// Whether plans are drawn in a unit: mm, cm, m, inches or feet.
+static bool is_usual(const sli_unit *unit) {
+    return unit->known && unit->metres <= 1 && strcmp(unit->sign, "yd") != 0;
+}
 
 /// "in cm it is 7.1 m long (--unit cm=m)", for each unit in which it is as long as buildings are.
 static bool list_units(double length, int unit, char *text, size_t size) {
     text[0] = '\0';
     for (int i = 0; i < SLI_UNITS; i++) {
         const double metres = length * sli_units[i].metres;
-        if (!sli_units[i].known || i == unit || !(metres >= OFFER_SHORT && metres <= OFFER_LONG))
+        if (!is_usual(&sli_units[i]) || i == unit ||
+            !(metres >= OFFER_SHORT && metres <= OFFER_LONG))
             continue;
         const size_t used = strlen(text);
         snprintf(text + used, size - used, "%sin %s it is %.3g m long (--unit %s=m)",
@@ -34,7 +41,7 @@ static int unit_of_doors(double door) {
     double least = INFINITY;
     for (int i = 0; i < SLI_UNITS; i++) {
         const double metres = door * sli_units[i].metres;
-        if (!sli_units[i].known || !(metres >= DOOR_LEAST && metres <= DOOR_MOST)) continue;
+        if (!is_usual(&sli_units[i]) || !(metres >= DOOR_LEAST && metres <= DOOR_MOST)) continue;
         if (fabs(log(metres / DOOR)) >= least) continue;
         least = fabs(log(metres / DOOR));
         best = i;
