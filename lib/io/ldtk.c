@@ -207,7 +207,8 @@ static sl_status check_any(const sli_ldtk *reader, bool unsure) {
 static sl_status check_walls(const sli_ldtk *reader, const sl_map *map) {
     char next[600] = "";
     if (map->wall_count || sl_map_partial_walls(map)) return SL_OK;
-    if (reader->layers)
+    const bool several = strchr(reader->told.solid.text, ',') || *reader->told.stands.text;
+    if (reader->layers && several)
         snprintf(next, sizeof next,
                  "; --layers %.40s:1+3-5 takes the values of these numbers alone, as in: sightline "
                  "check '%.300s' --map '%.40s' --layers '%.40s:1' -o map.png",

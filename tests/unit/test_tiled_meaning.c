@@ -117,6 +117,17 @@ static void test_pictures_of_walls(void **state) {
     assert_walls(MAP(SET LAYER("walls", TILES) LAYER("Light-Collisions", DOORWAY)), TWO_TILES);
 }
 
+/// A layer "World" is solid where nothing else says more, also beside layers of walls without
+/// tiles.
+static void test_world(void **state) {
+    (void)state;
+    assert_walls(MAP(SET LAYER("leftCollider", CSV("0,0,0,0,0,0")) LAYER("World", TILES)
+                         LAYER("Ground", FULL)),
+                 TWO_TILES);
+    // Firmer words go first.
+    assert_walls(MAP(SET LAYER("World", CSV("0,0,0,0,1,1")) LAYER("Walls", TILES)), TWO_TILES);
+}
+
 /// What the player goes over or under is not solid beside a layer that is, whatever its tiles say.
 static void test_beside_player(void **state) {
     (void)state;
@@ -399,6 +410,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_guess),
         cmocka_unit_test(test_pictures_of_walls),
+        cmocka_unit_test(test_world),
         cmocka_unit_test(test_beside_player),
         cmocka_unit_test(test_all_solid),
         cmocka_unit_test(test_tile_size),

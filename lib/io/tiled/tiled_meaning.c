@@ -329,6 +329,30 @@ static void tell_beside(const sli_tiled_reader *reader) {
     }
 }
 
+/// Layers that are solid with a few tiles in all, beside one with many more that is not: they may
+/// be marks at which enemies turn.
+static void tell_little(const sli_tiled_reader *reader) {
+    const sli_tiled_seen *most = NULL;
+    uint64_t solid = 0;
+    for (size_t i = 0; i < reader->seen.count; i++) {
+        const sli_tiled_seen *layer = &reader->seen.items[i];
+        const bool plain = layer->kind == SLI_GAME_UNSAID || layer->kind >= SLI_GAME_STANDS;
+        const bool full = 20 * layer->count >= 19 * layer->squares;
+        if (layer->taken && (layer->objects || layer->count > 2)) return;
+        if (layer->taken) solid += layer->count;
+        if (!layer->taken && !layer->objects && plain && !full && !layer->moves && *layer->name &&
+            (!most || layer->count > most->count))
+            most = layer;
+    }
+    if (!solid || !most || most->count < 20 * solid) return;
+    const sli_shown name = sli_show((sli_word){most->name, strlen(most->name)});
+    sl_note(reader->context,
+            "%s: only %llu tile%s in layers named for walls: if layer '%s' (%llu tiles) is solid: "
+            "sightline check '%.300s' --layers '%s' -o map.png",
+            reader->map->file->name, (unsigned long long)solid, solid == 1 ? " is" : "s are",
+            name.text, (unsigned long long)most->count, reader->map->file->name, name.text);
+}
+
 void sli_tiled_tell_meaning(const sli_tiled_reader *reader) {
     static const char *const by[] = {"", "tiles that say so of layers below and above the player",
                                      "names of layers", "terrains", "names of tilesets"};
@@ -347,6 +371,7 @@ void sli_tiled_tell_meaning(const sli_tiled_reader *reader) {
                 file,
                 sli_show((sli_word){reader->believed_not, strlen(reader->believed_not)}).text);
     if (!reader->by) tell_beside(reader);
+    if (!reader->by) tell_little(reader);
     if (reader->by == SLI_TILED_BY_GUESS) {
         const sli_tiled_seen *layer = &reader->seen.items[reader->guess_layer];
         char tile[64] = "its empty squares are";
