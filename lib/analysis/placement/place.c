@@ -24,7 +24,7 @@
 #include <stdio.h>
 
 /// One of FEW_OF is few: what is left of so many is dealt with in the next round.
-enum { USUAL_ROUNDS = 400, UPPER_STEPS = 30, COARSE_STEPS = 8, FEW_OF = 100 };
+enum { USUAL_ROUNDS = 400, UPPER_STEPS = 30, COARSE_STEPS = 8, FEW_OF = 100, SPLITS = 8 };
 
 sl_place_options sl_place_options_default(void) {
     return (sl_place_options){.nodes = 10000, .many_entries = 1 << 20};
@@ -228,7 +228,8 @@ static sl_status use_columns(sli_placer *p, sli_place_columns *c) {
                                       NULL,
                                       NULL};
     const bool drops = p->drops && c->entries.count >= p->options->many_entries;
-    const sl_cover_options options = sli_cover_options(p);
+    sl_cover_options options = sli_cover_options(p);
+    if (!p->coarse) options.splits = SPLITS;
     sl_cover_result cover = {0};
     sl_status status = sl_cover_solve(p->context, &problem, &options, &cover);
     sli_choose_none(p);
