@@ -229,7 +229,9 @@ static sl_status use_columns(sli_placer *p, sli_place_columns *c) {
                                       NULL};
     const bool drops = p->drops && c->entries.count >= p->options->many_entries;
     sl_cover_options options = sli_cover_options(p);
-    if (!p->coarse) options.splits = SPLITS;
+    // Where the bounds are far apart, a coarse set cover gains by them, too.
+    const bool wide = (p->out->upper - p->out->lower) * FEW_OF > p->out->upper;
+    if (!p->coarse || (p->drops && wide)) options.splits = SPLITS;
     sl_cover_result cover = {0};
     sl_status status = sl_cover_solve(p->context, &problem, &options, &cover);
     sli_choose_none(p);
