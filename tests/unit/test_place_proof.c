@@ -177,6 +177,37 @@ static void files_keep_it(void **state) {
     end(&p);
 }
 
+/// So are splits, and a file that ends within one is refused.
+static void files_keep_splits(void **state) {
+    (void)state;
+    plan p;
+    sl_placement back, claim;
+    size_t size, again;
+    uint32_t blocks[] = {3, 0, 3}, costs[] = {1, 239}, parts[] = {0, 1, 1};
+    begin_text(&p, texts[6]);
+    sl_cover_proof rest = p.placed.proof, empty = {.denominator = 1};
+    sl_cover_split splits[] = {{240, 3, blocks, 2, costs, &rest}, {1, 0, NULL, 0, NULL, &empty}};
+    rest.row_count = 3;
+    rest.parts = parts;
+    claim = p.placed;
+    claim.proof.split_count = 2;
+    claim.proof.splits = splits;
+    char *text = print(&p, &claim, &size);
+    assert_ok(p.context, parse(&p, text, size, &back));
+    assert_int_equal(back.proof.split_count, 2);
+    assert_int_equal(back.proof.splits[0].costs[1], 239);
+    char *other = print(&p, &back, &again);
+    assert_string_equal(text, other);
+    sl_placement_destroy(p.context, &back);
+    const size_t from = (size_t)(strstr(text, "\"splits\"") - text);
+    const size_t to = (size_t)(strstr(text, "\"program\"") - text);
+    for (size_t length = from; length < to; length++)
+        assert_int_equal(parse(&p, text, length, &back), SL_BAD_INPUT);
+    free(text);
+    free(other);
+    end(&p);
+}
+
 static void other_maps_are_refused(void **state) {
     (void)state;
     plan p, q;
@@ -283,15 +314,11 @@ static void parts_of_files_are_refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(other_code_confirms_plans),
-        cmocka_unit_test(other_code_confirms_polygons),
-        cmocka_unit_test(implied_witnesses_may_go),
-        cmocka_unit_test(files_keep_it),
-        cmocka_unit_test(other_maps_are_refused),
-        cmocka_unit_test(no_number_can_be_changed),
-        cmocka_unit_test(no_set_can_be_swapped),
-        cmocka_unit_test(no_column_is_left_out),
-        cmocka_unit_test(parts_of_files_are_refused),
+        cmocka_unit_test(other_code_confirms_plans), cmocka_unit_test(other_code_confirms_polygons),
+        cmocka_unit_test(implied_witnesses_may_go),  cmocka_unit_test(files_keep_it),
+        cmocka_unit_test(files_keep_splits),         cmocka_unit_test(other_maps_are_refused),
+        cmocka_unit_test(no_number_can_be_changed),  cmocka_unit_test(no_set_can_be_swapped),
+        cmocka_unit_test(no_column_is_left_out),     cmocka_unit_test(parts_of_files_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

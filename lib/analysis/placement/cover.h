@@ -110,4 +110,12 @@ typedef struct sli_cover_part {
 sl_status sli_cover_branch(sl_context *context, sli_cover_part *part, double *duals,
                            uint64_t *nodes);
 
+// --- splits
+
+/// Betters the bound of a part by splitting it, where that can be; else `out` is empty. `duals`: of
+/// the part's linear program.
+sl_status sli_cover_split(sl_context *context, sli_cover_part *part, const double *duals,
+                          sl_cover_split *out);
+void sli_cover_split_destroy(sl_context *context, sl_cover_split *split); ///< and zeroes it
+
 #endif

@@ -5,7 +5,8 @@
 /// no column that is left covers rows of two. Then the trees: a walk from each root, which visits
 /// no node twice, with what is taken and left on the way. A leaf that says too much only gets the
 /// bound that its duals do prove. What makes no sense (an index too large, a sum beyond 128 bits)
-/// proves nothing: the bound is 0.
+/// proves nothing: the bound is 0. A part that is split makes a problem of copies, whose proof is
+/// checked in the same way.
 ///
 /// Cost: for each step, the lists of its two rows or columns; for each leaf, the entries of its
 /// part.
@@ -168,7 +169,7 @@ static bool find_column_parts(checker *c) {
 /// Lists rows and columns by part.
 static bool follow_parts(checker *c) {
     const sl_cover_problem *p = c->problem;
-    const uint32_t parts = c->proof->part_count;
+    const uint64_t parts = (uint64_t)c->proof->part_count + c->proof->split_count;
     for (uint32_t r = 0; r < p->row_count; r++) {
         if (c->row_gone[r]) continue;
         if (c->proof->parts[r] >= parts) return false;
@@ -325,6 +326,81 @@ static sl_status walk(sl_context *context, checker *c, uint32_t part, uint64_t *
     return SL_OK;
 }
 
+// --- splits
+
+/// The problem of copies.
+typedef struct copies {
+    uint32_t count;
+    SL_ARRAY(size_t) ends;
+    SL_ARRAY(uint32_t) entries;
+    SL_ARRAY(uint32_t) blocks; ///< of the copies of one column
+    uint32_t *demands;
+} copies;
+
+/// Adds the copies of a column; *sense is false where they cost more than it does.
+static sl_status copy_column(sl_context *context, const checker *c, const sl_cover_split *split,
+                             uint32_t column, copies *all, bool *sense) {
+    const sl_cover_problem *p = c->problem;
+    all->blocks.count = 0;
+    for (size_t i = begin_of(p, column); i < p->ends[column]; i++) {
+        if (c->row_gone[p->entries[i]]) continue;
+        const uint32_t block = split->blocks[c->places[p->entries[i]]];
+        size_t k = 0;
+        while (k < all->blocks.count && all->blocks.items[k] != block) k++;
+        if (k < all->blocks.count) continue;
+        SL_TRY(SL_ARRAY_ROOM(context, &all->blocks, 1));
+        all->blocks.items[all->blocks.count++] = block;
+    }
+    uint64_t cost = 0;
+    for (size_t k = 0; k < all->blocks.count && *sense; k++) {
+        for (size_t i = begin_of(p, column); i < p->ends[column]; i++) {
+            const uint32_t row = p->entries[i];
+            if (c->row_gone[row] || split->blocks[c->places[row]] != all->blocks.items[k]) continue;
+            SL_TRY(SL_ARRAY_ROOM(context, &all->entries, 1));
+            all->entries.items[all->entries.count++] = (uint32_t)c->places[row];
+        }
+        SL_TRY(SL_ARRAY_ROOM(context, &all->ends, 1));
+        all->ends.items[all->ends.count++] = all->entries.count;
+        *sense = all->count < split->cost_count && split->costs[all->count];
+        if (*sense) cost += split->costs[all->count++];
+    }
+    *sense = *sense && cost <= (uint64_t)split->unit * (cost_of(p, column) / c->divisor);
+    return SL_OK;
+}
+
+static sl_status check_copies(sl_context *context, const checker *c, uint32_t number, copies *all,
+                              uint64_t *bound) {
+    const sl_cover_split *split = &c->proof->splits[number];
+    const size_t part = (size_t)c->proof->part_count + number;
+    const size_t first = c->rows_first[part], count = c->rows_first[part + 1] - first;
+    bool sense =
+        split->unit && split->row_count == count && split->rest && !split->rest->split_count;
+    all->demands = sl_alloc_array(context, count, sizeof *all->demands);
+    if (!all->demands) return SL_NO_MEMORY;
+    for (size_t i = 0; i < count; i++) all->demands[i] = (uint32_t)c->rest[c->rows[first + i]];
+    for (size_t i = c->columns_first[part]; i < c->columns_first[part + 1] && sense; i++)
+        SL_TRY(copy_column(context, c, split, c->columns[i], all, &sense));
+    if (!sense || all->count != split->cost_count) return SL_OK;
+    const sl_cover_problem problem = {split->row_count,   all->count,   all->ends.items,
+                                      all->entries.items, split->costs, all->demands};
+    SL_TRY(sl_cover_check(context, &problem, split->rest, bound));
+    *bound = *bound / split->unit + (*bound % split->unit > 0);
+    *bound = *bound > UINT64_MAX / c->divisor ? UINT64_MAX : *bound * c->divisor;
+    return SL_OK;
+}
+
+static sl_status check_split(sl_context *context, const checker *c, uint32_t number,
+                             uint64_t *bound) {
+    copies all = {0};
+    *bound = 0;
+    const sl_status status = check_copies(context, c, number, &all, bound);
+    sl_free(context, all.ends.items);
+    sl_free(context, all.entries.items);
+    sl_free(context, all.blocks.items);
+    sl_free(context, all.demands);
+    return status;
+}
+
 /// Adds up the bounds of the parts; 0 from one that makes no sense, and then nothing else is asked.
 static sl_status check_parts(sl_context *context, checker *c, uint64_t *lower) {
     uint64_t all = c->taken;
@@ -333,6 +409,11 @@ static sl_status check_parts(sl_context *context, checker *c, uint64_t *lower) {
         uint64_t bound;
         SL_TRY(walk(context, c, part, &bound));
         if (c->way.count) return SL_OK; // the way down made no sense
+        all = all + bound < all ? UINT64_MAX : all + bound;
+    }
+    for (uint32_t i = 0; i < c->proof->split_count; i++) {
+        uint64_t bound;
+        SL_TRY(check_split(context, c, i, &bound));
         all = all + bound < all ? UINT64_MAX : all + bound;
     }
     *lower = all;
@@ -355,7 +436,7 @@ static void count(checker *c) {
 
 static bool make(sl_context *context, checker *c) {
     const size_t rows = c->problem->row_count, columns = c->problem->column_count;
-    const size_t parts = c->proof->part_count;
+    const size_t parts = (size_t)c->proof->part_count + c->proof->split_count;
     return (c->row_gone = sl_alloc_array(context, rows, sizeof *c->row_gone)) &&
            (c->column_gone = sl_alloc_array(context, columns, sizeof *c->column_gone)) &&
            (c->decided = sl_alloc_array(context, columns, sizeof *c->decided)) &&

@@ -479,7 +479,7 @@ static sl_status grow_trees(sl_context *context, tree *t, double *duals) {
     bool is_whole = true;
     if (t->program) SL_TRY(bound_root(context, t, duals));
     while (is_whole && t->part->lower < t->part->cost) {
-        t->target = t->part->lower + 1;
+        t->target = t->part->options->at_once ? t->part->cost : t->part->lower + 1;
         SL_TRY(grow_whole(context, t, duals, &is_whole));
     }
     return SL_OK;

@@ -24,7 +24,7 @@
 #include <stdio.h>
 
 /// One of FEW_OF is few: what is left of so many is dealt with in the next round.
-enum { USUAL_ROUNDS = 400, UPPER_STEPS = 30, COARSE_STEPS = 8, FEW_OF = 100 };
+enum { USUAL_ROUNDS = 400, UPPER_STEPS = 30, COARSE_STEPS = 8, FEW_OF = 100, SPLITS = 8 };
 
 sl_place_options sl_place_options_default(void) {
     return (sl_place_options){.nodes = 10000, .many_entries = 1 << 20};
@@ -230,7 +230,10 @@ static sl_status use_columns(sli_placer *p, sli_place_columns *c) {
                                       NULL,
                                       NULL};
     const bool drops = p->drops && c->entries.count >= p->options->many_entries;
-    const sl_cover_options options = sli_cover_options(p);
+    sl_cover_options options = sli_cover_options(p);
+    // Where the bounds are far apart, a coarse set cover gains by them, too.
+    const bool wide = (p->out->upper - p->out->lower) * FEW_OF > p->out->upper;
+    if (!p->coarse || (p->drops && wide)) options.splits = SPLITS;
     sl_cover_result cover = {0};
     sl_status status = sl_cover_solve(p->context, &problem, &options, &cover);
     sli_choose_none(p);

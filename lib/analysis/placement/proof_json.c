@@ -66,7 +66,7 @@ static void put_number(FILE *f, uint64_t number, uint64_t none) {
         fprintf(f, "%" PRIu64, number);
 }
 
-void sli_proof_put_cover(FILE *f, const sl_cover_proof *p) {
+static void put_trees(FILE *f, const sl_cover_proof *p) {
     fprintf(f, ",\n\"denominator\": %" PRIu64 ",\n\"steps\": [", p->denominator);
     for (uint32_t i = 0; i < p->step_count; i++)
         fprintf(f, "%s\n[%" PRIu32 ", %" PRIu32 ", %" PRIu32 "]", i ? "," : "", p->steps[i].kind,
@@ -89,6 +89,21 @@ void sli_proof_put_cover(FILE *f, const sl_cover_proof *p) {
     }
     fprintf(f, "],\n\"duals\": [");
     for (size_t i = 0; i < p->dual_count; i++) fprintf(f, "%s%" PRIu64, i ? ", " : "", p->duals[i]);
+    fprintf(f, "]");
+}
+
+void sli_proof_put_cover(FILE *f, const sl_cover_proof *p) {
+    put_trees(f, p);
+    if (!p->split_count) return;
+    fprintf(f, ",\n\"splits\": [");
+    for (uint32_t i = 0; i < p->split_count; i++) {
+        const sl_cover_split *s = &p->splits[i];
+        fprintf(f, "%s\n{\"unit\": %" PRIu32, i ? "," : "", s->unit);
+        sli_proof_put_numbers(f, "blocks", s->blocks, s->row_count);
+        sli_proof_put_numbers(f, "costs", s->costs, s->cost_count);
+        put_trees(f, s->rest);
+        fprintf(f, "}");
+    }
     fprintf(f, "]");
 }
 
@@ -163,8 +178,9 @@ sl_status sli_proof_key(sli_proof_reader *r, const char *name) {
     const size_t length = strlen(name);
     const bool first = strcmp(name, "sightline_proof") == 0;
     r->member = name;
-    if (!take(r, first ? '{' : ',') || !take(r, '"') || (size_t)(r->end - r->at) <= length ||
-        memcmp(r->at, name, length) != 0 || r->at[length] != '"')
+    if (!take(r, first || strcmp(name, "unit") == 0 ? '{' : ',') || !take(r, '"') ||
+        (size_t)(r->end - r->at) <= length || memcmp(r->at, name, length) != 0 ||
+        r->at[length] != '"')
         return first ? sl_fail_at(r->context, r->path, r->line, "this is no proof of a placement")
                      : sli_proof_fail(r, "it is missing here");
     r->at += length + 1;
@@ -331,7 +347,7 @@ static sl_status read_nodes(sli_proof_reader *r, sl_cover_proof *p) {
     return status;
 }
 
-sl_status sli_proof_read_cover(sli_proof_reader *r, uint32_t rows, sl_cover_proof *p) {
+static sl_status read_trees(sli_proof_reader *r, uint32_t rows, sl_cover_proof *p) {
     sli_proof_numbers parts = {0}, duals = {0};
     uint64_t part_count = 0;
     SL_TRY(sli_proof_member(r, "denominator", UINT64_MAX, &p->denominator));
@@ -356,6 +372,69 @@ sl_status sli_proof_read_cover(sli_proof_reader *r, uint32_t rows, sl_cover_proo
         p->parts[p->row_count++] = (uint32_t)parts.items[i];
     sl_free(r->context, parts.items);
     sl_free(r->context, duals.items);
+    return status;
+}
+
+/// Whether a member comes next.
+static bool is_next(const sli_proof_reader *r, const char *name) {
+    sli_proof_reader ahead = *r;
+    const size_t length = strlen(name);
+    return take(&ahead, ',') && take(&ahead, '"') && (size_t)(ahead.end - ahead.at) > length &&
+           memcmp(ahead.at, name, length) == 0 && ahead.at[length] == '"';
+}
+
+static sl_status read_small(sli_proof_reader *r, const char *name, uint32_t **out,
+                            uint32_t *count) {
+    sli_proof_numbers all = {0};
+    SL_TRY(sli_proof_key(r, name));
+    sl_status status = sli_proof_list(r, UINT32_MAX, 0, &all);
+    if (status == SL_OK && all.count > UINT32_MAX / 4)
+        status = sli_proof_fail(r, "there are too many");
+    if (status == SL_OK) {
+        *out = sl_alloc_array(r->context, all.count, sizeof **out);
+        if (!*out) status = SL_NO_MEMORY;
+    }
+    for (size_t i = 0; status == SL_OK && i < all.count; i++)
+        (*out)[(*count)++] = (uint32_t)all.items[i];
+    sl_free(r->context, all.items);
+    return status;
+}
+
+static sl_status read_split(sli_proof_reader *r, sl_cover_split *out) {
+    uint64_t unit;
+    SL_TRY(sli_proof_member(r, "unit", UINT32_MAX, &unit));
+    out->unit = (uint32_t)unit;
+    SL_TRY(read_small(r, "blocks", &out->blocks, &out->row_count));
+    SL_TRY(read_small(r, "costs", &out->costs, &out->cost_count));
+    out->rest = sl_alloc_array(r->context, 1, sizeof *out->rest);
+    if (!out->rest) return SL_NO_MEMORY;
+    SL_TRY(read_trees(r, out->row_count, out->rest));
+    return need(r, '}');
+}
+
+typedef SL_ARRAY(sl_cover_split) split_list;
+
+static sl_status read_splits(sli_proof_reader *r, split_list *all) {
+    bool more = true;
+    SL_TRY(sli_proof_key(r, "splits"));
+    SL_TRY(need(r, '['));
+    for (size_t done = 0;; done++) {
+        SL_TRY(next_item(r, done, &more));
+        if (!more) break;
+        SL_TRY(SL_ARRAY_ROOM(r->context, all, 1));
+        all->items[all->count] = (sl_cover_split){0};
+        SL_TRY(read_split(r, &all->items[all->count++]));
+    }
+    return all->count < UINT32_MAX / 4 ? SL_OK : sli_proof_fail(r, "there are too many");
+}
+
+sl_status sli_proof_read_cover(sli_proof_reader *r, uint32_t rows, sl_cover_proof *p) {
+    split_list all = {0};
+    SL_TRY(read_trees(r, rows, p));
+    if (!is_next(r, "splits")) return SL_OK;
+    const sl_status status = read_splits(r, &all);
+    p->splits = all.items;
+    p->split_count = (uint32_t)all.count;
     return status;
 }
 

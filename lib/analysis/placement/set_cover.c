@@ -4,8 +4,9 @@
 /// 2. What is left falls into parts that share no column. Each is solved by itself:
 /// 3. a greedy cover, a Lagrangian bound with covers by the way (cover_lagrange.c), local search
 ///    (cover_search.c); and where bound and cover still differ,
-/// 4. branch and bound (cover_tree.c), with a linear program where there is one.
-/// 5. Steps, parts and trees are the proof, which cover_check.c reads with code of its own.
+/// 4. branch and bound (cover_tree.c), with a linear program where there is one,
+/// 5. and where that is too much, blocks that share the costs of columns (cover_split.c).
+/// 6. Steps, parts, trees and splits are the proof, which cover_check.c reads with code of its own.
 ///
 /// Costs are divided by their greatest common divisor first: then bounds are rounded up to whole
 /// numbers. The duals are integers over a power of two, as large as sums in 64 bits allow.
@@ -22,6 +23,9 @@ void sli_cover_proof_destroy(sl_context *context, sl_cover_proof *proof) {
     sl_free(context, proof->parts);
     sl_free(context, proof->nodes);
     sl_free(context, proof->duals);
+    for (uint32_t i = 0; i < proof->split_count; i++)
+        sli_cover_split_destroy(context, &proof->splits[i]);
+    sl_free(context, proof->splits);
     *proof = (sl_cover_proof){0};
 }
 
@@ -106,6 +110,7 @@ typedef struct piece {
     sli_cover cover;
     uint32_t *columns; ///< by column of the piece: its number in the problem
     sli_cover_part part;
+    sl_cover_split split; ///< in place of its tree, where it has rows
 } piece;
 
 typedef struct solver {
@@ -215,6 +220,7 @@ static void solver_destroy(sl_context *context, solver *s) {
         sl_free(context, p->part.taken);
         sl_free(context, p->part.nodes.items);
         sl_free(context, p->part.duals.items);
+        sli_cover_split_destroy(context, &p->split);
     }
     sl_free(context, s->pieces);
     sl_free(context, s->parts);
@@ -321,6 +327,8 @@ static sl_status solve_piece(sl_context *context, solver *s, piece *p, uint64_t 
     }
     if (status == SL_OK && part->cost > enough_of(s, p, known))
         status = sli_cover_branch(context, part, duals, &s->nodes);
+    if (status == SL_OK && part->cost > enough_of(s, p, known))
+        status = sli_cover_split(context, part, duals, &p->split);
     sli_cover_state_destroy(context, &state);
     sl_free(context, duals);
     sl_free(context, values);
@@ -370,16 +378,40 @@ static void add_nodes(sl_cover_proof *proof, const piece *its, uint32_t divisor,
     proof->dual_count += p->duals.count;
 }
 
+/// Parts with trees come first, then those that are split, which go to the proof.
+static sl_status number_parts(sl_context *context, solver *s, sl_cover_proof *proof) {
+    uint32_t *numbers = sl_alloc_array(context, s->piece_count, sizeof *numbers);
+    uint32_t trees = 0, splits = 0;
+    for (uint32_t k = 0; k < s->piece_count; k++) trees += !s->pieces[k].split.row_count;
+    proof->splits = sl_alloc_array(context, s->piece_count - trees, sizeof *proof->splits);
+    const bool room = numbers && proof->splits;
+    proof->part_count = trees;
+    for (uint32_t k = 0; room && k < s->piece_count; k++) {
+        sl_cover_split *split = &s->pieces[k].split;
+        numbers[k] = split->row_count ? trees + splits : k - splits;
+        if (!split->row_count) continue;
+        proof->splits[splits++] = *split;
+        proof->split_count = splits;
+        split->blocks = split->costs = NULL;
+        split->rest = NULL;
+    }
+    for (uint32_t r = 0; room && r < s->cover.rows; r++)
+        if (s->left.row_there[r]) s->parts[r] = numbers[s->parts[r]];
+    sl_free(context, numbers);
+    return room ? SL_OK : SL_NO_MEMORY;
+}
+
 static sl_status fill_proof(sl_context *context, solver *s, uint32_t divisor,
                             sl_cover_proof *proof) {
     size_t nodes = 0, duals = 0;
+    SL_TRY(number_parts(context, s, proof));
     for (uint32_t k = 0; k < s->piece_count; k++) {
+        if (s->pieces[k].split.row_count) continue;
         nodes += s->pieces[k].part.nodes.count;
         duals += s->pieces[k].part.duals.count;
     }
     proof->denominator = s->denominator;
     proof->row_count = s->cover.rows;
-    proof->part_count = s->piece_count;
     proof->node_count = (uint32_t)nodes;
     proof->step_count = (uint32_t)s->left.steps.count;
     proof->steps = s->left.steps.items;
@@ -389,9 +421,10 @@ static sl_status fill_proof(sl_context *context, solver *s, uint32_t divisor,
     proof->nodes = sl_alloc_array(context, nodes, sizeof *proof->nodes);
     proof->duals = sl_alloc_array(context, duals, sizeof *proof->duals);
     if (!proof->nodes || !proof->duals) return SL_NO_MEMORY;
-    uint32_t first = s->piece_count;
+    uint32_t first = proof->part_count, part = 0;
     for (uint32_t k = 0; k < s->piece_count; k++) {
-        add_nodes(proof, &s->pieces[k], divisor, k, first);
+        if (s->pieces[k].split.row_count) continue;
+        add_nodes(proof, &s->pieces[k], divisor, part++, first);
         first += (uint32_t)s->pieces[k].part.nodes.count - 1;
     }
     return SL_OK;

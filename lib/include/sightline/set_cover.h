@@ -63,6 +63,8 @@ typedef struct sl_cover_options {
     uint64_t known_lower;  ///< a bound that the caller has from elsewhere; 0 for none
     const uint32_t *start; ///< columns to start from: a set that the caller has; NULL for none
     uint32_t start_count;
+    bool at_once; ///< a tree is grown for the best set at once, not bound by bound: all or nothing
+    uint32_t splits; ///< how often a part that its tree leaves open is split; 0: never
 } sl_cover_options;
 
 /// No program; 10,000 nodes and 50,000 iterations.
@@ -108,6 +110,8 @@ typedef struct sl_cover_node {
 /// costs. A leaf with a row that demands more columns than are free for it holds no set at all. For
 /// a child that is not there, the bound is that of its node, and more by what is lost by taking the
 /// column, max(0, cost - sum), or by not taking it, max(0, sum - cost).
+///
+/// A part may be split in place of a tree (sl_cover_split).
 typedef struct sl_cover_proof {
     uint64_t denominator; ///< of all duals; at least 1
     uint32_t row_count, step_count, part_count, node_count;
@@ -116,7 +120,23 @@ typedef struct sl_cover_proof {
     uint32_t *parts;      ///< by row: its part; of no meaning for a row that is gone
     sl_cover_node *nodes; ///< the first ones are the roots, by part; a child comes after its parent
     uint64_t *duals;
+    uint32_t split_count;
+    struct sl_cover_split *splits; ///< of the parts from part_count on
 } sl_cover_proof;
+
+/// A part whose rows are in blocks. Each of its columns has a copy for each block that it has rows
+/// of, in the order of its first rows there, and the copies share its cost: they are columns of
+/// another problem, which no set solves for less than `rest` proves. A set of the part's columns
+/// costs no less than its copies. So the bound, over `unit` and rounded up, is one for the part.
+/// In units of the greatest common divisor of all costs.
+typedef struct sl_cover_split {
+    uint32_t unit;      ///< what a cost of 1 is, in costs of copies; at least 1
+    uint32_t row_count; ///< of the part; also of the problem of the copies
+    uint32_t *blocks;   ///< by row of the part
+    uint32_t cost_count;
+    uint32_t *costs;      ///< by copy, each 1 or more, column by column
+    sl_cover_proof *rest; ///< for the copies: it splits nothing
+} sl_cover_split;
 
 /// Zeroed, it is empty.
 typedef struct sl_cover_result {
