@@ -133,7 +133,7 @@ class Between {
     // --- what is shown
 
     show() {
-        const { id, answer } = this, isOpen = this.app.tool === id || this.ends !== null;
+        const { id, answer, app } = this, isOpen = app.tool === id || (this.ends !== null && !app.own);
         get(id).hidden = !isOpen;
         if (!isOpen) return;
         get(`${id}-stop`).disabled = !this.busy;
@@ -169,13 +169,14 @@ export class FromLine extends Between {
         const colours = seenColours(this.app.tones);
         return [{ name: 'length of the line', values: [short(lengthOf(ends))] },
             { name: 'seen from some point', colour: colours[0], values: [short(some.area)] },
-            { name: 'seen from all points', colour: colours[1], values: [short(all.area)] }];
+            ...(all.area ? [{ name: 'seen from all points', colour: colours[1], values: [short(all.area)] }] : [])];
     }
     brief({ some, all }) {
-        return `Some point of the line sees ${short(some.area)}, all of them see ${short(all.area)}`;
+        return `Some point of the line sees ${short(some.area)}, ${some.walled ? 'but a wall crosses it' : `all of them see ${short(all.area)}`}`;
     }
-    tell({ some }) {
-        return some.walled ? 'A wall crosses the line, so no place is seen from all of it.' : '';
+    tell({ some, all }) {
+        return some.walled ? 'A wall crosses the line, so no place is seen from all of it.'
+            : all.area ? '' : 'No place is seen from all points of the line.';
     }
 
     /** For the scene: what draws the regions. */

@@ -685,6 +685,8 @@ for (const name of wanted)
             await page.mouse.up();
             await page.waitForFunction(() => /^A wall crosses the line/.test(document.getElementById('line-text').textContent));
             assert.equal(await page.evaluate(() => window.playground.line.answer.all.area), 0);
+            assert.doesNotMatch(await key.textContent(), /all points/);
+            assert.match(await done(page), /^Some point of the line sees [\d.]+, but a wall crosses it$/);
             await page.evaluate(() => window.playground.doc.add({ kind: 'mirror', points: [19, 1, 19, 9] }));
             await page.waitForFunction(() => /^Nothing was computed: .*mirror/.test(document.getElementById('line-text').textContent));
             assert.ok(await key.isHidden());
