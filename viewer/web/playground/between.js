@@ -140,7 +140,7 @@ class Between {
         get(`${id}-clear`).disabled = !this.ends;
         panel.showTable(get(`${id}-key`), answer ? this.rows(answer) : []);
         const text = this.held >= 0 ? 'Choose the other end.' : !this.ends ? this.begin : this.fault ||
-            (answer?.ends === this.ends ? this.tell(answer) : 'Computing ...');
+            (answer?.ends === this.ends ? this.tell(answer) : this.busy ? 'Computing ...' : '');
         if (get(`${id}-text`).textContent !== text) get(`${id}-text`).textContent = text;
         if (!this.moves || this.held >= 0 || !(this.fault || answer?.ends === this.ends)) return;
         this.moves = false;

@@ -744,6 +744,12 @@ for (const name of wanted)
             await says(/^No way leads there\.$/);
             await page.click('[data-do=undo]');
             await says(/^It turns/);
+            // Of a map that cannot be baked nothing is said.
+            await page.evaluate(() => window.playground.doc.add({ kind: 'solid', points: [1, 1, 3, 3, 3, 1, 1, 3] }));
+            await page.waitForFunction(() => window.playground.hasError);
+            assert.deepEqual([await page.locator('#path-text').textContent(), await page.locator('#path-key').isHidden()], ['', true]);
+            await page.click('[data-do=undo]');
+            await says(/^It turns/);
             await drop(page, 'other.map', room);
             await page.waitForFunction(() => window.playground.path.ends === null);
             await context.close();
