@@ -172,7 +172,8 @@ export class FromLine extends Between {
             ...(all.area ? [{ name: 'seen from all points', colour: colours[1], values: [short(all.area)] }] : [])];
     }
     brief({ some, all }) {
-        return `Some point of the line sees ${short(some.area)}, ${some.walled ? 'but a wall crosses it' : `all of them see ${short(all.area)}`}`;
+        // As short as a phone's width.
+        return `Some see ${short(some.area)}, all see ${all.area ? short(all.area) : 'nothing'}`;
     }
     tell({ some, all }) {
         return some.walled ? 'A wall crosses the line, so no place is seen from all of it.'

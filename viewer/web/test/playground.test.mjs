@@ -672,7 +672,7 @@ for (const name of wanted)
             // All see the left room, and a triangle behind the door; some see a part of the right room that widens.
             await found(180, 102.5);
             assert.match(await key.textContent(), /^length of the line6seen from some point180seen from all points102\.5$/);
-            assert.deepEqual([await text(), await done(page)], ['', 'Some point of the line sees 180, all of them see 102.5']);
+            assert.deepEqual([await text(), await done(page)], ['', 'Some see 180, all see 102.5']);
             await shot(page, `${name}-line`);
             await page.uncheck('#door-list input');
             await found(100, 100);
@@ -686,7 +686,7 @@ for (const name of wanted)
             await page.waitForFunction(() => /^A wall crosses the line/.test(document.getElementById('line-text').textContent));
             assert.equal(await page.evaluate(() => window.playground.line.answer.all.area), 0);
             assert.doesNotMatch(await key.textContent(), /all points/);
-            assert.match(await done(page), /^Some point of the line sees [\d.]+, but a wall crosses it$/);
+            assert.match(await done(page), /^Some see [\d.]+, all see nothing$/);
             await page.evaluate(() => window.playground.doc.add({ kind: 'mirror', points: [19, 1, 19, 9] }));
             await page.waitForFunction(() => /^Nothing was computed: .*mirror/.test(document.getElementById('line-text').textContent));
             assert.ok(await key.isHidden());
