@@ -28,20 +28,27 @@ static sl_status read_plan(sl_context *context, const char *name, const char *te
     return sli_map_read_plan(context, name, text, size, map);
 }
 
+// What only reads maps is smaller without the writers.
+#ifdef SLI_WITHOUT_WRITERS
+#define WRITER(function) NULL
+#else
+#define WRITER(function) function
+#endif
+
 static const sl_map_format formats[] = {
     {.name = "text",
      .endings = ".map",
      .what = "the map text",
      .read = read_text,
      .takes = SL_TAKES_CELLS,
-     .write = sli_map_print_text,
+     .write = WRITER(sli_map_print_text),
      .keeps = SL_KEEPS_ALL},
     // The writer of plans refuses by itself what a plan cannot hold.
     {.name = "plan",
      .endings = ".txt",
      .what = "an ASCII plan",
      .read = read_plan,
-     .write = sli_map_print_plan,
+     .write = WRITER(sli_map_print_plan),
      .keeps = SL_KEEPS_ALL & ~SL_KEEPS_COMMENTS & ~SL_KEEPS_NOTES & ~SL_KEEPS_UNIT &
               ~SL_KEEPS_ENTRANCE & ~SL_KEEPS_STOPS & ~SL_KEEPS_LIMITED & ~SL_KEEPS_EARTH},
 };

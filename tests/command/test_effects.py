@@ -120,6 +120,24 @@ def rows_of_site(site, box, base):
     yield "playground: the eye", "+", []
     yield "playground: the heat map", "" if found["heat"] else "+", \
         [reason_of(found["heat"])] if found["heat"] else []
+    yield from rows_between(found, box, base)
+
+
+def rows_between(found, box, base):
+    """The playground's lines and paths are those of `isovist --from-line` and `path`."""
+    line, way = found["line"], found["way"]
+    ends = ",".join(str(number) for end in line["ends"] for number in end)
+    answer = box.run(["isovist", base + ".slv", "--from-line", ends, "-o", "-"])
+    areas = [float(row.split(",")[1]) for row in answer.stdout.splitlines()[1:]]
+    sandbox.check(("refused" in line) == (answer.status != 0) and line.get("answer", []) == areas,
+                  f"the playground, {base}, line: {line}, not {answer.text()}")
+    origin, goal = (",".join(map(str, end)) for end in way["ends"])
+    answer = box.run(["path", base + ".slv", "--from", origin, "--to", goal, "--json"])
+    sandbox.check(way["answer"] == json.loads(answer.stdout).get("length"),
+                  f"the playground, {base}, path: {way}, not {answer.text()}")
+    yield "playground: lines", "" if "refused" in line else "+", \
+        [reason_of(line["refused"])] if "refused" in line else []
+    yield "playground: paths", "+", []
 
 
 class Matrix:

@@ -12,6 +12,10 @@ export interface SetOptions {
   area?: boolean
   /** From some point of it ('some', by default: weak visibility), or from all (complete visibility). */
   seen?: 'some' | 'all'
+  /** Of a disc about one point: as a polygon in it, with chords within a thousandth of this. */
+  radius?: number
+  /** Sees no farther than this; 0: no limit; by default the map's own range. */
+  range?: number
 }
 
 export interface SetRegion {
@@ -44,8 +48,8 @@ export interface Path {
 export class Floor extends OpenFloor {
   private constructor()
   /**
-   * What is seen from a line or an area. Corners that are no ends of walls are rounded. Within the
-   * map's range, bent borders are chords: what is seen from as far as 255/256 of it is in the region.
+   * What is seen from a line, an area or a disc. Corners that are no ends of walls are rounded. Within
+   * a range, bent borders are chords: what is seen from as far as 255/256 of it is in the region.
    */
   regionFrom(points: readonly Place[], options?: SetOptions): SetRegion
   /** Which places are seen from it. Exact. */
@@ -58,10 +62,11 @@ export class Floor extends OpenFloor {
    */
   seesWithin(a: Place, aRadius: number, b: Place, bRadius: number, options?: { onFoot?: boolean }): boolean
   /**
-   * The shortest way for a point; null: no way leads there. `loss`: how much longer the way counts
-   * for each shut door that it passes; without it, none is passed.
+   * The shortest way; null: none leads there. `loss`: how much longer the way counts for each shut
+   * door that it passes; without it, none is passed. `radius`: of a walker, whose middle stays farther
+   * than that from all walls: no longer than the shortest way for 1.0013 times the radius. Both ends need that room.
    */
-  path(a: Place, b: Place, options?: { loss?: number }): Path | null
+  path(a: Place, b: Place, options?: { loss?: number; radius?: number }): Path | null
 }
 
 /** Loads the module, for calls without promises. `memory`: the most bytes that it may take. */

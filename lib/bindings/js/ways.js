@@ -14,31 +14,58 @@ function pointsOf(name, points) {
   return [new Uint8Array(flat.buffer), flat.length / 2]
 }
 
-/** Whether a set is an area, and whether all its points must see. */
-function askedOf(options) {
-  const { area = false, seen = 'some' } = optionsOf(options, 'area', 'seen')
+/**
+ * As many corners as sl_set_of_disc() gives a disc whose chords are within a thousandth of its radius. The module
+ * would bring sines of its own.
+ */
+const CORNERS = 71
+
+function discOf([x, y], radius) {
+  return Array.from({ length: CORNERS }, (_, i) => {
+    const angle = (2 * Math.PI * i) / CORNERS
+    return [x + radius * Math.cos(angle), y + radius * Math.sin(angle)]
+  })
+}
+
+/** A set as bytes; its number of points, whether it is an area, whether all must see; and the range, below 0: the map's. */
+function setOf(points, options) {
+  const { area = false, seen = 'some', radius = 0, range } = optionsOf(options, 'area', 'seen', 'radius', 'range')
   if (seen !== 'some' && seen !== 'all') throw new SightlineError(`seen: 'some' or 'all' is needed, not ${seen}`)
-  return [+flagOf('area', area), +(seen === 'all')]
+  const isDisc = numberOf('radius', radius, 0) > 0, list = listOf('points', points)
+  if (isDisc && list.length !== 1) throw new SightlineError('radius: points must be one point, the middle of a disc')
+  const [bytes, count] = pointsOf('points', isDisc ? discOf(pointOf('points', list[0]), radius) : list)
+  const asked = [count, +(flagOf('area', area) || isDisc), +(seen === 'all')]
+  return [bytes, asked, given(range, (value) => numberOf('range', value, 0))]
 }
 
 /** The inside of a map. Close it. Use open(). */
 export class Floor extends OpenFloor {
-  /** What is seen from some point of a line or an area, or from all of its points. */
+  /** Asks the module with blocks of bytes, within a range. */
+  #within(range, blocks, call) {
+    const { at, core } = this, { generation } = core
+    if (range >= 0) core.ask((its) => its.floor_set_range(at, range))
+    try {
+      return core.withBytes(blocks, call)
+    } finally {
+      if (range >= 0 && generation === core.generation) core.core.floor_set_range(at, -1)
+    }
+  }
+
+  /** What is seen from some point of a line, an area or a disc, or from all of its points. */
   regionFrom(points, options) {
-    const { at, core } = this, asked = askedOf(options), [bytes, count] = pointsOf('points', points)
-    core.withBytes([bytes], (pointsAt) => core.ask((its) => its.floor_region_from(at, pointsAt, count, ...asked)))
+    const { at, core } = this, [bytes, asked, range] = setOf(points, options)
+    this.#within(range, [bytes], (pointsAt) => core.ask((its) => its.floor_region_from(at, pointsAt, ...asked)))
     const [loops, endsAt, cornersAt, walled] = core.given(4), [area] = core.givenNumbers(1)
     const ends = [0, ...new Uint32Array(core.memory.buffer, endsAt, loops)]
     const corners = this.numbers(cornersAt, 2 * ends[loops])
     return { area, walled: walled === 1, loops: ends.slice(1).map((end, i) => corners.slice(2 * ends[i], 2 * end)) }
   }
 
-  /** Which places are seen from a line or an area. */
+  /** Which places are seen from a line, an area or a disc. */
   seenFrom(points, places, options) {
-    const { at, core } = this, asked = askedOf(options)
-    const [bytes, count] = pointsOf('points', points), [placeBytes, placeCount] = pointsOf('places', places)
-    return core.withBytes([bytes, placeBytes, new Uint8Array(placeCount)], (pointsAt, placesAt, seenAt) => {
-      core.ask((its) => its.floor_seen_from(at, pointsAt, count, ...asked, placesAt, placeCount, seenAt))
+    const { at, core } = this, [bytes, asked, range] = setOf(points, options), [placeBytes, placeCount] = pointsOf('places', places)
+    return this.#within(range, [bytes, placeBytes, new Uint8Array(placeCount)], (pointsAt, placesAt, seenAt) => {
+      core.ask((its) => its.floor_seen_from(at, pointsAt, ...asked, placesAt, placeCount, seenAt))
       return Array.from(new Uint8Array(core.memory.buffer, seenAt, placeCount), (seen) => seen === 1)
     })
   }
@@ -71,9 +98,9 @@ export class Floor extends OpenFloor {
 
   /** The shortest way from a to b; null: there is none. */
   path(a, b, options) {
-    const { at, core } = this, { loss } = optionsOf(options, 'loss')
+    const { at, core } = this, { loss, radius = 0 } = optionsOf(options, 'loss', 'radius')
     const ends = [...pointOf('a', a), ...pointOf('b', b)], shut = given(loss, (value) => numberOf('loss', value, 0))
-    core.ask((its) => its.floor_path(at, ...ends, shut))
+    core.ask((its) => its.floor_path(at, ...ends, shut, numberOf('radius', radius, 0)))
     const [found, count, pointsAt] = core.given(3), [length] = core.givenNumbers(1)
     return found ? { length, points: this.numbers(pointsAt, 2 * count) } : null
   }

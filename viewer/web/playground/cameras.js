@@ -8,6 +8,7 @@ import { countWalls } from '../formats/map-text.js';
 import { plural } from '../formats/words.js';
 import { armEnd, classColours, drawCameras, drawCoverage } from '../parts/coverage.js';
 import { save } from './files.js';
+import { showTable } from './panel.js';
 
 const get = (id) => /** @type {any} */ (document.getElementById(id));
 const CLASSES = ['not seen', 'seen by 1', 'seen by 2', 'seen by 3 or more'];
@@ -60,6 +61,9 @@ export class Cameras {
         this.set(this.list.map((each, i) => (i === index ? camera : each)), index);
     }
 
+    get canRemove() {
+        return this.chosen >= 0;
+    }
     remove() {
         if (this.chosen >= 0) this.set(this.list.filter((_, i) => i !== this.chosen));
     }
@@ -148,19 +152,8 @@ export class Cameras {
         for (const id of ['fewest', 'best']) get(`camera-${id}`).disabled = choosing;
         for (const id of ['clear', 'save']) get(`camera-${id}`).disabled = choosing || !this.list.length;
         const areas = coverage?.areas ?? [], all = areas.reduce((sum, area) => sum + area, 0);
-        get('camera-key').hidden = !coverage;
-        get('camera-key').replaceChildren(...areas.map((area, i) => {
-            const row = document.createElement('tr'), name = document.createElement('th'), box = document.createElement('span');
-            box.textContent = CLASSES[i];
-            name.scope = 'row';
-            name.append(swatch(classColours(this.app.tones)[i]), box);
-            row.append(name, ...[short(area), `${((100 * area) / all).toFixed(1)} %`].map((text) => {
-                const cell = document.createElement('td');
-                cell.textContent = text;
-                return cell;
-            }));
-            return row;
-        }));
+        showTable(get('camera-key'), areas.map((area, i) => ({ name: CLASSES[i], colour: classColours(this.app.tones)[i],
+            values: [short(area), `${((100 * area) / all).toFixed(1)} %`] })));
         const seen = coverage?.viewpoints ?? [], blind = seen.filter((each) => !(each.seen > 0)).length;
         const spare = seen.filter((each) => each.spare && each.seen > 0).length;
         if (choosing) return;
@@ -184,14 +177,6 @@ export class Cameras {
     draw(surface, camera, tones) {
         drawCameras(surface, camera, this.list, this.chosen, tones);
     }
-}
-
-function swatch(colour) {
-    const ns = 'http://www.w3.org/2000/svg', picture = document.createElementNS(ns, 'svg'), box = document.createElementNS(ns, 'rect');
-    for (const [k, v] of [['width', '100%'], ['height', '100%'], ['fill', colour]]) box.setAttribute(k, v);
-    picture.setAttribute('aria-hidden', 'true');
-    picture.append(box);
-    return picture;
 }
 
 /** A press takes a camera, the end of its arm, or puts a new one, which a drag turns. */

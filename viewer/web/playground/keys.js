@@ -2,7 +2,7 @@
  * The keyboard: a cross on the plan stands for the pointer, and Enter for its button. So every tool
  * works without a mouse.
  */
-const toolKeys = { v: 'look', y: 'why', w: 'wall', d: 'door', m: 'move', s: 'start', r: 'mirror', g: 'oneway', c: 'cameras' };
+const toolKeys = { v: 'look', y: 'why', w: 'wall', d: 'door', m: 'move', s: 'start', r: 'mirror', g: 'oneway', c: 'cameras', l: 'line', t: 'path' };
 const arrows = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 
 export class Keys {

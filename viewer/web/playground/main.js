@@ -5,6 +5,7 @@ import { roundStep } from '../parts/camera.js';
 import { drawDot, itemLine, strokeLines } from '../parts/plan.js';
 import { makeTones, watchTones } from '../parts/tones.js';
 import { drawWhy } from '../parts/why-scene.js';
+import { FromLine, Path } from './between.js';
 import { Cameras } from './cameras.js';
 import { MapDocument } from './document.js';
 import { acceptDrops, readFile, save, savePng, saveSvg } from './files.js';
@@ -28,17 +29,20 @@ const MOST_KEPT = 20000;
 class Playground extends Sight {
     constructor() {
         // ?memory=MB in the address, for small devices and for tests.
-        const memory = Number(new URLSearchParams(location.search).get('memory'));
-        super(new MapDocument(), new CoreClient(memory > 0 ? memory * 2 ** 20 : undefined));
+        const asked = Number(new URLSearchParams(location.search).get('memory')), memory = asked > 0 ? asked * 2 ** 20 : undefined;
+        super(new MapDocument(), new CoreClient(memory));
         this.tool = 'look';
-        this.tools = makeTools(this);
         this.view = new View(get('plan'), this);
         this.view.fitTo = () => this.view.camera.fit(this.doc.bounds());
-        this.heat = new HeatMap(this, memory > 0 ? memory * 2 ** 20 : undefined);
+        this.heat = new HeatMap(this, memory);
         this.keys = new Keys(get('plan'), this);
         this.tones = makeTones(matchMedia('(prefers-color-scheme: dark)').matches);
-        this.cameras = new Cameras(this, memory > 0 ? memory * 2 ** 20 : undefined);
-        this.live = new Live(this, memory > 0 ? memory * 2 ** 20 : undefined, (seen) => this.followed(seen));
+        this.cameras = new Cameras(this, memory);
+        const ways = new CoreClient(memory, './ways-worker.js');
+        this.line = new FromLine(this, ways);
+        this.path = new Path(this, ways);
+        this.live = new Live(this, memory, (seen) => this.followed(seen));
+        this.tools = makeTools(this);
         this.listen();
     }
 
@@ -70,9 +74,13 @@ class Playground extends Sight {
                 ['seen in mirrors', tones.image],
                 ['portal', tones.portal], ['door', tones.door], ['path', tones.path], ['box', tones.object]]);
             this.heat?.showLegend();
-            this.cameras?.show();
+            for (const each of [this.cameras, this.line, this.path]) each.show();
             this.redraw();
         });
+    }
+
+    followers() {
+        return [this.heat, this.cameras, this.line, this.path];
     }
 
     // --- the map
@@ -86,8 +94,7 @@ class Playground extends Sight {
         this.leaveShared();
         const { held } = this.tools.move;
         if (!held || !this.live.follow(held.items)) this.bake();
-        this.heat.drop();
-        this.cameras.drop();
+        this.followers().forEach((each) => each.drop());
         clearTimeout(this.keeping);
         this.keeping = setTimeout(() => this.keep(), 400);
         this.redraw();
@@ -137,6 +144,8 @@ class Playground extends Sight {
         this.eye = this.places = this.pair = this.why = this.seen = null;
         this.doors = {};
         this.cameras.set([]);
+        this.line.remove();
+        this.path.remove();
         panel.showWhy('');
         this.tools.look.pinned = false;
         this.doc.select(-1);
@@ -224,21 +233,26 @@ class Playground extends Sight {
     }
 
     scene() {
-        const asks = this.tool === 'why' && this.pair, isCameras = this.tool === 'cameras';
-        const heat = asks ? null : (isCameras && this.cameras.layer) || this.heat.layer;
+        const asks = this.tool === 'why' && this.pair, { own } = this, hides = asks || own;
+        const heat = asks ? null : own?.layer || this.heat.layer;
         return {
             space: this.plan,
             items: this.doc.items,
             shut: this.shut,
             heat,
-            seen: asks || isCameras || heat || !isOn('show-set') ? null : this.seen?.set,
-            region: asks || isCameras || heat || !isOn('show-region') ? null : this.seen?.region,
-            mirrored: asks || isCameras || heat || !isOn('show-region') ? null : this.seen?.mirrored,
-            eye: asks || isCameras ? null : this.eye,
+            seen: hides || heat || !isOn('show-set') ? null : this.seen?.set,
+            region: hides || heat || !isOn('show-region') ? null : this.seen?.region,
+            mirrored: hides || heat || !isOn('show-region') ? null : this.seen?.mirrored,
+            eye: hides ? null : this.eye,
             from: asks ? this.pair[0] : undefined,
             to: asks ? this.pair[1] : undefined,
             show: { cells: isOn('show-cells'), portals: isOn('show-portals'), grid: isOn('snap') ? roundStep(this.view.camera.scale, 40) : 0 },
         };
+    }
+
+    /** What the tool has of its own, which Delete removes: cameras, a line, a path. */
+    get own() {
+        return { cameras: this.cameras, line: this.line, path: this.path }[this.tool];
     }
 
     /** Marks over the plan: the explanation, what is chosen, what is being drawn, the cross. */
@@ -263,11 +277,11 @@ class Playground extends Sight {
 
     overPicture(surface, camera, tones) {
         if (this.tool === 'why' && this.why) drawWhy(surface, camera, this.why, tones);
-        this.cameras.draw(surface, camera, tones);
+        for (const each of [this.cameras, this.line, this.path]) each.draw(surface, camera, tones);
     }
 
     redraw() {
-        for (const [name, able] of [['undo', this.doc.canUndo], ['redo', this.doc.canRedo], ['remove', this.tool === 'cameras' ? this.cameras.chosen >= 0 : this.doc.selected >= 0]])
+        for (const [name, able] of [['undo', this.doc.canUndo], ['redo', this.doc.canRedo], ['remove', this.own ? this.own.canRemove : this.doc.selected >= 0]])
             document.querySelector(`[data-do=${name}]`).disabled = !able;
         panel.showChosen(this.doc.items[this.doc.selected]);
         clearTimeout(this.drawing);
@@ -307,7 +321,7 @@ class Playground extends Sight {
         this.tools[this.tool].cancel?.();
         this.tool = name;
         document.querySelector(`input[name=tool][value=${name}]`).checked = true;
-        this.cameras.show();
+        for (const each of [this.cameras, this.line, this.path]) each.show();
         this.redraw();
     }
     cancelTool() {
@@ -333,7 +347,7 @@ class Playground extends Sight {
         const acts = {
             undo: () => this.travel('undo'),
             redo: () => this.travel('redo'),
-            remove: () => (this.tool === 'cameras' ? this.cameras.remove() : this.doc.selected >= 0 && this.doc.remove(this.doc.selected)),
+            remove: () => (this.own ? this.own.remove() : this.doc.selected >= 0 && this.doc.remove(this.doc.selected)),
             turn: () => this.changeChosen((item) => ({ ...item, points: [...item.points.slice(2), ...item.points.slice(0, 2)] })),
             zoomIn: () => this.view.zoom(1.4),
             zoomOut: () => this.view.zoom(1 / 1.4),

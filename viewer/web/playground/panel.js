@@ -61,17 +61,41 @@ export function showChosen(item) {
         : one ? 'Ticks are on the back, which is a wall.' : 'Both sides reflect.';
 }
 
+/** A small box of a colour. @param {string} colour */
+function swatch(colour) {
+    const ns = 'http://www.w3.org/2000/svg', picture = document.createElementNS(ns, 'svg'), box = document.createElementNS(ns, 'rect');
+    for (const [k, v] of [['width', '100%'], ['height', '100%'], ['fill', colour]]) box.setAttribute(k, v);
+    picture.setAttribute('aria-hidden', 'true');
+    picture.append(box);
+    return picture;
+}
+
 /** @param {[string, string][]} entries name and colour */
 export function showKey(entries) {
-    const ns = 'http://www.w3.org/2000/svg';
     get('key').replaceChildren(...entries.map(([name, colour]) => {
-        const item = document.createElement('li'), swatch = document.createElementNS(ns, 'svg');
-        const box = document.createElementNS(ns, 'rect');
-        for (const [k, v] of [['width', '100%'], ['height', '100%'], ['fill', colour]]) box.setAttribute(k, v);
-        swatch.setAttribute('aria-hidden', 'true');
-        swatch.append(box);
-        item.append(swatch, name);
+        const item = document.createElement('li');
+        item.append(swatch(colour), name);
         return item;
+    }));
+}
+
+/**
+ * A legend with values; without rows it is hidden.
+ * @param {HTMLElement} table @param {{name: string, colour?: string, values: string[]}[]} rows
+ */
+export function showTable(table, rows) {
+    table.hidden = !rows.length;
+    table.replaceChildren(...rows.map(({ name, colour, values }) => {
+        const row = document.createElement('tr'), head = document.createElement('th'), box = document.createElement('span');
+        box.textContent = name;
+        head.scope = 'row';
+        head.append(...(colour ? [swatch(colour)] : []), box);
+        row.append(head, ...values.map((text) => {
+            const cell = document.createElement('td');
+            cell.textContent = text;
+            return cell;
+        }));
+        return row;
     }));
 }
 

@@ -60,6 +60,11 @@ export class Sight {
     /** Draws anew. */
     redraw() {}
 
+    /** What follows the baked map and its doors, each with `drop` and `changed`. @returns {any[]} */
+    followers() {
+        return [];
+    }
+
     bake() {
         this.bakes.want({ sight: get('sight').value });
     }
@@ -100,8 +105,7 @@ export class Sight {
         if (this.eye) this.useSeen(seen);
         else this.setEye(largestCell(plan));
         if (this.places) this.questions.want(this.places);
-        this.heat.changed();
-        this.cameras.changed();
+        this.followers().forEach((each) => each.changed());
         this.redraw();
     }
 
@@ -149,8 +153,7 @@ export class Sight {
         this.doors[name] = open;
         if (open) this.shut.delete(name);
         else this.shut.add(name);
-        this.heat.changed();
-        this.cameras.changed();
+        this.followers().forEach((each) => each.changed());
         this.setEye(this.eye);
     }
 

@@ -164,5 +164,7 @@ export function makeTools(app) {
         mirror: new DrawTool(app, 'mirror'),
         oneway: new DrawTool(app, 'oneway'),
         cameras: new CameraTool(app),
+        line: app.line,
+        path: app.path,
     };
 }

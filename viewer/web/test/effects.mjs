@@ -1,7 +1,8 @@
 /**
  * What the playground shows of a map with effects: node effects.mjs SITE MAP X,Y ...
  * Prints JSON: for each eye the number of cells, the area that it sees, and the areas that it sees in
- * mirrors; and what the heat map says, '' for nothing. The table of tools/EFFECTS.md is checked by it.
+ * mirrors; what the heat map says, '' for nothing; the areas that are seen from a line, and the length of a
+ * way, or why not. The table of tools/EFFECTS.md is checked by it.
  */
 import { readFileSync } from 'node:fs';
 import { join, resolve } from 'node:path';
@@ -17,6 +18,17 @@ const areaOf = (p) => {
         sum += (p[i] - p[0]) * (p[i + 3] - p[1]) - (p[i + 2] - p[0]) * (p[i + 1] - p[1]);
     return Math.abs(sum) / 2;
 };
+
+/** What is asked answers, or why not. */
+function tried(ask) {
+    try {
+        return { answer: ask() };
+    } catch (error) {
+        return { refused: error.message };
+    }
+}
+
+const LINE = [[2, 2], [8, 8]], WAY = [[28, 8], [2, 2]];
 
 const text = readFileSync(map, 'utf8');
 const { Core } = await part('core/core.js');
@@ -34,4 +46,7 @@ try {
 } catch (error) {
     heat = error.message;
 }
-console.log(JSON.stringify({ seen, heat }));
+const floor = (await (await part('package/ways.js')).load({ memory: 2 ** 30 })).open(text);
+const line = { ends: LINE, ...tried(() => ['some', 'all'].map((from) => floor.regionFrom(LINE, { seen: from }).area)) };
+const way = { ends: WAY, ...tried(() => floor.path(...WAY)?.length ?? null) };
+console.log(JSON.stringify({ seen, heat, line, way }));

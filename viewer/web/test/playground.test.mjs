@@ -653,6 +653,108 @@ for (const name of wanted)
             await context.close();
         });
 
+        test('a line: what some of its points see and what all see, by mouse and keys, past doors as they stand', async () => {
+            const page = await open({}, '', `${room.slice(0, -1)}\ndoor middle 10 4 10 6 open\n`);
+            const text = () => page.locator('#line-text').textContent(), key = page.locator('#line-key');
+            const found = (some, all) => page.waitForFunction(([a, b]) => {
+                const { answer, ends } = window.playground.line;
+                return answer?.ends === ends && Math.abs(answer.some.area - a) < 1e-9 && Math.abs(answer.all.area - b) < 1e-9;
+            }, [some, all]);
+            assert.equal(await page.evaluate(() => performance.getEntriesByType('resource').some((r) => /ways\.wasm/.test(r.name))), false);
+            await page.check('input[value=line]');
+            assert.equal(await text(), 'Drag a line in the plan, or click both of its ends.');
+            await page.mouse.move(...(await screen(page, 5, 2)));
+            await page.mouse.down();
+            await page.mouse.move(...(await screen(page, 5, 6)), { steps: 4 });
+            assert.equal(await text(), 'Choose the other end.');
+            await page.mouse.move(...(await screen(page, 5, 8)), { steps: 4 });
+            await page.mouse.up();
+            // All see the left room, and a triangle behind the door; some see a part of the right room that widens.
+            await found(180, 102.5);
+            assert.match(await key.textContent(), /^length of the line6seen from some point180seen from all points102\.5$/);
+            assert.deepEqual([await text(), await done(page)], ['', 'Some see 180, all see 102.5']);
+            await shot(page, `${name}-line`);
+            await page.uncheck('#door-list input');
+            await found(100, 100);
+            await page.check('#door-list input');
+            await found(180, 102.5);
+            // An end is dragged; a wall then crosses the line.
+            await page.mouse.move(...(await screen(page, 5, 8)));
+            await page.mouse.down();
+            await page.mouse.move(...(await screen(page, 15, 2)), { steps: 4 });
+            await page.mouse.up();
+            await page.waitForFunction(() => /^A wall crosses the line/.test(document.getElementById('line-text').textContent));
+            assert.equal(await page.evaluate(() => window.playground.line.answer.all.area), 0);
+            assert.doesNotMatch(await key.textContent(), /all points/);
+            assert.match(await done(page), /^Some see [\d.]+, all see nothing$/);
+            await page.evaluate(() => window.playground.doc.add({ kind: 'mirror', points: [19, 1, 19, 9] }));
+            await page.waitForFunction(() => /^Nothing was computed: .*mirror/.test(document.getElementById('line-text').textContent));
+            assert.ok(await key.isHidden());
+            await page.click('[data-do=undo]');
+            await page.waitForFunction(() => window.playground.line.answer);
+            await page.click('[data-do=remove]');
+            assert.deepEqual(await page.evaluate(() => [window.playground.line.ends, window.playground.doc.items.length]), [null, 5]);
+            await page.focus('#plan');
+            for (const press of ['v', 'l', 'ArrowLeft', 'Enter', 'Shift+ArrowLeft', 'Enter']) await page.keyboard.press(press);
+            await page.waitForFunction(() => window.playground.line.answer?.ends === window.playground.line.ends && window.playground.line.held < 0);
+            const [[ax, ay], [bx, by]] = await page.evaluate(() => window.playground.line.ends), step = await page.evaluate(() => window.playground.step());
+            assert.ok(Math.abs(ax - bx - 10 * step) < 1e-9 && ay === by);
+            await page.keyboard.press('Enter');
+            await page.keyboard.press('ArrowUp');
+            await page.keyboard.press('Escape');
+            assert.deepEqual(await page.evaluate(() => window.playground.line.ends), [[ax, ay], [bx, by]], 'Escape puts an end back');
+            await page.keyboard.press('Delete');
+            await page.check('input[value=look]');
+            assert.ok(await page.locator('#line').isHidden());
+            await context.close();
+        });
+
+        test('a path: by two clicks, for a radius, past doors as they stand, and as walls change', async () => {
+            const page = await open({}, '', `${room.slice(0, -1)}\ndoor middle 10 4 10 6 open\n`);
+            const says = (words) => page.waitForFunction((source) => new RegExp(source).test(document.getElementById('path-text').textContent), words.source);
+            const length = () => page.evaluate(() => window.playground.path.answer.way.length);
+            const radius = async (value) => {
+                await page.fill('#path-radius', value);
+                await page.press('#path-radius', 'Enter');
+            };
+            await page.check('input[value=path]');
+            assert.equal(await page.locator('#path-text').textContent(), 'Click where the way begins.');
+            await page.mouse.click(...(await screen(page, 5, 2)));
+            assert.equal(await page.locator('#path-text').textContent(), 'Choose the other end.');
+            await page.mouse.click(...(await screen(page, 15, 2)));
+            await says(/^It turns at 1 corner\.$/);
+            assert.ok(Math.abs((await length()) - 2 * Math.hypot(5, 2)) < 1e-9);
+            assert.equal(await done(page), 'The way is 10.77 long');
+            assert.match(await page.locator('#path-key').textContent(), /^length of the way10\.77straight line10$/);
+            await shot(page, `${name}-path`);
+            await radius('0.5');
+            await page.waitForFunction(() => window.playground.path.answer?.way.length > 10.9);
+            await radius('1.5');
+            await says(/^No way is wide enough for this radius\. For a point, a way of 10\.77 leads there\.$/);
+            await radius('2.5');
+            await says(/^Nothing was computed: .*radius 2\.5/);
+            await radius('');
+            await says(/^It turns/);
+            await page.uncheck('#door-list input');
+            await says(/^No way leads there: a shut door is in the way\. With all doors open, it would be 10\.77 long\.$/);
+            assert.ok(await page.locator('#path-key').isHidden());
+            await page.check('#door-list input');
+            await says(/^It turns/);
+            await page.evaluate(() => window.playground.doc.add({ kind: 'wall', points: [12, 0, 12, 10] }));
+            await says(/^No way leads there\.$/);
+            await page.click('[data-do=undo]');
+            await says(/^It turns/);
+            // Of a map that cannot be baked nothing is said.
+            await page.evaluate(() => window.playground.doc.add({ kind: 'solid', points: [1, 1, 3, 3, 3, 1, 1, 3] }));
+            await page.waitForFunction(() => window.playground.hasError);
+            assert.deepEqual([await page.locator('#path-text').textContent(), await page.locator('#path-key').isHidden()], ['', true]);
+            await page.click('[data-do=undo]');
+            await says(/^It turns/);
+            await drop(page, 'other.map', room);
+            await page.waitForFunction(() => window.playground.path.ends === null);
+            await context.close();
+        });
+
         test('a map with all effects: each is edited, and eye, region and pairs are answered', async () => {
             const all = `${room}door front 10 4 10 6 open\nwall 15 0 15 3\ndoor back 15 3 15 10 shut\nmirror 19 1 19 9\noneway 4 0 4 10\nrange 14\n`;
             const page = await open({}, '', all);
@@ -749,6 +851,13 @@ for (const name of wanted)
             await tap(2, 8);
             await settled(page);
             assert.equal(await page.evaluate(() => window.playground.doc.items.length), 5);
+            for (const [tool, item] of [['path', 'way'], ['line', 'some']]) {
+                await page.check(`input[value=${tool}]`);
+                await tap(5, 2);
+                await tap(15, 2);
+                await page.waitForFunction(([its, wanted]) => window.playground[its].answer?.[wanted], [tool, item]);
+                await shot(page, `${name}-phone-${tool}`);
+            }
             await shot(page, `${name}-phone`);
             await context.close();
         });

@@ -12,7 +12,8 @@ struct sli_answers {
     sl_set_region region;
     sl_query *passing; ///< with doors as ways find them
     sl_route_finder *finder;
-    double loss; ///< of shut doors, for the finder; below 0: they are shut
+    double loss;   ///< of shut doors, for the finder; below 0: they are shut
+    double radius; ///< of the walker
     sl_route route;
     sl_reach *reach;
 };
@@ -45,6 +46,12 @@ static sl_status make_answers(sli_floor *f) {
 }
 
 // --- lines and areas
+
+/// How far lines and areas see until it is set again; below 0: as the map has it.
+SLI_EXPORT(int, floor_set_range, sli_floor *f, double range) {
+    return (int)(sli_module.status = sl_query_set_range(context(), f->query,
+                                                        range < 0 ? f->baked.map.range : range));
+}
 
 // Points are read where ways.js writes them, and regions are read where they lie.
 _Static_assert(sizeof(sl_point) == 2 * sizeof(double), "points as ways.js knows them");
@@ -142,11 +149,11 @@ SLI_EXPORT(int, floor_sees_within, sli_floor *f, double x0, double y0, double ra
 // --- ways
 
 /// A finder of ways with the doors as they stand; those that are shut are passed at the loss.
-static sl_status make_finder(sli_floor *f, double loss) {
+static sl_status make_finder(sli_floor *f, double loss, double radius) {
     const sl_map *map = &f->baked.map;
     SL_TRY(make_answers(f));
     struct sli_answers *a = f->answers;
-    if (a->finder && a->loss == loss) return SL_OK;
+    if (a->finder && a->loss == loss && a->radius == radius) return SL_OK;
     forget_ways(a);
     if (sl_map_steps_differ(map))
         return sl_fail(context(), SL_UNSUPPORTED,
@@ -163,16 +170,20 @@ static sl_status make_finder(sli_floor *f, double loss) {
     sl_status status = sl_route_finder_create(context(), a->passing, &a->finder);
     if (status == SL_OK && loss >= 0)
         status = sl_route_finder_set_losses(context(), a->finder, losses, map->door_count);
-    a->loss = loss;
+    if (status == SL_OK && radius > 0)
+        status = sl_route_finder_set_radius(context(), a->finder, radius);
+    a->loss = loss, a->radius = radius;
     sl_free(context(), losses);
     if (status != SL_OK) forget_ways(a);
     return status;
 }
 
-/// The shortest way. `loss`: what passing a shut door costs; below 0: they are not passed.
+/// The shortest way of a walker, a disc with a radius or a point. `loss`: what passing a shut door
+/// costs; below 0: they are not passed.
 /// integers: whether there is one, its points, and where they lie. numbers: its length.
-SLI_EXPORT(int, floor_path, sli_floor *f, double x0, double y0, double x1, double y1, double loss) {
-    sl_status status = make_finder(f, loss);
+SLI_EXPORT(int, floor_path, sli_floor *f, double x0, double y0, double x1, double y1, double loss,
+           double radius) {
+    sl_status status = make_finder(f, loss, radius);
     if (status == SL_OK)
         status = sl_route_find(context(), f->answers->finder, (sl_point){x0, y0},
                                (sl_point){x1, y1}, &f->answers->route);

@@ -58,6 +58,52 @@ test('an area sees what it holds, and regions have the areas of the command', ()
   floor.close()
 })
 
+test('discs and ranges are those of the command, and what eyes in them see', () => {
+  const floor = core.open(hall()), scene = bakes.open(hall()), path = place('hall.map'), next = random(3), middle = [1.5, 1.5]
+  writeFileSync(path, hall())
+  const areas = (...words) => command('isovist', path, ...words, '-o', '-').split('\n').slice(1, 3).map((row) => Number(row.split(',')[1]))
+  const both = (points, options) => ['some', 'all'].map((seen) => floor.regionFrom(points, { ...options, seen }).area)
+  const free = both([middle], { radius: 0.75 }), near = both([middle], { radius: 0.75, range: 3 })
+  // Sines of the two are rounded in their own ways.
+  const close = (one, other) => one.forEach((area, i) => assert.ok(Math.abs(area - other[i]) < 1e-12 * area, `${one} ${other}`))
+  close(free, areas('--from-area', '1.5,1.5,0.75'))
+  close(near, areas('--from-area', '1.5,1.5,0.75', '--range', '3'))
+  assert.deepEqual(both([[1, 1], [3, 3.5]], { range: 2.5 }), areas('--from-line', '1,1,3,3.5', '--range', '2.5'))
+  assert.ok(near[0] < free[0] && near[1] < near[0])
+  assert.equal(floor.regionFrom([middle], { radius: 0.75 }).area, free[0], 'a range lasts for one question')
+  const places = Array.from({ length: 150 }, () => [8 * next(), 4 * next()])
+  // Between the disc and the polygon in it, of which chords are within a thousandth of the radius.
+  const eyes = (radius) => Array.from({ length: 48 }, (_, i) => [1.5 + radius * Math.cos(i * Math.PI / 24), 1.5 + radius * Math.sin(i * Math.PI / 24)])
+  const bySome = floor.seenFrom([middle], places, { radius: 0.75, range: 3 }), byAll = floor.seenFrom([middle], places, { radius: 0.75, range: 3, seen: 'all' })
+  places.forEach((point, i) => {
+    const seen = eyes(0.749).map((eye) => scene.canSee(eye, point, { range: 3 }))
+    if (seen.some(Boolean)) assert.ok(bySome[i], `some ${point}`)
+    if (byAll[i]) assert.ok(seen.every(Boolean), `all ${point}`)
+  })
+  assert.ok(byAll.some(Boolean) && bySome.some((seen, i) => seen && !byAll[i]) && bySome.includes(false))
+  floor.close()
+  const ranged = core.open(`${hall()}range 2\n`), at = [[1, 1], [3, 3.5]]
+  assert.equal(ranged.regionFrom(at).area, ranged.regionFrom(at, { range: 2 }).area)
+  assert.equal(ranged.regionFrom(at, { range: 0 }).area, areas('--from-line', '1,1,3,3.5')[0])
+  ranged.close()
+  scene.close()
+})
+
+test('a walker with a radius stays away from walls, and passes no gap that is too narrow', () => {
+  const floor = core.open(hall()), path = place('walk.map')
+  writeFileSync(path, hall())
+  const told = Number(/^length ([\d.]+)/.exec(command('path', path, '--from', '1,1', '--to', '7,1', '--radius', '0.25'))[1])
+  const way = floor.path([1, 1], [7, 1], { radius: 0.25 })
+  assert.ok(way.length > floor.path([1, 1], [7, 1]).length && Math.abs(way.length - told) < 1e-12 * told, `${way.length} ${told}`)
+  assert.equal(floor.path([1, 1], [7, 1], { radius: 0.6 }), null)
+  floor.setDoor('gap', true)
+  assert.ok(floor.path([1, 1], [7, 1], { radius: 0.6 }).length > way.length - 1)
+  assert.throws(() => floor.path([0.1, 1], [7, 1], { radius: 0.25 }), /too near to the wall/)
+  assert.throws(() => floor.path([1, 1], [7, 1], { radius: 0.25, loss: 1 }), SightlineError)
+  assert.equal(floor.path([1, 1], [7, 1]).length, 2 * Math.hypot(3, 1), 'the next question is of a point again')
+  floor.close()
+})
+
 test('ways turn at the ends of walls, and doors are in the way', () => {
   const floor = core.open(hall()), way = floor.path([1, 1], { x: 7, y: 1 })
   assert.deepEqual([...way.points], [1, 1, 4, 3, 7, 1])
@@ -101,6 +147,9 @@ test('what cannot be is refused with its reason, and the module goes on', async 
   const floor = core.open(hall())
   for (const [call, message] of [
     [() => floor.regionFrom([[1, 1]], { seen: 'most' }), /'some' or 'all'/], [() => floor.regionFrom([1, 1]), /a point/],
+    [() => floor.regionFrom([[1, 1], [2, 1]], { radius: 1 }), /radius.*one point/], [() => floor.regionFrom([[1, 1]], { radius: -1 }), /radius/],
+    [() => floor.regionFrom([[1, 1], [2, 1]], { range: -1 }), /range/], [() => floor.seenFrom([], [], { radius: 1 }), /one point/],
+    [() => floor.path([1, 1], [2, 1], { radius: '1' }), /radius/],
     [() => floor.regionFrom([[99, 1], [1, 1]]), /99/], [() => floor.regionFrom([[1, 1], [2, 1], [3, 1]], { area: true }), /area|convex/],
     [() => floor.path([1, 1], [2, NaN]), /a point/], [() => floor.path([1, 1], [2, 1], { loss: -1 }), /loss/],
     [() => floor.seesWithin([1, 1], -1, [2, 1], 0), /aRadius/], [() => floor.path([1, 1], [99, 1]), /99|bounds/],
