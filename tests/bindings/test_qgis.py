@@ -20,8 +20,47 @@ AT = 412000, 5652000
 ROOMS = [(0, 0, 12, 0), (12, 0, 12, 8), (12, 8, 0, 8), (0, 8, 0, 0), (5, 0, 5, 3), (5, 4, 5, 8), (8, 2, 10, 3)]
 POINTS = [(2, 2, "a", 0, 360), (9, 6, "b", 180, 90)]
 UTM = "EPSG:32633"
+ENDS = "x1", "y1", "x2", "y2"
 # Debian's qgis_process hands a word to the program that it does not know.
 QGIS_PROCESS = shutil.which("qgis_process.bin") or shutil.which("qgis_process")
+
+
+# Draws layers with the plugin's styles, as a map, and says how many colours the picture has.
+DRAWER = """
+import os, sys
+from qgis.core import *
+from qgis.PyQt.QtCore import QSize
+from qgis.PyQt.QtGui import QColor
+application = QgsApplication([], False)
+application.initQgis()
+picture, layers = sys.argv[1], []
+for word in sys.argv[2:]:
+    path, style = word.split("=")
+    layer = QgsVectorLayer(path, "layer", "ogr")
+    assert layer.isValid(), path
+    if style:
+        message, done = layer.loadNamedStyle(style)
+        assert done, message
+    else:
+        layer.renderer().symbol().setColor(QColor("black"))
+    layers.append(layer)
+settings = QgsMapSettings()
+settings.setLayers(layers)
+settings.setDestinationCrs(layers[0].crs())
+settings.setOutputSize(QSize(900, 600))
+box = layers[0].extent()
+box.scale(1.1)
+settings.setExtent(box)
+settings.setFlag(QgsMapSettings.Antialiasing, False)
+job = QgsMapRendererParallelJob(settings)
+job.start()
+job.waitForFinished()
+image = job.renderedImage()
+assert not job.errors() and image.save(picture), picture
+print(len({image.pixel(x, y) for x in range(0, 900, 3) for y in range(0, 600, 3)}))
+sys.stdout.flush()
+os._exit(0) # objects that outlive QGIS end it with a fault
+"""
 
 
 def geojson(path, rows, crs=UTM):
@@ -34,6 +73,12 @@ def geojson(path, rows, crs=UTM):
 
 def moved(x, y):
     return [x + AT[0], y + AT[1]]
+
+
+def size(ring):
+    # About its first corner: far from 0, products of coordinates lose digits.
+    near = [(x - ring[0][0], y - ring[0][1]) for x, y in ring]
+    return abs(sum(ax * by - bx * ay for (ax, ay), (bx, by) in zip(near, near[1:]))) / 2
 
 
 def table(text):
@@ -121,6 +166,102 @@ class Qgis(unittest.TestCase):
             self.assertTrue(math.isclose(feature["properties"]["length"], wanted["length"], rel_tol=1e-9))
             self.assertEqual(feature["properties"]["label"], label)
             self.assertEqual(len(feature["geometry"]["coordinates"]), len(wanted["points"]))
+
+    def test_lines(self):
+        for name in "fewest", "all":
+            got, _ = self.run_it("axiallines", WALLS="walls.geojson", LINES=["fewest", "subsets", "all"].index(name))
+            wanted = table(self.said("axial", "plan.map", "--lines", name))
+            self.same(got, [{k: v for k, v in row.items() if k not in ENDS} for row in wanted])
+            ends = [[row[k] for k in ENDS] for row in wanted]
+            self.assertEqual([sum(feature["geometry"]["coordinates"], []) for feature in got], ends)
+
+    def test_segments(self):
+        lines = [("LineString", [moved(*a), moved(*b)], {}) for a, b in (((0, 0), (9, 0)), ((3, -3), (3, 4)), ((9, 0), (3, 4)))]
+        geojson(self.at / "streets.geojson", lines)
+        (self.at / "streets.csv").write_text("x1,y1,x2,y2\n" + "".join(
+            ",".join(map(str, a + b)) + "\n" for _, (a, b), _ in lines), encoding="utf-8")
+        got, _ = self.run_it("segments", WALLS="streets.geojson", METRIC_RADIUS=8)
+        wanted = table(self.said("segments", "streets.csv", "--metric-radius", 8))
+        self.same(got, [{k.replace("_r8_metric", ""): v for k, v in row.items() if k not in ENDS} for row in wanted],)
+
+    def test_cover(self):
+        geojson(self.at / "cameras.geojson", [("Point", moved(1, 4), {"heading": 0, "fov": 90, "range": 9}),
+                                              ("Point", moved(11, 7), {"heading": 225, "fov": 120, "range": None})])
+        (self.at / "cameras.csv").write_text("x,y,heading,fov,range\n{},{},0,90,9\n{},{},225,120,\n".format(
+            *moved(1, 4), *moved(11, 7)), encoding="utf-8")
+        got, log = self.run_it("cover", WALLS="walls.geojson", POINTS="cameras.geojson")
+        wanted = json.loads(self.said("cover", "plan.map", "cameras.csv", "--json"))
+        for number, key in enumerate(("0", "1", "2", "3+")):
+            area = sum(size(feature["geometry"]["coordinates"][0]) for feature in got
+                       if min(feature["properties"]["count"], 3) == number)
+            self.assertAlmostEqual(area, wanted["areas"][key], places=5)
+        self.assertIn("Blind spot of area", log)
+
+    def test_place(self):
+        got, log = self.run_it("place", WALLS="walls.geojson")
+        wanted = json.loads(self.said("place", "plan.map", "--json"))
+        self.assertEqual(len(got), wanted["upper"])
+        self.assertIn(f"{wanted['upper']} viewpoints see everything; {wanted['lower']} are needed at least.", log)
+
+    def test_kinds(self):
+        """A shut door stops ways and sight; solid ground has a hole; what a field says falsely is refused by its feature."""
+        lines = [("LineString", [moved(a, b), moved(c, d)], {"what": "wall"}) for a, b, c, d in ROOMS]
+        door = ("LineString", [moved(5, 3), moved(5, 4)], {"what": "door", "name": "way", "open": False})
+        geojson(self.at / "kinds.geojson", [*lines, door])
+        got, log = self.run_it("ways", WALLS="kinds.geojson", KIND="what", ENDS="points.geojson",
+                               START="{},{} [{}]".format(*moved(1, 7), UTM))
+        self.assertEqual([(feature["geometry"] or {}).get("coordinates", []) == [] for feature in got], [False, True])
+        self.assertIsNone(got[1]["properties"]["length"])
+        self.assertIn("There is no way to point 1", log)
+        geojson(self.at / "kinds.geojson", [*lines, (door[0], door[1], {"what": "gate"})])
+        done = self.process("ways", WALLS="kinds.geojson", KIND="what", ENDS="points.geojson", START="1,1")
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("Feature 7 of the walls: field 'what' says 'gate'", done.stdout + done.stderr)
+
+        def square(a, b):
+            return [moved(a, a), moved(b, a), moved(b, b), moved(a, b), moved(a, a)]
+        geojson(self.at / "kinds.geojson", [("Polygon", [square(0, 10), square(2, 8)], {"what": None})])
+        geojson(self.at / "inside.geojson", [("Point", moved(5, 5), {}), ("Point", moved(1, 1), {}), ("Point", moved(99, 1), {})])
+        got, log = self.run_it("isovists", WALLS="kinds.geojson", KIND="what", POINTS="inside.geojson")
+        self.assertEqual([feature["properties"]["area"] for feature in got], [36, 0, 0])
+        for number in 1, 2:
+            self.assertIn(f"Point {number} at", log)
+        self.assertNotIn("Point 0 at", log)
+
+    def test_coordinate_systems(self):
+        """Walls in degrees are refused; points in degrees are transformed."""
+        geojson(self.at / "degrees.geojson", [("Point", [13.7, 51.0], {})], "EPSG:4326")
+        geojson(self.at / "globe.geojson", [("LineString", [[13, 51], [14, 52]], {})], "EPSG:4326")
+        done = self.process("isovists", output="none.geojson", WALLS="globe.geojson", POINTS="points.geojson")
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("The walls are in degrees (EPSG:4326)", done.stdout + done.stderr)
+        self.assertFalse((self.at / "none.geojson").exists())
+        box = [[400000, 5640000], [420000, 5640000], [420000, 5660000], [400000, 5660000], [400000, 5640000]]
+        geojson(self.at / "box.geojson", [("LineString", box, {})])
+        got, _ = self.run_it("isovists", WALLS="box.geojson", POINTS="degrees.geojson")
+        self.assertAlmostEqual(got[0]["properties"]["area"], 4e8, places=3)
+        self.assertTrue(400000 < got[0]["properties"]["x"] < 420000)
+
+    def test_without_the_package(self):
+        environment = {**self.environment, "PYTHONPATH": ""}
+        done = subprocess.run([QGIS_PROCESS, "run", "sightline:place", "--WALLS=walls.geojson", "--OUTPUT=none.geojson"],
+                              env=environment, capture_output=True, text=True, cwd=self.at)
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("The Python package sightline is missing", done.stdout + done.stderr)
+
+    def test_styles(self):
+        """A map of results is drawn with the plugin's styles."""
+        layers = []
+        for name, style, more in (("isovists", "isovists", {"POINTS": "points.geojson"}), ("axiallines", "axial", {"LINES": 2}),
+                                  ("visibilitygraph", "graph", {"GRID": 0.25})):
+            self.run_it(name, f"{name}.geojson", WALLS="walls.geojson", **more)
+            layers.append(f"{name}.geojson={self.at}/plugins/sightline_qgis/styles/{style}.qml")
+        for drawn, least in (layers[1:2], 10), (layers[::2], 50):
+            picture = os.environ.get("SIGHTLINE_PICTURE", str(self.at / "map.png"))
+            done = subprocess.run([sys.executable, "-B", "-c", DRAWER, picture, "walls.geojson=", *drawn],
+                                  env=self.environment, capture_output=True, text=True, cwd=self.at)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertGreaterEqual(int(done.stdout.split()[-1]), least)
 
 
 if __name__ == "__main__":

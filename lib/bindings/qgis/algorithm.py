@@ -59,6 +59,8 @@ class Algorithm(QgsProcessingAlgorithm):
         self.addParameter(QgsProcessingParameterFeatureSink("OUTPUT", self.TITLE))
 
     def processAlgorithm(self, parameters, context, feedback):
+        if MISSING:  # qgis_process does not ask canExecute
+            raise QgsProcessingException(MISSING)
         walls = self.source(parameters, "WALLS", context)
         with warnings.catch_warnings(record=True) as doubts:
             warnings.simplefilter("always")

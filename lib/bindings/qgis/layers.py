@@ -51,7 +51,7 @@ class _Walls:
                 continue
             sides = [(*a, *b) for a, b in zip(corners, corners[1:])]
             if kind == "door":
-                self.plan.add_door(sides, name or "door", is_open)
+                self.plan.add_door(name or "door", sides, is_open=is_open)
             else:
                 self.segments.setdefault(kind, []).extend(sides)
 

@@ -3,9 +3,11 @@ from qgis.core import QgsApplication, QgsProcessingProvider
 
 from .graph import VisibilityGraph
 from .isovists import Isovists
+from .lines import AxialLines, Segments
+from .viewpoints import Cover, Place
 from .ways import Ways
 
-ALGORITHMS = Isovists, VisibilityGraph, Ways
+ALGORITHMS = Isovists, VisibilityGraph, AxialLines, Segments, Cover, Place, Ways
 
 
 class Provider(QgsProcessingProvider):
