@@ -1,7 +1,7 @@
 """The plugin for QGIS, in QGIS: test_qgis.py PROGRAM SOURCE PACKAGE
 
 Each algorithm is run by qgis_process on a layer of walls, and its fields and shapes are what the command says of the same
-walls. Skipped (77) where QGIS or numpy is not here. With the variable SIGHTLINE_PICTURE a map of the results is drawn to that file.
+walls. Skipped (77) where QGIS is not installed. With the variable SIGHTLINE_PICTURE a map of the results is drawn to that file.
 """
 import csv
 import io
@@ -218,6 +218,11 @@ class Qgis(unittest.TestCase):
         self.assertNotEqual(done.returncode, 0)
         self.assertIn("Feature 7 of the walls: field 'what' says 'gate'", done.stdout + done.stderr)
 
+        geojson(self.at / "kinds.geojson", [*lines, (door[0], door[1], {"what": "door", "open": "no"})])
+        done = self.process("ways", WALLS="kinds.geojson", KIND="what", ENDS="points.geojson", START="1,1")
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("Feature 7 of the walls: field 'open' must hold true or false, not 'no'", done.stdout + done.stderr)
+
         def square(a, b):
             return [moved(a, a), moved(b, a), moved(b, b), moved(a, b), moved(a, a)]
         geojson(self.at / "kinds.geojson", [("Polygon", [square(0, 10), square(2, 8)], {"what": None})])
@@ -227,6 +232,20 @@ class Qgis(unittest.TestCase):
         for number in 1, 2:
             self.assertIn(f"Point {number} at", log)
         self.assertNotIn("Point 0 at", log)
+
+    def test_inside(self):
+        """A house with a gap: a warning says what to do. Of two houses, a start takes one."""
+        def house(*sides):
+            geojson(self.at / "house.geojson", [("LineString", [moved(a, b), moved(c, d)], {}) for a, b, c, d in sides])
+
+        house((5, 0, 10, 0), (10, 0, 10, 8), (10, 8, 0, 8), (0, 8, 0, 0), (0, 0, 3, 0), (12, 0, 12, 8))
+        _, log = self.run_it("visibilitygraph", WALLS="house.geojson", GRID=1)
+        self.assertIn("(STARTS)", log)
+        house(*((a + x, b, c + x, d) for x in (0, 10) for a, b, c, d in ((0, 0, 4, 0), (4, 0, 4, 4), (4, 4, 0, 4), (0, 4, 0, 0))))
+        geojson(self.at / "start.geojson", [("Point", moved(1, 1), {})])
+        counts = [len(self.run_it("visibilitygraph", WALLS="house.geojson", GRID=1, **more)[0])
+                  for more in ({}, {"STARTS": "start.geojson"})]
+        self.assertEqual(counts, [18, 9])
 
     def test_coordinate_systems(self):
         """Walls in degrees are refused; points in degrees are transformed."""
@@ -266,7 +285,7 @@ class Qgis(unittest.TestCase):
 
 if __name__ == "__main__":
     if not QGIS_PROCESS:
-        print("QGIS is not here")
+        print("skipped: QGIS is not installed")
         sys.exit(77)
     PROGRAM, SOURCE, PACKAGE = (pathlib.Path(word).resolve() for word in sys.argv[1:4])
     unittest.main(argv=[sys.argv[0], *sys.argv[4:]])

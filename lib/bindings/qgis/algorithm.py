@@ -24,6 +24,7 @@ class Algorithm(QgsProcessingAlgorithm):
     NAME = TITLE = GROUP = STYLE = ""
     TAGS = ()
     GEOMETRY = None
+    HAS_INSIDE = True
 
     def createInstance(self):
         return type(self)()
@@ -55,6 +56,9 @@ class Algorithm(QgsProcessingAlgorithm):
     def initAlgorithm(self, configuration=None):
         self.addParameter(QgsProcessingParameterFeatureSource("WALLS", "Walls", [QgsProcessing.TypeVectorAnyGeometry]))
         self.addParameter(QgsProcessingParameterField("KIND", "Field of kinds", None, "WALLS", optional=True))
+        if self.HAS_INSIDE:
+            self.addParameter(QgsProcessingParameterFeatureSource("STARTS", "Points that are inside (default: what walls enclose)",
+                                                                  [QgsProcessing.TypeVectorPoint], optional=True))
         self.add_parameters()
         self.addParameter(QgsProcessingParameterFeatureSink("OUTPUT", self.TITLE))
 
@@ -66,12 +70,15 @@ class Algorithm(QgsProcessingAlgorithm):
             warnings.simplefilter("always")
             try:
                 plan = layers.plan_of(sightline, walls, self.parameterAsString(parameters, "KIND", context), feedback)
+                starts = self.parameterAsSource(parameters, "STARTS", context) if self.HAS_INSIDE else None
+                for point in layers.points_of(starts, walls.sourceCrs(), context)[1] if starts else ():
+                    plan.add_start(point)
                 fields, rows = self.answer(plan, walls.sourceCrs(), parameters, context, feedback)
             except (ValueError, sightline.SightlineError) as fault:
                 raise QgsProcessingException(str(fault)) from fault
         for doubt in doubts:
             if issubclass(doubt.category, sightline.SightlineWarning):
-                feedback.pushWarning(str(doubt.message))
+                feedback.pushWarning(f"{doubt.message}. In QGIS, starts are the layer of points that are inside (STARTS).")
         sink, self.made = self.parameterAsSink(parameters, "OUTPUT", context, fields, self.GEOMETRY, walls.sourceCrs())
         if sink is None:
             raise QgsProcessingException(self.invalidSinkError(parameters, "OUTPUT"))

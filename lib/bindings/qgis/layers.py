@@ -8,52 +8,52 @@ from qgis.core import (QgsFeatureRequest, QgsField, QgsGeometry, QgsLineString, 
                        QgsProcessingException, QgsProcessingUtils, QgsFields, QgsWkbTypes)
 from qgis.PyQt.QtCore import QVariant
 
-KINDS = "wall", "door", "mirror", "oneway", "seam", "solid", "open", "start"
-
-
-def _rings(geometry):
-    """Lines of a geometry: their corners, and whether they are rings of polygons. Curves become chords."""
-    for part in geometry.constParts():
-        plain = part.segmentize()
-        if QgsWkbTypes.geometryType(part.wkbType()) == QgsWkbTypes.PolygonGeometry:
-            rings = [plain.exteriorRing()] + [plain.interiorRing(i) for i in range(plain.numInteriorRings())]
-            yield from ((_corners(ring), hole) for hole, ring in enumerate(rings))
-        else:
-            yield _corners(plain), None
+LINE_KINDS = "wall", "door", "mirror", "oneway", "seam"
+KINDS = *LINE_KINDS, "solid", "open", "start"
 
 
 def _corners(line):
     return [(point.x(), point.y()) for point in line.points()]
 
 
+def _rings(polygon):
+    return [_corners(polygon.exteriorRing())] + [_corners(polygon.interiorRing(i)) for i in range(polygon.numInteriorRings())]
+
+
 class _Walls:
-    """What a layer adds to a plan, kind by kind."""
+    """What a layer adds to a plan, kind by kind. Curves become chords."""
 
     def __init__(self, plan):
         self.plan, self.segments = plan, {}
 
-    def add(self, feature, kind, name, is_open):
-        geometry = feature.geometry()
-        if geometry.type() == QgsWkbTypes.PointGeometry:
-            if kind not in ("", "start"):
-                raise ValueError(f"a point cannot be of the kind '{kind}'")
-            for point in geometry.vertices():
-                self.plan.add_start((point.x(), point.y()))
-            return
-        is_area = geometry.type() == QgsWkbTypes.PolygonGeometry
-        kind = kind or ("solid" if is_area else "wall")
-        if kind == "start" or kind in ("solid", "open") and not is_area:
-            raise ValueError(f"a {'polygon' if is_area else 'line'} cannot be of the kind '{kind}'")
-        for corners, hole in _rings(geometry):
-            if kind in ("solid", "open"):
-                # A hole in solid ground is open, and the other way round.
-                self.plan.add_polygon(corners, solid=(kind == "solid") != bool(hole), is_open=(kind == "open") != bool(hole))
-                continue
-            sides = [(*a, *b) for a, b in zip(corners, corners[1:])]
-            if kind == "door":
-                self.plan.add_door(name or "door", sides, is_open=is_open)
-            else:
-                self.segments.setdefault(kind, []).extend(sides)
+    def add(self, part, kind, name, is_open):
+        of = QgsWkbTypes.geometryType(part.wkbType())
+        usual = {QgsWkbTypes.PointGeometry: "start", QgsWkbTypes.PolygonGeometry: "solid"}.get(of, "wall")
+        kind = kind or usual
+        if kind not in {"start": ("start",), "solid": ("solid", "open", "wall"), "wall": LINE_KINDS}[usual]:
+            what = {"start": "point", "solid": "polygon", "wall": "line"}[usual]
+            raise ValueError(f"a {what} cannot be of the kind '{kind}'")
+        if kind == "start":
+            self.plan.add_start((part.x(), part.y()))
+        elif usual == "wall":
+            self._add_lines(_corners(part.segmentize()), kind, name, is_open)
+        else:
+            self._add_area(_rings(part.segmentize()), kind)
+
+    def _add_lines(self, corners, kind, name, is_open):
+        sides = [(*a, *b) for a, b in zip(corners, corners[1:])]
+        if kind == "door":
+            self.plan.add_door(name or "door", sides, is_open=is_open)
+        else:
+            self.segments.setdefault(kind, []).extend(sides)
+
+    def _add_area(self, rings, kind):
+        for i, corners in enumerate(rings):
+            if kind == "wall":
+                self._add_lines(corners, kind, "", True)
+            else:  # a hole in solid ground is open, and the other way round
+                solid = (kind == "solid") == (i == 0)
+                self.plan.add_polygon(corners, solid=solid, is_open=not solid)
 
     def finish(self):
         for kind, segments in self.segments.items():
@@ -64,6 +64,14 @@ def value_of(feature, field):
     """A value of a field; None where there is none."""
     value = feature[field] if field else None
     return None if value is None or isinstance(value, QVariant) and value.isNull() else value
+
+
+def _is_open(feature, field):
+    """Whether a door is: a truth, also as 0 or 1; yes without a value."""
+    value = value_of(feature, field)
+    if value not in (None, 0, 1):
+        raise ValueError(f"field '{field}' must hold true or false, not '{value}'")
+    return value is None or bool(value)
 
 
 def crs_of(source):
@@ -91,9 +99,10 @@ def plan_of(sightline, source, kind_field, feedback):
         if kind and kind not in KINDS:
             raise QgsProcessingException(f"Feature {feature.id()} of the walls: field '{kind_field}' says '{kind}', which is no "
                                          f"kind. Kinds: {', '.join(KINDS)}; empty for a wall.")
-        is_open = value_of(feature, open_field)
         try:
-            walls.add(feature, kind, str(value_of(feature, name_field) or ""), is_open is None or bool(is_open))
+            is_open = kind != "door" or _is_open(feature, open_field)
+            for part in feature.geometry().constParts():
+                walls.add(part, kind, str(value_of(feature, name_field) or ""), is_open)
         except (ValueError, sightline.SightlineError) as fault:
             raise QgsProcessingException(f"Feature {feature.id()} of the walls: {fault}.") from fault
     walls.finish()

@@ -48,6 +48,7 @@ class Segments(OfLines):
     """
 
     NAME, TITLE, STYLE = "segments", "Segments", "segments"
+    HAS_INSIDE = False
     TAGS = "angular", "choice", "streets", "network", "depthmap"
 
     def add_parameters(self):
