@@ -62,6 +62,27 @@ sys.stdout.flush()
 os._exit(0) # objects that outlive QGIS end it with a fault
 """
 
+# Runs an algorithm that takes long in PyQGIS, and cancels it from another thread after half a second.
+CANCELLER = """
+import os, sys, threading, time
+from qgis.core import *
+application = QgsApplication([], False)
+application.initQgis()
+sys.path.insert(0, os.environ["QGIS_PLUGINPATH"])
+import sightline_qgis
+plugin = sightline_qgis.classFactory(None)
+plugin.initProcessing()
+algorithm = QgsApplication.processingRegistry().algorithmById("sightline:visibilitygraph")
+context, feedback = QgsProcessingContext(), QgsProcessingFeedback()
+begun = time.monotonic()
+threading.Timer(0.5, feedback.cancel).start()
+values = {"WALLS": "walls.geojson", "GRID": 0.06, "MEASURES": [0, 2, 3], "OUTPUT": "memory:"}
+_, done = algorithm.run(values, context, feedback)
+print(done, feedback.isCanceled(), time.monotonic() - begun < 20)
+sys.stdout.flush()
+os._exit(0)
+"""
+
 
 def geojson(path, rows, crs=UTM):
     """A layer of (geometry type, coordinates, properties)."""
@@ -267,6 +288,11 @@ class Qgis(unittest.TestCase):
                               env=environment, capture_output=True, text=True, cwd=self.at)
         self.assertNotEqual(done.returncode, 0)
         self.assertIn("The Python package sightline is missing", done.stdout + done.stderr)
+
+    def test_cancel(self):
+        done = subprocess.run([sys.executable, "-B", "-c", CANCELLER], env=self.environment, capture_output=True, text=True,
+                              cwd=self.at)
+        self.assertEqual(done.stdout.split()[-3:], ["False", "True", "True"], done.stdout + done.stderr)
 
     def test_styles(self):
         """A map of results is drawn with the plugin's styles."""

@@ -1,6 +1,8 @@
 """What all algorithms share: the walls, the package, messages, styles."""
+import contextlib
 import inspect
 import pathlib
+import threading
 import warnings
 
 from qgis.core import (QgsFeature, QgsFeatureSink, QgsProcessing, QgsProcessingAlgorithm, QgsProcessingException,
@@ -16,6 +18,25 @@ except ImportError as fault:
     sightline = None
     MISSING = (f"The Python package sightline is missing: {fault}. Install it in the Python of QGIS, by "
                "'apt install ./python3-sightline_*.deb' or 'python3 -m pip install sightline-*.whl', and start QGIS again.")
+
+
+@contextlib.contextmanager
+def cancelled_by(feedback, plan):
+    """Stops the questions to a plan once the user cancels."""
+    done = threading.Event()
+
+    def watch():
+        while not done.wait(0.1):
+            if feedback.isCanceled():
+                plan.cancel()
+
+    watcher = threading.Thread(target=watch)
+    watcher.start()
+    try:
+        yield
+    finally:
+        done.set()
+        watcher.join()
 
 
 class Algorithm(QgsProcessingAlgorithm):
@@ -73,7 +94,8 @@ class Algorithm(QgsProcessingAlgorithm):
                 starts = self.parameterAsSource(parameters, "STARTS", context) if self.HAS_INSIDE else None
                 for point in layers.points_of(starts, walls.sourceCrs(), context)[1] if starts else ():
                     plan.add_start(point)
-                fields, rows = self.answer(plan, walls.sourceCrs(), parameters, context, feedback)
+                with cancelled_by(feedback, plan):
+                    fields, rows = self.answer(plan, walls.sourceCrs(), parameters, context, feedback)
             except (ValueError, sightline.SightlineError) as fault:
                 raise QgsProcessingException(str(fault)) from fault
         for doubt in doubts:

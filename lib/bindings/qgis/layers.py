@@ -92,7 +92,7 @@ def plan_of(sightline, source, kind_field, feedback):
     name_field, open_field = ("name" if "name" in names else ""), ("open" if "open" in names else "")
     for feature in source.getFeatures():
         if feedback.isCanceled():
-            break
+            raise QgsProcessingException("Cancelled: the walls were not read.")
         if not feature.hasGeometry():
             continue
         kind = str(value_of(feature, kind_field) or "")

@@ -443,6 +443,13 @@ class Plan(Segments, drawing.InNotebooks, MapHandle):
             warnings.warn(doubt, SightlineWarning, stacklevel=3)
         return level
 
+    def cancel(self) -> None:
+        """Stops long work that another thread asks for, also of the questions below."""
+        super().cancel()
+        space = self._space
+        if space is not None:
+            space.cancel()
+
     def _own_space(self) -> Level:
         with self._lock:
             self._open_pointer()
