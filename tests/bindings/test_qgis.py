@@ -62,8 +62,9 @@ sys.stdout.flush()
 os._exit(0) # objects that outlive QGIS end it with a fault
 """
 
-# Runs an algorithm that takes long in PyQGIS, and cancels it from another thread after half a second.
-CANCELLER = """
+# Runs the visibility graph in PyQGIS: the distance of its points, and after how long another thread cancels it. Says how its
+# layer is coloured.
+RUNNER = """
 import os, sys, threading, time
 from qgis.core import *
 application = QgsApplication([], False)
@@ -75,9 +76,13 @@ plugin.initProcessing()
 algorithm = QgsApplication.processingRegistry().algorithmById("sightline:visibilitygraph")
 context, feedback = QgsProcessingContext(), QgsProcessingFeedback()
 begun = time.monotonic()
-threading.Timer(0.5, feedback.cancel).start()
-values = {"WALLS": "walls.geojson", "GRID": 0.06, "MEASURES": [0, 2, 3], "OUTPUT": "memory:"}
-_, done = algorithm.run(values, context, feedback)
+if float(sys.argv[2]):
+    threading.Timer(float(sys.argv[2]), feedback.cancel).start()
+values = {"WALLS": "walls.geojson", "GRID": float(sys.argv[1]), "MEASURES": [0, 2, 3], "OUTPUT": "memory:"}
+found, done = algorithm.run(values, context, feedback)
+if done:
+    layer = context.takeResultLayer(found["OUTPUT"])
+    print(layer.renderer().symbol().symbolLayer(0).dataDefinedProperties().property(3).expressionString())
 print(done, feedback.isCanceled(), time.monotonic() - begun < 20)
 sys.stdout.flush()
 os._exit(0)
@@ -289,10 +294,16 @@ class Qgis(unittest.TestCase):
         self.assertNotEqual(done.returncode, 0)
         self.assertIn("The Python package sightline is missing", done.stdout + done.stderr)
 
-    def test_cancel(self):
-        done = subprocess.run([sys.executable, "-B", "-c", CANCELLER], env=self.environment, capture_output=True, text=True,
-                              cwd=self.at)
-        self.assertEqual(done.stdout.split()[-3:], ["False", "True", "True"], done.stdout + done.stderr)
+    def test_in_a_session(self):
+        """The layer has the plugin's style, and what takes a minute ends when it is cancelled."""
+        def said(*words):
+            done = subprocess.run([sys.executable, "-B", "-c", RUNNER, *words], env=self.environment, capture_output=True,
+                                  text=True, cwd=self.at)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            return done.stdout.splitlines()
+
+        self.assertIn("visual_integration_hh", said("1", "0")[-2])
+        self.assertEqual(said("0.06", "0.5")[-1], "False True True")
 
     def test_styles(self):
         """A map of results is drawn with the plugin's styles."""
