@@ -32,7 +32,8 @@ class Cover(Algorithm):
         seen = plan.cover(viewpoints, arrays=True)
         whole = seen.areas.sum()
         for area, who in zip(seen.areas, ("no viewpoint", "1 viewpoint", "2 viewpoints", "3 viewpoints or more")):
-            feedback.pushInfo(f"Seen by {who}: {area:.10g} of {whole:.10g}")
+            if area > 0:
+                feedback.pushInfo(f"Seen by {who}: {area:.10g} of {whole:.10g}")
         spots = seen.blind_spots
         for i in range(min(5, len(spots["area"]))):
             feedback.pushInfo(f"Blind spot of area {spots['area'][i]:.10g} at {spots['x'][i]:.10g},{spots['y'][i]:.10g}")
@@ -65,7 +66,7 @@ class Place(Algorithm):
         step = self.parameterAsDouble(parameters, "STEP", context) if places in ("walls", "grid") else None
         found = plan.place(places=places, step=step, time_limit=self.parameterAsDouble(parameters, "TIME_LIMIT", context),
                            arrays=True)
-        feedback.pushInfo(f"{found.upper} viewpoints see everything; {found.lower} are needed at least. {found.proof}")
+        feedback.pushInfo(f"{found.upper} viewpoint{' sees' if found.upper == 1 else 's see'} everything. {found.proof}")
         if found.slivers:
             feedback.pushWarning(f"Parts that are too thin to be found may be unseen: {found.slivers}, of area "
                                  f"{found.unseen_area:.6g} at most.")
