@@ -5,6 +5,7 @@
 # command  the command for Linux, static, with its manual pages, completion and licence
 # npm      the npm package
 # foundry  the module for Foundry Virtual Tabletop, with the npm package in it
+# qgis     the plugin for QGIS, which needs the Python package
 # python   the Python package: its sources in one file, and a wheel that has the libraries it needs
 #
 # 'sh tools/setup.sh --release' installs what they need. Without a PART, all. Each is tried in an empty folder before it is
@@ -12,14 +13,14 @@
 # plans and baked files alone. The wheel is for Linux with the glibc that its name says, or newer.
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
-usage='usage: sh tools/release.sh FOLDER [source | command | npm | foundry | python]...'
+usage='usage: sh tools/release.sh FOLDER [source | command | npm | foundry | qgis | python]...'
 fail() {
     echo "release: $1" >&2
     exit "${2:-1}"
 }
 case ${1:-} in
 -h | --help)
-    sed -n '2,13s/^# \{0,1\}//p' "$0"
+    sed -n '2,14s/^# \{0,1\}//p' "$0"
     exit 0
     ;;
 '' | -*) fail "$usage" 2 ;;
@@ -28,9 +29,9 @@ mkdir -p "$1"
 folder=$(cd "$1" && pwd)
 shift
 for part in "$@"; do
-    case $part in source | command | npm | foundry | python) ;; *) fail "there is no part '$part'; $usage" 2 ;; esac
+    case $part in source | command | npm | foundry | qgis | python) ;; *) fail "there is no part '$part'; $usage" 2 ;; esac
 done
-parts=" ${*:-source command npm foundry python} "
+parts=" ${*:-source command npm foundry qgis python} "
 [ -e "$root/.git" ] || fail "a clone is needed: the archive is that of a commit" 2
 [ -z "$(git -C "$root" status --porcelain)" ] || fail "commit or drop the changes first" 2
 
@@ -60,6 +61,15 @@ pack() {
     tar -C "${3:-$scratch}" --format=ustar --sort=name --mtime="@$SOURCE_DATE_EPOCH" --owner=0 --group=0 \
         --numeric-owner --mode=u=rwX,go=rX -cf "$scratch/$1.tar" "$2"
     gzip -9n "$scratch/$1.tar"
+}
+
+# zip_folder FOLDER FILE: the same, as a zip file.
+zip_folder() {
+    find "$1" -type f | LC_ALL=C sort | quietly python3 -c "
+import sys, zipfile
+with zipfile.ZipFile(sys.argv[1], 'w') as archive:
+    for name in sys.stdin.read().splitlines():
+        archive.writestr(zipfile.ZipInfo(name), open(name, 'rb').read(), zipfile.ZIP_DEFLATED)" "$2"
 }
 
 # keep FILE [FOLDER/]: what is tried takes its place.
@@ -142,11 +152,7 @@ case $parts in *" foundry "*)
             cp -R "$sources/lib/bindings/foundry/." "$sources/LICENSE" . &&
             cp -R "$scratch/web/package" scripts/ && chmod -R u=rwX,go=rX . &&
             cd .. &&
-            find sightline -type f | LC_ALL=C sort | quietly python3 -c "
-import sys, zipfile
-with zipfile.ZipFile(sys.argv[1], 'w') as archive:
-    for name in sys.stdin.read().splitlines():
-        archive.writestr(zipfile.ZipInfo(name), open(name, 'rb').read(), zipfile.ZIP_DEFLATED)" "$name-foundry.zip" &&
+            zip_folder sightline "$name-foundry.zip" &&
             mkdir foundry && cd foundry && quietly python3 -m zipfile -e "../$name-foundry.zip" . &&
             node -e "import('$scratch/foundry/sightline/scripts/watch.mjs').then(async ({ Watch }) => {
             const [{ Level }, { bake }] = await Promise.all(['sightline', 'bake'].map((file) =>
@@ -156,6 +162,30 @@ with zipfile.ZipFile(sys.argv[1], 'w') as archive:
         })"
     ) || fail "the module for Foundry does not work"
     keep "$scratch/$name-foundry.zip"
+    ;;
+esac
+
+# ---- qgis: where QGIS is installed, it lists the algorithms ----
+case $parts in *" qgis "*)
+    mkdir -p "$scratch/qgis/plugins" "$scratch/qgis/home"
+    cp -R "$sources/lib/bindings/qgis" "$scratch/sightline_qgis"
+    cp "$sources/LICENSE" "$scratch/sightline_qgis/"
+    (cd "$scratch" && zip_folder sightline_qgis "$name-qgis.zip")
+    quietly python3 -m zipfile -e "$scratch/$name-qgis.zip" "$scratch/qgis/plugins"
+    quietly python3 -m compileall -q "$scratch/qgis/plugins"
+    process=$(command -v qgis_process.bin || command -v qgis_process || true)
+    if [ "$process" ]; then
+        chmod 700 "$scratch/qgis/home"
+        in_qgis() {
+            env HOME="$scratch/qgis/home" XDG_RUNTIME_DIR="$scratch/qgis/home" QT_QPA_PLATFORM=offscreen \
+                QGIS_PLUGINPATH="$scratch/qgis/plugins" "$process" "$@"
+        }
+        quietly in_qgis plugins enable sightline_qgis
+        in_qgis list 2>/dev/null | grep -q 'sightline:isovists' || fail "the plugin for QGIS does not work"
+    else
+        echo "release: QGIS is not installed: the plugin was not tried in it" >&2
+    fi
+    keep "$scratch/$name-qgis.zip"
     ;;
 esac
 

@@ -278,6 +278,7 @@ VERSIONS = {
     "lib/CHANGELOG.md": r"^## (\d\S*?),",
     "lib/bindings/foundry/module.json": r'"version": "([^"]*)"',
     "lib/bindings/js/package.json": r'"version": "([^"]*)"',
+    "lib/bindings/qgis/metadata.txt": r"^version=(\S*)",
     "tools/packages/conan/conanfile.py": r'version = "([^"]*)"',
     "tools/packages/debian/changelog": r"^sightline \((\S*)\)",
     "tools/packages/vcpkg/vcpkg.json": r'"version": "([^"]*)"',

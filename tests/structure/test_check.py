@@ -151,6 +151,7 @@ class CheckTest(unittest.TestCase):
     def test_versions(self):
         told = {"lib/CHANGELOG.md": "# Changes\n\n## Unreleased\n\n## 1.2.3, 2026-01-01\n\n## 1.2.2, 2025-01-01\n",
                 "lib/bindings/foundry/module.json": '{"version": "1.2.3"}',
+                "lib/bindings/qgis/metadata.txt": "[general]\nname=Sightline\nversion=1.2.3\n",
                 "lib/bindings/js/package.json": '{"version": "1.2.3"}',
                 "tools/packages/conan/conanfile.py": '    version = "1.2.3"\n',
                 "tools/packages/debian/changelog": "sightline (1.2.3) unstable; urgency=medium\n",

@@ -23,12 +23,20 @@
 
 #define SLP_API __attribute__((visibility("default")))
 
+/// Lines that wait to be copied, and a row of measures for each.
+typedef struct slp_lines {
+    sl_segment *lines;
+    double *values;
+    size_t count, columns;
+} slp_lines;
+
 /// What both handles begin with.
 typedef struct slp_base {
     sl_context *context;
     atomic_bool cancelled;
     double until;         ///< work stops then, by sl_seconds(); 0: no limit
     SL_ARRAY(char) notes; ///< lines, a 0 behind them
+    slp_lines lines;
 } slp_base;
 
 typedef struct slp_plan {
@@ -91,6 +99,7 @@ typedef struct slp_explored {
 /// Makes the context of a new handle; false without memory. slp_base_end undoes it.
 bool slp_base_begin(slp_base *base);
 void slp_base_end(slp_base *base);
+void slp_lines_forget(slp_base *base);
 
 /// Makes the queries that this number of threads needs.
 sl_status slp_level_queries(slp_level *level, unsigned threads);
@@ -254,6 +263,17 @@ SLP_API int slp_level_vga(slp_level *level, const slp_vga *options, const double
 /// none. Each may be NULL.
 SLP_API size_t slp_level_vga_copy(const slp_level *level, double *points, double *measures,
                                   int64_t *depths);
+
+// --- axial lines and segments: lines.c
+
+enum { SLP_LINES_ALL, SLP_LINES_SUBSETS, SLP_LINES_FEWEST };
+/// Finds the axial lines of what is inside, measures them, and keeps both. A radius of 0: none.
+SLP_API int slp_level_axial(slp_level *level, int kept, uint32_t radius, unsigned threads);
+/// Measures the walls as a network of lines, cut where they cross. A radius of 0: none.
+SLP_API int slp_plan_segments(slp_plan *plan, double metric_radius, double angular_radius,
+                              unsigned threads);
+/// The number of lines kept, and their ends and measures, which may be NULL.
+SLP_API size_t slp_lines_copy(const void *handle, double *lines, double *values);
 
 /// Explains a pair of cells and keeps the answer. Numbers: seen, verdict, distance, complete,
 /// effects that decide, misses, seen by mirror, reflections.

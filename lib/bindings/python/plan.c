@@ -35,6 +35,7 @@ bool slp_base_begin(slp_base *base) {
 }
 
 void slp_base_end(slp_base *base) {
+    slp_lines_forget(base);
     sl_free(base->context, base->notes.items);
     sl_context_destroy(base->context);
 }

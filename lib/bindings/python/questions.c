@@ -62,6 +62,12 @@ size_t slp_names(const void *handle, const char *list, char *text, size_t room) 
     } else if (strcmp(list, "measures") == 0) {
         n = put_measures(text, room, n, SL_ISOVIST, SL_OF_REGION);
         n = put_measures(text, room, n, SL_VGA, SL_OF_GRAPH);
+    } else if (strcmp(list, "axial_measures") == 0) {
+        const sl_measure *all = sl_measures(SL_AXIAL, &count);
+        for (size_t i = 0; i < count; i++) n = put_name(text, room, n, all[i].name);
+    } else if (strcmp(list, "segment_measures") == 0) {
+        const sl_measure *all = sl_measures(SL_SEGMENTS, &count);
+        for (size_t i = 0; i < count; i++) n = put_name(text, room, n, all[i].name);
     }
     if (room) text[n < room ? n : room - 1] = '\0';
     return n;

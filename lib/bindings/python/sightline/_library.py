@@ -128,6 +128,9 @@ _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     "level_distances_to": (_int, [_handle, _doubles, _double, _double, _doubles, _size, _doubles, _doubles]),
     "level_vga": (_int, [_handle, ctypes.POINTER(Vga), _doubles, _size, _doubles, _size]),
     "level_vga_copy": (_size, [_handle, _any, _any, _any]),
+    "level_axial": (_int, [_handle, _int, _uint32, _uint32]),
+    "plan_segments": (_int, [_handle, _double, _double, _uint32]),
+    "lines_copy": (_size, [_handle, _any, _any]),
     "level_explain": (_int, [_handle, ctypes.c_int64, ctypes.c_int64, _uint32, _integers,
                              _doubles]),
     "level_sequence": (_size, [_handle, _int, _any, _any, _any, ctypes.POINTER(_size)]),
@@ -375,6 +378,7 @@ class Handle:
             raise MemoryError("no memory for a plan, level or world")
         self._pointer = pointer
         self._lock = threading.RLock()
+        self._long, self._long_lock = False, threading.Lock()
         self._finalizer = weakref.finalize(self, free, pointer)
 
     def close(self) -> None:
@@ -416,31 +420,46 @@ class Handle:
             self._check(function(self._open_pointer(), *arguments))
 
     def _ask_long(self, function: Any, *arguments: Any) -> None:
-        """The same for long work: Ctrl-C stops it, as it runs beside the main thread."""
+        """The same for long work, which `cancel` stops. So does Ctrl-C, as it runs beside the main thread."""
         with self._lock:
             pointer = self._open_pointer()
-            if threading.current_thread() is not threading.main_thread():
-                self._check(function(pointer, *arguments))
-                return
-            done, status = threading.Event(), [0]
-
-            def work() -> None:
-                try:
-                    status[0] = function(pointer, *arguments)
-                finally:
-                    done.set()
-
-            worker = threading.Thread(target=work, daemon=True)
-            worker.start()
+            with self._long_lock:
+                self._long = True
             try:
-                done.wait()
-            except BaseException:
-                call.cancel(pointer, 1)
-                worker.join()
-                call.cancel(pointer, 0)
-                raise
+                self._work(pointer, function, arguments)
+            finally:
+                with self._long_lock:
+                    self._long = False
+                    call.cancel(pointer, 0)
+
+    def _work(self, pointer: int, function: Any, arguments: tuple[Any, ...]) -> None:
+        if threading.current_thread() is not threading.main_thread():
+            self._check(function(pointer, *arguments))
+            return
+        done, status = threading.Event(), [0]
+
+        def work() -> None:
+            try:
+                status[0] = function(pointer, *arguments)
+            finally:
+                done.set()
+
+        worker = threading.Thread(target=work, daemon=True)
+        worker.start()
+        try:
+            done.wait()
+        except BaseException:
+            call.cancel(pointer, 1)
             worker.join()
-            self._check(status[0])
+            raise
+        worker.join()
+        self._check(status[0])
+
+    def cancel(self) -> None:
+        """Stops long work that another thread asks for: its call raises `Cancelled`."""
+        with self._long_lock:
+            if self._long: # then it is not closed
+                call.cancel(self._open_pointer(), 1)
 
     def _names(self, what: str) -> list[str]:
         with self._lock:

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import drawing, tables
 from ._library import (Floats, Handle, Integers, MapHandle, Vga, address, as_count, as_flag, as_number,
                        as_point, as_points, as_reals, call, existing, path_text, said, text)
+from .lines import Axial
 from .placement import Viewpoints
 from .sets import Sets
 from .ways import Ways
@@ -111,7 +112,7 @@ class Explanation:
         return why
 
 
-class Level(Viewpoints, Sets, Ways, drawing.InNotebooks, MapHandle):
+class Level(Viewpoints, Sets, Ways, Axial, drawing.InNotebooks, MapHandle):
     """A baked plan: cells, the portals between them, and which cells see each other.
 
     `Plan.bake` makes one, and `Level.open` reads one. Several threads may use a level: they take

@@ -16,13 +16,14 @@ from ._library import (Bake, Floats, Handle, Import, MapHandle, as_count, as_fla
                        text)
 from .errors import SightlineWarning
 from .level import Level
+from .lines import Segments
 from .placement import Coverage, Placement
 from .ways import Path
 from .world import World
 
 EFFECTS = ("door", "mirror", "oneway", "range")
 
-class Plan(drawing.InNotebooks, MapHandle):
+class Plan(Segments, drawing.InNotebooks, MapHandle):
     """A plan: walls, solid ground, doors, mirrors, one-way glass, starts and a view range.
 
     Lengths are in any unit, and y grows upwards.
@@ -442,6 +443,13 @@ class Plan(drawing.InNotebooks, MapHandle):
             warnings.warn(doubt, SightlineWarning, stacklevel=3)
         return level
 
+    def cancel(self) -> None:
+        """Stops long work that another thread asks for, also of the questions below."""
+        super().cancel()
+        space = self._space
+        if space is not None:
+            space.cancel()
+
     def _own_space(self) -> Level:
         with self._lock:
             self._open_pointer()
@@ -504,6 +512,10 @@ class Plan(drawing.InNotebooks, MapHandle):
     def grid(self, step: float, **options: Any) -> Floats:
         """As `Level.grid`."""
         return self._own_space().grid(step, **options)
+
+    def axial(self, lines: str = "fewest", **options: Any) -> Any:
+        """As `Level.axial`."""
+        return self._own_space().axial(lines, **options)
 
     def cover(self, viewpoints: Any, **options: Any) -> Coverage:
         """As `Level.cover`."""

@@ -556,6 +556,27 @@ class Lives(unittest.TestCase):
         self.assertLess(time.monotonic() - begun, 30)
         self.assertTrue(at.can_see((1, 1), (1.5, 1.5)))
 
+    def test_another_thread_stops_long_work(self):
+        plan = sightline.Plan.from_file(support.MAPS / "office.map")
+        plan.cancel() # nothing is asked: nothing happens
+        self.assertTrue(plan.can_see((1, 1), (1.5, 1.5)))
+        ends = []
+
+        def work():
+            try:
+                plan.vga(0.2, measures=("visual", "metric", "angular"))
+            except sightline.Cancelled:
+                ends.append("cancelled")
+
+        for _ in range(2): # the second time as the first
+            asking = threading.Thread(target=work)
+            asking.start()
+            while asking.is_alive():
+                plan.cancel()
+                time.sleep(0.01)
+        self.assertEqual(ends, ["cancelled"] * 2)
+        self.assertEqual(len(plan.vga(4, arrays=True)["x"]), len(plan.grid(4)))
+
 
 if __name__ == "__main__":
     unittest.main()
