@@ -882,8 +882,9 @@ typedef struct sl_runtime_way {
 } sl_runtime_way;
 
 /// The size of `way_scratch` for searches with so many nodes, in uint32_t: 5 bytes for each cell,
-/// and 112 to 128 for each node. A way through an office of 12,623 cells takes up to 10,000 nodes,
-/// and most take fewer than 1,000.
+/// and 128 for each node if their number is a power of two, else up to 160. In an office of 107
+/// cells all ways need fewer than 1,024 nodes; in one of 12,623 cells half of all ways need fewer
+/// than 4,096, and 99 of 100 fewer than 32,768.
 SL_RUNTIME_API size_t sl_runtime_way_scratch_count(const sl_runtime *runtime, uint32_t nodes);
 
 /// The shortest way on foot from (x0, y0) to (x1, y1), by a point that may slide along walls and
@@ -8582,7 +8583,7 @@ static slrt_turnstile slrt_turnstile_of(slrt_gates of, uint32_t portal, int side
     slrt_turnstile found;
     slrt_gate gate;
     memset(&found, 0, sizeof found);
-    while (*patience && slrt_next_gate(&of, &gate)) {
+    while (!(found.opens && found.has_next) && *patience && slrt_next_gate(&of, &gate)) {
         --*patience;
         if (gate.portal == portal) {
             found.opens = true;

@@ -402,9 +402,8 @@ static void check_way(const sl_runtime *r, const unsigned char *shut, sl_random 
     uint32_t *scratch = room(sl_runtime_way_scratch_count(r, nodes) * sizeof *scratch);
     double *found = room(2 * points * sizeof *found);
     sl_runtime_way way;
-    const sl_runtime_way_status status =
-        sl_runtime_find_way(r, from.min_x, from.min_y, to.max_x, to.max_y, shut, scratch, nodes,
-                            found, points, &way);
+    const sl_runtime_way_status status = sl_runtime_find_way(
+        r, from.min_x, from.min_y, to.max_x, to.max_y, shut, scratch, nodes, found, points, &way);
     FUZZ_CHECK((status == SL_RUNTIME_WAY_FOUND) == (way.count >= 2 && way.count <= points));
     FUZZ_CHECK((status == SL_RUNTIME_WAY_ROOM) == (way.count > points));
     free(scratch);

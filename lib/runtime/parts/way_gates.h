@@ -141,7 +141,7 @@ static slrt_turnstile slrt_turnstile_of(slrt_gates of, uint32_t portal, int side
     slrt_turnstile found;
     slrt_gate gate;
     memset(&found, 0, sizeof found);
-    while (*patience && slrt_next_gate(&of, &gate)) {
+    while (!(found.opens && found.has_next) && *patience && slrt_next_gate(&of, &gate)) {
         --*patience;
         if (gate.portal == portal) {
             found.opens = true;
