@@ -211,7 +211,7 @@ static uint32_t ask_open(const bench *b, uint32_t i) {
 
 static double now(void) {
     struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time); // other programs do not count
     return 1e9 * (double)time.tv_sec + (double)time.tv_nsec;
 }
 
