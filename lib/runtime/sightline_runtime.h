@@ -882,9 +882,8 @@ typedef struct sl_runtime_way {
 } sl_runtime_way;
 
 /// The size of `way_scratch` for searches with so many nodes, in uint32_t: 5 bytes for each cell,
-/// and 128 for each node if their number is a power of two, else up to 160. In an office of 107
-/// cells all ways need fewer than 1,024 nodes; in one of 12,623 cells half of all ways need fewer
-/// than 4,096, and 99 of 100 fewer than 32,768.
+/// and 128 for each node if their number is a power of two, else up to 160. Begin with 1,024 nodes
+/// for a level of 100 cells, with 32,768 for one of 10,000, and double them when they are too few.
 SL_RUNTIME_API size_t sl_runtime_way_scratch_count(const sl_runtime *runtime, uint32_t nodes);
 
 /// The shortest way on foot from (x0, y0) to (x1, y1), by a point that may slide along walls and
