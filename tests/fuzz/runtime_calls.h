@@ -393,6 +393,23 @@ static void check_relevant(const sl_runtime *r, const unsigned char *shut, sl_ra
                            things[0].min_y, 1, shut, range, b->scratch);
 }
 
+/// A way from somewhere to somewhere, with memory for a few nodes.
+static void check_way(const sl_runtime *r, const unsigned char *shut, sl_random *random) {
+    enum { ROOM = 16 };
+    const uint32_t nodes = (uint32_t)sl_random_below(random, 500);
+    const uint32_t points = (uint32_t)sl_random_below(random, ROOM + 1);
+    const sl_runtime_box from = some_box(r, random), to = some_box(r, random);
+    uint32_t *scratch = room(sl_runtime_way_scratch_count(r, nodes) * sizeof *scratch);
+    double *found = room(2 * points * sizeof *found);
+    sl_runtime_way way;
+    const sl_runtime_way_status status = sl_runtime_find_way(
+        r, from.min_x, from.min_y, to.max_x, to.max_y, shut, scratch, nodes, found, points, &way);
+    FUZZ_CHECK((status == SL_RUNTIME_WAY_FOUND) == (way.count >= 2 && way.count <= points));
+    FUZZ_CHECK((status == SL_RUNTIME_WAY_ROOM) == (way.count > points));
+    free(scratch);
+    free(found);
+}
+
 /// Calls them all. `rounds`: how thoroughly eyes are placed.
 static void check_open(const sl_runtime *r, int rounds, sl_random *random) {
     const buffers b = {.bits = room((r->cell_count + 7) / 8),
@@ -415,6 +432,7 @@ static void check_open(const sl_runtime *r, int rounds, sl_random *random) {
     check_views(r, shut, &b);
     if (rounds || !sl_random_below(random, 4)) check_boxes(r, shut, random, &b);
     if (rounds || !sl_random_below(random, 4)) check_relevant(r, shut, random, &b);
+    if (rounds || !sl_random_below(random, 4)) check_way(r, shut, random);
     free(shut);
     free(b.bits);
     free(b.seen);

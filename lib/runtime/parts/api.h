@@ -864,6 +864,55 @@ SL_RUNTIME_API bool sl_runtime_sees_within(const sl_runtime *runtime, double x0,
                                            const unsigned char *shut, double range,
                                            uint32_t *scratch);
 
+// Ways: how to walk from one place to another.
+
+/// How a search for a way ended.
+typedef enum sl_runtime_way_status {
+    SL_RUNTIME_WAY_FOUND = 0,
+    SL_RUNTIME_WAY_NONE,     ///< no way leads there
+    SL_RUNTIME_WAY_NO_PLACE, ///< an end is outside the map or in solid ground, or the file is loose
+    SL_RUNTIME_WAY_NODES,    ///< the search needs more nodes
+    SL_RUNTIME_WAY_ROOM      ///< the way has more points than there is room for
+} sl_runtime_way_status;
+
+/// A way.
+typedef struct sl_runtime_way {
+    uint32_t count; ///< its points, 2 or more: both ends, and the corners where it turns
+    double length;  ///< in map units
+} sl_runtime_way;
+
+/// The size of `way_scratch` for searches with so many nodes, in uint32_t: 5 bytes for each cell,
+/// and 128 for each node if their number is a power of two, else up to 160. Begin with 1,024 nodes
+/// for a level of 100 cells, with 32,768 for one of 10,000, and double them when they are too few.
+SL_RUNTIME_API size_t sl_runtime_way_scratch_count(const sl_runtime *runtime, uint32_t nodes);
+
+/// The shortest way on foot from (x0, y0) to (x1, y1), by a point that may slide along walls and
+/// turn at their ends: the same as sl_route_find of the library says. Doors stand as `shut` says
+/// (sl_runtime_can_see_past). Shut doors, mirrors and walls that stop steps are not passed, nor is
+/// a point where walls meet. One-way glass is passed from where it is seen through: it stops
+/// sl_runtime_can_walk, which also takes no step that touches a wall. Boxes stop nothing here. A
+/// point on a wall stands on one side of it, that of its cell.
+///
+/// Puts the points of the way (x, y, x, y ...) into `points`, which has room for `room` points, and
+/// their number and the way's length into `out`. Without a way, both are 0, and `points` is
+/// unchanged. SL_RUNTIME_WAY_ROOM says what room is needed in out->count: `points` is unchanged.
+/// SL_RUNTIME_WAY_NODES: there may be a way; ask again with twice as many nodes. (With a damaged
+/// file, a search that takes very long ends so, too.) `way_scratch` may hold anything.
+///
+/// Signs are exact: the way crosses no wall, and it turns only where a wall is. Lengths are sums of
+/// square roots, compared as doubles: the way is longer than the shortest one by at most a relative
+/// 2^-40 for each of its corners. Of ways of the same length, one is chosen by the order of cells
+/// and portals: the same question has the same answer.
+///
+/// Time: the cells within reach of the start, up to that of the goal, once; and the nodes. It
+/// clears 32 to 64 bytes for each node there is room for.
+SL_RUNTIME_API sl_runtime_way_status sl_runtime_find_way(const sl_runtime *runtime, double x0,
+                                                         double y0, double x1, double y1,
+                                                         const unsigned char *shut,
+                                                         uint32_t *way_scratch, uint32_t nodes,
+                                                         double *points, uint32_t room,
+                                                         sl_runtime_way *out);
+
 /// A cell. Its corners, counter-clockwise, are vertex_count vertices from first_vertex on. Its
 /// portals are directed_count directed portals from first_directed on.
 typedef struct sl_runtime_cell {
