@@ -3,7 +3,8 @@
 
     route_faults.py SIGHTLINE [FOLDER...]
 
-FOLDER: where `pyvisgraph` and `extremitypathfinder` can be imported from; what is not there is left out.
+FOLDER: where `pyvisgraph` and `extremitypathfinder` can be imported from, which need tqdm and networkx; what is not
+there is left out.
 Each case is one of the reports of these projects that give their input, by its number. A table: the
 length that each finds, and whether that way passes through solid ground, in rational numbers.
 """

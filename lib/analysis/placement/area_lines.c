@@ -1,13 +1,13 @@
 /// Lines to be seen, each point of them: routes, doors.
 ///
-///      o---------+======+======+-----o    line    Borders of views, ranges and dead zones cut a
-///      line
-///                 \     |  B  /                   into pieces. Within a piece it does not change
-///                 who
-///                  \    | /  /                    sees it, so its middle is the row of a set
-///                  cover,
-///                 A \   /   /                     and there are no other rows.
+///      o---------+======+======+-----o    line
+///                 \     |  B  /
+///                  \    | /  /
+///                 A \   /   /
 ///                    o     o
+///
+/// Borders of views, ranges and dead zones cut a line into pieces. Within a piece it does not
+/// change who sees it, so its middle is the row of a set cover, and there are no other rows.
 ///
 /// Where they cut is rounded; who sees a middle is exact, up to the true ranges. Pieces that are
 /// thinner than rounding are left out (path_cut.h). One place must see a point, so a piece counts

@@ -117,11 +117,6 @@ static sl_status find_ties(splitter *s) {
     return SL_OK;
 }
 
-static uint32_t find(uint32_t *up, uint32_t i) {
-    while (up[i] != i) i = up[i] = up[up[i]];
-    return i;
-}
-
 static sl_status find_blocks(splitter *s) {
     const uint32_t rows = s->cover->rows;
     double most = 0;
@@ -136,14 +131,15 @@ static sl_status find_blocks(splitter *s) {
         s->size[r] = s->duals[r];
     }
     for (size_t i = 0; i < s->ties.count; i++) {
-        const uint32_t a = find(s->up, s->ties.items[i].a), b = find(s->up, s->ties.items[i].b);
+        const uint32_t a = sli_cover_leader(s->up, s->ties.items[i].a),
+                       b = sli_cover_leader(s->up, s->ties.items[i].b);
         if (a == b || s->size[a] + s->size[b] > most) continue;
         s->up[a > b ? a : b] = a < b ? a : b;
         s->size[a < b ? a : b] += s->size[a > b ? a : b];
     }
     // Leaders are the first rows of their blocks.
     for (uint32_t r = 0; r < rows; r++) {
-        const uint32_t leader = find(s->up, r);
+        const uint32_t leader = sli_cover_leader(s->up, r);
         s->blocks[r] = leader == r ? s->block_count++ : s->blocks[leader];
     }
     return SL_OK;

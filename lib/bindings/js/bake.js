@@ -9,7 +9,7 @@
 import { flagOf, given, listOf, numberOf, optionsOf, pick, pointOf, textOf, wholeOf } from './arguments.js'
 import { SightlineError, bytesOf } from './host.js'
 import { isBaked, mapText } from './maptext.js'
-import { Module, instantiable } from './module.js'
+import { Module, instantiable, loadedOnce } from './module.js'
 import { MOST_MIRRORS, Scene } from './scene.js'
 
 export { SightlineError, mapText }
@@ -191,12 +191,7 @@ export async function load(options) {
   return new Core(...(await instantiable('core', options)))
 }
 
-/** @type {Promise<Core> | undefined} */
-let shared
-const core = () => (shared ??= load().catch((error) => {
-  shared = undefined
-  throw error
-}))
+const core = loadedOnce(load)
 
 export const bake = async (map, options) => (await core()).bake(map, options)
 export const describe = async (map, options) => (await core()).describe(map, options)

@@ -4,7 +4,7 @@
  */
 import { listOf, numberOf, optionsOf, pointOf, textOf } from './arguments.js'
 import { SightlineError } from './host.js'
-import { Module, instantiable } from './module.js'
+import { Module, instantiable, loadedOnce } from './module.js'
 
 export { SightlineError }
 
@@ -114,14 +114,7 @@ export async function load(options) {
   return new ExploredCore(...(await instantiable('explored', options)))
 }
 
-/** @type {Promise<ExploredCore> | undefined} */
-let shared
-
-const loaded = () =>
-  (shared ??= load().catch((error) => {
-    shared = undefined
-    throw error
-  }))
+const loaded = loadedOnce(load)
 
 /** An empty area. Close it. */
 export async function open(options) {

@@ -5,7 +5,7 @@
 import { flagOf, numberOf, objectOf, optionsOf, textOf } from './arguments.js'
 import { SightlineError, bytesOf } from './host.js'
 import { isBaked } from './maptext.js'
-import { Module, instantiable } from './module.js'
+import { Module, instantiable, loadedOnce } from './module.js'
 
 /** Close it. */
 export class OpenFloor {
@@ -87,15 +87,7 @@ class FloorCore extends Module {
 
 /** load() and open() of the module of that name, whose floors are of a class. */
 export function floorsOf(name, Floor) {
-  /** @type {Promise<FloorCore> | undefined} */
-  let shared
   const load = async (options) => new FloorCore(Floor, ...(await instantiable(name, options)))
-  const open = async (map, options) => {
-    shared ??= load().catch((error) => {
-      shared = undefined
-      throw error
-    })
-    return (await shared).open(map, options)
-  }
-  return { load, open }
+  const loaded = loadedOnce(load)
+  return { load, open: async (map, options) => (await loaded()).open(map, options) }
 }

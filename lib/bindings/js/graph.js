@@ -7,7 +7,7 @@
 import { flagOf, indexOf, listOf, numberOf, objectOf, optionsOf, textOf, wholeOf } from './arguments.js'
 import { SightlineError, bytesOf } from './host.js'
 import { isBaked } from './maptext.js'
-import { Module, instantiable } from './module.js'
+import { Module, instantiable, loadedOnce } from './module.js'
 
 export { SightlineError }
 
@@ -172,14 +172,9 @@ export async function load(options) {
   return new GraphCore(...(await instantiable('graph', options)))
 }
 
-/** @type {Promise<GraphCore> | undefined} */
-let shared
+const loaded = loadedOnce(load)
 
 /** Makes a graph of a map and measures it. Close it. */
 export async function graph(map, options) {
-  shared ??= load().catch((error) => {
-    shared = undefined
-    throw error
-  })
-  return (await shared).graph(map, options)
+  return (await loaded()).graph(map, options)
 }

@@ -206,3 +206,13 @@ export async function instantiable(name, options) {
   const pages = Math.min(65536, Math.max(64, Math.floor(memory / PAGE)))
   return [await compile(name, new URL(`./${name}.wasm`, import.meta.url)), pages]
 }
+
+/** A function that gives what `load` gives, which is called once; again where it failed. @internal */
+export function loadedOnce(load) {
+  let shared
+  return () =>
+    (shared ??= load().catch((error) => {
+      shared = undefined
+      throw error
+    }))
+}

@@ -5,7 +5,7 @@
 import { flagOf, listOf, numberOf, objectOf, optionsOf, pointOf, textOf, viewOf, wholeOf } from './arguments.js'
 import { SightlineError } from './host.js'
 import { isBaked } from './maptext.js'
-import { Module, instantiable } from './module.js'
+import { Module, instantiable, loadedOnce } from './module.js'
 
 export { SightlineError }
 
@@ -293,14 +293,9 @@ export async function load(options) {
   return new WorldCore(...(await instantiable('world', options)))
 }
 
-/** @type {Promise<WorldCore> | undefined} */
-let shared
+const loaded = loadedOnce(load)
 
 /** Opens a map for edits. Close the world. */
 export async function open(map, options) {
-  shared ??= load().catch((error) => {
-    shared = undefined
-    throw error
-  })
-  return (await shared).open(map, options)
+  return (await loaded()).open(map, options)
 }
