@@ -4041,6 +4041,38 @@ static bool slrt_is_on(const double *a, const double *b, const double *point) {
     return slrt_is_between(a[0], point[0], b[0]) && slrt_is_between(a[1], point[1], b[1]);
 }
 
+/// Whether a seam is along all of the way from p to q. Files say on which seams portals are, but
+/// not walls.
+static bool slrt_seam_covers(const sl_runtime *rt, uint32_t number, const double *p,
+                             const double *q) {
+    const unsigned char *seam = rt->seams + (size_t)number * 40;
+    double a[2], b[2];
+    int i;
+    for (i = 0; i < 2; i++) {
+        a[i] = slrt_f64(seam + 8 * i);
+        b[i] = slrt_f64(seam + 16 + 8 * i);
+    }
+    return slrt_is_on(a, b, p) && slrt_is_on(a, b, q) && !slrt_turn(a, b, p) && !slrt_turn(a, b, q);
+}
+
+/// Whether a seam is a shut door, glass, or a wall that stops steps.
+static bool slrt_seam_stops_steps(const slrt_search *s, uint32_t number) {
+    const unsigned char *seam = s->rt->seams + (size_t)number * 40;
+    const uint32_t kind = slrt_u32(seam + 32);
+    return kind == 2 || (kind == 1 && s->shut && s->shut[slrt_u32(seam + 36)]) ||
+           (slrt_seam_stops(s->rt, number) & SL_RUNTIME_STOPS_STEPS) != 0;
+}
+
+/// Whether something along a passage stops steps, which pass its wall. Time: the seams.
+static bool slrt_is_passage_barred(const slrt_search *s, uint32_t passage) {
+    double right[2], left[2];
+    uint32_t i;
+    slrt_read_passage(s->rt, passage, right, left);
+    for (i = 0; i < s->rt->seam_count; i++)
+        if (slrt_seam_stops_steps(s, i) && slrt_seam_covers(s->rt, i, right, left)) return true;
+    return false;
+}
+
 static uint32_t slrt_next_corner(const sl_runtime_cell *cell, uint32_t corner) {
     return corner + 1 < cell->vertex_count ? corner + 1 : 0;
 }
@@ -4255,7 +4287,7 @@ typedef struct slrt_exit {
     const unsigned char *right, *left;
 } slrt_exit;
 
-/// As slrt_way_out, for walls that steps pass.
+/// As slrt_way_out, for walls that steps pass. A shut door on one bars it.
 static void slrt_passage_out(const slrt_search *s, const slrt_arm *way, uint32_t cell,
                              slrt_exit *out, bool *touches) {
     const sl_runtime *rt = s->rt;
@@ -4266,8 +4298,11 @@ static void slrt_passage_out(const slrt_search *s, const slrt_arm *way, uint32_t
         out->right = slrt_passage_end(rt, i, 0);
         out->left = slrt_passage_end(rt, i, 1);
         found = slrt_passes(s, way, out->right, out->left);
-        if (found == SLRT_ARRIVES) out->cell = slrt_u32(at + 8);
-        if (found == SLRT_ARRIVES) return;
+        if (found == SLRT_ARRIVES) {
+            out->cell = slrt_u32(at + 8);
+            out->is_blocked = slrt_is_passage_barred(s, i);
+            return;
+        }
         if (found == SLRT_TOUCHES) *touches = true;
     }
 }
@@ -4905,14 +4940,9 @@ static bool slrt_step_by_walls(const slrt_search *s, const slrt_arm *way, const 
     for (i = 0; i < rt->wall_count; i++)
         if (slrt_touches(from, to, rt->walls + (size_t)i * 32) && slrt_wall_stops_steps(rt, i))
             return false;
-    for (i = 0; i < rt->seam_count; i++) {
-        const unsigned char *seam = rt->seams + (size_t)i * 40;
-        const uint32_t kind = slrt_u32(seam + 32);
-        if ((kind == 2 || (kind == 1 && s->shut && s->shut[slrt_u32(seam + 36)]) ||
-             slrt_seam_stops(rt, i) & SL_RUNTIME_STOPS_STEPS) &&
-            slrt_touches(from, to, seam))
+    for (i = 0; i < rt->seam_count; i++)
+        if (slrt_seam_stops_steps(s, i) && slrt_touches(from, to, rt->seams + (size_t)i * 40))
             return false;
-    }
     for (i = 0; s->stops && i < rt->cell_count; i++)
         if (s->stops(s, way, i)) return false;
     return true;
@@ -5756,7 +5786,8 @@ static uint32_t slrt_next_gap(const sl_runtime *rt, uint32_t cell, const double 
     return found;
 }
 
-/// Has the walls of a piece that stop steps stop the disc; the others lead on.
+/// Has the walls of a piece that stop steps, and shut doors on others, stop the disc; the rest
+/// leads on.
 static void slrt_stop_at_walls(slrt_disc *d, uint32_t cell, const slrt_piece *piece) {
     const sl_runtime *rt = d->p.s.rt;
     double from[2] = {piece->a[0], piece->a[1]};
@@ -5766,8 +5797,11 @@ static void slrt_stop_at_walls(slrt_disc *d, uint32_t cell, const slrt_piece *pi
         const uint32_t passage = slrt_next_gap(rt, cell, from, piece, &gap);
         if (passage == rt->passage_count) break;
         if (!slrt_same_place(from, gap.a)) slrt_stop_at(d, from, gap.a);
-        slrt_reach_across(d, gap.a, gap.b,
-                          slrt_u32(rt->passages + (size_t)passage * SLRT_PASSAGE_BYTES + 8));
+        if (slrt_is_passage_barred(&d->p.s, passage))
+            slrt_stop_at(d, gap.a, gap.b);
+        else
+            slrt_reach_across(d, gap.a, gap.b,
+                              slrt_u32(rt->passages + (size_t)passage * SLRT_PASSAGE_BYTES + 8));
         from[0] = gap.b[0], from[1] = gap.b[1];
         if (slrt_same_place(from, piece->b)) return;
     }
@@ -8500,25 +8534,13 @@ static bool slrt_seam_bars(const slrt_gates *of, const slrt_gate *gate, uint32_t
     return (slrt_seam_stops(of->rt, number) & SL_RUNTIME_STOPS_STEPS) != 0;
 }
 
-/// Whether a seam is along all of a passage. Files say on which seams portals are, but not walls.
-static bool slrt_seam_covers(const sl_runtime *rt, const slrt_gate *gate, uint32_t number) {
-    const unsigned char *seam = rt->seams + (size_t)number * 40;
-    double a[2], b[2];
-    int i;
-    for (i = 0; i < 2; i++) {
-        a[i] = slrt_f64(seam + 8 * i);
-        b[i] = slrt_f64(seam + 16 + 8 * i);
-    }
-    return slrt_is_on(a, b, gate->end[0]) && slrt_is_on(a, b, gate->end[1]) &&
-           !slrt_turn(a, b, gate->end[0]) && !slrt_turn(a, b, gate->end[1]);
-}
-
 static bool slrt_is_gate_barred(const slrt_gates *of, const slrt_gate *gate) {
     const sl_runtime *rt = of->rt;
     uint32_t i;
     if (gate->number >= rt->directed_count) {
         for (i = 0; i < rt->seam_count; i++)
-            if (slrt_seam_covers(rt, gate, i) && slrt_seam_bars(of, gate, i)) return true;
+            if (slrt_seam_bars(of, gate, i) && slrt_seam_covers(rt, i, gate->end[0], gate->end[1]))
+                return true;
         return false;
     }
     if (!rt->seam_portal_count) return false;

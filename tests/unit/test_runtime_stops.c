@@ -11,7 +11,10 @@
 
 static const uint32_t channels[] = {SL_STOPS_SIGHT, SL_STOPS_STEPS, SL_STOPS_SOUND};
 
-/// Gives half of the walls random stops.
+/// Doors of this name are shut, others are open.
+static const char shut_name[] = "shut";
+
+/// Gives half of the walls random stops, and half of those that steps pass a door along them.
 static void limit_walls(sl_context *context, uint64_t seed, sl_map *map, uint32_t *stops) {
     sl_random random = {seed ^ 0x5709};
     const size_t count = map->wall_count;
@@ -25,8 +28,22 @@ static void limit_walls(sl_context *context, uint64_t seed, sl_map *map, uint32_
         stops[i] = sl_random_below(&random, 2) ? SL_STOPS_ALL : some;
         assert_ok(context, sl_map_add_wall(context, map, walls[i].a, walls[i].b, 0));
         assert_ok(context, sl_map_walls_stop(context, map, first, stops[i]));
+        if (stops[i] & SL_STOPS_STEPS || sl_random_below(&random, 2)) continue;
+        const bool shut = sl_random_below(&random, 2);
+        const sl_segment at = {walls[i].a, walls[i].b};
+        assert_ok(context, sl_map_add_door(context, map, shut ? shut_name : "open", at, !shut, 0));
+        if (shut) stops[i] |= SL_STOPS_STEPS;
     }
     free(walls);
+}
+
+/// The bytes of a file's doors for the runtime.
+static unsigned char *shut_doors(const baked_file *f) {
+    unsigned char *shut = calloc(f->baked.map.door_count + 1, 1);
+    assert_non_null(shut);
+    for (size_t i = 0; i < f->baked.map.door_count; i++)
+        shut[i] = strcmp(f->baked.map.doors[i].name, shut_name) == 0;
+    return shut;
 }
 
 typedef SL_ARRAY(sl_segment) segments;
@@ -36,7 +53,7 @@ static void add(sl_context *context, segments *list, sl_segment at) {
     list->items[list->count++] = at;
 }
 
-/// The walls of a clean space that stop steps, by the lists of the library.
+/// The walls and shut doors of a clean space that stop steps, by the lists of the library.
 static void list_walls(sl_context *context, const sl_baked *baked, segments *out) {
     const sl_space *s = &baked->space;
     for (uint32_t i = 0, next = 0; i < s->wall_count; i++) {
@@ -47,6 +64,12 @@ static void list_walls(sl_context *context, const sl_baked *baked, segments *out
     for (size_t i = 0; i < baked->map.seam_count; i++)
         if (baked->map.seams[i].stops & SL_STOPS_STEPS)
             add(context, out, baked->map.seams[i].segment);
+    for (size_t i = 0; i < baked->map.door_count; i++) {
+        const sl_door *door = &baked->map.doors[i];
+        if (strcmp(door->name, shut_name) != 0) continue;
+        for (size_t k = 0; k < door->part_count; k++) add(context, out, door->parts[k]);
+        if (!door->part_count) add(context, out, door->segment);
+    }
 }
 
 static void bake_file(sl_context *context, sl_map *map, uint32_t channel, baked_file *f) {
@@ -77,10 +100,10 @@ static double distance(sl_segment s, sl_segment t) {
 }
 
 /// Discs whose way is clearly free, or clearly too near to a wall or to the border.
-static void try_disc(const baked_file *f, const segments *walls, sl_segment way, double radius,
-                     uint32_t *scratch) {
+static void try_disc(const baked_file *f, const segments *walls, const unsigned char *shut,
+                     sl_segment way, double radius, uint32_t *scratch) {
     const sl_box b = f->baked.space.bounds;
-    const sl_runtime_walker walker = {.radius = radius, .own_box = SL_RUNTIME_NO_BOX};
+    const sl_runtime_walker walker = {.radius = radius, .shut = shut, .own_box = SL_RUNTIME_NO_BOX};
     double least = fmin(fmin(fmin(way.a.x, way.b.x) - b.min.x, b.max.x - fmax(way.a.x, way.b.x)),
                         fmin(fmin(way.a.y, way.b.y) - b.min.y, b.max.y - fmax(way.a.y, way.b.y)));
     for (size_t i = 0; i < walls->count; i++) least = fmin(least, distance(way, walls->items[i]));
@@ -98,6 +121,7 @@ static size_t try_steps(const baked_file *f, const segments *walls, uint64_t see
     sl_random random = {seed};
     uint32_t *scratch = calloc(sl_runtime_scratch_count(&f->runtime), sizeof *scratch);
     assert_non_null(scratch);
+    unsigned char *shut = shut_doors(f);
     size_t walked = 0;
     for (int i = 0; i < tries; i++) {
         sl_point ends[2];
@@ -113,15 +137,17 @@ static size_t try_steps(const baked_file *f, const segments *walls, uint64_t see
         const bool inside = sl_runtime_locate(r, ends[0].x, ends[0].y) != SL_RUNTIME_NO_CELL &&
                             sl_runtime_locate(r, ends[1].x, ends[1].y) != SL_RUNTIME_NO_CELL;
         const bool is = inside && blockers_free(wall, (sl_segment){ends[0], ends[1]});
-        const bool said = sl_runtime_can_walk(r, ends[0].x, ends[0].y, ends[1].x, ends[1].y, NULL);
-        const bool back = sl_runtime_can_walk(r, ends[1].x, ends[1].y, ends[0].x, ends[0].y, NULL);
+        const bool said = sl_runtime_can_walk(r, ends[0].x, ends[0].y, ends[1].x, ends[1].y, shut);
+        const bool back = sl_runtime_can_walk(r, ends[1].x, ends[1].y, ends[0].x, ends[0].y, shut);
         if (said != is || back != is)
             fail_msg("seed %llu: from %.17g %.17g to %.17g %.17g: %d, back %d, but %d",
                      (unsigned long long)seed, ends[0].x, ends[0].y, ends[1].x, ends[1].y, said,
                      back, is);
         walked += is;
-        try_disc(f, walls, (sl_segment){ends[0], ends[1]}, 0.05 * (double)(1 + i % 20), scratch);
+        try_disc(f, walls, shut, (sl_segment){ends[0], ends[1]}, 0.05 * (double)(1 + i % 20),
+                 scratch);
     }
+    free(shut);
     blockers_destroy(wall);
     free(scratch);
     return walked;
@@ -135,8 +161,10 @@ static void assert_same_stops(const baked_file *f) {
         size_t count;
         uint32_t stops = 0;
         const sl_seam_portal *on = sl_space_seams_of(s, i, &count);
-        for (size_t k = 0; k < count; k++)
-            stops |= f->baked.map.seams[s->seams[on[k].seam].number].stops;
+        for (size_t k = 0; k < count; k++) {
+            const sl_seam *seam = &s->seams[on[k].seam];
+            if (seam->kind != SL_SEAM_DOOR) stops |= f->baked.map.seams[seam->number].stops;
+        }
         assert_int_equal(sl_runtime_portal_stops(&f->runtime, i), stops);
         assert_int_equal(stops & f->runtime.channel, 0);
     }
@@ -282,6 +310,65 @@ static void test_box_in_curtain(void **state) {
     }
 }
 
+/// A door in a curtain stops who walks through it as long as it is shut; a point and a disc, at any
+/// angle.
+static void test_door_in_curtain(void **state) {
+    (void)state;
+    for (int turned = 0; turned < 2; turned++) {
+        const double angle = turned ? 17.3 * 0.017453292519943295 : 0, c = cos(angle),
+                     s = sin(angle);
+        const double room[9][2] = {{0, 0}, {10, 0}, {10, 10}, {0, 10}, {0, 0},
+                                   {5, 0}, {5, 4},  {5, 6},   {5, 10}};
+        double at[9][2], from[2][2], to[2][2];
+        for (int i = 0; i < 9; i++) {
+            at[i][0] = c * room[i][0] - s * room[i][1];
+            at[i][1] = s * room[i][0] + c * room[i][1];
+        }
+        for (int i = 0; i < 2; i++) { // through the door, and beside it
+            const double y = i ? 2 : 5;
+            from[i][0] = c * 2 - s * y, from[i][1] = s * 2 + c * y;
+            to[i][0] = c * 8 - s * y, to[i][1] = s * 8 + c * y;
+        }
+        sl_context *context = testing_context(NULL);
+        sl_map map = {0};
+        baked_file f = {.name = "door in curtain"};
+        for (int i = 0; i < 8; i++) {
+            const sl_point a = {at[i][0], at[i][1]}, b = {at[i + 1][0], at[i + 1][1]};
+            const size_t first = map.wall_count;
+            if (i == 4) continue;
+            assert_ok(context, sl_map_add_wall(context, &map, a, b, 0));
+            if (i > 4) assert_ok(context, sl_map_walls_stop(context, &map, first, SL_STOPS_SIGHT));
+            if (i == 6)
+                assert_ok(context,
+                          sl_map_add_door(context, &map, "front", (sl_segment){a, b}, true, 0));
+        }
+        bake_file(context, &map, SL_STOPS_SIGHT, &f);
+        const sl_runtime *r = &f.runtime;
+        assert_int_equal(r->door_count, 1);
+        uint32_t *scratch = malloc(sl_runtime_scratch_count(r) * sizeof *scratch);
+        assert_non_null(scratch);
+        for (unsigned char shut = 0; shut < 2; shut++)
+            for (int i = 0; i < 2; i++) {
+                const bool free_way = i == 1 || !shut;
+                const double *a = from[i], *b = to[i];
+                assert_int_equal(sl_runtime_can_walk(r, a[0], a[1], b[0], b[1], &shut), free_way);
+                assert_int_equal(sl_runtime_can_walk(r, b[0], b[1], a[0], a[1], &shut), free_way);
+                const sl_runtime_walker walker = {0.5, &shut, NULL, SL_RUNTIME_NO_BOX};
+                double x, y;
+                assert_int_equal(
+                    sl_runtime_can_walk_wide(r, &walker, a[0], a[1], b[0], b[1], scratch),
+                    free_way);
+                assert_int_equal(
+                    sl_runtime_walk(r, &walker, a[0], a[1], b[0], b[1], scratch, &x, &y), free_way);
+                const double came = hypot(x - a[0], y - a[1]);
+                assert_true(fabs(came - (free_way ? 6 : 2.5)) < 1e-9);
+            }
+        free(scratch);
+        end_file(context, &f);
+        sl_context_destroy(context);
+    }
+}
+
 static void test_damaged(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
@@ -335,9 +422,9 @@ static void test_damaged(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_axial),    cmocka_unit_test(test_oblique),
-        cmocka_unit_test(test_long_way), cmocka_unit_test(test_box_in_curtain),
-        cmocka_unit_test(test_damaged),
+        cmocka_unit_test(test_axial),           cmocka_unit_test(test_oblique),
+        cmocka_unit_test(test_long_way),        cmocka_unit_test(test_box_in_curtain),
+        cmocka_unit_test(test_door_in_curtain), cmocka_unit_test(test_damaged),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -89,6 +89,38 @@ static bool slrt_is_on(const double *a, const double *b, const double *point) {
     return slrt_is_between(a[0], point[0], b[0]) && slrt_is_between(a[1], point[1], b[1]);
 }
 
+/// Whether a seam is along all of the way from p to q. Files say on which seams portals are, but
+/// not walls.
+static bool slrt_seam_covers(const sl_runtime *rt, uint32_t number, const double *p,
+                             const double *q) {
+    const unsigned char *seam = rt->seams + (size_t)number * 40;
+    double a[2], b[2];
+    int i;
+    for (i = 0; i < 2; i++) {
+        a[i] = slrt_f64(seam + 8 * i);
+        b[i] = slrt_f64(seam + 16 + 8 * i);
+    }
+    return slrt_is_on(a, b, p) && slrt_is_on(a, b, q) && !slrt_turn(a, b, p) && !slrt_turn(a, b, q);
+}
+
+/// Whether a seam is a shut door, glass, or a wall that stops steps.
+static bool slrt_seam_stops_steps(const slrt_search *s, uint32_t number) {
+    const unsigned char *seam = s->rt->seams + (size_t)number * 40;
+    const uint32_t kind = slrt_u32(seam + 32);
+    return kind == 2 || (kind == 1 && s->shut && s->shut[slrt_u32(seam + 36)]) ||
+           (slrt_seam_stops(s->rt, number) & SL_RUNTIME_STOPS_STEPS) != 0;
+}
+
+/// Whether something along a passage stops steps, which pass its wall. Time: the seams.
+static bool slrt_is_passage_barred(const slrt_search *s, uint32_t passage) {
+    double right[2], left[2];
+    uint32_t i;
+    slrt_read_passage(s->rt, passage, right, left);
+    for (i = 0; i < s->rt->seam_count; i++)
+        if (slrt_seam_stops_steps(s, i) && slrt_seam_covers(s->rt, i, right, left)) return true;
+    return false;
+}
+
 static uint32_t slrt_next_corner(const sl_runtime_cell *cell, uint32_t corner) {
     return corner + 1 < cell->vertex_count ? corner + 1 : 0;
 }

@@ -135,7 +135,8 @@ static uint32_t slrt_next_gap(const sl_runtime *rt, uint32_t cell, const double 
     return found;
 }
 
-/// Has the walls of a piece that stop steps stop the disc; the others lead on.
+/// Has the walls of a piece that stop steps, and shut doors on others, stop the disc; the rest
+/// leads on.
 static void slrt_stop_at_walls(slrt_disc *d, uint32_t cell, const slrt_piece *piece) {
     const sl_runtime *rt = d->p.s.rt;
     double from[2] = {piece->a[0], piece->a[1]};
@@ -145,8 +146,11 @@ static void slrt_stop_at_walls(slrt_disc *d, uint32_t cell, const slrt_piece *pi
         const uint32_t passage = slrt_next_gap(rt, cell, from, piece, &gap);
         if (passage == rt->passage_count) break;
         if (!slrt_same_place(from, gap.a)) slrt_stop_at(d, from, gap.a);
-        slrt_reach_across(d, gap.a, gap.b,
-                          slrt_u32(rt->passages + (size_t)passage * SLRT_PASSAGE_BYTES + 8));
+        if (slrt_is_passage_barred(&d->p.s, passage))
+            slrt_stop_at(d, gap.a, gap.b);
+        else
+            slrt_reach_across(d, gap.a, gap.b,
+                              slrt_u32(rt->passages + (size_t)passage * SLRT_PASSAGE_BYTES + 8));
         from[0] = gap.b[0], from[1] = gap.b[1];
         if (slrt_same_place(from, piece->b)) return;
     }

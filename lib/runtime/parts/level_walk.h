@@ -77,14 +77,9 @@ static bool slrt_step_by_walls(const slrt_search *s, const slrt_arm *way, const 
     for (i = 0; i < rt->wall_count; i++)
         if (slrt_touches(from, to, rt->walls + (size_t)i * 32) && slrt_wall_stops_steps(rt, i))
             return false;
-    for (i = 0; i < rt->seam_count; i++) {
-        const unsigned char *seam = rt->seams + (size_t)i * 40;
-        const uint32_t kind = slrt_u32(seam + 32);
-        if ((kind == 2 || (kind == 1 && s->shut && s->shut[slrt_u32(seam + 36)]) ||
-             slrt_seam_stops(rt, i) & SL_RUNTIME_STOPS_STEPS) &&
-            slrt_touches(from, to, seam))
+    for (i = 0; i < rt->seam_count; i++)
+        if (slrt_seam_stops_steps(s, i) && slrt_touches(from, to, rt->seams + (size_t)i * 40))
             return false;
-    }
     for (i = 0; s->stops && i < rt->cell_count; i++)
         if (s->stops(s, way, i)) return false;
     return true;

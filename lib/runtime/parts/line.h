@@ -80,7 +80,7 @@ typedef struct slrt_exit {
     const unsigned char *right, *left;
 } slrt_exit;
 
-/// As slrt_way_out, for walls that steps pass.
+/// As slrt_way_out, for walls that steps pass. A shut door on one bars it.
 static void slrt_passage_out(const slrt_search *s, const slrt_arm *way, uint32_t cell,
                              slrt_exit *out, bool *touches) {
     const sl_runtime *rt = s->rt;
@@ -91,8 +91,11 @@ static void slrt_passage_out(const slrt_search *s, const slrt_arm *way, uint32_t
         out->right = slrt_passage_end(rt, i, 0);
         out->left = slrt_passage_end(rt, i, 1);
         found = slrt_passes(s, way, out->right, out->left);
-        if (found == SLRT_ARRIVES) out->cell = slrt_u32(at + 8);
-        if (found == SLRT_ARRIVES) return;
+        if (found == SLRT_ARRIVES) {
+            out->cell = slrt_u32(at + 8);
+            out->is_blocked = slrt_is_passage_barred(s, i);
+            return;
+        }
         if (found == SLRT_TOUCHES) *touches = true;
     }
 }

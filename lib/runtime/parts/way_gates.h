@@ -59,25 +59,13 @@ static bool slrt_seam_bars(const slrt_gates *of, const slrt_gate *gate, uint32_t
     return (slrt_seam_stops(of->rt, number) & SL_RUNTIME_STOPS_STEPS) != 0;
 }
 
-/// Whether a seam is along all of a passage. Files say on which seams portals are, but not walls.
-static bool slrt_seam_covers(const sl_runtime *rt, const slrt_gate *gate, uint32_t number) {
-    const unsigned char *seam = rt->seams + (size_t)number * 40;
-    double a[2], b[2];
-    int i;
-    for (i = 0; i < 2; i++) {
-        a[i] = slrt_f64(seam + 8 * i);
-        b[i] = slrt_f64(seam + 16 + 8 * i);
-    }
-    return slrt_is_on(a, b, gate->end[0]) && slrt_is_on(a, b, gate->end[1]) &&
-           !slrt_turn(a, b, gate->end[0]) && !slrt_turn(a, b, gate->end[1]);
-}
-
 static bool slrt_is_gate_barred(const slrt_gates *of, const slrt_gate *gate) {
     const sl_runtime *rt = of->rt;
     uint32_t i;
     if (gate->number >= rt->directed_count) {
         for (i = 0; i < rt->seam_count; i++)
-            if (slrt_seam_covers(rt, gate, i) && slrt_seam_bars(of, gate, i)) return true;
+            if (slrt_seam_bars(of, gate, i) && slrt_seam_covers(rt, i, gate->end[0], gate->end[1]))
+                return true;
         return false;
     }
     if (!rt->seam_portal_count) return false;
