@@ -11,7 +11,8 @@
 /// are reached at different costs, so they have corners of their own.
 ///
 /// A row that closes to a ring has no wall at its point: there is nothing to turn around. So a row
-/// of n portals is a corner if they are joined n - 1 times.
+/// of n portals may be a corner if they are joined n - 1 times. It is none if its cells take half a
+/// turn or less together, as in the corner of a room: no shortest way turns there.
 #include "analysis/route/route.h"
 
 #include "geometry/length.h"
@@ -86,11 +87,85 @@ static void count_rows(sl_route_finder *f) {
     }
 }
 
-void sli_route_corners(sl_route_finder *f) {
+static bool is_on(sl_point a, sl_point b, sl_point p) {
+    return p.x >= sli_lesser(a.x, b.x) && p.x <= sli_greater(a.x, b.x) &&
+           p.y >= sli_lesser(a.y, b.y) && p.y <= sli_greater(a.y, b.y) && sli_orient(a, b, p) == 0;
+}
+
+/// The corner of a cell that its boundary leads to from one end of a directed portal, away from the
+/// portal.
+static sl_point corner_after(const sl_space *s, const sl_cell *cell, const sl_directed_portal *d,
+                             int side) {
+    const sl_point *corners = s->vertices + cell->first_vertex;
+    const uint32_t n = cell->vertex_count;
+    for (uint32_t k = 0; k < n; k++) {
+        const sl_point a = corners[k], b = corners[(k + 1) % n];
+        if (!is_on(a, b, d->right) || !is_on(a, b, d->left)) continue;
+        if (side == SLI_ROUTE_LEFT) return sli_same_point(d->left, b) ? corners[(k + 2) % n] : b;
+        return sli_same_point(d->right, a) ? corners[(k + n - 1) % n] : a;
+    }
+    return (sl_point){NAN, NAN};
+}
+
+/// The cells of a row, counter-clockwise: they take more than half a turn if one of the portals, or
+/// the wall behind the last one, lies that far from the wall before the first one.
+typedef struct row_span {
+    sl_point wall; ///< the other end of that wall; NAN: it is not known
+    bool is_wide;
+} row_span;
+
+static bool is_over_half(sl_point at, sl_point wall, sl_point p) {
+    const int turn = sli_orient(at, wall, p);
+    return turn ? turn < 0 : is_on(at, wall, p) || is_on(at, p, wall);
+}
+
+/// Looks at the ends of a cell's portals, for the walls before their rows or for what is behind.
+static void span_rows(const sl_route_finder *f, const sl_cell *cell, bool find_walls,
+                      row_span *spans) {
+    const sl_directed_portal *first = f->space->directed + cell->first_directed;
+    const uint32_t n = cell->directed_count;
+    for (uint32_t i = 0; i < n; i++)
+        for (int side = 0; side < 2; side++) {
+            const sl_directed_portal *d = &first[i];
+            const bool is_left = side == SLI_ROUTE_LEFT;
+            const bool at_wall =
+                is_left ? !meet(d, &first[(i + 1) % n]) : !meet(&first[(i + n - 1) % n], d);
+            const sl_point at = is_left ? d->left : d->right, far = is_left ? d->right : d->left;
+            row_span *span = &spans[find_root(f->ends, end_of(f, d, side, false))];
+            if (find_walls && is_left && at_wall)
+                span->wall = corner_after(f->space, cell, d, side);
+            if (find_walls) continue;
+            span->is_wide |= isnan(span->wall.x) || sli_route_loss(f, d->portal) > 0 ||
+                             is_over_half(at, span->wall, far);
+            if (!is_left && at_wall && !span->is_wide) {
+                const sl_point last = corner_after(f->space, cell, d, side);
+                span->is_wide = isnan(last.x) || is_over_half(at, span->wall, last);
+            }
+        }
+}
+
+/// counts[e] becomes 0 for rows of half a turn or less. One-way glass is in one cell only, so what
+/// is on both sides of it is not known here.
+static sl_status drop_flat_rows(sl_context *context, sl_route_finder *f) {
+    if (f->has_glass) return SL_OK;
+    row_span *spans = sl_alloc_array(context, end_count(f), sizeof *spans);
+    if (!spans) return SL_NO_MEMORY;
+    for (uint32_t e = 0; e < end_count(f); e++) spans[e].wall = (sl_point){NAN, NAN};
+    for (int pass = 0; pass < 2; pass++)
+        for (uint32_t c = 0; c < f->space->cell_count; c++)
+            span_rows(f, &f->space->cells[c], pass == 0, spans);
+    for (uint32_t e = 0; e < end_count(f); e++)
+        if (!spans[e].is_wide) f->counts[e] = 0;
+    sl_free(context, spans);
+    return SL_OK;
+}
+
+sl_status sli_route_corners(sl_context *context, sl_route_finder *f) {
     const sl_space *s = f->space;
     for (uint32_t c = 0; c < s->cell_count; c++) f->part_of[c] = c;
     join_ends(f);
     count_rows(f);
+    SL_TRY(drop_flat_rows(context, f));
     for (uint32_t c = 0; c < s->cell_count; c++) {
         f->part_of[c] = find_root(f->part_of, c);
         const sl_cell *cell = &s->cells[c];
@@ -101,12 +176,7 @@ void sli_route_corners(sl_route_finder *f) {
                 f->corner_of[2 * (size_t)d + (size_t)side] = f->counts[row] ? row : SLI_ROUTE_NONE;
             }
     }
-}
-
-static bool touches(const sl_directed_portal *d, sl_point p) {
-    return p.x >= sli_lesser(d->left.x, d->right.x) && p.x <= sli_greater(d->left.x, d->right.x) &&
-           p.y >= sli_lesser(d->left.y, d->right.y) && p.y <= sli_greater(d->left.y, d->right.y) &&
-           sli_orient(d->left, d->right, p) == 0;
+    return SL_OK;
 }
 
 uint32_t sli_route_stand(sl_route_finder *f, sl_point point, uint32_t first, uint32_t *marks) {
@@ -119,7 +189,7 @@ uint32_t sli_route_stand(sl_route_finder *f, sl_point point, uint32_t first, uin
         for (uint32_t k = 0; k < cell->directed_count; k++) {
             const sl_directed_portal *d = &s->directed[cell->first_directed + k];
             if (marks[d->cell] == f->stamp || sli_route_loss(f, d->portal) > 0 ||
-                !touches(d, point))
+                !is_on(d->left, d->right, point))
                 continue;
             marks[d->cell] = f->stamp;
             f->list[count++] = d->cell;

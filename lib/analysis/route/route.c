@@ -19,12 +19,14 @@ static void drop_tables(sl_context *context, sl_route_finder *f) {
     sl_free(context, f->at_goal);
     sl_free(context, f->list);
     sl_free(context, f->losses);
-    sl_free(context, f->upper);
-    f->losses = f->upper = NULL;
+    sl_free(context, f->cells);
+    f->losses = NULL;
+    f->cells = NULL;
     f->corner_of = f->part_of = f->ends = f->counts = f->at_start = f->at_goal = f->list = NULL;
     f->corners = NULL;
     f->turns = NULL;
     f->space = NULL;
+    sli_route_drop_blocks(context, &f->blocks);
     sl_space_destroy(context, &f->room);
     sli_box_tree_destroy(context, &f->walls);
 }
@@ -42,6 +44,17 @@ static sl_status make_losses(sl_context *context, sl_route_finder *f, const sl_s
     return SL_OK;
 }
 
+/// Whether some portal is crossed one way only.
+static bool has_glass(const sl_space *s, uint32_t *counts) {
+    bool found = false;
+    memset(counts, 0, s->portal_count * sizeof *counts);
+    for (uint32_t c = 0; c < s->cell_count; c++)
+        for (uint32_t k = 0; k < s->cells[c].directed_count; k++)
+            counts[s->directed[s->cells[c].first_directed + k].portal]++;
+    for (uint32_t i = 0; i < s->portal_count && !found; i++) found = counts[i] == 1;
+    return found;
+}
+
 static sl_status make_tables(sl_context *context, sl_route_finder *f, const sl_space *space) {
     const size_t ends = (f->by_door ? 4 : 2) * (size_t)space->portal_count,
                  sides = 2 * (size_t)space->directed_count;
@@ -51,17 +64,19 @@ static sl_status make_tables(sl_context *context, sl_route_finder *f, const sl_s
     f->counts = sl_alloc_array(context, ends, sizeof *f->counts);
     f->corners = sl_alloc_array(context, ends, sizeof *f->corners);
     f->turns = sl_alloc_array(context, sides, sizeof *f->turns);
+    f->cells = sl_alloc_array(context, space->cell_count, sizeof *f->cells);
     f->at_start = sl_alloc_array(context, space->cell_count, sizeof *f->at_start);
     f->at_goal = sl_alloc_array(context, space->cell_count, sizeof *f->at_goal);
     f->list = sl_alloc_array(context, space->cell_count, sizeof *f->list);
     if (!f->corner_of || !f->part_of || !f->ends || !f->counts || !f->corners || !f->turns ||
-        !f->at_start || !f->at_goal || !f->list)
+        !f->cells || !f->at_start || !f->at_goal || !f->list)
         return SL_NO_MEMORY;
     SL_TRY(make_losses(context, f, space));
     f->space = space;
     f->stamp = 0;
-    sli_route_corners(f);
-    return SL_OK;
+    f->has_glass = has_glass(space, f->counts);
+    SL_TRY(sli_route_corners(context, f));
+    return sli_route_find_blocks(context, f);
 }
 
 /// The middle of a walker is on one side of glass, and the rest of it on the other.
@@ -229,9 +244,11 @@ void sli_route_begin(sl_route_finder *f) {
     const size_t cells = f->space->cell_count;
     memset(f->at_start, 0, cells * sizeof *f->at_start);
     memset(f->at_goal, 0, cells * sizeof *f->at_goal);
+    memset(f->cells, 0, cells * sizeof *f->cells);
     memset(f->corners, 0,
            (f->losses ? 4 : 2) * (size_t)f->space->portal_count * sizeof *f->corners);
     memset(f->turns, 0, 2 * (size_t)f->space->directed_count * sizeof *f->turns);
+    if (f->blocks.stamp) memset(f->blocks.stamp, 0, cells * sizeof *f->blocks.stamp);
     f->stamp = 1;
 }
 
@@ -245,9 +262,11 @@ sl_status sl_route_find(sl_context *context, sl_route_finder *finder, sl_point f
     SL_TRY(sli_route_stand_in(context, finder, "from", from, &start));
     SL_TRY(sli_route_stand_in(context, finder, "to", to, &goal));
     sli_route_begin(finder);
-    sli_route_stand(finder, to, goal, finder->at_goal);
-    if (finder->part_of[start] == finder->part_of[goal])
+    const uint32_t goals = sli_route_stand(finder, to, goal, finder->at_goal);
+    if (finder->part_of[start] == finder->part_of[goal]) {
+        for (uint32_t i = 0; i < goals; i++) sli_route_open_blocks(finder, start, finder->list[i]);
         SL_TRY(sli_route_search(context, finder, from, to, &route->nodes, &last));
+    }
     if (last != SLI_ROUTE_NONE) {
         SL_TRY(read_way(context, finder, last, from, to, route));
         if (finder->radius > 0) route->portal_count = 0; // they are not the query's
@@ -266,12 +285,6 @@ sl_status sli_route_widen(sl_context *context, const sl_space *space, double lim
     return SL_OK;
 }
 
-sl_status sli_route_make_upper(sl_context *context, sl_route_finder *finder) {
-    if (!finder->upper)
-        finder->upper = sl_alloc_array(context, finder->space->cell_count, sizeof *finder->upper);
-    return finder->upper ? SL_OK : SL_NO_MEMORY;
-}
-
 sl_status sl_route_distances(sl_context *context, sl_route_finder *finder, sl_point from,
                              double limit, sl_route_near *cells) {
     uint32_t start;
@@ -281,7 +294,6 @@ sl_status sl_route_distances(sl_context *context, sl_route_finder *finder, sl_po
                        "distances of cells are those of a walker without a radius");
     SL_TRY(sli_route_widen(context, finder->space, limit, &most));
     SL_TRY(sli_route_stand_in(context, finder, "from", from, &start));
-    SL_TRY(sli_route_make_upper(context, finder));
     sli_route_begin(finder);
     return sli_route_spread(context, finder, from, most, cells, NULL, NULL);
 }

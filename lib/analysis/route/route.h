@@ -28,9 +28,12 @@ typedef struct sli_route_node {
     sl_point root;
     sli_route_limit limit[2]; ///< right and left
     double g;
+    double near;     ///< how far the nearest point is that it passes of its entry
     uint32_t parent; ///< a node; SLI_ROUTE_NONE for the first ones
     uint32_t entry;  ///< SLI_ROUTE_NONE for the cells at the start
     uint32_t cell;
+    bool cuts[2];   ///< by limit: an end of the entry is beyond it
+    bool is_behind; ///< the root lies strictly behind the entry
     bool is_last;
 } sli_route_node;
 
@@ -50,10 +53,26 @@ typedef struct sli_route_turn {
     sl_point before;
 } sli_route_turn;
 
+/// What is known of a cell in one search.
+typedef struct sli_route_cell {
+    uint32_t stamp; ///< of the search that the rest belongs to
+    double least;   ///< how far the nearest place is that is known
+    double most;    ///< no point of the cell is farther
+} sli_route_cell;
+
 typedef struct sli_route_open {
     double f;
     uint32_t node;
 } sli_route_open;
+
+/// Blocks of cells that single cells join (blocks.c). All NULL in a space with one-way glass.
+typedef struct sli_route_blocks {
+    uint32_t *of;    ///< by portal
+    uint32_t *above; ///< by cell: the block above it; SLI_ROUTE_NONE for the first cell of a part
+    uint32_t *depth; ///< by cell: the number of blocks above it
+    uint32_t *top;   ///< by block: the cell above it
+    uint32_t *stamp; ///< by block: the search in which it is open
+} sli_route_blocks;
 
 struct sl_route_finder {
     sl_query *query;
@@ -67,23 +86,38 @@ struct sl_route_finder {
     double *by_door;     ///< the loss by door of the map; NULL: none
     size_t door_count;
     double *losses;               ///< by portal; NULL: none
+    bool has_glass;               ///< some portal is crossed one way only
     double radius;                ///< of the walker
     sl_space room;                ///< where its middle may be, for a radius above 0: `space`
     sli_box_tree walls;           ///< boxes of the walls that it must stay away from
-    double *upper;                ///< by cell: no point of it is farther (sl_route_distances)
+    sli_route_cell *cells;        ///< by cell
     sli_route_corner *corners;    ///< by corner: the end of a portal that stands for it
     sli_route_turn *turns;        ///< by directed portal and side
     uint32_t *at_start, *at_goal; ///< by cell: the search in which it is there
     uint32_t *list;               ///< cells, for walks
+    sli_route_blocks blocks;
     uint32_t stamp;
     SL_ARRAY(sli_route_node) nodes;
     SL_ARRAY(sli_route_open) open;
 };
 
 /// Finds the corners and the parts of the finder's space.
-void sli_route_corners(sl_route_finder *finder);
+sl_status sli_route_corners(sl_context *context, sl_route_finder *finder);
 
-/// The cells that a point stands in (view.h): marks them, and writes their number.
+/// Finds the blocks of the finder's space; frees them.
+sl_status sli_route_find_blocks(sl_context *context, sl_route_finder *finder);
+void sli_route_drop_blocks(sl_context *context, sli_route_blocks *blocks);
+
+/// Opens the blocks that lie between two cells of one part for this search.
+void sli_route_open_blocks(sl_route_finder *finder, uint32_t from, uint32_t to);
+
+/// Whether a portal is in an open block.
+static inline bool sli_route_is_open(const sl_route_finder *finder, uint32_t portal) {
+    const sli_route_blocks *b = &finder->blocks;
+    return !b->of || b->stamp[b->of[portal]] == finder->stamp;
+}
+
+/// The cells that a point stands in (view.h): marks them, lists them, and returns their number.
 uint32_t sli_route_stand(sl_route_finder *finder, sl_point point, uint32_t first, uint32_t *marks);
 
 /// The point of a segment that is nearest to a place, rounded.
@@ -118,9 +152,6 @@ sl_status sli_route_stand_in(sl_context *context, const sl_route_finder *finder,
 
 /// A limit of distances that no cell misses by the rounding of its distance. Fails for no limit.
 sl_status sli_route_widen(sl_context *context, const sl_space *space, double limit, double *out);
-
-/// Makes room for sli_route_spread().
-sl_status sli_route_make_upper(sl_context *context, sl_route_finder *finder);
 
 /// The cells between the walls of a space, grown by a radius above 0; `out` must be empty.
 sl_status sli_route_grow(sl_context *context, const sl_space *space, double radius, sl_space *out);

@@ -49,7 +49,6 @@ static sl_status fill(sl_context *context, sl_route_map *map, sl_route_near *cel
     sl_route_finder *finder = map->finder;
     map->first = sl_alloc_array(context, (size_t)finder->space->cell_count + 1, sizeof *map->first);
     if (!cells || !map->first) return SL_NO_MEMORY;
-    SL_TRY(sli_route_make_upper(context, finder));
     sli_route_begin(finder);
     SL_TRY(sli_route_spread(context, finder, map->from, map->limit, cells, take, map));
     if (map->nodes.count >= UINT32_MAX) return sl_fail(context, SL_NO_MEMORY, "too many nodes");

@@ -53,6 +53,7 @@ static double distance(sl_point a, sl_point b) {
 /// The side of a limit that a point lies on: 1 left, -1 right, 0 on it.
 static int limit_side(const sli_route_node *n, int side, sl_point p) {
     const sli_route_limit *limit = &n->limit[side];
+    if (sli_same_point(p, limit->point)) return 0;
     return limit->kind == SLI_LIMIT_RAY ? sli_orient(n->root, limit->point, p)
                                         : sli_orient(limit->point, n->root, p);
 }
@@ -72,35 +73,44 @@ static double size_of(sl_point p) {
     return fabs(p.x) + fabs(p.y);
 }
 
-/// The end of what a node's directions pass of its portal, at one side, as seen from its root:
-/// between r and l, the ends of the portal. Where it is rounded, it lies rather too far out than
-/// too far in.
-static sl_point passed_end(const search *s, const sli_route_node *n, int side, sl_point r,
-                           sl_point l) {
-    const sl_directed_portal *d = &s->space->directed[n->entry];
+/// What a node's directions pass of its portal, as seen from its root, scaled. Where an end is
+/// rounded, it lies rather too far out than too far in.
+typedef struct passed {
+    sl_point end[2];
+    double error; ///< how much too far out the ends may lie
+    double reach; ///< how large the numbers are that they are made of
+} passed;
+
+/// Moves an end that is beyond a limit to it. `r` and `l` are the ends of the portal.
+static void cut_end(const search *s, const sli_route_node *n, int side, sl_point r, sl_point l,
+                    passed *out) {
     const sli_route_limit *limit = &n->limit[side];
-    const sl_point whole = side == SLI_ROUTE_LEFT ? l : r;
-    if (limit->kind == SLI_LIMIT_NONE ||
-        !sli_route_is_beyond(n, side, side == SLI_ROUTE_LEFT ? d->left : d->right))
-        return whole;
     const sl_point ray = limit->kind == SLI_LIMIT_RAY ? offset(s, n->root, limit->point)
                                                       : offset(s, limit->point, n->root);
     const double at_right = -sli_cross(ray, r), sum = at_right + sli_cross(ray, l);
     const double slack = 0x1p-48 * size_of(ray) * (size_of(r) + size_of(l)) / sum;
     const double share = at_right / sum + (side == SLI_ROUTE_LEFT ? slack : -slack);
-    if (!(share > 0 && share < 1)) return whole;
-    return (sl_point){r.x + share * (l.x - r.x), r.y + share * (l.y - r.y)};
+    const bool is_known = share > 0 && share < 1;
+    out->error += (is_known ? 2 * slack : 1) * (fabs(l.x - r.x) + fabs(l.y - r.y));
+    if (is_known) out->end[side] = (sl_point){r.x + share * (l.x - r.x), r.y + share * (l.y - r.y)};
+}
+
+static passed passed_by(const search *s, const sli_route_node *n) {
+    const sl_directed_portal *d = &s->space->directed[n->entry];
+    const sl_point r = offset(s, n->root, d->right), l = offset(s, n->root, d->left);
+    passed out = {.end = {r, l}, .reach = size_of(r) + size_of(offset(s, d->right, d->left))};
+    for (int side = 0; side < 2; side++)
+        if (n->cuts[side]) cut_end(s, n, side, r, l, &out);
+    return out;
 }
 
 /// How far it is at least from a node's root to the goal, through its portal.
-static double bound(const search *s, const sli_route_node *n) {
+static double bound(const search *s, const sli_route_node *n, const passed *piece) {
     const sl_directed_portal *d = &s->space->directed[n->entry];
-    const sl_point start = offset(s, n->root, d->right), end = offset(s, n->root, d->left),
-                   along = offset(s, d->right, d->left), past = offset(s, d->right, s->goal);
-    const sl_point r = passed_end(s, n, SLI_ROUTE_RIGHT, start, end),
-                   l = passed_end(s, n, SLI_ROUTE_LEFT, start, end);
+    const sl_point along = offset(s, d->right, d->left), past = offset(s, d->right, s->goal);
+    const sl_point r = piece->end[SLI_ROUTE_RIGHT], l = piece->end[SLI_ROUTE_LEFT];
     sl_point t = offset(s, n->root, s->goal);
-    const double reach = size_of(t) + size_of(start) + size_of(along);
+    const double reach = size_of(t) + piece->reach;
     const double over = sli_cross(along, past);
     if (over > 0) { // the goal lies before the portal: its image behind it
         const double twice = 2 * (over / sli_dot(along, along));
@@ -117,12 +127,34 @@ static double bound(const search *s, const sli_route_node *n) {
     return fmax(distance(n->root, s->goal), (h - 0x1p-46 * reach) / s->scale);
 }
 
-/// The nearest point to a node's root on the piece of its portal, from the root, scaled.
-static sl_point nearest_passed(const search *s, const sli_route_node *n) {
-    const sl_directed_portal *d = &s->space->directed[n->entry];
-    const sl_point start = offset(s, n->root, d->right), end = offset(s, n->root, d->left);
-    return sli_route_nearest_on(passed_end(s, n, SLI_ROUTE_RIGHT, start, end),
-                                passed_end(s, n, SLI_ROUTE_LEFT, start, end), (sl_point){0, 0});
+// --- what is known of a cell
+
+static sli_route_cell *known_of(const search *s, uint32_t cell) {
+    sli_route_cell *known = &s->finder->cells[cell];
+    if (known->stamp != s->finder->stamp)
+        *known = (sli_route_cell){.stamp = s->finder->stamp, .least = INFINITY, .most = INFINITY};
+    return known;
+}
+
+/// Whether all of a cell is known to be nearer than that: what is as far brings nothing to it.
+static bool is_known_nearer(const search *s, uint32_t cell, double far) {
+    return far * (1 - SAME) > known_of(s, cell)->most;
+}
+
+/// Notes that a place in a cell, scaled from an origin, is so far: no point of the cell is farther
+/// than that and the way from there straight to it.
+static void note_place(const search *s, uint32_t cell, sl_point origin, sl_point at, double far) {
+    sli_route_cell *known = known_of(s, cell);
+    const sl_cell *c = &s->space->cells[cell];
+    double most = 0;
+    if (far >= known->least) return; // it would hardly help
+    known->least = far;
+    for (uint32_t k = 0; k < c->vertex_count; k++) {
+        const sl_point to = offset(s, origin, s->space->vertices[c->first_vertex + k]);
+        const double x = to.x - at.x, y = to.y - at.y;
+        most = fmax(most, x * x + y * y);
+    }
+    known->most = fmin(known->most, (far + sqrt(most) / s->scale) * (1 + SAME));
 }
 
 // --- the open nodes: a heap
@@ -176,11 +208,8 @@ static bool turns_more(sl_point known, sl_point other, sl_point at, int side) {
 }
 
 /// Whether a way of length g that comes from `from` is worth turning at a corner; keeps it then.
-static bool enter_corner(search *s, uint32_t entry, int side, sl_point from, sl_point at,
-                         double g) {
-    const size_t end = 2 * (size_t)entry + (size_t)side;
+static bool enter_corner(search *s, size_t end, int side, sl_point from, sl_point at, double g) {
     const uint32_t number = s->finder->corner_of[end], stamp = s->finder->stamp;
-    if (number == SLI_ROUTE_NONE) return false;
     sli_route_corner *corner = &s->finder->corners[number];
     if (corner->stamp != stamp || g < corner->g * (1 - SAME))
         *corner = (sli_route_corner){.stamp = stamp, .g = g};
@@ -200,24 +229,42 @@ static bool enter_corner(search *s, uint32_t entry, int side, sl_point from, sl_
 static bool turn_at(search *s, sli_route_node *n, uint32_t entry, int side) {
     const sl_directed_portal *d = &s->space->directed[entry];
     const sl_point at = side == SLI_ROUTE_LEFT ? d->left : d->right;
+    const size_t end = 2 * (size_t)entry + (size_t)side;
+    if (s->finder->corner_of[end] == SLI_ROUTE_NONE) return false;
     const double g = n->g + distance(n->root, at);
-    if (!enter_corner(s, entry, side, n->root, at, g)) return false;
+    if (is_known_nearer(s, d->cell, g) || !enter_corner(s, end, side, n->root, at, g)) return false;
     n->limit[side] = (sli_route_limit){SLI_LIMIT_NONE, at};
     n->limit[!side] = (sli_route_limit){SLI_LIMIT_ON, n->root};
     n->root = at;
+    n->is_behind = false;
     n->g = g;
     return true;
 }
 
 // --- the portals of a cell
 
+/// An end of a portal as a node's root sees it.
+typedef struct seen_end {
+    sl_point at;
+    int out[2]; ///< by limit: 1 beyond it, 0 on it, -1 within or no limit
+} seen_end;
+
+/// The nearest point to a node's root on what it passes of its portal, from the root, scaled.
+static sl_point nearest_passed(const passed *piece) {
+    return sli_route_nearest_on(piece->end[SLI_ROUTE_RIGHT], piece->end[SLI_ROUTE_LEFT],
+                                (sl_point){0, 0});
+}
+
 static sl_status push_across(search *s, sli_route_node *node, uint32_t across) {
     node->entry = across;
     node->cell = s->space->directed[across].cell;
-    if (!s->cells) return push(s, node, node->g + bound(s, node));
-    const sl_point at = nearest_passed(s, node);
-    const double f = node->g + sli_length(at.x, at.y) / s->scale;
-    return f * (1 - SAME) > fmin(s->limit, s->finder->upper[node->cell]) ? SL_OK : push(s, node, f);
+    const passed piece = passed_by(s, node);
+    const sl_point at = nearest_passed(&piece);
+    node->near = node->g + sli_length(at.x, at.y) / s->scale;
+    if (is_known_nearer(s, node->cell, node->near)) return SL_OK;
+    note_place(s, node->cell, node->root, at, node->near + 2 * piece.error / s->scale);
+    if (!s->cells) return push(s, node, node->g + bound(s, node, &piece));
+    return node->near * (1 - SAME) > s->limit ? SL_OK : push(s, node, node->near);
 }
 
 /// A portal that is seen edge-on: straight to its nearer end, and around that. A root on the portal
@@ -228,12 +275,14 @@ static sl_status cross_edge_on(search *s, const sli_route_node *from, uint32_t a
     sli_route_node node = *from;
     int side;
     node.g += loss;
+    node.is_behind = false;
+    node.cuts[SLI_ROUTE_RIGHT] = node.cuts[SLI_ROUTE_LEFT] = false;
     if (sli_goes_on(node.root, d->right, d->left))
         side = SLI_ROUTE_RIGHT;
     else if (sli_goes_on(node.root, d->left, d->right))
         side = SLI_ROUTE_LEFT;
     else
-        return loss > 0 ? push_across(s, &node, across) : SL_OK;
+        return loss > 0 ? push_across(s, &node, across) : SL_OK; // the root is on it
     const sl_point end = side == SLI_ROUTE_LEFT ? d->left : d->right;
     if (sli_route_is_beyond(&node, SLI_ROUTE_RIGHT, end) ||
         sli_route_is_beyond(&node, SLI_ROUTE_LEFT, end))
@@ -248,22 +297,24 @@ static bool stands_there(const search *s, sl_point root, uint32_t cell) {
 
 /// Whether a portal around the root ends just where the way came from. Nobody needs to pass it: the
 /// way came along its other side.
-static bool turns_back(const sli_route_node *n, int side, sl_point end) {
-    return n->limit[side].kind == SLI_LIMIT_ON && limit_side(n, side, end) == 0 &&
-           !sli_goes_on(n->limit[side].point, n->root, end);
+static bool turns_back(const sli_route_node *n, int side, const seen_end *end) {
+    return n->limit[side].kind == SLI_LIMIT_ON && end->out[side] == 0 &&
+           !sli_goes_on(n->limit[side].point, n->root, end->at);
 }
 
-/// Takes a node through a portal of its cell.
-static sl_status cross(search *s, const sli_route_node *from, uint32_t across) {
+/// Takes a node through a portal of its cell. `ends` are those of the portal, right and left.
+static sl_status cross(search *s, const sli_route_node *from, uint32_t across,
+                       const seen_end *ends) {
     const sl_directed_portal *d = &s->space->directed[across];
-    const sl_point ends[2] = {d->right, d->left};
-    const double loss = sli_route_loss(s->finder, d->portal);
+    if (!s->cells && !sli_route_is_open(s->finder, d->portal)) return SL_OK;
     sli_route_node node = *from;
-    node.g += loss;
+    node.is_behind = false;
+    node.g += sli_route_loss(s->finder, d->portal);
+    node.cuts[SLI_ROUTE_RIGHT] = node.cuts[SLI_ROUTE_LEFT] = false;
     for (int side = 0; side < 2; side++)
-        if (sli_same_point(node.root, ends[side])) { // around the root
-            if (sli_route_is_beyond(from, !side, ends[!side]) ||
-                turns_back(from, !side, ends[!side]) || stands_there(s, node.root, d->cell))
+        if (sli_same_point(node.root, ends[side].at)) { // around the root
+            if (ends[!side].out[!side] > 0 || turns_back(from, !side, &ends[!side]) ||
+                stands_there(s, node.root, d->cell))
                 return SL_OK;
             node.limit[side].kind = SLI_LIMIT_NONE;
             return push_across(s, &node, across);
@@ -272,24 +323,64 @@ static sl_status cross(search *s, const sli_route_node *from, uint32_t across) {
     if (facing < 0) return SL_OK;
     if (!facing) return cross_edge_on(s, from, across);
     for (int side = 0; side < 2; side++) {
-        const int out = side == SLI_ROUTE_LEFT ? 1 : -1;
-        if (from->limit[side].kind != SLI_LIMIT_NONE) {
-            const int near = limit_side(from, side, ends[side]) * out,
-                      far = limit_side(from, side, ends[!side]) * out;
-            if (near >= 0 && far >= 0) return SL_OK;
-            if (near > 0) continue;
-        }
-        node.limit[side] = (sli_route_limit){SLI_LIMIT_RAY, ends[side]};
+        const int near = ends[side].out[side], far = ends[!side].out[side];
+        if (near >= 0 && far >= 0) return SL_OK;
+        node.cuts[side] = near > 0;
+        if (near <= 0) node.limit[side] = (sli_route_limit){SLI_LIMIT_RAY, ends[side].at};
     }
+    node.is_behind = true;
     return push_across(s, &node, across);
+}
+
+/// Looks at an end. Where ends are met in order, from right to left, `last` is the one before it.
+static seen_end look_at(const sli_route_node *n, sl_point at, bool ordered, const seen_end *last) {
+    seen_end end = {at, {-1, -1}};
+    if (n->limit[SLI_ROUTE_RIGHT].kind != SLI_LIMIT_NONE &&
+        !(ordered && last->out[SLI_ROUTE_RIGHT] < 0))
+        end.out[SLI_ROUTE_RIGHT] = -limit_side(n, SLI_ROUTE_RIGHT, at);
+    if (n->limit[SLI_ROUTE_LEFT].kind != SLI_LIMIT_NONE &&
+        !(ordered && end.out[SLI_ROUTE_RIGHT] > 0))
+        end.out[SLI_ROUTE_LEFT] = limit_side(n, SLI_ROUTE_LEFT, at);
+    return end;
+}
+
+/// The number of the portal that a node came by, among those of its cell; their count for none.
+static uint32_t way_back(const search *s, const sli_route_node *node) {
+    const sl_cell *cell = &s->space->cells[node->cell];
+    const sl_directed_portal *directed = s->space->directed + cell->first_directed;
+    uint32_t k = 0;
+    if (node->entry == SLI_ROUTE_NONE) return cell->directed_count;
+    while (k < cell->directed_count && directed[k].portal != s->space->directed[node->entry].portal)
+        k++;
+    return k;
+}
+
+/// Takes a node through the portals of its cell but the one that it came by. From there on,
+/// counter-clockwise, a root behind it sees the others from right to left: first those beyond the
+/// right limit, last those beyond the left one.
+static sl_status cross_all(search *s, const sli_route_node *node) {
+    const sl_cell *cell = &s->space->cells[node->cell];
+    const uint32_t count = cell->directed_count, back = way_back(s, node);
+    const bool ordered = node->is_behind && back < count;
+    seen_end last = {{NAN, NAN}, {1, -1}};
+    for (uint32_t i = 0; i < count && !(ordered && last.out[SLI_ROUTE_LEFT] > 0); i++) {
+        const uint32_t k = back + 1 + i < count ? back + 1 + i : (back + 1 + i) % count;
+        const sl_directed_portal *d = &s->space->directed[cell->first_directed + k];
+        if (k == back) continue;
+        const seen_end left = look_at(node, d->left, ordered, &last);
+        const seen_end ends[2] = {
+            sli_same_point(last.at, d->right) ? last : look_at(node, d->right, ordered, &last),
+            left};
+        last = left;
+        if (!(ordered && left.out[SLI_ROUTE_RIGHT] > 0))
+            SL_TRY(cross(s, node, cell->first_directed + k, ends));
+    }
+    return SL_OK;
 }
 
 /// Straight on from a node's root: to the goal if it is in the cell, and through the portals.
 static sl_status go_on(search *s, const sli_route_node *node) {
     if (s->take) SL_TRY(s->take(s->context, node, s->user));
-    const sl_cell *cell = &s->space->cells[node->cell];
-    const uint32_t back =
-        node->entry == SLI_ROUTE_NONE ? SLI_ROUTE_NONE : s->space->directed[node->entry].portal;
     if (s->finder->at_goal[node->cell] == s->finder->stamp &&
         !sli_route_is_beyond(node, SLI_ROUTE_RIGHT, s->goal) &&
         !sli_route_is_beyond(node, SLI_ROUTE_LEFT, s->goal)) {
@@ -297,11 +388,7 @@ static sl_status go_on(search *s, const sli_route_node *node) {
         last.is_last = true;
         SL_TRY(push(s, &last, node->g + distance(node->root, s->goal)));
     }
-    for (uint32_t k = 0; k < cell->directed_count; k++) {
-        const uint32_t across = cell->first_directed + k;
-        if (s->space->directed[across].portal != back) SL_TRY(cross(s, node, across));
-    }
-    return SL_OK;
+    return cross_all(s, node);
 }
 
 static sl_status expand(search *s, uint32_t number) {
@@ -330,14 +417,17 @@ static sl_status start_at(search *s, sl_point from) {
     int exponent;
     frexp(sli_greater(b->max.x - b->min.x, b->max.y - b->min.y), &exponent);
     s->scale = ldexp(1, -exponent);
+    const uint32_t goal = s->cells ? SL_NO_CELL : sl_space_locate(s->space, s->goal);
     const uint32_t count =
         sli_route_stand(finder, from, sl_space_locate(s->space, from), finder->at_start);
     finder->nodes.count = finder->open.count = 0;
     for (uint32_t i = 0; i < count; i++) {
+        if (!s->cells) sli_route_open_blocks(finder, finder->list[i], goal);
         const sli_route_node node = {.root = from,
                                      .parent = SLI_ROUTE_NONE,
                                      .entry = SLI_ROUTE_NONE,
                                      .cell = finder->list[i]};
+        note_place(s, node.cell, from, (sl_point){0, 0}, 0);
         SL_TRY(push(s, &node, 0));
     }
     return SL_OK;
@@ -356,19 +446,20 @@ sl_status sli_route_search(sl_context *context, sl_route_finder *finder, sl_poin
             *out = next;
             return SL_OK;
         }
+        if (is_known_nearer(&s, finder->nodes.items[next].cell, finder->nodes.items[next].near))
+            continue;
         if ((++*expanded & 0xfff) == 0) SL_TRY(sl_check_cancelled(context));
         SL_TRY(expand(&s, next));
     }
     return SL_OK;
 }
 
-/// No point of a cell is farther than a known one and the way from there straight to it.
-static double farthest(const sl_space *space, uint32_t cell, const sl_route_near *known) {
-    const sl_cell *c = &space->cells[cell];
-    double most = 0;
-    for (uint32_t k = 0; k < c->vertex_count; k++)
-        most = fmax(most, distance(known->at, space->vertices[c->first_vertex + k]));
-    return (known->distance + most) * (1 + SAME);
+/// The nearest point of a node's cell that it leads to, rounded.
+static sl_point nearest_of(const search *s, const sli_route_node *node) {
+    if (node->entry == SLI_ROUTE_NONE) return s->from;
+    const passed piece = passed_by(s, node);
+    const sl_point at = nearest_passed(&piece);
+    return (sl_point){node->root.x + at.x / s->scale, node->root.y + at.y / s->scale};
 }
 
 sl_status sli_route_spread(sl_context *context, sl_route_finder *finder, sl_point from,
@@ -381,24 +472,14 @@ sl_status sli_route_spread(sl_context *context, sl_route_finder *finder, sl_poin
                 .limit = limit,
                 .take = take,
                 .user = user};
-    for (uint32_t c = 0; c < s.space->cell_count; c++) {
-        finder->upper[c] = INFINITY;
-        cells[c] = (sl_route_near){INFINITY, {0, 0}};
-    }
+    for (uint32_t c = 0; c < s.space->cell_count; c++) cells[c] = (sl_route_near){INFINITY, {0, 0}};
     SL_TRY(start_at(&s, from));
     for (uint64_t expanded = 1; finder->open.count; expanded++) {
         const uint32_t next = pop(finder);
-        const sli_route_node node = finder->nodes.items[next];
-        sl_route_near here = {0, from};
-        if (node.entry != SLI_ROUTE_NONE) {
-            const sl_point at = nearest_passed(&s, &node);
-            here.distance = node.g + sli_length(at.x, at.y) / s.scale;
-            here.at = (sl_point){node.root.x + at.x / s.scale, node.root.y + at.y / s.scale};
-        }
-        if (here.distance * (1 - SAME) > finder->upper[node.cell]) continue;
-        if (here.distance < cells[node.cell].distance) cells[node.cell] = here;
-        finder->upper[node.cell] =
-            fmin(finder->upper[node.cell], farthest(s.space, node.cell, &here));
+        const sli_route_node *node = &finder->nodes.items[next];
+        if (is_known_nearer(&s, node->cell, node->near)) continue;
+        if (node->near < cells[node->cell].distance)
+            cells[node->cell] = (sl_route_near){node->near, nearest_of(&s, node)};
         if ((expanded & 0xfff) == 0) SL_TRY(sl_check_cancelled(context));
         SL_TRY(expand(&s, next));
     }
