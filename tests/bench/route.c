@@ -1,9 +1,10 @@
 // What a shortest way costs. Random pairs of points inside, each asked once.
-//   bench_route MAP [Z [R [PAIRS]]]
+//   bench_route MAP [Z [R [PAIRS [SUBDIVISION]]]]
 // CSV: machine, map, walls, cells, milliseconds to make the finder, ways, ways found, microseconds
 // a way and their median, search nodes and corners of a way, and the mean length. Z: the slice of a
 // 3D model, or -. R: the walker's radius, or 0; pairs without room for it do not count. PAIRS: a
-// file with the pairs, x,y,x,y a line; all of them must be in free ground.
+// file with the pairs, x,y,x,y a line; all of them must be in free ground; or -. SUBDIVISION: kd or
+// mesh, in place of the usual one.
 #include "bench.h"
 
 #include "sightline/path.h"
@@ -70,19 +71,31 @@ static void measure(sl_context *context, const char *name, const sl_space *space
     sl_route_finder_destroy(context, finder);
 }
 
+static const sl_subdivision *subdivision_of(const sl_map *map, const char *name) {
+    size_t count;
+    const sl_subdivision *all = sl_subdivisions(&count);
+    if (!name) return sl_subdivision_for(map);
+    for (size_t i = 0; i < count; i++)
+        if (strcmp(all[i].name, name) == 0) return &all[i];
+    bench_fail("no such subdivision");
+}
+
 int main(int argc, char **argv) {
-    if (argc < 2) bench_fail("usage: bench_route MAP [Z [R [PAIRS]]]");
+    if (argc < 2) bench_fail("usage: bench_route MAP [Z [R [PAIRS [SUBDIVISION]]]]");
     sl_map map = {0};
     sl_space space = {0};
     sl_query *query;
     sl_context *context = sl_context_create(NULL);
     if (!context) return 1;
     bench_read_map(context, argv[1], argc > 2 && strcmp(argv[2], "-") != 0 ? argv[2] : NULL, &map);
-    bench_must(context, sl_subdivision_for(&map)->subdivide(context, &map, NULL, &space));
+    bench_must(
+        context,
+        subdivision_of(&map, argc > 5 ? argv[5] : NULL)->subdivide(context, &map, NULL, &space));
     if (!space.inside_count) bench_fail("nothing in the map is inside");
     bench_must(context, sl_query_over(context, &space, &map, NULL, &query));
-    FILE *pairs = argc > 4 ? fopen(argv[4], "r") : NULL;
-    if (argc > 4 && !pairs) bench_fail("no file of pairs");
+    const bool has_pairs = argc > 4 && strcmp(argv[4], "-") != 0;
+    FILE *pairs = has_pairs ? fopen(argv[4], "r") : NULL;
+    if (has_pairs && !pairs) bench_fail("no file of pairs");
     measure(context, argv[1], &space, query, argc > 3 ? strtod(argv[3], NULL) : 0, pairs);
     if (pairs) fclose(pairs);
     sl_query_destroy(context, query);

@@ -1,24 +1,27 @@
 // Shortest ways beside Polyanya for JavaScript, in one run: is each as long, and how long do they take?
 //
-//   node route_polyanya.mjs DIST SIGHTLINE BENCH_ROUTE FILE...
+//   node route_polyanya.mjs POLYANYA SIGHTLINE BENCH_ROUTE FILE...
 //
-// DIST: the module of zalo/polyanya-ts (dist/index.js, with its package cdt2d beside it, or any
-// module of that name: it is not called). FILE: a mesh of the Polyanya benchmarks (.mesh, version 2),
-// whose border becomes a map's walls, or a map, whose cells become a mesh. So both search the same
-// ground, each on its own cells where the file is a mesh. 200 random pairs of places each.
+// POLYANYA: a program made of the authors' C++ and route_polyanya.cpp, or the module of
+// zalo/polyanya-ts (dist/index.js, with its package cdt2d beside it, or any module of that name: it
+// is not called). FILE: a mesh of the Polyanya benchmarks (.mesh, version 2), whose border becomes a
+// map's walls, or a map, whose cells become a mesh. So both search the same ground, each on its own
+// cells where the file is a mesh. Ours are cut by --subdivide mesh. 200 random pairs of places each,
+// or the scenario that lies beside a mesh: FILE.mesh and FILE.map.scen, the middles of its cells,
+// evenly thinned to 200.
 //
 // CSV: file, walls, polygons of the mesh, cells of ours, pairs, how many ways are equally long (to a
 // relative 1e-9), how many are longer in Polyanya or not found there, how many are longer in ours,
 // the mean times in microseconds, and their ratio.
 import { execFileSync } from 'node:child_process'
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs'
+import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs'
 import { tmpdir } from 'node:os'
 import { basename, join, resolve } from 'node:path'
 import { pathToFileURL } from 'node:url'
 
 const PAIRS = 200
 const [dist, sightline, bench, ...files] = process.argv.slice(2)
-const { Mesh, SearchInstance } = await import(pathToFileURL(resolve(dist)))
+const { Mesh, SearchInstance } = /\.m?js$/.test(dist) ? await import(pathToFileURL(resolve(dist))) : {}
 const box = mkdtempSync(join(tmpdir(), 'route'))
 
 /** The polygons of a mesh: corners, and the neighbour at the side that ends at each. */
@@ -122,15 +125,43 @@ function run(program, ...args) {
 function waysOf(map, pairs) {
   const table = join(box, 'pairs.csv')
   writeFileSync(table, pairs.map(p => p.join(',')).join('\n') + '\n')
-  const cells = run(bench, map, '-', '0', table).trim().split('\n')[1].split(',')
+  const cells = run(bench, map, '-', '0', table, 'mesh').trim().split('\n')[1].split(',')
   let lengths
   try {
-    lengths = run(sightline, 'path', map, '--pairs', table)
+    lengths = run(sightline, 'path', map, '--subdivide', 'mesh', '--pairs', table)
   } catch (e) {
     lengths = e.stdout // a way is missing
   }
   return { walls: cells[2], cells: cells[3], time: +cells[7],
            lengths: lengths.trim().split('\n').slice(1).map(l => +(l.split(',')[4] || NaN)) }
+}
+
+/** The program: length and microseconds of each pair, a line each. */
+function askProgram(meshText, pairs) {
+  const mesh = join(box, 'plan.mesh'), table = join(box, 'pairs.csv')
+  writeFileSync(mesh, meshText)
+  writeFileSync(table, pairs.map(p => p.join(',')).join('\n') + '\n')
+  const rows = run(dist, mesh, table).trim().split('\n').map(l => l.split(',').map(Number))
+  return { lengths: rows.map(r => r[0] < 0 ? NaN : r[0]), time: rows.reduce((a, r) => a + r[1], 0) / rows.length }
+}
+
+function askModule(meshText, pairs) {
+  const search = new SearchInstance(Mesh.fromString(meshText))
+  search.timeLimitMs = 10000
+  const ask = ([x, y, X, Y]) => {
+    search.setStartGoal({ x, y }, { x: X, y: Y })
+    return search.search() ? search.getCost() : NaN
+  }
+  for (const pair of pairs.slice(0, 50)) ask(pair) // the compiler warms up
+  const before = process.cpuUsage(), lengths = pairs.map(ask), used = process.cpuUsage(before)
+  return { lengths, time: (used.user + used.system) / pairs.length }
+}
+
+/** The pairs of a scenario of a grid: middles of its cells. */
+function readScenario(text) {
+  const rows = text.trim().split('\n').slice(1), step = Math.max(1, Math.floor(rows.length / PAIRS))
+  return rows.filter((_, i) => i % step === 0).slice(0, PAIRS)
+    .map(l => l.split(/\s+/).slice(4, 8).map(n => +n + 0.5))
 }
 
 console.log('file,walls,polygons,cells,pairs,equal,polyanya_longer,ours_longer,us_polyanya,us_ours,ratio')
@@ -143,23 +174,15 @@ for (const file of files) {
   } else {
     const slv = join(box, 'plan.slv')
     run(sightline, 'convert', file, '-o', map)
-    run(sightline, 'bake', map, '-o', slv, '--quiet')
+    run(sightline, 'bake', map, '--subdivide', 'mesh', '-o', slv, '--quiet')
     polygons = readCells(run(sightline, 'export', slv, '--format', 'json'))
   }
-  const mesh = Mesh.fromString(file.endsWith('.mesh') ? readFileSync(file, 'utf8') : meshOf(polygons))
-  const random = randoms(7)
-  const pairs = Array.from({ length: PAIRS }, () => [...place(polygons, random), ...place(polygons, random)])
-  const ours = waysOf(map, pairs)
-  const search = new SearchInstance(mesh), lengths = []
-  search.timeLimitMs = 10000
-  const ask = ([x, y, X, Y]) => {
-    search.setStartGoal({ x, y }, { x: X, y: Y })
-    return search.search() ? search.getCost() : NaN
-  }
-  for (const pair of pairs.slice(0, 50)) ask(pair) // the compiler warms up
-  const before = process.cpuUsage()
-  for (const pair of pairs) lengths.push(ask(pair))
-  const used = process.cpuUsage(before), time = (used.user + used.system) / PAIRS
+  const meshText = file.endsWith('.mesh') ? readFileSync(file, 'utf8') : meshOf(polygons)
+  const random = randoms(7), scenario = file.replace(/\.mesh$/, '.map.scen')
+  const pairs = scenario !== file && existsSync(scenario)
+    ? readScenario(readFileSync(scenario, 'utf8'))
+    : Array.from({ length: PAIRS }, () => [...place(polygons, random), ...place(polygons, random)])
+  const ours = waysOf(map, pairs), { lengths, time } = Mesh ? askModule(meshText, pairs) : askProgram(meshText, pairs)
   let equal = 0, theirs = 0, mine = 0
   lengths.forEach((l, i) => {
     const o = ours.lengths[i]
@@ -167,7 +190,7 @@ for (const file of files) {
     else if (isNaN(l) || l > o) theirs++
     else mine++
   })
-  console.log([basename(file), ours.walls, polygons.length, ours.cells, PAIRS, equal, theirs, mine,
+  console.log([basename(file), ours.walls, polygons.length, ours.cells, pairs.length, equal, theirs, mine,
                time.toFixed(1), ours.time.toFixed(1), (time / ours.time).toFixed(2)].join(','))
 }
 rmSync(box, { recursive: true })
