@@ -50,17 +50,28 @@ static double distance(sl_point a, sl_point b) {
     return sli_length(b.x - a.x, b.y - a.y);
 }
 
-/// The side of a limit that a point lies on: 1 left, -1 right, 0 on it.
-static int limit_side(const sli_route_node *n, int side, sl_point p) {
+/// A limit runs from one point through another one.
+typedef struct limit_line {
+    sl_point from, to;
+} limit_line;
+
+static limit_line line_of(const sli_route_node *n, int side) {
     const sli_route_limit *limit = &n->limit[side];
-    if (sli_same_point(p, limit->point)) return 0;
-    return limit->kind == SLI_LIMIT_RAY ? sli_orient(n->root, limit->point, p)
-                                        : sli_orient(limit->point, n->root, p);
+    return limit->kind == SLI_LIMIT_RAY ? (limit_line){n->root, limit->point}
+                                        : (limit_line){limit->point, n->root};
+}
+
+/// The side of a limit that a point lies on: 1 left, -1 right, 0 on it.
+static int side_of(const limit_line *limit, sl_point p) {
+    return sli_same_point(p, limit->from) || sli_same_point(p, limit->to)
+               ? 0
+               : sli_orient(limit->from, limit->to, p);
 }
 
 bool sli_route_is_beyond(const sli_route_node *n, int side, sl_point p) {
+    const limit_line limit = line_of(n, side);
     return n->limit[side].kind != SLI_LIMIT_NONE &&
-           limit_side(n, side, p) == (side == SLI_ROUTE_LEFT ? 1 : -1);
+           side_of(&limit, p) == (side == SLI_ROUTE_LEFT ? 1 : -1);
 }
 
 // --- the bound
@@ -84,9 +95,8 @@ typedef struct passed {
 /// Moves an end that is beyond a limit to it. `r` and `l` are the ends of the portal.
 static void cut_end(const search *s, const sli_route_node *n, int side, sl_point r, sl_point l,
                     passed *out) {
-    const sli_route_limit *limit = &n->limit[side];
-    const sl_point ray = limit->kind == SLI_LIMIT_RAY ? offset(s, n->root, limit->point)
-                                                      : offset(s, limit->point, n->root);
+    const limit_line limit = line_of(n, side);
+    const sl_point ray = offset(s, limit.from, limit.to);
     const double at_right = -sli_cross(ray, r), sum = at_right + sli_cross(ray, l);
     const double slack = 0x1p-48 * size_of(ray) * (size_of(r) + size_of(l)) / sum;
     const double share = at_right / sum + (side == SLI_ROUTE_LEFT ? slack : -slack);
@@ -124,7 +134,7 @@ static double bound(const search *s, const sli_route_node *n, const passed *piec
         h = sli_length(l.x, l.y) + sli_length(t.x - l.x, t.y - l.y);
     else
         h = sli_length(t.x, t.y);
-    return fmax(distance(n->root, s->goal), (h - 0x1p-46 * reach) / s->scale);
+    return sli_greater(distance(n->root, s->goal), (h - 0x1p-46 * reach) / s->scale);
 }
 
 // --- what is known of a cell
@@ -152,9 +162,9 @@ static void note_place(const search *s, uint32_t cell, sl_point origin, sl_point
     for (uint32_t k = 0; k < c->vertex_count; k++) {
         const sl_point to = offset(s, origin, s->space->vertices[c->first_vertex + k]);
         const double x = to.x - at.x, y = to.y - at.y;
-        most = fmax(most, x * x + y * y);
+        most = sli_greater(most, x * x + y * y);
     }
-    known->most = fmin(known->most, (far + sqrt(most) / s->scale) * (1 + SAME));
+    known->most = sli_lesser(known->most, (far + sqrt(most) / s->scale) * (1 + SAME));
 }
 
 // --- the open nodes: a heap
@@ -290,6 +300,23 @@ static sl_status cross_edge_on(search *s, const sli_route_node *from, uint32_t a
     return turn_at(s, &node, across, side) ? push_across(s, &node, across) : SL_OK;
 }
 
+/// A node that looks around in its cell.
+typedef struct sight {
+    const sli_route_node *node;
+    bool is_ordered; ///< the root is behind the cell: it sees the portals from right to left
+    bool is_limited[2];
+    limit_line limit[2];
+} sight;
+
+static sight sight_of(const sli_route_node *n, bool is_ordered) {
+    sight out = {.node = n, .is_ordered = is_ordered};
+    for (int side = 0; side < 2; side++) {
+        out.is_limited[side] = n->limit[side].kind != SLI_LIMIT_NONE;
+        out.limit[side] = line_of(n, side);
+    }
+    return out;
+}
+
 /// Whether a root is the start, and the start stands in a cell: turning around it leads nowhere.
 static bool stands_there(const search *s, sl_point root, uint32_t cell) {
     return sli_same_point(root, s->from) && s->finder->at_start[cell] == s->finder->stamp;
@@ -302,45 +329,53 @@ static bool turns_back(const sli_route_node *n, int side, const seen_end *end) {
            !sli_goes_on(n->limit[side].point, n->root, end->at);
 }
 
-/// Takes a node through a portal of its cell. `ends` are those of the portal, right and left.
-static sl_status cross(search *s, const sli_route_node *from, uint32_t across,
-                       const seen_end *ends) {
+/// Takes a node through a portal that ends at its root, around that. `other` is the other end.
+static sl_status cross_around(search *s, const sli_route_node *from, uint32_t across, int side,
+                              const seen_end *other) {
     const sl_directed_portal *d = &s->space->directed[across];
-    if (!s->cells && !sli_route_is_open(s->finder, d->portal)) return SL_OK;
     sli_route_node node = *from;
-    node.is_behind = false;
+    if (other->out[!side] > 0 || turns_back(from, !side, other) ||
+        stands_there(s, node.root, d->cell))
+        return SL_OK;
     node.g += sli_route_loss(s->finder, d->portal);
-    node.cuts[SLI_ROUTE_RIGHT] = node.cuts[SLI_ROUTE_LEFT] = false;
+    node.is_behind = node.cuts[SLI_ROUTE_RIGHT] = node.cuts[SLI_ROUTE_LEFT] = false;
+    node.limit[side].kind = SLI_LIMIT_NONE;
+    return push_across(s, &node, across);
+}
+
+/// Takes a node through a portal of its cell. `ends` are those of the portal, right and left.
+static sl_status cross(search *s, const sight *view, uint32_t across, const seen_end *ends) {
+    const sl_directed_portal *d = &s->space->directed[across];
+    const sli_route_node *from = view->node;
+    bool is_out = false;
     for (int side = 0; side < 2; side++)
-        if (sli_same_point(node.root, ends[side].at)) { // around the root
-            if (ends[!side].out[!side] > 0 || turns_back(from, !side, &ends[!side]) ||
-                stands_there(s, node.root, d->cell))
-                return SL_OK;
-            node.limit[side].kind = SLI_LIMIT_NONE;
-            return push_across(s, &node, across);
-        }
-    const int facing = sli_orient(node.root, d->right, d->left);
-    if (facing < 0) return SL_OK;
-    if (!facing) return cross_edge_on(s, from, across);
-    for (int side = 0; side < 2; side++) {
-        const int near = ends[side].out[side], far = ends[!side].out[side];
-        if (near >= 0 && far >= 0) return SL_OK;
-        node.cuts[side] = near > 0;
-        if (near <= 0) node.limit[side] = (sli_route_limit){SLI_LIMIT_RAY, ends[side].at};
+        is_out |= ends[side].out[side] >= 0 && ends[!side].out[side] >= 0;
+    if (!view->is_ordered || is_out) { // else a root behind the cell faces it
+        for (int side = 0; side < 2; side++)
+            if (sli_same_point(from->root, ends[side].at))
+                return cross_around(s, from, across, side, &ends[!side]);
+        const int facing = sli_orient(from->root, d->right, d->left);
+        if (facing < 0) return SL_OK;
+        if (!facing) return cross_edge_on(s, from, across);
+        if (is_out) return SL_OK;
     }
+    sli_route_node node = *from;
+    node.g += sli_route_loss(s->finder, d->portal);
     node.is_behind = true;
+    for (int side = 0; side < 2; side++) {
+        node.cuts[side] = ends[side].out[side] > 0;
+        if (!node.cuts[side]) node.limit[side] = (sli_route_limit){SLI_LIMIT_RAY, ends[side].at};
+    }
     return push_across(s, &node, across);
 }
 
 /// Looks at an end. Where ends are met in order, from right to left, `last` is the one before it.
-static seen_end look_at(const sli_route_node *n, sl_point at, bool ordered, const seen_end *last) {
+static seen_end look_at(const sight *view, sl_point at, const seen_end *last) {
     seen_end end = {at, {-1, -1}};
-    if (n->limit[SLI_ROUTE_RIGHT].kind != SLI_LIMIT_NONE &&
-        !(ordered && last->out[SLI_ROUTE_RIGHT] < 0))
-        end.out[SLI_ROUTE_RIGHT] = -limit_side(n, SLI_ROUTE_RIGHT, at);
-    if (n->limit[SLI_ROUTE_LEFT].kind != SLI_LIMIT_NONE &&
-        !(ordered && end.out[SLI_ROUTE_RIGHT] > 0))
-        end.out[SLI_ROUTE_LEFT] = limit_side(n, SLI_ROUTE_LEFT, at);
+    if (view->is_limited[SLI_ROUTE_RIGHT] && !(view->is_ordered && last->out[SLI_ROUTE_RIGHT] < 0))
+        end.out[SLI_ROUTE_RIGHT] = -side_of(&view->limit[SLI_ROUTE_RIGHT], at);
+    if (view->is_limited[SLI_ROUTE_LEFT] && !(view->is_ordered && end.out[SLI_ROUTE_RIGHT] > 0))
+        end.out[SLI_ROUTE_LEFT] = side_of(&view->limit[SLI_ROUTE_LEFT], at);
     return end;
 }
 
@@ -361,19 +396,21 @@ static uint32_t way_back(const search *s, const sli_route_node *node) {
 static sl_status cross_all(search *s, const sli_route_node *node) {
     const sl_cell *cell = &s->space->cells[node->cell];
     const uint32_t count = cell->directed_count, back = way_back(s, node);
-    const bool ordered = node->is_behind && back < count;
+    const sight view = sight_of(node, node->is_behind && back < count);
     seen_end last = {{NAN, NAN}, {1, -1}};
-    for (uint32_t i = 0; i < count && !(ordered && last.out[SLI_ROUTE_LEFT] > 0); i++) {
-        const uint32_t k = back + 1 + i < count ? back + 1 + i : (back + 1 + i) % count;
+    for (uint32_t i = 1; i <= count && !(view.is_ordered && last.out[SLI_ROUTE_LEFT] > 0); i++) {
+        const uint32_t k = back + i < count ? back + i : (back + i) % count;
         const sl_directed_portal *d = &s->space->directed[cell->first_directed + k];
-        if (k == back) continue;
-        const seen_end left = look_at(node, d->left, ordered, &last);
+        if (k == back || (!s->cells && !sli_route_is_open(s->finder, d->portal))) continue;
+        const seen_end left = look_at(&view, d->left, &last);
+        if (view.is_ordered && left.out[SLI_ROUTE_RIGHT] > 0) {
+            last = left;
+            continue;
+        }
         const seen_end ends[2] = {
-            sli_same_point(last.at, d->right) ? last : look_at(node, d->right, ordered, &last),
-            left};
+            sli_same_point(last.at, d->right) ? last : look_at(&view, d->right, &last), left};
         last = left;
-        if (!(ordered && left.out[SLI_ROUTE_RIGHT] > 0))
-            SL_TRY(cross(s, node, cell->first_directed + k, ends));
+        SL_TRY(cross(s, &view, cell->first_directed + k, ends));
     }
     return SL_OK;
 }
