@@ -6,6 +6,7 @@
 /// left and all right ends at its right. Names and badges take the place where they cover least.
 #include "draw/draw_explain.h"
 
+#include "geometry/length.h"
 #include "sightline/support.h"
 #include "space/index.h"
 
@@ -146,13 +147,6 @@ static void take_spot(overlay *o, sl_point at, double radius) {
     o->spots.items[o->spots.count++] = (spot){at, radius};
 }
 
-static double distance_to_segment(sl_point p, sl_point a, sl_point b) {
-    const double dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy;
-    const double along = square > 0 ? ((p.x - a.x) * dx + (p.y - a.y) * dy) / square : 0;
-    const double t = fmin(fmax(along, 0), 1);
-    return hypot(p.x - a.x - t * dx, p.y - a.y - t * dy);
-}
-
 /// How much a disc there would cover of places that are taken; 0 for nothing.
 static double crowding(const overlay *o, sl_point at, double radius) {
     const double gap = 1.5 * o->unit;
@@ -162,7 +156,7 @@ static double crowding(const overlay *o, sl_point at, double radius) {
         sum += fmax(0, radius + s->radius + gap - hypot(at.x - s->at.x, at.y - s->at.y));
     }
     for (int i = 0; i < o->line_count; i++)
-        sum += fmax(0, radius + 2 * gap - distance_to_segment(at, o->lines[i].a, o->lines[i].b));
+        sum += fmax(0, radius + 2 * gap - sli_away_from(o->lines[i].a, o->lines[i].b, at));
     const sl_frame *v = o->frame;
     const bool inside = at.x - radius > v->left && at.x + radius < v->left + v->width &&
                         at.y - radius > v->top && at.y + radius < v->top + v->height;
@@ -358,7 +352,7 @@ static void draw_badge(overlay *o, uint32_t number) {
             least = covered;
             best = tried;
         }
-    if (distance_to_segment(best, left, right) > 1.8 * radius) {
+    if (sli_away_from(left, right, best) > 1.8 * radius) {
         cairo_move_to(o->cairo, best.x, best.y);
         cairo_line_to(o->cairo, at.x, at.y);
         sli_pen_stroke(o->cairo, o->pic->scene.palette.portal, o->unit);

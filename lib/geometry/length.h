@@ -48,4 +48,18 @@ static inline double sli_greater(double a, double b) {
     return a > b ? a : b;
 }
 
+/// The point of the segment from a to b that is nearest to a place, rounded.
+static inline sl_point sli_nearest_on(sl_point a, sl_point b, sl_point to) {
+    const double x = b.x - a.x, y = b.y - a.y, square = x * x + y * y;
+    const double along = ((to.x - a.x) * x + (to.y - a.y) * y) / square;
+    if (!(along > 0)) return a;
+    return along < 1 ? (sl_point){a.x + along * x, a.y + along * y} : b;
+}
+
+/// How far a place is from the segment from a to b, rounded.
+static inline double sli_away_from(sl_point a, sl_point b, sl_point to) {
+    const sl_point on = sli_nearest_on(a, b, to);
+    return sli_length(on.x - to.x, on.y - to.y);
+}
+
 #endif

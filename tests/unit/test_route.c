@@ -81,6 +81,22 @@ static void test_doors(void **state) {
 }
 
 /// Glass is passed from its right to its left alone, and boxes that block are walked around.
+/// A room that leads nowhere else costs nothing: as many nodes are expanded as with its door shut.
+static void test_dead_end(void **state) {
+    (void)state;
+    plan p;
+    boxed(&p, "wall 0 3 4 3\nwall 6 3 10 3\ndoor room 4 3 6 3 open\nwall 2 0 2 2\nwall 8 1 8 3\n"
+              "wall 5 4 5 5\nwall 3 6 4 7\nwall 6 8 8 6\nwall 2 4 3 5\nwall 7 4 8 5\n");
+    const double open_length = way(&p, 1, 1, 9.5, 1);
+    const uint64_t open_nodes = p.route.nodes;
+    assert_true(way(&p, 1, 1, 5, 8) > 7 && p.route.nodes > open_nodes);
+    sl_query_set_door_at(p.context, p.query, 0, false);
+    assert_ok(p.context, sl_route_finder_update(p.context, p.finder));
+    assert_true(way(&p, 1, 1, 9.5, 1) == open_length);
+    assert_int_equal(p.route.nodes, open_nodes);
+    close_plan(&p);
+}
+
 static void test_one_way_and_boxes(void **state) {
     (void)state;
     plan p;
@@ -244,6 +260,7 @@ int main(void) {
         cmocka_unit_test(test_along_walls),
         cmocka_unit_test(test_touching_walls_are_closed),
         cmocka_unit_test(test_doors),
+        cmocka_unit_test(test_dead_end),
         cmocka_unit_test(test_one_way_and_boxes),
         cmocka_unit_test(test_no_way_past_glass),
         cmocka_unit_test(test_refusals),

@@ -198,13 +198,6 @@ uint32_t sli_route_stand(sl_route_finder *f, sl_point point, uint32_t first, uin
     return count;
 }
 
-sl_point sli_route_nearest_on(sl_point a, sl_point b, sl_point to) {
-    const double x = b.x - a.x, y = b.y - a.y, square = x * x + y * y;
-    const double along = ((to.x - a.x) * x + (to.y - a.y) * y) / square;
-    if (!(along > 0)) return a;
-    return along < 1 ? (sl_point){a.x + along * x, a.y + along * y} : b;
-}
-
 sl_point sli_route_nearest(sl_route_finder *f, sl_point to) {
     const sl_space *s = f->space;
     uint32_t count = 0, best_cell = 0;
@@ -216,8 +209,8 @@ sl_point sli_route_nearest(sl_route_finder *f, sl_point to) {
         const sl_cell *cell = &s->cells[f->list[i]];
         const sl_point *corners = s->vertices + cell->first_vertex;
         for (uint32_t k = 0; k < cell->vertex_count; k++) {
-            const sl_point at = sli_route_nearest_on(
-                corners[k], corners[k + 1 < cell->vertex_count ? k + 1 : 0], to);
+            const sl_point at =
+                sli_nearest_on(corners[k], corners[k + 1 < cell->vertex_count ? k + 1 : 0], to);
             const double away = sli_length(at.x - to.x, at.y - to.y);
             if (!(away < least)) continue;
             least = away;

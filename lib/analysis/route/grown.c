@@ -207,8 +207,7 @@ typedef struct nearest_wall {
 static void look_at_wall(void *user, uint32_t number) {
     nearest_wall *n = user;
     const sl_wall *wall = &n->space->walls[number];
-    const sl_point on = sli_route_nearest_on(wall->a, wall->b, n->at);
-    const double away = sli_length(on.x - n->at.x, on.y - n->at.y);
+    const double away = sli_away_from(wall->a, wall->b, n->at);
     if (!(away < n->least)) return;
     n->least = away;
     n->wall = wall;

@@ -120,9 +120,6 @@ static inline bool sli_route_is_open(const sl_route_finder *finder, uint32_t por
 /// The cells that a point stands in (view.h): marks them, lists them, and returns their number.
 uint32_t sli_route_stand(sl_route_finder *finder, sl_point point, uint32_t first, uint32_t *marks);
 
-/// The point of a segment that is nearest to a place, rounded.
-sl_point sli_route_nearest_on(sl_point a, sl_point b, sl_point to);
-
 /// A place that can be reached from the cells marked as the start, next to the one that is nearest
 /// to `to`.
 sl_point sli_route_nearest(sl_route_finder *finder, sl_point to);

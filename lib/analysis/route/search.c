@@ -261,8 +261,8 @@ typedef struct seen_end {
 
 /// The nearest point to a node's root on what it passes of its portal, from the root, scaled.
 static sl_point nearest_passed(const passed *piece) {
-    return sli_route_nearest_on(piece->end[SLI_ROUTE_RIGHT], piece->end[SLI_ROUTE_LEFT],
-                                (sl_point){0, 0});
+    return sli_nearest_on(piece->end[SLI_ROUTE_RIGHT], piece->end[SLI_ROUTE_LEFT],
+                          (sl_point){0, 0});
 }
 
 static sl_status push_across(search *s, sli_route_node *node, uint32_t across) {

@@ -61,12 +61,6 @@ static bool is_between(sl_segment s, sl_point p) {
     return sli_box_holds(&box, p) && !sli_same_point(p, s.a) && !sli_same_point(p, s.b);
 }
 
-static double away_from(sl_segment s, sl_point p) {
-    const sl_point way = {s.b.x - s.a.x, s.b.y - s.a.y}, to = {p.x - s.a.x, p.y - s.a.y};
-    const double share = fmin(1, fmax(0, sli_dot(way, to) / sli_dot(way, way)));
-    return sli_length(to.x - share * way.x, to.y - share * way.y);
-}
-
 /// More than rounding moves places of the map.
 static double slack_of(const maker *m) {
     const sl_box *b = &m->sight->rooms.outline->space->bounds;
@@ -76,8 +70,9 @@ static double slack_of(const maker *m) {
 
 /// Keeps a wall that the segment does not cross, if it touches it but for rounding.
 static sl_status keep_along(maker *m, sl_segment s, sl_segment wall) {
-    const double apart = fmin(fmin(away_from(wall, s.a), away_from(wall, s.b)),
-                              fmin(away_from(s, wall.a), away_from(s, wall.b)));
+    const double apart =
+        fmin(fmin(sli_away_from(wall.a, wall.b, s.a), sli_away_from(wall.a, wall.b, s.b)),
+             fmin(sli_away_from(s.a, s.b, wall.a), sli_away_from(s.a, s.b, wall.b)));
     if (apart > 4 * slack_of(m)) return SL_OK;
     SL_TRY(SL_ARRAY_ROOM(m->context, &m->along, 1));
     m->along.items[m->along.count++] = wall;
@@ -161,7 +156,7 @@ static sl_status add_eye_aside(maker *m, sl_segment s, sl_point at, int side) {
     bool in_line = false;
     for (size_t i = 0; i < m->along.count; i++) {
         const sl_segment w = m->along.items[i];
-        if (away_from(w, at) > 2 * slack) continue;
+        if (sli_away_from(w.a, w.b, at) > 2 * slack) continue;
         const double x = w.b.x - w.a.x, y = w.b.y - w.a.y;
         const int on = side_of_segment(w, s);
         const double step = (on ? on : side) * slack / sli_length(x, y);
@@ -173,7 +168,7 @@ static sl_status add_eye_aside(maker *m, sl_segment s, sl_point at, int side) {
     for (size_t i = 0; i < m->along.count; i++) {
         const sl_segment w = m->along.items[i];
         const int on = side_of_segment(w, s), is = side_of(w, aside);
-        if (away_from(w, at) <= 2 * slack && (on ? is != on : !is)) return SL_OK;
+        if (sli_away_from(w.a, w.b, at) <= 2 * slack && (on ? is != on : !is)) return SL_OK;
     }
     return add_eye(m, aside, NULL, &m->cones);
 }

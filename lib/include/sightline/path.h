@@ -49,6 +49,9 @@ SL_API void sl_route_destroy(sl_context *context, sl_route *route); ///< and zer
 
 /// A finder over the space that the query's settings make (sl_query_space). The query must outlive
 /// it. SL_UNSUPPORTED for a loose space. Time and memory: O(portals).
+///
+/// For many ways among axial walls, cut the map by `mesh` (sl_subdivisions): its cells end at ends
+/// of walls only, so ways through them are found in less time than through those of a kd-tree.
 SL_API sl_status sl_route_finder_create(sl_context *context, sl_query *query,
                                         sl_route_finder **out);
 /// Frees a finder. NULL is allowed.
