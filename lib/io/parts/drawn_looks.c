@@ -5,8 +5,9 @@
 /// thicker than 1/25 of the drawing is a floor and weighs nothing. Long walls tell where a look is:
 /// lettering, symbols and furniture are short. The heaviest look that has a fair share of all long
 /// lines, over a fair part of the drawing, is that of walls, with all others of at least 2/5 of its
-/// weight: thinner inner walls. Where there is none, the floors are rooms, and their outlines are
-/// walls.
+/// weight: thinner inner walls. Where these are a mere outline of the whole plan, the heaviest of
+/// the other looks draws what is in it, and is taken too. Where there is none, the floors are rooms,
+/// and their outlines are walls.
 #include "io/parts/drawn_looks.h"
 
 #include "geometry/length.h"
@@ -28,6 +29,8 @@ enum { MOST_LOOKS = 512, LEAST_WALLS = 3, LEAST_SHAPES = 8 };
 /// Shares of the long lines: of the heaviest look, and of those beside it.
 #define FAIR   0.15
 #define BESIDE 0.02
+/// Of the lines that are taken: those that are no outline of the whole.
+#define INNER 0.1
 /// Of the heaviest look's weight, and of its contrast.
 #define ALIKE    0.4
 #define CONTRAST 0.75
@@ -144,20 +147,31 @@ static void find_backdrop(chooser *c) {
     while (c->backdrops < c->count && is_page(c, &c->shapes[c->backdrops])) c->backdrops++;
 }
 
-static void measure_shape(const chooser *c, const sli_look_shape *shape) {
-    sli_look *look = &c->looks->items.items[shape->look];
-    const sl_box box = box_of(c->map, shape);
-    const bool large = extent(box) * LARGE > c->size;
-    double twice = 0;
+/// How long the lines of a shape are. `*twice` gets twice the area that they run around.
+static double measure_around(const chooser *c, const sli_look_shape *shape, double *twice) {
     const sl_point from = c->map->walls[shape->first].a;
+    double around = *twice = 0;
     for (size_t i = shape->first; i < shape->end; i++) {
         const sl_wall *wall = &c->map->walls[i];
         const sl_point a = {wall->a.x - from.x, wall->a.y - from.y};
         const sl_point b = {wall->b.x - from.x, wall->b.y - from.y};
-        const double length = sli_length(b.x - a.x, b.y - a.y);
-        twice += sli_cross(a, b);
-        look->around += length;
-        if (!large || length * LONG < c->size) continue;
+        *twice += sli_cross(a, b);
+        around += sli_length(b.x - a.x, b.y - a.y);
+    }
+    *twice = fabs(*twice);
+    return around;
+}
+
+static void measure_shape(const chooser *c, const sli_look_shape *shape) {
+    sli_look *look = &c->looks->items.items[shape->look];
+    const sl_box box = box_of(c->map, shape);
+    const bool large = extent(box) * LARGE > c->size;
+    double twice;
+    look->around += measure_around(c, shape, &twice);
+    for (size_t i = shape->first; large && i < shape->end; i++) {
+        const sl_wall *wall = &c->map->walls[i];
+        const double length = sli_length(wall->b.x - wall->a.x, wall->b.y - wall->a.y);
+        if (length * LONG < c->size) continue;
         if (look->length == 0) look->box = sli_box_around(wall->a, wall->a);
         look->box = sli_box_with(sli_box_with(look->box, wall->a), wall->b);
         look->length += length;
@@ -168,7 +182,7 @@ static void measure_shape(const chooser *c, const sli_look_shape *shape) {
         look->room_area +=
             width_of(box) * height_of(box) / (width_of(c->bounds) * height_of(c->bounds));
     }
-    look->area += fabs(twice) / 2;
+    look->area += twice / 2;
     look->shapes++;
     look->walls += shape->end - shape->first;
 }
@@ -221,13 +235,15 @@ static void weigh_all(chooser *c) {
 
 // --- the choice
 
-/// The heaviest look that is spread as walls are; NULL for none.
+/// The heaviest look that is spread as walls are, and is not taken yet; NULL for none.
 static const sli_look *heaviest(const chooser *c) {
     const sli_look *best = NULL;
     const double all = fmax(c->lines, c->floors);
     for (size_t i = 0; i < c->looks->items.count; i++) {
         const sli_look *look = &c->looks->items.items[i];
-        if (!(look->weight > 0) || look->walls < LEAST_WALLS || look->length < FAIR * all) continue;
+        if (look->taken || !(look->weight > 0) || look->walls < LEAST_WALLS ||
+            look->length < FAIR * all)
+            continue;
         if (width_of(look->box) < 0.3 * width_of(c->bounds) ||
             height_of(look->box) < 0.3 * height_of(c->bounds))
             continue;
@@ -248,21 +264,52 @@ static bool is_alike(const chooser *c, const sli_look *look, const sli_look *bes
 
 /// Whether a filled shape is a word or a symbol: many short lines, and not round as a column is.
 static bool is_word(const chooser *c, const sli_look_shape *shape) {
-    double twice = 0, around = 0;
-    const sl_point from = c->map->walls[shape->first].a;
     if (shape->end - shape->first <= 8 || c->looks->items.items[shape->look].ink.line ||
         extent(box_of(c->map, shape)) * WORD > c->size)
         return false;
     for (size_t i = shape->first; i < shape->end; i++) {
         const sl_wall *wall = &c->map->walls[i];
-        const sl_point a = {wall->a.x - from.x, wall->a.y - from.y};
-        const sl_point b = {wall->b.x - from.x, wall->b.y - from.y};
-        const double length = sli_length(b.x - a.x, b.y - a.y);
-        if (length * LONG > c->size) return false;
-        twice += sli_cross(a, b);
-        around += length;
+        if (sli_length(wall->b.x - wall->a.x, wall->b.y - wall->a.y) * LONG > c->size) return false;
     }
-    return 7 * fabs(twice) < around * around; // of a circle it is 6.3 to 6.4
+    double twice;
+    const double around = measure_around(c, shape, &twice);
+    return 7 * twice < around * around; // of a circle it is 6.3 to 6.4
+}
+
+/// Whether a shape is one closed line about a floor, not about the body of a wall.
+static bool is_outline(const chooser *c, const sli_look_shape *shape) {
+    const sl_wall *walls = c->map->walls;
+    if (!c->looks->items.items[shape->look].ink.line) return false;
+    for (size_t i = shape->first; i < shape->end; i++) {
+        const sl_point next = walls[i + 1 < shape->end ? i + 1 : shape->first].a;
+        if (walls[i].b.x != next.x || walls[i].b.y != next.y) return false;
+    }
+    double twice;
+    const double around = measure_around(c, shape, &twice);
+    return twice * FLOOR > c->size * around;
+}
+
+/// Whether the looks that are taken have outlines of most of the drawing, and little in them.
+static bool is_outline_alone(const chooser *c) {
+    double outlines = 0, inner = 0;
+    for (size_t i = c->backdrops; i < c->count; i++) {
+        const sli_look_shape *shape = &c->shapes[i];
+        const sl_box box = box_of(c->map, shape);
+        double twice;
+        if (!c->looks->items.items[shape->look].taken || extent(box) * LARGE <= c->size) continue;
+        const bool outline = is_outline(c, shape) && 2 * width_of(box) > width_of(c->bounds) &&
+                             2 * height_of(box) > height_of(c->bounds);
+        *(outline ? &outlines : &inner) += measure_around(c, shape, &twice);
+    }
+    return inner < INNER * outlines;
+}
+
+/// Takes the heaviest look, and all that are like it. Whether there is one.
+static bool take_heaviest(chooser *c) {
+    const sli_look *best = c->count >= LEAST_SHAPES ? heaviest(c) : NULL;
+    for (size_t i = 0; best && i < c->looks->items.count; i++)
+        c->looks->items.items[i].taken |= is_alike(c, &c->looks->items.items[i], best);
+    return best;
 }
 
 /// Takes shapes of the looks that are taken, and counts them.
@@ -307,12 +354,11 @@ double sli_looks_choose(const sl_map *map, const sli_look_shape *shapes, size_t 
         if (i >= c.backdrops) measure_shape(&c, &shapes[i]);
     }
     weigh_all(&c);
-    const sli_look *best = count >= LEAST_SHAPES ? heaviest(&c) : NULL;
-    const bool rooms = count >= LEAST_SHAPES && !best && c.floors > c.lines;
-    for (size_t i = 0; i < looks->items.count; i++) {
-        sli_look *look = &looks->items.items[i];
-        look->taken = best ? is_alike(&c, look, best) : rooms && is_floor(&c, look);
-    }
+    const bool lines = take_heaviest(&c);
+    const bool rooms = count >= LEAST_SHAPES && !lines && c.floors > c.lines;
+    if (lines && is_outline_alone(&c)) take_heaviest(&c);
+    for (size_t i = 0; rooms && i < looks->items.count; i++)
+        looks->items.items[i].taken = is_floor(&c, &looks->items.items[i]);
     const size_t walls = take_shapes(&c, taken);
     *chosen = walls >= LEAST_WALLS && walls < all;
     return share_of(&c);
