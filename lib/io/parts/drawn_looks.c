@@ -5,9 +5,9 @@
 /// thicker than 1/25 of the drawing is a floor and weighs nothing. Long walls tell where a look is:
 /// lettering, symbols and furniture are short. The heaviest look that has a fair share of all long
 /// lines, over a fair part of the drawing, is that of walls, with all others of at least 2/5 of its
-/// weight: thinner inner walls. Where these are a mere outline of the whole plan, the heaviest of
-/// the other looks draws what is in it, and is taken too. Where there is none, the floors are rooms,
-/// and their outlines are walls.
+/// weight: thinner inner walls. Where these are a mere outline of the whole plan, the look most
+/// like walls of the others draws what is in it, and is taken too. Where there is none, the floors
+/// are rooms, and their outlines are walls.
 #include "io/parts/drawn_looks.h"
 
 #include "geometry/length.h"
@@ -235,18 +235,18 @@ static void weigh_all(chooser *c) {
 
 // --- the choice
 
-/// The heaviest look that is spread as walls are, and is not taken yet; NULL for none.
+static bool is_spread(const chooser *c, const sli_look *look) {
+    return look->weight > 0 && width_of(look->box) >= 0.3 * width_of(c->bounds) &&
+           height_of(look->box) >= 0.3 * height_of(c->bounds);
+}
+
+/// The heaviest look that is spread as walls are; NULL for none.
 static const sli_look *heaviest(const chooser *c) {
     const sli_look *best = NULL;
     const double all = fmax(c->lines, c->floors);
     for (size_t i = 0; i < c->looks->items.count; i++) {
         const sli_look *look = &c->looks->items.items[i];
-        if (look->taken || !(look->weight > 0) || look->walls < LEAST_WALLS ||
-            look->length < FAIR * all)
-            continue;
-        if (width_of(look->box) < 0.3 * width_of(c->bounds) ||
-            height_of(look->box) < 0.3 * height_of(c->bounds))
-            continue;
+        if (!is_spread(c, look) || look->walls < LEAST_WALLS || look->length < FAIR * all) continue;
         if (!best || look->weight > best->weight) best = look;
     }
     return best;
@@ -304,12 +304,21 @@ static bool is_outline_alone(const chooser *c) {
     return inner < INNER * outlines;
 }
 
-/// Takes the heaviest look, and all that are like it. Whether there is one.
-static bool take_heaviest(chooser *c) {
-    const sli_look *best = c->count >= LEAST_SHAPES ? heaviest(c) : NULL;
+/// The look most like walls that is not taken yet, and spread as they are; NULL for none.
+static const sli_look *next_like_walls(const chooser *c) {
+    const sli_look *best = NULL;
+    for (size_t i = 0; i < c->looks->items.count; i++) {
+        const sli_look *look = &c->looks->items.items[i];
+        if (look->taken || !is_spread(c, look)) continue;
+        if (!best || sli_look_likeness(look) > sli_look_likeness(best)) best = look;
+    }
+    return best;
+}
+
+/// Takes a look and all that are like it; NULL for none.
+static void take_alike(chooser *c, const sli_look *best) {
     for (size_t i = 0; best && i < c->looks->items.count; i++)
         c->looks->items.items[i].taken |= is_alike(c, &c->looks->items.items[i], best);
-    return best;
 }
 
 /// Takes shapes of the looks that are taken, and counts them.
@@ -354,9 +363,10 @@ double sli_looks_choose(const sl_map *map, const sli_look_shape *shapes, size_t 
         if (i >= c.backdrops) measure_shape(&c, &shapes[i]);
     }
     weigh_all(&c);
-    const bool lines = take_heaviest(&c);
-    const bool rooms = count >= LEAST_SHAPES && !lines && c.floors > c.lines;
-    if (lines && is_outline_alone(&c)) take_heaviest(&c);
+    const sli_look *best = count >= LEAST_SHAPES ? heaviest(&c) : NULL;
+    const bool rooms = count >= LEAST_SHAPES && !best && c.floors > c.lines;
+    take_alike(&c, best);
+    if (best && is_outline_alone(&c)) take_alike(&c, next_like_walls(&c));
     for (size_t i = 0; rooms && i < looks->items.count; i++)
         looks->items.items[i].taken = is_floor(&c, &looks->items.items[i]);
     const size_t walls = take_shapes(&c, taken);
