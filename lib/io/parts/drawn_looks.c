@@ -5,9 +5,10 @@
 /// thicker than 1/25 of the drawing is a floor and weighs nothing. Long walls tell where a look is:
 /// lettering, symbols and furniture are short. The heaviest look that has a fair share of all long
 /// lines, over a fair part of the drawing, is that of walls, with all others of at least 2/5 of its
-/// weight: thinner inner walls. Where these are a mere outline of the whole plan, the look most
-/// like walls of the others draws what is in it, and is taken too. Where there is none, the floors
-/// are rooms, and their outlines are walls.
+/// weight: thinner inner walls. Coloured lines beside black and grey ones are furniture and wires.
+/// Where the walls are a mere outline of the whole plan, the look most like walls of the others
+/// draws what is in it, and is taken too. Where there is none, the floors are rooms, and their
+/// outlines are walls.
 #include "io/parts/drawn_looks.h"
 
 #include "geometry/length.h"
@@ -29,6 +30,11 @@ enum { MOST_LOOKS = 512, LEAST_WALLS = 3, LEAST_SHAPES = 8 };
 /// Shares of the long lines: of the heaviest look, and of those beside it.
 #define FAIR   0.15
 #define BESIDE 0.02
+/// How much alike the widths of lines are that have one look, and of one pen at several scales.
+#define SAME 0.01
+#define PEN  0.1
+/// How far apart the parts of a colour are that is no grey.
+#define COLOURED 0x40
 /// Of the lines that are taken: those that are no outline of the whole.
 #define INNER 0.1
 /// Of the heaviest look's weight, and of its contrast.
@@ -66,19 +72,20 @@ bool sli_look_may_be(sli_word name) {
 
 // --- which there are
 
-/// Lines that are as wide within a hundredth have one look.
-static bool same_ink(const sli_ink *a, const sli_ink *b) {
+/// Whether colours are the same, and widths of lines within a share.
+static bool same_ink(const sli_ink *a, const sli_ink *b, double within) {
     return a->line == b->line && a->known == b->known && a->colour == b->colour &&
-           (!a->line || fabs(a->width - b->width) <= 0.01 * fmax(a->width, b->width));
+           (!a->line || fabs(a->width - b->width) <= within * fmax(a->width, b->width));
 }
 
 sl_status sli_looks_find(sl_context *context, sli_looks *looks, const sli_ink *ink, uint32_t *out) {
-    if (looks->last < looks->items.count && same_ink(&looks->items.items[looks->last].ink, ink)) {
+    if (looks->last < looks->items.count &&
+        same_ink(&looks->items.items[looks->last].ink, ink, SAME)) {
         *out = looks->last;
         return SL_OK;
     }
     for (size_t i = 0; i < looks->items.count; i++) {
-        if (!same_ink(&looks->items.items[i].ink, ink) && i + 1 < MOST_LOOKS) continue;
+        if (!same_ink(&looks->items.items[i].ink, ink, SAME) && i + 1 < MOST_LOOKS) continue;
         *out = looks->last = (uint32_t)i;
         return SL_OK;
     }
@@ -197,6 +204,15 @@ static bool is_floor(const chooser *c, const sli_look *look) {
     return !look->ink.line && thickness(look) * FLOOR > c->size;
 }
 
+/// Whether a look has a colour that is far from grey.
+static bool is_coloured(const sli_look *look) {
+    const int red = look->ink.colour >> 16 & 0xFF, green = look->ink.colour >> 8 & 0xFF;
+    const int blue = look->ink.colour & 0xFF;
+    const int most = red > green ? red : green, least = red < green ? red : green;
+    return look->ink.known &&
+           (most > blue ? most : blue) - (least < blue ? least : blue) > COLOURED;
+}
+
 static double contrast(const chooser *c, const sli_look *look) {
     return fabs(lightness(&look->ink) - c->ground);
 }
@@ -255,7 +271,8 @@ static const sli_look *heaviest(const chooser *c) {
 /// Whether a look is one of walls beside the heaviest. What is filled as darkly may be columns,
 /// which have no long walls.
 static bool is_alike(const chooser *c, const sli_look *look, const sli_look *best) {
-    if (look == best) return true;
+    if (look == best || (best->ink.line && same_ink(&look->ink, &best->ink, PEN))) return true;
+    if (look->ink.line && is_coloured(look) && !is_coloured(best)) return false;
     if (look->weight < ALIKE * best->weight || contrast(c, look) < CONTRAST * contrast(c, best))
         return false;
     const bool column = !look->ink.line && CONTRAST * contrast(c, look) <= contrast(c, best);
