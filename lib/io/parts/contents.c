@@ -19,8 +19,9 @@
 
 // --- groups and their walls
 
-/// So many names are told apart; each is held against some thousand words.
-enum { MOST_GROUPS = 4096, LEAST_WALLS = 3 };
+/// So many names are told apart; each is held against some thousand words. Of walls by their looks
+/// a tenth may be something else by its shape.
+enum { MOST_GROUPS = 4096, LEAST_WALLS = 3, MOST_BESIDE = 10 };
 
 void sli_contents_destroy(sli_contents *contents) {
     for (size_t i = 0; i < contents->groups.count; i++)
@@ -220,11 +221,12 @@ static bool choose_groups(sli_choice *c) {
     return changes && (c->kept >= LEAST_WALLS || sli_contents_said(c->contents));
 }
 
-/// Where neither names nor looks say what is a wall: finds what is no wall by its shape, among what
-/// is taken.
+/// Where no name says what is a wall: finds what is no wall by its shape, among what is taken.
+/// Looks have told walls from the rest, so a legend or a frame may be left beside them; where it
+/// seems to be more, it may be walls.
 static sl_status find_parts(sli_choice *c) {
     sl_context *context = c->contents->context;
-    if (c->walls_named || c->by_looks || sli_contents_said(c->contents)) return SL_OK;
+    if (c->walls_named || sli_contents_said(c->contents)) return SL_OK;
     const size_t count = c->map->wall_count;
     sl_map taken = {0};
     size_t *number = sl_alloc_array(context, count, sizeof *number);
@@ -237,6 +239,8 @@ static sl_status find_parts(sli_choice *c) {
     }
     if (status == SL_OK)
         status = sli_plan_parts_find(context, &taken, sli_choice_metre(c), &c->parts);
+    if (c->by_looks && MOST_BESIDE * sli_plan_parts_count(&c->parts) > taken.wall_count)
+        sli_plan_parts_destroy(context, &c->parts);
     for (size_t i = 0; status == SL_OK && c->parts.gone && i < taken.wall_count; i++)
         if (sl_bits_has(c->parts.gone, i)) sl_bits_add(c->symbols.gone, number[i]);
     c->kept -= sli_plan_parts_count(&c->parts);
