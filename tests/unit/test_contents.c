@@ -300,6 +300,8 @@ static void test_one_layer(void **state) {
     assert_int_equal(read_noted(metres, NULL, notes), 36);
     assert_non_null(strstr(notes, "no walls by their shape: 6 lines that touch no wall (furniture, "
                                   "symbols) (--layers A,B chooses, --layers '*' takes all)"));
+    assert_int_equal(read_noted(metres, "0", notes), 36);
+    assert_non_null(strstr(notes, "no walls by their shape: 6 lines that touch no wall"));
     assert_int_equal(read_noted(metres, "*", notes), 36 + BED);
     assert_null(strstr(notes, "shape"));
 }
@@ -312,6 +314,10 @@ static void test_walls_on_doors(void **state) {
     assert_int_equal(read_noted(text, NULL, notes), 5);
     assert_non_null(strstr(notes, "A-DOOR: 2 lines on layers of doors are longer than doors"));
     assert_non_null(strstr(notes, "name all layers of walls: --layers 'A-WALL,A-DOOR'"));
+    // The layers that are named lead to these walls, without the swing; all layers have it.
+    assert_int_equal(read_noted(text, "A-WALL,A-DOOR", notes), 7);
+    assert_non_null(strstr(notes, "walls from A-WALL, A-DOOR; 1 door is drawn open: gaps"));
+    assert_true(read_noted(text, "*", notes) > 8);
     assert_int_equal(read_noted(HEAD ROOM("A-WALL") SWING("A-DOOR") TAIL, NULL, notes), 5);
     assert_null(strstr(notes, "longer"));
 }

@@ -75,7 +75,7 @@ sl_status sli_contents_group(sli_contents *contents, sli_word name, uint32_t *gr
 }
 
 bool sli_contents_asks(const sli_contents *contents) {
-    return !sli_contents_said(contents) || contents->options->doors;
+    return !contents->options->all_layers || contents->options->doors;
 }
 
 void sli_contents_begin(sli_contents *contents, sli_pen *pen) {
@@ -146,23 +146,41 @@ sl_status sli_contents_list(const sli_contents *contents, sl_drawing_layers *out
 
 // --- the choice
 
-static sl_status find_symbols(sli_choice *c) {
-    const bool said = sli_contents_said(c->contents);
-    c->means = sl_alloc(c->contents->context, c->map->wall_count);
-    if (!c->means) return SL_NO_MEMORY;
-    memset(c->means, SLI_MEANS_OTHER, c->map->wall_count); // walls of layers of our own
+/// Takes the meanings of groups for their walls.
+static void set_means(sli_choice *c) {
     for (size_t i = 0; i < c->contents->runs.count; i++) {
         const sli_group_run *run = &c->contents->runs.items[i];
         memset(c->means + run->first, (int)c->contents->groups.items[run->group].means,
                run->end - run->first);
     }
+}
+
+/// Layers that the options name are walls, whatever their names say; but doors stay doors, where
+/// `doors`.
+static void take_named(sli_choice *c, bool doors) {
+    for (size_t i = 0; c->contents->options->layers && i < c->contents->groups.count; i++) {
+        sli_group *group = &c->contents->groups.items[i];
+        if (group->means != SLI_MEANS_WALL && !(doors && group->means == SLI_MEANS_DOOR))
+            group->means = SLI_MEANS_NOTHING;
+    }
+    set_means(c);
+}
+
+static sl_status find_symbols(sli_choice *c) {
+    const bool all = c->contents->options->all_layers;
+    c->means = sl_alloc(c->contents->context, c->map->wall_count);
+    if (!c->means) return SL_NO_MEMORY;
+    memset(c->means, SLI_MEANS_OTHER, c->map->wall_count); // walls of layers of our own
+    take_named(c, true);
     size_t named = 0;
     for (size_t i = 0; i < c->contents->groups.count; i++)
         if (c->contents->groups.items[i].means == SLI_MEANS_WALL)
             named += c->contents->groups.items[i].walls;
     const sli_meaning walls = named >= LEAST_WALLS ? SLI_MEANS_WALL : SLI_MEANS_NOTHING;
-    return sli_symbols_find(c->contents->context, c->map, c->means, said ? SLI_MEANINGS : walls,
-                            said, c->metre, &c->symbols);
+    SL_TRY(sli_symbols_find(c->contents->context, c->map, c->means, all ? SLI_MEANINGS : walls, all,
+                            c->metre, &c->symbols));
+    take_named(c, c->contents->options->doors);
+    return SL_OK;
 }
 
 static bool is_taken(const sli_choice *c, sli_meaning means) {
@@ -226,7 +244,7 @@ static bool choose_groups(sli_choice *c) {
 /// seems to be more, it may be walls.
 static sl_status find_parts(sli_choice *c) {
     sl_context *context = c->contents->context;
-    if (c->walls_named || sli_contents_said(c->contents)) return SL_OK;
+    if (c->walls_named || c->contents->options->all_layers) return SL_OK;
     const size_t count = c->map->wall_count;
     sl_map taken = {0};
     size_t *number = sl_alloc_array(context, count, sizeof *number);

@@ -109,6 +109,8 @@ static void note_choice(const sli_choice *c) {
     else
         list_groups(c, true, c->walls_named ? SLI_MEANS_WALL : SLI_MEANS_NOTHING, &walls);
     if (!c->walls_named) list_groups(c, true, SLI_MEANS_WALL, &walls);
+    if (c->walls_named && sli_contents_said(c->contents))
+        list_groups(c, true, SLI_MEANS_NOTHING, &walls);
     list_groups(c, true, SLI_MEANS_WINDOW, &windows);
     list_groups(c, false, SLI_MEANS_DOOR, &doors);
     if (c->by_looks) list_looks(c, false, &over);
