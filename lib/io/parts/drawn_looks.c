@@ -5,7 +5,8 @@
 /// thicker than 1/25 of the drawing is a floor and weighs nothing. Long walls tell where a look is:
 /// lettering, symbols and furniture are short. The heaviest look that has a fair share of all long
 /// lines, over a fair part of the drawing, is that of walls, with all others of at least 2/5 of its
-/// weight: thinner inner walls. Coloured lines beside black and grey ones are furniture and wires.
+/// weight: thinner inner walls. Coloured lines beside black and grey ones are furniture and wires;
+/// light colours fill rooms, and count where nothing else does.
 /// Where the walls are a mere outline of the whole plan, the look most like walls of the others
 /// draws what is in it, and is taken too. Where there is none, the floors are rooms, and their
 /// outlines are walls.
@@ -35,6 +36,8 @@ enum { MOST_LOOKS = 512, LEAST_WALLS = 3, LEAST_SHAPES = 8 };
 #define PEN  0.1
 /// How far apart the parts of a colour are that is no grey.
 #define COLOURED 0x40
+/// The contrast of a colour that fills rooms.
+#define TINT 0.7
 /// Of the lines that are taken: those that are no outline of the whole.
 #define INNER 0.1
 /// Of the heaviest look's weight, and of its contrast.
@@ -256,23 +259,33 @@ static bool is_spread(const chooser *c, const sli_look *look) {
            height_of(look->box) >= 0.3 * height_of(c->bounds);
 }
 
-/// The heaviest look that is spread as walls are; NULL for none.
-static const sli_look *heaviest(const chooser *c) {
+/// Whether a look fills areas in a light colour, as rooms of one kind are.
+static bool is_tint(const chooser *c, const sli_look *look) {
+    return !look->ink.line && is_coloured(look) && contrast(c, look) < TINT;
+}
+
+/// The heaviest look that is spread as walls are, of `tints` or of all else; NULL for none.
+static const sli_look *heaviest(const chooser *c, bool tints) {
     const sli_look *best = NULL;
     const double all = fmax(c->lines, c->floors);
     for (size_t i = 0; i < c->looks->items.count; i++) {
         const sli_look *look = &c->looks->items.items[i];
         if (!is_spread(c, look) || look->walls < LEAST_WALLS || look->length < FAIR * all) continue;
-        if (!best || look->weight > best->weight) best = look;
+        if (is_tint(c, look) == tints && (!best || look->weight > best->weight)) best = look;
     }
     return best;
+}
+
+/// Whether a look is of coloured lines, and the heaviest is grey.
+static bool is_beside_grey(const sli_look *look, const sli_look *best) {
+    return look->ink.line && is_coloured(look) && !is_coloured(best);
 }
 
 /// Whether a look is one of walls beside the heaviest. What is filled as darkly may be columns,
 /// which have no long walls.
 static bool is_alike(const chooser *c, const sli_look *look, const sli_look *best) {
     if (look == best || (best->ink.line && same_ink(&look->ink, &best->ink, PEN))) return true;
-    if (look->ink.line && is_coloured(look) && !is_coloured(best)) return false;
+    if (is_beside_grey(look, best) || (is_tint(c, look) && !is_tint(c, best))) return false;
     if (look->weight < ALIKE * best->weight || contrast(c, look) < CONTRAST * contrast(c, best))
         return false;
     const bool column = !look->ink.line && CONTRAST * contrast(c, look) <= contrast(c, best);
@@ -352,11 +365,12 @@ static size_t take_shapes(chooser *c, sl_bits *taken) {
 }
 
 /// The share of the looks that are taken in all long lines. Floors that are not taken have the
-/// lines between them twice.
-static double share_of(const chooser *c) {
+/// lines between them twice. Coloured lines beside grey ones are no doubt, and have no length then.
+static double share_of(const chooser *c, const sli_look *best) {
     double taken = 0, rest = 0;
     for (size_t i = 0; i < c->looks->items.count; i++) {
-        const sli_look *look = &c->looks->items.items[i];
+        sli_look *look = &c->looks->items.items[i];
+        if (best && !look->taken && is_beside_grey(look, best)) look->length = look->weight = 0;
         if (look->taken)
             taken += look->length;
         else
@@ -380,7 +394,8 @@ double sli_looks_choose(const sl_map *map, const sli_look_shape *shapes, size_t 
         if (i >= c.backdrops) measure_shape(&c, &shapes[i]);
     }
     weigh_all(&c);
-    const sli_look *best = count >= LEAST_SHAPES ? heaviest(&c) : NULL;
+    const sli_look *best = count >= LEAST_SHAPES ? heaviest(&c, false) : NULL;
+    if (count >= LEAST_SHAPES && !best) best = heaviest(&c, true);
     const bool rooms = count >= LEAST_SHAPES && !best && c.floors > c.lines;
     take_alike(&c, best);
     if (best && is_outline_alone(&c)) take_alike(&c, next_like_walls(&c));
@@ -388,5 +403,5 @@ double sli_looks_choose(const sl_map *map, const sli_look_shape *shapes, size_t 
         looks->items.items[i].taken = is_floor(&c, &looks->items.items[i]);
     const size_t walls = take_shapes(&c, taken);
     *chosen = walls >= LEAST_WALLS && walls < all;
-    return share_of(&c);
+    return share_of(&c, best);
 }
