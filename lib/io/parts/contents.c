@@ -21,7 +21,7 @@
 
 /// So many names are told apart; each is held against some thousand words. Of walls by their looks
 /// a tenth may be something else by its shape.
-enum { MOST_GROUPS = 4096, LEAST_WALLS = 3, MOST_BESIDE = 10 };
+enum { MOST_GROUPS = 4096, LEAST_WALLS = 3, LEAST_DOORS = 3, MOST_BESIDE = 10 };
 
 void sli_contents_destroy(sli_contents *contents) {
     for (size_t i = 0; i < contents->groups.count; i++)
@@ -166,19 +166,52 @@ static void take_named(sli_choice *c, bool doors) {
     set_means(c);
 }
 
-static sl_status find_symbols(sli_choice *c) {
+static sl_status find_symbols_of(sli_choice *c, sli_meaning walls) {
     const bool all = c->contents->options->all_layers;
+    sli_symbols_destroy(c->contents->context, &c->symbols);
+    c->symbols = (sli_symbols){0};
+    return sli_symbols_find(c->contents->context, c->map, c->means, all ? SLI_MEANINGS : walls, all,
+                            c->metre, &c->symbols);
+}
+
+/// Where no layer is named as walls, and doors are drawn open on layers that are named as something
+/// else alone ("details"), these say nothing: they have the plan.
+static sl_status take_layers_of_doors(sli_choice *c) {
+    const sli_group_run *runs = c->contents->runs.items;
+    sli_group *groups = c->contents->groups.items;
+    const size_t count = c->contents->groups.count, walls = c->map->wall_count;
+    size_t most = 0, *swings = sl_alloc_array(c->contents->context, count, sizeof *swings);
+    if (!swings) return SL_NO_MEMORY;
+    for (size_t i = 0; i < walls; i++)
+        if (c->means[i] == SLI_MEANS_OTHER) c->means[i] = SLI_MEANS_NOTHING;
+    sl_status status = find_symbols_of(c, SLI_MEANS_NOTHING);
+    for (size_t i = 0; status == SL_OK && i < c->contents->runs.count; i++)
+        for (size_t k = runs[i].first; k < runs[i].end; k++)
+            swings[runs[i].group] += sli_choice_gone(c, k);
+    for (size_t i = 0; i < count; i++) most = swings[i] > most ? swings[i] : most;
+    for (size_t i = 0; c->symbols.doors >= LEAST_DOORS && i < count; i++)
+        if (groups[i].means == SLI_MEANS_OTHER && 2 * swings[i] >= most)
+            groups[i].means = SLI_MEANS_NOTHING;
+    sl_free(c->contents->context, swings);
+    memset(c->means, SLI_MEANS_OTHER, walls);
+    set_means(c);
+    return status == SL_OK ? find_symbols_of(c, SLI_MEANS_NOTHING) : status;
+}
+
+static sl_status find_symbols(sli_choice *c) {
     c->means = sl_alloc(c->contents->context, c->map->wall_count);
     if (!c->means) return SL_NO_MEMORY;
     memset(c->means, SLI_MEANS_OTHER, c->map->wall_count); // walls of layers of our own
     take_named(c, true);
-    size_t named = 0;
-    for (size_t i = 0; i < c->contents->groups.count; i++)
-        if (c->contents->groups.items[i].means == SLI_MEANS_WALL)
-            named += c->contents->groups.items[i].walls;
-    const sli_meaning walls = named >= LEAST_WALLS ? SLI_MEANS_WALL : SLI_MEANS_NOTHING;
-    SL_TRY(sli_symbols_find(c->contents->context, c->map, c->means, all ? SLI_MEANINGS : walls, all,
-                            c->metre, &c->symbols));
+    size_t named = 0, others = 0;
+    for (size_t i = 0; i < c->contents->groups.count; i++) {
+        const sli_group *group = &c->contents->groups.items[i];
+        named += group->means == SLI_MEANS_WALL ? group->walls : 0;
+        others += group->means == SLI_MEANS_OTHER ? group->walls : 0;
+    }
+    SL_TRY(find_symbols_of(c, named >= LEAST_WALLS ? SLI_MEANS_WALL : SLI_MEANS_NOTHING));
+    if (named < LEAST_WALLS && others && !c->symbols.doors && !sli_contents_said(c->contents))
+        SL_TRY(take_layers_of_doors(c));
     take_named(c, c->contents->options->doors);
     return SL_OK;
 }

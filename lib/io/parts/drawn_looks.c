@@ -6,10 +6,9 @@
 /// lettering, symbols and furniture are short. The heaviest look that has a fair share of all long
 /// lines, over a fair part of the drawing, is that of walls, with all others of at least 2/5 of its
 /// weight: thinner inner walls. Coloured lines beside black and grey ones are furniture and wires;
-/// light colours fill rooms, and count where nothing else does.
-/// Where the walls are a mere outline of the whole plan, the look most like walls of the others
-/// draws what is in it, and is taken too. Where there is none, the floors are rooms, and their
-/// outlines are walls.
+/// light colours fill rooms, and count where nothing else does. Where the walls are a mere outline
+/// of the whole plan, the look most like walls of the others draws what is in it, and is taken too.
+/// Where there are none, the floors are rooms, and their outlines are walls.
 #include "io/parts/drawn_looks.h"
 
 #include "geometry/length.h"
