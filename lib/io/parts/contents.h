@@ -79,8 +79,8 @@ static inline sli_meaning sli_contents_means(const sli_contents *contents, uint3
     return group < contents->groups.count ? contents->groups.items[group].means : SLI_MEANS_NOTHING;
 }
 
-/// Whether the options say which layers are taken; all of them are walls then, but symbols and, with
-/// the option doors, doors.
+/// Whether the options say which layers are taken; all of them are walls then, but symbols and,
+/// with the option doors, doors.
 static inline bool sli_contents_said(const sli_contents *contents) {
     return contents->options->layers || contents->options->all_layers;
 }
