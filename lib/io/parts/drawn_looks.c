@@ -37,6 +37,11 @@ enum { MOST_LOOKS = 512, LEAST_WALLS = 3, LEAST_SHAPES = 8 };
 #define COLOURED 0x40
 /// The contrast of a colour that fills rooms.
 #define TINT 0.7
+/// How far apart letters are, and how much larger than the next one, in its size; so many bars may
+/// stand before the next letter that is more.
+#define NEXT_LETTER    0.7
+#define LARGEST_LETTER 1.6
+enum { LETTERS = 6 };
 /// Of the lines that are taken: those that are no outline of the whole.
 #define INNER 0.1
 /// Of the heaviest look's weight, and of its contrast.
@@ -350,13 +355,38 @@ static void take_alike(chooser *c, const sli_look *best) {
         c->looks->items.items[i].taken |= is_alike(c, &c->looks->items.items[i], best);
 }
 
-/// Takes shapes of the looks that are taken, and counts them.
+/// Whether one shape stands beside another that is filled alike, and is not much larger.
+static bool stands_by(const chooser *c, const sli_look_shape *shape, const sli_look_shape *other) {
+    const sl_box a = box_of(c->map, shape), b = box_of(c->map, other);
+    const double gap = fmax(fmax(a.min.x - b.max.x, b.min.x - a.max.x),
+                            fmax(a.min.y - b.max.y, b.min.y - a.max.y));
+    return shape->look == other->look && gap <= NEXT_LETTER * extent(b) &&
+           extent(a) <= LARGEST_LETTER * extent(b);
+}
+
+/// Whether a small filled shape is lettering: letters follow each other in the file,
+/// side by side, and one of them is more than a bar. `behind`: the shape before it is lettering.
+static bool is_letter(const chooser *c, size_t at, bool behind) {
+    const sli_look_shape *shapes = c->shapes;
+    for (size_t i = at; i < at + LETTERS && i < c->count; i++) {
+        if (is_word(c, &shapes[i])) return true;
+        if (c->looks->items.items[shapes[i].look].ink.line) return false;
+        if (extent(box_of(c->map, &shapes[i])) * LARGE > c->size) return false;
+        if (i == at && behind && stands_by(c, &shapes[i], &shapes[i - 1])) return true;
+        if (i + 1 == c->count || !stands_by(c, &shapes[i], &shapes[i + 1])) return false;
+    }
+    return false;
+}
+
+/// Takes shapes of the looks that are taken, but for lettering, and counts them.
 static size_t take_shapes(chooser *c, sl_bits *taken) {
     size_t walls = 0;
-    for (size_t i = 0; i < c->count; i++) {
+    bool lettering = false;
+    for (size_t i = c->backdrops; i < c->count; i++) {
         const sli_look_shape *shape = &c->shapes[i];
-        if (i < c->backdrops || !c->looks->items.items[shape->look].taken || is_word(c, shape))
-            continue;
+        if (!c->looks->items.items[shape->look].taken) continue;
+        lettering = is_letter(c, i, lettering && i > c->backdrops);
+        if (lettering) continue;
         sl_bits_add(taken, i);
         walls += shape->end - shape->first;
     }
