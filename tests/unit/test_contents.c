@@ -318,6 +318,14 @@ static void test_walls_on_doors(void **state) {
     assert_int_equal(read_noted(text, "A-WALL,A-DOOR", notes), 7);
     assert_non_null(strstr(notes, "walls from A-WALL, A-DOOR; 1 door is drawn open: gaps"));
     assert_true(read_noted(text, "*", notes) > 8);
+    // The arc may be drawn as lines one by one; lines that turn back are none.
+#define CHORDS(y)                                                                                  \
+    LINE("A-DOOR", 3, 0, 2.86603, 0.5)                                                             \
+    LINE("A-DOOR", 2.86603, 0.5, 2.5, 0.86603) LINE("A-DOOR", 2.5, 0.86603, 2, y)
+    const char *const drawn = HEAD ROOM("A-WALL") LINE("A-DOOR", 2, 0, 2, 1) CHORDS(1) TAIL;
+    assert_int_equal(read_noted(drawn, "A-WALL,A-DOOR", notes), 5);
+    const char *const bent = HEAD ROOM("A-WALL") LINE("A-DOOR", 2, 0, 2, 1) CHORDS(3) TAIL;
+    assert_int_equal(read_noted(bent, "A-WALL,A-DOOR", notes), 9);
     assert_int_equal(read_noted(HEAD ROOM("A-WALL") SWING("A-DOOR") TAIL, NULL, notes), 5);
     assert_null(strstr(notes, "longer"));
 }
