@@ -207,6 +207,7 @@ static sl_status take_plan(sl_context *context, const char *path, const char *wa
             wanted);
     if (!sheet.count || (cropped && !wanted)) return SL_OK;
     if (!wanted) {
+        map->source.plans = (uint32_t)sheet.count;
         sl_note(context,
                 "%s holds %zu plans apart from each other (%s): --map 'plan 1' reads one, --crop "
                 "X0,Y0,X1,Y1 a part",

@@ -11,6 +11,10 @@
 ///                            outlines, or are many. Nor is a map of the earth, one with starts
 ///                            or with solid ground.
 ///
+/// Storeys of a house are drawn nearer to each other, but alike: of one size, with half of the
+/// walls at the same places. For them a gap of 3/100 is enough if they have nearly all lines of the
+/// sheet.
+///
 /// These are rules of thumb: they decide what is offered, and never what is seen. All is measured
 /// in the directions of most walls, so turned sheets are sheets too. Time O(n log n) for each
 /// of few passes.
@@ -31,7 +35,12 @@
 /// border of the sheet its frame is, and how long, as shares of the sheet; how much of a plan the
 /// boxes of its pieces cover.
 static const double GAP = 0.1, SIZE = 0.5, ROW = 0.05, FRAME = 0.02, LONG = 0.9, COVER = 0.75;
-enum { LEAST_FACES = 3, MOST_PARTS = 256, PASSES = 8 };
+/// Of storeys: the least gap; how well widths and places agree, as a share of a storey; their least
+/// size, as that of plans; how much of the length of walls is at the same places; how many of all
+/// lines they have.
+static const double STOREY_GAP = 0.03, STOREY_SIZE = 0.04, LEAST_STOREY = 0.75, SAME = 0.4,
+                    HELD = 0.9;
+enum { LEAST_FACES = 3, MOST_PARTS = 256, PASSES = 8, MOST_PAIRS = 1 << 24 };
 
 typedef struct item {
     sl_segment at; ///< in the map
@@ -46,6 +55,7 @@ typedef struct part {
 typedef struct sheet {
     sl_context *context;
     sl_point along;
+    double gap; ///< GAP, or STOREY_GAP for storeys
     SL_ARRAY(item) items;
     part parts[MOST_PARTS];
     size_t count;
@@ -188,9 +198,10 @@ static void divide(sheet *s, size_t first, size_t count, double gap, int axis, i
     }
 }
 
-/// Parts at gaps of a tenth of the largest part. Wider gaps make larger parts, so a few passes end.
+/// Parts at gaps that are a share of the largest part. Wider gaps make larger parts, so a few
+/// passes end.
 static double find_parts(sheet *s) {
-    double gap = longer_side(bounds_of(s->items.items, s->items.count)) / 40, largest = 0;
+    double gap = s->gap / 4 * longer_side(bounds_of(s->items.items, s->items.count)), largest = 0;
     for (int pass = 0; pass < PASSES && gap > 0; pass++) {
         s->count = 0;
         s->too_many = false;
@@ -198,8 +209,8 @@ static double find_parts(sheet *s) {
         largest = 0;
         for (size_t i = 0; i < s->count; i++)
             largest = sli_greater(largest, longer_side(s->parts[i].box));
-        if (gap >= GAP * largest) break;
-        gap = GAP * largest;
+        if (gap >= s->gap * largest) break;
+        gap = s->gap * largest;
     }
     return largest;
 }
@@ -255,6 +266,52 @@ static sl_status has_rooms(const sheet *s, const part *p, double weld, bool *out
     return status == SL_UNSUPPORTED ? SL_OK : status;
 }
 
+// --- storeys
+
+/// Whether a line lies along another one, moved, and has its middle beside it.
+static bool lies_on(const item *line, sl_point move, const item *other, double within) {
+    const sl_box a = line->box, b = other->box;
+    const sl_point middle = {(a.min.x + a.max.x) / 2 + move.x, (a.min.y + a.max.y) / 2 + move.y};
+    const sl_point u = {line->at.b.x - line->at.a.x, line->at.b.y - line->at.a.y};
+    const sl_point v = {other->at.b.x - other->at.a.x, other->at.b.y - other->at.a.y};
+    return middle.x >= b.min.x - within && middle.x <= b.max.x + within &&
+           middle.y >= b.min.y - within && middle.y <= b.max.y + within &&
+           fabs(sli_cross(u, v)) <= 0.1 * sli_length(u.x, u.y) * sli_length(v.x, v.y);
+}
+
+/// How much of a part's walls, by length, are at the places of another one's when it is moved.
+static double share_at(const sheet *s, const part *p, const part *other, sl_point move) {
+    const double within = STOREY_SIZE / 4 * longer_side(other->box);
+    double all = 0, same = 0;
+    for (size_t i = p->first; i < p->first + p->count; i++) {
+        const sl_segment at = s->items.items[i].at;
+        const double length = sli_length(at.b.x - at.a.x, at.b.y - at.a.y);
+        bool found = false;
+        for (size_t k = other->first; k < other->first + other->count && !found; k++)
+            found = lies_on(&s->items.items[i], move, &s->items.items[k], within);
+        all += length;
+        same += found ? length : 0;
+    }
+    return same / all;
+}
+
+/// Whether a part is a storey beside another one: as wide or as high, with much of its walls at the
+/// same places once their edges or their middles are.
+static bool is_storey(const sheet *s, const part *p, const part *other) {
+    const sl_box a = p->box, b = other->box;
+    const sl_point low = {b.min.x - a.min.x, b.min.y - a.min.y};
+    const sl_point high = {b.max.x - a.max.x, b.max.y - a.max.y};
+    const double within = STOREY_SIZE * longer_side(b);
+    if (p->count > MOST_PAIRS / other->count) return false;
+    if (fabs(high.x - low.x) > within && fabs(high.y - low.y) > within) return false;
+    for (int i = 0; i < 9; i++) {
+        const double x = i % 3 / 2.0, y = i / 3 / 2.0;
+        const sl_point move = {low.x + x * (high.x - low.x), low.y + y * (high.y - low.y)};
+        if (share_at(s, p, other, move) >= SAME) return true;
+    }
+    return false;
+}
+
 // --- plans
 
 /// Whether two boxes agree in an edge or in their middle, across an axis.
@@ -308,6 +365,9 @@ static sl_status add_plan(const sheet *s, const part *p, sli_sheet *out) {
 }
 
 static sl_status choose(const sheet *s, double largest, double weld, sli_sheet *out) {
+    const bool storeys = s->gap < GAP;
+    const double least = storeys ? LEAST_STOREY : SIZE, share = storeys ? HELD : 0.5;
+    const part *first = NULL;
     double width = 0, height = 0;
     size_t held = 0;
     for (size_t i = 0; i < s->count; i++) {
@@ -317,16 +377,18 @@ static sl_status choose(const sheet *s, double largest, double weld, sli_sheet *
     for (size_t i = 0; i < s->count && s->count > 1 && !s->too_many; i++) {
         const part *p = &s->parts[i];
         bool rooms;
-        if (p->box.max.x - p->box.min.x < SIZE * width ||
-            p->box.max.y - p->box.min.y < SIZE * height)
+        if (p->box.max.x - p->box.min.x < least * width ||
+            p->box.max.y - p->box.min.y < least * height)
             continue;
         SL_TRY(has_rooms(s, p, weld, &rooms));
-        if (!rooms) continue;
+        if (!rooms || (storeys && first && !is_storey(s, p, first))) continue;
+        if (!first) first = p;
         held += p->count;
         SL_TRY(add_plan(s, p, out));
     }
     const bool good = out->count >= 2 && out->count <= SLI_PLANS_MOST &&
-                      2 * held >= s->items.count && stand_in_rows(out, ROW * largest);
+                      (double)held >= share * (double)s->items.count &&
+                      stand_in_rows(out, ROW * largest);
     if (good)
         sort_plans(out);
     else
@@ -334,20 +396,29 @@ static sl_status choose(const sheet *s, double largest, double weld, sli_sheet *
     return SL_OK;
 }
 
+/// Finds plans with gaps of at least the sheet's, in the sheet or in a frame that it has.
+static sl_status find_plans(sheet *s, const sl_map *map, sli_sheet *out) {
+    const sl_box bounds = sl_map_bounds(map);
+    const double weld = sli_greater(map->precision, sli_planar_tolerance(&bounds));
+    s->items.count = 0;
+    SL_TRY(gather(s, map));
+    for (int frames = 0; frames < 3 && s->items.count; frames++) {
+        const double largest = find_parts(s);
+        SL_TRY(choose(s, largest, weld, out));
+        if (out->count || s->count > 1 || !drop_frame(s)) break;
+    }
+    return SL_OK;
+}
+
 sl_status sli_sheet_find(sl_context *context, const sl_map *map, sli_sheet *out) {
-    sheet s = {.context = context, .along = direction_of(map)};
+    sheet s = {.context = context, .along = direction_of(map), .gap = GAP};
     bool ground = false;
     *out = (sli_sheet){.along = s.along};
     for (size_t i = 0; i < map->wall_count && !ground; i++) ground = map->walls[i].ground != 0;
     if (map->earth.known || map->start_count || ground) return SL_OK;
-    sl_status status = gather(&s, map);
-    const sl_box bounds = sl_map_bounds(map);
-    const double weld = sli_greater(map->precision, sli_planar_tolerance(&bounds));
-    for (int frames = 0; frames < 3 && status == SL_OK && s.items.count; frames++) {
-        const double largest = find_parts(&s);
-        status = choose(&s, largest, weld, out);
-        if (out->count || s.count > 1 || !drop_frame(&s)) break;
-    }
+    sl_status status = find_plans(&s, map, out);
+    s.gap = STOREY_GAP;
+    if (status == SL_OK && !out->count) status = find_plans(&s, map, out);
     sl_free(context, s.items.items);
     return status;
 }

@@ -187,7 +187,8 @@ sl_status sli_source_copy(sl_context *context, const sl_map_source *from, sl_map
                           .transform = from->transform,
                           .page = from->page,
                           .pixels = from->pixels,
-                          .drawing_unit = from->drawing_unit};
+                          .drawing_unit = from->drawing_unit,
+                          .plans = from->plans};
     SL_TRY(copy_text(context, from->name, &to->name));
     SL_TRY(copy_text(context, from->notes, &to->notes));
     SL_TRY(copy_labels(context, from, to));

@@ -300,6 +300,8 @@ static void test_one_layer(void **state) {
     assert_int_equal(read_noted(metres, NULL, notes), 36);
     assert_non_null(strstr(notes, "no walls by their shape: 6 lines that touch no wall (furniture, "
                                   "symbols) (--layers A,B chooses, --layers '*' takes all)"));
+    assert_int_equal(read_noted(metres, "0", notes), 36);
+    assert_non_null(strstr(notes, "no walls by their shape: 6 lines that touch no wall"));
     assert_int_equal(read_noted(metres, "*", notes), 36 + BED);
     assert_null(strstr(notes, "shape"));
 }
@@ -312,8 +314,42 @@ static void test_walls_on_doors(void **state) {
     assert_int_equal(read_noted(text, NULL, notes), 5);
     assert_non_null(strstr(notes, "A-DOOR: 2 lines on layers of doors are longer than doors"));
     assert_non_null(strstr(notes, "name all layers of walls: --layers 'A-WALL,A-DOOR'"));
+    // The layers that are named lead to these walls, without the swing; all layers have it.
+    assert_int_equal(read_noted(text, "A-WALL,A-DOOR", notes), 7);
+    assert_non_null(strstr(notes, "walls from A-WALL, A-DOOR; 1 door is drawn open: gaps"));
+    assert_true(read_noted(text, "*", notes) > 8);
+    // The arc may be drawn as lines one by one; lines that turn back are none.
+#define CHORDS(y)                                                                                  \
+    LINE("A-DOOR", 3, 0, 2.86603, 0.5)                                                             \
+    LINE("A-DOOR", 2.86603, 0.5, 2.5, 0.86603) LINE("A-DOOR", 2.5, 0.86603, 2, y)
+    const char *const drawn = HEAD ROOM("A-WALL") LINE("A-DOOR", 2, 0, 2, 1) CHORDS(1) TAIL;
+    assert_int_equal(read_noted(drawn, "A-WALL,A-DOOR", notes), 5);
+    const char *const bent = HEAD ROOM("A-WALL") LINE("A-DOOR", 2, 0, 2, 1) CHORDS(3) TAIL;
+    assert_int_equal(read_noted(bent, "A-WALL,A-DOOR", notes), 9);
     assert_int_equal(read_noted(HEAD ROOM("A-WALL") SWING("A-DOOR") TAIL, NULL, notes), 5);
     assert_null(strstr(notes, "longer"));
+}
+
+/// Doors that are drawn open show where the plan is, whatever the layer's name says; two are too
+/// few, and so are those of a drawing whose other layers have doors, or are named as walls.
+static void test_layers_of_doors(void **state) {
+    (void)state;
+#define BESIDE       LINE("house", 20, 0, 20, 8) LINE("house", 20, 8, 30, 8) LINE("house", 30, 8, 30, 0)
+#define BESIDE_WALLS "wall 20 0 20 8\nwall 20 8 30 8\nwall 30 8 30 0\n"
+#define DOOR_AT(x)   LINE("DETAILS", x, 0, x, 1) ARC("DETAILS", x, 0, 1, 0, 90)
+    const char *const room = HEAD ROOM("DETAILS") BESIDE DOOR_AT(2) DOOR_AT(5) DOOR_AT(7) TAIL;
+    assert_map(sli_map_read_dxf, room, NULL, false,
+               "wall 2 0 0 0\nwall 0 0 0 8\nwall 0 8 10 8\nwall 10 8 10 0\nwall 10 0 8 0\n"
+               "wall 7 0 6 0\nwall 5 0 3 0\n" BESIDE_WALLS);
+    assert_map(sli_map_read_dxf, HEAD ROOM("DETAILS") BESIDE DOOR_AT(2) DOOR_AT(5) TAIL, NULL,
+               false, BESIDE_WALLS);
+    assert_map(sli_map_read_dxf,
+               HEAD ROOM("DETAILS") BESIDE DOOR_AT(2) DOOR_AT(5) DOOR_AT(7) SWING("house") TAIL,
+               NULL, false, BESIDE_WALLS);
+    assert_map(sli_map_read_dxf,
+               HEAD ROOM("DETAILS") DOOR_AT(2) DOOR_AT(5) DOOR_AT(7) LINE("WALL", 20, 0, 20, 8)
+                   LINE("WALL", 20, 8, 30, 8) LINE("WALL", 30, 8, 30, 0) TAIL,
+               NULL, false, BESIDE_WALLS);
 }
 
 /// A page, walls by thick black lines, furniture and a letter; no name says anything.
@@ -386,13 +422,14 @@ static void test_memory(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_languages), cmocka_unit_test(test_no_choice),
-        cmocka_unit_test(test_blocks),    cmocka_unit_test(test_swings),
-        cmocka_unit_test(test_hatching),  cmocka_unit_test(test_turned_swings),
-        cmocka_unit_test(test_asked_for), cmocka_unit_test(test_svg),
-        cmocka_unit_test(test_memory),    cmocka_unit_test(test_svg_asked_for),
-        cmocka_unit_test(test_one_layer), cmocka_unit_test(test_walls_on_doors),
-        cmocka_unit_test(test_looks),     cmocka_unit_test(test_rooms),
+        cmocka_unit_test(test_languages),       cmocka_unit_test(test_no_choice),
+        cmocka_unit_test(test_blocks),          cmocka_unit_test(test_swings),
+        cmocka_unit_test(test_hatching),        cmocka_unit_test(test_turned_swings),
+        cmocka_unit_test(test_asked_for),       cmocka_unit_test(test_svg),
+        cmocka_unit_test(test_memory),          cmocka_unit_test(test_svg_asked_for),
+        cmocka_unit_test(test_one_layer),       cmocka_unit_test(test_walls_on_doors),
+        cmocka_unit_test(test_layers_of_doors), cmocka_unit_test(test_looks),
+        cmocka_unit_test(test_rooms),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -21,7 +21,9 @@ static void test_standards(void **state) {
     (void)state;
     MEANS(SLI_MEANS_WALL, "A-WALL", "A-WALL-FULL", "S-COLS", "a_wall", "A-21----E-N----",
           "B-22-12--E-", "xref-furniture|A-WALL", "plan$0$A-WALL", "COLUMN");
-    MEANS(SLI_MEANS_DOOR, "A-DOOR", "A-DOOR-FULL", "A-32----E-");
+    MEANS(SLI_MEANS_DOOR, "A-DOOR", "A-DOOR-FULL", "A-32----E-", "OPENINGS",
+          "Wandöffnung öffnungen", "ouvertures", "vanos", "проемы");
+    MEANS(SLI_MEANS_GRID, "0-0_グリッド");
     MEANS(SLI_MEANS_WINDOW, "A-GLAZ", "A-GLAZ-CURT", "WINDOW", "A-31----E-");
     MEANS(SLI_MEANS_FURNITURE, "I-FURN", "A-EQPM", "P-FIXT", "E-LITE", "furniture|0", "Bed",
           "Room furniture");

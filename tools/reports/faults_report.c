@@ -430,6 +430,9 @@ static void print_next(const faults_report *report) {
         report->helps > 0 || closable(faults, SL_FAULT_GAP) || closable(faults, SL_FAULT_LEAK);
     if (report->mended) {
         print_next_of_mended(report);
+    } else if (report->found->map.source.plans) {
+        print_command(report, NEXT_CHECK, 0);
+        printf(" --map 'plan 1'");
     } else if (needs_entrance(report, report->found) ||
                (!closes && report->found->inside == SL_INSIDE_OPENING)) {
         print_next_entrance(report, NEXT_CHECK, report->found);

@@ -19,8 +19,9 @@
 
 // --- groups and their walls
 
-/// So many names are told apart; each is held against some thousand words.
-enum { MOST_GROUPS = 4096, LEAST_WALLS = 3 };
+/// So many names are told apart; each is held against some thousand words. Of walls by their looks
+/// a tenth may be something else by its shape.
+enum { MOST_GROUPS = 4096, LEAST_WALLS = 3, LEAST_DOORS = 3, MOST_BESIDE = 10 };
 
 void sli_contents_destroy(sli_contents *contents) {
     for (size_t i = 0; i < contents->groups.count; i++)
@@ -74,7 +75,7 @@ sl_status sli_contents_group(sli_contents *contents, sli_word name, uint32_t *gr
 }
 
 bool sli_contents_asks(const sli_contents *contents) {
-    return !sli_contents_said(contents) || contents->options->doors;
+    return !contents->options->all_layers || contents->options->doors;
 }
 
 void sli_contents_begin(sli_contents *contents, sli_pen *pen) {
@@ -145,23 +146,74 @@ sl_status sli_contents_list(const sli_contents *contents, sl_drawing_layers *out
 
 // --- the choice
 
-static sl_status find_symbols(sli_choice *c) {
-    const bool said = sli_contents_said(c->contents);
-    c->means = sl_alloc(c->contents->context, c->map->wall_count);
-    if (!c->means) return SL_NO_MEMORY;
-    memset(c->means, SLI_MEANS_OTHER, c->map->wall_count); // walls of layers of our own
+/// Takes the meanings of groups for their walls.
+static void set_means(sli_choice *c) {
     for (size_t i = 0; i < c->contents->runs.count; i++) {
         const sli_group_run *run = &c->contents->runs.items[i];
         memset(c->means + run->first, (int)c->contents->groups.items[run->group].means,
                run->end - run->first);
     }
-    size_t named = 0;
-    for (size_t i = 0; i < c->contents->groups.count; i++)
-        if (c->contents->groups.items[i].means == SLI_MEANS_WALL)
-            named += c->contents->groups.items[i].walls;
-    const sli_meaning walls = named >= LEAST_WALLS ? SLI_MEANS_WALL : SLI_MEANS_NOTHING;
-    return sli_symbols_find(c->contents->context, c->map, c->means, said ? SLI_MEANINGS : walls,
-                            said, c->metre, &c->symbols);
+}
+
+/// Layers that the options name are walls, whatever their names say; but doors stay doors, where
+/// `doors`.
+static void take_named(sli_choice *c, bool doors) {
+    for (size_t i = 0; c->contents->options->layers && i < c->contents->groups.count; i++) {
+        sli_group *group = &c->contents->groups.items[i];
+        if (group->means != SLI_MEANS_WALL && !(doors && group->means == SLI_MEANS_DOOR))
+            group->means = SLI_MEANS_NOTHING;
+    }
+    set_means(c);
+}
+
+static sl_status find_symbols_of(sli_choice *c, sli_meaning walls) {
+    const bool all = c->contents->options->all_layers;
+    sli_symbols_destroy(c->contents->context, &c->symbols);
+    c->symbols = (sli_symbols){0};
+    return sli_symbols_find(c->contents->context, c->map, c->means, all ? SLI_MEANINGS : walls, all,
+                            c->metre, &c->symbols);
+}
+
+/// Where no layer is named as walls, and doors are drawn open on layers that are named as something
+/// else alone ("details"), these say nothing: they have the plan.
+static sl_status take_layers_of_doors(sli_choice *c) {
+    const sli_group_run *runs = c->contents->runs.items;
+    sli_group *groups = c->contents->groups.items;
+    const size_t count = c->contents->groups.count, walls = c->map->wall_count;
+    size_t most = 0, *swings = sl_alloc_array(c->contents->context, count, sizeof *swings);
+    if (!swings) return SL_NO_MEMORY;
+    for (size_t i = 0; i < walls; i++)
+        if (c->means[i] == SLI_MEANS_OTHER) c->means[i] = SLI_MEANS_NOTHING;
+    sl_status status = find_symbols_of(c, SLI_MEANS_NOTHING);
+    for (size_t i = 0; status == SL_OK && i < c->contents->runs.count; i++)
+        for (size_t k = runs[i].first; k < runs[i].end; k++)
+            swings[runs[i].group] += sli_choice_gone(c, k);
+    for (size_t i = 0; i < count; i++) most = swings[i] > most ? swings[i] : most;
+    for (size_t i = 0; c->symbols.doors >= LEAST_DOORS && i < count; i++)
+        if (groups[i].means == SLI_MEANS_OTHER && 2 * swings[i] >= most)
+            groups[i].means = SLI_MEANS_NOTHING;
+    sl_free(c->contents->context, swings);
+    memset(c->means, SLI_MEANS_OTHER, walls);
+    set_means(c);
+    return status == SL_OK ? find_symbols_of(c, SLI_MEANS_NOTHING) : status;
+}
+
+static sl_status find_symbols(sli_choice *c) {
+    c->means = sl_alloc(c->contents->context, c->map->wall_count);
+    if (!c->means) return SL_NO_MEMORY;
+    memset(c->means, SLI_MEANS_OTHER, c->map->wall_count); // walls of layers of our own
+    take_named(c, true);
+    size_t named = 0, others = 0;
+    for (size_t i = 0; i < c->contents->groups.count; i++) {
+        const sli_group *group = &c->contents->groups.items[i];
+        named += group->means == SLI_MEANS_WALL ? group->walls : 0;
+        others += group->means == SLI_MEANS_OTHER ? group->walls : 0;
+    }
+    SL_TRY(find_symbols_of(c, named >= LEAST_WALLS ? SLI_MEANS_WALL : SLI_MEANS_NOTHING));
+    if (named < LEAST_WALLS && others && !c->symbols.doors && !sli_contents_said(c->contents))
+        SL_TRY(take_layers_of_doors(c));
+    take_named(c, c->contents->options->doors);
+    return SL_OK;
 }
 
 static bool is_taken(const sli_choice *c, sli_meaning means) {
@@ -220,11 +272,12 @@ static bool choose_groups(sli_choice *c) {
     return changes && (c->kept >= LEAST_WALLS || sli_contents_said(c->contents));
 }
 
-/// Where neither names nor looks say what is a wall: finds what is no wall by its shape, among what
-/// is taken.
+/// Where no name says what is a wall: finds what is no wall by its shape, among what is taken.
+/// Looks have told walls from the rest, so a legend or a frame may be left beside them; where it
+/// seems to be more, it may be walls.
 static sl_status find_parts(sli_choice *c) {
     sl_context *context = c->contents->context;
-    if (c->walls_named || c->by_looks || sli_contents_said(c->contents)) return SL_OK;
+    if (c->walls_named || c->contents->options->all_layers) return SL_OK;
     const size_t count = c->map->wall_count;
     sl_map taken = {0};
     size_t *number = sl_alloc_array(context, count, sizeof *number);
@@ -237,6 +290,8 @@ static sl_status find_parts(sli_choice *c) {
     }
     if (status == SL_OK)
         status = sli_plan_parts_find(context, &taken, sli_choice_metre(c), &c->parts);
+    if (c->by_looks && MOST_BESIDE * sli_plan_parts_count(&c->parts) > taken.wall_count)
+        sli_plan_parts_destroy(context, &c->parts);
     for (size_t i = 0; status == SL_OK && c->parts.gone && i < taken.wall_count; i++)
         if (sl_bits_has(c->parts.gone, i)) sl_bits_add(c->symbols.gone, number[i]);
     c->kept -= sli_plan_parts_count(&c->parts);

@@ -79,11 +79,12 @@ static inline sli_meaning sli_contents_means(const sli_contents *contents, uint3
     return group < contents->groups.count ? contents->groups.items[group].means : SLI_MEANS_NOTHING;
 }
 
-/// Whether the options say which layers are taken; all of them are walls then, but doors.
+/// Whether the options say which layers are taken; all of them are walls then, but symbols and,
+/// with the option doors, doors.
 static inline bool sli_contents_said(const sli_contents *contents) {
     return contents->options->layers || contents->options->all_layers;
 }
-/// Whether shapes are to be told of: where the options do not say all.
+/// Whether shapes are to be told of: not where all layers are taken as they are.
 bool sli_contents_asks(const sli_contents *contents);
 /// To be called before and behind a shape that the pen draws.
 void sli_contents_begin(sli_contents *contents, sli_pen *pen);

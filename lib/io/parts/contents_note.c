@@ -109,6 +109,8 @@ static void note_choice(const sli_choice *c) {
     else
         list_groups(c, true, c->walls_named ? SLI_MEANS_WALL : SLI_MEANS_NOTHING, &walls);
     if (!c->walls_named) list_groups(c, true, SLI_MEANS_WALL, &walls);
+    if (c->walls_named && sli_contents_said(c->contents))
+        list_groups(c, true, SLI_MEANS_NOTHING, &walls);
     list_groups(c, true, SLI_MEANS_WINDOW, &windows);
     list_groups(c, false, SLI_MEANS_DOOR, &doors);
     if (c->by_looks) list_looks(c, false, &over);
@@ -155,11 +157,6 @@ void sli_choice_note_all(const sli_choice *c) {
             c->contents->file, names.text);
 }
 
-/// How much like walls a look is that is not taken: its long lines count by their weight.
-static double likeness(const sli_look *look) {
-    return look->length * fmax(look->weight, 1e-9);
-}
-
 /// Walls by their looks, where others may be walls as well as they.
 static void note_share(const sli_choice *c) {
     const sli_look *taken = NULL, *other = NULL, *rooms = NULL;
@@ -168,7 +165,7 @@ static void note_share(const sli_choice *c) {
         const sli_look *look = &c->contents->looks.items.items[i];
         if (look->taken && (!taken || look->length > taken->length)) taken = look;
         if (look->taken || !look->shapes) continue;
-        if (!other || likeness(look) > likeness(other)) other = look;
+        if (!other || sli_look_likeness(look) > sli_look_likeness(other)) other = look;
         if (look->rooms >= 3 && look->room_area >= 0.04 &&
             (!rooms || look->room_area > rooms->room_area))
             rooms = look;

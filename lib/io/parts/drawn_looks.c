@@ -5,8 +5,10 @@
 /// thicker than 1/25 of the drawing is a floor and weighs nothing. Long walls tell where a look is:
 /// lettering, symbols and furniture are short. The heaviest look that has a fair share of all long
 /// lines, over a fair part of the drawing, is that of walls, with all others of at least 2/5 of its
-/// weight: thinner inner walls. Where there is none, the floors are rooms, and their outlines are
-/// walls.
+/// weight: thinner inner walls. Coloured lines beside black and grey ones are furniture and wires;
+/// light colours fill rooms, and count where nothing else does. Where the walls are a mere outline
+/// of the whole plan, the look most like walls of the others draws what is in it, and is taken too.
+/// Where there are none, the floors are rooms, and their outlines are walls.
 #include "io/parts/drawn_looks.h"
 
 #include "geometry/length.h"
@@ -28,6 +30,20 @@ enum { MOST_LOOKS = 512, LEAST_WALLS = 3, LEAST_SHAPES = 8 };
 /// Shares of the long lines: of the heaviest look, and of those beside it.
 #define FAIR   0.15
 #define BESIDE 0.02
+/// How much alike the widths of lines are that have one look, and of one pen at several scales.
+#define SAME 0.01
+#define PEN  0.1
+/// How far apart the parts of a colour are that is no grey.
+#define COLOURED 0x40
+/// The contrast of a colour that fills rooms.
+#define TINT 0.7
+/// How far apart letters are, and how much larger than the next one, in its size; so many bars may
+/// stand before the next letter that is more.
+#define NEXT_LETTER    0.7
+#define LARGEST_LETTER 1.6
+enum { LETTERS = 6 };
+/// Of the lines that are taken: those that are no outline of the whole.
+#define INNER 0.1
 /// Of the heaviest look's weight, and of its contrast.
 #define ALIKE    0.4
 #define CONTRAST 0.75
@@ -63,19 +79,20 @@ bool sli_look_may_be(sli_word name) {
 
 // --- which there are
 
-/// Lines that are as wide within a hundredth have one look.
-static bool same_ink(const sli_ink *a, const sli_ink *b) {
+/// Whether colours are the same, and widths of lines within a share.
+static bool same_ink(const sli_ink *a, const sli_ink *b, double within) {
     return a->line == b->line && a->known == b->known && a->colour == b->colour &&
-           (!a->line || fabs(a->width - b->width) <= 0.01 * fmax(a->width, b->width));
+           (!a->line || fabs(a->width - b->width) <= within * fmax(a->width, b->width));
 }
 
 sl_status sli_looks_find(sl_context *context, sli_looks *looks, const sli_ink *ink, uint32_t *out) {
-    if (looks->last < looks->items.count && same_ink(&looks->items.items[looks->last].ink, ink)) {
+    if (looks->last < looks->items.count &&
+        same_ink(&looks->items.items[looks->last].ink, ink, SAME)) {
         *out = looks->last;
         return SL_OK;
     }
     for (size_t i = 0; i < looks->items.count; i++) {
-        if (!same_ink(&looks->items.items[i].ink, ink) && i + 1 < MOST_LOOKS) continue;
+        if (!same_ink(&looks->items.items[i].ink, ink, SAME) && i + 1 < MOST_LOOKS) continue;
         *out = looks->last = (uint32_t)i;
         return SL_OK;
     }
@@ -144,20 +161,31 @@ static void find_backdrop(chooser *c) {
     while (c->backdrops < c->count && is_page(c, &c->shapes[c->backdrops])) c->backdrops++;
 }
 
-static void measure_shape(const chooser *c, const sli_look_shape *shape) {
-    sli_look *look = &c->looks->items.items[shape->look];
-    const sl_box box = box_of(c->map, shape);
-    const bool large = extent(box) * LARGE > c->size;
-    double twice = 0;
+/// How long the lines of a shape are. `*twice` gets twice the area that they run around.
+static double measure_around(const chooser *c, const sli_look_shape *shape, double *twice) {
     const sl_point from = c->map->walls[shape->first].a;
+    double around = *twice = 0;
     for (size_t i = shape->first; i < shape->end; i++) {
         const sl_wall *wall = &c->map->walls[i];
         const sl_point a = {wall->a.x - from.x, wall->a.y - from.y};
         const sl_point b = {wall->b.x - from.x, wall->b.y - from.y};
-        const double length = sli_length(b.x - a.x, b.y - a.y);
-        twice += sli_cross(a, b);
-        look->around += length;
-        if (!large || length * LONG < c->size) continue;
+        *twice += sli_cross(a, b);
+        around += sli_length(b.x - a.x, b.y - a.y);
+    }
+    *twice = fabs(*twice);
+    return around;
+}
+
+static void measure_shape(const chooser *c, const sli_look_shape *shape) {
+    sli_look *look = &c->looks->items.items[shape->look];
+    const sl_box box = box_of(c->map, shape);
+    const bool large = extent(box) * LARGE > c->size;
+    double twice;
+    look->around += measure_around(c, shape, &twice);
+    for (size_t i = shape->first; large && i < shape->end; i++) {
+        const sl_wall *wall = &c->map->walls[i];
+        const double length = sli_length(wall->b.x - wall->a.x, wall->b.y - wall->a.y);
+        if (length * LONG < c->size) continue;
         if (look->length == 0) look->box = sli_box_around(wall->a, wall->a);
         look->box = sli_box_with(sli_box_with(look->box, wall->a), wall->b);
         look->length += length;
@@ -168,7 +196,7 @@ static void measure_shape(const chooser *c, const sli_look_shape *shape) {
         look->room_area +=
             width_of(box) * height_of(box) / (width_of(c->bounds) * height_of(c->bounds));
     }
-    look->area += fabs(twice) / 2;
+    look->area += twice / 2;
     look->shapes++;
     look->walls += shape->end - shape->first;
 }
@@ -181,6 +209,15 @@ static double thickness(const sli_look *look) {
 
 static bool is_floor(const chooser *c, const sli_look *look) {
     return !look->ink.line && thickness(look) * FLOOR > c->size;
+}
+
+/// Whether a look has a colour that is far from grey.
+static bool is_coloured(const sli_look *look) {
+    const int red = look->ink.colour >> 16 & 0xFF, green = look->ink.colour >> 8 & 0xFF;
+    const int blue = look->ink.colour & 0xFF;
+    const int most = red > green ? red : green, least = red < green ? red : green;
+    return look->ink.known &&
+           (most > blue ? most : blue) - (least < blue ? least : blue) > COLOURED;
 }
 
 static double contrast(const chooser *c, const sli_look *look) {
@@ -221,25 +258,38 @@ static void weigh_all(chooser *c) {
 
 // --- the choice
 
-/// The heaviest look that is spread as walls are; NULL for none.
-static const sli_look *heaviest(const chooser *c) {
+static bool is_spread(const chooser *c, const sli_look *look) {
+    return look->weight > 0 && width_of(look->box) >= 0.3 * width_of(c->bounds) &&
+           height_of(look->box) >= 0.3 * height_of(c->bounds);
+}
+
+/// Whether a look fills areas in a light colour, as rooms of one kind are.
+static bool is_tint(const chooser *c, const sli_look *look) {
+    return !look->ink.line && is_coloured(look) && contrast(c, look) < TINT;
+}
+
+/// The heaviest look that is spread as walls are, of `tints` or of all else; NULL for none.
+static const sli_look *heaviest(const chooser *c, bool tints) {
     const sli_look *best = NULL;
     const double all = fmax(c->lines, c->floors);
     for (size_t i = 0; i < c->looks->items.count; i++) {
         const sli_look *look = &c->looks->items.items[i];
-        if (!(look->weight > 0) || look->walls < LEAST_WALLS || look->length < FAIR * all) continue;
-        if (width_of(look->box) < 0.3 * width_of(c->bounds) ||
-            height_of(look->box) < 0.3 * height_of(c->bounds))
-            continue;
-        if (!best || look->weight > best->weight) best = look;
+        if (!is_spread(c, look) || look->walls < LEAST_WALLS || look->length < FAIR * all) continue;
+        if (is_tint(c, look) == tints && (!best || look->weight > best->weight)) best = look;
     }
     return best;
+}
+
+/// Whether a look is of coloured lines, and the heaviest is grey.
+static bool is_beside_grey(const sli_look *look, const sli_look *best) {
+    return look->ink.line && is_coloured(look) && !is_coloured(best);
 }
 
 /// Whether a look is one of walls beside the heaviest. What is filled as darkly may be columns,
 /// which have no long walls.
 static bool is_alike(const chooser *c, const sli_look *look, const sli_look *best) {
-    if (look == best) return true;
+    if (look == best || (best->ink.line && same_ink(&look->ink, &best->ink, PEN))) return true;
+    if (is_beside_grey(look, best) || (is_tint(c, look) && !is_tint(c, best))) return false;
     if (look->weight < ALIKE * best->weight || contrast(c, look) < CONTRAST * contrast(c, best))
         return false;
     const bool column = !look->ink.line && CONTRAST * contrast(c, look) <= contrast(c, best);
@@ -248,30 +298,95 @@ static bool is_alike(const chooser *c, const sli_look *look, const sli_look *bes
 
 /// Whether a filled shape is a word or a symbol: many short lines, and not round as a column is.
 static bool is_word(const chooser *c, const sli_look_shape *shape) {
-    double twice = 0, around = 0;
-    const sl_point from = c->map->walls[shape->first].a;
     if (shape->end - shape->first <= 8 || c->looks->items.items[shape->look].ink.line ||
         extent(box_of(c->map, shape)) * WORD > c->size)
         return false;
     for (size_t i = shape->first; i < shape->end; i++) {
         const sl_wall *wall = &c->map->walls[i];
-        const sl_point a = {wall->a.x - from.x, wall->a.y - from.y};
-        const sl_point b = {wall->b.x - from.x, wall->b.y - from.y};
-        const double length = sli_length(b.x - a.x, b.y - a.y);
-        if (length * LONG > c->size) return false;
-        twice += sli_cross(a, b);
-        around += length;
+        if (sli_length(wall->b.x - wall->a.x, wall->b.y - wall->a.y) * LONG > c->size) return false;
     }
-    return 7 * fabs(twice) < around * around; // of a circle it is 6.3 to 6.4
+    double twice;
+    const double around = measure_around(c, shape, &twice);
+    return 7 * twice < around * around; // of a circle it is 6.3 to 6.4
 }
 
-/// Takes shapes of the looks that are taken, and counts them.
+/// Whether a shape is one closed line about a floor, not about the body of a wall.
+static bool is_outline(const chooser *c, const sli_look_shape *shape) {
+    const sl_wall *walls = c->map->walls;
+    if (!c->looks->items.items[shape->look].ink.line) return false;
+    for (size_t i = shape->first; i < shape->end; i++) {
+        const sl_point next = walls[i + 1 < shape->end ? i + 1 : shape->first].a;
+        if (walls[i].b.x != next.x || walls[i].b.y != next.y) return false;
+    }
+    double twice;
+    const double around = measure_around(c, shape, &twice);
+    return twice * FLOOR > c->size * around;
+}
+
+/// Whether the looks that are taken have outlines of most of the drawing, and little in them.
+static bool is_outline_alone(const chooser *c) {
+    double outlines = 0, inner = 0;
+    for (size_t i = c->backdrops; i < c->count; i++) {
+        const sli_look_shape *shape = &c->shapes[i];
+        const sl_box box = box_of(c->map, shape);
+        double twice;
+        if (!c->looks->items.items[shape->look].taken || extent(box) * LARGE <= c->size) continue;
+        const bool outline = is_outline(c, shape) && 2 * width_of(box) > width_of(c->bounds) &&
+                             2 * height_of(box) > height_of(c->bounds);
+        *(outline ? &outlines : &inner) += measure_around(c, shape, &twice);
+    }
+    return inner < INNER * outlines;
+}
+
+/// The look most like walls that is not taken yet, and spread as they are; NULL for none.
+static const sli_look *next_like_walls(const chooser *c) {
+    const sli_look *best = NULL;
+    for (size_t i = 0; i < c->looks->items.count; i++) {
+        const sli_look *look = &c->looks->items.items[i];
+        if (look->taken || !is_spread(c, look)) continue;
+        if (!best || sli_look_likeness(look) > sli_look_likeness(best)) best = look;
+    }
+    return best;
+}
+
+/// Takes a look and all that are like it; NULL for none.
+static void take_alike(chooser *c, const sli_look *best) {
+    for (size_t i = 0; best && i < c->looks->items.count; i++)
+        c->looks->items.items[i].taken |= is_alike(c, &c->looks->items.items[i], best);
+}
+
+/// Whether one shape stands beside another that is filled alike, and is not much larger.
+static bool stands_by(const chooser *c, const sli_look_shape *shape, const sli_look_shape *other) {
+    const sl_box a = box_of(c->map, shape), b = box_of(c->map, other);
+    const double gap = fmax(fmax(a.min.x - b.max.x, b.min.x - a.max.x),
+                            fmax(a.min.y - b.max.y, b.min.y - a.max.y));
+    return shape->look == other->look && gap <= NEXT_LETTER * extent(b) &&
+           extent(a) <= LARGEST_LETTER * extent(b);
+}
+
+/// Whether a small filled shape is lettering: letters follow each other in the file,
+/// side by side, and one of them is more than a bar. `behind`: the shape before it is lettering.
+static bool is_letter(const chooser *c, size_t at, bool behind) {
+    const sli_look_shape *shapes = c->shapes;
+    for (size_t i = at; i < at + LETTERS && i < c->count; i++) {
+        if (is_word(c, &shapes[i])) return true;
+        if (c->looks->items.items[shapes[i].look].ink.line) return false;
+        if (extent(box_of(c->map, &shapes[i])) * LARGE > c->size) return false;
+        if (i == at && behind && stands_by(c, &shapes[i], &shapes[i - 1])) return true;
+        if (i + 1 == c->count || !stands_by(c, &shapes[i], &shapes[i + 1])) return false;
+    }
+    return false;
+}
+
+/// Takes shapes of the looks that are taken, but for lettering, and counts them.
 static size_t take_shapes(chooser *c, sl_bits *taken) {
     size_t walls = 0;
-    for (size_t i = 0; i < c->count; i++) {
+    bool lettering = false;
+    for (size_t i = c->backdrops; i < c->count; i++) {
         const sli_look_shape *shape = &c->shapes[i];
-        if (i < c->backdrops || !c->looks->items.items[shape->look].taken || is_word(c, shape))
-            continue;
+        if (!c->looks->items.items[shape->look].taken) continue;
+        lettering = is_letter(c, i, lettering && i > c->backdrops);
+        if (lettering) continue;
         sl_bits_add(taken, i);
         walls += shape->end - shape->first;
     }
@@ -279,11 +394,12 @@ static size_t take_shapes(chooser *c, sl_bits *taken) {
 }
 
 /// The share of the looks that are taken in all long lines. Floors that are not taken have the
-/// lines between them twice.
-static double share_of(const chooser *c) {
+/// lines between them twice. Coloured lines beside grey ones are no doubt, and have no length then.
+static double share_of(const chooser *c, const sli_look *best) {
     double taken = 0, rest = 0;
     for (size_t i = 0; i < c->looks->items.count; i++) {
-        const sli_look *look = &c->looks->items.items[i];
+        sli_look *look = &c->looks->items.items[i];
+        if (best && !look->taken && is_beside_grey(look, best)) look->length = look->weight = 0;
         if (look->taken)
             taken += look->length;
         else
@@ -307,13 +423,14 @@ double sli_looks_choose(const sl_map *map, const sli_look_shape *shapes, size_t 
         if (i >= c.backdrops) measure_shape(&c, &shapes[i]);
     }
     weigh_all(&c);
-    const sli_look *best = count >= LEAST_SHAPES ? heaviest(&c) : NULL;
+    const sli_look *best = count >= LEAST_SHAPES ? heaviest(&c, false) : NULL;
+    if (count >= LEAST_SHAPES && !best) best = heaviest(&c, true);
     const bool rooms = count >= LEAST_SHAPES && !best && c.floors > c.lines;
-    for (size_t i = 0; i < looks->items.count; i++) {
-        sli_look *look = &looks->items.items[i];
-        look->taken = best ? is_alike(&c, look, best) : rooms && is_floor(&c, look);
-    }
+    take_alike(&c, best);
+    if (best && is_outline_alone(&c)) take_alike(&c, next_like_walls(&c));
+    for (size_t i = 0; rooms && i < looks->items.count; i++)
+        looks->items.items[i].taken = is_floor(&c, &looks->items.items[i]);
     const size_t walls = take_shapes(&c, taken);
     *chosen = walls >= LEAST_WALLS && walls < all;
-    return share_of(&c);
+    return share_of(&c, best);
 }

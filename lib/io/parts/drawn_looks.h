@@ -30,6 +30,12 @@ typedef struct sli_look {
     bool taken;
 } sli_look;
 
+/// How much like walls a look is among those that are not the heaviest: its long lines count by
+/// their weight.
+static inline double sli_look_likeness(const sli_look *look) {
+    return look->length * (look->weight > 1e-9 ? look->weight : 1e-9);
+}
+
 /// Zeroed, there are none.
 typedef struct sli_looks {
     SL_ARRAY(sli_look) items;

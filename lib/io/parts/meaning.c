@@ -49,7 +49,9 @@ static const word_list lists[SLI_MEANINGS] = {
          "*圖框* *图签* *视口* *图廓* *図枠* *도곽* *指北针*"},
     [SLI_MEANS_DOOR] =
         {"door",
-         "door* *door *doors gate* tur ture turen tuer tuere tueren *tuer *tueren innentur* "
+         "door* *door *doors gate* opening ouverture* oeffnung* offnung* vano apertur* abertura* "
+         "проем* "
+         "tur ture turen tuer tuere tueren *tuer *tueren innentur* "
          "aussentur* haustur* schiebetur* tor tore porte porta portas portail puerta* porton "
          "portao deur deuren *deur *deuren двер* *дверь *двери ворот* dveri drzwi* brama dvere "
          "dver* vrata kapi kapilar* dorr dorrar dor dorer dore ovi ovet ajto* usa usi *门* *門* "
@@ -91,7 +93,7 @@ static const word_list lists[SLI_MEANINGS] = {
          "coordinate* centerline* centreline* center centre cntr guide* datum dote achse* "
          "raster* hilfslinie* mittellinie* trame asse assi interass* eje eixo stramien* assen ось "
          "оси осеи осей осев* os osi osie osy aks akslar axel stomlinj* modullinj* akse akser "
-         "*轴* *軸* *通り芯* *通芯* *基準線* *축* *중심선*"},
+         "*轴* *軸* *グリッド* *通り芯* *通芯* *基準線* *축* *중심선*"},
     [SLI_MEANS_STAIRS] =
         {"stairs",
          "stair* strs step riser* tread* ramp escalator* elevator* elev lift evtr handrail* rail "

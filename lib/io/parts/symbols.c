@@ -109,12 +109,16 @@ static bool may_swing(const finder *f, size_t wall) {
             (means == SLI_MEANS_NOTHING || means == SLI_MEANS_WALL || means == SLI_MEANS_WINDOW));
 }
 
+/// Whether a wall begins where the one before it ends, on layers of one meaning.
+static bool follows(const finder *f, size_t wall) {
+    const sl_wall *walls = f->map->walls;
+    return wall > 0 && wall < f->map->wall_count && f->means[wall] == f->means[wall - 1] &&
+           walls[wall].a.x == walls[wall - 1].b.x && walls[wall].a.y == walls[wall - 1].b.y;
+}
+
 /// Whether a wall goes on from the one before, in one shape.
 static bool goes_on(const finder *f, size_t wall) {
-    const sl_wall *walls = f->map->walls;
-    return wall > 0 && wall < f->map->wall_count && walls[wall].line == walls[wall - 1].line &&
-           f->means[wall] == f->means[wall - 1] && walls[wall].a.x == walls[wall - 1].b.x &&
-           walls[wall].a.y == walls[wall - 1].b.y;
+    return follows(f, wall) && f->map->walls[wall].line == f->map->walls[wall - 1].line;
 }
 
 static int compare_numbers(const void *left, const void *right) {
@@ -163,12 +167,12 @@ typedef struct arc_list {
     sl_point from, to; ///< its ends
 } arc_list;
 
-/// How many walls from `first` on go round by even steps.
+/// How many walls from `first` on go round by even steps; arcs may be drawn as lines one by one.
 static size_t count_chords(const finder *f, size_t first) {
     const sl_wall *walls = f->map->walls;
     double turn = 0;
     size_t count = 1;
-    for (; goes_on(f, first + count); count++) {
+    for (; follows(f, first + count); count++) {
         const sl_wall *before = &walls[first + count - 1], *wall = &walls[first + count];
         const double a = length_of(before), b = length_of(wall);
         const double sine = sli_cross(along(before), along(wall)) / (a * b);
