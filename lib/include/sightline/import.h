@@ -31,7 +31,8 @@ typedef struct sl_import_options {
     const char *start_names;
     double tolerance; ///< how far a curve may be from its walls, in the map's unit; 0: the usual
     /// Coordinates are to be in this unit: mm, cm, m, km, in, ft or yd; NULL: in the file's own.
-    /// "mm=m": the file is in mm, whatever it says, and is to be in m.
+    /// "mm=m": the file is in mm, whatever it says, and is to be in m. "0.0254=m": a unit of the
+    /// file, of any format but one in degrees, is 0.0254 m long.
     const char *unit;
     double entrance;  ///< how wide openings to the outside are at most (sl_map.entrance); 0: as
                       ///< the file says
