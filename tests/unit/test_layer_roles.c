@@ -43,7 +43,7 @@ static void roles_of_named_layers(void **state) {
 static void roles_of_unnamed_layers(void **state) {
     (void)state;
     assert_dxf(unnamed, "b=ignore", ROOM_WALLS "wall 2 2 3 2\n");
-    assert_dxf(unnamed, "a=wall", ROOM_WALLS);
+    assert_dxf(unnamed, "a=wall", ROOM_WALLS "wall 4 0 4 8\nwall 2 2 3 2\n");
     assert_dxf(unnamed, "b=window", ROOM_WALLS "wall 2 2 3 2\nwall 4 0 4 8 stops steps,sound\n");
 }
 

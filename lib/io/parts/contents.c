@@ -39,10 +39,11 @@ static sl_status add_group(sli_contents *contents, sli_word name) {
     SL_TRY(SL_ARRAY_ROOM(contents->context, &contents->groups, 1));
     char *copy = sl_copy_text(contents->context, name.at, name.length);
     if (!copy) return SL_NO_MEMORY;
-    sli_meaning means = sli_meaning_of(name);
+    const sli_meaning guess = sli_meaning_of(name);
+    sli_meaning means = guess;
     sli_roles_find(contents->roles, name, &means);
     contents->groups.items[contents->groups.count++] =
-        (sli_group){.name = copy, .length = name.length, .means = means};
+        (sli_group){.name = copy, .length = name.length, .means = means, .guess = guess};
     return SL_OK;
 }
 
@@ -135,7 +136,9 @@ static sl_status find_symbols(sli_choice *c) {
             memset(c->means + run->first, (int)role, run->end - run->first);
     }
     size_t named = 0;
-    for (size_t i = 0; i < c->map->wall_count; i++) named += c->means[i] == SLI_MEANS_WALL;
+    for (size_t i = 0; i < c->contents->groups.count; i++)
+        if (c->contents->groups.items[i].guess == SLI_MEANS_WALL)
+            named += c->contents->groups.items[i].walls;
     const sli_meaning walls = named >= LEAST_WALLS ? SLI_MEANS_WALL : SLI_MEANS_NOTHING;
     return sli_symbols_find(c->contents->context, c->map, c->means, said ? SLI_MEANINGS : walls,
                             said, c->metre, &c->symbols);
@@ -147,10 +150,14 @@ static bool is_taken(const sli_choice *c, sli_meaning means) {
            (means == SLI_MEANS_NOTHING && !c->walls_named);
 }
 
+/// Whether names say what is a wall. What the user says of some layers changes nothing for others.
 static void count_named(sli_choice *c) {
     size_t named = 0;
-    for (size_t i = 0; i < c->map->wall_count; i++)
-        named += c->means[i] == SLI_MEANS_WALL && !sli_choice_gone(c, i);
+    for (size_t i = 0; i < c->contents->runs.count; i++) {
+        const sli_group_run *run = &c->contents->runs.items[i];
+        if (c->contents->groups.items[run->group].guess != SLI_MEANS_WALL) continue;
+        for (size_t k = run->first; k < run->end; k++) named += !sli_choice_gone(c, k);
+    }
     c->walls_named = named >= LEAST_WALLS;
 }
 

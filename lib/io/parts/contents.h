@@ -18,7 +18,7 @@
 typedef struct sli_group {
     char *name;
     size_t length;
-    sli_meaning means;
+    sli_meaning means, guess; ///< the guess is by the name alone, without what the user says
     size_t shapes, walls;
     size_t long_ones; ///< of a layer of doors: walls that are longer than doors
     double finest;    ///< unit of its coordinates, as sli_pen has it
