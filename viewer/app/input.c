@@ -5,6 +5,7 @@
 #include "app/layout.h"
 #include "app/sliders.h"
 #include "app/turn.h"
+#include "dialogs/import_dialog.h"
 #include "lessons/quiz.h"
 #include "panes/panes.h"
 #include "plan/cameras.h"
@@ -363,12 +364,18 @@ void input_press(app_state *app, button_kind button, sl_point at) {
     input_press_at(app, button, at);
 }
 
+/// Whether the place is in the plan, beside a dialog that leaves it in sight.
+static bool is_beside(const app_state *app, const hit_area *hit) {
+    return app->desk.dialog.beside && hit->kind == HIT_PLAN &&
+           dialog_open_now(&app->desk.dialog) != DIALOG_NONE;
+}
+
 static void input_press_at(app_state *app, button_kind button, sl_point at) {
     app->ui.pointer = at;
     const hit_area hit = ui_find(&app->ui, at);
     drag_state *drag = &app->view.drag;
     *drag = (drag_state){.hit = hit, .from = at, .last = at, .index = UINT32_MAX};
-    if (dialog_open_now(&app->desk.dialog) != DIALOG_NONE) {
+    if (dialog_open_now(&app->desk.dialog) != DIALOG_NONE && !is_beside(app, &hit)) {
         if (button == BUTTON_LEFT) dialog_press(&app->desk.dialog, &hit, at);
         actions_answered(app);
         return;
@@ -389,7 +396,7 @@ static void input_press_at(app_state *app, button_kind button, sl_point at) {
     if (button == BUTTON_RIGHT && explains)
         explain_to(app, drag->at);
     else if (button == BUTTON_LEFT)
-        drag->kind = plan_drag(app, drag);
+        drag->kind = is_beside(app, &hit) ? DRAG_PAN : plan_drag(app, drag);
     else
         drag->kind = button == BUTTON_MIDDLE ? DRAG_LOOK : DRAG_PAN;
 }
@@ -471,6 +478,10 @@ void input_release(app_state *app, sl_point at) {
     if (drag.hit.kind == HIT_SLIDER && slider_of(&drag.hit)->end)
         slider_of(&drag.hit)->end(&app->view);
     const sl_point now = to_map(app, drag.hit.value, at);
+    if (is_beside(app, &drag.hit)) {
+        if (drag.kind == DRAG_PAN && !drag.moved) import_pick_at(&app->desk, now, grid_reach(&app->view));
+        return;
+    }
     if (drag.kind == DRAG_MIRROR) mirror_drop(&app->view, &drag);
     if (drag.kind == DRAG_OBJECT && !drag.moved) object_toggle(&app->view, drag.index);
     const bool holds = drag.kind == DRAG_PAN || drag.kind == DRAG_FROM_LINE ||
@@ -498,7 +509,8 @@ void input_release(app_state *app, sl_point at) {
 }
 
 void input_wheel(app_state *app, double steps) {
-    if (dialog_open_now(&app->desk.dialog) != DIALOG_NONE) {
+    const hit_area over = ui_find(&app->ui, app->ui.pointer);
+    if (dialog_open_now(&app->desk.dialog) != DIALOG_NONE && !is_beside(app, &over)) {
         dialog_wheel(&app->desk.dialog, steps);
         return;
     }

@@ -19,7 +19,8 @@
 static const dialog_row dialogs[DIALOG_KINDS] = {
     [DIALOG_MENU] = {menu_draw, menu_act, NULL, NULL, NULL},
     [DIALOG_BROWSER] = {browser_draw, browser_act, browser_edited, browser_key, browser_destroy},
-    [DIALOG_IMPORT] = {import_draw, import_act, import_edited, NULL, import_destroy},
+    [DIALOG_IMPORT] = {import_draw, import_act, import_edited, import_key, import_destroy,
+                       IMPORT_TYPES_INTO},
     [DIALOG_QUESTION] = {question_draw, question_act, NULL, question_key, NULL},
 };
 

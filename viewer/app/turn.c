@@ -3,8 +3,9 @@
 
 #include "app/layout.h"
 #include "dialogs/map_file.h"
+#include "dialogs/opening.h"
 #include "dialogs/recovery.h"
-#include "document/files.h"
+#include "document/drawings.h"
 #include "lessons/quiz.h"
 #include "plan/cameras.h"
 #include "plan/compare.h"
@@ -21,7 +22,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <strings.h>
 
 /// A frame of a drag takes this long, where its space does not come sooner.
 #define DRAG_FRAME_SECONDS 0.014
@@ -78,15 +78,6 @@ static void say_subdivision(app_state *app, bool was_mesh) {
                "All walls are axial now: the cells are those of a kd-tree, no longer of a mesh");
 }
 
-/// Whether a file is a floor plan, by its ending: a drawing or a picture.
-static bool is_plan_file(const char *path) {
-    static const char *const endings[] = {".dxf", ".svg", ".svgz", ".geojson", ".png", ".pgm"};
-    const char *dot = path ? strrchr(path, '.') : NULL;
-    for (size_t i = 0; dot && i < sizeof endings / sizeof *endings; i++)
-        if (strcasecmp(dot, endings[i]) == 0) return true;
-    return false;
-}
-
 /// A map that was opened starts from its own start. After a change by hand the eye stays.
 static void take_document(app_state *app, bool opened) {
     drop_made(app);
@@ -107,11 +98,12 @@ static void take_document(app_state *app, bool opened) {
     route_clear(&app->view);
     from_line_clear(&app->view);
     compare_clear(&app->view);
-    if (app->view.mode == MODE_EXPLORE && is_plan_file(app->document.source.path))
+    if (app->view.mode == MODE_EXPLORE && drawing_is(app->document.source.path))
         app->view.mode = MODE_PLAN;
     walk_home(&app->view);
     map_file_taken(&app->desk);
     say_document(app);
+    files_ask_once(&app->desk);
 }
 
 void app_take_opened(app_state *app) {
