@@ -121,6 +121,7 @@ static void roles_show_at_once(void **state) {
     // The button that was clicked has no focus: what is typed goes on in the filter.
     type(app, "ge w");
     press(app, "Space");
+    assert_int_equal(app->desk.dialog.focus[0], IMPORT_TYPES_INTO);
     assert_int_equal(app->document.baked->space.wall_count, walls + 1);
     assert_int_equal(dialog_open_now(&app->desk.dialog), DIALOG_IMPORT);
     press(app, "Escape");

@@ -12,6 +12,7 @@
 #include "plan/from_line.h"
 #include "plan/heat.h"
 #include "plan/line_map.h"
+#include "plan/room_map.h"
 #include "plan/route.h"
 #include "plan/table.h"
 #include "plan/view_cells.h"
@@ -98,6 +99,7 @@ void app_destroy(app_state *app) {
     route_layer_destroy(app->context, app->view.route);
     from_line_destroy(app->context, app->view.from_line);
     compare_clear(&app->view);
+    room_map_destroy(app->context, app->view.rooms);
     table_destroy(app->context, &app->view.table);
     for (int i = 0; i < 2; i++) line_map_destroy(app->context, app->view.lines[i]);
     drag_world_drop(&app->view);

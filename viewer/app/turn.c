@@ -14,6 +14,7 @@
 #include "plan/from_line.h"
 #include "plan/heat.h"
 #include "plan/line_map.h"
+#include "plan/room_map.h"
 #include "plan/route.h"
 #include "plan/table.h"
 #include "plan/view_cells.h"
@@ -166,6 +167,7 @@ static void poll_all(app_state *app, bool wait) {
     route_update(&app->view);
     from_line_update(&app->view, wait);
     line_map_update(&app->view, wait);
+    room_map_update(&app->view, wait);
     table_update(&app->view);
     map_file_tick(&app->desk, wait);
     recovery_tick(&app->desk);
@@ -187,6 +189,8 @@ job_progress app_progress(const app_state *app) {
     if (line.running) return line;
     const job_progress other = compare_progress(&app->view);
     if (other.running) return other;
+    const job_progress rooms = room_map_progress(&app->view);
+    if (rooms.running) return rooms;
     const job_progress lines = line_map_progress(&app->view);
     return lines.running ? lines : heat_layer_progress(app->view.heat);
 }

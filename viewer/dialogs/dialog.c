@@ -353,7 +353,8 @@ void dialog_text(dialog_state *d, const char *text) {
     dialog_item *focused = find_item(d, *focus_of(d));
     const int other = row_now(d)->types_into;
     if (d->deaf[0]) return;
-    if (other && find_item(d, other) && (!focused || focused->kind != ITEM_FIELD)) {
+    // A space has pressed what has the focus.
+    if (other && *text != ' ' && find_item(d, other) && (!focused || focused->kind != ITEM_FIELD)) {
         *focus_of(d) = other;
         focused = find_item(d, other);
     }

@@ -165,16 +165,11 @@ static sl_status usual_opening(finder *f, double slit, double *out) {
     return SL_OK;
 }
 
-/// The width of doors that the map itself tells.
+/// The width of doors by the openings of the map; 0 where it has none.
 static sl_status find_width(sl_context *context, const sl_map *map, double *out) {
     const sl_box b = sl_map_bounds(map);
-    const double metres = sli_unit_metres(map->unit);
     const double size = fmax(b.max.x - b.min.x, b.max.y - b.min.y);
     finder f = {.context = context};
-    if (metres > 0) {
-        *out = DOOR / metres;
-        return SL_OK;
-    }
     sl_status status = begin(&f, map, size / 3);
     if (status == SL_OK) status = usual_opening(&f, size / 1000, out);
     *out *= WIDER;
@@ -299,15 +294,10 @@ static sl_status find(finder *f, const sl_map *map, const sl_space *space, sl_ro
     return status;
 }
 
-sl_status sl_rooms_find(sl_context *context, const sl_map *map, const sl_space *space, double width,
-                        sl_rooms *out) {
+static sl_status find_by(sl_context *context, const sl_map *map, const sl_space *space,
+                         double width, sl_rooms *out) {
     finder f = {.context = context};
     sl_rooms rooms = {.width = width};
-    *out = (sl_rooms){0};
-    if (!(width >= 0 && width <= SL_COORDINATE_MAX))
-        return sl_fail(context, SL_BAD_ARGUMENT, "the width of doors is a number from 0 on");
-    if (!map->wall_count) return SL_OK;
-    if (width == 0) SL_TRY(find_width(context, map, &rooms.width));
     const sl_status status = find(&f, map, space, &rooms);
     end(&f);
     if (status == SL_OK)
@@ -315,6 +305,21 @@ sl_status sl_rooms_find(sl_context *context, const sl_map *map, const sl_space *
     else
         sl_rooms_destroy(context, &rooms);
     return status;
+}
+
+sl_status sl_rooms_find(sl_context *context, const sl_map *map, const sl_space *space, double width,
+                        sl_rooms *out) {
+    const double metres = sli_unit_metres(map->unit);
+    *out = (sl_rooms){0};
+    if (!(width >= 0 && width <= SL_COORDINATE_MAX))
+        return sl_fail(context, SL_BAD_ARGUMENT, "the width of doors is a number from 0 on");
+    if (!map->wall_count) return SL_OK;
+    if (width > 0) return find_by(context, map, space, width, out);
+    if (metres > 0) SL_TRY(find_by(context, map, space, DOOR / metres, out));
+    if (out->count) return SL_OK;
+    sl_rooms_destroy(context, out); // the unit is unknown, or is not what the file says
+    SL_TRY(find_width(context, map, &width));
+    return find_by(context, map, space, width, out);
 }
 
 void sl_rooms_destroy(sl_context *context, sl_rooms *rooms) {

@@ -41,8 +41,9 @@ typedef struct sl_rooms {
 /// Finds the rooms. `map` is clean (sl_map_clean), and `space` was made from it. Doors count as
 /// shut, and openings as doors that a disc of the diameter `width` does not pass (space/channels.h;
 /// exact but for the feet of channels, which are rounded). With 0 the width is found: 1.1 m if the
-/// unit of the map is known. Else it is 1.25 times the median of the openings between places that
-/// are roomier than the opening; the map has no openings that count if there are none.
+/// unit of the map is known and there are rooms then. Else it is 1.25 times the median of the
+/// openings between places that are roomier than the opening; the map has no openings that count if
+/// there are none.
 ///
 /// A room is inside. It has room for a disc of half that width, and at least the area of a square
 /// as wide as its widest opening. So doorways in thick walls and niches are no rooms. Areas and
