@@ -38,7 +38,7 @@ IS(plan_drawn, app->view.drawn_lines)
 
 // --- rooms
 
-TOOL(plan_rooms, TOOL_ROOMS, "click a room, or drag a zone; N names what is chosen")
+TOOL(plan_rooms, TOOL_ROOMS, "click a room, or drag a zone; Ctrl+K names what is chosen")
 
 static void room_name_typed(app_state *app) {
     const room_map *map = room_map_shown(&app->view);
@@ -218,7 +218,7 @@ static const action_row rows[] = {
      choose_other, NULL},
     {"plan_rooms", "Ctrl+8", "Rooms", "plan: the rooms, with their names; drag a zone", PLAN, 0,
      plan_rooms, is_plan_rooms},
-    {"room_name", "N", "Name", "rooms: name the chosen room or zone", PLAN, 0, room_name_typed,
+    {"room_name", "Ctrl+K", "Name", "rooms: name the chosen room or zone", PLAN, 0, room_name_typed,
      NULL},
     {"room_delete", "Delete", "Delete", "rooms: delete the chosen zone", PLAN, 0, room_delete,
      NULL},

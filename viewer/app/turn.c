@@ -205,6 +205,7 @@ static void look_again(app_state *app) {
                                                         &app->document, dragged, &view)
                                    : seen_update(app->context, &app->view.seen, &app->document,
                                                  &app->view.present, &view));
+    room_map_follow(&app->view);
     if (app->view.mode == MODE_LEARN)
         view_check(&app->view, lesson_update(app->context, &app->learn.lesson, &app->document,
                                              view_eye_cell(&app->view)));

@@ -159,7 +159,11 @@ void room_map_update(view_state *view, bool wait) {
     if (tool_job_update(view, &map->job, wait, find_rooms, map))
         ui_say(view->ui, false, "%u room%s; drag for a zone", map->rooms.count,
                map->rooms.count == 1 ? "" : "s");
-    if (map->job.made && !map->drags && !view->held) view_check(view, measure(view, map));
+}
+
+void room_map_follow(view_state *view) {
+    room_map *map = is_at_hand(view) ? view->rooms : NULL;
+    if (map && map->job.made && !map->drags && !view->held) view_check(view, measure(view, map));
 }
 
 const room_map *room_map_shown(const view_state *view) {

@@ -35,8 +35,10 @@ struct room_map {
     bool drags; ///< a zone is dragged: the last one
 };
 
-/// Finds the rooms where the tool is at hand, and follows the viewpoint and the heat map.
+/// Finds the rooms where the tool is at hand.
 void room_map_update(view_state *view, bool wait);
+/// Follows the viewpoint and the heat map, once they are those of the frame.
+void room_map_follow(view_state *view);
 /// NULL: the tool is not at hand, or the rooms are not there yet.
 const room_map *room_map_shown(const view_state *view);
 /// Stops the work; false if none runs.

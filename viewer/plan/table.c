@@ -200,18 +200,37 @@ static size_t room_rows(const view_state *view) {
     return room_map_rows(room_map_shown(view));
 }
 
-/// The measure of the heat map in each room stands last, where there is one.
-static size_t room_columns(const view_state *view) {
+typedef enum room_column {
+    ROOM_TEXT,
+    ROOM_AREA,
+    ROOM_MEAN,
+    ROOM_POINTS,
+    ROOM_SEEN,
+    ROOM_SHARE
+} room_column;
+
+/// The columns of the heat map are there where it is shown.
+static bool room_has_means(const view_state *view) {
     const heat_graph *graph;
-    return heat_layer_values(view, &graph) ? 6 : 4;
+    return heat_layer_values(view, &graph) != NULL;
+}
+
+static size_t room_columns(const view_state *view) {
+    return room_has_means(view) ? 6 : 4;
+}
+
+static room_column room_column_of(const view_state *view, size_t column) {
+    return (room_column)(column > ROOM_AREA && !room_has_means(view) ? column + 2 : column);
 }
 
 static void room_column_name(const view_state *view, size_t column, char text[TABLE_NAME]) {
-    static const char *const names[] = {"name", "area", "seen_area", "seen_share", "points"};
-    if (column < 5)
-        snprintf(text, TABLE_NAME, "%s", names[column]);
-    else
-        snprintf(text, TABLE_NAME, "mean_%.50s%s", heat_measure(view->heat_choice.measure)->name,
+    static const char *const names[] = {
+        [ROOM_TEXT] = "name",     [ROOM_AREA] = "area",      [ROOM_MEAN] = "mean",
+        [ROOM_POINTS] = "points", [ROOM_SEEN] = "seen_area", [ROOM_SHARE] = "seen_share"};
+    const room_column which = room_column_of(view, column);
+    snprintf(text, TABLE_NAME, "%s", names[which]);
+    if (which == ROOM_MEAN)
+        snprintf(text, TABLE_NAME, "mean_%.40s%s", heat_measure(view->heat_choice.measure)->name,
                  heat_layer_changes(view) ? "_change" : "");
 }
 
@@ -230,19 +249,19 @@ static double room_rank(const view_state *view, size_t row) {
 static double room_value(const view_state *view, size_t row, size_t column) {
     const room_map *map = room_map_shown(view);
     const double area = room_map_area(map, row);
-    switch (column) {
-    case 0:
+    switch (room_column_of(view, column)) {
+    case ROOM_TEXT:
         return room_rank(view, row);
-    case 1:
+    case ROOM_AREA:
         return area;
-    case 2:
-        return map->seen[row];
-    case 3:
-        return area > 0 ? map->seen[row] / area : NAN;
-    case 4:
-        return map->points[row];
-    default:
+    case ROOM_MEAN:
         return map->means[row];
+    case ROOM_POINTS:
+        return map->points[row];
+    case ROOM_SEEN:
+        return map->seen[row];
+    default:
+        return area > 0 ? map->seen[row] / area : NAN;
     }
 }
 
