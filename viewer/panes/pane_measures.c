@@ -167,7 +167,8 @@ static void draw_lines(const view_state *view, column *c) {
 
 /// The name of the chosen room, or what is typed in its place.
 static void draw_room_name(const view_state *view, column *c) {
-    static const char *const buttons[] = {"room_name", "room_delete", NULL};
+    static const char *const zone[] = {"room_name", "room_delete", NULL};
+    static const char *const room[] = {"room_name", NULL};
     const room_map *map = room_map_shown(view);
     ui_state *ui = view->ui;
     const double t = ui->text;
@@ -179,7 +180,7 @@ static void draw_room_name(const view_state *view, column *c) {
         c->y = box.max.y + 0.3 * t;
         return;
     }
-    column_buttons(ui, c, buttons);
+    column_buttons(ui, c, room_map_is_zone(map, view->table.chosen) ? zone : room);
 }
 
 static void draw_rooms(const view_state *view, column *c) {
