@@ -40,26 +40,42 @@ IS(plan_drawn, app->view.drawn_lines)
 
 TOOL(plan_rooms, TOOL_ROOMS, "click a room, or drag a zone; Ctrl+K names what is chosen")
 
+/// Has letters typed into the field of the panel.
+static void type_name(app_state *app, const char *name) {
+    app->ui.side_panel = true;
+    field_set(&app->view.name, name);
+    app->view.name.chosen = true;
+    app->ui.field = &app->view.name;
+}
+
 static void room_name_typed(app_state *app) {
     const room_map *map = room_map_shown(&app->view);
-    if (!map || app->view.table.chosen >= room_map_rows(map)) {
+    if (!map || app->view.table.chosen >= room_map_rows(map))
         ui_say(&app->ui, false, "choose a room first");
+    else
+        type_name(app, room_map_name(map, app->view.table.chosen));
+}
+
+static void camera_name_typed(app_state *app) {
+    char name[CAMERA_NAME];
+    if (!camera_chosen(&app->view)) {
+        ui_say(&app->ui, false, "choose a camera first: click on it");
         return;
     }
-    app->ui.side_panel = true;
-    field_set(&app->view.room_name, room_map_name(map, app->view.table.chosen));
-    app->view.room_name.chosen = true;
-    app->ui.field = &app->view.room_name;
+    camera_name(app->view.cameras, app->view.cameras->chosen, name);
+    type_name(app, name);
 }
 
 DO(room_delete, room_map_delete(&app->view, app->view.table.chosen))
 
 bool plan_field_key(app_state *app, const char *key) {
     const bool done = strcmp(key, "Return") == 0;
-    if (app->ui.field != &app->view.room_name || (!done && strcmp(key, "Escape") != 0))
-        return false;
+    if (app->ui.field != &app->view.name || (!done && strcmp(key, "Escape") != 0)) return false;
     app->ui.field = NULL;
-    if (done) room_map_rename(&app->view, app->view.table.chosen, app->view.room_name.text);
+    if (done && app->view.mode == MODE_CAMERAS)
+        camera_rename(&app->view, app->view.name.text);
+    else if (done)
+        room_map_rename(&app->view, app->view.table.chosen, app->view.name.text);
     return true;
 }
 
@@ -257,6 +273,8 @@ static const action_row rows[] = {
     {"camera_copy", "Ctrl+C", "Copy", "cameras: copy the chosen one", CAMERAS, 0, camera_copied,
      NULL},
     {"camera_delete", "Delete", "Delete", "cameras: delete it", CAMERAS, 0, camera_deleted, NULL},
+    {"camera_name", "Ctrl+K", "Name", "cameras: name the chosen one", CAMERAS, 0, camera_name_typed,
+     NULL},
     {"camera_next", "Down", "Next", "cameras: choose the next one", CAMERAS, 0, camera_next, NULL},
     {"camera_back", "Up", "Back", "cameras: choose the one before", CAMERAS, 0, camera_back, NULL},
     {"camera_spot", "B", "Next blind spot", "cameras: go to the next blind spot", CAMERAS, 0,

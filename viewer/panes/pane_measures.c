@@ -165,22 +165,24 @@ static void draw_lines(const view_state *view, column *c) {
 
 // --- rooms
 
+bool column_name(const view_state *view, column *c) {
+    ui_state *ui = view->ui;
+    const sl_box box = {{c->left, c->y + 0.3 * ui->text}, {c->right, c->y + 2.1 * ui->text}};
+    if (ui->field != &view->name) return false;
+    ui_text_field(ui, box, ui->field, "a name", true);
+    ui_hit(ui, HIT_FIELD, 1, box);
+    c->y = box.max.y + 0.3 * ui->text;
+    return true;
+}
+
 /// The name of the chosen room, or what is typed in its place.
 static void draw_room_name(const view_state *view, column *c) {
     static const char *const zone[] = {"room_name", "room_delete", NULL};
     static const char *const room[] = {"room_name", NULL};
     const room_map *map = room_map_shown(view);
-    ui_state *ui = view->ui;
-    const double t = ui->text;
     if (view->table.chosen >= room_map_rows(map)) return;
-    if (ui->field == &view->room_name) {
-        const sl_box box = {{c->left, c->y + 0.3 * t}, {c->right, c->y + 2.1 * t}};
-        ui_text_field(ui, box, ui->field, "a name", true);
-        ui_hit(ui, HIT_FIELD, 1, box);
-        c->y = box.max.y + 0.3 * t;
-        return;
-    }
-    column_buttons(ui, c, room_map_is_zone(map, view->table.chosen) ? zone : room);
+    if (column_name(view, c)) return;
+    column_buttons(view->ui, c, room_map_is_zone(map, view->table.chosen) ? zone : room);
 }
 
 static void draw_rooms(const view_state *view, column *c) {

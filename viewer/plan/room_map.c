@@ -2,6 +2,7 @@
 /// it: a name belongs to the room about the place where it was typed.
 #include "plan/room_map.h"
 
+#include "plan/cameras.h"
 #include "plan/heat.h"
 #include "sightline/support.h"
 
@@ -150,13 +151,19 @@ static sl_status measure(view_state *view, room_map *map) {
     return view->seen.valid && rows ? measure_seen(view, map) : SL_OK;
 }
 
+/// Blind spots of cameras are said by their rooms.
+static bool is_asked(const view_state *view) {
+    return is_at_hand(view) || (view->mode == MODE_CAMERAS && view->cameras &&
+                                view->cameras->known && view->cameras->coverage.blind_count);
+}
+
 void room_map_update(view_state *view, bool wait) {
-    if (!is_at_hand(view) || !view->document->baked) return;
+    if (!is_asked(view) || !view->document->baked) return;
     const sl_status status = begin_map(view);
     view_check(view, status);
     if (status != SL_OK) return;
     room_map *map = view->rooms;
-    if (tool_job_update(view, &map->job, wait, find_rooms, map))
+    if (tool_job_update(view, &map->job, wait, find_rooms, map) && is_at_hand(view))
         ui_say(view->ui, false, "%u room%s; drag for a zone", map->rooms.count,
                map->rooms.count == 1 ? "" : "s");
 }
@@ -169,6 +176,13 @@ void room_map_follow(view_state *view) {
 const room_map *room_map_shown(const view_state *view) {
     const room_map *map = is_at_hand(view) ? view->rooms : NULL;
     return map && map->job.made && map->measured ? map : NULL;
+}
+
+const char *room_map_room(const view_state *view, sl_point at) {
+    const room_map *map = view->rooms;
+    if (!map || !map->job.made || tool_job_is_old(view, &map->job)) return NULL;
+    const uint32_t room = sl_rooms_at(&map->rooms, at);
+    return room == SL_NO_ROOM ? NULL : map->rooms.items[room].name;
 }
 
 bool room_map_stop(view_state *view) {

@@ -41,6 +41,8 @@ void room_map_update(view_state *view, bool wait);
 void room_map_follow(view_state *view);
 /// NULL: the tool is not at hand, or the rooms are not there yet.
 const room_map *room_map_shown(const view_state *view);
+/// The name of the room of a place, where rooms are known; else NULL.
+const char *room_map_room(const view_state *view, sl_point at);
 /// Stops the work; false if none runs.
 bool room_map_stop(view_state *view);
 job_progress room_map_progress(const view_state *view);

@@ -261,7 +261,7 @@ struct view_state {
     table_state table;
     plan_compare *compared; ///< NULL: none
     room_map *rooms;        ///< likewise
-    text_field room_name;   ///< that is typed for the chosen room
+    text_field name;        ///< that is typed for what is chosen
     bool drawn_lines;       ///< both are of the lines as they are drawn
     drag_world *drag_world; ///< NULL: none
     uint32_t drag_worlds;   ///< how many there were
