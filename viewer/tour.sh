@@ -13,10 +13,37 @@ again() { # count, a line of two words: it so many times
 
 shoot() { # map picture, the script on stdin
     { echo "size 900 600"; echo "text 0.92"; cat; } >"$scratch/script.txt"
-    "$view" "maps/$1" --script "$scratch/script.txt" --screenshot "viewer/tour/$2.png"
+    case $1 in /*) map=$1 ;; *) map=maps/$1 ;; esac
+    "$view" "$map" --script "$scratch/script.txt" --screenshot "viewer/tour/$2.png"
     echo "viewer/tour/$2.png"
 }
 
+cat >"$scratch/house.svg" <<'END'
+<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 640 420">
+<g id="walls" fill="none" stroke="#000"><path d="M220 400H20V20H620V400H270 M320 20V180 M320 230V400 M20 220H130 M180 220H320"/></g>
+<g id="windows" stroke="#000"><path d="M620 100V200 M20 280V360"/></g>
+<g id="kitchen" stroke="#000" fill="none"><path d="M40 40H300V90H40Z"/></g>
+<g id="terrace" stroke="#000"><path d="M340 415H600"/></g>
+<text x="60" y="150">Kitchen</text><text x="60" y="320">Hall</text><text x="420" y="200">Living</text></svg>
+END
+shoot "$scratch/house.svg" reading <<END
+key Ctrl+I
+type kit
+key Tab
+$(again 4 key Space)
+key Shift+Tab
+key Ctrl+U
+click 566 373
+click 110 370
+move 300 300
+END
+shoot "$scratch/house.svg" rooms <<'END'
+key Ctrl+8
+key Ctrl+2
+key Ctrl+L
+click 200 230
+move 5 5
+END
 shoot office.map plan <<'END'
 key 9
 key Ctrl+2

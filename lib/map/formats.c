@@ -327,11 +327,20 @@ sl_status sl_map_parse(sl_context *context, const char *path, const char *text, 
                        "the width of entrances must be a number from %g to %g", SL_COORDINATE_MIN,
                        SL_COORDINATE_MAX);
     sl_map read = {0};
+    sl_import_options own = *options;
+    const char *sign;
+    double factor;
+    const bool measured = sli_unit_is_measured(options->unit, &factor, &sign);
+    if (measured) own.unit = NULL;
     char *source = sl_copy_text(context, path, strlen(path));
     sl_status status = source ? SL_OK : SL_NO_MEMORY;
     if (source)
         status = read_format(context, path, find_format(context, path, text, size), text, size,
-                             options, &read);
+                             &own, &read);
+    if (status == SL_OK && measured) {
+        status = sli_map_measure(context, &read, factor, sign);
+        if (status != SL_OK) sl_map_destroy(context, &read);
+    }
     if (status == SL_OK) {
         status = crop_map(context, path, options, &read);
         if (status == SL_OK) status = name_crs(context, path, options, &read);

@@ -20,4 +20,11 @@ int sli_unit_number(const char *sign);
 /// The length of a unit (sl_map.unit) in metres; 0 where it is none that is known.
 double sli_unit_metres(const char *unit);
 
+/// Whether a text says how long a unit of a file is, as "0.0254=m" does.
+bool sli_unit_is_measured(const char *text, double *factor, const char **sign);
+/// Multiplies all places and lengths of a map by a factor, and gives it a unit. The map was read
+/// just now: it is not clean, and its interior is not found. SL_BAD_ARGUMENT for a factor that is
+/// not above 0, a unit that is not known, a map in degrees, and coordinates that a map cannot have.
+sl_status sli_map_measure(sl_context *context, sl_map *map, double factor, const char *sign);
+
 #endif

@@ -4,6 +4,7 @@
 
 #include "app/layout.h"
 #include "plan/cameras.h"
+#include "plan/room_map.h"
 #include "sightline/place.h"
 
 #include <math.h>
@@ -74,6 +75,34 @@ static void assert_surveyed(app_state *app) {
     sl_coverage_destroy(context, &fresh);
     sl_query_destroy(context, query);
     sl_context_destroy(context);
+}
+
+/// Ctrl+K and letters name the chosen camera, which can be undone; blind spots are said by rooms.
+static void names(void **state) {
+    (void)state;
+    app_state *app = start(MAPS "/office.map", true);
+    const sl_point at = {53, 20};
+    click(app, at);
+    viewer_press(app, "Ctrl+K");
+    input_text(app, "door, north");
+    viewer_press(app, "Return");
+    app_tick(app, 0);
+    const camera_layer *layer = app->view.cameras;
+    assert_string_equal(layer->table.items[0].name, "door, north");
+    assert_surveyed(app);
+    viewer_press(app, "Ctrl+K");
+    input_text(app, "other");
+    viewer_press(app, "Escape");
+    assert_string_equal(layer->table.items[0].name, "door, north");
+    app_tick(app, 0);
+    script_frame(app);
+    assert_true(layer->coverage.blind_count > 0);
+    const char *room = room_map_room(&app->view, layer->coverage.blind[0].at);
+    assert_non_null(room);
+    assert_non_null(strstr(room, "Room "));
+    viewer_press(app, "Ctrl+Z");
+    assert_null(layer->table.items[0].name);
+    viewer_end(app);
 }
 
 static void by_pointer(void **state) {
@@ -220,8 +249,8 @@ static void stopped(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(by_pointer), cmocka_unit_test(fewest),
-                                       cmocka_unit_test(map_changes), cmocka_unit_test(tables),
-                                       cmocka_unit_test(stopped)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(by_pointer), cmocka_unit_test(names),
+                                       cmocka_unit_test(fewest),     cmocka_unit_test(map_changes),
+                                       cmocka_unit_test(tables),     cmocka_unit_test(stopped)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -307,20 +307,28 @@ class Cases:
                  "expect All walls are axial now\n")
 
     def lists_layers_of_a_drawing(self):
-        """Ctrl+I: layers with what is on them; a part of a name filters; what is marked is walls."""
+        """Ctrl+I: layers with what is on them and what they are taken for; a part of a name filters; the
+        plan follows each choice, and Escape puts back what was there."""
         layers = "".join(f"<g id='part-{i}'><path d='M{i} 0 V4' stroke='black'/></g>" for i in range(9))
         path = self.write("house.svg", "<svg xmlns='http://www.w3.org/2000/svg' width='90' height='50'>"
                           "<g id='Mauer'><path d='M0 0 H90 V50 H0 Z M40 0 V30' stroke='black' fill='none'/>"
                           f"</g>{layers}</svg>")
-        ask = "key Ctrl+I\nexpect Open house.svg\nfits\n"
-        self.run("layers", path, ask + "type mau\nkey Tab\nkey Space\nkey Return\n"
-                 "key Ctrl+Shift+S\nkey Ctrl+U\ntype walls\nkey Return\nexpect walls.map\n")
-        walls = [line for line in statements((self.folder / "walls.map").read_text())
-                 if line[0].startswith("wall")]
-        self.check(walls and all(float(line[1]) in (0, 40, 90) for line in walls), f"Mauer: {walls}")
-        # What was chosen is marked the next time; letters press no button.
-        self.run("one part", path, ask + "type PART-3\nkey Tab\nkey Space\nkey Return\n"
-                 "expect 1 wall\nkey Ctrl+I\ntype o\nexpect Open house.svg\nkey Escape\n")
+        ask = "key Ctrl+I\nexpect How to read house.svg\nfits\n"
+        save = "key Ctrl+Shift+S\nkey Ctrl+U\ntype walls\nkey Return\nexpect walls.map\n"
+
+        def walls(script):
+            (self.folder / "walls.map").unlink(missing_ok=True)
+            self.run("layers", path, script + save)
+            lines = statements((self.folder / "walls.map").read_text())
+            return {float(line[1]) for line in lines if line[0].startswith("wall")}
+
+        plain = walls("")
+        self.check(plain <= {0, 40, 90}, f"Mauer: {plain}")
+        # The first choice of a layer that is ignored is a wall; letters press no button.
+        self.check(walls(ask + "type PART-3\nkey Tab\nkey Space\nkey Return\n") == plain | {3}, "part-3")
+        self.check(walls(ask + "type part-3\nkey Tab\nkey Space\nkey Escape\n") == plain, "Escape")
+        for text in ("1024 768", "640 480"):
+            self.run("fits", path, f"size {text}\n{ask}key Escape\n")
 
     def asks_before_pictures(self):
         """A picture goes beside the map, under the map's name or the one that is typed."""

@@ -77,6 +77,16 @@ static void assert_same_sight(app_state *app, sl_random *random, bool indoors) {
     assert_true(seen->valid);
     assert_int_equal(sl_query_region(context, fresh_query, &seen->view, &region), SL_OK);
     const double area = sl_region_area(&region);
+    sl_mirrored_region mirrored = {0};
+    if (indoors && map.mirror_count) {
+        assert_int_equal(sl_query_mirrored_region_to(context, fresh_query, &seen->view,
+                                                     app->document.mirror_depth, &mirrored),
+                         SL_OK);
+        const double by_mirror = sl_mirrored_area(&mirrored);
+        if (fabs(by_mirror - seen->mirrored_area) > 1e-9 * area)
+            fail_msg("mirrors show %.17g, by a bake %.17g", seen->mirrored_area, by_mirror);
+        sl_mirrored_region_destroy(context, &mirrored);
+    }
     if (indoors && fabs(area - seen->region_area) > 1e-9 * area)
         fail_msg("the region has %.17g, by a bake %.17g", seen->region_area, area);
     sl_region_destroy(context, &region);
@@ -274,23 +284,49 @@ static void test_far(void **state) {
     remove("rooms.map");
 }
 
-/// What worlds do not know is dragged as in small maps.
-static void test_others(void **state) {
+/// Mirrors, glass, walls that limit sight or do not stop it: they stand beside the wall that is
+/// dragged, and then they are dragged themselves by a corner that they share with a wall.
+static void test_effects(void **state) {
     (void)state;
-    static const char *const more[] = {"mirror 2 2 2 4\n", "oneway 2 2 2 4\n", ""};
+    static const char *const more[] = {
+        "mirror 2 2 2 8\n", "oneway 6 2 6 8\n", "wall 6 2 6 8 stops steps\n",
+        "wall 6 2 6 4 stops limited\nwall 7 3 7 9 stops limited\n", "seam 0 5 10 5\n"};
+    static const char *const at_corner[] = {"mirror 14 4 16 6\n", "oneway 14 4 16 6\n",
+                                            "wall 14 4 16 6 stops steps\n",
+                                            "wall 14 4 16 6 stops limited\n", "seam 14 4 16 6\n"};
     sl_random random = {9};
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 5; i++) {
         char text[512];
-        snprintf(text, sizeof text, "%s%s", rooms, more[i]);
+        snprintf(text, sizeof text, "%s%s%swall 14 2 14 4\n", rooms, more[i], at_corner[i]);
         write_text("rooms.map", text);
         app_state *app = start("rooms.map");
-        if (i == 2) app->view.world_walls = 2000;
-        assert_int_equal(drag(app, &random, (sl_point){10, 5}, 3 * app->view.camera.scale, 0, true),
-                         0);
-        assert_true(app->document.live);
+        const double unit = app->view.camera.scale;
+        app->view.eye.fov = 360;
+        assert_int_equal(drag(app, &random, (sl_point){10, 5}, 3 * unit, 0, true), 4);
+        assert_false(app->document.live);
         drop(app);
+        assert_same_picture(app);
+        app->view.eye.at = (sl_point){17, 2};
+        // A mirror itself is dragged by bakes.
+        assert_int_equal(drag(app, &random, (sl_point){14, 4}, unit, unit, true), i ? 4 : 0);
+        drop(app);
+        assert_same_picture(app);
         viewer_end(app);
     }
+    remove("rooms.map");
+}
+
+/// A small map is baked at each step.
+static void test_small(void **state) {
+    (void)state;
+    sl_random random = {9};
+    write_text("rooms.map", rooms);
+    app_state *app = start("rooms.map");
+    app->view.world_walls = 2000;
+    assert_int_equal(drag(app, &random, (sl_point){10, 5}, 3 * app->view.camera.scale, 0, true), 0);
+    assert_true(app->document.live);
+    drop(app);
+    viewer_end(app);
     remove("rooms.map");
 }
 
@@ -321,8 +357,9 @@ static void test_hasty(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_walls), cmocka_unit_test(test_rooms),  cmocka_unit_test(test_touched),
-        cmocka_unit_test(test_far),   cmocka_unit_test(test_others), cmocka_unit_test(test_hasty),
+        cmocka_unit_test(test_walls), cmocka_unit_test(test_rooms), cmocka_unit_test(test_touched),
+        cmocka_unit_test(test_far),   cmocka_unit_test(test_small), cmocka_unit_test(test_effects),
+        cmocka_unit_test(test_hasty),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

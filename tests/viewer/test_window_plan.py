@@ -84,6 +84,65 @@ def in_window(viewer, display, size, density):
         return table
 
 
+def house():
+    """A DXF drawing: two rooms, an opening to the outside, and a hedge on a layer of its own."""
+    lines = [("A-WALL", 0, 0, 4, 0), ("A-WALL", 5.5, 0, 12, 0), ("A-WALL", 12, 0, 12, 8),
+             ("A-WALL", 12, 8, 0, 8), ("A-WALL", 0, 8, 0, 0), ("A-WALL", 6, 0, 6, 3),
+             ("A-WALL", 6, 4, 6, 8), ("A-WALL", 13, -2, 14, -2), ("HEDGE", 2, 5, 4, 5)]
+    form = "0\nLINE\n8\n{}\n10\n{}\n20\n{}\n11\n{}\n21\n{}\n"
+    return "0\nSECTION\n2\nENTITIES\n" + "".join(form.format(*line) for line in lines) + "0\nENDSEC\n0\nEOF\n"
+
+
+def reading(viewer, display, size, density):
+    """A drawing asks how it is read, by itself; what was said is known the next time."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        path = folder / "house.dxf"
+        path.write_text(house())
+        width, height = size
+        shown = environment(DISPLAY=display, XDG_CONFIG_HOME=str(folder / "config"),
+                            XDG_STATE_HOME=str(folder / "state"))
+        conf = folder / "config/sightline/view.conf"
+        conf.parent.mkdir(parents=True)
+        conf.write_text(f"width {width / density:g}\nheight {height / density:g}\n")
+        inside = round(0.12 * width), round(0.45 * height)
+        # Eleven widgets on from the filter is "Here is inside", and two from there "Close it".
+        to_inside, to_close = ["Tab"] * 11, ["Tab"] * 13
+        script = (f"size {width} {height}\ndensity {density}\nkey 9\nkey Ctrl+I\ntype hed\nkey Tab\nkey Space\n"
+                  f"move 5 5\nscreenshot list.png\n"
+                  "key Shift+Tab\n" + "key Tab\n" * 11 + f"key Return\nclick {inside[0]} {inside[1]}\n"
+                  + "screenshot leak.png\n" + "key Tab\n" * 13 + "key Return\nkey Return\nkey H\nmove 5 5\nsave read.png\n")
+        (folder / "script.txt").write_text(script)
+        done = viewer.run(path, "--script", folder / "script.txt", cwd=folder)
+        viewer.check(done.returncode == 0, f"reading: {done.stderr}")
+        for turn in ("first", "second"):
+            session = Session(viewer, folder, shown, path)
+            window = session.window
+            session.shows("house.dxf")
+            if turn == "first":
+                time.sleep(0.5)
+                session.type("hed")
+                session.keys("Tab", "space")
+                time.sleep(0.5)
+                session.keys("shift+Tab", *to_inside, "Return")
+                window.act(("drag", *inside, *inside))
+                time.sleep(1)
+                session.keys(*to_close, "Return")
+                time.sleep(0.5)
+                session.keys("Return")
+            session.keys("h")  # the first time the eye stays where it was
+            share = window.shows(folder / "read.png")
+            viewer.check(share <= TOLERANCE, f"{size}, {turn} reading: {share:.2%} is otherwise")
+            session.keys("ctrl+q")
+            session.ends(f"{size}, {turn} reading")
+            for picture in folder.glob("saved-*.png"):
+                picture.unlink()
+        kept = folder / "config/sightline/drawings"
+        text = kept.read_text() if kept.exists() else ""
+        for line in ("layers HEDGE=wall\n", "start ", "closed "):
+            viewer.check(line in text, f"'{line.strip()}' is not kept: {text}")
+
+
 def main():
     if not shutil.which("Xvfb") or not shutil.which("xdotool"):
         print("Xvfb or xdotool is not here")
@@ -94,6 +153,7 @@ def main():
         server, display = start_display(screen)
         try:
             tables.append(in_window(viewer, display, size, density))
+            reading(viewer, display, size, density)
         finally:
             server.terminate()
             server.wait()

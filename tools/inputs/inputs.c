@@ -71,7 +71,10 @@ option_table input_option_table(input_options *input) {
          .box = &to->crop, .flag = &to->has_crop, .given = given, .rare = true},
         {"slice", 0, "Z", "cut a 3D model at this height", .number = &to->slice,
          .flag = &to->has_slice, .given = given, .rare = true},
-        {"layers", 0, "LAYER,...", "which layers of a drawing or a tile map to read",
+        {"layers", 0, "LAYER,...",
+         "which layers of a drawing or a tile map to read; A=wall, =door, =window, =furniture, "
+         "=ignore: "
+         "what a layer of a drawing is taken for",
          .text = &to->layers, .given = given},
         {"start-names", 0, "NAME,...",
          "which objects of a game map are starts (default: Player, Spawn, Start ...; 'none': no "
@@ -80,7 +83,9 @@ option_table input_option_table(input_options *input) {
         {"tolerance", 0, "T", "largest distance of a curve from its walls",
          .number = &to->tolerance, .over_0 = true, .given = given, .rare = true},
         {"unit", 0, "UNIT",
-         "convert a drawing to this unit: mm cm m km in ft yd; mm=m: it is in mm, whatever it says",
+         "convert a drawing to this unit: mm cm m km in ft yd; mm=m: it is in mm, whatever it "
+         "says; "
+         "0.0254=m: a unit of the file, of any format, is 0.0254 m",
          .text = &to->unit, .given = given, .rare = true},
         {"entrance", 0, "W",
          "how wide openings to the outside are at most: inside is what a disc of that width cannot "

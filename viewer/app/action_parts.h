@@ -38,6 +38,9 @@ action_part actions_plan(void);
 /// Escape in the Plan mode: stops the work of its tools, or forgets what they show. False: nothing.
 bool plan_escape(app_state *app);
 
+/// Return or Escape in the field of a room's name: takes it, or not. False: the key is another one.
+bool plan_field_key(app_state *app, const char *key);
+
 /// Has the app do something with a path once the dialog is shut.
 void wish_for(desk_state *desk, path_wish wish, const char *path);
 

@@ -9,10 +9,12 @@
 #include "plan/heat.h"
 #include "plan/layers.h"
 #include "plan/line_map.h"
+#include "plan/room_map.h"
 #include "plan/route.h"
 #include "plan/table.h"
 
 #include <stdio.h>
+#include <string.h>
 
 // --- tools of the Plan mode
 
@@ -33,6 +35,49 @@ TOOL(plan_axial, TOOL_AXIAL, "the fewest lines of sight that cover the plan; 2 t
 TOOL(plan_segments, TOOL_SEGMENTS, "axial lines, cut where they cross; 2 the next measure")
 DO(plan_drawn, line_map_toggle_drawn(&app->view))
 IS(plan_drawn, app->view.drawn_lines)
+
+// --- rooms
+
+TOOL(plan_rooms, TOOL_ROOMS, "click a room, or drag a zone; Ctrl+K names what is chosen")
+
+/// Has letters typed into the field of the panel.
+static void type_name(app_state *app, const char *name) {
+    app->ui.side_panel = true;
+    field_set(&app->view.name, name);
+    app->view.name.chosen = true;
+    app->ui.field = &app->view.name;
+}
+
+static void room_name_typed(app_state *app) {
+    const room_map *map = room_map_shown(&app->view);
+    if (!map || app->view.table.chosen >= room_map_rows(map))
+        ui_say(&app->ui, false, "choose a room first");
+    else
+        type_name(app, room_map_name(map, app->view.table.chosen));
+}
+
+static void camera_name_typed(app_state *app) {
+    char name[CAMERA_NAME];
+    if (!camera_chosen(&app->view)) {
+        ui_say(&app->ui, false, "choose a camera first: click on it");
+        return;
+    }
+    camera_name(app->view.cameras, app->view.cameras->chosen, name);
+    type_name(app, name);
+}
+
+DO(room_delete, room_map_delete(&app->view, app->view.table.chosen))
+
+bool plan_field_key(app_state *app, const char *key) {
+    const bool done = strcmp(key, "Return") == 0;
+    if (app->ui.field != &app->view.name || (!done && strcmp(key, "Escape") != 0)) return false;
+    app->ui.field = NULL;
+    if (done && app->view.mode == MODE_CAMERAS)
+        camera_rename(&app->view, app->view.name.text);
+    else if (done)
+        room_map_rename(&app->view, app->view.table.chosen, app->view.name.text);
+    return true;
+}
 
 // --- another plan
 
@@ -97,7 +142,7 @@ bool plan_escape(app_state *app) {
     if (view->mode != MODE_PLAN) return false;
     if (compare_stop(view))
         said = "stopped comparing";
-    else if (line_map_stop(view))
+    else if (line_map_stop(view) || room_map_stop(view))
         said = "stopped; choose the tool once more to begin anew";
     else if (view->tool == TOOL_PATH && route_clear(view))
         said = "the way is gone";
@@ -187,6 +232,12 @@ static const action_row rows[] = {
      PLAN, 0, plan_compared, is_plan_compared},
     {"plan_other", NULL, "Other plan", "plan: choose the plan to compare with", PLAN, 0,
      choose_other, NULL},
+    {"plan_rooms", "Ctrl+8", "Rooms", "plan: the rooms, with their names; drag a zone", PLAN, 0,
+     plan_rooms, is_plan_rooms},
+    {"room_name", "Ctrl+K", "Name", "rooms: name the chosen room or zone", PLAN, 0, room_name_typed,
+     NULL},
+    {"room_delete", "Delete", "Delete", "rooms: delete the chosen zone", PLAN, 0, room_delete,
+     NULL},
     {"plan_path", "Ctrl+3", "Path", "plan: two clicks, and the shortest way between them", PLAN, 0,
      plan_path, is_plan_path},
     {"table", "Ctrl+L", "Table", "plan: the table of what the tool has computed", PLAN, 0, table,
@@ -222,6 +273,8 @@ static const action_row rows[] = {
     {"camera_copy", "Ctrl+C", "Copy", "cameras: copy the chosen one", CAMERAS, 0, camera_copied,
      NULL},
     {"camera_delete", "Delete", "Delete", "cameras: delete it", CAMERAS, 0, camera_deleted, NULL},
+    {"camera_name", "Ctrl+K", "Name", "cameras: name the chosen one", CAMERAS, 0, camera_name_typed,
+     NULL},
     {"camera_next", "Down", "Next", "cameras: choose the next one", CAMERAS, 0, camera_next, NULL},
     {"camera_back", "Up", "Back", "cameras: choose the one before", CAMERAS, 0, camera_back, NULL},
     {"camera_spot", "B", "Next blind spot", "cameras: go to the next blind spot", CAMERAS, 0,

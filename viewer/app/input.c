@@ -1,10 +1,11 @@
 /// Who gets a key or a click: a dialog, the widget with the focus, the plan.
 #include "app/input.h"
 
-#include "app/actions.h"
+#include "app/action_parts.h"
 #include "app/layout.h"
 #include "app/sliders.h"
 #include "app/turn.h"
+#include "dialogs/import_dialog.h"
 #include "lessons/quiz.h"
 #include "panes/panes.h"
 #include "plan/cameras.h"
@@ -13,6 +14,7 @@
 #include "plan/from_line.h"
 #include "plan/grid.h"
 #include "plan/line_map.h"
+#include "plan/room_map.h"
 #include "plan/route.h"
 #include "plan/table.h"
 
@@ -187,6 +189,7 @@ static bool takes_key(text_field *field, const char *key) {
 static bool own_key(app_state *app, const char *key, bool down) {
     ui_state *ui = &app->ui;
     if (!down) return false;
+    if (plan_field_key(app, key)) return true;
     if (ui->field && takes_key(ui->field, key)) {
         ui->scrolls[SCROLL_HELP].at = 0;
         return true;
@@ -295,6 +298,7 @@ static drag_kind plan_drag(app_state *app, drag_state *drag) {
     if (app->view.mode == MODE_EXPLORE && object_take(&app->view, drag)) return DRAG_OBJECT;
     if (app->view.mode == MODE_CAMERAS && camera_take(&app->view, drag)) return DRAG_CAMERA;
     if (app->view.mode == MODE_PLAN && app->view.tool == TOOL_FROM_LINE) return DRAG_FROM_LINE;
+    if (app->view.mode == MODE_PLAN && app->view.tool == TOOL_ROOMS) return DRAG_ZONE;
     if (app->view.mode != MODE_DRAW) return DRAG_PAN;
     return edit_take(&app->view, drag);
 }
@@ -363,12 +367,18 @@ void input_press(app_state *app, button_kind button, sl_point at) {
     input_press_at(app, button, at);
 }
 
+/// Whether the place is in the plan, beside a dialog that leaves it in sight.
+static bool is_beside(const app_state *app, const hit_area *hit) {
+    return app->desk.dialog.beside && hit->kind == HIT_PLAN &&
+           dialog_open_now(&app->desk.dialog) != DIALOG_NONE;
+}
+
 static void input_press_at(app_state *app, button_kind button, sl_point at) {
     app->ui.pointer = at;
     const hit_area hit = ui_find(&app->ui, at);
     drag_state *drag = &app->view.drag;
     *drag = (drag_state){.hit = hit, .from = at, .last = at, .index = UINT32_MAX};
-    if (dialog_open_now(&app->desk.dialog) != DIALOG_NONE) {
+    if (dialog_open_now(&app->desk.dialog) != DIALOG_NONE && !is_beside(app, &hit)) {
         if (button == BUTTON_LEFT) dialog_press(&app->desk.dialog, &hit, at);
         actions_answered(app);
         return;
@@ -389,7 +399,7 @@ static void input_press_at(app_state *app, button_kind button, sl_point at) {
     if (button == BUTTON_RIGHT && explains)
         explain_to(app, drag->at);
     else if (button == BUTTON_LEFT)
-        drag->kind = plan_drag(app, drag);
+        drag->kind = is_beside(app, &hit) ? DRAG_PAN : plan_drag(app, drag);
     else
         drag->kind = button == BUTTON_MIDDLE ? DRAG_LOOK : DRAG_PAN;
 }
@@ -444,6 +454,11 @@ static void input_point(app_state *app, sl_point to) {
         drag->changed |= drag->moved;
         if (drag->moved) from_line_move(&app->view, now);
         break;
+    case DRAG_ZONE:
+        if (drag->moved && !drag->changed) room_map_begin_zone(&app->view, drag->at);
+        drag->changed |= drag->moved;
+        if (drag->moved) room_map_drag_zone(&app->view, now);
+        break;
     case DRAG_NEW_WALL:
     case DRAG_NEW_DOOR:
     case DRAG_WALL:
@@ -471,9 +486,16 @@ void input_release(app_state *app, sl_point at) {
     if (drag.hit.kind == HIT_SLIDER && slider_of(&drag.hit)->end)
         slider_of(&drag.hit)->end(&app->view);
     const sl_point now = to_map(app, drag.hit.value, at);
+    if (is_beside(app, &drag.hit)) {
+        if (drag.kind == DRAG_PAN && !drag.moved)
+            import_pick_at(&app->desk, now, grid_reach(&app->view));
+        return;
+    }
     if (drag.kind == DRAG_MIRROR) mirror_drop(&app->view, &drag);
     if (drag.kind == DRAG_OBJECT && !drag.moved) object_toggle(&app->view, drag.index);
+    if (drag.kind == DRAG_ZONE) room_map_drop_zone(&app->view);
     const bool holds = drag.kind == DRAG_PAN || drag.kind == DRAG_FROM_LINE ||
+                       drag.kind == DRAG_ZONE ||
                        (drag.kind == DRAG_MIRROR && app->view.mode == MODE_EXPLORE);
     const bool puts = holds && !drag.moved && app->view.mode != MODE_QUIZ;
     const uint32_t door = puts ? door_at(&app->view, now) : UINT32_MAX;
@@ -498,7 +520,8 @@ void input_release(app_state *app, sl_point at) {
 }
 
 void input_wheel(app_state *app, double steps) {
-    if (dialog_open_now(&app->desk.dialog) != DIALOG_NONE) {
+    const hit_area over = ui_find(&app->ui, app->ui.pointer);
+    if (dialog_open_now(&app->desk.dialog) != DIALOG_NONE && !is_beside(app, &over)) {
         dialog_wheel(&app->desk.dialog, steps);
         return;
     }

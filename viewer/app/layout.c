@@ -1,6 +1,7 @@
 /// Where things are on the page, by the size of the window and of text.
 #include "app/layout.h"
 
+#include "dialogs/import_dialog.h"
 #include "panes/modes.h"
 #include "panes/panes.h"
 
@@ -14,6 +15,7 @@ static sl_box box_of(double left, double top, double right, double bottom) {
 static double side_width(const app_state *app) {
     const ui_state *ui = &app->ui;
     const double t = ui_text_size(ui), chosen = ui->edges[EDGE_SIDE];
+    if (import_is_beside(&app->desk)) return fmin(IMPORT_WIDE * t, 0.55 * ui->width);
     if (!ui_has_panel(&app->ui)) return 0;
     return fmin(fmax(chosen > 0 ? chosen : 26, 8) * t, 0.55 * ui->width);
 }

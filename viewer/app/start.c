@@ -12,6 +12,7 @@
 #include "plan/from_line.h"
 #include "plan/heat.h"
 #include "plan/line_map.h"
+#include "plan/room_map.h"
 #include "plan/route.h"
 #include "plan/table.h"
 #include "plan/view_cells.h"
@@ -19,7 +20,8 @@
 static const dialog_row dialogs[DIALOG_KINDS] = {
     [DIALOG_MENU] = {menu_draw, menu_act, NULL, NULL, NULL},
     [DIALOG_BROWSER] = {browser_draw, browser_act, browser_edited, browser_key, browser_destroy},
-    [DIALOG_IMPORT] = {import_draw, import_act, import_edited, NULL, import_destroy},
+    [DIALOG_IMPORT] = {import_draw, import_act, import_edited, import_key, import_destroy,
+                       IMPORT_TYPES_INTO},
     [DIALOG_QUESTION] = {question_draw, question_act, NULL, question_key, NULL},
 };
 
@@ -97,6 +99,7 @@ void app_destroy(app_state *app) {
     route_layer_destroy(app->context, app->view.route);
     from_line_destroy(app->context, app->view.from_line);
     compare_clear(&app->view);
+    room_map_destroy(app->context, app->view.rooms);
     table_destroy(app->context, &app->view.table);
     for (int i = 0; i < 2; i++) line_map_destroy(app->context, app->view.lines[i]);
     drag_world_drop(&app->view);

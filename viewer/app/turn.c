@@ -3,8 +3,9 @@
 
 #include "app/layout.h"
 #include "dialogs/map_file.h"
+#include "dialogs/opening.h"
 #include "dialogs/recovery.h"
-#include "document/files.h"
+#include "document/drawings.h"
 #include "lessons/quiz.h"
 #include "plan/cameras.h"
 #include "plan/compare.h"
@@ -13,6 +14,7 @@
 #include "plan/from_line.h"
 #include "plan/heat.h"
 #include "plan/line_map.h"
+#include "plan/room_map.h"
 #include "plan/route.h"
 #include "plan/table.h"
 #include "plan/view_cells.h"
@@ -21,7 +23,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <strings.h>
 
 /// A frame of a drag takes this long, where its space does not come sooner.
 #define DRAG_FRAME_SECONDS 0.014
@@ -78,15 +79,6 @@ static void say_subdivision(app_state *app, bool was_mesh) {
                "All walls are axial now: the cells are those of a kd-tree, no longer of a mesh");
 }
 
-/// Whether a file is a floor plan, by its ending: a drawing or a picture.
-static bool is_plan_file(const char *path) {
-    static const char *const endings[] = {".dxf", ".svg", ".svgz", ".geojson", ".png", ".pgm"};
-    const char *dot = path ? strrchr(path, '.') : NULL;
-    for (size_t i = 0; dot && i < sizeof endings / sizeof *endings; i++)
-        if (strcasecmp(dot, endings[i]) == 0) return true;
-    return false;
-}
-
 /// A map that was opened starts from its own start. After a change by hand the eye stays.
 static void take_document(app_state *app, bool opened) {
     drop_made(app);
@@ -107,11 +99,12 @@ static void take_document(app_state *app, bool opened) {
     route_clear(&app->view);
     from_line_clear(&app->view);
     compare_clear(&app->view);
-    if (app->view.mode == MODE_EXPLORE && is_plan_file(app->document.source.path))
+    if (app->view.mode == MODE_EXPLORE && drawing_is(app->document.source.path))
         app->view.mode = MODE_PLAN;
     walk_home(&app->view);
     map_file_taken(&app->desk);
     say_document(app);
+    files_ask_once(&app->desk);
 }
 
 void app_take_opened(app_state *app) {
@@ -174,6 +167,7 @@ static void poll_all(app_state *app, bool wait) {
     route_update(&app->view);
     from_line_update(&app->view, wait);
     line_map_update(&app->view, wait);
+    room_map_update(&app->view, wait);
     table_update(&app->view);
     map_file_tick(&app->desk, wait);
     recovery_tick(&app->desk);
@@ -195,6 +189,8 @@ job_progress app_progress(const app_state *app) {
     if (line.running) return line;
     const job_progress other = compare_progress(&app->view);
     if (other.running) return other;
+    const job_progress rooms = room_map_progress(&app->view);
+    if (rooms.running) return rooms;
     const job_progress lines = line_map_progress(&app->view);
     return lines.running ? lines : heat_layer_progress(app->view.heat);
 }
@@ -209,6 +205,7 @@ static void look_again(app_state *app) {
                                                         &app->document, dragged, &view)
                                    : seen_update(app->context, &app->view.seen, &app->document,
                                                  &app->view.present, &view));
+    room_map_follow(&app->view);
     if (app->view.mode == MODE_LEARN)
         view_check(&app->view, lesson_update(app->context, &app->learn.lesson, &app->document,
                                              view_eye_cell(&app->view)));

@@ -46,6 +46,7 @@ void dialog_destroy(dialog_state *d) {
 void dialog_draw(dialog_state *d) {
     d->item_count = 0;
     d->title[0] = d->problem[0] = '\0';
+    d->beside = false;
     if (d->depth) row_now(d)->draw(d->desk);
 }
 
@@ -85,6 +86,22 @@ sl_box dialog_begin(dialog_state *d, double width, double height, const char *ti
                         w - 2.6 * t, 1.3 * t, true, title);
     return (sl_box){{sheet.min.x + 1.3 * t, sheet.min.y + 3 * t},
                     {sheet.max.x - 1.3 * t, sheet.max.y - 1.1 * t}};
+}
+
+sl_box dialog_begin_beside(dialog_state *d, double width, double height, const char *title) {
+    ui_state *ui = d->ui;
+    const sl_box dock = d->dock;
+    d->text = ui->text;
+    d->beside = true;
+    snprintf(d->title, sizeof d->title, "%s", title);
+    ui->text = fmin(ui->text, fmin(box_width(dock) / width, box_height(dock) / height));
+    const double t = ui->text;
+    ui_hit(ui, HIT_DIALOG, 0, dock);
+    ui_begin_area(ui, dock);
+    ui_line(ui, dock.min.x + 0.5, dock.min.y, dock.min.x + 0.5, dock.max.y, ui->palette.outline);
+    sl_text_show_within(ui->cairo, ui->palette.ink, dock.min.x + t, dock.min.y + 1.8 * t,
+                        box_width(dock) - 2 * t, 1.2 * t, true, title);
+    return (sl_box){{dock.min.x + t, dock.min.y + 2.4 * t}, {dock.max.x - t, dock.max.y - 0.8 * t}};
 }
 
 void dialog_end(dialog_state *d) {
@@ -334,7 +351,14 @@ void dialog_key(dialog_state *d, const char *key, bool down) {
 
 void dialog_text(dialog_state *d, const char *text) {
     dialog_item *focused = find_item(d, *focus_of(d));
-    if (d->deaf[0] || !focused || focused->kind != ITEM_FIELD) return;
+    const int other = row_now(d)->types_into;
+    if (d->deaf[0]) return;
+    // A space has pressed what has the focus.
+    if (other && *text != ' ' && find_item(d, other) && (!focused || focused->kind != ITEM_FIELD)) {
+        *focus_of(d) = other;
+        focused = find_item(d, other);
+    }
+    if (!focused || focused->kind != ITEM_FIELD) return;
     field_insert(focused->field, text);
     tell_edited(d, focused->id);
 }

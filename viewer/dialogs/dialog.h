@@ -59,6 +59,7 @@ typedef struct dialog_row {
     void (*edited)(desk_state *desk, int id);       ///< a field, or the choice of a list
     bool (*key)(desk_state *desk, const char *key); ///< before all others; false: not its own
     void (*destroy)(desk_state *desk);              ///< at the end of the program
+    int types_into; ///< the field that text goes to while no other one has the focus; 0: none
 } dialog_row;
 
 typedef struct dialog_state {
@@ -74,6 +75,8 @@ typedef struct dialog_state {
     char deaf[48];                 ///< the key that opened the dialog: its letter is no text
     char title[320], problem[512]; ///< as shown in the last frame
     double text;                   ///< the size of text outside of the sheet
+    sl_box dock;                   ///< where a sheet may stand beside the plan
+    bool beside;                   ///< the uppermost one does: clicks in the plan are not its own
     dialog_list menu;
     const char *chosen; ///< the action that the menu chose: the caller runs it; NULL: none
     struct browser_state *browser; ///< NULL: never opened
@@ -106,6 +109,8 @@ void dialog_wheel(dialog_state *d, double steps);
 /// Begins a sheet. It is made to fit the window: text gets smaller where there is no room. Returns
 /// the box below the title.
 sl_box dialog_begin(dialog_state *d, double width, double height, const char *title);
+/// The same for one that stands in `dock`, and leaves the plan in sight.
+sl_box dialog_begin_beside(dialog_state *d, double width, double height, const char *title);
 void dialog_end(dialog_state *d);
 
 /// A line that says what is wrong; nothing for "".

@@ -1,51 +1,13 @@
 /// The dialog of how a file is read. A format has only the rows that it has a use for. An empty
 /// field stands for the usual, which it shows in grey.
-#include "dialogs/import_dialog.h"
+#include "dialogs/import_parts.h"
 
-#include "document/files.h"
+#include "document/drawings.h"
 #include "sightline/draw.h"
-#include "sightline/faults.h"
-#include "sightline/io.h"
 #include "sightline/support.h"
 
 #include <math.h>
 #include <string.h>
-#include <strings.h>
-
-typedef enum field_name {
-    FIELD_SLICE,
-    FIELD_LAYERS,
-    FIELD_STARTS,
-    FIELD_TOLERANCE,
-    FIELD_UNIT,
-    FIELD_THRESHOLD,
-    FIELD_WELD,
-    FIELD_START,
-    FIELD_ENTRANCE,
-    FIELDS
-} field_name;
-
-typedef struct import_state {
-    void (*then)(desk_state *desk, const document_source *source);
-    document_source source;
-    sl_map_choice choice;
-    dialog_list maps, layers; ///< the latter has those that the filter leaves
-    bool *taken;              ///< by layer
-    size_t *shown;            ///< by row of the list: the layer
-    sl_drawing_layers drawn;  ///< of a drawing: its layers, with what is on them
-    text_field filter;
-    bool more, doors, cells;
-    text_field fields[FIELDS];
-    char problem[512]; ///< "" for none
-
-    task *task; ///< that looks for a tolerance; NULL: none
-    struct weld_job {
-        document_source source;
-        double weld;
-    } * weld;
-} import_state;
-
-enum { MAPS = DIALOG_OWN, LAYERS_LIST, DOORS, CELLS, MORE, SUGGEST, FILTER, FIRST_FIELD };
 
 static const struct {
     const char *label, *hint;
@@ -72,15 +34,15 @@ void import_destroy(desk_state *desk) {
         sl_free(desk->context, s->weld);
     }
     document_source_destroy(desk->context, &s->source);
+    document_source_destroy(desk->context, &s->first);
     sl_map_choice_destroy(desk->context, &s->choice);
-    sl_drawing_layers_destroy(desk->context, &s->drawn);
-    sl_free(desk->context, s->taken);
-    sl_free(desk->context, s->shown);
+    import_layers_end(desk->context, s);
+    import_plan_end(desk->context, s);
     sl_free(desk->context, s);
     desk->dialog.import = NULL;
 }
 
-static void set_number(text_field *field, bool given, double value) {
+void import_set_number(text_field *field, bool given, double value) {
     char text[SL_NUMBER_TEXT] = "";
     if (given) sl_number_write(value, text);
     field_set(field, text);
@@ -88,15 +50,15 @@ static void set_number(text_field *field, bool given, double value) {
 
 static void fill_fields(import_state *s) {
     const sl_import_options *o = &s->source.options;
-    set_number(&s->fields[FIELD_SLICE], o->has_slice, o->slice);
+    import_set_number(&s->fields[FIELD_SLICE], o->has_slice, o->slice);
     // Where there is a list, the field is for what the list cannot say.
     const bool listed = s->choice.layers.count && o->layers && !strchr(o->layers, ':');
     field_set(&s->fields[FIELD_LAYERS], o->layers && !listed ? o->layers : "");
     field_set(&s->fields[FIELD_STARTS], o->start_names ? o->start_names : "");
-    set_number(&s->fields[FIELD_TOLERANCE], o->tolerance > 0, o->tolerance);
+    import_set_number(&s->fields[FIELD_TOLERANCE], o->tolerance > 0, o->tolerance);
     field_set(&s->fields[FIELD_UNIT], o->unit ? o->unit : "");
-    set_number(&s->fields[FIELD_THRESHOLD], o->threshold > 0, o->threshold);
-    set_number(&s->fields[FIELD_WELD], s->source.has_weld, s->source.weld);
+    import_set_number(&s->fields[FIELD_THRESHOLD], o->threshold > 0, o->threshold);
+    import_set_number(&s->fields[FIELD_WELD], s->source.has_weld, s->source.weld);
     char text[2 * SL_NUMBER_TEXT + 1] = "", x[SL_NUMBER_TEXT], y[SL_NUMBER_TEXT];
     if (s->source.has_start) {
         sl_number_write(s->source.start.x, x);
@@ -104,72 +66,13 @@ static void fill_fields(import_state *s) {
         snprintf(text, sizeof text, "%s,%s", x, y);
     }
     field_set(&s->fields[FIELD_START], text);
-    set_number(&s->fields[FIELD_ENTRANCE], o->entrance > 0, o->entrance);
+    import_set_number(&s->fields[FIELD_ENTRANCE], o->entrance > 0, o->entrance);
     s->doors = o->doors;
     s->cells = o->cells;
 }
 
-/// The layers that the option names; at first none.
-static void fill_layers(import_state *s) {
-    const char *list = s->source.options.layers;
-    for (size_t i = 0; list && i < s->choice.layers.count; i++) {
-        const char *name = s->choice.layers.names[i];
-        for (const char *at = list; *at;) {
-            const size_t length = strcspn(at, ",");
-            s->taken[i] |= strlen(name) == length && strncmp(at, name, length) == 0;
-            at += length + (at[length] == ',');
-        }
-    }
-}
-
-// --- the list of layers
-
-/// Whether a name holds a part, in capitals or not.
-static bool holds(const char *name, const char *part) {
-    const size_t length = strlen(part);
-    for (; *name && strncasecmp(name, part, length) != 0; name++)
-        ;
-    return *name || !length;
-}
-
-/// Lists the layers that the filter leaves.
-static void filter_layers(import_state *s) {
-    size_t count = 0;
-    for (size_t i = 0; i < s->choice.layers.count; i++)
-        if (holds(s->choice.layers.names[i], s->filter.text)) s->shown[count++] = i;
-    s->layers.count = count;
-    s->layers.at = s->layers.first = 0;
-}
-
-/// A long list has a filter.
-static bool has_filter(const import_state *s) {
-    return s->choice.layers.count > 8;
-}
-
-/// The layers of a drawing, which its format does not list by itself.
-static sl_status list_drawn(sl_context *context, import_state *s) {
-    const char *name = s->choice.format ? s->choice.format->name : "";
-    const bool dxf = strcmp(name, "dxf") == 0;
-    sl_bytes bytes;
-    if (s->choice.layers.count || (!dxf && strcmp(name, "svg") != 0)) return SL_OK;
-    SL_TRY(sl_file_read(context, s->source.path, &bytes));
-    sl_status status =
-        dxf ? sl_drawing_layers_dxf(context, s->source.path, bytes.data, bytes.size, &s->drawn)
-            : sl_drawing_layers_svg(context, s->source.path, bytes.data, bytes.size, &s->drawn);
-    sl_free(context, bytes.data);
-    for (size_t i = 0; i < s->drawn.count && status == SL_OK; i++)
-        status = sl_map_list_add(context, &s->choice.layers, s->drawn.items[i].name,
-                                 strlen(s->drawn.items[i].name));
-    return status;
-}
-
 static bool asks_map(const import_state *s) {
     return s->choice.maps.count > 1;
-}
-
-/// The list of layers takes the place of the field.
-static bool asks_layers(const import_state *s) {
-    return s->choice.layers.count > 0 && (s->more || s->choice.layers_unsaid);
 }
 
 sl_status import_open(desk_state *desk, const document_source *source, sl_map_choice *choice,
@@ -179,33 +82,34 @@ sl_status import_open(desk_state *desk, const document_source *source, sl_map_ch
     if (!s) return SL_NO_MEMORY;
     desk->dialog.import = s;
     SL_TRY(document_source_copy(desk->context, source, &s->source));
+    SL_TRY(document_source_copy(desk->context, source, &s->first));
     s->choice = *choice;
     *choice = (sl_map_choice){.format = choice->format};
-    if (all) SL_TRY(list_drawn(desk->context, s));
-    const size_t layers = s->choice.layers.count;
-    s->taken = sl_alloc_array(desk->context, layers + 1, sizeof *s->taken);
-    s->shown = sl_alloc_array(desk->context, layers + 1, sizeof *s->shown);
-    if (!s->taken || !s->shown) return SL_NO_MEMORY;
+    s->beside = drawing_is(source->path) && s->choice.maps.count < 2;
+    SL_TRY(import_layers_begin(desk->context, s, all));
     s->then = then;
-    s->more = all;
+    s->more = all && !s->beside;
     s->maps = (dialog_list){.count = s->choice.maps.count};
     for (size_t i = 0; source->options.map && i < s->maps.count; i++)
         if (strcmp(s->choice.maps.names[i], s->source.options.map) == 0) s->maps.at = i;
-    s->layers = (dialog_list){.acts = true, .marks = true};
-    filter_layers(s);
     fill_fields(s);
-    fill_layers(s);
     dialog_push(&desk->dialog, DIALOG_IMPORT,
-                asks_map(s)                       ? MAPS
-                : asks_layers(s) && has_filter(s) ? FILTER
-                : asks_layers(s)                  ? LAYERS_LIST
-                                                  : DIALOG_MAIN);
+                asks_map(s)                                     ? MAPS
+                : import_asks_layers(s) && import_has_filter(s) ? FILTER
+                : import_asks_layers(s)                         ? LAYERS_LIST
+                                                                : DIALOG_MAIN);
+    if (s->beside) import_focus_home(desk, s);
     return SL_OK;
+}
+
+void import_focus_home(desk_state *desk, import_state *s) {
+    desk->dialog.focus[desk->dialog.depth - 1] =
+        import_asks_layers(s) && import_has_filter(s) ? FILTER : FIRST_FIELD + FIELD_UNIT;
 }
 
 // --- from the fields to the source
 
-static bool complain(import_state *s, const char *what, const char *why) {
+bool import_complain(import_state *s, const char *what, const char *why) {
     snprintf(s->problem, sizeof s->problem, "%.200s: %s", what, why);
     return false;
 }
@@ -217,11 +121,11 @@ static bool read_number(import_state *s, field_name name, double low, double hig
     *given = *text != '\0';
     if (!*given) return true;
     if (sl_number_read(text, strlen(text), value) && *value >= low && *value <= high) return true;
-    return complain(s, fields[name].label,
-                    high == 1 ? "a number over 0, at most 1, is needed"
-                    : low > 0 ? "a number over 0 is needed"
-                    : low < 0 ? "a number is needed"
-                              : "0 or a number over 0 is needed");
+    return import_complain(s, fields[name].label,
+                           high == 1 ? "a number over 0, at most 1, is needed"
+                           : low > 0 ? "a number over 0 is needed"
+                           : low < 0 ? "a number is needed"
+                                     : "0 or a number over 0 is needed");
 }
 
 static bool read_start(import_state *s, document_source *out) {
@@ -233,40 +137,26 @@ static bool read_start(import_state *s, document_source *out) {
         sl_number_read(second, strlen(second), &out->start.y) &&
         fabs(out->start.x) <= SL_COORDINATE_MAX && fabs(out->start.y) <= SL_COORDINATE_MAX)
         return true;
-    return complain(s, fields[FIELD_START].label, "a place is needed, as 3,4.5");
+    return import_complain(s, fields[FIELD_START].label, "a place is needed, as 3,4.5");
 }
 
 /// The text of a field; NULL for an empty one and for one that the format has no use for.
 static const char *given_text(const import_state *s, field_name name) {
     const char *text = s->fields[name].text;
-    return *text && s->source.takes & fields[name].takes ? text : NULL;
-}
-
-/// The names of the layers that are chosen, with commas.
-static bool join_layers(import_state *s, char *text, size_t room) {
-    size_t length = 0;
-    text[0] = '\0';
-    for (size_t i = 0; i < s->choice.layers.count; i++) {
-        const char *name = s->choice.layers.names[i];
-        if (!s->taken[i]) continue;
-        if (strchr(name, ','))
-            return complain(s, name, "a layer with a comma in its name cannot be chosen");
-        if (length + strlen(name) + 2 > room) return complain(s, "Layers", "there are too many");
-        length += (size_t)snprintf(text + length, room - length, "%s%s", length ? "," : "", name);
-    }
-    return true;
+    const bool measured = name == FIELD_UNIT && s->beside;
+    return *text && (measured || s->source.takes & fields[name].takes) ? text : NULL;
 }
 
 /// The source as the fields have it; its texts stay theirs. False where a field is wrong.
-static bool read_source(import_state *s, document_source *out, char layers[FIELD_TEXT]) {
+static bool read_source(sl_context *context, import_state *s, document_source *out) {
     sl_import_options *o = &out->options;
     bool given;
     *out = s->source;
     s->problem[0] = '\0';
     o->layers = given_text(s, FIELD_LAYERS);
-    if (asks_layers(s) && !o->layers) {
-        if (!join_layers(s, layers, FIELD_TEXT)) return false;
-        o->layers = *layers ? layers : NULL;
+    if (import_asks_layers(s) && !o->layers) {
+        if (!import_layers_join(context, s)) return false;
+        o->layers = s->list;
     }
     o->start_names = given_text(s, FIELD_STARTS);
     o->unit = given_text(s, FIELD_UNIT);
@@ -298,8 +188,7 @@ static sl_status find_weld(sl_context *context, void *data) {
 
 static void suggest(desk_state *desk, import_state *s) {
     document_source source;
-    char layers[FIELD_TEXT];
-    if (s->task || !read_source(s, &source, layers)) return;
+    if (s->task || !read_source(desk->context, s, &source)) return;
     s->weld = sl_alloc_array(desk->context, 1, sizeof *s->weld);
     sl_status status =
         s->weld ? document_source_copy(desk->context, &source, &s->weld->source) : SL_NO_MEMORY;
@@ -320,7 +209,7 @@ static void take_weld(desk_state *desk, import_state *s) {
     if (status != SL_OK)
         snprintf(s->problem, sizeof s->problem, "%s", sl_context_message(desk->context));
     else if (s->weld->weld > 0) {
-        set_number(&s->fields[FIELD_WELD], true, s->weld->weld);
+        import_set_number(&s->fields[FIELD_WELD], true, s->weld->weld);
         desk->dialog.focus[desk->dialog.depth - 1] = DIALOG_MAIN;
     } else
         snprintf(s->problem, sizeof s->problem, "No gaps of rounding were found.");
@@ -331,12 +220,52 @@ static void take_weld(desk_state *desk, import_state *s) {
 
 // --- what it does
 
+/// What is typed settles for so long before the plan follows.
+#define SETTLED_SECONDS 0.4
+
+void import_preview(desk_state *desk, import_state *s) {
+    document_source source;
+    s->due = 0;
+    if (!s->beside || !read_source(desk->context, s, &source)) return;
+    const char *open = desk->document->source.path;
+    source.again = open && strcmp(open, source.path) == 0;
+    s->then(desk, &source);
+}
+
+bool import_is_beside(const desk_state *desk) {
+    for (int i = 0; i < desk->dialog.depth; i++)
+        if (desk->dialog.stack[i] == DIALOG_IMPORT) return desk->dialog.import->beside;
+    return false;
+}
+
+bool import_take_failure(desk_state *desk, const char *message) {
+    import_state *s = desk->dialog.import;
+    if (!s || !s->beside || dialog_open_now(&desk->dialog) != DIALOG_IMPORT) return false;
+    snprintf(s->problem, sizeof s->problem, "%s", message);
+    return true;
+}
+
+/// Beside the plan all is read already, but for what was typed just now.
 static void accept(desk_state *desk, import_state *s) {
     document_source source;
-    char layers[FIELD_TEXT];
-    if (!read_source(s, &source, layers)) return;
+    if (!read_source(desk->context, s, &source)) return;
+    if (s->beside && !desk->ui->steady) drawing_remember(desk->context, &source);
+    if (s->beside && s->due > 0) import_preview(desk, s);
     dialog_pop(&desk->dialog);
-    s->then(desk, &source);
+    if (!s->beside) s->then(desk, &source);
+    import_destroy(desk);
+}
+
+/// Puts back what was chosen before.
+static void cancel(desk_state *desk, import_state *s) {
+    document_source source;
+    const bool changed = !s->beside || !read_source(desk->context, s, &source) ||
+                         !document_source_same(&source, &s->first);
+    dialog_pop(&desk->dialog);
+    if (s->beside && changed) {
+        s->first.again = true;
+        s->then(desk, &s->first);
+    }
     import_destroy(desk);
 }
 
@@ -344,16 +273,12 @@ void import_act(desk_state *desk, int id) {
     import_state *s = desk->dialog.import;
     switch (id) {
     case DIALOG_CANCEL:
-        dialog_pop(&desk->dialog);
-        import_destroy(desk);
-        break;
+        cancel(desk, s);
+        return;
     case DIALOG_MAIN:
     case MAPS:
         accept(desk, s);
-        break;
-    case LAYERS_LIST:
-        if (s->layers.at < s->layers.count) s->taken[s->shown[s->layers.at]] ^= true;
-        break;
+        return;
     case DOORS:
         s->doors = !s->doors;
         break;
@@ -368,18 +293,39 @@ void import_act(desk_state *desk, int id) {
         suggest(desk, s);
         break;
     default:
+        if (id == LAYERS_LIST || id == ALL_LISTED || (id >= FIRST_ROLE && id < FIRST_FIELD)) {
+            if (!import_layers_act(s, id)) break;
+            import_preview(desk, s);
+        } else {
+            import_plan_act(desk, s, id);
+        }
         break;
     }
+    if (id == DOORS || id == CELLS) import_preview(desk, s);
+    // Letters that are typed next are meant for the list, and never press a button.
+    if (s->beside && id != LAYERS_LIST && id != MEASURE) import_focus_home(desk, s);
 }
 
 void import_edited(desk_state *desk, int id) {
-    if (id == FILTER) filter_layers(desk->dialog.import);
-    desk->dialog.import->problem[0] = '\0';
+    import_state *s = desk->dialog.import;
+    s->problem[0] = '\0';
+    if (id == FILTER) import_layers_filter(s);
+    if (s->beside && id >= FIRST_FIELD) s->due = sl_seconds() + SETTLED_SECONDS;
+}
+
+bool import_key(desk_state *desk, const char *key) {
+    import_state *s = desk->dialog.import;
+    if (strcmp(key, "Return") != 0 || desk->dialog.focus[desk->dialog.depth - 1] != LENGTH)
+        return false;
+    import_plan_scale(desk, s);
+    return true;
 }
 
 // --- the picture
 
 static bool is_shown(const import_state *s, field_name name) {
+    if (s->beside && !s->more) return name == FIELD_UNIT || name == FIELD_ENTRANCE;
+    if (name == FIELD_UNIT && s->beside) return true; // a unit can be measured in all formats
     return s->more && (!fields[name].takes || s->source.takes & fields[name].takes);
 }
 
@@ -406,43 +352,9 @@ static double draw_maps(desk_state *desk, import_state *s, sl_box box, double y,
     return frame.max.y + 0.7 * t;
 }
 
-static double draw_layers(desk_state *desk, import_state *s, sl_box box, double y, double high) {
-    ui_state *ui = desk->ui;
-    const double t = ui->text;
-    const sl_box frame = {{box.min.x, y + 1.8 * t}, {box.max.x, y + 1.8 * t + high}};
-    ui_text(
-        ui, box.min.x, y + 1.2 * t, 1, false, ui->palette.ink,
-        s->choice.layers_unsaid
-            ? "Which layers are solid? The file does not say. None: by their names, if these tell"
-        : s->drawn.count ? "Layers that are walls; none: those whose names or looks say so"
-                         : "Solid layers; none: those that the file marks");
-    if (has_filter(s)) {
-        dialog_field(
-            &desk->dialog, FILTER,
-            (sl_box){{box.min.x, frame.max.y + 0.4 * t}, {box.max.x, frame.max.y + 2.2 * t}},
-            &s->filter, "A part of a name leaves those layers in the list");
-    }
-    dialog_list_frame(&desk->dialog, LAYERS_LIST, frame, &s->layers);
-    for (size_t i = s->layers.first; i < s->layers.count && i < s->layers.first + s->layers.page;
-         i++) {
-        const sl_box row = dialog_list_row(&desk->dialog, LAYERS_LIST, frame, &s->layers, i);
-        const size_t layer = s->shown[i];
-        char count[SL_COUNT_TEXT + 8] = "";
-        if (layer < s->drawn.count) {
-            char number[SL_COUNT_TEXT];
-            sl_text_count(s->drawn.items[layer].entities, "", number);
-            snprintf(count, sizeof count, "%s%s", number, s->drawn.items[layer].on ? "" : ", off");
-        }
-        ui_check(ui, row, s->choice.layers.names[layer], *count ? count : NULL, s->taken[layer],
-                 -1);
-        ui_hit(ui, HIT_DIALOG, LAYERS_LIST | ((int)i + 1) << 8, row);
-    }
-    return frame.max.y + (has_filter(s) ? 2.9 : 0.7) * t;
-}
-
 static double draw_field(desk_state *desk, import_state *s, sl_box box, double y, field_name name) {
     ui_state *ui = desk->ui;
-    const double t = ui->text, left = box.min.x + 12 * t;
+    const double t = ui->text, left = box.min.x + (s->beside ? 9.5 : 12) * t;
     const bool weld = name == FIELD_WELD;
     const dialog_label button = {SUGGEST, s->task ? "Looking ..." : "Suggest"};
     const double wide = weld ? dialog_buttons_width(&desk->dialog, &button, 1) + 0.6 * t : 0;
@@ -451,8 +363,10 @@ static double draw_field(desk_state *desk, import_state *s, sl_box box, double y
     snprintf(label, sizeof label, "%s", fields[name].label);
     if (name == FIELD_LAYERS && s->choice.layers.count)
         snprintf(hint, sizeof hint,
-                 s->drawn.count ? "instead of the list: NAME,NAME; *: all"
-                                : "instead of the list: NAME,NAME:TILE+TILE");
+                 import_has_roles(s) ? "instead of the list: NAME,NAME; *: all"
+                                     : "instead of the list: NAME,NAME:TILE+TILE");
+    if (name == FIELD_UNIT && !(s->source.takes & SL_TAKES_UNIT))
+        snprintf(hint, sizeof hint, "not known; measure a line, or 0.01=m");
     if (name == FIELD_SLICE)
         snprintf(label, sizeof label, "Cut, %.5g to %.5g", s->source.lowest, s->source.highest);
     ui_text(ui, box.min.x, y + 1.25 * t, 1, false, ui->palette.ink, label);
@@ -479,33 +393,68 @@ static double draw_options(desk_state *desk, import_state *s, sl_box box, double
     return y;
 }
 
-void import_draw(desk_state *desk) {
+/// Rows that a list has room for, from 4 to 12, where all else takes `rest` plain texts.
+static double rows_with_room(const import_state *s, double room, double lists) {
+    const double most = fmin(fmax(floor((room / fmax(lists, 1) - 2.7) / 1.7), 4), 12);
+    return fmin(fmax(fmax((double)s->maps.count, (double)s->choice.layers.count), 3), most);
+}
+
+static void draw_beside(desk_state *desk, import_state *s) {
     static const dialog_label buttons[] = {
-        {MORE, "More options"}, {DIALOG_CANCEL, "Cancel"}, {DIALOG_MAIN, "Open"}};
-    import_state *s = desk->dialog.import;
+        {MORE, "More options"}, {DIALOG_CANCEL, "Cancel"}, {DIALOG_MAIN, "Done"}};
     ui_state *ui = desk->ui;
     char title[320];
-    take_weld(desk, s);
+    snprintf(title, sizeof title, "How to read %.290s", files_base(s->source.path));
+    const double rest = 6.4 + DIALOG_ROW * count_rows(s) + import_plan_height(s) +
+                        (import_asks_layers(s) ? import_layers_height(s) : 0);
+    const double text = fmin(ui->text, box_width(desk->dialog.dock) / IMPORT_WIDE);
+    const double high =
+        1.7 * rows_with_room(s, box_height(desk->dialog.dock) / text - rest, 1) + 0.2;
+    const sl_box box = dialog_begin_beside(&desk->dialog, IMPORT_WIDE,
+                                           rest + (import_asks_layers(s) ? high : 0), title);
+    const double t = ui->text;
+    double y = box.min.y;
+    if (import_asks_layers(s)) y = import_layers_draw(desk, s, box, y, high * t);
+    y = draw_options(desk, s, box, y);
+    import_plan_draw(desk, s, box, y);
+    dialog_problem(&desk->dialog, (sl_point){box.min.x, box.max.y - 2.3 * t}, box_width(box),
+                   s->problem);
+    const int from = s->more ? 1 : 0;
+    dialog_buttons(&desk->dialog, box.max.x, box.max.y - 1.8 * t, buttons + from, 3 - from);
+    dialog_end(&desk->dialog);
+}
+
+static void draw_over_all(desk_state *desk, import_state *s) {
+    static const dialog_label buttons[] = {
+        {MORE, "More options"}, {DIALOG_CANCEL, "Cancel"}, {DIALOG_MAIN, "Open"}};
+    ui_state *ui = desk->ui;
+    char title[320];
     snprintf(title, sizeof title, "Open %.300s", files_base(s->source.path));
-    const int rows = count_rows(s);
-    // Lists have 4 to 12 rows, as there is room.
-    const double lists = asks_map(s) + asks_layers(s);
-    const double rest = 8.8 + DIALOG_ROW * rows + (asks_layers(s) && has_filter(s) ? 2.2 : 0);
+    const double lists = asks_map(s) + import_asks_layers(s);
+    const double rest = 8.8 + DIALOG_ROW * count_rows(s) +
+                        (import_asks_layers(s) && import_has_filter(s) ? 2.2 : 0);
     const double text = fmin(ui->text, (ui->width - 12) / 50.0);
-    const double room = ((ui->height - 12) / text - rest) / fmax(lists, 1) - 2.7;
-    const double most = fmin(fmax(floor(room / 1.7), 4), 12);
-    const double list_rows =
-        fmin(fmax(fmax((double)s->maps.count, (double)s->layers.count), 3), most);
-    const double high = 1.7 * list_rows + 0.2;
+    const double high = 1.7 * rows_with_room(s, (ui->height - 12) / text - rest, lists) + 0.2;
     const sl_box box = dialog_begin(&desk->dialog, 50, rest + lists * (high + 2.5), title);
     const double t = ui->text;
     double y = box.min.y;
     if (asks_map(s)) y = draw_maps(desk, s, box, y, high * t);
-    if (asks_layers(s)) y = draw_layers(desk, s, box, y, high * t);
+    if (import_asks_layers(s)) y = import_layers_draw(desk, s, box, y, high * t);
     draw_options(desk, s, box, y);
     dialog_problem(&desk->dialog, (sl_point){box.min.x, box.max.y - 2.5 * t}, box_width(box),
                    s->problem);
     const int from = s->more ? 1 : 0;
     dialog_buttons(&desk->dialog, box.max.x, box.max.y - 1.8 * t, buttons + from, 3 - from);
     dialog_end(&desk->dialog);
+}
+
+void import_draw(desk_state *desk) {
+    import_state *s = desk->dialog.import;
+    take_weld(desk, s);
+    if (s->due > 0 && (desk->ui->steady || sl_seconds() > s->due)) import_preview(desk, s);
+    if (s->beside) import_plan_follow(desk, s);
+    if (s->beside)
+        draw_beside(desk, s);
+    else
+        draw_over_all(desk, s);
 }

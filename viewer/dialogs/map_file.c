@@ -55,6 +55,7 @@ static void take_options(desk_state *desk, int answer) {
 void map_file_check(desk_state *desk, const char *path, sl_status status) {
     static const char *const answers[] = {"O:Options...", "C:Close"};
     if (status == SL_OK || status == SL_CANCELLED) return;
+    if (import_take_failure(desk, sl_context_message(desk->context))) return;
     // Options help where the file can be read at all.
     const char *tried = desk->file.tried.path;
     const bool again =

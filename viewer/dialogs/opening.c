@@ -4,7 +4,7 @@
 #include "dialogs/browser.h"
 #include "dialogs/import_dialog.h"
 #include "dialogs/map_file.h"
-#include "document/files.h"
+#include "document/drawings.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -21,6 +21,16 @@ static void keep_useful(sl_import_options *options, unsigned takes) {
     if (!(takes & SL_TAKES_CELLS)) options->cells = false;
 }
 
+/// Takes what was chosen for a drawing before, unless the caller says how to read it.
+static sl_status recall(sl_context *context, document_source *source) {
+    const sl_import_options *o = &source->options;
+    sl_status status = SL_OK;
+    source->known = o->layers || o->unit || o->entrance > 0 || source->has_start;
+    if (!source->known && drawing_is(source->path))
+        source->known = drawing_recall(context, source, &status);
+    return status;
+}
+
 /// Whether the file has to be asked about.
 static bool is_open_question(const document_source *source, const sl_map_choice *choice) {
     return (choice->maps.count > 1 && !source->options.map) ||
@@ -28,15 +38,19 @@ static bool is_open_question(const document_source *source, const sl_map_choice 
 }
 
 void files_open(desk_state *desk, const char *path, bool ask) {
-    document_source source = {.path = (char *)(uintptr_t)path, .options = desk->options};
+    document_source given = {.path = (char *)(uintptr_t)path, .options = desk->options};
+    document_source source = {0};
     sl_map_choice choice = {0};
-    sl_status status = files_look(desk->context, &source, &choice);
-    if (choice.format) keep_useful(&source.options, source.takes);
+    sl_status status = files_look(desk->context, &given, &choice);
+    if (choice.format) keep_useful(&given.options, given.takes);
+    if (status == SL_OK) status = document_source_copy(desk->context, &given, &source);
+    if (status == SL_OK && !desk->ui->steady) status = recall(desk->context, &source);
     if (status == SL_OK && choice.format && (ask || is_open_question(&source, &choice)))
         status = import_open(desk, &source, &choice, ask, map_file_start);
     else if (status == SL_OK)
         map_file_start(desk, &source);
     map_file_check(desk, path, status);
+    document_source_destroy(desk->context, &source);
     sl_map_choice_destroy(desk->context, &choice);
 }
 
@@ -48,14 +62,16 @@ void files_drop(desk_state *desk, const char *path) {
 }
 
 sl_status files_open_source(desk_state *desk, const document_source *given, bool ask) {
-    document_source source = *given;
+    document_source source;
     sl_map_choice choice = {0};
-    SL_TRY(files_look(desk->context, &source, &choice));
-    sl_status status;
-    if (ask && choice.format && is_open_question(&source, &choice))
+    SL_TRY(document_source_copy(desk->context, given, &source));
+    sl_status status = files_look(desk->context, &source, &choice);
+    if (status == SL_OK && ask) status = recall(desk->context, &source);
+    if (status == SL_OK && ask && choice.format && is_open_question(&source, &choice))
         status = import_open(desk, &source, &choice, false, map_file_start);
-    else
+    else if (status == SL_OK)
         status = document_open(desk->context, desk->document, &source);
+    document_source_destroy(desk->context, &source);
     sl_map_choice_destroy(desk->context, &choice);
     return status;
 }
@@ -79,6 +95,11 @@ void files_import_again(desk_state *desk) {
     if (status == SL_OK) status = import_open(desk, &source, &choice, true, map_file_start);
     map_file_check(desk, source.path, status);
     sl_map_choice_destroy(desk->context, &choice);
+}
+
+void files_ask_once(desk_state *desk) {
+    const document_source *source = &desk->document->source;
+    if (!desk->ui->steady && !source->known && drawing_is(source->path)) files_import_again(desk);
 }
 
 void files_browse(desk_state *desk) {

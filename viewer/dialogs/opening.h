@@ -26,4 +26,7 @@ void files_browse(desk_state *desk);
 /// The dialog of all options, for the file that is open.
 void files_import_again(desk_state *desk);
 
+/// The same for a drawing that was opened just now, of which nobody has said yet how to read it.
+void files_ask_once(desk_state *desk);
+
 #endif

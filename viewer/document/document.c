@@ -99,6 +99,8 @@ static sl_status read_baked(sl_context *context, bake_job *job) {
 static sl_status read_map(sl_context *context, bake_job *job) {
     const document_source *source = &job->source;
     SL_TRY(sl_map_read(context, source->path, &source->options, &job->map));
+    for (size_t i = 0; i < source->closed_count; i++)
+        SL_TRY(sl_map_add_wall(context, &job->map, source->closed[i].a, source->closed[i].b, 0));
     if (!source->has_start) return SL_OK;
     const sl_box b = sl_map_bounds(&job->map);
     const sl_point at = source->start;
@@ -202,6 +204,7 @@ void document_source_destroy(sl_context *context, document_source *source) {
     sl_free(context, (char *)(uintptr_t)source->options.layers);
     sl_free(context, (char *)(uintptr_t)source->options.start_names);
     sl_free(context, (char *)(uintptr_t)source->options.unit);
+    sl_free(context, source->closed);
     *source = (document_source){0};
 }
 
@@ -213,7 +216,16 @@ sl_status document_source_copy(sl_context *context, const document_source *from,
     if (status == SL_OK) status = copy_text(context, from->options.layers, &layers);
     if (status == SL_OK) status = copy_text(context, from->options.start_names, &start_names);
     if (status == SL_OK) status = copy_text(context, from->options.unit, &unit);
+    sl_segment *closed = NULL;
+    if (status == SL_OK && from->closed_count) {
+        closed = sl_alloc_array(context, from->closed_count, sizeof *closed);
+        if (closed)
+            memcpy(closed, from->closed, from->closed_count * sizeof *closed);
+        else
+            status = SL_NO_MEMORY;
+    }
     document_source copy = *from;
+    copy.closed = closed;
     copy.path = path;
     copy.options.map = map;
     copy.options.layers = layers;
@@ -224,6 +236,40 @@ sl_status document_source_copy(sl_context *context, const document_source *from,
     else
         document_source_destroy(context, &copy);
     return status;
+}
+
+static bool same_text(const char *a, const char *b) {
+    return a && b ? strcmp(a, b) == 0 : a == b;
+}
+
+static bool same_point(sl_point a, sl_point b) {
+    return a.x == b.x && a.y == b.y;
+}
+
+bool document_source_same(const document_source *a, const document_source *b) {
+    const sl_import_options *o = &a->options, *p = &b->options;
+    bool same = same_text(a->path, b->path) && same_text(o->map, p->map) &&
+                same_text(o->layers, p->layers) && same_text(o->start_names, p->start_names) &&
+                same_text(o->unit, p->unit) && o->tolerance == p->tolerance &&
+                o->threshold == p->threshold && o->entrance == p->entrance &&
+                o->has_slice == p->has_slice && o->slice == p->slice && o->doors == p->doors &&
+                o->cells == p->cells && a->has_weld == b->has_weld && a->weld == b->weld &&
+                a->has_start == b->has_start && same_point(a->start, b->start) &&
+                a->closed_count == b->closed_count;
+    for (size_t i = 0; same && i < a->closed_count; i++)
+        same = same_point(a->closed[i].a, b->closed[i].a) &&
+               same_point(a->closed[i].b, b->closed[i].b);
+    return same;
+}
+
+sl_status document_source_close(sl_context *context, document_source *source, sl_segment opening) {
+    sl_segment *closed = sl_alloc_array(context, source->closed_count + 1, sizeof *closed);
+    if (!closed) return SL_NO_MEMORY;
+    if (source->closed_count) memcpy(closed, source->closed, source->closed_count * sizeof *closed);
+    closed[source->closed_count++] = opening;
+    sl_free(context, source->closed);
+    source->closed = closed;
+    return SL_OK;
 }
 
 static sl_status start_job(sl_context *context, document_state *document, bake_job *job) {

@@ -22,8 +22,17 @@ typedef struct document_source {
     unsigned takes;         ///< of sl_import_takes: what the format has a use for
     bool again;             ///< the file that is open with other options: no other one is opened
     bool has_weld;
-    double weld; ///< as sl_clean_options.weld
+    double weld;        ///< as sl_clean_options.weld
+    bool known;         ///< how to read it was said, now or before: nobody is asked
+    sl_segment *closed; ///< openings that are walled up
+    size_t closed_count;
 } document_source;
+
+/// Whether both read a file alike.
+bool document_source_same(const document_source *a, const document_source *b);
+
+/// Closes one more opening.
+sl_status document_source_close(sl_context *context, document_source *source, sl_segment opening);
 
 /// A copy. `to` is untouched on failure.
 sl_status document_source_copy(sl_context *context, const document_source *from,

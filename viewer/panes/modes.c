@@ -11,6 +11,7 @@
 #include "plan/from_line.h"
 #include "plan/layer_draw.h"
 #include "plan/line_map.h"
+#include "plan/room_map.h"
 #include "plan/route.h"
 #include "plan/table.h"
 #include "sightline/draw.h"
@@ -95,6 +96,7 @@ static void plan_above(learn_state *learn, const sl_frame *frame) {
     if (learn->view->tool == TOOL_FROM_LINE) from_line_draw_above(learn->view, frame);
     line_map_draw(learn->view, frame);
     compare_draw(learn->view, frame);
+    room_map_draw(learn->view, frame);
     if (learn->view->tool == TOOL_PATH) route_draw(learn->view, frame);
     table_draw_chosen(learn->view, frame);
 }

@@ -3,6 +3,7 @@
 #include "panes/panel.h"
 #include "panes/panes.h"
 #include "plan/cameras.h"
+#include "plan/room_map.h"
 #include "sightline/draw.h"
 
 #include <inttypes.h>
@@ -91,12 +92,13 @@ static void draw_list(view_state *view, column *c) {
 
 static void draw_spots(view_state *view, column *c) {
     const camera_layer *layer = view->cameras;
-    char text[AREA_TEXT], name[32];
+    char text[AREA_TEXT], name[32 + ROOM_NAME];
     if (!layer->coverage.blind_count || !layer->table.count) return;
     snprintf(text, sizeof text, "%u", layer->coverage.blind_count);
     column_heading(view->ui, c, "Blind spots", text);
     for (uint32_t i = 0; i < layer->coverage.blind_count && i < SPOTS_LISTED; i++) {
-        snprintf(name, sizeof name, "blind %u", i + 1);
+        const char *room = room_map_room(view, layer->coverage.blind[i].at);
+        snprintf(name, sizeof name, "blind %u%s%s", i + 1, room ? ", " : "", room ? room : "");
         area_text(layer, layer->coverage.blind[i].area, text);
         const sl_box row = column_row(view->ui, c, NULL, name, text, i + 1 == layer->spot);
         ui_hit_focus(view->ui, HIT_SPOT, (int)i, row);
@@ -110,7 +112,8 @@ void pane_cameras(learn_state *learn, sl_box box) {
     view_state *view = learn->view;
     column c = column_begin(learn->ui, box);
     static const char *const find[] = {"camera_find", NULL};
-    static const char *const change[] = {"camera_copy", "camera_delete", "undo", "redo", NULL};
+    static const char *const change[] = {"camera_name", "camera_copy", "camera_delete",
+                                         "undo",        "redo",        NULL};
     static const char *const files[] = {"camera_import", "camera_export", NULL};
     column_heading(learn->ui, &c, "Place cameras", NULL);
     column_words(learn->ui, &c, 0.95, learn->ui->palette.ink,
@@ -122,7 +125,7 @@ void pane_cameras(learn_state *learn, sl_box box) {
         draw_search(view, &c);
         c.y += 0.4 * learn->ui->text;
         column_sliders(learn->ui, &c);
-        column_buttons(learn->ui, &c, change);
+        if (!column_name(view, &c)) column_buttons(learn->ui, &c, change);
         if (view->cameras->known) draw_classes(view, &c);
         draw_list(view, &c);
         if (view->cameras->known) draw_spots(view, &c);

@@ -6,6 +6,7 @@
 #include "plan/from_line.h"
 #include "plan/heat.h"
 #include "plan/line_map.h"
+#include "plan/room_map.h"
 #include "plan/route.h"
 #include "sightline/draw.h"
 
@@ -162,6 +163,58 @@ static void draw_lines(const view_state *view, column *c) {
                      "Lines that are not joined to it are grey.");
 }
 
+// --- rooms
+
+bool column_name(const view_state *view, column *c) {
+    ui_state *ui = view->ui;
+    const sl_box box = {{c->left, c->y + 0.3 * ui->text}, {c->right, c->y + 2.1 * ui->text}};
+    if (ui->field != &view->name) return false;
+    ui_text_field(ui, box, ui->field, "a name", true);
+    ui_hit(ui, HIT_FIELD, 1, box);
+    c->y = box.max.y + 0.3 * ui->text;
+    return true;
+}
+
+/// The name of the chosen room, or what is typed in its place.
+static void draw_room_name(const view_state *view, column *c) {
+    static const char *const zone[] = {"room_name", "room_delete", NULL};
+    static const char *const room[] = {"room_name", NULL};
+    const room_map *map = room_map_shown(view);
+    if (view->table.chosen >= room_map_rows(map)) return;
+    if (column_name(view, c)) return;
+    column_buttons(view->ui, c, room_map_is_zone(map, view->table.chosen) ? zone : room);
+}
+
+static void draw_rooms(const view_state *view, column *c) {
+    const room_map *map = room_map_shown(view);
+    char text[VALUE_TEXT + SL_COUNT_TEXT + 4], share[SL_COUNT_TEXT];
+    column_heading(view->ui, c, "Rooms", map ? "area, seen" : NULL);
+    if (!map) {
+        column_words(view->ui, c, 0.95, view->ui->palette.ink, "Looking for the rooms ...");
+        return;
+    }
+    if (!room_map_rows(map))
+        column_words(view->ui, c, 0.95, view->ui->palette.ink,
+                     "No room is found: Ctrl+I tells what is inside.");
+    for (size_t i = 0; i < room_map_rows(map); i++) {
+        const double area = room_map_area(map, i);
+        char size[VALUE_TEXT];
+        write_measure(view, area, "\xc2\xb2", size);
+        sl_text_percent(area > 0 ? map->seen[i] / area : 0, share);
+        snprintf(text, sizeof text, "%s, %s", size, share);
+        ui_hit_focus(
+            view->ui, HIT_ROW, (int)i,
+            column_row(view->ui, c, NULL, room_map_name(map, i), text, view->table.chosen == i));
+    }
+    draw_room_name(view, c);
+    if (map->rooms.width > 0) {
+        write_measure(view, map->rooms.width, "", text);
+        char words[2 * VALUE_TEXT + 64];
+        snprintf(words, sizeof words, "Openings up to %s count as doors.", text);
+        column_words(view->ui, c, 0.9, view->ui->palette.faint, words);
+    }
+}
+
 // --- another plan
 
 static void put_walls(const view_state *view, column *c, const char *label,
@@ -198,14 +251,15 @@ static void draw_compare(const view_state *view, column *c) {
 void pane_measures(learn_state *learn, sl_box box) {
     view_state *view = learn->view;
     column c = column_begin(learn->ui, box);
-    static const char *const tools[] = {"plan_isovist",  "plan_line", "plan_graph",   "plan_axial",
-                                        "plan_segments", "plan_path", "plan_compare", "table",
-                                        "cameras",       NULL};
+    static const char *const tools[] = {"plan_isovist",  "plan_line", "plan_graph", "plan_axial",
+                                        "plan_segments", "plan_path", "plan_rooms", "plan_compare",
+                                        "table",         "cameras",   NULL};
     static const char *const lines[] = {"heat_back", "heat_next", "heat_ranks", "plan_drawn", NULL};
     static void (*const panels[TOOLS])(const view_state *view, column *c) = {
         [TOOL_ISOVIST] = draw_isovist, [TOOL_FROM_LINE] = draw_from_line,
         [TOOL_PATH] = draw_route,      [TOOL_AXIAL] = draw_lines,
-        [TOOL_SEGMENTS] = draw_lines,  [TOOL_COMPARE] = draw_compare};
+        [TOOL_SEGMENTS] = draw_lines,  [TOOL_COMPARE] = draw_compare,
+        [TOOL_ROOMS] = draw_rooms};
     static const char *const heat[] = {"heat_back", "heat_next", "heat_ranks", "heat_hold", NULL};
     static const char *const changes[] = {"heat_back", "heat_next", "heat_hold", NULL};
     column_heading(learn->ui, &c, "Plan", view->document->map.unit);

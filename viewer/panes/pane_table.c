@@ -81,9 +81,11 @@ static void draw_rows(view_state *view, sl_box box, double wide, size_t shown) {
         for (size_t k = 0; k < shown; k++) {
             char text[SCALE_TEXT];
             const double left = box.min.x + wide * (double)k;
-            value_scale_say(t->of->value(view, row, t->first_column + k), text);
+            const bool named = t->of->text && t->first_column + k == 0;
+            if (!named) value_scale_say(t->of->value(view, row, t->first_column + k), text);
             ui_text_within(ui, left + 0.3 * tx, y + 1.1 * tx,
-                           fmin(wide, line.max.x - left) - 0.6 * tx, 0.95, ui->palette.ink, text);
+                           fmin(wide, line.max.x - left) - 0.6 * tx, 0.95, ui->palette.ink,
+                           named ? t->of->text(view, row) : text);
         }
         ui_hit_focus(ui, HIT_ROW, (int)row, line);
     }

@@ -5,6 +5,7 @@
 #include "plan/effects.h"
 #include "plan/grid.h"
 #include "sightline/draw.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -186,6 +187,20 @@ void camera_copy(view_state *view) {
     }
     camera.name = NULL;
     add_row(view, &camera);
+}
+
+void camera_rename(view_state *view, const char *name) {
+    if (!camera_chosen(view)) return;
+    char *copy = *name ? sl_copy_text(view->context, name, strlen(name)) : NULL;
+    if (*name && !copy) {
+        view_check(view, SL_NO_MEMORY);
+        return;
+    }
+    camera_keep(view);
+    sl_camera *camera = &view->cameras->table.items[view->cameras->chosen];
+    sl_free(view->context, camera->name);
+    camera->name = copy;
+    camera_changed(view);
 }
 
 void camera_delete(view_state *view) {

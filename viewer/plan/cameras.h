@@ -46,6 +46,7 @@ void camera_settle(view_state *view);
 
 void camera_add(view_state *view, sl_point at); ///< and chooses it; says so where none can stand
 void camera_copy(view_state *view);             ///< the chosen one, beside it
+void camera_rename(view_state *view, const char *name); ///< the chosen one; "" takes its name away
 void camera_delete(view_state *view);
 void camera_choose(view_state *view, int by); ///< the next one, or one before
 void camera_turn(view_state *view, double degrees);

@@ -12,10 +12,12 @@
 
 #include <string.h>
 
-/// A wall or a door that is held.
+/// A wall, a door, glass or a seam that is held. A mirror that is held is for a bake.
 typedef struct held_line {
-    bool door, open;
-    size_t index;    ///< in the document's map
+    held_kind kind;
+    bool open;       ///< a door
+    uint32_t stops;  ///< of a seam
+    size_t index;    ///< in the document's map, by its kind
     uint32_t number; ///< in the world; UINT32_MAX: it is not there yet
     sl_segment at;
 } held_line;
@@ -64,35 +66,43 @@ static bool serves(const view_state *view) {
     if (!document->baked || map->wall_count < view->world_walls || document->solid) return false;
     for (size_t i = 0; i < document->object_count; i++)
         if (document->blocks[i]) return false;
-    return !map->mirror_count && !map->oneway_count && !map->seam_count && !map->cell_count &&
-           !sl_map_limited_walls(map);
+    if (view->drag.kind == DRAG_MIRROR) return false;
+    for (size_t i = 0; i < view->edit.ends.count; i++)
+        if (view->edit.ends.items[i].kind == HELD_MIRROR) return false;
+    return !map->cell_count;
 }
 
-static bool holds(const drag_world *d, bool door, size_t index) {
+static bool holds(const drag_world *d, held_kind kind, size_t index) {
     for (size_t i = 0; i < d->held.count; i++)
-        if (d->held.items[i].door == door && d->held.items[i].index == index) return true;
+        if (d->held.items[i].kind == kind && d->held.items[i].index == index) return true;
     return false;
 }
 
 static sl_status take_held(view_state *view, drag_world *d) {
     for (size_t i = 0; i < view->edit.ends.count; i++) {
         const held_end *end = &view->edit.ends.items[i];
-        const bool door = end->kind == HELD_DOOR;
-        if (holds(d, door, end->index)) continue;
+        if (holds(d, end->kind, end->index)) continue;
         SL_TRY(SL_ARRAY_ROOM(view->context, &d->held, 1));
         d->held.items[d->held.count++] =
-            (held_line){.door = door, .index = end->index, .number = UINT32_MAX};
+            (held_line){.kind = end->kind, .index = end->index, .number = UINT32_MAX};
     }
     return SL_OK;
+}
+
+static size_t leave_glass_out(const drag_world *d, held_kind kind, sl_glass *glass, size_t count) {
+    size_t kept = 0;
+    for (size_t i = 0; i < count; i++)
+        if (!holds(d, kind, i)) glass[kept++] = glass[i];
+    return kept;
 }
 
 /// Takes what is held out of a copy of the map. From the last one on, as others take their places.
 static void leave_held_out(sl_context *context, const drag_world *d, sl_map *map) {
     size_t walls = 0, doors = 0;
     for (size_t i = 0; i < map->wall_count; i++)
-        if (!holds(d, false, i)) map->walls[walls++] = map->walls[i];
+        if (!holds(d, HELD_WALL, i)) map->walls[walls++] = map->walls[i];
     for (size_t i = 0; i < map->door_count; i++) {
-        if (!holds(d, true, i)) {
+        if (!holds(d, HELD_DOOR, i)) {
             map->doors[doors++] = map->doors[i];
             continue;
         }
@@ -101,31 +111,54 @@ static void leave_held_out(sl_context *context, const drag_world *d, sl_map *map
     }
     map->wall_count = walls;
     map->door_count = doors;
+    map->oneway_count = leave_glass_out(d, HELD_ONEWAY, map->oneways, map->oneway_count);
+    map->seam_count = leave_glass_out(d, HELD_SEAM, map->seams, map->seam_count);
+}
+
+/// Takes what the map has of a wall, a door or glass now. False where it has it no longer.
+static bool take_line(const sl_map *map, held_line *h) {
+    const sl_glass *glass = h->kind == HELD_ONEWAY ? map->oneways : map->seams;
+    const size_t counts[HELD_KINDS] = {map->wall_count, map->door_count, map->mirror_count,
+                                       map->oneway_count, map->seam_count};
+    if (h->index >= counts[h->kind]) return false;
+    if (h->kind == HELD_WALL) {
+        h->at = (sl_segment){map->walls[h->index].a, map->walls[h->index].b};
+    } else if (h->kind == HELD_DOOR) {
+        h->at = map->doors[h->index].segment;
+        h->open = map->doors[h->index].open;
+    } else {
+        h->at = glass[h->index].segment;
+        h->stops = glass[h->index].stops;
+    }
+    return true;
 }
 
 /// Where the map has them now. False where one has no place in it.
 static bool follow_map(const view_state *view, drag_world *d) {
-    const sl_map *map = &view->document->map;
-    for (size_t i = 0; i < d->held.count; i++) {
-        held_line *h = &d->held.items[i];
-        if (h->index >= (h->door ? map->door_count : map->wall_count)) return false;
-        h->open = h->door && map->doors[h->index].open;
-        h->at = h->door ? map->doors[h->index].segment
-                        : (sl_segment){map->walls[h->index].a, map->walls[h->index].b};
-    }
+    for (size_t i = 0; i < d->held.count; i++)
+        if (!take_line(&view->document->map, &d->held.items[i])) return false;
     return true;
+}
+
+static sl_status add_held(sl_context *context, sl_world *world, held_line *h) {
+    switch (h->kind) {
+    case HELD_DOOR:
+        return sl_world_add_door(context, world, "held", h->at, h->open, &h->number);
+    case HELD_ONEWAY:
+        return sl_world_add_oneway(context, world, h->at, &h->number);
+    case HELD_SEAM:
+        return sl_world_add_partial(context, world, h->at, h->stops, &h->number);
+    default:
+        return sl_world_add_wall(context, world, h->at, &h->number);
+    }
 }
 
 static sl_status move_held(sl_context *context, drag_world *d) {
     sl_status status = SL_OK;
     for (size_t i = 0; i < d->held.count && status == SL_OK; i++) {
         held_line *h = &d->held.items[i];
-        if (h->number != UINT32_MAX)
-            status = sl_world_move(context, d->world, h->number, h->at);
-        else if (h->door)
-            status = sl_world_add_door(context, d->world, "held", h->at, h->open, &h->number);
-        else
-            status = sl_world_add_wall(context, d->world, h->at, &h->number);
+        status = h->number == UINT32_MAX ? add_held(context, d->world, h)
+                                         : sl_world_move(context, d->world, h->number, h->at);
     }
     if (status == SL_OK) return sl_world_commit(context, d->world, NULL);
     sl_world_discard(d->world);

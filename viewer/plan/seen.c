@@ -150,6 +150,13 @@ static void allow_seconds(seen_state *seen, double seconds) {
     seen->until = seen->patient ? INFINITY : sl_seconds() + seconds;
 }
 
+/// The context of work that ends in time.
+static sl_status make_hurried(seen_state *seen) {
+    const sl_hooks hooks = {.user = seen, .cancelled = is_late};
+    if (!seen->hurried) seen->hurried = sl_context_create(&hooks);
+    return seen->hurried ? SL_OK : SL_NO_MEMORY;
+}
+
 /// Finds the objects that are seen by mirror. Only what blocks sight is looked for.
 static sl_status look_at_objects_by_mirror(seen_state *seen, const document_state *document,
                                            const present_state *present) {
@@ -189,14 +196,13 @@ static sl_status look_by_methods(seen_state *seen, const document_state *documen
 }
 
 /// Adds reflections as long as there is time.
-static sl_status make_parts(sl_context *context, seen_state *seen, const document_state *document,
-                            const present_state *present) {
-    const uint32_t most = document->mirror_depth;
+static sl_status make_parts(sl_context *context, seen_state *seen, uint32_t most, sl_query *query) {
+    SL_TRY(make_hurried(seen));
     seen->depth = 0;
     allow_seconds(seen, PARTS_SECONDS);
     for (uint32_t depth = seen->patient ? most : 1; depth <= most && most; depth++) {
-        const sl_status status = sl_query_mirrored_region_to(seen->hurried, present->query,
-                                                             &seen->view, depth, &seen->deeper);
+        const sl_status status =
+            sl_query_mirrored_region_to(seen->hurried, query, &seen->view, depth, &seen->deeper);
         if (status == SL_CANCELLED) break;
         if (status != SL_OK)
             return sl_fail(context, status, "%s", sl_context_message(seen->hurried));
@@ -219,14 +225,10 @@ static sl_status look_into_mirrors(sl_context *context, seen_state *seen,
         forget_mirrors(context, seen);
         return SL_OK;
     }
-    if (!seen->hurried) {
-        const sl_hooks hooks = {.user = seen, .cancelled = is_late};
-        seen->hurried = sl_context_create(&hooks);
-        if (!seen->hurried) return SL_NO_MEMORY;
-    }
+    SL_TRY(make_hurried(seen));
     SL_TRY(look_by_methods(seen, document, present));
     SL_TRY(look_at_objects_by_mirror(seen, document, present));
-    return make_parts(context, seen, document, present);
+    return make_parts(context, seen, document->mirror_depth, present->query);
 }
 
 // --- the whole
@@ -258,7 +260,9 @@ sl_status seen_update_region(sl_context *context, seen_state *seen, const docume
     seen->cell = SL_NO_CELL;
     seen->pvs_count = 0;
     seen->pvs_area = 0;
-    return find_region(context, seen, query);
+    SL_TRY(find_region(context, seen, query));
+    return document->map.mirror_count ? make_parts(context, seen, document->mirror_depth, query)
+                                      : SL_OK;
 }
 
 sl_status seen_update(sl_context *context, seen_state *seen, const document_state *document,

@@ -6,6 +6,7 @@
 #include "plan/from_line.h"
 #include "plan/heat.h"
 #include "plan/line_map.h"
+#include "plan/room_map.h"
 #include "plan/route.h"
 #include "sightline/support.h"
 #include "ui/tones.h"
@@ -193,6 +194,85 @@ static sl_segment from_line_place(const view_state *view, size_t row) {
     return (sl_segment){view->from_line->ends[0], view->from_line->ends[1]};
 }
 
+// --- rooms and zones
+
+static size_t room_rows(const view_state *view) {
+    return room_map_rows(room_map_shown(view));
+}
+
+typedef enum room_column {
+    ROOM_TEXT,
+    ROOM_AREA,
+    ROOM_MEAN,
+    ROOM_POINTS,
+    ROOM_SEEN,
+    ROOM_SHARE
+} room_column;
+
+/// The columns of the heat map are there where it is shown.
+static bool room_has_means(const view_state *view) {
+    const heat_graph *graph;
+    return heat_layer_values(view, &graph) != NULL;
+}
+
+static size_t room_columns(const view_state *view) {
+    return room_has_means(view) ? 6 : 4;
+}
+
+static room_column room_column_of(const view_state *view, size_t column) {
+    return (room_column)(column > ROOM_AREA && !room_has_means(view) ? column + 2 : column);
+}
+
+static void room_column_name(const view_state *view, size_t column, char text[TABLE_NAME]) {
+    static const char *const names[] = {
+        [ROOM_TEXT] = "name",     [ROOM_AREA] = "area",      [ROOM_MEAN] = "mean",
+        [ROOM_POINTS] = "points", [ROOM_SEEN] = "seen_area", [ROOM_SHARE] = "seen_share"};
+    const room_column which = room_column_of(view, column);
+    snprintf(text, TABLE_NAME, "%s", names[which]);
+    if (which == ROOM_MEAN)
+        snprintf(text, TABLE_NAME, "mean_%.40s%s", heat_measure(view->heat_choice.measure)->name,
+                 heat_layer_changes(view) ? "_change" : "");
+}
+
+static const char *room_text(const view_state *view, size_t row) {
+    return room_map_name(room_map_shown(view), row);
+}
+
+/// How many rows have a name that comes before.
+static double room_rank(const view_state *view, size_t row) {
+    size_t before = 0;
+    for (size_t i = 0; i < room_rows(view); i++)
+        before += strcmp(room_text(view, i), room_text(view, row)) < 0;
+    return (double)before;
+}
+
+static double room_value(const view_state *view, size_t row, size_t column) {
+    const room_map *map = room_map_shown(view);
+    const double area = room_map_area(map, row);
+    switch (room_column_of(view, column)) {
+    case ROOM_TEXT:
+        return room_rank(view, row);
+    case ROOM_AREA:
+        return area;
+    case ROOM_MEAN:
+        return map->means[row];
+    case ROOM_POINTS:
+        return map->points[row];
+    case ROOM_SEEN:
+        return map->seen[row];
+    default:
+        return area > 0 ? map->seen[row] / area : NAN;
+    }
+}
+
+static sl_segment room_place(const view_state *view, size_t row) {
+    return at_point(room_map_place(room_map_shown(view), row));
+}
+
+static uint32_t room_stamp(const view_state *view) {
+    return room_map_shown(view)->zone_stamp;
+}
+
 // --- the isovist: one row
 
 static size_t one(const view_state *view) {
@@ -232,22 +312,29 @@ static sl_segment isovist_place(const view_state *view, size_t row) {
 // --- which one
 
 const table_source *table_source_now(const view_state *view) {
-    static const table_source graph = {"point",    2,           graph_rows,  graph_columns,
-                                       graph_name, graph_value, graph_place, graph_stamp};
-    static const table_source changes = {"place",      2,           graph_rows, five, change_name,
-                                         change_value, graph_place, graph_stamp};
-    static const table_source axial = {"line",    4,          line_rows,  line_columns,
-                                       line_name, line_value, line_place, line_stamp};
-    static const table_source segments = {"segment", 4,          line_rows,  line_columns,
-                                          line_name, line_value, line_place, line_stamp};
-    static const table_source route = {"corner",   0,           route_rows,  three,
-                                       route_name, route_value, route_place, no_stamp};
+    static const table_source graph = {"point",       2,           graph_rows,
+                                       graph_columns, graph_name,  graph_value,
+                                       graph_place,   graph_stamp, NULL};
+    static const table_source changes = {"place",      2,           graph_rows,  five, change_name,
+                                         change_value, graph_place, graph_stamp, NULL};
+    static const table_source axial = {"line",     4,          line_rows,  line_columns, line_name,
+                                       line_value, line_place, line_stamp, NULL};
+    static const table_source segments = {
+        "segment", 4, line_rows, line_columns, line_name, line_value, line_place, line_stamp, NULL};
+    static const table_source route = {"corner",    0,           route_rows, three, route_name,
+                                       route_value, route_place, no_stamp,   NULL};
     static const table_source areas = {
-        "area", 0, two, three, from_line_name, from_line_value, from_line_place, no_stamp};
+        "area", 0, two, three, from_line_name, from_line_value, from_line_place, no_stamp, NULL};
     static const table_source isovist = {
-        "isovist", 2, one, isovist_columns, isovist_name, isovist_value, isovist_place, no_stamp};
+        "isovist",     2,        one, isovist_columns, isovist_name, isovist_value,
+        isovist_place, no_stamp, NULL};
+    static const table_source rooms = {"room",           0,          room_rows,  room_columns,
+                                       room_column_name, room_value, room_place, room_stamp,
+                                       room_text};
     if (view->mode != MODE_PLAN || !view->document->baked) return NULL;
     switch (view->tool) {
+    case TOOL_ROOMS:
+        return room_map_shown(view) ? &rooms : NULL;
     case TOOL_AXIAL:
         return line_map_shown(view) ? &axial : NULL;
     case TOOL_SEGMENTS:
@@ -390,6 +477,10 @@ void table_pick(view_state *view, sl_point at) {
     const table_state *t = &view->table;
     const heat_graph *graph = graph_of(view);
     uint32_t row = UINT32_MAX;
+    if (room_map_shown(view)) {
+        table_choose(view, room_map_at(room_map_shown(view), at));
+        return;
+    }
     if (line_map_shown(view))
         row = line_map_at(view, at);
     else if (t->of && graph && t->of->rows == graph_rows)
@@ -403,6 +494,7 @@ void table_draw_chosen(const view_state *view, const sl_frame *frame) {
     const table_state *t = &view->table;
     if (!t->of || t->of != table_source_now(view) || t->chosen >= t->of->rows(view)) return;
     const sl_segment s = t->of->place(view, t->chosen);
+    if (t->of->text) return; // it is drawn as a whole
     if (s.a.x == s.b.x && s.a.y == s.b.y) {
         sl_draw_ring(view->ui->cairo, frame, s.a, 9 * frame->unit, view->ui->palette.ink,
                      2.2 * frame->unit);
@@ -414,6 +506,14 @@ void table_draw_chosen(const view_state *view, const sl_frame *frame) {
 }
 
 // --- the file
+
+/// A text as a field of CSV.
+static void put_quoted(FILE *out, const char *text) {
+    const bool plain = !text[strcspn(text, ",\"\n\r")];
+    if (!plain) fputc('"', out);
+    for (; *text; text++) fprintf(out, *text == '"' ? "\"\"" : "%c", *text);
+    if (!plain) fputc('"', out);
+}
 
 static sl_status put_rows(view_state *view, FILE *out) {
     const table_state *t = &view->table;
@@ -427,6 +527,11 @@ static sl_status put_rows(view_state *view, FILE *out) {
         for (size_t k = 0; k < columns; k++) {
             const double value = t->of->value(view, table_row(t, i), k);
             char text[SL_NUMBER_TEXT] = "";
+            if (t->of->text && k == 0) {
+                put_quoted(out, t->of->text(view, table_row(t, i)));
+                fputc(',', out);
+                continue;
+            }
             if (!isnan(value)) sl_number_write(value, text);
             fprintf(out, "%s%c", text, k + 1 < columns ? ',' : '\n');
         }

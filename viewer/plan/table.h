@@ -18,6 +18,8 @@ struct table_source {
     /// Where a row is in the plan; a point is a line without length.
     sl_segment (*place)(const view_state *view, size_t row);
     uint32_t (*stamp)(const view_state *view); ///< another one: values may be others
+    /// The text of the first column, whose values sort as the texts do; NULL: it has numbers.
+    const char *(*text)(const view_state *view, size_t row);
 };
 
 /// NULL: the tool at hand has nothing yet.

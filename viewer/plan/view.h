@@ -60,7 +60,7 @@ typedef struct eye_state {
 } eye_state;
 
 /// What the pointer does in Plan mode: it puts the viewpoint, drags a line to see from, puts an end
-/// of a path, chooses an axial line or a segment.
+/// of a path, chooses an axial line, a segment or a room.
 typedef enum plan_tool {
     TOOL_ISOVIST,
     TOOL_FROM_LINE,
@@ -68,6 +68,7 @@ typedef enum plan_tool {
     TOOL_AXIAL,
     TOOL_SEGMENTS,
     TOOL_COMPARE,
+    TOOL_ROOMS,
     TOOLS
 } plan_tool;
 
@@ -122,6 +123,7 @@ typedef enum drag_kind {
     DRAG_OBJECT,
     DRAG_CAMERA,
     DRAG_FROM_LINE,
+    DRAG_ZONE,
 } drag_kind;
 
 typedef struct drag_state {
@@ -200,6 +202,7 @@ typedef struct route_layer route_layer;
 typedef struct from_line from_line;
 typedef struct line_map line_map;
 typedef struct plan_compare plan_compare;
+typedef struct room_map room_map;
 typedef struct drag_world drag_world;
 
 /// What is shown and from where. Results are kept from frame to frame.
@@ -257,6 +260,8 @@ struct view_state {
     size_t line_measure[2]; ///< the chosen measures of both
     table_state table;
     plan_compare *compared; ///< NULL: none
+    room_map *rooms;        ///< likewise
+    text_field name;        ///< that is typed for what is chosen
     bool drawn_lines;       ///< both are of the lines as they are drawn
     drag_world *drag_world; ///< NULL: none
     uint32_t drag_worlds;   ///< how many there were

@@ -22,14 +22,17 @@ typedef struct sl_import_options {
     const char *map;
     /// The layers to take, by name, with commas between; NULL for the format's own choice. "*" for
     /// all visible layers of a drawing (DXF, SVG), "large" or "large,A,B" for a drawing without
-    /// small closed pieces that touch nothing.
+    /// small closed pieces that touch nothing. "A=door,B=window" takes layers of a drawing for a
+    /// wall, door, window, furniture (it stops steps, and not sight) or ignores them ("=ignore");
+    /// the others stay as they are guessed.
     const char *layers;
     /// The names of objects that are starts, with commas between; "" or "none" for no starts; NULL
     /// for the usual names (player, spawn, start ...). Letters and capitals are the same.
     const char *start_names;
     double tolerance; ///< how far a curve may be from its walls, in the map's unit; 0: the usual
     /// Coordinates are to be in this unit: mm, cm, m, km, in, ft or yd; NULL: in the file's own.
-    /// "mm=m": the file is in mm, whatever it says, and is to be in m.
+    /// "mm=m": the file is in mm, whatever it says, and is to be in m. "0.0254=m": a unit of the
+    /// file, of any format but one in degrees, is 0.0254 m long.
     const char *unit;
     double entrance;  ///< how wide openings to the outside are at most (sl_map.entrance); 0: as
                       ///< the file says

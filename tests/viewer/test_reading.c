@@ -1,0 +1,294 @@
+// The dialog of how a drawing is read, beside the plan: roles of layers, the scale, what is inside,
+// openings that are closed, and what is kept of all that for the file.
+#include "viewer_app.h"
+
+#include "app/layout.h"
+#include "dialogs/import_dialog.h"
+#include "document/drawings.h"
+
+#include <math.h>
+#include <string.h>
+#include <unistd.h>
+
+#define LINE(layer, x0, y0, x1, y1)                                                                \
+    "0\nLINE\n8\n" layer "\n10\n" #x0 "\n20\n" #y0 "\n11\n" #x1 "\n21\n" #y1 "\n"
+
+/// Two rooms with a gap of 1 between them, and one of 1.5 to the outside, where a wall stands.
+static const char house[] =
+    "0\nSECTION\n2\nENTITIES\n" LINE("A-WALL", 0, 0, 4, 0) LINE("A-WALL", 5.5, 0, 12, 0)
+        LINE("A-WALL", 12, 0, 12, 8) LINE("A-WALL", 12, 8, 0, 8) LINE("A-WALL", 0, 8, 0, 0)
+            LINE("A-WALL", 6, 0, 6, 3) LINE("A-WALL", 6, 4, 6, 8) LINE("A-WALL", 13, -2, 14, -2)
+                LINE("A-GLAZ", 9, 1, 9, 3) LINE("HEDGE", 2, 5, 4, 5) "0\nENDSEC\n0\nEOF\n";
+
+typedef struct scene {
+    char folder[40], path[64];
+    app_state *app;
+} scene;
+
+static scene open_house(void) {
+    scene s = {.folder = "/tmp/sightline-reading-XXXXXX"};
+    assert_non_null(mkdtemp(s.folder));
+    snprintf(s.path, sizeof s.path, "%s/house.dxf", s.folder);
+    FILE *stream = fopen(s.path, "w");
+    assert_non_null(stream);
+    fputs(house, stream);
+    assert_int_equal(fclose(stream), 0);
+    s.app = viewer_start(true);
+    s.app->ui.width = 1024;
+    s.app->ui.height = 768;
+    viewer_open(s.app, s.path);
+    script_frame(s.app);
+    return s;
+}
+
+static void close_house(scene *s) {
+    viewer_end(s->app);
+    assert_int_equal(remove(s->path), 0);
+    assert_int_equal(rmdir(s->folder), 0);
+}
+
+static void frame(app_state *app) {
+    for (int i = 0; i < 3; i++) {
+        app_tick(app, 0);
+        script_frame(app);
+    }
+}
+
+static void press(app_state *app, const char *key) {
+    viewer_press(app, key);
+    frame(app);
+}
+
+static void type(app_state *app, const char *text) {
+    input_text(app, text);
+    frame(app);
+}
+
+static void click_page(app_state *app, sl_point page) {
+    input_move(app, page);
+    input_press(app, BUTTON_LEFT, page);
+    input_release(app, page);
+    frame(app);
+}
+
+static void click_map(app_state *app, sl_point at) {
+    const sl_frame f = camera_frame(&app->view.camera, app_layout(app).plan[0], 1);
+    click_page(app, sl_frame_point(&f, at));
+}
+
+/// Presses a widget of the dialog: the `number`-th button that was drawn, by its id.
+static void click_button(app_state *app, const char *label) {
+    for (int i = 0; i < app->ui.spot_count; i++) {
+        const text_spot *spot = &app->ui.spots[i];
+        if (strcmp(spot->text, label) != 0) continue;
+        click_page(app, box_middle(spot->box));
+        return;
+    }
+    fail_msg("'%s' is not shown", label);
+}
+
+static void keep_spots(app_state *app) {
+    app->ui.spots = calloc(SPOTS_MOST, sizeof *app->ui.spots);
+    assert_non_null(app->ui.spots);
+}
+
+static void drop_spots(app_state *app) {
+    free(app->ui.spots);
+    app->ui.spots = NULL;
+}
+
+static size_t marks(const app_state *app) {
+    import_mark mark;
+    size_t count = 0;
+    while (import_mark_at(&app->desk, count, &mark)) count++;
+    return count;
+}
+
+/// Letters filter, the plan follows each role at once, and Escape puts all back.
+static void roles_show_at_once(void **state) {
+    (void)state;
+    scene s = open_house();
+    app_state *app = s.app;
+    keep_spots(app);
+    const uint32_t walls = app->document.baked->space.wall_count;
+    press(app, "Ctrl+I");
+    assert_true(import_is_beside(&app->desk));
+    assert_string_equal(app->desk.dialog.title, "How to read house.dxf");
+    type(app, "hed");
+    click_button(app, "Wall");
+    assert_int_equal(app->document.baked->space.wall_count, walls + 1);
+    assert_string_equal(app->document.source.options.layers, "HEDGE=wall");
+    // The button that was clicked has no focus: what is typed goes on in the filter.
+    type(app, "ge w");
+    press(app, "Space");
+    assert_int_equal(app->desk.dialog.focus[0], IMPORT_TYPES_INTO);
+    assert_int_equal(app->document.baked->space.wall_count, walls + 1);
+    assert_int_equal(dialog_open_now(&app->desk.dialog), DIALOG_IMPORT);
+    press(app, "Escape");
+    assert_int_equal(dialog_open_now(&app->desk.dialog), DIALOG_NONE);
+    assert_int_equal(app->document.baked->space.wall_count, walls);
+    assert_null(app->document.source.options.layers);
+    // Furniture stops no sight, and all that are listed change together.
+    press(app, "Ctrl+I");
+    type(app, "e");
+    click_button(app, "For all layers that are listed");
+    click_button(app, "Furniture");
+    assert_string_equal(app->document.source.options.layers, "HEDGE=furniture");
+    press(app, "Return");
+    assert_int_equal(dialog_open_now(&app->desk.dialog), DIALOG_NONE);
+    assert_int_equal(sl_map_partial_walls(&app->document.map), 2);
+    drop_spots(app);
+    close_house(&s);
+}
+
+/// A click says what is inside. The opening that leaks is marked, and walled up.
+static void leaks_are_closed(void **state) {
+    (void)state;
+    scene s = open_house();
+    app_state *app = s.app;
+    import_mark mark;
+    keep_spots(app);
+    press(app, "Ctrl+I");
+    assert_int_equal(marks(app), 0);
+    click_button(app, "Here is inside");
+    click_map(app, (sl_point){3, 2});
+    assert_int_equal(app->document.map.start_count, 1);
+    assert_int_equal(marks(app), 1);
+    assert_true(import_mark_at(&app->desk, 0, &mark));
+    assert_int_equal(mark.kind, MARK_CHOSEN);
+    assert_true(fabs(mark.length - 1.5) < 1e-12);
+    const double all = app->document.area;
+    click_button(app, "Close it");
+    assert_true(import_mark_at(&app->desk, 0, &mark));
+    assert_int_equal(mark.kind, MARK_CLOSED);
+    assert_int_equal(marks(app), 1);
+    assert_true(app->document.area < all && fabs(app->document.area - 96) < 1e-9);
+    click_button(app, "Open again");
+    assert_true(fabs(app->document.area - all) < 1e-9);
+    press(app, "Escape");
+    assert_int_equal(app->document.map.start_count, 0);
+    drop_spots(app);
+    close_house(&s);
+}
+
+/// "This line is 6.5 m": two clicks on ends of walls, and all that was said before is in metres.
+static void line_is_measured(void **state) {
+    (void)state;
+    scene s = open_house();
+    app_state *app = s.app;
+    keep_spots(app);
+    press(app, "Ctrl+I");
+    click_button(app, "Here is inside");
+    click_map(app, (sl_point){3, 2});
+    click_button(app, "Close it");
+    click_button(app, "Measure a line");
+    click_map(app, (sl_point){5.51, 0.01});
+    click_map(app, (sl_point){11.99, 0});
+    type(app, "13,0");
+    press(app, "Return");
+    assert_string_equal(app->document.source.options.unit, "2=m");
+    assert_string_equal(app->document.map.unit, "m");
+    const sl_box b = sl_map_bounds(&app->document.map);
+    assert_true(b.max.x == 28 && b.max.y == 16);
+    const sl_point start = app->document.map.starts[0].at;
+    assert_true(fabs(start.x - 6) < 0.1 && fabs(start.y - 4) < 0.1);
+    assert_int_equal(marks(app), 1);
+    assert_true(fabs(app->document.area - 4 * 96) < 1e-9);
+    // A second one, in feet, is of the file's unit too.
+    click_button(app, "Measure a line");
+    click_map(app, (sl_point){0, 0});
+    click_map(app, (sl_point){0, 16});
+    press(app, "Ctrl+A");
+    type(app, "80 ft");
+    click_button(app, "Set");
+    assert_string_equal(app->document.source.options.unit, "10=ft");
+    // What is no length is said, and changes nothing.
+    click_button(app, "Measure a line");
+    click_map(app, (sl_point){0, 0});
+    click_map(app, (sl_point){0, 80});
+    press(app, "Ctrl+A");
+    type(app, "wide");
+    press(app, "Return");
+    assert_non_null(strstr(app->desk.dialog.problem, "a length is needed"));
+    assert_string_equal(app->document.source.options.unit, "10=ft");
+    drop_spots(app);
+    close_house(&s);
+}
+
+/// A choice that cannot be read is told in the dialog, and the plan stays.
+static void wrong_choices(void **state) {
+    (void)state;
+    scene s = open_house();
+    app_state *app = s.app;
+    const uint32_t walls = app->document.baked->space.wall_count;
+    press(app, "Ctrl+I");
+    for (int i = 0; i < 8; i++) press(app, "Tab");
+    type(app, "ells");
+    frame(app);
+    assert_int_equal(dialog_open_now(&app->desk.dialog), DIALOG_IMPORT);
+    assert_non_null(strstr(app->desk.dialog.problem, "there is no unit 'ells'"));
+    assert_int_equal(app->document.baked->space.wall_count, walls);
+    close_house(&s);
+}
+
+/// What is chosen for a file is there again, and other files keep theirs.
+static void choices_are_kept(void **state) {
+    (void)state;
+    scene s = open_house();
+    sl_context *context = s.app->context;
+    char config[] = "/tmp/sightline-config-XXXXXX", kept[160], folder[96], other[96];
+    assert_non_null(mkdtemp(config));
+    assert_int_equal(setenv("XDG_CONFIG_HOME", config, 1), 0);
+    snprintf(other, sizeof other, "%s/other.svg", s.folder);
+    FILE *stream = fopen(other, "w");
+    assert_non_null(stream);
+    fclose(stream);
+    sl_status status;
+    document_source source = {.path = s.path,
+                              .options = sl_import_options_default(),
+                              .has_start = true,
+                              .start = {0.1, -3}};
+    document_source second = {.path = other, .options = sl_import_options_default()};
+    assert_false(drawing_recall(context, &second, &status));
+    source.options.layers = "A b=wall,HEDGE=ignore";
+    source.options.unit = "0.3=m";
+    source.options.entrance = 1.5;
+    assert_ok(context,
+              document_source_close(context, &source, (sl_segment){{0.1, 0.2}, {1e-17, 4}}));
+    drawing_remember(context, &source);
+    drawing_remember(context, &second);
+    document_source found = {0};
+    const document_source plain = {.path = s.path, .options = sl_import_options_default()};
+    assert_ok(context, document_source_copy(context, &plain, &found));
+    assert_true(drawing_recall(context, &found, &status));
+    assert_ok(context, status);
+    assert_true(document_source_same(&source, &found));
+    document_source_destroy(context, &found);
+    // Said once more, it takes the place of what was said before.
+    sl_free(context, source.closed);
+    source.closed = NULL;
+    source.closed_count = 0;
+    source.options.layers = NULL;
+    drawing_remember(context, &source);
+    assert_ok(context, document_source_copy(context, &plain, &found));
+    assert_true(drawing_recall(context, &found, &status));
+    assert_true(document_source_same(&source, &found));
+    document_source_destroy(context, &found);
+    assert_true(drawing_recall(context, &second, &status));
+    assert_int_equal(remove(other), 0);
+    snprintf(folder, sizeof folder, "%s/sightline", config);
+    snprintf(kept, sizeof kept, "%s/drawings", folder);
+    assert_int_equal(remove(kept), 0);
+    assert_int_equal(rmdir(folder), 0);
+    assert_int_equal(rmdir(config), 0);
+    close_house(&s);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(roles_show_at_once), cmocka_unit_test(leaks_are_closed),
+        cmocka_unit_test(line_is_measured),   cmocka_unit_test(wrong_choices),
+        cmocka_unit_test(choices_are_kept),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
