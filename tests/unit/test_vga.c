@@ -4,6 +4,7 @@
 #include "testing.h"
 
 #include "analysis/visibility_graph/graph_paths.h"
+#include "analysis/visibility_graph/graph_rows.h"
 #include "map/scan.h"
 #include "oracle/random_map.h"
 #include "oracle/random_oblique.h"
@@ -32,7 +33,7 @@ static void fixture_destroy(sl_context *context, fixture *f) {
 }
 
 static bool has_edge(const sl_vga_graph *graph, uint32_t a, uint32_t b) {
-    return sl_bits_has(graph->rows + a * graph->words, b);
+    return sl_vga_sees(graph, a, b);
 }
 
 /// Half of a unit puts points on walls' lines, at ends and on portals.
@@ -65,17 +66,81 @@ static uint32_t part_root(const uint32_t *parts, uint32_t p) {
     return p;
 }
 
+enum { BIT_POINTS = 200 };
+
+/// Makes a graph from a bit for each pair.
+static sl_status look_up(sl_context *context, void *job, void *state, uint32_t point,
+                         sl_bits *row) {
+    const sl_bits(*rows)[4] = job;
+    (void)context;
+    (void)state;
+    for (uint32_t q = 0; q < BIT_POINTS; q++)
+        if (sl_bits_has(rows[point], q)) sl_bits_add(row, q);
+    return SL_OK;
+}
+
+static void make_of_bits(sl_context *context, sl_bits (*rows)[4], uint32_t count,
+                         sl_vga_graph *out) {
+    const sli_vga_source source = {
+        .count = count, .points = count, .directed = true, .job = rows, .look = look_up};
+    assert_ok(context, sli_vga_graph_write(context, &source, 1, out));
+}
+
+/// Rows of random runs are read as they were written, forwards and turned over. Empty rows, full
+/// ones and single points are among them.
+static void rows_are_read_as_written(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    sl_bits rows[BIT_POINTS][4];
+    sl_random random = {5};
+    for (uint32_t count = 0; count <= BIT_POINTS; count++) {
+        const uint64_t length = 1 + sl_random_below(&random, 90);
+        sl_vga_graph graph = {0};
+        uint64_t edges = 0;
+        memset(rows, 0, sizeof rows);
+        for (uint32_t p = 0; p < count; p++) {
+            bool in = sl_random_below(&random, 2);
+            for (uint32_t q = 0; q < count; q++) {
+                in ^= sl_random_below(&random, length) == 0;
+                if (!in || q == p) continue;
+                sl_bits_add(rows[p], q);
+                edges++;
+            }
+        }
+        make_of_bits(context, rows, count, &graph);
+        assert_true(graph.edges == edges && graph.count == count);
+        for (uint32_t p = 0; p < count; p++) {
+            sl_bits read[4] = {0};
+            sli_vga_add_row(&graph, p, read);
+            assert_memory_equal(read, rows[p], sizeof read);
+            for (uint32_t q = 0; q < count; q++)
+                assert_int_equal(sl_vga_sees(&graph, p, q), sl_bits_has(rows[p], q));
+            sl_vga_run run = sl_vga_row(&graph, p);
+            for (uint32_t stop = 0; sl_vga_next(&run); stop = run.stop)
+                assert_true(run.first < run.stop && (run.first > stop || stop == 0));
+        }
+        assert_ok(context, sl_vga_graph_turn(context, &graph));
+        assert_true(graph.edges == edges);
+        for (uint32_t p = 0; p < count; p++)
+            for (uint32_t q = 0; q < count; q++)
+                assert_int_equal(sl_vga_sees(&graph, p, q), sl_bits_has(rows[q], p));
+        sl_vga_graph_destroy(context, &graph);
+    }
+    sl_context_destroy(context);
+}
+
 /// The sizes of parts beside sets of points that are joined pair by pair; random directed graphs,
 /// with links.
 static void parts_are_those_of_all_pairs(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
-    enum { MOST = 200 };
-    uint64_t rows[MOST * 4], seed = 7;
+    enum { MOST = BIT_POINTS };
+    sl_bits rows[MOST][4];
+    uint64_t seed = 7;
     uint32_t parts[MOST], sizes[MOST];
     for (int i = 0; i < 400; i++) {
         const uint32_t count = 1 + (uint32_t)i % MOST, edges = count * (uint32_t)(i % 7) / 4;
-        sl_vga_graph graph = {.count = count, .words = (count + 63) / 64, .rows = rows};
+        sl_vga_graph graph = {0};
         sl_vga_link links[2] = {{0, count - 1}, {count / 2, count / 3}};
         const size_t link_count = count > 3 ? (size_t)i % 3 : 0;
         memset(rows, 0, sizeof rows);
@@ -87,10 +152,11 @@ static void parts_are_those_of_all_pairs(void **state) {
                 a = links[k - edges].a;
                 b = links[k - edges].b;
             } else if (a != b) {
-                sl_bits_add(graph.rows + a * graph.words, b);
+                sl_bits_add(rows[a], b);
             }
             parts[part_root(parts, a)] = part_root(parts, b);
         }
+        make_of_bits(context, rows, count, &graph);
         assert_ok(context, sl_vga_part_sizes(context, &graph, links, link_count, sizes));
         for (uint32_t p = 0; p < count; p++) {
             uint32_t size = 0;
@@ -117,6 +183,7 @@ static void parts_are_those_of_all_pairs(void **state) {
                 if (sizes[q] == sizes[p]) assert_true(numbers[q] < numbers[p]);
             assert_true(++seen <= number_count);
         }
+        sl_vga_graph_destroy(context, &graph);
     }
     sl_context_destroy(context);
 }
@@ -578,10 +645,10 @@ static void glass_is_seen_through_one_way(void **state) {
         }
     }
     assert_true(one_way > 10);
-    sl_vga_graph turned = f.graph;
-    turned.rows = sl_alloc_array(context, turned.count * turned.words, sizeof *turned.rows);
-    memcpy(turned.rows, f.graph.rows, turned.count * turned.words * sizeof *turned.rows);
+    sl_vga_graph turned = {0};
+    assert_ok(context, sl_vga_graph_make(context, &f.outline, &f.grid, 0, 2, &turned));
     assert_ok(context, sl_vga_graph_turn(context, &turned));
+    assert_true(f.graph.directed && turned.directed && turned.edges == f.graph.edges);
     for (uint32_t a = 0; a < f.grid.count; a++)
         for (uint32_t b = 0; b < f.grid.count; b++)
             assert_int_equal(has_edge(&turned, b, a), has_edge(&f.graph, a, b));
@@ -780,6 +847,7 @@ static void neighbours_that_see_nothing_control_nothing(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pairs_are_those_of_single_sightlines),
+        cmocka_unit_test(rows_are_read_as_written),
         cmocka_unit_test(parts_are_those_of_all_pairs),
         cmocka_unit_test(small_parts_do_not_set_the_scale),
         cmocka_unit_test(oblique_pairs_too),

@@ -23,19 +23,6 @@ typedef struct scratch {
     sl_bits *seen, *level, *next;
 } scratch;
 
-/// Without a call, as processors that count bits themselves are not taken for granted.
-static inline uint64_t count_bits(uint64_t bits) {
-    bits -= bits >> 1 & 0x5555555555555555;
-    bits = (bits & 0x3333333333333333) + (bits >> 2 & 0x3333333333333333);
-    return ((bits + (bits >> 4)) & 0x0f0f0f0f0f0f0f0f) * 0x0101010101010101 >> 56;
-}
-
-static uint64_t count_set(const sl_bits *set, size_t words) {
-    uint64_t count = 0;
-    for (size_t i = 0; i < words; i++) count += count_bits(set[i]);
-    return count;
-}
-
 // --- local
 
 /// Ordered pairs of neighbours of a point that see each other. Sight is mutual, so of two tiles
@@ -44,13 +31,17 @@ static uint64_t count_triangles(const sli_vga_tiles *t, const sl_bits *neighbour
     uint64_t count = 0;
     for (size_t b = 0; b < t->bundles; b++) {
         if (!neighbours[b]) continue;
-        for (size_t i = t->first[b]; i < t->first[b + 1]; i++) {
-            const sli_vga_tile *tile = &t->tiles.items[i];
+        for (uint32_t i = 0; i < t->of[b].count; i++) {
+            const sli_vga_tile *tile = &t->of[b].tiles[i];
             const sl_bits others = neighbours[tile->bundle] & tile->any;
             if (tile->bundle < b || !others) continue;
             uint64_t of_tile = 0;
-            for (sl_bits rest = neighbours[b]; rest; rest &= rest - 1)
-                of_tile += count_bits(t->rows.items[i].rows[__builtin_ctzll(rest)] & others);
+            if (neighbours[b] == UINT64_MAX && others == tile->any)
+                of_tile = sli_vga_tile_pairs(&t->of[b], tile);
+            else
+                for (sli_vga_span span = sli_vga_spans(&t->of[b], tile); sli_vga_next_span(&span);)
+                    of_tile += (uint64_t)sli_word_count(span.places & neighbours[b]) *
+                               sli_word_count(span.seen & others);
             count += tile->bundle == b ? of_tile : 2 * of_tile;
         }
     }
@@ -66,8 +57,9 @@ static void measure_local(const visual_job *v, scratch *s, uint32_t point, sl_vg
     memset(s->level, 0, bytes);
     memset(s->seen, 0, bytes);
     memset(s->next, 0, bytes);
-    for (size_t i = t->first[slot / 64]; i < t->first[slot / 64 + 1]; i++)
-        s->level[t->tiles.items[i].bundle] = t->rows.items[i].rows[slot % 64];
+    const sli_vga_bundle *of = &t->of[slot / 64];
+    for (uint32_t i = 0; i < of->count; i++)
+        s->level[of->tiles[i].bundle] = sli_vga_tile_row(of, &of->tiles[i], slot % 64);
     out->point_first_moment = out->point_second_moment = out->visual_control = 0;
     for (size_t b = 0; b < t->bundles; b++) {
         for (sl_bits rest = s->level[b]; rest; rest &= rest - 1) {
@@ -84,7 +76,7 @@ static void measure_local(const visual_job *v, scratch *s, uint32_t point, sl_vg
         out->visual_clustering_coefficient =
             (double)count_triangles(t, s->level) / (degree * (degree - 1));
     sli_vga_tiles_step(t, s->level, s->seen, s->next);
-    const uint64_t together = count_set(s->next, t->bundles);
+    const uint64_t together = sli_bits_count(s->next, t->bundles);
     if (together) out->visual_controllability = degree / (double)together;
     if (!(degree > 0)) out->visual_control = NAN;
 }
@@ -130,7 +122,7 @@ static sl_status measure_unit(sl_context *context, void *all, void *state, size_
 
 static sl_status measure_visual(sl_context *context, const sli_vga_job *job) {
     visual_job v = {.all = job};
-    SL_TRY(sli_vga_tiles_make(context, job->grid, job->graph, &v.tiles));
+    SL_TRY(sli_vga_tiles_make(context, job->grid, job->graph, job->options->threads, &v.tiles));
     const sl_work work = {.job = &v,
                           .begin = scratch_begin,
                           .unit = measure_unit,
@@ -157,7 +149,8 @@ sl_status sl_vga_measure(sl_context *context, const sl_outline *outline, const s
     uint32_t *degree = sl_alloc_array(context, graph->count, sizeof *degree);
     if (!degree) return SL_NO_MEMORY;
     for (uint32_t p = 0; p < graph->count; p++) {
-        degree[p] = (uint32_t)count_set(sli_vga_row(graph, p), graph->words);
+        for (sl_vga_run run = sl_vga_row(graph, p); sl_vga_next(&run);)
+            degree[p] += run.stop - run.first;
         double *all = (double *)&measures[p];
         for (size_t k = 0; k < sizeof *measures / sizeof *all; k++) all[k] = NAN;
         if (options->parts & (SL_VGA_LOCAL | SL_VGA_GLOBAL)) measures[p].connectivity = degree[p];
@@ -179,7 +172,7 @@ sl_status sl_vga_measure(sl_context *context, const sl_outline *outline, const s
 sl_status sl_vga_step_depth(sl_context *context, const sl_vga_graph *graph, const uint32_t *from,
                             size_t from_count, uint32_t *depths_out) {
     uint32_t *queue = sl_alloc_array(context, graph->count, sizeof *queue);
-    sl_bits *unseen = sl_alloc_array(context, graph->words, sizeof *unseen);
+    sl_bits *unseen = sl_alloc_array(context, sl_bits_words(graph->count), sizeof *unseen);
     sl_status status = queue && unseen ? SL_OK : SL_NO_MEMORY;
     size_t head = 0, tail = 0;
     for (uint32_t p = 0; p < graph->count && status == SL_OK; p++) {
@@ -194,16 +187,17 @@ sl_status sl_vga_step_depth(sl_context *context, const sl_vga_graph *graph, cons
     }
     while (status == SL_OK && head < tail) {
         const uint32_t p = queue[head++];
-        const sl_bits *row = sli_vga_row(graph, p);
         if (head % 4096 == 0) status = sl_check_cancelled(context);
-        for (size_t w = 0; w < graph->words; w++) {
-            for (sl_bits rest = row[w] & unseen[w]; rest; rest &= rest - 1) {
-                const uint32_t q = (uint32_t)(w * 64) + (uint32_t)__builtin_ctzll(rest);
-                depths_out[q] = depths_out[p] + 1;
-                queue[tail++] = q;
+        for (sl_vga_run run = sl_vga_row(graph, p); sl_vga_next(&run);)
+            for (size_t w = run.first / 64; w * 64 < run.stop; w++) {
+                sl_bits found = unseen[w] & sli_bits_run(w, run.first, run.stop);
+                unseen[w] &= ~found;
+                for (; found; found &= found - 1) {
+                    const uint32_t q = (uint32_t)(w * 64) + (uint32_t)__builtin_ctzll(found);
+                    depths_out[q] = depths_out[p] + 1;
+                    queue[tail++] = q;
+                }
             }
-            unseen[w] &= ~row[w];
-        }
     }
     sl_free(context, queue);
     sl_free(context, unseen);

@@ -2,6 +2,7 @@
 #ifndef SL_VGA_MEASURES_H
 #define SL_VGA_MEASURES_H
 
+#include "analysis/visibility_graph/graph_rows.h"
 #include "analysis/visibility_graph/tiles.h"
 #include "sightline/support.h"
 #include "sightline/vga.h"
@@ -17,10 +18,6 @@ typedef struct sli_vga_job {
     const sl_bits *turning; ///< points at which paths may turn
     sl_vga_measures *measures;
 } sli_vga_job;
-
-static inline const sl_bits *sli_vga_row(const sl_vga_graph *graph, uint32_t point) {
-    return graph->rows + point * graph->words;
-}
 
 /// The points beside walls. The result is the caller's.
 sl_status sli_vga_find_turning(sl_context *context, const sl_outline *outline,
