@@ -530,7 +530,7 @@ static void lists_do_not_change_paths(void **state) {
     sl_bits *turning = NULL;
     assert_ok(context, sli_vga_find_turning(context, &f.outline, &f.grid, &turning));
     sl_vga_measures *all = test_calloc(n, sizeof *all), *some = test_calloc(n, sizeof *some);
-    sli_vga_job job = {&f.grid, &f.graph, &options, NULL, turning, all};
+    sli_vga_job job = {&f.grid, &f.graph, &options, NULL, turning, NULL, all};
     sli_vga_sights sights;
     assert_ok(context, sli_vga_sights_make(context, &job, &sights));
     assert_ok(context, sli_vga_measure_metric(context, &sights));

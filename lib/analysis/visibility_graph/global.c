@@ -36,6 +36,7 @@
 typedef struct global_job {
     const sli_vga_job *all;
     const sli_vga_tiles *tiles;
+    uint32_t most; ///< steps of a search; 0: no limit
 } global_job;
 
 typedef struct searcher {
@@ -90,14 +91,13 @@ static void clear_counts(searcher *s) {
 
 // --- a group
 
-/// Points of a bundle that all see each other: the first one and others, by place.
-static uint64_t choose_group(const sli_vga_tiles *t, size_t bundle, uint64_t places) {
+uint64_t sli_vga_choose_group(const sli_vga_job *job, const sli_vga_tiles *t, size_t bundle,
+                              uint64_t places) {
     const sli_vga_bundle *of = &t->of[bundle];
-    uint64_t group = places & -places;
+    uint64_t group = places & -places, rest = places;
     uint32_t i = 0;
     while (i < of->count && of->tiles[i].bundle != bundle) i++;
-    if (i == of->count) return group;
-    uint64_t rest = places;
+    if (i == of->count || job->graph->directed) return group;
     for (uint64_t next = group; next; next = rest & -rest) {
         group |= next;
         rest &= sli_vga_tile_row(of, &of->tiles[i], (unsigned)__builtin_ctzll(next));
@@ -136,36 +136,47 @@ static void see_first(const sli_vga_tiles *t, searcher *s, size_t bundle, uint64
     s->seen[bundle] |= group;
 }
 
+/// What all of these points have in their masks.
+static uint64_t common_mask(const uint64_t *masks, uint64_t points) {
+    uint64_t common = UINT64_MAX;
+    for (; points; points &= points - 1) common &= masks[__builtin_ctzll(points)];
+    return common;
+}
+
+/// Adds to masks of a bundle what its points see in one tile. Returns those that have become full.
+static uint64_t join_tile(const sli_vga_bundle *of, const sli_vga_tile *tile, const searcher *s,
+                          uint64_t *masks, uint64_t points, uint64_t group) {
+    const uint64_t *sources = s->masks + (size_t)tile->bundle * 64;
+    const uint64_t from = tile->any & s->partial[tile->bundle], any = s->any[tile->bundle];
+    uint64_t full = 0;
+    for (sli_vga_span span = sli_vga_spans(of, tile); sli_vga_next_span(&span);) {
+        uint64_t seen = span.seen & from, rest = span.places & points;
+        if (!seen || !rest) continue;
+        const uint64_t gain = any & ~common_mask(masks, rest);
+        uint64_t joined = 0;
+        for (; seen && gain & ~joined; seen &= seen - 1) joined |= sources[__builtin_ctzll(seen)];
+        for (; rest && joined; rest &= rest - 1) {
+            uint64_t *mask = &masks[__builtin_ctzll(rest)];
+            *mask |= joined;
+            if (*mask == group) full |= rest & -rest;
+        }
+    }
+    return full;
+}
+
 /// Finds the masks of points of a bundle that see no point with a full mask. Returns those that are
-/// full nevertheless; `found`: those that see any.
+/// full nevertheless; masks of 0 are of points that see none.
 static uint64_t join_masks(const sli_vga_tiles *t, searcher *s, size_t bundle, uint64_t points,
-                           uint64_t group, uint64_t *found) {
+                           uint64_t group) {
     const sli_vga_bundle *of = &t->of[bundle];
-    uint64_t *masks = s->masks + bundle * 64, full = 0;
+    uint64_t *masks = s->masks + bundle * 64, full = 0, common = 0;
     for (uint64_t rest = points; rest; rest &= rest - 1) masks[__builtin_ctzll(rest)] = 0;
-    *found = 0;
     for (uint32_t i = 0; i < of->count && points; i++) {
         const sli_vga_tile *tile = &of->tiles[i];
-        const uint64_t from = tile->any & s->partial[tile->bundle];
-        if (!from) continue;
-        for (sli_vga_span span = sli_vga_spans(of, tile); sli_vga_next_span(&span);) {
-            uint64_t sources = span.seen & from, joined = 0;
-            uint64_t rest = sources ? span.places & points : 0;
-            if (!rest) continue;
-            *found |= rest;
-            uint64_t common = UINT64_MAX; // what all of these have already
-            for (uint64_t left = rest; left; left &= left - 1)
-                common &= masks[__builtin_ctzll(left)];
-            if (!(s->any[tile->bundle] & ~common)) continue;
-            for (; sources && joined != group; sources &= sources - 1)
-                joined |= s->masks[(size_t)tile->bundle * 64 + (size_t)__builtin_ctzll(sources)];
-            for (; rest; rest &= rest - 1) {
-                uint64_t *mask = &masks[__builtin_ctzll(rest)];
-                *mask |= joined;
-                if (*mask == group) full |= rest & -rest;
-            }
-            points &= ~full;
-        }
+        if (!(tile->any & s->partial[tile->bundle]) || !(s->any[tile->bundle] & ~common)) continue;
+        full |= join_tile(of, tile, s, masks, points, group);
+        points &= ~full;
+        common = common_mask(masks, points);
     }
     return full;
 }
@@ -198,8 +209,7 @@ static void push_level(const sli_vga_tiles *t, searcher *s, uint64_t group) {
     sli_vga_tiles_step(t, s->partial, s->seen, s->next);
     for (size_t b = 0; b < t->bundles; b++) {
         const uint64_t left = s->next[b] & ~s->next_full[b];
-        uint64_t found;
-        if (left) s->next_full[b] |= join_masks(t, s, b, left, group, &found);
+        if (left) s->next_full[b] |= join_masks(t, s, b, left, group);
         s->next[b] &= ~s->next_full[b];
     }
 }
@@ -220,12 +230,13 @@ static uint64_t see_full(const sli_vga_bundle *of, const searcher *s, uint64_t p
 /// Finds the next level from the points that are left: those that see one of this level.
 static void pull_level(const sli_vga_tiles *t, searcher *s, uint64_t group) {
     for (size_t b = 0; b < t->bundles; b++) {
-        const uint64_t left = s->reach[b] & ~s->seen[b];
-        uint64_t found = 0;
+        uint64_t left = s->reach[b] & ~s->seen[b];
         s->next_full[b] = left ? see_full(&t->of[b], s, left) : 0;
-        if (left & ~s->next_full[b])
-            s->next_full[b] |= join_masks(t, s, b, left & ~s->next_full[b], group, &found);
-        s->next[b] = found & ~s->next_full[b];
+        left &= ~s->next_full[b];
+        if (left) s->next_full[b] |= join_masks(t, s, b, left, group);
+        s->next[b] = 0;
+        for (left &= ~s->next_full[b]; left; left &= left - 1)
+            if (s->masks[b * 64 + (size_t)__builtin_ctzll(left)]) s->next[b] |= left & -left;
     }
 }
 
@@ -257,7 +268,6 @@ static void next_level(const sli_vga_tiles *t, searcher *s, uint64_t group, bool
 /// Counts points by depth for a group. Entries are valid up to `deepest`.
 static void search(const global_job *g, searcher *s, size_t bundle, uint64_t group) {
     const sli_vga_tiles *t = g->tiles;
-    const uint32_t radius = g->all->options->radius;
     const size_t bytes = t->bundles * sizeof *s->seen;
     const bool reaches = !g->all->graph->directed && s->reach[bundle] & group;
     uint64_t depth = 1;
@@ -265,7 +275,7 @@ static void search(const global_job *g, searcher *s, size_t bundle, uint64_t gro
     see_first(t, s, bundle, group);
     s->common[0] = 1;
     s->common[1] = sli_word_count(group) - 1;
-    while (more && (more = count_level(t, s, depth)) && depth != radius) {
+    while (more && (more = count_level(t, s, depth)) && depth != g->most) {
         more = !reaches || memcmp(s->seen, s->reach, bytes) != 0;
         if (more) next_level(t, s, group, reaches);
         depth++;
@@ -308,13 +318,17 @@ static void measure_depths(const int64_t *points, uint32_t deepest, sl_vga_measu
 }
 
 static void measure_group(const global_job *g, searcher *s, size_t bundle, uint64_t group) {
-    const uint32_t radius = g->all->options->radius;
+    const sl_vga_options *options = g->all->options;
     search(g, s, bundle, group);
-    const uint32_t deepest = radius && radius < s->deepest ? radius : s->deepest;
+    const uint32_t deepest =
+        options->radius && options->radius < s->deepest ? options->radius : s->deepest;
     for (uint64_t rest = group; rest; rest &= rest - 1) {
         const size_t place = (size_t)__builtin_ctzll(rest);
+        const uint32_t point = g->tiles->points[bundle * 64 + place];
+        if (g->all->second) g->all->second[point] = (uint32_t)(s->common[2] + s->own[2][place]);
+        if (!(options->parts & SL_VGA_GLOBAL)) continue;
         for (uint32_t k = 0; k <= deepest; k++) s->sum[k] = s->common[k] + s->own[k][place];
-        measure_depths(s->sum, deepest, &g->all->measures[g->tiles->points[bundle * 64 + place]]);
+        measure_depths(s->sum, deepest, &g->all->measures[point]);
     }
     clear_counts(s);
 }
@@ -347,11 +361,9 @@ static sl_status begin_global_worker(sl_context *context, void *all, void **stat
 
 static sl_status measure_unit(sl_context *context, void *all, void *state, size_t unit) {
     const global_job *g = all;
-    const size_t left = g->tiles->count - unit * 64;
-    uint64_t places = left < 64 ? ((uint64_t)1 << left) - 1 : UINT64_MAX;
+    uint64_t places = sli_vga_places(g->tiles, unit);
     while (places) {
-        const uint64_t group =
-            g->all->graph->directed ? places & -places : choose_group(g->tiles, unit, places);
+        const uint64_t group = sli_vga_choose_group(g->all, g->tiles, unit, places);
         SL_TRY(sl_check_cancelled(context));
         measure_group(g, state, unit, group);
         places &= ~group;
@@ -361,12 +373,14 @@ static sl_status measure_unit(sl_context *context, void *all, void *state, size_
 
 sl_status sli_vga_measure_global(sl_context *context, const sli_vga_job *job,
                                  const sli_vga_tiles *tiles) {
-    global_job mine = {job, tiles};
+    const sl_vga_options *options = job->options;
+    global_job mine = {job, tiles, options->parts & SL_VGA_GLOBAL ? options->radius : 2};
+    if (job->second && mine.most == 1) mine.most = 2;
     const sl_work work = {.job = &mine,
                           .begin = begin_global_worker,
                           .unit = measure_unit,
                           .end = end_global_worker,
                           .stage = "depths",
                           .units = "bundles of points"};
-    return sl_work_run(context, &work, tiles->bundles, job->options->threads);
+    return sl_work_run(context, &work, tiles->bundles, options->threads);
 }

@@ -1,11 +1,4 @@
-/// Local measures of a visibility graph, by the formulas of depthmapX (vgavisuallocal.cpp of its
-/// salalib), after Turner et al. 2001; and the call for all measures.
-///
-/// Local measures look at the neighbours of a point and theirs. They work on tiles of the graph
-/// (tiles.h), so sets are by slot here.
-///
-/// Cost: O(connectivity * bundles in sight) for a point. Points are independent, so threads take
-/// bundles of them.
+/// The call for all measures of a visibility graph, and steps from chosen points.
 #include "analysis/visibility_graph/graph_measures.h"
 #include "analysis/visibility_graph/tiles.h"
 #include "geometry/length.h"
@@ -13,129 +6,17 @@
 #include <math.h>
 #include <string.h>
 
-/// What the threads share, and what each needs: sets of points, and the points of a level.
-typedef struct visual_job {
-    const sli_vga_job *all;
+/// The search for depths comes first: it counts points two steps away, for local measures too.
+static sl_status measure_visual(sl_context *context, sli_vga_job *job) {
+    const bool local = job->options->parts & SL_VGA_LOCAL;
     sli_vga_tiles tiles;
-} visual_job;
-
-typedef struct scratch {
-    sl_bits *seen, *level, *next;
-} scratch;
-
-// --- local
-
-/// Ordered pairs of neighbours of a point that see each other. Sight is mutual, so of two tiles
-/// with the same pairs one is counted, twice.
-static uint64_t count_triangles(const sli_vga_tiles *t, const sl_bits *neighbours) {
-    uint64_t count = 0;
-    for (size_t b = 0; b < t->bundles; b++) {
-        if (!neighbours[b]) continue;
-        for (uint32_t i = 0; i < t->of[b].count; i++) {
-            const sli_vga_tile *tile = &t->of[b].tiles[i];
-            const sl_bits others = neighbours[tile->bundle] & tile->any;
-            if (tile->bundle < b || !others) continue;
-            uint64_t of_tile = 0;
-            if (neighbours[b] == UINT64_MAX && others == tile->any)
-                of_tile = sli_vga_tile_pairs(&t->of[b], tile);
-            else
-                for (sli_vga_span span = sli_vga_spans(&t->of[b], tile); sli_vga_next_span(&span);)
-                    of_tile += (uint64_t)sli_word_count(span.places & neighbours[b]) *
-                               sli_word_count(span.seen & others);
-            count += tile->bundle == b ? of_tile : 2 * of_tile;
-        }
-    }
-    return count;
-}
-
-static void measure_local(const visual_job *v, scratch *s, uint32_t point, sl_vga_measures *out) {
-    const sli_vga_job *j = v->all;
-    const sli_vga_tiles *t = &v->tiles;
-    const double degree = j->degree[point];
-    const sl_point at = j->grid->points[point];
-    const size_t slot = t->slots[point], bytes = t->bundles * sizeof *s->level;
-    memset(s->level, 0, bytes);
-    memset(s->seen, 0, bytes);
-    memset(s->next, 0, bytes);
-    const sli_vga_bundle *of = &t->of[slot / 64];
-    for (uint32_t i = 0; i < of->count; i++)
-        s->level[of->tiles[i].bundle] = sli_vga_tile_row(of, &of->tiles[i], slot % 64);
-    out->point_first_moment = out->point_second_moment = out->visual_control = 0;
-    for (size_t b = 0; b < t->bundles; b++) {
-        for (sl_bits rest = s->level[b]; rest; rest &= rest - 1) {
-            const uint32_t q = t->points[b * 64 + (size_t)__builtin_ctzll(rest)];
-            const double distance =
-                sli_length(j->grid->points[q].x - at.x, j->grid->points[q].y - at.y);
-            out->point_first_moment += distance;
-            out->point_second_moment += distance * distance;
-            // Behind one-way glass a neighbour may see nothing.
-            out->visual_control += j->degree[q] ? 1.0 / j->degree[q] : NAN;
-        }
-    }
-    if (degree > 1)
-        out->visual_clustering_coefficient =
-            (double)count_triangles(t, s->level) / (degree * (degree - 1));
-    sli_vga_tiles_step(t, s->level, s->seen, s->next);
-    const uint64_t together = sli_bits_count(s->next, t->bundles);
-    if (together) out->visual_controllability = degree / (double)together;
-    if (!(degree > 0)) out->visual_control = NAN;
-}
-
-// --- all points
-
-static void scratch_end(sl_context *context, void *all, void *state) {
-    (void)all;
-    scratch *s = state;
-    sl_free(context, s->seen);
-    sl_free(context, s->level);
-    sl_free(context, s->next);
-    sl_free(context, s);
-}
-
-static sl_status scratch_begin(sl_context *context, void *all, void **state) {
-    const size_t words = ((const visual_job *)all)->tiles.bundles;
-    scratch *s = sl_alloc_array(context, 1, sizeof *s);
-    if (!s) return SL_NO_MEMORY;
-    s->seen = sl_alloc_array(context, words, sizeof *s->seen);
-    s->level = sl_alloc_array(context, words, sizeof *s->level);
-    s->next = sl_alloc_array(context, words, sizeof *s->next);
-    if (!s->seen || !s->level || !s->next) {
-        scratch_end(context, all, s);
-        return SL_NO_MEMORY;
-    }
-    *state = s;
-    return SL_OK;
-}
-
-enum { POINTS_A_UNIT = 16 };
-
-static sl_status measure_unit(sl_context *context, void *all, void *state, size_t unit) {
-    const visual_job *v = all;
-    const sli_vga_job *j = v->all;
-    const uint32_t first = (uint32_t)unit * POINTS_A_UNIT, count = j->graph->count;
-    for (uint32_t p = first; p < count && p < first + POINTS_A_UNIT; p++) {
-        SL_TRY(sl_check_cancelled(context));
-        measure_local(v, state, p, &j->measures[p]);
-    }
-    return SL_OK;
-}
-
-static sl_status measure_visual(sl_context *context, const sli_vga_job *job) {
-    visual_job v = {.all = job};
-    SL_TRY(sli_vga_tiles_make(context, job->grid, job->graph, job->options->threads, &v.tiles));
-    const sl_work work = {.job = &v,
-                          .begin = scratch_begin,
-                          .unit = measure_unit,
-                          .end = scratch_end,
-                          .stage = "measures",
-                          .units = "bundles of points"};
-    const size_t units = (job->graph->count + POINTS_A_UNIT - 1) / POINTS_A_UNIT;
-    sl_status status = SL_OK;
-    if (job->options->parts & SL_VGA_LOCAL)
-        status = sl_work_run(context, &work, units, job->options->threads);
-    if (status == SL_OK && job->options->parts & SL_VGA_GLOBAL)
-        status = sli_vga_measure_global(context, job, &v.tiles);
-    sli_vga_tiles_destroy(context, &v.tiles);
+    SL_TRY(sli_vga_tiles_make(context, job->grid, job->graph, job->options->threads, &tiles));
+    if (local) job->second = sl_alloc_array(context, job->graph->count, sizeof *job->second);
+    sl_status status = local && !job->second ? SL_NO_MEMORY : SL_OK;
+    if (status == SL_OK) status = sli_vga_measure_global(context, job, &tiles);
+    if (status == SL_OK && local) status = sli_vga_measure_local(context, job, &tiles);
+    sl_free(context, job->second);
+    sli_vga_tiles_destroy(context, &tiles);
     return status;
 }
 
@@ -157,7 +38,7 @@ sl_status sl_vga_measure(sl_context *context, const sl_outline *outline, const s
     }
     sl_bits *turning = NULL;
     sl_status status = sli_vga_find_turning(context, outline, grid, &turning);
-    sli_vga_job job = {grid, graph, options, degree, turning, measures};
+    sli_vga_job job = {grid, graph, options, degree, turning, NULL, measures};
     if (status == SL_OK && options->parts & (SL_VGA_LOCAL | SL_VGA_GLOBAL))
         status = measure_visual(context, &job);
     if (status == SL_OK && options->parts & SL_VGA_THROUGH)
