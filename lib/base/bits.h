@@ -13,8 +13,8 @@ static inline uint32_t sli_word_count(uint64_t bits) {
     return (uint32_t)(((bits + (bits >> 4)) & 0x0f0f0f0f0f0f0f0f) * 0x0101010101010101 >> 56);
 }
 
-/// The word `word` of a set that has the numbers from `first` up to `stop`, without it. Some of them
-/// are in the word.
+/// The word `word` of a set that has the numbers from `first` up to `stop`, without it. Some of
+/// them are in the word.
 static inline sl_bits sli_bits_run(size_t word, size_t first, size_t stop) {
     sl_bits bits = ~(sl_bits)0;
     if (first > word * 64) bits &= ~(sl_bits)0 << first % 64;

@@ -127,10 +127,11 @@ static sl_status check_area(sl_context *context, const vga_plan *plan, const sl_
         if (space->cells[c].inside) area += sl_space_area(space, c);
     const double points = area / plan->points.step / plan->points.step;
     if (plan->points.at.count || points <= SL_VGA_POINTS_MOST) return SL_OK;
-    return sl_fail(context, SL_BAD_ARGUMENT,
-                   "--grid %.9g: about %.3g points, and a graph has up to %u; choose a larger step, "
-                   "or one room with --at",
-                   plan->points.step, points, SL_VGA_POINTS_MOST);
+    return sl_fail(
+        context, SL_BAD_ARGUMENT,
+        "--grid %.9g: about %.3g points, and a graph has up to %u; choose a larger step, "
+        "or one room with --at",
+        plan->points.step, points, SL_VGA_POINTS_MOST);
 }
 
 /// A step that is wrong by far may be meant in another unit than the drawing's.

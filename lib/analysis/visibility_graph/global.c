@@ -17,10 +17,11 @@
 /// A level is found from whichever side has fewer tiles (Beamer, Asanovic and Patterson 2012,
 /// Direction-optimizing breadth-first search): from the level before, or from the points that are
 /// left. Most of these find one they see after a few tiles. A search ends as soon as all points are
-/// found that the search before found. So the last level, often most of the plan, is never taken on.
+/// found that the search before found. So the last level, often most of the plan, is never taken
+/// on.
 ///
-/// All of this needs sight that is mutual. In a directed graph, each point is a group of its own, and
-/// levels are found from the level before.
+/// All of this needs sight that is mutual. In a directed graph, each point is a group of its own,
+/// and levels are found from the level before.
 ///
 /// Cost: for a group, the tiles of bundles that one of the two sides has, a few spans of some, and
 /// the spans of points whose masks are not full. Most bundles are a group, so that is about a 64th
@@ -338,7 +339,8 @@ static void measure_group(const global_job *g, searcher *s, size_t bundle, uint6
 static void end_global_worker(sl_context *context, void *all, void *state) {
     (void)all;
     searcher *s = state;
-    void *parts[] = {s->seen, s->full, s->partial, s->next, s->next_full, s->masks, s->any, s->reach, s};
+    void *parts[] = {s->seen,  s->full, s->partial, s->next, s->next_full,
+                     s->masks, s->any,  s->reach,   s};
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) sl_free(context, parts[i]);
 }
 
@@ -348,7 +350,8 @@ static sl_status begin_global_worker(sl_context *context, void *all, void **stat
     if (!s) return SL_NO_MEMORY;
     s->masks = sl_alloc_array(context, words * 64, sizeof *s->masks);
     bool room = s->masks != NULL;
-    uint64_t **sets[] = {&s->seen, &s->full, &s->partial, &s->next, &s->next_full, &s->any, &s->reach};
+    uint64_t **sets[] = {&s->seen,      &s->full, &s->partial, &s->next,
+                         &s->next_full, &s->any,  &s->reach};
     for (size_t i = 0; i < sizeof sets / sizeof *sets; i++)
         room &= (*sets[i] = sl_alloc_array(context, words, sizeof **sets[i])) != NULL;
     if (!room) {

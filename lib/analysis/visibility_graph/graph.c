@@ -17,9 +17,9 @@
 /// A view that has passed a limited wall takes the next one for a wall. Those that the eye is on do
 /// not count.
 ///
-/// The points of a room stand in strips, one a column. A cone sees a run of each: along a strip, the
-/// side of a ray changes once. A rounded crossing says where to look for the change, and exact signs
-/// find it.
+/// The points of a room stand in strips, one a column. A cone sees a run of each: along a strip,
+/// the side of a ray changes once. A rounded crossing says where to look for the change, and exact
+/// signs find it.
 ///
 /// Cost: for each eye, the sides of the rooms that it sees and the strips in them. Invariant: a
 /// cone is narrower than half a circle, and the rooms behind a portal lie beyond its line.
@@ -215,8 +215,7 @@ typedef struct ray {
 } ray;
 
 static ray ray_through(const looker *l, sl_point via) {
-    return (ray){via, via.x > l->eye.x, via.x < l->eye.x,
-                 (via.y - l->eye.y) / (via.x - l->eye.x)};
+    return (ray){via, via.x > l->eye.x, via.x < l->eye.x, (via.y - l->eye.y) / (via.x - l->eye.x)};
 }
 
 static int side_of(const looker *l, const ray *r, uint32_t point) {
@@ -513,8 +512,8 @@ sl_status sl_vga_graph_make(sl_context *context, const sl_outline *outline, cons
 static sl_status look_from_sample(sl_context *context, void *all, void *state, uint32_t sample,
                                   sl_bits *row) {
     const scene *s = all;
-    return look(context, all, state, (uint32_t)((uint64_t)sample * s->like.grid->count / s->samples),
-                row);
+    return look(context, all, state,
+                (uint32_t)((uint64_t)sample * s->like.grid->count / s->samples), row);
 }
 
 sl_status sl_vga_graph_bytes(sl_context *context, const sl_outline *outline,

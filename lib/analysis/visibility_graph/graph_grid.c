@@ -37,10 +37,11 @@ static sl_point point_of(const sl_vga_grid *grid, uint32_t square) {
 static sl_status take(flood *f, uint32_t square) {
     if (sl_bits_has(f->taken, square)) return SL_OK;
     if (f->grid->count == SL_VGA_POINTS_MOST)
-        return sl_fail(f->context, SL_BAD_ARGUMENT,
-                       "a grid step of %.9g gives more than %u points, too many for a graph; choose "
-                       "a larger step",
-                       f->grid->step, SL_VGA_POINTS_MOST);
+        return sl_fail(
+            f->context, SL_BAD_ARGUMENT,
+            "a grid step of %.9g gives more than %u points, too many for a graph; choose "
+            "a larger step",
+            f->grid->step, SL_VGA_POINTS_MOST);
     SL_TRY(SL_ARRAY_ROOM(f->context, &f->waiting, 1));
     sl_bits_add(f->taken, square);
     f->waiting.items[f->waiting.count++] = square;

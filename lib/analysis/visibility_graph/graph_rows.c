@@ -8,7 +8,8 @@
 ///      1   7    13       at an end. So rows share nothing: that would save little, and cost the
 ///      0   6    12       search for what they share.
 ///
-/// Memory: about 2.6 bytes a run. Runs of a row grow with the columns in sight, pairs with the area.
+/// Memory: about 2.6 bytes a run. Runs of a row grow with the columns in sight, pairs with the
+/// area.
 #include "analysis/visibility_graph/graph_rows.h"
 #include "base/base.h"
 #include "base/bits.h"
@@ -38,8 +39,8 @@ bool sl_vga_sees(const sl_vga_graph *graph, uint32_t point, uint32_t other) {
 }
 
 uint64_t sli_vga_graph_size(const sl_vga_graph *graph) {
-    uint64_t bytes = sl_bits_words(graph->count) * sizeof *graph->rows +
-                     graph->count * sizeof *graph->first;
+    uint64_t bytes =
+        sl_bits_words(graph->count) * sizeof *graph->rows + graph->count * sizeof *graph->first;
     for (uint32_t p = BUNDLE - 1; p < graph->count + BUNDLE - 1; p += BUNDLE) { // the last of each
         const uint32_t last = p < graph->count ? p : graph->count - 1;
         sl_vga_run run = sl_vga_row(graph, last);
@@ -201,12 +202,11 @@ static sl_status look_back(sl_context *context, void *job, void *state, uint32_t
 
 sl_status sl_vga_graph_turn(sl_context *context, sl_vga_graph *graph) {
     turning t = {.graph = graph, .words = sl_bits_words(graph->count)};
-    const sli_vga_source source = {
-        .count = graph->count,
-        .points = graph->count,
-        .directed = graph->directed,
-        .job = &t,
-        .look = look_back};
+    const sli_vga_source source = {.count = graph->count,
+                                   .points = graph->count,
+                                   .directed = graph->directed,
+                                   .job = &t,
+                                   .look = look_back};
     const size_t rows = WORDS_A_PASS / (t.words + 1) + 1;
     sl_vga_graph turned = {0};
     t.rows_a_pass = rows < graph->count ? (uint32_t)rows : graph->count;

@@ -26,10 +26,11 @@ typedef struct local_job {
 
 /// Sets are by slot.
 typedef struct scratch {
-    sl_bits *all, *own;  ///< seen by all of a group; by one of it, and not by all
+    sl_bits *all, *own; ///< seen by all of a group; by one of it, and not by all
     sl_bits *level, *next;
-    sl_bits *alone;   ///< of `all`: those that see none of it
-    uint32_t *to_all; ///< by slot that one of the group sees, and not all: how many of `all` it sees
+    sl_bits *alone; ///< of `all`: those that see none of it
+    uint32_t
+        *to_all; ///< by slot that one of the group sees, and not all: how many of `all` it sees
 } scratch;
 
 // --- pairs of neighbours

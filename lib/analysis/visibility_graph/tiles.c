@@ -10,8 +10,8 @@
 ///      8  9 | ...       the whole bundle, that word is the answer. Else the points' own rows are
 ///                       joined, until nothing is missing.
 ///
-/// Neighbours often see the same of a tile: then their rows are kept once, as a span. A tile that is
-/// full has one span; of 100,000 points in a hall with pillars, a tile has 20.
+/// Neighbours often see the same of a tile: then their rows are kept once, as a span. A tile that
+/// is full has one span; of 100,000 points in a hall with pillars, a tile has 20.
 ///
 /// Cost of a step: the tiles of the level's bundles, and a few spans of some of them. Memory: 32
 /// bytes a tile, and 8 a span.
@@ -200,8 +200,7 @@ sl_status sli_vga_tiles_make(sl_context *context, const sl_vga_grid *grid,
 }
 
 sl_status sli_vga_tiles_size(sl_context *context, const sl_vga_grid *grid,
-                             const sl_vga_graph *graph, unsigned threads,
-                             sli_vga_tile_bytes *out) {
+                             const sl_vga_graph *graph, unsigned threads, sli_vga_tile_bytes *out) {
     sli_vga_tiles t = {0};
     const size_t bundles = sl_bits_words(grid->count);
     uint64_t *bytes = sl_alloc_array(context, bundles, sizeof *bytes);

@@ -439,8 +439,8 @@ int slp_level_vga(slp_level *level, const slp_vga *given, const double *seeds, s
     return status;
 }
 
-size_t slp_level_vga_copy(const slp_level *level, double *points, double *measures,
-                          int64_t *depths, int64_t *parts) {
+size_t slp_level_vga_copy(const slp_level *level, double *points, double *measures, int64_t *depths,
+                          int64_t *parts) {
     for (uint32_t p = 0; p < level->grid.count; p++) {
         if (points) {
             points[2 * p] = level->grid.points[p].x;

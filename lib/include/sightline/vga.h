@@ -54,11 +54,11 @@ SL_API sl_status sl_vga_grid_border(sl_context *context, const sl_vga_grid *grid
 SL_API uint32_t sl_vga_grid_find(const sl_vga_grid *grid, sl_point place);
 
 /// Which points see each other. No point sees itself. A row lists the points that one point sees,
-/// as runs of consecutive numbers: a column of the grid is seen in few pieces. A run is two numbers,
-/// each in groups of 7 bits, the lowest first: its length, and the points between it and the run
-/// before. Length 0 ends a row. Zero it to start.
+/// as runs of consecutive numbers: a column of the grid is seen in few pieces. A run is two
+/// numbers, each in groups of 7 bits, the lowest first: its length, and the points between it and
+/// the run before. Length 0 ends a row. Zero it to start.
 typedef struct sl_vga_graph {
-    uint32_t count; ///< of points
+    uint32_t count;  ///< of points
     bool directed;   ///< through one-way glass, a point may see one that does not see it
     uint64_t edges;  ///< ordered pairs that see each other
     uint8_t **rows;  ///< by 64 points: their rows, one after the other
@@ -102,8 +102,8 @@ SL_API bool sl_vga_sees(const sl_vga_graph *graph, uint32_t point, uint32_t othe
 /// The most points of a grid.
 #define SL_VGA_POINTS_MOST 67108864u
 
-/// About the bytes of the graph of a grid, for those who ask before it is made: by the rows of up to
-/// 256 points. `range` as below.
+/// About the bytes of the graph of a grid, for those who ask before it is made: by the rows of up
+/// to 256 points. `range` as below.
 SL_API sl_status sl_vga_graph_bytes(sl_context *context, const sl_outline *outline,
                                     const sl_vga_grid *grid, double range, uint64_t *bytes);
 

@@ -118,12 +118,9 @@ static sl_status make(graph *g, double step, double range, double most) {
 SLI_EXPORT(int, graph_make, graph *g, double step, double range, double most) {
     if (!sli_done(make(g, step, range, most))) return (int)sli_module.status;
     const sl_vga_grid *grid = &g->grid;
-    const uint32_t table[] = {grid->count,
-                              (uint32_t)(uintptr_t)grid->points,
-                              grid->columns,
-                              grid->rows,
-                              (uint32_t)(uintptr_t)grid->squares,
-                              g->baked.map.oneway_count > 0};
+    const uint32_t table[] = {
+        grid->count, (uint32_t)(uintptr_t)grid->points,  grid->columns,
+        grid->rows,  (uint32_t)(uintptr_t)grid->squares, g->baked.map.oneway_count > 0};
     memcpy(sli_module.integers, table, sizeof table);
     sli_module.numbers[0] = (double)grid->left;
     sli_module.numbers[1] = (double)grid->bottom;
