@@ -5,6 +5,7 @@
 
 #include "analysis/visibility_graph/graph_paths.h"
 #include "analysis/visibility_graph/graph_rows.h"
+#include "geometry/length.h"
 #include "map/scan.h"
 #include "oracle/random_map.h"
 #include "oracle/random_oblique.h"
@@ -268,7 +269,7 @@ static void make_plan(sl_context *context, fixture *f) {
     fill_and_connect(context, 0.5, f);
 }
 
-static void local_measures(const fixture *f, uint32_t p, sl_vga_measures *m) {
+static void local_measures(const fixture *f, uint32_t p, const sl_vga_measures *m) {
     double degree = 0, pairs = 0, both = 0, control = 0, first = 0;
     for (uint32_t q = 0; q < f->grid.count; q++) {
         bool near = false;
@@ -354,6 +355,86 @@ static void measures_are_those_of_brute_force(void **state) {
     test_free(one);
     test_free(three);
     fixture_destroy(context, &f);
+    sl_context_destroy(context);
+}
+
+/// Rooms in a row, with doors on opposite sides, turned.
+static void make_turned(sl_context *context, double degrees, double step, double range,
+                        fixture *f) {
+    static const double walls[][4] = {{0, 0, 12, 0},   {12, 0, 12, 5}, {12, 5, 0, 5},
+                                      {0, 5, 0, 0},    {3, 0, 3, 4},   {6, 1, 6, 5},
+                                      {9, 0, 9, 4.25}, {1, 2, 2, 2.5}, {10.5, 1, 10.5, 3}};
+    const double c = cos(degrees * 0.017453292519943295), s = sin(degrees * 0.017453292519943295);
+    char text[2048];
+    size_t n = (size_t)snprintf(text, sizeof text, "sightline 1\n");
+    for (size_t i = 0; i < sizeof walls / sizeof *walls; i++) {
+        const double *w = walls[i];
+        n += (size_t)snprintf(text + n, sizeof text - n, "wall %.17g %.17g %.17g %.17g\n",
+                              c * w[0] - s * w[1], s * w[0] + c * w[1], c * w[2] - s * w[3],
+                              s * w[2] + c * w[3]);
+    }
+    assert_ok(context, sli_map_read_text(context, "rooms", text, n, &f->map));
+    assert_ok(context, sl_map_clean(context, &f->map, NULL, NULL));
+    assert_ok(context, sli_subdivide_mesh(context, &f->map, &f->space));
+    assert_ok(context, sli_outline_make(context, &f->space, &f->outline));
+    assert_ok(context, sl_vga_grid_make(context, &f->outline, step, NULL, 0, &f->grid));
+    assert_ok(context, sl_vga_graph_make(context, &f->outline, &f->grid, range, 2, &f->graph));
+}
+
+static void check_range(sl_context *context, const fixture *f, double range) {
+    for (uint32_t a = 0; a < f->grid.count; a++)
+        for (uint32_t b = 0; b < a; b++) {
+            const sl_point p = f->grid.points[a], q = f->grid.points[b];
+            bool sees;
+            assert_ok(context, sli_sees(context, &f->outline, p, q, SL_CLOSED, &sees));
+            sees &= range == 0 || sli_length(p.x - q.x, p.y - q.y) <= range;
+            assert_int_equal(has_edge(&f->graph, a, b), sees);
+            assert_int_equal(has_edge(&f->graph, b, a), sees);
+        }
+}
+
+enum { RADII = 4 }; ///< 0, which is no limit, up to 3
+
+/// Many groups of points, levels found from both sides, and masks that are not full.
+static void depths_are_those_of_plain_searches(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    const double turns[] = {0, 17.3}, ranges[] = {0, 2};
+    for (size_t i = 0; i < 4; i++) {
+        fixture f = {0};
+        make_turned(context, turns[i / 2], 0.25, ranges[i % 2], &f);
+        check_range(context, &f, ranges[i % 2]);
+        const uint32_t n = f.grid.count;
+        sl_vga_measures *m = test_calloc((size_t)n * RADII, sizeof *m);
+        uint32_t *depths = test_calloc(n, sizeof *depths), deepest = 0;
+        assert_true(n > 640);
+        for (uint32_t radius = 0; radius < RADII; radius++) {
+            const sl_vga_options options = {
+                .parts = SL_VGA_LOCAL | SL_VGA_GLOBAL, .radius = radius, .threads = 2};
+            assert_ok(context, sl_vga_measure(context, &f.outline, &f.grid, &f.graph, &options,
+                                              m + (size_t)radius * n));
+        }
+        for (uint32_t p = 0; p < n; p++) {
+            assert_ok(context, sl_vga_step_depth(context, &f.graph, &p, 1, depths));
+            for (uint32_t radius = 0; radius < RADII; radius++) {
+                const sl_vga_measures *of = &m[(size_t)radius * n + p];
+                double nodes = 0, total = 0;
+                for (uint32_t q = 0; q < n; q++) {
+                    if (depths[q] > (radius ? radius : n)) continue;
+                    nodes++;
+                    total += depths[q];
+                    if (depths[q] > deepest) deepest = depths[q];
+                }
+                assert_true(of->visual_node_count == nodes);
+                assert_true(of->visual_mean_depth == total / (nodes - 1));
+                if (p % 97 == radius) local_measures(&f, p, of);
+            }
+        }
+        assert_true(deepest > 3);
+        test_free(m);
+        test_free(depths);
+        fixture_destroy(context, &f);
+    }
     sl_context_destroy(context);
 }
 
@@ -852,6 +933,7 @@ int main(void) {
         cmocka_unit_test(small_parts_do_not_set_the_scale),
         cmocka_unit_test(oblique_pairs_too),
         cmocka_unit_test(measures_are_those_of_brute_force),
+        cmocka_unit_test(depths_are_those_of_plain_searches),
         cmocka_unit_test(searches_are_those_of_plain_ones),
         cmocka_unit_test(lists_do_not_change_paths),
         cmocka_unit_test(paths_lead_through_glass_one_way),
