@@ -1,6 +1,5 @@
 /// Sets of bits: how many are in one, and runs of them. It is no part of the public API, as it asks
-/// for a builtin of GCC
-/// and clang.
+/// for a builtin of GCC and clang.
 #ifndef SL_BITS_H
 #define SL_BITS_H
 

@@ -180,8 +180,7 @@ static sl_status check_measures(sl_context *context, const vga_plan *plan, const
     const sl_vga_grid *grid = &w->table.grid;
     uint64_t bytes;
     SL_TRY(sl_vga_measure_bytes(context, w->outline, grid, &w->graph, &plan->options, &bytes));
-    if (w->link_count) // the graph of linked places, and its measures
-        bytes += bytes / 2 + grid->count * sizeof(sl_vga_measures);
+    if (w->link_count) bytes *= 2; // the graph of linked places, and its measures
     char size[SIZE_TEXT], most[SIZE_TEXT];
     size_write(bytes, size);
     size_write(sl_machine_memory() / 2, most);
