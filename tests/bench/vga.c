@@ -1,8 +1,9 @@
 // What visibility graph analysis costs, part by part, on one thread and in processor time.
-//   bench_vga MAP STEP [SECONDS [PART]]
-//       CSV: machine, map, points, edges, part, seconds, microseconds a point, and how often that
-//       goes into SECONDS: the time that another program takes for the part (0: none).
-//       PART: this part alone.
+//   bench_vga MAP STEP [SECONDS [PART [RANGE]]]
+//       CSV: machine, map, points, edges, part, seconds, microseconds a point, how often that goes
+//       into SECONDS: the time that another program takes for the part (0: none), and the largest
+//       size of the process so far in MiB.
+//       PART: this part alone ("graph": no measure). RANGE: nothing farther is seen.
 #include "bench.h"
 #include "space/outline.h"
 
@@ -12,6 +13,7 @@
 
 #include <stdio.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/utsname.h>
 
 typedef struct table {
@@ -21,6 +23,7 @@ typedef struct table {
     uint64_t edges;
     double other;     ///< seconds; 0 where none are given
     const char *only; ///< the part to measure; NULL: all
+    double range;
 } table;
 
 static void print_row(const table *t, const char *part, double seconds) {
@@ -28,7 +31,10 @@ static void print_row(const table *t, const char *part, double seconds) {
            t->points, (unsigned long long)t->edges, part, seconds,
            t->points ? 1e6 * seconds / t->points : 0);
     if (t->other > 0) printf("%.1f", t->other / seconds);
-    putchar('\n');
+    struct rusage used;
+    getrusage(RUSAGE_SELF, &used);
+    printf(",%.1f\n", (double)used.ru_maxrss / 1024);
+    fflush(stdout);
 }
 
 static void measure(sl_context *context, const sl_space *space, double step, table *t) {
@@ -46,11 +52,11 @@ static void measure(sl_context *context, const sl_space *space, double step, tab
     bench_must(context, sli_outline_make(context, space, &outline));
     double start = bench_seconds();
     bench_must(context, sl_vga_grid_make(context, &outline, step, NULL, 0, &grid));
-    bench_must(context, sl_vga_graph_make(context, &outline, &grid, 0, 1, &graph));
+    bench_must(context, sl_vga_graph_make(context, &outline, &grid, t->range, 1, &graph));
     const double made = bench_seconds() - start;
     t->points = grid.count;
     t->edges = graph.edges;
-    puts("machine,map,points,edges,part,seconds,us_a_point,ratio");
+    puts("machine,map,points,edges,part,seconds,us_a_point,ratio,mib");
     print_row(t, "graph", made);
     sl_vga_measures *measures = sl_alloc_array(context, grid.count + 1, sizeof *measures);
     if (!measures) bench_must(context, SL_NO_MEMORY);
@@ -62,7 +68,6 @@ static void measure(sl_context *context, const sl_space *space, double step, tab
         start = bench_seconds();
         bench_must(context, sl_vga_measure(context, &outline, &grid, &graph, &options, measures));
         print_row(t, parts[i].name, bench_seconds() - start);
-        fflush(stdout);
     }
     sl_free(context, measures);
     sl_vga_graph_destroy(context, &graph);
@@ -73,7 +78,7 @@ static void measure(sl_context *context, const sl_space *space, double step, tab
 int main(int argc, char **argv) {
     const double step = argc > 2 ? strtod(argv[2], NULL) : 0;
     if (!(step > 0)) {
-        fputs("usage: bench_vga MAP STEP [SECONDS [PART]]\n", stderr);
+        fputs("usage: bench_vga MAP STEP [SECONDS [PART [RANGE]]]\n", stderr);
         return 2;
     }
     sl_space space = {0};
@@ -82,7 +87,8 @@ int main(int argc, char **argv) {
     bench_read_space(context, argv[1], NULL, &space);
     table t = {.map = argv[1],
                .other = argc > 3 ? strtod(argv[3], NULL) : 0,
-               .only = argc > 4 ? argv[4] : NULL};
+               .only = argc > 4 ? argv[4] : NULL,
+               .range = argc > 5 ? strtod(argv[5], NULL) : 0};
     uname(&t.machine);
     measure(context, &space, step, &t);
     sl_space_destroy(context, &space);

@@ -241,7 +241,7 @@ static void graphs_count_limited_walls(void **state) {
         for (uint32_t a = 0; a < grid.count; a++)
             for (uint32_t b = 0; b < grid.count; b++) {
                 bool sees;
-                const bool linked = sl_bits_has(graph.rows + a * graph.words, b);
+                const bool linked = sl_vga_sees(&graph, a, b);
                 assert_ok(s.context,
                           sl_query_sees(s.context, s.query, grid.points[a], grid.points[b], &sees));
                 seen += sees;

@@ -4,6 +4,8 @@
 #include "testing.h"
 
 #include "analysis/visibility_graph/graph_paths.h"
+#include "analysis/visibility_graph/graph_rows.h"
+#include "geometry/length.h"
 #include "map/scan.h"
 #include "oracle/random_map.h"
 #include "oracle/random_oblique.h"
@@ -32,7 +34,7 @@ static void fixture_destroy(sl_context *context, fixture *f) {
 }
 
 static bool has_edge(const sl_vga_graph *graph, uint32_t a, uint32_t b) {
-    return sl_bits_has(graph->rows + a * graph->words, b);
+    return sl_vga_sees(graph, a, b);
 }
 
 /// Half of a unit puts points on walls' lines, at ends and on portals.
@@ -65,17 +67,81 @@ static uint32_t part_root(const uint32_t *parts, uint32_t p) {
     return p;
 }
 
+enum { BIT_POINTS = 200 };
+
+/// Makes a graph from a bit for each pair.
+static sl_status look_up(sl_context *context, void *job, void *state, uint32_t point,
+                         sl_bits *row) {
+    const sl_bits(*rows)[4] = job;
+    (void)context;
+    (void)state;
+    for (uint32_t q = 0; q < BIT_POINTS; q++)
+        if (sl_bits_has(rows[point], q)) sl_bits_add(row, q);
+    return SL_OK;
+}
+
+static void make_of_bits(sl_context *context, sl_bits (*rows)[4], uint32_t count,
+                         sl_vga_graph *out) {
+    const sli_vga_source source = {
+        .count = count, .points = count, .directed = true, .job = rows, .look = look_up};
+    assert_ok(context, sli_vga_graph_write(context, &source, 1, out));
+}
+
+/// Rows of random runs are read as they were written, forwards and turned over. Empty rows, full
+/// ones and single points are among them.
+static void rows_are_read_as_written(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    sl_bits rows[BIT_POINTS][4];
+    sl_random random = {5};
+    for (uint32_t count = 0; count <= BIT_POINTS; count++) {
+        const uint64_t length = 1 + sl_random_below(&random, 90);
+        sl_vga_graph graph = {0};
+        uint64_t edges = 0;
+        memset(rows, 0, sizeof rows);
+        for (uint32_t p = 0; p < count; p++) {
+            bool in = sl_random_below(&random, 2);
+            for (uint32_t q = 0; q < count; q++) {
+                in ^= sl_random_below(&random, length) == 0;
+                if (!in || q == p) continue;
+                sl_bits_add(rows[p], q);
+                edges++;
+            }
+        }
+        make_of_bits(context, rows, count, &graph);
+        assert_true(graph.edges == edges && graph.count == count);
+        for (uint32_t p = 0; p < count; p++) {
+            sl_bits read[4] = {0};
+            sli_vga_add_row(&graph, p, read);
+            assert_memory_equal(read, rows[p], sizeof read);
+            for (uint32_t q = 0; q < count; q++)
+                assert_int_equal(sl_vga_sees(&graph, p, q), sl_bits_has(rows[p], q));
+            sl_vga_run run = sl_vga_row(&graph, p);
+            for (uint32_t stop = 0; sl_vga_next(&run); stop = run.stop)
+                assert_true(run.first < run.stop && (run.first > stop || stop == 0));
+        }
+        assert_ok(context, sl_vga_graph_turn(context, &graph));
+        assert_true(graph.edges == edges);
+        for (uint32_t p = 0; p < count; p++)
+            for (uint32_t q = 0; q < count; q++)
+                assert_int_equal(sl_vga_sees(&graph, p, q), sl_bits_has(rows[q], p));
+        sl_vga_graph_destroy(context, &graph);
+    }
+    sl_context_destroy(context);
+}
+
 /// The sizes of parts beside sets of points that are joined pair by pair; random directed graphs,
 /// with links.
 static void parts_are_those_of_all_pairs(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
-    enum { MOST = 200 };
-    uint64_t rows[MOST * 4], seed = 7;
+    enum { MOST = BIT_POINTS };
+    sl_bits rows[MOST][4];
+    uint64_t seed = 7;
     uint32_t parts[MOST], sizes[MOST];
     for (int i = 0; i < 400; i++) {
         const uint32_t count = 1 + (uint32_t)i % MOST, edges = count * (uint32_t)(i % 7) / 4;
-        sl_vga_graph graph = {.count = count, .words = (count + 63) / 64, .rows = rows};
+        sl_vga_graph graph = {0};
         sl_vga_link links[2] = {{0, count - 1}, {count / 2, count / 3}};
         const size_t link_count = count > 3 ? (size_t)i % 3 : 0;
         memset(rows, 0, sizeof rows);
@@ -87,10 +153,11 @@ static void parts_are_those_of_all_pairs(void **state) {
                 a = links[k - edges].a;
                 b = links[k - edges].b;
             } else if (a != b) {
-                sl_bits_add(graph.rows + a * graph.words, b);
+                sl_bits_add(rows[a], b);
             }
             parts[part_root(parts, a)] = part_root(parts, b);
         }
+        make_of_bits(context, rows, count, &graph);
         assert_ok(context, sl_vga_part_sizes(context, &graph, links, link_count, sizes));
         for (uint32_t p = 0; p < count; p++) {
             uint32_t size = 0;
@@ -117,6 +184,7 @@ static void parts_are_those_of_all_pairs(void **state) {
                 if (sizes[q] == sizes[p]) assert_true(numbers[q] < numbers[p]);
             assert_true(++seen <= number_count);
         }
+        sl_vga_graph_destroy(context, &graph);
     }
     sl_context_destroy(context);
 }
@@ -201,7 +269,7 @@ static void make_plan(sl_context *context, fixture *f) {
     fill_and_connect(context, 0.5, f);
 }
 
-static void local_measures(const fixture *f, uint32_t p, sl_vga_measures *m) {
+static void local_measures(const fixture *f, uint32_t p, const sl_vga_measures *m) {
     double degree = 0, pairs = 0, both = 0, control = 0, first = 0;
     for (uint32_t q = 0; q < f->grid.count; q++) {
         bool near = false;
@@ -287,6 +355,86 @@ static void measures_are_those_of_brute_force(void **state) {
     test_free(one);
     test_free(three);
     fixture_destroy(context, &f);
+    sl_context_destroy(context);
+}
+
+/// Rooms in a row, with doors on opposite sides, turned.
+static void make_turned(sl_context *context, double degrees, double step, double range,
+                        fixture *f) {
+    static const double walls[][4] = {{0, 0, 12, 0},   {12, 0, 12, 5}, {12, 5, 0, 5},
+                                      {0, 5, 0, 0},    {3, 0, 3, 4},   {6, 1, 6, 5},
+                                      {9, 0, 9, 4.25}, {1, 2, 2, 2.5}, {10.5, 1, 10.5, 3}};
+    const double c = cos(degrees * 0.017453292519943295), s = sin(degrees * 0.017453292519943295);
+    char text[2048];
+    size_t n = (size_t)snprintf(text, sizeof text, "sightline 1\n");
+    for (size_t i = 0; i < sizeof walls / sizeof *walls; i++) {
+        const double *w = walls[i];
+        n += (size_t)snprintf(text + n, sizeof text - n, "wall %.17g %.17g %.17g %.17g\n",
+                              c * w[0] - s * w[1], s * w[0] + c * w[1], c * w[2] - s * w[3],
+                              s * w[2] + c * w[3]);
+    }
+    assert_ok(context, sli_map_read_text(context, "rooms", text, n, &f->map));
+    assert_ok(context, sl_map_clean(context, &f->map, NULL, NULL));
+    assert_ok(context, sli_subdivide_mesh(context, &f->map, &f->space));
+    assert_ok(context, sli_outline_make(context, &f->space, &f->outline));
+    assert_ok(context, sl_vga_grid_make(context, &f->outline, step, NULL, 0, &f->grid));
+    assert_ok(context, sl_vga_graph_make(context, &f->outline, &f->grid, range, 2, &f->graph));
+}
+
+static void check_range(sl_context *context, const fixture *f, double range) {
+    for (uint32_t a = 0; a < f->grid.count; a++)
+        for (uint32_t b = 0; b < a; b++) {
+            const sl_point p = f->grid.points[a], q = f->grid.points[b];
+            bool sees;
+            assert_ok(context, sli_sees(context, &f->outline, p, q, SL_CLOSED, &sees));
+            sees &= range == 0 || sli_length(p.x - q.x, p.y - q.y) <= range;
+            assert_int_equal(has_edge(&f->graph, a, b), sees);
+            assert_int_equal(has_edge(&f->graph, b, a), sees);
+        }
+}
+
+enum { RADII = 4 }; ///< 0, which is no limit, up to 3
+
+/// Many groups of points, levels found from both sides, and masks that are not full.
+static void depths_are_those_of_plain_searches(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    const double turns[] = {0, 17.3}, ranges[] = {0, 2};
+    for (size_t i = 0; i < 4; i++) {
+        fixture f = {0};
+        make_turned(context, turns[i / 2], 0.25, ranges[i % 2], &f);
+        check_range(context, &f, ranges[i % 2]);
+        const uint32_t n = f.grid.count;
+        sl_vga_measures *m = test_calloc((size_t)n * RADII, sizeof *m);
+        uint32_t *depths = test_calloc(n, sizeof *depths), deepest = 0;
+        assert_true(n > 640);
+        for (uint32_t radius = 0; radius < RADII; radius++) {
+            const sl_vga_options options = {
+                .parts = SL_VGA_LOCAL | SL_VGA_GLOBAL, .radius = radius, .threads = 2};
+            assert_ok(context, sl_vga_measure(context, &f.outline, &f.grid, &f.graph, &options,
+                                              m + (size_t)radius * n));
+        }
+        for (uint32_t p = 0; p < n; p++) {
+            assert_ok(context, sl_vga_step_depth(context, &f.graph, &p, 1, depths));
+            for (uint32_t radius = 0; radius < RADII; radius++) {
+                const sl_vga_measures *of = &m[(size_t)radius * n + p];
+                double nodes = 0, total = 0;
+                for (uint32_t q = 0; q < n; q++) {
+                    if (depths[q] > (radius ? radius : n)) continue;
+                    nodes++;
+                    total += depths[q];
+                    if (depths[q] > deepest) deepest = depths[q];
+                }
+                assert_true(of->visual_node_count == nodes);
+                assert_true(of->visual_mean_depth == total / (nodes - 1));
+                if (p % 97 == radius) local_measures(&f, p, of);
+            }
+        }
+        assert_true(deepest > 3);
+        test_free(m);
+        test_free(depths);
+        fixture_destroy(context, &f);
+    }
     sl_context_destroy(context);
 }
 
@@ -463,7 +611,7 @@ static void lists_do_not_change_paths(void **state) {
     sl_bits *turning = NULL;
     assert_ok(context, sli_vga_find_turning(context, &f.outline, &f.grid, &turning));
     sl_vga_measures *all = test_calloc(n, sizeof *all), *some = test_calloc(n, sizeof *some);
-    sli_vga_job job = {&f.grid, &f.graph, &options, NULL, turning, all};
+    sli_vga_job job = {&f.grid, &f.graph, &options, NULL, turning, NULL, all};
     sli_vga_sights sights;
     assert_ok(context, sli_vga_sights_make(context, &job, &sights));
     assert_ok(context, sli_vga_measure_metric(context, &sights));
@@ -578,10 +726,10 @@ static void glass_is_seen_through_one_way(void **state) {
         }
     }
     assert_true(one_way > 10);
-    sl_vga_graph turned = f.graph;
-    turned.rows = sl_alloc_array(context, turned.count * turned.words, sizeof *turned.rows);
-    memcpy(turned.rows, f.graph.rows, turned.count * turned.words * sizeof *turned.rows);
+    sl_vga_graph turned = {0};
+    assert_ok(context, sl_vga_graph_make(context, &f.outline, &f.grid, 0, 2, &turned));
     assert_ok(context, sl_vga_graph_turn(context, &turned));
+    assert_true(f.graph.directed && turned.directed && turned.edges == f.graph.edges);
     for (uint32_t a = 0; a < f.grid.count; a++)
         for (uint32_t b = 0; b < f.grid.count; b++)
             assert_int_equal(has_edge(&turned, b, a), has_edge(&f.graph, a, b));
@@ -780,10 +928,12 @@ static void neighbours_that_see_nothing_control_nothing(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pairs_are_those_of_single_sightlines),
+        cmocka_unit_test(rows_are_read_as_written),
         cmocka_unit_test(parts_are_those_of_all_pairs),
         cmocka_unit_test(small_parts_do_not_set_the_scale),
         cmocka_unit_test(oblique_pairs_too),
         cmocka_unit_test(measures_are_those_of_brute_force),
+        cmocka_unit_test(depths_are_those_of_plain_searches),
         cmocka_unit_test(searches_are_those_of_plain_ones),
         cmocka_unit_test(lists_do_not_change_paths),
         cmocka_unit_test(paths_lead_through_glass_one_way),

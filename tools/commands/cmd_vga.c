@@ -119,15 +119,6 @@ static sl_status make_plan(sl_context *context, vga_plan *p) {
 
 // --- the size of the graph
 
-static sl_status refuse_size(sl_context *context, const vga_plan *plan, double points) {
-    char most[SIZE_TEXT];
-    size_write(sl_machine_memory() / 2, most);
-    return sl_fail(context, SL_BAD_ARGUMENT,
-                   "--grid %.9g: the graph of %.0f points needs %.3g GiB; half of this machine's "
-                   "memory is %s; choose a larger step, or one room with --at",
-                   plan->points.step, points, points * points / 8 / 1073741824.0, most);
-}
-
 /// Refuses a step by the area inside, before a grid is filled that is far too large. From --at the
 /// grid may go out, and filling it says when it is too large.
 static sl_status check_area(sl_context *context, const vga_plan *plan, const sl_space *space) {
@@ -135,8 +126,12 @@ static sl_status check_area(sl_context *context, const vga_plan *plan, const sl_
     for (uint32_t c = 0; c < space->cell_count; c++)
         if (space->cells[c].inside) area += sl_space_area(space, c);
     const double points = area / plan->points.step / plan->points.step;
-    if (plan->points.at.count || points * points / 8 <= (double)sl_machine_memory()) return SL_OK;
-    return refuse_size(context, plan, points);
+    if (plan->points.at.count || points <= SL_VGA_POINTS_MOST) return SL_OK;
+    return sl_fail(
+        context, SL_BAD_ARGUMENT,
+        "--grid %.9g: about %.3g points, and a graph has up to %u; choose a larger step, "
+        "or one room with --at",
+        plan->points.step, points, SL_VGA_POINTS_MOST);
 }
 
 /// A step that is wrong by far may be meant in another unit than the drawing's.
@@ -163,13 +158,20 @@ static sl_status check_units(sl_context *context, const vga_plan *plan, const sl
                    plan->input, map->unit, first->unit);
 }
 
-static sl_status check_memory(sl_context *context, const vga_plan *plan, uint32_t points) {
-    const uint64_t bytes = sl_vga_graph_bytes(points);
-    char size[SIZE_TEXT];
-    if (bytes > sl_machine_memory() / 2) return refuse_size(context, plan, points);
+static sl_status check_memory(sl_context *context, const vga_plan *plan, const vga_work *w) {
+    const uint32_t points = w->table.grid.count;
+    uint64_t bytes;
+    char size[SIZE_TEXT], most[SIZE_TEXT];
+    SL_TRY(sl_vga_graph_bytes(context, w->outline, &w->table.grid, plan->range, &bytes));
     size_write(bytes, size);
-    sl_note(context, "%" PRIu32 " %s; the graph takes %s", points, points == 1 ? "point" : "points",
-            size);
+    size_write(sl_machine_memory() / 2, most);
+    if (bytes > sl_machine_memory() / 2)
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "--grid %.9g: the graph of %" PRIu32 " points takes about %s; half of this "
+                       "machine's memory is %s; choose a larger step, or one room with --at",
+                       plan->points.step, points, size, most);
+    sl_note(context, "%" PRIu32 " %s; the graph takes about %s", points,
+            points == 1 ? "point" : "points", size);
     return SL_OK;
 }
 
@@ -178,8 +180,7 @@ static sl_status check_measures(sl_context *context, const vga_plan *plan, const
     const sl_vga_grid *grid = &w->table.grid;
     uint64_t bytes;
     SL_TRY(sl_vga_measure_bytes(context, w->outline, grid, &w->graph, &plan->options, &bytes));
-    if (w->link_count) // the graph of linked places, and its measures
-        bytes += sl_vga_graph_bytes(grid->count) + grid->count * sizeof(sl_vga_measures);
+    if (w->link_count) bytes *= 2; // the graph of linked places, and its measures
     char size[SIZE_TEXT], most[SIZE_TEXT];
     size_write(bytes, size);
     size_write(sl_machine_memory() / 2, most);
@@ -254,16 +255,15 @@ static sl_status put_pairs(sl_context *context, const vga_work *w, FILE *out) {
     char text[4][SL_NUMBER_TEXT];
     fputs("x,y,to_x,to_y\n", out);
     for (uint32_t p = 0; p < grid->count; p++) {
-        const sl_bits *row = w->graph.rows + p * w->graph.words;
         SL_TRY(sl_check_cancelled(context));
         sl_number_write(grid->points[p].x, text[0]);
         sl_number_write(grid->points[p].y, text[1]);
-        for (uint32_t q = 0; q < grid->count; q++) {
-            if (!sl_bits_has(row, q)) continue;
-            sl_number_write(grid->points[q].x, text[2]);
-            sl_number_write(grid->points[q].y, text[3]);
-            fprintf(out, "%s,%s,%s,%s\n", text[0], text[1], text[2], text[3]);
-        }
+        for (sl_vga_run run = sl_vga_row(&w->graph, p); sl_vga_next(&run);)
+            for (uint32_t q = run.first; q < run.stop; q++) {
+                sl_number_write(grid->points[q].x, text[2]);
+                sl_number_write(grid->points[q].y, text[3]);
+                fprintf(out, "%s,%s,%s,%s\n", text[0], text[1], text[2], text[3]);
+            }
     }
     return SL_OK;
 }
@@ -284,7 +284,7 @@ static sl_status measure(sl_context *context, vga_plan *plan, vga_work *w) {
     table->measures = sl_alloc_array(context, grid->count, sizeof *table->measures);
     if (!table->measures) return SL_NO_MEMORY;
     if (of_graph || plan->pairs) {
-        SL_TRY(check_memory(context, plan, grid->count));
+        SL_TRY(check_memory(context, plan, w));
         SL_TRY(sl_vga_graph_make(context, w->outline, grid, plan->range, plan->options.threads,
                                  &w->graph));
         if (plan->turned) SL_TRY(sl_vga_graph_turn(context, &w->graph));

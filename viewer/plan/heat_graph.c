@@ -1,6 +1,6 @@
 /// The visibility graph of a grid of points, and its measures. A task makes the graph once, and
 /// then one group of measures at a time: a group costs much, and few are looked at. Cost: as
-/// sightline/vga.h says; a graph of n points takes n * n bits.
+/// sightline/vga.h says.
 #include "plan/heat_graph.h"
 
 #include "sightline/support.h"

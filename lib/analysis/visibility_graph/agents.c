@@ -53,16 +53,13 @@ static bool is_ahead(const crowd *c, place heading, place way) {
 /// The points ahead: their number, or the one of number `which`.
 static uint32_t look(const crowd *c, uint32_t from, place heading, uint32_t which) {
     const place at = place_of(c->grid, from);
-    const sl_bits *row = sli_vga_row(c->graph, from);
     uint32_t count = 0;
-    for (size_t w = 0; w < c->graph->words; w++) {
-        for (sl_bits rest = row[w]; rest; rest &= rest - 1) {
-            const uint32_t point = (uint32_t)(w * 64) + (uint32_t)__builtin_ctzll(rest);
+    for (sl_vga_run run = sl_vga_row(c->graph, from); sl_vga_next(&run);)
+        for (uint32_t point = run.first; point < run.stop; point++) {
             const place to = place_of(c->grid, point);
             if (!is_ahead(c, heading, (place){to.x - at.x, to.y - at.y})) continue;
             if (count++ == which) return point;
         }
-    }
     return count;
 }
 
@@ -78,7 +75,7 @@ static uint32_t point_along(const crowd *c, uint32_t from, place way, int64_t st
     const int64_t y = at.y + floor_div(2 * steps * way.y + length, 2 * length);
     if (x < 0 || y < 0 || x >= c->grid->columns || y >= c->grid->rows) return UINT32_MAX;
     const uint32_t point = c->points[x * c->grid->rows + y];
-    if (point == UINT32_MAX || !sl_bits_has(sli_vga_row(c->graph, from), point)) return UINT32_MAX;
+    if (point == UINT32_MAX || !sl_vga_sees(c->graph, from, point)) return UINT32_MAX;
     return point;
 }
 

@@ -317,7 +317,6 @@ static sl_status expand(sl_context *context, walker *w, uint32_t at) {
 /// Finds the best of all ways so far to a point.
 static sl_status catch_up(sl_context *context, walker *w, uint32_t q) {
     const sli_vga_sights *s = w->sights;
-    const sl_vga_graph *graph = s->job->graph;
     float best = INFINITY;
     uint32_t best_at = SLI_VGA_NONE;
     for (size_t i = s->first[q]; i < s->first[q + 1]; i++) {
@@ -327,7 +326,7 @@ static sl_status catch_up(sl_context *context, walker *w, uint32_t q) {
             const float about = turn_between(direction(w, at, q), w->heading[at]);
             if (w->turn[at] + (about - ROUNDING) > best) continue;
             const uint32_t before = w->last[at];
-            if (sl_bits_has(sli_vga_row(graph, s->points[before]), s->points[q])) continue;
+            if (sli_vga_slot_sees(s, before, q)) continue;
             const float turn = w->turn[at] + turn_exactly(w, before, at, q);
             if (turn > best || (turn == best && w->rank[at] > w->rank[best_at])) continue;
             best = turn;
@@ -501,23 +500,10 @@ static sl_status begin_angular_search(sl_context *context, const sli_vga_searche
     return SL_OK;
 }
 
-static bool is_mutual(const sli_vga_sights *s) {
-    const sl_vga_graph *graph = s->job->graph;
-    for (uint32_t p = 0; p < graph->count; p++) {
-        const sl_bits *row = sli_vga_row(graph, p);
-        for (size_t w = 0; w < graph->words; w++)
-            for (sl_bits rest = row[w]; rest; rest &= rest - 1) {
-                const size_t q = w * 64 + (size_t)__builtin_ctzll(rest);
-                if (!sl_bits_has(sli_vga_row(graph, (uint32_t)q), p)) return false;
-            }
-    }
-    return true;
-}
-
 static sl_status compass_make(sl_context *context, const sli_vga_sights *s, compass *c) {
     const int32_t columns = (int32_t)s->job->grid->columns, rows = (int32_t)s->job->grid->rows;
     const size_t offsets = ((size_t)columns * 2 - 1) * ((size_t)rows * 2 - 1);
-    *c = (compass){.a_column = 2 * rows - 1, .mutual = is_mutual(s)};
+    *c = (compass){.a_column = 2 * rows - 1, .mutual = !s->job->graph->directed};
     c->directions = sl_alloc_array(context, offsets, sizeof *c->directions);
     c->rounded = sl_alloc_array(context, offsets, sizeof *c->rounded);
     c->places = sl_alloc_array(context, s->count, sizeof *c->places);

@@ -119,11 +119,10 @@ static sl_status try_turn(sl_context *context, walker *w, entry at, uint32_t to)
 typedef sl_status try_way(sl_context *context, walker *w, entry at, uint32_t to);
 
 static sl_status expand(sl_context *context, walker *w, try_way *try, entry at) {
-    const sl_bits *row = sli_vga_row(w->job->graph, at.at);
     sl_bits_add(w->done, at.at);
-    for (size_t k = 0; k < w->job->graph->words; k++)
-        for (sl_bits rest = row[k] & ~w->done[k]; rest; rest &= rest - 1)
-            SL_TRY(try(context, w, at, (uint32_t)(k * 64) + (uint32_t)__builtin_ctzll(rest)));
+    for (sl_vga_run run = sl_vga_row(w->job->graph, at.at); sl_vga_next(&run);)
+        for (uint32_t to = run.first; to < run.stop; to++)
+            if (!sl_bits_has(w->done, to)) SL_TRY(try(context, w, at, to));
     return SL_OK;
 }
 
@@ -147,8 +146,8 @@ static sl_status search(sl_context *context, walker *w, try_way *try, const uint
                         size_t from_count, double most) {
     const sl_vga_graph *graph = w->job->graph;
     w->heap.count = 0;
-    memset(w->done, 0, graph->words * sizeof *w->done);
-    memset(w->second, 0, graph->words * sizeof *w->second);
+    memset(w->done, 0, sl_bits_words(graph->count) * sizeof *w->done);
+    memset(w->second, 0, sl_bits_words(graph->count) * sizeof *w->second);
     for (uint32_t p = 0; p < graph->count; p++) w->length[p] = w->turn[p] = INFINITY;
     for (size_t i = 0; i < from_count; i++) {
         w->length[from[i]] = w->turn[from[i]] = 0;
@@ -176,7 +175,7 @@ static void walker_end(sl_context *context, walker *w) {
 
 static sl_status walker_begin(sl_context *context, const sli_vga_job *job, const places *joined,
                               walker *out) {
-    const size_t words = job->graph->words;
+    const size_t words = sl_bits_words(job->graph->count);
     *out = (walker){.job = job, .joined = joined};
     out->length = sl_alloc_array(context, job->graph->count, sizeof *out->length);
     out->turn = sl_alloc_array(context, job->graph->count, sizeof *out->turn);
@@ -214,19 +213,21 @@ static sl_status find_steps(sl_context *context, const sl_vga_graph *graph, cons
                             const uint32_t *from, size_t from_count, sl_vga_depths *out) {
     step_search s = {.joined = joined, .depths = out};
     s.queue = sl_alloc_array(context, graph->count, sizeof *s.queue);
-    s.unseen = sl_alloc_array(context, graph->words, sizeof *s.unseen);
+    s.unseen = sl_alloc_array(context, sl_bits_words(graph->count), sizeof *s.unseen);
     sl_status status = s.queue && s.unseen ? SL_OK : SL_NO_MEMORY;
     if (status == SL_OK) {
         for (uint32_t p = 0; p < graph->count; p++) sl_bits_add(s.unseen, p);
         for (size_t i = 0; i < from_count; i++) take(&s, from[i], 0);
     }
     for (size_t head = 0; status == SL_OK && head < s.tail; head++) {
-        const sl_bits *row = sli_vga_row(graph, s.queue[head]);
         const double depth = out[s.queue[head]].visual_step_depth + 1;
         if (head % 256 == 0) status = sl_check_cancelled(context);
-        for (size_t w = 0; w < graph->words; w++)
-            for (sl_bits rest = row[w] & s.unseen[w]; rest; rest &= rest - 1)
-                take(&s, (uint32_t)(w * 64) + (uint32_t)__builtin_ctzll(rest), depth);
+        for (sl_vga_run run = sl_vga_row(graph, s.queue[head]); sl_vga_next(&run);)
+            for (size_t w = run.first / 64; w * 64 < run.stop; w++) {
+                sl_bits rest = s.unseen[w] & sli_bits_run(w, run.first, run.stop);
+                for (; rest; rest &= rest - 1)
+                    take(&s, (uint32_t)(w * 64) + (uint32_t)__builtin_ctzll(rest), depth);
+            }
     }
     sl_free(context, s.queue);
     sl_free(context, s.unseen);
@@ -376,7 +377,10 @@ static sl_status measure_paths(sl_context *context, path_job *job) {
 typedef struct contracted {
     sl_vga_grid grid;
     sl_vga_graph graph;
-    uint32_t *place; ///< by point
+    const sl_vga_graph *whole; ///< of points
+    const places *joined;
+    uint32_t *place;  ///< by point
+    uint32_t *lowest; ///< by place
     sl_vga_measures *measures;
 } contracted;
 
@@ -384,6 +388,7 @@ static void contracted_destroy(sl_context *context, contracted *c) {
     sl_vga_grid_destroy(context, &c->grid);
     sl_vga_graph_destroy(context, &c->graph);
     sl_free(context, c->place);
+    sl_free(context, c->lowest);
     sl_free(context, c->measures);
 }
 
@@ -394,7 +399,8 @@ static sl_status number_places(sl_context *context, const sl_vga_grid *grid, con
     c->grid.count = 0;
     c->grid.points = sl_alloc_array(context, grid->count, sizeof *c->grid.points);
     c->grid.squares = sl_alloc_array(context, grid->count, sizeof *c->grid.squares);
-    if (!c->place || !c->grid.points || !c->grid.squares) return SL_NO_MEMORY;
+    c->lowest = sl_alloc_array(context, grid->count, sizeof *c->lowest);
+    if (!c->place || !c->grid.points || !c->grid.squares || !c->lowest) return SL_NO_MEMORY;
     for (uint32_t p = 0; p < grid->count; p++) {
         uint32_t lowest = p;
         for (uint32_t q = joined->next[p]; q != p; q = joined->next[q])
@@ -404,33 +410,41 @@ static sl_status number_places(sl_context *context, const sl_vga_grid *grid, con
             continue;
         }
         c->place[p] = c->grid.count;
+        c->lowest[c->grid.count] = p;
         c->grid.points[c->grid.count] = grid->points[p];
         c->grid.squares[c->grid.count++] = grid->squares[p];
     }
     return SL_OK;
 }
 
-static sl_status contract(sl_context *context, const sl_vga_grid *grid, const sl_vga_graph *graph,
-                          const places *joined, contracted *c) {
-    SL_TRY(number_places(context, grid, joined, c));
-    c->graph.count = c->grid.count;
-    c->graph.words = sl_bits_words(c->graph.count);
-    c->graph.rows = sl_alloc_array(context, c->graph.count * c->graph.words, sizeof(uint64_t));
-    c->measures = sl_alloc_array(context, c->graph.count, sizeof *c->measures);
-    if (!c->graph.rows || !c->measures) return SL_NO_MEMORY;
-    for (uint32_t p = 0; p < graph->count; p++) {
-        sl_bits *to = c->graph.rows + c->place[p] * c->graph.words;
-        const sl_bits *row = sli_vga_row(graph, p);
-        for (size_t w = 0; w < graph->words; w++)
-            for (sl_bits rest = row[w]; rest; rest &= rest - 1)
-                sl_bits_add(to, c->place[w * 64 + (size_t)__builtin_ctzll(rest)]);
-    }
-    for (uint32_t k = 0; k < c->graph.count; k++) { // no place sees itself
-        sl_bits *row = c->graph.rows + k * c->graph.words;
-        if (sl_bits_has(row, k)) sl_bits_flip(row, k);
-        c->graph.edges += sli_bits_count(row, c->graph.words);
-    }
+/// Adds the places that a place sees.
+static sl_status look_from_place(sl_context *context, void *job, void *state, uint32_t place,
+                                 sl_bits *row) {
+    const contracted *c = job;
+    uint32_t p = c->lowest[place];
+    (void)context;
+    (void)state;
+    do {
+        for (sl_vga_run run = sl_vga_row(c->whole, p); sl_vga_next(&run);)
+            for (uint32_t q = run.first; q < run.stop; q++) sl_bits_add(row, c->place[q]);
+        p = c->joined->next[p];
+    } while (p != c->lowest[place]);
     return SL_OK;
+}
+
+static sl_status contract(sl_context *context, const sl_vga_grid *grid, const sl_vga_graph *graph,
+                          const places *joined, unsigned threads, contracted *c) {
+    c->whole = graph;
+    c->joined = joined;
+    SL_TRY(number_places(context, grid, joined, c));
+    c->measures = sl_alloc_array(context, c->grid.count, sizeof *c->measures);
+    if (!c->measures) return SL_NO_MEMORY;
+    const sli_vga_source source = {.count = c->grid.count,
+                                   .points = c->grid.count,
+                                   .directed = graph->directed,
+                                   .job = c,
+                                   .look = look_from_place};
+    return sli_vga_graph_write(context, &source, threads, &c->graph);
 }
 
 static sl_status measure_steps(sl_context *context, const sl_outline *outline,
@@ -438,7 +452,7 @@ static sl_status measure_steps(sl_context *context, const sl_outline *outline,
     contracted c = {0};
     sl_vga_options options = *job->options;
     options.parts = SL_VGA_GLOBAL;
-    sl_status status = contract(context, job->grid, job->graph, joined, &c);
+    sl_status status = contract(context, job->grid, job->graph, joined, options.threads, &c);
     if (status == SL_OK)
         status = sl_vga_measure(context, outline, &c.grid, &c.graph, &options, c.measures);
     for (uint32_t p = 0; p < job->graph->count && status == SL_OK; p++) {

@@ -14,12 +14,18 @@
 /// Invariant: a point of the group has depth d of q if it has depth d - 1 of a point that q sees,
 /// and that point is of the level before: else q would be nearer.
 ///
-/// The masks need points that see each other. Where one-way glass makes exceptions, each point is
-/// a group of its own.
+/// A level is found from whichever side has fewer tiles (Beamer, Asanovic and Patterson 2012,
+/// Direction-optimizing breadth-first search): from the level before, or from the points that are
+/// left. Most of these find one they see after a few tiles. A search ends as soon as all points are
+/// found that the search before found. So the last level, often most of the plan, is never taken
+/// on.
 ///
-/// Cost: for a group, the tiles of all bundles, a few rows of some, and the rows of points whose
-/// masks are not full. Most bundles are a group, so that is about a 64th of a search from each
-/// point. Memory: a word for each point and thread.
+/// All of this needs sight that is mutual. In a directed graph, each point is a group of its own,
+/// and levels are found from the level before.
+///
+/// Cost: for a group, the tiles of bundles that one of the two sides has, a few spans of some, and
+/// the spans of points whose masks are not full. Most bundles are a group, so that is about a 64th
+/// of a search from each point. Memory: a word for each point and thread.
 #include "analysis/visibility_graph/graph_measures.h"
 #include "analysis/visibility_graph/integration.h"
 #include "analysis/visibility_graph/tiles.h"
@@ -31,134 +37,172 @@
 typedef struct global_job {
     const sli_vga_job *all;
     const sli_vga_tiles *tiles;
-    bool mutual;
+    uint32_t most; ///< steps of a search; 0: no limit
 } global_job;
 
 typedef struct searcher {
     sl_bits *seen;
+    sl_bits *reach; ///< all that the search before found, if it found all that steps lead to
     sl_bits *full, *partial; ///< the points of a level whose masks are full, and the others
     sl_bits *next, *next_full;
     uint64_t *masks; ///< by slot, where it is partial: the points of the group, by place
     uint64_t *any;   ///< by bundle: the masks of its partial points together
     // Numbers of points by depth; the last entry holds all that are deeper.
     int64_t common[SLI_VGA_DEPTHS];  ///< the same for all of the group
-    int64_t own[64][SLI_VGA_DEPTHS]; ///< by place: to be added
+    int64_t own[SLI_VGA_DEPTHS][64]; ///< by place: to be added
+    int64_t sum[SLI_VGA_DEPTHS];     ///< of both, for one place
+    uint64_t digits[32]; ///< numbers of points by place, of a level: digit k of all 64 of them
     uint32_t deepest;
 } searcher;
 
 // --- numbers of points
 
-static void add_depth(searcher *s, uint64_t depth, int64_t points) {
-    s->common[depth < SLI_VGA_DEPTHS ? depth : SLI_VGA_DEPTHS - 1] += points;
+static size_t entry_of(uint64_t depth) {
+    return depth < SLI_VGA_DEPTHS ? (size_t)depth : SLI_VGA_DEPTHS - 1;
 }
 
-/// Counts a point that has this depth for those of the mask, and one more for the rest.
-static void add_partial(searcher *s, uint64_t depth, uint64_t mask) {
-    const size_t near = (size_t)(depth < SLI_VGA_DEPTHS ? depth : SLI_VGA_DEPTHS - 1);
-    const size_t far = near + 1 < SLI_VGA_DEPTHS ? near + 1 : SLI_VGA_DEPTHS - 1;
-    s->common[far]++;
-    for (; mask; mask &= mask - 1) {
-        int64_t *own = s->own[__builtin_ctzll(mask)];
-        own[near]++;
-        own[far]--;
+/// Counts a point for the places of its mask: adds 1 to 64 numbers at once, digit by digit.
+static void add_mask(searcher *s, uint64_t mask) {
+    for (size_t k = 0; mask; k++) {
+        const uint64_t carry = s->digits[k] & mask;
+        s->digits[k] ^= mask;
+        mask = carry;
     }
 }
 
-static void clear_counts(searcher *s, uint64_t group) {
-    const size_t bytes = ((size_t)s->deepest + 1) * sizeof *s->common;
-    memset(s->common, 0, bytes);
-    for (; group; group &= group - 1) memset(s->own[__builtin_ctzll(group)], 0, bytes);
+/// Takes what add_mask() has counted: points of this depth for some, and one more for the rest.
+/// `points`: how many masks there were.
+static void add_partial(searcher *s, uint64_t depth, int64_t points) {
+    int64_t *near = s->own[entry_of(depth)], *far = s->own[entry_of(depth + 1)];
+    s->common[entry_of(depth + 1)] += points;
+    for (size_t k = 0; k < sizeof s->digits / sizeof *s->digits; k++) {
+        for (uint64_t rest = s->digits[k]; rest; rest &= rest - 1) {
+            const int place = __builtin_ctzll(rest);
+            near[place] += (int64_t)1 << k;
+            far[place] -= (int64_t)1 << k;
+        }
+        s->digits[k] = 0;
+    }
+}
+
+static void clear_counts(searcher *s) {
+    memset(s->common, 0, ((size_t)s->deepest + 1) * sizeof *s->common);
+    memset(s->own, 0, ((size_t)s->deepest + 1) * sizeof *s->own);
 }
 
 // --- a group
 
-/// Points of a bundle that all see each other: the first one and others, by place.
-static uint64_t choose_group(const sli_vga_tiles *t, size_t bundle, uint64_t places) {
-    const uint64_t *rows = NULL;
-    for (size_t i = t->first[bundle]; i < t->first[bundle + 1]; i++)
-        if (t->tiles.items[i].bundle == bundle) rows = t->rows.items[i].rows;
-    uint64_t group = places & -places;
-    if (!rows) return group;
-    uint64_t rest = places & rows[__builtin_ctzll(group)];
-    while (rest) {
-        group |= rest & -rest;
-        rest &= rows[__builtin_ctzll(rest)];
+uint64_t sli_vga_choose_group(const sli_vga_job *job, const sli_vga_tiles *t, size_t bundle,
+                              uint64_t places) {
+    const sli_vga_bundle *of = &t->of[bundle];
+    uint64_t group = places & -places, rest = places;
+    uint32_t i = 0;
+    while (i < of->count && of->tiles[i].bundle != bundle) i++;
+    if (i == of->count || job->graph->directed) return group;
+    for (uint64_t next = group; next; next = rest & -rest) {
+        group |= next;
+        rest &= sli_vga_tile_row(of, &of->tiles[i], (unsigned)__builtin_ctzll(next));
     }
     return group;
 }
 
 /// The first level: what the group sees.
 static void see_first(const sli_vga_tiles *t, searcher *s, size_t bundle, uint64_t group) {
+    const sli_vga_bundle *of = &t->of[bundle];
     memset(s->seen, 0, t->bundles * sizeof *s->seen);
     memset(s->full, 0, t->bundles * sizeof *s->full);
     memset(s->partial, 0, t->bundles * sizeof *s->partial);
-    for (size_t i = t->first[bundle]; i < t->first[bundle + 1]; i++) {
-        const uint64_t *rows = t->rows.items[i].rows;
-        const uint32_t b = t->tiles.items[i].bundle;
-        uint64_t all = UINT64_MAX, some = 0;
-        for (uint64_t rest = group; rest; rest &= rest - 1) {
-            all &= rows[__builtin_ctzll(rest)];
-            some |= rows[__builtin_ctzll(rest)];
+    for (uint32_t i = 0; i < of->count; i++) {
+        const sli_vga_tile *tile = &of->tiles[i];
+        const uint32_t b = tile->bundle;
+        uint64_t all = UINT64_MAX, some = 0, blind = group;
+        for (sli_vga_span span = sli_vga_spans(of, tile); sli_vga_next_span(&span);) {
+            if (!(span.places & group)) continue;
+            all &= span.seen;
+            some |= span.seen;
+            blind &= ~span.places;
         }
+        if (blind) all = 0;
         if (b == bundle) some &= ~group;
-        s->full[b] = all;
+        s->full[b] = all & some;
         s->partial[b] = some & ~all;
         s->seen[b] = some;
-        for (uint64_t left = s->partial[b]; left; left &= left - 1) {
-            const int q = __builtin_ctzll(left);
-            uint64_t mask = 0;
-            for (uint64_t rest = group; rest; rest &= rest - 1)
-                if (rows[__builtin_ctzll(rest)] >> q & 1) mask |= rest & -rest;
-            s->masks[(size_t)b * 64 + (size_t)q] = mask;
-        }
+        for (uint64_t left = s->partial[b]; left; left &= left - 1)
+            s->masks[(size_t)b * 64 + (size_t)__builtin_ctzll(left)] = 0;
+        for (sli_vga_span span = sli_vga_spans(of, tile); sli_vga_next_span(&span);)
+            for (uint64_t left = span.places & group ? span.seen & s->partial[b] : 0; left;
+                 left &= left - 1)
+                s->masks[(size_t)b * 64 + (size_t)__builtin_ctzll(left)] |= span.places & group;
     }
     s->seen[bundle] |= group;
 }
 
-/// The masks of the points of a bundle that see no point with a full mask. Returns those that are
-/// full nevertheless.
+/// What all of these points have in their masks.
+static uint64_t common_mask(const uint64_t *masks, uint64_t points) {
+    uint64_t common = UINT64_MAX;
+    for (; points; points &= points - 1) common &= masks[__builtin_ctzll(points)];
+    return common;
+}
+
+/// Adds to masks of a bundle what its points see in one tile. Returns those that have become full.
+static uint64_t join_tile(const sli_vga_bundle *of, const sli_vga_tile *tile, const searcher *s,
+                          uint64_t *masks, uint64_t points, uint64_t group) {
+    const uint64_t *sources = s->masks + (size_t)tile->bundle * 64;
+    const uint64_t from = tile->any & s->partial[tile->bundle], any = s->any[tile->bundle];
+    uint64_t full = 0;
+    for (sli_vga_span span = sli_vga_spans(of, tile); sli_vga_next_span(&span);) {
+        uint64_t seen = span.seen & from, rest = span.places & points;
+        if (!seen || !rest) continue;
+        const uint64_t gain = any & ~common_mask(masks, rest);
+        uint64_t joined = 0;
+        for (; seen && gain & ~joined; seen &= seen - 1) joined |= sources[__builtin_ctzll(seen)];
+        for (; rest && joined; rest &= rest - 1) {
+            uint64_t *mask = &masks[__builtin_ctzll(rest)];
+            *mask |= joined;
+            if (*mask == group) full |= rest & -rest;
+        }
+    }
+    return full;
+}
+
+/// Finds the masks of points of a bundle that see no point with a full mask. Returns those that are
+/// full nevertheless; masks of 0 are of points that see none.
 static uint64_t join_masks(const sli_vga_tiles *t, searcher *s, size_t bundle, uint64_t points,
                            uint64_t group) {
-    uint64_t *masks = s->masks + bundle * 64, full = 0;
+    const sli_vga_bundle *of = &t->of[bundle];
+    uint64_t *masks = s->masks + bundle * 64, full = 0, common = 0;
     for (uint64_t rest = points; rest; rest &= rest - 1) masks[__builtin_ctzll(rest)] = 0;
-    for (size_t i = t->first[bundle]; i < t->first[bundle + 1] && points; i++) {
-        const sli_vga_tile *tile = &t->tiles.items[i];
-        const uint64_t from = tile->any & s->partial[tile->bundle];
-        if (!from) continue;
-        for (uint64_t rest = points; rest; rest &= rest - 1) {
-            uint64_t *mask = &masks[__builtin_ctzll(rest)];
-            if (!(s->any[tile->bundle] & ~*mask)) continue;
-            uint64_t sources = t->rows.items[i].rows[__builtin_ctzll(rest)] & from;
-            for (; sources; sources &= sources - 1)
-                *mask |= s->masks[(size_t)tile->bundle * 64 + (size_t)__builtin_ctzll(sources)];
-            if (*mask != group) continue;
-            full |= rest & -rest;
-            points &= ~(rest & -rest);
-        }
+    for (uint32_t i = 0; i < of->count && points; i++) {
+        const sli_vga_tile *tile = &of->tiles[i];
+        if (!(tile->any & s->partial[tile->bundle]) || !(s->any[tile->bundle] & ~common)) continue;
+        full |= join_tile(of, tile, s, masks, points, group);
+        points &= ~full;
+        common = common_mask(masks, points);
     }
     return full;
 }
 
 /// Counts a level, and joins the masks of its partial points by bundle. False if it is empty.
 static bool count_level(const sli_vga_tiles *t, searcher *s, uint64_t depth) {
-    uint64_t full = 0;
-    bool partial = false;
+    int64_t full = 0, partial = 0;
     for (size_t b = 0; b < t->bundles; b++) {
-        full += (uint64_t)__builtin_popcountll(s->full[b]);
+        full += sli_word_count(s->full[b]);
         if (!s->partial[b]) continue;
         s->any[b] = 0;
         for (uint64_t rest = s->partial[b]; rest; rest &= rest - 1) {
             const uint64_t mask = s->masks[b * 64 + (size_t)__builtin_ctzll(rest)];
             s->any[b] |= mask;
-            add_partial(s, depth, mask);
+            add_mask(s, mask);
+            partial++;
         }
-        partial = true;
     }
-    add_depth(s, depth, (int64_t)full);
+    s->common[entry_of(depth)] += full;
+    if (partial) add_partial(s, depth, partial);
     return full || partial;
 }
 
-static void next_level(const sli_vga_tiles *t, searcher *s, uint64_t group) {
+/// Finds the next level from this one: the points that it sees.
+static void push_level(const sli_vga_tiles *t, searcher *s, uint64_t group) {
     const size_t bytes = t->bundles * sizeof *s->next;
     memset(s->next, 0, bytes);
     sli_vga_tiles_step(t, s->full, s->seen, s->next);
@@ -168,8 +212,52 @@ static void next_level(const sli_vga_tiles *t, searcher *s, uint64_t group) {
         const uint64_t left = s->next[b] & ~s->next_full[b];
         if (left) s->next_full[b] |= join_masks(t, s, b, left, group);
         s->next[b] &= ~s->next_full[b];
-        s->seen[b] |= s->next[b] | s->next_full[b];
     }
+}
+
+/// Points of a bundle that see one with a full mask.
+static uint64_t see_full(const sli_vga_bundle *of, const searcher *s, uint64_t points) {
+    uint64_t found = 0;
+    for (uint32_t i = 0; i < of->count && found != points; i++) {
+        const sli_vga_tile *tile = &of->tiles[i];
+        const uint64_t seen = tile->any & s->full[tile->bundle];
+        if (!seen) continue;
+        for (sli_vga_span span = sli_vga_spans(of, tile); sli_vga_next_span(&span);)
+            if (span.seen & seen) found |= span.places & points;
+    }
+    return found;
+}
+
+/// Finds the next level from the points that are left: those that see one of this level.
+static void pull_level(const sli_vga_tiles *t, searcher *s, uint64_t group) {
+    for (size_t b = 0; b < t->bundles; b++) {
+        uint64_t left = s->reach[b] & ~s->seen[b];
+        s->next_full[b] = left ? see_full(&t->of[b], s, left) : 0;
+        left &= ~s->next_full[b];
+        if (left) s->next_full[b] |= join_masks(t, s, b, left, group);
+        s->next[b] = 0;
+        for (left &= ~s->next_full[b]; left; left &= left - 1)
+            if (s->masks[b * 64 + (size_t)__builtin_ctzll(left)]) s->next[b] |= left & -left;
+    }
+}
+
+/// Whether fewer tiles lead from the points that are left than from the level.
+static bool is_pulled(const sli_vga_tiles *t, const searcher *s) {
+    uint64_t pushed = 0, pulled = 0;
+    for (size_t b = 0; b < t->bundles; b++) {
+        if (s->full[b] | s->partial[b]) pushed += t->of[b].count;
+        if (s->reach[b] & ~s->seen[b]) pulled += t->of[b].count;
+    }
+    return pulled < pushed;
+}
+
+/// `reaches`: s->reach is known.
+static void next_level(const sli_vga_tiles *t, searcher *s, uint64_t group, bool reaches) {
+    if (reaches && is_pulled(t, s))
+        pull_level(t, s, group);
+    else
+        push_level(t, s, group);
+    for (size_t b = 0; b < t->bundles; b++) s->seen[b] |= s->next[b] | s->next_full[b];
     sl_bits *swap = s->full;
     s->full = s->next_full;
     s->next_full = swap;
@@ -179,13 +267,21 @@ static void next_level(const sli_vga_tiles *t, searcher *s, uint64_t group) {
 }
 
 /// Counts points by depth for a group. Entries are valid up to `deepest`.
-static void search(const sli_vga_tiles *t, searcher *s, size_t bundle, uint64_t group,
-                   uint32_t radius) {
+static void search(const global_job *g, searcher *s, size_t bundle, uint64_t group) {
+    const sli_vga_tiles *t = g->tiles;
+    const size_t bytes = t->bundles * sizeof *s->seen;
+    const bool reaches = !g->all->graph->directed && s->reach[bundle] & group;
     uint64_t depth = 1;
+    bool more = true;
     see_first(t, s, bundle, group);
-    add_depth(s, 0, 1);
-    add_depth(s, 1, __builtin_popcountll(group) - 1);
-    for (; count_level(t, s, depth) && depth != radius; depth++) next_level(t, s, group);
+    s->common[0] = 1;
+    s->common[1] = sli_word_count(group) - 1;
+    while (more && (more = count_level(t, s, depth)) && depth != g->most) {
+        more = !reaches || memcmp(s->seen, s->reach, bytes) != 0;
+        if (more) next_level(t, s, group, reaches);
+        depth++;
+    }
+    if (!more && !reaches) memcpy(s->reach, s->seen, bytes);
     s->deepest = (uint32_t)(depth + 1 < SLI_VGA_DEPTHS ? depth + 1 : SLI_VGA_DEPTHS - 1);
 }
 
@@ -223,16 +319,19 @@ static void measure_depths(const int64_t *points, uint32_t deepest, sl_vga_measu
 }
 
 static void measure_group(const global_job *g, searcher *s, size_t bundle, uint64_t group) {
-    const uint32_t radius = g->all->options->radius;
-    search(g->tiles, s, bundle, group, radius);
-    const uint32_t deepest = radius && radius < s->deepest ? radius : s->deepest;
+    const sl_vga_options *options = g->all->options;
+    search(g, s, bundle, group);
+    const uint32_t deepest =
+        options->radius && options->radius < s->deepest ? options->radius : s->deepest;
     for (uint64_t rest = group; rest; rest &= rest - 1) {
         const size_t place = (size_t)__builtin_ctzll(rest);
-        int64_t *own = s->own[place];
-        for (uint32_t k = 0; k <= deepest; k++) own[k] += s->common[k];
-        measure_depths(own, deepest, &g->all->measures[g->tiles->points[bundle * 64 + place]]);
+        const uint32_t point = g->tiles->points[bundle * 64 + place];
+        if (g->all->second) g->all->second[point] = (uint32_t)(s->common[2] + s->own[2][place]);
+        if (!(options->parts & SL_VGA_GLOBAL)) continue;
+        for (uint32_t k = 0; k <= deepest; k++) s->sum[k] = s->common[k] + s->own[k][place];
+        measure_depths(s->sum, deepest, &g->all->measures[point]);
     }
-    clear_counts(s, group);
+    clear_counts(s);
 }
 
 // --- all points
@@ -240,7 +339,8 @@ static void measure_group(const global_job *g, searcher *s, size_t bundle, uint6
 static void end_global_worker(sl_context *context, void *all, void *state) {
     (void)all;
     searcher *s = state;
-    void *parts[] = {s->seen, s->full, s->partial, s->next, s->next_full, s->masks, s->any, s};
+    void *parts[] = {s->seen,  s->full, s->partial, s->next, s->next_full,
+                     s->masks, s->any,  s->reach,   s};
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) sl_free(context, parts[i]);
 }
 
@@ -250,7 +350,8 @@ static sl_status begin_global_worker(sl_context *context, void *all, void **stat
     if (!s) return SL_NO_MEMORY;
     s->masks = sl_alloc_array(context, words * 64, sizeof *s->masks);
     bool room = s->masks != NULL;
-    uint64_t **sets[] = {&s->seen, &s->full, &s->partial, &s->next, &s->next_full, &s->any};
+    uint64_t **sets[] = {&s->seen,      &s->full, &s->partial, &s->next,
+                         &s->next_full, &s->any,  &s->reach};
     for (size_t i = 0; i < sizeof sets / sizeof *sets; i++)
         room &= (*sets[i] = sl_alloc_array(context, words, sizeof **sets[i])) != NULL;
     if (!room) {
@@ -263,10 +364,9 @@ static sl_status begin_global_worker(sl_context *context, void *all, void **stat
 
 static sl_status measure_unit(sl_context *context, void *all, void *state, size_t unit) {
     const global_job *g = all;
-    const size_t left = g->tiles->count - unit * 64;
-    uint64_t places = left < 64 ? ((uint64_t)1 << left) - 1 : UINT64_MAX;
+    uint64_t places = sli_vga_places(g->tiles, unit);
     while (places) {
-        const uint64_t group = g->mutual ? choose_group(g->tiles, unit, places) : places & -places;
+        const uint64_t group = sli_vga_choose_group(g->all, g->tiles, unit, places);
         SL_TRY(sl_check_cancelled(context));
         measure_group(g, state, unit, group);
         places &= ~group;
@@ -274,32 +374,16 @@ static sl_status measure_unit(sl_context *context, void *all, void *state, size_
     return SL_OK;
 }
 
-/// Whether all that a point sees sees it. One-way glass makes exceptions.
-static bool is_mutual(const sli_vga_job *j) {
-    uint64_t pairs = 0, all = 0;
-    for (uint32_t p = 0; p < j->graph->count; p++) {
-        const sl_bits *row = sli_vga_row(j->graph, p);
-        all += j->degree[p];
-        for (size_t w = p / 64; w < j->graph->words; w++) {
-            for (sl_bits rest = row[w]; rest; rest &= rest - 1) {
-                const uint32_t q = (uint32_t)(w * 64) + (uint32_t)__builtin_ctzll(rest);
-                if (q < p) continue;
-                if (!sl_bits_has(sli_vga_row(j->graph, q), p)) return false;
-                pairs++;
-            }
-        }
-    }
-    return all == 2 * pairs;
-}
-
 sl_status sli_vga_measure_global(sl_context *context, const sli_vga_job *job,
                                  const sli_vga_tiles *tiles) {
-    global_job mine = {job, tiles, is_mutual(job)};
+    const sl_vga_options *options = job->options;
+    global_job mine = {job, tiles, options->parts & SL_VGA_GLOBAL ? options->radius : 2};
+    if (job->second && mine.most == 1) mine.most = 2;
     const sl_work work = {.job = &mine,
                           .begin = begin_global_worker,
                           .unit = measure_unit,
                           .end = end_global_worker,
                           .stage = "depths",
                           .units = "bundles of points"};
-    return sl_work_run(context, &work, tiles->bundles, job->options->threads);
+    return sl_work_run(context, &work, tiles->bundles, options->threads);
 }

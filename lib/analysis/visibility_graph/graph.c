@@ -17,33 +17,33 @@
 /// A view that has passed a limited wall takes the next one for a wall. Those that the eye is on do
 /// not count.
 ///
-/// Cost: for each eye, the sides of the rooms that it sees and the points in them. Invariant: a
+/// The points of a room stand in strips, one a column. A cone sees a run of each: along a strip,
+/// the side of a ray changes once. A rounded crossing says where to look for the change, and exact
+/// signs find it.
+///
+/// Cost: for each eye, the sides of the rooms that it sees and the strips in them. Invariant: a
 /// cone is narrower than half a circle, and the rooms behind a portal lie beyond its line.
+#include "analysis/visibility_graph/graph_rows.h"
 #include "base/bits.h"
 #include "geometry/length.h"
-#include "sightline/vga.h"
 
 #include "geometry/orient.h"
 #include "sightline/support.h"
 
 #include <math.h>
 
-void sl_vga_graph_destroy(sl_context *context, sl_vga_graph *graph) {
-    sl_free(context, graph->rows);
-    *graph = (sl_vga_graph){0};
-}
-
-uint64_t sl_vga_graph_bytes(uint32_t points) {
-    return (uint64_t)points * sl_bits_words(points) * sizeof(uint64_t);
-}
-
 // --- points by room
+
+/// Points of a column that follow each other, from the lowest up.
+typedef struct strip {
+    uint32_t first, count;
+} strip;
 
 /// Points on the border of rooms are listed in each of them.
 typedef struct room_points {
-    uint32_t *first;  ///< by room, and one more: into `points`
-    uint32_t *points; ///< numbers in the grid, ascending in each room
-    uint32_t *home;   ///< by point: a room that holds it
+    uint32_t *first; ///< by room, and one more: into `strips`
+    SL_ARRAY(strip) strips;
+    uint32_t *home; ///< by point: a room that holds it
 } room_points;
 
 static bool room_holds(const sl_outline *o, uint32_t room, sl_point point) {
@@ -88,47 +88,83 @@ static sl_status find_touching(sl_context *context, const sl_outline *o, const u
 
 static void room_points_destroy(sl_context *context, room_points *r) {
     sl_free(context, r->first);
-    sl_free(context, r->points);
+    sl_free(context, r->strips.items);
     sl_free(context, r->home);
+}
+
+/// Adds a point of a room, or the start of a strip. Points come in ascending order.
+static sl_status add_to_strip(sl_context *context, const sl_vga_grid *grid, uint32_t point,
+                              size_t first, room_points *out) {
+    strip *last = out->strips.count > first ? &out->strips.items[out->strips.count - 1] : NULL;
+    if (last && last->first + last->count == point &&
+        grid->squares[point] == grid->squares[point - 1] + 1 && grid->squares[point] % grid->rows) {
+        last->count++;
+        return SL_OK;
+    }
+    SL_TRY(SL_ARRAY_ROOM(context, &out->strips, 1));
+    out->strips.items[out->strips.count++] = (strip){point, 1};
+    return SL_OK;
+}
+
+/// Puts the points of each room into strips. `first`: by room, and one more: into `points`.
+static sl_status cut_strips(sl_context *context, const sl_outline *o, const sl_vga_grid *grid,
+                            const size_t *first, const uint32_t *points, room_points *out) {
+    for (uint32_t r = 0; r < o->room_count; r++) {
+        if (out->strips.count > UINT32_MAX) return SL_NO_MEMORY;
+        out->first[r] = (uint32_t)out->strips.count;
+        for (size_t i = first[r]; i < first[r + 1]; i++)
+            SL_TRY(add_to_strip(context, grid, points[i], out->first[r], out));
+    }
+    out->first[o->room_count] = (uint32_t)out->strips.count;
+    return SL_OK;
 }
 
 typedef struct placed {
     uint32_t room, point;
 } placed;
 
-static sl_status sort_points(sl_context *context, const sl_outline *o, const uint32_t *room_of,
-                             const sl_vga_grid *grid, room_points *out) {
-    SL_ARRAY(placed) all = {0};
-    touching t = {0};
-    sl_status status = SL_OK;
-    out->first = sl_alloc_array(context, (size_t)o->room_count + 1, sizeof *out->first);
-    out->home = sl_alloc_array(context, grid->count, sizeof *out->home);
-    if (!out->first || !out->home) status = SL_NO_MEMORY;
-    for (uint32_t p = 0; p < grid->count && status == SL_OK; p++) {
+/// The rooms of each point, in ascending order of points.
+typedef struct placing {
+    SL_ARRAY(placed) all;
+    touching at_point;
+    size_t *first;    ///< by room, and two more
+    uint32_t *points; ///< by room
+} placing;
+
+static sl_status place_points(sl_context *context, const sl_outline *o, const uint32_t *room_of,
+                              const sl_vga_grid *grid, uint32_t *home, placing *s) {
+    for (uint32_t p = 0; p < grid->count; p++) {
         const uint32_t cell = sl_space_locate(o->space, grid->points[p]);
         if (cell == SL_NO_CELL)
-            status = sl_fail(context, SL_BAD_ARGUMENT, "a point of the grid is outside the map");
-        if (status != SL_OK) break;
-        out->home[p] = sl_outline_room(o, cell, grid->points[p]);
-        status = find_touching(context, o, room_of, out->home[p], grid->points[p], &t);
-        if (status == SL_OK) status = SL_ARRAY_ROOM(context, &all, t.rooms.count);
-        for (size_t i = 0; i < t.rooms.count && status == SL_OK; i++) {
-            all.items[all.count++] = (placed){t.rooms.items[i], p};
-            out->first[t.rooms.items[i] + 1]++;
+            return sl_fail(context, SL_BAD_ARGUMENT, "a point of the grid is outside the map");
+        home[p] = sl_outline_room(o, cell, grid->points[p]);
+        SL_TRY(find_touching(context, o, room_of, home[p], grid->points[p], &s->at_point));
+        SL_TRY(SL_ARRAY_ROOM(context, &s->all, s->at_point.rooms.count));
+        for (size_t i = 0; i < s->at_point.rooms.count; i++) {
+            s->all.items[s->all.count++] = (placed){s->at_point.rooms.items[i], p};
+            s->first[s->at_point.rooms.items[i] + 2]++;
         }
     }
-    if (status == SL_OK) out->points = sl_alloc_array(context, all.count, sizeof *out->points);
-    if (status == SL_OK && !out->points) status = SL_NO_MEMORY;
-    if (status == SL_OK) {
-        for (uint32_t r = 0; r < o->room_count; r++) out->first[r + 1] += out->first[r];
-        for (size_t i = all.count; i-- > 0;) // from behind, so that numbers ascend
-            out->points[--out->first[all.items[i].room + 1]] = all.items[i].point;
-        // Each entry now has moved to the start of its room, one place too early in the list.
-        for (uint32_t r = 0; r < o->room_count; r++) out->first[r] = out->first[r + 1];
-        out->first[o->room_count] = (uint32_t)all.count;
-    }
-    sl_free(context, all.items);
-    sl_free(context, t.rooms.items);
+    s->points = sl_alloc_array(context, s->all.count, sizeof *s->points);
+    if (!s->points) return SL_NO_MEMORY;
+    for (uint32_t r = 1; r < o->room_count; r++) s->first[r + 1] += s->first[r];
+    for (size_t i = 0; i < s->all.count; i++) // then each start has moved to the end of its room
+        s->points[s->first[s->all.items[i].room + 1]++] = s->all.items[i].point;
+    return SL_OK;
+}
+
+static sl_status sort_points(sl_context *context, const sl_outline *o, const uint32_t *room_of,
+                             const sl_vga_grid *grid, room_points *out) {
+    placing s = {.first = sl_alloc_array(context, (size_t)o->room_count + 2, sizeof *s.first)};
+    out->first = sl_alloc_array(context, (size_t)o->room_count + 1, sizeof *out->first);
+    out->home = sl_alloc_array(context, grid->count, sizeof *out->home);
+    sl_status status = s.first && out->first && out->home ? SL_OK : SL_NO_MEMORY;
+    if (status == SL_OK) status = place_points(context, o, room_of, grid, out->home, &s);
+    if (status == SL_OK) status = cut_strips(context, o, grid, s.first, s.points, out);
+    sl_free(context, s.all.items);
+    sl_free(context, s.at_point.rooms.items);
+    sl_free(context, s.first);
+    sl_free(context, s.points);
     return status;
 }
 
@@ -145,6 +181,7 @@ typedef struct looker {
     const sl_vga_grid *grid;
     const room_points *by_room;
     const uint32_t *room_of;
+    double range; ///< 0: no limit
     sl_point eye;
     sl_bits *row;
     SL_ARRAY(frame) frames;
@@ -153,17 +190,73 @@ typedef struct looker {
     touching at_eye;
 } looker;
 
+/// Whether a distance is beyond the range by more than rounding, so that nothing there is asked.
+static bool is_far(const looker *l, double distance) {
+    return l->range > 0 && distance > l->range * (1 + 0x1p-40);
+}
+
+static sl_point strip_start(const looker *l, const strip *s) {
+    return l->grid->points[s->first];
+}
+
 static void see_all(looker *l, uint32_t room) {
-    for (uint32_t i = l->by_room->first[room]; i < l->by_room->first[room + 1]; i++)
-        sl_bits_add(l->row, l->by_room->points[i]);
+    for (uint32_t i = l->by_room->first[room]; i < l->by_room->first[room + 1]; i++) {
+        const strip *s = &l->by_room->strips.items[i];
+        sli_bits_add_run(l->row, s->first, s->first + s->count);
+    }
+}
+
+/// A ray from the eye. Along a strip, the side that points lie on changes once: from right to left
+/// where the ray goes to the right.
+typedef struct ray {
+    sl_point via;
+    bool rightward, leftward; ///< neither: it goes straight up or down
+    double slope;
+} ray;
+
+static ray ray_through(const looker *l, sl_point via) {
+    return (ray){via, via.x > l->eye.x, via.x < l->eye.x, (via.y - l->eye.y) / (via.x - l->eye.x)};
+}
+
+static int side_of(const looker *l, const ray *r, uint32_t point) {
+    return sli_orient(l->eye, r->via, l->grid->points[point]);
+}
+
+/// Where along a strip the side comes to be `least` or more, or falls below it. `r` is not upright.
+static uint32_t crossing(const looker *l, const ray *r, const strip *s, int least) {
+    const sl_point start = strip_start(l, s);
+    const double guess =
+        (l->eye.y + r->slope * (start.x - l->eye.x) - start.y) / l->grid->step + 0.5;
+    uint32_t at = guess > 0 ? guess < s->count ? (uint32_t)guess : s->count : 0;
+    while (at > 0 && (side_of(l, r, s->first + at - 1) >= least) == r->rightward) at--;
+    while (at < s->count && (side_of(l, r, s->first + at) >= least) != r->rightward) at++;
+    return at;
+}
+
+/// Takes from a strip the points on one side of a ray: `left` or on it, or right or on it.
+static void keep_side(const looker *l, const ray *r, bool left, strip *s) {
+    const int least = left ? 0 : 1; // right or on it: below 1
+    if (!r->rightward && !r->leftward) {
+        if ((side_of(l, r, s->first) >= least) != left) s->count = 0;
+        return;
+    }
+    const uint32_t at = crossing(l, r, s, least);
+    if (r->rightward == left) {
+        s->first += at;
+        s->count -= at;
+    } else {
+        s->count = at;
+    }
 }
 
 static void see_within(looker *l, uint32_t room, sl_point right, sl_point left) {
+    const ray from = ray_through(l, right), to = ray_through(l, left);
     for (uint32_t i = l->by_room->first[room]; i < l->by_room->first[room + 1]; i++) {
-        const uint32_t p = l->by_room->points[i];
-        const sl_point at = l->grid->points[p];
-        if (sli_orient(l->eye, right, at) >= 0 && sli_orient(l->eye, at, left) >= 0)
-            sl_bits_add(l->row, p);
+        strip s = l->by_room->strips.items[i];
+        if (is_far(l, fabs(strip_start(l, &s).x - l->eye.x))) continue;
+        keep_side(l, &from, true, &s);
+        if (s.count) keep_side(l, &to, false, &s);
+        if (s.count) sli_bits_add_run(l->row, s.first, s.first + s.count);
     }
 }
 
@@ -190,6 +283,21 @@ static bool ray_meets(const looker *l, sl_point via, const sl_side *side) {
 
 static bool is_limited(const sl_outline *o, uint32_t side) {
     return o->limited && o->limited[side] != SL_NO_SEAM;
+}
+
+/// Sees the points of a room on a ray.
+static void see_along(looker *l, uint32_t room, sl_point via) {
+    const ray r = ray_through(l, via);
+    for (uint32_t i = l->by_room->first[room]; i < l->by_room->first[room + 1]; i++) {
+        strip s = l->by_room->strips.items[i];
+        if (r.rightward ? strip_start(l, &s).x < l->eye.x
+                        : r.leftward && strip_start(l, &s).x > l->eye.x)
+            continue;
+        keep_side(l, &r, true, &s);
+        if (s.count) keep_side(l, &r, false, &s);
+        for (uint32_t p = s.first; p < s.first + s.count; p++)
+            if (is_ahead(l->eye, via, l->grid->points[p])) sl_bits_add(l->row, p);
+    }
 }
 
 /// Lists a room of a ray, once.
@@ -222,12 +330,7 @@ static sl_status follow_ray(sl_context *context, looker *l, uint32_t room, sl_po
             if (k == l->ray_rooms.count) break;
         }
         const uint32_t at = l->ray_rooms.items[k];
-        for (uint32_t i = l->by_room->first[at]; i < l->by_room->first[at + 1]; i++) {
-            const uint32_t p = l->by_room->points[i];
-            if (sli_orient(l->eye, via, l->grid->points[p]) == 0 &&
-                is_ahead(l->eye, via, l->grid->points[p]))
-                sl_bits_add(l->row, p);
-        }
+        see_along(l, at, via);
         for (uint32_t i = o->first[at]; i < o->first[at + 1]; i++) {
             if (!sl_side_is_portal(&o->sides[i]) || !ray_meets(l, via, &o->sides[i])) continue;
             const uint32_t next = l->room_of[o->sides[i].neighbour];
@@ -256,14 +359,22 @@ static sl_status look_along(sl_context *context, looker *l, const sl_side *side,
     return SL_OK;
 }
 
+/// To the smallest box around two points.
+static double distance_to_box(sl_point from, sl_point a, sl_point b) {
+    const double x = fmax(fmax(fmin(a.x, b.x) - from.x, from.x - fmax(a.x, b.x)), 0);
+    const double y = fmax(fmax(fmin(a.y, b.y) - from.y, from.y - fmax(a.y, b.y)), 0);
+    return sli_length(x, y);
+}
+
 /// Takes the view on through one side of a room, as far as it lies between two rays. `limited`: it
 /// has passed a limited wall.
 static sl_status look_through(sl_context *context, looker *l, uint32_t i, const sl_point *right,
                               const sl_point *left, bool limited) {
     const sl_side *side = &l->outline->sides[i];
     sl_point a = side->start, b = l->outline->sides[side->next].start;
+    if (!sl_side_is_portal(side) || is_far(l, distance_to_box(l->eye, a, b))) return SL_OK;
     const int facing = sli_orient(a, b, l->eye);
-    if (!sl_side_is_portal(side) || facing < 0) return SL_OK;
+    if (facing < 0) return SL_OK;
     if (is_limited(l->outline, i)) {
         if (limited) return SL_OK;
         limited = true;
@@ -289,7 +400,20 @@ static sl_status look_around_room(sl_context *context, looker *l, uint32_t room,
     return SL_OK;
 }
 
-static sl_status look(sl_context *context, looker *l, uint32_t eye) {
+/// Takes out what is farther than the range.
+static void keep_in_range(const looker *l) {
+    for (size_t w = 0; w < sl_bits_words(l->grid->count); w++)
+        for (sl_bits rest = l->row[w]; rest; rest &= rest - 1) {
+            const size_t p = w * 64 + (size_t)__builtin_ctzll(rest);
+            const sl_point a = l->eye, b = l->grid->points[p];
+            if (sli_length(a.x - b.x, a.y - b.y) > l->range) sl_bits_flip(l->row, p);
+        }
+}
+
+static sl_status look(sl_context *context, void *all, void *state, uint32_t eye, sl_bits *row) {
+    looker *l = state;
+    (void)all;
+    l->row = row;
     l->eye = l->grid->points[eye];
     SL_TRY(
         find_touching(context, l->outline, l->room_of, l->by_room->home[eye], l->eye, &l->at_eye));
@@ -304,28 +428,29 @@ static sl_status look(sl_context *context, looker *l, uint32_t eye) {
             SL_TRY(look_around_room(context, l, at, &f));
         }
     }
+    if (l->range > 0) keep_in_range(l);
     return SL_OK;
 }
 
 // --- all eyes
 
-enum { EYES_A_UNIT = 64 };
+/// What all lookers share.
+typedef struct scene {
+    room_points by_room;
+    uint32_t *room_of;
+    looker like;
+    uint32_t samples; ///< rows that are looked at, where not all are
+} scene;
 
-typedef struct job {
-    looker like; ///< what all threads share of a looker
-    double range;
-    sl_vga_graph *graph;
-} job;
-
-static sl_status begin_graph_worker(sl_context *context, void *all, void **state) {
+static sl_status begin_looker(sl_context *context, void *all, void **state) {
     looker *l = sl_alloc_array(context, 1, sizeof *l);
     if (!l) return SL_NO_MEMORY;
-    *l = ((job *)all)->like;
+    *l = ((const scene *)all)->like;
     *state = l;
     return SL_OK;
 }
 
-static void end_graph_worker(sl_context *context, void *all, void *state) {
+static void end_looker(sl_context *context, void *all, void *state) {
     (void)all;
     looker *l = state;
     sl_free(context, l->frames.items);
@@ -335,75 +460,79 @@ static void end_graph_worker(sl_context *context, void *all, void *state) {
     sl_free(context, l);
 }
 
-/// Takes out what is farther than the range.
-static void keep_in_range(const sl_vga_grid *grid, uint32_t eye, double range, sl_bits *row) {
-    for (uint32_t p = 0; p < grid->count; p++) {
-        if (!sl_bits_has(row, p)) continue;
-        const sl_point a = grid->points[eye], b = grid->points[p];
-        if (sli_length(a.x - b.x, a.y - b.y) > range) sl_bits_flip(row, p);
-    }
+static void scene_destroy(sl_context *context, scene *s) {
+    room_points_destroy(context, &s->by_room);
+    sl_free(context, s->room_of);
 }
 
-static sl_status look_from_unit(sl_context *context, void *all, void *state, size_t unit) {
-    const job *j = all;
-    looker *l = state;
-    const uint32_t count = l->grid->count, first = (uint32_t)unit * EYES_A_UNIT;
-    for (uint32_t eye = first; eye < count && eye < first + EYES_A_UNIT; eye++) {
-        l->row = j->graph->rows + eye * j->graph->words;
-        SL_TRY(look(context, l, eye));
-        sl_bits_add(l->row, eye);
-        sl_bits_flip(l->row, eye);
-        if (j->range > 0) keep_in_range(l->grid, eye, j->range, l->row);
-    }
-    return SL_OK;
+static sl_status scene_make(sl_context *context, const sl_outline *outline, const sl_vga_grid *grid,
+                            double range, scene *s) {
+    s->room_of = sl_alloc_array(context, outline->side_count, sizeof *s->room_of);
+    if (!s->room_of) return SL_NO_MEMORY;
+    for (uint32_t r = 0; r < outline->room_count; r++)
+        for (uint32_t i = outline->first[r]; i < outline->first[r + 1]; i++) s->room_of[i] = r;
+    s->like = (looker){.outline = outline,
+                       .grid = grid,
+                       .by_room = &s->by_room,
+                       .room_of = s->room_of,
+                       .range = range};
+    return sort_points(context, outline, s->room_of, grid, &s->by_room);
 }
 
-static sl_status connect(sl_context *context, job *j, unsigned threads) {
-    const sl_work work = {.job = j,
-                          .begin = begin_graph_worker,
-                          .unit = look_from_unit,
-                          .end = end_graph_worker,
-                          .stage = "visibility graph",
-                          .units = "bundles of points"};
-    return sl_work_run(context, &work, (j->graph->count + EYES_A_UNIT - 1) / EYES_A_UNIT, threads);
+/// Whether there is one-way glass: a portal to the dark side.
+static bool has_glass(const sl_outline *o) {
+    for (uint32_t r = 0; r < o->room_count; r++)
+        for (uint32_t i = o->first[r]; i < sl_outline_stop(o, r); i++)
+            if (sl_side_is_portal(&o->sides[i]) &&
+                !sl_side_is_portal(&o->sides[o->sides[i].neighbour]))
+                return true;
+    return false;
 }
 
 sl_status sl_vga_graph_make(sl_context *context, const sl_outline *outline, const sl_vga_grid *grid,
                             double range, unsigned threads, sl_vga_graph *out) {
-    room_points by_room = {0};
-    sl_vga_graph graph = {.count = grid->count, .words = sl_bits_words(grid->count)};
-    uint32_t *room_of = sl_alloc_array(context, outline->side_count, sizeof *room_of);
-    sl_status status = room_of ? SL_OK : SL_NO_MEMORY;
-    for (uint32_t r = 0; r < outline->room_count && status == SL_OK; r++)
-        for (uint32_t i = outline->first[r]; i < outline->first[r + 1]; i++) room_of[i] = r;
-    if (status == SL_OK) status = sort_points(context, outline, room_of, grid, &by_room);
-    if (status == SL_OK) {
-        graph.rows = sl_alloc_array(context, graph.count * graph.words, sizeof *graph.rows);
-        if (!graph.rows) status = SL_NO_MEMORY;
-    }
-    job j = {.like = {.outline = outline, .grid = grid, .by_room = &by_room, .room_of = room_of},
-             .range = range,
-             .graph = &graph};
-    if (status == SL_OK) status = connect(context, &j, threads);
-    room_points_destroy(context, &by_room);
-    sl_free(context, room_of);
-    if (status != SL_OK) {
-        sl_vga_graph_destroy(context, &graph);
-        return status;
-    }
-    graph.edges = sli_bits_count(graph.rows, graph.count * graph.words);
-    *out = graph;
-    return SL_OK;
+    scene s = {0};
+    const sli_vga_source source = {.count = grid->count,
+                                   .points = grid->count,
+                                   .directed = has_glass(outline),
+                                   .job = &s,
+                                   .begin = begin_looker,
+                                   .end = end_looker,
+                                   .look = look,
+                                   .stage = "visibility graph"};
+    sl_status status = scene_make(context, outline, grid, range, &s);
+    if (status == SL_OK) status = sli_vga_graph_write(context, &source, threads, out);
+    scene_destroy(context, &s);
+    return status;
 }
 
-sl_status sl_vga_graph_turn(sl_context *context, sl_vga_graph *graph) {
-    uint64_t *rows = sl_alloc_array(context, graph->count * graph->words, sizeof *rows);
-    if (!rows) return SL_NO_MEMORY;
-    for (size_t p = 0; p < graph->count; p++)
-        for (size_t w = 0; w < graph->words; w++)
-            for (uint64_t rest = graph->rows[p * graph->words + w]; rest; rest &= rest - 1)
-                sl_bits_add(rows + (w * 64 + (size_t)__builtin_ctzll(rest)) * graph->words, p);
-    sl_free(context, graph->rows);
-    graph->rows = rows;
-    return SL_OK;
+// --- the size, before
+
+/// Samples are spread over all points.
+static sl_status look_from_sample(sl_context *context, void *all, void *state, uint32_t sample,
+                                  sl_bits *row) {
+    const scene *s = all;
+    return look(context, all, state,
+                (uint32_t)((uint64_t)sample * s->like.grid->count / s->samples), row);
+}
+
+sl_status sl_vga_graph_bytes(sl_context *context, const sl_outline *outline,
+                             const sl_vga_grid *grid, double range, uint64_t *bytes) {
+    scene s = {.samples = grid->count < 256 ? grid->count : 256};
+    const sli_vga_source source = {.count = s.samples,
+                                   .points = grid->count,
+                                   .job = &s,
+                                   .begin = begin_looker,
+                                   .end = end_looker,
+                                   .look = look_from_sample};
+    sl_vga_graph sample = {0};
+    sl_status status = scene_make(context, outline, grid, range, &s);
+    if (status == SL_OK) status = sli_vga_graph_write(context, &source, 1, &sample);
+    if (status == SL_OK && s.samples)
+        *bytes = (uint64_t)((double)sli_vga_graph_size(&sample) / s.samples * grid->count);
+    else
+        *bytes = 0;
+    sl_vga_graph_destroy(context, &sample);
+    scene_destroy(context, &s);
+    return status;
 }

@@ -12,7 +12,6 @@
 #include "sight/region.h"
 #include "sightline/support.h"
 
-#include <inttypes.h>
 #include <math.h>
 
 void sl_vga_grid_destroy(sl_context *context, sl_vga_grid *grid) {
@@ -26,7 +25,6 @@ typedef struct flood {
     const sl_outline *outline;
     sl_vga_grid *grid;
     sl_bits *taken;
-    uint32_t most;              ///< points
     SL_ARRAY(uint32_t) waiting; ///< squares
 } flood;
 
@@ -35,15 +33,15 @@ static sl_point point_of(const sl_vga_grid *grid, uint32_t square) {
                       (double)(grid->bottom + square % grid->rows) * grid->step};
 }
 
-/// Refuses grids whose graph no memory holds, before more of them is filled.
+/// Refuses grids that are too large, before more of them is filled.
 static sl_status take(flood *f, uint32_t square) {
     if (sl_bits_has(f->taken, square)) return SL_OK;
-    if (f->grid->count == f->most)
-        return sl_fail(f->context, SL_BAD_ARGUMENT,
-                       "a grid step of %.9g gives more than %" PRIu32
-                       " points, too many for a graph in this machine's memory; choose a larger "
-                       "step",
-                       f->grid->step, f->most);
+    if (f->grid->count == SL_VGA_POINTS_MOST)
+        return sl_fail(
+            f->context, SL_BAD_ARGUMENT,
+            "a grid step of %.9g gives more than %u points, too many for a graph; choose "
+            "a larger step",
+            f->grid->step, SL_VGA_POINTS_MOST);
     SL_TRY(SL_ARRAY_ROOM(f->context, &f->waiting, 1));
     sl_bits_add(f->taken, square);
     f->waiting.items[f->waiting.count++] = square;
@@ -141,11 +139,7 @@ sl_status sl_vga_grid_make(sl_context *context, const sl_outline *outline, doubl
     sl_vga_grid grid = {0};
     SL_TRY(lay(context, outline->space->bounds, step, &grid));
     const size_t squares = (size_t)grid.columns * grid.rows;
-    const double most = sqrt(8 * (double)sl_machine_memory()); // a bit for each pair
-    flood f = {.context = context,
-               .outline = outline,
-               .grid = &grid,
-               .most = (uint32_t)fmin(most, UINT32_MAX)};
+    flood f = {.context = context, .outline = outline, .grid = &grid};
     f.taken = sl_alloc_array(context, sl_bits_words(squares), sizeof *f.taken);
     sl_status status = f.taken ? SL_OK : SL_NO_MEMORY;
     if (status == SL_OK) status = seed_count ? take_seeds(&f, seeds, seed_count) : take_inside(&f);

@@ -2,6 +2,7 @@
 #ifndef SL_VGA_MEASURES_H
 #define SL_VGA_MEASURES_H
 
+#include "analysis/visibility_graph/graph_rows.h"
 #include "analysis/visibility_graph/tiles.h"
 #include "sightline/support.h"
 #include "sightline/vga.h"
@@ -15,20 +16,31 @@ typedef struct sli_vga_job {
     const sl_vga_options *options;
     const uint32_t *degree; ///< by point: its connectivity
     const sl_bits *turning; ///< points at which paths may turn
+    uint32_t *second;       ///< by point: the points two steps away; NULL: not asked for
     sl_vga_measures *measures;
 } sli_vga_job;
-
-static inline const sl_bits *sli_vga_row(const sl_vga_graph *graph, uint32_t point) {
-    return graph->rows + point * graph->words;
-}
 
 /// The points beside walls. The result is the caller's.
 sl_status sli_vga_find_turning(sl_context *context, const sl_outline *outline,
                                const sl_vga_grid *grid, sl_bits **out);
 
-/// Global measures of all points.
+/// The places of a bundle that have points.
+static inline uint64_t sli_vga_places(const sli_vga_tiles *tiles, size_t bundle) {
+    const size_t left = tiles->count - bundle * 64;
+    return left < 64 ? ((uint64_t)1 << left) - 1 : UINT64_MAX;
+}
+
+/// Some of these places of a bundle: points that all see each other. In a directed graph it is one.
+uint64_t sli_vga_choose_group(const sli_vga_job *job, const sli_vga_tiles *tiles, size_t bundle,
+                              uint64_t places);
+
+/// Global measures of all points, if they are asked for, and points two steps away likewise.
 sl_status sli_vga_measure_global(sl_context *context, const sli_vga_job *job,
                                  const sli_vga_tiles *tiles);
+
+/// Local measures of all points.
+sl_status sli_vga_measure_local(sl_context *context, const sli_vga_job *job,
+                                const sli_vga_tiles *tiles);
 
 /// Metric and angular measures of all points, as the options ask.
 sl_status sli_vga_measure_paths(sl_context *context, const sli_vga_job *job);

@@ -1,14 +1,15 @@
 /// The parts of a visibility graph: points that steps join, in either direction. A search goes from
-/// part to part. Each row takes one operation a word, as points that were found are left out at
-/// once; so the cost is O(points^2 / 64).
+/// part to part. Each run takes one operation a word, as points that were found are left out at
+/// once; so the cost is O(runs).
 ///
 /// Where glass is dark from one side, a search may come to points of another part, which did not
 /// lead here. Then the two parts are one: `parent` has sets of parts.
-#include "sightline/support.h"
+#include "base/bits.h"
 #include "sightline/vga.h"
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /// Parts with fewer points than this share of the largest one do not set a scale.
 #define SMALL_PART 0.1
@@ -45,13 +46,15 @@ static void take(search *s, uint32_t part, size_t word, sl_bits seen) {
 }
 
 static void search_from(search *s, uint32_t first) {
-    const size_t words = s->graph->words;
-    for (size_t w = 0; w < words; w++) s->own[w] = 0;
+    memset(s->own, 0, sl_bits_words(s->graph->count) * sizeof *s->own);
     take(s, first, first / 64, (sl_bits)1 << first % 64);
     while (s->depth) {
-        const sl_bits *row = s->graph->rows + s->stack[--s->depth] * words;
-        for (size_t w = 0; w < words; w++)
-            if (row[w] & ~s->own[w]) take(s, first, w, row[w]);
+        sl_vga_run run = sl_vga_row(s->graph, s->stack[--s->depth]);
+        while (sl_vga_next(&run))
+            for (size_t w = run.first / 64; w * 64 < run.stop; w++) {
+                const sl_bits seen = sli_bits_run(w, run.first, run.stop);
+                if (seen & ~s->own[w]) take(s, first, w, seen);
+            }
     }
 }
 
@@ -63,8 +66,8 @@ static sl_status find_parts(sl_context *context, const sl_vga_graph *graph,
         if (links[i].a >= count || links[i].b >= count)
             return sl_fail(context, SL_BAD_ARGUMENT, "a link joins two points of the grid");
     search s = {.graph = graph,
-                .found = sl_alloc_array(context, graph->words + 1, sizeof *s.found),
-                .own = sl_alloc_array(context, graph->words + 1, sizeof *s.own),
+                .found = sl_alloc_array(context, sl_bits_words(count), sizeof *s.found),
+                .own = sl_alloc_array(context, sl_bits_words(count), sizeof *s.own),
                 .part = parts,
                 .parent = sl_alloc_array(context, (size_t)count + 1, sizeof *s.parent),
                 .stack = sl_alloc_array(context, (size_t)count + 1, sizeof *s.stack)};

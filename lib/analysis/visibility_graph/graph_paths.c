@@ -71,11 +71,9 @@ static sl_status list_words(sl_context *context, sli_vga_sights *s, const sl_bit
 /// Lists the words of a row: points that turn paths, then the others. `row` is scratch.
 static sl_status list_row(sl_context *context, sli_vga_sights *s, uint32_t slot, sl_bits *row) {
     const sl_vga_graph *graph = s->job->graph;
-    const sl_bits *by_point = sli_vga_row(graph, s->points[slot]);
     memset(row, 0, s->bundles * sizeof *row);
-    for (size_t k = 0; k < graph->words; k++)
-        for (sl_bits rest = by_point[k]; rest; rest &= rest - 1)
-            sl_bits_add(row, s->slots[k * 64 + (size_t)__builtin_ctzll(rest)]);
+    for (sl_vga_run run = sl_vga_row(graph, s->points[slot]); sl_vga_next(&run);)
+        for (uint32_t q = run.first; q < run.stop; q++) sl_bits_add(row, s->slots[q]);
     s->first[slot] = s->words.count;
     SL_TRY(list_words(context, s, row, true));
     s->others[slot] = s->words.count;

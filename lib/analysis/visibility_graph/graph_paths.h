@@ -57,6 +57,22 @@ sl_status sli_vga_order_paths(sl_context *context, const sl_vga_grid *grid, cons
                               uint32_t *slots, uint32_t *points, uint32_t *starts,
                               uint32_t *turning_count);
 
+/// Whether a slot sees another.
+static inline bool sli_vga_slot_sees(const sli_vga_sights *s, uint32_t at, uint32_t to) {
+    const bool turns = sl_bits_has(s->turning, to);
+    size_t low = turns ? s->first[at] : s->others[at];
+    size_t high = turns ? s->others[at] : s->first[at + 1];
+    while (low < high) { // bundles ascend
+        const size_t middle = low + (high - low) / 2;
+        if (s->words.items[middle].bundle < to / 64)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low < (turns ? s->others[at] : s->first[at + 1]) &&
+           s->words.items[low].bundle == to / 64 && s->words.items[low].seen >> to % 64 & 1;
+}
+
 sl_status sli_vga_sights_make(sl_context *context, const sli_vga_job *job, sli_vga_sights *out);
 void sli_vga_sights_destroy(sl_context *context, sli_vga_sights *sights);
 

@@ -1,7 +1,7 @@
 /// Visibility graphs where walls stop steps and not sight, or sight and not steps: paths and agents
 /// go by a second graph, of the points between which one steps straight.
-#include "sightline/support.h"
-#include "sightline/vga.h"
+#include "analysis/visibility_graph/graph_rows.h"
+#include "base/bits.h"
 
 #include <math.h>
 
@@ -49,16 +49,36 @@ const sl_outline *sl_vga_steps_outline(const sl_vga_steps *steps, const sl_outli
     return steps ? steps->outline : sight;
 }
 
+/// Adds the points that a point sees by two graphs: each pair of runs in common.
+static sl_status look_by_both(sl_context *context, void *job, void *state, uint32_t point,
+                              sl_bits *row) {
+    const sl_vga_graph *const *graphs = job;
+    (void)context;
+    (void)state;
+    sl_vga_run a = sl_vga_row(graphs[0], point), b = sl_vga_row(graphs[1], point);
+    for (bool more = sl_vga_next(&a) && sl_vga_next(&b); more;) {
+        const uint32_t first = a.first > b.first ? a.first : b.first;
+        const uint32_t stop = a.stop < b.stop ? a.stop : b.stop;
+        if (first < stop) sli_bits_add_run(row, first, stop);
+        more = sl_vga_next(a.stop < b.stop ? &a : &b);
+    }
+    return SL_OK;
+}
+
 sl_status sl_vga_steps_connect(sl_context *context, const sl_vga_steps *steps,
                                const sl_vga_grid *grid, const sl_vga_graph *sights,
                                unsigned threads, sl_vga_graph *out) {
-    SL_TRY(sl_vga_graph_make(context, steps->outline, grid, 0, threads, out));
-    out->edges = 0;
-    for (size_t i = 0; i < out->count * out->words; i++) {
-        out->rows[i] &= sights->rows[i];
-        out->edges += (uint64_t)__builtin_popcountll(out->rows[i]);
-    }
-    return SL_OK;
+    sl_vga_graph stepped = {0};
+    SL_TRY(sl_vga_graph_make(context, steps->outline, grid, 0, threads, &stepped));
+    const sl_vga_graph *both[] = {&stepped, sights};
+    const sli_vga_source source = {.count = grid->count,
+                                   .points = grid->count,
+                                   .directed = stepped.directed || sights->directed,
+                                   .job = both,
+                                   .look = look_by_both};
+    const sl_status status = sli_vga_graph_write(context, &source, threads, out);
+    sl_vga_graph_destroy(context, &stepped);
+    return status;
 }
 
 /// The graph of steps, made at the first call.

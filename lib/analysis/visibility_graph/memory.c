@@ -1,9 +1,9 @@
 /// How much memory measures of a visibility graph take, told before they are computed.
 ///
-/// One pass over the graph counts what the measures will keep:
+/// A pass over the graph counts what the measures will keep:
 ///
-///     words:   64 points near each other, of which a point sees some (graph_paths.c)
 ///     tiles:   64 points, of which one of 64 others sees some (tiles.c)
+///     words:   64 points near each other, of which a point sees some (graph_paths.c)
 ///     ways on: points within two steps of points beside walls (metric.c)
 ///
 /// Stages follow each other and free what they took. So the answer is the largest stage, with the
@@ -11,7 +11,7 @@
 ///
 /// Invariant: counts are exact or upper bounds, but for the queues of searches. Those are guessed
 /// from maps that were measured, so the answer is no bound where a queue grows longer. Cost:
-/// O(edges), and for points beside walls a few rows for each step.
+/// O(edges), and for metric paths a few rows for each step between points beside walls.
 #include "analysis/visibility_graph/graph_paths.h"
 #include "base/bits.h"
 
@@ -24,7 +24,8 @@ enum { A_THREAD = 2048 };
 typedef struct counts {
     uint64_t points, bundles;
     uint64_t squares, sides; ///< of the grid: columns times rows, and their sum
-    uint64_t words, tiles;
+    uint64_t words;
+    sli_vga_tile_bytes tiles;
     uint64_t turning, steps; ///< points beside walls, and ordered pairs of them
     uint64_t turning_words;  ///< of points beside walls
     uint64_t ways, longest;  ///< ways on in all lists, and in one
@@ -33,11 +34,10 @@ typedef struct counts {
 
 typedef struct counting {
     const sl_vga_graph *graph;
-    const sl_bits *turning;       ///< by point
-    uint32_t *slots, *points;     ///< of tiles
-    uint32_t *path_slots;         ///< of searches for paths
-    uint32_t *of_row, *of_bundle; ///< by bundle: the last slot, or bundle, that saw it; one more
-    sl_bits *near;                ///< by point: within two steps
+    const sl_bits *turning;            ///< by point
+    uint32_t *slots, *points, *starts; ///< of searches for paths
+    uint32_t *of_row;                  ///< by bundle: the last slot that saw it; one more
+    sl_bits *near;                     ///< by point: within two steps
     counts all;
 } counting;
 
@@ -56,45 +56,31 @@ static uint64_t most(uint64_t a, uint64_t b) {
 
 /// Points that a point beside walls reaches by two steps or fewer, itself included.
 static uint64_t count_near(counting *c, uint32_t point) {
-    const size_t words = c->graph->words;
-    const sl_bits *row = sli_vga_row(c->graph, point);
-    memcpy(c->near, row, words * sizeof *row);
+    const size_t words = sl_bits_words(c->graph->count);
+    memset(c->near, 0, words * sizeof *c->near);
     sl_bits_add(c->near, point);
-    for (size_t w = 0; w < words; w++)
-        for (sl_bits rest = row[w] & c->turning[w]; rest; rest &= rest - 1) {
-            const uint32_t u = (uint32_t)(w * 64) + (uint32_t)__builtin_ctzll(rest);
-            const sl_bits *next = sli_vga_row(c->graph, u);
-            for (size_t k = 0; k < words; k++) c->near[k] |= next[k];
-        }
+    sli_vga_add_row(c->graph, point, c->near);
+    for (sl_vga_run run = sl_vga_row(c->graph, point); sl_vga_next(&run);)
+        for (uint32_t q = run.first; q < run.stop; q++)
+            if (sl_bits_has(c->turning, q)) sli_vga_add_row(c->graph, q, c->near);
     return sli_bits_count(c->near, words);
 }
 
-/// Steps from a point to points beside walls.
-static uint64_t count_steps(const counting *c, uint32_t point) {
-    const sl_bits *row = sli_vga_row(c->graph, point);
-    uint64_t count = 0;
-    for (size_t w = 0; w < c->graph->words; w++)
-        count += (uint64_t)__builtin_popcountll(row[w] & c->turning[w]);
-    return count;
-}
-
-/// Counts the tiles that a point has a part in, and its words. Points at which paths turn, and
-/// others, have words of their own.
-static void count_row(counting *c, uint32_t slot) {
-    const uint32_t point = c->points[slot], bundle = slot / 64;
-    const sl_bits *row = sli_vga_row(c->graph, point);
-    const uint64_t before = c->all.words;
-    for (size_t w = 0; w < c->graph->words; w++)
-        for (sl_bits rest = row[w]; rest; rest &= rest - 1) {
-            const size_t q = w * 64 + (size_t)__builtin_ctzll(rest);
-            const uint32_t tile = c->slots[q] / 64, word = c->path_slots[q] / 64;
-            uint32_t *of_row = c->of_row + (sl_bits_has(c->turning, q) ? 0 : c->all.bundles);
-            c->all.tiles += c->of_bundle[tile] != bundle + 1;
-            c->of_bundle[tile] = bundle + 1;
-            c->all.words += of_row[word] != slot + 1;
-            of_row[word] = slot + 1;
+/// Counts the words of a point. Points at which paths turn, and others, have words of their own.
+static void count_row(counting *c, uint32_t point) {
+    const uint64_t before = c->all.words, steps = c->all.steps;
+    for (sl_vga_run run = sl_vga_row(c->graph, point); sl_vga_next(&run);)
+        for (uint32_t q = run.first; q < run.stop; q++) {
+            const bool turns = sl_bits_has(c->turning, q);
+            uint32_t *of_row = c->of_row + (turns ? 0 : c->all.bundles) + c->slots[q] / 64;
+            c->all.words += *of_row != point + 1;
+            c->all.steps += turns;
+            *of_row = point + 1;
         }
-    if (sl_bits_has(c->turning, point)) c->all.turning_words += c->all.words - before;
+    if (sl_bits_has(c->turning, point))
+        c->all.turning_words += c->all.words - before;
+    else
+        c->all.steps = steps;
 }
 
 static sl_status count_bundle(sl_context *context, counting *c, uint32_t bundle, bool metric) {
@@ -102,12 +88,11 @@ static sl_status count_bundle(sl_context *context, counting *c, uint32_t bundle,
     const uint64_t room = SLI_VGA_KEPT_WAYS / all->bundles;
     uint64_t ways = 0;
     SL_TRY(sl_check_cancelled(context));
-    for (uint32_t slot = bundle * 64; slot < all->points && slot < bundle * 64 + 64; slot++) {
-        count_row(c, slot);
-        if (!sl_bits_has(c->turning, c->points[slot])) continue;
+    for (uint32_t p = bundle * 64; p < all->points && p < bundle * 64 + 64; p++) {
+        count_row(c, p);
+        if (!sl_bits_has(c->turning, p)) continue;
         all->turning++;
-        all->steps += count_steps(c, c->points[slot]);
-        if (metric && ways < room) ways += SLI_VGA_WAYS_A_PAIR * count_near(c, c->points[slot]);
+        if (metric && ways < room) ways += SLI_VGA_WAYS_A_PAIR * count_near(c, p);
     }
     ways = ways < room ? ways : room;
     all->ways += ways;
@@ -117,15 +102,14 @@ static sl_status count_bundle(sl_context *context, counting *c, uint32_t bundle,
 
 // --- the stages
 
-/// Tiles, and the sets of a thread.
+/// Tiles, and the sets of a thread. While tiles are cut, it has rows of a bundle, and its tiles.
 static uint64_t visual_bytes(const counts *n, unsigned parts) {
-    const uint64_t a_tile = sizeof(sli_vga_tile) + sizeof(sli_vga_tile_rows);
-    const uint64_t order = 8 * n->points + 16 * n->bundles;
-    const uint64_t searcher = 65 * 8 * SLI_VGA_DEPTHS; // numbers of points by depth
-    const uint64_t local = parts & SL_VGA_LOCAL ? 24 * n->bundles : 0;
-    const uint64_t global = parts & SL_VGA_GLOBAL ? (64 * 8 + 6 * 8) * n->bundles + searcher : 0;
-    const uint64_t making = most(16 * n->points, grown(n->tiles) * a_tile);
-    return order + most(making, n->tiles * a_tile + n->threads * most(local, global));
+    const uint64_t order = 8 * n->points + sizeof(sli_vga_bundle) * n->bundles;
+    const uint64_t searcher = 66 * 8 * SLI_VGA_DEPTHS; // numbers of points by depth
+    const uint64_t second = parts & SL_VGA_LOCAL ? 4 * n->points : 0;
+    const uint64_t global = (64 * 8 + 7 * 8) * n->bundles + searcher; // more than a local one takes
+    const uint64_t cutter = (64 * 8 + 1) * n->bundles + 2 * n->tiles.largest + 1024;
+    return order + second + most(16 * n->points, n->tiles.all + n->threads * most(cutter, global));
 }
 
 /// The graph for searches; `making`: while its words are listed.
@@ -169,45 +153,51 @@ static uint64_t all_bytes(const counts *n, unsigned parts) {
 // --- the answer
 
 static void counting_end(sl_context *context, counting *c) {
-    void *parts[] = {c->slots, c->points, c->path_slots, c->of_row, c->of_bundle, c->near};
+    void *parts[] = {c->slots, c->points, c->starts, c->of_row, c->near};
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) sl_free(context, parts[i]);
 }
 
 static sl_status count_all(sl_context *context, const sl_vga_grid *grid, bool metric, counting *c) {
     c->slots = sl_alloc_array(context, grid->count, sizeof *c->slots);
     c->points = sl_alloc_array(context, grid->count, sizeof *c->points);
-    c->path_slots = sl_alloc_array(context, grid->count, sizeof *c->path_slots);
-    c->of_row = sl_alloc_array(context, 2 * c->graph->words, sizeof *c->of_row);
-    c->of_bundle = sl_alloc_array(context, c->graph->words, sizeof *c->of_bundle);
-    c->near = sl_alloc_array(context, c->graph->words, sizeof *c->near);
-    if (!c->slots || !c->points || !c->path_slots || !c->of_row || !c->of_bundle || !c->near)
-        return SL_NO_MEMORY;
-    SL_TRY(sli_vga_order_paths(context, grid, c->turning, c->path_slots, c->slots, c->points,
+    c->starts = sl_alloc_array(context, grid->count, sizeof *c->starts);
+    c->of_row = sl_alloc_array(context, 2 * c->all.bundles, sizeof *c->of_row);
+    c->near = sl_alloc_array(context, c->all.bundles, sizeof *c->near);
+    if (!c->slots || !c->points || !c->starts || !c->of_row || !c->near) return SL_NO_MEMORY;
+    SL_TRY(sli_vga_order_paths(context, grid, c->turning, c->slots, c->points, c->starts,
                                &(uint32_t){0}));
-    SL_TRY(sli_vga_order(context, grid, c->slots, c->points));
     for (uint32_t bundle = 0; bundle < c->all.bundles; bundle++)
         SL_TRY(count_bundle(context, c, bundle, metric));
     return SL_OK;
 }
 
-sl_status sl_vga_measure_bytes(sl_context *context, const sl_outline *outline,
-                               const sl_vga_grid *grid, const sl_vga_graph *graph,
-                               const sl_vga_options *options, uint64_t *bytes) {
-    const uint64_t threads = options->threads ? options->threads : sl_core_count();
-    const uint64_t bundles = sl_bits_words(grid->count);
+/// What measures of paths need.
+static sl_status count_paths(sl_context *context, const sl_outline *outline,
+                             const sl_vga_grid *grid, const sl_vga_graph *graph, bool metric,
+                             counts *all) {
     sl_bits *turning = NULL;
     SL_TRY(sli_vga_find_turning(context, outline, grid, &turning));
-    counting c = {.graph = graph,
-                  .turning = turning,
-                  .all = {.points = grid->count,
-                          .bundles = bundles,
-                          .squares = (uint64_t)grid->columns * grid->rows,
-                          .sides = (uint64_t)grid->columns + grid->rows,
-                          .threads = threads}};
-    const sl_status status = count_all(context, grid, options->parts & SL_VGA_METRIC, &c);
-    *bytes = sl_vga_graph_bytes(grid->count) + grid->count * sizeof(sl_vga_measures) +
-             all_bytes(&c.all, options->parts);
+    counting c = {.graph = graph, .turning = turning, .all = *all};
+    const sl_status status = count_all(context, grid, metric, &c);
+    *all = c.all;
     counting_end(context, &c);
     sl_free(context, turning);
     return status;
+}
+
+sl_status sl_vga_measure_bytes(sl_context *context, const sl_outline *outline,
+                               const sl_vga_grid *grid, const sl_vga_graph *graph,
+                               const sl_vga_options *options, uint64_t *bytes) {
+    counts all = {.points = grid->count,
+                  .bundles = sl_bits_words(grid->count),
+                  .squares = (uint64_t)grid->columns * grid->rows,
+                  .sides = (uint64_t)grid->columns + grid->rows,
+                  .threads = options->threads ? options->threads : sl_core_count()};
+    if (options->parts & (SL_VGA_LOCAL | SL_VGA_GLOBAL))
+        SL_TRY(sli_vga_tiles_size(context, grid, graph, options->threads, &all.tiles));
+    if (options->parts & (SL_VGA_METRIC | SL_VGA_ANGULAR))
+        SL_TRY(count_paths(context, outline, grid, graph, options->parts & SL_VGA_METRIC, &all));
+    *bytes = sli_vga_graph_size(graph) + grid->count * sizeof(sl_vga_measures) +
+             all_bytes(&all, options->parts);
+    return SL_OK;
 }

@@ -58,14 +58,12 @@ static sl_status pass_unit(sl_context *context, void *all, void *state, size_t u
     const uint32_t first = (uint32_t)unit * POINTS_A_UNIT;
     for (uint32_t p = first; p < grid->count && p < first + POINTS_A_UNIT; p++) {
         const int64_t rows = grid->rows, from = grid->squares[p];
-        const sl_bits *row = sli_vga_row(j->graph, p);
         SL_TRY(sl_check_cancelled(context));
-        for (size_t w = 0; w < j->graph->words; w++) {
-            for (sl_bits rest = row[w]; rest; rest &= rest - 1) {
-                const int64_t to = grid->squares[w * 64 + (size_t)__builtin_ctzll(rest)];
+        for (sl_vga_run run = sl_vga_row(j->graph, p); sl_vga_next(&run);)
+            for (uint32_t q = run.first; q < run.stop; q++) {
+                const int64_t to = grid->squares[q];
                 pass(state, from, rows, to / rows - from / rows, to % rows - from % rows);
             }
-        }
     }
     return SL_OK;
 }

@@ -10,10 +10,12 @@
 ///      8  9 | ...       the whole bundle, that word is the answer. Else the points' own rows are
 ///                       joined, until nothing is missing.
 ///
-/// Cost of a step: the tiles of the level's bundles, and a few rows of some of them. Memory: 528
-/// bytes a tile.
+/// Neighbours often see the same of a tile: then their rows are kept once, as a span. A tile that
+/// is full has one span; of 100,000 points in a hall with pillars, a tile has 20.
+///
+/// Cost of a step: the tiles of the level's bundles, and a few spans of some of them. Memory: 32
+/// bytes a tile, and 8 a span.
 #include "analysis/visibility_graph/tiles.h"
-#include "base/base.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -21,9 +23,11 @@
 void sli_vga_tiles_destroy(sl_context *context, sli_vga_tiles *t) {
     sl_free(context, t->slots);
     sl_free(context, t->points);
-    sl_free(context, t->first);
-    sl_free(context, t->tiles.items);
-    sl_free(context, t->rows.items);
+    for (size_t b = 0; t->of && b < t->bundles; b++) {
+        sl_free(context, t->of[b].tiles);
+        sl_free(context, t->of[b].spans);
+    }
+    sl_free(context, t->of);
     *t = (sli_vga_tiles){0};
 }
 
@@ -68,57 +72,148 @@ sl_status sli_vga_order(sl_context *context, const sl_vga_grid *grid, uint32_t *
 
 // --- the tiles
 
-/// Adds the tiles of a bundle. `place` has by bundle the tile's number in the list, and 0 for none
-/// yet: numbers before `first` are of others.
-static sl_status cut(sl_context *context, const sl_vga_graph *graph, size_t bundle, size_t *place,
-                     sli_vga_tiles *t) {
-    const size_t first = t->tiles.count;
-    for (size_t i = 0; i < 64 && bundle * 64 + i < t->count; i++) {
-        const sl_bits *row = graph->rows + t->points[bundle * 64 + i] * graph->words;
-        for (size_t w = 0; w < graph->words; w++) {
-            for (sl_bits rest = row[w]; rest; rest &= rest - 1) {
-                const uint32_t slot = t->slots[w * 64 + (size_t)__builtin_ctzll(rest)];
-                const uint64_t bit = (uint64_t)1 << slot % 64;
-                size_t at = place[slot / 64];
-                if (at < first || at >= t->tiles.count || t->tiles.items[at].bundle != slot / 64) {
-                    SL_TRY(SL_ARRAY_ROOM(context, &t->tiles, 1));
-                    SL_TRY(SL_ARRAY_ROOM(context, &t->rows, 1));
-                    at = place[slot / 64] = t->tiles.count++;
-                    t->tiles.items[at] = (sli_vga_tile){.bundle = slot / 64};
-                    t->rows.items[t->rows.count++] = (sli_vga_tile_rows){{0}};
-                }
-                t->rows.items[at].rows[i] |= bit;
-                t->tiles.items[at].any |= bit;
-            }
-        }
+typedef struct cutting {
+    const sl_vga_graph *graph;
+    sli_vga_tiles *tiles;
+    uint64_t *bytes; ///< by bundle, where they are counted and not kept
+} cutting;
+
+/// What a thread needs: the rows of a bundle, and its tiles while their number is not known.
+typedef struct cutter {
+    uint64_t (*rows)[64]; ///< by bundle that is seen, and place
+    sl_bits *touched;     ///< bundles that are seen
+    SL_ARRAY(sli_vga_tile) tiles;
+    SL_ARRAY(uint64_t) spans;
+} cutter;
+
+static void end_cutter(sl_context *context, void *all, void *state) {
+    (void)all;
+    cutter *c = state;
+    sl_free(context, c->rows);
+    sl_free(context, c->touched);
+    sl_free(context, c->tiles.items);
+    sl_free(context, c->spans.items);
+    sl_free(context, c);
+}
+
+static sl_status begin_cutter(sl_context *context, void *all, void **state) {
+    const size_t bundles = ((const cutting *)all)->tiles->bundles;
+    cutter *c = sl_alloc_array(context, 1, sizeof *c);
+    if (!c) return SL_NO_MEMORY;
+    c->rows = sl_alloc_array(context, bundles, sizeof *c->rows);
+    c->touched = sl_alloc_array(context, sl_bits_words(bundles), sizeof *c->touched);
+    if (c->rows && c->touched) {
+        *state = c;
+        return SL_OK;
     }
+    end_cutter(context, all, c);
+    return SL_NO_MEMORY;
+}
+
+/// Adds a tile, and its spans.
+static sl_status add_tile(sl_context *context, cutter *c, uint32_t bundle) {
+    const uint64_t *rows = c->rows[bundle];
+    uint64_t before = 0, starts = 0, pairs = 0, any = 0;
+    SL_TRY(SL_ARRAY_ROOM(context, &c->tiles, 1));
+    SL_TRY(SL_ARRAY_ROOM(context, &c->spans, 66));
+    const size_t first = c->spans.count;
+    uint64_t *spans = c->spans.items + first, *next = spans + 2;
+    for (int i = 0; i < 64; i++) {
+        pairs += sli_word_count(rows[i]);
+        any |= rows[i];
+        if (rows[i] == before) continue;
+        starts |= (uint64_t)1 << i;
+        *next++ = before = rows[i];
+    }
+    spans[0] = pairs;
+    spans[1] = starts;
+    c->spans.count = (size_t)(next - c->spans.items);
+    c->tiles.items[c->tiles.count++] = (sli_vga_tile){any, bundle, (uint32_t)first};
     return SL_OK;
 }
 
-sl_status sli_vga_tiles_make(sl_context *context, const sl_vga_grid *grid,
-                             const sl_vga_graph *graph, sli_vga_tiles *out) {
-    sli_vga_tiles t = {.bundles = sl_bits_words(grid->count), .count = grid->count};
-    size_t *place = sl_alloc_array(context, t.bundles, sizeof *place);
-    t.slots = sl_alloc_array(context, grid->count, sizeof *t.slots);
-    t.points = sl_alloc_array(context, grid->count, sizeof *t.points);
-    t.first = sl_alloc_array(context, t.bundles + 1, sizeof *t.first);
-    sl_status status = place && t.slots && t.points && t.first ? SL_OK : SL_NO_MEMORY;
-    if (status == SL_OK) status = sli_vga_order(context, grid, t.slots, t.points);
-    for (size_t b = 0; b < t.bundles && status == SL_OK; b++) {
-        t.first[b] = t.tiles.count;
-        status = sl_check_cancelled(context);
-        if (status == SL_OK) status = cut(context, graph, b, place, &t);
-    }
-    sl_free(context, place);
-    if (status != SL_OK) {
-        sli_vga_tiles_destroy(context, &t);
-        return status;
-    }
-    t.first[t.bundles] = t.tiles.count;
-    sli_shrink(context, &t.tiles.items, &t.tiles.capacity, t.tiles.count, sizeof *t.tiles.items);
-    sli_shrink(context, &t.rows.items, &t.rows.capacity, t.rows.count, sizeof *t.rows.items);
-    *out = t;
+/// A copy of what an array holds, without its spare room.
+static sl_status keep(sl_context *context, const void *items, size_t count, size_t size, void *to) {
+    void *copy = sl_alloc_array(context, count, size);
+    if (!copy) return SL_NO_MEMORY;
+    if (count) memcpy(copy, items, count * size);
+    memcpy(to, &copy, sizeof copy);
     return SL_OK;
+}
+
+static sl_status cut(sl_context *context, void *all, void *state, size_t bundle) {
+    const cutting *j = all;
+    sli_vga_tiles *t = j->tiles;
+    cutter *c = state;
+    c->tiles.count = c->spans.count = 0;
+    for (size_t i = 0; i < 64 && bundle * 64 + i < t->count; i++)
+        for (sl_vga_run run = sl_vga_row(j->graph, t->points[bundle * 64 + i]); sl_vga_next(&run);)
+            for (uint32_t q = run.first; q < run.stop; q++) {
+                const uint32_t slot = t->slots[q];
+                c->rows[slot / 64][i] |= (uint64_t)1 << slot % 64;
+                sl_bits_add(c->touched, slot / 64);
+            }
+    for (size_t w = 0; w < sl_bits_words(t->bundles); w++) {
+        for (sl_bits rest = c->touched[w]; rest; rest &= rest - 1) {
+            const uint32_t seen = (uint32_t)(w * 64) + (uint32_t)__builtin_ctzll(rest);
+            SL_TRY(add_tile(context, c, seen));
+            memset(c->rows[seen], 0, sizeof *c->rows);
+        }
+        c->touched[w] = 0;
+    }
+    if (c->spans.count > UINT32_MAX) return SL_NO_MEMORY;
+    if (j->bytes) {
+        j->bytes[bundle] =
+            c->tiles.count * sizeof *c->tiles.items + c->spans.count * sizeof *c->spans.items;
+        return SL_OK;
+    }
+    sli_vga_bundle *b = &t->of[bundle];
+    b->count = (uint32_t)c->tiles.count;
+    SL_TRY(keep(context, c->tiles.items, c->tiles.count, sizeof *b->tiles, &b->tiles));
+    return keep(context, c->spans.items, c->spans.count, sizeof *b->spans, &b->spans);
+}
+
+/// Orders the points and cuts all bundles. `bytes`: as of cutting.
+static sl_status cut_all(sl_context *context, const sl_vga_grid *grid, const sl_vga_graph *graph,
+                         unsigned threads, uint64_t *bytes, sli_vga_tiles *t) {
+    cutting job = {graph, t, bytes};
+    const sl_work work = {.job = &job, .begin = begin_cutter, .unit = cut, .end = end_cutter};
+    t->bundles = sl_bits_words(grid->count);
+    t->count = grid->count;
+    t->slots = sl_alloc_array(context, grid->count, sizeof *t->slots);
+    t->points = sl_alloc_array(context, grid->count, sizeof *t->points);
+    t->of = sl_alloc_array(context, t->bundles, sizeof *t->of);
+    if (!t->slots || !t->points || !t->of) return SL_NO_MEMORY;
+    SL_TRY(sli_vga_order(context, grid, t->slots, t->points));
+    return sl_work_run(context, &work, t->bundles, threads);
+}
+
+sl_status sli_vga_tiles_make(sl_context *context, const sl_vga_grid *grid,
+                             const sl_vga_graph *graph, unsigned threads, sli_vga_tiles *out) {
+    sli_vga_tiles t = {0};
+    const sl_status status = cut_all(context, grid, graph, threads, NULL, &t);
+    if (status == SL_OK)
+        *out = t;
+    else
+        sli_vga_tiles_destroy(context, &t);
+    return status;
+}
+
+sl_status sli_vga_tiles_size(sl_context *context, const sl_vga_grid *grid,
+                             const sl_vga_graph *graph, unsigned threads, sli_vga_tile_bytes *out) {
+    sli_vga_tiles t = {0};
+    const size_t bundles = sl_bits_words(grid->count);
+    uint64_t *bytes = sl_alloc_array(context, bundles, sizeof *bytes);
+    const sl_status status =
+        bytes ? cut_all(context, grid, graph, threads, bytes, &t) : SL_NO_MEMORY;
+    *out = (sli_vga_tile_bytes){0};
+    for (size_t b = 0; status == SL_OK && b < bundles; b++) {
+        out->all += bytes[b];
+        if (bytes[b] > out->largest) out->largest = bytes[b];
+    }
+    sl_free(context, bytes);
+    sli_vga_tiles_destroy(context, &t);
+    return status;
 }
 
 // --- steps
@@ -127,21 +222,18 @@ void sli_vga_tiles_step(const sli_vga_tiles *t, const sl_bits *level, const sl_b
                         sl_bits *next) {
     for (size_t b = 0; b < t->bundles; b++) {
         if (!level[b]) continue;
-        for (size_t i = t->first[b]; i < t->first[b + 1]; i++) {
-            const sli_vga_tile *tile = &t->tiles.items[i];
+        for (uint32_t i = 0; i < t->of[b].count; i++) {
+            const sli_vga_tile *tile = &t->of[b].tiles[i];
             uint64_t missing = tile->any & ~(seen[tile->bundle] | next[tile->bundle]);
             if (!missing) continue;
             if (level[b] == UINT64_MAX) {
                 next[tile->bundle] |= missing;
                 continue;
             }
-            uint64_t found = 0;
-            for (sl_bits rest = level[b]; rest && missing; rest &= rest - 1) {
-                const uint64_t more = t->rows.items[i].rows[__builtin_ctzll(rest)] & missing;
-                found |= more;
-                missing &= ~more;
-            }
-            next[tile->bundle] |= found;
+            sli_vga_span span = sli_vga_spans(&t->of[b], tile);
+            while (missing && sli_vga_next_span(&span))
+                if (span.places & level[b]) missing &= ~span.seen;
+            next[tile->bundle] |= tile->any & ~(seen[tile->bundle] | missing);
         }
     }
 }

@@ -29,8 +29,6 @@ export class Graph {
   #core
   #at
   #generation
-  #rows
-  #words
   #values = new Map()
 
   /** Use graph(). */
@@ -38,13 +36,11 @@ export class Graph {
     this.#core = core
     this.#at = at
     this.#generation = core.generation
-    const [count, points, columns, rows, squares, bits, words, directed] = core.given(8)
+    const [count, points, columns, rows, squares, directed] = core.given(6)
     const [left, bottom] = core.givenNumbers(2)
     Object.assign(this, { step, count, columns, rows, left, bottom, directed: directed === 1 })
     this.points = new Float64Array(core.memory.buffer, points, 2 * count).slice()
     this.squares = new Uint32Array(core.memory.buffer, squares, count).slice()
-    this.#rows = bits
-    this.#words = words
   }
 
   get #place() {
@@ -96,10 +92,9 @@ export class Graph {
 
   /** Whether one point sees another, by their numbers. */
   sees(a, b) {
-    this.#place
+    const at = this.#place
     for (const point of [a, b]) indexOf('point', point, this.count)
-    const row = new Uint32Array(this.#core.memory.buffer, this.#rows + 4 * this.#words * a, this.#words)
-    return ((row[b >> 5] >>> (b & 31)) & 1) === 1
+    return this.#core.core.graph_sees(at, a, b) === 1
   }
 
   /** Gives back the memory. */

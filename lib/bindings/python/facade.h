@@ -72,6 +72,7 @@ typedef struct slp_level {
     sl_vga_grid grid;
     sl_vga_measures *measures;
     uint32_t *depths;
+    uint32_t *parts, part_count; ///< of the graph (sl_vga_parts)
     sl_effect_explanation explanation;
     sl_route route;     ///< the last way
     sl_cameras cameras; ///< of `coverage`: given, or those of `placement`
@@ -259,10 +260,11 @@ typedef struct slp_vga {
 /// Measures a grid and keeps the result. `from`: points from which steps are counted, if any.
 SLP_API int slp_level_vga(slp_level *level, const slp_vga *options, const double *seeds,
                           size_t seed_count, const double *from, size_t from_count);
-/// The number of points kept. `measures`: rows of sl_vga_measures; `depths`: -1 for
-/// none. Each may be NULL.
+/// The number of points kept. `measures`: rows of sl_vga_measures; `depths`: -1 for none; `parts`:
+/// the parts that no sightline joins, from 1 on, left as they are where there is one. Each may be
+/// NULL.
 SLP_API size_t slp_level_vga_copy(const slp_level *level, double *points, double *measures,
-                                  int64_t *depths);
+                                  int64_t *depths, int64_t *parts);
 
 // --- axial lines and segments: lines.c
 

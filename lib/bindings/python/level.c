@@ -30,6 +30,9 @@ void slp_level_forget(slp_level *level) {
     level->measures = NULL;
     sl_free(context, level->depths);
     level->depths = NULL;
+    sl_free(context, level->parts);
+    level->parts = NULL;
+    level->part_count = 0;
     sl_effect_explanation_destroy(context, &level->explanation);
     sl_route_destroy(context, &level->route);
 }

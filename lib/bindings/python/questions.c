@@ -308,21 +308,17 @@ static sl_point *copy_points(sl_context *context, const double *points, size_t c
     return copy;
 }
 
-static sl_status refuse_graph(sl_context *context, double step, double points) {
-    return sl_fail(context, SL_BAD_ARGUMENT,
-                   "a grid of step %.9g has %.0f points, whose graph needs %.3g GiB, more than "
-                   "half of this machine's memory: choose a larger step",
-                   step, points, points * points / 8 / 1073741824.0);
-}
-
 static sl_status check_area(slp_level *level, double step) {
     const sl_space *space = &level->baked.space;
     double area = 0;
     for (uint32_t c = 0; c < space->cell_count; c++)
         if (space->cells[c].inside) area += sl_space_area(space, c);
     const double points = area / step / step;
-    if (!(step > 0) || points * points / 8 <= (double)sl_machine_memory()) return SL_OK;
-    return refuse_graph(level->base.context, step, points);
+    if (!(step > 0) || points <= SL_VGA_POINTS_MOST) return SL_OK;
+    return sl_fail(level->base.context, SL_BAD_ARGUMENT,
+                   "a grid of step %.9g has about %.3g points, and a graph has up to %u: choose a "
+                   "larger step",
+                   step, points, SL_VGA_POINTS_MOST);
 }
 
 /// Steps from the grid points that are nearest to some points.
@@ -350,6 +346,18 @@ static sl_status find_depths(slp_level *level, const sl_vga_graph *graph, const 
     return status;
 }
 
+/// Refuses a graph that does not fit, before it is made.
+static sl_status check_graph(slp_level *level, const sl_outline *outline, const slp_vga *given) {
+    sl_context *context = level->base.context;
+    uint64_t bytes;
+    SL_TRY(sl_vga_graph_bytes(context, outline, &level->grid, given->range, &bytes));
+    if (bytes <= sl_machine_memory() / 2) return SL_OK;
+    return sl_fail(context, SL_BAD_ARGUMENT,
+                   "a grid of step %.9g has %u points, whose graph needs about %.3g GiB, more than "
+                   "half of this machine's memory: choose a larger step",
+                   given->step, level->grid.count, (double)bytes / 1073741824.0);
+}
+
 /// Refuses measures that do not fit, before they are begun.
 static sl_status check_measures(sl_context *context, const sl_outline *outline,
                                 const sl_vga_grid *grid, const sl_vga_graph *graph,
@@ -375,10 +383,10 @@ static sl_status measure_grid(slp_level *level, const sl_outline *outline, sl_vg
     options.angular_radius = given->angular_radius;
     options.threads = given->threads;
     const uint32_t count = level->grid.count;
-    if (sl_vga_graph_bytes(count) > sl_machine_memory() / 2)
-        return refuse_graph(context, given->step, count);
+    SL_TRY(check_graph(level, outline, given));
+    level->parts = sl_alloc_array(context, count, sizeof *level->parts);
     level->measures = sl_alloc_array(context, count, sizeof *level->measures);
-    if (!level->measures) return SL_NO_MEMORY;
+    if (!level->parts || !level->measures) return SL_NO_MEMORY;
     sl_status status =
         sl_vga_graph_make(context, outline, &level->grid, given->range, given->threads, &graph);
     if (status == SL_OK && given->turned) status = sl_vga_graph_turn(context, &graph);
@@ -388,6 +396,8 @@ static sl_status measure_grid(slp_level *level, const sl_outline *outline, sl_vg
         status = sl_vga_measure_walked(context, outline, &level->grid, &graph, steps, &options,
                                        level->measures);
     if (status == SL_OK && from_count) status = find_depths(level, &graph, from, from_count);
+    if (status == SL_OK)
+        status = sl_vga_parts(context, &graph, NULL, 0, level->parts, &level->part_count);
     sl_vga_graph_destroy(context, &graph);
     return status;
 }
@@ -429,8 +439,8 @@ int slp_level_vga(slp_level *level, const slp_vga *given, const double *seeds, s
     return status;
 }
 
-size_t slp_level_vga_copy(const slp_level *level, double *points, double *measures,
-                          int64_t *depths) {
+size_t slp_level_vga_copy(const slp_level *level, double *points, double *measures, int64_t *depths,
+                          int64_t *parts) {
     for (uint32_t p = 0; p < level->grid.count; p++) {
         if (points) {
             points[2 * p] = level->grid.points[p].x;
@@ -441,6 +451,7 @@ size_t slp_level_vga_copy(const slp_level *level, double *points, double *measur
                    sizeof level->measures[p]);
         if (depths && level->depths)
             depths[p] = level->depths[p] == UINT32_MAX ? -1 : (int64_t)level->depths[p];
+        if (parts && level->part_count > 1) parts[p] = level->parts[p] + 1;
     }
     return level->grid.count;
 }

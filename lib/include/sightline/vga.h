@@ -40,7 +40,7 @@ typedef struct sl_vga_grid {
 /// which are neither on a wall nor in solid ground. Points lie at multiples of the step, as
 /// depthmapX puts them. A step through one-way glass is free from where it is seen through.
 /// SL_BAD_ARGUMENT for a step that is not over 0, for a seed whose point is not inside the bounds,
-/// and for more than 2^31 squares.
+/// for more than 2^31 squares and for more than SL_VGA_POINTS_MOST points.
 SL_API sl_status sl_vga_grid_make(sl_context *context, const sl_outline *outline, double step,
                                   const sl_point *seeds, size_t seed_count, sl_vga_grid *out);
 SL_API void sl_vga_grid_destroy(sl_context *context, sl_vga_grid *grid); ///< and zeroes it
@@ -53,21 +53,63 @@ SL_API sl_status sl_vga_grid_border(sl_context *context, const sl_vga_grid *grid
 /// The grid's point nearest to a place, if the place lies in its square; UINT32_MAX for none.
 SL_API uint32_t sl_vga_grid_find(const sl_vga_grid *grid, sl_point place);
 
-/// Which points see each other: a square matrix of bits, row by row. No point sees itself. Zero it
-/// to start.
+/// Which points see each other. No point sees itself. A row lists the points that one point sees,
+/// as runs of consecutive numbers: a column of the grid is seen in few pieces. A run is two
+/// numbers, each in groups of 7 bits, the lowest first: its length, and the points between it and
+/// the run before. Length 0 ends a row. Zero it to start.
 typedef struct sl_vga_graph {
-    uint32_t count; ///< of points
-    size_t words;   ///< of a row, 64 bits each
-    uint64_t *rows; ///< count * words
-    uint64_t edges; ///< ordered pairs that see each other
+    uint32_t count;  ///< of points
+    bool directed;   ///< through one-way glass, a point may see one that does not see it
+    uint64_t edges;  ///< ordered pairs that see each other
+    uint8_t **rows;  ///< by 64 points: their rows, one after the other
+    uint32_t *first; ///< by point: where its row begins there
 } sl_vga_graph;
 
-/// The bytes of a graph with so many points, for those who ask before it is made.
-SL_API uint64_t sl_vga_graph_bytes(uint32_t points);
+/// A run of a row: the points from `first` up to `stop`, without it.
+typedef struct sl_vga_run {
+    const uint8_t *next;
+    uint32_t first, stop;
+} sl_vga_run;
+
+/// The row of a point, before its first run.
+static inline sl_vga_run sl_vga_row(const sl_vga_graph *graph, uint32_t point) {
+    const sl_vga_run run = {graph->rows[point / 64] + graph->first[point], 0, 0};
+    return run;
+}
+
+/// Takes the next run; false at the end of the row.
+///
+///     for (sl_vga_run run = sl_vga_row(graph, point); sl_vga_next(&run);)
+///         for (uint32_t seen = run.first; seen < run.stop; seen++) ...
+static inline bool sl_vga_next(sl_vga_run *run) {
+    uint32_t numbers[2] = {0, 0};
+    for (int i = 0; i < 2; i++) {
+        for (int shift = 0;; shift += 7) {
+            const uint8_t byte = *run->next++;
+            numbers[i] |= (uint32_t)(byte & 127) << shift;
+            if (byte < 128) break;
+        }
+        if (!numbers[0]) return false;
+    }
+    run->first = run->stop + numbers[1];
+    run->stop = run->first + numbers[0];
+    return true;
+}
+
+/// Whether a point sees another. Cost: O(runs of its row).
+SL_API bool sl_vga_sees(const sl_vga_graph *graph, uint32_t point, uint32_t other);
+
+/// The most points of a grid.
+#define SL_VGA_POINTS_MOST 67108864u
+
+/// About the bytes of the graph of a grid, for those who ask before it is made: by the rows of up
+/// to 256 points. `range` as below.
+SL_API sl_status sl_vga_graph_bytes(sl_context *context, const sl_outline *outline,
+                                    const sl_vga_grid *grid, double range, uint64_t *bytes);
 
 /// Connects the points of a grid that see each other. `range`: no farther than this; 0 for no
 /// limit. `threads`: 0 for one per core; the graph is the same for any number. SL_NO_MEMORY. Cost:
-/// for each point, the rooms that it sees and the points in them. With one-way glass
+/// for each point, the rooms that it sees and the columns of points in them. With one-way glass
 /// row p has the points that p sees, and measures follow those.
 SL_API sl_status sl_vga_graph_make(sl_context *context, const sl_outline *outline,
                                    const sl_vga_grid *grid, double range, unsigned threads,
@@ -191,7 +233,7 @@ SL_API sl_status sl_vga_depth_walked(sl_context *context, const sl_outline *outl
                                      size_t from_count, unsigned threads, sl_vga_depths *depths);
 
 /// The number of points in the part of each point: all that steps join to it, in either direction,
-/// and links. `sizes` has an entry for each point. Cost: O(points^2 / 64).
+/// and links. `sizes` has an entry for each point. Cost: O(runs).
 SL_API sl_status sl_vga_part_sizes(sl_context *context, const sl_vga_graph *graph,
                                    const sl_vga_link *links, size_t link_count, uint32_t *sizes);
 

@@ -113,23 +113,23 @@ static sl_status make(graph *g, double step, double range, double most) {
 }
 
 /// Makes the graph, of no more than `most` points. A range below 0 is the map's own. integers:
-/// points, their place, columns, rows, the place of the points' squares, the place of the rows and
-/// the 32-bit words of each, whether there is one-way glass; numbers: the first column and row.
+/// points, their place, columns, rows, the place of the points' squares, whether there is one-way
+/// glass; numbers: the first column and row.
 SLI_EXPORT(int, graph_make, graph *g, double step, double range, double most) {
     if (!sli_done(make(g, step, range, most))) return (int)sli_module.status;
     const sl_vga_grid *grid = &g->grid;
-    const uint32_t table[] = {grid->count,
-                              (uint32_t)(uintptr_t)grid->points,
-                              grid->columns,
-                              grid->rows,
-                              (uint32_t)(uintptr_t)grid->squares,
-                              (uint32_t)(uintptr_t)g->sights.rows,
-                              (uint32_t)(2 * g->sights.words),
-                              g->baked.map.oneway_count > 0};
+    const uint32_t table[] = {
+        grid->count, (uint32_t)(uintptr_t)grid->points,  grid->columns,
+        grid->rows,  (uint32_t)(uintptr_t)grid->squares, g->baked.map.oneway_count > 0};
     memcpy(sli_module.integers, table, sizeof table);
     sli_module.numbers[0] = (double)grid->left;
     sli_module.numbers[1] = (double)grid->bottom;
     return SL_OK;
+}
+
+/// Whether a point sees another.
+SLI_EXPORT(int, graph_sees, const graph *g, uint32_t a, uint32_t b) {
+    return sl_vga_sees(&g->sights, a, b);
 }
 
 // --- measures

@@ -127,7 +127,7 @@ _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     "level_distances": (_int, [_handle, _doubles, _double, _double, _doubles, _doubles]),
     "level_distances_to": (_int, [_handle, _doubles, _double, _double, _doubles, _size, _doubles, _doubles]),
     "level_vga": (_int, [_handle, ctypes.POINTER(Vga), _doubles, _size, _doubles, _size]),
-    "level_vga_copy": (_size, [_handle, _any, _any, _any]),
+    "level_vga_copy": (_size, [_handle, _any, _any, _any, _any]),
     "level_axial": (_int, [_handle, _int, _uint32, _uint32]),
     "plan_segments": (_int, [_handle, _double, _double, _uint32]),
     "lines_copy": (_size, [_handle, _any, _any]),

@@ -480,7 +480,7 @@ class Level(Viewpoints, Sets, Ways, Axial, drawing.InNotebooks, MapHandle):
     def _vga(self, step: float, seeds: Optional[ArrayLike], limit: float, parts: int, radius: int,
              metric_radius: float, angular_radius: float, threads: int,
              depth_from: Optional[ArrayLike],
-             seen_from: bool) -> tuple[Floats, Floats, Integers]:
+             seen_from: bool) -> tuple[Floats, Floats, Integers, Integers]:
         options = Vga(as_number(step, "the grid's step", over=0), as_number(limit, "range", least=0),
                       as_number(metric_radius, "metric_radius", least=0),
                       as_number(angular_radius, "angular_radius", least=0), parts,
@@ -492,11 +492,13 @@ class Level(Viewpoints, Sets, Ways, Axial, drawing.InNotebooks, MapHandle):
         with self._lock:
             self._ask_long(call.level_vga, ctypes.byref(options), at, len(at), start, len(start))
             pointer = self._open_pointer()
-            count = call.level_vga_copy(pointer, None, None, None)
+            count = call.level_vga_copy(pointer, None, None, None, None)
             points, depths = np.empty((count, 2)), np.empty(count, np.int64)
+            parts = np.ones(count, np.int64)
             measures = np.full((count, len(self._measures("vga"))), np.nan)
-            call.level_vga_copy(pointer, address(points), address(measures), address(depths))
-        return points, measures, depths
+            call.level_vga_copy(pointer, address(points), address(measures), address(depths),
+                                address(parts))
+        return points, measures, depths, parts
 
     def grid(self, step: float, *, seeds: Optional[ArrayLike] = None) -> Floats:
         """The points of a grid that are inside, of shape (n, 2): multiples of `step`.
@@ -515,7 +517,8 @@ class Level(Viewpoints, Sets, Ways, Axial, drawing.InNotebooks, MapHandle):
         Which points see each other is exact. Doors count as they are. With one-way glass, values
         are of what a point sees. Maps with mirrors are refused. Metric and angular paths turn only
         at points beside walls, and add up in single precision, as those of depthmapX. NaN: not
-        defined.
+        defined. Where no sightline joins all of the grid, the column `part` numbers its parts from
+        the largest, 1, on.
 
         Parameters
         ----------
@@ -547,8 +550,8 @@ class Level(Viewpoints, Sets, Ways, Axial, drawing.InNotebooks, MapHandle):
                 raise ValueError(f"there is no group {part!r}; groups: {', '.join(groups)}")
         bits = sum({measure.part for measure in of_graph if measure.group in chosen})
         limit = self.range if range is None else range
-        points, found, depths = self._vga(grid, seeds, limit, bits, radius, metric_radius,
-                                          angular_radius, threads, depth_from, seen_from)
+        points, found, depths, parts = self._vga(grid, seeds, limit, bits, radius, metric_radius,
+                                                 angular_radius, threads, depth_from, seen_from)
         columns: dict[str, NDArray[Any]] = {"x": points[:, 0].copy(), "y": points[:, 1].copy()}
         for i, measure in enumerate(of_graph):
             if measure.group in chosen:
@@ -558,6 +561,8 @@ class Level(Viewpoints, Sets, Ways, Axial, drawing.InNotebooks, MapHandle):
         if "isovist" in chosen:
             more = self.isovists(points, threads=threads, arrays=True)
             columns.update({name: more[name] for name in more if name not in ("x", "y")})
+        if (parts > 1).any():
+            columns["part"] = parts
         half = np.array([(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)]) * grid
         squares = list(points[:, None, :] + half) if geometry else None
         return tables.frame(columns, squares, "polygon", self.crs, arrays, {"grid": grid})

@@ -91,6 +91,16 @@ class Tables(unittest.TestCase):
         np.testing.assert_array_equal(self.level.grid(0.5)[:, 0], table["x"])
 
 
+    def test_parts_are_numbered_from_the_largest(self):
+        self.assertNotIn("part", self.level.vga(0.5, arrays=True))
+        rooms = [(0, 0, 9, 0), (9, 0, 9, 4), (9, 4, 0, 4), (0, 4, 0, 0), (3, 0, 3, 4)]
+        for options in ({}, {"measures": (), "depth_from": [(1, 1)]}):
+            table = sightline.Plan.from_segments(rooms).bake().vga(0.5, arrays=True, **options)
+            np.testing.assert_array_equal(table["part"], np.where(table["x"] < 3, 2, 1))
+        self.assertNotIn("part", sightline.Plan.from_segments(rooms).bake().vga(
+            0.5, measures=(), arrays=True))
+
+
 class Plans(unittest.TestCase):
     def test_polygons_with_holes_are_solid_but_for_the_holes(self):
         shapely = need("shapely.geometry")
