@@ -10,7 +10,9 @@ import { cpSync, existsSync, mkdirSync, readdirSync, readFileSync, rmSync, write
 import { basename, dirname, join, posix, relative } from 'node:path';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 import { anchorOf, anchorsOf, titleOf, toHtml } from './markdown.mjs';
+import { page, policy } from './page.mjs';
 import { readReferences, referenceLine } from './references.mjs';
+import { writeSlides } from './slides.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url)), root = join(here, '../..');
 
@@ -53,33 +55,6 @@ function writeGallery(site) {
     writeFileSync(join(site, 'maps/index.json'), `${JSON.stringify(list, null, 1)}\n`);
 }
 
-/** A page in a folder of the site; `chapter` is the name of a chapter of the course. */
-const page = (title, body, { chapter = '', isCourse = Boolean(chapter), isSecret = false } = {}) => `<!doctype html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">${isSecret ? '\n<meta name="robots" content="noindex">' : ''}
-<meta http-equiv="Content-Security-Policy" content="default-src 'self'${chapter ? "; script-src 'self' 'wasm-unsafe-eval'" : ''}">
-<title>${title} - Sightline</title>
-<link rel="icon" href="../icon.svg">
-<link rel="stylesheet" href="../style.css">${isCourse ? '\n<link rel="stylesheet" href="../course/course.css">' : ''}${chapter ? '\n<script type="module" src="../course/course.js"></script>' : ''}
-</head>
-<body${chapter ? ` data-chapter="${chapter}"` : ''}>
-<header><nav aria-label="Pages">
-<a href="../index.html">Playground</a>
-<a href="../course/index.html">Course</a>
-<a href="../pages/floor-plans.html">Floor plans</a>
-<a href="../pages/game-maps.html">Game maps</a>
-<a href="../pages/teaching.html">Teaching</a>
-<a href="../pages/embedding.html">Embedding</a>
-</nav></header>
-<main class="page">
-${body}
-</main>
-</body>
-</html>
-`;
-
 /** Links lead to pages of the site; those to sources stay words. Pictures are copied. */
 function writePages(site) {
     mkdirSync(join(site, 'pages'), { recursive: true });
@@ -111,19 +86,20 @@ function listTerms(text) {
  * The course: index.md lists the chapters, and each has its text and a module of one name. Lines such as
  * {figure: eye}, {exercise: eye} and {picture: eye} are places that the module fills. {value: edges} is a number or words
  * that `values` of the module computes by the library, here. {references: KEY, KEY} lists sources of references.bib.
- * {solutions} is a place for each chapter, {chapter: 3} names one and links to it if it is listed, and {terms} lists the
+ * {show: ...} is a figure of a slide (slides.mjs). {solutions} is a place for each chapter, {chapter: 3} names one and links to it if it is listed, and {terms} lists the
  * headings of level 3. A link, an anchor, a value or a source that leads nowhere ends the build.
  */
 async function writeCourse(site, folders) {
     const course = join(here, 'course');
-    const chapters = [...readFileSync(join(course, 'index.md'), 'utf8').matchAll(/^\| \[([^\]]+)\]\(([\w-]+)\.md\)/gm)]
-        .map(([, title, name]) => ({ title, name }));
+    const chapters = [...readFileSync(join(course, 'index.md'), 'utf8').matchAll(/^\| \[([^\]]+)\]\(([\w-]+)\.md\) \| (.*) \|$/gm)]
+        .map(([, title, name, about]) => ({ title, name, about: toHtml(about).replace(/<\/?p>/g, '') }));
     const sources = readReferences(readFileSync(join(course, 'references.bib'), 'utf8')), used = new Set();
-    const { Lab } = await import(pathToFileURL(join(site, 'course/lab.js')).href), lab = await Lab.open();
+    const load = (folder, name) => import(pathToFileURL(join(site, folder, `${name}.js`)).href);
+    const { Lab } = await load('course', 'lab'), lab = await Lab.open();
     for (const folder of folders)
         for (const file of readdirSync(join(here, folder)).filter((name) => name.endsWith('.md'))) {
             const name = file.slice(0, -3), isChapter = existsSync(join(here, folder, `${name}.js`));
-            const module = isChapter ? await import(pathToFileURL(join(site, folder, `${name}.js`)).href) : {};
+            const module = isChapter ? await load(folder, name) : {};
             const fail = (what) => { throw new Error(`${folder}/${file}: ${what}`); };
             const raw = readFileSync(join(here, folder, file), 'utf8'), values = new Map();
             for (const [, value] of raw.matchAll(/\{value: ([\w-]+)\}/g)) values.set(value, (await module.values?.[value]?.(lab)) ?? fail(`no value ${value}`));
@@ -138,7 +114,8 @@ async function writeCourse(site, folders) {
                     return `- ${referenceLine(sources.get(key) ?? fail(`no source ${key}`))}`;
                 }).join('\n') + '\n\nAll sources of the course: [BibTeX](references.bib).');
             const link = linkOf(folder, file, fail);
-            const body = fillPlaces(toHtml(text, link), text, chapters) + (folder === 'course' ? neighbours(chapters, name) : '');
+            const html = toHtml(text, link), body = html.includes('<p>{show: ') ? await writeSlides(html, chapters, (chapter) => load('course', chapter), fail)
+                : fillPlaces(html, text, chapters) + (folder === 'course' ? neighbours(chapters, name) : '');
             const chapter = isChapter ? (folder === 'course' ? name : `../${folder}/${name}`) : '';
             writeFileSync(join(site, folder, `${name}.html`), page(titleOf(text), body, { chapter, isCourse: true, isSecret: folder !== 'course' }));
             rmSync(join(site, folder, file));
@@ -195,3 +172,5 @@ writeGallery(site);
 writePages(site);
 await writeCourse(site, ['course', ...(has('--teachers') ? ['teachers'] : [])]);
 if (has('--glpk')) for (const folder of [join(here, 'glpk'), valueOf('--glpk')]) cpSync(folder, join(site, 'glpk'), { recursive: true });
+for (const path of ['index.html', 'glpk/index.html'].map((name) => join(site, name)))
+    if (existsSync(path)) writeFileSync(path, readFileSync(path, 'utf8').replace('{policy}', policy));

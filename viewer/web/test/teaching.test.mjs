@@ -10,6 +10,7 @@ import { dirname, join } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import { inflateSync } from 'node:zlib';
+import { plans } from '../course/plans.js';
 import { launch, programOf, serve } from './site.mjs';
 
 const { SITE, SHOTS, TOOLS, QUICK } = process.env, hasChromium = Boolean(programOf('chromium'));
@@ -57,6 +58,16 @@ describe('handouts', { skip: hasChromium ? false : 'Chromium is missing' }, () =
             assert.equal(pdf.images, 0, 'a figure is a picture of pixels');
             assert.ok(pdf.strokes > 80, `only ${pdf.strokes} lines and areas`);
         }
+    });
+
+    test('a lecture is a PDF with a page for each slide, and its figures are vectors', async () => {
+        const { status, words } = await run('--site', SITE, '--out', folder, '--only', 'lecture-45', '--paper', 'a4');
+        assert.equal(status, 0, words);
+        const pdf = readPdf(join(folder, 'teachers/lecture-45.pdf')), { 45: [chapters] } = plans;
+        assert.deepEqual([pdf.isWhole, pdf.pages, pdf.images], [true, 6 * Object.keys(chapters).length, 0]);
+        for (const [w, h] of pdf.sizes) assert.ok(Math.abs(w - 960) < 1.5 && Math.abs(h - 540) < 1.5, `${w} x ${h}`);
+        assert.ok(pdf.strokes > 200, `only ${pdf.strokes} lines and areas`);
+        rmSync(join(folder, 'teachers'), { recursive: true });
     });
 
     test('what it cannot do it says, and it writes nothing', async () => {
