@@ -4,7 +4,8 @@
 # --package DIR stops after the package. --handouts DIR writes the course as PDF, for paper of A4 and of Letter size.
 # --site DIR --base ADDRESS writes the site as it is published at ADDRESS: with a sitemap, a picture for links, a page for
 # missing addresses, and a worker that keeps the site for use without a network. DIR works at any path.
-# --teachers adds teachers/solutions.html, the answers of all exercises, to which no page leads.
+# --teachers adds teachers/solutions.html, the answers of all exercises, and teachers/gift.html, questions for Moodle. No page
+# leads there.
 # --glpk adds a page of GLPK's answers to the site. It loads GLPK's sources by apt-get, and the page falls under the GPL 3.
 # Without a folder it serves the site of build/web, which it builds first.
 set -eu
@@ -48,7 +49,7 @@ while [ $# -gt 0 ]; do
     --glpk) glpk=yes ;;
     --teachers) teachers=yes ;;
     -h | --help)
-        sed -n '2,9s/^# //p' "$0"
+        sed -n '2,10s/^# //p' "$0"
         echo "$usage"
         exit 0
         ;;

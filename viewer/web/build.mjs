@@ -2,7 +2,7 @@
  * Makes the site: node viewer/web/build.mjs --package PACKAGE --out SITE [--glpk FOLDER] [--teachers]
  *
  * FOLDER holds glpk.wasm, the licence and the sources of GLPK: with them, the site has a page of GLPK's answers.
- * With --teachers it has teachers/solutions.html as well, to which no page leads.
+ * With --teachers it has the pages of teachers/ as well, to which no page leads.
  * PACKAGE is the built npm package, SITE the folder to write. The site is plain files: this folder,
  * the package, the maps of maps/, the course, and a page from each document for an audience.
  */
@@ -86,8 +86,8 @@ function listTerms(text) {
  * The course: index.md lists the chapters, and each has its text and a module of one name. Lines such as
  * {figure: eye}, {exercise: eye} and {picture: eye} are places that the module fills. {value: edges} is a number or words
  * that `values` of the module computes by the library, here. {references: KEY, KEY} lists sources of references.bib.
- * {show: ...} is a figure of a slide (slides.mjs). {solutions} is a place for each chapter, {chapter: 3} names one and links to it if it is listed, and {terms} lists the
- * headings of level 3. A link, an anchor, a value or a source that leads nowhere ends the build.
+ * {show: ...} is a figure of a slide (slides.mjs). {solutions} is a place for each chapter, {questions} lists those with questions, {chapter: 3} names one and links to it if it is listed, and
+ * {terms} lists the headings of level 3. A link, an anchor, a value or a source that leads nowhere ends the build.
  */
 async function writeCourse(site, folders) {
     const course = join(here, 'course');
@@ -141,6 +141,8 @@ const fillPlaces = (html, text, chapters) => html
     .replace(/<p>\{picture: ([\w-]+)\}<\/p>/g, '<figure data-picture="$1"></figure>')
     .replace(/<h3 [^]*?<\/figure>\n<p>[^]*?<\/p>/g, (entry) => (entry.includes('data-picture') ? `<div class="term">${entry}</div>` : entry))
     .replace('<p>{terms}</p>', () => listTerms(text))
+    .replace('<p>{questions}</p>', () => `<ul data-questions>\n${chapters.filter(({ name }) => existsSync(join(here, `course/questions/${name}.js`)))
+        .map(({ title, name }) => `<li><a href="../course/questions.html?chapter=${name}">${title}</a></li>`).join('\n')}\n</ul>`)
     .replace('<p>{solutions}</p>', () => chapters.map(({ title, name }) =>
         `<h2 id="${name}">${title}</h2>\n<section data-solutions="${name}" aria-labelledby="${name}"></section>`).join('\n'));
 
@@ -149,7 +151,8 @@ function neighbours(chapters, name) {
     const at = chapters.findIndex((chapter) => chapter.name === name);
     if (at < 0) return '';
     const link = (chapter, rel, mark) => (chapter ? `<a rel="${rel}" href="${chapter.name}.html">${mark} ${chapter.title}</a>` : '');
-    const links = [link(chapters[at - 1], 'prev', 'Back:'), '<a href="index.html">All chapters</a>', '<a href="answers.html">My answers</a>', link(chapters[at + 1], 'next', 'Next:')];
+    const questions = existsSync(join(here, `course/questions/${name}.js`)) ? `<a href="questions.html?chapter=${name}">Ten questions</a>` : '';
+    const links = [link(chapters[at - 1], 'prev', 'Back:'), '<a href="index.html">All chapters</a>', questions, '<a href="answers.html">My answers</a>', link(chapters[at + 1], 'next', 'Next:')];
     return `\n<nav class="chapters" aria-label="Chapters">\n${links.filter(Boolean).join('\n')}\n</nav>`;
 }
 

@@ -7,7 +7,7 @@ import { lectureMode } from './lecture-mode.js';
 const main = document.querySelector('main');
 
 async function begin() {
-    const name = document.body.dataset.chapter, needsLab = main.querySelector('[data-figure], [data-exercise], [data-picture], [data-show], [data-solutions]');
+    const name = document.body.dataset.chapter, needsLab = main.querySelector('[data-figure], [data-exercise], [data-picture], [data-show], [data-questions], [data-solutions]');
     const [lab, chapter] = await Promise.all([needsLab && Lab.open(), import(`./${name}.js`)]);
     for (const host of main.querySelectorAll('figure[data-figure]')) new Figure(host, chapter.figures[host.dataset.figure], lab);
     for (const host of main.querySelectorAll('div[data-exercise]'))

@@ -12,11 +12,9 @@
 import { codePart } from './code-lab.js';
 import { Figure, element } from './figure.js';
 import { loadProgress, recordAnswer } from './progress.js';
+import { hash } from './questions/chance.js';
 
 let count = 0;
-
-/** A number that depends on a text alone (FNV-1a, 32 bits). */
-const hash = (text) => [...text].reduce((sum, c) => Math.imul(sum ^ c.codePointAt(0), 0x01000193) >>> 0, 0x811c9dc5);
 
 /** Options in the order of the page: shuffled, and the same each time. */
 const shuffled = (options) => options.map(([text], i) => ({ text, i })).sort((a, b) => hash(a.text) - hash(b.text));

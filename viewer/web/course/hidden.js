@@ -8,7 +8,7 @@ import { drawWalls, house, itemsOf } from './maps.js';
 const box = [0, 0, 18, 12], houseItems = itemsOf(house.text);
 
 /** Corners of the convex hull, counter-clockwise (Andrew's monotone chain). @param {number[][]} points */
-function hull(points) {
+export function hull(points) {
     const sorted = [...points].sort((p, q) => p[0] - q[0] || p[1] - q[1]);
     const half = (list) => {
         const chain = [];

@@ -230,7 +230,7 @@ for (const name of wanted)
             await first.page.click('#lecture');
             assert.ok(await first.page.locator('.lecture-bar').getByText('Back').isDisabled());
             await first.page.locator('.lecture-bar').getByText('Leave').click();
-            assert.deepEqual(await first.page.locator('nav.chapters a').allTextContents(), ['All chapters', 'My answers', 'Next: 2. Rooms and doors']);
+            assert.deepEqual(await first.page.locator('nav.chapters a').allTextContents(), ['All chapters', 'Ten questions', 'My answers', 'Next: 2. Rooms and doors']);
             await first.close();
         });
 

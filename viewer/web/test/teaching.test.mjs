@@ -171,8 +171,9 @@ describe('pages for teachers', { skip: hasChromium ? false : 'Chromium is missin
         for (const folder of ['course', 'pages'])
             for (const file of readdirSync(join(SITE, folder)).filter((name) => name.endsWith('.html'))) {
                 const here = join(SITE, folder, file);
-                for (const [, path, anchor] of readFileSync(here, 'utf8').matchAll(/(?:href|src)="([^"#]*)(?:#([^"]*))?"/g)) {
+                for (const [, path, ask, anchor] of readFileSync(here, 'utf8').matchAll(/(?:href|src)="([^"#?]*)(?:\?([^"#]*))?(?:#([^"]*))?"/g)) {
                     if (/^[a-z]+:/.test(path)) continue;
+                    if (ask) assert.ok(existsSync(join(SITE, `course/questions/${/^chapter=(\w+)$/.exec(ask)?.[1]}.js`)), `${folder}/${file}: ${path}?${ask}`);
                     const target = path ? join(SITE, folder, path) : here;
                     assert.ok(existsSync(target), `${folder}/${file}: ${path}`);
                     if (anchor) assert.ok(readFileSync(target, 'utf8').includes(`id="${anchor}"`), `${folder}/${file}: ${path}#${anchor}`);
