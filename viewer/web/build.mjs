@@ -9,6 +9,7 @@
 import { cpSync, existsSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { basename, dirname, join, posix, relative } from 'node:path';
 import { fileURLToPath, pathToFileURL } from 'node:url';
+import { languages, writeLanguages } from './language/pages.mjs';
 import { anchorOf, anchorsOf, titleOf, toHtml } from './markdown.mjs';
 import { page, policy } from './page.mjs';
 import { readReferences, referenceLine } from './references.mjs';
@@ -28,7 +29,7 @@ const documents = {
     'lib/GLOSSARY.md': 'glossary',
 };
 
-const parts = ['index.html', 'style.css', 'icon.svg', 'core', 'formats', 'parts', 'playground', 'course'];
+const parts = ['index.html', 'style.css', 'icon.svg', 'core', 'formats', 'language/language.js', 'parts', 'playground', 'course'];
 
 /** Names in the gallery: the first comment of a map says what it shows. */
 function titleOfMap(path, text) {
@@ -166,7 +167,7 @@ if (!existsSync(join(library, 'sightline.js'))) {
     console.error(`build.mjs: there is no built package in ${library}`);
     process.exit(2);
 }
-for (const part of [...parts, 'package', 'maps', 'pages', 'glpk', 'teachers']) rmSync(join(site, part), { recursive: true, force: true });
+for (const part of [...parts, ...Object.keys(languages), 'language', 'package', 'maps', 'pages', 'glpk', 'teachers']) rmSync(join(site, part), { recursive: true, force: true });
 mkdirSync(site, { recursive: true });
 for (const part of [...parts, ...(has('--teachers') ? ['teachers'] : [])])
     if (existsSync(join(here, part))) cpSync(join(here, part), join(site, part), { recursive: true });
@@ -177,3 +178,4 @@ await writeCourse(site, ['course', ...(has('--teachers') ? ['teachers'] : [])]);
 if (has('--glpk')) for (const folder of [join(here, 'glpk'), valueOf('--glpk')]) cpSync(folder, join(site, 'glpk'), { recursive: true });
 for (const path of ['index.html', 'glpk/index.html'].map((name) => join(site, name)))
     if (existsSync(path)) writeFileSync(path, readFileSync(path, 'utf8').replace('{policy}', policy));
+writeLanguages(site);

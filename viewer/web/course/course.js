@@ -1,4 +1,5 @@
 /** A chapter, or a page beside the chapters: puts figures, exercises and more where its text has places for them. */
+import { t } from '../language/language.js';
 import { exerciseForm } from './exercise.js';
 import { Figure } from './figure.js';
 import { Lab } from './lab.js';
@@ -20,7 +21,7 @@ async function begin() {
 begin().catch((error) => {
     const text = document.createElement('p');
     text.setAttribute('role', 'alert');
-    text.textContent = `The figures cannot be shown: ${error.message}`;
+    text.textContent = t`The figures cannot be shown: ${error.message}`;
     main.prepend(text);
     console.error(error);
 });

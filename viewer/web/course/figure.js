@@ -8,6 +8,7 @@
  * `press(state, place, camera)` is called for a press of the mouse or a finger, before handles move; it may set controls.
  * `start(figure)` is called once: work beside the page calls `figure.change()` when it has something new.
  */
+import { t } from '../language/language.js';
 import { Camera } from '../parts/camera.js';
 import { watchTones } from '../parts/tones.js';
 import { mapField } from './own.js';
@@ -56,7 +57,7 @@ const TAP = 10;
 
 /** The words below a picture: sentences that say what to do are left out of handouts. @param {string} about */
 const captionOf = (about) => about.split(/(?<=[.!?]) (?=[A-Z])/).flatMap((sentence) => [' ',
-    /\b(drag|sliders?|press|choose)\b/i.test(sentence) ? element('span', { className: 'keys' }, sentence) : sentence]);
+    /\b(drag|sliders?|press|choose|zieh\w*|Regler|wähl\w*|drück\w*)\b/i.test(sentence) ? element('span', { className: 'keys' }, sentence) : sentence]);
 
 /** In lecture mode lines and letters are up to LARGER times as large, as long as LEAST_WIDTH of their own pixels fit across. */
 const [LARGER, LEAST_WIDTH] = [2, 360];
@@ -91,13 +92,13 @@ export class Figure {
 
     build(host) {
         const { spec } = this, id = `figure-${++count}`;
-        const keys = spec.handles.length > 1 ? ' Arrows move the chosen dot; N chooses the next one.'
-            : spec.handles.length ? ' Arrows move the dot.' : '';
-        this.canvas = element('canvas', { tabIndex: 0, role: 'application', 'aria-label': spec.title, 'aria-describedby': `${id}-about ${id}-says` });
+        const keys = spec.handles.length > 1 ? t(' Arrows move the chosen dot; N chooses the next one.')
+            : spec.handles.length ? t(' Arrows move the dot.') : '';
+        this.canvas = element('canvas', { tabIndex: 0, role: 'application', 'aria-label': t(spec.title), 'aria-describedby': `${id}-about ${id}-says` });
         this.still = element('div', { className: 'still' });
         this.beside = element('div', { className: spec.wide ? 'beside wide' : 'beside' });
         this.says = element('p', { className: 'says', id: `${id}-says`, role: 'status' });
-        const caption = element('figcaption', { id: `${id}-about` }, element('strong', {}, spec.title), ...captionOf(spec.about), element('span', { className: 'keys' }, keys));
+        const caption = element('figcaption', { id: `${id}-about` }, element('strong', {}, t(spec.title)), ...captionOf(t(spec.about)), element('span', { className: 'keys' }, keys));
         this.controls = element('div', { className: 'controls' });
         for (const control of spec.controls ?? []) this.controls.append(this.field(control, id));
         host.replaceChildren(element('div', { className: 'pictures' }, this.canvas, this.still, ...(spec.beside ? [this.beside] : [])),
@@ -115,9 +116,9 @@ export class Figure {
         if (control.kind === 'map') return mapField(name, control, set, this.lab);
         if (control.kind === 'choice') {
             const list = element('select', { id: name }, ...control.options.map(([value, text]) =>
-                element('option', { value, selected: value === control.value }, text)));
+                element('option', { value, selected: value === control.value }, t(text))));
             list.addEventListener('change', () => set(list.value));
-            return element('span', {}, element('label', { htmlFor: name }, control.label, ' '), list);
+            return element('span', {}, element('label', { htmlFor: name }, t(control.label), ' '), list);
         }
         const isCheck = control.kind === 'check';
         const input = element('input', isCheck ? { id: name, type: 'checkbox', checked: control.value }
@@ -125,7 +126,7 @@ export class Figure {
         if (!isCheck) this.inputs[control.name] = input;
         if (!isCheck) input.value = control.value;
         input.addEventListener('input', () => set(isCheck ? input.checked : Number(input.value)));
-        const label = element('label', { htmlFor: name }, control.label);
+        const label = element('label', { htmlFor: name }, t(control.label));
         return element('span', {}, ...(isCheck ? [input, ' ', label] : [label, ' ', input]));
     }
 

@@ -2,6 +2,7 @@
  * The glossary: a small picture for each term. A picture has words, a box of the map, and draws with what
  * the library computes. Several are figures of chapters in a chosen state.
  */
+import { t } from '../language/language.js';
 import { dualFigure } from '../parts/dual.js';
 import { drawDot, drawPlan, fillPolygons, strokeLines } from '../parts/plan.js';
 import { figures as effects } from './effects.js';
@@ -239,7 +240,7 @@ const SIZE = { width: 280, most: 220, margin: 10 };
 /** @param {HTMLElement} main with a place for each picture @param {import('./lab.js').Lab} lab */
 export function fill(main, lab) {
     for (const host of main.querySelectorAll('figure[data-picture]')) {
-        const [words, box, draw] = pictures[host.dataset.picture];
+        const [english, box, draw] = pictures[host.dataset.picture], words = t(english);
         keepPicture(host, (tones) => (box ? picture(words, box, (surface, camera) => draw({ surface, camera, tones, lab }), SIZE)
             : draw({ tones, lab })));
     }

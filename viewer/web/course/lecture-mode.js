@@ -4,6 +4,7 @@
  * after the last slide of a chapter comes the first one of the next. The address names the slide, as in #slide-3, so
  * it can be kept, and the browser's own Back goes to the slide before.
  */
+import { t } from '../language/language.js';
 import { element } from './figure.js';
 
 /** The slide that an address names, from 0 on; -1 for none. @param {number} count of slides */
@@ -30,9 +31,9 @@ export function lectureMode(main) {
         return node;
     };
     const chapter = (rel) => main.querySelector(`.chapters a[rel=${rel}]`)?.href;
-    const back = button('Back', () => go(-1)), next = button('Next', () => go(1));
-    const bar = element('div', { className: 'lecture-bar', role: 'group', 'aria-label': 'Lecture', hidden: true }, back, next, where, button('Leave', () => leave()));
-    const begin = button('Lecture mode', () => {
+    const back = button(t('Back'), () => go(-1)), next = button(t('Next'), () => go(1));
+    const bar = element('div', { className: 'lecture-bar', role: 'group', 'aria-label': t('Lecture'), hidden: true }, back, next, where, button(t('Leave'), () => leave()));
+    const begin = button(t('Lecture mode'), () => {
         document.documentElement.requestFullscreen?.().catch(() => {});
         address = location.hash;
         show(0, true);
@@ -64,7 +65,7 @@ export function lectureMode(main) {
         back.disabled = at === 0 && !chapter('prev');
         next.disabled = at === slides.length - 1 && !chapter('next');
         fit();
-        where.textContent = `${at + 1} of ${slides.length}`;
+        where.textContent = t`${at + 1} of ${slides.length}`;
         window.scrollTo(0, 0);
     }
     function leave() {

@@ -2,6 +2,7 @@
  * A figure as a still picture: an SVG with the drawing code of the screen. Print, solutions and the
  * glossary use it. Stills for paper have light colours, whatever the screen has.
  */
+import { t } from '../language/language.js';
 import { Camera } from '../parts/camera.js';
 import { drawDot } from '../parts/plan.js';
 import { SvgSurface } from '../parts/svg-surface.js';
@@ -47,7 +48,7 @@ export function picture(title, box, draw, { width = 640, most = 400, margin = 16
 
 /** A figure in some state; for paper, if nothing else is said. */
 export const stillOf = (spec, state, tones = paper) =>
-    picture(spec.title, state.box ?? spec.box, (surface, camera) => drawFigure(surface, camera, tones, spec, state));
+    picture(t(spec.title), state.box ?? spec.box, (surface, camera) => drawFigure(surface, camera, tones, spec, state));
 
 /** Keeps a picture in a place, in the colours of the page, and of paper for print. @param {(tones: any) => Element} draw */
 export function keepPicture(host, draw) {

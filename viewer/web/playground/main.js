@@ -26,6 +26,9 @@ const isOn = (id) => get(id).checked;
 /** Above this many walls the browser is not asked to keep the map. */
 const MOST_KEPT = 20000;
 
+/** Where maps to begin with are. */
+const maps = new URL('../maps/', import.meta.url);
+
 class Playground extends Sight {
     constructor() {
         // ?memory=MB in the address, for small devices and for tests.
@@ -190,7 +193,7 @@ class Playground extends Sight {
         if (!name) return;
         if (name === 'own') return this.openFile(new File([loadWork('own')], 'your map'), quiet, name);
         try {
-            const answer = await fetch(`maps/${name}`);
+            const answer = await fetch(new URL(name, maps));
             if (!answer.ok) throw new Error(`the server answered ${answer.status}`);
             await this.openFile(new File([await answer.blob()], name), quiet, name);
         } catch (error) {
@@ -412,7 +415,7 @@ class Playground extends Sight {
     async loadGallery() {
         this.offerOwn();
         try {
-            for (const { file, title } of await (await fetch('maps/index.json')).json())
+            for (const { file, title } of await (await fetch(new URL('index.json', maps))).json())
                 get('gallery').append(new Option(title, file));
             this.showOrigin();
         } catch {

@@ -60,4 +60,4 @@ if [ "$what" = quick ]; then
     export BROWSERS QUICK=1
 fi
 exec node --test "$here/playground.test.mjs" "$here/course.test.mjs" "$here/teaching.test.mjs" \
-    "$here/lecture.test.mjs" "$here/questions.test.mjs" "$here/publish.test.mjs"
+    "$here/lecture.test.mjs" "$here/questions.test.mjs" "$here/language.test.mjs" "$here/publish.test.mjs"
