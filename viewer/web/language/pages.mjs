@@ -94,17 +94,19 @@ function textsOfCode(code) {
 const nounsOf = (code) => [...code.matchAll(/\bplural\([^']*'(\w+)'(?:, '(\w+)')?/g)].flatMap(([, one, many = `${one}s`]) => [one, many]);
 
 const modules = [...pages.map((path) => posix.basename(path, '.html')).filter((name) => name !== 'index'), 'index'].map((name) => `course/${name}.js`);
-const shared = ['course/course.js', 'course/exercise.js', 'course/figure.js', 'course/still.js', 'course/lecture-mode.js', 'course/own.js', 'course/progress.js', 'parts/dual.js', 'parts/why-scene.js'];
+const shared = ['course/course.js', 'course/exercise.js', 'course/figure.js', 'course/still.js', 'course/lecture-mode.js', 'course/own.js', 'course/progress.js', 'parts/dual.js', 'parts/why-scene.js',
+    'playground/main.js', 'playground/sight.js', 'playground/panel.js', 'playground/cameras.js', 'playground/between.js', 'playground/heat.js', 'playground/files.js', 'playground/share.js', 'playground/document.js', 'playground/told.js'];
 
 /** All texts that a language needs, in the order of a reader. @param {string} site @param {(path: string) => Promise<any>} load a module of it */
 export async function textsOfSite(site, load) {
-    const texts = new Set(), add = (list) => list.forEach((text) => texts.add(text));
+    const texts = new Set(), add = (list) => list.forEach((text) => texts.add(text)), { kinds } = await load('formats/map-text.js');
     for (const path of pages) translatePage(readFileSync(join(site, path), 'utf8').replace(/<a [^>]*hreflang[^]*?<\/a>\n/g, ''), (text) => texts.add(text) && text);
     for (const path of [...shared, ...modules]) {
         const code = readFileSync(join(site, path), 'utf8');
         add([...textsOfCode(code), ...nounsOf(code)]);
         if (modules.includes(path)) add(textsOf(await load(path)));
     }
+    add([...kinds, 'glass']); // as the playground names items
     return texts;
 }
 

@@ -120,6 +120,8 @@ for (const name of wanted)
             await page.click('text=Spielwiese');
             await page.waitForFunction(() => window.playground?.plan);
             assert.equal(await page.locator('#tools span').first().textContent(), 'Sehen');
+            assert.equal(await page.locator('#facts dt').first().textContent(), 'Wandstücke');
+            assert.match(await page.locator('#where').textContent(), /^Auge bei /);
             assert.deepEqual(errors, []);
             await page.close();
         });
