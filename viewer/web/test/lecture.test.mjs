@@ -11,7 +11,7 @@ import { paceOf } from '../course/presenter.js';
 import { writeSlides } from '../slides.mjs';
 import { launch, programOf, serve } from './site.mjs';
 
-const { SITE, SHOTS } = process.env, wanted = (process.env.BROWSERS ?? 'chromium,firefox').split(',').filter(programOf);
+const { SITE, SHOTS, TOOLS, QUICK } = process.env, wanted = (process.env.BROWSERS ?? 'chromium,firefox').split(',').filter(programOf);
 const kinds = ['title', 'puzzle', 'key-statement', 'formula', 'figure', 'prediction', 'summary'];
 const all = [...readFileSync(join(SITE, 'course/lecture.html'), 'utf8').matchAll(/<section class="slide" id="([\w-]+)" data-chapter="(\w+)" data-kind="([\w-]+)">([^]*?)<\/section>/g)]
     .map(([, id, chapter, kind, body]) => ({ id, chapter, kind, body }));
@@ -126,6 +126,21 @@ for (const name of wanted)
             await page.locator('.slide.on .says').getByText(before).waitFor();
             assert.deepEqual(await at(page), ['lines-prediction', false]);
             await context.close();
+        });
+
+        test('axe-core finds nothing, light and dark, on a projector and on a phone', { skip: Boolean(QUICK) }, async () => {
+            const axe = readFileSync(join(TOOLS, 'node_modules/axe-core/axe.min.js'), 'utf8');
+            for (const [colorScheme, width, height] of [['light', 1280, 800], ['dark', 390, 844]])
+                for (const ask of ['#lines-title', '#lines-formula', '#cost-figure', '#lines-prediction', '&view=presenter#lines-prediction']) {
+                    const context = await browser.newContext({ viewport: { width, height }, colorScheme, bypassCSP: true }), { page } = await open(`?plan=90${ask}`, context);
+                    if (ask.includes('prediction')) await page.keyboard.press('PageDown');
+                    assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), `${ask} at ${width} px`);
+                    await page.evaluate(axe);
+                    const { violations } = await page.evaluate(() => window.axe.run());
+                    assert.deepEqual(violations.map((v) => `${v.id}: ${v.nodes.map((n) => n.html).join(' ')}`), [], `${ask} ${colorScheme}`);
+                    if (SHOTS) await page.screenshot({ path: join(SHOTS, `lecture-${width}-${ask.replace(/\W/g, '')}.png`) });
+                    await context.close();
+                }
         });
 
         test('the lecturer has notes and a clock, and both windows show the same', async () => {
