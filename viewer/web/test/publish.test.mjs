@@ -103,6 +103,7 @@ for (const name of wanted)
                 assert.deepEqual(wrong, [], path);
             }
             await page.evaluate(() => import('https://example.org/x.js').catch(() => {}));
+            for (let tries = 100; tries-- && !wrong.length;) await page.waitForTimeout(50);
             assert.ok(wrong.length, 'the policy lets a page load code from elsewhere, or the test does not see it');
             await context.close();
         });
