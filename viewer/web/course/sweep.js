@@ -122,7 +122,7 @@ const every = {
 
 /** Halls by columns, as they come from the worker. */
 const halls = [];
-let figureOfHalls = null;
+let figureOfHalls = null, trouble = '';
 
 function computeHalls() {
     const worker = new Worker(new URL('./halls-worker.js', import.meta.url), { type: 'module' });
@@ -131,7 +131,10 @@ function computeHalls() {
         if (data.columns === WIDEST) worker.terminate();
         figureOfHalls.change();
     });
-    worker.addEventListener('error', (event) => console.error(event.message));
+    worker.addEventListener('error', (event) => {
+        trouble = event.message || 'a part of the page was not loaded';
+        figureOfHalls.change();
+    });
 }
 
 const growth = {
@@ -144,7 +147,7 @@ const growth = {
         figureOfHalls = figure;
         computeHalls();
     },
-    isReady: () => Boolean(halls[WIDEST]),
+    isReady: () => Boolean(halls[WIDEST] || trouble),
     update(state) {
         const known = (state.known = halls[state.columns]);
         state.rows = halls.slice(1, state.columns + 1).map(({ row }) => row);
@@ -163,7 +166,7 @@ const growth = {
     },
     beside: (state) => table(['columns', 'cells', 'edges', 'sweep', 'search'], state.rows),
     tell({ known, own, columns: wanted }) {
-        if (!known) return `The hall with ${plural(wanted, 'column')} is being computed.`;
+        if (!known) return trouble ? `The halls cannot be computed here: ${trouble}.` : `The hall with ${plural(wanted, 'column')} is being computed.`;
         const [columns, cells, edges, pieces, nodes] = known.row;
         return `${plural(columns, 'column')}, ${plural(cells, 'cell')}, ${plural(edges, 'edge')} of the visibility graph, ${own.length} of them at this corner. ` +
             `The sweep looks at ${pieces} pieces, ${round(pieces / edges)} for each edge. The search enters ${nodes} nodes, ${round(nodes / edges)} for each edge.`;

@@ -529,6 +529,14 @@ for (const name of wanted)
             await close();
         });
 
+        test('sweep: halls that cannot be computed say so', async () => {
+            const context = await browser.newContext(), page = await context.newPage();
+            await page.route('**/halls-worker.js', (route) => route.abort());
+            await page.goto(`${site.address}/course/sweep.html`);
+            await page.locator('figure[data-figure=growth] .says').getByText(/^The halls cannot be computed here: .+\.$/).waitFor();
+            await context.close();
+        });
+
         test('sweep: the classes of lines are the faces of an arrangement, and touching doubles them in a row', async () => {
             const { page, close } = await open('sweep');
             const found = await page.evaluate(async () => {
