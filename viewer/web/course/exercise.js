@@ -6,7 +6,7 @@
  * kind 'code':   a function is completed; code-lab.js runs and judges it.
  * kind 'place':  handles of `figure` are put somewhere; `solution` has right places of them, for the teachers' page.
  * Each part of a form can `judge` the answer, `read` it as a value, say it in words (`given`) and `write` a value that was kept.
- * `right(lab)` gives the index or the number, computed by the library where it can be; for places,
+ * `right(lab)` gives the index or the number (or a promise of that), computed by the library where it can be; for places,
  * `judge(state, lab)` gives whether it is right and what is to be said.
  */
 import { codePart } from './code-lab.js';
@@ -73,9 +73,9 @@ function choicePart(exercise, lab, id) {
 function numberPart(exercise, lab, id) {
     const input = element('input', { id, type: 'number', step: 'any', inputMode: 'decimal' });
     const node = element('p', {}, element('label', { htmlFor: id }, exercise.question), ' ', input);
-    const judge = () => {
+    const judge = async () => {
         if (input.value === '') return { right: null, text: 'Type a number first.' };
-        const given = Number(input.value), wanted = exercise.right(lab);
+        const given = Number(input.value), wanted = await exercise.right(lab);
         if (given === wanted) return { right: true, text: exercise.why };
         return { right: false, text: given < wanted ? exercise.low : exercise.high };
     };

@@ -3,7 +3,9 @@ import { drawPlan, fillPolygons, strokeLines } from '../parts/plan.js';
 import { mix } from '../parts/tones.js';
 import { sweepFigure } from './angular-figure.js';
 import { cellAt, floorArea, round } from './lab.js';
+import { regionCode } from './lab-code.js';
 import { drawWalls, flat, itemsOf, pillars } from './maps.js';
+import { regionLab } from './region-lab.js';
 
 const flatItems = itemsOf(flat.text), pillarItems = itemsOf(pillars.text);
 
@@ -136,35 +138,9 @@ export const exercises = {
     },
     region: {
         kind: 'code',
+        lab: regionLab,
         question: 'Complete the function. It gives the corners of the visible region, in the order of their angles.',
-        code: `// eye: [x, y]; walls: [[ax, ay, bx, by], ...], which may touch, but do not cross.
-function region(eye, walls) {
-    const angles = [];
-    for (const [ax, ay, bx, by] of walls)
-        for (const [x, y] of [[ax, ay], [bx, by]]) {
-            const angle = Math.atan2(y - eye[1], x - eye[0]);
-            angles.push(angle - 1e-9, angle + 1e-9);
-        }
-    angles.sort((a, b) => a - b);
-
-    const corners = [];
-    for (const angle of angles) {
-        const direction = [Math.cos(angle), Math.sin(angle)];
-        const distance = nearest(eye, direction, walls);
-        corners.push([eye[0] + distance * direction[0], eye[1] + distance * direction[1]]);
-    }
-    return corners;
-}
-
-// How far the ray from the eye goes until it meets a wall.
-function nearest(eye, [dx, dy], walls) {
-    let best = Infinity;
-    for (const [ax, ay, bx, by] of walls) {
-        // Your lines: where does the ray meet the wall from a to b?
-        // Is that before the eye, beside the wall, or on it? Keep the least distance in best.
-    }
-    return best;
-}`,
+        code: regionCode.text,
     },
     guard: {
         kind: 'place',

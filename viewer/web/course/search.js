@@ -4,7 +4,9 @@ import { drawDot, drawPlan, strokeLines } from '../parts/plan.js';
 import { element } from './figure.js';
 import { WIDEST } from './halls.js';
 import { middleOf, planLine, round, stand, within } from './lab.js';
+import { searchCode } from './lab-code.js';
 import { drawWalls, flat, hall, house, itemsOf, threeRooms } from './maps.js';
+import { searchLab } from './search-lab.js';
 
 const houseItems = itemsOf(house.text);
 
@@ -173,5 +175,11 @@ export const exercises = {
             if (here === most) return { right: true, text: `Its tree has ${plural(here, 'node')}, and no tree has more.` };
             return { right: false, text: `Its tree has ${plural(here, 'node')}. The largest one has ${most}.` };
         },
+    },
+    visible: {
+        kind: 'code',
+        lab: searchLab,
+        question: 'Complete the search. It gives the numbers of all cells that a cell sees.',
+        code: searchCode.text,
     },
 };

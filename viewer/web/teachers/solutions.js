@@ -12,7 +12,7 @@ function choice(exercise, lab) {
     return { answer, why, wrong: exercise.options.filter((_, i) => i !== right).map(([text, remark]) => said(element('q', {}, text), ` ${remark}`)) };
 }
 
-const number = (exercise, lab) => ({ answer: String(exercise.right(lab)), why: exercise.why,
+const number = async (exercise, lab) => ({ answer: String(await exercise.right(lab)), why: exercise.why,
     wrong: [said(`Too low: ${exercise.low}`), said(`Too high: ${exercise.high}`)] });
 
 const code = ({ name }) => ({ answer: 'for example this code', why: solutions[name].why, wrong: [], host: element('pre', { tabIndex: 0 }, solutions[name].code) });
