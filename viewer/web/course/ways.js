@@ -93,7 +93,7 @@ const graph = {
     tell({ isLost, found, edges, taken }) {
         if (isLost) return 'A dot stands on a wall. Move it to free floor.';
         const end = taken.length < found.order.length ? '' : ` B is reached: ${round(found.length, 2)} m.`;
-        return `${plural(found.nodes.length, 'node')}, ${plural(edges.length, 'edge')} of ${found.count}. ${taken.length} of ${plural(found.order.length, 'node')} taken.${end}`;
+        return `${plural(found.nodes.length, 'node')}, ${plural(edges.length, 'edge')}${edges.length < found.count ? ` of ${found.count}` : ''}. ${taken.length} of ${plural(found.order.length, 'node')} taken.${end}`;
     },
 };
 
