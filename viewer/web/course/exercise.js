@@ -5,6 +5,7 @@
  * kind 'number': a number is typed; `low` and `high` say what a wrong one has missed.
  * kind 'code':   a function is completed; code-lab.js runs and judges it.
  * kind 'place':  handles of `figure` are put somewhere; `solution` has right places of them, for the teachers' page.
+ * `sketch(surface, camera, tones, lab)` draws a picture of the map in `box`, beside a question without a figure.
  * Each part of a form can `judge` the answer, `read` it as a value, say it in words (`given`) and `write` a value that was kept.
  * `right(lab)` gives the index or the number (or a promise of that), computed by the library where it can be; for places,
  * `judge(state, lab)` gives whether it is right and what is to be said.
@@ -12,6 +13,7 @@
 import { codePart } from './code-lab.js';
 import { Figure, element } from './figure.js';
 import { loadProgress, recordAnswer } from './progress.js';
+import { keepPicture, picture } from './still.js';
 
 let count = 0;
 
@@ -27,6 +29,16 @@ export function exerciseForm(exercise, lab) {
     const form = element('form', { className: 'exercise', 'data-exercise': exercise.name, noValidate: true });
     const part = { choice: choicePart, number: numberPart, place: placePart, code: codePart }[exercise.kind](exercise, lab, id);
     form.append(part.node, element('button', { type: 'submit' }, 'Check'), answer);
+    if (exercise.name === 'puzzle') {
+        form.id = 'puzzle';
+        form.classList.add('puzzle');
+        form.prepend(element('strong', {}, 'A puzzle to begin with'));
+    }
+    if (exercise.sketch) {
+        const host = element('figure');
+        part.node.before(host);
+        keepPicture(host, (tones) => picture('The plan of the puzzle', exercise.box, (surface, camera) => exercise.sketch(surface, camera, tones, lab), { most: 300 }));
+    }
     const key = `${exercise.chapter}/${exercise.name}`;
     const show = (result, text) => {
         form.dataset.result = result;

@@ -34,6 +34,10 @@ const eye = {
         state.isovist = look(lab, flat.text, state.eye, options);
         state.share = state.isovist ? state.isovist.area / floorArea(lab.scene(flat.text)) : 0;
     },
+    marks: {
+        occluding: ({ isovist }) => ({ lines: isovist ? edgesOf(isovist, 'occluding') : [] }),
+        walls: ({ isovist }) => ({ lines: isovist ? edgesOf(isovist, 'wall') : [] }),
+    },
     draw(surface, camera, tones, state) {
         drawPlan(surface, camera, { items: flatItems, region: state.isovist?.polygon }, tones);
         if (state.isovist && state.edges) strokeLines(surface, camera, edgesOf(state.isovist, 'occluding'), tones.glass, 3, [7, 4]);

@@ -6,6 +6,7 @@ import { arithmetics, determinantOf, nearest, roundedOf, unitOf } from './exact.
 import { element, table } from './figure.js';
 import { round } from './lab.js';
 import { drawWalls } from './maps.js';
+import { firstState } from './still.js';
 
 const side = { '1': 'left', '0': 'on the line', '-1': 'right' };
 const names = [['doubles', 'doubles'], ['fused', 'doubles, fused'], ['epsilon', 'doubles, epsilon 1e-9'], ['exact', 'exact']];
@@ -170,6 +171,16 @@ const filter = {
 };
 
 export const figures = { grid, slits, filter };
+
+/** Numbers of the text: for how many steps the filter is sure, as A and B stand first. */
+export const values = {
+    'steps-sure'() {
+        const state = firstState(filter), isSure = (near) => filter.update(Object.assign(state, { near })) ?? state.isSure;
+        let steps = 0;
+        while (isSure(steps)) steps++;
+        return steps - 1;
+    },
+};
 
 /** Doors of 1e-9 in halls of a million metres; a line passes the first two, and misses the third by 1e-9. */
 const nano = [[1e6, 5e5 + 1e-9, 1e6, 5e5], [2e6, 5e5 + 1e-9, 2e6, 5e5], [3e6, 5e5 + 2e-9, 3e6, 5e5 + 1e-9]];

@@ -54,6 +54,10 @@ const walk = {
         const dual = isLine ? lab.core.dual(state.portals.map((p) => [...p.left, ...p.right])) : null;
         state.line = dual ? within(scene, planLine(dual, dual.best), [state.cell, state.step.cell]) : null;
     },
+    marks: {
+        sequence: ({ portals = [] }) => ({ lines: portals.map((p) => [...p.left, ...p.right]) }),
+        seen: ({ scene, seen = [] }) => ({ areas: [...seen].map((cell) => scene.corners(cell)) }),
+    },
     draw(surface, camera, tones, state) {
         drawPlan(surface, camera, { space: state.scene, from: state.cell, seen: state.seen }, tones);
         drawWalls(surface, camera, houseItems, tones);

@@ -50,6 +50,10 @@ const tight = {
     start,
     isReady,
     update: (state, lab) => askWay(state, lab, state.size ? { radius: state.size } : {}),
+    marks: {
+        turns: ({ found }) => ({ dots: found?.way.slice(1, -1) }),
+        straight: ({ a, b }) => ({ lines: [[...a, ...b]] }),
+    },
     draw(surface, camera, tones, { found, a, b }) {
         drawPlan(surface, camera, { items }, tones);
         strokeLines(surface, camera, [[...a, ...b]], tones.faint, 1.5, [4, 5]);
@@ -119,6 +123,11 @@ const strings = {
         const rooms = roomsInARow(state.portals);
         state.library = groundNow(rooms) && wayBetween(rooms, state.a, state.b);
     },
+    marks: {
+        apex: ({ step }) => ({ dots: [step.left[0]] }),
+        left: ({ step }) => ({ lines: [step.left.flat()] }),
+        right: ({ step }) => ({ lines: [step.right.flat()] }),
+    },
     draw(surface, camera, tones, { portals, step, way, at, steps }) {
         drawPortals(surface, camera, tones, portals);
         const { left, right } = step, isDone = at >= steps.length;
@@ -149,6 +158,10 @@ const intervals = {
         state.search = state.isLost ? null : polyanya(state.scene, walls, state.a, state.b);
         state.now = Math.min(state.at, state.search?.steps.length ?? 1);
         state.node = state.search?.steps[state.now - 1];
+    },
+    marks: {
+        root: ({ node }) => ({ dots: node ? [node.root] : [] }),
+        interval: ({ node }) => ({ lines: node?.piece ? [node.piece.flat()] : [] }),
     },
     draw(surface, camera, tones, { scene, search, node, now }) {
         drawPlan(surface, camera, { space: scene, from: node?.cell }, tones);

@@ -1,5 +1,6 @@
 /** The teachers' page: for each exercise of each chapter its answer, why it is right, and what is said to wrong ones. */
 import { element } from '../course/figure.js';
+import { puzzles } from '../course/puzzles.js';
 import { firstState, keepPicture, stillOf } from '../course/still.js';
 import { solutions } from './lab-solutions.js';
 
@@ -40,6 +41,7 @@ async function solution(name, exercise, lab) {
 export async function fill(main, lab) {
     for (const section of main.querySelectorAll('[data-solutions]')) {
         const chapter = await import(`../course/${section.dataset.solutions}.js`);
-        section.append(...(await Promise.all(Object.entries(chapter.exercises).map(([name, exercise]) => solution(name, exercise, lab)))));
+        const exercises = Object.entries({ puzzle: puzzles[section.dataset.solutions], ...chapter.exercises });
+        section.append(...(await Promise.all(exercises.map(([name, exercise]) => solution(name, exercise, lab)))));
     }
 }

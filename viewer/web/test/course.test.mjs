@@ -147,7 +147,7 @@ for (const name of wanted)
 
             test(`${chapter}: exercises tell right from wrong, and why`, async () => {
                 const { page, close } = await open(chapter);
-                assert.equal(await page.locator('form.exercise').count(), exercises.length);
+                assert.equal(await page.locator('form.exercise:not(.puzzle)').count(), exercises.length);
                 for (const [exercise, wrong, right] of exercises) {
                     const form = page.locator(`form[data-exercise=${exercise}]`);
                     const [bad, because] = await answer(page, form, wrong), [good, why] = await answer(page, form, right);
@@ -169,7 +169,7 @@ for (const name of wanted)
                     if (i > 1) await page.keyboard.press('PageDown');
                     assert.equal(await where.textContent(), `${i} of ${slides}`);
                     assert.equal(await shown(), 1);
-                    const form = page.locator('main > form.on');
+                    const form = page.locator('main > form.on:not(.puzzle)');
                     if (await form.count()) await answer(page, form, exercises[i - 1 - (slides - exercises.length)][1]);
                     const { bar, lowest, zoom } = await page.evaluate(() => {
                         const bottom = (node) => node.getBoundingClientRect().bottom;
@@ -269,7 +269,7 @@ for (const name of wanted)
         test('answers are kept in the browser, exported with a name, and read back', async () => {
             const { page, close } = await open('here'), at = (chapter) => page.goto(`${site.address}/course/${chapter}.html`).then(() => page.waitForSelector('main[data-ready]'));
             const given = { convex: 5, mutual: 1, guard: [[7.1, 8]], region: { code: '// mine\nconst region = () => [];' } };
-            const shown = () => page.locator('form.exercise').evaluateAll((forms) => forms.map((form) => [form.dataset.exercise, form.dataset.result,
+            const shown = () => page.locator('form.exercise:not(.puzzle)').evaluateAll((forms) => forms.map((form) => [form.dataset.exercise, form.dataset.result,
                 form.querySelector('.answer').textContent, form.querySelector('input:checked, input[type=number], textarea')?.value ?? form.querySelector('figure')?.figure.state.eye.map((v) => v.toFixed(3)).join()]));
             for (const [exercise, value] of Object.entries(given)) await answer(page, page.locator(`form[data-exercise=${exercise}]`), value);
             await answer(page, page.locator('form[data-exercise=convex]'), 0);

@@ -1,6 +1,6 @@
 /**
- * Labs of the course in Chromium: right code passes, each kind of wrong code is found out and drawn; and the course's own
- * searches for shortest ways against the library. SITE and TOOLS as in playground.test.mjs.
+ * Labs and puzzles of the course in Chromium: right code passes, each kind of wrong code is found out and drawn; puzzles; words that
+ * are wired to figures; and the course's own searches for shortest ways against the library. SITE and TOOLS as in playground.test.mjs.
  */
 import assert from 'node:assert/strict';
 import { after, before, describe, test } from 'node:test';
@@ -16,6 +16,12 @@ const wrong = {
     program: ['funnel', 'funnel', [['now >= 0', 'now > 0'], ['now === 0 && then < 0 ? end : about', 'about'], ['about: end });', 'about });'],
         ['corners = cut(corners, portals[i].right, -1);', ''], ['return i;', 'return i + 1;']]],
     ways: ['pull', 'shortest', [['own.pop()', 'break'], ['other.length > 1 && ', 'other.length > 2 && '], ['own[0] = other[0];', ''], ['[...way, ...left]', '[...way, ...left].slice(1)']]],
+};
+
+/** Right answers to the puzzles, by chapter; places as x, y of each dot. */
+const puzzles = {
+    here: [[14.1, 9.3]], rooms: 14, lines: [[0.3, 2.96], [21, 10.6]], program: 12, search: 8, rounding: 1, hidden: 4, sweep: 17, view: 8, regions: 148,
+    frames: 5, effects: 3, cost: 24, gallery: 6, ways: 3,
 };
 
 describe('labs', { skip: programOf('chromium') ? false : 'Chromium is missing' }, () => {
@@ -67,6 +73,67 @@ describe('labs', { skip: programOf('chromium') ? false : 'Chromium is missing' }
             assert.equal(await form.locator('textarea').inputValue(), start);
             await close();
         });
+
+    test('each chapter opens with a puzzle that fails at first, and says what helps', async () => {
+        for (const [chapter, right] of Object.entries(puzzles)) {
+            const { page, close } = await open(chapter), form = page.locator('form.puzzle'), check = async () => {
+                await form.locator('button[type=submit]').click();
+                await form.locator('.answer:not(:empty)').waitFor({ timeout: 60000 });
+                return [await form.getAttribute('data-result'), await form.locator('.answer').textContent()];
+            };
+            const give = async (value) => {
+                if (Array.isArray(value)) await form.locator('figure').evaluate(({ figure }, places) => figure.set(Object.fromEntries(figure.spec.handles.map(({ name }, k) => [name, places[k]]))), value);
+                else if (await form.locator('input[type=radio]').count()) await form.locator(`input[value="${value}"]`).check();
+                else await form.locator('input[type=number]').fill(String(value));
+                await form.dispatchEvent('input');
+                return check();
+            };
+            assert.ok(await form.evaluate((node) => !document.querySelector('main > figure')?.compareDocumentPosition(node) || node.compareDocumentPosition(document.querySelector('main > figure')) & 4), `${chapter}: figures come first`);
+            const wrong = Array.isArray(right) ? [] : await form.locator('input[type=radio]').count() ? [right - 1] : [right - 1, right + 1];
+            const said = Array.isArray(right) ? [await check()] : [];
+            for (const value of wrong) said.push(await give(value));
+            for (const [result, text] of said) assert.ok(result === 'wrong' && text.length > 50, `${chapter}: ${result}, ${text}`);
+            assert.equal((await give(right))[0], 'right', chapter);
+            assert.equal(await page.locator('a[href="#puzzle"]').count(), 1);
+            await close();
+        }
+    });
+
+    test('words light what they mean, and put figures into a state', async () => {
+        for (const chapter of Object.keys(puzzles)) {
+            const { page, close } = await open(chapter);
+            if (['ways', 'gallery'].includes(chapter)) await page.waitForTimeout(1500);
+            for (const word of await page.locator('button.show').all()) {
+                await word.scrollIntoViewIfNeeded();
+                const shown = () => word.evaluate((node) => document.querySelector(`figure[data-figure=${node.dataset.of}] canvas`).toDataURL());
+                await word.evaluate((node) => document.querySelector(`figure[data-figure=${node.dataset.of}]`).figure.light());
+                const dark = await shown(), isDark = async () => (await shown()) === dark, name = `${chapter}: ${await word.textContent()}`;
+                await word.hover();
+                assert.ok(!(await isDark()), `${name} lights nothing`);
+                await page.mouse.move(0, 0);
+                assert.ok(await isDark(), `${name} stays lit`);
+                await word.click();
+                await page.mouse.move(0, 0);
+                assert.equal(await word.getAttribute('aria-pressed'), 'true');
+                assert.ok(!(await isDark()), `${name} does not stay lit`);
+                await word.click();
+                await word.blur();
+                await page.mouse.move(0, 0);
+                assert.ok(await isDark(), `${name} cannot be put out`);
+            }
+            for (const word of await page.locator('button.try').all()) {
+                await word.click();
+                const { state, wanted, shown } = await word.evaluate(async (node) => {
+                    const { stateOf } = await import('./words.js'), { figure } = document.querySelector(`figure[data-figure=${node.dataset.of}]`);
+                    const values = stateOf(node.dataset.state), names = Object.keys(values), { inputs, state } = figure;
+                    return { state: names.map((name) => String(state[name])), wanted: names.map((name) => String(values[name])),
+                        shown: names.filter((name) => inputs[name] && String(inputs[name].type === 'checkbox' ? inputs[name].checked : inputs[name].value) !== String(values[name])) };
+                });
+                assert.deepEqual([state, shown], [wanted, []], `${chapter}: ${await word.textContent()}`);
+            }
+            await close();
+        }
+    });
 
     test('here: the angular sweep of the figure passes the lab', async () => {
         const { page, close } = await open('here'), form = page.locator('form[data-exercise=region]');
