@@ -102,7 +102,7 @@ const graph = {
 };
 
 /** Doors of rooms in a row, as [left x, left y, right x, right y]. */
-const doors = [[3, 10, 3, 8], [6, 5, 6, 3], [9, 9, 9, 6.5], [12, 4, 12, 2], [15, 8, 15, 5.5]];
+export const doors = [[3, 10, 3, 8], [6, 5, 6, 3], [9, 9, 9, 6.5], [12, 4, 12, 2], [15, 8, 15, 5.5]];
 
 const strings = {
     title: 'Two strings.',
