@@ -72,18 +72,23 @@ const measures = {
 };
 const STEP = 0.8;
 
-/** One measure at the middle of each square of the floor; computed once. */
-const fields = {};
-function fieldOf(lab, name) {
-    if (fields[name]) return fields[name];
-    const squares = [], [x0, y0, x1, y1] = pillars.box;
+/** What is seen from the middle of each square of the floor; computed once. */
+let views = null;
+function viewsOf(lab) {
+    const list = [], [x0, y0, x1, y1] = pillars.box;
     for (let x = x0; x < x1 - 1e-9; x += STEP)
         for (let y = y0; y < y1 - 1e-9; y += STEP) {
             const seen = look(lab, pillars.text, [x + STEP / 2, y + STEP / 2]);
-            if (seen) squares.push({ square: [x, y, x + STEP, y, x + STEP, y + STEP, x, y + STEP], value: seen[name] });
+            if (seen) list.push({ square: [x, y, x + STEP, y, x + STEP, y + STEP, x, y + STEP], seen });
         }
+    return list;
+}
+
+/** One measure at the middle of each square. */
+function fieldOf(lab, name) {
+    const squares = (views ??= viewsOf(lab)).map(({ square, seen }) => ({ square, value: seen[name] }));
     const values = squares.map((s) => s.value), least = Math.min(...values), most = Math.max(...values);
-    return (fields[name] = { squares, least, most });
+    return { squares, least, most };
 }
 
 const field = {
