@@ -87,20 +87,22 @@ function listTerms(text) {
  * The course: index.md lists the chapters, and each has its text and a module of one name. Lines such as
  * {figure: eye}, {exercise: eye} and {picture: eye} are places that the module fills. {value: edges} is a number or words
  * that `values` of the module computes by the library, here. {references: KEY, KEY} lists sources of references.bib.
- * {show: ...} is a figure of a slide (slides.mjs). {solutions} is a place for each chapter, {questions} lists those with questions, {chapter: 3} names one and links to it if it is listed, and
- * {terms} lists the headings of level 3. A link, an anchor, a value or a source that leads nowhere ends the build.
+ * {puzzle} is the one of puzzles.js that opens a chapter. {show: FIGURE MARK | words} and {try: FIGURE name=value | words} are words
+ * that light a part of a figure, or put it into a state (words.js). {slide: ...} is a figure of a slide (slides.mjs).
+ * {solutions} is a place for each chapter, {questions} lists those with questions, {chapter: 3} names one and links to it if it is
+ * listed, and {terms} lists the headings of level 3. A link, an anchor, a value or a source that leads nowhere ends the build.
  */
 async function writeCourse(site, folders) {
     const course = join(here, 'course');
     const chapters = [...readFileSync(join(course, 'index.md'), 'utf8').matchAll(/^\| \[([^\]]+)\]\(([\w-]+)\.md\) \| (.*) \|$/gm)]
         .map(([, title, name, about]) => ({ title, name, about: toHtml(about).replace(/<\/?p>/g, '') }));
     const sources = readReferences(readFileSync(join(course, 'references.bib'), 'utf8')), used = new Set();
-    const load = (folder, name) => import(pathToFileURL(join(site, folder, `${name}.js`)).href);
-    const { Lab } = await load('course', 'lab'), lab = await Lab.open();
+    const load = (path) => import(pathToFileURL(join(site, path)).href), { Lab } = await load('course/lab.js'), lab = await Lab.open();
+    const [{ puzzles }, { stateOf }] = await Promise.all([load('course/puzzles.js'), load('course/words.js')]);
     for (const folder of folders)
         for (const file of readdirSync(join(here, folder)).filter((name) => name.endsWith('.md'))) {
             const name = file.slice(0, -3), isChapter = existsSync(join(here, folder, `${name}.js`));
-            const module = isChapter ? await load(folder, name) : {};
+            const module = isChapter ? await load(`${folder}/${name}.js`) : {};
             const fail = (what) => { throw new Error(`${folder}/${file}: ${what}`); };
             const raw = readFileSync(join(here, folder, file), 'utf8'), values = new Map();
             for (const [, value] of raw.matchAll(/\{value: ([\w-]+)\}/g)) values.set(value, (await module.values?.[value]?.(lab)) ?? fail(`no value ${value}`));
@@ -114,8 +116,10 @@ async function writeCourse(site, folders) {
                     used.add(key);
                     return `- ${referenceLine(sources.get(key) ?? fail(`no source ${key}`))}`;
                 }).join('\n') + '\n\nAll sources of the course: [BibTeX](references.bib).');
+            checkWords(text, module.figures, stateOf, fail);
+            if (text.includes('{puzzle}') && !puzzles[name]) fail('it has no puzzle');
             const link = linkOf(folder, file, fail);
-            const html = toHtml(text, link), body = html.includes('<p>{show: ') ? await writeSlides(html, chapters, (chapter) => load('course', chapter), fail)
+            const html = toHtml(text, link), body = html.includes('<p>{slide: ') ? await writeSlides(html, chapters, (chapter) => load(`course/${chapter}.js`), fail)
                 : fillPlaces(html, text, chapters) + (folder === 'course' ? neighbours(chapters, name) : '');
             const chapter = isChapter ? (folder === 'course' ? name : `../${folder}/${name}`) : '';
             writeFileSync(join(site, folder, `${name}.html`), page(titleOf(text), body, { chapter, isCourse: true, isSecret: folder !== 'course' }));
@@ -135,10 +139,26 @@ const linkOf = (folder, file, fail) => (target) => {
     return document ? `../pages/${document}.html${end}` : path.replace(/\.md$/, '.html') + end;
 };
 
+/** Words of a text that are wired to a figure: its name, what of it, and the words. */
+const wired = { show: /\{show: ([\w-]+) ([\w-]+) \| ([^}]+)\}/g, try: /\{try: ([\w-]+) ([^|}]+) \| ([^}]+)\}/g };
+
+/** Ends the build if words name a figure, a part of it, a handle or a control that is not there. */
+function checkWords(text, figures, stateOf, fail) {
+    for (const [, figure, mark] of text.matchAll(wired.show)) if (!figures[figure]?.marks?.[mark]) fail(`no part ${mark} of figure ${figure}`);
+    for (const [, figure, state] of text.matchAll(wired.try)) {
+        const names = [...(figures[figure]?.handles ?? []), ...(figures[figure]?.controls ?? [])].map(({ name }) => name);
+        for (const [name, value] of Object.entries(stateOf(state))) if (!names.includes(name) || value === undefined) fail(`figure ${figure} has no ${name}, or no value`);
+    }
+}
+
 /** Places of a page for its module, and lists that the build makes. */
 const fillPlaces = (html, text, chapters) => html
     .replace(/<p>\{figure: ([\w-]+)\}<\/p>/g, '<figure data-figure="$1"></figure>')
     .replace(/<p>\{exercise: ([\w-]+)\}<\/p>/g, '<div data-exercise="$1"></div>')
+    .replace('<p>{puzzle}</p>', '<div data-puzzle></div>')
+    .replace('<h2 id="exercises">', (heading) => (text.includes('{puzzle}') ? `<p>Now try the <a href="#puzzle">puzzle</a> again.</p>\n${heading}` : heading))
+    .replace(wired.show, '<button type="button" class="show" aria-pressed="false" data-of="$1" data-mark="$2">$3</button>')
+    .replace(wired.try, '<button type="button" class="try" data-of="$1" data-state="$2">$3</button>')
     .replace(/<p>\{picture: ([\w-]+)\}<\/p>/g, '<figure data-picture="$1"></figure>')
     .replace(/<h3 [^]*?<\/figure>\n<p>[^]*?<\/p>/g, (entry) => (entry.includes('data-picture') ? `<div class="term">${entry}</div>` : entry))
     .replace('<p>{terms}</p>', () => listTerms(text))

@@ -1,26 +1,24 @@
 /**
  * The slides of the lecture, of one Markdown text: a heading of level 2 is the name of a chapter, one of level 3 a slide.
- * A paragraph that begins with "Notes:" is for the lecturer. {show: CHAPTER/FIGURE NAME=VALUE ... / NAME=VALUE ...} is a figure in
- * a state, and what changes in it when the class has made a prediction; a value is a number, a place such as 2,6.5, yes, no or a word.
+ * A paragraph that begins with "Notes:" is for the lecturer. {slide: CHAPTER/FIGURE | name=value, name=value | name=value} is a figure
+ * in a state, and what changes in it when the class has made a prediction; course/words.js reads the values.
  */
+import { stateOf } from './course/words.js';
 import { escapeHtml } from './markdown.mjs';
 
-const valueOf = (text) => (/^-?[\d.]+(,-?[\d.]+)*$/.test(text) ? (text.includes(',') ? text.split(',').map(Number) : Number(text)) : { yes: true, no: false }[text] ?? text);
-
-/** @returns {Record<string, any>} the values of some words such as eye=2,6.5; a number is text where a control has a choice */
-function stateOf(words, spec, fail) {
-    return Object.fromEntries((words.match(/\S+/g) ?? []).map((word) => {
-        const [name, text] = word.split('='), control = spec.controls?.find((each) => each.name === name);
-        if (text === undefined || !(control || spec.handles.some((handle) => handle.name === name))) fail(`no ${word} in "${spec.title}"`);
-        return [name, control?.kind === 'choice' ? text : valueOf(text)];
+/** The state that words name, checked against the figure; a control with a choice has words for values. */
+function stateFor(words, spec, fail) {
+    return Object.fromEntries(Object.entries(words ? stateOf(words) : {}).map(([name, value]) => {
+        const control = spec.controls?.find((each) => each.name === name);
+        if (value === undefined || !(control || spec.handles.some((handle) => handle.name === name))) fail(`no ${name} in "${spec.title}"`);
+        return [name, control?.kind === 'choice' ? String(value) : value];
     }));
 }
 
 /** The place of a figure. @param {(name: string) => Promise<any>} load a chapter's module */
 async function placeOf(words, load, fail) {
-    const [target, ...rest] = words.split(' '), [chapter, name] = target.split('/'), spec = (await load(chapter)).figures[name] ?? fail(`no figure ${target}`);
-    const [state, then = ''] = rest.join(' ').split('/');
-    const json = (text) => escapeHtml(JSON.stringify(stateOf(text, spec, fail)));
+    const [target, state = '', then = ''] = words.split('|').map((part) => part.trim()), [chapter, name] = target.split('/'), spec = (await load(chapter)).figures[name] ?? fail(`no figure ${target}`);
+    const json = (text) => escapeHtml(JSON.stringify(stateFor(text, spec, fail)));
     return { title: spec.title.replace(/\.$/, ''), html: `<figure data-show="${target}" data-state="${json(state)}" data-then="${json(then)}"></figure>` };
 }
 
@@ -46,7 +44,7 @@ export async function writeSlides(html, chapters, load, fail) {
     for (const part of html.split(/(?=<h2 )/).filter((each) => each.startsWith('<h2 '))) {
         const name = /^<h2 [^>]*>([^<]*)/.exec(part)[1], chapter = chapters.find((each) => each.name === name) ?? fail(`no chapter ${name}`);
         for (const text of part.split(/(?=<h3 )/)) {
-            const kind = /^<h3 [^>]*>([^<]*)/.exec(text)?.[1] ?? '', [whole, words] = /<p>\{show: ([^}]*)\}<\/p>/.exec(text) ?? [];
+            const kind = /^<h3 [^>]*>([^<]*)/.exec(text)?.[1] ?? '', [whole, words] = /<p>\{slide: ([^}]*)\}<\/p>/.exec(text) ?? [];
             const place = words && (await placeOf(words, load, fail)), body = text.replace(/^<h\d [^]*?<\/h\d>/, '');
             out.push(slide(chapter, kind, kind === 'Figure' ? place.title : kind || chapter.about, place ? body.replace(whole, place.html) : body));
         }

@@ -5,8 +5,9 @@
  * kind 'number': a number is typed; `low` and `high` say what a wrong one has missed.
  * kind 'code':   a function is completed; code-lab.js runs and judges it.
  * kind 'place':  handles of `figure` are put somewhere; `solution` has right places of them, for the teachers' page.
+ * `sketch(surface, camera, tones, lab)` draws a picture of the map in `box`, beside a question without a figure.
  * Each part of a form can `judge` the answer, `read` it as a value, say it in words (`given`) and `write` a value that was kept.
- * `right(lab)` gives the index or the number, computed by the library where it can be; for places,
+ * `right(lab)` gives the index or the number (or a promise of that), computed by the library where it can be; for places,
  * `judge(state, lab)` gives whether it is right and what is to be said.
  */
 import { t } from '../language/language.js';
@@ -14,6 +15,7 @@ import { codePart } from './code-lab.js';
 import { Figure, element } from './figure.js';
 import { loadProgress, recordAnswer } from './progress.js';
 import { hash } from './questions/chance.js';
+import { keepPicture, picture } from './still.js';
 
 let count = 0;
 
@@ -26,6 +28,16 @@ export function exerciseForm(exercise, lab) {
     const form = element('form', { className: 'exercise', 'data-exercise': exercise.name, noValidate: true });
     const part = { choice: choicePart, number: numberPart, place: placePart, code: codePart }[exercise.kind](exercise, lab, id);
     form.append(part.node, element('button', { type: 'submit' }, t('Check')), answer);
+    if (exercise.name === 'puzzle') {
+        form.id = 'puzzle';
+        form.classList.add('puzzle');
+        form.prepend(element('strong', {}, t('A puzzle to begin with')));
+    }
+    if (exercise.sketch) {
+        const host = element('figure');
+        part.node.before(host);
+        keepPicture(host, (tones) => picture(t('The plan of the puzzle'), exercise.box, (surface, camera) => exercise.sketch(surface, camera, tones, lab), { most: 300 }));
+    }
     const key = `${exercise.chapter}/${exercise.name}`;
     const show = (result, text) => {
         form.dataset.result = result;
@@ -72,9 +84,9 @@ function choicePart(exercise, lab, id) {
 function numberPart(exercise, lab, id) {
     const input = element('input', { id, type: 'number', step: 'any', inputMode: 'decimal' });
     const node = element('p', {}, element('label', { htmlFor: id }, t(exercise.question)), ' ', input);
-    const judge = () => {
+    const judge = async () => {
         if (input.value === '') return { right: null, text: t('Type a number first.') };
-        const given = Number(input.value), wanted = exercise.right(lab);
+        const given = Number(input.value), wanted = await exercise.right(lab);
         if (given === wanted) return { right: true, text: t(exercise.why) };
         return { right: false, text: t(given < wanted ? exercise.low : exercise.high) };
     };

@@ -57,6 +57,10 @@ const hulls = {
         state.sees = state.conflict.verdict !== 'hidden';
         state.dual = state.sees ? lab.core.dual(state.portals) : null;
     },
+    marks: {
+        left: ({ portals }) => ({ areas: [hull(portals.map((p) => p.slice(0, 2))).flat()] }),
+        right: ({ portals }) => ({ areas: [hull(portals.map((p) => p.slice(2))).flat()] }),
+    },
     draw(surface, camera, tones, { portals, bad, dual }) {
         drawPlan(surface, camera, {}, tones);
         drawHull(surface, camera, portals.map((p) => p.slice(0, 2)), tones.left);

@@ -9,7 +9,7 @@ import { element, Figure } from './figure.js';
 import { stepOf } from './lecture-mode.js';
 import { plans, slidesOf } from './plans.js';
 import { presenterPanel } from './presenter.js';
-import { setState, statedAt, stateOf } from './stated.js';
+import { statedAt, stateOf } from './stated.js';
 
 export const figures = {}, exercises = {};
 
@@ -33,7 +33,7 @@ async function prepareAll(slides, lab) {
     for (const slide of slides) {
         await build(slide, lab);
         const figure = hostOf(slide)?.figure;
-        if (figure) setState(figure, slide.then);
+        if (figure) figure.set(structuredClone(slide.then));
         slide.node.classList.add('answered');
     }
     const isReady = ({ figure }) => figure.spec.isReady?.(figure.state) ?? true;
@@ -75,7 +75,7 @@ export async function fill(main, lab) {
         await build(slide, lab);
         const figure = hostOf(slide)?.figure;
         if (!figure || slides[at] !== slide) return;
-        if (slide.kind === 'prediction') setState(figure, isAnswered ? slide.then : slide.first);
+        if (slide.kind === 'prediction') figure.set(structuredClone(isAnswered ? slide.then : slide.first));
         figure.resize();
     }
 
@@ -102,7 +102,7 @@ export async function fill(main, lab) {
         const figure = values && hostOf(slides[at])?.figure;
         if (!figure) return;
         isTold = true;
-        setState(figure, values);
+        figure.set(structuredClone(values));
         isTold = false;
     };
     /** What a hand has changed here goes to the other windows. */

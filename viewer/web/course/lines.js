@@ -56,6 +56,10 @@ const line = {
         state.line = long(a, b);
         state.slope = (b[1] - a[1]) / (b[0] - a[0] || 1e-9);
     },
+    marks: {
+        left: () => ({ dots: given.map((p) => p.slice(0, 2)) }),
+        right: () => ({ dots: given.map((p) => p.slice(2)) }),
+    },
     draw(surface, camera, tones, state) {
         drawPortals(surface, camera, tones, given, state.wrong);
         strokeLines(surface, camera, [state.line], state.wrong.length ? tones.faint : tones.sourceEdge, state.wrong.length ? 1.5 : 3);

@@ -5,7 +5,7 @@ export const plans = {
     45: [{ here: 8, rooms: 8, lines: 14, hidden: 6, cost: 9 }],
     90: [{ here: 10, rooms: 15, lines: 20, search: 15, hidden: 15, cost: 15 }],
     '4x90': [{ here: 25, rooms: 30, lines: 35 }, { program: 30, search: 30, rounding: 30 }, { hidden: 25, sweep: 25, view: 20, regions: 20 },
-        { frames: 20, effects: 20, cost: 25, gallery: 25 }],
+        { frames: 15, effects: 15, cost: 20, gallery: 20, ways: 20 }],
 };
 
 /** Shares of a chapter's minutes. */

@@ -54,6 +54,10 @@ const beside = {
         stand(state, lab, flat.text, state.dot);
         state.next = neighbours(state.scene, state.cell);
     },
+    marks: {
+        cell: ({ scene, cell }) => ({ areas: cell < 0 ? [] : [scene.corners(cell)] }),
+        portals: ({ next }) => ({ lines: next.map((p) => [...p.left, ...p.right]) }),
+    },
     draw(surface, camera, tones, state) {
         drawPlan(surface, camera, { space: state.scene, from: state.cell, seen: new Set(state.next.map((p) => p.cell)) }, tones);
         strokeLines(surface, camera, state.next.map((p) => [...p.left, ...p.right]), tones.portal, 4);
@@ -92,6 +96,15 @@ const oblique = {
 };
 
 export const figures = { tree, beside, oblique };
+
+/** Numbers of the text: the whole tree, with all rules and without. */
+const whole = (isOn) => kdTree(walls, house.box, { spanning: isOn, obscured: isOn, cleaving: isOn }, Infinity).cells;
+export const values = {
+    'cells-with': () => whole(true).length,
+    'cells-without': () => whole(false).length,
+    'portals-with': () => portalsOf(whole(true), walls).length,
+    'portals-without': () => portalsOf(whole(false), walls).length,
+};
 
 export const exercises = {
     ell: {

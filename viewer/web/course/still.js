@@ -4,7 +4,7 @@
  */
 import { t } from '../language/language.js';
 import { Camera } from '../parts/camera.js';
-import { drawDot } from '../parts/plan.js';
+import { drawDot, fillPolygons, strokeLines } from '../parts/plan.js';
 import { SvgSurface } from '../parts/svg-surface.js';
 import { makeTones, watchTones } from '../parts/tones.js';
 import { drawText } from './maps.js';
@@ -27,6 +27,14 @@ export function drawFigure(surface, camera, tones, spec, state, active = -1) {
         drawDot(surface, camera, state[name], isActive ? 9 : 7, tones[tone ?? 'sourceEdge'], isActive ? tones.ink : tones.page);
         if (letter) drawText(surface, camera, state[name], letter, tones, 16, -10);
     });
+}
+
+/** A part of a picture that words name, over all else. */
+export function drawMark(surface, camera, tones, { lines = [], areas = [], dots = [] }) {
+    fillPolygons(surface, camera, areas, tones.start, 0.4);
+    strokeLines(surface, camera, areas, tones.start, 3, [], true);
+    strokeLines(surface, camera, lines, tones.start, 7);
+    for (const place of dots) drawDot(surface, camera, place, 10, tones.start, tones.page);
 }
 
 /**

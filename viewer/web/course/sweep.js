@@ -60,6 +60,10 @@ const turn = {
         const [dx, dy] = [40 * Math.cos(angle), 40 * Math.sin(angle)];
         state.line = within(scene, [x - dx, y - dy, x + dx, y + dy], [before.at(-1), behind.at(-1)]);
     },
+    marks: {
+        before: ({ scene, stretch }) => ({ areas: stretch.before.map((cell) => scene.corners(cell)) }),
+        behind: ({ scene, stretch }) => ({ areas: stretch.behind.map((cell) => scene.corners(cell)) }),
+    },
     draw(surface, camera, tones, state) {
         const { scene, stretch: { before, behind } } = state;
         drawPlan(surface, camera, { space: scene, seen: new Set(before) }, tones);

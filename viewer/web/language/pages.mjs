@@ -15,12 +15,12 @@ export const languages = { de: 'Deutsch' };
 /** Pages that have other languages. */
 export const pages = ['index.html', 'course/index.html', 'course/answers.html', 'course/glossary.html', 'course/rooms.html', 'course/lines.html'];
 
-const leaf = /<(title|h[1-6]|p|li|t[dh]|d[td]|legend|button|option|label|span|figcaption)\b([^>]*)>((?:[^<]|<\/?(?:a|strong|em|code)\b[^>]*>)*)<\/\1>|<(a)\b([^>]*)>([^<]*)<\/a>/g;
+const leaf = /<(title|h[1-6]|p|li|t[dh]|d[td]|legend|option|label|span|figcaption)\b([^>]*)>((?:[^<]|<\/?(?:a|button|strong|em|code)\b[^>]*>)*)<\/\1>|<(a|button)\b([^>]*)>([^<]*)<\/\4>/g;
 const hasWords = (text) => /\p{L}{2}/u.test(text.replace(/<[^>]*>|&\w+;/g, ''));
 
 /** A text without what is the same in all languages: one link around all of it, the name of the site, a mark before a title. */
 function sayCore(text, say) {
-    const [, before, core, after] = /^((?:<a\b[^>]*>)?)([^]*?)((?:<\/a>)?(?: - Sightline)?)$/.exec(text), isWhole = !/<a\b|<\/a>/.test(core);
+    const [, before, core, after] = /^((?:<(?:a|button)\b[^>]*>)?)([^]*?)((?:<\/(?:a|button)>)?(?: - Sightline)?)$/.exec(text), isWhole = !/<\/?(?:a|button)\b/.test(core);
     if (!isWhole) return say(text);
     const mark = /^(Back:|Next:) (.*)$/.exec(core);
     return before + (mark ? `${say(mark[1])} ${say(mark[2])}` : say(core)) + after;
@@ -94,17 +94,19 @@ function textsOfCode(code) {
 const nounsOf = (code) => [...code.matchAll(/\bplural\([^']*'(\w+)'(?:, '(\w+)')?/g)].flatMap(([, one, many = `${one}s`]) => [one, many]);
 
 const modules = [...pages.map((path) => posix.basename(path, '.html')).filter((name) => name !== 'index'), 'index'].map((name) => `course/${name}.js`);
-const shared = ['course/course.js', 'course/exercise.js', 'course/figure.js', 'course/still.js', 'course/lecture-mode.js', 'course/own.js', 'course/progress.js', 'parts/dual.js', 'parts/why-scene.js',
+const shared = ['course/course.js', 'course/exercise.js', 'course/figure.js', 'course/still.js', 'course/lecture-mode.js', 'course/own.js', 'course/progress.js', 'course/puzzles.js', 'parts/dual.js', 'parts/why-scene.js',
     'playground/main.js', 'playground/sight.js', 'playground/panel.js', 'playground/cameras.js', 'playground/between.js', 'playground/heat.js', 'playground/files.js', 'playground/share.js', 'playground/document.js', 'playground/told.js'];
 
 /** All texts that a language needs, in the order of a reader. @param {string} site @param {(path: string) => Promise<any>} load a module of it */
 export async function textsOfSite(site, load) {
-    const texts = new Set(), add = (list) => list.forEach((text) => texts.add(text)), { kinds } = await load('formats/map-text.js');
+    const texts = new Set(), add = (list) => list.forEach((text) => texts.add(text)), { kinds } = await load('formats/map-text.js'), { puzzles } = await load('course/puzzles.js');
     for (const path of pages) translatePage(readFileSync(join(site, path), 'utf8').replace(/<a [^>]*hreflang[^]*?<\/a>\n/g, ''), (text) => texts.add(text) && text);
     for (const path of [...shared, ...modules]) {
         const code = readFileSync(join(site, path), 'utf8');
         add([...textsOfCode(code), ...nounsOf(code)]);
         if (modules.includes(path)) add(textsOf(await load(path)));
+        const puzzle = puzzles[posix.basename(path, '.js')];
+        if (modules.includes(path) && puzzle) add(textsOf({ exercises: { puzzle } }));
     }
     add([...kinds, 'glass']); // as the playground names items
     return texts;

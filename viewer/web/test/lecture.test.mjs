@@ -42,11 +42,11 @@ test('a clock says how far a lecture is from its plan', () => {
 test('a slide whose chapter, figure or dot is not there ends the build', async () => {
     const figure = { title: 'A figure.', handles: [{ name: 'eye', at: [1, 2] }], controls: [{ name: 'method', kind: 'choice' }, { name: 'on', kind: 'check' }] };
     const fail = (what) => { throw new Error(what); }, chapters = [{ name: 'here', title: '1. Here', about: 'What?' }];
-    const write = (show, chapter = 'here') => writeSlides(`<h2 id="x">${chapter}</h2>\n<h3 id="f">Figure</h3>\n<p>{show: ${show}}</p>\n<p>Notes: Look.</p>`, chapters, async () => ({ figures: { figure } }), fail);
-    const slides = await write('here/figure eye=2,6.5 method=6 / on=yes');
+    const write = (show, chapter = 'here') => writeSlides(`<h2 id="x">${chapter}</h2>\n<h3 id="f">Figure</h3>\n<p>{slide: ${show}}</p>\n<p>Notes: Look.</p>`, chapters, async () => ({ figures: { figure } }), fail);
+    const slides = await write('here/figure | eye=2 6.5, method=6 | on=yes');
     assert.ok(slides.includes('data-state="{&quot;eye&quot;:[2,6.5],&quot;method&quot;:&quot;6&quot;}" data-then="{&quot;on&quot;:true}"'), slides);
     assert.match(slides, /<h1>1\. Here<\/h1>\n<h2>A figure<\/h2>/);
-    for (const [show, about] of [['here/other', /no figure here\/other/], ['here/figure nose=1', /no nose=1/], ['here/figure eye', /no eye/]]) await assert.rejects(write(show), about);
+    for (const [show, about] of [['here/other', /no figure here\/other/], ['here/figure | nose=1', /no nose/]]) await assert.rejects(write(show), about);
     await assert.rejects(write('here/figure', 'there'), /no chapter there/);
 });
 

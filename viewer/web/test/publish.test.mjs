@@ -32,7 +32,8 @@ test('each page has the policy, and words and a picture for those who link to it
     for (const path of pages()) {
         const html = readFileSync(join(folder, path), 'utf8');
         assert.equal(/http-equiv="Content-Security-Policy" content="([^"]*)"/.exec(html)?.[1], policy, path);
-        assert.doesNotMatch(html, /<style|\sstyle=|\son\w+=|<script(?![^>]*\ssrc=)/, `${path}: code or style in the page`);
+        const bare = html.replace(/="[^"]*"/g, '=""'); // values of attributes may say anything
+        assert.doesNotMatch(bare, /<style|\sstyle=|\son\w+=|<script(?![^>]*\ssrc=)/, `${path}: code or style in the page`);
         if (html.includes('content="noindex"')) continue;
         const meta = Object.fromEntries([...html.matchAll(/<meta (?:property|name)="([\w:]+)" content="([^"]*)">/g)].map(([, name, value]) => [name, value]));
         assert.ok(meta['og:url'].startsWith(base) && meta['og:title'] && meta.description.length > 30, path);

@@ -111,8 +111,11 @@ describe('pages for teachers', { skip: hasChromium ? false : 'Chromium is missin
         const shown = await page.locator('section[data-solutions]').evaluateAll((sections) => sections.map((section) => [section.dataset.solutions,
             [...section.children].map((node) => [node.dataset.solution, node.querySelector('strong').textContent,
                 node.querySelector('strong').parentElement.textContent.length, node.querySelectorAll('svg').length, node.querySelectorAll('li').length])]));
-        const chapters = await page.evaluate(async (names) => Object.fromEntries(await Promise.all(names.map(async (name) =>
-            [name, Object.entries((await import(`../course/${name}.js`)).exercises).map(([key, { kind }]) => [key, kind])]))), shown.map(([name]) => name));
+        const chapters = await page.evaluate(async (names) => {
+            const { puzzles } = await import('../course/puzzles.js');
+            return Object.fromEntries(await Promise.all(names.map(async (name) =>
+                [name, Object.entries({ puzzle: puzzles[name], ...(await import(`../course/${name}.js`)).exercises }).map(([key, { kind }]) => [key, kind])])));
+        }, shown.map(([name]) => name));
         const listed = [...readFileSync(join(SITE, 'course/index.html'), 'utf8').matchAll(/<td><a href="([\w-]+)\.html">/g)].map(([, name]) => name);
         assert.deepEqual(shown.map(([name]) => name), listed);
         for (const [name, solutions] of shown) {
