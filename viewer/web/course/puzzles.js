@@ -20,7 +20,7 @@ const pairsOf = (lab, options) => {
 };
 
 /** Rooms by name, each with a place in it. */
-const places = { hall: [8, 6.2], study: [3, 11], kitchen: [12, 2.5], bedroom: [21, 12], bath: [11.5, 12.5], store: [3, 1.5], larder: [21, 2] };
+const places = { hall: [8, 6.2], study: [3, 11], kitchen: [12, 2.5], bedroom: [21, 12], bath: [11.5, 12.5], store: [3, 1.5], larder: [21, 2], A: [17, 8], B: [18.5, 10] };
 
 const pointOf = ([x, y]) => ({ x, y });
 
@@ -106,9 +106,9 @@ export const puzzles = {
         'To test all pairs works here. In a building of a thousand cells there are a million.',
         'There are more: cells are seen through many doors. Would you like to test them one by one? This chapter asks neighbours instead.',
         'There are fewer. The study and the store look into one side of the house only.'),
-    frames: number('An eye goes from 17, 8 to 18.5, 10, around the end of a wall. How many cells appear or vanish?', [], 'cells',
+    frames: number('An eye goes from A to B, around the end of a wall. How many cells appear or vanish?', ['A', 'B'], 'cells',
         (lab) => {
-            const [a, b] = [[17, 8], [18.5, 10]].map((eye) => baked(lab).look(...eye)), only = (x, y) => [...x].filter((cell) => !y.includes(cell)).length;
+            const [a, b] = [places.A, places.B].map((eye) => baked(lab).look(...eye)), only = (x, y) => [...x].filter((cell) => !y.includes(cell)).length;
             return only(a, b) + only(b, a);
         },
         'All others keep their state. That is why a frame should begin where the last one ended.',
