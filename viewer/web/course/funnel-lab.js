@@ -46,7 +46,7 @@ const drawing = ({ portals, box }, line = null, bad = []) => (tones) => picture(
         for (const [side, place, tone] of [['left', ends.left, tones.left], ['right', ends.right, tones.right]]) {
             const isBad = bad.some((end) => end.portal === portal && end.side === side);
             drawDot(surface, camera, place, isBad ? 7 : 4, tone, isBad ? tones.ink : tones.page);
-            drawText(surface, camera, place, nameOf({ side: side === 'left' ? 'L' : 'R', portal }), tones, 14);
+            drawText(surface, camera, place, nameOf({ side: side === 'left' ? 'L' : 'R', portal }), tones, side === 'left' ? -14 : 14);
         }
 }, { width: 420, most: 300 });
 
