@@ -1,5 +1,5 @@
 #!/bin/sh
-# Installs what Sightline needs and this machine has not: sh tools/setup.sh [--ci] [--web] [--release] [--qgis]
+# Installs what Sightline needs and this machine has not: sh tools/setup.sh [--ci] [--web] [--release] [--qgis] [--firefox]
 # It looks at what is really there, asks the system's package manager for the rest, and does nothing
 # when all is there. --ci adds what the checks of .ci/run need: clang, its sanitizers, clang-format,
 # clang-tidy, ccache, doxygen, a display that is none, with keys to press (Xvfb, xdotool), MPI, node,
@@ -7,7 +7,8 @@
 # Chromium and npm for the tests of the pages; on Debian also compilers and emulators for two other
 # machines. --web adds what tools/web.sh needs: clang, lld, wasi-libc, compiler-rt for WebAssembly,
 # binaryen and node. --release adds what tools/release.sh needs beside that: npm, pip, wheel, numpy and
-# patchelf. --qgis adds QGIS, which is large, for the test of its plugin.
+# patchelf. --qgis adds QGIS, which is large, for the test of its plugin. --firefox adds Firefox, in which the
+# tests of the pages can run, too.
 #
 # Tried on Debian. Fedora, Arch and macOS are written from their package lists and untried.
 set -eu
@@ -16,14 +17,16 @@ ci=no
 web=no
 release=no
 qgis=no
+firefox=no
 for argument in "$@"; do
     case $argument in
     --ci) ci=yes ;;
     --web) web=yes ;;
     --release) web=yes release=yes ;;
     --qgis) qgis=yes ;;
+    --firefox) firefox=yes ;;
     -h | --help) sed -n '2,12s/^# \{0,1\}//p' "$0"; exit 0 ;;
-    *) echo "setup: unknown argument $argument (there are --ci, --web, --release and --qgis)" >&2; exit 2 ;;
+    *) echo "setup: unknown argument $argument (there are --ci, --web, --release, --qgis and --firefox)" >&2; exit 2 ;;
     esac
 done
 
@@ -114,6 +117,7 @@ is_there() {
     mono) has mono && has mcs ;;
     qgis) has qgis_process && /usr/bin/python3 -c 'import qgis' 2>/dev/null ;;
     chromium) has chromium || has chromium-browser ;;
+    firefox) has firefox-esr || has firefox ;;
     clang-sanitizers) clang_sanitizes ;;
     numpy | scipy | pandas | geopandas | matplotlib | nbconvert | ipykernel | wheel) python_has "$1" ;;
     pip) python_has pip ;;
@@ -146,6 +150,7 @@ package() { # system thing
     apt:libpng | apt:libxml2 | apt:libyaml) echo "$2-dev" ;;
     apt:font) echo fonts-dejavu-core ;;
     apt:mono) echo mono-mcs mono-runtime ;;
+    apt:firefox) echo firefox-esr ;;
     apt:qgis) echo qgis python3-qgis qgis-providers ;;
     apt:clang-sanitizers) echo libclang-rt-dev ;;
     apt:aarch64) echo gcc-aarch64-linux-gnu libc6-dev-arm64-cross qemu-user ;;
@@ -200,7 +205,7 @@ package() { # system thing
     brew:clang | brew:clang-sanitizers | brew:clang-tidy) echo llvm ;;
     brew:wasm) echo lld wasi-libc wasi-runtimes ;;
     brew:xvfb) echo --cask xquartz ;;
-    brew:chromium) echo --cask chromium ;;
+    brew:chromium | brew:firefox) echo --cask "$2" ;;
     brew:npm) echo node ;;
 
     pacman:mpi | brew:mpi) echo openmpi ;;
@@ -252,6 +257,7 @@ things="c c++ cmake ninja pkg-config python3 zlib jansson libpng libxml2 libyaml
 [ $web = yes ] && things="$things clang wasm binaryen node"
 [ $release = yes ] && things="$things npm pip wheel numpy patchelf"
 [ $qgis = yes ] && things="$things qgis"
+[ $firefox = yes ] && things="$things firefox"
 
 missing=
 for thing in $things; do is_there "$thing" || missing="$missing $thing"; done

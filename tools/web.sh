@@ -2,7 +2,10 @@
 # The npm package and the site, in a folder: sh tools/web.sh --build DIR
 # gives DIR/package (the package `sightline`) and, where viewer/web is there, DIR/site.
 # --package DIR stops after the package. --handouts DIR writes the course as PDF, for paper of A4 and of Letter size.
-# --teachers adds teachers/solutions.html, the answers of all exercises, to which no page leads.
+# --site DIR --base ADDRESS writes the site as it is published at ADDRESS: with a sitemap, a picture for links, a page for
+# missing addresses, and a worker that keeps the site for use without a network. DIR works at any path.
+# --teachers adds teachers/solutions.html, the answers of all exercises, and teachers/gift.html, questions for Moodle. No page
+# leads there.
 # --glpk adds a page of GLPK's answers to the site. It loads GLPK's sources by apt-get, and the page falls under the GPL 3.
 # Without a folder it serves the site of build/web, which it builds first.
 set -eu
@@ -11,9 +14,11 @@ folder=$root/build/web
 serve=yes
 site=yes
 handouts=
+publish=
+base=
 glpk=
 teachers=
-usage='usage: sh tools/web.sh [--build DIR | --package DIR | --handouts DIR] [--teachers] [--glpk]'
+usage='usage: sh tools/web.sh [--build DIR | --package DIR | --handouts DIR | --site DIR --base ADDRESS] [--teachers] [--glpk]'
 while [ $# -gt 0 ]; do
     case $1 in
     --build | --package)
@@ -30,10 +35,21 @@ while [ $# -gt 0 ]; do
         serve=no
         shift
         ;;
+    --site)
+        [ $# -gt 1 ] || { echo "web: $1 needs a folder" >&2; exit 2; }
+        publish=$2
+        serve=no
+        shift
+        ;;
+    --base)
+        [ $# -gt 1 ] || { echo "web: $1 needs the address of the site" >&2; exit 2; }
+        base=$2
+        shift
+        ;;
     --glpk) glpk=yes ;;
     --teachers) teachers=yes ;;
     -h | --help)
-        sed -n '2,7s/^# //p' "$0"
+        sed -n '2,10s/^# //p' "$0"
         echo "$usage"
         exit 0
         ;;
@@ -44,6 +60,14 @@ while [ $# -gt 0 ]; do
     esac
     shift
 done
+if [ -n "$publish" ] && [ -z "$base" ]; then
+    echo "web: --site needs --base, the address of the site" >&2
+    exit 2
+fi
+if [ -n "$base" ] && [ -z "$publish" ]; then
+    echo "web: --base needs --site" >&2
+    exit 2
+fi
 mkdir -p "$folder"
 folder=$(cd "$folder" && pwd)
 
@@ -117,6 +141,12 @@ fi
 if [ -n "$handouts" ]; then
     [ -d "$folder/site" ] || { echo "web: there is no site to print" >&2; exit 1; }
     node "$root/viewer/web/handouts.mjs" --site "$folder/site" --out "$handouts"
+fi
+
+if [ -n "$publish" ]; then
+    [ -d "$folder/site" ] || { echo "web: there is no site to publish" >&2; exit 1; }
+    node "$root/viewer/web/publish.mjs" --from "$folder/site" --to "$publish" --base "$base"
+    echo "web: $publish"
 fi
 
 if [ $serve = yes ]; then

@@ -2,13 +2,15 @@
  * Handouts of the course as PDF: node viewer/web/handouts.mjs --site SITE --out DIR [--paper a4|letter] [--only NAME]
  *
  * Chromium prints the pages of a built site. DIR/students gets the chapters, the glossary and the plan of
- * the course, DIR/teachers the solutions, if the site has them. Without --paper both sizes are made. --only makes one page, such as
- * `here`. Chromium is driven by its own protocol over a pipe, so no package is needed.
+ * the course, DIR/teachers the slides of each lecture, and the solutions, if the site has them. Without --paper both sizes are made;
+ * slides have a size of their own. --only makes one page, such as `here` or `lecture-90`. Chromium is driven by its own protocol over a pipe, so no package is needed.
  */
 import { spawn } from 'node:child_process';
 import { existsSync, mkdirSync, mkdtempSync, readFileSync, renameSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
+import { plans } from './course/plans.js';
+import { escapeHtml } from './markdown.mjs';
 import { serve } from './serve.mjs';
 
 /** Width and height in inches. */
@@ -41,7 +43,9 @@ function listPages(site) {
     const more = [['course/glossary', 'students'], ['course/weeks', 'students'], ['teachers/solutions', 'teachers']]
         .filter(([path]) => existsSync(join(site, `${path}.html`)))
         .map(([path, folder]) => ({ name: path.split('/')[1], path, file: path.split('/')[1], folder }));
-    return [...chapters, ...more];
+    const lectures = Object.keys(plans).map((plan) =>
+        ({ name: `lecture-${plan}`, path: 'course/lecture', ask: `?plan=${plan}&print=all`, file: `lecture-${plan}`, folder: 'teachers', isSlides: true }));
+    return [...chapters, ...more, ...lectures];
 }
 
 /** Chromium without a window. `send(method, params, session)` asks; an error of the browser is thrown. */
@@ -119,10 +123,8 @@ const READY = `new Promise((resolve, reject) => {
     look();
 })`;
 
-const escapeHtml = (s) => s.replace(/[&<>"]/g, (c) => `&#${c.charCodeAt(0)};`);
-
-/** The bytes of a PDF for each paper. */
-async function print(browser, address, sizes) {
+/** The bytes of a PDF for each paper; slides bring their own paper, and have no footer. */
+async function print(browser, address, sizes, isSlides) {
     const { targetId } = await browser.send('Target.createTarget', { url: 'about:blank' });
     const { sessionId } = await browser.send('Target.attachToTarget', { targetId, flatten: true });
     const send = (method, params) => browser.send(method, params, sessionId);
@@ -134,9 +136,9 @@ async function print(browser, address, sizes) {
         `<span>Sightline: ${escapeHtml(result.value)}</span><span><span class="pageNumber"></span> / <span class="totalPages"></span></span></div>`;
     const files = [];
     for (const size of sizes) {
-        const [paperWidth, paperHeight] = papers[size];
-        const { data } = await send('Page.printToPDF', { paperWidth, paperHeight, printBackground: true, displayHeaderFooter: true,
-            headerTemplate: '<span></span>', footerTemplate: footer });
+        const [paperWidth, paperHeight] = papers[size] ?? [];
+        const { data } = await send('Page.printToPDF', { printBackground: true, ...(isSlides ? { preferCSSPageSize: true }
+            : { paperWidth, paperHeight, displayHeaderFooter: true, headerTemplate: '<span></span>', footerTemplate: footer }) });
         files.push([size, Buffer.from(data, 'base64')]);
     }
     await browser.send('Target.closeTarget', { targetId });
@@ -150,12 +152,12 @@ if (!pages.length) stop(`the course has no page ${only}`);
 if (!program) stop('Chromium is missing', 77);
 const server = await serve(site), browser = new Browser(program);
 try {
-    for (const { name, path: page, file, folder } of pages) {
+    for (const { name, path: page, ask = '', file, folder, isSlides } of pages) {
         mkdirSync(join(out, folder), { recursive: true });
-        const made = await print(browser, `${server.address}/${page}.html`, paper ? [paper] : Object.keys(papers))
+        const made = await print(browser, `${server.address}/${page}.html${ask}`, isSlides ? ['slides'] : paper ? [paper] : Object.keys(papers), isSlides)
             .catch((error) => Promise.reject(new Error(`${name}: ${error.message}`)));
         for (const [size, bytes] of made) {
-            const path = join(out, folder, `${file}-${size}.pdf`);
+            const path = join(out, folder, `${file}${isSlides ? '' : `-${size}`}.pdf`);
             writeFileSync(`${path}.part`, bytes);
             renameSync(`${path}.part`, path);
             console.log(`handouts: ${path}`);

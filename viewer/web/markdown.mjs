@@ -2,7 +2,7 @@
  * The Markdown of the project's documents as HTML: headings, paragraphs, lists, tables, fences,
  * images and links. It refuses nothing; what it does not know is text.
  */
-const escapeHtml = (s) => s.replace(/[&<>"]/g, (c) => ({ '&': '&amp;', '<': '&lt;', '>': '&gt;', '"': '&quot;' })[c]);
+export const escapeHtml = (s) => s.replace(/[&<>"]/g, (c) => ({ '&': '&amp;', '<': '&lt;', '>': '&gt;', '"': '&quot;' })[c]);
 
 /** As GitHub makes it, so that links within a page work. */
 export const anchorOf = (title) => title.toLowerCase().replace(/[^\p{L}\p{N} _-]/gu, '').trim().replaceAll(' ', '-');

@@ -17,10 +17,10 @@
 /** Places of the eye are multiples of 1/64, so products of coordinates fit a double. */
 export const onGrid = (place) => place.map((v) => Math.round(64 * v) / 64);
 
-const cross = ([ax, ay], [bx, by]) => ax * by - ay * bx;
+export const cross = ([ax, ay], [bx, by]) => ax * by - ay * bx;
 
 /** Positive if c lies to the left of the line from a to b. */
-const side = (a, b, c) => Math.sign(cross([b[0] - a[0], b[1] - a[1]], [c[0] - a[0], c[1] - a[1]]));
+export const side = (a, b, c) => Math.sign(cross([b[0] - a[0], b[1] - a[1]], [c[0] - a[0], c[1] - a[1]]));
 
 /** Whether a place lies on a wall. */
 export const isOn = ([x, y], [ax, ay, bx, by]) => side([ax, ay], [bx, by], [x, y]) === 0 &&
@@ -30,7 +30,7 @@ export const isOn = ([x, y], [ax, ay, bx, by]) => side([ax, ay], [bx, by], [x, y
 const halfOf = ([x, y]) => (y > 0 || (y === 0 && x > 0) ? 0 : 1);
 
 /** Below zero if direction a comes before b, on the way round from 0°. */
-const compareAngles = (a, b) => halfOf(a) - halfOf(b) || -Math.sign(cross(a, b));
+export const compareAngles = (a, b) => halfOf(a) - halfOf(b) || -Math.sign(cross(a, b));
 
 /** Walls with their first end on the way round; `number` counts from 1, as in the picture. */
 function turned(eye, walls) {

@@ -1,81 +1,38 @@
 /**
- * A lab: the student completes a function, and the page judges it on maps that it does not show, against the library.
- * The first map on which it fails is drawn, with a place as a counterexample.
- *
- * The judged function gives the visible region of an eye as a polygon. A place is a counterexample if the library sees it
- * from the eye and the polygon does not hold it, or the other way round. Places nearer than MARGIN to the border of the
- * region are left out: there, rounding of corners may decide. Lines that only touch walls do not count (open sight): a
- * region has no area there.
+ * A lab: the student completes a function, and the page judges it on cases that it does not show, against the library.
+ * The first case on which it fails is drawn, with a counterexample. What is asked and how it is judged is a CodeLab;
+ * there is one a file: region-lab.js, search-lab.js, funnel-lab.js, pull-lab.js.
  */
-import { drawDot, drawPlan, fillPolygons, strokeLines } from '../parts/plan.js';
-import { isOn, onGrid } from './angular.js';
 import { element } from './figure.js';
-import { drawWalls, flat, hall, house, itemsOf, pillars, segmentsOf } from './maps.js';
-import { keepPicture, picture } from './still.js';
+import { flat, hall, house, itemsOf, pillars, segmentsOf } from './maps.js';
+import { keepPicture } from './still.js';
+
+/**
+ * @typedef {Object} CodeLab
+ * @property {string} call the name of the judged function @property {string} gives what it gives, in words
+ * @property {(lab: import('./lab.js').Lab) => {given: any[], about: string}[]} cases arguments of each call, and more for the judge
+ * @property {(value: any) => boolean} isAnswer whether a value has the right form
+ * @property {(one: any, lab: import('./lab.js').Lab) => (tones: any) => Element} draw a case alone
+ * @property {(lab: import('./lab.js').Lab, one: any, value: any) => any} judge null, or {text, draw}; it may be a promise
+ * @property {(count: number) => string} right what is said when all cases are passed
+ */
 
 /** How long all calls may take together, in milliseconds. */
 const PATIENCE = 3000;
 
-const [MARGIN, PLACES] = [1e-3, 200];
-
 /** Numbers between 0 and 1, the same each time. */
-function chances(seed) {
+export function chances(seed) {
     let number = seed;
     return () => (number = (number * 48271) % 2147483647) / 2147483647;
 }
 
-const openScene = (lab, text) => lab.scene(text, { sight: 'open' });
-
 const halls = [2, 3].map((columns) => ({ text: hall(columns), box: [0, 0, 4 * columns, 12] }));
 
-/** Maps and eyes that the page does not show. Every other eye has coordinates of walls, so rays touch ends and lie on walls. */
-export function hiddenCases(lab) {
-    const chance = chances(11), cases = [];
-    for (const { text, box } of [pillars, flat, house, ...halls]) {
-        const items = itemsOf(text), walls = segmentsOf(items), scene = openScene(lab, text);
-        for (let found = 0; found < 4;) {
-            const place = [box[2] * chance(), box[3] * chance()], eye = found % 2 ? place.map((v) => Math.round(2 * v) / 2) : onGrid(place);
-            const cell = scene.locate(...eye);
-            if (cell < 0 || !scene.cellTable[6 * cell + 4] || walls.some((wall) => isOn(eye, wall))) continue;
-            cases.push({ text, box, items, walls, eye });
-            found++;
-        }
-    }
-    return cases;
-}
-
-/** Whether a polygon holds a place (even-odd rule). @param {number[][]} polygon */
-export const holds = (polygon, [x, y]) => polygon.reduce((inside, [ax, ay], i) => {
-    const [bx, by] = polygon[(i + 1) % polygon.length];
-    return (ay > y) !== (by > y) && x < ax + ((y - ay) / (by - ay)) * (bx - ax) ? !inside : inside;
-}, false);
-
-function isNear(points, [x, y]) {
-    for (let i = 0; i < points.length; i += 2) {
-        const [ax, ay] = [points[i], points[i + 1]], [bx, by] = [points[(i + 2) % points.length], points[(i + 3) % points.length]];
-        const length = (bx - ax) ** 2 + (by - ay) ** 2, t = length && Math.min(1, Math.max(0, ((x - ax) * (bx - ax) + (y - ay) * (by - ay)) / length));
-        if (Math.hypot(x - ax - t * (bx - ax), y - ay - t * (by - ay)) < MARGIN) return true;
-    }
-    return false;
-}
-
-/** A place where a polygon and the library differ; null if none is found. */
-export function counterexample(lab, { text, box, eye }, polygon) {
-    const scene = openScene(lab, text), chance = chances(5), region = [...scene.isovist(...eye).points], places = [];
-    for (let i = 0; i < region.length; i += 2)
-        for (const t of [0.02, -0.02]) places.push([region[i] + t * (eye[0] - region[i]), region[i + 1] + t * (eye[1] - region[i + 1])]);
-    for (let i = 0; i < PLACES; i++) places.push([box[2] * chance(), box[3] * chance()]);
-    const isFloor = (place) => {
-        const cell = scene.locate(...place);
-        return cell >= 0 && scene.cellTable[6 * cell + 4] !== 0;
-    };
-    for (const place of places) {
-        if (!isFloor(place) || isNear(region, place)) continue;
-        const isSeen = scene.canSee({ x: eye[0], y: eye[1] }, { x: place[0], y: place[1] });
-        if (isSeen !== holds(polygon, place)) return { place, isSeen };
-    }
-    return null;
-}
+/** Maps for the cases. */
+export const hiddenPlans = () => [pillars, flat, house, ...halls].map(({ text, box }) => {
+    const items = itemsOf(text);
+    return { text, box, items, walls: segmentsOf(items) };
+});
 
 /** Calls the student's function beside the page. @returns {Promise<any[]>} what came of each call */
 function run(code, name, calls) {
@@ -102,36 +59,22 @@ function run(code, name, calls) {
     });
 }
 
-/** Lets the page answer between two maps. */
+/** Lets the page answer between two cases. */
 const breathe = () => new Promise((resolve) => setTimeout(resolve));
 
-const isPolygon = (value) => Array.isArray(value) && value.every((p) => Array.isArray(p) && p.length === 2 && p.every(Number.isFinite));
-
-/** The map of a case, the region that was given, and the counterexample. */
-const drawing = ({ box, items, eye }, polygon, found) => (tones) => picture('A map on which the function fails', box, (surface, camera) => {
-    drawPlan(surface, camera, {}, tones);
-    if (polygon.length) fillPolygons(surface, camera, [polygon.flat()], tones.region);
-    drawWalls(surface, camera, items, tones);
-    if (found) strokeLines(surface, camera, [[...eye, ...found.place]], tones.to, 1.5, found.isSeen ? [] : [5, 4]);
-    drawDot(surface, camera, eye, 7, tones.sourceEdge, tones.page);
-    if (found) drawDot(surface, camera, found.place, 6, tones.to, tones.page);
-}, { width: 420, most: 300 });
-
-/** Judges code. @returns {Promise<{right: boolean, text: string, draw?: (tones: any) => Element}>} */
-export async function judgeCode(code, lab) {
-    const cases = hiddenCases(lab), answers = await run(code, 'region', cases.map(({ eye, walls }) => [eye, walls]));
+/** Judges code. @param {CodeLab} asked @returns {Promise<{right: boolean, text: string, draw?: (tones: any) => Element}>} */
+async function judgeCode(code, asked, lab) {
+    const cases = await asked.cases(lab), answers = await run(code, asked.call, cases.map(({ given }) => given));
     for (const [i, one] of cases.entries()) {
-        const answer = answers[i], on = `On map ${i + 1} of ${cases.length}, which is drawn here,`, eye = `eye at ${one.eye.join(', ')}`;
-        if (!answer || answer.error) return { right: false, text: `${on} the function ends with an error (${eye}): ${answer?.error ?? 'no answer'}`, draw: drawing(one, [], null) };
-        if (!isPolygon(answer.value)) return { right: false, text: `${on} the function gives no list of places [x, y] with finite numbers (${eye}).`, draw: drawing(one, [], null) };
+        const answer = answers[i], on = `On map ${i + 1} of ${cases.length}, which is drawn here,`;
+        const fails = (what) => ({ right: false, text: `${on} the function ${what}`, draw: asked.draw(one, lab) });
+        if (!answer || answer.error) return fails(`ends with an error (${one.about}): ${answer?.error ?? 'no answer'}`);
+        if (!asked.isAnswer(answer.value)) return fails(`gives no ${asked.gives} (${one.about}).`);
         await breathe();
-        const found = counterexample(lab, one, answer.value);
-        if (found) {
-            const at = found.place.map((v) => Number(v.toFixed(2))).join(', '), verb = found.isSeen ? 'sees' : 'does not see';
-            return { right: false, text: `${on} the ${eye} ${verb} the place ${at}. Your region says otherwise.`, draw: drawing(one, answer.value, found) };
-        }
+        const found = await asked.judge(lab, one, answer.value);
+        if (found) return { right: false, text: `${on} ${found.text}`, draw: found.draw };
     }
-    return { right: true, text: `It agrees with the library on all ${cases.length} maps, at ${PLACES} places of each and beside each corner. Many rays lie on walls or touch two ends.` };
+    return { right: true, text: asked.right(cases.length) };
 }
 
 /** The part of an exercise's form: the code, and where a counterexample is drawn. */
@@ -145,7 +88,7 @@ export function codePart(exercise, lab, id) {
     const node = element('div', { className: 'code-part' }, element('label', { htmlFor: id }, exercise.question), area, picture, again);
     area.addEventListener('input', () => (picture.hidden = true));
     const judge = async () => {
-        const { draw, ...said } = await judgeCode(area.value, lab);
+        const { draw, ...said } = await judgeCode(area.value, exercise.lab, lab);
         picture.hidden = !draw;
         if (draw) keepPicture(picture, draw);
         return said;

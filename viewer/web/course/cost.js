@@ -268,6 +268,14 @@ const where = {
 
 export const figures = { chart, where };
 
+/** Numbers of the text: the percentage of pairs that flood adds to the exact ones. */
+const pairsIn = (lab, text, method) => {
+    const scene = lab.scene(text, { method });
+    return Array.from({ length: scene.cellCount }, (_, i) => scene.row(i).length).reduce((a, b) => a + b);
+};
+const added = (plan) => (lab) => round(100 * (pairsIn(lab, plans[plan].text, 'flood') / pairsIn(lab, plans[plan].text, 'sweep') - 1), 1);
+export const values = { 'flood-hall': added('hall'), 'flood-rooms': added('rooms') };
+
 const hallText = plans.hall.text;
 
 /** The pairs that a method finds, as the command `compare` counts them. */

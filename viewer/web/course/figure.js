@@ -6,12 +6,14 @@
  * says it in words. `beside(state, tones)` may give a second picture. Mouse, touch and keys all move handles.
  * A control of kind 'map' chooses a plan or a map of the reader's own (own.js); `update` then puts `box` into the state.
  * `press(state, place, camera)` is called for a press of the mouse or a finger, before handles move; it may set controls.
+ * `marks` name parts of the picture: words of the text light them (words.js).
  * `start(figure)` is called once: work beside the page calls `figure.change()` when it has something new.
  */
+import { t } from '../language/language.js';
 import { Camera } from '../parts/camera.js';
 import { watchTones } from '../parts/tones.js';
 import { mapField } from './own.js';
-import { drawFigure, firstState, paper, stillOf } from './still.js';
+import { drawFigure, drawMark, firstState, paper, stillOf } from './still.js';
 
 /**
  * @typedef {Object} Spec
@@ -30,6 +32,7 @@ import { drawFigure, firstState, paper, stillOf } from './still.js';
  * @property {(state: any) => any} [paper] the state to print, if it is not the one on the screen
  * @property {(figure: Figure) => void} [start]
  * @property {(state: any, place: number[], camera: Camera) => void} [press] `place` in pixels
+ * @property {Record<string, (state: any) => {lines?: number[][], areas?: number[][], dots?: number[][]}>} [marks]
  */
 
 /** @returns {any} an element with properties, attributes (data-, aria-, role) and children */
@@ -56,7 +59,7 @@ const TAP = 10;
 
 /** The words below a picture: sentences that say what to do are left out of handouts. @param {string} about */
 const captionOf = (about) => about.split(/(?<=[.!?]) (?=[A-Z])/).flatMap((sentence) => [' ',
-    /\b(drag|sliders?|press|choose)\b/i.test(sentence) ? element('span', { className: 'keys' }, sentence) : sentence]);
+    /\b(drag|sliders?|press|choose|zieh\w*|Regler|wähl\w*|drück\w*)\b/i.test(sentence) ? element('span', { className: 'keys' }, sentence) : sentence]);
 
 /** In lecture mode lines and letters are up to LARGER times as large, as long as LEAST_WIDTH of their own pixels fit across. */
 const [LARGER, LEAST_WIDTH] = [2, 360];
@@ -91,13 +94,13 @@ export class Figure {
 
     build(host) {
         const { spec } = this, id = `figure-${++count}`;
-        const keys = spec.handles.length > 1 ? ' Arrows move the chosen dot; N chooses the next one.'
-            : spec.handles.length ? ' Arrows move the dot.' : '';
-        this.canvas = element('canvas', { tabIndex: 0, role: 'application', 'aria-label': spec.title, 'aria-describedby': `${id}-about ${id}-says` });
+        const keys = spec.handles.length > 1 ? t(' Arrows move the chosen dot; N chooses the next one.')
+            : spec.handles.length ? t(' Arrows move the dot.') : '';
+        this.canvas = element('canvas', { tabIndex: 0, role: 'application', 'aria-label': t(spec.title), 'aria-describedby': `${id}-about ${id}-says` });
         this.still = element('div', { className: 'still' });
         this.beside = element('div', { className: spec.wide ? 'beside wide' : 'beside' });
         this.says = element('p', { className: 'says', id: `${id}-says`, role: 'status' });
-        const caption = element('figcaption', { id: `${id}-about` }, element('strong', {}, spec.title), ...captionOf(spec.about), element('span', { className: 'keys' }, keys));
+        const caption = element('figcaption', { id: `${id}-about` }, element('strong', {}, t(spec.title)), ...captionOf(t(spec.about)), element('span', { className: 'keys' }, keys));
         this.controls = element('div', { className: 'controls' });
         for (const control of spec.controls ?? []) this.controls.append(this.field(control, id));
         host.replaceChildren(element('div', { className: 'pictures' }, this.canvas, this.still, ...(spec.beside ? [this.beside] : [])),
@@ -115,17 +118,18 @@ export class Figure {
         if (control.kind === 'map') return mapField(name, control, set, this.lab);
         if (control.kind === 'choice') {
             const list = element('select', { id: name }, ...control.options.map(([value, text]) =>
-                element('option', { value, selected: value === control.value }, text)));
+                element('option', { value, selected: value === control.value }, t(text))));
+            this.inputs[control.name] = list;
             list.addEventListener('change', () => set(list.value));
-            return element('span', {}, element('label', { htmlFor: name }, control.label, ' '), list);
+            return element('span', {}, element('label', { htmlFor: name }, t(control.label), ' '), list);
         }
         const isCheck = control.kind === 'check';
         const input = element('input', isCheck ? { id: name, type: 'checkbox', checked: control.value }
             : { id: name, type: 'range', min: control.min, max: control.max, step: control.step ?? 1 });
-        if (!isCheck) this.inputs[control.name] = input;
+        this.inputs[control.name] = input;
         if (!isCheck) input.value = control.value;
         input.addEventListener('input', () => set(isCheck ? input.checked : Number(input.value)));
-        const label = element('label', { htmlFor: name }, control.label);
+        const label = element('label', { htmlFor: name }, t(control.label));
         return element('span', {}, ...(isCheck ? [input, ' ', label] : [label, ' ', input]));
     }
 
@@ -164,8 +168,22 @@ export class Figure {
 
     press(place) {
         this.spec.press(this.state, place, this.camera);
-        for (const [name, input] of Object.entries(this.inputs)) input.value = this.state[name];
+        this.set({});
+    }
+
+    /** Puts values into the state, and the state into the controls. @param {Record<string, any>} values */
+    set(values) {
+        Object.assign(this.state, values);
+        for (const [name, input] of Object.entries(this.inputs))
+            if (input.type === 'checkbox') input.checked = this.state[name];
+            else input.value = this.state[name];
         this.change();
+    }
+
+    /** Lights a part of the picture, or none. @param {string} [mark] of the spec's marks */
+    light(mark) {
+        this.lit = mark;
+        this.draw();
     }
 
     nearest([px, py]) {
@@ -211,7 +229,8 @@ export class Figure {
     }
 
     fit() {
-        this.shown = this.box;
+        const [x0, y0, x1, y1] = (this.shown = this.box);
+        this.canvas.style.setProperty('--shape', `${x1 - x0} / ${y1 - y0}`);
         this.camera.fit(this.shown, 16);
     }
 
@@ -229,6 +248,7 @@ export class Figure {
         const surface = this.canvas.getContext('2d'), ratio = (window.devicePixelRatio || 1) * this.zoom, { tones } = this;
         surface.setTransform(ratio, 0, 0, ratio, 0, 0);
         drawFigure(surface, this.camera, tones, this.spec, this.state, this.active);
+        if (this.lit) drawMark(surface, this.camera, tones, this.spec.marks[this.lit](this.state));
     }
 
     /** For print: what is on the screen now, as vectors and in light colours. */

@@ -5,6 +5,7 @@ import { mix } from '../parts/tones.js';
 import { element } from './figure.js';
 import { cellAt, round } from './lab.js';
 import { drawWalls, grid, house, itemsOf } from './maps.js';
+import { firstState } from './still.js';
 
 const plan = { text: grid(8, 5), box: [0, 0, 32, 20] };
 const planItems = itemsOf(plan.text);
@@ -263,6 +264,16 @@ const cells = {
 };
 
 export const figures = { hierarchy, coherence, cells };
+
+/** Numbers of the text: the percentage of tests that updating saves on the walk. */
+export const values = {
+    saved(lab) {
+        const state = firstState(coherence);
+        coherence.update(state, lab);
+        const [root, updating] = state.curves.map((curve) => curve.reduce((a, b) => a + b));
+        return Math.round(100 * (1 - updating / root));
+    },
+};
 
 /** A tree with leaves 0 to count - 1, a power of two. */
 function evenTree(first, count, parent = null) {

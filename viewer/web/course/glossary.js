@@ -2,20 +2,24 @@
  * The glossary: a small picture for each term. A picture has words, a box of the map, and draws with what
  * the library computes. Several are figures of chapters in a chosen state.
  */
+import { t } from '../language/language.js';
 import { dualFigure } from '../parts/dual.js';
 import { drawDot, drawPlan, fillPolygons, strokeLines } from '../parts/plan.js';
+import { cornerGraph, shortestWay } from './corner-graph.js';
 import { figures as effects } from './effects.js';
 import { figures as frames } from './frames.js';
 import { drawHull, figures as hidden } from './hidden.js';
 import { cellAt, middleOf, planLine } from './lab.js';
 import { drawPortals, given, figures as lines, side } from './lines.js';
-import { drawText, drawWalls, flat, house, itemsOf, pillars } from './maps.js';
+import { drawText, drawWalls, flat, house, itemsOf, pillars, segmentsOf } from './maps.js';
 import { figures as program } from './program.js';
 import { figures as regions } from './regions.js';
 import { figures as rooms } from './rooms.js';
 import { figures as search } from './search.js';
 import { drawFigure, firstState, keepPicture, picture } from './still.js';
+import { pullString } from './string-pull.js';
 import { figures as view } from './view.js';
+import { doors } from './ways.js';
 
 export const figures = {}, exercises = {};
 
@@ -232,6 +236,22 @@ export const pictures = {
     doors: figure('A cell, and what it sees through the doors that are open.', effects.doors),
     mirrors: figure('An eye, and what it sees in two mirrors. Dashed is where that seems to be.', effects.mirrors),
     glass: figure('Sight passes the dashed wall one way only.', effects.glass, { range: 24 }),
+
+    way: ['A way between two dots, with its turns.', house.box, (p) => {
+        const { way } = shortestWay(cornerGraph([3, 1.5], [14.5, 12], segmentsOf(items.house)));
+        drawMap(p, 'house');
+        stroke(p, [way.flat()], 'sourceEdge', 3);
+        for (const at of way.slice(1, -1)) dot(p, at, 'start');
+        for (const at of [way[0], way.at(-1)]) dot(p, at, 'from');
+    }],
+    apex: ['Two strings part at the apex, and lead to the ends of a door.', blank, (p) => {
+        const { way, left, right } = pullString([1, 6], [17, 4], doors.map(([lx, ly, rx, ry]) => ({ left: [lx, ly], right: [rx, ry] })))[2];
+        drawPortals(p.surface, p.camera, p.tones, doors);
+        stroke(p, [[...way.flat(), ...left[0]]], 'sourceEdge', 4);
+        stroke(p, [left.flat()], 'left', 3);
+        stroke(p, [right.flat()], 'right', 3);
+        dot(p, left[0], 'start', 7);
+    }],
 };
 
 const SIZE = { width: 280, most: 220, margin: 10 };
@@ -239,7 +259,7 @@ const SIZE = { width: 280, most: 220, margin: 10 };
 /** @param {HTMLElement} main with a place for each picture @param {import('./lab.js').Lab} lab */
 export function fill(main, lab) {
     for (const host of main.querySelectorAll('figure[data-picture]')) {
-        const [words, box, draw] = pictures[host.dataset.picture];
+        const [english, box, draw] = pictures[host.dataset.picture], words = t(english);
         keepPicture(host, (tones) => (box ? picture(words, box, (surface, camera) => draw({ surface, camera, tones, lab }), SIZE)
             : draw({ tones, lab })));
     }

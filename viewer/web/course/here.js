@@ -3,7 +3,9 @@ import { drawPlan, fillPolygons, strokeLines } from '../parts/plan.js';
 import { mix } from '../parts/tones.js';
 import { sweepFigure } from './angular-figure.js';
 import { cellAt, floorArea, round } from './lab.js';
+import { regionCode } from './lab-code.js';
 import { drawWalls, flat, itemsOf, pillars } from './maps.js';
+import { regionLab } from './region-lab.js';
 
 const flatItems = itemsOf(flat.text), pillarItems = itemsOf(pillars.text);
 
@@ -31,6 +33,10 @@ const eye = {
         const options = state.field < 360 ? { heading: 0, fov: state.field } : {};
         state.isovist = look(lab, flat.text, state.eye, options);
         state.share = state.isovist ? state.isovist.area / floorArea(lab.scene(flat.text)) : 0;
+    },
+    marks: {
+        occluding: ({ isovist }) => ({ lines: isovist ? edgesOf(isovist, 'occluding') : [] }),
+        walls: ({ isovist }) => ({ lines: isovist ? edgesOf(isovist, 'wall') : [] }),
     },
     draw(surface, camera, tones, state) {
         drawPlan(surface, camera, { items: flatItems, region: state.isovist?.polygon }, tones);
@@ -66,18 +72,23 @@ const measures = {
 };
 const STEP = 0.8;
 
-/** One measure at the middle of each square of the floor; computed once. */
-const fields = {};
-function fieldOf(lab, name) {
-    if (fields[name]) return fields[name];
-    const squares = [], [x0, y0, x1, y1] = pillars.box;
+/** What is seen from the middle of each square of the floor; computed once. */
+let views = null;
+function viewsOf(lab) {
+    const list = [], [x0, y0, x1, y1] = pillars.box;
     for (let x = x0; x < x1 - 1e-9; x += STEP)
         for (let y = y0; y < y1 - 1e-9; y += STEP) {
             const seen = look(lab, pillars.text, [x + STEP / 2, y + STEP / 2]);
-            if (seen) squares.push({ square: [x, y, x + STEP, y, x + STEP, y + STEP, x, y + STEP], value: seen[name] });
+            if (seen) list.push({ square: [x, y, x + STEP, y, x + STEP, y + STEP, x, y + STEP], seen });
         }
+    return list;
+}
+
+/** One measure at the middle of each square. */
+function fieldOf(lab, name) {
+    const squares = (views ??= viewsOf(lab)).map(({ square, seen }) => ({ square, value: seen[name] }));
     const values = squares.map((s) => s.value), least = Math.min(...values), most = Math.max(...values);
-    return (fields[name] = { squares, least, most });
+    return { squares, least, most };
 }
 
 const field = {
@@ -136,35 +147,9 @@ export const exercises = {
     },
     region: {
         kind: 'code',
+        lab: regionLab,
         question: 'Complete the function. It gives the corners of the visible region, in the order of their angles.',
-        code: `// eye: [x, y]; walls: [[ax, ay, bx, by], ...], which may touch, but do not cross.
-function region(eye, walls) {
-    const angles = [];
-    for (const [ax, ay, bx, by] of walls)
-        for (const [x, y] of [[ax, ay], [bx, by]]) {
-            const angle = Math.atan2(y - eye[1], x - eye[0]);
-            angles.push(angle - 1e-9, angle + 1e-9);
-        }
-    angles.sort((a, b) => a - b);
-
-    const corners = [];
-    for (const angle of angles) {
-        const direction = [Math.cos(angle), Math.sin(angle)];
-        const distance = nearest(eye, direction, walls);
-        corners.push([eye[0] + distance * direction[0], eye[1] + distance * direction[1]]);
-    }
-    return corners;
-}
-
-// How far the ray from the eye goes until it meets a wall.
-function nearest(eye, [dx, dy], walls) {
-    let best = Infinity;
-    for (const [ax, ay, bx, by] of walls) {
-        // Your lines: where does the ray meet the wall from a to b?
-        // Is that before the eye, beside the wall, or on it? Keep the least distance in best.
-    }
-    return best;
-}`,
+        code: regionCode.text,
     },
     guard: {
         kind: 'place',

@@ -8,7 +8,7 @@ import { drawWalls, house, itemsOf } from './maps.js';
 const box = [0, 0, 18, 12], houseItems = itemsOf(house.text);
 
 /** Corners of the convex hull, counter-clockwise (Andrew's monotone chain). @param {number[][]} points */
-function hull(points) {
+export function hull(points) {
     const sorted = [...points].sort((p, q) => p[0] - q[0] || p[1] - q[1]);
     const half = (list) => {
         const chain = [];
@@ -56,6 +56,10 @@ const hulls = {
         state.bad = proofOf(state.conflict);
         state.sees = state.conflict.verdict !== 'hidden';
         state.dual = state.sees ? lab.core.dual(state.portals) : null;
+    },
+    marks: {
+        left: ({ portals }) => ({ areas: [hull(portals.map((p) => p.slice(0, 2))).flat()] }),
+        right: ({ portals }) => ({ areas: [hull(portals.map((p) => p.slice(2))).flat()] }),
     },
     draw(surface, camera, tones, { portals, bad, dual }) {
         drawPlan(surface, camera, {}, tones);

@@ -1,4 +1,5 @@
 /** The contents: what a student has answered, beside each chapter. */
+import { t } from '../language/language.js';
 import { loadProgress } from './progress.js';
 
 export const figures = {}, exercises = {};
@@ -7,8 +8,8 @@ export const figures = {}, exercises = {};
 export async function fill(main) {
     const answers = Object.entries(loadProgress().answers);
     for (const link of main.querySelectorAll('td a')) {
-        const chapter = link.getAttribute('href').replace('.html', '');
+        const chapter = link.getAttribute('href').replace(/^.*\/|\.html$/g, '');
         const own = answers.filter(([key]) => key.startsWith(`${chapter}/`)), right = own.filter(([, { result }]) => result === 'right').length;
-        if (own.length) link.after(` (${right} of ${own.length} answers right)`);
+        if (own.length) link.after(t` (${right} of ${own.length} answers right)`);
     }
 }

@@ -1,91 +1,131 @@
 /**
- * Lecture mode: the whole screen, large type, one figure or exercise at a time with its heading.
- * Right, Page Down and Space go on; Left and Page Up go back; Escape leaves. The slides of all chapters are one row:
- * after the last slide of a chapter comes the first one of the next. The address names the slide, as in #slide-3, so
- * it can be kept, and the browser's own Back goes to the slide before.
+ * A lecture as slides: lecture.html?plan=90; plans.js has the plans. The address names the slide, as in #lines-puzzle, so it can be
+ * kept. Right, Page Down and Space go on, also into the next chapter; Left and Page Up go back. A prediction goes on in two steps:
+ * first the question, then what happens. `&view=presenter` is the lecturer's window, with notes and a clock. Windows of one plan show
+ * the same slide, and what is moved in a figure moves in all of them. `&print=all` makes all figures, as they are
+ * printed, and `&print=now` prints them as well.
  */
-import { element } from './figure.js';
+import { element, Figure } from './figure.js';
+import { stepOf } from './lecture-mode.js';
+import { plans, slidesOf } from './plans.js';
+import { presenterPanel } from './presenter.js';
+import { statedAt, stateOf } from './stated.js';
 
-/** The slide that an address names, from 0 on; -1 for none. @param {number} count of slides */
-function slideOf(hash, count) {
-    const found = /^#slide-(\d+|last)$/.exec(hash);
-    return !found ? -1 : found[1] === 'last' ? count - 1 : Math.min(count, Math.max(1, Number(found[1]))) - 1;
+export const figures = {}, exercises = {};
+
+const hostOf = ({ node }) => node.querySelector('figure[data-show]');
+
+/** Makes the figure of a slide, in the state of the slide; `first` keeps it for the way back. */
+async function build(slide, lab) {
+    const host = hostOf(slide);
+    if (!host || host.figure) return;
+    const [chapter, name] = host.dataset.show.split('/'), { figures: own } = await import(`./${chapter}.js`);
+    if (host.figure) return;
+    new Figure(host, statedAt(own[name], JSON.parse(host.dataset.state)), lab);
+    slide.first = stateOf(host.figure);
+    slide.then = { ...slide.first, ...JSON.parse(host.dataset.then) };
 }
 
-/** @param {HTMLElement} main whose children are headings, text, figures and exercises */
-export function lectureMode(main) {
-    const slides = [...main.querySelectorAll(':scope > figure[data-figure], :scope > form')];
-    if (!slides.length) return;
-    let at = -1, address = '';
-    const where = element('span', { role: 'status' });
+const pause = () => new Promise((resolve) => setTimeout(resolve, 50));
+
+/** All figures of all slides, as they are printed: predictions with their answer. */
+async function prepareAll(slides, lab) {
+    for (const slide of slides) {
+        await build(slide, lab);
+        const figure = hostOf(slide)?.figure;
+        if (figure) figure.set(structuredClone(slide.then));
+        slide.node.classList.add('answered');
+    }
+    const isReady = ({ figure }) => figure.spec.isReady?.(figure.state) ?? true;
+    while (!slides.map(hostOf).filter(Boolean).every(isReady)) await pause();
+}
+
+/** @param {HTMLElement} main with a section for each slide @param {import('./lab.js').Lab} lab */
+export async function fill(main, lab) {
+    const asked = new URL(location.href).searchParams, plan = asked.get('plan') ?? '90', isPresenter = asked.get('view') === 'presenter';
+    if (!Object.hasOwn(plans, plan)) throw new Error(`there is no plan ${plan}. Plans: ${Object.keys(plans).join(', ')}`);
+    const slides = slidesOf(plan, [...main.querySelectorAll('section.slide')].map((node) => ({ node, chapter: node.dataset.chapter, kind: node.dataset.kind })));
+    const lectures = plans[plan].length, talk = new BroadcastChannel(`sightline lecture ${plan}`), where = element('span', { role: 'status' }), panel = isPresenter ? presenterPanel() : null;
     const button = (text, action) => {
         const node = element('button', { type: 'button' }, text);
         node.addEventListener('click', action);
         return node;
     };
-    const chapter = (rel) => main.querySelector(`.chapters a[rel=${rel}]`)?.href;
     const back = button('Back', () => go(-1)), next = button('Next', () => go(1));
-    const bar = element('div', { className: 'lecture-bar', role: 'group', 'aria-label': 'Lecture', hidden: true }, back, next, where, button('Leave', () => leave()));
-    const begin = button('Lecture mode', () => {
-        document.documentElement.requestFullscreen?.().catch(() => {});
-        address = location.hash;
-        show(0, true);
-    });
-    begin.id = 'lecture';
-    /** The picture of the slide for a screen of another size. */
-    const fit = () => (slides[at].figure ?? slides[at].querySelector('figure')?.figure)?.resize();
-    main.querySelector('h1').after(begin);
-    main.append(bar);
+    const bar = element('div', { className: 'lecture-bar', role: 'group', 'aria-label': 'Lecture' }, back, next, where);
+    if (!isPresenter) bar.append(button('Presenter view', () => open(`?plan=${plan}&view=presenter${location.hash}`, '_blank', 'popup,width=1100,height=720')),
+        button('Print, or save as PDF', () => (location.href = `?plan=${plan}&print=now`)));
+    document.body.classList.add('lecture', 'deck', ...(isPresenter ? ['presenter'] : []));
+    main.replaceChildren(...slides.map(({ node }) => node), ...(panel ? [panel.node] : []), bar);
+    let at = 0, isAnswered = false, began = 0, isTold = false;
 
-    /** A step; behind the last slide and before the first one into the next chapter. */
+    const slideOf = (hash) => Math.max(0, slides.findIndex(({ node }) => `#${node.id}` === hash));
+    const tell = (more = {}) => talk.postMessage({ slide: slides[at].node.id, isAnswered, began, ...more });
+
+    async function show(wanted, answered) {
+        const slide = slides[wanted], { node } = slide;
+        [at, isAnswered] = [wanted, answered];
+        for (const other of slides) other.node.classList.toggle('on', other === slide);
+        node.classList.toggle('answered', answered);
+        where.textContent = `${lectures > 1 ? `Lecture ${slide.lecture} of ${lectures}, ` : ''}${at + 1} of ${slides.length}`;
+        back.disabled = at === 0 && !answered;
+        next.disabled = at === slides.length - 1 && (answered || slide.kind !== 'prediction');
+        document.title = `${node.querySelector('h2').textContent} - ${node.querySelector('h1').textContent} - Sightline`;
+        panel?.show(slide, slides[at + 1], began);
+        await build(slide, lab);
+        const figure = hostOf(slide)?.figure;
+        if (!figure || slides[at] !== slide) return;
+        if (slide.kind === 'prediction') figure.set(structuredClone(isAnswered ? slide.then : slide.first));
+        figure.resize();
+    }
+
+    function move(wanted, answered) {
+        began ||= Date.now();
+        if (wanted !== at) history.pushState(null, '', `#${slides[wanted].node.id}`);
+        show(wanted, answered);
+        tell();
+    }
     function go(by) {
-        const wanted = at + by, other = wanted < 0 ? chapter('prev') : wanted >= slides.length ? chapter('next') : null;
-        if (other) location.href = `${other}#slide-${by > 0 ? '1' : 'last'}`;
-        else if (slides[wanted]) show(wanted, true);
+        if (by > 0 && slides[at].kind === 'prediction' && !isAnswered) move(at, true);
+        else if (by < 0 && isAnswered) move(at, false);
+        else if (slides[at + by]) move(at + by, false);
     }
 
-    /** @param {boolean} [isNew] the address does not name the slide yet */
-    function show(wanted, isNew = false) {
-        at = wanted;
-        if (isNew) history.pushState(null, '', `#slide-${at + 1}`);
-        document.body.classList.add('lecture');
-        bar.hidden = false;
-        for (const node of main.querySelectorAll(':scope > .on')) node.classList.remove('on');
-        slides[at].classList.add('on');
-        let heading = slides[at].previousElementSibling;
-        while (heading && heading.tagName !== 'H2') heading = heading.previousElementSibling;
-        heading?.classList.add('on');
-        back.disabled = at === 0 && !chapter('prev');
-        next.disabled = at === slides.length - 1 && !chapter('next');
-        fit();
-        where.textContent = `${at + 1} of ${slides.length}`;
-        window.scrollTo(0, 0);
-    }
-    function leave() {
-        if (document.fullscreenElement) document.exitFullscreen();
-        document.body.classList.remove('lecture');
-        bar.hidden = true;
-        fit();
-        slides[at].scrollIntoView();
-        at = -1;
-        history.replaceState(null, '', location.pathname + location.search + address);
-        begin.focus({ preventScroll: true });
-    }
-    const follow = () => {
-        const wanted = slideOf(location.hash, slides.length);
-        if (wanted >= 0) show(wanted);
-        else if (at >= 0) leave();
+    talk.onmessage = async ({ data: { slide, isAnswered: answered, began: start, hello, values } }) => {
+        if (hello) return tell();
+        began ||= start;
+        const wanted = slideOf(`#${slide}`);
+        if (wanted !== at || answered !== isAnswered) {
+            history.replaceState(null, '', `#${slide}`);
+            await show(wanted, answered);
+        } else panel?.show(slides[at], slides[at + 1], began);
+        const figure = values && hostOf(slides[at])?.figure;
+        if (!figure) return;
+        isTold = true;
+        figure.set(structuredClone(values));
+        isTold = false;
     };
-    addEventListener('popstate', follow);
-    follow();
-    document.addEventListener('fullscreenchange', () => at >= 0 && !document.fullscreenElement && leave());
-    document.addEventListener('keydown', (event) => {
-        if (at < 0) return;
-        const isField = /^(INPUT|SELECT|BUTTON|CANVAS|TEXTAREA)$/.test(document.activeElement?.tagName ?? '');
-        const by = { PageDown: 1, PageUp: -1, ...(isField ? {} : { ArrowRight: 1, ArrowLeft: -1, ' ': 1 }) }[event.key];
-        if (event.key === 'Escape') leave();
-        else if (by) go(by);
-        else return;
-        event.preventDefault();
+    /** What a hand has changed here goes to the other windows. */
+    const share = () => {
+        const figure = hostOf(slides[at])?.figure;
+        if (figure && !isTold) tell({ values: stateOf(figure) });
+    };
+    main.addEventListener('input', share);
+    main.addEventListener('keyup', share);
+    main.addEventListener('pointermove', ({ buttons }) => buttons && share());
+    main.addEventListener('pointerup', share);
+    addEventListener('popstate', () => {
+        show(slideOf(location.hash), false);
+        tell();
     });
+    document.addEventListener('keydown', (event) => {
+        const by = stepOf(event);
+        if (!by) return;
+        event.preventDefault();
+        go(by);
+    });
+    await show(slideOf(location.hash), false);
+    talk.postMessage({ hello: true });
+    if (asked.has('print')) await prepareAll(slides, lab);
+    if (asked.get('print') === 'now') print();
 }

@@ -1,4 +1,5 @@
 /** Chapter 3: lines through portals, their ends, and the dual plane. */
+import { t } from '../language/language.js';
 import { dualFigure } from '../parts/dual.js';
 import { drawDot, drawPlan, strokeLines } from '../parts/plan.js';
 import { drawWhy, tellWhy } from '../parts/why-scene.js';
@@ -55,12 +56,16 @@ const line = {
         state.line = long(a, b);
         state.slope = (b[1] - a[1]) / (b[0] - a[0] || 1e-9);
     },
+    marks: {
+        left: () => ({ dots: given.map((p) => p.slice(0, 2)) }),
+        right: () => ({ dots: given.map((p) => p.slice(2)) }),
+    },
     draw(surface, camera, tones, state) {
         drawPortals(surface, camera, tones, given, state.wrong);
         strokeLines(surface, camera, [state.line], state.wrong.length ? tones.faint : tones.sourceEdge, state.wrong.length ? 1.5 : 3);
     },
-    tell: (state) => `The line has slope ${round(state.slope, 2)}. ` + (state.wrong.length
-        ? `On the wrong side: ${state.wrong.map(nameOf).join(', ')}.` : 'It passes all portals: it is a line of sight.'),
+    tell: (state) => t`The line has slope ${round(state.slope, 2)}. ` + (state.wrong.length
+        ? t`On the wrong side: ${state.wrong.map(nameOf).join(', ')}.` : t('It passes all portals: it is a line of sight.')),
 };
 
 /** The portals that the dots of the figure hold, each at its place across and with its left end above. */
@@ -97,9 +102,8 @@ const dual = {
         return dualFigure(why, tones);
     },
     tell: (state) => (state.sees
-        ? `A line of sight passes all portals. The best line keeps ${round(state.dual.margin * state.dual.scale, 2)} m from ` +
-            `all ends${state.conflict.verdict === 'grazing' ? ': it can only touch' : ''}.`
-        : `No line passes. Ends that contradict each other: ${state.bad.map(nameOf).join(', ')}.`),
+        ? t`A line of sight passes all portals. The best line keeps ${round(state.dual.margin * state.dual.scale, 2)} m from all ends${state.conflict.verdict === 'grazing' ? t(': it can only touch') : ''}.`
+        : t`No line passes. Ends that contradict each other: ${state.bad.map(nameOf).join(', ')}.`),
 };
 
 const cells = {
@@ -117,7 +121,7 @@ const cells = {
         drawWalls(surface, camera, items, tones);
         if (state.why) drawWhy(surface, camera, state.why, tones);
     },
-    tell: (state) => (state.why ? tellWhy(state.why) : 'Both dots are in one cell. A cell sees itself.'),
+    tell: (state) => (state.why ? tellWhy(state.why) : t('Both dots are in one cell. A cell sees itself.')),
 };
 
 export const figures = { line, dual, cells };
@@ -151,8 +155,8 @@ export const exercises = {
         solution: [[1, 5.5], [17, 5.6]],
         figure: { ...line, title: 'Three portals.', about: 'Drag both dots, then press Check.', handles: [{ name: 'a', at: [1, 2], tone: 'from' }, { name: 'b', at: [17, 10], tone: 'from' }] },
         judge({ wrong }) {
-            if (!wrong.length) return { right: true, text: 'All left ends lie to the left of the line, and all right ends to its right.' };
-            return { right: false, text: `On the wrong side: ${wrong.map(nameOf).join(', ')}. L must be above the line, R below it.` };
+            if (!wrong.length) return { right: true, text: t('All left ends lie to the left of the line, and all right ends to its right.') };
+            return { right: false, text: t`On the wrong side: ${wrong.map(nameOf).join(', ')}. L must be above the line, R below it.` };
         },
     },
 };

@@ -2,6 +2,7 @@
  * Maps of the reader: a file that is chosen or dropped on the page, a map in the page's address, and the last
  * one of the playground. One map at a time; all figures of a page with a field for maps get it.
  */
+import { t } from '../language/language.js';
 import { boundsOf, countWalls, parseMap, writeMap } from '../formats/map-text.js';
 import { acceptDrops, readFile } from '../playground/files.js';
 import { loadWork, unpackMap } from '../playground/share.js';
@@ -97,6 +98,6 @@ export function mapField(id, control, set, lab) {
         },
     });
     listen(lab);
-    return element('span', { className: 'map-field' }, element('label', { htmlFor: id }, control.label), list,
-        element('label', { htmlFor: file.id }, 'or a file'), file, said);
+    return element('span', { className: 'map-field' }, element('label', { htmlFor: id }, t(control.label)), list,
+        element('label', { htmlFor: file.id }, t('or a file')), file, said);
 }

@@ -1,6 +1,8 @@
 /** Chapter 4: the linear program of a portal sequence: rows, margin, basis, steps. */
 import { drawDot, strokeLines } from '../parts/plan.js';
 import { element } from './figure.js';
+import { funnelLab } from './funnel-lab.js';
+import { funnelCode } from './lab-code.js';
 import { box, drawPortals, given, heldPortals, long } from './lines.js';
 import { room, rowsOf, simplex } from './simplex.js';
 
@@ -165,5 +167,11 @@ export const exercises = {
                 return { right: true, text: `The margin is ${metres(now.m)} m. More than 1.50 m is out of reach: each of the other two portals is 3 m wide.` };
             return { right: false, text: `The margin is ${metres(now.m)} m. The straight line between the middles of the outer portals is at height 6 there: make room for it on both sides.` };
         },
+    },
+    funnel: {
+        kind: 'code',
+        lab: funnelLab,
+        question: 'Complete the cut. The function gives how many portals of a sequence one line passes.',
+        code: funnelCode.text,
     },
 };

@@ -7,6 +7,8 @@
  * @property {'right' | 'wrong'} result @property {string} remark @property {number} tries
  * @property {string} first time of the first try @property {string} last time of the last one, as in ISO 8601
  */
+import { t } from '../language/language.js';
+
 const KEY = 'sightline-course-answers';
 const KIND = 'sightline course answers', VERSION = 1;
 
@@ -14,13 +16,13 @@ const nothing = () => ({ name: '', answers: {} });
 
 /** Whether a value is what `saveText` writes; otherwise why not. */
 function faultOf(kept) {
-    if (kept?.kind !== KIND) return 'This is no file of answers.';
-    if (kept.version !== VERSION) return `The file has version ${kept.version}; this page reads version ${VERSION}.`;
+    if (kept?.kind !== KIND) return t('This is no file of answers.');
+    if (kept.version !== VERSION) return t`The file has version ${kept.version}; this page reads version ${VERSION}.`;
     const isText = (value) => typeof value === 'string', isAnswer = (a) => a && [a.chapter, a.question, a.given, a.remark, a.first, a.last].every(isText) &&
         ['right', 'wrong'].includes(a.result) && Number.isInteger(a.tries) && a.tries > 0;
-    if (!isText(kept.name) || !kept.answers || typeof kept.answers !== 'object') return 'The file has no name or no answers.';
+    if (!isText(kept.name) || !kept.answers || typeof kept.answers !== 'object') return t('The file has no name or no answers.');
     const wrong = Object.entries(kept.answers).find(([key, answer]) => !/^[\w-]+\/[\w-]+$/.test(key) || !isAnswer(answer));
-    return wrong ? `The answer ${wrong[0]} of the file is not complete.` : '';
+    return wrong ? t`The answer ${wrong[0]} of the file is not complete.` : '';
 }
 
 /** @returns {{name: string, answers: Record<string, Answer>}} by chapter/exercise */
@@ -69,9 +71,9 @@ export function readText(text) {
     try {
         kept = JSON.parse(text);
     } catch {
-        throw new Error('This is no file of answers.');
+        throw new Error(t('This is no file of answers.'));
     }
     const fault = faultOf(kept);
     if (fault) throw new Error(fault);
-    if (!keep(kept)) throw new Error('The browser keeps nothing for this page.');
+    if (!keep(kept)) throw new Error(t('The browser keeps nothing for this page.'));
 }

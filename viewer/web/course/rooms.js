@@ -1,4 +1,5 @@
 /** Chapter 2: cells, portals, the kd-tree and oblique walls. */
+import { t } from '../language/language.js';
 import { drawPlan, fillPolygons, strokeLines } from '../parts/plan.js';
 import { plural } from '../formats/words.js';
 import { cellAt, stand } from './lab.js';
@@ -36,9 +37,9 @@ const tree = {
         strokeLines(surface, camera, state.portals, tones.portal, 3);
         drawWalls(surface, camera, houseItems, tones);
     },
-    tell: (state) => `${plural(state.lines.length, 'split')}, ${plural(state.cells.length, 'cell')}, ${plural(state.portals.length, 'portal')}. ` +
-        `The chosen cell lies ${plural(state.cell.depth, 'step')} below the root. Rules: ` +
-        `${['spanning', 'obscured', 'cleaving'].map((rule) => `${rule} ${state[rule] ? 'on' : 'off'}`).join(', ')}.`,
+    tell: (state) => t`${plural(state.lines.length, 'split')}, ${plural(state.cells.length, 'cell')}, ${plural(state.portals.length, 'portal')}. ` +
+        t`The chosen cell lies ${plural(state.cell.depth, 'step')} below the root. Rules: ` +
+        `${['spanning', 'obscured', 'cleaving'].map((rule) => `${rule} ${state[rule] ? t('on') : t('off')}`).join(', ')}.`,
 };
 
 /** The cells beside a cell, and the portals that lead there. */
@@ -53,14 +54,17 @@ const beside = {
         stand(state, lab, flat.text, state.dot);
         state.next = neighbours(state.scene, state.cell);
     },
+    marks: {
+        cell: ({ scene, cell }) => ({ areas: cell < 0 ? [] : [scene.corners(cell)] }),
+        portals: ({ next }) => ({ lines: next.map((p) => [...p.left, ...p.right]) }),
+    },
     draw(surface, camera, tones, state) {
         drawPlan(surface, camera, { space: state.scene, from: state.cell, seen: new Set(state.next.map((p) => p.cell)) }, tones);
         strokeLines(surface, camera, state.next.map((p) => [...p.left, ...p.right]), tones.portal, 4);
         drawWalls(surface, camera, items, tones);
     },
-    tell: (state) => (state.cell < 0 ? 'There is no cell here.'
-        : `Dot at ${state.dot.map((v) => v.toFixed(1)).join(', ')}. Cell ${state.cell} has ${plural(state.next.length, 'portal')}, to ` +
-            `${plural(new Set(state.next.map((p) => p.cell)).size, 'cell')}.`),
+    tell: (state) => (state.cell < 0 ? t('There is no cell here.')
+        : t`Dot at ${state.dot.map((v) => v.toFixed(1)).join(', ')}. Cell ${state.cell}: ${plural(state.next.length, 'portal')}, to ${plural(new Set(state.next.map((p) => p.cell)).size, 'cell')}.`),
 };
 
 /** The plan, turned about its middle. */
@@ -87,11 +91,20 @@ const oblique = {
         drawPlan(surface, camera, { space: state.scene, from: state.cell, seen: new Set() }, tones);
         drawWalls(surface, camera, state.items, tones);
     },
-    tell: ({ scene, angle, cell }) => `Turned by ${angle}°: ${plural(scene.insideCount, 'cell')} inside. ` +
-        (cell < 0 ? 'The dot is outside.' : `Cell ${cell} has ${plural(scene.corners(cell).length / 2, 'corner')}.`),
+    tell: ({ scene, angle, cell }) => t`Turned by ${angle}°: ${plural(scene.insideCount, 'cell')} inside. ` +
+        (cell < 0 ? t('The dot is outside.') : t`Cell ${cell} has ${plural(scene.corners(cell).length / 2, 'corner')}.`),
 };
 
 export const figures = { tree, beside, oblique };
+
+/** Numbers of the text: the whole tree, with all rules and without. */
+const whole = (isOn) => kdTree(walls, house.box, { spanning: isOn, obscured: isOn, cleaving: isOn }, Infinity).cells;
+export const values = {
+    'cells-with': () => whole(true).length,
+    'cells-without': () => whole(false).length,
+    'portals-with': () => portalsOf(whole(true), walls).length,
+    'portals-without': () => portalsOf(whole(false), walls).length,
+};
 
 export const exercises = {
     ell: {
@@ -120,8 +133,8 @@ export const exercises = {
         judge({ cell }, lab) {
             const scene = lab.scene(flat.text), has = neighbours(scene, cell).length;
             const most = Math.max(...Array.from({ length: scene.cellCount }, (_, i) => neighbours(scene, i).length));
-            if (has === most) return { right: true, text: `Its cell has ${plural(has, 'portal')}. No cell has more.` };
-            return { right: false, text: `Its cell has ${plural(has, 'portal')}. Some cell has ${most}.` };
+            if (has === most) return { right: true, text: t`Its cell has ${plural(has, 'portal')}. No cell has more.` };
+            return { right: false, text: t`Its cell has ${plural(has, 'portal')}. Some cell has ${most}.` };
         },
     },
 };

@@ -6,12 +6,17 @@ import { arithmetics, determinantOf, nearest, roundedOf, unitOf } from './exact.
 import { element, table } from './figure.js';
 import { round } from './lab.js';
 import { drawWalls } from './maps.js';
+import { firstState } from './still.js';
 
 const side = { '1': 'left', '0': 'on the line', '-1': 'right' };
 const names = [['doubles', 'doubles'], ['fused', 'doubles, fused'], ['epsilon', 'doubles, epsilon 1e-9'], ['exact', 'exact']];
 
 /** Points about (0.5, 0.5), 2^-53 apart, against the diagonal, which is given by two places on it. */
 const GRID = 40, STEP = 2 ** -53;
+
+/** Half the width of a mark, as a share of a square. */
+const MARK = 0.22;
+
 const lines = { '8.8 and 12.1': [8.8, 12.1], '12 and 24': [12, 24], '17.3 and 24.1': [17.3, 24.1] };
 
 const grids = {};
@@ -48,7 +53,11 @@ const grid = {
                 return s === sign ? [[x, y, x + 1, y, x + 1, y + 1, x, y + 1]] : [];
             }), colour);
         strokeLines(surface, camera, [[0, 0, GRID, GRID]], tones.sourceEdge, 2);
-        for (const i of state.wrong) drawDot(surface, camera, [(i % GRID) + 0.5, Math.floor(i / GRID) + 0.5], 1.2, tones.start, tones.page);
+        // One path for all: in some arithmetics nearly every square has a mark.
+        fillPolygons(surface, camera, state.wrong.map((i) => {
+            const x = (i % GRID) + 0.5, y = Math.floor(i / GRID) + 0.5;
+            return [x - MARK, y, x, y - MARK, x + MARK, y, x, y + MARK];
+        }), tones.start);
     },
     tell: (state) => `Point ${state.x} across, ${state.y} up: ${side[state.signs[state.at]]}; exact: ${side[state.exact[state.at]]}. ` +
         `Of ${plural(GRID * GRID, 'point')}, ${state.wrong.length} have a wrong sign.`,
@@ -170,6 +179,16 @@ const filter = {
 };
 
 export const figures = { grid, slits, filter };
+
+/** Numbers of the text: for how many steps the filter is sure, as A and B stand first. */
+export const values = {
+    'steps-sure'() {
+        const state = firstState(filter), isSure = (near) => filter.update(Object.assign(state, { near })) ?? state.isSure;
+        let steps = 0;
+        while (isSure(steps)) steps++;
+        return steps - 1;
+    },
+};
 
 /** Doors of 1e-9 in halls of a million metres; a line passes the first two, and misses the third by 1e-9. */
 const nano = [[1e6, 5e5 + 1e-9, 1e6, 5e5], [2e6, 5e5 + 1e-9, 2e6, 5e5], [3e6, 5e5 + 2e-9, 3e6, 5e5 + 1e-9]];

@@ -4,7 +4,9 @@ import { drawDot, drawPlan, strokeLines } from '../parts/plan.js';
 import { element } from './figure.js';
 import { WIDEST } from './halls.js';
 import { middleOf, planLine, round, stand, within } from './lab.js';
+import { searchCode } from './lab-code.js';
 import { drawWalls, flat, hall, house, itemsOf, threeRooms } from './maps.js';
+import { searchLab } from './search-lab.js';
 
 const houseItems = itemsOf(house.text);
 
@@ -51,6 +53,10 @@ const walk = {
         const isLine = (state.step.kind === 'enter' || state.step.kind === 'leave') && state.portals.length;
         const dual = isLine ? lab.core.dual(state.portals.map((p) => [...p.left, ...p.right])) : null;
         state.line = dual ? within(scene, planLine(dual, dual.best), [state.cell, state.step.cell]) : null;
+    },
+    marks: {
+        sequence: ({ portals = [] }) => ({ lines: portals.map((p) => [...p.left, ...p.right]) }),
+        seen: ({ scene, seen = [] }) => ({ areas: [...seen].map((cell) => scene.corners(cell)) }),
     },
     draw(surface, camera, tones, state) {
         drawPlan(surface, camera, { space: state.scene, from: state.cell, seen: state.seen }, tones);
@@ -173,5 +179,11 @@ export const exercises = {
             if (here === most) return { right: true, text: `Its tree has ${plural(here, 'node')}, and no tree has more.` };
             return { right: false, text: `Its tree has ${plural(here, 'node')}. The largest one has ${most}.` };
         },
+    },
+    visible: {
+        kind: 'code',
+        lab: searchLab,
+        question: 'Complete the search. It gives the numbers of all cells that a cell sees.',
+        code: searchCode.text,
     },
 };

@@ -2,8 +2,9 @@
  * A figure as a still picture: an SVG with the drawing code of the screen. Print, solutions and the
  * glossary use it. Stills for paper have light colours, whatever the screen has.
  */
+import { t } from '../language/language.js';
 import { Camera } from '../parts/camera.js';
-import { drawDot } from '../parts/plan.js';
+import { drawDot, fillPolygons, strokeLines } from '../parts/plan.js';
 import { SvgSurface } from '../parts/svg-surface.js';
 import { makeTones, watchTones } from '../parts/tones.js';
 import { drawText } from './maps.js';
@@ -28,6 +29,14 @@ export function drawFigure(surface, camera, tones, spec, state, active = -1) {
     });
 }
 
+/** A part of a picture that words name, over all else. */
+export function drawMark(surface, camera, tones, { lines = [], areas = [], dots = [] }) {
+    fillPolygons(surface, camera, areas, tones.start, 0.4);
+    strokeLines(surface, camera, areas, tones.start, 3, [], true);
+    strokeLines(surface, camera, lines, tones.start, 7);
+    for (const place of dots) drawDot(surface, camera, place, 10, tones.start, tones.page);
+}
+
 /**
  * An SVG of what `draw(surface, camera)` draws.
  * @param {string} title @param {number[]} box of the map @param {(surface: SvgSurface, camera: Camera) => void} draw
@@ -47,7 +56,7 @@ export function picture(title, box, draw, { width = 640, most = 400, margin = 16
 
 /** A figure in some state; for paper, if nothing else is said. */
 export const stillOf = (spec, state, tones = paper) =>
-    picture(spec.title, state.box ?? spec.box, (surface, camera) => drawFigure(surface, camera, tones, spec, state));
+    picture(t(spec.title), state.box ?? spec.box, (surface, camera) => drawFigure(surface, camera, tones, spec, state));
 
 /** Keeps a picture in a place, in the colours of the page, and of paper for print. @param {(tones: any) => Element} draw */
 export function keepPicture(host, draw) {

@@ -60,6 +60,10 @@ const turn = {
         const [dx, dy] = [40 * Math.cos(angle), 40 * Math.sin(angle)];
         state.line = within(scene, [x - dx, y - dy, x + dx, y + dy], [before.at(-1), behind.at(-1)]);
     },
+    marks: {
+        before: ({ scene, stretch }) => ({ areas: stretch.before.map((cell) => scene.corners(cell)) }),
+        behind: ({ scene, stretch }) => ({ areas: stretch.behind.map((cell) => scene.corners(cell)) }),
+    },
     draw(surface, camera, tones, state) {
         const { scene, stretch: { before, behind } } = state;
         drawPlan(surface, camera, { space: scene, seen: new Set(before) }, tones);
@@ -122,7 +126,7 @@ const every = {
 
 /** Halls by columns, as they come from the worker. */
 const halls = [];
-let figureOfHalls = null;
+let figureOfHalls = null, trouble = '';
 
 function computeHalls() {
     const worker = new Worker(new URL('./halls-worker.js', import.meta.url), { type: 'module' });
@@ -131,7 +135,10 @@ function computeHalls() {
         if (data.columns === WIDEST) worker.terminate();
         figureOfHalls.change();
     });
-    worker.addEventListener('error', (event) => console.error(event.message));
+    worker.addEventListener('error', (event) => {
+        trouble = event.message || 'a part of the page was not loaded';
+        figureOfHalls.change();
+    });
 }
 
 const growth = {
@@ -144,7 +151,7 @@ const growth = {
         figureOfHalls = figure;
         computeHalls();
     },
-    isReady: () => Boolean(halls[WIDEST]),
+    isReady: () => Boolean(halls[WIDEST] || trouble),
     update(state) {
         const known = (state.known = halls[state.columns]);
         state.rows = halls.slice(1, state.columns + 1).map(({ row }) => row);
@@ -163,7 +170,7 @@ const growth = {
     },
     beside: (state) => table(['columns', 'cells', 'edges', 'sweep', 'search'], state.rows),
     tell({ known, own, columns: wanted }) {
-        if (!known) return `The hall with ${plural(wanted, 'column')} is being computed.`;
+        if (!known) return trouble ? `The halls cannot be computed here: ${trouble}.` : `The hall with ${plural(wanted, 'column')} is being computed.`;
         const [columns, cells, edges, pieces, nodes] = known.row;
         return `${plural(columns, 'column')}, ${plural(cells, 'cell')}, ${plural(edges, 'edge')} of the visibility graph, ${own.length} of them at this corner. ` +
             `The sweep looks at ${pieces} pieces, ${round(pieces / edges)} for each edge. The search enters ${nodes} nodes, ${round(nodes / edges)} for each edge.`;

@@ -40,6 +40,10 @@ const cull = {
         state.dropped = look('cell_to_cell').filter((cell) => !state.kept.has(cell));
         state.counts = methods.map(([method]) => look(method).length);
     },
+    marks: {
+        kept: ({ scene, kept }) => ({ areas: [...kept].map((cell) => scene.corners(cell)) }),
+        dropped: ({ scene, dropped }) => ({ areas: dropped.map((cell) => scene.corners(cell)) }),
+    },
     draw(surface, camera, tones, state) {
         drawPlan(surface, camera, { space: state.scene, from: state.kept.has(state.cell) ? state.cell : -1, seen: state.kept }, tones);
         strokeLines(surface, camera, state.dropped.map((cell) => state.scene.corners(cell)), tones.to, 2, [5, 3], true);

@@ -1,3 +1,5 @@
+import { t } from '../language/language.js';
+
 /** Words by which editors name things: solid layers, doors, starts. lib/io/FORMATS.md lists them. */
 const solid = new Set(('wall walls solid solids collision collisions collide collides collider ' +
     'colliders obstacle obstacles block blocks blocked blocking blocker blockers occluder occluders ' +
@@ -27,8 +29,8 @@ export const isDoorName = (name) => wordsOf(name).some((w) => w === 'door' || w 
 
 export const isStartName = (name) => wordsOf(name).some((w) => /^(player|spawn|start|playerstart|spawnpoint)s?$/.test(w));
 
-/** A number with its noun: 1 light, 2 lights. */
-export const plural = (n, one, many = `${one}s`) => `${n} ${n === 1 ? one : many}`;
+/** A number with its noun, in the language of the page: 1 light, 2 lights. */
+export const plural = (n, one, many = `${one}s`) => `${n} ${t(n === 1 ? one : many)}`;
 
 /** A name in one word, as map text wants it. */
 export const oneWord = (name, spare) => String(name ?? '').trim().replace(/[\s#,]+/g, '_') || spare;

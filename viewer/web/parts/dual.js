@@ -3,6 +3,8 @@
  * (a, b). Each portal end is a line of this plane; the lines of sight lie above those of right ends
  * and below those of left ends. What is left is a polygon, and nothing if no line passes all portals.
  */
+import { t } from '../language/language.js';
+
 const NS = 'http://www.w3.org/2000/svg';
 
 /** @param {string} name @param {Record<string, string | number>} attributes */
@@ -57,10 +59,10 @@ export function dualFigure(why, tones) {
     const points = [];
     for (let i = 0; i + 1 < dual.corners.length; i += 2) points.push(`${x(dual.corners[i])},${y(dual.corners[i + 1])}`);
     const polygon = points.length ? [svg('polygon', { points: points.join(' '), fill: tones.source, stroke: tones.sourceEdge })] : [];
-    const text = points.length ? 'Dual plane: each point of the filled polygon is a sightline.'
-        : 'Dual plane: no point lies above all right ends and below all left ends.';
+    const text = points.length ? t('Dual plane: each point of the filled polygon is a sightline.')
+        : t('Dual plane: no point lies above all right ends and below all left ends.');
     const caption = svg('text', { x: 6, y: HEIGHT - 8, 'font-size': 12, fill: tones.ink });
-    caption.textContent = 'left ends: full lines, right ends: dashed';
+    caption.textContent = t('left ends: full lines, right ends: dashed');
     return svg('svg', { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, role: 'img', 'aria-label': text },
         svg('rect', { width: WIDTH, height: HEIGHT, fill: tones.floor[0] }), ...polygon, ...lines,
         svg('rect', { y: HEIGHT - 24, width: WIDTH, height: 24, fill: tones.floor[0] }), caption);

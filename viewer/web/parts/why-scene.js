@@ -2,6 +2,7 @@
  * Draws an explanation: the portals that sightlines would pass, and the line that passes them or,
  * of a hidden pair, the ends of portals that leave no line through.
  */
+import { t } from '../language/language.js';
 import { plural } from '../formats/words.js';
 import { drawDot, strokeLines } from './plan.js';
 
@@ -53,21 +54,19 @@ export function drawWhy(surface, camera, why, tones) {
 
 /** Why, in words. @param {WhyScene} why */
 export function tellWhy(why) {
-    const pair = `Cell ${why.from} and cell ${why.to}`;
-    if (why.from === why.to) return 'A cell sees itself.';
-    let effects = why.effects?.decides?.length ? ` What decides: ${why.effects.decides.join(', ')}.` : '';
-    if (why.by_mirror?.verdict === 'stabbed') effects += ' They see each other in a mirror.';
-    if (why.complete === false) effects += ' The search was stopped early, so this is not certain.';
+    const pair = t`Cell ${why.from} and cell ${why.to}`;
+    if (why.from === why.to) return t('A cell sees itself.');
+    let effects = why.effects?.decides?.length ? t` What decides: ${why.effects.decides.join(', ')}.` : '';
+    if (why.by_mirror?.verdict === 'stabbed') effects += t(' They see each other in a mirror.');
+    if (why.complete === false) effects += t(' The search was stopped early, so this is not certain.');
     if (why.seen && why.sequence?.length)
-        return `${pair} see each other: the line passes ${plural(why.sequence.length, 'portal')}` +
-            `${why.touches ? ', and touches ends of walls' : ''}.${effects}`;
-    if (why.seen) return `${pair} see each other.${effects}`;
+        return t`${pair} see each other: the line passes ${plural(why.sequence.length, 'portal')}${why.touches ? t(', and touches ends of walls') : ''}.${effects}`;
+    if (why.seen) return t`${pair} see each other.${effects}`;
     const miss = why.misses?.[0];
-    if (!miss) return `${pair}: there is no way from one to the other, so no line joins them.${effects}`;
+    if (!miss) return t`${pair}: there is no way from one to the other, so no line joins them.${effects}`;
     const ends = miss.ends.map((e) => `${e.side === 'left' ? 'L' : 'R'}${e.portal}`).join(', ');
     const what = miss.reason === 'conflict'
-        ? `No line has all these ends of portals on the right sides: ${ends}.`
-        : 'A line would have to turn back.';
-    return `${pair} are hidden from each other. ${what} L marks ends that a line must have at its left, ` +
-        `R those at its right. The picture shows one sequence of portals that leads there.${effects}`;
+        ? t`No line has all these ends of portals on the right sides: ${ends}.`
+        : t('A line would have to turn back.');
+    return t`${pair} are hidden from each other. ${what} L marks ends that a line must have at its left, R those at its right. The picture shows one sequence of portals that leads there.${effects}`;
 }

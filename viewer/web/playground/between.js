@@ -3,6 +3,7 @@
  * way. Each is put by a drag or by two clicks, and its ends are moved so, too. Answers follow the ends,
  * the map and its doors.
  */
+import { t } from '../language/language.js';
 import { Latest } from '../core/latest.js';
 import { plural } from '../formats/words.js';
 import { drawBetween, drawSeenFrom, seenColours } from '../parts/between.js';
@@ -34,7 +35,7 @@ class Between {
         this.moves = false;
         this.busy = false;
         get(`${id}-clear`).addEventListener('click', () => this.remove());
-        get(`${id}-stop`).addEventListener('click', () => client.stop(new Error('it was stopped.')));
+        get(`${id}-stop`).addEventListener('click', () => client.stop(new Error(t('it was stopped.'))));
         this.show();
     }
 
@@ -123,7 +124,7 @@ class Between {
             // In a drag, answers about ends of a moment ago are shown with these.
             if (turn === this.turn && this.isLine) this.answer = { ends, ...answer };
         } catch (error) {
-            if (turn === this.turn && ends === this.ends) [this.answer, this.fault] = [null, `Nothing was computed: ${error.message}`];
+            if (turn === this.turn && ends === this.ends) [this.answer, this.fault] = [null, t`Nothing was computed: ${error.message}`];
         }
         this.busy = false;
         this.show();
@@ -139,8 +140,8 @@ class Between {
         get(`${id}-stop`).disabled = !this.busy;
         get(`${id}-clear`).disabled = !this.ends;
         panel.showTable(get(`${id}-key`), answer ? this.rows(answer) : []);
-        const text = this.held >= 0 ? 'Choose the other end.' : !this.ends ? this.begin : this.fault ||
-            (answer?.ends === this.ends ? this.tell(answer) : this.busy ? 'Computing ...' : '');
+        const text = this.held >= 0 ? t('Choose the other end.') : !this.ends ? this.begin : this.fault ||
+            (answer?.ends === this.ends ? this.tell(answer) : this.busy ? t('Computing ...') : '');
         if (get(`${id}-text`).textContent !== text) get(`${id}-text`).textContent = text;
         if (!this.moves || this.held >= 0 || !(this.fault || answer?.ends === this.ends)) return;
         this.moves = false;
@@ -163,21 +164,21 @@ export class FromLine extends Between {
         return {};
     }
     get begin() {
-        return 'Drag a line in the plan, or click both of its ends.';
+        return t('Drag a line in the plan, or click both of its ends.');
     }
     rows({ ends, some, all }) {
         const colours = seenColours(this.app.tones);
-        return [{ name: 'length of the line', values: [short(lengthOf(ends))] },
-            { name: 'seen from some point', colour: colours[0], values: [short(some.area)] },
-            ...(all.area ? [{ name: 'seen from all points', colour: colours[1], values: [short(all.area)] }] : [])];
+        return [{ name: t('length of the line'), values: [short(lengthOf(ends))] },
+            { name: t('seen from some point'), colour: colours[0], values: [short(some.area)] },
+            ...(all.area ? [{ name: t('seen from all points'), colour: colours[1], values: [short(all.area)] }] : [])];
     }
     brief({ some, all }) {
         // As short as a phone's width.
-        return `Some see ${short(some.area)}, all see ${all.area ? short(all.area) : 'nothing'}`;
+        return t`Some see ${short(some.area)}, all see ${all.area ? short(all.area) : t('nothing')}`;
     }
     tell({ some, all }) {
-        return some.walled ? 'A wall crosses the line, so no place is seen from all of it.'
-            : all.area ? '' : 'No place is seen from all points of the line.';
+        return some.walled ? t('A wall crosses the line, so no place is seen from all of it.')
+            : all.area ? '' : t('No place is seen from all points of the line.');
     }
 
     /** For the scene: what draws the regions. */
@@ -199,20 +200,20 @@ export class Path extends Between {
         return { radius: this.radius };
     }
     get begin() {
-        return 'Click where the way begins.';
+        return t('Click where the way begins.');
     }
     rows({ ends, way }) {
-        return way ? [{ name: 'length of the way', values: [short(way.length)] },
-            { name: 'straight line', values: [short(lengthOf(ends))] }] : [];
+        return way ? [{ name: t('length of the way'), values: [short(way.length)] },
+            { name: t('straight line'), values: [short(lengthOf(ends))] }] : [];
     }
     brief(answer) {
-        return answer.way ? `The way is ${short(answer.way.length)} long` : this.tell(answer);
+        return answer.way ? t`The way is ${short(answer.way.length)} long` : this.tell(answer);
     }
     tell({ way, ofPoint, pastDoors }) {
         const turns = way && way.points.length / 2 - 2;
-        if (way) return this.radius ? '' : turns ? `It turns at ${plural(turns, 'corner')}.` : 'It is straight.';
-        if (ofPoint) return `No way is wide enough for this radius. For a point, a way of ${short(ofPoint.length)} leads there.`;
-        if (pastDoors) return `No way leads there: a shut door is in the way. With all doors open, it would be ${short(pastDoors.length)} long.`;
-        return 'No way leads there.';
+        if (way) return this.radius ? '' : turns ? t`It turns at ${plural(turns, 'corner')}.` : t('It is straight.');
+        if (ofPoint) return t`No way is wide enough for this radius. For a point, a way of ${short(ofPoint.length)} leads there.`;
+        if (pastDoors) return t`No way leads there: a shut door is in the way. With all doors open, it would be ${short(pastDoors.length)} long.`;
+        return t('No way leads there.');
     }
 }

@@ -2,6 +2,7 @@
  * Cameras: placed, dragged and turned by hand, or chosen: the fewest, or the best of a number. What they
  * see together is found anew when one moves, the map changes or a door does.
  */
+import { t } from '../language/language.js';
 import { CoreClient } from '../core/client.js';
 import { Latest } from '../core/latest.js';
 import { countWalls } from '../formats/map-text.js';
@@ -11,7 +12,7 @@ import { save } from './files.js';
 import { showTable } from './panel.js';
 
 const get = (id) => /** @type {any} */ (document.getElementById(id));
-const CLASSES = ['not seen', 'seen by 1', 'seen by 2', 'seen by 3 or more'];
+const CLASSES = [t('not seen'), t('seen by 1'), t('seen by 2'), t('seen by 3 or more')];
 
 /** Headings to choose from, points along walls at most, and seconds that a choice may take. */
 const HEADINGS = 8, POINTS = 500, SECONDS = 15;
@@ -25,7 +26,7 @@ export class Cameras {
         this.app = app;
         this.client = new CoreClient(memory, './cameras-worker.js');
         this.client.onProgress = ({ done, total, stage }) =>
-            this.say(stage === 'place' && total ? `Computing: at least ${done}, at most ${total} so far.` : 'Computing ...');
+            this.say(stage === 'place' && total ? t`Computing: at least ${done}, at most ${total} so far.` : t('Computing ...'));
         this.jobs = new Latest(() => this.runCover());
         /** @type {import('../parts/coverage.js').PlanCamera[]} */
         this.list = [];
@@ -38,7 +39,7 @@ export class Cameras {
         for (const id of ['camera-fov', 'camera-range', 'camera-heading']) get(id).addEventListener('change', () => this.enter());
         get('camera-fewest').addEventListener('click', () => this.choose(0));
         get('camera-best').addEventListener('click', () => this.choose(Math.max(1, Math.round(Number(get('camera-count').value)) || 1)));
-        get('camera-stop').addEventListener('click', () => this.client.stop(new Error('it was stopped.')));
+        get('camera-stop').addEventListener('click', () => this.client.stop(new Error(t('it was stopped.'))));
         get('camera-clear').addEventListener('click', () => this.set([]));
         this.show();
     }
@@ -104,7 +105,7 @@ export class Cameras {
             const coverage = await this.client.call('cover', { ...this.wanted(), cameras: list });
             if (list === this.list) this.coverage = coverage;
         } catch (error) {
-            if (list === this.list) this.proof = `No coverage: ${error.message}`;
+            if (list === this.list) this.proof = t`No coverage: ${error.message}`;
         }
         this.show();
         this.app.redraw();
@@ -119,18 +120,18 @@ export class Cameras {
         const wanted = this.wanted(), options = { timeLimit: SECONDS, ...(count ? { count } : {}) };
         this.choosing = true;
         this.show();
-        this.say('Computing ...');
+        this.say(t('Computing ...'));
         try {
             const found = await (from === 'anywhere' ? this.client.call('place', { ...wanted, options })
                 : this.client.call('choose', { ...wanted, options, from, step: size / (from === 'grid' ? 24 : 60), most: POINTS,
                     like: { fov, range }, headings: fov < 360 ? HEADINGS : 1 }));
-            if (JSON.stringify(this.wanted()) !== JSON.stringify(wanted)) throw new Error('the map has changed.');
+            if (JSON.stringify(this.wanted()) !== JSON.stringify(wanted)) throw new Error(t('the map has changed.'));
             this.list = found.viewpoints.map(({ x, y, heading = 0 }) => ({ x, y, heading, ...(from === 'anywhere' ? { fov: 360, range: 0 } : { fov, range }) }));
             this.chosen = -1;
             this.coverage = found.coverage;
             this.proof = found.proof;
         } catch (error) {
-            this.proof = `Nothing was chosen: ${error.message}`;
+            this.proof = t`Nothing was chosen: ${error.message}`;
         }
         this.choosing = false;
         this.show();
@@ -157,9 +158,9 @@ export class Cameras {
         const seen = coverage?.viewpoints ?? [], blind = seen.filter((each) => !(each.seen > 0)).length;
         const spare = seen.filter((each) => each.spare && each.seen > 0).length;
         if (choosing) return;
-        this.say([this.list.length ? `${plural(this.list.length, 'camera')}.` : 'A click in a room puts a camera there.',
-            blind ? `${blind} of them ${blind === 1 ? 'sees' : 'see'} nothing of the inside.` : '',
-            spare === 1 ? 'The others see all that one of them sees.' : spare ? `${spare} see nothing that the others do not.` : '', this.proof].filter(Boolean).join(' '));
+        this.say([this.list.length ? `${plural(this.list.length, 'camera')}.` : t('A click in a room puts a camera there.'),
+            blind ? blind === 1 ? t('1 of them sees nothing of the inside.') : t`${blind} of them see nothing of the inside.` : '',
+            spare === 1 ? t('The others see all that one of them sees.') : spare ? t`${spare} see nothing that the others do not.` : '', this.proof].filter(Boolean).join(' '));
     }
 
     saveTable() {

@@ -2,6 +2,7 @@
  * The map that is drawn, with undo and redo. Items are never changed in place, so a step of the
  * past is a list of the same items: it costs what the list costs.
  */
+import { t } from '../language/language.js';
 import { boundsOf, writeMap } from '../formats/map-text.js';
 
 /** @typedef {import('../formats/map-text.js').Item} Item */
@@ -15,7 +16,7 @@ export class MapDocument extends EventTarget {
         /** @type {Item[]} */
         this.items = [];
         /** Where the map comes from: a name for messages, its place in the list of maps, its items as they were read. */
-        this.origin = { name: 'the map from before', file: '', items: this.items };
+        this.origin = { name: t('the map from before'), file: '', items: this.items };
         /** Steps: {items, origin}. */
         this.past = [];
         this.future = [];

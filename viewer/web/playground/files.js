@@ -1,4 +1,5 @@
 /** Opening, dropping and saving files. */
+import { t } from '../language/language.js';
 import { readMapFile } from '../formats/read.js';
 import { Camera } from '../parts/camera.js';
 import { drawPlan } from '../parts/plan.js';
@@ -21,12 +22,12 @@ export function save(blob, name) {
  * @returns {Promise<import('../formats/read.js').Reading>}
  */
 export async function readFile(file, describe) {
-    if (file.size > MOST_BYTES) throw new Error(`${file.name} has more than 256 MB: too large for this page`);
+    if (file.size > MOST_BYTES) throw new Error(t`${file.name} has more than 256 MB: too large for this page`);
     try {
         return await readMapFile(new Uint8Array(await file.arrayBuffer()), describe);
     } catch (error) {
-        const said = error instanceof RangeError ? 'it is too large for this page' : error.message;
-        throw new Error(`${file.name} was not opened: ${said}`);
+        const said = error instanceof RangeError ? t('it is too large for this page') : error.message;
+        throw new Error(t`${file.name} was not opened: ${said}`);
     }
 }
 

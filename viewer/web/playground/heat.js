@@ -2,6 +2,7 @@
  * The heat map: a measure of visibility graph analysis over the plan. The graph is made anew when the
  * map, a door or the grid changes. Until then nothing is shown: old values would be those of another map.
  */
+import { t } from '../language/language.js';
 import { CoreClient } from '../core/client.js';
 import { Latest } from '../core/latest.js';
 import { countWalls } from '../formats/map-text.js';
@@ -50,7 +51,7 @@ export class HeatMap {
         });
         get('heat-stop').addEventListener('click', () => {
             get('heat-on').checked = false;
-            this.client.stop(new Error('The heat map was stopped.'));
+            this.client.stop(new Error(t('The heat map was stopped.')));
             this.made = '';
             this.changed();
         });
@@ -104,7 +105,7 @@ export class HeatMap {
         // Not into what is being typed.
         if (document.activeElement !== get('heat-step')) get('heat-step').value = String(wanted.grid);
         get('heat-stop').disabled = false;
-        this.say('Computing ...');
+        this.say(t('Computing ...'));
         try {
             await this.fill();
             const { measure } = this;
@@ -117,12 +118,12 @@ export class HeatMap {
             }
             const values = measure === DEPTH ? null : await this.client.call('values', { measure });
             if (!this.on || !this.app.plan || this.measure !== measure || JSON.stringify(this.wanted()) !== key) return;
-            this.say(`${this.graph.count.toLocaleString('en')} points${this.graph.directed ? ', of what a point sees' : ''}`);
+            this.say(t`${this.graph.count.toLocaleString(document.documentElement.lang)} points` + (this.graph.directed ? t(', of what a point sees') : ''));
             if (values) this.show(values, rangeOf(values, this.sizes));
             else this.follow();
         } catch (error) {
             // What the message says of the command's options is no help here.
-            if (this.on) this.say(`No heat map: ${error.message.replace(/; --without .*/, '')}`);
+            if (this.on) this.say(t`No heat map: ${error.message.replace(/; --without .*/, '')}`);
         } finally {
             get('heat-stop').disabled = true;
         }
@@ -149,7 +150,7 @@ export class HeatMap {
             this.deepest = Math.max(this.deepest, rangeOf(values).most);
             this.show(values, { least: 0, most: this.deepest });
         } catch (error) {
-            if (this.on) this.say(`No heat map: ${error.message}`);
+            if (this.on) this.say(t`No heat map: ${error.message}`);
         }
     }
 
@@ -179,7 +180,7 @@ export class HeatMap {
     textAt(place) {
         const value = this.heat && valueAt(this.heat, place);
         if (value === undefined || value === null) return '';
-        const text = Number.isNaN(value) ? 'not defined' : value.toLocaleString('en', { maximumSignificantDigits: 5 });
+        const text = Number.isNaN(value) ? t('not defined') : value.toLocaleString(document.documentElement.lang, { maximumSignificantDigits: 5 });
         return `${labelOf(this.measure)}: ${text}`;
     }
 }

@@ -1,4 +1,5 @@
 /** The playground: brings the map, what is seen of it, the tools, files and the panel together. */
+import { t } from '../language/language.js';
 import { CoreClient, CoreError } from '../core/client.js';
 import { countWalls, parseMap } from '../formats/map-text.js';
 import { roundStep } from '../parts/camera.js';
@@ -26,6 +27,9 @@ const isOn = (id) => get(id).checked;
 /** Above this many walls the browser is not asked to keep the map. */
 const MOST_KEPT = 20000;
 
+/** Where maps to begin with are. */
+const maps = new URL('../maps/', import.meta.url);
+
 class Playground extends Sight {
     constructor() {
         // ?memory=MB in the address, for small devices and for tests.
@@ -49,7 +53,7 @@ class Playground extends Sight {
     listen() {
         this.doc.addEventListener('change', () => this.changed());
         this.doc.addEventListener('select', () => this.redraw());
-        this.client.onProgress = (at) => panel.showProgress(at.total ? at.done / at.total : -1, `Computing what is seen: ${at.stage}`);
+        this.client.onProgress = (at) => panel.showProgress(at.total ? at.done / at.total : -1, t`Computing what is seen: ${at.stage}`);
         for (const button of document.querySelectorAll('[data-do]'))
             button.addEventListener('click', () => this.act(button.dataset.do));
         for (const radio of document.querySelectorAll('input[name=tool]'))
@@ -70,9 +74,9 @@ class Playground extends Sight {
         addEventListener('pagehide', () => this.keep());
         watchTones((tones) => {
             this.tones = this.view.tones = tones;
-            panel.showKey([['seen from the cell', tones.seen[0]], ['visible region', tones.region],
-                ['seen in mirrors', tones.image],
-                ['portal', tones.portal], ['door', tones.door], ['path', tones.path], ['box', tones.object]]);
+            panel.showKey([[t('seen from the cell'), tones.seen[0]], [t('visible region'), tones.region],
+                [t('seen in mirrors'), tones.image],
+                [t('portal'), tones.portal], [t('door'), tones.door], [t('path'), tones.path], [t('box'), tones.object]]);
             this.heat?.showLegend();
             for (const each of [this.cameras, this.line, this.path]) each.show();
             this.redraw();
@@ -135,7 +139,7 @@ class Playground extends Sight {
 
     keep() {
         if (countWalls(this.doc.items) <= MOST_KEPT && keepWork(this.doc.text())) return;
-        if (!this.saidUnkept) panel.showMessage('The browser cannot keep a map of this size. Save it as a file.');
+        if (!this.saidUnkept) panel.showMessage(t('The browser cannot keep a map of this size. Save it as a file.'));
         this.saidUnkept = true;
     }
 
@@ -162,9 +166,9 @@ class Playground extends Sight {
 
     /** A step back, or forth again. @param {'undo' | 'redo'} way */
     travel(way) {
-        const { doc } = this, said = way === 'undo' ? 'Undone' : 'Redone', next = doc[way === 'undo' ? 'past' : 'future'].at(-1);
+        const { doc } = this, said = way === 'undo' ? t('Undone') : t('Redone'), next = doc[way === 'undo' ? 'past' : 'future'].at(-1);
         if (!next) return;
-        if (next.origin !== doc.origin) return this.arrive(() => doc[way](), `${said}: ${next.origin.name} is back.`);
+        if (next.origin !== doc.origin) return this.arrive(() => doc[way](), t`${said}: ${next.origin.name} is back.`);
         doc[way]();
         get('done').textContent = `${said}. ${tellChange(doc.before, doc.items)}`;
     }
@@ -179,8 +183,8 @@ class Playground extends Sight {
     async openFile(file, quiet = false, listed = '') {
         try {
             const { items, notes, format } = await readFile(file, (slv) => this.client.call('describe', { slv }));
-            const left = notes.length ? ` Left out or guessed: ${notes.join('; ')}.` : '';
-            this.load(items, file.name, quiet ? '' : `${file.name} was read as ${format}.${left}`, listed);
+            const left = notes.length ? t` Left out or guessed: ${notes.join('; ')}.` : '';
+            this.load(items, file.name, quiet ? '' : t`${file.name} was read as ${format}.${left}`, listed);
         } catch (error) {
             panel.showNote(error.message, true);
         }
@@ -190,11 +194,11 @@ class Playground extends Sight {
         if (!name) return;
         if (name === 'own') return this.openFile(new File([loadWork('own')], 'your map'), quiet, name);
         try {
-            const answer = await fetch(`maps/${name}`);
-            if (!answer.ok) throw new Error(`the server answered ${answer.status}`);
+            const answer = await fetch(new URL(name, maps));
+            if (!answer.ok) throw new Error(t`the server answered ${answer.status}`);
             await this.openFile(new File([await answer.blob()], name), quiet, name);
         } catch (error) {
-            panel.showNote(`${name} was not loaded: ${error.message}`, true);
+            panel.showNote(t`${name} was not loaded: ${error.message}`, true);
         }
     }
 
@@ -205,7 +209,7 @@ class Playground extends Sight {
             if (text === null || text === this.doc.text()) return false;
             const items = parseMap(text), own = this.doc.items.length > 0;
             if (own) keepWork(this.doc.text(), 'own');
-            this.load(items, 'the shared map', own ? 'This is a shared map. Undo brings back your own; it is in the list of maps too.' : '');
+            this.load(items, t('the shared map'), own ? t('This is a shared map. Undo brings back your own; it is in the list of maps too.') : '');
             this.shared = this.doc.text();
             this.offerOwn();
             return true;
@@ -312,7 +316,7 @@ class Playground extends Sight {
     }
     showAt(place) {
         const snapped = this.tool === 'look' || this.tool === 'why' ? place : this.snap(place);
-        get('where').textContent = `At ${snapped.map((v) => Math.round(v * 1000) / 1000).join(', ')}`;
+        get('where').textContent = t`At ${snapped.map((v) => Math.round(v * 1000) / 1000).join(', ')}`;
     }
     showPlace([x, y]) {
         this.view.camera.show(x, y);
@@ -335,7 +339,7 @@ class Playground extends Sight {
         do i = (i + way + count) % count; while (!able(i));
         this.doc.select(i);
         const item = this.doc.items[i];
-        get('done').textContent = `Chosen: ${tellItem(item)}`;
+        get('done').textContent = t`Chosen: ${tellItem(item)}`;
     }
     freeName(stem) {
         const used = new Set(this.doc.items.map((item) => item.name));
@@ -361,17 +365,17 @@ class Playground extends Sight {
             saveSlv: () => this.saveSlv(),
             savePng: () => savePng(...picture()),
             saveSvg: () => saveSvg(...picture()),
-            cancel: () => this.client.stop(new CoreError('The work was cancelled. The map is still here; the next change computes again.')),
+            cancel: () => this.client.stop(new CoreError(t('The work was cancelled. The map is still here; the next change computes again.'))),
         };
         acts[what]();
     }
 
     async saveSlv() {
-        if (!this.plan) return panel.showMessage('There is no baked map yet. Wait until it is computed, or mend the error.', true);
+        if (!this.plan) return panel.showMessage(t('There is no baked map yet. Wait until it is computed, or mend the error.'), true);
         try {
             save(new Blob([await this.client.call('slv', {})], { type: 'application/octet-stream' }), 'plan.slv');
         } catch (error) {
-            panel.showNote(`The .slv file was not saved: ${error.message}`, true);
+            panel.showNote(t`The .slv file was not saved: ${error.message}`, true);
         }
     }
 
@@ -379,12 +383,12 @@ class Playground extends Sight {
         this.shared = this.doc.text();
         const fragment = await packMap(this.shared);
         history.replaceState(null, '', `#${fragment}`);
-        const long = fragment.length > LONG_ADDRESS ? ' It is long: some programs may cut it off.' : '';
+        const long = fragment.length > LONG_ADDRESS ? t(' It is long: some programs may cut it off.') : '';
         try {
             await navigator.clipboard.writeText(location.href);
-            panel.showNote(`The address was copied. It holds the whole map.${long}`);
+            panel.showNote(t`The address was copied. It holds the whole map.${long}`);
         } catch {
-            panel.showNote(`The address of this page now holds the whole map. Copy it from the address bar.${long}`);
+            panel.showNote(t`The address of this page now holds the whole map. Copy it from the address bar.${long}`);
         }
     }
 
@@ -395,7 +399,7 @@ class Playground extends Sight {
             try {
                 this.load(parseMap(kept), 'the map from before');
             } catch {
-                panel.showMessage('The kept map could not be read.', true);
+                panel.showMessage(t('The kept map could not be read.'), true);
             }
         }
         const shared = await this.openShared();
@@ -406,13 +410,13 @@ class Playground extends Sight {
     /** The map from before a shared one was opened, in the list of maps. */
     offerOwn() {
         const list = get('gallery');
-        if (loadWork('own') && !list.querySelector('[value=own]')) list.add(new Option('your own map from before', 'own'), 1);
+        if (loadWork('own') && !list.querySelector('[value=own]')) list.add(new Option(t('your own map from before'), 'own'), 1);
     }
 
     async loadGallery() {
         this.offerOwn();
         try {
-            for (const { file, title } of await (await fetch('maps/index.json')).json())
+            for (const { file, title } of await (await fetch(new URL('index.json', maps))).json())
                 get('gallery').append(new Option(title, file));
             this.showOrigin();
         } catch {

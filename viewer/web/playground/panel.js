@@ -1,8 +1,9 @@
 /** The panel beside the plan: numbers, doors, colours. It is told what to show, and asks for nothing. */
+import { t } from '../language/language.js';
 
 const get = (id) => document.getElementById(id);
 
-const numbers = new Intl.NumberFormat('en', { maximumFractionDigits: 2 });
+const numbers = new Intl.NumberFormat(document.documentElement.lang, { maximumFractionDigits: 2 });
 
 /**
  * What has not changed stays as it is: this is called at each step of a drag.
@@ -53,12 +54,12 @@ export function showChosen(item) {
     const isMirror = item?.kind === 'mirror', one = item?.state === 'one';
     get('chosen').hidden = !isMirror && item?.kind !== 'oneway';
     if (get('chosen').hidden) return;
-    get('chosen-title').textContent = isMirror ? 'Chosen mirror' : 'Chosen glass';
+    get('chosen-title').textContent = isMirror ? t('Chosen mirror') : t('Chosen glass');
     get('one-sided-label').hidden = !isMirror;
     get('one-sided').checked = one;
     document.querySelector('[data-do=turn]').disabled = isMirror && !one;
-    get('chosen-text').textContent = !isMirror ? 'Ticks are on the dark side: who is there sees a wall.'
-        : one ? 'Ticks are on the back, which is a wall.' : 'Both sides reflect.';
+    get('chosen-text').textContent = !isMirror ? t('Ticks are on the dark side: who is there sees a wall.')
+        : one ? t('Ticks are on the back, which is a wall.') : t('Both sides reflect.');
 }
 
 /** A small box of a colour. @param {string} colour */

@@ -1,4 +1,5 @@
 /** A map in the fragment of an address, and in the browser's store. Nothing goes to a server. */
+import { t } from '../language/language.js';
 
 /** Browsers and chat programs take addresses up to about this. */
 export const LONG_ADDRESS = 30000;
@@ -47,7 +48,7 @@ export async function unpackMap(fragment) {
         const bytes = fromBase64(found[2]);
         return new TextDecoder('utf-8', { fatal: true }).decode(found[1] === 'm' ? await inflate(bytes) : bytes);
     } catch {
-        throw new Error('The address holds a map that cannot be read. Perhaps its end was cut off.');
+        throw new Error(t('The address holds a map that cannot be read. Perhaps its end was cut off.'));
     }
 }
 

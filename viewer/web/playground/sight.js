@@ -2,8 +2,10 @@
  * What is seen of the map that is drawn: it bakes the map whenever it changes, looks from the eye, and
  * asks why. All of it is work of the core; of the answers the newest one counts.
  */
+import { t } from '../language/language.js';
 import { Latest } from '../core/latest.js';
 import { countWalls } from '../formats/map-text.js';
+import { plural } from '../formats/words.js';
 import { dualFigure } from '../parts/dual.js';
 import { cellCorners, isInside, measureOutline } from '../parts/plan.js';
 import { tellWhy } from '../parts/why-scene.js';
@@ -71,7 +73,7 @@ export class Sight {
 
     async runBake(options) {
         if (!countWalls(this.doc.items)) return this.begun();
-        panel.showBusy('Computing what is seen');
+        panel.showBusy(t('Computing what is seen'));
         this.drawAt = this.bakeTime < this.patience ? performance.now() + this.patience : 0;
         try {
             const eye = this.eye ?? this.startPlace();
@@ -87,7 +89,7 @@ export class Sight {
         this.plan = this.seen = this.why = null;
         this.hasError = false;
         panel.showDoors([], new Set(), () => {});
-        panel.showMessage('Draw a wall, or open a file. Undo brings back the last map.');
+        panel.showMessage(t('Draw a wall, or open a file. Undo brings back the last map.'));
         this.showFacts();
         this.redraw();
     }
@@ -115,7 +117,7 @@ export class Sight {
         const item = error.line ? this.doc.items[error.line - 2] : null;
         if (item) this.doc.select(error.line - 2);
         this.hasError = true;
-        panel.showMessage(item ? `${error.message}\nThe ${item.kind} that is meant is chosen.` : error.message, true);
+        panel.showMessage(item ? `${error.message}\n${t`The ${t(item.kind)} that is meant is chosen.`}` : error.message, true);
         this.showFacts();
         this.redraw();
     }
@@ -160,19 +162,19 @@ export class Sight {
     showFacts() {
         const plan = this.plan, seen = this.seen;
         panel.showFacts([
-            ['Wall segments', countWalls(this.doc.items)],
-            ['Cells', plan?.cellCount],
-            ['Portals', plan?.portalCount],
-            ['Pairs that see each other', plan?.pairs],
-            ['Baked in', plan && `${this.bakeTime.toFixed(1)} ms`],
-            ['Cell of the eye', seen?.cell],
-            ['The cell sees', seen?.set && `${seen.set.size} cells`],
-            ['The eye sees', seen?.set && `${seen.kept} cells`],
-            ['Area in sight', seen && Number(measureOutline(seen.region).area.toPrecision(6))],
-            ['Its perimeter', seen && Number(measureOutline(seen.region).perimeter.toPrecision(6))],
+            [t('Wall segments'), countWalls(this.doc.items)],
+            [t('Cells'), plan?.cellCount],
+            [t('Portals'), plan?.portalCount],
+            [t('Pairs that see each other'), plan?.pairs],
+            [t('Baked in'), plan && `${this.bakeTime.toFixed(1)} ms`],
+            [t('Cell of the eye'), seen?.cell],
+            [t('The cell sees'), seen?.set && plural(seen.set.size, 'cell')],
+            [t('The eye sees'), seen?.set && plural(seen.kept, 'cell')],
+            [t('Area in sight'), seen && Number(measureOutline(seen.region).area.toPrecision(6))],
+            [t('Its perimeter'), seen && Number(measureOutline(seen.region).perimeter.toPrecision(6))],
         ]);
-        get('where').textContent = this.eye ? `Eye at ${this.eye.map((v) => Math.round(v * 1000) / 1000).join(', ')}` +
-            `${seen ? '' : this.plan ? ', not inside: put a start in a room' : ''}` : '';
+        get('where').textContent = this.eye ? t`Eye at ${this.eye.map((v) => Math.round(v * 1000) / 1000).join(', ')}` +
+            (seen ? '' : this.plan ? t(', not inside: put a start in a room') : '') : '';
     }
 
     /** Asks for a pair of cells by places; null keeps the first one. */
@@ -186,8 +188,8 @@ export class Sight {
             const { pair, why } = await this.client.call('explain', places);
             if (!this.places) return;
             [this.pair, this.why] = [pair, why];
-            panel.showWhy(Math.min(...pair) < 0 ? 'Choose two places inside the map.'
-                : why ? tellWhy(why) : `Cell ${pair[0]} is chosen. Choose a second place.`);
+            panel.showWhy(Math.min(...pair) < 0 ? t('Choose two places inside the map.')
+                : why ? tellWhy(why) : t`Cell ${pair[0]} is chosen. Choose a second place.`);
             panel.showDual(why?.dual ? dualFigure(why, this.tones) : null);
         } catch (error) {
             this.why = null;

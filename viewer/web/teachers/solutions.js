@@ -1,5 +1,6 @@
 /** The teachers' page: for each exercise of each chapter its answer, why it is right, and what is said to wrong ones. */
 import { element } from '../course/figure.js';
+import { puzzles } from '../course/puzzles.js';
 import { firstState, keepPicture, stillOf } from '../course/still.js';
 import { solutions } from './lab-solutions.js';
 
@@ -12,7 +13,7 @@ function choice(exercise, lab) {
     return { answer, why, wrong: exercise.options.filter((_, i) => i !== right).map(([text, remark]) => said(element('q', {}, text), ` ${remark}`)) };
 }
 
-const number = (exercise, lab) => ({ answer: String(exercise.right(lab)), why: exercise.why,
+const number = async (exercise, lab) => ({ answer: String(await exercise.right(lab)), why: exercise.why,
     wrong: [said(`Too low: ${exercise.low}`), said(`Too high: ${exercise.high}`)] });
 
 const code = ({ name }) => ({ answer: 'for example this code', why: solutions[name].why, wrong: [], host: element('pre', { tabIndex: 0 }, solutions[name].code) });
@@ -40,6 +41,7 @@ async function solution(name, exercise, lab) {
 export async function fill(main, lab) {
     for (const section of main.querySelectorAll('[data-solutions]')) {
         const chapter = await import(`../course/${section.dataset.solutions}.js`);
-        section.append(...(await Promise.all(Object.entries(chapter.exercises).map(([name, exercise]) => solution(name, exercise, lab)))));
+        const exercises = Object.entries({ puzzle: puzzles[section.dataset.solutions], ...chapter.exercises });
+        section.append(...(await Promise.all(exercises.map(([name, exercise]) => solution(name, exercise, lab)))));
     }
 }

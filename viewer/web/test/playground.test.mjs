@@ -10,7 +10,7 @@ import { join } from 'node:path';
 import { after, afterEach, before, describe, test } from 'node:test';
 import { deflateSync } from 'node:zlib';
 import { bakeNative, needsNative, shapes } from './native.mjs';
-import { launch, programOf, serve, tool } from './site.mjs';
+import { launch, programOf, saved, serve, tool } from './site.mjs';
 
 const { SITE, SIGHTLINE, SHOTS } = process.env;
 /** Those of BROWSERS that are installed. */
@@ -45,23 +45,6 @@ const screen = (page, x, y) => page.evaluate(([mx, my]) => {
     const [px, py] = window.playground.view.camera.toScreen(mx, my);
     return [box.left + px, box.top + py];
 }, [x, y]);
-
-/** What a button saves. Firefox does not tell of downloads here, so the page keeps a copy. */
-async function saved(page, button) {
-    await page.evaluate(() => {
-        const make = URL.createObjectURL;
-        window.lastSaved = null;
-        URL.createObjectURL = (blob) => make.call(URL, (window.lastSaved = blob));
-    });
-    const comes = page.waitForEvent('download').catch(() => null);
-    await page.click(`[data-do=${button}]`);
-    await page.waitForFunction(() => window.lastSaved);
-    const copy = await page.evaluate(async () => [...new Uint8Array(await window.lastSaved.arrayBuffer())]);
-    if (page.context().browser().browserType().name() !== 'chromium') return Buffer.from(copy);
-    const file = readFileSync(await (await comes).path());
-    assert.ok(file.equals(Buffer.from(copy)));
-    return file;
-}
 
 const room = 'sightline 1\nwalls 0 0 20 0 20 10 0 10 0 0\nwall 10 0 10 4\nwall 10 6 10 10\nstart 5 5 0\n';
 
@@ -353,14 +336,14 @@ for (const name of wanted)
         test('saves what the program would write', { skip: SIGHTLINE ? false : 'SIGHTLINE does not name the program' }, async () => {
             const page = await open(), folder = mkdtempSync(join(tmpdir(), 'sightline-web-'));
             const { file, text } = await page.evaluate(async () => ({ file: 'x.map', text: window.playground.doc.text() }));
-            assert.equal((await saved(page, 'saveMap')).toString(), text);
-            const slv = await saved(page, 'saveSlv');
+            assert.equal((await saved(page, '[data-do=saveMap]')).toString(), text);
+            const slv = await saved(page, '[data-do=saveSlv]');
             execFileSync('sh', ['-c', `printf %s "$TEXT" >"${folder}/${file}"; printf '\\n' >>"${folder}/${file}"`], { env: { ...process.env, TEXT: text.trimEnd() } });
             execFileSync(SIGHTLINE, ['bake', join(folder, file), '-o', join(folder, 'x.slv'), '--quiet']);
             assert.ok(slv.equals(readFileSync(join(folder, 'x.slv'))), 'the bytes differ');
             rmSync(folder, { recursive: true });
-            assert.equal((await saved(page, 'savePng')).subarray(1, 4).toString(), 'PNG');
-            const svg = (await saved(page, 'saveSvg')).toString();
+            assert.equal((await saved(page, '[data-do=savePng]')).subarray(1, 4).toString(), 'PNG');
+            const svg = (await saved(page, '[data-do=saveSvg]')).toString();
             assert.match(svg, /^<svg [^]*<path [^]*<\/svg>\n$/);
             // The saved files come back: a .slv as the same walls.
             await page.setInputFiles('#file', { name: 'x.slv', mimeType: '', buffer: slv });
@@ -639,7 +622,7 @@ for (const name of wanted)
             assert.match(await text(), /It sees [\d.]+ %; no 1 of these \d+ places sees more than [\d.]+ %\.$/);
             assert.match(await page.locator('#camera-key').textContent(), /not seen.*seen by 3 or more/);
             await shot(page, `${name}-cameras`);
-            const table = (await saved(page, 'saveCameras')).toString();
+            const table = (await saved(page, '[data-do=saveCameras]')).toString();
             assert.match(table, /^name,x,y,heading,fov,range\ncamera 1,[\d.]+,[\d.]+,,,\n$/);
             // A wall that comes changes what is seen, and the proof is of another map.
             const before = await areas();
@@ -834,7 +817,7 @@ for (const name of wanted)
             const page = await context.newPage();
             await page.goto(site.address);
             await page.waitForFunction(() => /no WebAssembly/.test(document.getElementById('message').textContent));
-            assert.match((await saved(page, 'saveMap')).toString(), /^sightline 1\n/);
+            assert.match((await saved(page, '[data-do=saveMap]')).toString(), /^sightline 1\n/);
             await context.close();
         });
 

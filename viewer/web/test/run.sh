@@ -59,4 +59,5 @@ if [ "$what" = quick ]; then
     if command -v chromium >/dev/null; then BROWSERS=chromium; else BROWSERS=firefox; fi
     export BROWSERS QUICK=1
 fi
-exec node --test "$here/playground.test.mjs" "$here/course.test.mjs" "$here/teaching.test.mjs"
+exec node --test "$here/playground.test.mjs" "$here/course.test.mjs" "$here/labs.test.mjs" "$here/teaching.test.mjs" \
+    "$here/lecture.test.mjs" "$here/questions.test.mjs" "$here/language.test.mjs" "$here/publish.test.mjs"

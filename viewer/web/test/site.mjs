@@ -1,5 +1,6 @@
 /** Help for tests in a browser: a server of the built site, and browsers to look at it. */
-import { existsSync } from 'node:fs';
+import assert from 'node:assert/strict';
+import { existsSync, readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { join } from 'node:path';
 
@@ -23,4 +24,21 @@ export function launch(name) {
     const playwright = tool('playwright-core');
     const kind = name === 'firefox' ? playwright._bidiFirefox : playwright.chromium;
     return kind.launch({ executablePath: programOf(name), args });
+}
+
+/** What a button saves, which a selector names. Firefox does not tell of downloads here, so the page keeps a copy. */
+export async function saved(page, selector) {
+    await page.evaluate(() => {
+        const make = URL.createObjectURL;
+        window.lastSaved = null;
+        URL.createObjectURL = (blob) => make.call(URL, (window.lastSaved = blob));
+    });
+    const comes = page.waitForEvent('download').catch(() => null);
+    await page.click(selector);
+    await page.waitForFunction(() => window.lastSaved);
+    const copy = await page.evaluate(async () => [...new Uint8Array(await window.lastSaved.arrayBuffer())]);
+    if (page.context().browser().browserType().name() !== 'chromium') return Buffer.from(copy);
+    const file = readFileSync(await (await comes).path());
+    assert.ok(file.equals(Buffer.from(copy)));
+    return file;
 }

@@ -10,6 +10,7 @@ import { dirname, join } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import { inflateSync } from 'node:zlib';
+import { plans } from '../course/plans.js';
 import { launch, programOf, serve } from './site.mjs';
 
 const { SITE, SHOTS, TOOLS, QUICK } = process.env, hasChromium = Boolean(programOf('chromium'));
@@ -59,6 +60,16 @@ describe('handouts', { skip: hasChromium ? false : 'Chromium is missing' }, () =
         }
     });
 
+    test('a lecture is a PDF with a page for each slide, and its figures are vectors', async () => {
+        const { status, words } = await run('--site', SITE, '--out', folder, '--only', 'lecture-45', '--paper', 'a4');
+        assert.equal(status, 0, words);
+        const pdf = readPdf(join(folder, 'teachers/lecture-45.pdf')), { 45: [chapters] } = plans;
+        assert.deepEqual([pdf.isWhole, pdf.pages, pdf.images], [true, 6 * Object.keys(chapters).length, 0]);
+        for (const [w, h] of pdf.sizes) assert.ok(Math.abs(w - 960) < 1.5 && Math.abs(h - 540) < 1.5, `${w} x ${h}`);
+        assert.ok(pdf.strokes > 200, `only ${pdf.strokes} lines and areas`);
+        rmSync(join(folder, 'teachers'), { recursive: true });
+    });
+
     test('what it cannot do it says, and it writes nothing', async () => {
         for (const [given, status, about] of [
             [['--site', SITE], 2, /--out/], [['--site', SITE, '--out', folder, '--paper', 'a5'], 2, /a5/],
@@ -100,8 +111,11 @@ describe('pages for teachers', { skip: hasChromium ? false : 'Chromium is missin
         const shown = await page.locator('section[data-solutions]').evaluateAll((sections) => sections.map((section) => [section.dataset.solutions,
             [...section.children].map((node) => [node.dataset.solution, node.querySelector('strong').textContent,
                 node.querySelector('strong').parentElement.textContent.length, node.querySelectorAll('svg').length, node.querySelectorAll('li').length])]));
-        const chapters = await page.evaluate(async (names) => Object.fromEntries(await Promise.all(names.map(async (name) =>
-            [name, Object.entries((await import(`../course/${name}.js`)).exercises).map(([key, { kind }]) => [key, kind])]))), shown.map(([name]) => name));
+        const chapters = await page.evaluate(async (names) => {
+            const { puzzles } = await import('../course/puzzles.js');
+            return Object.fromEntries(await Promise.all(names.map(async (name) =>
+                [name, Object.entries({ puzzle: puzzles[name], ...(await import(`../course/${name}.js`)).exercises }).map(([key, { kind }]) => [key, kind])])));
+        }, shown.map(([name]) => name));
         const listed = [...readFileSync(join(SITE, 'course/index.html'), 'utf8').matchAll(/<td><a href="([\w-]+)\.html">/g)].map(([, name]) => name);
         assert.deepEqual(shown.map(([name]) => name), listed);
         for (const [name, solutions] of shown) {
@@ -160,8 +174,9 @@ describe('pages for teachers', { skip: hasChromium ? false : 'Chromium is missin
         for (const folder of ['course', 'pages'])
             for (const file of readdirSync(join(SITE, folder)).filter((name) => name.endsWith('.html'))) {
                 const here = join(SITE, folder, file);
-                for (const [, path, anchor] of readFileSync(here, 'utf8').matchAll(/(?:href|src)="([^"#]*)(?:#([^"]*))?"/g)) {
+                for (const [, path, ask, anchor] of readFileSync(here, 'utf8').matchAll(/(?:href|src)="([^"#?]*)(?:\?([^"#]*))?(?:#([^"]*))?"/g)) {
                     if (/^[a-z]+:/.test(path)) continue;
+                    if (ask) assert.ok(existsSync(join(SITE, `course/questions/${/^chapter=(\w+)$/.exec(ask)?.[1]}.js`)), `${folder}/${file}: ${path}?${ask}`);
                     const target = path ? join(SITE, folder, path) : here;
                     assert.ok(existsSync(target), `${folder}/${file}: ${path}`);
                     if (anchor) assert.ok(readFileSync(target, 'utf8').includes(`id="${anchor}"`), `${folder}/${file}: ${path}#${anchor}`);
