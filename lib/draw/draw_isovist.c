@@ -105,6 +105,7 @@ static void draw_grey(cairo_t *cairo, const picture *p, const sl_frame *frame) {
 /// Squares or patches of one colour make one path. A thin stroke covers the seams between them.
 static sl_status draw_values(sl_context *context, cairo_t *cairo, const picture *p,
                              const sl_frame *frame) {
+    sli_layer_begin(cairo, "values");
     draw_grey(cairo, p, frame);
     for (int step = 0; step < RAMP_STEPS; step++) {
         SL_TRY(sl_check_cancelled(context));
@@ -136,6 +137,7 @@ static void draw_lines(cairo_t *cairo, const picture *p, const sl_frame *frame) 
 /// From low to high values, each a little wider than the last. Lines without a value lie below.
 static sl_status draw_valued_lines(sl_context *context, cairo_t *cairo, const picture *p,
                                    const sl_frame *frame) {
+    sli_layer_begin(cairo, "lines");
     for (size_t i = 0; i < p->value_count; i++)
         if (isnan(p->values[i]))
             sl_path_segment(cairo, frame, p->lines->lines[i].a, p->lines->lines[i].b);
@@ -173,6 +175,7 @@ static sl_status draw_plan(sl_context *context, cairo_t *cairo, const void *what
     if (p->patches) draw_lines(cairo, p, frame);
     // Squares and patches may reach from the floor into solid ground.
     sli_draw_solid(cairo, &p->scene, frame);
+    if (p->region_count) sli_layer_begin(cairo, "isovists");
     for (size_t i = 0; i < p->region_count; i++)
         sli_draw_seen(cairo, &p->scene.palette, frame, &p->regions[i]);
     SL_TRY(sl_draw_walls(context, cairo, &p->scene, frame));

@@ -54,6 +54,16 @@ typedef struct sl_drawn_box {
     bool blocks, seen;
 } sl_drawn_box;
 
+/// A sheet of paper on which the plan stands to scale, with a title block: the title, a scale bar,
+/// and north where it is known. It is a PDF or an SVG, in which letters stay text. An SVG has a
+/// layer for each kind of thing. The map must say its unit (sl_map.unit). Zeroed: no sheet.
+typedef struct sl_sheet {
+    const char *paper; ///< "A4" to "A0", either way round as the plan fits; NULL: no sheet
+    const char *scale; ///< "1:100"; NULL: the largest round scale that fits
+    const char *note;  ///< a line under the title, UTF-8; NULL for none
+    sl_point north;    ///< a direction in the map; zeroed: as sl_map.earth says, if it does
+} sl_sheet;
+
 /// Start from sl_draw_options_default().
 typedef struct sl_draw_options {
     unsigned layers; ///< of sl_layer, or-ed; usually all but the stab tree and numbers
@@ -65,6 +75,9 @@ typedef struct sl_draw_options {
     const sl_faults *faults;   ///< marked over all else; NULL for none
     const sl_drawn_box *boxes; ///< for sl_draw_eye
     size_t box_count;
+    /// For pictures of a whole plan, in place of the width. SL_BAD_ARGUMENT if the plan does not
+    /// fit at the scale: the message has one that does.
+    sl_sheet sheet;
 } sl_draw_options;
 
 /// The usual options, as told at each field.
