@@ -107,6 +107,7 @@ is_there() {
     xdotool) has xdotool ;;
     aspell) has aspell && aspell dump dicts | grep -q '^en' ;;
     groff) has groff ;;
+    poppler) has pdftotext ;;
     abidw) has abidw ;;
     x11) module x11 ;;
     font) font ;;
@@ -153,6 +154,7 @@ package() { # system thing
     apt:wasm) echo lld wasi-libc libclang-rt-dev-wasm32 ;;
     apt:aspell | dnf:aspell | pacman:aspell) echo aspell aspell-en ;;
     apt:abidw) echo abigail-tools ;;
+    apt:poppler | dnf:poppler) echo poppler-utils ;;
     apt:jsonschema | dnf:jsonschema) echo python3-jsonschema ;;
     apt:numpy | apt:scipy | apt:pandas | apt:geopandas | apt:matplotlib) echo "python3-$2" ;;
     apt:nbconvert | apt:ipykernel | apt:wheel | apt:pip) echo "python3-$2" ;;
@@ -247,7 +249,7 @@ install_packages() { # system package...
 # ---- What to do ----
 
 things="c c++ cmake ninja pkg-config python3 zlib jansson libpng libxml2 libyaml zstd glpk cairo pango sdl2 font cmocka gmp"
-[ $ci = yes ] && things="$things clang clang-sanitizers llvm-symbolizer clang-format clang-tidy ccache doxygen xvfb xdotool x11 mpi node npm chromium jsonschema aspell groff abidw numpy scipy pandas geopandas matplotlib nbconvert ipykernel wheel pip luajit mono tiled"
+[ $ci = yes ] && things="$things clang clang-sanitizers llvm-symbolizer clang-format clang-tidy ccache doxygen xvfb xdotool x11 mpi node npm chromium jsonschema aspell groff poppler abidw numpy scipy pandas geopandas matplotlib nbconvert ipykernel wheel pip luajit mono tiled"
 [ $ci = yes ] && has apt-get && things="$things aarch64 windows" # tests/everywhere
 [ $web = yes ] && things="$things clang wasm binaryen node"
 [ $release = yes ] && things="$things npm pip wheel numpy patchelf"

@@ -321,21 +321,21 @@ static void set_page(cairo_t *cairo, const void *what, sli_page *page, bool pain
 }
 
 static sl_status draw_picture(sl_context *context, const sl_baked *baked,
-                              const sl_draw_options *options, picture *p, const char *path) {
+                              const sl_draw_options *options, picture *p, sli_page_target *target) {
     const unsigned layers = SL_LAYER_WALLS | (p->scale ? 0 : (unsigned)SL_LAYER_STARTS);
     const sli_page_parts parts = {.set = set_page, .draw_plan = draw_plan, .what = p};
-    return sli_page_write_map(context, baked, options, layers, &p->scene, parts, path);
+    return sli_page_draw_map(context, baked, options, layers, &p->scene, parts, target);
 }
 
 sl_status sl_draw_regions_file(sl_context *context, const sl_baked *baked,
                                const sl_drawn_region *regions, size_t count, const char *caption,
                                const sl_draw_options *options, const char *path) {
     picture p = {.regions = regions, .region_count = count, .caption = caption};
-    return draw_picture(context, baked, options, &p, path);
+    return draw_picture(context, baked, options, &p, &(sli_page_target){.path = path});
 }
 
-sl_status sl_draw_field_file(sl_context *context, const sl_baked *baked, const sl_field *field,
-                             const sl_draw_options *options, const char *path) {
+static sl_status draw_field(sl_context *context, const sl_baked *baked, const sl_field *field,
+                            const sl_draw_options *options, sli_page_target *target) {
     if (!(fabs(field->least) <= LARGEST && fabs(field->most) <= LARGEST &&
           field->least <= field->most))
         return sl_fail(context, SL_BAD_ARGUMENT,
@@ -353,16 +353,32 @@ sl_status sl_draw_field_file(sl_context *context, const sl_baked *baked, const s
         if (p.most == 0) p.most = 1; // nothing changes
         p.least = -p.most;
     }
-    return draw_picture(context, baked, options, &p, path);
+    return draw_picture(context, baked, options, &p, target);
+}
+
+sl_status sli_draw_picture(sl_context *context, const sl_baked *baked, const sl_field *field,
+                           const sl_drawn_lines *lines, const sl_draw_options *options,
+                           sli_page_target *target) {
+    if (field) return draw_field(context, baked, field, options, target);
+    picture p = {0};
+    if (lines)
+        p = (picture){.lines = lines,
+                      .scale = lines->name,
+                      .values = lines->values,
+                      .value_count = lines->count};
+    if (lines) find_range(&p, 0, 0);
+    return draw_picture(context, baked, options, &p, target);
+}
+
+sl_status sl_draw_field_file(sl_context *context, const sl_baked *baked, const sl_field *field,
+                             const sl_draw_options *options, const char *path) {
+    return draw_field(context, baked, field, options, &(sli_page_target){.path = path});
 }
 
 sl_status sl_draw_lines_file(sl_context *context, const sl_baked *baked,
                              const sl_drawn_lines *lines, const sl_draw_options *options,
                              const char *path) {
-    picture p = {
-        .lines = lines, .scale = lines->name, .values = lines->values, .value_count = lines->count};
-    find_range(&p, 0, 0);
-    return draw_picture(context, baked, options, &p, path);
+    return sli_draw_picture(context, baked, NULL, lines, options, &(sli_page_target){.path = path});
 }
 
 sl_status sl_draw_patches_file(sl_context *context, const sl_baked *baked,
@@ -374,5 +390,5 @@ sl_status sl_draw_patches_file(sl_context *context, const sl_baked *baked,
                  .values = patches->values,
                  .value_count = patches->count};
     find_range(&p, 0, 0);
-    return draw_picture(context, baked, options, &p, path);
+    return draw_picture(context, baked, options, &p, &(sli_page_target){.path = path});
 }

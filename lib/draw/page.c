@@ -280,11 +280,26 @@ sl_status sli_page_write(sl_context *context, const sli_page_parts *parts, doubl
     return sli_paper_close(context, &paper, draw_page(context, paper.cairo, &m));
 }
 
-sl_status sli_page_write_map(sl_context *context, const sl_baked *baked,
-                             const sl_draw_options *options, unsigned layers, sl_scene *scene,
-                             sli_page_parts parts, const char *path) {
+/// Onto another page, without a ground of its own.
+static sl_status draw_onto(sl_context *context, const sli_page_parts *parts, double width,
+                           sli_page_target *target) {
+    sli_page page = sli_page_of_width(width);
+    parts->set(target->cairo, parts->what, &page, false);
+    target->height = page.height;
+    if (!target->paint) return SL_OK;
+    cairo_save(target->cairo);
+    cairo_translate(target->cairo, target->at.x, target->at.y);
+    const sl_status status = parts->draw_plan(context, target->cairo, parts->what, &page.frame);
+    parts->set(target->cairo, parts->what, &page, true);
+    cairo_restore(target->cairo);
+    return status;
+}
+
+sl_status sli_page_draw_map(sl_context *context, const sl_baked *baked,
+                            const sl_draw_options *options, unsigned layers, sl_scene *scene,
+                            sli_page_parts parts, sli_page_target *target) {
     const sli_paper_kind *kind = &kinds[0];
-    SL_TRY(sli_paper_kind_of(context, path, &kind));
+    if (target->path) SL_TRY(sli_paper_kind_of(context, target->path, &kind));
     SL_TRY(sli_page_check_width(context, options->width));
     sl_draw_options plain = *options;
     plain.layers = layers;
@@ -294,7 +309,9 @@ sl_status sli_page_write_map(sl_context *context, const sl_baked *baked,
     parts.scene = scene;
     parts.ground = scene->palette.page;
     parts.title = options->title;
-    const sl_status status = sli_page_write(context, &parts, options->width, kind, path);
+    const sl_status status =
+        target->path ? sli_page_write(context, &parts, options->width, kind, target->path)
+                     : draw_onto(context, &parts, options->width, target);
     sli_scene_clear(context, scene);
     return status;
 }

@@ -93,11 +93,25 @@ typedef struct sli_page_parts {
 sl_status sli_page_write(sl_context *context, const sli_page_parts *parts, double width,
                          const sli_paper_kind *kind, const char *path);
 
-/// Writes a page about the walls of a map, `layers` of it. `scene` is the picture's own, and is
-/// made and cleared here; the ground and the title of `parts` come from it and from the options.
-sl_status sli_page_write_map(sl_context *context, const sl_baked *baked,
-                             const sl_draw_options *options, unsigned layers, sl_scene *scene,
-                             sli_page_parts parts, const char *path);
+/// Where a page about a map goes: into a file, or onto another page.
+typedef struct sli_page_target {
+    const char *path; ///< of the file; NULL: onto the page of `cairo`
+    cairo_t *cairo;
+    sl_point at;   ///< of its upper left corner on that page
+    bool paint;    ///< false only measures
+    double height; ///< set to that of the page
+} sli_page_target;
+
+/// Draws a page about the walls of a map, `layers` of it. `scene` is the picture's own, and is made
+/// and cleared here; the ground and the title of `parts` come from it and from the options.
+sl_status sli_page_draw_map(sl_context *context, const sl_baked *baked,
+                            const sl_draw_options *options, unsigned layers, sl_scene *scene,
+                            sli_page_parts parts, sli_page_target *target);
+
+/// sl_draw_field_file and sl_draw_lines_file, or the plan with its starts where both are NULL.
+sl_status sli_draw_picture(sl_context *context, const sl_baked *baked, const sl_field *field,
+                           const sl_drawn_lines *lines, const sl_draw_options *options,
+                           sli_page_target *target);
 
 /// A text below a picture, in lines as the width allows. Returns the height; 0 for NULL. Draws only
 /// with `paint`.

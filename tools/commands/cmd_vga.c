@@ -208,7 +208,8 @@ static void print_tables(void) {
 }
 
 sl_status cmd_vga(command_console *console, int argc, char **argv) {
-    vga_plan plan = {.pipeline = pipeline_default(),
+    vga_plan plan = {.command = "vga",
+                     .pipeline = pipeline_default(),
                      .options = sl_vga_options_default(),
                      .agents = sl_vga_agents_default(),
                      .drawing = built_draw_options()};

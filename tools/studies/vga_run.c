@@ -10,6 +10,21 @@
 
 // --- the size of the graph
 
+static double area_inside(const sl_space *space) {
+    double area = 0;
+    for (uint32_t c = 0; c < space->cell_count; c++)
+        if (space->cells[c].inside) area += sl_space_area(space, c);
+    return area;
+}
+
+/// The largest of 1, 2 and 5 times a power of ten that gives about 2000 points or more.
+static double usual_step(const sl_space *space) {
+    const double most = sqrt(area_inside(space) / 2000);
+    if (!(most > 0)) return 1;
+    const double power = pow(10, floor(log10(most)));
+    return power * (most >= 5 * power ? 5 : most >= 2 * power ? 2 : 1);
+}
+
 static sl_status refuse_size(sl_context *context, const vga_plan *plan, double points) {
     char most[SIZE_TEXT];
     size_write(sl_machine_memory() / 2, most);
@@ -22,10 +37,7 @@ static sl_status refuse_size(sl_context *context, const vga_plan *plan, double p
 /// Refuses a step by the area inside, before a grid is filled that is far too large. From --at the
 /// grid may go out, and filling it says when it is too large.
 static sl_status check_area(sl_context *context, const vga_plan *plan, const sl_space *space) {
-    double area = 0;
-    for (uint32_t c = 0; c < space->cell_count; c++)
-        if (space->cells[c].inside) area += sl_space_area(space, c);
-    const double points = area / plan->points.step / plan->points.step;
+    const double points = area_inside(space) / plan->points.step / plan->points.step;
     if (plan->points.at.count || points * points / 8 <= (double)sl_machine_memory()) return SL_OK;
     return refuse_size(context, plan, points);
 }
@@ -225,7 +237,7 @@ static sl_status make_steps(sl_context *context, const vga_plan *plan, vga_work 
 
 /// From the map to its measures.
 sl_status vga_compute(sl_context *context, vga_plan *plan, vga_work *w) {
-    SL_TRY(pipeline_read_space(context, &plan->pipeline, "vga", ~(unsigned)SL_EFFECT_MIRROR,
+    SL_TRY(pipeline_read_space(context, &plan->pipeline, plan->command, ~(unsigned)SL_EFFECT_MIRROR,
                                "steps and paths lead straight to points, not to mirror images",
                                &w->baked));
     SL_TRY(check_units(context, plan, &w->baked.map));
@@ -236,6 +248,7 @@ sl_status vga_compute(sl_context *context, vga_plan *plan, vga_work *w) {
     if (!plan->range_given) plan->range = w->baked.map.range;
     SL_TRY(sl_query_over(context, &w->baked.space, &w->baked.map, NULL, &w->query));
     SL_TRY(sl_query_outline(context, w->query, &w->outline));
+    if (!(plan->points.step > 0)) plan->points.step = usual_step(&w->baked.space);
     sl_status status = check_area(context, plan, &w->baked.space);
     status = pipeline_name_stray(context, plan->input, &w->baked.map, &w->baked.space, status);
     if (status == SL_OK)

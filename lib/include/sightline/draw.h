@@ -234,6 +234,38 @@ SL_API sl_status sl_draw_lines_file(sl_context *context, const sl_baked *baked,
                                     const sl_drawn_lines *lines, const sl_draw_options *options,
                                     const char *path);
 
+// --- documents
+
+/// What a block of a document is.
+typedef enum sl_block_kind {
+    SL_BLOCK_TITLE,
+    SL_BLOCK_HEADING, ///< in the outline of the file, too
+    SL_BLOCK_TEXT,    ///< a paragraph; '\n' begins a new line
+    SL_BLOCK_TABLE,
+    SL_BLOCK_PICTURE,
+} sl_block_kind;
+
+/// A block of a document: what its kind has; the rest is zeroed. Texts are UTF-8.
+typedef struct sl_block {
+    sl_block_kind kind;
+    const char *text; ///< of a picture: a line below it, NULL for none
+    /// Of a table: cells row by row, the first row being its head. The last column breaks into
+    /// lines as the page needs.
+    const char *const *cells;
+    size_t columns, rows;
+    const sl_baked *baked; ///< of a picture
+    /// Of a picture: one of them, drawn over the plan. Both NULL: the plan with its starts.
+    const sl_field *field;
+    const sl_drawn_lines *lines;
+} sl_block;
+
+/// Writes blocks as a PDF of A4 pages, which have numbers. `title` stands at the foot of each, and
+/// in the file's description. Letters stay text. The same input gives the same bytes.
+/// SL_BAD_ARGUMENT if `path` does not end in .pdf, for a table without columns, and as the pictures
+/// say; SL_IO or SL_NO_MEMORY otherwise; a failure leaves an older file as it was.
+SL_API sl_status sl_draw_document_file(sl_context *context, const sl_block *blocks, size_t count,
+                                       const char *title, const char *path);
+
 // --- charts
 
 /// How values lie along an axis. Symmetric logarithm: linear between -1 and 1, powers of ten at
