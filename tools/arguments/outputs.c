@@ -156,9 +156,9 @@ option_table picture_option_table(sl_draw_options *drawing, const char *output, 
          .text = &drawing->sheet.scale, .topic = "on paper", .without = "paper"},
         {"north", 0, "X,Y",
          "with --paper: draw an arrow to north, which is this direction in the map, as 0,1",
-         .point = &drawing->sheet.north, .topic = "on paper", .without = "paper", .rare = true},
+         .point = &drawing->sheet.north, .topic = "on paper", .without = "paper"},
         {"note", 0, "TEXT", "with --paper: write a line under the title",
-         .text = &drawing->sheet.note, .topic = "on paper", .without = "paper", .rare = true},
+         .text = &drawing->sheet.note, .topic = "on paper", .without = "paper"},
     };
     option_table table = {0};
     option_table_add(&table, options, titled ? 7 : 2);
