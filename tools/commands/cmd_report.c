@@ -45,8 +45,7 @@ sl_status cmd_report(command_console *console, int argc, char **argv) {
                 "it is. Letters are text, and the same plan gives the same bytes.",
         .tables = print_measures,
         .examples = "  sightline report office.map -o office.pdf\n"
-                    "  sightline report office.map --grid 1 --title \"Office, second floor\" -o "
-                    "office.pdf",
+                    "  sightline report office.map --grid 1 --title \"Office\" -o office.pdf",
         .options = options,
         .option_count = sizeof options / sizeof *options,
         .given = &graph->pipeline.given,
