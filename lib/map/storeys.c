@@ -46,6 +46,16 @@ static sl_status refuse(building_reader *r, const char *form) {
 
 // --- statements
 
+/// Names stand in tables, and before the ':' of a place.
+static sl_status check_name(building_reader *r, const char *what, sli_word name) {
+    bool usable = sli_name_usable(name.at, name.length);
+    for (size_t i = 0; i < name.length; i++) usable &= !strchr(":,\"\\", name.at[i]);
+    if (usable) return SL_OK;
+    return sl_fail_at(r->context, r->path, r->line,
+                      "%s: '%s' is no name: expected one word without : , \" and \\", what,
+                      sli_show(name).text);
+}
+
 /// A path beside the building's file, unless it is absolute.
 static char *path_beside(building_reader *r, sli_word file) {
     const size_t folder = *file.at == '/' ? 0 : (size_t)(sl_path_name(r->path) - r->path);
@@ -61,10 +71,7 @@ static sl_status read_storey(building_reader *r) {
     sl_building *b = &r->building;
     if (r->count != 3 || !r->words[2].length) return refuse(r, "storey NAME FILE");
     const sli_word name = r->words[1];
-    if (!sli_name_usable(name.at, name.length) || memchr(name.at, ':', name.length))
-        return sl_fail_at(r->context, r->path, r->line,
-                          "storey: '%s' is no name: expected one word without ':'",
-                          sli_show(name).text);
+    SL_TRY(check_name(r, "storey", name));
     const size_t other = sl_building_find(b, name.at, name.length);
     if (other != SL_NO_STOREY)
         return sl_fail_at(r->context, r->path, r->line,
@@ -106,9 +113,7 @@ static sl_status read_link(building_reader *r) {
     sl_storey_link link = {.line = r->line};
     if (r->count != 6 && r->count != 7)
         return refuse(r, "link NAME STOREY X,Y STOREY X,Y [LENGTH]");
-    if (!sli_name_usable(r->words[1].at, r->words[1].length))
-        return sl_fail_at(r->context, r->path, r->line, "link: '%s' is no name: expected one word",
-                          sli_show(r->words[1]).text);
+    SL_TRY(check_name(r, "link", r->words[1]));
     for (int end = 0; end < 2; end++) SL_TRY(read_end(r, end ? 4 : 2, &link, end));
     if (link.storeys[0] == link.storeys[1] && link.places[0].x == link.places[1].x &&
         link.places[0].y == link.places[1].y)

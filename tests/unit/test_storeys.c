@@ -66,6 +66,7 @@ static void what_is_wrong_has_its_line(void **state) {
         {HEAD "storey c \"d e\n", "a.storeys:4: a word begins with \" and has no end"},
         {HEAD "storey a c.map\n", "a.storeys:4: storey: 'a' is the name of the storey in line 2"},
         {HEAD "storey a:b c.map\n", "a.storeys:4: storey: 'a:b' is no name"},
+        {HEAD "link s,t a 1,2 b 1,2\n", "a.storeys:4: link: 's,t' is no name"},
         {HEAD "link s a 1,2 b 1,2 3 4\n", "a.storeys:4: expected 'link NAME STOREY X,Y"},
         {HEAD "link s a 1,2 b\n", "a.storeys:4: expected 'link NAME STOREY X,Y"},
         {HEAD "link s a 1,2 c 1,2\n", "a.storeys:4: link: no storey 'c' stands before"},
@@ -88,8 +89,7 @@ static void what_is_wrong_has_its_line(void **state) {
     }
     sl_building b = {0};
     assert_int_equal(sl_building_parse(context, "a.storeys", "storeys\0 1", 10, &b), SL_BAD_INPUT);
-    assert_int_equal(sl_building_read(context, "/nowhere/a.storeys", &b),
-                     SL_BAD_ARGUMENT);
+    assert_int_equal(sl_building_read(context, "/nowhere/a.storeys", &b), SL_BAD_ARGUMENT);
 }
 
 int main(void) {

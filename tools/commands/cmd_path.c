@@ -487,8 +487,9 @@ sl_status cmd_path(command_console *console, int argc, char **argv) {
         .what = "Finds the shortest way among the walls between two points, for a point or for a "
                 "walker with a radius. It turns at ends of walls, and it does not pass between "
                 "walls that meet in "
-                "a point. Shut doors block it, and one-way glass from one side. The exit status is "
-                "3 if there is no way.",
+                "a point. Shut doors block it, and one-way glass from one side. In a building (a "
+                "file of storeys, .storeys) it goes over links, too. The exit status is 3 if there "
+                "is no way.",
         .examples = "  sightline path office.map --from 3,3 --to 53,20\n"
                     "  sightline path office.map --from 3,3 --to 53,20 --picture way.png\n"
                     "  sightline path house.storeys --from ground:3,4 --to first:8,2\n"

@@ -6,6 +6,7 @@
 #include "reports/heat_map.h"
 #include "sightline/query.h"
 #include "sightline/support.h"
+#include "studies/building_vga.h"
 #include "studies/vga_change.h"
 #include "studies/vga_field.h"
 #include "system/built.h"
@@ -79,6 +80,12 @@ static sl_status make_plan(sl_context *context, vga_plan *p) {
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "--scale %.9g,%.9g: expected the smaller number first, as 0,500", p->scale.x,
                        p->scale.y);
+    if (input_is_building(p->input)) return SL_OK; // each storey has a plan of its own
+    if (p->storey)
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "--storey %s: is for a building, a file that "
+                       "ends in " BUILDING_ENDING,
+                       p->storey);
     return pipeline_plan(context, p->input, &p->pipeline);
 }
 
@@ -178,18 +185,30 @@ static sl_status compare(command_console *console, const vga_plan *plan, const v
     return status;
 }
 
+static sl_status show(command_console *console, const vga_plan *plan, const vga_table *table) {
+    const char *path = table_path(plan);
+    progress_line_clear(&console->line);
+    if (path) SL_TRY(vga_write(console->context, table, path));
+    if (!console->quiet && (!path || strcmp(path, "-") != 0))
+        vga_print_summary(table, plan->measure);
+    return SL_OK;
+}
+
 static sl_status work(command_console *console, vga_plan *plan, vga_work *w) {
     sl_context *context = console->context;
-    const char *path = table_path(plan);
     SL_TRY(vga_compute(context, plan, w));
     if (plan->compare) return compare(console, plan, w);
     if (plan->pairs) SL_TRY(write_pairs(context, plan, w));
     if (plan->picture) SL_TRY(draw(context, plan, w));
-    progress_line_clear(&console->line);
-    if (path) SL_TRY(vga_write(context, &w->table, path));
-    if (!console->quiet && (!path || strcmp(path, "-") != 0))
-        vga_print_summary(&w->table, plan->measure);
-    return SL_OK;
+    return show(console, plan, &w->table);
+}
+
+static sl_status work_building(command_console *console, vga_plan *plan, building_vga *b) {
+    const vga_work *storey;
+    SL_TRY(building_vga_compute(console->context, plan, b));
+    SL_TRY(building_vga_storey(console->context, b, plan->storey, &storey));
+    if (plan->picture) SL_TRY(draw(console->context, plan, storey));
+    return show(console, plan, &b->all.table);
 }
 
 static void print_tables(void) {
@@ -249,6 +268,8 @@ sl_status cmd_vga(command_console *console, int argc, char **argv) {
          "shut these doors of the other plan (default: as in this one); to see what a door does, "
          "compare a map with itself",
          .text = &plan.compare_shut, .rare = true},
+        {"storey", 0, "NAME", "of a building: which storey the picture shows (default: the first)",
+         .text = &plan.storey, .without = "picture", .rare = true},
         {"pairs", 0, "FILE.csv", "write the pairs of points that see each other",
          .text = &plan.pairs, .check = CHECK_TABLE, .rare = true},
         {"seen-from", 0, NULL, "with one-way glass: who sees a point (default: what a point sees)",
@@ -304,7 +325,8 @@ sl_status cmd_vga(command_console *console, int argc, char **argv) {
                 "a grid that see each other. Writes a table under the names that depthmapX gives "
                 "the measures. Shortest and straightest paths turn only at points beside walls, "
                 "and add up in single precision, as those of depthmapX. A measure that is not "
-                "defined at a point has no value there.",
+                "defined at a point has no value there. A file of storeys (.storeys) is one "
+                "building.",
         .tables = print_tables,
         .examples = "  sightline vga office.map --grid 1 -o office.csv --picture office.png\n"
                     "  sightline vga office.map --grid 1 --measure visual_control --picture "
@@ -319,7 +341,10 @@ sl_status cmd_vga(command_console *console, int argc, char **argv) {
     if (helped) return SL_OK;
     SL_TRY(make_plan(console->context, &plan));
     vga_work w = {0};
-    const sl_status status = work(console, &plan, &w);
+    building_vga b = {0};
+    const sl_status status = input_is_building(plan.input) ? work_building(console, &plan, &b)
+                                                           : work(console, &plan, &w);
     vga_work_destroy(console->context, &w);
+    building_vga_destroy(console->context, &b);
     return status;
 }

@@ -166,12 +166,13 @@ static sl_status measure(sl_context *context, vga_plan *plan, vga_work *w) {
                                  &w->graph));
         if (plan->turned) SL_TRY(sl_vga_graph_turn(context, &w->graph));
     }
-    plan->options.parts = (of_graph & VGA_PART_VISUAL ? SL_VGA_LOCAL | SL_VGA_GLOBAL : 0u) |
+    const unsigned visual = SL_VGA_LOCAL | (plan->of_building ? 0u : (unsigned)SL_VGA_GLOBAL);
+    plan->options.parts = (of_graph & VGA_PART_VISUAL ? visual : 0u) |
                           (of_graph & VGA_PART_THROUGH ? SL_VGA_THROUGH : 0u) |
                           (of_graph & VGA_PART_METRIC ? SL_VGA_METRIC : 0u) |
                           (of_graph & VGA_PART_ANGULAR ? SL_VGA_ANGULAR : 0u);
     if (plan->options.parts) SL_TRY(check_measures(context, plan, w));
-    if (plan->from.count) SL_TRY(find_depths(context, plan, w));
+    if (plan->from.count && !plan->of_building) SL_TRY(find_depths(context, plan, w));
     if (plan->agents_given) SL_TRY(walk_agents(context, plan, w));
     if (plan->options.parts)
         SL_TRY(sl_vga_measure_walked_linked(context, w->outline, grid, &w->graph, w->steps,
@@ -259,7 +260,7 @@ sl_status vga_compute(sl_context *context, vga_plan *plan, vga_work *w) {
         SL_TRY(vga_grid_read_links(context, plan->points.links, &w->table.grid, &w->links,
                                    &w->link_count));
     SL_TRY(measure(context, plan, w));
-    return find_parts(context, w);
+    return plan->of_building ? SL_OK : find_parts(context, w);
 }
 
 void vga_work_destroy(sl_context *context, vga_work *w) {

@@ -11,6 +11,8 @@
 /// What is asked.
 typedef struct vga_plan {
     const char *command; ///< what messages call it
+    const char *storey;  ///< of a building: which one the picture shows
+    bool of_building;    ///< a storey: what goes over links is left to the building
     const char *input, *output, *picture, *pairs;
     const char *compare;      ///< another plan, to be compared
     const sl_map *first;      ///< of the other plan: the map that it is compared with
@@ -46,8 +48,8 @@ typedef struct vga_work {
 } vga_work;
 
 /// From the map to its measures. Without a step (points.step is 0) one is chosen: the largest round
-/// one that gives at least about 2000 points. Notes what is in doubt. The caller destroys `w` after a failure,
-/// too.
+/// one that gives at least about 2000 points. Notes what is in doubt. The caller destroys `w` after
+/// a failure, too.
 sl_status vga_compute(sl_context *context, vga_plan *plan, vga_work *w);
 void vga_work_destroy(sl_context *context, vga_work *w);
 

@@ -41,10 +41,9 @@ typedef struct sl_building {
 } sl_building;
 
 /// Reads a building. Plans are not opened; their paths are relative to the folder of `path`.
-/// SL_BAD_INPUT with file and line on anything unknown, a name that is there already or is not
-/// there yet, a link from a place to itself, and a building without a storey; SL_BAD_ARGUMENT for no
-/// such file; SL_IO, SL_NO_MEMORY.
-/// `out` is untouched on failure.
+/// Names are words without : , " and \. SL_BAD_INPUT with file and line on anything unknown, a name
+/// that is there already or is not there yet, a link from a place to itself, and a building without
+/// a storey; SL_BAD_ARGUMENT for no such file; SL_IO, SL_NO_MEMORY. `out` is untouched on failure.
 SL_API sl_status sl_building_read(sl_context *context, const char *path, sl_building *out);
 /// The same from memory.
 SL_API sl_status sl_building_parse(sl_context *context, const char *path, const char *text,
