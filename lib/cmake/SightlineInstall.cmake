@@ -43,7 +43,7 @@ endfunction()
 set(headers "${PROJECT_SOURCE_DIR}/lib/include/sightline")
 set(analysis_headers
   art_gallery.h axial.h coverage.h exposure.h path.h path_parts.h place.h place_area.h place_proof.h
-  reach.h set_cover.h set_sight.h vga.h viewpoint.h)
+  reach.h rooms.h set_cover.h set_sight.h vga.h viewpoint.h)
 set(io_headers io.h)
 set(study_headers from_region.h generate.h view_cells.h walk.h)
 set(glpk_headers glpk.h)

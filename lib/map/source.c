@@ -14,6 +14,8 @@ void sli_source_destroy(sl_context *context, sl_map_source *source) {
     sl_free(context, source->label_text);
     for (size_t i = 0; i < source->comment_count; i++) sl_free(context, source->comments[i].text);
     sl_free(context, source->comments);
+    for (size_t i = 0; i < source->text_count; i++) sl_free(context, source->texts[i].text);
+    sl_free(context, source->texts);
     *source = (sl_map_source){0};
 }
 
@@ -51,6 +53,25 @@ static sl_status add_comment(sl_context *context, sl_map_source *source, const c
 sl_status sli_map_add_comment(sl_context *context, sl_map *map, const char *text, size_t length,
                               uint32_t line, bool behind) {
     return add_comment(context, &map->source, text, length, line, behind);
+}
+
+// --- texts of a drawing
+
+sl_status sli_source_add_text(sl_context *context, sl_map_source *source, const char *text,
+                              size_t length, sl_point at, double height) {
+    size_t begin = 0, end;
+    if (!sl_coordinate_usable(at.x) || !sl_coordinate_usable(at.y)) return SL_OK;
+    while (begin < length && (unsigned char)text[begin] <= ' ') begin++;
+    end = begin;
+    while (end < length && (unsigned char)text[end] >= ' ') end++;
+    while (end > begin && text[end - 1] == ' ') end--;
+    if (end == begin) return SL_OK;
+    SL_TRY(sl_reserve(context, &source->texts, &source->text_room, source->text_count + 1,
+                      sizeof *source->texts));
+    char *copy = sl_copy_text(context, text + begin, end - begin);
+    if (!copy) return SL_NO_MEMORY;
+    source->texts[source->text_count++] = (sl_map_text){copy, at, height};
+    return SL_OK;
 }
 
 // --- what the file calls its lines
@@ -194,6 +215,10 @@ sl_status sli_source_copy(sl_context *context, const sl_map_source *from, sl_map
     for (size_t i = 0; i < from->comment_count; i++) {
         const sl_comment *c = &from->comments[i];
         SL_TRY(add_comment(context, to, c->text, strlen(c->text), c->line, c->behind));
+    }
+    for (size_t i = 0; i < from->text_count; i++) {
+        const sl_map_text *t = &from->texts[i];
+        SL_TRY(sli_source_add_text(context, to, t->text, strlen(t->text), t->at, t->height));
     }
     return SL_OK;
 }

@@ -21,6 +21,11 @@ sl_status sli_map_fail(sl_context *context, const sl_map *map, sl_status status,
 sl_status sli_map_add_comment(sl_context *context, sl_map *map, const char *text, size_t length,
                               uint32_t line, bool behind);
 
+/// Adds the first line of a text of the drawing (sl_map_source.texts) that has more than blanks;
+/// nothing where there is none, and where it lies beyond the coordinates of a map.
+sl_status sli_source_add_text(sl_context *context, sl_map_source *source, const char *text,
+                              size_t length, sl_point at, double height);
+
 /// The transform of a file with y down, whose y `top` is 0 in the map.
 static inline sl_transform sli_y_down(double top, double scale) {
     return (sl_transform){.origin = {0, top}, .scale = scale, .y_down = true};

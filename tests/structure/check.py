@@ -30,7 +30,7 @@ import tempfile
 FOLDERS = ["base", "geometry", "json", "map", "space", "space/faults", "effects", "stab",
            "cell_to_cell", "cell_to_cell/search", "cell_to_cell/sweep", "cell_to_cell/explain",
            "sight", "world", "bake", "analysis/visibility_graph", "analysis/axial", "analysis/placement",
-           "analysis/reach", "analysis/route", "analysis/set_sight",
+           "analysis/reach", "analysis/rooms", "analysis/route", "analysis/set_sight",
            "study/generate", "study/from_region", "study/walk", "study/view_cells",
            "io", "runtime", "draw"]
 # The folders of the command, in order, too.
@@ -59,7 +59,7 @@ HEADERS = {"context": "base", "earth": "geometry", "measures": "base", "support"
            "place": "analysis/placement", "place_area": "analysis/placement",
            "place_proof": "analysis/placement",
            "path": "analysis/route", "path_parts": "analysis/placement",
-           "reach": "analysis/reach",
+           "reach": "analysis/reach", "rooms": "analysis/rooms",
            "exposure": "analysis/set_sight", "set_sight": "analysis/set_sight",
            "set_cover": "analysis/placement", "viewpoint": "analysis/placement",
            "from_region": "study/from_region", "generate": "study/generate",

@@ -122,6 +122,13 @@ typedef struct sl_comment {
     bool behind; ///< on the same line as the statement; else on a line of its own before it
 } sl_comment;
 
+/// A text of a drawing, where it begins.
+typedef struct sl_map_text {
+    char *text; ///< one line of UTF-8, not empty
+    sl_point at;
+    double height; ///< of its letters, in the map's unit; 0: unknown
+} sl_map_text;
+
 /// How it is known how wide entrances are.
 typedef enum sl_entrance {
     SL_ENTRANCE_NONE,  ///< it is not
@@ -176,6 +183,8 @@ typedef struct sl_map_source {
     size_t label_count, label_length, label_room, label_text_room;
     sl_comment *comments; ///< of a map text, in its order; .slv files do not keep them
     size_t comment_count, comment_room;
+    sl_map_text *texts; ///< of a drawing, in its order; map text and .slv files do not keep them
+    size_t text_count, text_room;
 } sl_map_source;
 
 /// All arrays belong to the map. A zeroed map is empty.
