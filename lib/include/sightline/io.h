@@ -30,6 +30,9 @@ typedef struct sl_drawing_layer {
     char *name;
     size_t entities; ///< on it, those of blocks as often as they are inserted; of SVG: shapes
     bool on;         ///< and not frozen: taken unless layers are asked for
+    /// What it is taken for by its name, and by what is on it: "wall", "door", "window" or
+    /// "ignore". Options may say otherwise (sl_import_options.layers).
+    const char *taken_for;
 } sl_drawing_layer;
 
 /// The layers of a drawing's table; behind them up to 256 that only entities name. Zeroed: empty.

@@ -41,8 +41,9 @@ static sl_status name_walls(sli_dxf *dxf) {
 
 /// A layer that is asked for and not there is a mistake worth telling of.
 static sl_status check_layers(const sli_dxf *dxf) {
-    const char *list = dxf->options->layers;
-    for (sli_word name; list && sli_layers_next(&list, &name);) {
+    const char *list = dxf->contents.roles ? dxf->contents.roles : dxf->options->layers;
+    sli_meaning means;
+    for (sli_word name; list && sli_roles_next(&list, &name, &means);) {
         bool known = dxf->layers.count == 0;
         for (size_t i = 0; i < dxf->layers.count; i++)
             known |= sli_dxf_same_name(dxf->layers.items[i].name, name);
@@ -174,11 +175,16 @@ static void tell_unit(const sli_dxf *dxf) {
     sli_plan_unit_tell(dxf->context, dxf->name, dxf->pen.map, &plan);
 }
 
+/// A metre in the map's unit; 0 for unknown.
+static double metre_of(const sl_map *map) {
+    const double metres = sli_units[map->source.drawing_unit].metres;
+    return metres > 0 ? 1 / metres : 0;
+}
+
 static sl_status read_drawing(sli_dxf *dxf, const char *text, size_t size) {
     SL_TRY(draw_drawing(dxf, text, size));
     SL_TRY(name_walls(dxf));
-    const double metres = sli_units[dxf->pen.map->source.drawing_unit].metres;
-    SL_TRY(sli_contents_choose(&dxf->contents, metres > 0 ? 1 / metres : 0, &dxf->pen));
+    SL_TRY(sli_contents_choose(&dxf->contents, metre_of(dxf->pen.map), &dxf->pen));
     dxf->drawn -= dxf->contents.left_out;
     char *mark = NULL;
     SL_TRY(find_mark(dxf, &mark));
@@ -209,7 +215,11 @@ sl_status sli_map_read_dxf(sl_context *context, const char *name, const char *te
     sli_dxf dxf = {.context = context,
                    .name = name,
                    .options = &own,
-                   .contents = {.context = context, .file = name, .options = &own, .large = large},
+                   .contents = {.context = context,
+                                .file = name,
+                                .options = &own,
+                                .large = large,
+                                .roles = sli_drawing_roles(options)},
                    .pen = {.context = context,
                            .name = name,
                            .map = &read,
@@ -230,14 +240,16 @@ void sl_drawing_layers_destroy(sl_context *context, sl_drawing_layers *layers) {
     *layers = (sl_drawing_layers){0};
 }
 
-static sl_status copy_layers(const sli_dxf *dxf, sl_drawing_layers *out) {
+static sl_status copy_layers(const sli_dxf *dxf, const sl_drawing_layers *drawn,
+                             sl_drawing_layers *out) {
     out->items = sl_alloc_array(dxf->context, dxf->layers.count, sizeof *out->items);
     if (!out->items) return SL_NO_MEMORY;
     for (size_t i = 0; i < dxf->layers.count; i++) {
         const sli_dxf_layer *from = &dxf->layers.items[i];
         sl_drawing_layer *to = &out->items[i];
-        *to = (sl_drawing_layer){sl_copy_text(dxf->context, from->name.at, from->name.length),
-                                 from->entities, from->on};
+        *to = (sl_drawing_layer){
+            sl_copy_text(dxf->context, from->name.at, from->name.length), from->entities, from->on,
+            from->on ? sli_contents_role(drawn, from->name) : sli_role_name(SLI_MEANS_OTHER)};
         if (!to->name) return SL_NO_MEMORY;
         out->count++;
     }
@@ -247,7 +259,7 @@ static sl_status copy_layers(const sli_dxf *dxf, sl_drawing_layers *out) {
 sl_status sl_drawing_layers_dxf(sl_context *context, const char *name, const char *text,
                                 size_t size, sl_drawing_layers *out) {
     const sl_import_options options = sl_import_options_default();
-    sl_drawing_layers read = {0};
+    sl_drawing_layers read = {0}, drawn = {0};
     sl_map map = {0};
     sli_dxf dxf = {
         .context = context,
@@ -256,7 +268,9 @@ sl_status sl_drawing_layers_dxf(sl_context *context, const char *name, const cha
         .contents = {.context = context, .file = name, .options = &options},
         .pen = {.context = context, .name = name, .map = &map, .affine = SLI_AFFINE_NONE}};
     sl_status status = draw_drawing(&dxf, text, size);
-    if (status == SL_OK) status = copy_layers(&dxf, &read);
+    if (status == SL_OK) status = sli_contents_list(&dxf.contents, &map, metre_of(&map), &drawn);
+    if (status == SL_OK) status = copy_layers(&dxf, &drawn, &read);
+    sl_drawing_layers_destroy(context, &drawn);
     drawing_destroy(&dxf);
     sl_map_destroy(context, &map);
     if (status == SL_OK)

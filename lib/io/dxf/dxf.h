@@ -117,6 +117,9 @@ sli_word sli_dxf_text(const sli_dxf *dxf, sli_dxf_range entity, int code);
 /// same in small letters and capitals.
 sl_status sli_dxf_take_layer(sli_dxf *dxf, sli_word name, bool *taken);
 
+/// Whether a layer is on and not frozen.
+bool sli_dxf_layer_is_on(const sli_dxf *dxf, sli_word name);
+
 /// NULL for none of this name.
 const sli_dxf_block *sli_dxf_find_block(const sli_dxf *dxf, sli_word name);
 
@@ -148,5 +151,10 @@ sl_status sli_dxf_check_amount(sli_dxf *dxf);
 /// Draws the entities of a range with the pen. `layer` is the one that things on layer "0" are on:
 /// that of the insertion; of no length at the top.
 sl_status sli_dxf_draw(sli_dxf *dxf, sli_dxf_range range, sli_word layer, unsigned depth);
+
+/// Whether an entity of this kind is a text.
+bool sli_dxf_is_text(sli_word kind);
+/// Keeps a text of the drawing at its place; one with a number that is none is passed over.
+sl_status sli_dxf_take_text(sli_dxf *dxf, sli_dxf_range entity);
 
 #endif

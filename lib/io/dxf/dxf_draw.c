@@ -455,8 +455,11 @@ static sl_status draw_entity(sli_dxf *dxf, sli_dxf_range entity, size_t end, sli
     if (sli_word_is(own, "0") && layer.length) own = layer;
     int on_paper = 0;
     const bool part = sli_word_is(kind, "VERTEX") || sli_word_is(kind, "SEQEND");
-    if (part || sli_word_is(kind, "ATTRIB")) return SL_OK;
+    if (part) return SL_OK;
     SL_TRY(sli_dxf_integer(dxf, entity, 67, &on_paper));
+    if (sli_dxf_is_text(kind) && !on_paper && sli_dxf_layer_is_on(dxf, own))
+        SL_TRY(sli_dxf_take_text(dxf, entity));
+    if (sli_word_is(kind, "ATTRIB")) return SL_OK;
     if (on_paper) {
         dxf->on_paper++;
         return SL_OK;

@@ -149,6 +149,8 @@ static sl_status read_tables(sli_dxf *dxf, sli_dxf_range section) {
         sli_dxf_layer layer = {.name = sli_dxf_text(dxf, entry, 2),
                                .on = colour >= 0 && !(flags & 1)};
         layer.taken = list ? is_asked_for(list, layer.name) : layer.on;
+        sli_meaning means;
+        if (sli_roles_find(dxf->contents.roles, layer.name, &means)) layer.taken = true;
         SL_TRY(SL_ARRAY_ROOM(dxf->context, &dxf->layers, 1));
         dxf->layers.items[dxf->layers.count++] = layer;
         dxf->table_layers++;
@@ -173,6 +175,12 @@ sl_status sli_dxf_take_layer(sli_dxf *dxf, sli_word name, bool *taken) {
     SL_TRY(SL_ARRAY_ROOM(dxf->context, &dxf->layers, 1));
     dxf->layers.items[dxf->layers.count++] = (sli_dxf_layer){name, true, *taken, 1};
     return SL_OK;
+}
+
+bool sli_dxf_layer_is_on(const sli_dxf *dxf, sli_word name) {
+    for (size_t i = 0; i < dxf->layers.count; i++)
+        if (sli_dxf_same_name(dxf->layers.items[i].name, name)) return dxf->layers.items[i].on;
+    return true;
 }
 
 // --- blocks

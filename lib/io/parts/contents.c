@@ -39,8 +39,10 @@ static sl_status add_group(sli_contents *contents, sli_word name) {
     SL_TRY(SL_ARRAY_ROOM(contents->context, &contents->groups, 1));
     char *copy = sl_copy_text(contents->context, name.at, name.length);
     if (!copy) return SL_NO_MEMORY;
+    sli_meaning means = sli_meaning_of(name);
+    sli_roles_find(contents->roles, name, &means);
     contents->groups.items[contents->groups.count++] =
-        (sli_group){.name = copy, .length = name.length, .means = sli_meaning_of(name)};
+        (sli_group){.name = copy, .length = name.length, .means = means};
     return SL_OK;
 }
 
@@ -114,35 +116,6 @@ void sli_contents_cut(sli_contents *contents, size_t first, const size_t *ends) 
     }
 }
 
-static sl_status list_one(sl_context *context, const char *name, size_t length, size_t shapes,
-                          sl_drawing_layers *out) {
-    if (!length || !shapes) return SL_OK;
-    char *copy = sl_copy_text(context, name, length);
-    if (!copy) return SL_NO_MEMORY;
-    out->items[out->count++] = (sl_drawing_layer){copy, shapes, true};
-    return SL_OK;
-}
-
-sl_status sli_contents_list(const sli_contents *contents, sl_drawing_layers *out) {
-    sl_context *context = contents->context;
-    const size_t groups = contents->groups.count, looks = contents->looks.items.count;
-    size_t *shapes = sl_alloc_array(context, looks + 1, sizeof *shapes);
-    out->items = sl_alloc_array(context, groups + looks + 1, sizeof *out->items);
-    sl_status status = shapes && out->items ? SL_OK : SL_NO_MEMORY;
-    for (size_t i = 0; i < groups && status == SL_OK; i++) {
-        const sli_group *group = &contents->groups.items[i];
-        status = list_one(context, group->name, group->length, group->shapes, out);
-    }
-    for (size_t i = 0; i < contents->runs.count && contents->has_looks && status == SL_OK; i++)
-        shapes[contents->runs.items[i].look]++;
-    for (size_t i = 0; i < looks && status == SL_OK; i++) {
-        const char *name = contents->looks.items.items[i].name;
-        status = list_one(context, name, strlen(name), shapes[i], out);
-    }
-    sl_free(context, shapes);
-    return status;
-}
-
 // --- the choice
 
 static sl_status find_symbols(sli_choice *c) {
@@ -154,11 +127,15 @@ static sl_status find_symbols(sli_choice *c) {
         const sli_group_run *run = &c->contents->runs.items[i];
         memset(c->means + run->first, (int)c->contents->groups.items[run->group].means,
                run->end - run->first);
+        sli_meaning role;
+        const sli_looks *looks = &c->contents->looks;
+        if (!c->contents->roles || !c->contents->has_looks) continue;
+        const char *look = looks->items.items[run->look].name;
+        if (sli_roles_find(c->contents->roles, (sli_word){look, strlen(look)}, &role))
+            memset(c->means + run->first, (int)role, run->end - run->first);
     }
     size_t named = 0;
-    for (size_t i = 0; i < c->contents->groups.count; i++)
-        if (c->contents->groups.items[i].means == SLI_MEANS_WALL)
-            named += c->contents->groups.items[i].walls;
+    for (size_t i = 0; i < c->map->wall_count; i++) named += c->means[i] == SLI_MEANS_WALL;
     const sli_meaning walls = named >= LEAST_WALLS ? SLI_MEANS_WALL : SLI_MEANS_NOTHING;
     return sli_symbols_find(c->contents->context, c->map, c->means, said ? SLI_MEANINGS : walls,
                             said, c->metre, &c->symbols);
@@ -213,9 +190,12 @@ static bool choose_groups(sli_choice *c) {
     }
     for (size_t i = 0; i < c->contents->runs.count; i++) {
         const sli_group_run *run = &c->contents->runs.items[i];
-        if (!c->contents->groups.items[run->group].taken) continue;
-        for (size_t j = run->first; j < run->end; j++)
-            c->kept += !sli_choice_gone(c, j) && is_taken(c, c->means[j]);
+        for (size_t j = run->first; j < run->end; j++) {
+            const bool kept = !sli_choice_gone(c, j) && is_taken(c, c->means[j]);
+            c->kept += kept;
+            c->contents->groups.items[run->group].taken |= kept; // by the role of its look
+            changes |= c->contents->roles && !kept;
+        }
     }
     return changes && (c->kept >= LEAST_WALLS || sli_contents_said(c->contents));
 }
@@ -243,6 +223,77 @@ static sl_status find_parts(sli_choice *c) {
     sl_free(context, number);
     sl_free(context, taken.walls);
     return status;
+}
+
+// --- what layers are taken for
+
+/// What most walls of a layer are taken for; those that a symbol is made of do not count.
+typedef struct tally {
+    size_t shapes, walls[SLI_MEANINGS];
+} tally;
+
+static sl_status list_one(const sli_choice *c, const char *name, size_t length, const tally *t,
+                          sl_drawing_layers *out) {
+    if (!length || !t->shapes) return SL_OK;
+    char *copy = sl_copy_text(c->contents->context, name, length);
+    if (!copy) return SL_NO_MEMORY;
+    sli_meaning most = SLI_MEANS_NOTHING;
+    for (int i = 0; i < SLI_MEANINGS; i++)
+        if (t->walls[i] > t->walls[most]) most = (sli_meaning)i;
+    const bool wall = most == SLI_MEANS_NOTHING && is_taken(c, most);
+    out->items[out->count++] =
+        (sl_drawing_layer){copy, t->shapes, true, sli_role_name(wall ? SLI_MEANS_WALL : most)};
+    return SL_OK;
+}
+
+static void count_one(const sli_choice *c, const sli_group_run *run, tally *t) {
+    t->shapes++;
+    for (size_t i = run->first; i < run->end; i++) t->walls[c->means[i]]++;
+}
+
+static sl_status list_all(sli_choice *c, sl_drawing_layers *out) {
+    const sli_contents *contents = c->contents;
+    sl_context *context = contents->context;
+    const size_t groups = contents->groups.count, looks = contents->looks.items.count;
+    tally *tallies = sl_alloc_array(context, groups + looks + 1, sizeof *tallies);
+    out->items = sl_alloc_array(context, groups + looks + 1, sizeof *out->items);
+    sl_status status = tallies && out->items ? SL_OK : SL_NO_MEMORY;
+    for (size_t i = 0; i < contents->runs.count && status == SL_OK; i++) {
+        const sli_group_run *run = &contents->runs.items[i];
+        count_one(c, run, &tallies[run->group]);
+        if (contents->has_looks) count_one(c, run, &tallies[groups + run->look]);
+    }
+    for (size_t i = 0; i < groups && status == SL_OK; i++) {
+        const sli_group *group = &contents->groups.items[i];
+        tallies[i].shapes = group->shapes;
+        status = list_one(c, group->name, group->length, &tallies[i], out);
+    }
+    for (size_t i = 0; i < looks && status == SL_OK; i++) {
+        const char *name = contents->looks.items.items[i].name;
+        status = list_one(c, name, strlen(name), &tallies[groups + i], out);
+    }
+    sl_free(context, tallies);
+    return status;
+}
+
+sl_status sli_contents_list(sli_contents *contents, sl_map *map, double metre,
+                            sl_drawing_layers *out) {
+    sli_choice c = {.contents = contents, .map = map, .metre = metre};
+    sl_status status = find_symbols(&c);
+    if (status == SL_OK) count_named(&c);
+    if (status == SL_OK) status = choose_looks(&c);
+    if (status == SL_OK) status = list_all(&c, out);
+    sl_free(contents->context, c.means);
+    sli_symbols_destroy(contents->context, &c.symbols);
+    return status;
+}
+
+const char *sli_contents_role(const sl_drawing_layers *list, sli_word name) {
+    for (size_t i = 0; i < list->count; i++)
+        if (strlen(list->items[i].name) == name.length &&
+            strncasecmp(list->items[i].name, name.at, name.length) == 0)
+            return list->items[i].taken_for;
+    return sli_role_name(SLI_MEANS_OTHER);
 }
 
 // --- openings over walls
@@ -521,15 +572,18 @@ static sl_status keep_walls(sli_choice *c) {
     const size_t room = map->wall_count + c->openings.cuts.count;
     sl_wall *windows = sl_alloc_array(context, room, sizeof *windows);
     sl_wall *walls = sl_alloc_array(context, room, sizeof *walls);
-    if (!windows || !walls) {
+    sl_wall *low = sl_alloc_array(context, room, sizeof *low);
+    if (!windows || !walls || !low) {
         sl_free(context, windows);
         sl_free(context, walls);
+        sl_free(context, low);
         return SL_NO_MEMORY;
     }
-    size_t kept = 0, count = 0, run = 0, cut = 0;
+    size_t kept = 0, count = 0, low_count = 0, run = 0, cut = 0;
     for (size_t i = 0; i < map->wall_count; i++) {
         while (run < c->contents->runs.count && c->contents->runs.items[run].end <= i) run++;
         const bool own = run == c->contents->runs.count || i < c->contents->runs.items[run].first;
+        if (!own && c->means[i] == SLI_MEANS_LOW) low[low_count++] = map->walls[i];
         if (!own && (sli_choice_gone(c, i) || !is_taken(c, c->means[i]))) continue;
         if (!own && c->means[i] == SLI_MEANS_WINDOW && !said)
             windows[count++] = map->walls[i];
@@ -545,8 +599,13 @@ static sl_status keep_walls(sli_choice *c) {
     if (status == SL_OK) status = sl_map_add_walls(context, map, windows, count);
     if (status == SL_OK && count)
         status = sl_map_walls_stop(context, map, kept, SL_STOPS_STEPS | SL_STOPS_SOUND);
+    kept = map->wall_count;
+    if (status == SL_OK) status = sl_map_add_walls(context, map, low, low_count);
+    if (status == SL_OK && low_count)
+        status = sl_map_walls_stop(context, map, kept, SL_STOPS_STEPS);
     sl_free(context, walls);
     sl_free(context, windows);
+    sl_free(context, low);
     return status;
 }
 

@@ -7,6 +7,7 @@
 #include "io/parts/drawn_looks.h"
 #include "io/parts/meaning.h"
 #include "io/parts/names.h"
+#include "io/parts/roles.h"
 #include "io/parts/shapes.h"
 #include "sightline/import.h"
 #include "sightline/io.h"
@@ -31,12 +32,13 @@ typedef struct sli_group_run {
     uint32_t look; ///< of the one shape, where looks are told
 } sli_group_run;
 
-/// Set the first four, zero the rest.
+/// Set the first five, zero the rest.
 typedef struct sli_contents {
     sl_context *context;
     const char *file;                 ///< its name, for messages
     const sl_import_options *options; ///< as sli_drawing_options() gives them
     bool large;                       ///< small pieces that touch nothing are left out
+    const char *roles;                ///< as sli_drawing_roles() gives them
     SL_ARRAY(sli_group) groups;       ///< the first one has no name: what no layer is said of
     SL_ARRAY(sli_group_run) runs;
     uint32_t *table; ///< groups by their names: numbers, 0 for none
@@ -61,11 +63,17 @@ static inline sl_import_options sli_drawing_options(const sl_import_options *opt
     *large = layers && strncmp(layers, SLI_LAYERS_LARGE, length) == 0 &&
              (layers[length] == '\0' || layers[length] == ',');
     if (*large) own.layers = layers[length] ? layers + length + 1 : NULL;
+    if (sli_roles_are(own.layers)) own.layers = NULL;
     if (own.layers && strcmp(own.layers, "*") == 0) {
         own.layers = NULL;
         own.all_layers = true;
     }
     return own;
+}
+
+/// The list of layers where it is one of roles; else NULL.
+static inline const char *sli_drawing_roles(const sl_import_options *options) {
+    return sli_roles_are(options->layers) ? options->layers : NULL;
 }
 
 void sli_contents_destroy(sli_contents *contents);
@@ -93,9 +101,12 @@ sl_status sli_contents_end(sli_contents *contents, sli_pen *pen, uint32_t group)
 /// those of wall `first` start at `first`.
 void sli_contents_cut(sli_contents *contents, size_t first, const size_t *ends);
 
-/// The groups and the looks that shapes have, with how many; destroyed by who asks, also if it
-/// fails.
-sl_status sli_contents_list(const sli_contents *contents, sl_drawing_layers *out);
+/// The groups and the looks that shapes of the map have, with how many, and what each is taken for;
+/// destroyed by who asks, also if it fails. `metre` as below.
+sl_status sli_contents_list(sli_contents *contents, sl_map *map, double metre,
+                            sl_drawing_layers *out);
+/// What a layer of this name is taken for by such a list; "ignore" where it is not in it.
+const char *sli_contents_role(const sl_drawing_layers *list, sli_word name);
 
 /// Chooses among the walls that were drawn, once all are. `metre` is a metre in the map's unit, 0
 /// for unknown. Layers named as walls are walls; where there are none of three walls at least,

@@ -141,6 +141,7 @@ static const word_list lists[SLI_MEANINGS] = {
          "обознач* примеч* отметк* маркир* эксплик* wymiar* opis* popis* kota koty kotov* yazi* "
          "olcu* metin* matt mattsatt* malsaet* malsat* szoveg* meret* *文字* *标注* *標註* "
          "*標注* *尺寸* *注释* *说明* *图例* *名称* *寸法* *注記* *室名* *치수* *문자* *주석*"},
+    [SLI_MEANS_LOW] = {"low", ""},
 };
 
 /// What makes a room of the furniture that is named before it.

@@ -20,6 +20,7 @@ typedef enum sli_meaning {
     SLI_MEANS_FURNITURE, ///< and equipment
     SLI_MEANS_HATCH,
     SLI_MEANS_TEXT, ///< and dimensions
+    SLI_MEANS_LOW,  ///< no name says it: what stops steps and not sight
     SLI_MEANINGS,
 } sli_meaning;
 

@@ -64,9 +64,15 @@ static bool has_layer(xmlNode *parent, sli_word wanted, sli_name_list *there) {
     return found;
 }
 
+/// The layers that options name, as walls or with their roles.
+static const char *asked_layers(const svg *s) {
+    return s->contents.roles ? s->contents.roles : s->options->layers;
+}
+
 static sl_status check_layers(const svg *s, xmlNode *root) {
-    const char *list = s->options->layers;
-    for (sli_word wanted; list && sli_layers_next(&list, &wanted);) {
+    const char *list = asked_layers(s);
+    sli_meaning means;
+    for (sli_word wanted; list && sli_roles_next(&list, &wanted, &means);) {
         sli_name_list there = {.full = false};
         if (!has_layer(root, wanted, &there) && !sli_look_may_be(wanted))
             return sli_fail_layer(s->context, s->pen.name, wanted, "drawing", &there);
@@ -76,8 +82,9 @@ static sl_status check_layers(const svg *s, xmlNode *root) {
 
 /// Layers that may be looks are looked for once all is drawn.
 static sl_status check_looks(const svg *s, xmlNode *root) {
-    const char *list = s->options->layers;
-    for (sli_word wanted; list && sli_layers_next(&list, &wanted);) {
+    const char *list = asked_layers(s);
+    sli_meaning means;
+    for (sli_word wanted; list && sli_roles_next(&list, &wanted, &means);) {
         sli_name_list there = {.full = false};
         bool found = has_layer(root, wanted, &there);
         for (size_t i = 0; i < s->contents.looks.items.count; i++) {
@@ -269,6 +276,30 @@ static bool is_group(xmlNode *node) {
            sli_xml_is(node, "switch") || sli_xml_is(node, "use");
 }
 
+/// Keeps a text for names of rooms. Its place is its own, or that of the first part that has one.
+static sl_status keep_text(svg *s, xmlNode *node, place at) {
+    sl_point from = {0, 0};
+    sli_svg_look look;
+    bool seen = true;
+    sli_svg_look_read(&s->style, node, &look);
+    seen = !sli_word_is(look.values[SLI_SVG_DISPLAY], "none");
+    sl_status status = sli_svg_move(s, node, &look, &at, &seen);
+    sli_svg_look_free(&look);
+    xmlNode *placed = node;
+    for (xmlNode *part = node->children; part && !xmlHasProp(placed, BAD_CAST "x");
+         part = part->next)
+        if (sli_xml_is(part, "tspan")) placed = part;
+    if (status == SL_OK) status = sli_svg_length(s, placed, "x", &from.x);
+    if (status == SL_OK) status = sli_svg_length(s, placed, "y", &from.y);
+    if (status != SL_OK || !seen) return status;
+    xmlChar *text = xmlNodeGetContent(placed);
+    if (!text) return SL_NO_MEMORY;
+    status = sli_source_add_text(s->context, &s->pen.map->source, (char *)text,
+                                 strlen((char *)text), sli_affine_apply(at.affine, from), 0);
+    xmlFree(text);
+    return status;
+}
+
 /// Text, pictures and what is drawn only where it is used give no walls; the former are counted.
 static void pass_over(svg *s, xmlNode *node, const place *at) {
     if (sli_xml_is(node, "image")) sli_svg_keep_picture(s, node, at);
@@ -334,7 +365,7 @@ static sl_status draw_element(svg *s, xmlNode *node, place at) {
     const sli_svg_shape kind = sli_svg_shape_of(node);
     if (kind == SLI_SVG_NO_SHAPE && !is_group(node)) {
         pass_over(s, node, &at);
-        return SL_OK;
+        return sli_xml_is(node, "text") ? keep_text(s, node, at) : SL_OK;
     }
     sli_svg_look look;
     sli_svg_look_read(&s->style, node, &look);
@@ -495,7 +526,7 @@ static sl_status draw_root(svg *s, xmlNode *root) {
     sli_svg_look_free(&look);
     s->contents.has_looks = !s->style.paint_unread;
     SL_TRY(draw_children(s, root, at));
-    if (s->list) return sli_contents_list(&s->contents, s->list);
+    if (s->list) return sli_contents_list(&s->contents, s->pen.map, 0, s->list);
     SL_TRY(check_looks(s, root));
     SL_TRY(sli_contents_choose(&s->contents, 0, &s->pen));
     s->shapes -= s->contents.left_out;
@@ -532,7 +563,11 @@ static sl_status read_drawing(sl_context *context, const char *name, const char 
     const sl_import_options own = sli_drawing_options(options, &large);
     sli_svg s = {.context = context,
                  .options = &own,
-                 .contents = {.context = context, .file = name, .options = &own, .large = large},
+                 .contents = {.context = context,
+                              .file = name,
+                              .options = &own,
+                              .large = large,
+                              .roles = sli_drawing_roles(options)},
                  .list = list,
                  .pen = {.context = context, .name = name, .map = map, .tolerance = own.tolerance}};
     const sl_status status = draw_document(&s, text, size);
