@@ -63,7 +63,13 @@ class Paper(sandbox.ProgramTest):
         self.assertEqual(self.row(text, "area inside")[0][:14], "240 square m, ")
         self.assertEqual(self.row(text, "doors")[0], "1, 1 of them open")
         self.assertIn("Method and exactness", text)
-        return text
+        self.run_well("rooms", "rooms.map", "--grid", "0.5", "-o", "rooms.csv", "--quiet")
+        with open(self.box.path("rooms.csv")) as file:
+            for row in csv.DictReader(file):
+                said = self.row(text, row["room"])
+                for cell, value in zip(said, (float(row["area"]), None, float(row["visual_integration_hh"]))):
+                    if value is not None:
+                        self.assertAlmostEqual(float(cell), value, delta=5e-4 * value)
 
     def test_figures_are_those_of_other_commands(self):
         self.check_report(lambda x, y: (x, y))

@@ -5,6 +5,7 @@
 #include "sightline/axial.h"
 #include "sightline/support.h"
 #include "sightline/version.h"
+#include "studies/room_table.h"
 #include "system/built.h"
 
 #include <inttypes.h>
@@ -34,6 +35,7 @@ typedef struct report {
     const plan_report_plan *plan;
     vga_work w;
     axial_part axial;
+    room_table rooms;
     SL_ARRAY(sl_block) blocks;
     SL_ARRAY(char *) texts;         ///< that blocks have
     SL_ARRAY(vga_field *) fields;   ///< likewise
@@ -256,6 +258,62 @@ static void add_measures(report *r) {
     add_table(r, &t, 7);
 }
 
+// --- rooms
+
+/// The rooms, with what is seen of each from the map's first start.
+static sl_status find_rooms(report *r) {
+    const vga_work *w = &r->w;
+    const isovist_scene scene = {
+        .space = &w->baked.space, .query = w->query, .range = sl_query_range(w->query)};
+    const size_t start = input_next_start(&w->baked.map, &w->baked.space, 0);
+    SL_TRY(room_table_make(r->context, &w->baked, 0, &r->rooms));
+    SL_TRY(room_table_average(r->context, &w->table, &r->rooms));
+    if (start == w->baked.map.start_count) return SL_OK;
+    eye_places eyes = {0};
+    sl_status status =
+        eyes_add(r->context, &eyes, (eye_place){.at = w->baked.map.starts[start].at, .fov = 360});
+    if (status == SL_OK) status = room_table_look(r->context, &scene, &eyes, &r->rooms);
+    eyes_destroy(r->context, &eyes);
+    return status;
+}
+
+/// The mean of a measure over the points of a room.
+static double mean_of(const room_table *rooms, uint32_t room, const char *name) {
+    const size_t measure = sl_measure_find(SL_VGA, name);
+    for (size_t m = 0; m < rooms->measure_count; m++)
+        if (rooms->measures[m] == measure) return rooms->means[room * rooms->measure_count + m];
+    return NAN;
+}
+
+static void add_rooms(report *r) {
+    static const char *const head[] = {"room", "area", "share", "mean of integration",
+                                       "mean of isovist area"};
+    const room_table *rooms = &r->rooms;
+    text_list t = {0};
+    if (r->status == SL_OK) keep_status(r, find_rooms(r));
+    if (r->status != SL_OK || !rooms->rooms.count) return;
+    const bool seen = rooms->seen != NULL;
+    add_text(r, SL_BLOCK_HEADING, "Rooms");
+    add_text(r, SL_BLOCK_TEXT,
+             say(r,
+                 "What walls enclose once doors, and openings up to %s %s wide, are shut. Sight "
+                 "goes through doors that are open.%s",
+                 number(r, rooms->rooms.width), *length_unit(r) ? length_unit(r) : "units",
+                 seen ? " The last column is what of the room is seen from the first start." : ""));
+    for (size_t c = 0; c < 5; c++) add_cell(r, &t, head[c]);
+    if (seen) add_cell(r, &t, "seen");
+    for (uint32_t i = 0; i < rooms->rooms.count; i++) {
+        const sl_room *room = &rooms->rooms.items[i];
+        add_cell(r, &t, keep(r, room->name));
+        add_cell(r, &t, number(r, room->area));
+        add_cell(r, &t, say(r, "%.1f %%", 100 * room->area / rooms->inside));
+        add_cell(r, &t, number(r, mean_of(rooms, i, "visual_integration_hh")));
+        add_cell(r, &t, number(r, mean_of(rooms, i, "area")));
+        if (seen) add_cell(r, &t, say(r, "%.1f %%", 100 * fmin(rooms->seen[i] / room->area, 1)));
+    }
+    add_table(r, &t, seen ? 6 : 5);
+}
+
 // --- axial lines
 
 static sl_status find_axial(report *r) {
@@ -376,6 +434,7 @@ static sl_status build(report *r) {
     add_plan(r);
     add_measures(r);
     add_heat_maps(r);
+    add_rooms(r);
     add_axial(r);
     add_method(r);
     return r->status;
@@ -392,6 +451,7 @@ static void destroy(report *r) {
     void *const arrays[] = {r->texts.items,  r->tables.items,   r->fields.items,
                             r->blocks.items, r->axial.measures, r->axial.values};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) sl_free(context, arrays[i]);
+    room_table_destroy(context, &r->rooms);
     sl_axial_lines_destroy(context, &r->axial.lines);
     sl_line_graph_destroy(context, &r->axial.graph);
     vga_work_destroy(context, &r->w);
