@@ -173,6 +173,19 @@ static sl_status measure_picture(document *d, const sl_block *block, sl_draw_opt
     }
 }
 
+static void put_labels(const document *d, const sl_block *block, const sli_page_target *target) {
+    for (size_t i = 0; i < block->label_count; i++) {
+        const sl_plan_label *label = &block->labels[i];
+        sl_point at = sl_frame_point(&target->frame, label->at);
+        const double room = fmax(label->width * target->frame.scale, 3 * CELL);
+        sl_text_font(d->cairo, CELL, false);
+        const double wide = fmin(sl_text_width(d->cairo, label->text), room);
+        at.x += target->at.x - wide / 2;
+        at.y += target->at.y + 0.36 * CELL;
+        sl_text_show_within(d->cairo, d->palette.ink, at.x, at.y, room, CELL, false, label->text);
+    }
+}
+
 static sl_status put_picture(document *d, const sl_block *block) {
     sl_draw_options options;
     double height;
@@ -182,6 +195,7 @@ static sl_status put_picture(document *d, const sl_block *block) {
         .cairo = d->cairo, .at = {(WIDTH - options.width) / 2, d->y}, .paint = true};
     SL_TRY(
         sli_draw_picture(d->context, block->baked, block->field, block->lines, &options, &target));
+    put_labels(d, block, &target);
     d->y += target.height;
     if (block->text) put_lines(d, block->text, CELL, false, 0, 0);
     return sl_check_cancelled(d->context);

@@ -286,6 +286,7 @@ static sl_status draw_onto(sl_context *context, const sli_page_parts *parts, dou
     sli_page page = sli_page_of_width(width);
     parts->set(target->cairo, parts->what, &page, false);
     target->height = page.height;
+    target->frame = page.frame;
     if (!target->paint) return SL_OK;
     cairo_save(target->cairo);
     cairo_translate(target->cairo, target->at.x, target->at.y);

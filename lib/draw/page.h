@@ -97,9 +97,10 @@ sl_status sli_page_write(sl_context *context, const sli_page_parts *parts, doubl
 typedef struct sli_page_target {
     const char *path; ///< of the file; NULL: onto the page of `cairo`
     cairo_t *cairo;
-    sl_point at;   ///< of its upper left corner on that page
-    bool paint;    ///< false only measures
-    double height; ///< set to that of the page
+    sl_point at;    ///< of its upper left corner on that page
+    bool paint;     ///< false only measures
+    double height;  ///< set to that of the page
+    sl_frame frame; ///< set to that of the plan on the page, for pages onto others
 } sli_page_target;
 
 /// Draws a page about the walls of a map, `layers` of it. `scene` is the picture's own, and is made

@@ -100,6 +100,21 @@ static void the_same_blocks_give_the_same_bytes(void **state) {
     sl_free(b->context, other.data);
 }
 
+/// Names stand on the plan, inside the page.
+static void a_plan_has_names(void **state) {
+    draw_bench *b = *state;
+    const sl_plan_label labels[] = {{"Hall", {10, 5}, 8}, {"A very long name", {30, 5}, 0.1}};
+    sl_block picture = {.kind = SL_BLOCK_PICTURE, .baked = &b->map.baked};
+    sl_bytes plain = make(b, &picture, 1);
+    picture.labels = labels;
+    picture.label_count = 2;
+    sl_bytes named = make(b, &picture, 1);
+    assert_true(plain.size != named.size);
+    sl_free(b->context, plain.data);
+    sl_free(b->context, named.data);
+    assert_int_equal(pages_of(b, &picture, 1), 1);
+}
+
 static void what_is_no_document_is_refused(void **state) {
     draw_bench *b = *state;
     const char *const cell = "a";
@@ -122,6 +137,7 @@ int main(void) {
         cmocka_unit_test(blocks_fill_pages),
         cmocka_unit_test(a_table_goes_on_over_pages),
         cmocka_unit_test(a_tall_picture_fits_a_page),
+        cmocka_unit_test(a_plan_has_names),
         cmocka_unit_test(the_same_blocks_give_the_same_bytes),
         cmocka_unit_test(what_is_no_document_is_refused),
     };

@@ -36,6 +36,7 @@ typedef struct report {
     vga_work w;
     axial_part axial;
     room_table rooms;
+    sl_plan_label *labels; ///< names of rooms
     SL_ARRAY(sl_block) blocks;
     SL_ARRAY(char *) texts;         ///< that blocks have
     SL_ARRAY(vga_field *) fields;   ///< likewise
@@ -285,6 +286,21 @@ static double mean_of(const room_table *rooms, uint32_t room, const char *name) 
     return NAN;
 }
 
+/// The plan with the names of its rooms.
+static void add_names(report *r) {
+    const sl_rooms *rooms = &r->rooms.rooms;
+    r->labels = sl_alloc_array(r->context, rooms->count, sizeof *r->labels);
+    keep_status(r, r->labels ? SL_OK : SL_NO_MEMORY);
+    for (uint32_t i = 0; i < rooms->count && r->labels; i++)
+        r->labels[i] = (sl_plan_label){.text = rooms->items[i].name,
+                                       .at = rooms->items[i].at,
+                                       .width = 2 * rooms->items[i].clearance};
+    add(r, (sl_block){.kind = SL_BLOCK_PICTURE,
+                      .baked = &r->w.baked,
+                      .labels = r->labels,
+                      .label_count = rooms->count});
+}
+
 static void add_rooms(report *r) {
     static const char *const head[] = {"room", "area", "share", "mean of integration",
                                        "mean of isovist area"};
@@ -300,6 +316,7 @@ static void add_rooms(report *r) {
                  "goes through doors that are open.%s",
                  number(r, rooms->rooms.width), *length_unit(r) ? length_unit(r) : "units",
                  seen ? " The last column is what of the room is seen from the first start." : ""));
+    add_names(r);
     for (size_t c = 0; c < 5; c++) add_cell(r, &t, head[c]);
     if (seen) add_cell(r, &t, "seen");
     for (uint32_t i = 0; i < rooms->rooms.count; i++) {
@@ -448,8 +465,8 @@ static void destroy(report *r) {
         vga_field_destroy(context, r->fields.items[i]);
         sl_free(context, r->fields.items[i]);
     }
-    void *const arrays[] = {r->texts.items,  r->tables.items,   r->fields.items,
-                            r->blocks.items, r->axial.measures, r->axial.values};
+    void *const arrays[] = {r->texts.items,    r->tables.items, r->fields.items, r->blocks.items,
+                            r->axial.measures, r->axial.values, r->labels};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) sl_free(context, arrays[i]);
     room_table_destroy(context, &r->rooms);
     sl_axial_lines_destroy(context, &r->axial.lines);

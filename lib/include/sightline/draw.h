@@ -245,6 +245,13 @@ typedef enum sl_block_kind {
     SL_BLOCK_PICTURE,
 } sl_block_kind;
 
+/// A name on a plan, about a place.
+typedef struct sl_plan_label {
+    const char *text; ///< UTF-8
+    sl_point at;
+    double width; ///< in the map, that it should not exceed: it is set smaller, then cut
+} sl_plan_label;
+
 /// A block of a document: what its kind has; the rest is zeroed. Texts are UTF-8.
 typedef struct sl_block {
     sl_block_kind kind;
@@ -257,6 +264,8 @@ typedef struct sl_block {
     /// Of a picture: one of them, drawn over the plan. Both NULL: the plan with its starts.
     const sl_field *field;
     const sl_drawn_lines *lines;
+    const sl_plan_label *labels; ///< of a picture, over all else
+    size_t label_count;
 } sl_block;
 
 /// Writes blocks as a PDF of A4 pages, which have numbers. `title` stands at the foot of each, and
