@@ -73,6 +73,11 @@ static sl_status make_plan(sl_context *context, isovist_plan *p) {
                        "--see is for a path: give --along or --from-line");
     if (p->see && p->output && name_ends_with(p->output, ".geojson"))
         return sl_fail(context, SL_BAD_ARGUMENT, "--see makes a table: name it .csv");
+    if (p->output && name_ends_with(p->output, ".dxf") && (sets || p->together))
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "-o %s: a drawing has the regions of single viewpoints; --union, lines and "
+                       "areas make .csv or .geojson",
+                       p->output);
     if (p->step > 0 && !p->path)
         return sl_fail(context, SL_BAD_ARGUMENT, "--step is for --path, which is not given");
     if (p->measure_given && !(p->picture && grid))
@@ -349,6 +354,7 @@ static sl_status make_scene(sl_context *context, const isovist_plan *plan, isovi
     SL_TRY(sl_query_set_mirror_depth(context, w->query, plan->mirror_depth));
     w->scene = (isovist_scene){.query = w->query,
                                .earth = w->baked.map.earth,
+                               .unit = w->baked.map.unit,
                                .mirrored = w->baked.map.mirror_count && !plan->together,
                                .range = plan->range};
     SL_TRY(sl_query_space(context, w->query, &w->scene.space, NULL));
@@ -445,8 +451,9 @@ sl_status cmd_isovist(command_console *console, int argc, char **argv) {
         {"grid", 0, "STEP", "look from all points of a grid that are inside", .number = &plan.grid,
          .over_0 = true},
         {"output", 'o', "TABLE",
-         "the table: .csv, or .geojson with the regions (default: CSV to standard output)",
-         .text = &plan.output, .check = CHECK_TABLE, .endings = ".geojson"},
+         "the table: .csv, .geojson with the regions, or .dxf with the regions alone (default: CSV "
+         "to standard output)",
+         .text = &plan.output, .check = CHECK_TABLE, .endings = ".geojson .dxf"},
         {"picture", 0, "PICTURE", "draw the regions, or a heat map of the grid: .png, .svg or .pdf",
          .text = &plan.picture, .check = CHECK_PICTURE},
         {"measure", 0, "NAME", "the measure of the heat map (default: area)",
