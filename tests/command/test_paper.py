@@ -40,7 +40,7 @@ class Paper(sandbox.ProgramTest):
 
     def row(self, text, name):
         """The cells of the first table's row."""
-        lines = re.findall(rf"^ *{name}  +(.*)$", text, re.MULTILINE)
+        lines = re.findall(rf"^ *{name}  +(-?\d.*)$", text, re.MULTILINE)  # other lines are names on a plan
         self.assertTrue(lines, name)
         return re.split(r"  +", lines[0].strip())
 
