@@ -149,7 +149,6 @@ static void add_plan(report *r) {
     add_row(r, &t, "walls after cleaning", say(r, "%" PRIu32, space->wall_count));
     if (map->door_count)
         add_row(r, &t, "doors", say(r, "%zu, %zu of them open", map->door_count, open));
-    if (map->mirror_count) add_row(r, &t, "mirrors", say(r, "%zu", map->mirror_count));
     if (map->oneway_count) add_row(r, &t, "one-way glass", say(r, "%zu", map->oneway_count));
     if (map->range > 0) add_row(r, &t, "view range", say(r, "%s %s", number(r, map->range), unit));
     add_row(r, &t, "area inside",
@@ -374,19 +373,25 @@ static void add_axial_table(report *r) {
     add_table(r, &t, 3);
 }
 
+/// Why a report has no axial lines; NULL where it has.
+static const char *no_axial(report *r) {
+    const sl_map *map = &r->w.baked.map;
+    if (map->oneway_count || map->range > 0 || sl_map_limited_walls(map))
+        return "Left out: the plan has one-way glass, a view range or walls that limit sight, and "
+               "axial lines end at walls and shut doors alone.";
+    if (r->w.baked.space.wall_count <= AXIAL_WALLS) return NULL;
+    return say(r,
+               "Left out: the plan has %" PRIu32 " walls, and with more than %d they may take "
+               "minutes. The command 'sightline axial' finds them.",
+               r->w.baked.space.wall_count, AXIAL_WALLS);
+}
+
 static void add_axial(report *r) {
     const sl_baked *baked = &r->w.baked;
     add_text(r, SL_BLOCK_HEADING, "Axial lines");
-    if (baked->space.wall_count > AXIAL_WALLS || baked->map.mirror_count ||
-        baked->map.oneway_count) {
-        add_text(r, SL_BLOCK_TEXT,
-                 baked->space.wall_count > AXIAL_WALLS
-                     ? say(r,
-                           "Left out: the plan has %" PRIu32 " walls, and with more than %d they "
-                           "may take minutes. The command 'sightline axial' finds them.",
-                           baked->space.wall_count, AXIAL_WALLS)
-                     : "Left out: the plan has mirrors or one-way glass, and axial lines end at "
-                       "walls alone.");
+    const char *left_out = no_axial(r);
+    if (left_out) {
+        add_text(r, SL_BLOCK_TEXT, left_out);
         return;
     }
     if (r->status == SL_OK) keep_status(r, find_axial(r));
@@ -439,8 +444,6 @@ static void add_method(report *r) {
                  "Axial lines pass two corners that see each other, which is exact; their ends are "
                  "rounded. Lines are dropped, shortest first, while the others still cover the "
                  "plan. No proof says that fewer lines could not do it.");
-    if (r->w.baked.map.mirror_count)
-        add_text(r, SL_BLOCK_TEXT, "What is seen in mirrors is not counted.");
     add_text(r, SL_BLOCK_TEXT, say(r, "Computed by Sightline %s.", sl_version()));
 }
 
