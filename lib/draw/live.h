@@ -28,4 +28,12 @@ bool sli_live_keep(cairo_t *cairo, sl_colour colour, double x, double y, const s
 /// Makes groups with names of the pages of an SVG that cairo has written, and adds the texts.
 sl_status sli_live_write_svg(sl_context *context, cairo_surface_t *surface, sli_text_buffer *svg);
 
+/// The names of the layers of a surface.
+sl_status sli_live_layers(sl_context *context, cairo_surface_t *surface, const char *const **names,
+                          size_t *count);
+
+/// Makes layers with names of the pages of a PDF that cairo has written. SL_IO if its parts are
+/// not where cairo 1.16 puts them.
+sl_status sli_live_write_pdf(sl_context *context, cairo_surface_t *surface, sli_text_buffer *file);
+
 #endif

@@ -48,6 +48,14 @@ void sli_layer_begin(cairo_t *cairo, const char *name) {
         l->out_of_memory = true;
 }
 
+sl_status sli_live_layers(sl_context *context, cairo_surface_t *surface, const char *const **names,
+                          size_t *count) {
+    const live *l = cairo_surface_get_user_data(surface, &live_key);
+    *names = l ? l->names.items : NULL;
+    *count = l ? l->names.count : 0;
+    return l && l->out_of_memory ? sl_fail_memory(context) : SL_OK;
+}
+
 // --- texts
 
 static sl_status add(sl_context *context, sli_text_buffer *to, const char *bytes, size_t count) {

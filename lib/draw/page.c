@@ -85,7 +85,25 @@ static sl_status finish_png(sl_context *context, sli_paper *paper) {
 }
 
 static cairo_surface_t *create_pdf(sli_paper *paper, double width, double height) {
-    return cairo_pdf_surface_create_for_stream(write_through, paper, width, height);
+    cairo_surface_t *surface = cairo_pdf_surface_create_for_stream(
+        paper->to_scale ? keep_back : write_through, paper, width, height);
+    // live_pdf.c reads plain text: cairo 1.18 packs objects from PDF 1.5 on. Files of 1.4 do not
+    // say which letters a ligature stands for, so older cairos keep to 1.5.
+    if (paper->to_scale && cairo_surface_status(surface) == CAIRO_STATUS_SUCCESS)
+        cairo_pdf_surface_restrict_to_version(
+            surface, cairo_version() < CAIRO_VERSION_ENCODE(1, 17, 0) ? CAIRO_PDF_VERSION_1_5
+                                                                      : CAIRO_PDF_VERSION_1_4);
+    return surface;
+}
+
+static sl_status finish_pdf(sl_context *context, sli_paper *paper) {
+    SL_TRY(finish_surface(context, paper));
+    if (!paper->to_scale) return SL_OK;
+    SL_TRY(sli_live_write_pdf(context, paper->surface, &paper->text));
+    const size_t size = paper->text.count;
+    return fwrite(paper->text.items, 1, size, paper->output.stream) == size
+               ? SL_OK
+               : fail_cairo(context, paper->path, CAIRO_STATUS_WRITE_ERROR);
 }
 
 static void describe_pdf(cairo_surface_t *surface, const char *title) {
@@ -127,7 +145,7 @@ static sl_status finish_svg(sl_context *context, sli_paper *paper) {
 static const sli_paper_kind kinds[] = {
     {".png", create_png, NULL, finish_png, false},
     {".svg", create_svg, NULL, finish_svg, true},
-    {".pdf", create_pdf, describe_pdf, finish_surface, false},
+    {".pdf", create_pdf, describe_pdf, finish_pdf, true},
 };
 
 sl_status sli_paper_kind_of(sl_context *context, const char *path, const sli_paper_kind **out) {
@@ -154,7 +172,7 @@ sl_status sli_paper_open(sl_context *context, const sli_paper_kind *kind, const 
     if (kind->describe) kind->describe(out->surface, title);
     const cairo_status_t status = cairo_status(out->cairo);
     if (status == CAIRO_STATUS_SUCCESS && kind->layered && to_scale) {
-        const sl_status kept = sli_live_begin(context, out->surface, true);
+        const sl_status kept = sli_live_begin(context, out->surface, kind->create == create_svg);
         return kept == SL_OK ? SL_OK : sli_paper_close(context, out, kept);
     }
     if (status == CAIRO_STATUS_SUCCESS) return SL_OK;

@@ -22,7 +22,7 @@ typedef struct sli_paper {
     sl_output output;
     sl_context *context;
     bool to_scale;        ///< lengths are points, and layers and texts are kept (live.h)
-    sli_text_buffer text; ///< what is kept back until the end (SVG)
+    sli_text_buffer text; ///< what is kept back until the end (SVG, sheets)
     bool out_of_memory;   ///< while that was being kept
     bool stopped;         ///< the context's hook said so while the file was written
 } sli_paper;

@@ -151,6 +151,43 @@ static void letters_stay_text_and_layers_have_names(void **state) {
     sl_free(b->draw->context, svg.data);
 }
 
+/// A PDF has one page, its layers are optional content groups, and its table says where each object
+/// begins.
+static void a_pdf_has_layers(void **state) {
+    sheet_bench *b = *state;
+    const sl_draw_options options = sheet_options("A3", NULL);
+    static const char *const names[] = {"paper", "ground", "portals", "walls", "legend"};
+    sl_bytes pdf = draw_text(b, &b->turned, &options, "a.pdf");
+    const char *end = pdf.data + pdf.size, *last = NULL;
+    size_t pages = 0, found[5] = {0};
+    for (const char *at = pdf.data; at < end; at++) {
+        const size_t rest = (size_t)(end - at);
+        pages += rest > 12 && memcmp(at, "/Type /Page ", 12) == 0;
+        if (rest > 10 && memcmp(at, "startxref\n", 10) == 0) last = at;
+        for (int i = 0; i < 5; i++) {
+            char group[64];
+            const int length = snprintf(group, sizeof group, "/Type /OCG /Name (%s)", names[i]);
+            found[i] += rest > (size_t)length && memcmp(at, group, (size_t)length) == 0;
+        }
+    }
+    assert_int_equal(pages, 1);
+    for (int i = 0; i < 5; i++) assert_int_equal(found[i], 1);
+    assert_non_null(last);
+    char *entry = NULL;
+    const char *table = pdf.data + strtoul(last + 10, NULL, 10);
+    assert_true(table > pdf.data && table < last && memcmp(table, "xref\n0 ", 7) == 0);
+    const size_t count = strtoul(table + 7, &entry, 10);
+    assert_true(count > 10 && entry + 1 + 20 * count < end);
+    for (size_t i = 1; i < count; i++) {
+        const char *object = entry + 1 + 20 * i;
+        if (object[17] != 'n') continue;
+        char begin[32];
+        const int length = snprintf(begin, sizeof begin, "%zu 0 obj\n", i);
+        assert_memory_equal(pdf.data + strtoul(object, NULL, 10), begin, (size_t)length);
+    }
+    sl_free(b->draw->context, pdf.data);
+}
+
 static void the_same_sheet_has_the_same_bytes(void **state) {
     sheet_bench *b = *state;
     const sl_draw_options options = sheet_options("A2", "1:200");
@@ -206,6 +243,7 @@ int main(void) {
         cmocka_unit_test(lengths_on_paper_are_to_scale),
         cmocka_unit_test(the_unit_of_the_map_counts),
         cmocka_unit_test(letters_stay_text_and_layers_have_names),
+        cmocka_unit_test(a_pdf_has_layers),
         cmocka_unit_test(the_same_sheet_has_the_same_bytes),
         cmocka_unit_test(north_is_drawn_where_it_is_known),
         cmocka_unit_test(what_no_sheet_has_is_refused),

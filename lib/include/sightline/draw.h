@@ -55,7 +55,7 @@ typedef struct sl_drawn_box {
 } sl_drawn_box;
 
 /// A sheet of paper on which the plan stands to scale, with a title block: the title, a scale bar,
-/// and north where it is known. It is a PDF or an SVG, in which letters stay text. An SVG has a
+/// and north where it is known. It is a PDF or an SVG, in which letters stay text, and which has a
 /// layer for each kind of thing. The map must say its unit (sl_map.unit). Zeroed: no sheet.
 typedef struct sl_sheet {
     const char *paper; ///< "A4" to "A0", either way round as the plan fits; NULL: no sheet
