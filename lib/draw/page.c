@@ -88,7 +88,7 @@ static cairo_surface_t *create_pdf(sli_paper *paper, double width, double height
     cairo_surface_t *surface = cairo_pdf_surface_create_for_stream(
         paper->to_scale ? keep_back : write_through, paper, width, height);
     // live_pdf.c reads plain text: cairo 1.18 packs objects from PDF 1.5 on. Files of 1.4 do not
-    // say which letters a ligature stands for, so older cairos keep to 1.5.
+    // say which letters a ligature stands for, so older versions keep to 1.5.
     if (paper->to_scale && cairo_surface_status(surface) == CAIRO_STATUS_SUCCESS)
         cairo_pdf_surface_restrict_to_version(
             surface, cairo_version() < CAIRO_VERSION_ENCODE(1, 17, 0) ? CAIRO_PDF_VERSION_1_5
