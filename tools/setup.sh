@@ -110,6 +110,7 @@ is_there() {
     xdotool) has xdotool ;;
     aspell) has aspell && aspell dump dicts | grep -q '^en' ;;
     groff) has groff ;;
+    poppler) has pdftotext ;;
     abidw) has abidw ;;
     x11) module x11 ;;
     font) font ;;
@@ -125,6 +126,7 @@ is_there() {
     aarch64) has aarch64-linux-gnu-gcc && has qemu-aarch64 ;;
     windows) has x86_64-w64-mingw32-gcc && has wine ;;
     binaryen) has wasm-opt ;;
+    ezdxf) python_has ezdxf ;;
     jsonschema) python3 -c 'import jsonschema' 2>/dev/null ;;
     esac
 }
@@ -158,9 +160,10 @@ package() { # system thing
     apt:wasm) echo lld wasi-libc libclang-rt-dev-wasm32 ;;
     apt:aspell | dnf:aspell | pacman:aspell) echo aspell aspell-en ;;
     apt:abidw) echo abigail-tools ;;
+    apt:poppler | dnf:poppler) echo poppler-utils ;;
     apt:jsonschema | dnf:jsonschema) echo python3-jsonschema ;;
     apt:numpy | apt:scipy | apt:pandas | apt:geopandas | apt:matplotlib) echo "python3-$2" ;;
-    apt:nbconvert | apt:ipykernel | apt:wheel | apt:pip) echo "python3-$2" ;;
+    apt:nbconvert | apt:ipykernel | apt:wheel | apt:pip | apt:ezdxf) echo "python3-$2" ;;
     apt:node | dnf:node | pacman:node) echo nodejs ;;
     *:llvm-symbolizer) echo llvm ;;
 
@@ -183,10 +186,10 @@ package() { # system thing
     dnf:cmocka) echo libcmocka-devel ;;
 
     dnf:numpy | dnf:scipy | dnf:pandas | dnf:geopandas | dnf:matplotlib) echo "python3-$2" ;;
-    dnf:nbconvert | dnf:ipykernel | dnf:wheel | dnf:pip) echo "python3-$2" ;;
+    dnf:nbconvert | dnf:ipykernel | dnf:wheel | dnf:pip | dnf:ezdxf) echo "python3-$2" ;;
 
     pacman:numpy | pacman:scipy | pacman:pandas | pacman:matplotlib) echo "python-$2" ;;
-    pacman:geopandas | pacman:nbconvert | pacman:ipykernel | pacman:wheel | pacman:pip) echo "python-$2" ;;
+    pacman:geopandas | pacman:nbconvert | pacman:ipykernel | pacman:wheel | pacman:pip | pacman:ezdxf) echo "python-$2" ;;
     pacman:c | pacman:c++) echo gcc ;;
     pacman:pkg-config) echo pkgconf ;;
     pacman:python3) echo python ;;
@@ -252,7 +255,7 @@ install_packages() { # system package...
 # ---- What to do ----
 
 things="c c++ cmake ninja pkg-config python3 zlib jansson libpng libxml2 libyaml zstd glpk cairo pango sdl2 font cmocka gmp"
-[ $ci = yes ] && things="$things clang clang-sanitizers llvm-symbolizer clang-format clang-tidy ccache doxygen xvfb xdotool x11 mpi node npm chromium jsonschema aspell groff abidw numpy scipy pandas geopandas matplotlib nbconvert ipykernel wheel pip luajit mono tiled"
+[ $ci = yes ] && things="$things clang clang-sanitizers llvm-symbolizer clang-format clang-tidy ccache doxygen xvfb xdotool x11 mpi node npm chromium jsonschema aspell groff poppler ezdxf abidw numpy scipy pandas geopandas matplotlib nbconvert ipykernel wheel pip luajit mono tiled"
 [ $ci = yes ] && has apt-get && things="$things aarch64 windows" # tests/everywhere
 [ $web = yes ] && things="$things clang wasm binaryen node"
 [ $release = yes ] && things="$things npm pip wheel numpy patchelf"

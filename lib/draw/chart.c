@@ -491,8 +491,8 @@ static sl_status lay_out(sl_context *context, cairo_t *cairo, void *what) {
 static sl_status draw(sl_context *context, const sli_chart_page *page, const sli_paper_kind *kind,
                       const char *path) {
     sli_paper paper;
-    SL_TRY(sli_paper_open(context, kind, path, (int)page->width, (int)page->height,
-                          page->chart->title, &paper));
+    SL_TRY(sli_paper_open(context, kind, path, page->width, page->height, false, page->chart->title,
+                          &paper));
     sli_chart_paint(paper.cairo, page);
     return sli_paper_close(context, &paper, sl_check_cancelled(context));
 }

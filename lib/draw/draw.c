@@ -3,6 +3,7 @@
 #include "sightline/draw.h"
 #include "draw/marks.h"
 #include "draw/page.h"
+#include "draw/sheet.h"
 #include "sightline/support.h"
 
 #include <math.h>
@@ -356,48 +357,6 @@ static void fill_key(key *k, const sl_scene *scene) {
         add_count(k, swatch_object, map->object_count, "object");
 }
 
-/// The longest 1, 2 or 5 times a power of ten up to `limit`, as the nearest double and as text.
-/// False if there is none.
-static bool round_length(double limit, double *length, char text[SL_NUMBER_TEXT]) {
-    static const int leading[] = {1, 2, 5};
-    if (!(limit > 0) || !isfinite(limit)) return false;
-    bool found = false;
-    for (int power = (int)floor(log10(limit)) - 1, i = 0; i < 9; i++) {
-        char decimal[SL_NUMBER_TEXT];
-        double value;
-        // Read as text, since pow() may be a bit off the decimal.
-        const int size = snprintf(decimal, sizeof decimal, "%de%d", leading[i % 3], power + i / 3);
-        if (!sl_number_read(decimal, (size_t)size, &value) || !(value > 0) || value > limit)
-            continue;
-        *length = value;
-        found = true;
-    }
-    if (found) sl_number_write(*length, text);
-    return found;
-}
-
-static void draw_scale_bar(cairo_t *cairo, const sl_scene *scene, const sl_frame *frame,
-                           const strip *at, double room) {
-    double length;
-    char number[SL_NUMBER_TEXT], text[SL_NUMBER_TEXT + 24];
-    if (!round_length(room / frame->scale, &length, number)) return;
-    const char *unit = scene->baked->map.unit;
-    snprintf(text, sizeof text, "%s %s", number, *unit ? unit : length == 1 ? "unit" : "units");
-    const double right = at->left + at->width, left = right - length * frame->scale;
-    const double y = at->top + 0.45 * LINE_HEIGHT * at->text, tick = 0.35 * at->text;
-    cairo_move_to(cairo, left, y - tick);
-    cairo_line_to(cairo, left, y);
-    cairo_line_to(cairo, right, y);
-    cairo_line_to(cairo, right, y - tick);
-    sl_set_colour(cairo, scene->palette.ink);
-    cairo_set_line_width(cairo, 0.11 * at->text);
-    cairo_set_line_cap(cairo, CAIRO_LINE_CAP_SQUARE);
-    cairo_set_line_join(cairo, CAIRO_LINE_JOIN_MITER);
-    cairo_stroke(cairo);
-    sl_text_show(cairo, scene->palette.faint, right - sl_text_width(cairo, text),
-                 y + 1.15 * at->text, text);
-}
-
 static void draw_entry(cairo_t *cairo, const sl_scene *scene, const sli_pens *pens, const entry *e,
                        double x, double middle, double size) {
     const double base = middle + 0.36 * size;
@@ -447,7 +406,9 @@ static double draw_legend(cairo_t *cairo, const sl_scene *scene, const sl_frame 
             draw_entry(cairo, scene, &fitted, &k.entries[i], at->left + x, at->top + y, size);
         x += wide + BETWEEN * size;
     }
-    if (at->paint) draw_scale_bar(cairo, scene, frame, at, bar_room);
+    if (at->paint && !scene->options.sheet.paper) // which has one in its title block
+        sli_draw_scale_bar(cairo, scene, frame, at->left + at->width,
+                           at->top + 0.45 * LINE_HEIGHT * size, bar_room, size);
     return y + LINE_HEIGHT / 2 * size;
 }
 
@@ -561,13 +522,14 @@ static sl_status draw_plan(sl_context *context, cairo_t *cairo, const void *what
     return sl_draw_plan(context, cairo, scene, scene->options.layers, frame);
 }
 
-static sl_status draw_scene(sl_context *context, const sl_scene *scene, const sli_paper_kind *kind,
-                            const char *path) {
+static sl_status draw_scene(sl_context *context, const sl_scene *scene, const char *title,
+                            const sli_paper_kind *kind, const char *path) {
     const sli_page_parts parts = {.set = set_page,
                                   .draw_plan = draw_plan,
                                   .what = scene,
+                                  .scene = scene,
                                   .ground = scene->palette.page,
-                                  .title = scene->options.title};
+                                  .title = title};
     return sli_page_write(context, &parts, scene->options.width, kind, path);
 }
 
@@ -577,8 +539,10 @@ sl_status sl_draw_file(sl_context *context, const sl_baked *baked, const sl_draw
     sl_scene scene;
     SL_TRY(sli_paper_kind_of(context, path, &kind));
     SL_TRY(check_options(context, baked, options));
-    SL_TRY(sli_scene_make(context, baked, options, NULL, &scene));
-    const sl_status status = draw_scene(context, &scene, kind, path);
+    sl_draw_options plain = *options;
+    if (plain.sheet.paper) plain.title = NULL; // it stands in the title block
+    SL_TRY(sli_scene_make(context, baked, &plain, NULL, &scene));
+    const sl_status status = draw_scene(context, &scene, options->title, kind, path);
     sli_scene_clear(context, &scene);
     return status;
 }

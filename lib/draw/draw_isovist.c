@@ -105,6 +105,7 @@ static void draw_grey(cairo_t *cairo, const picture *p, const sl_frame *frame) {
 /// Squares or patches of one colour make one path. A thin stroke covers the seams between them.
 static sl_status draw_values(sl_context *context, cairo_t *cairo, const picture *p,
                              const sl_frame *frame) {
+    sli_layer_begin(cairo, "values");
     draw_grey(cairo, p, frame);
     for (int step = 0; step < RAMP_STEPS; step++) {
         SL_TRY(sl_check_cancelled(context));
@@ -136,6 +137,7 @@ static void draw_lines(cairo_t *cairo, const picture *p, const sl_frame *frame) 
 /// From low to high values, each a little wider than the last. Lines without a value lie below.
 static sl_status draw_valued_lines(sl_context *context, cairo_t *cairo, const picture *p,
                                    const sl_frame *frame) {
+    sli_layer_begin(cairo, "lines");
     for (size_t i = 0; i < p->value_count; i++)
         if (isnan(p->values[i]))
             sl_path_segment(cairo, frame, p->lines->lines[i].a, p->lines->lines[i].b);
@@ -173,6 +175,7 @@ static sl_status draw_plan(sl_context *context, cairo_t *cairo, const void *what
     if (p->patches) draw_lines(cairo, p, frame);
     // Squares and patches may reach from the floor into solid ground.
     sli_draw_solid(cairo, &p->scene, frame);
+    if (p->region_count) sli_layer_begin(cairo, "isovists");
     for (size_t i = 0; i < p->region_count; i++)
         sli_draw_seen(cairo, &p->scene.palette, frame, &p->regions[i]);
     SL_TRY(sl_draw_walls(context, cairo, &p->scene, frame));
@@ -318,21 +321,21 @@ static void set_page(cairo_t *cairo, const void *what, sli_page *page, bool pain
 }
 
 static sl_status draw_picture(sl_context *context, const sl_baked *baked,
-                              const sl_draw_options *options, picture *p, const char *path) {
+                              const sl_draw_options *options, picture *p, sli_page_target *target) {
     const unsigned layers = SL_LAYER_WALLS | (p->scale ? 0 : (unsigned)SL_LAYER_STARTS);
     const sli_page_parts parts = {.set = set_page, .draw_plan = draw_plan, .what = p};
-    return sli_page_write_map(context, baked, options, layers, &p->scene, parts, path);
+    return sli_page_draw_map(context, baked, options, layers, &p->scene, parts, target);
 }
 
 sl_status sl_draw_regions_file(sl_context *context, const sl_baked *baked,
                                const sl_drawn_region *regions, size_t count, const char *caption,
                                const sl_draw_options *options, const char *path) {
     picture p = {.regions = regions, .region_count = count, .caption = caption};
-    return draw_picture(context, baked, options, &p, path);
+    return draw_picture(context, baked, options, &p, &(sli_page_target){.path = path});
 }
 
-sl_status sl_draw_field_file(sl_context *context, const sl_baked *baked, const sl_field *field,
-                             const sl_draw_options *options, const char *path) {
+static sl_status draw_field(sl_context *context, const sl_baked *baked, const sl_field *field,
+                            const sl_draw_options *options, sli_page_target *target) {
     if (!(fabs(field->least) <= LARGEST && fabs(field->most) <= LARGEST &&
           field->least <= field->most))
         return sl_fail(context, SL_BAD_ARGUMENT,
@@ -350,16 +353,32 @@ sl_status sl_draw_field_file(sl_context *context, const sl_baked *baked, const s
         if (p.most == 0) p.most = 1; // nothing changes
         p.least = -p.most;
     }
-    return draw_picture(context, baked, options, &p, path);
+    return draw_picture(context, baked, options, &p, target);
+}
+
+sl_status sli_draw_picture(sl_context *context, const sl_baked *baked, const sl_field *field,
+                           const sl_drawn_lines *lines, const sl_draw_options *options,
+                           sli_page_target *target) {
+    if (field) return draw_field(context, baked, field, options, target);
+    picture p = {0};
+    if (lines)
+        p = (picture){.lines = lines,
+                      .scale = lines->name,
+                      .values = lines->values,
+                      .value_count = lines->count};
+    if (lines) find_range(&p, 0, 0);
+    return draw_picture(context, baked, options, &p, target);
+}
+
+sl_status sl_draw_field_file(sl_context *context, const sl_baked *baked, const sl_field *field,
+                             const sl_draw_options *options, const char *path) {
+    return draw_field(context, baked, field, options, &(sli_page_target){.path = path});
 }
 
 sl_status sl_draw_lines_file(sl_context *context, const sl_baked *baked,
                              const sl_drawn_lines *lines, const sl_draw_options *options,
                              const char *path) {
-    picture p = {
-        .lines = lines, .scale = lines->name, .values = lines->values, .value_count = lines->count};
-    find_range(&p, 0, 0);
-    return draw_picture(context, baked, options, &p, path);
+    return sli_draw_picture(context, baked, NULL, lines, options, &(sli_page_target){.path = path});
 }
 
 sl_status sl_draw_patches_file(sl_context *context, const sl_baked *baked,
@@ -371,5 +390,5 @@ sl_status sl_draw_patches_file(sl_context *context, const sl_baked *baked,
                  .values = patches->values,
                  .value_count = patches->count};
     find_range(&p, 0, 0);
-    return draw_picture(context, baked, options, &p, path);
+    return draw_picture(context, baked, options, &p, &(sli_page_target){.path = path});
 }

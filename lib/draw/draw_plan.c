@@ -6,6 +6,7 @@
 /// sequences share are drawn once, at their least depth. A stroke bends so that it crosses portals
 /// at right angles. It stays in its cell, which is convex.
 #include "draw/draw_plan.h"
+#include "draw/live.h"
 #include "draw/marks.h"
 #include "effects/mirrors.h"
 #include "sightline/support.h"
@@ -596,19 +597,20 @@ static void draw_numbers(const plan *p) {
 typedef struct step {
     unsigned layers; ///< any of them calls for it; 0: always
     void (*draw)(const plan *p);
+    const char *name; ///< of the layer in files that have layers
 } step;
 
 static const step steps[] = {
-    {0, draw_ground},
-    {0, draw_cells},
-    {SL_LAYER_CELLS, draw_outlines},
-    {0, draw_source_edge},
-    {SL_LAYER_PORTALS, draw_portals},
-    {SL_LAYER_STAB_TREE, draw_tree},
-    {SL_LAYER_WALLS, draw_walls},
-    {SL_LAYER_STARTS, draw_starts},
-    {SL_LAYER_NUMBERS, draw_numbers},
-    {0, draw_fault_marks},
+    {0, draw_ground, "ground"},
+    {0, draw_cells, "cells"},
+    {SL_LAYER_CELLS, draw_outlines, "outlines"},
+    {0, draw_source_edge, "chosen-cell"},
+    {SL_LAYER_PORTALS, draw_portals, "portals"},
+    {SL_LAYER_STAB_TREE, draw_tree, "stab-tree"},
+    {SL_LAYER_WALLS, draw_walls, "walls"},
+    {SL_LAYER_STARTS, draw_starts, "starts"},
+    {SL_LAYER_NUMBERS, draw_numbers, "numbers"},
+    {0, draw_fault_marks, "faults"},
 };
 enum { STEPS = sizeof steps / sizeof *steps, WALLS_STEP = STEPS - 4 };
 
@@ -625,7 +627,9 @@ static plan plan_of(cairo_t *cairo, const sl_scene *scene, const sl_frame *frame
 static sl_status draw_steps(sl_context *context, const plan *p, unsigned layers, int first) {
     for (int i = first; i < STEPS; i++) {
         SL_TRY(sl_check_cancelled(context));
-        if (!steps[i].layers || layers & steps[i].layers) steps[i].draw(p);
+        if (steps[i].layers && !(layers & steps[i].layers)) continue;
+        sli_layer_begin(p->cairo, steps[i].name);
+        steps[i].draw(p);
     }
     return sl_check_cancelled(context);
 }

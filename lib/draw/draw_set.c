@@ -78,5 +78,6 @@ sl_status sl_draw_set_file(sl_context *context, const sl_baked *baked, const sl_
                            const char *caption, const sl_draw_options *options, const char *path) {
     picture p = {.set = set, .caption = caption};
     const sli_page_parts parts = {.set = set_page, .draw_plan = draw_plan, .what = &p};
-    return sli_page_write_map(context, baked, options, SL_LAYER_WALLS, &p.scene, parts, path);
+    return sli_page_draw_map(context, baked, options, SL_LAYER_WALLS, &p.scene, parts,
+                             &(sli_page_target){.path = path});
 }

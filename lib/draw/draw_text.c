@@ -10,6 +10,7 @@
 /// width and kind are laid out alike. The font stands in the cairo context, as a face and a size:
 /// it is saved and restored with it.
 #include "draw/draw_plan.h"
+#include "draw/live.h"
 
 #include <math.h>
 #include <pango/pangocairo.h>
@@ -292,10 +293,29 @@ static void show_run(cairo_t *cairo, const kept_text *kept, const run *r, double
     }
 }
 
+/// Keeps the lines as text, where the page does; false: they are to be drawn. The letters of a text
+/// that is cut are not those of the text.
+static bool keep_lines(cairo_t *cairo, sl_colour colour, double x, double y, double spacing,
+                       const kept_text *kept) {
+    const char *text = pango_layout_get_text(kept->layout);
+    for (int i = 0; i < kept->lines && kept->setting != CUT; i++) {
+        PangoRectangle extents;
+        PangoLayoutLine *line = pango_layout_get_line_readonly(kept->layout, i);
+        pango_layout_line_get_extents(line, NULL, &extents);
+        const sli_live_text live = {.text = text + line->start_index,
+                                    .length = (size_t)line->length,
+                                    .size = kept->size,
+                                    .width = (double)extents.width / PANGO_SCALE,
+                                    .bold = kept->bold};
+        if (!sli_live_keep(cairo, colour, x, y + i * spacing, &live)) return false;
+    }
+    return kept->setting != CUT;
+}
+
 /// Draws lines from the left end of the first base line, `spacing` apart.
 static void show(cairo_t *cairo, sl_colour colour, double x, double y, double spacing,
                  const kept_text *kept) {
-    if (!kept) return;
+    if (!kept || keep_lines(cairo, colour, x, y, spacing, kept)) return;
     sl_set_colour(cairo, colour);
     cairo_save(cairo);
     if (!kept->run_count || cairo_surface_has_show_text_glyphs(cairo_get_target(cairo)))

@@ -2,6 +2,7 @@
 /// anything is drawn; then the same functions draw it. The file is PNG, SVG or PDF.
 #include "draw/page.h"
 #include "draw/marks.h"
+#include "draw/sheet.h"
 #include "sightline/json.h"
 #include "sightline/support.h"
 
@@ -17,9 +18,10 @@
 
 struct sli_paper_kind {
     const char *ending;
-    cairo_surface_t *(*create)(sli_paper *paper, int width, int height);
+    cairo_surface_t *(*create)(sli_paper *paper, double width, double height);
     void (*describe)(cairo_surface_t *surface, const char *title); ///< NULL for nothing to say
     sl_status (*finish)(sl_context *context, sli_paper *paper);
+    bool layered; ///< sheets of it have layers (live.h)
 };
 
 /// cairo knows no other way to be stopped than a failure to write.
@@ -70,9 +72,9 @@ static sl_status finish_surface(sl_context *context, sli_paper *paper) {
     return status ? fail_cairo(context, paper->path, status) : SL_OK;
 }
 
-static cairo_surface_t *create_png(sli_paper *paper, int width, int height) {
+static cairo_surface_t *create_png(sli_paper *paper, double width, double height) {
     (void)paper;
-    return cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height);
+    return cairo_image_surface_create(CAIRO_FORMAT_RGB24, (int)width, (int)height);
 }
 
 static sl_status finish_png(sl_context *context, sli_paper *paper) {
@@ -82,8 +84,26 @@ static sl_status finish_png(sl_context *context, sli_paper *paper) {
     return status ? fail_cairo(context, paper->path, status) : SL_OK;
 }
 
-static cairo_surface_t *create_pdf(sli_paper *paper, int width, int height) {
-    return cairo_pdf_surface_create_for_stream(write_through, paper, width, height);
+static cairo_surface_t *create_pdf(sli_paper *paper, double width, double height) {
+    cairo_surface_t *surface = cairo_pdf_surface_create_for_stream(
+        paper->to_scale ? keep_back : write_through, paper, width, height);
+    // live_pdf.c reads plain text: cairo 1.18 packs objects from PDF 1.5 on. Files of 1.4 do not
+    // say which letters a ligature stands for, so older versions keep to 1.5.
+    if (paper->to_scale && cairo_surface_status(surface) == CAIRO_STATUS_SUCCESS)
+        cairo_pdf_surface_restrict_to_version(
+            surface, cairo_version() < CAIRO_VERSION_ENCODE(1, 17, 0) ? CAIRO_PDF_VERSION_1_5
+                                                                      : CAIRO_PDF_VERSION_1_4);
+    return surface;
+}
+
+static sl_status finish_pdf(sl_context *context, sli_paper *paper) {
+    SL_TRY(finish_surface(context, paper));
+    if (!paper->to_scale) return SL_OK;
+    SL_TRY(sli_live_write_pdf(context, paper->surface, &paper->text));
+    const size_t size = paper->text.count;
+    return fwrite(paper->text.items, 1, size, paper->output.stream) == size
+               ? SL_OK
+               : fail_cairo(context, paper->path, CAIRO_STATUS_WRITE_ERROR);
 }
 
 static void describe_pdf(cairo_surface_t *surface, const char *title) {
@@ -92,10 +112,12 @@ static void describe_pdf(cairo_surface_t *surface, const char *title) {
     if (title) cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_TITLE, title);
 }
 
-static cairo_surface_t *create_svg(sli_paper *paper, int width, int height) {
+static cairo_surface_t *create_svg(sli_paper *paper, double width, double height) {
     cairo_surface_t *surface = cairo_svg_surface_create_for_stream(keep_back, paper, width, height);
-    if (cairo_surface_status(surface) == CAIRO_STATUS_SUCCESS)
-        cairo_svg_surface_set_document_unit(surface, CAIRO_SVG_UNIT_PX);
+    if (cairo_surface_status(surface) != CAIRO_STATUS_SUCCESS) return surface;
+    cairo_svg_surface_set_document_unit(surface,
+                                        paper->to_scale ? CAIRO_SVG_UNIT_PT : CAIRO_SVG_UNIT_PX);
+    if (paper->to_scale) cairo_svg_surface_restrict_to_version(surface, CAIRO_SVG_VERSION_1_2);
     return surface;
 }
 
@@ -105,6 +127,7 @@ static sl_status finish_svg(sl_context *context, sli_paper *paper) {
     static const char word[] = "\"surface";
     const size_t length = sizeof word - 1;
     SL_TRY(finish_surface(context, paper));
+    SL_TRY(sli_live_write_svg(context, paper->surface, &paper->text));
     const char *at = paper->text.items, *end = at + paper->text.count;
     bool good = true;
     while (at < end && good) {
@@ -120,9 +143,9 @@ static sl_status finish_svg(sl_context *context, sli_paper *paper) {
 }
 
 static const sli_paper_kind kinds[] = {
-    {".png", create_png, NULL, finish_png},
-    {".svg", create_svg, NULL, finish_svg},
-    {".pdf", create_pdf, describe_pdf, finish_surface},
+    {".png", create_png, NULL, finish_png, false},
+    {".svg", create_svg, NULL, finish_svg, true},
+    {".pdf", create_pdf, describe_pdf, finish_pdf, true},
 };
 
 sl_status sli_paper_kind_of(sl_context *context, const char *path, const sli_paper_kind **out) {
@@ -138,8 +161,9 @@ sl_status sli_paper_kind_of(sl_context *context, const char *path, const sli_pap
 }
 
 sl_status sli_paper_open(sl_context *context, const sli_paper_kind *kind, const char *path,
-                         int width, int height, const char *title, sli_paper *out) {
-    *out = (sli_paper){.kind = kind, .path = path, .context = context};
+                         double width, double height, bool to_scale, const char *title,
+                         sli_paper *out) {
+    *out = (sli_paper){.kind = kind, .path = path, .context = context, .to_scale = to_scale};
     if (title && !sl_text_is_utf8(title))
         return sl_fail(context, SL_BAD_ARGUMENT, "%s: the title is not UTF-8", path);
     SL_TRY(sl_output_open(context, path, &out->output));
@@ -147,6 +171,10 @@ sl_status sli_paper_open(sl_context *context, const sli_paper_kind *kind, const 
     out->cairo = cairo_create(out->surface);
     if (kind->describe) kind->describe(out->surface, title);
     const cairo_status_t status = cairo_status(out->cairo);
+    if (status == CAIRO_STATUS_SUCCESS && kind->layered && to_scale) {
+        const sl_status kept = sli_live_begin(context, out->surface, kind->create == create_svg);
+        return kept == SL_OK ? SL_OK : sli_paper_close(context, out, kept);
+    }
     if (status == CAIRO_STATUS_SUCCESS) return SL_OK;
     return sli_paper_close(context, out, fail_cairo(context, path, status));
 }
@@ -182,8 +210,18 @@ sli_page sli_page_of_width(double width) {
 void sli_page_place_plan(sli_page *page, sl_box bounds, double top, double tallest) {
     const double wide = bounds.max.x - bounds.min.x, high = bounds.max.y - bounds.min.y;
     const double ratio = wide > 0 ? high / wide : high > 0 ? INFINITY : 1;
-    const double height = page->inner * fmin(fmax(ratio, 1.0 / 6), tallest);
+    const bool to_scale = page->plan_scale > 0;
+    const double height =
+        to_scale ? high * page->plan_scale : page->inner * fmin(fmax(ratio, 1.0 / 6), tallest);
     page->frame = sl_frame_fit(bounds, page->margin, top, page->inner, height, page->width / 1200);
+    if (to_scale) {
+        page->frame.scale = page->plan_scale;
+        page->frame.width = wide * page->plan_scale;
+        page->frame.height = height;
+        page->frame.left = page->margin + (page->inner - page->frame.width) / 2;
+        page->frame.top = top;
+        page->frame.unit = 0.6;
+    }
     page->bottom = top + height;
     page->key = page->bottom + 1.1 * page->text;
 }
@@ -223,21 +261,28 @@ sl_status sli_page_measure(sl_context *context, const char *path,
 typedef struct measured {
     const sli_page_parts *parts;
     sli_page page;
+    sli_sheet sheet; ///< `paper` is NULL where the page is none
 } measured;
 
 static sl_status lay_out_parts(sl_context *context, cairo_t *cairo, void *what) {
-    (void)context;
     measured *m = what;
+    if (m->sheet.paper) return sli_sheet_lay_out(context, cairo, m->parts, &m->sheet, &m->page);
     m->parts->set(cairo, m->parts->what, &m->page, false);
     return SL_OK;
 }
 
-static sl_status draw_page(sl_context *context, cairo_t *cairo, const sli_page_parts *parts,
-                           sli_page *page) {
-    sl_set_colour(cairo, parts->ground);
+static sl_status draw_page(sl_context *context, cairo_t *cairo, measured *m) {
+    const sli_page_parts *parts = m->parts;
+    sli_page set = m->page; // drawing may set its height anew
+    sli_layer_begin(cairo, "paper");
+    const bool white = m->sheet.paper && !parts->scene->palette.dark; // as paper is
+    sl_set_colour(cairo, white ? (sl_colour){1, 1, 1} : parts->ground);
     cairo_paint(cairo);
-    SL_TRY(parts->draw_plan(context, cairo, parts->what, &page->frame));
-    parts->set(cairo, parts->what, page, true);
+    SL_TRY(parts->draw_plan(context, cairo, parts->what, &m->page.frame));
+    sli_layer_begin(cairo, "legend");
+    parts->set(cairo, parts->what, &set, true);
+    sli_layer_begin(cairo, "title-block");
+    if (m->sheet.paper) sli_sheet_paint(cairo, &m->sheet, &m->page);
     return SL_OK;
 }
 
@@ -245,25 +290,47 @@ sl_status sli_page_write(sl_context *context, const sli_page_parts *parts, doubl
                          const sli_paper_kind *kind, const char *path) {
     measured m = {.parts = parts, .page = sli_page_of_width(width)};
     sli_paper paper;
+    if (parts->scene && parts->scene->options.sheet.paper)
+        SL_TRY(sli_sheet_read(context, parts->scene, parts->title, path, &m.sheet));
     SL_TRY(sli_page_measure(context, path, lay_out_parts, &m));
-    SL_TRY(sli_paper_open(context, kind, path, (int)m.page.width, (int)m.page.height, parts->title,
-                          &paper));
-    return sli_paper_close(context, &paper, draw_page(context, paper.cairo, parts, &m.page));
+    SL_TRY(sli_paper_open(context, kind, path, m.page.width, m.page.height, m.sheet.paper != NULL,
+                          parts->title, &paper));
+    return sli_paper_close(context, &paper, draw_page(context, paper.cairo, &m));
 }
 
-sl_status sli_page_write_map(sl_context *context, const sl_baked *baked,
-                             const sl_draw_options *options, unsigned layers, sl_scene *scene,
-                             sli_page_parts parts, const char *path) {
+/// Onto another page, without a ground of its own.
+static sl_status draw_onto(sl_context *context, const sli_page_parts *parts, double width,
+                           sli_page_target *target) {
+    sli_page page = sli_page_of_width(width);
+    parts->set(target->cairo, parts->what, &page, false);
+    target->height = page.height;
+    target->frame = page.frame;
+    if (!target->paint) return SL_OK;
+    cairo_save(target->cairo);
+    cairo_translate(target->cairo, target->at.x, target->at.y);
+    const sl_status status = parts->draw_plan(context, target->cairo, parts->what, &page.frame);
+    parts->set(target->cairo, parts->what, &page, true);
+    cairo_restore(target->cairo);
+    return status;
+}
+
+sl_status sli_page_draw_map(sl_context *context, const sl_baked *baked,
+                            const sl_draw_options *options, unsigned layers, sl_scene *scene,
+                            sli_page_parts parts, sli_page_target *target) {
     const sli_paper_kind *kind = &kinds[0];
-    SL_TRY(sli_paper_kind_of(context, path, &kind));
+    if (target->path) SL_TRY(sli_paper_kind_of(context, target->path, &kind));
     SL_TRY(sli_page_check_width(context, options->width));
     sl_draw_options plain = *options;
     plain.layers = layers;
     plain.cell = SL_NO_CELL;
+    if (plain.sheet.paper) plain.title = NULL; // it stands in the title block
     SL_TRY(sli_scene_make(context, baked, &plain, NULL, scene));
+    parts.scene = scene;
     parts.ground = scene->palette.page;
     parts.title = options->title;
-    const sl_status status = sli_page_write(context, &parts, options->width, kind, path);
+    const sl_status status =
+        target->path ? sli_page_write(context, &parts, options->width, kind, target->path)
+                     : draw_onto(context, &parts, options->width, target);
     sli_scene_clear(context, scene);
     return status;
 }
@@ -285,7 +352,7 @@ sl_status sl_draw_page_file(sl_context *context, const char *path, int width, in
     const sli_paper_kind *kind = &kinds[0];
     sli_paper paper;
     SL_TRY(sli_paper_kind_of(context, path, &kind));
-    SL_TRY(sli_paper_open(context, kind, path, width, height, title, &paper));
+    SL_TRY(sli_paper_open(context, kind, path, width, height, false, title, &paper));
     draw(user, paper.cairo);
     return sli_paper_close(context, &paper, SL_OK);
 }

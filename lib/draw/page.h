@@ -4,6 +4,7 @@
 #define SL_DRAW_PAGE_H
 
 #include "draw/draw_plan.h"
+#include "draw/live.h"
 #include "sightline/support.h"
 
 // --- files
@@ -20,14 +21,17 @@ typedef struct sli_paper {
     cairo_t *cairo; ///< to draw with
     sl_output output;
     sl_context *context;
-    SL_ARRAY(char) text; ///< what is kept back until the end (SVG)
-    bool out_of_memory;  ///< while that was being kept
-    bool stopped;        ///< the context's hook said so while the file was written
+    bool to_scale;        ///< lengths are points, and layers and texts are kept (live.h)
+    sli_text_buffer text; ///< what is kept back until the end (SVG, sheets)
+    bool out_of_memory;   ///< while that was being kept
+    bool stopped;         ///< the context's hook said so while the file was written
 } sli_paper;
 
 /// A blank page. `title` (NULL for none) goes into the file's description if the kind has one.
+/// `to_scale` as in sli_paper.
 sl_status sli_paper_open(sl_context *context, const sli_paper_kind *kind, const char *path,
-                         int width, int height, const char *title, sli_paper *out);
+                         double width, double height, bool to_scale, const char *title,
+                         sli_paper *out);
 
 /// Writes the file if `status` is SL_OK and cairo did not fail; else leaves nothing.
 sl_status sli_paper_close(sl_context *context, sli_paper *paper, sl_status status);
@@ -40,9 +44,10 @@ typedef struct sli_page {
     double margin; ///< left, right and above
     double inner;  ///< the width between the margins
     double text; ///< size of the text, which shrinks less than a page does: small ones are readable
-    sl_frame frame; ///< of the plan
-    double bottom;  ///< of the place of the plan, which may be lower than its frame
-    double key;     ///< the top of what stands below the plan
+    double plan_scale; ///< of the frame; 0: the plan is as large as it can be
+    sl_frame frame;    ///< of the plan
+    double bottom;     ///< of the place of the plan, which may be lower than its frame
+    double key;        ///< the top of what stands below the plan
 } sli_page;
 
 /// SL_BAD_ARGUMENT for a width that no page can have.
@@ -79,19 +84,35 @@ typedef struct sli_page_parts {
     sl_status (*draw_plan)(sl_context *context, cairo_t *cairo, const void *what,
                            const sl_frame *frame);
     const void *what;
+    const sl_scene *scene; ///< whose options may ask for a sheet of paper; NULL: none does
     sl_colour ground;
-    const char *title; ///< in the file's description, NULL for none
+    const char *title; ///< in the file's description and the title block, NULL for none
 } sli_page_parts;
 
 /// Measures, draws and writes a page of that width.
 sl_status sli_page_write(sl_context *context, const sli_page_parts *parts, double width,
                          const sli_paper_kind *kind, const char *path);
 
-/// Writes a page about the walls of a map, `layers` of it. `scene` is the picture's own, and is
-/// made and cleared here; the ground and the title of `parts` come from it and from the options.
-sl_status sli_page_write_map(sl_context *context, const sl_baked *baked,
-                             const sl_draw_options *options, unsigned layers, sl_scene *scene,
-                             sli_page_parts parts, const char *path);
+/// Where a page about a map goes: into a file, or onto another page.
+typedef struct sli_page_target {
+    const char *path; ///< of the file; NULL: onto the page of `cairo`
+    cairo_t *cairo;
+    sl_point at;    ///< of its upper left corner on that page
+    bool paint;     ///< false only measures
+    double height;  ///< set to that of the page
+    sl_frame frame; ///< set to that of the plan on the page, for pages onto others
+} sli_page_target;
+
+/// Draws a page about the walls of a map, `layers` of it. `scene` is the picture's own, and is made
+/// and cleared here; the ground and the title of `parts` come from it and from the options.
+sl_status sli_page_draw_map(sl_context *context, const sl_baked *baked,
+                            const sl_draw_options *options, unsigned layers, sl_scene *scene,
+                            sli_page_parts parts, sli_page_target *target);
+
+/// sl_draw_field_file and sl_draw_lines_file, or the plan with its starts where both are NULL.
+sl_status sli_draw_picture(sl_context *context, const sl_baked *baked, const sl_field *field,
+                           const sl_drawn_lines *lines, const sl_draw_options *options,
+                           sli_page_target *target);
 
 /// A text below a picture, in lines as the width allows. Returns the height; 0 for NULL. Draws only
 /// with `paint`.

@@ -125,8 +125,23 @@ static void check(const char *line) {
 
 #define MAPS SIGHTLINE_SOURCE_DIR "/maps/"
 
+/// Two storeys of one small plan.
+static void write_building(void) {
+    FILE *plan = fopen("no_memory.map", "w"), *building = fopen("no_memory.storeys", "w");
+    assert_true(plan && building);
+    fputs("sightline 1\nwalls 0 0 4 0 4 3 0 3 0 0\nwall 2 0 2 2\nstart 1 1 0\n", plan);
+    fputs("storeys 1\nstorey a no_memory.map\nstorey b no_memory.map\nlink up a 1,1 b 1,1 3\n",
+          building);
+    assert_int_equal(fclose(plan), 0);
+    assert_int_equal(fclose(building), 0);
+}
+
 static void test_commands_leave_nothing_where_memory_fails(void **state) {
     (void)state;
+    write_building();
+    check("path no_memory.storeys --from a:3,1 --to b:3,1 --json");
+    check("vga no_memory.storeys --grid 1 --from a:3,1 --threads 1 -o no_memory.csv --quiet");
+    check("rooms no_memory.map --json --from 1,1 --grid 1 --threads 1");
     check("bake --json --threads 1 -o no_memory.slv " MAPS "effects/chambers.map");
     check("info --json no_memory.slv");
     check("eye --json --at 2,5 --object 1,1,2,2 no_memory.slv");

@@ -23,7 +23,7 @@ VALUES = {"MAP": "flat.map", "IN": "flat.map", "MAP|FILE.slv": "flat.map", "FILE
           "COMMAND": "info", "LIST": "list.txt"}
 OUTPUTS = {"FILE.slv": "out.slv", "PICTURE": "out.png", "OUT": "out.map",
            "OUT.map": "out.map", "OUT.wad": "out.wad",
-           "FILE": "out.json", "TABLE": "out.geojson", "PICTURE|TABLE": "out.geojson",
+           "FILE": "out.json", "OUT.pdf": "out.pdf", "TABLE": "out.geojson", "PICTURE|TABLE": "out.geojson",
            "FILE.csv": "out.csv", "DIR": "out"}
 # What makes a command that computes for long short, where nothing else is said.
 SHORT = {"viewcells": {"--samples": "1000", "--evaluate": "1000"}, "walk": {"--steps": "20"}}

@@ -46,7 +46,7 @@ SHARED = ("runtime/parts/box_envelope.h", "runtime/parts/box_sector.h",
           "runtime/parts/box_sieve.h", "runtime/parts/pairs.h", "runtime/sightline_runtime.h")
 # Public headers that are not named after their folder.
 HEADERS = {"context": "base", "earth": "geometry", "measures": "base", "support": "base", "version": "base",
-           "import": "map",
+           "import": "map", "storeys": "map",
            "faults": "space/faults", "outline": "space",
            "dual": "stab", "glpk": "stab", "solvers": "stab",
            "doors": "cell_to_cell", "explain": "cell_to_cell", "pvs": "cell_to_cell",

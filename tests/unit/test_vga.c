@@ -130,6 +130,37 @@ static void rows_are_read_as_written(void **state) {
     sl_context_destroy(context);
 }
 
+/// Graphs of random pairs, one of them empty, as one: pairs are those of each alone.
+static void joined_graphs_keep_their_pairs(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    static const uint32_t counts[4] = {70, 0, 1, 64};
+    sl_bits rows[4][BIT_POINTS][4];
+    sl_vga_graph graphs[4] = {0}, all;
+    sl_random random = {3};
+    uint64_t edges = 0;
+    memset(rows, 0, sizeof rows);
+    for (int g = 0; g < 4; g++) {
+        for (uint32_t p = 0; p < counts[g]; p++)
+            for (uint32_t q = 0; q < counts[g]; q++)
+                if (p != q && sl_random_below(&random, 3) == 0) sl_bits_add(rows[g][p], q);
+        make_of_bits(context, rows[g], counts[g], &graphs[g]);
+        edges += graphs[g].edges;
+    }
+    assert_ok(context, sl_vga_graph_join(context, graphs, 4, &all));
+    assert_true(all.count == 135 && all.edges == edges && all.directed);
+    for (uint32_t p = 0; p < all.count; p++)
+        for (uint32_t q = 0; q < all.count; q++) {
+            const uint32_t first = p < 70 ? 0 : p < 71 ? 70 : 71, g = p < 70 ? 0 : p < 71 ? 2 : 3;
+            const bool same = q >= first && q - first < counts[g];
+            assert_int_equal(sl_vga_sees(&all, p, q),
+                             same && sl_bits_has(rows[g][p - first], q - first));
+        }
+    for (int g = 0; g < 4; g++) sl_vga_graph_destroy(context, &graphs[g]);
+    sl_vga_graph_destroy(context, &all);
+    sl_context_destroy(context);
+}
+
 /// The sizes of parts beside sets of points that are joined pair by pair; random directed graphs,
 /// with links.
 static void parts_are_those_of_all_pairs(void **state) {
@@ -929,6 +960,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pairs_are_those_of_single_sightlines),
         cmocka_unit_test(rows_are_read_as_written),
+        cmocka_unit_test(joined_graphs_keep_their_pairs),
         cmocka_unit_test(parts_are_those_of_all_pairs),
         cmocka_unit_test(small_parts_do_not_set_the_scale),
         cmocka_unit_test(oblique_pairs_too),

@@ -458,16 +458,33 @@ static sl_status check_apart(const parsing *p, size_t output, const char *input)
     return SL_OK;
 }
 
-/// SL_BAD_ARGUMENT where an option is given without the one that it belongs to.
+/// Whether an option is one of `names`, which have spaces between.
+static bool is_among(const option_spec *option, const char *names) {
+    const size_t length = option->name ? strlen(option->name) : 0;
+    for (const char *at = names; length && *at; at += strspn(at, " ")) {
+        const size_t size = strcspn(at, " ");
+        if (size == length && memcmp(at, option->name, size) == 0) return true;
+        at += size;
+    }
+    return false;
+}
+
+/// SL_BAD_ARGUMENT where an option is given without one that it belongs to. The message names the
+/// first of these.
 static sl_status check_useful(const parsing *p) {
     for (size_t i = 0; i < p->count; i++) {
         const option_spec *option = &p->options[i];
         char label[LABEL];
         if (!p->arguments[i] || !option->without) continue;
-        size_t k = 0;
-        while (strcmp(p->options[k].name, option->without) != 0) k++;
-        if (p->arguments[k]) continue;
-        write_label(&p->options[k], label);
+        bool useful = false;
+        size_t first = p->count;
+        for (size_t k = 0; k < p->count; k++) {
+            if (!is_among(&p->options[k], option->without)) continue;
+            if (first == p->count) first = k;
+            useful |= p->arguments[k] != NULL;
+        }
+        if (useful) continue;
+        write_label(&p->options[first], label);
         return sl_fail(p->context, SL_BAD_ARGUMENT, "--%s is of no use without %s", option->name,
                        label);
     }

@@ -58,7 +58,7 @@ typedef struct option_spec {
     const char *needs;  ///< says what is needed; NULL: as least, most and over_0 say
     output_check check;
     const char *endings; ///< ".map", ".map .txt"; for CHECK_FILE, NULL: any
-    const char *without; ///< the name of another option; this one is of no use without it
+    const char *without; ///< names of other options; this one is of no use without one of them
     bool is_input;       ///< it names a file to read, which no output may replace
 
     const option_table *group; ///< instead of all this: a group's options stand here

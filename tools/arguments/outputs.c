@@ -140,6 +140,7 @@ sl_status output_choose_export(sl_context *context, const name_table *formats, c
 }
 
 option_table picture_option_table(sl_draw_options *drawing, const char *output, bool titled) {
+    const bool rare = strcmp(output, "output") != 0; // a command that does more than draw
     const option_spec options[] = {
         {"width", 0, "PX", "width of the picture: 64 to 20000 pixels or points",
          .number = &drawing->width, .least = SL_DRAW_WIDTH_MIN, .most = SL_DRAW_WIDTH_MAX,
@@ -147,9 +148,21 @@ option_table picture_option_table(sl_draw_options *drawing, const char *output, 
         {"dark", 0, NULL, "draw light on dark", .flag = &drawing->dark, .without = output},
         {"title", 0, "TEXT", "write a line over the picture", .text = &drawing->title,
          .without = output},
+        {"paper", 0, "A3",
+         "draw on a sheet of paper to scale, A4 to A0, with a title block: .pdf or .svg",
+         .text = &drawing->sheet.paper, .topic = "on paper", .without = output, .rare = rare},
+        {"plot-scale", 0, "1:N",
+         "with --paper: draw the plan at 1:N, as 1:100 (default: the largest round scale that "
+         "fits)",
+         .text = &drawing->sheet.scale, .topic = "on paper", .without = "paper", .rare = rare},
+        {"north", 0, "X,Y",
+         "with --paper: draw an arrow to north, which is this direction in the map, as 0,1",
+         .point = &drawing->sheet.north, .topic = "on paper", .without = "paper", .rare = rare},
+        {"note", 0, "TEXT", "with --paper: write a line under the title",
+         .text = &drawing->sheet.note, .topic = "on paper", .without = "paper", .rare = rare},
     };
     option_table table = {0};
-    option_table_add(&table, options, titled ? 3 : 2);
+    option_table_add(&table, options, titled ? 7 : 2);
     return table;
 }
 

@@ -50,8 +50,8 @@ bool output_is_plain_file(const char *path);
 sl_status output_check_apart(sl_context *context, const char *input, const char *option,
                              const char *output);
 
-/// The options --width, --dark and, if `titled`, --title, of the picture that the option `output`
-/// names.
+/// The options --width, --dark and, if `titled`, --title and those of paper, of the picture that
+/// the option `output` names; of several with spaces between, any.
 option_table picture_option_table(sl_draw_options *drawing, const char *output, bool titled);
 
 /// Several files in one folder, all or none. They are written into a temporary folder and moved to

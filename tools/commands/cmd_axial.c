@@ -112,7 +112,10 @@ static sl_status measure(sl_context *context, const axial_plan *plan, axial_work
     w->measures = sl_alloc_array(context, w->lines.count, sizeof *w->measures);
     if (!w->measures) return SL_NO_MEMORY;
     w->table.lines = w->lines.lines;
-    w->table.earth = plan->lines == LINES_DRAWN ? w->drawn.earth : w->baked.map.earth;
+    const sl_map *map = plan->lines == LINES_DRAWN ? &w->drawn : &w->baked.map;
+    w->table.earth = map->earth;
+    w->table.unit = map->unit;
+    w->table.layer = "AXIAL";
     w->table.count = w->lines.count;
     for (size_t i = 0; i < count; i++) {
         sl_axial_options options = {.threads = plan->threads};
@@ -190,9 +193,10 @@ sl_status cmd_axial(command_console *console, int argc, char **argv) {
          "drawn: the lines of the file",
          .choice = &plan.lines, .names = lines, .given = &plan.lines_given},
         {"output", 'o', "TABLE",
-         "where the table goes: .csv, or .geojson for a GIS (default: stdout, or nowhere if there "
+         "where the table goes: .csv, .geojson for a GIS, or .dxf for the lines alone (default: "
+         "stdout, or nowhere if there "
          "is a --picture)",
-         .text = &plan.output, .check = CHECK_FILE, .endings = ".csv .txt .geojson"},
+         .text = &plan.output, .check = CHECK_FILE, .endings = ".csv .txt .geojson .dxf"},
         {"picture", 0, "PICTURE", "draw the lines: .png, .svg or .pdf", .text = &plan.picture,
          .check = CHECK_PICTURE},
         {"measure", 0, "NAME",

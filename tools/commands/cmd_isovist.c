@@ -14,6 +14,7 @@
 #include "studies/isovist.h"
 #include "studies/isovist_set.h"
 #include "studies/isovist_union.h"
+#include "studies/isovist_walk.h"
 #include "studies/places.h"
 #include "system/built.h"
 
@@ -23,6 +24,7 @@
 
 typedef struct isovist_plan {
     const char *input, *path, *points, *see, *output, *picture;
+    const char *frames, *chart; ///< of a walk along a path
     map_pipeline pipeline;
     door_choice doors;
     within_plan within;
@@ -73,10 +75,22 @@ static sl_status make_plan(sl_context *context, isovist_plan *p) {
                        "--see is for a path: give --along or --from-line");
     if (p->see && p->output && name_ends_with(p->output, ".geojson"))
         return sl_fail(context, SL_BAD_ARGUMENT, "--see makes a table: name it .csv");
+    if (p->output && name_ends_with(p->output, ".dxf") && (sets || p->together))
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "-o %s: a drawing has the regions of single viewpoints; --union, lines and "
+                       "areas make .csv or .geojson",
+                       p->output);
     if (p->step > 0 && !p->path)
         return sl_fail(context, SL_BAD_ARGUMENT, "--step is for --path, which is not given");
-    if (p->measure_given && !(p->picture && grid))
-        return sl_fail(context, SL_BAD_ARGUMENT, "--measure is for the --picture of a grid");
+    if ((p->frames || p->chart) && !p->path)
+        return sl_fail(context, SL_BAD_ARGUMENT, "--%s is for --path, which is not given",
+                       p->frames ? "frames" : "chart");
+    if ((p->frames || p->chart) && p->together)
+        return sl_fail(context, SL_BAD_ARGUMENT, "--union goes without --frames and --chart");
+    if (p->frames) SL_TRY(built_need_pictures(context));
+    if (p->measure_given && !(p->picture && grid) && !p->chart)
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "--measure is for the --picture of a grid, and for --chart");
     if (p->scale_given && !(p->picture && grid))
         return sl_fail(context, SL_BAD_ARGUMENT, "--scale is for the --picture of a grid");
     if (p->scale_given && !(p->scale.x < p->scale.y))
@@ -349,6 +363,7 @@ static sl_status make_scene(sl_context *context, const isovist_plan *plan, isovi
     SL_TRY(sl_query_set_mirror_depth(context, w->query, plan->mirror_depth));
     w->scene = (isovist_scene){.query = w->query,
                                .earth = w->baked.map.earth,
+                               .unit = w->baked.map.unit,
                                .mirrored = w->baked.map.mirror_count && !plan->together,
                                .range = plan->range};
     SL_TRY(sl_query_space(context, w->query, &w->scene.space, NULL));
@@ -414,6 +429,11 @@ static sl_status work(command_console *console, isovist_plan *plan, isovist_work
     SL_TRY(gather_eyes(context, plan, w));
     SL_TRY(make_scene(context, plan, w));
     SL_TRY(plan->together ? join_regions(context, w) : measure(context, plan, w));
+    const isovist_walk walk = {&w->baked, &w->scene, &w->eyes, plan->step};
+    if (plan->chart)
+        SL_TRY(isovist_walk_chart(context, &walk, w->isovists, plan->measure, &plan->drawing,
+                                  plan->chart));
+    if (plan->frames) SL_TRY(isovist_walk_frames(context, &walk, &plan->drawing, plan->frames));
     if (plan->picture)
         SL_TRY(w->eyes.columns ? draw_grid(context, plan, w) : draw_points(context, plan, w));
     progress_line_clear(&console->line);
@@ -437,7 +457,7 @@ sl_status cmd_isovist(command_console *console, int argc, char **argv) {
                          .mirror_depth = 1,
                          .drawing = built_draw_options()};
     const option_table pipeline = pipeline_option_table(&plan.pipeline);
-    const option_table picture = picture_option_table(&plan.drawing, "picture", true);
+    const option_table picture = picture_option_table(&plan.drawing, "picture frames chart", true);
     const option_table doors = door_option_table(&plan.doors);
     const option_table within = within_option_table(&plan.within, WITHIN_GRID);
     const option_spec options[] = {
@@ -445,8 +465,9 @@ sl_status cmd_isovist(command_console *console, int argc, char **argv) {
         {"grid", 0, "STEP", "look from all points of a grid that are inside", .number = &plan.grid,
          .over_0 = true},
         {"output", 'o', "TABLE",
-         "the table: .csv, or .geojson with the regions (default: CSV to standard output)",
-         .text = &plan.output, .check = CHECK_TABLE, .endings = ".geojson"},
+         "the table: .csv, .geojson with the regions, or .dxf with the regions alone (default: CSV "
+         "to standard output)",
+         .text = &plan.output, .check = CHECK_TABLE, .endings = ".geojson .dxf"},
         {"picture", 0, "PICTURE", "draw the regions, or a heat map of the grid: .png, .svg or .pdf",
          .text = &plan.picture, .check = CHECK_PICTURE},
         {"measure", 0, "NAME", "the measure of the heat map (default: area)",
@@ -486,6 +507,13 @@ sl_status cmd_isovist(command_console *console, int argc, char **argv) {
          .text = &plan.see, .rare = true},
         {"step", 0, "STEP", "with --path: look from a point every STEP along it",
          .number = &plan.step, .over_0 = true, .rare = true},
+        {"frames", 0, "DIR",
+         "with --path: draw what is seen from each point, as frames of a film, frame-00001.png and "
+         "so on; a note says how ffmpeg joins them",
+         .text = &plan.frames, .without = "path", .rare = true},
+        {"chart", 0, "PICTURE",
+         "with --path: draw the --measure over the length of the way: .png, .svg or .pdf",
+         .text = &plan.chart, .check = CHECK_PICTURE, .without = "path", .rare = true},
         {"points", 0, "CSV",
          "look from the viewpoints of a table: x,y or x,y,heading,fov,range; its first line "
          "may name the columns (see sightline cover)",

@@ -7,6 +7,7 @@
 #include "sightline/draw.h"
 #include "sightline/path.h"
 #include "sightline/support.h"
+#include "studies/building_path.h"
 #include "studies/distance_map.h"
 #include "studies/isovist.h"
 #include "system/built.h"
@@ -404,6 +405,32 @@ static sl_status work(command_console *console, path_plan *plan, path_work *w) {
     return plan->pairs ? find_many(console, plan, w) : find_one(console, plan, w);
 }
 
+/// A way through a building. What is for one plan alone is refused.
+static sl_status walk_building(command_console *console, path_plan *plan) {
+    const char *alone = plan->pairs                                ? "pairs"
+                        : plan->distances || !isnan(plan->audible) ? "distances and --audible"
+                        : plan->grid > 0                           ? "grid"
+                        : !isnan(plan->loss)                       ? "loss"
+                        : plan->doors.shut                         ? "shut"
+                        : plan->doors.open                         ? "open"
+                        : plan->picture                            ? "picture"
+                                                                   : NULL;
+    if (alone)
+        return sl_fail(console->context, SL_BAD_ARGUMENT,
+                       "%s: a building goes without --%s, which is for one plan", plan->input,
+                       alone);
+    if (!plan->from_text || !plan->to_text)
+        return sl_fail(console->context, SL_BAD_ARGUMENT, "--%s is missing: where the way %s",
+                       plan->from_text ? "to" : "from", plan->from_text ? "ends" : "begins");
+    return building_path(console, &(building_path_plan){.input = plan->input,
+                                                        .from = plan->from_text,
+                                                        .to = plan->to_text,
+                                                        .output = plan->output,
+                                                        .pipeline = &plan->pipeline,
+                                                        .radius = plan->radius,
+                                                        .json = plan->json});
+}
+
 sl_status cmd_path(command_console *console, int argc, char **argv) {
     path_plan plan = {.pipeline = pipeline_default(),
                       .drawing = built_draw_options(),
@@ -414,8 +441,9 @@ sl_status cmd_path(command_console *console, int argc, char **argv) {
                        picture = picture_option_table(&plan.drawing, "picture", true),
                        doors = door_option_table(&plan.doors);
     const option_spec options[] = {
-        {"from", 0, "X,Y", "where the way begins", .point = &plan.from, .text = &plan.from_text},
-        {"to", 0, "X,Y", "where it ends", .point = &plan.to, .text = &plan.to_text},
+        {"from", 0, "X,Y", "where the way begins; in a building STOREY:X,Y",
+         .text = &plan.from_text},
+        {"to", 0, "X,Y", "where it ends", .text = &plan.to_text},
         {"pairs", 0, "CSV",
          "a table of ways, from_x,from_y,to_x,to_y: its first line may name the columns",
          .text = &plan.pairs, .is_input = true},
@@ -459,10 +487,12 @@ sl_status cmd_path(command_console *console, int argc, char **argv) {
         .what = "Finds the shortest way among the walls between two points, for a point or for a "
                 "walker with a radius. It turns at ends of walls, and it does not pass between "
                 "walls that meet in "
-                "a point. Shut doors block it, and one-way glass from one side. The exit status is "
-                "3 if there is no way.",
+                "a point. Shut doors block it, and one-way glass from one side. In a building (a "
+                "file of storeys, .storeys) it goes over links, too. The exit status is 3 if there "
+                "is no way.",
         .examples = "  sightline path office.map --from 3,3 --to 53,20\n"
                     "  sightline path office.map --from 3,3 --to 53,20 --picture way.png\n"
+                    "  sightline path house.storeys --from ground:3,4 --to first:8,2\n"
                     "  sightline path office.map --pairs desks.csv -o lengths.csv\n"
                     "  sightline path office.map --from 3,3 --to 53,20 --radius 0.3\n"
                     "  sightline path office.map --from 3,3 --audible 20 --loss 5\n"
@@ -474,6 +504,9 @@ sl_status cmd_path(command_console *console, int argc, char **argv) {
     bool helped;
     SL_TRY(options_parse(console, &usage, argc, argv, &plan.input, &helped));
     if (helped) return SL_OK;
+    if (input_is_building(plan.input)) return walk_building(console, &plan);
+    if (plan.from_text) SL_TRY(read_point(console->context, "--from", plan.from_text, &plan.from));
+    if (plan.to_text) SL_TRY(read_point(console->context, "--to", plan.to_text, &plan.to));
     path_work w = {0};
     const sl_status status = work(console, &plan, &w);
     sl_route_destroy(console->context, &w.route);

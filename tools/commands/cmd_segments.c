@@ -39,6 +39,8 @@ static sl_status read_segments(sl_context *context, const segments_plan *plan, s
         w->segments[i] = (sl_segment){w->map.walls[i].a, w->map.walls[i].b};
     w->table.lines = w->segments;
     w->table.earth = w->map.earth;
+    w->table.unit = w->map.unit;
+    w->table.layer = "SEGMENTS";
     w->table.count = (uint32_t)count;
     return SL_OK;
 }
@@ -151,9 +153,10 @@ sl_status cmd_segments(command_console *console, int argc, char **argv) {
     const option_table picture = picture_option_table(&plan.drawing, "picture", true);
     const option_spec options[] = {
         {"output", 'o', "TABLE",
-         "where the table goes: .csv, or .geojson for a GIS (default: stdout, or nowhere if there "
+         "where the table goes: .csv, .geojson for a GIS, or .dxf for the lines alone (default: "
+         "stdout, or nowhere if there "
          "is a --picture)",
-         .text = &plan.output, .check = CHECK_FILE, .endings = ".csv .txt .geojson"},
+         .text = &plan.output, .check = CHECK_FILE, .endings = ".csv .txt .geojson .dxf"},
         {"picture", 0, "PICTURE", "draw the network: .png, .svg or .pdf", .text = &plan.picture,
          .check = CHECK_PICTURE},
         {"measure", 0, "NAME",

@@ -24,6 +24,8 @@ sl_status cmd_place(command_console *console, int argc, char **argv);
 sl_status cmd_path(command_console *console, int argc, char **argv);
 sl_status cmd_reject(command_console *console, int argc, char **argv);
 sl_status cmd_regions(command_console *console, int argc, char **argv);
+sl_status cmd_report(command_console *console, int argc, char **argv);
+sl_status cmd_rooms(command_console *console, int argc, char **argv);
 sl_status cmd_segments(command_console *console, int argc, char **argv);
 sl_status cmd_vga(command_console *console, int argc, char **argv);
 sl_status cmd_viewcells(command_console *console, int argc, char **argv);

@@ -35,6 +35,8 @@ static const command commands[] = {
     {"vga", "compute visibility graph analysis: integration, depth, control", cmd_vga, NULL},
     {"axial", "find axial lines and their measures", cmd_axial, NULL},
     {"segments", "compute angular segment analysis of a street network", cmd_segments, NULL},
+    {"rooms", "list the rooms of a plan, and what is seen of each", cmd_rooms, NULL},
+    {"report", "write a report of a plan as a PDF: measures, heat maps, method", built_run, NULL},
     {"explain", "show why a cell does or does not see another", cmd_explain, NULL},
     {"batch", "run a command for many plans: a table with a row for each", cmd_batch, "studies"},
     {"compare", "run every method on one map: accuracy against time", cmd_compare, NULL},

@@ -2,7 +2,7 @@
 #include "commands/commands.h"
 #include "system/built.h"
 
-static const built_command commands[] = {{"draw", cmd_draw}, {0}};
+static const built_command commands[] = {{"draw", cmd_draw}, {"report", cmd_report}, {0}};
 
 static const built_draw draw = {
     .options_default = sl_draw_options_default,
@@ -16,6 +16,7 @@ static const built_draw draw = {
     .patches = sl_draw_patches_file,
     .lines = sl_draw_lines_file,
     .chart = sl_draw_chart_file,
+    .document = sl_draw_document_file,
 };
 
 const built_part with_draw = {.commands = commands, .draw = &draw};

@@ -9,6 +9,7 @@ static const built_io io = {
     .layers_dxf = sl_drawing_layers_dxf,
     .layers_svg = sl_drawing_layers_svg,
     .layers_destroy = sl_drawing_layers_destroy,
+    .polylines_dxf = sl_polylines_write_dxf,
     .image_read = sl_image_read,
     .image_destroy = sl_image_destroy,
 };

@@ -28,6 +28,17 @@ void csv_put(FILE *out, double value, const char *after) {
     fputs(after, out);
 }
 
+void csv_put_text(FILE *out, const char *text, const char *after) {
+    const bool quoted = text[strcspn(text, ",\"\r\n")] || *text == ' ' || *text == '#';
+    if (quoted) putc('"', out);
+    for (; *text; text++) {
+        if (*text == '"') putc('"', out);
+        putc(strchr("\r\n", *text) ? ' ' : *text, out);
+    }
+    if (quoted) putc('"', out);
+    fputs(after, out);
+}
+
 static sl_status put_rows(sl_context *context, const field_rows *rows, FILE *out) {
     table_field fields[FIELDS_MOST];
     for (size_t row = 0; row < rows->count; row++) {
@@ -37,7 +48,7 @@ static sl_status put_rows(sl_context *context, const field_rows *rows, FILE *out
             fprintf(out, "%s%s", fields[i].key, i + 1 < count ? "," : "\n");
         for (size_t i = 0; i < count; i++) {
             const table_field *f = &fields[i];
-            if (f->kind == FIELD_TEXT) fputs(f->text, out);
+            if (f->kind == FIELD_TEXT) csv_put_text(out, f->text, "");
             if (f->kind == FIELD_REAL) csv_put(out, f->real, "");
             if (f->kind == FIELD_COUNT) fprintf(out, "%" PRIu64, f->count);
             putc(i + 1 < count ? ',' : '\n', out);

@@ -83,7 +83,21 @@ static sl_status write_geojson(sl_context *context, const line_table *t, FILE *f
     return SL_OK;
 }
 
+/// Lines alone: a drawing has no place for measures.
+static sl_status write_dxf(sl_context *context, const line_table *t, const char *path) {
+    const built_io *io;
+    SL_TRY(built_need_io(context, path, &io));
+    sl_polyline *lines = sl_alloc_array(context, t->count, sizeof *lines);
+    if (!lines) return SL_NO_MEMORY;
+    for (uint32_t i = 0; i < t->count; i++)
+        lines[i] = (sl_polyline){.layer = t->layer, .points = &t->lines[i].a, .count = 2};
+    const sl_status status = io->polylines_dxf(context, lines, t->count, t->unit, path);
+    sl_free(context, lines);
+    return status;
+}
+
 sl_status line_table_write(sl_context *context, const line_table *table, const char *path) {
+    if (name_ends_with(path, ".dxf")) return write_dxf(context, table, path);
     sl_output output;
     SL_TRY(sl_output_open(context, path, &output));
     return sl_output_close(context, &output,

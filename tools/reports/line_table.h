@@ -19,7 +19,9 @@ typedef struct line_column {
 typedef struct line_table {
     const sl_segment *lines;
     uint32_t count;
-    sl_earth earth; ///< where the map lies (sl_map.earth)
+    sl_earth earth;    ///< where the map lies (sl_map.earth)
+    const char *unit;  ///< of lengths (sl_map.unit)
+    const char *layer; ///< of the lines in a drawing
     SL_ARRAY(line_column) columns;
 } line_table;
 
@@ -34,7 +36,8 @@ sl_status line_table_add(sl_context *context, line_table *table, sl_analysis ana
 /// The first column of a measure.
 const line_column *line_table_column(const line_table *table, size_t measure);
 
-/// GeoJSON where the name ends so, else CSV with the columns x1, y1, x2, y2 first. "-" is stdout.
+/// GeoJSON or DXF where the name ends so, else CSV with the columns x1, y1, x2, y2 first. "-" is
+/// stdout.
 sl_status line_table_write(sl_context *context, const line_table *table, const char *path);
 
 /// Prints mean and deviation of each column, and the ten highest values of one.

@@ -1,23 +1,12 @@
 /// Tables of plans as CSV, written and read back.
 #include "studies/batch.h"
 
+#include "reports/fields.h"
+
 #include <stdio.h>
 #include <string.h>
 
 // --- writing
-
-/// Quotes stand around a field that needs them. It stays on one line, so that line numbers are
-/// those of rows.
-static void put_field(FILE *out, const char *text, const char *after) {
-    const bool quoted = text[strcspn(text, ",\"\r\n")] || *text == ' ' || *text == '#';
-    if (quoted) putc('"', out);
-    for (; *text; text++) {
-        if (*text == '"') putc('"', out);
-        putc(strchr("\r\n", *text) ? ' ' : *text, out);
-    }
-    if (quoted) putc('"', out);
-    fputs(after, out);
-}
 
 typedef SL_ARRAY(const char *) name_list;
 
@@ -38,11 +27,11 @@ static sl_status list_columns(sl_context *context, const batch_row *rows, size_t
 
 static void put_rows(FILE *out, const batch_row *rows, size_t count, const name_list *names) {
     for (size_t n = 0; n < names->count; n++)
-        put_field(out, names->items[n], n + 1 < names->count ? "," : "\n");
+        csv_put_text(out, names->items[n], n + 1 < names->count ? "," : "\n");
     for (size_t i = 0; i < count; i++) {
         for (size_t n = 0; rows[i].cells.count && n < names->count; n++) {
             const char *text = batch_row_at(&rows[i], names->items[n]);
-            put_field(out, text ? text : "", n + 1 < names->count ? "," : "\n");
+            csv_put_text(out, text ? text : "", n + 1 < names->count ? "," : "\n");
         }
     }
 }

@@ -6,6 +6,7 @@
 #include "reports/fields.h"
 #include "sightline/support.h"
 #include "studies/eye_run.h"
+#include "system/built.h"
 
 #include <math.h>
 #include <stdint.h>
@@ -296,10 +297,41 @@ static sl_status write_places(sl_context *context, const isovist_scene *scene,
     return status;
 }
 
+/// What is seen by mirror is on a layer of its own.
+static sl_status write_dxf(sl_context *context, const isovist_scene *scene, const eye_places *eyes,
+                           const char *path) {
+    const built_io *io;
+    SL_TRY(built_need_io(context, path, &io));
+    seen_parts parts = {0};
+    SL_ARRAY(sl_polyline) lines = {0};
+    sl_mirrored_region region = {0};
+    sl_status status = SL_OK;
+    for (size_t i = 0; i < eyes->list.count && status == SL_OK; i++) {
+        const size_t first = parts.count;
+        status = isovist_look(context, scene, &eyes->list.items[i], &region);
+        if (status == SL_OK) status = seen_parts_add(context, scene->space, &region, true, &parts);
+        if (status == SL_OK) status = SL_ARRAY_ROOM(context, &lines, parts.count - first);
+        for (size_t k = first; k < parts.count && status == SL_OK; k++)
+            if (parts.items[k].count > 2)
+                lines.items[lines.count++] =
+                    (sl_polyline){.layer = k == first ? "ISOVIST" : "ISOVIST-MIRRORED",
+                                  .points = parts.items[k].points,
+                                  .count = parts.items[k].count,
+                                  .closed = true};
+    }
+    if (status == SL_OK)
+        status = io->polylines_dxf(context, lines.items, lines.count, scene->unit, path);
+    sl_mirrored_region_destroy(context, &region);
+    seen_parts_destroy(context, &parts);
+    sl_free(context, lines.items);
+    return status;
+}
+
 sl_status isovist_write(sl_context *context, const isovist_scene *scene, const eye_places *eyes,
                         const isovist_result *isovists, const char *path) {
     const isovist_rows of = {scene->mirrored, eyes, isovists};
     const field_rows rows = {list_fields, &of, eyes->list.count};
+    if (name_ends_with(path, ".dxf")) return write_dxf(context, scene, eyes, path);
     if (!name_ends_with(path, ".geojson")) return fields_write_csv(context, &rows, path);
     sl_output output;
     SL_TRY(sl_output_open(context, path, &output));

@@ -64,9 +64,10 @@ sl_view eye_view(const sl_space *space, const eye_place *eye);
 typedef struct isovist_scene {
     const sl_space *space; ///< as the query's settings make it
     sl_query *query;
-    bool mirrored;  ///< with what is seen by mirror
-    double range;   ///< of all eyes, which may have less; 0 for no limit
-    sl_earth earth; ///< where the map lies (sl_map.earth)
+    bool mirrored;    ///< with what is seen by mirror
+    double range;     ///< of all eyes, which may have less; 0 for no limit
+    sl_earth earth;   ///< where the map lies (sl_map.earth)
+    const char *unit; ///< of lengths (sl_map.unit)
 } isovist_scene;
 
 /// The visible region of an eye, with the parts that are seen by mirror.
@@ -83,7 +84,8 @@ sl_status isovist_run(sl_context *context, const isovist_scene *scene, const eye
                       unsigned threads, isovist_result *out);
 
 /// Writes the table to a file, "-" for stdout. A map with mirrors adds columns for them. A name
-/// that ends in .geojson: the regions as GeoJSON, with the columns as properties.
+/// that ends in .geojson: the regions as GeoJSON, with the columns as properties; in .dxf: the
+/// regions alone, as outlines.
 sl_status isovist_write(sl_context *context, const isovist_scene *scene, const eye_places *eyes,
                         const isovist_result *isovists, const char *path);
 

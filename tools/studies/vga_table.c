@@ -60,6 +60,7 @@ static size_t list_fields(const void *of, size_t point, table_field fields[FIELD
         if (table->parts & vga_measure_part(k))
             fields[count++] = field_real(measures[k].name, vga_value(table, k, (uint32_t)point));
     if (table->part_count > 1) fields[count++] = field_real("part", table->part[point] + 1.0);
+    if (table->storeys) fields[count++] = field_text("storey", table->storeys[point]);
     return count;
 }
 
@@ -82,7 +83,10 @@ static sl_status write_geojson(sl_context *context, const vga_table *table, FILE
         const size_t count = list_fields(table, p, fields);
         for (size_t k = 2; k < count; k++) {
             fprintf(out, "%s\"%s\": ", k > 2 ? ", " : "", fields[k].key);
-            csv_put(out, fields[k].real, fields[k].kind == FIELD_NONE ? "null" : "");
+            if (fields[k].kind == FIELD_TEXT) // a name without quotes (storeys.h)
+                fprintf(out, "\"%s\"", fields[k].text);
+            else
+                csv_put(out, fields[k].real, fields[k].kind == FIELD_NONE ? "null" : "");
         }
         fputs("}}", out);
     }

@@ -16,7 +16,8 @@ typedef struct vga_table {
     unsigned parts;
     uint32_t *part; ///< by point: of those that no sightline joins (sl_vga_parts); NULL: unknown
     uint32_t part_count;
-    sl_earth earth; ///< where the map lies (sl_map.earth)
+    sl_earth earth;             ///< where the map lies (sl_map.earth)
+    const char *const *storeys; ///< by point, of a building; NULL for one plan
 } vga_table;
 
 enum { VGA_PART_VISUAL = 1, VGA_PART_THROUGH = 2, VGA_PART_METRIC = 4, VGA_PART_ANGULAR = 8 };

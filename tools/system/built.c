@@ -17,7 +17,8 @@ void built_register(const built_part *const *linked) {
 
 /// SL_UNSUPPORTED, with what the build has not.
 static sl_status refuse_command(sl_context *context, const char *name) {
-    if (strcmp(name, "draw") == 0) return built_need_pictures(context);
+    if (strcmp(name, "draw") == 0 || strcmp(name, "report") == 0)
+        return built_need_pictures(context);
     if (strcmp(name, "reject") == 0) return built_need_io(context, NULL, &(const built_io *){NULL});
     return sl_fail(context, SL_UNSUPPORTED,
                    "this build has no command '%s' (SIGHTLINE_STUDY is off)", name);

@@ -23,6 +23,8 @@ typedef struct built_io {
     sl_status (*layers_svg)(sl_context *context, const char *name, const char *text, size_t size,
                             sl_drawing_layers *out);
     void (*layers_destroy)(sl_context *context, sl_drawing_layers *layers);
+    sl_status (*polylines_dxf)(sl_context *context, const sl_polyline *lines, size_t count,
+                               const char *unit, const char *path);
     sl_status (*image_read)(sl_context *context, const char *name, const char *bytes, size_t size,
                             sl_image *out);
     void (*image_destroy)(sl_context *context, sl_image *image);
@@ -54,6 +56,8 @@ typedef struct built_draw {
     sl_status (*lines)(sl_context *context, const sl_baked *baked, const sl_drawn_lines *lines,
                        const sl_draw_options *options, const char *path);
     sl_status (*chart)(sl_context *context, const sl_chart *chart, const char *path);
+    sl_status (*document)(sl_context *context, const sl_block *blocks, size_t count,
+                          const char *title, const char *path);
 } built_draw;
 
 /// A part that is linked. What it has not is NULL.

@@ -4,9 +4,9 @@
 ///      5 | 11   17       The first point of the middle column, 6, sees 0 to 3, 7 to 10 and 12 to
 ///      4 | 10   16       15: three runs of two numbers each. A number below 128 is one byte.
 ///      3 / 9  / 15
-///      2   8    14       Neighbours see nearly the same, yet two of three runs differ by a point
-///      1   7    13       at an end. So rows share nothing: that would save little, and cost the
-///      0   6    12       search for what they share.
+///      2   8    14       Neighbours see nearly the same, yet three of five runs differ by a
+///      1   7    13       point at an end. So rows share nothing: that would save little, and
+///      0   6    12       cost the search for what they share.
 ///
 /// Memory: about 2.6 bytes a run. Runs of a row grow with the columns in sight, pairs with the
 /// area.
@@ -162,6 +162,44 @@ sl_status sli_vga_graph_write(sl_context *context, const sli_vga_source *source,
             graph.edges += run.stop - run.first;
     *out = graph;
     return SL_OK;
+}
+
+// --- several graphs as one
+
+typedef struct joining {
+    const sl_vga_graph *graphs;
+    const uint32_t *first; ///< by graph: its first point; and one more
+} joining;
+
+static sl_status look_joined(sl_context *context, void *job, void *state, uint32_t point,
+                             sl_bits *row) {
+    const joining *j = job;
+    (void)state;
+    size_t g = 0;
+    while (j->first[g + 1] <= point) g++;
+    for (sl_vga_run run = sl_vga_row(&j->graphs[g], point - j->first[g]); sl_vga_next(&run);)
+        sli_bits_add_run(row, j->first[g] + run.first, j->first[g] + run.stop);
+    return sl_check_cancelled(context);
+}
+
+sl_status sl_vga_graph_join(sl_context *context, const sl_vga_graph *graphs, size_t count,
+                            sl_vga_graph *out) {
+    uint32_t *first = sl_alloc_array(context, count + 1, sizeof *first);
+    if (!first) return SL_NO_MEMORY;
+    bool directed = false;
+    for (size_t g = 0; g < count; g++) {
+        first[g + 1] = first[g] + graphs[g].count;
+        directed = directed || graphs[g].directed;
+    }
+    joining job = {graphs, first};
+    const sli_vga_source source = {.count = first[count],
+                                   .points = first[count],
+                                   .directed = directed,
+                                   .job = &job,
+                                   .look = look_joined};
+    const sl_status status = sli_vga_graph_write(context, &source, 1, out);
+    sl_free(context, first);
+    return status;
 }
 
 // --- turning a graph over

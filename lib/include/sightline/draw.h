@@ -54,6 +54,16 @@ typedef struct sl_drawn_box {
     bool blocks, seen;
 } sl_drawn_box;
 
+/// A sheet of paper on which the plan stands to scale, with a title block: the title, a scale bar,
+/// and north where it is known. It is a PDF or an SVG, in which letters stay text, and which has a
+/// layer for each kind of thing. The map must say its unit (sl_map.unit). Zeroed: no sheet.
+typedef struct sl_sheet {
+    const char *paper; ///< "A4" to "A0", either way round as the plan fits; NULL: no sheet
+    const char *scale; ///< "1:100"; NULL: the largest round scale that fits
+    const char *note;  ///< a line under the title, UTF-8; NULL for none
+    sl_point north;    ///< a direction in the map; zeroed: as sl_map.earth says, if it does
+} sl_sheet;
+
 /// Start from sl_draw_options_default().
 typedef struct sl_draw_options {
     unsigned layers; ///< of sl_layer, or-ed; usually all but the stab tree and numbers
@@ -65,6 +75,9 @@ typedef struct sl_draw_options {
     const sl_faults *faults;   ///< marked over all else; NULL for none
     const sl_drawn_box *boxes; ///< for sl_draw_eye
     size_t box_count;
+    /// For pictures of a whole plan, in place of the width. SL_BAD_ARGUMENT if the plan does not
+    /// fit at the scale: the message has one that does.
+    sl_sheet sheet;
 } sl_draw_options;
 
 /// The usual options, as told at each field.
@@ -220,6 +233,47 @@ typedef struct sl_drawn_lines {
 SL_API sl_status sl_draw_lines_file(sl_context *context, const sl_baked *baked,
                                     const sl_drawn_lines *lines, const sl_draw_options *options,
                                     const char *path);
+
+// --- documents
+
+/// What a block of a document is.
+typedef enum sl_block_kind {
+    SL_BLOCK_TITLE,
+    SL_BLOCK_HEADING, ///< in the outline of the file, too
+    SL_BLOCK_TEXT,    ///< a paragraph; '\n' begins a new line
+    SL_BLOCK_TABLE,
+    SL_BLOCK_PICTURE,
+} sl_block_kind;
+
+/// A name on a plan, about a place.
+typedef struct sl_plan_label {
+    const char *text; ///< UTF-8
+    sl_point at;
+    double width; ///< in the map, that it should not exceed: it is set smaller, then cut
+} sl_plan_label;
+
+/// A block of a document: what its kind has; the rest is zeroed. Texts are UTF-8.
+typedef struct sl_block {
+    sl_block_kind kind;
+    const char *text; ///< of a picture: a line below it, NULL for none
+    /// Of a table: cells row by row, the first row being its head. The last column breaks into
+    /// lines as the page needs.
+    const char *const *cells;
+    size_t columns, rows;
+    const sl_baked *baked; ///< of a picture
+    /// Of a picture: one of them, drawn over the plan. Both NULL: the plan with its starts.
+    const sl_field *field;
+    const sl_drawn_lines *lines;
+    const sl_plan_label *labels; ///< of a picture, over all else
+    size_t label_count;
+} sl_block;
+
+/// Writes blocks as a PDF of A4 pages, which have numbers. `title` stands at the foot of each, and
+/// in the file's description. Letters stay text. The same input gives the same bytes.
+/// SL_BAD_ARGUMENT if `path` does not end in .pdf, for a table without columns, and as the pictures
+/// say; SL_IO or SL_NO_MEMORY otherwise; a failure leaves an older file as it was.
+SL_API sl_status sl_draw_document_file(sl_context *context, const sl_block *blocks, size_t count,
+                                       const char *title, const char *path);
 
 // --- charts
 

@@ -53,6 +53,20 @@ SL_API void sl_drawing_layers_destroy(sl_context *context,
 
 // --- lines and pictures
 
+/// A line or outline of a drawing that is written.
+typedef struct sl_polyline {
+    const char *layer; ///< one word
+    const sl_point *points;
+    size_t count; ///< 2 or more
+    bool closed;
+} sl_polyline;
+
+/// Writes lines as a DXF drawing of release 12, "-" for stdout: LINE for two points, else POLYLINE.
+/// `unit` as sl_map.unit. Coordinates read back to the same doubles. SL_BAD_ARGUMENT for a layer
+/// that is no word, and for fewer than two points; SL_IO; a failure leaves an older file as it was.
+SL_API sl_status sl_polylines_write_dxf(sl_context *context, const sl_polyline *lines, size_t count,
+                                        const char *unit, const char *path);
+
 /// Drawn lines of GeoJSON, as walls: lines, and outlines of polygons, whatever they stand for, as
 /// sl_map_read() reads them with sl_import_options.lines. Longitude and latitude are laid in a
 /// plane in metres (sl_map.earth).

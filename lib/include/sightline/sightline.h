@@ -23,6 +23,7 @@
 #include "sightline/space.h"
 #include "sightline/stab.h"
 #include "sightline/steps.h"
+#include "sightline/storeys.h"
 #include "sightline/version.h"
 #include "sightline/view.h"
 #include "sightline/world.h"

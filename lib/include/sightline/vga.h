@@ -115,6 +115,10 @@ SL_API sl_status sl_vga_graph_make(sl_context *context, const sl_outline *outlin
                                    const sl_vga_grid *grid, double range, unsigned threads,
                                    sl_vga_graph *out);
 SL_API void sl_vga_graph_destroy(sl_context *context, sl_vga_graph *graph); ///< and zeroes it
+/// Several graphs as one: the points of the first come first, and no point sees one of another.
+/// They have up to 2^32 - 1 points together.
+SL_API sl_status sl_vga_graph_join(sl_context *context, const sl_vga_graph *graphs, size_t count,
+                                   sl_vga_graph *out);
 
 /// Groups of measures, or-ed: bits of sl_measure_group.
 typedef enum sl_vga_part {

@@ -157,4 +157,15 @@ bool sli_dxf_is_text(sli_word kind);
 /// Keeps a text of the drawing at its place; one with a number that is none is passed over.
 sl_status sli_dxf_take_text(sli_dxf *dxf, sli_dxf_range entity);
 
+// --- writing (dxf_write.c)
+
+/// The header with the unit (sli_unit_number; 0: none), and the begin of the table of layers.
+void sli_dxf_put_head(FILE *stream, int unit);
+/// A layer of the table.
+void sli_dxf_put_layer(FILE *stream, const char *name, int colour);
+/// Between the table of layers and the entities.
+void sli_dxf_put_middle(FILE *stream);
+/// Behind the entities.
+void sli_dxf_put_end(FILE *stream);
+
 #endif

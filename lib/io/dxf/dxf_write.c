@@ -3,6 +3,7 @@
 /// "sightline-door-open-NAME", "sightline-path-NAME". A start is a POINT, its heading the angle of
 /// the point's axis (group 50). The last entity is followed by a comment with the sum of all
 /// digits, by which the reader sees that nobody has edited the numbers. y is as in the map.
+#include "io/dxf/dxf.h"
 #include "io/io_formats.h"
 #include "io/parts/layers.h"
 #include "map/unit.h"
@@ -140,22 +141,38 @@ static sl_status write_layers(sl_context *context, const dxf_writer *writer) {
     return SL_OK;
 }
 
-sl_status sli_map_print_dxf(sl_context *context, const sl_map *map, FILE *stream) {
-    dxf_writer writer = {.stream = stream, .map = map};
-    const sli_layer_sink sink = {&writer, begin_layer, write_item, end_layer};
-    char mark[SLI_MARK_TEXT];
+void sli_dxf_put_head(FILE *stream, int unit) {
     fputs("0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\nAC1009\n", stream);
-    const int unit = sli_unit_number(map->unit);
     if (unit) fprintf(stream, "9\n$INSUNITS\n70\n%d\n", unit);
     fputs("0\nENDSEC\n0\nSECTION\n2\nTABLES\n"
           "0\nTABLE\n2\nLTYPE\n70\n1\n0\nLTYPE\n2\nCONTINUOUS\n70\n0\n3\nSolid line\n"
           "72\n65\n73\n0\n40\n0\n0\nENDTAB\n"
           "0\nTABLE\n2\nLAYER\n70\n1\n",
           stream);
-    SL_TRY(write_layers(context, &writer));
+}
+
+void sli_dxf_put_layer(FILE *stream, const char *name, int colour) {
+    fprintf(stream, "0\nLAYER\n2\n%s\n70\n0\n62\n%d\n6\nCONTINUOUS\n", name, colour);
+}
+
+void sli_dxf_put_middle(FILE *stream) {
     fputs("0\nENDTAB\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n", stream);
+}
+
+void sli_dxf_put_end(FILE *stream) {
+    fputs("0\nENDSEC\n0\nEOF\n", stream);
+}
+
+sl_status sli_map_print_dxf(sl_context *context, const sl_map *map, FILE *stream) {
+    dxf_writer writer = {.stream = stream, .map = map};
+    const sli_layer_sink sink = {&writer, begin_layer, write_item, end_layer};
+    char mark[SLI_MARK_TEXT];
+    sli_dxf_put_head(stream, sli_unit_number(map->unit));
+    SL_TRY(write_layers(context, &writer));
+    sli_dxf_put_middle(stream);
     SL_TRY(sli_layers_write(context, map, &sink));
     sli_write_mark(map, writer.sum, mark);
-    fprintf(stream, "999\nsightline-digits %s\n0\nENDSEC\n0\nEOF\n", mark);
+    fprintf(stream, "999\nsightline-digits %s\n", mark);
+    sli_dxf_put_end(stream);
     return SL_OK;
 }
