@@ -178,7 +178,7 @@ function checkWords(text, figures, stateOf, fail) {
 const fillPlaces = (html, text, chapters) => html
     .replace(/<p>\{figure: ([\w-]+)\}<\/p>/g, '<figure data-figure="$1"></figure>')
     .replace(/<p>\{exercise: ([\w-]+)\}<\/p>/g, '<div data-exercise="$1"></div>')
-    .replace('<p>{puzzle}</p>', '<div data-puzzle></div>')
+    .replace('<p>{puzzle}</p>', '<div id="puzzle" data-puzzle></div>')
     .replace('<h2 id="exercises">', (heading) => (text.includes('{puzzle}') ? `<p>Now try the <a href="#puzzle">puzzle</a> again.</p>\n${heading}` : heading))
     .replace(wired.show, '<button type="button" class="show" aria-pressed="false" data-of="$1" data-mark="$2">$3</button>')
     .replace(wired.try, '<button type="button" class="try" data-of="$1" data-state="$2">$3</button>')
