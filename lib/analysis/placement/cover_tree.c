@@ -58,7 +58,7 @@ typedef struct prospect {
 
 typedef struct tree {
     sli_cover_part *part;
-    const sli_cover *cover;
+    const sli_cover *cover;   ///< the part's, or that with cuts
     sl_cover_problem problem; ///< the same for the program
     sli_cover_state state;
     void *program; ///< its state; NULL: none
@@ -150,7 +150,7 @@ static bool is_covered(const tree *t) {
 
 /// Completes what is in t->set; keeps it where it is the best cover so far.
 static sl_status try_set(sl_context *context, tree *t, const double *duals) {
-    const sli_cover *c = t->cover;
+    const sli_cover *c = t->part->cover; // who covers its rows fulfils all cuts
     SL_TRY(sli_cover_greedy(context, c, duals, t->state.fixed, t->set));
     for (uint32_t r = 0; r < c->rows; r++) {
         uint32_t covered = 0;
@@ -433,7 +433,7 @@ static sl_status grow(sl_context *context, tree *t, size_t duals, uint32_t *at) 
 }
 
 /// A tree for one target; what it proves goes to the part only when it is whole.
-static sl_status grow_whole(sl_context *context, tree *t, const double *duals, bool *is_whole) {
+static sl_status grow_whole(sl_context *context, tree *t, bool *is_whole) {
     sli_cover_part *part = t->part, kept = *part;
     part->nodes.items = NULL;
     part->duals.items = NULL;
@@ -441,7 +441,7 @@ static sl_status grow_whole(sl_context *context, tree *t, const double *duals, b
     t->least = UINT64_MAX;
     sl_status status = SL_ARRAY_ROOM(context, &part->duals, t->cover->rows);
     if (status == SL_OK) {
-        sli_cover_duals_round(t->cover, duals, part->denominator, part->duals.items);
+        memcpy(part->duals.items, kept.duals.items, t->cover->rows * sizeof *kept.duals.items);
         part->duals.count = t->cover->rows;
         uint32_t root;
         status = grow(context, t, 0, &root);
@@ -475,55 +475,117 @@ static sl_status bound_root(sl_context *context, tree *t, double *duals) {
     return SL_OK;
 }
 
+static sl_status tree_make(sl_context *context, tree *t, const sli_cover *cover) {
+    t->cover = cover;
+    SL_TRY(sli_cover_state_make(context, cover, &t->state));
+    t->needed = sl_alloc_array(context, cover->columns, sizeof *t->needed);
+    t->sums = sl_alloc_array(context, cover->columns, sizeof *t->sums);
+    t->y = sl_alloc_array(context, cover->rows, sizeof *t->y);
+    t->values = sl_alloc_array(context, cover->columns, sizeof *t->values);
+    t->set = sl_alloc_array(context, cover->columns, sizeof *t->set);
+    t->effects = sl_alloc_array(context, cover->columns, sizeof *t->effects);
+    t->prospects = sl_alloc_array(context, cover->columns, sizeof *t->prospects);
+    t->tried_y = sl_alloc_array(context, cover->rows, sizeof *t->tried_y);
+    t->tried_values = sl_alloc_array(context, cover->columns, sizeof *t->tried_values);
+    t->tried_duals = sl_alloc_array(context, cover->rows, sizeof *t->tried_duals);
+    return t->needed && t->sums && t->y && t->values && t->set && t->effects && t->prospects &&
+                   t->tried_y && t->tried_values && t->tried_duals
+               ? SL_OK
+               : SL_NO_MEMORY;
+}
+
+static void tree_destroy(sl_context *context, tree *t) {
+    sli_cover_state_destroy(context, &t->state);
+    sl_free(context, t->needed);
+    sl_free(context, t->sums);
+    sl_free(context, t->y);
+    sl_free(context, t->values);
+    sl_free(context, t->set);
+    sl_free(context, t->effects);
+    sl_free(context, t->prospects);
+    sl_free(context, t->tried_y);
+    sl_free(context, t->tried_values);
+    sl_free(context, t->tried_duals);
+}
+
+/// Goes over to the problem with cuts, where it proves as much: then the part has them, and a leaf
+/// alone.
+static sl_status stand_on(sl_context *context, tree *t, sli_cover_cuts *cuts, bool *stands) {
+    sli_cover_part *part = t->part, kept = *part;
+    tree_destroy(context, t);
+    *t = (tree){.part = part,
+                .problem = t->problem,
+                .program = t->program,
+                .nodes_left = t->nodes_left,
+                .fixes = t->fixes};
+    SL_TRY(tree_make(context, t, &cuts->cover));
+    const uint32_t rows = cuts->cover.rows;
+    uint64_t bound = 0;
+    part->denominator = sli_cover_denominator(&cuts->cover);
+    part->duals.items = NULL;
+    part->duals.count = part->duals.capacity = 0;
+    sl_status status = part->denominator ? SL_ARRAY_ROOM(context, &part->duals, rows) : SL_OK;
+    *stands = status == SL_OK && part->denominator;
+    if (*stands) {
+        memset(part->duals.items, 0, rows * sizeof *part->duals.items);
+        part->duals.count = rows;
+        status = find_duals(context, t, 0, 0);
+    }
+    if (*stands && status == SL_OK) status = fill_set(context, t);
+    if (*stands && status == SL_OK) {
+        memcpy(part->duals.items, part->duals.items + rows, rows * sizeof *part->duals.items);
+        part->duals.count = rows;
+        bound = sli_cover_ceiling(bound_by(t, 0), part->denominator);
+    }
+    *stands = *stands && status == SL_OK && bound >= kept.lower;
+    sl_free(context, *stands ? kept.duals.items : part->duals.items);
+    if (!*stands) {
+        part->denominator = kept.denominator;
+        memcpy(&part->duals, &kept.duals, sizeof kept.duals);
+        return status;
+    }
+    part->lower = bound;
+    part->cuts = *cuts;
+    *cuts = (sli_cover_cuts){0};
+    t->cover = &part->cuts.cover;
+    return SL_OK;
+}
+
+/// Cuts raise the bound of the root. *stands: trees can be grown on.
+static sl_status raise_root(sl_context *context, tree *t, bool *stands) {
+    const sl_cover_options *o = t->part->options;
+    *stands = true;
+    if (!t->program || !o->program->change || !o->cuts || !*t->nodes_left) return SL_OK;
+    sli_cover_cuts cuts = {0};
+    sl_status status =
+        sli_cover_cut(context, t->part->cover, o, t->program, &t->problem, t->state.fixed,
+                      t->part->cost, t->y, t->values, &cuts);
+    if (status == SL_OK) status = stand_on(context, t, &cuts, stands);
+    sli_cover_cuts_destroy(context, &cuts);
+    return status;
+}
+
 static sl_status grow_trees(sl_context *context, tree *t, double *duals) {
     bool is_whole = true;
     if (t->program) SL_TRY(bound_root(context, t, duals));
+    if (t->part->lower < t->part->cost) SL_TRY(raise_root(context, t, &is_whole));
     while (is_whole && t->part->lower < t->part->cost) {
         t->target = t->part->options->at_once ? t->part->cost : t->part->lower + 1;
-        SL_TRY(grow_whole(context, t, duals, &is_whole));
+        SL_TRY(grow_whole(context, t, &is_whole));
     }
     return SL_OK;
 }
 
-static sl_status tree_make(sl_context *context, tree *t) {
-    const sli_cover *c = t->cover;
-    SL_TRY(sli_cover_state_make(context, c, &t->state));
-    t->needed = sl_alloc_array(context, c->columns, sizeof *t->needed);
-    t->sums = sl_alloc_array(context, c->columns, sizeof *t->sums);
-    t->y = sl_alloc_array(context, c->rows, sizeof *t->y);
-    t->values = sl_alloc_array(context, c->columns, sizeof *t->values);
-    t->set = sl_alloc_array(context, c->columns, sizeof *t->set);
-    t->effects = sl_alloc_array(context, c->columns, sizeof *t->effects);
-    t->prospects = sl_alloc_array(context, c->columns, sizeof *t->prospects);
-    t->tried_y = sl_alloc_array(context, c->rows, sizeof *t->tried_y);
-    t->tried_values = sl_alloc_array(context, c->columns, sizeof *t->tried_values);
-    t->tried_duals = sl_alloc_array(context, c->rows, sizeof *t->tried_duals);
-    if (!t->needed || !t->sums || !t->y || !t->values || !t->set || !t->effects || !t->prospects ||
-        !t->tried_y || !t->tried_values || !t->tried_duals)
-        return SL_NO_MEMORY;
-    t->problem = (sl_cover_problem){c->rows,        c->columns, c->column_first + 1,
-                                    c->column_rows, c->costs,   c->demands};
-    const sl_cover_program *program = t->part->options->program;
-    return program && program->begin ? program->begin(context, &t->problem, &t->program) : SL_OK;
-}
-
 sl_status sli_cover_branch(sl_context *context, sli_cover_part *part, double *duals,
                            uint64_t *nodes) {
-    tree t = {.part = part, .cover = part->cover, .nodes_left = nodes};
-    sl_status status = tree_make(context, &t);
+    const sl_cover_program *program = part->options->program;
+    tree t = {.part = part, .problem = sli_cover_problem(part->cover), .nodes_left = nodes};
+    sl_status status = tree_make(context, &t, part->cover);
+    if (status == SL_OK && program && program->begin)
+        status = program->begin(context, &t.problem, &t.program);
     if (status == SL_OK) status = grow_trees(context, &t, duals);
-    if (t.program) part->options->program->end(context, t.program);
-    sli_cover_state_destroy(context, &t.state);
+    if (t.program) program->end(context, t.program);
+    tree_destroy(context, &t);
     sl_free(context, t.fixes.items);
-    sl_free(context, t.needed);
-    sl_free(context, t.sums);
-    sl_free(context, t.y);
-    sl_free(context, t.values);
-    sl_free(context, t.set);
-    sl_free(context, t.effects);
-    sl_free(context, t.prospects);
-    sl_free(context, t.tried_y);
-    sl_free(context, t.tried_values);
-    sl_free(context, t.tried_duals);
     return status;
 }
