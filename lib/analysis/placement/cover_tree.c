@@ -28,14 +28,14 @@
 
 /// What a tree keeps of duals at most: 256 MB. A node counts as one for so many entries of its
 /// part, and has so many Lagrangian steps.
-enum { MOST_DUALS = 1 << 25, NODE_ENTRIES = 1024, STEPS = 60 };
+enum { MOST_DUALS = 1 << 25, NODE_ENTRIES = 512, STEPS = 60 };
 
 /// So many columns are tried out at a node at most, so many that do not better the best one follow
 /// each other at most, and a column is known after so many times.
 enum { MOST_TRIED = 24, MOST_VAIN = 8, KNOWN = 4 };
 
-/// Simplex steps times entries that the program may take for a node: some seconds.
-enum { PROGRAM_WORK = 1 << 28 };
+/// Simplex steps times entries that the program may take: for a node some seconds.
+static const uint64_t node_work = (uint64_t)1 << 28, root_work = (uint64_t)1 << 32;
 static const double whole = 1e-6;
 
 typedef struct fix {
@@ -172,7 +172,8 @@ static sl_status find_duals(sl_context *context, tree *t, size_t duals, double e
     const uint32_t rows = t->cover->rows;
     const uint64_t denominator = t->part->denominator;
     sl_status status = SL_UNSUPPORTED;
-    const uint64_t work = 1 + PROGRAM_WORK / (1 + t->cover->column_first[t->cover->columns]);
+    const uint64_t work = 1 + (enough > 0 ? node_work : root_work) /
+                                  (1 + t->cover->column_first[t->cover->columns]);
     if (t->program)
         status = t->part->options->program->again(context, t->program, t->state.fixed, work, enough,
                                                   t->y, t->values);
@@ -233,7 +234,7 @@ static bool pay(tree *t) {
 static sl_status try_way(sl_context *context, tree *t, uint32_t column, int way, int64_t bound,
                          double *gain) {
     const uint64_t d = t->part->denominator;
-    const uint64_t work = 1 + PROGRAM_WORK / (1 + t->cover->column_first[t->cover->columns]);
+    const uint64_t work = 1 + node_work / (1 + t->cover->column_first[t->cover->columns]);
     *gain = 0;
     sli_cover_fix(t->cover, &t->state, column, way ? SLI_COVER_IN : SLI_COVER_OUT);
     sl_status status = t->part->options->program->again(context, t->program, t->state.fixed, work,
@@ -555,7 +556,7 @@ static sl_status stand_on(sl_context *context, tree *t, sli_cover_cuts *cuts, bo
 static sl_status raise_root(sl_context *context, tree *t, bool *stands) {
     const sl_cover_options *o = t->part->options;
     *stands = true;
-    if (!t->program || !o->program->change || !o->cuts || !*t->nodes_left) return SL_OK;
+    if (!t->program || !o->program->change || !o->cuts || !o->nodes) return SL_OK;
     sli_cover_cuts cuts = {0};
     sl_status status =
         sli_cover_cut(context, t->part->cover, o, t->program, &t->problem, t->state.fixed,

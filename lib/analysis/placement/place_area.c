@@ -28,9 +28,9 @@
 enum { NETWORK_ROUNDS = 20 };
 /// Local searches for a network, at most, while places are completed once.
 enum { SEARCHES = 8 };
-enum { ROUNDS = 400, COARSE_ITERATIONS = 20000, SEARCH_ITERATIONS = 5000, SEARCH_LEAST = 300 };
+enum { ROUNDS = 400, COARSE_ITERATIONS = 20000, FINE_ITERATIONS = 1000000, SEARCH_ITERATIONS = 50000, SEARCH_LEAST = 300 };
 /// Entries that a local search may touch, about.
-#define SEARCH_WORK 2e7
+#define SEARCH_WORK 2e8
 
 static sl_status check_task(sl_context *context, const sl_place_area *t) {
     SL_TRY(sli_check_viewpoints(context, t->places, t->place_count));
@@ -322,7 +322,7 @@ static sl_status choose(finder *f, bool wide) {
     sl_cover_options options = sl_cover_options_default();
     options.program = a->options->program;
     options.nodes = f->fine ? a->options->nodes : 0;
-    if (!f->fine) options.iterations = COARSE_ITERATIONS;
+    options.iterations = f->fine ? FINE_ITERATIONS : COARSE_ITERATIONS;
     options.known_lower = a->out->lower > fixed ? a->out->lower - fixed : 0;
     sl_cover_problem problem = {0};
     sl_cover_result cover = {0};

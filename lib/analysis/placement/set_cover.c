@@ -292,9 +292,12 @@ static uint64_t enough_of(const solver *s, const piece *p, uint64_t known) {
 /// Iterations of the local search for each Lagrangian one, at most.
 enum { LAGRANGIAN_SHARE = 25 };
 
-static sl_status solve_piece(sl_context *context, solver *s, piece *p, uint64_t known) {
+/// `nodes`: of those that are left, what the piece may use.
+static sl_status solve_piece(sl_context *context, solver *s, piece *p, uint64_t known,
+                             uint64_t nodes) {
     sli_cover_part *part = &p->part;
     const sl_cover_options *o = s->options;
+    uint64_t left = nodes;
     double *duals = sl_alloc_array(context, p->cover.rows, sizeof *duals);
     double *values = sl_alloc_array(context, p->cover.columns, sizeof *values);
     sli_cover_state state = {0};
@@ -314,7 +317,8 @@ static sl_status solve_piece(sl_context *context, solver *s, piece *p, uint64_t 
         part->cost = sli_cover_cost(&p->cover, part->taken);
     }
     if (status == SL_OK && part->cost > enough_of(s, p, known))
-        status = sli_cover_branch(context, part, duals, &s->nodes);
+        status = sli_cover_branch(context, part, duals, &left);
+    s->nodes -= nodes - left;
     if (status == SL_OK && part->cost > enough_of(s, p, known))
         status = sli_cover_split(context, part, duals, &p->split);
     sli_cover_state_destroy(context, &state);
@@ -327,7 +331,7 @@ static size_t size_of(const piece *p) {
     return p->cover.column_first[p->cover.columns];
 }
 
-/// Small pieces first: what they leave of the nodes is for the large ones.
+/// Small pieces first: what they leave of their share of the nodes is for the large ones.
 static sl_status solve_pieces(sl_context *context, solver *s, uint64_t known) {
     uint32_t *order = sl_alloc_array(context, s->piece_count, sizeof *order);
     if (!order) return SL_NO_MEMORY;
@@ -339,7 +343,8 @@ static sl_status solve_pieces(sl_context *context, solver *s, uint64_t known) {
     }
     sl_status status = SL_OK;
     for (uint32_t k = 0; k < s->piece_count && status == SL_OK; k++)
-        status = solve_piece(context, s, &s->pieces[order[k]], known);
+        status = solve_piece(context, s, &s->pieces[order[k]], known,
+                             s->nodes / (s->piece_count - k));
     sl_free(context, order);
     return status;
 }
