@@ -346,12 +346,17 @@ static void parts_of_files_are_refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(other_code_confirms_plans), cmocka_unit_test(other_code_confirms_polygons),
-        cmocka_unit_test(implied_witnesses_may_go),  cmocka_unit_test(files_keep_it),
-        cmocka_unit_test(files_keep_splits),  cmocka_unit_test(files_keep_cuts),
-             cmocka_unit_test(other_maps_are_refused),
-        cmocka_unit_test(no_number_can_be_changed),  cmocka_unit_test(no_set_can_be_swapped),
-        cmocka_unit_test(no_column_is_left_out),     cmocka_unit_test(parts_of_files_are_refused),
+        cmocka_unit_test(other_code_confirms_plans),
+        cmocka_unit_test(other_code_confirms_polygons),
+        cmocka_unit_test(implied_witnesses_may_go),
+        cmocka_unit_test(files_keep_it),
+        cmocka_unit_test(files_keep_splits),
+        cmocka_unit_test(files_keep_cuts),
+        cmocka_unit_test(other_maps_are_refused),
+        cmocka_unit_test(no_number_can_be_changed),
+        cmocka_unit_test(no_set_can_be_swapped),
+        cmocka_unit_test(no_column_is_left_out),
+        cmocka_unit_test(parts_of_files_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -473,7 +473,8 @@ static sl_status check_problem(sl_context *context, const sl_cover_problem *p, b
         if (p->ends[j] < at) return sl_fail(context, SL_BAD_ARGUMENT, "column %u ends early", j);
         if (!cost_of(p, j)) return sl_fail(context, SL_BAD_ARGUMENT, "column %u costs nothing", j);
         for (size_t i = at; i < p->ends[j]; i++)
-            if (p->entries[i] >= p->row_count || (i > at && p->entries[i] < p->entries[i - 1] + !repeats))
+            if (p->entries[i] >= p->row_count ||
+                (i > at && p->entries[i] < p->entries[i - 1] + !repeats))
                 return sl_fail(context, SL_BAD_ARGUMENT,
                                "column %u: rows are below %u and ascending", j, p->row_count);
     }

@@ -15,9 +15,9 @@ void sli_made_destroy(sl_context *context, sli_made_problem *made) {
 }
 
 sl_cover_problem sli_made(const sli_made_problem *made) {
-    return (sl_cover_problem){(uint32_t)made->demands.count, (uint32_t)made->ends.count,
-                              made->ends.items,              made->entries.items,
-                              made->costs.items,             made->demands.items};
+    return (sl_cover_problem){
+        (uint32_t)made->demands.count, (uint32_t)made->ends.count, made->ends.items,
+        made->entries.items,           made->costs.items,          made->demands.items};
 }
 
 static size_t begin_of(const sl_cover_problem *p, uint32_t column) {

@@ -8,11 +8,11 @@
 ///         b + c >= 1     sum: 2a + 2b + 2c >= 3     half, rounded up: a + b + c >= 2
 ///     a     + c >= 1
 ///
-/// The program takes a, b and c by half, which is no longer enough. What a cut gains is the rounding
-/// of the demand, less what the rows have over and less the values of columns whose coefficients
-/// are rounded: rows with an odd demand in all are sought for which these two are below 1. Modulo 2
-/// that is an elimination: columns with large values go first, each by a row that has little over
-/// (Koster, Zymolka and Kutschka 2009). Cuts may be made of cuts.
+/// The program takes a, b and c by half, which is no longer enough. What a cut gains is the
+/// rounding of the demand, less what the rows have over and less the values of columns whose
+/// coefficients are rounded: rows with an odd demand in all are sought for which these two are
+/// below 1. Modulo 2 that is an elimination: columns with large values go first, each by a row that
+/// has little over (Koster, Zymolka and Kutschka 2009). Cuts may be made of cuts.
 ///
 /// A coefficient above 1 is an entry that repeats. So bounds and trees need not know of cuts: each
 /// adds up the duals of a column's entries.
@@ -58,13 +58,13 @@ typedef struct cutter {
     SL_ARRAY(uint32_t) demands;
     SL_ARRAY(uint32_t) active; ///< cuts that are rows of the program now, ascending
     const sl_cover_program *program;
-    void *state; ///< of the program
+    void *state;               ///< of the program
     sl_cover_problem *problem; ///< that it has
     const uint8_t *fixed;      ///< by column
     double *duals, *values;    ///< by row of the program, by column
-    uint32_t *sums; ///< by column, 0 each
-    uint32_t *live; ///< columns of values over 0, the largest first
-    uint32_t *bits; ///< by column: its place there
+    uint32_t *sums;            ///< by column, 0 each
+    uint32_t *live;            ///< columns of values over 0, the largest first
+    uint32_t *bits;            ///< by column: its place there
     uint32_t live_count;
     combination *all;
     uint64_t *odd; ///< by combination: columns with an odd sum, `words` each
@@ -198,8 +198,8 @@ static void begin_combination(cutter *c, const sli_cover *cover, uint32_t row) {
         const uint32_t bit = c->bits[cover->row_columns[k]];
         if (bit != UINT32_MAX) odd[bit / 64] ^= (uint64_t)1 << bit % 64;
     }
-    c->all[c->count++] =
-        (combination){.over = fmax(over, 0), .count = 1, .rows = {row}, .odd = cover->demands[row] % 2};
+    c->all[c->count++] = (combination){
+        .over = fmax(over, 0), .count = 1, .rows = {row}, .odd = cover->demands[row] % 2};
 }
 
 static bool is_odd(const cutter *c, size_t i, uint32_t bit) {
@@ -411,8 +411,7 @@ static sl_status run_program(cutter *c, const bool *gone, bool *solved) {
     if (status == SL_OK) status = c->program->change(c->context, c->state, c->problem, gone);
     if (status == SL_OK)
         status = c->program->again(c->context, c->state, c->fixed,
-                                   1 + PROGRAM_WORK / (1 + size_of(&next)), 0,
-                                   duals, c->values);
+                                   1 + PROGRAM_WORK / (1 + size_of(&next)), 0, duals, c->values);
     *solved = status == SL_OK;
     return status == SL_UNSUPPORTED ? SL_OK : status;
 }
@@ -443,9 +442,10 @@ static sl_status run(cutter *c, uint32_t rounds, double enough) {
     return keep_active(c);
 }
 
-sl_status sli_cover_cut(sl_context *context, const sli_cover *plain, const sl_cover_options *options,
-                        void *state, sl_cover_problem *problem, const uint8_t *fixed,
-                        uint64_t enough, const double *duals, double *values, sli_cover_cuts *out) {
+sl_status sli_cover_cut(sl_context *context, const sli_cover *plain,
+                        const sl_cover_options *options, void *state, sl_cover_problem *problem,
+                        const uint8_t *fixed, uint64_t enough, const double *duals, double *values,
+                        sli_cover_cuts *out) {
     cutter c = {.context = context,
                 .plain = plain,
                 .program = options->program,

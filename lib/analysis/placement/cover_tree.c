@@ -172,8 +172,8 @@ static sl_status find_duals(sl_context *context, tree *t, size_t duals, double e
     const uint32_t rows = t->cover->rows;
     const uint64_t denominator = t->part->denominator;
     sl_status status = SL_UNSUPPORTED;
-    const uint64_t work = 1 + (enough > 0 ? node_work : root_work) /
-                                  (1 + t->cover->column_first[t->cover->columns]);
+    const uint64_t work =
+        1 + (enough > 0 ? node_work : root_work) / (1 + t->cover->column_first[t->cover->columns]);
     if (t->program)
         status = t->part->options->program->again(context, t->program, t->state.fixed, work, enough,
                                                   t->y, t->values);
@@ -558,9 +558,8 @@ static sl_status raise_root(sl_context *context, tree *t, bool *stands) {
     *stands = true;
     if (!t->program || !o->program->change || !o->cuts || !o->nodes) return SL_OK;
     sli_cover_cuts cuts = {0};
-    sl_status status =
-        sli_cover_cut(context, t->part->cover, o, t->program, &t->problem, t->state.fixed,
-                      t->part->cost, t->y, t->values, &cuts);
+    sl_status status = sli_cover_cut(context, t->part->cover, o, t->program, &t->problem,
+                                     t->state.fixed, t->part->cost, t->y, t->values, &cuts);
     if (status == SL_OK) status = stand_on(context, t, &cuts, stands);
     sli_cover_cuts_destroy(context, &cuts);
     return status;

@@ -28,7 +28,13 @@
 enum { NETWORK_ROUNDS = 20 };
 /// Local searches for a network, at most, while places are completed once.
 enum { SEARCHES = 8 };
-enum { ROUNDS = 400, COARSE_ITERATIONS = 20000, FINE_ITERATIONS = 1000000, SEARCH_ITERATIONS = 50000, SEARCH_LEAST = 300 };
+enum {
+    ROUNDS = 400,
+    COARSE_ITERATIONS = 20000,
+    FINE_ITERATIONS = 1000000,
+    SEARCH_ITERATIONS = 20000,
+    SEARCH_LEAST = 300
+};
 /// Entries that a local search may touch, about.
 #define SEARCH_WORK 2e8
 

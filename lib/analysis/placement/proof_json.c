@@ -202,9 +202,8 @@ sl_status sli_proof_key(sli_proof_reader *r, const char *name) {
     const bool first = strcmp(name, "sightline_proof") == 0;
     r->member = name;
     const bool opens = first || strcmp(name, "unit") == 0 || strcmp(name, "rows") == 0;
-    if (!take(r, opens ? '{' : ',') || !take(r, '"') ||
-        (size_t)(r->end - r->at) <= length || memcmp(r->at, name, length) != 0 ||
-        r->at[length] != '"')
+    if (!take(r, opens ? '{' : ',') || !take(r, '"') || (size_t)(r->end - r->at) <= length ||
+        memcmp(r->at, name, length) != 0 || r->at[length] != '"')
         return first ? sl_fail_at(r->context, r->path, r->line, "this is no proof of a placement")
                      : sli_proof_fail(r, "it is missing here");
     r->at += length + 1;

@@ -7,7 +7,8 @@
 /// 4. branch and bound (cover_tree.c), with a linear program where there is one, and cuts to raise
 ///    it (cover_cuts.c),
 /// 5. and where that is too much, blocks that share the costs of columns (cover_split.c).
-/// 6. Steps, parts, trees, splits and cuts are the proof, which cover_check.c reads with code of its own.
+/// 6. Steps, parts, trees, splits and cuts are the proof, which cover_check.c reads with code of
+/// its own.
 ///
 /// Costs are divided by their greatest common divisor first: then bounds are rounded up to whole
 /// numbers. The duals are integers over a power of two, as large as sums in 64 bits allow.
@@ -34,8 +35,7 @@ void sli_cover_proof_destroy(sl_context *context, sl_cover_proof *proof) {
     for (uint32_t i = 0; i < proof->split_count; i++)
         sli_cover_split_destroy(context, &proof->splits[i]);
     sl_free(context, proof->splits);
-    for (uint32_t i = 0; i < proof->raised_count; i++)
-        cuts_destroy(context, &proof->raised[i]);
+    for (uint32_t i = 0; i < proof->raised_count; i++) cuts_destroy(context, &proof->raised[i]);
     sl_free(context, proof->raised);
     *proof = (sl_cover_proof){0};
 }
@@ -343,8 +343,8 @@ static sl_status solve_pieces(sl_context *context, solver *s, uint64_t known) {
     }
     sl_status status = SL_OK;
     for (uint32_t k = 0; k < s->piece_count && status == SL_OK; k++)
-        status = solve_piece(context, s, &s->pieces[order[k]], known,
-                             s->nodes / (s->piece_count - k));
+        status =
+            solve_piece(context, s, &s->pieces[order[k]], known, s->nodes / (s->piece_count - k));
     sl_free(context, order);
     return status;
 }

@@ -61,8 +61,8 @@ typedef struct sl_cover_program {
 /// What to do, and how much of it. sl_cover_options_default() has the usual values.
 typedef struct sl_cover_options {
     const sl_cover_program *program; ///< NULL: Lagrangian bounds alone
-    /// Of the branching trees, at most; 0: no tree. In a part of more than 512 entries, a node counts
-    /// for one more for each 512.
+    /// Of the branching trees, at most; 0: no tree. In a part of more than 512 entries, a node
+    /// counts for one more for each 512.
     uint64_t nodes;
     uint64_t iterations;   ///< of the local search and of the Lagrangian search, at most
     uint64_t known_lower;  ///< a bound that the caller has from elsewhere; 0 for none
