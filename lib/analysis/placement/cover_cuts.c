@@ -428,10 +428,12 @@ static sl_status change_cuts(cutter *c, uint32_t first, bool *solved) {
 static sl_status run(cutter *c, uint32_t rounds, double enough) {
     double before = cost_of(c);
     bool solved = true;
+    sl_status status = SL_OK;
     for (uint32_t i = 0; i < rounds && solved && cost_of(c) < enough; i++) {
         const uint32_t first = (uint32_t)c->out->ends.count;
-        SL_TRY(separate(c));
-        if (c->out->ends.count == first) break;
+        status = separate(c);
+        if (status != SL_OK && status != SL_CANCELLED) return status;
+        if (status == SL_CANCELLED || c->out->ends.count == first) break;
         SL_TRY(change_cuts(c, first, &solved));
         if (size_of(&c->out->cover) > MOST_ENTRIES) break;
         if (i % PATIENCE != PATIENCE - 1) continue;
@@ -439,7 +441,8 @@ static sl_status run(cutter *c, uint32_t rounds, double enough) {
         before = cost_of(c);
     }
     SL_TRY(change_cuts(c, (uint32_t)c->out->ends.count, &solved));
-    return keep_active(c);
+    SL_TRY(keep_active(c));
+    return status;
 }
 
 sl_status sli_cover_cut(sl_context *context, const sli_cover *plain,

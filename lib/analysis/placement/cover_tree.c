@@ -401,9 +401,10 @@ static sl_status raise_root(sl_context *context, tree *t, bool *stands) {
     sli_cover_cuts cuts = {0};
     sl_status status = sli_cover_cut(context, t->part->cover, o, t->program, &t->problem,
                                      t->state.fixed, t->part->cost, t->y, t->values, &cuts);
-    if (status == SL_OK) status = stand_on(context, t, &cuts, stands);
+    const bool made = status == SL_OK || status == SL_CANCELLED;
+    const sl_status stood = made ? stand_on(context, t, &cuts, stands) : status;
     sli_cover_cuts_destroy(context, &cuts);
-    return status;
+    return stood == SL_OK ? status : stood;
 }
 
 static sl_status grow_trees(sl_context *context, tree *t, double *duals) {
