@@ -4,6 +4,8 @@
 
 #include "sightline/glpk.h"
 
+#include <limits.h>
+
 static cover_problem p;
 
 static uint64_t prove(sl_context *context, const sl_cover_proof *proof) {
@@ -128,6 +130,32 @@ static void trees_stand_on_cuts(void **state) {
     sl_context_destroy(context);
 }
 
+/// Cancelled between cuts, those that are there count.
+static void cancelled_between_cuts(void **state) {
+    (void)state;
+    sl_random random = {30};
+    make_problem(&random, 30);
+    unsigned long full = 0, with_cuts = 0;
+    for (unsigned long most = 0; most <= full; most += 1 + most / 20) {
+        cover_patience q = {0, full ? most : ULONG_MAX};
+        const sl_hooks hooks = {.user = &q, .cancelled = cover_is_over};
+        sl_context *context = sl_context_create(&hooks);
+        sl_cover_options options = sl_cover_options_default();
+        options.program = sl_cover_glpk();
+        options.nodes = 1;
+        sl_cover_result r = {0};
+        const sl_status status = sl_cover_solve(context, &p.problem, &options, &r);
+        if (!full) full = q.asked;
+        assert_true(status == SL_OK || status == SL_CANCELLED);
+        q.most = ULONG_MAX;
+        if (r.count) cover_check_result(context, &p, &r);
+        with_cuts += status == SL_CANCELLED && r.proof.raised_count;
+        sl_cover_result_destroy(context, &r);
+        sl_context_destroy(context);
+    }
+    assert_true(with_cuts > 0);
+}
+
 /// Our own memory fails; GLPK's is not ours.
 static void without_memory(void **state) {
     (void)state;
@@ -159,6 +187,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cuts_raise_bounds),
         cmocka_unit_test(trees_stand_on_cuts),
+        cmocka_unit_test(cancelled_between_cuts),
         cmocka_unit_test(without_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
