@@ -20,6 +20,7 @@ extern "C" {
 /// No room (sl_rooms_at).
 #define SL_NO_ROOM UINT32_MAX
 
+/// A room, as sl_rooms_find() finds it.
 typedef struct sl_room {
     char *name;       ///< "Room 1" and so on until it is named
     sl_point at;      ///< a place far from its walls

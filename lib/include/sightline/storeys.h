@@ -17,6 +17,7 @@ extern "C" {
 /// No storey (sl_building_find).
 #define SL_NO_STOREY SIZE_MAX
 
+/// A storey of a building.
 typedef struct sl_storey {
     char *name;
     char *path;    ///< of its plan, as it can be opened

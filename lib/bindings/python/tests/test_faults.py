@@ -110,7 +110,7 @@ class Arguments(unittest.TestCase):
                      lambda: setattr(at, "mirror_depth", 17), lambda: setattr(at, "range", -1)):
             with self.assertRaises(ValueError):
                 call()
-        with self.assertRaisesRegex(ValueError, "memory"):
+        with self.assertRaisesRegex(ValueError, "choose a larger step"):
             at.vga(1e-5)
 
     def test_what_is_not_supported_is_said(self):
