@@ -113,7 +113,10 @@ static sl_status find_cover(sl_context *context, chooser *c) {
     for (uint32_t i = 0; i < c->all->count && status == SL_OK; i++) {
         const sl_segment *line = &c->all->lines[i];
         const extent e = extent_of(line, 0);
-        if (i % 64 == 0) status = sl_check_cancelled(context);
+        if (i % 64 == 0) {
+            sl_report(context, "axial cover", "lines", i, c->all->count);
+            status = sl_check_cancelled(context);
+        }
         for (const extent *o = order; o < order + probes && o->left <= e.right; o++)
             if (o->right >= e.left && o->low <= e.high && o->high >= e.low &&
                 crosses(line, &c->all->probes[o->probe]))
@@ -167,7 +170,10 @@ static sl_status drop_subsets(sl_context *context, chooser *c) {
     sl_status status = lists.first ? SL_OK : SL_NO_MEMORY;
     for (uint32_t r = 0; r < c->all->count && status == SL_OK; r++) {
         const uint32_t line = c->order[r];
-        if (r % 64 == 0) status = sl_check_cancelled(context);
+        if (r % 64 == 0) {
+            sl_report(context, "axial subsets", "lines", r, c->all->count);
+            status = sl_check_cancelled(context);
+        }
         if (status != SL_OK || is_subset(c, &lists, line)) continue;
         keep(c, line);
         status = list_line(context, c, &lists, line);
