@@ -1,8 +1,10 @@
 /// The all-line map: turning or mirroring a plan turns or mirrors its lines, and strips narrower
-/// than any tolerance have lines too.
+/// than any tolerance have lines too. Subsets: those that the rules give one by one.
 #include "space/outline.h"
 #include "testing.h"
 
+#include "analysis/axial/touch.h"
+#include "geometry/length.h"
 #include "oracle/random_map.h"
 #include "sightline/axial.h"
 #include "sightline/generate.h"
@@ -175,6 +177,128 @@ static void check_count(sl_context *context, const char *text, uint32_t count) {
     sl_map_destroy(context, &map);
 }
 
+// --- subsets, one by one
+
+typedef struct ranked {
+    double length;
+    uint32_t covers, line;
+} ranked;
+
+static int compare_ranks(const void *left, const void *right) {
+    const ranked *a = left, *b = right;
+    if (a->length != b->length) return a->length > b->length ? -1 : 1;
+    if (a->covers != b->covers) return a->covers > b->covers ? -1 : 1;
+    return (a->line > b->line) - (a->line < b->line);
+}
+
+static bool crosses(const sl_segment *line, const sl_segment *probe) {
+    return sli_orient(probe->a, probe->b, line->a) * sli_orient(probe->a, probe->b, line->b) < 0 &&
+           sli_touch(line, probe);
+}
+
+/// Whether every probe that one line crosses is crossed by the other.
+static bool covers_all(const sl_axial_lines *all, const sl_segment *other, const sl_segment *line) {
+    for (uint32_t k = 0; k < all->probe_count; k++)
+        if (crosses(line, &all->probes[k]) && !crosses(other, &all->probes[k])) return false;
+    return true;
+}
+
+/// The number of parts of some lines; parts[i]: of line i.
+static uint32_t find_parts(const sl_axial_lines *all, const bool *kept, uint32_t *parts) {
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < all->count; i++) parts[i] = 0;
+    for (uint32_t i = 0; i < all->count; i++) {
+        if (!kept[i] || parts[i]) continue;
+        parts[i] = ++count;
+        for (bool grew = true; grew;) {
+            grew = false;
+            for (uint32_t a = 0; a < all->count; a++)
+                for (uint32_t b = 0; b < all->count && parts[a] == count; b++)
+                    if (kept[b] && !parts[b] && sli_touch(&all->lines[a], &all->lines[b])) {
+                        parts[b] = count;
+                        grew = true;
+                    }
+        }
+    }
+    return count;
+}
+
+/// The lines that stay, by the two rules of the header and nothing else.
+static void keep_by_rules(const sl_axial_lines *all, bool *kept) {
+    ranked *order = calloc((size_t)all->count + 1, sizeof *order);
+    uint32_t *parts = calloc((size_t)all->count + 1, sizeof *parts);
+    assert_true(order && parts);
+    for (uint32_t i = 0; i < all->count; i++) {
+        const sl_segment *s = &all->lines[i];
+        order[i] = (ranked){sli_length(s->b.x - s->a.x, s->b.y - s->a.y), 0, i};
+        for (uint32_t k = 0; k < all->probe_count; k++)
+            order[i].covers += crosses(s, &all->probes[k]);
+    }
+    qsort(order, all->count, sizeof *order, compare_ranks);
+    for (uint32_t r = 0; r < all->count; r++) {
+        const sl_segment *line = &all->lines[order[r].line];
+        bool goes = false;
+        for (uint32_t k = 0; k < r && !goes; k++) {
+            const sl_segment *other = &all->lines[order[k].line];
+            goes = kept[order[k].line] && sli_touch(line, other) && covers_all(all, other, line);
+        }
+        kept[order[r].line] = !goes;
+    }
+    for (uint32_t r = 0; r < all->count; r++) {
+        const uint32_t line = order[r].line;
+        uint32_t before = 0;
+        if (kept[line] || find_parts(all, kept, parts) < 2) continue;
+        for (uint32_t i = 0; i < all->count && !kept[line]; i++) {
+            if (!parts[i] || !sli_touch(&all->lines[line], &all->lines[i])) continue;
+            kept[line] = before && parts[i] != before;
+            before = parts[i];
+        }
+    }
+    free(order);
+    free(parts);
+}
+
+static void subsets_are_those_of_the_rules(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    uint32_t gone = 0, stay = 0;
+    for (uint64_t seed = 1; seed <= testing_seeds(40); seed++) {
+        sl_map map = {0};
+        sl_axial_lines all = {0}, fewer = {0};
+        assert_ok(context, oracle_random_map(context, seed, ORACLE_GRID_INTEGER, &map));
+        for (size_t w = 0; w < map.wall_count && seed % 2; w++) { // turned by 17.3 degrees
+            const double c = cos(17.3 * acos(-1) / 180), s = sin(17.3 * acos(-1) / 180);
+            sl_point *ends[2] = {&map.walls[w].a, &map.walls[w].b};
+            for (int e = 0; e < 2; e++)
+                *ends[e] =
+                    (sl_point){c * ends[e]->x - s * ends[e]->y, s * ends[e]->x + c * ends[e]->y};
+        }
+        assert_ok(context, sl_map_clean(context, &map, NULL, NULL));
+        map.start_count = 0;
+        find_lines(context, &map, 1, &all);
+        find_lines(context, &map, 1, &fewer);
+        assert_ok(context, sl_axial_fewest(context, &fewer, false));
+        bool *kept = calloc((size_t)all.count + 1, sizeof *kept);
+        assert_non_null(kept);
+        keep_by_rules(&all, kept);
+        uint32_t next = 0;
+        for (uint32_t i = 0; i < all.count; i++) {
+            gone += !kept[i];
+            if (!kept[i]) continue;
+            assert_true(next < fewer.count);
+            assert_memory_equal(&fewer.lines[next++], &all.lines[i], sizeof all.lines[i]);
+        }
+        assert_int_equal(next, fewer.count);
+        stay += next;
+        free(kept);
+        sl_axial_lines_destroy(context, &all);
+        sl_axial_lines_destroy(context, &fewer);
+        sl_map_destroy(context, &map);
+    }
+    assert_true(gone > 100 && stay > 100);
+    sl_context_destroy(context);
+}
+
 /// A room has its walls and its two diagonals, however narrow it is.
 static void narrow_rooms_have_lines(void **state) {
     (void)state;
@@ -220,6 +344,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(turned_offices_have_turned_lines),
         cmocka_unit_test(turned_random_maps_have_turned_lines),
+        cmocka_unit_test(subsets_are_those_of_the_rules),
         cmocka_unit_test(narrow_rooms_have_lines),
         cmocka_unit_test(a_divisor_of_log_1_gives_no_value),
     };

@@ -1,8 +1,10 @@
 /// Segment measures: chains and crossings by hand; networks that are turned, mirrored, listed in
-/// another order or the other way round; radii; what is refused.
+/// another order or the other way round; radii; rows, rings and spirals against all paths of single
+/// segments; what is refused.
 #include "testing.h"
 
 #include "sightline/axial.h"
+#include "sightline/support.h"
 
 #include <math.h>
 #include <string.h>
@@ -186,6 +188,162 @@ static void threads_do_not_change_bits(void **state) {
     sl_context_destroy(context);
 }
 
+// --- against all pairs of walks
+
+enum { FEW = 40, WALKS = 2 * FEW };
+
+/// Walk 2 s goes along segment s from a to b, walk 2 s + 1 back. Keys are turns times 2^32 and
+/// steps; `paths` is how many paths have the least.
+typedef struct all_pairs {
+    uint64_t keys[WALKS][WALKS];
+    double paths[WALKS][WALKS];
+} all_pairs;
+
+static sl_point walk_end(const sl_segment *segments, uint32_t walk) {
+    return walk % 2 ? segments[walk / 2].a : segments[walk / 2].b;
+}
+
+static double heading(const sl_segment *segments, uint32_t walk) {
+    const sl_point from = walk_end(segments, walk ^ 1), to = walk_end(segments, walk);
+    return atan2(to.y - from.y, to.x - from.x);
+}
+
+/// The key of going from one walk on into another; 0 if it cannot be.
+static uint64_t step_key(const sl_segment *segments, uint32_t from, uint32_t to) {
+    const sl_point end = walk_end(segments, from), start = walk_end(segments, to ^ 1);
+    if (from / 2 == to / 2 || end.x != start.x || end.y != start.y) return 0;
+    const double turn = remainder(heading(segments, to) - heading(segments, from), 2 * acos(-1));
+    return ((uint64_t)lround(fabs(turn) * 512 / acos(-1)) << 32) + 1;
+}
+
+/// From one walk to all, the nearest that is left first.
+static void find_paths(const sl_segment *segments, uint32_t count, uint32_t from, all_pairs *out) {
+    bool done[WALKS] = {false};
+    uint64_t *keys = out->keys[from];
+    double *paths = out->paths[from];
+    for (uint32_t w = 0; w < 2 * count; w++) keys[w] = UINT64_MAX;
+    memset(paths, 0, WALKS * sizeof *paths);
+    keys[from] = 0;
+    paths[from] = 1;
+    for (;;) {
+        uint32_t at = UINT32_MAX;
+        for (uint32_t w = 0; w < 2 * count; w++)
+            if (!done[w] && keys[w] < UINT64_MAX && (at == UINT32_MAX || keys[w] < keys[at]))
+                at = w;
+        if (at == UINT32_MAX) return;
+        done[at] = true;
+        for (uint32_t w = 0; w < 2 * count; w++) {
+            const uint64_t step = step_key(segments, at, w);
+            if (!step || keys[at] + step > keys[w]) continue;
+            if (keys[at] + step < keys[w]) paths[w] = 0;
+            keys[w] = keys[at] + step;
+            paths[w] += paths[at];
+        }
+    }
+}
+
+/// Sums up the pairs of two segments: both walks of one, both of the other.
+static void sum_pair(const all_pairs *all, uint32_t count, uint32_t s, uint32_t t, uint64_t most,
+                     uint64_t *turns, double *nodes, double *choice) {
+    uint64_t least = UINT64_MAX;
+    double paths = 0;
+    for (uint32_t k = 0; k < 4; k++)
+        if (all->keys[2 * s + k / 2][2 * t + k % 2] < least)
+            least = all->keys[2 * s + k / 2][2 * t + k % 2];
+    if (least >= most) return;
+    *turns += least >> 32;
+    *nodes += 1;
+    for (uint32_t k = 0; k < 4; k++)
+        if (all->keys[2 * s + k / 2][2 * t + k % 2] == least)
+            paths += all->paths[2 * s + k / 2][2 * t + k % 2];
+    for (uint32_t k = 0; k < 4; k++) {
+        const uint32_t from = 2 * s + k / 2, to = 2 * t + k % 2;
+        if (all->keys[from][to] != least) continue;
+        for (uint32_t w = 0; w < 2 * count; w++)
+            if (w / 2 != s && w / 2 != t && all->keys[from][w] != UINT64_MAX &&
+                all->keys[w][to] != UINT64_MAX && all->keys[from][w] + all->keys[w][to] == least)
+                choice[w / 2] += all->paths[from][w] * all->paths[w][to] / paths / 2;
+    }
+}
+
+static void check_against_all_paths(sl_context *context, const sl_segment *segments,
+                                    uint32_t count) {
+    static all_pairs all;
+    static const double radii[] = {0, 0.3, 1, 2.5};
+    for (uint32_t w = 0; w < 2 * count; w++) find_paths(segments, count, w, &all);
+    for (size_t r = 0; r < sizeof radii / sizeof *radii; r++) {
+        const sl_segment_options options = {.threads = 1, .angular_radius = radii[r]};
+        const uint64_t most =
+            radii[r] > 0 ? ((uint64_t)floor(radii[r] * 256) + 1) << 32 : UINT64_MAX;
+        sl_segment_measures m[FEW];
+        double choice[FEW] = {0};
+        measure(context, segments, count, &options, m);
+        for (uint32_t s = 0; s < count; s++) {
+            uint64_t turns = 0;
+            double nodes = 1;
+            for (uint32_t t = 0; t < count; t++)
+                if (s != t) sum_pair(&all, count, s, t, most, &turns, &nodes, choice);
+            assert_true(m[s].t1024_node_count == nodes);
+            assert_true(m[s].t1024_total_depth == (double)turns / 256);
+        }
+        // Shares are rounded to 2^-24, a few for each root.
+        for (uint32_t s = 0; s < count; s++)
+            assert_true(fabs(m[s].t1024_choice - choice[s]) < 4 * FEW * 0x1p-24);
+    }
+}
+
+/// Corners of a small lattice, joined by chance: rows, rings, crossings, and some streets twice.
+static uint32_t make_by_chance(sl_segment *segments, sl_random *random, uint32_t size) {
+    uint32_t count = 0;
+    const uint32_t most = 8 + sl_random_below(random, FEW - 8);
+    while (count < most) {
+        const uint32_t x = sl_random_below(random, size), y = sl_random_below(random, size);
+        const uint32_t u = sl_random_below(random, 3), v = sl_random_below(random, 3);
+        if (u != 1 || v != 1) segments[count++] = (sl_segment){{x, y}, {x + u - 1.0, y + v - 1.0}};
+    }
+    return count;
+}
+
+static void networks_by_chance_agree_with_all_paths(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    sl_random random = {1};
+    for (uint32_t i = 0; i < testing_seeds(60); i++) {
+        sl_segment segments[FEW];
+        const uint32_t count = make_by_chance(segments, &random, 3 + i % 8);
+        check_against_all_paths(context, segments, count);
+    }
+    sl_context_destroy(context);
+}
+
+/// Rows that turn by more than a half turn: rings, a ring with an arm, a spiral with a street
+/// across.
+static void rings_and_spirals_agree_with_all_paths(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    for (uint32_t sides = 3; sides < 20; sides++)
+        for (uint32_t shape = 0; shape < 3; shape++) {
+            sl_segment segments[FEW];
+            sl_point at[FEW];
+            uint32_t count = 0;
+            for (uint32_t i = 0; i <= sides; i++) {
+                const double far = shape == 2 ? 10 + i : 10, angle = (double)i * 0.7;
+                at[i] = (sl_point){floor(far * 100 * cos(shape == 2 ? angle : 6.28 * i / sides)),
+                                   floor(far * 100 * sin(shape == 2 ? angle : 6.28 * i / sides))};
+            }
+            if (shape != 2) at[sides] = at[0];
+            for (uint32_t i = 0; i < sides; i++) {
+                segments[count] = (sl_segment){at[i], at[i + 1]};
+                if (i % 3 == 1) segments[count] = (sl_segment){at[i + 1], at[i]};
+                count++;
+            }
+            if (shape == 1) segments[count++] = (sl_segment){at[1], {2000, 1700}};
+            if (shape == 2) segments[count++] = (sl_segment){at[sides / 2], at[sides]};
+            check_against_all_paths(context, segments, count);
+        }
+    sl_context_destroy(context);
+}
+
 static void points_are_refused(void **state) {
     (void)state;
     static const sl_segment segments[] = {{{0, 0}, {1, 0}}, {{2, 2}, {2, 2}}};
@@ -204,6 +362,8 @@ int main(void) {
         cmocka_unit_test(equal_ways_share),
         cmocka_unit_test(turned_networks_measure_the_same),
         cmocka_unit_test(threads_do_not_change_bits),
+        cmocka_unit_test(networks_by_chance_agree_with_all_paths),
+        cmocka_unit_test(rings_and_spirals_agree_with_all_paths),
         cmocka_unit_test(points_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -14,9 +14,10 @@
 /// it from others in line with it, not its rounded ends. So turned plans have turned lines. Ends
 /// are corners, or the rounded places where walls stop it.
 ///
-/// Cost: a walk through the buckets of a grid for each pair of corners, most of which end at once,
-/// and one across the map for each pair in sight. Corners are independent, so threads take them one
-/// by one.
+/// Cost: a walk through the buckets of a grid for each pair of corners, and one across the map for
+/// each pair in sight. Most pairs need no walk: what stopped the line to a corner stops those to
+/// the corners near it, so the last walls that did are tried first. Corners are independent, so
+/// threads take them one by one.
 #include "sightline/axial.h"
 
 #include "geometry/orient.h"
@@ -32,6 +33,8 @@ void sl_axial_lines_destroy(sl_context *context, sl_axial_lines *lines) {
     sl_free(context, lines->probes);
     *lines = (sl_axial_lines){0};
 }
+
+#define NONE UINT32_MAX
 
 // --- corners, and walls by place
 
@@ -323,7 +326,8 @@ static bool is_stopped(const plan *p, const uint32_t wall[2], sl_point a, sl_poi
     return to_u * to_v < 0 && sli_orient(u, v, a) * sli_orient(u, v, b) < 0;
 }
 
-static bool sees_next(const plan *p, sl_point a, sl_point b) {
+/// The first wall found that stops the line between two corners, or NONE.
+static uint32_t find_stop(const plan *p, sl_point a, sl_point b) {
     const span columns = columns_of(p, a, b);
     const bool back = a.x > b.x;
     for (uint32_t k = columns.from; k <= columns.to; k++) {
@@ -332,10 +336,10 @@ static bool sees_next(const plan *p, sl_point a, sl_point b) {
         for (uint32_t r = rows.from; r <= rows.to; r++) {
             const size_t square = (size_t)c * p->rows + r;
             for (uint32_t i = p->bucket_first[square]; i < p->bucket_first[square + 1]; i++)
-                if (is_stopped(p, p->walls[p->bucket[i]], a, b)) return false;
+                if (is_stopped(p, p->walls[p->bucket[i]], a, b)) return p->bucket[i];
         }
     }
-    return true;
+    return NONE;
 }
 
 /// The sides of the wall from a corner to another that are inside.
@@ -376,8 +380,6 @@ static bool is_inside(const plan *p, uint32_t a, uint32_t b, int side) {
 
 // --- as long as it can be
 
-#define NONE UINT32_MAX
-
 /// Where something is on the line through a and b: `place` 0 at a, 1 at b.
 typedef struct event {
     double place;
@@ -385,9 +387,13 @@ typedef struct event {
     uint32_t wall;
 } event;
 
+enum { STOPS = 8 };
+
 typedef struct finder {
     const plan *plan;
     SL_ARRAY(event) events;
+    uint32_t stops[STOPS]; ///< walls that stopped lines from this corner, the last one first
+    uint32_t stop_count;
 } finder;
 
 /// Whether it is on b's side of the line. There is nothing between a and b, so rounding is no harm.
@@ -560,10 +566,36 @@ static sl_status add_line(sl_context *context, finder *f, uint32_t a, uint32_t b
     return SL_OK;
 }
 
+/// Notes a wall to be tried first from now on; `place`: where it stood, or the number of all.
+static void try_first(finder *f, uint32_t wall, uint32_t place) {
+    if (place == f->stop_count && place < STOPS) f->stop_count++;
+    if (place == STOPS) place--;
+    memmove(f->stops + 1, f->stops, place * sizeof *f->stops);
+    f->stops[0] = wall;
+}
+
+/// Whether a wall that stopped lines to other corners stops this one.
+static bool is_stopped_again(finder *f, sl_point a, sl_point b) {
+    const plan *p = f->plan;
+    for (uint32_t k = 0; k < f->stop_count; k++)
+        if (is_stopped(p, p->walls[f->stops[k]], a, b)) {
+            try_first(f, f->stops[k], k);
+            return true;
+        }
+    return false;
+}
+
+static bool sees_next(finder *f, sl_point a, sl_point b) {
+    const uint32_t stop = find_stop(f->plan, a, b);
+    if (stop != NONE) try_first(f, stop, f->stop_count);
+    return stop == NONE;
+}
+
 static sl_status try_pair(sl_context *context, finder *f, uint32_t a, uint32_t b, found *out) {
     const plan *p = f->plan;
+    if (is_stopped_again(f, p->corners[a], p->corners[b])) return SL_OK;
     if (!holds_line(p, a, b) || !holds_line(p, b, a)) return SL_OK;
-    if (!sees_next(p, p->corners[a], p->corners[b])) return SL_OK;
+    if (!sees_next(f, p->corners[a], p->corners[b])) return SL_OK;
     const bool along = has_wall(p, a, b);
     if (!along && !is_inside(p, a, b, 0)) return SL_OK;
     SL_TRY(find_events(context, f, p->corners[a], p->corners[b]));
@@ -593,6 +625,7 @@ static sl_status extend_walls(sl_context *context, finder *f, uint32_t corner, f
 static sl_status look_from(sl_context *context, void *all, void *state, size_t corner) {
     job *j = all;
     SL_TRY(sl_check_cancelled(context));
+    ((finder *)state)->stop_count = 0;
     for (uint32_t b = (uint32_t)corner + 1; b < j->plan.count; b++)
         SL_TRY(try_pair(context, state, (uint32_t)corner, b, &j->found[corner]));
     return extend_walls(context, state, (uint32_t)corner, &j->found[corner]);

@@ -4,11 +4,16 @@
 
 #include "geometry/orient.h"
 
+/// Whether the values from a to b and those from c to d have none in common. Most pairs end here.
+static inline bool sli_are_apart(double a, double b, double c, double d) {
+    const double low = a < b ? a : b, high = a < b ? b : a;
+    return (c < low && d < low) || (c > high && d > high);
+}
+
 /// Exact, for closed segments.
 static inline bool sli_touch(const sl_segment *s, const sl_segment *t) {
-    if (fmax(s->a.x, s->b.x) < fmin(t->a.x, t->b.x) || fmax(t->a.x, t->b.x) < fmin(s->a.x, s->b.x))
-        return false;
-    if (fmax(s->a.y, s->b.y) < fmin(t->a.y, t->b.y) || fmax(t->a.y, t->b.y) < fmin(s->a.y, s->b.y))
+    if (sli_are_apart(s->a.x, s->b.x, t->a.x, t->b.x) ||
+        sli_are_apart(s->a.y, s->b.y, t->a.y, t->b.y))
         return false;
     // Boxes meet. In one line, the segments meet too.
     return sli_orient(s->a, s->b, t->a) * sli_orient(s->a, s->b, t->b) <= 0 &&

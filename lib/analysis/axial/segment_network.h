@@ -1,0 +1,56 @@
+/// A network of segments that meet at common ends, as a search walks it.
+///
+/// A walk along a segment has a direction, so each segment is two states: 2 s from a to b, and
+/// 2 s + 1 back. Where only two segments meet, a walk has no choice:
+///
+///   o            o
+///    \          /   A chain is a row of segments that meet so. A search takes it as one step:
+///     o--o--o--o    it has two states as well, 2 c as its pieces are listed, and 2 c + 1 back.
+///    /          \   Curved streets have many pieces, and few chains.
+///   o            o
+///
+/// Turns are whole numbers: 1024th parts of a full turn. A key is a turn times 2^32, and a number
+/// of steps from segment to segment.
+#ifndef SL_SEGMENT_NETWORK_H
+#define SL_SEGMENT_NETWORK_H
+
+#include "sightline/geometry.h"
+#include "sightline/support.h"
+
+enum { SLI_UNITS_OF_HALF_TURN = 512, SLI_STEP_BITS = 32 };
+
+/// No chain turns by more, so that searches know how far a step leads.
+enum { SLI_MOST_OF_CHAIN = SLI_UNITS_OF_HALF_TURN };
+
+typedef struct sli_segment_arc {
+    uint32_t to;   ///< a state of a chain
+    uint32_t turn; ///< from the last piece of one chain to the first of the next
+} sli_segment_arc;
+
+typedef struct sli_segment_network {
+    const sl_segment *segments;
+    uint32_t count, corner_count, chain_count;
+    double *lengths;
+    uint32_t (*corners)[2]; ///< by segment: where its a and b are
+    uint32_t *first_at;     ///< by corner, and one more: into `at`
+    uint32_t *at;           ///< states of segments that leave a corner, ascending
+    uint32_t *first_piece;  ///< by chain, and one more: into `pieces`
+    uint32_t *pieces;       ///< states of segments
+    uint32_t *chain_of;     ///< by segment
+    uint32_t *place_of;     ///< by segment: in `pieces`
+    uint64_t *offsets;      ///< by place: the key from the chain's first piece to this one
+    uint64_t *turns;        ///< by place, and one more: sum of the turns of the offsets before it
+    size_t *first;          ///< by state of chains, and one more: into `arcs`
+    sli_segment_arc *arcs;
+} sli_segment_network;
+
+/// Segments must have length. Without `join`, chain c is segment c. Destroy it after failure, too.
+sl_status sli_segment_network_make(sl_context *context, const sl_segment *segments, uint32_t count,
+                                   bool join, sli_segment_network *out);
+void sli_segment_network_destroy(sl_context *context, sli_segment_network *network);
+
+static inline uint64_t sli_offset_of_last(const sli_segment_network *n, uint32_t chain) {
+    return n->offsets[n->first_piece[chain + 1] - 1];
+}
+
+#endif
