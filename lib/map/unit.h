@@ -20,4 +20,7 @@ int sli_unit_number(const char *sign);
 /// The length of a unit (sl_map.unit) in metres; 0 where it is none that is known.
 double sli_unit_metres(const char *unit);
 
+/// A length with three digits, rounded up, so that people can type it; 0 where it is not above 0.
+double sli_rounded_up(double value);
+
 #endif
