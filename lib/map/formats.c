@@ -354,6 +354,7 @@ sl_status sl_map_parse(sl_context *context, const char *path, const char *text, 
     if (options->entrance > 0) {
         read.entrance = options->entrance;
         read.entrance_line = 0;
+        read.entrance_by_doors = false;
     }
     *map = read;
     sl_report(context, "read", "bytes", size, size);

@@ -357,6 +357,7 @@ sl_status sl_map_copy(sl_context *context, const sl_map *from, sl_map *to) {
                   .earth_line = from->earth_line,
                   .entrance = from->entrance,
                   .entrance_line = from->entrance_line,
+                  .entrance_by_doors = from->entrance_by_doors,
                   .ground_guessed = from->ground_guessed};
     memcpy(map.unit, from->unit, sizeof map.unit);
     sl_status status = sl_map_add_walls(context, &map, from->walls, from->wall_count);

@@ -139,7 +139,12 @@ static sl_status read_entrance(text_reader *reader) {
     if (reader->map->entrance > 0)
         return sl_fail_at(reader->context, reader->name, reader->line,
                           "a second entrance: the first is on line %u", reader->map->entrance_line);
+    if (reader->words.count > 1 && !sli_word_is(reader->words.items[1], "doors"))
+        return sl_fail_at(reader->context, reader->name, reader->line,
+                          "entrance: expected 'doors' or nothing behind the width, found '%s'",
+                          sli_show(reader->words.items[1]).text);
     SL_TRY(read_over_0(reader, "entrance", &reader->map->entrance));
+    reader->map->entrance_by_doors = reader->words.count > 1;
     reader->map->entrance_line = reader->line;
     return SL_OK;
 }
@@ -305,7 +310,7 @@ static const statement statements[] = {
     {"oneway", "oneway x0 y0 x1 y1", false, 4, 4, 4, read_oneway},
     {"seam", "seam x0 y0 x1 y1", false, 4, 4, 4, read_seam},
     {"range", "range r", false, 1, 1, 1, read_range},
-    {"entrance", "entrance w", false, 1, 1, 1, read_entrance},
+    {"entrance", "entrance w [doors]", false, 1, 2, 1, read_entrance},
     {"unit", "unit NAME", false, 1, 2, 0, read_unit},
     {"earth", "earth LONGITUDE LATITUDE", false, 2, 2, 0, read_earth},
     {"crs", "crs EPSG:NUMBER", false, 1, 1, 0, read_crs},
@@ -793,6 +798,7 @@ static sl_status print_map(text_writer *writer) {
     if (map->entrance > 0) {
         begin_statement(writer, map->entrance_line, "entrance");
         print_number(writer->stream, map->entrance);
+        if (map->entrance_by_doors) fputs(" doors", writer->stream);
         end_statement(writer, map->entrance_line);
     }
     if (map->range > 0) {

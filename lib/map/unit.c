@@ -1,6 +1,7 @@
 /// What lengths are in, and how long that is.
 #include "map/unit.h"
 
+#include <math.h>
 #include <string.h>
 
 const sli_unit sli_units[SLI_UNITS] = {
@@ -29,4 +30,13 @@ int sli_unit_number(const char *sign) {
 
 double sli_unit_metres(const char *sign) {
     return sli_units[sli_unit_number(sign)].metres;
+}
+
+double sli_rounded_up(double value) {
+    double power = 1;
+    if (!(value > 0)) return 0;
+    while (value * power < 100 && power < 1e20) power *= 10;
+    while (value * power >= 1000 && power > 1e-20) power /= 10;
+    const double digits = ceil(value * power * (1 - 1e-9));
+    return power >= 1 ? digits / power : digits * round(1 / power);
 }

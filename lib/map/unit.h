@@ -27,4 +27,7 @@ bool sli_unit_is_measured(const char *text, double *factor, const char **sign);
 /// not above 0, a unit that is not known, a map in degrees, and coordinates that a map cannot have.
 sl_status sli_map_measure(sl_context *context, sl_map *map, double factor, const char *sign);
 
+/// A length with three digits, rounded up, so that people can type it; 0 where it is not above 0.
+double sli_rounded_up(double value);
+
 #endif

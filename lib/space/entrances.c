@@ -16,10 +16,11 @@
 /// than the opening: else it is a niche or an alley. In cores of thick walls such a disc fits, too.
 /// So a closed part beside parts with openings must be short if it is narrower than W.
 ///
-/// W is what the map says, or 1.2 m if its unit is known. Else it is found. Every *pocket*
-/// (triangles of one access that are roomier than it) tells of an opening, and W is the largest
-/// below the greatest step in their widths. What is inside then must have a third of the sides of
-/// walls that can be reached at all. If it has less, the map is no building, and nothing is found.
+/// W is what the map says, or 1.2 m if its unit is known, or by the doors that a drawing shows.
+/// Else it is found. Every *pocket* (triangles of one access that are roomier than it) tells of an
+/// opening, and W is the largest below the greatest step in their widths. What is inside then must
+/// have a third of the sides of walls that can be reached at all. If it has less, the map is no
+/// building, and nothing is found.
 ///
 /// A pocket with a somewhat wider opening may be a hall whose rooms are inside. So may what all
 /// openings of a part lead to, as a corridor with an open end. This is a doubt: then such rooms do
@@ -43,8 +44,9 @@
 #define NONE    UINT32_MAX
 #define NOWHERE ((sl_point){NAN, NAN})
 
-/// Usual entrances, in metres.
+/// Usual entrances, in metres, and the share of their width that doors have.
 #define ENTRANCE 1.2
+#define DOORS    0.7
 /// Openings up to so many times W are doubtful. A width that is found is that of a narrow door.
 #define DOUBT       2.5
 #define DOUBT_FOUND 3.5
@@ -321,16 +323,6 @@ static double before_step(double *numbers, size_t count, double most) {
     return best;
 }
 
-/// With three digits, so that people can type it.
-static double rounded_up(double value) {
-    double power = 1;
-    if (!(value > 0)) return 0;
-    while (value * power < 100 && power < 1e20) power *= 10;
-    while (value * power >= 1000 && power > 1e-20) power /= 10;
-    const double digits = ceil(value * power * (1 - 1e-9));
-    return power >= 1 ? digits / power : digits * round(1 / power);
-}
-
 /// Finds the width of entrances by pockets; 0 for none. Pockets that are small against the map do
 /// not count.
 static sl_status find_width(finder *f, double most, double *out) {
@@ -356,7 +348,7 @@ static sl_status find_width(finder *f, double most, double *out) {
     for (size_t i = 0; i < f->groups.count; i++)
         if (f->groups.items[i].access <= 1.01 * best)
             widest = fmax(widest, f->groups.items[i].access);
-    *out = rounded_up(widest);
+    *out = sli_rounded_up(widest);
     sl_free(f->context, widths);
     return status;
 }
@@ -521,7 +513,7 @@ static sl_status find_doubts(finder *f, double width, const uint8_t *halls, uint
             (opening){triangles(f)->halves.items[half].from, sli_half_end(triangles(f), half)};
         if (g->area <= largest) continue;
         largest = g->area;
-        f->found.doubtful_width = rounded_up(g->access);
+        f->found.doubtful_width = sli_rounded_up(g->access);
         f->found.doubtful = f->channels.items.items[label_of(f, half)].at;
         f->found.roomiest = g->place;
     }
@@ -833,15 +825,27 @@ static void forget(sl_context *context, sl_map *map) {
     map->seam_count = kept;
 }
 
+/// By doors that are drawn open: the width that is found counts if these can be entrances then.
+static sl_status find_by_doors(sl_context *context, sl_map *map, double most, bool *found) {
+    SL_TRY(try_by(context, map, SL_ENTRANCE_FOUND, 0, most, found));
+    if (*found && map->interior.width >= DOORS * map->entrance) return SL_OK;
+    forget(context, map);
+    return try_by(context, map, SL_ENTRANCE_DOORS, map->entrance, 0, found);
+}
+
 static sl_status find(sl_context *context, sl_map *map) {
     const sl_box b = sl_map_bounds(map);
     const double shorter = fmin(b.max.x - b.min.x, b.max.y - b.min.y);
     const double metres = sli_unit_metres(map->unit);
-    const double usual = metres > 0 ? ENTRANCE / metres : INFINITY;
+    const bool doors = map->entrance_by_doors;
+    const double usual = doors ? map->entrance : metres > 0 ? ENTRANCE / metres : INFINITY;
     bool found = false;
     if (!(shorter > 0)) return SL_OK;
-    if (map->entrance > 0) return try_by(context, map, SL_ENTRANCE_GIVEN, map->entrance, 0, &found);
-    if (usual < 0.6 * shorter) SL_TRY(try_by(context, map, SL_ENTRANCE_UNIT, usual, 0, &found));
+    if (map->entrance > 0 && !doors)
+        return try_by(context, map, SL_ENTRANCE_GIVEN, map->entrance, 0, &found);
+    if (usual < 0.6 * shorter)
+        SL_TRY(doors ? find_by_doors(context, map, shorter / 3, &found)
+                     : try_by(context, map, SL_ENTRANCE_UNIT, usual, 0, &found));
     if (found || says_ground(map)) return SL_OK;
     return try_by(context, map, SL_ENTRANCE_FOUND, 0, shorter / 3, &found);
 }

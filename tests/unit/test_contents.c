@@ -169,6 +169,39 @@ static void test_turned_swings(void **state) {
 }
 
 /// Lines side by side are hatching only if they are many, even and close.
+#define UNIT(number)  "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n" number "\n0\nENDSEC\n"
+#define SECOND(layer) LINE(layer, 10, 3, 9, 3) ARC(layer, 10, 3, 1, 90, 180)
+
+/// Doors that are drawn open say how wide entrances are, where the unit makes no doors of them.
+static void test_width_of_doors(void **state) {
+    (void)state;
+    static const struct {
+        const char *text, *unit;
+        double width;
+    } cases[] = {
+        {HEAD ROOM("0") SWING("0") SECOND("0") TAIL, NULL, 1.42},
+        {HEAD ROOM("0") SWING("0") TAIL, NULL, 0},
+        {UNIT("6") HEAD ROOM("0") SWING("0") SECOND("0") TAIL, NULL, 0},
+        {UNIT("1") HEAD ROOM("0") SWING("0") SECOND("0") TAIL, NULL, 1.42},
+        {UNIT("1") HEAD ROOM("0") SWING("0") SECOND("0") TAIL, "m=m", 0},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        sl_context *context = testing_context(NULL);
+        sl_import_options options = sl_import_options_default();
+        options.unit = cases[i].unit;
+        sl_map map = {0};
+        assert_ok(context, sli_map_read_dxf(context, "f", cases[i].text, strlen(cases[i].text),
+                                            &options, &map));
+        assert_true(map.entrance == cases[i].width);
+        assert_int_equal(map.entrance_by_doors, cases[i].width > 0);
+        char *text = map_walls_text(&map);
+        assert_int_equal(strstr(text, "entrance 1.42 doors\n") != NULL, cases[i].width > 0);
+        free(text);
+        sl_map_destroy(context, &map);
+        sl_context_destroy(context);
+    }
+}
+
 static void test_hatching(void **state) {
     (void)state;
     static const struct {
@@ -330,6 +363,33 @@ static void test_walls_on_doors(void **state) {
     assert_null(strstr(notes, "longer"));
 }
 
+/// Rooms without gaps are shut though doors are drawn at their walls. Leaves at the ends of walls
+/// and doors in gaps are none of that.
+static void test_shut_doors(void **state) {
+    (void)state;
+    static const double walls[][4] = {{0, 0, 9, 0}, {9, 0, 9, 9}, {9, 9, 0, 9}, {0, 9, 0, 0}},
+                        doors[][2][4] = {{{3, 0, 3.4, 0.8}, {9, 5, 8.2, 5.4}},
+                                         {{0, 0, 0.6, 0.6}, {9, 9, 8.4, 8.4}},
+                                         {{3, 0, 3, 9}, {9, 5, 0, 5}}};
+    for (int i = 0; i < 6; i++) {
+        const double c = i % 2 ? cos(17.3 * 0.017453292519943295) : 1,
+                     n = i % 2 ? sqrt(1 - c * c) : 0;
+        char text[4096] = HEAD, notes[4096];
+        for (int k = 0; k < 6; k++) {
+            const double *p = k < 4 ? walls[k] : doors[i / 2][k - 4];
+            sprintf(text + strlen(text),
+                    "0\nLINE\n8\n%s\n10\n%.17g\n20\n%.17g\n11\n%.17g\n21\n%.17g\n",
+                    k < 4 ? "WALL" : "DOOR", c * p[0] - n * p[1], n * p[0] + c * p[1],
+                    c * p[2] - n * p[3], n * p[2] + c * p[3]);
+        }
+        strcat(text, TAIL);
+        assert_int_equal(read_noted(text, NULL, notes), 4);
+        assert_int_equal(strstr(notes, "2 lines on layers of doors stand at walls without a gap") !=
+                             NULL,
+                         i < 2);
+    }
+}
+
 /// Doors that are drawn open show where the plan is, whatever the layer's name says; two are too
 /// few, and so are those of a drawing whose other layers have doors, or are named as walls.
 static void test_layers_of_doors(void **state) {
@@ -339,6 +399,7 @@ static void test_layers_of_doors(void **state) {
 #define DOOR_AT(x)   LINE("DETAILS", x, 0, x, 1) ARC("DETAILS", x, 0, 1, 0, 90)
     const char *const room = HEAD ROOM("DETAILS") BESIDE DOOR_AT(2) DOOR_AT(5) DOOR_AT(7) TAIL;
     assert_map(sli_map_read_dxf, room, NULL, false,
+               "entrance 1.42 doors\n"
                "wall 2 0 0 0\nwall 0 0 0 8\nwall 0 8 10 8\nwall 10 8 10 0\nwall 10 0 8 0\n"
                "wall 7 0 6 0\nwall 5 0 3 0\n" BESIDE_WALLS);
     assert_map(sli_map_read_dxf, HEAD ROOM("DETAILS") BESIDE DOOR_AT(2) DOOR_AT(5) TAIL, NULL,
@@ -424,6 +485,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_languages),       cmocka_unit_test(test_no_choice),
         cmocka_unit_test(test_blocks),          cmocka_unit_test(test_swings),
+        cmocka_unit_test(test_width_of_doors),  cmocka_unit_test(test_shut_doors),
         cmocka_unit_test(test_hatching),        cmocka_unit_test(test_turned_swings),
         cmocka_unit_test(test_asked_for),       cmocka_unit_test(test_svg),
         cmocka_unit_test(test_memory),          cmocka_unit_test(test_svg_asked_for),

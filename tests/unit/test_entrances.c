@@ -114,8 +114,8 @@ static const sl_point cores[] = {{0.15, 3}, {5, 6}, {1, 4.15}, {9.85, 6}, {6, 0.
 static void test_house(void **state) {
     (void)state;
     static const double widths[] = {0.8, 0.9, 1.0, 1.1, 1.2}, angles[] = {0, 17.3, 45, 90};
-    static const char *const units[] = {"", "unit m\n", "entrance 1.2\n"};
-    for (int i = 0; i < 5 * 4 * 3 * 3; i++) {
+    static const char *const units[] = {"", "unit m\n", "entrance 1.2\n", "entrance 1.2 doors\n"};
+    for (int i = 0; i < 5 * 4 * 3 * 4; i++) {
         const double width = widths[i % 5];
         const turned t = turned_by(angles[i / 5 % 4], 1, i % 7 * 100, i % 3 * 1000);
         const int doors = i / 20 % 3;
@@ -585,6 +585,50 @@ static void test_window_at_border(void **state) {
     }
 }
 
+/// A house with one room, whose walls 0.5 thick have an opening of 0.1 into their core, and an
+/// entrance.
+static void say_open_core(const char *first, double entrance, char text[4000]) {
+    const double e = 3 + entrance;
+    snprintf(text, 4000,
+             "%s"
+             "walls 3 0 3 0.5 0.5 0.5 0.5 7.5 9.5 7.5 9.5 0.5 %.17g 0.5 %.17g 0 10 0 10 8 5.1 8\n"
+             "walls 5 8 0 8 0 0 3 0\nwalls 6 3 6 7.5\n",
+             first, e, e);
+}
+
+/// The width by doors counts where the one that is found is narrower than doors. A wider opening
+/// is doubtful then.
+static void test_by_doors(void **state) {
+    (void)state;
+    static const sl_point room = {3, 5}, core = {0.25, 4};
+    static const struct {
+        const char *first;
+        double entrance;
+        sl_entrance by;
+        bool room, core;
+        sl_inside doubt;
+    } cases[] = {{"", 1, SL_ENTRANCE_FOUND, false, true, SL_INSIDE_SMALL},
+                 {"entrance 1.2 doors\n", 1, SL_ENTRANCE_DOORS, true, false, SL_INSIDE_SURE},
+                 {"entrance 1.2 doors\n", 2, SL_ENTRANCE_DOORS, true, true, SL_INSIDE_OPENING},
+                 {"entrance 0.01 doors\n", 1, SL_ENTRANCE_FOUND, false, true, SL_INSIDE_SMALL}};
+    static const double angles[] = {0, 17.3};
+    for (size_t i = 0; i < 2 * sizeof cases / sizeof *cases; i++) {
+        const turned t = turned_by(angles[i % 2], 1, 0, 0);
+        char text[4000];
+        plan p;
+        say_open_core(cases[i / 2].first, cases[i / 2].entrance, text);
+        turn_plan(text, &t, &p);
+        assert_int_equal(p.map.interior.by, cases[i / 2].by);
+        if (cases[i / 2].by == SL_ENTRANCE_DOORS)
+            assert_int_equal(doubt_of(&p), cases[i / 2].doubt);
+        if (cases[i / 2].doubt != SL_INSIDE_OPENING) {
+            assert_int_equal(is_inside(&p, turn(&t, room.x, room.y)), cases[i / 2].room);
+            assert_int_equal(is_inside(&p, turn(&t, core.x, core.y)), cases[i / 2].core);
+        }
+        close_plan(&p);
+    }
+}
+
 static void test_units(void **state) {
     (void)state;
     assert_true(sli_unit_metres("m") == 1 && sli_unit_metres("mm") == 1e-3);
@@ -594,21 +638,14 @@ static void test_units(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_house),
-        cmocka_unit_test(test_enclosed),
-        cmocka_unit_test(test_wide_entrance),
-        cmocka_unit_test(test_exact),
-        cmocka_unit_test(test_disc),
-        cmocka_unit_test(test_outdoors),
-        cmocka_unit_test(test_closed),
-        cmocka_unit_test(test_again),
-        cmocka_unit_test(test_memory),
-        cmocka_unit_test(test_units),
-        cmocka_unit_test(test_corridor),
-        cmocka_unit_test(test_thick_walls),
-        cmocka_unit_test(test_roomiest),
-        cmocka_unit_test(test_slits),
-        cmocka_unit_test(test_window_at_border),
+        cmocka_unit_test(test_house),         cmocka_unit_test(test_enclosed),
+        cmocka_unit_test(test_wide_entrance), cmocka_unit_test(test_exact),
+        cmocka_unit_test(test_disc),          cmocka_unit_test(test_outdoors),
+        cmocka_unit_test(test_closed),        cmocka_unit_test(test_again),
+        cmocka_unit_test(test_memory),        cmocka_unit_test(test_units),
+        cmocka_unit_test(test_by_doors),      cmocka_unit_test(test_corridor),
+        cmocka_unit_test(test_thick_walls),   cmocka_unit_test(test_roomiest),
+        cmocka_unit_test(test_slits),         cmocka_unit_test(test_window_at_border),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -150,6 +150,7 @@ static void test_refusals(void **state) {
         {"seam 1 1 1 1", "two different ends"},
         {"oneway 1 1 1", "with 3 values"},
         {"range 0", "greater than 0, found '0'"},
+        {"entrance 2 windows", "expected 'doors' or nothing behind the width, found 'windows'"},
         {"range -5", "greater than 0, found '-5'"},
         {"range", "with 0 values"},
         {"start 0 0", "with 2 values"},

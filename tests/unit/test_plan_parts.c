@@ -259,11 +259,44 @@ static void test_crowded(void **state) {
     sl_context_destroy(d.context);
 }
 
+/// The boundary of a site is told, at any turn; a house alone and a room about it are none.
+static void test_site(void **state) {
+    (void)state;
+    static const struct {
+        double ring[5][2];
+        bool site;
+    } cases[] = {{{{-8, -6}, {20, -9}, {24, 14}, {3, 18}, {-9, 12}}, true},
+                 {{{-1, -1}, {13, -1}, {13, 9}, {6, 9.2}, {-1, 9}}, false},
+                 {{{-8, -6}, {20, -9}, {24, 14}, {6, 7}, {-9, 12}}, false}};
+    for (int i = 0; i < 6; i++) {
+        drawing d = {.context = testing_context(NULL)};
+        const double angle = i % 2 ? 17.3 * 0.017453292519943295 : 0, c = cos(angle),
+                     s = sin(angle);
+        sli_plan_look look;
+        house(&d);
+        d.item++;
+        for (int k = 0; k < 5; k++) {
+            const double *a = cases[i / 2].ring[k], *b = cases[i / 2].ring[(k + 1) % 5];
+            add_line(&d, a[0], a[1], b[0], b[1]);
+        }
+        for (size_t k = 0; k < d.map.wall_count; k++) {
+            sl_wall *w = &d.map.walls[k];
+            w->a = (sl_point){c * w->a.x - s * w->a.y, s * w->a.x + c * w->a.y};
+            w->b = (sl_point){c * w->b.x - s * w->b.y, s * w->b.x + c * w->b.y};
+        }
+        assert_ok(d.context, sli_plan_look_at(d.context, &d.map, 1, 0, &look));
+        assert_int_equal(look.site, cases[i / 2].site);
+        sl_map_destroy(d.context, &d.map);
+        sl_context_destroy(d.context);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_found),  cmocka_unit_test(test_all_together),
         cmocka_unit_test(test_kept),   cmocka_unit_test(test_rest),
         cmocka_unit_test(test_memory), cmocka_unit_test(test_crowded),
+        cmocka_unit_test(test_site),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -174,6 +174,7 @@ int slp_plan_set_entrance(slp_plan *plan, double width) {
             "the entrance must be a number from %g to %g; 0: as the unit or the plan says",
             SL_COORDINATE_MIN, SL_COORDINATE_MAX);
     plan->map.entrance = width;
+    plan->map.entrance_by_doors = false;
     return SL_OK;
 }
 

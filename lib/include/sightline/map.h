@@ -135,6 +135,7 @@ typedef enum sl_entrance {
     SL_ENTRANCE_GIVEN, ///< the map says it (sl_map.entrance)
     SL_ENTRANCE_UNIT,  ///< usual entrances, in the map's unit
     SL_ENTRANCE_FOUND, ///< by the openings of the map itself
+    SL_ENTRANCE_DOORS, ///< by the doors of the map (sl_map.entrance_by_doors)
 } sl_entrance;
 
 /// What is inside of a map without starts, as sl_map_find_inside has found it. Zeroed: not found.
@@ -225,6 +226,9 @@ typedef struct sl_map {
     uint32_t earth_line;
     double entrance; ///< how wide openings to the outside are at most; 0 where nobody says it
     uint32_t entrance_line;
+    /// Nobody says `entrance`: doors that are drawn open tell it. So it counts where the width that
+    /// is found is narrower than doors, and wider openings are doubtful then.
+    bool entrance_by_doors;
     sl_interior interior; ///< map text and .slv files do not keep it
     /// Which walls a space of the map has: those that stop one of these, as bits of SL_STOPS_SIGHT
     /// ...; 0: those that stop sight. Others are open there. Map text does not keep it.

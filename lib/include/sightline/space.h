@@ -152,7 +152,8 @@ typedef struct sl_space {
 ///
 /// How wide entrances are, the map says (sl_map.entrance). Else it is 1.2 m if the map's unit is
 /// known, or it is found: the widest openings of rooms before the greatest step in their widths.
-/// Then a third of the walls that can be reached must be inside, else nothing is found.
+/// Then a third of the walls that can be reached must be inside, else nothing is found. Doors that
+/// are wider than what is found say it better (sl_map.entrance_by_doors).
 ///
 /// What the disc cannot enter is inside if a disc of half the width fits in it, and, if it has an
 /// opening, one that is 4/3 as wide as that. So cores of walls, niches and alleys are not. Where

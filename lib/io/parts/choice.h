@@ -1,5 +1,5 @@
-/// The choice among what is drawn: shared by contents.c, which makes it, and contents_note.c, which
-/// tells of it.
+/// The choice among what is drawn: shared by contents.c, which makes it, contents_doors.c, and
+/// contents_note.c, which tells of it.
 #ifndef SL_CHOICE_H
 #define SL_CHOICE_H
 
@@ -25,10 +25,19 @@ typedef struct sli_choice {
     size_t doors;     ///< made
     sli_openings openings;
     size_t cuts, glazed; ///< openings that cut walls: doors, and windows
+    size_t
+        shut; ///< lines on layers of doors that stand at walls without a gap, where no door opens
 } sli_choice;
 
 static inline bool sli_choice_gone(const sli_choice *c, size_t wall) {
     return sl_bits_has(c->symbols.gone, wall);
+}
+
+/// Whether what means this is taken.
+static inline bool sli_choice_takes(const sli_choice *c, sli_meaning means) {
+    if (sli_contents_said(c->contents)) return means != SLI_MEANS_DOOR;
+    return means == SLI_MEANS_WALL || means == SLI_MEANS_WINDOW ||
+           (means == SLI_MEANS_NOTHING && !c->walls_named);
 }
 
 /// The usual width of doors that are drawn open; 0 where none are.
@@ -37,6 +46,12 @@ double sli_choice_door(const sli_choice *c);
 double sli_choice_metre(const sli_choice *c);
 /// The longest that a door may be.
 double sli_choice_longest_door(const sli_choice *c);
+
+/// Finds the openings that lie over walls: bars, doors of layers and swings (contents_doors.c).
+/// Bars that cut are no walls themselves. Where doors are drawn as doors, other bars are windows.
+sl_status sli_choice_find_openings(sli_choice *c);
+/// Adds the doors to the map, with the option doors.
+sl_status sli_choice_add_doors(sli_choice *c);
 
 /// Notes lines on layers of doors that are far longer than doors.
 void sli_choice_note_long_doors(const sli_choice *c);

@@ -12,8 +12,8 @@
 #include "geometry/length.h"
 #include "io/parts/choice.h"
 #include "io/parts/plan_doubt.h"
+#include "io/parts/plan_unit.h"
 
-#include <math.h>
 #include <stdint.h>
 #include <strings.h>
 
@@ -196,12 +196,6 @@ static sl_status find_symbols(sli_choice *c) {
     return SL_OK;
 }
 
-static bool is_taken(const sli_choice *c, sli_meaning means) {
-    if (sli_contents_said(c->contents)) return means != SLI_MEANS_DOOR;
-    return means == SLI_MEANS_WALL || means == SLI_MEANS_WINDOW ||
-           (means == SLI_MEANS_NOTHING && !c->walls_named);
-}
-
 /// Whether names say what is a wall. What the user says of some layers changes nothing for others.
 static void count_named(sli_choice *c) {
     size_t named = 0;
@@ -243,14 +237,14 @@ static bool choose_groups(sli_choice *c) {
     bool changes = c->by_looks || c->symbols.leaves + c->symbols.lines > 0;
     for (size_t i = 0; i < c->contents->groups.count; i++) {
         sli_group *group = &c->contents->groups.items[i];
-        group->taken = is_taken(c, group->means);
+        group->taken = sli_choice_takes(c, group->means);
         const bool window = group->means == SLI_MEANS_WINDOW && !sli_contents_said(c->contents);
         changes |= group->walls && (!group->taken || window);
     }
     for (size_t i = 0; i < c->contents->runs.count; i++) {
         const sli_group_run *run = &c->contents->runs.items[i];
         for (size_t j = run->first; j < run->end; j++) {
-            const bool kept = !sli_choice_gone(c, j) && is_taken(c, c->means[j]);
+            const bool kept = !sli_choice_gone(c, j) && sli_choice_takes(c, c->means[j]);
             c->kept += kept;
             c->contents->groups.items[run->group].taken |= kept; // by the role of its look
             changes |= c->contents->roles && !kept;
@@ -271,7 +265,7 @@ static sl_status find_parts(sli_choice *c) {
     taken.walls = sl_alloc_array(context, count, sizeof *taken.walls);
     sl_status status = number && taken.walls ? SL_OK : SL_NO_MEMORY;
     for (size_t i = 0; status == SL_OK && i < count; i++) {
-        if (sli_choice_gone(c, i) || !is_taken(c, c->means[i])) continue;
+        if (sli_choice_gone(c, i) || !sli_choice_takes(c, c->means[i])) continue;
         number[taken.wall_count] = i;
         taken.walls[taken.wall_count++] = c->map->walls[i];
     }
@@ -302,7 +296,7 @@ static sl_status list_one(const sli_choice *c, const char *name, size_t length, 
     sli_meaning most = SLI_MEANS_NOTHING;
     for (int i = 0; i < SLI_MEANINGS; i++)
         if (t->walls[i] > t->walls[most]) most = (sli_meaning)i;
-    const bool wall = most == SLI_MEANS_NOTHING && is_taken(c, most);
+    const bool wall = most == SLI_MEANS_NOTHING && sli_choice_takes(c, most);
     out->items[out->count++] =
         (sl_drawing_layer){copy, t->shapes, true, sli_role_name(wall ? SLI_MEANS_WALL : most)};
     return SL_OK;
@@ -356,226 +350,6 @@ const char *sli_contents_role(const sl_drawing_layers *list, sli_word name) {
             strncasecmp(list->items[i].name, name.at, name.length) == 0)
             return list->items[i].taken_for;
     return sli_role_name(SLI_MEANS_OTHER);
-}
-
-// --- openings over walls
-
-/// A shape that may be an opening: one line or four, that the file has one behind another.
-static sl_status add_openings_of_run(sli_choice *c, const sli_group_run *run, double wide,
-                                     bool bar) {
-    const sl_box bounds = sl_map_bounds(c->map);
-    const double size = fmax(bounds.max.x - bounds.min.x, bounds.max.y - bounds.min.y);
-    for (size_t i = run->first, end; i < run->end; i = end) {
-        const sl_wall *walls = c->map->walls;
-        for (end = i + 1; end < run->end; end++)
-            if (walls[end].line != walls[i].line || walls[end].a.x != walls[end - 1].b.x ||
-                walls[end].a.y != walls[end - 1].b.y)
-                break;
-        if (sli_choice_gone(c, i)) continue;
-        SL_TRY(sli_openings_add(c->contents->context, walls + i, end - i, wide, size / 400,
-                                sli_choice_longest_door(c), bar ? i : c->map->wall_count, i,
-                                &c->openings));
-    }
-    return SL_OK;
-}
-
-/// Shapes in the colour of the paper, that no name tells of: bars over what is beneath them.
-static sl_status find_bars(sli_choice *c, sl_bits *bars) {
-    const sli_group_run *runs = c->contents->runs.items;
-    const size_t count = c->contents->runs.count;
-    sli_looks *looks = &c->contents->looks;
-    if (!c->contents->has_looks) return SL_OK;
-    sli_look_shape *shapes = sl_alloc_array(c->contents->context, count, sizeof *shapes);
-    if (!shapes) return SL_NO_MEMORY;
-    for (size_t i = 0; i < count; i++)
-        shapes[i] = (sli_look_shape){runs[i].first, runs[i].end, runs[i].look};
-    const double ground = sli_looks_ground(c->map, shapes, count, looks);
-    sl_free(c->contents->context, shapes);
-    for (size_t i = 0; i < count; i++) {
-        const sli_meaning means = c->contents->groups.items[runs[i].group].means;
-        const sli_ink *ink = &looks->items.items[runs[i].look].ink;
-        if ((means != SLI_MEANS_NOTHING && means != SLI_MEANS_WALL) ||
-            !sli_ink_is_ground(ink, ground))
-            continue;
-        sl_bits_add(bars, i);
-        SL_TRY(add_openings_of_run(c, &runs[i], ink->line ? ink->width : 0, true));
-    }
-    return SL_OK;
-}
-
-/// A door that is drawn open over its wall: from hinge to latch.
-static sl_status add_swing_opening(sli_choice *c, sl_point hinge, sl_point latch, double radius) {
-    const sl_wall door = {.a = hinge, .b = latch};
-    return sli_openings_add(c->contents->context, &door, 1, 0.4 * radius, 0, INFINITY,
-                            c->map->wall_count, SIZE_MAX, &c->openings);
-}
-
-static sl_status add_swing_openings(sli_choice *c) {
-    for (size_t i = 0; i < c->symbols.swings.count; i++) {
-        const sli_swing *swing = &c->symbols.swings.items[i];
-        SL_TRY(add_swing_opening(c, swing->hinge, swing->latch, swing->radius));
-    }
-    for (size_t i = 0; i < c->symbols.unsure.count; i++) {
-        const sli_swing *swing = &c->symbols.unsure.items[i];
-        SL_TRY(add_swing_opening(c, swing->hinge, swing->latch, swing->radius));
-        SL_TRY(add_swing_opening(c, swing->hinge, swing->tip, swing->radius));
-    }
-    return SL_OK;
-}
-
-/// Finds the openings that lie over walls. Bars that cut are no walls themselves. Where doors are
-/// drawn as doors, other bars are windows.
-static sl_status find_openings(sli_choice *c) {
-    sl_context *context = c->contents->context;
-    const sli_group_run *runs = c->contents->runs.items;
-    const size_t count = c->contents->runs.count;
-    sl_bits *bars = sl_alloc_array(context, sl_bits_words(count), sizeof *bars);
-    sl_bits *kept = sl_alloc_array(context, sl_bits_words(c->map->wall_count), sizeof *kept);
-    sl_status status = bars && kept ? find_bars(c, bars) : SL_NO_MEMORY;
-    const size_t first_door = c->openings.items.count;
-    for (size_t i = 0; i < first_door; i++)
-        c->openings.items.items[i].window = c->symbols.doors > 0;
-    if (status == SL_OK) status = add_swing_openings(c);
-    for (size_t i = 0; status == SL_OK && i < count; i++)
-        if (c->contents->groups.items[runs[i].group].means == SLI_MEANS_DOOR)
-            status = add_openings_of_run(c, &runs[i], 0, false);
-    for (size_t i = 0; status == SL_OK && i < count; i++)
-        for (size_t k = runs[i].first; k < runs[i].end && !sl_bits_has(bars, i); k++)
-            if (!sli_choice_gone(c, k) && is_taken(c, c->means[k]) &&
-                c->means[k] != SLI_MEANS_WINDOW)
-                sl_bits_add(kept, k);
-    if (status == SL_OK) status = sli_openings_cut(context, c->map, kept, &c->openings);
-    for (size_t i = 0; status == SL_OK && i < c->openings.items.count; i++) {
-        const sli_opening *o = &c->openings.items.items[i];
-        if (!o->cuts) continue;
-        c->cuts += !o->window;
-        c->glazed += o->window;
-        if (i >= first_door) continue;
-        for (size_t k = o->shape; k < c->map->wall_count; k++) {
-            const sl_wall *wall = &c->map->walls[k];
-            if (wall->line != c->map->walls[o->shape].line || k > o->shape + 3) break;
-            c->kept -= !sli_choice_gone(c, k) && is_taken(c, c->means[k]);
-            sl_bits_add(c->symbols.gone, k);
-        }
-    }
-    sl_free(context, bars);
-    sl_free(context, kept);
-    return status;
-}
-
-// --- doors
-
-/// The ends of doors, each with the end of a wall that is next to it.
-typedef struct joints {
-    sl_point *at, *to;
-    double *reach; ///< how far the end of a wall may be; the distance to the nearest one
-    sl_point end;  ///< of the wall at hand
-} joints;
-
-static void join(void *user, size_t number) {
-    joints *j = user;
-    const double away = sli_length(j->at[number].x - j->end.x, j->at[number].y - j->end.y);
-    if (away >= j->reach[number]) return;
-    j->reach[number] = away;
-    j->to[number] = j->end;
-}
-
-/// Moves hinges and latches to the walls that they stand at, across the frame: a shut door leaves
-/// no slit.
-static sl_status join_doors(sli_choice *c, joints *j, size_t count, double reach) {
-    sl_context *context = c->contents->context;
-    sli_near near = {0};
-    sl_status status = sli_near_make(context, j->at, count, reach, &near);
-    for (size_t i = 0; status == SL_OK && i < c->map->wall_count; i++) {
-        if (i % 4096 == 0) status = sl_check_cancelled(context);
-        if (sli_choice_gone(c, i) || !is_taken(c, c->means[i])) continue;
-        j->end = c->map->walls[i].a;
-        sli_near_each(&near, j->end, j, join);
-        j->end = c->map->walls[i].b;
-        sli_near_each(&near, j->end, j, join);
-    }
-    sli_near_destroy(context, &near);
-    return status;
-}
-
-static sl_status add_door(sli_choice *c, sl_point a, sl_point b, bool open) {
-    char name[32];
-    if (a.x == b.x && a.y == b.y) return SL_OK;
-    snprintf(name, sizeof name, "door%zu", c->map->door_count + 1);
-    c->doors++;
-    return sl_map_add_door(c->contents->context, c->map, name, (sl_segment){a, b}, open, 0);
-}
-
-static sl_status add_swings(sli_choice *c) {
-    sl_context *context = c->contents->context;
-    const size_t count = c->symbols.swings.count;
-    joints j = {.at = sl_alloc_array(context, 2 * count + 1, sizeof *j.at),
-                .to = sl_alloc_array(context, 2 * count + 1, sizeof *j.to),
-                .reach = sl_alloc_array(context, 2 * count + 1, sizeof *j.reach)};
-    sl_status status = j.at && j.to && j.reach ? SL_OK : SL_NO_MEMORY;
-    double widest = 0;
-    for (size_t i = 0; status == SL_OK && i < count; i++) {
-        const sli_swing *swing = &c->symbols.swings.items[i];
-        j.at[2 * i] = j.to[2 * i] = swing->hinge;
-        j.at[2 * i + 1] = j.to[2 * i + 1] = swing->latch;
-        j.reach[2 * i] = j.reach[2 * i + 1] = 0.15 * swing->radius;
-        widest = fmax(widest, swing->radius);
-    }
-    if (status == SL_OK && count) status = join_doors(c, &j, 2 * count, 0.15 * widest);
-    for (size_t i = 0; status == SL_OK && i < count; i++)
-        status = add_door(c, j.to[2 * i], j.to[2 * i + 1], true);
-    sl_free(context, j.at);
-    sl_free(context, j.to);
-    sl_free(context, j.reach);
-    return status;
-}
-
-static sl_point between(sl_point a, sl_point b) {
-    return (sl_point){a.x / 2 + b.x / 2, a.y / 2 + b.y / 2};
-}
-
-/// A door of a layer without swings: a line by itself, or the middle line of a closed outline of
-/// four corners.
-static sl_status add_drawn(sli_choice *c, const sl_wall *walls, size_t count) {
-    const sl_wall first = walls[0], second = walls[count > 1];
-    if (count == 1) return add_door(c, first.a, first.b, true);
-    if (count != 4 || walls[3].b.x != first.a.x || walls[3].b.y != first.a.y) return SL_OK;
-    const bool along = sli_length(first.b.x - first.a.x, first.b.y - first.a.y) >=
-                       sli_length(second.b.x - second.a.x, second.b.y - second.a.y);
-    const sl_point corners[5] = {first.a, first.b, second.b, walls[3].a, first.a};
-    const int at = along ? 1 : 0;
-    return add_door(c, between(corners[at], corners[at + 1]),
-                    between(corners[at + 2], corners[(at + 3) % 4]), true);
-}
-
-static sl_status add_doors_of_run(sli_choice *c, const sli_group_run *run) {
-    for (size_t i = run->first; i < run->end; i++)
-        if (sli_choice_gone(c, i)) return SL_OK;
-    for (size_t i = 0; i < c->openings.items.count; i++) {
-        const sli_opening *o = &c->openings.items.items[i];
-        if (o->cuts && o->shape >= run->first && o->shape < run->end)
-            return add_door(c, o->at.a, o->at.b, true);
-    }
-    for (size_t i = run->first, end; i < run->end; i = end) {
-        const sl_wall *walls = c->map->walls;
-        for (end = i + 1; end < run->end; end++)
-            if (walls[end].line != walls[i].line || walls[end].a.x != walls[end - 1].b.x ||
-                walls[end].a.y != walls[end - 1].b.y)
-                break;
-        SL_TRY(add_drawn(c, walls + i, end - i));
-    }
-    return SL_OK;
-}
-
-static sl_status add_doors(sli_choice *c) {
-    if (!c->contents->options->doors) return SL_OK;
-    SL_TRY(add_swings(c));
-    for (size_t i = 0; !c->symbols.doors && i < c->contents->runs.count; i++) {
-        const sli_group_run *run = &c->contents->runs.items[i];
-        if (c->contents->groups.items[run->group].means == SLI_MEANS_DOOR)
-            SL_TRY(add_doors_of_run(c, run));
-    }
-    return SL_OK;
 }
 
 // --- walls and windows
@@ -646,7 +420,7 @@ static sl_status keep_walls(sli_choice *c) {
         while (run < c->contents->runs.count && c->contents->runs.items[run].end <= i) run++;
         const bool own = run == c->contents->runs.count || i < c->contents->runs.items[run].first;
         if (!own && c->means[i] == SLI_MEANS_LOW) low[low_count++] = map->walls[i];
-        if (!own && (sli_choice_gone(c, i) || !is_taken(c, c->means[i]))) continue;
+        if (!own && (sli_choice_gone(c, i) || !sli_choice_takes(c, c->means[i]))) continue;
         if (!own && c->means[i] == SLI_MEANS_WINDOW && !said)
             windows[count++] = map->walls[i];
         else
@@ -680,7 +454,7 @@ static void measure(sli_choice *c) {
             const sl_wall *wall = &c->map->walls[k];
             const double length = sli_length(wall->b.x - wall->a.x, wall->b.y - wall->a.y);
             if (sli_choice_gone(c, k)) continue;
-            if (is_taken(c, c->means[k])) c->kept_length += length;
+            if (sli_choice_takes(c, c->means[k])) c->kept_length += length;
             if (group->taken || group->means != SLI_MEANS_NOTHING) continue;
             c->unknown++;
             c->unknown_length += length;
@@ -697,7 +471,7 @@ static sl_status choose(sli_choice *c, sli_pen *pen) {
     bool chosen = choose_groups(c);
     SL_TRY(find_parts(c));
     chosen |= sli_plan_parts_count(&c->parts) > 0;
-    SL_TRY(find_openings(c));
+    SL_TRY(sli_choice_find_openings(c));
     chosen |= c->cuts + c->glazed > 0;
     for (size_t i = 0; i < c->contents->groups.count; i++) {
         const sli_group *group = &c->contents->groups.items[i];
@@ -709,7 +483,7 @@ static sl_status choose(sli_choice *c, sli_pen *pen) {
         sli_choice_note_all(c);
         return SL_OK;
     }
-    SL_TRY(add_doors(c));
+    SL_TRY(sli_choice_add_doors(c));
     measure(c);
     SL_TRY(keep_walls(c));
     for (size_t i = 0; i < c->contents->groups.count; i++)
@@ -740,6 +514,7 @@ sl_status sli_contents_choose(sli_contents *contents, double metre, sli_pen *pen
     sl_status status = contents->runs.count ? choose(&c, pen) : SL_OK;
     contents->doors = c.symbols.swings.count;
     contents->door = sli_choice_door(&c);
+    sli_plan_unit_entrance(pen->map, contents->door, contents->doors);
     if (status == SL_OK && contents->large) status = keep_large(contents, metre, pen);
     if (status == SL_OK && !contents->options->all_layers)
         status = sli_plan_tell(contents->context, contents->file, contents->options->layers,

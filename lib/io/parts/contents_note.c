@@ -195,6 +195,15 @@ static void note_doubt(const sli_choice *c) {
             c->contents->file, names.text);
 }
 
+/// Rooms that have no door though doors are drawn.
+static void note_shut_doors(const sli_choice *c) {
+    if (c->shut < 2) return;
+    sl_note(c->contents->context,
+            "%s: %zu lines on layers of doors stand at walls without a gap: rooms are shut there; "
+            "sightline convert %s -o map.map writes a map to which doors can be added",
+            c->contents->file, c->shut, c->contents->file);
+}
+
 /// What is left and not drawn as the walls are.
 static void note_rest(const sli_choice *c) {
     if (c->parts.rest <= 0.3) return;
@@ -262,6 +271,7 @@ void sli_choice_note_long_doors(const sli_choice *c) {
 
 void sli_choice_note(const sli_choice *c) {
     note_choice(c);
+    note_shut_doors(c);
     note_rest(c);
     if (c->walls_named && !sli_contents_said(c->contents)) note_doubt(c);
     if (c->by_looks) note_share(c);

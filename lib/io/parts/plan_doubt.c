@@ -92,6 +92,33 @@ static bool is_frame(sli_plan_net *n, uint32_t piece) {
     return large;
 }
 
+/// Whether a piece is one ring with all else in it and half of the room empty, as the boundary of a
+/// site about a house.
+static bool is_site(sli_plan_net *n, uint32_t piece) {
+    const sl_box box = n->boxes[piece];
+    const double room = n->size / 50;
+    sl_box house = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+    uint32_t corners = 0, most = 0;
+    if (n->counts[piece] < 3 || sli_box_width(box) < sli_box_width(n->bounds) ||
+        sli_box_height(box) < sli_box_height(n->bounds))
+        return false;
+    for (uint32_t end = 0; end < 2 * (uint32_t)n->map->wall_count; end++) {
+        const uint32_t first = sli_plan_first(n->piece, end / 2);
+        corners += first == piece && sli_plan_first(n->corner, end) == end;
+        if (first == piece) continue;
+        if (n->counts[first] > most) most = n->counts[first];
+        house.min.x = fmin(house.min.x, n->boxes[first].min.x);
+        house.min.y = fmin(house.min.y, n->boxes[first].min.y);
+        house.max.x = fmax(house.max.x, n->boxes[first].max.x);
+        house.max.y = fmax(house.max.y, n->boxes[first].max.y);
+    }
+    return corners == n->counts[piece] && most >= 8 && house.min.x >= box.min.x + room &&
+           house.min.y >= box.min.y + room && house.max.x <= box.max.x - room &&
+           house.max.y <= box.max.y - room &&
+           2 * sli_box_width(house) * sli_box_height(house) <=
+               sli_box_width(box) * sli_box_height(box);
+}
+
 static sl_status find_all(sli_plan_net *n, sli_plan_look *out) {
     const uint32_t count = (uint32_t)n->map->wall_count;
     size_t corners = 0, pieces = 0;
@@ -100,6 +127,7 @@ static sl_status find_all(sli_plan_net *n, sli_plan_look *out) {
         if (sli_plan_first(n->piece, i) != i) continue;
         pieces++;
         out->frame |= is_frame(n, i);
+        out->site |= is_site(n, i);
     }
     const size_t lines = count + n->ends_on_sides + n->crossings.count + pieces;
     out->walls = count;
@@ -200,6 +228,12 @@ sl_status sli_plan_tell(sl_context *context, const char *file, const char *layer
                 "%s: a rectangle about all else touches nothing: if it is the frame of a sheet, "
                 "what is inside is wrong: --layers A,B leaves it out",
                 file);
+    else if (look.site)
+        sl_note(
+            context,
+            "%s: a line around all else touches nothing, and half of what is in it is empty: if "
+            "it is the boundary of a site, what is inside is wrong: --layers A,B leaves it out",
+            file);
     if (look.walls >= 10 && !look.closed)
         sl_note(context,
                 "%s: its lines enclose nothing: if it is a plan, walls are missing: sightline info "

@@ -10,9 +10,11 @@
 #include <string.h>
 
 /// In metres: the least length of a plan, and of one with many walls; the largest, and that of a
-/// town; the lengths that a unit is offered for; the usual, least and largest width of a door.
+/// town; the lengths that a unit is offered for; the usual, least and largest width of a door; that
+/// of an entrance.
 static const double SHORT = 2.5, SHORT_OF_MANY = 8, LONG = 1000, LONG_TOWN = 10000, OFFER_SHORT = 6,
-                    OFFER_LONG = 500, DOOR = 0.85, DOOR_LEAST = 0.4, DOOR_MOST = 1.6;
+                    OFFER_LONG = 500, DOOR = 0.85, DOOR_LEAST = 0.4, DOOR_MOST = 1.6,
+                    ENTRANCE = 1.2;
 enum { FEW_WALLS = 5, MANY_WALLS = 200, SURE_DOORS = 2 };
 
 /// Whether plans are drawn in a unit: mm, cm, m, inches or feet.
@@ -35,13 +37,17 @@ static bool list_units(double length, int unit, char *text, size_t size) {
     return text[0];
 }
 
+static bool is_door(double metres) {
+    return metres >= DOOR_LEAST && metres <= DOOR_MOST;
+}
+
 /// The unit in which a door is nearest to a usual one.
 static int unit_of_doors(double door) {
     int best = 0;
     double least = INFINITY;
     for (int i = 0; i < SLI_UNITS; i++) {
         const double metres = door * sli_units[i].metres;
-        if (!is_usual(&sli_units[i]) || !(metres >= DOOR_LEAST && metres <= DOOR_MOST)) continue;
+        if (!is_usual(&sli_units[i]) || !is_door(metres)) continue;
         if (fabs(log(metres / DOOR)) >= least) continue;
         least = fabs(log(metres / DOOR));
         best = i;
@@ -60,7 +66,7 @@ void sli_plan_unit_tell(sl_context *context, const char *file, const sl_map *map
     if (!(unit->metres > 0) || map->wall_count < FEW_WALLS || !isfinite(length)) return;
     if (plan->doors >= SURE_DOORS) {
         const int fits = unit_of_doors(door);
-        if (door * unit->metres >= DOOR_LEAST && door * unit->metres <= DOOR_MOST) return;
+        if (is_door(door * unit->metres)) return;
         if (fits)
             sl_note(context,
                     "%s: the drawing says %s, but its doors are %.3g m wide then: in %s they are "
@@ -83,4 +89,11 @@ void sli_plan_unit_tell(sl_context *context, const char *file, const sl_map *map
                 "building, it is not in its true size: lengths and areas are those of the "
                 "drawing, and --entrance W says how wide its entrances are",
                 file, unit->name, metres);
+}
+
+void sli_plan_unit_entrance(sl_map *map, double door, size_t doors) {
+    const double metres = sli_unit_metres(map->unit);
+    if (doors < SURE_DOORS || map->entrance > 0 || is_door(door * metres)) return;
+    map->entrance = sli_rounded_up(door * (ENTRANCE / DOOR));
+    map->entrance_by_doors = map->entrance > 0;
 }

@@ -1,4 +1,5 @@
-/// Whether the unit that a drawing names makes a building of it. Nothing is changed.
+/// Whether the unit that a drawing names makes a building of it, and what doors tell where it does
+/// not.
 #ifndef SL_PLAN_UNIT_H
 #define SL_PLAN_UNIT_H
 
@@ -18,5 +19,9 @@ typedef struct sli_plan_size {
 /// one of fewer than five walls, is never doubted.
 void sli_plan_unit_tell(sl_context *context, const char *file, const sl_map *map,
                         const sli_plan_size *plan);
+
+/// Takes the width of entrances from doors that are drawn open, where the map's unit makes no doors
+/// of them; `door` is their usual width.
+void sli_plan_unit_entrance(sl_map *map, double door, size_t doors);
 
 #endif

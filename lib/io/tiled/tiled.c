@@ -532,7 +532,7 @@ static sl_status read_map(sli_tiled_reader *reader) {
     SL_TRY(sli_tiled_check_guess(reader));
     strcpy(reader->pen.map->unit, "px");
     give_account(reader);
-    sli_tiled_tell_meaning(reader);
+    SL_TRY(sli_tiled_tell_meaning(reader));
     sli_layers_note(reader->context, reader->map->file->name, reader->pen.map);
     SL_TRY(sli_things_finish(&reader->things, reader->pen.map));
     return sli_tiled_project(reader->map, &reader->lattice, reader->pen.map);

@@ -352,7 +352,7 @@ sl_status sli_tiled_fail_unsaid(const sli_tiled_reader *reader, const char *why)
 /// The same where nothing is a wall: a layer that is solid everywhere has no edge.
 sl_status sli_tiled_fail_no_walls(const sli_tiled_reader *reader);
 /// Tells what is solid and by what, and which layers are not.
-void sli_tiled_tell_meaning(const sli_tiled_reader *reader);
+sl_status sli_tiled_tell_meaning(const sli_tiled_reader *reader);
 /// SL_BAD_INPUT where a start stands on what was guessed to be solid.
 sl_status sli_tiled_check_guess(const sli_tiled_reader *reader);
 /// Looks at the tiles of a block of the layer that is guessed from.

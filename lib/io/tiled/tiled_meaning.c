@@ -92,25 +92,34 @@ static sl_status choose_tiles(const sli_tiled_reader *reader, const sli_tiled_se
     return status;
 }
 
-sl_status sli_tiled_fail_unsaid(const sli_tiled_reader *reader, const char *why) {
+/// ", as in:" and a command that takes the example.
+static sl_status say_example(const sli_tiled_reader *reader, const sli_tiled_seen *example,
+                             char *text, size_t size) {
     const char *file = reader->map->file->name;
-    const sli_tiled_seen *example = find_example(reader);
-    const layer_text taken = list_layers(reader, true), others = list_layers(reader, false);
-    const char *between = taken.count && others.count ? ", " : "";
-    if (!reader->seen.count) return sli_json_fail(reader->map, "%s; it has no layers", why);
-    if (!example) return sli_json_fail(reader->map, "%s; all its layers are empty", why);
-    char tiles[120], as[400];
+    char tiles[120];
     SL_TRY(choose_tiles(reader, example, tiles, sizeof tiles));
     const bool same = !example->objects && example->count == example->squares && !*tiles;
     const sli_tiled_seen *objects = same ? find_objects(reader) : NULL;
     if (objects) example = objects;
     const sli_shown name = sli_show((sli_word){example->name, strlen(example->name)});
     if (same && !objects)
-        snprintf(as, sizeof as,
-                 " (all tiles of '%s' are the same: draw walls in a layer Collision)", name.text);
+        snprintf(text, size, " (all tiles of '%s' are the same: draw walls in a layer Collision)",
+                 name.text);
     else
-        snprintf(as, sizeof as, ", as in: sightline check '%.150s' --layers '%s%s' -o map.png",
-                 file, name.text, tiles);
+        snprintf(text, size, ", as in: sightline check '%.150s' --layers '%s%s' -o map.png", file,
+                 name.text, tiles);
+    return SL_OK;
+}
+
+sl_status sli_tiled_fail_unsaid(const sli_tiled_reader *reader, const char *why) {
+    const char *file = reader->map->file->name;
+    const sli_tiled_seen *example = find_example(reader);
+    const layer_text taken = list_layers(reader, true), others = list_layers(reader, false);
+    const char *between = taken.count && others.count ? ", " : "";
+    char as[400];
+    if (!reader->seen.count) return sli_json_fail(reader->map, "%s; it has no layers", why);
+    if (!example) return sli_json_fail(reader->map, "%s; all its layers are empty", why);
+    SL_TRY(say_example(reader, example, as, sizeof as));
     return sl_fail_at(reader->context, file, sli_json_line(reader->map),
                       "%s; --layers NAME takes a layer as solid, NAME:28+33-35 tiles of it%s; "
                       "layers: %s%s%s",
@@ -353,7 +362,21 @@ static void tell_little(const sli_tiled_reader *reader) {
             name.text, (unsigned long long)most->count, reader->map->file->name, name.text);
 }
 
-void sli_tiled_tell_meaning(const sli_tiled_reader *reader) {
+/// The next step, where layers are named for what is solid, and are empty.
+static sl_status tell_edge_only(const sli_tiled_reader *reader) {
+    const sli_tiled_seen *example = find_example(reader);
+    const layer_text others = list_layers(reader, false);
+    char as[400];
+    if (!example) return SL_OK;
+    SL_TRY(say_example(reader, example, as, sizeof as));
+    sl_note(reader->context,
+            "%s: only what is beyond its edge is solid: if more is, --layers NAME takes a layer, "
+            "NAME:28+33-35 tiles of it%s; layers: %s",
+            reader->map->file->name, as, others.text);
+    return SL_OK;
+}
+
+sl_status sli_tiled_tell_meaning(const sli_tiled_reader *reader) {
     static const char *const by[] = {"", "tiles that say so of layers below and above the player",
                                      "names of layers", "terrains", "names of tilesets"};
     const layer_text taken = list_layers(reader, true), others = list_layers(reader, false);
@@ -363,7 +386,7 @@ void sli_tiled_tell_meaning(const sli_tiled_reader *reader) {
             reader->context,
             "%s: what a missing tileset says of %zu tiles is not known: solid layers count whole",
             file, reader->lost_tiles);
-    if (reader->options->layers) return;
+    if (reader->options->layers) return SL_OK;
     if (reader->believed_not)
         sl_note(reader->context,
                 "%s: nearly all tiles of layer '%s' say that they are solid, and it has no gaps: "
@@ -388,8 +411,11 @@ void sli_tiled_tell_meaning(const sli_tiled_reader *reader) {
             reader->context,
             "%s: nothing in it says what is solid: taken by %s: %s; --layers NAME,NAME chooses%s%s",
             file, by[reader->by], taken.text, others.count ? "; not taken: " : "", others.text);
-    } else if (others.count) {
+    } else if (taken.count && others.count) {
         sl_note(reader->context, "%s: solid: %s; --layers NAME,NAME chooses; not solid: %s", file,
-                taken.count ? taken.text : "only what is beyond its edge", others.text);
+                taken.text, others.text);
+    } else if (others.count) {
+        return tell_edge_only(reader);
     }
+    return SL_OK;
 }

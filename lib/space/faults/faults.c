@@ -443,7 +443,9 @@ static void say_entrances(const sl_map *map, char text[SL_INSIDE_TEXT]) {
     snprintf(text, SL_INSIDE_TEXT, "inside ends at %zu opening%s up to %s wide (entrance %.4g, %s)",
              found->entrances, found->entrances == 1 ? "" : "s",
              say_width(map, found->width, width), found->width,
-             found->by == SL_ENTRANCE_UNIT ? "as is usual" : "found from the plan");
+             found->by == SL_ENTRANCE_UNIT    ? "as is usual"
+             : found->by == SL_ENTRANCE_DOORS ? "by the doors that are drawn open"
+                                              : "found from the plan");
 }
 
 sl_status sl_say_inside(sl_context *context, const sl_map *map, const sl_space *space,

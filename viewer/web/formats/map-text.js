@@ -44,7 +44,7 @@ const statements = {
     range: { value: true },
     snap: { value: true },
     precision: { value: true },
-    entrance: { value: true },
+    entrance: { value: true, words: ['doors'] },
     unit: { whole: true, points: [0, 0] },
     earth: { whole: true, points: [0, 0] },
     crs: { whole: true, points: [0, 0] },
