@@ -3,6 +3,7 @@
 #
 # source   the archive of the commit that is checked out; all else is built from it, unpacked
 # command  the command for Linux, static, with its manual pages, completion and licence
+# amalgamation  the core library as sightline.c and sightline.h, for programs that compile it with their own sources
 # npm      the npm package
 # foundry  the module for Foundry Virtual Tabletop, with the npm package in it
 # qgis     the plugin for QGIS, which needs the Python package
@@ -13,14 +14,14 @@
 # plans and baked files alone. The wheel is for Linux with the glibc that its name says, or newer.
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
-usage='usage: sh tools/release.sh FOLDER [source | command | npm | foundry | qgis | python]...'
+usage='usage: sh tools/release.sh FOLDER [source | command | amalgamation | npm | foundry | qgis | python]...'
 fail() {
     echo "release: $1" >&2
     exit "${2:-1}"
 }
 case ${1:-} in
 -h | --help)
-    sed -n '2,14s/^# \{0,1\}//p' "$0"
+    sed -n '2,15s/^# \{0,1\}//p' "$0"
     exit 0
     ;;
 '' | -*) fail "$usage" 2 ;;
@@ -29,9 +30,9 @@ mkdir -p "$1"
 folder=$(cd "$1" && pwd)
 shift
 for part in "$@"; do
-    case $part in source | command | npm | foundry | qgis | python) ;; *) fail "there is no part '$part'; $usage" 2 ;; esac
+    case $part in source | command | amalgamation | npm | foundry | qgis | python) ;; *) fail "there is no part '$part'; $usage" 2 ;; esac
 done
-parts=" ${*:-source command npm foundry qgis python} "
+parts=" ${*:-source command amalgamation npm foundry qgis python} "
 [ -e "$root/.git" ] || fail "a clone is needed: the archive is that of a commit" 2
 [ -z "$(git -C "$root" status --porcelain)" ] || fail "commit or drop the changes first" 2
 
@@ -122,8 +123,26 @@ case $parts in *" command "*)
     ;;
 esac
 
-# ---- npm, foundry ----
-case $parts in *" npm "* | *" foundry "*)
+# ---- amalgamation: the README's program is compiled with it, and prints what the README says ----
+case $parts in *" amalgamation "*)
+    mkdir "$scratch/$name-amalgamation" "$scratch/amalgamated"
+    cp "$sources/LICENSE" "$scratch/$name-amalgamation/"
+    quietly python3 -B "$sources/tools/packages/amalgamation/amalgamate.py" "$scratch/$name-amalgamation"
+    pack "$name-amalgamation" "$name-amalgamation"
+    tar -xzf "$scratch/$name-amalgamation.tar.gz" -C "$scratch/amalgamated" --strip-components=1
+    (
+        cd "$scratch/amalgamated" &&
+            sed -n '/^```c$/,/^```$/{/^```/d;s|<sightline/sightline.h>|"sightline.h"|;p}' "$sources/README.md" >program.c &&
+            quietly cc -O1 program.c sightline.c -pthread -lm -o program &&
+            cd "$sources" && [ "$("$scratch/amalgamated/program")" = \
+            "$(sed -n '/^```text$/{n;p;q}' README.md)" ]
+    ) || fail "the amalgamation does not work"
+    keep "$scratch/$name-amalgamation.tar.gz"
+    ;;
+esac
+
+# ---- npm, foundry, python ----
+case $parts in *" npm "* | *" foundry "* | *" python "*)
     command -v npm >/dev/null || fail "npm is missing" 77
     quietly sh "$sources/tools/web.sh" --package "$scratch/web"
     ;;
@@ -193,6 +212,8 @@ esac
 case $parts in *" python "*)
     python=/usr/bin/python3 # which has what the set-up installs
     command -v patchelf >/dev/null || fail "patchelf is missing" 77
+    mkdir "$sources/lib/bindings/python/sightline/npm" # what Level.explorer() puts into a page
+    (cd "$scratch/web/package" && cp sightline.js arguments.js host.js level.wasm "$sources/lib/bindings/python/sightline/npm/")
     (cd "$sources/lib/bindings/python" && quietly $python setup.py --quiet sdist --dist-dir "$scratch/sdist")
     mkdir "$scratch/python" "$scratch/wheel"
     tar -xzf "$scratch/sdist/$name.tar.gz" -C "$scratch/python"
@@ -205,7 +226,7 @@ case $parts in *" python "*)
         cd "$scratch/wheel" && PYTHONPATH=$scratch/installed $python -c "
 import sightline
 room = sightline.Plan.from_segments([[0, 0, 4, 0], [4, 0, 4, 4], [4, 4, 0, 4], [0, 4, 0, 0]])
-assert room.bake().can_see((1, 1), (3, 3)) and sightline.__version__ == '$version'"
+assert room.bake().can_see((1, 1), (3, 3)) and room.bake().explorer().page and sightline.__version__ == '$version'"
     ) || fail "the wheel does not work"
     mv "$scratch/sdist.tar.gz" "$scratch/python/$name.tar.gz"
     keep "$scratch/python/$name.tar.gz" python/
