@@ -6,8 +6,8 @@
 # aspell, groff, abidw, LuaJIT, Mono, Tiled, the Python package jsonschema, what the tests of our own Python package use, and
 # Chromium and npm for the tests of the pages; on Debian also compilers and emulators for two other
 # machines. --web adds what tools/web.sh needs: clang, lld, wasi-libc, compiler-rt for WebAssembly,
-# binaryen and node. --release adds what tools/release.sh needs beside that: npm, pip, wheel, numpy and
-# patchelf. --qgis adds QGIS, which is large, for the test of its plugin.
+# binaryen and node. --release adds what tools/release.sh needs beside that: npm, pip, wheel, numpy,
+# patchelf, and on Debian MinGW and Wine. --qgis adds QGIS, which is large, for the test of its plugin.
 #
 # Tried on Debian. Fedora, Arch and macOS are written from their package lists and untried.
 set -eu
@@ -251,6 +251,7 @@ things="c c++ cmake ninja pkg-config python3 zlib jansson libpng libxml2 libyaml
 [ $ci = yes ] && has apt-get && things="$things aarch64 windows" # tests/everywhere
 [ $web = yes ] && things="$things clang wasm binaryen node"
 [ $release = yes ] && things="$things npm pip wheel numpy patchelf"
+[ $release = yes ] && has apt-get && things="$things windows"
 [ $qgis = yes ] && things="$things qgis"
 
 missing=
