@@ -3,24 +3,26 @@
 #
 # source   the archive of the commit that is checked out; all else is built from it, unpacked
 # command  the command for Linux, static, with its manual pages, completion and licence
+# windows  the command for Windows of 64 bits, static, with its licence
+# amalgamation  the core library as sightline.c and sightline.h, for programs that compile it with their own sources
 # npm      the npm package
 # foundry  the module for Foundry Virtual Tabletop, with the npm package in it
 # qgis     the plugin for QGIS, which needs the Python package
 # python   the Python package: its sources in one file, and a wheel that has the libraries it needs
 #
 # 'sh tools/setup.sh --release' installs what they need. Without a PART, all. Each is tried in an empty folder before it is
-# put into FOLDER. The same commit gives the same bytes with the same compilers. The static command reads map text, ASCII
+# put into FOLDER. The same commit gives the same bytes with the same compilers. The static commands read map text, ASCII
 # plans and baked files alone. The wheel is for Linux with the glibc that its name says, or newer.
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
-usage='usage: sh tools/release.sh FOLDER [source | command | npm | foundry | qgis | python]...'
+usage='usage: sh tools/release.sh FOLDER [source | command | windows | amalgamation | npm | foundry | qgis | python]...'
 fail() {
     echo "release: $1" >&2
     exit "${2:-1}"
 }
 case ${1:-} in
 -h | --help)
-    sed -n '2,14s/^# \{0,1\}//p' "$0"
+    sed -n '2,16s/^# \{0,1\}//p' "$0"
     exit 0
     ;;
 '' | -*) fail "$usage" 2 ;;
@@ -29,9 +31,9 @@ mkdir -p "$1"
 folder=$(cd "$1" && pwd)
 shift
 for part in "$@"; do
-    case $part in source | command | npm | foundry | qgis | python) ;; *) fail "there is no part '$part'; $usage" 2 ;; esac
+    case $part in source | command | windows | amalgamation | npm | foundry | qgis | python) ;; *) fail "there is no part '$part'; $usage" 2 ;; esac
 done
-parts=" ${*:-source command npm foundry qgis python} "
+parts=" ${*:-source command windows amalgamation npm foundry qgis python} "
 [ -e "$root/.git" ] || fail "a clone is needed: the archive is that of a commit" 2
 [ -z "$(git -C "$root" status --porcelain)" ] || fail "commit or drop the changes first" 2
 
@@ -81,15 +83,15 @@ keep() {
     echo "release: $folder/$target"
 }
 
-# try_command PROGRAM: from an empty folder to a baked file.
+# try_command WORD...: a command of these words, from an empty folder to a baked file.
 try_command() {
     mkdir "$scratch/try"
     (
         cd "$scratch/try" &&
-            env -i "$1" --version | grep -qx "sightline $version" &&
-            env -i "$1" generate office --quiet -o office.map &&
-            env -i "$1" bake office.map --check --quiet -o office.slv &&
-            env -i "$1" info office.slv --json | grep -q '"cells": [1-9]'
+            "$@" --version | tr -d '\r' | grep -qx "sightline $version" &&
+            "$@" generate office --quiet -o office.map &&
+            "$@" bake office.map --check --quiet -o office.slv &&
+            "$@" info office.slv --json | grep -q '"cells": [1-9]'
     ) || fail "the command does not work"
     rm -r "$scratch/try"
 }
@@ -99,31 +101,74 @@ git -C "$root" archive --prefix="$name/" HEAD | tar -x -C "$scratch"
 sources=$scratch/$name
 [ -f "$sources/CMakeLists.txt" ] && [ -f "$sources/LICENSE" ] || fail "the archive lacks the sources"
 
-# ---- command ----
-case $parts in *" command "*)
-    machine=$(uname -m)
+# ---- command, windows: both static, without optional readers ----
+# build_command FOLDER CMAKE-OPTION...: the command, in $sources/build/FOLDER.
+build_command() {
+    build=$sources/build/$1
+    shift
     # A warning stops a release.
-    quietly cmake -S "$sources" -B "$sources/build/release" -G Ninja -DCMAKE_BUILD_TYPE=Release \
-        -DSIGHTLINE_WERROR=ON -DCMAKE_EXE_LINKER_FLAGS="-static -Wl,--build-id=none" \
-        -DBUILD_SHARED_LIBS=OFF -DSIGHTLINE_GLPK=OFF -DSIGHTLINE_DRAW=OFF \
-        -DSIGHTLINE_IO=OFF -DSIGHTLINE_VIEWER=OFF -DSIGHTLINE_PYTHON=OFF -DSIGHTLINE_TESTS=OFF -DSIGHTLINE_INSTALL=OFF
-    quietly cmake --build "$sources/build/release" -j2 --target sightline_command sightline_manual
-    bin=$name-linux-$machine
+    quietly cmake -S "$sources" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
+        -DSIGHTLINE_WERROR=ON -DBUILD_SHARED_LIBS=OFF -DSIGHTLINE_GLPK=OFF -DSIGHTLINE_DRAW=OFF \
+        -DSIGHTLINE_IO=OFF -DSIGHTLINE_VIEWER=OFF -DSIGHTLINE_PYTHON=OFF -DSIGHTLINE_TESTS=OFF -DSIGHTLINE_INSTALL=OFF "$@"
+    quietly cmake --build "$build" -j2 --target sightline_command
+}
+case $parts in *" command "*)
+    build_command release -DCMAKE_EXE_LINKER_FLAGS="-static -Wl,--build-id=none"
+    quietly cmake --build "$build" -j2 --target sightline_manual
+    bin=$name-linux-$(uname -m)
     mkdir -p "$scratch/$bin/man"
-    strip -o "$scratch/$bin/sightline" "$sources/build/release/tools/sightline"
-    cp "$sources"/build/release/tools/manual/*.1 "$scratch/$bin/man/"
+    strip -o "$scratch/$bin/sightline" "$build/tools/sightline"
+    cp "$build"/tools/manual/*.1 "$scratch/$bin/man/"
     cp -R "$sources/LICENSE" "$sources/tools/completion" "$scratch/$bin/"
     pack "$bin" "$bin"
     mkdir "$scratch/unpacked"
     tar -xzf "$scratch/$bin.tar.gz" -C "$scratch/unpacked"
     if readelf -d "$scratch/unpacked/$bin/sightline" | grep -q NEEDED; then fail "the command is not static"; fi
-    try_command "$scratch/unpacked/$bin/sightline"
+    try_command env -i "$scratch/unpacked/$bin/sightline"
     keep "$scratch/$bin.tar.gz"
     ;;
 esac
+case $parts in *" windows "*)
+    cross=x86_64-w64-mingw32
+    command -v $cross-gcc >/dev/null || fail "$cross-gcc is missing" 77
+    command -v wine >/dev/null || fail "wine is missing" 77
+    build_command windows -DCMAKE_SYSTEM_NAME=Windows -DCMAKE_SYSTEM_PROCESSOR=x86_64 -DCMAKE_C_COMPILER=$cross-gcc \
+        -DCMAKE_EXE_LINKER_FLAGS="-static -Wl,--no-insert-timestamp"
+    bin=$name-windows-x86_64
+    mkdir "$scratch/$bin" "$scratch/unzipped"
+    $cross-strip -o "$scratch/$bin/sightline.exe" "$build/tools/sightline.exe"
+    cp "$sources/LICENSE" "$scratch/$bin/"
+    (cd "$scratch" && zip_folder "$bin" "$bin.zip")
+    quietly python3 -m zipfile -e "$scratch/$bin.zip" "$scratch/unzipped"
+    if $cross-objdump -p "$scratch/unzipped/$bin/sightline.exe" | sed -n 's/.*DLL Name: //p' |
+        grep -viE '^(kernel32|msvcrt|advapi32|user32|shell32|ws2_32)\.dll$|^api-ms-win-'; then
+        fail "the command for Windows needs libraries that Windows has not"
+    fi
+    try_command env WINEPREFIX="$scratch/wine" WINEDEBUG=-all wine "$scratch/unzipped/$bin/sightline.exe"
+    keep "$scratch/$bin.zip"
+    ;;
+esac
 
-# ---- npm, foundry ----
-case $parts in *" npm "* | *" foundry "*)
+# ---- amalgamation: the README's program is compiled with it, and prints what the README says ----
+case $parts in *" amalgamation "*)
+    mkdir "$scratch/$name-amalgamation" "$scratch/amalgamated"
+    cp "$sources/LICENSE" "$scratch/$name-amalgamation/"
+    quietly python3 -B "$sources/tools/packages/amalgamation/amalgamate.py" "$scratch/$name-amalgamation"
+    pack "$name-amalgamation" "$name-amalgamation"
+    tar -xzf "$scratch/$name-amalgamation.tar.gz" -C "$scratch/amalgamated" --strip-components=1
+    (
+        cd "$scratch/amalgamated" &&
+            sed -n '/^```c$/,/^```$/{/^```/d;s|<sightline/sightline.h>|"sightline.h"|;p}' "$sources/README.md" >program.c &&
+            quietly cc -O1 program.c sightline.c -pthread -lm -o program &&
+            cd "$sources" && [ "$("$scratch/amalgamated/program")" = \
+            "$(sed -n '/^```text$/{n;p;q}' README.md)" ]
+    ) || fail "the amalgamation does not work"
+    keep "$scratch/$name-amalgamation.tar.gz"
+    ;;
+esac
+
+# ---- npm, foundry, python ----
+case $parts in *" npm "* | *" foundry "* | *" python "*)
     command -v npm >/dev/null || fail "npm is missing" 77
     quietly sh "$sources/tools/web.sh" --package "$scratch/web"
     ;;
@@ -193,6 +238,8 @@ esac
 case $parts in *" python "*)
     python=/usr/bin/python3 # which has what the set-up installs
     command -v patchelf >/dev/null || fail "patchelf is missing" 77
+    mkdir "$sources/lib/bindings/python/sightline/npm" # what Level.explorer() puts into a page
+    (cd "$scratch/web/package" && cp sightline.js arguments.js host.js level.wasm "$sources/lib/bindings/python/sightline/npm/")
     (cd "$sources/lib/bindings/python" && quietly $python setup.py --quiet sdist --dist-dir "$scratch/sdist")
     mkdir "$scratch/python" "$scratch/wheel"
     tar -xzf "$scratch/sdist/$name.tar.gz" -C "$scratch/python"
@@ -205,7 +252,7 @@ case $parts in *" python "*)
         cd "$scratch/wheel" && PYTHONPATH=$scratch/installed $python -c "
 import sightline
 room = sightline.Plan.from_segments([[0, 0, 4, 0], [4, 0, 4, 4], [4, 4, 0, 4], [0, 4, 0, 0]])
-assert room.bake().can_see((1, 1), (3, 3)) and sightline.__version__ == '$version'"
+assert room.bake().can_see((1, 1), (3, 3)) and room.bake().explorer().page and sightline.__version__ == '$version'"
     ) || fail "the wheel does not work"
     mv "$scratch/sdist.tar.gz" "$scratch/python/$name.tar.gz"
     keep "$scratch/python/$name.tar.gz" python/

@@ -3,12 +3,12 @@
 # It looks at what is really there, asks the system's package manager for the rest, and does nothing
 # when all is there. --ci adds what the checks of .ci/run need: clang, its sanitizers, clang-format,
 # clang-tidy, ccache, doxygen, a display that is none, with keys to press (Xvfb, xdotool), MPI, node,
-# aspell, groff, abidw, LuaJIT, Mono, Tiled, the Python package jsonschema, what the tests of our own Python package use, and
+# aspell, groff, abidw, LuaJIT, Mono, pygame, Tiled, the Python package jsonschema, what the tests of our own Python package use, and
 # Chromium and npm for the tests of the pages; on Debian also compilers and emulators for two other
 # machines. --web adds what tools/web.sh needs: clang, lld, wasi-libc, compiler-rt for WebAssembly,
-# binaryen and node. --release adds what tools/release.sh needs beside that: npm, pip, wheel, numpy and
-# patchelf. --qgis adds QGIS, which is large, for the test of its plugin. --firefox adds Firefox, in which the
-# tests of the pages can run, too.
+# binaryen and node. --release adds what tools/release.sh needs beside that: npm, pip, wheel, numpy,
+# patchelf, and on Debian MinGW and Wine. --qgis adds QGIS, which is large, for the test of its plugin.
+# --firefox adds Firefox, in which the tests of the pages can run, too.
 #
 # Tried on Debian. Fedora, Arch and macOS are written from their package lists and untried.
 set -eu
@@ -120,7 +120,7 @@ is_there() {
     chromium) has chromium || has chromium-browser ;;
     firefox) has firefox-esr || has firefox ;;
     clang-sanitizers) clang_sanitizes ;;
-    numpy | scipy | pandas | geopandas | matplotlib | nbconvert | ipykernel | wheel) python_has "$1" ;;
+    numpy | scipy | pandas | geopandas | matplotlib | nbconvert | ipykernel | pygame | wheel) python_has "$1" ;;
     pip) python_has pip ;;
     wasm) wasm_compiles ;;
     aarch64) has aarch64-linux-gnu-gcc && has qemu-aarch64 ;;
@@ -163,7 +163,7 @@ package() { # system thing
     apt:poppler | dnf:poppler) echo poppler-utils ;;
     apt:jsonschema | dnf:jsonschema) echo python3-jsonschema ;;
     apt:numpy | apt:scipy | apt:pandas | apt:geopandas | apt:matplotlib) echo "python3-$2" ;;
-    apt:nbconvert | apt:ipykernel | apt:wheel | apt:pip | apt:ezdxf) echo "python3-$2" ;;
+    apt:nbconvert | apt:ipykernel | apt:pygame | apt:wheel | apt:pip | apt:ezdxf) echo "python3-$2" ;;
     apt:node | dnf:node | pacman:node) echo nodejs ;;
     *:llvm-symbolizer) echo llvm ;;
 
@@ -186,10 +186,10 @@ package() { # system thing
     dnf:cmocka) echo libcmocka-devel ;;
 
     dnf:numpy | dnf:scipy | dnf:pandas | dnf:geopandas | dnf:matplotlib) echo "python3-$2" ;;
-    dnf:nbconvert | dnf:ipykernel | dnf:wheel | dnf:pip | dnf:ezdxf) echo "python3-$2" ;;
+    dnf:nbconvert | dnf:ipykernel | dnf:pygame | dnf:wheel | dnf:pip | dnf:ezdxf) echo "python3-$2" ;;
 
     pacman:numpy | pacman:scipy | pacman:pandas | pacman:matplotlib) echo "python-$2" ;;
-    pacman:geopandas | pacman:nbconvert | pacman:ipykernel | pacman:wheel | pacman:pip | pacman:ezdxf) echo "python-$2" ;;
+    pacman:geopandas | pacman:nbconvert | pacman:ipykernel | pacman:pygame | pacman:wheel | pacman:pip | pacman:ezdxf) echo "python-$2" ;;
     pacman:c | pacman:c++) echo gcc ;;
     pacman:pkg-config) echo pkgconf ;;
     pacman:python3) echo python ;;
@@ -255,10 +255,11 @@ install_packages() { # system package...
 # ---- What to do ----
 
 things="c c++ cmake ninja pkg-config python3 zlib jansson libpng libxml2 libyaml zstd glpk cairo pango sdl2 font cmocka gmp"
-[ $ci = yes ] && things="$things clang clang-sanitizers llvm-symbolizer clang-format clang-tidy ccache doxygen xvfb xdotool x11 mpi node npm chromium jsonschema aspell groff poppler ezdxf abidw numpy scipy pandas geopandas matplotlib nbconvert ipykernel wheel pip luajit mono tiled"
+[ $ci = yes ] && things="$things clang clang-sanitizers llvm-symbolizer clang-format clang-tidy ccache doxygen xvfb xdotool x11 mpi node npm chromium jsonschema aspell groff poppler ezdxf abidw numpy scipy pandas geopandas matplotlib nbconvert ipykernel wheel pip luajit mono pygame tiled"
 [ $ci = yes ] && has apt-get && things="$things aarch64 windows" # tests/everywhere
 [ $web = yes ] && things="$things clang wasm binaryen node"
 [ $release = yes ] && things="$things npm pip wheel numpy patchelf"
+[ $release = yes ] && has apt-get && things="$things windows"
 [ $qgis = yes ] && things="$things qgis"
 [ $firefox = yes ] && things="$things firefox"
 

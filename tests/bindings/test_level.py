@@ -20,6 +20,17 @@ LEVELS = {
     "chapel": ("maps/oblique/chapel.map", [(9.3, 12.1)], []),
 }
 TOOLS = {"Lua": ["luajit"], "C#": ["mcs", "mono"], "Python": [], "Godot": ["godot3-server"]}
+# How many squares of a picture are as what is seen, the area of the polygon and the length of its outline.
+PAINTED = """
+import math, sys
+sys.path.append(sys.argv[1])
+import main, pygame
+game, image = main.Game(sys.argv[2]), pygame.image.load(sys.argv[5])
+seen = game.in_window(game.level.visible_polygon(float(sys.argv[3]), float(sys.argv[4])))
+pairs = list(zip(seen, seen[1:] + seen[:1]))
+print(sum(image.get_at((x, y))[:3] == (255, 237, 153) for x in range(main.SIZE[0]) for y in range(main.SIZE[1])),
+      abs(sum(a[0] * b[1] - b[0] * a[1] for a, b in pairs)) / 2, sum(map(math.dist, *zip(*pairs))))
+"""
 HEADERS = os.environ.get("GODOT_HEADERS")
 
 
@@ -126,6 +137,21 @@ class Level(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         words = [word == "True" if word in ("True", "False") else float(word) for word in done.stdout.split()]
         self.assertEqual(words, wanted)
+
+    def test_pygame_paints_what_is_seen(self):
+        python = ["/usr/bin/python3", "-B"]
+        if self.run_one([*python, "-c", "import pygame"]).returncode:
+            self.skipTest("no pygame")
+        subprocess.run([PROGRAM, "bake", SOURCE / "maps/keep.tmx", "-o", self.at / "keep.slv", "--quiet"], check=True)
+        folder, picture = SOURCE / "lib/bindings/level/examples/pygame", self.at / "seen.png"
+        for eye in (100.3, 40.2), (200.7, 150.1):
+            done = self.run_one([*python, folder / "main.py"], self.at / "keep.slv", *eye, picture)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            done = self.run_one([*python, "-c", PAINTED, folder], self.at / "keep.slv", *eye, picture)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            painted, area, outline = map(float, done.stdout.split()[-3:])
+            self.assertGreater(area, 5000)
+            self.assertLess(abs(painted - area), outline + 60)  # squares on the outline, and the eye
 
     def test_faults_are_told(self):
         broken = self.at / "broken.slv"

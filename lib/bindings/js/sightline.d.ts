@@ -158,6 +158,12 @@ export class Level {
   /** x, y, x, y ... counter-clockwise about the eye as it is seen, also with y down. It ends at mirrors. */
   visiblePolygon(x: number, y: number, view?: View): Float64Array
   visiblePolygon(eye: Eye): Float64Array
+  /**
+   * The same into an array of the caller, so that a frame makes nothing to be collected. Gives how many numbers the
+   * polygon has. If the array has fewer, nothing is written: call again with a longer one.
+   */
+  visiblePolygonInto(points: Float64Array, x: number, y: number, view?: View): number
+  visiblePolygonInto(points: Float64Array, eye: Eye): number
   /** The cells seen from anywhere in a cell. */
   row(cell: number, options?: Mirrors): Uint32Array
   /** The cells seen from anywhere in some cells; of none, none. */

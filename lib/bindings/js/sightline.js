@@ -36,6 +36,7 @@ export class Level {
   #list = 0
   #points = 0
   #view = new Float64Array(0)
+  #answer = this.#view
   #allRound
   #room = 0
   #doors = []
@@ -322,20 +323,27 @@ export class Level {
     return new Uint32Array(this.#memory.buffer, this.#list, count).slice()
   }
 
-  /** Puts the view into memory, as an sl_runtime_view. Gives its range in the map; 0 for the map's own. */
-  #setView(x, y, given) {
-    const { heading: turn, fov, range } = viewOf(given)
-    const { buffer } = this.#memory, heading = this.#turned(turn)
+  /** Puts an eye that looks all round into memory, as an sl_runtime_view. */
+  #setEye(x, y) {
+    const { buffer } = this.#memory, { origin, scale, yDown } = this.transform
     if (this.#view.buffer !== buffer) {
       this.#view = new Float64Array(buffer, this.#core.view_place(), 7)
       this.#allRound = new Uint8Array(buffer, this.#view.byteOffset + 16, 1)
     }
-    const view = this.#view
-    view.set(this.#toMap(x, y))
-    this.#allRound[0] = fov >= 360 ? 1 : 0
+    this.#view[0] = origin.x + x / scale
+    this.#view[1] = origin.y + (yDown ? -y : y) / scale
+    this.#allRound[0] = 1
+  }
+
+  /** The same for any view. Gives its range in the map; 0 for the map's own. */
+  #setView(x, y, given) {
+    const { heading: turn, fov, range } = viewOf(given)
+    const heading = this.#turned(turn)
+    this.#setEye(x, y)
     if (fov < 360) {
-      view.set(direction(heading - fov / 2), 3)
-      view.set(direction(heading + fov / 2), 5)
+      this.#allRound[0] = 0
+      this.#view.set(direction(heading - fov / 2), 3)
+      this.#view.set(direction(heading + fov / 2), 5)
     }
     return Math.max(range / this.transform.scale, 0)
   }
@@ -369,15 +377,47 @@ export class Level {
    * @param {{heading?: number, fov?: number, range?: number}} [options]
    */
   visiblePolygon(x, y, options) {
+    const count = this.#polygon(x, y, options)
+    return this.#fromMap(new Float64Array(this.#memory.buffer, this.#points, 2 * count).slice())
+  }
+
+  /** Puts the polygon of an eye into memory. Gives how many corners it has. */
+  #polygon(x, y, options) {
     const core = this.#open
-    const [left, up, given] = eyeOf(x, y, options, 'heading', 'fov', 'range')
-    const range = this.#setView(left, up, given)
+    let range = 0
+    if (typeof x === 'number' && options === undefined) this.#setEye(numberOf('x', x), numberOf('y', y))
+    else {
+      const [left, up, given] = eyeOf(x, y, options, 'heading', 'fov', 'range')
+      range = this.#setView(left, up, given)
+    }
     for (;;) {
       const count = core.polygon(this.#shut, range, this.#scratch, this.#points, this.#room) >>> 0
-      if (count <= this.#room)
-        return this.#fromMap(new Float64Array(this.#memory.buffer, this.#points, 2 * count).slice())
+      if (count <= this.#room) return count
       this.#grow(2 * count)
     }
+  }
+
+  /**
+   * The same into an array of the caller; nothing is made for the answer. Gives how many numbers the polygon has. If
+   * the array has fewer, nothing is written: call again with a longer one.
+   *
+   * @param {Float64Array} points
+   * @param {number | object} x as for look()
+   * @param {number} [y]
+   * @param {{heading?: number, fov?: number, range?: number}} [options]
+   */
+  visiblePolygonInto(points, x, y, options) {
+    if (!(points instanceof Float64Array)) throw new SightlineError('points: a Float64Array is needed')
+    const count = 2 * this.#polygon(x, y, options)
+    if (count > points.length) return count
+    if (this.#answer.buffer !== this.#memory.buffer || this.#answer.length < count)
+      this.#answer = new Float64Array(this.#memory.buffer, this.#points, 2 * this.#room)
+    const { origin, scale, yDown } = this.transform, answer = this.#answer
+    for (let i = 0; i < count; i += 2) {
+      points[i] = scale * (answer[i] - origin.x)
+      points[i + 1] = scale * (yDown ? origin.y - answer[i + 1] : answer[i + 1] - origin.y)
+    }
+    return count
   }
 
   /** The cells seen from anywhere in a cell, with the doors as they stand. `mirrors`: or by mirror. */

@@ -29,15 +29,15 @@ sl_status sli_mirrored_bound(sl_context *context, const sl_space *space,
 
 /// Whether lines between two cells, from where they leave the one to where they enter the other,
 /// are within the range: ordered by how far apart the cells are.
-typedef enum sli_apart {
+typedef enum sli_cells_apart {
     SLI_ALL_WITHIN, ///< all are
     SLI_SOME_WITHIN,
     SLI_NONE_WITHIN, ///< none is, nor within rounding of it
-} sli_apart;
+} sli_cells_apart;
 
 /// The pairs of `pvs` whose cells are no farther apart than `most`.
 sl_status sli_pvs_within(sl_context *context, const sl_space *space, const sl_pvs *pvs,
-                         double range, sli_apart most, sl_pvs *out);
+                         double range, sli_cells_apart most, sl_pvs *out);
 
 // --- what a search has left to find
 

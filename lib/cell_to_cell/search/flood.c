@@ -390,7 +390,7 @@ static double farthest(const polygon *p, const polygon *q) {
 }
 
 /// Rounded to the safe side: SLI_ALL_WITHIN and SLI_NONE_WITHIN are always right.
-static sli_apart cells_apart(const sl_space *space, uint32_t a, uint32_t b, double range) {
+static sli_cells_apart cells_apart(const sl_space *space, uint32_t a, uint32_t b, double range) {
     const polygon p = polygon_of(space, a), q = polygon_of(space, b);
     const double width = fmax(p.box.max.x, q.box.max.x) - fmin(p.box.min.x, q.box.min.x);
     const double height = fmax(p.box.max.y, q.box.max.y) - fmin(p.box.min.y, q.box.min.y);
@@ -405,7 +405,8 @@ static sli_apart cells_apart(const sl_space *space, uint32_t a, uint32_t b, doub
 }
 
 static sl_status make_rows_within(sl_context *context, const sl_space *space, const sl_pvs *pvs,
-                                  double range, sli_apart most, sli_pvs_maker *maker, sl_pvs *out) {
+                                  double range, sli_cells_apart most, sli_pvs_maker *maker,
+                                  sl_pvs *out) {
     SL_TRY(sli_pvs_maker_create(context, pvs->cell_count, pvs->cell_count, maker));
     for (uint32_t cell = 0; cell < pvs->cell_count; cell++) {
         for (sl_pvs_run run = sl_pvs_begin(pvs, cell); sl_pvs_next(&run);)
@@ -419,7 +420,7 @@ static sl_status make_rows_within(sl_context *context, const sl_space *space, co
 }
 
 sl_status sli_pvs_within(sl_context *context, const sl_space *space, const sl_pvs *pvs,
-                         double range, sli_apart most, sl_pvs *out) {
+                         double range, sli_cells_apart most, sl_pvs *out) {
     sli_pvs_maker maker = {0};
     const sl_status status = make_rows_within(context, space, pvs, range, most, &maker, out);
     sli_pvs_maker_destroy(context, &maker);

@@ -35,8 +35,8 @@ static sl_status see_shut(sl_context *context, const sl_space *space, const sl_s
     return status;
 }
 
-static sl_status narrow(sl_context *context, const sl_space *space, double range, sli_apart most,
-                        sl_pvs *pvs) {
+static sl_status narrow(sl_context *context, const sl_space *space, double range,
+                        sli_cells_apart most, sl_pvs *pvs) {
     sl_pvs within;
     SL_TRY(sli_pvs_within(context, space, pvs, range, most, &within));
     sl_pvs_destroy(context, pvs);

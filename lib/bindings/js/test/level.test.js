@@ -87,6 +87,28 @@ test('answers are the native ones', async () => {
   assert.ok(sees[0] > 500 && sees[1] > 500, String(sees))
 })
 
+test('a polygon into an array of the caller is the same, and is whole or not there', async () => {
+  const into = new Float64Array(20000), own = { origin: [3, 7], scale: 16, yDown: true }
+  for (const path of maps)
+    for (const transform of [undefined, own]) {
+      const level = await Level.open(nativeBake(path).bytes, { transform }), next = random(basename(path).length)
+      for (const { x, y } of points(level, next, 24))
+        for (const view of [undefined, { heading: 360 * next(), fov: 70, range: 9 }]) {
+          const wanted = level.visiblePolygon(x, y, view)
+          into.fill(-1)
+          assert.equal(level.visiblePolygonInto(into, x, y, view), wanted.length)
+          assert.equal(text(into.subarray(0, wanted.length)), text(wanted), `${path} ${x} ${y}`)
+          assert.equal(into[wanted.length], -1)
+          const short = new Float64Array(Math.max(wanted.length - 1, 0)).fill(-1)
+          assert.equal(level.visiblePolygonInto(short, x, y, view), wanted.length)
+          assert.ok(!wanted.length || short.every((value) => value === -1))
+        }
+      for (const wrong of [undefined, null, [], new Float32Array(9)])
+        assert.throws(() => level.visiblePolygonInto(wrong, 1, 1), SightlineError)
+      level.close()
+    }
+})
+
 test('a level tells its cells, doors and starts', async () => {
   const { bytes } = nativeBake(maps.find((path) => path.endsWith('doors.map')))
   const level = await Level.open(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length))

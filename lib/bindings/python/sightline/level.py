@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import drawing, tables
 from ._library import (Floats, Handle, Integers, MapHandle, Vga, address, as_count, as_flag, as_number,
                        as_point, as_points, as_reals, call, existing, path_text, said, text)
+from .explorer import Explorer
 from .lines import Axial
 from .placement import Viewpoints
 from .sets import Sets
@@ -620,6 +621,25 @@ class Level(Viewpoints, Sets, Ways, Axial, drawing.InNotebooks, MapHandle):
     def plot(self, ax: Any = None, **style: Any) -> Any:
         """Draw with matplotlib; returns the axes. `cells=True`, `portals=True` add these."""
         return drawing.plot(self, ax, **style)
+
+    def explorer(self, eye: Optional[ArrayLike] = None, *, width: int = 640,
+                 package: Union[str, "os.PathLike[str]", None] = None) -> Explorer:
+        """A page to look around in: what the pointer sees, doors that open by a click.
+
+        A notebook shows it; `save(path)` writes it as one file of HTML. It needs neither a kernel nor
+        a network. The level must be baked. A released wheel brings what the page needs.
+
+        Parameters
+        ----------
+        eye
+            Where to look from at first; by default the first start, else the middle of the map.
+        width
+            Of the picture, 64 to 8192 pixels.
+        package
+            The folder of the npm package; by default the one that is named by the variable
+            SIGHTLINE_NPM, else that of the wheel.
+        """
+        return Explorer(self, eye, width, package)
 
     def __repr__(self) -> str:
         if self.closed:

@@ -19,7 +19,10 @@ def main():
         print("skipped: this Python has no", ", ".join(missing))
         return 77
     paths = sorted(NOTEBOOKS.glob("*.ipynb"))
-    faults = 0 if len(paths) == 3 else 1
+    faults = 0 if len(paths) == 4 else 1
+    if not pathlib.Path(os.environ.get("SIGHTLINE_NPM", ""), "level.wasm").is_file():
+        paths = [path for path in paths if path.stem != "explorer"]
+        print("explorer.ipynb is left out: the npm package is not built (js_package builds it)")
     with tempfile.TemporaryDirectory() as scratch:
         folder = os.path.abspath(sys.argv[2]) if len(sys.argv) > 2 else scratch
         environment = {**os.environ, "PYTHONPATH": os.path.abspath(sys.argv[1]),
@@ -34,7 +37,7 @@ def main():
             pictures = 0
             if done.returncode == 0:
                 page = pathlib.Path(folder, path.stem + ".html").read_text(encoding="utf-8")
-                pictures = page.count('src="data:image/')
+                pictures = page.count('src="data:image/') + page.count("<iframe srcdoc=")
             print(f"{path.name}: {pictures} pictures" if pictures else f"{path.name}: {done.stdout}")
             faults += done.returncode != 0 or not pictures
     return 1 if faults else 0
