@@ -5,6 +5,7 @@
 #include "app/sheet.h"
 #include "plan/cameras.h"
 #include "plan/heat.h"
+#include "plan/line_map.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -94,7 +95,9 @@ static void what_is_shown(void **state) {
     assert_prints(&s, (const char *const[]){measure, NULL});
     press(app, "1");
     press(app, "Ctrl+5");
-    assert_prints(&s, (const char *const[]){"integration", NULL});
+    *line_map_choice(&app->view) = sl_measure_find(SL_AXIAL, "line_length");
+    press(app, "Ctrl+5");
+    assert_prints(&s, (const char *const[]){"line length", NULL});
     press(app, "8");
     camera_add(&app->view, (sl_point){3, 4});
     camera_rename(&app->view, "Gate & lift");
