@@ -120,23 +120,30 @@ def kept(viewer, display, size, density):
         x0, y0, x1, y1 = (round(0.08 * width), round(0.2 * height), round(0.2 * width),
                           round(0.22 * height))
         viewer.script(folder, "office.map",
-                      f"size {width} {height}\ndensity {density}\nkey 9\nkey Ctrl+8\nclick {x} {y}\n"
-                      "key Ctrl+K\ntype Study\nkey Return\n"
-                      f"drag {x0} {y0} {x1} {y1}\nkey H\nmove 5 5\nsave kept.png\n")
+                      f"size {width} {height}\ndensity {density}\nkey 9\nkey Ctrl+8\nmove 5 5\n"
+                      f"save rooms.png\nclick {x} {y}\nkey Ctrl+K\ntype Study\nkey Return\n"
+                      f"drag {x0} {y0} {x1} {y1}\nkey H\nmove 5 5\nsave named.png\n"
+                      "key Ctrl+1\nkey Ctrl+8\nsave again.png\n")
+
+        def is_shown(window, picture):
+            share = window.shows(folder / f"{picture}.png")
+            viewer.check(share <= TOLERANCE, f"{size}, {picture}: {share:.2%} is otherwise")
+
         for turn in ("first", "second"):
             session = Session(viewer, folder, shown, viewer.root / "maps/office.map")
             window = session.window
             session.keys("9", "ctrl+8")
-            window.act(("drag", x, y, x, y))
             if turn == "first":
-                time.sleep(0.5)
+                is_shown(window, "rooms")
+                window.act(("drag", x, y, x, y))
                 session.keys("ctrl+k")
                 session.type("Study")
                 session.keys("Return")
                 window.act(("drag", x0, y0, x1, y1))
-            session.keys("h")
-            share = window.shows(folder / "kept.png")
-            viewer.check(share <= TOLERANCE, f"{size}, {turn} start: {share:.2%} is otherwise")
+                session.keys("h")
+                is_shown(window, "named")
+            else:
+                is_shown(window, "again")
             session.keys("ctrl+q")
             session.ends(f"{size}, {turn} start")
             for picture in folder.glob("saved-*.png"):
