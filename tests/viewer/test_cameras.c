@@ -3,12 +3,14 @@
 #include "viewer_app.h"
 
 #include "app/layout.h"
+#include "app/sliders.h"
 #include "plan/cameras.h"
 #include "plan/room_map.h"
 #include "sightline/place.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -150,6 +152,57 @@ static void by_pointer(void **state) {
     viewer_end(app);
 }
 
+/// Puts a slider to a share by the setting behind it, as a drag does.
+static void slide(app_state *app, const char *label, double share) {
+    size_t count;
+    const slider_row *rows = slider_table(&count), *row = NULL;
+    for (size_t i = 0; i < count; i++)
+        if (strcmp(rows[i].label, label) == 0) row = &rows[i];
+    assert_non_null(row);
+    assert_true(row->shown(app));
+    row->begin(&app->view);
+    row->set(app, share);
+    row->end(&app->view);
+    app_tick(app, 0);
+}
+
+/// Height and tilt: the same ground as that of a table with these columns, whatever is changed
+/// last; a smaller range that was set stays.
+static void ground(void **state) {
+    (void)state;
+    app_state *app = start(MAPS "/office.map", true);
+    click(app, (sl_point){53, 20});
+    const camera_layer *layer = app->view.cameras;
+    slide(app, "Field of view", (90 - 5) / 355.0);
+    const size_t before = layer->done.count;
+    slide(app, "Height", 0.4);
+    slide(app, "Tilt", 50 / 90.0);
+    assert_int_equal(layer->done.count, before + 2);
+    slide(app, "Tilt", 50 / 90.0); // no change, nothing to undo
+    assert_int_equal(layer->done.count, before + 2);
+    const sl_camera *row = camera_chosen_row(&app->view);
+    sl_viewpoint wanted = {.fov = 90};
+    assert_true(row->height > 0 && row->tilt == 50);
+    sl_viewpoint_tilt(&wanted, row->height, row->tilt, SL_PICTURE_ASPECT);
+    assert_true(wanted.nearest > 0 && wanted.range > wanted.nearest);
+    assert_true(row->view.nearest == wanted.nearest && row->view.range == wanted.range);
+    assert_surveyed(app);
+    // A wider picture reaches farther, and one that is no longer tilted has no end.
+    slide(app, "Field of view", (100 - 5) / 355.0);
+    assert_true(row->view.range > wanted.range && row->view.nearest < wanted.nearest);
+    slide(app, "Tilt", 0);
+    assert_true(row->view.range == 0 && row->view.nearest > 0);
+    slide(app, "Range", 0.1);
+    const double by_hand = row->view.range;
+    slide(app, "Tilt", 40 / 90.0);
+    assert_true(row->view.range == by_hand);
+    slide(app, "Height", 0);
+    assert_true(row->view.range == by_hand && row->view.nearest == 0);
+    while (layer->done.count > before) viewer_press(app, "Ctrl+Z");
+    assert_true(layer->table.items[0].height == 0 && layer->table.items[0].view.range == 0);
+    viewer_end(app);
+}
+
 static void fewest(void **state) {
     (void)state;
     app_state *app = start(MAPS "/oblique/comb.map", true);
@@ -251,6 +304,7 @@ static void stopped(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(by_pointer), cmocka_unit_test(names),
                                        cmocka_unit_test(fewest),     cmocka_unit_test(map_changes),
-                                       cmocka_unit_test(tables),     cmocka_unit_test(stopped)};
+                                       cmocka_unit_test(tables),     cmocka_unit_test(stopped),
+                                       cmocka_unit_test(ground)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

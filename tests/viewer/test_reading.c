@@ -4,6 +4,7 @@
 
 #include "app/layout.h"
 #include "dialogs/import_dialog.h"
+#include "dialogs/question.h"
 #include "document/drawings.h"
 
 #include <math.h>
@@ -284,11 +285,63 @@ static void choices_are_kept(void **state) {
     close_house(&s);
 }
 
+static void write_text(const char *path, const char *text) {
+    FILE *stream = fopen(path, "w");
+    assert_non_null(stream);
+    fputs(text, stream);
+    assert_int_equal(fclose(stream), 0);
+}
+
+/// A building asks which of its storeys is shown, and once more by a key; what is wrong in it is
+/// told, and the plan stays.
+static void storeys_are_chosen(void **state) {
+    (void)state;
+    scene s = open_house();
+    app_state *app = s.app;
+    char building[96], broken[96];
+    snprintf(building, sizeof building, "%s/house.storeys", s.folder);
+    snprintf(broken, sizeof broken, "%s/broken.storeys", s.folder);
+    write_text(building, "storeys 1\nstorey ground house.dxf\nstorey first " MAPS
+                         "/office.map\nlink stair ground 3,3 first 53,20\n");
+    write_text(broken, "storeys 1\nstorey ground house.dxf\nladder\n");
+    press(app, "Ctrl+Shift+B");
+    assert_int_equal(dialog_open_now(&app->desk.dialog), DIALOG_NONE);
+    viewer_open(app, building);
+    frame(app);
+    assert_int_equal(dialog_open_now(&app->desk.dialog), DIALOG_IMPORT);
+    assert_false(import_is_beside(&app->desk));
+    press(app, "Down");
+    press(app, "Return");
+    assert_int_equal(dialog_open_now(&app->desk.dialog), DIALOG_NONE);
+    assert_string_equal(app->document.source.path, MAPS "/office.map");
+    assert_null(app->document.source.options.map);
+    // The storey that is open is chosen at first.
+    press(app, "Ctrl+Shift+B");
+    press(app, "Return");
+    assert_string_equal(app->document.source.path, MAPS "/office.map");
+    press(app, "Ctrl+Shift+B");
+    press(app, "Up");
+    press(app, "Return");
+    assert_string_equal(app->document.source.path, s.path);
+    viewer_open(app, broken);
+    frame(app);
+    assert_int_equal(dialog_open_now(&app->desk.dialog), DIALOG_QUESTION);
+    assert_non_null(strstr(question_text(&app->desk), "broken.storeys:3"));
+    press(app, "Return");
+    assert_string_equal(app->document.source.path, s.path);
+    // A plan that is opened by itself is of no building.
+    viewer_open(app, s.path);
+    assert_null(app->desk.file.building);
+    assert_int_equal(remove(building), 0);
+    assert_int_equal(remove(broken), 0);
+    close_house(&s);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(roles_show_at_once), cmocka_unit_test(leaks_are_closed),
         cmocka_unit_test(line_is_measured),   cmocka_unit_test(wrong_choices),
-        cmocka_unit_test(choices_are_kept),
+        cmocka_unit_test(choices_are_kept),   cmocka_unit_test(storeys_are_chosen),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -141,6 +141,9 @@ class Window:
         self.viewer.check(wait_for_file(path), f"{path.name} was not saved")
         return path
 
+    def write(self, text):
+        self.do("type", "--delay", 15, text)
+
     def choose(self, path):
         """Types a path into the dialog that asks for one."""
         self.do("key", "ctrl+u")

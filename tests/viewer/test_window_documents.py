@@ -55,7 +55,7 @@ class Session:
             time.sleep(0.05)
 
     def type(self, text):
-        self.window.do("type", "--delay", 15, text)
+        self.window.write(text)
 
     def title(self):
         return self.window.do("getwindowname", self.window.id)

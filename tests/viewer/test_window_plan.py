@@ -37,6 +37,19 @@ def steps(width, height, other):
         ("table", ["ctrl+5", "ctrl+l"], "key Ctrl+5\nkey Ctrl+L\n"),
         ("row", ["ctrl+Next", "ctrl+Next"], "key Ctrl+PageDown\nkey Ctrl+PageDown\n"),
         ("no table", ["ctrl+l"], "key Ctrl+L\n"),
+        ("rooms", ["ctrl+8"], "key Ctrl+8\n"),
+        ("room", [("drag", *a, *a)], f"click {a[0]} {a[1]}\n"),
+        ("room named", ["ctrl+k", ("write", "Study"), "Return"], "key Ctrl+K\ntype Study\nkey Return\n"),
+        ("zone", [("drag", *drag)], f"drag {c[0]} {c[1]} {d[0]} {d[1]}\n"),
+        ("zone in the table", ["ctrl+l", "ctrl+Next"], "key Ctrl+L\nkey Ctrl+PageDown\n"),
+        ("no more rooms", ["ctrl+l"], "key Ctrl+L\n"),
+        ("camera", ["8", ("drag", *a, *a)], f"key 8\nclick {a[0]} {a[1]}\n"),
+        ("camera named", ["ctrl+k", ("write", "Gate 2"), "Return"],
+         "key Ctrl+K\ntype Gate 2\nkey Return\n"),
+        ("camera turned", ["comma"] * 20 + ["Left", "Left"], "key ,\n" * 20 + "key Left\nkey Left\n"),
+        ("camera moved", [("drag", *a, *b)], f"drag {a[0]} {a[1]} {b[0]} {b[1]}\n"),
+        ("second camera", [("drag", *a, *a)], f"click {a[0]} {a[1]}\n"),
+        ("plan again", ["9"], "key 9\n"),
         ("compared", ["ctrl+7", ("choose", other)],
          f"key Ctrl+7\nkey Ctrl+U\ntype {other}\nkey Return\n"),
         ("changes", ["1"], "key 1\n"),
@@ -91,6 +104,50 @@ def house():
              ("A-WALL", 6, 4, 6, 8), ("A-WALL", 13, -2, 14, -2), ("HEDGE", 2, 5, 4, 5)]
     form = "0\nLINE\n8\n{}\n10\n{}\n20\n{}\n11\n{}\n21\n{}\n"
     return "0\nSECTION\n2\nENTITIES\n" + "".join(form.format(*line) for line in lines) + "0\nENDSEC\n0\nEOF\n"
+
+
+def kept(viewer, display, size, density):
+    """Names of rooms and zones, typed and drawn in a window, are there in the next one."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        width, height = size
+        shown = environment(DISPLAY=display, XDG_CONFIG_HOME=str(folder / "config"),
+                            XDG_STATE_HOME=str(folder / "state"))
+        conf = folder / "config/sightline/view.conf"
+        conf.parent.mkdir(parents=True)
+        conf.write_text(f"width {width / density:g}\nheight {height / density:g}\n")
+        x, y = round(0.12 * width), round(0.3 * height)
+        x0, y0, x1, y1 = (round(0.08 * width), round(0.2 * height), round(0.2 * width),
+                          round(0.22 * height))
+        viewer.script(folder, "office.map",
+                      f"size {width} {height}\ndensity {density}\nkey 9\nkey Ctrl+8\nmove 5 5\n"
+                      f"save rooms.png\nclick {x} {y}\nkey Ctrl+K\ntype Study\nkey Return\n"
+                      f"drag {x0} {y0} {x1} {y1}\nkey H\nmove 5 5\nsave named.png\n"
+                      "key Ctrl+1\nkey Ctrl+8\nsave again.png\n")
+
+        def is_shown(window, picture):
+            share = window.shows(folder / f"{picture}.png")
+            viewer.check(share <= TOLERANCE, f"{size}, {picture}: {share:.2%} is otherwise")
+
+        for turn in ("first", "second"):
+            session = Session(viewer, folder, shown, viewer.root / "maps/office.map")
+            window = session.window
+            session.keys("9", "ctrl+8")
+            if turn == "first":
+                is_shown(window, "rooms")
+                window.act(("drag", x, y, x, y))
+                session.keys("ctrl+k")
+                session.type("Study")
+                session.keys("Return")
+                window.act(("drag", x0, y0, x1, y1))
+                session.keys("h")
+                is_shown(window, "named")
+            else:
+                is_shown(window, "again")
+            session.keys("ctrl+q")
+            session.ends(f"{size}, {turn} start")
+            for picture in folder.glob("saved-*.png"):
+                picture.unlink()
 
 
 def reading(viewer, display, size, density):
@@ -153,6 +210,7 @@ def main():
         server, display = start_display(screen)
         try:
             tables.append(in_window(viewer, display, size, density))
+            kept(viewer, display, size, density)
             reading(viewer, display, size, density)
         finally:
             server.terminate()

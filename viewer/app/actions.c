@@ -4,11 +4,13 @@
 #include "app/action_parts.h"
 #include "app/layout.h"
 #include "app/pictures.h"
+#include "app/sheet.h"
 #include "app/turn.h"
 #include "dialogs/browser.h"
 #include "dialogs/map_file.h"
 #include "dialogs/opening.h"
 #include "dialogs/question.h"
+#include "dialogs/storeys.h"
 #include "document/export.h"
 #include "lessons/quiz.h"
 #include "lessons/why.h"
@@ -393,6 +395,8 @@ static void export_frames(app_state *app) {
     browser_save(&app->desk, BROWSE_FRAMES, name, take_frames);
 }
 
+DO(print, sheet_ask(app))
+
 static void take_picture(desk_state *desk, const char *path) {
     wish_for(desk, WISH_PICTURE, path);
 }
@@ -409,6 +413,7 @@ DO(file_menu, menu_open(&app->desk))
 DO(file_new, map_file_new(&app->desk))
 DO(file_open, files_browse(&app->desk))
 DO(file_import, files_import_again(&app->desk))
+DO(file_storeys, storeys_choose(&app->desk))
 DO(file_save, map_file_save(&app->desk))
 DO(file_save_as, map_file_save_as(&app->desk))
 
@@ -572,6 +577,8 @@ static const action_row last[] = {
     {"open_too", "O", NULL, "open a file", 0, 0, file_open, NULL},
     {"import", "Ctrl+I", "Options", "open the same file with other options", 0, 0, file_import,
      NULL},
+    {"storeys", "Ctrl+Shift+B", "Storeys", "open another storey of the same building", 0, 0,
+     file_storeys, NULL},
     {"notes", "Ctrl+J", "Notes", "what the reader took of the file", 0, 0, file_notes, NULL},
     {"save", "Ctrl+S", "Save", "save the map", 0, 0, file_save, NULL},
     {"save_as", "Ctrl+Shift+S", "Save as", "save the map under a name", 0, 0, file_save_as, NULL},
@@ -581,6 +588,7 @@ static const action_row last[] = {
     {"save_png", "Ctrl+E", "PNG", "save the plan as PNG", 0, 0, save_png, NULL},
     {"save_svg", "Ctrl+G", "SVG", "save the plan as SVG", 0, 0, save_svg, NULL},
     {"save_pdf", "Ctrl+P", "PDF", "save the plan as PDF", 0, 0, save_pdf, NULL},
+    {"print", "Ctrl+Shift+P", "Print", "print the plan to scale on A4 to A0", 0, 0, print, NULL},
     {"fit", "F", "Fit", "show all of the map", 0, 0, fit, NULL},
     {"zoom_in", "PageUp", NULL, "zoom in", 0, 0, zoom_in, NULL},
     {"zoom_out", "PageDown", NULL, "zoom out", 0, 0, zoom_out, NULL},
@@ -666,6 +674,8 @@ static void take_wish(app_state *app) {
         compare_open(&app->view, path);
     else if (wish == WISH_PICTURE)
         status = save_picture(app, path);
+    else if (wish == WISH_SHEET)
+        status = sheet_save(app, path);
     else if (wish == WISH_FRAMES)
         status = save_series(app, path, SERIES_STEP);
     view_check(&app->view, status);

@@ -11,6 +11,12 @@
 #include <math.h>
 #include <stdio.h>
 
+/// A length over 0 that one can read.
+static double two_digits(double length) {
+    const double digit = pow(10, floor(log10(length)) - 1);
+    return digit * round(length / digit);
+}
+
 // --- the view cone: finer where it is narrow
 
 static bool has_eye(const app_state *app) {
@@ -190,8 +196,8 @@ static void field_text(const app_state *app, char text[SLIDER_TEXT]) {
 }
 
 static void set_field(app_state *app, double share) {
-    camera_chosen(&app->view)->fov = app->view.cameras->like.fov = round(5 + 355 * share);
-    camera_changed(&app->view);
+    const sl_camera *row = camera_chosen_row(&app->view);
+    camera_tilt(&app->view, round(5 + 355 * share), row->height, row->tilt);
 }
 
 static double heading_share(const app_state *app) {
@@ -222,8 +228,53 @@ static void camera_range_text(const app_state *app, char text[SLIDER_TEXT]) {
 
 static void set_camera_range(app_state *app, double share) {
     const double range = share < 1 ? fmax(share * share, 1e-3) * range_most(&app->document) : 0;
-    camera_chosen(&app->view)->range = app->view.cameras->like.range = range;
-    camera_changed(&app->view);
+    app->view.cameras->like.range = range;
+    camera_range(&app->view, range);
+}
+
+// --- the ground that it sees: its height, finer where it is low, and its tilt
+
+static bool has_camera_height(const app_state *app) {
+    return has_camera(app) && camera_chosen(&app->view)->fov < 180;
+}
+
+static double highest_camera(const app_state *app) {
+    return range_most(&app->document) / 4;
+}
+
+static double height_share(const app_state *app) {
+    return sqrt(fmin(camera_chosen_row(&app->view)->height / highest_camera(app), 1));
+}
+
+static void height_text(const app_state *app, char text[SLIDER_TEXT]) {
+    const double height = camera_chosen_row(&app->view)->height;
+    if (height > 0)
+        snprintf(text, SLIDER_TEXT, "%.3g", height);
+    else
+        snprintf(text, SLIDER_TEXT, "not known");
+}
+
+static void set_height(app_state *app, double share) {
+    const sl_camera *row = camera_chosen_row(&app->view);
+    camera_tilt(&app->view, row->view.fov,
+                share > 0.01 ? two_digits(share * share * highest_camera(app)) : 0, row->tilt);
+}
+
+static bool has_tilt(const app_state *app) {
+    return has_camera_height(app) && camera_chosen_row(&app->view)->height > 0;
+}
+
+static double tilt_share(const app_state *app) {
+    return camera_chosen_row(&app->view)->tilt / 90;
+}
+
+static void tilt_text(const app_state *app, char text[SLIDER_TEXT]) {
+    snprintf(text, SLIDER_TEXT, "%.0f\xc2\xb0", camera_chosen_row(&app->view)->tilt);
+}
+
+static void set_tilt(app_state *app, double share) {
+    const sl_camera *row = camera_chosen_row(&app->view);
+    camera_tilt(&app->view, row->view.fov, row->height, round(90 * share));
 }
 
 // --- who walks a path: finer where it is thin
@@ -251,9 +302,7 @@ static void walker_text(const app_state *app, char text[SLIDER_TEXT]) {
 }
 
 static void set_walker(app_state *app, double share) {
-    const double radius = share * share * widest_walker(app);
-    const double digit = pow(10, floor(log10(fmax(radius, 1e-300))) - 1);
-    app->view.walker = share > 0.01 ? digit * round(radius / digit) : 0;
+    app->view.walker = share > 0.01 ? two_digits(share * share * widest_walker(app)) : 0;
 }
 
 static const slider_row sliders[] = {
@@ -281,6 +330,10 @@ static const slider_row sliders[] = {
      camera_settle, "Where it looks: from right, counter-clockwise (Left and Right)"},
     {"Range", has_camera, camera_range_share, camera_range_text, set_camera_range, camera_keep,
      camera_settle, "How far it sees (- and =)"},
+    {"Height", has_camera_height, height_share, height_text, set_height, camera_keep, camera_settle,
+     "How high over the ground it hangs: it sees nothing just below it"},
+    {"Tilt", has_tilt, tilt_share, tilt_text, set_tilt, camera_keep, camera_settle,
+     "How far it looks down: it sees no ground past the upper border of its picture"},
 };
 
 const slider_row *slider_table(size_t *count) {

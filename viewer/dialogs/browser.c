@@ -76,6 +76,13 @@ static const struct kind_row {
                          {".png", ".svg", ".pdf"},
                          FILTER_PICTURES,
                          FILTER_PICTURES},
+    [BROWSE_SHEETS] = {NULL,
+                       "Save the sheet of paper",
+                       "No sheet in this folder.",
+                       "Names of sheets end in .pdf or .svg.",
+                       {".pdf", ".svg"},
+                       FILTER_PICTURES,
+                       FILTER_PICTURES},
     [BROWSE_FRAMES] = {NULL,
                        "Save the way: pictures in a new folder",
                        "No picture in this folder.",
@@ -454,7 +461,7 @@ void browser_save(desk_state *desk, browse_kind kind, const char *name, browser_
     if (!b) return;
     b->save = then;
     if (access(b->folder, W_OK) != 0) enter_folder(desk, b, getenv("HOME") ? getenv("HOME") : ".");
-    if (kind == BROWSE_PICTURES || kind == BROWSE_FRAMES)
+    if (kind >= BROWSE_PICTURES)
         set_free_path(b, name);
     else
         set_path(b, b->folder, name);

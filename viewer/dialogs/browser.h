@@ -15,13 +15,14 @@ typedef enum browse_kind {
     BROWSE_TABLES,
     BROWSE_VALUES,
     BROWSE_PICTURES,
+    BROWSE_SHEETS,
     BROWSE_FRAMES
 } browse_kind;
 
 /// `then` opens the map or table that is chosen; `ask`: all its options are to be asked for.
 void browser_open(desk_state *desk, browse_kind kind, browser_open_file *then);
-/// Asks for the path to save under. At first it has this name; pictures and frames get a number
-/// where that is taken.
+/// Asks for the path to save under. At first it has this name; pictures, sheets and frames get a
+/// number where that is taken.
 void browser_save(desk_state *desk, browse_kind kind, const char *name, browser_save_file *then);
 /// Asks for the path to save the map under, with this one in the field.
 void browser_save_to(desk_state *desk, const char *path, browser_save_file *then);

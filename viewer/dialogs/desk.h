@@ -14,6 +14,7 @@ typedef struct file_state {
     uint64_t saved; ///< the state of the map that the file has; UINT64_MAX: none
     bool recovered; ///< the map that is being opened is one that was never saved
     char *of;       ///< the file that it is of, then; NULL: none
+    char *building; ///< whose storey is open; NULL: none
 
     pending_kind pending;   ///< what waits until changes are saved or given up
     document_source source; ///< to be opened
@@ -32,7 +33,7 @@ typedef struct file_state {
 
 /// What is to be done with a path that was chosen: a table of cameras or of what
 /// a tool has computed, a plan to compare with,
-/// a picture, a folder of them.
+/// a picture, a sheet of paper, a folder of pictures.
 typedef enum path_wish {
     WISH_NONE,
     WISH_READ_TABLE,
@@ -40,6 +41,7 @@ typedef enum path_wish {
     WISH_WRITE_VALUES,
     WISH_COMPARE,
     WISH_PICTURE,
+    WISH_SHEET,
     WISH_FRAMES
 } path_wish;
 
@@ -55,6 +57,7 @@ struct desk_state {
     bool quit;
     path_wish wish; ///< these two: chosen in the browser; the app does it next
     char wish_path[WISH_PATH];
+    const char *paper, *scale; ///< of the sheet that is printed next, as in sl_sheet
 };
 
 enum { TITLE_TEXT = 320 };

@@ -68,7 +68,7 @@ static bool is_readable(const sl_context *context, const char *path, const char 
     size_t count;
     const sl_map_format *formats = sl_map_formats(context, &count);
     if (!dot) return false;
-    if (strcasecmp(dot, ".slv") == 0) return true;
+    if (has_ending(".slv .storeys", dot)) return true;
     for (size_t i = 0; i < count; i++)
         if (has_ending(formats[i].endings, dot))
             return !has_ending(doubtful, dot) || holds_map(context, path, dot, formats, count);

@@ -252,8 +252,19 @@ static void accept(desk_state *desk, import_state *s) {
     if (s->beside && !desk->ui->steady) drawing_remember(desk->context, &source);
     if (s->beside && s->due > 0) import_preview(desk, s);
     dialog_pop(&desk->dialog);
-    if (!s->beside) s->then(desk, &source);
+    if (s->beside) {
+        import_destroy(desk);
+        return;
+    }
+    // What it opens may open this dialog once more.
+    void (*const then)(desk_state *, const document_source *) = s->then;
+    document_source chosen;
+    const sl_status status = document_source_copy(desk->context, &source, &chosen);
+    ui_report(desk->ui, desk->context, status);
     import_destroy(desk);
+    if (status != SL_OK) return;
+    then(desk, &chosen);
+    document_source_destroy(desk->context, &chosen);
 }
 
 /// Puts back what was chosen before.
@@ -342,7 +353,8 @@ static double draw_maps(desk_state *desk, import_state *s, sl_box box, double y,
     ui_state *ui = desk->ui;
     const double t = ui->text;
     const sl_box frame = {{box.min.x, y + 1.8 * t}, {box.max.x, y + 1.8 * t + high}};
-    ui_text(ui, box.min.x, y + 1.2 * t, 1, false, ui->palette.ink, "Which of its maps?");
+    ui_text(ui, box.min.x, y + 1.2 * t, 1, false, ui->palette.ink,
+            s->choice.format ? "Which of its maps?" : "Which of its storeys?");
     dialog_list_frame(&desk->dialog, MAPS, frame, &s->maps);
     for (size_t i = s->maps.first; i < s->maps.count && i < s->maps.first + s->maps.page; i++) {
         const sl_box row = dialog_list_row(&desk->dialog, MAPS, frame, &s->maps, i);
@@ -443,7 +455,7 @@ static void draw_over_all(desk_state *desk, import_state *s) {
     draw_options(desk, s, box, y);
     dialog_problem(&desk->dialog, (sl_point){box.min.x, box.max.y - 2.5 * t}, box_width(box),
                    s->problem);
-    const int from = s->more ? 1 : 0;
+    const int from = s->more || !s->choice.format ? 1 : 0;
     dialog_buttons(&desk->dialog, box.max.x, box.max.y - 1.8 * t, buttons + from, 3 - from);
     dialog_end(&desk->dialog);
 }

@@ -344,6 +344,7 @@ void map_file_destroy(desk_state *desk) {
     document_source_destroy(desk->context, &file->tried);
     sl_free(desk->context, file->path);
     sl_free(desk->context, file->of);
+    sl_free(desk->context, file->building);
     sl_free(desk->context, file->failed);
-    file->path = file->of = file->failed = NULL;
+    file->path = file->of = file->building = file->failed = NULL;
 }

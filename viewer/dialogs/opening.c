@@ -4,6 +4,7 @@
 #include "dialogs/browser.h"
 #include "dialogs/import_dialog.h"
 #include "dialogs/map_file.h"
+#include "dialogs/storeys.h"
 #include "document/drawings.h"
 
 #include <stdio.h>
@@ -37,11 +38,24 @@ static bool is_open_question(const document_source *source, const sl_map_choice 
            (choice->layers_unsaid && !source->options.layers);
 }
 
+/// A building is opened at another place; what is opened here is of none.
+static bool is_of_building(desk_state *desk, const char *path, sl_status *status) {
+    const bool is = storeys_is(path);
+    *status =
+        is ? storeys_open(desk, path) : files_set_text(desk->context, &desk->file.building, NULL);
+    return is;
+}
+
 void files_open(desk_state *desk, const char *path, bool ask) {
     document_source given = {.path = (char *)(uintptr_t)path, .options = desk->options};
     document_source source = {0};
     sl_map_choice choice = {0};
-    sl_status status = files_look(desk->context, &given, &choice);
+    sl_status status;
+    if (is_of_building(desk, path, &status)) {
+        map_file_check(desk, path, status);
+        return;
+    }
+    if (status == SL_OK) status = files_look(desk->context, &given, &choice);
     if (choice.format) keep_useful(&given.options, given.takes);
     if (status == SL_OK) status = document_source_copy(desk->context, &given, &source);
     if (status == SL_OK && !desk->ui->steady) status = recall(desk->context, &source);
@@ -64,8 +78,10 @@ void files_drop(desk_state *desk, const char *path) {
 sl_status files_open_source(desk_state *desk, const document_source *given, bool ask) {
     document_source source;
     sl_map_choice choice = {0};
+    sl_status status;
+    if (is_of_building(desk, given->path, &status) || status != SL_OK) return status;
     SL_TRY(document_source_copy(desk->context, given, &source));
-    sl_status status = files_look(desk->context, &source, &choice);
+    status = files_look(desk->context, &source, &choice);
     if (status == SL_OK && ask) status = recall(desk->context, &source);
     if (status == SL_OK && ask && choice.format && is_open_question(&source, &choice))
         status = import_open(desk, &source, &choice, false, map_file_start);

@@ -107,8 +107,8 @@ void question_draw(desk_state *desk) {
 // --- the menu
 
 static const char *const rows[] = {
-    "new",      "open",     "import",   "notes",         "save", "save_as",
-    "save_png", "save_svg", "save_pdf", "export_series", "quit",
+    "new",      "open",     "import",   "storeys", "notes",         "save", "save_as",
+    "save_png", "save_svg", "save_pdf", "print",   "export_series", "quit",
 };
 enum { ROWS = sizeof rows / sizeof *rows };
 

@@ -1,8 +1,9 @@
 /// The file "drawings": for each drawing a line "file PATH", and behind it lines of what was
-/// chosen, a word and its value. The drawing that was read last comes first.
+/// chosen, a word and its value. The drawing that was read last comes first. The file "rooms" is
+/// alike: "room X Y NAME" and "zone X0 Y0 X1 Y1 NAME".
 #include "document/drawings.h"
 
-#include "sightline/support.h"
+#include "draw/draw_plan.h" // private: names are cut as in pictures
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -19,14 +20,14 @@ bool drawing_is(const char *path) {
     return false;
 }
 
-/// Numbers with blanks between; how many there are.
-static int read_numbers(const char *text, double numbers[4]) {
+/// Numbers with blanks between, up to `most`; how many there are. `text` goes on to what follows.
+static int read_numbers(const char **text, double *numbers, int most) {
     int count = 0;
-    while (count < 4 && *text) {
-        const size_t length = strcspn(text, " ");
-        if (!sl_number_read(text, length, &numbers[count])) break;
+    while (count < most && **text) {
+        const size_t length = strcspn(*text, " ");
+        if (!sl_number_read(*text, length, &numbers[count])) break;
         count++;
-        text += length + (text[length] == ' ');
+        *text += length + ((*text)[length] == ' ');
     }
     return count;
 }
@@ -43,7 +44,8 @@ static sl_status take_line(sl_context *context, const char *word, const char *va
                            document_source *source) {
     sl_import_options *o = &source->options;
     double at[4];
-    const int count = read_numbers(value, at);
+    const char *rest = value;
+    const int count = read_numbers(&rest, at, 4);
     if (strcmp(word, "layers") == 0) return take_text(context, &o->layers, value);
     if (strcmp(word, "unit") == 0) return take_text(context, &o->unit, value);
     if (strcmp(word, "entrance") == 0 && count == 1) o->entrance = at[0];
@@ -65,12 +67,13 @@ static sl_status take_line(sl_context *context, const char *word, const char *va
 typedef sl_status each_line(sl_context *context, void *user, bool own, const char *word,
                             const char *value);
 
-static sl_status read_lines(sl_context *context, const char *full, each_line *take, void *user) {
+static sl_status read_lines(sl_context *context, const char *kept, const char *full,
+                            each_line *take, void *user) {
     char path[PATH_TEXT];
     sl_bytes bytes;
     bool own = false;
     sl_status status = SL_OK;
-    if (!files_kept("drawings", path, false) || sl_file_read(context, path, &bytes) != SL_OK)
+    if (!files_kept(kept, path, false) || sl_file_read(context, path, &bytes) != SL_OK)
         return SL_OK;
     for (char *line = bytes.data, *next; line && *line && status == SL_OK; line = next) {
         next = strchr(line, '\n');
@@ -100,7 +103,7 @@ static sl_status recall_line(sl_context *context, void *user, bool own, const ch
 bool drawing_recall(sl_context *context, document_source *source, sl_status *status) {
     recalled r = {.source = source};
     char *full = realpath(source->path, NULL);
-    *status = full ? read_lines(context, full, recall_line, &r) : SL_OK;
+    *status = full ? read_lines(context, "drawings", full, recall_line, &r) : SL_OK;
     free(full);
     return r.any;
 }
@@ -119,41 +122,111 @@ static sl_status copy_line(sl_context *context, void *user, bool own, const char
     return SL_OK;
 }
 
-static void put_numbers(FILE *stream, const char *word, const double *numbers, int count) {
+/// A word, numbers, and the text behind them, "" for none.
+static void put_numbers(FILE *stream, const char *word, const double *numbers, int count,
+                        const char *text) {
     fputs(word, stream);
     for (int i = 0; i < count; i++) {
-        char text[SL_NUMBER_TEXT];
-        sl_number_write(numbers[i], text);
-        fprintf(stream, " %s", text);
+        char number[SL_NUMBER_TEXT];
+        sl_number_write(numbers[i], number);
+        fprintf(stream, " %s", number);
     }
-    fputc('\n', stream);
+    fprintf(stream, "%s%s\n", *text ? " " : "", text);
 }
 
 static void put_text(FILE *stream, const char *word, const char *text) {
     if (text && !strchr(text, '\n')) fprintf(stream, "%s %s\n", word, text);
 }
 
-void drawing_remember(sl_context *context, const document_source *source) {
-    const sl_import_options *o = &source->options;
+/// Writes the lines that are kept for one file.
+typedef void put_lines(FILE *stream, const void *user);
+
+/// Puts the lines of a file before those of all others; without `put` it has none any more.
+static void remember(sl_context *context, const char *kept, const char *name, put_lines *put,
+                     const void *user) {
     char path[PATH_TEXT];
     sl_output output;
-    char *full = realpath(source->path, NULL);
-    if (full && !strchr(full, '\n') && files_kept("drawings", path, true) &&
+    char *full = realpath(name, NULL);
+    if (full && !strchr(full, '\n') && files_kept(kept, path, true) &&
         sl_output_open(context, path, &output) == SL_OK) {
         copied c = {.stream = output.stream};
-        fprintf(output.stream, "file %s\n", full);
-        put_text(output.stream, "layers", o->layers);
-        put_text(output.stream, "unit", o->unit);
-        if (o->entrance > 0) put_numbers(output.stream, "entrance", &o->entrance, 1);
-        if (o->doors) fputs("doors \n", output.stream);
-        if (source->has_weld) put_numbers(output.stream, "weld", &source->weld, 1);
-        if (source->has_start)
-            put_numbers(output.stream, "start", (double[]){source->start.x, source->start.y}, 2);
-        for (size_t i = 0; i < source->closed_count; i++) {
-            const sl_segment s = source->closed[i];
-            put_numbers(output.stream, "closed", (double[]){s.a.x, s.a.y, s.b.x, s.b.y}, 4);
+        if (put) {
+            fprintf(output.stream, "file %s\n", full);
+            put(output.stream, user);
         }
-        sl_output_close(context, &output, read_lines(context, full, copy_line, &c));
+        sl_output_close(context, &output, read_lines(context, kept, full, copy_line, &c));
     }
     free(full);
+}
+
+static void put_choices(FILE *stream, const void *user) {
+    const document_source *source = user;
+    const sl_import_options *o = &source->options;
+    put_text(stream, "layers", o->layers);
+    put_text(stream, "unit", o->unit);
+    if (o->entrance > 0) put_numbers(stream, "entrance", &o->entrance, 1, "");
+    if (o->doors) fputs("doors \n", stream);
+    if (source->has_weld) put_numbers(stream, "weld", &source->weld, 1, "");
+    if (source->has_start)
+        put_numbers(stream, "start", (double[]){source->start.x, source->start.y}, 2, "");
+    for (size_t i = 0; i < source->closed_count; i++) {
+        const sl_segment s = source->closed[i];
+        put_numbers(stream, "closed", (double[]){s.a.x, s.a.y, s.b.x, s.b.y}, 4, "");
+    }
+}
+
+void drawing_remember(sl_context *context, const document_source *source) {
+    remember(context, "drawings", source->path, put_choices, source);
+}
+
+// --- rooms and zones
+
+/// Of one plan: rooms and zones.
+typedef struct places {
+    named_places *rooms, *zones;
+} places;
+
+static sl_status take_place(sl_context *context, void *user, bool own, const char *word,
+                            const char *value) {
+    const places *p = user;
+    const bool zone = strcmp(word, "zone") == 0;
+    const int count = zone ? 4 : 2;
+    double at[4];
+    if (!own || !(zone || strcmp(word, "room") == 0) || read_numbers(&value, at, count) != count ||
+        !*value)
+        return SL_OK;
+    named_places *list = zone ? p->zones : p->rooms;
+    SL_TRY(SL_ARRAY_ROOM(context, list, 1));
+    named_place *place = &list->items[list->count++];
+    *place = (named_place){{{at[0], at[1]}, {at[count - 2], at[count - 1]}}, ""};
+    sli_text_copy(value, strlen(value), place->name, sizeof place->name);
+    return SL_OK;
+}
+
+sl_status places_recall(sl_context *context, const char *path, named_places *rooms,
+                        named_places *zones) {
+    places p = {rooms, zones};
+    char *full = realpath(path, NULL);
+    const sl_status status = full ? read_lines(context, "rooms", full, take_place, &p) : SL_OK;
+    free(full);
+    return status;
+}
+
+static void put_places(FILE *stream, const void *user) {
+    const places *p = user;
+    for (size_t i = 0; i < p->rooms->count; i++) {
+        const named_place *room = &p->rooms->items[i];
+        put_numbers(stream, "room", (double[]){room->box.min.x, room->box.min.y}, 2, room->name);
+    }
+    for (size_t i = 0; i < p->zones->count; i++) {
+        const named_place *zone = &p->zones->items[i];
+        const sl_box b = zone->box;
+        put_numbers(stream, "zone", (double[]){b.min.x, b.min.y, b.max.x, b.max.y}, 4, zone->name);
+    }
+}
+
+void places_remember(sl_context *context, const char *path, const named_places *rooms,
+                     const named_places *zones) {
+    const places p = {(named_places *)(uintptr_t)rooms, (named_places *)(uintptr_t)zones};
+    remember(context, "rooms", path, rooms->count + zones->count ? put_places : NULL, &p);
 }

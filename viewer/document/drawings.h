@@ -1,8 +1,10 @@
-/// How drawings are read, as it was chosen for each: kept between runs beside the recent files.
+/// How drawings are read, as it was chosen for each, and the rooms and zones that were named in a
+/// plan: kept between runs beside the recent files.
 #ifndef VIEWER_DRAWINGS_H
 #define VIEWER_DRAWINGS_H
 
 #include "document/files.h"
+#include "sightline/support.h"
 
 /// Whether a file is a floor plan, by its ending: a drawing or a picture.
 bool drawing_is(const char *path);
@@ -14,5 +16,23 @@ bool drawing_recall(sl_context *context, document_source *source, sl_status *sta
 
 /// Keeps what is chosen for the file. What cannot be kept is not.
 void drawing_remember(sl_context *context, const document_source *source);
+
+enum { PLACE_NAME = 64 };
+
+/// A zone with its name; or, where the box is a point, the name of the room about it.
+typedef struct named_place {
+    sl_box box;
+    char name[PLACE_NAME];
+} named_place;
+
+typedef SL_ARRAY(named_place) named_places;
+
+/// Adds what was named in the file's plan to both lists. SL_NO_MEMORY.
+sl_status places_recall(sl_context *context, const char *path, named_places *rooms,
+                        named_places *zones);
+
+/// Keeps them, or that there are none. What cannot be kept is not.
+void places_remember(sl_context *context, const char *path, const named_places *rooms,
+                     const named_places *zones);
 
 #endif

@@ -92,7 +92,7 @@ static void draw_list(view_state *view, column *c) {
 
 static void draw_spots(view_state *view, column *c) {
     const camera_layer *layer = view->cameras;
-    char text[AREA_TEXT], name[32 + ROOM_NAME];
+    char text[AREA_TEXT], name[32 + PLACE_NAME];
     if (!layer->coverage.blind_count || !layer->table.count) return;
     snprintf(text, sizeof text, "%u", layer->coverage.blind_count);
     column_heading(view->ui, c, "Blind spots", text);

@@ -62,10 +62,15 @@ void camera_name(const camera_layer *layer, size_t camera, char text[CAMERA_NAME
         snprintf(text, CAMERA_NAME, "%zu", camera + 1);
 }
 
-sl_viewpoint *camera_chosen(const view_state *view) {
+sl_camera *camera_chosen_row(const view_state *view) {
     const camera_layer *layer = view->cameras;
     if (!layer || layer->chosen >= layer->table.count) return NULL;
-    return &layer->table.items[layer->chosen].view;
+    return &layer->table.items[layer->chosen];
+}
+
+sl_viewpoint *camera_chosen(const view_state *view) {
+    sl_camera *row = camera_chosen_row(view);
+    return row ? &row->view : NULL;
 }
 
 // --- undo
@@ -105,7 +110,8 @@ void camera_changed(view_state *view) {
 static bool same_tables(const sl_cameras *a, const sl_cameras *b) {
     bool same = a->count == b->count;
     for (size_t i = 0; i < a->count && same; i++)
-        same = memcmp(&a->items[i].view, &b->items[i].view, sizeof a->items[i].view) == 0;
+        same = memcmp(&a->items[i].view, &b->items[i].view, sizeof a->items[i].view) == 0 &&
+               a->items[i].height == b->items[i].height && a->items[i].tilt == b->items[i].tilt;
     return same;
 }
 
@@ -246,19 +252,38 @@ void camera_turn(view_state *view, double degrees) {
 }
 
 void camera_widen(view_state *view, double degrees) {
-    sl_viewpoint *v = begin_change(view);
-    if (!v) return;
-    v->fov = fmin(fmax(v->fov + degrees, 5), 360);
-    view->cameras->like.fov = v->fov;
+    if (!begin_change(view)) return;
+    const sl_camera *row = camera_chosen_row(view);
+    camera_tilt(view, fmin(fmax(row->view.fov + degrees, 5), 360), row->height, row->tilt);
+}
+
+void camera_tilt(view_state *view, double fov, double height, double tilt) {
+    sl_camera *row = camera_chosen_row(view);
+    sl_viewpoint ground = {.fov = row->view.fov};
+    sl_viewpoint_tilt(&ground, row->height, row->tilt, SL_PICTURE_ASPECT);
+    if (ground.range > 0 && row->view.range == ground.range) row->view.range = 0;
+    if (row->height > 0 || height > 0) row->view.nearest = 0;
+    row->view.fov = view->cameras->like.fov = fov;
+    row->height = height;
+    row->tilt = tilt;
+    camera_range(view, row->view.range);
+}
+
+void camera_range(view_state *view, double range) {
+    sl_camera *row = camera_chosen_row(view);
+    row->view.range = range;
+    sl_viewpoint_tilt(&row->view, row->height, row->tilt, SL_PICTURE_ASPECT);
+    camera_changed(view);
 }
 
 void camera_reach(view_state *view, double factor) {
     sl_viewpoint *v = begin_change(view);
     if (!v) return;
     const double most = range_most(view->document);
-    const double range = (v->range > 0 ? v->range : most) * factor;
-    v->range = range >= most ? 0 : fmax(range, 1e-3 * most);
-    view->cameras->like.range = v->range;
+    double range = (v->range > 0 ? v->range : most) * factor;
+    range = range >= most ? 0 : fmax(range, 1e-3 * most);
+    view->cameras->like.range = range;
+    camera_range(view, range);
 }
 
 void cameras_replace(view_state *view, sl_cameras *table) {

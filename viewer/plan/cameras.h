@@ -35,7 +35,9 @@ void cameras_clear(view_state *view);
 
 /// The name of a camera, or its number from 1.
 void camera_name(const camera_layer *layer, size_t camera, char text[CAMERA_NAME]);
-/// The chosen one; NULL: none.
+/// The chosen row; NULL: none.
+sl_camera *camera_chosen_row(const view_state *view);
+/// How it looks; NULL: none.
 sl_viewpoint *camera_chosen(const view_state *view);
 
 /// Call before a change: keeps the table for undo. After it: camera_changed().
@@ -51,6 +53,11 @@ void camera_delete(view_state *view);
 void camera_choose(view_state *view, int by); ///< the next one, or one before
 void camera_turn(view_state *view, double degrees);
 void camera_widen(view_state *view, double degrees);
+/// Sets the chosen one's field of view, its height over the ground (0: not known), and its tilt
+/// below the horizon. Its dead zone and range are those of the ground, but for a smaller range that
+/// was set by hand.
+void camera_tilt(view_state *view, double fov, double height, double tilt);
+void camera_range(view_state *view, double range);  ///< sets it; 0: no limit but that of the ground
 void camera_reach(view_state *view, double factor); ///< its range; one without limit gets one
 /// Goes back, or forward; false where there is nothing.
 bool camera_undo(view_state *view, bool redo);

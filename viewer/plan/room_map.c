@@ -1,7 +1,8 @@
-/// A job finds the rooms. Names and zones stay while the same file is open, whatever is changed in
-/// it: a name belongs to the room about the place where it was typed.
+/// A job finds the rooms. Names and zones stay with the file, whatever is changed in it, and are
+/// kept between runs: a name belongs to the room about the place where it was typed.
 #include "plan/room_map.h"
 
+#include "draw/draw_plan.h" // private: names are cut as in pictures
 #include "plan/cameras.h"
 #include "plan/heat.h"
 #include "sightline/support.h"
@@ -43,7 +44,7 @@ void room_map_destroy(sl_context *context, room_map *map) {
 static sl_status name_rooms(sl_context *context, room_map *map) {
     SL_TRY(sl_rooms_take_names(context, &map->rooms, &map->map));
     for (size_t i = 0; i < map->names.count; i++) {
-        const uint32_t room = sl_rooms_at(&map->rooms, map->names.items[i].at);
+        const uint32_t room = sl_rooms_at(&map->rooms, map->names.items[i].box.min);
         if (room != SL_NO_ROOM)
             SL_TRY(sl_rooms_name(context, &map->rooms, room, map->names.items[i].name));
     }
@@ -58,11 +59,30 @@ static sl_status find_rooms(sl_context *context, void *data) {
     return name_rooms(context, map);
 }
 
+// --- what is kept between runs
+
+static const char *kept_path(const view_state *view) {
+    return view->ui->steady ? NULL : view->document->source.path;
+}
+
+static void recall(view_state *view) {
+    room_map *map = view->rooms;
+    const char *path = kept_path(view);
+    map->names.count = map->zones.count = 0;
+    if (path) view_check(view, places_recall(view->context, path, &map->names, &map->zones));
+}
+
+static void remember(const view_state *view) {
+    const room_map *map = view->rooms;
+    const char *path = kept_path(view);
+    if (path) places_remember(view->context, path, &map->names, &map->zones);
+}
+
 static sl_status begin_map(view_state *view) {
     if (!view->rooms) view->rooms = sl_alloc_array(view->context, 1, sizeof *view->rooms);
     room_map *map = view->rooms;
     if (!map) return SL_NO_MEMORY;
-    if (map->opened != view->document->opened) map->names.count = map->zones.count = 0;
+    if (map->opened != view->document->opened) recall(view);
     if (map->opened != view->document->opened || tool_job_is_old(view, &map->job))
         forget_rooms(view->context, map);
     map->opened = view->document->opened;
@@ -233,18 +253,21 @@ void room_map_rename(view_state *view, size_t row, const char *name) {
     room_map *map = view->rooms;
     if (!map || row >= room_map_rows(map)) return;
     if (room_map_is_zone(map, row)) {
-        plan_zone *zone = &map->zones.items[row - map->rooms.count];
-        if (*name) snprintf(zone->name, sizeof zone->name, "%s", name);
+        named_place *zone = &map->zones.items[row - map->rooms.count];
+        if (*name) sli_text_copy(name, strlen(name), zone->name, sizeof zone->name);
+        remember(view);
         return;
     }
     size_t at = 0;
-    while (at < map->names.count && sl_rooms_at(&map->rooms, map->names.items[at].at) != row) at++;
+    while (at < map->names.count && sl_rooms_at(&map->rooms, map->names.items[at].box.min) != row)
+        at++;
     sl_status status = SL_OK;
     if (*name && at == map->names.count) status = SL_ARRAY_ROOM(view->context, &map->names, 1);
     if (*name && status == SL_OK) {
         map->names.count += at == map->names.count;
-        map->names.items[at].at = map->rooms.items[row].at;
-        snprintf(map->names.items[at].name, ROOM_NAME, "%s", name);
+        named_place *place = &map->names.items[at];
+        place->box = (sl_box){map->rooms.items[row].at, map->rooms.items[row].at};
+        sli_text_copy(name, strlen(name), place->name, sizeof place->name);
     } else if (at < map->names.count) {
         map->names.items[at] = map->names.items[--map->names.count];
     }
@@ -252,6 +275,18 @@ void room_map_rename(view_state *view, size_t row, const char *name) {
     if (status == SL_OK) status = name_rooms(view->context, map);
     map->zone_stamp++;
     view_check(view, status);
+    remember(view);
+}
+
+/// Names a new zone by the first number that no other one has.
+static void number_zone(const named_places *zones, named_place *zone) {
+    bool taken = true;
+    for (size_t number = 1; taken; number++) {
+        snprintf(zone->name, sizeof zone->name, "Zone %zu", number);
+        taken = false;
+        for (size_t i = 0; i < zones->count; i++)
+            taken |= &zones->items[i] != zone && strcmp(zones->items[i].name, zone->name) == 0;
+    }
 }
 
 void room_map_begin_zone(view_state *view, sl_point at) {
@@ -260,9 +295,9 @@ void room_map_begin_zone(view_state *view, sl_point at) {
     const sl_status status = SL_ARRAY_ROOM(view->context, &map->zones, 1);
     view_check(view, status);
     if (status != SL_OK) return;
-    plan_zone *zone = &map->zones.items[map->zones.count++];
-    *zone = (plan_zone){.box = {at, at}};
-    snprintf(zone->name, sizeof zone->name, "Zone %zu", map->zones.count);
+    named_place *zone = &map->zones.items[map->zones.count++];
+    *zone = (named_place){.box = {at, at}};
+    number_zone(&map->zones, zone);
     map->drags = true;
     map->measured = false;
 }
@@ -280,6 +315,7 @@ void room_map_drop_zone(view_state *view) {
     if (!map || !map->drags) return;
     map->drags = false;
     if (!(room_map_area(map, room_map_rows(map) - 1) > 0)) map->zones.count--;
+    remember(view);
 }
 
 void room_map_delete(view_state *view, size_t row) {
@@ -290,6 +326,7 @@ void room_map_delete(view_state *view, size_t row) {
     memmove(&map->zones.items[zone], &map->zones.items[zone + 1],
             (map->zones.count - zone) * sizeof *map->zones.items);
     map->measured = false;
+    remember(view);
 }
 
 // --- the picture

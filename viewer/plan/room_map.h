@@ -3,33 +3,21 @@
 #ifndef VIEWER_ROOM_MAP_H
 #define VIEWER_ROOM_MAP_H
 
+#include "document/drawings.h"
 #include "plan/tool_job.h"
 #include "sightline/rooms.h"
-
-enum { ROOM_NAME = 64 };
-
-/// A name that was typed for the room about a place.
-typedef struct room_name {
-    sl_point at;
-    char name[ROOM_NAME];
-} room_name;
-
-typedef struct plan_zone {
-    sl_box box;
-    char name[ROOM_NAME];
-} plan_zone;
 
 struct room_map {
     tool_job job;
     sl_map map; ///< a copy for the work
     sl_rooms rooms;
-    SL_ARRAY(room_name) names;
-    SL_ARRAY(plan_zone) zones; ///< their rows are behind those of the rooms
-    uint32_t opened;           ///< document->opened that names and zones are of
-    double *seen;              ///< by row: the area that is seen
-    double *means;             ///< by row: of the heat map's points in it; NAN: none
-    uint32_t *points;          ///< by row: how many these are
-    sl_view view;              ///< that `seen` is of; these three too
+    named_places names; ///< that were typed, each for the room about its place
+    named_places zones; ///< their rows are behind those of the rooms
+    uint32_t opened;    ///< document->opened that names and zones are of
+    double *seen;       ///< by row: the area that is seen
+    double *means;      ///< by row: of the heat map's points in it; NAN: none
+    uint32_t *points;   ///< by row: how many these are
+    sl_view view;       ///< that `seen` is of; these three too
     uint32_t seen_version, heat_stamp, zone_stamp;
     bool measured;
     bool drags; ///< a zone is dragged: the last one

@@ -241,7 +241,8 @@ static sl_status read_row(reader *r, const char *line, size_t length) {
     if (needed < 2) return sl_fail_at(r->context, r->path, r->line, "x and y are needed");
     if (camera.letters > 0 || camera.view.sign) sl_viewpoint_sign(&camera.view, camera.letters);
     SL_TRY(check_row(r, &camera));
-    if (camera.height > 0) sl_viewpoint_tilt(&camera.view, camera.height, camera.tilt, 16.0 / 9);
+    if (camera.height > 0)
+        sl_viewpoint_tilt(&camera.view, camera.height, camera.tilt, SL_PICTURE_ASPECT);
     return sl_cameras_add(r->context, r->to, &camera);
 }
 

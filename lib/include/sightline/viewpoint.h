@@ -36,11 +36,14 @@ typedef struct sl_viewpoint {
 /// the side that it faces.
 SL_API void sl_viewpoint_sign(sl_viewpoint *viewpoint, double letters);
 
+/// How wide the picture of a camera is, by its height, where nothing else is known: 16:9.
+#define SL_PICTURE_ASPECT (16.0 / 9)
+
 /// The ground that a tilted camera sees: `nearest` and `range` where the lower and the upper border
 /// of its picture meet the ground. `height` over the ground, in map units; `tilt` of its axis below
 /// the horizon in degrees, 0 to 90; `fov` is the width of its cone, and the picture is `aspect`
-/// times as wide as high, usually 16:9. The smaller range counts. A cone of 180 degrees and more
-/// keeps what it has.
+/// times as wide as high, usually SL_PICTURE_ASPECT. The smaller range counts. A cone of 180
+/// degrees and more keeps what it has.
 SL_API void sl_viewpoint_tilt(sl_viewpoint *viewpoint, double height, double tilt, double aspect);
 
 /// A row of a table.
@@ -64,8 +67,8 @@ typedef struct sl_cameras {
 /// sign other than 0, is a sign (sl_viewpoint_sign). Without a line of names: x, y, and maybe
 /// heading, fov and range. Commas, semicolons or tabs stand between the columns. With semicolons or
 /// tabs, numbers may have decimal commas. What a row leaves out is that of `like`. With height and
-/// tilt the dead zone and the range are those of the ground (sl_viewpoint_tilt, 16:9). Notes
-/// columns of other names, which are passed over.
+/// tilt the dead zone and the range are those of the ground (sl_viewpoint_tilt, SL_PICTURE_ASPECT).
+/// Notes columns of other names, which are passed over.
 ///
 /// SL_BAD_INPUT, with file and line, for what is no table of viewpoints, and for values out of
 /// range; without a row, too. "-" is standard input.

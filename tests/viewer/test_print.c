@@ -1,0 +1,146 @@
+// Sheets of paper from the viewer: asked for by keys, to scale, with what the mode or tool shows;
+// and what is said where the plan has no unit or does not fit.
+#include "viewer_app.h"
+
+#include "app/sheet.h"
+#include "plan/cameras.h"
+#include "plan/heat.h"
+#include "plan/line_map.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/// A hall of 12 by 8 m with two walls in it, turned by 17.3 degrees.
+static const char plan[] = "sightline 1\nunit m\n"
+                           "wall 0 0 11.457 3.568\nwall 11.457 3.568 9.078 11.206\n"
+                           "wall 9.078 11.206 -2.379 7.638\nwall -2.379 7.638 0 0\n"
+                           "wall 5.729 1.784 4.539 5.603\n"
+                           "wall 0.485 8.53 1.97 3.757\nstart 3 4 0\n";
+
+typedef struct scene {
+    char folder[40], map[64], sheet[64];
+    app_state *app;
+} scene;
+
+static scene open_plan(const char *text) {
+    scene s = {.folder = "/tmp/sightline-sheet-XXXXXX"};
+    assert_non_null(mkdtemp(s.folder));
+    snprintf(s.map, sizeof s.map, "%s/hall.map", s.folder);
+    snprintf(s.sheet, sizeof s.sheet, "%s/hall.svg", s.folder);
+    FILE *stream = fopen(s.map, "w");
+    assert_non_null(stream);
+    fputs(text, stream);
+    assert_int_equal(fclose(stream), 0);
+    s.app = viewer_start(true);
+    viewer_open(s.app, s.map);
+    script_frame(s.app);
+    return s;
+}
+
+static void close_plan(scene *s) {
+    viewer_end(s->app);
+    assert_int_equal(remove(s->map), 0);
+    assert_int_equal(rmdir(s->folder), 0);
+}
+
+static void press(app_state *app, const char *key) {
+    viewer_press(app, key);
+    app_tick(app, 0);
+    script_frame(app);
+}
+
+/// Prints by keys on the paper and at the scale of these letters; what the sheet has as text.
+static char *print(const scene *s, const char *paper, const char *scale) {
+    press(s->app, "Ctrl+Shift+P");
+    assert_int_equal(dialog_open_now(&s->app->desk.dialog), DIALOG_QUESTION);
+    press(s->app, paper);
+    assert_int_equal(dialog_open_now(&s->app->desk.dialog), DIALOG_QUESTION);
+    press(s->app, scale);
+    assert_int_equal(dialog_open_now(&s->app->desk.dialog), DIALOG_BROWSER);
+    press(s->app, "Ctrl+U");
+    input_text(s->app, s->sheet);
+    press(s->app, "Return");
+    assert_int_equal(dialog_open_now(&s->app->desk.dialog), DIALOG_NONE);
+    sl_bytes bytes = {0};
+    if (sl_file_read(s->app->context, s->sheet, &bytes) != SL_OK) return NULL;
+    assert_int_equal(remove(s->sheet), 0);
+    return bytes.data;
+}
+
+static void assert_prints(const scene *s, const char *const *texts) {
+    char *sheet = print(s, "3", "1");
+    assert_non_null(sheet);
+    double wide, high; // points
+    const char *size = strstr(sheet, " width=\"");
+    assert_non_null(size);
+    assert_int_equal(sscanf(size, " width=\"%lfpt\" height=\"%lfpt\"", &wide, &high), 2);
+    assert_true(fabs(wide - 420 * 72 / 25.4) < 0.1 && fabs(high - 297 * 72 / 25.4) < 0.1);
+    assert_non_null(strstr(sheet, "1:100"));
+    for (; *texts; texts++)
+        if (!strstr(sheet, *texts)) fail_msg("'%s' is not on the sheet", *texts);
+    sl_free(s->app->context, sheet);
+}
+
+static void what_is_shown(void **state) {
+    (void)state;
+    scene s = open_plan(plan);
+    app_state *app = s.app;
+    press(app, "9");
+    assert_prints(&s, (const char *const[]){"hall.map", NULL});
+    press(app, "1");
+    char measure[64];
+    heat_say_measure(&app->view, measure);
+    assert_prints(&s, (const char *const[]){measure, NULL});
+    press(app, "1");
+    press(app, "Ctrl+5");
+    *line_map_choice(&app->view) = sl_measure_find(SL_AXIAL, "line_length");
+    press(app, "Ctrl+5");
+    assert_prints(&s, (const char *const[]){"line length", NULL});
+    press(app, "8");
+    camera_add(&app->view, (sl_point){3, 4});
+    camera_rename(&app->view, "Gate & lift");
+    app_tick(app, 0);
+    assert_prints(&s, (const char *const[]){"Gate &amp; lift", NULL});
+    close_plan(&s);
+}
+
+/// What does not fit leaves no file and says which scale does; and one can turn back.
+static void what_does_not_fit(void **state) {
+    (void)state;
+    scene s = open_plan(plan);
+    assert_null(print(&s, "4", "5"));
+    assert_non_null(strstr(s.app->ui.message, "too large for A4; 1:100 fits"));
+    char *sheet = print(&s, "4", "L");
+    assert_non_null(sheet);
+    assert_non_null(strstr(sheet, "1:100"));
+    sl_free(s.app->context, sheet);
+    press(s.app, "Ctrl+Shift+P");
+    press(s.app, "Escape");
+    assert_int_equal(dialog_open_now(&s.app->desk.dialog), DIALOG_NONE);
+    press(s.app, "Ctrl+Shift+P");
+    press(s.app, "0");
+    press(s.app, "Escape");
+    assert_int_equal(dialog_open_now(&s.app->desk.dialog), DIALOG_NONE);
+    close_plan(&s);
+}
+
+static void no_unit(void **state) {
+    (void)state;
+    scene s = open_plan("sightline 1\nwall 0 0 5 0\nwall 5 0 5 5\nwall 5 5 0 5\nwall 0 5 0 0\n");
+    press(s.app, "Ctrl+Shift+P");
+    assert_int_equal(dialog_open_now(&s.app->desk.dialog), DIALOG_NONE);
+    assert_true(s.app->ui.message_is_error);
+    assert_non_null(strstr(s.app->ui.message, "Ctrl+I"));
+    close_plan(&s);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_is_shown),
+        cmocka_unit_test(what_does_not_fit),
+        cmocka_unit_test(no_unit),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

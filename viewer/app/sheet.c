@@ -1,0 +1,178 @@
+/// Two questions and a name, then one of the drawings of the library: cameras with their coverage,
+/// lines by a measure, the heat map, what is seen from the viewpoint, or the plan alone.
+#include "app/sheet.h"
+
+#include "app/action_parts.h"
+#include "dialogs/browser.h"
+#include "dialogs/map_file.h"
+#include "dialogs/question.h"
+#include "plan/cameras.h"
+#include "plan/heat.h"
+#include "plan/line_map.h"
+#include "sightline/draw.h"
+#include "sightline/support.h"
+
+#include <math.h>
+#include <stdio.h>
+
+// --- what is asked
+
+static const char *const papers[] = {"4:A4", "3:A3", "2:A2", "1:A1", "0:A0", "C:Cancel"};
+static const char *const scales[] = {"L:Largest", "5:1:50",  "1:1:100",
+                                     "2:1:200",   "0:1:500", "C:Cancel"};
+enum { PAPERS = sizeof papers / sizeof *papers - 1, SCALES = sizeof scales / sizeof *scales - 1 };
+/// An answer without the letter that chooses it.
+enum { LETTER = 2 };
+
+static void take_path(desk_state *desk, const char *path) {
+    wish_for(desk, WISH_SHEET, path);
+}
+
+static void take_scale(desk_state *desk, int answer) {
+    char name[TITLE_TEXT], ending[32];
+    if (answer == SCALES) return;
+    desk->scale = answer ? scales[answer] + LETTER : NULL;
+    snprintf(ending, sizeof ending, "-%s.pdf", desk->paper);
+    map_file_name_output(desk, ending, name);
+    browser_save(desk, BROWSE_SHEETS, name, take_path);
+}
+
+static void take_paper(desk_state *desk, int answer) {
+    if (answer == PAPERS) return;
+    desk->paper = papers[answer] + LETTER;
+    question_ask(desk, "Print to scale",
+                 "Which scale? The largest is the largest round scale at which the plan fits.",
+                 scales, SCALES + 1, take_scale);
+}
+
+void sheet_ask(app_state *app) {
+    if (!app->document.baked) return;
+    if (*app->document.map.unit)
+        question_ask(&app->desk, "Print to scale",
+                     "A PDF or an SVG of what the plan shows now, with a scale bar. Which paper?",
+                     papers, PAPERS + 1, take_paper);
+    else
+        ui_say(&app->ui, true,
+               "a scale needs the unit of the plan: Ctrl+I tells it, or measures a line");
+}
+
+// --- what is drawn
+
+static sl_status draw_cameras(const app_state *app, const sl_draw_options *options,
+                              const char *path) {
+    sl_context *context = app->context;
+    const camera_layer *layer = app->view.cameras;
+    const sl_coverage *c = &layer->coverage;
+    const size_t count = layer->table.count;
+    sl_viewpoint *viewpoints = sl_alloc_array(context, count + 1, sizeof *viewpoints);
+    const char **names = sl_alloc_array(context, count + 1, sizeof *names);
+    sl_point *blind = sl_alloc_array(context, c->blind_count + 1, sizeof *blind);
+    sl_status status = viewpoints && names && blind ? SL_OK : SL_NO_MEMORY;
+    for (size_t i = 0; status == SL_OK && i < count; i++) {
+        viewpoints[i] = layer->table.items[i].view;
+        names[i] = layer->table.items[i].name;
+    }
+    for (size_t i = 0; status == SL_OK && i < c->blind_count; i++) blind[i] = c->blind[i].at;
+    const sl_drawn_coverage drawn = {.pieces = &c->overlay.pieces,
+                                     .counts = c->overlay.counts,
+                                     .viewpoints = viewpoints,
+                                     .names = names,
+                                     .regions = c->regions,
+                                     .count = c->count,
+                                     .blind = blind,
+                                     .blind_count = c->blind_count};
+    if (status == SL_OK)
+        status = sl_draw_coverage_file(context, app->document.baked, &drawn,
+                                       *layer->proof ? layer->proof : NULL, options, path);
+    sl_free(context, viewpoints);
+    sl_free(context, names);
+    sl_free(context, blind);
+    return status;
+}
+
+static sl_status draw_lines(app_state *app, const line_map *map, const sl_draw_options *options,
+                            const char *path) {
+    size_t measures;
+    const size_t measure = *line_map_choice(&app->view);
+    double *values = sl_alloc_array(app->context, map->count + 1, sizeof *values);
+    if (!values) return SL_NO_MEMORY;
+    for (uint32_t i = 0; i < map->count; i++)
+        values[i] = map->parts[i] == map->part ? line_map_value(map, measure, i) : NAN;
+    char name[64];
+    snprintf(name, sizeof name, "%s", line_map_measures(map, &measures)[measure].name);
+    ui_spaces(name);
+    const sl_drawn_lines lines = {
+        .name = name, .lines = map->lines, .values = values, .count = map->count};
+    const sl_status status =
+        sl_draw_lines_file(app->context, app->document.baked, &lines, options, path);
+    sl_free(app->context, values);
+    return status;
+}
+
+static sl_status draw_heat(const app_state *app, const double *of_points, const heat_graph *graph,
+                           const sl_draw_options *options, const char *path) {
+    const sl_vga_grid *grid = &graph->grid;
+    const size_t squares = (size_t)grid->columns * grid->rows;
+    double *values = sl_alloc_array(app->context, squares + 1, sizeof *values);
+    char name[64];
+    if (!values) return SL_NO_MEMORY;
+    for (size_t i = 0; i < squares; i++) values[i] = NAN;
+    for (uint32_t i = 0; i < grid->count; i++)
+        values[(size_t)(grid->squares[i] % grid->rows) * grid->columns +
+               grid->squares[i] / grid->rows] = of_points[i];
+    heat_say_measure(&app->view, name);
+    sl_field field = {.name = name,
+                      .corner = {((double)grid->left - 0.5) * grid->step,
+                                 ((double)grid->bottom - 0.5) * grid->step},
+                      .step = grid->step,
+                      .columns = grid->columns,
+                      .rows = grid->rows,
+                      .values = values,
+                      .diverging = heat_layer_changes(&app->view)};
+    heat_layer_scale(&app->view, &field.least, &field.most);
+    const sl_status status =
+        sl_draw_field_file(app->context, app->document.baked, &field, options, path);
+    sl_free(app->context, values);
+    return status;
+}
+
+static sl_status draw_seen(const app_state *app, const sl_draw_options *options, const char *path) {
+    const sl_region *region = &app->view.seen.region;
+    const double tolerance = 1e-4 * fmax(region->range, 0);
+    const size_t count = sl_region_flatten(region, tolerance, NULL, 0);
+    sl_point *points = sl_alloc_array(app->context, count + 1, sizeof *points);
+    if (!points) return SL_NO_MEMORY;
+    sl_region_flatten(region, tolerance, points, count);
+    const sl_drawn_region drawn = {.eye = app->view.eye.at, .points = points, .count = count};
+    const sl_status status =
+        sl_draw_regions_file(app->context, app->document.baked, &drawn, 1, NULL, options, path);
+    sl_free(app->context, points);
+    return status;
+}
+
+static sl_status draw_shown(app_state *app, const sl_draw_options *options, const char *path) {
+    const view_state *view = &app->view;
+    const heat_graph *graph;
+    const double *values = heat_layer_values(view, &graph);
+    const line_map *lines = line_map_shown(view);
+    if (view->mode == MODE_CAMERAS && view->cameras && view->cameras->known &&
+        view->cameras->seen_stamp == view->cameras->stamp)
+        return draw_cameras(app, options, path);
+    if (lines) return draw_lines(app, lines, options, path);
+    if (values) return draw_heat(app, values, graph, options, path);
+    if (view->mode == MODE_PLAN && view->tool == TOOL_ISOVIST && view->seen.valid)
+        return draw_seen(app, options, path);
+    return sl_draw_file(app->context, app->document.baked, options, path);
+}
+
+sl_status sheet_save(app_state *app, const char *path) {
+    sl_draw_options options = sl_draw_options_default();
+    char title[TITLE_TEXT];
+    map_file_name(&app->desk, title);
+    options.layers = SL_LAYER_WALLS | SL_LAYER_STARTS | SL_LAYER_LEGEND;
+    options.title = title;
+    options.sheet = (sl_sheet){.paper = app->desk.paper, .scale = app->desk.scale};
+    SL_TRY(draw_shown(app, &options, path));
+    ui_say(&app->ui, false, "printed on %s to %s", options.sheet.paper, path);
+    return SL_OK;
+}
