@@ -68,8 +68,6 @@ if [ -n "$base" ] && [ -z "$publish" ]; then
     echo "web: --base needs --site" >&2
     exit 2
 fi
-mkdir -p "$folder"
-folder=$(cd "$folder" && pwd)
 
 # Says what is missing, with status 77: no fault of the sources.
 cannot() {
@@ -79,6 +77,9 @@ cannot() {
 for program in clang wasm-ld cmake ninja node; do
     command -v $program >/dev/null || cannot "$program is missing"
 done
+[ -z "$publish" ] || node "$root/viewer/web/publish.mjs" --to "$publish" --base "$base" # refuses before the build
+mkdir -p "$folder"
+folder=$(cd "$folder" && pwd)
 echo '#include <stdio.h>' >"$folder/try.c"
 clang --target=wasm32-wasi -c -o "$folder/try.o" "$folder/try.c" 2>/dev/null || {
     rm -f "$folder/try.c"

@@ -4,6 +4,7 @@
  * ADDRESS is where the folder will be. Links between pages need no address, so they work anywhere. The picture and the
  * address of a page for those who link to it, the sitemap and the page for missing addresses need it. The folder also gets
  * a worker that keeps the site for use without a network. FOLDER is empty or holds an earlier site, which goes.
+ * Without --from it checks FOLDER and ADDRESS, and writes nothing.
  */
 import { createHash } from 'node:crypto';
 import { cpSync, existsSync, mkdirSync, readdirSync, readFileSync, renameSync, rmSync, statSync, writeFileSync } from 'node:fs';
@@ -24,14 +25,14 @@ function readArguments(given) {
     const values = {};
     for (let i = 0; i < given.length; i += 2) {
         if (!['--from', '--to', '--base'].includes(given[i]) || given[i + 1] === undefined)
-            stop(`what is ${given[i]}? usage: node publish.mjs --from SITE --to FOLDER --base ADDRESS`);
+            stop(`what is ${given[i]}? usage: node publish.mjs [--from SITE] --to FOLDER --base ADDRESS`);
         values[given[i].slice(2)] = given[i + 1];
     }
     const { from, to, base } = values;
-    if (!from || !to || !base) stop('--from, --to and --base are needed');
+    if (!to || !base) stop('--to and --base are needed');
     if (!URL.canParse(base) || !/^https?:$/.test(new URL(base).protocol) || /[?#]/.test(base))
         stop(`--base is an address as in https://example.org/sightline/, not ${base}`);
-    if (!existsSync(join(from, 'course/index.html'))) stop(`there is no built site in ${from}`);
+    if (from && !existsSync(join(from, 'course/index.html'))) stop(`there is no built site in ${from}`);
     if (existsSync(to) && !statSync(to).isDirectory()) stop(`${to} is no folder`);
     if (existsSync(to) && readdirSync(to).length && !existsSync(join(to, WORKER))) stop(`${to} has other files; give an empty folder, or one of an earlier site`);
     return { from, to, base: new URL(base.endsWith('/') ? base : `${base}/`) };
@@ -58,6 +59,7 @@ function headOf(html, path, { base, width, height }) {
 }
 
 const { from, to, base } = readArguments(process.argv.slice(2)), part = `${to.replace(/[/\\]+$/, '')}.part`;
+if (!from) process.exit();
 rmSync(part, { recursive: true, force: true });
 mkdirSync(dirname(part), { recursive: true });
 cpSync(from, part, { recursive: true });

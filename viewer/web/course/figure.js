@@ -67,15 +67,18 @@ const [LARGER, LEAST_WIDTH] = [2, 360];
 let count = 0;
 
 export class Figure {
-    /** @param {HTMLElement} host @param {Spec} spec @param {import('./lab.js').Lab} lab */
-    constructor(host, spec, lab) {
+    /**
+     * @param {HTMLElement} host @param {Spec} spec @param {import('./lab.js').Lab} lab
+     * @param {Record<string, any>} [given] values of handles and controls to begin with, in place of the spec's
+     */
+    constructor(host, spec, lab, given = {}) {
         this.spec = spec;
         this.lab = lab;
         this.camera = new Camera();
         this.active = 0;
         this.zoom = 1;
         this.inputs = {};
-        this.state = firstState(spec);
+        this.state = { ...firstState(spec), ...given };
         this.build(host);
         spec.start?.(this);
         watchTones((tones) => {
@@ -110,24 +113,24 @@ export class Figure {
     }
 
     field(control, id) {
-        const name = `${id}-${control.name}`;
+        const name = `${id}-${control.name}`, first = this.state[control.name];
         const set = (value) => {
             this.state[control.name] = value;
             this.change();
         };
-        if (control.kind === 'map') return mapField(name, control, set, this.lab);
+        if (control.kind === 'map') return mapField(name, { ...control, value: first }, set, this.lab);
         if (control.kind === 'choice') {
             const list = element('select', { id: name }, ...control.options.map(([value, text]) =>
-                element('option', { value, selected: value === control.value }, t(text))));
+                element('option', { value, selected: value === first }, t(text))));
             this.inputs[control.name] = list;
             list.addEventListener('change', () => set(list.value));
             return element('span', {}, element('label', { htmlFor: name }, t(control.label), ' '), list);
         }
         const isCheck = control.kind === 'check';
-        const input = element('input', isCheck ? { id: name, type: 'checkbox', checked: control.value }
+        const input = element('input', isCheck ? { id: name, type: 'checkbox', checked: first }
             : { id: name, type: 'range', min: control.min, max: control.max, step: control.step ?? 1 });
         this.inputs[control.name] = input;
-        if (!isCheck) input.value = control.value;
+        if (!isCheck) input.value = first;
         input.addEventListener('input', () => set(isCheck ? input.checked : Number(input.value)));
         const label = element('label', { htmlFor: name }, t(control.label));
         return element('span', {}, ...(isCheck ? [input, ' ', label] : [label, ' ', input]));

@@ -105,11 +105,11 @@ function jobOf(name, figure) {
     const job = { bounds: [], placement: null, trouble: '' }, worker = new Worker(new URL('./place-worker.js', import.meta.url), { type: 'module' });
     jobs.set(name, job);
     worker.addEventListener('message', ({ data: { lower, upper, placement } }) => {
-        const last = job.bounds.at(-1);
-        if (!last || last.lower !== lower || last.upper !== upper) job.bounds.push({ lower, upper });
+        const last = job.bounds.at(-1), isNew = !last || last.lower !== lower || last.upper !== upper;
+        if (isNew) job.bounds.push({ lower, upper });
         job.placement = placement ?? job.placement;
         if (placement) worker.terminate();
-        figure.change();
+        if (isNew || placement) figure.change();
     });
     worker.addEventListener('error', (event) => {
         job.trouble = `The search cannot run here: ${event.message}`;

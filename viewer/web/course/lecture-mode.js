@@ -19,20 +19,23 @@ export function stepOf({ key }) {
     return { PageDown: 1, PageUp: -1, ...(isField ? {} : { ArrowRight: 1, ArrowLeft: -1, ' ': 1 }) }[key] ?? 0;
 }
 
+export const button = (text, action) => element('button', { type: 'button', onclick: action }, text);
+
+/** The bar of a lecture, with buttons that go a step. @param {(by: number) => void} go */
+export function lectureBar(go) {
+    const where = element('span', { role: 'status' }), back = button(t('Back'), () => go(-1)), next = button(t('Next'), () => go(1));
+    return { where, back, next, bar: element('div', { className: 'lecture-bar', role: 'group', 'aria-label': t('Lecture') }, back, next, where) };
+}
+
 /** @param {HTMLElement} main whose children are headings, text, figures and exercises */
 export function lectureMode(main) {
     const slides = [...main.querySelectorAll(':scope > figure[data-figure], :scope > form')];
     if (!slides.length) return;
     let at = -1, address = '';
-    const where = element('span', { role: 'status' });
-    const button = (text, action) => {
-        const node = element('button', { type: 'button' }, text);
-        node.addEventListener('click', action);
-        return node;
-    };
     const chapter = (rel) => main.querySelector(`.chapters a[rel=${rel}]`)?.href;
-    const back = button(t('Back'), () => go(-1)), next = button(t('Next'), () => go(1));
-    const bar = element('div', { className: 'lecture-bar', role: 'group', 'aria-label': t('Lecture'), hidden: true }, back, next, where, button(t('Leave'), () => leave()));
+    const { bar, back, next, where } = lectureBar(go);
+    bar.append(button(t('Leave'), () => leave()));
+    bar.hidden = true;
     const begin = button(t('Lecture mode'), () => {
         document.documentElement.requestFullscreen?.().catch(() => {});
         address = location.hash;

@@ -5,13 +5,15 @@
  * the same slide, and what is moved in a figure moves in all of them. `&print=all` makes all figures, as they are
  * printed, and `&print=now` prints them as well.
  */
-import { element, Figure } from './figure.js';
-import { stepOf } from './lecture-mode.js';
+import { Figure } from './figure.js';
+import { button, lectureBar, stepOf } from './lecture-mode.js';
 import { plans, slidesOf } from './plans.js';
 import { presenterPanel } from './presenter.js';
-import { statedAt, stateOf } from './stated.js';
 
 export const figures = {}, exercises = {};
+
+/** The values of handles and controls. @param {Figure} figure */
+const stateOf = ({ spec, state }) => structuredClone(Object.fromEntries([...spec.handles, ...(spec.controls ?? [])].map(({ name }) => [name, state[name]])));
 
 const hostOf = ({ node }) => node.querySelector('figure[data-show]');
 
@@ -21,7 +23,7 @@ async function build(slide, lab) {
     if (!host || host.figure) return;
     const [chapter, name] = host.dataset.show.split('/'), { figures: own } = await import(`./${chapter}.js`);
     if (host.figure) return;
-    new Figure(host, statedAt(own[name], JSON.parse(host.dataset.state)), lab);
+    new Figure(host, own[name], lab, JSON.parse(host.dataset.state));
     slide.first = stateOf(host.figure);
     slide.then = { ...slide.first, ...JSON.parse(host.dataset.then) };
 }
@@ -45,14 +47,8 @@ export async function fill(main, lab) {
     const asked = new URL(location.href).searchParams, plan = asked.get('plan') ?? '90', isPresenter = asked.get('view') === 'presenter';
     if (!Object.hasOwn(plans, plan)) throw new Error(`there is no plan ${plan}. Plans: ${Object.keys(plans).join(', ')}`);
     const slides = slidesOf(plan, [...main.querySelectorAll('section.slide')].map((node) => ({ node, chapter: node.dataset.chapter, kind: node.dataset.kind })));
-    const lectures = plans[plan].length, talk = new BroadcastChannel(`sightline lecture ${plan}`), where = element('span', { role: 'status' }), panel = isPresenter ? presenterPanel() : null;
-    const button = (text, action) => {
-        const node = element('button', { type: 'button' }, text);
-        node.addEventListener('click', action);
-        return node;
-    };
-    const back = button('Back', () => go(-1)), next = button('Next', () => go(1));
-    const bar = element('div', { className: 'lecture-bar', role: 'group', 'aria-label': 'Lecture' }, back, next, where);
+    const lectures = plans[plan].length, talk = new BroadcastChannel(`sightline lecture ${plan}`), panel = isPresenter ? presenterPanel() : null;
+    const { bar, back, next, where } = lectureBar(go);
     if (!isPresenter) bar.append(button('Presenter view', () => open(`?plan=${plan}&view=presenter${location.hash}`, '_blank', 'popup,width=1100,height=720')),
         button('Print, or save as PDF', () => (location.href = `?plan=${plan}&print=now`)));
     document.body.classList.add('lecture', 'deck', ...(isPresenter ? ['presenter'] : []));

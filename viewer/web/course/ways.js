@@ -37,6 +37,9 @@ function askWay(state, lab, options) {
 
 const start = (figure) => loadGround().then(() => figure.change());
 
+/** The browser compiles code for walls that grow at the first such way: before the reader moves a slider. */
+const warmUp = () => setTimeout(() => wayBetween(house.text, ...dots.map(({ at }) => at), { radius: 0.05 }));
+
 const isReady = () => Boolean(groundNow(house.text));
 
 const dots = [{ name: 'a', at: [3, 1.5], tone: 'from', letter: 'A' }, { name: 'b', at: [14.5, 12], tone: 'to', letter: 'B' }];
@@ -47,7 +50,7 @@ const tight = {
     box: house.box,
     handles: dots,
     controls: [{ name: 'size', label: 'radius of the walker', kind: 'range', value: 0, min: 0, max: 1, step: 0.05 }],
-    start,
+    start: (figure) => start(figure).then(warmUp),
     isReady,
     update: (state, lab) => askWay(state, lab, state.size ? { radius: state.size } : {}),
     marks: {
@@ -223,7 +226,7 @@ export const exercises = {
         kind: 'place',
         question: 'Put A and B so that the shortest way is at least four times as long as the straight line.',
         solution: [[13.5, 1], [14.5, 1]],
-        figure: { ...tight, title: 'Near, and yet far.', about: 'Drag both dots, then press Check.', controls: undefined,
+        figure: { ...tight, title: 'Near, and yet far.', about: 'Drag both dots, then press Check.', controls: undefined, start,
             update: (state, lab) => askWay(state, lab, {}),
             draw: (surface, camera, tones) => drawPlan(surface, camera, { items }, tones),
             tell: ({ trouble, a, b }) => trouble || `The straight line is ${round(straight(a, b), 2)} m long.` },

@@ -216,7 +216,6 @@ function drawItems(surface, camera, scene, tones, wall) {
     if (!scene.space) fillPolygons(surface, camera, solid, tones.solid, 0.6);
     const lines = (...kinds) => of(...kinds).map(itemLine);
     surface.lineCap = 'round';
-    surface.lineJoin = 'round';
     strokeLines(surface, camera, lines('seam'), tones.faint, 1, [2, 4]);
     strokeLines(surface, camera, lines('path'), tones.path, 1.5, [6, 4]);
     strokeLines(surface, camera, lines('object'), tones.object, 1.5);
@@ -251,6 +250,7 @@ export const wallWidth = (camera) => Math.min(3, Math.max(1, camera.scale * 0.12
  */
 export function drawPlan(surface, camera, scene, tones) {
     const show = { cells: true, portals: true, ...scene.show };
+    surface.lineJoin = 'round';
     surface.fillStyle = tones.ground;
     surface.fillRect(0, 0, camera.width, camera.height);
     if (show.grid) drawGrid(surface, camera, show.grid, tones.hatch);

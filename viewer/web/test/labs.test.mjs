@@ -99,14 +99,19 @@ describe('labs', { skip: programOf('chromium') ? false : 'Chromium is missing' }
         }
     });
 
-    test('words light what they mean, and put figures into a state', async () => {
+    test('figures are the same drawn again; words light what they mean, and put figures into a state', async () => {
         for (const chapter of Object.keys(puzzles)) {
             const { page, close } = await open(chapter);
             if (['ways', 'gallery'].includes(chapter)) await page.waitForTimeout(1500);
+            const others = await page.locator('main > figure').evaluateAll((hosts) => hosts.filter(({ figure }) => {
+                const first = figure.canvas.toDataURL();
+                figure.draw();
+                return figure.canvas.toDataURL() !== first;
+            }).map(({ dataset }) => dataset.figure));
+            assert.deepEqual(others, [], `${chapter}: drawn again, the picture is another one`);
             for (const word of await page.locator('button.show').all()) {
                 await word.scrollIntoViewIfNeeded();
                 const shown = () => word.evaluate((node) => document.querySelector(`figure[data-figure=${node.dataset.of}] canvas`).toDataURL());
-                await word.evaluate((node) => document.querySelector(`figure[data-figure=${node.dataset.of}]`).figure.light());
                 const dark = await shown(), isDark = async () => (await shown()) === dark, name = `${chapter}: ${await word.textContent()}`;
                 await word.hover();
                 assert.ok(!(await isDark()), `${name} lights nothing`);

@@ -60,9 +60,11 @@ test('it says what is wrong, and touches no other folder', async () => {
         assert.equal(status, 2);
         assert.match(words, about);
     }
+    const script = join(web, '../../tools/web.sh'), { status, words } = await run('sh', script, '--build', join(top, 'built'), '--site', other, '--base', base);
+    assert.deepEqual([status, /other files/.test(words), existsSync(join(top, 'built'))], [2, true, false], 'web.sh builds before it refuses');
+    assert.deepEqual(await publish('--to', join(top, 'x'), '--base', base), { status: 0, words: '' });
     assert.deepEqual(readdirSync(other), ['mine.txt']);
     assert.ok(!existsSync(join(top, 'x')));
-    const script = join(web, '../../tools/web.sh');
     for (const given of [['--site', join(top, 'x')], ['--base', base], ['--site'], ['--base']]) assert.equal((await run('sh', script, ...given)).status, 2);
     const worker = () => readFileSync(join(folder, 'offline-worker.js'), 'utf8'), first = worker();
     assert.deepEqual(await publish('--from', SITE, '--to', folder, '--base', base.slice(0, -1)), { status: 0, words: '' });
