@@ -16,6 +16,16 @@ typedef struct cover_problem {
     uint32_t entries[COVER_ENTRIES], costs[COVER_COLUMNS], demands[COVER_ROWS];
 } cover_problem;
 
+/// Work that is cancelled when it asks for the last time, by sl_hooks.cancelled.
+typedef struct cover_patience {
+    unsigned long asked, most;
+} cover_patience;
+
+static inline bool cover_is_over(void *user) {
+    cover_patience *q = user;
+    return q->asked++ >= q->most;
+}
+
 /// An empty problem to add columns to, in ascending order of their rows.
 static inline void cover_begin(cover_problem *p, uint32_t rows) {
     p->problem = (sl_cover_problem){rows, 0, p->ends, p->entries, NULL, NULL};

@@ -208,6 +208,38 @@ static void files_keep_splits(void **state) {
     end(&p);
 }
 
+/// So are cuts, beside splits or alone.
+static void files_keep_cuts(void **state) {
+    (void)state;
+    plan p;
+    sl_placement back, claim;
+    size_t size, again, ends[] = {3, 5};
+    uint32_t rows[] = {0, 1, 2, 2, 3}, parts[] = {0, 0, 0, 0, 0};
+    begin_text(&p, texts[6]);
+    sl_cover_proof rest = p.placed.proof;
+    sl_cover_cuts raised = {3, 2, ends, rows, &rest};
+    rest.row_count = 5;
+    rest.parts = parts;
+    claim = p.placed;
+    claim.proof.raised_count = 1;
+    claim.proof.raised = &raised;
+    char *text = print(&p, &claim, &size);
+    assert_ok(p.context, parse(&p, text, size, &back));
+    assert_int_equal(back.proof.raised_count, 1);
+    assert_int_equal(back.proof.raised[0].cut_count, 2);
+    assert_int_equal(back.proof.raised[0].rows[4], 3);
+    char *other = print(&p, &back, &again);
+    assert_string_equal(text, other);
+    sl_placement_destroy(p.context, &back);
+    const size_t from = (size_t)(strstr(text, "\"raised\"") - text);
+    const size_t to = (size_t)(strstr(text, "\"program\"") - text);
+    for (size_t length = from; length < to; length++)
+        assert_int_equal(parse(&p, text, length, &back), SL_BAD_INPUT);
+    free(text);
+    free(other);
+    end(&p);
+}
+
 static void other_maps_are_refused(void **state) {
     (void)state;
     plan p, q;
@@ -314,11 +346,17 @@ static void parts_of_files_are_refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(other_code_confirms_plans), cmocka_unit_test(other_code_confirms_polygons),
-        cmocka_unit_test(implied_witnesses_may_go),  cmocka_unit_test(files_keep_it),
-        cmocka_unit_test(files_keep_splits),         cmocka_unit_test(other_maps_are_refused),
-        cmocka_unit_test(no_number_can_be_changed),  cmocka_unit_test(no_set_can_be_swapped),
-        cmocka_unit_test(no_column_is_left_out),     cmocka_unit_test(parts_of_files_are_refused),
+        cmocka_unit_test(other_code_confirms_plans),
+        cmocka_unit_test(other_code_confirms_polygons),
+        cmocka_unit_test(implied_witnesses_may_go),
+        cmocka_unit_test(files_keep_it),
+        cmocka_unit_test(files_keep_splits),
+        cmocka_unit_test(files_keep_cuts),
+        cmocka_unit_test(other_maps_are_refused),
+        cmocka_unit_test(no_number_can_be_changed),
+        cmocka_unit_test(no_set_can_be_swapped),
+        cmocka_unit_test(no_column_is_left_out),
+        cmocka_unit_test(parts_of_files_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -199,15 +199,6 @@ static void refuses_what_makes_no_sense(void **state) {
 }
 
 /// Cancelled at any question, there is a set and a bound, or nothing at all.
-typedef struct patience {
-    unsigned long asked, most;
-} patience;
-
-static bool is_over(void *user) {
-    patience *q = user;
-    return q->asked++ >= q->most;
-}
-
 static void keeps_the_best_when_cancelled(void **state) {
     (void)state;
     sl_random random = {11};
@@ -215,8 +206,8 @@ static void keeps_the_best_when_cancelled(void **state) {
     cover_cost(&p, &random, 3, 1);
     unsigned long full = 0, with_set = 0;
     for (unsigned long most = 0; most <= full + 1; most += 1 + most / 10) {
-        patience q = {0, full ? most : ULONG_MAX};
-        const sl_hooks hooks = {.user = &q, .cancelled = is_over};
+        cover_patience q = {0, full ? most : ULONG_MAX};
+        const sl_hooks hooks = {.user = &q, .cancelled = cover_is_over};
         sl_context *context = sl_context_create(&hooks);
         sl_cover_options options = sl_cover_options_default();
         options.nodes = 100;

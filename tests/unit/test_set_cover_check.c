@@ -172,7 +172,8 @@ static uint64_t prove_after(sl_context *context, sl_cover_step *steps, uint32_t 
     uint32_t rows = 0;
     for (uint32_t r = 0; r < p.problem.row_count; r++) rows += rest[r] > 0;
     const sl_cover_proof proof = {
-        1, p.problem.row_count, count, rows > 0, used, 0, steps, parts, nodes, NULL, 0, NULL};
+        1,   p.problem.row_count, count, rows > 0, used, 0, steps, parts, nodes, NULL, 0, NULL, 0,
+        NULL};
     uint64_t proven;
     assert_ok(context, sl_cover_check(context, &p.problem, &proof, &proven));
     return proven;
@@ -242,7 +243,8 @@ static void ends_in_circles(void **state) {
     uint32_t parts[12] = {0};
     for (uint32_t i = 0; i < NODES; i++)
         nodes[i] = (sl_cover_node){i, {(i + 1) % NODES, (i + 1) % NODES}, SIZE_MAX};
-    const sl_cover_proof proof = {1, 12, 0, 1, NODES, 0, NULL, parts, nodes, NULL, 0, NULL};
+    const sl_cover_proof proof = {1,     12,    0,    1, NODES, 0, NULL,
+                                  parts, nodes, NULL, 0, NULL,  0, NULL};
     uint64_t proven;
     assert_ok(context, sl_cover_check(context, &p.problem, &proof, &proven));
     assert_int_equal(proven, 0);
@@ -265,15 +267,15 @@ static void sums_do_not_overflow(void **state) {
     uint32_t parts[3] = {0};
     sl_cover_node node = {UINT32_MAX, {UINT32_MAX, UINT32_MAX}, 0};
     for (uint64_t denominator = 1; denominator; denominator *= 16) {
-        const sl_cover_proof proof = {denominator, rows,  0,     1,     1, 3,
-                                      NULL,        parts, &node, duals, 0, NULL};
+        const sl_cover_proof proof = {denominator, rows,  0,     1, 1,    3, NULL,
+                                      parts,       &node, duals, 0, NULL, 0, NULL};
         uint64_t proven;
         assert_ok(context, sl_cover_check(context, &p.problem, &proof, &proven));
         assert_true(proven <= p.costs[1]);
     }
     for (uint32_t r = 0; r < rows; r++) p.demands[r] = UINT32_MAX; // no set at all
     p.problem.demands = p.demands;
-    const sl_cover_proof proof = {1, rows, 0, 1, 1, 3, NULL, parts, &node, duals, 0, NULL};
+    const sl_cover_proof proof = {1, rows, 0, 1, 1, 3, NULL, parts, &node, duals, 0, NULL, 0, NULL};
     uint64_t proven;
     assert_ok(context, sl_cover_check(context, &p.problem, &proof, &proven));
     assert_true(proven == UINT64_MAX);

@@ -50,6 +50,11 @@ void sli_cover_destroy(sl_context *context, sli_cover *c) {
     *c = (sli_cover){0};
 }
 
+sl_cover_problem sli_cover_problem(const sli_cover *c) {
+    return (sl_cover_problem){c->rows,        c->columns, c->column_first + 1,
+                              c->column_rows, c->costs,   c->demands};
+}
+
 // --- what is decided
 
 sl_status sli_cover_state_make(sl_context *context, const sli_cover *c, sli_cover_state *out) {
@@ -103,6 +108,21 @@ uint64_t sli_cover_cost(const sli_cover *c, const uint8_t *taken) {
 }
 
 // --- bounds
+
+uint64_t sli_cover_denominator(const sli_cover *c) {
+    double all = 0, demands = 0, most = 1;
+    for (uint32_t j = 0; j < c->columns; j++) {
+        all += c->costs[j];
+        if (c->costs[j] > most) most = c->costs[j];
+    }
+    for (uint32_t r = 0; r < c->rows; r++) demands += c->demands[r];
+    // A column is worth at most its rows' duals, each below the largest cost: the sum of all that
+    // is lost is below that of all entries.
+    const double size = all + (demands + (double)c->column_first[c->columns]) * most;
+    uint64_t denominator = (uint64_t)1 << 31;
+    while (denominator && (double)denominator * size > 0x1p60) denominator /= 2;
+    return denominator;
+}
 
 int64_t sli_cover_bound(const sli_cover *c, const sli_cover_state *s, const uint64_t *duals,
                         uint64_t denominator, int64_t *sums) {

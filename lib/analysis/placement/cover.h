@@ -21,6 +21,8 @@ sl_status sli_cover_make(sl_context *context, uint32_t rows, uint32_t columns, s
 void sli_cover_turn(sli_cover *cover);
 void sli_cover_destroy(sl_context *context, sli_cover *cover);
 void sli_cover_proof_destroy(sl_context *context, sl_cover_proof *proof); ///< and zeroes it
+/// The same for a program, as long as the cover is there.
+sl_cover_problem sli_cover_problem(const sli_cover *cover);
 /// The caller's problem, its columns checked; costs are divided, and 1 each where `divisor` is 0.
 sl_status sli_cover_read(sl_context *context, const sl_cover_problem *problem, uint32_t divisor,
                          sli_cover *out);
@@ -89,6 +91,8 @@ int64_t sli_cover_bound(const sli_cover *cover, const sli_cover_state *state, co
 /// The duals as integers, where bounds cannot overflow: at most the largest cost each.
 void sli_cover_duals_round(const sli_cover *cover, const double *duals, uint64_t denominator,
                            uint64_t *out);
+/// The largest power of two, up to 2^31, with which no bound comes near 2^63; 0 where that is none.
+uint64_t sli_cover_denominator(const sli_cover *cover);
 /// The least whole number that is not below numerator / denominator; 0 for what is negative.
 uint64_t sli_cover_ceiling(int64_t numerator, uint64_t denominator);
 
@@ -101,9 +105,17 @@ sl_status sli_cover_lagrange(sl_context *context, const sli_cover *cover,
 
 // --- the tree
 
+/// Rows that follow from those of a part, as in sl_cover_cuts.
+typedef struct sli_cover_cuts {
+    SL_ARRAY(size_t) ends; ///< by cut
+    SL_ARRAY(uint32_t) rows;
+    sli_cover cover; ///< the part's rows, then cuts; an entry as often as its coefficient says
+} sli_cover_cuts;
+
 /// A part of the problem, its best cover, and why nothing is cheaper.
 typedef struct sli_cover_part {
     const sli_cover *cover;
+    sli_cover_cuts cuts; ///< where there are some, nodes and duals are for cuts.cover
     const sl_cover_options *options;
     uint64_t denominator;
     uint8_t *taken;
@@ -116,6 +128,18 @@ typedef struct sli_cover_part {
 /// those of the program.
 sl_status sli_cover_branch(sl_context *context, sli_cover_part *part, double *duals,
                            uint64_t *nodes);
+
+// --- cuts
+
+/// Makes cuts from what a program takes in part, as long as its bound rises by them and proves no
+/// `enough`. `state` and `problem` are the program's, for `plain`; they become those of out->cover,
+/// unless `out` is empty. `duals` and `values`: of `plain`; values of the last run come
+/// back. Cancelled, it gives the cuts so far.
+sl_status sli_cover_cut(sl_context *context, const sli_cover *plain,
+                        const sl_cover_options *options, void *state, sl_cover_problem *problem,
+                        const uint8_t *fixed, uint64_t enough, const double *duals, double *values,
+                        sli_cover_cuts *out);
+void sli_cover_cuts_destroy(sl_context *context, sli_cover_cuts *cuts); ///< and zeroes it
 
 // --- splits
 

@@ -5,11 +5,13 @@
 /// no column that is left covers rows of two. Then the trees: a walk from each root, which visits
 /// no node twice, with what is taken and left on the way. A leaf that says too much only gets the
 /// bound that its duals do prove. What makes no sense (an index too large, a sum beyond 128 bits)
-/// proves nothing: the bound is 0. A part that is split makes a problem of copies, whose proof is
-/// checked in the same way.
+/// proves nothing: the bound is 0. Where a part is split or has cuts, another problem stands for it
+/// (cover_check_parts.c), whose proof is checked in the same way. A row that is several times in a
+/// column has that coefficient there.
 ///
 /// Cost: for each step, the lists of its two rows or columns; for each leaf, the entries of its
 /// part.
+#include "analysis/placement/cover_check.h"
 #include "base/wide.h"
 #include "sightline/set_cover.h"
 #include "sightline/support.h"
@@ -55,6 +57,10 @@ static size_t begin_of(const sl_cover_problem *p, uint32_t column) {
 
 static uint32_t cost_of(const sl_cover_problem *p, uint32_t column) {
     return p->costs ? p->costs[column] : 1;
+}
+
+static size_t parts_of(const sl_cover_proof *p) {
+    return (size_t)p->part_count + p->split_count + p->raised_count;
 }
 
 // --- sums of 128 bits
@@ -169,7 +175,7 @@ static bool find_column_parts(checker *c) {
 /// Lists rows and columns by part.
 static bool follow_parts(checker *c) {
     const sl_cover_problem *p = c->problem;
-    const uint64_t parts = (uint64_t)c->proof->part_count + c->proof->split_count;
+    const uint64_t parts = parts_of(c->proof);
     for (uint32_t r = 0; r < p->row_count; r++) {
         if (c->row_gone[r]) continue;
         if (c->proof->parts[r] >= parts) return false;
@@ -326,78 +332,69 @@ static sl_status walk(sl_context *context, checker *c, uint32_t part, uint64_t *
     return SL_OK;
 }
 
-// --- splits
+// --- parts that other problems stand for
 
-/// The problem of copies.
-typedef struct copies {
-    uint32_t count;
-    SL_ARRAY(size_t) ends;
-    SL_ARRAY(uint32_t) entries;
-    SL_ARRAY(uint32_t) blocks; ///< of the copies of one column
-    uint32_t *demands;
-} copies;
-
-/// Adds the copies of a column; *sense is false where they cost more than it does.
-static sl_status copy_column(sl_context *context, const checker *c, const sl_cover_split *split,
-                             uint32_t column, copies *all, bool *sense) {
+/// The part by itself, with what steps left: rows by their places, costs divided.
+static sl_status make_part(sl_context *context, const checker *c, size_t part,
+                           sli_made_problem *out) {
     const sl_cover_problem *p = c->problem;
-    all->blocks.count = 0;
-    for (size_t i = begin_of(p, column); i < p->ends[column]; i++) {
-        if (c->row_gone[p->entries[i]]) continue;
-        const uint32_t block = split->blocks[c->places[p->entries[i]]];
-        size_t k = 0;
-        while (k < all->blocks.count && all->blocks.items[k] != block) k++;
-        if (k < all->blocks.count) continue;
-        SL_TRY(SL_ARRAY_ROOM(context, &all->blocks, 1));
-        all->blocks.items[all->blocks.count++] = block;
+    const size_t rows = c->rows_first[part + 1] - c->rows_first[part];
+    const size_t columns = c->columns_first[part + 1] - c->columns_first[part];
+    SL_TRY(SL_ARRAY_ROOM(context, &out->demands, rows));
+    SL_TRY(SL_ARRAY_ROOM(context, &out->ends, columns));
+    SL_TRY(SL_ARRAY_ROOM(context, &out->costs, columns));
+    for (size_t i = c->rows_first[part]; i < c->rows_first[part + 1]; i++)
+        out->demands.items[out->demands.count++] = (uint32_t)c->rest[c->rows[i]];
+    for (size_t i = c->columns_first[part]; i < c->columns_first[part + 1]; i++) {
+        const uint32_t column = c->columns[i];
+        const size_t first = begin_of(p, column), end = p->ends[column];
+        SL_TRY(SL_ARRAY_ROOM(context, &out->entries, end - first));
+        for (size_t k = first; k < end; k++)
+            if (!c->row_gone[p->entries[k]])
+                out->entries.items[out->entries.count++] = (uint32_t)c->places[p->entries[k]];
+        out->ends.items[out->ends.count++] = out->entries.count;
+        out->costs.items[out->costs.count++] = cost_of(p, column) / c->divisor;
     }
-    uint64_t cost = 0;
-    for (size_t k = 0; k < all->blocks.count && *sense; k++) {
-        for (size_t i = begin_of(p, column); i < p->ends[column]; i++) {
-            const uint32_t row = p->entries[i];
-            if (c->row_gone[row] || split->blocks[c->places[row]] != all->blocks.items[k]) continue;
-            SL_TRY(SL_ARRAY_ROOM(context, &all->entries, 1));
-            all->entries.items[all->entries.count++] = (uint32_t)c->places[row];
-        }
-        SL_TRY(SL_ARRAY_ROOM(context, &all->ends, 1));
-        all->ends.items[all->ends.count++] = all->entries.count;
-        *sense = all->count < split->cost_count && split->costs[all->count];
-        if (*sense) cost += split->costs[all->count++];
-    }
-    *sense = *sense && cost <= (uint64_t)split->unit * (cost_of(p, column) / c->divisor);
     return SL_OK;
 }
 
-static sl_status check_copies(sl_context *context, const checker *c, uint32_t number, copies *all,
-                              uint64_t *bound) {
-    const sl_cover_split *split = &c->proof->splits[number];
-    const size_t part = (size_t)c->proof->part_count + number;
-    const size_t first = c->rows_first[part], count = c->rows_first[part + 1] - first;
-    bool sense =
-        split->unit && split->row_count == count && split->rest && !split->rest->split_count;
-    all->demands = sl_alloc_array(context, count, sizeof *all->demands);
-    if (!all->demands) return SL_NO_MEMORY;
-    for (size_t i = 0; i < count; i++) all->demands[i] = (uint32_t)c->rest[c->rows[first + i]];
-    for (size_t i = c->columns_first[part]; i < c->columns_first[part + 1] && sense; i++)
-        SL_TRY(copy_column(context, c, split, c->columns[i], all, &sense));
-    if (!sense || all->count != split->cost_count) return SL_OK;
-    const sl_cover_problem problem = {split->row_count,   all->count,   all->ends.items,
-                                      all->entries.items, split->costs, all->demands};
-    SL_TRY(sl_cover_check(context, &problem, split->rest, bound));
-    *bound = *bound / split->unit + (*bound % split->unit > 0);
+static sl_status check(sl_context *context, const sl_cover_problem *problem,
+                       const sl_cover_proof *proof, bool repeats, uint64_t *lower);
+
+/// The bound of a part by the copies of its columns, or by its cuts.
+static sl_status check_other(sl_context *context, const checker *c, const sl_cover_problem *part,
+                             const sl_cover_split *split, const sl_cover_cuts *cuts,
+                             sli_made_problem *other, uint64_t *bound) {
+    const sl_cover_proof *rest = split ? split->rest : cuts->rest;
+    const uint64_t unit = split ? split->unit : 1;
+    bool sense;
+    *bound = 0;
+    if (!rest || rest->split_count || rest->raised_count || (cuts && rest->step_count))
+        return SL_OK;
+    SL_TRY(split ? sli_make_copies(context, part, split, other, &sense)
+                 : sli_make_raised(context, part, cuts, other, &sense));
+    if (!sense) return SL_OK;
+    const sl_cover_problem problem = sli_made(other);
+    SL_TRY(check(context, &problem, rest, cuts, bound));
+    *bound = *bound / unit + (*bound % unit > 0);
     *bound = *bound > UINT64_MAX / c->divisor ? UINT64_MAX : *bound * c->divisor;
     return SL_OK;
 }
 
-static sl_status check_split(sl_context *context, const checker *c, uint32_t number,
-                             uint64_t *bound) {
-    copies all = {0};
-    *bound = 0;
-    const sl_status status = check_copies(context, c, number, &all, bound);
-    sl_free(context, all.ends.items);
-    sl_free(context, all.entries.items);
-    sl_free(context, all.blocks.items);
-    sl_free(context, all.demands);
+/// The bound of the part with such a number, behind those with trees.
+static sl_status check_without_tree(sl_context *context, const checker *c, uint32_t number,
+                                    uint64_t *bound) {
+    const sl_cover_proof *p = c->proof;
+    sli_made_problem made = {0}, other = {0};
+    sl_status status = make_part(context, c, (size_t)p->part_count + number, &made);
+    const sl_cover_problem part = sli_made(&made);
+    if (status == SL_OK && number < p->split_count)
+        status = check_other(context, c, &part, &p->splits[number], NULL, &other, bound);
+    else if (status == SL_OK)
+        status = check_other(context, c, &part, NULL, &p->raised[number - p->split_count], &other,
+                             bound);
+    sli_made_destroy(context, &made);
+    sli_made_destroy(context, &other);
     return status;
 }
 
@@ -411,9 +408,9 @@ static sl_status check_parts(sl_context *context, checker *c, uint64_t *lower) {
         if (c->way.count) return SL_OK; // the way down made no sense
         all = all + bound < all ? UINT64_MAX : all + bound;
     }
-    for (uint32_t i = 0; i < c->proof->split_count; i++) {
+    for (uint32_t i = 0; i < c->proof->split_count + c->proof->raised_count; i++) {
         uint64_t bound;
-        SL_TRY(check_split(context, c, i, &bound));
+        SL_TRY(check_without_tree(context, c, i, &bound));
         all = all + bound < all ? UINT64_MAX : all + bound;
     }
     *lower = all;
@@ -436,7 +433,7 @@ static void count(checker *c) {
 
 static bool make(sl_context *context, checker *c) {
     const size_t rows = c->problem->row_count, columns = c->problem->column_count;
-    const size_t parts = (size_t)c->proof->part_count + c->proof->split_count;
+    const size_t parts = parts_of(c->proof);
     return (c->row_gone = sl_alloc_array(context, rows, sizeof *c->row_gone)) &&
            (c->column_gone = sl_alloc_array(context, columns, sizeof *c->column_gone)) &&
            (c->decided = sl_alloc_array(context, columns, sizeof *c->decided)) &&
@@ -469,23 +466,25 @@ static void destroy(sl_context *context, checker *c) {
     sl_free(context, c->way.items);
 }
 
-static sl_status check_problem(sl_context *context, const sl_cover_problem *p) {
+/// `repeats`: rows may be in a column several times.
+static sl_status check_problem(sl_context *context, const sl_cover_problem *p, bool repeats) {
     size_t at = 0;
     for (uint32_t j = 0; j < p->column_count; at = p->ends[j++]) {
         if (p->ends[j] < at) return sl_fail(context, SL_BAD_ARGUMENT, "column %u ends early", j);
         if (!cost_of(p, j)) return sl_fail(context, SL_BAD_ARGUMENT, "column %u costs nothing", j);
         for (size_t i = at; i < p->ends[j]; i++)
-            if (p->entries[i] >= p->row_count || (i > at && p->entries[i] <= p->entries[i - 1]))
+            if (p->entries[i] >= p->row_count ||
+                (i > at && p->entries[i] < p->entries[i - 1] + !repeats))
                 return sl_fail(context, SL_BAD_ARGUMENT,
                                "column %u: rows are below %u and ascending", j, p->row_count);
     }
     return SL_OK;
 }
 
-sl_status sl_cover_check(sl_context *context, const sl_cover_problem *problem,
-                         const sl_cover_proof *proof, uint64_t *lower) {
+static sl_status check(sl_context *context, const sl_cover_problem *problem,
+                       const sl_cover_proof *proof, bool repeats, uint64_t *lower) {
     checker c = {.problem = problem, .proof = proof};
-    SL_TRY(check_problem(context, problem));
+    SL_TRY(check_problem(context, problem, repeats));
     *lower = 0;
     if (proof->row_count != problem->row_count || !proof->denominator ||
         proof->part_count > proof->node_count)
@@ -498,4 +497,9 @@ sl_status sl_cover_check(sl_context *context, const sl_cover_problem *problem,
     }
     destroy(context, &c);
     return status;
+}
+
+sl_status sl_cover_check(sl_context *context, const sl_cover_problem *problem,
+                         const sl_cover_proof *proof, uint64_t *lower) {
+    return check(context, problem, proof, false, lower);
 }

@@ -269,6 +269,7 @@ static sl_status turn(splitter *s, sli_cover_part *part, double step, sl_cover_s
     options.iterations = part->options->iterations;
     options.nodes = (uint64_t)NODES_A_BLOCK * s->block_count;
     options.at_once = true;
+    options.cuts = 0;
     sl_cover_result r = {0};
     round_costs(s);
     sl_status status = sl_cover_solve(s->context, &problem, &options, &r);

@@ -13,70 +13,23 @@
 ///    program, which goes on from the basis of the node before, or by some Lagrangian steps.
 /// 3. Reduced costs fix columns: one that costs too much is not taken, one that is worth too much
 /// is.
-/// 4. It branches on a column that the program takes in part: the one for which taking and leaving
-///    both raise the bound most. That is tried out, in the beginning of a tree, and later told from
-///    what was tried (reliability branching; Achterberg, Koch and Martin 2005).
+/// 4. It branches on a column that the program takes in part (cover_choose.c).
 ///
 /// A column fixed by 3 is a node with one child, the other one bounded by its duals. Most of these
 /// matter to no leaf below, so a node is made only where a bound, or a row that runs short, counts
 /// on the column.
-#include "analysis/placement/cover.h"
+#include "analysis/placement/cover_tree.h"
 
-#include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
-/// What a tree keeps of duals at most: 256 MB. A node counts as one for so many entries of its
-/// part, and has so many Lagrangian steps.
-enum { MOST_DUALS = 1 << 25, NODE_ENTRIES = 1024, STEPS = 60 };
+/// What a tree keeps of duals at most: 256 MB; and the Lagrangian steps of a node.
+enum { MOST_DUALS = 1 << 25, STEPS = 60 };
 
-/// So many columns are tried out at a node at most, so many that do not better the best one follow
-/// each other at most, and a column is known after so many times.
-enum { MOST_TRIED = 24, MOST_VAIN = 8, KNOWN = 4 };
-
-/// Simplex steps times entries that the program may take for a node: some seconds.
-enum { PROGRAM_WORK = 1 << 28 };
+/// Simplex steps times entries that the program may take for a root.
+static const uint64_t root_work = (uint64_t)1 << 32;
 static const double whole = 1e-6;
 
-typedef struct fix {
-    uint32_t column;
-    uint8_t how;
-    size_t duals; ///< SIZE_MAX: a row takes all that it has
-} fix;
-
-/// What it did to the bound to leave a column [0] or to take it [1], for all of it.
-typedef struct effect {
-    double sums[2];
-    uint32_t tries;
-} effect;
-
-/// A column to branch on, and what is expected of it.
-typedef struct prospect {
-    double score;
-    uint32_t column;
-} prospect;
-
-typedef struct tree {
-    sli_cover_part *part;
-    const sli_cover *cover;
-    sl_cover_problem problem; ///< the same for the program
-    sli_cover_state state;
-    void *program; ///< its state; NULL: none
-    uint64_t target, *nodes_left;
-    uint64_t least; ///< bound of all leaves so far
-    bool spent;
-    SL_ARRAY(fix) fixes;
-    bool *needed;   ///< by column: some bound counts on its being left
-    int64_t *sums;  ///< by column, of the last bound
-    double *y;      ///< by row
-    double *values; ///< by column
-    uint8_t *set;   ///< by column
-    // To choose a column to branch on.
-    effect *effects, all_effects; ///< by column, and of all
-    prospect *prospects;
-    double *tried_y, *tried_values;
-    uint64_t *tried_duals;
-} tree;
+typedef sli_cover_tree tree;
 
 static sl_status add_node(sl_context *context, tree *t, sl_cover_node node, uint32_t *at) {
     SL_TRY(SL_ARRAY_ROOM(context, &t->part->nodes, 1));
@@ -119,7 +72,7 @@ static void need_by_row(tree *t, uint32_t row) {
 static sl_status fix_column(sl_context *context, tree *t, uint32_t column, uint8_t how,
                             size_t duals) {
     SL_TRY(SL_ARRAY_ROOM(context, &t->fixes, 1));
-    t->fixes.items[t->fixes.count++] = (fix){column, how, duals};
+    t->fixes.items[t->fixes.count++] = (sli_cover_fixed){column, how, duals};
     sli_cover_fix(t->cover, &t->state, column, how);
     return SL_OK;
 }
@@ -150,7 +103,7 @@ static bool is_covered(const tree *t) {
 
 /// Completes what is in t->set; keeps it where it is the best cover so far.
 static sl_status try_set(sl_context *context, tree *t, const double *duals) {
-    const sli_cover *c = t->cover;
+    const sli_cover *c = t->part->cover; // who covers its rows fulfils all cuts
     SL_TRY(sli_cover_greedy(context, c, duals, t->state.fixed, t->set));
     for (uint32_t r = 0; r < c->rows; r++) {
         uint32_t covered = 0;
@@ -166,13 +119,21 @@ static sl_status try_set(sl_context *context, tree *t, const double *duals) {
     return SL_OK;
 }
 
+bool sli_cover_pay(sli_cover_tree *t) {
+    const uint64_t price = 1 + t->cover->column_first[t->cover->columns] / SLI_COVER_NODE_ENTRIES;
+    if (*t->nodes_left < price) return false;
+    *t->nodes_left -= price;
+    return true;
+}
+
 /// New duals for the state, behind the others; from those at `duals`. Leaves t->values. The program
 /// may stop where its bound passes `enough`; 0: it does not.
 static sl_status find_duals(sl_context *context, tree *t, size_t duals, double enough) {
     const uint32_t rows = t->cover->rows;
     const uint64_t denominator = t->part->denominator;
     sl_status status = SL_UNSUPPORTED;
-    const uint64_t work = 1 + PROGRAM_WORK / (1 + t->cover->column_first[t->cover->columns]);
+    const uint64_t work = 1 + (enough > 0 ? SLI_COVER_NODE_WORK : root_work) /
+                                  (1 + t->cover->column_first[t->cover->columns]);
     if (t->program)
         status = t->part->options->program->again(context, t->program, t->state.fixed, work, enough,
                                                   t->y, t->values);
@@ -218,125 +179,6 @@ static sl_status fix_worthy(sl_context *context, tree *t, int64_t bound, size_t 
         SL_TRY(fix_column(context, t, j, SLI_COVER_IN, duals));
         bound = bound_by(t, duals);
     }
-    return SL_OK;
-}
-
-/// Nodes are paid for by their work.
-static bool pay(tree *t) {
-    const uint64_t price = 1 + t->cover->column_first[t->cover->columns] / NODE_ENTRIES;
-    if (*t->nodes_left < price) return false;
-    *t->nodes_left -= price;
-    return true;
-}
-
-/// By how much the bound rises if a column is left (0) or taken (1).
-static sl_status try_way(sl_context *context, tree *t, uint32_t column, int way, int64_t bound,
-                         double *gain) {
-    const uint64_t d = t->part->denominator;
-    const uint64_t work = 1 + PROGRAM_WORK / (1 + t->cover->column_first[t->cover->columns]);
-    *gain = 0;
-    sli_cover_fix(t->cover, &t->state, column, way ? SLI_COVER_IN : SLI_COVER_OUT);
-    sl_status status = t->part->options->program->again(context, t->program, t->state.fixed, work,
-                                                        (double)t->target - 1 + whole, t->tried_y,
-                                                        t->tried_values);
-    if (status == SL_OK) {
-        sli_cover_duals_round(t->cover, t->tried_y, d, t->tried_duals);
-        const int64_t tried = sli_cover_bound(t->cover, &t->state, t->tried_duals, d, NULL);
-        if (tried > bound) *gain = (double)(tried - bound) / (double)d;
-    }
-    sli_cover_unfix(t->cover, &t->state, column);
-    return status == SL_UNSUPPORTED ? SL_OK : status;
-}
-
-/// Both ways count: the product.
-static double score_of(const tree *t, uint32_t column) {
-    const effect *e = t->effects[column].tries ? &t->effects[column] : &t->all_effects;
-    const double value = t->values[column], tries = e->tries ? e->tries : 1;
-    return fmax(e->sums[0] / tries * value, 1e-6) * fmax(e->sums[1] / tries * (1 - value), 1e-6);
-}
-
-static sl_status try_out(sl_context *context, tree *t, uint32_t column, int64_t bound,
-                         double *score) {
-    const double shares[] = {t->values[column], 1 - t->values[column]};
-    double gains[2];
-    for (int way = 0; way < 2; way++) {
-        if (!pay(t)) return SL_OK;
-        SL_TRY(try_way(context, t, column, way, bound, &gains[way]));
-    }
-    for (int way = 0; way < 2; way++) {
-        t->effects[column].sums[way] += gains[way] / shares[way];
-        t->all_effects.sums[way] += gains[way] / shares[way];
-    }
-    t->effects[column].tries++;
-    t->all_effects.tries++;
-    *score = fmax(gains[0], 1e-6) * fmax(gains[1], 1e-6);
-    return SL_OK;
-}
-
-static int compare_prospects(const void *left, const void *right) {
-    const prospect *a = left, *b = right;
-    if (a->score != b->score) return a->score > b->score ? -1 : 1;
-    return (a->column > b->column) - (a->column < b->column);
-}
-
-/// The column whose branches promise most; UINT32_MAX where the program takes none in part.
-static sl_status choose_by_effect(sl_context *context, tree *t, int64_t bound, uint32_t *best) {
-    size_t count = 0;
-    for (uint32_t j = 0; j < t->cover->columns; j++)
-        if (t->state.fixed[j] == SLI_COVER_FREE && t->values[j] > 0.01 && t->values[j] < 0.99)
-            t->prospects[count++] = (prospect){score_of(t, j), j};
-    *best = UINT32_MAX;
-    if (!count) return SL_OK;
-    qsort(t->prospects, count, sizeof *t->prospects, compare_prospects);
-    double most = 0;
-    int tried = 0, vain = 0;
-    for (size_t i = 0; i < count && vain < MOST_VAIN; i++, vain++) {
-        prospect p = t->prospects[i];
-        if (t->effects[p.column].tries < KNOWN && tried++ < MOST_TRIED)
-            SL_TRY(try_out(context, t, p.column, bound, &p.score));
-        if (p.score <= most) continue;
-        most = p.score;
-        *best = p.column;
-        vain = -1;
-    }
-    return SL_OK;
-}
-
-/// The column that is worth most to the row with the fewest columns.
-static uint32_t choose_by_row(const tree *t) {
-    const sli_cover *c = t->cover;
-    uint32_t best = UINT32_MAX, row = UINT32_MAX;
-    for (uint32_t r = 0; r < c->rows; r++)
-        if (t->state.rest[r] > 0 && (row == UINT32_MAX || t->state.free[r] < t->state.free[row]))
-            row = r;
-    for (size_t k = c->row_first[row]; k < c->row_first[row + 1]; k++) {
-        const uint32_t j = c->row_columns[k];
-        if (t->state.fixed[j] == SLI_COVER_FREE &&
-            (best == UINT32_MAX || t->sums[j] > t->sums[best]))
-            best = j;
-    }
-    return best;
-}
-
-/// Without a program, the column of which it takes most, but not all, by Lagrangian steps.
-static uint32_t choose_by_value(const tree *t) {
-    uint32_t best = UINT32_MAX;
-    double most = 0.01;
-    for (uint32_t j = 0; j < t->cover->columns; j++) {
-        if (t->state.fixed[j] != SLI_COVER_FREE || !t->sums[j]) continue;
-        if (t->values[j] > most && t->values[j] < 1 - whole) {
-            best = j;
-            most = t->values[j];
-        }
-    }
-    return best;
-}
-
-static sl_status choose(sl_context *context, tree *t, int64_t bound, uint32_t *best) {
-    *best = UINT32_MAX;
-    if (t->program) SL_TRY(choose_by_effect(context, t, bound, best));
-    if (*best == UINT32_MAX) *best = choose_by_value(t);
-    if (*best == UINT32_MAX) *best = choose_by_row(t);
     return SL_OK;
 }
 
@@ -404,14 +246,14 @@ static sl_status grow_node(sl_context *context, tree *t, size_t duals, uint32_t 
     if (t->part->duals.count > MOST_DUALS) t->spent = true;
     if (t->spent) return SL_OK;
     uint32_t column;
-    SL_TRY(choose(context, t, bound, &column));
+    SL_TRY(sli_cover_choose(context, t, bound, &column));
     return branch_on(context, t, column, duals, at);
 }
 
 /// Undoes fixes down to `count`, and puts those that are needed above the node.
 static sl_status undo(sl_context *context, tree *t, size_t count, sl_status status, uint32_t *at) {
     while (t->fixes.count > count) {
-        const fix f = t->fixes.items[--t->fixes.count];
+        const sli_cover_fixed f = t->fixes.items[--t->fixes.count];
         sli_cover_unfix(t->cover, &t->state, f.column);
         const bool needed = f.how == SLI_COVER_IN || t->needed[f.column];
         t->needed[f.column] = false;
@@ -425,7 +267,7 @@ static sl_status undo(sl_context *context, tree *t, size_t count, sl_status stat
 
 /// Makes the node of the state, from its parent's duals.
 static sl_status grow(sl_context *context, tree *t, size_t duals, uint32_t *at) {
-    t->spent = !pay(t);
+    t->spent = !sli_cover_pay(t);
     if (t->spent) return SL_OK;
     SL_TRY(sl_check_cancelled(context));
     const size_t count = t->fixes.count;
@@ -433,7 +275,7 @@ static sl_status grow(sl_context *context, tree *t, size_t duals, uint32_t *at) 
 }
 
 /// A tree for one target; what it proves goes to the part only when it is whole.
-static sl_status grow_whole(sl_context *context, tree *t, const double *duals, bool *is_whole) {
+static sl_status grow_whole(sl_context *context, tree *t, bool *is_whole) {
     sli_cover_part *part = t->part, kept = *part;
     part->nodes.items = NULL;
     part->duals.items = NULL;
@@ -441,7 +283,7 @@ static sl_status grow_whole(sl_context *context, tree *t, const double *duals, b
     t->least = UINT64_MAX;
     sl_status status = SL_ARRAY_ROOM(context, &part->duals, t->cover->rows);
     if (status == SL_OK) {
-        sli_cover_duals_round(t->cover, duals, part->denominator, part->duals.items);
+        memcpy(part->duals.items, kept.duals.items, t->cover->rows * sizeof *kept.duals.items);
         part->duals.count = t->cover->rows;
         uint32_t root;
         status = grow(context, t, 0, &root);
@@ -475,55 +317,117 @@ static sl_status bound_root(sl_context *context, tree *t, double *duals) {
     return SL_OK;
 }
 
+static sl_status tree_make(sl_context *context, tree *t, const sli_cover *cover) {
+    t->cover = cover;
+    SL_TRY(sli_cover_state_make(context, cover, &t->state));
+    t->needed = sl_alloc_array(context, cover->columns, sizeof *t->needed);
+    t->sums = sl_alloc_array(context, cover->columns, sizeof *t->sums);
+    t->y = sl_alloc_array(context, cover->rows, sizeof *t->y);
+    t->values = sl_alloc_array(context, cover->columns, sizeof *t->values);
+    t->set = sl_alloc_array(context, cover->columns, sizeof *t->set);
+    t->effects = sl_alloc_array(context, cover->columns, sizeof *t->effects);
+    t->prospects = sl_alloc_array(context, cover->columns, sizeof *t->prospects);
+    t->tried_y = sl_alloc_array(context, cover->rows, sizeof *t->tried_y);
+    t->tried_values = sl_alloc_array(context, cover->columns, sizeof *t->tried_values);
+    t->tried_duals = sl_alloc_array(context, cover->rows, sizeof *t->tried_duals);
+    return t->needed && t->sums && t->y && t->values && t->set && t->effects && t->prospects &&
+                   t->tried_y && t->tried_values && t->tried_duals
+               ? SL_OK
+               : SL_NO_MEMORY;
+}
+
+static void tree_destroy(sl_context *context, tree *t) {
+    sli_cover_state_destroy(context, &t->state);
+    sl_free(context, t->needed);
+    sl_free(context, t->sums);
+    sl_free(context, t->y);
+    sl_free(context, t->values);
+    sl_free(context, t->set);
+    sl_free(context, t->effects);
+    sl_free(context, t->prospects);
+    sl_free(context, t->tried_y);
+    sl_free(context, t->tried_values);
+    sl_free(context, t->tried_duals);
+}
+
+/// Goes over to the problem with cuts, where it proves as much: then the part has them, and a leaf
+/// alone.
+static sl_status stand_on(sl_context *context, tree *t, sli_cover_cuts *cuts, bool *stands) {
+    sli_cover_part *part = t->part, kept = *part;
+    tree_destroy(context, t);
+    *t = (tree){.part = part,
+                .problem = t->problem,
+                .program = t->program,
+                .nodes_left = t->nodes_left,
+                .fixes = t->fixes};
+    SL_TRY(tree_make(context, t, &cuts->cover));
+    const uint32_t rows = cuts->cover.rows;
+    uint64_t bound = 0;
+    part->denominator = sli_cover_denominator(&cuts->cover);
+    part->duals.items = NULL;
+    part->duals.count = part->duals.capacity = 0;
+    sl_status status = part->denominator ? SL_ARRAY_ROOM(context, &part->duals, rows) : SL_OK;
+    *stands = status == SL_OK && part->denominator;
+    if (*stands) {
+        memset(part->duals.items, 0, rows * sizeof *part->duals.items);
+        part->duals.count = rows;
+        status = find_duals(context, t, 0, 0);
+    }
+    if (*stands && status == SL_OK) status = fill_set(context, t);
+    if (*stands && status == SL_OK) {
+        memcpy(part->duals.items, part->duals.items + rows, rows * sizeof *part->duals.items);
+        part->duals.count = rows;
+        bound = sli_cover_ceiling(bound_by(t, 0), part->denominator);
+    }
+    *stands = *stands && status == SL_OK && bound >= kept.lower;
+    sl_free(context, *stands ? kept.duals.items : part->duals.items);
+    if (!*stands) {
+        part->denominator = kept.denominator;
+        memcpy(&part->duals, &kept.duals, sizeof kept.duals);
+        return status;
+    }
+    part->lower = bound;
+    part->cuts = *cuts;
+    *cuts = (sli_cover_cuts){0};
+    t->cover = &part->cuts.cover;
+    return SL_OK;
+}
+
+/// Cuts raise the bound of the root. *stands: trees can be grown on.
+static sl_status raise_root(sl_context *context, tree *t, bool *stands) {
+    const sl_cover_options *o = t->part->options;
+    *stands = true;
+    if (!t->program || !o->program->change || !o->cuts || !o->nodes) return SL_OK;
+    sli_cover_cuts cuts = {0};
+    sl_status status = sli_cover_cut(context, t->part->cover, o, t->program, &t->problem,
+                                     t->state.fixed, t->part->cost, t->y, t->values, &cuts);
+    const bool made = status == SL_OK || status == SL_CANCELLED;
+    const sl_status stood = made ? stand_on(context, t, &cuts, stands) : status;
+    sli_cover_cuts_destroy(context, &cuts);
+    return stood == SL_OK ? status : stood;
+}
+
 static sl_status grow_trees(sl_context *context, tree *t, double *duals) {
     bool is_whole = true;
     if (t->program) SL_TRY(bound_root(context, t, duals));
+    if (t->part->lower < t->part->cost) SL_TRY(raise_root(context, t, &is_whole));
     while (is_whole && t->part->lower < t->part->cost) {
         t->target = t->part->options->at_once ? t->part->cost : t->part->lower + 1;
-        SL_TRY(grow_whole(context, t, duals, &is_whole));
+        SL_TRY(grow_whole(context, t, &is_whole));
     }
     return SL_OK;
 }
 
-static sl_status tree_make(sl_context *context, tree *t) {
-    const sli_cover *c = t->cover;
-    SL_TRY(sli_cover_state_make(context, c, &t->state));
-    t->needed = sl_alloc_array(context, c->columns, sizeof *t->needed);
-    t->sums = sl_alloc_array(context, c->columns, sizeof *t->sums);
-    t->y = sl_alloc_array(context, c->rows, sizeof *t->y);
-    t->values = sl_alloc_array(context, c->columns, sizeof *t->values);
-    t->set = sl_alloc_array(context, c->columns, sizeof *t->set);
-    t->effects = sl_alloc_array(context, c->columns, sizeof *t->effects);
-    t->prospects = sl_alloc_array(context, c->columns, sizeof *t->prospects);
-    t->tried_y = sl_alloc_array(context, c->rows, sizeof *t->tried_y);
-    t->tried_values = sl_alloc_array(context, c->columns, sizeof *t->tried_values);
-    t->tried_duals = sl_alloc_array(context, c->rows, sizeof *t->tried_duals);
-    if (!t->needed || !t->sums || !t->y || !t->values || !t->set || !t->effects || !t->prospects ||
-        !t->tried_y || !t->tried_values || !t->tried_duals)
-        return SL_NO_MEMORY;
-    t->problem = (sl_cover_problem){c->rows,        c->columns, c->column_first + 1,
-                                    c->column_rows, c->costs,   c->demands};
-    const sl_cover_program *program = t->part->options->program;
-    return program && program->begin ? program->begin(context, &t->problem, &t->program) : SL_OK;
-}
-
 sl_status sli_cover_branch(sl_context *context, sli_cover_part *part, double *duals,
                            uint64_t *nodes) {
-    tree t = {.part = part, .cover = part->cover, .nodes_left = nodes};
-    sl_status status = tree_make(context, &t);
+    const sl_cover_program *program = part->options->program;
+    tree t = {.part = part, .problem = sli_cover_problem(part->cover), .nodes_left = nodes};
+    sl_status status = tree_make(context, &t, part->cover);
+    if (status == SL_OK && program && program->begin)
+        status = program->begin(context, &t.problem, &t.program);
     if (status == SL_OK) status = grow_trees(context, &t, duals);
-    if (t.program) part->options->program->end(context, t.program);
-    sli_cover_state_destroy(context, &t.state);
+    if (t.program) program->end(context, t.program);
+    tree_destroy(context, &t);
     sl_free(context, t.fixes.items);
-    sl_free(context, t.needed);
-    sl_free(context, t.sums);
-    sl_free(context, t.y);
-    sl_free(context, t.values);
-    sl_free(context, t.set);
-    sl_free(context, t.effects);
-    sl_free(context, t.prospects);
-    sl_free(context, t.tried_y);
-    sl_free(context, t.tried_values);
-    sl_free(context, t.tried_duals);
     return status;
 }

@@ -30,30 +30,63 @@ static void bind(const relaxation *r, uint32_t column, uint8_t how) {
         glp_set_col_bnds(r->lp, (int)column + 1, r->bounded ? GLP_DB : GLP_LO, 0, 1);
 }
 
-/// `numbers` and `ones`: room for a column.
-static void fill(relaxation *r, int *numbers, double *ones) {
+/// Adds the rows of the problem from `first` on, and puts in the entries of all columns. `numbers`
+/// and `ones`: room for a column.
+static void fill(relaxation *r, uint32_t first, int *numbers, double *ones) {
     const sl_cover_problem *p = r->problem;
-    r->lp = glp_create_prob();
-    glp_add_rows(r->lp, (int)p->row_count);
-    glp_add_cols(r->lp, (int)p->column_count);
-    for (uint32_t i = 0; i < p->row_count; i++) {
+    if (p->row_count > first) glp_add_rows(r->lp, (int)(p->row_count - first));
+    for (uint32_t i = first; i < p->row_count; i++) {
         const uint32_t demand = p->demands ? p->demands[i] : 1;
-        r->bounded |= demand > 1;
         glp_set_row_bnds(r->lp, (int)i + 1, GLP_LO, demand, demand);
     }
     for (uint32_t j = 0; j < p->column_count; j++) {
         int count = 0;
         for (size_t i = begin_of(p, j); i < p->ends[j]; i++) {
-            numbers[++count] = (int)p->entries[i] + 1;
-            ones[count] = 1;
+            const bool repeats = count && numbers[count] == (int)p->entries[i] + 1;
+            if (!repeats) numbers[++count] = (int)p->entries[i] + 1;
+            ones[count] = repeats ? ones[count] + 1 : 1;
         }
         glp_set_mat_col(r->lp, (int)j + 1, count, numbers, ones);
+    }
+}
+
+static void create(relaxation *r) {
+    const sl_cover_problem *p = r->problem;
+    r->lp = glp_create_prob();
+    glp_add_cols(r->lp, (int)p->column_count);
+    for (uint32_t i = 0; i < p->row_count; i++) r->bounded |= p->demands && p->demands[i] > 1;
+    for (uint32_t j = 0; j < p->column_count; j++) {
         glp_set_obj_coef(r->lp, (int)j + 1, p->costs ? p->costs[j] : 1);
         bind(r, j, 0);
     }
     glp_init_smcp(&r->settings);
     r->settings.msg_lev = GLP_MSG_OFF;
     r->settings.meth = GLP_DUALP;
+}
+
+/// Creates the program where there is none, takes out the rows that are gone, and puts in those of
+/// the problem from `first` on.
+static sl_status load(sl_context *context, relaxation *r, uint32_t first, int gone_count,
+                      const int *gone) {
+    const sl_cover_problem *p = r->problem;
+    int *numbers = sl_alloc_array(context, (size_t)p->row_count + 1, sizeof *numbers);
+    double *ones = sl_alloc_array(context, (size_t)p->row_count + 1, sizeof *ones);
+    sl_status status = numbers && ones ? SL_OK : SL_NO_MEMORY;
+    if (status == SL_OK) {
+        if (setjmp(r->guard.left)) {
+            r->lp = NULL;
+            status = sli_glpk_failed(context);
+        } else {
+            sli_glpk_enter(&r->guard);
+            if (!r->lp) create(r);
+            if (gone_count) glp_del_rows(r->lp, gone_count, gone);
+            fill(r, first, numbers, ones);
+            sli_glpk_leave();
+        }
+    }
+    sl_free(context, numbers);
+    sl_free(context, ones);
+    return status;
 }
 
 static void end(sl_context *context, void *state) {
@@ -72,21 +105,7 @@ static sl_status begin(sl_context *context, const sl_cover_problem *problem, voi
     if (!r) return SL_NO_MEMORY;
     r->problem = problem;
     r->fixed = sl_alloc_array(context, problem->column_count, sizeof *r->fixed);
-    int *numbers = sl_alloc_array(context, (size_t)problem->row_count + 1, sizeof *numbers);
-    double *ones = sl_alloc_array(context, (size_t)problem->row_count + 1, sizeof *ones);
-    sl_status status = r->fixed && numbers && ones ? SL_OK : SL_NO_MEMORY;
-    if (status == SL_OK) {
-        if (setjmp(r->guard.left)) {
-            r->lp = NULL;
-            status = sli_glpk_failed(context);
-        } else {
-            sli_glpk_enter(&r->guard);
-            fill(r, numbers, ones);
-            sli_glpk_leave();
-        }
-    }
-    sl_free(context, numbers);
-    sl_free(context, ones);
+    const sl_status status = r->fixed ? load(context, r, 0, 0, NULL) : SL_NO_MEMORY;
     if (status == SL_OK)
         *state = r;
     else
@@ -130,9 +149,26 @@ static sl_status again(sl_context *context, void *state, const uint8_t *fixed, u
                   : sl_fail(context, SL_UNSUPPORTED, "GLPK finds no optimum of the relaxation");
 }
 
+static sl_status change(sl_context *context, void *state, const sl_cover_problem *problem,
+                        const bool *gone) {
+    relaxation *r = state;
+    if (!r->lp) return sl_fail(context, SL_NO_MEMORY, "GLPK gave up earlier");
+    const int before = glp_get_num_rows(r->lp); // `problem` may be where the one before was
+    if (problem->row_count >= INT_MAX / 2)
+        return sl_fail(context, SL_UNSUPPORTED, "too many rows for GLPK");
+    int *rows = sl_alloc_array(context, (size_t)before + 1, sizeof *rows), count = 0;
+    if (!rows) return SL_NO_MEMORY;
+    for (int i = 0; i < before; i++)
+        if (gone[i]) rows[++count] = i + 1;
+    r->problem = problem;
+    const sl_status status = load(context, r, (uint32_t)(before - count), count, rows);
+    sl_free(context, rows);
+    return status;
+}
+
 static sl_status relax(sl_context *context, const sl_cover_problem *problem, uint64_t work,
                        double *duals, double *values) {
-    void *state;
+    void *state = NULL;
     SL_TRY(begin(context, problem, &state));
     const relaxation *r = state;
     const sl_status status = again(context, state, r->fixed, work, 0, duals, values);
@@ -157,7 +193,7 @@ static void count_nodes(glp_tree *tree, void *info) {
 
 static sl_status branch(sl_context *context, const sl_cover_problem *problem, uint64_t limit,
                         uint32_t *columns, uint32_t *count) {
-    void *state;
+    void *state = NULL;
     SL_TRY(begin(context, problem, &state));
     relaxation *r = state;
     nodes n = {limit};
@@ -197,6 +233,7 @@ const sl_cover_program *sl_cover_glpk(void) {
         .begin = begin,
         .again = again,
         .end = end,
+        .change = change,
     };
     return &program;
 }

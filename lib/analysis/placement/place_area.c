@@ -26,11 +26,18 @@
 
 /// Without a better bound for NETWORK_ROUNDS, no more rows of a network are sought.
 enum { NETWORK_ROUNDS = 20 };
-/// Local searches for a network, at most, while places are completed once.
+/// Longer local searches, at most, while places are completed once.
 enum { SEARCHES = 8 };
-enum { ROUNDS = 400, COARSE_ITERATIONS = 20000, SEARCH_ITERATIONS = 5000, SEARCH_LEAST = 300 };
+enum {
+    ROUNDS = 400,
+    COARSE_ITERATIONS = 20000,
+    FINE_ITERATIONS = 1000000,
+    SEARCH_ITERATIONS = 20000,
+    LONG_ITERATIONS = 200000,
+    SEARCH_LEAST = 300
+};
 /// Entries that a local search may touch, about.
-#define SEARCH_WORK 2e7
+#define SEARCH_WORK 2e8
 
 static sl_status check_task(sl_context *context, const sl_place_area *t) {
     SL_TRY(sli_check_viewpoints(context, t->places, t->place_count));
@@ -220,14 +227,14 @@ static uint64_t fixed_cost(const sli_area *a) {
 
 /// Iterations of the local search: fewer where each costs more, by the rows of a column and the
 /// columns of a row.
-static uint64_t iterations_for(const sli_cover *cover) {
+static uint64_t iterations_for(const sli_cover *cover, double most) {
     const double entries = (double)cover->column_first[cover->columns];
     const double each = entries * entries / ((double)cover->columns * cover->rows + 1);
-    return (uint64_t)fmax(SEARCH_LEAST, fmin(SEARCH_ITERATIONS, SEARCH_WORK / (each + 1)));
+    return (uint64_t)fmax(SEARCH_LEAST, fmin(most, SEARCH_WORK / (each + 1)));
 }
 
-/// Adds places to `now` until it sees all witnesses, then betters it, but not at first.
-static sl_status take_more(finder *f, bool at_first) {
+/// Adds places to `now` until it sees all witnesses, then betters it by so many iterations at most.
+static sl_status take_more(finder *f, uint32_t iterations) {
     sli_area *a = f->a;
     sl_cover_problem problem = {0};
     sli_cover cover = {0};
@@ -236,10 +243,10 @@ static sl_status take_more(finder *f, bool at_first) {
     if (status == SL_OK) status = sli_cover_read(a->context, &problem, 1, &cover);
     if (status == SL_OK) status = sli_cover_greedy(a->context, &cover, NULL, NULL, f->now);
     const uint64_t fixed = fixed_cost(a);
-    if (status == SL_OK && !at_first)
+    if (status == SL_OK && iterations)
         status =
             sli_cover_search(a->context, &cover, a->out->lower > fixed ? a->out->lower - fixed : 0,
-                             iterations_for(&cover), f->now);
+                             iterations_for(&cover, iterations), f->now);
     for (uint32_t i = 0; i < a->task->place_count; i++) f->now[i] |= a->fixed[i];
     sli_cover_destroy(a->context, &cover);
     sli_area_problem_destroy(a->context, &problem);
@@ -275,19 +282,20 @@ static sl_status fill(finder *f, bool *clean) {
         SL_TRY(sli_area_check(f->a, f->now, &added));
         if (!added) return SL_OK;
         *clean = false;
-        SL_TRY(take_more(f, !f->complete));
+        SL_TRY(take_more(f, f->complete ? SEARCH_ITERATIONS : 0));
     }
     return SL_OK;
 }
 
-/// Fills `now`, keeps it, and for a network betters it.
+/// Fills `now`, keeps it and betters it, as long as what is better sees everything in the end.
 static sl_status complete(finder *f, bool *clean) {
     bool again;
     SL_TRY(fill(f, clean));
     SL_TRY(keep(f));
-    for (int i = 0; f->a->task->network && i < SEARCHES; i++) {
+    for (int i = 0; i < SEARCHES; i++) {
         const uint64_t cost = cost_of(f->a, f->now);
-        SL_TRY(sli_network_search(f->a, f->now));
+        SL_TRY(f->a->task->network ? sli_network_search(f->a, f->now)
+                                   : take_more(f, LONG_ITERATIONS));
         if (cost_of(f->a, f->now) >= cost) return SL_OK;
         SL_TRY(fill(f, &again));
         SL_TRY(keep(f));
@@ -322,7 +330,7 @@ static sl_status choose(finder *f, bool wide) {
     sl_cover_options options = sl_cover_options_default();
     options.program = a->options->program;
     options.nodes = f->fine ? a->options->nodes : 0;
-    if (!f->fine) options.iterations = COARSE_ITERATIONS;
+    options.iterations = f->fine ? FINE_ITERATIONS : COARSE_ITERATIONS;
     options.known_lower = a->out->lower > fixed ? a->out->lower - fixed : 0;
     sl_cover_problem problem = {0};
     sl_cover_result cover = {0};
@@ -412,7 +420,7 @@ static sl_status find(finder *f) {
     uint32_t rows = 0;
     for (uint32_t i = 0; i < a->task->place_count; i++) f->now[i] = a->fixed[i];
     SL_TRY(add_first_rows(a));
-    SL_TRY(take_more(f, true));
+    SL_TRY(take_more(f, 0));
     SL_TRY(fill(f, &clean));
     SL_TRY(keep(f));
     if (!(a->out->seen > a->negligible)) return refuse_blind(a);

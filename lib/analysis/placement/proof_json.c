@@ -92,9 +92,7 @@ static void put_trees(FILE *f, const sl_cover_proof *p) {
     fprintf(f, "]");
 }
 
-void sli_proof_put_cover(FILE *f, const sl_cover_proof *p) {
-    put_trees(f, p);
-    if (!p->split_count) return;
+static void put_splits(FILE *f, const sl_cover_proof *p) {
     fprintf(f, ",\n\"splits\": [");
     for (uint32_t i = 0; i < p->split_count; i++) {
         const sl_cover_split *s = &p->splits[i];
@@ -105,6 +103,31 @@ void sli_proof_put_cover(FILE *f, const sl_cover_proof *p) {
         fprintf(f, "}");
     }
     fprintf(f, "]");
+}
+
+static void put_raised(FILE *f, const sl_cover_proof *p) {
+    fprintf(f, ",\n\"raised\": [");
+    for (uint32_t i = 0; i < p->raised_count; i++) {
+        const sl_cover_cuts *c = &p->raised[i];
+        fprintf(f, "%s\n{\"rows\": %" PRIu32 ",\n\"cuts\": [", i ? "," : "", c->row_count);
+        for (uint32_t cut = 0; cut < c->cut_count; cut++) {
+            const size_t first = cut ? c->ends[cut - 1] : 0;
+            fprintf(f, "%s\n[", cut ? "," : "");
+            for (size_t k = first; k < c->ends[cut]; k++)
+                fprintf(f, "%s%" PRIu32, k > first ? ", " : "", c->rows[k]);
+            fprintf(f, "]");
+        }
+        fprintf(f, "]");
+        put_trees(f, c->rest);
+        fprintf(f, "}");
+    }
+    fprintf(f, "]");
+}
+
+void sli_proof_put_cover(FILE *f, const sl_cover_proof *p) {
+    put_trees(f, p);
+    if (p->split_count) put_splits(f, p);
+    if (p->raised_count) put_raised(f, p);
 }
 
 /// The columns of each row, one row after the other: the first of row r is at first[r].
@@ -178,9 +201,9 @@ sl_status sli_proof_key(sli_proof_reader *r, const char *name) {
     const size_t length = strlen(name);
     const bool first = strcmp(name, "sightline_proof") == 0;
     r->member = name;
-    if (!take(r, first || strcmp(name, "unit") == 0 ? '{' : ',') || !take(r, '"') ||
-        (size_t)(r->end - r->at) <= length || memcmp(r->at, name, length) != 0 ||
-        r->at[length] != '"')
+    const bool opens = first || strcmp(name, "unit") == 0 || strcmp(name, "rows") == 0;
+    if (!take(r, opens ? '{' : ',') || !take(r, '"') || (size_t)(r->end - r->at) <= length ||
+        memcmp(r->at, name, length) != 0 || r->at[length] != '"')
         return first ? sl_fail_at(r->context, r->path, r->line, "this is no proof of a placement")
                      : sli_proof_fail(r, "it is missing here");
     r->at += length + 1;
@@ -412,29 +435,70 @@ static sl_status read_split(sli_proof_reader *r, sl_cover_split *out) {
     return need(r, '}');
 }
 
-typedef SL_ARRAY(sl_cover_split) split_list;
+/// The ends and rows of all cuts, as they are in the file.
+static sl_status take_cuts(sli_proof_reader *r, const sli_proof_numbers *all,
+                           const sli_proof_numbers *ends, sl_cover_cuts *out) {
+    out->ends = sl_alloc_array(r->context, ends->count, sizeof *out->ends);
+    out->rows = sl_alloc_array(r->context, all->count, sizeof *out->rows);
+    if (!out->ends || !out->rows) return SL_NO_MEMORY;
+    for (size_t i = 0; i < ends->count; i++) out->ends[out->cut_count++] = (size_t)ends->items[i];
+    for (size_t i = 0; i < all->count; i++) out->rows[i] = (uint32_t)all->items[i];
+    return SL_OK;
+}
 
-static sl_status read_splits(sli_proof_reader *r, split_list *all) {
+static sl_status read_cuts(sli_proof_reader *r, sl_cover_cuts *out) {
+    uint64_t rows;
+    sli_proof_numbers all = {0}, ends = {0};
+    SL_TRY(sli_proof_member(r, "rows", UINT32_MAX / 4, &rows));
+    out->row_count = (uint32_t)rows;
+    sl_status status = sli_proof_table(r, "cuts", 0, UINT32_MAX, 0, &all, &ends);
+    if (status == SL_OK) status = take_cuts(r, &all, &ends, out);
+    sl_free(r->context, all.items);
+    sl_free(r->context, ends.items);
+    SL_TRY(status);
+    out->rest = sl_alloc_array(r->context, 1, sizeof *out->rest);
+    if (!out->rest) return SL_NO_MEMORY;
+    SL_TRY(read_trees(r, out->row_count + out->cut_count, out->rest));
+    return need(r, '}');
+}
+
+typedef SL_ARRAY(sl_cover_split) split_list;
+typedef SL_ARRAY(sl_cover_cuts) cuts_list;
+
+/// A list of splits, or of cuts.
+static sl_status read_others(sli_proof_reader *r, const char *name, split_list *splits,
+                             cuts_list *raised) {
     bool more = true;
-    SL_TRY(sli_proof_key(r, "splits"));
+    size_t done = 0;
+    SL_TRY(sli_proof_key(r, name));
     SL_TRY(need(r, '['));
-    for (size_t done = 0;; done++) {
+    for (;; done++) {
         SL_TRY(next_item(r, done, &more));
         if (!more) break;
-        SL_TRY(SL_ARRAY_ROOM(r->context, all, 1));
-        all->items[all->count] = (sl_cover_split){0};
-        SL_TRY(read_split(r, &all->items[all->count++]));
+        if (splits) {
+            SL_TRY(SL_ARRAY_ROOM(r->context, splits, 1));
+            splits->items[splits->count] = (sl_cover_split){0};
+            SL_TRY(read_split(r, &splits->items[splits->count++]));
+        } else {
+            SL_TRY(SL_ARRAY_ROOM(r->context, raised, 1));
+            raised->items[raised->count] = (sl_cover_cuts){0};
+            SL_TRY(read_cuts(r, &raised->items[raised->count++]));
+        }
     }
-    return all->count < UINT32_MAX / 4 ? SL_OK : sli_proof_fail(r, "there are too many");
+    return done < UINT32_MAX / 4 ? SL_OK : sli_proof_fail(r, "there are too many");
 }
 
 sl_status sli_proof_read_cover(sli_proof_reader *r, uint32_t rows, sl_cover_proof *p) {
-    split_list all = {0};
+    split_list splits = {0};
+    cuts_list raised = {0};
     SL_TRY(read_trees(r, rows, p));
-    if (!is_next(r, "splits")) return SL_OK;
-    const sl_status status = read_splits(r, &all);
-    p->splits = all.items;
-    p->split_count = (uint32_t)all.count;
+    sl_status status = SL_OK;
+    if (is_next(r, "splits")) status = read_others(r, "splits", &splits, NULL);
+    if (status == SL_OK && is_next(r, "raised")) status = read_others(r, "raised", NULL, &raised);
+    p->splits = splits.items;
+    p->split_count = (uint32_t)splits.count;
+    p->raised = raised.items;
+    p->raised_count = (uint32_t)raised.count;
     return status;
 }
 

@@ -4,9 +4,11 @@
 /// 2. What is left falls into parts that share no column. Each is solved by itself:
 /// 3. a greedy cover, a Lagrangian bound with covers by the way (cover_lagrange.c), local search
 ///    (cover_search.c); and where bound and cover still differ,
-/// 4. branch and bound (cover_tree.c), with a linear program where there is one,
+/// 4. branch and bound (cover_tree.c), with a linear program where there is one, and cuts to raise
+///    it (cover_cuts.c),
 /// 5. and where that is too much, blocks that share the costs of columns (cover_split.c).
-/// 6. Steps, parts, trees and splits are the proof, which cover_check.c reads with code of its own.
+/// 6. Steps, parts, trees, splits and cuts are the proof, which cover_check.c reads with code of
+/// its own.
 ///
 /// Costs are divided by their greatest common divisor first: then bounds are rounded up to whole
 /// numbers. The duals are integers over a power of two, as large as sums in 64 bits allow.
@@ -15,7 +17,14 @@
 #include <string.h>
 
 sl_cover_options sl_cover_options_default(void) {
-    return (sl_cover_options){.nodes = 10000, .iterations = 50000};
+    return (sl_cover_options){.nodes = 10000, .iterations = 50000, .cuts = 60};
+}
+
+static void cuts_destroy(sl_context *context, sl_cover_cuts *c) {
+    if (c->rest) sli_cover_proof_destroy(context, c->rest);
+    sl_free(context, c->rest);
+    sl_free(context, c->ends);
+    sl_free(context, c->rows);
 }
 
 void sli_cover_proof_destroy(sl_context *context, sl_cover_proof *proof) {
@@ -26,6 +35,8 @@ void sli_cover_proof_destroy(sl_context *context, sl_cover_proof *proof) {
     for (uint32_t i = 0; i < proof->split_count; i++)
         sli_cover_split_destroy(context, &proof->splits[i]);
     sl_free(context, proof->splits);
+    for (uint32_t i = 0; i < proof->raised_count; i++) cuts_destroy(context, &proof->raised[i]);
+    sl_free(context, proof->raised);
     *proof = (sl_cover_proof){0};
 }
 
@@ -82,25 +93,6 @@ sl_status sli_cover_read(sl_context *context, const sl_cover_problem *p, uint32_
     if (entries) memcpy(out->column_rows, p->entries, entries * sizeof *p->entries);
     for (uint32_t r = 0; r < p->row_count; r++) out->demands[r] = p->demands ? p->demands[r] : 1;
     sli_cover_turn(out);
-    return SL_OK;
-}
-
-/// The largest power of two, up to 2^31, with which no bound comes near 2^63.
-static sl_status choose_denominator(sl_context *context, const sli_cover *c, uint64_t *out) {
-    double all = 0, demands = 0, most = 1;
-    for (uint32_t j = 0; j < c->columns; j++) {
-        all += c->costs[j];
-        if (c->costs[j] > most) most = c->costs[j];
-    }
-    for (uint32_t r = 0; r < c->rows; r++) demands += c->demands[r];
-    // A column is worth at most its rows' duals, each below the largest cost: the sum of all that
-    // is lost is below that of all entries.
-    const double entries = (double)c->column_first[c->columns];
-    const double size = all + (demands + entries) * most;
-    *out = (uint64_t)1 << 31;
-    while (*out > 1 && (double)*out * size > 0x1p60) *out /= 2;
-    if ((double)*out * size > 0x1p60)
-        return sl_fail(context, SL_UNSUPPORTED, "costs too large for sums in 64 bits");
     return SL_OK;
 }
 
@@ -215,6 +207,7 @@ static void solver_destroy(sl_context *context, solver *s) {
         sl_free(context, p->part.taken);
         sl_free(context, p->part.nodes.items);
         sl_free(context, p->part.duals.items);
+        sli_cover_cuts_destroy(context, &p->part.cuts);
         sli_cover_split_destroy(context, &p->split);
     }
     sl_free(context, s->pieces);
@@ -299,9 +292,12 @@ static uint64_t enough_of(const solver *s, const piece *p, uint64_t known) {
 /// Iterations of the local search for each Lagrangian one, at most.
 enum { LAGRANGIAN_SHARE = 25 };
 
-static sl_status solve_piece(sl_context *context, solver *s, piece *p, uint64_t known) {
+/// `nodes`: of those that are left, what the piece may use.
+static sl_status solve_piece(sl_context *context, solver *s, piece *p, uint64_t known,
+                             uint64_t nodes) {
     sli_cover_part *part = &p->part;
     const sl_cover_options *o = s->options;
+    uint64_t left = nodes;
     double *duals = sl_alloc_array(context, p->cover.rows, sizeof *duals);
     double *values = sl_alloc_array(context, p->cover.columns, sizeof *values);
     sli_cover_state state = {0};
@@ -321,7 +317,8 @@ static sl_status solve_piece(sl_context *context, solver *s, piece *p, uint64_t 
         part->cost = sli_cover_cost(&p->cover, part->taken);
     }
     if (status == SL_OK && part->cost > enough_of(s, p, known))
-        status = sli_cover_branch(context, part, duals, &s->nodes);
+        status = sli_cover_branch(context, part, duals, &left);
+    s->nodes -= nodes - left;
     if (status == SL_OK && part->cost > enough_of(s, p, known))
         status = sli_cover_split(context, part, duals, &p->split);
     sli_cover_state_destroy(context, &state);
@@ -334,7 +331,7 @@ static size_t size_of(const piece *p) {
     return p->cover.column_first[p->cover.columns];
 }
 
-/// Small pieces first: what they leave of the nodes is for the large ones.
+/// Small pieces first: what they leave of their share of the nodes is for the large ones.
 static sl_status solve_pieces(sl_context *context, solver *s, uint64_t known) {
     uint32_t *order = sl_alloc_array(context, s->piece_count, sizeof *order);
     if (!order) return SL_NO_MEMORY;
@@ -346,17 +343,19 @@ static sl_status solve_pieces(sl_context *context, solver *s, uint64_t known) {
     }
     sl_status status = SL_OK;
     for (uint32_t k = 0; k < s->piece_count && status == SL_OK; k++)
-        status = solve_piece(context, s, &s->pieces[order[k]], known);
+        status =
+            solve_piece(context, s, &s->pieces[order[k]], known, s->nodes / (s->piece_count - k));
     sl_free(context, order);
     return status;
 }
 
 // --- the result
 
-/// The duals of a proof are for costs as they are, not divided: below the largest cost, times 2^31.
-static void add_nodes(sl_cover_proof *proof, const piece *its, uint32_t divisor, uint32_t part,
-                      uint32_t first) {
-    const sli_cover_part *p = &its->part;
+/// Puts a part's tree into a proof as that of `part`, the rest of its nodes from `first` on. The
+/// duals of a proof are for costs as they are, not divided: below the largest cost, times 2^31.
+/// `columns`: the names of the part's; NULL: they keep their numbers.
+static void add_nodes(sl_cover_proof *proof, const sli_cover_part *p, const uint32_t *columns,
+                      uint32_t divisor, uint32_t part, uint32_t first) {
     const uint32_t count = (uint32_t)p->nodes.count;
     for (uint32_t i = 0; i < count; i++) {
         // The root, last in the part, is in front; the others follow, turned round.
@@ -364,7 +363,7 @@ static void add_nodes(sl_cover_proof *proof, const piece *its, uint32_t divisor,
         for (int k = 0; k < 2; k++)
             if (node.children[k] != UINT32_MAX)
                 node.children[k] = first + count - 2 - node.children[k];
-        if (node.column != UINT32_MAX) node.column = its->columns[node.column];
+        if (node.column != UINT32_MAX && columns) node.column = columns[node.column];
         if (node.duals != SIZE_MAX) node.duals += proof->dual_count;
         proof->nodes[i == count - 1 ? part : first + count - 2 - i] = node;
     }
@@ -373,27 +372,65 @@ static void add_nodes(sl_cover_proof *proof, const piece *its, uint32_t divisor,
     proof->dual_count += p->duals.count;
 }
 
-/// Parts with trees come first, then those that are split, which go to the proof.
+static sl_status make_room(sl_context *context, sl_cover_proof *proof, size_t nodes, size_t duals) {
+    proof->node_count = (uint32_t)nodes;
+    proof->nodes = sl_alloc_array(context, nodes, sizeof *proof->nodes);
+    proof->duals = sl_alloc_array(context, duals, sizeof *proof->duals);
+    return proof->nodes && proof->duals ? SL_OK : SL_NO_MEMORY;
+}
+
+/// How a part is proven: parts come in this order.
+typedef enum how { BY_TREE, BY_SPLIT, BY_CUTS, HOWS } how;
+
+static how how_of(const piece *p) {
+    return p->split.row_count ? BY_SPLIT : p->part.cuts.ends.count ? BY_CUTS : BY_TREE;
+}
+
+/// Moves cuts to the proof, with the tree that is for them.
+static sl_status move_cuts(sl_context *context, sli_cover_part *p, sl_cover_cuts *out) {
+    *out = (sl_cover_cuts){p->cover->rows, (uint32_t)p->cuts.ends.count, p->cuts.ends.items,
+                           p->cuts.rows.items, NULL};
+    p->cuts.ends.items = NULL;
+    p->cuts.rows.items = NULL;
+    out->rest = sl_alloc_array(context, 1, sizeof *out->rest);
+    if (!out->rest) return SL_NO_MEMORY;
+    out->rest->denominator = p->denominator;
+    out->rest->part_count = 1;
+    out->rest->row_count = p->cuts.cover.rows;
+    out->rest->parts = sl_alloc_array(context, out->rest->row_count, sizeof *out->rest->parts);
+    if (!out->rest->parts) return SL_NO_MEMORY;
+    SL_TRY(make_room(context, out->rest, p->nodes.count, p->duals.count));
+    out->rest->dual_count = 0;
+    add_nodes(out->rest, p, NULL, 1, 0, 1);
+    return SL_OK;
+}
+
+/// Numbers the parts, and moves splits and cuts to the proof.
 static sl_status number_parts(sl_context *context, solver *s, sl_cover_proof *proof) {
     uint32_t *numbers = sl_alloc_array(context, s->piece_count, sizeof *numbers);
-    uint32_t trees = 0, splits = 0;
-    for (uint32_t k = 0; k < s->piece_count; k++) trees += !s->pieces[k].split.row_count;
-    proof->splits = sl_alloc_array(context, s->piece_count - trees, sizeof *proof->splits);
-    const bool room = numbers && proof->splits;
-    proof->part_count = trees;
-    for (uint32_t k = 0; room && k < s->piece_count; k++) {
-        sl_cover_split *split = &s->pieces[k].split;
-        numbers[k] = split->row_count ? trees + splits : k - splits;
-        if (!split->row_count) continue;
-        proof->splits[splits++] = *split;
-        proof->split_count = splits;
-        split->blocks = split->costs = NULL;
-        split->rest = NULL;
+    uint32_t counts[HOWS] = {0}, next[HOWS] = {0};
+    for (uint32_t k = 0; k < s->piece_count; k++) counts[how_of(&s->pieces[k])]++;
+    proof->splits = sl_alloc_array(context, counts[BY_SPLIT], sizeof *proof->splits);
+    proof->raised = sl_alloc_array(context, counts[BY_CUTS], sizeof *proof->raised);
+    sl_status status = numbers && proof->splits && proof->raised ? SL_OK : SL_NO_MEMORY;
+    proof->part_count = counts[BY_TREE];
+    next[BY_SPLIT] = counts[BY_TREE];
+    next[BY_CUTS] = counts[BY_TREE] + counts[BY_SPLIT];
+    for (uint32_t k = 0; status == SL_OK && k < s->piece_count; k++) {
+        piece *p = &s->pieces[k];
+        const how by = how_of(p);
+        numbers[k] = next[by]++;
+        if (by == BY_CUTS)
+            status = move_cuts(context, &p->part, &proof->raised[proof->raised_count++]);
+        if (by != BY_SPLIT) continue;
+        proof->splits[proof->split_count++] = p->split;
+        p->split.blocks = p->split.costs = NULL;
+        p->split.rest = NULL;
     }
-    for (uint32_t r = 0; room && r < s->cover.rows; r++)
+    for (uint32_t r = 0; status == SL_OK && r < s->cover.rows; r++)
         if (s->left.row_there[r]) s->parts[r] = numbers[s->parts[r]];
     sl_free(context, numbers);
-    return room ? SL_OK : SL_NO_MEMORY;
+    return status;
 }
 
 static sl_status fill_proof(sl_context *context, solver *s, uint32_t divisor,
@@ -401,26 +438,24 @@ static sl_status fill_proof(sl_context *context, solver *s, uint32_t divisor,
     size_t nodes = 0, duals = 0;
     SL_TRY(number_parts(context, s, proof));
     for (uint32_t k = 0; k < s->piece_count; k++) {
-        if (s->pieces[k].split.row_count) continue;
+        if (how_of(&s->pieces[k]) != BY_TREE) continue;
         nodes += s->pieces[k].part.nodes.count;
         duals += s->pieces[k].part.duals.count;
     }
     proof->denominator = s->denominator;
     proof->row_count = s->cover.rows;
-    proof->node_count = (uint32_t)nodes;
     proof->step_count = (uint32_t)s->left.steps.count;
     proof->steps = s->left.steps.items;
     s->left.steps.items = NULL;
     proof->parts = s->parts;
     s->parts = NULL;
-    proof->nodes = sl_alloc_array(context, nodes, sizeof *proof->nodes);
-    proof->duals = sl_alloc_array(context, duals, sizeof *proof->duals);
-    if (!proof->nodes || !proof->duals) return SL_NO_MEMORY;
+    SL_TRY(make_room(context, proof, nodes, duals));
     uint32_t first = proof->part_count, part = 0;
     for (uint32_t k = 0; k < s->piece_count; k++) {
-        if (s->pieces[k].split.row_count) continue;
-        add_nodes(proof, &s->pieces[k], divisor, part++, first);
-        first += (uint32_t)s->pieces[k].part.nodes.count - 1;
+        const piece *p = &s->pieces[k];
+        if (how_of(p) != BY_TREE) continue;
+        add_nodes(proof, &p->part, p->columns, divisor, part++, first);
+        first += (uint32_t)p->part.nodes.count - 1;
     }
     return SL_OK;
 }
@@ -463,7 +498,9 @@ static sl_status prepare(sl_context *context, const sl_cover_problem *problem, u
                          solver *s) {
     SL_TRY(sli_cover_read(context, problem, divisor, &s->cover));
     SL_TRY(check_rows(context, &s->cover));
-    SL_TRY(choose_denominator(context, &s->cover, &s->denominator));
+    s->denominator = sli_cover_denominator(&s->cover);
+    if (!s->denominator)
+        return sl_fail(context, SL_UNSUPPORTED, "costs too large for sums in 64 bits");
     SL_TRY(sli_cover_reduce(context, &s->cover, &s->left));
     s->step_cost = sli_cover_cost(&s->cover, s->left.taken);
     s->parts = sl_alloc_array(context, s->cover.rows, sizeof *s->parts);

@@ -51,7 +51,8 @@ extern "C" {
 /// (`sightline_proof`, `walls`, `walls_sum`), the bounds (`lower`, `upper`), points (`viewpoints`,
 /// `witnesses`), `columns` of numbers of witnesses, the parts of an sl_cover_proof (`denominator`,
 /// `steps`, `part_count`, `parts`, `nodes`, `duals`; null for none; where parts are split,
-/// `splits`, each with `unit`, `blocks`, `costs` and the same parts for its copies), and `program`:
+/// `splits`, each with `unit`, `blocks`, `costs` and the same parts for its copies; where they have
+/// cuts, `raised`, each with `rows`, `cuts` and the same parts for rows and cuts), and `program`:
 /// the integer program of the columns in CPLEX' LP format, which the reader passes over.
 SL_API sl_status sl_place_proof_write(sl_context *context, sl_query *query,
                                       const sl_placement *placement, const char *path);

@@ -31,6 +31,7 @@ typedef struct sl_cover_problem {
 } sl_cover_problem;
 
 /// A solver of linear programs, for bounds and for guiding the search. Rounded: nobody trusts it.
+/// In its problems, a row that repeats in a column is a coefficient: 2 where it is there twice.
 typedef struct sl_cover_program {
     const char *name, *what;
     /// The relaxation of a problem, each column taken 0 to 1 times: duals by row (any sign), values
@@ -43,21 +44,25 @@ typedef struct sl_cover_program {
     sl_status (*branch)(sl_context *context, const sl_cover_problem *problem, uint64_t nodes,
                         uint32_t *columns, uint32_t *count);
     /// The same relaxation again and again, while columns are taken and left: each run goes on from
-    /// the basis of the one before. The problem stays where it is until `end`. May be NULL, all
-    /// three.
+    /// the basis of the one before. The problem stays where it is until `end` or `change`. May be
+    /// NULL, all three.
     sl_status (*begin)(sl_context *context, const sl_cover_problem *problem, void **state);
     /// `fixed` by column: 0 free, 1 not taken, 2 taken. Ends early where the bound passes `enough`;
     /// then duals are right, and values are not. `enough` 0: it does not.
     sl_status (*again)(sl_context *context, void *state, const uint8_t *fixed, uint64_t work,
                        double enough, double *duals, double *values);
     void (*end)(sl_context *context, void *state);
+    /// Goes on with another problem: the same columns, the rows that are not `gone` (by row of the
+    /// one before), then others. May be NULL.
+    sl_status (*change)(sl_context *context, void *state, const sl_cover_problem *problem,
+                        const bool *gone);
 } sl_cover_program;
 
 /// What to do, and how much of it. sl_cover_options_default() has the usual values.
 typedef struct sl_cover_options {
     const sl_cover_program *program; ///< NULL: Lagrangian bounds alone
-    /// Of the branching trees, at most; 0: no tree. In a part of more than 1,024 entries, a node
-    /// counts for one more for each 1,024.
+    /// Of the branching trees, at most; 0: no tree. In a part of more than 512 entries, a node
+    /// counts for one more for each 512.
     uint64_t nodes;
     uint64_t iterations;   ///< of the local search and of the Lagrangian search, at most
     uint64_t known_lower;  ///< a bound that the caller has from elsewhere; 0 for none
@@ -65,9 +70,10 @@ typedef struct sl_cover_options {
     uint32_t start_count;
     bool at_once; ///< a tree is grown for the best set at once, not bound by bound: all or nothing
     uint32_t splits; ///< how often a part that its tree leaves open is split; 0: never
+    uint32_t cuts;   ///< rounds of cuts for a part at most, before its tree; 0: none
 } sl_cover_options;
 
-/// No program; 10,000 nodes and 50,000 iterations.
+/// No program; 10,000 nodes, 50,000 iterations, 60 rounds of cuts.
 SL_API sl_cover_options sl_cover_options_default(void);
 
 /// A step that makes a problem smaller and keeps its least cost. Steps are taken one after the
@@ -111,7 +117,8 @@ typedef struct sl_cover_node {
 /// a child that is not there, the bound is that of its node, and more by what is lost by taking the
 /// column, max(0, cost - sum), or by not taking it, max(0, sum - cost).
 ///
-/// A part may be split in place of a tree (sl_cover_split).
+/// A part may be split in place of a tree (sl_cover_split), or its tree be for more rows
+/// (sl_cover_cuts).
 typedef struct sl_cover_proof {
     uint64_t denominator; ///< of all duals; at least 1
     uint32_t row_count, step_count, part_count, node_count;
@@ -122,6 +129,8 @@ typedef struct sl_cover_proof {
     uint64_t *duals;
     uint32_t split_count;
     struct sl_cover_split *splits; ///< of the parts from part_count on
+    uint32_t raised_count;
+    struct sl_cover_cuts *raised; ///< of the parts behind those
 } sl_cover_proof;
 
 /// A part whose rows are in blocks. Each of its columns has a copy for each block that it has rows
@@ -137,6 +146,19 @@ typedef struct sl_cover_split {
     uint32_t *costs;      ///< by copy, each 1 or more, column by column
     sl_cover_proof *rest; ///< for the copies: it splits nothing
 } sl_cover_split;
+
+/// A part with cuts: rows that follow from others, since sets take columns whole (Chvatal 1973). A
+/// cut is half the sum of some rows, of the part or cuts before it, each coefficient and the demand
+/// rounded up, and no coefficient above the demand. A set of the part fulfils all of them. So the
+/// bound that `rest` proves for the part's rows and then the cuts is one for the part. In units of
+/// the greatest common divisor of all costs.
+typedef struct sl_cover_cuts {
+    uint32_t row_count; ///< of the part
+    uint32_t cut_count;
+    size_t *ends;   ///< by cut: the number of its and all earlier rows
+    uint32_t *rows; ///< of a cut, ascending: rows of the part in their order, behind them cuts
+    sl_cover_proof *rest; ///< one part, without steps; numbers of columns are those in the part
+} sl_cover_cuts;
 
 /// Zeroed, it is empty.
 typedef struct sl_cover_result {
