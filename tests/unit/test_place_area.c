@@ -158,6 +158,31 @@ static void test_most(void **state) {
     }
 }
 
+/// So many places that they see everything are proven best, whatever sums of areas are rounded to;
+/// one place alone sees less than the bound.
+static void test_most_is_all(void **state) {
+    (void)state;
+    uint32_t all = 0;
+    for (unsigned k = 0; k < 12; k++) {
+        scene s;
+        begin(&s, k % 2 ? PLAN : TURNED, 400 + k, (sl_viewpoint){.fov = 360});
+        sl_area_placement placed = place(&s);
+        const bool sees_all = !placed.blind_count;
+        sl_area_placement_destroy(s.context, &placed);
+        s.area.count = PLACES;
+        placed = place(&s);
+        if (sees_all) assert_true(placed.seen == placed.seen_most);
+        all += sees_all;
+        sl_area_placement_destroy(s.context, &placed);
+        s.area.count = 1;
+        placed = place(&s);
+        assert_true(placed.seen < placed.seen_most);
+        sl_area_placement_destroy(s.context, &placed);
+        end(&s);
+    }
+    assert_true(all > 0);
+}
+
 /// The area that is seen within a box: pieces cut by its sides one after the other.
 static double area_within(const sl_coverage *coverage, const sl_point box[4]) {
     const sl_space *pieces = &coverage->overlay.pieces;
@@ -404,6 +429,7 @@ int main(void) {
         cmocka_unit_test(test_demands_and_fixed),
         cmocka_unit_test(test_zone),
         cmocka_unit_test(test_most),
+        cmocka_unit_test(test_most_is_all),
         cmocka_unit_test(test_weights),
         cmocka_unit_test(test_network),
         cmocka_unit_test(test_blind),

@@ -131,6 +131,64 @@ static void circles_that_touch(void **state) {
     end(&s);
 }
 
+/// What the check says of the one witness (4, 4) in an empty square, which two places see and
+/// nobody sees all around: their borders lie along the axes.
+static sl_place_area_verdict one_witness(double x, double y, double heading, uint32_t cover) {
+    scene s;
+    begin(&s, "open 0 0 8 0 8 8 0 8\n", 1, (sl_viewpoint){.fov = 90});
+    s.places[0] = (sl_viewpoint){.at = {2, 4}, .heading = 45, .fov = 90};
+    s.places[1] = (sl_viewpoint){.at = {x, y}, .heading = heading, .fov = 90};
+    s.area.place_count = 2;
+    s.area.cover = cover;
+    size_t ends[] = {1, 2};
+    uint32_t entries[] = {0, 0}, demands[] = {cover}, chosen[] = {0, 1};
+    sl_point witness = {4, 4};
+    const sl_cover_problem columns = {
+        .row_count = 1, .column_count = 2, .ends = ends, .entries = entries, .demands = demands};
+    sl_cover_result result;
+    assert_ok(s.context, sl_cover_solve(s.context, &columns, NULL, &result));
+    const sl_area_placement claim = {.chosen = chosen,
+                                     .count = 2,
+                                     .witnesses = &witness,
+                                     .columns = columns,
+                                     .proof = result.proof};
+    const sl_place_area_verdict v = check(&s, &claim);
+    sl_cover_result_destroy(s.context, &result);
+    end(&s);
+    return v;
+}
+
+/// A witness counts as often as places see one sector there.
+static void witnesses_on_borders(void **state) {
+    (void)state;
+    for (uint32_t cover = 1; cover <= 2; cover++) {
+        // Both see the sector above and to the left.
+        const sl_place_area_verdict both = one_witness(4, 2, 135, cover);
+        assert_int_equal(both.weak, UINT32_MAX);
+        assert_int_equal(both.lower, cover);
+        // One sees what is above, one what is below.
+        const sl_place_area_verdict apart = one_witness(6, 4, 225, cover);
+        assert_int_equal(apart.weak, cover == 1 ? UINT32_MAX : 0);
+        assert_int_equal(apart.lower, cover == 1);
+    }
+}
+
+/// Four headings at corners of a plan along the axes, as planners choose them.
+static void cones_along_walls(void **state) {
+    (void)state;
+    static const sl_point at[] = {{3, 3}, {5, 5}, {7, 2}};
+    scene s;
+    begin(&s, PLAN, 1, (sl_viewpoint){.fov = 90});
+    for (int i = 0; i < PLACES; i++) {
+        s.places[i].at = at[i / 4];
+        s.places[i].heading = 45 + 90 * (i % 4);
+    }
+    sl_area_placement placed = place(&s);
+    confirm(&s, &placed);
+    sl_area_placement_destroy(s.context, &placed);
+    end(&s);
+}
+
 static char *print(scene *s, const sl_area_placement *placed, size_t *size) {
     char *text = NULL;
     FILE *stream = open_memstream(&text, size);
@@ -246,6 +304,8 @@ int main(void) {
         cmocka_unit_test(points_confirm_the_check),
         cmocka_unit_test(zones_are_what_is_to_be_seen),
         cmocka_unit_test(circles_that_touch),
+        cmocka_unit_test(witnesses_on_borders),
+        cmocka_unit_test(cones_along_walls),
         cmocka_unit_test(files_keep_it),
         cmocka_unit_test(other_questions_are_refused),
         cmocka_unit_test(no_number_proves_more),

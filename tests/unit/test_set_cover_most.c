@@ -69,6 +69,28 @@ static void covers_the_most(void **state) {
     sl_context_destroy(context);
 }
 
+/// As many columns as it takes cover every row that can be covered: the bound is what they cover,
+/// though weights are no binary fractions. One column alone mostly leaves the bound above it.
+static void covers_all(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    sl_random random = {23};
+    const uint64_t seeds = testing_seeds(300);
+    uint64_t less = 0;
+    for (uint64_t i = 0; i < seeds; i++) {
+        cover_small(&p, &random);
+        for (uint32_t r = 0; r < p.problem.row_count; r++)
+            weights[r] = 0.1 * (double)(1 + sl_random_below(&random, 5));
+        double covered, bound;
+        check(context, NULL, p.problem.column_count, &covered, &bound);
+        assert_true(covered == bound);
+        check(context, NULL, 1, &covered, &bound);
+        less += covered < bound;
+    }
+    assert_true(less * 2 > seeds);
+    sl_context_destroy(context);
+}
+
 /// Whole weights bring a whole bound; weights far from 1 change nothing.
 static void scales(void **state) {
     (void)state;
@@ -141,6 +163,7 @@ static void survives_lack_of_memory(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(covers_the_most),
+        cmocka_unit_test(covers_all),
         cmocka_unit_test(scales),
         cmocka_unit_test(goes_to_the_ends),
         cmocka_unit_test(survives_lack_of_memory),

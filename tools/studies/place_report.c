@@ -83,7 +83,7 @@ void camera_work_add_json(json_fields *f, const camera_work *w) {
     add_cost(f, "lower", w, p->lower);
     add_cost(f, "upper", w, p->upper);
     if (w->task.count) {
-        json_add_flag(f, "optimal", p->seen >= p->seen_most * (1 - 1e-9));
+        json_add_flag(f, "optimal", p->seen == p->seen_most);
         json_add_real(f,
                       walls        ? "scanned_length_bound"
                       : w->weights ? "seen_worth_bound"

@@ -18,7 +18,8 @@
 enum { WITNESSES_MOST = 300 };
 /// How far a witness is from a corner of its piece, as a share of the way to the middle.
 #define CORNER_STEP 0x1p-6
-/// The width of rounding, as a share of the largest coordinate: some times that of an overlay.
+/// Pieces up to this wide, on average, are rounding: a share of the largest coordinate, some times
+/// that of an overlay.
 #define THIN 0x1p-44
 
 typedef struct unseen {
@@ -33,7 +34,6 @@ typedef struct checker {
     bool *blind; ///< by piece
     SL_ARRAY(unseen) unseen;
     SL_ARRAY(sl_point) cut, spare; ///< scratch
-    double thin;                   ///< pieces up to this wide, on average, are rounding
     uint32_t added;
 } checker;
 
@@ -56,15 +56,15 @@ static int compare_unseen(const void *left, const void *right) {
     return a->piece < b->piece ? -1 : 1;
 }
 
-static const sl_point *corners_of(const checker *c, uint32_t piece, uint32_t *count) {
-    const sl_cell *cell = &c->overlay.pieces.cells[piece];
+static const sl_point *corners_of(const sl_overlay *overlay, uint32_t piece, uint32_t *count) {
+    const sl_cell *cell = &overlay->pieces.cells[piece];
     *count = cell->vertex_count;
-    return &c->overlay.pieces.vertices[cell->first_vertex];
+    return &overlay->pieces.vertices[cell->first_vertex];
 }
 
-static sl_box box_of(const checker *c, uint32_t piece) {
+static sl_box box_of(const sl_overlay *overlay, uint32_t piece) {
     uint32_t count;
-    const sl_point *p = corners_of(c, piece, &count);
+    const sl_point *p = corners_of(overlay, piece, &count);
     sl_box box = {p[0], p[0]};
     for (uint32_t i = 1; i < count; i++) {
         box.min = (sl_point){fmin(box.min.x, p[i].x), fmin(box.min.y, p[i].y)};
@@ -74,22 +74,34 @@ static sl_box box_of(const checker *c, uint32_t piece) {
 }
 
 /// The area up to which a piece is rounding.
-static double rounding_of(const checker *c, uint32_t piece) {
-    const sl_box box = box_of(c, piece);
-    return c->thin * (box.max.x - box.min.x + box.max.y - box.min.y);
+static double rounding_of(const sl_overlay *overlay, uint32_t piece) {
+    const sl_box box = box_of(overlay, piece), *all = &overlay->pieces.bounds;
+    const double largest =
+        fmax(fmax(fabs(all->min.x), fabs(all->max.x)), fmax(fabs(all->min.y), fabs(all->max.y)));
+    return THIN * largest * (box.max.x - box.min.x + box.max.y - box.min.y);
+}
+
+/// Whether fewer than `cover` shapes cover a piece of the area.
+static bool is_uncovered(const sl_overlay *overlay, uint32_t piece, uint32_t cover) {
+    return overlay->pieces.cells[piece].inside && overlay->counts[piece] < cover;
+}
+
+bool sli_area_is_covered(const sl_overlay *overlay) {
+    for (uint32_t i = 0; i < overlay->pieces.cell_count; i++)
+        if (is_uncovered(overlay, i, 1) &&
+            sl_space_area(&overlay->pieces, i) > rounding_of(overlay, i))
+            return false;
+    return true;
 }
 
 /// The pieces that too few places cover, the largest first, but for those that are rounding.
 static sl_status list_unseen(checker *c) {
     const sl_space *pieces = &c->overlay.pieces;
     double rounding = 0;
-    const sl_box *b = &pieces->bounds;
-    c->thin =
-        THIN * fmax(fmax(fabs(b->min.x), fabs(b->max.x)), fmax(fabs(b->min.y), fabs(b->max.y)));
     for (uint32_t i = 0; i < pieces->cell_count; i++) {
-        if (!pieces->cells[i].inside || c->overlay.counts[i] >= c->a->cover) continue;
+        if (!is_uncovered(&c->overlay, i, c->a->cover)) continue;
         const double area = sl_space_area(pieces, i);
-        if (area <= rounding_of(c, i)) {
+        if (area <= rounding_of(&c->overlay, i)) {
             rounding += area;
             continue;
         }
@@ -105,7 +117,7 @@ static sl_status list_unseen(checker *c) {
 /// A point of a piece: the middle, then close to each corner.
 static sl_point point_in(const checker *c, uint32_t piece, uint32_t number) {
     uint32_t count;
-    const sl_point *corners = corners_of(c, piece, &count);
+    const sl_point *corners = corners_of(&c->overlay, piece, &count);
     const sl_point middle = sli_piece_middle(&c->overlay.pieces, piece);
     if (!number) return middle;
     const sl_point corner = corners[number - 1];
@@ -179,7 +191,7 @@ static sl_status cut_by(checker *c, sl_point from, sl_point to) {
 /// The area that a shape and a piece have in common, rounded.
 static sl_status common_area(checker *c, const sl_shape *shape, uint32_t piece, double *area) {
     uint32_t count;
-    const sl_point *corners = corners_of(c, piece, &count);
+    const sl_point *corners = corners_of(&c->overlay, piece, &count);
     size_t first = 0;
     *area = 0;
     for (size_t l = 0; l < shape->count; first = shape->ends[l++]) {
@@ -201,7 +213,7 @@ static sl_status common_area(checker *c, const sl_shape *shape, uint32_t piece, 
 static sl_status try_common(checker *c, const sl_shape *shape, uint32_t piece, bool *added) {
     uint32_t count;
     sl_shape within = {.count = 1};
-    within.points = corners_of(c, piece, &count);
+    within.points = corners_of(&c->overlay, piece, &count);
     const size_t end = count;
     within.ends = &end;
     sl_overlay common = {0};
@@ -233,14 +245,14 @@ static bool boxes_meet(const sl_box *a, const sl_box *b) {
 
 /// Looks for a place that sees a part of a piece.
 static sl_status search_piece(checker *c, uint32_t piece) {
-    const sl_box box = box_of(c, piece);
+    const sl_box box = box_of(&c->overlay, piece);
     bool added = false;
     for (uint32_t i = 0; i < c->a->task->place_count && !added; i++) {
         if (c->chosen[i] || !boxes_meet(&box, &c->a->boxes[i])) continue;
         const sl_shape shape = sli_view_shape(&c->a->shapes, i + 1);
         double area;
         SL_TRY(common_area(c, &shape, piece, &area));
-        if (area > rounding_of(c, piece)) SL_TRY(try_common(c, &shape, piece, &added));
+        if (area > rounding_of(&c->overlay, piece)) SL_TRY(try_common(c, &shape, piece, &added));
     }
     return SL_OK;
 }

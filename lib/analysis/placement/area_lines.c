@@ -142,7 +142,7 @@ static sl_status add_lines(liner *l) {
     if (!out->line_lengths) return SL_NO_MEMORY;
     double length = 0;
     for (l->line = 0; l->line < a->task->line_count; l->line++) {
-        sl_report(a->context, "place", "lines", l->line, a->task->line_count);
+        sl_report(a->context, "views", "lines", l->line, a->task->line_count);
         SL_TRY(add_line(l));
         const double weight = a->task->line_weights ? a->task->line_weights[l->line] : 1;
         length += weight * out->line_lengths[l->line];

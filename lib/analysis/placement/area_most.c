@@ -185,14 +185,18 @@ static uint32_t zones_of(const sli_area *a) {
 }
 
 /// What an area that is seen is worth: in all zones, by `shapes`; or without them, all of it.
-static sl_status add_up(const counter *k, const sl_shape *shapes, uint32_t count, double *worth) {
+/// *whole: nothing of it is unseen.
+static sl_status add_up(const counter *k, const sl_shape *shapes, uint32_t count, double *worth,
+                        bool *whole) {
     const sli_area *a = k->a;
     *worth = 0;
+    *whole = true;
     for (uint32_t z = 0; z < zones_of(a); z++) {
         sl_overlay overlay;
         if (!k->zones[z].count) continue;
         SL_TRY(sl_overlay_make(a->context, &k->zones[z], shapes, count, &overlay));
         *worth += (a->task->zone_count ? a->task->weights[z] : 1) * overlay.areas[count ? 1 : 0];
+        *whole &= sli_area_is_covered(&overlay);
         sl_overlay_destroy(a->context, &overlay);
     }
     return SL_OK;
@@ -212,7 +216,8 @@ static sl_status measure_zones(counter *k) {
         }
         k->shares.count = 0;
     }
-    SL_TRY(add_up(k, NULL, 0, &a->out->area));
+    bool whole;
+    SL_TRY(add_up(k, NULL, 0, &a->out->area, &whole));
     k->bound = a->out->area;
     return a->out->area > 0 ? SL_OK
                             : sl_fail(a->context, SL_BAD_ARGUMENT, "no zone is to be seen inside");
@@ -313,7 +318,9 @@ static sl_status keep(counter *k, const uint8_t *now) {
         shapes[out->count] = sli_view_shape(&a->shapes, i + 1);
         chosen[out->count++] = i;
     }
-    const sl_status status = out->count ? add_up(k, shapes, out->count, &out->seen) : SL_OK;
+    bool whole = false;
+    const sl_status status = out->count ? add_up(k, shapes, out->count, &out->seen, &whole) : SL_OK;
+    if (whole) out->seen = out->area;
     sl_free(a->context, shapes);
     out->lower = out->upper = out->count;
     return status;

@@ -2,8 +2,9 @@
 /// them. It trusts the map, and the places and the area that are asked about; nothing of the claim.
 ///
 /// Lower bound: who sees a witness is asked of an eye at each place (proof_sight.h). Witnesses are
-/// where as many places as they demand see all around them. So whoever sees all that the places can
-/// see, sees them. The set cover that comes of it is bounded in whole numbers (sl_cover_check).
+/// where as many places as they demand see all around them, or all of a sector there
+/// (area_proof_sector.c). So whoever sees all that the places can see, sees them. The set cover
+/// that comes of it is bounded in whole numbers (sl_cover_check).
 ///
 /// Upper bound: as in proof_check.c, each corner of the arrangement is looked at in all directions.
 /// What chosen places leave falls into faces of the arrangement. Borders of cells count as lines,
@@ -307,14 +308,32 @@ static sl_status check_places(checker *c) {
     return status;
 }
 
+/// At least how many places see one sector at a witness, of those in its row and the fixed ones.
+static sl_status find_sector(checker *c, uint32_t witness, uint32_t *most) {
+    uint32_t *which = sl_alloc_array(c->context, c->area->place_count, sizeof *which), count = 0;
+    if (!which) return SL_NO_MEMORY;
+    for (uint32_t i = 0; i < c->area->place_count; i++) {
+        bool sees = c->fixed[i];
+        for (size_t k = i ? c->ends.items[i - 1] : 0; k < c->ends.items[i] && !sees; k++)
+            sees = c->entries.items[k] == witness;
+        if (sees) which[count++] = i;
+    }
+    const sl_status status =
+        sli_area_proof_sector(c->context, c->query, &c->scene, c->area->places, which, count,
+                              c->claim->witnesses[witness], most);
+    sl_free(c->context, which);
+    return status;
+}
+
 static sl_status check_lower(checker *c) {
     const sl_area_placement *claim = c->claim;
     uint64_t fixed = 0, rest = 0;
     for (uint32_t w = 0; w < claim->proof.row_count; w++) {
         const uint32_t demand = claim->columns.demands[w];
         if (!demand) continue;
-        const uint64_t most = c->sure[w] < c->cover ? c->sure[w] : c->cover;
-        if ((uint64_t)demand + c->held[w] <= most &&
+        const uint64_t least = (uint64_t)demand + c->held[w];
+        if (c->sure[w] < least && least <= c->cover) SL_TRY(find_sector(c, w, &c->sure[w]));
+        if (least <= c->sure[w] && least <= c->cover &&
             sli_outline_holds(&c->scene, c->area->see, claim->witnesses[w]))
             continue;
         c->out->weak = w;

@@ -30,6 +30,7 @@ typedef struct most {
     ranked *order;
     int64_t *worths; ///< by column
     uint8_t *taken;
+    uint32_t left; ///< rows of weight that `taken` does not cover, and others would
 } most;
 
 static int compare_ranks(const void *left, const void *right) {
@@ -123,7 +124,10 @@ static double weigh(most *m) {
         uint32_t times = 0;
         for (size_t k = c->row_first[r]; k < c->row_first[r + 1]; k++)
             times += m->taken[c->row_columns[k]];
-        if (times >= c->demands[r]) covered += m->weights[r];
+        if (times >= c->demands[r])
+            covered += m->weights[r];
+        else if (m->weights[r] > 0 && c->row_first[r + 1] - c->row_first[r] >= c->demands[r])
+            m->left++;
     }
     return covered;
 }
@@ -218,7 +222,7 @@ sl_status sl_cover_most(sl_context *context, const sl_cover_problem *problem, co
         if (kept == SL_OK) {
             const double most_weight = whole ? floor(prove(&m)) : prove(&m);
             *covered = seen;
-            *bound = fmax(most_weight, seen);
+            *bound = m.left ? fmax(most_weight, seen) : seen;
         } else {
             status = kept;
         }

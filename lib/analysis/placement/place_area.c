@@ -31,9 +31,8 @@ enum { SEARCHES = 8 };
 enum {
     ROUNDS = 400,
     COARSE_ITERATIONS = 20000,
-    FINE_ITERATIONS = 1000000,
+    LONG_ITERATIONS = 1000000,
     SEARCH_ITERATIONS = 20000,
-    LONG_ITERATIONS = 200000,
     SEARCH_LEAST = 300
 };
 /// Entries that a local search may touch, about.
@@ -174,7 +173,7 @@ sl_status sli_area_begin(sli_area *a) {
     for (uint32_t i = 0; i < count; i++) {
         if (i % 64 == 0) {
             SL_TRY(sl_check_cancelled(a->context));
-            sl_report(a->context, "place", "places", i, count);
+            sl_report(a->context, "views", "places", i, count);
         }
         SL_TRY(add_place(a, i));
     }
@@ -227,14 +226,14 @@ static uint64_t fixed_cost(const sli_area *a) {
 
 /// Iterations of the local search: fewer where each costs more, by the rows of a column and the
 /// columns of a row.
-static uint64_t iterations_for(const sli_cover *cover, double most) {
-    const double entries = (double)cover->column_first[cover->columns];
-    const double each = entries * entries / ((double)cover->columns * cover->rows + 1);
-    return (uint64_t)fmax(SEARCH_LEAST, fmin(most, SEARCH_WORK / (each + 1)));
+static uint64_t iterations_for(const sl_cover_problem *p) {
+    const double entries = (double)p->ends[p->column_count - 1];
+    const double each = entries * entries / ((double)p->column_count * p->row_count + 1);
+    return (uint64_t)fmax(SEARCH_LEAST, fmin(SEARCH_ITERATIONS, SEARCH_WORK / (each + 1)));
 }
 
-/// Adds places to `now` until it sees all witnesses, then betters it by so many iterations at most.
-static sl_status take_more(finder *f, uint32_t iterations) {
+/// Adds places to `now` until it sees all witnesses, then betters it, but not at first.
+static sl_status take_more(finder *f, bool at_first) {
     sli_area *a = f->a;
     sl_cover_problem problem = {0};
     sli_cover cover = {0};
@@ -243,10 +242,10 @@ static sl_status take_more(finder *f, uint32_t iterations) {
     if (status == SL_OK) status = sli_cover_read(a->context, &problem, 1, &cover);
     if (status == SL_OK) status = sli_cover_greedy(a->context, &cover, NULL, NULL, f->now);
     const uint64_t fixed = fixed_cost(a);
-    if (status == SL_OK && iterations)
+    if (status == SL_OK && !at_first)
         status =
             sli_cover_search(a->context, &cover, a->out->lower > fixed ? a->out->lower - fixed : 0,
-                             iterations_for(&cover, iterations), f->now);
+                             iterations_for(&problem), f->now);
     for (uint32_t i = 0; i < a->task->place_count; i++) f->now[i] |= a->fixed[i];
     sli_cover_destroy(a->context, &cover);
     sli_area_problem_destroy(a->context, &problem);
@@ -277,28 +276,15 @@ static sl_status fill(finder *f, bool *clean) {
     uint32_t added;
     *clean = true;
     for (int round = 0; round < ROUNDS; round++) {
-        sl_report(f->a->context, "place", "witnesses", f->a->witnesses.count, 0);
+        if (f->complete)
+            sl_report(f->a->context, "place", "viewpoints", f->a->out->lower, f->a->out->upper);
+        else
+            sl_report(f->a->context, "place", "witnesses", f->a->witnesses.count, 0);
         if (f->a->task->network) SL_TRY(sli_network_join(f->a, f->now));
         SL_TRY(sli_area_check(f->a, f->now, &added));
         if (!added) return SL_OK;
         *clean = false;
-        SL_TRY(take_more(f, f->complete ? SEARCH_ITERATIONS : 0));
-    }
-    return SL_OK;
-}
-
-/// Fills `now`, keeps it and betters it, as long as what is better sees everything in the end.
-static sl_status complete(finder *f, bool *clean) {
-    bool again;
-    SL_TRY(fill(f, clean));
-    SL_TRY(keep(f));
-    for (int i = 0; i < SEARCHES; i++) {
-        const uint64_t cost = cost_of(f->a, f->now);
-        SL_TRY(f->a->task->network ? sli_network_search(f->a, f->now)
-                                   : take_more(f, LONG_ITERATIONS));
-        if (cost_of(f->a, f->now) >= cost) return SL_OK;
-        SL_TRY(fill(f, &again));
-        SL_TRY(keep(f));
+        SL_TRY(take_more(f, !f->complete));
     }
     return SL_OK;
 }
@@ -322,15 +308,20 @@ static sl_status keep_proof(sli_area *a, sl_cover_problem *problem, sl_cover_pro
     return SL_OK;
 }
 
-/// The cheapest places that see all witnesses, into `now`, or with `wide` nowhere; betters the
+/// What a set cover is for: a set and a bound; a bound with wide entries; a set, by search alone.
+typedef enum choice { BOTH, WIDE, SETS } choice;
+
+/// The cheapest places that see all witnesses, into `now`, or with WIDE nowhere; betters the
 /// lower bound. Where ranges are not the true ones, they give none.
-static sl_status choose(finder *f, bool wide) {
+static sl_status choose(finder *f, choice what) {
     sli_area *a = f->a;
+    const bool wide = what == WIDE, fine = f->fine && what != SETS;
     const uint64_t fixed = fixed_cost(a);
     sl_cover_options options = sl_cover_options_default();
-    options.program = a->options->program;
-    options.nodes = f->fine ? a->options->nodes : 0;
-    options.iterations = f->fine ? FINE_ITERATIONS : COARSE_ITERATIONS;
+    options.program = what == SETS ? NULL : a->options->program;
+    options.nodes = fine ? a->options->nodes : 0;
+    if (what == SETS) options.iterations = LONG_ITERATIONS;
+    if (what != SETS && !fine) options.iterations = COARSE_ITERATIONS;
     options.known_lower = a->out->lower > fixed ? a->out->lower - fixed : 0;
     sl_cover_problem problem = {0};
     sl_cover_result cover = {0};
@@ -355,6 +346,21 @@ static sl_status choose(finder *f, bool wide) {
     sl_cover_result_destroy(a->context, &cover);
     sli_area_problem_destroy(a->context, &problem);
     return status;
+}
+
+/// Fills `now`, keeps it and betters it, as long as what is better sees everything in the end.
+static sl_status complete(finder *f, bool *clean) {
+    bool again;
+    SL_TRY(fill(f, clean));
+    SL_TRY(keep(f));
+    for (int i = 0; i < SEARCHES; i++) {
+        const uint64_t cost = cost_of(f->a, f->now);
+        SL_TRY(f->a->task->network ? sli_network_search(f->a, f->now) : choose(f, SETS));
+        if (cost_of(f->a, f->now) >= cost) return SL_OK;
+        SL_TRY(fill(f, &again));
+        SL_TRY(keep(f));
+    }
+    return SL_OK;
 }
 
 /// No place sees anything of the area: says where it is, and what could see it.
@@ -402,10 +408,10 @@ static sl_status bound_without_network(finder *f) {
     plain.network = false;
     a->task = &plain;
     for (int round = 0; status == SL_OK && round < ROUNDS && a->out->lower < least; round++) {
-        status = choose(f, false);
+        status = choose(f, BOTH);
         if (status == SL_OK) status = fill(f, &clean);
         if (status == SL_OK && cost_of(a, f->now) < least) least = cost_of(a, f->now);
-        if (status == SL_OK && f->fine && a->wide_count) status = choose(f, true);
+        if (status == SL_OK && f->fine && a->wide_count) status = choose(f, WIDE);
         if (clean && f->fine) break;
         f->fine = true;
     }
@@ -420,20 +426,20 @@ static sl_status find(finder *f) {
     uint32_t rows = 0;
     for (uint32_t i = 0; i < a->task->place_count; i++) f->now[i] = a->fixed[i];
     SL_TRY(add_first_rows(a));
-    SL_TRY(take_more(f, 0));
+    SL_TRY(take_more(f, true));
     SL_TRY(fill(f, &clean));
     SL_TRY(keep(f));
     if (!(a->out->seen > a->negligible)) return refuse_blind(a);
     if (a->task->network) SL_TRY(bound_without_network(f));
     for (a->out->rounds = 1; a->out->rounds < ROUNDS; a->out->rounds++) {
         rows = 0;
-        SL_TRY(choose(f, false));
+        SL_TRY(choose(f, BOTH));
         if (a->out->lower == a->out->upper) break;
         if (a->task->network && !is_stalled(f)) SL_TRY(sli_network_cut(a, f->now, &rows));
         SL_TRY(complete(f, &clean));
         if (a->out->lower == a->out->upper || (clean && !rows && f->fine)) break;
         f->fine = true;
-        if (a->wide_count) SL_TRY(choose(f, true));
+        if (a->wide_count) SL_TRY(choose(f, WIDE));
         if (a->out->lower == a->out->upper) break;
     }
     return SL_OK;

@@ -99,6 +99,8 @@ bool sli_shape_holds(const sl_shape *shape, sl_point at);
 /// Adds witnesses where the chosen places (bytes by place) leave something unseen that others could
 /// see, *added of them. Where there is none, `out` gets what is seen and what is blind.
 sl_status sli_area_check(sli_area *a, const uint8_t *chosen, uint32_t *added);
+/// Whether each piece of an area has a shape over it, but for those that are rounding.
+bool sli_area_is_covered(const sl_overlay *overlay);
 
 // --- walls to scan (area_walls.c)
 

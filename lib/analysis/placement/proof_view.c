@@ -128,10 +128,15 @@ static int place_in_ring(const sli_ring *ring, sl_point eye, const sli_meet *p) 
 
 // --- what it sees
 
-bool sli_proof_view_holds(const sli_proof_view *v, sl_point at, bool strictly) {
+bool sli_proof_view_reaches(const sli_proof_view *v, sl_point at, bool strictly) {
     const sl_point eye = v->eye->at;
     if (v->range > 0 && sli_distance_compare(eye, at, v->range) >= !strictly) return false;
-    if (v->nearest > 0 && sli_distance_compare(eye, at, v->nearest) <= -!strictly) return false;
+    return !(v->nearest > 0 && sli_distance_compare(eye, at, v->nearest) <= -!strictly);
+}
+
+bool sli_proof_view_holds(const sli_proof_view *v, sl_point at, bool strictly) {
+    const sl_point eye = v->eye->at;
+    if (!sli_proof_view_reaches(v, at, strictly)) return false;
     if (v->cone.full) return true;
     const int right = sli_orient(eye, v->cone.right, at), left = -sli_orient(eye, v->cone.left, at);
     const bool one = right >= strictly, two = left >= strictly;

@@ -22,7 +22,8 @@ typedef struct sli_ring {
 
 /// How much a viewpoint is to see.
 typedef enum sli_view_share {
-    SLI_VIEW_BARE,  ///< no polygons: for sli_proof_view_holds() alone
+    SLI_VIEW_BARE,  ///< no polygons: its range and its dead zone are to be asked of
+                    ///< sli_proof_view_reaches() or sli_proof_view_holds()
     SLI_VIEW_WHOLE, ///< all but up to 2e-6 of its range and its dead zone
     SLI_VIEW_LESS,  ///< surely no more than up to 0.9999 of the range, and from 1.0002 of the dead
                     ///< zone; surely up to 0.9995, and from 1.0006
@@ -44,8 +45,10 @@ sl_status sli_proof_view_make(sl_context *context, const sl_query *query,
                               sli_view_share share, sli_proof_view *out);
 void sli_proof_view_destroy(sl_context *context, sli_proof_view *view);
 
-/// Whether a point that the eye sees is within its cone, its true range and out of its dead zone:
-/// borders included, or `strictly`.
+/// Whether a point is within the true range and out of the dead zone: borders included, or
+/// `strictly`.
+bool sli_proof_view_reaches(const sli_proof_view *view, sl_point at, bool strictly);
+/// The same, for a point that the eye sees, and whether it is within the cone.
 bool sli_proof_view_holds(const sli_proof_view *view, sl_point at, bool strictly);
 /// Whether it sees all around a place. False where that is doubtful.
 bool sli_proof_view_sees_around(const sli_proof_scene *scene, const sli_proof_view *view,

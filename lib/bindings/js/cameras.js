@@ -46,7 +46,7 @@ export class Floor extends CoverFloor {
     const numbers = new Uint32Array(core.memory.buffer, chosenAt, chosen)
     return {
       lower, upper, stopped: stopped === 1, area, seen, blindArea,
-      optimal: count ? seen >= seenMost * (1 - 1e-9) : lower === upper,
+      optimal: count ? seen === seenMost : lower === upper,
       ...(count ? { seenMost } : {}),
       viewpoints: Array.from(numbers, (i) => ({ ...all[i] })),
       proof: core.textAt(proofAt),

@@ -67,10 +67,11 @@ typedef struct sl_area_placement {
     uint64_t lower, upper; ///< costs, of fixed places too; with `count`, numbers of places
     uint32_t *chosen;      ///< places, ascending, the fixed ones among them
     uint32_t count;
-    double area;      ///< to be seen
-    double seen;      ///< of it, by at least `cover` of the chosen places
-    double rounding;  ///< of it, of pieces too thin to be decided
-    double seen_most; ///< with `count`: no set of so many places sees more than this area
+    double area;     ///< to be seen
+    double seen;     ///< of it, by at least `cover` of the chosen places
+    double rounding; ///< of it, of pieces too thin to be decided
+    double
+        seen_most; ///< with `count`: no set of so many places sees more; `seen` where that is all
     double blind_area;
     sl_blind_spot *blind; ///< the largest first
     uint32_t blind_count;
@@ -93,7 +94,8 @@ typedef struct sl_area_placement {
 /// place sees anything of it, where no network sees all that places see, and for `count` with
 /// `cover` or `network`. SL_UNSUPPORTED for mirrors and boxes.
 /// Cancelled by the context, it returns SL_CANCELLED with the best set and bounds so far, once it
-/// has a set. Reports stage "place". The same input gives the same bytes.
+/// has a set. Reports stages "views" and "place"; once it has a set, "place" with both bounds. The
+/// same input gives the same bytes.
 SL_API sl_status sl_place_area_cover(sl_context *context, sl_query *query,
                                      const sl_place_area *area, const sl_place_options *options,
                                      sl_area_placement *out);

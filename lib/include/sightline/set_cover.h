@@ -182,7 +182,8 @@ SL_API void sl_cover_result_destroy(sl_context *context,
 SL_API sl_status sl_cover_check(sl_context *context, const sl_cover_problem *problem,
                                 const sl_cover_proof *proof, uint64_t *lower);
 
-/// The most weight that `count` columns can cover, with an upper bound: `weights` by row.
+/// The most weight that `count` columns can cover, with an upper bound: `weights` by row. The bound
+/// is what they cover where they cover every row of weight that can be covered.
 SL_API sl_status sl_cover_most(sl_context *context, const sl_cover_problem *problem,
                                const double *weights, uint32_t count,
                                const sl_cover_options *options, sl_cover_result *out,
