@@ -52,18 +52,11 @@ static double slack_of(const sl_box *bounds, double radius) {
     return 0x1p-40 * (most + radius);
 }
 
-static bool is_upper(const spoke *s) {
-    return s->to.y > s->at.y || (s->to.y == s->at.y && s->to.x > s->at.x);
-}
-
 /// By place, then counter-clockwise.
 static int compare_spokes(const void *first, const void *second) {
     const spoke *a = first, *b = second;
     const int place = sli_compare_points(a->at, b->at);
-    if (place) return place;
-    if (is_upper(a) != is_upper(b)) return is_upper(a) ? -1 : 1;
-    const int turn = sli_orient(a->at, a->to, b->to);
-    return turn ? -turn : sli_compare_points(a->to, b->to);
+    return place ? place : sli_compare_around(a->at, a->to, b->to);
 }
 
 static sl_point left_of(sl_point d) {

@@ -213,20 +213,61 @@ static bool passes_portal(const sl_route_finder *f, const sli_route_node *node) 
            node->entry != f->nodes.items[node->parent].entry;
 }
 
+static sl_status add_portal(sl_context *context, sl_route *route, uint32_t portal) {
+    SL_TRY(sl_reserve(context, &route->portals, &route->portal_room, route->portal_count + 1,
+                      sizeof *route->portals));
+    route->portals[route->portal_count++] = portal;
+    return SL_OK;
+}
+
+/// The directed portal of a cell by which one goes on around a point; NULL: there is none.
+static const sl_directed_portal *next_around(const sl_route_finder *f, uint32_t cell,
+                                             uint32_t portal, sl_point at, int side) {
+    const sl_cell *c = &f->space->cells[cell];
+    for (uint32_t k = 0; k < c->directed_count; k++) {
+        const sl_directed_portal *d = &f->space->directed[c->first_directed + k];
+        if (d->portal != portal && !(sli_route_loss(f, d->portal) > 0) &&
+            sli_same_point(side == SLI_ROUTE_LEFT ? d->left : d->right, at))
+            return d;
+    }
+    return NULL;
+}
+
+/// Adds the portals that lead around a corner from one cell to another one, the last one first.
+static sl_status add_around(sl_context *context, const sl_route_finder *f, uint32_t from,
+                            uint32_t to, sl_point at, sl_route *route) {
+    const size_t count = route->portal_count;
+    for (int side = 0; side < 2; side++) {
+        const sl_directed_portal *d = NULL;
+        for (uint32_t cell = from; cell != to; cell = d->cell) {
+            d = next_around(f, cell, d ? d->portal : SLI_ROUTE_NONE, at, side);
+            if (!d || d->cell == from) break;
+            SL_TRY(add_portal(context, route, d->portal));
+        }
+        if (d && d->cell == to) break;
+        route->portal_count = count;
+    }
+    turn_over(route->portals + count, route->portal_count - count, sizeof *route->portals);
+    return SL_OK;
+}
+
 /// The way to a last node, from its end.
 static sl_status read_way(sl_context *context, const sl_route_finder *f, uint32_t last,
                           sl_point from, sl_point to, sl_route *route) {
-    size_t depth = 0;
-    for (uint32_t i = last; i != SLI_ROUTE_NONE; i = f->nodes.items[i].parent) depth++;
-    SL_TRY(sl_reserve(context, &route->points, &route->room, depth + 2, sizeof *route->points));
-    SL_TRY(sl_reserve(context, &route->portals, &route->portal_room, depth + 1,
-                      sizeof *route->portals));
+    const sli_route_node *nodes = f->nodes.items;
+    SL_TRY(sl_reserve(context, &route->points, &route->room, 2, sizeof *route->points));
     add_point(route, to);
-    for (uint32_t i = last; i != SLI_ROUTE_NONE; i = f->nodes.items[i].parent) {
-        const sli_route_node *node = &f->nodes.items[i];
-        add_point(route, node->root);
-        if (passes_portal(f, node))
-            route->portals[route->portal_count++] = f->space->directed[node->entry].portal;
+    for (uint32_t i = last; i != SLI_ROUTE_NONE; i = nodes[i].parent) {
+        const uint32_t turning = sli_route_turning(f, i);
+        if (nodes[turning].cell != nodes[i].cell)
+            SL_TRY(
+                add_around(context, f, nodes[turning].cell, nodes[i].cell, nodes[i].root, route));
+        i = turning;
+        SL_TRY(sl_reserve(context, &route->points, &route->room, route->count + 2,
+                          sizeof *route->points));
+        add_point(route, nodes[i].root);
+        if (passes_portal(f, &nodes[i]))
+            SL_TRY(add_portal(context, route, f->space->directed[nodes[i].entry].portal));
     }
     if (route->count == 1) route->points[route->count++] = from; // the two points are one
     turn_over(route->points, route->count, sizeof *route->points);

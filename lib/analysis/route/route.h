@@ -38,17 +38,17 @@ typedef struct sli_route_node {
 } sli_route_node;
 
 /// What is known of a corner in one search: the shortest way to it, and by turn the point before
-/// it from which the most directions can be turned to.
+/// it from which the most directions can be turned to, the nearest of those in line.
 typedef struct sli_route_corner {
-    uint32_t stamp; ///< of the search that the rest belongs to
+    uint32_t stamp;   ///< of the search that the rest belongs to
+    uint32_t node[2]; ///< that turns there; SLI_ROUTE_NONE: none
     double g;
-    bool has[2];
     sl_point before[2];
 } sli_route_corner;
 
 /// The last turn at one end of a directed portal.
 typedef struct sli_route_turn {
-    uint32_t stamp;
+    uint32_t stamp, node;
     double g;
     sl_point before;
 } sli_route_turn;
@@ -128,9 +128,14 @@ uint32_t sli_route_stand(sl_route_finder *finder, sl_point point, uint32_t first
 sl_point sli_route_nearest(sl_route_finder *finder, sl_point to);
 
 /// Searches from the cells that are marked. *out is the last node of the shortest way;
-/// SLI_ROUTE_NONE for none.
+/// SLI_ROUTE_NONE for none. Of ways of the same length it is the one whose last corner comes first
+/// around the goal (sli_compare_around).
 sl_status sli_route_search(sl_context *context, sl_route_finder *finder, sl_point from, sl_point to,
                            uint64_t *expanded, uint32_t *out);
+
+/// Of the nodes that turn at the same corner by ways of the same length, the one that comes to it
+/// from the point that is first around it; for a node that does not turn, itself.
+uint32_t sli_route_turning(const sl_route_finder *finder, uint32_t node);
 
 /// Takes a node that goes on straight into its cell.
 typedef sl_status (*sli_route_take)(sl_context *context, const sli_route_node *node, void *user);
