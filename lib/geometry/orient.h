@@ -118,6 +118,18 @@ static inline bool sli_goes_on(sl_point a, sl_point p, sl_point b) {
            (a.x > p.x) == (p.x > b.x) && (a.y < p.y) == (p.y < b.y) && (a.y > p.y) == (p.y > b.y);
 }
 
+/// The order of points around a place, which comes first: counter-clockwise from the direction of
+/// x, the nearest first in each direction. Exact.
+static inline int sli_compare_around(sl_point at, sl_point a, sl_point b) {
+    const bool upper = a.y > at.y || (a.y == at.y && a.x > at.x),
+               other = b.y > at.y || (b.y == at.y && b.x > at.x);
+    if (sli_same_point(a, b)) return 0;
+    if (sli_same_point(a, at) || sli_same_point(b, at)) return sli_same_point(a, at) ? -1 : 1;
+    if (upper != other) return upper ? -1 : 1;
+    const int turn = sli_orient(at, a, b);
+    return turn ? -turn : sli_goes_on(at, a, b) ? -1 : 1;
+}
+
 /// A point finer than doubles: at + rest. `rest` is at most half a unit in the last place of `at`.
 /// Places in mirrored space are sums of coordinates, and so need it.
 typedef struct sli_fine {

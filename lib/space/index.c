@@ -49,6 +49,14 @@ sl_box sli_box_with(sl_box box, sl_point point) {
     return joined(box, (sl_box){point, point});
 }
 
+sl_box sli_box_of_cell(const sl_space *space, uint32_t cell) {
+    const sl_point *corners = space->vertices + space->cells[cell].first_vertex;
+    sl_box box = {corners[0], corners[0]};
+    for (uint32_t i = 1; i < space->cells[cell].vertex_count; i++)
+        box = sli_box_with(box, corners[i]);
+    return box;
+}
+
 // --- the order
 
 typedef struct place {

@@ -42,6 +42,8 @@ typedef struct sli_box_list {
 sl_box sli_box_around(sl_point a, sl_point b);
 /// The box around a box and a point.
 sl_box sli_box_with(sl_box box, sl_point point);
+/// The box around a cell.
+sl_box sli_box_of_cell(const sl_space *space, uint32_t cell);
 
 /// Takes fewer than 2^32 boxes, without NaN, and copies them. Destroy `out` also on failure.
 sl_status sli_box_tree_create(sl_context *context, const sl_box *boxes, size_t count,

@@ -3,6 +3,7 @@
 
 #include "oracle/random_effects.h"
 #include "route_plan.h"
+#include "space/index.h"
 
 // --- by hand
 
@@ -254,6 +255,79 @@ static void test_random_doors(void **state) {
     }
 }
 
+/// Whether the portals of the way lead from one cell with its start to one with its end.
+static bool is_chain(const plan *p, uint32_t cell, sl_point from, sl_point to) {
+    bool joined = sli_cell_holds(&p->space, cell, from);
+    for (size_t i = 0; i < p->route.portal_count; i++) {
+        const uint32_t *ends = p->space.portals[p->route.portals[i]].cell;
+        joined &= ends[0] == cell || ends[1] == cell;
+        cell = ends[ends[0] == cell];
+    }
+    return joined && sli_cell_holds(&p->space, cell, to);
+}
+
+static void check_portals(const plan *p, sl_point from, sl_point to) {
+    bool found = false;
+    for (uint32_t c = 0; c < p->space.cell_count && !found; c++) found = is_chain(p, c, from, to);
+    assert_true(found);
+}
+
+static const sl_subdivision *subdivision(const char *name) {
+    size_t count, i = 0;
+    const sl_subdivision *all = sl_subdivisions(&count);
+    while (i + 1 < count && strcmp(all[i].name, name) != 0) i++;
+    return &all[i];
+}
+
+static bool is_at_pillar(sl_point at) {
+    const double x = fmod(at.x, 6), y = fmod(at.y, 6);
+    return x >= 2 && x <= 4 && y >= 2 && y <= 4;
+}
+
+/// Among pillars that stand in rows, with many ways of the same length, it is the same way in cells
+/// of a kd-tree and of a mesh.
+static void test_pillars(void **state) {
+    (void)state;
+    static const char *const cuts[] = {"kd", "mesh"};
+    char text[4096];
+    plan p[2];
+    size_t used =
+        (size_t)snprintf(text, sizeof text, "sightline 1\nwalls 0 0 30 0 30 30 0 30 0 0\n");
+    for (int i = 0; i < 25; i++) {
+        const int x = 2 + 6 * (i % 5), y = 2 + 6 * (i / 5);
+        used += (size_t)snprintf(text + used, sizeof text - used,
+                                 "walls %d %d %d %d %d %d %d %d %d %d\n", x, y, x + 2, y, x + 2,
+                                 y + 2, x, y + 2, x, y);
+    }
+    for (int k = 0; k < 2; k++) {
+        sl_context *context = testing_context(NULL);
+        p[k] = (plan){.context = context};
+        assert_ok(context, sl_map_parse(context, "pillars", text, strlen(text), NULL, &p[k].map));
+        assert_ok(context, sl_map_clean(context, &p[k].map, NULL, NULL));
+        assert_ok(context, subdivision(cuts[k])->subdivide(context, &p[k].map, NULL, &p[k].space));
+        assert_ok(context, sl_query_over(context, &p[k].space, &p[k].map, NULL, &p[k].query));
+        assert_ok(context, sl_route_finder_create(context, p[k].query, &p[k].finder));
+    }
+    sl_random random = {7};
+    for (int asked = 0; asked < 300;) {
+        sl_point ends[2];
+        for (int k = 0; k < 2; k++)
+            ends[k] = (sl_point){(double)sl_random_below(&random, 31),
+                                 (double)sl_random_below(&random, 31)};
+        if (is_at_pillar(ends[0]) || is_at_pillar(ends[1])) // in which cell may depend on the cut
+            continue;
+        for (int k = 0; k < 2; k++) {
+            assert_true(isfinite(way(&p[k], ends[0].x, ends[0].y, ends[1].x, ends[1].y)));
+            check_portals(&p[k], ends[0], ends[1]);
+        }
+        assert_int_equal(p[0].route.count, p[1].route.count);
+        assert_memory_equal(p[0].route.points, p[1].route.points,
+                            p[0].route.count * sizeof(sl_point));
+        asked++;
+    }
+    for (int k = 0; k < 2; k++) close_plan(&p[k]);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_straight_and_around),
@@ -269,6 +343,7 @@ int main(void) {
         cmocka_unit_test(test_turned),
         cmocka_unit_test(test_oblique),
         cmocka_unit_test(test_random_doors),
+        cmocka_unit_test(test_pillars),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

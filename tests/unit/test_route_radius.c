@@ -5,6 +5,9 @@
 #include "oracle/wide_walks.h"
 #include "route_plan.h"
 
+#include "analysis/route/route.h"
+#include "sightline/generate.h"
+
 static const char box[] =
     "sightline 1\nwall 0 0 20 0\nwall 20 0 20 20\nwall 20 20 0 20\nwall 0 20 0 0\n";
 
@@ -164,7 +167,7 @@ static void check_clearance(const plan *p, const barrier *b, double radius, uint
     }
 }
 
-static uint64_t checked, found;
+static uint64_t checked, found, rooms;
 
 static void check_way(plan *p, const barrier *b, double radius, sl_point from, sl_point to,
                       uint64_t seed) {
@@ -225,12 +228,72 @@ static void test_random(void **state) {
     assert_true(3 * checked > axial + turned + oblique && 6 * found > axial + turned + oblique);
 }
 
+/// Ways in a room of the walls near them are those among all walls, to the corner.
+static void check_room(plan *p, uint64_t seed) {
+    sl_random random = {seed};
+    const size_t walls = p->map.wall_count;
+    sl_route all = {0};
+    open_plan(p);
+    const sl_box *b = &p->space.bounds;
+    const double size = fmax(b->max.x - b->min.x, b->max.y - b->min.y);
+    for (int i = 0; i < 12; i++) {
+        sl_point from = b->min, to = b->min;
+        from.x += sl_random_unit(&random) * (b->max.x - b->min.x);
+        from.y += sl_random_unit(&random) * (b->max.y - b->min.y);
+        to.x += sl_random_unit(&random) * (b->max.x - b->min.x);
+        to.y += sl_random_unit(&random) * (b->max.y - b->min.y);
+        assert_ok(p->context, sl_route_finder_set_radius(p->context, p->finder,
+                                                         size * (double)(1 + i % 6) / 1024));
+        if (sl_route_find(p->context, p->finder, from, to, &p->route) != SL_OK) continue;
+        if (p->finder->has_all) continue;
+        assert_true(p->route.found);
+        rooms++;
+        assert_ok(p->context, sli_route_make_room(p->context, p->finder, NULL));
+        assert_ok(p->context, sli_route_find_here(p->context, p->finder, from, to, &all));
+        assert_true(all.found);
+        if (p->route.count != all.count || p->route.length != all.length ||
+            memcmp(p->route.points, all.points, all.count * sizeof *all.points) != 0)
+            fail_msg("seed %llu, %zu walls: from %.17g,%.17g to %.17g,%.17g: %.17g by %zu points, "
+                     "among all walls %.17g by %zu",
+                     (unsigned long long)seed, walls, from.x, from.y, to.x, to.y, p->route.length,
+                     p->route.count, all.length, all.count);
+    }
+    sl_route_destroy(p->context, &all);
+    close_plan(p);
+}
+
+static void city(plan *p, uint64_t seed, bool turned) {
+    size_t count, kind = 0;
+    const sl_map_kind *kinds = sl_map_kinds(&count);
+    sl_generate_options options = sl_generate_options_default();
+    while (kind + 1 < count && strcmp(kinds[kind].name, "city") != 0) kind++;
+    options.seed = seed;
+    options.walls = 300;
+    options.turned = turned ? 17.3 : 0;
+    *p = (plan){.context = testing_context(NULL)};
+    assert_ok(p->context, sl_generate(p->context, &kinds[kind], &options, &p->map));
+    assert_ok(p->context, sl_map_clean(p->context, &p->map, NULL, NULL));
+}
+
+static void test_rooms(void **state) {
+    (void)state;
+    plan p;
+    for (uint64_t seed = 0; seed < 8; seed++) {
+        city(&p, seed, seed % 2);
+        check_room(&p, seed);
+    }
+    each_axial_plan(testing_seeds(20), check_room);
+    each_turned_plan(testing_seeds(20), check_room);
+    each_oblique_plan(testing_seeds(20), check_room);
+    assert_true(rooms > 60);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_around_an_end), cmocka_unit_test(test_gaps),
         cmocka_unit_test(test_point),         cmocka_unit_test(test_doors),
         cmocka_unit_test(test_refusals),      cmocka_unit_test(test_memory),
-        cmocka_unit_test(test_random),
+        cmocka_unit_test(test_random),        cmocka_unit_test(test_rooms),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

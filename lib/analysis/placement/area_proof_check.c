@@ -15,6 +15,7 @@
 #include "analysis/placement/proof_outline.h"
 #include "analysis/placement/proof_view.h"
 #include "geometry/orient.h"
+#include "space/index.h"
 
 /// What is left in a cell beside a corner.
 typedef struct left_over {

@@ -12,6 +12,7 @@
 
 #include "analysis/placement/proof_corners.h"
 #include "geometry/orient.h"
+#include "space/index.h"
 
 typedef struct checker {
     sl_context *context;

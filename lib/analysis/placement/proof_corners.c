@@ -22,16 +22,6 @@ bool sli_box_may_hold(const sl_box *box, const sli_meet *p) {
            !(p->at.y + p->error < box->min.y) && !(p->at.y - p->error > box->max.y);
 }
 
-sl_box sli_box_of_cell(const sl_space *space, uint32_t cell) {
-    const sl_point *corners = space->vertices + space->cells[cell].first_vertex;
-    sl_box box = {corners[0], corners[0]};
-    for (uint32_t i = 1; i < space->cells[cell].vertex_count; i++) {
-        const sli_meet p = sli_meet_point(corners[i]);
-        sli_box_widen(&box, &p);
-    }
-    return box;
-}
-
 /// Each cone of an eye is a triangle, from the eye to the wall that ends it. On the rays themselves
 /// sight may go farther.
 sl_box sli_box_of_eye(const sli_proof_scene *scene, const sli_eye *e) {

@@ -37,8 +37,6 @@ typedef sl_status (*sli_corner_visit)(void *data, const sli_meet *p, int32_t wal
 
 bool sli_box_may_hold(const sl_box *box, const sli_meet *p);
 void sli_box_widen(sl_box *box, const sli_meet *p);
-/// Holds a cell.
-sl_box sli_box_of_cell(const sl_space *space, uint32_t cell);
 /// Holds all that an eye sees.
 sl_box sli_box_of_eye(const sli_proof_scene *scene, const sli_eye *eye);
 

@@ -52,18 +52,11 @@ static double slack_of(const sl_box *bounds, double radius) {
     return 0x1p-40 * (most + radius);
 }
 
-static bool is_upper(const spoke *s) {
-    return s->to.y > s->at.y || (s->to.y == s->at.y && s->to.x > s->at.x);
-}
-
 /// By place, then counter-clockwise.
 static int compare_spokes(const void *first, const void *second) {
     const spoke *a = first, *b = second;
     const int place = sli_compare_points(a->at, b->at);
-    if (place) return place;
-    if (is_upper(a) != is_upper(b)) return is_upper(a) ? -1 : 1;
-    const int turn = sli_orient(a->at, a->to, b->to);
-    return turn ? -turn : sli_compare_points(a->to, b->to);
+    return place ? place : sli_compare_around(a->at, a->to, b->to);
 }
 
 static sl_point left_of(sl_point d) {
@@ -147,10 +140,26 @@ static sl_status add_bounds(growth *g, const sl_box *b) {
     return SL_OK;
 }
 
-static sl_status add_outline(growth *g, const sl_space *space, spoke *spokes) {
+/// The portals that lead out of a part stop the walker's middle.
+static sl_status add_ways_out(growth *g, const sl_space *space, const sli_route_part *part) {
+    for (uint32_t c = 0; c < space->cell_count; c++) {
+        const sl_cell *cell = &space->cells[c];
+        for (uint32_t k = 0; part->has_cell[c] && k < cell->directed_count; k++) {
+            const sl_directed_portal *d = &space->directed[cell->first_directed + k];
+            g->last = d->right;
+            if (!part->has_cell[d->cell]) SL_TRY(go_to(g, d->left));
+        }
+    }
+    return SL_OK;
+}
+
+static sl_status add_outline(growth *g, const sl_space *space, const sli_route_part *part,
+                             spoke *spokes) {
     size_t count = 0;
     SL_TRY(add_bounds(g, &space->bounds));
+    if (part) SL_TRY(add_ways_out(g, space, part));
     for (uint32_t i = 0; i < space->wall_count; i++) {
+        if (part && !part->has_wall[i]) continue;
         if (sli_same_point(space->walls[i].a, space->walls[i].b)) continue;
         SL_TRY(add_sides(g, &space->walls[i], &spokes[count]));
         count += 2;
@@ -174,12 +183,14 @@ static sl_status subdivide(growth *g, double slack, sl_space *out) {
     return sl_subdivision_for(g->map)->subdivide(g->context, g->map, NULL, out);
 }
 
-sl_status sli_route_grow(sl_context *context, const sl_space *space, double radius, sl_space *out) {
+sl_status sli_route_grow(sl_context *context, const sl_space *space, double radius,
+                         const sli_route_part *part, sl_space *out) {
     sl_map map = {0};
     const double slack = slack_of(&space->bounds, radius);
     growth g = {.context = context, .radius = radius + slack, .map = &map};
-    spoke *spokes = sl_alloc_array(context, 2 * (size_t)space->wall_count, sizeof *spokes);
-    sl_status status = spokes ? add_outline(&g, space, spokes) : SL_NO_MEMORY;
+    const size_t count = part ? part->wall_count : space->wall_count;
+    spoke *spokes = sl_alloc_array(context, 2 * count, sizeof *spokes);
+    sl_status status = spokes ? add_outline(&g, space, part, spokes) : SL_NO_MEMORY;
     sl_free(context, spokes);
     if (status == SL_OK) status = subdivide(&g, slack, out);
     sl_map_destroy(context, &map);
@@ -213,10 +224,14 @@ static void look_at_wall(void *user, uint32_t number) {
     n->wall = wall;
 }
 
+double sli_route_needed(const sl_space *space, double radius) {
+    return SL_ROUTE_ROOM * radius + 2 * slack_of(&space->bounds, radius);
+}
+
 sl_status sli_route_check_room(sl_context *context, const sl_space *space,
                                const sli_box_tree *walls, double radius, const char *name,
                                sl_point at) {
-    const double needed = SL_ROUTE_ROOM * radius + 2 * slack_of(&space->bounds, radius);
+    const double needed = sli_route_needed(space, radius);
     nearest_wall n = {space, at, needed, NULL};
     sli_box_tree_near(walls, at, &n.least, look_at_wall, &n);
     if (!n.wall) return SL_OK;

@@ -28,7 +28,15 @@ static void drop_tables(sl_context *context, sl_route_finder *f) {
     f->space = NULL;
     sli_route_drop_blocks(context, &f->blocks);
     sl_space_destroy(context, &f->room);
+}
+
+static void drop_all(sl_context *context, sl_route_finder *f) {
+    drop_tables(context, f);
     sli_box_tree_destroy(context, &f->walls);
+    sl_route_finder_destroy(context, f->point);
+    f->point = NULL;
+    f->has_all = false;
+    f->grown = 0;
 }
 
 /// The losses of the doors, by portal.
@@ -89,9 +97,16 @@ static sl_status check_glass(sl_context *context, const sl_space *space) {
     return SL_OK;
 }
 
+sl_status sli_route_make_room(sl_context *context, sl_route_finder *finder,
+                              const sli_route_part *part) {
+    drop_tables(context, finder);
+    SL_TRY(sli_route_grow(context, finder->point->space, finder->radius, part, &finder->room));
+    return make_tables(context, finder, &finder->room);
+}
+
 sl_status sl_route_finder_update(sl_context *context, sl_route_finder *finder) {
     const sl_space *space;
-    drop_tables(context, finder);
+    drop_all(context, finder);
     SL_TRY(sl_query_space(context, finder->query, &space, NULL));
     if (space->loose)
         return sl_fail(context, SL_UNSUPPORTED,
@@ -99,8 +114,7 @@ sl_status sl_route_finder_update(sl_context *context, sl_route_finder *finder) {
     if (!(finder->radius > 0)) return make_tables(context, finder, space);
     SL_TRY(check_glass(context, space));
     SL_TRY(sli_route_index_walls(context, space, &finder->walls));
-    SL_TRY(sli_route_grow(context, space, finder->radius, &finder->room));
-    return make_tables(context, finder, &finder->room);
+    return sl_route_finder_create(context, finder->query, &finder->point);
 }
 
 sl_status sl_route_finder_set_radius(sl_context *context, sl_route_finder *finder, double radius) {
@@ -144,7 +158,7 @@ sl_status sl_route_finder_create(sl_context *context, sl_query *query, sl_route_
 
 void sl_route_finder_destroy(sl_context *context, sl_route_finder *finder) {
     if (!finder) return;
-    drop_tables(context, finder);
+    drop_all(context, finder);
     sl_free(context, finder->by_door);
     sl_free(context, finder->nodes.items);
     sl_free(context, finder->open.items);
@@ -199,20 +213,61 @@ static bool passes_portal(const sl_route_finder *f, const sli_route_node *node) 
            node->entry != f->nodes.items[node->parent].entry;
 }
 
+static sl_status add_portal(sl_context *context, sl_route *route, uint32_t portal) {
+    SL_TRY(sl_reserve(context, &route->portals, &route->portal_room, route->portal_count + 1,
+                      sizeof *route->portals));
+    route->portals[route->portal_count++] = portal;
+    return SL_OK;
+}
+
+/// The directed portal of a cell by which one goes on around a point; NULL: there is none.
+static const sl_directed_portal *next_around(const sl_route_finder *f, uint32_t cell,
+                                             uint32_t portal, sl_point at, int side) {
+    const sl_cell *c = &f->space->cells[cell];
+    for (uint32_t k = 0; k < c->directed_count; k++) {
+        const sl_directed_portal *d = &f->space->directed[c->first_directed + k];
+        if (d->portal != portal && !(sli_route_loss(f, d->portal) > 0) &&
+            sli_same_point(side == SLI_ROUTE_LEFT ? d->left : d->right, at))
+            return d;
+    }
+    return NULL;
+}
+
+/// Adds the portals that lead around a corner from one cell to another one, the last one first.
+static sl_status add_around(sl_context *context, const sl_route_finder *f, uint32_t from,
+                            uint32_t to, sl_point at, sl_route *route) {
+    const size_t count = route->portal_count;
+    for (int side = 0; side < 2; side++) {
+        const sl_directed_portal *d = NULL;
+        for (uint32_t cell = from; cell != to; cell = d->cell) {
+            d = next_around(f, cell, d ? d->portal : SLI_ROUTE_NONE, at, side);
+            if (!d || d->cell == from) break;
+            SL_TRY(add_portal(context, route, d->portal));
+        }
+        if (d && d->cell == to) break;
+        route->portal_count = count;
+    }
+    turn_over(route->portals + count, route->portal_count - count, sizeof *route->portals);
+    return SL_OK;
+}
+
 /// The way to a last node, from its end.
 static sl_status read_way(sl_context *context, const sl_route_finder *f, uint32_t last,
                           sl_point from, sl_point to, sl_route *route) {
-    size_t depth = 0;
-    for (uint32_t i = last; i != SLI_ROUTE_NONE; i = f->nodes.items[i].parent) depth++;
-    SL_TRY(sl_reserve(context, &route->points, &route->room, depth + 2, sizeof *route->points));
-    SL_TRY(sl_reserve(context, &route->portals, &route->portal_room, depth + 1,
-                      sizeof *route->portals));
+    const sli_route_node *nodes = f->nodes.items;
+    SL_TRY(sl_reserve(context, &route->points, &route->room, 2, sizeof *route->points));
     add_point(route, to);
-    for (uint32_t i = last; i != SLI_ROUTE_NONE; i = f->nodes.items[i].parent) {
-        const sli_route_node *node = &f->nodes.items[i];
-        add_point(route, node->root);
-        if (passes_portal(f, node))
-            route->portals[route->portal_count++] = f->space->directed[node->entry].portal;
+    for (uint32_t i = last; i != SLI_ROUTE_NONE; i = nodes[i].parent) {
+        const uint32_t turning = sli_route_turning(f, i);
+        if (nodes[turning].cell != nodes[i].cell)
+            SL_TRY(
+                add_around(context, f, nodes[turning].cell, nodes[i].cell, nodes[i].root, route));
+        i = turning;
+        SL_TRY(sl_reserve(context, &route->points, &route->room, route->count + 2,
+                          sizeof *route->points));
+        add_point(route, nodes[i].root);
+        if (passes_portal(f, &nodes[i]))
+            SL_TRY(add_portal(context, route, f->space->directed[nodes[i].entry].portal));
     }
     if (route->count == 1) route->points[route->count++] = from; // the two points are one
     turn_over(route->points, route->count, sizeof *route->points);
@@ -234,9 +289,7 @@ sl_status sli_route_stand_in(sl_context *context, const sl_route_finder *f, cons
         return sl_fail(context, SL_BAD_ARGUMENT, "%s %.9g,%.9g is in solid ground", name, at.x,
                        at.y);
     if (!(f->radius > 0)) return SL_OK;
-    SL_TRY(sli_route_check_room(context, space, &f->walls, f->radius, name, at));
-    *cell = sl_space_locate(f->space, at);
-    return SL_OK;
+    return sli_route_check_room(context, space, &f->walls, f->radius, name, at);
 }
 
 void sli_route_begin(sl_route_finder *f) {
@@ -252,27 +305,41 @@ void sli_route_begin(sl_route_finder *f) {
     f->stamp = 1;
 }
 
-sl_status sl_route_find(sl_context *context, sl_route_finder *finder, sl_point from, sl_point to,
-                        sl_route *route) {
-    uint32_t start, goal, last = SLI_ROUTE_NONE;
+static void empty_route(sl_route *route) {
     route->found = false;
     route->count = route->portal_count = 0;
     route->length = 0;
+}
+
+sl_status sli_route_find_here(sl_context *context, sl_route_finder *f, sl_point from, sl_point to,
+                              sl_route *route) {
+    const uint32_t start = sl_space_locate(f->space, from), goal = sl_space_locate(f->space, to);
+    uint32_t last = SLI_ROUTE_NONE;
+    uint64_t nodes = 0;
+    empty_route(route);
+    sli_route_begin(f);
+    const uint32_t goals = sli_route_stand(f, to, goal, f->at_goal);
+    if (f->part_of[start] != f->part_of[goal]) return SL_OK;
+    for (uint32_t i = 0; i < goals; i++) sli_route_open_blocks(f, start, f->list[i]);
+    SL_TRY(sli_route_search(context, f, from, to, &nodes, &last));
+    route->nodes += nodes;
+    return last == SLI_ROUTE_NONE ? SL_OK : read_way(context, f, last, from, to, route);
+}
+
+sl_status sl_route_find(sl_context *context, sl_route_finder *finder, sl_point from, sl_point to,
+                        sl_route *route) {
+    uint32_t start, goal;
+    empty_route(route);
     route->nodes = 0;
     SL_TRY(sli_route_stand_in(context, finder, "from", from, &start));
     SL_TRY(sli_route_stand_in(context, finder, "to", to, &goal));
-    sli_route_begin(finder);
-    const uint32_t goals = sli_route_stand(finder, to, goal, finder->at_goal);
-    if (finder->part_of[start] == finder->part_of[goal]) {
-        for (uint32_t i = 0; i < goals; i++) sli_route_open_blocks(finder, start, finder->list[i]);
-        SL_TRY(sli_route_search(context, finder, from, to, &route->nodes, &last));
-    }
-    if (last != SLI_ROUTE_NONE) {
-        SL_TRY(read_way(context, finder, last, from, to, route));
-        if (finder->radius > 0) route->portal_count = 0; // they are not the query's
-        return SL_OK;
-    }
-    sli_route_stand(finder, from, start, finder->at_start);
+    if (finder->radius > 0)
+        SL_TRY(sli_route_find_wide(context, finder, from, to, route));
+    else
+        SL_TRY(sli_route_find_here(context, finder, from, to, route));
+    if (finder->radius > 0) route->portal_count = 0; // they are not the query's
+    if (route->found) return SL_OK;
+    sli_route_stand(finder, from, sl_space_locate(finder->space, from), finder->at_start);
     route->nearest = sli_route_nearest(finder, to);
     return SL_OK;
 }

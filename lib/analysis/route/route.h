@@ -38,17 +38,17 @@ typedef struct sli_route_node {
 } sli_route_node;
 
 /// What is known of a corner in one search: the shortest way to it, and by turn the point before
-/// it from which the most directions can be turned to.
+/// it from which the most directions can be turned to, the nearest of those in line.
 typedef struct sli_route_corner {
-    uint32_t stamp; ///< of the search that the rest belongs to
+    uint32_t stamp;   ///< of the search that the rest belongs to
+    uint32_t node[2]; ///< that turns there; SLI_ROUTE_NONE: none
     double g;
-    bool has[2];
     sl_point before[2];
 } sli_route_corner;
 
 /// The last turn at one end of a directed portal.
 typedef struct sli_route_turn {
-    uint32_t stamp;
+    uint32_t stamp, node;
     double g;
     sl_point before;
 } sli_route_turn;
@@ -89,6 +89,9 @@ struct sl_route_finder {
     bool has_glass;               ///< some portal is crossed one way only
     double radius;                ///< of the walker
     sl_space room;                ///< where its middle may be, for a radius above 0: `space`
+    bool has_all;                 ///< in the room all walls are grown
+    size_t grown;                 ///< walls grown for single ways
+    sl_route_finder *point;       ///< for a radius above 0: of the ways of a point
     sli_box_tree walls;           ///< boxes of the walls that it must stay away from
     sli_route_cell *cells;        ///< by cell
     sli_route_corner *corners;    ///< by corner: the end of a portal that stands for it
@@ -125,9 +128,14 @@ uint32_t sli_route_stand(sl_route_finder *finder, sl_point point, uint32_t first
 sl_point sli_route_nearest(sl_route_finder *finder, sl_point to);
 
 /// Searches from the cells that are marked. *out is the last node of the shortest way;
-/// SLI_ROUTE_NONE for none.
+/// SLI_ROUTE_NONE for none. Of ways of the same length it is the one whose last corner comes first
+/// around the goal (sli_compare_around).
 sl_status sli_route_search(sl_context *context, sl_route_finder *finder, sl_point from, sl_point to,
                            uint64_t *expanded, uint32_t *out);
+
+/// Of the nodes that turn at the same corner by ways of the same length, the one that comes to it
+/// from the point that is first around it; for a node that does not turn, itself.
+uint32_t sli_route_turning(const sl_route_finder *finder, uint32_t node);
 
 /// Takes a node that goes on straight into its cell.
 typedef sl_status (*sli_route_take)(sl_context *context, const sli_route_node *node, void *user);
@@ -150,11 +158,34 @@ sl_status sli_route_stand_in(sl_context *context, const sl_route_finder *finder,
 /// A limit of distances that no cell misses by the rounding of its distance. Fails for no limit.
 sl_status sli_route_widen(sl_context *context, const sl_space *space, double limit, double *out);
 
-/// The cells between the walls of a space, grown by a radius above 0; `out` must be empty.
-sl_status sli_route_grow(sl_context *context, const sl_space *space, double radius, sl_space *out);
+/// A part of a space: some of its cells, and walls, all near those cells among them.
+typedef struct sli_route_part {
+    bool *has_cell, *has_wall;
+    uint32_t wall_count; ///< of has_wall
+} sli_route_part;
+
+/// The cells between the walls of a space, grown by a radius above 0; `out` must be empty. With a
+/// part (NULL: all), only its walls are grown, and portals that lead out of its cells are walls.
+sl_status sli_route_grow(sl_context *context, const sl_space *space, double radius,
+                         const sli_route_part *part, sl_space *out);
+
+/// Makes the room of a walker with a radius, of all walls or those of a part, and its tables.
+sl_status sli_route_make_room(sl_context *context, sl_route_finder *finder,
+                              const sli_route_part *part);
+
+/// The shortest way in the finder's space, between places in it. No way: route->nearest is not set.
+sl_status sli_route_find_here(sl_context *context, sl_route_finder *finder, sl_point from,
+                              sl_point to, sl_route *route);
+
+/// The shortest way of a walker with a radius above 0. If there is none, all walls are grown.
+sl_status sli_route_find_wide(sl_context *context, sl_route_finder *finder, sl_point from,
+                              sl_point to, sl_route *route);
 
 /// The boxes of a space's walls, for sli_route_check_room(). `out` must be empty.
 sl_status sli_route_index_walls(sl_context *context, const sl_space *space, sli_box_tree *out);
+
+/// How far from the walls of a space a walker with a radius has room: its grown walls end nearer.
+double sli_route_needed(const sl_space *space, double radius);
 
 /// Fails where a place is too near to a wall of the space for a walker with a radius. `walls` is of
 /// sli_route_index_walls().

@@ -19,7 +19,9 @@
 ///
 /// A corner is turned at by the shortest way to it only. Of ways of the same length (SAME), those
 /// count from which most can be turned to: so a corner is left by a few nodes, and the cost does
-/// not grow with the number of ways of the same length.
+/// not grow with the number of ways of the same length. The search goes on through all nodes whose
+/// bound is that length. Then the corners alone decide which way it is, and not the order of nodes:
+/// the way is read from its end, each time to the corner that comes first around the last one.
 ///
 /// For the distances of all cells from a point (sli_route_spread) there is no goal: the bound of a
 /// node is how far the piece of its portal is, so the first node that enters a cell has the cell's
@@ -217,38 +219,59 @@ static bool turns_more(sl_point known, sl_point other, sl_point at, int side) {
     return side == SLI_ROUTE_RIGHT ? turn > 0 : turn < 0;
 }
 
-/// Whether a way of length g that comes from `from` is worth turning at a corner; keeps it then.
-static bool enter_corner(search *s, size_t end, int side, sl_point from, sl_point at, double g) {
-    const uint32_t number = s->finder->corner_of[end], stamp = s->finder->stamp;
+/// What a way to a corner is worth: nothing, a place among the ways of the same length, or a search
+/// from there, too.
+typedef enum corner_worth { WORTH_NOTHING, WORTH_KEEPING, WORTH_SEARCHING } corner_worth;
+
+/// Enters a way of length g that comes from `from` at a corner. The node that turns there must be
+/// kept next.
+static corner_worth enter_corner(search *s, size_t end, int side, sl_point from, sl_point at,
+                                 double g) {
+    const uint32_t number = s->finder->corner_of[end], stamp = s->finder->stamp,
+                   node = (uint32_t)s->finder->nodes.count;
     sli_route_corner *corner = &s->finder->corners[number];
-    if (corner->stamp != stamp || g < corner->g * (1 - SAME))
-        *corner = (sli_route_corner){.stamp = stamp, .g = g};
-    if (g > corner->g * (1 + SAME)) return false;
-    if (corner->has[side] && !sli_same_point(corner->before[side], from) &&
-        !turns_more(corner->before[side], from, at, side))
-        return false;
-    corner->has[side] = true;
-    corner->before[side] = from;
     sli_route_turn *turn = &s->finder->turns[end];
-    if (turn->stamp == stamp && sli_same_point(turn->before, from) && turn->g <= g) return false;
-    *turn = (sli_route_turn){stamp, g, from};
-    return true;
+    corner_worth worth = WORTH_SEARCHING;
+    if (corner->stamp != stamp || g < corner->g * (1 - SAME))
+        *corner = (sli_route_corner){stamp, {SLI_ROUTE_NONE, SLI_ROUTE_NONE}, g, {{0, 0}, {0, 0}}};
+    if (g > corner->g * (1 + SAME)) return WORTH_NOTHING;
+    const sl_point known = corner->before[side];
+    const bool is_new = corner->node[side] == SLI_ROUTE_NONE || !sli_same_point(known, from);
+    if (corner->node[side] != SLI_ROUTE_NONE && is_new && !turns_more(known, from, at, side)) {
+        if (turns_more(from, known, at, side) || !sli_goes_on(known, from, at))
+            return WORTH_NOTHING;
+        worth = WORTH_KEEPING;
+    }
+    corner->before[side] = from;
+    if (turn->stamp == stamp && sli_same_point(turn->before, from) && turn->g <= g) {
+        if (is_new) corner->node[side] = turn->node;
+        return WORTH_NOTHING;
+    }
+    if (is_new) corner->node[side] = node;
+    *turn = (sli_route_turn){stamp, node, g, from};
+    return worth;
 }
 
-/// Makes the root of a node the corner at one end of a directed portal.
-static bool turn_at(search *s, sli_route_node *n, uint32_t entry, int side) {
+/// Makes the root of a node the corner at one end of a directed portal, if that is worth searching
+/// from.
+static sl_status turn_at(search *s, sli_route_node *n, uint32_t entry, int side, bool *out) {
     const sl_directed_portal *d = &s->space->directed[entry];
     const sl_point at = side == SLI_ROUTE_LEFT ? d->left : d->right;
     const size_t end = 2 * (size_t)entry + (size_t)side;
-    if (s->finder->corner_of[end] == SLI_ROUTE_NONE) return false;
+    *out = false;
+    if (s->finder->corner_of[end] == SLI_ROUTE_NONE) return SL_OK;
     const double g = n->g + distance(n->root, at);
-    if (is_known_nearer(s, d->cell, g) || !enter_corner(s, end, side, n->root, at, g)) return false;
+    if (is_known_nearer(s, d->cell, g)) return SL_OK;
+    const corner_worth worth = enter_corner(s, end, side, n->root, at, g);
     n->limit[side] = (sli_route_limit){SLI_LIMIT_NONE, at};
     n->limit[!side] = (sli_route_limit){SLI_LIMIT_ON, n->root};
     n->root = at;
+    n->entry = entry;
+    n->cell = d->cell;
     n->is_behind = false;
     n->g = g;
-    return true;
+    *out = worth == WORTH_SEARCHING;
+    return worth == WORTH_KEEPING ? keep(s, n) : SL_OK;
 }
 
 // --- the portals of a cell
@@ -297,7 +320,9 @@ static sl_status cross_edge_on(search *s, const sli_route_node *from, uint32_t a
     if (sli_route_is_beyond(&node, SLI_ROUTE_RIGHT, end) ||
         sli_route_is_beyond(&node, SLI_ROUTE_LEFT, end))
         return SL_OK;
-    return turn_at(s, &node, across, side) ? push_across(s, &node, across) : SL_OK;
+    bool is_turned;
+    SL_TRY(turn_at(s, &node, across, side, &is_turned));
+    return is_turned ? push_across(s, &node, across) : SL_OK;
 }
 
 /// A node that looks around in its cell.
@@ -437,9 +462,11 @@ static sl_status expand(search *s, uint32_t number) {
     for (int side = 0; side < 2; side++) {
         const sl_point end = side == SLI_ROUTE_LEFT ? d->left : d->right;
         sli_route_node turned = node;
-        if (node.limit[side].kind != SLI_LIMIT_RAY ||
-            !sli_same_point(node.limit[side].point, end) || !turn_at(s, &turned, node.entry, side))
+        bool is_turned;
+        if (node.limit[side].kind != SLI_LIMIT_RAY || !sli_same_point(node.limit[side].point, end))
             continue;
+        SL_TRY(turn_at(s, &turned, node.entry, side, &is_turned));
+        if (!is_turned) continue;
         SL_TRY(keep(s, &turned));
         turned.parent = (uint32_t)s->finder->nodes.count - 1;
         SL_TRY(go_on(s, &turned));
@@ -470,6 +497,36 @@ static sl_status start_at(search *s, sl_point from) {
     return SL_OK;
 }
 
+/// Where a node comes from: its root, or where the way turns before if it turns there.
+static sl_point origin_of(const sl_route_finder *f, const sli_route_node *n) {
+    return n->is_last ? n->root : f->nodes.items[n->parent].root;
+}
+
+/// Of two nodes that end at a place, the one whose way comes to it from the point that is first
+/// around it. The first node may be SLI_ROUTE_NONE.
+static uint32_t first_around(const sl_route_finder *f, sl_point at, uint32_t a, uint32_t b) {
+    const sli_route_node *nodes = f->nodes.items;
+    if (a == SLI_ROUTE_NONE) return b;
+    return sli_compare_around(at, origin_of(f, &nodes[a]), origin_of(f, &nodes[b])) <= 0 ? a : b;
+}
+
+uint32_t sli_route_turning(const sl_route_finder *f, uint32_t number) {
+    const sli_route_node *nodes = f->nodes.items, *n = &nodes[number];
+    if (n->parent == SLI_ROUTE_NONE || sli_same_point(nodes[n->parent].root, n->root))
+        return number;
+    const int side = n->limit[SLI_ROUTE_LEFT].kind == SLI_LIMIT_NONE;
+    const sli_route_corner *corner = &f->corners[f->corner_of[2 * (size_t)n->entry + (size_t)side]];
+    uint32_t first = SLI_ROUTE_NONE;
+    for (int k = 0; k < 2; k++) {
+        const uint32_t turned = corner->node[k];
+        // A piece that is longer than what counts as the same leads nearer to the start.
+        if (turned != SLI_ROUTE_NONE &&
+            distance(nodes[nodes[turned].parent].root, n->root) > 4 * SAME * n->g)
+            first = first_around(f, n->root, first, turned);
+    }
+    return first == SLI_ROUTE_NONE ? number : first;
+}
+
 sl_status sli_route_search(sl_context *context, sl_route_finder *finder, sl_point from, sl_point to,
                            uint64_t *expanded, uint32_t *out) {
     search s = {
@@ -477,11 +534,14 @@ sl_status sli_route_search(sl_context *context, sl_route_finder *finder, sl_poin
     *expanded = 0;
     *out = SLI_ROUTE_NONE;
     SL_TRY(start_at(&s, from));
-    while (finder->open.count) {
+    double most = INFINITY;
+    while (finder->open.count && finder->open.items[0].f <= most) {
+        const double f = finder->open.items[0].f;
         const uint32_t next = pop(finder);
         if (finder->nodes.items[next].is_last) {
-            *out = next;
-            return SL_OK;
+            if (*out == SLI_ROUTE_NONE) most = f * (1 + SAME);
+            *out = first_around(finder, to, *out, next);
+            continue;
         }
         if (is_known_nearer(&s, finder->nodes.items[next].cell, finder->nodes.items[next].near))
             continue;

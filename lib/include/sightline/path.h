@@ -81,9 +81,10 @@ SL_API sl_status sl_route_finder_set_losses(sl_context *context, sl_route_finder
 /// disc; 2^-39 of the largest coordinate is added to all this for rounding.
 ///
 /// The way then turns at corners of the tangents, and it has no portals: those of the query's space
-/// are not searched. Updates the finder: time and memory of cleaning and cutting a map that has the
-/// outline of the grown walls. SL_UNSUPPORTED with one-way glass, losses, and sl_route_distances().
-/// SL_BAD_ARGUMENT for another radius.
+/// are not searched. Updates the finder. A question cleans and cuts a map that has the outline of
+/// grown walls: only of those near cells that a way as short leads through, until that has been
+/// done for as many walls as there are, or there is no way; then once of all. SL_UNSUPPORTED with
+/// one-way glass, losses, and sl_route_distances(). SL_BAD_ARGUMENT for another radius.
 SL_API sl_status sl_route_finder_set_radius(sl_context *context, sl_route_finder *finder,
                                             double radius);
 
@@ -93,8 +94,10 @@ SL_API sl_status sl_route_finder_set_radius(sl_context *context, sl_route_finder
 /// Signs are exact: the way crosses no wall, and it turns only where a wall is. Lengths are sums of
 /// square roots, compared as doubles: the way is longer than the shortest one by at most a relative
 /// 2^-40 for each of its corners. `length` is rounded to a few units in the last place. Of ways of
-/// the same length one is chosen by the order of the cells and portals, so the same input gives
-/// the same way.
+/// the same length one is chosen by the places of its corners. It is read from its end: the corner
+/// before a corner is the first around that, counter-clockwise from the direction of x. So the same
+/// input gives the same way, as a rule in other cells, too. For a corner only those before it count
+/// from which most can be turned to.
 ///
 /// SL_BAD_ARGUMENT for a point outside the bounds or in solid ground, or without room for the
 /// walker. No way is no failure. No memory is allocated once `route` and the finder have grown.

@@ -901,8 +901,8 @@ SL_RUNTIME_API size_t sl_runtime_way_scratch_count(const sl_runtime *runtime, ui
 ///
 /// Signs are exact: the way crosses no wall, and it turns only where a wall is. Lengths are sums of
 /// square roots, compared as doubles: the way is longer than the shortest one by at most a relative
-/// 2^-40 for each of its corners. Of ways of the same length, one is chosen by the order of cells
-/// and portals: the same question has the same answer.
+/// 2^-40 for each of its corners. Of ways of the same length, one is chosen by the places of its
+/// corners: the same question has the same answer, as a rule that of sl_route_find(), too.
 ///
 /// Time: the cells within reach of the start, up to that of the goal, once; and the nodes. It
 /// clears 32 to 64 bytes for each node there is room for.
