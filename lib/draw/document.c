@@ -90,7 +90,7 @@ static void put_heading(document *d, const char *text, double more) {
 // --- tables
 
 typedef struct table_layout {
-    const sl_block *block;
+    const sl_document_block *block;
     double left[COLUMNS_MOST], width[COLUMNS_MOST];
 } table_layout;
 
@@ -100,7 +100,7 @@ static bool is_number(const char *text) {
 
 /// All columns but the last are as wide as their widest cell.
 static void measure_columns(const document *d, table_layout *t) {
-    const sl_block *b = t->block;
+    const sl_document_block *b = t->block;
     double left = MARGIN;
     for (size_t c = 0; c < b->columns; c++) {
         t->left[c] = left;
@@ -115,7 +115,7 @@ static void measure_columns(const document *d, table_layout *t) {
 }
 
 static double row_height(const document *d, const table_layout *t, size_t row) {
-    const sl_block *b = t->block;
+    const sl_document_block *b = t->block;
     sl_text_font(d->cairo, CELL, row == 0);
     const unsigned lines = sl_text_lines(d->cairo, t->width[b->columns - 1],
                                          b->cells[row * b->columns + b->columns - 1]);
@@ -123,7 +123,7 @@ static double row_height(const document *d, const table_layout *t, size_t row) {
 }
 
 static void put_row(document *d, const table_layout *t, size_t row) {
-    const sl_block *b = t->block;
+    const sl_document_block *b = t->block;
     const double height = row_height(d, t, row), base = d->y + CELL + 1;
     for (size_t c = 0; c < b->columns; c++) {
         const char *text = b->cells[row * b->columns + c];
@@ -141,7 +141,7 @@ static void put_row(document *d, const table_layout *t, size_t row) {
     sli_pen_stroke(d->cairo, row == 0 ? d->palette.ink : d->palette.outline, row == 0 ? 0.8 : 0.4);
 }
 
-static void put_table(document *d, const sl_block *block) {
+static void put_table(document *d, const sl_document_block *block) {
     table_layout t = {.block = block};
     measure_columns(d, &t);
     d->y += 0.5 * BODY;
@@ -159,8 +159,8 @@ static void put_table(document *d, const sl_block *block) {
 // --- pictures
 
 /// A picture is as wide as the text, unless it is then higher than a page. *height has its caption.
-static sl_status measure_picture(document *d, const sl_block *block, sl_draw_options *options,
-                                 double *height) {
+static sl_status measure_picture(document *d, const sl_document_block *block,
+                                 sl_draw_options *options, double *height) {
     const double caption = block->text ? 2 * LINE * CELL : 0;
     sli_page_target target = {.cairo = d->cairo};
     *options = sl_draw_options_default();
@@ -173,7 +173,8 @@ static sl_status measure_picture(document *d, const sl_block *block, sl_draw_opt
     }
 }
 
-static void put_labels(const document *d, const sl_block *block, const sli_page_target *target) {
+static void put_labels(const document *d, const sl_document_block *block,
+                       const sli_page_target *target) {
     for (size_t i = 0; i < block->label_count; i++) {
         const sl_plan_label *label = &block->labels[i];
         sl_point at = sl_frame_point(&target->frame, label->at);
@@ -186,7 +187,7 @@ static void put_labels(const document *d, const sl_block *block, const sli_page_
     }
 }
 
-static sl_status put_picture(document *d, const sl_block *block) {
+static sl_status put_picture(document *d, const sl_document_block *block) {
     sl_draw_options options;
     double height;
     SL_TRY(measure_picture(d, block, &options, &height));
@@ -205,7 +206,8 @@ static sl_status put_picture(document *d, const sl_block *block) {
 
 /// The height of what is to stay with a heading: texts up to the next picture, and that; or a
 /// few lines.
-static sl_status height_after(document *d, const sl_block *blocks, size_t count, double *height) {
+static sl_status height_after(document *d, const sl_document_block *blocks, size_t count,
+                              double *height) {
     sl_draw_options options;
     *height = 0;
     size_t i = 0;
@@ -224,7 +226,7 @@ static sl_status height_after(document *d, const sl_block *blocks, size_t count,
 }
 
 /// `count` blocks are left, this one included.
-static sl_status put_block(document *d, const sl_block *block, size_t count) {
+static sl_status put_block(document *d, const sl_document_block *block, size_t count) {
     double more;
     switch (block->kind) {
     case SL_BLOCK_TITLE:
@@ -246,7 +248,7 @@ static sl_status put_block(document *d, const sl_block *block, size_t count) {
     return sl_check_cancelled(d->context);
 }
 
-static sl_status check_blocks(sl_context *context, const sl_block *blocks, size_t count,
+static sl_status check_blocks(sl_context *context, const sl_document_block *blocks, size_t count,
                               const char *path) {
     const size_t length = strlen(path);
     if (length <= 4 || strcasecmp(path + length - 4, ".pdf") != 0)
@@ -259,7 +261,7 @@ static sl_status check_blocks(sl_context *context, const sl_block *blocks, size_
     return SL_OK;
 }
 
-sl_status sl_draw_document_file(sl_context *context, const sl_block *blocks, size_t count,
+sl_status sl_draw_document_file(sl_context *context, const sl_document_block *blocks, size_t count,
                                 const char *title, const char *path) {
     const sli_paper_kind *kind;
     sli_paper paper;

@@ -901,8 +901,8 @@ SL_RUNTIME_API size_t sl_runtime_way_scratch_count(const sl_runtime *runtime, ui
 ///
 /// Signs are exact: the way crosses no wall, and it turns only where a wall is. Lengths are sums of
 /// square roots, compared as doubles: the way is longer than the shortest one by at most a relative
-/// 2^-40 for each of its corners. Of ways of the same length, one is chosen by the order of cells
-/// and portals: the same question has the same answer.
+/// 2^-40 for each of its corners. Of ways of the same length, one is chosen by the places of its
+/// corners: the same question has the same answer, as a rule that of sl_route_find(), too.
 ///
 /// Time: the cells within reach of the start, up to that of the goal, once; and the nodes. It
 /// clears 32 to 64 bytes for each node there is room for.
@@ -8939,6 +8939,7 @@ static bool slrt_turn_at(slrt_way *w, slrt_way_node *n, uint32_t cell, const slr
     const uint32_t turn = 2 * gate->number + (uint32_t)side;
     uint32_t *known = slrt_way_find(w, w->turns, 1, SLRT_WAY_TURN, turn), *row, number;
     slrt_way_node first;
+    bool searches = true;
     if (*known != SLRT_NONE)
         number = slrt_way_node_at(w, *known).row;
     else
@@ -8955,7 +8956,9 @@ static bool slrt_turn_at(slrt_way *w, slrt_way_node *n, uint32_t cell, const slr
     if (row[1 + side] != SLRT_NONE) {
         const slrt_way_node last = slrt_way_node_at(w, row[1 + side]);
         const double *before = last.limit[!side];
-        if (!slrt_same_place(before, n->root) && !slrt_turns_more(before, n->root, at, side))
+        searches = slrt_same_place(before, n->root) || slrt_turns_more(before, n->root, at, side);
+        if (!searches && (slrt_turns_more(n->root, before, at, side) ||
+                          !slrt_goes_on(before, n->root, at))) // else nearer in line: it is kept
             return false;
     }
     if (*known != SLRT_NONE) {
@@ -8973,7 +8976,8 @@ static bool slrt_turn_at(slrt_way *w, slrt_way_node *n, uint32_t cell, const slr
     memcpy(n->limit[!side], n->root, sizeof n->root);
     memcpy(n->root, at, sizeof n->root);
     n->g = g;
-    return true;
+    if (!searches) slrt_way_keep(w, n);
+    return searches;
 }
 
 // --- the gates of a cell
@@ -9113,14 +9117,73 @@ static bool slrt_way_exists(slrt_way *w, uint32_t count) {
     return false;
 }
 
-/// The last node of the shortest way; SLRT_NONE for none, or if there is no room.
-static uint32_t slrt_way_search(slrt_way *w) {
-    while (w->open_count && !w->full && w->patience) {
-        const uint32_t next = slrt_way_pop(w);
-        if (slrt_way_node_at(w, next).is_last) return next;
-        slrt_way_expand(w, next);
+/// The order of points around a place: counter-clockwise from the direction of x, the nearest first
+/// in each direction. Whether a comes before b.
+static bool slrt_is_first_around(const double *at, const double *a, const double *b) {
+    const bool upper = a[1] > at[1] || (a[1] == at[1] && a[0] > at[0]);
+    const bool other = b[1] > at[1] || (b[1] == at[1] && b[0] > at[0]);
+    int turn;
+    if (slrt_same_place(a, b) || slrt_same_place(b, at)) return false;
+    if (slrt_same_place(a, at)) return true;
+    if (upper != other) return upper;
+    turn = slrt_turn(at, a, b);
+    return turn ? turn > 0 : slrt_goes_on(at, a, b);
+}
+
+/// Of two nodes that end at a place, the one whose way comes to it from the point that is first
+/// around it. The first node may be SLRT_NONE.
+static uint32_t slrt_first_around(const slrt_way *w, const double *at, uint32_t a, uint32_t b) {
+    uint32_t nodes[2], i;
+    double from[2][2];
+    nodes[0] = a;
+    nodes[1] = b;
+    if (a == SLRT_NONE) return b;
+    for (i = 0; i < 2; i++) {
+        slrt_way_node node = slrt_way_node_at(w, nodes[i]);
+        if (!node.is_last) node = slrt_way_node_at(w, node.parent);
+        memcpy(from[i], node.root, sizeof node.root);
     }
-    return SLRT_NONE;
+    return slrt_is_first_around(at, from[1], from[0]) ? b : a;
+}
+
+/// Of the nodes that turn at the same corner by ways of the same length, the one that comes to it
+/// from the point that is first around it; for a node that does not turn, itself.
+static uint32_t slrt_way_turning(const slrt_way *w, uint32_t number) {
+    const slrt_way_node node = slrt_way_node_at(w, number);
+    const uint32_t *row;
+    uint32_t first = SLRT_NONE, k;
+    slrt_way_node from;
+    if (node.parent == SLRT_NONE) return number;
+    from = slrt_way_node_at(w, node.parent);
+    if (slrt_same_place(from.root, node.root)) return number;
+    row = slrt_way_find(w, w->rows, 3, SLRT_WAY_ROW, node.row);
+    for (k = 1; k < 3; k++) {
+        if (row[k] == SLRT_NONE) continue;
+        from = slrt_way_node_at(w, slrt_way_node_at(w, row[k]).parent);
+        // A piece that is longer than what counts as the same leads nearer to the start.
+        if (slrt_distance(from.root, node.root) > 4 * SLRT_SAME_LENGTH * node.g)
+            first = slrt_first_around(w, node.root, first, row[k]);
+    }
+    return first == SLRT_NONE ? number : first;
+}
+
+/// The last node of the shortest way; SLRT_NONE for none, or if there is no room. Of ways of the
+/// same length it is the one whose last corner is first around the goal.
+static uint32_t slrt_way_search(slrt_way *w) {
+    uint32_t last = SLRT_NONE;
+    double most = 0;
+    while (w->open_count && !w->full && w->patience) {
+        const slrt_way_open least = slrt_way_open_at(w, 0);
+        if (last != SLRT_NONE && least.f > most) break;
+        slrt_way_pop(w);
+        if (!slrt_way_node_at(w, least.node).is_last) {
+            slrt_way_expand(w, least.node);
+            continue;
+        }
+        if (last == SLRT_NONE) most = least.f * (1 + SLRT_SAME_LENGTH);
+        last = slrt_first_around(w, w->to, last, least.node);
+    }
+    return w->full || !w->patience ? SLRT_NONE : last;
 }
 
 /// Adds a point to those of a way, which stand where the open nodes were. One in line with its
@@ -9149,7 +9212,7 @@ static void slrt_way_read(slrt_way *w, uint32_t last, double *points, uint32_t r
     double sum = 0, rest = 0, a[2], b[2];
     uint32_t count = slrt_way_add(w, 0, w->to), i;
     for (i = last; i != SLRT_NONE;) {
-        const slrt_way_node node = slrt_way_node_at(w, i);
+        const slrt_way_node node = slrt_way_node_at(w, slrt_way_turning(w, i));
         count = slrt_way_add(w, count, node.root);
         i = node.parent;
     }

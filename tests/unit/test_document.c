@@ -15,7 +15,7 @@ static int set_up(void **state) {
     return 0;
 }
 
-static sl_bytes make(draw_bench *b, const sl_block *blocks, size_t count) {
+static sl_bytes make(draw_bench *b, const sl_document_block *blocks, size_t count) {
     const char *path = draw_path(b, "a.pdf");
     sl_bytes file;
     assert_ok(b->context, sl_draw_document_file(b->context, blocks, count, "A & b", path));
@@ -24,7 +24,7 @@ static sl_bytes make(draw_bench *b, const sl_block *blocks, size_t count) {
     return file;
 }
 
-static unsigned pages_of(draw_bench *b, const sl_block *blocks, size_t count) {
+static unsigned pages_of(draw_bench *b, const sl_document_block *blocks, size_t count) {
     sl_bytes file = make(b, blocks, count);
     unsigned pages = 0;
     const char *end = file.data + file.size;
@@ -34,13 +34,15 @@ static unsigned pages_of(draw_bench *b, const sl_block *blocks, size_t count) {
     return pages;
 }
 
-static const sl_block heading = {.kind = SL_BLOCK_HEADING, .text = "A heading"};
-static const sl_block text = {.kind = SL_BLOCK_TEXT, .text = "Some words.\nMore, \xc3\xa9."};
+static const sl_document_block heading = {.kind = SL_BLOCK_HEADING, .text = "A heading"};
+static const sl_document_block text = {.kind = SL_BLOCK_TEXT,
+                                       .text = "Some words.\nMore, \xc3\xa9."};
 
 static void blocks_fill_pages(void **state) {
     draw_bench *b = *state;
-    const sl_block picture = {.kind = SL_BLOCK_PICTURE, .baked = &b->map.baked, .text = "Below"};
-    sl_block blocks[40];
+    const sl_document_block picture = {
+        .kind = SL_BLOCK_PICTURE, .baked = &b->map.baked, .text = "Below"};
+    sl_document_block blocks[40];
     assert_int_equal(pages_of(b, NULL, 0), 1);
     for (int i = 0; i < 40; i++) blocks[i] = text;
     assert_int_equal(pages_of(b, blocks, 10), 1);
@@ -60,7 +62,7 @@ static void a_table_goes_on_over_pages(void **state) {
     draw_bench *b = *state;
     static const char *cells[2 * 200];
     for (int i = 0; i < 400; i++) cells[i] = i % 2 ? "-12.5" : "a name";
-    sl_block table = {.kind = SL_BLOCK_TABLE, .cells = cells, .columns = 2, .rows = 30};
+    sl_document_block table = {.kind = SL_BLOCK_TABLE, .cells = cells, .columns = 2, .rows = 30};
     assert_int_equal(pages_of(b, &table, 1), 1);
     // 50 rows on the first page, 49 and the head again on each of the others.
     table.rows = 50 + 3 * 49;
@@ -76,7 +78,7 @@ static void a_table_goes_on_over_pages(void **state) {
 static void a_tall_picture_fits_a_page(void **state) {
     draw_bench *b = *state;
     draw_map tall = draw_map_make(b->context, (draw_place){0, 0, 1, 100});
-    const sl_block blocks[] = {{.kind = SL_BLOCK_PICTURE, .baked = &tall.baked}, text};
+    const sl_document_block blocks[] = {{.kind = SL_BLOCK_PICTURE, .baked = &tall.baked}, text};
     assert_int_equal(pages_of(b, blocks, 1), 1);
     assert_int_equal(pages_of(b, blocks, 2), 2);
     sl_baked_destroy(b->context, &tall.baked);
@@ -87,7 +89,7 @@ static void the_same_blocks_give_the_same_bytes(void **state) {
     double values[6] = {1, 2, 3, 4, 5, 6};
     const sl_field field = {
         .name = "area", .step = 10, .columns = 3, .rows = 2, .values = values, .unit = "m\xc2\xb2"};
-    const sl_block blocks[] = {
+    const sl_document_block blocks[] = {
         heading, text, {.kind = SL_BLOCK_PICTURE, .baked = &b->map.baked, .field = &field}};
     sl_bytes one = make(b, blocks, 3), other = make(b, blocks, 3);
     assert_int_equal(one.size, other.size);
@@ -104,7 +106,7 @@ static void the_same_blocks_give_the_same_bytes(void **state) {
 static void a_plan_has_names(void **state) {
     draw_bench *b = *state;
     const sl_plan_label labels[] = {{"Hall", {10, 5}, 8}, {"A very long name", {30, 5}, 0.1}};
-    sl_block picture = {.kind = SL_BLOCK_PICTURE, .baked = &b->map.baked};
+    sl_document_block picture = {.kind = SL_BLOCK_PICTURE, .baked = &b->map.baked};
     sl_bytes plain = make(b, &picture, 1);
     picture.labels = labels;
     picture.label_count = 2;
@@ -118,9 +120,10 @@ static void a_plan_has_names(void **state) {
 static void what_is_no_document_is_refused(void **state) {
     draw_bench *b = *state;
     const char *const cell = "a";
-    const sl_block bad[] = {{.kind = SL_BLOCK_TABLE, .cells = &cell, .columns = 0, .rows = 1},
-                            {.kind = SL_BLOCK_TABLE, .cells = &cell, .columns = 17, .rows = 1},
-                            {.kind = SL_BLOCK_TABLE, .cells = &cell, .columns = 1, .rows = 0}};
+    const sl_document_block bad[] = {
+        {.kind = SL_BLOCK_TABLE, .cells = &cell, .columns = 0, .rows = 1},
+        {.kind = SL_BLOCK_TABLE, .cells = &cell, .columns = 17, .rows = 1},
+        {.kind = SL_BLOCK_TABLE, .cells = &cell, .columns = 1, .rows = 0}};
     for (int i = 0; i < 3; i++)
         assert_int_equal(sl_draw_document_file(b->context, &bad[i], 1, NULL, draw_path(b, "a.pdf")),
                          SL_BAD_ARGUMENT);

@@ -37,7 +37,7 @@ typedef struct report {
     axial_part axial;
     room_table rooms;
     sl_plan_label *labels; ///< names of rooms
-    SL_ARRAY(sl_block) blocks;
+    SL_ARRAY(sl_document_block) blocks;
     SL_ARRAY(char *) texts;         ///< that blocks have
     SL_ARRAY(vga_field *) fields;   ///< likewise
     SL_ARRAY(const char **) tables; ///< likewise
@@ -70,13 +70,13 @@ __attribute__((format(printf, 2, 3))) static const char *say(report *r, const ch
     return keep(r, text);
 }
 
-static void add(report *r, sl_block block) {
+static void add(report *r, sl_document_block block) {
     if (r->status == SL_OK) keep_status(r, SL_ARRAY_ROOM(r->context, &r->blocks, 1));
     if (r->status == SL_OK) r->blocks.items[r->blocks.count++] = block;
 }
 
-static void add_text(report *r, sl_block_kind kind, const char *text) {
-    add(r, (sl_block){.kind = kind, .text = text});
+static void add_text(report *r, sl_document_block_kind kind, const char *text) {
+    add(r, (sl_document_block){.kind = kind, .text = text});
 }
 
 /// Adds a table of the cells in `list`, row by row, which it takes over.
@@ -87,10 +87,10 @@ static void add_table(report *r, text_list *list, size_t columns) {
         return;
     }
     r->tables.items[r->tables.count++] = list->items;
-    add(r, (sl_block){.kind = SL_BLOCK_TABLE,
-                      .cells = list->items,
-                      .columns = columns,
-                      .rows = list->count / columns});
+    add(r, (sl_document_block){.kind = SL_BLOCK_TABLE,
+                               .cells = list->items,
+                               .columns = columns,
+                               .rows = list->count / columns});
 }
 
 static void add_cell(report *r, text_list *list, const char *text) {
@@ -140,7 +140,7 @@ static void add_plan(report *r) {
     for (size_t i = 0; i < map->door_count; i++) open += map->doors[i].open;
     text_list t = {0};
     add_text(r, SL_BLOCK_HEADING, "The plan");
-    add(r, (sl_block){.kind = SL_BLOCK_PICTURE, .baked = &r->w.baked});
+    add(r, (sl_document_block){.kind = SL_BLOCK_PICTURE, .baked = &r->w.baked});
     add_row(r, &t, "what", "value");
     add_row(r, &t, "file", file_name(r));
     add_row(r, &t, "unit of lengths", *map->unit ? map->unit : "the file does not say");
@@ -204,7 +204,8 @@ static void add_heat_map(report *r, size_t measure) {
     field->field.unit = *unit ? keep(r, unit) : NULL;
     add_text(r, SL_BLOCK_HEADING, field->field.name);
     add_text(r, SL_BLOCK_TEXT, say(r, "%s: %s.", field->field.name, m->meaning));
-    add(r, (sl_block){.kind = SL_BLOCK_PICTURE, .baked = &r->w.baked, .field = &field->field});
+    add(r, (sl_document_block){
+               .kind = SL_BLOCK_PICTURE, .baked = &r->w.baked, .field = &field->field});
 }
 
 static void add_heat_maps(report *r) {
@@ -294,10 +295,10 @@ static void add_names(report *r) {
         r->labels[i] = (sl_plan_label){.text = rooms->items[i].name,
                                        .at = rooms->items[i].at,
                                        .width = 2 * rooms->items[i].clearance};
-    add(r, (sl_block){.kind = SL_BLOCK_PICTURE,
-                      .baked = &r->w.baked,
-                      .labels = r->labels,
-                      .label_count = rooms->count});
+    add(r, (sl_document_block){.kind = SL_BLOCK_PICTURE,
+                               .baked = &r->w.baked,
+                               .labels = r->labels,
+                               .label_count = rooms->count});
 }
 
 static void add_rooms(report *r) {
@@ -403,7 +404,7 @@ static void add_axial(report *r) {
     add_text(r, SL_BLOCK_TEXT,
              say(r, "%" PRIu32 " axial line%s, coloured by integration.", r->axial.lines.count,
                  r->axial.lines.count == 1 ? "" : "s"));
-    add(r, (sl_block){.kind = SL_BLOCK_PICTURE, .baked = baked, .lines = &r->axial.drawn});
+    add(r, (sl_document_block){.kind = SL_BLOCK_PICTURE, .baked = baked, .lines = &r->axial.drawn});
     add_axial_table(r);
 }
 

@@ -56,7 +56,7 @@ typedef struct built_draw {
     sl_status (*lines)(sl_context *context, const sl_baked *baked, const sl_drawn_lines *lines,
                        const sl_draw_options *options, const char *path);
     sl_status (*chart)(sl_context *context, const sl_chart *chart, const char *path);
-    sl_status (*document)(sl_context *context, const sl_block *blocks, size_t count,
+    sl_status (*document)(sl_context *context, const sl_document_block *blocks, size_t count,
                           const char *title, const char *path);
 } built_draw;
 

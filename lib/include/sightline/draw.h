@@ -237,13 +237,13 @@ SL_API sl_status sl_draw_lines_file(sl_context *context, const sl_baked *baked,
 // --- documents
 
 /// What a block of a document is.
-typedef enum sl_block_kind {
+typedef enum sl_document_block_kind {
     SL_BLOCK_TITLE,
     SL_BLOCK_HEADING, ///< in the outline of the file, too
     SL_BLOCK_TEXT,    ///< a paragraph; '\n' begins a new line
     SL_BLOCK_TABLE,
     SL_BLOCK_PICTURE,
-} sl_block_kind;
+} sl_document_block_kind;
 
 /// A name on a plan, about a place.
 typedef struct sl_plan_label {
@@ -253,8 +253,8 @@ typedef struct sl_plan_label {
 } sl_plan_label;
 
 /// A block of a document: what its kind has; the rest is zeroed. Texts are UTF-8.
-typedef struct sl_block {
-    sl_block_kind kind;
+typedef struct sl_document_block {
+    sl_document_block_kind kind;
     const char *text; ///< of a picture: a line below it, NULL for none
     /// Of a table: cells row by row, the first row being its head. The last column breaks into
     /// lines as the page needs.
@@ -266,14 +266,14 @@ typedef struct sl_block {
     const sl_drawn_lines *lines;
     const sl_plan_label *labels; ///< of a picture, over all else
     size_t label_count;
-} sl_block;
+} sl_document_block;
 
 /// Writes blocks as a PDF of A4 pages, which have numbers. `title` stands at the foot of each, and
 /// in the file's description. Letters stay text. The same input gives the same bytes.
 /// SL_BAD_ARGUMENT if `path` does not end in .pdf, for a table without columns, and as the pictures
 /// say; SL_IO or SL_NO_MEMORY otherwise; a failure leaves an older file as it was.
-SL_API sl_status sl_draw_document_file(sl_context *context, const sl_block *blocks, size_t count,
-                                       const char *title, const char *path);
+SL_API sl_status sl_draw_document_file(sl_context *context, const sl_document_block *blocks,
+                                       size_t count, const char *title, const char *path);
 
 // --- charts
 
