@@ -16,9 +16,9 @@ test('the runtime is at most 25 kB', () => {
   assert.ok(bytes <= 25000, said(bytes))
 })
 
-test('the whole library is at most 214 kB', () => {
+test('the whole library is at most 215 kB', () => {
   const bytes = size('bake.js', 'arguments.js', 'maptext.js', 'scene.js', 'host.js', 'module.js', 'core.wasm')
-  assert.ok(bytes <= 214000, said(bytes))
+  assert.ok(bytes <= 215000, said(bytes))
 })
 
 test('visibility graph analysis is at most 137 kB', () => {
@@ -36,9 +36,9 @@ test('the choice of cameras is at most 158 kB', () => {
   assert.ok(bytes <= 158000, said(bytes))
 })
 
-test('lines, areas and ways are at most 145 kB', () => {
+test('lines, areas and ways are at most 148 kB', () => {
   const bytes = size('ways.js', 'floor.js', 'arguments.js', 'maptext.js', 'host.js', 'module.js', 'ways.wasm')
-  assert.ok(bytes <= 145000, said(bytes))
+  assert.ok(bytes <= 148000, said(bytes))
 })
 
 test('worlds are at most 142 kB', () => {
