@@ -35,10 +35,10 @@ static bool scale_glass(sl_glass *glass, size_t count, double factor) {
 static bool scale_all(sl_map *map, double factor) {
     const size_t one = sizeof(sl_point);
     sl_map_source *source = &map->source;
-    bool good = scale_glass(map->mirrors, map->mirror_count, factor) &
-                scale_glass(map->oneways, map->oneway_count, factor) &
-                scale_glass(map->seams, map->seam_count, factor) &
-                scale_points(map->corners, map->corner_count, one, factor);
+    bool good = scale_glass(map->mirrors, map->mirror_count, factor);
+    good &= scale_glass(map->oneways, map->oneway_count, factor);
+    good &= scale_glass(map->seams, map->seam_count, factor);
+    good &= scale_points(map->corners, map->corner_count, one, factor);
     for (size_t i = 0; i < map->wall_count; i++)
         good &= scale_points(&map->walls[i].a, 2, one, factor);
     for (size_t i = 0; i < map->door_count; i++) {
