@@ -107,10 +107,16 @@ void camera_changed(view_state *view) {
     view->cameras->proof[0] = '\0';
 }
 
+static bool same_views(const sl_viewpoint *a, const sl_viewpoint *b) {
+    return a->at.x == b->at.x && a->at.y == b->at.y && a->heading == b->heading &&
+           a->fov == b->fov && a->range == b->range && a->nearest == b->nearest &&
+           a->sign == b->sign;
+}
+
 static bool same_tables(const sl_cameras *a, const sl_cameras *b) {
     bool same = a->count == b->count;
     for (size_t i = 0; i < a->count && same; i++)
-        same = memcmp(&a->items[i].view, &b->items[i].view, sizeof a->items[i].view) == 0 &&
+        same = same_views(&a->items[i].view, &b->items[i].view) &&
                a->items[i].height == b->items[i].height && a->items[i].tilt == b->items[i].tilt;
     return same;
 }
