@@ -18,11 +18,11 @@
 #include "plan/view_cells.h"
 
 static const dialog_row dialogs[DIALOG_KINDS] = {
-    [DIALOG_MENU] = {menu_draw, menu_act, NULL, NULL, NULL},
-    [DIALOG_BROWSER] = {browser_draw, browser_act, browser_edited, browser_key, browser_destroy},
+    [DIALOG_MENU] = {menu_draw, menu_act, NULL, NULL, NULL, 0},
+    [DIALOG_BROWSER] = {browser_draw, browser_act, browser_edited, browser_key, browser_destroy, 0},
     [DIALOG_IMPORT] = {import_draw, import_act, import_edited, import_key, import_destroy,
                        IMPORT_TYPES_INTO},
-    [DIALOG_QUESTION] = {question_draw, question_act, NULL, question_key, NULL},
+    [DIALOG_QUESTION] = {question_draw, question_act, NULL, question_key, NULL, 0},
 };
 
 void app_init(app_state *app, sl_context *context) {
