@@ -129,8 +129,8 @@ static void letters_stay_text_and_layers_have_names(void **state) {
     sheet_bench *b = *state;
     const sl_draw_options options = sheet_options("A3", NULL);
     static const char *const has[] = {">Room &amp; &lt;hall></text>",
-                                      ">Gr\xc3\xb6\xc3\x9f"
-                                      "e</text>",
+                                      (">Gr\xc3\xb6\xc3\x9f"
+                                       "e</text>"),
                                       ">1:200</text>",
                                       ">on A3</text>",
                                       ">20 m</text>",
