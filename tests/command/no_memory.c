@@ -149,8 +149,24 @@ static void test_commands_leave_nothing_where_memory_fails(void **state) {
     check("check --json " MAPS "effects/doors.map");
 }
 
+static char folder[] = "/tmp/sightline-no-memory-XXXXXX";
+
+/// Commands write into a folder of their own.
+static int set_up(void **state) {
+    (void)state;
+    return mkdtemp(folder) && chdir(folder) == 0 ? 0 : -1;
+}
+
+static int tear_down(void **state) {
+    static const char *const files[] = {"no_memory.map", "no_memory.storeys", "no_memory.csv",
+                                        "no_memory.slv"};
+    (void)state;
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) remove(files[i]);
+    return chdir("/") == 0 && rmdir(folder) == 0 ? 0 : -1;
+}
+
 int __wrap_main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_commands_leave_nothing_where_memory_fails)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, set_up, tear_down);
 }

@@ -70,7 +70,7 @@ class Rooms(sandbox.ProgramTest):
                 points = list(csv.DictReader(file))
             x_axis, origin = place(1, 0), place(0, 0)
             c, s = x_axis[0] - origin[0], x_axis[1] - origin[1]
-            total = 0
+            total = compared = 0
             for name, (x0, y0, x1, y1) in ROOMS.items():
                 inside = []
                 for row in points:
@@ -80,11 +80,14 @@ class Rooms(sandbox.ProgramTest):
                 total += len(inside)
                 found = int(rooms[name]["points"])
                 if found != len(inside):  # a point on the border of both rooms
+                    self.assertLess(abs(found - len(inside)), 10)
                     continue
+                compared += 1
                 for column, measure in (("connectivity",) * 2, ("isovist_area", "area"), ("occlusivity",) * 2):
                     mean = sum(float(row[measure]) for row in inside) / len(inside)
                     self.assertTrue(math.isclose(float(rooms[name][column]), mean, rel_tol=1e-9), column)
             self.assertGreater(total, 400)
+            self.assertGreater(compared, 0)
 
     def test_json_has_the_same(self):
         for _ in self.each():

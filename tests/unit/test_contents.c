@@ -168,7 +168,6 @@ static void test_turned_swings(void **state) {
     }
 }
 
-/// Lines side by side are hatching only if they are many, even and close.
 #define UNIT(number)  "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n" number "\n0\nENDSEC\n"
 #define SECOND(layer) LINE(layer, 10, 3, 9, 3) ARC(layer, 10, 3, 1, 90, 180)
 
@@ -202,6 +201,7 @@ static void test_width_of_doors(void **state) {
     }
 }
 
+/// Lines side by side are hatching only if they are many, even and close.
 static void test_hatching(void **state) {
     (void)state;
     static const struct {

@@ -81,7 +81,6 @@ static void test_doors(void **state) {
     close_plan(&p);
 }
 
-/// Glass is passed from its right to its left alone, and boxes that block are walked around.
 /// A room that leads nowhere else costs nothing: as many nodes are expanded as with its door shut.
 static void test_dead_end(void **state) {
     (void)state;
@@ -98,6 +97,7 @@ static void test_dead_end(void **state) {
     close_plan(&p);
 }
 
+/// Glass is passed from its right to its left alone, and boxes that block are walked around.
 static void test_one_way_and_boxes(void **state) {
     (void)state;
     plan p;

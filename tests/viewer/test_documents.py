@@ -323,7 +323,7 @@ class Cases:
             return {float(line[1]) for line in lines if line[0].startswith("wall")}
 
         plain = walls("")
-        self.check(plain <= {0, 40, 90}, f"Mauer: {plain}")
+        self.check(plain and plain <= {0, 40, 90}, f"Mauer: {plain}")
         # The first choice of a layer that is ignored is a wall; letters press no button.
         self.check(walls(ask + "type PART-3\nkey Tab\nkey Space\nkey Return\n") == plain | {3}, "part-3")
         self.check(walls(ask + "type part-3\nkey Tab\nkey Space\nkey Escape\n") == plain, "Escape")

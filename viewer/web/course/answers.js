@@ -3,15 +3,10 @@ import { t } from '../language/language.js';
 import { plural } from '../formats/words.js';
 import { save } from '../playground/files.js';
 import { element } from './figure.js';
+import { button } from './lecture-mode.js';
 import { forgetProgress, keepName, loadProgress, readText, saveText } from './progress.js';
 
 export const figures = {}, exercises = {};
-
-function button(text, action) {
-    const node = element('button', { type: 'button' }, text);
-    node.addEventListener('click', action);
-    return node;
-}
 
 /** @param {import('./progress.js').Answer} answer */
 function articleOf({ question, given, result, tries, last }) {

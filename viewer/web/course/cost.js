@@ -268,18 +268,17 @@ const where = {
 
 export const figures = { chart, where };
 
+/** The pairs that a method finds, as the command `compare` counts them. */
+const pairsFound = (lab, text, options) => lab.scene(text, options).account.pairs;
+
 /** Numbers of the text: the percentage of pairs that flood adds to the exact ones. */
-const pairsIn = (lab, text, method) => {
-    const scene = lab.scene(text, { method });
-    return Array.from({ length: scene.cellCount }, (_, i) => scene.row(i).length).reduce((a, b) => a + b);
+const added = (plan) => (lab) => {
+    const [flood, exact] = ['flood', 'sweep'].map((method) => pairsFound(lab, plans[plan].text, { method }));
+    return round(100 * (flood / exact - 1), 1);
 };
-const added = (plan) => (lab) => round(100 * (pairsIn(lab, plans[plan].text, 'flood') / pairsIn(lab, plans[plan].text, 'sweep') - 1), 1);
 export const values = { 'flood-hall': added('hall'), 'flood-rooms': added('rooms') };
 
 const hallText = plans.hall.text;
-
-/** The pairs that a method finds, as the command `compare` counts them. */
-const pairsFound = (lab, text, options) => lab.scene(text, options).account.pairs;
 
 export const exercises = {
     safe: {

@@ -46,6 +46,9 @@ export function cellAt(scene, [x, y]) {
     return cell >= 0 && scene.cellTable[6 * cell + 4] ? cell : -1;
 }
 
+/** The cells inside. */
+export const insideOf = (scene) => Array.from({ length: scene.cellCount }, (_, i) => i).filter((i) => scene.cellTable[6 * i + 4]);
+
 /** Puts the baked map and the cell of a place into the state of a figure. @returns the map */
 export function stand(state, lab, text, place) {
     state.scene = lab.scene(text);

@@ -1,7 +1,7 @@
 /** The lecturer's window beside a lecture: notes of the slide, the next one, and a clock that says if time runs out. */
 import { element } from './figure.js';
 
-export const clockText = (seconds) => `${Math.floor(seconds / 60)}:${String(Math.floor(seconds % 60)).padStart(2, '0')}`;
+const clockText = (seconds) => `${Math.floor(seconds / 60)}:${String(Math.floor(seconds % 60)).padStart(2, '0')}`;
 
 /** How far a lecture is from its plan, in words. @param {number} seconds since it began @param {{begin: number, end: number}} slide in minutes */
 export function paceOf(seconds, { begin, end }) {

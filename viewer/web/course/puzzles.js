@@ -15,10 +15,7 @@ const items = itemsOf(house.text), { text, box } = house;
 const baked = (lab, options) => lab.scene(text, options);
 
 /** Pairs of cells that see each other, each way, and each cell with itself. */
-const pairsOf = (lab, options) => {
-    const scene = baked(lab, options);
-    return Array.from({ length: scene.cellCount }, (_, i) => scene.row(i).length).reduce((a, b) => a + b);
-};
+const pairsOf = (lab, options) => baked(lab, options).account.pairs;
 
 /** Rooms by name, each with a place in it. */
 const places = { hall: [8, 6.2], study: [3, 11], kitchen: [12, 2.5], bedroom: [21, 12], bath: [11.5, 12.5], store: [3, 1.5], larder: [21, 2], A: [17, 8], B: [18.5, 10] };

@@ -6,7 +6,8 @@ import { keepPicture, picture } from './still.js';
 
 export const figures = {}, exercises = {};
 
-const MOST = 1000000;
+/** The largest number that names questions. */
+export const MOST = 1000000;
 
 /** A picture beside a question, in the colours of the page. */
 export function pictureOf(question, tones) {

@@ -6,7 +6,7 @@
  */
 import { drawPlan, fillPolygons, strokeLines } from '../parts/plan.js';
 import { hiddenPlans } from './code-lab.js';
-import { middleOf } from './lab.js';
+import { insideOf, middleOf } from './lab.js';
 import { drawText, drawWalls } from './maps.js';
 import { picture } from './still.js';
 import { turnedPlan } from './turned.js';
@@ -20,7 +20,7 @@ const cellsOf = (scene) => Array.from({ length: scene.cellCount }, (_, i) => sce
 function cases(lab) {
     const [columns, flat, house, hall] = hiddenPlans();
     return [columns, flat, turnedPlan(flat), house, turnedPlan(house), hall].flatMap((plan) => {
-        const scene = lab.scene(plan.text), cells = cellsOf(scene), inside = cells.flatMap((_, i) => (scene.cellTable[6 * i + 4] ? [i] : []));
+        const scene = lab.scene(plan.text), cells = cellsOf(scene), inside = insideOf(scene);
         const starts = Array.from({ length: CELLS }, (_, k) => inside[Math.floor(((k + 0.5) * inside.length) / CELLS)]);
         return starts.map((start) => ({ ...plan, start, given: [cells, start], about: `cell ${start}` }));
     });

@@ -5,7 +5,7 @@ import { drawDot, drawPlan, fillPolygons, strokeLines } from '../parts/plan.js';
 import { classes, classValues } from './classes.js';
 import { table } from './figure.js';
 import { hallOf, WIDEST } from './halls.js';
-import { cellAt, middleOf, round, within } from './lab.js';
+import { cellAt, insideOf, middleOf, round, within } from './lab.js';
 import { drawText, drawWalls, flat, hall, house, itemsOf } from './maps.js';
 import { Pairs, joinAll, pivotsOf, rotate, seenFrom } from './rotate.js';
 
@@ -22,7 +22,7 @@ function sweepOf(lab, text) {
     const scene = lab.scene(text, { sight: 'open' }), pivots = pivotsOf(scene), pairs = new Pairs(scene.cellCount);
     const turns = pivots.map((pivot) => rotate(scene, pivot));
     const found = turns.map((stretches) => stretches.flatMap(({ before, behind }) => joinAll(pairs, before, behind)));
-    const cells = Array.from({ length: scene.cellCount }, (_, i) => i).filter((i) => scene.cellTable[6 * i + 4]);
+    const cells = insideOf(scene);
     const late = cells.flatMap((a) => joinAll(pairs, [a], [...seenFrom(scene, middleOf(scene, a))]));
     const sweep = { pivots, turns, found, late, cells };
     sweeps.set(text, sweep);

@@ -19,13 +19,20 @@ const straight = ([ax, ay], [bx, by]) => Math.hypot(bx - ax, by - ay);
 /** Where a dot stands: on the floor, and on no wall. */
 const standsOn = (scene, place, segments) => cellAt(scene, place) >= 0 && !segments.some((wall) => isOn(place, wall));
 
-/** The library's way between the dots. `isLost` where a dot stands on no floor. */
-function askWay(state, lab, options) {
+const LOST = 'A dot stands on a wall. Move it to free floor.';
+
+/** Puts the dots on the grid. `isLost` where one stands on no floor. */
+function placeDots(state, lab) {
     const scene = (state.scene = lab.scene(house.text));
     [state.a, state.b] = [onGrid(state.a), onGrid(state.b)];
     state.isLost = ![state.a, state.b].every((place) => standsOn(scene, place, walls));
     state.found = null;
-    state.trouble = state.isLost ? 'A dot stands on a wall. Move it to free floor.' : groundNow(house.text) ? '' : 'The figure is being loaded.';
+}
+
+/** The library's way between the dots. */
+function askWay(state, lab, options) {
+    placeDots(state, lab);
+    state.trouble = state.isLost ? LOST : groundNow(house.text) ? '' : 'The figure is being loaded.';
     if (state.trouble) return;
     try {
         state.found = wayBetween(house.text, state.a, state.b, options);
@@ -78,10 +85,7 @@ const graph = {
         { name: 'isTangent', label: 'only tangent edges', kind: 'check', value: false },
     ],
     update(state, lab) {
-        const scene = (state.scene = lab.scene(house.text));
-        [state.a, state.b] = [onGrid(state.a), onGrid(state.b)];
-        state.isLost = ![state.a, state.b].every((place) => standsOn(scene, place, walls));
-        state.found = null;
+        placeDots(state, lab);
         if (state.isLost) return;
         const { nodes, edges } = cornerGraph(state.a, state.b, walls);
         state.edges = edges.filter((edge) => edge.isTangent || !state.isTangent);
@@ -98,7 +102,7 @@ const graph = {
         for (const [i, { at }] of nodes.entries()) if (i > 1) drawDot(surface, camera, at, taken.includes(i) ? 6 : 4, taken.includes(i) ? tones.tree : tones.faint, tones.page);
     },
     tell({ isLost, found, edges, taken }) {
-        if (isLost) return 'A dot stands on a wall. Move it to free floor.';
+        if (isLost) return LOST;
         const end = taken.length < found.order.length ? '' : ` B is reached: ${round(found.length, 2)} m.`;
         return `${plural(found.nodes.length, 'node')}, ${plural(edges.length, 'edge')}${edges.length < found.count ? ` of ${found.count}` : ''}. ${taken.length} of ${plural(found.order.length, 'node')} taken.${end}`;
     },

@@ -3,6 +3,7 @@
  * are wired to figures; and the course's own searches for shortest ways against the library. SITE and TOOLS as in playground.test.mjs.
  */
 import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
 import { after, before, describe, test } from 'node:test';
 import { solutions } from '../teachers/lab-solutions.js';
 import { launch, programOf, serve } from './site.mjs';
@@ -109,6 +110,8 @@ describe('labs', { skip: programOf('chromium') ? false : 'Chromium is missing' }
                 return figure.canvas.toDataURL() !== first;
             }).map(({ dataset }) => dataset.figure));
             assert.deepEqual(others, [], `${chapter}: drawn again, the picture is another one`);
+            const words = readFileSync(new URL(`../course/${chapter}.md`, import.meta.url), 'utf8').match(/\{(?:show|try): /g);
+            assert.equal(await page.locator('button.show, button.try').count(), words.length, `${chapter}: words are not wired`);
             for (const word of await page.locator('button.show').all()) {
                 await word.scrollIntoViewIfNeeded();
                 const shown = () => word.evaluate((node) => document.querySelector(`figure[data-figure=${node.dataset.of}] canvas`).toDataURL());

@@ -39,5 +39,4 @@ export function surely(test, [x, y], near = 0.2) {
 
 export const at = ([x, y]) => ({ x, y });
 
-/** The cells inside. */
-export const insideOf = (scene) => Array.from({ length: scene.cellCount }, (_, i) => i).filter((i) => scene.cellTable[6 * i + 4]);
+export { insideOf } from '../lab.js';
