@@ -33,4 +33,15 @@ static inline uint64_t sli_bits_count(const sl_bits *set, size_t words) {
     return count;
 }
 
+/// The next number from `at` on that is in the set, or is not; `count` where none is.
+static inline size_t sli_bits_next(const sl_bits *set, size_t count, size_t at, bool in) {
+    const sl_bits flip = in ? 0 : ~(sl_bits)0;
+    if (at >= count) return count;
+    size_t w = at / 64;
+    sl_bits rest = (set[w] ^ flip) & ~(sl_bits)0 << at % 64;
+    while (!rest && ++w * 64 < count) rest = set[w] ^ flip;
+    const size_t found = rest ? w * 64 + (size_t)__builtin_ctzll(rest) : count;
+    return found < count ? found : count;
+}
+
 #endif

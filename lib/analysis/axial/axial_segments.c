@@ -29,8 +29,6 @@
 #include <stdatomic.h>
 #include <string.h>
 
-enum { UNITS_OF_RIGHT_ANGLE = SLI_UNITS_OF_HALF_TURN / 2 };
-
 /// Choice in whole numbers.
 #define SHARE 0x1p24
 
@@ -234,7 +232,8 @@ static sl_status measure_segment(sl_context *context, void *all, void *state, si
     add_choice(j, s, root, &found);
     uint32_t meets = 0;
     for (int e = 0; e < 2; e++) meets += n->first_at[corners[e] + 1] - n->first_at[corners[e]] - 1;
-    const double total = (double)found.turns / UNITS_OF_RIGHT_ANGLE, count = (double)found.nodes;
+    const double total = (double)found.turns / SLI_UNITS_OF_RIGHT_ANGLE,
+                 count = (double)found.nodes;
     j->measures[root] =
         (sl_segment_measures){.connectivity = meets,
                               .segment_length = n->lengths[root],

@@ -21,6 +21,7 @@
 #include "sightline/axial.h"
 
 #include "analysis/axial/touch.h"
+#include "base/bits.h"
 #include "sightline/support.h"
 
 #include <math.h>
@@ -70,9 +71,8 @@ static sl_status rank(sl_context *context, chooser *c) {
     if (!all) return SL_NO_MEMORY;
     for (uint32_t i = 0; i < n; i++) {
         const sl_segment *s = &c->all->lines[i];
-        all[i] = (ranked){sli_length(s->b.x - s->a.x, s->b.y - s->a.y), 0, i};
-        for (size_t w = 0; w < c->words; w++)
-            all[i].covers += (uint32_t)__builtin_popcountll(covers_of(c, i)[w]);
+        all[i] = (ranked){sli_length(s->b.x - s->a.x, s->b.y - s->a.y),
+                          (uint32_t)sli_bits_count(covers_of(c, i), c->words), i};
     }
     qsort(all, n, sizeof *all, compare_ranks);
     for (uint32_t i = 0; i < n; i++) c->order[i] = all[i].line;
@@ -205,18 +205,12 @@ static sl_status stamp_from(sl_context *context, chooser *c, uint32_t line, uint
     return SL_OK;
 }
 
-/// The part that a part has become one with (Tarjan 1975).
-static uint32_t part_of(uint32_t *parents, uint32_t part) {
-    while (parents[part] != part) part = parents[part] = parents[parents[part]];
-    return part;
-}
-
 /// Takes a line back if it joins kept lines of different parts. Returns how many parts less are
 /// left.
 static uint32_t take_back(chooser *c, uint32_t *parents, uint32_t line) {
     uint32_t part = 0, fewer = 0;
     for (uint32_t k = 0; k < c->stay_count; k++) {
-        const uint32_t i = c->stay[k], other = part_of(parents, c->stamps[i]);
+        const uint32_t i = c->stay[k], other = sl_root_of(parents, c->stamps[i]);
         if (other == part || !sli_touch(&c->all->lines[line], &c->all->lines[i])) continue;
         fewer += part != 0;
         parents[other] = part ? part : other;

@@ -17,7 +17,7 @@
 #include "sightline/geometry.h"
 #include "sightline/support.h"
 
-enum { SLI_UNITS_OF_HALF_TURN = 512, SLI_STEP_BITS = 32 };
+enum { SLI_UNITS_OF_HALF_TURN = 512, SLI_UNITS_OF_RIGHT_ANGLE = 256, SLI_STEP_BITS = 32 };
 
 /// No chain turns by more, so that searches know how far a step leads.
 enum { SLI_MOST_OF_CHAIN = SLI_UNITS_OF_HALF_TURN };

@@ -4,7 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-enum { UNITS_OF_RIGHT_ANGLE = SLI_UNITS_OF_HALF_TURN / 2 };
 _Static_assert((int)SLI_BUCKETS > SLI_MOST_OF_CHAIN + (int)SLI_UNITS_OF_HALF_TURN, "a step's turn");
 
 void sli_segment_search_destroy(sl_context *context, sli_segment_search *s) {
@@ -179,7 +178,7 @@ static sl_status search(sl_context *context, const sli_segment_network *n, doubl
     bool found = true;
     s->most = SLI_FAR;
     if (radius > 0 && radius < 1e6)
-        s->most = ((uint64_t)floor(radius * UNITS_OF_RIGHT_ANGLE) + 1) << SLI_STEP_BITS;
+        s->most = ((uint64_t)floor(radius * SLI_UNITS_OF_RIGHT_ANGLE) + 1) << SLI_STEP_BITS;
     for (uint32_t e = 0; e < 2; e++) {
         const uint64_t end = root_end(n, root, 2 * home + e);
         const uint32_t start = 2 * n->chain_count + e;

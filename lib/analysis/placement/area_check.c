@@ -10,6 +10,7 @@
 /// 3. If there was none again, nobody else sees anything of what is left: it is blind.
 #include "analysis/placement/blind_spots.h"
 #include "analysis/placement/place_area.h"
+#include "space/index.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -62,20 +63,9 @@ static const sl_point *corners_of(const sl_overlay *overlay, uint32_t piece, uin
     return &overlay->pieces.vertices[cell->first_vertex];
 }
 
-static sl_box box_of(const sl_overlay *overlay, uint32_t piece) {
-    uint32_t count;
-    const sl_point *p = corners_of(overlay, piece, &count);
-    sl_box box = {p[0], p[0]};
-    for (uint32_t i = 1; i < count; i++) {
-        box.min = (sl_point){fmin(box.min.x, p[i].x), fmin(box.min.y, p[i].y)};
-        box.max = (sl_point){fmax(box.max.x, p[i].x), fmax(box.max.y, p[i].y)};
-    }
-    return box;
-}
-
 /// The area up to which a piece is rounding.
 static double rounding_of(const sl_overlay *overlay, uint32_t piece) {
-    const sl_box box = box_of(overlay, piece), *all = &overlay->pieces.bounds;
+    const sl_box box = sli_box_of_cell(&overlay->pieces, piece), *all = &overlay->pieces.bounds;
     const double largest =
         fmax(fmax(fabs(all->min.x), fabs(all->max.x)), fmax(fabs(all->min.y), fabs(all->max.y)));
     return THIN * largest * (box.max.x - box.min.x + box.max.y - box.min.y);
@@ -245,7 +235,7 @@ static bool boxes_meet(const sl_box *a, const sl_box *b) {
 
 /// Looks for a place that sees a part of a piece.
 static sl_status search_piece(checker *c, uint32_t piece) {
-    const sl_box box = box_of(&c->overlay, piece);
+    const sl_box box = sli_box_of_cell(&c->overlay.pieces, piece);
     bool added = false;
     for (uint32_t i = 0; i < c->a->task->place_count && !added; i++) {
         if (c->chosen[i] || !boxes_meet(&box, &c->a->boxes[i])) continue;

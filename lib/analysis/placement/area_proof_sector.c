@@ -1,8 +1,7 @@
 /// Witnesses on borders of views, for the check of placements (area_proof_check.c).
 ///
 ///     B  .   |
-///       . .  |  A         The witness x is on the borders of A and of B: neither sees all around
-///       it.
+///       . .  |  A         x is on the borders of A and B: neither sees all around it.
 ///     .......x            But A sees all of a sector at x.
 ///
 /// Who sees all that the places can see, sees this sector close to x too, as often as places do.

@@ -112,6 +112,8 @@ static sl_status raise_column(sl_context *context, const sl_cover_problem *part,
             sum += coefficients[cuts->rows[k]];
         const uint64_t half = (sum + 1) / 2, demand = out->demands.items[rows + cut];
         coefficients[rows + cut] = half < demand ? half : demand;
+        *sense = out->entries.count + coefficients[rows + cut] <= ENTRIES_MOST;
+        if (!*sense) return SL_OK;
         for (uint64_t n = 0; n < coefficients[rows + cut]; n++)
             SL_TRY(add_entry(context, out, rows + cut));
     }

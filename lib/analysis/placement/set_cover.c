@@ -400,7 +400,6 @@ static sl_status move_cuts(sl_context *context, sli_cover_part *p, sl_cover_cuts
     out->rest->parts = sl_alloc_array(context, out->rest->row_count, sizeof *out->rest->parts);
     if (!out->rest->parts) return SL_NO_MEMORY;
     SL_TRY(make_room(context, out->rest, p->nodes.count, p->duals.count));
-    out->rest->dual_count = 0;
     add_nodes(out->rest, p, NULL, 1, 0, 1);
     return SL_OK;
 }

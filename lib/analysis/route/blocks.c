@@ -4,8 +4,7 @@
 ///
 ///         +-------+-----------+-------+      A way from A to E leaves D into the room R and comes
 ///         |   A   |     D     |   E   |      back to D only if R is its goal: cells are convex, so
-///         +-------+----| |----+-------+      within D it is no longer to go straight on. A, D and
-///         E
+///         +-------+----| |----+-------+      within D it is no longer to go straight on. A, D, E
 ///                 |     R     |              are on the way, and R is in a block that is not.
 ///                 +-----------+
 ///

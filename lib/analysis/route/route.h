@@ -2,6 +2,7 @@
 #ifndef SL_ROUTE_H
 #define SL_ROUTE_H
 
+#include "base/heap.h"
 #include "sightline/path.h"
 #include "sightline/support.h"
 #include "space/index.h"
@@ -65,6 +66,11 @@ typedef struct sli_route_open {
     uint32_t node;
 } sli_route_open;
 
+static inline bool sli_route_is_before(const sli_route_open *a, const sli_route_open *b) {
+    return a->f != b->f ? a->f < b->f : a->node < b->node;
+}
+SLI_HEAP(sli_route_heap, sli_route_open, sli_route_is_before)
+
 /// Blocks of cells that single cells join (blocks.c). All NULL in a space with one-way glass.
 typedef struct sli_route_blocks {
     uint32_t *of;    ///< by portal
@@ -101,7 +107,7 @@ struct sl_route_finder {
     sli_route_blocks blocks;
     uint32_t stamp;
     SL_ARRAY(sli_route_node) nodes;
-    SL_ARRAY(sli_route_open) open;
+    sli_route_heap open;
 };
 
 /// Finds the corners and the parts of the finder's space.

@@ -169,11 +169,7 @@ static void note_place(const search *s, uint32_t cell, sl_point origin, sl_point
     known->most = sli_lesser(known->most, (far + sqrt(most) / s->scale) * (1 + SAME));
 }
 
-// --- the open nodes: a heap
-
-static bool before(const sli_route_open *a, const sli_route_open *b) {
-    return a->f != b->f ? a->f < b->f : a->node < b->node;
-}
+// --- the open nodes
 
 /// Adds a node that is not open.
 static sl_status keep(search *s, const sli_route_node *node) {
@@ -188,27 +184,8 @@ static sl_status keep(search *s, const sli_route_node *node) {
 static sl_status push(search *s, const sli_route_node *node, double f) {
     sl_route_finder *finder = s->finder;
     SL_TRY(keep(s, node));
-    SL_TRY(SL_ARRAY_ROOM(s->context, &finder->open, 1));
     const sli_route_open item = {f * (1 - 0x1p-50), (uint32_t)finder->nodes.count - 1};
-    sli_route_open *heap = finder->open.items;
-    size_t i = finder->open.count++;
-    for (; i && before(&item, &heap[(i - 1) / 2]); i = (i - 1) / 2) heap[i] = heap[(i - 1) / 2];
-    heap[i] = item;
-    return SL_OK;
-}
-
-static uint32_t pop(sl_route_finder *finder) {
-    sli_route_open *heap = finder->open.items;
-    const uint32_t least = heap[0].node;
-    const sli_route_open last = heap[--finder->open.count];
-    size_t i = 0;
-    for (size_t child; (child = 2 * i + 1) < finder->open.count; i = child) {
-        if (child + 1 < finder->open.count && before(&heap[child + 1], &heap[child])) child++;
-        if (!before(&heap[child], &last)) break;
-        heap[i] = heap[child];
-    }
-    heap[i] = last;
-    return least;
+    return sli_route_heap_push(s->context, &finder->open, item);
 }
 
 // --- corners
@@ -537,7 +514,7 @@ sl_status sli_route_search(sl_context *context, sl_route_finder *finder, sl_poin
     double most = INFINITY;
     while (finder->open.count && finder->open.items[0].f <= most) {
         const double f = finder->open.items[0].f;
-        const uint32_t next = pop(finder);
+        const uint32_t next = sli_route_heap_pop(&finder->open).node;
         if (finder->nodes.items[next].is_last) {
             if (*out == SLI_ROUTE_NONE) most = f * (1 + SAME);
             *out = first_around(finder, to, *out, next);
@@ -572,7 +549,7 @@ sl_status sli_route_spread(sl_context *context, sl_route_finder *finder, sl_poin
     for (uint32_t c = 0; c < s.space->cell_count; c++) cells[c] = (sl_route_near){INFINITY, {0, 0}};
     SL_TRY(start_at(&s, from));
     for (uint64_t expanded = 1; finder->open.count; expanded++) {
-        const uint32_t next = pop(finder);
+        const uint32_t next = sli_route_heap_pop(&finder->open).node;
         const sli_route_node *node = &finder->nodes.items[next];
         if (is_known_nearer(&s, node->cell, node->near)) continue;
         if (node->near < cells[node->cell].distance)

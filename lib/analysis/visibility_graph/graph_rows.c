@@ -69,21 +69,10 @@ static void put_number(writer *w, size_t number) {
     w->bytes.items[w->bytes.count++] = (uint8_t)number;
 }
 
-/// The next number from `at` on that is in the set, or is not; `count` where none is.
-static size_t find(const sl_bits *set, size_t count, size_t at, bool in) {
-    const sl_bits flip = in ? 0 : ~(sl_bits)0;
-    if (at >= count) return count;
-    size_t w = at / 64;
-    sl_bits rest = (set[w] ^ flip) & ~(sl_bits)0 << at % 64;
-    while (!rest && ++w * 64 < count) rest = set[w] ^ flip;
-    const size_t found = rest ? w * 64 + (size_t)__builtin_ctzll(rest) : count;
-    return found < count ? found : count;
-}
-
 static sl_status put_row(sl_context *context, writer *w, size_t count) {
     size_t before = 0;
-    for (size_t first; (first = find(w->row, count, before, true)) < count;) {
-        const size_t stop = find(w->row, count, first, false);
+    for (size_t first; (first = sli_bits_next(w->row, count, before, true)) < count;) {
+        const size_t stop = sli_bits_next(w->row, count, first, false);
         SL_TRY(SL_ARRAY_ROOM(context, &w->bytes, 10));
         put_number(w, stop - first);
         put_number(w, first - before);

@@ -287,26 +287,13 @@ static uint64_t number_bytes(uint32_t value) {
     return bytes;
 }
 
-/// The place of the first bit from `from` on that is `value`; `end` where there is none.
-static uint32_t next_bit(const sl_bits *set, uint32_t from, uint32_t end, bool value) {
-    while (from < end) {
-        const sl_bits word = (value ? set[from / 64] : ~set[from / 64]) >> (from % 64);
-        if (word) {
-            const uint32_t at = from + (uint32_t)__builtin_ctzll(word);
-            return at < end ? at : end;
-        }
-        from = (from / 64 + 1) * 64;
-    }
-    return end;
-}
-
 /// The bytes of a set as a row of a PVS: runs of objects out and in, in LEB128 (pvs.h).
 static uint64_t row_bytes(const sl_bits *set, uint32_t count) {
     uint64_t bytes = 0;
     for (uint32_t at = 0; at < count;) {
-        const uint32_t in = next_bit(set, at, count, true);
+        const uint32_t in = (uint32_t)sli_bits_next(set, count, at, true);
         if (in == count) break;
-        const uint32_t out = next_bit(set, in, count, false);
+        const uint32_t out = (uint32_t)sli_bits_next(set, count, in, false);
         bytes += number_bytes(in - at) + number_bytes(out - in);
         at = out;
     }
