@@ -338,7 +338,7 @@ sl_status sl_map_parse(sl_context *context, const char *path, const char *text, 
         status = read_format(context, path, find_format(context, path, text, size), text, size,
                              &own, &read);
     if (status == SL_OK && measured) {
-        status = sli_map_measure(context, &read, factor, sign);
+        status = sli_map_measure(context, &read, factor, sign, options->unit);
         if (status != SL_OK) sl_map_destroy(context, &read);
     }
     if (status == SL_OK) {

@@ -59,23 +59,24 @@ static bool scale_all(sl_map *map, double factor) {
     scale_points(&source->page.min, 2, one, factor);
     scale_points(&source->transform.origin, 1, one, factor);
     source->transform.scale /= factor;
-    source->pixels *= factor > 0 ? 1 / factor : 0;
+    source->pixels /= factor;
     return good;
 }
 
-sl_status sli_map_measure(sl_context *context, sl_map *map, double factor, const char *sign) {
+sl_status sli_map_measure(sl_context *context, sl_map *map, double factor, const char *sign,
+                          const char *said) {
     if (!(factor > 0) || !sl_coordinate_usable(factor) || !(sli_unit_metres(sign) > 0))
-        return sl_fail(context, SL_BAD_ARGUMENT,
-                       "--unit %.17g=%s: expected how long a unit of the file is, as 0.0254=m, in "
-                       "mm, cm, m, km, in, ft or yd",
-                       factor, sign);
+        return sl_fail(
+            context, SL_BAD_ARGUMENT,
+            "--unit %s: expected how long a unit of the file is, as 0.0254=m, in mm, cm, m, "
+            "km, in, ft or yd",
+            said);
     if (map->earth.known)
         return sl_fail(context, SL_BAD_ARGUMENT,
-                       "--unit %.17g=%s: the map is in degrees, which says how long they are",
-                       factor, sign);
+                       "--unit %s: the map is in degrees, which says how long they are", said);
     if (!scale_all(map, factor))
         return sl_fail(context, SL_BAD_ARGUMENT,
-                       "--unit %.17g=%s: coordinates get too large or too small", factor, sign);
+                       "--unit %s: coordinates get too large or too small", said);
     map->snap *= factor;
     map->precision *= factor;
     map->range *= factor;

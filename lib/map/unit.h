@@ -24,8 +24,10 @@ double sli_unit_metres(const char *unit);
 bool sli_unit_is_measured(const char *text, double *factor, const char **sign);
 /// Multiplies all places and lengths of a map by a factor, and gives it a unit. The map was read
 /// just now: it is not clean, and its interior is not found. SL_BAD_ARGUMENT for a factor that is
-/// not above 0, a unit that is not known, a map in degrees, and coordinates that a map cannot have.
-sl_status sli_map_measure(sl_context *context, sl_map *map, double factor, const char *sign);
+/// not above 0, a unit that is not known, a map in degrees, and coordinates that a map cannot have;
+/// `said` is the text that was given, for the message.
+sl_status sli_map_measure(sl_context *context, sl_map *map, double factor, const char *sign,
+                          const char *said);
 
 /// A length with three digits, rounded up, so that people can type it; 0 where it is not above 0.
 double sli_rounded_up(double value);

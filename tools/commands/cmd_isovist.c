@@ -82,9 +82,6 @@ static sl_status make_plan(sl_context *context, isovist_plan *p) {
                        p->output);
     if (p->step > 0 && !p->path)
         return sl_fail(context, SL_BAD_ARGUMENT, "--step is for --path, which is not given");
-    if ((p->frames || p->chart) && !p->path)
-        return sl_fail(context, SL_BAD_ARGUMENT, "--%s is for --path, which is not given",
-                       p->frames ? "frames" : "chart");
     if ((p->frames || p->chart) && p->together)
         return sl_fail(context, SL_BAD_ARGUMENT, "--union goes without --frames and --chart");
     if (p->frames) SL_TRY(built_need_pictures(context));

@@ -126,6 +126,11 @@ static sl_status draw(sl_context *context, const vga_plan *plan, const vga_work 
     vga_field field;
     SL_TRY(
         vga_field_make(context, w, plan->measure, plan->scale_given ? &plan->scale : NULL, &field));
+    if (field.field.grey)
+        sl_note(context,
+                "the colours are those of the largest part; the other%s grey (--scale "
+                "MIN,MAX colours all)",
+                w->table.part_count > 2 ? "s are" : " is");
     const sl_status status = heat_map_draw(context, &w->baked, &heat, &field.field);
     vga_field_destroy(context, &field);
     return status;

@@ -53,10 +53,6 @@ static sl_status fill(sl_context *context, const vga_work *w, size_t measure, bo
         for (size_t i = 0; i < (size_t)grid->columns * grid->rows; i++)
             out->grey[i] = !isnan(out->values[i]);
         out->field.grey = out->grey;
-        sl_note(context,
-                "the colours are those of the largest part; the other%s grey (--scale "
-                "MIN,MAX colours all)",
-                w->table.part_count > 2 ? "s are" : " is");
     }
     lay_out(grid, values, out->values);
     return SL_OK;

@@ -25,6 +25,11 @@ static double usual_step(const sl_space *space) {
     return power * (most >= 5 * power ? 5 : most >= 2 * power ? 2 : 1);
 }
 
+/// What else makes a grid smaller, where the command has it.
+static const char *or_at(const vga_plan *plan, const char *words) {
+    return strcmp(plan->command, "vga") == 0 && !plan->of_building ? words : "";
+}
+
 /// Refuses a step by the area inside, before a grid is filled that is far too large. From --at the
 /// grid may go out, and filling it says when it is too large.
 static sl_status check_area(sl_context *context, const vga_plan *plan, const sl_space *space) {
@@ -32,9 +37,8 @@ static sl_status check_area(sl_context *context, const vga_plan *plan, const sl_
     if (plan->points.at.count || points <= SL_VGA_POINTS_MOST) return SL_OK;
     return sl_fail(
         context, SL_BAD_ARGUMENT,
-        "--grid %.9g: about %.3g points, and a graph has up to %u; choose a larger step, "
-        "or one room with --at",
-        plan->points.step, points, SL_VGA_POINTS_MOST);
+        "--grid %.9g: about %.3g points, and a graph has up to %u; choose a larger step%s",
+        plan->points.step, points, SL_VGA_POINTS_MOST, or_at(plan, ", or one room with --at"));
 }
 
 /// A step that is wrong by far may be meant in another unit than the drawing's.
@@ -71,8 +75,9 @@ static sl_status check_memory(sl_context *context, const vga_plan *plan, const v
     if (bytes > sl_machine_memory() / 2)
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "--grid %.9g: the graph of %" PRIu32 " points takes about %s; half of this "
-                       "machine's memory is %s; choose a larger step, or one room with --at",
-                       plan->points.step, points, size, most);
+                       "machine's memory is %s; choose a larger step%s",
+                       plan->points.step, points, size, most,
+                       or_at(plan, ", or one room with --at"));
     sl_note(context, "%" PRIu32 " %s; the graph takes about %s", points,
             points == 1 ? "point" : "points", size);
     return SL_OK;
@@ -218,7 +223,7 @@ static sl_status note_inside(sl_context *context, const vga_plan *plan, const vg
     const sl_space *space = &w->baked.space;
     if (plan->points.at.count) return pipeline_note_inside(context, &plan->pipeline, map, space);
     return pipeline_need_inside(context, &plan->pipeline, map, space,
-                                ", or fill the grid from a point: --at X,Y");
+                                or_at(plan, ", or fill the grid from a point: --at X,Y"));
 }
 
 /// The plan of steps, from that of sight before its doors are shut.

@@ -48,6 +48,21 @@ void import_set_number(text_field *field, bool given, double value) {
     field_set(field, text);
 }
 
+void import_set_place(text_field *field, sl_point at) {
+    char text[2 * SL_NUMBER_TEXT + 1], x[SL_NUMBER_TEXT], y[SL_NUMBER_TEXT];
+    sl_number_write(at.x, x);
+    sl_number_write(at.y, y);
+    snprintf(text, sizeof text, "%s,%s", x, y);
+    field_set(field, text);
+}
+
+bool import_read_place(const char *text, sl_point *at) {
+    const char *comma = strchr(text, ',');
+    const char *second = comma ? comma + 1 + strspn(comma + 1, " ") : NULL;
+    return comma && sl_number_read(text, (size_t)(comma - text), &at->x) &&
+           sl_number_read(second, strlen(second), &at->y);
+}
+
 static void fill_fields(import_state *s) {
     const sl_import_options *o = &s->source.options;
     import_set_number(&s->fields[FIELD_SLICE], o->has_slice, o->slice);
@@ -59,13 +74,8 @@ static void fill_fields(import_state *s) {
     field_set(&s->fields[FIELD_UNIT], o->unit ? o->unit : "");
     import_set_number(&s->fields[FIELD_THRESHOLD], o->threshold > 0, o->threshold);
     import_set_number(&s->fields[FIELD_WELD], s->source.has_weld, s->source.weld);
-    char text[2 * SL_NUMBER_TEXT + 1] = "", x[SL_NUMBER_TEXT], y[SL_NUMBER_TEXT];
-    if (s->source.has_start) {
-        sl_number_write(s->source.start.x, x);
-        sl_number_write(s->source.start.y, y);
-        snprintf(text, sizeof text, "%s,%s", x, y);
-    }
-    field_set(&s->fields[FIELD_START], text);
+    field_set(&s->fields[FIELD_START], "");
+    if (s->source.has_start) import_set_place(&s->fields[FIELD_START], s->source.start);
     import_set_number(&s->fields[FIELD_ENTRANCE], o->entrance > 0, o->entrance);
     s->doors = o->doors;
     s->cells = o->cells;
@@ -129,13 +139,11 @@ static bool read_number(import_state *s, field_name name, double low, double hig
 }
 
 static bool read_start(import_state *s, document_source *out) {
-    const char *text = s->fields[FIELD_START].text, *comma = strchr(text, ',');
+    const char *text = s->fields[FIELD_START].text;
     out->has_start = *text != '\0';
     if (!*text) return true;
-    const char *second = comma ? comma + 1 + strspn(comma + 1, " ") : NULL;
-    if (comma && sl_number_read(text, (size_t)(comma - text), &out->start.x) &&
-        sl_number_read(second, strlen(second), &out->start.y) &&
-        fabs(out->start.x) <= SL_COORDINATE_MAX && fabs(out->start.y) <= SL_COORDINATE_MAX)
+    if (import_read_place(text, &out->start) && fabs(out->start.x) <= SL_COORDINATE_MAX &&
+        fabs(out->start.y) <= SL_COORDINATE_MAX)
         return true;
     return import_complain(s, fields[FIELD_START].label, "a place is needed, as 3,4.5");
 }
@@ -270,7 +278,7 @@ static void accept(desk_state *desk, import_state *s) {
 /// Puts back what was chosen before.
 static void cancel(desk_state *desk, import_state *s) {
     document_source source;
-    const bool changed = !s->beside || !read_source(desk->context, s, &source) ||
+    const bool changed = !s->beside || s->due > 0 || !read_source(desk->context, s, &source) ||
                          !document_source_same(&source, &s->first);
     dialog_pop(&desk->dialog);
     if (s->beside && changed) {

@@ -93,6 +93,9 @@ enum {
 
 /// Writes a number into a field, or nothing.
 void import_set_number(text_field *field, bool given, double value);
+/// Writes a place into a field, and reads one, as "3,4.5"; false where the text is none.
+void import_set_place(text_field *field, sl_point at);
+bool import_read_place(const char *text, sl_point *at);
 /// Says what is wrong with a choice; returns false.
 bool import_complain(import_state *s, const char *what, const char *why);
 /// The plan follows what was chosen. Not where the dialog is not beside it.

@@ -161,23 +161,20 @@ static double factor_now(const desk_state *desk) {
 
 /// What was said in the map's places before is in the new unit now.
 static void scale_said(import_state *s, double by) {
-    double entrance, x, y;
-    const char *text = s->fields[FIELD_ENTRANCE].text, *start = s->fields[FIELD_START].text;
-    const char *comma = strchr(start, ',');
+    static const int lengths[] = {FIELD_ENTRANCE, FIELD_WELD};
+    sl_point start;
     for (size_t i = 0; i < s->source.closed_count; i++) {
         sl_segment *c = &s->source.closed[i];
         *c = (sl_segment){{c->a.x * by, c->a.y * by}, {c->b.x * by, c->b.y * by}};
     }
-    if (sl_number_read(text, strlen(text), &entrance))
-        import_set_number(&s->fields[FIELD_ENTRANCE], true, entrance * by);
-    if (!comma || !sl_number_read(start, (size_t)(comma - start), &x) ||
-        !sl_number_read(comma + 1, strlen(comma + 1), &y))
-        return;
-    char place[2 * SL_NUMBER_TEXT + 1], first[SL_NUMBER_TEXT], second[SL_NUMBER_TEXT];
-    sl_number_write(x * by, first);
-    sl_number_write(y * by, second);
-    snprintf(place, sizeof place, "%s,%s", first, second);
-    field_set(&s->fields[FIELD_START], place);
+    for (size_t i = 0; i < sizeof lengths / sizeof *lengths; i++) {
+        text_field *field = &s->fields[lengths[i]];
+        double length;
+        if (sl_number_read(field->text, strlen(field->text), &length))
+            import_set_number(field, true, length * by);
+    }
+    if (import_read_place(s->fields[FIELD_START].text, &start))
+        import_set_place(&s->fields[FIELD_START], (sl_point){start.x * by, start.y * by});
 }
 
 void import_plan_scale(desk_state *desk, import_state *s) {
@@ -222,14 +219,10 @@ static sl_point snapped(const sl_map *map, sl_point at, double reach) {
 void import_pick_at(desk_state *desk, sl_point at, double reach) {
     import_state *s = desk->dialog.import;
     if (s->pick != PICK_INSIDE) at = snapped(&desk->document->map, at, reach);
-    char text[2 * SL_NUMBER_TEXT + 1], x[SL_NUMBER_TEXT], y[SL_NUMBER_TEXT];
     s->problem[0] = '\0';
     switch (s->pick) {
     case PICK_INSIDE:
-        sl_number_write(at.x, x);
-        sl_number_write(at.y, y);
-        snprintf(text, sizeof text, "%s,%s", x, y);
-        field_set(&s->fields[FIELD_START], text);
+        import_set_place(&s->fields[FIELD_START], at);
         s->pick = PICK_NONE;
         import_preview(desk, s);
         break;

@@ -46,16 +46,11 @@ static bool is_of_building(desk_state *desk, const char *path, sl_status *status
     return is;
 }
 
-void files_open(desk_state *desk, const char *path, bool ask) {
+void files_open_plan(desk_state *desk, const char *path, bool ask) {
     document_source given = {.path = (char *)(uintptr_t)path, .options = desk->options};
     document_source source = {0};
     sl_map_choice choice = {0};
-    sl_status status;
-    if (is_of_building(desk, path, &status)) {
-        map_file_check(desk, path, status);
-        return;
-    }
-    if (status == SL_OK) status = files_look(desk->context, &given, &choice);
+    sl_status status = files_look(desk->context, &given, &choice);
     if (choice.format) keep_useful(&given.options, given.takes);
     if (status == SL_OK) status = document_source_copy(desk->context, &given, &source);
     if (status == SL_OK && !desk->ui->steady) status = recall(desk->context, &source);
@@ -66,6 +61,14 @@ void files_open(desk_state *desk, const char *path, bool ask) {
     map_file_check(desk, path, status);
     document_source_destroy(desk->context, &source);
     sl_map_choice_destroy(desk->context, &choice);
+}
+
+void files_open(desk_state *desk, const char *path, bool ask) {
+    sl_status status;
+    if (!is_of_building(desk, path, &status) && status == SL_OK)
+        files_open_plan(desk, path, ask);
+    else
+        map_file_check(desk, path, status);
 }
 
 void files_drop(desk_state *desk, const char *path) {

@@ -8,6 +8,8 @@
 /// asks what the file leaves open (which of its maps, which layers are solid), and with `ask` for
 /// all options. Changes that would be lost are asked about. A failure gets a dialog.
 void files_open(desk_state *desk, const char *path, bool ask);
+/// The same for one that is no building (dialogs/storeys.h), but may be a storey of one.
+void files_open_plan(desk_state *desk, const char *path, bool ask);
 
 /// The same for a file that is dropped on the window: other dialogs go; a question stays, and the
 /// file is not opened.

@@ -14,7 +14,7 @@ bool storeys_is(const char *path) {
 }
 
 static void open_storey(desk_state *desk, const char *building, const sl_storey *storey) {
-    files_open(desk, storey->path, false);
+    files_open_plan(desk, storey->path, false);
     ui_report(desk->ui, desk->context,
               files_set_text(desk->context, &desk->file.building, building));
     if (!desk->ui->steady) recent_add(desk->context, building);
@@ -67,9 +67,13 @@ sl_status storeys_open(desk_state *desk, const char *path) {
 }
 
 void storeys_choose(desk_state *desk) {
-    const char *path = desk->file.building;
-    if (!path)
+    char *path = NULL; // of its own: the desk's is replaced
+    if (!desk->file.building) {
         ui_say(desk->ui, false, "this plan was not opened as a storey of a building");
-    else
-        map_file_check(desk, path, storeys_open(desk, path));
+        return;
+    }
+    sl_status status = files_set_text(desk->context, &path, desk->file.building);
+    if (status == SL_OK) status = storeys_open(desk, path);
+    map_file_check(desk, desk->file.building, status);
+    sl_free(desk->context, path);
 }

@@ -49,6 +49,8 @@ static sl_status take_line(sl_context *context, const char *word, const char *va
     if (strcmp(word, "layers") == 0) return take_text(context, &o->layers, value);
     if (strcmp(word, "unit") == 0) return take_text(context, &o->unit, value);
     if (strcmp(word, "entrance") == 0 && count == 1) o->entrance = at[0];
+    if (strcmp(word, "tolerance") == 0 && count == 1) o->tolerance = at[0];
+    if (strcmp(word, "threshold") == 0 && count == 1) o->threshold = at[0];
     if (strcmp(word, "doors") == 0) o->doors = true;
     if (strcmp(word, "weld") == 0 && count == 1) {
         source->has_weld = true;
@@ -165,6 +167,8 @@ static void put_choices(FILE *stream, const void *user) {
     put_text(stream, "layers", o->layers);
     put_text(stream, "unit", o->unit);
     if (o->entrance > 0) put_numbers(stream, "entrance", &o->entrance, 1, "");
+    if (o->tolerance > 0) put_numbers(stream, "tolerance", &o->tolerance, 1, "");
+    if (o->threshold > 0) put_numbers(stream, "threshold", &o->threshold, 1, "");
     if (o->doors) fputs("doors \n", stream);
     if (source->has_weld) put_numbers(stream, "weld", &source->weld, 1, "");
     if (source->has_start)

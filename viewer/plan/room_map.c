@@ -82,9 +82,9 @@ static sl_status begin_map(view_state *view) {
     if (!view->rooms) view->rooms = sl_alloc_array(view->context, 1, sizeof *view->rooms);
     room_map *map = view->rooms;
     if (!map) return SL_NO_MEMORY;
-    if (map->opened != view->document->opened) recall(view);
-    if (map->opened != view->document->opened || tool_job_is_old(view, &map->job))
-        forget_rooms(view->context, map);
+    const bool other = map->opened != view->document->opened;
+    if (other || tool_job_is_old(view, &map->job)) forget_rooms(view->context, map);
+    if (other) recall(view); // no job reads the names any more
     map->opened = view->document->opened;
     if (map->map.wall_count || map->job.made || map->job.task) return SL_OK;
     return sl_baked_copy_map(view->context, view->document->baked, &map->map);
@@ -251,16 +251,16 @@ size_t room_map_at(const room_map *map, sl_point at) {
 
 void room_map_rename(view_state *view, size_t row, const char *name) {
     room_map *map = view->rooms;
-    if (!map || row >= room_map_rows(map)) return;
+    if (!map || !map->job.made || row >= room_map_rows(map)) return;
     if (room_map_is_zone(map, row)) {
         named_place *zone = &map->zones.items[row - map->rooms.count];
         if (*name) sli_text_copy(name, strlen(name), zone->name, sizeof zone->name);
         remember(view);
         return;
     }
-    size_t at = 0;
-    while (at < map->names.count && sl_rooms_at(&map->rooms, map->names.items[at].box.min) != row)
-        at++;
+    size_t at = map->names.count;
+    for (size_t i = 0; i < map->names.count; i++) // of several in one room the last counts
+        if (sl_rooms_at(&map->rooms, map->names.items[i].box.min) == row) at = i;
     sl_status status = SL_OK;
     if (*name && at == map->names.count) status = SL_ARRAY_ROOM(view->context, &map->names, 1);
     if (*name && status == SL_OK) {
@@ -320,7 +320,7 @@ void room_map_drop_zone(view_state *view) {
 
 void room_map_delete(view_state *view, size_t row) {
     room_map *map = view->rooms;
-    if (!map || row >= room_map_rows(map) || !room_map_is_zone(map, row)) return;
+    if (!map || !map->job.made || row >= room_map_rows(map) || !room_map_is_zone(map, row)) return;
     const size_t zone = row - map->rooms.count;
     map->zones.count--;
     memmove(&map->zones.items[zone], &map->zones.items[zone + 1],

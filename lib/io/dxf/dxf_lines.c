@@ -39,10 +39,11 @@ static bool has_layer(const sl_polyline *lines, size_t line) {
 
 static sl_status put_lines(sl_context *context, const sl_polyline *lines, size_t count,
                            const char *unit, FILE *stream) {
+    int layers = 0;
     sli_dxf_put_head(stream, sli_unit_number(unit));
     for (size_t i = 0; i < count; i++)
         if ((!i || lines[i].layer != lines[i - 1].layer) && !has_layer(lines, i))
-            sli_dxf_put_layer(stream, lines[i].layer, 1 + (int)(i % 6));
+            sli_dxf_put_layer(stream, lines[i].layer, 1 + layers++ % 6);
     sli_dxf_put_middle(stream);
     for (size_t i = 0; i < count; i++) {
         if (i % 4096 == 0) SL_TRY(sl_check_cancelled(context));
