@@ -1,6 +1,5 @@
 /// Doors of a large plan: every state of them is seen as a bake is that has walls in those that are
 /// shut, by the library and by the runtime for games.
-#define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "baked_bytes.h"
 #include "effects/filtered.h"
 #include "runtime_maps.h"

@@ -1,5 +1,4 @@
 /// Files that older programs made: the library and the runtime read them, and say the same of them.
-#define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "baked_bytes.h"
 #include "runtime_maps.h"
 #include "slv_file.h"

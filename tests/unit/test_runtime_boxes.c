@@ -1,7 +1,6 @@
 /// Many boxes in the runtime, and in a query that cuts no cells, against a query that cuts the
 /// space along the boxes and makes walls of those that block. Boxes touch walls, doors, corners,
 /// the eye and each other.
-#define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "runtime_maps.h"
 
 #include "geometry/crossing.h"
@@ -303,51 +302,6 @@ static void in_turned_maps(void **state) {
     sl_context_destroy(t.context);
 }
 
-// --- signs
-
-static int64_t small(sl_random *random) {
-    return (int64_t)sl_random_below(random, 9) - 4;
-}
-
-/// The sign of the library's and the runtime's polynomial, which must be the same.
-static int axial_sign(sl_point eye, sl_point point, sl_point a, sl_point b, int axis,
-                      double value) {
-    const slrt_search s = {.x = eye.x, .y = eye.y};
-    const slrt_arm u = slrt_make_arm(eye.x, eye.y, point.x, point.y);
-    const slrt_point p = {a.x, a.y}, q = {b.x, b.y};
-    const int sign = sli_axial_meet_side(eye, point, a, b, axis, value);
-    assert_int_equal(slrt_side_meets(&s, &u, p, q, axis, value), sign);
-    assert_int_equal(slrt_side_meets_exact(&s, &u, p, q, axis, value), sign);
-    return sign;
-}
-
-/// Against whole numbers; at 0.1 and so on, where rounding would decide; near overflow and
-/// underflow.
-static void signs(void **state) {
-    (void)state;
-    sl_random random = {5};
-    size_t zeros = 0;
-    for (int i = 0; i < 100000; i++) {
-        int64_t n[9];
-        for (int k = 0; k < 9; k++) n[k] = small(&random);
-        const int axis = i % 2;
-        const int64_t ux = n[2] - n[0], uy = n[3] - n[1], sx = n[6] - n[4], sy = n[7] - n[5];
-        const int64_t turn = sx * (n[5] - n[1]) - sy * (n[4] - n[0]), cross = sx * uy - sy * ux;
-        const int64_t truth = (axis ? uy : ux) * turn - cross * (n[8] - n[axis]);
-        const double scale = ldexp(1, (int)sl_random_below(&random, 900) - 450);
-        double d[9];
-        for (int k = 0; k < 9; k++) d[k] = scale * (double)n[k];
-        const int sign = axial_sign((sl_point){d[0], d[1]}, (sl_point){d[2], d[3]},
-                                    (sl_point){d[4], d[5]}, (sl_point){d[6], d[7]}, axis, d[8]);
-        assert_int_equal(sign, (truth > 0) - (truth < 0));
-        zeros += !sign;
-        for (int k = 0; k < 9; k++) d[k] = 0.1 * (double)n[k] + 0.3;
-        axial_sign((sl_point){d[0], d[1]}, (sl_point){d[2], d[3]}, (sl_point){d[4], d[5]},
-                   (sl_point){d[6], d[7]}, axis, d[8]);
-    }
-    assert_true(zeros > 1000);
-}
-
 // --- by hand
 
 typedef struct scene {
@@ -484,13 +438,9 @@ static void behind_a_corner(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(as_the_query_says),
-        cmocka_unit_test(in_turned_maps),
-        cmocka_unit_test(one_hides_another),
-        cmocka_unit_test(nowhere_and_everywhere),
-        cmocka_unit_test(touching),
-        cmocka_unit_test(behind_a_corner),
-        cmocka_unit_test(signs),
+        cmocka_unit_test(as_the_query_says), cmocka_unit_test(in_turned_maps),
+        cmocka_unit_test(one_hides_another), cmocka_unit_test(nowhere_and_everywhere),
+        cmocka_unit_test(touching),          cmocka_unit_test(behind_a_corner),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

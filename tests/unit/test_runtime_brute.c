@@ -9,7 +9,6 @@
 ///
 ///     test_runtime_brute           a few eyes
 ///     test_runtime_brute --all     1,000 eyes and 200 targets in each map
-#define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "unit/runtime_maps.h"
 
 #ifndef __SIZEOF_FLOAT128__

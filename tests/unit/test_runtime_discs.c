@@ -1,5 +1,4 @@
 // The runtime's discs that walk, against the distances to all walls.
-#define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "runtime_trial.h"
 
 /// What stops a disc: walls, glass, shut doors, the sides of boxes, the border.

@@ -1,5 +1,4 @@
 // The area that was explored, as tiles: those whose middles the eye sees, and no others.
-#define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "runtime_maps.h"
 
 enum { EYES = 12 };

@@ -1,6 +1,5 @@
 /// The runtime header on walls that limit sight, beside the oracles of test_limited: points, cells
 /// and polygons.
-#define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "runtime/sightline_runtime.h"
 
 #include "unit/limited_maps.h"

@@ -1,6 +1,5 @@
 // Eye-to-cell of the runtime against an oracle: what one eye sees is told by its lines through the
 // ends of portals and along the cone's borders, each followed by itself through the cells.
-#define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "runtime_maps.h"
 #include "sight/cone.h"
 
@@ -270,28 +269,6 @@ static void no_more_is_written_than_there_is_room(void **state) {
     sl_context_destroy(context);
 }
 
-/// Signs of cross products of three points, as they are or as the eye's arms give them.
-static void signs_are_exact(void **state) {
-    (void)state;
-    sl_random random = {5};
-    for (int i = 0; i < 200000; i++) {
-        // Nearly in line, far from the origin, of mixed sizes.
-        const double scale = ldexp(1, (int)sl_random_below(&random, 900) - 430);
-        const double offset = sl_random_below(&random, 2) ? 0 : scale * 1000;
-        sl_point p[3];
-        for (int k = 0; k < 3; k++) {
-            const double along = 1 + (double)sl_random_below(&random, 64);
-            p[k] = (sl_point){offset + scale * along, offset + scale * along * 3};
-            if (sl_random_below(&random, 2)) p[k].x = nextafter(p[k].x, INFINITY);
-            if (sl_random_below(&random, 2)) p[k].y = nextafter(p[k].y, -INFINITY);
-        }
-        const slrt_arm u = slrt_make_arm(p[0].x, p[0].y, p[1].x, p[1].y);
-        const slrt_arm v = slrt_make_arm(p[0].x, p[0].y, p[2].x, p[2].y);
-        assert_int_equal(slrt_side(&u, &v), sli_orient(p[0], p[1], p[2]));
-        assert_int_equal(slrt_side_exact(&u, &v), sli_orient(p[0], p[1], p[2]));
-    }
-}
-
 /// An eye in solid ground sees nothing, by a kd-tree and by a mesh.
 static void rock_has_no_view(void **state) {
     (void)state;
@@ -316,7 +293,6 @@ static void rock_has_no_view(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(signs_are_exact),
         cmocka_unit_test(what_an_eye_sees_is_exact),
         cmocka_unit_test(what_an_eye_sees_of_a_turned_map_is_exact),
         cmocka_unit_test(an_odd_direction_looks_all_round),

@@ -1,7 +1,6 @@
 /// What the runtime's eye sees in mirrors, cell by cell: against brute force in random axial maps
 /// with all effects, and against single rays among turned mirrors. SIGHTLINE_SEEDS in the
 /// environment: how many maps (64 by default).
-#define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "testing.h"
 
 #include "effects/filtered.h"

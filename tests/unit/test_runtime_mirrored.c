@@ -1,7 +1,6 @@
 /// The runtime's eye in maps with mirrors, against the library's exact eye: what is seen directly
 /// is the same, and no cell that is seen by mirror is missed. Random axial maps with doors, glass
 /// and ranges. SIGHTLINE_SEEDS in the environment: how many maps (64 by default).
-#define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "baked_bytes.h"
 #include "runtime_maps.h"
 #include "slv_file.h"

@@ -1,6 +1,5 @@
 /// The runtime's eye past shut doors and within a range, against the library's eye in a space with
 /// walls in those doors and against the visible region.
-#define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "effects/filtered.h"
 #include "runtime_maps.h"
 #include "sight/eye_search.h"

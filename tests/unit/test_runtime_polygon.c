@@ -1,7 +1,6 @@
 // The runtime's visible polygon against the library's visible region: on every map, on turned maps,
 // and past shut doors and one-way glass against a space with walls there.
 //   test_runtime_polygon [EYES]    so many eyes instead of ten thousand
-#define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "effects/filtered.h"
 #include "polygon_same.h"
 #include "runtime_maps.h"
@@ -429,42 +428,11 @@ static void a_range_cuts_a_room(void **state) {
     sl_context_destroy(context);
 }
 
-__extension__ typedef __int128 wide;
-
-static wide size_of(wide number) {
-    return number < 0 ? -number : number;
-}
-
-/// Cross products of differences that no double holds, against whole numbers: any two, and two that
-/// are nearly in line.
-static void cross_products(void **state) {
-    (void)state;
-    sl_random random = {7};
-    for (int i = 0; i < 100000; i++) {
-        int64_t to[4], from[4];
-        wide is[4];
-        slrt_pair pairs[4];
-        for (int k = 0; k < 4; k++) {
-            const bool in_line = i % 2 && k > 1; // and three times as long
-            to[k] = in_line ? 3 * to[k - 2] : (int64_t)sl_random_below(&random, 1ull << 50) * 1024;
-            from[k] = in_line ? 3 * from[k - 2] + (int64_t)sl_random_below(&random, 9)
-                              : (int64_t)sl_random_below(&random, 1ull << 40);
-            is[k] = (wide)to[k] - from[k];
-            pairs[k] = slrt_difference((double)to[k], (double)from[k]);
-            assert_true((wide)pairs[k].high + (wide)pairs[k].low == is[k]);
-        }
-        const wide left = is[0] * is[3], right = is[1] * is[2], exact = left - right;
-        const wide found = (wide)slrt_cross(pairs[0], pairs[1], pairs[2], pairs[3]);
-        const wide most = (size_of(exact) >> 52) + ((size_of(left) + size_of(right)) >> 100) + 1;
-        assert_true(size_of(found - exact) <= most);
-    }
-}
-
 int main(int argc, char **argv) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_room_is_its_corners), cmocka_unit_test(a_range_cuts_a_room),
         cmocka_unit_test(on_every_map),          cmocka_unit_test(on_turned_maps),
-        cmocka_unit_test(past_doors_and_glass),  cmocka_unit_test(cross_products),
+        cmocka_unit_test(past_doors_and_glass),
     };
     if (argc == 2) eyes = strtoull(argv[1], NULL, 10);
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,7 +1,6 @@
 // The runtime's visible polygon past boxes, in scenes with boxes that touch walls, each other and
 // the eye: against the library's region, and against a brute-force sweep in rationals over a map
 // that has the boxes' sides as walls.
-#define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "box_scene.h"
 #include "oracle/isovist.h"
 #include "polygon_same.h"

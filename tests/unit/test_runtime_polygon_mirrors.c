@@ -1,7 +1,6 @@
 // What the runtime's polygon shows in mirrors: against brute force in random axial maps with all
 // effects, and against the library among oblique mirrors. Areas are compared by the mirrors, one
 // after the other, by which a part is seen.
-#define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "testing.h"
 
 #include "effects/filtered.h"

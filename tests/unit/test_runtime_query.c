@@ -1,7 +1,6 @@
 // The runtime's eye against the library's query: which cells an eye sees past shut doors, one-way
 // glass and a view range. Many eyes are on corners, on portals, on walls and on their lines.
 //   test_runtime_query [EYES]    so many eyes on each map instead of 600
-#define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "runtime_maps.h"
 
 #include "geometry/crossing.h"

@@ -1,7 +1,6 @@
 // Which things each player may see: by the oracle no pair is missed, and few are added. On the maps
 // no pair is missed of which two points see each other.
 //   test_runtime_relevant [MAPS [SEED]]    so many random maps of each kind instead of 100
-#define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "runtime_maps.h"
 
 #include "oracle/two_boxes.h"

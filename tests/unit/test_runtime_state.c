@@ -1,7 +1,6 @@
 // Doors that change in a game, and rows that follow: after any changes a settled row is that of a
 // sweep over the space with walls in place of the shut doors, and before that it misses nothing.
 //   test_runtime_state [MAPS [SEED]]    so many random maps of each kind instead of 60
-#define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "runtime_maps.h"
 
 #include "cell_to_cell/sweep/sweep.h"

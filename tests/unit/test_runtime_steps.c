@@ -1,6 +1,5 @@
 // The runtime's lines of sight and steps past boxes, against brute force in integers and against
 // the library's query.
-#define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "runtime_trial.h"
 
 // --- brute force: the part of a line that is in a box, from one number to another

@@ -1,5 +1,4 @@
 /// The runtime and walls that do not stop all: who walks past which of them, and what a file says.
-#define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "runtime/sightline_runtime.h"
 
 #include "runtime_maps.h"

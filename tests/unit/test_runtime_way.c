@@ -1,6 +1,5 @@
 /// The runtime's shortest ways: by hand, against the library's on random maps and those of maps/,
 /// and with as little memory as there may be.
-#define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "runtime_maps.h"
 
 #include "oracle/random_effects.h"

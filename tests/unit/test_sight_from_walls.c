@@ -5,7 +5,6 @@
 // culling say the same. A box outside of the map changes nothing. With view cones, too, the
 // runtime's look is the library's culling, and has those of the eye's cells that the cone leads
 // into. SIGHTLINE_SEEDS in the environment: how many maps (200 by default).
-#define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "runtime_maps.h"
 #include "sight/eye_search.h"
 

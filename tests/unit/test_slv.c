@@ -2,7 +2,6 @@
 #include "baked_bytes.h"
 #include "slv_file.h"
 
-#define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "runtime/sightline_runtime.h"
 #include "sightline/stab.h"
 #include "space/index.h"

@@ -1,5 +1,4 @@
 // The transform of a map: places of a file with y down are places of the map, and come back.
-#define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "runtime_maps.h"
 
 #include "io/io_formats.h"

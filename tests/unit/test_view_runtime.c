@@ -1,6 +1,5 @@
 /// View cells in the runtime: merged ones, that need not be convex, are found and looked up right.
 ///   test_view_runtime [POINTS]    so many random points instead of some thousands
-#define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "bake/view_rows.h"
 #include "baked_bytes.h"
 #include "space/outline.h"
