@@ -164,3 +164,18 @@ bool sl_table_number_read(char separator, const char *text, size_t length, doubl
     copy[comma - text] = '.';
     return sl_number_read(copy, length, value);
 }
+
+void sl_table_text_write(FILE *out, const char *text, bool quoted) {
+    quoted |= text[strcspn(text, ",\"\r\n")] || *text == ' ' || *text == '#';
+    if (quoted) putc('"', out);
+    for (; *text; text++) {
+        if (*text == '"') putc('"', out);
+        putc(strchr("\r\n", *text) ? ' ' : *text, out);
+    }
+    if (quoted) putc('"', out);
+}
+
+int sl_compare_numbers(const void *left, const void *right) {
+    const double a = *(const double *)left, b = *(const double *)right;
+    return (a > b) - (a < b);
+}

@@ -29,6 +29,7 @@
 /// Where a part that is inside ends at a channel, the map gets a seam. So no cell lies on both
 /// sides. Time O(n log n), and what channels take.
 #include "sightline/space.h"
+#include "sightline/support.h"
 #include "space/clearance.h"
 #include "space/kd_tree.h"
 
@@ -294,11 +295,6 @@ static void settle_widths(finder *f, double width) {
     }
 }
 
-static int compare_numbers(const void *left, const void *right) {
-    const double a = *(const double *)left, b = *(const double *)right;
-    return (a > b) - (a < b);
-}
-
 /// Drops widths of slits, where there are others: walls that were meant to meet.
 static size_t drop_slits(double *widths, size_t count, double slit) {
     size_t wide = 0;
@@ -313,7 +309,7 @@ static size_t drop_slits(double *widths, size_t count, double slit) {
 /// The number before the greatest step, by ratio; up to `most`.
 static double before_step(double *numbers, size_t count, double most) {
     double best = 0, step = 1;
-    if (count) qsort(numbers, count, sizeof *numbers, compare_numbers);
+    if (count) qsort(numbers, count, sizeof *numbers, sl_compare_numbers);
     for (size_t i = 0; i < count; i++) {
         const double own = (i + 1 < count ? numbers[i + 1] : most) / numbers[i];
         if (own < step) continue;

@@ -29,13 +29,7 @@ void csv_put(FILE *out, double value, const char *after) {
 }
 
 void csv_put_text(FILE *out, const char *text, const char *after) {
-    const bool quoted = text[strcspn(text, ",\"\r\n")] || *text == ' ' || *text == '#';
-    if (quoted) putc('"', out);
-    for (; *text; text++) {
-        if (*text == '"') putc('"', out);
-        putc(strchr("\r\n", *text) ? ' ' : *text, out);
-    }
-    if (quoted) putc('"', out);
+    sl_table_text_write(out, text, false);
     fputs(after, out);
 }
 

@@ -45,8 +45,7 @@ void fields_add_properties(sl_geojson_writer *out, const field_rows *rows, size_
 
 /// A number of a table, nothing for NAN, and what comes behind it.
 void csv_put(FILE *out, double value, const char *after);
-/// A text of a table, and what comes behind it. Quotes stand around one that needs them (RFC 4180).
-/// It stays on one line, so that line numbers are those of rows.
+/// A text of a table (sl_table_text_write), and what comes behind it.
 void csv_put_text(FILE *out, const char *text, const char *after);
 
 /// The name of a measure or a stage in words: "visual control".

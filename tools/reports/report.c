@@ -154,13 +154,8 @@ void ground_add_json(json_fields *fields, const sl_space *space) {
 
 // --- times
 
-static int compare_doubles(const void *left, const void *right) {
-    const double a = *(const double *)left, b = *(const double *)right;
-    return (a > b) - (a < b);
-}
-
 void sort_doubles(double *values, size_t count) {
-    qsort(values, count, sizeof *values, compare_doubles);
+    qsort(values, count, sizeof *values, sl_compare_numbers);
 }
 
 void seconds_write(double seconds, const char *micro, char text[SECONDS_TEXT]) {

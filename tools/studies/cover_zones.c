@@ -81,15 +81,6 @@ void cover_zones_add_json(json_fields *f, const zone_list *zones, const zone_cov
 
 // --- tables
 
-static void put_name(FILE *to, const char *name) {
-    putc('"', to);
-    for (; *name; name++) {
-        if (*name == '"') putc('"', to);
-        putc(*name, to);
-    }
-    putc('"', to);
-}
-
 static void put_number(FILE *to, double value) {
     char text[SL_NUMBER_TEXT];
     sl_number_write(value, text);
@@ -99,7 +90,7 @@ static void put_number(FILE *to, double value) {
 static void put_zones(FILE *to, const zone_list *zones, const zone_cover *covers) {
     fputs("name,inside_area,seen_area,seen_by_two_area,viewpoints\n", to);
     for (size_t z = 0; z < zones->ends.count; z++) {
-        put_name(to, zones->names.items[z]);
+        sl_table_text_write(to, zones->names.items[z], true);
         put_number(to, covers[z].inside);
         put_number(to, covers[z].seen);
         put_number(to, covers[z].by_two);
@@ -113,7 +104,7 @@ static void put_viewpoints(FILE *to, const cover_report *r) {
         const sl_camera *camera = &r->cameras->items[i];
         char number[32];
         snprintf(number, sizeof number, "%zu", i + 1);
-        put_name(to, camera->name ? camera->name : number);
+        sl_table_text_write(to, camera->name ? camera->name : number, true);
         put_number(to, camera->view.at.x);
         put_number(to, camera->view.at.y);
         put_number(to, camera->view.heading);

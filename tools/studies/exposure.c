@@ -178,21 +178,12 @@ void exposure_destroy(sl_context *context, exposed_things *t) {
 
 // --- the table
 
-static void put_name(FILE *to, const char *name) {
-    putc('"', to);
-    for (; *name; name++) {
-        if (*name == '"') putc('"', to);
-        putc(*name == '\n' || *name == '\r' ? ' ' : *name, to);
-    }
-    putc('"', to);
-}
-
 static void put_row(FILE *to, const exposed_things *t, size_t i) {
     const sl_exposure *e = &t->exposures[i];
     const double row[6] = {
         e->size,       e->seen,        e->size > 0 ? e->seen / e->size : 0,
         e->some.total, e->whole.total, e->some.count ? e->some.parts[0].from : 0};
-    put_name(to, t->names.items[i]);
+    sl_table_text_write(to, t->names.items[i], true);
     fprintf(to, ",%s", t->list.items[i].is_area ? "area" : "lines");
     for (int k = 0; k < 6; k++) {
         char text[SL_NUMBER_TEXT];

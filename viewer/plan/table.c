@@ -507,14 +507,6 @@ void table_draw_chosen(const view_state *view, const sl_frame *frame) {
 
 // --- the file
 
-/// A text as a field of CSV.
-static void put_quoted(FILE *out, const char *text) {
-    const bool plain = !text[strcspn(text, ",\"\n\r")];
-    if (!plain) fputc('"', out);
-    for (; *text; text++) fprintf(out, *text == '"' ? "\"\"" : "%c", *text);
-    if (!plain) fputc('"', out);
-}
-
 static sl_status put_rows(view_state *view, FILE *out) {
     const table_state *t = &view->table;
     const size_t columns = t->of->columns(view);
@@ -528,7 +520,7 @@ static sl_status put_rows(view_state *view, FILE *out) {
             const double value = t->of->value(view, table_row(t, i), k);
             char text[SL_NUMBER_TEXT] = "";
             if (t->of->text && k == 0) {
-                put_quoted(out, t->of->text(view, table_row(t, i)));
+                sl_table_text_write(out, t->of->text(view, table_row(t, i)), false);
                 fputc(',', out);
                 continue;
             }

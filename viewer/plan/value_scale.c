@@ -1,5 +1,7 @@
 #include "plan/value_scale.h"
 
+#include "sightline/support.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -19,13 +21,8 @@ void value_scale_add(value_scale *scale, double value) {
     if (!isnan(value)) scale->sorted[scale->count++] = value;
 }
 
-static int compare_values(const void *a, const void *b) {
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 void value_scale_end(value_scale *scale) {
-    qsort(scale->sorted, scale->count, sizeof *scale->sorted, compare_values);
+    qsort(scale->sorted, scale->count, sizeof *scale->sorted, sl_compare_numbers);
     scale->least = scale->count ? scale->sorted[0] : INFINITY;
     scale->most = scale->count ? scale->sorted[scale->count - 1] : -INFINITY;
 }

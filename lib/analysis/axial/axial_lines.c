@@ -196,11 +196,6 @@ static span columns_of(const plan *p, sl_point a, sl_point b) {
                   bucket_at(p->column_limits, p->columns - 1, fmax(a.x, b.x) + slack)};
 }
 
-static int compare_values(const void *left, const void *right) {
-    const double a = *(const double *)left, b = *(const double *)right;
-    return (a > b) - (a < b);
-}
-
 /// Keeps, of sorted values, every so many: at most `most`, all different. Returns their number.
 static uint32_t keep_limits(double *values, size_t count, uint32_t most) {
     uint32_t kept = 0;
@@ -221,8 +216,8 @@ static sl_status choose_limits(sl_context *context, plan *p) {
         p->column_limits[c] = p->corners[c].x;
         p->row_limits[c] = p->corners[c].y;
     }
-    qsort(p->column_limits, p->count, sizeof *p->column_limits, compare_values);
-    qsort(p->row_limits, p->count, sizeof *p->row_limits, compare_values);
+    qsort(p->column_limits, p->count, sizeof *p->column_limits, sl_compare_numbers);
+    qsort(p->row_limits, p->count, sizeof *p->row_limits, sl_compare_numbers);
     p->columns = 1 + (p->count ? keep_limits(p->column_limits, p->count, most) : 0);
     p->rows = 1 + (p->count ? keep_limits(p->row_limits, p->count, most) : 0);
     return SL_OK;

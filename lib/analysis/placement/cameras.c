@@ -346,16 +346,6 @@ static bool needs(const sl_camera *camera, column c) {
     }
 }
 
-static void put_name(FILE *out, const char *name) {
-    if (!name) return;
-    fputc('"', out);
-    for (; *name; name++) {
-        if (*name == '"') fputc('"', out);
-        fputc(*name == '\n' || *name == '\r' ? ' ' : *name, out);
-    }
-    fputc('"', out);
-}
-
 static double value_of(const sl_camera *camera, column c) {
     const double values[] = {camera->view.at.x, camera->view.at.y,   camera->view.heading,
                              camera->view.fov,  camera->view.range,  camera->height,
@@ -369,7 +359,7 @@ static void put_row(FILE *out, const sl_camera *camera, const column *columns, s
     for (size_t i = 0; i < count; i++) {
         if (i) fputc(',', out);
         if (columns[i] == COLUMN_NAME) {
-            put_name(out, camera->name);
+            if (camera->name) sl_table_text_write(out, camera->name, true);
             continue;
         }
         sl_number_write(value_of(camera, columns[i]), text);

@@ -64,11 +64,6 @@ sl_status sli_cut_by_circle(sli_path_cut *w, sl_point p, sl_point q, sl_point mi
     return add_cut(w, -b / a + half);
 }
 
-static int compare(const void *left, const void *right) {
-    const double a = *(const double *)left, b = *(const double *)right;
-    return (a > b) - (a < b);
-}
-
 static sl_point between(sl_point p, sl_point q, double t) {
     return t == 1 ? q : (sl_point){p.x + t * (q.x - p.x), p.y + t * (q.y - p.y)};
 }
@@ -95,7 +90,7 @@ static sl_status walk_segment(sli_path_cut *w, sl_point p, sl_point q) {
     if (!(length > 0)) return SL_OK;
     SL_TRY(w->cut(w, p, q));
     SL_TRY(SL_ARRAY_ROOM(w->context, &w->cuts, 1));
-    qsort(w->cuts.items, w->cuts.count, sizeof *w->cuts.items, compare);
+    qsort(w->cuts.items, w->cuts.count, sizeof *w->cuts.items, sl_compare_numbers);
     w->cuts.items[w->cuts.count++] = 1;
     double from = 0;
     for (size_t i = 0; i < w->cuts.count; i++) {

@@ -176,6 +176,13 @@ SL_API char sl_table_separator(const char *line, size_t length);
 /// the decimal point.
 SL_API bool sl_table_number_read(char separator, const char *text, size_t length, double *value);
 
+/// Writes a text as a field of a table. Quotes stand around one that needs them (RFC 4180), and
+/// around all where `quoted`. It stays on one line, so that line numbers are those of rows.
+SL_API void sl_table_text_write(FILE *out, const char *text, bool quoted);
+
+/// The order of two doubles by value, for qsort.
+SL_API int sl_compare_numbers(const void *left, const void *right);
+
 // --- whole files: a file is written beside its target and renamed, so that a failure leaves the
 // --- old one as it was and nothing half-written. A program that is killed meanwhile may leave
 // --- the file beside it: the target's name, a dot and six characters. It may be deleted.

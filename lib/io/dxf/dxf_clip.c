@@ -8,6 +8,8 @@
 #include "io/dxf/dxf.h"
 #include "io/parts/limits.h"
 
+#include "sightline/support.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -175,11 +177,6 @@ static bool is_inside(const sl_point *p, size_t count, sl_point at) {
     return inside;
 }
 
-static int compare_numbers(const void *left, const void *right) {
-    const double a = *(const double *)left, b = *(const double *)right;
-    return (a > b) - (a < b);
-}
-
 /// Where a wall crosses the polygon, as shares of its length, from 0 to 1, in order.
 static size_t crossings(const sl_point *p, size_t count, const sl_wall *wall, double *shares) {
     const sl_point along = minus(wall->b, wall->a);
@@ -193,7 +190,7 @@ static size_t crossings(const sl_point *p, size_t count, const sl_wall *wall, do
             shares[found++] = share;
     }
     shares[found++] = 1;
-    qsort(shares, found, sizeof *shares, compare_numbers);
+    qsort(shares, found, sizeof *shares, sl_compare_numbers);
     return found;
 }
 

@@ -20,6 +20,8 @@
 
 #include "geometry/length.h"
 
+#include "sightline/support.h"
+
 #include <stdlib.h>
 
 // --- points, found by where they are
@@ -121,11 +123,6 @@ static bool goes_on(const finder *f, size_t wall) {
     return follows(f, wall) && f->map->walls[wall].line == f->map->walls[wall - 1].line;
 }
 
-static int compare_numbers(const void *left, const void *right) {
-    const double a = *(const double *)left, b = *(const double *)right;
-    return (a > b) - (a < b);
-}
-
 /// The longer side of what lies between a twentieth of the walls and the last twentieth.
 static sl_status find_size(finder *f) {
     enum { SAMPLE = 4096 };
@@ -136,7 +133,7 @@ static sl_status find_size(finder *f) {
         size_t count = 0;
         for (size_t i = 0; i < walls; i += step)
             places[count++] = axis ? f->map->walls[i].a.y : f->map->walls[i].a.x;
-        qsort(places, count, sizeof *places, compare_numbers);
+        qsort(places, count, sizeof *places, sl_compare_numbers);
         f->size = fmax(f->size, places[count - 1 - count / 20] - places[count / 20]);
     }
     sl_free(f->context, places);

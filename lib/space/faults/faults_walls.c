@@ -22,6 +22,8 @@
 #include "geometry/orient.h"
 #include "map/planar.h"
 
+#include "sightline/support.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -463,11 +465,6 @@ enum {
     ROOM = 4,       ///< between the widest gap of rounding and the tolerance
 };
 
-static int compare_widths(const void *left, const void *right) {
-    const double a = *(const double *)left, b = *(const double *)right;
-    return (a > b) - (a < b);
-}
-
 /// The widths of a map's gaps up to `widest`, and its walls' lengths that are above 0; sorted.
 typedef struct widths {
     SL_ARRAY(double) gaps;
@@ -482,7 +479,8 @@ static sl_status find_widths(sl_context *context, const sl_map *map, double wide
     for (size_t i = 0; i < gaps.count && status == SL_OK; i++)
         if (gaps.items[i].size > 0) out->gaps.items[out->gaps.count++] = gaps.items[i].size;
     sl_free(context, gaps.items);
-    if (out->gaps.count) qsort(out->gaps.items, out->gaps.count, sizeof(double), compare_widths);
+    if (out->gaps.count)
+        qsort(out->gaps.items, out->gaps.count, sizeof(double), sl_compare_numbers);
     return status;
 }
 
@@ -493,7 +491,8 @@ static sl_status find_lengths(sl_context *context, const sl_map *map, widths *ou
         SL_TRY(SL_ARRAY_ROOM(context, &out->walls, 1));
         out->walls.items[out->walls.count++] = length;
     }
-    if (out->walls.count) qsort(out->walls.items, out->walls.count, sizeof(double), compare_widths);
+    if (out->walls.count)
+        qsort(out->walls.items, out->walls.count, sizeof(double), sl_compare_numbers);
     return SL_OK;
 }
 

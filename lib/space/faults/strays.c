@@ -75,11 +75,6 @@ static sl_status list_places(place_list *list, const sl_map *map) {
 
 // --- the rest
 
-static int compare_values(const void *left, const void *right) {
-    const double a = *(const double *)left, b = *(const double *)right;
-    return (a > b) - (a < b);
-}
-
 /// Sorted coordinates, and which of them are of the rest.
 typedef struct axis {
     double *values;
@@ -109,8 +104,8 @@ static sl_status find_rest(const place_list *list, sl_box *rest) {
         x.values[i] = list->places.items[i].at.x;
         y.values[i] = list->places.items[i].at.y;
     }
-    qsort(x.values, count, sizeof *values, compare_values);
-    qsort(y.values, count, sizeof *values, compare_values);
+    qsort(x.values, count, sizeof *values, sl_compare_numbers);
+    qsort(y.values, count, sizeof *values, sl_compare_numbers);
     bool grows = true;
     while (grows) {
         const double near = FAR * fmax(size_of(&x), size_of(&y));

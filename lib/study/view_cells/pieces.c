@@ -136,11 +136,6 @@ static sl_status take_rooms(sl_context *context, const sl_outline *outline, sli_
 
 // Places of corners, for snapping.
 
-static int compare_places(const void *left, const void *right) {
-    const double a = *(const double *)left, b = *(const double *)right;
-    return (a > b) - (a < b);
-}
-
 static sl_status find_places(sl_context *context, sli_view_rooms *rooms) {
     const uint32_t count = rooms->first_corner[rooms->count];
     for (int axis = 0; axis < 2; axis++) {
@@ -149,7 +144,7 @@ static sl_status find_places(sl_context *context, sli_view_rooms *rooms) {
         rooms->places[axis] = places;
         for (uint32_t i = 0; i < count; i++)
             places[i] = axis ? rooms->corners[i].y : rooms->corners[i].x;
-        if (count) qsort(places, count, sizeof *places, compare_places);
+        if (count) qsort(places, count, sizeof *places, sl_compare_numbers);
         uint32_t kept = 0;
         for (uint32_t i = 0; i < count; i++)
             if (!kept || places[i] != places[kept - 1]) places[kept++] = places[i];

@@ -18,6 +18,8 @@
 
 #include "geometry/orient.h"
 
+#include "sightline/support.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -29,11 +31,6 @@
 
 static int compare_events(const void *left, const void *right) {
     const double a = ((const sli_view_event *)left)->at, b = ((const sli_view_event *)right)->at;
-    return (a > b) - (a < b);
-}
-
-static int compare_positions(const void *left, const void *right) {
-    const double a = *(const double *)left, b = *(const double *)right;
     return (a > b) - (a < b);
 }
 
@@ -131,7 +128,7 @@ static sl_status gather_positions(sli_view_divider *d, double low, double high) 
         }
         d->positions.count = d->options->candidates;
     }
-    if (d->positions.count) qsort(at, d->positions.count, sizeof *at, compare_positions);
+    if (d->positions.count) qsort(at, d->positions.count, sizeof *at, sl_compare_numbers);
     return SL_OK;
 }
 
