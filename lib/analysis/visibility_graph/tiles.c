@@ -218,22 +218,28 @@ sl_status sli_vga_tiles_size(sl_context *context, const sl_vga_grid *grid,
 
 // --- steps
 
-void sli_vga_tiles_step(const sli_vga_tiles *t, const sl_bits *level, const sl_bits *seen,
-                        sl_bits *next) {
-    for (size_t b = 0; b < t->bundles; b++) {
+/// Those of `points` that some place of `level` sees.
+static uint64_t see_some(const sli_vga_bundle *of, const sli_vga_tile *tile, uint64_t level,
+                         uint64_t points) {
+    uint64_t missing = points;
+    if (level == UINT64_MAX) return points;
+    sli_vga_span span = sli_vga_spans(of, tile);
+    while (missing && sli_vga_next_span(&span))
+        if (span.places & level) missing &= ~span.seen;
+    return points & ~missing;
+}
+
+void sli_vga_tiles_step(const sli_vga_tiles *t, const sl_bits *bundles, const sl_bits *level,
+                        const sl_bits *seen, sl_bits *next, sl_bits *next_bundles) {
+    for (size_t b = 0; (b = sli_bits_next(bundles, t->bundles, b, true)) < t->bundles; b++) {
         if (!level[b]) continue;
         for (uint32_t i = 0; i < t->of[b].count; i++) {
             const sli_vga_tile *tile = &t->of[b].tiles[i];
-            uint64_t missing = tile->any & ~(seen[tile->bundle] | next[tile->bundle]);
-            if (!missing) continue;
-            if (level[b] == UINT64_MAX) {
-                next[tile->bundle] |= missing;
-                continue;
-            }
-            sli_vga_span span = sli_vga_spans(&t->of[b], tile);
-            while (missing && sli_vga_next_span(&span))
-                if (span.places & level[b]) missing &= ~span.seen;
-            next[tile->bundle] |= tile->any & ~(seen[tile->bundle] | missing);
+            const uint64_t missing = tile->any & ~(seen[tile->bundle] | next[tile->bundle]);
+            const uint64_t found = missing ? see_some(&t->of[b], tile, level[b], missing) : 0;
+            if (!found) continue;
+            next[tile->bundle] |= found;
+            sl_bits_add(next_bundles, tile->bundle);
         }
     }
 }
