@@ -34,6 +34,34 @@ static sl_status check_radius(sl_context *context, const vga_plan *p, const char
                    given, name);
 }
 
+/// An estimate is of mean depths by sight: none of this goes with it.
+static sl_status check_estimate(sl_context *context, vga_plan *p) {
+    if (p->seed_given && !p->agents_given && !p->estimate_given)
+        return sl_fail(context, SL_BAD_ARGUMENT, "--seed is for --agents N or --estimate N");
+    p->estimate.seed = p->agents.seed;
+    if (!p->estimate_given) return SL_OK;
+    const char *other = p->compare                    ? "--compare"
+                        : p->points.links             ? "--links"
+                        : p->visual_given             ? "--radius"
+                        : p->turned                   ? "--seen-from"
+                        : input_is_building(p->input) ? "a building"
+                                                      : NULL;
+    if (other)
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "--estimate does not go with %s: leave --estimate out for exact values",
+                       other);
+    if (!(p->parts & VGA_PART_VISUAL) ||
+        p->parts & (VGA_PART_THROUGH | VGA_PART_METRIC | VGA_PART_ANGULAR))
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "--estimate is for the visual measures; --measures visual alone, or with "
+                       "isovist");
+    if (vga_is_estimated(p->measure)) return SL_OK;
+    const name_table measures = measure_table(SL_VGA);
+    return sl_fail(context, SL_BAD_ARGUMENT,
+                   "--measure %s is not estimated: leave --estimate out for exact values",
+                   name_table_at(&measures, p->measure));
+}
+
 static sl_status make_plan(sl_context *context, vga_plan *p) {
     if (!p->step_given)
         return sl_fail(context, SL_BAD_ARGUMENT,
@@ -63,6 +91,7 @@ static sl_status make_plan(sl_context *context, vga_plan *p) {
     if (!p->parts)
         return sl_fail(context, SL_BAD_ARGUMENT, "--measures none: name one group or several");
     if (!p->measure_given) p->measure = some_measure(p->parts);
+    SL_TRY(check_estimate(context, p));
     SL_TRY(within_check(context, &p->points.within));
     SL_TRY(check_radius(context, p, p->visual_given, VGA_PART_VISUAL, "visual"));
     SL_TRY(check_radius(context, p, p->metric_given, VGA_PART_METRIC, "metric"));
@@ -235,6 +264,7 @@ sl_status cmd_vga(command_console *console, int argc, char **argv) {
                      .pipeline = pipeline_default(),
                      .options = sl_vga_options_default(),
                      .agents = sl_vga_agents_default(),
+                     .estimate = sl_vga_estimate_default(),
                      .drawing = built_draw_options()};
     option_table pipeline = pipeline_option_table(&plan.pipeline);
     const option_table picture = picture_option_table(&plan.drawing, "picture", true);
@@ -290,6 +320,14 @@ sl_status cmd_vga(command_console *console, int argc, char **argv) {
         {"radius", 0, "N", "visual: only points within N steps (default: all)",
          .count32 = &plan.options.radius, .least = 1, .most = UINT32_MAX, .topic = "limits",
          .given = &plan.visual_given, .rare = true},
+        {"estimate", 0, "N",
+         "visual: estimate mean depth and integration by searches from N points of each part of "
+         "the "
+         "graph, drawn by --seed; two more columns have the ends between which the exact depth of "
+         "a "
+         "point lies with a probability of 99 %",
+         .count32 = &plan.estimate.roots, .least = 1, .most = SL_VGA_POINTS_MOST, .topic = "limits",
+         .given = &plan.estimate_given, .rare = true},
         {"metric-radius", 0, "R", "metric: only paths up to this length (default: all)",
          .number = &plan.options.metric_radius, .over_0 = true, .topic = "limits",
          .given = &plan.metric_given, .rare = true},
@@ -315,8 +353,8 @@ sl_status cmd_vga(command_console *console, int argc, char **argv) {
          .number = &plan.agents.view, .over_0 = true, .most = 360, .topic = "agents",
          .needs = "over 0 and up to 360 degrees are needed", .given = &plan.agent_option,
          .rare = true},
-        {"seed", 0, "N", "random seed of agents (default 1)", .count = &plan.agents.seed,
-         .topic = "agents", .given = &plan.agent_option, .rare = true},
+        {"seed", 0, "N", "random seed of agents, and of --estimate (default 1)",
+         .count = &plan.agents.seed, .topic = "agents", .given = &plan.seed_given, .rare = true},
         {.group = &points},
         {.group = &picture},
         {.group = &pipeline},

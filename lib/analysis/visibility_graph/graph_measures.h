@@ -20,6 +20,11 @@ typedef struct sli_vga_job {
     sl_vga_measures *measures;
 } sli_vga_job;
 
+/// Adds the connectivity of each point to a zeroed array. All measures become NAN but, if it is
+/// asked for, this one.
+void sli_vga_begin_measures(const sl_vga_graph *graph, bool connected, uint32_t *degree,
+                            sl_vga_measures *measures);
+
 /// The points beside walls. The result is the caller's.
 sl_status sli_vga_find_turning(sl_context *context, const sl_outline *outline,
                                const sl_vga_grid *grid, sl_bits **out);

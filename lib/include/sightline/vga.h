@@ -165,6 +165,37 @@ SL_API sl_status sl_vga_measure_bytes(sl_context *context, const sl_outline *out
                                       const sl_vga_grid *grid, const sl_vga_graph *graph,
                                       const sl_vga_options *options, uint64_t *bytes);
 
+/// How mean depths are estimated. Start from sl_vga_estimate_default().
+typedef struct sl_vga_estimate {
+    uint32_t roots;    ///< points to search from, of each part of the graph; by default 256
+    double confidence; ///< between 0 and 1; by default 0.99
+    uint64_t seed;     ///< roots are drawn by it
+    unsigned threads;  ///< 0: one per core; the result is the same for any number
+} sl_vga_estimate;
+
+/// The default options.
+SL_API sl_vga_estimate sl_vga_estimate_default(void);
+
+/// Where the exact value lies, ends included. NAN where it is not defined.
+typedef struct sl_vga_interval {
+    double least, most;
+} sl_vga_interval;
+
+/// Estimates visual_mean_depth, and integration from it, by searches from a few roots alone. The
+/// other measures are NAN, but connectivity and visual_node_count, which are exact. `intervals`, by
+/// point, are of the mean depth. Integration falls as depth grows, so their ends bound it, too.
+///
+/// Guarantee: for each point that is no root, over all ways to draw roots, the probability that its
+/// exact mean depth is outside its interval is at most 1 - confidence (Hoeffding 1963). It is of
+/// one point, not of all at once: errors of points near each other go together. Of n roots, ends
+/// are about the square root of 1 / n apart. Values of roots are exact, and of all points in parts
+/// with no more points than roots.
+///
+/// SL_UNSUPPORTED for a directed graph. Cost: a search for each root; the graph is needed whole.
+SL_API sl_status sl_vga_estimate_depths(sl_context *context, const sl_vga_grid *grid,
+                                        const sl_vga_graph *graph, const sl_vga_estimate *options,
+                                        sl_vga_measures *measures, sl_vga_interval *intervals);
+
 /// Two points of a grid that are one place, as stairs and lifts make them. Links that share a point
 /// join all of their points.
 typedef struct sl_vga_link {
