@@ -62,6 +62,22 @@ static sl_status check_estimate(sl_context *context, vga_plan *p) {
                    name_table_at(&measures, p->measure));
 }
 
+/// The rows of a part are measures of its points, by the whole graph.
+static sl_status check_shard(sl_context *context, const vga_plan *p) {
+    const char *other = !p->part.text                 ? NULL
+                        : p->estimate_given           ? "--estimate"
+                        : p->picture                  ? "--picture"
+                        : p->pairs                    ? "--pairs"
+                        : p->compare                  ? "--compare"
+                        : p->points.links             ? "--links"
+                        : p->agents_given             ? "--agents"
+                        : p->parts & VGA_PART_THROUGH ? "--measures through"
+                        : input_is_building(p->input) ? "a building"
+                                                      : NULL;
+    if (!other) return SL_OK;
+    return sl_fail(context, SL_BAD_ARGUMENT, "--shard does not go with %s", other);
+}
+
 static sl_status make_plan(sl_context *context, vga_plan *p) {
     if (!p->step_given)
         return sl_fail(context, SL_BAD_ARGUMENT,
@@ -92,6 +108,7 @@ static sl_status make_plan(sl_context *context, vga_plan *p) {
         return sl_fail(context, SL_BAD_ARGUMENT, "--measures none: name one group or several");
     if (!p->measure_given) p->measure = some_measure(p->parts);
     SL_TRY(check_estimate(context, p));
+    SL_TRY(check_shard(context, p));
     SL_TRY(within_check(context, &p->points.within));
     SL_TRY(check_radius(context, p, p->visual_given, VGA_PART_VISUAL, "visual"));
     SL_TRY(check_radius(context, p, p->metric_given, VGA_PART_METRIC, "metric"));
@@ -221,8 +238,8 @@ static sl_status compare(command_console *console, const vga_plan *plan, const v
 static sl_status show(command_console *console, const vga_plan *plan, const vga_table *table) {
     const char *path = table_path(plan);
     progress_line_clear(&console->line);
-    if (path) SL_TRY(vga_write(console->context, table, path));
-    if (!console->quiet && (!path || strcmp(path, "-") != 0))
+    if (path) SL_TRY(vga_write(console->context, table, &plan->part, path));
+    if (!console->quiet && !plan->part.count && (!path || strcmp(path, "-") != 0))
         vga_print_summary(table, plan->measure);
     return SL_OK;
 }
@@ -320,6 +337,8 @@ sl_status cmd_vga(command_console *console, int argc, char **argv) {
         {"radius", 0, "N", "visual: only points within N steps (default: all)",
          .count32 = &plan.options.radius, .least = 1, .most = UINT32_MAX, .topic = "limits",
          .given = &plan.visual_given, .rare = true},
+        {"shard", 0, "K/N", "compute part K of N of the table (1 <= K <= N), for 'sightline merge'",
+         .text = &plan.part.text, .topic = "limits", .rare = true},
         {"estimate", 0, "N",
          "visual: estimate mean depth and integration by searches from N points of each part of "
          "the "
@@ -382,6 +401,7 @@ sl_status cmd_vga(command_console *console, int argc, char **argv) {
     SL_TRY(options_parse(console, &usage, argc, argv, &plan.input, &helped));
     if (helped) return SL_OK;
     SL_TRY(make_plan(console->context, &plan));
+    SL_TRY(table_part_plan(console->context, argc, argv, plan.output, &plan.part));
     vga_work w = {0};
     building_vga b = {0};
     const sl_status status = input_is_building(plan.input) ? work_building(console, &plan, &b)

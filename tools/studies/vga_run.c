@@ -164,7 +164,8 @@ static sl_status measure_regions(sl_context *context, const vga_plan *plan, vga_
         SL_TRY(eyes_add(context, &w->eyes, (eye_place){grid->points[p], 0, 360, 0}));
     w->table.isovists = sl_alloc_array(context, grid->count, sizeof *w->table.isovists);
     if (!w->table.isovists) return SL_NO_MEMORY;
-    return isovist_run(context, &scene, &w->eyes, plan->options.threads, w->table.isovists);
+    return isovist_run(context, &scene, &w->eyes, &plan->part, plan->options.threads,
+                       w->table.isovists);
 }
 
 /// Mean depths from a few roots, and how far off they may be.
@@ -191,7 +192,8 @@ static sl_status estimate(sl_context *context, const vga_plan *plan, vga_work *w
             "visual_mean_depth is estimated from %" PRIu32 " root%s, integration from it; for each "
             "point the exact value is between _least and _most with a probability of at least "
             "%.9g %%: %.3g steps off on average, %.3g at most",
-            options.roots, options.roots == 1 ? "" : "s", 100 * options.confidence, points > 0 ? sum / points : 0, most);
+            options.roots, options.roots == 1 ? "" : "s", 100 * options.confidence,
+            points > 0 ? sum / points : 0, most);
     return SL_OK;
 }
 
@@ -215,6 +217,13 @@ static sl_status measure(sl_context *context, vga_plan *plan, vga_work *w) {
                           (of_graph & VGA_PART_THROUGH ? SL_VGA_THROUGH : 0u) |
                           (of_graph & VGA_PART_METRIC ? SL_VGA_METRIC : 0u) |
                           (of_graph & VGA_PART_ANGULAR ? SL_VGA_ANGULAR : 0u);
+    if (plan->part.count) {
+        size_t first, stop;
+        table_part_rows(&plan->part, grid->count, &first, &stop);
+        plan->options.first = (uint32_t)first;
+        plan->options.count = (uint32_t)(stop - first);
+        if (first == stop) plan->options.parts = 0;
+    }
     if (plan->options.parts) SL_TRY(check_measures(context, plan, w));
     if (plan->from.count && !plan->of_building) SL_TRY(find_depths(context, plan, w));
     if (plan->agents_given) SL_TRY(walk_agents(context, plan, w));

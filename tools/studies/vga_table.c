@@ -111,9 +111,10 @@ static sl_status write_geojson(sl_context *context, const vga_table *table, FILE
     return SL_OK;
 }
 
-sl_status vga_write(sl_context *context, const vga_table *table, const char *path) {
+sl_status vga_write(sl_context *context, const vga_table *table, const table_part *part,
+                    const char *path) {
     const field_rows rows = {list_fields, table, table->grid.count};
-    if (!name_ends_with(path, ".geojson")) return fields_write_csv(context, &rows, path);
+    if (!name_ends_with(path, ".geojson")) return table_part_write(context, part, &rows, path);
     sl_output output;
     SL_TRY(sl_output_open(context, path, &output));
     return sl_output_close(context, &output, write_geojson(context, table, output.stream));

@@ -47,8 +47,9 @@ bool vga_is_estimated(size_t measure);
 double vga_value(const vga_table *table, size_t measure, uint32_t point);
 
 /// Writes the columns of the table's groups: GeoJSON where the name ends so, else CSV. "-" is
-/// stdout.
-sl_status vga_write(sl_context *context, const vga_table *table, const char *path);
+/// stdout. Of a part of the table its rows are written.
+sl_status vga_write(sl_context *context, const vga_table *table, const table_part *part,
+                    const char *path);
 
 /// The number of points in one of several parts.
 uint32_t vga_part_size(const vga_table *table, uint32_t part);

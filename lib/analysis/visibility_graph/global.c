@@ -392,7 +392,7 @@ static sl_status begin_global_worker(sl_context *context, void *all, void **stat
 
 static sl_status measure_unit(sl_context *context, void *all, void *state, size_t unit) {
     const global_job *g = all;
-    uint64_t places = sli_vga_places(g->tiles, unit);
+    uint64_t places = sli_vga_places(g->all, g->tiles, unit);
     while (places) {
         const uint64_t group = sli_vga_choose_group(g->all, g->tiles, unit, places);
         SL_TRY(sl_check_cancelled(context));

@@ -231,7 +231,7 @@ static sl_status scratch_begin(sl_context *context, void *all, void **state) {
 
 static sl_status measure_unit(sl_context *context, void *all, void *state, size_t unit) {
     const local_job *l = all;
-    uint64_t places = sli_vga_places(l->tiles, unit);
+    uint64_t places = sli_vga_places(l->all, l->tiles, unit);
     while (places) {
         const uint64_t group = sli_vga_choose_group(l->all, l->tiles, unit, places);
         const uint64_t within = see_all(l->tiles, state, unit, group);

@@ -136,6 +136,9 @@ typedef struct sl_vga_options {
     double metric_radius;  ///< paths up to this length; 0 (default): no limit
     double angular_radius; ///< paths up to this turn, in right angles; 0 (default): no limit
     unsigned threads;      ///< 0: one per core; the result is the same for any number
+    /// Points to measure: `count` from `first` on; count 0 (default): all. The values are the same.
+    /// Through vision is of all points in any case.
+    uint32_t first, count;
 } sl_vga_options;
 
 /// The default options.
@@ -205,8 +208,8 @@ typedef struct sl_vga_link {
 /// As sl_vga_measure, with links, as depthmapX treats merged points. Linked points count as one
 /// place in steps and paths: a link takes no step, no length and no turn. Local measures and
 /// through vision do not change. Paths may turn at linked points. SL_BAD_ARGUMENT for a link of a
-/// point with itself, or to no point. Cost of metric and angular measures: O(pairs that see each
-/// other) for each point.
+/// point with itself, or to no point, and for links with options.count. Cost of metric and angular
+/// measures: O(pairs that see each other) for each point.
 SL_API sl_status sl_vga_measure_linked(sl_context *context, const sl_outline *outline,
                                        const sl_vga_grid *grid, const sl_vga_graph *graph,
                                        const sl_vga_link *links, size_t link_count,
