@@ -141,18 +141,32 @@ static sl_status keep(sl_context *context, const void *items, size_t count, size
     return SL_OK;
 }
 
+/// Adds what place `i` of a bundle sees. Points of a column lie by several in a bundle: these make
+/// a word before it is stored.
+static void take_row(const sli_vga_tiles *t, cutter *c, sl_vga_run run, size_t i) {
+    uint32_t bundle = UINT32_MAX;
+    uint64_t word = 0;
+    while (sl_vga_next(&run))
+        for (uint32_t q = run.first; q < run.stop; q++) {
+            const uint32_t slot = t->slots[q];
+            if (slot / 64 != bundle) {
+                if (word) c->rows[bundle][i] |= word;
+                word = 0;
+                bundle = slot / 64;
+                sl_bits_add(c->touched, bundle);
+            }
+            word |= (uint64_t)1 << slot % 64;
+        }
+    if (word) c->rows[bundle][i] |= word;
+}
+
 static sl_status cut(sl_context *context, void *all, void *state, size_t bundle) {
     const cutting *j = all;
     sli_vga_tiles *t = j->tiles;
     cutter *c = state;
     c->tiles.count = c->spans.count = 0;
     for (size_t i = 0; i < 64 && bundle * 64 + i < t->count; i++)
-        for (sl_vga_run run = sl_vga_row(j->graph, t->points[bundle * 64 + i]); sl_vga_next(&run);)
-            for (uint32_t q = run.first; q < run.stop; q++) {
-                const uint32_t slot = t->slots[q];
-                c->rows[slot / 64][i] |= (uint64_t)1 << slot % 64;
-                sl_bits_add(c->touched, slot / 64);
-            }
+        take_row(t, c, sl_vga_row(j->graph, t->points[bundle * 64 + i]), i);
     for (size_t w = 0; w < sl_bits_words(t->bundles); w++) {
         for (sl_bits rest = c->touched[w]; rest; rest &= rest - 1) {
             const uint32_t seen = (uint32_t)(w * 64) + (uint32_t)__builtin_ctzll(rest);
