@@ -195,7 +195,7 @@ static void draw_roots(estimate_job *j, uint32_t part_count, const sl_vga_estima
 
 // --- intervals
 
-/// The divergence of two coins, in nats.
+/// The divergence of two coins.
 static double divergence(double a, double b) {
     return (a > 0 ? a * log(a / b) : 0) + (a < 1 ? (1 - a) * log((1 - a) / (1 - b)) : 0);
 }
