@@ -5,6 +5,7 @@
 #include "arguments/outputs.h"
 #include "commands/commands.h"
 #include "inputs/inputs.h"
+#include "inputs/made_from.h"
 #include "sightline/support.h"
 #include "studies/batch.h"
 #include "system/system.h"
@@ -139,24 +140,16 @@ static const char *const COLUMN_PLAN = "plan", *const COLUMN_STATUS = "exit_stat
                          *const COLUMN_MESSAGE = "message", *const COLUMN_NOTES = "notes",
                          *const COLUMN_KEY = "made_from";
 
-/// FNV-1a of 64 bits (RFC 9923), a 0 between texts.
-static uint64_t mix(uint64_t sum, const char *bytes, size_t size) {
-    for (size_t i = 0; i < size; i++) sum = (sum ^ (unsigned char)bytes[i]) * 0x100000001b3u;
-    return sum * 0x100000001b3u;
-}
-
 /// A number for the version, the command with its arguments, and the plan's bytes. None where the
 /// plan cannot be read: the command will say why.
 static void write_key(sl_context *context, const batch *b, const char *plan, char key[KEY_TEXT]) {
     sl_bytes file;
     *key = '\0';
     if (sl_path_look(plan) != SL_PATH_FILE || sl_file_read(context, plan, &file) != SL_OK) return;
-    uint64_t sum = 0xcbf29ce484222325u;
-    sum = mix(sum, SIGHTLINE_VERSION, strlen(SIGHTLINE_VERSION));
-    sum = mix(sum, b->command->name, strlen(b->command->name));
+    uint64_t sum = made_from_command(b->command->name);
     for (size_t i = 0; i < b->own->count; i++)
-        sum = mix(sum, b->own->items[i], strlen(b->own->items[i]));
-    sum = mix(sum, file.data, file.size);
+        sum = made_from_bytes(sum, b->own->items[i], strlen(b->own->items[i]));
+    sum = made_from_bytes(sum, file.data, file.size);
     snprintf(key, KEY_TEXT, "k%016" PRIx64, sum); // no number for a spreadsheet
     sl_free(context, file.data);
 }

@@ -39,6 +39,7 @@ typedef struct isovist_plan {
     const char *scale_given;
     unsigned threads;
     bool together;
+    table_part part;
     sl_draw_options drawing;
 } isovist_plan;
 
@@ -70,6 +71,10 @@ static sl_status make_plan(sl_context *context, isovist_plan *p) {
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "--union, --look and --fov are not for lines and areas (--from-line, "
                        "--from-area, --along)");
+    if (p->part.text && (sets || p->together || p->picture || p->frames || p->chart))
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "--shard is for a table of viewpoints: no --picture, --frames, --chart, "
+                       "--union, lines or areas");
     if (p->see && !p->set.along && !p->set.line)
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "--see is for a path: give --along or --from-line");
@@ -381,7 +386,7 @@ static sl_status note_inside(sl_context *context, const isovist_plan *plan, cons
 static sl_status measure(sl_context *context, const isovist_plan *plan, isovist_work *w) {
     w->isovists = sl_alloc_array(context, w->eyes.list.count, sizeof *w->isovists);
     if (!w->isovists) return SL_NO_MEMORY;
-    return isovist_run(context, &w->scene, &w->eyes, plan->threads, w->isovists);
+    return isovist_run(context, &w->scene, &w->eyes, &plan->part, plan->threads, w->isovists);
 }
 
 /// What is seen from a line or an area, from some point of it and from all.
@@ -436,7 +441,8 @@ static sl_status work(command_console *console, isovist_plan *plan, isovist_work
     progress_line_clear(&console->line);
     if (plan->picture && !plan->output && w->eyes.columns) return SL_OK; // a long table
     const char *path = plan->output ? plan->output : "-";
-    if (!plan->together) return isovist_write(context, &w->scene, &w->eyes, w->isovists, path);
+    if (!plan->together)
+        return isovist_write(context, &w->scene, &w->eyes, w->isovists, &plan->part, path);
     char text[256];
     say_union(w, text, sizeof text);
     SL_TRY(isovist_union_write(context, &w->together, &w->baked.map.earth, path));
@@ -515,6 +521,8 @@ sl_status cmd_isovist(command_console *console, int argc, char **argv) {
          "look from the viewpoints of a table: x,y or x,y,heading,fov,range; its first line "
          "may name the columns (see sightline cover)",
          .text = &plan.points, .is_input = true, .rare = true},
+        {"shard", 0, "K/N", "compute part K of N of the table (1 <= K <= N), for 'sightline merge'",
+         .text = &plan.part.text, .rare = true},
         {"mirror-depth", 0, "N", "largest number of reflections, up to 16 (default 1)",
          .count32 = &plan.mirror_depth, .most = 16, .rare = true},
         {"threads", 0, "N", "number of threads (default: one per core)", .count32 = &plan.threads,
@@ -545,6 +553,7 @@ sl_status cmd_isovist(command_console *console, int argc, char **argv) {
     SL_TRY(options_parse(console, &usage, argc, argv, &plan.input, &helped));
     if (helped) return SL_OK;
     SL_TRY(make_plan(console->context, &plan));
+    SL_TRY(table_part_plan(console->context, argc, argv, plan.output, &plan.part));
     isovist_work w = {0};
     const sl_status status = work(console, &plan, &w);
     sl_free(console->context, w.isovists);

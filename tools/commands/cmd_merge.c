@@ -1,9 +1,10 @@
-/// `sightline merge`: puts the shards of a bake together.
+/// `sightline merge`: puts the shards of a bake, or of a table, together.
 #include "arguments/outputs.h"
 #include "commands/commands.h"
 #include "inputs/inputs.h"
 #include "sightline/support.h"
 #include "studies/bake_parts.h"
+#include "studies/table_part.h"
 #include "system/built.h"
 #include "system/system.h"
 
@@ -149,22 +150,44 @@ static sl_status merge_and_report(command_console *console, merge_plan *plan) {
     return status;
 }
 
+/// Tables of vga and isovist.
+static sl_status merge_tables(command_console *console, const merge_plan *plan) {
+    sl_context *context = console->context;
+    const uint32_t count = part_count(plan);
+    const char **names = sl_alloc_array(context, count, sizeof *names);
+    if (!names) return SL_NO_MEMORY;
+    for (uint32_t i = 0; i < count; i++) names[i] = part_name(plan, i);
+    const sl_status status = table_parts_merge(context, names, count, plan->output);
+    progress_line_clear(&console->line);
+    if (status == SL_OK && !console->quiet && strcmp(plan->output, "-") != 0) {
+        char size[SIZE_TEXT];
+        size_write(system_file_size(plan->output), size);
+        printf("%s: %s, merged from %u parts\n", plan->output, size, count);
+    }
+    sl_free(context, names);
+    return status;
+}
+
 sl_status cmd_merge(command_console *console, int argc, char **argv) {
     merge_plan plan = {0};
     const option_spec options[] = {
-        {"output", 'o', "FILE.slv", "the baked file", .text = &plan.output, .check = CHECK_BAKED},
+        {"output", 'o', "FILE", "the baked file (.slv), or the table (.csv)", .text = &plan.output,
+         .check = CHECK_FILE, .endings = ".slv .csv"},
     };
     const command_usage usage = {
         .name = "merge",
-        .synopsis = "PART.slv [PART.slv ...] -o FILE.slv",
-        .operands = {"PART.slv"},
+        .synopsis = "PART [PART ...] -o FILE.slv|FILE.csv",
+        .operands = {"PART"},
         .what =
-            "Joins the shards of a bake, in any order. The file is the same, byte for byte, as "
-            "one bake would write. Names the shards that are missing, doubled, not finished, or "
-            "of another map.",
+            "Joins the shards of a bake, or of a table of vga or isovist, in any order. The file "
+            "is the same, byte for byte, as one process would write. Names the shards that are "
+            "missing, doubled, not finished, or of another map.",
         .examples = "  sightline bake city.map --shard 1/2 -o city.1.slv\n"
                     "  sightline bake city.map --shard 2/2 -o city.2.slv\n"
-                    "  sightline merge city.1.slv city.2.slv -o city.slv",
+                    "  sightline merge city.1.slv city.2.slv -o city.slv\n"
+                    "  sightline vga city.map --grid 1 --shard 1/2 -o city.1.csv\n"
+                    "  sightline vga city.map --grid 1 --shard 2/2 -o city.2.csv\n"
+                    "  sightline merge city.1.csv city.2.csv -o city.csv",
         .options = options,
         .option_count = sizeof options / sizeof *options,
         .more = &plan.more,
@@ -174,6 +197,7 @@ sl_status cmd_merge(command_console *console, int argc, char **argv) {
     if (helped) return SL_OK;
     if (!plan.output)
         return sl_fail(console->context, SL_BAD_ARGUMENT,
-                       "-o FILE.slv is needed: where to write what the shards make");
+                       "-o FILE is needed: where to write what the shards make");
+    if (!name_ends_with(plan.output, ".slv")) return merge_tables(console, &plan);
     return merge_and_report(console, &plan);
 }

@@ -34,6 +34,50 @@ static sl_status check_radius(sl_context *context, const vga_plan *p, const char
                    given, name);
 }
 
+/// An estimate is of mean depths by sight: none of this goes with it.
+static sl_status check_estimate(sl_context *context, vga_plan *p) {
+    if (p->seed_given && !p->agents_given && !p->estimate_given)
+        return sl_fail(context, SL_BAD_ARGUMENT, "--seed is for --agents N or --estimate N");
+    p->estimate.seed = p->agents.seed;
+    if (!p->estimate_given) return SL_OK;
+    const char *other = p->compare                    ? "--compare"
+                        : p->points.links             ? "--links"
+                        : p->visual_given             ? "--radius"
+                        : p->turned                   ? "--seen-from"
+                        : input_is_building(p->input) ? "a building"
+                                                      : NULL;
+    if (other)
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "--estimate does not go with %s: leave --estimate out for exact values",
+                       other);
+    if (!(p->parts & VGA_PART_VISUAL) ||
+        p->parts & (VGA_PART_THROUGH | VGA_PART_METRIC | VGA_PART_ANGULAR))
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "--estimate is for the visual measures; --measures visual alone, or with "
+                       "isovist");
+    if (vga_is_estimated(p->measure)) return SL_OK;
+    const name_table measures = measure_table(SL_VGA);
+    return sl_fail(context, SL_BAD_ARGUMENT,
+                   "--measure %s is not estimated: leave --estimate out for exact values",
+                   name_table_at(&measures, p->measure));
+}
+
+/// The rows of a part are measures of its points, by the whole graph.
+static sl_status check_shard(sl_context *context, const vga_plan *p) {
+    const char *other = !p->part.text                 ? NULL
+                        : p->estimate_given           ? "--estimate"
+                        : p->picture                  ? "--picture"
+                        : p->pairs                    ? "--pairs"
+                        : p->compare                  ? "--compare"
+                        : p->points.links             ? "--links"
+                        : p->agents_given             ? "--agents"
+                        : p->parts & VGA_PART_THROUGH ? "--measures through"
+                        : input_is_building(p->input) ? "a building"
+                                                      : NULL;
+    if (!other) return SL_OK;
+    return sl_fail(context, SL_BAD_ARGUMENT, "--shard does not go with %s", other);
+}
+
 static sl_status make_plan(sl_context *context, vga_plan *p) {
     if (!p->step_given)
         return sl_fail(context, SL_BAD_ARGUMENT,
@@ -63,6 +107,8 @@ static sl_status make_plan(sl_context *context, vga_plan *p) {
     if (!p->parts)
         return sl_fail(context, SL_BAD_ARGUMENT, "--measures none: name one group or several");
     if (!p->measure_given) p->measure = some_measure(p->parts);
+    SL_TRY(check_estimate(context, p));
+    SL_TRY(check_shard(context, p));
     SL_TRY(within_check(context, &p->points.within));
     SL_TRY(check_radius(context, p, p->visual_given, VGA_PART_VISUAL, "visual"));
     SL_TRY(check_radius(context, p, p->metric_given, VGA_PART_METRIC, "metric"));
@@ -192,8 +238,8 @@ static sl_status compare(command_console *console, const vga_plan *plan, const v
 static sl_status show(command_console *console, const vga_plan *plan, const vga_table *table) {
     const char *path = table_path(plan);
     progress_line_clear(&console->line);
-    if (path) SL_TRY(vga_write(console->context, table, path));
-    if (!console->quiet && (!path || strcmp(path, "-") != 0))
+    if (path) SL_TRY(vga_write(console->context, table, &plan->part, path));
+    if (!console->quiet && !plan->part.count && (!path || strcmp(path, "-") != 0))
         vga_print_summary(table, plan->measure);
     return SL_OK;
 }
@@ -235,6 +281,7 @@ sl_status cmd_vga(command_console *console, int argc, char **argv) {
                      .pipeline = pipeline_default(),
                      .options = sl_vga_options_default(),
                      .agents = sl_vga_agents_default(),
+                     .estimate = sl_vga_estimate_default(),
                      .drawing = built_draw_options()};
     option_table pipeline = pipeline_option_table(&plan.pipeline);
     const option_table picture = picture_option_table(&plan.drawing, "picture", true);
@@ -290,6 +337,16 @@ sl_status cmd_vga(command_console *console, int argc, char **argv) {
         {"radius", 0, "N", "visual: only points within N steps (default: all)",
          .count32 = &plan.options.radius, .least = 1, .most = UINT32_MAX, .topic = "limits",
          .given = &plan.visual_given, .rare = true},
+        {"shard", 0, "K/N", "compute part K of N of the table (1 <= K <= N), for 'sightline merge'",
+         .text = &plan.part.text, .topic = "limits", .rare = true},
+        {"estimate", 0, "N",
+         "visual: estimate mean depth and integration by searches from N points of each part of "
+         "the "
+         "graph, drawn by --seed; two more columns have the ends between which the exact depth of "
+         "a "
+         "point lies with a probability of 99 %",
+         .count32 = &plan.estimate.roots, .least = 1, .most = SL_VGA_POINTS_MOST, .topic = "limits",
+         .given = &plan.estimate_given, .rare = true},
         {"metric-radius", 0, "R", "metric: only paths up to this length (default: all)",
          .number = &plan.options.metric_radius, .over_0 = true, .topic = "limits",
          .given = &plan.metric_given, .rare = true},
@@ -315,8 +372,8 @@ sl_status cmd_vga(command_console *console, int argc, char **argv) {
          .number = &plan.agents.view, .over_0 = true, .most = 360, .topic = "agents",
          .needs = "over 0 and up to 360 degrees are needed", .given = &plan.agent_option,
          .rare = true},
-        {"seed", 0, "N", "random seed of agents (default 1)", .count = &plan.agents.seed,
-         .topic = "agents", .given = &plan.agent_option, .rare = true},
+        {"seed", 0, "N", "random seed of agents, and of --estimate (default 1)",
+         .count = &plan.agents.seed, .topic = "agents", .given = &plan.seed_given, .rare = true},
         {.group = &points},
         {.group = &picture},
         {.group = &pipeline},
@@ -344,6 +401,7 @@ sl_status cmd_vga(command_console *console, int argc, char **argv) {
     SL_TRY(options_parse(console, &usage, argc, argv, &plan.input, &helped));
     if (helped) return SL_OK;
     SL_TRY(make_plan(console->context, &plan));
+    SL_TRY(table_part_plan(console->context, argc, argv, plan.output, &plan.part));
     vga_work w = {0};
     building_vga b = {0};
     const sl_status status = input_is_building(plan.input) ? work_building(console, &plan, &b)

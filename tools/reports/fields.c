@@ -33,12 +33,13 @@ void csv_put_text(FILE *out, const char *text, const char *after) {
     fputs(after, out);
 }
 
-static sl_status put_rows(sl_context *context, const field_rows *rows, FILE *out) {
+sl_status fields_put_csv(sl_context *context, const field_rows *rows, size_t first, size_t stop,
+                         FILE *out) {
     table_field fields[FIELDS_MOST];
-    for (size_t row = 0; row < rows->count; row++) {
+    for (size_t row = first; row < stop; row++) {
         const size_t count = rows->list(rows->of, row, fields);
         if (row % 4096 == 0) SL_TRY(sl_check_cancelled(context));
-        for (size_t i = 0; i < count && !row; i++)
+        for (size_t i = 0; i < count && row == first; i++)
             fprintf(out, "%s%s", fields[i].key, i + 1 < count ? "," : "\n");
         for (size_t i = 0; i < count; i++) {
             const table_field *f = &fields[i];
@@ -54,7 +55,8 @@ static sl_status put_rows(sl_context *context, const field_rows *rows, FILE *out
 sl_status fields_write_csv(sl_context *context, const field_rows *rows, const char *path) {
     sl_output output;
     SL_TRY(sl_output_open(context, path, &output));
-    return sl_output_close(context, &output, put_rows(context, rows, output.stream));
+    return sl_output_close(context, &output,
+                           fields_put_csv(context, rows, 0, rows->count, output.stream));
 }
 
 // --- JSON

@@ -36,6 +36,9 @@ typedef struct field_rows {
     size_t count;
 } field_rows;
 
+/// Writes the rows from `first` up to `stop`, without it. The line of keys comes before the first.
+sl_status fields_put_csv(sl_context *context, const field_rows *rows, size_t first, size_t stop,
+                         FILE *out);
 /// Writes a table, "-" for stdout. Its first line has the keys.
 sl_status fields_write_csv(sl_context *context, const field_rows *rows, const char *path);
 /// A list of objects.

@@ -2,6 +2,7 @@
 #include "studies/bake_parts.h"
 
 #include "sightline/support.h"
+#include "studies/table_part.h"
 #include "system/crew.h"
 
 #include <string.h>
@@ -18,28 +19,6 @@ static bool by_units(const bake_parts *parts, unsigned effects) {
     bake_parts others = *parts;
     if (effects & ~(unsigned)(SL_EFFECT_ONEWAY | SL_EFFECT_RANGE)) others.previous = NULL;
     return in_parts(&others);
-}
-
-/// "3/8"
-static sl_status plan_shard(sl_context *context, bake_parts *parts) {
-    const char *text = parts->shard_text;
-    if (!text) return SL_OK;
-    const char *slash = strchr(text, '/');
-    char first[16];
-    uint64_t shard = 0, count = 0;
-    const size_t length = slash ? (size_t)(slash - text) : 0;
-    if (!slash || length >= sizeof first)
-        return sl_fail(context, SL_BAD_ARGUMENT, "--shard %s: K/N is needed, as 1/8", text);
-    memcpy(first, text, length);
-    first[length] = '\0';
-    SL_TRY(read_count(context, "--shard", first, UINT32_MAX, &shard));
-    SL_TRY(read_count(context, "--shard", slash + 1, UINT32_MAX, &count));
-    if (!shard || shard > count)
-        return sl_fail(context, SL_BAD_ARGUMENT, "--shard %s: of N parts K is one from 1 to N",
-                       text);
-    parts->shard = (uint32_t)shard;
-    parts->shard_count = (uint32_t)count;
-    return SL_OK;
 }
 
 /// The option that asks for a bake in parts.
@@ -79,7 +58,8 @@ option_table bake_parts_option_table(bake_parts *parts) {
 sl_status bake_parts_plan(sl_context *context, const sl_see_method *method,
                           const sl_see_options *see, bake_parts *parts) {
     parts->start = sl_seconds();
-    SL_TRY(plan_shard(context, parts));
+    if (parts->shard_text)
+        SL_TRY(share_read(context, parts->shard_text, &parts->shard, &parts->shard_count));
     if (parts->resume && parts->previous)
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "--resume goes on with a bake, --previous takes over an older one: give "

@@ -179,6 +179,7 @@ typedef struct job {
     const isovist_scene *scene;
     const eye_places *eyes;
     double range;
+    size_t first, stop; ///< eyes to measure
     isovist_result *out;
 } job;
 
@@ -192,8 +193,8 @@ static sl_status measure_bundle(sl_context *context, void *all, void *state, siz
     const job *j = all;
     sl_mirrored_region *region = state;
     const sl_space *space = j->scene->space;
-    const size_t first = bundle * EYES_A_BUNDLE, count = j->eyes->list.count;
-    for (size_t i = first; i < count && i < first + EYES_A_BUNDLE; i++) {
+    const size_t first = j->first + bundle * EYES_A_BUNDLE;
+    for (size_t i = first; i < j->stop && i < first + EYES_A_BUNDLE; i++) {
         const eye_place *eye = &j->eyes->list.items[i];
         if (range_of(j->scene, eye) != j->range) continue;
         SL_TRY(sl_check_cancelled(context));
@@ -212,15 +213,16 @@ static void end_isovist_worker(sl_context *context, void *all, void *state) {
 }
 
 sl_status isovist_run(sl_context *context, const isovist_scene *scene, const eye_places *eyes,
-                      unsigned threads, isovist_result *out) {
-    job j = {scene, eyes, 0, out};
+                      const table_part *part, unsigned threads, isovist_result *out) {
+    job j = {.scene = scene, .eyes = eyes, .stop = eyes->list.count, .out = out};
+    if (part) table_part_rows(part, eyes->list.count, &j.first, &j.stop);
     const sl_work work = {.job = &j,
                           .begin = begin_isovist_worker,
                           .unit = measure_bundle,
                           .end = end_isovist_worker,
                           .stage = "isovist",
                           .units = "bundles of eyes"};
-    const size_t bundles = (eyes->list.count + EYES_A_BUNDLE - 1) / EYES_A_BUNDLE;
+    const size_t bundles = (j.stop - j.first + EYES_A_BUNDLE - 1) / EYES_A_BUNDLE;
     for (bool more = true, first = true; more; first = false) {
         // The smallest range that is left.
         const double done = j.range;
@@ -328,11 +330,11 @@ static sl_status write_dxf(sl_context *context, const isovist_scene *scene, cons
 }
 
 sl_status isovist_write(sl_context *context, const isovist_scene *scene, const eye_places *eyes,
-                        const isovist_result *isovists, const char *path) {
+                        const isovist_result *isovists, const table_part *part, const char *path) {
     const isovist_rows of = {scene->mirrored, eyes, isovists};
     const field_rows rows = {list_fields, &of, eyes->list.count};
     if (name_ends_with(path, ".dxf")) return write_dxf(context, scene, eyes, path);
-    if (!name_ends_with(path, ".geojson")) return fields_write_csv(context, &rows, path);
+    if (!name_ends_with(path, ".geojson")) return table_part_write(context, part, &rows, path);
     sl_output output;
     SL_TRY(sl_output_open(context, path, &output));
     return sl_output_close(context, &output, write_places(context, scene, &rows, output.stream));

@@ -8,6 +8,7 @@
 #include "sightline/query.h"
 #include "sightline/support.h"
 #include "sightline/viewpoint.h"
+#include "studies/table_part.h"
 
 /// A place to look from, with its heading and view cone in degrees, and how far it sees.
 typedef struct eye_place {
@@ -79,14 +80,14 @@ sl_status isovist_look(sl_context *context, const isovist_scene *scene, const ey
 sl_status isovist_part_sizes(sl_context *context, sl_query *query, const eye_places *eyes,
                              uint32_t *sizes);
 
-/// Fills out[0 .. eyes->list.count). Reports stage "isovist".
+/// Fills out[i] for each eye of a part; NULL: for all. Reports stage "isovist".
 sl_status isovist_run(sl_context *context, const isovist_scene *scene, const eye_places *eyes,
-                      unsigned threads, isovist_result *out);
+                      const table_part *part, unsigned threads, isovist_result *out);
 
 /// Writes the table to a file, "-" for stdout. A map with mirrors adds columns for them. A name
 /// that ends in .geojson: the regions as GeoJSON, with the columns as properties; in .dxf: the
-/// regions alone, as outlines.
+/// regions alone, as outlines. Of a part of the table its rows are written.
 sl_status isovist_write(sl_context *context, const isovist_scene *scene, const eye_places *eyes,
-                        const isovist_result *isovists, const char *path);
+                        const isovist_result *isovists, const table_part *part, const char *path);
 
 #endif

@@ -83,11 +83,20 @@ static sl_status check_memory(sl_context *context, const vga_plan *plan, const v
     return SL_OK;
 }
 
+/// Bytes a point of an estimate, and of each of its threads, beside tiles.
+enum { TALLIES = 64, SEARCHER = 32 };
+
+static uint64_t plan_threads(const vga_plan *plan) {
+    return plan->options.threads ? plan->options.threads : sl_core_count();
+}
+
 /// Refuses measures that take more than the graph left, before they are begun.
 static sl_status check_measures(sl_context *context, const vga_plan *plan, const vga_work *w) {
     const sl_vga_grid *grid = &w->table.grid;
     uint64_t bytes;
     SL_TRY(sl_vga_measure_bytes(context, w->outline, grid, &w->graph, &plan->options, &bytes));
+    if (plan->estimate_given)
+        bytes += (uint64_t)grid->count * (TALLIES + SEARCHER * plan_threads(plan));
     if (w->link_count) bytes *= 2; // the graph of linked places, and its measures
     char size[SIZE_TEXT], most[SIZE_TEXT];
     size_write(bytes, size);
@@ -155,7 +164,37 @@ static sl_status measure_regions(sl_context *context, const vga_plan *plan, vga_
         SL_TRY(eyes_add(context, &w->eyes, (eye_place){grid->points[p], 0, 360, 0}));
     w->table.isovists = sl_alloc_array(context, grid->count, sizeof *w->table.isovists);
     if (!w->table.isovists) return SL_NO_MEMORY;
-    return isovist_run(context, &scene, &w->eyes, plan->options.threads, w->table.isovists);
+    return isovist_run(context, &scene, &w->eyes, &plan->part, plan->options.threads,
+                       w->table.isovists);
+}
+
+/// Mean depths from a few roots, and how far off they may be.
+static sl_status estimate(sl_context *context, const vga_plan *plan, vga_work *w) {
+    vga_table *table = &w->table;
+    const uint32_t count = table->grid.count;
+    sl_vga_estimate options = plan->estimate;
+    options.threads = plan->options.threads;
+    table->estimated = sl_alloc_array(context, count, sizeof *table->estimated);
+    if (!table->estimated) return SL_NO_MEMORY;
+    SL_TRY(sl_vga_estimate_depths(context, &table->grid, &w->graph, &options, table->measures,
+                                  table->estimated));
+    double sum = 0, most = 0, points = 0;
+    for (uint32_t p = 0; p < count; p++) {
+        const double depth = table->measures[p].visual_mean_depth;
+        const sl_vga_interval ends = table->estimated[p];
+        if (isnan(depth)) continue;
+        const double off = fmax(depth - ends.least, ends.most - depth);
+        most = fmax(most, off);
+        sum += off;
+        points++;
+    }
+    sl_note(context,
+            "visual_mean_depth is estimated from %" PRIu32 " root%s, integration from it; for each "
+            "point the exact value is between _least and _most with a probability of at least "
+            "%.9g %%: %.3g steps off on average, %.3g at most",
+            options.roots, options.roots == 1 ? "" : "s", 100 * options.confidence,
+            points > 0 ? sum / points : 0, most);
+    return SL_OK;
 }
 
 static sl_status measure(sl_context *context, vga_plan *plan, vga_work *w) {
@@ -172,15 +211,25 @@ static sl_status measure(sl_context *context, vga_plan *plan, vga_work *w) {
                                  &w->graph));
         if (plan->turned) SL_TRY(sl_vga_graph_turn(context, &w->graph));
     }
-    const unsigned visual = SL_VGA_LOCAL | (plan->of_building ? 0u : (unsigned)SL_VGA_GLOBAL);
+    unsigned visual = SL_VGA_LOCAL | (plan->of_building ? 0u : (unsigned)SL_VGA_GLOBAL);
+    if (plan->estimate_given) visual = SL_VGA_GLOBAL; // for the bytes that it takes
     plan->options.parts = (of_graph & VGA_PART_VISUAL ? visual : 0u) |
                           (of_graph & VGA_PART_THROUGH ? SL_VGA_THROUGH : 0u) |
                           (of_graph & VGA_PART_METRIC ? SL_VGA_METRIC : 0u) |
                           (of_graph & VGA_PART_ANGULAR ? SL_VGA_ANGULAR : 0u);
+    if (plan->part.count) {
+        size_t first, stop;
+        table_part_rows(&plan->part, grid->count, &first, &stop);
+        plan->options.first = (uint32_t)first;
+        plan->options.count = (uint32_t)(stop - first);
+        if (first == stop) plan->options.parts = 0;
+    }
     if (plan->options.parts) SL_TRY(check_measures(context, plan, w));
     if (plan->from.count && !plan->of_building) SL_TRY(find_depths(context, plan, w));
     if (plan->agents_given) SL_TRY(walk_agents(context, plan, w));
-    if (plan->options.parts)
+    if (plan->estimate_given)
+        SL_TRY(estimate(context, plan, w));
+    else if (plan->options.parts)
         SL_TRY(sl_vga_measure_walked_linked(context, w->outline, grid, &w->graph, w->steps,
                                             w->links, w->link_count, &plan->options,
                                             table->measures));
@@ -272,6 +321,7 @@ sl_status vga_compute(sl_context *context, vga_plan *plan, vga_work *w) {
 void vga_work_destroy(sl_context *context, vga_work *w) {
     sl_free(context, w->table.measures);
     sl_free(context, w->table.isovists);
+    sl_free(context, w->table.estimated);
     sl_free(context, w->table.depths);
     sl_vga_steps_destroy(context, w->steps);
     sl_free(context, w->table.gates);

@@ -24,6 +24,9 @@ typedef struct vga_plan {
     sl_vga_agents agents;
     const char *agents_given, *agent_option;
     double range;
+    table_part part; ///< of the table: other rows have no values
+    sl_vga_estimate estimate;
+    const char *estimate_given, *seed_given;
     bool turned; ///< who sees a point, in place of what it sees
     unsigned parts;
     const char *step_given, *parts_given, *range_given, *measure_given, *scale_given;

@@ -8,6 +8,7 @@
 
 #include <inttypes.h>
 #include <math.h>
+#include <string.h>
 
 /// Groups as they can be chosen, in the order of the bits.
 static const sl_measure_group groups[] = {SL_GROUP_LOCAL, SL_GROUP_THROUGH, SL_GROUP_METRIC,
@@ -39,6 +40,18 @@ bool vga_measure_is_of_part(size_t measure) {
     return vga_measure_part(measure) < VGA_PART_ISOVIST;
 }
 
+bool vga_is_estimated(size_t measure) {
+    const sl_measure *m = &columns(&(size_t){0})[measure];
+    if (vga_measure_part(measure) != VGA_PART_VISUAL) return true;
+    return m->group == SL_GROUP_GLOBAL ? m->unit != SL_UNIT_BITS
+                                       : strcmp(m->name, "connectivity") == 0;
+}
+
+bool vga_has(const vga_table *table, size_t measure) {
+    return table->parts & vga_measure_part(measure) &&
+           (!table->estimated || vga_is_estimated(measure));
+}
+
 double vga_value(const vga_table *table, size_t measure, uint32_t point) {
     const sl_measure *m = &columns(&(size_t){0})[measure];
     if (m->of == SL_OF_AGENTS) return (double)table->gates[point];
@@ -57,8 +70,12 @@ static size_t list_fields(const void *of, size_t point, table_field fields[FIELD
     fields[count++] = field_real("x", table->grid.points[point].x);
     fields[count++] = field_real("y", table->grid.points[point].y);
     for (size_t k = 0; k < measure_count; k++)
-        if (table->parts & vga_measure_part(k))
+        if (vga_has(table, k))
             fields[count++] = field_real(measures[k].name, vga_value(table, k, (uint32_t)point));
+    if (table->estimated) {
+        fields[count++] = field_real("visual_mean_depth_least", table->estimated[point].least);
+        fields[count++] = field_real("visual_mean_depth_most", table->estimated[point].most);
+    }
     if (table->part_count > 1) fields[count++] = field_real("part", table->part[point] + 1.0);
     if (table->storeys) fields[count++] = field_text("storey", table->storeys[point]);
     return count;
@@ -94,9 +111,10 @@ static sl_status write_geojson(sl_context *context, const vga_table *table, FILE
     return SL_OK;
 }
 
-sl_status vga_write(sl_context *context, const vga_table *table, const char *path) {
+sl_status vga_write(sl_context *context, const vga_table *table, const table_part *part,
+                    const char *path) {
     const field_rows rows = {list_fields, table, table->grid.count};
-    if (!name_ends_with(path, ".geojson")) return fields_write_csv(context, &rows, path);
+    if (!name_ends_with(path, ".geojson")) return table_part_write(context, part, &rows, path);
     sl_output output;
     SL_TRY(sl_output_open(context, path, &output));
     return sl_output_close(context, &output, write_geojson(context, table, output.stream));
@@ -161,8 +179,7 @@ void vga_print_summary(const vga_table *table, size_t measure) {
                table->part_count, vga_part_size(table, 0));
     printf("\n  %-36s %12s %12s\n", "measure", "mean", "deviation");
     for (of.measure = 0; of.measure < columns_count; of.measure++)
-        if (table->parts & vga_measure_part(of.measure))
-            summary_print_mean(measures[of.measure].name, &values);
+        if (vga_has(table, of.measure)) summary_print_mean(measures[of.measure].name, &values);
     of.measure = measure;
     if (count) printf("highest %s:\n  %12s %12s %12s\n", measures[measure].name, "x", "y", "value");
     for (size_t k = 0; k < count; k++)

@@ -10,9 +10,10 @@
 typedef struct vga_table {
     sl_vga_grid grid;
     sl_vga_measures *measures;
-    isovist_result *isovists; ///< NULL where they are not measured
-    sl_vga_depths *depths;    ///< from chosen points; NULL where there are none
-    uint64_t *gates;          ///< steps of agents; NULL where there are none
+    isovist_result *isovists;   ///< NULL where they are not measured
+    sl_vga_interval *estimated; ///< ends of the mean depth; NULL where it is exact
+    sl_vga_depths *depths;      ///< from chosen points; NULL where there are none
+    uint64_t *gates;            ///< steps of agents; NULL where there are none
     unsigned parts;
     uint32_t *part; ///< by point: of those that no sightline joins (sl_vga_parts); NULL: unknown
     uint32_t part_count;
@@ -36,12 +37,19 @@ unsigned vga_measure_part(size_t measure);
 /// nor from chosen points, nor of agents.
 bool vga_measure_is_of_part(size_t measure);
 
+/// Whether the table has a column of a measure. Of the visual ones some are not estimated.
+bool vga_has(const vga_table *table, size_t measure);
+
+/// Whether a measure stays where mean depths are estimated.
+bool vga_is_estimated(size_t measure);
+
 /// NAN where the measure is not defined.
 double vga_value(const vga_table *table, size_t measure, uint32_t point);
 
 /// Writes the columns of the table's groups: GeoJSON where the name ends so, else CSV. "-" is
-/// stdout.
-sl_status vga_write(sl_context *context, const vga_table *table, const char *path);
+/// stdout. Of a part of the table its rows are written.
+sl_status vga_write(sl_context *context, const vga_table *table, const table_part *part,
+                    const char *path);
 
 /// The number of points in one of several parts.
 uint32_t vga_part_size(const vga_table *table, uint32_t part);

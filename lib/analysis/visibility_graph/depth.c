@@ -476,6 +476,8 @@ sl_status sl_vga_measure_linked(sl_context *context, const sl_outline *outline,
                                 const sl_vga_options *options, sl_vga_measures *measures) {
     const unsigned steps = SL_VGA_GLOBAL, paths = SL_VGA_METRIC | SL_VGA_ANGULAR;
     if (!link_count) return sl_vga_measure(context, outline, grid, graph, options, measures);
+    if (options->count)
+        return sl_fail(context, SL_BAD_ARGUMENT, "with links, all points are measured");
     sl_vga_options plain = *options;
     plain.parts &= ~(steps | paths);
     path_job job = {

@@ -20,6 +20,9 @@
 /// found that the search before found. So the last level, often most of the plan, is never taken
 /// on.
 ///
+/// A search with a radius ends early, and then touches few of many bundles: a set of the bundles of
+/// a level leads to its words, so that no search passes over the whole plan.
+///
 /// All of this needs sight that is mutual. In a directed graph, each point is a group of its own,
 /// and levels are found from the level before.
 ///
@@ -45,6 +48,8 @@ typedef struct searcher {
     sl_bits *reach; ///< all that the search before found, if it found all that steps lead to
     sl_bits *full, *partial; ///< the points of a level whose masks are full, and the others
     sl_bits *next, *next_full;
+    sl_bits *level, *next_level; ///< the bundles of these
+    sl_bits *touched;            ///< bundles of all levels; outside, the sets above are empty
     uint64_t *masks; ///< by slot, where it is partial: the points of the group, by place
     uint64_t *any;   ///< by bundle: the masks of its partial points together
     // Numbers of points by depth; the last entry holds all that are deeper.
@@ -106,12 +111,21 @@ uint64_t sli_vga_choose_group(const sli_vga_job *job, const sli_vga_tiles *t, si
     return group;
 }
 
+/// Empties the sets of the search before.
+static void clear_search(const sli_vga_tiles *t, searcher *s) {
+    size_t b = 0;
+    for (; (b = sli_bits_next(s->touched, t->bundles, b, true)) < t->bundles; b++)
+        s->seen[b] = s->full[b] = s->partial[b] = s->next[b] = s->next_full[b] = 0;
+    const size_t bytes = sl_bits_words(t->bundles) * sizeof *s->touched;
+    memset(s->touched, 0, bytes);
+    memset(s->level, 0, bytes);
+    memset(s->next_level, 0, bytes);
+}
+
 /// The first level: what the group sees.
 static void see_first(const sli_vga_tiles *t, searcher *s, size_t bundle, uint64_t group) {
     const sli_vga_bundle *of = &t->of[bundle];
-    memset(s->seen, 0, t->bundles * sizeof *s->seen);
-    memset(s->full, 0, t->bundles * sizeof *s->full);
-    memset(s->partial, 0, t->bundles * sizeof *s->partial);
+    clear_search(t, s);
     for (uint32_t i = 0; i < of->count; i++) {
         const sli_vga_tile *tile = &of->tiles[i];
         const uint32_t b = tile->bundle;
@@ -127,6 +141,8 @@ static void see_first(const sli_vga_tiles *t, searcher *s, size_t bundle, uint64
         s->full[b] = all & some;
         s->partial[b] = some & ~all;
         s->seen[b] = some;
+        sl_bits_add(s->level, b);
+        sl_bits_add(s->touched, b);
         for (uint64_t left = s->partial[b]; left; left &= left - 1)
             s->masks[(size_t)b * 64 + (size_t)__builtin_ctzll(left)] = 0;
         for (sli_vga_span span = sli_vga_spans(of, tile); sli_vga_next_span(&span);)
@@ -135,6 +151,7 @@ static void see_first(const sli_vga_tiles *t, searcher *s, size_t bundle, uint64
                 s->masks[(size_t)b * 64 + (size_t)__builtin_ctzll(left)] |= span.places & group;
     }
     s->seen[bundle] |= group;
+    sl_bits_add(s->touched, bundle);
 }
 
 /// What all of these points have in their masks.
@@ -185,7 +202,7 @@ static uint64_t join_masks(const sli_vga_tiles *t, searcher *s, size_t bundle, u
 /// Counts a level, and joins the masks of its partial points by bundle. False if it is empty.
 static bool count_level(const sli_vga_tiles *t, searcher *s, uint64_t depth) {
     int64_t full = 0, partial = 0;
-    for (size_t b = 0; b < t->bundles; b++) {
+    for (size_t b = 0; (b = sli_bits_next(s->level, t->bundles, b, true)) < t->bundles; b++) {
         full += sli_word_count(s->full[b]);
         if (!s->partial[b]) continue;
         s->any[b] = 0;
@@ -203,12 +220,12 @@ static bool count_level(const sli_vga_tiles *t, searcher *s, uint64_t depth) {
 
 /// Finds the next level from this one: the points that it sees.
 static void push_level(const sli_vga_tiles *t, searcher *s, uint64_t group) {
-    const size_t bytes = t->bundles * sizeof *s->next;
-    memset(s->next, 0, bytes);
-    sli_vga_tiles_step(t, s->full, s->seen, s->next);
-    memcpy(s->next_full, s->next, bytes);
-    sli_vga_tiles_step(t, s->partial, s->seen, s->next);
-    for (size_t b = 0; b < t->bundles; b++) {
+    size_t b = 0;
+    sli_vga_tiles_step(t, s->level, s->full, s->seen, s->next, s->next_level);
+    for (; (b = sli_bits_next(s->next_level, t->bundles, b, true)) < t->bundles; b++)
+        s->next_full[b] = s->next[b];
+    sli_vga_tiles_step(t, s->level, s->partial, s->seen, s->next, s->next_level);
+    for (b = 0; (b = sli_bits_next(s->next_level, t->bundles, b, true)) < t->bundles; b++) {
         const uint64_t left = s->next[b] & ~s->next_full[b];
         if (left) s->next_full[b] |= join_masks(t, s, b, left, group);
         s->next[b] &= ~s->next_full[b];
@@ -238,6 +255,7 @@ static void pull_level(const sli_vga_tiles *t, searcher *s, uint64_t group) {
         s->next[b] = 0;
         for (left &= ~s->next_full[b]; left; left &= left - 1)
             if (s->masks[b * 64 + (size_t)__builtin_ctzll(left)]) s->next[b] |= left & -left;
+        if (s->next[b] | s->next_full[b]) sl_bits_add(s->next_level, b);
     }
 }
 
@@ -251,19 +269,29 @@ static bool is_pulled(const sli_vga_tiles *t, const searcher *s) {
     return pulled < pushed;
 }
 
+static void swap_sets(sl_bits **a, sl_bits **b) {
+    sl_bits *swap = *a;
+    *a = *b;
+    *b = swap;
+}
+
 /// `reaches`: s->reach is known.
 static void next_level(const sli_vga_tiles *t, searcher *s, uint64_t group, bool reaches) {
     if (reaches && is_pulled(t, s))
         pull_level(t, s, group);
     else
         push_level(t, s, group);
-    for (size_t b = 0; b < t->bundles; b++) s->seen[b] |= s->next[b] | s->next_full[b];
-    sl_bits *swap = s->full;
-    s->full = s->next_full;
-    s->next_full = swap;
-    swap = s->partial;
-    s->partial = s->next;
-    s->next = swap;
+    size_t b = 0;
+    for (; (b = sli_bits_next(s->level, t->bundles, b, true)) < t->bundles; b++)
+        s->full[b] = s->partial[b] = 0;
+    for (b = 0; (b = sli_bits_next(s->next_level, t->bundles, b, true)) < t->bundles; b++)
+        s->seen[b] |= s->next[b] | s->next_full[b];
+    const size_t words = sl_bits_words(t->bundles);
+    for (size_t w = 0; w < words; w++) s->touched[w] |= s->next_level[w];
+    memset(s->level, 0, words * sizeof *s->level);
+    swap_sets(&s->full, &s->next_full);
+    swap_sets(&s->partial, &s->next);
+    swap_sets(&s->level, &s->next_level);
 }
 
 /// Counts points by depth for a group. Entries are valid up to `deepest`.
@@ -339,8 +367,8 @@ static void measure_group(const global_job *g, searcher *s, size_t bundle, uint6
 static void end_global_worker(sl_context *context, void *all, void *state) {
     (void)all;
     searcher *s = state;
-    void *parts[] = {s->seen,  s->full, s->partial, s->next, s->next_full,
-                     s->masks, s->any,  s->reach,   s};
+    void *parts[] = {s->seen, s->full,  s->partial, s->next,       s->next_full, s->masks,
+                     s->any,  s->reach, s->level,   s->next_level, s->touched,   s};
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) sl_free(context, parts[i]);
 }
 
@@ -350,8 +378,8 @@ static sl_status begin_global_worker(sl_context *context, void *all, void **stat
     if (!s) return SL_NO_MEMORY;
     s->masks = sl_alloc_array(context, words * 64, sizeof *s->masks);
     bool room = s->masks != NULL;
-    uint64_t **sets[] = {&s->seen,      &s->full, &s->partial, &s->next,
-                         &s->next_full, &s->any,  &s->reach};
+    uint64_t **sets[] = {&s->seen, &s->full,  &s->partial, &s->next,       &s->next_full,
+                         &s->any,  &s->reach, &s->level,   &s->next_level, &s->touched};
     for (size_t i = 0; i < sizeof sets / sizeof *sets; i++)
         room &= (*sets[i] = sl_alloc_array(context, words, sizeof **sets[i])) != NULL;
     if (!room) {
@@ -364,7 +392,7 @@ static sl_status begin_global_worker(sl_context *context, void *all, void **stat
 
 static sl_status measure_unit(sl_context *context, void *all, void *state, size_t unit) {
     const global_job *g = all;
-    uint64_t places = sli_vga_places(g->tiles, unit);
+    uint64_t places = sli_vga_places(g->all, g->tiles, unit);
     while (places) {
         const uint64_t group = sli_vga_choose_group(g->all, g->tiles, unit, places);
         SL_TRY(sl_check_cancelled(context));

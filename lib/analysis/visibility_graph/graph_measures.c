@@ -24,18 +24,24 @@ sl_vga_options sl_vga_options_default(void) {
     return (sl_vga_options){.parts = SL_VGA_LOCAL | SL_VGA_GLOBAL};
 }
 
-sl_status sl_vga_measure(sl_context *context, const sl_outline *outline, const sl_vga_grid *grid,
-                         const sl_vga_graph *graph, const sl_vga_options *options,
-                         sl_vga_measures *measures) {
-    uint32_t *degree = sl_alloc_array(context, graph->count, sizeof *degree);
-    if (!degree) return SL_NO_MEMORY;
+void sli_vga_begin_measures(const sl_vga_graph *graph, bool connected, uint32_t *degree,
+                            sl_vga_measures *measures) {
     for (uint32_t p = 0; p < graph->count; p++) {
         for (sl_vga_run run = sl_vga_row(graph, p); sl_vga_next(&run);)
             degree[p] += run.stop - run.first;
         double *all = (double *)&measures[p];
         for (size_t k = 0; k < sizeof *measures / sizeof *all; k++) all[k] = NAN;
-        if (options->parts & (SL_VGA_LOCAL | SL_VGA_GLOBAL)) measures[p].connectivity = degree[p];
+        if (connected) measures[p].connectivity = degree[p];
     }
+}
+
+sl_status sl_vga_measure(sl_context *context, const sl_outline *outline, const sl_vga_grid *grid,
+                         const sl_vga_graph *graph, const sl_vga_options *options,
+                         sl_vga_measures *measures) {
+    uint32_t *degree = sl_alloc_array(context, graph->count, sizeof *degree);
+    if (!degree) return SL_NO_MEMORY;
+    sli_vga_begin_measures(graph, options->parts & (SL_VGA_LOCAL | SL_VGA_GLOBAL), degree,
+                           measures);
     sl_bits *turning = NULL;
     sl_status status = sli_vga_find_turning(context, outline, grid, &turning);
     sli_vga_job job = {grid, graph, options, degree, turning, NULL, measures};

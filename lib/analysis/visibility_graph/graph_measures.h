@@ -20,14 +20,28 @@ typedef struct sli_vga_job {
     sl_vga_measures *measures;
 } sli_vga_job;
 
+/// Adds the connectivity of each point to a zeroed array. All measures become NAN but, if it is
+/// asked for, this one.
+void sli_vga_begin_measures(const sl_vga_graph *graph, bool connected, uint32_t *degree,
+                            sl_vga_measures *measures);
+
 /// The points beside walls. The result is the caller's.
 sl_status sli_vga_find_turning(sl_context *context, const sl_outline *outline,
                                const sl_vga_grid *grid, sl_bits **out);
 
-/// The places of a bundle that have points.
-static inline uint64_t sli_vga_places(const sli_vga_tiles *tiles, size_t bundle) {
-    const size_t left = tiles->count - bundle * 64;
-    return left < 64 ? ((uint64_t)1 << left) - 1 : UINT64_MAX;
+/// Whether a point is to be measured.
+static inline bool sli_vga_is_asked(const sl_vga_options *options, uint32_t point) {
+    return !options->count || (point >= options->first && point - options->first < options->count);
+}
+
+/// The places of a bundle that have points to measure.
+static inline uint64_t sli_vga_places(const sli_vga_job *job, const sli_vga_tiles *tiles,
+                                      size_t bundle) {
+    uint64_t places = 0;
+    for (size_t i = 0; i < 64 && bundle * 64 + i < tiles->count; i++)
+        if (sli_vga_is_asked(job->options, tiles->points[bundle * 64 + i]))
+            places |= (uint64_t)1 << i;
+    return places;
 }
 
 /// Some of these places of a bundle: points that all see each other. In a directed graph it is one.

@@ -188,6 +188,7 @@ static sl_status measure_unit(sl_context *context, void *all, void *walker, size
     const sli_vga_searches *searches = all;
     const sli_vga_sights *s = searches->sights;
     for (size_t i = unit * 64; i < s->count && i < unit * 64 + 64; i++) {
+        if (!sli_vga_is_asked(s->job->options, s->points[s->starts[i]])) continue;
         SL_TRY(sl_check_cancelled(context));
         SL_TRY(searches->measure(context, walker, s->starts[i]));
     }

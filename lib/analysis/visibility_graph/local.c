@@ -11,8 +11,9 @@
 /// A neighbour that sees no other neighbour is in no such pair. It does not count for
 /// controllability, as nobody leads back to it. They are few, and looked for one by one.
 ///
-/// Cost: for a group, the tiles within `all`; for a point, the tiles within its own points. Points
-/// two steps away are counted by the search for depths. In a directed graph, a group is one point.
+/// Cost: for a group, the tiles within `all`; for a point, the tiles within its own points. All of
+/// them are of bundles that the group's bundle has tiles of, so no other is looked at. Points two
+/// steps away are counted by the search for depths. In a directed graph, a group is one point.
 #include "analysis/visibility_graph/graph_measures.h"
 #include "geometry/length.h"
 
@@ -24,11 +25,13 @@ typedef struct local_job {
     const sli_vga_tiles *tiles;
 } local_job;
 
-/// Sets are by slot.
+/// Sets are by slot. All but `next` are empty outside the bundles of `near`.
 typedef struct scratch {
-    sl_bits *all, *own; ///< seen by all of a group; by one of it, and not by all
-    sl_bits *level, *next;
-    sl_bits *alone; ///< of `all`: those that see none of it
+    const sli_vga_bundle *near; ///< of the group; NULL: none yet
+    sl_bits *all, *own;         ///< seen by all of a group; by one of it, and not by all
+    sl_bits *level;
+    sl_bits *next, *bundles, *next_bundles; ///< in a directed graph; the others are by bundle
+    sl_bits *alone;                         ///< of `all`: those that see none of it
     uint32_t
         *to_all; ///< by slot that one of the group sees, and not all: how many of `all` it sees
 } scratch;
@@ -37,9 +40,11 @@ typedef struct scratch {
 
 /// Ordered pairs of points of a set that see each other. Sight is mutual, so of two tiles with the
 /// same pairs one is counted, twice.
-static uint64_t count_pairs(const sli_vga_tiles *t, const sl_bits *set) {
+static uint64_t count_pairs(const sli_vga_tiles *t, const sli_vga_bundle *near,
+                            const sl_bits *set) {
     uint64_t count = 0;
-    for (size_t b = 0; b < t->bundles; b++) {
+    for (uint32_t k = 0; k < near->count; k++) {
+        const uint32_t b = near->tiles[k].bundle;
         if (!set[b]) continue;
         for (uint32_t i = 0; i < t->of[b].count; i++) {
             const sli_vga_tile *tile = &t->of[b].tiles[i];
@@ -60,8 +65,9 @@ static uint64_t count_pairs(const sli_vga_tiles *t, const sl_bits *set) {
 
 /// Counts how many of `all` each of the other points sees. `others`: by bundle.
 static void count_to_all(const sli_vga_tiles *t, scratch *s, const sl_bits *others) {
-    for (size_t b = 0; b < t->bundles; b++) {
-        uint32_t *counts = s->to_all + b * 64;
+    for (uint32_t k = 0; k < s->near->count; k++) {
+        const uint32_t b = s->near->tiles[k].bundle;
+        uint32_t *counts = s->to_all + (size_t)b * 64;
         if (others[b]) memset(counts, 0, 64 * sizeof *counts);
         for (uint32_t i = 0; others[b] && i < t->of[b].count; i++) {
             const sli_vga_tile *tile = &t->of[b].tiles[i];
@@ -89,32 +95,41 @@ static uint64_t without_seeing(const sli_vga_bundle *of, uint64_t points, const 
 
 // --- a group
 
-static void see_row(const sli_vga_tiles *t, size_t slot, sl_bits *row) {
-    const sli_vga_bundle *of = &t->of[slot / 64];
-    memset(row, 0, t->bundles * sizeof *row);
+static void see_row(const sli_vga_bundle *of, unsigned place, sl_bits *row) {
     for (uint32_t i = 0; i < of->count; i++)
-        row[of->tiles[i].bundle] = sli_vga_tile_row(of, &of->tiles[i], slot % 64);
+        row[of->tiles[i].bundle] = sli_vga_tile_row(of, &of->tiles[i], place);
+}
+
+/// Takes the sets from one group to the next.
+static void begin_group(scratch *s, const sli_vga_bundle *near) {
+    for (uint32_t k = 0; s->near && k < s->near->count; k++) {
+        const uint32_t b = s->near->tiles[k].bundle;
+        s->all[b] = s->own[b] = s->level[b] = s->alone[b] = 0;
+    }
+    s->near = near;
+    for (uint32_t k = 0; k < near->count; k++) s->all[near->tiles[k].bundle] = UINT64_MAX;
 }
 
 /// What all of a group see, and how the rest of what they see is joined to that. Returns the pairs
 /// within what all see.
 static uint64_t see_all(const sli_vga_tiles *t, scratch *s, size_t bundle, uint64_t group) {
-    const size_t bytes = t->bundles * sizeof *s->all;
-    memset(s->all, 0xff, bytes);
-    memset(s->own, 0, bytes);
+    const sli_vga_bundle *near = &t->of[bundle];
+    begin_group(s, near);
     for (; group; group &= group - 1) {
-        see_row(t, bundle * 64 + (size_t)__builtin_ctzll(group), s->level);
-        for (size_t b = 0; b < t->bundles; b++) {
+        see_row(near, (unsigned)__builtin_ctzll(group), s->level);
+        for (uint32_t k = 0; k < near->count; k++) {
+            const uint32_t b = near->tiles[k].bundle;
             s->all[b] &= s->level[b];
             s->own[b] |= s->level[b];
         }
     }
-    for (size_t b = 0; b < t->bundles; b++) {
+    for (uint32_t k = 0; k < near->count; k++) {
+        const uint32_t b = near->tiles[k].bundle;
         s->own[b] &= ~s->all[b];
         s->alone[b] = s->all[b] ? without_seeing(&t->of[b], s->all[b], s->all) : 0;
     }
     count_to_all(t, s, s->own);
-    return count_pairs(t, s->all);
+    return count_pairs(t, near, s->all);
 }
 
 // --- a point
@@ -124,7 +139,8 @@ static void measure_neighbours(const local_job *l, const scratch *s, uint32_t po
     const sli_vga_job *j = l->all;
     const sl_point at = j->grid->points[point];
     out->point_first_moment = out->point_second_moment = out->visual_control = 0;
-    for (size_t b = 0; b < l->tiles->bundles; b++) {
+    for (uint32_t k = 0; k < s->near->count; k++) {
+        const size_t b = s->near->tiles[k].bundle;
         for (sl_bits rest = s->level[b]; rest; rest &= rest - 1) {
             const uint32_t q = l->tiles->points[b * 64 + (size_t)__builtin_ctzll(rest)];
             const double distance =
@@ -143,9 +159,16 @@ static uint64_t count_together(const local_job *l, scratch *s, uint32_t point, u
     const sli_vga_tiles *t = l->tiles;
     const uint32_t degree = l->all->degree[point];
     if (!l->all->graph->directed) return degree ? 1 + degree - alone + l->all->second[point] : 0;
-    memset(s->own, 0, t->bundles * sizeof *s->own);
+    const size_t bytes = sl_bits_words(t->bundles) * sizeof *s->bundles;
+    memset(s->bundles, 0, bytes);
+    memset(s->next_bundles, 0, bytes);
     memset(s->next, 0, t->bundles * sizeof *s->next);
-    sli_vga_tiles_step(t, s->level, s->own, s->next);
+    for (uint32_t k = 0; k < s->near->count; k++) {
+        const uint32_t b = s->near->tiles[k].bundle;
+        sl_bits_add(s->bundles, b);
+        s->own[b] = 0;
+    }
+    sli_vga_tiles_step(t, s->bundles, s->level, s->own, s->next, s->next_bundles);
     return sli_bits_count(s->next, t->bundles);
 }
 
@@ -156,10 +179,14 @@ static void measure_point(const local_job *l, scratch *s, size_t slot, uint64_t 
     const double degree = l->all->degree[point];
     sl_vga_measures *out = &l->all->measures[point];
     uint64_t pairs = within, alone = 0;
-    see_row(t, slot, s->level);
+    see_row(s->near, slot % 64, s->level);
     measure_neighbours(l, s, point, out);
-    for (size_t b = 0; b < t->bundles; b++) s->own[b] = s->level[b] & ~s->all[b];
-    for (size_t b = 0; b < t->bundles; b++) {
+    for (uint32_t k = 0; k < s->near->count; k++) {
+        const uint32_t b = s->near->tiles[k].bundle;
+        s->own[b] = s->level[b] & ~s->all[b];
+    }
+    for (uint32_t k = 0; k < s->near->count; k++) {
+        const size_t b = s->near->tiles[k].bundle;
         uint64_t left = s->alone[b];
         for (uint64_t rest = s->own[b]; rest; rest &= rest - 1) {
             const uint32_t more = s->to_all[b * 64 + (size_t)__builtin_ctzll(rest)];
@@ -168,7 +195,7 @@ static void measure_point(const local_job *l, scratch *s, size_t slot, uint64_t 
         }
         if (left) alone += sli_word_count(without_seeing(&t->of[b], left, s->own));
     }
-    pairs += count_pairs(t, s->own);
+    pairs += count_pairs(t, s->near, s->own);
     if (degree > 1) out->visual_clustering_coefficient = (double)pairs / (degree * (degree - 1));
     const uint64_t together = count_together(l, s, point, alone);
     if (together) out->visual_controllability = degree / (double)together;
@@ -179,7 +206,8 @@ static void measure_point(const local_job *l, scratch *s, size_t slot, uint64_t 
 static void scratch_end(sl_context *context, void *all, void *state) {
     (void)all;
     scratch *s = state;
-    void *parts[] = {s->all, s->own, s->level, s->next, s->alone, s->to_all, s};
+    void *parts[] = {s->all,    s->own,     s->level,        s->next, s->alone,
+                     s->to_all, s->bundles, s->next_bundles, s};
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) sl_free(context, parts[i]);
 }
 
@@ -187,7 +215,8 @@ static sl_status scratch_begin(sl_context *context, void *all, void **state) {
     const size_t words = ((const local_job *)all)->tiles->bundles;
     scratch *s = sl_alloc_array(context, 1, sizeof *s);
     if (!s) return SL_NO_MEMORY;
-    sl_bits **sets[] = {&s->all, &s->own, &s->level, &s->next, &s->alone};
+    sl_bits **sets[] = {&s->all,   &s->own,     &s->level,       &s->next,
+                        &s->alone, &s->bundles, &s->next_bundles};
     s->to_all = sl_alloc_array(context, words * 64, sizeof *s->to_all);
     bool room = s->to_all != NULL;
     for (size_t i = 0; i < sizeof sets / sizeof *sets; i++)
@@ -202,7 +231,7 @@ static sl_status scratch_begin(sl_context *context, void *all, void **state) {
 
 static sl_status measure_unit(sl_context *context, void *all, void *state, size_t unit) {
     const local_job *l = all;
-    uint64_t places = sli_vga_places(l->tiles, unit);
+    uint64_t places = sli_vga_places(l->all, l->tiles, unit);
     while (places) {
         const uint64_t group = sli_vga_choose_group(l->all, l->tiles, unit, places);
         const uint64_t within = see_all(l->tiles, state, unit, group);

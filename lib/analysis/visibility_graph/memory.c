@@ -107,7 +107,8 @@ static uint64_t visual_bytes(const counts *n, unsigned parts) {
     const uint64_t order = 8 * n->points + sizeof(sli_vga_bundle) * n->bundles;
     const uint64_t searcher = 66 * 8 * SLI_VGA_DEPTHS; // numbers of points by depth
     const uint64_t second = parts & SL_VGA_LOCAL ? 4 * n->points : 0;
-    const uint64_t global = (64 * 8 + 7 * 8) * n->bundles + searcher; // more than a local one takes
+    const uint64_t global =
+        (64 * 8 + 7 * 8 + 1) * n->bundles + searcher; // more than a local one takes
     const uint64_t cutter = (64 * 8 + 1) * n->bundles + 2 * n->tiles.largest + 1024;
     return order + second + most(16 * n->points, n->tiles.all + n->threads * most(cutter, global));
 }

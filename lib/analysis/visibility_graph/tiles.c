@@ -141,18 +141,32 @@ static sl_status keep(sl_context *context, const void *items, size_t count, size
     return SL_OK;
 }
 
+/// Adds what place `i` of a bundle sees. Points of a column lie by several in a bundle: these make
+/// a word before it is stored.
+static void take_row(const sli_vga_tiles *t, cutter *c, sl_vga_run run, size_t i) {
+    uint32_t bundle = UINT32_MAX;
+    uint64_t word = 0;
+    while (sl_vga_next(&run))
+        for (uint32_t q = run.first; q < run.stop; q++) {
+            const uint32_t slot = t->slots[q];
+            if (slot / 64 != bundle) {
+                if (word) c->rows[bundle][i] |= word;
+                word = 0;
+                bundle = slot / 64;
+                sl_bits_add(c->touched, bundle);
+            }
+            word |= (uint64_t)1 << slot % 64;
+        }
+    if (word) c->rows[bundle][i] |= word;
+}
+
 static sl_status cut(sl_context *context, void *all, void *state, size_t bundle) {
     const cutting *j = all;
     sli_vga_tiles *t = j->tiles;
     cutter *c = state;
     c->tiles.count = c->spans.count = 0;
     for (size_t i = 0; i < 64 && bundle * 64 + i < t->count; i++)
-        for (sl_vga_run run = sl_vga_row(j->graph, t->points[bundle * 64 + i]); sl_vga_next(&run);)
-            for (uint32_t q = run.first; q < run.stop; q++) {
-                const uint32_t slot = t->slots[q];
-                c->rows[slot / 64][i] |= (uint64_t)1 << slot % 64;
-                sl_bits_add(c->touched, slot / 64);
-            }
+        take_row(t, c, sl_vga_row(j->graph, t->points[bundle * 64 + i]), i);
     for (size_t w = 0; w < sl_bits_words(t->bundles); w++) {
         for (sl_bits rest = c->touched[w]; rest; rest &= rest - 1) {
             const uint32_t seen = (uint32_t)(w * 64) + (uint32_t)__builtin_ctzll(rest);
@@ -218,22 +232,28 @@ sl_status sli_vga_tiles_size(sl_context *context, const sl_vga_grid *grid,
 
 // --- steps
 
-void sli_vga_tiles_step(const sli_vga_tiles *t, const sl_bits *level, const sl_bits *seen,
-                        sl_bits *next) {
-    for (size_t b = 0; b < t->bundles; b++) {
+/// Those of `points` that some place of `level` sees.
+static uint64_t see_some(const sli_vga_bundle *of, const sli_vga_tile *tile, uint64_t level,
+                         uint64_t points) {
+    uint64_t missing = points;
+    if (level == UINT64_MAX) return points;
+    sli_vga_span span = sli_vga_spans(of, tile);
+    while (missing && sli_vga_next_span(&span))
+        if (span.places & level) missing &= ~span.seen;
+    return points & ~missing;
+}
+
+void sli_vga_tiles_step(const sli_vga_tiles *t, const sl_bits *bundles, const sl_bits *level,
+                        const sl_bits *seen, sl_bits *next, sl_bits *next_bundles) {
+    for (size_t b = 0; (b = sli_bits_next(bundles, t->bundles, b, true)) < t->bundles; b++) {
         if (!level[b]) continue;
         for (uint32_t i = 0; i < t->of[b].count; i++) {
             const sli_vga_tile *tile = &t->of[b].tiles[i];
-            uint64_t missing = tile->any & ~(seen[tile->bundle] | next[tile->bundle]);
-            if (!missing) continue;
-            if (level[b] == UINT64_MAX) {
-                next[tile->bundle] |= missing;
-                continue;
-            }
-            sli_vga_span span = sli_vga_spans(&t->of[b], tile);
-            while (missing && sli_vga_next_span(&span))
-                if (span.places & level[b]) missing &= ~span.seen;
-            next[tile->bundle] |= tile->any & ~(seen[tile->bundle] | missing);
+            const uint64_t missing = tile->any & ~(seen[tile->bundle] | next[tile->bundle]);
+            const uint64_t found = missing ? see_some(&t->of[b], tile, level[b], missing) : 0;
+            if (!found) continue;
+            next[tile->bundle] |= found;
+            sl_bits_add(next_bundles, tile->bundle);
         }
     }
 }

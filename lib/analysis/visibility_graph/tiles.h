@@ -83,8 +83,9 @@ sl_status sli_vga_tiles_size(sl_context *context, const sl_vga_grid *grid,
                              const sl_vga_graph *graph, unsigned threads, sli_vga_tile_bytes *out);
 void sli_vga_tiles_destroy(sl_context *context, sli_vga_tiles *tiles);
 
-/// Adds to `next` all that points of `level` see and `seen` has not. Sets are by slot.
-void sli_vga_tiles_step(const sli_vga_tiles *tiles, const sl_bits *level, const sl_bits *seen,
-                        sl_bits *next);
+/// Adds to `next` all that points of `level` see and `seen` has not. Sets are by slot. The bundles
+/// of `level` are among `bundles`; those of what is added go to `next_bundles`.
+void sli_vga_tiles_step(const sli_vga_tiles *tiles, const sl_bits *bundles, const sl_bits *level,
+                        const sl_bits *seen, sl_bits *next, sl_bits *next_bundles);
 
 #endif

@@ -136,6 +136,9 @@ typedef struct sl_vga_options {
     double metric_radius;  ///< paths up to this length; 0 (default): no limit
     double angular_radius; ///< paths up to this turn, in right angles; 0 (default): no limit
     unsigned threads;      ///< 0: one per core; the result is the same for any number
+    /// Points to measure: `count` from `first` on; count 0 (default): all. The values are the same.
+    /// Through vision is of all points in any case.
+    uint32_t first, count;
 } sl_vga_options;
 
 /// The default options.
@@ -165,6 +168,37 @@ SL_API sl_status sl_vga_measure_bytes(sl_context *context, const sl_outline *out
                                       const sl_vga_grid *grid, const sl_vga_graph *graph,
                                       const sl_vga_options *options, uint64_t *bytes);
 
+/// How mean depths are estimated. Start from sl_vga_estimate_default().
+typedef struct sl_vga_estimate {
+    uint32_t roots;    ///< points to search from, of each part of the graph; by default 256
+    double confidence; ///< between 0 and 1; by default 0.99
+    uint64_t seed;     ///< roots are drawn by it
+    unsigned threads;  ///< 0: one per core; the result is the same for any number
+} sl_vga_estimate;
+
+/// The default options.
+SL_API sl_vga_estimate sl_vga_estimate_default(void);
+
+/// Where the exact value lies, ends included. NAN where it is not defined.
+typedef struct sl_vga_interval {
+    double least, most;
+} sl_vga_interval;
+
+/// Estimates visual_mean_depth, and integration from it, by searches from a few roots alone. The
+/// other measures are NAN, but connectivity and visual_node_count, which are exact. `intervals`, by
+/// point, are of the mean depth. Integration falls as depth grows, so their ends bound it, too.
+///
+/// Guarantee: for each point that is no root, over all ways to draw roots, the probability that its
+/// exact mean depth is outside its interval is at most 1 - confidence (Hoeffding 1963). It is of
+/// one point, not of all at once: errors of points near each other go together. Of n roots, ends
+/// are about the square root of 1 / n apart. Values of roots are exact, and of all points in parts
+/// with no more points than roots.
+///
+/// SL_UNSUPPORTED for a directed graph. Cost: a search for each root; the graph is needed whole.
+SL_API sl_status sl_vga_estimate_depths(sl_context *context, const sl_vga_grid *grid,
+                                        const sl_vga_graph *graph, const sl_vga_estimate *options,
+                                        sl_vga_measures *measures, sl_vga_interval *intervals);
+
 /// Two points of a grid that are one place, as stairs and lifts make them. Links that share a point
 /// join all of their points.
 typedef struct sl_vga_link {
@@ -174,8 +208,8 @@ typedef struct sl_vga_link {
 /// As sl_vga_measure, with links, as depthmapX treats merged points. Linked points count as one
 /// place in steps and paths: a link takes no step, no length and no turn. Local measures and
 /// through vision do not change. Paths may turn at linked points. SL_BAD_ARGUMENT for a link of a
-/// point with itself, or to no point. Cost of metric and angular measures: O(pairs that see each
-/// other) for each point.
+/// point with itself, or to no point, and for links with options.count. Cost of metric and angular
+/// measures: O(pairs that see each other) for each point.
 SL_API sl_status sl_vga_measure_linked(sl_context *context, const sl_outline *outline,
                                        const sl_vga_grid *grid, const sl_vga_graph *graph,
                                        const sl_vga_link *links, size_t link_count,
