@@ -4,23 +4,27 @@
 ///            |                  cost of the turn. A path's key is its turn, then its number of
 ///            v         256      segments. So keys are exact, ties are ties, and no step is free.
 ///
-/// A search from each segment starts in both directions (segment_search.h). It walks chains of
-/// segments (segment_network.h), not segments: within a chain, keys are the key of its first piece
-/// and a known offset. A segment is as far as the nearer of its states. In a chain that is entered
-/// from both ends, keys rise from one end and fall from the other, so one place parts the segments
-/// that are nearer from one end from the others:
+/// One search serves all segments of a chain (segment_network.h, segment_search.h): the key from a
+/// segment to any other one is the least of four sums, for it leaves its chain by one of two ends,
+/// and comes into the other chain by one of two. In the other chain, keys rise from one end and
+/// fall from the other, so one place parts the segments that are nearer from one end from the
+/// others:
 ///
 ///      key  \      /           At most one segment is at equal keys from both ends.
 ///            \    /
 ///      -o--o--o--o--o-
 ///
-/// Choice is betweenness (Brandes 2001) on the states: the paths to both states of a segment share
-/// its 1 where they tie. Sums are whole numbers, as in axial_measures.c. What one search adds to
-/// all pieces of a chain before a place is kept at that place, and summed up in the end.
+/// For most pairs of chains one of the four sums is the least for all segments, and all their
+/// pairs are counted at once.
 ///
-/// Cost: O(n * pairs of chains that meet) for n segments, times the logarithm of the states of one
-/// turn. Within a metric radius each segment is a chain, for it may end anywhere. Threads take
-/// segments one by one.
+/// Choice is betweenness (Brandes 2001) on the states: the paths to both states of a segment share
+/// its 1 where they tie. Sums are whole numbers, as in axial_measures.c. A path back is as long as
+/// the path there. So within chains it is enough to count the paths that begin in them, twice.
+///
+/// Cost: O(pairs of chains that meet) for each chain, times the logarithm of the states of one turn
+/// where streets are straight, and O(1) for each segment and chain where two of the sums are near
+/// each other. Within a metric radius each segment is a chain, for it may end anywhere. Threads
+/// take chains one by one.
 #include "analysis/axial/segment_search.h"
 #include "geometry/orient.h"
 #include "sightline/axial.h"
@@ -32,22 +36,30 @@
 /// Choice in whole numbers.
 #define SHARE 0x1p24
 
-/// What searches add to segments of a chain: see add_ends() and add_through().
-typedef struct step {
-    uint64_t ends, share;
-} step;
+/// Of one segment at home: an entry for each piece of the chain.
+typedef struct root_sums {
+    uint64_t nodes, turns;
+    double leaves[2]; ///< paths that leave home by the end that a tree starts from
+    uint32_t ahead;   ///< pieces behind it that are nearest within the chain, on the way to tree 0
+    double share;     ///< of the path to the next one, that is as near another way
+} root_sums;
 
 typedef struct scratch {
     sli_segment_search search;
-    double *ends; ///< by state of a chain: paths that end in it
-    step *steps;  ///< by step_of()
+    double *depends;   ///< by way, and two for the starts: paths through the chain, and beyond
+    double *ends;      ///< by way: paths that end in it
+    uint64_t *through; ///< by state of a chain, in units: all paths through the chain
+    root_sums *roots;  ///< for the chain of the most pieces
+    uint64_t *opened;  ///< for the same, two each: see add_home()
 } scratch;
 
 typedef struct job {
     sli_segment_network net;
     const sl_segment_options *options;
     sl_segment_measures *measures;
-    _Atomic uint64_t *steps; ///< of all threads, two for each
+    uint64_t *within;          ///< by place, in units: paths that begin in its chain
+    _Atomic uint64_t *through; ///< by state of a chain, of all threads
+    uint32_t most_pieces;
 } job;
 
 // --- what a search adds up to
@@ -55,8 +67,7 @@ typedef struct job {
 /// Along places of a chain: their key is `key` + their offset, or `key` - their offset if it comes
 /// from the other end.
 typedef struct walk {
-    bool comes;
-    uint64_t key;
+    uint64_t key; ///< SLI_FAR or more if it does not come
     double paths;
 } walk;
 
@@ -73,7 +84,7 @@ static parting part_of(const sli_segment_network *n, uint32_t from, uint32_t to,
     while (low < high) {
         const uint32_t middle = low + (high - low) / 2;
         const uint64_t key = there.key + n->offsets[middle];
-        if (there.comes && key < most && (!back.comes || key < back.key - n->offsets[middle]))
+        if (key < most && key < back.key - n->offsets[middle])
             low = middle + 1;
         else
             high = middle;
@@ -82,55 +93,21 @@ static parting part_of(const sli_segment_network *n, uint32_t from, uint32_t to,
     while (low < p.after) {
         const uint32_t middle = low + (p.after - low) / 2;
         const uint64_t key = back.key - n->offsets[middle];
-        if (back.comes && key < most && (!there.comes || key < there.key + n->offsets[middle]))
+        if (key < most && key < there.key + n->offsets[middle])
             p.after = middle;
         else
             low = middle + 1;
     }
-    if (p.before < p.after && there.comes && back.comes) {
+    if (p.before < p.after) {
         const uint64_t key = there.key + n->offsets[p.before];
         p.ties = key < most && key == back.key - n->offsets[p.before];
     }
     return p;
 }
 
-/// The place of a state in `steps`, before its first piece.
-static size_t step_of(const sli_segment_network *n, uint32_t state) {
-    const size_t chain = state / 2;
-    return 2 * (n->first_piece[chain] + chain) +
-           (state % 2 ? n->first_piece[chain + 1] - n->first_piece[chain] + 1 : 0);
-}
-
 static uint64_t units_of(double paths) {
     return (uint64_t)(paths * SHARE + 0.5);
 }
-
-/// Notes that a walk in this state begins after `from` pieces, ends `count` later, and has `share`
-/// of a path to the piece behind these.
-static void add_ends(const sli_segment_network *n, scratch *s, uint32_t state, uint32_t from,
-                     uint32_t count, double share) {
-    const uint64_t units = units_of(share);
-    if (count < 2 && !units) return; // no piece of it is before another
-    step *first = &s->steps[step_of(n, state) + from];
-    first[count].ends++;
-    first[count].share += units;
-    if (!from) return;
-    first->ends--;
-    first->share -= count * (uint64_t)SHARE + units;
-}
-
-/// Notes that `depends` paths lead through all pieces of a chain in this state, from a place on.
-static void add_through(const sli_segment_network *n, scratch *s, uint32_t state, uint32_t from,
-                        double depends) {
-    const uint64_t units = units_of(depends);
-    step *first = &s->steps[step_of(n, state)];
-    first[n->first_piece[state / 2 + 1] - n->first_piece[state / 2]].share += units;
-    if (from) first[from].share -= units;
-}
-
-typedef struct sums {
-    uint64_t nodes, turns;
-} sums;
 
 /// The sum of the turns of some places of a chain, of which the first has this key. `sign`: 1 if it
 /// rises, -1 if it falls. Sums modulo 2^64.
@@ -141,135 +118,266 @@ static uint64_t turns_between(const sli_segment_network *n, uint32_t from, uint3
     return (to - from) * (key >> SLI_STEP_BITS) + (sign > 0 ? rise : -rise);
 }
 
-/// Adds the segments of some places of a chain to the sums, and to the choice of those before them.
-static void end_at(const job *j, scratch *s, uint32_t chain, uint32_t from, uint32_t to, walk there,
-                   walk back, sums *out) {
-    const sli_segment_network *n = &j->net;
-    const uint32_t first = n->first_piece[chain], stop = n->first_piece[chain + 1];
-    const parting p = part_of(n, from, to, there, back, s->search.most);
+/// Paths from a root to some places of a chain, by the end that they come from.
+typedef struct arrivals {
+    uint32_t ahead;
+    double share; ///< of the path to the next place
+    double there, back;
+} arrivals;
+
+static arrivals arrive(const sli_segment_network *n, uint32_t from, uint32_t to, walk there,
+                       walk back, uint64_t most, root_sums *root) {
+    const parting p = part_of(n, from, to, there, back, most);
     const uint32_t ahead = p.before - from, behind = to - p.after;
     const double share = p.ties ? there.paths / (there.paths + back.paths) : 0;
     const double other = p.ties ? back.paths / (there.paths + back.paths) : 0;
-    out->nodes += ahead + behind + p.ties;
+    root->nodes += ahead + behind + p.ties;
     if (ahead + p.ties)
-        out->turns += turns_between(n, from, p.before + p.ties, there.key + n->offsets[from], 1);
-    if (behind) out->turns += turns_between(n, p.after, to, back.key - n->offsets[p.after], -1);
-    s->ends[2 * chain] = ahead + share;
-    s->ends[2 * chain + 1] = behind + other;
-    add_ends(n, s, 2 * chain, from - first, ahead, share);
-    add_ends(n, s, 2 * chain + 1, stop - to, behind, other);
+        root->turns += turns_between(n, from, p.before + p.ties, there.key + n->offsets[from], 1);
+    if (behind) root->turns += turns_between(n, p.after, to, back.key - n->offsets[p.after], -1);
+    return (arrivals){ahead, share, ahead + share, behind + other};
 }
 
-static walk walk_of(const scratch *s, uint32_t state, uint64_t offset) {
-    const sli_segment_state *at = &s->search.states[state];
-    return (walk){at->key < s->search.most, at->key + offset, at->paths};
+/// The way from a root to each end of its chain.
+typedef struct way_out {
+    uint64_t keys[2]; ///< by tree
+} way_out;
+
+static way_out way_out_of(const sli_segment_network *n, uint32_t home, uint32_t place) {
+    return (way_out){{sli_offset_of_last(n, home) - n->offsets[place], n->offsets[place]}};
+}
+
+/// To the chain of a way of tree 0, in the same state: by whichever tree is nearer.
+static walk nearer(const scratch *s, uint32_t way, way_out out) {
+    const uint64_t keys[] = {s->search.keys[way] + out.keys[0],
+                             s->search.keys[way + 2] + out.keys[1]};
+    const double *paths = &s->search.paths[way];
+    if (keys[0] == keys[1]) return (walk){keys[0], paths[0] + paths[2]};
+    return keys[0] < keys[1] ? (walk){keys[0], paths[0]} : (walk){keys[1], paths[2]};
+}
+
+/// Notes paths that end in a chain: those of nearer(), by tree.
+static void end_in(scratch *s, uint32_t way, way_out out, double paths, root_sums *root) {
+    if (paths == 0) return;
+    const uint64_t keys[] = {s->search.keys[way] + out.keys[0],
+                             s->search.keys[way + 2] + out.keys[1]};
+    const double *all = &s->search.paths[way];
+    const double first = keys[0] < keys[1]    ? paths
+                         : keys[0] == keys[1] ? all[0] / (all[0] + all[2]) * paths
+                                              : 0;
+    s->ends[way] += first;
+    s->ends[way + 2] += paths - first;
+    root->leaves[0] += first;
+    root->leaves[1] += paths - first;
+}
+
+/// The way by which all segments at home are nearest to all those of a chain; 4 if there is none.
+static uint32_t only_way(const sli_segment_network *n, const scratch *s, uint32_t home,
+                         uint32_t chain) {
+    const uint64_t *keys = &s->search.keys[4 * (size_t)chain];
+    const uint64_t here = sli_offset_of_last(n, home), there = sli_offset_of_last(n, chain);
+    uint32_t k = 0;
+    for (uint32_t i = 1; i < 4; i++)
+        if (keys[i] < keys[k]) k = i;
+    return keys[k ^ 1] > keys[k] + there && keys[k ^ 2] > keys[k] + here &&
+                   keys[k ^ 3] > keys[k] + here + there && keys[k] + here + there < s->search.most
+               ? k
+               : 4;
+}
+
+/// Adds a chain that is not home to the sums of all roots.
+static void end_in_chain(const sli_segment_network *n, scratch *s, uint32_t home, uint32_t chain,
+                         root_sums *all) {
+    const uint32_t from = n->first_piece[chain], to = n->first_piece[chain + 1], way = 4 * chain;
+    const uint32_t first = n->first_piece[home], stop = n->first_piece[home + 1];
+    const uint32_t only = only_way(n, s, home, chain);
+    if (only < 4) {
+        const uint64_t key = s->search.keys[way + only], last = sli_offset_of_last(n, chain);
+        all->nodes += to - from;
+        all->turns += only % 2 ? turns_between(n, from, to, key + last, -1)
+                               : turns_between(n, from, to, key, 1);
+        all->leaves[only / 2] += to - from;
+        s->ends[way + only] = (double)(stop - first) * (to - from);
+        return;
+    }
+    for (uint32_t place = first; place < stop; place++) {
+        const way_out out = way_out_of(n, home, place);
+        const walk there = nearer(s, way, out);
+        walk back = nearer(s, way + 1, out);
+        back.key += sli_offset_of_last(n, chain);
+        root_sums *root = &s->roots[place - first];
+        const arrivals a = arrive(n, from, to, there, back, s->search.most, root);
+        end_in(s, way, out, a.there, root);
+        end_in(s, way + 1, out, a.back, root);
+    }
 }
 
 /// At home the root itself is one end of each walk.
-static void end_at_home(const job *j, scratch *s, uint32_t home, uint32_t place, sums *out) {
-    const sli_segment_network *n = &j->net;
-    const walk there = {true, -n->offsets[place], 1}, back = {true, n->offsets[place], 1};
-    const walk again = walk_of(s, 2 * home + 1, sli_offset_of_last(n, home));
-    end_at(j, s, home, n->first_piece[home], place, walk_of(s, 2 * home, 0), back, out);
-    const double ends = s->ends[2 * home];
-    end_at(j, s, home, place + 1, n->first_piece[home + 1], there, again, out);
-    s->ends[2 * home] = ends;
+static void end_at_home(const sli_segment_network *n, scratch *s, uint32_t home) {
+    const uint32_t first = n->first_piece[home], stop = n->first_piece[home + 1];
+    for (uint32_t place = first; place < stop; place++) {
+        const way_out out = way_out_of(n, home, place);
+        const walk there = nearer(s, 4 * home, out);
+        walk back = nearer(s, 4 * home + 1, out);
+        back.key += sli_offset_of_last(n, home);
+        root_sums *root = &s->roots[place - first];
+        const uint64_t most = s->search.most;
+        const arrivals before =
+            arrive(n, first, place, there, (walk){n->offsets[place], 1}, most, root);
+        const arrivals behind =
+            arrive(n, place + 1, stop, (walk){-n->offsets[place], 1}, back, most, root);
+        end_in(s, 4 * home, out, before.there, root);
+        end_in(s, 4 * home + 1, out, behind.back, root);
+        root->ahead = behind.ahead;
+        root->share = behind.share;
+    }
 }
 
-/// Shares `depends` among the states that paths to this one come from. Arcs have the same turn both
+/// Adds up what the chains have in common for all roots.
+static void add_all(const sli_segment_network *n, scratch *s, uint32_t home, const root_sums *all) {
+    const uint32_t first = n->first_piece[home], stop = n->first_piece[home + 1];
+    for (uint32_t place = first; place < stop; place++) {
+        const way_out out = way_out_of(n, home, place);
+        root_sums *root = &s->roots[place - first];
+        root->nodes += all->nodes;
+        root->turns += all->turns;
+        for (uint32_t tree = 0; tree < 2; tree++) {
+            root->turns += (uint64_t)all->leaves[tree] * (out.keys[tree] >> SLI_STEP_BITS);
+            root->leaves[tree] += all->leaves[tree];
+        }
+    }
+}
+
+/// Shares `depends` among the ways that paths to this one come from. Arcs have the same turn both
 /// ways, so those back from it, the other way round, lead to it.
-static void hand_back(const job *j, scratch *s, uint32_t home, uint32_t state, double depends) {
-    const sli_segment_network *n = &j->net;
-    const sli_segment_state *at = &s->search.states[state];
-    if (at->before != SLI_SEVERAL) {
-        s->search.states[at->before].depends += depends;
+static void hand_back(const sli_segment_network *n, scratch *s, uint32_t home, uint32_t way,
+                      double depends) {
+    const sli_segment_search *found = &s->search;
+    if (found->before[way] != SLI_SEVERAL) {
+        s->depends[found->before[way]] += depends;
         return;
     }
-    for (size_t i = n->first[state ^ 1]; i < n->first[(state ^ 1) + 1]; i++) {
+    const uint32_t state = sli_state_of(way) ^ 1, tree = sli_tree_of(way);
+    for (size_t i = n->first[state]; i < n->first[state + 1]; i++) {
         const uint32_t to = n->arcs[i].to ^ 1;
         const bool start = to / 2 == home;
-        sli_segment_state *before = &s->search.states[start ? 2 * n->chain_count + to % 2 : to];
-        if (before->key == SLI_FAR) continue;
-        const uint64_t end = before->key + (start ? 0 : sli_offset_of_last(n, to / 2));
-        if (sli_key_after(&n->arcs[i], end) == at->key)
-            before->depends += before->paths / at->paths * depends;
+        if (start && to % 2 != tree) continue;
+        const uint32_t before = start ? sli_tree_start(n, tree) : sli_way(to, tree);
+        const uint64_t end = start ? 0 : found->keys[before] + sli_offset_of_last(n, to / 2);
+        if (sli_key_after(&n->arcs[i], end) == found->keys[way])
+            s->depends[before] += found->paths[before] / found->paths[way] * depends;
     }
 }
 
-/// From the farthest state back.
-static void add_choice(const job *j, scratch *s, uint32_t root, sums *out) {
-    const sli_segment_network *n = &j->net;
-    const uint32_t home = n->chain_of[root], place = n->place_of[root];
-    end_at_home(j, s, home, place, out);
+/// From the farthest way back.
+static void add_choice(const sli_segment_network *n, scratch *s, uint32_t home) {
     for (uint32_t k = s->search.count; k-- > 0;) {
-        const uint32_t state = s->search.order[k], chain = state / 2;
-        if (s->search.met[chain]) { // not yet this way; never at home
-            s->search.met[chain] = false;
-            if (s->search.wanted[chain])
-                end_at(j, s, chain, n->first_piece[chain], n->first_piece[chain + 1],
-                       walk_of(s, 2 * chain, 0),
-                       walk_of(s, 2 * chain + 1, sli_offset_of_last(n, chain)), out);
-            else
-                s->ends[2 * chain] = s->ends[2 * chain + 1] = 0;
-        }
-        const double through = s->search.states[state].depends;
-        if (through > 0) add_through(n, s, state, 0, through);
-        if (through + s->ends[state] > 0) hand_back(j, s, home, state, through + s->ends[state]);
+        const uint32_t way = s->search.order[k];
+        const double through = s->depends[way], all = through + s->ends[way];
+        s->depends[way] = s->ends[way] = 0;
+        if (through > 0) s->through[sli_state_of(way)] += units_of(through);
+        if (all > 0) hand_back(n, s, home, way, all);
     }
-    const sli_segment_state *starts = &s->search.states[2 * n->chain_count];
-    add_through(n, s, 2 * home, place + 1 - n->first_piece[home], starts[0].depends);
-    add_through(n, s, 2 * home + 1, n->first_piece[home + 1] - place, starts[1].depends);
+    s->depends[sli_tree_start(n, 0)] = s->depends[sli_tree_start(n, 1)] = 0;
 }
 
-static sl_status measure_segment(sl_context *context, void *all, void *state, size_t unit) {
+/// Counts paths within the chain that they begin in. A path from the root at place p, on the way to
+/// tree 0, to a place q passes those between them. So walking back from the last place, the number
+/// of paths over a place grows by 1 for each such pair behind it, until the root is behind it.
+static void add_home(const job *j, scratch *s, uint32_t home) {
+    const sli_segment_network *n = &j->net;
+    const uint32_t first = n->first_piece[home], count = n->first_piece[home + 1] - first;
+    uint64_t pairs = 0, paths = 0, share = 0, left[2] = {0};
+    memset(s->opened, 0, 2 * (size_t)count * sizeof *s->opened);
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t last = i + s->roots[i].ahead;
+        s->opened[2 * last]++;
+        s->opened[2 * last + 1] += units_of(s->roots[i].share);
+    }
+    for (uint32_t i = count; i-- > 0;) {
+        const root_sums *root = &s->roots[i];
+        paths += pairs;
+        pairs += s->opened[2 * i] - 1;
+        share += s->opened[2 * i + 1] - units_of(root->share);
+        paths -= root->ahead;
+        j->within[first + i] += paths * (uint64_t)SHARE + share + left[1];
+        left[1] += units_of(root->leaves[1]);
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        j->within[first + i] += left[0];
+        left[0] += units_of(s->roots[i].leaves[0]);
+    }
+}
+
+static sl_segment_measures measures_of(const sli_segment_network *n, uint32_t segment,
+                                       const root_sums *root) {
+    uint32_t meets = 0;
+    for (int e = 0; e < 2; e++) {
+        const uint32_t corner = n->corners[segment][e];
+        meets += n->first_at[corner + 1] - n->first_at[corner] - 1;
+    }
+    const double total = (double)root->turns / SLI_UNITS_OF_RIGHT_ANGLE,
+                 count = (double)root->nodes + 1;
+    return (sl_segment_measures){.connectivity = meets,
+                                 .segment_length = n->lengths[segment],
+                                 .t1024_node_count = count,
+                                 .t1024_total_depth = total,
+                                 .t1024_integration = total > 0 ? count * count / total : NAN,
+                                 .nain = total > 0 ? pow(count, 1.2) / total : NAN};
+}
+
+static sl_status measure_chain(sl_context *context, void *all, void *state, size_t unit) {
     const job *j = all;
     const sli_segment_network *n = &j->net;
     scratch *s = state;
-    const uint32_t root = (uint32_t)unit, *corners = n->corners[root];
-    sums found = {.nodes = 1};
+    const uint32_t home = (uint32_t)unit;
+    const uint32_t first = n->first_piece[home], count = n->first_piece[home + 1] - first;
+    root_sums every = {0};
     SL_TRY(sl_check_cancelled(context));
-    SL_TRY(sli_segment_search_run(context, n, j->options, root, &s->search));
-    add_choice(j, s, root, &found);
-    uint32_t meets = 0;
-    for (int e = 0; e < 2; e++) meets += n->first_at[corners[e] + 1] - n->first_at[corners[e]] - 1;
-    const double total = (double)found.turns / SLI_UNITS_OF_RIGHT_ANGLE,
-                 count = (double)found.nodes;
-    j->measures[root] =
-        (sl_segment_measures){.connectivity = meets,
-                              .segment_length = n->lengths[root],
-                              .t1024_node_count = count,
-                              .t1024_total_depth = total,
-                              .t1024_integration = total > 0 ? count * count / total : NAN,
-                              .nain = total > 0 ? pow(count, 1.2) / total : NAN};
+    SL_TRY(sli_segment_search_run(context, n, j->options, home, &s->search));
+    memset(s->roots, 0, count * sizeof *s->roots);
+    for (uint32_t i = 0; i < s->search.chain_count; i++) {
+        const uint32_t chain = s->search.chains[i];
+        if (chain != home && s->search.wanted[chain]) end_in_chain(n, s, home, chain, &every);
+    }
+    end_at_home(n, s, home);
+    add_all(n, s, home, &every);
+    add_choice(n, s, home);
+    add_home(j, s, home);
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t segment = n->pieces[first + i] / 2;
+        j->measures[segment] = measures_of(n, segment, &s->roots[i]);
+    }
     return SL_OK;
 }
 
 // --- all segments
 
-static size_t step_count(const sli_segment_network *n) {
-    return 2 * ((size_t)n->count + n->chain_count) + 1;
-}
-
 static void end_segment_worker(sl_context *context, void *all, void *state) {
     const job *j = all;
     scratch *s = state;
-    for (size_t i = 0; i < step_count(&j->net) && s->steps; i++) {
-        if (s->steps[i].ends) atomic_fetch_add(&j->steps[2 * i], s->steps[i].ends);
-        if (s->steps[i].share) atomic_fetch_add(&j->steps[2 * i + 1], s->steps[i].share);
-    }
+    for (size_t i = 0; i < 2 * (size_t)j->net.chain_count && s->through; i++)
+        if (s->through[i]) atomic_fetch_add(&j->through[i], s->through[i]);
     sli_segment_search_destroy(context, &s->search);
+    sl_free(context, s->depends);
     sl_free(context, s->ends);
-    sl_free(context, s->steps);
+    sl_free(context, s->through);
+    sl_free(context, s->roots);
+    sl_free(context, s->opened);
     sl_free(context, s);
 }
 
 static sl_status begin_segment_worker(sl_context *context, void *all, void **state) {
     const job *j = all;
+    const size_t ways = 4 * (size_t)j->net.chain_count + 2;
     scratch *s = sl_alloc_array(context, 1, sizeof *s);
     if (!s) return SL_NO_MEMORY;
-    s->ends = sl_alloc_array(context, 2 * (size_t)j->net.chain_count + 1, sizeof *s->ends);
-    s->steps = sl_alloc_array(context, step_count(&j->net), sizeof *s->steps);
-    if (!s->ends || !s->steps ||
+    s->depends = sl_alloc_array(context, ways, sizeof *s->depends);
+    s->ends = sl_alloc_array(context, ways, sizeof *s->ends);
+    s->through = sl_alloc_array(context, ways, sizeof *s->through);
+    s->roots = sl_alloc_array(context, j->most_pieces, sizeof *s->roots);
+    s->opened = sl_alloc_array(context, 2 * (size_t)j->most_pieces, sizeof *s->opened);
+    if (!s->depends || !s->ends || !s->through || !s->roots || !s->opened ||
         sli_segment_search_make(context, &j->net, j->options, &s->search) != SL_OK) {
         end_segment_worker(context, all, s);
         return SL_NO_MEMORY;
@@ -278,39 +386,24 @@ static sl_status begin_segment_worker(sl_context *context, void *all, void **sta
     return SL_OK;
 }
 
-/// Adds to each piece of a chain in this state what is noted at the places behind it. Choice is
-/// summed in `choice` by segment.
-static void add_pieces(const job *j, uint32_t state, uint64_t *choice) {
-    const sli_segment_network *n = &j->net;
-    const uint32_t first = n->first_piece[state / 2], stop = n->first_piece[state / 2 + 1];
-    const _Atomic uint64_t *steps = &j->steps[2 * step_of(n, state)];
-    uint64_t ends = 0, rise = 0, share = 0;
-    for (uint32_t k = stop - first; k-- > 0;) {
-        rise += ends; // each walk that ends further on has one segment more
-        ends += atomic_load(&steps[2 * (k + 1)]);
-        share += atomic_load(&steps[2 * (k + 1) + 1]);
-        const uint32_t place = state % 2 ? stop - 1 - k : first + k;
-        choice[n->pieces[place] / 2] += rise * (uint64_t)SHARE + share;
-    }
-}
-
 static sl_status measure_all(sl_context *context, job *j) {
+    const sli_segment_network *n = &j->net;
     const sl_work work = {.job = j,
                           .begin = begin_segment_worker,
-                          .unit = measure_segment,
+                          .unit = measure_chain,
                           .end = end_segment_worker,
                           .stage = "segment measures",
-                          .units = "segments"};
-    SL_TRY(sl_work_run(context, &work, j->net.count, j->options->threads));
-    uint64_t *choice = sl_alloc_array(context, (size_t)j->net.count + 1, sizeof *choice);
-    if (!choice) return SL_NO_MEMORY;
-    for (uint32_t state = 0; state < 2 * j->net.chain_count; state++) add_pieces(j, state, choice);
-    for (uint32_t i = 0; i < j->net.count; i++) {
+                          .units = "chains of segments"};
+    SL_TRY(sl_work_run(context, &work, n->chain_count, j->options->threads));
+    for (uint32_t i = 0; i < n->count; i++) {
         sl_segment_measures *m = &j->measures[i];
-        m->t1024_choice = (double)choice[i] / (2 * SHARE); // seen from both ends
+        const size_t chain = n->chain_of[i];
+        const uint64_t choice = 2 * j->within[n->place_of[i]] +
+                                atomic_load(&j->through[2 * chain]) +
+                                atomic_load(&j->through[2 * chain + 1]);
+        m->t1024_choice = (double)choice / (2 * SHARE); // seen from both ends
         m->nach = log10(m->t1024_choice + 1) / log10(m->t1024_total_depth + 3);
     }
-    sl_free(context, choice);
     return SL_OK;
 }
 
@@ -323,11 +416,16 @@ sl_status sl_segment_measure(sl_context *context, const sl_segment *segments, ui
     job j = {.options = options, .measures = measures};
     sl_status status =
         sli_segment_network_make(context, segments, count, !(options->metric_radius > 0), &j.net);
+    for (uint32_t i = 0; i < j.net.chain_count && status == SL_OK; i++)
+        if (j.net.first_piece[i + 1] - j.net.first_piece[i] > j.most_pieces)
+            j.most_pieces = j.net.first_piece[i + 1] - j.net.first_piece[i];
     if (status == SL_OK) {
-        void *steps = sl_alloc_array(context, 2 * step_count(&j.net), sizeof(_Atomic uint64_t));
-        j.steps = steps;
-        status = steps ? measure_all(context, &j) : SL_NO_MEMORY;
-        sl_free(context, steps);
+        void *through = sl_alloc_array(context, 2 * (size_t)j.net.chain_count, sizeof *j.through);
+        j.through = through;
+        j.within = sl_alloc_array(context, count, sizeof *j.within);
+        status = through && j.within ? measure_all(context, &j) : SL_NO_MEMORY;
+        sl_free(context, through);
+        sl_free(context, j.within);
     }
     sli_segment_network_destroy(context, &j.net);
     return status;

@@ -42,6 +42,8 @@ typedef struct sli_segment_network {
     uint64_t *turns;        ///< by place, and one more: sum of the turns of the offsets before it
     size_t *first;          ///< by state of chains, and one more: into `arcs`
     sli_segment_arc *arcs;
+    bool *straight;  ///< by state of chains: a walk may go through it and on without a turn
+    uint64_t *slack; ///< by chain: see find_slack()
 } sli_segment_network;
 
 /// Segments must have length. Without `join`, chain c is segment c. Destroy it after failure, too.
@@ -49,6 +51,7 @@ sl_status sli_segment_network_make(sl_context *context, const sl_segment *segmen
                                    bool join, sli_segment_network *out);
 void sli_segment_network_destroy(sl_context *context, sli_segment_network *network);
 
+/// From the first piece of a chain to its last one.
 static inline uint64_t sli_offset_of_last(const sli_segment_network *n, uint32_t chain) {
     return n->offsets[n->first_piece[chain + 1] - 1];
 }
