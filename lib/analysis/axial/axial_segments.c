@@ -44,13 +44,19 @@ typedef struct root_sums {
     double share;     ///< of the path to the next one, that is as near another way
 } root_sums;
 
+/// A chain, in one line of the cache.
+typedef struct chain_sums {
+    double depends[4];     ///< by way, in one search: paths through the chain or into it
+    uint64_t through[2];   ///< by state, in units: paths of all searches through the chain
+    uint64_t turns;        ///< of the offsets of its pieces
+    uint32_t first, count; ///< places of its pieces
+} chain_sums;
+
 typedef struct scratch {
     sli_segment_search search;
-    double *depends;   ///< by way, and two for the starts: paths through the chain, and beyond
-    double *ends;      ///< by way: paths that end in it
-    uint64_t *through; ///< by state of a chain, in units: all paths through the chain
-    root_sums *roots;  ///< for the chain of the most pieces
-    uint64_t *opened;  ///< for the same, two each: see add_home()
+    chain_sums *chains; ///< and one more, for the starts of trees
+    root_sums *roots;   ///< for the chain of the most pieces
+    uint64_t *opened;   ///< for the same, two each: see add_home()
 } scratch;
 
 typedef struct job {
@@ -149,38 +155,43 @@ static way_out way_out_of(const sli_segment_network *n, uint32_t home, uint32_t 
 
 /// To the chain of a way of tree 0, in the same state: by whichever tree is nearer.
 static walk nearer(const scratch *s, uint32_t way, way_out out) {
-    const uint64_t keys[] = {s->search.keys[way] + out.keys[0],
-                             s->search.keys[way + 2] + out.keys[1]};
+    const uint64_t keys[] = {sli_way_key(&s->search, way) + out.keys[0],
+                             sli_way_key(&s->search, way + 2) + out.keys[1]};
     const double *paths = &s->search.paths[way];
     if (keys[0] == keys[1]) return (walk){keys[0], paths[0] + paths[2]};
     return keys[0] < keys[1] ? (walk){keys[0], paths[0]} : (walk){keys[1], paths[2]};
 }
 
+/// Paths that end in a chain do not lead through it.
+static void add_ends(scratch *s, uint32_t way, double paths) {
+    chain_sums *c = &s->chains[way / 4];
+    c->depends[way % 4] += paths;
+    c->through[way % 2] -= units_of(paths);
+}
+
 /// Notes paths that end in a chain: those of nearer(), by tree.
 static void end_in(scratch *s, uint32_t way, way_out out, double paths, root_sums *root) {
     if (paths == 0) return;
-    const uint64_t keys[] = {s->search.keys[way] + out.keys[0],
-                             s->search.keys[way + 2] + out.keys[1]};
+    const uint64_t keys[] = {sli_way_key(&s->search, way) + out.keys[0],
+                             sli_way_key(&s->search, way + 2) + out.keys[1]};
     const double *all = &s->search.paths[way];
     const double first = keys[0] < keys[1]    ? paths
                          : keys[0] == keys[1] ? all[0] / (all[0] + all[2]) * paths
                                               : 0;
-    s->ends[way] += first;
-    s->ends[way + 2] += paths - first;
+    add_ends(s, way, first);
+    add_ends(s, way + 2, paths - first);
     root->leaves[0] += first;
     root->leaves[1] += paths - first;
 }
 
 /// The way by which all segments at home are nearest to all those of a chain; 4 if there is none.
-static uint32_t only_way(const sli_segment_network *n, const scratch *s, uint32_t home,
-                         uint32_t chain) {
-    const uint64_t *keys = &s->search.keys[4 * (size_t)chain];
-    const uint64_t here = sli_offset_of_last(n, home), there = sli_offset_of_last(n, chain);
+static uint32_t only_way(const sli_segment_chain *c, uint64_t home, uint64_t most) {
     uint32_t k = 0;
     for (uint32_t i = 1; i < 4; i++)
-        if (keys[i] < keys[k]) k = i;
-    return keys[k ^ 1] > keys[k] + there && keys[k ^ 2] > keys[k] + here &&
-                   keys[k ^ 3] > keys[k] + here + there && keys[k] + here + there < s->search.most
+        if (c->keys[i] < c->keys[k]) k = i;
+    const uint64_t key = c->keys[k];
+    return c->keys[k ^ 1] > key + c->last && c->keys[k ^ 2] > key + home &&
+                   c->keys[k ^ 3] > key + home + c->last && key + home + c->last < most
                ? k
                : 4;
 }
@@ -188,23 +199,25 @@ static uint32_t only_way(const sli_segment_network *n, const scratch *s, uint32_
 /// Adds a chain that is not home to the sums of all roots.
 static void end_in_chain(const sli_segment_network *n, scratch *s, uint32_t home, uint32_t chain,
                          root_sums *all) {
-    const uint32_t from = n->first_piece[chain], to = n->first_piece[chain + 1], way = 4 * chain;
+    const sli_segment_chain *c = &s->search.chains[chain];
+    const chain_sums *sums = &s->chains[chain];
+    const uint32_t from = sums->first, to = from + sums->count, way = 4 * chain;
     const uint32_t first = n->first_piece[home], stop = n->first_piece[home + 1];
-    const uint32_t only = only_way(n, s, home, chain);
+    const uint32_t only = only_way(c, sli_offset_of_last(n, home), s->search.most);
     if (only < 4) {
-        const uint64_t key = s->search.keys[way + only], last = sli_offset_of_last(n, chain);
-        all->nodes += to - from;
-        all->turns += only % 2 ? turns_between(n, from, to, key + last, -1)
-                               : turns_between(n, from, to, key, 1);
-        all->leaves[only / 2] += to - from;
-        s->ends[way + only] = (double)(stop - first) * (to - from);
+        const uint64_t turn = c->keys[only] >> SLI_STEP_BITS, last = c->last >> SLI_STEP_BITS;
+        all->nodes += sums->count;
+        all->turns +=
+            sums->count * turn + (only % 2 ? sums->count * last - sums->turns : sums->turns);
+        all->leaves[only / 2] += sums->count;
+        add_ends(s, way + only, (double)(stop - first) * sums->count);
         return;
     }
     for (uint32_t place = first; place < stop; place++) {
         const way_out out = way_out_of(n, home, place);
         const walk there = nearer(s, way, out);
         walk back = nearer(s, way + 1, out);
-        back.key += sli_offset_of_last(n, chain);
+        back.key += c->last;
         root_sums *root = &s->roots[place - first];
         const arrivals a = arrive(n, from, to, there, back, s->search.most, root);
         end_in(s, way, out, a.there, root);
@@ -248,37 +261,26 @@ static void add_all(const sli_segment_network *n, scratch *s, uint32_t home, con
     }
 }
 
-/// Shares `depends` among the ways that paths to this one come from. Arcs have the same turn both
-/// ways, so those back from it, the other way round, lead to it.
-static void hand_back(const sli_segment_network *n, scratch *s, uint32_t home, uint32_t way,
-                      double depends) {
-    const sli_segment_search *found = &s->search;
-    if (found->before[way] != SLI_SEVERAL) {
-        s->depends[found->before[way]] += depends;
-        return;
-    }
-    const uint32_t state = sli_state_of(way) ^ 1, tree = sli_tree_of(way);
-    for (size_t i = n->first[state]; i < n->first[state + 1]; i++) {
-        const uint32_t to = n->arcs[i].to ^ 1;
-        const bool start = to / 2 == home;
-        if (start && to % 2 != tree) continue;
-        const uint32_t before = start ? sli_tree_start(n, tree) : sli_way(to, tree);
-        const uint64_t end = start ? 0 : found->keys[before] + sli_offset_of_last(n, to / 2);
-        if (sli_key_after(&n->arcs[i], end) == found->keys[way])
-            s->depends[before] += found->paths[before] / found->paths[way] * depends;
-    }
-}
-
-/// From the farthest way back.
+/// From the farthest way back: paths share out among the ways that they come from.
 static void add_choice(const sli_segment_network *n, scratch *s, uint32_t home) {
     for (uint32_t k = s->search.count; k-- > 0;) {
-        const uint32_t way = s->search.order[k];
-        const double through = s->depends[way], all = through + s->ends[way];
-        s->depends[way] = s->ends[way] = 0;
-        if (through > 0) s->through[sli_state_of(way)] += units_of(through);
-        if (all > 0) hand_back(n, s, home, way, all);
+        const sli_segment_done *d = &s->search.order[k];
+        if (k >= 8) __builtin_prefetch(&s->chains[d[-8].way / 4], 1);
+        chain_sums *c = &s->chains[d->way / 4];
+        const double depends = c->depends[d->way % 4];
+        c->depends[d->way % 4] = 0;
+        if (depends == 0) continue;
+        c->through[d->way % 2] += units_of(depends);
+        if (d->before != SLI_SEVERAL) {
+            s->chains[d->before / 4].depends[d->before % 4] += depends;
+            continue;
+        }
+        sli_segment_origin from = sli_segment_origins(n, &s->search, d->way, home);
+        for (uint32_t way; sli_segment_origin_next(&from, &way);)
+            s->chains[way / 4].depends[way % 4] +=
+                s->search.paths[way] / s->search.paths[d->way] * depends;
     }
-    s->depends[sli_tree_start(n, 0)] = s->depends[sli_tree_start(n, 1)] = 0;
+    for (uint32_t k = 0; k < 4; k++) s->chains[n->chain_count].depends[k] = 0;
 }
 
 /// Counts paths within the chain that they begin in. A path from the root at place p, on the way to
@@ -336,8 +338,12 @@ static sl_status measure_chain(sl_context *context, void *all, void *state, size
     SL_TRY(sl_check_cancelled(context));
     SL_TRY(sli_segment_search_run(context, n, j->options, home, &s->search));
     memset(s->roots, 0, count * sizeof *s->roots);
-    for (uint32_t i = 0; i < s->search.chain_count; i++) {
-        const uint32_t chain = s->search.chains[i];
+    for (uint32_t i = 0; i < s->search.reached_count; i++) {
+        const uint32_t chain = s->search.reached[i];
+        if (i + 8 < s->search.reached_count) {
+            __builtin_prefetch(&s->search.chains[s->search.reached[i + 8]]);
+            __builtin_prefetch(&s->chains[s->search.reached[i + 8]], 1);
+        }
         if (chain != home && s->search.wanted[chain]) end_in_chain(n, s, home, chain, &every);
     }
     end_at_home(n, s, home);
@@ -356,12 +362,10 @@ static sl_status measure_chain(sl_context *context, void *all, void *state, size
 static void end_segment_worker(sl_context *context, void *all, void *state) {
     const job *j = all;
     scratch *s = state;
-    for (size_t i = 0; i < 2 * (size_t)j->net.chain_count && s->through; i++)
-        if (s->through[i]) atomic_fetch_add(&j->through[i], s->through[i]);
+    for (size_t i = 0; i < 2 * (size_t)j->net.chain_count && s->chains; i++)
+        atomic_fetch_add(&j->through[i], s->chains[i / 2].through[i % 2]);
     sli_segment_search_destroy(context, &s->search);
-    sl_free(context, s->depends);
-    sl_free(context, s->ends);
-    sl_free(context, s->through);
+    sl_free(context, s->chains);
     sl_free(context, s->roots);
     sl_free(context, s->opened);
     sl_free(context, s);
@@ -369,18 +373,22 @@ static void end_segment_worker(sl_context *context, void *all, void *state) {
 
 static sl_status begin_segment_worker(sl_context *context, void *all, void **state) {
     const job *j = all;
-    const size_t ways = 4 * (size_t)j->net.chain_count + 2;
+    const sli_segment_network *n = &j->net;
     scratch *s = sl_alloc_array(context, 1, sizeof *s);
     if (!s) return SL_NO_MEMORY;
-    s->depends = sl_alloc_array(context, ways, sizeof *s->depends);
-    s->ends = sl_alloc_array(context, ways, sizeof *s->ends);
-    s->through = sl_alloc_array(context, ways, sizeof *s->through);
+    s->chains = sl_alloc_array(context, (size_t)n->chain_count + 1, sizeof *s->chains);
     s->roots = sl_alloc_array(context, j->most_pieces, sizeof *s->roots);
     s->opened = sl_alloc_array(context, 2 * (size_t)j->most_pieces, sizeof *s->opened);
-    if (!s->depends || !s->ends || !s->through || !s->roots || !s->opened ||
-        sli_segment_search_make(context, &j->net, j->options, &s->search) != SL_OK) {
+    if (!s->chains || !s->roots || !s->opened ||
+        sli_segment_search_make(context, n, j->options, &s->search) != SL_OK) {
         end_segment_worker(context, all, s);
         return SL_NO_MEMORY;
+    }
+    for (uint32_t i = 0; i < n->chain_count; i++) {
+        const uint32_t first = n->first_piece[i], stop = n->first_piece[i + 1];
+        s->chains[i].first = first;
+        s->chains[i].count = stop - first;
+        s->chains[i].turns = turns_between(n, first, stop, 0, 1);
     }
     *state = s;
     return SL_OK;

@@ -24,7 +24,6 @@ void sli_segment_network_destroy(sl_context *context, sli_segment_network *n) {
     sl_free(context, n->first);
     sl_free(context, n->arcs);
     sl_free(context, n->straight);
-    sl_free(context, n->slack);
     *n = (sli_segment_network){0};
 }
 
@@ -73,12 +72,12 @@ static sl_status find_corners(sl_context *context, sli_segment_network *n) {
 // --- chains
 
 /// The turn from one walk into the next.
-static uint32_t turn_of(const sli_segment_network *n, uint32_t from, uint32_t to) {
+static uint16_t turn_of(const sli_segment_network *n, uint32_t from, uint32_t to) {
     const sl_segment *s = &n->segments[from / 2], *t = &n->segments[to / 2];
     const double sx = s->b.x - s->a.x, sy = s->b.y - s->a.y, sign = from % 2 == to % 2 ? 1 : -1;
     const double tx = sign * (t->b.x - t->a.x), ty = sign * (t->b.y - t->a.y);
     const double angle = fabs(atan2(sx * ty - sy * tx, sx * tx + sy * ty));
-    return (uint32_t)lround(angle / HALF_TURN * SLI_UNITS_OF_HALF_TURN);
+    return (uint16_t)lround(angle / HALF_TURN * SLI_UNITS_OF_HALF_TURN);
 }
 
 /// Where a state of a segment comes to.
@@ -152,48 +151,31 @@ static uint32_t chain_from(const sli_segment_network *n, uint32_t state) {
 
 static sl_status find_arcs(sl_context *context, sli_segment_network *n) {
     const size_t states = 2 * (size_t)n->chain_count;
+    uint64_t count = 0;
+    uint32_t next = 0;
     n->first = sl_alloc_array(context, states + 1, sizeof *n->first);
     n->straight = sl_alloc_array(context, states + 1, sizeof *n->straight);
     if (!n->first || !n->straight) return SL_NO_MEMORY;
     for (uint32_t state = 0; state < states; state++) {
         const uint32_t corner = end_of(n, last_piece(n, state));
-        n->first[state + 1] = n->first[state] + n->first_at[corner + 1] - n->first_at[corner] - 1;
+        count += n->first_at[corner + 1] - n->first_at[corner] - 1;
     }
-    n->arcs = sl_alloc_array(context, n->first[states] + 1, sizeof *n->arcs);
+    if (count >= UINT32_MAX)
+        return sl_fail(context, SL_UNSUPPORTED, "too many segments meet in one point");
+    n->arc_count = (uint32_t)count;
+    n->arcs = sl_alloc_array(context, count + 1, sizeof *n->arcs);
     if (!n->arcs) return SL_NO_MEMORY;
     for (uint32_t state = 0; state < states; state++) {
-        const uint32_t last = last_piece(n, state), corner = end_of(n, last);
-        size_t next = n->first[state];
+        const uint32_t last = last_piece(n, state), corner = end_of(n, last), first = next;
         for (uint32_t i = n->first_at[corner]; i < n->first_at[corner + 1]; i++) {
             if (n->at[i] / 2 == last / 2) continue;
-            const uint32_t turn = turn_of(n, last, n->at[i]);
-            n->arcs[next++] = (sli_segment_arc){chain_from(n, n->at[i]), turn};
+            const uint16_t turn = turn_of(n, last, n->at[i]);
+            n->arcs[next++] = (sli_segment_arc){chain_from(n, n->at[i]), turn, false};
             if (!turn && !(sli_offset_of_last(n, state / 2) >> SLI_STEP_BITS))
                 n->straight[state] = true;
         }
-    }
-    return SL_OK;
-}
-
-/// A walk may come into a chain by one end so much later than another walk by the other end that no
-/// shortest path begins with it:
-///
-///   x  front        back       A walk from x comes into the front with the key k. From x it may
-///    \  |             |        also go on into z, which is at most a half turn: with a key of
-///     --o--o--o--o--o--o--     at most k + half turn. A later walk comes into the back, with the
-///    /                         key k'. It is of use neither to pieces of the chain, if k' is over
-///   z                          k + offset of the last piece, nor beyond the front, if k' + this
-///                              offset is k + half turn or more. If z is x, backwards, the same
-///                              holds one chain earlier.
-///
-/// `slack` is the largest k' - k that may be of use.
-static sl_status find_slack(sl_context *context, sli_segment_network *n) {
-    const uint64_t half_turn = (uint64_t)SLI_UNITS_OF_HALF_TURN << SLI_STEP_BITS;
-    n->slack = sl_alloc_array(context, (size_t)n->chain_count + 1, sizeof *n->slack);
-    if (!n->slack) return SL_NO_MEMORY;
-    for (uint32_t chain = 0; chain < n->chain_count; chain++) {
-        const uint64_t last = sli_offset_of_last(n, chain);
-        n->slack[chain] = 2 * last < half_turn ? half_turn - last - 1 : last;
+        n->first[state] = next > first ? first : n->arc_count;
+        if (next > first) n->arcs[next - 1].ends = true;
     }
     return SL_OK;
 }
@@ -203,6 +185,5 @@ sl_status sli_segment_network_make(sl_context *context, const sl_segment *segmen
     *out = (sli_segment_network){.segments = segments, .count = count};
     SL_TRY(find_corners(context, out));
     SL_TRY(find_chains(context, out, join));
-    SL_TRY(find_slack(context, out));
     return find_arcs(context, out);
 }

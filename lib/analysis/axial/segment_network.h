@@ -24,12 +24,13 @@ enum { SLI_MOST_OF_CHAIN = SLI_UNITS_OF_HALF_TURN };
 
 typedef struct sli_segment_arc {
     uint32_t to;   ///< a state of a chain
-    uint32_t turn; ///< from the last piece of one chain to the first of the next
+    uint16_t turn; ///< from the last piece of one chain to the first of the next
+    bool ends;     ///< the last one from its state
 } sli_segment_arc;
 
 typedef struct sli_segment_network {
     const sl_segment *segments;
-    uint32_t count, corner_count, chain_count;
+    uint32_t count, corner_count, chain_count, arc_count;
     double *lengths;
     uint32_t (*corners)[2]; ///< by segment: where its a and b are
     uint32_t *first_at;     ///< by corner, and one more: into `at`
@@ -40,10 +41,9 @@ typedef struct sli_segment_network {
     uint32_t *place_of;     ///< by segment: in `pieces`
     uint64_t *offsets;      ///< by place: the key from the chain's first piece to this one
     uint64_t *turns;        ///< by place, and one more: sum of the turns of the offsets before it
-    size_t *first;          ///< by state of chains, and one more: into `arcs`
+    uint32_t *first;        ///< by state of chains: into `arcs`; `arc_count` if it has none
     sli_segment_arc *arcs;
-    bool *straight;  ///< by state of chains: a walk may go through it and on without a turn
-    uint64_t *slack; ///< by chain: see find_slack()
+    bool *straight; ///< by state of chains: a walk may go through it and on without a turn
 } sli_segment_network;
 
 /// Segments must have length. Without `join`, chain c is segment c. Destroy it after failure, too.

@@ -7,13 +7,12 @@
 _Static_assert((int)SLI_BUCKETS > SLI_MOST_OF_CHAIN + (int)SLI_UNITS_OF_HALF_TURN, "a step's turn");
 
 void sli_segment_search_destroy(sl_context *context, sli_segment_search *s) {
-    sl_free(context, s->keys);
+    sl_free(context, s->chains);
     sl_free(context, s->paths);
-    sl_free(context, s->before);
     sl_free(context, s->met);
     sl_free(context, s->wanted);
     sl_free(context, s->order);
-    sl_free(context, s->chains);
+    sl_free(context, s->reached);
     sl_free(context, s->far);
     sl_free(context, s->corners);
     sl_free(context, s->chosen);
@@ -26,24 +25,26 @@ void sli_segment_search_destroy(sl_context *context, sli_segment_search *s) {
 sl_status sli_segment_search_make(sl_context *context, const sli_segment_network *n,
                                   const sl_segment_options *options, sli_segment_search *s) {
     const size_t chains = (size_t)n->chain_count + 1, corners = (size_t)n->corner_count + 1;
-    *s = (sli_segment_search){.keys = sl_alloc_array(context, 4 * chains, sizeof *s->keys)};
+    *s = (sli_segment_search){.chains = sl_alloc_array(context, chains, sizeof *s->chains)};
     s->paths = sl_alloc_array(context, 4 * chains, sizeof *s->paths);
-    s->before = sl_alloc_array(context, 4 * chains, sizeof *s->before);
     s->met = sl_alloc_array(context, chains, sizeof *s->met);
     s->wanted = sl_alloc_array(context, chains, sizeof *s->wanted);
     s->order = sl_alloc_array(context, 4 * chains, sizeof *s->order);
-    s->chains = sl_alloc_array(context, chains, sizeof *s->chains);
+    s->reached = sl_alloc_array(context, chains, sizeof *s->reached);
     s->far = sl_alloc_array(context, corners, sizeof *s->far);
     s->corners = sl_alloc_array(context, corners, sizeof *s->corners);
     s->chosen = sl_alloc_array(context, chains, sizeof *s->chosen);
     s->last = sl_alloc_array(context, 4 * chains, sizeof *s->last);
-    if (!s->keys || !s->paths || !s->before || !s->met || !s->wanted || !s->order || !s->chains ||
-        !s->far || !s->corners || !s->chosen || !s->last)
+    if (!s->chains || !s->paths || !s->met || !s->wanted || !s->order || !s->reached || !s->far ||
+        !s->corners || !s->chosen || !s->last)
         return SL_NO_MEMORY;
-    for (size_t i = 0; i < 4 * chains; i++) s->keys[i] = SLI_FAR;
+    for (uint32_t i = 0; i < n->chain_count; i++)
+        s->chains[i] = (sli_segment_chain){.keys = {SLI_FAR, SLI_FAR, SLI_FAR, SLI_FAR},
+                                           .last = sli_offset_of_last(n, i),
+                                           .first = {n->first[2 * i], n->first[2 * i + 1]}};
+    for (size_t i = 0; i < 4 * chains; i++) s->paths[i] = 1;
     for (size_t i = 0; i < chains; i++) s->wanted[i] = !(options->metric_radius > 0);
     for (size_t i = 0; i < corners; i++) s->far[i] = INFINITY;
-    s->paths[sli_tree_start(n, 0)] = s->paths[sli_tree_start(n, 1)] = 1;
     return SL_OK;
 }
 
@@ -101,7 +102,7 @@ static sl_status want(sl_context *context, const sli_segment_network *n, double 
 /// A way's key was `before`.
 static inline sl_status put(sl_context *context, const sli_segment_network *n,
                             sli_segment_search *s, uint32_t way, uint64_t before) {
-    const uint64_t key = s->keys[way], turn = key >> SLI_STEP_BITS;
+    const uint64_t key = sli_way_key(s, way), turn = key >> SLI_STEP_BITS;
     if (turn == s->turn && n->straight[sli_state_of(way)])
         return sli_segment_queue_push(context, &s->queue, (sli_segment_entry){key, way});
     if (before >> SLI_STEP_BITS == turn) return SL_OK; // it waits there
@@ -110,9 +111,15 @@ static inline sl_status put(sl_context *context, const sli_segment_network *n,
         return SL_OK;
     }
     const uint32_t bucket = turn % SLI_BUCKETS;
-    SL_TRY(SL_ARRAY_ROOM(context, &s->waiting, 1));
-    s->waiting.items[s->waiting.count++] = (sli_segment_waiting){way, s->buckets[bucket]};
-    s->buckets[bucket] = (uint32_t)s->waiting.count;
+    uint32_t place = s->unused;
+    if (place) {
+        s->unused = s->waiting.items[place - 1].next;
+    } else {
+        SL_TRY(SL_ARRAY_ROOM(context, &s->waiting, 1));
+        place = (uint32_t)++s->waiting.count;
+    }
+    s->waiting.items[place - 1] = (sli_segment_waiting){way, s->buckets[bucket]};
+    s->buckets[bucket] = place;
     s->filled[bucket / 64] |= (uint64_t)1 << bucket % 64;
     return SL_OK;
 }
@@ -135,14 +142,19 @@ static sl_status take_turn(sl_context *context, const sli_segment_network *n, sl
     *found = bucket < SLI_BUCKETS;
     if (!*found) return SL_OK;
     s->turn += (bucket + SLI_BUCKETS - s->turn % SLI_BUCKETS) % SLI_BUCKETS;
-    for (uint32_t i = s->buckets[bucket]; i; i = s->waiting.items[i - 1].next) {
-        const uint32_t way = s->waiting.items[i - 1].way;
-        const uint64_t key = s->keys[way];
+    for (uint32_t i = s->buckets[bucket], next; i; i = next) {
+        sli_segment_waiting *w = &s->waiting.items[i - 1];
+        const uint32_t way = w->way;
+        const uint64_t key = sli_way_key(s, way);
+        next = w->next;
+        w->next = s->unused;
+        s->unused = i;
         if (key >> SLI_STEP_BITS != s->turn) continue; // it was nearer
         if (n->straight[sli_state_of(way)])
             SL_TRY(sli_segment_queue_push(context, &s->queue, (sli_segment_entry){key, way}));
         else
             s->last[s->last_count++] = way;
+        __builtin_prefetch(&n->arcs[s->chains[way / 4].first[way % 2]]);
     }
     s->buckets[bucket] = 0;
     s->filled[bucket / 64] &= ~((uint64_t)1 << bucket % 64);
@@ -151,15 +163,18 @@ static sl_status take_turn(sl_context *context, const sli_segment_network *n, sl
 
 /// Sets back what the search before has touched.
 static void forget(sli_segment_search *s) {
-    for (uint32_t i = 0; i < s->chain_count; i++) {
-        for (uint32_t k = 0; k < 4; k++) s->keys[4 * s->chains[i] + k] = SLI_FAR;
-        s->met[s->chains[i]] = false;
+    for (uint32_t i = 0; i < s->reached_count; i++) {
+        const uint32_t chain = s->reached[i];
+        for (uint32_t k = 0; k < 4; k++) s->chains[chain].keys[k] = SLI_FAR;
+        for (uint32_t k = 0; k < 4 && s->several; k++) s->paths[4 * (size_t)chain + k] = 1;
+        s->met[chain] = false;
     }
     memset(s->buckets, 0, sizeof s->buckets);
     memset(s->filled, 0, sizeof s->filled);
-    s->chain_count = s->count = s->last_count = 0;
+    s->reached_count = s->count = s->last_count = s->unused = 0;
     s->queue.count = s->waiting.count = 0;
     s->turn = 0;
+    s->several = false;
 }
 
 typedef struct place_home {
@@ -167,39 +182,61 @@ typedef struct place_home {
     uint64_t last; ///< offset of its last piece
 } place_home;
 
-/// Whether no piece at home gains by a way with this key: see find_slack(). A piece at home is up
-/// to `home.last` nearer to the end that one tree starts from than to that of the other.
-static inline bool is_useless(const sli_segment_network *n, const sli_segment_search *s,
-                              place_home home, uint32_t way, uint64_t key) {
-    const uint64_t slack = n->slack[way / 4];
-    return key > s->keys[way ^ 1] + slack || key > s->keys[way ^ 2] + home.last ||
-           key > s->keys[way ^ 3] + slack + home.last;
+/// A walk may come into a chain by one end so much later than another walk by the other end that no
+/// shortest path begins with it:
+///
+///   x  front        back       A walk from x comes into the front with the key k. From x it may
+///    \  |             |        also go on into z, which is at most a half turn: with a key of
+///     --o--o--o--o--o--o--     at most k + half turn. A later walk comes into the back, with the
+///    /                         key k'. It is of use neither to pieces of the chain, if k' is over
+///   z                          k + offset of the last piece, nor beyond the front, if k' + this
+///                              offset is k + half turn or more. If z is x, backwards, the same
+///                              holds one chain earlier.
+///
+/// Returns the largest k' - k that may be of use.
+static inline uint64_t slack_of(uint64_t last) {
+    const uint64_t half_turn = (uint64_t)SLI_UNITS_OF_HALF_TURN << SLI_STEP_BITS;
+    return 2 * last < half_turn ? half_turn - last - 1 : last;
 }
 
-/// From the end of a chain, which has this key. `before`: the way or start that the walk is in.
+/// Whether no piece at home gains by a way with this key. A piece at home is up to `home.last`
+/// nearer to the end that one tree starts from than to that of the other.
+static inline bool is_useless(const sli_segment_chain *c, uint32_t way, uint64_t key,
+                              place_home home) {
+    const uint64_t slack = slack_of(c->last);
+    return key > c->keys[way % 4 ^ 1] + slack || key > c->keys[way % 4 ^ 2] + home.last ||
+           key > c->keys[way % 4 ^ 3] + slack + home.last;
+}
+
+/// From the end of a chain, which has this key, along its arcs from the first on. `before`: the way
+/// or start that the walk is in.
 static inline sl_status walk_on(sl_context *context, const sli_segment_network *n,
-                                sli_segment_search *s, place_home home, uint32_t state,
+                                sli_segment_search *s, place_home home, uint32_t first,
                                 uint32_t tree, uint64_t end, uint32_t before) {
-    const double paths = s->paths[before];
-    for (size_t i = n->first[state]; i < n->first[state + 1]; i++) {
-        const uint64_t key = sli_key_after(&n->arcs[i], end);
-        const uint32_t to = sli_way(n->arcs[i].to, tree);
-        const uint64_t was = s->keys[to];
+    if (first == n->arc_count) return SL_OK;
+    const sli_segment_arc *arc = &n->arcs[first];
+    do {
+        const uint64_t key = sli_key_after(arc, end);
+        const uint32_t to = sli_way(arc->to, tree);
+        sli_segment_chain *c = &s->chains[to / 4];
+        const uint64_t was = c->keys[to % 4];
         if (key > was) continue;
         if (key == was) {
-            s->paths[to] += paths;
-            s->before[to] = SLI_SEVERAL;
+            c->before[to % 4] = SLI_SEVERAL;
+            s->several = true;
             continue;
         }
-        if (is_useless(n, s, home, to, key)) continue;
-        if (was == SLI_FAR && s->keys[to ^ 1] == SLI_FAR && s->keys[to ^ 2] == SLI_FAR &&
-            s->keys[to ^ 3] == SLI_FAR)
-            s->chains[s->chain_count++] = to / 4;
-        s->keys[to] = key;
-        s->paths[to] = paths;
-        s->before[to] = before;
+        if (is_useless(c, to, key, home)) continue;
+        if (was == SLI_FAR && c->keys[to % 4 ^ 1] == SLI_FAR && c->keys[to % 4 ^ 2] == SLI_FAR &&
+            c->keys[to % 4 ^ 3] == SLI_FAR) {
+            s->reached[s->reached_count++] = to / 4;
+            __builtin_prefetch(&n->arcs[c->first[0]]);
+            __builtin_prefetch(&n->arcs[c->first[1]]);
+        }
+        c->keys[to % 4] = key;
+        c->before[to % 4] = before;
         SL_TRY(put(context, n, s, to, was));
-    }
+    } while (!arc++->ends);
     return SL_OK;
 }
 
@@ -213,17 +250,34 @@ static inline sl_status finish(sl_context *context, const sli_segment_network *n
                                sli_segment_search *s, place_home home, uint32_t way,
                                chains_left *left) {
     const uint32_t chain = way / 4;
-    const uint64_t key = s->keys[way], end = key + sli_offset_of_last(n, chain);
-    if (key >= s->most || is_useless(n, s, home, way, key)) return SL_OK;
-    s->order[s->count++] = way;
+    const sli_segment_chain *c = &s->chains[chain];
+    const uint64_t key = c->keys[way % 4], end = key + c->last;
+    if (key >= s->most || is_useless(c, way, key, home)) return SL_OK;
+    s->order[s->count++] = (sli_segment_done){way, c->before[way % 4]};
     if (chain == home.chain) return SL_OK;
-    if (s->wanted[chain] && !s->met[chain]) {
-        if (end > left->farthest) left->farthest = end;
-        if (--left->count == 0 && left->farthest + home.last < s->most)
-            s->most = left->farthest + home.last + 1;
+    if (!s->met[chain]) {
+        s->met[chain] = true;
+        if (s->wanted[chain]) {
+            if (end > left->farthest) left->farthest = end;
+            if (--left->count == 0 && left->farthest + home.last < s->most)
+                s->most = left->farthest + home.last + 1;
+        }
     }
-    s->met[chain] = true;
-    return walk_on(context, n, s, home, sli_state_of(way), sli_tree_of(way), end, way);
+    return walk_on(context, n, s, home, c->first[way % 2], sli_tree_of(way), end, way);
+}
+
+/// Where several paths have one key, all are counted afterwards.
+static void count_paths(const sli_segment_network *n, sli_segment_search *s, uint32_t home) {
+    for (uint32_t k = 0; k < s->count; k++) {
+        const sli_segment_done *d = &s->order[k];
+        if (d->before != SLI_SEVERAL) {
+            s->paths[d->way] = s->paths[d->before];
+            continue;
+        }
+        sli_segment_origin from = sli_segment_origins(n, s, d->way, home);
+        s->paths[d->way] = 0;
+        for (uint32_t way; sli_segment_origin_next(&from, &way);) s->paths[d->way] += s->paths[way];
+    }
 }
 
 sl_status sli_segment_search_run(sl_context *context, const sli_segment_network *n,
@@ -239,16 +293,18 @@ sl_status sli_segment_search_run(sl_context *context, const sli_segment_network 
         s->most = ((uint64_t)floor(radius * SLI_UNITS_OF_RIGHT_ANGLE) + 1) << SLI_STEP_BITS;
     if (!left.count && left.farthest + from.last < s->most) s->most = left.farthest + from.last + 1;
     for (uint32_t tree = 0; tree < 2; tree++)
-        SL_TRY(walk_on(context, n, s, from, 2 * home + tree, tree, 0, sli_tree_start(n, tree)));
+        SL_TRY(walk_on(context, n, s, from, n->first[2 * home + tree], tree, 0,
+                       sli_tree_start(n, tree)));
     for (bool found = true; found && s->turn << SLI_STEP_BITS < s->most;) {
         while (s->queue.count) {
             const sli_segment_entry e = sli_segment_queue_pop(&s->queue);
-            if (e.key == s->keys[e.at]) SL_TRY(finish(context, n, s, from, e.at, &left));
+            if (e.key == sli_way_key(s, e.at)) SL_TRY(finish(context, n, s, from, e.at, &left));
         }
         for (uint32_t i = 0; i < s->last_count; i++)
             SL_TRY(finish(context, n, s, from, s->last[i], &left));
         s->last_count = 0;
         SL_TRY(take_turn(context, n, s, &found));
     }
+    if (s->several) count_paths(n, s, home);
     return SL_OK;
 }

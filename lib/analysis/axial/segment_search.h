@@ -45,15 +45,28 @@ enum { SLI_BUCKETS = 2048, SLI_BUCKET_WORDS = SLI_BUCKETS / 64 };
 #define SLI_FAR     (UINT64_MAX / 4)
 #define SLI_SEVERAL UINT32_MAX
 
+/// A chain and its four ways, in one line of the cache.
+typedef struct sli_segment_chain {
+    uint64_t keys[4];   ///< by way: of the chain's first piece; SLI_FAR if it was not reached
+    uint32_t before[4]; ///< by way: the way or start that all paths come from; SLI_SEVERAL
+    uint64_t last;      ///< the offset of its last piece
+    uint32_t first[2];  ///< as the network's
+} sli_segment_chain;
+
+/// A way that is done.
+typedef struct sli_segment_done {
+    uint32_t way, before; ///< as the chain's
+} sli_segment_done;
+
 typedef struct sli_segment_search {
-    uint64_t *keys;   ///< by way: of the chain's first piece; SLI_FAR if it was not reached
-    double *paths;    ///< by way: how many have this key
-    uint32_t *before; ///< by way: the way or start that all paths come from; SLI_SEVERAL
-    bool *met;        ///< by chain: one of its ways is done, and it is not home
-    bool *wanted;     ///< by chain
-    uint32_t *order;  ///< of ways that are done: no path leads from one to an earlier one
-    uint32_t *chains; ///< those that have a key
-    uint32_t count, chain_count;
+    sli_segment_chain *chains;
+    double *paths;           ///< by way: how many have its key; all are 1 unless `several`
+    bool several;            ///< there are several paths of one key
+    bool *met;               ///< by chain: one of its ways is done, and it is not home
+    bool *wanted;            ///< by chain
+    sli_segment_done *order; ///< no path leads from one to an earlier one
+    uint32_t *reached;       ///< chains that have a key
+    uint32_t count, reached_count;
     uint64_t most; ///< ways of this key and above are not reached
     // Its own:
     double *far;       ///< by corner: along the network, from the middle of the root
@@ -63,6 +76,7 @@ typedef struct sli_segment_search {
     uint32_t last_count, corner_count, chosen_count;
     sli_segment_queue queue; ///< of the other ways of the turn at hand
     SL_ARRAY(sli_segment_waiting) waiting;
+    uint32_t unused;               ///< of `waiting`, from 1
     uint32_t buckets[SLI_BUCKETS]; ///< into `waiting`, from 1; by turn modulo SLI_BUCKETS
     uint64_t filled[SLI_BUCKET_WORDS];
     uint64_t turn; ///< at hand
@@ -78,6 +92,10 @@ void sli_segment_search_destroy(sl_context *context, sli_segment_search *search)
 sl_status sli_segment_search_run(sl_context *context, const sli_segment_network *network,
                                  const sl_segment_options *options, uint32_t home,
                                  sli_segment_search *search);
+
+static inline uint64_t sli_way_key(const sli_segment_search *s, uint32_t way) {
+    return s->chains[way / 4].keys[way % 4];
+}
 
 /// The key of a chain that an arc leads to, from the end of a chain, which has this key.
 static inline uint64_t sli_key_after(const sli_segment_arc *arc, uint64_t end) {
@@ -98,6 +116,38 @@ static inline uint32_t sli_tree_of(uint32_t way) {
 /// Where a tree starts; beyond all ways.
 static inline uint32_t sli_tree_start(const sli_segment_network *n, uint32_t tree) {
     return 4 * n->chain_count + tree;
+}
+
+/// The ways and starts from which paths with a way's key come to it, one after another. Arcs have
+/// the same turn both ways, so those back from it, the other way round, lead to it.
+typedef struct sli_segment_origin {
+    const sli_segment_network *network;
+    const sli_segment_search *search;
+    const sli_segment_arc *arc; ///< NULL after the last
+    uint32_t tree, home;
+    uint64_t key;
+} sli_segment_origin;
+
+static inline sli_segment_origin sli_segment_origins(const sli_segment_network *n,
+                                                     const sli_segment_search *s, uint32_t way,
+                                                     uint32_t home) {
+    const sli_segment_arc *first = &n->arcs[n->first[sli_state_of(way) ^ 1]];
+    return (sli_segment_origin){n, s, first, sli_tree_of(way), home, sli_way_key(s, way)};
+}
+
+static inline bool sli_segment_origin_next(sli_segment_origin *o, uint32_t *origin) {
+    while (o->arc) {
+        const sli_segment_arc *arc = o->arc;
+        const uint32_t to = arc->to ^ 1;
+        const bool start = to / 2 == o->home && to % 2 == o->tree;
+        *origin = start ? sli_tree_start(o->network, o->tree) : sli_way(to, o->tree);
+        o->arc = arc->ends ? NULL : arc + 1;
+        if (to / 2 == o->home && !start) continue;
+        const uint64_t end =
+            start ? 0 : sli_way_key(o->search, *origin) + o->search->chains[to / 2].last;
+        if (sli_key_after(arc, end) == o->key) return true;
+    }
+    return false;
 }
 
 #endif
