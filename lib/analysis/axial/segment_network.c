@@ -20,7 +20,7 @@ void sli_segment_network_destroy(sl_context *context, sli_segment_network *n) {
     sl_free(context, n->chain_of);
     sl_free(context, n->place_of);
     sl_free(context, n->offsets);
-    sl_free(context, n->turns);
+    sl_free(context, n->sums);
     sl_free(context, n->first);
     sl_free(context, n->arcs);
     sl_free(context, n->straight);
@@ -122,15 +122,23 @@ static sl_status find_chains(sl_context *context, sli_segment_network *n, bool j
     n->chain_of = sl_alloc_array(context, count, sizeof *n->chain_of);
     n->place_of = sl_alloc_array(context, count, sizeof *n->place_of);
     n->offsets = sl_alloc_array(context, count, sizeof *n->offsets);
-    n->turns = sl_alloc_array(context, count, sizeof *n->turns);
-    if (!n->first_piece || !n->pieces || !n->chain_of || !n->place_of || !n->offsets || !n->turns)
+    if (!n->first_piece || !n->pieces || !n->chain_of || !n->place_of || !n->offsets)
         return SL_NO_MEMORY;
     for (uint32_t s = 0; s < n->count; s++) n->chain_of[s] = NONE;
     for (uint32_t s = 0; s < n->count; s++)
         if (n->chain_of[s] == NONE) add_chains(n, join ? row_start(n, 2 * s) : 2 * s, join, &place);
     n->first_piece[n->chain_count] = place;
-    for (uint32_t i = 0; i < n->count; i++)
-        n->turns[i + 1] = n->turns[i] + (n->offsets[i] >> SLI_STEP_BITS);
+    n->sums = sl_alloc_array(context, (size_t)n->count + n->chain_count + 1, sizeof *n->sums);
+    if (!n->sums) return SL_NO_MEMORY;
+    for (uint32_t chain = 0; chain < n->chain_count; chain++) {
+        sli_segment_sums *sums = &n->sums[(size_t)n->first_piece[chain] + chain];
+        for (uint32_t i = n->first_piece[chain]; i < n->first_piece[chain + 1]; i++, sums++) {
+            const double weight = sli_segment_weight(n, i);
+            sums[1] =
+                (sli_segment_sums){sums->weight + weight,
+                                   sums->turns + weight * (double)(n->offsets[i] >> SLI_STEP_BITS)};
+        }
+    }
     return SL_OK;
 }
 
@@ -181,9 +189,10 @@ static sl_status find_arcs(sl_context *context, sli_segment_network *n) {
 }
 
 sl_status sli_segment_network_make(sl_context *context, const sl_segment *segments, uint32_t count,
-                                   bool join, sli_segment_network *out) {
-    *out = (sli_segment_network){.segments = segments, .count = count};
+                                   const sl_segment_options *options, sli_segment_network *out) {
+    *out = (sli_segment_network){.segments = segments, .weights = options->weights, .count = count};
     SL_TRY(find_corners(context, out));
-    SL_TRY(find_chains(context, out, join));
+    SL_TRY(sli_segment_unlink(context, options, out));
+    SL_TRY(find_chains(context, out, !(options->metric_radius > 0)));
     return find_arcs(context, out);
 }
