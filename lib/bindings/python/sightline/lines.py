@@ -63,7 +63,7 @@ class Axial(Lines):
         >>> level = sightline.Plan.from_segments([(0, 0, 8, 0), (8, 0, 8, 4), (8, 4, 0, 4),
         ...                                       (0, 4, 0, 0), (4, 0, 4, 3)]).space()
         >>> len(level.axial(arrays=True)["connectivity"])
-        2
+        1
         """
         if lines not in KEPT:
             raise ValueError(f"lines must be one of {', '.join(KEPT)}, not {lines!r:.40}")

@@ -52,9 +52,9 @@ class Lines(unittest.TestCase):
         got = plan.segments(weights=[2, 3, 1], unlinks=[(1, 0.1)], arrays=True)
         for name in ("t1024_choice", "t1024_integration", "t1024_node_count", "t1024_total_depth"):
             np.testing.assert_allclose(got[name], wanted[f"{name}_weighted"], rtol=1e-8, err_msg=name)
-        self.assertRaises(sightline.Error, plan.segments, unlinks=[(2, 0)])
+        self.assertRaises(sightline.SightlineError, plan.segments, unlinks=[(2, 0)])
         for weights in ([1, 2], [1, 2, -1], [[1, 2, 3]]):
-            self.assertRaises((ValueError, sightline.Error), plan.segments, weights=weights)
+            self.assertRaises((ValueError, sightline.SightlineError), plan.segments, weights=weights)
 
     def test_doors(self):
         plan = sightline.Plan.from_segments(support.TWO_ROOMS)
