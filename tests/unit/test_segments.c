@@ -1,6 +1,6 @@
 /// Segment measures: chains and crossings by hand; networks that are turned, mirrored, listed in
 /// another order or the other way round; radii; rows, rings and spirals against all paths of single
-/// segments; what is refused.
+/// segments, with weights and unlinked crossings too; what is refused.
 #include "testing.h"
 
 #include "sightline/axial.h"
@@ -208,16 +208,44 @@ static double heading(const sl_segment *segments, uint32_t walk) {
     return atan2(to.y - from.y, to.x - from.x);
 }
 
+static bool is_at(sl_point a, sl_point b) {
+    return a.x == b.x && a.y == b.y;
+}
+
+/// To the left, positive.
+static double turn_of(const sl_segment *segments, uint32_t from, uint32_t to) {
+    return remainder(heading(segments, to) - heading(segments, from), 2 * acos(-1));
+}
+
+/// Whether a walk may go on into another that begins at its end: at an unlinked crossing, only into
+/// the one that has one to its left and one to its right.
+static bool may_go_on(const sl_segment *segments, uint32_t count, const sl_segment_options *options,
+                      uint32_t from, uint32_t to) {
+    const sl_point end = walk_end(segments, from);
+    bool linked = true;
+    for (uint32_t i = 0; i < options->unlink_count; i++) linked &= !is_at(options->unlinks[i], end);
+    uint32_t left = 0, right = 0;
+    for (uint32_t w = 0; w < 2 * count; w++) {
+        if (w / 2 == from / 2 || w / 2 == to / 2 || !is_at(walk_end(segments, w ^ 1), end))
+            continue;
+        left += turn_of(segments, from, w) > turn_of(segments, from, to);
+        right += turn_of(segments, from, w) < turn_of(segments, from, to);
+    }
+    return linked || (left == 1 && right == 1);
+}
+
 /// The key of going from one walk on into another; 0 if it cannot be.
-static uint64_t step_key(const sl_segment *segments, uint32_t from, uint32_t to) {
-    const sl_point end = walk_end(segments, from), start = walk_end(segments, to ^ 1);
-    if (from / 2 == to / 2 || end.x != start.x || end.y != start.y) return 0;
-    const double turn = remainder(heading(segments, to) - heading(segments, from), 2 * acos(-1));
-    return ((uint64_t)lround(fabs(turn) * 512 / acos(-1)) << 32) + 1;
+static uint64_t step_key(const sl_segment *segments, uint32_t count,
+                         const sl_segment_options *options, uint32_t from, uint32_t to) {
+    if (from / 2 == to / 2 || !is_at(walk_end(segments, from), walk_end(segments, to ^ 1)) ||
+        !may_go_on(segments, count, options, from, to))
+        return 0;
+    return ((uint64_t)lround(fabs(turn_of(segments, from, to)) * 512 / acos(-1)) << 32) + 1;
 }
 
 /// From one walk to all, the nearest that is left first.
-static void find_paths(const sl_segment *segments, uint32_t count, uint32_t from, all_pairs *out) {
+static void find_paths(const sl_segment *segments, uint32_t count,
+                       const sl_segment_options *options, uint32_t from, all_pairs *out) {
     bool done[WALKS] = {false};
     uint64_t *keys = out->keys[from];
     double *paths = out->paths[from];
@@ -233,7 +261,7 @@ static void find_paths(const sl_segment *segments, uint32_t count, uint32_t from
         if (at == UINT32_MAX) return;
         done[at] = true;
         for (uint32_t w = 0; w < 2 * count; w++) {
-            const uint64_t step = step_key(segments, at, w);
+            const uint64_t step = step_key(segments, count, options, at, w);
             if (!step || keys[at] + step > keys[w]) continue;
             if (keys[at] + step < keys[w]) paths[w] = 0;
             keys[w] = keys[at] + step;
@@ -242,17 +270,22 @@ static void find_paths(const sl_segment *segments, uint32_t count, uint32_t from
     }
 }
 
+static double weight_of(const sl_segment_options *options, uint32_t segment) {
+    return options->weights ? options->weights[segment] : 1;
+}
+
 /// Sums up the pairs of two segments: both walks of one, both of the other.
-static void sum_pair(const all_pairs *all, uint32_t count, uint32_t s, uint32_t t, uint64_t most,
-                     uint64_t *turns, double *nodes, double *choice) {
+static void sum_pair(const all_pairs *all, uint32_t count, const sl_segment_options *options,
+                     uint32_t s, uint32_t t, uint64_t most, double *turns, double *nodes,
+                     double *choice) {
     uint64_t least = UINT64_MAX;
     double paths = 0;
     for (uint32_t k = 0; k < 4; k++)
         if (all->keys[2 * s + k / 2][2 * t + k % 2] < least)
             least = all->keys[2 * s + k / 2][2 * t + k % 2];
     if (least >= most) return;
-    *turns += least >> 32;
-    *nodes += 1;
+    *turns += (double)(least >> 32) * weight_of(options, t);
+    *nodes += weight_of(options, t);
     for (uint32_t k = 0; k < 4; k++)
         if (all->keys[2 * s + k / 2][2 * t + k % 2] == least)
             paths += all->paths[2 * s + k / 2][2 * t + k % 2];
@@ -262,29 +295,32 @@ static void sum_pair(const all_pairs *all, uint32_t count, uint32_t s, uint32_t 
         for (uint32_t w = 0; w < 2 * count; w++)
             if (w / 2 != s && w / 2 != t && all->keys[from][w] != UINT64_MAX &&
                 all->keys[w][to] != UINT64_MAX && all->keys[from][w] + all->keys[w][to] == least)
-                choice[w / 2] += all->paths[from][w] * all->paths[w][to] / paths / 2;
+                choice[w / 2] += all->paths[from][w] * all->paths[w][to] / paths / 2 *
+                                 weight_of(options, s) * weight_of(options, t);
     }
 }
 
-static void check_against_all_paths(sl_context *context, const sl_segment *segments,
-                                    uint32_t count) {
+/// `plain`: without radius.
+static void check_against_all_paths(sl_context *context, const sl_segment *segments, uint32_t count,
+                                    const sl_segment_options *plain) {
     static all_pairs all;
     static const double radii[] = {0, 0.3, 1, 2.5};
-    for (uint32_t w = 0; w < 2 * count; w++) find_paths(segments, count, w, &all);
+    for (uint32_t w = 0; w < 2 * count; w++) find_paths(segments, count, plain, w, &all);
     for (size_t r = 0; r < sizeof radii / sizeof *radii; r++) {
-        const sl_segment_options options = {.threads = 1, .angular_radius = radii[r]};
+        sl_segment_options options = *plain;
+        options.angular_radius = radii[r];
         const uint64_t most =
             radii[r] > 0 ? ((uint64_t)floor(radii[r] * 256) + 1) << 32 : UINT64_MAX;
         sl_segment_measures m[FEW];
         double choice[FEW] = {0};
         measure(context, segments, count, &options, m);
         for (uint32_t s = 0; s < count; s++) {
-            uint64_t turns = 0;
-            double nodes = 1;
+            double turns = 0, nodes = weight_of(plain, s);
             for (uint32_t t = 0; t < count; t++)
-                if (s != t) sum_pair(&all, count, s, t, most, &turns, &nodes, choice);
+                if (s != t) sum_pair(&all, count, plain, s, t, most, &turns, &nodes, choice);
+            // Weights are whole numbers here, so that sums are exact.
             assert_true(m[s].t1024_node_count == nodes);
-            assert_true(m[s].t1024_total_depth == (double)turns / 256);
+            assert_true(m[s].t1024_total_depth == turns / 256);
         }
         // Shares are rounded to 2^-24, a few for each root.
         for (uint32_t s = 0; s < count; s++)
@@ -311,8 +347,101 @@ static void networks_by_chance_agree_with_all_paths(void **state) {
     for (uint32_t i = 0; i < testing_seeds(60); i++) {
         sl_segment segments[FEW];
         const uint32_t count = make_by_chance(segments, &random, 3 + i % 8);
-        check_against_all_paths(context, segments, count);
+        check_against_all_paths(context, segments, count, &one_thread);
     }
+    sl_context_destroy(context);
+}
+
+static void weights_agree_with_all_paths(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    sl_random random = {2};
+    for (uint32_t i = 0; i < testing_seeds(30); i++) {
+        sl_segment segments[FEW];
+        double weights[FEW];
+        const sl_segment_options weighted = {.threads = 1, .weights = weights};
+        const uint32_t count = make_by_chance(segments, &random, 3 + i % 8);
+        for (uint32_t s = 0; s < count; s++) weights[s] = sl_random_below(&random, 4);
+        check_against_all_paths(context, segments, count, &weighted);
+    }
+    sl_context_destroy(context);
+}
+
+/// Streets of a lattice, cut where they cross; a third of the crossings are unlinked.
+static void unlinks_agree_with_all_paths(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    sl_random random = {3};
+    uint32_t all = 0;
+    for (uint32_t i = 0; i < testing_seeds(30); i++) {
+        sl_segment segments[FEW];
+        sl_point at[4][4], unlinks[4];
+        uint32_t count = 0, unlinked = 0;
+        for (int k = 0; k < 16; k++)
+            at[k / 4][k % 4] = (sl_point){40 * (k / 4) + sl_random_below(&random, 9),
+                                          40 * (k % 4) + sl_random_below(&random, 9)};
+        for (int x = 0; x < 4; x++)
+            for (int y = 0; y < 4; y++) {
+                if (x < 3) segments[count++] = (sl_segment){at[x][y], at[x + 1][y]};
+                if (y < 3) segments[count++] = (sl_segment){at[x][y + 1], at[x][y]};
+                if (x % 3 && y % 3 && sl_random_below(&random, 2)) unlinks[unlinked++] = at[x][y];
+            }
+        const sl_segment_options options = {
+            .threads = 1, .unlinks = unlinks, .unlink_count = unlinked};
+        check_against_all_paths(context, segments, count, &options);
+        all += unlinked;
+    }
+    assert_true(all > 10);
+    sl_context_destroy(context);
+}
+
+/// Two streets, one over the other: neither meets the other, within a metric radius too.
+static void bridges_are_no_junctions(void **state) {
+    (void)state;
+    static const sl_segment cross[] = {
+        {{0, 0}, {3, 0}}, {{0, 2}, {0, 0}}, {{0, 0}, {-1, 0}}, {{0, -5}, {0, 0}}, {{3, 0}, {9, 0}}};
+    static const sl_point bridge = {0, 0}, twice[] = {{0, 0}, {0, 0}}, end = {3, 0};
+    sl_context *context = testing_context(NULL);
+    sl_segment_measures m[5];
+    for (uint32_t radius = 0; radius < 100; radius += 50) {
+        const sl_segment_options options = {
+            .threads = 1, .metric_radius = radius, .unlinks = &bridge, .unlink_count = 1};
+        measure(context, cross, 5, &options, m);
+        assert_true(m[0].connectivity == 2 && m[0].t1024_node_count == 3);
+        assert_true(m[0].t1024_choice == 1 && m[0].t1024_total_depth == 0);
+        assert_true(m[1].connectivity == 1 && m[1].t1024_node_count == 2);
+    }
+    sl_segment_options options = {.threads = 1, .unlinks = twice, .unlink_count = 2};
+    assert_int_equal(sl_segment_measure(context, cross, 5, &options, m), SL_BAD_ARGUMENT);
+    options = (sl_segment_options){.threads = 1, .unlinks = &end, .unlink_count = 1};
+    assert_int_equal(sl_segment_measure(context, cross, 5, &options, m), SL_BAD_ARGUMENT);
+    sl_point found;
+    assert_ok(context, sl_segment_crossing(context, cross, 5, (sl_point){0.1, -0.2}, &found));
+    assert_true(found.x == 0 && found.y == 0);
+    assert_int_equal(sl_segment_crossing(context, cross, 5, (sl_point){3, 0.1}, &found),
+                     SL_BAD_ARGUMENT);
+    assert_int_equal(sl_segment_crossing(context, cross, 5, (sl_point){0.6, 0}, &found),
+                     SL_BAD_ARGUMENT);
+    sl_context_destroy(context);
+}
+
+static void weights_out_of_range_are_refused(void **state) {
+    (void)state;
+    static const sl_segment segments[] = {{{0, 0}, {1, 0}}, {{1, 0}, {2, 2}}};
+    static const double wrong[][2] = {{1, -1}, {1, NAN}, {INFINITY, 1}};
+    sl_context *context = testing_context(NULL);
+    sl_segment_measures m[2];
+    for (size_t i = 0; i < 3; i++) {
+        const sl_segment_options options = {.threads = 1, .weights = wrong[i]};
+        assert_int_equal(sl_segment_measure(context, segments, 2, &options, m), SL_BAD_ARGUMENT);
+    }
+    static const double none[2] = {0, 0}, much[2] = {1e100, 1e100};
+    sl_segment_options options = {.threads = 1, .weights = none};
+    measure(context, segments, 2, &options, m);
+    assert_true(m[0].t1024_node_count == 0 && m[0].t1024_choice == 0);
+    options.weights = much;
+    measure(context, segments, 2, &options, m);
+    assert_true(m[0].t1024_node_count == 2e100 && m[0].t1024_choice == 0);
     sl_context_destroy(context);
 }
 
@@ -339,7 +468,7 @@ static void rings_and_spirals_agree_with_all_paths(void **state) {
             }
             if (shape == 1) segments[count++] = (sl_segment){at[1], {2000, 1700}};
             if (shape == 2) segments[count++] = (sl_segment){at[sides / 2], at[sides]};
-            check_against_all_paths(context, segments, count);
+            check_against_all_paths(context, segments, count, &one_thread);
         }
     sl_context_destroy(context);
 }
@@ -363,6 +492,10 @@ int main(void) {
         cmocka_unit_test(turned_networks_measure_the_same),
         cmocka_unit_test(threads_do_not_change_bits),
         cmocka_unit_test(networks_by_chance_agree_with_all_paths),
+        cmocka_unit_test(weights_agree_with_all_paths),
+        cmocka_unit_test(unlinks_agree_with_all_paths),
+        cmocka_unit_test(bridges_are_no_junctions),
+        cmocka_unit_test(weights_out_of_range_are_refused),
         cmocka_unit_test(rings_and_spirals_agree_with_all_paths),
         cmocka_unit_test(points_are_refused),
     };

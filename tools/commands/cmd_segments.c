@@ -2,6 +2,7 @@
 #include "arguments/help.h"
 #include "arguments/outputs.h"
 #include "commands/commands.h"
+#include "inputs/network.h"
 #include "reports/line_table.h"
 #include "sightline/axial.h"
 #include "sightline/support.h"
@@ -10,7 +11,7 @@
 #include <string.h>
 
 typedef struct segments_plan {
-    const char *input, *output, *picture;
+    const char *input, *output, *picture, *weight, *unlinks;
     input_options reading;
     option_list metric, angular;
     size_t measure;
@@ -21,6 +22,9 @@ typedef struct segments_plan {
 typedef struct segments_work {
     sl_map map;
     sl_segment *segments;
+    sl_point *unlinks;
+    uint32_t unlink_count;
+    double *weights;
     sl_segment_measures *measures;
     line_table table;
 } segments_work;
@@ -42,6 +46,9 @@ static sl_status read_segments(sl_context *context, const segments_plan *plan, s
     w->table.unit = w->map.unit;
     w->table.layer = "SEGMENTS";
     w->table.count = (uint32_t)count;
+    if (plan->unlinks)
+        SL_TRY(network_unlinks_read(context, plan->unlinks, w->segments, w->table.count,
+                                    &w->unlinks, &w->unlink_count));
     return SL_OK;
 }
 
@@ -98,12 +105,34 @@ static void note_pairs(sl_context *context, const segments_plan *plan, size_t co
                 count);
 }
 
+/// Measures with and without weights. Lengths come with the first ones.
+static sl_status measure(sl_context *context, const segments_plan *plan, segments_work *w,
+                         sl_segment_options *options, const char *ending) {
+    SL_TRY(sl_segment_measure(context, w->segments, w->table.count, options, w->measures));
+    SL_TRY(
+        line_table_add(context, &w->table, SL_SEGMENTS, w->measures, sizeof *w->measures, ending));
+    if (!plan->weight) return SL_OK;
+    if (!w->weights) {
+        w->weights = sl_alloc_array(context, w->table.count, sizeof *w->weights);
+        if (!w->weights) return SL_NO_MEMORY;
+        SL_TRY(network_weights_read(context, plan->input, plan->weight, &w->map, w->measures,
+                                    w->weights));
+    }
+    char weighted[80];
+    snprintf(weighted, sizeof weighted, "%s_weighted", ending);
+    options->weights = w->weights;
+    SL_TRY(sl_segment_measure(context, w->segments, w->table.count, options, w->measures));
+    return line_table_add(context, &w->table, SL_SEGMENTS, w->measures, sizeof *w->measures,
+                          weighted);
+}
+
 /// One analysis for each radius.
 static sl_status run(sl_context *context, const segments_plan *plan, segments_work *w) {
     const size_t metric = plan->metric.count, angular = plan->angular.count;
     const size_t count = metric + angular ? metric + angular : 1;
     for (size_t i = 0; i < count; i++) {
-        sl_segment_options options = {.threads = plan->threads};
+        sl_segment_options options = {
+            .threads = plan->threads, .unlinks = w->unlinks, .unlink_count = w->unlink_count};
         char ending[64] = "";
         if (i < metric)
             SL_TRY(read_radius(context, "--metric-radius", "metric", plan->metric.items[i],
@@ -111,9 +140,7 @@ static sl_status run(sl_context *context, const segments_plan *plan, segments_wo
         else if (i < metric + angular)
             SL_TRY(read_radius(context, "--angular-radius", "angular",
                                plan->angular.items[i - metric], &options.angular_radius, ending));
-        SL_TRY(sl_segment_measure(context, w->segments, w->table.count, &options, w->measures));
-        SL_TRY(line_table_add(context, &w->table, SL_SEGMENTS, w->measures, sizeof *w->measures,
-                              ending));
+        SL_TRY(measure(context, plan, w, &options, ending));
     }
     return SL_OK;
 }
@@ -169,6 +196,13 @@ sl_status cmd_segments(command_console *console, int argc, char **argv) {
         {"angular-radius", 0, "A",
          "only segments within A right angles of turns, or n for all; may be given several times",
          .list = &plan.angular},
+        {"weight", 0, "NAME",
+         "also measure with weights, in columns that end with _weighted: segment_length, or a "
+         "column of the .csv; pieces of a line share its weight by length",
+         .text = &plan.weight},
+        {"unlinks", 0, "POINTS",
+         "crossings that are no junctions, as bridges: a .csv with the columns x,y",
+         .text = &plan.unlinks},
         {"threads", 0, "N", "number of threads (default: one per core)", .count32 = &plan.threads,
          .most = 1024, .rare = true},
         {.group = &picture},
@@ -183,7 +217,9 @@ sl_status cmd_segments(command_console *console, int argc, char **argv) {
                 "x1,y1,x2,y2. Lines are cut where they cross.",
         .examples = "  sightline segments streets.dxf -o streets.csv --picture choice.png\n"
                     "  sightline segments axial.csv --metric-radius 400 --metric-radius n -o "
-                    "all.csv",
+                    "all.csv\n"
+                    "  sightline segments streets.csv --weight segment_length --unlinks "
+                    "bridges.csv -o streets-weighted.csv",
         .tables = print_tables,
         .options = options,
         .option_count = sizeof options / sizeof *options,
@@ -195,6 +231,8 @@ sl_status cmd_segments(command_console *console, int argc, char **argv) {
     const sl_status status = work(console, &plan, &w);
     line_table_destroy(console->context, &w.table);
     sl_free(console->context, w.measures);
+    sl_free(console->context, w.weights);
+    sl_free(console->context, w.unlinks);
     sl_free(console->context, w.segments);
     sl_map_destroy(console->context, &w.map);
     return status;

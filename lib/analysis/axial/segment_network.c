@@ -20,9 +20,10 @@ void sli_segment_network_destroy(sl_context *context, sli_segment_network *n) {
     sl_free(context, n->chain_of);
     sl_free(context, n->place_of);
     sl_free(context, n->offsets);
-    sl_free(context, n->turns);
+    sl_free(context, n->sums);
     sl_free(context, n->first);
     sl_free(context, n->arcs);
+    sl_free(context, n->straight);
     *n = (sli_segment_network){0};
 }
 
@@ -71,12 +72,12 @@ static sl_status find_corners(sl_context *context, sli_segment_network *n) {
 // --- chains
 
 /// The turn from one walk into the next.
-static uint32_t turn_of(const sli_segment_network *n, uint32_t from, uint32_t to) {
+static uint16_t turn_of(const sli_segment_network *n, uint32_t from, uint32_t to) {
     const sl_segment *s = &n->segments[from / 2], *t = &n->segments[to / 2];
     const double sx = s->b.x - s->a.x, sy = s->b.y - s->a.y, sign = from % 2 == to % 2 ? 1 : -1;
     const double tx = sign * (t->b.x - t->a.x), ty = sign * (t->b.y - t->a.y);
     const double angle = fabs(atan2(sx * ty - sy * tx, sx * tx + sy * ty));
-    return (uint32_t)lround(angle / HALF_TURN * SLI_UNITS_OF_HALF_TURN);
+    return (uint16_t)lround(angle / HALF_TURN * SLI_UNITS_OF_HALF_TURN);
 }
 
 /// Where a state of a segment comes to.
@@ -121,15 +122,23 @@ static sl_status find_chains(sl_context *context, sli_segment_network *n, bool j
     n->chain_of = sl_alloc_array(context, count, sizeof *n->chain_of);
     n->place_of = sl_alloc_array(context, count, sizeof *n->place_of);
     n->offsets = sl_alloc_array(context, count, sizeof *n->offsets);
-    n->turns = sl_alloc_array(context, count, sizeof *n->turns);
-    if (!n->first_piece || !n->pieces || !n->chain_of || !n->place_of || !n->offsets || !n->turns)
+    if (!n->first_piece || !n->pieces || !n->chain_of || !n->place_of || !n->offsets)
         return SL_NO_MEMORY;
     for (uint32_t s = 0; s < n->count; s++) n->chain_of[s] = NONE;
     for (uint32_t s = 0; s < n->count; s++)
         if (n->chain_of[s] == NONE) add_chains(n, join ? row_start(n, 2 * s) : 2 * s, join, &place);
     n->first_piece[n->chain_count] = place;
-    for (uint32_t i = 0; i < n->count; i++)
-        n->turns[i + 1] = n->turns[i] + (n->offsets[i] >> SLI_STEP_BITS);
+    n->sums = sl_alloc_array(context, (size_t)n->count + n->chain_count + 1, sizeof *n->sums);
+    if (!n->sums) return SL_NO_MEMORY;
+    for (uint32_t chain = 0; chain < n->chain_count; chain++) {
+        sli_segment_sums *sums = &n->sums[(size_t)n->first_piece[chain] + chain];
+        for (uint32_t i = n->first_piece[chain]; i < n->first_piece[chain + 1]; i++, sums++) {
+            const double weight = sli_segment_weight(n, i);
+            sums[1] =
+                (sli_segment_sums){sums->weight + weight,
+                                   sums->turns + weight * (double)(n->offsets[i] >> SLI_STEP_BITS)};
+        }
+    }
     return SL_OK;
 }
 
@@ -150,29 +159,40 @@ static uint32_t chain_from(const sli_segment_network *n, uint32_t state) {
 
 static sl_status find_arcs(sl_context *context, sli_segment_network *n) {
     const size_t states = 2 * (size_t)n->chain_count;
+    uint64_t count = 0;
+    uint32_t next = 0;
     n->first = sl_alloc_array(context, states + 1, sizeof *n->first);
-    if (!n->first) return SL_NO_MEMORY;
+    n->straight = sl_alloc_array(context, states + 1, sizeof *n->straight);
+    if (!n->first || !n->straight) return SL_NO_MEMORY;
     for (uint32_t state = 0; state < states; state++) {
         const uint32_t corner = end_of(n, last_piece(n, state));
-        n->first[state + 1] = n->first[state] + n->first_at[corner + 1] - n->first_at[corner] - 1;
+        count += n->first_at[corner + 1] - n->first_at[corner] - 1;
     }
-    n->arcs = sl_alloc_array(context, n->first[states] + 1, sizeof *n->arcs);
+    if (count >= UINT32_MAX)
+        return sl_fail(context, SL_UNSUPPORTED, "too many segments meet in one point");
+    n->arc_count = (uint32_t)count;
+    n->arcs = sl_alloc_array(context, count + 1, sizeof *n->arcs);
     if (!n->arcs) return SL_NO_MEMORY;
     for (uint32_t state = 0; state < states; state++) {
-        const uint32_t last = last_piece(n, state), corner = end_of(n, last);
-        size_t next = n->first[state];
-        for (uint32_t i = n->first_at[corner]; i < n->first_at[corner + 1]; i++)
-            if (n->at[i] / 2 != last / 2)
-                n->arcs[next++] =
-                    (sli_segment_arc){chain_from(n, n->at[i]), turn_of(n, last, n->at[i])};
+        const uint32_t last = last_piece(n, state), corner = end_of(n, last), first = next;
+        for (uint32_t i = n->first_at[corner]; i < n->first_at[corner + 1]; i++) {
+            if (n->at[i] / 2 == last / 2) continue;
+            const uint16_t turn = turn_of(n, last, n->at[i]);
+            n->arcs[next++] = (sli_segment_arc){chain_from(n, n->at[i]), turn, false};
+            if (!turn && !(sli_offset_of_last(n, state / 2) >> SLI_STEP_BITS))
+                n->straight[state] = true;
+        }
+        n->first[state] = next > first ? first : n->arc_count;
+        if (next > first) n->arcs[next - 1].ends = true;
     }
     return SL_OK;
 }
 
 sl_status sli_segment_network_make(sl_context *context, const sl_segment *segments, uint32_t count,
-                                   bool join, sli_segment_network *out) {
-    *out = (sli_segment_network){.segments = segments, .count = count};
+                                   const sl_segment_options *options, sli_segment_network *out) {
+    *out = (sli_segment_network){.segments = segments, .weights = options->weights, .count = count};
     SL_TRY(find_corners(context, out));
-    SL_TRY(find_chains(context, out, join));
+    SL_TRY(sli_segment_unlink(context, options, out));
+    SL_TRY(find_chains(context, out, !(options->metric_radius > 0)));
     return find_arcs(context, out);
 }

@@ -14,7 +14,7 @@
 #ifndef SL_SEGMENT_NETWORK_H
 #define SL_SEGMENT_NETWORK_H
 
-#include "sightline/geometry.h"
+#include "sightline/axial.h"
 #include "sightline/support.h"
 
 enum { SLI_UNITS_OF_HALF_TURN = 512, SLI_UNITS_OF_RIGHT_ANGLE = 256, SLI_STEP_BITS = 32 };
@@ -24,12 +24,19 @@ enum { SLI_MOST_OF_CHAIN = SLI_UNITS_OF_HALF_TURN };
 
 typedef struct sli_segment_arc {
     uint32_t to;   ///< a state of a chain
-    uint32_t turn; ///< from the last piece of one chain to the first of the next
+    uint16_t turn; ///< from the last piece of one chain to the first of the next
+    bool ends;     ///< the last one from its state
 } sli_segment_arc;
+
+typedef struct sli_segment_sums {
+    double weight;
+    double turns; ///< of offsets, times the weight
+} sli_segment_sums;
 
 typedef struct sli_segment_network {
     const sl_segment *segments;
-    uint32_t count, corner_count, chain_count;
+    const double *weights; ///< by segment; NULL: 1
+    uint32_t count, corner_count, chain_count, arc_count;
     double *lengths;
     uint32_t (*corners)[2]; ///< by segment: where its a and b are
     uint32_t *first_at;     ///< by corner, and one more: into `at`
@@ -39,18 +46,28 @@ typedef struct sli_segment_network {
     uint32_t *chain_of;     ///< by segment
     uint32_t *place_of;     ///< by segment: in `pieces`
     uint64_t *offsets;      ///< by place: the key from the chain's first piece to this one
-    uint64_t *turns;        ///< by place, and one more: sum of the turns of the offsets before it
-    size_t *first;          ///< by state of chains, and one more: into `arcs`
+    sli_segment_sums *sums; ///< by place + chain, one more for each chain: of its pieces before
+    uint32_t *first;        ///< by state of chains: into `arcs`; `arc_count` if it has none
     sli_segment_arc *arcs;
+    bool *straight; ///< by state of chains: a walk may go through it and on without a turn
 } sli_segment_network;
 
-/// Segments must have length. Without `join`, chain c is segment c. Destroy it after failure, too.
+/// Segments must have length. With a metric radius, chain c is segment c. Destroy it after failure,
+/// too.
 sl_status sli_segment_network_make(sl_context *context, const sl_segment *segments, uint32_t count,
-                                   bool join, sli_segment_network *out);
+                                   const sl_segment_options *options, sli_segment_network *out);
+/// Takes the unlinked crossings of the options apart, before there are chains.
+sl_status sli_segment_unlink(sl_context *context, const sl_segment_options *options,
+                             sli_segment_network *network);
 void sli_segment_network_destroy(sl_context *context, sli_segment_network *network);
 
+/// From the first piece of a chain to its last one.
 static inline uint64_t sli_offset_of_last(const sli_segment_network *n, uint32_t chain) {
     return n->offsets[n->first_piece[chain + 1] - 1];
+}
+
+static inline double sli_segment_weight(const sli_segment_network *n, uint32_t place) {
+    return n->weights ? n->weights[n->pieces[place] / 2] : 1;
 }
 
 #endif

@@ -1,4 +1,4 @@
-/// Dijkstra 1959, from both ends of the root's chain at once.
+/// Dijkstra 1959, from both ends of a chain at once.
 #include "analysis/axial/segment_search.h"
 
 #include <math.h>
@@ -7,14 +7,16 @@
 _Static_assert((int)SLI_BUCKETS > SLI_MOST_OF_CHAIN + (int)SLI_UNITS_OF_HALF_TURN, "a step's turn");
 
 void sli_segment_search_destroy(sl_context *context, sli_segment_search *s) {
-    sl_free(context, s->states);
+    sl_free(context, s->chains);
+    sl_free(context, s->paths);
     sl_free(context, s->met);
     sl_free(context, s->wanted);
     sl_free(context, s->order);
-    sl_free(context, s->touched);
+    sl_free(context, s->reached);
     sl_free(context, s->far);
     sl_free(context, s->corners);
     sl_free(context, s->chosen);
+    sl_free(context, s->last);
     sl_free(context, s->waiting.items);
     sl_free(context, s->queue.items);
     *s = (sli_segment_search){0};
@@ -23,18 +25,24 @@ void sli_segment_search_destroy(sl_context *context, sli_segment_search *s) {
 sl_status sli_segment_search_make(sl_context *context, const sli_segment_network *n,
                                   const sl_segment_options *options, sli_segment_search *s) {
     const size_t chains = (size_t)n->chain_count + 1, corners = (size_t)n->corner_count + 1;
-    *s = (sli_segment_search){.states = sl_alloc_array(context, 2 * chains, sizeof *s->states)};
+    *s = (sli_segment_search){.chains = sl_alloc_array(context, chains, sizeof *s->chains)};
+    s->paths = sl_alloc_array(context, 4 * chains, sizeof *s->paths);
     s->met = sl_alloc_array(context, chains, sizeof *s->met);
     s->wanted = sl_alloc_array(context, chains, sizeof *s->wanted);
-    s->order = sl_alloc_array(context, 2 * chains, sizeof *s->order);
-    s->touched = sl_alloc_array(context, 2 * chains, sizeof *s->touched);
+    s->order = sl_alloc_array(context, 4 * chains, sizeof *s->order);
+    s->reached = sl_alloc_array(context, chains, sizeof *s->reached);
     s->far = sl_alloc_array(context, corners, sizeof *s->far);
     s->corners = sl_alloc_array(context, corners, sizeof *s->corners);
     s->chosen = sl_alloc_array(context, chains, sizeof *s->chosen);
-    if (!s->states || !s->met || !s->wanted || !s->order || !s->touched || !s->far || !s->corners ||
-        !s->chosen)
+    s->last = sl_alloc_array(context, 4 * chains, sizeof *s->last);
+    if (!s->chains || !s->paths || !s->met || !s->wanted || !s->order || !s->reached || !s->far ||
+        !s->corners || !s->chosen || !s->last)
         return SL_NO_MEMORY;
-    for (size_t i = 0; i < 2 * chains; i++) s->states[i].key = SLI_FAR;
+    for (uint32_t i = 0; i < n->chain_count; i++)
+        s->chains[i] = (sli_segment_chain){.keys = {SLI_FAR, SLI_FAR, SLI_FAR, SLI_FAR},
+                                           .last = sli_offset_of_last(n, i),
+                                           .first = {n->first[2 * i], n->first[2 * i + 1]}};
+    for (size_t i = 0; i < 4 * chains; i++) s->paths[i] = 1;
     for (size_t i = 0; i < chains; i++) s->wanted[i] = !(options->metric_radius > 0);
     for (size_t i = 0; i < corners; i++) s->far[i] = INFINITY;
     return SL_OK;
@@ -71,10 +79,10 @@ static sl_status want(sl_context *context, const sli_segment_network *n, double 
     }
     while (s->queue.count) {
         const sli_segment_entry e = sli_segment_queue_pop(&s->queue);
-        const double here = s->far[e.state];
+        const double here = s->far[e.at];
         if (e.key > bits_of(here)) continue;
         if (here > radius) break;
-        for (uint32_t i = n->first_at[e.state]; i < n->first_at[e.state + 1]; i++) {
+        for (uint32_t i = n->first_at[e.at]; i < n->first_at[e.at + 1]; i++) {
             const uint32_t segment = n->at[i] / 2, to = n->corners[segment][1 - n->at[i] % 2];
             if (segment == root) continue;
             if (!s->wanted[segment] && here + n->lengths[segment] / 2 <= radius) {
@@ -91,13 +99,27 @@ static sl_status want(sl_context *context, const sli_segment_network *n, double 
     return SL_OK;
 }
 
-static sl_status put_waiting(sl_context *context, sli_segment_search *s, sli_segment_entry e) {
-    const uint64_t turn = e.key >> SLI_STEP_BITS;
+/// A way's key was `before`.
+static inline sl_status put(sl_context *context, const sli_segment_network *n,
+                            sli_segment_search *s, uint32_t way, uint64_t before) {
+    const uint64_t key = sli_way_key(s, way), turn = key >> SLI_STEP_BITS;
+    if (turn == s->turn && n->straight[sli_state_of(way)])
+        return sli_segment_queue_push(context, &s->queue, (sli_segment_entry){key, way});
+    if (before >> SLI_STEP_BITS == turn) return SL_OK; // it waits there
+    if (turn == s->turn) {
+        s->last[s->last_count++] = way;
+        return SL_OK;
+    }
     const uint32_t bucket = turn % SLI_BUCKETS;
-    if (turn == s->turn) return sli_segment_queue_push(context, &s->queue, e);
-    SL_TRY(SL_ARRAY_ROOM(context, &s->waiting, 1));
-    s->waiting.items[s->waiting.count++] = (sli_segment_waiting){e, s->buckets[bucket]};
-    s->buckets[bucket] = (uint32_t)s->waiting.count;
+    uint32_t place = s->unused;
+    if (place) {
+        s->unused = s->waiting.items[place - 1].next;
+    } else {
+        SL_TRY(SL_ARRAY_ROOM(context, &s->waiting, 1));
+        place = (uint32_t)++s->waiting.count;
+    }
+    s->waiting.items[place - 1] = (sli_segment_waiting){way, s->buckets[bucket]};
+    s->buckets[bucket] = place;
     s->filled[bucket / 64] |= (uint64_t)1 << bucket % 64;
     return SL_OK;
 }
@@ -113,17 +135,26 @@ static uint32_t next_bucket(const sli_segment_search *s, uint32_t from) {
     return SLI_BUCKETS;
 }
 
-/// Takes the next turn at hand, and its states into the queue; false at the end.
-static sl_status take_turn(sl_context *context, sli_segment_search *s, bool *found) {
+/// Takes the next turn at hand, and its ways; false at the end.
+static sl_status take_turn(sl_context *context, const sli_segment_network *n, sli_segment_search *s,
+                           bool *found) {
     const uint32_t bucket = next_bucket(s, s->turn % SLI_BUCKETS);
     *found = bucket < SLI_BUCKETS;
     if (!*found) return SL_OK;
     s->turn += (bucket + SLI_BUCKETS - s->turn % SLI_BUCKETS) % SLI_BUCKETS;
-    for (uint32_t i = s->buckets[bucket]; i;) {
-        const sli_segment_waiting *w = &s->waiting.items[i - 1];
-        if (w->entry.key == s->states[w->entry.state].key)
-            SL_TRY(sli_segment_queue_push(context, &s->queue, w->entry));
-        i = w->next;
+    for (uint32_t i = s->buckets[bucket], next; i; i = next) {
+        sli_segment_waiting *w = &s->waiting.items[i - 1];
+        const uint32_t way = w->way;
+        const uint64_t key = sli_way_key(s, way);
+        next = w->next;
+        w->next = s->unused;
+        s->unused = i;
+        if (key >> SLI_STEP_BITS != s->turn) continue; // it was nearer
+        if (n->straight[sli_state_of(way)])
+            SL_TRY(sli_segment_queue_push(context, &s->queue, (sli_segment_entry){key, way}));
+        else
+            s->last[s->last_count++] = way;
+        __builtin_prefetch(&n->arcs[s->chains[way / 4].first[way % 2]]);
     }
     s->buckets[bucket] = 0;
     s->filled[bucket / 64] &= ~((uint64_t)1 << bucket % 64);
@@ -132,88 +163,148 @@ static sl_status take_turn(sl_context *context, sli_segment_search *s, bool *fou
 
 /// Sets back what the search before has touched.
 static void forget(sli_segment_search *s) {
-    for (uint32_t i = 0; i < s->touched_count; i++) {
-        s->states[s->touched[i]].key = SLI_FAR;
-        s->met[s->touched[i] / 2] = false;
+    for (uint32_t i = 0; i < s->reached_count; i++) {
+        const uint32_t chain = s->reached[i];
+        for (uint32_t k = 0; k < 4; k++) s->chains[chain].keys[k] = SLI_FAR;
+        for (uint32_t k = 0; k < 4 && s->several; k++) s->paths[4 * (size_t)chain + k] = 1;
+        s->met[chain] = false;
     }
     memset(s->buckets, 0, sizeof s->buckets);
     memset(s->filled, 0, sizeof s->filled);
-    s->touched_count = s->count = 0;
+    s->reached_count = s->count = s->last_count = s->unused = 0;
     s->queue.count = s->waiting.count = 0;
     s->turn = 0;
+    s->several = false;
 }
 
-/// From the end of a chain, which has this key. `before`: the state that the walk is in.
+typedef struct place_home {
+    uint32_t chain;
+    uint64_t last; ///< offset of its last piece
+} place_home;
+
+/// A walk may come into a chain by one end so much later than another walk by the other end that no
+/// shortest path begins with it:
+///
+///   x  front        back       A walk from x comes into the front with the key k. From x it may
+///    \  |             |        also go on into z, which is at most a half turn: with a key of
+///     --o--o--o--o--o--o--     at most k + half turn. A later walk comes into the back, with the
+///    /                         key k'. It is of use neither to pieces of the chain, if k' is over
+///   z                          k + offset of the last piece, nor beyond the front, if k' + this
+///                              offset is k + half turn or more. If z is x, backwards, the same
+///                              holds one chain earlier.
+///
+/// Returns the largest k' - k that may be of use.
+static inline uint64_t slack_of(uint64_t last) {
+    const uint64_t half_turn = (uint64_t)SLI_UNITS_OF_HALF_TURN << SLI_STEP_BITS;
+    return 2 * last < half_turn ? half_turn - last - 1 : last;
+}
+
+/// Whether no piece at home gains by a way with this key. A piece at home is up to `home.last`
+/// nearer to the end that one tree starts from than to that of the other.
+static inline bool is_useless(const sli_segment_chain *c, uint32_t way, uint64_t key,
+                              place_home home) {
+    const uint64_t slack = slack_of(c->last);
+    return key > c->keys[way % 4 ^ 1] + slack || key > c->keys[way % 4 ^ 2] + home.last ||
+           key > c->keys[way % 4 ^ 3] + slack + home.last;
+}
+
+/// From the end of a chain, which has this key, along its arcs from the first on. `before`: the way
+/// or start that the walk is in.
 static inline sl_status walk_on(sl_context *context, const sli_segment_network *n,
-                                sli_segment_search *s, uint32_t state, uint64_t end,
-                                uint32_t before) {
-    const double paths = s->states[before].paths;
-    for (size_t i = n->first[state]; i < n->first[state + 1]; i++) {
-        const uint64_t key = sli_key_after(&n->arcs[i], end);
-        sli_segment_state *to = &s->states[n->arcs[i].to];
-        if (key > to->key) continue;
-        if (key == to->key) {
-            to->paths += paths;
-            to->before = SLI_SEVERAL;
+                                sli_segment_search *s, place_home home, uint32_t first,
+                                uint32_t tree, uint64_t end, uint32_t before) {
+    if (first == n->arc_count) return SL_OK;
+    const sli_segment_arc *arc = &n->arcs[first];
+    do {
+        const uint64_t key = sli_key_after(arc, end);
+        const uint32_t to = sli_way(arc->to, tree);
+        sli_segment_chain *c = &s->chains[to / 4];
+        const uint64_t was = c->keys[to % 4];
+        if (key > was) continue;
+        if (key == was) {
+            c->before[to % 4] = SLI_SEVERAL;
+            s->several = true;
             continue;
         }
-        if (to->key == SLI_FAR) s->touched[s->touched_count++] = n->arcs[i].to;
-        *to = (sli_segment_state){.key = key, .paths = paths, .before = before};
-        SL_TRY(put_waiting(context, s, (sli_segment_entry){key, n->arcs[i].to}));
-    }
+        if (is_useless(c, to, key, home)) continue;
+        if (was == SLI_FAR && c->keys[to % 4 ^ 1] == SLI_FAR && c->keys[to % 4 ^ 2] == SLI_FAR &&
+            c->keys[to % 4 ^ 3] == SLI_FAR) {
+            s->reached[s->reached_count++] = to / 4;
+            __builtin_prefetch(&n->arcs[c->first[0]]);
+            __builtin_prefetch(&n->arcs[c->first[1]]);
+        }
+        c->keys[to % 4] = key;
+        c->before[to % 4] = before;
+        SL_TRY(put(context, n, s, to, was));
+    } while (!arc++->ends);
     return SL_OK;
 }
 
-/// The key of the end of the root's chain, in this state.
-static uint64_t root_end(const sli_segment_network *n, uint32_t root, uint32_t state) {
-    const uint64_t offset = n->offsets[n->place_of[root]];
-    return state % 2 ? offset : sli_offset_of_last(n, state / 2) - offset;
-}
+typedef struct chains_left {
+    uint32_t count;    ///< that are wanted and not met
+    uint64_t farthest; ///< key at home, and in the chains that are met
+} chains_left;
 
-/// Finds the least turns, until all that is wanted is found.
-static sl_status search(sl_context *context, const sli_segment_network *n, double radius,
-                        sli_segment_search *s, uint32_t root, uint32_t left) {
-    const uint32_t home = n->chain_of[root];
-    uint64_t farthest = 0; // at home, and in the chains that are met
-    bool found = true;
-    s->most = SLI_FAR;
-    if (radius > 0 && radius < 1e6)
-        s->most = ((uint64_t)floor(radius * SLI_UNITS_OF_RIGHT_ANGLE) + 1) << SLI_STEP_BITS;
-    for (uint32_t e = 0; e < 2; e++) {
-        const uint64_t end = root_end(n, root, 2 * home + e);
-        const uint32_t start = 2 * n->chain_count + e;
-        if (end > farthest) farthest = end;
-        s->states[start] = (sli_segment_state){.key = end, .paths = 1};
-        SL_TRY(walk_on(context, n, s, 2 * home + e, end, start));
-    }
-    if (!left && farthest < s->most) s->most = farthest + 1;
-    while (found) {
-        if (!s->queue.count) {
-            SL_TRY(take_turn(context, s, &found));
-            continue;
-        }
-        const sli_segment_entry e = sli_segment_queue_pop(&s->queue);
-        const uint32_t chain = e.state / 2;
-        if (e.key != s->states[e.state].key) continue;
-        if (e.key >= s->most) break;
-        const uint64_t end = e.key + sli_offset_of_last(n, chain);
-        s->order[s->count++] = e.state;
-        if (chain == home) continue;
-        if (s->wanted[chain] && !s->met[chain]) {
-            if (end > farthest) farthest = end;
-            if (--left == 0 && farthest < s->most) s->most = farthest + 1;
-        }
+/// Takes a way whose key is known.
+static inline sl_status finish(sl_context *context, const sli_segment_network *n,
+                               sli_segment_search *s, place_home home, uint32_t way,
+                               chains_left *left) {
+    const uint32_t chain = way / 4;
+    const sli_segment_chain *c = &s->chains[chain];
+    const uint64_t key = c->keys[way % 4], end = key + c->last;
+    if (key >= s->most || is_useless(c, way, key, home)) return SL_OK;
+    s->order[s->count++] = (sli_segment_done){way, c->before[way % 4]};
+    if (chain == home.chain) return SL_OK;
+    if (!s->met[chain]) {
         s->met[chain] = true;
-        SL_TRY(walk_on(context, n, s, e.state, end, e.state));
+        if (s->wanted[chain]) {
+            if (end > left->farthest) left->farthest = end;
+            if (--left->count == 0 && left->farthest + home.last < s->most)
+                s->most = left->farthest + home.last + 1;
+        }
     }
-    return SL_OK;
+    return walk_on(context, n, s, home, c->first[way % 2], sli_tree_of(way), end, way);
+}
+
+/// Where several paths have one key, all are counted afterwards.
+static void count_paths(const sli_segment_network *n, sli_segment_search *s, uint32_t home) {
+    for (uint32_t k = 0; k < s->count; k++) {
+        const sli_segment_done *d = &s->order[k];
+        if (d->before != SLI_SEVERAL) {
+            s->paths[d->way] = s->paths[d->before];
+            continue;
+        }
+        sli_segment_origin from = sli_segment_origins(n, s, d->way, home);
+        s->paths[d->way] = 0;
+        for (uint32_t way; sli_segment_origin_next(&from, &way);) s->paths[d->way] += s->paths[way];
+    }
 }
 
 sl_status sli_segment_search_run(sl_context *context, const sli_segment_network *n,
-                                 const sl_segment_options *options, uint32_t root,
+                                 const sl_segment_options *options, uint32_t home,
                                  sli_segment_search *s) {
-    uint32_t wanted;
-    SL_TRY(want(context, n, options->metric_radius, s, root, &wanted));
+    const place_home from = {home, sli_offset_of_last(n, home)};
+    const double radius = options->angular_radius;
+    chains_left left = {.farthest = from.last};
+    SL_TRY(want(context, n, options->metric_radius, s, home, &left.count));
     forget(s);
-    return search(context, n, options->angular_radius, s, root, wanted);
+    s->most = SLI_FAR;
+    if (radius > 0 && radius < 1e6)
+        s->most = ((uint64_t)floor(radius * SLI_UNITS_OF_RIGHT_ANGLE) + 1) << SLI_STEP_BITS;
+    if (!left.count && left.farthest + from.last < s->most) s->most = left.farthest + from.last + 1;
+    for (uint32_t tree = 0; tree < 2; tree++)
+        SL_TRY(walk_on(context, n, s, from, n->first[2 * home + tree], tree, 0,
+                       sli_tree_start(n, tree)));
+    for (bool found = true; found && s->turn << SLI_STEP_BITS < s->most;) {
+        while (s->queue.count) {
+            const sli_segment_entry e = sli_segment_queue_pop(&s->queue);
+            if (e.key == sli_way_key(s, e.at)) SL_TRY(finish(context, n, s, from, e.at, &left));
+        }
+        for (uint32_t i = 0; i < s->last_count; i++)
+            SL_TRY(finish(context, n, s, from, s->last[i], &left));
+        s->last_count = 0;
+        SL_TRY(take_turn(context, n, s, &found));
+    }
+    if (s->several) count_paths(n, s, home);
+    return SL_OK;
 }

@@ -271,8 +271,10 @@ SLP_API size_t slp_level_vga_copy(const slp_level *level, double *points, double
 enum { SLP_LINES_ALL, SLP_LINES_SUBSETS, SLP_LINES_FEWEST };
 /// Finds the axial lines of what is inside, measures them, and keeps both. A radius of 0: none.
 SLP_API int slp_level_axial(slp_level *level, int kept, uint32_t radius, unsigned threads);
-/// Measures the walls as a network of lines, cut where they cross. A radius of 0: none.
+/// Measures the walls as a network of lines, cut where they cross. A radius of 0: none. `weights`:
+/// by wall, or NULL; pieces of a wall share its weight by length. `unlinks`: x, y of crossings.
 SLP_API int slp_plan_segments(slp_plan *plan, double metric_radius, double angular_radius,
+                              const double *weights, const double *unlinks, size_t unlink_count,
                               unsigned threads);
 /// The number of lines kept, and their ends and measures, which may be NULL.
 SLP_API size_t slp_lines_copy(const void *handle, double *lines, double *values);

@@ -3,6 +3,7 @@
 
 #include "sightline/axial.h"
 
+#include <math.h>
 #include <string.h>
 
 enum { AXIAL_COLUMNS = sizeof(sl_axial_measures) / sizeof(double) };
@@ -59,12 +60,36 @@ int slp_level_axial(slp_level *level, int kept, uint32_t radius, unsigned thread
     return status;
 }
 
+/// Of each line kept, its share of the weight of its wall.
+static sl_status share_weights(slp_plan *plan, const sl_map *clean, const double *weights,
+                               double *out) {
+    sl_context *context = plan->base.context;
+    const slp_lines *kept = &plan->base.lines;
+    double *lengths = sl_alloc_array(context, plan->map.wall_count + 1, sizeof *lengths);
+    if (!lengths) return SL_NO_MEMORY;
+    for (size_t i = 0; i < kept->count; i++) {
+        out[i] =
+            hypot(kept->lines[i].b.x - kept->lines[i].a.x, kept->lines[i].b.y - kept->lines[i].a.y);
+        lengths[clean->walls[i].line] += out[i];
+    }
+    for (size_t i = 0; i < kept->count; i++) {
+        const size_t wall = clean->walls[i].line;
+        out[i] = weights[wall] * (out[i] / lengths[wall]);
+    }
+    sl_free(context, lengths);
+    return SL_OK;
+}
+
 /// The walls of a clean copy: cleaning cuts the lines where they cross and joins their ends.
-static sl_status take_walls(slp_plan *plan) {
+/// `weights`: by wall, or NULL; `own` gets those of the lines.
+static sl_status take_walls(slp_plan *plan, const double *weights, double **own) {
     sl_context *context = plan->base.context;
     sl_map map = {0};
     SL_TRY(sl_map_copy(context, &plan->map, &map));
-    for (size_t i = 0; i < map.wall_count; i++) map.walls[i].ground = 0;
+    for (size_t i = 0; i < map.wall_count; i++) {
+        map.walls[i].ground = 0;
+        map.walls[i].line = (uint32_t)i;
+    }
     sl_status status = sl_map_clean(context, &map, NULL, NULL);
     if (status == SL_OK && map.wall_count > INT32_MAX / 4)
         status = sl_fail(context, SL_UNSUPPORTED, "too many lines");
@@ -76,19 +101,44 @@ static sl_status take_walls(slp_plan *plan) {
     }
     for (size_t i = 0; status == SL_OK && i < map.wall_count; i++)
         kept->lines[i] = (sl_segment){map.walls[i].a, map.walls[i].b};
+    if (status == SL_OK && weights) {
+        *own = sl_alloc_array(context, map.wall_count, sizeof **own);
+        status = *own ? share_weights(plan, &map, weights, *own) : SL_NO_MEMORY;
+    }
     sl_map_destroy(context, &map);
     return status;
 }
 
+static sl_status find_unlinks(slp_plan *plan, const double *points, size_t count,
+                              sl_point *unlinks) {
+    const slp_lines *kept = &plan->base.lines;
+    for (size_t i = 0; i < count; i++)
+        SL_TRY(sl_segment_crossing(plan->base.context, kept->lines, (uint32_t)kept->count,
+                                   (sl_point){points[2 * i], points[2 * i + 1]}, &unlinks[i]));
+    return SL_OK;
+}
+
 int slp_plan_segments(slp_plan *plan, double metric_radius, double angular_radius,
+                      const double *weights, const double *unlinks, size_t unlink_count,
                       unsigned threads) {
-    const sl_segment_options options = {metric_radius, angular_radius, threads};
+    sl_context *context = plan->base.context;
     slp_lines *kept = &plan->base.lines;
+    double *own = NULL;
     slp_lines_forget(&plan->base);
-    sl_status status = take_walls(plan);
+    sl_point *crossings = sl_alloc_array(context, unlink_count, sizeof *crossings);
+    sl_status status = crossings ? take_walls(plan, weights, &own) : SL_NO_MEMORY;
+    if (status == SL_OK) status = find_unlinks(plan, unlinks, unlink_count, crossings);
+    const sl_segment_options options = {.metric_radius = metric_radius,
+                                        .angular_radius = angular_radius,
+                                        .threads = threads,
+                                        .weights = own,
+                                        .unlinks = crossings,
+                                        .unlink_count = (uint32_t)unlink_count};
     if (status == SL_OK)
-        status = sl_segment_measure(plan->base.context, kept->lines, (uint32_t)kept->count,
-                                    &options, (sl_segment_measures *)kept->values);
+        status = sl_segment_measure(context, kept->lines, (uint32_t)kept->count, &options,
+                                    (sl_segment_measures *)kept->values);
+    sl_free(context, own);
+    sl_free(context, crossings);
     if (status != SL_OK) slp_lines_forget(&plan->base);
     return status;
 }

@@ -88,7 +88,12 @@ typedef struct sl_segment_options {
     double metric_radius;  ///< segments up to this far along the network, from middle to middle
     double angular_radius; ///< segments that paths lead to with up to this turn, in right angles
     unsigned threads;
+    const double *weights;   ///< by segment, from 0 to SL_SEGMENT_WEIGHT_MAX; NULL: 1
+    const sl_point *unlinks; ///< crossings that are no junctions (sl_segment_crossing)
+    uint32_t unlink_count;
 } sl_segment_options;
+
+#define SL_SEGMENT_WEIGHT_MAX 1e100
 
 /// Of a segment (Turner 2007, From axial to road-centre lines). Angles are rounded to 1024th parts
 /// of a full turn, as in depthmapX' analyses T1024. NAN for a measure that is not defined.
@@ -99,10 +104,20 @@ typedef struct sl_segment_measures {
 
 /// Measures segments that meet at common ends only, as walls of a clean map do (sl_map_clean).
 /// Paths turn least. Of those that turn equally, the ones of the fewest segments count, and share
-/// the 1 of their pair. SL_BAD_ARGUMENT for a segment without length.
+/// the 1 of their pair. With weights, a segment counts as its weight in node count and total depth,
+/// and a pair as the product of both weights in choice, as in depthmapX. At an unlinked crossing,
+/// where four segments meet, a path only goes straight on: from each to the second one around.
+/// SL_BAD_ARGUMENT for a segment without length, a weight out of range, and an unlink where there
+/// are not four.
 SL_API sl_status sl_segment_measure(sl_context *context, const sl_segment *segments, uint32_t count,
                                     const sl_segment_options *options,
                                     sl_segment_measures *measures);
+
+/// The end of segments that is nearest to a point: the crossing that is meant by it.
+/// SL_BAD_ARGUMENT if there are not four segments, or if the point is farther from it than half the
+/// shortest of them. Time O(count).
+SL_API sl_status sl_segment_crossing(sl_context *context, const sl_segment *segments,
+                                     uint32_t count, sl_point point, sl_point *crossing);
 
 #ifdef __cplusplus
 }

@@ -129,7 +129,7 @@ _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     "level_vga": (_int, [_handle, ctypes.POINTER(Vga), _doubles, _size, _doubles, _size]),
     "level_vga_copy": (_size, [_handle, _any, _any, _any, _any]),
     "level_axial": (_int, [_handle, _int, _uint32, _uint32]),
-    "plan_segments": (_int, [_handle, _double, _double, _uint32]),
+    "plan_segments": (_int, [_handle, _double, _double, _any, _doubles, _size, _uint32]),
     "lines_copy": (_size, [_handle, _any, _any]),
     "level_explain": (_int, [_handle, ctypes.c_int64, ctypes.c_int64, _uint32, _integers,
                              _doubles]),

@@ -1,12 +1,13 @@
 """Axial lines of a plan, and segments of a network of lines."""
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Optional
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from . import tables
-from ._library import Handle, as_count, as_flag, as_number, call
+from ._library import Handle, address, as_count, as_flag, as_number, as_points, as_reals, call
 
 KEPT = ("all", "subsets", "fewest")
 
@@ -62,7 +63,7 @@ class Axial(Lines):
         >>> level = sightline.Plan.from_segments([(0, 0, 8, 0), (8, 0, 8, 4), (8, 4, 0, 4),
         ...                                       (0, 4, 0, 0), (4, 0, 4, 3)]).space()
         >>> len(level.axial(arrays=True)["connectivity"])
-        2
+        1
         """
         if lines not in KEPT:
             raise ValueError(f"lines must be one of {', '.join(KEPT)}, not {lines!r:.40}")
@@ -76,8 +77,9 @@ class Axial(Lines):
 class Segments(Lines):
     """What plans answer about their walls as a network."""
 
-    def segments(self, *, metric_radius: float = 0, angular_radius: float = 0, threads: int = 0,
-                 geometry: bool = False, arrays: bool = False) -> Any:
+    def segments(self, *, metric_radius: float = 0, angular_radius: float = 0,
+                 weights: Optional[ArrayLike] = None, unlinks: Optional[ArrayLike] = None,
+                 threads: int = 0, geometry: bool = False, arrays: bool = False) -> Any:
         """Angular segment analysis of the walls as a network: street centre lines, axial lines.
 
         Lines are cut where they cross. Names are those of depthmapX.
@@ -88,6 +90,11 @@ class Segments(Lines):
             Only segments up to this far along the network; 0 for no limit.
         angular_radius
             Only segments up to this turn, in right angles; 0 for no limit.
+        weights
+            A number from 0 for each wall. Its pieces share it by length. A segment then counts as
+            its weight in node count and depth, and a pair as the product of both in choice.
+        unlinks
+            Points (n, 2) of crossings that are no junctions, as bridges.
         threads, geometry, arrays
             As for `Level.axial`.
 
@@ -101,10 +108,21 @@ class Segments(Lines):
         >>> cross = sightline.Plan.from_segments([(0, 0, 2, 0), (1, -1, 1, 1)])
         >>> cross.segments(arrays=True)["connectivity"].tolist()
         [3.0, 3.0, 3.0, 3.0]
+        >>> cross.segments(unlinks=[(1, 0)], arrays=True)["connectivity"].tolist()
+        [1.0, 1.0, 1.0, 1.0]
         """
         metric = as_number(metric_radius, "metric_radius", least=0)
         angular = as_number(angular_radius, "angular_radius", least=0)
         geometry, arrays = as_flag(geometry, "geometry"), as_flag(arrays, "arrays")
+        points = np.empty((0, 2)) if unlinks is None else np.atleast_2d(as_points(unlinks, "unlinks"))
         with self._lock:
-            self._ask_long(call.plan_segments, metric, angular, as_count(threads, "threads", 1024))
+            own = None
+            if weights is not None:
+                own = as_reals(weights, "weights")
+                walls = len(self._segments("wall"))
+                if own.shape != (walls,):
+                    raise ValueError(f"weights must be an array of {walls} numbers, one for each wall, "
+                                     f"not of shape {own.shape}")
+            self._ask_long(call.plan_segments, metric, angular, None if own is None else address(own),
+                           points, len(points), as_count(threads, "threads", 1024))
             return self._lines("segment_measures", geometry, arrays)

@@ -40,6 +40,22 @@ class Lines(unittest.TestCase):
                       support.command("segments", table, "--angular-radius", 1.5, "-q"))
         self.assertEqual(len(sightline.Plan().segments(arrays=True)["x1"]), 0)
 
+    def test_weights_and_unlinks(self):
+        roads = [(0, 0, 4, 0), (1, -1, 1, 2), (3, -1, 3, 3)]
+        plan = sightline.Plan.from_segments(roads)
+        with tempfile.TemporaryDirectory() as folder:
+            table, bridge = pathlib.Path(folder) / "roads.csv", pathlib.Path(folder) / "bridge.csv"
+            table.write_text("x1,y1,x2,y2,lanes\n" + "".join(f"{','.join(map(str, road))},{lanes}\n"
+                             for road, lanes in zip(roads, (2, 3, 1))), encoding="utf-8")
+            bridge.write_text("x,y\n1,0.1\n", encoding="utf-8")
+            wanted = support.table(support.command("segments", table, "--weight", "lanes", "--unlinks", bridge, "-q"))
+        got = plan.segments(weights=[2, 3, 1], unlinks=[(1, 0.1)], arrays=True)
+        for name in ("t1024_choice", "t1024_integration", "t1024_node_count", "t1024_total_depth"):
+            np.testing.assert_allclose(got[name], wanted[f"{name}_weighted"], rtol=1e-8, err_msg=name)
+        self.assertRaises(sightline.SightlineError, plan.segments, unlinks=[(2, 0)])
+        for weights in ([1, 2], [1, 2, -1], [[1, 2, 3]]):
+            self.assertRaises((ValueError, sightline.SightlineError), plan.segments, weights=weights)
+
     def test_doors(self):
         plan = sightline.Plan.from_segments(support.TWO_ROOMS)
         plan.add_door("way", (4, 3, 4, 4), is_open=True)
