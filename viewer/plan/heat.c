@@ -271,7 +271,7 @@ static bool is_grey(const heat_layer *layer, uint32_t point) {
 
 uint32_t heat_layer_part(const view_state *view, uint32_t point) {
     const heat_layer *layer = view->heat;
-    return layer->parts && layer->part_count > 1 ? layer->parts[point] + 1 : 0;
+    return layer && layer->parts && layer->part_count > 1 ? layer->parts[point] + 1 : 0;
 }
 
 /// The value of a point in the other plan; NAN where it has none.
