@@ -301,10 +301,70 @@ static void stopped(void **state) {
     viewer_end(app);
 }
 
+static void wait_for_search(app_state *app) {
+    while (cameras_progress(app->view.cameras).running) app_tick(app, 0.01);
+}
+
+/// What is looked for is like the chosen camera. Those that stand are kept where that is asked for:
+/// one more sees more than they did, and the fewest for the rest see all that can be seen.
+static void like_the_chosen(void **state) {
+    (void)state;
+    app_state *app = start(MAPS "/oblique/comb.map", true);
+    click(app, (sl_point){6, 0.5});
+    for (int i = 0; i < 54; i++) viewer_press(app, ",");
+    viewer_press(app, "Ctrl+K");
+    input_text(app, "gate");
+    viewer_press(app, "Return");
+    app_tick(app, 0);
+    const camera_layer *layer = app->view.cameras;
+    assert_true(layer->table.items[0].view.fov == 90);
+    const double unseen = camera_class_area(layer, 0);
+    viewer_press(app, "Ctrl+Space");
+    wait_for_search(app);
+    assert_int_equal(layer->table.count, 2);
+    assert_string_equal(layer->table.items[0].name, "gate");
+    assert_true(layer->table.items[1].view.fov == 90);
+    app_tick(app, 0);
+    assert_true(camera_class_area(layer, 0) < unseen);
+    assert_surveyed(app);
+    viewer_press(app, "Up"); // the last one
+    viewer_press(app, "Shift+Space");
+    wait_for_search(app);
+    assert_true(layer->table.count > 2);
+    assert_string_equal(layer->table.items[0].name, "gate");
+    for (size_t i = 0; i < layer->table.count; i++)
+        assert_true(layer->table.items[i].view.fov == 90);
+    assert_non_null(strstr(layer->proof, "places and headings"));
+    viewer_press(app, "Ctrl+Z");
+    assert_int_equal(layer->table.count, 2);
+    viewer_end(app);
+}
+
+/// A camera of a table that stands in no room is named.
+static void of_no_room(void **state) {
+    (void)state;
+    app_state *app = start(MAPS "/office.map", true);
+    char path[] = "/tmp/sightline-no-room-XXXXXX";
+    close(mkstemp(path));
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs("name,x,y\nhall,53,20\nfar off,900,900\n", file);
+    fclose(file);
+    assert_int_equal(cameras_read(&app->view, path), SL_OK);
+    assert_non_null(strstr(app->ui.message, "far off stands in no room"));
+    viewer_press(app, "Shift+Space");
+    assert_false(cameras_progress(app->view.cameras).running);
+    assert_non_null(strstr(app->ui.message, "far off stands in no room"));
+    remove(path);
+    viewer_end(app);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(by_pointer), cmocka_unit_test(names),
-                                       cmocka_unit_test(fewest),     cmocka_unit_test(map_changes),
-                                       cmocka_unit_test(tables),     cmocka_unit_test(stopped),
-                                       cmocka_unit_test(ground)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(by_pointer), cmocka_unit_test(names),
+        cmocka_unit_test(fewest),     cmocka_unit_test(map_changes),
+        cmocka_unit_test(tables),     cmocka_unit_test(stopped),
+        cmocka_unit_test(ground),     cmocka_unit_test(like_the_chosen),
+        cmocka_unit_test(of_no_room)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -133,7 +133,6 @@ static void seen_and_means(void **state) {
     app_state *app = start();
     char text[1024];
     press(app, "Ctrl+8");
-    app->view.eye.fov = 360;
     drag(app, (sl_point){150, 30}, (sl_point){150, 30});
     const room_map *map = room_map_shown(&app->view);
     const size_t own = app->view.table.chosen;
@@ -165,7 +164,6 @@ static void zones_are_drawn(void **state) {
     (void)state;
     app_state *app = start();
     press(app, "Ctrl+8");
-    app->view.eye.fov = 360;
     drag(app, (sl_point){150, 30}, (sl_point){150, 30});
     drag(app, (sl_point){110, 60}, (sl_point){130, 90});
     const room_map *map = room_map_shown(&app->view);

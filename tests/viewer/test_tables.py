@@ -55,6 +55,21 @@ def check_map(viewer, folder, plan):
         check_same(viewer, folder, name)
 
 
+TWO_PARTS = "sightline 1\nwalls 0 0 12 0 12 8 0 8 0 0\nwalls 8 0 8 8\n"
+
+
+def check_parts(viewer, folder):
+    """A plan of two parts that no sightline joins: the last column tells them apart."""
+    plan = folder / "two.map"
+    plan.write_text(TWO_PARTS)
+    viewer.script(folder, plan, "key 9\n" + export("key Ctrl+2\n", folder / "vga-shown.csv"))
+    shown = rows(folder / "vga-shown.csv")
+    step = float(shown[1]["y"]) - float(shown[0]["y"])
+    command(viewer, folder, "vga", plan, "--grid", f"{step:.6g}", "--measures", "visual", "-o", "vga.csv")
+    check_same(viewer, folder, "vga")
+    viewer.check({row["part"] for row in shown} == {"1", "2"}, "the table has no two parts")
+
+
 # In the office: a wall stands elsewhere, and another one is gone.
 BEFORE = ["wall 20 0 20 6.5\n", "wall 44 0 44 6.5\n"]
 AFTER = ["wall 22 0 22 6.5\n", ""]
@@ -94,6 +109,8 @@ def main():
             check_map(viewer, pathlib.Path(name), plan)
     with tempfile.TemporaryDirectory() as name:
         check_changes(viewer, pathlib.Path(name))
+    with tempfile.TemporaryDirectory() as name:
+        check_parts(viewer, pathlib.Path(name))
     viewer.end()
 
 

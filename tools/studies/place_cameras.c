@@ -148,16 +148,6 @@ static sl_status add_table(sl_context *context, const camera_plan *plan, const z
     return status;
 }
 
-/// How far apart places along walls are by default: a third of the range, but not more than a
-/// twentieth of the side of a square as large as the inside.
-static double usual_step(const camera_plan *plan, const sl_space *space) {
-    double area = 0;
-    for (uint32_t c = 0; c < space->cell_count; c++)
-        if (space->cells[c].inside) area += sl_space_area(space, c);
-    const double step = sqrt(area) / 20;
-    return plan->like.range > 0 ? fmin(step, plan->like.range / 3) : step;
-}
-
 static sl_status add_points(sl_context *context, const camera_plan *plan, const zone_list *forbid,
                             const sl_space *space, sl_query *query, camera_work *w) {
     const char *from = plan->from ? plan->from : "walls";
@@ -169,7 +159,7 @@ static sl_status add_points(sl_context *context, const camera_plan *plan, const 
     if (!corners && !walls && !grid) return add_table(context, plan, forbid, space, w);
     if (grid && !(step > 0))
         return sl_fail(context, SL_BAD_ARGUMENT, "--from grid: give the step, as grid:0.5");
-    if (walls && !(step > 0)) step = usual_step(plan, space);
+    if (walls && !(step > 0)) step = sl_place_step(space, plan->like.range);
     sl_point *points = NULL;
     uint32_t count = 0;
     SL_TRY(sl_place_points(context, query,

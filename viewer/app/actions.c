@@ -31,7 +31,7 @@
 // --- modes
 
 static void set_mode(app_state *app, view_mode mode) {
-    app->view.mode = mode;
+    view_set_mode(&app->view, mode);
     app->view.held = 0;
     app->learn.lesson.plays = false;
     quiz_forget(&app->learn);

@@ -197,7 +197,9 @@ DO(camera_deleted, camera_delete(&app->view))
 DO(camera_next, camera_choose(&app->view, 1))
 DO(camera_back, camera_choose(&app->view, -1))
 DO(camera_spot, camera_go_to_spot(&app->view, app->view.cameras ? app->view.cameras->spot : 0))
-DO(camera_find, cameras_find(&app->view))
+DO(camera_find, cameras_find(&app->view, SEARCH_FEWEST))
+DO(camera_more, cameras_find(&app->view, SEARCH_MORE))
+DO(camera_one, cameras_find(&app->view, SEARCH_ONE))
 
 static bool is_camera_find(const app_state *app) {
     return cameras_progress(app->view.cameras).running;
@@ -260,8 +262,13 @@ static const action_row rows[] = {
      heat_hold, is_heat_hold},
     {"heat_ranks", NULL, "Equal shares", "heat map: as many points in each colour", NOT_LEARN, 0,
      heat_ranks, is_heat_ranks},
-    {"camera_find", "Space", "Find the fewest", "cameras: the fewest that see everything", CAMERAS,
-     0, camera_find, is_camera_find},
+    {"camera_find", "Space", "Find the fewest",
+     "cameras: the fewest like the chosen one that see everything, in place of all", CAMERAS, 0,
+     camera_find, is_camera_find},
+    {"camera_more", "Shift+Space", "Add fewest",
+     "cameras: keep all, and add the fewest for the rest", CAMERAS, 0, camera_more, NULL},
+    {"camera_one", "Ctrl+Space", "Add one",
+     "cameras: keep all, and add the one that sees most of the rest", CAMERAS, 0, camera_one, NULL},
     {"camera_left", "Left", NULL, "cameras: turn the chosen one left", CAMERAS, 0, camera_left,
      NULL},
     {"camera_right", "Right", NULL, "cameras: turn it right", CAMERAS, 0, camera_right, NULL},

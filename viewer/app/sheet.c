@@ -18,8 +18,8 @@
 // --- what is asked
 
 static const char *const papers[] = {"4:A4", "3:A3", "2:A2", "1:A1", "0:A0", "C:Cancel"};
-static const char *const scales[] = {"L:Largest", "5:1:50",  "1:1:100",
-                                     "2:1:200",   "0:1:500", "C:Cancel"};
+static const char *const scales[] = {"L:Largest", "5:1:50",  "1:1:100", "2:1:200",
+                                     "4:1:250",   "3:1:300", "0:1:500", "C:Cancel"};
 enum { PAPERS = sizeof papers / sizeof *papers - 1, SCALES = sizeof scales / sizeof *scales - 1 };
 /// An answer without the letter that chooses it.
 enum { LETTER = 2 };

@@ -37,6 +37,7 @@ void app_init(app_state *app, sl_context *context) {
                  .edit = {.chosen = UINT32_MAX},
                  .fitted = true,
                  .eye = {.fov = 90},
+                 .other_cone = 360,
                  .show =
                      SHOW_CELLS | SHOW_PORTALS | SHOW_CULL | SHOW_REGION | SHOW_STARTS | SHOW_NAMES,
                  .filled = {[LAYER_CULL] = 1},

@@ -100,7 +100,7 @@ static void take_document(app_state *app, bool opened) {
     from_line_clear(&app->view);
     compare_clear(&app->view);
     if (app->view.mode == MODE_EXPLORE && drawing_is(app->document.source.path))
-        app->view.mode = MODE_PLAN;
+        view_set_mode(&app->view, MODE_PLAN);
     walk_home(&app->view);
     map_file_taken(&app->desk);
     say_document(app);

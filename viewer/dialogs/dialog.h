@@ -42,7 +42,7 @@ typedef struct dialog_item {
     sl_box box;
 } dialog_item;
 
-enum { DIALOGS_MOST = 4, ITEMS_MOST = 40, ANSWERS_MOST = 6 };
+enum { DIALOGS_MOST = 4, ITEMS_MOST = 40, ANSWERS_MOST = 8 };
 
 /// A question, or a message where it has one answer.
 typedef struct question_state {

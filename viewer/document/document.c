@@ -400,10 +400,11 @@ static void drop_baked(sl_context *context, document_state *document) {
 
 static void count_cells(document_state *document) {
     const sl_space *space = &document->baked->space;
-    document->area = 0;
+    document->area = document->inside_area = 0;
     document->counted = document->solid = 0;
     for (uint32_t cell = 0; cell < space->cell_count; cell++) {
         document->solid += space->cells[cell].solid;
+        if (space->cells[cell].inside) document->inside_area += document->areas[cell];
         if (!sl_baked_counts(document->baked, cell)) continue;
         document->area += document->areas[cell];
         document->counted++;

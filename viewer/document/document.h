@@ -53,6 +53,7 @@ typedef struct document_state {
     sli_split *splits;     ///< of the kd-tree, by node
     double *areas;         ///< of the cells
     double area;           ///< of all cells that count
+    double inside_area;    ///< of all cells that are inside
     uint32_t counted;      ///< how many there are
     uint32_t solid;        ///< how many cells are solid ground
     uint32_t mirror_depth; ///< reflections of a sightline, at most

@@ -111,7 +111,7 @@ static void draw_spots(view_state *view, column *c) {
 void pane_cameras(learn_state *learn, sl_box box) {
     view_state *view = learn->view;
     column c = column_begin(learn->ui, box);
-    static const char *const find[] = {"camera_find", NULL};
+    static const char *const find[] = {"camera_find", "camera_more", "camera_one", NULL};
     static const char *const change[] = {"camera_name", "camera_copy", "camera_delete",
                                          "undo",        "redo",        NULL};
     static const char *const files[] = {"camera_import", "camera_export", NULL};

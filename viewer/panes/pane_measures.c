@@ -38,7 +38,7 @@ static void put_row(ui_state *ui, column *c, const char *label, const char *valu
 static void draw_plan_words(const view_state *view, column *c) {
     char area[VALUE_TEXT], text[256];
     if (!view->document->baked) return;
-    write_measure(view, view->document->area, "\xc2\xb2", area);
+    write_measure(view, view->document->inside_area, "\xc2\xb2", area);
     snprintf(text, sizeof text, "%s inside.%s", area,
              *view->document->map.unit
                  ? ""
@@ -233,7 +233,7 @@ static void draw_compare(const view_state *view, column *c) {
         column_words(view->ui, c, 0.95, view->ui->palette.ink,
                      path ? "Reading the other plan ..." : "Choose the other plan.");
     if (other) {
-        write_measure(view, view->document->area, "\xc2\xb2", text);
+        write_measure(view, view->document->inside_area, "\xc2\xb2", text);
         put_row(view->ui, c, "inside this plan", text);
         write_measure(view, other->area, "\xc2\xb2", text);
         put_row(view->ui, c, "inside the other plan", text);

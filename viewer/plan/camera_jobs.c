@@ -1,4 +1,6 @@
 /// What cameras see together, and the fewest that see everything: two tasks in the background.
+/// Cameras that look all round and without limit are looked for anywhere; others on walls, in
+/// eight directions; and so are those that are added to what stands.
 ///
 /// A task has a copy of the map, and cells and a query of its own. The survey keeps those from one
 /// run to the next, as long as the map stays. So a camera that is dragged costs its coverage alone,
@@ -8,10 +10,12 @@
 
 #include "document/task.h"
 #include "sightline/glpk.h"
-#include "sightline/place.h"
+#include "sightline/place_area.h"
 
 #include <stdio.h>
 #include <string.h>
+
+enum { HEADINGS = 8 };
 
 /// What a task looks at.
 typedef struct ground {
@@ -38,7 +42,14 @@ typedef struct search_job {
     task *task;
     ground ground;
     uint32_t version, touched;
-    sl_placement placement;
+    camera_search kind;
+    sl_cameras stand;       ///< that are kept
+    sl_viewpoint like;      ///< what those that are looked for look like
+    sl_placement placement; ///< anywhere
+    sl_viewpoint *places;   ///< else, where they may be: first those that stand
+    uint32_t *fixed;
+    sl_place_area area; ///< of these places
+    sl_area_placement placed;
     bool stopped; ///< it was stopped, and has a set
 } search_job;
 
@@ -167,14 +178,58 @@ static void follow_table(view_state *view, camera_jobs *jobs, bool wait) {
 
 // --- the search
 
+static bool is_anywhere(const search_job *job) {
+    return job->kind == SEARCH_FEWEST && job->like.fov >= 360 && !(job->like.range > 0) &&
+           !(job->like.nearest > 0);
+}
+
+/// Those that stand, then places on walls in all directions.
+static sl_status make_places(sl_context *context, search_job *job) {
+    const uint32_t headings = job->like.fov < 360 ? HEADINGS : 1;
+    const size_t stand = job->stand.count;
+    sl_query *query = job->ground.query;
+    sl_point *points = NULL;
+    uint32_t count = 0;
+    SL_TRY(sl_place_points(context, query, SL_PLACE_WALLS,
+                           sl_place_step(&job->ground.baked.space, job->like.range), &points,
+                           &count));
+    job->places = sl_alloc_array(context, stand + (size_t)count * headings, sizeof *job->places);
+    job->fixed = sl_alloc_array(context, stand, sizeof *job->fixed);
+    const bool good = job->places && job->fixed;
+    sl_place_area *area = &job->area;
+    for (; good && area->place_count < stand; area->place_count++) {
+        job->places[area->place_count] = job->stand.items[area->place_count].view;
+        job->fixed[area->place_count] = area->place_count;
+    }
+    for (uint32_t i = 0; good && i < count * headings; i++) {
+        sl_viewpoint *v = &job->places[area->place_count++];
+        *v = job->like;
+        v->at = points[i / headings];
+        v->heading = 360.0 * (i % headings) / headings;
+    }
+    sl_free(context, points);
+    area->places = job->places;
+    area->fixed = job->fixed;
+    area->fixed_count = (uint32_t)stand;
+    area->count = job->kind == SEARCH_ONE ? (uint32_t)stand + 1 : 0;
+    return good ? SL_OK : SL_NO_MEMORY;
+}
+
 /// Stopped, it keeps the best set.
 static sl_status search(sl_context *context, void *data) {
     search_job *job = data;
     sl_place_options options = sl_place_options_default();
     options.program = sl_cover_glpk();
     SL_TRY(make_ground(context, &job->ground));
-    const sl_status status = sl_place(context, job->ground.query, &options, &job->placement);
-    job->stopped = status == SL_CANCELLED && job->placement.count;
+    sl_status status;
+    if (is_anywhere(job)) {
+        status = sl_place(context, job->ground.query, &options, &job->placement);
+    } else {
+        SL_TRY(make_places(context, job));
+        status =
+            sl_place_area_cover(context, job->ground.query, &job->area, &options, &job->placed);
+    }
+    job->stopped = status == SL_CANCELLED && (job->placement.count || job->placed.count);
     return job->stopped ? SL_OK : status;
 }
 
@@ -182,15 +237,28 @@ static void drop_search(sl_context *context, search_job *job) {
     task_drop(context, job->task);
     drop_ground(context, &job->ground);
     sl_placement_destroy(context, &job->placement);
+    sl_area_placement_destroy(context, &job->placed);
+    sl_cameras_destroy(context, &job->stand);
+    sl_free(context, job->places);
+    sl_free(context, job->fixed);
     *job = (search_job){0};
 }
 
-/// The set becomes the table, to be undone. It looks all round and without limit.
+/// The chosen one of a set.
+static sl_camera found(const search_job *job, uint32_t number) {
+    if (is_anywhere(job)) return (sl_camera){.view = job->placement.viewpoints[number], .cost = 1};
+    const uint32_t place = job->placed.chosen[number];
+    if (place < job->stand.count) return job->stand.items[place];
+    return (sl_camera){.view = job->places[place], .cost = 1};
+}
+
+/// The set becomes the table, to be undone.
 static sl_status take_set(view_state *view, const search_job *job) {
+    const uint32_t count = is_anywhere(job) ? job->placement.count : job->placed.count;
     sl_cameras table = {0};
     sl_status status = SL_OK;
-    for (uint32_t i = 0; i < job->placement.count && status == SL_OK; i++) {
-        const sl_camera camera = {.view = job->placement.viewpoints[i], .cost = 1};
+    for (uint32_t i = 0; i < count && status == SL_OK; i++) {
+        const sl_camera camera = found(job, i);
         status = sl_cameras_add(view->context, &table, &camera);
     }
     if (status != SL_OK) {
@@ -198,9 +266,12 @@ static sl_status take_set(view_state *view, const search_job *job) {
         return status;
     }
     cameras_replace(view, &table);
-    sl_placement_say(&job->placement, "camera", job->stopped, view->cameras->proof,
-                     sizeof view->cameras->proof);
-    ui_say(view->ui, false, "%s Ctrl+Z brings the cameras before back.", view->cameras->proof);
+    char *proof = view->cameras->proof;
+    if (is_anywhere(job))
+        sl_placement_say(&job->placement, "camera", job->stopped, proof, PROOF_TEXT);
+    else
+        sl_area_placement_say(&job->area, &job->placed, 1, job->stopped, proof, PROOF_TEXT);
+    ui_say(view->ui, false, "%s Ctrl+Z brings the cameras before back.", proof);
     return SL_OK;
 }
 
@@ -231,7 +302,27 @@ void cameras_update(view_state *view, bool wait) {
     if (view->mode == MODE_CAMERAS) follow_table(view, layer->jobs, wait);
 }
 
-void cameras_find(view_state *view) {
+/// What those that are looked for look like: the chosen one, else as the last that was set.
+static sl_viewpoint wanted(const view_state *view) {
+    const sl_viewpoint *chosen = camera_chosen(view);
+    return chosen ? *chosen : view->cameras->like;
+}
+
+/// Those that are kept. One that stands in no room sees nothing, and is named.
+static sl_status keep_standing(view_state *view, search_job *job) {
+    const camera_layer *layer = view->cameras;
+    char name[CAMERA_NAME];
+    for (size_t i = 0; job->kind != SEARCH_FEWEST && i < layer->table.count; i++) {
+        camera_name(layer, i, name);
+        if (!camera_has_ground(view, layer->table.items[i].view.at))
+            return sl_fail(view->context, SL_BAD_ARGUMENT,
+                           "camera %s stands in no room: drag it into one, or delete it", name);
+        SL_TRY(sl_cameras_add(view->context, &job->stand, &layer->table.items[i]));
+    }
+    return SL_OK;
+}
+
+void cameras_find(view_state *view, camera_search kind) {
     camera_layer *layer = cameras_of(view);
     if (!layer || !view->document->baked) return;
     if (!layer->jobs) layer->jobs = sl_alloc_array(view->context, 1, sizeof *layer->jobs);
@@ -239,12 +330,19 @@ void cameras_find(view_state *view) {
     search_job *job = &layer->jobs->search;
     job->version = view->document->version;
     job->touched = view->document->touched;
-    sl_status status = copy_ground(view, &job->ground);
+    job->kind = kind;
+    job->like = wanted(view);
+    sl_status status = keep_standing(view, job);
+    if (status == SL_OK) status = copy_ground(view, &job->ground);
     if (status == SL_OK)
         status = task_start(view->context, search, job, "prepare", NULL, &job->task);
     view_check(view, status);
     if (status == SL_OK)
-        ui_say_working(view->ui, "looking for the fewest cameras; Esc stops, and keeps the best");
+        ui_say_working(view->ui, "looking for %s%s; Esc stops, and keeps the best",
+                       kind == SEARCH_ONE ? "one more camera" : "the fewest cameras",
+                       kind == SEARCH_MORE                           ? ", with those that stand"
+                       : kind == SEARCH_FEWEST && layer->table.count ? ", in place of these"
+                                                                     : "");
     else
         drop_search(view->context, job);
 }

@@ -11,7 +11,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { UNDO_TABLES = 100, SPOTS_DRAWN = 12 };
+enum { UNDO_TABLES = 100, SPOTS_DRAWN = 12, CAMERAS_NAMED = 4 };
 
 /// The parts of a camera that the pointer takes hold of.
 enum { PART_BODY, PART_HANDLE };
@@ -155,8 +155,7 @@ bool camera_undo(view_state *view, bool redo) {
 
 // --- the table, changed
 
-/// Whether a camera can stand there: inside, and not in solid ground.
-static bool has_ground(const view_state *view, sl_point at) {
+bool camera_has_ground(const view_state *view, sl_point at) {
     const sl_baked *baked = view->document->baked;
     const uint32_t cell = baked ? sl_space_locate(&baked->space, at) : SL_NO_CELL;
     return cell != SL_NO_CELL && sl_baked_counts(baked, cell);
@@ -174,7 +173,7 @@ static void add_row(view_state *view, const sl_camera *camera) {
 void camera_add(view_state *view, sl_point at) {
     camera_layer *layer = cameras_of(view);
     if (!layer || !view->document->baked) return;
-    if (!has_ground(view, at)) {
+    if (!camera_has_ground(view, at)) {
         ui_say(view->ui, false, "no camera can stand here: click in a room");
         return;
     }
@@ -194,7 +193,7 @@ void camera_copy(view_state *view) {
     const sl_point from = camera.view.at;
     for (int i = 0; i < 4; i++) {
         camera.view.at = (sl_point){from.x + by * sides[i][0], from.y + by * sides[i][1]};
-        if (has_ground(view, camera.view.at)) break;
+        if (camera_has_ground(view, camera.view.at)) break;
         camera.view.at = from;
     }
     camera.name = NULL;
@@ -308,13 +307,27 @@ void cameras_replace(view_state *view, sl_cameras *table) {
 sl_status cameras_read(view_state *view, const char *path) {
     const sl_viewpoint like = {.fov = 360};
     sl_cameras table = {0};
-    size_t outside = 0;
     SL_TRY(sl_cameras_read(view->context, path, &like, &table));
-    const size_t count = table.count;
-    for (size_t i = 0; i < count; i++) outside += !has_ground(view, table.items[i].view.at);
     cameras_replace(view, &table);
-    ui_say(view->ui, false, "%zu camera%s read%s", count, count == 1 ? "" : "s",
-           outside ? "; some stand in no room: drag them into one" : "");
+    if (!view->cameras) return SL_OK;
+    size_t outside = 0;
+    char say[CAMERAS_NAMED * (CAMERA_NAME + 2) + 96], name[CAMERA_NAME];
+    const size_t count = view->cameras->table.count;
+    int used = snprintf(say, sizeof say, "%zu camera%s read", count, count == 1 ? "" : "s");
+    for (size_t i = 0; i < count; i++) {
+        if (camera_has_ground(view, view->cameras->table.items[i].view.at)) continue;
+        camera_name(view->cameras, i, name);
+        if (outside++ < CAMERAS_NAMED)
+            used += snprintf(say + used, sizeof say - (size_t)used, "%s %s",
+                             outside > 1 ? "," : ";", name);
+    }
+    if (outside > CAMERAS_NAMED)
+        used += snprintf(say + used, sizeof say - (size_t)used, " and %zu more",
+                         outside - CAMERAS_NAMED);
+    ui_say(view->ui, false, "%s%s", say,
+           outside > 1 ? " stand in no room: drag them into one"
+           : outside   ? " stands in no room: drag it into one"
+                       : "");
     return SL_OK;
 }
 
@@ -365,7 +378,7 @@ bool camera_take(view_state *view, drag_state *drag) {
 void camera_move(view_state *view, drag_state *drag, sl_point now) {
     camera_layer *layer = view->cameras;
     if (!layer || drag->index >= layer->table.count) return;
-    if (drag->part == PART_BODY && !has_ground(view, now)) return; // it stays in the room
+    if (drag->part == PART_BODY && !camera_has_ground(view, now)) return; // it stays in the room
     if (!drag->changed) camera_keep(view);
     drag->changed = true;
     sl_viewpoint *v = &layer->table.items[drag->index].view;

@@ -46,6 +46,8 @@ void camera_changed(view_state *view);
 /// Drops what was kept last where nothing has changed since.
 void camera_settle(view_state *view);
 
+/// Whether a camera can stand there: inside, and not in solid ground.
+bool camera_has_ground(const view_state *view, sl_point at);
 void camera_add(view_state *view, sl_point at); ///< and chooses it; says so where none can stand
 void camera_copy(view_state *view);             ///< the chosen one, beside it
 void camera_rename(view_state *view, const char *name); ///< the chosen one; "" takes its name away
@@ -88,8 +90,15 @@ void cameras_draw_above(view_state *view, const sl_frame *frame);
 
 /// Follows the document and the table, in Cameras mode. With `wait` it waits for results.
 void cameras_update(view_state *view, bool wait);
-/// Starts to look for the fewest.
-void cameras_find(view_state *view);
+/// What is looked for. Those that look like the chosen camera, else like the last that was set.
+typedef enum camera_search {
+    SEARCH_FEWEST, ///< the fewest that see everything, in place of those that stand
+    SEARCH_MORE,   ///< the fewest that see what those that stand do not
+    SEARCH_ONE     ///< the one that sees most of it
+} camera_search;
+
+/// Starts to look for them.
+void cameras_find(view_state *view, camera_search kind);
 /// Stops that, and keeps the best; false where nothing runs.
 bool cameras_stop(view_state *view);
 /// Of the search. `done` and `total` are its bounds.

@@ -105,7 +105,7 @@ static void take_plan(view_state *view, plan_compare *c) {
     }
     c->read = true;
     for (uint32_t i = 0; i < c->baked.space.cell_count; i++)
-        if (sl_baked_counts(&c->baked, i)) c->area += sl_space_area(&c->baked.space, i);
+        if (c->baked.space.cells[i].inside) c->area += sl_space_area(&c->baked.space, i);
     ui_say(view->ui, false, "compared with %s", files_base(c->source.path));
 }
 

@@ -61,7 +61,7 @@ static double step_numbered(int number) {
 
 /// The smallest of those steps that gives no more than so many points.
 static int number_for(const view_state *view, double points) {
-    const double least = sqrt(view->document->area / points);
+    const double least = sqrt(view->document->inside_area / points);
     int number = 3 * (int)floor(log10(least));
     while (step_numbered(number) < least) number++;
     return number;
@@ -70,12 +70,13 @@ static int number_for(const view_state *view, double points) {
 double heat_step(const view_state *view) {
     int last;
     const int place = heat_step_place(view, &last);
-    return view->document->area > 0 ? step_numbered(number_for(view, FEWEST_POINTS) - place) : 0;
+    return view->document->inside_area > 0 ? step_numbered(number_for(view, FEWEST_POINTS) - place)
+                                           : 0;
 }
 
 int heat_step_place(const view_state *view, int *last) {
     *last = 0;
-    if (!(view->document->area > 0)) return 0;
+    if (!(view->document->inside_area > 0)) return 0;
     const int coarse = number_for(view, FEWEST_POINTS);
     int number = number_for(view, USUAL_POINTS);
     *last = coarse - number_for(view, HEAT_POINTS_MOST);
@@ -266,6 +267,11 @@ static bool find_part(view_state *view, heat_layer *layer, sl_status *status) {
 static bool is_grey(const heat_layer *layer, uint32_t point) {
     return !layer->changes && layer->parts && layer->parts[point] != layer->part &&
            heat_measure_part(heat_measure(layer->measure));
+}
+
+uint32_t heat_layer_part(const view_state *view, uint32_t point) {
+    const heat_layer *layer = view->heat;
+    return layer && layer->parts && layer->part_count > 1 ? layer->parts[point] + 1 : 0;
 }
 
 /// The value of a point in the other plan; NAN where it has none.

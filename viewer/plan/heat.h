@@ -20,6 +20,9 @@ job_progress heat_layer_progress(const heat_layer *layer);
 
 /// The values that are shown, by point, and their graph; NULL: none are.
 const double *heat_layer_values(const view_state *view, const heat_graph **graph);
+/// The part of the graph that a point is in, from 1, the largest first, as in the column `part` of
+/// the command; 0: there is one part alone.
+uint32_t heat_layer_part(const view_state *view, uint32_t point);
 /// Whether they are changes: those of another plan less those of this one.
 bool heat_layer_changes(const view_state *view);
 /// The ends of the colour scale. Only where values are shown.

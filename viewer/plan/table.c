@@ -50,23 +50,28 @@ static size_t graph_rows(const view_state *view) {
     return graph_of(view)->grid.count;
 }
 
+/// The last column says parts, where there are several.
 static size_t graph_columns(const view_state *view) {
     size_t count = 2;
     while (graph_measure(view, count)) count++;
-    return count;
+    return count + (heat_layer_part(view, 0) > 0);
 }
 
 static void graph_name(const view_state *view, size_t column, char text[TABLE_NAME]) {
+    const sl_measure *measure = column > 1 ? graph_measure(view, column) : NULL;
     snprintf(text, TABLE_NAME, "%s",
-             column == 0   ? "x"
+             measure       ? measure->name
+             : column == 0 ? "x"
              : column == 1 ? "y"
-                           : graph_measure(view, column)->name);
+                           : "part");
 }
 
 static double graph_value(const view_state *view, size_t row, size_t column) {
     const heat_graph *graph = graph_of(view);
     if (column < 2) return of_point(graph->grid.points[row], column);
-    return sl_measure_value(graph_measure(view, column), &graph->measures[row]);
+    const sl_measure *measure = graph_measure(view, column);
+    return measure ? sl_measure_value(measure, &graph->measures[row])
+                   : heat_layer_part(view, (uint32_t)row);
 }
 
 static sl_segment graph_place(const view_state *view, size_t row) {

@@ -25,6 +25,15 @@ static plan_camera *take_camera(view_state *view) {
     return &view->camera;
 }
 
+void view_set_mode(view_state *view, view_mode mode) {
+    if ((mode == MODE_PLAN) != (view->mode == MODE_PLAN)) {
+        const double cone = view->eye.fov;
+        view->eye.fov = view->other_cone;
+        view->other_cone = cone;
+    }
+    view->mode = mode;
+}
+
 void view_pan(view_state *view, double dx, double dy) {
     plan_camera *camera = take_camera(view);
     if (!camera) return;

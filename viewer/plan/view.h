@@ -224,7 +224,8 @@ struct view_state {
     plan_camera camera;
     bool fitted; ///< the camera fits the map, and follows the window's size
     eye_state eye;
-    unsigned show;                ///< layers, of show_bit
+    double other_cone; ///< degrees: of Plan mode while in another one, else of the other ones
+    unsigned show;     ///< layers, of show_bit
     unsigned filled[LAYER_COUNT]; ///< by layer: the larger, the later it was switched on
     unsigned last_filled;         ///< the largest of them
     uint32_t split_depth, tree_depth;
@@ -297,6 +298,9 @@ uint32_t view_eye_cell(const view_state *view);
 
 // --- changes by hand
 
+/// Changes the mode. In Plan mode the eye has a cone of its own, all round to begin with: there its
+/// region is measured.
+void view_set_mode(view_state *view, view_mode mode);
 /// Call before one: keeps the map for undo.
 void view_keep(view_state *view);
 /// The same where the change needs a new bake. Call view_after_edit after it: that starts the bake.

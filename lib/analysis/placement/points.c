@@ -107,3 +107,11 @@ sl_status sl_place_points(sl_context *context, sl_query *query, sl_place_from fr
     *count = (uint32_t)p.points.count;
     return SL_OK;
 }
+
+double sl_place_step(const sl_space *space, double range) {
+    double area = 0;
+    for (uint32_t c = 0; c < space->cell_count; c++)
+        if (space->cells[c].inside) area += sl_space_area(space, c);
+    const double step = sqrt(area) / 20;
+    return range > 0 ? fmin(step, range / 3) : step;
+}

@@ -103,6 +103,10 @@ typedef enum sl_place_from {
 SL_API sl_status sl_place_points(sl_context *context, sl_query *query, sl_place_from from,
                                  double step, sl_point **points, uint32_t *count);
 
+/// A step between places along walls that suits a plan: a twentieth of the side of a square as
+/// large as the inside, but with a range (0: no limit) not more than a third of it.
+SL_API double sl_place_step(const sl_space *space, double range);
+
 /// Places to choose from, and targets to see: both are lists, so fields of view, ranges, costs and
 /// demands are possible. Bounds hold for these places and targets alone. What may be NULL is so
 /// where nothing is said.
