@@ -20,6 +20,9 @@ import { keepPicture } from './still.js';
 /** How long all calls may take together, in milliseconds. */
 const PATIENCE = 3000;
 
+/** By so little some cases are passed or missed. It is so few binary digits below whole numbers that signs of the labs stay exact. */
+export const HAIR = 2 ** -40;
+
 /** Numbers between 0 and 1, the same each time. */
 export function chances(seed) {
     let number = seed;
