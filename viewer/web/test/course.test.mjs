@@ -628,7 +628,7 @@ for (const name of wanted)
             await figure.locator('select').selectOption('long hall');
             assert.ok((await dots()) < 9, 'another map begins anew');
             await figure.locator('.says').getByText('All methods have run').waitFor({ timeout: 60000 });
-            await other.locator('.says').getByText(/10 lines finds \d+: /).waitFor({ timeout: 60000 });
+            await other.locator('.says').getByText(/10 lines: \d+ found, /).waitFor({ timeout: 60000 });
             const doors = 'sightline 1\nwalls 0 0 20 0 20 10 0 10 0 0\nwall 4 0 4 6\ndoor a 4 6 4 8 open\nwall 10 0 10 1\n' +
                 'door b 10 1 10 4 open\ndoor c 17 0 17 2 open\ndoor d 14 0 14 9 shut\n';
             await figure.locator('input[type=file]').setInputFiles({ name: 'doors.map', mimeType: 'text/plain', buffer: Buffer.from(doors) });

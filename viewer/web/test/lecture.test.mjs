@@ -146,9 +146,9 @@ for (const name of wanted)
 
         test('a prediction does not show its answer, and what it names is in the picture', async () => {
             const context = await browser.newContext({ viewport: { width: 1280, height: 720 } }), { page } = await open('?plan=90#cost-prediction', context);
-            await page.locator('.slide.on .says').getByText('sweep finds 37: 0 missed').waitFor({ timeout: 60000 });
+            await page.locator('.slide.on .says').getByText('sweep: 37 found, 0 missed').waitFor({ timeout: 60000 });
             await page.keyboard.press('PageDown');
-            await page.locator('.slide.on .says').getByText(/10 lines finds \d+: [1-9]\d* missed/).waitFor({ timeout: 60000 });
+            await page.locator('.slide.on .says').getByText(/10 lines: \d+ found, [1-9]\d* missed/).waitFor({ timeout: 60000 });
             await page.close();
             const { page: other } = await open('?plan=90#here-prediction', context), area = async () => Number(/sees ([\d.]+) m²/.exec(await says(other))[1]), corridor = await area();
             await other.keyboard.press('PageDown');
