@@ -77,7 +77,7 @@ describe('labs', { skip: programOf('chromium') ? false : 'Chromium is missing' }
                 assert.ok(Number(mine) > Number(least), `${mine} is longer than ${least}`);
             }
             assert.match(await say(code), /^Right\./);
-            assert.match(await say(code.replace('return (b[0] - a[0])', 'console.log(a, b, p);\n$&').replace('let best = Infinity;', '$&\nconsole.log(eye, dx, dy);')), /^Right\./, 'what code prints does not stop it');
+            assert.match(await say(code.replace('return (b[0] - a[0])', 'console.log(a, b, p);\n$&').replace('const wx', 'console.log(eye, ax, ay, bx, by);\n$&')), /^Right\./, 'what code prints does not stop it');
             assert.ok(await form.locator('.counterexample').isHidden());
             await form.getByText('Begin anew').click();
             assert.equal(await form.locator('textarea').inputValue(), start);
