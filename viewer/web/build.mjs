@@ -119,10 +119,11 @@ async function writeCourse(site, folders) {
             checkWords(text, module.figures, stateOf, fail);
             if (text.includes('{puzzle}') && !puzzles[name]) fail('it has no puzzle');
             const link = linkOf(folder, file, fail);
-            const html = toHtml(text, link), body = html.includes('<p>{slide: ') ? await writeSlides(html, chapters, (chapter) => load(`course/${chapter}.js`), fail)
+            const html = toHtml(text, link), isDeck = html.includes('<p>{slide: '), about = isDeck ? /<p>([^]*?)<\/p>/.exec(html)[1].replace(/\s+/g, ' ') : '';
+            const body = isDeck ? await writeSlides(html, chapters, (chapter) => load(`course/${chapter}.js`), fail)
                 : fillPlaces(html, text, chapters) + (folder === 'course' ? neighbours(chapters, name) : '');
             const chapter = isChapter ? (folder === 'course' ? name : `../${folder}/${name}`) : '';
-            writeFileSync(join(site, folder, `${name}.html`), page(titleOf(text), body, { chapter, isCourse: true, isSecret: folder !== 'course' }));
+            writeFileSync(join(site, folder, `${name}.html`), page(titleOf(text), body, { about, chapter, isCourse: true, isSecret: folder !== 'course' }));
             rmSync(join(site, folder, file));
         }
     for (const key of sources.keys()) if (!used.has(key)) throw new Error(`course/references.bib: no chapter names ${key}`);

@@ -9,16 +9,16 @@ export const policy = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval';
 
 /**
  * @param {string} title in HTML, as is `body`
- * @param {Object} options `chapter` is the name of a module of the course, `root` leads to the top of the site,
+ * @param {Object} options `about` is for those who link to the page; without it that is the first paragraph. `chapter` is the name of a module of the course, `root` leads to the top of the site,
  *   `isSecret` is for pages that search engines leave out
  */
-export const page = (title, body, { chapter = '', isCourse = Boolean(chapter), isSecret = false, root = '../' } = {}) => `<!doctype html>
+export const page = (title, body, { about = '', chapter = '', isCourse = Boolean(chapter), isSecret = false, root = '../' } = {}) => `<!doctype html>
 <html lang="en">
 <head>
 <meta charset="utf-8">
 <meta name="viewport" content="width=device-width, initial-scale=1">${isSecret ? '\n<meta name="robots" content="noindex">' : ''}
 <meta http-equiv="Content-Security-Policy" content="${policy}">
-<title>${title} - Sightline</title>
+<title>${title} - Sightline</title>${about ? `\n<meta name="description" content="${about}">` : ''}
 <link rel="icon" href="${root}icon.svg">
 <link rel="stylesheet" href="${root}style.css">${isCourse ? `\n<link rel="stylesheet" href="${root}course/course.css">` : ''}${chapter ? `\n<script type="module" src="${root}course/course.js"></script>` : ''}
 </head>

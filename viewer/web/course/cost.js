@@ -262,7 +262,7 @@ const where = {
         if (cell < 0) return 'The dot is in no cell.';
         if (!result) return `${name}: not run yet.`;
         if (result.refused) return `${name}: ${result.refused}.`;
-        return `Cell ${cell} sees ${plural(exact, 'cell')}, itself included. ${name} finds ${seen.size}: ${missed.length} missed, ${added.length} added.`;
+        return `Cell ${cell} sees ${plural(exact, 'cell')}, itself included. ${name}: ${seen.size} found, ${missed.length} missed, ${added.length} added.`;
     },
 };
 

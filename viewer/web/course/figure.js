@@ -103,11 +103,12 @@ export class Figure {
         this.still = element('div', { className: 'still' });
         this.beside = element('div', { className: spec.wide ? 'beside wide' : 'beside' });
         this.says = element('p', { className: 'says', id: `${id}-says`, role: 'status' });
-        const caption = element('figcaption', { id: `${id}-about` }, element('strong', {}, t(spec.title)), ...captionOf(t(spec.about)), element('span', { className: 'keys' }, keys));
+        const caption = element('figcaption', { id: `${id}-about` }, element('strong', { id: `${id}-title` }, t(spec.title)), ...captionOf(t(spec.about)), element('span', { className: 'keys' }, keys));
         this.controls = element('div', { className: 'controls' });
         for (const control of spec.controls ?? []) this.controls.append(this.field(control, id));
         host.replaceChildren(element('div', { className: 'pictures' }, this.canvas, this.still, ...(spec.beside ? [this.beside] : [])),
             ...(spec.controls?.length ? [this.controls] : []), this.says, caption);
+        host.setAttribute('aria-labelledby', `${id}-title`);
         host.figure = this;
         this.listen();
     }
@@ -198,8 +199,9 @@ export class Figure {
         return best;
     }
 
+    /** Keys move the chosen dot, or choose the next one. Where nothing else is to be said, the sentence says where the dot is. */
     key(event) {
-        const by = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
+        const before = this.told, by = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
         const handles = this.spec.handles;
         if (!handles.length || event.ctrlKey || event.metaKey || event.altKey) return;
         if (by) {
@@ -210,6 +212,8 @@ export class Figure {
             this.active = (this.active + 1) % handles.length;
             this.change();
         } else return;
+        const { name, letter } = handles[this.active], place = this.state[name].map((v) => Number(v.toFixed(2))).join(', ');
+        if (this.told === before) this.says.textContent = `${before} ${letter ? t`${letter} is at ${place}.` : t`The dot is at ${place}.`}`;
         event.preventDefault();
         event.stopPropagation();
     }
@@ -242,7 +246,7 @@ export class Figure {
         this.spec.update(this.state, this.lab);
         for (const { name, most } of this.spec.controls ?? []) if (most) this.inputs[name].max = most(this.state);
         if (this.box !== this.shown) this.fit();
-        this.says.textContent = this.spec.tell(this.state);
+        this.says.textContent = this.told = this.spec.tell(this.state);
         if (this.spec.beside) this.beside.replaceChildren(this.spec.beside(this.state, this.tones));
         this.draw();
     }

@@ -1,19 +1,39 @@
 /** Chapter 1: visible regions, what bounds them, and their measures. */
 import { drawPlan, fillPolygons, strokeLines } from '../parts/plan.js';
 import { mix } from '../parts/tones.js';
+import { side } from './angular.js';
 import { sweepFigure } from './angular-figure.js';
 import { cellAt, floorArea, round } from './lab.js';
 import { regionCode } from './lab-code.js';
-import { drawWalls, flat, itemsOf, pillars } from './maps.js';
+import { drawWalls, flat, itemsOf, pillars, segmentsOf } from './maps.js';
 import { regionLab } from './region-lab.js';
 
-const flatItems = itemsOf(flat.text), pillarItems = itemsOf(pillars.text);
+const flatItems = itemsOf(flat.text), flatWalls = segmentsOf(flatItems), pillarItems = itemsOf(pillars.text);
 
 /** Edges of a region of some kind, as lines. */
 const edgesOf = (isovist, kind) => isovist.edges.flatMap((edge, i) => {
     const p = isovist.points, n = p.length;
     return edge === kind ? [[p[2 * i], p[2 * i + 1], p[(2 * i + 2) % n], p[(2 * i + 3) % n]]] : [];
 });
+
+/** The parts of a segment that no wall covers. All walls are axial, so no coordinate is rounded where one covers any. */
+function openParts([ax, ay, bx, by], walls) {
+    const k = Math.abs(bx - ax) > Math.abs(by - ay) ? 0 : 1, [from, to] = [[ax, ay], [bx, by]], parts = [];
+    const covers = walls.map(([x0, y0, x1, y1]) => [[x0, y0], [x1, y1]]).filter((ends) => ends.every((end) => side(from, to, end) === 0))
+        .map((ends) => ends.map((end) => end[k]).sort((u, v) => u - v)).sort((u, v) => u[0] - v[0]);
+    const place = (v) => (k ? [ax, v] : [v, ay]), [first, last] = [from[k], to[k]].sort((u, v) => u - v);
+    if (!covers.length) return [[ax, ay, bx, by]];
+    let at = first;
+    for (const [low, high] of covers) {
+        if (Math.min(low, last) > at) parts.push([...place(at), ...place(Math.min(low, last))]);
+        at = Math.max(at, high);
+    }
+    if (at < last) parts.push([...place(at), ...place(last)]);
+    return parts;
+}
+
+/** Occluding edges in the open: where the eye stands on the line of a wall, the edge along it is open beside the wall only. */
+const occludingOf = (isovist) => edgesOf(isovist, 'occluding').flatMap((edge) => openParts(edge, flatWalls));
 
 const look = (lab, text, place, options) => {
     const scene = lab.scene(text);
@@ -35,16 +55,16 @@ const eye = {
         state.share = state.isovist ? state.isovist.area / floorArea(lab.scene(flat.text)) : 0;
     },
     marks: {
-        occluding: ({ isovist }) => ({ lines: isovist ? edgesOf(isovist, 'occluding') : [] }),
+        occluding: ({ isovist }) => ({ lines: isovist ? occludingOf(isovist) : [] }),
         walls: ({ isovist }) => ({ lines: isovist ? edgesOf(isovist, 'wall') : [] }),
     },
     draw(surface, camera, tones, state) {
         drawPlan(surface, camera, { items: flatItems, region: state.isovist?.polygon }, tones);
-        if (state.isovist && state.edges) strokeLines(surface, camera, edgesOf(state.isovist, 'occluding'), tones.glass, 3, [7, 4]);
+        if (state.isovist && state.edges) strokeLines(surface, camera, occludingOf(state.isovist), tones.glass, 3, [7, 4]);
     },
     tell: (state) => (state.isovist
         ? `Field of view ${state.field}°. The eye sees ${round(state.isovist.area)} m², ${round(100 * state.share)} % of the floor. ` +
-            `${edgesOf(state.isovist, 'occluding').length} edges are occluding.`
+            `${occludingOf(state.isovist).length} edges are occluding.`
         : 'Nobody can stand inside a wall.'),
 };
 
@@ -62,7 +82,8 @@ const pair = {
         drawPlan(surface, camera, { items: flatItems }, tones);
         strokeLines(surface, camera, [[...state.a, ...state.b]], state.sees ? tones.sourceEdge : tones.faint, state.sees ? 3 : 1.5, state.sees ? [] : [4, 5]);
     },
-    tell: ({ sees, back }) => `A ${sees ? 'sees' : 'does not see'} B, and B ${back ? 'sees' : 'does not see'} A.`,
+    tell: ({ a, b, sees, back }) => `A at ${a.map((v) => round(v)).join(', ')} ${sees ? 'sees' : 'does not see'} B at ${b.map((v) => round(v)).join(', ')}, ` +
+        `and B ${back ? 'sees' : 'does not see'} A.`,
 };
 
 /** Measures, with their units and how they are said. */

@@ -2,7 +2,7 @@
 import { drawDot, drawPlan, fillPolygons, strokeLines } from '../parts/plan.js';
 import { drawWhy } from '../parts/why-scene.js';
 import { cellAt, planLine, round } from './lab.js';
-import { drawPortals, given, heldPortals, nameOf, side } from './lines.js';
+import { BAD, drawName, drawPortals, given, heldPortals, nameOf, side } from './lines.js';
 import { drawWalls, house, itemsOf } from './maps.js';
 
 const box = [0, 0, 18, 12], houseItems = itemsOf(house.text);
@@ -69,13 +69,16 @@ const hulls = {
         if (dual?.corners.length) strokeLines(surface, camera, [planLine(dual, dual.best)], tones.sourceEdge, 3);
         for (const end of bad) {
             const p = portals[end.portal];
-            drawDot(surface, camera, end.side === 'L' ? p.slice(0, 2) : p.slice(2), 13, tones.ink, tones.page);
+            drawDot(surface, camera, end.side === 'L' ? p.slice(0, 2) : p.slice(2), BAD, tones.ink, tones.page);
         }
+        for (const [portal, p] of portals.entries())
+            for (const [letter, place] of [['L', p.slice(0, 2)], ['R', p.slice(2)]])
+                drawName(surface, camera, tones, { side: letter, portal }, place, (bad.some((end) => end.portal === portal && end.side === letter) ? BAD : 9) + 4);
     },
     tell: ({ conflict, bad }) => ({
         stabbed: 'The hulls are apart: a line runs between them, and it passes all portals.',
         grazing: 'The hulls touch, and a line just fits between them: it can only touch.',
-        hidden: `The hulls meet, so no line passes. The proof has ${bad.length} ends: ${bad.map(nameOf).join(', ')}.`,
+        hidden: `The hulls overlap, so no line passes. The proof has ${bad.length} ends: ${bad.map(nameOf).join(', ')}.`,
     })[conflict.verdict],
 };
 
@@ -157,9 +160,9 @@ const loose = [[4, 7, 4, 4], [9, 11, 9, 10], [14, 8, 14, 5]];
 export const exercises = {
     ends: {
         kind: 'number',
-        question: 'No line passes a sequence of 20 portals. How many of their 40 ends are enough to prove it, whatever the sequence?',
+        question: 'No line passes a sequence of 20 portals without touching an end. How many of their 40 ends are enough to prove it, whatever the sequence?',
         right: () => 4,
-        why: 'This is what Kirchberger proved for points in the plane. Often three or two are enough, but four always are.',
+        why: 'This is what Kirchberger proved for points in the plane. Often three or two are enough, but four always are. Lines that touch need up to six in rare cases.',
         low: 'Two crossing segments are a proof, one between left ends and one between right ends. Take one of their four points away, and a line may pass.',
         high: 'Fewer will do. Think of the two hulls: where they meet, a triangle holds a point, or two segments cross.',
     },

@@ -15,8 +15,8 @@ function slideOf(hash, count) {
 
 /** How far a key goes: 1, -1, or 0 for a key that something else uses. @param {KeyboardEvent} event */
 export function stepOf({ key }) {
-    const isField = /^(INPUT|SELECT|BUTTON|CANVAS|TEXTAREA)$/.test(document.activeElement?.tagName ?? '');
-    return { PageDown: 1, PageUp: -1, ...(isField ? {} : { ArrowRight: 1, ArrowLeft: -1, ' ': 1 }) }[key] ?? 0;
+    const at = document.activeElement, isField = at?.matches('input, select, textarea, [tabindex="0"]'), arrows = isField ? {} : { ArrowRight: 1, ArrowLeft: -1 };
+    return { PageDown: 1, PageUp: -1, ...arrows, ...(isField || at?.matches('button') ? {} : { ' ': 1 }) }[key] ?? 0;
 }
 
 export const button = (text, action) => element('button', { type: 'button', onclick: action }, text);

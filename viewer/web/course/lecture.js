@@ -5,7 +5,7 @@
  * the same slide, and what is moved in a figure moves in all of them. `&print=all` makes all figures, as they are
  * printed, and `&print=now` prints them as well.
  */
-import { Figure } from './figure.js';
+import { Figure, element } from './figure.js';
 import { button, lectureBar, stepOf } from './lecture-mode.js';
 import { plans, slidesOf } from './plans.js';
 import { presenterPanel } from './presenter.js';
@@ -42,10 +42,16 @@ async function prepareAll(slides, lab) {
     while (!slides.map(hostOf).filter(Boolean).every(isReady)) await pause();
 }
 
+/** In place of slides: which plans there are. */
+function offerPlans(main, plan) {
+    const links = Object.entries(plans).map(([name, { length }]) => element('li', {}, element('a', { href: `?plan=${name}` }, length > 1 ? `${length} lectures of 90 minutes` : `${name} minutes`)));
+    main.replaceChildren(element('h1', {}, 'Lecture'), element('p', { role: 'alert' }, `There is no plan ${plan}. Choose one of these:`), element('ul', {}, ...links));
+}
+
 /** @param {HTMLElement} main with a section for each slide @param {import('./lab.js').Lab} lab */
 export async function fill(main, lab) {
     const asked = new URL(location.href).searchParams, plan = asked.get('plan') ?? '90', isPresenter = asked.get('view') === 'presenter';
-    if (!Object.hasOwn(plans, plan)) throw new Error(`there is no plan ${plan}. Plans: ${Object.keys(plans).join(', ')}`);
+    if (!Object.hasOwn(plans, plan)) return offerPlans(main, plan);
     const slides = slidesOf(plan, [...main.querySelectorAll('section.slide')].map((node) => ({ node, chapter: node.dataset.chapter, kind: node.dataset.kind })));
     const lectures = plans[plan].length, talk = new BroadcastChannel(`sightline lecture ${plan}`), panel = isPresenter ? presenterPanel() : null;
     const { bar, back, next, where } = lectureBar(go);

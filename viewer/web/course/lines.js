@@ -9,10 +9,23 @@ import { drawWalls, flat, itemsOf } from './maps.js';
 const items = itemsOf(flat.text);
 export const box = [0, 0, 18, 12];
 
+/** How large ends are that a picture points out, in pixels. */
+export const BAD = 13;
+
 /** Portals as they are crossed from left to right: left x, left y, right x, right y. */
 export const given = [[4, 7, 4, 4], [9, 6, 9, 3], [14, 8, 14, 5]];
 
-/** The wall above and below each portal, and the portal with its ends. */
+/** The name of an end, beside it. */
+export function drawName(surface, camera, tones, end, place, right = 10) {
+    const [px, py] = camera.toScreen(...place);
+    surface.fillStyle = tones.ink;
+    surface.font = 'bold 13px sans-serif';
+    surface.textAlign = 'left';
+    surface.textBaseline = 'middle';
+    surface.fillText(nameOf(end), px + right, py);
+}
+
+/** The wall above and below each portal, and the portal with its ends; bad ends are so large that a handle on them leaves a rim. */
 export function drawPortals(surface, camera, tones, portals, bad = [], right = 10) {
     drawPlan(surface, camera, {}, tones);
     strokeLines(surface, camera, portals.flatMap(([lx, ly, rx, ry]) => [[lx, ly, lx, box[3]], [rx, ry, rx, box[1]]]), tones.wall, 3);
@@ -20,13 +33,9 @@ export function drawPortals(surface, camera, tones, portals, bad = [], right = 1
     for (const [i, [lx, ly, rx, ry]] of portals.entries())
         for (const [name, x, y] of [['L', lx, ly], ['R', rx, ry]]) {
             const isBad = bad.some((end) => end.portal === i && end.side === name);
-            drawDot(surface, camera, [x, y], isBad ? 8 : 5, name === 'L' ? tones.left : tones.right, isBad ? tones.ink : tones.page);
-            const [px, py] = camera.toScreen(x, y);
-            surface.fillStyle = tones.ink;
-            surface.font = 'bold 13px sans-serif';
-            surface.textAlign = 'left';
-            surface.textBaseline = 'middle';
-            surface.fillText(nameOf({ side: name, portal: i }), px + right, py);
+            drawDot(surface, camera, [x, y], isBad ? BAD : 5, isBad ? tones.ink : name === 'L' ? tones.left : tones.right, tones.page);
+            if (isBad) drawDot(surface, camera, [x, y], 7, name === 'L' ? tones.left : tones.right, tones.page);
+            drawName(surface, camera, tones, { side: name, portal: i }, [x, y], isBad ? Math.max(right, BAD + 4) : right);
         }
 }
 

@@ -36,6 +36,13 @@ const drawing = ({ box, items, from, to }, given = [], way = []) => (tones) => p
     for (const [place, tone] of [[from, tones.from], [to, tones.to]]) drawDot(surface, camera, place, 6, tone, tones.page);
 }, { width: 420, most: 300 });
 
+/** Two numbers with as many digits as tell them apart, three or more. */
+function apart(a, b) {
+    let digits = 3;
+    while (a.toFixed(digits) === b.toFixed(digits) && a !== b) digits++;
+    return [a, b].map((v) => v.toFixed(digits));
+}
+
 const isPlace = (p) => Array.isArray(p) && p.length === 2 && p.every(Number.isFinite);
 
 /** @type {import('./code-lab.js').CodeLab} */
@@ -51,7 +58,8 @@ export const pullLab = {
         const [first, last] = [given[0], given.at(-1)], fault = differs(first, one.from) || differs(last, one.to) ? 'does not lead from the first place to the last one'
             : mine < length * (1 - SAME) ? 'is shorter, so it passes a wall' : mine > length * (1 + SAME) ? 'is longer' : '';
         if (!fault) return null;
-        return { text: `the shortest way is ${length.toFixed(3)} long. Yours has ${mine.toFixed(3)}, dashed, and ${fault}.`, draw: drawing(one, given, way) };
+        const [least, yours] = apart(length, mine);
+        return { text: `the shortest way is ${least} long. Yours has ${yours}, dashed, and ${fault}.`, draw: drawing(one, given, way) };
     },
     right: (count) => `It finds ways as short as the library's through all ${count} rows of rooms.`,
 };

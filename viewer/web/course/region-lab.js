@@ -3,7 +3,8 @@
  *
  * A place is a counterexample if the library sees it from the eye and the polygon does not hold it, or the other way
  * round. Places nearer than MARGIN to the border of the region are left out: there, rounding of corners may decide. Lines
- * that only touch walls do not count (open sight): a region has no area there.
+ * that only touch walls do not count (open sight): a region has no area there. Some plans are TIMES as large, and MARGIN is
+ * not: there a ray that goes astray by a hundred millionth of a radian leaves it.
  */
 import { drawDot, drawPlan, fillPolygons, strokeLines } from '../parts/plan.js';
 import { isOn, onGrid } from './angular.js';
@@ -11,18 +12,19 @@ import { chances, hiddenPlans } from './code-lab.js';
 import { cellAt } from './lab.js';
 import { drawWalls } from './maps.js';
 import { picture } from './still.js';
+import { largerPlan } from './turned.js';
 
-const [MARGIN, PLACES] = [1e-3, 200];
+const [MARGIN, PLACES, TIMES] = [1e-3, 200, 2 ** 14];
 
 const openScene = (lab, text) => lab.scene(text, { sight: 'open' });
 
 /** Maps and eyes. Every other eye has coordinates of walls, so rays touch ends and lie on walls. */
 function cases(lab) {
-    const chance = chances(11), list = [];
-    for (const plan of hiddenPlans()) {
+    const chance = chances(11), list = [], plans = hiddenPlans(), [columns, flat] = plans;
+    for (const [plan, unit] of [...plans.map((each) => [each, 1]), ...[columns, flat].map((each) => [largerPlan(each, TIMES), TIMES])]) {
         const { text, box, walls } = plan, scene = openScene(lab, text);
         for (let found = 0; found < 4;) {
-            const place = [box[2] * chance(), box[3] * chance()], eye = found % 2 ? place.map((v) => Math.round(2 * v) / 2) : onGrid(place);
+            const place = [2, 3].map((k) => (box[k] / unit) * chance()), eye = (found % 2 ? place.map((v) => Math.round(2 * v) / 2) : onGrid(place)).map((v) => unit * v);
             if (cellAt(scene, eye) < 0 || walls.some((wall) => isOn(eye, wall))) continue;
             list.push({ ...plan, eye, given: [eye, walls], about: `eye at ${eye.join(', ')}` });
             found++;
@@ -51,6 +53,10 @@ function counterexample(lab, { text, box, eye }, polygon) {
     const scene = openScene(lab, text), chance = chances(5), region = [...scene.isovist(...eye).points], places = [];
     for (let i = 0; i < region.length; i += 2)
         for (const t of [0.02, -0.02]) places.push([region[i] + t * (eye[0] - region[i]), region[i + 1] + t * (eye[1] - region[i + 1])]);
+    for (let i = 0, n = region.length; i < n; i += 2) {
+        const [ax, ay, bx, by] = [0, 1, 2, 3].map((k) => region[(i + k) % n]), length = Math.hypot(bx - ax, by - ay);
+        for (const t of [0.1, 0.9]) for (const far of [2 * MARGIN, -2 * MARGIN].map((v) => v / length)) places.push([ax + t * (bx - ax) - far * (by - ay), ay + t * (by - ay) + far * (bx - ax)]);
+    }
     for (let i = 0; i < PLACES; i++) places.push([box[2] * chance(), box[3] * chance()]);
     for (const place of places) {
         if (cellAt(scene, place) < 0 || isNear(region, place)) continue;
@@ -83,5 +89,5 @@ export const regionLab = {
         const at = found.place.map((v) => Number(v.toFixed(2))).join(', '), verb = found.isSeen ? 'sees' : 'does not see';
         return { text: `the ${one.about} ${verb} the place ${at}. Your region says otherwise.`, draw: drawing(one, polygon, found) };
     },
-    right: (count) => `It agrees with the library on all ${count} maps, at ${PLACES} places of each and beside each corner. Many rays lie on walls or touch two ends.`,
+    right: (count) => `It agrees with the library on all ${count} maps, at ${PLACES} places of each and beside each corner and edge. Many rays lie on walls or touch two ends, and some maps are as large as a country.`,
 };

@@ -115,7 +115,8 @@ const growth = {
     update(state, lab) {
         state.text = hall(state.columns);
         const scene = stand(state, lab, state.text, state.dot);
-        state.steps = state.cell < 0 ? 0 : scene.steps(state.cell, { most: 20000 }).steps.length;
+        const { steps, complete } = state.cell < 0 ? { steps: [], complete: true } : scene.steps(state.cell, { most: 20000 });
+        Object.assign(state, { steps: steps.length, isWhole: complete });
         state.seen = new Set(state.cell < 0 ? [] : scene.row(state.cell));
     },
     draw(surface, camera, tones, state) {
@@ -124,7 +125,7 @@ const growth = {
     },
     tell: (state) => (state.cell < 0 ? 'The dot is outside the hall, or in a pillar.'
         : `Dot at ${state.dot.map((v) => round(v)).join(', ')}. ${plural(state.scene.insideCount, 'cell')}, ${state.seen.size} of them seen. ` +
-            `The search takes ${plural(state.steps, 'step')}: ${round(state.steps / state.seen.size)} for each cell that is seen.`),
+            `The search ${state.isWhole ? 'ends after' : 'has not ended after'} ${plural(state.steps, 'step')}: ${round(state.steps / state.seen.size)} for each cell that is seen.`),
 };
 
 export const figures = { walk, tree, growth };

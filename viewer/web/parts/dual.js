@@ -24,8 +24,11 @@ export function turnPoint(dual, [px, py]) {
     return [(x * ax + y * ay) / dual.scale, (y * ax - x * ay) / dual.scale];
 }
 
-/** The part of the dual plane that is worth showing: about the polygon, or about the best line. */
-function windowOf(dual) {
+/**
+ * The part of the dual plane that is worth showing: about the polygon, or about the best line. Lines that run beside it are
+ * drawn in, if it gets up to twice as high by that. @param {number[][]} ends in the frame of the dual
+ */
+function windowOf(dual, ends) {
     const { corners, best } = dual;
     let [a0, a1, b0, b1] = [best.slope - 0.4, best.slope + 0.4, best.height - 0.4, best.height + 0.4];
     if (corners.length) {
@@ -33,6 +36,12 @@ function windowOf(dual) {
         const [s0, s1, h0, h1] = [Math.min(...slopes), Math.max(...slopes), Math.min(...heights), Math.max(...heights)];
         const room = Math.max(s1 - s0, h1 - h0, 1e-3) * 0.6;
         [a0, a1, b0, b1] = [s0 - room, s1 + room, h0 - room, h1 + room];
+    }
+    const high = b1 - b0, [floor, top] = [b0 - high / 2, b1 + high / 2], room = 0.15 * high;
+    for (const [px, py] of ends) {
+        const [low, most] = [py - a0 * px, py - a1 * px].sort((p, q) => p - q);
+        if (low > b1 - room && low < top) b1 = Math.max(b1, low + room);
+        if (most < b0 + room && most > floor) b0 = Math.min(b0, most - room);
     }
     return { a0, a1, b0, b1 };
 }
@@ -46,7 +55,7 @@ const WIDTH = 320, HEIGHT = 240;
 export function dualFigure(why, tones) {
     const { dual } = why, miss = why.sequence?.length ? null : why.misses?.[0];
     const portals = miss ? [...miss.sequence, miss.stopped_by] : why.sequence;
-    const { a0, a1, b0, b1 } = windowOf(dual);
+    const ends = portals.flatMap(({ left, right }) => [left, right].map((end) => turnPoint(dual, end))), { a0, a1, b0, b1 } = windowOf(dual, ends);
     const x = (a) => ((a - a0) / (a1 - a0)) * WIDTH, y = (b) => HEIGHT - ((b - b0) / (b1 - b0)) * HEIGHT;
     const isEnd = (portal, side) => miss?.ends.some((e) => e.portal === portal.portal && e.side === side);
     const lines = portals.flatMap((portal) => ['left', 'right'].map((side) => {

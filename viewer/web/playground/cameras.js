@@ -158,7 +158,7 @@ export class Cameras {
         const seen = coverage?.viewpoints ?? [], blind = seen.filter((each) => !(each.seen > 0)).length;
         const spare = seen.filter((each) => each.spare && each.seen > 0).length;
         if (choosing) return;
-        this.say([this.list.length ? `${plural(this.list.length, 'camera')}.` : t('A click in a room puts a camera there.'),
+        this.say([this.list.length ? `${plural(this.list.length, 'camera')}.` : this.app.tool === 'cameras' ? t('A click in a room puts a camera there.') : '',
             blind ? blind === 1 ? t('1 of them sees nothing of the inside.') : t`${blind} of them see nothing of the inside.` : '',
             spare === 1 ? t('The others see all that one of them sees.') : spare ? t`${spare} see nothing that the others do not.` : '', this.proof].filter(Boolean).join(' '));
     }

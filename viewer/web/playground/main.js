@@ -17,7 +17,7 @@ import * as panel from './panel.js';
 import { snapTo } from './pick.js';
 import { keepWork, loadWork, LONG_ADDRESS, packMap, unpackMap } from './share.js';
 import { Sight } from './sight.js';
-import { tellChange, tellItem } from './told.js';
+import { placeOf, tellChange, tellItem } from './told.js';
 import { makeTools } from './tools.js';
 import { View } from './view.js';
 
@@ -298,7 +298,10 @@ class Playground extends Sight {
 
     press(place, event) {
         this.free = event?.altKey;
-        this.tools[this.tool].press(place);
+        const tool = this.tools[this.tool], drawn = tool.preview?.();
+        tool.press(place);
+        const begun = tool.preview?.();
+        if (begun && !drawn) get('done').textContent = t`Begins at ${placeOf(begun)}`;
         this.redraw();
     }
     move(place, held, event) {
@@ -324,7 +327,9 @@ class Playground extends Sight {
     chooseTool(name) {
         this.tools[this.tool].cancel?.();
         this.tool = name;
-        document.querySelector(`input[name=tool][value=${name}]`).checked = true;
+        const radio = document.querySelector(`input[name=tool][value=${name}]`);
+        radio.checked = true;
+        get('done').textContent = t`Tool: ${radio.labels[0].textContent}`;
         for (const each of [this.cameras, this.line, this.path]) each.show();
         this.redraw();
     }

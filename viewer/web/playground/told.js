@@ -2,7 +2,7 @@
 import { t } from '../language/language.js';
 
 const round = (v) => Math.round(v * 1000) / 1000;
-const placeOf = (p) => `${round(p[0])}, ${round(p[1])}`;
+export const placeOf = (p) => `${round(p[0])}, ${round(p[1])}`;
 
 /** @param {import('../formats/map-text.js').Item} item */
 export function tellItem({ kind, name, points, value }) {

@@ -376,6 +376,31 @@ for (const name of wanted)
             await close();
         });
 
+        test('here: occluding edges lie in the open, also for an eye on the line of a wall', async () => {
+            const { page, close } = await open('here');
+            const found = await page.locator('figure[data-figure=eye]').evaluate(async ({ figure }) => {
+                const [{ flat, itemsOf, segmentsOf }, { isOn }] = await Promise.all([import('./maps.js'), import('./angular.js')]), walls = segmentsOf(itemsOf(flat.text));
+                return [[5, 5], [12, 5], [3, 5.5], [8, 8]].map((eye) => {
+                    figure.set({ eye });
+                    const { lines } = figure.spec.marks.occluding(figure.state), middles = lines.map(([ax, ay, bx, by]) => [(ax + bx) / 2, (ay + by) / 2]);
+                    return [lines.length, middles.filter((at) => walls.some((wall) => isOn(at, wall))).length, Number(/(\d+) edges are/.exec(figure.says.textContent)[1])];
+                });
+            });
+            for (const [lines, onWalls, said] of found) assert.ok(lines > 0 && onWalls === 0 && said === lines, `${lines} edges, ${onWalls} of them on walls, ${said} said`);
+            assert.equal(await page.locator('figure[data-figure=eye]').evaluate((host) => document.getElementById(host.getAttribute('aria-labelledby')).textContent), 'The visible region.');
+            await close();
+        });
+
+        test('keys say where a dot is, if nothing else changes', async () => {
+            const { page, close } = await open('lines'), figure = page.locator('figure[data-figure=dual]'), says = () => figure.locator('.says').textContent();
+            const before = await says();
+            await figure.locator('canvas').press('ArrowRight');
+            assert.equal(await says(), `${before} The dot is at 4, 7.`);
+            await figure.locator('canvas').press('n');
+            assert.equal(await says(), `${before} The dot is at 4, 4.`);
+            await close();
+        });
+
         test('rounding: its exact signs agree with the library, where doubles do not', async () => {
             const { page, close } = await open('rounding');
             const counts = await page.evaluate(async () => {
@@ -557,8 +582,8 @@ for (const name of wanted)
             await close();
             const search = await open('search'), hall = search.page.locator('figure[data-figure=growth]');
             await hall.locator('input[type=range]').press('End');
-            const [, steps] = /takes (\d+) steps/.exec(await hall.locator('.says').textContent());
-            assert.match(await search.page.locator('main').textContent(), new RegExp(`cells, and the search\\s+takes ${steps} steps`));
+            const [, steps] = /ends after (\d+) steps/.exec(await hall.locator('.says').textContent());
+            assert.match(await search.page.locator('main').textContent(), new RegExp(`cells, and the search\\s+ends\\s+after\\s+${steps}\\s+steps`));
             await search.close();
         });
 
@@ -603,7 +628,7 @@ for (const name of wanted)
             await figure.locator('select').selectOption('long hall');
             assert.ok((await dots()) < 9, 'another map begins anew');
             await figure.locator('.says').getByText('All methods have run').waitFor({ timeout: 60000 });
-            await other.locator('.says').getByText(/10 lines finds \d+: /).waitFor({ timeout: 60000 });
+            await other.locator('.says').getByText(/10 lines: \d+ found, /).waitFor({ timeout: 60000 });
             const doors = 'sightline 1\nwalls 0 0 20 0 20 10 0 10 0 0\nwall 4 0 4 6\ndoor a 4 6 4 8 open\nwall 10 0 10 1\n' +
                 'door b 10 1 10 4 open\ndoor c 17 0 17 2 open\ndoor d 14 0 14 9 shut\n';
             await figure.locator('input[type=file]').setInputFiles({ name: 'doors.map', mimeType: 'text/plain', buffer: Buffer.from(doors) });

@@ -11,11 +11,15 @@ import { launch, programOf, serve } from './site.mjs';
 /** By chapter and exercise: the name of the function, and changes of the right code, each of which makes it wrong. */
 const wrong = {
     here: ['region', 'region', [['s >= 0 && s <= 1', 's >= 0'], ['t > 0 && ', ''], ['Math.min(best, t)', 'Math.max(best === Infinity ? 0 : best, t)'],
-        ['angle - 1e-9', 'angle'], ['1e-9, angle', '0.05, angle']]],
+        ['angle - 1e-9', 'angle'], ['1e-9, angle', '0.05, angle'], ...['1e-4', '1e-6', '1e-8'].map((small) => ['angle - 1e-9, angle + 1e-9', `angle - ${small}, angle + ${small}`]),
+        ['s >= 0 && s <= 1', 's >= -1e-6 && s <= 1 + 1e-6']]],
     search: ['visible', 'visible', [['if (stabs(longer))', 'if (!seen.has(portal.to) && stabs(longer))'], ['side(a, b, left) >= 0', 'side(a, b, left) > 0'],
-        ['if (stabs(longer))', 'if (sequence.length < 4 && stabs(longer))'], ['const seen = new Set()', 'const seen = new Set([99])']]],
+        ...[4, 8, 20].map((most) => ['if (stabs(longer))', `if (sequence.length < ${most} && stabs(longer))`]), ['const seen = new Set()', 'const seen = new Set([99])'],
+        ...['0.1', '1e-6', '1e-9'].map((small) => ['left) >= 0 && side(a, b, right) <= 0', `left) >= -${small} && side(a, b, right) <= ${small}`]),
+        ['side(a, b, left) >= 0', 'side(a, b, left) >= -1e-6'], ['side(a, b, right) <= 0', 'side(a, b, right) <= 1e-6']]],
     program: ['funnel', 'funnel', [['now >= 0', 'now > 0'], ['now === 0 && then < 0 ? end : about', 'about'], ['about: end });', 'about });'],
-        ['corners = cut(corners, portals[i].right, -1);', ''], ['return i;', 'return i + 1;']]],
+        ['corners = cut(corners, portals[i].right, -1);', ''], ['return i;', 'return i + 1;'],
+        ...['-0.5', '-0.1', '-0.01', '-0.001', '-1e-6', '-1e-9', '1e-9', '1e-6'].map((small) => ['sign * side(from, to, end)', `sign * side(from, to, end) - ${small}`])]],
     ways: ['pull', 'shortest', [['own.pop()', 'break'], ['other.length > 1 && ', 'other.length > 2 && '], ['own[0] = other[0];', ''], ['[...way, ...left]', '[...way, ...left].slice(1)']]],
 };
 
@@ -68,7 +72,12 @@ describe('labs', { skip: programOf('chromium') ? false : 'Chromium is missing' }
                 assert.match(await say(code.replace(from, to)), /On map \d+ of \d+.*(Your (region|function) says|Yours has|there is no cell|no list of places)/, `${from} as ${to}`);
                 assert.ok(await form.locator('.counterexample svg').isVisible());
             }
+            if (exercise === 'pull') {
+                const [, least, mine] = /shortest way is ([\d.]+) long\. Yours has ([\d.]+),/.exec(await say(code.replace('[...way, ...left]', '[...way, ...left].map(([x, y], i, { length }) => [x, i && i < length - 1 ? y + 1e-6 : y])')));
+                assert.ok(Number(mine) > Number(least), `${mine} is longer than ${least}`);
+            }
             assert.match(await say(code), /^Right\./);
+            assert.match(await say(code.replace('return (b[0] - a[0])', 'console.log(a, b, p);\n$&').replace('const wx', 'console.log(eye, ax, ay, bx, by);\n$&')), /^Right\./, 'what code prints does not stop it');
             assert.ok(await form.locator('.counterexample').isHidden());
             await form.getByText('Begin anew').click();
             assert.equal(await form.locator('textarea').inputValue(), start);

@@ -6,6 +6,7 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, describe, test } from 'node:test';
+import { pathToFileURL } from 'node:url';
 import { plans, slidesOf } from '../course/plans.js';
 import { paceOf } from '../course/presenter.js';
 import { writeSlides } from '../slides.mjs';
@@ -32,6 +33,16 @@ test('each chapter of a plan has all kinds of slides, with notes, and the minute
         assert.equal(/data-show/.test(body), ['figure', 'prediction'].includes(kind), id);
         assert.equal(/answer-slide/.test(body), kind === 'prediction', id);
     }
+});
+
+test('the table of the lecture in TEACHING.md is the deck', () => {
+    const rows = [...readFileSync(new URL('../../TEACHING.md', import.meta.url), 'utf8').matchAll(/^\| (\d+) \| [^|]+ \| \[\d+\]\(web\/course\/(\w+)\.md\) \| \*([^|]+)\* \| \*([^|]+)\* \|/gm)];
+    assert.deepEqual(rows.map(([, minutes, chapter]) => [chapter, Number(minutes)]), Object.entries(plans[90][0]));
+    return Promise.all(rows.map(async ([, , chapter, ...titles]) => {
+        const { figures } = await import(pathToFileURL(join(SITE, `course/${chapter}.js`)).href);
+        const shown = ['figure', 'prediction'].map((kind) => new RegExp(`data-show="${chapter}/(\\w+)"`).exec(all.find(({ id }) => id === `${chapter}-${kind}`).body)[1]);
+        assert.deepEqual(titles, shown.map((name) => figures[name].title.replace(/\.$/, '')));
+    }));
 });
 
 test('a clock says how far a lecture is from its plan', () => {
@@ -113,7 +124,12 @@ for (const name of wanted)
             assert.deepEqual(await at(page), ['lines-formula', false]);
             assert.deepEqual(errors, []);
             await page.goto(`${site.address}/course/lecture.html?plan=60`);
-            assert.match(await page.locator('[role=alert]').textContent(), /no plan 60\. Plans: 45, 90, 4x90/);
+            await page.waitForSelector('main[data-ready]');
+            assert.match(await page.locator('[role=alert]').textContent(), /no plan 60/);
+            assert.equal(await page.locator('section.slide').count(), 0);
+            assert.deepEqual(await page.locator('main a').evaluateAll((list) => list.map((link) => link.getAttribute('href'))), Object.keys(plans).map((plan) => `?plan=${plan}`));
+            await page.click('main a[href="?plan=45"]');
+            await page.waitForSelector('#here-title.on');
             await context.close();
         });
 
@@ -125,6 +141,37 @@ for (const name of wanted)
             await page.keyboard.press('PageUp');
             await page.locator('.slide.on .says').getByText(before).waitFor();
             assert.deepEqual(await at(page), ['lines-prediction', false]);
+            await context.close();
+        });
+
+        test('a prediction does not show its answer, and what it names is in the picture', async () => {
+            const context = await browser.newContext({ viewport: { width: 1280, height: 720 } }), { page } = await open('?plan=90#cost-prediction', context);
+            await page.locator('.slide.on .says').getByText('sweep: 37 found, 0 missed').waitFor({ timeout: 60000 });
+            await page.keyboard.press('PageDown');
+            await page.locator('.slide.on .says').getByText(/10 lines: \d+ found, [1-9]\d* missed/).waitFor({ timeout: 60000 });
+            await page.close();
+            const { page: other } = await open('?plan=90#here-prediction', context), area = async () => Number(/sees ([\d.]+) m²/.exec(await says(other))[1]), corridor = await area();
+            await other.keyboard.press('PageDown');
+            assert.ok((await area()) > corridor, 'the answer says that the eye sees more');
+            await other.close();
+            const { page: lines } = await open('?plan=90#lines-figure', context), beside = lines.locator('.slide.on .beside');
+            const crossing = () => beside.locator('line').evaluateAll((list) => list.filter((line) => [1, 2].map((k) => Number(line.getAttribute(`y${k}`))).some((y) => y > 0 && y < 216)).length);
+            assert.equal(await crossing(), 6, 'each end is a line in the picture');
+            await lines.goto(`${site.address}/course/lecture.html?plan=90#lines-prediction`);
+            await lines.keyboard.press('PageDown');
+            await lines.locator('.slide.on .says').getByText('No line passes').waitFor();
+            assert.ok(await beside.evaluate((node) => node.scrollHeight <= node.clientHeight), 'the dual plane has a scroll bar');
+            await context.close();
+        });
+
+        test('arrows within a figure leave its slide alone; they go on from a button', async () => {
+            const context = await browser.newContext(), { page } = await open('?plan=90#search-figure', context);
+            await page.locator('.slide.on pre').focus();
+            await page.keyboard.press('ArrowRight');
+            assert.equal((await at(page))[0], 'search-figure');
+            await page.click('button:text-is("Next")');
+            await page.keyboard.press('ArrowLeft');
+            assert.equal((await at(page))[0], 'search-figure');
             await context.close();
         });
 

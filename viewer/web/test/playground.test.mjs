@@ -206,12 +206,15 @@ for (const name of wanted)
             const page = await open();
             await page.focus('#plan');
             await page.keyboard.press('w');
+            assert.equal(await done(page), 'Tool: Wall');
             const start = await page.evaluate(() => window.playground.snap(window.playground.middle()));
             const step = await page.evaluate(() => window.playground.step());
             await page.keyboard.press('ArrowRight');
             await page.keyboard.press('Enter');
+            assert.equal(await done(page), `Begins at ${[start[0] + step, start[1]].map((v) => +v.toFixed(3)).join(', ')}`);
             await page.keyboard.press('Shift+ArrowUp');
             await page.keyboard.press('Enter');
+            assert.match(await done(page), /^Added: wall from /);
             await page.keyboard.press('Escape');
             const points = await page.evaluate(() => window.playground.doc.items.at(-1).points);
             assert.deepEqual(points.map((v) => +v.toFixed(6)), [start[0] + step, start[1], start[0] + step, start[1] + 10 * step].map((v) => +v.toFixed(6)));
@@ -582,6 +585,7 @@ for (const name of wanted)
             const shown = () => page.waitForFunction(() => window.playground.cameras.coverage && !window.playground.cameras.jobs.running && !window.playground.cameras.choosing);
             const areas = () => page.evaluate(() => window.playground.cameras.coverage.areas);
             assert.equal(await page.evaluate(() => performance.getEntriesByType('resource').some((r) => /cameras\.wasm/.test(r.name))), false);
+            assert.equal(await text(), '', 'a status of another tool');
             await page.check('input[value=cameras]');
             await page.mouse.move(...(await screen(page, 2, 5)));
             await page.mouse.down();

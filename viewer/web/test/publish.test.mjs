@@ -42,6 +42,10 @@ test('each page has the policy, and words and a picture for those who link to it
     }
 });
 
+test('what those who link to the slides see is no note for the lecturer', () => {
+    assert.match(readFileSync(join(folder, 'course/lecture.html'), 'utf8'), /<meta property="og:description" content="Slides of a course on visibility/);
+});
+
 test('the sitemap has each page that search engines may show, and no other', () => {
     const listed = [...readFileSync(join(folder, 'sitemap.xml'), 'utf8').matchAll(/<loc>([^<]*)<\/loc>/g)].map(([, address]) => address.slice(base.length).replace(/(^|\/)$/, '$1index.html'));
     assert.deepEqual(listed.sort(), pages().filter((path) => !/^404|^teachers/.test(path)).sort());
