@@ -12,8 +12,9 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
-enum { VALUE_TEXT = 96 };
+enum { VALUE_TEXT = 96, DOUBT_TEXT = 320 };
 
 /// "12.3 m²"
 static void write_measure(const view_state *view, double value, const char *power,
@@ -44,6 +45,20 @@ static void draw_plan_words(const view_state *view, column *c) {
                  ? ""
                  : " The file does not say what lengths are in: Ctrl+I tells it.");
     column_words(view->ui, c, 0.95, view->ui->palette.ink, text);
+    c->y += 0.4 * view->ui->text;
+}
+
+/// The first note says what was taken; those behind it are doubts.
+static void draw_doubts(const view_state *view, column *c) {
+    const char *doubt = strchr(view->document->notes, '\n');
+    char text[DOUBT_TEXT];
+    if (!doubt || !view->document->baked) return;
+    for (; doubt; doubt = strchr(doubt + 1, '\n')) {
+        const size_t length = strcspn(doubt + 1, "\n");
+        snprintf(text, sizeof text, "%.*s", (int)length, doubt + 1);
+        column_words(view->ui, c, 0.9, view->ui->palette.start, text);
+    }
+    column_words(view->ui, c, 0.9, view->ui->palette.faint, "Ctrl+I changes how the file is read.");
     c->y += 0.4 * view->ui->text;
 }
 
@@ -264,6 +279,7 @@ void pane_measures(learn_state *learn, sl_box box) {
     static const char *const changes[] = {"heat_back", "heat_next", "heat_hold", NULL};
     column_heading(learn->ui, &c, "Plan", view->document->map.unit);
     draw_plan_words(view, &c);
+    draw_doubts(view, &c);
     column_buttons(learn->ui, &c, tools);
     if (view->document->baked) {
         panels[view->tool](view, &c);

@@ -358,7 +358,9 @@ static void draw_room(const view_state *view, const sl_frame *frame, const sl_ro
     cairo_new_path(cairo);
     for (size_t i = 0; i < room->shape.count; i++)
         sl_path_polygon(cairo, frame, room->shape.points + 3 * i, 3);
-    cairo_set_source_rgba(cairo, tint.red, tint.green, tint.blue, chosen ? 0.45 : 0.16);
+    const heat_graph *graph; // its colours stay those of the legend
+    const double least = heat_layer_values(view, &graph) ? 0 : 0.16;
+    cairo_set_source_rgba(cairo, tint.red, tint.green, tint.blue, chosen ? 0.45 : least);
     cairo_fill(cairo);
 }
 
