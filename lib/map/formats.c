@@ -328,7 +328,7 @@ sl_status sl_map_parse(sl_context *context, const char *path, const char *text, 
                        SL_COORDINATE_MAX);
     sl_map read = {0};
     sl_import_options own = *options;
-    const char *sign;
+    const char *sign = "";
     double factor;
     const bool measured = sli_unit_is_measured(options->unit, &factor, &sign);
     if (measured) own.unit = NULL;

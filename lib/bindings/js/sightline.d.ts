@@ -123,7 +123,7 @@ export class Level {
   readonly walls: readonly Segment[]
   /**
    * Opens or shuts all doors of a name, breaks a wall or builds one. Both arguments are needed. False, and nothing
-   * changes, to shut a broken wall or to open what was built.
+   * changes, to shut a broken wall or to open what was built. An error for a name that no door has.
    */
   setDoor(name: string, open: boolean): boolean
   /**
