@@ -119,6 +119,13 @@ SL_API sl_status sl_segment_measure(sl_context *context, const sl_segment *segme
 SL_API sl_status sl_segment_crossing(sl_context *context, const sl_segment *segments,
                                      uint32_t count, sl_point point, sl_point *crossing);
 
+/// Weights of segments that are pieces of streets: pieces share the value of their street by their
+/// lengths. `streets`: by segment, the place of its street in `values`. `weights` has room for
+/// `count`. SL_BAD_ARGUMENT for a street that is not there, and for a segment without length.
+SL_API sl_status sl_segment_share(sl_context *context, const sl_segment *segments, uint32_t count,
+                                  const uint32_t *streets, const double *values,
+                                  uint32_t street_count, double *weights);
+
 #ifdef __cplusplus
 }
 #endif
