@@ -445,6 +445,23 @@ static void weights_out_of_range_are_refused(void **state) {
     sl_context_destroy(context);
 }
 
+static void pieces_share_the_value_of_their_street(void **state) {
+    (void)state;
+    static const sl_segment segments[] = {
+        {{0, 0}, {3, 0}}, {{0, 0}, {0, 7}}, {{3, 0}, {3, 1}}, {{9, 9}, {9, 9}}};
+    static const uint32_t streets[] = {2, 0, 2};
+    static const double values[] = {5, 1, 8};
+    sl_context *context = testing_context(NULL);
+    double weights[4];
+    assert_ok(context, sl_segment_share(context, segments, 3, streets, values, 3, weights));
+    assert_true(weights[0] == 6 && weights[1] == 5 && weights[2] == 2);
+    assert_int_equal(sl_segment_share(context, segments, 3, streets, values, 2, weights),
+                     SL_BAD_ARGUMENT);
+    assert_int_equal(sl_segment_share(context, segments + 3, 1, streets, values, 3, weights),
+                     SL_BAD_ARGUMENT);
+    sl_context_destroy(context);
+}
+
 /// Rows that turn by more than a half turn: rings, a ring with an arm, a spiral with a street
 /// across.
 static void rings_and_spirals_agree_with_all_paths(void **state) {
@@ -496,6 +513,7 @@ int main(void) {
         cmocka_unit_test(unlinks_agree_with_all_paths),
         cmocka_unit_test(bridges_are_no_junctions),
         cmocka_unit_test(weights_out_of_range_are_refused),
+        cmocka_unit_test(pieces_share_the_value_of_their_street),
         cmocka_unit_test(rings_and_spirals_agree_with_all_paths),
         cmocka_unit_test(points_are_refused),
     };

@@ -105,19 +105,25 @@ static void note_pairs(sl_context *context, const segments_plan *plan, size_t co
                 count);
 }
 
-/// Measures with and without weights. Lengths come with the first ones.
+/// `measures` hold the lengths.
+static sl_status find_weights(sl_context *context, const segments_plan *plan, segments_work *w) {
+    w->weights = sl_alloc_array(context, w->table.count, sizeof *w->weights);
+    if (!w->weights) return SL_NO_MEMORY;
+    if (strcmp(plan->weight, "segment_length") != 0)
+        return network_weights_read(context, plan->input, plan->weight, &w->map, w->segments,
+                                    w->weights);
+    for (uint32_t i = 0; i < w->table.count; i++) w->weights[i] = w->measures[i].segment_length;
+    return SL_OK;
+}
+
+/// Measures without weights, and then with them.
 static sl_status measure(sl_context *context, const segments_plan *plan, segments_work *w,
                          sl_segment_options *options, const char *ending) {
     SL_TRY(sl_segment_measure(context, w->segments, w->table.count, options, w->measures));
     SL_TRY(
         line_table_add(context, &w->table, SL_SEGMENTS, w->measures, sizeof *w->measures, ending));
     if (!plan->weight) return SL_OK;
-    if (!w->weights) {
-        w->weights = sl_alloc_array(context, w->table.count, sizeof *w->weights);
-        if (!w->weights) return SL_NO_MEMORY;
-        SL_TRY(network_weights_read(context, plan->input, plan->weight, &w->map, w->measures,
-                                    w->weights));
-    }
+    if (!w->weights) SL_TRY(find_weights(context, plan, w));
     char weighted[80];
     snprintf(weighted, sizeof weighted, "%s_weighted", ending);
     options->weights = w->weights;

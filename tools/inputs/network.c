@@ -7,7 +7,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 // --- unlinks
 
@@ -51,10 +50,10 @@ sl_status network_unlinks_read(sl_context *context, const char *path, const sl_s
 // --- weights
 
 /// The row of a line of the file. Every wall has one.
-static size_t row_of(const number_table *table, uint32_t line) {
-    size_t low = 0, high = table->rows - 1;
+static uint32_t row_of(const number_table *table, uint32_t line) {
+    uint32_t low = 0, high = (uint32_t)table->rows - 1;
     while (low < high) {
-        const size_t middle = low + (high - low) / 2;
+        const uint32_t middle = low + (high - low) / 2;
         if (table->lines[middle] < line)
             low = middle + 1;
         else
@@ -64,30 +63,22 @@ static size_t row_of(const number_table *table, uint32_t line) {
 }
 
 static sl_status share_values(sl_context *context, const number_table *table, size_t column,
-                              const sl_map *map, const sl_segment_measures *measures,
-                              double *lengths, double *weights) {
-    for (size_t i = 0; i < table->rows; i++)
-        if (!(number_table_at(table, i, column) >= 0))
+                              const sl_map *map, const sl_segment *segments, uint32_t *rows,
+                              double *values, double *weights) {
+    for (size_t i = 0; i < table->rows; i++) {
+        values[i] = number_table_at(table, i, column);
+        if (!(values[i] >= 0))
             return sl_fail_at(context, table->path, table->lines[i],
                               "the column \"%s\" needs a weight of 0 or more",
                               table->names[column]);
-    for (size_t i = 0; i < map->wall_count; i++)
-        lengths[row_of(table, map->walls[i].line)] += measures[i].segment_length;
-    for (size_t i = 0; i < map->wall_count; i++) {
-        const size_t row = row_of(table, map->walls[i].line);
-        weights[i] =
-            number_table_at(table, row, column) * (measures[i].segment_length / lengths[row]);
     }
-    return SL_OK;
+    for (size_t i = 0; i < map->wall_count; i++) rows[i] = row_of(table, map->walls[i].line);
+    return sl_segment_share(context, segments, (uint32_t)map->wall_count, rows, values,
+                            (uint32_t)table->rows, weights);
 }
 
 sl_status network_weights_read(sl_context *context, const char *path, const char *column,
-                               const sl_map *map, const sl_segment_measures *measures,
-                               double *weights) {
-    if (strcmp(column, "segment_length") == 0) {
-        for (size_t i = 0; i < map->wall_count; i++) weights[i] = measures[i].segment_length;
-        return SL_OK;
-    }
+                               const sl_map *map, const sl_segment *segments, double *weights) {
     if (!name_ends_with(path, ".csv"))
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "--weight %s: %s is no .csv file with columns; without one, only "
@@ -96,13 +87,16 @@ sl_status network_weights_read(sl_context *context, const char *path, const char
     number_table table = {0};
     SL_TRY(number_table_read(context, path, &table));
     const size_t at = table.names ? number_table_column(&table, column) : table.columns;
-    double *lengths = sl_alloc_array(context, table.rows, sizeof *lengths);
+    uint32_t *rows = sl_alloc_array(context, map->wall_count, sizeof *rows);
+    double *values = sl_alloc_array(context, table.rows, sizeof *values);
     const sl_status status =
-        !lengths              ? SL_NO_MEMORY
-        : at == table.columns ? sl_fail_at(context, path, table.first_line,
-                                           "--weight: there is no column \"%s\"", column)
-                              : share_values(context, &table, at, map, measures, lengths, weights);
-    sl_free(context, lengths);
+        !rows || !values ? SL_NO_MEMORY
+        : at == table.columns
+            ? sl_fail_at(context, path, table.first_line, "--weight: there is no column \"%s\"",
+                         column)
+            : share_values(context, &table, at, map, segments, rows, values, weights);
+    sl_free(context, rows);
+    sl_free(context, values);
     number_table_destroy(context, &table);
     return status;
 }

@@ -10,11 +10,10 @@
 sl_status network_unlinks_read(sl_context *context, const char *path, const sl_segment *segments,
                                uint32_t count, sl_point **unlinks, uint32_t *unlink_count);
 
-/// The weight of each wall of a map that was read from a file, and cleaned: its length for
-/// "segment_length", else a column of the file, which must be a table. Pieces of one row share its
-/// value by their lengths. `measures`: of the walls. `weights` has room for all.
+/// The weight of each wall of a map that was read from a file, and cleaned: a column of the file,
+/// which must be a table. Pieces of one row share its value. `segments`: the walls. `weights` has
+/// room for all.
 sl_status network_weights_read(sl_context *context, const char *path, const char *column,
-                               const sl_map *map, const sl_segment_measures *measures,
-                               double *weights);
+                               const sl_map *map, const sl_segment *segments, double *weights);
 
 #endif

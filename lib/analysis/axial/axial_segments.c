@@ -26,6 +26,7 @@
 /// each other. Within a metric radius each segment is a chain, for it may end anywhere. Threads
 /// take chains one by one.
 #include "analysis/axial/segment_search.h"
+#include "geometry/length.h"
 #include "geometry/orient.h"
 #include "sightline/axial.h"
 
@@ -499,4 +500,25 @@ sl_status sl_segment_measure(sl_context *context, const sl_segment *segments, ui
     }
     sli_segment_network_destroy(context, &j.net);
     return status;
+}
+
+sl_status sl_segment_share(sl_context *context, const sl_segment *segments, uint32_t count,
+                           const uint32_t *streets, const double *values, uint32_t street_count,
+                           double *weights) {
+    SL_TRY(check_segments(context, segments, count, NULL));
+    for (uint32_t i = 0; i < count; i++)
+        if (streets[i] >= street_count)
+            return sl_fail(context, SL_BAD_ARGUMENT, "segment %u is of street %u, of %u", i,
+                           streets[i], street_count);
+    double *lengths = sl_alloc_array(context, street_count, sizeof *lengths);
+    if (!lengths) return SL_NO_MEMORY;
+    for (uint32_t i = 0; i < count; i++) {
+        const sl_segment *s = &segments[i];
+        weights[i] = sli_length(s->b.x - s->a.x, s->b.y - s->a.y);
+        lengths[streets[i]] += weights[i];
+    }
+    for (uint32_t i = 0; i < count; i++)
+        weights[i] = values[streets[i]] * (weights[i] / lengths[streets[i]]);
+    sl_free(context, lengths);
+    return SL_OK;
 }

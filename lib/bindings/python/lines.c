@@ -3,7 +3,6 @@
 
 #include "sightline/axial.h"
 
-#include <math.h>
 #include <string.h>
 
 enum { AXIAL_COLUMNS = sizeof(sl_axial_measures) / sizeof(double) };
@@ -62,22 +61,16 @@ int slp_level_axial(slp_level *level, int kept, uint32_t radius, unsigned thread
 
 /// Of each line kept, its share of the weight of its wall.
 static sl_status share_weights(slp_plan *plan, const sl_map *clean, const double *weights,
-                               double *out) {
+                               double *own) {
     sl_context *context = plan->base.context;
-    const slp_lines *kept = &plan->base.lines;
-    double *lengths = sl_alloc_array(context, plan->map.wall_count + 1, sizeof *lengths);
-    if (!lengths) return SL_NO_MEMORY;
-    for (size_t i = 0; i < kept->count; i++) {
-        out[i] =
-            hypot(kept->lines[i].b.x - kept->lines[i].a.x, kept->lines[i].b.y - kept->lines[i].a.y);
-        lengths[clean->walls[i].line] += out[i];
-    }
-    for (size_t i = 0; i < kept->count; i++) {
-        const size_t wall = clean->walls[i].line;
-        out[i] = weights[wall] * (out[i] / lengths[wall]);
-    }
-    sl_free(context, lengths);
-    return SL_OK;
+    uint32_t *walls = sl_alloc_array(context, clean->wall_count, sizeof *walls);
+    if (!walls) return SL_NO_MEMORY;
+    for (size_t i = 0; i < clean->wall_count; i++) walls[i] = clean->walls[i].line;
+    const sl_status status =
+        sl_segment_share(context, plan->base.lines.lines, (uint32_t)clean->wall_count, walls,
+                         weights, (uint32_t)plan->map.wall_count, own);
+    sl_free(context, walls);
+    return status;
 }
 
 /// The walls of a clean copy: cleaning cuts the lines where they cross and joins their ends.

@@ -105,8 +105,15 @@ typedef struct sl_segment_measures {
 /// Measures segments that meet at common ends only, as walls of a clean map do (sl_map_clean).
 /// Paths turn least. Of those that turn equally, the ones of the fewest segments count, and share
 /// the 1 of their pair. With weights, a segment counts as its weight in node count and total depth,
-/// and a pair as the product of both weights in choice, as in depthmapX. At an unlinked crossing,
-/// where four segments meet, a path only goes straight on: from each to the second one around.
+/// and a pair as the product of both weights in choice. A pair does not count for its own two
+/// segments; in depthmapX, half of the product does. At an unlinked crossing, where four segments
+/// meet, a path only goes straight on: from each to the second one around.
+///
+/// Choice is a sum of whole units, so it is the same for any number of threads. Each share of a tie
+/// is rounded to a unit. So where there are ties, its last digits may change with the order of the
+/// segments, and when the network is turned. A unit is 2^-24 up to 262,143 segments. From 2^(k-1)
+/// to below 2^k segments, k from 19 on, it is 2^(2k-61). With weights it is that for their sum.
+///
 /// SL_BAD_ARGUMENT for a segment without length, a weight out of range, and an unlink where there
 /// are not four.
 SL_API sl_status sl_segment_measure(sl_context *context, const sl_segment *segments, uint32_t count,
@@ -118,6 +125,13 @@ SL_API sl_status sl_segment_measure(sl_context *context, const sl_segment *segme
 /// shortest of them. Time O(count).
 SL_API sl_status sl_segment_crossing(sl_context *context, const sl_segment *segments,
                                      uint32_t count, sl_point point, sl_point *crossing);
+
+/// Weights of segments that are pieces of streets: pieces share the value of their street by their
+/// lengths. `streets`: by segment, the place of its street in `values`. `weights` has room for
+/// `count`. SL_BAD_ARGUMENT for a street that is not there, and for a segment without length.
+SL_API sl_status sl_segment_share(sl_context *context, const sl_segment *segments, uint32_t count,
+                                  const uint32_t *streets, const double *values,
+                                  uint32_t street_count, double *weights);
 
 #ifdef __cplusplus
 }

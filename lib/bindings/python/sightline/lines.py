@@ -102,6 +102,12 @@ class Segments(Lines):
         -------
         A table with a row for each segment: its ends x1, y1, x2, y2, and its measures.
 
+        Notes
+        -----
+        Where several shortest paths share a pair, the last digits of choice may change with the
+        order of the walls: each share is rounded to 2^-24, more coarsely with weights or beyond
+        262,143 segments (`sightline/axial.h`).
+
         Examples
         --------
         >>> import sightline
