@@ -40,7 +40,7 @@ packages() {
 # The file by which a part is known in FOLDER.
 has() {
     case $1 in
-    source) set -- "$folder"/sightline-[0-9]*.[0-9].tar.gz ;;
+    source) set -- "$(find "$folder" -maxdepth 1 -name 'sightline-*.tar.gz' ! -name 'sightline-*-*')" ;;
     command) set -- "$folder"/sightline-*-linux-*.tar.gz ;;
     npm) set -- "$folder"/sightline-*.tgz ;;
     wheel) set -- "$folder"/python/*.whl ;;

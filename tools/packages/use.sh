@@ -17,6 +17,11 @@ file() {
     echo "$1"
 }
 
+# sources: the name of their archive, the one without a second hyphen.
+sources() {
+    basename "$(find "$files" -maxdepth 1 -name 'sightline-*.tar.gz' ! -name 'sightline-*-*')"
+}
+
 # unpacked PATTERN: the name of the folder in an archive, which is unpacked here.
 unpacked() {
     archive=$(file "$1")
@@ -57,7 +62,7 @@ windows)
     bakes env WINEPREFIX="$PWD/wine" WINEDEBUG=-all wine "$folder/sightline.exe"
     ;;
 source) # the core alone, which needs a C compiler and CMake; used by pkg-config and by find_package
-    folder=$(unpacked 'sightline-[0-9]*.[0-9].tar.gz')
+    folder=$(unpacked "$(sources)")
     off=$(for each in ANALYSIS IO STUDY GLPK DRAW TOOLS VIEWER PYTHON TESTS; do echo "-DSIGHTLINE_$each=OFF"; done)
     # shellcheck disable=SC2086
     cmake -S "$folder" -B build -DCMAKE_BUILD_TYPE=Release $off
@@ -83,7 +88,7 @@ END
     ;;
 amalgamation) # with the README of the sources beside it
     mkdir sources two
-    tar -xzf "$(file 'sightline-[0-9]*.[0-9].tar.gz')" -C sources --strip-components=1
+    tar -xzf "$(file "$(sources)")" -C sources --strip-components=1
     tar -xzf "$(file 'sightline-*-amalgamation.tar.gz')" -C two --strip-components=1
     readme_program sources | sed 's|<sightline/sightline.h>|"sightline.h"|' >two/program.c
     cc -O1 two/program.c two/sightline.c -pthread -lm -o program
@@ -91,7 +96,7 @@ amalgamation) # with the README of the sources beside it
     ;;
 npm)
     echo '{"type": "module"}' >package.json
-    npm install --offline --no-audit --no-fund "$(file 'sightline-[0-9]*.[0-9].tgz')"
+    npm install --offline --no-audit --no-fund "$(file 'sightline-*.tgz')"
     cat >program.js <<'END'
 import { bake } from 'sightline/bake'
 import { Level } from 'sightline'
@@ -126,7 +131,15 @@ qgis) # it lists the algorithms
 wheel | sdist)
     python=/usr/bin/python3 # which has the system's numpy
     if [ "$part" = wheel ]; then
-        $python -m pip install --no-index --no-deps --target installed "$(file 'python/sightline-*.whl')"
+        wheel=$(file 'python/sightline-*.whl')
+        $python -m pip install --no-index --no-deps --target installed "$wheel"
+        if command -v objdump >/dev/null; then # the name says the newest glibc that a symbol asks for
+            newest=$(find installed -name '*.so*' -exec objdump -T {} + | grep -o 'GLIBC_[0-9.]*' | sort -uV | tail -n 1)
+            case $wheel in
+            *-manylinux_"$(echo "${newest#GLIBC_}" | tr . _)"_*) ;;
+            *) echo "use: a symbol asks for $newest: $wheel" >&2; exit 1 ;;
+            esac
+        fi
     else
         $python -m pip install --no-index --no-deps --no-build-isolation --target installed "$(file 'python/sightline-*.tar.gz')"
     fi
