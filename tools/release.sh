@@ -1,5 +1,5 @@
 #!/bin/sh
-# All files of a release, and SHA256SUMS, in a folder: sh tools/release.sh FOLDER [PART...]
+# All files of a release, and SHA256SUMS, in a folder: sh tools/release.sh [--clean] FOLDER [PART...]
 #
 # source   the archive of the commit that is checked out; all else is built from it, unpacked
 # command  the command for Linux, static, with its manual pages, completion and licence
@@ -11,18 +11,24 @@
 # python   the Python package: its sources in one file, and a wheel that has the libraries it needs
 #
 # 'sh tools/setup.sh --release' installs what they need. Without a PART, all. Each is tried in an empty folder before it is
-# put into FOLDER. The same commit gives the same bytes with the same compilers. The static commands read map text, ASCII
-# plans and baked files alone. The wheel is for Linux with the glibc that its name says, or newer.
+# put into FOLDER; with --clean, also in a Debian of its own that has nothing else (tools/packages/clean.sh), as root. The
+# same commit gives the same bytes with the same compilers. The static commands read map text, ASCII plans and baked files
+# alone. The wheel is for Linux with the glibc that its name says, or newer.
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
-usage='usage: sh tools/release.sh FOLDER [source | command | windows | amalgamation | npm | foundry | qgis | python]...'
+usage='usage: sh tools/release.sh [--clean] FOLDER [source | command | windows | amalgamation | npm | foundry | qgis | python]...'
 fail() {
     echo "release: $1" >&2
     exit "${2:-1}"
 }
+clean=
+if [ "${1:-}" = --clean ]; then
+    clean=yes
+    shift
+fi
 case ${1:-} in
 -h | --help)
-    sed -n '2,16s/^# \{0,1\}//p' "$0"
+    sed -n '2,17s/^# \{0,1\}//p' "$0"
     exit 0
     ;;
 '' | -*) fail "$usage" 2 ;;
@@ -74,32 +80,32 @@ with zipfile.ZipFile(sys.argv[1], 'w') as archive:
         archive.writestr(zipfile.ZipInfo(name), open(name, 'rb').read(), zipfile.ZIP_DEFLATED)" "$2"
 }
 
-# keep FILE [FOLDER/]: what is tried takes its place.
-keep() {
-    target=${2:-}$(basename "$1")
-    mkdir -p "$(dirname "$folder/$target")"
-    mv "$1" "$folder/$target"
-    made="${made:-} $target"
-    echo "release: $folder/$target"
+# offer FILE [FOLDER/]: it becomes a file of the release.
+offer() {
+    mkdir -p "$folder/${2:-}"
+    cp "$1" "$folder/${2:-}"
+    made="${made:-} ${2:-}$(basename "$1")"
+    echo "release: $folder/${2:-}$(basename "$1")"
 }
 
-# try_command WORD...: a command of these words, from an empty folder to a baked file.
-try_command() {
-    mkdir "$scratch/try"
-    (
-        cd "$scratch/try" &&
-            "$@" --version | tr -d '\r' | grep -qx "sightline $version" &&
-            "$@" generate office --quiet -o office.map &&
-            "$@" bake office.map --check --quiet -o office.slv &&
-            "$@" info office.slv --json | grep -q '"cells": [1-9]'
-    ) || fail "the command does not work"
-    rm -r "$scratch/try"
+# keep PART FILE [FOLDER/]: the same, once it works.
+files=$scratch/files
+mkdir "$files"
+keep() {
+    target=${3:-}$(basename "$2")
+    mkdir -p "$files/${3:-}" "$scratch/empty"
+    mv "$2" "$files/$target"
+    (cd "$scratch/empty" && quietly sh "$sources/tools/packages/use.sh" "$1" "$files")
+    rm -r "$scratch/empty"
+    offer "$files/$target" "${3:-}"
 }
 
 # ---- source ----
 git -C "$root" archive --prefix="$name/" HEAD | tar -x -C "$scratch"
 sources=$scratch/$name
 [ -f "$sources/CMakeLists.txt" ] && [ -f "$sources/LICENSE" ] || fail "the archive lacks the sources"
+pack "$name" "$name"
+mv "$scratch/$name.tar.gz" "$files/"
 
 # ---- command, windows: both static, without optional readers ----
 # build_command FOLDER CMAKE-OPTION...: the command, in $sources/build/FOLDER.
@@ -121,11 +127,7 @@ case $parts in *" command "*)
     cp "$build"/tools/manual/*.1 "$scratch/$bin/man/"
     cp -R "$sources/LICENSE" "$sources/tools/completion" "$scratch/$bin/"
     pack "$bin" "$bin"
-    mkdir "$scratch/unpacked"
-    tar -xzf "$scratch/$bin.tar.gz" -C "$scratch/unpacked"
-    if readelf -d "$scratch/unpacked/$bin/sightline" | grep -q NEEDED; then fail "the command is not static"; fi
-    try_command env -i "$scratch/unpacked/$bin/sightline"
-    keep "$scratch/$bin.tar.gz"
+    keep command "$scratch/$bin.tar.gz"
     ;;
 esac
 case $parts in *" windows "*)
@@ -135,35 +137,25 @@ case $parts in *" windows "*)
     build_command windows -DCMAKE_SYSTEM_NAME=Windows -DCMAKE_SYSTEM_PROCESSOR=x86_64 -DCMAKE_C_COMPILER=$cross-gcc \
         -DCMAKE_EXE_LINKER_FLAGS="-static -Wl,--no-insert-timestamp"
     bin=$name-windows-x86_64
-    mkdir "$scratch/$bin" "$scratch/unzipped"
+    mkdir "$scratch/$bin"
     $cross-strip -o "$scratch/$bin/sightline.exe" "$build/tools/sightline.exe"
     cp "$sources/LICENSE" "$scratch/$bin/"
     (cd "$scratch" && zip_folder "$bin" "$bin.zip")
-    quietly python3 -m zipfile -e "$scratch/$bin.zip" "$scratch/unzipped"
-    if $cross-objdump -p "$scratch/unzipped/$bin/sightline.exe" | sed -n 's/.*DLL Name: //p' |
+    if $cross-objdump -p "$scratch/$bin/sightline.exe" | sed -n 's/.*DLL Name: //p' |
         grep -viE '^(kernel32|msvcrt|advapi32|user32|shell32|ws2_32)\.dll$|^api-ms-win-'; then
         fail "the command for Windows needs libraries that Windows has not"
     fi
-    try_command env WINEPREFIX="$scratch/wine" WINEDEBUG=-all wine "$scratch/unzipped/$bin/sightline.exe"
-    keep "$scratch/$bin.zip"
+    keep windows "$scratch/$bin.zip"
     ;;
 esac
 
-# ---- amalgamation: the README's program is compiled with it, and prints what the README says ----
+# ---- amalgamation ----
 case $parts in *" amalgamation "*)
-    mkdir "$scratch/$name-amalgamation" "$scratch/amalgamated"
+    mkdir "$scratch/$name-amalgamation"
     cp "$sources/LICENSE" "$scratch/$name-amalgamation/"
     quietly python3 -B "$sources/tools/packages/amalgamation/amalgamate.py" "$scratch/$name-amalgamation"
     pack "$name-amalgamation" "$name-amalgamation"
-    tar -xzf "$scratch/$name-amalgamation.tar.gz" -C "$scratch/amalgamated" --strip-components=1
-    (
-        cd "$scratch/amalgamated" &&
-            sed -n '/^```c$/,/^```$/{/^```/d;s|<sightline/sightline.h>|"sightline.h"|;p}' "$sources/README.md" >program.c &&
-            quietly cc -O1 program.c sightline.c -pthread -lm -o program &&
-            cd "$sources" && [ "$("$scratch/amalgamated/program")" = \
-            "$(sed -n '/^```text$/{n;p;q}' README.md)" ]
-    ) || fail "the amalgamation does not work"
-    keep "$scratch/$name-amalgamation.tar.gz"
+    keep amalgamation "$scratch/$name-amalgamation.tar.gz"
     ;;
 esac
 
@@ -175,18 +167,7 @@ case $parts in *" npm "* | *" foundry "* | *" python "*)
 esac
 case $parts in *" npm "*)
     (cd "$scratch/web/package" && quietly npm pack --offline --pack-destination "$scratch")
-    mkdir "$scratch/project"
-    (
-        cd "$scratch/project" &&
-            echo '{"type": "module"}' >package.json &&
-            quietly npm install --offline --no-audit --no-fund "$scratch/$name.tgz" &&
-            node -e "import('sightline/bake').then(async ({ bake, describe }) => {
-            const slv = await bake({ walls: [[0, 0, 4, 0], [4, 0, 4, 4], [4, 4, 0, 4], [0, 4, 0, 0]] })
-            const { Level } = await import('sightline')
-            if (!(await Level.open(slv)).canSee([1, 1], [3, 3])) process.exit(1)
-        })"
-    ) || fail "the npm package does not work"
-    keep "$scratch/$name.tgz"
+    keep npm "$scratch/$name.tgz"
     ;;
 esac
 
@@ -195,42 +176,25 @@ case $parts in *" foundry "*)
     (
         cd "$scratch/sightline" &&
             cp -R "$sources/lib/bindings/foundry/." "$sources/LICENSE" . &&
-            cp -R "$scratch/web/package" scripts/ && chmod -R u=rwX,go=rX . &&
-            cd .. &&
-            zip_folder sightline "$name-foundry.zip" &&
-            mkdir foundry && cd foundry && quietly python3 -m zipfile -e "../$name-foundry.zip" . &&
-            node -e "import('$scratch/foundry/sightline/scripts/watch.mjs').then(async ({ Watch }) => {
-            const [{ Level }, { bake }] = await Promise.all(['sightline', 'bake'].map((file) =>
-                import('$scratch/foundry/sightline/scripts/package/' + file + '.js')))
-            const watch = await Watch.of([{ c: [1, 0, 1, 2] }], { x: 0, y: 0, width: 2, height: 3 }, { Level, bake })
-            if (watch.sees({ x: 0.5, y: 1 }, { x: 1.5, y: 1 })) process.exit(1)
-        })"
-    ) || fail "the module for Foundry does not work"
-    keep "$scratch/$name-foundry.zip"
+            cp -R "$scratch/web/package" scripts/ && chmod -R u=rwX,go=rX .
+    )
+    (cd "$scratch" && zip_folder sightline "$name-foundry.zip")
+    keep foundry "$scratch/$name-foundry.zip"
     ;;
 esac
 
-# ---- qgis: where QGIS is installed, it lists the algorithms ----
+# ---- qgis ----
 case $parts in *" qgis "*)
-    mkdir -p "$scratch/qgis/plugins" "$scratch/qgis/home"
     cp -R "$sources/lib/bindings/qgis" "$scratch/sightline_qgis"
     cp "$sources/LICENSE" "$scratch/sightline_qgis/"
     (cd "$scratch" && zip_folder sightline_qgis "$name-qgis.zip")
-    quietly python3 -m zipfile -e "$scratch/$name-qgis.zip" "$scratch/qgis/plugins"
-    quietly python3 -m compileall -q "$scratch/qgis/plugins"
-    process=$(command -v qgis_process.bin || command -v qgis_process || true)
-    if [ "$process" ]; then
-        chmod 700 "$scratch/qgis/home"
-        in_qgis() {
-            env HOME="$scratch/qgis/home" XDG_RUNTIME_DIR="$scratch/qgis/home" QT_QPA_PLATFORM=offscreen \
-                QGIS_PLUGINPATH="$scratch/qgis/plugins" "$process" "$@"
-        }
-        quietly in_qgis plugins enable sightline_qgis
-        in_qgis list 2>/dev/null | grep -q 'sightline:isovists' || fail "the plugin for QGIS does not work"
+    quietly python3 -m compileall -q "$scratch/sightline_qgis"
+    if command -v qgis_process >/dev/null; then
+        keep qgis "$scratch/$name-qgis.zip"
     else
         echo "release: QGIS is not installed: the plugin was not tried in it" >&2
+        offer "$scratch/$name-qgis.zip"
     fi
-    keep "$scratch/$name-qgis.zip"
     ;;
 esac
 
@@ -247,26 +211,15 @@ case $parts in *" python "*)
     (cd "$scratch/python" &&
         quietly $python -m pip wheel --no-index --no-deps --no-build-isolation -w "$scratch/wheel" ../sdist.tar.gz)
     wheel=$($python "$sources/tools/packages/python/standalone.py" "$scratch"/wheel/*.whl "$scratch")
-    quietly $python -m pip install --no-index --no-deps --target "$scratch/installed" "$wheel"
-    (
-        cd "$scratch/wheel" && PYTHONPATH=$scratch/installed $python -c "
-import sightline
-room = sightline.Plan.from_segments([[0, 0, 4, 0], [4, 0, 4, 4], [4, 4, 0, 4], [0, 4, 0, 0]])
-assert room.bake().can_see((1, 1), (3, 3)) and room.bake().explorer().page and sightline.__version__ == '$version'"
-    ) || fail "the wheel does not work"
     mv "$scratch/sdist.tar.gz" "$scratch/python/$name.tar.gz"
-    keep "$scratch/python/$name.tar.gz" python/
-    keep "$wheel" python/
+    offer "$scratch/python/$name.tar.gz" python/ # of which the wheel was built
+    keep wheel "$wheel" python/
     ;;
 esac
 
 # ---- the archive of the sources: last, since what it gives has now been built ----
-case $parts in *" source "*)
-    rm -rf "$sources/build"
-    pack "$name" "$name"
-    keep "$scratch/$name.tar.gz"
-    ;;
-esac
+case $parts in *" source "*) offer "$files/$name.tar.gz" ;; esac
 # shellcheck disable=SC2086
 (cd "$folder" && sha256sum $made >SHA256SUMS && sha256sum -c --quiet SHA256SUMS)
 echo "release: $folder/SHA256SUMS"
+if [ "$clean" ]; then sh "$root/tools/packages/clean.sh" "$folder"; fi

@@ -7,7 +7,7 @@
 # Chromium and npm for the tests of the pages; on Debian also compilers and emulators for two other
 # machines. --web adds what tools/web.sh needs: clang, lld, wasi-libc, compiler-rt for WebAssembly,
 # binaryen and node. --release adds what tools/release.sh needs beside that: npm, pip, wheel, numpy,
-# patchelf, and on Debian MinGW and Wine. --qgis adds QGIS, which is large, for the test of its plugin.
+# patchelf, and on Debian MinGW, Wine and debootstrap. --qgis adds QGIS, which is large, for the test of its plugin.
 # --firefox adds Firefox, in which the tests of the pages can run, too.
 #
 # Tried on Debian. Fedora, Arch and macOS are written from their package lists and untried.
@@ -114,7 +114,7 @@ is_there() {
     abidw) has abidw ;;
     x11) module x11 ;;
     font) font ;;
-    clang | clang-format | clang-tidy | ccache | doxygen | llvm-symbolizer | luajit | node | npm | patchelf | tiled) has "$1" ;;
+    clang | clang-format | clang-tidy | ccache | doxygen | llvm-symbolizer | luajit | node | npm | patchelf | tiled | debootstrap) has "$1" ;;
     mono) has mono && has mcs ;;
     qgis) has qgis_process && /usr/bin/python3 -c 'import qgis' 2>/dev/null ;;
     chromium) has chromium || has chromium-browser ;;
@@ -156,6 +156,7 @@ package() { # system thing
     apt:qgis) echo qgis python3-qgis qgis-providers ;;
     apt:clang-sanitizers) echo libclang-rt-dev ;;
     apt:aarch64) echo gcc-aarch64-linux-gnu libc6-dev-arm64-cross qemu-user ;;
+    apt:debootstrap) echo debootstrap debian-archive-keyring ;;
     apt:windows) echo gcc-mingw-w64-x86-64 wine wine64 ;;
     apt:wasm) echo lld wasi-libc libclang-rt-dev-wasm32 ;;
     apt:aspell | dnf:aspell | pacman:aspell) echo aspell aspell-en ;;
@@ -259,7 +260,7 @@ things="c c++ cmake ninja pkg-config python3 zlib jansson libpng libxml2 libyaml
 [ $ci = yes ] && has apt-get && things="$things aarch64 windows" # tests/everywhere
 [ $web = yes ] && things="$things clang wasm binaryen node"
 [ $release = yes ] && things="$things npm pip wheel numpy patchelf"
-[ $release = yes ] && has apt-get && things="$things windows"
+[ $release = yes ] && has apt-get && things="$things windows debootstrap"
 [ $qgis = yes ] && things="$things qgis"
 [ $firefox = yes ] && things="$things firefox"
 

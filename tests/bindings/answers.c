@@ -11,6 +11,12 @@
 ///     m                                what the file holds of mirrors (sl_runtime_mirrors)
 ///     v x y full rx ry lx ly range     the polygon that it sees
 ///     d number shut                    shuts or opens a door; no answer
+///     b count                          so many boxes, which are nowhere; no answer
+///     bm box x0 y0 x1 y1 blocks        moves a box; no answer
+///     bk, bv x y full ... range        as k and v, past boxes
+///     bs x y full ... range            1 or 0 for each box: whether the eye sees it
+///     bp x0 y0 x1 y1                   1 if the points see each other past boxes
+///     bw x0 y0 x1 y1 box               1 if one may walk there; its own box, or -1
 ///     tk x y ..., tv ..., tr ...       microseconds that cells, polygons or (library) regions of
 ///                                      these eyes take together: the least of several times
 #include "sightline/bake.h"
@@ -32,6 +38,9 @@ typedef struct answerer {
     double *points;
     uint32_t room;
     sl_region region;
+    sl_runtime_boxes boxes;
+    uint32_t *boxes_scratch;
+    unsigned char *seen;
 } answerer;
 
 /// A number of the question that is being read.
@@ -46,10 +55,15 @@ static sl_runtime_view view(void) {
     return v;
 }
 
-static void look(const answerer *a) {
+static void look(const answerer *a, bool past_boxes) {
     const sl_runtime_view v = view();
-    const uint32_t count = sl_runtime_look_past(&a->level, &v, a->shut, number(), a->scratch,
-                                                a->cells, a->level.cell_count);
+    const double range = number();
+    const uint32_t most = a->level.cell_count;
+    const uint32_t count =
+        past_boxes
+            ? sl_runtime_look_past_boxes(&a->boxes, &v, a->shut, range, a->boxes_scratch, a->seen,
+                                         a->cells, most)
+            : sl_runtime_look_past(&a->level, &v, a->shut, range, a->scratch, a->cells, most);
     for (uint32_t i = 0; i < count; i++) printf("%s%u", i ? " " : "", (unsigned)a->cells[i]);
     putchar('\n');
 }
@@ -78,12 +92,15 @@ static void seen_from(const answerer *a, bool mirrored) {
     putchar('\n');
 }
 
-static void polygon(answerer *a) {
+static void polygon(answerer *a, bool past_boxes) {
     const sl_runtime_view v = view();
     const double range = number();
     uint32_t count;
-    while ((count = sl_runtime_visible_polygon(&a->level, &v, a->shut, range, a->scratch, a->points,
-                                               a->room)) > a->room) {
+    while ((count = past_boxes
+                        ? sl_runtime_visible_polygon_past_boxes(
+                              &a->boxes, &v, a->shut, range, a->boxes_scratch, a->points, a->room)
+                        : sl_runtime_visible_polygon(&a->level, &v, a->shut, range, a->scratch,
+                                                     a->points, a->room)) > a->room) {
         a->room = count;
         a->points = realloc(a->points, 2 * sizeof *a->points * a->room);
         if (!a->points) abort();
@@ -135,6 +152,54 @@ static void take_time(answerer *a, char kind) {
     printf("%.17g\n", 1e6 * least);
 }
 
+static void start_boxes(answerer *a) {
+    enum { PAIRS = 64 }; // of a box and a cell, for each box: more than any test has
+    const uint32_t count = (uint32_t)number();
+    const size_t size = sl_runtime_boxes_count(&a->level, count, PAIRS * count);
+    free(a->boxes.boxes);
+    free(a->boxes.memory);
+    free(a->boxes_scratch);
+    free(a->seen);
+    sl_runtime_box *list = calloc(count, sizeof *list);
+    uint32_t *memory = calloc(size, sizeof *memory);
+    a->seen = calloc(count, 1);
+    if (!list || !memory || !a->seen) abort();
+    sl_runtime_boxes_start(&a->boxes, &a->level, list, count, PAIRS * count, memory);
+    a->boxes_scratch = calloc(sl_runtime_boxes_scratch_count(&a->boxes), sizeof *a->boxes_scratch);
+    if (!a->boxes_scratch) abort();
+}
+
+static void boxes_seen(const answerer *a) {
+    const sl_runtime_view v = view();
+    sl_runtime_boxes_seen(&a->boxes, &v, a->shut, number(), a->boxes_scratch, a->seen);
+    for (uint32_t i = 0; i < a->boxes.count; i++) printf("%s%d", i ? " " : "", a->seen[i]);
+    putchar('\n');
+}
+
+/// What is asked of boxes, by the letter after the b.
+static void answer_boxes(answerer *a, char kind) {
+    if (kind == 'k')
+        look(a, true);
+    else if (kind == 'v')
+        polygon(a, true);
+    else if (kind == 's')
+        boxes_seen(a);
+    else if (kind == 'm') {
+        const uint32_t box = (uint32_t)number();
+        sl_runtime_box to = {number(), number(), number(), number(), false};
+        to.blocks = number() != 0;
+        if (!sl_runtime_boxes_move(&a->boxes, box, &to)) abort();
+    } else if (kind == 'p' || kind == 'w') {
+        const sl_point from = {number(), number()}, to = {number(), number()};
+        printf("%d\n", kind == 'p'
+                           ? sl_runtime_sees_past_boxes(&a->boxes, from.x, from.y, to.x, to.y,
+                                                        a->shut, 0, a->boxes_scratch)
+                           : sl_runtime_can_walk_past_boxes(&a->boxes, from.x, from.y, to.x, to.y,
+                                                            a->shut, (uint32_t)(int)number()));
+    } else
+        start_boxes(a);
+}
+
 static void answer(answerer *a, const char *kind) {
     if (*kind == 'l') {
         const double x = number(), y = number();
@@ -157,9 +222,11 @@ static void answer(answerer *a, const char *kind) {
     else if (*kind == 't')
         take_time(a, kind[1]);
     else if (*kind == 'k')
-        look(a);
+        look(a, false);
     else if (*kind == 'v')
-        polygon(a);
+        polygon(a, false);
+    else if (*kind == 'b')
+        answer_boxes(a, kind[1]);
     else
         set_door(a);
 }
@@ -181,6 +248,10 @@ int main(int argc, char **argv) {
         a.shut[i] = !sl_runtime_door_open(&a.level, i);
     while (fgets(line, sizeof line, stdin)) answer(&a, strtok(line, " \n"));
     sl_region_destroy(a.context, &a.region);
+    free(a.boxes.boxes);
+    free(a.boxes.memory);
+    free(a.boxes_scratch);
+    free(a.seen);
     free(a.points);
     free(a.cells);
     free(a.scratch);

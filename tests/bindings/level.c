@@ -191,7 +191,9 @@ static void coordinates_are_chosen(void **state) {
     double *polygon = malloc(2 * (size_t)count * sizeof *polygon);
     memcpy(polygon, found, 2 * (size_t)count * sizeof *polygon);
     assert_int_equal(sl_level_set_box_count(o->level, 1), 1);
+    assert_int_equal(sl_level_y_is_down(o->level), 0);
     sl_level_use_coordinates(o->level, 0, 8, 16, 1);
+    assert_int_equal(sl_level_y_is_down(o->level), 1);
     sl_level_bounds(o->level, bounds);
     const double pixels[4] = {0, 0, 192, 128};
     assert_memory_equal(bounds, pixels, sizeof pixels);

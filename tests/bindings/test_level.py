@@ -31,6 +31,14 @@ pairs = list(zip(seen, seen[1:] + seen[:1]))
 print(sum(image.get_at((x, y))[:3] == (255, 237, 153) for x in range(main.SIZE[0]) for y in range(main.SIZE[1])),
       abs(sum(a[0] * b[1] - b[0] * a[1] for a, b in pairs)) / 2, sum(map(math.dist, *zip(*pairs))))
 """
+# Whether a picture has black squares in its lower half, and in its upper half.
+BLACK = """
+import sys, pygame
+image = pygame.image.load(sys.argv[1])
+width, height = image.get_size()
+rows = [y for y in range(0, height, 2) for x in range(0, width, 2) if image.get_at((x, y))[:3] == (0, 0, 0)]
+print(max(rows) > height / 2, min(rows) < height / 2)
+"""
 HEADERS = os.environ.get("GODOT_HEADERS")
 
 
@@ -152,6 +160,26 @@ class Level(unittest.TestCase):
             painted, area, outline = map(float, done.stdout.split()[-3:])
             self.assertGreater(area, 5000)
             self.assertLess(abs(painted - area), outline + 60)  # squares on the outline, and the eye
+
+    def test_pictures_stand_upright(self):
+        python = ["/usr/bin/python3", "-B"]
+        if self.run_one([*python, "-c", "import pygame"]).returncode:
+            self.skipTest("no pygame")
+        examples, picture = SOURCE / "lib/bindings/level/examples", self.at / "upright.png"
+        programs = {"pygame": [*python, examples / "pygame/main.py"]}
+        if shutil.which("love") and shutil.which("xvfb-run"):
+            programs["LÖVE"] = ["xvfb-run", "-a", "love", examples / "love"]
+        else:
+            print("love or xvfb-run not here: LÖVE is left out", file=sys.stderr)
+        subprocess.run([PROGRAM, "bake", SOURCE / "maps/keep.tmx", "-o", self.at / "keep.slv", "--quiet"], check=True)
+        # Map text has y up, Tiled y down. The eye is a black disc in the half of the window where it stands.
+        for name, eye, is_low in (("doors", (5.1, 5.03), True), ("doors", (5.1, 16.2), False), ("keep", (100.3, 40.2), False)):
+            for program, command in programs.items():
+                done = self.run_one(command, self.at / f"{name}.slv", *eye, picture)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                done = self.run_one([*python, "-c", BLACK, picture])
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertEqual(done.stdout.split()[-2:], [str(is_low), str(not is_low)], (program, name, eye))
 
     def test_faults_are_told(self):
         broken = self.at / "broken.slv"

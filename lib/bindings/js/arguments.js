@@ -5,7 +5,7 @@
  */
 import { SightlineError } from './host.js'
 
-/** The value, if it is right. */
+/** The value, if it is right. Texts that say what is needed are put together only where it is not. */
 function need(right, name, what, value) {
   if (right) return value
   const shown = value && typeof value === 'object' ? 'an object' : String(value).slice(0, 40)
@@ -16,11 +16,11 @@ const isList = (value) => Array.isArray(value) || (ArrayBuffer.isView(value) && 
 
 /** A finite number, of `least` or more. */
 export const numberOf = (name, value, least = -Infinity) =>
-  need(Number.isFinite(value) && value >= least, name, least ? 'a number' : 'a number, 0 or more,', value)
+  Number.isFinite(value) && value >= least ? value : need(false, name, least > -Infinity ? `a number, ${least} or more,` : 'a number', value)
 
 /** A whole number from 0 to `most`. */
 export const wholeOf = (name, value, most) =>
-  need(Number.isInteger(value) && value >= 0 && value <= most, name, `a whole number, 0 to ${most},`, value)
+  Number.isInteger(value) && value >= 0 && value <= most ? value : need(false, name, `a whole number, 0 to ${most},`, value)
 
 /** The number of one of `count` things of a kind. */
 export const indexOf = (kind, value, count) => wholeOf(kind, value, count - 1)

@@ -12,7 +12,7 @@ import { isBaked, mapText } from './maptext.js'
 import { Module, instantiable, loadedOnce } from './module.js'
 import { MOST_MIRRORS, Scene } from './scene.js'
 
-export { SightlineError, mapText }
+export { Scene, SightlineError, mapText }
 
 function sceneOf(scene) {
   if (scene instanceof Scene) return scene

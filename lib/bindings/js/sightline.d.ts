@@ -70,6 +70,11 @@ export interface OpenOptions {
    * and `yDown` false. Exact for whole numbers if the scale is a power of 2; else places are rounded.
    */
   transform?: 'file' | { origin?: Place; scale?: number; yDown?: boolean }
+  /**
+   * How many boxes may move in the level, up to 1,000,000; 0 by default. Such a level loads boxes.wasm in place of
+   * level.wasm. The boxes are nowhere until moveBox() puts them somewhere.
+   */
+  boxes?: number
 }
 
 export interface Cell {
@@ -116,6 +121,7 @@ export class Level {
    */
   readonly mirrors: 'none' | 'baked' | 'not baked'
   readonly cellCount: number
+  readonly boxCount: number
   readonly cells: readonly (Cell & { hasRow: boolean })[]
   readonly starts: readonly Start[]
   /** As they stand. */
@@ -139,17 +145,30 @@ export class Level {
    * Whether an eye at a sees the point b. A point on a wall or a shut door is seen from both sides,
    * but an eye there sees the side of its cell (locate) only, and all around at the wall's end. If
    * neither point is on a wall or a shut door, and no one-way glass is between them, each sees the
-   * other or none does. With `mirrors`: whether it may; false is sure.
+   * other or none does. With `mirrors`: whether it may, and boxes hide nothing; false is sure.
    */
   canSee(a: Place, b: Place, options?: Mirrors): boolean
   /**
    * Whether one may walk straight from one point to another: no point of the way, ends included, is
-   * on a wall, a mirror, one-way glass or a shut door, in solid ground or outside the map.
+   * on a wall, a mirror, one-way glass, a shut door or the side of a box that blocks, in such a box, in solid ground
+   * or outside the map. `box` is that of who walks, and does not count.
    */
-  canWalk(from: Place, to: Place): boolean
+  canWalk(from: Place, to: Place, box?: number): boolean
+  /**
+   * Puts a box at a place. One that blocks, as by default, hides what is behind it from look(), visiblePolygon() and
+   * canSee() of two points. The bake stays as it is, and rows do not know of boxes. A box outside the bounds is
+   * nowhere. Makes no objects.
+   */
+  moveBox(box: number, minX: number, minY: number, maxX: number, maxY: number, blocks?: boolean): void
+  /**
+   * Which boxes an eye sees, into an array of the caller: 1 or 0 for each. Gives how many. None is missed; of boxes
+   * that overlap, a hidden one may count as seen. Else it is exact.
+   */
+  boxesSeenInto(seen: Uint8Array, x: number, y: number, view?: View): number
+  boxesSeenInto(seen: Uint8Array, eye: Eye): number
   /**
    * The cells that an eye sees; its own first, if it looks into it. With `mirrors`, the first `direct` of them are seen
-   * directly. The others are seen by mirror: none is missed, some may be added.
+   * directly. The others are seen by mirror: none is missed, some may be added, and boxes hide nothing.
    */
   look(x: number, y: number, view: View & { mirrors: true }): Uint32Array & { direct: number }
   look(x: number, y: number, view?: View & Mirrors): Uint32Array

@@ -2,9 +2,10 @@
  * A baked level (.slv) in a game: where is a point, what sees what, what does an eye see.
  *
  * One WebAssembly instance holds one level. Its memory has the file, then doors, scratch memory and
- * answers, each at a fixed place; only the polygon may grow. Answers are copies and stay valid.
+ * answers, each at a fixed place; only the polygon may grow. Answers are copies and stay valid. A level with
+ * boxes that move has a module of its own; where their memory becomes too small, the polygon moves.
  */
-import { flagOf, indexOf, listOf, numberOf, optionsOf, pointOf, textOf, transformOf, viewOf } from './arguments.js'
+import { flagOf, indexOf, listOf, numberOf, optionsOf, pointOf, textOf, transformOf, viewOf, wholeOf } from './arguments.js'
 import { SightlineError, bytesOf, compile, direction, textAt } from './host.js'
 
 export { SightlineError }
@@ -14,6 +15,11 @@ const MIRRORS = ['none', 'baked', 'not baked']
 const KINDS = ['door', 'breakable', 'site']
 // The status of a file before 2.0 (SL_RUNTIME_OLD).
 const OLD = 11
+
+function checkBox(minX, minY, maxX, maxY) {
+  numberOf('maxX', maxX, numberOf('minX', minX))
+  numberOf('maxY', maxY, numberOf('minY', minY))
+}
 
 /** An eye's x, y and view. One object may hold all; there `dx` and `dy` may stand for the heading. */
 function eyeOf(x, y, options, ...known) {
@@ -31,32 +37,35 @@ function eyeOf(x, y, options, ...known) {
 export class Level {
   #core
   #memory
-  #shut = 0
-  #scratch = 0
-  #list = 0
-  #points = 0
-  #view = new Float64Array(0)
-  #answer = this.#view
-  #allRound
-  #room = 0
-  #doors = []
+  #shut
+  #scratch
+  #list
+  #points
+  #room
+  #seen
+  #view
+  #bytes = new Uint8Array(0)
+  #doubles
+  #doors
   #cells
   #walls
-  #range = 0
+  #range
 
   /**
    * Opens a baked file, which is checked wholly. Places and headings, given and taken, are in the
-   * coordinates of `transform`.
+   * coordinates of `transform`. `boxes`: how many boxes may move in it.
    *
    * @param {ArrayBuffer | Uint8Array} bytes
-   * @param {{transform?: 'file' | object}} [options]
+   * @param {{transform?: 'file' | object, boxes?: number}} [options]
    * @returns {Promise<Level>}
    */
   static async open(bytes, options) {
     const file = bytesOf(bytes)
-    const { transform } = optionsOf(options, 'transform')
-    const module = await compile('level', new URL('./level.wasm', import.meta.url))
-    const make = async (data) => new Level((await WebAssembly.instantiate(module, {})).exports, data, transform)
+    const { transform, boxes = 0 } = optionsOf(options, 'transform', 'boxes')
+    const module = await (wholeOf('boxes', boxes, 1e6)
+      ? compile('boxes', new URL('./boxes.wasm', import.meta.url))
+      : compile('level', new URL('./level.wasm', import.meta.url)))
+    const make = async (data) => new Level((await WebAssembly.instantiate(module, {})).exports, data, transform, boxes)
     return make(file).catch(async (error) => {
       if (error.status !== OLD) throw error
       const scene = (await (await import('./bake.js')).load()).open(file)
@@ -65,18 +74,13 @@ export class Level {
   }
 
   /** Use Level.open(). */
-  constructor(core, file, transform) {
+  constructor(core, file, transform, boxes) {
     this.#core = core
     this.#memory = core.memory
     core._initialize()
-    let end = core.__heap_base.value
-    const place = (bytes) => {
-      const at = (end + 15) & ~15
-      end = at + bytes
-      this.#reserve(end)
-      return at
-    }
-    const data = place(file.length)
+    this.#points = core.__heap_base.value
+    this.#view = core.view_place()
+    const data = this.#place(file.length)
     new Uint8Array(this.#memory.buffer).set(file, data)
     const status = core.open(data, file.length)
     if (status) {
@@ -86,20 +90,21 @@ export class Level {
     core.describe()
     const [cells, down, doors, starts, scratch, mirrors, unfinished, state] = this.#integers
     const [, , , , range, ...ofFile] = this.#numbers
-    Object.defineProperty(this, 'transform', { value: transformOf(transform, [...ofFile, down]), enumerable: true })
+    const tell = (name, value) => Object.defineProperty(this, name, { value, enumerable: true })
+    tell('transform', transformOf(transform, [...ofFile, down]))
     const [minX, y0, maxX, y1] = this.#places(4), minY = Math.min(y0, y1), maxY = Math.max(y0, y1)
-    this.#shut = core.start_doors(place(4 * state))
-    this.#scratch = place(4 * scratch)
-    this.#list = place(4 * cells + cells)
-    this.#points = place(0)
+    this.#shut = core.start_doors(this.#place(4 * state))
+    this.#scratch = this.#place(4 * scratch)
+    this.#list = this.#place(4 * cells + cells)
+    if (boxes) this.#startBoxes(boxes)
     this.#grow(256)
-    for (let i = 0; i < doors; i++) this.#doors.push(this.#readDoor(i))
+    this.#doors = Array.from({ length: doors }, (_, i) => this.#readDoor(i))
     const known = {
       bounds: Object.freeze({ minX, minY, maxX, maxY }), range: range * this.transform.scale, unfinished: !!unfinished, mirrors: MIRRORS[mirrors],
-      cellCount: cells, starts: Object.freeze(Array.from({ length: starts }, (_, i) => this.#readStart(i))),
+      cellCount: cells, boxCount: boxes, starts: Object.freeze(Array.from({ length: starts }, (_, i) => this.#readStart(i))),
     }
     this.#range = range
-    for (const name in known) Object.defineProperty(this, name, { value: known[name], enumerable: true })
+    for (const name in known) tell(name, known[name])
   }
 
   #reserve(end) {
@@ -112,9 +117,26 @@ export class Level {
     }
   }
 
+  /** Where so many bytes are; the polygon is after them from then on. */
+  #place(bytes) {
+    const at = (this.#points + 15) & ~15
+    this.#points = at + bytes
+    this.#reserve(this.#points)
+    return at
+  }
+
   #grow(points) {
+    this.#place(0)
     this.#reserve(this.#points + 16 * points)
     this.#room = points
+  }
+
+  /** All memory, as numbers. Memory that grows is a new buffer. */
+  #refresh() {
+    const { buffer } = this.#memory
+    if (this.#bytes.buffer === buffer) return
+    this.#bytes = new Uint8Array(buffer)
+    this.#doubles = new Float64Array(buffer)
   }
 
   get #open() {
@@ -294,23 +316,73 @@ export class Level {
 
   /**
    * Whether one may walk straight from one point to another: no point of the way, ends included, is
-   * on a wall, a mirror, one-way glass or a shut door, in solid ground or outside the map. Who is put
-   * exactly on a wall cannot leave it.
+   * on a wall, a mirror, one-way glass or a shut door, in solid ground or outside the map, or in or on a box
+   * that blocks. Who is put exactly on a wall cannot leave it.
    *
    * @param {{x: number, y: number} | [number, number]} from
    * @param {{x: number, y: number} | [number, number]} to
+   * @param {number} [box] that of who walks, which does not count
    */
-  canWalk(from, to) {
-    this.#open
-    return !!this.#core.can_walk(...this.#placeOf('canWalk', from), ...this.#placeOf('canWalk', to), this.#shut)
+  canWalk(from, to, box) {
+    const core = this.#open, own = box === undefined ? -1 : this.#boxOf(box)
+    return !!core.can_walk(...this.#placeOf('canWalk', from), ...this.#placeOf('canWalk', to), this.#shut, own)
+  }
+
+  #boxOf(box) {
+    if (!this.boxCount) throw new SightlineError('box: open the level with the option boxes')
+    return indexOf('box', box, this.boxCount)
+  }
+
+  /** Again: the same boxes, with twice the room. */
+  #startBoxes(boxes) {
+    this.#seen = this.#core.boxes_start(this.#place(this.#core.boxes_size(boxes)), boxes)
+  }
+
+  /**
+   * Puts a box at a place. One that blocks hides what is behind it and stops steps. Outside the bounds it is nowhere.
+   *
+   * @param {number} box
+   * @param {number} minX
+   * @param {number} minY
+   * @param {number} maxX
+   * @param {number} maxY
+   * @param {boolean} [blocks]
+   */
+  moveBox(box, minX, minY, maxX, maxY, blocks = true) {
+    const core = this.#open, { origin, scale, yDown } = this.transform
+    this.#boxOf(box)
+    flagOf('blocks', blocks)
+    checkBox(minX, minY, maxX, maxY)
+    const low = yDown ? -maxY : minY, high = yDown ? -minY : maxY
+    while (!core.move_box(box, origin.x + minX / scale, origin.y + low / scale, origin.x + maxX / scale,
+      origin.y + high / scale, +blocks)) {
+      this.#startBoxes(this.boxCount)
+      this.#grow(this.#room)
+    }
+  }
+
+  /**
+   * Which boxes an eye sees, into an array of the caller: 1 or 0 for each. Gives how many.
+   *
+   * @param {Uint8Array} seen
+   * @param {number | object} x as for look()
+   * @param {number} [y]
+   * @param {{heading?: number, fov?: number, range?: number}} [options]
+   */
+  boxesSeenInto(seen, x, y, options) {
+    const core = this.#open
+    this.#boxOf(0)
+    if (!(seen instanceof Uint8Array && seen.length >= this.boxCount))
+      throw new SightlineError('seen: a Uint8Array is needed with a byte for each box')
+    const count = core.boxes_seen(this.#shut, this.#setAnyView(x, y, options)) >>> 0
+    for (let i = 0; i < this.boxCount; i++) seen[i] = this.#bytes[this.#seen + i]
+    return count
   }
 
   /** The cells that a box lies in or touches. */
   boxCells(minX, minY, maxX, maxY) {
     this.#open
-    for (const [name, value] of Object.entries({ minX, minY, maxX, maxY })) numberOf(name, value)
-    if (!(minX <= maxX && minY <= maxY))
-      throw new SightlineError('a box is needed: minX and minY no more than maxX and maxY')
+    checkBox(minX, minY, maxX, maxY)
     const [x0, y0, x1, y1] = [...this.#toMap(minX, minY), ...this.#toMap(maxX, maxY)]
     return this.#cellsOfBox(x0, Math.min(y0, y1), x1, Math.max(y0, y1))
   }
@@ -325,27 +397,33 @@ export class Level {
 
   /** Puts an eye that looks all round into memory, as an sl_runtime_view. */
   #setEye(x, y) {
-    const { buffer } = this.#memory, { origin, scale, yDown } = this.transform
-    if (this.#view.buffer !== buffer) {
-      this.#view = new Float64Array(buffer, this.#core.view_place(), 7)
-      this.#allRound = new Uint8Array(buffer, this.#view.byteOffset + 16, 1)
-    }
-    this.#view[0] = origin.x + x / scale
-    this.#view[1] = origin.y + (yDown ? -y : y) / scale
-    this.#allRound[0] = 1
+    const { origin, scale, yDown } = this.transform, at = this.#view / 8
+    this.#refresh()
+    this.#doubles[at] = origin.x + x / scale
+    this.#doubles[at + 1] = origin.y + (yDown ? -y : y) / scale
+    this.#bytes[8 * at + 16] = 1
   }
 
   /** The same for any view. Gives its range in the map; 0 for the map's own. */
-  #setView(x, y, given) {
-    const { heading: turn, fov, range } = viewOf(given)
+  #setView(x, y, view) {
+    const { heading: turn, fov, range } = viewOf(view)
     const heading = this.#turned(turn)
     this.#setEye(x, y)
     if (fov < 360) {
-      this.#allRound[0] = 0
-      this.#view.set(direction(heading - fov / 2), 3)
-      this.#view.set(direction(heading + fov / 2), 5)
+      this.#bytes[this.#view + 16] = 0
+      this.#doubles.set([...direction(heading - fov / 2), ...direction(heading + fov / 2)], this.#view / 8 + 3)
     }
     return Math.max(range / this.transform.scale, 0)
+  }
+
+  /** The same for an eye as callers give it. */
+  #setAnyView(x, y, options) {
+    if (typeof x === 'number' && options === undefined) {
+      this.#setEye(numberOf('x', x), numberOf('y', y))
+      return 0
+    }
+    const [left, up, view] = eyeOf(x, y, options, 'heading', 'fov', 'range')
+    return this.#setView(left, up, view)
   }
 
   /**
@@ -359,8 +437,8 @@ export class Level {
    */
   look(x, y, options) {
     const core = this.#open
-    const [left, up, { mirrors = false, ...given }] = eyeOf(x, y, options, 'heading', 'fov', 'range', 'mirrors')
-    const range = this.#setView(left, up, given)
+    const [left, up, { mirrors = false, ...view }] = eyeOf(x, y, options, 'heading', 'fov', 'range', 'mirrors')
+    const range = this.#setView(left, up, view)
     if (flagOf('mirrors', mirrors)) {
       const count = core.look_mirrored(this.#shut, range, this.#scratch, this.#list) >>> 0
       const [direct] = this.#integers
@@ -383,13 +461,7 @@ export class Level {
 
   /** Puts the polygon of an eye into memory. Gives how many corners it has. */
   #polygon(x, y, options) {
-    const core = this.#open
-    let range = 0
-    if (typeof x === 'number' && options === undefined) this.#setEye(numberOf('x', x), numberOf('y', y))
-    else {
-      const [left, up, given] = eyeOf(x, y, options, 'heading', 'fov', 'range')
-      range = this.#setView(left, up, given)
-    }
+    const core = this.#open, range = this.#setAnyView(x, y, options)
     for (;;) {
       const count = core.polygon(this.#shut, range, this.#scratch, this.#points, this.#room) >>> 0
       if (count <= this.#room) return count
@@ -410,12 +482,12 @@ export class Level {
     if (!(points instanceof Float64Array)) throw new SightlineError('points: a Float64Array is needed')
     const count = 2 * this.#polygon(x, y, options)
     if (count > points.length) return count
-    if (this.#answer.buffer !== this.#memory.buffer || this.#answer.length < count)
-      this.#answer = new Float64Array(this.#memory.buffer, this.#points, 2 * this.#room)
-    const { origin, scale, yDown } = this.transform, answer = this.#answer
+    this.#refresh()
+    const { origin, scale, yDown } = this.transform, from = this.#points / 8
     for (let i = 0; i < count; i += 2) {
-      points[i] = scale * (answer[i] - origin.x)
-      points[i + 1] = scale * (yDown ? origin.y - answer[i + 1] : answer[i + 1] - origin.y)
+      const y = this.#doubles[from + i + 1]
+      points[i] = scale * (this.#doubles[from + i] - origin.x)
+      points[i + 1] = scale * (yDown ? origin.y - y : y - origin.y)
     }
     return count
   }
@@ -440,8 +512,8 @@ export class Level {
     new Uint32Array(this.#memory.buffer, this.#list, own.length).set(own)
     const bits = this.#scratch
     core.seen_from(this.#list, own.length, bits, +mirrors)
-    const bytes = new Uint8Array(this.#memory.buffer)
-    const seen = []
+    this.#refresh()
+    const bytes = this.#bytes, seen = []
     for (let cell = 0; cell < this.cellCount; cell++)
       if ((bytes[bits + (cell >> 3)] >> (cell & 7)) & 1) seen.push(cell)
     return Uint32Array.from(seen)

@@ -155,6 +155,10 @@ void sl_level_use_coordinates(sl_level *level, double origin_x, double origin_y,
     level->transform = (sl_runtime_transform){origin_x, origin_y, scale, y_down != 0};
 }
 
+int32_t sl_level_y_is_down(const sl_level *level) {
+    return level->transform.y_down;
+}
+
 /// A heading, there or in the map; 0 has no sign.
 static double turned(const sl_level *level, double heading) {
     return level->transform.y_down ? 0 - heading : heading;

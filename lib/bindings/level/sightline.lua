@@ -54,6 +54,9 @@ function level:use_coordinates(origin_x, origin_y, scale, y_down)
     c.sl_level_use_coordinates(self.handle, origin_x, origin_y, scale, y_down and 1 or 0)
 end
 
+-- Whether y is down in the coordinates that are chosen, as in the window.
+function level:y_is_down() return c.sl_level_y_is_down(self.handle) == 1 end
+
 function level:cell_count() return c.sl_level_cell_count(self.handle) end
 
 function level:bounds()

@@ -54,6 +54,8 @@ SL_LEVEL_API int32_t sl_level_use_file_coordinates(sl_level *level);
 /// scale is a power of 2; else places are rounded.
 SL_LEVEL_API void sl_level_use_coordinates(sl_level *level, double origin_x, double origin_y,
                                            double scale, int32_t y_down);
+/// 1 if y is down in the coordinates that are chosen: a screen's y is then drawn as it is. Else 0.
+SL_LEVEL_API int32_t sl_level_y_is_down(const sl_level *level);
 
 // --- the map
 

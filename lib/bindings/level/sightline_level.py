@@ -17,6 +17,7 @@ for name, result, arguments in (
         ("close", None, []),
         ("use_file_coordinates", WHOLE, []),
         ("use_coordinates", None, [NUMBER, NUMBER, NUMBER, WHOLE]),
+        ("y_is_down", WHOLE, []),
         ("cell_count", WHOLE, []),
         ("bounds", None, [NUMBERS]),
         ("cell_corners", NUMBERS, [WHOLE, COUNT]),
@@ -64,6 +65,10 @@ class Level:
 
     def use_coordinates(self, origin, scale, y_down):
         C.sl_level_use_coordinates(self._handle, *origin, scale, y_down)
+
+    def y_is_down(self):
+        """Whether y is down in the coordinates that are chosen, as in a window."""
+        return bool(C.sl_level_y_is_down(self._handle))
 
     def bounds(self):
         numbers = (NUMBER * 4)()

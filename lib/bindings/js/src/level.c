@@ -131,31 +131,12 @@ EXPORT(uint32_t, box_cells, double min_x, double min_y, double max_x, double max
     return sl_runtime_box_cells(&level, min_x, min_y, max_x, max_y, cells, room);
 }
 
-EXPORT(uint32_t, look, const unsigned char *shut, double range, uint32_t *scratch,
-       uint32_t *cells) {
-    return sl_runtime_look_past(&level, &view, shut, range, scratch, cells, level.cell_count);
-}
-
 /// As look, and after these cells those that are seen by mirror. integers: how many are seen
 /// directly.
 EXPORT(uint32_t, look_mirrored, const unsigned char *shut, double range, uint32_t *scratch,
        uint32_t *cells) {
     return sl_runtime_look_mirrored(&level, &view, shut, range, scratch, cells, level.cell_count,
                                     &integers[0]);
-}
-
-EXPORT(uint32_t, polygon, const unsigned char *shut, double range, uint32_t *scratch,
-       double *points, uint32_t room) {
-    return sl_runtime_visible_polygon(&level, &view, shut, range, scratch, points, room);
-}
-
-EXPORT(int, sees, double x0, double y0, double x1, double y1, const unsigned char *shut,
-       uint32_t *scratch) {
-    return sl_runtime_sees(&level, x0, y0, x1, y1, shut, 0, scratch);
-}
-
-EXPORT(int, can_walk, double x0, double y0, double x1, double y1, const unsigned char *shut) {
-    return sl_runtime_can_walk(&level, x0, y0, x1, y1, shut);
 }
 
 /// integers: vertices, directed portals, inside, solid, has a row.
@@ -201,3 +182,26 @@ EXPORT(void, start, uint32_t number) {
     numbers[1] = start.y;
     numbers[2] = start.heading;
 }
+
+#ifndef LEVEL_BOXES // boxes.c has these four, past boxes
+
+EXPORT(uint32_t, look, const unsigned char *shut, double range, uint32_t *scratch,
+       uint32_t *cells) {
+    return sl_runtime_look_past(&level, &view, shut, range, scratch, cells, level.cell_count);
+}
+
+EXPORT(uint32_t, polygon, const unsigned char *shut, double range, uint32_t *scratch,
+       double *points, uint32_t room) {
+    return sl_runtime_visible_polygon(&level, &view, shut, range, scratch, points, room);
+}
+
+EXPORT(int, sees, double x0, double y0, double x1, double y1, const unsigned char *shut,
+       uint32_t *scratch) {
+    return sl_runtime_sees(&level, x0, y0, x1, y1, shut, 0, scratch);
+}
+
+EXPORT(int, can_walk, double x0, double y0, double x1, double y1, const unsigned char *shut) {
+    return sl_runtime_can_walk(&level, x0, y0, x1, y1, shut);
+}
+
+#endif

@@ -94,7 +94,7 @@ test('of a level', async () => {
     'look mirrors': (v) => level.look(1, 1, { mirrors: v }), 'row mirrors': (v) => level.row(0, { mirrors: v }),
     'canSee mirrors': (v) => level.canSee(0, 0, { mirrors: v }),
   })
-  assert.throws(() => level.boxCells(5, 1, 4, 9), /a box is needed/)
+  assert.throws(() => level.boxCells(5, 1, 4, 9), /maxX: a number, 5 or more, is needed, not 4/)
   assert.equal(level.doors[0].open, true)
 })
 

@@ -52,6 +52,17 @@ test('the game loop of the README', async () => {
   for (const [x, y] of seen.points) assert.ok(x >= -1e-6 && x <= 640 && y >= -1e-6 && y <= 480)
 })
 
+test('modules have all that their types export', async () => {
+  const { exports } = JSON.parse(readFileSync(join(folder, 'package.json'), 'utf8'))
+  for (const { types, default: file } of Object.values(exports).filter((each) => each.types)) {
+    const text = readFileSync(join(folder, types), 'utf8')
+    const names = [...text.matchAll(/^export (?:class|function) (\w+)/gm)].map((found) => found[1])
+    assert.ok(names.length > 0, types)
+    const module = await load(file.slice(2))
+    for (const name of names) assert.equal(typeof module[name], 'function', `${file}: ${name}`)
+  }
+})
+
 test('types name all that the classes have', async () => {
   const { Level } = await load('sightline.js')
   const { Graph } = await load('graph.js')

@@ -11,9 +11,14 @@ const size = (...names) =>
 
 const said = (bytes) => `${bytes} bytes, by zlib ${process.versions.zlib}`
 
-test('the runtime is at most 25 kB', () => {
+test('the runtime is at most 25.1 kB', () => {
   const bytes = size('sightline.js', 'arguments.js', 'host.js', 'level.wasm')
-  assert.ok(bytes <= 25000, said(bytes))
+  assert.ok(bytes <= 25100, said(bytes))
+})
+
+test('a level with boxes that move is at most 36 kB', () => {
+  const bytes = size('sightline.js', 'arguments.js', 'host.js', 'boxes.wasm')
+  assert.ok(bytes <= 36000, said(bytes))
 })
 
 test('the whole library is at most 215 kB', () => {

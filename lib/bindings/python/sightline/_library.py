@@ -286,7 +286,7 @@ def as_reals(value: ArrayLike, what: str) -> Floats:
         given = np.asarray(value)
     except ValueError as fault:
         raise ValueError(f"{what} must be an array: {fault}") from fault
-    if np.ma.is_masked(value):
+    if isinstance(value, np.ma.MaskedArray) and np.any(value.mask):
         raise ValueError(f"{what} has values that are masked")
     if given.dtype.kind not in "fiu" and given.size:
         raise TypeError(f"{what} must hold real numbers, not {given.dtype}")

@@ -50,7 +50,7 @@ def measures_of(handle: Handle) -> list[Measure]:
     """The library's table, which is asked once."""
     if not _MEASURES:
         rows = [row.split("\t") for row in handle._names("measures")]
-        _MEASURES[:] = [Measure(*row[:4], int(row[4])) for row in rows]
+        _MEASURES[:] = [Measure(row[0], row[1], row[2], row[3], int(row[4])) for row in rows]
     return list(_MEASURES)
 
 
@@ -495,11 +495,11 @@ class Level(Viewpoints, Sets, Ways, Axial, drawing.InNotebooks, MapHandle):
             pointer = self._open_pointer()
             count = call.level_vga_copy(pointer, None, None, None, None)
             points, depths = np.empty((count, 2)), np.empty(count, np.int64)
-            parts = np.ones(count, np.int64)
+            components = np.ones(count, np.int64)
             measures = np.full((count, len(self._measures("vga"))), np.nan)
             call.level_vga_copy(pointer, address(points), address(measures), address(depths),
-                                address(parts))
-        return points, measures, depths, parts
+                                address(components))
+        return points, measures, depths, components
 
     def grid(self, step: float, *, seeds: Optional[ArrayLike] = None) -> Floats:
         """The points of a grid that are inside, of shape (n, 2): multiples of `step`.

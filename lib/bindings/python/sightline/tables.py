@@ -39,7 +39,7 @@ def polygons(loops: list[NDArray[np.float64]]) -> Any:
         if i not in holes:
             middle = shapely.Point((loop[0] + loop[1]) / 2)
             around = [k for k in outer if whole[k].contains(middle)]
-            holes[min(around, key=lambda k: whole[k].area)].append(loop)
+            holes[min(around, key=lambda k: float(whole[k].area))].append(loop)
     found = [shapely.Polygon(loops[i], holes[i]) for i in outer]
     return found[0] if len(found) == 1 else shapely.MultiPolygon(found)
 

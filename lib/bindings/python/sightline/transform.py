@@ -53,7 +53,8 @@ class Transform:
 
     def to_map(self, points: ArrayLike) -> Floats:
         """Places of the map, to ask with: a point (x, y) or an array (..., 2)."""
-        return np.asarray(self.origin) + as_points(points, "points", finite=False) * self._turn() / self.scale
+        turned: Floats = as_points(points, "points", finite=False) * self._turn() / self.scale
+        return turned + self.origin
 
     def from_map(self, points: ArrayLike) -> Floats:
         """Places of the map in the other coordinates: those of a region, walls as (..., 2)."""

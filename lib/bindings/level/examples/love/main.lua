@@ -1,4 +1,4 @@
--- Fog of war in LÖVE: what the mouse sees, in the pixels of the map's own file, with y down as in Tiled.
+-- Fog of war in LÖVE: what the mouse sees, in the coordinates of the map's own file.
 --
 --     love lib/bindings/level/examples/love LEVEL.slv               move the mouse; keys 1 to 9: doors
 --     love lib/bindings/level/examples/love LEVEL.slv X Y PICTURE   one picture of what (X, Y) sees
@@ -9,15 +9,11 @@ local sightline = require("sightline")
 
 local level, doors, picture
 local eye = {}
-local place = {} -- of the map in the window: its left upper corner, and pixels a unit
+local place = {} -- of the map in the window: its 0, 0, and pixels a unit of x and of y
 
 function love.load(arguments)
     level = assert(sightline.open(assert(arguments[1], "LEVEL.slv is missing")))
-    -- A file before 2.0 does not say it: then y is turned here.
-    if not level:use_file_coordinates() then
-        local min_x, _, _, max_y = level:bounds()
-        level:use_coordinates(min_x, max_y, 1, true)
-    end
+    level:use_file_coordinates() -- a file before 2.0 does not have them: it keeps those of the map
     eye.x, eye.y, picture = tonumber(arguments[2]), tonumber(arguments[3]), arguments[4]
     doors = level:doors()
 end
@@ -26,14 +22,15 @@ local function arrange()
     local min_x, min_y, max_x, max_y = level:bounds()
     local width, height = love.graphics.getDimensions()
     place.scale = math.min(width / (max_x - min_x), height / (max_y - min_y))
+    place.scale_y = level:y_is_down() and place.scale or -place.scale -- y is up in map text
     place.x = (width - place.scale * (max_x + min_x)) / 2
-    place.y = (height - place.scale * (max_y + min_y)) / 2
+    place.y = (height - place.scale_y * (max_y + min_y)) / 2
 end
 
 function love.mousemoved(x, y)
     if picture then return end
     arrange()
-    eye.x, eye.y = (x - place.x) / place.scale, (y - place.y) / place.scale
+    eye.x, eye.y = (x - place.x) / place.scale, (y - place.y) / place.scale_y
 end
 
 function love.keypressed(key)
@@ -47,7 +44,7 @@ function love.draw()
     love.graphics.clear(0.25, 0.25, 0.28)
     love.graphics.push()
     love.graphics.translate(place.x, place.y)
-    love.graphics.scale(place.scale)
+    love.graphics.scale(place.scale, place.scale_y)
     love.graphics.setLineWidth(1.5 / place.scale)
     for cell = 0, level:cell_count() - 1 do
         if level:is_solid(cell) then love.graphics.setColor(0.1, 0.1, 0.1) else love.graphics.setColor(0.45, 0.45, 0.5) end

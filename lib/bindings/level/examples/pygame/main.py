@@ -1,4 +1,4 @@
-"""Fog of war in pygame: what the mouse sees, in the pixels of the map's own file, with y down as in Tiled.
+"""Fog of war in pygame: what the mouse sees, in the coordinates of the map's own file.
 
     python3 main.py LEVEL.slv               move the mouse; keys 1 to 9: doors
     python3 main.py LEVEL.slv X Y PICTURE   one picture of what (X, Y) sees
@@ -19,21 +19,19 @@ SIZE = 900, 600
 class Game:
     def __init__(self, file):
         self.level = Level(file)
-        # A file before 2.0 does not say it: then y is turned here.
-        if not self.level.use_file_coordinates():
-            left, _, _, top = self.level.bounds()
-            self.level.use_coordinates((left, top), 1, True)
+        self.level.use_file_coordinates()  # a file before 2.0 does not have them: it keeps those of the map
         x0, y0, x1, y1 = self.level.bounds()
-        self.scale = min(SIZE[0] / (x1 - x0), SIZE[1] / (y1 - y0))
-        self.origin = (SIZE[0] - self.scale * (x0 + x1)) / 2, (SIZE[1] - self.scale * (y0 + y1)) / 2
+        scale = min(SIZE[0] / (x1 - x0), SIZE[1] / (y1 - y0))
+        self.scale = scale, scale if self.level.y_is_down() else -scale  # y is up in map text
+        self.origin = (SIZE[0] - self.scale[0] * (x0 + x1)) / 2, (SIZE[1] - self.scale[1] * (y0 + y1)) / 2
         self.cells = [(self.level.is_solid(cell), self.in_window(self.level.cell_corners(cell)))
                       for cell in range(self.level.cell_count())]
 
     def in_window(self, points):
-        return [(self.origin[0] + self.scale * x, self.origin[1] + self.scale * y) for x, y in points]
+        return [(self.origin[0] + self.scale[0] * x, self.origin[1] + self.scale[1] * y) for x, y in points]
 
     def in_map(self, place):
-        return [(at - origin) / self.scale for at, origin in zip(place, self.origin)]
+        return [(at - origin) / scale for at, origin, scale in zip(place, self.origin, self.scale)]
 
     def turn_door(self, number):
         doors = self.level.doors()
