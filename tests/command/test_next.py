@@ -6,6 +6,7 @@ test_next.py PROGRAM
 import json
 import math
 import random
+import re
 import shlex
 import subprocess
 
@@ -185,6 +186,20 @@ class Next(sandbox.ProgramTest):
             name = self.write("a.svg", svg(PLAN, between))
             _, text = self.go_on(name, "--gap", "0.05")
             self.assertRegex(text, named)
+
+    def test_commands_in_notes(self):
+        """Commands that notes print work as they are, whatever the file is called."""
+        def room(at):
+            return [(at, at, at + 4, at), (at + 4, at, at + 4, at + 4),
+                    (at + 4, at + 4, at, at + 4), (at, at + 4, at, at)]
+        name = self.write("it's a plan.svg", svg(room(0) + room(50) + room(100), "\n"))
+        told = self.run_well("bake", name, "-o", "plan.slv").stderr
+        commands = re.findall(r"sightline ((?:info|check) .*?)(?: shows where| lists|\n)", told)
+        self.assertEqual([command.split()[0] for command in commands], ["check", "info", "check"],
+                         told)
+        self.assertIn("--start ", commands[2])
+        for command in commands:
+            self.printed(*shlex.split(command))
 
     def test_tabletop(self):
         _, text = self.go_on(self.write("a.uvtt", uvtt(PLAN)), "--gap", "0.05")

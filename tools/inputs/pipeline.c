@@ -291,9 +291,25 @@ sl_status pipeline_need_inside(sl_context *context, const map_pipeline *pipeline
         100 * enclosed, or_else);
 }
 
+sl_point pipeline_likely_start(const sl_map *map, const sl_space *space) {
+    const uint32_t roomiest = sl_space_locate(space, map->interior.roomiest);
+    if (roomiest != SL_NO_CELL) return sl_space_middle(space, roomiest);
+    uint32_t largest = 0;
+    double area = -1;
+    for (uint32_t i = 0; i < space->cell_count; i++) {
+        if (space->cells[i].solid || sl_space_area(space, i) <= area) continue;
+        largest = i;
+        area = sl_space_area(space, i);
+    }
+    return sl_space_middle(space, largest);
+}
+
 /// What to do next about what is inside.
-static void say_next(sl_inside doubt, const sl_map *map, const char *path, char text[2 * SAID]) {
+static void say_next(sl_inside doubt, const sl_map *map, const sl_space *space, const char *path,
+                     char text[2 * SAID]) {
     const size_t size = 2 * SAID;
+    const int digits = sl_map_digits(map);
+    const sl_point start = pipeline_likely_start(map, space);
     switch (doubt) {
     case SL_INSIDE_SURE:
         snprintf(text, size, "; for another width, add --entrance W");
@@ -302,7 +318,8 @@ static void say_next(sl_inside doubt, const sl_map *map, const char *path, char 
         snprintf(text, size, "; to see where, run: sightline check %s", path);
         break;
     case SL_INSIDE_SMALL:
-        snprintf(text, size, "; add a start: sightline check %s --start X,Y", path);
+        snprintf(text, size, "; add a start: sightline check %s --start %.*g,%.*g", path, digits,
+                 start.x, digits, start.y);
         break;
     case SL_INSIDE_FEW:
         snprintf(text, size, "; sightline check %s lists them, --start X,Y adds a start", path);
@@ -326,7 +343,7 @@ static bool says_rooms(const sl_map *map) {
 
 sl_status pipeline_note_sealed(sl_context *context, const map_pipeline *pipeline, const sl_map *map,
                                const sl_space *space) {
-    char path[SAID];
+    char path[SAID], file[SAID] = "";
     map_pipeline any = pipeline_default();
     const option_table reading = pipeline_option_table(&any);
     const int digits = sl_map_digits(map);
@@ -336,6 +353,7 @@ sl_status pipeline_note_sealed(sl_context *context, const map_pipeline *pipeline
     if (sealed.rooms < 2 || sealed.share < SEALED) return SL_OK;
     const uint32_t count = sealed.rooms - 1;
     say_map(pipeline, &reading, path);
+    say(file, "", pipeline->path);
     sl_note(context,
             "no opening leads to %u room%s, %.2g %% of the area inside (one about %.*g,%.*g): are "
             "doors drawn over the walls, or is furniture among them? sightline check %s "
@@ -343,7 +361,7 @@ sl_status pipeline_note_sealed(sl_context *context, const map_pipeline *pipeline
             "--layers A,B takes those of walls",
             (unsigned)count, count == 1 ? "" : "s", 100 * sealed.share, digits, sealed.largest.at.x,
             digits, sealed.largest.at.y, path, digits, sealed.open.at.x, digits, sealed.open.at.y,
-            pipeline->path);
+            file);
     return SL_OK;
 }
 
@@ -357,7 +375,7 @@ sl_status pipeline_note_inside(sl_context *context, const map_pipeline *pipeline
     SL_TRY(sl_say_inside(context, map, space, said));
     if (!said[0]) return SL_OK;
     SL_TRY(sl_doubt_inside(context, map, space, &doubt));
-    say_next(doubt, map, say_map(pipeline, &reading, path), then);
+    say_next(doubt, map, space, say_map(pipeline, &reading, path), then);
     sl_note(context, "%s%s", said, then);
     return SL_OK;
 }

@@ -64,6 +64,10 @@ sl_status pipeline_read_space(sl_context *context, const map_pipeline *pipeline,
 /// gives the length as that does.
 size_t pipeline_shell_word(const char *word, char *text, size_t size);
 
+/// A place for a start: the middle of the cell that has the roomiest place. Where that is not
+/// known: of the largest cell that is not solid.
+sl_point pipeline_likely_start(const sl_map *map, const sl_space *space);
+
 /// Refuses a map of which walls enclose next to nothing, where no start says what is inside: most
 /// of a grid would be missing. `or_else`: what else than a start helps; "" for nothing. Else as
 /// pipeline_note_inside().

@@ -345,25 +345,9 @@ static void print_name(const faults_report *report, const char *option, const ch
     print_file(option, name);
 }
 
-/// The middle of the cell that has the roomiest place. Where that is not known: of the largest cell
-/// that is not solid.
-static sl_point likely_start(const sl_baked *baked) {
-    const sl_space *space = &baked->space;
-    const uint32_t roomiest = sl_space_locate(space, baked->map.interior.roomiest);
-    if (roomiest != SL_NO_CELL) return sl_space_middle(space, roomiest);
-    uint32_t largest = 0;
-    double area = -1;
-    for (uint32_t i = 0; i < space->cell_count; i++) {
-        if (space->cells[i].solid || sl_space_area(space, i) <= area) continue;
-        largest = i;
-        area = sl_space_area(space, i);
-    }
-    return sl_space_middle(space, largest);
-}
-
 /// Checks again, with a start.
 static void print_next_start(const faults_report *report, next_use use, const checked *found) {
-    const sl_point start = likely_start(&found->baked);
+    const sl_point start = pipeline_likely_start(&found->baked.map, &found->baked.space);
     const int digits = sl_map_digits(&found->map);
     puts("  the next command has a start in the roomiest place: put another place there if that is "
          "outside");
