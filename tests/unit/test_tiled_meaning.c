@@ -400,7 +400,9 @@ static void test_rules(void **state) {
     const char *rules = MAP(SET LAYER("regions", CSV("1,1,1,1,1,1"))
                                 LAYER("input2_Walls", CSV("3,0,0,4,4,5"))
                                     LAYER("output_Walls", CSV("3,0,0,4,4,5")));
-    assert_refused(rules, "rules by which Tiled draws other maps");
+    assert_refused(rules, "f:1: its layers input_... and output_... are rules by which Tiled draws "
+                          "other maps: read a map that they have drawn; --layers NAME takes a layer "
+                          "of this one as solid");
     // One of the two words alone, or one that is part of a longer word, tells nothing.
     const char *levels[] = {
         MAP(SET LAYER("input_Walls", CSV("3,0,0,4,4,5"))),
