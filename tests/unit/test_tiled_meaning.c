@@ -397,12 +397,12 @@ static void test_start_layers_beside_others(void **state) {
 /// Rules by which Tiled draws other maps are no level, whatever is solid in them.
 static void test_rules(void **state) {
     (void)state;
-    const char *rules = MAP(SET LAYER("regions", CSV("1,1,1,1,1,1"))
-                                LAYER("input2_Walls", CSV("3,0,0,4,4,5"))
-                                    LAYER("output_Walls", CSV("3,0,0,4,4,5")));
-    assert_refused(rules, "f:1: its layers input_... and output_... are rules by which Tiled draws "
-                          "other maps: read a map that they have drawn; --layers NAME takes a layer "
-                          "of this one as solid");
+    const char *rules = MAP(SET LAYER("regions", CSV("1,1,1,1,1,1")) LAYER(
+        "input2_Walls", CSV("3,0,0,4,4,5")) LAYER("output_Walls", CSV("3,0,0,4,4,5")));
+    assert_refused(rules,
+                   "f:1: its layers input_... and output_... are rules by which Tiled draws "
+                   "other maps: read a map that they have drawn; --layers NAME takes a layer "
+                   "of this one as solid");
     // One of the two words alone, or one that is part of a longer word, tells nothing.
     const char *levels[] = {
         MAP(SET LAYER("input_Walls", CSV("3,0,0,4,4,5"))),
@@ -411,8 +411,8 @@ static void test_rules(void **state) {
         sl_context *context = testing_context(NULL);
         const sl_import_options options = {0};
         sl_map map = {0};
-        assert_ok(context, sli_map_read_tmx(context, "f", levels[i], strlen(levels[i]), &options,
-                                            &map));
+        assert_ok(context,
+                  sli_map_read_tmx(context, "f", levels[i], strlen(levels[i]), &options, &map));
         assert_true(map.wall_count > 0);
         sl_map_destroy(context, &map);
         sl_context_destroy(context);

@@ -292,9 +292,10 @@ sl_status sli_tiled_check_rules(const sli_tiled_reader *reader) {
     bool input = false, output = false;
     look_for_rules(reader->map, &input, &output);
     if (!input || !output || reader->options->layers) return SL_OK;
-    return sli_json_fail(reader->map, "its layers input_... and output_... are rules by which Tiled "
-                                      "draws other maps: read a map that they have drawn; --layers "
-                                      "NAME takes a layer of this one as solid");
+    return sli_json_fail(reader->map,
+                         "its layers input_... and output_... are rules by which Tiled "
+                         "draws other maps: read a map that they have drawn; --layers "
+                         "NAME takes a layer of this one as solid");
 }
 
 // --- the order of the readings
