@@ -208,6 +208,23 @@ class Next(sandbox.ProgramTest):
         for command in commands:
             self.printed(*shlex.split(command))
 
+    def test_parts_apart(self):
+        """A crate in a room is ground, too, until a start says where one walks."""
+        crate = [(7, 2, 8, 2), (8, 2, 8, 3), (8, 3, 7, 3), (7, 3, 7, 2)]
+        for name, content in (("a.uvtt", uvtt(PLAN[:4] + crate)),
+                              ("a.tmx", tmx_objects(PLAN[:4] + crate))):
+            self.write(name, content)
+            told = self.run_well("bake", name, "-o", "a.slv").stderr
+            command = re.search(r"the map has no start, so parts .*; 1\.7 % .*: sightline "
+                                r"(check .*) keeps the largest", told)
+            self.assertTrue(command, told)
+            kept = shlex.split(command[1])
+            self.printed("bake", *kept[1:], "-o", "a.slv")
+            self.assertIn("1 unreachable room", self.printed(*kept))
+            self.assertNotIn("no start", self.run_well(*kept).stderr)
+        self.write("a.uvtt", uvtt(PLAN[:4]))
+        self.assertNotIn("no start", self.run_well("bake", "a.uvtt", "-o", "a.slv").stderr)
+
     def test_tabletop(self):
         _, text = self.go_on(self.write("a.uvtt", uvtt(PLAN)), "--gap", "0.05")
         self.assertIn("line_of_sight[4] and line_of_sight[0]", text)

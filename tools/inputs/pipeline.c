@@ -25,6 +25,9 @@ static const double FEW_INSIDE = 0.1;
 /// courts and shafts.
 static const double SEALED = 0.25;
 
+/// Such a share of the area inside, apart from the largest part, is told of a game's map.
+static const double APART = 0.01;
+
 // --- options
 
 map_pipeline pipeline_default(void) {
@@ -341,6 +344,32 @@ static bool says_rooms(const sl_map *map) {
     return map->start_count > 0;
 }
 
+/// The rock around a dungeon, the sea around an island and the inside of a crate are ground as
+/// rooms are, until a start says where one walks.
+static sl_status note_apart(sl_context *context, const map_pipeline *pipeline, const sl_map *map,
+                            const sl_space *space) {
+    char path[SAID], next[80] = "";
+    map_pipeline any = pipeline_default();
+    const option_table reading = pipeline_option_table(&any);
+    const int digits = sl_map_digits(map);
+    const sl_box b = space->bounds;
+    sl_sealed parts;
+    SL_TRY(sl_find_sealed(context, map, space, &parts));
+    const double inside = sl_space_ground(space).inside * (b.max.x - b.min.x) * (b.max.y - b.min.y);
+    const double apart = inside > 0 ? 1 - parts.open.area / inside : 0;
+    if (apart < APART) return SL_OK;
+    if (parts.largest.area > 0)
+        snprintf(next, sizeof next, ", or with %.*g,%.*g the next one", digits, parts.largest.at.x,
+                 digits, parts.largest.at.y);
+    sl_note(context,
+            "the map has no start, so parts that nothing joins all count as inside, as rock, sea "
+            "and the insides of obstacles may be; %.2g %% of the area inside is not joined to the "
+            "largest part: sightline check %s --start %.*g,%.*g keeps the largest%s",
+            100 * apart, say_map(pipeline, &reading, path), digits, parts.open.at.x, digits,
+            parts.open.at.y, next);
+    return SL_OK;
+}
+
 sl_status pipeline_note_sealed(sl_context *context, const map_pipeline *pipeline, const sl_map *map,
                                const sl_space *space) {
     char path[SAID], file[SAID] = "";
@@ -348,6 +377,8 @@ sl_status pipeline_note_sealed(sl_context *context, const map_pipeline *pipeline
     const option_table reading = pipeline_option_table(&any);
     const int digits = sl_map_digits(map);
     sl_sealed sealed;
+    if (!map->start_count && input_is_game(context, pipeline->path))
+        return note_apart(context, pipeline, map, space);
     if (says_rooms(map) || !input_is_drawing(context, pipeline->path)) return SL_OK;
     SL_TRY(sl_find_sealed(context, map, space, &sealed));
     if (sealed.rooms < 2 || sealed.share < SEALED) return SL_OK;
