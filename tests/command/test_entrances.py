@@ -158,7 +158,7 @@ class Entrances(sandbox.ProgramTest):
         self.assertIn("  1 leak (", told)
         self.assertIn("  the leak is an entrance up to 2.5 wide, but starts go before entrances: "
                       "without a start, inside ends there\n", told)
-        self.assertTrue(told.endswith("next: sightline check a.map --entrance 2.5\n"), told)
+        self.assertTrue(told.endswith("next: sightline bake a.map --entrance 2.5\n"), told)
         told = self.printed("check", "a.map", "--entrance", "1.5", start)
         self.assertNotIn("entrances", told)
         self.write("b.map", 2, 17.3, ["unit m", f"start {x!r} {y!r} 0"])

@@ -206,6 +206,11 @@ class Drawings(Plans):
         self.assertEqual([tuple(layer.values()) for layer in report["layers"]],
                          [("A-WALL", 6, True), ("A-DIMS", 1, False), ("A-EMPTY", 0, True), ("A-GRID", 1, True)])
 
+    def test_a_drawing_without_walls_is_listed(self):
+        self.write("empty.svg", "<svg width='9' height='9'><text x='1' y='1'>A</text></svg>")
+        self.assertRegex(self.printed("info", "empty.svg"), r"\n  walls     0, ")
+        self.assertIn("the map has no walls", self.refused("check", "empty.svg"))
+
     def test_an_unknown_layer_names_all_and_an_empty_one_is_noted(self):
         self.write("a.dxf", flat(layers=self.LAYERS))
         self.assertIn("a.dxf: there is no layer 'WALLS' in the drawing; it has A-WALL, A-DIMS, A-EMPTY",

@@ -394,6 +394,31 @@ static void test_start_layers_beside_others(void **state) {
     sl_context_destroy(context);
 }
 
+/// Rules by which Tiled draws other maps are no level, whatever is solid in them.
+static void test_rules(void **state) {
+    (void)state;
+    const char *rules = MAP(SET LAYER("regions", CSV("1,1,1,1,1,1")) LAYER(
+        "input2_Walls", CSV("3,0,0,4,4,5")) LAYER("output_Walls", CSV("3,0,0,4,4,5")));
+    assert_refused(rules,
+                   "f:1: its layers input_... and output_... are rules by which Tiled draws "
+                   "other maps: read a map that they have drawn; --layers NAME takes a layer "
+                   "of this one as solid");
+    // One of the two words alone, or one that is part of a longer word, tells nothing.
+    const char *levels[] = {
+        MAP(SET LAYER("input_Walls", CSV("3,0,0,4,4,5"))),
+        MAP(SET LAYER("inputs_Walls", CSV("3,0,0,4,4,5")) LAYER("output_x", CSV("0,0,0,0,0,0")))};
+    for (size_t i = 0; i < 2; i++) {
+        sl_context *context = testing_context(NULL);
+        const sl_import_options options = {0};
+        sl_map map = {0};
+        assert_ok(context,
+                  sli_map_read_tmx(context, "f", levels[i], strlen(levels[i]), &options, &map));
+        assert_true(map.wall_count > 0);
+        sl_map_destroy(context, &map);
+        sl_context_destroy(context);
+    }
+}
+
 static void test_memory(void **state) {
     (void)state;
     assert_memory_of(sli_map_read_tmx, NULL, STARTS("start", ""));
@@ -424,6 +449,7 @@ int main(void) {
         cmocka_unit_test(test_old_json),
         cmocka_unit_test(test_start_layers),
         cmocka_unit_test(test_start_layers_beside_others),
+        cmocka_unit_test(test_rules),
         cmocka_unit_test(test_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -54,6 +54,16 @@ bool input_is_drawing(const sl_context *context, const char *path) {
     return drawing;
 }
 
+bool input_is_game(const sl_context *context, const char *path) {
+    const unsigned own = SL_TAKES_LAYERS | SL_TAKES_DOORS;
+    size_t count;
+    const sl_map_format *formats = sl_map_formats(context, &count);
+    for (size_t i = 0; i < count; i++)
+        if (has_ending(&formats[i], path) && (formats[i].takes & (own | SL_TAKES_PLANS)) == own)
+            return true;
+    return false;
+}
+
 // --- options
 
 input_options input_options_default(void) {

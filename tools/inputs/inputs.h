@@ -28,6 +28,8 @@ option_table input_option_table(input_options *input);
 bool input_is_baked(const char *path, const sl_bytes *bytes);
 /// Whether the name is that of a drawing: what may hold more than the walls of one plan.
 bool input_is_drawing(const sl_context *context, const char *path);
+/// Whether the name is that of a game's map: of layers, among which walls are chosen, and doors.
+bool input_is_game(const sl_context *context, const char *path);
 
 /// Reads a map file. A baked file is refused.
 sl_status input_read_map(sl_context *context, const char *path, const input_options *input,

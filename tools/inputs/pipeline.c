@@ -25,6 +25,9 @@ static const double FEW_INSIDE = 0.1;
 /// courts and shafts.
 static const double SEALED = 0.25;
 
+/// Such a share of the area inside, apart from the largest part, is told of a game's map.
+static const double APART = 0.01;
+
 // --- options
 
 map_pipeline pipeline_default(void) {
@@ -291,9 +294,25 @@ sl_status pipeline_need_inside(sl_context *context, const map_pipeline *pipeline
         100 * enclosed, or_else);
 }
 
+sl_point pipeline_likely_start(const sl_map *map, const sl_space *space) {
+    const uint32_t roomiest = sl_space_locate(space, map->interior.roomiest);
+    if (roomiest != SL_NO_CELL) return sl_space_middle(space, roomiest);
+    uint32_t largest = 0;
+    double area = -1;
+    for (uint32_t i = 0; i < space->cell_count; i++) {
+        if (space->cells[i].solid || sl_space_area(space, i) <= area) continue;
+        largest = i;
+        area = sl_space_area(space, i);
+    }
+    return sl_space_middle(space, largest);
+}
+
 /// What to do next about what is inside.
-static void say_next(sl_inside doubt, const sl_map *map, const char *path, char text[2 * SAID]) {
+static void say_next(sl_inside doubt, const sl_map *map, const sl_space *space, const char *path,
+                     char text[2 * SAID]) {
     const size_t size = 2 * SAID;
+    const int digits = sl_map_digits(map);
+    const sl_point start = pipeline_likely_start(map, space);
     switch (doubt) {
     case SL_INSIDE_SURE:
         snprintf(text, size, "; for another width, add --entrance W");
@@ -302,7 +321,8 @@ static void say_next(sl_inside doubt, const sl_map *map, const char *path, char 
         snprintf(text, size, "; to see where, run: sightline check %s", path);
         break;
     case SL_INSIDE_SMALL:
-        snprintf(text, size, "; add a start: sightline check %s --start X,Y", path);
+        snprintf(text, size, "; add a start: sightline check %s --start %.*g,%.*g", path, digits,
+                 start.x, digits, start.y);
         break;
     case SL_INSIDE_FEW:
         snprintf(text, size, "; sightline check %s lists them, --start X,Y adds a start", path);
@@ -324,18 +344,47 @@ static bool says_rooms(const sl_map *map) {
     return map->start_count > 0;
 }
 
+/// The rock around a dungeon, the sea around an island and the inside of a crate are ground as
+/// rooms are, until a start says where one walks.
+static sl_status note_apart(sl_context *context, const map_pipeline *pipeline, const sl_map *map,
+                            const sl_space *space) {
+    char path[SAID], next[80] = "";
+    map_pipeline any = pipeline_default();
+    const option_table reading = pipeline_option_table(&any);
+    const int digits = sl_map_digits(map);
+    const sl_box b = space->bounds;
+    sl_sealed parts;
+    SL_TRY(sl_find_sealed(context, map, space, &parts));
+    const double inside = sl_space_ground(space).inside * (b.max.x - b.min.x) * (b.max.y - b.min.y);
+    const double apart = inside > 0 ? 1 - parts.open.area / inside : 0;
+    if (apart < APART) return SL_OK;
+    if (parts.largest.area > 0)
+        snprintf(next, sizeof next, ", or with %.*g,%.*g the next one", digits, parts.largest.at.x,
+                 digits, parts.largest.at.y);
+    sl_note(context,
+            "the map has no start, so parts that nothing joins all count as inside, as rock, sea "
+            "and the insides of obstacles may be; %.2g %% of the area inside is not joined to the "
+            "largest part: sightline check %s --start %.*g,%.*g keeps the largest%s",
+            100 * apart, say_map(pipeline, &reading, path), digits, parts.open.at.x, digits,
+            parts.open.at.y, next);
+    return SL_OK;
+}
+
 sl_status pipeline_note_sealed(sl_context *context, const map_pipeline *pipeline, const sl_map *map,
                                const sl_space *space) {
-    char path[SAID];
+    char path[SAID], file[SAID] = "";
     map_pipeline any = pipeline_default();
     const option_table reading = pipeline_option_table(&any);
     const int digits = sl_map_digits(map);
     sl_sealed sealed;
+    if (!map->start_count && input_is_game(context, pipeline->path))
+        return note_apart(context, pipeline, map, space);
     if (says_rooms(map) || !input_is_drawing(context, pipeline->path)) return SL_OK;
     SL_TRY(sl_find_sealed(context, map, space, &sealed));
     if (sealed.rooms < 2 || sealed.share < SEALED) return SL_OK;
     const uint32_t count = sealed.rooms - 1;
     say_map(pipeline, &reading, path);
+    say(file, "", pipeline->path);
     sl_note(context,
             "no opening leads to %u room%s, %.2g %% of the area inside (one about %.*g,%.*g): are "
             "doors drawn over the walls, or is furniture among them? sightline check %s "
@@ -343,7 +392,7 @@ sl_status pipeline_note_sealed(sl_context *context, const map_pipeline *pipeline
             "--layers A,B takes those of walls",
             (unsigned)count, count == 1 ? "" : "s", 100 * sealed.share, digits, sealed.largest.at.x,
             digits, sealed.largest.at.y, path, digits, sealed.open.at.x, digits, sealed.open.at.y,
-            pipeline->path);
+            file);
     return SL_OK;
 }
 
@@ -357,7 +406,7 @@ sl_status pipeline_note_inside(sl_context *context, const map_pipeline *pipeline
     SL_TRY(sl_say_inside(context, map, space, said));
     if (!said[0]) return SL_OK;
     SL_TRY(sl_doubt_inside(context, map, space, &doubt));
-    say_next(doubt, map, say_map(pipeline, &reading, path), then);
+    say_next(doubt, map, space, say_map(pipeline, &reading, path), then);
     sl_note(context, "%s%s", said, then);
     return SL_OK;
 }

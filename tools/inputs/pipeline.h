@@ -64,13 +64,18 @@ sl_status pipeline_read_space(sl_context *context, const map_pipeline *pipeline,
 /// gives the length as that does.
 size_t pipeline_shell_word(const char *word, char *text, size_t size);
 
+/// A place for a start: the middle of the cell that has the roomiest place. Where that is not
+/// known: of the largest cell that is not solid.
+sl_point pipeline_likely_start(const sl_map *map, const sl_space *space);
+
 /// Refuses a map of which walls enclose next to nothing, where no start says what is inside: most
 /// of a grid would be missing. `or_else`: what else than a start helps; "" for nothing. Else as
 /// pipeline_note_inside().
 sl_status pipeline_need_inside(sl_context *context, const map_pipeline *pipeline, const sl_map *map,
                                const sl_space *space, const char *or_else);
 
-/// Of a drawing: notes how many rooms have no opening, if these are many, and what to run next.
+/// Of a drawing: notes how many rooms have no opening, if these are many, and what to run next. Of
+/// a game's map without a start: that parts which nothing joins all count as inside.
 sl_status pipeline_note_sealed(sl_context *context, const map_pipeline *pipeline, const sl_map *map,
                                const sl_space *space);
 

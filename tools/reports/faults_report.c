@@ -292,8 +292,8 @@ static bool is_among(const char *name, const char *const *names) {
 /// What a next command is for.
 typedef enum next_use {
     NEXT_CHECK,
-    NEXT_CHECK_STARTLESS, ///< without the starts of options
     NEXT_BAKE,
+    NEXT_BAKE_STARTLESS, ///< without the starts of options
     NEXT_CHECK_MENDED,
     NEXT_BAKE_MENDED
 } next_use;
@@ -310,8 +310,8 @@ static bool is_repeated(const struct option_given *option, next_use use) {
     static const char *const starts[] = {"start", "start-names", NULL};
     const bool mended = use == NEXT_CHECK_MENDED || use == NEXT_BAKE_MENDED;
     if (is_among(option->name, own)) return false;
-    if (use == NEXT_CHECK_STARTLESS && is_among(option->name, starts)) return false;
-    if (is_among(option->name, for_check)) return use != NEXT_BAKE && use != NEXT_BAKE_MENDED;
+    if (use == NEXT_BAKE_STARTLESS && is_among(option->name, starts)) return false;
+    if (is_among(option->name, for_check)) return use == NEXT_CHECK || use == NEXT_CHECK_MENDED;
     if (!mended) return true;
     const bool given = strcmp(option->name, "subdivide") == 0 && *option->argument == 'g';
     return !given && !is_among(option->name, reading);
@@ -319,7 +319,7 @@ static bool is_repeated(const struct option_given *option, next_use use) {
 
 /// "next: sightline check MAP", with the options that count, and the width of gaps.
 static void print_command(const faults_report *report, next_use use, double gap) {
-    const bool bakes = use == NEXT_BAKE || use == NEXT_BAKE_MENDED;
+    const bool bakes = use != NEXT_CHECK && use != NEXT_CHECK_MENDED;
     const bool mended = use == NEXT_CHECK_MENDED || use == NEXT_BAKE_MENDED;
     print_file(bakes ? "next: sightline bake " : "next: sightline check ",
                mended ? report->mended : report->input);
@@ -345,25 +345,9 @@ static void print_name(const faults_report *report, const char *option, const ch
     print_file(option, name);
 }
 
-/// The middle of the cell that has the roomiest place. Where that is not known: of the largest cell
-/// that is not solid.
-static sl_point likely_start(const sl_baked *baked) {
-    const sl_space *space = &baked->space;
-    const uint32_t roomiest = sl_space_locate(space, baked->map.interior.roomiest);
-    if (roomiest != SL_NO_CELL) return sl_space_middle(space, roomiest);
-    uint32_t largest = 0;
-    double area = -1;
-    for (uint32_t i = 0; i < space->cell_count; i++) {
-        if (space->cells[i].solid || sl_space_area(space, i) <= area) continue;
-        largest = i;
-        area = sl_space_area(space, i);
-    }
-    return sl_space_middle(space, largest);
-}
-
 /// Checks again, with a start.
 static void print_next_start(const faults_report *report, next_use use, const checked *found) {
-    const sl_point start = likely_start(&found->baked);
+    const sl_point start = pipeline_likely_start(&found->baked.map, &found->baked.space);
     const int digits = sl_map_digits(&found->map);
     puts("  the next command has a start in the roomiest place: put another place there if that is "
          "outside");
@@ -442,18 +426,16 @@ static void print_next(const faults_report *report) {
     } else if (needs_start(report->found)) {
         print_next_start(report, NEXT_CHECK, report->found);
     } else if (has_startless(report)) {
-        print_command(report, NEXT_CHECK_STARTLESS, 0);
-    } else if (grave && !report->picture && !report->found->strays.count) {
-        print_command(report, NEXT_CHECK, 0);
-        print_name(report, " -o ", "-check.png");
+        print_command(report, NEXT_BAKE_STARTLESS, 0);
     } else if (report->found->strays.count) {
         print_command(report, NEXT_CHECK, 0);
-    } else if (grave) {
-        puts("  mend the walls named above before the next command");
+    } else if (grave && !report->picture) {
         print_command(report, NEXT_CHECK, 0);
+        print_name(report, " -o ", "-check.png");
     } else if (name_ends_with(report->input, ".slv")) {
         print_file("next: sightline info ", report->input);
     } else {
+        if (grave) puts("  the next command takes these walls as they are: mend them before it");
         print_command(report, NEXT_BAKE, 0);
     }
     putchar('\n');

@@ -179,7 +179,7 @@ static sl_status take_layers_of_doors(sli_choice *c) {
 }
 
 static sl_status find_symbols(sli_choice *c) {
-    c->means = sl_alloc(c->contents->context, c->map->wall_count);
+    c->means = sl_alloc_array(c->contents->context, c->map->wall_count, 1);
     if (!c->means) return SL_NO_MEMORY;
     memset(c->means, SLI_MEANS_OTHER, c->map->wall_count); // walls of layers of our own
     take_named(c, true);

@@ -521,6 +521,7 @@ static void give_account(const sli_tiled_reader *reader) {
 
 static sl_status read_map(sli_tiled_reader *reader) {
     SL_TRY(read_head(reader));
+    SL_TRY(sli_tiled_check_rules(reader));
     SL_TRY(sli_tiled_read_sets(reader->map, &reader->sets));
     SL_TRY(sli_tiled_look_beside(reader));
     SL_TRY(sli_tiled_read_again(reader));

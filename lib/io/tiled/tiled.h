@@ -344,6 +344,8 @@ bool sli_tiled_all_solid(const sli_tiled_sets *sets, const uint32_t *gids, size_
 static inline size_t sli_tiled_taken(const sli_tiled_reader *reader) {
     return reader->solid_layers + reader->solid_tiles + reader->shapes + reader->objects;
 }
+/// Refuses a map of rules for Tiled's automapping, which is no level, unless layers are asked for.
+sl_status sli_tiled_check_rules(const sli_tiled_reader *reader);
 /// Where nothing says what is solid: by names, terrains, sets, at last a guess. SL_BAD_INPUT, with
 /// the layers and what to type, where none tells.
 sl_status sli_tiled_find_meaning(sli_tiled_reader *reader);

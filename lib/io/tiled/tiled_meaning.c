@@ -266,6 +266,38 @@ sl_status sli_tiled_check_guess(const sli_tiled_reader *reader) {
     return SL_OK;
 }
 
+// --- rules
+
+/// Whether a name is that of a layer of rules: input2_Ground, inputnot_Ground, output1_Walls.
+static bool is_rule(const char *name, const char *start) {
+    const size_t length = strlen(start);
+    if (strncmp(name, start, length) != 0) return false;
+    name += length;
+    if (strncmp(name, "not", 3) == 0) name += 3;
+    return name[strspn(name, "0123456789")] == '_';
+}
+
+static void look_for_rules(const sli_json *parent, bool *input, bool *output) {
+    const sli_json layers = sli_json_member(parent, "layers");
+    for (size_t i = 0; i < json_array_size(layers.value); i++) {
+        const sli_json layer = sli_json_item(&layers, i);
+        const char *name = sli_json_text_of(&layer, "name");
+        *input |= is_rule(name, "input");
+        *output |= is_rule(name, "output");
+        look_for_rules(&layer, input, output);
+    }
+}
+
+sl_status sli_tiled_check_rules(const sli_tiled_reader *reader) {
+    bool input = false, output = false;
+    look_for_rules(reader->map, &input, &output);
+    if (!input || !output || reader->options->layers) return SL_OK;
+    return sli_json_fail(reader->map,
+                         "its layers input_... and output_... are rules by which Tiled "
+                         "draws other maps: read a map that they have drawn; --layers "
+                         "NAME takes a layer of this one as solid");
+}
+
 // --- the order of the readings
 
 /// The firmest kind that names of layers have. A layer that is full says nothing.
