@@ -211,7 +211,9 @@ unsigned sli_cone_clip(sli_pivot *pivot, const sli_cone *cone, const sli_arc *ar
 
 // --- views
 
-/// The point at an angle in degrees and a distance; exact for the four directions of the axes.
+/// The point at an angle in degrees and about a distance: exact for the directions of the axes, and
+/// for those between them where the eye has bits to spare, since they take a power of two. So views
+/// of eyes in one line meet in this line.
 static sl_point toward(sl_point eye, double degrees, double reach) {
     const double turned = remainder(degrees, 360);
     double x, y;
@@ -220,6 +222,12 @@ static sl_point toward(sl_point eye, double degrees, double reach) {
         y = 0;
     } else if (fabs(turned) == 90) {
         x = 0;
+        y = turned > 0 ? 1 : -1;
+    } else if (fabs(turned) == 45 || fabs(turned) == 135) {
+        int exponent;
+        (void)frexp(reach, &exponent);
+        reach = ldexp(0.5, exponent);
+        x = fabs(turned) == 45 ? 1 : -1;
         y = turned > 0 ? 1 : -1;
     } else {
         const double radians = turned * (acos(-1) / 180);

@@ -173,20 +173,23 @@ static void witnesses_on_borders(void **state) {
     }
 }
 
-/// Four headings at corners of a plan along the axes, as planners choose them.
+/// Four headings at corners of a plan along the axes, as planners choose them. Borders are along
+/// the axes, and between them: there several are in one line.
 static void cones_along_walls(void **state) {
     (void)state;
     static const sl_point at[] = {{3, 3}, {5, 5}, {7, 2}};
     scene s;
-    begin(&s, PLAN, 1, (sl_viewpoint){.fov = 90});
-    for (int i = 0; i < PLACES; i++) {
-        s.places[i].at = at[i / 4];
-        s.places[i].heading = 45 + 90 * (i % 4);
+    for (int turned = 0; turned <= 45; turned += 45) {
+        begin(&s, PLAN, 1, (sl_viewpoint){.fov = 90});
+        for (int i = 0; i < PLACES; i++) {
+            s.places[i].at = at[i / 4];
+            s.places[i].heading = turned + 90 * (i % 4);
+        }
+        sl_area_placement placed = place(&s);
+        confirm(&s, &placed);
+        sl_area_placement_destroy(s.context, &placed);
+        end(&s);
     }
-    sl_area_placement placed = place(&s);
-    confirm(&s, &placed);
-    sl_area_placement_destroy(s.context, &placed);
-    end(&s);
 }
 
 static char *print(scene *s, const sl_area_placement *placed, size_t *size) {

@@ -106,11 +106,36 @@ static void survives_lack_of_memory(void **state) {
     sl_context_destroy(context);
 }
 
+/// A row that demands two comes in later: still no column counts for two.
+static void takes_each_column_once(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    const sl_cover_program *program = sl_cover_glpk();
+    const size_t ends[] = {1, 2}, more_ends[] = {2, 4};
+    const uint32_t entries[] = {0, 0}, more_entries[] = {0, 1, 0, 1};
+    const uint32_t costs[] = {1, 5}, demands[] = {1, 2};
+    const sl_cover_problem one = {1, 2, ends, entries, costs, NULL},
+                           two = {2, 2, more_ends, more_entries, costs, demands};
+    const uint8_t fixed[2] = {0};
+    const bool gone[1] = {false};
+    void *lp = NULL;
+    double duals[2], values[2];
+    assert_ok(context, program->begin(context, &one, &lp));
+    assert_ok(context, program->again(context, lp, fixed, 0, 0, duals, values));
+    assert_true(values[0] == 1 && values[1] == 0);
+    assert_ok(context, program->change(context, lp, &two, gone));
+    assert_ok(context, program->again(context, lp, fixed, 0, 0, duals, values));
+    assert_true(values[0] == 1 && values[1] == 1);
+    program->end(context, lp);
+    sl_context_destroy(context);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(finds_the_least_with_a_program),
         cmocka_unit_test(relaxes_and_branches),
         cmocka_unit_test(branches_on_what_raises_the_bound),
+        cmocka_unit_test(takes_each_column_once),
         cmocka_unit_test(survives_lack_of_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

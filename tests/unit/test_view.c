@@ -23,6 +23,24 @@ static void quarter_turns(void **state) {
     assert_false(sli_view_holds(&ray, (sl_point){9, nextafter(-2, 0)}));
 }
 
+/// Borders between the axes are exact too, where the eye has bits to spare: eyes in one line share
+/// them.
+static void diagonals(void **state) {
+    (void)state;
+    const sl_point eye = {24.5, 6.25};
+    for (int k = 0; k < 4; k++) {
+        const sl_view view = sl_view_cone(eye, 90 * k, 90, 200);
+        const sl_point borders[] = {view.left, view.right};
+        for (int i = 0; i < 2; i++) {
+            const double x = borders[i].x - eye.x, y = borders[i].y - eye.y;
+            assert_true(fabs(x) == fabs(y) && fabs(x) > 100 && fabs(x) <= 200);
+            const sl_point other = {eye.x + copysign(0.5, x), eye.y + copysign(0.5, y)};
+            assert_true(sli_view_holds(&view, other));
+            assert_int_equal(sli_orient(eye, other, borders[i]), 0);
+        }
+    }
+}
+
 static void the_border_belongs_to_the_cone(void **state) {
     (void)state;
     const sl_view view = {.eye = {0, 0}, .left = {1, 3}, .right = {3, 1}};
@@ -148,8 +166,11 @@ static void polygons_on_a_grid(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(quarter_turns),      cmocka_unit_test(the_border_belongs_to_the_cone),
-        cmocka_unit_test(all_round),          cmocka_unit_test(segments_on_a_grid),
+        cmocka_unit_test(quarter_turns),
+        cmocka_unit_test(diagonals),
+        cmocka_unit_test(the_border_belongs_to_the_cone),
+        cmocka_unit_test(all_round),
+        cmocka_unit_test(segments_on_a_grid),
         cmocka_unit_test(polygons_on_a_grid),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -59,6 +59,7 @@ static sl_status measure_line(sl_context *context, sl_query *query, const cover_
                               const sl_viewpoint *viewpoints, camera_work *w, size_t thing) {
     line_cover *out = &w->line_covers[thing];
     double length = 0;
+    size_t unseen_parts = 0;
     for (size_t i = first_of(w, thing); i < w->lines.ends.items[thing]; i++) {
         const sl_segment *s = &w->lines.segments.items[i];
         const sl_point ends[2] = {s->a, s->b};
@@ -67,12 +68,14 @@ static sl_status measure_line(sl_context *context, sl_query *query, const cover_
         out->inside += w->placed.line_lengths[i];
         length += unseen.length;
         out->seen += unseen.length - unseen.total;
+        unseen_parts += unseen.count;
         sl_path_parts_destroy(context, &unseen);
     }
     if (out->inside > 0 && length - out->inside > 1e-6 * length)
         sl_note(context, "%s: %.4g of its %.4g are inside; the rest does not count",
                 w->lines.names.items[thing], out->inside, length);
-    if (out->inside - out->seen <= 1e-9 * out->inside) out->seen = out->inside; // rounding
+    // Both are rounded sums.
+    if (!unseen_parts || out->seen > out->inside) out->seen = out->inside;
     return SL_OK;
 }
 

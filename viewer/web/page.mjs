@@ -1,11 +1,11 @@
 /** The frame of a page that the build writes: its head with the policy, and links to all parts of the site. */
 
 /**
- * What pages may load: files of the site, and pictures that they made themselves. Nothing comes from elsewhere, no code
- * or style stands in a page, and no form is sent.
+ * What pages may load: files of the site, and what they made themselves: pictures, and addresses that a worker asks for.
+ * Nothing comes from elsewhere, no code or style stands in a page, and no form is sent.
  */
 export const policy = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; img-src 'self' data: blob:; " +
-    "connect-src 'self'; worker-src 'self'; base-uri 'none'; form-action 'none'";
+    "connect-src 'self' blob:; worker-src 'self'; base-uri 'none'; form-action 'none'";
 
 /**
  * @param {string} title in HTML, as is `body`

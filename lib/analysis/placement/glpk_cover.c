@@ -14,7 +14,7 @@ typedef struct relaxation {
     glp_prob *lp;
     glp_smcp settings;
     uint8_t *fixed; ///< by column, as the program has it
-    bool bounded;   ///< a column may be wanted more than once
+    bool bounded;   ///< a row demands several columns: none counts for more than one
     sli_glpk_guard guard;
 } relaxation;
 
@@ -34,11 +34,14 @@ static void bind(const relaxation *r, uint32_t column, uint8_t how) {
 /// and `ones`: room for a column.
 static void fill(relaxation *r, uint32_t first, int *numbers, double *ones) {
     const sl_cover_problem *p = r->problem;
+    const bool bounded = r->bounded;
     if (p->row_count > first) glp_add_rows(r->lp, (int)(p->row_count - first));
     for (uint32_t i = first; i < p->row_count; i++) {
         const uint32_t demand = p->demands ? p->demands[i] : 1;
+        r->bounded |= demand > 1;
         glp_set_row_bnds(r->lp, (int)i + 1, GLP_LO, demand, demand);
     }
+    for (uint32_t j = 0; j < p->column_count && r->bounded != bounded; j++) bind(r, j, r->fixed[j]);
     for (uint32_t j = 0; j < p->column_count; j++) {
         int count = 0;
         for (size_t i = begin_of(p, j); i < p->ends[j]; i++) {
@@ -54,7 +57,6 @@ static void create(relaxation *r) {
     const sl_cover_problem *p = r->problem;
     r->lp = glp_create_prob();
     glp_add_cols(r->lp, (int)p->column_count);
-    for (uint32_t i = 0; i < p->row_count; i++) r->bounded |= p->demands && p->demands[i] > 1;
     for (uint32_t j = 0; j < p->column_count; j++) {
         glp_set_obj_coef(r->lp, (int)j + 1, p->costs ? p->costs[j] : 1);
         bind(r, j, 0);

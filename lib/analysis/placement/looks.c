@@ -83,25 +83,33 @@ static bool add_window(const builder *b, size_t i) {
     return true;
 }
 
+static void turn_round(sli_front *fronts, uint32_t count) {
+    for (uint32_t i = 0; i < count / 2; i++) {
+        const sli_front last = fronts[count - 1 - i];
+        fronts[count - 1 - i] = fronts[i];
+        fronts[i] = last;
+    }
+}
+
 /// Fronts in the order of their angles: what is behind the greatest step comes first.
-static void sort_angles(sli_look *look, sli_front *spare) {
+static void sort_angles(sli_look *look) {
     uint32_t first = 0;
     for (uint32_t i = 0; i < look->front_count; i++) {
         const sl_point r = look->fronts[i].right;
         look->angles[i] = sli_look_angle((sl_point){r.x - look->eye.x, r.y - look->eye.y});
         if (look->angles[i] < look->angles[first]) first = i;
     }
-    for (uint32_t i = 0; i < look->front_count; i++)
-        spare[i] = look->fronts[(first + i) % look->front_count];
+    turn_round(look->fronts, first);
+    turn_round(look->fronts + first, look->front_count - first);
+    turn_round(look->fronts, look->front_count);
     for (uint32_t i = 0; i < look->front_count; i++) {
-        const sl_point r = spare[i].right;
-        look->fronts[i] = spare[i];
+        const sl_point r = look->fronts[i].right;
         look->angles[i] = sli_look_angle((sl_point){r.x - look->eye.x, r.y - look->eye.y});
         if (i && look->angles[i] < look->angles[i - 1]) look->angles[i] = look->angles[i - 1];
     }
 }
 
-static bool build(builder *b, sli_front *spare) {
+static bool build(builder *b) {
     const sl_region *r = b->region;
     sli_look *look = b->look;
     look->area = sl_region_area(r);
@@ -117,7 +125,7 @@ static bool build(builder *b, sli_front *spare) {
         if (!wall && r->edges[i].kind != SL_EDGE_OCCLUDING) return false;
         if (!(wall ? add_front(b, i) : add_window(b, i))) return false;
     }
-    sort_angles(look, spare);
+    sort_angles(look);
     return true;
 }
 
@@ -130,13 +138,13 @@ sl_status sli_look_make(sl_context *context, sl_query *query, sl_region *memory,
     SL_TRY(sl_query_region(context, query, &view, memory));
     SL_TRY(sl_query_space(context, query, &space, NULL));
     if (!memory->count) return SL_OK;
-    sli_front *spare = sl_alloc_array(context, memory->count, sizeof *spare);
-    out->fronts = sl_alloc_array(context, memory->count, sizeof *out->fronts);
-    out->windows = sl_alloc_array(context, memory->count, sizeof *out->windows);
-    out->angles = sl_alloc_array(context, memory->count, sizeof *out->angles);
-    const bool room = spare && out->fronts && out->windows && out->angles;
-    if (room) *clean = build(&(builder){space, memory, out}, spare);
-    sl_free(context, spare);
+    size_t walls = 0;
+    for (size_t i = 0; i < memory->count; i++) walls += is_wall(&memory->edges[i]);
+    out->fronts = sl_alloc_array(context, walls, sizeof *out->fronts);
+    out->windows = sl_alloc_array(context, memory->count - walls, sizeof *out->windows);
+    out->angles = sl_alloc_array(context, walls, sizeof *out->angles);
+    const bool room = out->fronts && out->windows && out->angles;
+    if (room) *clean = build(&(builder){space, memory, out});
     if (!*clean) sli_look_destroy(context, out);
     return room ? SL_OK : SL_NO_MEMORY;
 }

@@ -18,6 +18,8 @@ export interface ChooseOptions {
   network?: boolean
   /** Hears how far the work is. Return false to stop and keep the best set. */
   progress?: (stage: string, done: number, total: number) => boolean | void
+  /** Is asked often while the work goes on. Return true to stop and keep the best set. */
+  stop?: () => boolean
   /** Seconds after which to stop and keep the best set. */
   timeLimit?: number
 }

@@ -33,7 +33,7 @@ export class Floor extends CoverFloor {
 
   /** The fewest of the places that see all that they can see; with `count`, the most that so many see. */
   choose(places, given) {
-    const options = optionsOf(given, 'fixed', 'cover', 'count', 'network', 'progress', 'timeLimit'), { at, core } = this
+    const options = optionsOf(given, 'fixed', 'cover', 'count', 'network', 'progress', 'stop', 'timeLimit'), { at, core } = this
     const { fixed = [], cover = 1, count = 0, network = false } = options
     const all = [...listOf('fixed', fixed), ...listOf('places', places)], rows = Float64Array.from(all.flatMap(rowOf))
     countOf('cover', cover)

@@ -160,18 +160,18 @@ export class Module {
 
   /** Sets what hears of progress and stops long work. @internal */
   watched(options, call) {
-    const { progress, timeLimit = 0 } = pick(options, 'progress', 'timeLimit')
-    if (progress !== undefined && typeof progress !== 'function')
-      throw new SightlineError('progress: a function is needed')
+    const { progress, stop, timeLimit = 0 } = pick(options, 'progress', 'stop', 'timeLimit')
+    for (const [name, heard] of Object.entries({ progress, stop }))
+      if (heard !== undefined && typeof heard !== 'function') throw new SightlineError(`${name}: a function is needed`)
     numberOf('timeLimit', timeLimit, 0)
-    if (!progress && !timeLimit) return call()
+    if (!progress && !stop && !timeLimit) return call()
     const until = timeLimit > 0 ? performance.now() + 1000 * timeLimit : Infinity
     let stopped = false
     this.watch = {
       report: (stage, done, total) => {
         if (progress && progress(stage, done, total) === false) stopped = true
       },
-      stop: () => stopped || performance.now() > until,
+      stop: () => stopped || performance.now() > until || stop?.() === true,
     }
     this.core.watch(1)
     try {

@@ -14,6 +14,8 @@ export interface PlaceOptions {
   step?: number
   /** Both bounds so far, as done and total. Return false to stop and keep the best set. */
   progress?: (stage: string, lower: number, upper: number) => boolean | void
+  /** Is asked often while the work goes on. Return true to stop and keep the best set. */
+  stop?: () => boolean
   /** Seconds after which to stop and keep the best set. */
   timeLimit?: number
 }

@@ -17,7 +17,7 @@ const FROM = ['anywhere', 'corners', 'walls', 'grid']
 export class Floor extends CoverFloor {
   /** The fewest viewpoints that see all, with both bounds. Stopped, it gives what it has. */
   place(given) {
-    const options = optionsOf(given, 'from', 'step', 'progress', 'timeLimit'), { at, core } = this
+    const options = optionsOf(given, 'from', 'step', 'progress', 'stop', 'timeLimit'), { at, core } = this
     const { from = 'anywhere', step = 0 } = options
     if (!FROM.includes(from)) throw new SightlineError(`from: one of ${FROM.join(', ')} is needed`)
     numberOf('step', step, 0)

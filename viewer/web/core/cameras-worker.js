@@ -3,7 +3,7 @@
  * Messages are those of worker.js. The floor of one map is kept.
  */
 import { load } from '../package/cameras.js';
-import { tellEvery } from './progress.js';
+import { isRevoked, tellEvery } from './progress.js';
 
 /** By module: what is loaded, and the floor that is open. */
 const cores = {}, floors = {};
@@ -18,6 +18,9 @@ async function floorOf(name, { text, doors, memory }) {
     floors[name] = { key, floor: cores[name].open(text, { doors }) };
     return floors[name].floor;
 }
+
+/** Long work tells how far it is, and stops once the page revokes `going`; the best set so far is kept. */
+const watched = ({ id, options, going }) => ({ ...options, progress: tellEvery(id), stop: isRevoked(going) });
 
 /** Points along walls: up to `most`, unless each wall has few already. */
 function alongWalls(floor, step, most) {
@@ -34,14 +37,14 @@ const tasks = {
         return (await floorOf('cameras', data)).cover(data.cameras);
     },
     async choose(data) {
-        const floor = await floorOf('cameras', data), { from, step, most, like, headings, options } = data;
+        const floor = await floorOf('cameras', data), { from, step, most, like, headings } = data;
         const points = from === 'walls' ? alongWalls(floor, step, most) : floor.points(from, from === 'corners' ? 0 : step);
         const places = points.flatMap(({ x, y }) => Array.from({ length: headings }, (_, i) => ({ ...like, x, y, heading: 360 * i / headings })));
-        const choice = floor.choose(places, { ...options, progress: tellEvery(data.id) });
+        const choice = floor.choose(places, watched(data));
         return { ...choice, coverage: floor.cover(choice.viewpoints) };
     },
     async place(data) {
-        const floor = await floorOf('place', data), placement = floor.place({ ...data.options, progress: tellEvery(data.id) });
+        const floor = await floorOf('place', data), placement = floor.place(watched(data));
         return { ...placement, coverage: floor.cover(placement.viewpoints) };
     },
 };

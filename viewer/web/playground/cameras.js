@@ -14,8 +14,8 @@ import { showTable } from './panel.js';
 const get = (id) => /** @type {any} */ (document.getElementById(id));
 const CLASSES = [t('not seen'), t('seen by 1'), t('seen by 2'), t('seen by 3 or more')];
 
-/** Headings to choose from, points along walls at most, and seconds that a choice may take. */
-const HEADINGS = 8, POINTS = 500, SECONDS = 15;
+/** Headings to choose from, and points along walls at most. */
+const HEADINGS = 8, POINTS = 500;
 
 const short = (value) => value.toLocaleString('en', { maximumSignificantDigits: 4 });
 const degrees = (dx, dy) => Math.round((Math.atan2(dy, dx) * 180) / Math.PI + 360) % 360;
@@ -34,12 +34,16 @@ export class Cameras {
         /** What they see together; null: not known. */
         this.coverage = null;
         this.choosing = false;
+        /** That a choice may take. */
+        this.seconds = 15;
+        /** An address that the choice asks for while it works, and ends when it is revoked; empty: it was. */
+        this.going = '';
         /** What was said of the cameras as they stand. */
         this.proof = '';
         for (const id of ['camera-fov', 'camera-range', 'camera-heading']) get(id).addEventListener('change', () => this.enter());
         get('camera-fewest').addEventListener('click', () => this.choose(0));
         get('camera-best').addEventListener('click', () => this.choose(Math.max(1, Math.round(Number(get('camera-count').value)) || 1)));
-        get('camera-stop').addEventListener('click', () => this.client.stop(new Error(t('it was stopped.'))));
+        get('camera-stop').addEventListener('click', () => this.stop());
         get('camera-clear').addEventListener('click', () => this.set([]));
         this.show();
     }
@@ -111,19 +115,28 @@ export class Cameras {
         this.app.redraw();
     }
 
+    /** The choice ends with the best cameras so far; asked once more, at once and without any. */
+    stop() {
+        if (!this.going) return this.client.stop(new Error(t('it was stopped.')));
+        URL.revokeObjectURL(this.going);
+        this.going = '';
+    }
+
     /** The fewest cameras, or with `count` the best of so many. */
     async choose(count) {
         const { plan } = this.app;
         if (!plan || !countWalls(this.app.doc.items) || this.choosing) return;
         const from = get('camera-from').value, { fov, range } = this.like, bounds = this.app.doc.bounds();
         const size = Math.max(bounds[2] - bounds[0], bounds[3] - bounds[1]);
-        const wanted = this.wanted(), options = { timeLimit: SECONDS, ...(count ? { count } : {}) };
+        const options = { timeLimit: this.seconds, ...(count ? { count } : {}) };
         this.choosing = true;
+        this.going = URL.createObjectURL(new Blob());
+        const wanted = this.wanted(), task = { ...wanted, options, going: this.going };
         this.show();
         this.say(t('Computing ...'));
         try {
-            const found = await (from === 'anywhere' ? this.client.call('place', { ...wanted, options })
-                : this.client.call('choose', { ...wanted, options, from, step: size / (from === 'grid' ? 24 : 60), most: POINTS,
+            const found = await (from === 'anywhere' ? this.client.call('place', task)
+                : this.client.call('choose', { ...task, from, step: size / (from === 'grid' ? 24 : 60), most: POINTS,
                     like: { fov, range }, headings: fov < 360 ? HEADINGS : 1 }));
             if (JSON.stringify(this.wanted()) !== JSON.stringify(wanted)) throw new Error(t('the map has changed.'));
             this.list = found.viewpoints.map(({ x, y, heading = 0 }) => ({ x, y, heading, ...(from === 'anywhere' ? { fov: 360, range: 0 } : { fov, range }) }));
@@ -134,6 +147,7 @@ export class Cameras {
             this.proof = t`Nothing was chosen: ${error.message}`;
         }
         this.choosing = false;
+        URL.revokeObjectURL(this.going);
         this.show();
         this.app.redraw();
     }

@@ -640,6 +640,23 @@ for (const name of wanted)
             await context.close();
         });
 
+        test('cameras: Stop keeps the best set so far, with both bounds', async () => {
+            const page = await open(), text = () => page.locator('#camera-text').textContent();
+            await page.selectOption('#gallery', 'office.map');
+            await settled(page);
+            await page.check('input[value=cameras]');
+            await page.fill('#camera-fov', '360');
+            await page.selectOption('#camera-from', 'anywhere');
+            await page.evaluate(() => (window.playground.cameras.seconds = 1e6));
+            await page.click('#camera-fewest');
+            await page.waitForFunction(() => /at most \d+ so far/.test(document.getElementById('camera-text').textContent));
+            await page.click('#camera-stop');
+            await page.waitForFunction(() => !window.playground.cameras.choosing);
+            assert.match(await text(), /^\d+ cameras\. .*At least \d+ are needed: .* The work ended early; more time may close the gap\.$/);
+            assert.equal((await page.evaluate(() => window.playground.cameras.coverage.areas))[0], 0);
+            await context.close();
+        });
+
         test('a line: what some of its points see and what all see, by mouse and keys, past doors as they stand', async () => {
             const page = await open({}, '', `${room.slice(0, -1)}\ndoor middle 10 4 10 6 open\n`);
             const text = () => page.locator('#line-text').textContent(), key = page.locator('#line-key');

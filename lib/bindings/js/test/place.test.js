@@ -43,6 +43,14 @@ test('what viewpoints see is what the command says', () => {
   assert.throws(() => floor.cover([]), /closed/)
 })
 
+test('the work stops where it is asked to, and keeps the best set', () => {
+  const floor = core.open(comb(0)), found = floor.place({ stop: () => true })
+  assert.ok(found.stopped && found.lower < found.upper && found.viewpoints.length === found.upper)
+  assert.equal(floor.cover(found.viewpoints).areas[0], 0)
+  assert.throws(() => floor.place({ stop: true }), /stop: a function is needed/)
+  floor.close()
+})
+
 test('the fewest have the bounds of the command, also turned and of a baked file', async () => {
   for (const degrees of [0, 17.3]) {
     const told = native('place', comb(degrees)), floor = await open(comb(degrees)), found = floor.place()
