@@ -275,7 +275,7 @@ static sl_status triangulate_again(finder *f, const char *source, double weld) {
 
 // --- all of it
 
-/// Walls that stop steps, and doors, as segments.
+/// Walls that stop steps, doors, and entrances that are found, as segments.
 static sl_status list_walls(sl_context *context, const sl_map *map, sli_mesh_lines *lines) {
     for (size_t i = 0; i < map->wall_count; i++)
         SL_TRY(sli_mesh_add_line(context, lines, (sl_segment){map->walls[i].a, map->walls[i].b}));
@@ -286,7 +286,7 @@ static sl_status list_walls(sl_context *context, const sl_map *map, sli_mesh_lin
         if (!door->parts) SL_TRY(sli_mesh_add_line(context, lines, door->segment));
     }
     for (size_t i = 0; i < map->seam_count; i++)
-        if (map->seams[i].stops & SL_STOPS_STEPS)
+        if (map->seams[i].entrance || map->seams[i].stops & SL_STOPS_STEPS)
             SL_TRY(sli_mesh_add_line(context, lines, map->seams[i].segment));
     return SL_OK;
 }

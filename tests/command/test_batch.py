@@ -69,6 +69,26 @@ class Batch(sandbox.ProgramTest):
                 self.assertAlmostEqual(float(row[name + "_deviation"]) ** 2,
                                        statistics.pvariance(values), 9)
 
+    def test_figures_of_a_grid_in_parts_are_those_of_the_summary(self):
+        self.box.path("two.map").write_text(
+            "sightline 1\nwalls 0 0 8 0 8 8 0 8 0 0\nwalls 10 0 13 0 13 3 10 3 10 0\n")
+        self.write_list("two.map")
+        options = ["--grid", "1", "--measures", "visual,isovist"]
+        row, = self.rows(self.run_batch("vga", "list", "--", *options).stdout)
+        told = self.box.run(["vga", "two.map", *options, "-o", "two.csv"]).stdout
+        self.assertIn("in 2 parts", told)
+        means = {words[0]: words[1:] for words in map(str.split, told.splitlines())
+                 if len(words) == 3 and row.get(words[0] + "_mean")}
+        self.assertGreater(len(means), 10)
+        for name, figures in means.items():
+            self.assertEqual([f"{float(row[name + end]):.6g}" for end in ("_mean", "_deviation")],
+                             figures, name)
+        points = list(csv.DictReader(io.StringIO(self.box.path("two.csv").read_text())))
+        self.assertEqual((int(row["rows"]), row["parts"]), (len(points), "2"))
+        self.assertEqual(int(row["largest_part_rows"]),
+                         sum(point["part"] == "1" for point in points))
+        self.assertNotIn("part_mean", row)
+
     def test_a_plan_that_fails_is_passed_over(self):
         self.box.path("bad.map").write_text('sightline 1\nwalls 1 2 "x,y"\n')
         self.write_list("room 4.map", "bad.map", "no such.map", "room 8.map")

@@ -114,6 +114,25 @@ class Entrances(sandbox.ProgramTest):
                     cells, area = self.inside(name, "--entrance", "2")
                     self.assertAlmostEqual(area, area_inside(2), delta=1e-9)
 
+    def test_too_wide_beside_a_closed_room(self):
+        """What is inside without the doubtful opening is no answer, until somebody decides."""
+        self.write("a.map", 2, 0, ["unit m", "walls 20 0 24 0 24 4 20 4 20 0"])
+        for command, *options in *WIDE, ["rooms"], ["report", "-o", "a.pdf"]:
+            refused = self.box.run([command, "a.map", *options])
+            self.assertEqual(refused.status, 2, refused.text())
+            typed = re.search(r"if it is an entrance, add (--entrance 2);.*; if inside is right "
+                              r"without it, add (--entrance 1\.2)\n", refused.stderr)
+            self.assertTrue(typed, refused.stderr)
+            self.run_well(command, "a.map", *options, *typed[2].split())
+
+    def test_rooms_end_at_entrances(self):
+        """A hall is a room, though its entrance is wider than doors."""
+        self.write("a.map", 2, 0, ["unit m"])
+        table = self.printed("rooms", "a.map", "--entrance", "2", "-q")
+        areas = sorted(float(row["area"]) for row in csv.DictReader(io.StringIO(table)))
+        for area, wanted in zip(areas, (4.55 * 3.4, 4.55 * 3.4, 9.4 * 3.7 + 0.3 * 2), strict=True):
+            self.assertAlmostEqual(area, wanted, delta=1e-9)
+
     def refused_and_typed(self, command, name, options, degrees):
         refused = self.box.run([command, name, *options])
         self.assertEqual(refused.status, 2, refused.text())

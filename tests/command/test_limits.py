@@ -139,6 +139,10 @@ def spread_chunks():
             data + '</data></layer></map>').encode()
 
 
+def deep_groups(count):
+    return svg("<g>" * count + '<path d="M0 0H50V50H0z" stroke="black" fill="none"/>' + "</g>" * count)
+
+
 def cases():
     big = 22000
     for kind in "zlib", "gzip":
@@ -172,6 +176,7 @@ def cases():
             "the tiles' shapes, as often as they are drawn: ", ["--max-entities", "1000000"]
     yield "uses.svg", nested_uses(), "more than the limit of 16777216; --max-entities raises it", []
     yield "lines.svg", used_polylines(), "more than the limit of 16777216; --max-walls raises it", []
+    yield "deep.svg", deep_groups(600), "513 levels, more than the limit of 512; --max-depth raises it", []
     yield "itself.svg", svg('<g id="a"><line x2="1"/><use href="#a"/></g>'), \
         "use: element 'a' holds a use of itself", []
     yield "black.png", png(17000), "a picture of 17000 x 17000: 289000000 pixels, more than the limit of 268435456; --max-pixels", []

@@ -97,6 +97,36 @@ class Rooms(sandbox.ProgramTest):
             for each in answer["rooms"]:
                 self.assertEqual(each["area"], float(rooms[each["room"]]["area"]))
 
+    def test_drawn_doors_bound_rooms(self):
+        """A corridor that is narrower than the usual opening is a room with its name: doors are drawn."""
+        walls = ["0,0 10,0 10,1 7,1", "6,1 2,1", "1,1 0,1 0,0", "10,1 10,6 0,6 0,1", "5,1 5,6"]
+        swings = ["M1,1 V2 A1,1 0 0 0 2,1", "M6,1 V2 A1,1 0 0 0 7,1"]
+        parts = ['<g id="walls">' + "".join(f'<polyline points="{w}"/>' for w in walls) + "</g>",
+                 '<g id="doors">' + "".join(f'<path d="{d}"/>' for d in swings) + "</g>",
+                 '<g id="text" font-size="0.3"><text x="5" y="0.5">Hall</text>',
+                 '<text x="2" y="4">Den</text><text x="7" y="4">Bath</text></g>']
+        self.box.path("plan.svg").write_text(
+            '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 10 6" stroke="black" fill="none">' +
+            "".join(parts) + "</svg>")
+        result = self.run_well("rooms", "plan.svg")
+        areas = {row["room"]: float(row["area"]) for row in csv.DictReader(result.stdout.splitlines())}
+        self.assertEqual({name: round(area, 9) for name, area in areas.items()},
+                         {"Hall": 10, "Den": 25, "Bath": 25})
+        self.assertNotIn("in no room", result.stderr)
+
+    def test_one_room_about_the_origin(self):
+        self.box.path("plan.map").write_text("sightline 1\nwalls -1 -1 5 -1 5 4 -1 4 -1 -1\n")
+        row, = csv.DictReader(self.printed("rooms", "plan.map", "-q").splitlines())
+        self.assertEqual(float(row["area"]), 30)
+
+    def test_what_is_in_no_room_is_noted(self):
+        for _ in self.each():
+            result = self.run_well("rooms", "plan.dxf", "--door-width", "4.5")
+            self.assertEqual([row["room"] for row in csv.DictReader(result.stdout.splitlines())],
+                             ['Office, "north"'], result.text())
+            self.assertIn('40 % of the area inside lies in no room, and so does 1 text ("Store"): ',
+                          result.stderr)
+
     def test_what_is_wrong(self):
         self.box.path("plan.dxf").write_text(drawing(turned(0)))
         for arguments, message in ((["--from", "3"], "two finite numbers"), (["--from", "99,99"], "outside the map"),

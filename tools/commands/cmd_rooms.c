@@ -54,12 +54,16 @@ static sl_status work(command_console *console, rooms_plan *plan, vga_work *w, r
     if (plan->graph.parts & VGA_PART_ALL) plan->graph.parts |= VGA_PART_ALL - 1;
     plan->graph.parts &= VGA_PART_ALL - 1;
     SL_TRY(pipeline_plan(context, plan->graph.input, &plan->graph.pipeline));
+    // Doors that a drawing shows say where rooms end.
+    if (input_is_drawing(context, plan->graph.input))
+        plan->graph.pipeline.input.import.doors = true;
     SL_TRY(read_plan(context, plan, w));
     SL_TRY(room_table_make(context, &w->baked, plan->width, table));
     if (!table->rooms.count)
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "%s: the plan has no room: nothing inside is as wide as its doors (%.4g)",
                        plan->graph.input, table->rooms.width);
+    room_table_note(context, table);
     if (plan->from.count) SL_TRY(look(context, plan, w, table));
     if (plan->graph.points.step > 0) SL_TRY(room_table_average(context, &w->table, table));
     progress_line_clear(&console->line);
@@ -105,7 +109,8 @@ sl_status cmd_rooms(command_console *console, int argc, char **argv) {
         .operands = {"MAP|FILE.slv"},
         .what = "Lists the rooms of a plan: what its walls enclose once all doors and narrow "
                 "openings are shut, the largest first. A room has the name of a text in it, else a "
-                "number. Sight goes through doors that are open.",
+                "number. Doors that a drawing shows are kept as doors. Sight goes "
+                "through doors that are open.",
         .examples = "  sightline rooms office.map\n"
                     "  sightline rooms office.map --from 3,3 -o seen.csv\n"
                     "  sightline rooms office.map --grid 0.5 -o means.csv",

@@ -25,7 +25,8 @@ void batch_row_destroy(sl_context *context, batch_row *row);
 /// text is no object.
 sl_status batch_row_add_json(sl_context *context, batch_row *row, const char *text, size_t size);
 /// Adds the cells of a table that a command printed: "rows", and NAME_mean and NAME_deviation of
-/// each column. SL_BAD_INPUT where the text is no table of numbers.
+/// each column. With a column "part", also "parts" and "largest_part_rows": then the figures of the
+/// graph are those of the largest part. SL_BAD_INPUT where the text is no table of numbers.
 sl_status batch_row_add_table(sl_context *context, batch_row *row, const char *text, size_t size);
 
 /// Writes the rows that have cells as CSV (RFC 4180), "-" to stdout. Columns stand in the order in

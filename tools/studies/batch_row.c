@@ -3,6 +3,7 @@
 #include "inputs/number_table.h"
 #include "reports/summary.h"
 #include "studies/batch.h"
+#include "studies/vga_table.h"
 
 #include <math.h>
 #include <string.h>
@@ -155,11 +156,15 @@ sl_status batch_row_add_json(sl_context *context, batch_row *row, const char *te
 
 typedef struct table_column {
     const number_table *table;
-    size_t number;
+    size_t number, parts; ///< `parts`: the column that says the part of each row; none of the table
 } table_column;
 
+/// The value of a row of the largest part, which is 1; of any row where there are no parts.
 static double value_at(const void *of, size_t row) {
     const table_column *column = of;
+    if (column->parts < column->table->columns &&
+        number_table_at(column->table, row, column->parts) != 1)
+        return NAN;
     return number_table_at(column->table, row, column->number);
 }
 
@@ -171,10 +176,33 @@ static sl_status add_number(sl_context *context, batch_row *row, const char *col
     return batch_row_add(context, row, name, text);
 }
 
+static sl_status add_parts(sl_context *context, batch_row *row, const number_table *table,
+                           size_t parts) {
+    double count = 0, largest = 0;
+    for (size_t i = 0; i < table->rows; i++) {
+        count = fmax(count, number_table_at(table, i, parts));
+        largest += number_table_at(table, i, parts) == 1;
+    }
+    SL_TRY(add_number(context, row, "parts", "", count));
+    return add_number(context, row, "largest_part_rows", "", largest);
+}
+
+/// Whether a column's figures are those of the largest part, as in the summary of `vga`.
+static bool is_of_part(const char *name) {
+    size_t count;
+    sl_measures(SL_VGA, &count);
+    const size_t measure = sl_measure_find(SL_VGA, name);
+    return measure < count && vga_measure_is_of_part(measure);
+}
+
 static sl_status add_columns(sl_context *context, batch_row *row, const number_table *table) {
+    const size_t parts = number_table_column(table, "part");
     SL_TRY(add_number(context, row, "rows", "", (double)table->rows));
+    if (parts < table->columns) SL_TRY(add_parts(context, row, table, parts));
     for (size_t i = 0; i < table->columns; i++) {
-        const table_column column = {table, i};
+        if (i == parts) continue;
+        const table_column column = {table, i,
+                                     is_of_part(table->names[i]) ? parts : table->columns};
         double mean = NAN, deviation = NAN;
         summary_mean(&(summary_values){value_at, &column, table->rows}, &mean, &deviation);
         SL_TRY(add_number(context, row, table->names[i], "_mean", mean));

@@ -6,7 +6,22 @@
 #include "studies/eye_run.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
+
+/// Such a share of the area inside that is in no room is worth a note.
+static const double NOTED = 0.01;
+
+/// The texts inside that are in no room.
+static void list_lost(const sl_space *space, const sl_map_source *source, room_table *out) {
+    for (size_t i = 0; i < source->text_count; i++) {
+        const sl_map_text *text = &source->texts[i];
+        if (!sl_space_is_inside(space, text->at) ||
+            sl_rooms_at(&out->rooms, text->at) != SL_NO_ROOM)
+            continue;
+        if (!out->lost++) snprintf(out->lost_text, sizeof out->lost_text, "%s", text->text);
+    }
+}
 
 sl_status room_table_make(sl_context *context, const sl_baked *baked, double width,
                           room_table *out) {
@@ -17,6 +32,7 @@ sl_status room_table_make(sl_context *context, const sl_baked *baked, double wid
     sl_status status = sl_baked_copy_map(context, baked, &map);
     if (status == SL_OK) status = sl_rooms_find(context, &map, space, width, &out->rooms);
     if (status == SL_OK) status = sl_rooms_take_names(context, &out->rooms, &map);
+    if (status == SL_OK) list_lost(space, &map.source, out);
     sl_map_destroy(context, &map);
     return status;
 }
@@ -28,6 +44,22 @@ void room_table_destroy(sl_context *context, room_table *table) {
     sl_free(context, table->measures);
     sl_free(context, table->means);
     *table = (room_table){0};
+}
+
+void room_table_note(sl_context *context, const room_table *table) {
+    double listed = 0;
+    char names[LOST_TEXT + 64] = "";
+    for (uint32_t i = 0; i < table->rooms.count; i++) listed += table->rooms.items[i].area;
+    const double rest = 1 - listed / table->inside;
+    if (table->lost)
+        snprintf(names, sizeof names, ", and so do%s %u text%s (\"%s\"%s)",
+                 table->lost == 1 ? "es" : "", (unsigned)table->lost, table->lost == 1 ? "" : "s",
+                 table->lost_text, table->lost == 1 ? "" : ", ...");
+    if (rest > NOTED || table->lost)
+        sl_note(context,
+                "%.2g %% of the area inside lies in no room%s: in doorways, and in places that are "
+                "small for doors of %.4g (--door-width W)",
+                100 * fmax(rest, 0), names, table->rooms.width);
 }
 
 // --- what is seen

@@ -6,10 +6,15 @@
 #include "sightline/rooms.h"
 #include "studies/vga_table.h"
 
+/// The longest name in a note, its 0 included; longer ones are cut.
+enum { LOST_TEXT = 64 };
+
 /// Zeroed, nothing.
 typedef struct room_table {
     sl_rooms rooms;
-    double inside;         ///< area of all that is inside
+    double inside;             ///< area of all that is inside
+    uint32_t lost;             ///< how many texts are inside, but in no room
+    char lost_text[LOST_TEXT]; ///< the first of them
     double *seen;          ///< by room: the area seen from any of the viewpoints; NULL: not asked
     const vga_table *grid; ///< whose points and measures count; NULL: none
     uint32_t *points;      ///< by room: those of the grid that are in it
@@ -21,6 +26,8 @@ typedef struct room_table {
 /// Finds and names the rooms. `width` as in sl_rooms_find.
 sl_status room_table_make(sl_context *context, const sl_baked *baked, double width,
                           room_table *out);
+/// Notes how much of the inside is in no room, if that is a hundredth or more, and texts there.
+void room_table_note(sl_context *context, const room_table *table);
 /// Adds what is seen of each room.
 sl_status room_table_look(sl_context *context, const isovist_scene *scene, const eye_places *eyes,
                           room_table *table);

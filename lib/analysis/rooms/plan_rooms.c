@@ -217,7 +217,8 @@ static sl_status number_rooms(finder *f, const sl_space *space, double width, ui
     sl_status status = SL_OK;
     double roomiest = 0;
     for (uint32_t i = 0; i < count; i++)
-        if (f->parent[i] == i && sl_space_is_inside(space, f->parts[i].place))
+        if (f->parent[i] == i && f->parts[i].clearance < INFINITY &&
+            sl_space_is_inside(space, f->parts[i].place))
             roomiest = fmax(roomiest, f->parts[i].clearance);
     const double least = width > 0 ? width / 4 : LEAST * roomiest;
     for (uint32_t i = 0; status == SL_OK && i < count; i++) {

@@ -3,6 +3,7 @@
 /// and no other file is opened.
 #include "io/parts/document.h"
 
+#include "io/parts/limits.h"
 #include "map/scan.h"
 #include "sightline/support.h"
 
@@ -249,30 +250,52 @@ static void refuse_entity(void *user, const xmlChar *name, int type, const xmlCh
     xmlStopParser(parser);
 }
 
-sl_status sli_xml_read(sl_context *context, const char *name, const char *text, size_t size,
-                       xmlDoc **out) {
-    if (size == 0 || size > INT_MAX)
-        return sl_fail_at(context, name, 0, size ? "too large for XML" : "the file is empty");
+/// Whether the parser gave up on elements within elements, which it counts for itself.
+static bool is_too_deep(const xmlError *error) {
+    return error && error->message && strstr(error->message, "Excessive depth");
+}
+
+static sl_status read_xml(sl_context *context, const char *name, const char *text, size_t size,
+                          bool huge, xmlDoc **out, bool *deep) {
     xmlParserCtxt *parser = xmlNewParserCtxt();
     if (!parser) return sl_fail_memory(context);
     int options = XML_PARSE_NONET | XML_PARSE_NOERROR | XML_PARSE_NOWARNING | XML_PARSE_NOCDATA |
                   XML_PARSE_BIG_LINES;
-    if (size > LONGEST_TEXT) {
+    if (huge) {
         options |= XML_PARSE_HUGE;
         parser->sax->entityDecl = refuse_entity;
     }
     xmlDoc *document = xmlCtxtReadMemory(parser, text, (int)size, NULL, NULL, options);
+    const xmlError *error = xmlCtxtGetLastError(parser);
     sl_status status = SL_OK;
+    *deep = is_too_deep(error);
     if (parser->_private)
         status = sl_fail_at(context, name, 0, "XML: it declares entities");
     else if (!document || !xmlDocGetRootElement(document))
-        status = fail_xml(context, name, xmlCtxtGetLastError(parser));
+        status = fail_xml(context, name, error);
     if (status != SL_OK) {
         xmlFreeDoc(document);
         document = NULL;
     }
     xmlFreeParserCtxt(parser);
     *out = document;
+    return status;
+}
+
+/// More levels of elements than a parser takes, and more than --max-depth may allow.
+enum { PARSED_DEPTH = 2048 };
+
+sl_status sli_xml_read(sl_context *context, const char *name, const char *text, size_t size,
+                       xmlDoc **out) {
+    bool deep;
+    if (size == 0 || size > INT_MAX)
+        return sl_fail_at(context, name, 0, size ? "too large for XML" : "the file is empty");
+    const bool huge = size > LONGEST_TEXT;
+    sl_status status = read_xml(context, name, text, size, huge, out, &deep);
+    if (deep && !huge) status = read_xml(context, name, text, size, true, out, &deep);
+    if (deep)
+        SL_TRY(sli_limit_check(context, name, 0, SLI_LIMIT_DEPTH, PARSED_DEPTH,
+                               "elements within elements"));
     return status;
 }
 
