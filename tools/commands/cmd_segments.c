@@ -224,8 +224,7 @@ sl_status cmd_segments(command_console *console, int argc, char **argv) {
         .examples = "  sightline segments streets.dxf -o streets.csv --picture choice.png\n"
                     "  sightline segments axial.csv --metric-radius 400 --metric-radius n -o "
                     "all.csv\n"
-                    "  sightline segments streets.csv --weight segment_length --unlinks "
-                    "bridges.csv -o streets-weighted.csv",
+                    "  sightline segments streets.csv --weight lanes --unlinks bridges.csv",
         .tables = print_tables,
         .options = options,
         .option_count = sizeof options / sizeof *options,
