@@ -72,6 +72,7 @@ leave() {
     rm -rf "$scratch"/layer "$scratch"/work
 }
 trap 'leave; rm -rf "$scratch"' EXIT
+trap 'exit 130' HUP INT TERM
 
 status=0
 [ $# -gt 0 ] || for part in $all; do if has "$part"; then set -- "$@" "$part"; fi; done
