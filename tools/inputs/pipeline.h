@@ -70,6 +70,11 @@ size_t pipeline_shell_word(const char *word, char *text, size_t size);
 sl_status pipeline_need_inside(sl_context *context, const map_pipeline *pipeline, const sl_map *map,
                                const sl_space *space, const char *or_else);
 
+/// As pipeline_need_inside(), for what is proven of all that is inside: refuses it too where an
+/// opening is in doubt, and notes all rooms without one. *doubtful: there was a note of doubt.
+sl_status pipeline_prove_inside(sl_context *context, const map_pipeline *pipeline,
+                                const sl_map *map, const sl_space *space, bool *doubtful);
+
 /// Of a drawing: notes how many rooms have no opening, if these are many, and what to run next.
 sl_status pipeline_note_sealed(sl_context *context, const map_pipeline *pipeline, const sl_map *map,
                                const sl_space *space);
