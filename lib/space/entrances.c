@@ -691,7 +691,7 @@ static sl_status add_places(finder *f) {
     if (!found->places) return SL_NO_MEMORY;
     qsort(f->groups.items, count, sizeof *f->groups.items, compare_groups);
     for (size_t i = 0; i < count; i++) found->places[i] = f->groups.items[i].place;
-    if (!(found->doubtful_width > 0)) found->roomiest = found->places[0];
+    found->roomiest = found->places[0];
     found->place_count = count;
     return SL_OK;
 }

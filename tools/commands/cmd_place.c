@@ -216,6 +216,8 @@ static sl_status work(command_console *console, const place_plan *plan, place_wo
                        "--%s does not go with doors and paths that must be seen",
                        plan->proof ? "proof" : "verify");
     if (plan->verify) return verify(console, plan, w);
+    if (plan->picture)
+        SL_TRY(built_pictures()->check_sheet(context, baked, &plan->drawing, plan->picture));
     SL_TRY(place(console, plan, w));
     if (plan->proof && w->chooses)
         SL_TRY(write_chosen_proof(context, plan, w));

@@ -292,12 +292,8 @@ static sl_status refuse_inside(sl_context *context, const sl_map *map, const sl_
 }
 
 /// What to do next about what is inside.
-static sl_status say_next(sl_context *context, sl_inside doubt, const sl_map *map,
-                          const sl_space *space, const char *path, char text[2 * SAID]) {
+static void say_next(sl_inside doubt, const sl_map *map, const char *path, char text[2 * SAID]) {
     const size_t size = 2 * SAID;
-    const sl_interior *found = &map->interior;
-    const int digits = sl_map_digits(map);
-    bool leaks;
     switch (doubt) {
     case SL_INSIDE_SURE:
         snprintf(text, size, "; for another width, add --entrance W");
@@ -315,19 +311,10 @@ static sl_status say_next(sl_context *context, sl_inside doubt, const sl_map *ma
         snprintf(text, size, "; to see it, run: sightline check %s -o check.png", path);
         break;
     case SL_INSIDE_OPENING:
-        SL_TRY(sl_start_leaks(context, space, found->roomiest, &leaks));
-        if (leaks)
-            snprintf(text, size, ": sightline check %s --entrance %.4g", path,
-                     found->doubtful_width);
-        else
-            snprintf(text, size,
-                     " (sightline check %s --entrance %.4g); to take the rooms behind it and no "
-                     "others, run: sightline check %s --start %.*g,%.*g",
-                     path, found->doubtful_width, path, digits, found->roomiest.x, digits,
-                     found->roomiest.y);
+        snprintf(text, size, ": sightline check %s --entrance %.4g", path,
+                 map->interior.doubtful_width);
         break;
     }
-    return SL_OK;
 }
 
 /// Whether solid ground or starts say where rooms are.
@@ -382,7 +369,7 @@ static sl_status note_said(sl_context *context, const map_pipeline *pipeline, co
     SL_TRY(sl_say_inside(context, map, space, said));
     if (!said[0]) return SL_OK;
     SL_TRY(sl_doubt_inside(context, map, space, &doubt));
-    SL_TRY(say_next(context, doubt, map, space, say_map(pipeline, &reading, path), then));
+    say_next(doubt, map, say_map(pipeline, &reading, path), then);
     sl_note(context, "%s%s", said, then);
     return SL_OK;
 }

@@ -145,11 +145,6 @@ typedef enum sl_inside {
 SL_API sl_status sl_doubt_inside(sl_context *context, const sl_map *map, const sl_space *space,
                                  sl_inside *out);
 
-/// Whether portals lead from a point to the border where no wall is: then a start there would leak.
-/// True also outside of the bounds.
-SL_API sl_status sl_start_leaks(sl_context *context, const sl_space *space, sl_point at,
-                                bool *leaks);
-
 /// Room for what sl_say_inside writes.
 #define SL_INSIDE_TEXT 320
 

@@ -149,8 +149,8 @@ typedef struct sl_interior {
     double doubtful_width; ///< of an opening that may be an entrance, too, with three digits,
                            ///< rounded up; 0 for none
     sl_segment doubtful;   ///< where it is
-    sl_point roomiest;     ///< a place far from walls: behind the doubtful opening, else one that
-                           ///< is inside, else one with an opening that is narrow for the map, else
+    sl_point roomiest;     ///< a place far from walls: one that is inside, else behind the doubtful
+                           ///< opening, else one with an opening that is narrow for the map, else
                            ///< any. NAN where none was looked for: the map has starts or solid
                            ///< ground
 } sl_interior;

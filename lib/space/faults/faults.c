@@ -415,20 +415,6 @@ sl_status sl_doubt_inside(sl_context *context, const sl_map *map, const sl_space
     return SL_OK;
 }
 
-sl_status sl_start_leaks(sl_context *context, const sl_space *space, sl_point at, bool *leaks) {
-    const uint32_t cell = sl_space_locate(space, at);
-    rooms r;
-    *leaks = true;
-    if (cell == SL_NO_CELL) return SL_OK;
-    SL_TRY(make_rooms(context, space, &r));
-    sl_bits *reached = sl_alloc_array(context, sl_bits_words(space->cell_count), sizeof *reached);
-    if (reached) *leaks = reach(space, &r, reached, cell);
-    const bool done = reached;
-    sl_free(context, reached);
-    destroy_rooms(context, &r);
-    return done ? SL_OK : SL_NO_MEMORY;
-}
-
 /// A width in the map's unit: "1.2 m".
 static const char *say_width(const sl_map *map, double width, char text[40]) {
     snprintf(text, 40, "%.4g%s%s", width, *map->unit ? " " : "", map->unit);
