@@ -298,6 +298,39 @@ sl_status sli_page_write(sl_context *context, const sli_page_parts *parts, doubl
     return sli_paper_close(context, &paper, draw_page(context, paper.cairo, &m));
 }
 
+/// Without `paint`, a page of the plan alone, with so much free below it.
+typedef struct bare {
+    sl_scene scene;
+    double free;
+} bare;
+
+static void set_bare(cairo_t *cairo, const void *what, sli_page *page, bool paint) {
+    const bare *b = what;
+    (void)cairo;
+    if (!paint)
+        sli_page_place_plan(page, b->scene.baked->space.bounds, page->margin, SLI_PAGE_TALLEST);
+    page->height = page->bottom + b->free;
+}
+
+sl_status sl_draw_check_sheet(sl_context *context, const sl_baked *baked,
+                              const sl_draw_options *options, const char *path) {
+    enum { LINES = 10 }; ///< of a usual key and caption
+    bare b = {.free = 0};
+    if (!options->sheet.paper) return SL_OK;
+    SL_TRY(sli_scene_make(context, baked, options, NULL, &b.scene));
+    const sli_page_parts parts = {.set = set_bare, .what = &b, .scene = &b.scene};
+    measured m = {.parts = &parts, .page = sli_page_of_width(options->width)};
+    sl_status status = sli_sheet_read(context, &b.scene, options->title, path, &m.sheet);
+    const double scale = m.sheet.scale;
+    if (status == SL_OK) status = sli_page_measure(context, path, lay_out_parts, &m);
+    if (status == SL_BAD_ARGUMENT && scale > 0) {
+        b.free = LINES * m.page.text; // it does not fit so either, which the message tells
+        status = sli_page_measure(context, path, lay_out_parts, &m);
+    }
+    sli_scene_clear(context, &b.scene);
+    return status;
+}
+
 /// Onto another page, without a ground of its own.
 static sl_status draw_onto(sl_context *context, const sli_page_parts *parts, double width,
                            sli_page_target *target) {

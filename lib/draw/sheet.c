@@ -34,14 +34,14 @@ static const struct {
 };
 enum { PAPERS = sizeof papers / sizeof *papers };
 
-/// Round scales, the largest first: 1:1, 1:2, 1:2.5, 1:5, 1:10, and so on.
+/// Round scales, the largest first: 1:1, 1:2, 1:2.5, 1:3, 1:4, 1:5, 1:10, and so on.
+enum { LEADING = 6, ROUND_SCALES = LEADING * 9 };
 static double round_scale(int step) {
-    static const double leading[] = {1, 2, 2.5, 5};
-    double scale = leading[step % 4];
-    for (int i = step / 4; i > 0; i--) scale *= 10;
+    static const double leading[LEADING] = {1, 2, 2.5, 3, 4, 5};
+    double scale = leading[step % LEADING];
+    for (int i = step / LEADING; i > 0; i--) scale *= 10;
     return scale;
 }
-enum { ROUND_SCALES = 4 * 9 };
 
 // --- what was asked for
 

@@ -331,7 +331,10 @@ sl_status sl_map_parse(sl_context *context, const char *path, const char *text, 
     const char *sign = "";
     double factor;
     const bool measured = sli_unit_is_measured(options->unit, &factor, &sign);
-    if (measured) own.unit = NULL;
+    if (measured) {
+        own.unit = NULL;
+        own.sized = true;
+    }
     char *source = sl_copy_text(context, path, strlen(path));
     sl_status status = source ? SL_OK : SL_NO_MEMORY;
     if (source)

@@ -16,6 +16,7 @@ typedef struct cover_plan {
     map_pipeline pipeline;
     door_choice doors;
     sl_viewpoint like; ///< what rows of the table leave out
+    bool skip_outside; ///< pass over rows that lie outside the map or in solid ground
     bool json;
     sl_draw_options drawing;
 } cover_plan;
@@ -30,6 +31,25 @@ typedef struct cover_work {
     zone_cover *covers; ///< by zone
     cover_path path;
 } cover_work;
+
+/// Takes away rows outside the map or in solid ground, each with a note.
+static void skip_outside(sl_context *context, const cover_plan *plan, cover_work *w) {
+    const sl_space *space = &w->baked.space;
+    size_t kept = 0;
+    for (size_t i = 0; i < w->cameras.count; i++) {
+        sl_camera *camera = &w->cameras.items[i];
+        const uint32_t cell = sl_space_locate(space, camera->view.at);
+        if (cell != SL_NO_CELL && !space->cells[cell].solid) {
+            w->cameras.items[kept++] = *camera;
+            continue;
+        }
+        sl_note(context, "%s:%u: %s lies %s; it is passed over", plan->operands[1], camera->line,
+                camera->name ? camera->name : "the point",
+                cell == SL_NO_CELL ? "outside the map" : "in solid ground");
+        sl_free(context, camera->name);
+    }
+    w->cameras.count = kept;
+}
 
 /// A viewpoint that is not inside sees nothing that counts, or only through windows.
 static sl_status check_places(sl_context *context, const cover_plan *plan, const cover_work *w) {
@@ -91,6 +111,9 @@ static sl_status work(command_console *console, const cover_plan *plan, cover_wo
     SL_TRY(pipeline_need_inside(context, &plan->pipeline, &baked->map, &baked->space, ""));
     SL_TRY(doors_shut(context, &plan->doors, &w->baked));
     SL_TRY(sl_cameras_read(context, plan->operands[1], &plan->like, &w->cameras));
+    if (plan->skip_outside) skip_outside(context, plan, w);
+    if (!w->cameras.count)
+        return sl_fail(context, SL_BAD_INPUT, "%s: no viewpoint is left", plan->operands[1]);
     SL_TRY(check_places(context, plan, w));
     SL_TRY(sl_query_over(context, &baked->space, &baked->map, NULL, &w->query));
     if (baked->map.mirror_count)
@@ -164,6 +187,9 @@ sl_status cmd_cover(command_console *console, int argc, char **argv) {
          .number = &plan.like.fov, .over_0 = true, .most = 360},
         {"range", 0, "R", "how far viewpoints see where the table does not say (default: no limit)",
          .number = &plan.like.range, .over_0 = true},
+        {"skip-outside", 0, NULL,
+         "pass over viewpoints that lie outside the map or in solid ground, and name them",
+         .flag = &plan.skip_outside},
         {.group = &doors},
         {.group = &picture},
         {.group = &pipeline},

@@ -33,7 +33,8 @@ typedef struct place_work {
     sl_coverage coverage;
     cover_path route; ///< a single one that is to be seen, to draw it
     double seconds;
-    bool late; ///< the time limit or Ctrl-C ended it
+    bool late;     ///< the time limit or Ctrl-C ended it
+    bool doubtful; ///< what is inside
 } place_work;
 
 /// Keeps what there is when the time is over.
@@ -71,6 +72,19 @@ static sl_status place(command_console *console, const place_plan *plan, place_w
     return status;
 }
 
+/// Viewpoints without a name get their number, as reports and pictures show it.
+static sl_status name_all(sl_context *context, sl_cameras *cameras) {
+    char number[32];
+    for (size_t i = 0; i < cameras->count; i++) {
+        sl_camera *camera = &cameras->items[i];
+        if (camera->name) continue;
+        const int length = snprintf(number, sizeof number, "%zu", i + 1);
+        camera->name = sl_copy_text(context, number, (size_t)length);
+        if (!camera->name) return SL_NO_MEMORY;
+    }
+    return SL_OK;
+}
+
 /// What the viewpoints see, found anew.
 static sl_status survey(sl_context *context, place_work *w) {
     if (w->chooses) SL_TRY(camera_work_chosen(context, &w->chosen, &w->cameras));
@@ -78,6 +92,7 @@ static sl_status survey(sl_context *context, place_work *w) {
         const sl_camera camera = {.view = w->placement.viewpoints[i], .cost = 1};
         SL_TRY(sl_cameras_add(context, &w->cameras, &camera));
     }
+    SL_TRY(name_all(context, &w->cameras));
     SL_TRY(cover_viewpoints(context, &w->cameras, &w->viewpoints));
     return sl_coverage_make(context, w->query, w->viewpoints, w->cameras.count, &w->coverage);
 }
@@ -189,7 +204,8 @@ static sl_status work(command_console *console, const place_plan *plan, place_wo
     const unsigned effects =
         SL_EFFECT_DOOR | (w->chooses ? SL_EFFECT_RANGE | SL_EFFECT_ONEWAY : 0u);
     SL_TRY(pipeline_read_space(context, &plan->pipeline, "place", effects, NULL, &w->baked));
-    SL_TRY(pipeline_need_inside(context, &plan->pipeline, &baked->map, &baked->space, ""));
+    SL_TRY(
+        pipeline_prove_inside(context, &plan->pipeline, &baked->map, &baked->space, &w->doubtful));
     SL_TRY(doors_shut(context, &plan->doors, &w->baked));
     SL_TRY(sl_query_over(context, &baked->space, &baked->map, NULL, &w->query));
     if (w->chooses)
@@ -200,6 +216,8 @@ static sl_status work(command_console *console, const place_plan *plan, place_wo
                        "--%s does not go with doors and paths that must be seen",
                        plan->proof ? "proof" : "verify");
     if (plan->verify) return verify(console, plan, w);
+    if (plan->picture)
+        SL_TRY(built_pictures()->check_sheet(context, baked, &plan->drawing, plan->picture));
     SL_TRY(place(console, plan, w));
     if (plan->proof && w->chooses)
         SL_TRY(write_chosen_proof(context, plan, w));
@@ -208,15 +226,18 @@ static sl_status work(command_console *console, const place_plan *plan, place_wo
     SL_TRY(survey(context, w));
     const cover_report report = {plan->input, plan->pipeline.input.import.map, baked, &w->cameras,
                                  &w->coverage};
-    char sentence[256], proof[320], caption[600];
+    char sentence[256], said[320], proof[400], caption[700];
     if (w->chooses)
         SL_TRY(camera_work_survey(context, &plan->cameras, w->query, &report, w->viewpoints,
                                   &w->chosen));
     cover_sentence(&report, sentence, sizeof sentence);
     if (w->chooses)
-        camera_work_say(&w->chosen, w->late, proof, sizeof proof);
+        camera_work_say(&w->chosen, w->late, said, sizeof said);
     else
-        sl_placement_say(&w->placement, "viewpoint", w->late, proof, sizeof proof);
+        sl_placement_say(&w->placement, "viewpoint", w->late, said, sizeof said);
+    snprintf(proof, sizeof proof, "%s%s",
+             w->doubtful ? "Of what counts as inside, which is doubtful (see the notes): " : "",
+             said);
     snprintf(caption, sizeof caption, "%s.\n%s", sentence, proof);
     if (plan->output) SL_TRY(sl_cameras_write(context, &w->cameras, plan->output));
     if (plan->picture) {

@@ -7,6 +7,7 @@ static const built_command commands[] = {{"draw", cmd_draw}, {"report", cmd_repo
 static const built_draw draw = {
     .options_default = sl_draw_options_default,
     .file = sl_draw_file,
+    .check_sheet = sl_draw_check_sheet,
     .explanation = sl_draw_explanation,
     .eye = sl_draw_eye,
     .regions = sl_draw_regions_file,

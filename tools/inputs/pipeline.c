@@ -268,8 +268,9 @@ sl_status pipeline_read_space(sl_context *context, const map_pipeline *pipeline,
     return status;
 }
 
-sl_status pipeline_need_inside(sl_context *context, const map_pipeline *pipeline, const sl_map *map,
-                               const sl_space *space, const char *or_else) {
+/// Refuses a map as pipeline_need_inside() says.
+static sl_status refuse_inside(sl_context *context, const sl_map *map, const sl_space *space,
+                               const char *or_else) {
     const sl_ground_shares shares = sl_space_ground(space);
     const sl_interior *found = &map->interior;
     const int digits = sl_map_digits(map);
@@ -289,8 +290,7 @@ sl_status pipeline_need_inside(sl_context *context, const map_pipeline *pipeline
                        found->doubtful_width, *map->unit ? " " : "", map->unit, digits,
                        found->doubtful.a.x, digits, found->doubtful.a.y, found->width,
                        found->doubtful_width, or_else, as_found);
-    if (doubt != SL_INSIDE_SMALL || !(shares.outside > 0) || enclosed > FEW_INSIDE)
-        return pipeline_note_inside(context, pipeline, map, space);
+    if (doubt != SL_INSIDE_SMALL || !(shares.outside > 0) || enclosed > FEW_INSIDE) return SL_OK;
     return sl_fail(
         context, SL_BAD_ARGUMENT,
         "the map has no start, and walls enclose only %.2g %% of the area among them; say "
@@ -374,18 +374,24 @@ static sl_status note_apart(sl_context *context, const map_pipeline *pipeline, c
     return SL_OK;
 }
 
-sl_status pipeline_note_sealed(sl_context *context, const map_pipeline *pipeline, const sl_map *map,
-                               const sl_space *space) {
+/// As pipeline_note_sealed(), from a share of the area inside on. *told: whether there is a note.
+static sl_status note_sealed(sl_context *context, const map_pipeline *pipeline, const sl_map *map,
+                             const sl_space *space, double share, bool *told) {
     char path[SAID], file[SAID] = "";
     map_pipeline any = pipeline_default();
     const option_table reading = pipeline_option_table(&any);
     const int digits = sl_map_digits(map);
     sl_sealed sealed;
+    *told = false;
     if (!map->start_count && input_is_game(context, pipeline->path))
         return note_apart(context, pipeline, map, space);
-    if (says_rooms(map) || !input_is_drawing(context, pipeline->path)) return SL_OK;
+    // Behind a doubtful opening, other rooms may be those that count.
+    if (says_rooms(map) || map->interior.doubtful_width > 0 ||
+        !input_is_drawing(context, pipeline->path))
+        return SL_OK;
     SL_TRY(sl_find_sealed(context, map, space, &sealed));
-    if (sealed.rooms < 2 || sealed.share < SEALED) return SL_OK;
+    if (sealed.rooms < 2 || sealed.share < share) return SL_OK;
+    *told = true;
     const uint32_t count = sealed.rooms - 1;
     say_map(pipeline, &reading, path);
     say(file, "", pipeline->path);
@@ -400,18 +406,47 @@ sl_status pipeline_note_sealed(sl_context *context, const map_pipeline *pipeline
     return SL_OK;
 }
 
-sl_status pipeline_note_inside(sl_context *context, const map_pipeline *pipeline, const sl_map *map,
+sl_status pipeline_note_sealed(sl_context *context, const map_pipeline *pipeline, const sl_map *map,
                                const sl_space *space) {
+    bool told;
+    return note_sealed(context, pipeline, map, space, SEALED, &told);
+}
+
+/// Notes what say_inside() says, and what to run next.
+static sl_status note_said(sl_context *context, const map_pipeline *pipeline, const sl_map *map,
+                           const sl_space *space) {
     char said[SL_INSIDE_TEXT], path[SAID], then[2 * SAID];
     map_pipeline any = pipeline_default();
     const option_table reading = pipeline_option_table(&any);
     sl_inside doubt;
-    SL_TRY(pipeline_note_sealed(context, pipeline, map, space));
     SL_TRY(sl_say_inside(context, map, space, said));
     if (!said[0]) return SL_OK;
     SL_TRY(sl_doubt_inside(context, map, space, &doubt));
     say_next(doubt, map, space, say_map(pipeline, &reading, path), then);
     sl_note(context, "%s%s", said, then);
+    return SL_OK;
+}
+
+sl_status pipeline_note_inside(sl_context *context, const map_pipeline *pipeline, const sl_map *map,
+                               const sl_space *space) {
+    SL_TRY(pipeline_note_sealed(context, pipeline, map, space));
+    return note_said(context, pipeline, map, space);
+}
+
+sl_status pipeline_need_inside(sl_context *context, const map_pipeline *pipeline, const sl_map *map,
+                               const sl_space *space, const char *or_else) {
+    SL_TRY(refuse_inside(context, map, space, or_else));
+    return pipeline_note_inside(context, pipeline, map, space);
+}
+
+sl_status pipeline_prove_inside(sl_context *context, const map_pipeline *pipeline,
+                                const sl_map *map, const sl_space *space, bool *doubtful) {
+    sl_inside doubt;
+    SL_TRY(refuse_inside(context, map, space, ""));
+    SL_TRY(sl_doubt_inside(context, map, space, &doubt));
+    SL_TRY(note_sealed(context, pipeline, map, space, 0, doubtful));
+    SL_TRY(note_said(context, pipeline, map, space));
+    *doubtful |= doubt != SL_INSIDE_SURE;
     return SL_OK;
 }
 

@@ -74,6 +74,11 @@ sl_point pipeline_likely_start(const sl_map *map, const sl_space *space);
 sl_status pipeline_need_inside(sl_context *context, const map_pipeline *pipeline, const sl_map *map,
                                const sl_space *space, const char *or_else);
 
+/// As pipeline_need_inside(), for what is proven of all that is inside: notes all rooms without
+/// one. *doubtful: there was a note of doubt.
+sl_status pipeline_prove_inside(sl_context *context, const map_pipeline *pipeline,
+                                const sl_map *map, const sl_space *space, bool *doubtful);
+
 /// Of a drawing: notes how many rooms have no opening, if these are many, and what to run next. Of
 /// a game's map without a start: that parts which nothing joins all count as inside.
 sl_status pipeline_note_sealed(sl_context *context, const map_pipeline *pipeline, const sl_map *map,

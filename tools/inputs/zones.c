@@ -48,10 +48,26 @@ static bool same_name(const sl_camera *a, const sl_camera *b) {
     return (!a->name && !b->name) || (a->name && b->name && strcmp(a->name, b->name) == 0);
 }
 
-static sl_status read_table(sl_context *context, const char *path, zone_list *out) {
+/// Reads corners. Refuses the table that `rooms` writes, which has a point for each room.
+static sl_status read_corners(sl_context *context, const char *path, sl_cameras *out) {
+    static const char rooms[] = "room,x,y,";
     const sl_viewpoint like = {.fov = 360};
+    sl_bytes text;
+    SL_TRY(sl_file_read(context, path, &text));
+    const bool lists_rooms =
+        text.size >= sizeof rooms && !memcmp(text.data, rooms, sizeof rooms - 1);
+    const sl_status status =
+        lists_rooms ? sl_fail_at(context, path, 1,
+                                 "a table of rooms, with one point for each, has no zones: a zone "
+                                 "needs a line for each corner, name,x,y")
+                    : sl_cameras_parse(context, path, text.data, text.size, &like, out);
+    sl_free(context, text.data);
+    return status;
+}
+
+static sl_status read_table(sl_context *context, const char *path, zone_list *out) {
     sl_cameras corners = {0};
-    SL_TRY(sl_cameras_read(context, path, &like, &corners));
+    SL_TRY(read_corners(context, path, &corners));
     sl_status status = SL_OK;
     for (size_t i = 0, next; status == SL_OK && i < corners.count; i = next) {
         const sl_camera *first = &corners.items[i];

@@ -29,7 +29,8 @@ option_table camera_option_table(camera_plan *plan) {
          .number = &plan->like.nearest, .over_0 = true},
         {"cover", 0, "K", "each point must be seen by K viewpoints (default: 1)",
          .count32 = &plan->cover, .least = 1, .most = 100},
-        {"count", 0, "N", "see as much as N viewpoints can, in place of everything",
+        {"count", 0, "N",
+         "see as much as N viewpoints can, beside those of --fixed, in place of everything",
          .count32 = &plan->count, .least = 1, .most = 100000},
         {"network", 0, NULL,
          "lines of sight must join all viewpoints, each to each over others, up to their ranges",
@@ -40,8 +41,10 @@ option_table camera_option_table(camera_plan *plan) {
          .number = &plan->scan_angle, .over_0 = true, .most = 89, .rare = true},
         {"scan-range", 0, "R", "scan the walls: see each point of them from R or nearer",
          .number = &plan->scan_range, .over_0 = true, .rare = true},
-        {"fixed", 0, "TABLE", "viewpoints that stand already", .text = &plan->fixed,
-         .is_input = true},
+        {"fixed", 0, "TABLE",
+         "viewpoints that stand already; what the table leaves blank is as in cover, and --fov, "
+         "--range and --nearest are of new ones",
+         .text = &plan->fixed, .is_input = true},
         {"see", 0, "THINGS",
          "what must be seen: names of objects, doors and paths in the map (of shut doors both "
          "sides), a drawing of closed outlines, or a table of corners (.csv: name,x,y) (default: "
@@ -182,7 +185,8 @@ static sl_status add_points(sl_context *context, const camera_plan *plan, const 
 
 static sl_status add_fixed(sl_context *context, const camera_plan *plan, const sl_space *space,
                            camera_work *w) {
-    SL_TRY(sl_cameras_read(context, plan->fixed, &plan->like, &w->places));
+    const sl_viewpoint like = camera_plan_default().like; // --fov and --range are of new ones
+    SL_TRY(sl_cameras_read(context, plan->fixed, &like, &w->places));
     w->task.fixed_count = (uint32_t)w->places.count;
     w->fixed = sl_alloc_array(context, w->places.count, sizeof *w->fixed);
     if (!w->fixed) return SL_NO_MEMORY;
@@ -335,7 +339,7 @@ sl_status camera_work_prepare(sl_context *context, const camera_plan *plan,
     w->task.costs = w->costs;
     w->task.fixed = w->fixed;
     w->task.cover = plan->cover;
-    w->task.count = plan->count;
+    w->task.count = plan->count ? plan->count + w->task.fixed_count : 0;
     w->task.network = plan->network;
     w->task.scan_angle = plan->scan_angle;
     w->task.scan_range = plan->scan_range;

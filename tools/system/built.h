@@ -35,6 +35,8 @@ typedef struct built_draw {
     sl_draw_options (*options_default)(void);
     sl_status (*file)(sl_context *context, const sl_baked *baked, const sl_draw_options *options,
                       const char *path);
+    sl_status (*check_sheet)(sl_context *context, const sl_baked *baked,
+                             const sl_draw_options *options, const char *path);
     sl_status (*explanation)(sl_context *context, const sl_baked *baked,
                              const sl_explanation *explanation, const sl_draw_options *options,
                              const char *path);

@@ -64,6 +64,23 @@ static void say_fewest(const sl_place_area *task, const sl_area_placement *p, do
                  stopped ? " Stopped early: more time may close it." : "");
 }
 
+/// The most that some viewpoints see, of which fixed ones are a part.
+static void say_most(const sl_place_area *task, const sl_area_placement *p, bool stopped,
+                     const char *among, char *text, size_t size) {
+    const char *const verb = scans(task) ? "scan" : "see";
+    const uint32_t fixed = task->fixed_count;
+    const uint32_t more = task->count > fixed ? task->count - fixed : 0;
+    char with[64] = "", number[32];
+    if (fixed)
+        snprintf(with, sizeof with, "with the %u that stand%s already, ", (unsigned)fixed,
+                 fixed == 1 ? "s" : "");
+    snprintf(number, sizeof number, fixed ? "%u more" : "%u", (unsigned)more);
+    snprintf(text, size, "%s %s%s %.4g %%; %sno %s %s %s%s more than %.4g %%.%s",
+             p->count == 1 ? "It" : "They", verb, p->count == 1 ? "s" : "", 100 * p->seen / p->area,
+             with, number, among, verb, more == 1 ? "s" : "", 100 * p->seen_most / p->area,
+             stopped ? " Stopped early." : "");
+}
+
 /// What of what is to be seen is seen; where all of the inside is, nothing. Returns its length.
 static size_t say_seen(const sl_place_area *task, const sl_area_placement *p, char *text,
                        size_t size) {
@@ -84,7 +101,6 @@ static size_t say_seen(const sl_place_area *task, const sl_area_placement *p, ch
 
 void sl_area_placement_say(const sl_place_area *task, const sl_area_placement *p, double scale,
                            bool stopped, char *text, size_t size) {
-    const char *const verb = scans(task) ? "scan" : "see";
     char among[128];
     const size_t used = say_seen(task, p, text, size);
     text += used;
@@ -93,13 +109,9 @@ void sl_area_placement_say(const sl_place_area *task, const sl_area_placement *p
     if (!task->count)
         say_fewest(task, p, scale, stopped, among, text, size);
     else
-        snprintf(text, size, "%s %s%s %.4g %%; no %u %s %s%s more than %.4g %%.%s",
-                 p->count == 1 ? "It" : "They", verb, p->count == 1 ? "s" : "",
-                 100 * p->seen / p->area, (unsigned)task->count, among, verb,
-                 task->count == 1 ? "s" : "", 100 * p->seen_most / p->area,
-                 stopped ? " Stopped early." : "");
+        say_most(task, p, stopped, among, text, size);
     const size_t end = strlen(text);
-    if (task->fixed_count)
+    if (task->fixed_count && !task->count)
         snprintf(text + end, size - end, " %u of them stand%s already.",
                  (unsigned)task->fixed_count, task->fixed_count == 1 ? "s" : "");
 }

@@ -95,6 +95,12 @@ SL_API sl_draw_options sl_draw_options_default(void);
 SL_API sl_status sl_draw_file(sl_context *context, const sl_baked *baked,
                               const sl_draw_options *options, const char *path);
 
+/// Checks, before work whose result is to be drawn, that the plan alone fits the options' sheet of
+/// paper (sl_sheet). With a long key it may still be too large. SL_BAD_ARGUMENT where it does not
+/// fit: the message has a scale at which there is room for a usual key, too.
+SL_API sl_status sl_draw_check_sheet(sl_context *context, const sl_baked *baked,
+                                     const sl_draw_options *options, const char *path);
+
 /// Draws an explanation, likewise: over the part of the map that it is about the two cells, the
 /// portals that a sequence crosses with their left and right ends, and the line that passes them
 /// or, of a hidden pair, what stops the first of the misses. The options' width, title and dark

@@ -60,6 +60,8 @@ typedef struct sl_import_options {
     /// The coordinate system of the map's x and y: "EPSG:2056" (sl_earth.epsg); NULL: as the file
     /// says. Refused where the map is read from longitudes and latitudes.
     const char *crs;
+    /// Drawings: no note doubts their size. sl_map_parse() sets it where `unit` gives a length.
+    bool sized;
 } sl_import_options;
 
 /// The usual options: each format's own choice.

@@ -171,7 +171,7 @@ static void tell_unit(const sli_dxf *dxf) {
                                 .scale = dxf->pen.affine.xx,
                                 .door = dxf->contents.door,
                                 .doors = dxf->contents.doors};
-    if (asked && strchr(asked, '=')) return;
+    if (dxf->options->sized || (asked && strchr(asked, '='))) return;
     sli_plan_unit_tell(dxf->context, dxf->name, dxf->pen.map, &plan);
 }
 

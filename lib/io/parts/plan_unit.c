@@ -87,7 +87,8 @@ void sli_plan_unit_tell(sl_context *context, const char *file, const sl_map *map
         sl_note(context,
                 "%s: the drawing says %s, and is %.4g m long then: if this is the plan of a "
                 "building, it is not in its true size: lengths and areas are those of the "
-                "drawing, and --entrance W says how wide its entrances are",
+                "drawing; --unit N=m, for N metres to each of its units, gives the true size, and "
+                "--entrance W says how wide its entrances are",
                 file, unit->name, metres);
 }
 
