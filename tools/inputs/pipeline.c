@@ -394,10 +394,10 @@ sl_status pipeline_prove_inside(sl_context *context, const map_pipeline *pipelin
     SL_TRY(note_sealed(context, pipeline, map, space, 0, doubtful));
     SL_TRY(note_said(context, pipeline, map, space));
     if (doubt == SL_INSIDE_OPENING)
-        return sl_fail(context, SL_BAD_ARGUMENT,
-                       "inside is doubtful, so no proof of it counts: say what is inside, as the "
-                       "note shows; if all is right as found, add --entrance %.4g",
-                       map->interior.width);
+        return sl_fail(
+            context, SL_BAD_ARGUMENT,
+            "inside is doubtful, so no proof of it counts: set the width of entrances "
+            "(--entrance W), as the note shows, or say where a room is with --start X,Y");
     *doubtful |= doubt != SL_INSIDE_SURE;
     return SL_OK;
 }
