@@ -276,20 +276,16 @@ static sl_status refuse_inside(sl_context *context, const sl_map *map, const sl_
     const int digits = sl_map_digits(map);
     sl_inside doubt;
     double enclosed;
-    char as_found[96] = "";
-    if (found->place_count)
-        snprintf(as_found, sizeof as_found, "; if inside is right without it, add --entrance %.4g",
-                 found->width);
     SL_TRY(sl_doubt_inside(context, map, space, &doubt));
     SL_TRY(sl_space_enclosed(context, space, &enclosed));
     if (doubt == SL_INSIDE_OPENING)
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "the map has no start, and an opening %.4g%s%s wide, at %.*g,%.*g, is wider "
                        "than entrances are (%.4g); if it is an entrance, add --entrance %.4g; else "
-                       "say where a room is with --start X,Y%s%s",
+                       "say where a room is with --start X,Y%s",
                        found->doubtful_width, *map->unit ? " " : "", map->unit, digits,
                        found->doubtful.a.x, digits, found->doubtful.a.y, found->width,
-                       found->doubtful_width, or_else, as_found);
+                       found->doubtful_width, or_else);
     if (doubt != SL_INSIDE_SMALL || !(shares.outside > 0) || enclosed > FEW_INSIDE) return SL_OK;
     return sl_fail(
         context, SL_BAD_ARGUMENT,

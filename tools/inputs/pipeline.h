@@ -68,9 +68,9 @@ size_t pipeline_shell_word(const char *word, char *text, size_t size);
 /// known: of the largest cell that is not solid.
 sl_point pipeline_likely_start(const sl_map *map, const sl_space *space);
 
-/// Refuses a map of which walls enclose next to nothing, where no start says what is inside: most
-/// of a grid would be missing. `or_else`: what else than a start helps; "" for nothing. Else as
-/// pipeline_note_inside().
+/// Refuses a map where no start says what is inside, and an opening is in doubt or walls enclose
+/// next to nothing: most of a grid may be missing. `or_else`: what else than a start helps; "" for
+/// nothing. Else as pipeline_note_inside().
 sl_status pipeline_need_inside(sl_context *context, const map_pipeline *pipeline, const sl_map *map,
                                const sl_space *space, const char *or_else);
 
