@@ -195,6 +195,15 @@ static void line_is_measured(void **state) {
     assert_true(fabs(start.x - 6) < 0.1 && fabs(start.y - 4) < 0.1);
     assert_int_equal(marks(app), 1);
     assert_true(fabs(app->document.area - 4 * 96) < 1e-9);
+    // All of the plan is in view, and the eye in it.
+    app_tick(app, 0);
+    script_frame(app);
+    const sl_box pane = app_layout(app).plan[0];
+    const sl_frame shown = camera_frame(&app->view.camera, pane, 1);
+    const sl_point low = sl_frame_point(&shown, b.min), high = sl_frame_point(&shown, b.max);
+    assert_true(fmin(low.x, high.x) >= pane.min.x && fmax(low.x, high.x) <= pane.max.x);
+    assert_true(fmin(low.y, high.y) >= pane.min.y && fmax(low.y, high.y) <= pane.max.y);
+    assert_true(fabs(app->view.eye.at.x - 6) < 0.1 && fabs(app->view.eye.at.y - 4) < 0.1);
     // A second one, in feet, is of the file's unit too.
     click_button(app, "Measure a line");
     click_map(app, (sl_point){0, 0});

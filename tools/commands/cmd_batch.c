@@ -416,7 +416,8 @@ sl_status cmd_batch(command_console *console, int argc, char **argv) {
                 "bake, eye, isovist, place, cover, path, vga, axial or segments. Columns are the "
                 "numbers and texts of its --json, or the mean and the deviation of each column of "
                 "its table. Of a grid in several parts, measures of the graph count in the largest "
-                "part only, as in the summary of vga. OPTIONS are those of the command; {} in one is the plan's name without "
+                "part only, as in the summary of vga. OPTIONS are those of the command; {} in one "
+                "is the plan's name without "
                 "folder and ending. A plan that fails is named, has its message in the table, and "
                 "harms no other; the exit "
                 "status is then 2, or 1 if the fault was not in the input.",

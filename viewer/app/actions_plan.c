@@ -201,8 +201,21 @@ DO(camera_find, cameras_find(&app->view, SEARCH_FEWEST))
 DO(camera_more, cameras_find(&app->view, SEARCH_MORE))
 DO(camera_one, cameras_find(&app->view, SEARCH_ONE))
 
+static bool searches(const app_state *app, camera_search kind) {
+    const camera_layer *layer = app->view.cameras;
+    return cameras_progress(layer).running && cameras_search(layer) == kind;
+}
+
 static bool is_camera_find(const app_state *app) {
-    return cameras_progress(app->view.cameras).running;
+    return searches(app, SEARCH_FEWEST);
+}
+
+static bool is_camera_more(const app_state *app) {
+    return searches(app, SEARCH_MORE);
+}
+
+static bool is_camera_one(const app_state *app) {
+    return searches(app, SEARCH_ONE);
 }
 
 static void import_table(desk_state *desk, const char *path, bool ask) {
@@ -266,9 +279,10 @@ static const action_row rows[] = {
      "cameras: the fewest like the chosen one that see everything, in place of all", CAMERAS, 0,
      camera_find, is_camera_find},
     {"camera_more", "Shift+Space", "Add fewest",
-     "cameras: keep all, and add the fewest for the rest", CAMERAS, 0, camera_more, NULL},
+     "cameras: keep all, and add the fewest for the rest", CAMERAS, 0, camera_more, is_camera_more},
     {"camera_one", "Ctrl+Space", "Add one",
-     "cameras: keep all, and add the one that sees most of the rest", CAMERAS, 0, camera_one, NULL},
+     "cameras: keep all, and add the one that sees most of the rest", CAMERAS, 0, camera_one,
+     is_camera_one},
     {"camera_left", "Left", NULL, "cameras: turn the chosen one left", CAMERAS, 0, camera_left,
      NULL},
     {"camera_right", "Right", NULL, "cameras: turn it right", CAMERAS, 0, camera_right, NULL},

@@ -79,6 +79,16 @@ static void say_subdivision(app_state *app, bool was_mesh) {
                "All walls are axial now: the cells are those of a kd-tree, no longer of a mesh");
 }
 
+/// A map that is read in another scale has all places elsewhere.
+static void follow_scale(app_state *app, bool opened) {
+    if (!app->document.baked) return;
+    const double before = app->view.source_scale;
+    app->view.source_scale = app->document.map.source.transform.scale;
+    if (opened || before == app->view.source_scale) return;
+    app->view.fitted = true;
+    walk_home(&app->view);
+}
+
 /// A map that was opened starts from its own start. After a change by hand the eye stays.
 static void take_document(app_state *app, bool opened) {
     drop_made(app);
@@ -87,6 +97,7 @@ static void take_document(app_state *app, bool opened) {
     if (app->document.baked) app->view.mesh = app->document.baked->space.neighbour != NULL;
     if (!opened && app->document.baked && app->view.mesh != was_mesh)
         say_subdivision(app, was_mesh);
+    follow_scale(app, opened);
     if (!opened || !app->document.baked) return;
     app->view.edit.chosen = UINT32_MAX;
     app->view.fitted = true;

@@ -315,7 +315,7 @@ static double draw_scale(desk_state *desk, import_state *s, sl_box box, double y
     ui_text(ui, box.min.x, y + 1.25 * t, 1, false, ui->palette.ink, "This line is");
     dialog_field(&desk->dialog, LENGTH,
                  (sl_box){{box.min.x + 9.5 * t, y}, {box.max.x - wide, y + 1.8 * t}}, &s->length,
-                 "4.20 m");
+                 "as 4.20 m");
     dialog_buttons(&desk->dialog, box.max.x, y, &set, 1);
     return y + DIALOG_ROW * t;
 }

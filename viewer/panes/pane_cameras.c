@@ -53,7 +53,9 @@ static void draw_search(view_state *view, column *c) {
                       0.3 * t, ui->palette.glass);
         c->y += 1.2 * t;
     } else if (p.running) {
-        column_words(ui, c, 1, ui->palette.ink, "Looking for the fewest ...");
+        column_words(ui, c, 1, ui->palette.ink,
+                     cameras_search(layer) == SEARCH_ONE ? "Looking for one more ..."
+                                                         : "Looking for the fewest ...");
     } else if (layer->proof[0]) {
         column_words(ui, c, 1, ui->palette.ink, layer->proof);
     }

@@ -354,6 +354,10 @@ bool cameras_stop(view_state *view) {
     return true;
 }
 
+camera_search cameras_search(const camera_layer *layer) {
+    return layer->jobs->search.kind;
+}
+
 job_progress cameras_progress(const camera_layer *layer) {
     const camera_jobs *jobs = layer ? layer->jobs : NULL;
     if (!jobs || !jobs->search.task) return (job_progress){0};

@@ -101,6 +101,8 @@ typedef enum camera_search {
 void cameras_find(view_state *view, camera_search kind);
 /// Stops that, and keeps the best; false where nothing runs.
 bool cameras_stop(view_state *view);
+/// What is looked for. Only while a search runs.
+camera_search cameras_search(const camera_layer *layer);
 /// Of the search. `done` and `total` are its bounds.
 job_progress cameras_progress(const camera_layer *layer);
 void camera_jobs_destroy(sl_context *context, camera_jobs *jobs); ///< NULL: nothing
