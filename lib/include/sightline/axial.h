@@ -93,6 +93,7 @@ typedef struct sl_segment_options {
     uint32_t unlink_count;
 } sl_segment_options;
 
+/// The largest weight of a segment (sl_segment_options.weights).
 #define SL_SEGMENT_WEIGHT_MAX 1e100
 
 /// Of a segment (Turner 2007, From axial to road-centre lines). Angles are rounded to 1024th parts
