@@ -8,6 +8,7 @@
 
 #include <inttypes.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 // --- which part
@@ -121,19 +122,39 @@ static size_t line_length(const char *text) {
     return end ? (size_t)(end - text) + 1 : strlen(text);
 }
 
+/// Takes a word and the number behind it.
+static bool take(const char **at, const char *word, int base, uint64_t *number) {
+    const char *digits = *at + strlen(word);
+    char *end;
+    if (strncmp(*at, word, strlen(word)) != 0) return false;
+    *number = strtoull(digits, &end, base);
+    *at = end;
+    return end != digits;
+}
+
+/// Takes the numbers of a first line. What else it may have said is told by writing it again.
+static bool take_begin(const char *text, read_part *p) {
+    uint64_t part, count, first, last, rows;
+    const bool good = take(&text, "# sightline part ", 10, &part) && take(&text, "/", 10, &count) &&
+                      take(&text, ", rows ", 10, &first) && take(&text, " to ", 10, &last) &&
+                      take(&text, " of ", 10, &rows) &&
+                      take(&text, ", made from k", 16, &p->is.made_from);
+    if (!good || !part || part > count || count > UINT32_MAX || rows > UINT32_MAX) return false;
+    p->is.part = (uint32_t)part;
+    p->is.count = (uint32_t)count;
+    p->rows = (size_t)rows;
+    return true;
+}
+
 /// Reads the lines around a part, and counts its rows.
 static sl_status read_lines(sl_context *context, read_part *p) {
     const char *text = p->file.data;
     char begin[LINE_TEXT], end[LINE_TEXT];
     size_t first = 0, stop = 0, lines = 1;
     table_part *is = &p->is;
-    const int read = sscanf(text,
-                            "# sightline part %" SCNu32 "/%" SCNu32
-                            ", rows %zu to %zu of %zu, made from k%16" SCNx64,
-                            &is->part, &is->count, &first, &stop, &p->rows, &is->made_from);
-    if (read == 6 && is->part && is->part <= is->count) write_lines(is, p->rows, begin, end);
-    if (read != 6 || !is->part || is->part > is->count || p->rows > UINT32_MAX ||
-        strncmp(text, begin, strlen(begin)) != 0)
+    const bool good = take_begin(text, p);
+    if (good) write_lines(is, p->rows, begin, end);
+    if (!good || strncmp(text, begin, strlen(begin)) != 0)
         return sl_fail_at(context, p->name, 1,
                           "is no part of a table: 'sightline vga' and 'isovist' write them with "
                           "--shard K/N");
