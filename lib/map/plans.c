@@ -215,12 +215,6 @@ static double find_parts(sheet *s) {
     return largest;
 }
 
-/// The point that stands for a piece of a graph.
-static uint32_t first_of(uint32_t *piece, uint32_t at) {
-    while (piece[at] != at) at = piece[at] = piece[piece[at]];
-    return at;
-}
-
 /// Counts the pieces of a graph that hang together. `*area` gets that of their boxes.
 static sl_status count_pieces(sl_context *context, const sli_planar *graph, size_t *pieces,
                               double *area) {
@@ -233,8 +227,8 @@ static sl_status count_pieces(sl_context *context, const sli_planar *graph, size
         boxes[i] = (sl_box){graph->points[i], graph->points[i]};
     }
     for (size_t i = 0; room && i < graph->edge_count; i++)
-        piece[first_of(piece, graph->edges[i].a)] = first_of(piece, graph->edges[i].b);
-    for (uint32_t i = 0; room && i < count; i++) grow(&boxes[first_of(piece, i)], boxes[i]);
+        piece[sl_root_of(piece, graph->edges[i].a)] = sl_root_of(piece, graph->edges[i].b);
+    for (uint32_t i = 0; room && i < count; i++) grow(&boxes[sl_root_of(piece, i)], boxes[i]);
     for (uint32_t i = 0; room && i < count; i++) {
         if (piece[i] != i) continue;
         ++*pieces;

@@ -517,11 +517,6 @@ static sl_status find_doubts(finder *f, double width, const uint8_t *halls, uint
 }
 
 /// Joins the walls of a group, by their ends, in `parent`.
-static uint32_t wall_root(uint32_t *parent, uint32_t at) {
-    while (parent[at] != at) at = parent[at] = parent[parent[at]];
-    return at;
-}
-
 static void join_walls(finder *f, const group *g, uint32_t *parent) {
     const sli_half_edge *halves = triangles(f)->halves.items;
     uint32_t last = NONE;
@@ -529,8 +524,8 @@ static void join_walls(finder *f, const group *g, uint32_t *parent) {
         uint32_t half = f->half[f->order[g->first + i]];
         for (int k = 0; k < 3; k++, half = halves[half].next) {
             if (label_of(f, half) != SLI_WALL) continue;
-            const uint32_t own = wall_root(parent, halves[half].from);
-            if (last != NONE) parent[own] = wall_root(parent, last);
+            const uint32_t own = sl_root_of(parent, halves[half].from);
+            if (last != NONE) parent[own] = sl_root_of(parent, last);
             last = halves[half].from;
         }
     }
@@ -543,7 +538,8 @@ static void join_buildings(finder *f, uint32_t *parent) {
     for (uint32_t i = 0; i < triangles(f)->points.count; i++) parent[i] = i;
     for (uint32_t half = 0; half < triangles(f)->halves.count; half += 2)
         if (label_of(f, half) == SLI_WALL)
-            parent[wall_root(parent, halves[half].from)] = wall_root(parent, halves[half ^ 1].from);
+            parent[sl_root_of(parent, halves[half].from)] =
+                sl_root_of(parent, halves[half ^ 1].from);
     for (size_t i = 0; i < f->groups.count; i++)
         if (f->groups.items[i].access == 0 && !f->groups.items[i].inside)
             join_walls(f, &f->groups.items[i], parent);
@@ -555,7 +551,7 @@ static void mark_walls(finder *f, const group *g, bool *doubtful, uint32_t *pare
         uint32_t half = f->half[f->order[g->first + i]];
         for (int k = 0; k < 3; k++, half = halves[half].next)
             if (label_of(f, half) == SLI_WALL)
-                doubtful[wall_root(parent, halves[half].from)] = true;
+                doubtful[sl_root_of(parent, halves[half].from)] = true;
     }
 }
 
@@ -564,7 +560,7 @@ static bool has_wall_of(finder *f, const group *g, const bool *doubtful, uint32_
     for (uint32_t i = 0; i < g->count; i++) {
         uint32_t half = f->half[f->order[g->first + i]];
         for (int k = 0; k < 3; k++, half = halves[half].next)
-            if (label_of(f, half) == SLI_WALL && doubtful[wall_root(parent, halves[half].from)])
+            if (label_of(f, half) == SLI_WALL && doubtful[sl_root_of(parent, halves[half].from)])
                 return true;
     }
     return false;
@@ -580,8 +576,8 @@ static sl_status drop_doubtful(finder *f, const uint8_t *marks) {
     if (parent && doubtful) {
         join_buildings(f, parent);
         for (size_t i = 0; i < f->openings.count; i++) {
-            doubtful[wall_root(parent, f->openings.items[i].from)] = true;
-            doubtful[wall_root(parent, f->openings.items[i].to)] = true;
+            doubtful[sl_root_of(parent, f->openings.items[i].from)] = true;
+            doubtful[sl_root_of(parent, f->openings.items[i].to)] = true;
         }
         for (size_t i = 0; i < f->groups.count; i++) {
             group *g = &f->groups.items[i];

@@ -177,17 +177,6 @@ bool sl_space_is_inside(const sl_space *space, sl_point point) {
     return cell != SL_NO_CELL && space->cells[cell].inside;
 }
 
-/// The point of a segment that is nearest to another point, rounded.
-static sl_point nearest_on(sl_point a, sl_point b, sl_point p) {
-    const sl_point d = {b.x - a.x, b.y - a.y};
-    const double length = sli_length(d.x, d.y);
-    if (!(length > 0)) return a;
-    const sl_point unit = {d.x / length, d.y / length};
-    const double along = sli_dot((sl_point){p.x - a.x, p.y - a.y}, unit);
-    if (!(along > 0)) return a;
-    return along >= length ? b : (sl_point){a.x + along * unit.x, a.y + along * unit.y};
-}
-
 bool sl_space_nearest_inside(const sl_space *space, sl_point point, sl_point *out) {
     double least = INFINITY;
     uint32_t best = SL_NO_CELL;
@@ -200,7 +189,8 @@ bool sl_space_nearest_inside(const sl_space *space, sl_point point, sl_point *ou
         const sl_cell *cell = &space->cells[i];
         const sl_point *corners = space->vertices + cell->first_vertex;
         for (uint32_t k = 0; k < cell->vertex_count && cell->inside; k++) {
-            const sl_point p = nearest_on(corners[k], corners[(k + 1) % cell->vertex_count], point);
+            const sl_point p =
+                sli_nearest_on(corners[k], corners[(k + 1) % cell->vertex_count], point);
             const double distance = sli_length(p.x - point.x, p.y - point.y);
             if (!(distance < least)) continue;
             least = distance;

@@ -2,7 +2,6 @@
 /// background, which nothing may wait for.
 #include "viewer_app.h"
 
-#include "app/layout.h"
 #include "app/sliders.h"
 #include "plan/cameras.h"
 #include "plan/room_map.h"
@@ -14,20 +13,15 @@
 #include <time.h>
 #include <unistd.h>
 
-static sl_point on_page(app_state *app, sl_point at) {
-    const sl_frame frame = camera_frame(&app->view.camera, app_layout(app).plan[0], 1);
-    return sl_frame_point(&frame, at);
-}
-
 static void click(app_state *app, sl_point at) {
-    const sl_point page = on_page(app, at);
+    const sl_point page = viewer_on_page(app, at);
     input_press(app, BUTTON_LEFT, page);
     input_release(app, page);
     app_tick(app, 0);
 }
 
 static void drag(app_state *app, sl_point from, sl_point to) {
-    const sl_point a = on_page(app, from), b = on_page(app, to);
+    const sl_point a = viewer_on_page(app, from), b = viewer_on_page(app, to);
     input_press(app, BUTTON_LEFT, a);
     for (int i = 1; i <= 5; i++) {
         input_move(app, (sl_point){a.x + (b.x - a.x) * i / 5, a.y + (b.y - a.y) * i / 5});

@@ -3,7 +3,6 @@
 #include "viewer_app.h"
 
 #include "app/frame.h"
-#include "app/layout.h"
 #include "plan/drag_world.h"
 #include "sightline/bake.h"
 #include "sightline/generate.h"
@@ -139,15 +138,10 @@ static void assert_same_picture(app_state *app) {
 
 // --- drags
 
-static sl_point on_page(const app_state *app, sl_point at) {
-    const sl_frame frame = camera_frame(&app->view.camera, app_layout(app).plan[0], 1);
-    return sl_frame_point(&frame, at);
-}
-
 /// Drags by some pixels in steps, with the button down at the end. Returns the steps by a world.
 static int drag(app_state *app, sl_random *random, sl_point from, double dx, double dy,
                 bool indoors) {
-    const sl_point at = on_page(app, from);
+    const sl_point at = viewer_on_page(app, from);
     int steps = 0;
     input_press(app, BUTTON_LEFT, at);
     for (int i = 1; i <= 4; i++) {
@@ -210,13 +204,6 @@ static void test_walls(void **state) {
     }
 }
 
-static void write_text(const char *path, const char *text) {
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    fputs(text, file);
-    assert_int_equal(fclose(file), 0);
-}
-
 static const char rooms[] = "sightline 1\nwalls 0 0 20 0 20 10 0 10 0 0\nwall 10 2 10 8\n"
                             "door low 10 0 10 2 open\ndoor high 10 8 10 10 shut\nstart 3 3 0\n";
 
@@ -225,7 +212,7 @@ static const char rooms[] = "sightline 1\nwalls 0 0 20 0 20 10 0 10 0 0\nwall 10
 static void test_rooms(void **state) {
     (void)state;
     sl_random random = {7};
-    write_text("rooms.map", rooms);
+    viewer_write("rooms.map", rooms);
     app_state *app = start("rooms.map");
     const double unit = app->view.camera.scale;
     app->view.eye.fov = 360;
@@ -254,7 +241,7 @@ static void test_rooms(void **state) {
 static void test_touched(void **state) {
     (void)state;
     sl_random random = {6};
-    write_text("rooms.map", rooms);
+    viewer_write("rooms.map", rooms);
     app_state *app = start("rooms.map");
     const double unit = app->view.camera.scale;
     assert_true(drag(app, &random, (sl_point){10, 5}, 2 * unit, 0, true) > 0);
@@ -271,7 +258,7 @@ static void test_touched(void **state) {
 static void test_far(void **state) {
     (void)state;
     sl_random random = {8};
-    write_text("rooms.map", rooms);
+    viewer_write("rooms.map", rooms);
     app_state *app = start("rooms.map");
     const double unit = app->view.camera.scale;
     const int steps = drag(app, &random, (sl_point){10, 5}, 0, -30 * unit, true);
@@ -298,7 +285,7 @@ static void test_effects(void **state) {
     for (int i = 0; i < 5; i++) {
         char text[512];
         snprintf(text, sizeof text, "%s%s%swall 14 2 14 4\n", rooms, more[i], at_corner[i]);
-        write_text("rooms.map", text);
+        viewer_write("rooms.map", text);
         app_state *app = start("rooms.map");
         const double unit = app->view.camera.scale;
         app->view.eye.fov = 360;
@@ -320,7 +307,7 @@ static void test_effects(void **state) {
 static void test_small(void **state) {
     (void)state;
     sl_random random = {9};
-    write_text("rooms.map", rooms);
+    viewer_write("rooms.map", rooms);
     app_state *app = start("rooms.map");
     app->view.world_walls = 2000;
     assert_int_equal(drag(app, &random, (sl_point){10, 5}, 3 * app->view.camera.scale, 0, true), 0);
@@ -338,7 +325,8 @@ static void test_hasty(void **state) {
         app_state *app = start("city.map");
         sl_random random = {4};
         const sl_wall w = inner_wall(app, &random);
-        const sl_point at = on_page(app, (sl_point){(w.a.x + w.b.x) / 2, (w.a.y + w.b.y) / 2});
+        const sl_point at =
+            viewer_on_page(app, (sl_point){(w.a.x + w.b.x) / 2, (w.a.y + w.b.y) / 2});
         app->ui.steady = false;
         input_press(app, BUTTON_LEFT, at);
         input_move(app, (sl_point){at.x + 30, at.y + 20});
@@ -361,5 +349,5 @@ int main(void) {
         cmocka_unit_test(test_far),   cmocka_unit_test(test_small), cmocka_unit_test(test_effects),
         cmocka_unit_test(test_hasty),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, viewer_enter_folder, viewer_leave_folder);
 }

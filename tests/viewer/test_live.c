@@ -2,7 +2,6 @@
 // culling of a fresh bake of the map as it is then. Jobs end when they are told to.
 #include "viewer_app.h"
 
-#include "app/layout.h"
 #include "app/turn.h"
 #include "dialogs/opening.h"
 #include "plan/grid.h"
@@ -31,12 +30,6 @@ static void open_map(app_state *app, const char *path) {
     viewer_open(app, path);
     viewer_press(app, "F3");
     script_frame(app);
-}
-
-static sl_point on_page(const app_state *app, sl_point at) {
-    const sl_box plan = app_layout(app).plan[0];
-    const sl_frame frame = camera_frame(&app->view.camera, plan, 1);
-    return sl_frame_point(&frame, at);
 }
 
 // --- against a fresh bake
@@ -106,7 +99,7 @@ static void assert_fresh(app_state *app, bool whole) {
 
 /// Drags from a place of the map by some pixels in steps. Returns how many steps changed the map.
 static int drag(app_state *app, sl_point from, double dx, double dy, bool release) {
-    const sl_point at = on_page(app, from);
+    const sl_point at = viewer_on_page(app, from);
     uint32_t edit = app->document.edit;
     int changes = 0;
     input_press(app, BUTTON_LEFT, at);
@@ -271,7 +264,7 @@ static void test_new_door(void **state) {
             if (length_of(map->walls[k].a, map->walls[k].b) > length_of(wall.a, wall.b))
                 wall = map->walls[k];
         const sl_point from = middle(wall.a, wall.b);
-        const sl_point low = on_page(app, from), high = on_page(app, wall.b);
+        const sl_point low = viewer_on_page(app, from), high = viewer_on_page(app, wall.b);
         assert_true(drag(app, from, 0.5 * (high.x - low.x) + 2, 0.5 * (high.y - low.y) - 2, true));
         assert_int_equal(map->door_count, doors + 1);
         const sl_segment door = map->doors[doors].segment;
@@ -332,7 +325,7 @@ static void test_door_that_rests(void **state) {
     viewer_press(app, "X");
     const sl_wall wall = app->document.map.walls[0];
     const sl_point from = middle(wall.a, wall.b);
-    const sl_point low = on_page(app, from), high = on_page(app, wall.b);
+    const sl_point low = viewer_on_page(app, from), high = viewer_on_page(app, wall.b);
     assert_true(drag(app, from, 0.5 * (high.x - low.x), 0.5 * (high.y - low.y), false) > 0);
     const uint32_t edit = app->document.edit;
     const sl_point at = app->ui.pointer;
@@ -359,7 +352,7 @@ static void test_door_for_the_last_wall(void **state) {
     viewer_press(app, "X");
     const sl_map *map = &app->document.map;
     const sl_wall wall = map->walls[0];
-    const double length = on_page(app, wall.b).x - on_page(app, wall.a).x;
+    const double length = viewer_on_page(app, wall.b).x - viewer_on_page(app, wall.a).x;
     assert_true(drag(app, wall.a, length, 0, true) > 0);
     assert_int_equal(map->door_count, 0);
     assert_int_equal(map->wall_count, 1);
@@ -622,12 +615,10 @@ static void test_cursor_tip(void **state) {
 /// A house with a doubtful entrance: the eye begins in its room, and what is in doubt is said.
 static void test_doubtful_house(void **state) {
     (void)state;
-    FILE *file = fopen("house.map", "w");
-    assert_non_null(file);
-    fputs("sightline 1\nunit m\nwalls 4 0 10 0 10 6 0 6 0 0 2 0\n"
-          "walls 3.8 -0.2 10.2 -0.2 10.2 6.2 -0.2 6.2 -0.2 -0.2 2 -0.2\nwall 30 -20 31 -20\n",
-          file);
-    fclose(file);
+    viewer_write(
+        "house.map",
+        "sightline 1\nunit m\nwalls 4 0 10 0 10 6 0 6 0 0 2 0\n"
+        "walls 3.8 -0.2 10.2 -0.2 10.2 6.2 -0.2 6.2 -0.2 -0.2 2 -0.2\nwall 30 -20 31 -20\n");
     app_state *app = viewer_start(true);
     viewer_open(app, "house.map");
     script_frame(app);
@@ -677,5 +668,5 @@ int main(void) {
         cmocka_unit_test(test_message),
         cmocka_unit_test(test_cursor_tip),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, viewer_enter_folder, viewer_leave_folder);
 }

@@ -1,5 +1,5 @@
 // Another plan over the open one: walls that one of them has alone, and what measures change.
-#include "viewer_app.h"
+#include "hand.h"
 
 #include "plan/compare.h"
 #include "plan/heat.h"
@@ -78,26 +78,12 @@ static const char now[] = "sightline 1\nunit m\nwalls 0 0 20 0 20 10 0 10 0 0\nw
 static const char later[] = "sightline 1\nunit m\nwalls 0 0 20 0 20 10 0 10 0 0\nwall 10 2 10 5\n"
                             "wall 4 6 8 6\nstart 1 1 0\n";
 
-static void write_text(const char *path, const char *text) {
-    FILE *stream = fopen(path, "w");
-    assert_non_null(stream);
-    fputs(text, stream);
-    assert_int_equal(fclose(stream), 0);
-}
-
-static void press(app_state *app, const char *key) {
-    viewer_press(app, key);
-    app_tick(app, 0);
-    script_frame(app);
-}
-
 static void choose(app_state *app, const char *path) {
     assert_int_equal(dialog_open_now(&app->desk.dialog), DIALOG_BROWSER);
     press(app, "Ctrl+A");
     input_text(app, path);
     press(app, "Return");
-    app_tick(app, 0);
-    script_frame(app);
+    show(app);
 }
 
 static app_state *start(const char *path) {
@@ -116,7 +102,7 @@ static void test_compare(void **state) {
     assert_non_null(mkdtemp(folder));
     for (int i = 0; i < 4; i++) {
         snprintf(paths[i], sizeof paths[i], "%s/%s.map", folder, names[i]);
-        write_text(paths[i], texts[i]);
+        viewer_write(paths[i], texts[i]);
     }
     app_state *app = start(paths[0]), *other = start(paths[1]);
     press(app, "Ctrl+7");

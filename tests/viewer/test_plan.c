@@ -1,8 +1,7 @@
 // The Plan mode of the viewer: it opens for floor plans, its paths are those of the library for the
 // doors as they are now, and its colours by rank have as many points each.
-#include "viewer_app.h"
+#include "hand.h"
 
-#include "app/layout.h"
 #include "plan/effects.h"
 #include "plan/from_line.h"
 #include "plan/heat.h"
@@ -26,33 +25,6 @@ static app_state *start(const char *name, const char *text) {
     assert_int_equal(remove(path), 0);
     assert_int_equal(rmdir(folder), 0);
     return app;
-}
-
-static void press(app_state *app, const char *key) {
-    viewer_press(app, key);
-    app_tick(app, 0);
-    script_frame(app);
-}
-
-static void click_at(app_state *app, sl_point at) {
-    const sl_frame frame = camera_frame(&app->view.camera, app_layout(app).plan[0], 1);
-    const sl_point page = sl_frame_point(&frame, at);
-    input_move(app, page);
-    input_press(app, BUTTON_LEFT, page);
-    input_release(app, page);
-    app_tick(app, 0);
-}
-
-static void drag(app_state *app, sl_point from, sl_point to) {
-    const sl_frame frame = camera_frame(&app->view.camera, app_layout(app).plan[0], 1);
-    const sl_point a = sl_frame_point(&frame, from), b = sl_frame_point(&frame, to);
-    input_move(app, a);
-    input_press(app, BUTTON_LEFT, a);
-    input_move(app, b);
-    script_frame(app);
-    input_release(app, b);
-    app_tick(app, 0);
-    script_frame(app);
 }
 
 static const char svg[] = "<svg xmlns='http://www.w3.org/2000/svg' width='200' height='100'>"
@@ -113,8 +85,7 @@ static void test_path(void **state) {
     assert_true(layer->route.found && layer->route.points[1].y == 8);
     assert_true(fabs(layer->route.length - 2 * hypot(5, 5)) < 0.1);
     door_toggle(&app->view, 1);
-    app_tick(app, 0);
-    script_frame(app);
+    show(app);
     assert_false(layer->route.found);
     door_toggle(&app->view, 0);
     app_tick(app, 0);
@@ -143,8 +114,7 @@ static void test_walker(void **state) {
     const route_layer *layer = app->view.route;
     const double thin = layer->route.length;
     app->view.walker = 0.4;
-    app_tick(app, 0);
-    script_frame(app);
+    show(app);
     assert_true(layer->route.found && layer->route.length > thin);
     for (size_t i = 1; i + 1 < layer->route.count; i++) {
         const sl_point p = layer->route.points[i];
@@ -152,12 +122,10 @@ static void test_walker(void **state) {
         assert_true(hypot(p.x - 10, p.y - (low ? 2 : 8)) >= 0.4);
     }
     app->view.walker = 1.1; // the doors are 2 wide
-    app_tick(app, 0);
-    script_frame(app);
+    show(app);
     assert_false(layer->route.found || layer->tight);
     app->view.walker = 6; // more than the room is
-    app_tick(app, 0);
-    script_frame(app);
+    show(app);
     assert_true(layer->tight && layer->clicks == 2);
     app->view.walker = 0;
     app_tick(app, 0);

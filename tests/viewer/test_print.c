@@ -1,6 +1,6 @@
 // Sheets of paper from the viewer: asked for by keys, to scale, with what the mode or tool shows;
 // and what is said where the plan has no unit or does not fit.
-#include "viewer_app.h"
+#include "hand.h"
 
 #include "app/sheet.h"
 #include "plan/cameras.h"
@@ -43,12 +43,6 @@ static void close_plan(scene *s) {
     viewer_end(s->app);
     assert_int_equal(remove(s->map), 0);
     assert_int_equal(rmdir(s->folder), 0);
-}
-
-static void press(app_state *app, const char *key) {
-    viewer_press(app, key);
-    app_tick(app, 0);
-    script_frame(app);
 }
 
 /// Prints by keys on the paper and at the scale of these letters; what the sheet has as text.

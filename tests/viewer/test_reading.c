@@ -2,7 +2,6 @@
 // openings that are closed, and what is kept of all that for the file.
 #include "viewer_app.h"
 
-#include "app/layout.h"
 #include "dialogs/import_dialog.h"
 #include "dialogs/question.h"
 #include "document/drawings.h"
@@ -30,10 +29,7 @@ static scene open_house(void) {
     scene s = {.folder = "/tmp/sightline-reading-XXXXXX"};
     assert_non_null(mkdtemp(s.folder));
     snprintf(s.path, sizeof s.path, "%s/house.dxf", s.folder);
-    FILE *stream = fopen(s.path, "w");
-    assert_non_null(stream);
-    fputs(house, stream);
-    assert_int_equal(fclose(stream), 0);
+    viewer_write(s.path, house);
     s.app = viewer_start(true);
     s.app->ui.width = 1024;
     s.app->ui.height = 768;
@@ -73,8 +69,7 @@ static void click_page(app_state *app, sl_point page) {
 }
 
 static void click_map(app_state *app, sl_point at) {
-    const sl_frame f = camera_frame(&app->view.camera, app_layout(app).plan[0], 1);
-    click_page(app, sl_frame_point(&f, at));
+    click_page(app, viewer_on_page(app, at));
 }
 
 /// Presses a widget of the dialog: the `number`-th button that was drawn, by its id.
@@ -294,13 +289,6 @@ static void choices_are_kept(void **state) {
     close_house(&s);
 }
 
-static void write_text(const char *path, const char *text) {
-    FILE *stream = fopen(path, "w");
-    assert_non_null(stream);
-    fputs(text, stream);
-    assert_int_equal(fclose(stream), 0);
-}
-
 /// A building asks which of its storeys is shown, and once more by a key; what is wrong in it is
 /// told, and the plan stays.
 static void storeys_are_chosen(void **state) {
@@ -310,9 +298,9 @@ static void storeys_are_chosen(void **state) {
     char building[96], broken[96];
     snprintf(building, sizeof building, "%s/house.storeys", s.folder);
     snprintf(broken, sizeof broken, "%s/broken.storeys", s.folder);
-    write_text(building, "storeys 1\nstorey ground house.dxf\nstorey first " MAPS
-                         "/office.map\nlink stair ground 3,3 first 53,20\n");
-    write_text(broken, "storeys 1\nstorey ground house.dxf\nladder\n");
+    viewer_write(building, "storeys 1\nstorey ground house.dxf\nstorey first " MAPS
+                           "/office.map\nlink stair ground 3,3 first 53,20\n");
+    viewer_write(broken, "storeys 1\nstorey ground house.dxf\nladder\n");
     press(app, "Ctrl+Shift+B");
     assert_int_equal(dialog_open_now(&app->desk.dialog), DIALOG_NONE);
     viewer_open(app, building);

@@ -1,8 +1,7 @@
 // The tool Rooms of the Plan mode: names from the drawing and typed ones, what is seen of each, the
 // mean of the heat map in each, zones, and the table with all of that.
-#include "viewer_app.h"
+#include "hand.h"
 
-#include "app/layout.h"
 #include "plan/heat.h"
 #include "plan/room_map.h"
 #include "plan/table.h"
@@ -38,28 +37,6 @@ static app_state *start(void) {
     assert_int_equal(remove(path), 0);
     assert_int_equal(rmdir(folder), 0);
     return app;
-}
-
-static void press(app_state *app, const char *key) {
-    viewer_press(app, key);
-    app_tick(app, 0);
-    script_frame(app);
-}
-
-static sl_point on_page(const app_state *app, sl_point at) {
-    const sl_frame frame = camera_frame(&app->view.camera, app_layout(app).plan[0], 1);
-    return sl_frame_point(&frame, at);
-}
-
-static void drag(app_state *app, sl_point from, sl_point to) {
-    const sl_point a = on_page(app, from), b = on_page(app, to);
-    input_move(app, a);
-    input_press(app, BUTTON_LEFT, a);
-    input_move(app, b);
-    script_frame(app);
-    input_release(app, b);
-    app_tick(app, 0);
-    script_frame(app);
 }
 
 /// The same where nothing waits by itself for what is made in the background.

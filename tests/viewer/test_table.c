@@ -1,8 +1,7 @@
 // The tables of the Plan mode's tools: sorted, chosen in and in the plan, written; and the parts of
 // a network of lines.
-#include "viewer_app.h"
+#include "hand.h"
 
-#include "app/layout.h"
 #include "plan/heat.h"
 #include "plan/line_map.h"
 #include "plan/route.h"
@@ -12,26 +11,13 @@
 #include <string.h>
 #include <unistd.h>
 
-static void show(app_state *app) {
-    app_tick(app, 0);
-    script_frame(app);
-}
-
-static void press(app_state *app, const char *key) {
-    viewer_press(app, key);
-    show(app);
-}
-
 static app_state *start(const char *text, const char *key) {
     char folder[] = "/tmp/sightline-table-XXXXXX", path[64];
     app_state *app = viewer_start(true);
     if (text) {
         assert_non_null(mkdtemp(folder));
         snprintf(path, sizeof path, "%s/a.map", folder);
-        FILE *file = fopen(path, "w");
-        assert_non_null(file);
-        fputs(text, file);
-        assert_int_equal(fclose(file), 0);
+        viewer_write(path, text);
     }
     viewer_open(app, text ? path : MAPS "/office.map");
     if (text) assert_int_equal(remove(path), 0);
@@ -39,18 +25,6 @@ static app_state *start(const char *text, const char *key) {
     press(app, "9");
     press(app, key);
     return app;
-}
-
-static void click(app_state *app, sl_point page) {
-    input_move(app, page);
-    input_press(app, BUTTON_LEFT, page);
-    input_release(app, page);
-    show(app);
-}
-
-static void click_at(app_state *app, sl_point at) {
-    const sl_frame frame = camera_frame(&app->view.camera, app_layout(app).plan[0], 1);
-    click(app, sl_frame_point(&frame, at));
 }
 
 /// Clicks on a widget, which must be in the window.

@@ -7,11 +7,14 @@
 #include "app/actions.h"
 #include "app/app.h"
 #include "app/input.h"
+#include "app/layout.h"
 #include "app/script.h"
 #include "app/start.h"
 #include "app/turn.h"
 #include "dialogs/opening.h"
 #include "sightline/io.h"
+
+#include <unistd.h>
 
 #ifndef MAPS
 #error "MAPS: the folder of the maps"
@@ -46,6 +49,33 @@ static inline void viewer_end(app_state *app) {
 static inline void viewer_press(app_state *app, const char *key) {
     input_key(app, key, true);
     input_key(app, key, false);
+}
+
+/// Where a place of the map is on the plan's page.
+static inline sl_point viewer_on_page(const app_state *app, sl_point at) {
+    const sl_frame frame = camera_frame(&app->view.camera, app_layout(app).plan[0], 1);
+    return sl_frame_point(&frame, at);
+}
+
+static inline void viewer_write(const char *path, const char *text) {
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs(text, file);
+    assert_int_equal(fclose(file), 0);
+}
+
+/// For a group of tests: they run in a folder of their own, and leave nothing in it.
+static inline int viewer_enter_folder(void **state) {
+    char *folder = strdup("/tmp/sightline-viewer-XXXXXX");
+    *state = folder;
+    return !folder || !mkdtemp(folder) || chdir(folder);
+}
+
+static inline int viewer_leave_folder(void **state) {
+    const int left = chdir("/") || rmdir(*state);
+    if (left) print_error("%s: files are left\n", (const char *)*state);
+    free(*state);
+    return left;
 }
 
 #endif

@@ -27,13 +27,6 @@ sl_cover_problem sli_cover_problem(const sli_cover *cover);
 sl_status sli_cover_read(sl_context *context, const sl_cover_problem *problem, uint32_t divisor,
                          sli_cover *out);
 
-/// Who leads the set that an item is in; `up` leads there by steps, and those who lead are above
-/// themselves (disjoint sets, with paths halved).
-static inline uint32_t sli_cover_leader(uint32_t *up, uint32_t i) {
-    while (up[i] != i) i = up[i] = up[up[i]];
-    return i;
-}
-
 /// What is taken and what is left undecided on the way down a tree.
 enum { SLI_COVER_FREE, SLI_COVER_OUT, SLI_COVER_IN };
 typedef struct sli_cover_state {

@@ -51,10 +51,6 @@ typedef struct checker {
     SL_ARRAY(frame) way;
 } checker;
 
-static size_t begin_of(const sl_cover_problem *p, uint32_t column) {
-    return column ? p->ends[column - 1] : 0;
-}
-
 static uint32_t cost_of(const sl_cover_problem *p, uint32_t column) {
     return p->costs ? p->costs[column] : 1;
 }
@@ -91,7 +87,7 @@ static uint64_t round_up(sli_wide a, uint64_t denominator, uint32_t divisor) {
 
 static bool has_row(const checker *c, uint32_t column, uint32_t row) {
     const sl_cover_problem *p = c->problem;
-    size_t low = begin_of(p, column), high = p->ends[column];
+    size_t low = sli_checked_begin(p, column), high = p->ends[column];
     while (low < high) {
         const size_t middle = low + (high - low) / 2;
         if (p->entries[middle] < row)
@@ -114,12 +110,12 @@ static bool column_goes(checker *c, uint32_t what, uint32_t by) {
     if (what >= p->column_count || by >= p->column_count || what == by) return false;
     if (c->column_gone[what] || c->column_gone[by] || cost_of(p, by) > cost_of(p, what))
         return false;
-    for (size_t i = begin_of(p, what); i < p->ends[what]; i++) {
+    for (size_t i = sli_checked_begin(p, what); i < p->ends[what]; i++) {
         const uint32_t row = p->entries[i];
         if (!c->row_gone[row] && (c->rest[row] > 1 || !has_row(c, by, row))) return false;
     }
     c->column_gone[what] = true;
-    for (size_t i = begin_of(p, what); i < p->ends[what]; i++) c->free[p->entries[i]]--;
+    for (size_t i = sli_checked_begin(p, what); i < p->ends[what]; i++) c->free[p->entries[i]]--;
     return true;
 }
 
@@ -129,7 +125,7 @@ static bool column_taken(checker *c, uint32_t what, uint32_t by) {
         return false;
     if (!has_row(c, what, by) || c->free[by] > c->rest[by]) return false;
     c->column_gone[what] = true;
-    for (size_t i = begin_of(p, what); i < p->ends[what]; i++) {
+    for (size_t i = sli_checked_begin(p, what); i < p->ends[what]; i++) {
         const uint32_t row = p->entries[i];
         c->free[row]--;
         if (!c->row_gone[row] && --c->rest[row] == 0) c->row_gone[row] = true;
@@ -162,7 +158,7 @@ static bool find_column_parts(checker *c) {
     const sl_cover_problem *p = c->problem;
     for (uint32_t j = 0; j < p->column_count; j++) {
         c->column_parts[j] = UINT32_MAX;
-        for (size_t i = begin_of(p, j); i < p->ends[j] && !c->column_gone[j]; i++) {
+        for (size_t i = sli_checked_begin(p, j); i < p->ends[j] && !c->column_gone[j]; i++) {
             if (c->row_gone[p->entries[i]]) continue;
             const uint32_t part = c->proof->parts[p->entries[i]];
             if (c->column_parts[j] != UINT32_MAX && c->column_parts[j] != part) return false;
@@ -213,7 +209,7 @@ static void decide(checker *c, uint32_t column, uint8_t how) {
         c->sum.holds = false;
     c->taken += is ? cost_of(p, column) : 0;
     c->taken -= was ? cost_of(p, column) : 0;
-    for (size_t i = begin_of(p, column); i < p->ends[column]; i++) {
+    for (size_t i = sli_checked_begin(p, column); i < p->ends[column]; i++) {
         c->free[p->entries[i]] += (how == FREE) - (c->decided[column] == FREE);
         c->rest[p->entries[i]] += was - is;
     }
@@ -240,7 +236,7 @@ static bool sum_up(checker *c, uint32_t part, size_t duals) {
         const uint32_t column = c->columns[i];
         sli_wide *worth = &c->sum.worth[column];
         *worth = (sli_wide){0, 0};
-        for (size_t k = begin_of(p, column); k < p->ends[column]; k++)
+        for (size_t k = sli_checked_begin(p, column); k < p->ends[column]; k++)
             if (!c->row_gone[p->entries[k]] && c->rest[p->entries[k]] > 0 &&
                 !add(worth, (sli_wide){0, y[c->places[p->entries[k]]]}))
                 return false;
@@ -269,7 +265,7 @@ static uint64_t bound_of_leaf(checker *c, uint32_t part, size_t duals) {
 /// The bound where a column is taken, or is not, and no node says more.
 static uint64_t bound_without_node(checker *c, uint32_t part, const sl_cover_node *node, int way) {
     const sl_cover_problem *p = c->problem;
-    for (size_t i = begin_of(p, node->column); i < p->ends[node->column] && !way; i++) {
+    for (size_t i = sli_checked_begin(p, node->column); i < p->ends[node->column] && !way; i++) {
         const uint32_t row = p->entries[i];
         if (!c->row_gone[row] && c->rest[row] > 0 && c->rest[row] > c->free[row] - 1)
             return UINT64_MAX;
@@ -347,7 +343,7 @@ static sl_status make_part(sl_context *context, const checker *c, size_t part,
         out->demands.items[out->demands.count++] = (uint32_t)c->rest[c->rows[i]];
     for (size_t i = c->columns_first[part]; i < c->columns_first[part + 1]; i++) {
         const uint32_t column = c->columns[i];
-        const size_t first = begin_of(p, column), end = p->ends[column];
+        const size_t first = sli_checked_begin(p, column), end = p->ends[column];
         SL_TRY(SL_ARRAY_ROOM(context, &out->entries, end - first));
         for (size_t k = first; k < end; k++)
             if (!c->row_gone[p->entries[k]])
@@ -427,7 +423,7 @@ static void count(checker *c) {
             c->divisor = a;
             a = rest;
         }
-        for (size_t i = begin_of(p, j); i < p->ends[j]; i++) c->free[p->entries[i]]++;
+        for (size_t i = sli_checked_begin(p, j); i < p->ends[j]; i++) c->free[p->entries[i]]++;
     }
 }
 

@@ -6,6 +6,11 @@
 #include "sightline/set_cover.h"
 #include "sightline/support.h"
 
+/// Where the entries of a column begin.
+static inline size_t sli_checked_begin(const sl_cover_problem *p, uint32_t column) {
+    return column ? p->ends[column - 1] : 0;
+}
+
 /// A problem while it is made: its columns one after the other.
 typedef struct sli_made_problem {
     SL_ARRAY(size_t) ends;

@@ -20,10 +20,6 @@ sl_cover_problem sli_made(const sli_made_problem *made) {
         made->entries.items,           made->costs.items,          made->demands.items};
 }
 
-static size_t begin_of(const sl_cover_problem *p, uint32_t column) {
-    return column ? p->ends[column - 1] : 0;
-}
-
 static sl_status add_entry(sl_context *context, sli_made_problem *out, uint32_t row) {
     SL_TRY(SL_ARRAY_ROOM(context, &out->entries, 1));
     out->entries.items[out->entries.count++] = row;
@@ -53,7 +49,7 @@ typedef SL_ARRAY(uint32_t) block_list;
 static sl_status list_blocks(sl_context *context, const sl_cover_problem *part,
                              const sl_cover_split *split, uint32_t column, block_list *blocks) {
     blocks->count = 0;
-    for (size_t i = begin_of(part, column); i < part->ends[column]; i++) {
+    for (size_t i = sli_checked_begin(part, column); i < part->ends[column]; i++) {
         const uint32_t block = split->blocks[part->entries[i]];
         size_t k = 0;
         while (k < blocks->count && blocks->items[k] != block) k++;
@@ -70,7 +66,7 @@ static sl_status copy_column(sl_context *context, const sl_cover_problem *part,
     uint64_t cost = 0;
     SL_TRY(list_blocks(context, part, split, column, blocks));
     for (size_t k = 0; k < blocks->count && *sense; k++) {
-        for (size_t i = begin_of(part, column); i < part->ends[column]; i++)
+        for (size_t i = sli_checked_begin(part, column); i < part->ends[column]; i++)
             if (split->blocks[part->entries[i]] == blocks->items[k])
                 SL_TRY(add_entry(context, out, part->entries[i]));
         *sense = out->ends.count < split->cost_count && split->costs[out->ends.count];
@@ -102,7 +98,7 @@ static sl_status raise_column(sl_context *context, const sl_cover_problem *part,
                               sli_made_problem *out, bool *sense) {
     const uint32_t rows = part->row_count;
     for (uint32_t r = 0; r < rows; r++) coefficients[r] = 0;
-    for (size_t i = begin_of(part, column); i < part->ends[column]; i++) {
+    for (size_t i = sli_checked_begin(part, column); i < part->ends[column]; i++) {
         coefficients[part->entries[i]] = 1;
         SL_TRY(add_entry(context, out, part->entries[i]));
     }

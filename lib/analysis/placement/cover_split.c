@@ -131,15 +131,15 @@ static sl_status find_blocks(splitter *s) {
         s->size[r] = s->duals[r];
     }
     for (size_t i = 0; i < s->ties.count; i++) {
-        const uint32_t a = sli_cover_leader(s->up, s->ties.items[i].a),
-                       b = sli_cover_leader(s->up, s->ties.items[i].b);
+        const uint32_t a = sl_root_of(s->up, s->ties.items[i].a),
+                       b = sl_root_of(s->up, s->ties.items[i].b);
         if (a == b || s->size[a] + s->size[b] > most) continue;
         s->up[a > b ? a : b] = a < b ? a : b;
         s->size[a < b ? a : b] += s->size[a > b ? a : b];
     }
     // Leaders are the first rows of their blocks.
     for (uint32_t r = 0; r < rows; r++) {
-        const uint32_t leader = sli_cover_leader(s->up, r);
+        const uint32_t leader = sl_root_of(s->up, r);
         s->blocks[r] = leader == r ? s->block_count++ : s->blocks[leader];
     }
     return SL_OK;

@@ -1,18 +1,10 @@
 /// Where a viewpoint could stand to see a point, near to places that are given: sight has no
 /// direction, so it is in the region of the point.
 #include "analysis/placement/view_shapes.h"
+#include "geometry/length.h"
 #include "sightline/place_area.h"
 
 #include <math.h>
-
-/// The point of a segment that is nearest to another one.
-static sl_point nearest_on(sl_point a, sl_point b, sl_point p) {
-    const sl_point d = {b.x - a.x, b.y - a.y};
-    const double square = d.x * d.x + d.y * d.y;
-    double share = square > 0 ? ((p.x - a.x) * d.x + (p.y - a.y) * d.y) / square : 0;
-    share = fmin(1, fmax(0, share));
-    return (sl_point){a.x + share * d.x, a.y + share * d.y};
-}
 
 sl_status sl_place_nearest(sl_context *context, sl_query *query, const sl_viewpoint *like,
                            sl_point target, const sl_viewpoint *places, uint32_t count,
@@ -31,7 +23,7 @@ sl_status sl_place_nearest(sl_context *context, sl_query *query, const sl_viewpo
             const sl_point a = shape.points[i];
             const sl_point b = shape.points[i + 1 < shape.ends[l] ? i + 1 : first];
             for (uint32_t k = 0; k < count; k++) {
-                const sl_point at = nearest_on(a, b, places[k].at);
+                const sl_point at = sli_nearest_on(a, b, places[k].at);
                 const double distance = hypot(at.x - places[k].at.x, at.y - places[k].at.y);
                 if (!(distance < least)) continue;
                 least = distance;

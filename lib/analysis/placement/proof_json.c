@@ -197,16 +197,23 @@ static sl_status need(sli_proof_reader *r, char sign) {
     return take(r, sign) ? SL_OK : sli_proof_fail(r, what);
 }
 
-sl_status sli_proof_key(sli_proof_reader *r, const char *name) {
+/// Takes a sign and a name in quotes.
+static bool take_name(sli_proof_reader *r, char sign, const char *name) {
     const size_t length = strlen(name);
+    if (!take(r, sign) || !take(r, '"') || (size_t)(r->end - r->at) <= length ||
+        memcmp(r->at, name, length) != 0 || r->at[length] != '"')
+        return false;
+    r->at += length + 1;
+    return true;
+}
+
+sl_status sli_proof_key(sli_proof_reader *r, const char *name) {
     const bool first = strcmp(name, "sightline_proof") == 0;
     r->member = name;
     const bool opens = first || strcmp(name, "unit") == 0 || strcmp(name, "rows") == 0;
-    if (!take(r, opens ? '{' : ',') || !take(r, '"') || (size_t)(r->end - r->at) <= length ||
-        memcmp(r->at, name, length) != 0 || r->at[length] != '"')
+    if (!take_name(r, opens ? '{' : ',', name))
         return first ? sl_fail_at(r->context, r->path, r->line, "this is no proof of a placement")
                      : sli_proof_fail(r, "it is missing here");
-    r->at += length + 1;
     return need(r, ':');
 }
 
@@ -401,9 +408,7 @@ static sl_status read_trees(sli_proof_reader *r, uint32_t rows, sl_cover_proof *
 /// Whether a member comes next.
 static bool is_next(const sli_proof_reader *r, const char *name) {
     sli_proof_reader ahead = *r;
-    const size_t length = strlen(name);
-    return take(&ahead, ',') && take(&ahead, '"') && (size_t)(ahead.end - ahead.at) > length &&
-           memcmp(ahead.at, name, length) == 0 && ahead.at[length] == '"';
+    return take_name(&ahead, ',', name);
 }
 
 static sl_status read_small(sli_proof_reader *r, const char *name, uint32_t **out,

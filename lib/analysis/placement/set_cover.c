@@ -128,8 +128,8 @@ static sl_status find_parts(sl_context *context, solver *s) {
         for (size_t i = c->column_first[j]; i < c->column_first[j + 1]; i++) {
             const uint32_t row = c->column_rows[i];
             if (!s->left.column_there[j] || !s->left.row_there[row]) continue;
-            if (first == UINT32_MAX) first = sli_cover_leader(up, row);
-            const uint32_t other = sli_cover_leader(up, row);
+            if (first == UINT32_MAX) first = sl_root_of(up, row);
+            const uint32_t other = sl_root_of(up, row);
             // The lower row leads, so that parts come in the order of their first rows.
             up[first < other ? other : first] = first < other ? first : other;
             if (other < first) first = other;
@@ -137,7 +137,7 @@ static sl_status find_parts(sl_context *context, solver *s) {
     }
     for (uint32_t r = 0; r < c->rows; r++) {
         if (!s->left.row_there[r]) continue;
-        const uint32_t root = sli_cover_leader(up, r);
+        const uint32_t root = sl_root_of(up, r);
         s->parts[r] = root == r ? s->piece_count++ : s->parts[root];
     }
     sl_free(context, up);

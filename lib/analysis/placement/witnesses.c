@@ -214,14 +214,6 @@ sl_status sli_drop_implied(sli_placer *p, const sl_cover_proof *proof) {
 
 // --- parts of the plan
 
-static uint32_t part_of(uint32_t *parent, uint32_t cell) {
-    while (parent[cell] != cell) {
-        parent[cell] = parent[parent[cell]];
-        cell = parent[cell];
-    }
-    return cell;
-}
-
 sl_status sli_add_unseen_parts(sli_placer *p, bool *added) {
     const sl_space *space = p->ground.space;
     uint32_t *parent = sl_alloc_array(p->context, space->cell_count, sizeof *parent);
@@ -232,18 +224,18 @@ sl_status sli_add_unseen_parts(sli_placer *p, bool *added) {
     for (uint32_t i = 0; status == SL_OK && i < space->directed_count; i++) {
         const uint32_t *cell = space->portals[space->directed[i].portal].cell;
         if (space->cells[cell[0]].inside && space->cells[cell[1]].inside)
-            parent[part_of(parent, cell[0])] = part_of(parent, cell[1]);
+            parent[sl_root_of(parent, cell[0])] = sl_root_of(parent, cell[1]);
     }
     for (size_t i = 0; status == SL_OK && i < p->chosen.count; i++)
-        seen[part_of(parent, sl_space_locate(space, sli_chosen_look(p, i)->eye))] = true;
+        seen[sl_root_of(parent, sl_space_locate(space, sli_chosen_look(p, i)->eye))] = true;
     for (uint32_t c = 0; status == SL_OK && c < space->cell_count; c++) {
         bool one;
-        if (!space->cells[c].inside || seen[part_of(parent, c)]) continue;
+        if (!space->cells[c].inside || seen[sl_root_of(parent, c)]) continue;
         const sl_point m = sl_space_middle(space, c);
         const sl_point corner = space->vertices[space->cells[c].first_vertex];
-        for (int i = 0; i < 4 && status == SL_OK && !seen[part_of(parent, c)]; i++) {
+        for (int i = 0; i < 4 && status == SL_OK && !seen[sl_root_of(parent, c)]; i++) {
             status = sli_add_witness(p, from_to(m, corner, 0.1 * some(p)), &one);
-            if (status == SL_OK && one) *added = seen[part_of(parent, c)] = true;
+            if (status == SL_OK && one) *added = seen[sl_root_of(parent, c)] = true;
         }
     }
     sl_free(p->context, parent);

@@ -20,15 +20,10 @@
 
 #include <string.h>
 
-static uint32_t find_root(uint32_t *parents, uint32_t i) {
-    while (parents[i] != i) i = parents[i] = parents[parents[i]];
-    return i;
-}
-
 /// The lower number stands for both.
 static void join(uint32_t *parents, uint32_t a, uint32_t b) {
-    a = find_root(parents, a);
-    b = find_root(parents, b);
+    a = sl_root_of(parents, a);
+    b = sl_root_of(parents, b);
     if (a < b)
         parents[b] = a;
     else
@@ -77,13 +72,13 @@ static void join_ends(sl_route_finder *f) {
 static void count_rows(sl_route_finder *f) {
     const sl_space *s = f->space;
     memset(f->counts, 0, end_count(f) * sizeof *f->counts);
-    for (uint32_t e = 0; e < end_count(f); e++) f->counts[find_root(f->ends, e)]++;
+    for (uint32_t e = 0; e < end_count(f); e++) f->counts[sl_root_of(f->ends, e)]++;
     for (uint32_t c = 0; c < s->cell_count; c++) {
         const sl_directed_portal *first = s->directed + s->cells[c].first_directed;
         const uint32_t count = s->cells[c].directed_count;
         for (uint32_t i = 0; i < count; i++)
             if (meet(&first[i], &first[i + 1 < count ? i + 1 : 0]))
-                f->counts[find_root(f->ends, end_of(f, &first[i], SLI_ROUTE_LEFT, false))]--;
+                f->counts[sl_root_of(f->ends, end_of(f, &first[i], SLI_ROUTE_LEFT, false))]--;
     }
 }
 
@@ -131,7 +126,7 @@ static void span_rows(const sl_route_finder *f, const sl_cell *cell, bool find_w
             const bool at_wall =
                 is_left ? !meet(d, &first[(i + 1) % n]) : !meet(&first[(i + n - 1) % n], d);
             const sl_point at = is_left ? d->left : d->right, far = is_left ? d->right : d->left;
-            row_span *span = &spans[find_root(f->ends, end_of(f, d, side, false))];
+            row_span *span = &spans[sl_root_of(f->ends, end_of(f, d, side, false))];
             if (find_walls && is_left && at_wall)
                 span->wall = corner_after(f->space, cell, d, side);
             if (find_walls) continue;
@@ -167,12 +162,12 @@ sl_status sli_route_corners(sl_context *context, sl_route_finder *f) {
     count_rows(f);
     SL_TRY(drop_flat_rows(context, f));
     for (uint32_t c = 0; c < s->cell_count; c++) {
-        f->part_of[c] = find_root(f->part_of, c);
+        f->part_of[c] = sl_root_of(f->part_of, c);
         const sl_cell *cell = &s->cells[c];
         for (uint32_t d = cell->first_directed; d < cell->first_directed + cell->directed_count;
              d++)
             for (int side = 0; side < 2; side++) {
-                const uint32_t row = find_root(f->ends, end_of(f, &s->directed[d], side, true));
+                const uint32_t row = sl_root_of(f->ends, end_of(f, &s->directed[d], side, true));
                 f->corner_of[2 * (size_t)d + (size_t)side] = f->counts[row] ? row : SLI_ROUTE_NONE;
             }
     }

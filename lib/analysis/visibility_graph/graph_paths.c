@@ -80,12 +80,6 @@ static sl_status list_row(sl_context *context, sli_vga_sights *s, uint32_t slot,
     return list_words(context, s, row, false);
 }
 
-/// The least part that this one is joined to.
-static uint32_t find_part(uint32_t *joined, uint32_t part) {
-    while (joined[part] != part) part = joined[part] = joined[joined[part]];
-    return part;
-}
-
 /// Joins parts where a point sees one of another: one-way glass leads from part to part.
 static void join_parts(sli_vga_sights *s, uint32_t *joined, uint32_t parts) {
     for (uint32_t part = 0; part < parts; part++) joined[part] = part;
@@ -95,13 +89,13 @@ static void join_parts(sli_vga_sights *s, uint32_t *joined, uint32_t parts) {
             for (sl_bits rest = word->seen; rest; rest &= rest - 1) {
                 const uint32_t q = word->bundle * 64 + (uint32_t)__builtin_ctzll(rest);
                 if (s->parts[q] == s->parts[at]) continue;
-                const uint32_t a = find_part(joined, s->parts[at]);
-                const uint32_t b = find_part(joined, s->parts[q]);
+                const uint32_t a = sl_root_of(joined, s->parts[at]);
+                const uint32_t b = sl_root_of(joined, s->parts[q]);
                 joined[a > b ? a : b] = a > b ? b : a;
             }
         }
     }
-    for (uint32_t q = 0; q < s->count; q++) s->parts[q] = find_part(joined, s->parts[q]);
+    for (uint32_t q = 0; q < s->count; q++) s->parts[q] = sl_root_of(joined, s->parts[q]);
 }
 
 /// Gives a number to a slot and to all that paths lead to from there, and takes them out of `left`.

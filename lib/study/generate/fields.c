@@ -195,11 +195,6 @@ typedef struct network {
     size_t chamber_count, tunnel_count;
 } network;
 
-static uint32_t part_of(uint32_t *parts, uint32_t chamber) {
-    while (parts[chamber] != chamber) chamber = parts[chamber] = parts[parts[chamber]];
-    return chamber;
-}
-
 static uint32_t other_end(const network *n, const tunnel *t) {
     return t->from + (t->up ? (uint32_t)n->plot->columns : 1);
 }
@@ -234,7 +229,7 @@ static void open_tunnels(network *n) {
     for (size_t i = 0; i < open; i++) {
         tunnel *t = &n->tunnels[i];
         t->open = true;
-        n->parts[part_of(n->parts, other_end(n, t))] = part_of(n->parts, t->from);
+        n->parts[sl_root_of(n->parts, other_end(n, t))] = sl_root_of(n->parts, t->from);
     }
 }
 
@@ -286,7 +281,7 @@ static sl_status add_chamber(network *n, uint32_t chamber, const int mouths[SLI_
         const int low = mouths[side] / 4, high = low + mouths[side] % 4;
         SL_TRY(mouths[side] ? sli_plot_wall_open(plot, run, low, high) : sli_plot_wall(plot, run));
     }
-    if (part_of(n->parts, chamber) == chamber)
+    if (sl_root_of(n->parts, chamber) == chamber)
         SL_TRY(sli_plot_start(plot, (rect.x0 + rect.x1) / 2.0, (rect.y0 + rect.y1) / 2.0));
     return add_object(plot, "chamber", chamber, rect);
 }
