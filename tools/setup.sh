@@ -1,14 +1,16 @@
 #!/bin/sh
 # Installs what Sightline needs and this machine has not: sh tools/setup.sh [--ci] [--web] [--release] [--qgis] [--firefox]
 # It looks at what is really there, asks the system's package manager for the rest, and does nothing
-# when all is there. --ci adds what the checks of .ci/run need: clang, its sanitizers, clang-format,
-# clang-tidy, ccache, doxygen, a display that is none, with keys to press (Xvfb, xdotool), MPI, node,
-# aspell, groff, abidw, LuaJIT, Mono, pygame, Tiled, the Python package jsonschema, what the tests of our own Python package use, and
-# Chromium and npm for the tests of the pages; on Debian also compilers and emulators for two other
-# machines. --web adds what tools/web.sh needs: clang, lld, wasi-libc, compiler-rt for WebAssembly,
-# binaryen and node. --release adds what tools/release.sh needs beside that: npm, pip, wheel, numpy,
-# patchelf, and on Debian MinGW, Wine and debootstrap. --qgis adds QGIS, which is large, for the test of its plugin.
-# --firefox adds Firefox, in which the tests of the pages can run, too.
+# when all is there.
+#   --ci        what the checks of .ci/run and all tests need: clang, its sanitizers and tools, ccache,
+#               doxygen, Xvfb and xdotool, MPI, node, npm, Chromium, aspell, groff, pdftotext, abidw, jq,
+#               LuaJIT, Mono, pygame, LÖVE, Tiled, Python packages; on Debian also compilers and
+#               emulators for two other machines
+#   --web       what tools/web.sh needs: clang, lld, wasi-libc, compiler-rt for WebAssembly, binaryen, node
+#   --release   what tools/release.sh needs beside that: npm, pip, wheel, numpy, patchelf, and on Debian
+#               MinGW, Wine and debootstrap
+#   --qgis      QGIS, which is large, for the test of its plugin
+#   --firefox   Firefox, in which the tests of the pages can run, too
 #
 # Tried on Debian. Fedora, Arch and macOS are written from their package lists and untried.
 set -eu
@@ -25,7 +27,7 @@ for argument in "$@"; do
     --release) web=yes release=yes ;;
     --qgis) qgis=yes ;;
     --firefox) firefox=yes ;;
-    -h | --help) sed -n '2,12s/^# \{0,1\}//p' "$0"; exit 0 ;;
+    -h | --help) sed -n '2,13s/^# \{0,1\}//p' "$0"; exit 0 ;;
     *) echo "setup: unknown argument $argument (there are --ci, --web, --release, --qgis and --firefox)" >&2; exit 2 ;;
     esac
 done
@@ -114,7 +116,7 @@ is_there() {
     abidw) has abidw ;;
     x11) module x11 ;;
     font) font ;;
-    clang | clang-format | clang-tidy | ccache | doxygen | llvm-symbolizer | luajit | node | npm | patchelf | tiled | debootstrap) has "$1" ;;
+    clang | clang-format | clang-tidy | ccache | doxygen | llvm-symbolizer | luajit | node | npm | patchelf | tiled | debootstrap | jq | love) has "$1" ;;
     mono) has mono && has mcs ;;
     qgis) has qgis_process && /usr/bin/python3 -c 'import qgis' 2>/dev/null ;;
     chromium) has chromium || has chromium-browser ;;
@@ -209,7 +211,7 @@ package() { # system thing
     brew:clang | brew:clang-sanitizers | brew:clang-tidy) echo llvm ;;
     brew:wasm) echo lld wasi-libc wasi-runtimes ;;
     brew:xvfb) echo --cask xquartz ;;
-    brew:chromium | brew:firefox) echo --cask "$2" ;;
+    brew:chromium | brew:firefox | brew:love) echo --cask "$2" ;;
     brew:npm) echo node ;;
 
     pacman:mpi | brew:mpi) echo openmpi ;;
@@ -256,7 +258,7 @@ install_packages() { # system package...
 # ---- What to do ----
 
 things="c c++ cmake ninja pkg-config python3 zlib jansson libpng libxml2 libyaml zstd glpk cairo pango sdl2 font cmocka gmp"
-[ $ci = yes ] && things="$things clang clang-sanitizers llvm-symbolizer clang-format clang-tidy ccache doxygen xvfb xdotool x11 mpi node npm chromium jsonschema aspell groff poppler ezdxf abidw numpy scipy pandas geopandas matplotlib nbconvert ipykernel wheel pip luajit mono pygame tiled"
+[ $ci = yes ] && things="$things clang clang-sanitizers llvm-symbolizer clang-format clang-tidy ccache doxygen xvfb xdotool x11 mpi node npm chromium jsonschema aspell groff poppler ezdxf abidw numpy scipy pandas geopandas matplotlib nbconvert ipykernel wheel pip luajit mono pygame love tiled jq"
 [ $ci = yes ] && has apt-get && things="$things aarch64 windows" # tests/everywhere
 [ $web = yes ] && things="$things clang wasm binaryen node"
 [ $release = yes ] && things="$things npm pip wheel numpy patchelf"

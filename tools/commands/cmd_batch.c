@@ -417,10 +417,9 @@ sl_status cmd_batch(command_console *console, int argc, char **argv) {
                 "numbers and texts of its --json, or the mean and the deviation of each column of "
                 "its table. Of a grid in several parts, measures of the graph count in the largest "
                 "part only, as in the summary of vga. OPTIONS are those of the command; {} in one "
-                "is the plan's name without "
-                "folder and ending. A plan that fails is named, has its message in the table, and "
-                "harms no other; the exit "
-                "status is then 2, or 1 if the fault was not in the input.",
+                "is the plan's name without folder and ending. A plan that fails is named, has its "
+                "message in the table, and harms no other; the exit status is then 2, or 1 if the "
+                "fault was not in the input.",
         .examples = "  ls schools/*.dxf | sightline batch check - -o schools.csv\n"
                     "  sightline batch vga schools.txt -o vga.csv -- --grid 1\n"
                     "  sightline batch vga schools.txt -o vga.csv --resume -- --grid 1\n"

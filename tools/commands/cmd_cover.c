@@ -141,9 +141,10 @@ static sl_status work(command_console *console, const cover_plan *plan, cover_wo
                           plan->picture));
     progress_line_clear(&console->line);
     if (plan->json) return print_json(context, w, &report);
-    if (!console->quiet) cover_print(&report);
-    if (!console->quiet && w->covers) cover_zones_print(&report, &w->zones, w->covers);
-    if (!console->quiet && plan->path) cover_path_print(&report, &w->path);
+    if (console->quiet && (plan->output || plan->picture)) return SL_OK;
+    cover_print(&report);
+    if (w->covers) cover_zones_print(&report, &w->zones, w->covers);
+    if (plan->path) cover_path_print(&report, &w->path);
     return SL_OK;
 }
 

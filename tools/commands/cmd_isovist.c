@@ -477,8 +477,7 @@ sl_status cmd_isovist(command_console *console, int argc, char **argv) {
          .choice = &plan.measure, .names = measure_table(SL_ISOVIST), .given = &plan.measure_given},
         {"scale", 0, "MIN,MAX",
          "the ends of the colour scale, to compare pictures (default: smallest and largest value "
-         "in "
-         "parts of the plan with at least a tenth of the points of the largest part)",
+         "in parts of the plan with at least a tenth of the points of the largest part)",
          .point = &plan.scale, .given = &plan.scale_given},
         {"union", 0, NULL,
          "the area that at least 1, 2, ... viewpoints see, in place of each one's measures; in a "

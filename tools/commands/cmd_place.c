@@ -247,7 +247,7 @@ static sl_status work(command_console *console, const place_plan *plan, place_wo
     }
     progress_line_clear(&console->line);
     if (plan->json) return print_json(context, w, &report);
-    if (console->quiet) return SL_OK;
+    if (console->quiet && (plan->output || plan->picture || plan->proof)) return SL_OK;
     cover_print(&report);
     camera_work_print_things(&w->chosen, &report);
     printf("\n%s\n", proof);
@@ -287,8 +287,8 @@ sl_status cmd_place(command_console *console, int argc, char **argv) {
          .text = &plan.proof, .check = CHECK_FILE, .endings = ".json"},
         {"verify", 0, "FILE",
          "check a proof for this map by other code, and trust nothing in it; --from and the "
-         "options "
-         "with it are those of the run that wrote it; exit with status 1 if it does not hold",
+         "options with it are those of the run that wrote it; exit with status 1 if it does not "
+         "hold",
          .text = &plan.verify, .rare = true},
         {"time-limit", 0, "SECONDS",
          "stop then, and give the best set and both bounds; so does Ctrl-C (default: no limit)",

@@ -194,10 +194,10 @@ static sl_status draw_change(sl_context *context, const vga_plan *plan, const vg
                            .path = plan->picture};
     sl_field field;
     double *values;
-    SL_TRY(vga_change_field(context, change, plan->measure, &values, &field));
+    sl_status status = vga_change_field(context, change, plan->measure, &values, &field);
     field.least = plan->scale.x;
     field.most = plan->scale.y;
-    const sl_status status = heat_map_draw(context, &w->baked, &heat, &field);
+    if (status == SL_OK) status = heat_map_draw(context, &w->baked, &heat, &field);
     sl_free(context, values);
     return status;
 }
@@ -329,8 +329,7 @@ sl_status cmd_vga(command_console *console, int argc, char **argv) {
          .over_0 = true, .given = &plan.range_given},
         {"scale", 0, "MIN,MAX",
          "the ends of the colour scale, to compare pictures (default: smallest and largest value "
-         "in "
-         "parts of the plan with at least a tenth of the points of the largest part)",
+         "in parts of the plan with at least a tenth of the points of the largest part)",
          .point = &plan.scale, .given = &plan.scale_given, .rare = true},
         {"threads", 0, "N", "number of threads (default: one per core)",
          .count32 = &plan.options.threads, .most = 1024},
@@ -341,10 +340,8 @@ sl_status cmd_vga(command_console *console, int argc, char **argv) {
          .text = &plan.part.text, .topic = "limits", .rare = true},
         {"estimate", 0, "N",
          "visual: estimate mean depth and integration by searches from N points of each part of "
-         "the "
-         "graph, drawn by --seed; two more columns have the ends between which the exact depth of "
-         "a "
-         "point lies with a probability of 99 %",
+         "the graph, drawn by --seed; two more columns have the ends between which the exact depth "
+         "of a point lies with a probability of 99 %",
          .count32 = &plan.estimate.roots, .least = 1, .most = SL_VGA_POINTS_MOST, .topic = "limits",
          .given = &plan.estimate_given, .rare = true},
         {"metric-radius", 0, "R", "metric: only paths up to this length (default: all)",
@@ -356,8 +353,7 @@ sl_status cmd_vga(command_console *console, int argc, char **argv) {
          .given = &plan.angular_given, .rare = true},
         {"agents", 0, "N",
          "let N agents walk by sight, and add the column gate_counts: steps onto a point (Turner "
-         "and "
-         "Penn 2002)",
+         "and Penn 2002)",
          .count32 = &plan.agents.agents, .least = 1, .most = 1 << 30, .topic = "agents",
          .given = &plan.agents_given},
         {"agents-from", 0, "X,Y",

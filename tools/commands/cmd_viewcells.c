@@ -489,8 +489,7 @@ sl_status cmd_viewcells(command_console *console, int argc, char **argv) {
         {"json", 0, NULL, "print the report as one JSON object", .flag = &plan.json},
         {"by-views", 0, NULL,
          "with --slv: leave out the sets of single cells; the file is smaller, and a cell sees "
-         "what "
-         "its view cell does",
+         "what its view cell does",
          .flag = &plan.by_views, .rare = true},
         {"see", 0, "NAME", "with --slv: the method of the bake (default: sweep)",
          .choice = &plan.see, .names = method_table(), .given = &plan.see_given, .rare = true},
@@ -502,8 +501,7 @@ sl_status cmd_viewcells(command_console *console, int argc, char **argv) {
          .count = &run->sampling.samples, .most = UINT32_MAX, .topic = "sampling", .rare = true},
         {"evaluate", 0, "N",
          "number of other lines that measure the cost (default 400000; 0: none, the cost is that "
-         "of "
-         "merging)",
+         "of merging)",
          .count = &run->evaluation, .most = UINT32_MAX, .given = &plan.evaluate_given,
          .topic = "sampling", .rare = true},
         {"exact", 0, NULL, "merge and measure by exact sets of all elementary cells",

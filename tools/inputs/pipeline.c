@@ -25,7 +25,7 @@ static const double FEW_INSIDE = 0.1;
 /// courts and shafts.
 static const double SEALED = 0.25;
 
-/// Such a share of the area inside, apart from the largest part, is told of a game's map.
+/// The least share of a game's map inside, not joined to the largest part, that gets a note.
 static const double APART = 0.01;
 
 // --- options

@@ -5,6 +5,7 @@
 #include "sightline/support.h"
 #include "system/built.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -17,6 +18,21 @@ void heat_map_title(const char *input, const char *map, const char *measure, cha
     text_make_readable(strcmp(name, "-") ? name : "standard input", readable, sizeof readable);
     const char *known = map && sl_text_is_utf8(map) ? map : "";
     snprintf(text, size, "%s%s%.64s: %s", readable, *known ? " " : "", known, measure);
+}
+
+/// Fields go row by row from the lowest, grids column by column.
+sl_field heat_map_field(const sl_vga_grid *grid, const double *values, double *squares) {
+    for (size_t i = 0; i < (size_t)grid->columns * grid->rows; i++) squares[i] = NAN;
+    for (uint32_t p = 0; p < grid->count; p++) {
+        const size_t column = grid->squares[p] / grid->rows, row = grid->squares[p] % grid->rows;
+        squares[row * grid->columns + column] = values[p];
+    }
+    return (sl_field){.corner = {((double)grid->left - 0.5) * grid->step,
+                                 ((double)grid->bottom - 0.5) * grid->step},
+                      .step = grid->step,
+                      .columns = grid->columns,
+                      .rows = grid->rows,
+                      .values = squares};
 }
 
 void heat_map_scale(sl_context *context, bool given, const double *values, const uint32_t *sizes,

@@ -19,6 +19,10 @@ typedef struct heat_map {
 sl_status heat_map_draw(sl_context *context, const sl_baked *baked, const heat_map *heat,
                         sl_field *field);
 
+/// Lays out values by point: each point is the middle of a square. `squares`, with room for columns
+/// times rows, becomes the field's values. The rest of the field is zeroed.
+sl_field heat_map_field(const sl_vga_grid *grid, const double *values, double *squares);
+
 /// Sets the ends of the colour scale, unless `given`, to those of the values in the plan's large
 /// parts, and notes what lies beyond. `values` and the `sizes` of parts are by point.
 void heat_map_scale(sl_context *context, bool given, const double *values, const uint32_t *sizes,

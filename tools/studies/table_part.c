@@ -132,7 +132,7 @@ static bool take(const char **at, const char *word, int base, uint64_t *number) 
     return end != digits;
 }
 
-/// Takes the numbers of a first line. What else it may have said is told by writing it again.
+/// Reads the numbers of a first line. The caller writes the line anew from them, and compares.
 static bool take_begin(const char *text, read_part *p) {
     uint64_t part, count, first, last, rows;
     const bool good = take(&text, "# sightline part ", 10, &part) && take(&text, "/", 10, &count) &&
@@ -150,7 +150,7 @@ static bool take_begin(const char *text, read_part *p) {
 static sl_status read_lines(sl_context *context, read_part *p) {
     const char *text = p->file.data;
     char begin[LINE_TEXT], end[LINE_TEXT];
-    size_t first = 0, stop = 0, lines = 1;
+    size_t first = 0, stop = 0, line = 2;
     table_part *is = &p->is;
     const bool good = take_begin(text, p);
     if (good) write_lines(is, p->rows, begin, end);
@@ -162,10 +162,11 @@ static sl_status read_lines(sl_context *context, read_part *p) {
     p->header = text + strlen(begin);
     p->body = stop > first ? p->header + line_length(p->header) : p->header;
     p->end = p->body;
-    for (size_t row = first; row < stop && *p->end && *p->end != '#'; row++, lines++)
+    line += p->body > p->header;
+    for (size_t row = first; row < stop && *p->end && *p->end != '#'; row++, line++)
         p->end += line_length(p->end);
     if (strcmp(p->end, end) == 0 && strlen(text) == p->file.size) return SL_OK;
-    return sl_fail_at(context, p->name, (unsigned)(lines + 2),
+    return sl_fail_at(context, p->name, (unsigned)line,
                       "part %" PRIu32 " of %" PRIu32 " is cut short or changed: expected %zu rows, "
                       "then '%.*s'; compute it again",
                       is->part, is->count, stop - first, (int)strlen(end) - 1, end);
@@ -202,16 +203,12 @@ static sl_status order_parts(sl_context *context, const read_part *parts, uint32
             order[k - 1] = p;
         }
     }
-    for (uint32_t i = 0; i < count; i++)
-        if (order[i]->is.part != i + 1)
-            return sl_fail(context, SL_BAD_INPUT,
-                           "of %" PRIu32 " parts %" PRIu32 " are given, part %" PRIu32
-                           " is missing",
-                           needed, count, i + 1);
-    if (count == needed) return SL_OK;
+    uint32_t whole = 0; // so many from the first on
+    while (whole < count && order[whole]->is.part == whole + 1) whole++;
+    if (whole == needed) return SL_OK;
     return sl_fail(context, SL_BAD_INPUT,
                    "of %" PRIu32 " parts %" PRIu32 " %s given, part %" PRIu32 " is missing", needed,
-                   count, count == 1 ? "is" : "are", count + 1);
+                   count, count == 1 ? "is" : "are", whole + 1);
 }
 
 static void put_parts(const read_part *const *order, uint32_t count, FILE *out) {

@@ -3,6 +3,7 @@
 
 #include "inputs/inputs.h"
 #include "reports/fields.h"
+#include "reports/heat_map.h"
 #include "reports/summary.h"
 #include "sightline/json.h"
 #include "sightline/support.h"
@@ -116,29 +117,21 @@ sl_status vga_change_write(sl_context *context, const vga_change *change, const 
                                : write_csv(context, change, output.stream));
 }
 
-/// Fields go row by row from the lowest. A point is the middle of a square.
 sl_status vga_change_field(sl_context *context, const vga_change *change, size_t measure,
                            double **values_out, sl_field *out) {
     const sl_vga_grid *grid = &change->before->grid;
     const size_t count = (size_t)grid->columns * grid->rows;
-    double *values = sl_alloc_array(context, count, sizeof *values);
-    if (!values) return SL_NO_MEMORY;
-    for (size_t i = 0; i < count; i++) values[i] = NAN;
-    for (size_t n = 0; n < change->count; n++) {
-        const uint32_t p = change->pairs[n].before;
-        if (p == UINT32_MAX) continue;
-        const size_t column = grid->squares[p] / grid->rows, row = grid->squares[p] % grid->rows;
-        values[row * grid->columns + column] = change_of(change, measure, &change->pairs[n]);
+    double *changes = sl_alloc_array(context, grid->count, sizeof *changes);
+    *values_out = sl_alloc_array(context, count, sizeof **values_out);
+    const sl_status status = changes && *values_out ? SL_OK : SL_NO_MEMORY;
+    for (size_t n = 0; status == SL_OK && n < change->count; n++) {
+        const vga_pair *pair = &change->pairs[n];
+        if (pair->before != UINT32_MAX) changes[pair->before] = change_of(change, measure, pair);
     }
-    *values_out = values;
-    *out = (sl_field){.corner = {((double)grid->left - 0.5) * grid->step,
-                                 ((double)grid->bottom - 0.5) * grid->step},
-                      .step = grid->step,
-                      .columns = grid->columns,
-                      .rows = grid->rows,
-                      .values = values,
-                      .diverging = true};
-    return SL_OK;
+    if (status == SL_OK) *out = heat_map_field(grid, changes, *values_out);
+    out->diverging = true;
+    sl_free(context, changes);
+    return status;
 }
 
 // --- the summary

@@ -27,8 +27,8 @@ void vga_change_destroy(sl_context *context, vga_change *change);
 /// GeoJSON where the name ends so, else CSV. "-" is stdout.
 sl_status vga_change_write(sl_context *context, const vga_change *change, const char *path);
 
-/// Fills a field with the changes of one measure. The caller frees the values
-/// (sl_free).
+/// Fills a field with the changes of one measure. The caller frees the values (sl_free), also after
+/// a failure.
 sl_status vga_change_field(sl_context *context, const vga_change *change, size_t measure,
                            double **values_out, sl_field *out);
 

@@ -6,15 +6,6 @@
 
 #include <math.h>
 
-/// Fields go row by row from the lowest, grids column by column. A point is the middle of a square.
-static void lay_out(const sl_vga_grid *grid, const double *values, double *field) {
-    for (size_t i = 0; i < (size_t)grid->columns * grid->rows; i++) field[i] = NAN;
-    for (uint32_t p = 0; p < grid->count; p++) {
-        const size_t column = grid->squares[p] / grid->rows, row = grid->squares[p] % grid->rows;
-        field[row * grid->columns + column] = values[p];
-    }
-}
-
 /// Of several parts the largest alone is coloured, by its own scale. `grey` takes the squares of
 /// the others, by point.
 static void grey_others(const vga_table *table, double *values, double *grey) {
@@ -41,21 +32,25 @@ static sl_status scale_without_small(sl_context *context, const vga_work *w, boo
     return status;
 }
 
-static sl_status fill(sl_context *context, const vga_work *w, size_t measure, bool given,
+static sl_status fill(sl_context *context, const vga_work *w, size_t measure, const sl_point *scale,
                       double *values, double *others, vga_field *out) {
     const sl_vga_grid *grid = &w->table.grid;
+    const bool of_part = vga_measure_is_of_part(measure);
+    const bool greys = of_part && w->table.part_count > 1 && !scale;
     for (uint32_t p = 0; p < grid->count; p++) values[p] = vga_value(&w->table, measure, p);
-    if (!vga_measure_is_of_part(measure)) {
-        SL_TRY(scale_without_small(context, w, given, values, &out->field));
-    } else if (w->table.part_count > 1 && !given) {
+    if (greys) {
         grey_others(&w->table, values, others);
-        lay_out(grid, others, out->values);
+        heat_map_field(grid, others, out->values);
         for (size_t i = 0; i < (size_t)grid->columns * grid->rows; i++)
             out->grey[i] = !isnan(out->values[i]);
-        out->field.grey = out->grey;
     }
-    lay_out(grid, values, out->values);
-    return SL_OK;
+    out->field = heat_map_field(grid, values, out->values);
+    if (greys) out->field.grey = out->grey;
+    if (scale) {
+        out->field.least = scale->x;
+        out->field.most = scale->y;
+    }
+    return of_part ? SL_OK : scale_without_small(context, w, scale != NULL, values, &out->field);
 }
 
 sl_status vga_field_make(sl_context *context, const vga_work *w, size_t measure,
@@ -66,16 +61,8 @@ sl_status vga_field_make(sl_context *context, const vga_work *w, size_t measure,
     double *others = sl_alloc_array(context, grid->count, sizeof *others);
     *out = (vga_field){.values = sl_alloc_array(context, count, sizeof *out->values),
                        .grey = sl_alloc_array(context, count, sizeof *out->grey)};
-    out->field = (sl_field){.corner = {((double)grid->left - 0.5) * grid->step,
-                                       ((double)grid->bottom - 0.5) * grid->step},
-                            .step = grid->step,
-                            .columns = grid->columns,
-                            .rows = grid->rows,
-                            .values = out->values,
-                            .least = scale ? scale->x : 0,
-                            .most = scale ? scale->y : 0};
     sl_status status = values && others && out->values && out->grey ? SL_OK : SL_NO_MEMORY;
-    if (status == SL_OK) status = fill(context, w, measure, scale != NULL, values, others, out);
+    if (status == SL_OK) status = fill(context, w, measure, scale, values, others, out);
     sl_free(context, values);
     sl_free(context, others);
     if (status != SL_OK) vga_field_destroy(context, out);
