@@ -32,6 +32,12 @@ const void *sli_table_items(const sli_table *table, const void *own, size_t own_
 sl_status sli_table_add(sl_context *context, sli_table *table, size_t size, const void *own,
                         size_t own_count, const void *more, size_t count);
 
+/// The order of two 32-bit numbers, for qsort.
+static inline int sli_compare_whole(const void *left, const void *right) {
+    const uint32_t a = *(const uint32_t *)left, b = *(const uint32_t *)right;
+    return (a > b) - (a < b);
+}
+
 /// 10^power, to the nearest double.
 double sli_power_of_ten(int power);
 

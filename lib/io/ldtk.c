@@ -226,9 +226,10 @@ static sl_status open_project(sli_ldtk *reader, sli_json_file *project, char **p
     if (end) *end = '\0';
     const char *folder = end ? sl_path_name(whole) : "";
     const int length = snprintf(relative, sizeof relative, "../%s.ldtk", folder);
-    *path = *folder && (size_t)length < sizeof relative
-                ? sli_beside_path(reader->context, reader->name, relative)
-                : sl_copy_text(reader->context, "", 0);
+    *path =
+        *folder && (size_t)length < sizeof relative
+            ? sli_beside_path(reader->context, reader->name, (sli_word){relative, strlen(relative)})
+            : sl_copy_text(reader->context, "", 0);
     free(whole);
     if (!*path) return SL_NO_MEMORY;
     if (!sli_beside_is_there(*path)) {

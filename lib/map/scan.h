@@ -109,6 +109,20 @@ static inline sl_status sli_read_coordinate(sl_context *context, const char *nam
     return SL_OK;
 }
 
+/// The path of a file as the file `name` calls it: from where that one lies, unless it is a whole
+/// path; `\` is as good as `/`. sl_free is the caller's; NULL for lack of memory.
+static inline char *sli_beside_path(sl_context *context, const char *name, sli_word relative) {
+    const bool whole = relative.length && *relative.at == '/';
+    const size_t folder = whole ? 0 : (size_t)(sl_path_name(name) - name);
+    char *path = sl_alloc(context, folder + relative.length + 1);
+    if (!path) return NULL;
+    memcpy(path, name, folder);
+    for (size_t i = 0; i < relative.length; i++)
+        path[folder + i] = relative.at[i] == '\\' ? '/' : relative.at[i];
+    path[folder + relative.length] = '\0';
+    return path;
+}
+
 /// Whether a name can be written as one word of the map text: UTF-8, not empty, without white
 /// space, control characters and '#'.
 bool sli_name_usable(const char *name, size_t length);

@@ -56,17 +56,6 @@ static sl_status check_name(building_reader *r, const char *what, sli_word name)
                       sli_show(name).text);
 }
 
-/// A path beside the building's file, unless it is absolute.
-static char *path_beside(building_reader *r, sli_word file) {
-    const size_t folder = *file.at == '/' ? 0 : (size_t)(sl_path_name(r->path) - r->path);
-    char *path = sl_alloc(r->context, folder + file.length + 1);
-    if (!path) return NULL;
-    memcpy(path, r->path, folder);
-    memcpy(path + folder, file.at, file.length);
-    path[folder + file.length] = '\0';
-    return path;
-}
-
 static sl_status read_storey(building_reader *r) {
     sl_building *b = &r->building;
     if (r->count != 3 || !r->words[2].length) return refuse(r, "storey NAME FILE");
@@ -81,7 +70,7 @@ static sl_status read_storey(building_reader *r) {
                       sizeof *b->storeys));
     sl_storey *s = &b->storeys[b->storey_count];
     *s = (sl_storey){.name = sl_copy_text(r->context, name.at, name.length),
-                     .path = path_beside(r, r->words[2]),
+                     .path = sli_beside_path(r->context, r->path, r->words[2]),
                      .line = r->line};
     b->storey_count++;
     return s->name && s->path ? SL_OK : SL_NO_MEMORY;

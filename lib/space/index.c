@@ -22,6 +22,7 @@
 /// Then half of all places lie in a bucket with one or two cells. Many long oblique cells would
 /// need too many entries; their grid gets fewer buckets.
 #include "space/index.h"
+#include "base/base.h"
 
 #include "base/size.h"
 #include "geometry/length.h"
@@ -169,15 +170,10 @@ static bool boxes_meet(const sl_box *a, const sl_box *b) {
            (a->max.y >= b->min.y);
 }
 
-static int compare_items(const void *left, const void *right) {
-    const uint32_t a = *(const uint32_t *)left, b = *(const uint32_t *)right;
-    return (a > b) - (a < b);
-}
-
 /// Most lists are short, and some are long.
 static void sort_found(uint32_t *items, size_t count) {
     enum { SHORT = 24 };
-    if (count > SHORT) qsort(items, count, sizeof *items, compare_items);
+    if (count > SHORT) qsort(items, count, sizeof *items, sli_compare_whole);
     for (size_t i = 1; i < count && count <= SHORT; i++) {
         const uint32_t item = items[i];
         size_t at = i;

@@ -13,6 +13,7 @@
 ///               `. |.
 ///                  |  ` b
 #include "world/reveal.h"
+#include "base/base.h"
 
 #include <stdlib.h>
 
@@ -79,11 +80,6 @@ static sl_status see_through(sl_context *context, const sli_live *live, sli_worl
 
 // --- rows
 
-static int compare(const void *left, const void *right) {
-    const uint32_t a = *(const uint32_t *)left, b = *(const uint32_t *)right;
-    return (a > b) - (a < b);
-}
-
 /// Sorts what came by the cells that see it.
 static void sort_pairs(sli_world_rows *r) {
     uint32_t *first = r->first.items, *more = r->more.items;
@@ -93,7 +89,7 @@ static void sort_pairs(sli_world_rows *r) {
     for (size_t i = r->pairs.count; i-- > 0;)
         more[--first[r->pairs.items[i].place]] = r->pairs.items[i].other;
     for (size_t i = 0; i < r->stayed; i++)
-        qsort(more + first[i], first[i + 1] - first[i], sizeof *more, compare);
+        qsort(more + first[i], first[i + 1] - first[i], sizeof *more, sli_compare_whole);
 }
 
 /// Writes the row of a cell that stays: what it has of cells that stay, and what came. `lost`: the

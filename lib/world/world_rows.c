@@ -5,6 +5,7 @@
 /// portal sequence that is seen, and for each portal that leads out of it. Where few walls stand in
 /// open ground there are many sequences. Once the tests have cost as much as the default method
 /// would, that one sees all cells of a copy, and the rows that are not settled are taken from it.
+#include "base/base.h"
 #include "world/aim.h"
 
 #include "cell_to_cell/search/directions.h"
@@ -41,17 +42,12 @@ static sl_status grow_words(sl_context *context, sli_world_rows *r, size_t more)
     return SL_OK;
 }
 
-static int compare_cells(const void *left, const void *right) {
-    const uint32_t a = *(const uint32_t *)left, b = *(const uint32_t *)right;
-    return (a > b) - (a < b);
-}
-
 sl_status sli_world_rows_write(sl_context *context, sli_world_rows *r, uint32_t cell) {
     sl_pvs *pvs = &r->visibility.pvs;
     bool sorted = true;
     for (size_t i = 1; i < r->seen.count && sorted; i++)
         sorted = r->seen.items[i - 1] <= r->seen.items[i];
-    if (!sorted) qsort(r->seen.items, r->seen.count, sizeof *r->seen.items, compare_cells);
+    if (!sorted) qsort(r->seen.items, r->seen.count, sizeof *r->seen.items, sli_compare_whole);
     r->row.count = 0;
     SL_TRY(sli_row_append_list(context, &r->row, r->seen.items, r->seen.count));
     const uint32_t words = (uint32_t)((r->row.count + 3) / 4);
@@ -250,7 +246,7 @@ static sl_status find_seers(sl_context *context, const sli_live *live, sli_world
 
 static void leave_each_once(sli_numbers *list) {
     size_t count = 0;
-    if (list->count) qsort(list->items, list->count, sizeof *list->items, compare_cells);
+    if (list->count) qsort(list->items, list->count, sizeof *list->items, sli_compare_whole);
     for (size_t i = 0; i < list->count; i++)
         if (!count || list->items[count - 1] != list->items[i])
             list->items[count++] = list->items[i];

@@ -23,11 +23,6 @@ static sl_point random_inside(sl_random *random, const sl_space *space) {
     }
 }
 
-static int compare_numbers(const void *left, const void *right) {
-    const double a = *(const double *)left, b = *(const double *)right;
-    return (a > b) - (a < b);
-}
-
 static void measure(sl_context *context, const char *name, const sl_space *space, sl_query *query,
                     double radius, FILE *pairs) {
     sl_route_finder *finder;
@@ -59,7 +54,7 @@ static void measure(sl_context *context, const char *name, const sl_space *space
         length += route.length;
     }
     if (!ways) bench_fail("no pairs");
-    qsort(times, (size_t)ways, sizeof *times, compare_numbers);
+    qsort(times, (size_t)ways, sizeof *times, sl_compare_numbers);
     struct utsname machine;
     uname(&machine);
     puts("machine,map,walls,cells,ms_to_make,ways,found,us_a_way,us_median,nodes,corners,length");

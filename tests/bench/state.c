@@ -77,13 +77,8 @@ static void settle(bench *b) {
     }
 }
 
-static int compare(const void *a, const void *b) {
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static double share(double *values, size_t count, size_t percent) {
-    qsort(values, count, sizeof *values, compare);
+    qsort(values, count, sizeof *values, sl_compare_numbers);
     return values[percent == 100 ? count - 1 : count * percent / 100];
 }
 
@@ -114,7 +109,7 @@ static void measure(bench *b, uint32_t first, uint32_t end) {
     }
     const size_t calls = b->calls.count;
     for (size_t i = 0; i < calls; i++) all += b->calls.items[i];
-    qsort(b->calls.items, calls, sizeof(double), compare);
+    qsort(b->calls.items, calls, sizeof(double), sl_compare_numbers);
     printf("%u,%.3f,%u,%zu,%.0f,%.1f,%.0f,%.0f,%.0f,%.0f,%.0f,%.0f,%u,%llu,%llu\n", end,
            b->bake_seconds, b->runtime.cell_count, b->words * sizeof(uint32_t) / 1024,
            share(rows, count, 50), share(set, count, 50), share(took, count, 50),

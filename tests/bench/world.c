@@ -27,13 +27,8 @@ typedef struct bench {
     double times[2 * EDITS];
 } bench;
 
-static int compare_times(const void *left, const void *right) {
-    const double a = *(const double *)left, b = *(const double *)right;
-    return (a > b) - (a < b);
-}
-
 static double share_of(bench *b, size_t count, double share) {
-    qsort(b->times, count, sizeof *b->times, compare_times);
+    qsort(b->times, count, sizeof *b->times, sl_compare_numbers);
     return 1e6 * b->times[(size_t)((double)(count - 1) * share)];
 }
 

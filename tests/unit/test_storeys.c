@@ -20,7 +20,7 @@ static void a_building_is_read(void **state) {
     sl_context *context = *state;
     static const char text[] = "# a house\r\nstoreys 1\r\n"
                                "storey ground plan0.dxf # below\r\n"
-                               "storey first \"plans/first floor.map\"\r\n"
+                               "storey first \"plans\\first floor.map\"\r\n"
                                "storey roof /tmp/roof.map\r\n\r\n"
                                "link stair ground 3,4 first -3.5,1e1 6.5\r\n"
                                "link lift ground 1,1 roof 1,1\r\n"

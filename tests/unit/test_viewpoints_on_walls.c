@@ -108,11 +108,6 @@ typedef struct wedge {
     sl_point right, left; ///< less the eye
 } wedge;
 
-static int compare_angles(const void *a, const void *b) {
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /// The angle from one direction counter-clockwise to another: 0 to 2 pi.
 static double angle_between(sl_point from, sl_point to) {
     const double angle = atan2(cross(from, to), from.x * to.x + from.y * to.y);
@@ -165,7 +160,7 @@ static size_t oracle_look(const ring *r, sl_point eye, size_t side, wedge *out) 
     }
     // The middle of two directions must be between them.
     for (double at = 1; at < whole; at++) angles[count++] = at;
-    qsort(angles, count, sizeof *angles, compare_angles);
+    qsort(angles, count, sizeof *angles, sl_compare_numbers);
     const double length = hypot(next.x, next.y);
     const sl_point unit = {next.x / length, next.y / length};
     for (size_t i = 0; i + 1 < count; i++)

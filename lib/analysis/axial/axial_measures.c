@@ -13,6 +13,7 @@
 ///
 /// Lines are sorted by their left ends, and each is tested against those whose extents in x
 /// overlap. Cost of measures: O(n * pairs that touch) for n lines.
+#include "base/base.h"
 #include "geometry/length.h"
 #include "sightline/axial.h"
 
@@ -41,11 +42,6 @@ static int compare_extents(const void *left, const void *right) {
     const extent *a = left, *b = right;
     if (a->left != b->left) return a->left < b->left ? -1 : 1;
     return (a->line > b->line) - (a->line < b->line);
-}
-
-static int compare_numbers(const void *left, const void *right) {
-    const uint32_t a = *(const uint32_t *)left, b = *(const uint32_t *)right;
-    return (a > b) - (a < b);
 }
 
 typedef struct pair {
@@ -107,7 +103,7 @@ sl_status sl_line_graph_make(sl_context *context, const sl_segment *lines, uint3
         }
         for (uint32_t i = 0; i < count; i++)
             qsort(graph.others + graph.first[i], graph.first[i + 1] - graph.first[i],
-                  sizeof *graph.others, compare_numbers);
+                  sizeof *graph.others, sli_compare_whole);
     }
     sl_free(context, found.list.items);
     if (status == SL_OK)

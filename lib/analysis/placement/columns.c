@@ -11,6 +11,7 @@
 ///
 /// Of events at one spot, entering counts first: all regions that touch the spot hold it.
 #include "analysis/placement/columns.h"
+#include "base/base.h"
 
 #include "geometry/length.h"
 #include "geometry/orient.h"
@@ -93,11 +94,6 @@ static uint64_t hash_of(uint32_t look) {
     return sl_random_next(&random);
 }
 
-static int compare_numbers(const void *left, const void *right) {
-    const uint32_t a = *(const uint32_t *)left, b = *(const uint32_t *)right;
-    return (a > b) - (a < b);
-}
-
 static bool same_column(const sli_place_columns *all, size_t column, const uint32_t *entries,
                         uint32_t count) {
     const size_t first = column ? all->ends.items[column - 1] : 0;
@@ -130,7 +126,7 @@ static sl_status emit(collector *c, sli_window_part place) {
     sli_place_columns *out = c->out;
     if (2 * (out->ends.count + 1) > c->table_size) SL_TRY(grow_table(c));
     for (uint32_t i = 0; i < c->here_count; i++) c->sorted[i] = c->here[i];
-    qsort(c->sorted, c->here_count, sizeof *c->sorted, compare_numbers);
+    qsort(c->sorted, c->here_count, sizeof *c->sorted, sli_compare_whole);
     size_t at = c->hash & (c->table_size - 1);
     for (; c->table[at]; at = (at + 1) & (c->table_size - 1)) {
         const uint32_t column = c->table[at] - 1;

@@ -20,6 +20,7 @@
 /// Cost: a round takes time for the rows that have little over, times the columns that the program
 /// takes in part; and the steps of the program.
 #include "analysis/placement/cover.h"
+#include "base/base.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -116,11 +117,6 @@ static sl_status halve(cutter *c, uint32_t demand, double *broken) {
     return SL_OK;
 }
 
-static int compare_numbers(const void *left, const void *right) {
-    const uint32_t a = *(const uint32_t *)left, b = *(const uint32_t *)right;
-    return (a > b) - (a < b);
-}
-
 /// Whether a cut from `first` on is made of the same rows.
 static bool is_known(const cutter *c, uint32_t first, const uint32_t *rows, uint32_t count) {
     for (size_t i = first; i < c->out->ends.count; i++) {
@@ -138,7 +134,7 @@ static sl_status make_cut(cutter *c, const combination *from, uint32_t first) {
     uint32_t names[MOST_ROWS], demand = 0;
     double broken;
     for (uint32_t k = 0; k < from->count; k++) names[k] = name_of(c, from->rows[k]);
-    qsort(names, from->count, sizeof *names, compare_numbers);
+    qsort(names, from->count, sizeof *names, sli_compare_whole);
     if (is_known(c, first, names, from->count)) return SL_OK;
     const size_t before = c->entries.count;
     for (uint32_t k = 0; k < from->count; k++) demand += add_up(c, names[k]);

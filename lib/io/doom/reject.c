@@ -6,6 +6,7 @@
 ///
 /// Nothing that is seen may be hidden. So a cell counts for every sector that it reaches into, and
 /// a sector of which nothing is known sees everything. Sides are decided by exact predicates.
+#include "base/base.h"
 #include "io/doom/wad.h"
 
 #include "geometry/length.h"
@@ -154,11 +155,6 @@ static sl_status find_left_of_nearest(finder *find, sl_point point, uint32_t *se
     return SL_OK;
 }
 
-static int compare_sectors(const void *left, const void *right) {
-    const uint32_t a = *(const uint32_t *)left, b = *(const uint32_t *)right;
-    return (a > b) - (a < b);
-}
-
 static sl_status find_cell(finder *find, const sl_space *space, uint32_t cell) {
     const cell_view view = view_of(space, cell);
     find->begin = find->found.count;
@@ -177,7 +173,8 @@ static sl_status find_cell(finder *find, const sl_space *space, uint32_t cell) {
         return sl_fail(find->context, SL_UNSUPPORTED,
                        "more cells with sectors than can be counted");
     const size_t count = find->found.count - find->begin;
-    if (count > 1) qsort(find->found.items + find->begin, count, sizeof(uint32_t), compare_sectors);
+    if (count > 1)
+        qsort(find->found.items + find->begin, count, sizeof(uint32_t), sli_compare_whole);
     return SL_OK;
 }
 

@@ -130,7 +130,9 @@ static sl_status walk_beside(sli_geo *geo) {
                                                           "fixture.geojson"};
     if (strcmp(sl_path_name(geo->name), "unit.geojson") != 0) return SL_OK;
     for (size_t i = 0; i < SLI_GEO_FILES - 1; i++) {
-        char *path = sli_beside_path(geo->context, geo->name, beside[i]), *from = NULL;
+        char *path =
+                 sli_beside_path(geo->context, geo->name, (sli_word){beside[i], strlen(beside[i])}),
+             *from = NULL;
         if (!path) return SL_NO_MEMORY;
         const bool there = sli_beside_is_there(path);
         sl_free(geo->context, path);

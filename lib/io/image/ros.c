@@ -129,7 +129,7 @@ static sl_status read_yaml(ros_map *m, const char *text, size_t size) {
 
 /// The picture as named or, since maps are often renamed, one that has the map's own name.
 static sl_status find_image(const ros_map *m, char **path) {
-    *path = sli_beside_path(m->context, m->name, m->image);
+    *path = sli_beside_path(m->context, m->name, (sli_word){m->image, strlen(m->image)});
     if (!*path) return SL_NO_MEMORY;
     if (sli_beside_is_there(*path)) return SL_OK;
     sl_free(m->context, *path);

@@ -405,18 +405,6 @@ sl_status sli_numbers_but_commonest(sl_context *context, const uint32_t *numbers
 
 #define MOST_BYTES ((off_t)1 << 30)
 
-char *sli_beside_path(sl_context *context, const char *name, const char *relative) {
-    const size_t folder = relative[0] != '/' ? (size_t)(sl_path_name(name) - name) : 0;
-    const size_t length = strlen(relative);
-    char *path = sl_alloc(context, folder + length + 1);
-    if (!path) return NULL;
-    memcpy(path, name, folder);
-    memcpy(path + folder, relative, length + 1);
-    for (char *at = path + folder; *at; at++)
-        if (*at == '\\') *at = '/';
-    return path;
-}
-
 bool sli_beside_is_there(const char *path) {
     struct stat there;
     return stat(path, &there) == 0 && S_ISREG(there.st_mode);
@@ -429,7 +417,7 @@ static sl_status fail_beside(sl_context *context, const char *name, const char *
 
 sl_status sli_beside_read(sl_context *context, const char *name, const char *relative, char **path,
                           sl_bytes *bytes) {
-    char *from = sli_beside_path(context, name, relative);
+    char *from = sli_beside_path(context, name, (sli_word){relative, strlen(relative)});
     if (!from) return SL_NO_MEMORY;
     struct stat there;
     sl_status status = SL_OK;

@@ -134,10 +134,6 @@ bool sli_mentions_door(const char *name);
 
 // --- tilesets, levels and pictures in other files
 
-/// The path of the file `relative`, as the file `name` calls it: from where that one lies, unless
-/// it is a whole path; `\` is as good as `/`. sl_free is the caller's; NULL for lack of memory.
-char *sli_beside_path(sl_context *context, const char *name, const char *relative);
-
 /// Whether there is a plain file: a device may never end.
 bool sli_beside_is_there(const char *path);
 
