@@ -107,7 +107,7 @@ static void add_frontier(chart_parts *parts, bool over) {
     }
     if (!count) return;
     parts->series[parts->chart.series_count++] =
-        (sl_chart_series){.name = "no run is as right in so little time",
+        (sl_chart_series){.name = "Pareto frontier: no other run is both faster and more accurate",
                           .style = over ? SL_CHART_FRONTIER_OVER : SL_CHART_FRONTIER_UNDER,
                           .marks = marks,
                           .mark_count = count};

@@ -25,8 +25,7 @@ sl_status share_read(sl_context *context, const char *text, uint32_t *part, uint
     SL_TRY(read_count(context, "--shard", first, UINT32_MAX, &k));
     SL_TRY(read_count(context, "--shard", slash + 1, UINT32_MAX, &n));
     if (!k || k > n)
-        return sl_fail(context, SL_BAD_ARGUMENT, "--shard %s: of N parts K is one from 1 to N",
-                       text);
+        return sl_fail(context, SL_BAD_ARGUMENT, "--shard %s: K from 1 to N is needed", text);
     *part = (uint32_t)k;
     *count = (uint32_t)n;
     return SL_OK;
