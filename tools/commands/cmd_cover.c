@@ -113,7 +113,9 @@ static sl_status work(command_console *console, const cover_plan *plan, cover_wo
     SL_TRY(sl_cameras_read(context, plan->operands[1], &plan->like, &w->cameras));
     if (plan->skip_outside) skip_outside(context, plan, w);
     if (!w->cameras.count)
-        return sl_fail(context, SL_BAD_INPUT, "%s: no viewpoint is left", plan->operands[1]);
+        return sl_fail(context, SL_BAD_INPUT,
+                       "%s: all viewpoints lie outside the map or in solid ground",
+                       plan->operands[1]);
     SL_TRY(check_places(context, plan, w));
     SL_TRY(sl_query_over(context, &baked->space, &baked->map, NULL, &w->query));
     if (baked->map.mirror_count)
