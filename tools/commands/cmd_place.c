@@ -11,6 +11,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 typedef struct place_plan {
     const char *input, *output, *picture, *proof, *verify;
@@ -72,14 +73,23 @@ static sl_status place(command_console *console, const place_plan *plan, place_w
     return status;
 }
 
-/// Viewpoints without a name get their number, as reports and pictures show it.
+static bool has_name(const sl_cameras *cameras, const char *name) {
+    for (size_t i = 0; i < cameras->count; i++)
+        if (cameras->items[i].name && strcmp(cameras->items[i].name, name) == 0) return true;
+    return false;
+}
+
+/// Viewpoints without a name get their number, as reports and pictures show it; where one that
+/// stands already has this name, the next number that is free.
 static sl_status name_all(sl_context *context, sl_cameras *cameras) {
-    char number[32];
+    char name[32];
     for (size_t i = 0; i < cameras->count; i++) {
         sl_camera *camera = &cameras->items[i];
+        size_t number = i + 1;
         if (camera->name) continue;
-        const int length = snprintf(number, sizeof number, "%zu", i + 1);
-        camera->name = sl_copy_text(context, number, (size_t)length);
+        do snprintf(name, sizeof name, "%zu", number++);
+        while (has_name(cameras, name));
+        camera->name = sl_copy_text(context, name, strlen(name));
         if (!camera->name) return SL_NO_MEMORY;
     }
     return SL_OK;
