@@ -214,11 +214,39 @@ static void test_ranks(void **state) {
     viewer_end(app);
 }
 
+/// How high a doubt of so many words is drawn.
+static double doubt_height(app_state *app, int words) {
+    char *notes = app->document.notes;
+    size_t length = (size_t)snprintf(notes, NOTES_TEXT, "the lines are taken\n");
+    for (int i = 0; i < words; i++)
+        length += (size_t)snprintf(notes + length, NOTES_TEXT - length, "words ");
+    app->ui.spot_count = 0;
+    show(app);
+    for (int i = 0; i < app->ui.spot_count; i++) {
+        const text_spot *spot = &app->ui.spots[i];
+        if (strncmp(spot->text, "words", 5) == 0) return spot->box.max.y - spot->box.min.y;
+    }
+    fail_msg("the doubt is not shown");
+    return 0;
+}
+
+/// What the reader doubts is shown up to its end, which says what to do.
+static void test_long_doubt(void **state) {
+    (void)state;
+    app_state *app = start("house.svg", svg);
+    app->ui.spots = calloc(SPOTS_MOST, sizeof *app->ui.spots);
+    assert_non_null(app->ui.spots);
+    assert_true(doubt_height(app, 120) > 2.8 * doubt_height(app, 40));
+    free(app->ui.spots);
+    app->ui.spots = NULL;
+    viewer_end(app);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_opens),  cmocka_unit_test(test_path),
         cmocka_unit_test(test_walker), cmocka_unit_test(test_from_line),
-        cmocka_unit_test(test_ranks),
+        cmocka_unit_test(test_ranks),  cmocka_unit_test(test_long_doubt),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -14,7 +14,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { VALUE_TEXT = 96, DOUBT_TEXT = 320 };
+enum { VALUE_TEXT = 96 };
 
 /// "12.3 m²"
 static void write_measure(const view_state *view, double value, const char *power,
@@ -51,7 +51,7 @@ static void draw_plan_words(const view_state *view, column *c) {
 /// The first note says what was taken; those behind it are doubts.
 static void draw_doubts(const view_state *view, column *c) {
     const char *doubt = strchr(view->document->notes, '\n');
-    char text[DOUBT_TEXT];
+    char text[NOTES_TEXT];
     if (!doubt || !view->document->baked) return;
     for (; doubt; doubt = strchr(doubt + 1, '\n')) {
         const size_t length = strcspn(doubt + 1, "\n");
