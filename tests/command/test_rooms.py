@@ -127,6 +127,16 @@ class Rooms(sandbox.ProgramTest):
             self.assertIn('40 % of the area inside lies in no room, and so does 1 text ("Store"): ',
                           result.stderr)
 
+    def test_a_long_text_is_cut_between_letters(self):
+        text = drawing(turned(0))
+        self.assertIn("Store", text)
+        self.box.path("plan.dxf").write_text(text.replace("Store", "n" + "\u00e9" * 40), encoding="utf-8")
+        result = self.run_well("rooms", "plan.dxf", "--door-width", "4.5")
+        self.assertIn('1 text ("n' + "\u00e9" * 31 + '")', result.stderr)
+        self.box.path("plan.dxf").write_text(text.replace("Store", "\u00e9" * 40), encoding="utf-8")
+        result = self.run_well("rooms", "plan.dxf", "--door-width", "4.5")
+        self.assertIn('1 text ("' + "\u00e9" * 31 + '")', result.stderr)
+
     def test_what_is_wrong(self):
         self.box.path("plan.dxf").write_text(drawing(turned(0)))
         for arguments, message in ((["--from", "3"], "two finite numbers"), (["--from", "99,99"], "outside the map"),

@@ -8,8 +8,12 @@
 
 void text_make_readable(const char *text, char *out, size_t size) {
     snprintf(out, size, "%s", text);
-    // The copy may end within a character.
-    if (sl_text_is_utf8(text) && strlen(text) < size) return;
+    if (sl_text_is_utf8(text)) {
+        size_t length = strlen(out);
+        while ((text[length] & 0xc0) == 0x80) length--; // not within a character
+        out[length] = '\0';
+        return;
+    }
     for (char *at = out; *at; at++)
         if ((unsigned char)*at >= 0x80) *at = '?';
 }

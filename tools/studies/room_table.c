@@ -2,6 +2,7 @@
 #include "studies/room_table.h"
 
 #include "reports/fields.h"
+#include "reports/json_print.h"
 #include "sightline/support.h"
 #include "studies/eye_run.h"
 
@@ -19,7 +20,7 @@ static void list_lost(const sl_space *space, const sl_map_source *source, room_t
         if (!sl_space_is_inside(space, text->at) ||
             sl_rooms_at(&out->rooms, text->at) != SL_NO_ROOM)
             continue;
-        if (!out->lost++) snprintf(out->lost_text, sizeof out->lost_text, "%s", text->text);
+        if (!out->lost++) text_make_readable(text->text, out->lost_text, sizeof out->lost_text);
     }
 }
 
