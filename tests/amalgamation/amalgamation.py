@@ -16,7 +16,7 @@ import tempfile
 from pathlib import Path
 
 SOURCE = Path(__file__).resolve().parents[2]
-USERS = ["gcc -O0", "clang -O2 -march=native"]
+USERS = ["gcc -O0", "gcc -O3", "clang -O2 -march=native"]
 REFUSED = ["-ffast-math", "-Ofast", "-ffinite-math-only"]
 CONTRACTED = "clang -O1 -march=native -ffp-contract=fast"
 
@@ -64,8 +64,8 @@ def main(study, library, *users):
     if not users:
         return 77
     with tempfile.TemporaryDirectory() as scratch:
-        folder = Path(scratch)
-        must(sys.executable, "-B", SOURCE / "tools/packages/amalgamation/amalgamate.py", folder, folder=folder)
+        folder = Path(scratch) / "new"
+        must(sys.executable, "-B", SOURCE / "tools/packages/amalgamation/amalgamate.py", folder, folder=scratch)
         expected, printed = same_bytes(folder, library, study), program(folder)
         faults = []
         for user in users:

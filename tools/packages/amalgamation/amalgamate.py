@@ -200,6 +200,8 @@ class Amalgamation:
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 2 or not Path(sys.argv[1]).is_dir():
+    if len(sys.argv) != 2:
         sys.exit("usage: amalgamate.py FOLDER")
-    Amalgamation().write(Path(sys.argv[1]))
+    target = Path(sys.argv[1])
+    target.mkdir(parents=True, exist_ok=True)
+    Amalgamation().write(target)
