@@ -37,6 +37,9 @@ HEAD = """
 #if !defined(__GNUC__)
 #error "sightline.c: this is for gcc and clang"
 #endif
+#if !defined(__STDC_VERSION__) || __STDC_VERSION__ < 201112L
+#error "sightline.c: compile it as C11 or later; C++ programs include sightline.h and link it"
+#endif
 // These flags round sums another way, so that exact signs and files would differ.
 #if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__) || \\
     defined(__NO_SIGNED_ZEROS__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
