@@ -477,9 +477,9 @@ class Level(Viewpoints, Sets, Ways, Axial, drawing.InNotebooks, MapHandle):
         cut = np.flatnonzero(measures[:, -1])
         if len(cut):
             x, y = eyes[cut[0]].tolist()
-            warnings.warn(f"{len(cut)} of {len(eyes)} points see{'s' if len(cut) == 1 else ''} the border of the map where no wall "
-                          f"is, the first from {x:.12g},{y:.12g}: regions end there. To see farther, add seams around all that "
-                          "counts with add_seams", SightlineWarning, stacklevel=2)
+            warnings.warn(f"{len(cut)} of {len(eyes)} points see{'s' if len(cut) == 1 else ''} the border of the map where no "
+                          f"wall is, the first from {x:.12g},{y:.12g}: regions end there. To see farther, add seams around all "
+                          "that counts with add_seams", SightlineWarning, stacklevel=2)
         names = [measure.name for measure in self._measures("isovist")]
         names += ["corners", "mirrored_area", "parts"]
         columns: dict[str, NDArray[Any]] = {"x": eyes[:, 0].copy(), "y": eyes[:, 1].copy()}

@@ -92,7 +92,8 @@ class Regions(unittest.TestCase):
     def test_a_region_that_ends_where_the_map_ends_is_warned_of(self):
         plan = sightline.Plan.from_polygons([[(0, 0), (10, 0), (10, 10), (0, 10)], [(20, 0), (30, 0), (30, 10), (20, 10)]])
         plan.add_start((15, 5))
-        with self.assertWarnsRegex(sightline.SightlineWarning, "1 of 2 points sees the border .* the first from 15,5: .* add_seams"):
+        with self.assertWarnsRegex(sightline.SightlineWarning,
+                                   "1 of 2 points sees the border .* the first from 15,5: .* add_seams"):
             plan.isovists([(5, 5), (15, 5)], range=6)
         with warnings.catch_warnings(record=True) as said:
             warnings.simplefilter("always")
