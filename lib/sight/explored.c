@@ -306,7 +306,7 @@ static sl_status read_loops(reader *r, loops *l) {
             count != floor(count))
             return fail_line(r, "expected \"loop\" and how many points it has, 3 or more");
         for (double i = 0; i < count; i++) {
-            sl_point at;
+            sl_point at = {0, 0};
             SL_TRY(read_point(r, &at));
             SL_TRY(SL_ARRAY_ROOM(r->context, &l->points, 1));
             l->points.items[l->points.count++] = at;

@@ -49,6 +49,12 @@ double sl_region_area(const sl_region *region) {
     return sum / 2;
 }
 
+bool sl_region_meets_border(const sl_region *region) {
+    for (size_t i = 0; i < region->count; i++)
+        if (region->edges[i].kind == SL_EDGE_BORDER) return true;
+    return false;
+}
+
 /// Integrals over the directions of the view: of 1, and of the radial's first three powers.
 typedef struct moments {
     double angle, first, second, third;

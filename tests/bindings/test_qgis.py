@@ -210,6 +210,26 @@ class Qgis(unittest.TestCase):
         wanted = table(self.said("segments", "streets.csv", "--metric-radius", 8))
         self.same(got, [{k.replace("_r8_metric", ""): v for k, v in row.items() if k not in ENDS} for row in wanted],)
 
+    def test_weights_and_unlinks(self):
+        """A line of two sides shares its weight by length, as two lines do; a bridge is no junction."""
+        sides = [((0, 0), (9, 0), 6), ((3, -3), (3, 4), 14), ((3, 4), (9, 4), 12)]
+        (self.at / "streets.csv").write_text("x1,y1,x2,y2,lanes\n" + "".join(
+            f"{a[0]},{a[1]},{b[0]},{b[1]},{w}\n" for a, b, w in sides), encoding="utf-8")
+        (self.at / "bridges.csv").write_text("x,y\n3,0\n", encoding="utf-8")
+        geojson(self.at / "streets.geojson", [("LineString", [moved(0, 0), moved(9, 0)], {"lanes": 6}),
+                                              ("LineString", [moved(3, -3), moved(3, 4), moved(9, 4)], {"lanes": 26})])
+        geojson(self.at / "bridges.geojson", [("Point", moved(3, 0), {})])
+        for here, there in (({}, []), ({"UNLINKS": "bridges.geojson"}, ["--unlinks", "bridges.csv"])):
+            got, _ = self.run_it("segments", WALLS="streets.geojson", WEIGHT="lanes", **here)
+            wanted = table(self.said("segments", "streets.csv", "--weight", "lanes", *there))
+            self.assertIn("t1024_choice_weighted", wanted[0])
+            self.same(got, [{k: v for k, v in row.items() if k not in ENDS and k != "lanes"} for row in wanted])
+        geojson(self.at / "streets.geojson", [("LineString", [moved(0, 0), moved(9, 0)], {"lanes": 6}),
+                                              ("LineString", [moved(3, -3), moved(3, 4)], {"lanes": None})])
+        done = self.process("segments", WALLS="streets.geojson", WEIGHT="lanes")
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("Feature 1 of the walls: field 'lanes' must hold a number", done.stdout + done.stderr)
+
     def test_cover(self):
         geojson(self.at / "cameras.geojson", [("Point", moved(1, 4), {"heading": 0, "fov": 90, "range": 9}),
                                               ("Point", moved(11, 7), {"heading": 225, "fov": 120, "range": None})])
@@ -222,6 +242,12 @@ class Qgis(unittest.TestCase):
                        if min(feature["properties"]["count"], 3) == number)
             self.assertAlmostEqual(area, wanted["areas"][key], places=5)
         self.assertIn("Blind spot of area", log)
+        self.assertEqual({feature["properties"]["count"] == 0 for feature in got if feature["properties"]["blind_spot"] is None},
+                         {False})
+        self.assertNotIn("sees nothing of the inside", log)
+        geojson(self.at / "cameras.geojson", [("Point", moved(1, 4), {}), ("Point", moved(99, 4), {})])
+        self.assertRegex(self.run_it("cover", WALLS="walls.geojson", POINTS="cameras.geojson")[1],
+                         r"Viewpoint 1 at [0-9,]* sees nothing of the inside")
 
     def test_place(self):
         got, log = self.run_it("place", WALLS="walls.geojson")
@@ -255,10 +281,63 @@ class Qgis(unittest.TestCase):
         geojson(self.at / "kinds.geojson", [("Polygon", [square(0, 10), square(2, 8)], {"what": None})])
         geojson(self.at / "inside.geojson", [("Point", moved(5, 5), {}), ("Point", moved(1, 1), {}), ("Point", moved(99, 1), {})])
         got, log = self.run_it("isovists", WALLS="kinds.geojson", KIND="what", POINTS="inside.geojson")
-        self.assertEqual([feature["properties"]["area"] for feature in got], [36, 0, 0])
-        for number in 1, 2:
-            self.assertIn(f"Point {number} at", log)
-        self.assertNotIn("Point 0 at", log)
+        self.assertEqual([feature["properties"]["area"] for feature in got[:2]], [36, 0])
+        self.assertIn("Point 1 at", log)
+        for number in 0, 2:
+            self.assertNotIn(f"Point {number} at", log)
+        self.assertIn("1 of 3 points sees the border of the map", log)
+
+    def test_doors_without_names(self):
+        """Each stands as its own field says."""
+        walls = [(0, 0, 30, 0), (30, 0, 30, 10), (30, 10, 0, 10), (0, 10, 0, 0),
+                 *((x, y, x, y + 4) for x in (10, 20) for y in (0, 6))]
+        doors = [("LineString", [moved(x, 4), moved(x, 6)], {"what": "door", "open": x == 10}) for x in (10, 20)]
+        geojson(self.at / "doors.geojson", [("LineString", [moved(a, b), moved(c, d)], {}) for a, b, c, d in walls] + doors)
+        geojson(self.at / "rooms.geojson", [("Point", moved(x, 5), {}) for x in (5, 15, 25)])
+        got, _ = self.run_it("isovists", WALLS="doors.geojson", KIND="what", POINTS="rooms.geojson")
+        self.assertEqual([feature["properties"]["area"] > 100 for feature in got], [True, True, False])
+
+    def test_open_ground(self):
+        """Buildings without anything around them: sight goes as far as its range, ways around them, and what is cut is said."""
+        def square(x):
+            return [moved(x, 0), moved(x + 10, 0), moved(x + 10, 10), moved(x, 10), moved(x, 0)]
+
+        def numbers(corners):
+            return " ".join(str(number) for corner in corners for number in corner)
+
+        geojson(self.at / "houses.geojson", [("Polygon", [square(x)], {}) for x in (0, 20)])
+        houses = "sightline 1\n" + "".join(f"solid {numbers(square(x)[:4])}\n" for x in (0, 20))
+        ground = [moved(-30, -30), moved(50, -30), moved(50, 40), moved(-30, 40), moved(-30, -30)]
+        (self.at / "houses.map").write_text(houses + f"seam {numbers(ground[:2])}\nseam {numbers(ground[2:4])}\n",
+                                            encoding="utf-8")
+        (self.at / "fenced.map").write_text(houses + f"walls {numbers(ground)}\n", encoding="utf-8")
+        at = [(15, 5), (-5, 5), (5, 5)]
+        look = ["--at={},{}".format(*moved(x, y)) for x, y in at[:2]]
+        geojson(self.at / "eyes.geojson", [("Point", moved(x, y), {}) for x, y in at])
+        got, log = self.run_it("isovists", WALLS="houses.geojson", POINTS="eyes.geojson", RANGE=12)
+        self.assertNotIn("border", log)
+        self.assertNotIn("STARTS", log)
+        self.assertRegex(log, "Point 2 at [0-9,]* sees nothing: it is in solid ground")
+        wanted = table(self.said("isovist", "houses.map", *look, "--range", 12))
+        self.same(got[:2], wanted, ["area", "perimeter", "corners"])
+        self.assertGreater(wanted[0]["area"], 100)
+        _, log = self.run_it("isovists", WALLS="houses.geojson", POINTS="eyes.geojson")
+        self.assertRegex(log, "2 of 3 points see the border of the map .* set a range")
+
+        got, log = self.run_it("ways", WALLS="houses.geojson", ENDS="eyes.geojson", RADIUS=0.5,
+                               START="{},{} [{}]".format(*moved(40, 5), UTM))
+        self.assertRegex(log, "There is no way to point 2 at [0-9,]*: to [0-9,]* is in solid ground")
+        wanted = json.loads(self.said("path", "houses.map", "--from", "{},{}".format(*moved(40, 5)), "--to",
+                                      "{},{}".format(*moved(-5, 5)), "--radius", 0.5, "--json"))
+        self.assertTrue(math.isclose(got[1]["properties"]["length"], wanted["length"], rel_tol=1e-9))
+        self.assertIsNone(got[2]["properties"]["length"])
+        done = self.process("ways", WALLS="houses.geojson", ENDS="eyes.geojson", START="{},{} [{}]".format(*moved(5, 5), UTM))
+        self.assertNotEqual(done.returncode, 0)
+
+        geojson(self.at / "fence.geojson", [("LineString", ground, {})])
+        got, log = self.run_it("isovists", WALLS="fence.geojson", MORE="houses.geojson", POINTS="eyes.geojson")
+        self.assertNotIn("border", log)
+        self.same(got[:2], table(self.said("isovist", "fenced.map", *look)), ["area", "perimeter", "corners"])
 
     def test_inside(self):
         """A house with a gap: a warning says what to do. Of two houses, a start takes one."""

@@ -203,6 +203,29 @@ static void eyes_in_odd_places(void **state) {
     leave(&p);
 }
 
+/// Two blocks, and nothing around them: what is seen between and beside them ends at the border.
+static void borders_end_what_is_seen(void **state) {
+    (void)state;
+    const sl_point eye = {15, 5};
+    place p;
+    enter(&p, NULL, ROOM);
+    look(&p, sl_view_all_round((sl_point){1, 1}), 0);
+    assert_false(sl_region_meets_border(&p.region));
+    look(&p, sl_view_all_round((sl_point){5, 1}), 0);
+    assert_false(sl_region_meets_border(&p.region));
+    leave(&p);
+    enter(&p, NULL, "solid 0 0 10 0 10 10 0 10\nsolid 20 0 30 0 30 10 20 10\n");
+    look(&p, sl_view_all_round(eye), 0);
+    assert_true(sl_region_meets_border(&p.region));
+    look(&p, sl_view_all_round(eye), 5.5);
+    assert_true(sl_region_meets_border(&p.region));
+    look(&p, sl_view_all_round(eye), 4.5);
+    assert_false(sl_region_meets_border(&p.region));
+    look(&p, sl_view_cone(eye, 0, 30, 10), 0);
+    assert_false(sl_region_meets_border(&p.region));
+    leave(&p);
+}
+
 static void far_from_the_origin(void **state) {
     (void)state;
     place p;
@@ -274,6 +297,7 @@ int main(void) {
         cmocka_unit_test(range_is_a_circle),
         cmocka_unit_test(range_on_a_floor),
         cmocka_unit_test(eyes_in_odd_places),
+        cmocka_unit_test(borders_end_what_is_seen),
         cmocka_unit_test(far_from_the_origin),
         cmocka_unit_test(arguments_are_checked),
         cmocka_unit_test(memory_is_kept_and_may_fail),

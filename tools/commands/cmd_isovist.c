@@ -383,10 +383,30 @@ static sl_status note_inside(sl_context *context, const isovist_plan *plan, cons
     return pipeline_need_inside(context, &plan->pipeline, map, space, "");
 }
 
+/// Says how many viewpoints see as far as the map goes: their measures would be others in a larger
+/// map.
+static void note_border(sl_context *context, const isovist_work *w) {
+    const size_t count = w->eyes.list.count;
+    size_t open = 0, first = 0;
+    for (size_t i = count; i-- > 0;)
+        if (w->isovists[i].meets_border) {
+            open++;
+            first = i;
+        }
+    if (!open) return;
+    const sl_point at = w->eyes.list.items[first].at;
+    sl_note(context,
+            "%zu of %zu viewpoints see%s the border of the map where no wall is, the first from "
+            "%.12g,%.12g: regions end there. To see farther, draw a seam around all that counts",
+            open, count, open == 1 ? "s" : "", at.x, at.y);
+}
+
 static sl_status measure(sl_context *context, const isovist_plan *plan, isovist_work *w) {
     w->isovists = sl_alloc_array(context, w->eyes.list.count, sizeof *w->isovists);
     if (!w->isovists) return SL_NO_MEMORY;
-    return isovist_run(context, &w->scene, &w->eyes, &plan->part, plan->threads, w->isovists);
+    SL_TRY(isovist_run(context, &w->scene, &w->eyes, &plan->part, plan->threads, w->isovists));
+    note_border(context, w);
+    return SL_OK;
 }
 
 /// What is seen from a line or an area, from some point of it and from all.

@@ -199,9 +199,9 @@ static sl_status measure_bundle(sl_context *context, void *all, void *state, siz
         if (range_of(j->scene, eye) != j->range) continue;
         SL_TRY(sl_check_cancelled(context));
         SL_TRY(look_so_far(context, j->scene, eye, region));
-        j->out[i] = (isovist_result){sl_region_measure(&region->direct),
-                                     sl_region_corners(&region->direct, space, NULL, 0),
-                                     sl_mirrored_area(region), region->part_count};
+        j->out[i] = (isovist_result){
+            sl_region_measure(&region->direct), sl_region_corners(&region->direct, space, NULL, 0),
+            sl_mirrored_area(region), region->part_count, sl_region_meets_border(&region->direct)};
     }
     return SL_OK;
 }

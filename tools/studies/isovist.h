@@ -53,6 +53,7 @@ typedef struct isovist_result {
     size_t corners;       ///< of walls that are seen
     double mirrored_area; ///< 0 where the map has no mirrors, as `parts`
     size_t parts;         ///< of what is seen by mirror
+    bool meets_border;    ///< it ends where the map ends (sl_region_meets_border)
 } isovist_result;
 
 /// Adds all measures of a region as properties.

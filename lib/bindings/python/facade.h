@@ -208,8 +208,9 @@ SLP_API int slp_level_cell_sees(slp_level *level, const int64_t *from, const int
 SLP_API int slp_level_look(slp_level *level, const double *eyes, size_t count, double heading,
                            double fov, const char *method, int mirrored, unsigned threads,
                            uint8_t *cells);
-/// Rows of measures of sl_region_measures, corners, mirrored_area, parts. Polygons are kept where
-/// asked for; arcs become chords within `tolerance`.
+/// Rows of measures of sl_region_measures, corners, mirrored_area, parts, and 1 where the region
+/// meets the border of the map. Polygons are kept where asked for; arcs become chords within
+/// `tolerance`.
 SLP_API int slp_level_isovists(slp_level *level, const double *eyes, size_t count,
                                const double *headings, const double *fovs, unsigned threads,
                                int keep, double tolerance, double *measures);

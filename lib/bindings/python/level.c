@@ -54,13 +54,13 @@ void slp_level_free(slp_level *level) {
 /// A query with the level's settings.
 static sl_status make_query(slp_level *level, sl_query **out) {
     sl_context *context = level->base.context;
-    const sl_map *map = &level->baked.map;
     sl_query *query;
     SL_TRY(sl_query_create(context, &level->baked, &query));
     sl_status status = sl_query_set_range(context, query, level->range);
     if (status == SL_OK) status = sl_query_set_mirror_depth(context, query, level->mirror_depth);
-    for (size_t i = 0; i < map->door_count && status == SL_OK; i++)
-        status = sl_query_set_door(context, query, map->doors[i].name, !level->shut[i]);
+    // By number: parts of one door may stand differently at first.
+    for (size_t i = 0; i < level->baked.map.door_count; i++)
+        sl_query_set_door_at(context, query, i, !level->shut[i]);
     if (status == SL_OK)
         *out = query;
     else

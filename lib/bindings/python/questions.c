@@ -10,8 +10,8 @@
 /// Values are copied as they lie in their structures: a double for each row of the table.
 enum { REGION_COLUMNS = sizeof(sl_region_measures) / sizeof(double) };
 enum { VGA_COLUMNS = sizeof(sl_vga_measures) / sizeof(double) };
-/// Beside those of the region: corners, mirrored_area, parts.
-enum { ISOVIST_COLUMNS = REGION_COLUMNS + 3 };
+/// Beside those of the region: corners, mirrored_area, parts, whether it meets the border.
+enum { ISOVIST_COLUMNS = REGION_COLUMNS + 4 };
 
 // --- names
 
@@ -247,6 +247,7 @@ static sl_status ask_region(sl_context *context, const asking *a, sl_query *quer
     row[REGION_COLUMNS] = (double)sl_region_corners(&region->direct, a->space, NULL, 0);
     row[REGION_COLUMNS + 1] = region->part_count ? sl_mirrored_area(region) : 0;
     row[REGION_COLUMNS + 2] = (double)region->part_count;
+    row[REGION_COLUMNS + 3] = sl_region_meets_border(&region->direct);
     if (!a->keep) return SL_OK;
     slp_polygons *out = &a->level->polygons[i];
     SL_TRY(keep_polygon(context, out, &region->direct, 0, a->tolerance));

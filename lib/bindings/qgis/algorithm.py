@@ -17,7 +17,23 @@ try:
 except ImportError as fault:
     sightline = None
     MISSING = (f"The Python package sightline is missing: {fault}. Install it in the Python of QGIS, by "
-               "'apt install ./python3-sightline_*.deb' or 'python3 -m pip install sightline-*.whl', and start QGIS again.")
+               "'apt install ./python3-sightline_*.deb' or 'python3 -m pip install sightline-*.whl', and start QGIS again. "
+               "If pip says 'externally-managed-environment', add --user --break-system-packages.")
+
+# What warnings advise in Python, and what does the same here.
+ADVICE = (("add a start with plan.add_start((x, y))", "give points that are inside (STARTS)"),
+          ("add seams around all that counts with add_seams",
+           "set a range, or draw lines of the kind seam around all that counts"))
+
+
+def advice(doubt):
+    """A warning of the package, for somebody who sits before QGIS."""
+    text = str(doubt)
+    for python, here in ADVICE:
+        text = text.replace(python, here)
+    if text == str(doubt):
+        text += ". In QGIS, starts are the layer of points that are inside (STARTS)"
+    return text + "."
 
 
 @contextlib.contextmanager
@@ -45,7 +61,9 @@ class Algorithm(QgsProcessingAlgorithm):
     NAME = TITLE = GROUP = STYLE = ""
     TAGS = ()
     GEOMETRY = None
+    WALLS = "Walls"
     HAS_INSIDE = True
+    ASKS_INSIDE = True  # whether answers depend on what is inside
 
     def createInstance(self):
         return type(self)()
@@ -75,8 +93,10 @@ class Algorithm(QgsProcessingAlgorithm):
         return not MISSING, MISSING
 
     def initAlgorithm(self, configuration=None):
-        self.addParameter(QgsProcessingParameterFeatureSource("WALLS", "Walls", [QgsProcessing.TypeVectorAnyGeometry]))
+        self.addParameter(QgsProcessingParameterFeatureSource("WALLS", self.WALLS, [QgsProcessing.TypeVectorAnyGeometry]))
         self.addParameter(QgsProcessingParameterField("KIND", "Field of kinds", None, "WALLS", optional=True))
+        self.addParameter(QgsProcessingParameterFeatureSource("MORE", "More of these, as polygons beside lines",
+                                                              [QgsProcessing.TypeVectorAnyGeometry], optional=True))
         if self.HAS_INSIDE:
             self.addParameter(QgsProcessingParameterFeatureSource("STARTS", "Points that are inside (default: what walls enclose)",
                                                                   [QgsProcessing.TypeVectorPoint], optional=True))
@@ -90,7 +110,10 @@ class Algorithm(QgsProcessingAlgorithm):
         with warnings.catch_warnings(record=True) as doubts:
             warnings.simplefilter("always")
             try:
-                plan = layers.plan_of(sightline, walls, self.parameterAsString(parameters, "KIND", context), feedback)
+                more = self.parameterAsSource(parameters, "MORE", context)
+                plan, self.weights = layers.plan_of(sightline, [walls, more] if more else [walls], context, feedback,
+                                                    self.parameterAsString(parameters, "KIND", context),
+                                                    self.parameterAsString(parameters, "WEIGHT", context))
                 starts = self.parameterAsSource(parameters, "STARTS", context) if self.HAS_INSIDE else None
                 for point in layers.points_of(starts, walls.sourceCrs(), context)[1] if starts else ():
                     plan.add_start(point)
@@ -100,7 +123,9 @@ class Algorithm(QgsProcessingAlgorithm):
                 raise QgsProcessingException(str(fault)) from fault
         for doubt in doubts:
             if issubclass(doubt.category, sightline.SightlineWarning):
-                feedback.pushWarning(f"{doubt.message}. In QGIS, starts are the layer of points that are inside (STARTS).")
+                text = advice(doubt.message)
+                if self.ASKS_INSIDE or "(STARTS)" not in text:
+                    feedback.pushWarning(text)
         sink, self.made = self.parameterAsSink(parameters, "OUTPUT", context, fields, self.GEOMETRY, walls.sourceCrs())
         if sink is None:
             raise QgsProcessingException(self.invalidSinkError(parameters, "OUTPUT"))

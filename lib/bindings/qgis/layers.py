@@ -24,19 +24,25 @@ class _Walls:
     """What a layer adds to a plan, kind by kind. Curves become chords."""
 
     def __init__(self, plan):
-        self.plan, self.segments = plan, {}
+        self.plan, self.segments, self.weights = plan, {}, []
 
-    def add(self, part, kind, name, is_open):
+    def add(self, part, kind, name, is_open, weight):
+        """A part of a feature. `weight`: of a unit of its length; None for none."""
         of = QgsWkbTypes.geometryType(part.wkbType())
         usual = {QgsWkbTypes.PointGeometry: "start", QgsWkbTypes.PolygonGeometry: "solid"}.get(of, "wall")
         kind = kind or usual
         if kind not in {"start": ("start",), "solid": ("solid", "open", "wall"), "wall": LINE_KINDS}[usual]:
             what = {"start": "point", "solid": "polygon", "wall": "line"}[usual]
             raise ValueError(f"a {what} cannot be of the kind '{kind}'")
+        if weight is not None and (usual, kind) != ("wall", "wall"):
+            raise ValueError("only lines that are walls have weights")
         if kind == "start":
             self.plan.add_start((part.x(), part.y()))
         elif usual == "wall":
-            self._add_lines(_corners(part.segmentize()), kind, name, is_open)
+            corners = _corners(part.segmentize())
+            self._add_lines(corners, kind, name, is_open)
+            if weight is not None:
+                self.weights += [weight * math.dist(a, b) for a, b in zip(corners, corners[1:])]
         else:
             self._add_area(_rings(part.segmentize()), kind)
 
@@ -84,29 +90,44 @@ def crs_of(source):
     return crs
 
 
-def plan_of(sightline, source, kind_field, feedback):
-    """A plan of all lines, polygons and points of a layer."""
-    crs_of(source)
+def _weight_of(feature, field):
+    """The weight of a unit of length: the pieces of a line share its weight."""
+    value = value_of(feature, field)
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        raise ValueError(f"field '{field}' must hold a number, not '{'' if value is None else value}'")
+    length = feature.geometry().length()
+    return value / length if length > 0 else 0.0
+
+
+def plan_of(sightline, sources, context, feedback, kind_field, weight_field):
+    """A plan of all lines, polygons and points of layers, in the coordinates of the first; and weights of walls, or None."""
+    request = QgsFeatureRequest().setDestinationCrs(crs_of(sources[0]), context.transformContext())
     plan = sightline.Plan()
-    walls, names = _Walls(plan), source.fields().names()
-    name_field, open_field = ("name" if "name" in names else ""), ("open" if "open" in names else "")
-    for feature in source.getFeatures():
-        if feedback.isCanceled():
-            raise QgsProcessingException("Cancelled: the walls were not read.")
-        if not feature.hasGeometry():
-            continue
-        kind = str(value_of(feature, kind_field) or "")
-        if kind and kind not in KINDS:
-            raise QgsProcessingException(f"Feature {feature.id()} of the walls: field '{kind_field}' says '{kind}', which is no "
-                                         f"kind. Kinds: {', '.join(KINDS)}; empty for a wall.")
-        try:
-            is_open = kind != "door" or _is_open(feature, open_field)
-            for part in feature.geometry().constParts():
-                walls.add(part, kind, str(value_of(feature, name_field) or ""), is_open)
-        except (ValueError, sightline.SightlineError) as fault:
-            raise QgsProcessingException(f"Feature {feature.id()} of the walls: {fault}.") from fault
+    walls = _Walls(plan)
+    for source in sources:
+        names = source.fields().names()
+        kinds, name_field, open_field, weights = (
+            field if field in names else "" for field in (kind_field, "name", "open", weight_field))
+        if weight_field and not weights:
+            raise QgsProcessingException(f"A layer has no field '{weight_field}' for weights.")
+        for feature in source.getFeatures(request):
+            if feedback.isCanceled():
+                raise QgsProcessingException("Cancelled: the walls were not read.")
+            if not feature.hasGeometry():
+                continue
+            kind = str(value_of(feature, kinds) or "")
+            if kind and kind not in KINDS:
+                raise QgsProcessingException(f"Feature {feature.id()} of the walls: field '{kind_field}' says '{kind}', which is "
+                                             f"no kind. Kinds: {', '.join(KINDS)}; empty for a wall.")
+            try:
+                is_open = kind != "door" or _is_open(feature, open_field)
+                weight = _weight_of(feature, weights) if weights else None
+                for part in feature.geometry().constParts():
+                    walls.add(part, kind, str(value_of(feature, name_field) or ""), is_open, weight)
+            except (ValueError, sightline.SightlineError) as fault:
+                raise QgsProcessingException(f"Feature {feature.id()} of the walls: {fault}.") from fault
     walls.finish()
-    return plan
+    return plan, walls.weights if weight_field else None
 
 
 def points_of(source, crs, context):
@@ -120,6 +141,17 @@ def points_of(source, crs, context):
     if not points:
         raise QgsProcessingException("The layer of points has no point.")
     return features, points
+
+
+def widen(plan, points, reach, around=False):
+    """Lets the map go as far as points reach, and around the outermost walls: seams stop nothing, and the map ends at them."""
+    x0, y0, x1, y1 = plan.bounds
+    more = reach + (max(x1 - x0, y1 - y0) / 100 if around else 0)
+    xs, ys = zip(*points)
+    box = (min(x0 - more * around, min(xs) - more), min(y0 - more * around, min(ys) - more),
+           max(x1 + more * around, max(xs) + more), max(y1 + more * around, max(ys) + more))
+    if box != (x0, y0, x1, y1):
+        plan.add_seams([(box[0], y, box[2], y) for y in (box[1], box[3])])
 
 
 def fields_of(names, source=None):

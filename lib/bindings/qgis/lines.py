@@ -1,5 +1,6 @@
 """Axial lines, and segments of a network."""
-from qgis.core import QgsProcessingParameterEnum, QgsProcessingParameterNumber, QgsWkbTypes
+from qgis.core import (QgsProcessing, QgsProcessingParameterEnum, QgsProcessingParameterFeatureSource,
+                       QgsProcessingParameterField, QgsProcessingParameterNumber, QgsWkbTypes)
 
 from . import layers
 from .algorithm import Algorithm
@@ -43,11 +44,13 @@ class AxialLines(OfLines):
 class Segments(OfLines):
     """Angular segment analysis of a network (space syntax): street centre lines, or axial lines, in place of walls.
 
-    Lines are cut where they cross. Names are those of depthmapX. Without a radius, time grows with the square of the number of
-    segments. The style shows choice.
+    Lines are cut where they cross. Names are those of depthmapX, without the radius. Without a radius, time grows with the
+    square of the number of segments. With weights, the fields that end with _weighted are added; the segments of a line share
+    its weight by length. The style shows choice.
     """
 
     NAME, TITLE, STYLE = "segments", "Segments", "segments"
+    WALLS = "Streets or axial lines"
     HAS_INSIDE = False
     TAGS = "angular", "choice", "streets", "network", "depthmap"
 
@@ -57,8 +60,19 @@ class Segments(OfLines):
                                                        minValue=0))
         self.addParameter(QgsProcessingParameterNumber("ANGULAR_RADIUS", "Radius in right angles of turns, 0 for no limit",
                                                        double, 0, minValue=0))
+        self.addParameter(QgsProcessingParameterField("WEIGHT", "Field of weights", None, "WALLS",
+                                                      QgsProcessingParameterField.Numeric, optional=True))
+        self.addParameter(QgsProcessingParameterFeatureSource("UNLINKS", "Crossings that are no junctions, as bridges",
+                                                              [QgsProcessing.TypeVectorPoint], optional=True))
 
     def answer(self, plan, crs, parameters, context, feedback):
-        return self.rows_of(plan.segments(metric_radius=self.parameterAsDouble(parameters, "METRIC_RADIUS", context),
-                                          angular_radius=self.parameterAsDouble(parameters, "ANGULAR_RADIUS", context),
-                                          arrays=True))
+        unlinks = self.parameterAsSource(parameters, "UNLINKS", context)
+        options = {"metric_radius": self.parameterAsDouble(parameters, "METRIC_RADIUS", context),
+                   "angular_radius": self.parameterAsDouble(parameters, "ANGULAR_RADIUS", context),
+                   "unlinks": layers.points_of(unlinks, crs, context)[1] if unlinks else None, "arrays": True}
+        table = plan.segments(**options)
+        if self.weights is not None:
+            weighted = plan.segments(weights=self.weights, **options)
+            table.update((f"{name}_weighted", column) for name, column in weighted.items()
+                         if name.startswith(("t1024_", "nach", "nain")))
+        return self.rows_of(table)

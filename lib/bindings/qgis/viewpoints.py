@@ -13,7 +13,8 @@ class Cover(Algorithm):
     """What viewpoints see together: the inside in convex pieces, each with how many viewpoints see it.
 
     The fields heading, fov, range, height and tilt of the viewpoints count where they are there. Headings are in degrees,
-    counter-clockwise from east. The log has the area by how many see it, and the largest blind spots.
+    counter-clockwise from east. The log has the area by how many see it, and the largest blind spots. Field blind_spot is the
+    number of the blind spot, the largest 0; empty for what is seen.
     """
 
     NAME, TITLE, GROUP, STYLE = "cover", "Cover", "Viewpoints", "cover"
@@ -34,12 +35,16 @@ class Cover(Algorithm):
         for area, who in zip(seen.areas, ("no viewpoint", "1 viewpoint", "2 viewpoints", "3 viewpoints or more")):
             if area > 0:
                 feedback.pushInfo(f"Seen by {who}: {area:.10g} of {whole:.10g}")
+        for feature, point, area in zip(features, points, seen.viewpoints["seen"]):
+            if not area > 0:
+                feedback.pushWarning(f"Viewpoint {feature.id()} at {point[0]:.10g},{point[1]:.10g} sees nothing of the inside.")
         spots = seen.blind_spots
         for i in range(min(5, len(spots["area"]))):
             feedback.pushInfo(f"Blind spot of area {spots['area'][i]:.10g} at {spots['x'][i]:.10g},{spots['y'][i]:.10g}")
         table = seen.pieces(arrays=True)
         shapes = table.pop("polygon")
-        rows = ((layers.area(shape), [int(column[i]) for column in table.values()]) for i, shape in enumerate(shapes))
+        counts, numbers = (table[name].tolist() for name in ("count", "blind_spot"))
+        rows = ((layers.area(shape), [counts[i], None if numbers[i] < 0 else numbers[i]]) for i, shape in enumerate(shapes))
         return layers.fields_of(table)[0], rows
 
 

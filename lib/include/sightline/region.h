@@ -75,6 +75,10 @@ SL_API sl_region_measures sl_region_measure(const sl_region *region);
 /// The area alone: faster.
 SL_API double sl_region_area(const sl_region *region);
 
+/// Whether the region ends somewhere at the border of the map, where no wall is. What lies beyond
+/// is not known, so the region may be larger in truth. Time: its edges.
+SL_API bool sl_region_meets_border(const sl_region *region);
+
 /// The visible corners of walls, not of boxes: ends of walls that are points of the region, in its
 /// order. `space` is the one that the region is of, with walls in shut doors (sl_query_space).
 /// Writes up to `room` of them and returns how many there are; at most region->count.

@@ -37,6 +37,9 @@ HEAD = """
 #if !defined(__GNUC__)
 #error "sightline.c: this is for gcc and clang"
 #endif
+#if !defined(__STDC_VERSION__) || __STDC_VERSION__ < 201112L
+#error "sightline.c: compile it as C11 or later; C++ programs include sightline.h and link it"
+#endif
 // These flags round sums another way, so that exact signs and files would differ.
 #if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__) || \\
     defined(__NO_SIGNED_ZEROS__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
@@ -200,6 +203,8 @@ class Amalgamation:
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 2 or not Path(sys.argv[1]).is_dir():
+    if len(sys.argv) != 2:
         sys.exit("usage: amalgamate.py FOLDER")
-    Amalgamation().write(Path(sys.argv[1]))
+    target = Path(sys.argv[1])
+    target.mkdir(parents=True, exist_ok=True)
+    Amalgamation().write(target)

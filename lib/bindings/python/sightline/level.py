@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import ctypes
 import os
+import warnings
 from dataclasses import dataclass, field
 from typing import Any, Optional, Sequence, Union
 
@@ -12,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import drawing, tables
 from ._library import (Floats, Handle, Integers, MapHandle, Vga, address, as_count, as_flag, as_number,
                        as_point, as_points, as_reals, call, existing, path_text, said, text)
+from .errors import SightlineWarning
 from .explorer import Explorer
 from .lines import Axial
 from .placement import Viewpoints
@@ -383,7 +385,7 @@ class Level(Viewpoints, Sets, Ways, Axial, drawing.InNotebooks, MapHandle):
             tolerance = as_number(tolerance, "tolerance", over=0)
         with self._lock:
             chord = tolerance or (self.range or 1) / 1000
-            measures = np.empty((len(eyes), len(self._measures("isovist")) + 3))
+            measures = np.empty((len(eyes), len(self._measures("isovist")) + 4))
             ask = self._ask_long if len(eyes) > FEW else self._ask
             ask(call.level_isovists, eyes, len(eyes), headings, fovs,
                 as_count(threads, "threads", 1024), keep, chord, measures.reshape(-1))
@@ -457,6 +459,11 @@ class Level(Viewpoints, Sets, Ways, Axial, drawing.InNotebooks, MapHandle):
         DataFrame
             x, y, the measures of the group "isovist" (`sightline.measures()`: area, perimeter
             and so on), corners; and mirrored_area and parts where the map has mirrors.
+
+        Warns
+        -----
+        SightlineWarning
+            Where regions end at the border of the map without a wall: what lies beyond is not known.
         """
         eyes = as_points(points, "points").reshape(-1, 2)
         polygons, arrays = as_flag(polygons, "polygons"), as_flag(arrays, "arrays")
@@ -467,6 +474,12 @@ class Level(Viewpoints, Sets, Ways, Axial, drawing.InNotebooks, MapHandle):
                 measures, found = self._isovists(eyes, heading, fov, threads, polygons, tolerance)
             finally:
                 self.range = before
+        cut = np.flatnonzero(measures[:, -1])
+        if len(cut):
+            x, y = eyes[cut[0]].tolist()
+            warnings.warn(f"{len(cut)} of {len(eyes)} points see{'s' if len(cut) == 1 else ''} the border of the map where no "
+                          f"wall is, the first from {x:.12g},{y:.12g}: regions end there. To see farther, add seams around all "
+                          "that counts with add_seams", SightlineWarning, stacklevel=2)
         names = [measure.name for measure in self._measures("isovist")]
         names += ["corners", "mirrored_area", "parts"]
         columns: dict[str, NDArray[Any]] = {"x": eyes[:, 0].copy(), "y": eyes[:, 1].copy()}

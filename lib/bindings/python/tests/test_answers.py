@@ -89,6 +89,19 @@ class Regions(unittest.TestCase):
         self.assertLess(np.abs(np.hypot(*(corners - (1, 2)).T) - 0.5).max(), 1e-9)
         self.assertFalse(level.can_see((1, 2), (2, 2)))
 
+    def test_a_region_that_ends_where_the_map_ends_is_warned_of(self):
+        plan = sightline.Plan.from_polygons([[(0, 0), (10, 0), (10, 10), (0, 10)], [(20, 0), (30, 0), (30, 10), (20, 10)]])
+        plan.add_start((15, 5))
+        with self.assertWarnsRegex(sightline.SightlineWarning,
+                                   "1 of 2 points sees the border .* the first from 15,5: .* add_seams"):
+            plan.isovists([(5, 5), (15, 5)], range=6)
+        with warnings.catch_warnings(record=True) as said:
+            warnings.simplefilter("always")
+            self.assertEqual(plan.isovists([(15, 5)], range=4, arrays=True)["corners"].tolist(), [0])
+            plan.add_seams([(0, -20, 30, -20), (0, 30, 30, 30)])
+            self.assertGreater(plan.isovists([(15, 5)], range=6, arrays=True)["area"][0], 100)
+        self.assertFalse([one for one in said if "border" in str(one.message)])
+
     def test_a_range_of_one_question_is_forgotten(self):
         plan = sightline.Plan.from_segments(support.TWO_ROOMS)
         areas = [plan.isovists([(1, 2)], range=limit, arrays=True)["area"][0] for limit in (0.5, None)]
@@ -276,6 +289,19 @@ class CommandLine(unittest.TestCase):
                 for name in set(theirs) & set(ours):
                     np.testing.assert_array_equal(ours[name], theirs[name], name)
                 self.assertLessEqual({"area", "corners", "drift_angle"}, set(theirs) & set(ours))
+
+    def test_parts_of_a_door_may_stand_differently(self):
+        path = self.scratch / "parts.map"
+        path.write_text("sightline 1\nwalls 0 0 30 0 30 10 0 10 0 0\nwalls 10 0 10 4\nwalls 10 6 10 10\nwalls 20 0 20 4\n"
+                        "walls 20 6 20 10\ndoor gate 10 4 10 6 open\ndoor gate 20 4 20 6 shut\n")
+        eyes = [(5, 5), (15, 5), (25, 5)]
+        theirs = support.table(support.command("isovist", path, *(f"--at={x},{y}" for x, y in eyes)))
+        self.assertEqual(len(set(theirs["area"])), 2)
+        plan = sightline.Plan.from_file(path)
+        for level in plan, plan.bake():
+            np.testing.assert_array_equal(level.isovists(eyes, arrays=True)["area"], theirs["area"])
+        level.doors["gate"] = False
+        self.assertEqual(level.isovists(eyes, arrays=True)["area"].tolist(), [100, 100, 100])
 
     def test_isovists_behind_shut_doors_are_those_of_the_command(self):
         path = support.MAPS / "effects/doors.map"
