@@ -2,7 +2,8 @@
 # folder against it and runs them. WAY subproject builds the core's with the sources inside, every
 # package hidden. WAY game_copied builds the game with a copy of the header and nothing
 # installed. WAY lean builds the command with every package hidden, by a C compiler and CMake alone. WAY
-# cross configures for Windows, where pkg-config finds the packages of this machine.
+# cross configures for Windows, where pkg-config finds the packages of this machine, and for WebAssembly
+# without its compiler.
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE said ERROR_VARIABLE said)
   if(NOT result EQUAL 0)
@@ -171,6 +172,11 @@ elseif(WAY STREQUAL "cross")
       message(FATAL_ERROR "SIGHTLINE_${part} is ON for Windows, by packages of this machine: ${said}")
     endif()
   endforeach()
+  execute_process(COMMAND ${CMAKE_COMMAND} -G "${GENERATOR}" -S "${SOURCE}" -B "${SCRATCH}/wasm"
+    "-DCMAKE_C_COMPILER=${CC}" -DSIGHTLINE_WASM=ON RESULT_VARIABLE result OUTPUT_QUIET ERROR_VARIABLE said)
+  if(result EQUAL 0 OR NOT said MATCHES "cmake --preset wasm")
+    message(FATAL_ERROR "WebAssembly by another compiler is not refused: ${said}")
+  endif()
 elseif(WAY STREQUAL "game")
   game("-DCMAKE_PREFIX_PATH=${prefix}")
   set(ENV{PKG_CONFIG_PATH} "${prefix}/${LIBDIR}/pkgconfig")
