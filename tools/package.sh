@@ -37,9 +37,10 @@ deb)
     rm -rf "$copy"
     ;;
 tarball)
-    cmake --preset release
-    cmake --build --preset release
-    cpack --config build/release/CPackConfig.cmake -B "$folder"
+    cmake --preset release -B build/archive -DSIGHTLINE_TESTS=OFF
+    cmake --build build/archive
+    cpack --config build/archive/CPackConfig.cmake -B "$folder"
+    rm -rf "$folder/_CPack_Packages"
     ;;
 *)
     echo "package: there is no kind '$kind'; choose deb or tarball" >&2

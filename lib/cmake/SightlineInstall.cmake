@@ -1,6 +1,7 @@
 # What `cmake --install` puts down: libraries, headers, the command, the CMake package `sightline`
 # (components analysis, io, study, glpk, draw, runtime and level) and pkg-config files. All of it can be
-# moved as one.
+# moved as one. `--component` takes a part, for packages: tools/packages/README.md lists them.
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME development)
 include(CMakePackageConfigHelpers)
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/sightline")
 set(pkgconfig_dir "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
@@ -30,10 +31,15 @@ if(BUILD_SHARED_LIBS)
 endif()
 
 function(install_library target)
+  set(component libraries)
+  if(target STREQUAL "sightline_glpk") # under another licence
+    set(component glpk)
+  endif()
   install(TARGETS ${target} EXPORT ${target}-targets
     ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}"
-    LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}"
-    RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+    LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT ${component}
+      NAMELINK_COMPONENT development
+    RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT ${component})
   install(EXPORT ${target}-targets NAMESPACE sightline:: DESTINATION "${package_dir}")
   configure_file("${in}/${target}.pc.in" "${out}/${target}.pc" @ONLY)
   install(FILES "${out}/${target}.pc" DESTINATION "${pkgconfig_dir}")
@@ -81,6 +87,15 @@ foreach(part analysis io study glpk draw)
     install(FILES ${${part}_headers} DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/sightline")
   endif()
 endforeach()
+
+configure_package_config_file("${in}/sightline-config.cmake.in" "${out}/sightline-config.cmake"
+  INSTALL_DESTINATION "${package_dir}" NO_SET_AND_CHECK_MACRO)
+write_basic_package_version_file("${out}/sightline-config-version.cmake"
+  COMPATIBILITY SameMajorVersion)
+install(FILES "${out}/sightline-config.cmake" "${out}/sightline-config-version.cmake"
+  DESTINATION "${package_dir}")
+
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME tools)
 if(SIGHTLINE_TOOLS)
   install(TARGETS sightline_command RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
   if(TARGET sightline_mpi)
@@ -98,12 +113,7 @@ if(SIGHTLINE_TOOLS)
     DESTINATION "${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d")
 endif()
 
-configure_package_config_file("${in}/sightline-config.cmake.in" "${out}/sightline-config.cmake"
-  INSTALL_DESTINATION "${package_dir}" NO_SET_AND_CHECK_MACRO)
-write_basic_package_version_file("${out}/sightline-config-version.cmake"
-  COMPATIBILITY SameMajorVersion)
-install(FILES "${out}/sightline-config.cmake" "${out}/sightline-config-version.cmake"
-  DESTINATION "${package_dir}")
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME licences)
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
 if(SIGHTLINE_GLPK)
   install(FILES "${in}/NOTICE" DESTINATION "${CMAKE_INSTALL_DOCDIR}")

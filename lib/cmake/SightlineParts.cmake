@@ -2,6 +2,7 @@
 # default where its packages are found. In another project everything but the core is OFF by
 # default, and no package is looked for.
 include_guard()
+include(CheckCSourceCompiles)
 find_package(PkgConfig QUIET)
 
 # sightline_part(NAME WHAT [PACKAGE]...)
@@ -24,6 +25,13 @@ function(sightline_part name what)
         endif()
         if(NOT TARGET PkgConfig::${prefix})
           list(APPEND missing ${module})
+        elseif(CMAKE_CROSSCOMPILING) # pkg-config may have found that of this machine
+          set(CMAKE_REQUIRED_LIBRARIES PkgConfig::${prefix})
+          set(CMAKE_REQUIRED_QUIET ON)
+          check_c_source_compiles("int main(void) { return 0; }" SIGHTLINE_LINKS_${prefix})
+          if(NOT SIGHTLINE_LINKS_${prefix})
+            list(APPEND missing "${module} for ${CMAKE_SYSTEM_NAME} (what pkg-config finds does not link)")
+          endif()
         endif()
       else()
         find_package(${package} QUIET)

@@ -1,7 +1,9 @@
 # Installs into SCRATCH, moves the copy (it must not know where it was), builds the programs of this
 # folder against it and runs them. WAY subproject builds the core's with the sources inside, every
 # package hidden. WAY game_copied builds the game with a copy of the header and nothing
-# installed. WAY lean builds the command with every package hidden, by a C compiler and CMake alone.
+# installed. WAY lean builds the command with every package hidden, by a C compiler and CMake alone. WAY
+# cross configures for Windows, where pkg-config finds the packages of this machine, and for WebAssembly
+# without its compiler.
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE said ERROR_VARIABLE said)
   if(NOT result EQUAL 0)
@@ -17,9 +19,23 @@ set(here "${SOURCE}/tests/consumer")
 set(prefix "${SCRATCH}/moved")
 file(REMOVE_RECURSE "${SCRATCH}")
 file(MAKE_DIRECTORY "${SCRATCH}")
-if(NOT WAY MATCHES "subproject|lean")
+if(NOT WAY MATCHES "subproject|lean|cross")
   run(${CMAKE_COMMAND} --install "${BUILD}" --config "${CONFIG}" --prefix "${SCRATCH}/installed")
   file(RENAME "${SCRATCH}/installed" "${prefix}")
+  set(components "")
+  foreach(component libraries glpk development tools viewer python licences)
+    run(${CMAKE_COMMAND} --install "${BUILD}" --config "${CONFIG}" --component ${component}
+      --prefix "${SCRATCH}/components/${component}")
+    file(GLOB_RECURSE files RELATIVE "${SCRATCH}/components/${component}"
+      "${SCRATCH}/components/${component}/*")
+    list(APPEND components ${files})
+  endforeach()
+  file(GLOB_RECURSE all RELATIVE "${prefix}" "${prefix}/*")
+  list(SORT components)
+  list(SORT all)
+  if(NOT components STREQUAL all)
+    message(FATAL_ERROR "each file belongs to one component: ${components}\nare not ${all}")
+  endif()
   if(TOOLS)
     run("${prefix}/bin/sightline" --help)
   endif()
@@ -140,8 +156,27 @@ if(WAY STREQUAL "pkg_config")
 elseif(WAY STREQUAL "find_package")
   by_cmake(programs "-DCMAKE_PREFIX_PATH=${prefix}")
   check_core_alone("${SCRATCH}/build/core")
+  execute_process(COMMAND ${CMAKE_COMMAND} -G "${GENERATOR}" -S "${here}/programs" -B "${SCRATCH}/none"
+    "-DCMAKE_C_COMPILER=${CC}" "-DCMAKE_PREFIX_PATH=${prefix}" -DPARTS=none
+    RESULT_VARIABLE result OUTPUT_QUIET ERROR_VARIABLE said)
+  if(result EQUAL 0 OR NOT said MATCHES "no component +'none' +is +installed, +but [a-z, \n]*runtime")
+    message(FATAL_ERROR "a component that is missing is not named: ${said}")
+  endif()
 elseif(WAY STREQUAL "lean")
   lean()
+elseif(WAY STREQUAL "cross")
+  run(${CMAKE_COMMAND} -G "${GENERATOR}" -S "${SOURCE}" -B "${SCRATCH}/build" "-DCMAKE_C_COMPILER=${MINGW}"
+    -DCMAKE_SYSTEM_NAME=Windows -DCMAKE_SYSTEM_PROCESSOR=x86_64)
+  foreach(part IO DRAW VIEWER TESTS)
+    if(NOT said MATCHES "SIGHTLINE_${part} is OFF [^\n]*: not found")
+      message(FATAL_ERROR "SIGHTLINE_${part} is ON for Windows, by packages of this machine: ${said}")
+    endif()
+  endforeach()
+  execute_process(COMMAND ${CMAKE_COMMAND} -G "${GENERATOR}" -S "${SOURCE}" -B "${SCRATCH}/wasm"
+    "-DCMAKE_C_COMPILER=${CC}" -DSIGHTLINE_WASM=ON RESULT_VARIABLE result OUTPUT_QUIET ERROR_VARIABLE said)
+  if(result EQUAL 0 OR NOT said MATCHES "cmake --preset wasm")
+    message(FATAL_ERROR "WebAssembly by another compiler is not refused: ${said}")
+  endif()
 elseif(WAY STREQUAL "game")
   game("-DCMAKE_PREFIX_PATH=${prefix}")
   set(ENV{PKG_CONFIG_PATH} "${prefix}/${LIBDIR}/pkgconfig")

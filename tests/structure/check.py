@@ -11,6 +11,10 @@ silent   the library prints nothing of its own accord, and reads nothing from th
 format   every source is laid out as .clang-format says
 doxygen  the API reference (lib/Doxyfile) has a text for every public function, type and macro
 versions packages, their changelogs and the programs' metadata say the version of version.h
+packages a library that is installed is in a Debian package, which has the SONAME's number in its name; and the
+         document of the packages has all options of CMake
+formats  a reader of maps (lib/io/io.c) has a fuzzer, a row in the test of memory that fails, and its endings in
+         FORMATS.md
 tidy     clang-tidy finds nothing (.clang-tidy) in what was built in --build; a minute or two
 
 Prints each fault as FILE:LINE: what; exits 0 without faults, 1 with, 77 when it cannot tell.
@@ -296,6 +300,58 @@ def check_versions(root):
             yield f"{name}: says {told[1] if told else 'nothing'}, version.h says {version}"
 
 
+def check_packages(root):
+    debian, document = root / "tools/packages/debian", "tools/packages/README.md"
+    header = (root / "lib/include/sightline/version.h").read_text(encoding="utf-8")
+    major = re.search(r"#define SL_VERSION_MAJOR +(\d+)", header)[1]
+    control = (debian / "control").read_text(encoding="utf-8")
+    packed = ""
+    for package in re.findall(r"^Package: (lib\S*)$", control, re.MULTILINE):
+        if package.endswith("-dev"):
+            continue
+        if not re.search(rf"\D{major}$", package):
+            yield f"{debian.relative_to(root)}/control: {package} has libraries whose SONAME ends with {major}"
+        packed += (debian / f"{package}.install").read_text(encoding="utf-8")
+    lists = [root / "CMakeLists.txt", *sorted((root / "lib/cmake").glob("*.cmake"))]
+    for folder in ("lib", "tools", "viewer", "tests"):
+        lists += sorted((root / folder).rglob("CMakeLists.txt"))
+    texts = "".join(path.read_text(encoding="utf-8") for path in lists)
+    libraries = re.findall(r"^ *(?:sightline_library|add_library)\((sightline\w*)(?= | SHARED)(?! INTERFACE| STATIC)",
+                           "\n".join(path.read_text(encoding="utf-8") for path in lists
+                                     if path.parent.name in ("lib", "level")), re.MULTILINE)
+    libraries += ["sightline_" + part for part in re.findall(r"^ *sightline_part_library\((\w+) ", texts, re.MULTILINE)]
+    for library in libraries:
+        if f"/lib{library}.so.*\n" not in packed:
+            yield f"{debian.relative_to(root)}: lib{library}.so.* is in no package"
+    options = re.findall(r"^ *(?:option|set)\((SIGHTLINE_[A-Z_]+) \".*\"(?: O| \$| CACHE)", texts, re.MULTILINE)
+    options += ["SIGHTLINE_" + part for part in re.findall(r"^sightline_part\((\w+) ", texts, re.MULTILINE)]
+    told = (root / document).read_text(encoding="utf-8")
+    for option in options:
+        if f"`{option}`" not in told:
+            yield f"{document}: no word of {option}"
+
+
+# Readers without a fuzzer of their own.
+NOT_FUZZED = {"world": "its maps are files beside it"}
+
+
+def check_formats(root):
+    table = root / "lib/io/io.c"
+    fuzzers = "".join(path.read_text(encoding="utf-8") for path in sorted((root / "tests/fuzz").glob("fuzz_*.c")))
+    memory, document = "tests/unit/test_one_failure_study.c", "lib/io/FORMATS.md"
+    rows = (root / memory).read_text(encoding="utf-8")
+    told = (root / document).read_text(encoding="utf-8")
+    text = table.read_text(encoding="utf-8")
+    for endings, reader in re.findall(r'\.endings = "([^"]*)",.*?\.read = sli_map_read_(\w+)', text, re.DOTALL):
+        if reader not in NOT_FUZZED and not re.search(rf"\bsli_map_read_{reader}\b", fuzzers):
+            yield f"tests/fuzz: no fuzzer calls sli_map_read_{reader}"
+        if not re.search(rf"^SEED\({reader}[,_].*\n", rows, re.MULTILINE):
+            yield f"{memory}: no SEED({reader}, ...), a file of tests/fuzz/seeds"
+        for ending in endings.split():
+            if f"`{ending}`" not in told:
+                yield f"{document}: no word of {ending}"
+
+
 def check_headers(root, compilers):
     include = root / "lib/include"
     if not compilers:
@@ -398,7 +454,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("subject", choices=["layers", "table", "sources", "used", "silent", "headers", "format",
-                                            "doxygen", "versions", "tidy"])
+                                            "doxygen", "versions", "packages", "formats", "tidy"])
     parser.add_argument("root", type=pathlib.Path)
     parser.add_argument("--cc", help="C compiler, for headers")
     parser.add_argument("--cxx", help="C++ compiler, for headers")
@@ -415,6 +471,7 @@ def main():
         check = {"layers": check_layers, "table": check_table, "sources": check_sources, "used": check_used,
                  "silent": check_silent, "format": check_format,
                  "doxygen": check_doxygen, "versions": check_versions,
+                 "packages": check_packages, "formats": check_formats,
                  "tidy": lambda root: check_tidy(root, options.build)}
         found = check[options.subject](options.root)
     try:

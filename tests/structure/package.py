@@ -1,4 +1,5 @@
-"""tools/package.sh packs the same files from a clone and from a release archive: package.py ROOT
+"""tools/package.sh packs the same files from a clone and from a release archive, and builds no tests for
+what is installed: package.py ROOT
 
 Programs that print the files in place of building stand on the PATH. Exits 77 where ROOT is no clone.
 """
@@ -13,11 +14,14 @@ ROOT = pathlib.Path(sys.argv[1]).resolve()
 DEBIAN = "tools/packages/debian/"
 
 
-def packed(tree, folder, programs):
+def package(tree, kind, folder, programs):
     environment = dict(os.environ, PATH=f"{programs}:{os.environ['PATH']}")
-    done = subprocess.run(["sh", tree / "tools/package.sh", "deb", folder], env=environment,
-                          stdout=subprocess.PIPE, check=True, text=True)
-    return {line[2:] for line in done.stdout.splitlines() if line.startswith("./")}
+    return subprocess.run(["sh", tree / "tools/package.sh", kind, folder], env=environment,
+                          stdout=subprocess.PIPE, check=True, text=True).stdout.splitlines()
+
+
+def packed(tree, folder, programs):
+    return {line[2:] for line in package(tree, "deb", folder, programs) if line.startswith("./")}
 
 
 def main():
@@ -32,6 +36,13 @@ def main():
         for name in ("dpkg-buildpackage", "dh", "dh_python3", "doxygen"):
             (programs / name).write_text("#!/bin/sh\nfind . -type f\n")
             (programs / name).chmod(0o755)
+        for name in ("cmake", "cpack"):
+            (programs / name).write_text('#!/bin/sh\necho "$@"\n')
+            (programs / name).chmod(0o755)
+        built = package(ROOT, "tarball", folder + "/tarball", programs)
+        if not any("-DSIGHTLINE_TESTS=OFF" in line for line in built):
+            print(f"the archive's build has tests: {built}")
+            return 1
         archive.mkdir()
         subprocess.run(["tar", "-c", "--null", "-T", "-", "-f", folder + "/tar"], cwd=ROOT, check=True,
                        input="\0".join(names), text=True)

@@ -167,6 +167,40 @@ class CheckTest(unittest.TestCase):
                 self.assert_one(self.faults(check.check_versions, {**told, name: text}), name, "1.2.4")
                 self.assert_one(self.faults(check.check_versions, {**told, name: "\n"}), name, "nothing")
 
+    def test_packages(self):
+        tree = {"CMakeLists.txt": 'option(SIGHTLINE_FAST "fast" OFF)\nset(SIGHTLINE_DIR "" CACHE STRING "where")\n',
+                "lib/CMakeLists.txt": "sightline_library(sightline sightline SOURCES a)\n"
+                                      "  sightline_part_library(io SOURCES b)\n",
+                "lib/bindings/level/CMakeLists.txt": "add_library(sightline_level SHARED c)\n",
+                "lib/cmake/P.cmake": 'sightline_part(IO "formats" ZLIB)\n',
+                "lib/include/sightline/version.h": "#define SL_VERSION_MAJOR 3\n",
+                "tools/packages/README.md": "`SIGHTLINE_FAST`, `SIGHTLINE_DIR`, `SIGHTLINE_IO`",
+                "tools/packages/debian/control": "Package: libsightline3\n\nPackage: libsightline-dev\n",
+                "tools/packages/debian/libsightline3.install": "".join(
+                    f"usr/lib/*/lib{name}.so.*\n" for name in ("sightline", "sightline_io", "sightline_level"))}
+        self.assertEqual(self.faults(check.check_packages, tree), [])
+        faults = self.faults(check.check_packages, {**tree, "lib/include/sightline/version.h":
+                                                    "#define SL_VERSION_MAJOR 4\n"})
+        self.assert_one(faults, "control", "libsightline3", "4")
+        install = "tools/packages/debian/libsightline3.install"
+        for name in "sightline", "sightline_io", "sightline_level":
+            less = tree[install].replace(f"usr/lib/*/lib{name}.so.*\n", "")
+            self.assert_one(self.faults(check.check_packages, {**tree, install: less}), f"lib{name}.so")
+        for name in "SIGHTLINE_FAST", "SIGHTLINE_DIR", "SIGHTLINE_IO":
+            told = tree["tools/packages/README.md"].replace(f"`{name}`", "")
+            faults = self.faults(check.check_packages, {**tree, "tools/packages/README.md": told})
+            self.assert_one(faults, "README.md", name)
+
+    def test_formats(self):
+        tree = {"lib/io/io.c": '{.name = "a",\n .endings = ".a .b",\n .what = "x",\n .read = sli_map_read_a},\n',
+                "lib/io/FORMATS.md": "## A: `.a`, `.b`\n", "tests/fuzz/fuzz_a.c": "fuzz_read(sli_map_read_a);\n",
+                "tests/unit/test_one_failure_study.c": 'SEED(a, "x.a")\n'}
+        self.assertEqual(self.faults(check.check_formats, tree), [])
+        for name, word in (("lib/io/FORMATS.md", ".b"), ("tests/fuzz/fuzz_a.c", "sli_map_read_a"),
+                           ("tests/unit/test_one_failure_study.c", "SEED(a,")):
+            less = {**tree, name: tree[name].replace("b", "c").replace("_a)", "_c)").replace("(a,", "(c,")}
+            self.assert_one(self.faults(check.check_formats, less), word)
+
     def test_headers(self):
         def faults(text):
             changed = {"lib/include/sightline/draw.h": text}

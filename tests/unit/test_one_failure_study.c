@@ -361,6 +361,9 @@ SEED(wad, "nodes3.wad")
 SEED(unigrafix, "window.ug")
 SEED(agp, "hole.pol")
 SEED(image, "dots.pgm")
+SEED(ros, "dots.yaml")
+SEED(geojson, "lines.geojson")
+SEED(world, "one.world")
 
 /// In each format that is written.
 static sl_status write_maps(sl_context *context, one_failure *on) {
@@ -393,9 +396,10 @@ static const one_failure_row rows[] = {
 };
 
 static const one_failure_row readers[] = {
-    ROW(generate),      ROW(read_dxf), ROW(read_svg),       ROW(read_tmx),   ROW(read_tmx_zlib),
-    ROW(read_tmx_zstd), ROW(read_tmj), ROW(read_ldtk),      ROW(read_uvtt),  ROW(read_foundry),
-    ROW(read_export),   ROW(read_wad), ROW(read_unigrafix), ROW(read_image), ROW(read_agp),
+    ROW(generate),      ROW(read_dxf),     ROW(read_svg),       ROW(read_tmx),   ROW(read_tmx_zlib),
+    ROW(read_tmx_zstd), ROW(read_tmj),     ROW(read_ldtk),      ROW(read_uvtt),  ROW(read_foundry),
+    ROW(read_export),   ROW(read_wad),     ROW(read_unigrafix), ROW(read_image), ROW(read_agp),
+    ROW(read_ros),      ROW(read_geojson), ROW(read_world),
 };
 
 static void test_rooms(void **state) {
