@@ -68,7 +68,8 @@ static void assert_surveyed(app_state *app) {
         sl_query_set_door_at(context, query, i, app->document.map.doors[i].open);
     assert_ok(context, sl_coverage_make(context, query, viewpoints, layer->table.count, &fresh));
     double all = 0;
-    for (uint32_t k = 0; k < SL_COVERAGE_CLASSES; k++) all += camera_class_area(layer, k);
+    for (uint32_t k = 0; k < SL_COVERAGE_CLASSES; k++)
+        all += sl_coverage_class_area(&layer->coverage, k);
     assert_true(is_near(all, fresh.overlay.areas[0], 1e-6 * all));
     assert_int_equal(layer->coverage.count, fresh.count);
     for (size_t i = 0; i <= fresh.count; i++)
@@ -211,7 +212,7 @@ static void fewest(void **state) {
     app_tick(app, 0);
     const camera_layer *layer = app->view.cameras;
     assert_int_equal(layer->table.count, 5);
-    assert_true(camera_class_area(layer, 0) == 0);
+    assert_true(sl_coverage_class_area(&layer->coverage, 0) == 0);
     assert_non_null(strstr(layer->proof, "No fewer can: "));
     viewer_press(app, "Ctrl+Z");
     assert_int_equal(layer->table.count, 1);
@@ -296,7 +297,7 @@ static void stopped(void **state) {
         nanosleep(&pause, NULL);
         app_tick(app, 0.002);
     }
-    assert_true(camera_class_area(layer, 0) == 0);
+    assert_true(sl_coverage_class_area(&layer->coverage, 0) == 0);
     viewer_press(app, "Space"); // ends with the program
     viewer_end(app);
 }
@@ -318,14 +319,14 @@ static void like_the_chosen(void **state) {
     app_tick(app, 0);
     const camera_layer *layer = app->view.cameras;
     assert_true(layer->table.items[0].view.fov == 90);
-    const double unseen = camera_class_area(layer, 0);
+    const double unseen = sl_coverage_class_area(&layer->coverage, 0);
     viewer_press(app, "Ctrl+Space");
     wait_for_search(app);
     assert_int_equal(layer->table.count, 2);
     assert_string_equal(layer->table.items[0].name, "gate");
     assert_true(layer->table.items[1].view.fov == 90);
     app_tick(app, 0);
-    assert_true(camera_class_area(layer, 0) < unseen);
+    assert_true(sl_coverage_class_area(&layer->coverage, 0) < unseen);
     assert_surveyed(app);
     viewer_press(app, "Up"); // the last one
     viewer_press(app, "Shift+Space");

@@ -9,8 +9,8 @@
 #include <math.h>
 #include <stdio.h>
 
-/// Classes: 0, 1, 2, 3 and more. And so many blind spots are printed, and numbered in pictures.
-enum { CLASSES = 4, BLIND_MOST = 10 };
+/// So many blind spots are printed, and numbered in pictures.
+enum { BLIND_MOST = 10 };
 
 sl_status cover_viewpoints(sl_context *context, const sl_cameras *cameras, sl_viewpoint **out) {
     *out = sl_alloc_array(context, cameras->count, sizeof **out);
@@ -29,18 +29,10 @@ const char *cover_area_text(const cover_report *r, double area, char text[AREA_T
     return text;
 }
 
-static double class_area(const sl_coverage *c, size_t class) {
-    const double *areas = c->overlay.areas;
-    if (class >= c->overlay.shape_count) return 0;
-    const double above = class + 1 < CLASSES ? areas[class + 1] : 0;
-    const double area = areas[class] - above;
-    return area > c->negligible ? area : 0;
-}
-
 void cover_sentence(const cover_report *r, char *text, size_t size) {
     const sl_coverage *c = r->coverage;
     char seen[AREA_TEXT], all[AREA_TEXT];
-    const double blind = class_area(c, 0), inside = c->overlay.areas[0];
+    const double blind = sl_coverage_class_area(c, 0), inside = c->overlay.areas[0];
     size_t signs = 0;
     for (size_t i = 0; i < c->count; i++) signs += r->cameras->items[i].view.sign;
     const bool one = c->count == 1;
@@ -64,11 +56,11 @@ static void name_of(const sl_camera *camera, size_t number, char *text, size_t s
 }
 
 static void print_classes(const cover_report *r) {
-    static const char *const names[CLASSES] = {"not seen", "seen by 1", "seen by 2",
-                                               "seen by 3 or more"};
+    static const char *const names[SL_COVERAGE_CLASSES] = {"not seen", "seen by 1", "seen by 2",
+                                                           "seen by 3 or more"};
     char text[AREA_TEXT];
-    for (size_t k = 0; k < CLASSES; k++) {
-        const double area = class_area(r->coverage, k);
+    for (uint32_t k = 0; k < SL_COVERAGE_CLASSES; k++) {
+        const double area = sl_coverage_class_area(r->coverage, k);
         if (area > 0)
             printf("  %-18s %12s  %5.1f %%\n", names[k], cover_area_text(r, area, text),
                    100 * area / r->coverage->overlay.areas[0]);
@@ -139,13 +131,14 @@ static void add_camera(json_fields *f, const cover_report *r, size_t i) {
 }
 
 void cover_add_json(json_fields *f, const cover_report *r) {
-    static const char *const classes[CLASSES] = {"0", "1", "2", "3+"};
+    static const char *const classes[SL_COVERAGE_CLASSES] = {"0", "1", "2", "3+"};
     const sl_coverage *c = r->coverage;
     json_add_real(f, "inside_area", c->overlay.areas[0]);
-    json_add_real(f, "seen_area", c->overlay.areas[0] - class_area(c, 0));
-    json_add_real(f, "unseen_area", class_area(c, 0));
+    json_add_real(f, "seen_area", c->overlay.areas[0] - sl_coverage_class_area(c, 0));
+    json_add_real(f, "unseen_area", sl_coverage_class_area(c, 0));
     json_open(f, "areas");
-    for (size_t k = 0; k < CLASSES; k++) json_add_real(f, classes[k], class_area(c, k));
+    for (uint32_t k = 0; k < SL_COVERAGE_CLASSES; k++)
+        json_add_real(f, classes[k], sl_coverage_class_area(c, k));
     json_close(f);
     json_open_list(f, "viewpoints");
     for (size_t i = 0; i < c->count; i++) add_camera(f, r, i);

@@ -26,7 +26,7 @@ static void draw_classes(view_state *view, column *c) {
     const camera_layer *layer = view->cameras;
     column_heading(view->ui, c, "Area", NULL);
     for (uint32_t i = 0; i < SL_COVERAGE_CLASSES; i++) {
-        const double area = camera_class_area(layer, i);
+        const double area = sl_coverage_class_area(&layer->coverage, i);
         const sl_colour colour = sl_coverage_colour(&view->ui->palette, i);
         char text[AREA_TEXT];
         area_text(layer, area, text);

@@ -391,15 +391,6 @@ void camera_move(view_state *view, drag_state *drag, sl_point now) {
 
 // --- what they see
 
-double camera_class_area(const camera_layer *layer, uint32_t class) {
-    const sl_overlay *o = &layer->coverage.overlay;
-    const size_t shapes = layer->coverage.count;
-    if (class > shapes) return 0;
-    const bool last = class + 1 == SL_COVERAGE_CLASSES || class == shapes;
-    const double area = o->areas[class] - (last ? 0 : o->areas[class + 1]);
-    return area > layer->coverage.negligible ? area : 0;
-}
-
 void camera_go_to_spot(view_state *view, uint32_t spot) {
     camera_layer *layer = view->cameras;
     if (!layer || !layer->known || !layer->coverage.blind_count) {

@@ -16,13 +16,12 @@
 #define SIGHTLINE_DRAW_H
 
 #include "sightline/bake.h"
+#include "sightline/coverage.h"
 #include "sightline/dual.h"
 #include "sightline/explain.h"
 #include "sightline/faults.h"
-#include "sightline/overlay.h"
 #include "sightline/region.h"
 #include "sightline/view.h"
-#include "sightline/viewpoint.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -521,11 +520,8 @@ SL_API void sl_draw_portal_ends(cairo_t *cairo, const sl_palette *palette, const
 SL_API void sl_draw_conflict(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,
                              const sl_portal_ends *portals, const sl_conflict *conflict);
 
-/// Classes of coverage: seen by no viewpoint, by 1, by 2, by 3 or more.
-#define SL_COVERAGE_CLASSES 4
-
-/// The colour of a class. Blind spots stand out; the others are one tone, the deeper the more
-/// viewpoints.
+/// The colour of a class of coverage (coverage.h). Blind spots stand out; the others are one tone,
+/// the deeper the more viewpoints.
 SL_API sl_colour sl_coverage_colour(const sl_palette *palette, uint32_t kind);
 
 /// Colours that tell viewpoints apart, for colour-blind eyes too.
