@@ -158,6 +158,14 @@ static void put_table(document *d, const sl_document_block *block) {
 
 // --- pictures
 
+static sl_status draw_picture(document *d, const sl_document_block *block,
+                              const sl_draw_options *options, sli_page_target *target) {
+    return block->coverage
+               ? sli_draw_coverage(d->context, block->baked, block->coverage, NULL, options, target)
+               : sli_draw_picture(d->context, block->baked, block->field, block->lines, options,
+                                  target);
+}
+
 /// A picture is as wide as the text, unless it is then higher than a page. *height has its caption.
 static sl_status measure_picture(document *d, const sl_document_block *block,
                                  sl_draw_options *options, double *height) {
@@ -166,8 +174,7 @@ static sl_status measure_picture(document *d, const sl_document_block *block,
     *options = sl_draw_options_default();
     options->width = INNER / 0.92; // a page of its own has margins
     for (;; options->width *= 0.9) {
-        SL_TRY(sli_draw_picture(d->context, block->baked, block->field, block->lines, options,
-                                &target));
+        SL_TRY(draw_picture(d, block, options, &target));
         *height = target.height + caption;
         if (*height <= BOTTOM - MARGIN || options->width < 2 * SL_DRAW_WIDTH_MIN) return SL_OK;
     }
@@ -194,8 +201,7 @@ static sl_status put_picture(document *d, const sl_document_block *block) {
     need(d, height);
     sli_page_target target = {
         .cairo = d->cairo, .at = {(WIDTH - options.width) / 2, d->y}, .paint = true};
-    SL_TRY(
-        sli_draw_picture(d->context, block->baked, block->field, block->lines, &options, &target));
+    SL_TRY(draw_picture(d, block, &options, &target));
     put_labels(d, block, &target);
     d->y += target.height;
     if (block->text) put_lines(d, block->text, CELL, false, 0, 0);

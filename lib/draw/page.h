@@ -114,6 +114,11 @@ sl_status sli_draw_picture(sl_context *context, const sl_baked *baked, const sl_
                            const sl_drawn_lines *lines, const sl_draw_options *options,
                            sli_page_target *target);
 
+/// sl_draw_coverage_file
+sl_status sli_draw_coverage(sl_context *context, const sl_baked *baked,
+                            const sl_drawn_coverage *coverage, const char *caption,
+                            const sl_draw_options *options, sli_page_target *target);
+
 /// A text below a picture, in lines as the width allows. Returns the height; 0 for NULL. Draws only
 /// with `paint`.
 double sli_page_caption(cairo_t *cairo, const sli_page *page, const sl_palette *palette, double y,

@@ -55,26 +55,6 @@ static void skip_outside(sl_context *context, const cover_plan *plan, cover_work
     w->cameras.count = kept;
 }
 
-/// A viewpoint that is not inside sees nothing that counts, or only through windows.
-static sl_status check_places(sl_context *context, const cover_plan *plan, const cover_work *w) {
-    const sl_space *space = &w->baked.space;
-    char nearest[INPUT_NEAREST_TEXT];
-    size_t outside = 0, first = 0;
-    for (size_t i = 0; i < w->cameras.count; i++) {
-        const sl_camera *camera = &w->cameras.items[i];
-        SL_TRY(input_check_place(context, plan->operands[1], camera->line, space, camera->view.at));
-        const uint32_t cell = sl_space_locate(space, camera->view.at);
-        if (cell == SL_NO_CELL || space->cells[cell].inside) continue;
-        if (!outside++) first = i;
-    }
-    if (!outside) return SL_OK;
-    const sl_camera *camera = &w->cameras.items[first];
-    sl_note(context, "%s: %zu of %zu viewpoints are not inside; the first is on line %u%s",
-            plan->operands[1], outside, w->cameras.count, camera->line,
-            input_say_nearest(space, camera->view.at, nearest));
-    return SL_OK;
-}
-
 static sl_status print_json(sl_context *context, const cover_work *w, const cover_report *report) {
     json_fields fields = json_begin();
     json_add_text(&fields, "input", report->input);
@@ -126,7 +106,7 @@ static sl_status work(command_console *console, cover_plan *plan, cover_work *w)
     if (plan->skip_outside) skip_outside(context, plan, w);
     if (!w->cameras.count)
         return sl_fail(context, SL_BAD_INPUT, "%s: no viewpoint is left", plan->operands[1]);
-    SL_TRY(check_places(context, plan, w));
+    SL_TRY(cover_check_places(context, plan->operands[1], &baked->space, &w->cameras));
     SL_TRY(sl_query_over(context, &baked->space, &baked->map, NULL, &w->query));
     if (baked->map.mirror_count)
         sl_note(context, "mirrors are walls here: cover counts what is seen directly");

@@ -1,6 +1,7 @@
 /// Classes of coverage, viewpoints and blind spots.
 #include "studies/cover_report.h"
 
+#include "inputs/inputs.h"
 #include "reports/heat_map.h"
 #include "sightline/support.h"
 #include "studies/cover_path.h"
@@ -8,9 +9,6 @@
 
 #include <math.h>
 #include <stdio.h>
-
-/// So many blind spots are printed, and numbered in pictures.
-enum { BLIND_MOST = 10 };
 
 sl_status cover_viewpoints(sl_context *context, const sl_cameras *cameras, sl_viewpoint **out) {
     *out = sl_alloc_array(context, cameras->count, sizeof **out);
@@ -97,8 +95,8 @@ static void print_blind(const cover_report *r) {
     const int digits = sl_map_digits(&r->baked->map);
     if (!c->blind_count) return;
     printf("\n  %u blind spot%s", (unsigned)c->blind_count, c->blind_count == 1 ? "" : "s");
-    printf(c->blind_count > BLIND_MOST ? ", the largest %d:\n" : ":\n", BLIND_MOST);
-    for (uint32_t i = 0; i < c->blind_count && i < BLIND_MOST; i++)
+    printf(c->blind_count > COVER_BLIND_MOST ? ", the largest %d:\n" : ":\n", COVER_BLIND_MOST);
+    for (uint32_t i = 0; i < c->blind_count && i < COVER_BLIND_MOST; i++)
         printf("  %4u %12s  at %.*g,%.*g\n", (unsigned)i + 1,
                cover_area_text(r, c->blind[i].area, text), digits, c->blind[i].at.x, digits,
                c->blind[i].at.y);
@@ -155,37 +153,67 @@ void cover_add_json(json_fields *f, const cover_report *r) {
     json_close_list(f);
 }
 
+sl_status cover_check_places(sl_context *context, const char *table, const sl_space *space,
+                             const sl_cameras *cameras) {
+    char nearest[INPUT_NEAREST_TEXT];
+    size_t outside = 0, first = 0;
+    for (size_t i = 0; i < cameras->count; i++) {
+        const sl_camera *camera = &cameras->items[i];
+        SL_TRY(input_check_place(context, table, camera->line, space, camera->view.at));
+        const uint32_t cell = sl_space_locate(space, camera->view.at);
+        if (cell == SL_NO_CELL || space->cells[cell].inside) continue;
+        if (!outside++) first = i;
+    }
+    if (!outside) return SL_OK;
+    const sl_camera *camera = &cameras->items[first];
+    sl_note(context, "%s: %zu of %zu viewpoints are not inside; the first is on line %u%s", table,
+            outside, cameras->count, camera->line,
+            input_say_nearest(space, camera->view.at, nearest));
+    return SL_OK;
+}
+
+// --- the picture
+
+sl_status cover_drawn_make(sl_context *context, const cover_report *r, cover_drawn *out) {
+    const sl_coverage *c = r->coverage;
+    out->names = sl_alloc_array(context, c->count, sizeof *out->names);
+    if (!out->names) return SL_NO_MEMORY;
+    SL_TRY(cover_viewpoints(context, r->cameras, &out->viewpoints));
+    out->drawn = (sl_drawn_coverage){.pieces = &c->overlay.pieces,
+                                     .counts = c->overlay.counts,
+                                     .viewpoints = out->viewpoints,
+                                     .names = out->names,
+                                     .regions = c->regions,
+                                     .count = c->count,
+                                     .blind = out->blind};
+    for (size_t i = 0; i < c->count; i++) out->names[i] = r->cameras->items[i].name;
+    for (size_t i = 0; i < c->blind_count && i < COVER_BLIND_MOST; i++)
+        out->blind[out->drawn.blind_count++] = c->blind[i].at;
+    return SL_OK;
+}
+
+void cover_drawn_destroy(sl_context *context, cover_drawn *drawn) {
+    sl_free(context, drawn->viewpoints);
+    sl_free(context, drawn->names);
+}
+
 sl_status cover_draw(sl_context *context, const cover_report *r, const cover_path *way,
                      const char *caption, const sl_draw_options *drawing, const char *path) {
-    const sl_coverage *c = r->coverage;
-    sl_viewpoint *viewpoints = NULL;
-    const char **names = sl_alloc_array(context, c->count, sizeof *names);
-    sl_point blind[BLIND_MOST];
+    cover_drawn made = {0};
     char title[512];
     sl_draw_options options = *drawing;
     heat_map_title(r->input, r->map, "coverage", title, sizeof title);
     if (!options.title) options.title = title;
-    sl_drawn_coverage drawn = {.pieces = &c->overlay.pieces,
-                               .counts = c->overlay.counts,
-                               .names = names,
-                               .regions = c->regions,
-                               .count = c->count,
-                               .blind = blind};
+    sl_status status = cover_drawn_make(context, r, &made);
     if (way) {
-        drawn.path = way->points;
-        drawn.path_count = way->count;
-        drawn.unseen = way->unseen.items;
-        drawn.unseen_count = way->unseen.count;
+        made.drawn.path = way->points;
+        made.drawn.path_count = way->count;
+        made.drawn.unseen = way->unseen.items;
+        made.drawn.unseen_count = way->unseen.count;
     }
-    for (; drawn.blind_count < c->blind_count && drawn.blind_count < BLIND_MOST;
-         drawn.blind_count++)
-        blind[drawn.blind_count] = c->blind[drawn.blind_count].at;
-    sl_status status = names ? cover_viewpoints(context, r->cameras, &viewpoints) : SL_NO_MEMORY;
-    for (size_t i = 0; status == SL_OK && i < c->count; i++) names[i] = r->cameras->items[i].name;
-    drawn.viewpoints = viewpoints;
     if (status == SL_OK)
-        status = built_pictures()->coverage(context, r->baked, &drawn, caption, &options, path);
-    sl_free(context, viewpoints);
-    sl_free(context, names);
+        status =
+            built_pictures()->coverage(context, r->baked, &made.drawn, caption, &options, path);
+    cover_drawn_destroy(context, &made);
     return status;
 }

@@ -466,7 +466,8 @@ void cameras_draw_above(view_state *view, const sl_frame *frame) {
     drawn.names = names;
     draw_chosen(view, frame);
     if (viewpoints && names)
-        sl_draw_coverage_marks(view->ui->cairo, &view->ui->palette, &drawn, frame);
+        view_check(view, sl_draw_coverage_marks(view->context, view->ui->cairo, &view->ui->palette,
+                                                &drawn, frame));
     else
         view_check(view, SL_NO_MEMORY);
     sl_free(view->context, viewpoints);

@@ -266,9 +266,10 @@ typedef struct sl_document_block {
     const char *const *cells;
     size_t columns, rows;
     const sl_baked *baked; ///< of a picture
-    /// Of a picture: one of them, drawn over the plan. Both NULL: the plan with its starts.
+    /// Of a picture: one of them, drawn over the plan. All NULL: the plan with its starts.
     const sl_field *field;
     const sl_drawn_lines *lines;
+    const sl_drawn_coverage *coverage;
     const sl_plan_label *labels; ///< of a picture, over all else
     size_t label_count;
 } sl_document_block;
@@ -537,10 +538,12 @@ SL_API sl_status sl_draw_coverage_areas(sl_context *context, cairo_t *cairo,
 SL_API void sl_draw_coverage_borders(cairo_t *cairo, const sl_palette *palette,
                                      const sl_drawn_coverage *coverage, const sl_frame *frame);
 
-/// Draws viewpoints with their cones and names, and the numbers of blind spots. Needs no pieces and
-/// no regions.
-SL_API void sl_draw_coverage_marks(cairo_t *cairo, const sl_palette *palette,
-                                   const sl_drawn_coverage *coverage, const sl_frame *frame);
+/// Draws viewpoints with their cones and names, and the numbers of blind spots. Marks that would
+/// lie on others stand beside their places, joined with them by lines. Needs no pieces and no
+/// regions. SL_NO_MEMORY.
+SL_API sl_status sl_draw_coverage_marks(sl_context *context, cairo_t *cairo,
+                                        const sl_palette *palette,
+                                        const sl_drawn_coverage *coverage, const sl_frame *frame);
 
 /// Draws a ring about a place of the map.
 SL_API void sl_draw_ring(cairo_t *cairo, const sl_frame *frame, sl_point at, double radius,
