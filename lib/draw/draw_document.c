@@ -172,25 +172,13 @@ static sl_status measure_picture(document *d, const sl_document_block *block,
     const double caption = block->text ? 2 * LINE * CELL : 0;
     sli_page_target target = {.cairo = d->cairo};
     *options = sl_draw_options_default();
+    options->labels = block->labels;
+    options->label_count = block->label_count;
     options->width = INNER / 0.92; // a page of its own has margins
     for (;; options->width *= 0.9) {
         SL_TRY(draw_picture(d, block, options, &target));
         *height = target.height + caption;
         if (*height <= BOTTOM - MARGIN || options->width < 2 * SL_DRAW_WIDTH_MIN) return SL_OK;
-    }
-}
-
-static void put_labels(const document *d, const sl_document_block *block,
-                       const sli_page_target *target) {
-    for (size_t i = 0; i < block->label_count; i++) {
-        const sl_plan_label *label = &block->labels[i];
-        sl_point at = sl_frame_point(&target->frame, label->at);
-        const double room = fmax(label->width * target->frame.scale, 3 * CELL);
-        sl_text_font(d->cairo, CELL, false);
-        const double wide = fmin(sl_text_width(d->cairo, label->text), room);
-        at.x += target->at.x - wide / 2;
-        at.y += target->at.y + 0.36 * CELL;
-        sl_text_show_within(d->cairo, d->palette.ink, at.x, at.y, room, CELL, false, label->text);
     }
 }
 
@@ -202,7 +190,6 @@ static sl_status put_picture(document *d, const sl_document_block *block) {
     sli_page_target target = {
         .cairo = d->cairo, .at = {(WIDTH - options.width) / 2, d->y}, .paint = true};
     SL_TRY(draw_picture(d, block, &options, &target));
-    put_labels(d, block, &target);
     d->y += target.height;
     if (block->text) put_lines(d, block->text, CELL, false, 0, 0);
     return sl_check_cancelled(d->context);

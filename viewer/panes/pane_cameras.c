@@ -11,13 +11,14 @@
 #include <stdio.h>
 
 /// Rows that are listed: more would take the places of clicks of a frame.
-enum { CAMERAS_LISTED = 120, SPOTS_LISTED = 40, AREA_TEXT = SL_COUNT_TEXT + 32 };
+enum { CAMERAS_LISTED = 120, SPOTS_LISTED = 40, AREA_TEXT = SL_COUNT_TEXT + MEASURE_TEXT + 4 };
 
-static void area_text(const camera_layer *layer, double area, char text[AREA_TEXT]) {
-    char share[SL_COUNT_TEXT];
-    const double all = layer->coverage.overlay.areas[0];
+static void area_text(const view_state *view, double area, char text[AREA_TEXT]) {
+    char share[SL_COUNT_TEXT], measure[MEASURE_TEXT];
+    const double all = view->cameras->coverage.overlay.areas[0];
     sl_text_percent(all > 0 ? area / all : 0, share);
-    snprintf(text, AREA_TEXT, "%.4g   %s", area, share);
+    view_say_measure(view, area, "\xc2\xb2", measure);
+    snprintf(text, AREA_TEXT, "%s   %s", measure, share);
 }
 
 static void draw_classes(view_state *view, column *c) {
@@ -29,7 +30,7 @@ static void draw_classes(view_state *view, column *c) {
         const double area = sl_coverage_class_area(&layer->coverage, i);
         const sl_colour colour = sl_coverage_colour(&view->ui->palette, i);
         char text[AREA_TEXT];
-        area_text(layer, area, text);
+        area_text(view, area, text);
         column_row(view->ui, c, &colour, names[i], text, false);
     }
 }
@@ -63,7 +64,7 @@ static void draw_search(view_state *view, column *c) {
 
 static void draw_list(view_state *view, column *c) {
     const camera_layer *layer = view->cameras;
-    const bool now = layer->known && layer->seen_stamp == layer->stamp;
+    const bool now = cameras_are_seen(view);
     size_t spare = 0;
     char count[32];
     snprintf(count, sizeof count, "%zu", layer->table.count);
@@ -71,15 +72,17 @@ static void draw_list(view_state *view, column *c) {
     for (size_t i = 0; i < layer->table.count; i++) {
         const sl_colour colour = sl_viewpoint_colour(&view->ui->palette, i);
         const bool is_spare = now && sl_coverage_is_spare(&layer->coverage, i);
-        char name[CAMERA_NAME], text[96] = "";
+        char name[CAMERA_NAME], text[2 * MEASURE_TEXT + 32] = "", sees[MEASURE_TEXT],
+                                                        alone[MEASURE_TEXT];
         spare += is_spare;
         if (i >= CAMERAS_LISTED) continue;
         camera_name(layer, i, name);
-        if (is_spare)
-            snprintf(text, sizeof text, "sees %.4g, spare", layer->coverage.seen[i]);
-        else if (now)
-            snprintf(text, sizeof text, "sees %.4g, alone %.4g", layer->coverage.seen[i],
-                     layer->coverage.alone[i]);
+        if (now) {
+            view_say_measure(view, layer->coverage.seen[i], "\xc2\xb2", sees);
+            view_say_measure(view, layer->coverage.alone[i], "\xc2\xb2", alone);
+            snprintf(text, sizeof text, "sees %s, %s%s", sees, is_spare ? "spare" : "alone ",
+                     is_spare ? "" : alone);
+        }
         const sl_box row = column_row(view->ui, c, &colour, name, text, i == layer->chosen);
         ui_hit_focus(view->ui, HIT_CAMERA, (int)i, row);
     }
@@ -101,7 +104,7 @@ static void draw_spots(view_state *view, column *c) {
     for (uint32_t i = 0; i < layer->coverage.blind_count && i < SPOTS_LISTED; i++) {
         const char *room = room_map_room(view, layer->coverage.blind[i].at);
         snprintf(name, sizeof name, "blind %u%s%s", i + 1, room ? ", " : "", room ? room : "");
-        area_text(layer, layer->coverage.blind[i].area, text);
+        area_text(view, layer->coverage.blind[i].area, text);
         const sl_box row = column_row(view->ui, c, NULL, name, text, i + 1 == layer->spot);
         ui_hit_focus(view->ui, HIT_SPOT, (int)i, row);
     }

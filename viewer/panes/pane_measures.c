@@ -14,14 +14,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { VALUE_TEXT = 96, DOUBT_TEXT = 320 };
-
-/// "12.3 m²"
-static void write_measure(const view_state *view, double value, const char *power,
-                          char text[VALUE_TEXT]) {
-    const char *unit = view->document->map.unit;
-    snprintf(text, VALUE_TEXT, "%.4g%s%s%s", value, *unit ? " " : "", unit, *unit ? power : "");
-}
+enum { DOUBT_TEXT = 320 };
 
 /// A value stands beside its label, or below it where the panel is narrow.
 static void put_row(ui_state *ui, column *c, const char *label, const char *value) {
@@ -37,9 +30,9 @@ static void put_row(ui_state *ui, column *c, const char *label, const char *valu
 // --- the plan
 
 static void draw_plan_words(const view_state *view, column *c) {
-    char area[VALUE_TEXT], text[256];
+    char area[MEASURE_TEXT], text[256];
     if (!view->document->baked) return;
-    write_measure(view, view->document->inside_area, "\xc2\xb2", area);
+    view_say_measure(view, view->document->inside_area, "\xc2\xb2", area);
     snprintf(text, sizeof text, "%s inside.%s", area,
              *view->document->map.unit
                  ? ""
@@ -65,7 +58,7 @@ static void draw_doubts(const view_state *view, column *c) {
 // --- the isovist
 
 static void draw_isovist(const view_state *view, column *c) {
-    char place[PLACE_TEXT], unit[SL_UNIT_TEXT], name[64], text[VALUE_TEXT];
+    char place[PLACE_TEXT], unit[SL_UNIT_TEXT], name[64], text[MEASURE_TEXT];
     size_t count;
     const sl_measure *measures = sl_measures(SL_ISOVIST, &count);
     view_say_place(&view->document->map, view->eye.at, place);
@@ -89,7 +82,7 @@ static void draw_isovist(const view_state *view, column *c) {
 
 static void draw_route(const view_state *view, column *c) {
     const route_layer *layer = view->route;
-    char text[VALUE_TEXT];
+    char text[MEASURE_TEXT];
     column_heading(view->ui, c, "Path", NULL);
     if (!layer || !layer->clicks) {
         column_words(view->ui, c, 0.95, view->ui->palette.ink, "Click where the way begins.");
@@ -109,9 +102,10 @@ static void draw_route(const view_state *view, column *c) {
                      "No way leads there. The ring marks the nearest place that can be reached.");
         return;
     }
-    write_measure(view, layer->route.length, "", text);
+    view_say_measure(view, layer->route.length, "", text);
     put_row(view->ui, c, "length", text);
-    write_measure(view, hypot(layer->to.x - layer->from.x, layer->to.y - layer->from.y), "", text);
+    view_say_measure(view, hypot(layer->to.x - layer->from.x, layer->to.y - layer->from.y), "",
+                     text);
     put_row(view->ui, c, "straight line", text);
     snprintf(text, sizeof text, "%zu", layer->route.count - 2);
     put_row(view->ui, c, "turns at corners", text);
@@ -126,7 +120,7 @@ static void draw_route(const view_state *view, column *c) {
 static void draw_from_line(const view_state *view, column *c) {
     static const char *const labels[] = {"seen from some point", "seen from all points"};
     const from_line *layer = from_line_seen(view);
-    char text[VALUE_TEXT], name[64];
+    char text[MEASURE_TEXT], name[64];
     column_heading(view->ui, c, "From a line", NULL);
     if (!view->from_line || !view->from_line->drawn) {
         column_words(view->ui, c, 0.95, view->ui->palette.ink,
@@ -135,10 +129,10 @@ static void draw_from_line(const view_state *view, column *c) {
         return;
     }
     const sl_point *ends = view->from_line->ends;
-    write_measure(view, hypot(ends[1].x - ends[0].x, ends[1].y - ends[0].y), "", text);
+    view_say_measure(view, hypot(ends[1].x - ends[0].x, ends[1].y - ends[0].y), "", text);
     put_row(view->ui, c, "length of the line", text);
     for (int i = 0; layer && i < 2; i++) {
-        write_measure(view, layer->seen[i].area, "\xc2\xb2", text);
+        view_say_measure(view, layer->seen[i].area, "\xc2\xb2", text);
         put_row(view->ui, c, labels[i], text);
         snprintf(name, sizeof name, "%s, share", i ? "from all" : "from some");
         sl_text_percent(view->document->area > 0 ? layer->seen[i].area / view->document->area : 0,
@@ -202,7 +196,7 @@ static void draw_room_name(const view_state *view, column *c) {
 
 static void draw_rooms(const view_state *view, column *c) {
     const room_map *map = room_map_shown(view);
-    char text[VALUE_TEXT + SL_COUNT_TEXT + 4], share[SL_COUNT_TEXT];
+    char text[MEASURE_TEXT + SL_COUNT_TEXT + 4], share[SL_COUNT_TEXT];
     column_heading(view->ui, c, "Rooms", map ? "area, seen" : NULL);
     if (!map) {
         column_words(view->ui, c, 0.95, view->ui->palette.ink, "Looking for the rooms ...");
@@ -213,8 +207,8 @@ static void draw_rooms(const view_state *view, column *c) {
                      "No room is found: Ctrl+I tells what is inside.");
     for (size_t i = 0; i < room_map_rows(map); i++) {
         const double area = room_map_area(map, i);
-        char size[VALUE_TEXT];
-        write_measure(view, area, "\xc2\xb2", size);
+        char size[MEASURE_TEXT];
+        view_say_measure(view, area, "\xc2\xb2", size);
         sl_text_percent(area > 0 ? map->seen[i] / area : 0, share);
         snprintf(text, sizeof text, "%s, %s", size, share);
         ui_hit_focus(
@@ -223,8 +217,8 @@ static void draw_rooms(const view_state *view, column *c) {
     }
     draw_room_name(view, c);
     if (map->rooms.width > 0) {
-        write_measure(view, map->rooms.width, "", text);
-        char words[2 * VALUE_TEXT + 64];
+        view_say_measure(view, map->rooms.width, "", text);
+        char words[2 * MEASURE_TEXT + 64];
         snprintf(words, sizeof words, "Openings up to %s count as doors.", text);
         column_words(view->ui, c, 0.9, view->ui->palette.faint, words);
     }
@@ -234,23 +228,23 @@ static void draw_rooms(const view_state *view, column *c) {
 
 static void put_walls(const view_state *view, column *c, const char *label,
                       const wall_list *walls) {
-    char text[VALUE_TEXT];
-    write_measure(view, wall_change_length(walls), "", text);
+    char text[MEASURE_TEXT];
+    view_say_measure(view, wall_change_length(walls), "", text);
     put_row(view->ui, c, label, text);
 }
 
 static void draw_compare(const view_state *view, column *c) {
     const plan_compare *other = compare_shown(view);
     const char *path = view->compared ? view->compared->source.path : NULL;
-    char text[VALUE_TEXT];
+    char text[MEASURE_TEXT];
     column_heading(view->ui, c, "Compare", path ? files_base(path) : NULL);
     if (!other)
         column_words(view->ui, c, 0.95, view->ui->palette.ink,
                      path ? "Reading the other plan ..." : "Choose the other plan.");
     if (other) {
-        write_measure(view, view->document->inside_area, "\xc2\xb2", text);
+        view_say_measure(view, view->document->inside_area, "\xc2\xb2", text);
         put_row(view->ui, c, "inside this plan", text);
-        write_measure(view, other->area, "\xc2\xb2", text);
+        view_say_measure(view, other->area, "\xc2\xb2", text);
         put_row(view->ui, c, "inside the other plan", text);
         if (other->job.made) {
             put_walls(view, c, "walls of the other alone", &other->added);

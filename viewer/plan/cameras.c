@@ -391,6 +391,11 @@ void camera_move(view_state *view, drag_state *drag, sl_point now) {
 
 // --- what they see
 
+bool cameras_are_seen(const view_state *view) {
+    const camera_layer *layer = view->cameras;
+    return layer && layer->known && layer->seen_stamp == layer->stamp;
+}
+
 void camera_go_to_spot(view_state *view, uint32_t spot) {
     camera_layer *layer = view->cameras;
     if (!layer || !layer->known || !layer->coverage.blind_count) {

@@ -77,6 +77,8 @@ void camera_move(view_state *view, drag_state *drag, sl_point now);
 
 // --- what they see
 
+/// Whether the coverage is there, of the table as it is.
+bool cameras_are_seen(const view_state *view);
 /// Shows a blind spot, from 0; the largest after the last.
 void camera_go_to_spot(view_state *view, uint32_t spot);
 

@@ -55,10 +55,11 @@ void route_click(view_state *view, sl_point at) {
     }
     layer->to = at;
     find_again(view, layer);
-    if (layer->clicks == 2 && !layer->tight)
-        ui_say(view->ui, false,
-               layer->route.found ? "the way is %.4g%s%s long" : "no way leads there",
-               layer->route.length, *view->document->map.unit ? " " : "", view->document->map.unit);
+    if (layer->clicks < 2 || layer->tight) return;
+    char length[MEASURE_TEXT];
+    view_say_measure(view, layer->route.length, "", length);
+    ui_say(view->ui, false, layer->route.found ? "the way is %s long" : "no way leads there",
+           length);
 }
 
 void route_update(view_state *view) {

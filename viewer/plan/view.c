@@ -86,6 +86,12 @@ void view_say_place(const sl_map *map, sl_point at, char text[PLACE_TEXT]) {
     snprintf(text, PLACE_TEXT, "%.*s", PLACE_TEXT - 1, whole);
 }
 
+void view_say_measure(const view_state *view, double value, const char *power,
+                      char text[MEASURE_TEXT]) {
+    const char *unit = view->document->map.unit;
+    snprintf(text, MEASURE_TEXT, "%.4g%s%s%s", value, *unit ? " " : "", unit, *unit ? power : "");
+}
+
 void view_mark(const view_state *view, const sl_frame *frame, sl_point place) {
     cairo_t *cairo = view->ui->cairo;
     sl_point at;
