@@ -88,6 +88,27 @@ static void test_opens(void **state) {
     viewer_end(app);
 }
 
+/// An eye that sees nothing is told so, in place of rows of zeros.
+static void test_eye_outside(void **state) {
+    (void)state;
+    app_state *app = start("house.svg", svg);
+    app->ui.spots = calloc(SPOTS_MOST, sizeof *app->ui.spots);
+    assert_non_null(app->ui.spots);
+    app->view.eye.at = (sl_point){-1000, -1000};
+    app_tick(app, 0);
+    script_frame(app);
+    bool told = false, rows = false;
+    for (int i = 0; i < app->ui.spot_count; i++) {
+        told |= strstr(app->ui.spots[i].text, "outside of the plan") != NULL;
+        rows |= strcmp(app->ui.spots[i].text, "perimeter") == 0;
+    }
+    assert_true(told);
+    assert_false(rows);
+    free(app->ui.spots);
+    app->ui.spots = NULL;
+    viewer_end(app);
+}
+
 static const char doors[] = "sightline 1\nunit m\nwalls 0 0 20 0 20 10 0 10 0 0\nwall 10 2 10 8\n"
                             "door low 10 0 10 2 open\ndoor high 10 8 10 10 open\nstart 1 1 0\n";
 
@@ -248,9 +269,9 @@ static void test_ranks(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_opens),  cmocka_unit_test(test_path),
-        cmocka_unit_test(test_walker), cmocka_unit_test(test_from_line),
-        cmocka_unit_test(test_ranks),
+        cmocka_unit_test(test_opens),     cmocka_unit_test(test_eye_outside),
+        cmocka_unit_test(test_path),      cmocka_unit_test(test_walker),
+        cmocka_unit_test(test_from_line), cmocka_unit_test(test_ranks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

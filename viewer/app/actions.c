@@ -590,6 +590,7 @@ static const action_row last[] = {
     {"save_pdf", "Ctrl+P", "PDF", "save the plan as PDF", 0, 0, save_pdf, NULL},
     {"print", "Ctrl+Shift+P", "Print", "print the plan to scale on A4 to A0", 0, 0, print, NULL},
     {"fit", "F", "Fit", "show all of the map", 0, 0, fit, NULL},
+    {"fit_too", "Ctrl+0", NULL, "show all of the map", 0, 0, fit, NULL},
     {"zoom_in", "PageUp", NULL, "zoom in", 0, 0, zoom_in, NULL},
     {"zoom_out", "PageDown", NULL, "zoom out", 0, 0, zoom_out, NULL},
     {"pan_left", "Shift+Left", NULL, "move the plan: what lies to the left", 0, 0, pan_left, NULL},
@@ -632,6 +633,11 @@ const action_row *action_at(int number) {
     list_parts(parts);
     for (; number >= parts[part].count; part++) number -= parts[part].count;
     return &parts[part].rows[number];
+}
+
+bool action_looks(int number) {
+    void (*const run)(app_state * app) = action_at(number)->run;
+    return run == fit || run == file_notes;
 }
 
 int action_find(const char *name) {

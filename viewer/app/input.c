@@ -201,6 +201,11 @@ static bool own_key(app_state *app, const char *key, bool down) {
 void input_key(app_state *app, const char *key, bool down) {
     const text_field *before = app->ui.field;
     if (dialog_open_now(&app->desk.dialog) != DIALOG_NONE) {
+        const int number = action_of_key(key, app->view.mode);
+        if (app->desk.dialog.beside && number >= 0 && action_looks(number) && strchr(key, '+')) {
+            if (down) action_run(app, number);
+            return;
+        }
         dialog_key(&app->desk.dialog, key, down);
         actions_answered(app);
         return;
@@ -379,6 +384,10 @@ static void input_press_at(app_state *app, button_kind button, sl_point at) {
     drag_state *drag = &app->view.drag;
     *drag = (drag_state){.hit = hit, .from = at, .last = at, .index = UINT32_MAX};
     if (dialog_open_now(&app->desk.dialog) != DIALOG_NONE && !is_beside(app, &hit)) {
+        if (app->desk.dialog.beside && hit.kind == HIT_ACTION && action_looks(hit.value)) {
+            if (button == BUTTON_LEFT) action_run(app, hit.value);
+            return;
+        }
         if (button == BUTTON_LEFT) dialog_press(&app->desk.dialog, &hit, at);
         actions_answered(app);
         return;

@@ -64,6 +64,18 @@ static void draw_isovist(const view_state *view, column *c) {
     view_say_place(&view->document->map, view->eye.at, place);
     column_heading(view->ui, c, "Isovist", place);
     if (!view->seen.valid) return;
+    const sl_space *space = &view->document->baked->space;
+    const uint32_t cell = view_eye_cell(view);
+    const bool sees = view->seen.region.count > 2;
+    if (cell == SL_NO_CELL || !space->cells[cell].inside)
+        column_words(view->ui, c, 0.95, view->ui->palette.start,
+                     view_is_solid(view, view->eye.at)
+                         ? "The viewpoint is in solid ground and sees "
+                           "nothing. Click in a room."
+                     : sees ? "The viewpoint is outside. Click in a room to put it inside."
+                            : "The viewpoint is outside of the plan and sees nothing of it. Click "
+                              "in a room.");
+    if (!sees) return;
     const sl_region_measures all = sl_region_measure(&view->seen.region);
     for (size_t i = 0; i < count; i++) {
         const double value = sl_measure_value(&measures[i], &all);
