@@ -92,11 +92,12 @@ static sl_status say_sealed(const desk_state *desk, import_state *s) {
     const sl_point at = sealed.largest.at;
     const char *unit = desk->document->map.unit;
     if (sealed.rooms < 2 || !(sealed.largest.area > 0)) return SL_OK;
-    snprintf(s->said_sealed, sizeof s->said_sealed,
-             "%u closed part%s, the largest of %.4g%s%s at %.4g, %.4g, count%s as inside, too. "
-             "Where these are courts or shafts, 'Here is inside' leaves them out.",
-             (unsigned)sealed.rooms - 1, sealed.rooms == 2 ? "" : "s", sealed.largest.area,
-             *unit ? " " : "", *unit ? "\xc2\xb2" : "", at.x, at.y, sealed.rooms == 2 ? "s" : "");
+    snprintf(
+        s->said_sealed, sizeof s->said_sealed,
+        "%u closed part%s, the largest of %.4g%s%.20s%s at %.4g, %.4g, count%s as inside, too. "
+        "Where these are courts or shafts, 'Here is inside' leaves them out.",
+        (unsigned)sealed.rooms - 1, sealed.rooms == 2 ? "" : "s", sealed.largest.area,
+        *unit ? " " : "", unit, *unit ? "\xc2\xb2" : "", at.x, at.y, sealed.rooms == 2 ? "s" : "");
     return SL_OK;
 }
 
