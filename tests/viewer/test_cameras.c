@@ -5,11 +5,13 @@
 #include "app/layout.h"
 #include "app/sliders.h"
 #include "plan/cameras.h"
+#include "plan/heat.h"
 #include "plan/room_map.h"
 #include "sightline/place.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 #include <unistd.h>
@@ -360,8 +362,110 @@ static void of_no_room(void **state) {
     viewer_end(app);
 }
 
+/// The box of a text of the window.
+static sl_box spot_of(const app_state *app, const char *text) {
+    for (int i = 0; i < app->ui.spot_count; i++)
+        if (strcmp(app->ui.spots[i].text, text) == 0) return app->ui.spots[i].box;
+    fail_msg("'%s' is not shown", text);
+    return (sl_box){0};
+}
+
+/// Buttons stay where they are while cameras come and go and a search runs; areas have their unit.
+static void test_panel(void **state) {
+    (void)state;
+    static const char *const buttons[] = {"Find the fewest", "Copy", "Undo", "Import", "Export"};
+    enum { BUTTONS = sizeof buttons / sizeof *buttons };
+    app_state *app = start(MAPS "/office.map", true);
+    snprintf(app->document.map.unit, sizeof app->document.map.unit, "m");
+    app->ui.spots = calloc(SPOTS_MOST, sizeof *app->ui.spots);
+    assert_non_null(app->ui.spots);
+    double before[BUTTONS];
+    script_frame(app);
+    for (int i = 0; i < BUTTONS; i++) before[i] = spot_of(app, buttons[i]).min.y;
+    click(app, (sl_point){30, 20});
+    cameras_find(&app->view, SEARCH_ONE);
+    for (int step = 0; step < 3; step++) {
+        script_frame(app);
+        for (int i = 0; i < BUTTONS; i++) assert_true(spot_of(app, buttons[i]).min.y == before[i]);
+        app_tick(app, 0);
+    }
+    char text[96], share[SL_COUNT_TEXT];
+    const sl_coverage *c = &app->view.cameras->coverage;
+    sl_text_percent(sl_coverage_class_area(c, 1) / c->overlay.areas[0], share);
+    snprintf(text, sizeof text, "%.4g m\xc2\xb2   %s", sl_coverage_class_area(c, 1), share);
+    spot_of(app, text);
+    free(app->ui.spots);
+    app->ui.spots = NULL;
+    viewer_end(app);
+}
+
+static void type_value(app_state *app, const char *text) {
+    input_text(app, text);
+    viewer_press(app, "Return");
+    app_tick(app, 0);
+    script_frame(app);
+}
+
+/// Fields of view, headings and ranges are typed; what they cannot be is told, and undo knows them.
+static void test_typed(void **state) {
+    (void)state;
+    app_state *app = start(MAPS "/office.map", true);
+    viewer_press(app, "Ctrl+Shift+K"); // nothing to type without a camera
+    assert_null(app->ui.field);
+    click(app, (sl_point){30, 20});
+    script_frame(app);
+    const sl_viewpoint *v = camera_chosen(&app->view);
+    viewer_press(app, "Ctrl+Shift+K");
+    type_value(app, "62,5\xc2\xb0");
+    assert_true(v->fov == 62.5);
+    viewer_press(app, "Ctrl+Shift+K");
+    viewer_press(app, "Ctrl+Shift+K"); // the next one
+    type_value(app, "-90");
+    assert_true(camera_chosen(&app->view)->heading == 270);
+    for (int i = 0; i < 3; i++) viewer_press(app, "Ctrl+Shift+K");
+    type_value(app, "7.25");
+    v = camera_chosen(&app->view);
+    assert_true(v->range == 7.25 && v->fov == 62.5);
+    viewer_press(app, "Ctrl+Shift+K");
+    type_value(app, "400");
+    assert_true(app->ui.message_is_error);
+    assert_non_null(strstr(app->ui.message, "Field of view: '400'"));
+    assert_non_null(app->ui.field);
+    viewer_press(app, "Escape");
+    assert_null(app->ui.field);
+    assert_true(camera_chosen(&app->view)->fov == 62.5);
+    viewer_press(app, "Ctrl+Z");
+    assert_true(app->view.cameras->table.items[0].view.range == 0);
+    // A name is still a name.
+    app->view.cameras->chosen = 0;
+    viewer_press(app, "Ctrl+K");
+    type_value(app, "45");
+    assert_string_equal(app->view.cameras->table.items[0].name, "45");
+    // The grid of the heat map takes any step that it can have.
+    viewer_press(app, "9");
+    viewer_press(app, "1");
+    app_tick(app, 0);
+    script_frame(app);
+    for (int i = 0; i < 2; i++) viewer_press(app, "Ctrl+Shift+K"); // behind the view cone
+    type_value(app, "0.7");
+    assert_true(heat_step(&app->view) == 0.7);
+    app_tick(app, 0);
+    const heat_graph *graph;
+    assert_non_null(heat_layer_values(&app->view, &graph));
+    assert_true(graph->grid.step == 0.7);
+    for (int i = 0; i < 2; i++) viewer_press(app, "Ctrl+Shift+K");
+    type_value(app, "0.0001");
+    assert_true(app->ui.message_is_error);
+    assert_true(heat_step(&app->view) == 0.7);
+    viewer_press(app, "Escape");
+    viewer_press(app, "5");
+    assert_true(heat_step(&app->view) == 0.5);
+    viewer_end(app);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_panel), cmocka_unit_test(test_typed),
         cmocka_unit_test(by_pointer), cmocka_unit_test(names),
         cmocka_unit_test(fewest),     cmocka_unit_test(map_changes),
         cmocka_unit_test(tables),     cmocka_unit_test(stopped),

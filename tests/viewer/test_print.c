@@ -3,6 +3,7 @@
 #include "viewer_app.h"
 
 #include "app/sheet.h"
+#include "dialogs/question.h"
 #include "plan/cameras.h"
 #include "plan/compare.h"
 #include "plan/from_line.h"
@@ -160,8 +161,13 @@ static void what_tools_show(void **state) {
 static void what_does_not_fit(void **state) {
     (void)state;
     scene s = open_plan(plan);
-    assert_null(print(&s, "4", "5"));
-    assert_non_null(strstr(s.app->ui.message, "too large for A4; 1:100 fits"));
+    press(s.app, "Ctrl+Shift+P");
+    press(s.app, "4");
+    press(s.app, "5");
+    assert_int_equal(dialog_open_now(&s.app->desk.dialog), DIALOG_QUESTION); // and no name yet
+    assert_non_null(strstr(question_text(&s.app->desk), "too large for A4; 1:100 fits"));
+    press(s.app, "Escape");
+    assert_int_equal(dialog_open_now(&s.app->desk.dialog), DIALOG_NONE);
     char *sheet = print(&s, "4", "L");
     assert_non_null(sheet);
     assert_non_null(strstr(sheet, "1:100"));

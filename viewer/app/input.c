@@ -319,6 +319,8 @@ static void click_widget(app_state *app, const hit_area *hit) {
         app->view.method = (size_t)hit->value;
     } else if (hit->kind == HIT_PANEL && hit->value == PANEL_SHEET) {
         ui_shut_help(&app->ui);
+    } else if (hit->kind == HIT_VALUE) {
+        slider_type(app, hit->value);
     } else if (hit->kind == HIT_FIELD && app->ui.field) {
         app->ui.field->clicked = true;
         app->ui.field->click_x = app->ui.pointer.x;

@@ -29,10 +29,19 @@ static void take_path(desk_state *desk, const char *path) {
     wish_for(desk, WISH_SHEET, path);
 }
 
+static void ask_scale(desk_state *desk, const char *said);
+
+/// A scale at which the plan does not fit is asked for again, before a name is.
 static void take_scale(desk_state *desk, int answer) {
     char name[TITLE_TEXT], ending[32];
     if (answer == SCALES) return;
     desk->scale = answer ? scales[answer] + LETTER : NULL;
+    sl_draw_options options = sl_draw_options_default();
+    options.sheet = (sl_sheet){.paper = desk->paper, .scale = desk->scale};
+    if (sl_draw_check_sheet(desk->context, desk->document->baked, &options, "sheet.pdf") != SL_OK) {
+        ask_scale(desk, sl_context_message(desk->context));
+        return;
+    }
     snprintf(ending, sizeof ending, "-%s.pdf", desk->paper);
     map_file_name_output(desk, ending, name);
     browser_save(desk, BROWSE_SHEETS, name, take_path);
@@ -41,9 +50,15 @@ static void take_scale(desk_state *desk, int answer) {
 static void take_paper(desk_state *desk, int answer) {
     if (answer == PAPERS) return;
     desk->paper = papers[answer] + LETTER;
-    question_ask(desk, "Print to scale",
-                 "Which scale? The largest is the largest round scale at which the plan fits.",
-                 scales, SCALES + 1, take_scale);
+    ask_scale(desk, "");
+}
+
+static void ask_scale(desk_state *desk, const char *said) {
+    char text[512];
+    snprintf(text, sizeof text,
+             "%.300s%sWhich scale? The largest is the largest round scale at which the plan fits.",
+             said, *said ? ".\n\n" : "");
+    question_ask(desk, "Print to scale", text, scales, SCALES + 1, take_scale);
 }
 
 void sheet_ask(app_state *app) {

@@ -124,18 +124,20 @@ void pane_cameras(learn_state *learn, sl_box box) {
     column_words(learn->ui, &c, 0.95, learn->ui->palette.ink,
                  "A click puts one. Drag it, or the handle ahead of it. Left and Right turn it.");
     c.y += 0.4 * learn->ui->text;
+    // Buttons come before what grows, so that none moves from under the pointer.
     column_buttons(learn->ui, &c, find);
+    column_buttons(learn->ui, &c, change);
+    column_buttons(learn->ui, &c, files);
+    column_name(view, &c);
     c.y += 0.3 * learn->ui->text;
     if (view->cameras && learn->document->baked) {
+        column_sliders(learn->ui, &c);
         draw_search(view, &c);
         c.y += 0.4 * learn->ui->text;
-        column_sliders(learn->ui, &c);
-        if (!column_name(view, &c)) column_buttons(learn->ui, &c, change);
         if (view->cameras->known) draw_classes(view, &c);
         draw_list(view, &c);
         if (view->cameras->known) draw_spots(view, &c);
     }
-    column_buttons(learn->ui, &c, files);
     column_layers(view, &c);
     column_end(learn->ui, &c);
 }

@@ -189,7 +189,7 @@ static void draw_lines(const view_state *view, column *c) {
 bool column_name(const view_state *view, column *c) {
     ui_state *ui = view->ui;
     const sl_box box = {{c->left, c->y + 0.3 * ui->text}, {c->right, c->y + 2.1 * ui->text}};
-    if (ui->field != &view->name) return false;
+    if (ui->field != &view->name || ui->field == ui->number) return false;
     ui_text_field(ui, box, ui->field, "a name", true);
     ui_hit(ui, HIT_FIELD, 1, box);
     c->y = box.max.y + 0.3 * ui->text;
@@ -249,7 +249,9 @@ static void draw_compare(const view_state *view, column *c) {
     const plan_compare *other = compare_shown(view);
     const char *path = view->compared ? view->compared->source.path : NULL;
     char text[MEASURE_TEXT];
+    static const char *const buttons[] = {"plan_other", NULL};
     column_heading(view->ui, c, "Compare", path ? files_base(path) : NULL);
+    column_buttons(view->ui, c, buttons);
     if (!other)
         column_words(view->ui, c, 0.95, view->ui->palette.ink,
                      path ? "Reading the other plan ..." : "Choose the other plan.");
@@ -265,8 +267,6 @@ static void draw_compare(const view_state *view, column *c) {
         column_words(view->ui, c, 0.9, view->ui->palette.faint,
                      "1 colours what each place gains (red) or loses (blue) in the other plan.");
     }
-    static const char *const buttons[] = {"plan_other", NULL};
-    column_buttons(view->ui, c, buttons);
 }
 
 void pane_measures(learn_state *learn, sl_box box) {
@@ -288,14 +288,15 @@ void pane_measures(learn_state *learn, sl_box box) {
     draw_doubts(view, &c);
     column_buttons(learn->ui, &c, tools);
     if (view->document->baked) {
-        panels[view->tool](view, &c);
-        pane_words(view, &c);
-        column_legend(view, &c);
-        c.y += 0.3 * learn->ui->text;
-        column_sliders(learn->ui, &c);
+        // What presses or slides comes before what grows.
         if (layers_shows(view, LAYER_HEAT))
             column_buttons(learn->ui, &c, heat_layer_changes(view) ? changes : heat);
         if (line_map_choice(view)) column_buttons(learn->ui, &c, lines);
+        c.y += 0.3 * learn->ui->text;
+        column_sliders(learn->ui, &c);
+        panels[view->tool](view, &c);
+        pane_words(view, &c);
+        column_legend(view, &c);
     }
     column_layers(view, &c);
     column_end(learn->ui, &c);
