@@ -370,6 +370,25 @@ static sl_box spot_of(const app_state *app, const char *text) {
     return (sl_box){0};
 }
 
+/// Cameras stand in a plan: nothing of cells or portals is drawn, also after a heat map.
+static void test_no_portals(void **state) {
+    (void)state;
+    app_state *app = viewer_start(true);
+    viewer_open(app, MAPS "/office.map");
+    script_frame(app);
+    assert_true(app->view.scene_show & SL_LAYER_PORTALS);
+    viewer_press(app, "1");
+    script_frame(app);
+    viewer_press(app, "8");
+    app_tick(app, 0);
+    script_frame(app);
+    assert_false(app->view.scene_show & (SL_LAYER_PORTALS | SL_LAYER_CELLS));
+    viewer_press(app, "F1");
+    script_frame(app);
+    assert_true(app->view.scene_show & SL_LAYER_PORTALS);
+    viewer_end(app);
+}
+
 /// Buttons stay where they are while cameras come and go and a search runs; areas have their unit.
 static void test_panel(void **state) {
     (void)state;
@@ -465,11 +484,11 @@ static void test_typed(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_panel), cmocka_unit_test(test_typed),
-        cmocka_unit_test(by_pointer), cmocka_unit_test(names),
-        cmocka_unit_test(fewest),     cmocka_unit_test(map_changes),
-        cmocka_unit_test(tables),     cmocka_unit_test(stopped),
-        cmocka_unit_test(ground),     cmocka_unit_test(like_the_chosen),
-        cmocka_unit_test(of_no_room)};
+        cmocka_unit_test(test_panel),      cmocka_unit_test(test_no_portals),
+        cmocka_unit_test(test_typed),      cmocka_unit_test(by_pointer),
+        cmocka_unit_test(names),           cmocka_unit_test(fewest),
+        cmocka_unit_test(map_changes),     cmocka_unit_test(tables),
+        cmocka_unit_test(stopped),         cmocka_unit_test(ground),
+        cmocka_unit_test(like_the_chosen), cmocka_unit_test(of_no_room)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -109,6 +109,29 @@ static void test_eye_outside(void **state) {
     viewer_end(app);
 }
 
+/// The first person stands below the plan, or has the half of its place beside it.
+static void test_beside(void **state) {
+    (void)state;
+    app_state *app = start("house.svg", svg);
+    const sl_box all = app_layout(app).plan[0];
+    press(app, "I");
+    assert_true(app_layout(app).plan[0].max.y < all.max.y);
+    press(app, "Shift+I");
+    const window_layout l = app_layout(app);
+    const sl_box looks = l.below[PANE_FIRST_PERSON];
+    assert_true(l.plan[0].max.y == all.max.y && l.plan[0].max.x == floor(all.max.x / 2));
+    assert_true(looks.min.x == l.plan[0].max.x && looks.max.x == all.max.x);
+    assert_true(looks.min.y == all.min.y && looks.max.y == all.max.y);
+    press(app, "Ctrl+L"); // the table is below both
+    const window_layout below = app_layout(app);
+    assert_true(below.below[PANE_TABLE].min.y == below.plan[0].max.y);
+    assert_true(below.below[PANE_FIRST_PERSON].max.y == below.plan[0].max.y);
+    press(app, "Ctrl+L");
+    press(app, "Shift+I");
+    assert_true(app_layout(app).plan[0].max.x == all.max.x);
+    viewer_end(app);
+}
+
 static const char doors[] = "sightline 1\nunit m\nwalls 0 0 20 0 20 10 0 10 0 0\nwall 10 2 10 8\n"
                             "door low 10 0 10 2 open\ndoor high 10 8 10 10 open\nstart 1 1 0\n";
 
@@ -269,9 +292,10 @@ static void test_ranks(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_opens),     cmocka_unit_test(test_eye_outside),
-        cmocka_unit_test(test_path),      cmocka_unit_test(test_walker),
-        cmocka_unit_test(test_from_line), cmocka_unit_test(test_ranks),
+        cmocka_unit_test(test_opens),  cmocka_unit_test(test_eye_outside),
+        cmocka_unit_test(test_beside), cmocka_unit_test(test_path),
+        cmocka_unit_test(test_walker), cmocka_unit_test(test_from_line),
+        cmocka_unit_test(test_ranks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

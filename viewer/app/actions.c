@@ -65,6 +65,12 @@ LAYERS(TOGGLE)
     DO(name, app->field = !app->field)                                                             \
     IS(name, app->field)
 SWITCH(first_person, ui.first_person)
+IS(looks_beside, app->ui.first_person && app->ui.looks_beside)
+
+static void looks_beside(app_state *app) {
+    app->ui.looks_beside = !is_looks_beside(app);
+    app->ui.first_person = true;
+}
 SWITCH(account, ui.accounts)
 SWITCH(effects, ui.effects)
 SWITCH(side_panel, ui.side_panel)
@@ -518,6 +524,8 @@ static const action_row first[] = {
     {"views_largest", "F6", "Largest cost", "view cells: the largest cost, then the next", 0, 0,
      views_largest, NULL},
     {"first_person", "I", "First person", "first-person pane", 0, 0, first_person, is_first_person},
+    {"looks_beside", "Shift+I", "Beside", "first person beside the plan, or below it", 0, 0,
+     looks_beside, is_looks_beside},
     {"account", "L", "What accuracy costs", "what accuracy costs, as a chart", 0, 0, account,
      is_account},
     {"effects", "F8", "What the map calls for", "what the map calls for", 0, 0, effects,

@@ -4,6 +4,7 @@
 #include "app/sliders.h"
 #include "dialogs/browser.h"
 #include "dialogs/map_file.h"
+#include "dialogs/storeys.h"
 #include "plan/cameras.h"
 #include "plan/compare.h"
 #include "plan/from_line.h"
@@ -89,9 +90,17 @@ bool plan_field_key(app_state *app, const char *key) {
 
 // --- another plan
 
+static void compare_with(desk_state *desk, const char *path) {
+    wish_for(desk, WISH_COMPARE, path);
+}
+
+/// Of a building one storey is compared.
 static void take_other(desk_state *desk, const char *path, bool ask) {
     (void)ask;
-    wish_for(desk, WISH_COMPARE, path);
+    if (storeys_is(path))
+        map_file_check(desk, path, storeys_compare(desk, path, compare_with));
+    else
+        compare_with(desk, path);
 }
 
 static void choose_other(app_state *app) {

@@ -23,7 +23,7 @@ static void draw_edges(app_state *app, const window_layout *l) {
                 (sl_box){{l->side.min.x - wide / 2, l->side.min.y},
                          {l->side.min.x + wide / 2, l->side.max.y}});
     for (int i = 0; i < PANES_BELOW; i++)
-        if (box_width(l->below[i]) > 0) {
+        if (box_width(l->below[i]) > 0 && l->below[i].min.y > l->bar.max.y) {
             ui_edge(ui, EDGE_BELOW,
                     (sl_box){{0, l->below[i].min.y - wide / 2},
                              {l->side.min.x, l->below[i].min.y + wide / 2}});

@@ -121,6 +121,7 @@ typedef struct ui_state {
     bool legend;   ///< over the plan, where there is no panel
     bool legend_over, legend_folded; ///< in a presentation: over the map too; a button now
     bool side_panel, first_person, accounts, effects, program, table, help; ///< panels shown
+    bool looks_beside; ///< the first person stands beside the plan, not below it
     char message[512]; ///< the last thing to say
     bool message_is_error, message_is_working;
     double message_seconds; ///< for which it has been there
