@@ -182,6 +182,27 @@ static void what_does_not_fit(void **state) {
     close_plan(&s);
 }
 
+/// A letter that answers comes as text, too: it is not typed into the name that is asked for next.
+static void letters_are_no_name(void **state) {
+    (void)state;
+    scene s = open_plan(plan);
+    char sheet[64];
+    snprintf(sheet, sizeof sheet, "%s/hall-A3.pdf", s.folder);
+    assert_int_equal(chdir(s.folder), 0);
+    static const char *const keys[] = {"Ctrl+Shift+P", "3", "1"};
+    for (int i = 0; i < 3; i++) {
+        input_key(s.app, keys[i], true);
+        if (i) input_text(s.app, keys[i]);
+        input_key(s.app, keys[i], false);
+        app_tick(s.app, 0);
+        script_frame(s.app);
+    }
+    press(s.app, "Return");
+    assert_int_equal(dialog_open_now(&s.app->desk.dialog), DIALOG_NONE);
+    assert_int_equal(remove(sheet), 0);
+    close_plan(&s);
+}
+
 static void no_unit(void **state) {
     (void)state;
     scene s = open_plan("sightline 1\nwall 0 0 5 0\nwall 5 0 5 5\nwall 5 5 0 5\nwall 0 5 0 0\n");
@@ -194,9 +215,8 @@ static void no_unit(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_shown),
-        cmocka_unit_test(what_tools_show),
-        cmocka_unit_test(what_does_not_fit),
+        cmocka_unit_test(what_is_shown),     cmocka_unit_test(what_tools_show),
+        cmocka_unit_test(what_does_not_fit), cmocka_unit_test(letters_are_no_name),
         cmocka_unit_test(no_unit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -293,6 +293,23 @@ static void inside_is_told(void **state) {
     click_button(app, "Here is inside");
     click_map(app, (sl_point){1.5, 1.5});
     assert_false(is_shown(app, "closed part"));
+    // An eye in what is outside now goes into the inside; another one stays.
+    app->view.eye.at = (sl_point){4.5, 4.5};
+    click_button(app, "Here is inside");
+    click_map(app, (sl_point){2, 1.5});
+    assert_true(fabs(app->view.eye.at.x - 2) < 0.1 && fabs(app->view.eye.at.y - 1.5) < 0.1);
+    click_button(app, "Here is inside");
+    click_map(app, (sl_point){8, 8});
+    assert_true(fabs(app->view.eye.at.x - 2) < 0.1);
+    // A long message stands beside the panel, and is not covered by it.
+    ui_say(&app->ui, true, "%s",
+           "a message that is so long that it takes several lines of the "
+           "window, which the panel of the dialog would cover on the right");
+    frame(app);
+    for (int i = 0; i < app->ui.spot_count; i++)
+        if (strstr(app->ui.spots[i].text, "a message that is so long"))
+            assert_true(app->ui.spots[i].box.max.x <= app_layout(app).side.min.x);
+    assert_true(is_shown(app, "a message that is so long"));
     click_button(app, "Cancel");
     press(app, "Ctrl+I");
     click_button(app, "Measure a line");

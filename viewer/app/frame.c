@@ -111,7 +111,9 @@ void app_draw(app_state *app, cairo_t *cairo) {
     if (box_width(l.time) > 0) pane_time(&app->learn, l.time);
     pane_bar(&app->learn, l.bar);
     const job_progress work = app_progress(app);
-    pane_status(&app->learn, l.status, &work,
+    // A panel of a dialog lies over what the message would cover of it.
+    pane_status(&app->learn, l.status, import_is_beside(&app->desk) ? l.side.min.x : l.status.max.x,
+                &work,
                 app->recorder.records ? "recording"
                 : app->recorder.plays ? "playing"
                                       : "");

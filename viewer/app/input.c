@@ -198,6 +198,13 @@ static bool own_key(app_state *app, const char *key, bool down) {
     return lesson_key(app, key) || focus_key(app, key);
 }
 
+/// A letter that opens a dialog, or answers one and opens the next, comes as text too, which is not
+/// meant for the dialog.
+static void mute_letter(app_state *app, const char *key) {
+    dialog_state *d = &app->desk.dialog;
+    if (dialog_open_now(d) != DIALOG_NONE) snprintf(d->deaf, sizeof d->deaf, "%s", key);
+}
+
 void input_key(app_state *app, const char *key, bool down) {
     const text_field *before = app->ui.field;
     if (dialog_open_now(&app->desk.dialog) != DIALOG_NONE) {
@@ -206,8 +213,12 @@ void input_key(app_state *app, const char *key, bool down) {
             if (down) action_run(app, number);
             return;
         }
+        const int depth = app->desk.dialog.depth;
+        const dialog_kind kind = dialog_open_now(&app->desk.dialog);
         dialog_key(&app->desk.dialog, key, down);
         actions_answered(app);
+        if (down && (depth != app->desk.dialog.depth || kind != dialog_open_now(&app->desk.dialog)))
+            mute_letter(app, key);
         return;
     }
     if (!down) app->ui.field_mutes = false;
@@ -223,9 +234,7 @@ void input_key(app_state *app, const char *key, bool down) {
     }
     if (down) action->run(app);
     if (down && !before && app->ui.field) app->ui.field_mutes = true;
-    // A letter that opens a dialog comes as text too, which is not meant for the dialog.
-    if (down && dialog_open_now(&app->desk.dialog) != DIALOG_NONE)
-        snprintf(app->desk.dialog.deaf, sizeof app->desk.dialog.deaf, "%s", key);
+    if (down) mute_letter(app, key);
 }
 
 bool input_takes(const char *key) {

@@ -55,9 +55,10 @@ static void take_paper(desk_state *desk, int answer) {
 
 static void ask_scale(desk_state *desk, const char *said) {
     char text[512];
-    snprintf(text, sizeof text,
-             "%.300s%sWhich scale? The largest is the largest round scale at which the plan fits.",
-             said, *said ? ".\n\n" : "");
+    snprintf(
+        text, sizeof text,
+        "%s%.300s%sWhich scale? The largest is the largest round scale at which the plan fits.",
+        *said ? "It does not fit: " : "", said, *said ? ".\n\n" : "");
     question_ask(desk, "Print to scale", text, scales, SCALES + 1, take_scale);
 }
 

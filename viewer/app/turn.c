@@ -79,13 +79,24 @@ static void say_subdivision(app_state *app, bool was_mesh) {
                "All walls are axial now: the cells are those of a kd-tree, no longer of a mesh");
 }
 
-/// A map that is read in another scale has all places elsewhere.
-static void follow_scale(app_state *app, bool opened) {
+static bool eye_is_inside(const app_state *app) {
+    const uint32_t cell = view_eye_cell(&app->view);
+    return cell != SL_NO_CELL && app->document.baked->space.cells[cell].inside;
+}
+
+/// A map that is read in another scale has all places elsewhere. One that is read otherwise may
+/// have another inside: an eye that is outside then goes into it.
+static void follow_reading(app_state *app, bool opened) {
     if (!app->document.baked) return;
     const double before = app->view.source_scale;
+    const bool read = app->view.source_read != app->document.read;
     app->view.source_scale = app->document.map.source.transform.scale;
-    if (opened || before == app->view.source_scale) return;
-    app->view.fitted = true;
+    app->view.source_read = app->document.read;
+    if (opened) return;
+    if (before != app->view.source_scale)
+        app->view.fitted = true;
+    else if (!read || eye_is_inside(app))
+        return;
     walk_home(&app->view);
 }
 
@@ -97,7 +108,7 @@ static void take_document(app_state *app, bool opened) {
     if (app->document.baked) app->view.mesh = app->document.baked->space.neighbour != NULL;
     if (!opened && app->document.baked && app->view.mesh != was_mesh)
         say_subdivision(app, was_mesh);
-    follow_scale(app, opened);
+    follow_reading(app, opened);
     if (!opened || !app->document.baked) return;
     app->view.edit.chosen = UINT32_MAX;
     app->view.fitted = true;

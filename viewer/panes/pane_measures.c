@@ -294,9 +294,12 @@ void pane_measures(learn_state *learn, sl_box box) {
         if (line_map_choice(view)) column_buttons(learn->ui, &c, lines);
         c.y += 0.3 * learn->ui->text;
         column_sliders(learn->ui, &c);
-        panels[view->tool](view, &c);
+        // The values of a heat map are in sight before the many of the isovist.
+        const bool first = !(view->tool == TOOL_ISOVIST && layers_shows(view, LAYER_HEAT));
+        if (first) panels[view->tool](view, &c);
         pane_words(view, &c);
         column_legend(view, &c);
+        if (!first) panels[view->tool](view, &c);
     }
     column_layers(view, &c);
     column_end(learn->ui, &c);
