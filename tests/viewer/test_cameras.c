@@ -408,6 +408,11 @@ static void test_panel(void **state) {
         for (int i = 0; i < BUTTONS; i++) assert_true(spot_of(app, buttons[i]).min.y == before[i]);
         app_tick(app, 0);
     }
+    // Rows stay, too, when a camera is chosen and its sliders come.
+    const double row = spot_of(app, "not seen").min.y;
+    app->view.cameras->chosen = SIZE_MAX;
+    script_frame(app);
+    assert_true(spot_of(app, "not seen").min.y == row);
     char text[96], share[SL_COUNT_TEXT];
     const sl_coverage *c = &app->view.cameras->coverage;
     sl_text_percent(sl_coverage_class_area(c, 1) / c->overlay.areas[0], share);

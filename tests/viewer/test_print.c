@@ -112,7 +112,7 @@ static void what_is_shown(void **state) {
     snprintf(sees, sizeof sees,
              ">Gate &amp; lift: at 3, 4, sees %.4g m\xc2\xb2, %.4g m\xc2\xb2 alone<",
              app->view.cameras->coverage.seen[0], app->view.cameras->coverage.seen[0]);
-    assert_prints(&s, (const char *const[]){">Gate &amp; lift<", sees, "Not seen ", NULL});
+    assert_prints(&s, (const char *const[]){">Gate &amp; lift<", sees, "Not seen: ", NULL});
     close_plan(&s);
 }
 

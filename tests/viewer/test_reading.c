@@ -304,7 +304,9 @@ static void inside_is_told(void **state) {
     // A long message stands beside the panel, and is not covered by it.
     ui_say(&app->ui, true, "%s",
            "a message that is so long that it takes several lines of the "
-           "window, which the panel of the dialog would cover on the right");
+           "window, which the panel of the dialog would cover on the right, so that nobody could "
+           "read to its "
+           "end, where the next step stands");
     frame(app);
     for (int i = 0; i < app->ui.spot_count; i++)
         if (strstr(app->ui.spots[i].text, "a message that is so long"))

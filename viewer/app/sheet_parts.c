@@ -187,15 +187,15 @@ static sl_status add_compare(sheet_work *w) {
 
 /// The table and the classes, in words below the plan.
 static void say_cameras(sheet_work *w) {
-    static const char *const classes[SL_COVERAGE_CLASSES] = {"Not seen", "seen by 1", "by 2",
-                                                             "by 3 or more"};
+    static const char *const classes[SL_COVERAGE_CLASSES] = {"Not seen", "seen by 1", "seen by 2",
+                                                             "seen by 3 or more"};
     const camera_layer *layer = w->view->cameras;
     const sl_map *map = &w->view->document->map;
     char text[MEASURE_TEXT], name[CAMERA_NAME];
     if (*layer->proof) say(w, "%s\n", layer->proof);
     for (uint32_t k = 0; k < SL_COVERAGE_CLASSES; k++) {
         view_say_measure(w->view, sl_coverage_class_area(&layer->coverage, k), "\xc2\xb2", text);
-        say(w, "%s %s%s", classes[k], text, k + 1 < SL_COVERAGE_CLASSES ? ", " : ".\n");
+        say(w, "%s: %s%s", classes[k], text, k + 1 < SL_COVERAGE_CLASSES ? "; " : ".\n");
     }
     for (size_t i = 0; i < layer->table.count && i < ROWS_MOST; i++) {
         const sl_viewpoint *v = &layer->table.items[i].view;

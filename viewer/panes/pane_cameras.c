@@ -11,7 +11,12 @@
 #include <stdio.h>
 
 /// Rows that are listed: more would take the places of clicks of a frame.
-enum { CAMERAS_LISTED = 120, SPOTS_LISTED = 40, AREA_TEXT = SL_COUNT_TEXT + MEASURE_TEXT + 4 };
+enum {
+    SLIDERS = 5,
+    CAMERAS_LISTED = 120,
+    SPOTS_LISTED = 40,
+    AREA_TEXT = SL_COUNT_TEXT + MEASURE_TEXT + 4
+};
 
 static void area_text(const view_state *view, double area, char text[AREA_TEXT]) {
     char share[SL_COUNT_TEXT], measure[MEASURE_TEXT];
@@ -131,9 +136,13 @@ void pane_cameras(learn_state *learn, sl_box box) {
     column_name(view, &c);
     c.y += 0.3 * learn->ui->text;
     if (view->cameras && learn->document->baked) {
+        // The room for all sliders, and for what a search says, stays: so do the rows below.
+        const double top = c.y, t = learn->ui->text;
         column_sliders(learn->ui, &c);
+        if (!column_is_narrow(learn->ui, &c)) c.y = fmax(c.y, top + SLIDERS * 1.7 * t);
+        const double said = c.y;
         draw_search(view, &c);
-        c.y += 0.4 * learn->ui->text;
+        c.y = fmax(c.y, said + 4 * t);
         if (view->cameras->known) draw_classes(view, &c);
         draw_list(view, &c);
         if (view->cameras->known) draw_spots(view, &c);
