@@ -1,6 +1,7 @@
 /// What each tool adds to a sheet, in the colours of paper.
 #include "app/sheet_parts.h"
 
+#include "plan/building_way.h"
 #include "plan/cameras.h"
 #include "plan/compare.h"
 #include "plan/from_line.h"
@@ -112,9 +113,26 @@ static sl_status add_from_line(sheet_work *w) {
     return add_line(w, layer->ends[0], layer->ends[1]);
 }
 
+/// What of the way lies on the open storey, and the length of all of it.
+static sl_status add_building_way(sheet_work *w) {
+    const struct building_way *way = building_way_shown(w->view);
+    const size_t storey = building_way_storey(w->view);
+    char text[MEASURE_TEXT];
+    if (!way || !way->made || !way->route.found) return SL_OK;
+    const sl_building_place *p = way->route.points;
+    view_say_measure(w->view, way->route.length, "", text);
+    snprintf(w->out->names[0], SHEET_NAME, "shortest way through the building: %s", text);
+    SL_TRY(add_part(w, (sl_drawn_part){.name = w->out->names[0], .colour = w->palette.start}));
+    for (size_t i = 1; i < way->route.count; i++)
+        if (p[i - 1].storey == storey && p[i].storey == storey)
+            SL_TRY(add_line(w, p[i - 1].at, p[i].at));
+    return SL_OK;
+}
+
 static sl_status add_route(sheet_work *w) {
     const route_layer *layer = w->view->route;
     char text[MEASURE_TEXT];
+    if (w->view->building) return add_building_way(w);
     if (!layer || layer->clicks < 2 || layer->tight || !layer->route.found) return SL_OK;
     view_say_measure(w->view, layer->route.length, "", text);
     snprintf(w->out->names[0], SHEET_NAME, "shortest way: %s", text);

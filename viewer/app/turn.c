@@ -7,6 +7,7 @@
 #include "dialogs/recovery.h"
 #include "document/drawings.h"
 #include "lessons/quiz.h"
+#include "plan/building_way.h"
 #include "plan/cameras.h"
 #include "plan/compare.h"
 #include "plan/drag_world.h"
@@ -118,7 +119,8 @@ static void take_document(app_state *app, bool opened) {
     app->recorder.records = app->recorder.plays = false;
     app->recorder.frames.count = 0;
     cameras_clear(&app->view);
-    route_clear(&app->view);
+    app->view.building = app->desk.file.building;
+    if (!building_way_shown(&app->view)) route_clear(&app->view);
     from_line_clear(&app->view);
     compare_clear(&app->view);
     if (app->view.mode == MODE_EXPLORE && drawing_is(app->document.source.path))
@@ -186,6 +188,8 @@ static void poll_all(app_state *app, bool wait) {
     compare_update(&app->view, wait);
     heat_layer_update(&app->view, wait);
     cameras_update(&app->view, wait);
+    app->view.building = app->desk.file.building;
+    building_way_update(&app->view, wait);
     route_update(&app->view);
     from_line_update(&app->view, wait);
     line_map_update(&app->view, wait);
@@ -209,6 +213,8 @@ job_progress app_progress(const app_state *app) {
     const job_progress line =
         app->view.from_line ? tool_job_progress(&app->view.from_line->job) : (job_progress){0};
     if (line.running) return line;
+    const job_progress way = building_way_progress(&app->view);
+    if (way.running) return way;
     const job_progress other = compare_progress(&app->view);
     if (other.running) return other;
     const job_progress rooms = room_map_progress(&app->view);

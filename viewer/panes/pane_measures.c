@@ -2,6 +2,7 @@
 #include "document/files.h"
 #include "panes/panel.h"
 #include "panes/panes.h"
+#include "plan/building_way.h"
 #include "plan/compare.h"
 #include "plan/from_line.h"
 #include "plan/heat.h"
@@ -92,10 +93,41 @@ static void draw_isovist(const view_state *view, column *c) {
 
 // --- the path
 
+/// Of a building: the whole way, and the links that it takes.
+static void draw_building_way(const view_state *view, column *c) {
+    const struct building_way *way = building_way_shown(view);
+    char text[MEASURE_TEXT];
+    if (!way || way->clicks < 2 || !way->made) {
+        column_words(view->ui, c, 0.95, view->ui->palette.ink,
+                     !way || !way->clicks ? "Click where the way begins, on any storey."
+                     : way->clicks == 1 ? "Click where it ends. Ctrl+Shift+B shows another storey."
+                                        : "Looking for the way ...");
+        return;
+    }
+    if (!way->route.found) {
+        column_words(view->ui, c, 0.95, view->ui->palette.ink,
+                     "No way leads there: walls, shut doors or missing links are between.");
+        return;
+    }
+    view_say_measure(view, way->route.length, "", text);
+    put_row(view->ui, c, "length", text);
+    for (size_t i = 0; i < way->route.link_count; i++) {
+        const sl_storey_link *link = &way->building.links[way->route.links[i]];
+        view_say_measure(view, link->length, "", text);
+        put_row(view->ui, c, link->name, text);
+    }
+    column_words(view->ui, c, 0.9, view->ui->palette.faint,
+                 "Doors are as the files have them. Ctrl+Shift+B shows the way on another storey.");
+}
+
 static void draw_route(const view_state *view, column *c) {
     const route_layer *layer = view->route;
     char text[MEASURE_TEXT];
     column_heading(view->ui, c, "Path", NULL);
+    if (view->building) {
+        draw_building_way(view, c);
+        return;
+    }
     if (!layer || !layer->clicks) {
         column_words(view->ui, c, 0.95, view->ui->palette.ink, "Click where the way begins.");
         return;

@@ -224,10 +224,12 @@ struct view_state {
     plan_camera camera;
     bool fitted; ///< the camera fits the map, and follows the window's size
     eye_state eye;
-    double source_scale;  ///< of the map that was taken: how long its unit is in the file
-    uint32_t source_read; ///< document->read then
-    double other_cone;    ///< degrees: of Plan mode while in another one, else of the other ones
-    unsigned show;        ///< layers, of show_bit
+    double source_scale;      ///< of the map that was taken: how long its unit is in the file
+    uint32_t source_read;     ///< document->read then
+    const char *building;     ///< of which a storey is open; NULL: none
+    struct building_way *way; ///< NULL: none
+    double other_cone; ///< degrees: of Plan mode while in another one, else of the other ones
+    unsigned show;     ///< layers, of show_bit
     unsigned filled[LAYER_COUNT]; ///< by layer: the larger, the later it was switched on
     unsigned last_filled;         ///< the largest of them
     uint32_t split_depth, tree_depth;
