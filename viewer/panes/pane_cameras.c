@@ -139,6 +139,10 @@ void pane_cameras(learn_state *learn, sl_box box) {
         // The room for all sliders, and for what a search says, stays: so do the rows below.
         const double top = c.y, t = learn->ui->text;
         column_sliders(learn->ui, &c);
+        if (!camera_chosen(view))
+            column_words(learn->ui, &c, 0.9, learn->ui->palette.faint,
+                         "A click on a camera chooses it: its field of view, heading and range "
+                         "stand here.");
         if (!column_is_narrow(learn->ui, &c)) c.y = fmax(c.y, top + SLIDERS * 1.7 * t);
         const double said = c.y;
         draw_search(view, &c);

@@ -48,8 +48,11 @@ static void draw_doubts(const view_state *view, column *c) {
     char text[DOUBT_TEXT];
     if (!doubt || !view->document->baked) return;
     for (; doubt; doubt = strchr(doubt + 1, '\n')) {
-        const size_t length = strcspn(doubt + 1, "\n");
-        snprintf(text, sizeof text, "%.*s", (int)length, doubt + 1);
+        // The name of the file is known: the folders before it are left out.
+        const char *path = view->document->source.path, *from = doubt + 1;
+        if (path && strncmp(from, path, strlen(path)) == 0) from += files_base(path) - path;
+        const size_t length = strcspn(from, "\n");
+        snprintf(text, sizeof text, "%.*s", (int)length, from);
         column_words(view->ui, c, 0.9, view->ui->palette.start, text);
     }
     column_words(view->ui, c, 0.9, view->ui->palette.faint, "Ctrl+I changes how the file is read.");

@@ -345,7 +345,7 @@ static void draw_name(const view_state *view, const sl_frame *frame, const room_
     const double wide = ui_text_width(ui, 0.95, true, name), t = ui->text;
     const sl_box box = room_map_box(map, row);
     const bool chosen = view->table.chosen == row;
-    if (!chosen && wide > 1.3 * frame->scale * box_width(box)) return;
+    if (!chosen && wide > frame->scale * box_width(box)) return;
     ui_fill_round(ui,
                   (sl_box){{at.x - wide / 2 - 0.3 * t, at.y - 0.9 * t},
                            {at.x + wide / 2 + 0.3 * t, at.y + 0.5 * t}},
