@@ -130,8 +130,8 @@ static void test_building(void **state) {
     static const char *const texts[] = {
         "sightline 1\nunit m\nwalls 0 0 12 0 12 4 0 4 0 0\nstart 1 1 0\n",
         "sightline 1\nunit m\nwalls 0 0 12 0 12 4 0 4 0 0\nstart 1 1 0\n",
-        "storeys 1\nstorey ground ground.map\nstorey first first.map\n"
-        "link stair ground 10,2 first 10,2 6.5\nlink lift ground 2,3 first 2,3 40\n"};
+        ("storeys 1\nstorey ground ground.map\nstorey first first.map\n"
+         "link stair ground 10,2 first 10,2 6.5\nlink lift ground 2,3 first 2,3 40\n")};
     assert_non_null(mkdtemp(folder));
     for (int i = 0; i < 3; i++) {
         snprintf(paths[i], sizeof paths[i], "%s/%s", folder, names[i]);
