@@ -177,7 +177,7 @@ sl_status cmd_cover(command_console *console, int argc, char **argv) {
         {"door-width", 0, "W",
          "with --rooms: openings narrower than this are doors (default: 1.1 m if the unit is "
          "known, else found from the plan)",
-         .number = &plan.door_width, .over_0 = true},
+         .number = &plan.door_width, .over_0 = true, .rare = true},
         {"path", 0, "PATH",
          "which parts of a path no viewpoint sees: a path of the map, or the points of a CSV table",
          .text = &plan.path, .is_input = true},
