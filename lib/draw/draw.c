@@ -293,6 +293,21 @@ static uint32_t hidden_count(const sl_scene *scene) {
     return scene->baked->space.cell_count - scene->solid - scene->population;
 }
 
+/// Whether a picture shows nothing of cells: a plan for people who draw plans.
+static bool is_plain(const sl_scene *scene) {
+    return !(scene->options.layers &
+             ~(unsigned)(SL_LAYER_WALLS | SL_LAYER_STARTS | SL_LAYER_LEGEND)) &&
+           !scene->chosen;
+}
+
+/// What is outside, and solid ground, without a word on cells.
+static void add_ground(key *k, const sl_scene *scene) {
+    if (scene->hatched) add_key_entry(k, swatch_outside, "outside");
+    if (!scene->hatched && hidden_count(scene))
+        add_key_entry(k, swatch_hidden, scene->outside ? "inside" : "outside");
+    if (scene->solid) add_key_entry(k, swatch_solid, "solid ground");
+}
+
 static void add_cells(key *k, const sl_scene *scene) {
     const uint32_t hidden = hidden_count(scene);
     char text[TEXT_MAX], count[SL_COUNT_TEXT];
@@ -348,7 +363,10 @@ static void fill_key(key *k, const sl_scene *scene) {
     if (layers & SL_LAYER_STARTS && map->start_count)
         add_key_entry(k, swatch_start, map->start_count > 1 ? "starts" : "start");
     if (layers & SL_LAYER_WALLS) add_count(k, swatch_wall, space->wall_count, "wall");
-    add_cells(k, scene);
+    if (is_plain(scene))
+        add_ground(k, scene);
+    else
+        add_cells(k, scene);
     if (layers & SL_LAYER_PORTALS) add_count(k, swatch_portal, scene->portals, "portal");
     if (layers & SL_LAYER_WALLS) add_effects(k, map);
     if (layers & SL_LAYER_STARTS && map->path_count)
@@ -417,10 +435,7 @@ double sli_draw_ground_key(cairo_t *cairo, const sl_scene *scene, sl_point at, d
     const sli_pens pens = {.outline = 0.06 * size};
     key k = {0};
     if (!scene->solid && !scene->hatched) return 0;
-    if (scene->hatched) add_key_entry(&k, swatch_outside, "outside");
-    if (!scene->hatched && hidden_count(scene))
-        add_key_entry(&k, swatch_hidden, scene->outside ? "inside" : "outside");
-    if (scene->solid) add_key_entry(&k, swatch_solid, "solid ground");
+    add_ground(&k, scene);
     sl_text_font(cairo, size, false);
     for (size_t i = 0; i < k.count && paint; i++) {
         draw_entry(cairo, scene, &pens, &k.entries[i], at.x, at.y + 0.8 * size, size);
@@ -462,7 +477,7 @@ static double draw_heading(cairo_t *cairo, const sl_scene *scene, const strip *a
                                 scene->options.title);
         y += 0.45 * size;
     }
-    if (scene->options.layers & SL_LAYER_LEGEND) {
+    if (scene->options.layers & SL_LAYER_LEGEND && !is_plain(scene)) {
         char text[160];
         describe(scene, text, sizeof text);
         y += 1.15 * size;

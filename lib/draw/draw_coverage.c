@@ -86,35 +86,82 @@ static void draw_cone(cairo_t *cairo, const sl_frame *frame, const sl_viewpoint 
     cairo_fill(cairo);
 }
 
-/// A disc with a text in it, or beside it where it is long.
-static void draw_label(cairo_t *cairo, const sl_frame *frame, sl_point at, const char *text,
-                       sl_colour ground, sl_colour ink) {
-    const double size = 11 * frame->unit;
-    sl_text_font(cairo, size, true);
-    const double wide = sl_text_width(cairo, text), half = fmax(wide / 2 + 0.3 * size, 0.75 * size);
-    const sl_point place = sl_frame_point(frame, at);
-    const double high = 0.75 * size;
-    cairo_new_sub_path(cairo);
-    cairo_arc(cairo, place.x + half - high, place.y, high, -SLI_FULL_TURN / 4, SLI_FULL_TURN / 4);
-    cairo_arc(cairo, place.x - half + high, place.y, high, SLI_FULL_TURN / 4, -SLI_FULL_TURN / 4);
-    cairo_close_path(cairo);
-    sl_set_colour(cairo, ground);
-    cairo_fill_preserve(cairo);
-    sli_pen_stroke(cairo, ink, 0.9 * frame->unit);
-    sl_text_show(cairo, ink, place.x - wide / 2, place.y + 0.36 * size, text);
+// --- marks
+
+/// A disc with a text in it, wider where the text is long. Those that would lie on others stand
+/// beside their places, each joined with its own by a line.
+typedef struct mark {
+    char text[NAME_TEXT];
+    sl_point place, at; ///< on the page; the middle of the disc is `at`
+    double wide;        ///< of the text
+    sl_colour ground, ink;
+} mark;
+
+#define MARK_TEXT(frame) (11 * (frame)->unit)
+#define MARK_HALF        0.75 ///< of a disc, as a multiple of the size of its text
+
+static double half_width(const mark *m, double size) {
+    return fmax(m->wide / 2 + 0.3 * size, MARK_HALF * size);
 }
 
-static void draw_viewpoint(cairo_t *cairo, const sl_palette *palette, const sl_drawn_coverage *c,
-                           const sl_frame *frame, size_t i) {
-    const sl_colour colour = sl_viewpoint_colour(palette, i);
-    char number[NAME_TEXT];
-    const char *name = c->names ? c->names[i] : NULL;
-    if (name)
-        sli_text_copy(name, strlen(name), number, sizeof number);
-    else
-        snprintf(number, sizeof number, "%zu", i + 1);
-    draw_cone(cairo, frame, &c->viewpoints[i], colour);
-    draw_label(cairo, frame, c->viewpoints[i].at, number, colour, palette->page);
+static bool covers(const mark *a, const mark *b, double size) {
+    const double apart = 0.2 * size;
+    return fabs(a->at.x - b->at.x) < half_width(a, size) + half_width(b, size) + apart &&
+           fabs(a->at.y - b->at.y) < 2 * MARK_HALF * size + apart;
+}
+
+static bool is_free(const mark *marks, size_t i, const sl_frame *frame, double size) {
+    const mark *m = &marks[i];
+    const double half = half_width(m, size);
+    const bool moved = m->at.x != m->place.x || m->at.y != m->place.y;
+    if (moved && (m->at.x < frame->left + half || m->at.x > frame->left + frame->width - half ||
+                  m->at.y < frame->top + size || m->at.y > frame->top + frame->height - size))
+        return false;
+    for (size_t k = 0; k < i; k++)
+        if (covers(&marks[k], m, size)) return false;
+    return true;
+}
+
+/// Puts a mark where none of those before it lies: at its place, else on rings about it.
+static void put_mark(mark *marks, size_t i, const sl_frame *frame) {
+    enum { RINGS = 8, WAYS = 8 };
+    static const int ways[WAYS][2] = {{1, 0},  {0, -1},  {-1, 0}, {0, 1},
+                                      {1, -1}, {-1, -1}, {-1, 1}, {1, 1}};
+    mark *m = &marks[i];
+    const double size = MARK_TEXT(frame);
+    m->at = m->place;
+    for (int k = 0; k < RINGS * WAYS && !is_free(marks, i, frame, size); k++) {
+        const double ring = 2 * MARK_HALF * size * (k / WAYS + 1.2);
+        const int *way = ways[k % WAYS];
+        m->at = (sl_point){m->place.x + way[0] * (ring + half_width(m, size) - size),
+                           m->place.y + way[1] * ring};
+    }
+    if (!is_free(marks, i, frame, size)) m->at = m->place;
+}
+
+static void join_mark(cairo_t *cairo, const sl_palette *palette, const mark *m,
+                      const sl_frame *frame) {
+    if (m->at.x == m->place.x && m->at.y == m->place.y) return;
+    cairo_move_to(cairo, m->place.x, m->place.y);
+    cairo_line_to(cairo, m->at.x, m->at.y);
+    sli_pen_stroke(cairo, palette->ink, 1.1 * frame->unit);
+    cairo_new_sub_path(cairo);
+    cairo_arc(cairo, m->place.x, m->place.y, 2.5 * frame->unit, 0, SLI_FULL_TURN);
+    sl_set_colour(cairo, palette->ink);
+    cairo_fill(cairo);
+}
+
+static void draw_mark(cairo_t *cairo, const mark *m, const sl_frame *frame) {
+    const double size = MARK_TEXT(frame), half = half_width(m, size), high = MARK_HALF * size;
+    cairo_new_sub_path(cairo);
+    cairo_arc(cairo, m->at.x + half - high, m->at.y, high, -SLI_FULL_TURN / 4, SLI_FULL_TURN / 4);
+    cairo_arc(cairo, m->at.x - half + high, m->at.y, high, SLI_FULL_TURN / 4, -SLI_FULL_TURN / 4);
+    cairo_close_path(cairo);
+    sl_set_colour(cairo, m->ground);
+    cairo_fill_preserve(cairo);
+    sli_pen_stroke(cairo, m->ink, 0.9 * frame->unit);
+    sl_text_font(cairo, size, true);
+    sl_text_show(cairo, m->ink, m->at.x - m->wide / 2, m->at.y + 0.36 * size, m->text);
 }
 
 static void draw_path(cairo_t *cairo, const picture *p, const sl_frame *frame) {
@@ -138,14 +185,43 @@ static void draw_path(cairo_t *cairo, const picture *p, const sl_frame *frame) {
     sli_pen_stroke(cairo, sl_viewpoint_colour(palette, 1), 4 * frame->unit);
 }
 
-void sl_draw_coverage_marks(cairo_t *cairo, const sl_palette *palette,
-                            const sl_drawn_coverage *coverage, const sl_frame *frame) {
-    for (size_t i = 0; i < coverage->blind_count; i++) {
-        char text[NAME_TEXT];
-        snprintf(text, sizeof text, "blind %zu", i + 1);
-        draw_label(cairo, frame, coverage->blind[i], text, palette->page, palette->ink);
+/// Viewpoints come first, and keep their places.
+static void fill_mark(const sl_palette *palette, const sl_drawn_coverage *c, const sl_frame *frame,
+                      size_t i, mark *m) {
+    if (i >= c->count) {
+        snprintf(m->text, sizeof m->text, "blind %zu", i - c->count + 1);
+        m->place = sl_frame_point(frame, c->blind[i - c->count]);
+        m->ground = palette->page;
+        m->ink = palette->ink;
+        return;
     }
-    for (size_t i = 0; i < coverage->count; i++) draw_viewpoint(cairo, palette, coverage, frame, i);
+    const char *name = c->names ? c->names[i] : NULL;
+    if (name)
+        sli_text_copy(name, strlen(name), m->text, sizeof m->text);
+    else
+        snprintf(m->text, sizeof m->text, "%zu", i + 1);
+    m->place = sl_frame_point(frame, c->viewpoints[i].at);
+    m->ground = sl_viewpoint_colour(palette, i);
+    m->ink = palette->page;
+}
+
+sl_status sl_draw_coverage_marks(sl_context *context, cairo_t *cairo, const sl_palette *palette,
+                                 const sl_drawn_coverage *coverage, const sl_frame *frame) {
+    const size_t count = coverage->count + coverage->blind_count;
+    mark *marks = sl_alloc_array(context, count, sizeof *marks);
+    if (!marks) return SL_NO_MEMORY;
+    for (size_t i = 0; i < count; i++) {
+        fill_mark(palette, coverage, frame, i, &marks[i]);
+        sl_text_font(cairo, MARK_TEXT(frame), true);
+        marks[i].wide = sl_text_width(cairo, marks[i].text);
+        put_mark(marks, i, frame);
+    }
+    for (size_t i = 0; i < coverage->count; i++)
+        draw_cone(cairo, frame, &coverage->viewpoints[i], sl_viewpoint_colour(palette, i));
+    for (size_t i = 0; i < count; i++) join_mark(cairo, palette, &marks[i], frame);
+    for (size_t i = count; i-- > 0;) draw_mark(cairo, &marks[i], frame);
+    sl_free(context, marks);
+    return SL_OK;
 }
 
 static sl_status draw_plan(sl_context *context, cairo_t *cairo, const void *what,
@@ -158,8 +234,7 @@ static sl_status draw_plan(sl_context *context, cairo_t *cairo, const void *what
     sl_draw_coverage_borders(cairo, palette, p->coverage, frame);
     SL_TRY(sl_draw_walls(context, cairo, &p->scene, frame));
     draw_path(cairo, p, frame);
-    sl_draw_coverage_marks(cairo, palette, p->coverage, frame);
-    return SL_OK;
+    return sl_draw_coverage_marks(context, cairo, palette, p->coverage, frame);
 }
 
 // --- the page
@@ -205,11 +280,17 @@ static void set_page(cairo_t *cairo, const void *what, sli_page *page, bool pain
     page->height = ceil(y + 0.7 * page->margin);
 }
 
+sl_status sli_draw_coverage(sl_context *context, const sl_baked *baked,
+                            const sl_drawn_coverage *coverage, const char *caption,
+                            const sl_draw_options *options, sli_page_target *target) {
+    picture p = {.coverage = coverage, .caption = caption};
+    const sli_page_parts parts = {.set = set_page, .draw_plan = draw_plan, .what = &p};
+    return sli_page_draw_map(context, baked, options, SL_LAYER_WALLS, &p.scene, parts, target);
+}
+
 sl_status sl_draw_coverage_file(sl_context *context, const sl_baked *baked,
                                 const sl_drawn_coverage *coverage, const char *caption,
                                 const sl_draw_options *options, const char *path) {
-    picture p = {.coverage = coverage, .caption = caption};
-    const sli_page_parts parts = {.set = set_page, .draw_plan = draw_plan, .what = &p};
-    return sli_page_draw_map(context, baked, options, SL_LAYER_WALLS, &p.scene, parts,
+    return sli_draw_coverage(context, baked, coverage, caption, options,
                              &(sli_page_target){.path = path});
 }

@@ -158,32 +158,27 @@ static void put_table(document *d, const sl_document_block *block) {
 
 // --- pictures
 
+static sl_status draw_picture(document *d, const sl_document_block *block,
+                              const sl_draw_options *options, sli_page_target *target) {
+    return block->coverage
+               ? sli_draw_coverage(d->context, block->baked, block->coverage, NULL, options, target)
+               : sli_draw_picture(d->context, block->baked, block->field, block->lines, options,
+                                  target);
+}
+
 /// A picture is as wide as the text, unless it is then higher than a page. *height has its caption.
 static sl_status measure_picture(document *d, const sl_document_block *block,
                                  sl_draw_options *options, double *height) {
     const double caption = block->text ? 2 * LINE * CELL : 0;
     sli_page_target target = {.cairo = d->cairo};
     *options = sl_draw_options_default();
+    options->labels = block->labels;
+    options->label_count = block->label_count;
     options->width = INNER / 0.92; // a page of its own has margins
     for (;; options->width *= 0.9) {
-        SL_TRY(sli_draw_picture(d->context, block->baked, block->field, block->lines, options,
-                                &target));
+        SL_TRY(draw_picture(d, block, options, &target));
         *height = target.height + caption;
         if (*height <= BOTTOM - MARGIN || options->width < 2 * SL_DRAW_WIDTH_MIN) return SL_OK;
-    }
-}
-
-static void put_labels(const document *d, const sl_document_block *block,
-                       const sli_page_target *target) {
-    for (size_t i = 0; i < block->label_count; i++) {
-        const sl_plan_label *label = &block->labels[i];
-        sl_point at = sl_frame_point(&target->frame, label->at);
-        const double room = fmax(label->width * target->frame.scale, 3 * CELL);
-        sl_text_font(d->cairo, CELL, false);
-        const double wide = fmin(sl_text_width(d->cairo, label->text), room);
-        at.x += target->at.x - wide / 2;
-        at.y += target->at.y + 0.36 * CELL;
-        sl_text_show_within(d->cairo, d->palette.ink, at.x, at.y, room, CELL, false, label->text);
     }
 }
 
@@ -194,9 +189,7 @@ static sl_status put_picture(document *d, const sl_document_block *block) {
     need(d, height);
     sli_page_target target = {
         .cairo = d->cairo, .at = {(WIDTH - options.width) / 2, d->y}, .paint = true};
-    SL_TRY(
-        sli_draw_picture(d->context, block->baked, block->field, block->lines, &options, &target));
-    put_labels(d, block, &target);
+    SL_TRY(draw_picture(d, block, &options, &target));
     d->y += target.height;
     if (block->text) put_lines(d, block->text, CELL, false, 0, 0);
     return sl_check_cancelled(d->context);

@@ -258,6 +258,13 @@ sl_status sli_page_measure(sl_context *context, const char *path,
     return status;
 }
 
+void sli_page_set(cairo_t *cairo, const sli_page_parts *parts, sli_page *page, bool paint) {
+    parts->set(cairo, parts->what, page, paint);
+    if (!parts->scene) return;
+    const double top = page->height - 0.5 * page->margin;
+    page->height += ceil(sli_draw_over_key(cairo, parts->scene, page, top, paint));
+}
+
 typedef struct measured {
     const sli_page_parts *parts;
     sli_page page;
@@ -267,8 +274,15 @@ typedef struct measured {
 static sl_status lay_out_parts(sl_context *context, cairo_t *cairo, void *what) {
     measured *m = what;
     if (m->sheet.paper) return sli_sheet_lay_out(context, cairo, m->parts, &m->sheet, &m->page);
-    m->parts->set(cairo, m->parts->what, &m->page, false);
+    sli_page_set(cairo, m->parts, &m->page, false);
     return SL_OK;
+}
+
+static sl_status draw_plan(sl_context *context, cairo_t *cairo, const sli_page_parts *parts,
+                           const sli_page *page) {
+    SL_TRY(parts->draw_plan(context, cairo, parts->what, &page->frame));
+    return parts->scene ? sli_draw_over_plan(context, cairo, parts->scene, &page->frame, page->text)
+                        : SL_OK;
 }
 
 static sl_status draw_page(sl_context *context, cairo_t *cairo, measured *m) {
@@ -278,9 +292,9 @@ static sl_status draw_page(sl_context *context, cairo_t *cairo, measured *m) {
     const bool white = m->sheet.paper && !parts->scene->palette.dark; // as paper is
     sl_set_colour(cairo, white ? (sl_colour){1, 1, 1} : parts->ground);
     cairo_paint(cairo);
-    SL_TRY(parts->draw_plan(context, cairo, parts->what, &m->page.frame));
+    SL_TRY(draw_plan(context, cairo, parts, &m->page));
     sli_layer_begin(cairo, "legend");
-    parts->set(cairo, parts->what, &set, true);
+    sli_page_set(cairo, parts, &set, true);
     sli_layer_begin(cairo, "title-block");
     if (m->sheet.paper) sli_sheet_paint(cairo, &m->sheet, &m->page);
     return SL_OK;
@@ -335,14 +349,13 @@ sl_status sl_draw_check_sheet(sl_context *context, const sl_baked *baked,
 static sl_status draw_onto(sl_context *context, const sli_page_parts *parts, double width,
                            sli_page_target *target) {
     sli_page page = sli_page_of_width(width);
-    parts->set(target->cairo, parts->what, &page, false);
+    sli_page_set(target->cairo, parts, &page, false);
     target->height = page.height;
-    target->frame = page.frame;
     if (!target->paint) return SL_OK;
     cairo_save(target->cairo);
     cairo_translate(target->cairo, target->at.x, target->at.y);
-    const sl_status status = parts->draw_plan(context, target->cairo, parts->what, &page.frame);
-    parts->set(target->cairo, parts->what, &page, true);
+    const sl_status status = draw_plan(context, target->cairo, parts, &page);
+    sli_page_set(target->cairo, parts, &page, true);
     cairo_restore(target->cairo);
     return status;
 }

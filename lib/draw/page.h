@@ -75,6 +75,14 @@ sl_status sli_page_measure(sl_context *context, const char *path,
                            sl_status (*lay_out)(sl_context *context, cairo_t *cairo, void *what),
                            void *what);
 
+/// The parts and labels of a scene's options over its plan; `text` is the size of the page's.
+sl_status sli_draw_over_plan(sl_context *context, cairo_t *cairo, const sl_scene *scene,
+                             const sl_frame *frame, double text);
+/// The key of these parts, and the words of the options, from `y` on. Returns their height. Draws
+/// only with `paint`.
+double sli_draw_over_key(cairo_t *cairo, const sl_scene *scene, const sli_page *page, double y,
+                         bool paint);
+
 /// The contents of a page. `what` belongs to the picture.
 typedef struct sli_page_parts {
     /// Without `paint`: measures, places the plan and sets the height. Else draws all but the plan,
@@ -89,6 +97,9 @@ typedef struct sli_page_parts {
     const char *title; ///< in the file's description and the title block, NULL for none
 } sli_page_parts;
 
+/// Sets the parts, and what the options of their scene add below them.
+void sli_page_set(cairo_t *cairo, const sli_page_parts *parts, sli_page *page, bool paint);
+
 /// Measures, draws and writes a page of that width.
 sl_status sli_page_write(sl_context *context, const sli_page_parts *parts, double width,
                          const sli_paper_kind *kind, const char *path);
@@ -97,10 +108,9 @@ sl_status sli_page_write(sl_context *context, const sli_page_parts *parts, doubl
 typedef struct sli_page_target {
     const char *path; ///< of the file; NULL: onto the page of `cairo`
     cairo_t *cairo;
-    sl_point at;    ///< of its upper left corner on that page
-    bool paint;     ///< false only measures
-    double height;  ///< set to that of the page
-    sl_frame frame; ///< set to that of the plan on the page, for pages onto others
+    sl_point at;   ///< of its upper left corner on that page
+    bool paint;    ///< false only measures
+    double height; ///< set to that of the page
 } sli_page_target;
 
 /// Draws a page about the walls of a map, `layers` of it. `scene` is the picture's own, and is made
@@ -113,6 +123,11 @@ sl_status sli_page_draw_map(sl_context *context, const sl_baked *baked,
 sl_status sli_draw_picture(sl_context *context, const sl_baked *baked, const sl_field *field,
                            const sl_drawn_lines *lines, const sl_draw_options *options,
                            sli_page_target *target);
+
+/// sl_draw_coverage_file
+sl_status sli_draw_coverage(sl_context *context, const sl_baked *baked,
+                            const sl_drawn_coverage *coverage, const char *caption,
+                            const sl_draw_options *options, sli_page_target *target);
 
 /// A text below a picture, in lines as the width allows. Returns the height; 0 for NULL. Draws only
 /// with `paint`.

@@ -92,7 +92,7 @@ static bool lay_out(cairo_t *cairo, const sli_page_parts *parts, const sli_sheet
                        .inner = width - 2 * MARGIN,
                        .text = TEXT,
                        .plan_scale = 1000 * MM * sheet->metres / scale};
-    parts->set(cairo, parts->what, page, false);
+    sli_page_set(cairo, parts, page, false);
     const double free = height - BLOCK - MARGIN - page->height;
     page->height = height;
     page->frame.top += free / 2;

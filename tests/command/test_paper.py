@@ -5,6 +5,8 @@ test_paper.py PROGRAM
 Needs pdftotext, of poppler; without it the text of PDFs is skipped, with a message.
 """
 import csv
+import itertools
+import json
 import math
 import re
 import shutil
@@ -76,6 +78,51 @@ class Paper(sandbox.ProgramTest):
 
     def test_turned_plans_have_the_same_area(self):
         self.check_report(turned)
+
+    def cameras(self, place):
+        """Two at one place in the west, where the gap hides much of the east, and one beside them."""
+        self.box.path("rooms.map").write_text(plan(place))
+        rows = (("Gate", place(3, 5)), ("Hall", place(3, 5)), ("Lift", place(3.1, 5)))
+        self.box.path("cameras.csv").write_text(
+            "name,x,y\n" + "".join(f"{name},{x!r},{y!r}\n" for name, (x, y) in rows))
+
+    def test_cameras_of_a_report_are_those_of_cover(self):
+        for place in (lambda x, y: (x, y)), turned:
+            self.cameras(place)
+            self.run_well("report", "rooms.map", "--grid", "2", "--cameras", "cameras.csv", "-o", "a.pdf", "--quiet")
+            text = self.text_of("a.pdf")
+            said = json.loads(self.printed("cover", "rooms.map", "cameras.csv", "--rooms", "--json", "--quiet"))
+            for name, key in ("not seen", "0"), ("seen by 1", "1"), ("seen by 3 or more", "3+"):
+                area, share = self.row(text, name)
+                self.assertAlmostEqual(float(area.split()[0]), said["areas"][key], delta=5e-4 * said["areas"][key])
+                self.assertAlmostEqual(float(share.split()[0]), 100 * said["areas"][key] / 240, delta=0.051)
+            parts = text[text.index("What share of each room"):]
+            for room in said["rooms"]:
+                cells = self.row(parts, room["name"])
+                self.assertAlmostEqual(float(cells[1].split()[0]), 100 - 100 * room["seen_area"] / room["inside_area"],
+                                       delta=0.051)
+                self.assertEqual(int(cells[-1]), room["viewpoints"])
+            blind = text[text.index("blind spots. The picture"):]
+            for i, spot in enumerate(said["blind_spots"]):
+                area, x, y, room = self.row(blind, i + 1)
+                self.assertAlmostEqual(float(area.split()[0]), spot["area"], delta=5e-4 * spot["area"])
+                self.assertAlmostEqual(float(x), spot["x"], places=4)
+                self.assertEqual(room, "Room 2")
+            self.assertEqual(len(said["blind_spots"]), 2)
+
+    def test_marks_at_one_place_stand_apart(self):
+        """Words on paper have boxes: none of the names lies on another, and each is on the sheet."""
+        self.cameras(turned)
+        self.run_well("cover", "rooms.map", "cameras.csv", "--picture", "a.pdf", "--paper", "A3", "--quiet")
+        self.text_of("a.pdf")
+        words = subprocess.run(["pdftotext", "-bbox", str(self.box.path("a.pdf")), "-"], check=True,
+                               capture_output=True, text=True).stdout
+        boxes = {name: [float(number) for number in numbers] for *numbers, name in re.findall(
+            r'<word xMin="(.*?)" yMin="(.*?)" xMax="(.*?)" yMax="(.*?)">(Gate|Hall|Lift)<', words)}
+        self.assertEqual(set(boxes), {"Gate", "Hall", "Lift"})
+        for one, other in itertools.combinations(boxes, 2):
+            a, b = boxes[one], boxes[other]
+            self.assertTrue(a[2] < b[0] or b[2] < a[0] or a[3] < b[1] or b[3] < a[1], (one, other, a, b))
 
     def test_bytes_do_not_depend_on_threads(self):
         for name, threads in (("a.pdf", 1), ("b.pdf", 2)):

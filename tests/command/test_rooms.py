@@ -89,6 +89,33 @@ class Rooms(sandbox.ProgramTest):
             self.assertGreater(total, 400)
             self.assertGreater(compared, 0)
 
+    def test_cameras_by_room(self):
+        """What 0, 1, 2, 3 or more cameras see of each room: two in the office look through the doorway."""
+        # Into the store, for x from 6 to 10: two see 2.5 - (x - 3) / 6 < y < 2.5 + (x - 3) / 6, and
+        # the third 0.8 + 0.2 x < y < 0.6 + 0.4 x, which is above both borders of the others.
+        by_two, by_third, by_all = 4 * (1 + 7 / 3) / 2, 5.6, 1.2 * 4 - (10 ** 2 - 6 ** 2) / 60
+        for place in self.each():
+            self.box.path("cameras.csv").write_text("x,y\n" + "".join(
+                f"{x!r},{y!r}\n" for x, y in (place(3, 2.5), place(3, 2.5), place(1, 1))))
+            self.run_well("cover", "plan.dxf", "cameras.csv", "--rooms", "-o", "rooms.csv", "--quiet")
+            with open(self.box.path("rooms.csv"), newline="") as file:
+                rooms = {row["name"]: row for row in csv.DictReader(file)}
+            self.assertEqual(set(rooms), set(ROOMS))
+            for column in "inside_area", "seen_area", "seen_by_two_area", "seen_by_three_area":
+                self.assertAlmostEqual(float(rooms['Office, "north"'][column]), 30, places=7)
+            store = {key: float(rooms["Store"][key]) for key in rooms["Store"] if key != "name"}
+            self.assertAlmostEqual(store["inside_area"], 20, places=7)
+            self.assertAlmostEqual(store["seen_area"], by_two + by_third - by_all, places=7)
+            self.assertAlmostEqual(store["seen_by_two_area"], by_two, places=7)
+            self.assertAlmostEqual(store["seen_by_three_area"], by_all, places=7)
+            self.assertEqual(store["viewpoints"], 3)
+            answer = json.loads(self.printed("cover", "plan.dxf", "cameras.csv", "--rooms", "--json", "--quiet"))
+            for each in answer["rooms"]:
+                self.assertEqual(each, {key: value if key == "name" else float(value)
+                                        for key, value in rooms[each["name"]].items()})
+            self.assertRegex(self.printed("cover", "plan.dxf", "cameras.csv", "--rooms"),
+                             r"\n  Store +20 m² +57\.3 % +9\.3 % +14\.7 % +18\.7 % +3\n")
+
     def test_json_has_the_same(self):
         for _ in self.each():
             rooms = self.table()

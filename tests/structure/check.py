@@ -62,7 +62,7 @@ HEADERS = {"context": "base", "earth": "geometry", "measures": "base", "support"
            "art_gallery": "analysis/placement", "coverage": "analysis/placement",
            "place": "analysis/placement", "place_area": "analysis/placement",
            "place_proof": "analysis/placement",
-           "path": "analysis/route", "path_parts": "analysis/placement",
+           "building_route": "analysis/route", "path": "analysis/route", "path_parts": "analysis/placement",
            "reach": "analysis/reach", "rooms": "analysis/rooms",
            "exposure": "analysis/set_sight", "set_sight": "analysis/set_sight",
            "set_cover": "analysis/placement", "viewpoint": "analysis/placement",

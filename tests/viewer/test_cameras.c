@@ -4,11 +4,13 @@
 
 #include "app/sliders.h"
 #include "plan/cameras.h"
+#include "plan/heat.h"
 #include "plan/room_map.h"
 #include "sightline/place.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 #include <unistd.h>
@@ -62,7 +64,8 @@ static void assert_surveyed(app_state *app) {
         sl_query_set_door_at(context, query, i, app->document.map.doors[i].open);
     assert_ok(context, sl_coverage_make(context, query, viewpoints, layer->table.count, &fresh));
     double all = 0;
-    for (uint32_t k = 0; k < SL_COVERAGE_CLASSES; k++) all += camera_class_area(layer, k);
+    for (uint32_t k = 0; k < SL_COVERAGE_CLASSES; k++)
+        all += sl_coverage_class_area(&layer->coverage, k);
     assert_true(is_near(all, fresh.overlay.areas[0], 1e-6 * all));
     assert_int_equal(layer->coverage.count, fresh.count);
     for (size_t i = 0; i <= fresh.count; i++)
@@ -205,7 +208,7 @@ static void fewest(void **state) {
     app_tick(app, 0);
     const camera_layer *layer = app->view.cameras;
     assert_int_equal(layer->table.count, 5);
-    assert_true(camera_class_area(layer, 0) == 0);
+    assert_true(sl_coverage_class_area(&layer->coverage, 0) == 0);
     assert_non_null(strstr(layer->proof, "No fewer can: "));
     viewer_press(app, "Ctrl+Z");
     assert_int_equal(layer->table.count, 1);
@@ -290,7 +293,7 @@ static void stopped(void **state) {
         nanosleep(&pause, NULL);
         app_tick(app, 0.002);
     }
-    assert_true(camera_class_area(layer, 0) == 0);
+    assert_true(sl_coverage_class_area(&layer->coverage, 0) == 0);
     viewer_press(app, "Space"); // ends with the program
     viewer_end(app);
 }
@@ -312,14 +315,14 @@ static void like_the_chosen(void **state) {
     app_tick(app, 0);
     const camera_layer *layer = app->view.cameras;
     assert_true(layer->table.items[0].view.fov == 90);
-    const double unseen = camera_class_area(layer, 0);
+    const double unseen = sl_coverage_class_area(&layer->coverage, 0);
     viewer_press(app, "Ctrl+Space");
     wait_for_search(app);
     assert_int_equal(layer->table.count, 2);
     assert_string_equal(layer->table.items[0].name, "gate");
     assert_true(layer->table.items[1].view.fov == 90);
     app_tick(app, 0);
-    assert_true(camera_class_area(layer, 0) < unseen);
+    assert_true(sl_coverage_class_area(&layer->coverage, 0) < unseen);
     assert_surveyed(app);
     viewer_press(app, "Up"); // the last one
     viewer_press(app, "Shift+Space");
@@ -353,12 +356,138 @@ static void of_no_room(void **state) {
     viewer_end(app);
 }
 
+/// The box of a text of the window.
+static sl_box spot_of(const app_state *app, const char *text) {
+    for (int i = 0; i < app->ui.spot_count; i++)
+        if (strcmp(app->ui.spots[i].text, text) == 0) return app->ui.spots[i].box;
+    fail_msg("'%s' is not shown", text);
+    return (sl_box){0};
+}
+
+/// Cameras stand in a plan: nothing of cells or portals is drawn, also after a heat map.
+static void test_no_portals(void **state) {
+    (void)state;
+    app_state *app = viewer_start(true);
+    viewer_open(app, MAPS "/office.map");
+    script_frame(app);
+    assert_true(app->view.scene_show & SL_LAYER_PORTALS);
+    viewer_press(app, "1");
+    script_frame(app);
+    viewer_press(app, "8");
+    app_tick(app, 0);
+    script_frame(app);
+    assert_false(app->view.scene_show & (SL_LAYER_PORTALS | SL_LAYER_CELLS));
+    viewer_press(app, "F1");
+    script_frame(app);
+    assert_true(app->view.scene_show & SL_LAYER_PORTALS);
+    viewer_end(app);
+}
+
+/// Buttons stay where they are while cameras come and go and a search runs; areas have their unit.
+static void test_panel(void **state) {
+    (void)state;
+    static const char *const buttons[] = {"Find the fewest", "Copy", "Undo", "Import", "Export"};
+    enum { BUTTONS = sizeof buttons / sizeof *buttons };
+    app_state *app = start(MAPS "/office.map", true);
+    snprintf(app->document.map.unit, sizeof app->document.map.unit, "m");
+    app->ui.spots = calloc(SPOTS_MOST, sizeof *app->ui.spots);
+    assert_non_null(app->ui.spots);
+    double before[BUTTONS];
+    script_frame(app);
+    for (int i = 0; i < BUTTONS; i++) before[i] = spot_of(app, buttons[i]).min.y;
+    click(app, (sl_point){30, 20});
+    cameras_find(&app->view, SEARCH_ONE);
+    for (int step = 0; step < 3; step++) {
+        script_frame(app);
+        for (int i = 0; i < BUTTONS; i++) assert_true(spot_of(app, buttons[i]).min.y == before[i]);
+        app_tick(app, 0);
+    }
+    // Rows stay, too, when a camera is chosen and its sliders come.
+    const double row = spot_of(app, "not seen").min.y;
+    app->view.cameras->chosen = SIZE_MAX;
+    script_frame(app);
+    assert_true(spot_of(app, "not seen").min.y == row);
+    char text[96], share[SL_COUNT_TEXT];
+    const sl_coverage *c = &app->view.cameras->coverage;
+    sl_text_percent(sl_coverage_class_area(c, 1) / c->overlay.areas[0], share);
+    snprintf(text, sizeof text, "%.4g m\xc2\xb2   %s", sl_coverage_class_area(c, 1), share);
+    spot_of(app, text);
+    free(app->ui.spots);
+    app->ui.spots = NULL;
+    viewer_end(app);
+}
+
+static void type_value(app_state *app, const char *text) {
+    input_text(app, text);
+    viewer_press(app, "Return");
+    app_tick(app, 0);
+    script_frame(app);
+}
+
+/// Fields of view, headings and ranges are typed; what they cannot be is told, and undo knows them.
+static void test_typed(void **state) {
+    (void)state;
+    app_state *app = start(MAPS "/office.map", true);
+    viewer_press(app, "Ctrl+Shift+K"); // nothing to type without a camera
+    assert_null(app->ui.field);
+    click(app, (sl_point){30, 20});
+    script_frame(app);
+    const sl_viewpoint *v = camera_chosen(&app->view);
+    viewer_press(app, "Ctrl+Shift+K");
+    type_value(app, "62,5\xc2\xb0");
+    assert_true(v->fov == 62.5);
+    viewer_press(app, "Ctrl+Shift+K");
+    viewer_press(app, "Ctrl+Shift+K"); // the next one
+    type_value(app, "-90");
+    assert_true(camera_chosen(&app->view)->heading == 270);
+    for (int i = 0; i < 3; i++) viewer_press(app, "Ctrl+Shift+K");
+    type_value(app, "7.25");
+    v = camera_chosen(&app->view);
+    assert_true(v->range == 7.25 && v->fov == 62.5);
+    viewer_press(app, "Ctrl+Shift+K");
+    type_value(app, "400");
+    assert_true(app->ui.message_is_error);
+    assert_non_null(strstr(app->ui.message, "Field of view: '400'"));
+    assert_non_null(app->ui.field);
+    viewer_press(app, "Escape");
+    assert_null(app->ui.field);
+    assert_true(camera_chosen(&app->view)->fov == 62.5);
+    viewer_press(app, "Ctrl+Z");
+    assert_true(app->view.cameras->table.items[0].view.range == 0);
+    // A name is still a name.
+    app->view.cameras->chosen = 0;
+    viewer_press(app, "Ctrl+K");
+    type_value(app, "45");
+    assert_string_equal(app->view.cameras->table.items[0].name, "45");
+    // The grid of the heat map takes any step that it can have.
+    viewer_press(app, "9");
+    viewer_press(app, "1");
+    app_tick(app, 0);
+    script_frame(app);
+    for (int i = 0; i < 2; i++) viewer_press(app, "Ctrl+Shift+K"); // behind the view cone
+    type_value(app, "0.7");
+    assert_true(heat_step(&app->view) == 0.7);
+    app_tick(app, 0);
+    const heat_graph *graph;
+    assert_non_null(heat_layer_values(&app->view, &graph));
+    assert_true(graph->grid.step == 0.7);
+    for (int i = 0; i < 2; i++) viewer_press(app, "Ctrl+Shift+K");
+    type_value(app, "0.0001");
+    assert_true(app->ui.message_is_error);
+    assert_true(heat_step(&app->view) == 0.7);
+    viewer_press(app, "Escape");
+    viewer_press(app, "5");
+    assert_true(heat_step(&app->view) == 0.5);
+    viewer_end(app);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(by_pointer), cmocka_unit_test(names),
-        cmocka_unit_test(fewest),     cmocka_unit_test(map_changes),
-        cmocka_unit_test(tables),     cmocka_unit_test(stopped),
-        cmocka_unit_test(ground),     cmocka_unit_test(like_the_chosen),
-        cmocka_unit_test(of_no_room)};
+        cmocka_unit_test(test_panel),      cmocka_unit_test(test_no_portals),
+        cmocka_unit_test(test_typed),      cmocka_unit_test(by_pointer),
+        cmocka_unit_test(names),           cmocka_unit_test(fewest),
+        cmocka_unit_test(map_changes),     cmocka_unit_test(tables),
+        cmocka_unit_test(stopped),         cmocka_unit_test(ground),
+        cmocka_unit_test(like_the_chosen), cmocka_unit_test(of_no_room)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

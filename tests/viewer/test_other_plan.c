@@ -165,10 +165,40 @@ static void test_compare(void **state) {
     assert_int_equal(rmdir(folder), 0);
 }
 
+/// Of a building one storey is compared, which is asked for.
+static void test_storey(void **state) {
+    (void)state;
+    char folder[] = "/tmp/sightline-compare-XXXXXX", paths[3][64];
+    static const char *const names[] = {"now.map", "later.map", "house.storeys"};
+    const char *const texts[] = {now, later,
+                                 "storeys 1\nstorey ground now.map\nstorey first later.map\n"
+                                 "link stair ground 1,1 first 1,1\n"};
+    assert_non_null(mkdtemp(folder));
+    for (int i = 0; i < 3; i++) {
+        snprintf(paths[i], sizeof paths[i], "%s/%s", folder, names[i]);
+        viewer_write(paths[i], texts[i]);
+    }
+    app_state *app = start(paths[0]);
+    press(app, "Ctrl+7");
+    choose(app, paths[2]);
+    assert_int_equal(dialog_open_now(&app->desk.dialog), DIALOG_IMPORT);
+    press(app, "Down"); // behind the one that is open
+    press(app, "Return");
+    const plan_compare *c = compare_shown(&app->view);
+    assert_true(c && c->job.made);
+    assert_string_equal(c->source.path, paths[1]);
+    assert_int_equal(c->added.count, 1);
+    assert_string_equal(app->document.source.path, paths[0]);
+    viewer_end(app);
+    for (int i = 0; i < 3; i++) assert_int_equal(remove(paths[i]), 0);
+    assert_int_equal(rmdir(folder), 0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_walls),
         cmocka_unit_test(test_compare),
+        cmocka_unit_test(test_storey),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

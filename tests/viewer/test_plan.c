@@ -2,6 +2,8 @@
 // doors as they are now, and its colours by rank have as many points each.
 #include "hand.h"
 
+#include "app/layout.h"
+#include "plan/building_way.h"
 #include "plan/effects.h"
 #include "plan/from_line.h"
 #include "plan/heat.h"
@@ -39,6 +41,11 @@ static void test_opens(void **state) {
     assert_int_equal(app->view.mode, MODE_PLAN);
     assert_non_null(strstr(app->ui.message, "house.svg: "));
     assert_null(strstr(app->ui.message, "cells"));
+    char area[MEASURE_TEXT];
+    view_say_measure(&app->view, 123456, "", area);
+    assert_string_equal(area, "123500 px");
+    view_say_measure(&app->view, 12.3456, "", area);
+    assert_string_equal(area, "12.35 px");
     assert_false(layers_lists(&app->view, LAYER_CULL));
     assert_false(layers_lists(&app->view, LAYER_TREE));
     assert_int_equal(layers_fill(&app->view), LAYER_REGION);
@@ -57,6 +64,116 @@ static void test_opens(void **state) {
     app->view.mode = MODE_DRAW;
     viewer_open(app, MAPS "/keep.tmx");
     assert_int_equal(app->view.mode, MODE_DRAW);
+    viewer_end(app);
+}
+
+/// An eye that sees nothing is told so, in place of rows of zeros.
+static void test_eye_outside(void **state) {
+    (void)state;
+    app_state *app = start("house.svg", svg);
+    app->ui.spots = calloc(SPOTS_MOST, sizeof *app->ui.spots);
+    assert_non_null(app->ui.spots);
+    app->view.eye.at = (sl_point){-1000, -1000};
+    app_tick(app, 0);
+    script_frame(app);
+    bool told = false, rows = false;
+    for (int i = 0; i < app->ui.spot_count; i++) {
+        told |= strstr(app->ui.spots[i].text, "outside of the plan") != NULL;
+        rows |= strcmp(app->ui.spots[i].text, "perimeter") == 0;
+    }
+    assert_true(told);
+    assert_false(rows);
+    free(app->ui.spots);
+    app->ui.spots = NULL;
+    viewer_end(app);
+}
+
+/// A way begins on one storey and ends on another: over the link that makes it shortest.
+static void test_building(void **state) {
+    (void)state;
+    char folder[] = "/tmp/sightline-building-XXXXXX", paths[3][64];
+    static const char *const names[] = {"ground.map", "first.map", "house.storeys"};
+    static const char *const texts[] = {
+        "sightline 1\nunit m\nwalls 0 0 12 0 12 4 0 4 0 0\nstart 1 1 0\n",
+        "sightline 1\nunit m\nwalls 0 0 12 0 12 4 0 4 0 0\nstart 1 1 0\n",
+        ("storeys 1\nstorey ground ground.map\nstorey first first.map\n"
+         "link stair ground 10,2 first 10,2 6.5\nlink lift ground 2,3 first 2,3 40\n")};
+    assert_non_null(mkdtemp(folder));
+    for (int i = 0; i < 3; i++) {
+        snprintf(paths[i], sizeof paths[i], "%s/%s", folder, names[i]);
+        viewer_write(paths[i], texts[i]);
+    }
+    app_state *app = viewer_start(true);
+    viewer_open(app, paths[0]);
+    viewer_open(app, paths[2]);
+    press(app, "Return");
+    assert_string_equal(app->document.source.path, paths[0]);
+    press(app, "9");
+    press(app, "Ctrl+3");
+    route_click(&app->view, (sl_point){2, 2});
+    press(app, "Ctrl+Shift+B");
+    press(app, "Down");
+    press(app, "Return");
+    assert_string_equal(app->document.source.path, paths[1]);
+    route_click(&app->view, (sl_point){4, 2});
+    app_tick(app, 0);
+    script_frame(app);
+    const struct building_way *way = building_way_shown(&app->view);
+    assert_non_null(way);
+    assert_true(way->made && way->route.found);
+    assert_true(fabs(way->route.length - (8 + 6.5 + 6)) < 1e-9);
+    assert_int_equal(way->route.link_count, 1);
+    assert_string_equal(way->building.links[way->route.links[0]].name, "stair");
+    assert_int_equal(way->route.count, 4);
+    assert_int_equal(building_way_storey(&app->view), 1);
+    // It stays while storeys change; a click begins anew; Escape takes it back.
+    press(app, "Ctrl+Shift+B");
+    press(app, "Up");
+    press(app, "Return");
+    assert_int_equal(building_way_storey(&app->view), 0);
+    assert_true(building_way_shown(&app->view)->made);
+    route_click(&app->view, (sl_point){2, 2});
+    route_click(&app->view, (sl_point){5, 2});
+    app_tick(app, 0);
+    assert_true(fabs(building_way_shown(&app->view)->route.length - 3) < 1e-9);
+    press(app, "Escape");
+    assert_null(building_way_shown(&app->view));
+    // A plan in another unit has no way in common, and is told.
+    viewer_write(paths[1], "sightline 1\nunit ft\nwalls 0 0 12 0 12 4 0 4 0 0\nstart 1 1 0\n");
+    route_click(&app->view, (sl_point){2, 2});
+    route_click(&app->view, (sl_point){5, 2});
+    app_tick(app, 0);
+    assert_true(app->ui.message_is_error);
+    assert_non_null(strstr(app->ui.message, "its lengths are in 'ft'"));
+    // A plan that is opened by itself is of no building.
+    viewer_open(app, paths[0]);
+    app_tick(app, 0);
+    assert_null(app->view.way);
+    viewer_end(app);
+    for (int i = 0; i < 3; i++) assert_int_equal(remove(paths[i]), 0);
+    assert_int_equal(rmdir(folder), 0);
+}
+
+/// The first person stands below the plan, or has the half of its place beside it.
+static void test_beside(void **state) {
+    (void)state;
+    app_state *app = start("house.svg", svg);
+    const sl_box all = app_layout(app).plan[0];
+    press(app, "I");
+    assert_true(app_layout(app).plan[0].max.y < all.max.y);
+    press(app, "Shift+I");
+    const window_layout l = app_layout(app);
+    const sl_box looks = l.below[PANE_FIRST_PERSON];
+    assert_true(l.plan[0].max.y == all.max.y && l.plan[0].max.x == floor(all.max.x / 2));
+    assert_true(looks.min.x == l.plan[0].max.x && looks.max.x == all.max.x);
+    assert_true(looks.min.y == all.min.y && looks.max.y == all.max.y);
+    press(app, "Ctrl+L"); // the table is below both
+    const window_layout below = app_layout(app);
+    assert_true(below.below[PANE_TABLE].min.y == below.plan[0].max.y);
+    assert_true(below.below[PANE_FIRST_PERSON].max.y == below.plan[0].max.y);
+    press(app, "Ctrl+L");
+    press(app, "Shift+I");
+    assert_true(app_layout(app).plan[0].max.x == all.max.x);
     viewer_end(app);
 }
 
@@ -244,9 +361,11 @@ static void test_long_doubt(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_opens),  cmocka_unit_test(test_path),
-        cmocka_unit_test(test_walker), cmocka_unit_test(test_from_line),
-        cmocka_unit_test(test_ranks),  cmocka_unit_test(test_long_doubt),
+        cmocka_unit_test(test_opens),     cmocka_unit_test(test_eye_outside),
+        cmocka_unit_test(test_beside),    cmocka_unit_test(test_building),
+        cmocka_unit_test(test_path),      cmocka_unit_test(test_walker),
+        cmocka_unit_test(test_from_line), cmocka_unit_test(test_ranks),
+        cmocka_unit_test(test_long_doubt),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,9 +3,14 @@
 #include "hand.h"
 
 #include "app/sheet.h"
+#include "dialogs/question.h"
 #include "plan/cameras.h"
+#include "plan/compare.h"
+#include "plan/from_line.h"
 #include "plan/heat.h"
 #include "plan/line_map.h"
+#include "plan/room_map.h"
+#include "plan/route.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -82,7 +87,8 @@ static void what_is_shown(void **state) {
     scene s = open_plan(plan);
     app_state *app = s.app;
     press(app, "9");
-    assert_prints(&s, (const char *const[]){"hall.map", NULL});
+    assert_prints(&s, (const char *const[]){"hall.map", "seen from the viewpoint", "viewpoint",
+                                            "Isovist of 3, 4: area ", " m\xc2\xb2, ", NULL});
     press(app, "1");
     char measure[64];
     heat_say_measure(&app->view, measure);
@@ -96,7 +102,52 @@ static void what_is_shown(void **state) {
     camera_add(&app->view, (sl_point){3, 4});
     camera_rename(&app->view, "Gate & lift");
     app_tick(app, 0);
-    assert_prints(&s, (const char *const[]){"Gate &amp; lift", NULL});
+    char sees[96];
+    snprintf(sees, sizeof sees,
+             ">Gate &amp; lift: at 3, 4, sees %.4g m\xc2\xb2, %.4g m\xc2\xb2 alone<",
+             app->view.cameras->coverage.seen[0], app->view.cameras->coverage.seen[0]);
+    assert_prints(&s, (const char *const[]){">Gate &amp; lift<", sees, "Not seen: ", NULL});
+    close_plan(&s);
+}
+
+/// What each tool draws over the plan has its key, its names and its figures.
+static void what_tools_show(void **state) {
+    (void)state;
+    scene s = open_plan(plan);
+    app_state *app = s.app;
+    char text[64];
+    press(app, "9");
+    press(app, "Ctrl+4");
+    from_line_begin(&app->view, (sl_point){1, 2});
+    from_line_move(&app->view, (sl_point){2, 2});
+    app->view.drag.kind = DRAG_NONE;
+    app_tick(app, 0);
+    snprintf(text, sizeof text, ">seen from some point of the line: %.4g m\xc2\xb2<",
+             from_line_seen(&app->view)->seen[SL_SEEN_FROM_SOME].area);
+    assert_prints(&s,
+                  (const char *const[]){text, ">seen from all of its points: ", ">line<", NULL});
+    press(app, "Ctrl+3");
+    route_click(&app->view, (sl_point){3, 4});
+    route_click(&app->view, (sl_point){8, 6});
+    snprintf(text, sizeof text, ">shortest way: %.4g m<", app->view.route->route.length);
+    assert_prints(&s, (const char *const[]){text, NULL});
+    press(app, "Ctrl+8");
+    app_tick(app, 0);
+    const room_map *rooms = room_map_shown(&app->view);
+    room_map_rename(&app->view, 0, "Hall & stage");
+    snprintf(text, sizeof text, "Hall &amp; stage (%.4g m\xc2\xb2), ", room_map_area(rooms, 0));
+    assert_prints(&s, (const char *const[]){">Hall &amp; stage<", text, ">viewpoint<", NULL});
+    press(app, "1"); // with a heat map the names stay
+    heat_say_measure(&app->view, text);
+    assert_prints(&s, (const char *const[]){">Hall &amp; stage<", text, NULL});
+    room_map_rename(&app->view, 0, "");
+    press(app, "1");
+    compare_open(&app->view, MAPS "/gallery.map");
+    press(app, "Ctrl+7");
+    app_tick(app, 0);
+    assert_prints(&s,
+                  (const char *const[]){">walls of this plan alone<",
+                                        ">walls of the other plan alone<", "gallery.map.<", NULL});
     close_plan(&s);
 }
 
@@ -104,8 +155,13 @@ static void what_is_shown(void **state) {
 static void what_does_not_fit(void **state) {
     (void)state;
     scene s = open_plan(plan);
-    assert_null(print(&s, "4", "5"));
-    assert_non_null(strstr(s.app->ui.message, "too large for A4; 1:100 fits"));
+    press(s.app, "Ctrl+Shift+P");
+    press(s.app, "4");
+    press(s.app, "5");
+    assert_int_equal(dialog_open_now(&s.app->desk.dialog), DIALOG_QUESTION); // and no name yet
+    assert_non_null(strstr(question_text(&s.app->desk), "too large for A4; 1:100 fits"));
+    press(s.app, "Escape");
+    assert_int_equal(dialog_open_now(&s.app->desk.dialog), DIALOG_NONE);
     char *sheet = print(&s, "4", "L");
     assert_non_null(sheet);
     assert_non_null(strstr(sheet, "1:100"));
@@ -117,6 +173,27 @@ static void what_does_not_fit(void **state) {
     press(s.app, "0");
     press(s.app, "Escape");
     assert_int_equal(dialog_open_now(&s.app->desk.dialog), DIALOG_NONE);
+    close_plan(&s);
+}
+
+/// A letter that answers comes as text, too: it is not typed into the name that is asked for next.
+static void letters_are_no_name(void **state) {
+    (void)state;
+    scene s = open_plan(plan);
+    char sheet[64];
+    snprintf(sheet, sizeof sheet, "%s/hall-A3.pdf", s.folder);
+    assert_int_equal(chdir(s.folder), 0);
+    static const char *const keys[] = {"Ctrl+Shift+P", "3", "1"};
+    for (int i = 0; i < 3; i++) {
+        input_key(s.app, keys[i], true);
+        if (i) input_text(s.app, keys[i]);
+        input_key(s.app, keys[i], false);
+        app_tick(s.app, 0);
+        script_frame(s.app);
+    }
+    press(s.app, "Return");
+    assert_int_equal(dialog_open_now(&s.app->desk.dialog), DIALOG_NONE);
+    assert_int_equal(remove(sheet), 0);
     close_plan(&s);
 }
 
@@ -132,8 +209,8 @@ static void no_unit(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_shown),
-        cmocka_unit_test(what_does_not_fit),
+        cmocka_unit_test(what_is_shown),     cmocka_unit_test(what_tools_show),
+        cmocka_unit_test(what_does_not_fit), cmocka_unit_test(letters_are_no_name),
         cmocka_unit_test(no_unit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -154,6 +154,12 @@ static void leaks_are_closed(void **state) {
     assert_int_equal(mark.kind, MARK_CHOSEN);
     assert_true(fabs(mark.length - 1.5) < 1e-12);
     const double all = app->document.area;
+    // A click on its row shows which one it is, and closes nothing.
+    click_button(app, "1.5 at 4, 0");
+    click_button(app, "1.5 at 4, 0");
+    assert_true(import_mark_at(&app->desk, 0, &mark));
+    assert_int_equal(mark.kind, MARK_CHOSEN);
+    assert_true(app->document.area == all);
     click_button(app, "Close it");
     assert_true(import_mark_at(&app->desk, 0, &mark));
     assert_int_equal(mark.kind, MARK_CLOSED);
@@ -220,6 +226,103 @@ static void line_is_measured(void **state) {
     close_house(&s);
 }
 
+static bool is_shown(const app_state *app, const char *part) {
+    for (int i = 0; i < app->ui.spot_count; i++)
+        if (strstr(app->ui.spots[i].text, part)) return true;
+    return false;
+}
+
+/// The panel leaves the plan in sight: one can fit it and read the notes without leaving the panel.
+static void plan_is_looked_at(void **state) {
+    (void)state;
+    scene s = open_house();
+    app_state *app = s.app;
+    keep_spots(app);
+    press(app, "Ctrl+I");
+    const plan_camera fits = app->view.camera;
+    view_pan(&app->view, 200, 100);
+    press(app, "Ctrl+0");
+    assert_true(app->view.camera.middle.x == fits.middle.x && app->view.camera.scale == fits.scale);
+    view_pan(&app->view, 200, 100);
+    frame(app);
+    click_button(app, "Fit");
+    assert_true(app->view.camera.middle.x == fits.middle.x);
+    assert_true(import_is_beside(&app->desk));
+    press(app, "Ctrl+J");
+    assert_int_equal(dialog_open_now(&app->desk.dialog), DIALOG_QUESTION);
+    press(app, "Return");
+    assert_int_equal(dialog_open_now(&app->desk.dialog), DIALOG_IMPORT);
+    // Other actions stay shut out.
+    press(app, "Ctrl+5");
+    assert_int_equal(app->view.tool, TOOL_ISOVIST);
+    drop_spots(app);
+    close_house(&s);
+}
+
+/// A hall with a court in it that nothing leads to, and an entrance as wide as a door of 2 m.
+static const char court[] = "0\nSECTION\n2\nENTITIES\n" LINE("A", 9, 0, 9, 9) LINE("A", 9, 9, 0, 9)
+    LINE("A", 0, 9, 0, 0) LINE("A", 0, 0, 7, 0) LINE("A", 3, 3, 6, 3) LINE("A", 6, 3, 6, 6)
+        LINE("A", 6, 6, 3, 6) LINE("A", 3, 6, 3, 3) "0\nENDSEC\n0\nEOF\n";
+
+/// Closed parts are told, and left out by a click; a scale that changes what is inside says so.
+static void inside_is_told(void **state) {
+    (void)state;
+    char folder[] = "/tmp/sightline-court-XXXXXX", path[64];
+    assert_non_null(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s/court.dxf", folder);
+    FILE *stream = fopen(path, "w");
+    assert_non_null(stream);
+    fputs(court, stream);
+    assert_int_equal(fclose(stream), 0);
+    app_state *app = viewer_start(true);
+    app->ui.width = 1024;
+    app->ui.height = 768;
+    viewer_open(app, path);
+    keep_spots(app);
+    press(app, "9");
+    press(app, "Ctrl+I");
+    assert_true(import_is_beside(&app->desk));
+    const double all = app->document.inside_area;
+    assert_true(fabs(all - 81) < 1e-9);
+    assert_true(is_shown(app, "1 closed part, the largest of 9 at 4.5, 4.5"));
+    click_button(app, "Here is inside");
+    click_map(app, (sl_point){1.5, 1.5});
+    assert_false(is_shown(app, "closed part"));
+    // An eye in what is outside now goes into the inside; another one stays.
+    app->view.eye.at = (sl_point){4.5, 4.5};
+    click_button(app, "Here is inside");
+    click_map(app, (sl_point){2, 1.5});
+    assert_true(fabs(app->view.eye.at.x - 2) < 0.1 && fabs(app->view.eye.at.y - 1.5) < 0.1);
+    click_button(app, "Here is inside");
+    click_map(app, (sl_point){8, 8});
+    assert_true(fabs(app->view.eye.at.x - 2) < 0.1);
+    // A long message stands beside the panel, and is not covered by it.
+    ui_say(&app->ui, true, "%s",
+           "a message that is so long that it takes several lines of the "
+           "window, which the panel of the dialog would cover on the right, so that nobody could "
+           "read to its "
+           "end, where the next step stands");
+    frame(app);
+    for (int i = 0; i < app->ui.spot_count; i++)
+        if (strstr(app->ui.spots[i].text, "a message that is so long"))
+            assert_true(app->ui.spots[i].box.max.x <= app_layout(app).side.min.x);
+    assert_true(is_shown(app, "a message that is so long"));
+    click_button(app, "Cancel");
+    press(app, "Ctrl+I");
+    click_button(app, "Measure a line");
+    click_map(app, (sl_point){0, 9});
+    click_map(app, (sl_point){9, 9});
+    type(app, "90 m"); // the opening is 20 m wide now, and no door
+    press(app, "Return");
+    assert_string_equal(app->document.source.options.unit, "10=m");
+    assert_true(fabs(app->document.inside_area - 100 * all) > 1);
+    assert_true(is_shown(app, "The scale changes what is inside: "));
+    drop_spots(app);
+    viewer_end(app);
+    assert_int_equal(remove(path), 0);
+    assert_int_equal(rmdir(folder), 0);
+}
+
 /// A choice that cannot be read is told in the dialog, and the plan stays.
 static void wrong_choices(void **state) {
     (void)state;
@@ -232,6 +335,18 @@ static void wrong_choices(void **state) {
     frame(app);
     assert_int_equal(dialog_open_now(&app->desk.dialog), DIALOG_IMPORT);
     assert_non_null(strstr(app->desk.dialog.problem, "there is no unit 'ells'"));
+    // All of a long one is there, in lines that stand on nothing else.
+    keep_spots(app);
+    type(app, " of the old town of Bern");
+    frame(app);
+    char misfit[160];
+    double high = 0;
+    for (int i = 0; i < app->ui.spot_count; i++)
+        if (strncmp(app->ui.spots[i].text, app->desk.dialog.problem, 40) == 0)
+            high = box_height(app->ui.spots[i].box);
+    assert_true(high > 2 * app->ui.text);
+    assert_null(ui_misfit(&app->ui, misfit));
+    drop_spots(app);
     assert_int_equal(app->document.baked->space.wall_count, walls);
     close_house(&s);
 }
@@ -337,6 +452,7 @@ static void storeys_are_chosen(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(roles_show_at_once), cmocka_unit_test(leaks_are_closed),
+        cmocka_unit_test(plan_is_looked_at),  cmocka_unit_test(inside_is_told),
         cmocka_unit_test(line_is_measured),   cmocka_unit_test(wrong_choices),
         cmocka_unit_test(choices_are_kept),   cmocka_unit_test(storeys_are_chosen),
     };

@@ -6,6 +6,7 @@
 #include "studies/cover_path.h"
 #include "studies/cover_report.h"
 #include "studies/cover_zones.h"
+#include "studies/room_table.h"
 #include "system/built.h"
 
 #include <stdio.h>
@@ -17,6 +18,8 @@ typedef struct cover_plan {
     door_choice doors;
     sl_viewpoint like; ///< what rows of the table leave out
     bool skip_outside; ///< pass over rows that lie outside the map or in solid ground
+    bool rooms;
+    double door_width;
     bool json;
     sl_draw_options drawing;
 } cover_plan;
@@ -28,7 +31,8 @@ typedef struct cover_work {
     sl_viewpoint *viewpoints;
     sl_coverage coverage;
     zone_list zones;
-    zone_cover *covers; ///< by zone
+    room_table rooms;
+    zone_covers covers; ///< by zone or room
     cover_path path;
 } cover_work;
 
@@ -51,31 +55,11 @@ static void skip_outside(sl_context *context, const cover_plan *plan, cover_work
     w->cameras.count = kept;
 }
 
-/// A viewpoint that is not inside sees nothing that counts, or only through windows.
-static sl_status check_places(sl_context *context, const cover_plan *plan, const cover_work *w) {
-    const sl_space *space = &w->baked.space;
-    char nearest[INPUT_NEAREST_TEXT];
-    size_t outside = 0, first = 0;
-    for (size_t i = 0; i < w->cameras.count; i++) {
-        const sl_camera *camera = &w->cameras.items[i];
-        SL_TRY(input_check_place(context, plan->operands[1], camera->line, space, camera->view.at));
-        const uint32_t cell = sl_space_locate(space, camera->view.at);
-        if (cell == SL_NO_CELL || space->cells[cell].inside) continue;
-        if (!outside++) first = i;
-    }
-    if (!outside) return SL_OK;
-    const sl_camera *camera = &w->cameras.items[first];
-    sl_note(context, "%s: %zu of %zu viewpoints are not inside; the first is on line %u%s",
-            plan->operands[1], outside, w->cameras.count, camera->line,
-            input_say_nearest(space, camera->view.at, nearest));
-    return SL_OK;
-}
-
 static sl_status print_json(sl_context *context, const cover_work *w, const cover_report *report) {
     json_fields fields = json_begin();
     json_add_text(&fields, "input", report->input);
     cover_add_json(&fields, report);
-    if (w->covers) cover_zones_add_json(&fields, &w->zones, w->covers);
+    if (w->covers.what) cover_zones_add_json(&fields, &w->covers);
     if (w->path.count) cover_path_add_json(&fields, &w->path);
     return json_print(context, &fields);
 }
@@ -95,15 +79,23 @@ static void note_signs(sl_context *context, const cover_plan *plan, const cover_
 }
 
 static sl_status check_plan(sl_context *context, const cover_plan *plan) {
-    if (plan->output && plan->zones && plan->path)
+    if (plan->output && (plan->zones != NULL) + (plan->path != NULL) + plan->rooms > 1)
         return sl_fail(context, SL_BAD_ARGUMENT,
-                       "-o makes one table: give one of --zones and --path");
+                       "-o makes one table: give one of --zones, --rooms and --path");
+    if (plan->zones && plan->rooms)
+        return sl_fail(context, SL_BAD_ARGUMENT, "give one of --zones and --rooms");
+    if (plan->door_width > 0 && !plan->rooms)
+        return sl_fail(context, SL_BAD_ARGUMENT, "--door-width is of no use without --rooms");
     return SL_OK;
 }
 
-static sl_status work(command_console *console, const cover_plan *plan, cover_work *w) {
+static sl_status work(command_console *console, cover_plan *plan, cover_work *w) {
     sl_context *context = console->context;
     SL_TRY(check_plan(context, plan));
+    SL_TRY(pipeline_plan(context, plan->operands[0], &plan->pipeline));
+    // Doors that a drawing shows say where rooms end.
+    if (plan->rooms && input_is_drawing(context, plan->operands[0]))
+        plan->pipeline.input.import.doors = true;
     const sl_baked *baked = &w->baked;
     SL_TRY(pipeline_read_space(
         context, &plan->pipeline, "cover",
@@ -116,7 +108,7 @@ static sl_status work(command_console *console, const cover_plan *plan, cover_wo
         return sl_fail(context, SL_BAD_INPUT,
                        "%s: all viewpoints lie outside the map or in solid ground",
                        plan->operands[1]);
-    SL_TRY(check_places(context, plan, w));
+    SL_TRY(cover_check_places(context, plan->operands[1], &baked->space, &w->cameras));
     SL_TRY(sl_query_over(context, &baked->space, &baked->map, NULL, &w->query));
     if (baked->map.mirror_count)
         sl_note(context, "mirrors are walls here: cover counts what is seen directly");
@@ -130,12 +122,16 @@ static sl_status work(command_console *console, const cover_plan *plan, cover_wo
                           &w->zones));
         SL_TRY(cover_zones_make(context, &report, &w->zones, &w->covers));
     }
+    if (plan->rooms) {
+        SL_TRY(room_table_make(context, baked, plan->door_width, &w->rooms));
+        room_table_note(context, &w->rooms);
+        SL_TRY(cover_rooms_make(context, &report, &w->rooms.rooms, &w->covers));
+    }
     if (plan->path)
         SL_TRY(cover_path_make(context, &report, w->query, w->viewpoints, plan->path, &w->path));
     if (plan->output)
         SL_TRY(plan->path ? cover_path_write(context, &w->path, plan->output)
-                          : cover_table_write(context, &report, plan->zones ? &w->zones : NULL,
-                                              w->covers, plan->output));
+                          : cover_table_write(context, &report, &w->covers, plan->output));
     char caption[256];
     cover_sentence(&report, caption, sizeof caption);
     if (plan->picture)
@@ -145,7 +141,7 @@ static sl_status work(command_console *console, const cover_plan *plan, cover_wo
     if (plan->json) return print_json(context, w, &report);
     if (console->quiet && (plan->output || plan->picture)) return SL_OK;
     cover_print(&report);
-    if (w->covers) cover_zones_print(&report, &w->zones, w->covers);
+    if (w->covers.what) cover_zones_print(&report, &w->covers);
     if (plan->path) cover_path_print(&report, &w->path);
     return SL_OK;
 }
@@ -154,7 +150,8 @@ static void clear(sl_context *context, cover_work *w) {
     sl_coverage_destroy(context, &w->coverage);
     cover_path_destroy(context, &w->path);
     zones_destroy(context, &w->zones);
-    sl_free(context, w->covers);
+    room_table_destroy(context, &w->rooms);
+    cover_zones_destroy(context, &w->covers);
     sl_free(context, w->viewpoints);
     sl_cameras_destroy(context, &w->cameras);
     sl_query_destroy(context, w->query);
@@ -169,13 +166,21 @@ sl_status cmd_cover(command_console *console, int argc, char **argv) {
     const option_table doors = door_option_table(&plan.doors);
     const option_spec options[] = {
         {"output", 'o', "FILE.csv",
-         "a table: a row for each zone, with --path for each part that is not seen, else for each "
+         "a table: a row for each zone or room, with --path for each part that is not seen, else "
+         "for each "
          "viewpoint",
          .text = &plan.output, .check = CHECK_FILE, .endings = ".csv .txt"},
         {"zones", 0, "ZONES",
          "what is seen of each zone: names of objects in the map, a drawing of closed outlines, or "
          "a table of corners (.csv: name,x,y)",
          .text = &plan.zones},
+        {"rooms", 0, NULL,
+         "how much of each room is seen by 0, 1, 2, 3 or more; rooms are those that 'rooms' lists",
+         .flag = &plan.rooms},
+        {"door-width", 0, "W",
+         "with --rooms: openings narrower than this are doors (default: 1.1 m if the unit is "
+         "known, else found from the plan)",
+         .number = &plan.door_width, .over_0 = true, .rare = true},
         {"path", 0, "PATH",
          "which parts of a path no viewpoint sees: a path of the map, or the points of a CSV table",
          .text = &plan.path, .is_input = true},
@@ -210,7 +215,8 @@ sl_status cmd_cover(command_console *console, int argc, char **argv) {
                 "zone below.",
         .examples = "  sightline cover gallery.dxf cameras.csv --picture cover.png\n"
                     "  sightline cover office.map cameras.csv --fov 90 --range 12\n"
-                    "  sightline cover office.map cameras.csv --zones rooms.dxf -o rooms.csv\n"
+                    "  sightline cover office.map cameras.csv --zones parts.dxf -o parts.csv\n"
+                    "  sightline cover office.map cameras.csv --rooms -o rooms.csv\n"
                     "  sightline cover office.map signs.csv --signs --path escape.csv",
         .options = options,
         .option_count = sizeof options / sizeof *options,
@@ -220,8 +226,7 @@ sl_status cmd_cover(command_console *console, int argc, char **argv) {
     SL_TRY(options_parse(console, &usage, argc, argv, plan.operands, &helped));
     if (helped) return SL_OK;
     cover_work w = {0};
-    sl_status status = pipeline_plan(console->context, plan.operands[0], &plan.pipeline);
-    if (status == SL_OK) status = work(console, &plan, &w);
+    const sl_status status = work(console, &plan, &w);
     clear(console->context, &w);
     return status;
 }

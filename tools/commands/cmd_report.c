@@ -31,6 +31,10 @@ sl_status cmd_report(command_console *console, int argc, char **argv) {
          "draw a heat map of this measure; may be given several times (default: area, "
          "visual_integration_hh, connectivity and through_vision)",
          .list = &plan.measures},
+        {"cameras", 0, "TABLE",
+         "what these viewpoints see together, as 'cover' shows it: classes with their areas, each "
+         "room, blind spots",
+         .text = &plan.cameras, .is_input = true},
         {"threads", 0, "N", "number of threads (default: one per core)",
          .count32 = &graph->options.threads, .most = 1024},
         {.group = &doors},
@@ -41,10 +45,12 @@ sl_status cmd_report(command_console *console, int argc, char **argv) {
         .synopsis = "MAP|FILE.slv -o OUT.pdf [options]",
         .operands = {"MAP|FILE.slv"},
         .what = "Writes a report of a plan: the plan, measures of visible regions and of the "
-                "visibility graph as a table and as heat maps, axial lines, and how exact all of "
+                "visibility graph as a table and as heat maps, rooms, cameras, axial lines, and "
+                "how exact all of "
                 "it is. Letters are text, and the same plan gives the same bytes.",
         .tables = print_measures,
         .examples = "  sightline report office.map -o office.pdf\n"
+                    "  sightline report office.map --cameras cameras.csv -o office.pdf\n"
                     "  sightline report office.map --grid 1 --title \"Office\" -o office.pdf",
         .options = options,
         .option_count = sizeof options / sizeof *options,

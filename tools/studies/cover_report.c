@@ -1,6 +1,7 @@
 /// Classes of coverage, viewpoints and blind spots.
 #include "studies/cover_report.h"
 
+#include "inputs/inputs.h"
 #include "reports/heat_map.h"
 #include "sightline/support.h"
 #include "studies/cover_path.h"
@@ -8,9 +9,6 @@
 
 #include <math.h>
 #include <stdio.h>
-
-/// Classes: 0, 1, 2, 3 and more. And so many blind spots are printed, and numbered in pictures.
-enum { CLASSES = 4, BLIND_MOST = 10 };
 
 sl_status cover_viewpoints(sl_context *context, const sl_cameras *cameras, sl_viewpoint **out) {
     *out = sl_alloc_array(context, cameras->count, sizeof **out);
@@ -29,18 +27,10 @@ const char *cover_area_text(const cover_report *r, double area, char text[AREA_T
     return text;
 }
 
-static double class_area(const sl_coverage *c, size_t class) {
-    const double *areas = c->overlay.areas;
-    if (class >= c->overlay.shape_count) return 0;
-    const double above = class + 1 < CLASSES ? areas[class + 1] : 0;
-    const double area = areas[class] - above;
-    return area > c->negligible ? area : 0;
-}
-
 void cover_sentence(const cover_report *r, char *text, size_t size) {
     const sl_coverage *c = r->coverage;
     char seen[AREA_TEXT], all[AREA_TEXT];
-    const double blind = class_area(c, 0), inside = c->overlay.areas[0];
+    const double blind = sl_coverage_class_area(c, 0), inside = c->overlay.areas[0];
     size_t signs = 0;
     for (size_t i = 0; i < c->count; i++) signs += r->cameras->items[i].view.sign;
     const bool one = c->count == 1;
@@ -64,11 +54,11 @@ static void name_of(const sl_camera *camera, size_t number, char *text, size_t s
 }
 
 static void print_classes(const cover_report *r) {
-    static const char *const names[CLASSES] = {"not seen", "seen by 1", "seen by 2",
-                                               "seen by 3 or more"};
+    static const char *const names[SL_COVERAGE_CLASSES] = {"not seen", "seen by 1", "seen by 2",
+                                                           "seen by 3 or more"};
     char text[AREA_TEXT];
-    for (size_t k = 0; k < CLASSES; k++) {
-        const double area = class_area(r->coverage, k);
+    for (uint32_t k = 0; k < SL_COVERAGE_CLASSES; k++) {
+        const double area = sl_coverage_class_area(r->coverage, k);
         if (area > 0)
             printf("  %-18s %12s  %5.1f %%\n", names[k], cover_area_text(r, area, text),
                    100 * area / r->coverage->overlay.areas[0]);
@@ -105,8 +95,8 @@ static void print_blind(const cover_report *r) {
     const int digits = sl_map_digits(&r->baked->map);
     if (!c->blind_count) return;
     printf("\n  %u blind spot%s", (unsigned)c->blind_count, c->blind_count == 1 ? "" : "s");
-    printf(c->blind_count > BLIND_MOST ? ", the largest %d:\n" : ":\n", BLIND_MOST);
-    for (uint32_t i = 0; i < c->blind_count && i < BLIND_MOST; i++)
+    printf(c->blind_count > COVER_BLIND_MOST ? ", the largest %d:\n" : ":\n", COVER_BLIND_MOST);
+    for (uint32_t i = 0; i < c->blind_count && i < COVER_BLIND_MOST; i++)
         printf("  %4u %12s  at %.*g,%.*g\n", (unsigned)i + 1,
                cover_area_text(r, c->blind[i].area, text), digits, c->blind[i].at.x, digits,
                c->blind[i].at.y);
@@ -139,13 +129,14 @@ static void add_camera(json_fields *f, const cover_report *r, size_t i) {
 }
 
 void cover_add_json(json_fields *f, const cover_report *r) {
-    static const char *const classes[CLASSES] = {"0", "1", "2", "3+"};
+    static const char *const classes[SL_COVERAGE_CLASSES] = {"0", "1", "2", "3+"};
     const sl_coverage *c = r->coverage;
     json_add_real(f, "inside_area", c->overlay.areas[0]);
-    json_add_real(f, "seen_area", c->overlay.areas[0] - class_area(c, 0));
-    json_add_real(f, "unseen_area", class_area(c, 0));
+    json_add_real(f, "seen_area", c->overlay.areas[0] - sl_coverage_class_area(c, 0));
+    json_add_real(f, "unseen_area", sl_coverage_class_area(c, 0));
     json_open(f, "areas");
-    for (size_t k = 0; k < CLASSES; k++) json_add_real(f, classes[k], class_area(c, k));
+    for (uint32_t k = 0; k < SL_COVERAGE_CLASSES; k++)
+        json_add_real(f, classes[k], sl_coverage_class_area(c, k));
     json_close(f);
     json_open_list(f, "viewpoints");
     for (size_t i = 0; i < c->count; i++) add_camera(f, r, i);
@@ -162,37 +153,67 @@ void cover_add_json(json_fields *f, const cover_report *r) {
     json_close_list(f);
 }
 
+sl_status cover_check_places(sl_context *context, const char *table, const sl_space *space,
+                             const sl_cameras *cameras) {
+    char nearest[INPUT_NEAREST_TEXT];
+    size_t outside = 0, first = 0;
+    for (size_t i = 0; i < cameras->count; i++) {
+        const sl_camera *camera = &cameras->items[i];
+        SL_TRY(input_check_place(context, table, camera->line, space, camera->view.at));
+        const uint32_t cell = sl_space_locate(space, camera->view.at);
+        if (cell == SL_NO_CELL || space->cells[cell].inside) continue;
+        if (!outside++) first = i;
+    }
+    if (!outside) return SL_OK;
+    const sl_camera *camera = &cameras->items[first];
+    sl_note(context, "%s: %zu of %zu viewpoints are not inside; the first is on line %u%s", table,
+            outside, cameras->count, camera->line,
+            input_say_nearest(space, camera->view.at, nearest));
+    return SL_OK;
+}
+
+// --- the picture
+
+sl_status cover_drawn_make(sl_context *context, const cover_report *r, cover_drawn *out) {
+    const sl_coverage *c = r->coverage;
+    out->names = sl_alloc_array(context, c->count, sizeof *out->names);
+    if (!out->names) return SL_NO_MEMORY;
+    SL_TRY(cover_viewpoints(context, r->cameras, &out->viewpoints));
+    out->drawn = (sl_drawn_coverage){.pieces = &c->overlay.pieces,
+                                     .counts = c->overlay.counts,
+                                     .viewpoints = out->viewpoints,
+                                     .names = out->names,
+                                     .regions = c->regions,
+                                     .count = c->count,
+                                     .blind = out->blind};
+    for (size_t i = 0; i < c->count; i++) out->names[i] = r->cameras->items[i].name;
+    for (size_t i = 0; i < c->blind_count && i < COVER_BLIND_MOST; i++)
+        out->blind[out->drawn.blind_count++] = c->blind[i].at;
+    return SL_OK;
+}
+
+void cover_drawn_destroy(sl_context *context, cover_drawn *drawn) {
+    sl_free(context, drawn->viewpoints);
+    sl_free(context, drawn->names);
+}
+
 sl_status cover_draw(sl_context *context, const cover_report *r, const cover_path *way,
                      const char *caption, const sl_draw_options *drawing, const char *path) {
-    const sl_coverage *c = r->coverage;
-    sl_viewpoint *viewpoints = NULL;
-    const char **names = sl_alloc_array(context, c->count, sizeof *names);
-    sl_point blind[BLIND_MOST];
+    cover_drawn made = {0};
     char title[512];
     sl_draw_options options = *drawing;
     heat_map_title(r->input, r->map, "coverage", title, sizeof title);
     if (!options.title) options.title = title;
-    sl_drawn_coverage drawn = {.pieces = &c->overlay.pieces,
-                               .counts = c->overlay.counts,
-                               .names = names,
-                               .regions = c->regions,
-                               .count = c->count,
-                               .blind = blind};
+    sl_status status = cover_drawn_make(context, r, &made);
     if (way) {
-        drawn.path = way->points;
-        drawn.path_count = way->count;
-        drawn.unseen = way->unseen.items;
-        drawn.unseen_count = way->unseen.count;
+        made.drawn.path = way->points;
+        made.drawn.path_count = way->count;
+        made.drawn.unseen = way->unseen.items;
+        made.drawn.unseen_count = way->unseen.count;
     }
-    for (; drawn.blind_count < c->blind_count && drawn.blind_count < BLIND_MOST;
-         drawn.blind_count++)
-        blind[drawn.blind_count] = c->blind[drawn.blind_count].at;
-    sl_status status = names ? cover_viewpoints(context, r->cameras, &viewpoints) : SL_NO_MEMORY;
-    for (size_t i = 0; status == SL_OK && i < c->count; i++) names[i] = r->cameras->items[i].name;
-    drawn.viewpoints = viewpoints;
     if (status == SL_OK)
-        status = built_pictures()->coverage(context, r->baked, &drawn, caption, &options, path);
-    sl_free(context, viewpoints);
-    sl_free(context, names);
+        status =
+            built_pictures()->coverage(context, r->baked, &made.drawn, caption, &options, path);
+    cover_drawn_destroy(context, &made);
     return status;
 }

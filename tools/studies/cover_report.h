@@ -33,6 +33,26 @@ void cover_print(const cover_report *report);
 /// "areas", "viewpoints" and "blind_spots".
 void cover_add_json(json_fields *fields, const cover_report *report);
 
+/// SL_BAD_INPUT with its line for a viewpoint outside the map or in solid ground; notes those that
+/// are not inside, which see nothing that counts, or only through windows. `table`: their file.
+sl_status cover_check_places(sl_context *context, const char *table, const sl_space *space,
+                             const sl_cameras *cameras);
+
+/// So many blind spots are printed, and numbered in pictures.
+enum { COVER_BLIND_MOST = 10 };
+
+/// What a picture has of a report, which it refers to.
+typedef struct cover_drawn {
+    sl_drawn_coverage drawn;
+    sl_viewpoint *viewpoints;
+    const char **names;
+    sl_point blind[COVER_BLIND_MOST];
+} cover_drawn;
+
+/// `out` must stay where it is.
+sl_status cover_drawn_make(sl_context *context, const cover_report *report, cover_drawn *out);
+void cover_drawn_destroy(sl_context *context, cover_drawn *drawn);
+
 struct cover_path;
 
 /// Draws classes and viewpoints, and what of a way they do not see; NULL for none. `caption` as

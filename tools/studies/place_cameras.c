@@ -363,7 +363,7 @@ void camera_work_destroy(sl_context *context, camera_work *w) {
     sl_free(context, w->weights);
     see_lines_destroy(context, &w->lines);
     sl_free(context, w->line_weights);
-    sl_free(context, w->covers);
+    cover_zones_destroy(context, &w->covers);
     sl_free(context, w->line_covers);
     sl_area_placement_destroy(context, &w->placed);
 }

@@ -40,7 +40,7 @@ typedef struct camera_work {
     double *line_weights; ///< by segment of `lines`, with `weights`
     sl_place_area task;
     sl_area_placement placed;
-    zone_cover *covers; ///< by zone of `see`, and by thing of `lines`: what is seen in the end
+    zone_covers covers; ///< by zone of `see`, and by thing of `lines`: what is seen in the end
     line_cover *line_covers;
 } camera_work;
 

@@ -25,9 +25,9 @@ static sl_status check_zone(sl_context *context, const camera_plan *plan, sl_que
     const char *name = w->see.names.items[z];
     size_t end;
     const sl_shape zone = zones_shape_of(&w->see, z, &end);
-    if (!(w->covers[z].inside > 0))
+    if (!(w->covers.items[z].by[0] > 0))
         return sl_fail(context, SL_BAD_ARGUMENT, "--see: nothing of zone '%s' is inside", name);
-    if (w->covers[z].seen > 0) return SL_OK;
+    if (w->covers.items[z].by[1] > 0) return SL_OK;
     for (uint32_t i = 0; i < w->placed.blind_count; i++)
         if (zones_shape_holds(&zone, w->placed.blind[i].at))
             return refuse_hidden(context, plan, query, w, "zone", name, w->placed.blind[i].at);
@@ -116,7 +116,7 @@ static double percent(const line_cover *c) {
 
 void camera_work_print_things(const camera_work *w, const cover_report *report) {
     const char *unit = report->baked->map.unit;
-    if (w->covers) cover_zones_print(report, &w->see, w->covers);
+    if (w->covers.what) cover_zones_print(report, &w->covers);
     if (w->lines.ends.count) printf("\n  line                    inside      seen\n");
     for (size_t i = 0; i < w->lines.ends.count; i++) {
         char length[64];
@@ -128,7 +128,7 @@ void camera_work_print_things(const camera_work *w, const cover_report *report) 
 }
 
 void camera_work_add_things_json(json_fields *f, const camera_work *w) {
-    if (w->covers) cover_zones_add_json(f, &w->see, w->covers);
+    if (w->covers.what) cover_zones_add_json(f, &w->covers);
     if (!w->lines.ends.count) return;
     json_open_list(f, "lines");
     for (size_t i = 0; i < w->lines.ends.count; i++) {

@@ -9,6 +9,7 @@ typedef struct plan_report_plan {
     vga_plan graph;
     const char *title;    ///< NULL: the name of the file
     option_list measures; ///< heat maps, by name; none: the usual ones
+    const char *cameras;  ///< a table of viewpoints; NULL: none
 } plan_report_plan;
 
 /// Computes and writes the report to a PDF.

@@ -65,6 +65,12 @@ LAYERS(TOGGLE)
     DO(name, app->field = !app->field)                                                             \
     IS(name, app->field)
 SWITCH(first_person, ui.first_person)
+IS(looks_beside, app->ui.first_person && app->ui.looks_beside)
+
+static void looks_beside(app_state *app) {
+    app->ui.looks_beside = !is_looks_beside(app);
+    app->ui.first_person = true;
+}
 SWITCH(account, ui.accounts)
 SWITCH(effects, ui.effects)
 SWITCH(side_panel, ui.side_panel)
@@ -518,6 +524,8 @@ static const action_row first[] = {
     {"views_largest", "F6", "Largest cost", "view cells: the largest cost, then the next", 0, 0,
      views_largest, NULL},
     {"first_person", "I", "First person", "first-person pane", 0, 0, first_person, is_first_person},
+    {"looks_beside", "Shift+I", "Beside", "first person beside the plan, or below it", 0, 0,
+     looks_beside, is_looks_beside},
     {"account", "L", "What accuracy costs", "what accuracy costs, as a chart", 0, 0, account,
      is_account},
     {"effects", "F8", "What the map calls for", "what the map calls for", 0, 0, effects,
@@ -590,6 +598,7 @@ static const action_row last[] = {
     {"save_pdf", "Ctrl+P", "PDF", "save the plan as PDF", 0, 0, save_pdf, NULL},
     {"print", "Ctrl+Shift+P", "Print", "print the plan to scale on A4 to A0", 0, 0, print, NULL},
     {"fit", "F", "Fit", "show all of the map", 0, 0, fit, NULL},
+    {"fit_too", "Ctrl+0", NULL, "show all of the map", 0, 0, fit, NULL},
     {"zoom_in", "PageUp", NULL, "zoom in", 0, 0, zoom_in, NULL},
     {"zoom_out", "PageDown", NULL, "zoom out", 0, 0, zoom_out, NULL},
     {"pan_left", "Shift+Left", NULL, "move the plan: what lies to the left", 0, 0, pan_left, NULL},
@@ -632,6 +641,11 @@ const action_row *action_at(int number) {
     list_parts(parts);
     for (; number >= parts[part].count; part++) number -= parts[part].count;
     return &parts[part].rows[number];
+}
+
+bool action_looks(int number) {
+    void (*const run)(app_state * app) = action_at(number)->run;
+    return run == fit || run == file_notes;
 }
 
 int action_find(const char *name) {

@@ -22,6 +22,9 @@ const action_row *action_at(int number);
 /// Has the page show the actions as they are now.
 void actions_show(app_state *app);
 
+/// Whether an action only shows what is there, as beside a dialog that leaves the plan in sight.
+bool action_looks(int number);
+
 /// The number of an action; -1 for an unknown name.
 int action_find(const char *name);
 /// The number of the action of a key in a mode; -1 for none.

@@ -1,8 +1,10 @@
 /// Actions of the Plan mode and of the Cameras mode: tools, measures of the heat map, cameras.
 #include "app/action_parts.h"
 
+#include "app/sliders.h"
 #include "dialogs/browser.h"
 #include "dialogs/map_file.h"
+#include "dialogs/storeys.h"
 #include "plan/cameras.h"
 #include "plan/compare.h"
 #include "plan/from_line.h"
@@ -46,7 +48,10 @@ static void type_name(app_state *app, const char *name) {
     field_set(&app->view.name, name);
     app->view.name.chosen = true;
     app->ui.field = &app->view.name;
+    app->ui.number = NULL;
 }
+
+DO(value_type, slider_type(app, -1))
 
 static void room_name_typed(app_state *app) {
     const room_map *map = room_map_shown(&app->view);
@@ -71,6 +76,10 @@ DO(room_delete, room_map_delete(&app->view, app->view.table.chosen))
 bool plan_field_key(app_state *app, const char *key) {
     const bool done = strcmp(key, "Return") == 0;
     if (app->ui.field != &app->view.name || (!done && strcmp(key, "Escape") != 0)) return false;
+    if (done && app->ui.field == app->ui.number) {
+        if (slider_typed(app)) app->ui.field = NULL;
+        return true;
+    }
     app->ui.field = NULL;
     if (done && app->view.mode == MODE_CAMERAS)
         camera_rename(&app->view, app->view.name.text);
@@ -81,9 +90,17 @@ bool plan_field_key(app_state *app, const char *key) {
 
 // --- another plan
 
+static void compare_with(desk_state *desk, const char *path) {
+    wish_for(desk, WISH_COMPARE, path);
+}
+
+/// Of a building one storey is compared.
 static void take_other(desk_state *desk, const char *path, bool ask) {
     (void)ask;
-    wish_for(desk, WISH_COMPARE, path);
+    if (storeys_is(path))
+        map_file_check(desk, path, storeys_compare(desk, path, compare_with));
+    else
+        compare_with(desk, path);
 }
 
 static void choose_other(app_state *app) {
@@ -265,6 +282,9 @@ static const action_row rows[] = {
     {"table_back", "Ctrl+PageUp", NULL, "table: the row before", PLAN, 0, table_back, NULL},
     {"table_export", "Ctrl+Shift+E", "Export", "table: write it as CSV", PLAN, 0, table_export,
      NULL},
+    {"value_type", "Ctrl+Shift+K", NULL,
+     "type the value of a slider: a field of view, a range, a grid step; again: the next one", 0, 0,
+     value_type, NULL},
     {"heat_next", "2", "Next measure", "heat map: the next measure", NOT_LEARN, 0, heat_next, NULL},
     {"heat_back", "3", "Back", "heat map: the measure before", NOT_LEARN, 0, heat_back, NULL},
     {"heat_coarser", "4", "Coarser", "heat map: a coarser grid", NOT_LEARN, 0, heat_coarser, NULL},

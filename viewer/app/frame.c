@@ -23,7 +23,7 @@ static void draw_edges(app_state *app, const window_layout *l) {
                 (sl_box){{l->side.min.x - wide / 2, l->side.min.y},
                          {l->side.min.x + wide / 2, l->side.max.y}});
     for (int i = 0; i < PANES_BELOW; i++)
-        if (box_width(l->below[i]) > 0) {
+        if (box_width(l->below[i]) > 0 && l->below[i].min.y > l->bar.max.y) {
             ui_edge(ui, EDGE_BELOW,
                     (sl_box){{0, l->below[i].min.y - wide / 2},
                              {l->side.min.x, l->below[i].min.y + wide / 2}});
@@ -111,7 +111,9 @@ void app_draw(app_state *app, cairo_t *cairo) {
     if (box_width(l.time) > 0) pane_time(&app->learn, l.time);
     pane_bar(&app->learn, l.bar);
     const job_progress work = app_progress(app);
-    pane_status(&app->learn, l.status, &work,
+    // A panel of a dialog lies over what the message would cover of it.
+    pane_status(&app->learn, l.status, import_is_beside(&app->desk) ? l.side.min.x : l.status.max.x,
+                &work,
                 app->recorder.records ? "recording"
                 : app->recorder.plays ? "playing"
                                       : "");

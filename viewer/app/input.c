@@ -198,11 +198,27 @@ static bool own_key(app_state *app, const char *key, bool down) {
     return lesson_key(app, key) || focus_key(app, key);
 }
 
+/// A letter that opens a dialog, or answers one and opens the next, comes as text too, which is not
+/// meant for the dialog.
+static void mute_letter(app_state *app, const char *key) {
+    dialog_state *d = &app->desk.dialog;
+    if (dialog_open_now(d) != DIALOG_NONE) snprintf(d->deaf, sizeof d->deaf, "%s", key);
+}
+
 void input_key(app_state *app, const char *key, bool down) {
     const text_field *before = app->ui.field;
     if (dialog_open_now(&app->desk.dialog) != DIALOG_NONE) {
+        const int number = action_of_key(key, app->view.mode);
+        if (app->desk.dialog.beside && number >= 0 && action_looks(number) && strchr(key, '+')) {
+            if (down) action_run(app, number);
+            return;
+        }
+        const int depth = app->desk.dialog.depth;
+        const dialog_kind kind = dialog_open_now(&app->desk.dialog);
         dialog_key(&app->desk.dialog, key, down);
         actions_answered(app);
+        if (down && (depth != app->desk.dialog.depth || kind != dialog_open_now(&app->desk.dialog)))
+            mute_letter(app, key);
         return;
     }
     if (!down) app->ui.field_mutes = false;
@@ -218,9 +234,7 @@ void input_key(app_state *app, const char *key, bool down) {
     }
     if (down) action->run(app);
     if (down && !before && app->ui.field) app->ui.field_mutes = true;
-    // A letter that opens a dialog comes as text too, which is not meant for the dialog.
-    if (down && dialog_open_now(&app->desk.dialog) != DIALOG_NONE)
-        snprintf(app->desk.dialog.deaf, sizeof app->desk.dialog.deaf, "%s", key);
+    if (down) mute_letter(app, key);
 }
 
 bool input_takes(const char *key) {
@@ -314,6 +328,8 @@ static void click_widget(app_state *app, const hit_area *hit) {
         app->view.method = (size_t)hit->value;
     } else if (hit->kind == HIT_PANEL && hit->value == PANEL_SHEET) {
         ui_shut_help(&app->ui);
+    } else if (hit->kind == HIT_VALUE) {
+        slider_type(app, hit->value);
     } else if (hit->kind == HIT_FIELD && app->ui.field) {
         app->ui.field->clicked = true;
         app->ui.field->click_x = app->ui.pointer.x;
@@ -379,6 +395,10 @@ static void input_press_at(app_state *app, button_kind button, sl_point at) {
     drag_state *drag = &app->view.drag;
     *drag = (drag_state){.hit = hit, .from = at, .last = at, .index = UINT32_MAX};
     if (dialog_open_now(&app->desk.dialog) != DIALOG_NONE && !is_beside(app, &hit)) {
+        if (app->desk.dialog.beside && hit.kind == HIT_ACTION && action_looks(hit.value)) {
+            if (button == BUTTON_LEFT) action_run(app, hit.value);
+            return;
+        }
         if (button == BUTTON_LEFT) dialog_press(&app->desk.dialog, &hit, at);
         actions_answered(app);
         return;

@@ -20,6 +20,17 @@ static double side_width(const app_state *app) {
     return fmin(fmax(chosen > 0 ? chosen : 26, 8) * t, 0.55 * ui->width);
 }
 
+/// Whether the first person has half of the plan's place, in place of a pane below.
+static bool looks_beside(const app_state *app) {
+    return app->ui.looks_beside && panes_below()[PANE_FIRST_PERSON].shown(&app->learn) &&
+           !(app->view.compare == COMPARE_PANES && app->view.mode == MODE_EXPLORE);
+}
+
+static bool is_below(const app_state *app, int pane) {
+    return panes_below()[pane].shown(&app->learn) &&
+           !(pane == PANE_FIRST_PERSON && looks_beside(app));
+}
+
 static void place_below(const app_state *app, window_layout *l, double right, double *bottom) {
     int shown = 0, before = 0;
     const double t = ui_text_size(&app->ui), chosen = app->ui.edges[EDGE_BELOW];
@@ -27,7 +38,7 @@ static void place_below(const app_state *app, window_layout *l, double right, do
     double high = 0;
     for (int i = 0; i < PANES_BELOW; i++) {
         const pane_below *pane = &panes_below()[i];
-        if (!pane->shown(&app->learn)) continue;
+        if (!is_below(app, i)) continue;
         high = fmax(high, pane->lines ? fmin(1.4 * t * pane->lines(&app->learn), 0.42 * room)
                                       : 0.42 * room);
         shown++;
@@ -36,7 +47,7 @@ static void place_below(const app_state *app, window_layout *l, double right, do
     if (chosen > 0) high = fmin(fmax(chosen, 0.1), 0.8) * room;
     const double top = round(*bottom - high);
     for (int i = 0; i < PANES_BELOW; i++) {
-        if (!panes_below()[i].shown(&app->learn)) continue;
+        if (!is_below(app, i)) continue;
         const double left = right * before / shown;
         l->below[i] = box_of(left, top, right * ++before / shown, *bottom);
     }
@@ -59,6 +70,10 @@ window_layout app_layout(const app_state *app) {
     l.side = box_of(right, bar, w, bottom);
     place_below(app, &l, right, &bottom);
     l.plan[0] = box_of(0, bar, right, bottom);
+    if (looks_beside(app)) {
+        l.plan[0].max.x = floor(right / 2);
+        l.below[PANE_FIRST_PERSON] = box_of(l.plan[0].max.x, bar, right, bottom);
+    }
     if (app->view.compare == COMPARE_PANES && app->view.mode == MODE_EXPLORE) {
         l.plan_count = 2;
         l.plan[0].max.x = floor(right / 2);
@@ -74,7 +89,8 @@ void app_drag_edge(app_state *app, int edge, double by) {
         return;
     }
     double high = 0, bottom = l.plan[0].max.y;
-    for (int i = 0; i < PANES_BELOW; i++) high = fmax(high, box_height(l.below[i]));
+    for (int i = 0; i < PANES_BELOW; i++)
+        if (is_below(app, i)) high = fmax(high, box_height(l.below[i]));
     const double room = bottom + high - l.bar.max.y;
     app->ui.edges[edge] = fmin(fmax((high + by) / room, 0.1), 0.8);
 }

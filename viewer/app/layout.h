@@ -8,7 +8,8 @@
 typedef struct window_layout {
     sl_box bar, side, status, plan[2], time;
     int plan_count;
-    sl_box below[PANES_BELOW]; ///< the plan; of no width where they are not shown
+    sl_box below[PANES_BELOW]; ///< the plan, or the first person beside it; of no width where they
+                               ///< are not shown
 } window_layout;
 
 window_layout app_layout(const app_state *app);

@@ -168,7 +168,7 @@ static void print_cameras(app_state *app, FILE *out) {
     fprintf(out, "proof: %s\n", layer->proof);
     if (!layer->known || layer->seen_stamp != layer->stamp) return;
     for (uint32_t i = 0; i < SL_COVERAGE_CLASSES; i++)
-        fprintf(out, "class %u: %.9g\n", i, camera_class_area(layer, i));
+        fprintf(out, "class %u: %.9g\n", i, sl_coverage_class_area(&layer->coverage, i));
     for (size_t i = 0; i < layer->table.count; i++)
         fprintf(out, "sees %zu: %.9g %s\n", i + 1, layer->coverage.seen[i],
                 sl_coverage_is_spare(&layer->coverage, i) ? "spare" : "needed");

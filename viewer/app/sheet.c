@@ -1,8 +1,9 @@
 /// Two questions and a name, then one of the drawings of the library: cameras with their coverage,
-/// lines by a measure, the heat map, what is seen from the viewpoint, or the plan alone.
+/// lines by a measure, the heat map, or the plan, with what the tool adds (sheet_parts.h).
 #include "app/sheet.h"
 
 #include "app/action_parts.h"
+#include "app/sheet_parts.h"
 #include "dialogs/browser.h"
 #include "dialogs/map_file.h"
 #include "dialogs/question.h"
@@ -28,10 +29,19 @@ static void take_path(desk_state *desk, const char *path) {
     wish_for(desk, WISH_SHEET, path);
 }
 
+static void ask_scale(desk_state *desk, const char *said);
+
+/// A scale at which the plan does not fit is asked for again, before a name is.
 static void take_scale(desk_state *desk, int answer) {
     char name[TITLE_TEXT], ending[32];
     if (answer == SCALES) return;
     desk->scale = answer ? scales[answer] + LETTER : NULL;
+    sl_draw_options options = sl_draw_options_default();
+    options.sheet = (sl_sheet){.paper = desk->paper, .scale = desk->scale};
+    if (sl_draw_check_sheet(desk->context, desk->document->baked, &options, "sheet.pdf") != SL_OK) {
+        ask_scale(desk, sl_context_message(desk->context));
+        return;
+    }
     snprintf(ending, sizeof ending, "-%s.pdf", desk->paper);
     map_file_name_output(desk, ending, name);
     browser_save(desk, BROWSE_SHEETS, name, take_path);
@@ -40,9 +50,16 @@ static void take_scale(desk_state *desk, int answer) {
 static void take_paper(desk_state *desk, int answer) {
     if (answer == PAPERS) return;
     desk->paper = papers[answer] + LETTER;
-    question_ask(desk, "Print to scale",
-                 "Which scale? The largest is the largest round scale at which the plan fits.",
-                 scales, SCALES + 1, take_scale);
+    ask_scale(desk, "");
+}
+
+static void ask_scale(desk_state *desk, const char *said) {
+    char text[512];
+    snprintf(
+        text, sizeof text,
+        "%s%.300s%sWhich scale? The largest is the largest round scale at which the plan fits.",
+        *said ? "It does not fit: " : "", said, *said ? ".\n\n" : "");
+    question_ask(desk, "Print to scale", text, scales, SCALES + 1, take_scale);
 }
 
 void sheet_ask(app_state *app) {
@@ -82,8 +99,7 @@ static sl_status draw_cameras(const app_state *app, const sl_draw_options *optio
                                      .blind = blind,
                                      .blind_count = c->blind_count};
     if (status == SL_OK)
-        status = sl_draw_coverage_file(context, app->document.baked, &drawn,
-                                       *layer->proof ? layer->proof : NULL, options, path);
+        status = sl_draw_coverage_file(context, app->document.baked, &drawn, NULL, options, path);
     sl_free(context, viewpoints);
     sl_free(context, names);
     sl_free(context, blind);
@@ -136,32 +152,15 @@ static sl_status draw_heat(const app_state *app, const double *of_points, const 
     return status;
 }
 
-static sl_status draw_seen(const app_state *app, const sl_draw_options *options, const char *path) {
-    const sl_region *region = &app->view.seen.region;
-    const double tolerance = 1e-4 * fmax(region->range, 0);
-    const size_t count = sl_region_flatten(region, tolerance, NULL, 0);
-    sl_point *points = sl_alloc_array(app->context, count + 1, sizeof *points);
-    if (!points) return SL_NO_MEMORY;
-    sl_region_flatten(region, tolerance, points, count);
-    const sl_drawn_region drawn = {.eye = app->view.eye.at, .points = points, .count = count};
-    const sl_status status =
-        sl_draw_regions_file(app->context, app->document.baked, &drawn, 1, NULL, options, path);
-    sl_free(app->context, points);
-    return status;
-}
-
 static sl_status draw_shown(app_state *app, const sl_draw_options *options, const char *path) {
     const view_state *view = &app->view;
     const heat_graph *graph;
     const double *values = heat_layer_values(view, &graph);
     const line_map *lines = line_map_shown(view);
-    if (view->mode == MODE_CAMERAS && view->cameras && view->cameras->known &&
-        view->cameras->seen_stamp == view->cameras->stamp)
+    if (view->mode == MODE_CAMERAS && cameras_are_seen(view))
         return draw_cameras(app, options, path);
     if (lines) return draw_lines(app, lines, options, path);
     if (values) return draw_heat(app, values, graph, options, path);
-    if (view->mode == MODE_PLAN && view->tool == TOOL_ISOVIST && view->seen.valid)
-        return draw_seen(app, options, path);
     return sl_draw_file(app->context, app->document.baked, options, path);
 }
 
@@ -172,7 +171,14 @@ sl_status sheet_save(app_state *app, const char *path) {
     options.layers = SL_LAYER_WALLS | SL_LAYER_STARTS | SL_LAYER_LEGEND;
     options.title = title;
     options.sheet = (sl_sheet){.paper = app->desk.paper, .scale = app->desk.scale};
-    SL_TRY(draw_shown(app, &options, path));
+    sheet_parts parts = {0};
+    const heat_graph *graph;
+    const bool over_heat = heat_layer_values(&app->view, &graph) != NULL;
+    sl_status status = sheet_parts_fill(&app->view, over_heat, &parts);
+    sheet_parts_apply(&parts, &options);
+    if (status == SL_OK) status = draw_shown(app, &options, path);
+    sheet_parts_destroy(app->context, &parts);
+    SL_TRY(status);
     ui_say(&app->ui, false, "printed on %s to %s", options.sheet.paper, path);
     return SL_OK;
 }

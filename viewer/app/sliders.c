@@ -10,6 +10,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 /// A length over 0 that one can read.
 static double two_digits(double length) {
@@ -30,6 +31,12 @@ static double cone_share(const app_state *app) {
 
 static void cone_text(const app_state *app, char text[SLIDER_TEXT]) {
     snprintf(text, SLIDER_TEXT, "%.0f\xc2\xb0", app->view.eye.fov);
+}
+
+static bool type_cone(app_state *app, double degrees) {
+    if (degrees < 1 || degrees > 360) return false;
+    app->view.eye.fov = degrees;
+    return true;
 }
 
 static void set_cone(app_state *app, double share) {
@@ -135,6 +142,10 @@ static void heat_text(const app_state *app, char text[SLIDER_TEXT]) {
     snprintf(text, SLIDER_TEXT, "%.3g", heat_step(&app->view));
 }
 
+static bool type_heat(app_state *app, double step) {
+    return heat_type_step(&app->view, step);
+}
+
 static void set_heat(app_state *app, double share) {
     int last;
     heat_step_place(&app->view, &last);
@@ -195,6 +206,13 @@ static void field_text(const app_state *app, char text[SLIDER_TEXT]) {
     snprintf(text, SLIDER_TEXT, "%.0f\xc2\xb0", camera_chosen(&app->view)->fov);
 }
 
+static bool type_field(app_state *app, double degrees) {
+    const sl_camera *row = camera_chosen_row(&app->view);
+    if (!(degrees > 0) || degrees > 360) return false;
+    camera_tilt(&app->view, degrees, row->height, row->tilt);
+    return true;
+}
+
 static void set_field(app_state *app, double share) {
     const sl_camera *row = camera_chosen_row(&app->view);
     camera_tilt(&app->view, round(5 + 355 * share), row->height, row->tilt);
@@ -206,6 +224,13 @@ static double heading_share(const app_state *app) {
 
 static void heading_text(const app_state *app, char text[SLIDER_TEXT]) {
     snprintf(text, SLIDER_TEXT, "%.0f\xc2\xb0", camera_chosen(&app->view)->heading);
+}
+
+static bool type_heading(app_state *app, double degrees) {
+    if (degrees < -360 || degrees > 360) return false;
+    camera_chosen(&app->view)->heading = degrees < 0 ? degrees + 360 : fmod(degrees, 360);
+    camera_changed(&app->view);
+    return true;
 }
 
 static void set_heading(app_state *app, double share) {
@@ -224,6 +249,13 @@ static void camera_range_text(const app_state *app, char text[SLIDER_TEXT]) {
         snprintf(text, SLIDER_TEXT, "%.3g", range);
     else
         snprintf(text, SLIDER_TEXT, "no limit");
+}
+
+static bool type_camera_range(app_state *app, double range) {
+    if (!(range >= 0)) return false;
+    app->view.cameras->like.range = range;
+    camera_range(&app->view, range);
+    return true;
 }
 
 static void set_camera_range(app_state *app, double share) {
@@ -254,6 +286,13 @@ static void height_text(const app_state *app, char text[SLIDER_TEXT]) {
         snprintf(text, SLIDER_TEXT, "not known");
 }
 
+static bool type_height(app_state *app, double height) {
+    const sl_camera *row = camera_chosen_row(&app->view);
+    if (!(height >= 0)) return false;
+    camera_tilt(&app->view, row->view.fov, height, row->tilt);
+    return true;
+}
+
 static void set_height(app_state *app, double share) {
     const sl_camera *row = camera_chosen_row(&app->view);
     camera_tilt(&app->view, row->view.fov,
@@ -270,6 +309,13 @@ static double tilt_share(const app_state *app) {
 
 static void tilt_text(const app_state *app, char text[SLIDER_TEXT]) {
     snprintf(text, SLIDER_TEXT, "%.0f\xc2\xb0", camera_chosen_row(&app->view)->tilt);
+}
+
+static bool type_tilt(app_state *app, double degrees) {
+    const sl_camera *row = camera_chosen_row(&app->view);
+    if (!(degrees >= 0) || degrees > 90) return false;
+    camera_tilt(&app->view, row->view.fov, row->height, degrees);
+    return true;
 }
 
 static void set_tilt(app_state *app, double share) {
@@ -301,44 +347,101 @@ static void walker_text(const app_state *app, char text[SLIDER_TEXT]) {
         snprintf(text, SLIDER_TEXT, "a point");
 }
 
+static bool type_walker(app_state *app, double radius) {
+    if (!(radius >= 0) || radius > widest_walker(app)) return false;
+    app->view.walker = radius;
+    return true;
+}
+
 static void set_walker(app_state *app, double share) {
     app->view.walker = share > 0.01 ? two_digits(share * share * widest_walker(app)) : 0;
 }
 
 static const slider_row sliders[] = {
     {"View cone", has_eye, cone_share, cone_text, set_cone, NULL, NULL,
-     "How wide the eye sees (, and .)"},
+     "How wide the eye sees (, and .)", type_cone},
     {"Radius", has_walker, walker_share, walker_text, set_walker, NULL, NULL,
-     "Half the width of who walks the path: gaps that are too narrow are not passed"},
+     "Half the width of who walks the path: gaps that are too narrow are not passed", type_walker},
     {"View range", has_range, range_share, range_text, set_range, view_keep, range_settle,
-     "Nothing farther than this is seen (Ctrl+R sets and lifts it)"},
+     "Nothing farther than this is seen (Ctrl+R sets and lifts it)", NULL},
     {"Reflections", has_mirrors, depth_share, depth_text, set_depth, NULL, mirror_settle_depth,
-     "How often a sightline is reflected at most"},
+     "How often a sightline is reflected at most", NULL},
     {"Cut at", is_model, cut_share, cut_text, set_cut, NULL, NULL,
-     "The height at which the model is cut (Ctrl+Up, Ctrl+Down)"},
+     "The height at which the model is cut (Ctrl+Up, Ctrl+Down)", NULL},
     {"Split depth", has_splits, split_share, split_text, set_split, NULL, NULL,
-     "Splits of the tree down to this depth ([ and ])"},
+     "Splits of the tree down to this depth ([ and ])", NULL},
     {"Tree grown", has_tree, tree_share, tree_text, set_tree, NULL, NULL,
-     "Sequences of the stab tree up to this many portals (- and =)"},
+     "Sequences of the stab tree up to this many portals (- and =)", NULL},
     {"View cells", has_views, views_share, views_text, set_views, NULL, NULL,
-     "From one view cell to all elementary ones (Ctrl+Left, Ctrl+Right)"},
+     "From one view cell to all elementary ones (Ctrl+Left, Ctrl+Right)", NULL},
     {"Grid step", has_heat, heat_share, heat_text, set_heat, NULL, NULL,
-     "From point to point of the heat map (4 coarser, 5 finer)"},
+     "From point to point of the heat map (4 coarser, 5 finer)", type_heat},
     {"Field of view", has_camera, field_share, field_text, set_field, camera_keep, camera_settle,
-     "How wide the chosen camera sees (, and .)"},
+     "How wide the chosen camera sees (, and .)", type_field},
     {"Heading", has_camera_cone, heading_share, heading_text, set_heading, camera_keep,
-     camera_settle, "Where it looks: from right, counter-clockwise (Left and Right)"},
+     camera_settle, "Where it looks: from right, counter-clockwise (Left and Right)", type_heading},
     {"Range", has_camera, camera_range_share, camera_range_text, set_camera_range, camera_keep,
-     camera_settle, "How far it sees (- and =)"},
+     camera_settle, "How far it sees (- and =)", type_camera_range},
     {"Height", has_camera_height, height_share, height_text, set_height, camera_keep, camera_settle,
-     "How high over the ground it hangs: it sees nothing just below it"},
+     "How high over the ground it hangs: it sees nothing just below it", type_height},
     {"Tilt", has_tilt, tilt_share, tilt_text, set_tilt, camera_keep, camera_settle,
-     "How far it looks down: it sees no ground past the upper border of its picture"},
+     "How far it looks down: it sees no ground past the upper border of its picture", type_tilt},
 };
 
 const slider_row *slider_table(size_t *count) {
     *count = sizeof sliders / sizeof *sliders;
     return sliders;
+}
+
+// --- typed
+
+/// The one that is shown and typed behind `number`, from the first on after the last; -1: none.
+static int next_typed(const app_state *app, int number) {
+    enum { COUNT = sizeof sliders / sizeof *sliders };
+    for (int k = 1; k <= (int)COUNT; k++) {
+        const int i = (number + k) % (int)COUNT;
+        if (sliders[i].type && sliders[i].shown(app)) return i;
+    }
+    return -1;
+}
+
+void slider_type(app_state *app, int number) {
+    ui_state *ui = &app->ui;
+    const bool types = ui->field && ui->field == ui->number;
+    if (number < 0) number = next_typed(app, types ? ui->typed_slider : -1);
+    if (number < 0 || !sliders[number].type || !sliders[number].shown(app)) {
+        ui_say(ui, false, "no value can be typed here");
+        return;
+    }
+    char text[SLIDER_TEXT];
+    sliders[number].text(app, text);
+    text[strspn(text, "0123456789.")] = '\0';
+    ui->side_panel = true;
+    field_set(&app->view.name, text);
+    app->view.name.chosen = true;
+    ui->field = &app->view.name;
+    ui->number = ui->field;
+    ui->typed_slider = number;
+}
+
+bool slider_typed(app_state *app) {
+    const slider_row *s = &sliders[app->ui.typed_slider];
+    char text[SLIDER_TEXT];
+    double value;
+    snprintf(text, sizeof text, "%.*s", SLIDER_TEXT - 1, app->view.name.text);
+    for (char *at = text; *at; at++)
+        if (*at == ',') *at = '.';
+    const size_t digits = strspn(text, "0123456789.+-eE");
+    const char *rest = text + digits + strspn(text + digits, " ");
+    const bool number =
+        (!*rest || strcmp(rest, "\xc2\xb0") == 0 || strcmp(rest, app->document.map.unit) == 0) &&
+        sl_number_read(text, digits, &value);
+    if (!s->shown(app)) return true; // it went away
+    if (number && s->begin) s->begin(&app->view);
+    const bool done = number && s->type(app, value);
+    if (number && s->end) s->end(&app->view);
+    if (!done) ui_say(&app->ui, true, "%s: '%s' is no value that it can have", s->label, text);
+    return done;
 }
 
 void sliders_show(app_state *app) {
@@ -348,7 +451,8 @@ void sliders_show(app_state *app) {
     for (int i = 0; i < COUNT; i++) {
         const slider_row *s = &sliders[i];
         ui_slider_row *row = &app->ui.sliders[i];
-        *row = (ui_slider_row){.label = s->label, .help = s->help, .shown = s->shown(app)};
+        *row = (ui_slider_row){
+            .label = s->label, .help = s->help, .shown = s->shown(app), .typed = s->type != NULL};
         if (!row->shown) continue;
         row->share = s->share(app);
         s->text(app, row->text);

@@ -16,9 +16,16 @@ typedef struct slider_row {
     void (*begin)(view_state *view);
     void (*end)(view_state *view);
     const char *help;
+    /// Sets a value that was typed; false for one that it cannot have. NULL: it is not typed.
+    bool (*type)(app_state *app, double value);
 } slider_row;
 
 const slider_row *slider_table(size_t *count);
+
+/// Has the value of a slider typed, or that of the next one that is shown (-1).
+void slider_type(app_state *app, int number);
+/// Takes over what was typed; false, with a message, where that is no value of it.
+bool slider_typed(app_state *app);
 
 /// Has the page show the sliders as they are now.
 void sliders_show(app_state *app);

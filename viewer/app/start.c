@@ -6,6 +6,7 @@
 #include "dialogs/import_dialog.h"
 #include "dialogs/map_file.h"
 #include "dialogs/question.h"
+#include "plan/building_way.h"
 #include "plan/cameras.h"
 #include "plan/compare.h"
 #include "plan/drag_world.h"
@@ -97,6 +98,7 @@ void app_destroy(app_state *app) {
     heat_layer_destroy(app->context, app->view.heat);
     watch_layer_destroy(app->context, app->view.watch);
     camera_layer_destroy(app->context, app->view.cameras);
+    building_way_clear(&app->view);
     route_layer_destroy(app->context, app->view.route);
     from_line_destroy(app->context, app->view.from_line);
     compare_clear(&app->view);

@@ -7,6 +7,7 @@
 #include "dialogs/recovery.h"
 #include "document/drawings.h"
 #include "lessons/quiz.h"
+#include "plan/building_way.h"
 #include "plan/cameras.h"
 #include "plan/compare.h"
 #include "plan/drag_world.h"
@@ -79,13 +80,24 @@ static void say_subdivision(app_state *app, bool was_mesh) {
                "All walls are axial now: the cells are those of a kd-tree, no longer of a mesh");
 }
 
-/// A map that is read in another scale has all places elsewhere.
-static void follow_scale(app_state *app, bool opened) {
+static bool eye_is_inside(const app_state *app) {
+    const uint32_t cell = view_eye_cell(&app->view);
+    return cell != SL_NO_CELL && app->document.baked->space.cells[cell].inside;
+}
+
+/// A map that is read in another scale has all places elsewhere. One that is read otherwise may
+/// have another inside: an eye that is outside then goes into it.
+static void follow_reading(app_state *app, bool opened) {
     if (!app->document.baked) return;
     const double before = app->view.source_scale;
+    const bool read = app->view.source_read != app->document.read;
     app->view.source_scale = app->document.map.source.transform.scale;
-    if (opened || before == app->view.source_scale) return;
-    app->view.fitted = true;
+    app->view.source_read = app->document.read;
+    if (opened) return;
+    if (before != app->view.source_scale)
+        app->view.fitted = true;
+    else if (!read || eye_is_inside(app))
+        return;
     walk_home(&app->view);
 }
 
@@ -97,7 +109,7 @@ static void take_document(app_state *app, bool opened) {
     if (app->document.baked) app->view.mesh = app->document.baked->space.neighbour != NULL;
     if (!opened && app->document.baked && app->view.mesh != was_mesh)
         say_subdivision(app, was_mesh);
-    follow_scale(app, opened);
+    follow_reading(app, opened);
     if (!opened || !app->document.baked) return;
     app->view.edit.chosen = UINT32_MAX;
     app->view.fitted = true;
@@ -107,7 +119,8 @@ static void take_document(app_state *app, bool opened) {
     app->recorder.records = app->recorder.plays = false;
     app->recorder.frames.count = 0;
     cameras_clear(&app->view);
-    route_clear(&app->view);
+    app->view.building = app->desk.file.building;
+    if (!building_way_shown(&app->view)) route_clear(&app->view);
     from_line_clear(&app->view);
     compare_clear(&app->view);
     if (app->view.mode == MODE_EXPLORE && drawing_is(app->document.source.path))
@@ -175,6 +188,8 @@ static void poll_all(app_state *app, bool wait) {
     compare_update(&app->view, wait);
     heat_layer_update(&app->view, wait);
     cameras_update(&app->view, wait);
+    app->view.building = app->desk.file.building;
+    building_way_update(&app->view, wait);
     route_update(&app->view);
     from_line_update(&app->view, wait);
     line_map_update(&app->view, wait);
@@ -198,6 +213,8 @@ job_progress app_progress(const app_state *app) {
     const job_progress line =
         app->view.from_line ? tool_job_progress(&app->view.from_line->job) : (job_progress){0};
     if (line.running) return line;
+    const job_progress way = building_way_progress(&app->view);
+    if (way.running) return way;
     const job_progress other = compare_progress(&app->view);
     if (other.running) return other;
     const job_progress rooms = room_map_progress(&app->view);

@@ -57,6 +57,7 @@ struct desk_state {
     bool quit;
     path_wish wish; ///< these two: chosen in the browser; the app does it next
     char wish_path[WISH_PATH];
+    void (*compare)(desk_state *desk, const char *path); ///< what a storey is chosen for
     const char *paper, *scale; ///< of the sheet that is printed next, as in sl_sheet
 };
 

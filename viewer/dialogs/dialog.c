@@ -112,8 +112,17 @@ void dialog_end(dialog_state *d) {
 void dialog_problem(dialog_state *d, sl_point at, double width, const char *text) {
     ui_state *ui = d->ui;
     snprintf(d->problem, sizeof d->problem, "%s", text);
-    if (*text)
-        sl_text_show_within(ui->cairo, ui->palette.start, at.x, at.y, width, ui->text, false, text);
+    const double more = dialog_problem_height(d, width / ui->text, text) * ui->text;
+    const sl_box ground = {{at.x, at.y - more - ui->text}, {at.x + width, at.y}};
+    if (more > 0) ui_fill_round(ui, ground, 0, ui->palette.page);
+    if (*text) ui_lines(ui, at.x, at.y - more, width, 1, false, ui->palette.start, text);
+}
+
+double dialog_problem_height(dialog_state *d, double width, const char *text) {
+    ui_state *ui = d->ui;
+    if (!*text) return 0;
+    return ui_lines_height(ui, width * ui->text, 1, false, text) / ui->text -
+           ui_lines_height(ui, width * ui->text, 1, false, "x") / ui->text;
 }
 
 /// A frame about what is in focus.

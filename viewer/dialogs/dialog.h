@@ -113,8 +113,10 @@ sl_box dialog_begin(dialog_state *d, double width, double height, const char *ti
 sl_box dialog_begin_beside(dialog_state *d, double width, double height, const char *title);
 void dialog_end(dialog_state *d);
 
-/// A line that says what is wrong; nothing for "".
+/// Says what is wrong, in lines up to the one at `at`; nothing for "".
 void dialog_problem(dialog_state *d, sl_point at, double width, const char *text);
+/// What it takes above its last line, in plain texts, where it is `width` of them wide.
+double dialog_problem_height(dialog_state *d, double width, const char *text);
 
 /// The height of a row of widgets, in units of plain text.
 #define DIALOG_ROW 2.1

@@ -425,7 +425,8 @@ static void draw_beside(desk_state *desk, import_state *s) {
     ui_state *ui = desk->ui;
     char title[320];
     snprintf(title, sizeof title, "How to read %.290s", files_base(s->source.path));
-    const double rest = 6.4 + DIALOG_ROW * count_rows(s) + import_plan_height(s) +
+    const double rest = 6.4 + DIALOG_ROW * count_rows(s) + import_plan_height(desk, s) +
+                        dialog_problem_height(&desk->dialog, IMPORT_WIDE - 2, s->problem) +
                         (import_asks_layers(s) ? import_layers_height(s) : 0);
     const double text = fmin(ui->text, box_width(desk->dialog.dock) / IMPORT_WIDE);
     const double high =
@@ -452,7 +453,8 @@ static void draw_over_all(desk_state *desk, import_state *s) {
     snprintf(title, sizeof title, "Open %.300s", files_base(s->source.path));
     const double lists = asks_map(s) + import_asks_layers(s);
     const double rest = 8.8 + DIALOG_ROW * count_rows(s) +
-                        (import_asks_layers(s) && import_has_filter(s) ? 2.2 : 0);
+                        (import_asks_layers(s) && import_has_filter(s) ? 2.2 : 0) +
+                        dialog_problem_height(&desk->dialog, 48, s->problem);
     const double text = fmin(ui->text, (ui->width - 12) / 50.0);
     const double high = 1.7 * rows_with_room(s, (ui->height - 12) / text - rest, lists) + 0.2;
     const sl_box box = dialog_begin(&desk->dialog, 50, rest + lists * (high + 2.5), title);

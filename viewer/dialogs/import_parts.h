@@ -66,7 +66,10 @@ typedef struct import_state {
     sl_segment *leaks; ///< of the map that is shown, the narrowest first
     double *widths;
     dialog_list leak_list;
-    uint32_t leaks_of; ///< document->read, of which they are; 0: none
+    bool scales;                            ///< the map that is read next has a new scale
+    double share_before;                    ///< of the inside in the plan, in the scale before
+    char said_scale[320], said_sealed[320]; ///< of the inside; "" for nothing
+    uint32_t leaks_of;                      ///< document->read, of which they are; 0: none
     bool has_start;
 } import_state;
 
@@ -129,7 +132,7 @@ void import_plan_end(sl_context *context, import_state *s);
 void import_plan_act(desk_state *desk, import_state *s, int id);
 /// Finds leaks of the map that is open now, in the background.
 void import_plan_follow(desk_state *desk, import_state *s);
-double import_plan_height(const import_state *s);
+double import_plan_height(desk_state *desk, const import_state *s);
 void import_plan_draw(desk_state *desk, import_state *s, sl_box box, double y);
 /// Takes the length that was typed as that of the measured line.
 void import_plan_scale(desk_state *desk, import_state *s);

@@ -54,7 +54,7 @@ static void drop_leaks(sl_context *context, import_state *s) {
     sl_free(context, s->widths);
     s->leaks = NULL;
     s->widths = NULL;
-    s->leak_list = (dialog_list){.count = 0};
+    s->leak_list = (dialog_list){.marks = true};
 }
 
 void import_plan_end(sl_context *context, import_state *s) {
@@ -84,17 +84,63 @@ static sl_status keep_leaks(sl_context *context, import_state *s, const sl_fault
     return SL_OK;
 }
 
+/// Places that nothing leads to may be rooms whose doors are drawn shut, or courts and shafts.
+static sl_status say_sealed(const desk_state *desk, import_state *s) {
+    const sl_baked *baked = desk->document->baked;
+    sl_sealed sealed;
+    SL_TRY(sl_find_sealed(desk->context, &baked->map, &baked->space, &sealed));
+    const sl_point at = sealed.largest.at;
+    const char *unit = desk->document->map.unit;
+    if (sealed.rooms < 2 || !(sealed.largest.area > 0)) return SL_OK;
+    snprintf(
+        s->said_sealed, sizeof s->said_sealed,
+        "%u closed part%s, the largest of %.4g%s%.20s%s at %.4g, %.4g, count%s as inside, too. "
+        "Where these are courts or shafts, 'Here is inside' leaves them out.",
+        (unsigned)sealed.rooms - 1, sealed.rooms == 2 ? "" : "s", sealed.largest.area,
+        *unit ? " " : "", unit, *unit ? "\xc2\xb2" : "", at.x, at.y, sealed.rooms == 2 ? "s" : "");
+    return SL_OK;
+}
+
 static sl_status start_leaks(desk_state *desk, import_state *s) {
     const document_state *document = desk->document;
     const sl_faults none = {0};
     s->has_start = document->map.start_count > 0;
-    if (!s->has_start) return keep_leaks(desk->context, s, &none, &document->baked->map.interior);
+    if (!s->has_start) {
+        SL_TRY(say_sealed(desk, s));
+        return keep_leaks(desk->context, s, &none, &document->baked->map.interior);
+    }
     s->leak_job = sl_alloc_array(desk->context, 1, sizeof *s->leak_job);
     if (!s->leak_job) return SL_NO_MEMORY;
     s->leak_job->clean = sl_clean_options_default();
     if (s->source.has_weld) s->leak_job->clean.weld = s->source.weld;
     SL_TRY(sl_map_copy(desk->context, &document->map, &s->leak_job->map));
     return task_start(desk->context, find_leaks, s->leak_job, NULL, NULL, &s->leak_task);
+}
+
+static double inside_share(const document_state *document) {
+    const sl_box b = document->baked->space.bounds;
+    return document->inside_area / (box_width(b) * box_height(b));
+}
+
+/// "12.3 m"
+static const char *length_text(const desk_state *desk, double length, char text[64]) {
+    const char *unit = desk->document->map.unit;
+    snprintf(text, 64, "%.4g%s%.20s", length, *unit ? " " : "", unit);
+    return text;
+}
+
+/// A scale says how wide an entrance is, so it may change what is inside.
+static void say_scaled(const desk_state *desk, import_state *s) {
+    const double now = inside_share(desk->document), before = s->share_before;
+    const double width = desk->document->baked->map.interior.width;
+    char said[64];
+    s->scales = false;
+    s->said_scale[0] = '\0';
+    if (fabs(now - before) <= 1e-6 || s->has_start) return;
+    snprintf(s->said_scale, sizeof s->said_scale,
+             "The scale changes what is inside: %.3g %% of the plan, and %.3g %% before. Openings "
+             "up to %s count as entrances now: say another width, or what is inside.",
+             100 * now, 100 * before, length_text(desk, width, said));
 }
 
 void import_plan_follow(desk_state *desk, import_state *s) {
@@ -104,6 +150,11 @@ void import_plan_follow(desk_state *desk, import_state *s) {
     if (s->leaks_of != document->read) {
         s->leaks_of = document->read;
         s->line_ends = 0;
+        s->said_sealed[0] = '\0';
+        if (s->scales)
+            say_scaled(desk, s);
+        else
+            s->said_scale[0] = '\0';
         drop_job(desk->context, s);
         drop_leaks(desk->context, s);
         status = start_leaks(desk, s);
@@ -196,6 +247,8 @@ void import_plan_scale(desk_state *desk, import_state *s) {
     scale_said(s, length / drawn / factor_now(desk));
     field_set(&s->fields[FIELD_UNIT], unit);
     s->line_ends = 0;
+    s->scales = desk->document->baked != NULL;
+    if (s->scales) s->share_before = inside_share(desk->document);
     import_preview(desk, s);
     import_focus_home(desk, s);
 }
@@ -255,7 +308,6 @@ void import_plan_act(desk_state *desk, import_state *s, int id) {
         s->pick = s->pick == PICK_INSIDE ? PICK_NONE : PICK_INSIDE;
         break;
     case CLOSE:
-    case LEAKS:
         close_leak(desk, s, s->leak_list.at);
         import_preview(desk, s);
         break;
@@ -293,10 +345,28 @@ bool import_mark_at(const desk_state *desk, size_t number, import_mark *out) {
 
 // --- the picture
 
-double import_plan_height(const import_state *s) {
+#define SAID 0.92 ///< the size of what is said
+
+/// What is said of the inside, in plain texts high.
+static double said_height(ui_state *ui, const char *said) {
+    if (!*said) return 0;
+    const double width = (IMPORT_WIDE - 2) * ui->text;
+    return ui_lines_height(ui, width, SAID, false, said) / ui->text + 0.4;
+}
+
+double import_plan_height(desk_state *desk, const import_state *s) {
     const double rows = s->leak_list.count ? fmin((double)s->leak_list.count, LEAK_ROWS) : 0;
     return 2 * DIALOG_ROW + 1.9 + (rows > 0 ? 1.7 * rows + 0.5 : 0) +
-           (rows > 0 || s->source.closed_count ? DIALOG_ROW : 0);
+           (rows > 0 || s->source.closed_count ? DIALOG_ROW : 0) +
+           said_height(desk->ui, s->said_scale) + said_height(desk->ui, s->said_sealed);
+}
+
+static double draw_said(desk_state *desk, sl_box box, double y, const char *said) {
+    ui_state *ui = desk->ui;
+    if (!*said) return y;
+    ui_lines(ui, box.min.x, y + 1.1 * ui->text, box_width(box), SAID, false, ui->palette.start,
+             said);
+    return y + said_height(ui, said) * ui->text;
 }
 
 static double draw_scale(desk_state *desk, import_state *s, sl_box box, double y) {
@@ -365,5 +435,7 @@ void import_plan_draw(desk_state *desk, import_state *s, sl_box box, double y) {
     y = draw_scale(desk, s, box, y);
     const double wide = dialog_buttons_width(&desk->dialog, &inside, 1);
     dialog_buttons(&desk->dialog, box.min.x + wide, y, &inside, 1);
-    draw_leaks(desk, s, box, y + DIALOG_ROW * t);
+    y = draw_said(desk, box, y + DIALOG_ROW * t, s->said_scale);
+    y = draw_said(desk, box, y, s->said_sealed);
+    draw_leaks(desk, s, box, y);
 }

@@ -20,8 +20,10 @@ static void open_storey(desk_state *desk, const char *building, const sl_storey 
     if (!desk->ui->steady) recent_add(desk->context, building);
 }
 
+typedef void take_storey(desk_state *desk, const char *building, const sl_storey *storey);
+
 /// The list has names alone: the building is read again, as it is now.
-static void take_choice(desk_state *desk, const document_source *source) {
+static void take_named(desk_state *desk, const document_source *source, take_storey *take) {
     const char *name = source->options.map;
     sl_building building = {0};
     sl_status status = sl_building_read(desk->context, source->path, &building);
@@ -31,14 +33,28 @@ static void take_choice(desk_state *desk, const document_source *source) {
             status = sl_fail(desk->context, SL_BAD_INPUT, "%s: there is no storey %s any more",
                              source->path, name);
         else
-            open_storey(desk, source->path, &building.storeys[at]);
+            take(desk, source->path, &building.storeys[at]);
     }
     sl_building_destroy(desk->context, &building);
     if (status != SL_OK) map_file_check(desk, source->path, status);
 }
 
+static void open_named(desk_state *desk, const document_source *source) {
+    take_named(desk, source, open_storey);
+}
+
+static void compare_storey(desk_state *desk, const char *building, const sl_storey *storey) {
+    (void)building;
+    desk->compare(desk, storey->path);
+}
+
+static void compare_named(desk_state *desk, const document_source *source) {
+    take_named(desk, source, compare_storey);
+}
+
 /// The storey that is open is chosen at first.
-static sl_status ask(desk_state *desk, const char *path, const sl_building *building) {
+static sl_status ask(desk_state *desk, const char *path, const sl_building *building,
+                     void (*then)(desk_state *desk, const document_source *source)) {
     document_source source = {.path = (char *)(uintptr_t)path,
                               .options = sl_import_options_default()};
     const char *open = desk->document->source.path;
@@ -49,7 +65,7 @@ static sl_status ask(desk_state *desk, const char *path, const sl_building *buil
         status = sl_map_list_add(desk->context, &choice.maps, s->name, strlen(s->name));
         if (open && strcmp(open, s->path) == 0) source.options.map = s->name;
     }
-    if (status == SL_OK) status = import_open(desk, &source, &choice, false, take_choice);
+    if (status == SL_OK) status = import_open(desk, &source, &choice, false, then);
     sl_map_choice_destroy(desk->context, &choice);
     return status;
 }
@@ -61,7 +77,17 @@ sl_status storeys_open(desk_state *desk, const char *path) {
     if (building.storey_count == 1)
         open_storey(desk, path, &building.storeys[0]);
     else
-        status = ask(desk, path, &building);
+        status = ask(desk, path, &building, open_named);
+    sl_building_destroy(desk->context, &building);
+    return status;
+}
+
+sl_status storeys_compare(desk_state *desk, const char *path,
+                          void (*take)(desk_state *desk, const char *path)) {
+    sl_building building = {0};
+    desk->compare = take;
+    SL_TRY(sl_building_read(desk->context, path, &building));
+    const sl_status status = ask(desk, path, &building, compare_named);
     sl_building_destroy(desk->context, &building);
     return status;
 }

@@ -96,19 +96,18 @@ static sl_status read_baked(sl_context *context, bake_job *job) {
     return SL_OK;
 }
 
-static sl_status read_map(sl_context *context, bake_job *job) {
-    const document_source *source = &job->source;
-    SL_TRY(sl_map_read(context, source->path, &source->options, &job->map));
+sl_status document_source_read(sl_context *context, const document_source *source, sl_map *out) {
+    SL_TRY(sl_map_read(context, source->path, &source->options, out));
     for (size_t i = 0; i < source->closed_count; i++)
-        SL_TRY(sl_map_add_wall(context, &job->map, source->closed[i].a, source->closed[i].b, 0));
+        SL_TRY(sl_map_add_wall(context, out, source->closed[i].a, source->closed[i].b, 0));
     if (!source->has_start) return SL_OK;
-    const sl_box b = sl_map_bounds(&job->map);
+    const sl_box b = sl_map_bounds(out);
     const sl_point at = source->start;
     if (at.x < b.min.x || at.x > b.max.x || at.y < b.min.y || at.y > b.max.y)
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "--start %.10g,%.10g: outside the map, which is %.10g,%.10g to %.10g,%.10g",
                        at.x, at.y, b.min.x, b.min.y, b.max.x, b.max.y);
-    return sl_map_add_start(context, &job->map, source->start, 0, 0);
+    return sl_map_add_start(context, out, source->start, 0, 0);
 }
 
 /// Finds what `options` ask for. It uses a map of the job, since the baked map belongs to the main
@@ -158,7 +157,7 @@ static sl_status bake_map(sl_context *context, bake_job *job) {
 static sl_status run_job(sl_context *context, void *data) {
     bake_job *job = data;
     if (job->source.path && document_is_baked(job->source.path)) return read_baked(context, job);
-    if (job->source.path) SL_TRY(read_map(context, job));
+    if (job->source.path) SL_TRY(document_source_read(context, &job->source, &job->map));
     return bake_map(context, job);
 }
 

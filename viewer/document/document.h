@@ -34,6 +34,9 @@ bool document_source_same(const document_source *a, const document_source *b);
 /// Closes one more opening.
 sl_status document_source_close(sl_context *context, document_source *source, sl_segment opening);
 
+/// Reads its map, with what was closed and the start that was chosen.
+sl_status document_source_read(sl_context *context, const document_source *source, sl_map *out);
+
 /// A copy. `to` is untouched on failure.
 sl_status document_source_copy(sl_context *context, const document_source *from,
                                document_source *to);

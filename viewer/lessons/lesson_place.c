@@ -215,7 +215,8 @@ static void above(learn_state *learn, const sl_frame *frame) {
     if (s.part == PLACE) draw_views(learn, frame, s.number);
     if (s.part != CAMERAS) return;
     const sl_drawn_coverage drawn = {.viewpoints = p->viewpoints, .count = p->count};
-    sl_draw_coverage_marks(learn->ui->cairo, &learn->ui->palette, &drawn, frame);
+    view_check(learn->view, sl_draw_coverage_marks(learn->context, learn->ui->cairo,
+                                                   &learn->ui->palette, &drawn, frame));
 }
 
 /// The first step of each part.

@@ -130,7 +130,8 @@ static double draw_doing(view_state *view, sl_box box, const char *doing) {
 
 /// A message that is longer than the line grows upwards, over the panes. After some seconds it is
 /// cut to the line, unless it is an error; the tooltip has all of it.
-static void draw_message(ui_state *ui, sl_box box, double right) {
+/// A long one stands in lines over the plan, up to `end`.
+static void draw_message(ui_state *ui, sl_box box, double right, double end) {
     const double t = ui->text, left = 0.8 * t, size = 0.95;
     const sl_colour colour = ui->message_is_error     ? ui->palette.start
                              : ui->message_is_working ? ui->palette.faint
@@ -145,12 +146,12 @@ static void draw_message(ui_state *ui, sl_box box, double right) {
                             false, ui->message);
         return;
     }
-    const double wide = box.max.x - 2 * left;
+    const double wide = end - 2 * left;
     const double high =
         ui_lines_height(ui, wide, size, ui->message_is_error, ui->message) + 0.5 * t;
     // The line itself is free unless something stands at its right end.
     const double bottom = right > box.max.x - 2 * t ? box.max.y : box.min.y;
-    const sl_box over = {{box.min.x, fmax(bottom - high, 0)}, {box.max.x, bottom}};
+    const sl_box over = {{box.min.x, fmax(bottom - high, 0)}, {end, bottom}};
     ui_begin_area(ui, over);
     ui_line(ui, over.min.x, over.min.y + 0.5, over.max.x, over.min.y + 0.5, ui->palette.outline);
     ui_lines(ui, left, over.min.y + 1.25 * t, wide, size, ui->message_is_error, colour,
@@ -158,7 +159,8 @@ static void draw_message(ui_state *ui, sl_box box, double right) {
     ui_end_area(ui);
 }
 
-void pane_status(learn_state *learn, sl_box box, const job_progress *work, const char *doing) {
+void pane_status(learn_state *learn, sl_box box, double end, const job_progress *work,
+                 const char *doing) {
     ui_state *ui = learn->ui;
     ui_begin_area(ui, box);
     ui_hit(ui, HIT_PANEL, PANEL_STATUS, box);
@@ -166,7 +168,7 @@ void pane_status(learn_state *learn, sl_box box, const job_progress *work, const
     const double left =
         work->running ? draw_progress(ui, box, work) : draw_doing(learn->view, box, doing);
     ui_end_area(ui);
-    draw_message(ui, box, left - 0.8 * ui->text);
+    draw_message(ui, box, left - 0.8 * ui->text, end);
 }
 
 // --- the time line

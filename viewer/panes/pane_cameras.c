@@ -11,13 +11,19 @@
 #include <stdio.h>
 
 /// Rows that are listed: more would take the places of clicks of a frame.
-enum { CAMERAS_LISTED = 120, SPOTS_LISTED = 40, AREA_TEXT = SL_COUNT_TEXT + 32 };
+enum {
+    SLIDERS = 5,
+    CAMERAS_LISTED = 120,
+    SPOTS_LISTED = 40,
+    AREA_TEXT = SL_COUNT_TEXT + MEASURE_TEXT + 4
+};
 
-static void area_text(const camera_layer *layer, double area, char text[AREA_TEXT]) {
-    char share[SL_COUNT_TEXT];
-    const double all = layer->coverage.overlay.areas[0];
+static void area_text(const view_state *view, double area, char text[AREA_TEXT]) {
+    char share[SL_COUNT_TEXT], measure[MEASURE_TEXT];
+    const double all = view->cameras->coverage.overlay.areas[0];
     sl_text_percent(all > 0 ? area / all : 0, share);
-    snprintf(text, AREA_TEXT, "%.4g   %s", area, share);
+    view_say_measure(view, area, "\xc2\xb2", measure);
+    snprintf(text, AREA_TEXT, "%s   %s", measure, share);
 }
 
 static void draw_classes(view_state *view, column *c) {
@@ -26,10 +32,10 @@ static void draw_classes(view_state *view, column *c) {
     const camera_layer *layer = view->cameras;
     column_heading(view->ui, c, "Area", NULL);
     for (uint32_t i = 0; i < SL_COVERAGE_CLASSES; i++) {
-        const double area = camera_class_area(layer, i);
+        const double area = sl_coverage_class_area(&layer->coverage, i);
         const sl_colour colour = sl_coverage_colour(&view->ui->palette, i);
         char text[AREA_TEXT];
-        area_text(layer, area, text);
+        area_text(view, area, text);
         column_row(view->ui, c, &colour, names[i], text, false);
     }
 }
@@ -63,7 +69,7 @@ static void draw_search(view_state *view, column *c) {
 
 static void draw_list(view_state *view, column *c) {
     const camera_layer *layer = view->cameras;
-    const bool now = layer->known && layer->seen_stamp == layer->stamp;
+    const bool now = cameras_are_seen(view);
     size_t spare = 0;
     char count[32];
     snprintf(count, sizeof count, "%zu", layer->table.count);
@@ -71,15 +77,17 @@ static void draw_list(view_state *view, column *c) {
     for (size_t i = 0; i < layer->table.count; i++) {
         const sl_colour colour = sl_viewpoint_colour(&view->ui->palette, i);
         const bool is_spare = now && sl_coverage_is_spare(&layer->coverage, i);
-        char name[CAMERA_NAME], text[96] = "";
+        char name[CAMERA_NAME], text[2 * MEASURE_TEXT + 32] = "", sees[MEASURE_TEXT],
+                                                        alone[MEASURE_TEXT];
         spare += is_spare;
         if (i >= CAMERAS_LISTED) continue;
         camera_name(layer, i, name);
-        if (is_spare)
-            snprintf(text, sizeof text, "sees %.4g, spare", layer->coverage.seen[i]);
-        else if (now)
-            snprintf(text, sizeof text, "sees %.4g, alone %.4g", layer->coverage.seen[i],
-                     layer->coverage.alone[i]);
+        if (now) {
+            view_say_measure(view, layer->coverage.seen[i], "\xc2\xb2", sees);
+            view_say_measure(view, layer->coverage.alone[i], "\xc2\xb2", alone);
+            snprintf(text, sizeof text, "sees %s, %s%s", sees, is_spare ? "spare" : "alone ",
+                     is_spare ? "" : alone);
+        }
         const sl_box row = column_row(view->ui, c, &colour, name, text, i == layer->chosen);
         ui_hit_focus(view->ui, HIT_CAMERA, (int)i, row);
     }
@@ -101,7 +109,7 @@ static void draw_spots(view_state *view, column *c) {
     for (uint32_t i = 0; i < layer->coverage.blind_count && i < SPOTS_LISTED; i++) {
         const char *room = room_map_room(view, layer->coverage.blind[i].at);
         snprintf(name, sizeof name, "blind %u%s%s", i + 1, room ? ", " : "", room ? room : "");
-        area_text(layer, layer->coverage.blind[i].area, text);
+        area_text(view, layer->coverage.blind[i].area, text);
         const sl_box row = column_row(view->ui, c, NULL, name, text, i + 1 == layer->spot);
         ui_hit_focus(view->ui, HIT_SPOT, (int)i, row);
     }
@@ -121,18 +129,28 @@ void pane_cameras(learn_state *learn, sl_box box) {
     column_words(learn->ui, &c, 0.95, learn->ui->palette.ink,
                  "A click puts one. Drag it, or the handle ahead of it. Left and Right turn it.");
     c.y += 0.4 * learn->ui->text;
+    // Buttons come before what grows, so that none moves from under the pointer.
     column_buttons(learn->ui, &c, find);
+    column_buttons(learn->ui, &c, change);
+    column_buttons(learn->ui, &c, files);
+    column_name(view, &c);
     c.y += 0.3 * learn->ui->text;
     if (view->cameras && learn->document->baked) {
-        draw_search(view, &c);
-        c.y += 0.4 * learn->ui->text;
+        // The room for all sliders, and for what a search says, stays: so do the rows below.
+        const double top = c.y, t = learn->ui->text;
         column_sliders(learn->ui, &c);
-        if (!column_name(view, &c)) column_buttons(learn->ui, &c, change);
+        if (!camera_chosen(view))
+            column_words(learn->ui, &c, 0.9, learn->ui->palette.faint,
+                         "A click on a camera chooses it: its field of view, heading and range "
+                         "stand here.");
+        if (!column_is_narrow(learn->ui, &c)) c.y = fmax(c.y, top + SLIDERS * 1.7 * t);
+        const double said = c.y;
+        draw_search(view, &c);
+        c.y = fmax(c.y, said + 4 * t);
         if (view->cameras->known) draw_classes(view, &c);
         draw_list(view, &c);
         if (view->cameras->known) draw_spots(view, &c);
     }
-    column_buttons(learn->ui, &c, files);
     column_layers(view, &c);
     column_end(learn->ui, &c);
 }

@@ -2,6 +2,7 @@
 #include "document/files.h"
 #include "panes/panel.h"
 #include "panes/panes.h"
+#include "plan/building_way.h"
 #include "plan/compare.h"
 #include "plan/from_line.h"
 #include "plan/heat.h"
@@ -13,15 +14,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-
-enum { VALUE_TEXT = 96 };
-
-/// "12.3 m²"
-static void write_measure(const view_state *view, double value, const char *power,
-                          char text[VALUE_TEXT]) {
-    const char *unit = view->document->map.unit;
-    snprintf(text, VALUE_TEXT, "%.4g%s%s%s", value, *unit ? " " : "", unit, *unit ? power : "");
-}
 
 /// A value stands beside its label, or below it where the panel is narrow.
 static void put_row(ui_state *ui, column *c, const char *label, const char *value) {
@@ -37,9 +29,9 @@ static void put_row(ui_state *ui, column *c, const char *label, const char *valu
 // --- the plan
 
 static void draw_plan_words(const view_state *view, column *c) {
-    char area[VALUE_TEXT], text[256];
+    char area[MEASURE_TEXT], text[256];
     if (!view->document->baked) return;
-    write_measure(view, view->document->inside_area, "\xc2\xb2", area);
+    view_say_measure(view, view->document->inside_area, "\xc2\xb2", area);
     snprintf(text, sizeof text, "%s inside.%s", area,
              *view->document->map.unit
                  ? ""
@@ -54,8 +46,11 @@ static void draw_doubts(const view_state *view, column *c) {
     char text[NOTES_TEXT];
     if (!doubt || !view->document->baked) return;
     for (; doubt; doubt = strchr(doubt + 1, '\n')) {
-        const size_t length = strcspn(doubt + 1, "\n");
-        snprintf(text, sizeof text, "%.*s", (int)length, doubt + 1);
+        // The name of the file is known: the folders before it are left out.
+        const char *path = view->document->source.path, *from = doubt + 1;
+        if (path && strncmp(from, path, strlen(path)) == 0) from += files_base(path) - path;
+        const size_t length = strcspn(from, "\n");
+        snprintf(text, sizeof text, "%.*s", (int)length, from);
         column_words(view->ui, c, 0.9, view->ui->palette.start, text);
     }
     column_words(view->ui, c, 0.9, view->ui->palette.faint, "Ctrl+I changes how the file is read.");
@@ -65,12 +60,24 @@ static void draw_doubts(const view_state *view, column *c) {
 // --- the isovist
 
 static void draw_isovist(const view_state *view, column *c) {
-    char place[PLACE_TEXT], unit[SL_UNIT_TEXT], name[64], text[VALUE_TEXT];
+    char place[PLACE_TEXT], unit[SL_UNIT_TEXT], name[64], text[MEASURE_TEXT];
     size_t count;
     const sl_measure *measures = sl_measures(SL_ISOVIST, &count);
     view_say_place(&view->document->map, view->eye.at, place);
     column_heading(view->ui, c, "Isovist", place);
     if (!view->seen.valid) return;
+    const sl_space *space = &view->document->baked->space;
+    const uint32_t cell = view_eye_cell(view);
+    const bool sees = view->seen.region.count > 2;
+    if (cell == SL_NO_CELL || !space->cells[cell].inside)
+        column_words(view->ui, c, 0.95, view->ui->palette.start,
+                     view_is_solid(view, view->eye.at)
+                         ? "The viewpoint is in solid ground and sees "
+                           "nothing. Click in a room."
+                     : sees ? "The viewpoint is outside. Click in a room to put it inside."
+                            : "The viewpoint is outside of the plan and sees nothing of it. Click "
+                              "in a room.");
+    if (!sees) return;
     const sl_region_measures all = sl_region_measure(&view->seen.region);
     for (size_t i = 0; i < count; i++) {
         const double value = sl_measure_value(&measures[i], &all);
@@ -87,10 +94,41 @@ static void draw_isovist(const view_state *view, column *c) {
 
 // --- the path
 
+/// Of a building: the whole way, and the links that it takes.
+static void draw_building_way(const view_state *view, column *c) {
+    const struct building_way *way = building_way_shown(view);
+    char text[MEASURE_TEXT];
+    if (!way || way->clicks < 2 || !way->made) {
+        column_words(view->ui, c, 0.95, view->ui->palette.ink,
+                     !way || !way->clicks ? "Click where the way begins, on any storey."
+                     : way->clicks == 1 ? "Click where it ends. Ctrl+Shift+B shows another storey."
+                                        : "Looking for the way ...");
+        return;
+    }
+    if (!way->route.found) {
+        column_words(view->ui, c, 0.95, view->ui->palette.ink,
+                     "No way leads there: walls, shut doors or missing links are between.");
+        return;
+    }
+    view_say_measure(view, way->route.length, "", text);
+    put_row(view->ui, c, "length", text);
+    for (size_t i = 0; i < way->route.link_count; i++) {
+        const sl_storey_link *link = &way->building.links[way->route.links[i]];
+        view_say_measure(view, link->length, "", text);
+        put_row(view->ui, c, link->name, text);
+    }
+    column_words(view->ui, c, 0.9, view->ui->palette.faint,
+                 "Doors are as the files have them. Ctrl+Shift+B shows the way on another storey.");
+}
+
 static void draw_route(const view_state *view, column *c) {
     const route_layer *layer = view->route;
-    char text[VALUE_TEXT];
+    char text[MEASURE_TEXT];
     column_heading(view->ui, c, "Path", NULL);
+    if (view->building) {
+        draw_building_way(view, c);
+        return;
+    }
     if (!layer || !layer->clicks) {
         column_words(view->ui, c, 0.95, view->ui->palette.ink, "Click where the way begins.");
         return;
@@ -109,9 +147,10 @@ static void draw_route(const view_state *view, column *c) {
                      "No way leads there. The ring marks the nearest place that can be reached.");
         return;
     }
-    write_measure(view, layer->route.length, "", text);
+    view_say_measure(view, layer->route.length, "", text);
     put_row(view->ui, c, "length", text);
-    write_measure(view, hypot(layer->to.x - layer->from.x, layer->to.y - layer->from.y), "", text);
+    view_say_measure(view, hypot(layer->to.x - layer->from.x, layer->to.y - layer->from.y), "",
+                     text);
     put_row(view->ui, c, "straight line", text);
     snprintf(text, sizeof text, "%zu", layer->route.count - 2);
     put_row(view->ui, c, "turns at corners", text);
@@ -126,7 +165,7 @@ static void draw_route(const view_state *view, column *c) {
 static void draw_from_line(const view_state *view, column *c) {
     static const char *const labels[] = {"seen from some point", "seen from all points"};
     const from_line *layer = from_line_seen(view);
-    char text[VALUE_TEXT], name[64];
+    char text[MEASURE_TEXT], name[64];
     column_heading(view->ui, c, "From a line", NULL);
     if (!view->from_line || !view->from_line->drawn) {
         column_words(view->ui, c, 0.95, view->ui->palette.ink,
@@ -135,10 +174,10 @@ static void draw_from_line(const view_state *view, column *c) {
         return;
     }
     const sl_point *ends = view->from_line->ends;
-    write_measure(view, hypot(ends[1].x - ends[0].x, ends[1].y - ends[0].y), "", text);
+    view_say_measure(view, hypot(ends[1].x - ends[0].x, ends[1].y - ends[0].y), "", text);
     put_row(view->ui, c, "length of the line", text);
     for (int i = 0; layer && i < 2; i++) {
-        write_measure(view, layer->seen[i].area, "\xc2\xb2", text);
+        view_say_measure(view, layer->seen[i].area, "\xc2\xb2", text);
         put_row(view->ui, c, labels[i], text);
         snprintf(name, sizeof name, "%s, share", i ? "from all" : "from some");
         sl_text_percent(view->document->area > 0 ? layer->seen[i].area / view->document->area : 0,
@@ -183,7 +222,7 @@ static void draw_lines(const view_state *view, column *c) {
 bool column_name(const view_state *view, column *c) {
     ui_state *ui = view->ui;
     const sl_box box = {{c->left, c->y + 0.3 * ui->text}, {c->right, c->y + 2.1 * ui->text}};
-    if (ui->field != &view->name) return false;
+    if (ui->field != &view->name || ui->field == ui->number) return false;
     ui_text_field(ui, box, ui->field, "a name", true);
     ui_hit(ui, HIT_FIELD, 1, box);
     c->y = box.max.y + 0.3 * ui->text;
@@ -202,7 +241,7 @@ static void draw_room_name(const view_state *view, column *c) {
 
 static void draw_rooms(const view_state *view, column *c) {
     const room_map *map = room_map_shown(view);
-    char text[VALUE_TEXT + SL_COUNT_TEXT + 4], share[SL_COUNT_TEXT];
+    char text[MEASURE_TEXT + SL_COUNT_TEXT + 4], share[SL_COUNT_TEXT];
     column_heading(view->ui, c, "Rooms", map ? "area, seen" : NULL);
     if (!map) {
         column_words(view->ui, c, 0.95, view->ui->palette.ink, "Looking for the rooms ...");
@@ -213,8 +252,8 @@ static void draw_rooms(const view_state *view, column *c) {
                      "No room is found: Ctrl+I tells what is inside.");
     for (size_t i = 0; i < room_map_rows(map); i++) {
         const double area = room_map_area(map, i);
-        char size[VALUE_TEXT];
-        write_measure(view, area, "\xc2\xb2", size);
+        char size[MEASURE_TEXT];
+        view_say_measure(view, area, "\xc2\xb2", size);
         sl_text_percent(area > 0 ? map->seen[i] / area : 0, share);
         snprintf(text, sizeof text, "%s, %s", size, share);
         ui_hit_focus(
@@ -223,8 +262,8 @@ static void draw_rooms(const view_state *view, column *c) {
     }
     draw_room_name(view, c);
     if (map->rooms.width > 0) {
-        write_measure(view, map->rooms.width, "", text);
-        char words[2 * VALUE_TEXT + 64];
+        view_say_measure(view, map->rooms.width, "", text);
+        char words[2 * MEASURE_TEXT + 64];
         snprintf(words, sizeof words, "Openings up to %s count as doors.", text);
         column_words(view->ui, c, 0.9, view->ui->palette.faint, words);
     }
@@ -234,23 +273,25 @@ static void draw_rooms(const view_state *view, column *c) {
 
 static void put_walls(const view_state *view, column *c, const char *label,
                       const wall_list *walls) {
-    char text[VALUE_TEXT];
-    write_measure(view, wall_change_length(walls), "", text);
+    char text[MEASURE_TEXT];
+    view_say_measure(view, wall_change_length(walls), "", text);
     put_row(view->ui, c, label, text);
 }
 
 static void draw_compare(const view_state *view, column *c) {
     const plan_compare *other = compare_shown(view);
     const char *path = view->compared ? view->compared->source.path : NULL;
-    char text[VALUE_TEXT];
+    char text[MEASURE_TEXT];
+    static const char *const buttons[] = {"plan_other", NULL};
     column_heading(view->ui, c, "Compare", path ? files_base(path) : NULL);
+    column_buttons(view->ui, c, buttons);
     if (!other)
         column_words(view->ui, c, 0.95, view->ui->palette.ink,
                      path ? "Reading the other plan ..." : "Choose the other plan.");
     if (other) {
-        write_measure(view, view->document->inside_area, "\xc2\xb2", text);
+        view_say_measure(view, view->document->inside_area, "\xc2\xb2", text);
         put_row(view->ui, c, "inside this plan", text);
-        write_measure(view, other->area, "\xc2\xb2", text);
+        view_say_measure(view, other->area, "\xc2\xb2", text);
         put_row(view->ui, c, "inside the other plan", text);
         if (other->job.made) {
             put_walls(view, c, "walls of the other alone", &other->added);
@@ -259,8 +300,6 @@ static void draw_compare(const view_state *view, column *c) {
         column_words(view->ui, c, 0.9, view->ui->palette.faint,
                      "1 colours what each place gains (red) or loses (blue) in the other plan.");
     }
-    static const char *const buttons[] = {"plan_other", NULL};
-    column_buttons(view->ui, c, buttons);
 }
 
 void pane_measures(learn_state *learn, sl_box box) {
@@ -282,14 +321,18 @@ void pane_measures(learn_state *learn, sl_box box) {
     draw_doubts(view, &c);
     column_buttons(learn->ui, &c, tools);
     if (view->document->baked) {
-        panels[view->tool](view, &c);
-        pane_words(view, &c);
-        column_legend(view, &c);
-        c.y += 0.3 * learn->ui->text;
-        column_sliders(learn->ui, &c);
+        // What presses or slides comes before what grows.
         if (layers_shows(view, LAYER_HEAT))
             column_buttons(learn->ui, &c, heat_layer_changes(view) ? changes : heat);
         if (line_map_choice(view)) column_buttons(learn->ui, &c, lines);
+        c.y += 0.3 * learn->ui->text;
+        column_sliders(learn->ui, &c);
+        // The values of a heat map are in sight before the many of the isovist.
+        const bool first = !(view->tool == TOOL_ISOVIST && layers_shows(view, LAYER_HEAT));
+        if (first) panels[view->tool](view, &c);
+        pane_words(view, &c);
+        column_legend(view, &c);
+        if (!first) panels[view->tool](view, &c);
     }
     column_layers(view, &c);
     column_end(learn->ui, &c);

@@ -21,11 +21,9 @@
 static unsigned scene_layers(const view_state *view) {
     const bool named = layers_shows(view, LAYER_NAMES) && !view->in_the_making;
     const bool numbers = layers_shows(view, LAYER_NUMBERS) || named;
-    if (view->mode == MODE_PLAN)
-        return SL_LAYER_WALLS | (view->show & SHOW_STARTS ? SL_LAYER_STARTS : 0u);
-    return SL_LAYER_WALLS | (view->show & SHOW_CELLS ? SL_LAYER_CELLS : 0u) |
-           (view->show & SHOW_PORTALS ? SL_LAYER_PORTALS : 0u) | (numbers ? SL_LAYER_NUMBERS : 0u) |
-           (view->show & SHOW_STARTS ? SL_LAYER_STARTS : 0u);
+    return SL_LAYER_WALLS | (layers_shows(view, LAYER_CELLS) ? SL_LAYER_CELLS : 0u) |
+           (layers_shows(view, LAYER_PORTALS) ? SL_LAYER_PORTALS : 0u) |
+           (numbers ? SL_LAYER_NUMBERS : 0u) | (view->show & SHOW_STARTS ? SL_LAYER_STARTS : 0u);
 }
 
 static bool make_scene(view_state *view) {

@@ -25,8 +25,10 @@ void pane_effects(learn_state *learn, sl_box box);      ///< what the map calls 
 void pane_help(ui_state *ui);                           ///< over all
 void pane_tip(ui_state *ui);                            ///< over all: what the pointer is over
 
-/// The line at the bottom: the work in the background, or what the viewer does.
-void pane_status(learn_state *learn, sl_box box, const job_progress *work, const char *doing);
+/// The line at the bottom: the work in the background, or what the viewer does. Long messages stand
+/// over the plan, up to `end`.
+void pane_status(learn_state *learn, sl_box box, double end, const job_progress *work,
+                 const char *doing);
 
 /// Work out how many lines the bar and the time line need. Before the layout of a frame.
 void pane_bar_measure(learn_state *learn);

@@ -391,13 +391,9 @@ void camera_move(view_state *view, drag_state *drag, sl_point now) {
 
 // --- what they see
 
-double camera_class_area(const camera_layer *layer, uint32_t class) {
-    const sl_overlay *o = &layer->coverage.overlay;
-    const size_t shapes = layer->coverage.count;
-    if (class > shapes) return 0;
-    const bool last = class + 1 == SL_COVERAGE_CLASSES || class == shapes;
-    const double area = o->areas[class] - (last ? 0 : o->areas[class + 1]);
-    return area > layer->coverage.negligible ? area : 0;
+bool cameras_are_seen(const view_state *view) {
+    const camera_layer *layer = view->cameras;
+    return layer && layer->known && layer->seen_stamp == layer->stamp;
 }
 
 void camera_go_to_spot(view_state *view, uint32_t spot) {
@@ -475,7 +471,8 @@ void cameras_draw_above(view_state *view, const sl_frame *frame) {
     drawn.names = names;
     draw_chosen(view, frame);
     if (viewpoints && names)
-        sl_draw_coverage_marks(view->ui->cairo, &view->ui->palette, &drawn, frame);
+        view_check(view, sl_draw_coverage_marks(view->context, view->ui->cairo, &view->ui->palette,
+                                                &drawn, frame));
     else
         view_check(view, SL_NO_MEMORY);
     sl_free(view->context, viewpoints);

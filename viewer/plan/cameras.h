@@ -77,8 +77,8 @@ void camera_move(view_state *view, drag_state *drag, sl_point now);
 
 // --- what they see
 
-/// The area that 0, 1, 2, 3 or more cameras see. Only where `known`.
-double camera_class_area(const camera_layer *layer, uint32_t class);
+/// Whether the coverage is there, of the table as it is.
+bool cameras_are_seen(const view_state *view);
 /// Shows a blind spot, from 0; the largest after the last.
 void camera_go_to_spot(view_state *view, uint32_t spot);
 

@@ -67,8 +67,22 @@ static int number_for(const view_state *view, double points) {
     return number;
 }
 
+/// Whether a step lies between the coarsest and the finest of the slider.
+static bool has_step(const view_state *view, double step) {
+    return view->document->inside_area > 0 &&
+           step >= step_numbered(number_for(view, HEAT_POINTS_MOST)) &&
+           step <= step_numbered(number_for(view, FEWEST_POINTS));
+}
+
+bool heat_type_step(view_state *view, double step) {
+    if (!has_step(view, step)) return false;
+    view->heat_choice.step = step;
+    return true;
+}
+
 double heat_step(const view_state *view) {
     int last;
+    if (has_step(view, view->heat_choice.step)) return view->heat_choice.step;
     const int place = heat_step_place(view, &last);
     return view->document->inside_area > 0 ? step_numbered(number_for(view, FEWEST_POINTS) - place)
                                            : 0;

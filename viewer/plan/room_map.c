@@ -239,6 +239,11 @@ sl_point room_map_place(const room_map *map, size_t row) {
                                       : map->rooms.items[row].at;
 }
 
+sl_box room_map_box(const room_map *map, size_t row) {
+    return room_map_is_zone(map, row) ? map->zones.items[row - map->rooms.count].box
+                                      : map->rooms.items[row].bounds;
+}
+
 size_t room_map_at(const room_map *map, sl_point at) {
     size_t best = SIZE_MAX;
     for (size_t i = map->rooms.count; i < room_map_rows(map); i++)
@@ -338,10 +343,9 @@ static void draw_name(const view_state *view, const sl_frame *frame, const room_
     const char *name = room_map_name(map, row);
     const sl_point at = sl_frame_point(frame, room_map_place(map, row));
     const double wide = ui_text_width(ui, 0.95, true, name), t = ui->text;
-    const sl_box box = room_map_is_zone(map, row) ? map->zones.items[row - map->rooms.count].box
-                                                  : map->rooms.items[row].bounds;
+    const sl_box box = room_map_box(map, row);
     const bool chosen = view->table.chosen == row;
-    if (!chosen && wide > 1.3 * frame->scale * box_width(box)) return;
+    if (!chosen && wide > frame->scale * box_width(box)) return;
     ui_fill_round(ui,
                   (sl_box){{at.x - wide / 2 - 0.3 * t, at.y - 0.9 * t},
                            {at.x + wide / 2 + 0.3 * t, at.y + 0.5 * t}},
@@ -349,12 +353,15 @@ static void draw_name(const view_state *view, const sl_frame *frame, const room_
     ui_text(ui, at.x - wide / 2, at.y + 0.15 * t, 0.95, true, ui->palette.ink, name);
 }
 
+sl_colour room_map_tint(const sl_palette *p, size_t room) {
+    const sl_colour tints[] = {p->glass, p->door, p->object, p->tree};
+    return tints[room % 4];
+}
+
 static void draw_room(const view_state *view, const sl_frame *frame, const sl_room *room,
                       size_t number, bool chosen) {
     cairo_t *cairo = view->ui->cairo;
-    const sl_palette *p = &view->ui->palette;
-    const sl_colour tints[] = {p->glass, p->door, p->object, p->tree};
-    const sl_colour tint = tints[number % 4];
+    const sl_colour tint = room_map_tint(&view->ui->palette, number);
     cairo_new_path(cairo);
     for (size_t i = 0; i < room->shape.count; i++)
         sl_path_polygon(cairo, frame, room->shape.points + 3 * i, 3);

@@ -40,6 +40,9 @@ size_t room_map_rows(const room_map *map);
 const char *room_map_name(const room_map *map, size_t row);
 double room_map_area(const room_map *map, size_t row);
 sl_point room_map_place(const room_map *map, size_t row);
+sl_box room_map_box(const room_map *map, size_t row);
+/// The colour of a room.
+sl_colour room_map_tint(const sl_palette *palette, size_t room);
 /// Whether a row is a zone.
 bool room_map_is_zone(const room_map *map, size_t row);
 /// The row of a place: the smallest zone about it, else its room; SIZE_MAX: none.

@@ -2,6 +2,8 @@
 /// that changes, the query is copied anew and the way is found again.
 #include "plan/route.h"
 
+#include "plan/building_way.h"
+
 #include "sightline/draw.h"
 #include "ui/tones.h"
 
@@ -40,6 +42,10 @@ static void find_again(view_state *view, route_layer *layer) {
 }
 
 void route_click(view_state *view, sl_point at) {
+    if (view->building) {
+        building_way_click(view, at);
+        return;
+    }
     if (!view->present.query) return;
     if (!view->route) view->route = sl_alloc_array(view->context, 1, sizeof *view->route);
     route_layer *layer = view->route;
@@ -55,10 +61,11 @@ void route_click(view_state *view, sl_point at) {
     }
     layer->to = at;
     find_again(view, layer);
-    if (layer->clicks == 2 && !layer->tight)
-        ui_say(view->ui, false,
-               layer->route.found ? "the way is %.4g%s%s long" : "no way leads there",
-               layer->route.length, *view->document->map.unit ? " " : "", view->document->map.unit);
+    if (layer->clicks < 2 || layer->tight) return;
+    char length[MEASURE_TEXT];
+    view_say_measure(view, layer->route.length, "", length);
+    ui_say(view->ui, false, layer->route.found ? "the way is %s long" : "no way leads there",
+           length);
 }
 
 void route_update(view_state *view) {
@@ -72,6 +79,7 @@ void route_update(view_state *view) {
 }
 
 bool route_clear(view_state *view) {
+    if (building_way_clear(view)) return true;
     const bool any = view->route && view->route->clicks;
     if (any) view->route->clicks = 0;
     return any;
@@ -80,6 +88,7 @@ bool route_clear(view_state *view) {
 void route_draw(const view_state *view, const sl_frame *frame) {
     const route_layer *layer = view->route;
     const sl_palette *palette = &view->ui->palette;
+    building_way_draw(view, frame);
     if (!layer || !layer->clicks) return;
     cairo_t *cairo = view->ui->cairo;
     cairo_new_path(cairo);

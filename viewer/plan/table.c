@@ -317,25 +317,23 @@ static sl_segment isovist_place(const view_state *view, size_t row) {
 // --- which one
 
 const table_source *table_source_now(const view_state *view) {
-    static const table_source graph = {"point",       2,           graph_rows,
-                                       graph_columns, graph_name,  graph_value,
-                                       graph_place,   graph_stamp, NULL};
-    static const table_source changes = {"place",      2,           graph_rows,  five, change_name,
+    static const table_source graph = {"point",     graph_rows,  graph_columns, graph_name,
+                                       graph_value, graph_place, graph_stamp,   NULL};
+    static const table_source changes = {"place",      graph_rows,  five,        change_name,
                                          change_value, graph_place, graph_stamp, NULL};
-    static const table_source axial = {"line",     4,          line_rows,  line_columns, line_name,
-                                       line_value, line_place, line_stamp, NULL};
-    static const table_source segments = {
-        "segment", 4, line_rows, line_columns, line_name, line_value, line_place, line_stamp, NULL};
-    static const table_source route = {"corner",    0,           route_rows, three, route_name,
-                                       route_value, route_place, no_stamp,   NULL};
+    static const table_source axial = {"line",     line_rows,  line_columns, line_name,
+                                       line_value, line_place, line_stamp,   NULL};
+    static const table_source segments = {"segment",  line_rows,  line_columns, line_name,
+                                          line_value, line_place, line_stamp,   NULL};
+    static const table_source route = {"corner",    route_rows,  three,    route_name,
+                                       route_value, route_place, no_stamp, NULL};
     static const table_source areas = {
-        "area", 0, two, three, from_line_name, from_line_value, from_line_place, no_stamp, NULL};
-    static const table_source isovist = {
-        "isovist",     2,        one, isovist_columns, isovist_name, isovist_value,
-        isovist_place, no_stamp, NULL};
-    static const table_source rooms = {"room",           0,          room_rows,  room_columns,
-                                       room_column_name, room_value, room_place, room_stamp,
-                                       room_text};
+        "area", two, three, from_line_name, from_line_value, from_line_place, no_stamp, NULL};
+    static const table_source isovist = {"isovist",    one,           isovist_columns,
+                                         isovist_name, isovist_value, isovist_place,
+                                         no_stamp,     NULL};
+    static const table_source rooms = {"room",     room_rows,  room_columns, room_column_name,
+                                       room_value, room_place, room_stamp,   room_text};
     if (view->mode != MODE_PLAN || !view->document->baked) return NULL;
     switch (view->tool) {
     case TOOL_ROOMS:
@@ -407,7 +405,6 @@ void table_update(view_state *view) {
     table_state *t = &view->table;
     const table_source *of = table_source_now(view);
     if (of != t->of) table_destroy(view->context, t);
-    if (of && of != t->of) t->first_column = of->first;
     t->of = of;
     if (!of) return;
     const size_t rows = of->rows(view);

@@ -10,7 +10,6 @@ enum { TABLE_NAME = 64 };
 /// Where rows come from.
 struct table_source {
     const char *noun; ///< of a row
-    size_t first;     ///< the column that is shown first: those before it say where a row is
     size_t (*rows)(const view_state *view);
     size_t (*columns)(const view_state *view);
     void (*name)(const view_state *view, size_t column, char text[TABLE_NAME]);

@@ -224,9 +224,12 @@ struct view_state {
     plan_camera camera;
     bool fitted; ///< the camera fits the map, and follows the window's size
     eye_state eye;
-    double source_scale; ///< of the map that was taken: how long its unit is in the file
-    double other_cone;   ///< degrees: of Plan mode while in another one, else of the other ones
-    unsigned show;       ///< layers, of show_bit
+    double source_scale;      ///< of the map that was taken: how long its unit is in the file
+    uint32_t source_read;     ///< document->read then
+    const char *building;     ///< of which a storey is open; NULL: none
+    struct building_way *way; ///< NULL: none
+    double other_cone; ///< degrees: of Plan mode while in another one, else of the other ones
+    unsigned show;     ///< layers, of show_bit
     unsigned filled[LAYER_COUNT]; ///< by layer: the larger, the later it was switched on
     unsigned last_filled;         ///< the largest of them
     uint32_t split_depth, tree_depth;
@@ -281,6 +284,11 @@ bool view_pointed(const view_state *view, sl_point *at);
 /// "12.34, 5.6": to about a ten-thousandth of the map's size, however far from the origin it is.
 enum { PLACE_TEXT = 72 };
 void view_say_place(const sl_map *map, sl_point at, char text[PLACE_TEXT]);
+
+/// "12.3 m", or with `power`, a raised 2, an area, "12.3 m²".
+enum { MEASURE_TEXT = 96 };
+void view_say_measure(const view_state *view, double value, const char *power,
+                      char text[MEASURE_TEXT]);
 
 /// Marks a place of the map by a disc.
 void view_mark(const view_state *view, const sl_frame *frame, sl_point place);

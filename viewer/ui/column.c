@@ -89,6 +89,18 @@ void column_buttons(ui_state *ui, column *c, const char *const *names) {
     c->y += 2 * ui->text;
 }
 
+/// The value at the right, which a click on it types.
+static void draw_value(ui_state *ui, const column *c, int number, double width) {
+    const ui_slider_row *slider = &ui->sliders[number];
+    const double t = ui->text;
+    const sl_box box = {{c->right - width + 0.6 * t, c->y}, {c->right, c->y + 1.6 * t}};
+    const bool over = slider->typed && box_has(box, ui->pointer);
+    if (over)
+        ui_fill_round(ui, box, 0.2 * t, sl_colour_mix(ui->palette.page, ui->palette.glass, 0.2));
+    ui_text_right(ui, c->right, c->y + 1.16 * t, 1, ui->palette.ink, slider->text);
+    if (slider->typed) ui_hit(ui, HIT_VALUE, number, box);
+}
+
 void column_sliders(ui_state *ui, column *c) {
     const double t = ui->text;
     for (int i = 0; i < ui->slider_count; i++) {
@@ -98,15 +110,26 @@ void column_sliders(ui_state *ui, column *c) {
         const bool beside = !column_is_narrow(ui, c);
         const double value =
             fmax(ui_text_width(ui, 1, false, slider->text), beside ? 3.2 * t : 0) + t;
-        ui_text_right(ui, c->right, c->y + 1.16 * t, 1, ui->palette.ink, slider->text);
+        const bool typed = ui->field && ui->field == ui->number && ui->typed_slider == i;
+        const sl_box field = {{c->left + (beside ? 6.4 : 0) * t, c->y}, {c->right, c->y + 1.7 * t}};
+        if (typed) {
+            ui_text_field(ui, field, ui->field, slider->label, true);
+            ui_hit(ui, HIT_FIELD, 1, field);
+        } else {
+            draw_value(ui, c, i, value);
+        }
         const double label = beside ? 6.4 * t : column_width(c) - value;
+        if (typed && !beside) {
+            c->y = field.max.y + 0.1 * t;
+            continue;
+        }
         const double below =
             ui_lines(ui, c->left, c->y + 1.16 * t, label, 1, false, ui->palette.ink, slider->label);
         sl_box track = {{c->left + 6.4 * t, c->y}, {c->right - value, c->y + 1.6 * t}};
         if (!beside)
             track = (sl_box){{c->left + 0.5 * t, below - 1.1 * t},
                              {c->right - 0.5 * t, below + 0.5 * t}};
-        ui_slider(ui, track, slider->share, HIT_SLIDER, i);
+        if (!typed) ui_slider(ui, track, slider->share, HIT_SLIDER, i);
         c->y = fmax(track.max.y, below - 1.1 * t) + 0.1 * t;
     }
 }

@@ -19,6 +19,7 @@ typedef enum hit_kind {
     HIT_DUAL,
     HIT_TIME,    ///< the time line
     HIT_SLIDER,  ///< value: of the table of sliders
+    HIT_VALUE,   ///< the value of a slider that can be typed; value: likewise
     HIT_DIALOG,  ///< value: the number of a widget, and 256 times (a row of it + 1)
     HIT_FIELD,   ///< a text field; value: chosen by its owner
     HIT_SCROLL,  ///< value: of ui_scrolls
@@ -91,9 +92,9 @@ typedef struct ui_action {
 /// A slider of the panel.
 typedef struct ui_slider_row {
     const char *label, *help;
-    bool shown;
-    double share;  ///< where it stands, 0 to 1
-    char text[32]; ///< its value
+    bool shown, typed; ///< its value can be typed
+    double share;      ///< where it stands, 0 to 1
+    char text[32];     ///< its value
 } ui_slider_row;
 
 enum { ACTIONS_MOST = 160, SLIDERS_MOST = 16 };
@@ -120,6 +121,7 @@ typedef struct ui_state {
     bool legend;   ///< over the plan, where there is no panel
     bool legend_over, legend_folded; ///< in a presentation: over the map too; a button now
     bool side_panel, first_person, accounts, effects, program, table, help; ///< panels shown
+    bool looks_beside; ///< the first person stands beside the plan, not below it
     char message[512]; ///< the last thing to say
     bool message_is_error, message_is_working;
     double message_seconds; ///< for which it has been there
@@ -131,9 +133,11 @@ typedef struct ui_state {
     ui_scroll scrolls[SCROLLS];
     int scrolling; ///< the scroll area that is drawn; -1: none
     ui_focus focus;
-    int copies;        ///< of the focused widget met in this frame
-    bool reveal;       ///< scroll to the focused widget
-    text_field *field; ///< that typing goes to; NULL: none
+    int copies;               ///< of the focused widget met in this frame
+    bool reveal;              ///< scroll to the focused widget
+    text_field *field;        ///< that typing goes to; NULL: none
+    const text_field *number; ///< where it is this one, it types the value of `typed_slider`
+    int typed_slider;
     bool field_mutes;  ///< the key that opened it is not typed into it
     text_field filter; ///< of the help
     hit_area hovered;  ///< what a tooltip would be about, and for how long the pointer rests there

@@ -101,6 +101,14 @@ void sl_coverage_destroy(sl_context *context, sl_coverage *coverage) {
     *coverage = (sl_coverage){0};
 }
 
+double sl_coverage_class_area(const sl_coverage *coverage, uint32_t class) {
+    const double *areas = coverage->overlay.areas;
+    if (class > coverage->count || class >= SL_COVERAGE_CLASSES) return 0;
+    const bool last = class + 1 == SL_COVERAGE_CLASSES || class == coverage->count;
+    const double area = areas[class] - (last ? 0 : areas[class + 1]);
+    return area > coverage->negligible ? area : 0;
+}
+
 bool sl_coverage_is_spare(const sl_coverage *coverage, size_t viewpoint) {
     return coverage->alone[viewpoint] <= coverage->negligible;
 }

@@ -68,6 +68,13 @@ SL_API sl_status sl_coverage_of_path(sl_context *context, sl_query *query,
                                      const sl_coverage *coverage, const sl_viewpoint *viewpoints,
                                      const sl_point *path, size_t count, sl_path_parts *out);
 
+/// Classes of coverage: what 0, 1, 2, 3 or more viewpoints see.
+#define SL_COVERAGE_CLASSES 4
+
+/// The area inside that exactly so many viewpoints see; of the last class, that many or more. 0
+/// where it is negligible, and for a `class` from SL_COVERAGE_CLASSES on.
+SL_API double sl_coverage_class_area(const sl_coverage *coverage, uint32_t class);
+
 /// Whether the others see all that a viewpoint sees, but for rounding. Of two that see the same,
 /// each is spare; take one away and ask again.
 SL_API bool sl_coverage_is_spare(const sl_coverage *coverage, size_t viewpoint);

@@ -16,13 +16,12 @@
 #define SIGHTLINE_DRAW_H
 
 #include "sightline/bake.h"
+#include "sightline/coverage.h"
 #include "sightline/dual.h"
 #include "sightline/explain.h"
 #include "sightline/faults.h"
-#include "sightline/overlay.h"
 #include "sightline/region.h"
 #include "sightline/view.h"
-#include "sightline/viewpoint.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -64,6 +63,32 @@ typedef struct sl_sheet {
     sl_point north;    ///< a direction in the map; zeroed: as sl_map.earth says, if it does
 } sl_sheet;
 
+/// A colour without transparency.
+typedef struct sl_colour {
+    double red, green, blue; ///< sRGB, 0 to 1
+} sl_colour;
+
+/// A part of a plan that is drawn over it in one colour: an area below the walls, lines and places
+/// above them. Each of these may be missing.
+typedef struct sl_drawn_part {
+    const char *name; ///< UTF-8, for the key; NULL: not in the key
+    sl_colour colour;
+    sl_shape area;
+    double opacity; ///< of the area, 0 to 1
+    const sl_segment *lines;
+    size_t line_count;
+    bool dashed;            ///< the lines
+    const sl_point *places; ///< each a disc
+    size_t place_count;
+} sl_drawn_part;
+
+/// A name on a plan, about a place.
+typedef struct sl_plan_label {
+    const char *text; ///< UTF-8
+    sl_point at;
+    double width; ///< in the map, that it should not exceed: it is set smaller, then cut
+} sl_plan_label;
+
 /// Start from sl_draw_options_default().
 typedef struct sl_draw_options {
     unsigned layers; ///< of sl_layer, or-ed; usually all but the stab tree and numbers
@@ -75,6 +100,11 @@ typedef struct sl_draw_options {
     const sl_faults *faults;   ///< marked over all else; NULL for none
     const sl_drawn_box *boxes; ///< for sl_draw_eye
     size_t box_count;
+    const sl_drawn_part *parts; ///< for pictures of a whole plan, these five; over all but labels
+    size_t part_count;
+    const sl_plan_label *labels; ///< over all else
+    size_t label_count;
+    const char *words; ///< UTF-8, below the key; '\n' begins a new line; NULL for none
     /// For pictures of a whole plan, in place of the width. SL_BAD_ARGUMENT if the plan does not
     /// fit at the scale: the message has one that does.
     sl_sheet sheet;
@@ -251,13 +281,6 @@ typedef enum sl_document_block_kind {
     SL_BLOCK_PICTURE,
 } sl_document_block_kind;
 
-/// A name on a plan, about a place.
-typedef struct sl_plan_label {
-    const char *text; ///< UTF-8
-    sl_point at;
-    double width; ///< in the map, that it should not exceed: it is set smaller, then cut
-} sl_plan_label;
-
 /// A block of a document: what its kind has; the rest is zeroed. Texts are UTF-8.
 typedef struct sl_document_block {
     sl_document_block_kind kind;
@@ -267,9 +290,10 @@ typedef struct sl_document_block {
     const char *const *cells;
     size_t columns, rows;
     const sl_baked *baked; ///< of a picture
-    /// Of a picture: one of them, drawn over the plan. Both NULL: the plan with its starts.
+    /// Of a picture: one of them, drawn over the plan. All NULL: the plan with its starts.
     const sl_field *field;
     const sl_drawn_lines *lines;
+    const sl_drawn_coverage *coverage;
     const sl_plan_label *labels; ///< of a picture, over all else
     size_t label_count;
 } sl_document_block;
@@ -387,11 +411,6 @@ SL_API void sl_path_polygon(cairo_t *cairo, const sl_frame *frame, const sl_poin
                             size_t count); ///< convex where it has to be cut
 
 // --- colours
-
-/// A colour without transparency.
-typedef struct sl_colour {
-    double red, green, blue; ///< sRGB, 0 to 1
-} sl_colour;
 
 /// Neighbouring cells get different tones where that many suffice.
 #define SL_TONES 4
@@ -521,11 +540,8 @@ SL_API void sl_draw_portal_ends(cairo_t *cairo, const sl_palette *palette, const
 SL_API void sl_draw_conflict(cairo_t *cairo, const sl_palette *palette, const sl_frame *frame,
                              const sl_portal_ends *portals, const sl_conflict *conflict);
 
-/// Classes of coverage: seen by no viewpoint, by 1, by 2, by 3 or more.
-#define SL_COVERAGE_CLASSES 4
-
-/// The colour of a class. Blind spots stand out; the others are one tone, the deeper the more
-/// viewpoints.
+/// The colour of a class of coverage (coverage.h). Blind spots stand out; the others are one tone,
+/// the deeper the more viewpoints.
 SL_API sl_colour sl_coverage_colour(const sl_palette *palette, uint32_t kind);
 
 /// Colours that tell viewpoints apart, for colour-blind eyes too.
@@ -541,10 +557,12 @@ SL_API sl_status sl_draw_coverage_areas(sl_context *context, cairo_t *cairo,
 SL_API void sl_draw_coverage_borders(cairo_t *cairo, const sl_palette *palette,
                                      const sl_drawn_coverage *coverage, const sl_frame *frame);
 
-/// Draws viewpoints with their cones and names, and the numbers of blind spots. Needs no pieces and
-/// no regions.
-SL_API void sl_draw_coverage_marks(cairo_t *cairo, const sl_palette *palette,
-                                   const sl_drawn_coverage *coverage, const sl_frame *frame);
+/// Draws viewpoints with their cones and names, and the numbers of blind spots. Marks that would
+/// lie on others stand beside their places, joined with them by lines. Needs no pieces and no
+/// regions. SL_NO_MEMORY.
+SL_API sl_status sl_draw_coverage_marks(sl_context *context, cairo_t *cairo,
+                                        const sl_palette *palette,
+                                        const sl_drawn_coverage *coverage, const sl_frame *frame);
 
 /// Draws a ring about a place of the map.
 SL_API void sl_draw_ring(cairo_t *cairo, const sl_frame *frame, sl_point at, double radius,
