@@ -288,8 +288,8 @@ sl_status cmd_vga(command_console *console, int argc, char **argv) {
     const option_table doors = door_option_table(&plan.doors);
     const option_table points = vga_grid_option_table(&plan.points);
     const option_spec options[] = {
-        {"grid", 0, "STEP", "distance between neighbouring points", .number = &plan.points.step,
-         .over_0 = true, .given = &plan.step_given},
+        {"grid", 0, "STEP", "distance between neighbouring points, which lie at multiples of it",
+         .number = &plan.points.step, .over_0 = true, .given = &plan.step_given},
         {"at", 0, "X,Y",
          "fill the grid from here through doors that are open (default: all that is inside); may "
          "be given several times",
