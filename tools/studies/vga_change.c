@@ -65,7 +65,7 @@ static sl_status write_csv(sl_context *context, const vga_change *c, FILE *out) 
     double values[VALUES];
     fputs("x,y", out);
     for (size_t k = 0; k < names.count; k++)
-        for (size_t i = 0; i < VALUES && c->before->parts & vga_measure_part(k); i++)
+        for (size_t i = 0; i < VALUES && vga_has(c->before, k); i++)
             fprintf(out, ",%s%s", name_table_at(&names, k), endings[i]);
     putc('\n', out);
     for (size_t n = 0; n < c->count; n++) {
@@ -73,7 +73,7 @@ static sl_status write_csv(sl_context *context, const vga_change *c, FILE *out) 
         csv_put(out, c->pairs[n].at.x, ",");
         csv_put(out, c->pairs[n].at.y, "");
         for (size_t k = 0; k < names.count; k++) {
-            if (!(c->before->parts & vga_measure_part(k))) continue;
+            if (!vga_has(c->before, k)) continue;
             values_of(c, k, &c->pairs[n], values);
             for (size_t i = 0; i < VALUES; i++) {
                 putc(',', out);
@@ -94,7 +94,7 @@ static sl_status write_geojson(sl_context *context, const vga_change *c, FILE *f
         if (n % 4096 == 0) SL_TRY(sl_check_cancelled(context));
         sl_geojson_put_point(&out, "point", c->pairs[n].at);
         for (size_t k = 0; k < names.count; k++) {
-            if (!(c->before->parts & vga_measure_part(k))) continue;
+            if (!vga_has(c->before, k)) continue;
             values_of(c, k, &c->pairs[n], values);
             for (size_t i = 0; i < VALUES; i++) {
                 snprintf(key, sizeof key, "%s%s", name_table_at(&names, k), endings[i]);
@@ -217,7 +217,7 @@ void vga_change_print(const vga_change *change, size_t measure) {
     printf("  %-36s %12s %12s %12s %12s\n", "measure", "mean", "other", "change", "deviation");
     for (size_t k = 0; k < names.count; k++) {
         double mean[VALUES], deviation[VALUES];
-        if (!(change->before->parts & vga_measure_part(k))) continue;
+        if (!vga_has(change->before, k)) continue;
         bool known = true;
         for (size_t i = 0; i < VALUES; i++) {
             const change_measure of = {change, k, i, 1};
