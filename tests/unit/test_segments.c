@@ -1,6 +1,6 @@
 /// Segment measures: chains and crossings by hand; networks that are turned, mirrored, listed in
-/// another order or the other way round; radii; rows, rings and spirals against all paths of single
-/// segments, with weights and unlinked crossings too; what is refused.
+/// another order or the other way round; radii; rows, rings, spirals and wheels against all paths
+/// of single segments, with weights and unlinked crossings too; what is refused.
 #include "testing.h"
 
 #include "sightline/axial.h"
@@ -445,6 +445,23 @@ static void weights_out_of_range_are_refused(void **state) {
     sl_context_destroy(context);
 }
 
+/// Choice is counted in units: they are as small as weights are.
+static void tiny_weights_count(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    sl_segment segments[9];
+    sl_segment_measures m[9];
+    double weights[9];
+    const sl_segment_options options = {.threads = 1, .weights = weights};
+    const uint32_t n = make_chain(segments, 9);
+    for (uint32_t i = 0; i < n; i++) weights[i] = 0x1p-30;
+    measure(context, segments, n, &options, m);
+    for (uint32_t i = 0; i < n; i++)
+        assert_true(m[i].t1024_node_count == n * 0x1p-30 &&
+                    m[i].t1024_choice == i * (n - 1 - i) * 0x1p-60);
+    sl_context_destroy(context);
+}
+
 static void pieces_share_the_value_of_their_street(void **state) {
     (void)state;
     static const sl_segment segments[] = {
@@ -490,6 +507,81 @@ static void rings_and_spirals_agree_with_all_paths(void **state) {
     sl_context_destroy(context);
 }
 
+/// Wheels with up to 12 spokes at uneven angles: crossings of many arms, sharp turns, and a rim
+/// that is walked both ways.
+static void wheels_agree_with_all_paths(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    sl_random random = {4};
+    for (uint32_t i = 0; i < testing_seeds(60); i++) {
+        const uint32_t spokes = 3 + i % 10;
+        sl_segment segments[FEW];
+        sl_point rim[12];
+        uint32_t count = 0;
+        for (uint32_t k = 0; k < spokes; k++) {
+            const double angle = (k + 0.9 * sl_random_below(&random, 100) / 100) * 6.28 / spokes;
+            const double far = 300 + sl_random_below(&random, 700);
+            rim[k] = (sl_point){floor(far * cos(angle)), floor(far * sin(angle))};
+        }
+        for (uint32_t k = 0; k < spokes; k++) {
+            const sl_point next = rim[(k + 1) % spokes];
+            if (sl_random_below(&random, 5)) segments[count++] = (sl_segment){{0, 0}, rim[k]};
+            if (sl_random_below(&random, 8)) segments[count++] = (sl_segment){next, rim[k]};
+            if (!sl_random_below(&random, 3))
+                segments[count++] = (sl_segment){rim[k], {3 * rim[k].x, 2 * rim[k].y}};
+        }
+        check_against_all_paths(context, segments, count, &one_thread);
+    }
+    sl_context_destroy(context);
+}
+
+/// From the lowest segment, paths come to the row from 0,0 to 20,0 by both ends, the one from the
+/// right somewhat later. It is the better one only two chains on: in the last but one.
+static void later_walks_count_beyond_the_next_crossing(void **state) {
+    (void)state;
+    static const sl_segment segments[] = {
+        {{-40, -50}, {-30, -50}}, {{-30, -50}, {20, -50}}, {{20, -50}, {40, -30}},
+        {{40, -30}, {45, -10}},   {{45, -10}, {35, 2}},    {{35, 2}, {20, 0}},
+        {{-40, -50}, {-60, -30}}, {{-60, -30}, {-50, -5}}, {{-50, -5}, {-10, 0}},
+        {{-10, 0}, {0, 0}},       {{0, 0}, {10, 0}},       {{10, 0}, {20, 0}},
+        {{10, 0}, {10, -8}},      {{0, 0}, {-10, 1}},      {{20, 0}, {20, 8}}};
+    sl_context *context = testing_context(NULL);
+    check_against_all_paths(context, segments, sizeof segments / sizeof *segments, &one_thread);
+    sl_context_destroy(context);
+}
+
+/// More steps than one chain takes, on one of two ways that turn equally. Only a segment at each
+/// end has weight, so their path is the only one that counts.
+static void long_streets_are_several_chains(void **state) {
+    (void)state;
+    enum { LONG = 65600, SHORT = 100, EACH = LONG / SHORT, ALL = LONG + 1 + SHORT + 1 + 2 };
+    sl_context *context = testing_context(NULL);
+    sl_segment *segments = sl_alloc_array(context, ALL, sizeof *segments);
+    sl_segment_measures *m = sl_alloc_array(context, ALL, sizeof *m);
+    double *weights = sl_alloc_array(context, ALL, sizeof *weights);
+    assert_true(segments && m && weights);
+    const sl_point end = {2 * LONG, 0};
+    uint32_t count = 0;
+    for (double i = 0; i < LONG; i++) segments[count++] = (sl_segment){{i, i}, {i + 1, i + 1}};
+    segments[count++] = (sl_segment){{LONG, LONG}, end};
+    for (double i = 0; i < SHORT; i++)
+        segments[count++] = (sl_segment){{i * EACH, -i * EACH}, {(i + 1) * EACH, -(i + 1) * EACH}};
+    segments[count++] = (sl_segment){{LONG, -LONG}, end};
+    for (uint32_t k = 0; k < 2; k++) {
+        weights[count] = 1;
+        segments[count++] = (sl_segment){{k * end.x, 0}, {k * end.x + 2.0 * k - 1, 0}};
+    }
+    assert_int_equal(count, ALL);
+    const sl_segment_options options = {.threads = 1, .weights = weights};
+    measure(context, segments, count, &options, m);
+    for (uint32_t i = 0; i < count; i++)
+        assert_true(m[i].t1024_choice == (i > LONG && i < ALL - 2));
+    sl_free(context, weights);
+    sl_free(context, m);
+    sl_free(context, segments);
+    sl_context_destroy(context);
+}
+
 static void points_are_refused(void **state) {
     (void)state;
     static const sl_segment segments[] = {{{0, 0}, {1, 0}}, {{2, 2}, {2, 2}}};
@@ -513,8 +605,12 @@ int main(void) {
         cmocka_unit_test(unlinks_agree_with_all_paths),
         cmocka_unit_test(bridges_are_no_junctions),
         cmocka_unit_test(weights_out_of_range_are_refused),
+        cmocka_unit_test(tiny_weights_count),
         cmocka_unit_test(pieces_share_the_value_of_their_street),
         cmocka_unit_test(rings_and_spirals_agree_with_all_paths),
+        cmocka_unit_test(wheels_agree_with_all_paths),
+        cmocka_unit_test(later_walks_count_beyond_the_next_crossing),
+        cmocka_unit_test(long_streets_are_several_chains),
         cmocka_unit_test(points_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

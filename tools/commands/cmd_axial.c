@@ -131,15 +131,14 @@ static sl_status measure(sl_context *context, const axial_plan *plan, axial_work
 
 /// Some files hold drawn lines only, and these pass doors as they pass walls.
 static sl_status check_lines(sl_context *context, axial_plan *plan) {
-    const bool table = lines_are_drawn(plan->input);
-    if (table && !plan->lines_given) plan->lines = LINES_DRAWN;
+    if (lines_are_drawn(plan->input) && !plan->lines_given) plan->lines = LINES_DRAWN;
     if (plan->lines != LINES_DRAWN)
-        return table ? sl_fail(
-                           context, SL_BAD_ARGUMENT,
-                           "--lines %s: a .csv or .geojson holds drawn lines, and no plan to find "
-                           "some in; give the map",
-                           kinds[plan->lines].name)
-                     : SL_OK;
+        return name_ends_with(plan->input, ".csv")
+                   ? sl_fail(context, SL_BAD_ARGUMENT,
+                             "--lines %s: a .csv holds drawn lines, and no plan to find some in; "
+                             "give the map",
+                             kinds[plan->lines].name)
+                   : SL_OK;
     if (plan->within.path)
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "--within: drawn lines are measured as they are, all of them");

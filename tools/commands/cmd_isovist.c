@@ -485,8 +485,10 @@ sl_status cmd_isovist(command_console *console, int argc, char **argv) {
     const option_table within = within_option_table(&plan.within, WITHIN_GRID);
     const option_spec options[] = {
         {"at", 0, "X,Y", "look from a point; may be given several times", .list = &plan.at},
-        {"grid", 0, "STEP", "look from all points of a grid that are inside", .number = &plan.grid,
-         .over_0 = true},
+        {"grid", 0, "STEP",
+         "look from the middles of squares that are inside; squares begin at the lower left corner "
+         "of the map's bounds (points at multiples of STEP: sightline vga --measures isovist)",
+         .number = &plan.grid, .over_0 = true},
         {"output", 'o', "TABLE",
          "the table: .csv, .geojson with the regions, or .dxf with the regions alone (default: CSV "
          "to standard output)",

@@ -62,6 +62,19 @@ static sl_status check_estimate(sl_context *context, vga_plan *p) {
                    name_table_at(&measures, p->measure));
 }
 
+static sl_status check_global(sl_context *context, const vga_plan *p) {
+    if (!p->global_only) return SL_OK;
+    const name_table measures = measure_table(SL_VGA);
+    if (!(p->parts & VGA_PART_VISUAL))
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "--global is for the visual measures; add them to --measures");
+    if (input_is_building(p->input))
+        return sl_fail(context, SL_BAD_ARGUMENT, "--global does not go with a building");
+    if (vga_is_global(p->measure)) return SL_OK;
+    return sl_fail(context, SL_BAD_ARGUMENT, "--measure %s is local: leave --global out",
+                   name_table_at(&measures, p->measure));
+}
+
 /// The rows of a part are measures of its points, by the whole graph.
 static sl_status check_shard(sl_context *context, const vga_plan *p) {
     const char *other = !p->part.text                 ? NULL
@@ -108,6 +121,7 @@ static sl_status make_plan(sl_context *context, vga_plan *p) {
         return sl_fail(context, SL_BAD_ARGUMENT, "--measures none: name one group or several");
     if (!p->measure_given) p->measure = some_measure(p->parts);
     SL_TRY(check_estimate(context, p));
+    SL_TRY(check_global(context, p));
     SL_TRY(check_shard(context, p));
     SL_TRY(within_check(context, &p->points.within));
     SL_TRY(check_radius(context, p, p->visual_given, VGA_PART_VISUAL, "visual"));
@@ -288,8 +302,8 @@ sl_status cmd_vga(command_console *console, int argc, char **argv) {
     const option_table doors = door_option_table(&plan.doors);
     const option_table points = vga_grid_option_table(&plan.points);
     const option_spec options[] = {
-        {"grid", 0, "STEP", "distance between neighbouring points", .number = &plan.points.step,
-         .over_0 = true, .given = &plan.step_given},
+        {"grid", 0, "STEP", "distance between neighbouring points, which lie at multiples of it",
+         .number = &plan.points.step, .over_0 = true, .given = &plan.step_given},
         {"at", 0, "X,Y",
          "fill the grid from here through doors that are open (default: all that is inside); may "
          "be given several times",
@@ -336,6 +350,10 @@ sl_status cmd_vga(command_console *console, int argc, char **argv) {
         {"radius", 0, "N", "visual: only points within N steps (default: all)",
          .count32 = &plan.options.radius, .least = 1, .most = UINT32_MAX, .topic = "limits",
          .given = &plan.visual_given, .rare = true},
+        {"global", 0, NULL,
+         "visual: only measures of the whole graph, and connectivity; local ones (clustering, "
+         "control, controllability, moments) take most of the time of large graphs",
+         .flag = &plan.global_only, .topic = "limits", .rare = true},
         {"shard", 0, "K/N", "compute part K of N of the table (1 <= K <= N), for 'sightline merge'",
          .text = &plan.part.text, .topic = "limits", .rare = true},
         {"estimate", 0, "N",

@@ -48,7 +48,7 @@ sl_status line_table_draw(sl_context *context, const line_table *table, const li
                           const sl_baked *baked, const char *input, const char *map,
                           const sl_draw_options *drawing, const char *path);
 
-/// Whether a file holds drawn lines, and no plan, by its name: .csv or .geojson.
+/// Whether a file holds drawn lines, by its name: .csv or .geojson.
 bool lines_are_drawn(const char *path);
 
 /// Lines as they are drawn: the walls of a map in any format, GeoJSON (.geojson), or a table with

@@ -66,7 +66,7 @@ static sl_status write_csv(sl_context *context, const vga_change *c, FILE *out) 
     double values[VALUES];
     fputs("x,y", out);
     for (size_t k = 0; k < names.count; k++)
-        for (size_t i = 0; i < VALUES && c->before->parts & vga_measure_part(k); i++)
+        for (size_t i = 0; i < VALUES && vga_has(c->before, k); i++)
             fprintf(out, ",%s%s", name_table_at(&names, k), endings[i]);
     putc('\n', out);
     for (size_t n = 0; n < c->count; n++) {
@@ -74,7 +74,7 @@ static sl_status write_csv(sl_context *context, const vga_change *c, FILE *out) 
         csv_put(out, c->pairs[n].at.x, ",");
         csv_put(out, c->pairs[n].at.y, "");
         for (size_t k = 0; k < names.count; k++) {
-            if (!(c->before->parts & vga_measure_part(k))) continue;
+            if (!vga_has(c->before, k)) continue;
             values_of(c, k, &c->pairs[n], values);
             for (size_t i = 0; i < VALUES; i++) {
                 putc(',', out);
@@ -95,7 +95,7 @@ static sl_status write_geojson(sl_context *context, const vga_change *c, FILE *f
         if (n % 4096 == 0) SL_TRY(sl_check_cancelled(context));
         sl_geojson_put_point(&out, "point", c->pairs[n].at);
         for (size_t k = 0; k < names.count; k++) {
-            if (!(c->before->parts & vga_measure_part(k))) continue;
+            if (!vga_has(c->before, k)) continue;
             values_of(c, k, &c->pairs[n], values);
             for (size_t i = 0; i < VALUES; i++) {
                 snprintf(key, sizeof key, "%s%s", name_table_at(&names, k), endings[i]);
@@ -156,6 +156,28 @@ static double gain_at(const void *of, size_t index) {
     return gain > 0 ? gain : NAN;
 }
 
+static double size_at(const void *of, size_t index) {
+    return fabs(value_at(of, index));
+}
+
+/// The mean change in a line, and the largest one with its place.
+static void print_change(const vga_change *c, size_t measure) {
+    size_t best[SUMMARY_BEST];
+    double mean, deviation;
+    const change_measure of = {c, measure, 2, 1};
+    if (!summary_mean(&(summary_values){value_at, &of, c->count}, &mean, &deviation)) return;
+    summary_best(&(summary_values){size_at, &of, c->count}, best);
+    const vga_pair *p = &c->pairs[best[0]];
+    const double most = change_of(c, measure, p);
+    const name_table names = measure_table(SL_VGA);
+    const char *name = name_table_at(&names, measure);
+    if (most == 0)
+        printf("%s does not change\n", name);
+    else
+        printf("%s changes by %.6g on average, most by %.6g at %.10g,%.10g\n", name, mean, most,
+               p->at.x, p->at.y);
+}
+
 /// The largest gains, or the largest losses with a sign of -1.
 static void print_best(const vga_change *c, size_t measure, int sign) {
     const name_table names = measure_table(SL_VGA);
@@ -183,10 +205,12 @@ void vga_change_print(const vga_change *change, size_t measure) {
     printf("%zu point%s in both plans", both, both == 1 ? "" : "s");
     if (before) printf(", %zu in the first one only", before);
     if (after) printf(", %zu in the other one only", after);
-    printf("\n  %-36s %12s %12s %12s %12s\n", "measure", "mean", "other", "change", "deviation");
+    putchar('\n');
+    print_change(change, measure);
+    printf("  %-36s %12s %12s %12s %12s\n", "measure", "mean", "other", "change", "deviation");
     for (size_t k = 0; k < names.count; k++) {
         double mean[VALUES], deviation[VALUES];
-        if (!(change->before->parts & vga_measure_part(k))) continue;
+        if (!vga_has(change->before, k)) continue;
         bool known = true;
         for (size_t i = 0; i < VALUES; i++) {
             const change_measure of = {change, k, i, 1};

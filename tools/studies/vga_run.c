@@ -201,6 +201,7 @@ static sl_status measure(sl_context *context, vga_plan *plan, vga_work *w) {
     vga_table *table = &w->table;
     const sl_vga_grid *grid = &table->grid;
     table->parts = plan->parts;
+    table->global_only = plan->global_only;
     table->earth = w->baked.map.earth;
     const unsigned of_graph = plan->parts & ~(unsigned)VGA_PART_ISOVIST;
     table->measures = sl_alloc_array(context, grid->count, sizeof *table->measures);
@@ -212,7 +213,8 @@ static sl_status measure(sl_context *context, vga_plan *plan, vga_work *w) {
         if (plan->turned) SL_TRY(sl_vga_graph_turn(context, &w->graph));
     }
     unsigned visual = SL_VGA_LOCAL | (plan->of_building ? 0u : (unsigned)SL_VGA_GLOBAL);
-    if (plan->estimate_given) visual = SL_VGA_GLOBAL; // for the bytes that it takes
+    // Of an estimate it is for the bytes that it takes.
+    if (plan->estimate_given || plan->global_only) visual = SL_VGA_GLOBAL;
     plan->options.parts = (of_graph & VGA_PART_VISUAL ? visual : 0u) |
                           (of_graph & VGA_PART_THROUGH ? SL_VGA_THROUGH : 0u) |
                           (of_graph & VGA_PART_METRIC ? SL_VGA_METRIC : 0u) |

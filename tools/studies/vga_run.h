@@ -27,7 +27,8 @@ typedef struct vga_plan {
     table_part part; ///< of the table: other rows have no values
     sl_vga_estimate estimate;
     const char *estimate_given, *seed_given;
-    bool turned; ///< who sees a point, in place of what it sees
+    bool turned;      ///< who sees a point, in place of what it sees
+    bool global_only; ///< no local measures
     unsigned parts;
     const char *step_given, *parts_given, *range_given, *measure_given, *scale_given;
     const char *visual_given, *metric_given, *angular_given; ///< radii

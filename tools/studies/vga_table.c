@@ -40,16 +40,20 @@ bool vga_measure_is_of_part(size_t measure) {
     return vga_measure_part(measure) < VGA_PART_ISOVIST;
 }
 
-bool vga_is_estimated(size_t measure) {
+bool vga_is_global(size_t measure) {
     const sl_measure *m = &columns(&(size_t){0})[measure];
-    if (vga_measure_part(measure) != VGA_PART_VISUAL) return true;
-    return m->group == SL_GROUP_GLOBAL ? m->unit != SL_UNIT_BITS
-                                       : strcmp(m->name, "connectivity") == 0;
+    return vga_measure_part(measure) != VGA_PART_VISUAL || m->group == SL_GROUP_GLOBAL ||
+           strcmp(m->name, "connectivity") == 0;
+}
+
+bool vga_is_estimated(size_t measure) {
+    return vga_is_global(measure) && columns(&(size_t){0})[measure].unit != SL_UNIT_BITS;
 }
 
 bool vga_has(const vga_table *table, size_t measure) {
     return table->parts & vga_measure_part(measure) &&
-           (!table->estimated || vga_is_estimated(measure));
+           (!table->estimated || vga_is_estimated(measure)) &&
+           (!table->global_only || vga_is_global(measure));
 }
 
 double vga_value(const vga_table *table, size_t measure, uint32_t point) {

@@ -15,7 +15,8 @@ typedef struct vga_table {
     sl_vga_depths *depths;      ///< from chosen points; NULL where there are none
     uint64_t *gates;            ///< steps of agents; NULL where there are none
     unsigned parts;
-    uint32_t *part; ///< by point: of those that no sightline joins (sl_vga_parts); NULL: unknown
+    bool global_only; ///< of the visual measures those of the whole graph alone
+    uint32_t *part;   ///< by point: of those that no sightline joins (sl_vga_parts); NULL: unknown
     uint32_t part_count;
     sl_earth earth;             ///< where the map lies (sl_map.earth)
     const char *const *storeys; ///< by point, of a building; NULL for one plan
@@ -37,8 +38,12 @@ unsigned vga_measure_part(size_t measure);
 /// nor from chosen points, nor of agents.
 bool vga_measure_is_of_part(size_t measure);
 
-/// Whether the table has a column of a measure. Of the visual ones some are not estimated.
+/// Whether the table has a column of a measure. Of the visual ones some are not estimated, and
+/// local ones may be left out.
 bool vga_has(const vga_table *table, size_t measure);
+
+/// Whether a measure stays where local ones are left out.
+bool vga_is_global(size_t measure);
 
 /// Whether a measure stays where mean depths are estimated.
 bool vga_is_estimated(size_t measure);

@@ -94,13 +94,27 @@ typedef struct parting {
     bool ties;
 } parting;
 
+/// Whether a place is nearer forwards.
+static bool is_forwards(const sli_segment_network *n, uint32_t place, walk there, walk back,
+                        uint64_t most) {
+    const uint64_t key = there.key + n->offsets[place];
+    return key < most && key < back.key - n->offsets[place];
+}
+
+static bool is_backwards(const sli_segment_network *n, uint32_t place, walk there, walk back,
+                         uint64_t most) {
+    const uint64_t key = back.key - n->offsets[place];
+    return key < most && key < there.key + n->offsets[place];
+}
+
 static parting part_of(const sli_segment_network *n, uint32_t from, uint32_t to, walk there,
                        walk back, uint64_t most) {
     uint32_t low = from, high = to;
+    if (from < to && is_forwards(n, to - 1, there, back, most)) return (parting){to, to, false};
+    if (from < to && is_backwards(n, from, there, back, most)) return (parting){from, from, false};
     while (low < high) {
         const uint32_t middle = low + (high - low) / 2;
-        const uint64_t key = there.key + n->offsets[middle];
-        if (key < most && key < back.key - n->offsets[middle])
+        if (is_forwards(n, middle, there, back, most))
             low = middle + 1;
         else
             high = middle;
@@ -108,8 +122,7 @@ static parting part_of(const sli_segment_network *n, uint32_t from, uint32_t to,
     parting p = {.before = low, .after = to};
     while (low < p.after) {
         const uint32_t middle = low + (p.after - low) / 2;
-        const uint64_t key = back.key - n->offsets[middle];
-        if (key < most && key < there.key + n->offsets[middle])
+        if (is_backwards(n, middle, there, back, most))
             p.after = middle;
         else
             low = middle + 1;
@@ -217,9 +230,9 @@ static uint32_t only_way(const sli_segment_chain *c, uint64_t home, uint64_t mos
     uint32_t k = 0;
     for (uint32_t i = 1; i < 4; i++)
         if (c->keys[i] < c->keys[k]) k = i;
-    const uint64_t key = c->keys[k];
-    return c->keys[k ^ 1] > key + c->last && c->keys[k ^ 2] > key + home &&
-                   c->keys[k ^ 3] > key + home + c->last && key + home + c->last < most
+    const uint64_t key = c->keys[k], last = sli_last_of(c);
+    return c->keys[k ^ 1] > key + last && c->keys[k ^ 2] > key + home &&
+                   c->keys[k ^ 3] > key + home + last && key + home + last < most
                ? k
                : 4;
 }
@@ -234,7 +247,7 @@ static void end_in_chain(const job *j, scratch *s, uint32_t home, uint32_t chain
     const uint32_t only = only_way(c, sli_offset_of_last(n, home), s->search.most);
     if (only < 4) {
         const double turn = (double)(c->keys[only] >> SLI_STEP_BITS);
-        const double last = (double)(c->last >> SLI_STEP_BITS);
+        const double last = (double)c->last_turn;
         const double paths = own->all.weight * sums->all.weight;
         all->weight += sums->all.weight;
         all->turns += sums->all.weight * turn +
@@ -249,7 +262,7 @@ static void end_in_chain(const job *j, scratch *s, uint32_t home, uint32_t chain
         const double weight = sli_segment_weight(n, place);
         const walk there = nearer(s, way, out);
         walk back = nearer(s, way + 1, out);
-        back.key += c->last;
+        back.key += sli_last_of(c);
         root_sums *root = &s->roots[place - own->first];
         const arrivals a =
             arrive(n, chain, sums->first, sums->stop, there, back, s->search.most, root);

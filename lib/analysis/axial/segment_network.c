@@ -109,7 +109,9 @@ static void add_chains(sli_segment_network *n, uint32_t state, bool join, uint32
         n->pieces[(*place)++] = state;
         const uint32_t next = join ? only_next(n, state) : NONE;
         if (next != NONE) offset += ((uint64_t)turn_of(n, state, next) << SLI_STEP_BITS) + 1;
-        if (offset >> SLI_STEP_BITS > SLI_MOST_OF_CHAIN) offset = 0;
+        if (offset >> SLI_STEP_BITS > SLI_MOST_OF_CHAIN ||
+            (uint32_t)offset > SLI_MOST_STEPS_OF_CHAIN)
+            offset = 0;
         state = next;
     }
 }
@@ -157,6 +159,21 @@ static uint32_t chain_from(const sli_segment_network *n, uint32_t state) {
     return 2 * chain + (n->pieces[n->first_piece[chain]] != state);
 }
 
+/// A walk may turn from one segment into another, or come back along the other: `late` of the arc.
+static uint8_t late_of(const sli_segment_network *n, uint32_t from, uint32_t to, uint16_t turn) {
+    enum { MOST_ARMS = 8 }; // the time is the number of arms, for each pair of them
+    const uint32_t corner = end_of(n, from);
+    const uint32_t first = n->first_at[corner], stop = n->first_at[corner + 1];
+    int late = stop - first > MOST_ARMS ? SLI_UNITS_OF_HALF_TURN : 0;
+    for (uint32_t i = first; i < stop && stop - first <= MOST_ARMS; i++) {
+        const uint32_t into = n->at[i];
+        if (into / 2 == from / 2 || into / 2 == to / 2) continue;
+        const int more = turn_of(n, from, into) - turn_of(n, to ^ 1, into) - turn;
+        if (more > late) late = more;
+    }
+    return (uint8_t)((late + SLI_LATE - 1) / SLI_LATE);
+}
+
 static sl_status find_arcs(sl_context *context, sli_segment_network *n) {
     const size_t states = 2 * (size_t)n->chain_count;
     uint64_t count = 0;
@@ -178,7 +195,8 @@ static sl_status find_arcs(sl_context *context, sli_segment_network *n) {
         for (uint32_t i = n->first_at[corner]; i < n->first_at[corner + 1]; i++) {
             if (n->at[i] / 2 == last / 2) continue;
             const uint16_t turn = turn_of(n, last, n->at[i]);
-            n->arcs[next++] = (sli_segment_arc){chain_from(n, n->at[i]), turn, false};
+            const uint8_t late = late_of(n, last, n->at[i], turn);
+            n->arcs[next++] = (sli_segment_arc){chain_from(n, n->at[i]), turn, late, false};
             if (!turn && !(sli_offset_of_last(n, state / 2) >> SLI_STEP_BITS))
                 n->straight[state] = true;
         }

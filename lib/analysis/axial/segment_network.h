@@ -22,10 +22,17 @@ enum { SLI_UNITS_OF_HALF_TURN = 512, SLI_UNITS_OF_RIGHT_ANGLE = 256, SLI_STEP_BI
 /// No chain turns by more, so that searches know how far a step leads.
 enum { SLI_MOST_OF_CHAIN = SLI_UNITS_OF_HALF_TURN };
 
+/// No chain takes more steps.
+enum { SLI_MOST_STEPS_OF_CHAIN = UINT16_MAX };
+
+enum { SLI_LATE = 4 };
+
 typedef struct sli_segment_arc {
     uint32_t to;   ///< a state of a chain
     uint16_t turn; ///< from the last piece of one chain to the first of the next
-    bool ends;     ///< the last one from its state
+    uint8_t late; ///< in SLI_LATE turns, rounded up: how much later a walk back along `to` may come
+                  ///< to the corner between, and be of use in a third chain that begins there
+    bool ends;    ///< the last one from its state
 } sli_segment_arc;
 
 typedef struct sli_segment_sums {

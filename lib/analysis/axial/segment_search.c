@@ -39,9 +39,11 @@ sl_status sli_segment_search_make(sl_context *context, const sli_segment_network
         !s->corners || !s->chosen || !s->last)
         return SL_NO_MEMORY;
     for (uint32_t i = 0; i < n->chain_count; i++)
-        s->chains[i] = (sli_segment_chain){.keys = {SLI_FAR, SLI_FAR, SLI_FAR, SLI_FAR},
-                                           .last = sli_offset_of_last(n, i),
-                                           .first = {n->first[2 * i], n->first[2 * i + 1]}};
+        s->chains[i] =
+            (sli_segment_chain){.keys = {SLI_FAR, SLI_FAR, SLI_FAR, SLI_FAR},
+                                .last_turn = (uint16_t)(sli_offset_of_last(n, i) >> SLI_STEP_BITS),
+                                .last_steps = (uint16_t)sli_offset_of_last(n, i),
+                                .first = {n->first[2 * i], n->first[2 * i + 1]}};
     for (size_t i = 0; i < 4 * chains; i++) s->paths[i] = 1;
     for (size_t i = 0; i < chains; i++) s->wanted[i] = !(options->metric_radius > 0);
     for (size_t i = 0; i < corners; i++) s->far[i] = INFINITY;
@@ -185,34 +187,46 @@ typedef struct place_home {
 /// A walk may come into a chain by one end so much later than another walk by the other end that no
 /// shortest path begins with it:
 ///
-///   x  front        back       A walk from x comes into the front with the key k. From x it may
-///    \  |             |        also go on into z, which is at most a half turn: with a key of
-///     --o--o--o--o--o--o--     at most k + half turn. A later walk comes into the back, with the
-///    /                         key k'. It is of use neither to pieces of the chain, if k' is over
-///   z                          k + offset of the last piece, nor beyond the front, if k' + this
-///                              offset is k + half turn or more. If z is x, backwards, the same
-///                              holds one chain earlier.
+///   x  front        back       A walk from x comes into the front with the key k, a later one into
+///    \  |             |        the back with the key k'. To pieces of the chain it is of no use if
+///     --o--o--o--o--o--o--     k' is over k + the offset of the last piece. Then it goes back to
+///    /                         the front, and on into z. From x, a walk turns into z, too. It may
+///   z                          turn by more there, but only by so much (late_of()).
+///
+/// If z is x, backwards, the same must hold one chain earlier. Down to the front of x, the later
+/// walk takes the way of the other one backwards, so it is later still, by twice that way. At the
+/// end of this row is home, where it is of no use. `late` of a way is the most of what is allowed
+/// at its front and at those before it, counted from k to the later walk's key at the front. So
+/// that only walks are left out that are later for all ways on, steps are not counted.
 ///
 /// Returns the largest k' - k that may be of use.
-static inline uint64_t slack_of(uint64_t last) {
-    const uint64_t half_turn = (uint64_t)SLI_UNITS_OF_HALF_TURN << SLI_STEP_BITS;
-    return 2 * last < half_turn ? half_turn - last - 1 : last;
+static inline uint64_t slack_of(uint64_t last, uint8_t late) {
+    const uint64_t key = (uint64_t)late * SLI_LATE << SLI_STEP_BITS;
+    return 2 * last < key ? key - last : last;
 }
 
 /// Whether no piece at home gains by a way with this key. A piece at home is up to `home.last`
 /// nearer to the end that one tree starts from than to that of the other.
 static inline bool is_useless(const sli_segment_chain *c, uint32_t way, uint64_t key,
                               place_home home) {
-    const uint64_t slack = slack_of(c->last);
-    return key > c->keys[way % 4 ^ 1] + slack || key > c->keys[way % 4 ^ 2] + home.last ||
-           key > c->keys[way % 4 ^ 3] + slack + home.last;
+    const uint64_t last = sli_last_of(c);
+    const uint32_t other = way % 4 ^ 1;
+    return key > c->keys[other] + slack_of(last, c->late[other]) ||
+           key > c->keys[way % 4 ^ 2] + home.last ||
+           key > c->keys[other ^ 2] + slack_of(last, c->late[other ^ 2]) + home.last;
+}
+
+/// `late` of a chain that an arc leads to. `left`: what is left of that of the chain before.
+static inline uint8_t late_after(const sli_segment_arc *arc, int left) {
+    const int behind = (left - 2 * (int)arc->turn + SLI_LATE - 1) / SLI_LATE;
+    return behind > arc->late ? (uint8_t)behind : arc->late;
 }
 
 /// From the end of a chain, which has this key, along its arcs from the first on. `before`: the way
-/// or start that the walk is in.
+/// or start that the walk is in; `left`: of its `late`, at its end.
 static inline sl_status walk_on(sl_context *context, const sli_segment_network *n,
                                 sli_segment_search *s, place_home home, uint32_t first,
-                                uint32_t tree, uint64_t end, uint32_t before) {
+                                uint32_t tree, uint64_t end, uint32_t before, int left) {
     if (first == n->arc_count) return SL_OK;
     const sli_segment_arc *arc = &n->arcs[first];
     do {
@@ -235,6 +249,7 @@ static inline sl_status walk_on(sl_context *context, const sli_segment_network *
         }
         c->keys[to % 4] = key;
         c->before[to % 4] = before;
+        c->late[to % 4] = late_after(arc, left);
         SL_TRY(put(context, n, s, to, was));
     } while (!arc++->ends);
     return SL_OK;
@@ -251,7 +266,7 @@ static inline sl_status finish(sl_context *context, const sli_segment_network *n
                                chains_left *left) {
     const uint32_t chain = way / 4;
     const sli_segment_chain *c = &s->chains[chain];
-    const uint64_t key = c->keys[way % 4], end = key + c->last;
+    const uint64_t key = c->keys[way % 4], end = key + sli_last_of(c);
     if (key >= s->most || is_useless(c, way, key, home)) return SL_OK;
     s->order[s->count++] = (sli_segment_done){way, c->before[way % 4]};
     if (chain == home.chain) return SL_OK;
@@ -263,7 +278,8 @@ static inline sl_status finish(sl_context *context, const sli_segment_network *n
                 s->most = left->farthest + home.last + 1;
         }
     }
-    return walk_on(context, n, s, home, c->first[way % 2], sli_tree_of(way), end, way);
+    return walk_on(context, n, s, home, c->first[way % 2], sli_tree_of(way), end, way,
+                   c->late[way % 4] * SLI_LATE - 2 * c->last_turn);
 }
 
 /// Where several paths have one key, all are counted afterwards.
@@ -294,7 +310,7 @@ sl_status sli_segment_search_run(sl_context *context, const sli_segment_network 
     if (!left.count && left.farthest + from.last < s->most) s->most = left.farthest + from.last + 1;
     for (uint32_t tree = 0; tree < 2; tree++)
         SL_TRY(walk_on(context, n, s, from, n->first[2 * home + tree], tree, 0,
-                       sli_tree_start(n, tree)));
+                       sli_tree_start(n, tree), 0));
     for (bool found = true; found && s->turn << SLI_STEP_BITS < s->most;) {
         while (s->queue.count) {
             const sli_segment_entry e = sli_segment_queue_pop(&s->queue);

@@ -49,9 +49,14 @@ enum { SLI_BUCKETS = 2048, SLI_BUCKET_WORDS = SLI_BUCKETS / 64 };
 typedef struct sli_segment_chain {
     uint64_t keys[4];   ///< by way: of the chain's first piece; SLI_FAR if it was not reached
     uint32_t before[4]; ///< by way: the way or start that all paths come from; SLI_SEVERAL
-    uint64_t last;      ///< the offset of its last piece
     uint32_t first[2];  ///< as the network's
+    uint16_t last_turn, last_steps; ///< the offset of its last piece
+    uint8_t late[4];                ///< by way, in SLI_LATE turns, rounded up: see slack_of()
 } sli_segment_chain;
+
+static inline uint64_t sli_last_of(const sli_segment_chain *chain) {
+    return ((uint64_t)chain->last_turn << SLI_STEP_BITS) + chain->last_steps;
+}
 
 /// A way that is done.
 typedef struct sli_segment_done {
@@ -144,7 +149,7 @@ static inline bool sli_segment_origin_next(sli_segment_origin *o, uint32_t *orig
         o->arc = arc->ends ? NULL : arc + 1;
         if (to / 2 == o->home && !start) continue;
         const uint64_t end =
-            start ? 0 : sli_way_key(o->search, *origin) + o->search->chains[to / 2].last;
+            start ? 0 : sli_way_key(o->search, *origin) + sli_last_of(&o->search->chains[to / 2]);
         if (sli_key_after(arc, end) == o->key) return true;
     }
     return false;

@@ -96,9 +96,9 @@ typedef struct sl_segment_options {
 /// The largest weight of a segment (sl_segment_options.weights).
 #define SL_SEGMENT_WEIGHT_MAX 1e100
 
-/// Of a segment (Turner 2007, From axial to road-centre lines). Angles are rounded to 1024th parts
-/// of a full turn, as in depthmapX' analyses T1024. NAN for a measure that is not defined.
-/// measures.h says what each is.
+/// Of a segment (Turner 2007, From axial to road-centre lines). Angles are rounded to the nearest
+/// 1024th part of a full turn. depthmapX' analyses T1024 round them down to a 513th of a half turn.
+/// NAN for a measure that is not defined. measures.h says what each is.
 typedef struct sl_segment_measures {
     SL_SEGMENT_MEASURES(SL_MEASURE_MEMBER)
 } sl_segment_measures;

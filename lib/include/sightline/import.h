@@ -47,7 +47,8 @@ typedef struct sl_import_options {
     bool planar;
     /// Coordinates are longitude and latitude, however few their decimals are (GeoJSON).
     bool degrees;
-    /// Take all lines and outlines as drawn, whatever they stand for: doors cut no walls (GeoJSON).
+    /// Take all lines as drawn, whatever they stand for: doors cut no walls. Where there are no
+    /// lines, outlines of polygons are taken (GeoJSON).
     bool lines;
     /// Take the cells that the file brings along, for the subdivision "given". Map texts give
     /// theirs without being asked.

@@ -67,9 +67,9 @@ typedef struct sl_polyline {
 SL_API sl_status sl_polylines_write_dxf(sl_context *context, const sl_polyline *lines, size_t count,
                                         const char *unit, const char *path);
 
-/// Drawn lines of GeoJSON, as walls: lines, and outlines of polygons, whatever they stand for, as
-/// sl_map_read() reads them with sl_import_options.lines. Longitude and latitude are laid in a
-/// plane in metres (sl_map.earth).
+/// Drawn lines of GeoJSON, as walls: lines, whatever they stand for, or outlines of polygons where
+/// there are no lines, as sl_map_read() reads them with sl_import_options.lines. Longitude and
+/// latitude are laid in a plane in metres (sl_map.earth).
 SL_API sl_status sl_lines_read_geojson(sl_context *context, const char *name, const char *text,
                                        size_t size, sl_map *map);
 

@@ -22,6 +22,7 @@ typedef enum sli_geo_meaning {
 /// A run of points: a point, a line, or a ring, whose last point is the first one again.
 typedef struct sli_geo_line {
     size_t first, count;
+    bool ring; ///< of a polygon
 } sli_geo_line;
 
 /// Texts belong to the tree of the file.
@@ -50,6 +51,7 @@ typedef struct sli_geo {
     size_t no_walls;           ///< doors that are on no wall, left out
     size_t cuts;               ///< openings in walls
     bool guessed;              ///< nothing says what is a wall
+    bool without_rings;        ///< they are left out
 } sli_geo;
 
 /// Reads the file, and those that belong to it. `sli_geo_close` is the caller's, also on failure.

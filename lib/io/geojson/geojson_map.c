@@ -105,6 +105,7 @@ static sl_status add_lines(sli_geo *geo, const sli_geo_feature *feature, uint32_
     for (size_t k = 0; k < feature->count; k++) {
         const sli_geo_line line = geo->lines.items[feature->first + k];
         const sl_point *p = geo->points.items + line.first;
+        if (line.ring && geo->without_rings) continue;
         for (size_t i = 1; i < line.count; i++)
             if (p[i].x != p[i - 1].x || p[i].y != p[i - 1].y)
                 SL_TRY(sl_map_add_wall(geo->context, geo->map, p[i - 1], p[i], item));
@@ -135,6 +136,29 @@ static sl_status add_label(sli_geo *geo, size_t number) {
              f->layer, json_is_string(id) ? " " : "",
              json_is_string(id) ? json_string_value(id) : "");
     return sli_map_add_label(geo->context, geo->map, (uint32_t)number + 1, text);
+}
+
+/// Of drawn lines. In a file of lines polygons stand for something else, as blocks of houses.
+static void choose_rings(sli_geo *geo) {
+    size_t rings = 0, open = 0;
+    for (size_t i = 0; i < geo->features.count; i++) {
+        const sli_geo_feature *f = &geo->features.items[i];
+        for (size_t k = 0; k < f->count && f->taken; k++) {
+            const sli_geo_line *line = &geo->lines.items[f->first + k];
+            rings += line->ring;
+            open += !line->ring && line->count > 1;
+        }
+    }
+    geo->without_rings = open > 0;
+    if (rings && open)
+        sl_note(geo->context,
+                "%s: left out: %zu outline%s of polygons; to measure them, make them line strings",
+                geo->name, rings, rings == 1 ? "" : "s");
+    else if (rings)
+        sl_note(geo->context,
+                "%s: there are polygons only: their outlines are taken as lines; if they are a "
+                "plan, sightline axial --lines fewest finds its axial lines",
+                geo->name);
 }
 
 static sl_status add_all(sli_geo *geo) {
@@ -208,6 +232,7 @@ static sl_status read_all(sli_geo *geo, const char *text, size_t size) {
     SL_TRY(sli_geo_place(geo));
     SL_TRY(sli_geo_find_meanings(geo));
     SL_TRY(choose(geo));
+    if (lines) choose_rings(geo);
     if (!lines) SL_TRY(sli_geo_doubt(geo));
     SL_TRY(add_all(geo));
     if (!lines) SL_TRY(sli_geo_add_doors(geo));

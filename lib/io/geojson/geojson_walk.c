@@ -35,17 +35,17 @@ static sl_status read_point(sli_geo *geo, const sli_json *at) {
     return SL_OK;
 }
 
-static sl_status begin_line(sli_geo *geo) {
+static sl_status begin_line(sli_geo *geo, bool ring) {
     SL_TRY(SL_ARRAY_ROOM(geo->context, &geo->lines, 1));
-    geo->lines.items[geo->lines.count++] = (sli_geo_line){.first = geo->points.count};
+    geo->lines.items[geo->lines.count++] = (sli_geo_line){.first = geo->points.count, .ring = ring};
     geo->features.items[geo->features.count - 1].count++;
     return SL_OK;
 }
 
 /// `depth`: how many arrays the points are in.
-static sl_status read_points(sli_geo *geo, const sli_json *at, int depth) {
+static sl_status read_points(sli_geo *geo, const sli_json *at, int depth, bool ring) {
     size_t count;
-    if (depth <= 1) SL_TRY(begin_line(geo));
+    if (depth <= 1) SL_TRY(begin_line(geo, ring));
     if (!depth) {
         geo->lines.items[geo->lines.count - 1].count = 1;
         return read_point(geo, at);
@@ -55,7 +55,7 @@ static sl_status read_points(sli_geo *geo, const sli_json *at, int depth) {
     if (depth == 1) geo->lines.items[geo->lines.count - 1].count = count;
     for (size_t i = 0; i < count; i++) {
         const sli_json item = sli_json_item(at, i);
-        SL_TRY(depth == 1 ? read_point(geo, &item) : read_points(geo, &item, depth - 1));
+        SL_TRY(depth == 1 ? read_point(geo, &item) : read_points(geo, &item, depth - 1, ring));
     }
     return SL_OK;
 }
@@ -87,14 +87,16 @@ static sl_status read_geometry(sli_geo *geo, const sli_json *object, const sli_j
     static const struct {
         const char *name;
         int depth; ///< of its points; below 0: it is passed over
-    } kinds[] = {{"LineString", 1},   {"MultiLineString", 2}, {"Polygon", 2},
-                 {"MultiPolygon", 3}, {"Point", 0},           {"MultiPoint", -1}};
+        bool ring;
+    } kinds[] = {{"LineString", 1, false}, {"MultiLineString", 2, false},
+                 {"Polygon", 2, true},     {"MultiPolygon", 3, true},
+                 {"Point", 0, false},      {"MultiPoint", -1, false}};
     const sli_json points = sli_json_member(object, "coordinates");
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
         if (strcmp(json_string_value(type->value), kinds[i].name) != 0) continue;
         if (kinds[i].depth < 0) return SL_OK;
         if (!geo->features.count) SL_TRY(begin_feature(geo, NULL));
-        return read_points(geo, &points, kinds[i].depth);
+        return read_points(geo, &points, kinds[i].depth, kinds[i].ring);
     }
     return sli_json_fail(type, "expected a kind of GeoJSON, as \"FeatureCollection\"");
 }

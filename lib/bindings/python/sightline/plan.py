@@ -14,7 +14,7 @@ from . import drawing
 from ._library import (Bake, Floats, Handle, Import, MapHandle, as_count, as_flag, as_number, as_point,
                        as_points, as_reals, as_segments, call, existing, names_text, path_text, said,
                        text)
-from .errors import SightlineWarning
+from .errors import BadInput, SightlineWarning
 from .level import Level
 from .lines import Segments
 from .placement import Coverage, Placement
@@ -92,7 +92,8 @@ class Plan(Segments, drawing.InNotebooks, MapHandle):
         Raises
         ------
         BadInput
-            The file is broken, and the text names the line; or it has more than a limit.
+            The file is broken, and the text names the line; it has more than a limit; or it is a
+            table (.csv).
         OSError
             The file cannot be read.
         """
@@ -115,7 +116,12 @@ class Plan(Segments, drawing.InNotebooks, MapHandle):
                          as_flag(sectors, "sectors"), as_flag(cells, "cells"),
                          as_flag(planar, "planar"), as_flag(degrees, "degrees"),
                          None if box is None else box.ctypes.data)
-        plan._ask(call.plan_read, existing(path), ctypes.byref(options))
+        source = existing(path)
+        if os.fspath(path).lower().endswith(".csv"):
+            raise BadInput(f"{os.fspath(path)}: a table is no map; its lines are taken by "
+                           "Plan.from_segments(numpy.genfromtxt(path, delimiter=',', names=True)"
+                           "[['x1', 'y1', 'x2', 'y2']].tolist())")
+        plan._ask(call.plan_read, source, ctypes.byref(options))
         return plan
 
     @classmethod

@@ -1,5 +1,6 @@
 """Axial lines and segments, against the command line."""
 import pathlib
+import re
 import tempfile
 import unittest
 
@@ -34,6 +35,11 @@ class Lines(unittest.TestCase):
             table.write_text("x1,y1,x2,y2\n" + "".join(",".join(map(repr, row)) + "\n" for row in drawn.tolist()),
                              encoding="utf-8")
             self.same(network.segments(arrays=True), support.command("segments", table, "-q"))
+            with self.assertRaises(sightline.BadInput) as refused:
+                sightline.Plan.from_file(table)
+            step = re.search(r"Plan.from_segments\(.*\)$", str(refused.exception)).group()
+            asked = eval(step, {"Plan": sightline.Plan, "numpy": np, "path": table})
+            self.same(asked.segments(arrays=True), support.command("segments", table, "-q"))
             self.same(network.segments(metric_radius=20, arrays=True),
                       support.command("segments", table, "--metric-radius", 20, "-q"))
             self.same(network.segments(angular_radius=1.5, arrays=True),
