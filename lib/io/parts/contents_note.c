@@ -240,26 +240,20 @@ static void say_with_doors(const sli_choice *c, char *text, size_t size) {
 }
 
 void sli_choice_note_long_doors(const sli_choice *c) {
-    const double most = sli_choice_longest_door(c);
-    size_t count = 0;
-    sli_name_list names = {.full = false};
-    for (size_t i = 0; i < c->contents->groups.count; i++)
-        c->contents->groups.items[i].long_ones = 0;
-    for (size_t i = 0; i < c->contents->runs.count; i++) {
-        const sli_group_run *run = &c->contents->runs.items[i];
-        sli_group *group = &c->contents->groups.items[run->group];
-        if (group->means != SLI_MEANS_DOOR) continue;
-        for (size_t k = run->first; k < run->end; k++) {
-            const sl_wall *wall = &c->map->walls[k];
-            const double length = sli_length(wall->b.x - wall->a.x, wall->b.y - wall->a.y);
-            group->long_ones += length > most && !sli_choice_gone(c, k);
-        }
-    }
+    size_t count = 0, walls = 0;
+    sli_name_list names = {.full = false}, taken = {.full = false};
     for (size_t i = 0; i < c->contents->groups.count; i++) {
         const sli_group *group = &c->contents->groups.items[i];
-        count += group->long_ones;
-        if (group->long_ones) sli_name_list_add(&names, (sli_word){group->name, group->length});
+        const bool door = group->means == SLI_MEANS_DOOR;
+        if (!group->long_ones) continue;
+        *(door ? &count : &walls) += group->long_ones;
+        sli_name_list_add(door ? &names : &taken, (sli_word){group->name, group->length});
     }
+    if (walls)
+        sl_note(c->contents->context,
+                "%s: %.120s: named as doors, but most of its lines are longer than doors (%zu): "
+                "they are walls; --layers NAME=door takes a layer for doors",
+                c->contents->file, taken.text, walls);
     if (count < 2) return;
     char layers[300];
     say_with_doors(c, layers, sizeof layers);
@@ -271,6 +265,11 @@ void sli_choice_note_long_doors(const sli_choice *c) {
 
 void sli_choice_note(const sli_choice *c) {
     note_choice(c);
+    if (c->outlined)
+        sl_note(c->contents->context,
+                "%s: layers named for walls have few lines, so layers of rooms give walls, too: "
+                "their outlines; --layers NAME=ignore leaves one out",
+                c->contents->file);
     note_shut_doors(c);
     note_rest(c);
     if (c->walls_named && !sli_contents_said(c->contents)) note_doubt(c);
