@@ -84,7 +84,7 @@ def foundry(path):
                 continue
             sight = wall["sight"] if "sight" in wall else {0: 0, 1: 20, 2: 10}.get(wall.get("sense", 1), 20)
             kind = {20: "normal", 10: "limited", 0: "seen through"}.get(sight, "proximity")
-            if wall.get("door"):
+            if wall.get("door") and kind != "seen through":
                 kind = "door " + ("open" if wall.get("ds") == 1 else "shut")
             elif wall.get("dir"):
                 kind += ", one-way"
