@@ -249,7 +249,7 @@ def run(*command):
 def check(program, path, random_numbers):
     """Rows (map, lost, of, too many, of, squares lost, too many, of, taken, left, unread)."""
     reader = reader_of(path)
-    drawings = list(reader(path)) if reader else []
+    drawings = [drawing for drawing in reader(path) if drawing.walls or drawing.squares]
     status, listed, _ = run(program, "info", path)
     names = [line.strip() for line in listed.splitlines()[1:] if line.startswith("  ")] \
         if re.search(r": \d+ maps", listed.split("\n")[0]) else []
