@@ -155,6 +155,34 @@ static void tell_values(const sli_ldtk *reader, const sli_ldtk_settled *as) {
             reader->name, own, reader->asked);
 }
 
+static bool has_solid(const sli_ldtk *reader) {
+    for (size_t i = 0; i < reader->tiles.blocks.count; i++) {
+        const sli_tile_block *block = &reader->tiles.blocks.items[i];
+        if (memchr(block->squares, '#', block->columns * block->rows)) return true;
+    }
+    return false;
+}
+
+/// What may be walls, and is not: layers of tiles, and cells without a value.
+static void tell_doubts(const sli_ldtk *reader, const sli_ldtk_settled *as) {
+    if (reader->options->layers) return;
+    if (*reader->tiles_name && (!reader->layers || !has_solid(reader)))
+        sl_note(reader->context,
+                "%s: %s; layers of tiles: %.150s; if one shows walls, --layers NAME takes all its "
+                "tiles, NAME:1+3-5 tiles of it, as in: sightline check '%.300s' --map '%.40s' "
+                "--layers '%.40s%s' -o map.png",
+                reader->name,
+                reader->layers ? "no cell is solid, so the level's edge is its walls"
+                               : "layers are told by their names and enums",
+                reader->tile_names.text, reader->name, reader->taken, reader->tiles_name,
+                reader->tiles_asked);
+    if (as->bare > 0.1)
+        sl_note(reader->context,
+                "%s: %.0f %% of the cells are empty, and open as the ground is; --layers %s:0+2-3 "
+                "takes values as solid, 0 is that of empty cells",
+                reader->name, 100 * as->bare, reader->asked);
+}
+
 /// What was taken, merged and left out.
 static void give_account(const sli_ldtk *reader, const sl_map *map, const sli_ldtk_settled *as) {
     char bottom[SL_NUMBER_TEXT];
@@ -177,6 +205,7 @@ static void give_account(const sli_ldtk *reader, const sl_map *map, const sli_ld
                                  : "all values but 0",
             sli_tally_write("; left out: ", left, 4, without), bottom);
     tell_values(reader, as);
+    tell_doubts(reader, as);
 }
 
 /// SL_BAD_INPUT where the level has nothing that says what is solid.

@@ -69,6 +69,7 @@ typedef struct sli_ldtk {
 /// What is found out from what stands where.
 typedef struct sli_ldtk_settled {
     bool ground_solid, unsure; ///< unsure: nothing tells what ground is
+    double bare;               ///< the share of empty cells, where ground is open
     bool stands_open;          ///< what is named for stone and the like is a floor
 } sli_ldtk_settled;
 

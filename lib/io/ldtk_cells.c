@@ -187,6 +187,7 @@ void sli_ldtk_settle_ground(sli_ldtk *reader, sli_ldtk_settled *out) {
         const bool stood_on = others.ground >= 2 && others.ground >= 2 * others.empty;
         out->ground_solid = told ? starts.empty > starts.ground : !stood_on && 5 * empty >= 2 * all;
         out->unsure = !told && !stood_on && !out->ground_solid && 10 * empty > all;
+        out->bare = out->ground_solid ? 0 : (double)empty / (double)all;
     }
     if (stands)
         out->stands_open = starts.stands || starts.empty

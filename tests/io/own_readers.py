@@ -85,7 +85,8 @@ def foundry(path):
             sight = wall["sight"] if "sight" in wall else {0: 0, 1: 20, 2: 10}.get(wall.get("sense", 1), 20)
             kind = {20: "normal", 10: "limited", 0: "seen through"}.get(sight, "proximity")
             if wall.get("door"):
-                kind = "door " + ("open" if wall.get("ds") == 1 else "shut")
+                shut = sight == 20 and wall.get("ds") != 1
+                kind = "door shut" if shut else "door open" if sight == 20 else "door seen through"
             elif wall.get("dir"):
                 kind += ", one-way"
             drawing.walls[kind].append(tuple(map(float, wall["c"])))

@@ -342,15 +342,39 @@ static void test_one_layer(void **state) {
 static void test_walls_on_doors(void **state) {
     (void)state;
     char notes[4096];
-    static const char text[] = HEAD ROOM("A-WALL") SWING("A-DOOR") LINE("A-DOOR", 0, 4, 6, 4)
-        LINE("A-DOOR", 6, 4, 6, 8) TAIL;
+    // Half of the layer's lines are short: they may be doors.
+#define BESIDE_DOORS LINE("A-DOOR", 0, 4, 4, 4) LINE("A-DOOR", 6, 4, 6, 8)
+#define SHORT(y0, y1)                                                                              \
+    LINE("A-DOOR", 7, y0, 9, y0)                                                                   \
+    LINE("A-DOOR", 9, y0, 9, y1) LINE("A-DOOR", 9, y1, 7, y1) LINE("A-DOOR", 7, y1, 7, y0)
+    static const char text[] =
+        UNIT("6") HEAD ROOM("A-WALL") SWING("A-DOOR") BESIDE_DOORS SHORT(2, 2.5) SHORT(5, 5.5) TAIL;
     assert_int_equal(read_noted(text, NULL, notes), 5);
     assert_non_null(strstr(notes, "A-DOOR: 2 lines on layers of doors are longer than doors"));
     assert_non_null(strstr(notes, "name all layers of walls: --layers 'A-WALL,A-DOOR'"));
     // The layers that are named lead to these walls, without the swing; all layers have it.
-    assert_int_equal(read_noted(text, "A-WALL,A-DOOR", notes), 7);
+    assert_int_equal(read_noted(text, "A-WALL,A-DOOR", notes), 15);
     assert_non_null(strstr(notes, "walls from A-WALL, A-DOOR; 1 door is drawn open: gaps"));
-    assert_true(read_noted(text, "*", notes) > 8);
+    assert_true(read_noted(text, "*", notes) > 16);
+    // A layer that has more long lines than others is one of walls.
+    static const char most[] =
+        UNIT("6") HEAD ROOM("A-WALL") SWING("A-DOOR") BESIDE_DOORS SHORT(2, 2.5) TAIL;
+    assert_int_equal(read_noted(most, NULL, notes), 11);
+    assert_non_null(strstr(notes, "A-DOOR: named as doors, but most of its lines are longer than "
+                                  "doors (2): they are walls"));
+    assert_non_null(strstr(notes, "1 door is drawn open: gaps"));
+    assert_int_equal(read_noted(most, "A-DOOR=door", notes), 5);
+    assert_null(strstr(notes, "named as doors"));
+    // One long line is a gate, and no unit says how long doors are.
+    static const char *const gates[] = {UNIT("6") HEAD ROOM("A-WALL") LINE("A-DOOR", 0, 4, 4, 4),
+                                        HEAD ROOM("A-WALL") BESIDE_DOORS};
+    for (int i = 0; i < 2; i++) {
+        snprintf(notes, sizeof notes, "%s" TAIL, gates[i]);
+        char gate[sizeof notes];
+        strcpy(gate, notes);
+        assert_int_equal(read_noted(gate, NULL, notes), 5);
+        assert_null(strstr(notes, "named as doors"));
+    }
     // The arc may be drawn as lines one by one; lines that turn back are none.
 #define CHORDS(y)                                                                                  \
     LINE("A-DOOR", 3, 0, 2.86603, 0.5)                                                             \
@@ -361,6 +385,20 @@ static void test_walls_on_doors(void **state) {
     assert_int_equal(read_noted(bent, "A-WALL,A-DOOR", notes), 9);
     assert_int_equal(read_noted(HEAD ROOM("A-WALL") SWING("A-DOOR") TAIL, NULL, notes), 5);
     assert_null(strstr(notes, "longer"));
+}
+
+/// Where the layer of walls has little, outlines of rooms are walls.
+static void test_outlines_of_rooms(void **state) {
+    (void)state;
+    char notes[4096];
+    static const char text[] = HEAD ROOM("Rooms") LINE("WALLS", 2, 0, 2, 1)
+        LINE("WALLS", 3, 0, 3, 1) LINE("WALLS", 5, 8, 5, 7) LINE("zone plan", 0, 1, 10, 1) TAIL;
+    assert_int_equal(read_noted(text, NULL, notes), 8);
+    assert_non_null(strstr(notes, "layers of rooms give walls, too"));
+    assert_int_equal(read_noted(text, "Rooms=ignore", notes), 3);
+    static const char whole[] = HEAD ROOM("WALLS") ROOM("Rooms") TAIL;
+    assert_int_equal(read_noted(whole, NULL, notes), 5);
+    assert_null(strstr(notes, "layers of rooms"));
 }
 
 /// Rooms without gaps are shut though doors are drawn at their walls. Leaves at the ends of walls
@@ -483,14 +521,23 @@ static void test_memory(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_languages),       cmocka_unit_test(test_no_choice),
-        cmocka_unit_test(test_blocks),          cmocka_unit_test(test_swings),
-        cmocka_unit_test(test_width_of_doors),  cmocka_unit_test(test_shut_doors),
-        cmocka_unit_test(test_hatching),        cmocka_unit_test(test_turned_swings),
-        cmocka_unit_test(test_asked_for),       cmocka_unit_test(test_svg),
-        cmocka_unit_test(test_memory),          cmocka_unit_test(test_svg_asked_for),
-        cmocka_unit_test(test_one_layer),       cmocka_unit_test(test_walls_on_doors),
-        cmocka_unit_test(test_layers_of_doors), cmocka_unit_test(test_looks),
+        cmocka_unit_test(test_languages),
+        cmocka_unit_test(test_no_choice),
+        cmocka_unit_test(test_blocks),
+        cmocka_unit_test(test_swings),
+        cmocka_unit_test(test_width_of_doors),
+        cmocka_unit_test(test_shut_doors),
+        cmocka_unit_test(test_hatching),
+        cmocka_unit_test(test_turned_swings),
+        cmocka_unit_test(test_asked_for),
+        cmocka_unit_test(test_svg),
+        cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_svg_asked_for),
+        cmocka_unit_test(test_one_layer),
+        cmocka_unit_test(test_walls_on_doors),
+        cmocka_unit_test(test_outlines_of_rooms),
+        cmocka_unit_test(test_layers_of_doors),
+        cmocka_unit_test(test_looks),
         cmocka_unit_test(test_rooms),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -113,9 +113,11 @@ static void test_names_that_say_solid(void **state) {
     (void)state;
     static const char *const solid[] = {
         "walls",     "Wall",           "WALLS",           "Collision Layer 1", "solid",
-        "obstacles", "CollisionLayer", "collision_boxes", "blocking",          "wallTiles"};
-    static const char *const others[] = {"",      "Floor",   "wall_tops",    "wallpaper",
-                                         "layer", "unsolid", "Wand\xc3\xa4", "walls behind"};
+        "obstacles", "CollisionLayer", "collision_boxes", "blocking",          "wallTiles",
+        "Collisons", "colission",      "Kollisionen",     "Colisiones",        "collisoni"};
+    static const char *const others[] = {"",          "Floor",   "wall_tops",    "wallpaper",
+                                         "layer",     "unsolid", "Wand\xc3\xa4", "walls behind",
+                                         "Colliseum", "Collins", "colons"};
     for (size_t i = 0; i < sizeof solid / sizeof *solid; i++)
         if (!sli_says_solid(solid[i])) fail_msg("%s", solid[i]);
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)

@@ -24,6 +24,8 @@ static const double FEW_INSIDE = 0.1;
 /// Such a share of the area inside, in rooms without an opening, is worth a word. Less may be
 /// courts and shafts.
 static const double SEALED = 0.25;
+/// The same where an entrance is given: how wide its openings are is no doubt then.
+static const double SEALED_BY_WIDTH = 0.1;
 
 /// The least share of a game's map inside, not joined to the largest part, that gets a note.
 static const double APART = 0.01;
@@ -370,9 +372,12 @@ static sl_status note_apart(sl_context *context, const map_pipeline *pipeline, c
     return SL_OK;
 }
 
-/// As pipeline_note_sealed(), from a share of the area inside on. *told: whether there is a note.
+/// Notes the rooms of a drawing that have no opening, if these are many, or `all`.
+/// *told: whether there is a note; *open: a place in the rooms that openings join.
 static sl_status note_sealed(sl_context *context, const map_pipeline *pipeline, const sl_map *map,
-                             const sl_space *space, double share, bool *told) {
+                             const sl_space *space, bool all, bool *told, sl_point *open) {
+    const bool given = map->entrance > 0 && !map->entrance_by_doors;
+    const double share = all ? 0 : given ? SEALED_BY_WIDTH : SEALED;
     char path[SAID], file[SAID] = "";
     map_pipeline any = pipeline_default();
     const option_table reading = pipeline_option_table(&any);
@@ -388,6 +393,7 @@ static sl_status note_sealed(sl_context *context, const map_pipeline *pipeline, 
     SL_TRY(sl_find_sealed(context, map, space, &sealed));
     if (sealed.rooms < 2 || sealed.share < share) return SL_OK;
     *told = true;
+    *open = sealed.open.at;
     const uint32_t count = sealed.rooms - 1;
     say_map(pipeline, &reading, path);
     say(file, "", pipeline->path);
@@ -402,10 +408,10 @@ static sl_status note_sealed(sl_context *context, const map_pipeline *pipeline, 
     return SL_OK;
 }
 
-sl_status pipeline_note_sealed(sl_context *context, const map_pipeline *pipeline, const sl_map *map,
+sl_status pipeline_note_sealed(sl_context *context, const map_pipeline *pipeline, sl_map *map,
                                const sl_space *space) {
     bool told;
-    return note_sealed(context, pipeline, map, space, SEALED, &told);
+    return note_sealed(context, pipeline, map, space, false, &told, &map->interior.roomiest);
 }
 
 /// Notes what say_inside() says, and what to run next.
@@ -425,7 +431,9 @@ static sl_status note_said(sl_context *context, const map_pipeline *pipeline, co
 
 sl_status pipeline_note_inside(sl_context *context, const map_pipeline *pipeline, const sl_map *map,
                                const sl_space *space) {
-    SL_TRY(pipeline_note_sealed(context, pipeline, map, space));
+    bool told;
+    sl_point open;
+    SL_TRY(note_sealed(context, pipeline, map, space, false, &told, &open));
     return note_said(context, pipeline, map, space);
 }
 
@@ -438,9 +446,10 @@ sl_status pipeline_need_inside(sl_context *context, const map_pipeline *pipeline
 sl_status pipeline_prove_inside(sl_context *context, const map_pipeline *pipeline,
                                 const sl_map *map, const sl_space *space, bool *doubtful) {
     sl_inside doubt;
+    sl_point open;
     SL_TRY(refuse_inside(context, map, space, ""));
     SL_TRY(sl_doubt_inside(context, map, space, &doubt));
-    SL_TRY(note_sealed(context, pipeline, map, space, 0, doubtful));
+    SL_TRY(note_sealed(context, pipeline, map, space, true, doubtful, &open));
     SL_TRY(note_said(context, pipeline, map, space));
     *doubtful |= doubt != SL_INSIDE_SURE;
     return SL_OK;

@@ -80,8 +80,9 @@ sl_status pipeline_prove_inside(sl_context *context, const map_pipeline *pipelin
                                 const sl_map *map, const sl_space *space, bool *doubtful);
 
 /// Of a drawing: notes how many rooms have no opening, if these are many, and what to run next. Of
-/// a game's map without a start: that parts which nothing joins all count as inside.
-sl_status pipeline_note_sealed(sl_context *context, const map_pipeline *pipeline, const sl_map *map,
+/// a game's map without a start: that parts which nothing joins all count as inside. Where rooms
+/// have no opening, the map's roomiest place is taken from those that openings join.
+sl_status pipeline_note_sealed(sl_context *context, const map_pipeline *pipeline, sl_map *map,
                                const sl_space *space);
 
 /// Notes how much is inside if that is in doubt, and what to run next; then as above.

@@ -241,6 +241,12 @@ static void print_share(const char *before, uint32_t count, uint32_t all, const 
         printf("%s%u of %u %s%s", before, (unsigned)count, (unsigned)all, what, several);
 }
 
+/// Whether a gap that would close a leak may be a door, by what is known of entrances.
+static bool is_as_door(const faults_report *report) {
+    const double entrance = report->found->map.entrance;
+    return entrance > 0 && 2 * report->helps >= entrance;
+}
+
 static void print_snap_advice(const faults_report *report) {
     const sl_faults *faults = &report->found->faults;
     const uint32_t gaps = faults->counts[SL_FAULT_GAP], leaks = faults->counts[SL_FAULT_LEAK];
@@ -261,7 +267,10 @@ static void print_snap_advice(const faults_report *report) {
         puts("  --snap does not close these gaps: each needs a decision");
     }
     if (report->helps > 0)
-        printf("  --gap %.2g is wide enough for --snap to close a leak\n", report->helps);
+        printf(
+            "  --gap %.12g is wide enough for --snap to close a leak; a door may be as wide: %s\n",
+            report->helps,
+            is_as_door(report) ? "entrances are (--entrance)" : "see that it is none");
     if (report->weld > 0)
         printf("  --weld %.2g joins the ends that miss each other by rounding, in all commands\n",
                report->weld);
@@ -332,7 +341,7 @@ static void print_command(const faults_report *report, next_use use, double gap)
             if (option->argument) print_word(" ", option->argument);
         }
     }
-    if (gap > 0) printf(" --gap %.2g", gap);
+    if (gap > 0) printf(" --gap %.12g", gap);
 }
 
 /// " --snap office-fixed.map"
@@ -410,8 +419,8 @@ static bool has_startless(const faults_report *report) {
 static void print_next(const faults_report *report) {
     const sl_faults *faults = &report->found->faults;
     const bool grave = faults->counts[SL_FAULT_LEAK] || faults->counts[SL_FAULT_GAP];
-    const bool closes =
-        report->helps > 0 || closable(faults, SL_FAULT_GAP) || closable(faults, SL_FAULT_LEAK);
+    const bool helps = report->helps > 0 && !is_as_door(report);
+    const bool closes = helps || closable(faults, SL_FAULT_GAP) || closable(faults, SL_FAULT_LEAK);
     if (report->mended) {
         print_next_of_mended(report);
     } else if (report->found->map.source.plans) {
@@ -421,7 +430,7 @@ static void print_next(const faults_report *report) {
                (!closes && report->found->inside == SL_INSIDE_OPENING)) {
         print_next_entrance(report, NEXT_CHECK, report->found);
     } else if (closes) {
-        print_command(report, NEXT_CHECK, report->helps > 0 ? report->helps : 0);
+        print_command(report, NEXT_CHECK, helps ? report->helps : 0);
         print_name(report, " --snap ", "-fixed.map");
     } else if (needs_start(report->found)) {
         print_next_start(report, NEXT_CHECK, report->found);

@@ -19,6 +19,7 @@ typedef struct sli_choice {
     size_t unknown; ///< walls that are passed over though their names say nothing
     double kept_length, unknown_length;
     bool walls_named; ///< some layer is named as walls
+    bool outlined;    ///< layers of rooms are walls, too
     bool by_looks;    ///< some shapes are passed over by their looks
     double share;     ///< of walls by their looks in all long lines
     size_t words;     ///< shapes that look like walls, but are lettering or the page

@@ -21,7 +21,14 @@
 
 /// So many names are told apart; each is held against some thousand words. Of walls by their looks
 /// a tenth may be something else by its shape.
-enum { MOST_GROUPS = 4096, LEAST_WALLS = 3, LEAST_DOORS = 3, MOST_BESIDE = 10 };
+enum {
+    MOST_GROUPS = 4096,
+    LEAST_WALLS = 3,
+    LEAST_DOORS = 3,
+    LEAST_LONG = 2,
+    MOST_OUTLINES = 3,
+    MOST_BESIDE = 10
+};
 
 void sli_contents_destroy(sli_contents *contents) {
     for (size_t i = 0; i < contents->groups.count; i++)
@@ -207,6 +214,66 @@ static void count_named(sli_choice *c) {
     c->walls_named = named >= LEAST_WALLS;
 }
 
+static bool is_rooms(const sli_group *group) {
+    return group->means == SLI_MEANS_NOTHING && !group->said && group->length &&
+           sli_meaning_is_rooms((sli_word){group->name, group->length});
+}
+
+/// Measures the lines on layers of doors that are longer than doors. Where they are the most by
+/// length, the layer is one of walls with doors in them, such as partitions.
+static void take_walls_on_doors(sli_choice *c) {
+    const double most = sli_choice_longest_door(c);
+    const bool sure = c->walls_named && sli_choice_metre(c) > 0 && most > sli_choice_metre(c);
+    bool changes = false;
+    if (sli_contents_said(c->contents)) return;
+    for (size_t i = 0; i < c->contents->runs.count; i++) {
+        const sli_group_run *run = &c->contents->runs.items[i];
+        sli_group *group = &c->contents->groups.items[run->group];
+        for (size_t k = run->first; group->means == SLI_MEANS_DOOR && !group->said && k < run->end;
+             k++) {
+            const sl_wall *wall = &c->map->walls[k];
+            const double length = sli_length(wall->b.x - wall->a.x, wall->b.y - wall->a.y);
+            if (sli_choice_gone(c, k)) continue;
+            group->length_left += length;
+            if (!(length > most)) continue;
+            group->long_ones++;
+            group->long_length += length;
+        }
+    }
+    for (size_t i = 0; sure && i < c->contents->groups.count; i++) {
+        sli_group *group = &c->contents->groups.items[i];
+        if (group->long_ones < LEAST_LONG || 2 * group->long_length < group->length_left) continue;
+        group->means = SLI_MEANS_WALL;
+        changes = true;
+    }
+    if (changes) set_means(c);
+}
+
+/// Where walls have a small part of the lines that outlines of rooms have, these are walls too.
+static void take_outlines_of_rooms(sli_choice *c) {
+    double walls = 0, outlines = 0;
+    if (!c->walls_named || sli_contents_said(c->contents)) return;
+    for (size_t i = 0; i < c->contents->runs.count; i++) {
+        const sli_group_run *run = &c->contents->runs.items[i];
+        const sli_group *group = &c->contents->groups.items[run->group];
+        for (size_t k = run->first; k < run->end; k++) {
+            const sl_wall *wall = &c->map->walls[k];
+            const double length = sli_length(wall->b.x - wall->a.x, wall->b.y - wall->a.y);
+            if (sli_choice_gone(c, k)) continue;
+            if (group->means == SLI_MEANS_WALL) walls += length;
+            if (is_rooms(group)) outlines += length;
+        }
+    }
+    if (MOST_OUTLINES * walls > outlines) return;
+    for (size_t i = 0; i < c->contents->groups.count; i++) {
+        sli_group *group = &c->contents->groups.items[i];
+        if (!is_rooms(group)) continue;
+        group->means = SLI_MEANS_WALL;
+        c->outlined = true;
+    }
+    if (c->outlined) set_means(c);
+}
+
 /// Among shapes that no name tells apart, those that do not look like walls get another meaning.
 static sl_status choose_looks(sli_choice *c) {
     const sli_group_run *runs = c->contents->runs.items;
@@ -336,7 +403,11 @@ sl_status sli_contents_list(sli_contents *contents, sl_map *map, double metre,
                             sl_drawing_layers *out) {
     sli_choice c = {.contents = contents, .map = map, .metre = metre};
     sl_status status = find_symbols(&c);
-    if (status == SL_OK) count_named(&c);
+    if (status == SL_OK) {
+        count_named(&c);
+        take_walls_on_doors(&c);
+        take_outlines_of_rooms(&c);
+    }
     if (status == SL_OK) status = choose_looks(&c);
     if (status == SL_OK) status = list_all(&c, out);
     sl_free(contents->context, c.means);
@@ -467,6 +538,8 @@ static void measure(sli_choice *c) {
 static sl_status choose(sli_choice *c, sli_pen *pen) {
     SL_TRY(find_symbols(c));
     count_named(c);
+    take_walls_on_doors(c);
+    take_outlines_of_rooms(c);
     SL_TRY(choose_looks(c));
     bool chosen = choose_groups(c);
     SL_TRY(find_parts(c));

@@ -21,8 +21,9 @@ typedef struct sli_group {
     sli_meaning means, guess; ///< the guess is by the name alone, without what the user says
     bool said;                ///< the user says what it means
     size_t shapes, walls;
-    size_t long_ones; ///< of a layer of doors: walls that are longer than doors
-    double finest;    ///< unit of its coordinates, as sli_pen has it
+    size_t long_ones;                ///< of a layer of doors: walls that are longer than doors
+    double long_length, length_left; ///< of these; of all of its walls that no symbol has
+    double finest;                   ///< unit of its coordinates, as sli_pen has it
     bool taken;
 } sli_group;
 

@@ -183,16 +183,44 @@ static void note_share(const sli_choice *c) {
                 file, rooms->name, rooms->rooms, taken->name, rooms->name);
 }
 
+/// Whether a group is to be named for its walls: one of those that are taken, of doors with lines
+/// that are longer than doors, or else one that says nothing.
+static bool has_walls(const sli_group *group, bool doors) {
+    if (!group->walls) return false;
+    if (group->taken) return group->means != SLI_MEANS_WINDOW;
+    return doors ? group->long_ones > 0 : group->means == SLI_MEANS_NOTHING;
+}
+
+/// The layers of walls and those that may have some, as --layers takes them; "A,B" where looks say
+/// what is a wall, where they are too many, or a name is not to be typed.
+static void say_layers(const sli_choice *c, bool doors, char *text, size_t size) {
+    bool plain = !c->by_looks;
+    text[0] = '\0';
+    for (size_t i = 0; plain && i < c->contents->groups.count; i++) {
+        const sli_group *group = &c->contents->groups.items[i];
+        const size_t used = strlen(text);
+        if (!has_walls(group, doors)) continue;
+        plain = group->length > 0 && used + group->length + 2 < size;
+        for (size_t k = 0; plain && k < group->length; k++)
+            plain = (unsigned char)group->name[k] >= ' ' && !strchr("',\x7f", group->name[k]);
+        if (plain)
+            snprintf(text + used, size - used, "%s%.*s", used ? "," : "", (int)group->length,
+                     group->name);
+    }
+    if (!plain) snprintf(text, size, "A,B");
+}
+
 /// Layers that are passed over though their names say nothing, and that hold more than the walls.
 static void note_doubt(const sli_choice *c) {
     sli_name_list names = {.full = false};
+    char layers[300];
     if (c->unknown <= c->kept && c->unknown_length <= c->kept_length) return;
     list_groups(c, false, SLI_MEANS_NOTHING, &names);
+    say_layers(c, false, layers, sizeof layers);
     sl_note(c->contents->context,
             "%s: %.300s: more or longer lines than the walls have; if walls are among them, name "
-            "all layers "
-            "of walls by --layers",
-            c->contents->file, names.text);
+            "all layers of walls by --layers, as in: --layers '%s'",
+            c->contents->file, names.text, layers);
 }
 
 /// Rooms that have no door though doors are drawn.
@@ -215,54 +243,24 @@ static void note_rest(const sli_choice *c) {
         c->contents->file, 100 * c->parts.rest, c->contents->file);
 }
 
-/// Whether a group is to be named for its walls, where layers of doors have some.
-static bool has_walls(const sli_group *group) {
-    return group->walls && (group->long_ones || (group->taken && group->means != SLI_MEANS_WINDOW));
-}
-
-/// The layers of walls and those with lines that are longer than doors, as --layers takes them;
-/// "A,B" where looks say what is a wall, where they are too many, or a name is not to be typed.
-static void say_with_doors(const sli_choice *c, char *text, size_t size) {
-    bool plain = !c->by_looks;
-    text[0] = '\0';
-    for (size_t i = 0; plain && i < c->contents->groups.count; i++) {
-        const sli_group *group = &c->contents->groups.items[i];
-        const size_t used = strlen(text);
-        if (!has_walls(group)) continue;
-        plain = group->length > 0 && used + group->length + 2 < size;
-        for (size_t k = 0; plain && k < group->length; k++)
-            plain = (unsigned char)group->name[k] >= ' ' && !strchr("',\x7f", group->name[k]);
-        if (plain)
-            snprintf(text + used, size - used, "%s%.*s", used ? "," : "", (int)group->length,
-                     group->name);
-    }
-    if (!plain) snprintf(text, size, "A,B");
-}
-
 void sli_choice_note_long_doors(const sli_choice *c) {
-    const double most = sli_choice_longest_door(c);
-    size_t count = 0;
-    sli_name_list names = {.full = false};
-    for (size_t i = 0; i < c->contents->groups.count; i++)
-        c->contents->groups.items[i].long_ones = 0;
-    for (size_t i = 0; i < c->contents->runs.count; i++) {
-        const sli_group_run *run = &c->contents->runs.items[i];
-        sli_group *group = &c->contents->groups.items[run->group];
-        if (group->means != SLI_MEANS_DOOR) continue;
-        for (size_t k = run->first; k < run->end; k++) {
-            const sl_wall *wall = &c->map->walls[k];
-            const double length = sli_length(wall->b.x - wall->a.x, wall->b.y - wall->a.y);
-            group->long_ones += length > most && !sli_choice_gone(c, k);
-        }
-    }
+    size_t count = 0, walls = 0;
+    sli_name_list names = {.full = false}, taken = {.full = false};
     for (size_t i = 0; i < c->contents->groups.count; i++) {
         const sli_group *group = &c->contents->groups.items[i];
-        count += group->long_ones;
-        if (group->long_ones) sli_name_list_add(&names, (sli_word){group->name, group->length});
+        const bool door = group->means == SLI_MEANS_DOOR;
+        if (!group->long_ones) continue;
+        *(door ? &count : &walls) += group->long_ones;
+        sli_name_list_add(door ? &names : &taken, (sli_word){group->name, group->length});
     }
+    if (walls)
+        sl_note(c->contents->context,
+                "%s: %.120s: named as doors, but most of its lines are longer than doors (%zu): "
+                "they are walls; --layers NAME=door takes a layer for doors",
+                c->contents->file, taken.text, walls);
     if (count < 2) return;
     char layers[300];
-    say_with_doors(c, layers, sizeof layers);
+    say_layers(c, true, layers, sizeof layers);
     sl_note(c->contents->context,
             "%s: %.120s: %zu lines on layers of doors are longer than doors: if they are walls, "
             "name all layers of walls: --layers '%s'",
@@ -271,6 +269,11 @@ void sli_choice_note_long_doors(const sli_choice *c) {
 
 void sli_choice_note(const sli_choice *c) {
     note_choice(c);
+    if (c->outlined)
+        sl_note(c->contents->context,
+                "%s: layers named for walls have few lines, so layers of rooms give walls, too: "
+                "their outlines; --layers NAME=ignore leaves one out",
+                c->contents->file);
     note_shut_doors(c);
     note_rest(c);
     if (c->walls_named && !sli_contents_said(c->contents)) note_doubt(c);

@@ -65,10 +65,9 @@ static const char *const which_words[] = {
 };
 /// Words for solid that say what stops a player, not what it looks like.
 static const char *const stop_words[] = {
-    "collision",  "collisions", "collide",   "collides",   "collider",  "collidable", "collideable",
-    "obstacle",   "blocked",    "blocking",  "blocker",    "solid",     "impassable", "impassible",
-    "unwalkable", "unpassable", "nowalk",    "colision",   "colisión",  "colisiones", "colisao",
-    "colisão",    "collisioni", "kollision", "kollisions", "hindernis",
+    "collide",  "collides", "collider", "collidable", "collideable", "obstacle",   "blocked",
+    "blocking", "blocker",  "solid",    "impassable", "impassible",  "unwalkable", "unpassable",
+    "nowalk",   "colisión", "colisao",  "colisão",    "hindernis",
 };
 /// Before a word for solid: it is none.
 static const char *const without_words[] = {
@@ -136,7 +135,7 @@ bool sli_game_says_stops(const char *name) {
     if (all.without || all.drawn || all.pass || sli_says_walkable(name)) return false;
     if (sli_game_says_other(name)) return false;
     for (sli_name_word word; sli_word_next(&name, &word);)
-        if (IS_ONE_OF(&word, stop_words)) return true;
+        if (IS_ONE_OF(&word, stop_words) || sli_word_is_collision(&word)) return true;
     return false;
 }
 

@@ -360,3 +360,14 @@ sli_meaning sli_meaning_of(sli_word name) {
     const sli_meaning last = meaning_of_part((sli_word){name.at + begin, name.length - begin});
     return last || !begin ? last : meaning_of_part((sli_word){name.at, begin});
 }
+
+bool sli_meaning_is_rooms(sli_word name) {
+    const char *at = name.at, *const end = name.at + name.length;
+    char text[LONGEST];
+    bool any = false;
+    for (sli_word word = next_word(&at, end, text); word.length; word = next_word(&at, end, text)) {
+        if (!fits_any(word, rooms)) return false;
+        any = true;
+    }
+    return any;
+}

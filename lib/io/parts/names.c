@@ -16,7 +16,6 @@ static const char *const solid_words[] = {
     // English
     "wall",
     "solid",
-    "collision",
     "collide",
     "collider",
     "collidable",
@@ -49,8 +48,6 @@ static const char *const solid_words[] = {
     "mauern",
     "wände",
     "waende",
-    "kollision",
-    "kollisionen",
     "hindernis",
     "hindernisse",
     "mur",
@@ -59,9 +56,7 @@ static const char *const solid_words[] = {
     "muro",
     "pared",
     "paredes",
-    "colision",
     "colisión",
-    "colisiones",
     "parede",
     "colisao",
     "colisão",
@@ -72,13 +67,10 @@ static const char *const solid_words[] = {
     "muratura",
     "parete",
     "pareti",
-    "collisione",
-    "collisioni",
     "ostacolo",
     "ostacoli",
     "vägg",
     "väggar",
-    "kollisioner",
     "ściana",
     "ściany",
     "sciana",
@@ -221,6 +213,20 @@ static bool says(const char *name, const char *const *first, size_t first_count,
     return said;
 }
 
+bool sli_word_is_collision(const sli_name_word *word) {
+    const char *at = word->text;
+    if ((*at != 'c' && *at != 'k') || at[1] != 'o' || at[2] != 'l') return false;
+    for (at += 2; *at == 'l';) at++;
+    if (at[0] != 'i' || at[1] != 's') return false;
+    for (at++; *at == 's';) at++;
+    at += *at == 'i';
+    return at[0] == 'o' && at[1] == 'n';
+}
+
+static bool is_solid(const sli_name_word *word) {
+    return IS_ONE_OF(word, solid_words) || sli_word_is_collision(word);
+}
+
 bool sli_says_solid(const char *name) {
     bool said = false, negated = false;
     for (sli_name_word word; sli_word_next(&name, &word);) {
@@ -229,9 +235,8 @@ bool sli_says_solid(const char *name) {
             continue;
         }
         if (negated != IS_ONE_OF(&word, walk_words)) return false;
-        said |= negated || IS_ONE_OF(&word, solid_words);
-        if (!negated && !IS_ONE_OF(&word, solid_words) && !IS_ONE_OF(&word, solid_neutral))
-            return false;
+        said |= negated || is_solid(&word);
+        if (!negated && !is_solid(&word) && !IS_ONE_OF(&word, solid_neutral)) return false;
         negated = false;
     }
     return said && !negated;
@@ -243,7 +248,7 @@ bool sli_says_walkable(const char *name) {
 
 bool sli_mentions_solid(const char *name) {
     for (sli_name_word word; sli_word_next(&name, &word);)
-        if (IS_ONE_OF(&word, solid_words)) return true;
+        if (is_solid(&word)) return true;
     return false;
 }
 

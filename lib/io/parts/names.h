@@ -97,6 +97,9 @@ typedef struct sli_name_word {
 bool sli_word_next(const char **at, sli_name_word *word);
 /// Whether the word is in the list. A plural with s or es counts too.
 bool sli_word_in(const sli_name_word *word, const char *const *list, size_t count);
+/// Whether the word begins as "collision" does in English or a language beside it, with letters
+/// doubled or left out.
+bool sli_word_is_collision(const sli_name_word *word);
 
 /// Whether all words of the name are words for what is solid (wall, solid, collision, collider,
 /// obstacle, block, barrier, impassable ..., Mauer, mur, muro, стена, 墙 ..., one or many; "no

@@ -180,7 +180,37 @@ static bool take_starts(edge_search *s, sli_things *things) {
         s->mark[region] |= GROUND;
         any = true;
     }
+    s->edge->started = any;
     return any;
+}
+
+static bool is_ground(const sli_region *region) {
+    return region->doors || region->between > FREE * region->beside;
+}
+
+/// Tokens stand on one deck or storey of several that a scene has side by side: starts that reach
+/// less than half of its ground are not believed.
+static sl_status doubt_few(const edge_search *s, sli_things *things) {
+    double reached = 0, all = 0;
+    sl_bits *has = sl_alloc_array(s->edge->context, sl_bits_words(s->regions.count), sizeof *has);
+    if (!has) return SL_NO_MEMORY;
+    for (size_t i = 0; i < things->items.count; i++) {
+        const sli_thing *start = &things->items.items[i];
+        if (start->kind != SLI_THING_START || start->doubt) continue;
+        const uint32_t region = sli_regions_at(&s->regions, sli_thing_place(things, i));
+        if (region != SL_NO_CELL) sl_bits_add(has, region);
+    }
+    for (size_t i = 0; i < s->regions.count; i++) {
+        const double area = s->mark[i] & BEYOND ? 0 : s->regions.items[i].area;
+        if (sl_bits_has(has, i)) reached += area;
+        if (sl_bits_has(has, i) || is_ground(&s->regions.items[i])) all += area;
+    }
+    for (size_t i = 0; reached > 0 && 2 * reached < all && i < things->items.count; i++)
+        if (things->items.items[i].kind == SLI_THING_START && !things->items.items[i].doubt)
+            things->items.items[i].doubt = "starts reach less than half of the scene; "
+                                           "--start-names takes it all the same";
+    sl_free(s->edge->context, has);
+    return SL_OK;
 }
 
 /// The area of closed regions that look as an interior does.
@@ -200,8 +230,7 @@ static void decide(edge_search *s, sli_things *things) {
     const double area = (box.max.x - box.min.x) * (box.max.y - box.min.y);
     if (take_starts(s, things)) return;
     for (size_t i = 0; i < s->regions.count; i++) {
-        const sli_region *region = &s->regions.items[i];
-        if (region->doors || region->between > FREE * region->beside) s->mark[i] |= GROUND;
+        if (is_ground(&s->regions.items[i])) s->mark[i] |= GROUND;
     }
     if (interior_of(s) >= INTERIOR * area) return;
     for (size_t i = 0; i < s->regions.count; i++) s->mark[i] |= GROUND;
@@ -267,6 +296,7 @@ static sl_status search(edge_search *s, sli_things *things) {
     }
     doubt_beyond(s->edge, things);
     sli_regions_doubt(&s->regions, things);
+    if (!things->options->start_names) SL_TRY(doubt_few(s, things));
     decide(s, things);
     SL_TRY(find_pieces(s));
     measure_rock(s);
@@ -313,9 +343,9 @@ sl_status sli_edge_add(const sli_edge *edge, sl_map *map, uint32_t item) {
     if (percent >= 1)
         sl_note(edge->context,
                 "%s: %.0f %% of the scene lies beyond closed walls and is not inside; "
-                "--layers %s takes them in: all of the scene is inside then, whatever openings "
+                "--layers %s%s takes them in: all of the scene is inside then, whatever openings "
                 "it has",
-                edge->file, percent, edge->all);
+                edge->file, percent, edge->all, edge->started ? " --start-names none" : "");
     if (!count) return SL_OK;
     map->source.lines_are_items = true;
     SL_TRY(sli_map_add_label(edge->context, map, item, "the scene's edge"));

@@ -39,6 +39,7 @@ typedef struct sli_edge {
     const char *all;
     SL_ARRAY(sl_segment) pieces; ///< what is found
     bool whole;                  ///< they are all of the edge
+    bool started;                ///< starts say what is ground
     double closed_off;           ///< the share of the scene that nothing leads to
 } sli_edge;
 

@@ -438,14 +438,17 @@ static void say_opening(const sl_map *map, char text[SL_INSIDE_TEXT]) {
 /// Entrances that nobody has given the width of.
 static void say_entrances(const sl_map *map, char text[SL_INSIDE_TEXT]) {
     const sl_interior *found = &map->interior;
-    char width[40];
+    char width[40], doors[40] = "";
     if (!found->entrances || found->by == SL_ENTRANCE_GIVEN) return;
-    snprintf(text, SL_INSIDE_TEXT, "inside ends at %zu opening%s up to %s wide (entrance %.4g, %s)",
-             found->entrances, found->entrances == 1 ? "" : "s",
-             say_width(map, found->width, width), found->width,
+    if (found->by == SL_ENTRANCE_FOUND && map->entrance_by_doors)
+        snprintf(doors, sizeof doors, "; %.4g by its doors", map->entrance);
+    snprintf(text, SL_INSIDE_TEXT,
+             "inside ends at %zu opening%s up to %s wide (entrance %.4g, %s%s)", found->entrances,
+             found->entrances == 1 ? "" : "s", say_width(map, found->width, width), found->width,
              found->by == SL_ENTRANCE_UNIT    ? "as is usual"
              : found->by == SL_ENTRANCE_DOORS ? "by the doors that are drawn open"
-                                              : "found from the plan");
+                                              : "found from the plan",
+             doors);
 }
 
 sl_status sl_say_inside(sl_context *context, const sl_map *map, const sl_space *space,
