@@ -179,6 +179,8 @@ class Qgis(unittest.TestCase):
         got, _ = self.run_it("visibilitygraph", WALLS="walls.geojson", GRID=1, MEASURES="0,1")
         wanted = table(self.said("vga", "plan.map", "--grid", 1, "--measures", "visual,through"))
         self.same(got, wanted)
+        estimated, _ = self.run_it("visibilitygraph", WALLS="walls.geojson", GRID=1, ESTIMATE=5)
+        self.same(estimated, table(self.said("vga", "plan.map", "--grid", 1, "--estimate", 5)))
         ring, = got[0]["geometry"]["coordinates"]
         self.assertEqual(sorted({x for x, _ in ring}), [wanted[0]["x"] - 0.5, wanted[0]["x"] + 0.5])
 
@@ -202,13 +204,20 @@ class Qgis(unittest.TestCase):
             self.assertEqual([sum(feature["geometry"]["coordinates"], []) for feature in got], ends)
 
     def test_segments(self):
-        lines = [("LineString", [moved(*a), moved(*b)], {}) for a, b in (((0, 0), (9, 0)), ((3, -3), (3, 4)), ((9, 0), (3, 4)))]
-        geojson(self.at / "streets.geojson", lines)
-        (self.at / "streets.csv").write_text("x1,y1,x2,y2\n" + "".join(
-            ",".join(map(str, a + b)) + "\n" for _, (a, b), _ in lines), encoding="utf-8")
+        streets = ([(0, 0), (9, 0)], 5), ([(3, -3), (3, 4)], 2.5), ([(9, 0), (9, 4), (3, 4)], 7)
+        geojson(self.at / "streets.geojson", [("LineString", [moved(*at) for at in line], {"trips": weight})
+                                              for line, weight in streets])
+        (self.at / "streets.csv").write_text("x1,y1,x2,y2,trips\n" + "".join(
+            ",".join(map(str, [*moved(*a), *moved(*b), weight * math.dist(a, b) / sum(map(math.dist, line, line[1:]))])) + "\n"
+            for line, weight in streets for a, b in zip(line, line[1:])), encoding="utf-8")
         got, _ = self.run_it("segments", WALLS="streets.geojson", METRIC_RADIUS=8)
         wanted = table(self.said("segments", "streets.csv", "--metric-radius", 8))
         self.same(got, [{k.replace("_r8_metric", ""): v for k, v in row.items() if k not in ENDS} for row in wanted],)
+        got, _ = self.run_it("segments", WALLS="streets.geojson", WEIGHT="trips")
+        wanted = table(self.said("segments", "streets.csv", "--weight", "trips"))
+        ending = "_weighted"
+        self.same(got, [{k.replace(ending, ""): v for k, v in row.items() if k + ending not in row and k not in ENDS}
+                        for row in wanted])
 
     def test_cover(self):
         geojson(self.at / "cameras.geojson", [("Point", moved(1, 4), {"heading": 0, "fov": 90, "range": 9}),

@@ -42,9 +42,7 @@ bool vga_measure_is_of_part(size_t measure) {
 
 bool vga_is_estimated(size_t measure) {
     const sl_measure *m = &columns(&(size_t){0})[measure];
-    if (vga_measure_part(measure) != VGA_PART_VISUAL) return true;
-    return m->group == SL_GROUP_GLOBAL ? m->unit != SL_UNIT_BITS
-                                       : strcmp(m->name, "connectivity") == 0;
+    return vga_measure_part(measure) != VGA_PART_VISUAL || sl_vga_is_estimated(m);
 }
 
 bool vga_has(const vga_table *table, size_t measure) {

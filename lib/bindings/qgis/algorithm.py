@@ -90,7 +90,7 @@ class Algorithm(QgsProcessingAlgorithm):
         with warnings.catch_warnings(record=True) as doubts:
             warnings.simplefilter("always")
             try:
-                plan = layers.plan_of(sightline, walls, self.parameterAsString(parameters, "KIND", context), feedback)
+                plan, self.walls = layers.plan_of(sightline, walls, self.parameterAsString(parameters, "KIND", context), feedback)
                 starts = self.parameterAsSource(parameters, "STARTS", context) if self.HAS_INSIDE else None
                 for point in layers.points_of(starts, walls.sourceCrs(), context)[1] if starts else ():
                     plan.add_start(point)

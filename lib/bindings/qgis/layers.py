@@ -2,6 +2,7 @@
 
 A field of the layer of walls may say what each line is. Coordinates stay as they are: answers are in those of the walls.
 """
+import collections
 import math
 
 from qgis.core import (QgsFeatureRequest, QgsField, QgsGeometry, QgsLineString, QgsPointXY, QgsPolygon,
@@ -25,6 +26,7 @@ class _Walls:
 
     def __init__(self, plan):
         self.plan, self.segments = plan, {}
+        self.features, self.feature = [], None  # of each wall; of what is added now
 
     def add(self, part, kind, name, is_open):
         of = QgsWkbTypes.geometryType(part.wkbType())
@@ -46,6 +48,8 @@ class _Walls:
             self.plan.add_door(name or "door", sides, is_open=is_open)
         else:
             self.segments.setdefault(kind, []).extend(sides)
+            if kind == "wall":
+                self.features += [self.feature] * len(sides)
 
     def _add_area(self, rings, kind):
         for i, corners in enumerate(rings):
@@ -58,6 +62,16 @@ class _Walls:
     def finish(self):
         for kind, segments in self.segments.items():
             getattr(self.plan, f"add_{kind}s")(segments)
+
+    def weights(self, field):
+        """A number for each wall: the sides of a feature share its value by their lengths."""
+        sides = [(feature, math.dist(side[:2], side[2:])) for feature, side in zip(self.features, self.segments.get("wall", ()))]
+        lengths = collections.Counter()
+        for feature, length in sides:
+            if not isinstance(value_of(feature, field), (int, float)):
+                raise ValueError(f"feature {feature.id()} of the walls has no number in the field '{field}'")
+            lengths[feature.id()] += length
+        return [value_of(feature, field) * (length / (lengths[feature.id()] or 1)) for feature, length in sides]
 
 
 def value_of(feature, field):
@@ -85,7 +99,7 @@ def crs_of(source):
 
 
 def plan_of(sightline, source, kind_field, feedback):
-    """A plan of all lines, polygons and points of a layer."""
+    """A plan of all lines, polygons and points of a layer, and its walls."""
     crs_of(source)
     plan = sightline.Plan()
     walls, names = _Walls(plan), source.fields().names()
@@ -99,6 +113,7 @@ def plan_of(sightline, source, kind_field, feedback):
         if kind and kind not in KINDS:
             raise QgsProcessingException(f"Feature {feature.id()} of the walls: field '{kind_field}' says '{kind}', which is no "
                                          f"kind. Kinds: {', '.join(KINDS)}; empty for a wall.")
+        walls.feature = feature
         try:
             is_open = kind != "door" or _is_open(feature, open_field)
             for part in feature.geometry().constParts():
@@ -106,7 +121,7 @@ def plan_of(sightline, source, kind_field, feedback):
         except (ValueError, sightline.SightlineError) as fault:
             raise QgsProcessingException(f"Feature {feature.id()} of the walls: {fault}.") from fault
     walls.finish()
-    return plan
+    return plan, walls
 
 
 def points_of(source, crs, context):

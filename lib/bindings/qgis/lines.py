@@ -1,5 +1,5 @@
 """Axial lines, and segments of a network."""
-from qgis.core import QgsProcessingParameterEnum, QgsProcessingParameterNumber, QgsWkbTypes
+from qgis.core import QgsProcessingParameterEnum, QgsProcessingParameterField, QgsProcessingParameterNumber, QgsWkbTypes
 
 from . import layers
 from .algorithm import Algorithm
@@ -44,7 +44,8 @@ class Segments(OfLines):
     """Angular segment analysis of a network (space syntax): street centre lines, or axial lines, in place of walls.
 
     Lines are cut where they cross. Names are those of depthmapX. Without a radius, time grows with the square of the number of
-    segments. The style shows choice.
+    segments. With a field of weights, a segment counts as its weight in node count and depth, and a pair as the product of
+    both in choice; the pieces of a line share its weight by their lengths. The style shows choice.
     """
 
     NAME, TITLE, STYLE = "segments", "Segments", "segments"
@@ -57,8 +58,12 @@ class Segments(OfLines):
                                                        minValue=0))
         self.addParameter(QgsProcessingParameterNumber("ANGULAR_RADIUS", "Radius in right angles of turns, 0 for no limit",
                                                        double, 0, minValue=0))
+        self.addParameter(QgsProcessingParameterField("WEIGHT", "Field of weights", None, "WALLS",
+                                                      QgsProcessingParameterField.Numeric, optional=True))
 
     def answer(self, plan, crs, parameters, context, feedback):
-        return self.rows_of(plan.segments(metric_radius=self.parameterAsDouble(parameters, "METRIC_RADIUS", context),
+        field = self.parameterAsString(parameters, "WEIGHT", context)
+        return self.rows_of(plan.segments(weights=self.walls.weights(field) if field else None,
+                                          metric_radius=self.parameterAsDouble(parameters, "METRIC_RADIUS", context),
                                           angular_radius=self.parameterAsDouble(parameters, "ANGULAR_RADIUS", context),
                                           arrays=True))
