@@ -52,8 +52,8 @@ typedef struct batch {
     batch_row *rows, *old; ///< old: of the table that is resumed
     size_t old_count;
     size_t *open, open_count; ///< plans that must be run
-    pthread_mutex_t lock; ///< of the rows and what follows
-    double written;       ///< when the table was written last
+    pthread_mutex_t lock;     ///< of the rows and what follows
+    double written;           ///< when the table was written last
 } batch;
 
 static void batch_destroy(sl_context *context, batch *b) {

@@ -118,7 +118,8 @@ SLP_API const char *slp_notes(const void *handle);
 SLP_API void slp_cancel(void *handle, int cancelled);
 /// Lists of names, one a line: "map_formats", "methods", "eye_methods", "subdivisions", "exports".
 /// And "measures", of regions and of visibility graphs: name, group, unit, meaning, part of
-/// sl_vga_part, 1 if it is estimated (sl_vga_is_estimated), with tabs between. Returns the length; writes up to `room` bytes, the 0 included.
+/// sl_vga_part, 1 if it is estimated (sl_vga_is_estimated), with tabs between. Returns the length;
+/// writes up to `room` bytes, the 0 included.
 SLP_API size_t slp_names(const void *handle, const char *list, char *text, size_t room);
 
 // --- plans
