@@ -8,6 +8,7 @@ of its headers, GODOT_HEADERS: the repository godot-headers, branch 3.2.
 import ctypes
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -85,6 +86,8 @@ class Level(unittest.TestCase):
                             "-o", cls.at / "godot/liblevel.so"], check=True)
         if "C#" in cls.programs:
             subprocess.run(["mcs", f"-out:{cls.at / 'Seen.exe'}", examples / "Seen.cs"], check=True)
+            subprocess.run(["mcs", "-main:Picture", f"-out:{cls.at / 'Picture.exe'}", examples / "Picture.cs",
+                            examples / "Seen.cs"], check=True)
             subprocess.run(["mcs", "-main:Calls", f"-out:{cls.at / 'Calls.exe'}", examples / "Seen.cs",
                             SOURCE / "tests/bindings/Calls.cs"], check=True)
         for name, (path, _, _) in LEVELS.items():
@@ -108,6 +111,20 @@ class Level(unittest.TestCase):
                         self.assertEqual(done.stderr, "", language)
                     self.assertTrue(are_alike(read(done.stdout), read(wanted.stdout), 1e-6 if language == "Godot" else 0),
                                     (language, name, x, y, done.stdout, wanted.stdout))
+
+    def test_csharp_draws_what_is_seen(self):
+        if "C#" not in self.programs:
+            self.skipTest("no C#")
+        picture = self.at / "seen.svg"
+        for name, (_, eyes, _) in LEVELS.items():
+            for eye in eyes:
+                wanted = read(self.run_one([self.at / "fog"], self.at / f"{name}.slv", self.at / "fog.svg", *eye).stdout)
+                done = self.run_one(["mono", self.at / "Picture.exe"], self.at / f"{name}.slv", *eye, picture)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                found, = re.findall("fill='#ffed99' points='([^']*)'", picture.read_text())
+                at = [number for line in wanted if len(line) == 2 and line[0] != "cell" and line[0] != "points" for number in line]
+                self.assertEqual([float(number) for number in found.split()], at)
+                self.assertIn("scale(1 -1)", picture.read_text())  # map text has y up
 
     def test_class_answers_as_c(self):
         if "C#" not in self.programs:
@@ -171,10 +188,15 @@ class Level(unittest.TestCase):
             programs["LÖVE"] = ["xvfb-run", "-a", "love", examples / "love"]
         else:
             print("love or xvfb-run not here: LÖVE is left out", file=sys.stderr)
+        if "Godot" in self.programs and shutil.which("godot3-runner") and shutil.which("xvfb-run"):
+            programs["Godot"] = ["xvfb-run", "-a", "-s", "-screen 0 1280x800x24", "godot3-runner", "--video-driver", "GLES2",
+                                 "--audio-driver", "Dummy", "--path", self.at / "godot", "fog.tscn"]
         subprocess.run([PROGRAM, "bake", SOURCE / "maps/keep.tmx", "-o", self.at / "keep.slv", "--quiet"], check=True)
         # Map text has y up, Tiled y down. The eye is a black disc in the half of the window where it stands.
         for name, eye, is_low in (("doors", (5.1, 5.03), True), ("doors", (5.1, 16.2), False), ("keep", (100.3, 40.2), False)):
             for program, command in programs.items():
+                if program == "Godot" and name != "keep":  # its example draws files that have y down
+                    continue
                 done = self.run_one(command, self.at / f"{name}.slv", *eye, picture)
                 self.assertEqual(done.returncode, 0, done.stderr)
                 done = self.run_one([*python, "-c", BLACK, picture])

@@ -179,6 +179,8 @@ class Qgis(unittest.TestCase):
         got, _ = self.run_it("visibilitygraph", WALLS="walls.geojson", GRID=1, MEASURES="0,1")
         wanted = table(self.said("vga", "plan.map", "--grid", 1, "--measures", "visual,through"))
         self.same(got, wanted)
+        estimated, _ = self.run_it("visibilitygraph", WALLS="walls.geojson", GRID=1, ESTIMATE=5)
+        self.same(estimated, table(self.said("vga", "plan.map", "--grid", 1, "--estimate", 5)))
         ring, = got[0]["geometry"]["coordinates"]
         self.assertEqual(sorted({x for x, _ in ring}), [wanted[0]["x"] - 0.5, wanted[0]["x"] + 0.5])
 

@@ -7,6 +7,7 @@ import contextlib
 import csv
 import io
 import json
+import os
 import pathlib
 import signal
 import statistics
@@ -187,6 +188,23 @@ class Batch(sandbox.ProgramTest):
         self.assertNotIn("hall.map", self.words_of(child))
         self.assertEqual([row["plan"] for row in self.rows()], ["room 4.map"])
         self.assertNotIn("hall.slv", self.box.files())
+
+    def test_progress_counts_what_is_run(self):
+        command = ["batch", "bake", "list", "-o", "t.csv", "--resume", "--", "-o", "{}.slv", "--method", "dfs"]
+        self.write_list("room 4.map", "room 8.map")
+        self.box.run(command)
+        self.box.path("hall.map").write_text(endless())
+        self.write_list("room 4.map", "hall.map", "room 8.map")
+        master, slave = os.openpty()
+        process = self.box.start(command, stderr=slave)
+        os.close(slave)
+        text = b""
+        while b"plans" not in text:
+            text += os.read(master, 65536)
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=30)
+        self.assertIn(b"batch: 0/1 plans", text)
+        self.assertIn(b"t.csv has 2 of 3 plans", text + sandbox.read_terminal(master))
 
 
 if __name__ == "__main__":

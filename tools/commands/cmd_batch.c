@@ -51,14 +51,16 @@ typedef struct batch {
     SL_ARRAY(const char *) plans;
     batch_row *rows, *old; ///< old: of the table that is resumed
     size_t old_count;
-    pthread_mutex_t lock; ///< of the rows and what follows
-    double written;       ///< when the table was written last
+    size_t *open, open_count; ///< plans that must be run
+    pthread_mutex_t lock;     ///< of the rows and what follows
+    double written;           ///< when the table was written last
 } batch;
 
 static void batch_destroy(sl_context *context, batch *b) {
     for (size_t i = 0; b->rows && i < b->plans.count; i++) batch_row_destroy(context, &b->rows[i]);
     for (size_t i = 0; i < b->old_count; i++) batch_row_destroy(context, &b->old[i]);
     sl_free(context, b->rows);
+    sl_free(context, b->open);
     sl_free(context, b->old);
     sl_free(context, b->plans.items);
     sl_free(context, b->list);
@@ -307,6 +309,22 @@ static const batch_row *find_old(const batch *b, const char *plan, const char *k
     return NULL;
 }
 
+/// Takes the rows that are kept from the table that is resumed, and lists all other plans. So the
+/// time that is left is that of plans that are run.
+static sl_status take_old(sl_context *context, batch *b) {
+    for (size_t i = 0; i < b->plans.count; i++) {
+        char key[KEY_TEXT] = "";
+        SL_TRY(sl_check_cancelled(context));
+        if (b->old_count) write_key(context, b, b->plans.items[i], key);
+        const batch_row *old = find_old(b, b->plans.items[i], key);
+        if (!old) b->open[b->open_count++] = i;
+        for (size_t k = 0; old && k < old->cells.count; k++)
+            SL_TRY(batch_row_add(context, &b->rows[i], old->cells.items[k].column,
+                                 old->cells.items[k].text));
+    }
+    return SL_OK;
+}
+
 /// Keeps the row. The table is written once a second, so that what is done outlives the program.
 static sl_status keep(sl_context *context, batch *b, size_t number, const batch_row *row) {
     sl_status status = SL_OK;
@@ -324,15 +342,12 @@ static sl_status keep(sl_context *context, batch *b, size_t number, const batch_
 static sl_status do_plan(sl_context *context, void *job, void *state, size_t number) {
     (void)state;
     batch *b = job;
-    const char *plan = b->plans.items[number];
+    const char *plan = b->plans.items[b->open[number]];
     char key[KEY_TEXT];
     batch_row row = {0};
     write_key(context, b, plan, key);
-    const batch_row *old = find_old(b, plan, key);
-    sl_status status = old ? SL_OK : run_plan(context, b, plan, key, &row);
-    for (size_t i = 0; old && status == SL_OK && i < old->cells.count; i++)
-        status = batch_row_add(context, &row, old->cells.items[i].column, old->cells.items[i].text);
-    if (status == SL_OK) return keep(context, b, number, &row);
+    const sl_status status = run_plan(context, b, plan, key, &row);
+    if (status == SL_OK) return keep(context, b, b->open[number], &row);
     batch_row_destroy(context, &row);
     return status;
 }
@@ -362,9 +377,11 @@ static sl_status run_all(command_console *console, batch *b, uint32_t jobs) {
     const sl_work work = {.job = b, .unit = do_plan, .stage = "batch", .units = "plans"};
     const bool is_file = strcmp(b->output, "-") != 0;
     b->rows = sl_alloc_array(context, b->plans.count, sizeof *b->rows);
-    if (!b->rows) return SL_NO_MEMORY;
+    b->open = sl_alloc_array(context, b->plans.count, sizeof *b->open);
+    if (!b->rows || !b->open) return SL_NO_MEMORY;
     b->written = sl_seconds();
-    const sl_status status = sl_work_run(context, &work, b->plans.count, jobs);
+    sl_status status = take_old(context, b);
+    if (status == SL_OK) status = sl_work_run(context, &work, b->open_count, jobs);
     size_t done = 0;
     for (size_t i = 0; i < b->plans.count; i++) done += b->rows[i].cells.count > 0;
     if (status == SL_CANCELLED && is_file && done) {

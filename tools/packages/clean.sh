@@ -66,6 +66,12 @@ fi
 
 scratch=$(mktemp -d)
 system=$scratch/system
+# look: $at, in seconds, and $worked, seconds of the processor that all so far has taken.
+look() {
+    at=$(date +%s)
+    times >"$scratch/times"
+    worked=$(sed -n '2s/[ms]/ /gp' "$scratch/times" | awk '{ print int(60 * ($1 + $3) + $2 + $4) }')
+}
 leave() {
     umount "$system/proc" 2>/dev/null || true
     umount "$system" 2>/dev/null || true
@@ -81,20 +87,24 @@ for part in "$@"; do
     mount -t overlay overlay -o "lowerdir=$base,upperdir=$scratch/layer,workdir=$scratch/work" "$system"
     mount -t proc proc "$system/proc"
     cp /etc/resolv.conf "$system/etc/"
-    before=$(date +%s)
+    look
+    before=$at before_worked=$worked
     # shellcheck disable=SC2046
     {
         chroot "$system" apt-get -qq update
         [ -z "$(packages "$part")" ] || chroot "$system" env DEBIAN_FRONTEND=noninteractive \
             apt-get -qq -y install --no-install-recommends $(packages "$part")
     } >"$scratch/log" 2>&1 || { tail -n 20 "$scratch/log" >&2; fail "$part: its packages cannot be installed"; }
-    installed=$(date +%s)
+    look
+    installed=$at installed_worked=$worked
     mkdir "$system/files" "$system/empty"
     cp -R "$folder/." "$system/files/"
     cp "$here/use.sh" "$system/"
     if unshare --net chroot "$system" env -i PATH=/usr/bin:/bin HOME=/root sh -c "cd /empty && sh /use.sh $part /files" \
         >"$scratch/log" 2>&1; then
-        echo "clean: $part works: $((installed - before)) s for Debian's packages, $(($(date +%s) - installed)) s for it"
+        look
+        echo "clean: $part works: $((installed - before)) s for Debian's packages, $((at - installed)) s for it;" \
+            "of the processor: $((installed_worked - before_worked)) s, $((worked - installed_worked)) s"
     else
         tail -n 30 "$scratch/log" >&2
         echo "clean: $part does not work" >&2

@@ -59,7 +59,9 @@ command)
     ;;
 windows)
     folder=$(unpacked 'sightline-*-windows-*.zip')
-    bakes env WINEPREFIX="$PWD/wine" WINEDEBUG=-all wine "$folder/sightline.exe"
+    export WINEPREFIX="$PWD/wine" WINEDEBUG=-all
+    bakes wine "$folder/sightline.exe"
+    wineserver --wait # which writes in the folder until then
     ;;
 source) # the core alone, which needs a C compiler and CMake; used by pkg-config and by find_package
     folder=$(unpacked "$(sources)")

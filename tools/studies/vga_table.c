@@ -47,7 +47,8 @@ bool vga_is_global(size_t measure) {
 }
 
 bool vga_is_estimated(size_t measure) {
-    return vga_is_global(measure) && columns(&(size_t){0})[measure].unit != SL_UNIT_BITS;
+    const sl_measure *m = &columns(&(size_t){0})[measure];
+    return vga_measure_part(measure) != VGA_PART_VISUAL || sl_vga_is_estimated(m);
 }
 
 bool vga_has(const vga_table *table, size_t measure) {

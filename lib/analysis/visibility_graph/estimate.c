@@ -257,6 +257,12 @@ sl_vga_estimate sl_vga_estimate_default(void) {
     return (sl_vga_estimate){.roots = 256, .confidence = 0.99, .seed = 1};
 }
 
+bool sl_vga_is_estimated(const sl_measure *m) {
+    if (m->of != SL_OF_GRAPH) return false;
+    return m->group == SL_GROUP_GLOBAL ? m->unit != SL_UNIT_BITS
+                                       : strcmp(m->name, "connectivity") == 0;
+}
+
 static sl_status estimate(sl_context *context, const sl_vga_grid *grid,
                           const sl_vga_estimate *options, estimate_job *j) {
     const uint32_t count = grid->count;

@@ -42,6 +42,7 @@ export class Module {
         cancelled: () => (this.watch?.stop() ? 1 : 0),
         log: Math.log,
         log10: Math.log10,
+        acos: Math.acos,
         asinh: Math.asinh,
         atan2: Math.atan2,
         number: (at) => this.#numberAt(at),

@@ -36,7 +36,6 @@ function eyeOf(x, y, options, ...known) {
 
 export class Level {
   #core
-  #memory
   #shut
   #scratch
   #list
@@ -76,15 +75,14 @@ export class Level {
   /** Use Level.open(). */
   constructor(core, file, transform, boxes) {
     this.#core = core
-    this.#memory = core.memory
     core._initialize()
     this.#points = core.__heap_base.value
     this.#view = core.view_place()
     const data = this.#place(file.length)
-    new Uint8Array(this.#memory.buffer).set(file, data)
+    new Uint8Array(this.#core.memory.buffer).set(file, data)
     const status = core.open(data, file.length)
     if (status) {
-      const message = textAt(this.#memory, core.status_text(status))
+      const message = textAt(this.#core.memory, core.status_text(status))
       throw Object.assign(new SightlineError(message, { code: 'bad input' }), { status })
     }
     core.describe()
@@ -108,10 +106,10 @@ export class Level {
   }
 
   #reserve(end) {
-    const missing = end - this.#memory.buffer.byteLength
+    const missing = end - this.#core.memory.buffer.byteLength
     if (missing <= 0) return
     try {
-      this.#memory.grow(Math.ceil(missing / PAGE))
+      this.#core.memory.grow(Math.ceil(missing / PAGE))
     } catch {
       throw new SightlineError('out of memory', { code: 'out of memory' })
     }
@@ -133,7 +131,7 @@ export class Level {
 
   /** All memory, as numbers. Memory that grows is a new buffer. */
   #refresh() {
-    const { buffer } = this.#memory
+    const { buffer } = this.#core.memory
     if (this.#bytes.buffer === buffer) return
     this.#bytes = new Uint8Array(buffer)
     this.#doubles = new Float64Array(buffer)
@@ -146,11 +144,11 @@ export class Level {
 
   /** What the last call gave. */
   get #integers() {
-    return new Uint32Array(this.#memory.buffer, this.#core.integers_place(), 8)
+    return new Uint32Array(this.#core.memory.buffer, this.#core.integers_place(), 8)
   }
 
   get #numbers() {
-    return new Float64Array(this.#memory.buffer, this.#core.numbers_place(), 8)
+    return new Float64Array(this.#core.memory.buffer, this.#core.numbers_place(), 8)
   }
 
   /** A place in the map. */
@@ -159,12 +157,13 @@ export class Level {
     return [origin.x + x / scale, origin.y + (yDown ? -y : y) / scale]
   }
 
-  /** Places x, y, x, y ... of the map become those of the caller. */
-  #fromMap(places) {
+  /** Places x, y, x, y ... of the map become those of the caller: from memory at `at`, or where they are. */
+  #fromMap(places, count = places.length, from = places, at = 0) {
     const { origin, scale, yDown } = this.transform
-    for (let i = 0; i < places.length; i += 2) {
-      places[i] = scale * (places[i] - origin.x)
-      places[i + 1] = scale * (yDown ? origin.y - places[i + 1] : places[i + 1] - origin.y)
+    for (let i = 0; i < count; i += 2) {
+      const y = from[at + i + 1] - origin.y
+      places[i] = scale * (from[at + i] - origin.x)
+      places[i + 1] = scale * (yDown ? 0 - y : y)
     }
     return places
   }
@@ -185,9 +184,9 @@ export class Level {
     this.#grow(Math.max(this.#room, 2 * count))
     core.door(number, this.#points, count)
     const [name, length, kind] = this.#integers
-    const ends = this.#fromMap(new Float64Array(this.#memory.buffer, this.#points, 4 * count))
+    const ends = this.#fromMap(new Float64Array(this.#core.memory.buffer, this.#points, 4 * count))
     const segments = Array.from({ length: count }, (_, i) => Object.freeze([...ends.subarray(4 * i, 4 * i + 4)]))
-    return { name: textAt(this.#memory, name, length), kind: KINDS[kind], segments: Object.freeze(segments) }
+    return { name: textAt(this.#core.memory, name, length), kind: KINDS[kind], segments: Object.freeze(segments) }
   }
 
   #readStart(number) {
@@ -199,7 +198,7 @@ export class Level {
   /** The doors as they stand: name, kind, open, and segments [x0, y0, x1, y1]. setDoor() changes them. */
   get doors() {
     this.#open
-    const shut = new Uint8Array(this.#memory.buffer, this.#shut, this.#doors.length)
+    const shut = new Uint8Array(this.#core.memory.buffer, this.#shut, this.#doors.length)
     return Object.freeze(this.#doors.map((door, i) => Object.freeze({ ...door, open: !shut[i] })))
   }
 
@@ -353,9 +352,8 @@ export class Level {
     this.#boxOf(box)
     flagOf('blocks', blocks)
     checkBox(minX, minY, maxX, maxY)
-    const low = yDown ? -maxY : minY, high = yDown ? -minY : maxY
-    while (!core.move_box(box, origin.x + minX / scale, origin.y + low / scale, origin.x + maxX / scale,
-      origin.y + high / scale, +blocks)) {
+    while (!core.move_box(box, origin.x + minX / scale, origin.y + (yDown ? -maxY : minY) / scale, origin.x + maxX / scale,
+      origin.y + (yDown ? -minY : maxY) / scale, +blocks)) {
       this.#startBoxes(this.boxCount)
       this.#grow(this.#room)
     }
@@ -392,7 +390,7 @@ export class Level {
   }
 
   #listed(count) {
-    return new Uint32Array(this.#memory.buffer, this.#list, count).slice()
+    return new Uint32Array(this.#core.memory.buffer, this.#list, count).slice()
   }
 
   /** Puts an eye that looks all round into memory, as an sl_runtime_view. */
@@ -456,15 +454,21 @@ export class Level {
    */
   visiblePolygon(x, y, options) {
     const count = this.#polygon(x, y, options)
-    return this.#fromMap(new Float64Array(this.#memory.buffer, this.#points, 2 * count).slice())
+    return this.#copied(new Float64Array(count), count)
   }
 
-  /** Puts the polygon of an eye into memory. Gives how many corners it has. */
+  /** The polygon in memory. */
+  #copied(points, count) {
+    this.#refresh()
+    return this.#fromMap(points, count, this.#doubles, this.#points / 8)
+  }
+
+  /** Puts the polygon of an eye into memory. Gives how many numbers it has. */
   #polygon(x, y, options) {
     const core = this.#open, range = this.#setAnyView(x, y, options)
     for (;;) {
       const count = core.polygon(this.#shut, range, this.#scratch, this.#points, this.#room) >>> 0
-      if (count <= this.#room) return count
+      if (count <= this.#room) return 2 * count
       this.#grow(2 * count)
     }
   }
@@ -480,15 +484,8 @@ export class Level {
    */
   visiblePolygonInto(points, x, y, options) {
     if (!(points instanceof Float64Array)) throw new SightlineError('points: a Float64Array is needed')
-    const count = 2 * this.#polygon(x, y, options)
-    if (count > points.length) return count
-    this.#refresh()
-    const { origin, scale, yDown } = this.transform, from = this.#points / 8
-    for (let i = 0; i < count; i += 2) {
-      const y = this.#doubles[from + i + 1]
-      points[i] = scale * (this.#doubles[from + i] - origin.x)
-      points[i + 1] = scale * (yDown ? origin.y - y : y - origin.y)
-    }
+    const count = this.#polygon(x, y, options)
+    if (count <= points.length) this.#copied(points, count)
     return count
   }
 
@@ -509,14 +506,8 @@ export class Level {
     const mirrors = this.#mirrorsOf(options)
     // Each once: there is room for all cells.
     const own = [...new Set(listOf('cells', cells).map((cell) => this.#cellOf(cell)))]
-    new Uint32Array(this.#memory.buffer, this.#list, own.length).set(own)
-    const bits = this.#scratch
-    core.seen_from(this.#list, own.length, bits, +mirrors)
-    this.#refresh()
-    const bytes = this.#bytes, seen = []
-    for (let cell = 0; cell < this.cellCount; cell++)
-      if ((bytes[bits + (cell >> 3)] >> (cell & 7)) & 1) seen.push(cell)
-    return Uint32Array.from(seen)
+    new Uint32Array(this.#core.memory.buffer, this.#list, own.length).set(own)
+    return this.#listed(core.seen_from(this.#list, own.length, this.#scratch, +mirrors) >>> 0)
   }
 
   /** The view cell of a cell; -1 for none. */
@@ -526,8 +517,6 @@ export class Level {
 
   /** Gives back the memory. */
   close() {
-    this.#core = undefined
-    this.#memory = undefined
-    this.#cells = this.#walls = undefined
+    this.#core = this.#bytes = this.#doubles = this.#cells = this.#walls = undefined
   }
 }

@@ -71,6 +71,7 @@ typedef struct slp_level {
     size_t eye_count;
     sl_vga_grid grid;
     sl_vga_measures *measures;
+    sl_vga_interval *intervals; ///< of estimated mean depths
     uint32_t *depths;
     uint32_t *parts, part_count; ///< of the graph (sl_vga_parts)
     sl_effect_explanation explanation;
@@ -117,7 +118,8 @@ SLP_API const char *slp_notes(const void *handle);
 SLP_API void slp_cancel(void *handle, int cancelled);
 /// Lists of names, one a line: "map_formats", "methods", "eye_methods", "subdivisions", "exports".
 /// And "measures", of regions and of visibility graphs: name, group, unit, meaning, part of
-/// sl_vga_part, with tabs between. Returns the length; writes up to `room` bytes, the 0 included.
+/// sl_vga_part, 1 if it is estimated (sl_vga_is_estimated), with tabs between. Returns the length;
+/// writes up to `room` bytes, the 0 included.
 SLP_API size_t slp_names(const void *handle, const char *list, char *text, size_t room);
 
 // --- plans
@@ -255,17 +257,19 @@ SLP_API int slp_level_distances_to(slp_level *level, const double *from, double 
 /// As sl_vga_options. `parts` are bits of sl_vga_part; 0 for the grid alone.
 typedef struct slp_vga {
     double step, range, metric_radius, angular_radius;
+    uint64_t seed;
     uint32_t parts, radius, threads;
     uint32_t turned; ///< with one-way glass: who sees a point, in place of what it sees
+    uint32_t roots;  ///< as sl_vga_estimate, with `seed`; 0: measures are exact
 } slp_vga;
 /// Measures a grid and keeps the result. `from`: points from which steps are counted, if any.
 SLP_API int slp_level_vga(slp_level *level, const slp_vga *options, const double *seeds,
                           size_t seed_count, const double *from, size_t from_count);
 /// The number of points kept. `measures`: rows of sl_vga_measures; `depths`: -1 for none; `parts`:
-/// the parts that no sightline joins, from 1 on, left as they are where there is one. Each may be
-/// NULL.
+/// the parts that no sightline joins, from 1 on, left as they are where there is one; `intervals`:
+/// of estimated mean depths. Each may be NULL.
 SLP_API size_t slp_level_vga_copy(const slp_level *level, double *points, double *measures,
-                                  int64_t *depths, int64_t *parts);
+                                  int64_t *depths, int64_t *parts, double *intervals);
 
 // --- axial lines and segments: lines.c
 

@@ -28,6 +28,8 @@ void slp_level_forget(slp_level *level) {
     sl_vga_grid_destroy(context, &level->grid);
     sl_free(context, level->measures);
     level->measures = NULL;
+    sl_free(context, level->intervals);
+    level->intervals = NULL;
     sl_free(context, level->depths);
     level->depths = NULL;
     sl_free(context, level->parts);

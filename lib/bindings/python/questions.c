@@ -22,8 +22,8 @@ static size_t put_name(char *text, size_t room, size_t length, const char *name)
     return length + 1;
 }
 
-/// Adds what the table says of the measures that one structure holds, and by which part they are
-/// computed, with tabs between.
+/// Adds what the table says of the measures that one structure holds, by which part they are
+/// computed, and whether they can be estimated, with tabs between.
 static size_t put_measures(char *text, size_t room, size_t length, sl_analysis analysis,
                            sl_measure_of of) {
     size_t count;
@@ -33,8 +33,9 @@ static size_t put_measures(char *text, size_t room, size_t length, sl_analysis a
         const unsigned part = of == SL_OF_GRAPH ? 1u << all[i].group : 0;
         if (all[i].of != of) continue;
         sl_measure_say_unit(&all[i], "unit", unit);
-        snprintf(line, sizeof line, "%s\t%s\t%s\t%s\t%u", all[i].name,
-                 sl_measure_group_name(all[i].group), unit, all[i].meaning, part);
+        snprintf(line, sizeof line, "%s\t%s\t%s\t%s\t%u\t%d", all[i].name,
+                 sl_measure_group_name(all[i].group), unit, all[i].meaning, part,
+                 sl_vga_is_estimated(&all[i]));
         length = put_name(text, room, length, line);
     }
     return length;
@@ -373,12 +374,24 @@ static sl_status check_measures(sl_context *context, const sl_outline *outline,
         grid->step, (double)bytes / 1073741824.0);
 }
 
+static sl_status estimate(slp_level *level, const sl_vga_graph *graph, const slp_vga *given) {
+    sl_context *context = level->base.context;
+    sl_vga_estimate options = sl_vga_estimate_default();
+    options.roots = given->roots;
+    options.seed = given->seed;
+    options.threads = given->threads;
+    level->intervals = sl_alloc_array(context, level->grid.count, sizeof *level->intervals);
+    if (!level->intervals) return SL_NO_MEMORY;
+    return sl_vga_estimate_depths(context, &level->grid, graph, &options, level->measures,
+                                  level->intervals);
+}
+
 static sl_status measure_grid(slp_level *level, const sl_outline *outline, sl_vga_steps *steps,
                               const slp_vga *given, const double *from, size_t from_count) {
     sl_context *context = level->base.context;
     sl_vga_graph graph = {0};
     sl_vga_options options = sl_vga_options_default();
-    options.parts = given->parts;
+    options.parts = given->roots ? SL_VGA_GLOBAL : given->parts; // for the bytes that it takes
     options.radius = given->radius;
     options.metric_radius = given->metric_radius;
     options.angular_radius = given->angular_radius;
@@ -393,7 +406,9 @@ static sl_status measure_grid(slp_level *level, const sl_outline *outline, sl_vg
     if (status == SL_OK && given->turned) status = sl_vga_graph_turn(context, &graph);
     if (status == SL_OK && given->parts)
         status = check_measures(context, outline, &level->grid, &graph, &options);
-    if (status == SL_OK && given->parts)
+    if (status == SL_OK && given->roots)
+        status = estimate(level, &graph, given);
+    else if (status == SL_OK && given->parts)
         status = sl_vga_measure_walked(context, outline, &level->grid, &graph, steps, &options,
                                        level->measures);
     if (status == SL_OK && from_count) status = find_depths(level, &graph, from, from_count);
@@ -441,7 +456,7 @@ int slp_level_vga(slp_level *level, const slp_vga *given, const double *seeds, s
 }
 
 size_t slp_level_vga_copy(const slp_level *level, double *points, double *measures, int64_t *depths,
-                          int64_t *parts) {
+                          int64_t *parts, double *intervals) {
     for (uint32_t p = 0; p < level->grid.count; p++) {
         if (points) {
             points[2 * p] = level->grid.points[p].x;
@@ -453,6 +468,10 @@ size_t slp_level_vga_copy(const slp_level *level, double *points, double *measur
         if (depths && level->depths)
             depths[p] = level->depths[p] == UINT32_MAX ? -1 : (int64_t)level->depths[p];
         if (parts && level->part_count > 1) parts[p] = level->parts[p] + 1;
+        if (intervals && level->intervals) {
+            intervals[2 * p] = level->intervals[p].least;
+            intervals[2 * p + 1] = level->intervals[p].most;
+        }
     }
     return level->grid.count;
 }

@@ -84,7 +84,8 @@ class Algorithm(QgsProcessingAlgorithm):
         return list(self.TAGS)
 
     def shortHelpString(self):
-        return inspect.cleandoc(self.__doc__) + (
+        # QGIS takes the end of a line for that of a paragraph.
+        return "\n\n".join(" ".join(each.split()) for each in inspect.cleandoc(self.__doc__).split("\n\n")) + (
             "\n\nThe field of kinds says what a line of the walls is: wall, door, mirror, oneway (glass seen through from its "
             "right to its left) or seam; what a polygon is: solid, open or wall; and that a point is a start. Empty: a wall, "
             "solid ground, a start. Doors take the fields name and open.")

@@ -45,8 +45,9 @@ class Segments(OfLines):
     """Angular segment analysis of a network (space syntax): street centre lines, or axial lines, in place of walls.
 
     Lines are cut where they cross. Names are those of depthmapX, without the radius. Without a radius, time grows with the
-    square of the number of segments. With weights, the fields that end with _weighted are added; the segments of a line share
-    its weight by length. The style shows choice.
+    square of the number of segments. With a field of weights, the measures that end with _weighted are added: a segment counts
+    as its weight in node count and depth, and a pair as the product of both in choice; the segments of a line share its weight
+    by length. The style shows choice.
     """
 
     NAME, TITLE, STYLE = "segments", "Segments", "segments"

@@ -199,6 +199,9 @@ SL_API sl_status sl_vga_estimate_depths(sl_context *context, const sl_vga_grid *
                                         const sl_vga_graph *graph, const sl_vga_estimate *options,
                                         sl_vga_measures *measures, sl_vga_interval *intervals);
 
+/// Whether sl_vga_estimate_depths gives a measure of sl_vga_measures.
+SL_API bool sl_vga_is_estimated(const sl_measure *measure);
+
 /// Two points of a grid that are one place, as stairs and lifts make them. Links that share a point
 /// join all of their points.
 typedef struct sl_vga_link {

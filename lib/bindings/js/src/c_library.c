@@ -12,6 +12,7 @@ int __rem_pio2_large(double *angle, double *turned, int exponent, int count, int
 #define HOST(name) __attribute__((import_module("host"), import_name(#name)))
 HOST(log) double host_log(double value);
 HOST(log10) double host_log10(double value);
+HOST(acos) double host_acos(double value);
 HOST(asinh) double host_asinh(double value);
 HOST(atan2) double host_atan2(double y, double x);
 HOST(number) double host_number(const char *text);
@@ -23,7 +24,7 @@ int __rem_pio2_large(double *angle, double *turned, int exponent, int count, int
     __builtin_trap();
 }
 
-// JavaScript has these anyway: 6 kB. Measures ask for them, once a point or an edge.
+// JavaScript has these anyway: 7 kB. Measures ask for them, once a point or an edge.
 
 double log(double value) {
     return host_log(value);
@@ -31,6 +32,10 @@ double log(double value) {
 
 double log10(double value) {
     return host_log10(value);
+}
+
+double acos(double value) {
+    return host_acos(value);
 }
 
 double asinh(double value) {

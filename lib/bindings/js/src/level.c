@@ -44,14 +44,8 @@ EXPORT(const char *, status_text, int status) {
 /// numbers: bounds, range, the transform of the file; integers: counts and flags, and what is known
 /// of mirrors.
 EXPORT(void, describe, void) {
-    numbers[0] = level.min_x;
-    numbers[1] = level.min_y;
-    numbers[2] = level.max_x;
-    numbers[3] = level.max_y;
-    numbers[4] = level.range;
-    numbers[5] = level.transform.origin_x;
-    numbers[6] = level.transform.origin_y;
-    numbers[7] = level.transform.scale;
+    memcpy(numbers, &level, 5 * sizeof *numbers);
+    memcpy(numbers + 5, &level.transform, 3 * sizeof *numbers);
     integers[0] = level.cell_count;
     integers[1] = level.transform.y_down;
     integers[2] = level.door_count;
@@ -108,18 +102,20 @@ EXPORT(int, may_mirror, double x, double y, uint32_t to, const unsigned char *sh
     return false;
 }
 
-/// `bits` has room for the bits of two rows.
-EXPORT(void, seen_from, const uint32_t *cells, uint32_t count, unsigned char *bits, int mirrored) {
+/// Gives how many cells are seen, in place of those that see. `bits` has room for the bits of two
+/// rows.
+EXPORT(uint32_t, seen_from, uint32_t *cells, uint32_t count, unsigned char *bits, int mirrored) {
     const uint32_t bytes = (level.cell_count + 7) / 8;
-    if (mirrored) {
-        sl_runtime_seen_from_mirrored(&level, cells, count, state.shut, bits);
-        return;
-    }
+    uint32_t seen = 0;
     memset(bits, 0, bytes);
-    for (uint32_t i = 0; i < count; i++) {
+    if (mirrored) sl_runtime_seen_from_mirrored(&level, cells, count, state.shut, bits);
+    for (uint32_t i = 0; i < count && !mirrored; i++) {
         sl_runtime_state_row_bits(&state, cells[i], bits + bytes);
         for (uint32_t k = 0; k < bytes; k++) bits[k] |= bits[bytes + k];
     }
+    for (uint32_t cell = 0; cell < level.cell_count; cell++)
+        if (bits[cell / 8] >> cell % 8 & 1) cells[seen++] = cell;
+    return seen;
 }
 
 EXPORT(uint32_t, view_cell, uint32_t cell) {
@@ -142,10 +138,7 @@ EXPORT(uint32_t, look_mirrored, const unsigned char *shut, double range, uint32_
 /// integers: vertices, directed portals, inside, solid, has a row.
 EXPORT(void, cell, uint32_t cell) {
     const sl_runtime_cell c = sl_runtime_get_cell(&level, cell);
-    integers[0] = c.first_vertex;
-    integers[1] = c.vertex_count;
-    integers[2] = c.first_directed;
-    integers[3] = c.directed_count;
+    memcpy(integers, &c, sizeof c);
     integers[4] = sl_runtime_is_inside(&level, cell);
     integers[5] = sl_runtime_is_solid(&level, cell);
     integers[6] = sl_runtime_has_row(&level, cell);
@@ -158,12 +151,8 @@ EXPORT(void, vertex, uint32_t vertex) {
 /// integers: portal, cell behind it; numbers: its left and right end.
 EXPORT(void, directed_portal, uint32_t directed) {
     const sl_runtime_directed_portal d = sl_runtime_get_directed_portal(&level, directed);
-    integers[0] = d.portal;
-    integers[1] = d.cell;
-    numbers[0] = d.left[0];
-    numbers[1] = d.left[1];
-    numbers[2] = d.right[0];
-    numbers[3] = d.right[1];
+    memcpy(integers, &d.portal, 2 * sizeof *integers);
+    memcpy(numbers, d.left, sizeof d.left + sizeof d.right);
 }
 
 /// integers: where its name is, its length, its kind; returns its segments.
@@ -176,11 +165,7 @@ EXPORT(uint32_t, door, uint32_t door, sl_runtime_segment *segments, uint32_t roo
 }
 
 EXPORT(void, start, uint32_t number) {
-    sl_runtime_viewpoint start = {0, 0, 0};
-    sl_runtime_start(&level, number, &start);
-    numbers[0] = start.x;
-    numbers[1] = start.y;
-    numbers[2] = start.heading;
+    sl_runtime_start(&level, number, (sl_runtime_viewpoint *)numbers);
 }
 
 #ifndef LEVEL_BOXES // boxes.c has these four, past boxes

@@ -17,7 +17,12 @@ public sealed class Level : IDisposable
     [DllImport(Library)] private static extern IntPtr sl_level_open(byte[] bytes, UIntPtr size);
     [DllImport(Library)] private static extern IntPtr sl_level_error();
     [DllImport(Library)] private static extern void sl_level_close(IntPtr level);
+    [DllImport(Library)] private static extern int sl_level_use_file_coordinates(IntPtr level);
+    [DllImport(Library)] private static extern int sl_level_y_is_down(IntPtr level);
+    [DllImport(Library)] private static extern void sl_level_bounds(IntPtr level, double[] bounds);
     [DllImport(Library)] private static extern int sl_level_cell_count(IntPtr level);
+    [DllImport(Library)] private static extern IntPtr sl_level_cell_corners(IntPtr level, int cell, out int count);
+    [DllImport(Library)] private static extern int sl_level_is_solid(IntPtr level, int cell);
     [DllImport(Library)] private static extern int sl_level_find_door(IntPtr level, byte[] name, int from);
     [DllImport(Library)] private static extern int sl_level_set_door(IntPtr level, int door, int open);
     [DllImport(Library)] private static extern int sl_level_settle(IntPtr level, int portals);
@@ -53,7 +58,39 @@ public sealed class Level : IDisposable
         handle = IntPtr.Zero;
     }
 
+    /// All places are then those of the map's own file; false if the level does not have them.
+    public bool UseFileCoordinates() { return sl_level_use_file_coordinates(handle) == 1; }
+
+    public bool YIsDown { get { return sl_level_y_is_down(handle) == 1; } }
+
+    /// Min x, min y, max x, max y.
+    public double[] Bounds
+    {
+        get
+        {
+            double[] bounds = new double[4];
+            sl_level_bounds(handle, bounds);
+            return bounds;
+        }
+    }
+
     public int CellCount { get { return sl_level_cell_count(handle); } }
+
+    /// x and y of each corner, counter-clockwise.
+    public double[] CellCorners(int cell)
+    {
+        int count;
+        return Points(sl_level_cell_corners(handle, cell, out count), count);
+    }
+
+    public bool IsSolid(int cell) { return sl_level_is_solid(handle, cell) == 1; }
+
+    private static double[] Points(IntPtr answer, int count)
+    {
+        double[] points = new double[2 * count];
+        if (count > 0) Marshal.Copy(answer, points, 0, points.Length);
+        return points;
+    }
 
     /// Opens or shuts all doors of a name, breaks a wall or builds one; false if there is none, and
     /// for a wall that is broken or built already.
@@ -90,10 +127,7 @@ public sealed class Level : IDisposable
     public double[] VisiblePolygon(double x, double y, double heading = 0, double fov = 360, double range = 0)
     {
         int count;
-        IntPtr answer = sl_level_visible_polygon(handle, x, y, heading, fov, range, out count);
-        double[] points = new double[2 * count];
-        if (count > 0) Marshal.Copy(answer, points, 0, points.Length);
-        return points;
+        return Points(sl_level_visible_polygon(handle, x, y, heading, fov, range, out count), count);
     }
 
     /// Whether one may walk straight there. Box `own` does not stop it: that of who walks.

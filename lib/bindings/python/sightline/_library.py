@@ -58,8 +58,8 @@ class Bake(ctypes.Structure):
 class Vga(ctypes.Structure):
     """As slp_vga of facade.h."""
     _fields_ = [("step", _double), ("range", _double), ("metric_radius", _double),
-                ("angular_radius", _double), ("parts", _uint32), ("radius", _uint32),
-                ("threads", _uint32), ("turned", _uint32)]
+                ("angular_radius", _double), ("seed", _uint64), ("parts", _uint32),
+                ("radius", _uint32), ("threads", _uint32), ("turned", _uint32), ("roots", _uint32)]
 
 
 class Place(ctypes.Structure):
@@ -127,7 +127,7 @@ _SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     "level_distances": (_int, [_handle, _doubles, _double, _double, _doubles, _doubles]),
     "level_distances_to": (_int, [_handle, _doubles, _double, _double, _doubles, _size, _doubles, _doubles]),
     "level_vga": (_int, [_handle, ctypes.POINTER(Vga), _doubles, _size, _doubles, _size]),
-    "level_vga_copy": (_size, [_handle, _any, _any, _any, _any]),
+    "level_vga_copy": (_size, [_handle, _any, _any, _any, _any, _any]),
     "level_axial": (_int, [_handle, _int, _uint32, _uint32]),
     "plan_segments": (_int, [_handle, _double, _double, _any, _doubles, _size, _uint32]),
     "lines_copy": (_size, [_handle, _any, _any]),

@@ -32,10 +32,10 @@ def _address(kind: str, data: bytes) -> str:
 
 
 def _bundled(package: pathlib.Path, name: str) -> str:
-    """A module of the npm package as an address that holds it and all that it loads."""
+    """A module of the npm package as an address that holds it and all that it loads: of WebAssembly, level.wasm alone."""
     text = (package / name).read_text(encoding="utf-8")
     text = re.sub(r"from '\./([\w-]+\.js)'", lambda found: f"from '{_bundled(package, found[1])}'", text)
-    text = re.sub(r"new URL\('\./(\w+\.wasm)', import\.meta\.url\)", lambda found:
+    text = re.sub(r"new URL\('\./(level\.wasm)', import\.meta\.url\)", lambda found:
                   f"new URL('{_address('application/wasm', (package / found[1]).read_bytes())}')", text)
     return _address("text/javascript", text.encode("utf-8"))
 

@@ -43,6 +43,7 @@ class Measure:
     unit: str
     meaning: str
     part: int = field(repr=False, default=0)
+    estimated: bool = field(repr=False, default=False)
 
 
 _MEASURES: list[Measure] = []
@@ -52,7 +53,7 @@ def measures_of(handle: Handle) -> list[Measure]:
     """The library's table, which is asked once."""
     if not _MEASURES:
         rows = [row.split("\t") for row in handle._names("measures")]
-        _MEASURES[:] = [Measure(row[0], row[1], row[2], row[3], int(row[4])) for row in rows]
+        _MEASURES[:] = [Measure(row[0], row[1], row[2], row[3], int(row[4]), row[5] == "1") for row in rows]
     return list(_MEASURES)
 
 
@@ -493,26 +494,26 @@ class Level(Viewpoints, Sets, Ways, Axial, drawing.InNotebooks, MapHandle):
 
     def _vga(self, step: float, seeds: Optional[ArrayLike], limit: float, parts: int, radius: int,
              metric_radius: float, angular_radius: float, threads: int,
-             depth_from: Optional[ArrayLike],
-             seen_from: bool) -> tuple[Floats, Floats, Integers, Integers]:
+             depth_from: Optional[ArrayLike], seen_from: bool, estimate: int = 0,
+             seed: int = 1) -> tuple[Floats, Floats, Integers, Integers, Floats]:
         options = Vga(as_number(step, "the grid's step", over=0), as_number(limit, "range", least=0),
                       as_number(metric_radius, "metric_radius", least=0),
-                      as_number(angular_radius, "angular_radius", least=0), parts,
-                      as_count(radius, "radius", 2**32 - 1), as_count(threads, "threads", 1024),
-                      as_flag(seen_from, "seen_from"))
+                      as_number(angular_radius, "angular_radius", least=0),
+                      as_count(seed, "seed", 2**64 - 1), parts, as_count(radius, "radius", 2**32 - 1),
+                      as_count(threads, "threads", 1024), as_flag(seen_from, "seen_from"), estimate)
         at = _NO_POINTS if seeds is None else as_points(seeds, "seeds").reshape(-1, 2)
         start = _NO_POINTS if depth_from is None else as_points(depth_from, "depth_from")
         start = start.reshape(-1, 2)
         with self._lock:
             self._ask_long(call.level_vga, ctypes.byref(options), at, len(at), start, len(start))
             pointer = self._open_pointer()
-            count = call.level_vga_copy(pointer, None, None, None, None)
+            count = call.level_vga_copy(pointer, None, None, None, None, None)
             points, depths = np.empty((count, 2)), np.empty(count, np.int64)
-            components = np.ones(count, np.int64)
+            components, intervals = np.ones(count, np.int64), np.empty((count, 2))
             measures = np.full((count, len(self._measures("vga"))), np.nan)
             call.level_vga_copy(pointer, address(points), address(measures), address(depths),
-                                address(components))
-        return points, measures, depths, components
+                                address(components), address(intervals))
+        return points, measures, depths, components, intervals
 
     def grid(self, step: float, *, seeds: Optional[ArrayLike] = None) -> Floats:
         """The points of a grid that are inside, of shape (n, 2): multiples of `step`.
@@ -524,8 +525,8 @@ class Level(Viewpoints, Sets, Ways, Axial, drawing.InNotebooks, MapHandle):
     def vga(self, grid: float, *, seeds: Optional[ArrayLike] = None,
             measures: Union[str, Sequence[str]] = ("visual",), range: Optional[float] = None,
             radius: int = 0, metric_radius: float = 0, angular_radius: float = 0,
-            depth_from: Optional[ArrayLike] = None, seen_from: bool = False, threads: int = 0,
-            geometry: bool = False, arrays: bool = False) -> Any:
+            depth_from: Optional[ArrayLike] = None, seen_from: bool = False, estimate: int = 0,
+            seed: int = 1, threads: int = 0, geometry: bool = False, arrays: bool = False) -> Any:
         """Visibility graph analysis of a grid of points, under the names of depthmapX.
 
         Which points see each other is exact. Doors count as they are. With one-way glass, values
@@ -550,6 +551,11 @@ class Level(Viewpoints, Sets, Ways, Axial, drawing.InNotebooks, MapHandle):
             Add the column visual_step_depth: steps from these points.
         seen_from
             With one-way glass: values of who sees a point, in place of what it sees.
+        estimate
+            Of "visual": estimate mean depth and integration by searches from this number of points
+            in each part of the graph, drawn by `seed`; 0 for exact values. The columns
+            visual_mean_depth_least and visual_mean_depth_most are the ends between which the exact
+            depth of a point lies with a probability of 99 %.
         geometry
             Add the square of each point: a GeoDataFrame.
         arrays
@@ -562,14 +568,20 @@ class Level(Viewpoints, Sets, Ways, Axial, drawing.InNotebooks, MapHandle):
         for part in chosen:
             if not isinstance(part, str) or part not in groups:
                 raise ValueError(f"there is no group {part!r}; groups: {', '.join(groups)}")
+        if as_count(estimate, "estimate", 2**26) and ({*chosen} - {"isovist"} != {"visual"} or radius or seen_from):
+            raise ValueError('estimate is for measures="visual" alone or with "isovist", without radius '
+                             "and seen_from: leave estimate out for exact values")
         bits = sum({measure.part for measure in of_graph if measure.group in chosen})
         limit = self.range if range is None else range
-        points, found, depths, parts = self._vga(grid, seeds, limit, bits, radius, metric_radius,
-                                                 angular_radius, threads, depth_from, seen_from)
+        points, found, depths, parts, ends = self._vga(
+            grid, seeds, limit, bits, radius, metric_radius, angular_radius, threads, depth_from,
+            seen_from, estimate, seed)
         columns: dict[str, NDArray[Any]] = {"x": points[:, 0].copy(), "y": points[:, 1].copy()}
         for i, measure in enumerate(of_graph):
-            if measure.group in chosen:
+            if measure.group in chosen and (measure.estimated or not estimate):
                 columns[measure.name] = found[:, i].copy()
+        if estimate:
+            columns["visual_mean_depth_least"], columns["visual_mean_depth_most"] = ends.T.copy()
         if depth_from is not None:
             columns["visual_step_depth"] = depths
         if "isovist" in chosen:

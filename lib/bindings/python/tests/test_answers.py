@@ -325,6 +325,20 @@ class CommandLine(unittest.TestCase):
             for column in theirs:
                 np.testing.assert_array_equal(ours[column], theirs[column], f"{name}: {column}")
 
+    def test_estimates_are_those_of_the_command(self):
+        path = support.MAPS / "office.map"
+        plan, exact = sightline.Plan.from_file(path), sightline.Plan.from_file(path).vga(1, arrays=True)
+        for seed in (1, 7):
+            theirs = support.table(support.command("vga", path, "--grid", "1", "--estimate", "20", "--seed", str(seed)))
+            ours = plan.vga(1, estimate=20, seed=seed, arrays=True)
+            self.assertEqual({*ours}, {*theirs})
+            for column in theirs:
+                np.testing.assert_array_equal(ours[column], theirs[column], column)
+            self.assertTrue((ours["visual_mean_depth"] != exact["visual_mean_depth"]).any())
+        everything = plan.vga(1, estimate=10**6, arrays=True)
+        for end in ("", "_least", "_most"):
+            np.testing.assert_array_equal(everything[f"visual_mean_depth{end}"], exact["visual_mean_depth"])
+
     def test_measures_are_those_of_the_command_in_its_order(self):
         path = support.MAPS / "office.map"
         plan, table = sightline.Plan.from_file(path), sightline.measures()

@@ -26,6 +26,16 @@ class Explorer(unittest.TestCase):
         with self.assertRaisesRegex((TypeError, ValueError), "eye"):
             level.explorer((1, 2, 3), package=NPM)
 
+    @unittest.skipUnless(pathlib.Path(NPM, "level.wasm").is_file(), "the npm package is not built")
+    def test_files_of_a_wheel_are_enough(self):
+        release = (MAPS.parent / "tools/release.sh").read_text()
+        names, = re.findall(r"cp (sightline\.js [\w. ]+) ", release)
+        level = sightline.Plan.from_segments(TWO_ROOMS).bake()
+        with tempfile.TemporaryDirectory() as folder:
+            for name in names.split():
+                shutil.copy(pathlib.Path(NPM, name), folder)
+            self.assertEqual(level.explorer(package=folder).page, level.explorer(package=NPM).page)
+
     @unittest.skipUnless(BROWSER and pathlib.Path(NPM, "level.wasm").is_file(), "no Chromium, or the npm package is not built")
     def test_page_says_what_the_level_says(self):
         for name, eye in (("office.map", (53, 20)), ("effects/doors.map", (5.1, 5.03)), ("oblique/chapel.map", (9.3, 12.1))):

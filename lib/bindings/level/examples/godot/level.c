@@ -164,15 +164,8 @@ METHOD(method_look) {
     return out;
 }
 
-/* visible_polygon(x, y, range): a PoolVector2Array, for Polygon2D or draw_colored_polygon(). */
-METHOD(method_visible_polygon) {
-    (void)object, (void)data;
-    instance *own = begin(user, count, 3, true);
-    if (!own) return nothing();
-    int32_t found;
-    const double *points =
-        sl_level_visible_polygon(own->level, number(arguments, 0), number(arguments, 1), 0, 360,
-                                 number(arguments, 2), &found);
+/* A PoolVector2Array, for Polygon2D or draw_colored_polygon(). */
+static godot_variant of_points(const double *points, int32_t found) {
     godot_pool_vector2_array list;
     godot_variant out;
     api->godot_pool_vector2_array_new(&list);
@@ -184,6 +177,44 @@ METHOD(method_visible_polygon) {
     api->godot_variant_new_pool_vector2_array(&out, &list);
     api->godot_pool_vector2_array_destroy(&list);
     return out;
+}
+
+/* bounds(): the least and the greatest corner. */
+METHOD(method_bounds) {
+    (void)object, (void)data, (void)arguments;
+    instance *own = begin(user, count, 0, true);
+    double bounds[4];
+    if (!own) return nothing();
+    sl_level_bounds(own->level, bounds);
+    return of_points(bounds, 2);
+}
+
+METHOD(method_cell_corners) {
+    (void)object, (void)data;
+    instance *own = begin(user, count, 1, true);
+    int32_t found;
+    if (!own) return nothing();
+    const double *corners =
+        sl_level_cell_corners(own->level, (int32_t)number(arguments, 0), &found);
+    return corners ? of_points(corners, found) : nothing();
+}
+
+METHOD(method_is_solid) {
+    (void)object, (void)data;
+    instance *own = begin(user, count, 1, true);
+    return own ? of_bool(sl_level_is_solid(own->level, (int32_t)number(arguments, 0))) : nothing();
+}
+
+/* visible_polygon(x, y, range) */
+METHOD(method_visible_polygon) {
+    (void)object, (void)data;
+    instance *own = begin(user, count, 3, true);
+    if (!own) return nothing();
+    int32_t found;
+    const double *points =
+        sl_level_visible_polygon(own->level, number(arguments, 0), number(arguments, 1), 0, 360,
+                                 number(arguments, 2), &found);
+    return of_points(points, found);
 }
 
 void GDN_EXPORT godot_gdnative_init(godot_gdnative_init_options *options) {
@@ -210,6 +241,9 @@ void GDN_EXPORT godot_nativescript_init(void *handle) {
                    {"sees", method_sees},
                    {"look", method_look},
                    {"cell_count", method_cell_count},
+                   {"bounds", method_bounds},
+                   {"cell_corners", method_cell_corners},
+                   {"is_solid", method_is_solid},
                    {"visible_polygon", method_visible_polygon}};
     const godot_instance_create_func begins = {create, NULL, NULL};
     const godot_instance_destroy_func ends = {destroy, NULL, NULL};
