@@ -139,9 +139,12 @@ static void test_most(void **state) {
         scene s;
         begin(&s, k % 2 ? PLAN : TURNED, 300 + k,
               (sl_viewpoint){.fov = k % 3 ? 80 : 360, .range = k < 3 ? 0 : 4});
+        const uint32_t fixed = 2;
         s.area.count = 1 + k % 3;
+        s.area.fixed = &fixed;
+        s.area.fixed_count = k / 3;
         sl_area_placement placed = place(&s);
-        assert_int_equal(placed.count, s.area.count);
+        assert_int_equal(placed.count, s.area.count + s.area.fixed_count);
         uint32_t chosen = 0;
         double best = 0;
         for (uint32_t i = 0; i < placed.count; i++) chosen |= 1u << placed.chosen[i];
@@ -149,7 +152,8 @@ static void test_most(void **state) {
         for (uint32_t set = 0; set < 1u << PLACES; set++) {
             uint32_t size = 0;
             for (int i = 0; i < PLACES; i++) size += set >> i & 1;
-            if (size == s.area.count) best = fmax(best, area_of(&s, set));
+            const bool stands = !s.area.fixed_count || set >> fixed & 1;
+            if (size == placed.count && stands) best = fmax(best, area_of(&s, set));
         }
         assert_true(best <= placed.seen_most);
         assert_true(placed.seen <= best + 1e-9 * placed.area);

@@ -75,9 +75,16 @@ bool camera_plan_chooses(const camera_plan *p) {
 }
 
 sl_status camera_plan_check(sl_context *context, const camera_plan *p, const char *proof) {
-    if (proof && (p->count || p->network || p->scan_angle > 0 || p->scan_range > 0))
+    if (proof && p->count)
+        return sl_fail(
+            context, SL_BAD_ARGUMENT,
+            "--%s does not go with --count: a proof is of witnesses, one by one, and the "
+            "bound of --count is a sum of areas or lengths, for which there is no second "
+            "code; the report has that bound",
+            proof);
+    if (proof && (p->network || p->scan_angle > 0 || p->scan_range > 0))
         return sl_fail(context, SL_BAD_ARGUMENT,
-                       "--%s does not go with --count, --network and scans of walls", proof);
+                       "--%s does not go with --network and scans of walls", proof);
     if (p->from && strcmp(p->from, "anywhere") == 0 && camera_plan_chooses(p))
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "--from anywhere: viewpoints anywhere look all round, without limit, at all "
@@ -339,7 +346,7 @@ sl_status camera_work_prepare(sl_context *context, const camera_plan *plan,
     w->task.costs = w->costs;
     w->task.fixed = w->fixed;
     w->task.cover = plan->cover;
-    w->task.count = plan->count ? plan->count + w->task.fixed_count : 0;
+    w->task.count = plan->count;
     w->task.network = plan->network;
     w->task.scan_angle = plan->scan_angle;
     w->task.scan_range = plan->scan_range;

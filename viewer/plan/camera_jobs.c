@@ -211,7 +211,7 @@ static sl_status make_places(sl_context *context, search_job *job) {
     area->places = job->places;
     area->fixed = job->fixed;
     area->fixed_count = (uint32_t)stand;
-    area->count = job->kind == SEARCH_ONE ? (uint32_t)stand + 1 : 0;
+    area->count = job->kind == SEARCH_ONE ? 1 : 0;
     return good ? SL_OK : SL_NO_MEMORY;
 }
 

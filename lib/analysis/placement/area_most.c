@@ -46,7 +46,6 @@ typedef struct counter {
     size_t *ends; ///< by place
     double *prices, *slopes;
     ranked *order;
-    uint32_t count; ///< places to choose, beside the fixed ones
     double bound;
 } counter;
 
@@ -289,9 +288,8 @@ static sl_status choose(counter *k, uint8_t *now) {
         }
         const sl_cover_problem problem = {
             .row_count = squares, .column_count = places, .ends = ends, .entries = entries};
-        if (k->count)
-            status = sl_cover_most(a->context, &problem, weights, k->count, NULL, &result, &covered,
-                                   &bound);
+        status = sl_cover_most(a->context, &problem, weights, a->task->count, NULL, &result,
+                               &covered, &bound);
         for (uint32_t i = 0; i < result.count; i++) now[result.columns[i]] = 1;
     }
     sl_free(a->context, ends);
@@ -360,7 +358,7 @@ static double bound_of(counter *k) {
         }
     }
     qsort(k->order, count, sizeof *k->order, compare_ranks);
-    for (uint32_t i = 0; i < k->count && i < count; i++) {
+    for (uint32_t i = 0; i < k->a->task->count && i < count; i++) {
         bound += k->order[i].worth;
         take(k, k->order[i].place);
     }
@@ -400,7 +398,6 @@ static sl_status descend(counter *k) {
 /// The most length that so many places see: their bytes into `now` unless it is NULL.
 static sl_status choose_most(sli_area *a, bool wide, uint8_t *now, double *seen, double *bound) {
     const sl_place_area *task = a->task;
-    const uint32_t count = task->count > task->fixed_count ? task->count - task->fixed_count : 0;
     sl_cover_problem problem = {0};
     sl_cover_result result = {0};
     double covered = 0, most = 0;
@@ -417,8 +414,9 @@ static sl_status choose_most(sli_area *a, bool wide, uint8_t *now, double *seen,
     }
     sl_cover_problem free = problem;
     free.demands = free.costs = NULL;
-    if (status == SL_OK && count)
-        status = sl_cover_most(a->context, &free, weights, count, NULL, &result, &covered, &most);
+    if (status == SL_OK)
+        status =
+            sl_cover_most(a->context, &free, weights, task->count, NULL, &result, &covered, &most);
     for (uint32_t i = 0; now && i < task->place_count; i++) now[i] = a->fixed[i];
     for (uint32_t i = 0; now && i < result.count; i++) now[result.columns[i]] = 1;
     *bound = *seen + most;
@@ -454,7 +452,6 @@ sl_status sli_area_most(sli_area *a) {
     const sl_place_area *task = a->task;
     if (sli_area_scans(a) || task->line_count) return find_most_of_rows(a);
     counter k = {.a = a};
-    k.count = task->count > task->fixed_count ? task->count - task->fixed_count : 0;
     uint8_t *now = sl_alloc_array(a->context, task->place_count, 1);
     sl_status status = now ? measure_all(&k) : SL_NO_MEMORY;
     if (status == SL_OK) status = choose(&k, now);

@@ -68,13 +68,12 @@ static void say_fewest(const sl_place_area *task, const sl_area_placement *p, do
 static void say_most(const sl_place_area *task, const sl_area_placement *p, bool stopped,
                      const char *among, char *text, size_t size) {
     const char *const verb = scans(task) ? "scan" : "see";
-    const uint32_t fixed = task->fixed_count;
-    const uint32_t more = task->count > fixed ? task->count - fixed : 0;
+    const unsigned fixed = task->fixed_count, more = task->count;
     char with[64] = "", number[32];
     if (fixed)
-        snprintf(with, sizeof with, "with the %u that stand%s already, ", (unsigned)fixed,
+        snprintf(with, sizeof with, "with the %u that stand%s already, ", fixed,
                  fixed == 1 ? "s" : "");
-    snprintf(number, sizeof number, fixed ? "%u more" : "%u", (unsigned)more);
+    snprintf(number, sizeof number, fixed ? "%u more" : "%u", more);
     snprintf(text, size, "%s %s%s %.4g %%; %sno %s %s %s%s more than %.4g %%.%s",
              p->count == 1 ? "It" : "They", verb, p->count == 1 ? "s" : "", 100 * p->seen / p->area,
              with, number, among, verb, more == 1 ? "s" : "", 100 * p->seen_most / p->area,

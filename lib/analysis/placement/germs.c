@@ -79,6 +79,7 @@ static uint32_t best_for(const sli_placer *p, size_t first, const bool *seen) {
 
 static sl_status choose_for(sli_placer *p, size_t first, bool *seen) {
     for (;;) {
+        SL_TRY(sl_check_cancelled(p->context)); // each look at all candidates takes long
         const uint32_t best = best_for(p, first, seen);
         if (best == UINT32_MAX) return SL_OK;
         SL_TRY(sli_choose(p, best));

@@ -154,11 +154,8 @@ static sl_status find_most(lister *l, sl_cover_problem problem, const sl_cover_o
     }
     problem.demands = NULL;
     problem.costs = NULL;
-    const uint32_t count = list->count > list->fixed_count ? list->count - list->fixed_count : 0;
-    sl_status status = SL_OK;
-    if (count)
-        status =
-            sl_cover_most(l->context, &problem, weights, count, options, cover, &covered, &bound);
+    const sl_status status =
+        sl_cover_most(l->context, &problem, weights, list->count, options, cover, &covered, &bound);
     sl_free(l->context, weights);
     if (status != SL_OK && status != SL_CANCELLED) return status;
     SL_TRY(keep(l, cover));

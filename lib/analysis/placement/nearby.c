@@ -1,9 +1,10 @@
 /// Boxes near a place: a packed tree of most of them, and a short list of those that came since.
-/// The list is looked through one by one. Where it is as long as half of the tree, all boxes are
-/// packed anew, so that adding n boxes takes O(n log n) together.
+/// The list is looked through one by one. Where it is longer than some times the root of what the
+/// tree has, all boxes are packed anew. So adding n boxes, and looking after each, takes
+/// O(n^1.5 log n) together; lists that grew with the tree took O(n^2).
 #include "analysis/placement/nearby.h"
 
-enum { SHORT_LIST = 64 };
+enum { SHORT_LIST = 64, LONG_ROOTS = 8 };
 
 sl_status sli_nearby_add(sl_context *context, sli_nearby *near, sl_box box) {
     SL_TRY(SL_ARRAY_ROOM(context, &near->boxes, 1));
@@ -25,7 +26,8 @@ static sl_status pack(sl_context *context, sli_nearby *near) {
 }
 
 sl_status sli_nearby_find(sl_context *context, sli_nearby *near, sl_box box) {
-    if (near->boxes.count - near->in_tree > near->in_tree / 2 + SHORT_LIST)
+    const size_t fresh = near->boxes.count - near->in_tree;
+    if (fresh > SHORT_LIST && fresh / LONG_ROOTS * fresh / LONG_ROOTS > near->in_tree)
         SL_TRY(pack(context, near));
     sli_box_list *found = &near->found;
     found->count = 0;

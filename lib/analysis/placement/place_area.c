@@ -31,6 +31,7 @@ enum { SEARCHES = 8 };
 enum {
     ROUNDS = 400,
     COARSE_ITERATIONS = 20000,
+    SET_ITERATIONS = 100000, // before the first exact bound, which they would keep waiting
     LONG_ITERATIONS = 1000000,
     SEARCH_ITERATIONS = 20000,
     SEARCH_LEAST = 300
@@ -320,7 +321,7 @@ static sl_status choose(finder *f, choice what) {
     sl_cover_options options = sl_cover_options_default();
     options.program = what == SETS ? NULL : a->options->program;
     options.nodes = fine ? a->options->nodes : 0;
-    if (what == SETS) options.iterations = LONG_ITERATIONS;
+    if (what == SETS) options.iterations = f->fine ? LONG_ITERATIONS : SET_ITERATIONS;
     if (what != SETS && !fine) options.iterations = COARSE_ITERATIONS;
     options.known_lower = a->out->lower > fixed ? a->out->lower - fixed : 0;
     sl_cover_problem problem = {0};

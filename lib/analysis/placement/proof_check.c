@@ -22,38 +22,45 @@ typedef struct checker {
     sli_eye *eyes;
     sl_box *eye_boxes; ///< by eye: they hold all that it sees
     uint32_t eye_count;
+    sli_box_tree eye_tree;
+    sli_box_list near; ///< eyes that may see a place
     sli_ray_parts rays;
     sl_place_verdict *out;
     // The lower bound.
     const sl_cover_problem *columns;
-    sl_bits *sets;     ///< of the columns
     size_t *row_first; ///< by row: its columns
     uint32_t *row_columns;
-    sl_bits *here;
-    size_t words;
+    sli_box_list here; ///< witnesses that a place sees, ascending
     // The upper bound.
     sl_box *cell_boxes;
+    sli_box_tree cell_tree;
+    sli_box_list cells; ///< that may have a place
     sli_directions around;
 } checker;
 
 // --- the lower bound
 
-/// Whether a column has all witnesses that are here.
-static bool is_part_of_column(const checker *c) {
+/// Whether a column has all witnesses that are here. Both lists ascend; if a column does not, some
+/// may not be found in it, and none that it has not.
+static bool has_all(const checker *c, uint32_t column) {
     const sl_cover_problem *all = c->columns;
-    uint32_t row = UINT32_MAX;
-    for (uint32_t i = 0; i < all->row_count; i++)
-        if (sl_bits_has(c->here, i) &&
-            (row == UINT32_MAX ||
-             c->row_first[i + 1] - c->row_first[i] < c->row_first[row + 1] - c->row_first[row]))
-            row = i;
-    if (row == UINT32_MAX) return true;
-    for (size_t i = c->row_first[row]; i < c->row_first[row + 1]; i++) {
-        const sl_bits *set = c->sets + c->row_columns[i] * c->words;
-        bool within = true;
-        for (size_t w = 0; w < c->words && within; w++) within = !(c->here[w] & ~set[w]);
-        if (within) return true;
+    size_t at = column ? all->ends[column - 1] : 0, found = 0;
+    for (; at < all->ends[column] && found < c->here.count; at++)
+        found += all->entries[at] == c->here.items[found];
+    return found == c->here.count;
+}
+
+/// Whether some column has all witnesses that are here.
+static bool is_part_of_column(const checker *c) {
+    const size_t *first = c->row_first;
+    if (!c->here.count) return true;
+    uint32_t row = c->here.items[0];
+    for (size_t i = 1; i < c->here.count; i++) {
+        const uint32_t other = c->here.items[i];
+        if (first[other + 1] - first[other] < first[row + 1] - first[row]) row = other;
     }
+    for (size_t i = first[row]; i < first[row + 1]; i++)
+        if (has_all(c, c->row_columns[i])) return true;
     return false;
 }
 
@@ -64,18 +71,38 @@ static void check_set(checker *c, const sli_meet *p) {
     c->out->extra = p->at;
 }
 
-static bool sees(const checker *c, uint32_t eye, const sli_meet *p) {
-    return sli_box_may_hold(&c->eye_boxes[eye], p) && sli_eye_sees(&c->scene, &c->eyes[eye], p);
+static sl_box box_of(const sli_meet *p) {
+    return (sl_box){{p->at.x - p->error, p->at.y - p->error},
+                    {p->at.x + p->error, p->at.y + p->error}};
+}
+
+/// Fills c->near.
+static sl_status find_near(checker *c, const sli_meet *p) {
+    const sl_box box = box_of(p);
+    return sli_box_tree_find(c->context, &c->eye_tree, &box, &c->near);
+}
+
+/// Fills c->near with witnesses that see a place, and makes room for as many in c->here.
+static sl_status find_seers(checker *c, const sli_meet *p) {
+    size_t count = 0;
+    SL_TRY(find_near(c, p));
+    for (size_t i = 0; i < c->near.count; i++)
+        if (sli_eye_sees(&c->scene, &c->eyes[c->near.items[i]], p))
+            c->near.items[count++] = c->near.items[i];
+    c->near.count = count;
+    c->here.count = 0;
+    return SL_ARRAY_ROOM(c->context, &c->here, count);
 }
 
 static sl_status visit_for_witnesses(void *data, const sli_meet *p, int32_t wall, uint32_t eye) {
     checker *c = data;
     const sl_segment *w = wall < 0 ? NULL : &c->scene.walls[wall];
     const int side = w ? sli_orient(w->a, w->b, c->eyes[eye].at) : 0;
-    for (size_t i = 0; i < c->words; i++) c->here[i] = 0;
-    for (uint32_t i = 0; i < c->eye_count; i++) {
-        if (w && sli_orient(w->a, w->b, c->eyes[i].at) * side < 0) continue;
-        if (sees(c, i, p)) sl_bits_add(c->here, i);
+    SL_TRY(find_seers(c, p));
+    for (size_t i = 0; i < c->near.count; i++) {
+        const uint32_t other = c->near.items[i];
+        if (w && sli_orient(w->a, w->b, c->eyes[other].at) * side < 0) continue;
+        c->here.items[c->here.count++] = other;
     }
     check_set(c, p);
     return SL_OK;
@@ -89,47 +116,41 @@ static bool is_within(sl_point corner, sl_point from, sl_point to, sl_point p) {
 }
 
 /// A place in a corner stands between two walls that are neighbours there.
-static void check_corner(checker *c, const sli_corner *corner, bool *seen) {
+static sl_status check_corner(checker *c, const sli_corner *corner) {
     const sli_meet p = sli_meet_point(corner->at);
     const sl_point *others = c->scene.others + corner->first;
-    for (uint32_t i = 0; i < c->eye_count; i++) seen[i] = sees(c, i, &p);
+    SL_TRY(find_seers(c, &p));
     for (uint32_t k = 0; k < corner->count; k++) {
         const sl_point from = others[k], to = others[(k + 1) % corner->count];
-        for (size_t i = 0; i < c->words; i++) c->here[i] = 0;
-        for (uint32_t i = 0; i < c->eye_count; i++)
-            if (seen[i] && (corner->count == 1 || is_within(corner->at, from, to, c->eyes[i].at)))
-                sl_bits_add(c->here, i);
+        c->here.count = 0;
+        for (size_t i = 0; i < c->near.count; i++) {
+            const uint32_t eye = c->near.items[i];
+            if (corner->count == 1 || is_within(corner->at, from, to, c->eyes[eye].at))
+                c->here.items[c->here.count++] = eye;
+        }
         check_set(c, &p);
     }
-}
-
-static sl_status check_corners(checker *c) {
-    bool *seen = sl_alloc_array(c->context, c->eye_count, sizeof *seen);
-    if (!seen) return SL_NO_MEMORY;
-    for (uint32_t i = 0; i < c->scene.corner_count; i++)
-        check_corner(c, &c->scene.corners[i], seen);
-    sl_free(c->context, seen);
     return SL_OK;
 }
 
-/// Columns as sets of bits, and by row.
+static sl_status check_corners(checker *c) {
+    for (uint32_t i = 0; i < c->scene.corner_count; i++)
+        SL_TRY(check_corner(c, &c->scene.corners[i]));
+    return SL_OK;
+}
+
+/// Columns by row.
 static sl_status index_columns(checker *c) {
     const sl_cover_problem *all = c->columns;
     const size_t entries = all->column_count ? all->ends[all->column_count - 1] : 0;
-    c->words = sl_bits_words(all->row_count);
-    c->here = sl_alloc_array(c->context, c->words, sizeof *c->here);
-    c->sets = sl_alloc_array(c->context, c->words * all->column_count, sizeof *c->sets);
     c->row_first = sl_alloc_array(c->context, (size_t)all->row_count + 2, sizeof *c->row_first);
     c->row_columns = sl_alloc_array(c->context, entries, sizeof *c->row_columns);
-    if (!c->here || !c->sets || !c->row_first || !c->row_columns) return SL_NO_MEMORY;
+    if (!c->row_first || !c->row_columns) return SL_NO_MEMORY;
     for (size_t i = 0; i < entries; i++) c->row_first[all->entries[i] + 2]++;
     for (uint32_t i = 1; i <= all->row_count; i++) c->row_first[i + 1] += c->row_first[i];
     size_t at = 0;
     for (uint32_t k = 0; k < all->column_count; k++)
-        for (; at < all->ends[k]; at++) {
-            sl_bits_add(c->sets + k * c->words, all->entries[at]);
-            c->row_columns[c->row_first[all->entries[at] + 1]++] = k;
-        }
+        for (; at < all->ends[k]; at++) c->row_columns[c->row_first[all->entries[at] + 1]++] = k;
     return SL_OK;
 }
 
@@ -146,14 +167,15 @@ static sl_status check_lower(checker *c, const sl_placement *claim) {
 
 // --- the upper bound
 
+/// c->near are the eyes that may see the place.
 static sl_status check_cell_at(checker *c, uint32_t cell, const sli_meet *p, bool *seen) {
     const sl_cell *k = &c->space->cells[cell];
     const sl_point *corners = c->space->vertices + k->first_vertex;
     c->around.count = 0;
     SL_TRY(sli_directions_add_cell(c->context, c->space, cell, p, &c->around));
-    for (uint32_t i = 0; i < c->eye_count; i++)
-        if (sli_box_may_hold(&c->eye_boxes[i], p))
-            SL_TRY(sli_directions_add_eye(c->context, &c->scene, &c->eyes[i], p, &c->around));
+    for (size_t i = 0; i < c->near.count; i++)
+        SL_TRY(sli_directions_add_eye(c->context, &c->scene, &c->eyes[c->near.items[i]], p,
+                                      &c->around));
     if (!c->around.count)
         SL_TRY(
             sli_directions_add(c->context, c->scene.bounds.min, c->scene.bounds.max, &c->around));
@@ -163,9 +185,8 @@ static sl_status check_cell_at(checker *c, uint32_t cell, const sli_meet *p, boo
                                         c->around.items[(i + 1) % c->around.count]};
         if (!sli_polygon_has_sector(corners, k->vertex_count, p, sector)) continue;
         *seen = false;
-        for (uint32_t e = 0; e < c->eye_count && !*seen; e++)
-            *seen = sli_box_may_hold(&c->eye_boxes[e], p) &&
-                    sli_eye_sees_sector(&c->scene, &c->eyes[e], p, sector);
+        for (size_t e = 0; e < c->near.count && !*seen; e++)
+            *seen = sli_eye_sees_sector(&c->scene, &c->eyes[c->near.items[e]], p, sector);
     }
     return SL_OK;
 }
@@ -177,11 +198,14 @@ static sl_status visit_for_viewpoints(void *data, const sli_meet *p, int32_t wal
     (void)eye;
     if (!c->out->sees_all) return SL_OK;
     c->out->corners++;
-    for (uint32_t i = 0; i < c->eye_count && !seen; i++)
-        seen =
-            sli_box_may_hold(&c->eye_boxes[i], p) && sli_eye_sees_around(&c->scene, &c->eyes[i], p);
+    SL_TRY(find_near(c, p));
+    for (size_t i = 0; i < c->near.count && !seen; i++)
+        seen = sli_eye_sees_around(&c->scene, &c->eyes[c->near.items[i]], p);
     if (seen) return SL_OK;
-    for (uint32_t k = 0; k < c->space->cell_count; k++) {
+    const sl_box box = box_of(p);
+    SL_TRY(sli_box_tree_find(c->context, &c->cell_tree, &box, &c->cells));
+    for (size_t i = 0; i < c->cells.count; i++) {
+        const uint32_t k = c->cells.items[i];
         seen = true;
         if (sli_cell_has_meet(c->space, k, &c->cell_boxes[k], p))
             SL_TRY(check_cell_at(c, k, p, &seen));
@@ -217,6 +241,7 @@ static sl_status check_upper(checker *c) {
     c->cell_boxes = sl_alloc_array(c->context, s->cell_count, sizeof *c->cell_boxes);
     if (!c->cell_boxes) return SL_NO_MEMORY;
     for (uint32_t k = 0; k < s->cell_count; k++) c->cell_boxes[k] = sli_box_of_cell(s, k);
+    SL_TRY(sli_box_tree_create(c->context, c->cell_boxes, s->cell_count, &c->cell_tree));
     for (uint32_t i = 0; i < c->eye_count; i++)
         SL_TRY(sli_ray_add_eye(c->context, &c->scene, &c->eyes[i], i, &c->rays));
     SL_TRY(add_borders(c));
@@ -241,10 +266,13 @@ static void clear(checker *c) {
     sl_free(c->context, c->rays.items);
     sl_free(c->context, c->around.items);
     sl_free(c->context, c->cell_boxes);
-    sl_free(c->context, c->sets);
     sl_free(c->context, c->row_first);
     sl_free(c->context, c->row_columns);
-    sl_free(c->context, c->here);
+    sl_free(c->context, c->here.items);
+    sl_free(c->context, c->near.items);
+    sl_free(c->context, c->cells.items);
+    sli_box_tree_destroy(c->context, &c->eye_tree);
+    sli_box_tree_destroy(c->context, &c->cell_tree);
     sli_proof_scene_destroy(c->context, &c->scene);
 }
 
@@ -272,6 +300,8 @@ static sl_status check_bound(sl_context *context, const sl_space *space, const s
     if (!c.eyes || !c.eye_boxes) status = SL_NO_MEMORY;
     for (uint32_t i = 0; status == SL_OK && i < c.eye_count; i++)
         status = make_eye(&c, i, lower ? claim->witnesses[i].at : claim->viewpoints[i].at, lower);
+    if (status == SL_OK)
+        status = sli_box_tree_create(context, c.eye_boxes, c.eye_count, &c.eye_tree);
     if (status == SL_OK) status = lower ? check_lower(&c, claim) : check_upper(&c);
     clear(&c);
     return status;

@@ -8,38 +8,9 @@
 
 // --- boxes
 
-void sli_box_widen(sl_box *box, const sli_meet *p) {
-    const sl_box b = {{p->at.x - p->error, p->at.y - p->error},
-                      {p->at.x + p->error, p->at.y + p->error}};
-    if (!(b.min.x >= box->min.x)) box->min.x = b.min.x;
-    if (!(b.min.y >= box->min.y)) box->min.y = b.min.y;
-    if (!(b.max.x <= box->max.x)) box->max.x = b.max.x;
-    if (!(b.max.y <= box->max.y)) box->max.y = b.max.y;
-}
-
 bool sli_box_may_hold(const sl_box *box, const sli_meet *p) {
     return !(p->at.x + p->error < box->min.x) && !(p->at.x - p->error > box->max.x) &&
            !(p->at.y + p->error < box->min.y) && !(p->at.y - p->error > box->max.y);
-}
-
-/// Each cone of an eye is a triangle, from the eye to the wall that ends it. On the rays themselves
-/// sight may go farther.
-sl_box sli_box_of_eye(const sli_proof_scene *scene, const sli_eye *e) {
-    static const sl_box all = {{-INFINITY, -INFINITY}, {INFINITY, INFINITY}};
-    sl_box box = {e->at, e->at};
-    for (uint32_t i = 0; i < e->ray_count; i++) {
-        const sl_segment line = {e->at, e->rays[i].to};
-        const int32_t walls[] = {e->rays[i].cone, e->rays[(i ? i : e->ray_count) - 1].cone,
-                                 e->rays[i].end};
-        for (int k = 0; k < 3; k++) {
-            if (walls[k] == SLI_SHUT) continue;
-            if (walls[k] < 0) return all;
-            const sli_meet p = sli_meet_lines(line, scene->walls[walls[k]]);
-            if (!isfinite(p.at.x) || !isfinite(p.at.y) || !isfinite(p.error)) return all;
-            sli_box_widen(&box, &p);
-        }
-    }
-    return box;
 }
 
 // --- parts of lines

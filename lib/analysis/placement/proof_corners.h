@@ -36,9 +36,6 @@ typedef SL_ARRAY(sli_direction) sli_directions;
 typedef sl_status (*sli_corner_visit)(void *data, const sli_meet *p, int32_t wall, uint32_t group);
 
 bool sli_box_may_hold(const sl_box *box, const sli_meet *p);
-void sli_box_widen(sl_box *box, const sli_meet *p);
-/// Holds all that an eye sees.
-sl_box sli_box_of_eye(const sli_proof_scene *scene, const sli_eye *eye);
 
 sl_status sli_ray_add(sl_context *context, sli_ray_part part, sli_ray_parts *parts);
 /// From a to b, with no corner at its end.

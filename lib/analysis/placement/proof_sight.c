@@ -5,6 +5,7 @@
 #include "geometry/crossing.h"
 #include "geometry/orient.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 sli_meet sli_meet_point(sl_point at) {
@@ -85,6 +86,15 @@ int sli_meet_side(const sli_meet *p, sl_point a, sl_point b) {
     return turn * sli_meet_order(p->s, p->t, (sl_segment){a, b});
 }
 
+void sli_box_widen(sl_box *box, const sli_meet *p) {
+    const sl_box b = {{p->at.x - p->error, p->at.y - p->error},
+                      {p->at.x + p->error, p->at.y + p->error}};
+    if (!(b.min.x >= box->min.x)) box->min.x = b.min.x;
+    if (!(b.min.y >= box->min.y)) box->min.y = b.min.y;
+    if (!(b.max.x <= box->max.x)) box->max.x = b.max.x;
+    if (!(b.max.y <= box->max.y)) box->max.y = b.max.y;
+}
+
 // --- walls and corners
 
 typedef struct wall_end {
@@ -157,6 +167,7 @@ static sl_status add_walls(sl_context *context, const sl_space *space, const sl_
         const sl_segment w = {space->walls[i].a, space->walls[i].b};
         if (!sli_same_point(w.a, w.b)) out->walls[out->wall_count++] = w;
     }
+    out->around = out->wall_count;
     for (uint32_t i = 0; i < 4; i++)
         out->walls[out->wall_count++] = (sl_segment){box[3 - i], box[(4 - i) % 4]};
     for (size_t i = 0; i < map->door_count; i++)
@@ -166,6 +177,16 @@ static sl_status add_walls(sl_context *context, const sl_space *space, const sl_
             SL_TRY(cut_walls(context, piece.b, &room, out));
         }
     return SL_OK;
+}
+
+static sl_status make_tree(sl_context *context, sli_proof_scene *s) {
+    sl_box *boxes = sl_alloc_array(context, s->wall_count, sizeof *boxes);
+    if (!boxes) return SL_NO_MEMORY;
+    for (uint32_t i = 0; i < s->wall_count; i++)
+        boxes[i] = sli_box_with((sl_box){s->walls[i].a, s->walls[i].a}, s->walls[i].b);
+    const sl_status status = sli_box_tree_create(context, boxes, s->wall_count, &s->tree);
+    sl_free(context, boxes);
+    return status;
 }
 
 sl_status sli_proof_scene_make(sl_context *context, const sl_space *space, const sl_map *map,
@@ -186,7 +207,7 @@ sl_status sli_proof_scene_make(sl_context *context, const sl_space *space, const
     }
     if (made) number_corners(out, ends);
     sl_free(context, ends);
-    return made ? SL_OK : SL_NO_MEMORY;
+    return made ? make_tree(context, out) : SL_NO_MEMORY;
 }
 
 void sli_proof_scene_destroy(sl_context *context, sli_proof_scene *s) {
@@ -195,10 +216,19 @@ void sli_proof_scene_destroy(sl_context *context, sli_proof_scene *s) {
     sl_free(context, s->corners);
     sl_free(context, s->others);
     sl_free(context, s->other_walls);
+    sli_box_tree_destroy(context, &s->tree);
     *s = (sli_proof_scene){0};
 }
 
 // --- eyes
+
+// An eye looks at the walls that meet a box around it, and at those around everything. If all that
+// it sees before these is within the box, other walls hide nothing of that: they do not meet the
+// box, and the ways to what is seen are within it, as it is convex. Else the box grows.
+
+/// Half of the first box's side, in half circumferences of the bounds over the root of the number
+/// of walls.
+enum { FIRST_STEPS = 1 };
 
 /// A corner as the eye sees it; or a point at an axis, which makes every cone narrow.
 typedef struct sighted {
@@ -210,6 +240,7 @@ typedef struct sighted {
 typedef struct eye_maker {
     const sli_proof_scene *scene;
     sl_point eye;
+    sli_box_list walls; ///< that it looks at
     sighted *all;
     uint32_t *group;      ///< by corner
     uint32_t *first;      ///< by group, and one more
@@ -232,9 +263,13 @@ static void sort_around(eye_maker *m) {
                              {m->eye.x, s->bounds.max.y},
                              {s->bounds.min.x, m->eye.y},
                              {m->eye.x, s->bounds.min.y}};
-    for (uint32_t i = 0; i < s->corner_count; i++)
-        if (!sli_same_point(s->corners[i].at, m->eye))
-            m->all[m->count++] = (sighted){&m->eye, s->corners[i].at, i};
+    for (size_t i = 0; i < 2 * m->walls.count; i++) {
+        const uint32_t corner = s->ends[2 * (size_t)m->walls.items[i / 2] + i % 2];
+        if (m->group[corner]) continue; // it is there
+        m->group[corner] = 1;
+        if (!sli_same_point(s->corners[corner].at, m->eye))
+            m->all[m->count++] = (sighted){&m->eye, s->corners[corner].at, corner};
+    }
     for (int i = 0; i < 4; i++) m->all[m->count++] = (sighted){&m->eye, axes[i], UINT32_MAX};
     qsort(m->all, m->count, sizeof *m->all, compare_sighted);
     for (uint32_t i = 0; i < m->count; i++) {
@@ -380,9 +415,7 @@ static int32_t end_of(const eye_maker *m, uint32_t g, bool *at_once) {
     return span;
 }
 
-static sl_status keep_rays(sl_context *context, const eye_maker *m, sli_eye *out) {
-    out->rays = sl_alloc_array(context, m->groups, sizeof *out->rays);
-    if (!out->rays) return SL_NO_MEMORY;
+static void keep_rays(const eye_maker *m, sli_eye *out) {
     bool lower = false;
     for (uint32_t g = 0; g < m->groups; g++) {
         const int32_t before = m->cone[(g ? g : m->groups) - 1], after = m->cone[g];
@@ -397,36 +430,55 @@ static sl_status keep_rays(sl_context *context, const eye_maker *m, sli_eye *out
             (sli_proof_ray){first->at, after, end,
                             before != after && !at_once && end >= 0 && first->corner != UINT32_MAX};
     }
+}
+
+/// The walls that meet a box, ascending, and then those around everything.
+static sl_status find_walls(sl_context *context, eye_maker *m, const sl_box *box) {
+    const sli_proof_scene *s = m->scene;
+    sli_box_list *walls = &m->walls;
+    size_t count = 0;
+    SL_TRY(sli_box_tree_find(context, &s->tree, box, walls));
+    for (size_t i = 0; i < walls->count; i++)
+        if (walls->items[i] - s->around >= 4) walls->items[count++] = walls->items[i];
+    walls->count = count;
+    SL_TRY(SL_ARRAY_ROOM(context, walls, 4));
+    for (uint32_t i = 0; i < 4; i++) walls->items[walls->count++] = s->around + i;
     return SL_OK;
 }
 
-sl_status sli_eye_make(sl_context *context, const sli_proof_scene *scene, sl_point at, sli_eye *out,
-                       bool *on_wall) {
-    const size_t room = (size_t)scene->corner_count + 5;
-    eye_maker m = {.scene = scene, .eye = at};
-    *out = (sli_eye){.at = at, .north = {at.x, scene->bounds.max.y}};
-    m.all = sl_alloc_array(context, room, sizeof *m.all);
-    m.group = sl_alloc_array(context, room, sizeof *m.group);
-    m.first = sl_alloc_array(context, room, sizeof *m.first);
-    m.cone = sl_alloc_array(context, room, sizeof *m.cone);
-    m.span = sl_alloc_array(context, room, sizeof *m.span);
-    m.cone_ranges = sl_alloc_array(context, 2 * room, sizeof *m.cone_ranges);
-    m.span_ranges = sl_alloc_array(context, 2 * room, sizeof *m.span_ranges);
-    m.shut = sl_alloc_array(context, room, sizeof *m.shut);
-    sl_status status =
-        m.all && m.group && m.first && m.cone && m.span && m.cone_ranges && m.span_ranges && m.shut
-            ? SL_OK
-            : SL_NO_MEMORY;
-    if (status == SL_OK) {
-        for (size_t i = 0; i < room; i++) m.cone[i] = m.span[i] = SLI_NO_WALL;
-        for (size_t i = 0; i < 2 * room; i++) m.cone_ranges[i] = m.span_ranges[i] = SLI_NO_WALL;
-        sort_around(&m);
-        for (uint32_t i = 0; i < scene->wall_count; i++) lay_wall(&m, i);
-        settle(&m);
-        if (m.on_wall) shut_cones(&m);
-        status = keep_rays(context, &m, out);
-    }
+/// Looks at the walls that meet a box.
+static sl_status look(sl_context *context, eye_maker *m, const sl_box *box, sli_eye *out) {
+    SL_TRY(find_walls(context, m, box));
+    const size_t room = 2 * m->walls.count + 5;
+    m->all = sl_alloc_array(context, room, sizeof *m->all);
+    m->group = sl_alloc_array(context, m->scene->corner_count, sizeof *m->group);
+    m->first = sl_alloc_array(context, room, sizeof *m->first);
+    m->cone = sl_alloc_array(context, room, sizeof *m->cone);
+    m->span = sl_alloc_array(context, room, sizeof *m->span);
+    m->cone_ranges = sl_alloc_array(context, 2 * room, sizeof *m->cone_ranges);
+    m->span_ranges = sl_alloc_array(context, 2 * room, sizeof *m->span_ranges);
+    m->shut = sl_alloc_array(context, room, sizeof *m->shut);
+    if (!m->all || !m->group || !m->first || !m->cone || !m->span || !m->cone_ranges ||
+        !m->span_ranges || !m->shut)
+        return SL_NO_MEMORY;
+    for (size_t i = 0; i < room; i++) m->cone[i] = m->span[i] = SLI_NO_WALL;
+    for (size_t i = 0; i < 2 * room; i++) m->cone_ranges[i] = m->span_ranges[i] = SLI_NO_WALL;
+    sort_around(m);
+    for (size_t i = 0; i < m->walls.count; i++) lay_wall(m, m->walls.items[i]);
+    settle(m);
+    if (m->on_wall) shut_cones(m);
+    out->rays = sl_alloc_array(context, m->groups, sizeof *out->rays);
+    if (!out->rays) return SL_NO_MEMORY;
+    keep_rays(m, out);
+    return SL_OK;
+}
+
+static sl_status look_within(sl_context *context, const sli_proof_scene *scene, const sl_box *box,
+                             sli_eye *out, bool *on_wall) {
+    eye_maker m = {.scene = scene, .eye = out->at};
+    const sl_status status = look(context, &m, box, out);
     *on_wall = m.on_wall;
+    sl_free(context, m.walls.items);
     sl_free(context, m.all);
     sl_free(context, m.group);
     sl_free(context, m.first);
@@ -436,6 +488,35 @@ sl_status sli_eye_make(sl_context *context, const sli_proof_scene *scene, sl_poi
     sl_free(context, m.span_ranges);
     sl_free(context, m.shut);
     return status;
+}
+
+static bool has_box(const sl_box *box, const sl_box *other) {
+    return box->min.x <= other->min.x && box->min.y <= other->min.y && box->max.x >= other->max.x &&
+           box->max.y >= other->max.y;
+}
+
+/// A box around what is known to hold all that is seen, but up to twice as far from the eye.
+static sl_box grow(const sl_box *box, sl_point at, const sl_box *sees) {
+    return (sl_box){{fmin(box->min.x, fmax(sees->min.x, 2 * box->min.x - at.x)),
+                     fmin(box->min.y, fmax(sees->min.y, 2 * box->min.y - at.y))},
+                    {fmax(box->max.x, fmin(sees->max.x, 2 * box->max.x - at.x)),
+                     fmax(box->max.y, fmin(sees->max.y, 2 * box->max.y - at.y))}};
+}
+
+sl_status sli_eye_make(sl_context *context, const sli_proof_scene *scene, sl_point at, sli_eye *out,
+                       bool *on_wall) {
+    const sl_box *all = &scene->bounds;
+    const double size = all->max.x - all->min.x + all->max.y - all->min.y;
+    const double step = FIRST_STEPS * size / sqrt(scene->wall_count);
+    sl_box box = {{at.x - step, at.y - step}, {at.x + step, at.y + step}};
+    for (;;) {
+        *out = (sli_eye){.at = at, .north = {at.x, scene->bounds.max.y}};
+        SL_TRY(look_within(context, scene, &box, out, on_wall));
+        const sl_box sees = sli_box_of_eye(scene, out);
+        if (has_box(&box, &sees) || has_box(&box, all)) return SL_OK;
+        sli_eye_destroy(context, out);
+        box = grow(&box, at, &sees);
+    }
 }
 
 void sli_eye_destroy(sl_context *context, sli_eye *eye) {
@@ -474,4 +555,23 @@ bool sli_eye_sees(const sli_proof_scene *scene, const sli_eye *eye, const sli_me
     if (b.here) return true;
     const int32_t wall = b.on ? eye->rays[b.ray].end : eye->rays[b.ray].cone;
     return wall < 0 ? wall == SLI_NO_WALL : sli_eye_side(scene, eye, wall, p) >= 0;
+}
+
+/// Each cone of an eye is a triangle, from the eye to the wall that ends it. On the rays themselves
+/// sight may go farther.
+sl_box sli_box_of_eye(const sli_proof_scene *scene, const sli_eye *e) {
+    sl_box box = {e->at, e->at};
+    for (uint32_t i = 0; i < e->ray_count; i++) {
+        const sl_segment line = {e->at, e->rays[i].to};
+        const int32_t walls[] = {e->rays[i].cone, e->rays[(i ? i : e->ray_count) - 1].cone,
+                                 e->rays[i].end};
+        for (int k = 0; k < 3; k++) {
+            if (walls[k] == SLI_SHUT) continue;
+            if (walls[k] < 0) return scene->bounds;
+            const sli_meet p = sli_meet_lines(line, scene->walls[walls[k]]);
+            if (!isfinite(p.at.x) || !isfinite(p.at.y) || !isfinite(p.error)) return scene->bounds;
+            sli_box_widen(&box, &p);
+        }
+    }
+    return box;
 }

@@ -15,6 +15,7 @@
 
 #include "sightline/space.h"
 #include "sightline/support.h"
+#include "space/index.h"
 
 /// A place: a given point, or where the lines of two segments meet, which are not parallel.
 typedef struct sli_meet {
@@ -28,6 +29,7 @@ sli_meet sli_meet_point(sl_point at);
 sli_meet sli_meet_lines(sl_segment s, sl_segment t);
 /// The side of the line from a to b, as sli_orient. Exact.
 int sli_meet_side(const sli_meet *p, sl_point a, sl_point b);
+void sli_box_widen(sl_box *box, const sli_meet *p);
 
 /// The end of a wall, and the walls that end there: other ends, sorted around it.
 typedef struct sli_corner {
@@ -45,6 +47,8 @@ typedef struct sli_proof_scene {
     sl_point *others;
     uint32_t *other_walls; ///< by other end: the wall between
     uint32_t wall_count, corner_count;
+    uint32_t around;   ///< the first of the four walls around
+    sli_box_tree tree; ///< of the walls
 } sli_proof_scene;
 
 /// `map`: whose doors the space has.
@@ -72,6 +76,8 @@ typedef struct sli_eye {
 sl_status sli_eye_make(sl_context *context, const sli_proof_scene *scene, sl_point at, sli_eye *out,
                        bool *on_wall);
 void sli_eye_destroy(sl_context *context, sli_eye *eye);
+/// Holds all that an eye sees within the bounds.
+sl_box sli_box_of_eye(const sli_proof_scene *scene, const sli_eye *eye);
 
 /// Where a place is as the eye sees it.
 typedef struct sli_bearing {

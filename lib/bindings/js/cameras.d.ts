@@ -12,7 +12,7 @@ export interface ChooseOptions {
   fixed?: readonly Viewpoint[]
   /** How many must see each point; 1 by default. */
   cover?: number
-  /** See as much as so many can, the fixed ones among them, in place of everything. `place --count` is without them. */
+  /** See as much as so many can beside the fixed ones, in place of everything. */
   count?: number
   /** Lines of sight join all cameras, up to their ranges. */
   network?: boolean

@@ -119,6 +119,7 @@ typedef struct sl_place_list {
     const uint32_t *fixed;   ///< places that are taken in any case, each once
     uint32_t place_count, target_count, fixed_count;
     uint32_t count; ///< 0: all targets are to be seen; else the most that so many places see
+                    ///< beside the fixed ones
 } sl_place_list;
 
 /// Finds the cheapest of the places that see all targets, or the most that `count` places see. A

@@ -39,7 +39,7 @@ typedef struct sl_place_area {
     uint32_t fixed_count;
     const sl_shape *see; ///< what of the inside is to be seen; NULL: all of it
     uint32_t cover;      ///< how many places must see each point; 0: 1
-    uint32_t count;      ///< 0: see everything; else the most area that so many places see, with
+    uint32_t count;      ///< 0: see everything; else the most area that so many places see, beside
                          ///< the fixed ones
     /// With `count`: parts of what is to be seen, and weights by which their areas count, each over
     /// 0. Where parts overlap, both count. The areas of the result are multiplied by these weights

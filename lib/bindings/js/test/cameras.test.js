@@ -42,6 +42,8 @@ test('the most that two see, several for each point, a network, and those that s
   const fixed = { x: 1, y: 1, range: 3, name: 'there' }, beside = floor.choose(places, { fixed: [fixed] })
   assert.deepEqual(beside.viewpoints[0], fixed)
   assert.match(beside.proof, /1 of them stands already\.$/)
+  const more = floor.choose(places, { fixed: [fixed], count: 1 })
+  assert.deepEqual([more.viewpoints.length, more.viewpoints[0]], [2, fixed])
   floor.close()
 })
 
