@@ -165,7 +165,7 @@ elseif(WAY STREQUAL "find_package")
 elseif(WAY STREQUAL "lean")
   lean()
 elseif(WAY STREQUAL "cross")
-  run(${CMAKE_COMMAND} -G "${GENERATOR}" -S "${SOURCE}" -B "${SCRATCH}/build" "-DCMAKE_C_COMPILER=${MINGW}"
+  run(${CMAKE_COMMAND} -G "${GENERATOR}" -S "${SOURCE}" -B "${SCRATCH}/build" "-DCMAKE_C_COMPILER=${CROSS_CC}"
     -DCMAKE_SYSTEM_NAME=Windows -DCMAKE_SYSTEM_PROCESSOR=x86_64)
   foreach(part IO DRAW VIEWER TESTS)
     if(NOT said MATCHES "SIGHTLINE_${part} is OFF [^\n]*: not found")
