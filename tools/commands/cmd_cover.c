@@ -172,7 +172,7 @@ sl_status cmd_cover(command_console *console, int argc, char **argv) {
         {"zones", 0, "ZONES",
          "what is seen of each zone: names of objects in the map, a drawing of closed outlines, or "
          "a table of corners (.csv: name,x,y)",
-         .text = &plan.zones},
+         .text = &plan.zones, .is_input = true},
         {"path", 0, "PATH",
          "which parts of a path no viewpoint sees: a path of the map, or the points of a CSV table",
          .text = &plan.path, .is_input = true},
