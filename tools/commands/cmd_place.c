@@ -253,8 +253,8 @@ static sl_status work(command_console *console, const place_plan *plan, place_wo
     SL_TRY(survey(context, w));
     char needs[64];
     needs_of(&plan->cameras, needs, sizeof needs);
-    const cover_report report = {plan->input, plan->pipeline.input.import.map, baked, &w->cameras,
-                                 &w->coverage, needs};
+    const cover_report report = {
+        plan->input, plan->pipeline.input.import.map, baked, &w->cameras, &w->coverage, needs};
     char sentence[256], said[320], proof[400], caption[700];
     if (w->chooses)
         SL_TRY(camera_work_survey(context, &plan->cameras, w->query, &report, w->viewpoints,

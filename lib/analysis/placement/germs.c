@@ -64,7 +64,8 @@ sl_status sli_add_germ(sli_placer *p, const sli_window_part *gap, bool *added) {
     return sli_nearby_add(p->context, &p->germ_points, (sl_box){germ.at, germ.at});
 }
 
-/// How many unseen germs a candidate sees, or saw once: those seen since then are not yet taken off.
+/// How many unseen germs a candidate sees, or saw once: those seen since then are not yet taken
+/// off.
 typedef struct gain {
     size_t germs;
     uint32_t candidate;
