@@ -166,8 +166,6 @@ def walk(drawing, node, m, layer, ids, depth=0):
         if target is not None and depth < 16:
             x, y = (numbers(node.get(key) or "0")[0] for key in ("x", "y"))
             walk(drawing, target, joined(m, (1, 0, 0, 1, x, y)), layer, ids, depth + 1)
-    if kind == "svg" and node.get("x") is not None:
-        drawing.unread["inner pictures"] += 1
     if kind == "style" and ("none" in (node.text or "") or "hidden" in (node.text or "")):
         drawing.unread["style sheets that hide"] += 1
     for line in shapes(node, kind):
@@ -181,6 +179,7 @@ def svg(path):
     drawing = Drawing()
     ids = {node.get("id"): node for node in root.iter() if node.get("id")}
     walk(drawing, root, (1, 0, 0, 1, 0, 0), "", ids)
+    drawing.unread["inner pictures"] += len(root.findall(".//{*}svg"))
     box = numbers(root.get("viewBox"))
     height = root.get("height", "")
     if len(box) == 4:
