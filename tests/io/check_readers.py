@@ -6,7 +6,9 @@ check_readers.py PROGRAM FOLDER       all files of a folder, and what was found 
 A sightline is a short segment over a wall, at a random angle. Of a layer that the program takes (most
 of its length lies on walls of the map) no wall may be lost: what crosses it is blocked in the map. The
 other way round, what the map blocks crosses a wall of the author. Layers that the program says are not solid
-do not count. Of tiles, squares that the program
+do not count. Of drawings (DXF, SVG) all lines of all layers must be there with --layers '*'. Without it,
+layers count that the program names as those of walls, where it names no gaps and no shapes in them
+that it passed over. Of tiles, squares that the program
 takes as solid are those behind the outlines of the map; a tile of a layer is solid everywhere or nowhere.
 
 Exit status: 0 nothing is lost, 1 something is.
@@ -30,12 +32,17 @@ READERS = {".uvtt": own_readers.uvtt, ".dd2vtt": own_readers.uvtt, ".df2vtt": ow
            ".db": own_readers.foundry, ".tmx": own_readers.tiled, ".tmj": own_readers.tiled,
            ".ldtk": own_readers.ldtk, ".dxf": own_readers.dxf, ".svg": own_svg.svg,
            ".geojson": own_readers.geojson, ".wad": own_grounds.wad, ".yaml": own_grounds.ros}
+PLANS = (own_readers.dxf, own_svg.svg)
 SIGHTLINES = 1500
 MAPS = 3  # of a file that holds several
 NEAR = 2e-4  # of the larger side: chords and welded ends
 OPEN = ("open", "seen through")  # doors and walls of tabletops that stop no sight
 NOT_SOLID = re.compile(r"not (?:solid|taken): (.*)")
+CHOICE = re.compile(r": layers(?:, and looks [^:]*)?: (.*) \(--layers A,B chooses")
+TAKEN = re.compile(r"(?:walls|seen through,) from ([^;]*)")
+PARTS = re.compile(r"\b(gaps?|no walls)\b")
 NAMED = re.compile(r"'((?:[^']|'(?! \())*)' \(\d+ ")
+EARTH = re.compile(r"^earth (\S+) (\S+)", re.MULTILINE)
 FLIPPED = re.compile(r"y = (-?[\d.e+-]+) - the file's y")
 
 
@@ -181,12 +188,14 @@ def compare_tiles(drawing, outlines, top, left_out=()):
     return best or (0, 0, 0)
 
 
-def fitted(segments, grid, by=None):
-    """Segments moved and scaled along both axes so that their box (or that of others) is a grid's."""
-    own = Grid(by or segments).box
-    scale = [(grid.box[i + 2] - grid.box[i]) / ((own[i + 2] - own[i]) or 1) for i in (0, 1)]
-    return [tuple(grid.box[i % 2] + (v - own[i % 2]) * scale[i % 2] for i, v in enumerate(s))
-            for s in segments]
+def laid(segments, text):
+    """Segments in degrees in the plane of the map, if its text says where on the earth that lies."""
+    place = EARTH.search(text)
+    if not place:
+        return segments
+    longitude, latitude = map(float, place.groups())
+    return [(*own_readers.metres(longitude, latitude, *s[:2]),
+             *own_readers.metres(longitude, latitude, *s[2:])) for s in segments]
 
 
 def taken(segments, grid):
@@ -212,18 +221,27 @@ def beside_gaps(gaps, sight, side):
     return False
 
 
-def compare_walls(drawing, text, top, world, random_numbers, left_out=()):
-    """(lost, of how many, too many, of how many, layers taken, layers left)"""
+def passed_over(drawing, said):
+    """Layers that may have lost walls, by what the program says that it chose."""
+    choice = CHOICE.search(said)
+    if not choice or choice.group(1).startswith("all are walls"):
+        return ()
+    lists = () if PARTS.search(choice.group(1)) else TAKEN.findall(choice.group(1))
+    return set(drawing.walls) - {name for names in lists for name in names.split(", ")}
+
+
+def compare_walls(drawing, text, top, random_numbers, left_out=(), part=0.5):
+    """(lost, of how many, too many, of how many, layers taken, layers left)
+
+    Layers count of whose length the map has this part or more.
+    """
     sight, any_wall, outlines = read_map(text)
     every, on_map = Grid(any_wall), Grid(sight)
-    layers = {layer: flipped(walls, top) for layer, walls in drawing.walls.items() if walls}
-    gaps = flipped(drawing.gaps, top)
-    if world:
-        everything = [s for walls in layers.values() for s in walls]
-        gaps = fitted(gaps, every, everything) if gaps and everything else []
-        layers = {"all": fitted(everything, every)}
+    layers = {layer: laid(flipped(walls, top), text) for layer, walls in drawing.walls.items() if walls}
+    gaps = laid(flipped(drawing.gaps, top), text)
     took = {layer: walls for layer, walls in layers.items()
-            if not layer.endswith(OPEN) and layer.rsplit(" (", 1)[0] not in left_out and taken(walls, every) > (0.95 if drawing.size else 0.5)}
+            if not layer.endswith(OPEN) and layer.rsplit(" (", 1)[0] not in left_out
+            and taken(walls, every) >= part}
     chosen = [s for walls in took.values() for s in walls]
     lost = trials = extra = others = 0
     if chosen and any_wall:
@@ -253,21 +271,26 @@ def check(program, path, random_numbers):
     status, listed, _ = run(program, "info", path)
     names = [line.strip() for line in listed.splitlines()[1:] if line.startswith("  ")] \
         if re.search(r": \d+ maps", listed.split("\n")[0]) else []
+    every = [["--layers", "*"]] if reader in PLANS else []
     for i, drawing in enumerate(drawings[:MAPS] if names else drawings[:1]):
         choice = ["--map", drawing.name if drawing.name in names else names[i]] if names else []
-        status, text, said = run(program, "convert", path, *choice)
-        if status:
-            yield [drawing.name, "refused", said.strip()[-200:]]
-            continue
-        top = FLIPPED.search(said)
-        top = float(top.group(1)) if top else drawing.top
-        named = NOT_SOLID.search(said)
-        left_out = set(NAMED.findall(named.group(1))) if named else ()
-        world = reader is own_readers.geojson
-        result = compare_walls(drawing, text, top, world, random_numbers, left_out)
-        tiles = compare_tiles(drawing, result[6], top, left_out) if drawing.squares else (0, 0, 0)
-        yield [drawing.name, *result[:4], *tiles, ";".join(result[4]), ";".join(result[5]),
-               dict(drawing.unread)]
+        for layers in [[], *every]:
+            name = " ".join([drawing.name or "", *layers]).strip()
+            status, text, said = run(program, "convert", path, *choice, *layers)
+            if status:
+                yield [name, "refused", said.strip()[-200:]]
+                continue
+            top = FLIPPED.search(said)
+            top = float(top.group(1)) if top else drawing.top
+            not_solid = NOT_SOLID.search(said)
+            left_out = set(NAMED.findall(not_solid.group(1))) if not_solid else set()
+            if every:
+                left_out.update(passed_over(drawing, said))
+            part = 0 if layers or reader is own_readers.geojson else 0.95 if drawing.size else 0.5
+            result = compare_walls(drawing, text, top, random_numbers, left_out, part)
+            tiles = compare_tiles(drawing, result[6], top, left_out) if drawing.squares else (0, 0, 0)
+            yield [name, *result[:4], *tiles, ";".join(result[4]), ";".join(result[5]),
+                   dict(drawing.unread)]
 
 
 def can_fail(program, path):
@@ -277,7 +300,7 @@ def can_fail(program, path):
     walls = [line for line in text.splitlines() if line.startswith("wall")]
     assert len(walls) > 4
     for other, place in ((text.replace(walls[0] + "\n", ""), 0), (text + "\nwall 11 7 24 51\n", 2)):
-        result = compare_walls(drawing, other, drawing.top, False, random.Random(1))
+        result = compare_walls(drawing, other, drawing.top, random.Random(1))
         assert result[place] > 0, f"a wall too {'many' if place else 'few'} was not found"
 
 

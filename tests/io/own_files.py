@@ -100,6 +100,8 @@ SVG = """<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 80" width="100
   <use href="#pier" x="70" y="30"/>
   <polyline points="70,0 70,14 82,14"/>
   <circle cx="20" cy="48" r="6"/>
+  <path d="M30 44A9 5 20 0 0 40 52a5,4 0 112 3"/>
+  <rect x="50" y="46" width="16" height="9" rx="4"/>
  </g>
 </svg>
 """

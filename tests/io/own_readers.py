@@ -389,6 +389,29 @@ def lines_of(shape):
     return [[tuple(place[:2]) for place in line] for line in lines]
 
 
+def metres(longitude, latitude, lon, lat):
+    """A place in the plane about longitude, latitude: the series of the transverse Mercator projection
+    (Snyder, Map Projections, USGS 1987, equations 3-21 and 8-9 to 8-15), on WGS 84."""
+    radius, f = 6378137.0, 1 / 298.257223563
+    e2 = f * (2 - f)
+    e4, e6 = e2 ** 2, e2 ** 3
+
+    def meridian(phi):
+        return radius * ((1 - e2 / 4 - 3 * e4 / 64 - 5 * e6 / 256) * phi
+                         - (3 * e2 / 8 + 3 * e4 / 32 + 45 * e6 / 1024) * math.sin(2 * phi)
+                         + (15 * e4 / 256 + 45 * e6 / 1024) * math.sin(4 * phi)
+                         - 35 * e6 / 3072 * math.sin(6 * phi))
+
+    phi = math.radians(lat)
+    n = radius / math.sqrt(1 - e2 * math.sin(phi) ** 2)
+    t, c = math.tan(phi) ** 2, e2 / (1 - e2) * math.cos(phi) ** 2
+    a = math.radians(lon - longitude) * math.cos(phi)
+    x = n * (a + (1 - t + c) * a ** 3 / 6 + (5 - 18 * t + t * t + 72 * c - 58 * e2) * a ** 5 / 120)
+    rise = a * a / 2 + (5 - t + 9 * c + 4 * c * c) * a ** 4 / 24
+    rise += (61 - 58 * t + t * t + 600 * c - 330 * e2) * a ** 6 / 720
+    return x, meridian(phi) - meridian(math.radians(latitude)) + n * math.tan(phi) * rise
+
+
 def geojson(path):
     """One drawing, or one for each level of a set of IMDF, by its ordinal."""
     indoor = path.name == "unit.geojson"

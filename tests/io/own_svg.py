@@ -1,7 +1,6 @@
 """A small reader of SVG drawings for own_readers.py: shapes and paths through their transforms.
 
-Curves become chords, arcs of paths straight lines to their end (counted as unread), style sheets are
-not read. Layers are the nearest group with a label or an id.
+Curves become chords, style sheets are not read. Layers are the nearest group with a label or an id.
 """
 import math
 import re
@@ -10,7 +9,9 @@ import xml.etree.ElementTree as ET
 from own_readers import CHORDS, Drawing, apply, joined, round_points
 
 NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
-PATH = re.compile(r"([MmZzLlHhVvCcSsQqTtAa])|(" + NUMBER.pattern + ")")
+COMMAND = re.compile(r"([MmZzLlHhVvCcSsQqTtAa])([^MmZzLlHhVvCcSsQqTtAa]*)")
+ARC = re.compile(rf"((?:{NUMBER.pattern}[\s,]*){{3}})([01])[\s,]*([01])"  # flags may touch what follows
+                 rf"([\s,]*{NUMBER.pattern}[\s,]*{NUMBER.pattern})")
 COUNTS = {"m": 2, "l": 2, "h": 1, "v": 1, "c": 6, "s": 4, "q": 4, "t": 2, "a": 7, "z": 0}
 LABEL = "{http://www.inkscape.org/namespaces/inkscape}label"
 LINK = "{http://www.w3.org/1999/xlink}href"
@@ -52,9 +53,33 @@ def bezier(points):
     return out
 
 
-def path_lines(text, unread):
+def arc(here, rx, ry, turn, large, sweep, x, y):
+    """Points of an arc of an ellipse from its two ends, as SVG 1.1 says in F.6.5."""
+    c, s = math.cos(math.radians(turn)), math.sin(math.radians(turn))
+    rx, ry = abs(rx), abs(ry)
+    if not rx or not ry or here == (x, y):
+        return [(x, y)]
+    u, v = apply((c, -s, s, c, 0, 0), (here[0] - x) / 2, (here[1] - y) / 2)
+    scale = math.hypot(u / rx, v / ry)
+    rx, ry = rx * max(1, scale), ry * max(1, scale)
+    u, v = u / rx, v / ry
+    off = math.sqrt(max(0, 1 / (u * u + v * v) - 1)) * (-1 if large == sweep else 1)
+    a, b = off * v, -off * u  # the centre, where the ellipse is the circle of radius 1
+    begin, end = math.atan2(v - b, u - a), math.atan2(-v - b, -u - a)
+    if sweep and end < begin:
+        end += 2 * math.pi
+    elif not sweep and end > begin:
+        end -= 2 * math.pi
+    m = (c * rx, s * rx, -s * ry, c * ry, (here[0] + x) / 2, (here[1] + y) / 2)
+    return [apply(m, *p) for p in round_points(a, b, 1, 1, begin, end)[1:-1]] + [(x, y)]
+
+
+def path_lines(text):
     """Lists of points of a path."""
-    tokens = [a or float(b) for a, b in PATH.findall(text)]
+    tokens = []
+    for command, values in COMMAND.findall(text):
+        values = ARC.sub(r"\1 \2 \3 \4 ", values) if command in "aA" else values
+        tokens += [command, *numbers(values)]
     line, here, begin, control, i, last = [], (0.0, 0.0), (0.0, 0.0), None, 0, "m"
     while i < len(tokens):
         if isinstance(tokens[i], str):
@@ -69,9 +94,8 @@ def path_lines(text, unread):
         i += COUNTS[low]
         dx, dy = here if last.islower() else (0, 0)
         if low == "a":
-            unread["arcs of paths"] += 1
-            v = v[5:]
-        if low == "h":
+            points = arc(here, *v[:5], v[5] + dx, v[6] + dy)
+        elif low == "h":
             points = [(v[0] + dx, here[1])]
         elif low == "v":
             points = [(here[0], v[0] + dy)]
@@ -91,7 +115,17 @@ def path_lines(text, unread):
         yield line
 
 
-def shapes(node, kind, unread):
+def rectangle(x, y, w, h, rx, ry):
+    """A rectangle, with round corners where the radii say so."""
+    rx, ry = min(rx or ry, w / 2), min(ry or rx, h / 2)
+    points = []
+    for i, (cx, cy) in enumerate(((x + w - rx, y + h - ry), (x + rx, y + h - ry), (x + rx, y + ry),
+                                  (x + w - rx, y + ry))):
+        points += round_points(cx, cy, rx, ry, i * math.pi / 2, (i + 1) * math.pi / 2) if rx else [(cx, cy)]
+    return points + points[:1]
+
+
+def shapes(node, kind):
     """Lists of points of an element that is drawn."""
     g = {key: numbers(node.get(key))[0] for key in
          ("x", "y", "width", "height", "x1", "y1", "x2", "y2", "cx", "cy", "r", "rx", "ry")
@@ -101,10 +135,7 @@ def shapes(node, kind, unread):
         return g.get(key, 0.0)
 
     if kind == "rect" and n("width") > 0 and n("height") > 0:
-        x, y, w, h = n("x"), n("y"), n("width"), n("height")
-        if n("rx") or n("ry"):
-            unread["round rectangles"] += 1
-        return [[(x, y), (x + w, y), (x + w, y + h), (x, y + h), (x, y)]]
+        return [rectangle(n("x"), n("y"), n("width"), n("height"), n("rx"), n("ry"))]
     if kind == "line":
         return [[(n("x1"), n("y1")), (n("x2"), n("y2"))]]
     if kind in ("circle", "ellipse"):
@@ -114,7 +145,7 @@ def shapes(node, kind, unread):
         v = numbers(node.get("points"))
         points = list(zip(v[::2], v[1::2]))
         return [points + points[:1] if kind == "polygon" else points]
-    return list(path_lines(node.get("d") or "", unread)) if kind == "path" else []
+    return list(path_lines(node.get("d") or "")) if kind == "path" else []
 
 
 def walk(drawing, node, m, layer, ids, depth=0):
@@ -135,11 +166,9 @@ def walk(drawing, node, m, layer, ids, depth=0):
         if target is not None and depth < 16:
             x, y = (numbers(node.get(key) or "0")[0] for key in ("x", "y"))
             walk(drawing, target, joined(m, (1, 0, 0, 1, x, y)), layer, ids, depth + 1)
-    if kind == "svg" and node.get("x") is not None:
-        drawing.unread["inner pictures"] += 1
     if kind == "style" and ("none" in (node.text or "") or "hidden" in (node.text or "")):
         drawing.unread["style sheets that hide"] += 1
-    for line in shapes(node, kind, drawing.unread):
+    for line in shapes(node, kind):
         drawing.line(layer, [apply(m, *point) for point in line])
     for child in node:
         walk(drawing, child, m, layer, ids, depth)
@@ -150,6 +179,7 @@ def svg(path):
     drawing = Drawing()
     ids = {node.get("id"): node for node in root.iter() if node.get("id")}
     walk(drawing, root, (1, 0, 0, 1, 0, 0), "", ids)
+    drawing.unread["inner pictures"] += len(root.findall(".//{*}svg"))
     box = numbers(root.get("viewBox"))
     height = root.get("height", "")
     if len(box) == 4:
