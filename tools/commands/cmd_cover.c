@@ -78,6 +78,20 @@ static void note_signs(sl_context *context, const cover_plan *plan, const cover_
             plan->operands[1], unread, w->cameras.count, w->cameras.items[first].line);
 }
 
+/// A heading without a field of view: the viewpoint was to look one way.
+static void note_headings(sl_context *context, const cover_plan *plan, const cover_work *w) {
+    size_t round = 0;
+    for (size_t i = 0; i < w->cameras.count; i++) {
+        const sl_viewpoint *view = &w->cameras.items[i].view;
+        round += view->heading != 0 && view->fov == 360 && !view->sign;
+    }
+    if (round)
+        sl_note(context,
+                "%s: rows that look all round, whatever their heading: %zu of %zu; --fov or a "
+                "column fov gives them a view cone",
+                plan->operands[1], round, w->cameras.count);
+}
+
 static sl_status check_plan(sl_context *context, const cover_plan *plan) {
     if (plan->output && (plan->zones != NULL) + (plan->path != NULL) + plan->rooms > 1)
         return sl_fail(context, SL_BAD_ARGUMENT,
@@ -112,6 +126,7 @@ static sl_status work(command_console *console, cover_plan *plan, cover_work *w)
     SL_TRY(sl_query_over(context, &baked->space, &baked->map, NULL, &w->query));
     if (baked->map.mirror_count)
         sl_note(context, "mirrors are walls here: cover counts what is seen directly");
+    note_headings(context, plan, w);
     SL_TRY(cover_viewpoints(context, &w->cameras, &w->viewpoints));
     SL_TRY(sl_coverage_make(context, w->query, w->viewpoints, w->cameras.count, &w->coverage));
     note_signs(context, plan, w);

@@ -17,7 +17,8 @@ option_table camera_option_table(camera_plan *plan) {
     const option_spec options[] = {
         {"from", 0, "PLACES",
          "where viewpoints may stand: anywhere, corners, walls, walls:STEP, grid:STEP, or a table "
-         "of places (default: anywhere; walls with one of the options below)",
+         "of places, in which a column cost says what each costs (default: anywhere; walls with "
+         "one of the options below)",
          .text = &plan->from},
         {"fov", 0, "DEG", "width of view cones (default: 360, all round)",
          .number = &plan->like.fov, .over_0 = true, .most = 360},
@@ -42,8 +43,8 @@ option_table camera_option_table(camera_plan *plan) {
         {"scan-range", 0, "R", "scan the walls: see each point of them from R or nearer",
          .number = &plan->scan_range, .over_0 = true, .rare = true},
         {"fixed", 0, "TABLE",
-         "viewpoints that stand already; what the table leaves blank is as in cover, and --fov, "
-         "--range and --nearest are of new ones",
+         "viewpoints that stand already; without a column fov they look all round, without range "
+         "they see without limit: --fov, --range and --nearest are of new ones",
          .text = &plan->fixed, .is_input = true},
         {"see", 0, "THINGS",
          "what must be seen: names of objects, doors and paths in the map (of shut doors both "
@@ -190,6 +191,26 @@ static sl_status add_points(sl_context *context, const camera_plan *plan, const 
     return status;
 }
 
+/// Notes viewpoints that stand already and see farther or wider than new ones may.
+static void note_unlimited(sl_context *context, const camera_plan *plan, const camera_work *w) {
+    unsigned round = 0, far = 0;
+    for (uint32_t i = 0; i < w->task.fixed_count; i++) {
+        const sl_viewpoint *view = &w->places.items[i].view;
+        round += plan->like.fov < 360 && view->fov == 360;
+        far += plan->like.range > 0 && view->range == 0;
+    }
+    if (round)
+        sl_note(context,
+                "%s: rows that look all round: %u of %u; --fov is of new viewpoints, a column fov of "
+                "these",
+                plan->fixed, round, w->task.fixed_count);
+    if (far)
+        sl_note(context,
+                "%s: rows that see without limit: %u of %u; --range is of new viewpoints, a column "
+                "range of these",
+                plan->fixed, far, w->task.fixed_count);
+}
+
 static sl_status add_fixed(sl_context *context, const camera_plan *plan, const sl_space *space,
                            camera_work *w) {
     const sl_viewpoint like = camera_plan_default().like; // --fov and --range are of new ones
@@ -202,6 +223,7 @@ static sl_status add_fixed(sl_context *context, const camera_plan *plan, const s
         w->fixed[i] = i;
         SL_TRY(input_check_place(context, plan->fixed, camera->line, space, camera->view.at));
     }
+    note_unlimited(context, plan, w);
     return SL_OK;
 }
 
