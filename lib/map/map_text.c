@@ -429,6 +429,10 @@ static sl_status read_first(text_reader *reader) {
     if (words[0].at[0] == '{')
         return sl_fail_at(reader->context, reader->name, reader->line,
                           "expected 'sightline 1' as the first statement, found JSON");
+    if (sli_word_is(words[0], "storeys"))
+        return sl_fail_at(reader->context, reader->name, reader->line,
+                          "a building, which 'sightline vga' and 'path' read: give the file of one "
+                          "of its storeys");
     if (!sli_word_is(words[0], "sightline"))
         return sl_fail_at(reader->context, reader->name, reader->line,
                           "expected 'sightline 1' as the first statement, found '%s'",

@@ -242,6 +242,7 @@ sl_view sl_view_all_round(sl_point eye) {
 }
 
 sl_view sl_view_cone(sl_point eye, double heading, double fov, double reach) {
+    heading = fmod(heading, 360); // exact; else half of `fov` is lost beside a large heading
     const sl_view cone = {.eye = eye,
                           .left = toward(eye, heading + fov / 2, reach),
                           .right = toward(eye, heading - fov / 2, reach)};

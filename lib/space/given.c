@@ -192,8 +192,10 @@ sl_status sli_subdivide_given(sl_context *context, const sl_map *map, sl_space *
         sl_space_destroy(context, &space);
         return status;
     }
-    sl_note(context, "the map brings %zu cells; %u were made of them and of what they leave open",
-            map->cell_count - g.without_area, space.cell_count);
+    const size_t brought = map->cell_count - g.without_area;
+    sl_note(context, "the map brings %zu cell%s; %u %s made of %s and of what %s open", brought,
+            brought == 1 ? "" : "s", space.cell_count, space.cell_count == 1 ? "was" : "were",
+            brought == 1 ? "it" : "them", brought == 1 ? "it leaves" : "they leave");
     sl_report(context, "subdivide", "cells", space.cell_count, space.cell_count);
     *out = space;
     return SL_OK;

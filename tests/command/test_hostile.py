@@ -180,6 +180,23 @@ class Hostile(sandbox.ProgramTest):
         self.refused(["draw", "flat.slv", "-o", "flat.slv"], 2)
         self.refused(["export", "flat.slv", "-o", "flat.slv"], 2, says="is the input itself")
         self.refused(["export", "flat.slv", "-o", "./flat.slv"], 2, says="is the input itself")
+        self.box.path("zones.csv").write_text("name,x,y\na,1,1\na,2,1\na,2,2\n")
+        self.run_well("place", "flat.map", "--proof", "proof.json", "--quiet")
+        along = ["isovist", "flat.map", "--along", "cameras.csv", "--see", "zones.csv"]
+        place = ["place", "flat.map"]
+        for output, command in (("cameras.csv", ["cover", "flat.map", "cameras.csv"]),
+                                ("zones.csv", ["cover", "flat.map", "cameras.csv", "--zones", "zones.csv"]),
+                                ("zones.csv", along), ("cameras.csv", along),
+                                ("cameras.csv", [*place, "--from", "cameras.csv"]),
+                                ("cameras.csv", [*place, "--path", "cameras.csv"]),
+                                ("zones.csv", [*place, "--see", "zones.csv"]),
+                                ("zones.csv", [*place, "--forbid", "zones.csv"])):
+            self.refused([*command, "-o", output], 2, says="is the input itself")
+        self.refused([*place, "--verify", "proof.json", "--proof", "proof.json"], 2, says="is the input itself")
+        self.run_well("convert", "flat.map", "-o", "flat.svg")
+        for command in ("isovist", "vga"):
+            self.refused([command, "flat.map", "--grid", "1", "--within", "flat.svg", "--picture", "flat.svg"], 2,
+                         says="is the input itself")
         before = self.run_well("convert", "flat.map").stdout
         self.refused(["convert", "flat.map", "-o", "flat.map"], 2, says="--in-place")
         self.run_well("convert", "flat.map", "-o", "flat.map", "--in-place")

@@ -418,6 +418,19 @@ static void views_that_are_none(void **state) {
     close_world(&w);
 }
 
+static void a_heading_turns_over_and_over(void **state) {
+    (void)state;
+    // 1e22 is a double, and 280 more than whole turns; half a view cone is lost beside it.
+    const sl_view once = sl_view_cone((sl_point){1, 1}, 280, 90, 100);
+    for (int sign = -1; sign <= 1; sign += 2) {
+        const sl_view view = sl_view_cone((sl_point){1, 1}, sign * 1e22, 90, 100);
+        const sl_view same = sl_view_cone((sl_point){1, 1}, sign * 280, 90, 100);
+        assert_memory_equal(&view.left, &same.left, sizeof view.left);
+        assert_memory_equal(&view.right, &same.right, sizeof view.right);
+    }
+    assert_true(once.left.x > once.right.x && once.left.y < 1 && once.right.y < 1);
+}
+
 static void sets_of_another_space(void **state) {
     (void)state;
     world w = open_world(rooms), other = open_world("walls 0 0 1 0 1 1 0 1 0 0\n");
@@ -495,6 +508,7 @@ int main(void) {
         cmocka_unit_test(a_diagonal_does_not_explode),
         cmocka_unit_test(a_tree_in_another_order_is_passed_over),
         cmocka_unit_test(views_that_are_none),
+        cmocka_unit_test(a_heading_turns_over_and_over),
         cmocka_unit_test(sets_of_another_space),
         cmocka_unit_test(a_space_that_no_map_has),
         cmocka_unit_test(memory_that_fails),

@@ -106,7 +106,8 @@ static void test_refused(void **state) {
     REFUSED("P2\n1 1\n7 8", "f:3: a pixel of 8: at most 7");
     REFUSED("P5 100000 100000 255\n",
             "f: 100000 x 100000 pixels need at least 1250000000 bytes; the file has 1");
-    REFUSED("P5 99999999999999999999999 1 255\n", "f:1: the largest value");
+    REFUSED("P5 99999999999999999999999 1 255\n", "f:1: a number is too large: over 16777216");
+    REFUSED("P2\n1 1 255\n167772160", "f:3: a number is too large");
 }
 
 // --- ROS
@@ -169,13 +170,31 @@ static void test_ros(void **state) {
                      "wall -1 2.5 -1.5 2.5\nwall -1.5 2 -1.5 2.5\n";
     sort_lines(quarter);
     read_ros("image: m.pgm\nresolution: 0.5\norigin: [-1, 2, 1.5707963]\n", 0.65, quarter, NULL);
+    // Occupied comes before free: what lies over both thresholds is an obstacle.
+    char both[] = "sightline 1\nwall -0.5 2 -0.5 2.5\nwall -0.5 2 0.5 2\n"
+                  "wall -0.5 2.5 0.5 2.5\nwall 0.5 2 0.5 2.5\n";
+    sort_lines(both);
+    read_ros("image: m.pgm\nresolution: 0.5\norigin: [-1, 2, 0]\noccupied_thresh: 0.5\n"
+             "free_thresh: 1\n",
+             0, both, NULL);
+    read_ros("image: m.pgm\nresolution: 1\noccupied_thresh: 65\n", 0, NULL,
+             "m.yaml:3: occupied_thresh: expected a number from 0 to 1, found '65'");
+    read_ros("image: m.pgm\nresolution: 1\nfree_thresh: -0.1\n", 0, NULL,
+             "m.yaml:3: free_thresh: expected a number from 0 to 1");
+    for (const char *const *origin = (const char *const[]){"7", "", "[]", "[0]", "[0, 1]", NULL};
+         *origin; origin++) {
+        char wrong[100];
+        snprintf(wrong, sizeof wrong, "image: m.pgm\nresolution: 1\norigin: %s\n", *origin);
+        read_ros(wrong, 0, NULL, "m.yaml:3: origin: expected [x, y, yaw]");
+    }
     read_ros("image: m.pgm\nresolution: 1\norigin: [0, 0, 1e9]\n", 0, NULL,
              "m.yaml:3: origin: the yaw is no angle");
     read_ros("image: m.pgm\nresolution: 1\norigin: [0, 0, 0, 0]\n", 0, NULL,
              "m.yaml:3: origin: more");
     read_ros("image: [m.pgm\n", 0, NULL, "m.yaml:2: YAML: ");
     read_ros("image: {a: b}\n", 0, NULL, "m.yaml:1: expected 'key: value'");
-    read_ros("image: m.pgm\nresolution: 1\nmode: raw\n", 0, NULL, "m.yaml: mode: only trinary");
+    read_ros("image: m.pgm\nresolution: 1\nmode: raw\n", 0, NULL, "m.yaml:3: mode: only trinary");
+    read_ros("image: m.pgm\nresolution: 1\nmode: Scale\n", 0, NULL, "m.yaml:3: mode: only trinary");
 }
 
 static void test_ros_without_a_picture(void **state) {

@@ -132,8 +132,8 @@ static void wrong_sets(void **state) {
         const char *message;
     } cases[] = {{outside, 2, SL_SET_LINE, "point 2"}, {nan, 2, SL_SET_LINE, "point 2"},
                  {line, 0, SL_SET_LINE, "a point"},    {star, 5, SL_SET_AREA, "convex"},
-                 {dent, 4, SL_SET_AREA, "convex"},     {line, 3, SL_SET_AREA, "without corners"},
-                 {line, 1, SL_SET_AREA, "without"}};
+                 {dent, 4, SL_SET_AREA, "convex"},     {line, 3, SL_SET_AREA, "in one line"},
+                 {line, 1, SL_SET_AREA, "in one line"}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         assert_int_equal(sl_set_sight_create(r.context, r.query, cases[i].points, cases[i].count,
                                              cases[i].kind, &sight),

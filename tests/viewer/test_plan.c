@@ -361,10 +361,10 @@ static void test_long_doubt(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_opens),     cmocka_unit_test(test_eye_outside),
-        cmocka_unit_test(test_beside),    cmocka_unit_test(test_building),
-        cmocka_unit_test(test_path),      cmocka_unit_test(test_walker),
-        cmocka_unit_test(test_from_line), cmocka_unit_test(test_ranks),
+        cmocka_unit_test(test_opens),      cmocka_unit_test(test_eye_outside),
+        cmocka_unit_test(test_beside),     cmocka_unit_test(test_building),
+        cmocka_unit_test(test_path),       cmocka_unit_test(test_walker),
+        cmocka_unit_test(test_from_line),  cmocka_unit_test(test_ranks),
         cmocka_unit_test(test_long_doubt),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

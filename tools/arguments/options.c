@@ -438,12 +438,13 @@ static sl_status check_output(sl_context *context, const option_spec *option, co
 }
 
 /// Checks an output file against all inputs and the outputs before it.
-static sl_status check_apart(const parsing *p, size_t output, const char *input) {
+static sl_status check_apart(const parsing *p, size_t output, const char **operands) {
     const char *path = p->arguments[output];
     const option_list *more = p->usage->more;
     char label[LABEL], other[LABEL];
     write_label(&p->options[output], label);
-    if (input) SL_TRY(output_check_apart(p->context, input, label, path));
+    for (size_t i = 0; i < 4 && p->usage->operands[i]; i++)
+        SL_TRY(output_check_apart(p->context, operands[i], label, path));
     for (size_t i = 0; more && i < more->count; i++)
         SL_TRY(output_check_apart(p->context, more->items[i], label, path));
     for (size_t i = 0; i < p->count; i++) {
@@ -492,14 +493,14 @@ static sl_status check_useful(const parsing *p) {
 }
 
 /// Names are checked when all options are known, and before the work begins.
-static sl_status check_outputs(const parsing *p, const char *input) {
+static sl_status check_outputs(const parsing *p, const char **operands) {
     for (size_t i = 0; i < p->count; i++) {
         const option_spec *option = &p->options[i];
         char label[LABEL];
         if (!p->arguments[i] || !option->check) continue;
         write_label(option, label);
         SL_TRY(check_output(p->context, option, label, p->arguments[i]));
-        SL_TRY(check_apart(p, i, input));
+        SL_TRY(check_apart(p, i, operands));
     }
     return SL_OK;
 }
@@ -530,5 +531,5 @@ sl_status options_parse(command_console *console, const command_usage *usage, in
             (struct option_given){option->name, option->argument ? p.arguments[i] : NULL};
     }
     SL_TRY(check_useful(&p));
-    return check_outputs(&p, usage->operands[0] ? operands[0] : NULL);
+    return check_outputs(&p, operands);
 }

@@ -97,10 +97,9 @@ typedef struct command_usage {
 } command_usage;
 
 /// Reads the arguments after the command's name, argv[0], and fills the targets. Adds --help and
-/// --quiet to the options. `operands` has a place for each operand of the usage. The first of them
-/// is the input. No output file may be it, or a file of an `is_input` option, or of another output.
-/// After --help, *helped is true and nothing else is done. SL_BAD_ARGUMENT, with a message that
-/// names the option.
+/// --quiet to the options. `operands` has a place for each operand of the usage. No output file may
+/// be one of them, or a file of an `is_input` option, or of another output. After --help, *helped
+/// is true and nothing else is done. SL_BAD_ARGUMENT, with a message that names the option.
 sl_status options_parse(command_console *console, const command_usage *usage, int argc, char **argv,
                         const char **operands, bool *helped);
 

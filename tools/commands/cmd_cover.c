@@ -196,7 +196,7 @@ sl_status cmd_cover(command_console *console, int argc, char **argv) {
         {"zones", 0, "ZONES",
          "what is seen of each zone: names of objects in the map, a drawing of closed outlines, or "
          "a table of corners (.csv: name,x,y)",
-         .text = &plan.zones},
+         .text = &plan.zones, .is_input = true},
         {"rooms", 0, NULL,
          "how much of each room is seen by 0, 1, 2, 3 or more; rooms are those that 'rooms' lists",
          .flag = &plan.rooms},

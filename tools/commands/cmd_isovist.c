@@ -528,7 +528,7 @@ sl_status cmd_isovist(command_console *console, int argc, char **argv) {
          "with --along or --from-line: what of each thing is seen, and along how much of the way. "
          "Names of objects, doors and layers; 'objects', 'doors': all of them; a drawing of closed "
          "outlines, or a table of corners (.csv: name,x,y)",
-         .text = &plan.see, .rare = true},
+         .text = &plan.see, .is_input = true, .rare = true},
         {"step", 0, "STEP", "with --path: look from a point every STEP along it",
          .number = &plan.step, .over_0 = true, .rare = true},
         {"frames", 0, "DIR",

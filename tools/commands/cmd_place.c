@@ -299,7 +299,7 @@ sl_status cmd_place(command_console *console, int argc, char **argv) {
          "check a proof for this map by other code, and trust nothing in it; --from and the "
          "options with it are those of the run that wrote it; exit with status 1 if it does not "
          "hold",
-         .text = &plan.verify, .rare = true},
+         .text = &plan.verify, .is_input = true, .rare = true},
         {"time-limit", 0, "SECONDS",
          "stop then, and give the best set and both bounds; so does Ctrl-C (default: no limit)",
          .number = &plan.time_limit, .over_0 = true, .needs = "seconds, more than 0"},

@@ -114,7 +114,8 @@ static sl_status read_lines(reader *r, const char *text, size_t size) {
         if (length && line[length - 1] == '\r') length--;
         if (!length || strspn(line, " \t,;") >= length) continue;
         if (memchr(line, '\0', length))
-            return sl_fail_at(r->context, to->path, r->line, "a table of numbers is needed");
+            return sl_fail_at(r->context, to->path, r->line,
+                              "a NUL byte: expected a table as plain text (ASCII or UTF-8)");
         if (to->columns) {
             SL_TRY(read_row(r, line, length));
             continue;

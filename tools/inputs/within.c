@@ -7,7 +7,7 @@
 
 option_table within_option_table(within_plan *plan, const char *help) {
     const option_spec options[] = {
-        {"within", 0, "MAP", help, .text = &plan->path, .rare = true},
+        {"within", 0, "MAP", help, .text = &plan->path, .is_input = true, .rare = true},
         {"within-layers", 0, "LAYER,...", "which layers of the --within drawing to read",
          .text = &plan->layers, .rare = true},
     };

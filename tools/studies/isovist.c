@@ -36,8 +36,8 @@ sl_status eyes_add_grid(sl_context *context, const sl_space *space, double step,
     const double rows = ceil((b->max.y - b->min.y) / step);
     if (!(columns * rows <= MOST_SQUARES))
         return sl_fail(context, SL_BAD_ARGUMENT,
-                       "a grid of step %g has %.0f squares; at most %d can be", step,
-                       columns * rows, MOST_SQUARES);
+                       "a grid of step %g has more than %d squares: take a longer step", step,
+                       MOST_SQUARES);
     eyes->corner = b->min;
     eyes->step = step;
     eyes->columns = (size_t)columns;

@@ -19,7 +19,7 @@ option_table camera_option_table(camera_plan *plan) {
          "where viewpoints may stand: anywhere, corners, walls, walls:STEP, grid:STEP, or a table "
          "of places, in which a column cost says what each costs (default: anywhere; walls with "
          "one of the options below)",
-         .text = &plan->from},
+         .text = &plan->from, .is_input = true},
         {"fov", 0, "DEG", "width of view cones (default: 360, all round)",
          .number = &plan->like.fov, .over_0 = true, .most = 360},
         {"headings", 0, "N", "directions to choose from at each place (default: 8)",
@@ -50,10 +50,10 @@ option_table camera_option_table(camera_plan *plan) {
          "what must be seen: names of objects, doors and paths in the map (of shut doors both "
          "sides), a drawing of closed outlines, or a table of corners (.csv: name,x,y) (default: "
          "all that is inside)",
-         .text = &plan->see},
+         .text = &plan->see, .is_input = true},
         {"path", 0, "PATH",
          "a route that must be seen: a path of the map, or the points of a CSV table",
-         .text = &plan->path, .rare = true},
+         .text = &plan->path, .is_input = true, .rare = true},
         {"weight", 0, "NAME=W,...",
          "with --count: what the area of zones of --see, or the length of lines, is worth "
          "(default: "
@@ -61,7 +61,7 @@ option_table camera_option_table(camera_plan *plan) {
          .text = &plan->weight, .rare = true},
         {"forbid", 0, "ZONES",
          "where no viewpoint may stand: names of objects, outlines or a table, as --see has them",
-         .text = &plan->forbid},
+         .text = &plan->forbid, .is_input = true},
     };
     option_table table = {0};
     option_table_add(&table, options, sizeof options / sizeof *options);

@@ -157,6 +157,10 @@ static sl_status name_columns(reader *r, const char *line, size_t length) {
     if (!any && r->column_count >= 2) {
         for (size_t i = 0; i < r->column_count; i++)
             r->columns[i] = i < NUMBERED ? (column)i : UNKNOWN;
+        sl_note(
+            r->context,
+            "%s: the first line names neither x nor y: the first two columns are taken as x and y",
+            r->path);
         return SL_OK;
     }
     if (!known[COLUMN_X] || !known[COLUMN_Y])
@@ -189,6 +193,8 @@ static sl_status check_row(const reader *r, const sl_camera *camera) {
                         : !(camera->height >= 0)       ? "height must be 0 or more"
                         : !(camera->tilt >= 0 && camera->tilt <= 90)
                             ? "tilt must be 0 to 90 degrees below the horizon"
+                        : camera->tilt > 0 && !(camera->height > 0)
+                            ? "a tilt needs a height over the ground"
                         : !(camera->letters >= 0) ? "letters must be 0 or more high"
                         : camera->view.sign && !(camera->view.range > 0)
                             ? "a sign needs letters, their height, or a range: how far it is read"
@@ -271,7 +277,8 @@ static sl_status read_lines(reader *r, const char *text, size_t size) {
         r->line++;
         if (length && line[length - 1] == '\r') length--;
         if (memchr(line, '\0', length))
-            return sl_fail_at(r->context, r->path, r->line, "a table of viewpoints is needed");
+            return sl_fail_at(r->context, r->path, r->line,
+                              "a NUL byte: expected a table as plain text (ASCII or UTF-8)");
         size_t blank = 0;
         while (blank < length && strchr(" \t,;", line[blank])) blank++;
         if (blank == length) continue;

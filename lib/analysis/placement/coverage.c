@@ -101,11 +101,11 @@ void sl_coverage_destroy(sl_context *context, sl_coverage *coverage) {
     *coverage = (sl_coverage){0};
 }
 
-double sl_coverage_class_area(const sl_coverage *coverage, uint32_t class) {
+double sl_coverage_class_area(const sl_coverage *coverage, uint32_t class_index) {
     const double *areas = coverage->overlay.areas;
-    if (class > coverage->count || class >= SL_COVERAGE_CLASSES) return 0;
-    const bool last = class + 1 == SL_COVERAGE_CLASSES || class == coverage->count;
-    const double area = areas[class] - (last ? 0 : areas[class + 1]);
+    if (class_index > coverage->count || class_index >= SL_COVERAGE_CLASSES) return 0;
+    const bool last = class_index + 1 == SL_COVERAGE_CLASSES || class_index == coverage->count;
+    const double area = areas[class_index] - (last ? 0 : areas[class_index + 1]);
     return area > coverage->negligible ? area : 0;
 }
 

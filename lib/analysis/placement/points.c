@@ -62,10 +62,11 @@ static sl_status add_grid(pointer *p, double step) {
     if (!((right - left + 1) * (high - low + 1) < 64.0 * MOST_POINTS))
         return sl_fail(p->context, SL_BAD_ARGUMENT,
                        "a grid of step %g is too fine: take a longer step", step);
-    for (double y = low; y <= high; y++) {
+    // Far from the origin left + 1 may be left: what is counted up is the number of the row.
+    for (double j = 0; j <= high - low; j++) {
         SL_TRY(sl_check_cancelled(p->context));
-        for (double x = left; x <= right; x++)
-            SL_TRY(add(p, sli_coordinates((sl_point){x * step, y * step})));
+        for (double i = 0; i <= right - left; i++)
+            SL_TRY(add(p, sli_coordinates((sl_point){(left + i) * step, (low + j) * step})));
     }
     return SL_OK;
 }

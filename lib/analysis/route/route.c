@@ -119,8 +119,8 @@ sl_status sl_route_finder_update(sl_context *context, sl_route_finder *finder) {
 
 sl_status sl_route_finder_set_radius(sl_context *context, sl_route_finder *finder, double radius) {
     if (!(radius >= 0 && radius <= SL_COORDINATE_MAX))
-        return sl_fail(context, SL_BAD_ARGUMENT, "the radius is %.9g: it must be 0 or more",
-                       radius);
+        return sl_fail(context, SL_BAD_ARGUMENT, "the radius is %.9g: expected 0 to %g", radius,
+                       SL_COORDINATE_MAX);
     if (radius > 0 && finder->by_door)
         return sl_fail(context, SL_UNSUPPORTED, "a walker with a radius passes no door at a loss");
     finder->radius = radius;

@@ -57,7 +57,9 @@ static sl_status take_area(sl_context *context, sl_set_sight *s, const sl_point 
     take_corners(s, points, count);
     int turn = 0;
     for (size_t i = 0; i < s->count && !turn; i++) turn = side_of_corner(s, i);
-    if (!turn) return sl_fail(context, SL_BAD_ARGUMENT, "the set is an area without corners");
+    if (!turn)
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "the area to look from has its corners in one line");
     if (!is_convex(s, turn))
         return sl_fail(context, SL_BAD_ARGUMENT, "the area to look from is not convex");
     for (size_t i = 0; turn < 0 && i < s->count / 2; i++) {

@@ -72,8 +72,8 @@ SL_API sl_status sl_coverage_of_path(sl_context *context, sl_query *query,
 #define SL_COVERAGE_CLASSES 4
 
 /// The area inside that exactly so many viewpoints see; of the last class, that many or more. 0
-/// where it is negligible, and for a `class` from SL_COVERAGE_CLASSES on.
-SL_API double sl_coverage_class_area(const sl_coverage *coverage, uint32_t class);
+/// where it is negligible, and for a `class_index` from SL_COVERAGE_CLASSES on.
+SL_API double sl_coverage_class_area(const sl_coverage *coverage, uint32_t class_index);
 
 /// Whether the others see all that a viewpoint sees, but for rounding. Of two that see the same,
 /// each is spare; take one away and ask again.

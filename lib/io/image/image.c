@@ -78,6 +78,8 @@ typedef struct portable {
     uint32_t line;
 } portable;
 
+enum { MOST_NUMBER = 1 << 24 };
+
 /// The next number of the header or of a plain map; comments run from '#' to the line's end. In a
 /// plain bit map digits may stand without blank between them.
 static sl_status next_number(portable *file, bool digit, unsigned *value) {
@@ -89,9 +91,12 @@ static sl_status next_number(portable *file, bool digit, unsigned *value) {
     }
     const char *first = file->at;
     *value = 0;
-    while (file->at < file->end && *file->at >= '0' && *file->at <= '9' && *value < 1u << 24 &&
+    while (file->at < file->end && *file->at >= '0' && *file->at <= '9' && *value <= MOST_NUMBER &&
            !(digit && file->at > first))
         *value = 10 * *value + (unsigned)(*file->at++ - '0');
+    if (*value > MOST_NUMBER)
+        return sl_fail_at(file->context, file->name, file->line, "a number is too large: over %d",
+                          MOST_NUMBER);
     if (file->at == first)
         return sl_fail_at(file->context, file->name, file->line, "expected a number, found %s",
                           file->at == file->end ? "the end of the file" : "something else");

@@ -19,7 +19,7 @@ typedef struct ros_map {
     double origin[3];
     double negate;
     unsigned origin_count;
-    bool raw, scale;
+    bool scale;
     uint32_t image_line, origin_line;
 } ros_map;
 
@@ -45,6 +45,19 @@ static sl_status read_number(const ros_map *m, const char *key, const ros_value 
     return SL_OK;
 }
 
+static sl_status read_threshold(const ros_map *m, const char *key, const ros_value *value,
+                                double *out) {
+    SL_TRY(read_number(m, key, value, out));
+    if (*out >= 0 && *out <= 1) return SL_OK;
+    return sl_fail_at(m->context, m->name, value->line,
+                      "%s: expected a number from 0 to 1, found '%s'", key,
+                      sli_show((sli_word){value->text, strlen(value->text)}).text);
+}
+
+static sl_status fail_origin(const ros_map *m) {
+    return sl_fail_at(m->context, m->name, m->origin_line, "origin: expected [x, y, yaw]");
+}
+
 /// A value that is one word; keys that are not asked for are passed over.
 static sl_status take_value(ros_map *m, const char *key, const ros_value *value) {
     if (strcmp(key, "image") == 0) {
@@ -54,11 +67,17 @@ static sl_status take_value(ros_map *m, const char *key, const ros_value *value)
         return m->image ? SL_OK : SL_NO_MEMORY;
     }
     if (strcmp(key, "resolution") == 0) return read_number(m, key, value, &m->resolution);
-    if (strcmp(key, "free_thresh") == 0) return read_number(m, key, value, &m->free);
-    if (strcmp(key, "occupied_thresh") == 0) return read_number(m, key, value, &m->occupied);
+    if (strcmp(key, "free_thresh") == 0) return read_threshold(m, key, value, &m->free);
+    if (strcmp(key, "occupied_thresh") == 0) return read_threshold(m, key, value, &m->occupied);
+    if (strcmp(key, "origin") == 0) {
+        m->origin_line = value->line;
+        return fail_origin(m);
+    }
     if (strcmp(key, "mode") == 0) {
-        m->raw = strcmp(value->text, "raw") == 0;
         m->scale = strcmp(value->text, "scale") == 0;
+        if (m->scale || strcmp(value->text, "trinary") == 0) return SL_OK;
+        return sl_fail_at(m->context, m->name, value->line,
+                          "mode: only trinary and scale are known here");
     }
     if (strcmp(key, "negate") != 0) return SL_OK;
     const bool on = strcmp(value->text, "true") == 0, off = strcmp(value->text, "false") == 0;
@@ -68,7 +87,6 @@ static sl_status take_value(ros_map *m, const char *key, const ros_value *value)
 
 static sl_status take_item(ros_map *m, const char *key, const ros_value *value) {
     if (strcmp(key, "origin") != 0) return SL_OK;
-    m->origin_line = value->line;
     if (m->origin_count == 3)
         return sl_fail_at(m->context, m->name, value->line, "origin: more than x, y and yaw");
     return read_number(m, key, value, &m->origin[m->origin_count++]);
@@ -94,6 +112,8 @@ static sl_status read_events(ros_map *m, yaml_parser_t *parser) {
         if (maps > 1 || lists > 1 || type == YAML_ALIAS_EVENT || (lists && !has_key))
             return sl_fail_at(m->context, m->name, value.line,
                               "expected 'key: value' or 'key: [values]', as in a map.yaml of ROS");
+        if (type == YAML_SEQUENCE_START_EVENT && strcmp(key, "origin") == 0)
+            m->origin_line = value.line;
         if (type == YAML_SEQUENCE_END_EVENT) has_key = false;
         if (type != YAML_SCALAR_EVENT) continue;
         if (!has_key) {
@@ -119,11 +139,10 @@ static sl_status read_yaml(ros_map *m, const char *text, size_t size) {
     if (!m->image) return sl_fail_at(m->context, m->name, 0, "no 'image' is named");
     if (!(m->resolution > 0))
         return sl_fail_at(m->context, m->name, 0, "'resolution' is missing or not positive");
+    if (m->origin_line && m->origin_count != 3) return fail_origin(m);
     if (!(fabs(m->origin[2]) <= 1e3))
         return sl_fail_at(m->context, m->name, m->origin_line,
                           "origin: the yaw is no angle in radians");
-    if (m->raw)
-        return sl_fail_at(m->context, m->name, 0, "mode: only trinary and scale are known here");
     return SL_OK;
 }
 
@@ -225,7 +244,9 @@ static sl_status read_map(ros_map *m, const sl_import_options *options, const ch
     SL_TRY(read_yaml(m, text, size));
     SL_TRY(read_image(m, &image));
     const bool given = options->threshold > 0;
-    const sli_image_plan plan = {.threshold = given ? options->threshold : m->free,
+    // What is occupied is no free ground, whatever free_thresh says: as map_server reads it.
+    const sli_image_plan plan = {.threshold =
+                                     given ? options->threshold : fmin(m->free, m->occupied),
                                  .light = m->negate != 0,
                                  .solid_outside = !given,
                                  .step = m->resolution,

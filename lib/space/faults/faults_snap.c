@@ -295,7 +295,8 @@ static sl_status snap_to_walls(snapper *s) {
 
 sl_status sli_map_snap(sl_context *context, sl_map *map, double gap, sl_mend_account *account) {
     if (!(gap > 0 && sl_coordinate_usable(gap)))
-        return sl_fail(context, SL_BAD_ARGUMENT, "the gap to close must be a positive number");
+        return sl_fail(context, SL_BAD_ARGUMENT,
+                       "the gap to close is %g: expected over 0, up to %g", gap, SL_COORDINATE_MAX);
     snapper s = {.context = context, .map = map, .gap = gap};
     s.ends = sl_alloc_array(context, 2 * map->wall_count, sizeof *s.ends);
     if (!s.ends) return SL_NO_MEMORY;

@@ -169,6 +169,9 @@ sl_status sli_from_region_find_view_cells(sl_context *context,
                                           const sl_from_region_scene_options *options,
                                           sl_from_region_scene *scene) {
     SL_TRY(assign(context, options, scene));
+    if (!scene->counts.view_cells)
+        return sl_fail_at(context, sli_map_name(&scene->map), 0,
+                          "nothing of the map is inside: no view cells");
     scene->face_of = sl_alloc_array(context, scene->space.directed_count, sizeof *scene->face_of);
     if (!scene->face_of) return SL_NO_MEMORY;
     return sli_from_region_find_faces(context, scene);

@@ -207,6 +207,14 @@ def text(value: Optional[str], what: str = "text") -> Optional[bytes]:
     return coded
 
 
+def word(value: str, what: str) -> bytes:
+    """A text that must be there, for the library."""
+    coded = text(value, what)
+    if coded is None:
+        raise TypeError(f"{what} must be a str, not None")
+    return coded
+
+
 def names_text(value: Union[str, Iterable[str], None], what: str) -> Optional[bytes]:
     """Names, one text with commas between or several, for the library; None stays None."""
     if value is None or isinstance(value, str):
@@ -346,7 +354,7 @@ class Doors(MutableMapping[str, bool]):
             return bool(call.door_open(self._of._open_pointer(), self._of._is_level, number))
 
     def __setitem__(self, name: str, is_open: bool) -> None:
-        self._of._set_door(text(name, "the name of a door"), as_flag(is_open, f"door {name!r}"))
+        self._of._set_door(word(name, "the name of a door"), as_flag(is_open, f"door {name!r}"))
 
     def __delitem__(self, name: str) -> None:
         raise TypeError("doors cannot be removed")

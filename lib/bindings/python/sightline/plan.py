@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from . import drawing
 from ._library import (Bake, Floats, Handle, Import, MapHandle, as_count, as_flag, as_number, as_point,
                        as_points, as_reals, as_segments, call, existing, names_text, path_text, said,
-                       text)
+                       text, word)
 from .errors import BadInput, SightlineWarning
 from .level import Level
 from .lines import Segments
@@ -135,8 +135,8 @@ class Plan(Segments, drawing.InNotebooks, MapHandle):
         <Plan: 4 walls>
         """
         plan = cls()
-        coded = text(map_text, "map_text") or b""
-        plan._ask(call.plan_parse, text(name, "name"), coded, len(coded),
+        coded = word(map_text, "map_text")
+        plan._ask(call.plan_parse, word(name, "name"), coded, len(coded),
                   ctypes.byref(Import(slice=math.nan)))
         return plan
 
@@ -243,7 +243,7 @@ class Plan(Segments, drawing.InNotebooks, MapHandle):
 
     def _add(self, kind: str, segments: ArrayLike, name: str = "", is_open: bool = True) -> None:
         rows = as_segments(segments, f"{kind}s")
-        words = text(kind, "kind"), text(name, "name"), as_flag(is_open, "is_open")
+        words = word(kind, "kind"), word(name, "name"), as_flag(is_open, "is_open")
         self._changed()
         self._ask(call.plan_add, *words, rows, len(rows))
 

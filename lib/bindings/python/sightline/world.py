@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 
 from . import tables
 from ._library import (Floats, Handle, Integers, address, as_flag, as_number, as_point, as_points,
-                       as_reals, as_segments, call, text)
+                       as_reals, as_segments, call, word)
 
 if TYPE_CHECKING:
     from .plan import Plan
@@ -101,7 +101,7 @@ class World(Handle):
         for what in (stops,) if isinstance(stops, str) else stops:
             bits |= 1 << _choice(what, "stops", MAY_STOP)
         numbers: Integers = np.zeros(len(rows), np.int64)
-        self._ask(call.world_add, text(kind, "kind"), text(name, "name"), as_flag(open, "open"), bits,
+        self._ask(call.world_add, word(kind, "kind"), word(name, "name"), as_flag(open, "open"), bits,
                   as_flag(one_sided, "one_sided"), rows, len(rows), numbers)
         return int(numbers[0]) if np.ndim(segments) == 1 else numbers
 

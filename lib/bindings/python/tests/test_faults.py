@@ -259,6 +259,12 @@ class EveryArgument(unittest.TestCase):
             "save": lambda v: plan.save("a.map", v), "map": lambda v: sightline.Plan.from_text(v),
             "name": lambda v: sightline.Plan.from_text("sightline 1\n", v),
             "from_file": lambda v: sightline.Plan.from_file(support.MAPS / "office.map", map=v)})
+        world = plan.edit()
+        self.check([None], {
+            "door": lambda v: self.hall.doors.__setitem__(v, True),
+            "add_door": lambda v: plan.add_door(v, (5, 1, 5, 2)), "map": sightline.Plan.from_text,
+            "name": lambda v: sightline.Plan.from_text("sightline 1\n", v),
+            "edit": lambda v: world.add((5, 1, 5, 2), "door", name=v)})
         for path in (None, 1, 0.5, [], "a\0b"):
             for call in (sightline.Level.open, sightline.Plan.from_file, at.save, plan.save, at.export):
                 self.assertTrue(refused(lambda: call(path)))
