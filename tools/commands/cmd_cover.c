@@ -138,8 +138,8 @@ static sl_status work(command_console *console, cover_plan *plan, cover_work *w)
     SL_TRY(cover_viewpoints(context, &w->cameras, &w->viewpoints));
     SL_TRY(sl_coverage_make(context, w->query, w->viewpoints, w->cameras.count, &w->coverage));
     note_blind(context, plan, w);
-    const cover_report report = {plan->operands[0], plan->pipeline.input.import.map, baked,
-                                 &w->cameras, &w->coverage};
+    const cover_report report = {
+        plan->operands[0], plan->pipeline.input.import.map, baked, &w->cameras, &w->coverage, NULL};
     if (plan->zones) {
         SL_TRY(zones_read(context, "zones", plan->zones, &plan->pipeline.input, &baked->map,
                           &w->zones));

@@ -337,8 +337,8 @@ static sl_status draw_union(sl_context *context, const isovist_plan *plan, const
     if (status == SL_OK) status = cover_viewpoints(context, &cameras, &viewpoints);
     if (status == SL_OK)
         status = sl_coverage_make(context, w->query, viewpoints, cameras.count, &coverage);
-    const cover_report report = {plan->input, plan->pipeline.input.import.map, &w->baked, &cameras,
-                                 &coverage};
+    const cover_report report = {
+        plan->input, plan->pipeline.input.import.map, &w->baked, &cameras, &coverage, NULL};
     if (status == SL_OK) {
         cover_sentence(&report, caption, sizeof caption);
         status = cover_draw(context, &report, NULL, caption, &plan->drawing, plan->picture);

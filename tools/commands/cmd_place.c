@@ -11,6 +11,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 typedef struct place_plan {
@@ -73,26 +74,32 @@ static sl_status place(command_console *console, const place_plan *plan, place_w
     return status;
 }
 
-static bool has_name(const sl_cameras *cameras, const char *name) {
-    for (size_t i = 0; i < cameras->count; i++)
-        if (cameras->items[i].name && strcmp(cameras->items[i].name, name) == 0) return true;
-    return false;
-}
-
 /// Viewpoints without a name get their number, as reports and pictures show it; where one that
 /// stands already has this name, the next number that is free.
 static sl_status name_all(sl_context *context, sl_cameras *cameras) {
+    const size_t most = 2 * cameras->count; // no number needs to be greater
     char name[32];
+    bool *taken = sl_alloc_array(context, most + 1, sizeof *taken);
+    if (!taken) return SL_NO_MEMORY;
     for (size_t i = 0; i < cameras->count; i++) {
-        sl_camera *camera = &cameras->items[i];
-        size_t number = i + 1;
-        if (camera->name) continue;
-        do snprintf(name, sizeof name, "%zu", number++);
-        while (has_name(cameras, name));
-        camera->name = sl_copy_text(context, name, strlen(name));
-        if (!camera->name) return SL_NO_MEMORY;
+        const char *const text = cameras->items[i].name;
+        const unsigned long long number = text ? strtoull(text, NULL, 10) : 0;
+        if (!number || number > most) continue;
+        snprintf(name, sizeof name, "%llu", number);
+        taken[number] = taken[number] || strcmp(name, text) == 0; // "02" is another name
     }
-    return SL_OK;
+    sl_status status = SL_OK;
+    for (size_t i = 0, number = 1; i < cameras->count && status == SL_OK; i++) {
+        sl_camera *camera = &cameras->items[i];
+        if (camera->name) continue;
+        if (number <= i) number = i + 1;
+        while (taken[number]) number++;
+        snprintf(name, sizeof name, "%zu", number++);
+        camera->name = sl_copy_text(context, name, strlen(name));
+        if (!camera->name) status = SL_NO_MEMORY;
+    }
+    sl_free(context, taken);
+    return status;
 }
 
 /// What the viewpoints see, found anew.
@@ -203,6 +210,16 @@ static sl_status verify(command_console *console, const place_plan *plan, place_
     return SL_OK;
 }
 
+/// What a viewpoint may be needed for that sees no area alone.
+static void needs_of(const camera_plan *cameras, char *text, size_t size) {
+    if (cameras->cover > 1)
+        snprintf(text, size, "each point must be seen by %u viewpoints", (unsigned)cameras->cover);
+    else
+        snprintf(text, size, "%s",
+                 cameras->network ? "lines of sight must join all viewpoints"
+                                  : "for slivers that are too thin to measure");
+}
+
 static sl_status work(command_console *console, const place_plan *plan, place_work *w) {
     sl_context *context = console->context;
     const sl_baked *baked = &w->baked;
@@ -234,8 +251,10 @@ static sl_status work(command_console *console, const place_plan *plan, place_wo
     else if (plan->proof)
         SL_TRY(sl_place_proof_write(context, w->query, &w->placement, plan->proof));
     SL_TRY(survey(context, w));
-    const cover_report report = {plan->input, plan->pipeline.input.import.map, baked, &w->cameras,
-                                 &w->coverage};
+    char needs[64];
+    needs_of(&plan->cameras, needs, sizeof needs);
+    const cover_report report = {
+        plan->input, plan->pipeline.input.import.map, baked, &w->cameras, &w->coverage, needs};
     char sentence[256], said[320], proof[400], caption[700];
     if (w->chooses)
         SL_TRY(camera_work_survey(context, &plan->cameras, w->query, &report, w->viewpoints,

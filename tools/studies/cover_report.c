@@ -80,13 +80,16 @@ static void print_viewpoints(const cover_report *r) {
         printf("  %-18s %-18s %10s  %10s%s\n", name, at,
                cover_area_text(r, r->coverage->seen[i], seen),
                cover_area_text(r, is_spare ? 0 : r->coverage->alone[i], alone),
-               is_spare ? "  spare" : "");
+               is_spare && !r->needs ? "  spare" : "");
     }
-    if (spare > 1)
-        printf("  The others see all that a spare one sees. Take one away and ask again: two may "
-               "stand in for each other.\n");
+    if (spare && r->needs)
+        printf("  A viewpoint that sees no area alone may still be needed: %s.\n", r->needs);
+    else if (spare > 1)
+        printf("  The others see all that a spare one sees, but for slivers up to a billionth of "
+               "the inside. Take one away and ask again: two may stand in for each other.\n");
     else if (spare)
-        printf("  The others see all that the spare one sees.\n");
+        printf("  The others see all that the spare one sees, but for slivers up to a billionth of "
+               "the inside.\n");
 }
 
 static void print_blind(const cover_report *r) {

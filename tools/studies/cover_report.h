@@ -13,6 +13,8 @@ typedef struct cover_report {
     const sl_baked *baked;
     const sl_cameras *cameras;
     const sl_coverage *coverage;
+    const char *needs; ///< what a placement may need a viewpoint for that sees no area alone; NULL
+                       ///< for viewpoints that are given: such a one is spare
 } cover_report;
 
 enum { AREA_TEXT = 64 };

@@ -149,12 +149,16 @@ static sl_point foot_of(sl_point at, const sl_segment *line) {
 static bool meet_near(sl_point eye, const sl_segment *s, const sl_segment *t, sl_point *out) {
     const double share = 0.1;
     const sl_point u = {s->b.x - s->a.x, s->b.y - s->a.y}, v = {t->b.x - t->a.x, t->b.y - t->a.y};
+    const sl_point apex = {s->a.x - eye.x, s->a.y - eye.y};
+    const double off_line = sli_cross((sl_point){t->a.x - eye.x, t->a.y - eye.y}, v);
+    const double near = share * share * sli_dot(apex, apex);
+    // Most lines pass far from the eye, with a margin for rounding: this shows it soon.
+    if (off_line * off_line > 2 * near * sli_dot(v, v)) return false;
     if (sli_turn(s->a, s->b, t->a, t->b) == 0) return false;
     const double along =
         sli_cross((sl_point){t->a.x - s->a.x, t->a.y - s->a.y}, v) / sli_cross(u, v);
     const sl_point off = {s->a.x + along * u.x - eye.x, s->a.y + along * u.y - eye.y};
-    const sl_point apex = {s->a.x - eye.x, s->a.y - eye.y};
-    if (!(sli_dot(off, off) < share * share * sli_dot(apex, apex))) return false;
+    if (!(sli_dot(off, off) < near)) return false;
     *out = sli_crossing(*s, *t);
     return true;
 }

@@ -7,6 +7,7 @@
 /// candidates that see all germs can always be found.
 #include "analysis/placement/placer.h"
 
+#include "base/heap.h"
 #include "geometry/orient.h"
 
 /// Notes a germ where a candidate sees it. Its middle is rounded, so this is only nearly exact:
@@ -63,29 +64,48 @@ sl_status sli_add_germ(sli_placer *p, const sli_window_part *gap, bool *added) {
     return sli_nearby_add(p->context, &p->germ_points, (sl_box){germ.at, germ.at});
 }
 
-/// The candidate that sees most of the germs from `first` on that are not seen; UINT32_MAX: none.
-static uint32_t best_for(const sli_placer *p, size_t first, const bool *seen) {
-    uint32_t best = UINT32_MAX;
-    size_t most = 0;
-    for (size_t i = 0; i < p->candidates.count; i++) {
-        const sli_candidate *c = &p->candidates.items[i];
-        size_t sees = 0;
-        for (size_t k = c->germs.count; k && c->germs.items[k - 1] >= first; k--)
-            sees += !seen[c->germs.items[k - 1]];
-        if (sees > most) most = sees, best = (uint32_t)i;
-    }
-    return best;
+/// How many unseen germs a candidate sees, or saw once: those seen since then are not yet taken
+/// off.
+typedef struct gain {
+    size_t germs;
+    uint32_t candidate;
+} gain;
+
+static bool is_greater(const gain *a, const gain *b) {
+    return a->germs != b->germs ? a->germs > b->germs : a->candidate < b->candidate;
 }
 
-static sl_status choose_for(sli_placer *p, size_t first, bool *seen) {
-    for (;;) {
-        SL_TRY(sl_check_cancelled(p->context)); // each look at all candidates takes long
-        const uint32_t best = best_for(p, first, seen);
-        if (best == UINT32_MAX) return SL_OK;
-        SL_TRY(sli_choose(p, best));
-        const sli_candidate *c = &p->candidates.items[best];
-        for (size_t k = 0; k < c->germs.count; k++) seen[c->germs.items[k]] = true;
+SLI_HEAP(gain_heap, gain, is_greater)
+
+/// How many of the germs from `first` on that are not seen a candidate sees.
+static size_t count_unseen(const sli_candidate *c, size_t first, const bool *seen) {
+    size_t count = 0;
+    for (size_t k = c->germs.count; k && c->germs.items[k - 1] >= first; k--)
+        count += !seen[c->germs.items[k - 1]];
+    return count;
+}
+
+/// Greedy: the candidate that sees most of the germs from `first` on that are not seen, as long as
+/// there is one. Gains only fall, so one at the top of the heap that is up to date is the greatest
+/// (Minoux 1978).
+static sl_status choose_for(sli_placer *p, size_t first, bool *seen, gain_heap *heap) {
+    for (uint32_t i = 0; i < p->candidates.count; i++) {
+        const size_t germs = count_unseen(&p->candidates.items[i], first, seen);
+        if (germs) SL_TRY(gain_heap_push(p->context, heap, ((gain){germs, i})));
     }
+    while (heap->count) {
+        SL_TRY(sl_check_cancelled(p->context));
+        const gain top = gain_heap_pop(heap);
+        const sli_candidate *c = &p->candidates.items[top.candidate];
+        const size_t germs = count_unseen(c, first, seen);
+        if (germs == top.germs) {
+            SL_TRY(sli_choose(p, top.candidate));
+            for (size_t k = 0; k < c->germs.count; k++) seen[c->germs.items[k]] = true;
+        } else if (germs) {
+            SL_TRY(gain_heap_push(p->context, heap, ((gain){germs, top.candidate})));
+        }
+    }
+    return SL_OK;
 }
 
 sl_status sli_choose_for_gaps(sli_placer *p, bool *more) {
@@ -94,7 +114,9 @@ sl_status sli_choose_for_gaps(sli_placer *p, bool *more) {
     for (size_t i = 0; i < p->gaps.count; i++) SL_TRY(sli_add_germ(p, &p->gaps.items[i], &one));
     bool *seen = sl_alloc_array(p->context, p->germs.count, sizeof *seen);
     if (!seen) return SL_NO_MEMORY;
-    sl_status status = choose_for(p, first, seen);
+    gain_heap heap = {0};
+    sl_status status = choose_for(p, first, seen, &heap);
+    sl_free(p->context, heap.items);
     sl_free(p->context, seen);
     // Gaps that had germs before: their apexes.
     for (size_t i = 0; status == SL_OK && p->chosen.count == before && i < p->gaps.count; i++) {

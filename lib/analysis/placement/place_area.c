@@ -31,13 +31,15 @@ enum { SEARCHES = 8 };
 enum {
     ROUNDS = 400,
     COARSE_ITERATIONS = 20000,
-    SET_ITERATIONS = 100000, // before the first exact bound, which they would keep waiting
+    SET_ITERATIONS = 200000, // before the first exact bound, which they would keep waiting
     LONG_ITERATIONS = 1000000,
     SEARCH_ITERATIONS = 20000,
     SEARCH_LEAST = 300
 };
 /// Entries that a local search may touch, about.
 #define SEARCH_WORK 2e8
+/// Iterations of a local search times places, before the first exact bound.
+#define SET_WORK 1.28e9
 
 static sl_status check_task(sl_context *context, const sl_place_area *t) {
     SL_TRY(sli_check_viewpoints(context, t->places, t->place_count));
@@ -321,7 +323,10 @@ static sl_status choose(finder *f, choice what) {
     sl_cover_options options = sl_cover_options_default();
     options.program = what == SETS ? NULL : a->options->program;
     options.nodes = fine ? a->options->nodes : 0;
-    if (what == SETS) options.iterations = f->fine ? LONG_ITERATIONS : SET_ITERATIONS;
+    if (what == SETS)
+        options.iterations = f->fine
+                                 ? LONG_ITERATIONS
+                                 : (uint64_t)fmin(SET_ITERATIONS, SET_WORK / a->task->place_count);
     if (what != SETS && !fine) options.iterations = COARSE_ITERATIONS;
     options.known_lower = a->out->lower > fixed ? a->out->lower - fixed : 0;
     sl_cover_problem problem = {0};
