@@ -214,6 +214,17 @@ class Level(unittest.TestCase):
             self.assertNotEqual(done.returncode, 0, language)
             self.assertIn("no door", done.stderr, language)
 
+    def test_lua_takes_no_points_for_cells(self):
+        if "Lua" not in self.programs:
+            self.skipTest("no LuaJIT")
+        command = [*self.programs["Lua"][:-1], "-e"]
+        opened = f"level = require('sightline').open('{self.at / 'doors.slv'}') "
+        done = self.run_one([*command, opened + "print(level:can_see(0, 0))"])
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "true\n", ""))
+        done = self.run_one([*command, opened + "level:can_see(5.1, 5.03, 6, 6)"])
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("can_see takes two cells; sees takes two points", done.stderr)
+
 
 if __name__ == "__main__":
     LIBRARY, PROGRAM, SOURCE = map(pathlib.Path, sys.argv[1:4])

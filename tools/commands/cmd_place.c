@@ -61,7 +61,7 @@ static sl_status place(command_console *console, const place_plan *plan, place_w
         status = sl_fail(console->context, SL_CANCELLED,
                          "no set of viewpoints was found in time: give more with --time-limit, or "
                          "choose among fewer than %u places and headings: a longer step, as "
-                         "--from grid:STEP, or fewer --headings",
+                         "--from walls:STEP or grid:STEP, or fewer --headings",
                          places);
     else if (status == SL_CANCELLED && limit.late)
         status = sl_fail(console->context, SL_CANCELLED,

@@ -17,7 +17,8 @@ option_table camera_option_table(camera_plan *plan) {
     const option_spec options[] = {
         {"from", 0, "PLACES",
          "where viewpoints may stand: anywhere, corners, walls, walls:STEP, grid:STEP, or a table "
-         "of places (default: anywhere; walls with one of the options below)",
+         "of places, in which a column cost says what each costs (default: anywhere; walls with "
+         "one of the options below)",
          .text = &plan->from, .is_input = true},
         {"fov", 0, "DEG", "width of view cones (default: 360, all round)",
          .number = &plan->like.fov, .over_0 = true, .most = 360},
@@ -42,8 +43,8 @@ option_table camera_option_table(camera_plan *plan) {
         {"scan-range", 0, "R", "scan the walls: see each point of them from R or nearer",
          .number = &plan->scan_range, .over_0 = true, .rare = true},
         {"fixed", 0, "TABLE",
-         "viewpoints that stand already; what the table leaves blank is as in cover, and --fov, "
-         "--range and --nearest are of new ones",
+         "viewpoints that stand already; without a column fov they look all round, without range "
+         "they see without limit: --fov, --range and --nearest are of new ones",
          .text = &plan->fixed, .is_input = true},
         {"see", 0, "THINGS",
          "what must be seen: names of objects, doors and paths in the map (of shut doors both "
@@ -135,8 +136,19 @@ static sl_status add_place(sl_context *context, const camera_plan *plan, const s
     return SL_OK;
 }
 
+/// Whether a viewpoint sees nothing, as one on a wall that looks at the wall's other side.
+static sl_status is_blind(sl_context *context, sl_query *query, const sl_viewpoint *place,
+                          bool *blind) {
+    const sl_view view = sl_query_view(query, place->at, place->heading, place->fov);
+    sl_region region = {0};
+    const sl_status status = sl_query_region(context, query, &view, &region);
+    *blind = status == SL_OK && !(sl_region_area(&region) > 0);
+    sl_region_destroy(context, &region);
+    return status;
+}
+
 static sl_status add_table(sl_context *context, const camera_plan *plan, const zone_list *forbid,
-                           const sl_space *space, camera_work *w) {
+                           const sl_space *space, sl_query *query, camera_work *w) {
     sl_cameras table = {0};
     if (strcmp(plan->from, "-") != 0 && sl_path_look(plan->from) == SL_PATH_NOTHING)
         return sl_fail(context, SL_BAD_ARGUMENT,
@@ -145,6 +157,7 @@ static sl_status add_table(sl_context *context, const camera_plan *plan, const z
                        plan->from);
     SL_TRY(sl_cameras_read(context, plan->from, &plan->like, &table));
     sl_status status = SL_OK;
+    uint32_t blind = 0, first = 0;
     for (size_t i = 0; status == SL_OK && i < table.count; i++) {
         const sl_camera *camera = &table.items[i];
         status = input_check_place(context, plan->from, camera->line, space, camera->view.at);
@@ -153,7 +166,16 @@ static sl_status add_table(sl_context *context, const camera_plan *plan, const z
             w->forbidden++;
         else
             status = add_place(context, plan, camera, plan->headings > 0, w);
+        bool sees_nothing = false;
+        if (status == SL_OK && !plan->headings)
+            status = is_blind(context, query, &camera->view, &sees_nothing);
+        if (sees_nothing && !blind++) first = camera->line;
     }
+    if (status == SL_OK && blind)
+        sl_note(context,
+                "%s: %u of %zu places see nothing, the first on line %u: one that stands on a wall "
+                "looks from one side of it; put it a little before the wall",
+                plan->from, blind, table.count, first);
     sl_cameras_destroy(context, &table);
     return status;
 }
@@ -166,7 +188,7 @@ static sl_status add_points(sl_context *context, const camera_plan *plan, const 
     SL_TRY(read_step(context, from, "corners", &step, &corners));
     if (!corners) SL_TRY(read_step(context, from, "walls", &step, &walls));
     if (!corners && !walls) SL_TRY(read_step(context, from, "grid", &step, &grid));
-    if (!corners && !walls && !grid) return add_table(context, plan, forbid, space, w);
+    if (!corners && !walls && !grid) return add_table(context, plan, forbid, space, query, w);
     if (grid && !(step > 0))
         return sl_fail(context, SL_BAD_ARGUMENT, "--from grid: give the step, as grid:0.5");
     if (walls && !(step > 0)) step = sl_place_step(space, plan->like.range);
@@ -190,6 +212,27 @@ static sl_status add_points(sl_context *context, const camera_plan *plan, const 
     return status;
 }
 
+/// Notes viewpoints that stand already and see farther or wider than new ones may.
+static void note_unlimited(sl_context *context, const camera_plan *plan, const camera_work *w) {
+    unsigned round = 0, far = 0;
+    for (uint32_t i = 0; i < w->task.fixed_count; i++) {
+        const sl_viewpoint *view = &w->places.items[i].view;
+        round += plan->like.fov < 360 && view->fov == 360;
+        far += plan->like.range > 0 && view->range == 0;
+    }
+    if (round)
+        sl_note(
+            context,
+            "%s: rows that look all round: %u of %u; --fov is of new viewpoints, a column fov of "
+            "these",
+            plan->fixed, round, w->task.fixed_count);
+    if (far)
+        sl_note(context,
+                "%s: rows that see without limit: %u of %u; --range is of new viewpoints, a column "
+                "range of these",
+                plan->fixed, far, w->task.fixed_count);
+}
+
 static sl_status add_fixed(sl_context *context, const camera_plan *plan, const sl_space *space,
                            camera_work *w) {
     const sl_viewpoint like = camera_plan_default().like; // --fov and --range are of new ones
@@ -202,6 +245,7 @@ static sl_status add_fixed(sl_context *context, const camera_plan *plan, const s
         w->fixed[i] = i;
         SL_TRY(input_check_place(context, plan->fixed, camera->line, space, camera->view.at));
     }
+    note_unlimited(context, plan, w);
     return SL_OK;
 }
 

@@ -110,7 +110,9 @@ function level:locate(x, y)
     return cell >= 0 and cell or nil
 end
 
-function level:can_see(from, to)
+-- Whether something of one cell is seen from somewhere in another. For two points there is sees().
+function level:can_see(from, to, more)
+    if more then error("can_see takes two cells; sees takes two points: x0, y0, x1, y1", 2) end
     return c.sl_level_can_see(self.handle, from or -1, to or -1) == 1
 end
 
