@@ -8,6 +8,7 @@
 
 #include <math.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
 #define LINE(layer, x0, y0, x1, y1)                                                                \
@@ -480,6 +481,42 @@ static void choices_are_kept(void **state) {
     close_house(&s);
 }
 
+/// A choice that is refused does not shut the drawing out the next time.
+static void refused_is_not_kept(void **state) {
+    (void)state;
+    scene s = open_house();
+    app_state *app = s.app;
+    char config[] = "/tmp/sightline-config-XXXXXX", kept[160], folder[96];
+    const struct timespec nap = {.tv_nsec = 2000000};
+    sl_status status;
+    assert_non_null(mkdtemp(config));
+    assert_int_equal(setenv("XDG_CONFIG_HOME", config, 1), 0);
+    app->ui.steady = false;
+    press(app, "Ctrl+I");
+    for (int i = 0; i < 8; i++) press(app, "Tab");
+    input_text(app, "ells");
+    viewer_press(app, "Return"); // before the plan has followed
+    assert_int_equal(dialog_open_now(&app->desk.dialog), DIALOG_NONE);
+    for (int i = 0; i < 5000 && !dialog_open_now(&app->desk.dialog); i++) {
+        nanosleep(&nap, NULL);
+        app_tick(app, 0.002);
+    }
+    assert_int_equal(dialog_open_now(&app->desk.dialog), DIALOG_QUESTION); // it is told
+    document_source found = {0};
+    const document_source plain = {.path = s.path, .options = sl_import_options_default()};
+    assert_ok(app->context, document_source_copy(app->context, &plain, &found));
+    assert_true(drawing_recall(app->context, &found, &status));
+    assert_null(found.options.unit);
+    document_source_destroy(app->context, &found);
+    app->ui.steady = true;
+    snprintf(folder, sizeof folder, "%s/sightline", config);
+    snprintf(kept, sizeof kept, "%s/drawings", folder);
+    assert_int_equal(remove(kept), 0);
+    close_house(&s);
+    assert_int_equal(rmdir(folder), 0);
+    assert_int_equal(rmdir(config), 0);
+}
+
 /// A building asks which of its storeys is shown, and once more by a key; what is wrong in it is
 /// told, and the plan stays.
 static void storeys_are_chosen(void **state) {
@@ -531,7 +568,7 @@ int main(void) {
         cmocka_unit_test(plan_is_looked_at),  cmocka_unit_test(inside_is_told),
         cmocka_unit_test(line_is_measured),   cmocka_unit_test(keys_click_in_the_plan),
         cmocka_unit_test(wrong_choices),      cmocka_unit_test(choices_are_kept),
-        cmocka_unit_test(storeys_are_chosen),
+        cmocka_unit_test(storeys_are_chosen), cmocka_unit_test(refused_is_not_kept),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
