@@ -210,6 +210,8 @@ static void fewest(void **state) {
     assert_int_equal(layer->table.count, 5);
     assert_true(sl_coverage_class_area(&layer->coverage, 0) == 0);
     assert_non_null(strstr(layer->proof, "No fewer can: "));
+    assert_non_null(
+        strstr(app->ui.message, "Looked for: field of view 360\xc2\xb0, no limit of range"));
     viewer_press(app, "Ctrl+Z");
     assert_int_equal(layer->table.count, 1);
     assert_true(layer->proof[0] == '\0');

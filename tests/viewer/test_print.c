@@ -3,6 +3,7 @@
 #include "hand.h"
 
 #include "app/sheet.h"
+#include "app/sheet_parts.h"
 #include "dialogs/question.h"
 #include "plan/cameras.h"
 #include "plan/compare.h"
@@ -93,6 +94,14 @@ static void what_is_shown(void **state) {
     char measure[64];
     heat_say_measure(&app->view, measure);
     assert_prints(&s, (const char *const[]){measure, NULL});
+    // What is seen is an outline over the heat map, and so its swatch is a line that one sees.
+    sheet_parts parts = {0};
+    sl_draw_options drawn = sl_draw_options_default();
+    assert_ok(app->context, sheet_parts_fill(&app->view, true, &parts));
+    sheet_parts_apply(&parts, &drawn);
+    assert_string_equal(drawn.parts[0].name, "seen from the viewpoint");
+    assert_true(drawn.parts[0].line_count > 2 && !drawn.parts[0].area.count);
+    sheet_parts_destroy(app->context, &parts);
     press(app, "1");
     press(app, "Ctrl+5");
     *line_map_choice(&app->view) = sl_measure_find(SL_AXIAL, "line_length");

@@ -8,6 +8,7 @@
 
 #include <math.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
 #define LINE(layer, x0, y0, x1, y1)                                                                \
@@ -232,6 +233,74 @@ static bool is_shown(const app_state *app, const char *part) {
     return false;
 }
 
+/// Presses Tab until the widget with this label has the focus, which Return then presses.
+static void tab_to(app_state *app, const char *label) {
+    const dialog_state *d = &app->desk.dialog;
+    for (int tabs = 0; tabs < 40; tabs++) {
+        for (int i = 0; i < d->item_count; i++) {
+            if (d->items[i].id != d->focus[d->depth - 1]) continue;
+            for (int j = 0; j < app->ui.spot_count; j++)
+                if (strcmp(app->ui.spots[j].text, label) == 0 &&
+                    box_has(d->items[i].box, box_middle(app->ui.spots[j].box)))
+                    return;
+        }
+        press(app, "Tab");
+    }
+    fail_msg("no Tab leads to '%s'", label);
+}
+
+/// Moves the cursor to a place of the map, by arrows alone.
+static void arrows_to(app_state *app, sl_point at) {
+    const sl_point page = viewer_on_page(app, at);
+    for (int i = 0; i < 2000 && fabs(app->ui.pointer.x - page.x) > 0.5; i++)
+        press(app, app->ui.pointer.x < page.x ? "Shift+Right" : "Shift+Left");
+    for (int i = 0; i < 2000 && fabs(app->ui.pointer.y - page.y) > 0.5; i++)
+        press(app, app->ui.pointer.y < page.y ? "Shift+Down" : "Shift+Up");
+    assert_true(hypot(app->ui.pointer.x - page.x, app->ui.pointer.y - page.y) < 1);
+}
+
+/// Without a pointer: while a click in the plan is waited for, arrows and Return are for the plan.
+static void keys_click_in_the_plan(void **state) {
+    (void)state;
+    scene s = open_house();
+    app_state *app = s.app;
+    keep_spots(app);
+    press(app, "Ctrl+I");
+    tab_to(app, "Here is inside");
+    press(app, "Return");
+    assert_int_equal(app->ui.focus.kind, HIT_PLAN); // the cursor is shown
+    arrows_to(app, (sl_point){3, 2});
+    press(app, "Return");
+    assert_int_equal(app->document.map.start_count, 1);
+    const sl_point start = app->document.map.starts[0].at;
+    assert_true(hypot(start.x - 3, start.y - 2) < 0.1);
+    assert_int_equal(app->ui.focus.kind, HIT_NONE);
+    tab_to(app, "Measure a line");
+    press(app, "Return");
+    arrows_to(app, (sl_point){5.5, 0});
+    press(app, "Return");
+    arrows_to(app, (sl_point){12, 0});
+    press(app, "Return");
+    type(app, "13 m");
+    press(app, "Return");
+    assert_string_equal(app->document.source.options.unit, "2=m");
+    // Tab leaves the plan, and comes back to it. Escape ends the waiting, and not the dialog.
+    tab_to(app, "Measure a line");
+    press(app, "Return");
+    press(app, "Tab");
+    assert_int_equal(app->ui.focus.kind, HIT_NONE);
+    press(app, "Shift+Tab");
+    assert_int_equal(app->ui.focus.kind, HIT_PLAN);
+    press(app, "Escape");
+    assert_int_equal(app->ui.focus.kind, HIT_NONE);
+    assert_true(is_shown(app, "Measure a line"));
+    assert_true(import_is_beside(&app->desk));
+    press(app, "Escape");
+    assert_false(import_is_beside(&app->desk));
+    drop_spots(app);
+    close_house(&s);
+}
+
 /// The panel leaves the plan in sight: one can fit it and read the notes without leaving the panel.
 static void plan_is_looked_at(void **state) {
     (void)state;
@@ -348,6 +417,14 @@ static void wrong_choices(void **state) {
     assert_null(ui_misfit(&app->ui, misfit));
     drop_spots(app);
     assert_int_equal(app->document.baked->space.wall_count, walls);
+    // It is not left with a choice that was refused, as if the plan had it.
+    press(app, "Return");
+    assert_int_equal(dialog_open_now(&app->desk.dialog), DIALOG_IMPORT);
+    assert_non_null(strstr(app->desk.dialog.problem, "there is no unit 'ells"));
+    press(app, "Ctrl+A");
+    type(app, "2=m");
+    press(app, "Return");
+    assert_int_equal(dialog_open_now(&app->desk.dialog), DIALOG_NONE);
     close_house(&s);
 }
 
@@ -404,6 +481,42 @@ static void choices_are_kept(void **state) {
     close_house(&s);
 }
 
+/// A choice that is refused does not shut the drawing out the next time.
+static void refused_is_not_kept(void **state) {
+    (void)state;
+    scene s = open_house();
+    app_state *app = s.app;
+    char config[] = "/tmp/sightline-config-XXXXXX", kept[160], folder[96];
+    const struct timespec nap = {.tv_nsec = 2000000};
+    sl_status status;
+    assert_non_null(mkdtemp(config));
+    assert_int_equal(setenv("XDG_CONFIG_HOME", config, 1), 0);
+    app->ui.steady = false;
+    press(app, "Ctrl+I");
+    for (int i = 0; i < 8; i++) press(app, "Tab");
+    input_text(app, "ells");
+    viewer_press(app, "Return"); // before the plan has followed
+    assert_int_equal(dialog_open_now(&app->desk.dialog), DIALOG_NONE);
+    for (int i = 0; i < 5000 && !dialog_open_now(&app->desk.dialog); i++) {
+        nanosleep(&nap, NULL);
+        app_tick(app, 0.002);
+    }
+    assert_int_equal(dialog_open_now(&app->desk.dialog), DIALOG_QUESTION); // it is told
+    document_source found = {0};
+    const document_source plain = {.path = s.path, .options = sl_import_options_default()};
+    assert_ok(app->context, document_source_copy(app->context, &plain, &found));
+    assert_true(drawing_recall(app->context, &found, &status));
+    assert_null(found.options.unit);
+    document_source_destroy(app->context, &found);
+    app->ui.steady = true;
+    snprintf(folder, sizeof folder, "%s/sightline", config);
+    snprintf(kept, sizeof kept, "%s/drawings", folder);
+    assert_int_equal(remove(kept), 0);
+    close_house(&s);
+    assert_int_equal(rmdir(folder), 0);
+    assert_int_equal(rmdir(config), 0);
+}
+
 /// A building asks which of its storeys is shown, and once more by a key; what is wrong in it is
 /// told, and the plan stays.
 static void storeys_are_chosen(void **state) {
@@ -453,8 +566,9 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(roles_show_at_once), cmocka_unit_test(leaks_are_closed),
         cmocka_unit_test(plan_is_looked_at),  cmocka_unit_test(inside_is_told),
-        cmocka_unit_test(line_is_measured),   cmocka_unit_test(wrong_choices),
-        cmocka_unit_test(choices_are_kept),   cmocka_unit_test(storeys_are_chosen),
+        cmocka_unit_test(line_is_measured),   cmocka_unit_test(keys_click_in_the_plan),
+        cmocka_unit_test(wrong_choices),      cmocka_unit_test(choices_are_kept),
+        cmocka_unit_test(storeys_are_chosen), cmocka_unit_test(refused_is_not_kept),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -56,7 +56,7 @@ DO(value_type, slider_type(app, -1))
 static void room_name_typed(app_state *app) {
     const room_map *map = room_map_shown(&app->view);
     if (!map || app->view.table.chosen >= room_map_rows(map))
-        ui_say(&app->ui, false, "choose a room first");
+        ui_say(&app->ui, false, "choose a room first: click on its name at the right");
     else
         type_name(app, room_map_name(map, app->view.table.chosen));
 }

@@ -205,6 +205,21 @@ static void mute_letter(app_state *app, const char *key) {
     if (dialog_open_now(d) != DIALOG_NONE) snprintf(d->deaf, sizeof d->deaf, "%s", key);
 }
 
+/// Keys for the plan, where a dialog beside it waits for a click there.
+static bool pick_key(app_state *app, const char *key) {
+    if (!import_picks(&app->desk) || strcmp(key, "Space") == 0) return false;
+    if (strcmp(key, "Escape") != 0) return cursor_key(app, key, app_layout(app).plan[0]);
+    import_stop_picking(&app->desk);
+    return true;
+}
+
+/// Shows the cursor in the plan for as long as it takes the keys.
+static void show_cursor(app_state *app) {
+    const bool picks = import_picks(&app->desk);
+    app->ui.focus = (ui_focus){.kind = picks ? HIT_PLAN : HIT_NONE};
+    if (picks) cursor_begin(app, app_layout(app).plan[0]);
+}
+
 void input_key(app_state *app, const char *key, bool down) {
     const text_field *before = app->ui.field;
     if (dialog_open_now(&app->desk.dialog) != DIALOG_NONE) {
@@ -215,7 +230,8 @@ void input_key(app_state *app, const char *key, bool down) {
         }
         const int depth = app->desk.dialog.depth;
         const dialog_kind kind = dialog_open_now(&app->desk.dialog);
-        dialog_key(&app->desk.dialog, key, down);
+        if (!down || !pick_key(app, key)) dialog_key(&app->desk.dialog, key, down);
+        if (app->desk.dialog.beside) show_cursor(app);
         actions_answered(app);
         if (down && (depth != app->desk.dialog.depth || kind != dialog_open_now(&app->desk.dialog)))
             mute_letter(app, key);

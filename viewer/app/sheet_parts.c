@@ -255,6 +255,9 @@ void sheet_parts_apply(const sheet_parts *parts, sl_draw_options *options) {
         parts->parts.items[i].lines = parts->lines.items + first;
         parts->parts.items[i].line_count = parts->line_counts.items[i];
         first += parts->line_counts.items[i];
+        // Over a heat map it is an outline, also in the key.
+        if (parts->parts.items[i].opacity == 0 && parts->parts.items[i].line_count)
+            parts->parts.items[i].area = (sl_shape){0};
     }
     options->parts = parts->parts.items;
     options->part_count = parts->parts.count;

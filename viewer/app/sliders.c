@@ -138,8 +138,14 @@ static double heat_share(const app_state *app) {
     return (double)place / fmax(last, 1);
 }
 
+/// "1.5 m", where the map has a unit.
+static void length_text(const app_state *app, double length, char text[SLIDER_TEXT]) {
+    const char *unit = app->document.map.unit;
+    snprintf(text, SLIDER_TEXT, "%.3g%s%.12s", length, *unit ? " " : "", unit);
+}
+
 static void heat_text(const app_state *app, char text[SLIDER_TEXT]) {
-    snprintf(text, SLIDER_TEXT, "%.3g", heat_step(&app->view));
+    length_text(app, heat_step(&app->view), text);
 }
 
 static bool type_heat(app_state *app, double step) {
@@ -246,7 +252,7 @@ static double camera_range_share(const app_state *app) {
 static void camera_range_text(const app_state *app, char text[SLIDER_TEXT]) {
     const double range = camera_chosen(&app->view)->range;
     if (range > 0)
-        snprintf(text, SLIDER_TEXT, "%.3g", range);
+        length_text(app, range, text);
     else
         snprintf(text, SLIDER_TEXT, "no limit");
 }
@@ -281,7 +287,7 @@ static double height_share(const app_state *app) {
 static void height_text(const app_state *app, char text[SLIDER_TEXT]) {
     const double height = camera_chosen_row(&app->view)->height;
     if (height > 0)
-        snprintf(text, SLIDER_TEXT, "%.3g", height);
+        length_text(app, height, text);
     else
         snprintf(text, SLIDER_TEXT, "not known");
 }

@@ -234,6 +234,7 @@ static void take_weld(desk_state *desk, import_state *s) {
 void import_preview(desk_state *desk, import_state *s) {
     document_source source;
     s->due = 0;
+    s->failed[0] = '\0';
     if (!s->beside || !read_source(desk->context, s, &source)) return;
     const char *open = desk->document->source.path;
     source.again = open && strcmp(open, source.path) == 0;
@@ -249,6 +250,7 @@ bool import_is_beside(const desk_state *desk) {
 bool import_take_failure(desk_state *desk, const char *message) {
     import_state *s = desk->dialog.import;
     if (!s || !s->beside || dialog_open_now(&desk->dialog) != DIALOG_IMPORT) return false;
+    snprintf(s->failed, sizeof s->failed, "%s", message);
     snprintf(s->problem, sizeof s->problem, "%s", message);
     return true;
 }
@@ -257,8 +259,13 @@ bool import_take_failure(desk_state *desk, const char *message) {
 static void accept(desk_state *desk, import_state *s) {
     document_source source;
     if (!read_source(desk->context, s, &source)) return;
-    if (s->beside && !desk->ui->steady) drawing_remember(desk->context, &source);
     if (s->beside && s->due > 0) import_preview(desk, s);
+    if (s->failed[0]) {
+        // It was refused: the plan has another one, so the dialog does not go away with it.
+        snprintf(s->problem, sizeof s->problem, "%s", s->failed);
+        return;
+    }
+    if (s->beside && !desk->ui->steady) drawing_remember(desk->context, &source);
     dialog_pop(&desk->dialog);
     if (s->beside) {
         import_destroy(desk);
@@ -322,7 +329,8 @@ void import_act(desk_state *desk, int id) {
     }
     if (id == DOORS || id == CELLS) import_preview(desk, s);
     // Letters that are typed next are meant for the list, and never press a button.
-    if (s->beside && id != LAYERS_LIST && id != MEASURE) import_focus_home(desk, s);
+    const bool stays = id == LAYERS_LIST || id == MEASURE || (id == INSIDE && s->pick != PICK_NONE);
+    if (s->beside && !stays) import_focus_home(desk, s);
 }
 
 void import_edited(desk_state *desk, int id) {

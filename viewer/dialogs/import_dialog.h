@@ -22,6 +22,10 @@ bool import_take_failure(desk_state *desk, const char *message);
 /// A click in the plan, at a place of the map. A line that is measured begins and ends at ends of
 /// walls, where one is within `reach`.
 void import_pick_at(desk_state *desk, sl_point at, double reach);
+/// Whether the button in focus waits for a click in the plan: then arrows and Return are for the
+/// plan, and Escape only ends the waiting.
+bool import_picks(const desk_state *desk);
+void import_stop_picking(desk_state *desk);
 
 /// What is marked in the plan while the dialog is beside it.
 typedef enum import_mark_kind {

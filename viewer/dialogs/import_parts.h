@@ -49,6 +49,7 @@ typedef struct import_state {
     text_field fields[FIELDS];
     char *list;        ///< of layers, as the option has it; NULL: none
     char problem[512]; ///< "" for none
+    char failed[512];  ///< why the choice that was read last was refused; "" if it was not
     double due;        ///< the clock's time at which the plan follows what was typed; 0: it has
 
     task *task; ///< that looks for a tolerance; NULL: none

@@ -269,6 +269,18 @@ static sl_point snapped(const sl_map *map, sl_point at, double reach) {
     return best;
 }
 
+bool import_picks(const desk_state *desk) {
+    const import_state *s = desk->dialog.import;
+    if (!s || dialog_open_now(&desk->dialog) != DIALOG_IMPORT || s->pick == PICK_NONE) return false;
+    return desk->dialog.focus[desk->dialog.depth - 1] ==
+           (s->pick == PICK_INSIDE ? INSIDE : MEASURE);
+}
+
+void import_stop_picking(desk_state *desk) {
+    desk->dialog.import->pick = PICK_NONE;
+    desk->dialog.import->line_ends = 0;
+}
+
 void import_pick_at(desk_state *desk, sl_point at, double reach) {
     import_state *s = desk->dialog.import;
     if (s->pick != PICK_INSIDE) at = snapped(&desk->document->map, at, reach);
@@ -278,6 +290,7 @@ void import_pick_at(desk_state *desk, sl_point at, double reach) {
         import_set_place(&s->fields[FIELD_START], at);
         s->pick = PICK_NONE;
         import_preview(desk, s);
+        import_focus_home(desk, s);
         break;
     case PICK_FIRST:
         s->line = (sl_segment){at, at};

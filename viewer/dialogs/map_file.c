@@ -7,6 +7,7 @@
 #include "dialogs/browser.h"
 #include "dialogs/import_dialog.h"
 #include "dialogs/question.h"
+#include "document/drawings.h"
 #include "document/files.h"
 #include "sightline/support.h"
 
@@ -56,6 +57,10 @@ void map_file_check(desk_state *desk, const char *path, sl_status status) {
     static const char *const answers[] = {"O:Options...", "C:Close"};
     if (status == SL_OK || status == SL_CANCELLED) return;
     if (import_take_failure(desk, sl_context_message(desk->context))) return;
+    // What was chosen for a drawing is kept as it could be read.
+    const char *open = desk->document->source.path;
+    if (!desk->ui->steady && open && strcmp(open, path) == 0 && drawing_is(path))
+        drawing_remember(desk->context, &desk->document->source);
     // Options help where the file can be read at all.
     const char *tried = desk->file.tried.path;
     const bool again =

@@ -252,6 +252,15 @@ static sl_camera found(const search_job *job, uint32_t number) {
     return (sl_camera){.view = job->places[place], .cost = 1};
 }
 
+/// "field of view 90°, range 15 m": what those that are looked for are like.
+enum { LIKE_TEXT = MEASURE_TEXT + 48 };
+static void say_like(const view_state *view, const sl_viewpoint *like, char text[LIKE_TEXT]) {
+    char range[MEASURE_TEXT];
+    view_say_measure(view, like->range, "", range);
+    snprintf(text, LIKE_TEXT, "field of view %.4g\xc2\xb0, %s%s", like->fov,
+             like->range > 0 ? "range " : "no limit of range", like->range > 0 ? range : "");
+}
+
 /// The set becomes the table, to be undone.
 static sl_status take_set(view_state *view, const search_job *job) {
     const uint32_t count = is_anywhere(job) ? job->placement.count : job->placed.count;
@@ -271,7 +280,10 @@ static sl_status take_set(view_state *view, const search_job *job) {
         sl_placement_say(&job->placement, "camera", job->stopped, proof, PROOF_TEXT);
     else
         sl_area_placement_say(&job->area, &job->placed, 1, job->stopped, proof, PROOF_TEXT);
-    ui_say(view->ui, false, "%s Ctrl+Z brings the cameras before back.", proof);
+    char like[LIKE_TEXT];
+    say_like(view, &job->like, like);
+    ui_say(view->ui, false, "%s Looked for: %s. Ctrl+Z brings the cameras before back.", proof,
+           like);
     return SL_OK;
 }
 
@@ -337,9 +349,11 @@ void cameras_find(view_state *view, camera_search kind) {
     if (status == SL_OK)
         status = task_start(view->context, search, job, "prepare", NULL, &job->task);
     view_check(view, status);
+    char like[LIKE_TEXT];
+    say_like(view, &job->like, like);
     if (status == SL_OK)
-        ui_say_working(view->ui, "looking for %s%s; Esc stops, and keeps the best",
-                       kind == SEARCH_ONE ? "one more camera" : "the fewest cameras",
+        ui_say_working(view->ui, "looking for %s (%s)%s; Esc stops, and keeps the best",
+                       kind == SEARCH_ONE ? "one more camera" : "the fewest cameras", like,
                        kind == SEARCH_MORE                           ? ", with those that stand"
                        : kind == SEARCH_FEWEST && layer->table.count ? ", in place of these"
                                                                      : "");

@@ -548,7 +548,7 @@ static void write_pointed(const view_state *view, const heat_graph *g, char text
 bool heat_layer_key(const view_state *view, legend_key *key) {
     const heat_graph *g;
     double least, most;
-    char value[32], count[SL_COUNT_TEXT];
+    char value[SCALE_TEXT], step[MEASURE_TEXT], count[SL_COUNT_TEXT];
     if (!heat_layer_values(view, &g)) return false;
     heat_layer_scale(view, &least, &most);
     *key = (legend_key){.ramp = layers_fill(view) == LAYER_HEAT ? ramp_of(view->heat) : RAMP_NONE};
@@ -566,8 +566,8 @@ bool heat_layer_key(const view_state *view, legend_key *key) {
     legend_key_add(key, "under the pointer", value);
     sl_text_count(g->grid.count, "point", count);
     legend_key_add(key, "grid", count);
-    snprintf(value, sizeof value, "%.3g", g->step);
-    legend_key_add(key, "from point to point", value);
+    view_say_measure(view, g->step, "", step);
+    legend_key_add(key, "from point to point", step);
     if (view->heat_choice.held) legend_key_add(key, "colour scale", "kept");
     if (by_rank(view)) value_scale_quarters(&view->heat->scale, "points", key);
     if (view->heat->alone) {
