@@ -4,20 +4,14 @@
  *
  * All work is done before a call returns: where a page must not wait, ask in a worker.
  */
-import { flagOf, listOf, numberOf, optionsOf } from './arguments.js'
+import { flagOf, listOf, numberOf, optionsOf, wholeOf } from './arguments.js'
 import { CoverFloor, rowOf } from './coverage.js'
 import { floorsOf } from './floor.js'
 import { SightlineError } from './host.js'
 
 export { SightlineError }
 
-const FROM = ['corners', 'walls', 'grid']
-
-function countOf(what, value) {
-  numberOf(what, value, 0)
-  if (!Number.isInteger(value)) throw new SightlineError(`${what}: a whole number is needed`)
-  return value
-}
+const FROM = ['corners', 'walls', 'grid'], MOST = 2 ** 32 - 1
 
 /** The inside of a map, for cameras. Close it. Use open(). */
 export class Floor extends CoverFloor {
@@ -36,8 +30,8 @@ export class Floor extends CoverFloor {
     const options = optionsOf(given, 'fixed', 'cover', 'count', 'network', 'progress', 'stop', 'timeLimit'), { at, core } = this
     const { fixed = [], cover = 1, count = 0, network = false } = options
     const all = [...listOf('fixed', fixed), ...listOf('places', places)], rows = Float64Array.from(all.flatMap(rowOf))
-    countOf('cover', cover)
-    countOf('count', count)
+    wholeOf('cover', cover, MOST)
+    wholeOf('count', count, MOST)
     flagOf('network', network)
     core.withBytes([new Uint8Array(rows.buffer)], (rowsAt) => core.watched(options, () =>
       core.ask((its) => its.floor_choose(at, rowsAt, all.length, fixed.length, cover, count, +network))))

@@ -45,6 +45,8 @@ export class Module {
         acos: Math.acos,
         asinh: Math.asinh,
         atan2: Math.atan2,
+        // As exact as C's.
+        fmod: (a, b) => a % b,
         number: (at) => this.#numberAt(at),
       },
       wasi_snapshot_preview1: {

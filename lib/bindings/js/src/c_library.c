@@ -15,6 +15,7 @@ HOST(log10) double host_log10(double value);
 HOST(acos) double host_acos(double value);
 HOST(asinh) double host_asinh(double value);
 HOST(atan2) double host_atan2(double y, double x);
+HOST(fmod) double host_fmod(double value, double by);
 HOST(number) double host_number(const char *text);
 
 /// How wasi-libc takes whole turns off angles of 10^5 and more for sin() and cos(), with a table of
@@ -44,6 +45,10 @@ double asinh(double value) {
 
 double atan2(double y, double x) {
     return host_atan2(y, x);
+}
+
+double fmod(double value, double by) {
+    return host_fmod(value, by);
 }
 
 /// JavaScript rounds a number as exactly, and has this anyway: 6 kB. The library has checked the
