@@ -64,8 +64,7 @@ sl_status sli_add_germ(sli_placer *p, const sli_window_part *gap, bool *added) {
     return sli_nearby_add(p->context, &p->germ_points, (sl_box){germ.at, germ.at});
 }
 
-/// How many unseen germs a candidate sees, or saw once: those seen since then are not yet taken
-/// off.
+/// How many unseen germs a candidate sees at most: those seen since then are not yet taken off.
 typedef struct gain {
     size_t germs;
     uint32_t candidate;
@@ -77,32 +76,24 @@ static bool is_greater(const gain *a, const gain *b) {
 
 SLI_HEAP(gain_heap, gain, is_greater)
 
-/// How many of the germs from `first` on that are not seen a candidate sees.
-static size_t count_unseen(const sli_candidate *c, size_t first, const bool *seen) {
-    size_t count = 0;
-    for (size_t k = c->germs.count; k && c->germs.items[k - 1] >= first; k--)
-        count += !seen[c->germs.items[k - 1]];
-    return count;
-}
-
 /// Greedy: the candidate that sees most of the germs from `first` on that are not seen, as long as
 /// there is one. Gains only fall, so one at the top of the heap that is up to date is the greatest
 /// (Minoux 1978).
 static sl_status choose_for(sli_placer *p, size_t first, bool *seen, gain_heap *heap) {
-    for (uint32_t i = 0; i < p->candidates.count; i++) {
-        const size_t germs = count_unseen(&p->candidates.items[i], first, seen);
-        if (germs) SL_TRY(gain_heap_push(p->context, heap, ((gain){germs, i})));
-    }
+    for (uint32_t i = 0; i < p->candidates.count; i++)
+        SL_TRY(gain_heap_push(p->context, heap, ((gain){p->candidates.items[i].germs.count, i})));
     while (heap->count) {
         SL_TRY(sl_check_cancelled(p->context));
         const gain top = gain_heap_pop(heap);
         const sli_candidate *c = &p->candidates.items[top.candidate];
-        const size_t germs = count_unseen(c, first, seen);
-        if (germs == top.germs) {
+        size_t germs = 0;
+        for (size_t k = c->germs.count; k && c->germs.items[k - 1] >= first; k--)
+            germs += !seen[c->germs.items[k - 1]];
+        if (germs < top.germs) {
+            if (germs) SL_TRY(gain_heap_push(p->context, heap, ((gain){germs, top.candidate})));
+        } else if (germs) {
             SL_TRY(sli_choose(p, top.candidate));
             for (size_t k = 0; k < c->germs.count; k++) seen[c->germs.items[k]] = true;
-        } else if (germs) {
-            SL_TRY(gain_heap_push(p->context, heap, ((gain){germs, top.candidate})));
         }
     }
     return SL_OK;

@@ -6,7 +6,7 @@
 import { SightlineError } from './host.js'
 
 /** The value, if it is right. Texts that say what is needed are put together only where it is not. */
-function need(right, name, what, value) {
+export function need(right, name, what, value) {
   if (right) return value
   const shown = value && typeof value === 'object' ? 'an object' : String(value).slice(0, 40)
   throw new SightlineError(`${name}: ${what} is needed, not ${shown}`)
@@ -67,14 +67,4 @@ export function viewOf({ heading, range, fov = heading === undefined ? 360 : 90 
   if (heading === undefined && fov < 360) throw new SightlineError('fov: a heading is needed, too')
   numberOf('heading', heading ?? 0)
   return { heading: heading ?? 0, fov, range: given(range, (value) => numberOf('range', value, 0)) }
-}
-
-/** A transform; `ofFile` is origin, scale (0: not known) and y down of the file. */
-export function transformOf(wanted, [left, top, unit, down]) {
-  if (wanted === 'file' && !unit) throw new SightlineError('transform: the file does not say it: bake the map again')
-  const told = wanted === 'file' ? { origin: [left, top], scale: unit, yDown: !!down } : wanted
-  const { origin = [0, 0], scale = 1, yDown = false } = optionsOf(told, 'origin', 'scale', 'yDown')
-  const [x, y] = pointOf('origin', origin)
-  need(numberOf('scale', scale) > 0, 'scale', 'a number above 0', scale)
-  return Object.freeze({ origin: Object.freeze({ x, y }), scale, yDown: flagOf('yDown', yDown) })
 }

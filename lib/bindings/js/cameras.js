@@ -21,8 +21,8 @@ export class Floor extends CoverFloor {
     if (!FROM.includes(from)) throw new SightlineError(`from: one of ${FROM.join(', ')} is needed`)
     numberOf('step', step, 0)
     core.ask((its) => its.floor_points(at, FROM.indexOf(from), step))
-    const [count, pointsAt] = core.given(2), xy = this.numbers(pointsAt, 2 * count)
-    return Array.from({ length: count }, (_, i) => ({ x: xy[2 * i], y: xy[2 * i + 1] }))
+    const [count, pointsAt] = core.given(2)
+    return this.placesAt(pointsAt, count, 2)
   }
 
   /** The fewest of the places that see all that they can see; with `count`, the most that so many see. */

@@ -31,6 +31,12 @@ export class OpenFloor {
     return new Float64Array(this.core.memory.buffer, at, count).slice()
   }
 
+  /** The points that begin rows of `stride` numbers. @internal */
+  placesAt(at, count, stride) {
+    const rows = this.numbers(at, stride * count)
+    return Array.from({ length: count }, (_, i) => ({ x: rows[stride * i], y: rows[stride * i + 1] }))
+  }
+
   /** Opens or shuts a door. */
   setDoor(name, open) {
     const { at } = this

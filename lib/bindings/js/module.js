@@ -38,14 +38,10 @@ export class Module {
     const instance = new WebAssembly.Instance(this.module, {
       env: { memory: this.memory },
       host: {
+        __proto__: Math,
         progress: (stage, done, total) => this.#progress(stage, done, total),
         cancelled: () => (this.watch?.stop() ? 1 : 0),
-        log: Math.log,
-        log10: Math.log10,
-        acos: Math.acos,
-        asinh: Math.asinh,
-        atan2: Math.atan2,
-        // As exact as C's.
+        // As exact as C's; c_library.c says which others are those of Math.
         fmod: (a, b) => a % b,
         number: (at) => this.#numberAt(at),
       },
@@ -133,8 +129,7 @@ export class Module {
 
   /** @internal */
   writtenText() {
-    const at = this.core.written()
-    return new TextDecoder().decode(new Uint8Array(this.memory.buffer, at, this.given(1)[0]).slice())
+    return new TextDecoder().decode(this.written())
   }
 
   /** Calls with texts and bytes in the module's memory, each with a 0 behind it. @internal */

@@ -24,12 +24,11 @@ export class Floor extends CoverFloor {
     core.watched(options, () => core.ask((its) => its.floor_place(at, FROM.indexOf(from) - 1, step)))
     const [lower, upper, count, viewpointsAt, witnessesAt, rounds, slivers, stopped] = core.given(8)
     const [unseenArea] = core.givenNumbers(1)
-    // x, y, heading, fov, range, nearest and a flag in 8 bytes; x, y and a flag in 8 bytes
-    const rows = this.numbers(viewpointsAt, 7 * upper), places = this.numbers(witnessesAt, 3 * count)
+    // Rows are x, y, heading, fov, range, nearest and a flag in 8 bytes; x, y and a flag in 8 bytes.
     const made = {
       lower, upper, optimal: lower === upper, stopped: stopped === 1, rounds, slivers, unseenArea,
-      viewpoints: Array.from({ length: upper }, (_, i) => ({ x: rows[7 * i], y: rows[7 * i + 1] })),
-      witnesses: Array.from({ length: count }, (_, i) => ({ x: places[3 * i], y: places[3 * i + 1] })),
+      viewpoints: this.placesAt(viewpointsAt, upper, 7),
+      witnesses: this.placesAt(witnessesAt, count, 3),
       proof: core.textAt(core.core.floor_proof(at)),
     }
     // Laid over the inside anew: whatever went wrong before, they see it all.

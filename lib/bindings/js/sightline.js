@@ -5,7 +5,7 @@
  * answers, each at a fixed place; only the polygon may grow. Answers are copies and stay valid. A level with
  * boxes that move has a module of its own; where their memory becomes too small, the polygon moves.
  */
-import { flagOf, indexOf, listOf, numberOf, optionsOf, pointOf, textOf, transformOf, viewOf, wholeOf } from './arguments.js'
+import { flagOf, indexOf, listOf, need, numberOf, optionsOf, pointOf, textOf, viewOf, wholeOf } from './arguments.js'
 import { SightlineError, bytesOf, compile, direction, textAt } from './host.js'
 
 export { SightlineError }
@@ -32,6 +32,16 @@ function eyeOf(x, y, options, ...known) {
     view.heading ??= (Math.atan2(dy, dx) * 180) / Math.PI
   }
   return [numberOf('x', left), numberOf('y', up), view]
+}
+
+/** A transform; `ofFile` is origin, scale (0: not known) and y down of the file. */
+function transformOf(wanted, [left, top, unit, down]) {
+  if (wanted === 'file' && !unit) throw new SightlineError('transform: the file does not say it: bake the map again')
+  const told = wanted === 'file' ? { origin: [left, top], scale: unit, yDown: !!down } : wanted
+  const { origin = [0, 0], scale = 1, yDown = false } = optionsOf(told, 'origin', 'scale', 'yDown')
+  const [x, y] = pointOf('origin', origin)
+  need(numberOf('scale', scale) > 0, 'scale', 'a number above 0', scale)
+  return Object.freeze({ origin: Object.freeze({ x, y }), scale, yDown: flagOf('yDown', yDown) })
 }
 
 export class Level {
