@@ -246,10 +246,7 @@ static void tables(void **state) {
     close(file);
     app_state *app = start(MAPS "/office.map", true);
     assert_int_equal(cameras_write(&app->view, path), SL_BAD_ARGUMENT); // nothing to write
-    FILE *out = fopen(path, "w");
-    assert_non_null(out);
-    fputs("name,x,y,heading,fov,range\ngate,53,20,90,60,12.5\n,30,20,,,\n", out);
-    fclose(out);
+    viewer_write(path, "name,x,y,heading,fov,range\ngate,53,20,90,60,12.5\n,30,20,,,\n");
     assert_int_equal(cameras_read(&app->view, path), SL_OK);
     assert_int_equal(cameras_write(&app->view, path), SL_OK);
     assert_int_equal(cameras_read(&app->view, path), SL_OK);
@@ -259,10 +256,7 @@ static void tables(void **state) {
     assert_string_equal(layer->table.items[0].name, "gate");
     assert_true(layer->table.items[0].view.range == 12.5 && layer->table.items[1].view.fov == 360);
     assert_surveyed(app);
-    out = fopen(path, "w");
-    assert_non_null(out);
-    fputs("x,y,fov\n1,2,700\n", out);
-    fclose(out);
+    viewer_write(path, "x,y,fov\n1,2,700\n");
     assert_int_equal(cameras_read(&app->view, path), SL_BAD_INPUT);
     assert_non_null(strstr(sl_context_message(app->context), ":2"));
     assert_int_equal(layer->table.count, 2); // as it was
@@ -345,10 +339,7 @@ static void of_no_room(void **state) {
     app_state *app = start(MAPS "/office.map", true);
     char path[] = "/tmp/sightline-no-room-XXXXXX";
     close(mkstemp(path));
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    fputs("name,x,y\nhall,53,20\nfar off,900,900\n", file);
-    fclose(file);
+    viewer_write(path, "name,x,y\nhall,53,20\nfar off,900,900\n");
     assert_int_equal(cameras_read(&app->view, path), SL_OK);
     assert_non_null(strstr(app->ui.message, "far off stands in no room"));
     viewer_press(app, "Shift+Space");

@@ -364,10 +364,7 @@ static void test_first_eye(void **state) {
     char folder[] = "/tmp/sightline-heat-XXXXXX", path[64];
     assert_non_null(mkdtemp(folder));
     snprintf(path, sizeof path, "%s/a.map", folder);
-    FILE *stream = fopen(path, "w");
-    assert_non_null(stream);
-    fputs("sightline 1\nwalls 0 0 40 0 40 1 0 1 0 0\nwalls 0 3 6 3 6 9 0 9 0 3\n", stream);
-    assert_int_equal(fclose(stream), 0);
+    viewer_write(path, "sightline 1\nwalls 0 0 40 0 40 1 0 1 0 0\nwalls 0 3 6 3 6 9 0 9 0 3\n");
     app_state *app = start(path);
     assert_true(app->view.eye.at.x == 3 && app->view.eye.at.y == 6);
     viewer_end(app);
@@ -430,12 +427,9 @@ static void test_parts(void **state) {
     char folder[] = "/tmp/sightline-heat-XXXXXX", path[64];
     assert_non_null(mkdtemp(folder));
     snprintf(path, sizeof path, "%s/a.map", folder);
-    FILE *stream = fopen(path, "w");
-    assert_non_null(stream);
-    fputs("sightline 1\nwalls 0 0 20 0 20 10 0 10 0 0\nwall 10 0 10 6\n"
-          "walls 30 0 36 0 36 6 30 6 30 0\nwall 33 0 33 4\nstart 1 1 0\nstart 31 1 0\n",
-          stream);
-    assert_int_equal(fclose(stream), 0);
+    viewer_write(path,
+                 "sightline 1\nwalls 0 0 20 0 20 10 0 10 0 0\nwall 10 0 10 6\n"
+                 "walls 30 0 36 0 36 6 30 6 30 0\nwall 33 0 33 4\nstart 1 1 0\nstart 31 1 0\n");
     app_state *app = start(path);
     double low, high, least, most;
     legend_key key;
@@ -495,13 +489,9 @@ static void test_portals(void **state) {
     char folder[] = "/tmp/sightline-heat-XXXXXX", path[64];
     assert_non_null(mkdtemp(folder));
     snprintf(path, sizeof path, "%s/a.map", folder);
-    FILE *stream = fopen(path, "w");
-    assert_non_null(stream);
     // An L; in its notch a wall that has the notch cut in two.
-    fputs("sightline 1\nwalls 0 0 20 0 20 10 10 10 10 20 0 20 0 0\nwall 15 10 15 14\n"
-          "wall 5 0 5 4\nstart 2 12 0\n",
-          stream);
-    assert_int_equal(fclose(stream), 0);
+    viewer_write(path, "sightline 1\nwalls 0 0 20 0 20 10 10 10 10 20 0 20 0 0\nwall 15 10 15 14\n"
+                       "wall 5 0 5 4\nstart 2 12 0\n");
     app_state *app = start(path);
     app->view.show = SHOW_CELLS | SHOW_HEAT;
     layers_set_fill(&app->view, LAYER_HEAT);

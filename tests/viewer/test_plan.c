@@ -17,10 +17,7 @@ static app_state *start(const char *name, const char *text) {
     char folder[] = "/tmp/sightline-plan-XXXXXX", path[64];
     assert_non_null(mkdtemp(folder));
     snprintf(path, sizeof path, "%s/%s", folder, name);
-    FILE *stream = fopen(path, "w");
-    assert_non_null(stream);
-    fputs(text, stream);
-    assert_int_equal(fclose(stream), 0);
+    viewer_write(path, text);
     app_state *app = viewer_start(true);
     viewer_open(app, path);
     script_frame(app);

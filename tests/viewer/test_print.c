@@ -35,10 +35,7 @@ static scene open_plan(const char *text) {
     assert_non_null(mkdtemp(s.folder));
     snprintf(s.map, sizeof s.map, "%s/hall.map", s.folder);
     snprintf(s.sheet, sizeof s.sheet, "%s/hall.svg", s.folder);
-    FILE *stream = fopen(s.map, "w");
-    assert_non_null(stream);
-    fputs(text, stream);
-    assert_int_equal(fclose(stream), 0);
+    viewer_write(s.map, text);
     s.app = viewer_start(true);
     viewer_open(s.app, s.map);
     script_frame(s.app);

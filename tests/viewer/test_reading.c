@@ -339,10 +339,7 @@ static void inside_is_told(void **state) {
     char folder[] = "/tmp/sightline-court-XXXXXX", path[64];
     assert_non_null(mkdtemp(folder));
     snprintf(path, sizeof path, "%s/court.dxf", folder);
-    FILE *stream = fopen(path, "w");
-    assert_non_null(stream);
-    fputs(court, stream);
-    assert_int_equal(fclose(stream), 0);
+    viewer_write(path, court);
     app_state *app = viewer_start(true);
     app->ui.width = 1024;
     app->ui.height = 768;
@@ -437,9 +434,7 @@ static void choices_are_kept(void **state) {
     assert_non_null(mkdtemp(config));
     assert_int_equal(setenv("XDG_CONFIG_HOME", config, 1), 0);
     snprintf(other, sizeof other, "%s/other.svg", s.folder);
-    FILE *stream = fopen(other, "w");
-    assert_non_null(stream);
-    fclose(stream);
+    viewer_write(other, "");
     sl_status status;
     document_source source = {.path = s.path,
                               .options = sl_import_options_default(),

@@ -22,10 +22,7 @@ static void write_house(char folder[FOLDER], char path[64]) {
     snprintf(folder, FOLDER, "/tmp/sightline-rooms-XXXXXX");
     assert_non_null(mkdtemp(folder));
     snprintf(path, 64, "%s/house.svg", folder);
-    FILE *stream = fopen(path, "w");
-    assert_non_null(stream);
-    fputs(svg, stream);
-    assert_int_equal(fclose(stream), 0);
+    viewer_write(path, svg);
 }
 
 static app_state *start(void) {

@@ -219,28 +219,31 @@ static bool is_rooms(const sli_group *group) {
            sli_meaning_is_rooms((sli_word){group->name, group->length});
 }
 
-/// Measures the lines on layers of doors that are longer than doors. Where they are the most by
-/// length, the layer is one of walls with doors in them, such as partitions.
-static void take_walls_on_doors(sli_choice *c) {
+/// How long the lines of each group are, and those of layers of doors that are longer than doors.
+static void measure_groups(sli_choice *c) {
     const double most = sli_choice_longest_door(c);
-    const bool sure = c->walls_named && sli_choice_metre(c) > 0 && most > sli_choice_metre(c);
-    bool changes = false;
-    if (sli_contents_said(c->contents)) return;
     for (size_t i = 0; i < c->contents->runs.count; i++) {
         const sli_group_run *run = &c->contents->runs.items[i];
         sli_group *group = &c->contents->groups.items[run->group];
-        for (size_t k = run->first; group->means == SLI_MEANS_DOOR && !group->said && k < run->end;
-             k++) {
+        for (size_t k = run->first; k < run->end; k++) {
             const sl_wall *wall = &c->map->walls[k];
             const double length = sli_length(wall->b.x - wall->a.x, wall->b.y - wall->a.y);
             if (sli_choice_gone(c, k)) continue;
             group->length_left += length;
-            if (!(length > most)) continue;
+            if (group->means != SLI_MEANS_DOOR || group->said || !(length > most)) continue;
             group->long_ones++;
             group->long_length += length;
         }
     }
-    for (size_t i = 0; sure && i < c->contents->groups.count; i++) {
+}
+
+/// Where lines longer than doors are the most of a layer of doors by length, the layer is one of
+/// walls with doors in them, such as partitions.
+static void take_walls_on_doors(sli_choice *c) {
+    const double most = sli_choice_longest_door(c);
+    bool changes = false;
+    if (!c->walls_named || !(sli_choice_metre(c) > 0 && most > sli_choice_metre(c))) return;
+    for (size_t i = 0; i < c->contents->groups.count; i++) {
         sli_group *group = &c->contents->groups.items[i];
         if (group->long_ones < LEAST_LONG || 2 * group->long_length < group->length_left) continue;
         group->means = SLI_MEANS_WALL;
@@ -252,17 +255,11 @@ static void take_walls_on_doors(sli_choice *c) {
 /// Where walls have a small part of the lines that outlines of rooms have, these are walls too.
 static void take_outlines_of_rooms(sli_choice *c) {
     double walls = 0, outlines = 0;
-    if (!c->walls_named || sli_contents_said(c->contents)) return;
-    for (size_t i = 0; i < c->contents->runs.count; i++) {
-        const sli_group_run *run = &c->contents->runs.items[i];
-        const sli_group *group = &c->contents->groups.items[run->group];
-        for (size_t k = run->first; k < run->end; k++) {
-            const sl_wall *wall = &c->map->walls[k];
-            const double length = sli_length(wall->b.x - wall->a.x, wall->b.y - wall->a.y);
-            if (sli_choice_gone(c, k)) continue;
-            if (group->means == SLI_MEANS_WALL) walls += length;
-            if (is_rooms(group)) outlines += length;
-        }
+    if (!c->walls_named) return;
+    for (size_t i = 0; i < c->contents->groups.count; i++) {
+        const sli_group *group = &c->contents->groups.items[i];
+        if (group->means == SLI_MEANS_WALL) walls += group->length_left;
+        if (is_rooms(group)) outlines += group->length_left;
     }
     if (MOST_OUTLINES * walls > outlines) return;
     for (size_t i = 0; i < c->contents->groups.count; i++) {
@@ -538,8 +535,11 @@ static void measure(sli_choice *c) {
 static sl_status choose(sli_choice *c, sli_pen *pen) {
     SL_TRY(find_symbols(c));
     count_named(c);
-    take_walls_on_doors(c);
-    take_outlines_of_rooms(c);
+    if (!sli_contents_said(c->contents)) {
+        measure_groups(c);
+        take_walls_on_doors(c);
+        take_outlines_of_rooms(c);
+    }
     SL_TRY(choose_looks(c));
     bool chosen = choose_groups(c);
     SL_TRY(find_parts(c));
