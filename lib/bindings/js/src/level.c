@@ -41,6 +41,11 @@ EXPORT(const char *, status_text, int status) {
     return sl_runtime_status_text((sl_runtime_status)status);
 }
 
+_Static_assert(offsetof(sl_runtime, range) == 4 * sizeof(double) &&
+                   offsetof(sl_runtime_transform, scale) == 2 * sizeof(double) &&
+                   sizeof(sl_runtime_cell) == 4 * sizeof(uint32_t),
+               "what is copied as a whole, in the order of the header");
+
 /// numbers: bounds, range, the transform of the file; integers: counts and flags, and what is known
 /// of mirrors.
 EXPORT(void, describe, void) {
@@ -151,8 +156,9 @@ EXPORT(void, vertex, uint32_t vertex) {
 /// integers: portal, cell behind it; numbers: its left and right end.
 EXPORT(void, directed_portal, uint32_t directed) {
     const sl_runtime_directed_portal d = sl_runtime_get_directed_portal(&level, directed);
-    memcpy(integers, &d.portal, 2 * sizeof *integers);
-    memcpy(numbers, d.left, sizeof d.left + sizeof d.right);
+    const size_t ends = offsetof(sl_runtime_directed_portal, left);
+    memcpy(integers, &d, ends);
+    memcpy(numbers, (const char *)&d + ends, sizeof d - ends);
 }
 
 /// integers: where its name is, its length, its kind; returns its segments.
