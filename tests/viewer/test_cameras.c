@@ -437,6 +437,16 @@ static void test_typed(void **state) {
     type_value(app, "7.25");
     v = camera_chosen(&app->view);
     assert_true(v->range == 7.25 && v->fov == 62.5);
+    // What is not changed stays as it is, with all of its digits.
+    camera_chosen(&app->view)->range = 12345.6;
+    for (int i = 0; i < 3; i++) viewer_press(app, "Ctrl+Shift+K");
+    assert_string_equal(app->view.name.text, "12350");
+    char said[MEASURE_TEXT];
+    view_say_measure(&app->view, 9999.7, "", said);
+    assert_memory_equal(said, "10000", 5);
+    viewer_press(app, "Return");
+    assert_true(camera_chosen(&app->view)->range == 12345.6);
+    camera_chosen(&app->view)->range = 7.25;
     viewer_press(app, "Ctrl+Shift+K");
     type_value(app, "400");
     assert_true(app->ui.message_is_error);

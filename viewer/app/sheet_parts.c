@@ -132,7 +132,7 @@ static sl_status add_building_way(sheet_work *w) {
 static sl_status add_route(sheet_work *w) {
     const route_layer *layer = w->view->route;
     char text[MEASURE_TEXT];
-    if (w->view->building) return add_building_way(w);
+    if (*w->view->building) return add_building_way(w);
     if (!layer || layer->clicks < 2 || layer->tight || !layer->route.found) return SL_OK;
     view_say_measure(w->view, layer->route.length, "", text);
     snprintf(w->out->names[0], SHEET_NAME, "shortest way: %s", text);

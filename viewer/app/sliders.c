@@ -30,7 +30,7 @@ static double cone_share(const app_state *app) {
 }
 
 static void cone_text(const app_state *app, char text[SLIDER_TEXT]) {
-    snprintf(text, SLIDER_TEXT, "%.0f\xc2\xb0", app->view.eye.fov);
+    snprintf(text, SLIDER_TEXT, "%.4g\xc2\xb0", app->view.eye.fov);
 }
 
 static bool type_cone(app_state *app, double degrees) {
@@ -140,8 +140,9 @@ static double heat_share(const app_state *app) {
 
 /// "1.5 m", where the map has a unit.
 static void length_text(const app_state *app, double length, char text[SLIDER_TEXT]) {
-    const char *unit = app->document.map.unit;
-    snprintf(text, SLIDER_TEXT, "%.3g%s%.12s", length, *unit ? " " : "", unit);
+    char whole[MEASURE_TEXT];
+    view_say_measure(&app->view, length, "", whole);
+    snprintf(text, SLIDER_TEXT, "%.*s", SLIDER_TEXT - 1, whole);
 }
 
 static void heat_text(const app_state *app, char text[SLIDER_TEXT]) {
@@ -209,7 +210,7 @@ static double field_share(const app_state *app) {
 }
 
 static void field_text(const app_state *app, char text[SLIDER_TEXT]) {
-    snprintf(text, SLIDER_TEXT, "%.0f\xc2\xb0", camera_chosen(&app->view)->fov);
+    snprintf(text, SLIDER_TEXT, "%.4g\xc2\xb0", camera_chosen(&app->view)->fov);
 }
 
 static bool type_field(app_state *app, double degrees) {
@@ -229,7 +230,7 @@ static double heading_share(const app_state *app) {
 }
 
 static void heading_text(const app_state *app, char text[SLIDER_TEXT]) {
-    snprintf(text, SLIDER_TEXT, "%.0f\xc2\xb0", camera_chosen(&app->view)->heading);
+    snprintf(text, SLIDER_TEXT, "%.4g\xc2\xb0", camera_chosen(&app->view)->heading);
 }
 
 static bool type_heading(app_state *app, double degrees) {
@@ -314,7 +315,7 @@ static double tilt_share(const app_state *app) {
 }
 
 static void tilt_text(const app_state *app, char text[SLIDER_TEXT]) {
-    snprintf(text, SLIDER_TEXT, "%.0f\xc2\xb0", camera_chosen_row(&app->view)->tilt);
+    snprintf(text, SLIDER_TEXT, "%.4g\xc2\xb0", camera_chosen_row(&app->view)->tilt);
 }
 
 static bool type_tilt(app_state *app, double degrees) {
@@ -346,9 +347,8 @@ static double walker_share(const app_state *app) {
 }
 
 static void walker_text(const app_state *app, char text[SLIDER_TEXT]) {
-    const char *unit = app->document.map.unit;
     if (app->view.walker > 0)
-        snprintf(text, SLIDER_TEXT, "%.3g%s%s", app->view.walker, *unit ? " " : "", unit);
+        length_text(app, app->view.walker, text);
     else
         snprintf(text, SLIDER_TEXT, "a point");
 }
@@ -411,6 +411,12 @@ static int next_typed(const app_state *app, int number) {
     return -1;
 }
 
+/// The number that a value begins with.
+static void number_text(const app_state *app, int number, char text[SLIDER_TEXT]) {
+    sliders[number].text(app, text);
+    text[strspn(text, "0123456789.+-eE")] = '\0';
+}
+
 void slider_type(app_state *app, int number) {
     ui_state *ui = &app->ui;
     const bool types = ui->field && ui->field == ui->number;
@@ -420,8 +426,7 @@ void slider_type(app_state *app, int number) {
         return;
     }
     char text[SLIDER_TEXT];
-    sliders[number].text(app, text);
-    text[strspn(text, "0123456789.")] = '\0';
+    number_text(app, number, text);
     ui->side_panel = true;
     field_set(&app->view.name, text);
     app->view.name.chosen = true;
@@ -434,6 +439,10 @@ bool slider_typed(app_state *app) {
     const slider_row *s = &sliders[app->ui.typed_slider];
     char text[SLIDER_TEXT];
     double value;
+    if (!s->shown(app)) return true; // it went away
+    number_text(app, app->ui.typed_slider, text);
+    if (strcmp(text, app->view.name.text) == 0)
+        return true; // as it was, which may have more digits
     snprintf(text, sizeof text, "%.*s", SLIDER_TEXT - 1, app->view.name.text);
     for (char *at = text; *at; at++)
         if (*at == ',') *at = '.';
@@ -441,8 +450,7 @@ bool slider_typed(app_state *app) {
     const char *rest = text + digits + strspn(text + digits, " ");
     const bool number =
         (!*rest || strcmp(rest, "\xc2\xb0") == 0 || strcmp(rest, app->document.map.unit) == 0) &&
-        sl_number_read(text, digits, &value);
-    if (!s->shown(app)) return true; // it went away
+        sl_number_read(text, digits, &value) && isfinite(value);
     if (number && s->begin) s->begin(&app->view);
     const bool done = number && s->type(app, value);
     if (number && s->end) s->end(&app->view);

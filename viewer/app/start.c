@@ -35,6 +35,7 @@ void app_init(app_state *app, sl_context *context) {
         .view = {.context = context,
                  .ui = &app->ui,
                  .document = &app->document,
+                 .building = &app->desk.file.building,
                  .edit = {.chosen = UINT32_MAX},
                  .fitted = true,
                  .eye = {.fov = 90},

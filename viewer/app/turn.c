@@ -119,7 +119,6 @@ static void take_document(app_state *app, bool opened) {
     app->recorder.records = app->recorder.plays = false;
     app->recorder.frames.count = 0;
     cameras_clear(&app->view);
-    app->view.building = app->desk.file.building;
     if (!building_way_shown(&app->view)) route_clear(&app->view);
     from_line_clear(&app->view);
     compare_clear(&app->view);
@@ -188,7 +187,6 @@ static void poll_all(app_state *app, bool wait) {
     compare_update(&app->view, wait);
     heat_layer_update(&app->view, wait);
     cameras_update(&app->view, wait);
-    app->view.building = app->desk.file.building;
     building_way_update(&app->view, wait);
     route_update(&app->view);
     from_line_update(&app->view, wait);

@@ -102,7 +102,8 @@ static void draw_building_way(const view_state *view, column *c) {
         column_words(view->ui, c, 0.95, view->ui->palette.ink,
                      !way || !way->clicks ? "Click where the way begins, on any storey."
                      : way->clicks == 1 ? "Click where it ends. Ctrl+Shift+B shows another storey."
-                                        : "Looking for the way ...");
+                     : way->task        ? "Looking for the way ..."
+                                        : "The way was not found. A click begins another one.");
         return;
     }
     if (!way->route.found) {
@@ -125,7 +126,7 @@ static void draw_route(const view_state *view, column *c) {
     const route_layer *layer = view->route;
     char text[MEASURE_TEXT];
     column_heading(view->ui, c, "Path", NULL);
-    if (view->building) {
+    if (*view->building) {
         draw_building_way(view, c);
         return;
     }

@@ -101,9 +101,9 @@ static sl_status begin(view_state *view) {
     struct building_way *way = view->way =
         sl_alloc_array(view->context, 1, sizeof(struct building_way));
     if (!way) return SL_NO_MEMORY;
-    way->path = sl_copy_text(view->context, view->building, strlen(view->building));
+    way->path = sl_copy_text(view->context, *view->building, strlen(*view->building));
     if (!way->path) return SL_NO_MEMORY;
-    return sl_building_read(view->context, view->building, &way->building);
+    return sl_building_read(view->context, *view->building, &way->building);
 }
 
 static sl_status start(view_state *view, struct building_way *way) {
@@ -129,7 +129,7 @@ void building_way_click(view_state *view, sl_point at) {
     const size_t storey = building_way_storey(view);
     if (status == SL_OK && storey == SL_NO_STOREY)
         status = sl_fail(view->context, SL_BAD_INPUT, "%s: this plan is no storey of it any more",
-                         view->building);
+                         *view->building);
     if (status == SL_OK) way->ends[way->clicks++] = (sl_building_place){storey, at};
     if (status == SL_OK && way->clicks == 1)
         ui_say(view->ui, false,
@@ -143,7 +143,7 @@ void building_way_click(view_state *view, sl_point at) {
 void building_way_update(view_state *view, bool wait) {
     struct building_way *way = view->way;
     const bool slides = view->drag.kind == DRAG_HIT; // as for ways on one storey
-    if (way && (!view->building || strcmp(view->building, way->path) != 0)) {
+    if (way && (!*view->building || strcmp(*view->building, way->path) != 0)) {
         building_way_clear(view);
         return;
     }
@@ -166,7 +166,7 @@ job_progress building_way_progress(const view_state *view) {
 }
 
 const struct building_way *building_way_shown(const view_state *view) {
-    return view->building ? view->way : NULL;
+    return *view->building ? view->way : NULL;
 }
 
 // --- the picture

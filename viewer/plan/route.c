@@ -42,7 +42,7 @@ static void find_again(view_state *view, route_layer *layer) {
 }
 
 void route_click(view_state *view, sl_point at) {
-    if (view->building) {
+    if (*view->building) {
         building_way_click(view, at);
         return;
     }

@@ -226,7 +226,7 @@ struct view_state {
     eye_state eye;
     double source_scale;      ///< of the map that was taken: how long its unit is in the file
     uint32_t source_read;     ///< document->read then
-    const char *building;     ///< of which a storey is open; NULL: none
+    char *const *building;    ///< of which a storey is open, in the desk; NULL there: none
     struct building_way *way; ///< NULL: none
     double other_cone; ///< degrees: of Plan mode while in another one, else of the other ones
     unsigned show;     ///< layers, of show_bit
