@@ -130,13 +130,16 @@ static void put_mark(mark *marks, size_t i, const sl_frame *frame) {
     mark *m = &marks[i];
     const double size = MARK_TEXT(frame);
     m->at = m->place;
-    for (int k = 0; k < RINGS * WAYS && !is_free(marks, i, frame, size); k++) {
+    for (int k = 0; !is_free(marks, i, frame, size); k++) {
+        if (k == RINGS * WAYS) {
+            m->at = m->place;
+            return;
+        }
         const double ring = 2 * MARK_HALF * size * (k / WAYS + 1.2);
         const int *way = ways[k % WAYS];
         m->at = (sl_point){m->place.x + way[0] * (ring + half_width(m, size) - size),
                            m->place.y + way[1] * ring};
     }
-    if (!is_free(marks, i, frame, size)) m->at = m->place;
 }
 
 static void join_mark(cairo_t *cairo, const sl_palette *palette, const mark *m,
@@ -185,7 +188,7 @@ static void draw_path(cairo_t *cairo, const picture *p, const sl_frame *frame) {
     sli_pen_stroke(cairo, sl_viewpoint_colour(palette, 1), 4 * frame->unit);
 }
 
-/// Viewpoints come first, and keep their places.
+/// Viewpoints come first: blind spots make room for them.
 static void fill_mark(const sl_palette *palette, const sl_drawn_coverage *c, const sl_frame *frame,
                       size_t i, mark *m) {
     if (i >= c->count) {

@@ -110,6 +110,7 @@ class Rooms(sandbox.ProgramTest):
             self.assertAlmostEqual(store["seen_by_three_area"], by_all, places=7)
             self.assertEqual(store["viewpoints"], 3)
             answer = json.loads(self.printed("cover", "plan.dxf", "cameras.csv", "--rooms", "--json", "--quiet"))
+            self.assertEqual([each["name"] for each in answer["rooms"]], list(rooms))
             for each in answer["rooms"]:
                 self.assertEqual(each, {key: value if key == "name" else float(value)
                                         for key, value in rooms[each["name"]].items()})

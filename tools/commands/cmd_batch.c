@@ -380,8 +380,8 @@ static sl_status run_all(command_console *console, batch *b, uint32_t jobs) {
     b->open = sl_alloc_array(context, b->plans.count, sizeof *b->open);
     if (!b->rows || !b->open) return SL_NO_MEMORY;
     b->written = sl_seconds();
-    sl_status status = take_old(context, b);
-    if (status == SL_OK) status = sl_work_run(context, &work, b->open_count, jobs);
+    SL_TRY(take_old(context, b)); // the old table stays if this is interrupted
+    const sl_status status = sl_work_run(context, &work, b->open_count, jobs);
     size_t done = 0;
     for (size_t i = 0; i < b->plans.count; i++) done += b->rows[i].cells.count > 0;
     if (status == SL_CANCELLED && is_file && done) {

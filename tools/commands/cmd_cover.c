@@ -67,9 +67,14 @@ static sl_status print_json(sl_context *context, const cover_work *w, const cove
 /// Who sees nothing: a sign hangs on what it faces, and a camera on a wall stands at one side of
 /// it.
 static void note_blind(sl_context *context, const cover_plan *plan, const cover_work *w) {
-    size_t blind[2] = {0}, first[2] = {0};
+    const sl_space *space = &w->baked.space;
+    size_t blind[2] = {0}, first[2] = {0}, all[2] = {0};
     for (size_t i = 0; i < w->cameras.count; i++) {
         const bool sign = w->viewpoints[i].sign;
+        const uint32_t cell = sl_space_locate(space, w->viewpoints[i].at);
+        all[sign]++;
+        // cover_check_places() has told of those outside.
+        if (cell != SL_NO_CELL && !space->cells[cell].inside) continue;
         if (w->coverage.seen[i] <= w->coverage.negligible && !blind[sign]++) first[sign] = i;
     }
     if (blind[true])
@@ -77,13 +82,12 @@ static void note_blind(sl_context *context, const cover_plan *plan, const cover_
             context,
             "%s: %zu of %zu signs can be read from nowhere, the first on line %u: put it on the "
             "wall or before it, and its heading into the room",
-            plan->operands[1], blind[true], w->cameras.count, w->cameras.items[first[true]].line);
+            plan->operands[1], blind[true], all[true], w->cameras.items[first[true]].line);
     if (blind[false])
         sl_note(context,
                 "%s: %zu of %zu viewpoints see nothing, the first on line %u: one that stands on a "
                 "wall looks from one side of it; put it a little before the wall",
-                plan->operands[1], blind[false], w->cameras.count,
-                w->cameras.items[first[false]].line);
+                plan->operands[1], blind[false], all[false], w->cameras.items[first[false]].line);
 }
 
 /// A heading without a field of view: the viewpoint was to look one way.

@@ -211,13 +211,15 @@ static sl_status verify(command_console *console, const place_plan *plan, place_
 }
 
 /// What a viewpoint may be needed for that sees no area alone.
-static void needs_of(const camera_plan *cameras, char *text, size_t size) {
+static void needs_of(const camera_plan *cameras, const camera_work *w, char *text, size_t size) {
     if (cameras->cover > 1)
         snprintf(text, size, "each point must be seen by %u viewpoints", (unsigned)cameras->cover);
     else
         snprintf(text, size, "%s",
-                 cameras->network ? "lines of sight must join all viewpoints"
-                                  : "for slivers that are too thin to measure");
+                 w->lines.ends.count    ? "doors and ways must be seen, too"
+                 : camera_work_scans(w) ? "walls must be scanned"
+                 : cameras->network     ? "lines of sight must join all viewpoints"
+                                        : "for slivers that are too thin to measure");
 }
 
 static sl_status work(command_console *console, const place_plan *plan, place_work *w) {
@@ -252,7 +254,7 @@ static sl_status work(command_console *console, const place_plan *plan, place_wo
         SL_TRY(sl_place_proof_write(context, w->query, &w->placement, plan->proof));
     SL_TRY(survey(context, w));
     char needs[64];
-    needs_of(&plan->cameras, needs, sizeof needs);
+    needs_of(&plan->cameras, &w->chosen, needs, sizeof needs);
     const cover_report report = {
         plan->input, plan->pipeline.input.import.map, baked, &w->cameras, &w->coverage, needs};
     char sentence[256], said[320], proof[400], caption[700];

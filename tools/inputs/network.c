@@ -62,7 +62,8 @@ static uint32_t row_of(const number_table *table, uint32_t line) {
     return low;
 }
 
-/// A line that lies on others has no piece of its own, so nothing has its weight.
+/// A line of no length, or one that lies on others, has no piece of its own: nothing has its
+/// weight.
 static void note_lost(sl_context *context, const number_table *table, const uint32_t *rows,
                       size_t pieces, double *values) {
     size_t lost = 0, first = 0;
@@ -70,11 +71,12 @@ static void note_lost(sl_context *context, const number_table *table, const uint
     for (size_t i = table->rows; i-- > 0;)
         if (values[i] > 0) lost++, first = i;
     if (lost)
-        sl_note(context,
-                "%s:%u: this line lies on others, so its weight does not count%s; give a stretch "
-                "that several lines share to one of them",
-                table->path, (unsigned)table->lines[first],
-                lost > 1 ? " (nor do those of further lines)" : "");
+        sl_note(
+            context,
+            "%s:%u: this line has no length, or lies on others, so its weight does not count%s; "
+            "give a stretch that several lines share to one of them",
+            table->path, (unsigned)table->lines[first],
+            lost > 1 ? " (nor do those of further lines)" : "");
 }
 
 static sl_status share_values(sl_context *context, const number_table *table, size_t column,
@@ -90,7 +92,7 @@ static sl_status share_values(sl_context *context, const number_table *table, si
     for (size_t i = 0; i < map->wall_count; i++) rows[i] = row_of(table, map->walls[i].line);
     const sl_status status = sl_segment_share(context, segments, (uint32_t)map->wall_count, rows,
                                               values, (uint32_t)table->rows, weights);
-    note_lost(context, table, rows, map->wall_count, values);
+    if (status == SL_OK) note_lost(context, table, rows, map->wall_count, values);
     return status;
 }
 

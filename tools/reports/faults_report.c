@@ -270,7 +270,7 @@ static void print_snap_advice(const faults_report *report) {
         printf(
             "  --gap %.12g is wide enough for --snap to close a leak; a door may be as wide: %s\n",
             report->helps,
-            is_as_door(report) ? "entrances are (--entrance)" : "see that it is none");
+            is_as_door(report) ? "entrances are not much wider" : "see that it is none");
     if (report->weld > 0)
         printf("  --weld %.2g joins the ends that miss each other by rounding, in all commands\n",
                report->weld);

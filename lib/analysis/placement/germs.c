@@ -80,8 +80,12 @@ SLI_HEAP(gain_heap, gain, is_greater)
 /// there is one. Gains only fall, so one at the top of the heap that is up to date is the greatest
 /// (Minoux 1978).
 static sl_status choose_for(sli_placer *p, size_t first, bool *seen, gain_heap *heap) {
-    for (uint32_t i = 0; i < p->candidates.count; i++)
-        SL_TRY(gain_heap_push(p->context, heap, ((gain){p->candidates.items[i].germs.count, i})));
+    for (uint32_t i = 0; i < p->candidates.count; i++) {
+        const sli_candidate *c = &p->candidates.items[i];
+        const size_t count = c->germs.count;
+        if (count && c->germs.items[count - 1] >= first)
+            SL_TRY(gain_heap_push(p->context, heap, ((gain){count, i})));
+    }
     while (heap->count) {
         SL_TRY(sl_check_cancelled(p->context));
         const gain top = gain_heap_pop(heap);

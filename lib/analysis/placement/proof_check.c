@@ -10,6 +10,7 @@
 /// borders of what is inside count as rays.
 #include "sightline/place_proof.h"
 
+#include "analysis/placement/cover_check.h"
 #include "analysis/placement/proof_corners.h"
 #include "geometry/orient.h"
 #include "space/index.h"
@@ -44,7 +45,7 @@ typedef struct checker {
 /// may not be found in it, and none that it has not.
 static bool has_all(const checker *c, uint32_t column) {
     const sl_cover_problem *all = c->columns;
-    size_t at = column ? all->ends[column - 1] : 0, found = 0;
+    size_t at = sli_checked_begin(all, column), found = 0;
     for (; at < all->ends[column] && found < c->here.count; at++)
         found += all->entries[at] == c->here.items[found];
     return found == c->here.count;

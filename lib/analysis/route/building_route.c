@@ -2,6 +2,7 @@
 /// along the shortest way between two ends on one storey.
 #include "sightline/building_route.h"
 
+#include "geometry/length.h"
 #include "sightline/support.h"
 
 #include <math.h>
@@ -56,14 +57,23 @@ static void relax(search *s, size_t from, size_t to, double length, bool by_link
     n->by_link = by_link;
 }
 
+/// Whether a way on the storey may be a part of a shorter one: none is shorter than the straight
+/// line.
+static bool may_gain(const search *s, size_t from, size_t to) {
+    const node *a = &s->nodes[from], *b = &s->nodes[to];
+    if (b->settled || b->place.storey != a->place.storey) return false;
+    const double least =
+        a->distance + sli_length(b->place.at.x - a->place.at.x, b->place.at.y - a->place.at.y);
+    return least < b->distance && (to == TO || least < s->nodes[TO].distance);
+}
+
 static sl_status settle(search *s, size_t from) {
     s->nodes[from].settled = true;
     if (from >= ENDS)
         relax(s, from, ENDS + ((from - ENDS) ^ 1), s->building->links[(from - ENDS) / 2].length,
               true);
     for (size_t to = 0; to < s->node_count; to++) {
-        if (s->nodes[to].settled || s->nodes[to].place.storey != s->nodes[from].place.storey)
-            continue;
+        if (!may_gain(s, from, to)) continue;
         SL_TRY(sl_check_cancelled(s->context));
         SL_TRY(find_between(s, from, to));
         if (s->route.found) relax(s, from, to, s->route.length, false);
@@ -105,7 +115,7 @@ static sl_status add_leg(search *s, size_t from, size_t to) {
 
 static sl_status follow(search *s, size_t to) {
     if (to == FROM) return add_point(s, s->nodes[FROM].place);
-    SL_TRY(follow(s, s->nodes[to].before)); // at most as deep as there are links
+    SL_TRY(follow(s, s->nodes[to].before)); // at most as deep as there are nodes
     return add_leg(s, s->nodes[to].before, to);
 }
 
@@ -113,6 +123,8 @@ sl_status sl_building_route_find(sl_context *context, const sl_building *buildin
                                  sl_route_finder *const *finders, sl_building_place from,
                                  sl_building_place to, sl_building_route *out) {
     search s = {.context = context, .building = building, .finders = finders};
+    if (from.storey >= building->storey_count || to.storey >= building->storey_count)
+        return sl_fail(context, SL_BAD_ARGUMENT, "there are %zu storeys", building->storey_count);
     sl_status status = make_nodes(&s, from, to);
     if (status == SL_OK) status = run(&s);
     const bool found = status == SL_OK && isfinite(s.nodes[TO].distance);

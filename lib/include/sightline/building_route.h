@@ -26,8 +26,9 @@ typedef struct sl_building_route {
 } sl_building_route;
 
 /// Finds the shortest way. `finders` has one for each storey, in order; all plans are in one unit.
-/// Lengths on a storey are those of sl_route_find(). No way is no failure. SL_BAD_ARGUMENT as
-/// sl_route_find() says, for both places and for ends of links on storeys that a way may reach.
+/// Lengths on a storey are those of sl_route_find(). No way is no failure. SL_BAD_ARGUMENT for a
+/// storey that is not there, and as sl_route_find() says, for both places and for ends of links
+/// that a shortest way may reach.
 ///
 /// By Dijkstra over both places and the ends of links. Each way on a storey is asked for when its
 /// begin is settled: at most (2 links + 2)^2 / storeys ways where links are spread evenly.

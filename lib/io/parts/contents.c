@@ -296,6 +296,18 @@ static sl_status choose_looks(sli_choice *c) {
     return room ? SL_OK : SL_NO_MEMORY;
 }
 
+/// What each wall means.
+static sl_status find_means(sli_choice *c) {
+    SL_TRY(find_symbols(c));
+    count_named(c);
+    if (!sli_contents_said(c->contents)) {
+        measure_groups(c);
+        take_walls_on_doors(c);
+        take_outlines_of_rooms(c);
+    }
+    return choose_looks(c);
+}
+
 /// Marks the groups that are taken. False where the choice is none, or changes nothing.
 static bool choose_groups(sli_choice *c) {
     bool changes = c->by_looks || c->symbols.leaves + c->symbols.lines > 0;
@@ -399,13 +411,7 @@ static sl_status list_all(sli_choice *c, sl_drawing_layers *out) {
 sl_status sli_contents_list(sli_contents *contents, sl_map *map, double metre,
                             sl_drawing_layers *out) {
     sli_choice c = {.contents = contents, .map = map, .metre = metre};
-    sl_status status = find_symbols(&c);
-    if (status == SL_OK) {
-        count_named(&c);
-        take_walls_on_doors(&c);
-        take_outlines_of_rooms(&c);
-    }
-    if (status == SL_OK) status = choose_looks(&c);
+    sl_status status = find_means(&c);
     if (status == SL_OK) status = list_all(&c, out);
     sl_free(contents->context, c.means);
     sli_symbols_destroy(contents->context, &c.symbols);
@@ -533,14 +539,7 @@ static void measure(sli_choice *c) {
 // --- all
 
 static sl_status choose(sli_choice *c, sli_pen *pen) {
-    SL_TRY(find_symbols(c));
-    count_named(c);
-    if (!sli_contents_said(c->contents)) {
-        measure_groups(c);
-        take_walls_on_doors(c);
-        take_outlines_of_rooms(c);
-    }
-    SL_TRY(choose_looks(c));
+    SL_TRY(find_means(c));
     bool chosen = choose_groups(c);
     SL_TRY(find_parts(c));
     chosen |= sli_plan_parts_count(&c->parts) > 0;

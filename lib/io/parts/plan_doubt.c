@@ -15,7 +15,7 @@
 /// Counts the corners of each piece.
 static void count_corners(sli_plan_net *n, uint32_t *corners) {
     for (uint32_t end = 0; end < 2 * (uint32_t)n->map->wall_count; end++)
-        if (sli_plan_first(n->corner, end) == end) corners[sli_plan_first(n->piece, end / 2)]++;
+        if (sl_root_of(n->corner, end) == end) corners[sl_root_of(n->piece, end / 2)]++;
 }
 
 /// Small pieces, but for those that are long or have the sides of walls. `closed`, where not NULL,
@@ -26,12 +26,12 @@ static sl_status find_small(sli_plan_net *n, sl_bits *closed, sli_plan_look *out
     uint32_t *corners = sl_alloc_array(n->context, count, sizeof *corners);
     const bool room = walls && corners;
     for (size_t i = 0; room && i < n->pairs.count; i++) {
-        sl_bits_add(walls, sli_plan_first(n->piece, n->pairs.items[i].wall));
-        sl_bits_add(walls, sli_plan_first(n->piece, n->pairs.items[i].other));
+        sl_bits_add(walls, sl_root_of(n->piece, n->pairs.items[i].wall));
+        sl_bits_add(walls, sl_root_of(n->piece, n->pairs.items[i].other));
     }
     if (room) count_corners(n, corners);
     for (uint32_t i = 0; room && i < count; i++) {
-        const uint32_t first = sli_plan_first(n->piece, i);
+        const uint32_t first = sl_root_of(n->piece, i);
         const double w = sli_box_width(n->boxes[first]), h = sli_box_height(n->boxes[first]);
         if (sl_bits_has(walls, first)) continue;
         if (fmax(w, h) > n->size / 12 || fmax(w, h) > 3 * fmin(w, h)) continue;
@@ -77,7 +77,7 @@ static bool is_frame(sli_plan_net *n, uint32_t piece) {
         return false;
     for (uint32_t i = 0; i < n->map->wall_count; i++) {
         const sl_wall *wall = &n->map->walls[i];
-        const uint32_t first = sli_plan_first(n->piece, i);
+        const uint32_t first = sl_root_of(n->piece, i);
         if (first == piece) {
             if (wall->a.x != wall->b.x && wall->a.y != wall->b.y) return false;
             continue;
@@ -103,8 +103,8 @@ static bool is_site(sli_plan_net *n, uint32_t piece) {
         sli_box_height(box) < sli_box_height(n->bounds))
         return false;
     for (uint32_t end = 0; end < 2 * (uint32_t)n->map->wall_count; end++) {
-        const uint32_t first = sli_plan_first(n->piece, end / 2);
-        corners += first == piece && sli_plan_first(n->corner, end) == end;
+        const uint32_t first = sl_root_of(n->piece, end / 2);
+        corners += first == piece && sl_root_of(n->corner, end) == end;
         if (first == piece) continue;
         if (n->counts[first] > most) most = n->counts[first];
         house.min.x = fmin(house.min.x, n->boxes[first].min.x);
@@ -122,9 +122,9 @@ static bool is_site(sli_plan_net *n, uint32_t piece) {
 static sl_status find_all(sli_plan_net *n, sli_plan_look *out) {
     const uint32_t count = (uint32_t)n->map->wall_count;
     size_t corners = 0, pieces = 0;
-    for (uint32_t i = 0; i < 2 * count; i++) corners += sli_plan_first(n->corner, i) == i;
+    for (uint32_t i = 0; i < 2 * count; i++) corners += sl_root_of(n->corner, i) == i;
     for (uint32_t i = 0; i < count; i++) {
-        if (sli_plan_first(n->piece, i) != i) continue;
+        if (sl_root_of(n->piece, i) != i) continue;
         pieces++;
         out->frame |= is_frame(n, i);
         out->site |= is_site(n, i);

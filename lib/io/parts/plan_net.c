@@ -7,14 +7,9 @@
 /// What is looked at: so many walls, and so many that are near others.
 enum { MOST_WALLS = 100000, MOST_NEAR = 1 << 23 };
 
-uint32_t sli_plan_first(uint32_t *sets, uint32_t at) {
-    while (sets[at] != at) at = sets[at] = sets[sets[at]];
-    return at;
-}
-
 static void join(uint32_t *sets, uint32_t a, uint32_t b) {
-    a = sli_plan_first(sets, a);
-    b = sli_plan_first(sets, b);
+    a = sl_root_of(sets, a);
+    b = sl_root_of(sets, b);
     sets[a < b ? b : a] = a < b ? a : b;
 }
 
@@ -116,10 +111,10 @@ static sl_status join_all(sli_plan_net *n) {
         SL_TRY(look_at_end(n, end, false));
     }
     for (uint32_t end = 0; end < 2 * count; end++)
-        if (sli_plan_first(n->corner, end) == end) SL_TRY(look_at_end(n, end, true));
+        if (sl_root_of(n->corner, end) == end) SL_TRY(look_at_end(n, end, true));
     for (uint32_t i = 0; i < count; i++) SL_TRY(look_beside(n, i));
     for (uint32_t i = 0; i < count; i++) {
-        const uint32_t first = sli_plan_first(n->piece, i);
+        const uint32_t first = sl_root_of(n->piece, i);
         const sl_wall *wall = &n->map->walls[i];
         if (!n->counts[first]++) n->boxes[first] = sli_box_around(wall->a, wall->a);
         n->boxes[first] = sli_box_with(sli_box_with(n->boxes[first], wall->a), wall->b);

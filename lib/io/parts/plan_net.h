@@ -42,9 +42,6 @@ sl_status sli_plan_net_make(sl_context *context, const sl_map *map, double least
                             double tolerance, sli_plan_net *out);
 void sli_plan_net_destroy(sli_plan_net *net);
 
-/// The wall that stands for a set, of `piece` or `corner`.
-uint32_t sli_plan_first(uint32_t *sets, uint32_t at);
-
 static inline double sli_box_width(sl_box box) {
     return box.max.x - box.min.x;
 }

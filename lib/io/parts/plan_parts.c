@@ -237,7 +237,7 @@ static void drop(finder *f, uint32_t wall, size_t *count) {
 /// Drops the pieces that are to be.
 static void drop_marked(finder *f) {
     for (uint32_t i = 0; i < f->turned.wall_count; i++) {
-        size_t *into = f->looks[sli_plan_first(f->net.piece, i)].into;
+        size_t *into = f->looks[sl_root_of(f->net.piece, i)].into;
         if (into && !is_gone(f, i)) drop(f, i, into);
     }
 }
@@ -339,7 +339,7 @@ static bool has_walls(const finder *f, uint32_t piece) {
 
 /// Adds a wall to what is known of its piece.
 static void measure_wall(finder *f, uint32_t i) {
-    const uint32_t piece = sli_plan_first(f->net.piece, i);
+    const uint32_t piece = sl_root_of(f->net.piece, i);
     const sl_wall *wall = &f->turned.walls[i];
     const sl_box box = f->net.boxes[piece];
     const double length = wall_length(&f->turned, i), off = f->net.tolerance;
@@ -366,7 +366,7 @@ static void measure_pieces(finder *f) {
     for (uint32_t i = 0; i < count; i++) measure_wall(f, i);
     f->plan = none;
     for (uint32_t i = 0; i < count; i++)
-        if (sli_plan_first(f->net.piece, i) == i && has_walls(f, i))
+        if (sl_root_of(f->net.piece, i) == i && has_walls(f, i))
             f->plan = sli_box_with(sli_box_with(f->plan, f->net.boxes[i].min), f->net.boxes[i].max);
 }
 
@@ -396,7 +396,7 @@ static bool may_stand(const finder *f, uint32_t piece, bool obstacles) {
 /// A small piece without faces in the plan.
 static bool is_loose(const finder *f, uint32_t piece) {
     const double plan = longer_side(f->plan), own = longer_side(f->net.boxes[piece]);
-    return sli_plan_first(f->net.piece, piece) == piece && !has_walls(f, piece) &&
+    return sl_root_of(f->net.piece, piece) == piece && !has_walls(f, piece) &&
            !is_beside(f->net.boxes[piece], f->plan) &&
            own <= (f->metre > 0 ? fmin(plan / 5, 3.5 * f->metre) : plan / 12);
 }
@@ -412,7 +412,7 @@ static void drop_pieces(finder *f) {
     // Where nearly all of them are plain boxes, that is how the plan draws obstacles.
     const bool obstacles = 5 * simple >= 4 * loose;
     for (uint32_t i = 0; i < f->turned.wall_count; i++) {
-        if (sli_plan_first(f->net.piece, i) != i || has_walls(f, i)) continue;
+        if (sl_root_of(f->net.piece, i) != i || has_walls(f, i)) continue;
         const sl_box box = f->net.boxes[i];
         if (is_beside(box, f->plan)) {
             if (longer_side(box) < longer_side(f->plan)) f->looks[i].into = &f->out->beside;
@@ -450,7 +450,7 @@ static bool is_frame(const finder *f, uint32_t piece, const sl_bits *rectangles)
     sl_box plan = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
     bool large = false;
     for (uint32_t i = 0; i < f->turned.wall_count; i++) {
-        if (sli_plan_first(f->net.piece, i) != i || sl_bits_has(rectangles, i)) continue;
+        if (sl_root_of(f->net.piece, i) != i || sl_bits_has(rectangles, i)) continue;
         const sl_box own = f->net.boxes[i];
         const bool near = !is_within(own, box, room);
         if (f->paired ? near && is_within(own, box, 0) && has_walls(f, i) : near) return false;
@@ -469,11 +469,11 @@ static sl_status drop_frames(finder *f) {
     sl_bits *walls = sl_alloc_array(f->context, sl_bits_words(count), sizeof *walls);
     const bool room = rectangles && walls;
     for (uint32_t i = 0; room && i < count; i++)
-        if (sli_plan_first(f->net.piece, i) == i && f->net.counts[i] >= 4 && is_rectangle(f, i))
+        if (sl_root_of(f->net.piece, i) == i && f->net.counts[i] >= 4 && is_rectangle(f, i))
             sl_bits_add(rectangles, i);
     for (size_t i = 0; room && i < f->net.pairs.count; i++) {
-        const uint32_t a = sli_plan_first(f->net.piece, f->net.pairs.items[i].wall);
-        const uint32_t b = sli_plan_first(f->net.piece, f->net.pairs.items[i].other);
+        const uint32_t a = sl_root_of(f->net.piece, f->net.pairs.items[i].wall);
+        const uint32_t b = sl_root_of(f->net.piece, f->net.pairs.items[i].other);
         if (a == b || f->net.pairs.items[i].along < 0.25 * f->net.size / 4) continue;
         const bool any = !f->paired;
         if (!sl_bits_has(rectangles, b) && (any || has_walls(f, b))) sl_bits_add(walls, a);
