@@ -15,6 +15,7 @@ import unittest
 
 import sandbox
 from case import MAPS
+from test_rooms import corridor
 
 TURN = math.radians(17.3)
 
@@ -109,6 +110,17 @@ class Paper(sandbox.ProgramTest):
                 self.assertAlmostEqual(float(x), spot["x"], places=4)
                 self.assertEqual(room, "Room 2")
             self.assertEqual(len(said["blind_spots"]), 2)
+
+    def test_rooms_of_a_report_end_at_drawn_doors(self):
+        """The rooms of a drawing are those that `rooms` and `cover --rooms` list."""
+        self.box.path("plan.svg").write_text(corridor())
+        self.box.path("cameras.csv").write_text("x,y\n5,0.5\n")
+        self.run_well("report", "plan.svg", "--grid", "0.5", "--cameras", "cameras.csv", "-o", "a.pdf", "--quiet")
+        text = self.text_of("a.pdf")
+        cameras = text[text.index("What share of each room"):]
+        for name, area in ("Hall", 10), ("Den", 25), ("Bath", 25):
+            self.assertEqual(float(self.row(text, name)[0]), area)
+            self.assertEqual(float(self.row(cameras, name)[0].split()[0]), area)
 
     def test_marks_at_one_place_stand_apart(self):
         """Words on paper have boxes: none of the names lies on another, and each is on the sheet."""

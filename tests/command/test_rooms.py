@@ -29,6 +29,18 @@ def drawing(place):
             "0\nSECTION\n2\nENTITIES\n" + lines + texts + "0\nENDSEC\n0\nEOF\n")
 
 
+def corridor():
+    """An SVG with doors: a hall of 1 m, as narrow as they are, beside two rooms of 5 x 5 m."""
+    walls = ["0,0 10,0 10,1 7,1", "6,1 2,1", "1,1 0,1 0,0", "10,1 10,6 0,6 0,1", "5,1 5,6"]
+    swings = ["M1,1 V2 A1,1 0 0 0 2,1", "M6,1 V2 A1,1 0 0 0 7,1"]
+    parts = ['<g id="walls">' + "".join(f'<polyline points="{w}"/>' for w in walls) + "</g>",
+             '<g id="doors">' + "".join(f'<path d="{d}"/>' for d in swings) + "</g>",
+             '<g id="text" font-size="0.3"><text x="5" y="0.5">Hall</text>',
+             '<text x="2" y="4">Den</text><text x="7" y="4">Bath</text></g>']
+    return ('<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 10 6" stroke="black" fill="none">'
+            + "".join(parts) + "</svg>")
+
+
 class Rooms(sandbox.ProgramTest):
     def table(self, *arguments):
         self.run_well("rooms", "plan.dxf", *arguments, "-o", "rooms.csv", "--quiet")
@@ -127,15 +139,7 @@ class Rooms(sandbox.ProgramTest):
 
     def test_drawn_doors_bound_rooms(self):
         """A corridor that is narrower than the usual opening is a room with its name: doors are drawn."""
-        walls = ["0,0 10,0 10,1 7,1", "6,1 2,1", "1,1 0,1 0,0", "10,1 10,6 0,6 0,1", "5,1 5,6"]
-        swings = ["M1,1 V2 A1,1 0 0 0 2,1", "M6,1 V2 A1,1 0 0 0 7,1"]
-        parts = ['<g id="walls">' + "".join(f'<polyline points="{w}"/>' for w in walls) + "</g>",
-                 '<g id="doors">' + "".join(f'<path d="{d}"/>' for d in swings) + "</g>",
-                 '<g id="text" font-size="0.3"><text x="5" y="0.5">Hall</text>',
-                 '<text x="2" y="4">Den</text><text x="7" y="4">Bath</text></g>']
-        self.box.path("plan.svg").write_text(
-            '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 10 6" stroke="black" fill="none">' +
-            "".join(parts) + "</svg>")
+        self.box.path("plan.svg").write_text(corridor())
         result = self.run_well("rooms", "plan.svg")
         areas = {row["room"]: float(row["area"]) for row in csv.DictReader(result.stdout.splitlines())}
         self.assertEqual({name: round(area, 9) for name, area in areas.items()},

@@ -442,7 +442,7 @@ static void test_typed(void **state) {
     for (int i = 0; i < 3; i++) viewer_press(app, "Ctrl+Shift+K");
     assert_string_equal(app->view.name.text, "12350");
     char said[MEASURE_TEXT];
-    view_say_measure(&app->view, 9999.7, "", said);
+    document_say_measure(&app->document, 9999.7, "", said);
     assert_memory_equal(said, "10000", 5);
     viewer_press(app, "Return");
     assert_true(camera_chosen(&app->view)->range == 12345.6);
@@ -481,6 +481,25 @@ static void test_typed(void **state) {
     viewer_press(app, "Escape");
     viewer_press(app, "5");
     assert_true(heat_step(&app->view) == 0.5);
+    // Keys and the slider go to the steps beside one that is typed.
+    static const struct {
+        double typed, coarser, finer;
+    } steps[] = {{0.7, 1, 0.5}, {0.6, 1, 0.5}, {1.9, 2, 1}, {1, 2, 0.5}};
+    for (size_t i = 0; i < sizeof steps / sizeof *steps; i++) {
+        int last;
+        assert_true(heat_type_step(&app->view, steps[i].typed));
+        viewer_press(app, "4");
+        assert_true(heat_step(&app->view) == steps[i].coarser);
+        assert_true(heat_type_step(&app->view, steps[i].typed));
+        viewer_press(app, "5");
+        assert_true(heat_step(&app->view) == steps[i].finer);
+        heat_set_step(&app->view, heat_step_place(&app->view, &last));
+        assert_true(heat_step(&app->view) == steps[i].finer);
+        const int place = heat_step_place(&app->view, &last);
+        assert_true(heat_type_step(&app->view, 1.1 * steps[i].finer));
+        heat_set_step(&app->view, place);
+        assert_true(heat_step(&app->view) == steps[i].finer);
+    }
     viewer_end(app);
 }
 

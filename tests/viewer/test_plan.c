@@ -39,9 +39,9 @@ static void test_opens(void **state) {
     assert_non_null(strstr(app->ui.message, "house.svg: "));
     assert_null(strstr(app->ui.message, "cells"));
     char area[MEASURE_TEXT];
-    view_say_measure(&app->view, 123456, "", area);
+    document_say_measure(&app->document, 123456, "", area);
     assert_string_equal(area, "123500 px");
-    view_say_measure(&app->view, 12.3456, "", area);
+    document_say_measure(&app->document, 12.3456, "", area);
     assert_string_equal(area, "12.35 px");
     assert_false(layers_lists(&app->view, LAYER_CULL));
     assert_false(layers_lists(&app->view, LAYER_TREE));

@@ -119,9 +119,7 @@ static sl_status work(command_console *console, cover_plan *plan, cover_work *w)
     sl_context *context = console->context;
     SL_TRY(check_plan(context, plan));
     SL_TRY(pipeline_plan(context, plan->operands[0], &plan->pipeline));
-    // Doors that a drawing shows say where rooms end.
-    if (plan->rooms && input_is_drawing(context, plan->operands[0]))
-        plan->pipeline.input.import.doors = true;
+    if (plan->rooms) pipeline_take_drawn_doors(context, &plan->pipeline);
     const sl_baked *baked = &w->baked;
     SL_TRY(pipeline_read_space(
         context, &plan->pipeline, "cover",

@@ -63,6 +63,7 @@ sl_status cmd_report(command_console *console, int argc, char **argv) {
         return sl_fail(console->context, SL_BAD_ARGUMENT,
                        "-o is missing: name the report, ending in .pdf");
     SL_TRY(pipeline_plan(console->context, graph->input, &graph->pipeline));
+    pipeline_take_drawn_doors(console->context, &graph->pipeline);
     const sl_status status = plan_report_write(console->context, &plan, output);
     progress_line_clear(&console->line);
     return status;

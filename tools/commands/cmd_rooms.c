@@ -54,9 +54,7 @@ static sl_status work(command_console *console, rooms_plan *plan, vga_work *w, r
     if (plan->graph.parts & VGA_PART_ALL) plan->graph.parts |= VGA_PART_ALL - 1;
     plan->graph.parts &= VGA_PART_ALL - 1;
     SL_TRY(pipeline_plan(context, plan->graph.input, &plan->graph.pipeline));
-    // Doors that a drawing shows say where rooms end.
-    if (input_is_drawing(context, plan->graph.input))
-        plan->graph.pipeline.input.import.doors = true;
+    pipeline_take_drawn_doors(context, &plan->graph.pipeline);
     SL_TRY(read_plan(context, plan, w));
     SL_TRY(room_table_make(context, &w->baked, plan->width, table));
     if (!table->rooms.count)

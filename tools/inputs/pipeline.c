@@ -131,6 +131,10 @@ sl_status pipeline_plan(sl_context *context, const char *path, map_pipeline *p) 
     return SL_OK;
 }
 
+void pipeline_take_drawn_doors(sl_context *context, map_pipeline *p) {
+    if (input_is_drawing(context, p->path)) p->input.import.doors = true;
+}
+
 // --- commands to run next
 
 /// Puts a text at a place of a longer one, as far as it has room. Returns the place after it.

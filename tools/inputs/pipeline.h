@@ -36,6 +36,10 @@ option_table pipeline_without_table(map_pipeline *pipeline);
 /// Call it after the options are read and before anything else.
 sl_status pipeline_plan(sl_context *context, const char *path, map_pipeline *pipeline);
 
+/// After pipeline_plan(): doors that a drawing shows are kept as doors, as they say where rooms
+/// end.
+void pipeline_take_drawn_doors(sl_context *context, map_pipeline *pipeline);
+
 /// Adds the start of --start to a map, drops the effects of --without and may settle doors.
 sl_status pipeline_prepare(sl_context *context, const map_pipeline *pipeline, sl_map *map);
 

@@ -193,8 +193,7 @@ DO(heat_hold, heat_toggle_held(&app->view))
 IS(heat_hold, app->view.heat_choice.held)
 
 static void heat_step_by(app_state *app, int by) {
-    int last;
-    heat_set_step(&app->view, heat_step_place(&app->view, &last) + by);
+    heat_turn_step(&app->view, by);
     ui_say(&app->ui, false, "heat map: %.3g from point to point", heat_step(&app->view));
 }
 

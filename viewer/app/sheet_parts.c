@@ -102,7 +102,7 @@ static sl_status add_from_line(sheet_work *w) {
     if (!layer) return SL_OK;
     for (int i = 0; i < 2; i++) {
         char text[MEASURE_TEXT];
-        view_say_measure(w->view, layer->seen[i].area, "\xc2\xb2", text);
+        document_say_measure(w->view->document, layer->seen[i].area, "\xc2\xb2", text);
         snprintf(w->out->names[i], SHEET_NAME, "%s: %s", labels[i], text);
         SL_TRY(add_part(w, (sl_drawn_part){.name = w->out->names[i],
                                            .colour = sl_coverage_colour(&w->palette, i ? 3 : 1),
@@ -120,7 +120,7 @@ static sl_status add_building_way(sheet_work *w) {
     char text[MEASURE_TEXT];
     if (!way || !way->made || !way->route.found) return SL_OK;
     const sl_building_place *p = way->route.points;
-    view_say_measure(w->view, way->route.length, "", text);
+    document_say_measure(w->view->document, way->route.length, "", text);
     snprintf(w->out->names[0], SHEET_NAME, "shortest way through the building: %s", text);
     SL_TRY(add_part(w, (sl_drawn_part){.name = w->out->names[0], .colour = w->palette.start}));
     for (size_t i = 1; i < way->route.count; i++)
@@ -134,7 +134,7 @@ static sl_status add_route(sheet_work *w) {
     char text[MEASURE_TEXT];
     if (*w->view->building) return add_building_way(w);
     if (!layer || layer->clicks < 2 || layer->tight || !layer->route.found) return SL_OK;
-    view_say_measure(w->view, layer->route.length, "", text);
+    document_say_measure(w->view->document, layer->route.length, "", text);
     snprintf(w->out->names[0], SHEET_NAME, "shortest way: %s", text);
     w->out->places[0] = layer->from;
     w->out->places[1] = layer->to;
@@ -157,7 +157,7 @@ static sl_status add_rooms(sheet_work *w) {
         const sl_box box = room_map_box(map, i);
         w->out->labels.items[w->out->labels.count++] =
             (sl_plan_label){room_map_name(map, i), room_map_place(map, i), 0.9 * box_width(box)};
-        view_say_measure(w->view, room_map_area(map, i), "\xc2\xb2", area);
+        document_say_measure(w->view->document, room_map_area(map, i), "\xc2\xb2", area);
         sl_text_percent(room_map_area(map, i) > 0 ? map->seen[i] / room_map_area(map, i) : 0,
                         share);
         if (i < ROWS_MOST)
@@ -194,8 +194,8 @@ static sl_status add_compare(sheet_work *w) {
     if (!c || !c->job.made) return SL_OK;
     SL_TRY(add_walls(w, "walls of this plan alone", &c->removed, false));
     SL_TRY(add_walls(w, "walls of the other plan alone", &c->added, true));
-    view_say_measure(w->view, w->view->document->inside_area, "\xc2\xb2", text);
-    view_say_measure(w->view, c->area, "\xc2\xb2", other);
+    document_say_measure(w->view->document, w->view->document->inside_area, "\xc2\xb2", text);
+    document_say_measure(w->view->document, c->area, "\xc2\xb2", other);
     say(w, "Inside: %s here, %s in the other plan, %s.", text, other,
         files_base(w->view->compared->source.path));
     return SL_OK;
@@ -212,7 +212,8 @@ static void say_cameras(sheet_work *w) {
     char text[MEASURE_TEXT], name[CAMERA_NAME];
     if (*layer->proof) say(w, "%s\n", layer->proof);
     for (uint32_t k = 0; k < SL_COVERAGE_CLASSES; k++) {
-        view_say_measure(w->view, sl_coverage_class_area(&layer->coverage, k), "\xc2\xb2", text);
+        document_say_measure(w->view->document, sl_coverage_class_area(&layer->coverage, k),
+                             "\xc2\xb2", text);
         say(w, "%s: %s%s", classes[k], text, k + 1 < SL_COVERAGE_CLASSES ? "; " : ".\n");
     }
     for (size_t i = 0; i < layer->table.count && i < ROWS_MOST; i++) {
@@ -223,11 +224,11 @@ static void say_cameras(sheet_work *w) {
         say(w, "%s: at %s, ", name, place);
         if (v->fov < 360)
             say(w, "heading %.4g\xc2\xb0, field of view %.4g\xc2\xb0, ", v->heading, v->fov);
-        view_say_measure(w->view, v->range, "", text);
+        document_say_measure(w->view->document, v->range, "", text);
         if (v->range > 0) say(w, "range %s, ", text);
-        view_say_measure(w->view, layer->coverage.seen[i], "\xc2\xb2", text);
+        document_say_measure(w->view->document, layer->coverage.seen[i], "\xc2\xb2", text);
         say(w, "sees %s", text);
-        view_say_measure(w->view, layer->coverage.alone[i], "\xc2\xb2", text);
+        document_say_measure(w->view->document, layer->coverage.alone[i], "\xc2\xb2", text);
         if (sl_coverage_is_spare(&layer->coverage, i))
             say(w, " (spare)\n");
         else

@@ -90,14 +90,14 @@ static sl_status say_sealed(const desk_state *desk, import_state *s) {
     sl_sealed sealed;
     SL_TRY(sl_find_sealed(desk->context, &baked->map, &baked->space, &sealed));
     const sl_point at = sealed.largest.at;
-    const char *unit = desk->document->map.unit;
+    char area[MEASURE_TEXT];
     if (sealed.rooms < 2 || !(sealed.largest.area > 0)) return SL_OK;
-    snprintf(
-        s->said_sealed, sizeof s->said_sealed,
-        "%u closed part%s, the largest of %.4g%s%.20s%s at %.4g, %.4g, count%s as inside, too. "
-        "Where these are courts or shafts, 'Here is inside' leaves them out.",
-        (unsigned)sealed.rooms - 1, sealed.rooms == 2 ? "" : "s", sealed.largest.area,
-        *unit ? " " : "", unit, *unit ? "\xc2\xb2" : "", at.x, at.y, sealed.rooms == 2 ? "s" : "");
+    document_say_measure(desk->document, sealed.largest.area, "\xc2\xb2", area);
+    snprintf(s->said_sealed, sizeof s->said_sealed,
+             "%u closed part%s, the largest of %s at %.4g, %.4g, count%s as inside, too. "
+             "Where these are courts or shafts, 'Here is inside' leaves them out.",
+             (unsigned)sealed.rooms - 1, sealed.rooms == 2 ? "" : "s", area, at.x, at.y,
+             sealed.rooms == 2 ? "s" : "");
     return SL_OK;
 }
 
@@ -122,25 +122,19 @@ static double inside_share(const document_state *document) {
     return document->inside_area / (box_width(b) * box_height(b));
 }
 
-/// "12.3 m"
-static const char *length_text(const desk_state *desk, double length, char text[64]) {
-    const char *unit = desk->document->map.unit;
-    snprintf(text, 64, "%.4g%s%.20s", length, *unit ? " " : "", unit);
-    return text;
-}
-
 /// A scale says how wide an entrance is, so it may change what is inside.
 static void say_scaled(const desk_state *desk, import_state *s) {
     const double now = inside_share(desk->document), before = s->share_before;
     const double width = desk->document->baked->map.interior.width;
-    char said[64];
+    char said[MEASURE_TEXT];
+    document_say_measure(desk->document, width, "", said);
     s->scales = false;
     s->said_scale[0] = '\0';
     if (fabs(now - before) <= 1e-6 || s->has_start) return;
     snprintf(s->said_scale, sizeof s->said_scale,
              "The scale changes what is inside: %.3g %% of the plan, and %.3g %% before. Openings "
              "up to %s count as entrances now: say another width, or what is inside.",
-             100 * now, 100 * before, length_text(desk, width, said));
+             100 * now, 100 * before, said);
 }
 
 void import_plan_follow(desk_state *desk, import_state *s) {
@@ -187,16 +181,13 @@ static void close_leak(desk_state *desk, import_state *s, size_t number) {
 /// The length that was typed, as "4.20 m" or "4,2"; the unit is m where none is said.
 static bool read_length(import_state *s, double *length, const char **sign) {
     static const char *const signs[] = {"mm", "cm", "km", "m", "in", "ft", "yd"};
-    char text[64];
-    snprintf(text, sizeof text, "%.60s", s->length.text);
-    for (char *at = text; *at; at++)
-        if (*at == ',') *at = '.';
-    size_t digits = strspn(text, "0123456789.eE+-");
+    const char *text = s->length.text;
+    const size_t digits = strspn(text, "0123456789.,eE+-");
     const char *unit = text + digits + strspn(text + digits, " ");
     *sign = *unit ? NULL : "m";
     for (size_t i = 0; i < sizeof signs / sizeof *signs; i++)
         if (strcmp(unit, signs[i]) == 0) *sign = signs[i];
-    return *sign && sl_number_read(text, digits, length) && *length > 0;
+    return *sign && sl_table_number_read(';', text, digits, length) && *length > 0;
 }
 
 /// How long a unit of the file is in the map as it is shown.

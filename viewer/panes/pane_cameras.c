@@ -22,7 +22,7 @@ static void area_text(const view_state *view, double area, char text[AREA_TEXT])
     char share[SL_COUNT_TEXT], measure[MEASURE_TEXT];
     const double all = view->cameras->coverage.overlay.areas[0];
     sl_text_percent(all > 0 ? area / all : 0, share);
-    view_say_measure(view, area, "\xc2\xb2", measure);
+    document_say_measure(view->document, area, "\xc2\xb2", measure);
     snprintf(text, AREA_TEXT, "%s   %s", measure, share);
 }
 
@@ -83,8 +83,8 @@ static void draw_list(view_state *view, column *c) {
         if (i >= CAMERAS_LISTED) continue;
         camera_name(layer, i, name);
         if (now) {
-            view_say_measure(view, layer->coverage.seen[i], "\xc2\xb2", sees);
-            view_say_measure(view, layer->coverage.alone[i], "\xc2\xb2", alone);
+            document_say_measure(view->document, layer->coverage.seen[i], "\xc2\xb2", sees);
+            document_say_measure(view->document, layer->coverage.alone[i], "\xc2\xb2", alone);
             snprintf(text, sizeof text, "sees %s, %s%s", sees, is_spare ? "spare" : "alone ",
                      is_spare ? "" : alone);
         }

@@ -31,7 +31,7 @@ static void put_row(ui_state *ui, column *c, const char *label, const char *valu
 static void draw_plan_words(const view_state *view, column *c) {
     char area[MEASURE_TEXT], text[256];
     if (!view->document->baked) return;
-    view_say_measure(view, view->document->inside_area, "\xc2\xb2", area);
+    document_say_measure(view->document, view->document->inside_area, "\xc2\xb2", area);
     snprintf(text, sizeof text, "%s inside.%s", area,
              *view->document->map.unit
                  ? ""
@@ -111,11 +111,11 @@ static void draw_building_way(const view_state *view, column *c) {
                      "No way leads there: walls, shut doors or missing links are between.");
         return;
     }
-    view_say_measure(view, way->route.length, "", text);
+    document_say_measure(view->document, way->route.length, "", text);
     put_row(view->ui, c, "length", text);
     for (size_t i = 0; i < way->route.link_count; i++) {
         const sl_storey_link *link = &way->building.links[way->route.links[i]];
-        view_say_measure(view, link->length, "", text);
+        document_say_measure(view->document, link->length, "", text);
         put_row(view->ui, c, link->name, text);
     }
     column_words(view->ui, c, 0.9, view->ui->palette.faint,
@@ -148,10 +148,10 @@ static void draw_route(const view_state *view, column *c) {
                      "No way leads there. The ring marks the nearest place that can be reached.");
         return;
     }
-    view_say_measure(view, layer->route.length, "", text);
+    document_say_measure(view->document, layer->route.length, "", text);
     put_row(view->ui, c, "length", text);
-    view_say_measure(view, hypot(layer->to.x - layer->from.x, layer->to.y - layer->from.y), "",
-                     text);
+    document_say_measure(view->document,
+                         hypot(layer->to.x - layer->from.x, layer->to.y - layer->from.y), "", text);
     put_row(view->ui, c, "straight line", text);
     snprintf(text, sizeof text, "%zu", layer->route.count - 2);
     put_row(view->ui, c, "turns at corners", text);
@@ -175,10 +175,11 @@ static void draw_from_line(const view_state *view, column *c) {
         return;
     }
     const sl_point *ends = view->from_line->ends;
-    view_say_measure(view, hypot(ends[1].x - ends[0].x, ends[1].y - ends[0].y), "", text);
+    document_say_measure(view->document, hypot(ends[1].x - ends[0].x, ends[1].y - ends[0].y), "",
+                         text);
     put_row(view->ui, c, "length of the line", text);
     for (int i = 0; layer && i < 2; i++) {
-        view_say_measure(view, layer->seen[i].area, "\xc2\xb2", text);
+        document_say_measure(view->document, layer->seen[i].area, "\xc2\xb2", text);
         put_row(view->ui, c, labels[i], text);
         snprintf(name, sizeof name, "%s, share", i ? "from all" : "from some");
         sl_text_percent(view->document->area > 0 ? layer->seen[i].area / view->document->area : 0,
@@ -254,7 +255,7 @@ static void draw_rooms(const view_state *view, column *c) {
     for (size_t i = 0; i < room_map_rows(map); i++) {
         const double area = room_map_area(map, i);
         char size[MEASURE_TEXT];
-        view_say_measure(view, area, "\xc2\xb2", size);
+        document_say_measure(view->document, area, "\xc2\xb2", size);
         sl_text_percent(area > 0 ? map->seen[i] / area : 0, share);
         snprintf(text, sizeof text, "%s, %s", size, share);
         ui_hit_focus(
@@ -263,7 +264,7 @@ static void draw_rooms(const view_state *view, column *c) {
     }
     draw_room_name(view, c);
     if (map->rooms.width > 0) {
-        view_say_measure(view, map->rooms.width, "", text);
+        document_say_measure(view->document, map->rooms.width, "", text);
         char words[2 * MEASURE_TEXT + 64];
         snprintf(words, sizeof words, "Openings up to %s count as doors.", text);
         column_words(view->ui, c, 0.9, view->ui->palette.faint, words);
@@ -275,7 +276,7 @@ static void draw_rooms(const view_state *view, column *c) {
 static void put_walls(const view_state *view, column *c, const char *label,
                       const wall_list *walls) {
     char text[MEASURE_TEXT];
-    view_say_measure(view, wall_change_length(walls), "", text);
+    document_say_measure(view->document, wall_change_length(walls), "", text);
     put_row(view->ui, c, label, text);
 }
 
@@ -290,9 +291,9 @@ static void draw_compare(const view_state *view, column *c) {
         column_words(view->ui, c, 0.95, view->ui->palette.ink,
                      path ? "Reading the other plan ..." : "Choose the other plan.");
     if (other) {
-        view_say_measure(view, view->document->inside_area, "\xc2\xb2", text);
+        document_say_measure(view->document, view->document->inside_area, "\xc2\xb2", text);
         put_row(view->ui, c, "inside this plan", text);
-        view_say_measure(view, other->area, "\xc2\xb2", text);
+        document_say_measure(view->document, other->area, "\xc2\xb2", text);
         put_row(view->ui, c, "inside the other plan", text);
         if (other->job.made) {
             put_walls(view, c, "walls of the other alone", &other->added);

@@ -155,7 +155,7 @@ void building_way_update(view_state *view, bool wait) {
     way->made = status == SL_OK;
     view_check(view, status);
     char length[MEASURE_TEXT];
-    view_say_measure(view, way->route.length, "", length);
+    document_say_measure(view->document, way->route.length, "", length);
     if (way->made)
         ui_say(view->ui, false, way->route.found ? "the way is %s long" : "no way leads there",
                length);

@@ -256,7 +256,7 @@ static sl_camera found(const search_job *job, uint32_t number) {
 enum { LIKE_TEXT = MEASURE_TEXT + 48 };
 static void say_like(const view_state *view, const sl_viewpoint *like, char text[LIKE_TEXT]) {
     char range[MEASURE_TEXT];
-    view_say_measure(view, like->range, "", range);
+    document_say_measure(view->document, like->range, "", range);
     snprintf(text, LIKE_TEXT, "field of view %.4g\xc2\xb0, %s%s", like->fov,
              like->range > 0 ? "range " : "no limit of range", like->range > 0 ? range : "");
 }

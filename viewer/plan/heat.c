@@ -100,10 +100,20 @@ int heat_step_place(const view_state *view, int *last) {
 
 void heat_set_step(view_state *view, int place) {
     int last;
-    const int now = heat_step_place(view, &last);
+    heat_step_place(view, &last);
     place = place < 0 ? 0 : place > last ? last : place;
-    if (last && place != now)
-        view->heat_choice.step = step_numbered(number_for(view, FEWEST_POINTS) - place);
+    if (!last) return;
+    const double step = step_numbered(number_for(view, FEWEST_POINTS) - place);
+    if (step != heat_step(view)) view->heat_choice.step = step;
+}
+
+void heat_turn_step(view_state *view, int by) {
+    int last;
+    const double step = heat_step(view);
+    const int place = heat_step_place(view, &last);
+    const double at = step_numbered(number_for(view, FEWEST_POINTS) - place);
+    // A typed step may lie before its place already.
+    heat_set_step(view, (by > 0 ? at < step : at > step) ? place : place + by);
 }
 
 // --- the work
@@ -566,7 +576,7 @@ bool heat_layer_key(const view_state *view, legend_key *key) {
     legend_key_add(key, "under the pointer", value);
     sl_text_count(g->grid.count, "point", count);
     legend_key_add(key, "grid", count);
-    view_say_measure(view, g->step, "", step);
+    document_say_measure(view->document, g->step, "", step);
     legend_key_add(key, "from point to point", step);
     if (view->heat_choice.held) legend_key_add(key, "colour scale", "kept");
     if (by_rank(view)) value_scale_quarters(&view->heat->scale, "points", key);

@@ -46,6 +46,8 @@ void heat_toggle_held(view_state *view); ///< keeps the colour scale, or lets it
 /// The place of the grid's step among those that can be chosen, from 0 (coarse) to *last.
 int heat_step_place(const view_state *view, int *last);
 void heat_set_step(view_state *view, int place);
+/// To the next place, finer (1) or coarser (-1): from a typed step to the one beside it.
+void heat_turn_step(view_state *view, int by);
 /// Sets any step that gives a grid of a size that is computed; false for others.
 bool heat_type_step(view_state *view, double step);
 double heat_step(const view_state *view);

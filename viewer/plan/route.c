@@ -63,7 +63,7 @@ void route_click(view_state *view, sl_point at) {
     find_again(view, layer);
     if (layer->clicks < 2 || layer->tight) return;
     char length[MEASURE_TEXT];
-    view_say_measure(view, layer->route.length, "", length);
+    document_say_measure(view->document, layer->route.length, "", length);
     ui_say(view->ui, false, layer->route.found ? "the way is %s long" : "no way leads there",
            length);
 }

@@ -86,16 +86,6 @@ void view_say_place(const sl_map *map, sl_point at, char text[PLACE_TEXT]) {
     snprintf(text, PLACE_TEXT, "%.*s", PLACE_TEXT - 1, whole);
 }
 
-void view_say_measure(const view_state *view, double value, const char *power,
-                      char text[MEASURE_TEXT]) {
-    const char *unit = view->document->map.unit;
-    // Four digits, also where %g would write an exponent.
-    const double step = value >= 9999.5 && value < 1e15 ? pow(10, floor(log10(value)) - 3) : 0;
-    snprintf(text, MEASURE_TEXT, step > 0 ? "%.0f%s%s%s" : "%.4g%s%s%s",
-             step > 0 ? step * round(value / step) : value, *unit ? " " : "", unit,
-             *unit ? power : "");
-}
-
 void view_mark(const view_state *view, const sl_frame *frame, sl_point place) {
     cairo_t *cairo = view->ui->cairo;
     sl_point at;

@@ -285,11 +285,6 @@ bool view_pointed(const view_state *view, sl_point *at);
 enum { PLACE_TEXT = 72 };
 void view_say_place(const sl_map *map, sl_point at, char text[PLACE_TEXT]);
 
-/// "12.3 m", or with `power`, a raised 2, an area, "12.3 m²".
-enum { MEASURE_TEXT = 96 };
-void view_say_measure(const view_state *view, double value, const char *power,
-                      char text[MEASURE_TEXT]);
-
 /// Marks a place of the map by a disc.
 void view_mark(const view_state *view, const sl_frame *frame, sl_point place);
 
