@@ -22,10 +22,6 @@ static sl_colour series_colour(const sl_palette *palette, const sl_chart_series 
     return palette->path; // violet
 }
 
-static void set_translucent(cairo_t *cairo, sl_colour c, double share) {
-    cairo_set_source_rgba(cairo, c.red, c.green, c.blue, share);
-}
-
 static void line(cairo_t *cairo, double x0, double y0, double x1, double y1) {
     cairo_move_to(cairo, x0, y0);
     cairo_line_to(cairo, x1, y1);
@@ -100,7 +96,7 @@ static void draw_swatch(cairo_t *cairo, const sli_chart_page *page, const sl_cha
 
 /// Fills the path as bands of a colour are filled.
 static void fill_band(cairo_t *cairo, sl_colour colour) {
-    set_translucent(cairo, colour, 0.3);
+    sli_set_faded(cairo, colour, 0.3);
     cairo_fill(cairo);
 }
 
@@ -251,7 +247,7 @@ static void draw_grid(cairo_t *cairo, const sli_chart_page *page) {
         const double y = sli_axis_place(&page->y, page->y_ticks[i].value);
         if (!page->y_ticks[i].minor) line(cairo, frame->min.x, y, frame->max.x, y);
     }
-    set_translucent(cairo, page->palette.outline, 0.55);
+    sli_set_faded(cairo, page->palette.outline, 0.55);
     cairo_set_line_width(cairo, 0.055 * page->text);
     cairo_stroke(cairo);
 }

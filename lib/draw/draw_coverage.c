@@ -251,24 +251,16 @@ static double draw_key(cairo_t *cairo, const picture *p, sl_point at, double wid
     bool used[CLASSES] = {false};
     for (uint32_t i = 0; i < pieces->cell_count; i++)
         used[class_of(p->coverage, i)] |= pieces->cells[i].inside;
-    double x = at.x, y = at.y;
+    sli_key key = sli_key_at(at, width, size);
     for (uint32_t class = 0; class < CLASSES; class ++) {
         if (!used[class]) continue;
-        sl_text_font(cairo, size, false);
-        const double wide = 2.55 * size + sl_text_width(cairo, texts[class]);
-        if (x > at.x && x + wide > at.x + width) {
-            x = at.x;
-            y += 1.95 * size;
-        }
-        if (paint) {
-            cairo_rectangle(cairo, x, y + 0.22 * size, 2 * size, 1.2 * size);
-            sl_set_colour(cairo, sl_coverage_colour(palette, class));
-            cairo_fill(cairo);
-            sl_text_show(cairo, palette->ink, x + 2.55 * size, y + 1.16 * size, texts[class]);
-        }
-        x += wide + 1.9 * size;
+        const sl_point entry = sli_key_entry(cairo, palette->ink, &key, texts[class], paint);
+        if (!paint) continue;
+        cairo_rectangle(cairo, entry.x, entry.y + 0.22 * size, 2 * size, 1.2 * size);
+        sl_set_colour(cairo, sl_coverage_colour(palette, class));
+        cairo_fill(cairo);
     }
-    return y + 1.95 * size - at.y;
+    return sli_key_end(&key) - at.y;
 }
 
 static void set_page(cairo_t *cairo, const void *what, sli_page *page, bool paint) {

@@ -209,7 +209,7 @@ static void draw_border(const figure *g, sl_stab_end end) {
     const bool chosen = g->marks->end && is_end(g->marks->end, 1, end);
     const bool strong = conflict || chosen || last;
     add_border(g->cairo, g->frame, at);
-    cairo_set_source_rgba(g->cairo, c.red, c.green, c.blue, strong ? 1 : 0.45);
+    sli_set_faded(g->cairo, c, strong ? 1 : 0.45);
     cairo_set_line_width(g->cairo, (chosen ? 4.5 : conflict ? 3.4 : last ? 2.0 : 1.1) * unit);
     cairo_stroke(g->cairo);
     if (!strong) return;
@@ -226,7 +226,7 @@ static void show_on_plate(const figure *g, sl_colour colour, double x, double y,
     sl_text_font(g->cairo, size, bold);
     cairo_rectangle(g->cairo, x - 0.2 * size, y - 0.95 * size,
                     sl_text_width(g->cairo, text) + 0.4 * size, 1.2 * size);
-    cairo_set_source_rgba(g->cairo, ground.red, ground.green, ground.blue, 0.85);
+    sli_set_faded(g->cairo, ground, 0.85);
     cairo_fill(g->cairo);
     sl_text_show(g->cairo, colour, x, y, text);
 }
@@ -328,7 +328,7 @@ static void draw_polygon(cairo_t *cairo, const sl_palette *palette, const sl_dua
     }
     cairo_close_path(cairo);
     const sl_colour c = palette->portal;
-    cairo_set_source_rgba(cairo, c.red, c.green, c.blue, 0.3);
+    sli_set_faded(cairo, c, 0.3);
     cairo_fill_preserve(cairo);
     sli_pen_stroke(cairo, c, 1.6 * f->unit);
 }

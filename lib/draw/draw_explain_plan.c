@@ -41,7 +41,7 @@ typedef struct overlay {
 static void stroke_cased(cairo_t *cairo, sl_colour casing, double around, sl_colour colour,
                          double width) {
     cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
-    cairo_set_source_rgba(cairo, casing.red, casing.green, casing.blue, 0.85);
+    sli_set_faded(cairo, casing, 0.85);
     cairo_set_line_width(cairo, width + around);
     cairo_stroke_preserve(cairo);
     sli_pen_stroke(cairo, colour, width);
@@ -277,7 +277,7 @@ static void draw_hull(const overlay *o, bool left) {
     const sl_colour c = left ? o->pic->left : o->pic->right;
     for (int i = 0; i < count; i++) cairo_line_to(o->cairo, places[i].x, places[i].y);
     cairo_close_path(o->cairo);
-    cairo_set_source_rgba(o->cairo, c.red, c.green, c.blue, 0.22);
+    sli_set_faded(o->cairo, c, 0.22);
     cairo_fill_preserve(o->cairo);
     cairo_set_line_cap(o->cairo, CAIRO_LINE_CAP_ROUND);
     stroke_cased(o->cairo, o->pic->scene.palette.page, 2 * o->unit, c, 3 * o->unit);

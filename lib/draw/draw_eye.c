@@ -16,9 +16,9 @@ static void ink(cairo_t *cairo, const sl_palette *palette, bool blocks, bool see
     const double dashes[2] = {2.5 * width, 2 * width};
     sl_set_colour(cairo, palette->page);
     cairo_fill_preserve(cairo);
-    cairo_set_source_rgba(cairo, c.red, c.green, c.blue, blocks ? 0.6 : 0.25);
+    sli_set_faded(cairo, c, blocks ? 0.6 : 0.25);
     cairo_fill_preserve(cairo);
-    cairo_set_source_rgba(cairo, c.red, c.green, c.blue, 1);
+    sli_set_faded(cairo, c, 1);
     cairo_set_line_width(cairo, width);
     cairo_set_line_join(cairo, CAIRO_LINE_JOIN_MITER);
     if (!seen) cairo_set_dash(cairo, dashes, 2, 0);
@@ -32,7 +32,7 @@ static void draw_lit(cairo_t *cairo, const sl_palette *palette, const sl_frame *
     if (region->count < 3) return;
     sl_path_polygon(cairo, frame, region->points, region->count);
     const sl_colour light = palette->page;
-    cairo_set_source_rgba(cairo, light.red, light.green, light.blue, 0.6);
+    sli_set_faded(cairo, light, 0.6);
     cairo_fill(cairo);
 }
 
@@ -142,8 +142,7 @@ static void draw_cone(cairo_t *cairo, const eye_picture *p, const sl_frame *fram
     cairo_move_to(cairo, eye.x, eye.y);
     cairo_arc_negative(cairo, eye.x, eye.y, reach, -right, -left); // on the page y runs down
     cairo_close_path(cairo);
-    cairo_set_source_rgba(cairo, palette->start.red, palette->start.green, palette->start.blue,
-                          0.06);
+    sli_set_faded(cairo, palette->start, 0.06);
     cairo_fill_preserve(cairo);
     cairo_set_line_width(cairo, 1.6 * frame->unit);
     cairo_set_line_join(cairo, CAIRO_LINE_JOIN_BEVEL);
@@ -230,24 +229,14 @@ static void write_entry(const eye_picture *p, size_t entry, char text[KEY_TEXT])
 /// The entries in lines as the width allows. Returns the height; draws only with `paint`.
 static double draw_key(cairo_t *cairo, const eye_picture *p, double left, double top, double width,
                        double size, bool paint) {
-    double x = left, y = top;
-    sl_text_font(cairo, size, false);
+    sli_key key = sli_key_at((sl_point){left, top}, width, size);
     for (size_t i = 0; i <= p->layer_count; i++) {
         char text[KEY_TEXT];
         write_entry(p, i, text);
-        const double wide = 2.55 * size + sl_text_width(cairo, text);
-        if (x > left && x + wide > left + width) {
-            x = left;
-            y += 1.95 * size;
-        }
-        if (paint) {
-            draw_swatch(cairo, p, i, x, y + 0.8 * size, size);
-            sl_text_font(cairo, size, false);
-            sl_text_show(cairo, p->scene.palette.ink, x + 2.55 * size, y + 1.16 * size, text);
-        }
-        x += wide + 1.9 * size;
+        const sl_point at = sli_key_entry(cairo, p->scene.palette.ink, &key, text, paint);
+        if (paint) draw_swatch(cairo, p, i, at.x, at.y + 0.8 * size, size);
     }
-    return y + 1.95 * size - top;
+    return sli_key_end(&key) - top;
 }
 
 // --- the page

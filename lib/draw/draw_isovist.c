@@ -124,6 +124,27 @@ static sl_status draw_values(sl_context *context, cairo_t *cairo, const picture 
     return SL_OK;
 }
 
+/// Draws over the squares where they reach over walls: into cells that are not inside and hold the
+/// middle of none.
+static sl_status draw_beside_squares(sl_context *context, cairo_t *cairo, const picture *p,
+                                     const sl_frame *frame) {
+    const sl_field *f = p->field;
+    const sl_space *space = &p->scene.baked->space;
+    bool *kept = sl_alloc_array(context, space->cell_count + 1, sizeof *kept);
+    if (!kept) return SL_NO_MEMORY;
+    for (uint32_t i = 0; i < space->cell_count; i++) kept[i] = space->cells[i].inside;
+    for (size_t i = 0; i < p->value_count; i++) {
+        if (isnan(p->values[i]) && !(f->grey && f->grey[i])) continue;
+        const sl_point middle = {f->corner.x + f->step * ((double)(i % f->columns) + 0.5),
+                                 f->corner.y + f->step * ((double)(i / f->columns) + 0.5)};
+        const uint32_t cell = sl_space_locate(space, middle);
+        if (cell != SL_NO_CELL) kept[cell] = true;
+    }
+    sli_draw_beside(cairo, &p->scene, frame, kept);
+    sl_free(context, kept);
+    return SL_OK;
+}
+
 static void draw_lines(cairo_t *cairo, const picture *p, const sl_frame *frame) {
     for (size_t i = 0; i < p->patches->line_count; i++) {
         const sl_point a = sl_frame_point(frame, p->patches->lines[i].a);
@@ -173,8 +194,8 @@ static sl_status draw_plan(sl_context *context, cairo_t *cairo, const void *what
     if (p->lines) return draw_valued_lines(context, cairo, p, frame);
     SL_TRY(draw_values(context, cairo, p, frame));
     if (p->patches) draw_lines(cairo, p, frame);
-    // Squares and patches may reach from the floor into solid ground.
-    sli_draw_solid(cairo, &p->scene, frame);
+    if (p->field) SL_TRY(draw_beside_squares(context, cairo, p, frame));
+    if (p->patches) sli_draw_solid(cairo, &p->scene, frame); // they may reach into it
     if (p->region_count) sli_layer_begin(cairo, "isovists");
     for (size_t i = 0; i < p->region_count; i++)
         sli_draw_seen(cairo, &p->scene.palette, frame, &p->regions[i]);

@@ -7,7 +7,7 @@
 static void fill(cairo_t *cairo, const sl_frame *frame, const sl_point *corners, size_t count,
                  sl_colour c, double opacity) {
     sl_path_polygon(cairo, frame, corners, count);
-    cairo_set_source_rgba(cairo, c.red, c.green, c.blue, opacity);
+    sli_set_faded(cairo, c, opacity);
     cairo_fill(cairo);
 }
 

@@ -653,6 +653,18 @@ void sli_draw_solid(cairo_t *cairo, const sl_scene *scene, const sl_frame *frame
     draw_paint(&p, SLI_PAINT_SOLID);
 }
 
+void sli_draw_beside(cairo_t *cairo, const sl_scene *scene, const sl_frame *frame,
+                     const bool *kept) {
+    const plan p = plan_of(cairo, scene, frame);
+    cairo_save(cairo);
+    for (uint32_t cell = 0; cell < p.space->cell_count; cell++)
+        if (!kept[cell]) add_cell(&p, cell);
+    cairo_clip(cairo);
+    draw_ground(&p);
+    draw_cells(&p);
+    cairo_restore(cairo);
+}
+
 void sl_draw_tree(cairo_t *cairo, const sl_scene *scene, sl_point from, uint32_t depth,
                   const sl_frame *frame) {
     sl_scene shown = *scene;

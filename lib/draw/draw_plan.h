@@ -96,6 +96,9 @@ void sli_draw_numbers(cairo_t *cairo, const sl_scene *scene, const sl_frame *fra
 
 /// Fills solid ground once more, over what was drawn since.
 void sli_draw_solid(cairo_t *cairo, const sl_scene *scene, const sl_frame *frame);
+/// The same of all cells but those that are kept, `kept` by cell, and of the ground there.
+void sli_draw_beside(cairo_t *cairo, const sl_scene *scene, const sl_frame *frame,
+                     const bool *kept);
 
 /// The colour of a paint.
 sl_colour sli_scene_colour(const sl_scene *scene, unsigned paint);

@@ -149,6 +149,10 @@ void sl_set_colour(cairo_t *cairo, sl_colour colour) {
     cairo_set_source_rgb(cairo, colour.red, colour.green, colour.blue);
 }
 
+void sli_set_faded(cairo_t *cairo, sl_colour colour, double opacity) {
+    cairo_set_source_rgba(cairo, colour.red, colour.green, colour.blue, opacity);
+}
+
 void sli_pen_stroke(cairo_t *cairo, sl_colour colour, double width) {
     sl_set_colour(cairo, colour);
     cairo_set_line_width(cairo, width);
@@ -190,7 +194,7 @@ void sli_pen_path(cairo_t *cairo, const sl_palette *palette, const sli_pens *pen
     const double width = pens->mark * 0.24;
     cairo_path_t *path = cairo_copy_path(cairo);
     const sl_colour rim = palette->page;
-    cairo_set_source_rgba(cairo, rim.red, rim.green, rim.blue, 0.75);
+    sli_set_faded(cairo, rim, 0.75);
     cairo_set_line_width(cairo, 1.7 * width);
     cairo_set_line_cap(cairo, CAIRO_LINE_CAP_ROUND);
     cairo_stroke(cairo);
@@ -201,13 +205,13 @@ void sli_pen_path(cairo_t *cairo, const sl_palette *palette, const sli_pens *pen
 
 void sli_pen_object(cairo_t *cairo, const sl_palette *palette, const sli_pens *pens) {
     const sl_colour c = palette->object;
-    cairo_set_source_rgba(cairo, c.red, c.green, c.blue, 0.25);
+    sli_set_faded(cairo, c, 0.25);
     cairo_fill_preserve(cairo);
     stroke(cairo, c, pens->portal, CAIRO_LINE_CAP_BUTT);
 }
 
 static void set_tree_colour(cairo_t *cairo, sl_colour c, uint32_t depth) {
-    cairo_set_source_rgba(cairo, c.red, c.green, c.blue, 0.15 + 0.8 * pow(0.84, depth));
+    sli_set_faded(cairo, c, 0.15 + 0.8 * pow(0.84, depth));
 }
 
 double sli_tree_width(const sli_pens *pens, uint32_t depth) {
@@ -344,7 +348,7 @@ static void stroke_rimmed(cairo_t *cairo, const sl_palette *palette, sl_fault_ki
     const sl_colour rim = palette->page;
     cairo_set_line_cap(cairo, CAIRO_LINE_CAP_ROUND);
     cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
-    cairo_set_source_rgba(cairo, rim.red, rim.green, rim.blue, 0.8);
+    sli_set_faded(cairo, rim, 0.8);
     cairo_set_line_width(cairo, 2 * width);
     cairo_stroke_preserve(cairo);
     sli_pen_stroke(cairo, colour_of(kind), width);

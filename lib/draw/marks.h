@@ -14,6 +14,9 @@ typedef struct sli_pens {
 
 sli_pens sli_pens_for(const sl_scene *scene, const sl_frame *frame);
 
+/// Makes a colour the source, so that what is below shines through: `opacity` from 0 to 1.
+void sli_set_faded(cairo_t *cairo, sl_colour colour, double opacity);
+
 /// Each strokes the path.
 void sli_pen_stroke(cairo_t *cairo, sl_colour colour, double width);
 void sli_pen_wall(cairo_t *cairo, const sl_palette *palette, const sli_pens *pens);

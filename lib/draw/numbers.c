@@ -6,7 +6,7 @@
 /// read as that of a neighbour, and a plan of tiny cells has none. Zooming in brings them.
 ///
 /// Time: cells and portals in the frame, times the numbers that found room.
-#include "draw/draw_plan.h"
+#include "draw/marks.h"
 #include "sightline/support.h"
 
 #include <math.h>
@@ -68,7 +68,7 @@ static void show(numbers *n, sl_box box, double size, sl_colour colour, const ch
     const double x = box.min.x + 0.2 * size, y = (box.min.y + box.max.y) / 2 + 0.36 * size;
     cairo_move_to(n->cairo, x, y);
     cairo_text_path(n->cairo, text);
-    cairo_set_source_rgba(n->cairo, page.red, page.green, page.blue, 0.75);
+    sli_set_faded(n->cairo, page, 0.75);
     cairo_set_line_width(n->cairo, 0.28 * size);
     cairo_set_line_join(n->cairo, CAIRO_LINE_JOIN_ROUND);
     cairo_stroke(n->cairo);

@@ -5,16 +5,22 @@
 
 #include <math.h>
 
-static void draw_areas(cairo_t *cairo, const sl_scene *scene, const sl_frame *frame) {
+/// Tints, and the walls over them again.
+static sl_status draw_areas(sl_context *context, cairo_t *cairo, const sl_scene *scene,
+                            const sl_frame *frame) {
+    bool any = false;
     for (size_t i = 0; i < scene->options.part_count; i++) {
         const sl_drawn_part *part = &scene->options.parts[i];
         const sl_shape *area = &part->area;
+        if (!area->count) continue;
+        if (!any) sli_layer_begin(cairo, "parts");
+        any = true;
         for (size_t k = 0, from = 0; k < area->count; from = area->ends[k++])
             sl_path_polygon(cairo, frame, area->points + from, area->ends[k] - from);
-        cairo_set_source_rgba(cairo, part->colour.red, part->colour.green, part->colour.blue,
-                              part->opacity);
+        sli_set_faded(cairo, part->colour, part->opacity);
         cairo_fill(cairo);
     }
+    return any ? sl_draw_walls(context, cairo, scene, frame) : SL_OK;
 }
 
 static void draw_lines(cairo_t *cairo, const sl_drawn_part *part, double width) {
@@ -48,12 +54,8 @@ static void draw_label(cairo_t *cairo, const sl_scene *scene, const sl_plan_labe
 sl_status sli_draw_over_plan(sl_context *context, cairo_t *cairo, const sl_scene *scene,
                              const sl_frame *frame, double text) {
     const sl_draw_options *o = &scene->options;
-    if (o->part_count) {
-        sli_layer_begin(cairo, "parts");
-        draw_areas(cairo, scene, frame);
-        SL_TRY(sl_draw_walls(context, cairo, scene, frame));
-        sli_layer_begin(cairo, "marks");
-    }
+    SL_TRY(draw_areas(context, cairo, scene, frame));
+    if (o->part_count) sli_layer_begin(cairo, "marks");
     for (size_t i = 0; i < o->part_count; i++) {
         const sl_drawn_part *part = &o->parts[i];
         for (size_t k = 0; k < part->line_count; k++)
@@ -76,8 +78,7 @@ static void draw_swatch(cairo_t *cairo, const sl_scene *scene, const sl_drawn_pa
     const sl_point middle = {at.x + size, at.y + 0.82 * size};
     if (part->area.count) {
         cairo_rectangle(cairo, at.x, at.y + 0.22 * size, 2 * size, 1.2 * size);
-        cairo_set_source_rgba(cairo, part->colour.red, part->colour.green, part->colour.blue,
-                              part->opacity);
+        sli_set_faded(cairo, part->colour, part->opacity);
         cairo_fill(cairo);
     } else if (part->line_count) {
         cairo_move_to(cairo, at.x, middle.y);
@@ -91,27 +92,15 @@ static void draw_swatch(cairo_t *cairo, const sl_scene *scene, const sl_drawn_pa
 double sli_draw_over_key(cairo_t *cairo, const sl_scene *scene, const sli_page *page, double top,
                          bool paint) {
     const sl_draw_options *o = &scene->options;
-    const double size = page->text, line = 1.95 * size;
-    double x = page->margin, y = top;
-    bool any = false;
+    sli_key key = sli_key_at((sl_point){page->margin, top}, page->inner, page->text);
+    double y = top;
     for (size_t i = 0; i < o->part_count; i++) {
         const sl_drawn_part *part = &o->parts[i];
         if (!part->name) continue;
-        sl_text_font(cairo, size, false);
-        const double wide = 2.55 * size + sl_text_width(cairo, part->name);
-        if (x > page->margin && x + wide > page->margin + page->inner) {
-            x = page->margin;
-            y += line;
-        }
-        if (paint) {
-            draw_swatch(cairo, scene, part, (sl_point){x, y}, size);
-            sl_text_font(cairo, size, false);
-            sl_text_show(cairo, scene->palette.ink, x + 2.55 * size, y + 1.16 * size, part->name);
-        }
-        x += wide + 1.9 * size;
-        any = true;
+        const sl_point at = sli_key_entry(cairo, scene->palette.ink, &key, part->name, paint);
+        if (paint) draw_swatch(cairo, scene, part, at, page->text);
+        y = sli_key_end(&key);
     }
-    if (any) y += line;
     y += sli_page_caption(cairo, page, &scene->palette, y, o->words, paint);
     return y > top ? y - top + 0.2 * page->margin : 0;
 }

@@ -381,6 +381,26 @@ sl_status sli_page_draw_map(sl_context *context, const sl_baked *baked,
     return status;
 }
 
+sli_key sli_key_at(sl_point at, double width, double size) {
+    return (sli_key){.left = at.x, .width = width, .size = size, .at = at};
+}
+
+sl_point sli_key_entry(cairo_t *cairo, sl_colour ink, sli_key *key, const char *text, bool paint) {
+    const double size = key->size;
+    sl_text_font(cairo, size, false);
+    const double wide = 2.55 * size + sl_text_width(cairo, text);
+    if (key->at.x > key->left && key->at.x + wide > key->left + key->width)
+        key->at = (sl_point){key->left, sli_key_end(key)};
+    const sl_point at = key->at;
+    if (paint) sl_text_show(cairo, ink, at.x + 2.55 * size, at.y + 1.16 * size, text);
+    key->at.x += wide + 1.9 * size;
+    return at;
+}
+
+double sli_key_end(const sli_key *key) {
+    return key->at.y + 1.95 * key->size;
+}
+
 double sli_page_caption(cairo_t *cairo, const sli_page *page, const sl_palette *palette, double y,
                         const char *caption, bool paint) {
     if (!caption) return 0;

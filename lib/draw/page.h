@@ -129,6 +129,19 @@ sl_status sli_draw_coverage(sl_context *context, const sl_baked *baked,
                             const sl_drawn_coverage *coverage, const char *caption,
                             const sl_draw_options *options, sli_page_target *target);
 
+/// A key whose entries stand in lines as the width allows.
+typedef struct sli_key {
+    double left, width, size;
+    sl_point at; ///< the upper left corner of the next entry
+} sli_key;
+
+sli_key sli_key_at(sl_point at, double width, double size);
+/// Adds an entry and returns its upper left corner: a swatch of two sizes' width has room there,
+/// before the text. Draws only with `paint`.
+sl_point sli_key_entry(cairo_t *cairo, sl_colour ink, sli_key *key, const char *text, bool paint);
+/// Where the lines end, below `at`.
+double sli_key_end(const sli_key *key);
+
 /// A text below a picture, in lines as the width allows. Returns the height; 0 for NULL. Draws only
 /// with `paint`.
 double sli_page_caption(cairo_t *cairo, const sli_page *page, const sl_palette *palette, double y,

@@ -9,16 +9,12 @@
 
 // --- cells, eyes, portals
 
-static void set_faded(cairo_t *cairo, sl_colour c, double opacity) {
-    cairo_set_source_rgba(cairo, c.red, c.green, c.blue, opacity);
-}
-
 void sl_draw_cell(cairo_t *cairo, const sl_space *space, const sl_frame *frame, uint32_t cell,
                   sl_colour colour, double opacity, double width) {
     const sl_cell *c = &space->cells[cell];
     sl_path_polygon(cairo, frame, space->vertices + c->first_vertex, c->vertex_count);
     if (opacity > 0) {
-        set_faded(cairo, colour, opacity);
+        sli_set_faded(cairo, colour, opacity);
         cairo_fill_preserve(cairo);
     }
     cairo_set_line_join(cairo, CAIRO_LINE_JOIN_MITER);
@@ -39,9 +35,9 @@ void sl_draw_cone(cairo_t *cairo, const sl_frame *frame, sl_point eye, double he
     } else {
         cairo_arc(cairo, at.x, at.y, reach, 0, SLI_FULL_TURN);
     }
-    set_faded(cairo, colour, 0.10);
+    sli_set_faded(cairo, colour, 0.10);
     cairo_fill_preserve(cairo);
-    set_faded(cairo, colour, 0.7);
+    sli_set_faded(cairo, colour, 0.7);
     cairo_set_line_width(cairo, 1.4 * frame->unit);
     cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
     cairo_stroke(cairo);
@@ -109,7 +105,7 @@ static void draw_between(cairo_t *cairo, const sl_palette *palette, const sl_fra
     }
     if (count == 3) {
         sl_path_polygon(cairo, frame, places, count);
-        set_faded(cairo, colour, 0.22);
+        sli_set_faded(cairo, colour, 0.22);
         cairo_fill(cairo);
     }
     for (uint32_t i = 0; i < count; i++)
@@ -170,7 +166,7 @@ static void draw_end_names(cairo_t *cairo, const sl_palette *palette, const sl_f
                                 frame->top + frame->height - 0.3 * size);
         cairo_move_to(cairo, x, y);
         cairo_text_path(cairo, text);
-        set_faded(cairo, palette->page, 0.85);
+        sli_set_faded(cairo, palette->page, 0.85);
         cairo_set_line_width(cairo, 0.35 * size);
         cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
         cairo_stroke(cairo);
@@ -218,9 +214,9 @@ void sli_draw_seen(cairo_t *cairo, const sl_palette *palette, const sl_frame *fr
     const sl_colour colour = hue(palette, region->depth);
     if (region->count < 3) return;
     sl_path_polygon(cairo, frame, region->points, region->count);
-    set_faded(cairo, colour, 0.4 * strength(region->depth));
+    sli_set_faded(cairo, colour, 0.4 * strength(region->depth));
     cairo_fill_preserve(cairo);
-    set_faded(cairo, colour, strength(region->depth));
+    sli_set_faded(cairo, colour, strength(region->depth));
     cairo_set_line_width(cairo, 1.5 * frame->unit);
     cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
     cairo_stroke(cairo);
@@ -250,9 +246,9 @@ static void draw_swatch(cairo_t *cairo, const sl_palette *palette, uint32_t dept
         return;
     }
     cairo_rectangle(cairo, left, top, width, height);
-    set_faded(cairo, hue(palette, depth), 0.4 * strength(depth));
+    sli_set_faded(cairo, hue(palette, depth), 0.4 * strength(depth));
     cairo_fill_preserve(cairo);
-    set_faded(cairo, hue(palette, depth), strength(depth));
+    sli_set_faded(cairo, hue(palette, depth), strength(depth));
     cairo_set_line_width(cairo, 0.08 * size);
     cairo_stroke(cairo);
 }
@@ -267,22 +263,13 @@ double sli_draw_seen_key(cairo_t *cairo, const sl_palette *palette, const sl_dra
     }
     if (!deepest) return 0;
     if (deepest > DEPTHS_MOST) deepest = DEPTHS_MOST;
-    double x = at.x, y = at.y;
+    sli_key key = sli_key_at(at, width, size);
     for (uint32_t depth = first; depth <= deepest + 1; depth++) {
         char text[KEY_TEXT];
         write_entry(depth, deepest, text);
-        sl_text_font(cairo, size, false);
-        const double wide = 2.55 * size + sl_text_width(cairo, text);
-        if (x > at.x && x + wide > at.x + width) {
-            x = at.x;
-            y += 1.95 * size;
-        }
-        if (paint) {
-            draw_swatch(cairo, palette, depth, deepest, x, y + 0.22 * size, size);
-            sl_text_font(cairo, size, false);
-            sl_text_show(cairo, palette->ink, x + 2.55 * size, y + 1.16 * size, text);
-        }
-        x += wide + 1.9 * size;
+        const sl_point entry = sli_key_entry(cairo, palette->ink, &key, text, paint);
+        if (paint)
+            draw_swatch(cairo, palette, depth, deepest, entry.x, entry.y + 0.22 * size, size);
     }
-    return y + 1.95 * size - at.y;
+    return sli_key_end(&key) - at.y;
 }

@@ -117,6 +117,7 @@ class Paper(sandbox.ProgramTest):
         self.box.path("cameras.csv").write_text("x,y\n5,0.5\n")
         self.run_well("report", "plan.svg", "--grid", "0.5", "--cameras", "cameras.csv", "-o", "a.pdf", "--quiet")
         text = self.text_of("a.pdf")
+        self.assertIn("once doors are shut", " ".join(text.split()))
         cameras = text[text.index("What share of each room"):]
         for name, area in ("Hall", 10), ("Den", 25), ("Bath", 25):
             self.assertEqual(float(self.row(text, name)[0]), area)

@@ -256,13 +256,17 @@ static void add_rooms(report *r) {
     if (r->blocks.status != SL_OK || !rooms->rooms.count) return;
     const bool seen = rooms->seen != NULL;
     blocks_add_text(&r->blocks, SL_BLOCK_HEADING, "Rooms");
+    const char *narrow = "";
+    if (rooms->rooms.width > 0)
+        narrow = blocks_say(&r->blocks, ", and openings up to %s %s wide,",
+                            blocks_number(&r->blocks, rooms->rooms.width),
+                            *length_unit(r) ? length_unit(r) : "units");
     blocks_add_text(
         &r->blocks, SL_BLOCK_TEXT,
         blocks_say(&r->blocks,
-                   "What walls enclose once doors, and openings up to %s %s wide, are shut. Sight "
-                   "goes through doors that are open.%s",
-                   blocks_number(&r->blocks, rooms->rooms.width),
-                   *length_unit(r) ? length_unit(r) : "units",
+                   "What walls enclose once doors%s are shut. Sight goes through doors that are "
+                   "open.%s",
+                   narrow,
                    seen ? " The last column is what of the room is seen from the first start."
                         : ""));
     add_names(r);
