@@ -393,6 +393,43 @@ static picture draw_field(const draw_map *map, const sl_field *field, double wid
                      cairo_image_surface_get_height(surface)};
 }
 
+/// In an L, the square at the inner corner reaches outside: it ends there, and the outside looks as
+/// it does without the square.
+static void squares_end_at_outer_walls(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    static const char text[] =
+        "sightline 1\nwalls 0 0 40 0 40 10 20 10 20 20 0 20 0 0\nstart 5 5\n";
+    sl_map read = {0};
+    draw_map map = {0};
+    assert_ok(context, sli_map_read_text(context, "l", text, strlen(text), &read));
+    assert_ok(context, sl_bake(context, &read, NULL, &map.baked, NULL));
+    double values[2][2] = {{1, 3}, {1, NAN}}; // the second one's middle is 19.5,9
+    sl_field field = {.name = "area",
+                      .corner = {3, 3.5},
+                      .step = 11,
+                      .columns = 2,
+                      .rows = 1,
+                      .least = 0,
+                      .most = 3};
+    picture drawn[2];
+    for (int i = 0; i < 2; i++) {
+        field.values = values[i];
+        drawn[i] = draw_field(&map, &field, WIDTH);
+    }
+    const sl_colour high = sl_palette_ramp(false, 63.5 / 64);
+    assert_int_equal(count_on(&drawn[0], 15, 12, 19, 12, high), 101);
+    assert_int_equal(count_on(&drawn[0], 21, 8, 24, 8, high), 101);
+    assert_int_equal(count_on(&drawn[0], 21, 12, 24, 12, high), 0);
+    for (int i = 0; i < 100; i++) {
+        const double x = 20.6 + 0.04 * i;
+        assert_true(same(colour_at(&drawn[0], x, 12), colour_at(&drawn[1], x, 12)));
+    }
+    for (int i = 0; i < 2; i++) cairo_surface_destroy(drawn[i].surface);
+    sl_baked_destroy(context, &map.baked);
+    sl_context_destroy(context);
+}
+
 /// Two maps with different values are coloured alike on one scale. Values beyond it have the
 /// colours of its ends.
 static void a_scale_makes_heat_maps_comparable(void **state) {
@@ -718,6 +755,7 @@ int main(void) {
         cmocka_unit_test(outside_is_hatched_where_it_is_shown),
         cmocka_unit_test(rock_is_over_heat_and_has_no_view),
         cmocka_unit_test(a_scale_makes_heat_maps_comparable),
+        cmocka_unit_test(squares_end_at_outer_walls),
         cmocka_unit_test(equal_values_have_one_colour),
         cmocka_unit_test(grey_lines_are_explained),
         cmocka_unit_test(numbers_of_a_scale_do_not_touch),
