@@ -113,13 +113,18 @@ static bool fits(cairo_t *cairo, const sli_page_parts *parts, const sli_sheet *s
 sl_status sli_sheet_lay_out(sl_context *context, cairo_t *cairo, const sli_page_parts *parts,
                             sli_sheet *sheet, sli_page *page) {
     const sl_box b = sheet->scene->baked->space.bounds;
-    if (sheet->scale > 0 && fits(cairo, parts, sheet, sheet->scale, page)) return SL_OK;
+    double *const drawn_at = sheet->scene->options.sheet.drawn_at;
     int step = 0;
+    if (sheet->scale > 0 && fits(cairo, parts, sheet, sheet->scale, page)) {
+        if (drawn_at) *drawn_at = sheet->scale;
+        return SL_OK;
+    }
     while (step < ROUND_SCALES && !(round_scale(step) > sheet->scale &&
                                     fits(cairo, parts, sheet, round_scale(step), page)))
         step++;
     if (step < ROUND_SCALES && !(sheet->scale > 0)) {
         sheet->scale = round_scale(step);
+        if (drawn_at) *drawn_at = sheet->scale;
         return SL_OK;
     }
     char fitting[64] = "no round scale fits";

@@ -399,7 +399,7 @@ static void squares_end_at_outer_walls(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
     static const char text[] =
-        "sightline 1\nwalls 0 0 40 0 40 10 20 10 20 20 0 20 0 0\nstart 5 5\n";
+        "sightline 1\nwalls 0 0 40 0 40 10 20 10 20 30 0 30 0 0\nstart 5 5 0\n";
     sl_map read = {0};
     draw_map map = {0};
     assert_ok(context, sli_map_read_text(context, "l", text, strlen(text), &read));

@@ -112,7 +112,41 @@ static void what_is_shown(void **state) {
     snprintf(sees, sizeof sees,
              ">Gate &amp; lift: at 3, 4, sees %.4g m\xc2\xb2, %.4g m\xc2\xb2 alone<",
              app->view.cameras->coverage.seen[0], app->view.cameras->coverage.seen[0]);
-    assert_prints(&s, (const char *const[]){">Gate &amp; lift<", sees, "Not seen: ", NULL});
+    const sl_coverage *seen = &app->view.cameras->coverage;
+    char blind[64];
+    assert_true(seen->blind_count > 0);
+    snprintf(blind, sizeof blind, ">Blind spots: 1: %.4g m\xc2\xb2 at ", seen->blind[0].area);
+    assert_prints(&s, (const char *const[]){">Gate &amp; lift<", sees, "Not seen: ", blind, NULL});
+    assert_non_null(strstr(app->ui.message, "printed at 1:100 on A3 to "));
+    close_plan(&s);
+}
+
+/// Below the plan stand as many rows as are promised, however long they are.
+static void all_rows_are_there(void **state) {
+    (void)state;
+    scene s = open_plan("sightline 1\nunit m\nwalls 600000 500000 600012 500000 600012 500008 "
+                        "600000 500008 600000 500000\nstart 600003 500004 0\n");
+    app_state *app = s.app;
+    press(app, "8");
+    for (int i = 0; i < 42; i++) {
+        char name[CAMERA_NAME];
+        snprintf(name, sizeof name, "the long name of camera no. %02d", i + 1);
+        camera_add(&app->view, (sl_point){600003, 500004});
+        *camera_chosen(&app->view) = (sl_viewpoint){.at = {600003 + 0.0123456789 * i, 500004.123},
+                                                    .heading = 123.4,
+                                                    .fov = 61.25,
+                                                    .range = 7.125};
+        camera_rename(&app->view, name);
+    }
+    app_tick(app, 0);
+    snprintf(app->view.cameras->proof, PROOF_TEXT, "%0*d", PROOF_TEXT - 1, 0);
+    sheet_parts parts = {0};
+    assert_ok(app->context, sheet_parts_fill(&app->view, false, &parts));
+    assert_true(parts.words.count > 6000);
+    assert_int_equal(strlen(parts.words.items), parts.words.count);
+    assert_non_null(strstr(parts.words.items, "camera no. 40: at "));
+    assert_non_null(strstr(parts.words.items, "And 2 more, which the exported table has."));
+    sheet_parts_destroy(app->context, &parts);
     close_plan(&s);
 }
 
@@ -171,6 +205,7 @@ static void what_does_not_fit(void **state) {
     char *sheet = print(&s, "4", "L");
     assert_non_null(sheet);
     assert_non_null(strstr(sheet, "1:100"));
+    assert_non_null(strstr(s.app->ui.message, "printed at 1:100 on A4 to "));
     sl_free(s.app->context, sheet);
     press(s.app, "Ctrl+Shift+P");
     press(s.app, "Escape");
@@ -215,9 +250,9 @@ static void no_unit(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_shown),     cmocka_unit_test(what_tools_show),
-        cmocka_unit_test(what_does_not_fit), cmocka_unit_test(letters_are_no_name),
-        cmocka_unit_test(no_unit),
+        cmocka_unit_test(what_is_shown),       cmocka_unit_test(all_rows_are_there),
+        cmocka_unit_test(what_tools_show),     cmocka_unit_test(what_does_not_fit),
+        cmocka_unit_test(letters_are_no_name), cmocka_unit_test(no_unit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -167,10 +167,12 @@ static sl_status draw_shown(app_state *app, const sl_draw_options *options, cons
 sl_status sheet_save(app_state *app, const char *path) {
     sl_draw_options options = sl_draw_options_default();
     char title[TITLE_TEXT];
+    double scale = 0;
     map_file_name(&app->desk, title);
     options.layers = SL_LAYER_WALLS | SL_LAYER_STARTS | SL_LAYER_LEGEND;
     options.title = title;
-    options.sheet = (sl_sheet){.paper = app->desk.paper, .scale = app->desk.scale};
+    options.sheet =
+        (sl_sheet){.paper = app->desk.paper, .scale = app->desk.scale, .drawn_at = &scale};
     sheet_parts parts = {0};
     const heat_graph *graph;
     const bool over_heat = heat_layer_values(&app->view, &graph) != NULL;
@@ -179,6 +181,6 @@ sl_status sheet_save(app_state *app, const char *path) {
     if (status == SL_OK) status = draw_shown(app, &options, path);
     sheet_parts_destroy(app->context, &parts);
     SL_TRY(status);
-    ui_say(&app->ui, false, "printed on %s to %s", options.sheet.paper, path);
+    ui_say(&app->ui, false, "printed at 1:%.9g on %s to %s", scale, options.sheet.paper, path);
     return SL_OK;
 }

@@ -21,13 +21,21 @@ typedef struct sheet_work {
     sl_palette palette;
     bool over_heat;
     sheet_parts *out;
+    sl_status said; ///< SL_NO_MEMORY: words are missing
 } sheet_work;
 
 __attribute__((format(printf, 2, 3))) static void say(sheet_work *w, const char *format, ...) {
-    const size_t used = strlen(w->out->words);
-    va_list arguments;
+    va_list arguments, again;
     va_start(arguments, format);
-    vsnprintf(w->out->words + used, sizeof w->out->words - used, format, arguments);
+    va_copy(again, arguments);
+    const int length = vsnprintf(NULL, 0, format, arguments);
+    const size_t room = (size_t)length + 1;
+    if (w->said == SL_OK) w->said = SL_ARRAY_ROOM(w->view->context, &w->out->words, room);
+    if (w->said == SL_OK) {
+        vsnprintf(w->out->words.items + w->out->words.count, room, format, again);
+        w->out->words.count += (size_t)length;
+    }
+    va_end(again);
     va_end(arguments);
 }
 
@@ -203,6 +211,20 @@ static sl_status add_compare(sheet_work *w) {
 
 // --- cameras
 
+/// Their numbers are those in the picture.
+static void say_blind(sheet_work *w, const sl_coverage *c) {
+    const sl_map *map = &w->view->document->map;
+    char area[MEASURE_TEXT], place[PLACE_TEXT];
+    for (uint32_t i = 0; i < c->blind_count && i < ROWS_MOST; i++) {
+        document_say_measure(w->view->document, c->blind[i].area, "\xc2\xb2", area);
+        view_say_place(map, c->blind[i].at, place);
+        say(w, "%s %u: %s at %s", i ? ";" : "\nBlind spots:", (unsigned)i + 1, area, place);
+    }
+    if (c->blind_count) say(w, ".");
+    if (c->blind_count > ROWS_MOST)
+        say(w, " And %u smaller ones.", (unsigned)c->blind_count - ROWS_MOST);
+}
+
 /// The table and the classes, in words below the plan.
 static void say_cameras(sheet_work *w) {
     static const char *const classes[SL_COVERAGE_CLASSES] = {"Not seen", "seen by 1", "seen by 2",
@@ -235,6 +257,7 @@ static void say_cameras(sheet_work *w) {
             say(w, ", %s alone\n", text);
     }
     say_rest(w, layer->table.count);
+    say_blind(w, &layer->coverage);
 }
 
 // --- the parts
@@ -245,10 +268,11 @@ sl_status sheet_parts_fill(const view_state *view, bool over_heat, sheet_parts *
                                                               [TOOL_PATH] = add_route,
                                                               [TOOL_ROOMS] = add_rooms,
                                                               [TOOL_COMPARE] = add_compare};
-    sheet_work w = {view, sl_palette_make(false), over_heat, out};
+    sheet_work w = {
+        .view = view, .palette = sl_palette_make(false), .over_heat = over_heat, .out = out};
     if (view->mode == MODE_CAMERAS && cameras_are_seen(view)) say_cameras(&w);
-    if (view->mode != MODE_PLAN || !tools[view->tool]) return SL_OK;
-    return tools[view->tool](&w);
+    if (view->mode == MODE_PLAN && tools[view->tool]) SL_TRY(tools[view->tool](&w));
+    return w.said;
 }
 
 void sheet_parts_apply(const sheet_parts *parts, sl_draw_options *options) {
@@ -264,7 +288,7 @@ void sheet_parts_apply(const sheet_parts *parts, sl_draw_options *options) {
     options->part_count = parts->parts.count;
     options->labels = parts->labels.items;
     options->label_count = parts->labels.count;
-    options->words = *parts->words ? parts->words : NULL;
+    options->words = parts->words.items;
 }
 
 void sheet_parts_destroy(sl_context *context, sheet_parts *parts) {
@@ -273,4 +297,5 @@ void sheet_parts_destroy(sl_context *context, sheet_parts *parts) {
     sl_free(context, parts->points.items);
     sl_free(context, parts->lines.items);
     sl_free(context, parts->line_counts.items);
+    sl_free(context, parts->words.items);
 }

@@ -5,7 +5,7 @@
 
 #include "plan/view.h"
 
-enum { SHEET_WORDS = 6000, SHEET_NAME = 160 };
+enum { SHEET_NAME = 160 };
 
 /// Zeroed, nothing.
 typedef struct sheet_parts {
@@ -17,7 +17,7 @@ typedef struct sheet_parts {
     sl_point places[2];
     size_t end; ///< of the visible region, as a shape
     char names[2][SHEET_NAME];
-    char words[SHEET_WORDS];
+    SL_ARRAY(char) words; ///< with a 0 at the end, which `count` leaves out; empty for none
 } sheet_parts;
 
 /// Adds what is shown; `over_heat`: the heat map stays to be seen below it.

@@ -61,6 +61,7 @@ typedef struct sl_sheet {
     const char *scale; ///< "1:100"; NULL: the largest round scale that fits
     const char *note;  ///< a line under the title, UTF-8; NULL for none
     sl_point north;    ///< a direction in the map; zeroed: as sl_map.earth says, if it does
+    double *drawn_at;  ///< set to N where the plan is drawn at 1:N; NULL: not asked for
 } sl_sheet;
 
 /// A colour without transparency.
