@@ -68,6 +68,14 @@ static void rooms_have_names(void **state) {
     const size_t hall = room_map_at(map, (sl_point){20, 50}), other = !hall;
     assert_int_equal(room_map_at(map, (sl_point){150, 50}), other);
     assert_string_equal(room_map_name(map, hall), "Hall, \"old\"");
+    // With none chosen, Ctrl+K takes the room of the viewpoint: letters never run keys.
+    assert_int_equal(app->view.table.chosen, SIZE_MAX);
+    const size_t here = room_map_at(map, app->view.eye.at);
+    press(app, "Ctrl+K");
+    assert_non_null(app->ui.field);
+    assert_int_equal(app->view.table.chosen, here);
+    assert_string_equal(app->view.name.text, room_map_name(map, here));
+    press(app, "Escape");
     // A click chooses a room and puts the viewpoint; Ctrl+K and letters name it.
     drag(app, (sl_point){150, 30}, (sl_point){150, 30});
     assert_int_equal(app->view.table.chosen, other);

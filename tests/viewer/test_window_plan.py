@@ -92,7 +92,7 @@ def in_window(viewer, display, size, density):
             share = window.shows(folder / f"{step}.png")
             viewer.check(share <= TOLERANCE, f"{size}, {step}: {share:.2%} is otherwise")
         table = export(window, folder)
-        session.keys("ctrl+q")
+        session.keys("ctrl+q", "d")  # the cameras are not exported
         session.ends(f"{size}")
         return table
 

@@ -692,6 +692,7 @@ static void take_wish(app_state *app) {
         status = sheet_save(app, path);
     else if (wish == WISH_FRAMES)
         status = save_series(app, path, SERIES_STEP);
+    if (wish == WISH_WRITE_TABLE) map_file_exported(&app->desk, status == SL_OK);
     view_check(&app->view, status);
 }
 

@@ -53,12 +53,18 @@ static void type_name(app_state *app, const char *name) {
 
 DO(value_type, slider_type(app, -1))
 
+/// Where none is chosen, it is the room of the viewpoint, else the first.
 static void room_name_typed(app_state *app) {
     const room_map *map = room_map_shown(&app->view);
-    if (!map || app->view.table.chosen >= room_map_rows(map))
-        ui_say(&app->ui, false, "choose a room first: click on its name at the right");
-    else
-        type_name(app, room_map_name(map, app->view.table.chosen));
+    const size_t *chosen = &app->view.table.chosen;
+    if (!map || !room_map_rows(map)) {
+        ui_say(&app->ui, false, "there is no room to be named");
+        return;
+    }
+    table_update(&app->view);
+    if (*chosen >= room_map_rows(map)) table_choose(&app->view, room_map_at(map, app->view.eye.at));
+    if (*chosen >= room_map_rows(map)) table_choose(&app->view, 0);
+    if (*chosen < room_map_rows(map)) type_name(app, room_map_name(map, *chosen));
 }
 
 static void camera_name_typed(app_state *app) {

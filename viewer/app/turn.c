@@ -193,6 +193,7 @@ static void poll_all(app_state *app, bool wait) {
     line_map_update(&app->view, wait);
     room_map_update(&app->view, wait);
     table_update(&app->view);
+    app->desk.file.cameras = cameras_unsaved(&app->view);
     map_file_tick(&app->desk, wait);
     recovery_tick(&app->desk);
 }

@@ -16,6 +16,7 @@ typedef struct file_state {
     char *of;       ///< the file that it is of, then; NULL: none
     char *building; ///< whose storey is open; NULL: none
 
+    size_t cameras;         ///< that no file has; the app says how many
     pending_kind pending;   ///< what waits until changes are saved or given up
     document_source source; ///< to be opened
     document_source tried;  ///< that was opened last

@@ -110,7 +110,7 @@ static void start_open(desk_state *desk, document_source *source) {
 }
 
 /// Does what has waited.
-static void go_on(desk_state *desk) {
+static void do_pending(desk_state *desk) {
     const pending_kind pending = desk->file.pending;
     document_source source = desk->file.source;
     desk->file.pending = PENDING_NONE;
@@ -119,6 +119,30 @@ static void go_on(desk_state *desk) {
     if (pending == PENDING_NEW) start_new(desk);
     if (pending == PENDING_OPEN) start_open(desk, &source);
     document_source_destroy(desk->context, &source);
+}
+
+static void take_export(desk_state *desk, int answer) {
+    if (answer == 0)
+        desk->dialog.chosen = "camera_export";
+    else if (answer == 1)
+        do_pending(desk);
+    else
+        desk->file.pending = PENDING_NONE;
+}
+
+/// Asks first where cameras would be lost. With other options for the same file it does not.
+static void go_on(desk_state *desk) {
+    static const char *const answers[] = {"E:Export", "D:Don't export", "C:Cancel"};
+    const size_t count = desk->file.cameras;
+    const bool again = desk->file.pending == PENDING_OPEN && desk->file.source.again;
+    char text[96];
+    if (!count || again) {
+        do_pending(desk);
+        return;
+    }
+    snprintf(text, sizeof text, "%zu camera%s in no file as %s now.", count,
+             count == 1 ? " is" : "s are", count == 1 ? "it is" : "they are");
+    question_ask(desk, "Export the cameras?", text, answers, 3, take_export);
 }
 
 static void take_answer(desk_state *desk, int answer) {
@@ -142,10 +166,18 @@ static void start_pending(desk_state *desk, pending_kind kind) {
     const bool asked = desk->file.pending != PENDING_NONE;
     desk->file.pending = kind;
     if (map_file_progress(desk).running) return; // it goes on once the file is there
-    if (!map_file_changed(desk))
-        go_on(desk);
-    else if (!asked || dialog_open_now(&desk->dialog) == DIALOG_NONE)
+    if (asked && dialog_open_now(&desk->dialog) != DIALOG_NONE) return;
+    if (map_file_changed(desk))
         ask_to_save(desk);
+    else
+        go_on(desk);
+}
+
+void map_file_exported(desk_state *desk, bool done) {
+    if (done && desk->file.pending != PENDING_NONE)
+        do_pending(desk);
+    else
+        desk->file.pending = PENDING_NONE;
 }
 
 void map_file_new(desk_state *desk) {

@@ -21,6 +21,9 @@ void map_file_new(desk_state *desk); ///< a frame of walls with a start in it
 void map_file_quit(desk_state *desk);
 void map_file_start(desk_state *desk, const document_source *source); ///< opens; copies the source
 
+/// The cameras were exported, or not: what waits for that goes on, or is given up.
+void map_file_exported(desk_state *desk, bool done);
+
 /// Gives changes up without a question.
 void map_file_give_up(desk_state *desk);
 

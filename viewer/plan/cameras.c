@@ -310,6 +310,7 @@ sl_status cameras_read(view_state *view, const char *path) {
     SL_TRY(sl_cameras_read(view->context, path, &like, &table));
     cameras_replace(view, &table);
     if (!view->cameras) return SL_OK;
+    view->cameras->saved = view->cameras->stamp;
     size_t outside = 0;
     char say[CAMERAS_NAMED * (CAMERA_NAME + 2) + 96], name[CAMERA_NAME];
     const size_t count = view->cameras->table.count;
@@ -331,10 +332,16 @@ sl_status cameras_read(view_state *view, const char *path) {
     return SL_OK;
 }
 
+size_t cameras_unsaved(const view_state *view) {
+    const camera_layer *layer = view->cameras;
+    return layer && layer->saved != layer->stamp ? layer->table.count : 0;
+}
+
 sl_status cameras_write(view_state *view, const char *path) {
     if (!view->cameras || !view->cameras->table.count)
         return sl_fail(view->context, SL_BAD_ARGUMENT, "there are no cameras to be written");
     SL_TRY(sl_cameras_write(view->context, &view->cameras->table, path));
+    view->cameras->saved = view->cameras->stamp;
     ui_say(view->ui, false, "%zu camera%s written to %s", view->cameras->table.count,
            view->cameras->table.count == 1 ? "" : "s", path);
     return SL_OK;

@@ -15,6 +15,7 @@ struct camera_layer {
     sl_cameras table;
     size_t chosen;                     ///< SIZE_MAX: none
     uint32_t stamp;                    ///< grows with every change of the table
+    uint32_t saved;                    ///< the stamp of the table that a file has; 0: none
     SL_ARRAY(sl_cameras) done, undone; ///< tables before changes; the last one is the nearest
     sl_viewpoint like;                 ///< what a new one looks like
     uint32_t spot;                     ///< the blind spot that was gone to, from 1; 0: none
@@ -66,6 +67,8 @@ bool camera_undo(view_state *view, bool redo);
 
 sl_status cameras_read(view_state *view, const char *path);
 sl_status cameras_write(view_state *view, const char *path);
+/// How many there are, where no file has them as they are; else 0.
+size_t cameras_unsaved(const view_state *view);
 /// Takes a table over, to be undone, and chooses none.
 void cameras_replace(view_state *view, sl_cameras *table);
 
