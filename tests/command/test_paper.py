@@ -111,6 +111,16 @@ class Paper(sandbox.ProgramTest):
                 self.assertEqual(room, "Room 2")
             self.assertEqual(len(said["blind_spots"]), 2)
 
+    def test_doubts_about_cameras_are_those_of_cover(self):
+        """A heading without a field of view, and a camera that looks at the wall it hangs on."""
+        self.box.path("rooms.map").write_text(plan())
+        self.box.path("cameras.csv").write_text("x,y,heading,fov\n3,5,90,360\n12,2,90,20\n0,5,180,90\n")
+        said = [[line for line in result.stderr.splitlines() if line.startswith("note: cameras.csv:")] for result in (
+            self.run_well("cover", "rooms.map", "cameras.csv"),
+            self.run_well("report", "rooms.map", "--grid", "2", "--cameras", "cameras.csv", "-o", "a.pdf"))]
+        self.assertEqual(len(said[0]), 2)
+        self.assertEqual(said[1], said[0])
+
     def test_rooms_of_a_report_end_at_drawn_doors(self):
         """The rooms of a drawing are those that `rooms` and `cover --rooms` list."""
         self.box.path("plan.svg").write_text(corridor())

@@ -64,46 +64,6 @@ static sl_status print_json(sl_context *context, const cover_work *w, const cove
     return json_print(context, &fields);
 }
 
-/// Who sees nothing: a sign hangs on what it faces, and a camera on a wall stands at one side of
-/// it.
-static void note_blind(sl_context *context, const cover_plan *plan, const cover_work *w) {
-    const sl_space *space = &w->baked.space;
-    size_t blind[2] = {0}, first[2] = {0}, all[2] = {0};
-    for (size_t i = 0; i < w->cameras.count; i++) {
-        const bool sign = w->viewpoints[i].sign;
-        const uint32_t cell = sl_space_locate(space, w->viewpoints[i].at);
-        all[sign]++;
-        // cover_check_places() has told of those outside.
-        if (cell != SL_NO_CELL && !space->cells[cell].inside) continue;
-        if (w->coverage.seen[i] <= w->coverage.negligible && !blind[sign]++) first[sign] = i;
-    }
-    if (blind[true])
-        sl_note(
-            context,
-            "%s: %zu of %zu signs can be read from nowhere, the first on line %u: put it on the "
-            "wall or before it, and its heading into the room",
-            plan->operands[1], blind[true], all[true], w->cameras.items[first[true]].line);
-    if (blind[false])
-        sl_note(context,
-                "%s: %zu of %zu viewpoints see nothing, the first on line %u: one that stands on a "
-                "wall looks from one side of it; put it a little before the wall",
-                plan->operands[1], blind[false], all[false], w->cameras.items[first[false]].line);
-}
-
-/// A heading without a field of view: the viewpoint was to look one way.
-static void note_headings(sl_context *context, const cover_plan *plan, const cover_work *w) {
-    size_t round = 0;
-    for (size_t i = 0; i < w->cameras.count; i++) {
-        const sl_viewpoint *view = &w->cameras.items[i].view;
-        round += view->heading != 0 && view->fov == 360 && !view->sign;
-    }
-    if (round)
-        sl_note(context,
-                "%s: rows that look all round, whatever their heading: %zu of %zu; --fov or a "
-                "column fov gives them a view cone",
-                plan->operands[1], round, w->cameras.count);
-}
-
 static sl_status check_plan(sl_context *context, const cover_plan *plan) {
     if (plan->output && (plan->zones != NULL) + (plan->path != NULL) + plan->rooms > 1)
         return sl_fail(context, SL_BAD_ARGUMENT,
@@ -136,12 +96,12 @@ static sl_status work(command_console *console, cover_plan *plan, cover_work *w)
     SL_TRY(sl_query_over(context, &baked->space, &baked->map, NULL, &w->query));
     if (baked->map.mirror_count)
         sl_note(context, "mirrors are walls here: cover counts what is seen directly");
-    note_headings(context, plan, w);
+    cover_note_headings(context, plan->operands[1], &w->cameras);
     SL_TRY(cover_viewpoints(context, &w->cameras, &w->viewpoints));
     SL_TRY(sl_coverage_make(context, w->query, w->viewpoints, w->cameras.count, &w->coverage));
-    note_blind(context, plan, w);
     const cover_report report = {
         plan->operands[0], plan->pipeline.input.import.map, baked, &w->cameras, &w->coverage, NULL};
+    cover_note_blind(context, plan->operands[1], &report);
     if (plan->zones) {
         SL_TRY(zones_read(context, "zones", plan->zones, &plan->pipeline.input, &baked->map,
                           &w->zones));

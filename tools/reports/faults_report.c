@@ -20,9 +20,11 @@ static int digits_for(const sl_map *map, sl_segment at) {
 /// "map.map: 16 walls (6 do not stop all), 12 cells"
 static void print_size(const char *name, const checked *c) {
     const size_t partial = sl_map_partial_walls(&c->map);
-    printf("%s: %zu walls", name, c->map.wall_count + partial);
-    if (partial) printf(" (%zu do not stop all)", partial);
-    printf(", %u cells", (unsigned)c->baked.space.cell_count);
+    const size_t walls = c->map.wall_count + partial;
+    const unsigned cells = c->baked.space.cell_count;
+    printf("%s: %zu wall%s", name, walls, walls == 1 ? "" : "s");
+    if (partial) printf(" (%zu do%s not stop all)", partial, partial == 1 ? "es" : "");
+    printf(", %u cell%s", cells, cells == 1 ? "" : "s");
 }
 
 static void add_size(json_fields *fields, const checked *c) {

@@ -4,8 +4,11 @@
 #include <math.h>
 #include <stdio.h>
 
+/// Deviations are scaled by a power of two, which rounds nothing: squares of areas would be too
+/// large on a map as large as one can be.
 bool summary_mean(const summary_values *values, double *mean, double *deviation) {
-    double sum = 0, squares = 0, count = 0;
+    double sum = 0, squares = 0, count = 0, widest = 0;
+    int scale;
     for (size_t i = 0; i < values->count; i++) {
         const double value = values->at(values->of, i);
         if (isnan(value)) continue;
@@ -15,9 +18,14 @@ bool summary_mean(const summary_values *values, double *mean, double *deviation)
     *mean = sum / count;
     for (size_t i = 0; i < values->count; i++) {
         const double value = values->at(values->of, i);
-        if (!isnan(value)) squares += (value - *mean) * (value - *mean);
+        if (!isnan(value)) widest = fmax(widest, fabs(value - *mean));
     }
-    *deviation = sqrt(squares / count);
+    frexp(widest, &scale);
+    for (size_t i = 0; i < values->count; i++) {
+        const double away = ldexp(values->at(values->of, i) - *mean, -scale);
+        if (!isnan(away)) squares += away * away;
+    }
+    *deviation = ldexp(sqrt(squares / count), scale);
     return count > 0;
 }
 

@@ -53,14 +53,15 @@ static void name_of(const sl_camera *camera, size_t number, char *text, size_t s
         snprintf(text, size, "%zu", number + 1);
 }
 
+const char *const cover_classes[SL_COVERAGE_CLASSES] = {"not seen", "seen by 1", "seen by 2",
+                                                        "seen by 3 or more"};
+
 static void print_classes(const cover_report *r) {
-    static const char *const names[SL_COVERAGE_CLASSES] = {"not seen", "seen by 1", "seen by 2",
-                                                           "seen by 3 or more"};
     char text[AREA_TEXT];
     for (uint32_t k = 0; k < SL_COVERAGE_CLASSES; k++) {
         const double area = sl_coverage_class_area(r->coverage, k);
         if (area > 0)
-            printf("  %-18s %12s  %5.1f %%\n", names[k], cover_area_text(r, area, text),
+            printf("  %-18s %12s  %5.1f %%\n", cover_classes[k], cover_area_text(r, area, text),
                    100 * area / r->coverage->overlay.areas[0]);
     }
 }
@@ -127,7 +128,7 @@ static void add_camera(json_fields *f, const cover_report *r, size_t i) {
     if (camera->view.sign) json_add_flag(f, "sign", true);
     json_add_real(f, "seen_area", r->coverage->seen[i]);
     json_add_real(f, "alone_area", r->coverage->alone[i]);
-    json_add_flag(f, "spare", sl_coverage_is_spare(r->coverage, i));
+    json_add_flag(f, "spare", !r->needs && sl_coverage_is_spare(r->coverage, i));
     json_close(f);
 }
 
@@ -173,6 +174,44 @@ sl_status cover_check_places(sl_context *context, const char *table, const sl_sp
             outside, cameras->count, camera->line,
             input_say_nearest(space, camera->view.at, nearest));
     return SL_OK;
+}
+
+void cover_note_headings(sl_context *context, const char *table, const sl_cameras *cameras) {
+    size_t round = 0;
+    for (size_t i = 0; i < cameras->count; i++) {
+        const sl_viewpoint *view = &cameras->items[i].view;
+        round += view->heading != 0 && view->fov == 360 && !view->sign;
+    }
+    if (round)
+        sl_note(context,
+                "%s: rows that look all round, whatever their heading: %zu of %zu; --fov or a "
+                "column fov gives them a view cone",
+                table, round, cameras->count);
+}
+
+void cover_note_blind(sl_context *context, const char *table, const cover_report *r) {
+    const sl_space *space = &r->baked->space;
+    const sl_camera *cameras = r->cameras->items;
+    size_t blind[2] = {0}, first[2] = {0}, all[2] = {0};
+    for (size_t i = 0; i < r->cameras->count; i++) {
+        const bool sign = cameras[i].view.sign;
+        const uint32_t cell = sl_space_locate(space, cameras[i].view.at);
+        all[sign]++;
+        // cover_check_places() has told of those outside.
+        if (cell != SL_NO_CELL && !space->cells[cell].inside) continue;
+        if (r->coverage->seen[i] <= r->coverage->negligible && !blind[sign]++) first[sign] = i;
+    }
+    if (blind[true])
+        sl_note(
+            context,
+            "%s: %zu of %zu signs can be read from nowhere, the first on line %u: put it on the "
+            "wall or before it, and its heading into the room",
+            table, blind[true], all[true], cameras[first[true]].line);
+    if (blind[false])
+        sl_note(context,
+                "%s: %zu of %zu viewpoints see nothing, the first on line %u: one that stands on a "
+                "wall looks from one side of it; put it a little before the wall",
+                table, blind[false], all[false], cameras[first[false]].line);
 }
 
 // --- the picture

@@ -22,6 +22,9 @@ enum { AREA_TEXT = 64 };
 /// The viewpoints of cameras. The caller frees them (sl_free).
 sl_status cover_viewpoints(sl_context *context, const sl_cameras *cameras, sl_viewpoint **out);
 
+/// "not seen", "seen by 1" ...
+extern const char *const cover_classes[SL_COVERAGE_CLASSES];
+
 /// "52 m²", with four digits.
 const char *cover_area_text(const cover_report *report, double area, char text[AREA_TEXT]);
 
@@ -39,6 +42,12 @@ void cover_add_json(json_fields *fields, const cover_report *report);
 /// are not inside, which see nothing that counts, or only through windows. `table`: their file.
 sl_status cover_check_places(sl_context *context, const char *table, const sl_space *space,
                              const sl_cameras *cameras);
+
+/// Notes rows with a heading and no field of view: these were to look one way.
+void cover_note_headings(sl_context *context, const char *table, const sl_cameras *cameras);
+/// Notes who sees nothing: a sign hangs on what it faces, and a camera on a wall stands at one side
+/// of it.
+void cover_note_blind(sl_context *context, const char *table, const cover_report *report);
 
 /// So many blind spots are printed, and numbered in pictures.
 enum { COVER_BLIND_MOST = 10 };

@@ -4,6 +4,18 @@
 #include <stdio.h>
 #include <string.h>
 
+/// Zones beside the plan, or of another unit, have nothing that anybody could see.
+static void note_empty(sl_context *context, const zone_covers *covers) {
+    size_t empty = 0, first = 0;
+    for (size_t z = 0; z < covers->count; z++)
+        if (!(covers->items[z].by[0] > 0) && !empty++) first = z;
+    if (empty)
+        sl_note(context,
+                "--zones: no area inside in %zu of %zu zones, the first is %s; are they in the "
+                "plan's unit?",
+                empty, covers->count, covers->items[first].name);
+}
+
 /// What of a zone is inside.
 static sl_status inside_of(sl_context *context, const sl_shape *inside, sl_shape zone,
                            sl_shape *out) {
@@ -54,6 +66,7 @@ sl_status cover_zones_make(sl_context *context, const cover_report *r, const zon
         sl_shape_destroy(context, &within);
     }
     sl_shape_destroy(context, &inside);
+    if (status == SL_OK) note_empty(context, out);
     return status;
 }
 

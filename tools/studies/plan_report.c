@@ -2,6 +2,7 @@
 #include "studies/plan_report.h"
 
 #include "reports/fields.h"
+#include "reports/summary.h"
 #include "sightline/axial.h"
 #include "sightline/support.h"
 #include "sightline/version.h"
@@ -103,7 +104,8 @@ static void add_plan(report *r) {
 
 /// Mean, deviation and ends of the values that are defined.
 typedef struct value_summary {
-    double count, mean, deviation, least, most;
+    bool known; ///< there is a value
+    double mean, deviation, least, most;
 } value_summary;
 
 /// Of several parts the largest counts, where the measure goes by parts.
@@ -111,22 +113,28 @@ static bool counts(const vga_table *t, size_t measure, uint32_t p) {
     return !(t->part_count > 1 && t->part[p] && vga_measure_is_of_part(measure));
 }
 
+/// A measure on the grid of a report.
+typedef struct counted_measure {
+    const vga_table *table;
+    size_t measure;
+} counted_measure;
+
+static double counted_value(const void *of, size_t p) {
+    const counted_measure *m = of;
+    return counts(m->table, m->measure, (uint32_t)p) ? vga_value(m->table, m->measure, (uint32_t)p)
+                                                     : NAN;
+}
+
 static value_summary summarise(const vga_table *t, size_t measure) {
+    const counted_measure of = {t, measure};
     value_summary s = {.least = INFINITY, .most = -INFINITY};
+    s.known =
+        summary_mean(&(summary_values){counted_value, &of, t->grid.count}, &s.mean, &s.deviation);
     for (uint32_t p = 0; p < t->grid.count; p++) {
-        const double value = counts(t, measure, p) ? vga_value(t, measure, p) : NAN;
-        if (isnan(value)) continue;
-        s.count++;
-        s.mean += value;
+        const double value = counted_value(&of, p); // NAN loses against a number
         s.least = fmin(s.least, value);
         s.most = fmax(s.most, value);
     }
-    s.mean /= s.count;
-    for (uint32_t p = 0; p < t->grid.count; p++) {
-        const double value = counts(t, measure, p) ? vga_value(t, measure, p) : NAN;
-        if (!isnan(value)) s.deviation += (value - s.mean) * (value - s.mean);
-    }
-    s.deviation = sqrt(s.deviation / s.count);
     return s;
 }
 
@@ -184,7 +192,7 @@ static void add_measures(report *r) {
                              "part, with %" PRIu32 " points.",
                              table->part_count, vga_part_size(table, 0))
                 : ""));
-    for (size_t c = 0; c < 7; c++) blocks_add_cell(&r->blocks, &t, head[c]);
+    blocks_add_head(&r->blocks, &t, head, 7);
     for (size_t k = 0; k < count; k++) {
         if (!(table->parts & vga_measure_part(k))) continue;
         char unit[SL_UNIT_TEXT], words[64];
@@ -194,7 +202,7 @@ static void add_measures(report *r) {
         blocks_add_cell(&r->blocks, &t, blocks_keep(&r->blocks, words));
         for (int c = 0; c < 4; c++)
             blocks_add_cell(&r->blocks, &t,
-                            blocks_number(&r->blocks, !s.count ? NAN
+                            blocks_number(&r->blocks, !s.known ? NAN
                                                       : c == 0 ? s.mean
                                                       : c == 1 ? s.deviation
                                                       : c == 2 ? s.least
@@ -270,7 +278,7 @@ static void add_rooms(report *r) {
                    seen ? " The last column is what of the room is seen from the first start."
                         : ""));
     add_names(r);
-    for (size_t c = 0; c < 5; c++) blocks_add_cell(&r->blocks, &t, head[c]);
+    blocks_add_head(&r->blocks, &t, head, 5);
     if (seen) blocks_add_cell(&r->blocks, &t, "seen");
     for (uint32_t i = 0; i < rooms->rooms.count; i++) {
         const sl_room *room = &rooms->rooms.items[i];
@@ -326,8 +334,7 @@ static void add_axial_table(report *r) {
     size_t count;
     const sl_measure *measures = sl_measures(SL_AXIAL, &count);
     text_list t = {0};
-    for (int c = 0; c < 3; c++)
-        blocks_add_cell(&r->blocks, &t, (const char *const[]){"measure", "mean", "meaning"}[c]);
+    blocks_add_head(&r->blocks, &t, (const char *const[]){"measure", "mean", "meaning"}, 3);
     for (size_t k = 0; k < count; k++) {
         char words[64];
         double sum = 0, defined = 0;

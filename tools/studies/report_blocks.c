@@ -59,6 +59,11 @@ void blocks_add_cell(report_blocks *b, text_list *list, const char *text) {
     if (b->status == SL_OK) list->items[list->count++] = text;
 }
 
+void blocks_add_head(report_blocks *blocks, text_list *list, const char *const *head,
+                     size_t columns) {
+    for (size_t c = 0; c < columns; c++) blocks_add_cell(blocks, list, head[c]);
+}
+
 void blocks_add_row(report_blocks *b, text_list *list, const char *name, const char *value) {
     blocks_add_cell(b, list, name);
     blocks_add_cell(b, list, value);

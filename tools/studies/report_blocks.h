@@ -29,6 +29,9 @@ const char *blocks_number(report_blocks *blocks, double value);
 void blocks_add(report_blocks *blocks, sl_document_block block);
 void blocks_add_text(report_blocks *blocks, sl_document_block_kind kind, const char *text);
 void blocks_add_cell(report_blocks *blocks, text_list *list, const char *text);
+/// The names of the columns.
+void blocks_add_head(report_blocks *blocks, text_list *list, const char *const *head,
+                     size_t columns);
 /// A row of two cells.
 void blocks_add_row(report_blocks *blocks, text_list *list, const char *name, const char *value);
 /// Adds a table of the cells in `list`, row by row, which it takes over.

@@ -9,15 +9,12 @@ static sl_status survey(sl_context *context, const report_cameras_scene *scene,
     sl_viewpoint *viewpoints;
     SL_TRY(sl_cameras_read(context, scene->table, &like, &out->cameras));
     SL_TRY(cover_check_places(context, scene->table, &scene->baked->space, &out->cameras));
+    cover_note_headings(context, scene->table, &out->cameras);
     SL_TRY(cover_viewpoints(context, &out->cameras, &viewpoints));
     const sl_status status =
         sl_coverage_make(context, scene->query, viewpoints, out->cameras.count, &out->coverage);
     sl_free(context, viewpoints);
     return status;
-}
-
-static void add_head(report_blocks *b, text_list *t, const char *const *head, size_t columns) {
-    for (size_t c = 0; c < columns; c++) blocks_add_cell(b, t, head[c]);
 }
 
 static const char *area_text(report_blocks *b, const cover_report *r, double area) {
@@ -31,13 +28,11 @@ static const char *percent_text(report_blocks *b, double percent) {
 
 static void add_classes(report_blocks *b, const cover_report *r) {
     static const char *const head[] = {"class", "area", "share of the inside"};
-    static const char *const names[SL_COVERAGE_CLASSES] = {"not seen", "seen by 1", "seen by 2",
-                                                           "seen by 3 or more"};
     text_list t = {0};
-    add_head(b, &t, head, 3);
+    blocks_add_head(b, &t, head, 3);
     for (uint32_t k = 0; k < SL_COVERAGE_CLASSES; k++) {
         const double area = sl_coverage_class_area(r->coverage, k);
-        blocks_add_cell(b, &t, names[k]);
+        blocks_add_cell(b, &t, cover_classes[k]);
         blocks_add_cell(b, &t, area_text(b, r, area));
         blocks_add_cell(b, &t, percent_text(b, 100 * area / r->coverage->overlay.areas[0]));
     }
@@ -49,7 +44,7 @@ static void add_viewpoints(report_blocks *b, const cover_report *r) {
                                        "fov",    "range", "sees", "alone sees"};
     const int digits = sl_map_digits(&r->baked->map);
     text_list t = {0};
-    add_head(b, &t, head, 8);
+    blocks_add_head(b, &t, head, 8);
     for (size_t i = 0; i < r->coverage->count; i++) {
         const sl_camera *camera = &r->cameras->items[i];
         const sl_viewpoint *v = &camera->view;
@@ -75,7 +70,7 @@ static void add_rooms(report_blocks *b, const cover_report *r, const zone_covers
     text_list t = {0};
     if (!rooms->count) return;
     blocks_add_text(b, SL_BLOCK_TEXT, "What share of each room they see:");
-    add_head(b, &t, head, 7);
+    blocks_add_head(b, &t, head, 7);
     for (size_t i = 0; i < rooms->count; i++) {
         const zone_cover *c = &rooms->items[i];
         blocks_add_cell(b, &t, c->name);
@@ -97,7 +92,7 @@ static void add_blind(report_blocks *b, const cover_report *r, const sl_rooms *r
                     blocks_say(b, "%u blind spot%s%s. The picture has their numbers:",
                                (unsigned)c->blind_count, c->blind_count == 1 ? "" : "s",
                                c->blind_count > COVER_BLIND_MOST ? "; these are the largest" : ""));
-    add_head(b, &t, head, 5);
+    blocks_add_head(b, &t, head, 5);
     for (uint32_t i = 0; i < c->blind_count && i < COVER_BLIND_MOST; i++) {
         const uint32_t room = sl_rooms_at(rooms, c->blind[i].at);
         blocks_add_cell(b, &t, blocks_say(b, "%u", (unsigned)i + 1));
@@ -117,6 +112,7 @@ sl_status report_cameras_add(sl_context *context, const report_cameras_scene *sc
                             .coverage = &out->coverage};
     char sentence[256];
     SL_TRY(survey(context, scene, out));
+    cover_note_blind(context, scene->table, &r);
     SL_TRY(cover_rooms_make(context, &r, scene->rooms, &out->rooms));
     SL_TRY(cover_drawn_make(context, &r, &out->drawn));
     cover_sentence(&r, sentence, sizeof sentence);
