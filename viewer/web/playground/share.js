@@ -42,9 +42,10 @@ async function inflate(bytes) {
 
 /** @param {string} fragment with or without # @returns {Promise<string | null>} null where it holds no map */
 export async function unpackMap(fragment) {
-    const found = /^#?([mt])=([\w-]+)$/.exec(fragment);
+    const found = /^#?([mt])=(.*)$/s.exec(fragment);
     if (!found) return null;
     try {
+        if (!/^[\w-]+$/.test(found[2])) throw new Error('no base64url');
         const bytes = fromBase64(found[2]);
         return new TextDecoder('utf-8', { fatal: true }).decode(found[1] === 'm' ? await inflate(bytes) : bytes);
     } catch {

@@ -186,6 +186,8 @@ test('a map goes into an address and back', async () => {
     assert.equal(await unpackMap(`#${fragment}`), text);
     assert.equal(await unpackMap('#top'), null);
     await assert.rejects(unpackMap(`#${fragment.slice(0, 60)}`), /cannot be read/);
+    for (const wrong of ['#m=%', '#m=', `#${fragment}.`, '#t=a%20b', 't='])
+        await assert.rejects(unpackMap(wrong), /cannot be read/, wrong);
 });
 
 test('undo brings back each step, and a drag is one step', () => {

@@ -67,6 +67,10 @@ class World(Handle):
 
     def __init__(self, plan: "Plan", bounds: Optional[ArrayLike] = None, rows: str = "none",
                  sight: str = "closed") -> None:
+        from .plan import Plan  # which imports this module
+
+        if not isinstance(plan, Plan):
+            raise TypeError(f"a world is made of a Plan, not {type(plan).__name__}")
         kept, open_sight = _choice(rows, "rows", ROWS), _choice(sight, "sight", SIGHTS)
         super().__init__(call.world_new(), call.world_free)
         box = None if bounds is None else as_reals(bounds, "bounds")

@@ -99,6 +99,11 @@ class Worlds(unittest.TestCase):
         with self.assertRaises(ValueError):
             now.settle(-1)
 
+    def test_a_world_is_made_of_a_plan(self):
+        for wrong in None, "plan.map", self.plan.space():
+            with self.assertRaisesRegex(TypeError, "made of a Plan, not"):
+                sightline.World(wrong)
+
     def test_what_is_refused_changes_nothing(self):
         world = self.plan.edit(bounds=(-1, -1, 9, 5))
         with self.assertRaises(sightline.BadArgument):
