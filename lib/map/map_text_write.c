@@ -182,7 +182,22 @@ static sl_status check_cancelled(text_writer *writer) {
     return ++writer->walls % 1024 ? SL_OK : sl_check_cancelled(writer->context);
 }
 
-static sl_status print_solid_wall(void *user, sl_point from, sl_point to, uint32_t line);
+static sl_status print_wall(text_writer *writer, sl_point from, sl_point to, const char *more,
+                            uint32_t line) {
+    begin_statement(writer, line, "wall");
+    print_ends(writer->stream, from, to);
+    fputs(more, writer->stream);
+    end_statement(writer, line);
+    return check_cancelled(writer);
+}
+
+static sl_status print_solid_wall(void *user, sl_point from, sl_point to, uint32_t line) {
+    return print_wall(user, from, to, " solid", line);
+}
+
+static sl_status print_plain_wall(void *user, sl_point from, sl_point to, uint32_t line) {
+    return print_wall(user, from, to, "", line);
+}
 
 /// Open ground in walls that do not stop all has no statement: its walls are written one by one.
 static sl_status print_polygon(void *user, const sl_point *corners, size_t count, bool solid,
@@ -195,23 +210,6 @@ static sl_status print_polygon(void *user, const sl_point *corners, size_t count
     }
     begin_statement(writer, line, solid ? "solid" : "open");
     for (size_t i = 0; i < count; i++) print_point(writer->stream, corners[i]);
-    end_statement(writer, line);
-    return check_cancelled(writer);
-}
-
-static sl_status print_solid_wall(void *user, sl_point from, sl_point to, uint32_t line) {
-    text_writer *writer = user;
-    begin_statement(writer, line, "wall");
-    print_ends(writer->stream, from, to);
-    fputs(" solid", writer->stream);
-    end_statement(writer, line);
-    return check_cancelled(writer);
-}
-
-static sl_status print_plain_wall(void *user, sl_point from, sl_point to, uint32_t line) {
-    text_writer *writer = user;
-    begin_statement(writer, line, "wall");
-    print_ends(writer->stream, from, to);
     end_statement(writer, line);
     return check_cancelled(writer);
 }

@@ -359,14 +359,6 @@ static void of_no_room(void **state) {
     viewer_end(app);
 }
 
-/// The box of a text of the window.
-static sl_box spot_of(const app_state *app, const char *text) {
-    for (int i = 0; i < app->ui.spot_count; i++)
-        if (strcmp(app->ui.spots[i].text, text) == 0) return app->ui.spots[i].box;
-    fail_msg("'%s' is not shown", text);
-    return (sl_box){0};
-}
-
 /// Cameras stand in a plan: nothing of cells or portals is drawn, also after a heat map.
 static void test_no_portals(void **state) {
     (void)state;
@@ -393,30 +385,29 @@ static void test_panel(void **state) {
     enum { BUTTONS = sizeof buttons / sizeof *buttons };
     app_state *app = start(MAPS "/office.map", true);
     snprintf(app->document.map.unit, sizeof app->document.map.unit, "m");
-    app->ui.spots = calloc(SPOTS_MOST, sizeof *app->ui.spots);
-    assert_non_null(app->ui.spots);
+    viewer_keep_spots(app);
     double before[BUTTONS];
     script_frame(app);
-    for (int i = 0; i < BUTTONS; i++) before[i] = spot_of(app, buttons[i]).min.y;
+    for (int i = 0; i < BUTTONS; i++) before[i] = viewer_spot(app, buttons[i]).min.y;
     click(app, (sl_point){30, 20});
     cameras_find(&app->view, SEARCH_ONE);
     for (int step = 0; step < 3; step++) {
         script_frame(app);
-        for (int i = 0; i < BUTTONS; i++) assert_true(spot_of(app, buttons[i]).min.y == before[i]);
+        for (int i = 0; i < BUTTONS; i++)
+            assert_true(viewer_spot(app, buttons[i]).min.y == before[i]);
         app_tick(app, 0);
     }
     // Rows stay, too, when a camera is chosen and its sliders come.
-    const double row = spot_of(app, "not seen").min.y;
+    const double row = viewer_spot(app, "not seen").min.y;
     app->view.cameras->chosen = SIZE_MAX;
     script_frame(app);
-    assert_true(spot_of(app, "not seen").min.y == row);
+    assert_true(viewer_spot(app, "not seen").min.y == row);
     char text[96], share[SL_COUNT_TEXT];
     const sl_coverage *c = &app->view.cameras->coverage;
     sl_text_percent(sl_coverage_class_area(c, 1) / c->overlay.areas[0], share);
     snprintf(text, sizeof text, "%.4g m\xc2\xb2   %s", sl_coverage_class_area(c, 1), share);
-    spot_of(app, text);
-    free(app->ui.spots);
-    app->ui.spots = NULL;
+    viewer_spot(app, text);
+    viewer_drop_spots(app);
     viewer_end(app);
 }
 

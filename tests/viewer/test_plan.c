@@ -68,20 +68,13 @@ static void test_opens(void **state) {
 static void test_eye_outside(void **state) {
     (void)state;
     app_state *app = start("house.svg", svg);
-    app->ui.spots = calloc(SPOTS_MOST, sizeof *app->ui.spots);
-    assert_non_null(app->ui.spots);
+    viewer_keep_spots(app);
     app->view.eye.at = (sl_point){-1000, -1000};
     app_tick(app, 0);
     script_frame(app);
-    bool told = false, rows = false;
-    for (int i = 0; i < app->ui.spot_count; i++) {
-        told |= strstr(app->ui.spots[i].text, "outside of the plan") != NULL;
-        rows |= strcmp(app->ui.spots[i].text, "perimeter") == 0;
-    }
-    assert_true(told);
-    assert_false(rows);
-    free(app->ui.spots);
-    app->ui.spots = NULL;
+    assert_true(viewer_says(app, "outside of the plan"));
+    assert_false(viewer_says(app, "perimeter"));
+    viewer_drop_spots(app);
     viewer_end(app);
 }
 
@@ -348,11 +341,9 @@ static double doubt_height(app_state *app, int words) {
 static void test_long_doubt(void **state) {
     (void)state;
     app_state *app = start("house.svg", svg);
-    app->ui.spots = calloc(SPOTS_MOST, sizeof *app->ui.spots);
-    assert_non_null(app->ui.spots);
+    viewer_keep_spots(app);
     assert_true(doubt_height(app, 120) > 2.8 * doubt_height(app, 40));
-    free(app->ui.spots);
-    app->ui.spots = NULL;
+    viewer_drop_spots(app);
     viewer_end(app);
 }
 

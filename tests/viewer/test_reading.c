@@ -75,23 +75,7 @@ static void click_map(app_state *app, sl_point at) {
 
 /// Presses a widget of the dialog: the `number`-th button that was drawn, by its id.
 static void click_button(app_state *app, const char *label) {
-    for (int i = 0; i < app->ui.spot_count; i++) {
-        const text_spot *spot = &app->ui.spots[i];
-        if (strcmp(spot->text, label) != 0) continue;
-        click_page(app, box_middle(spot->box));
-        return;
-    }
-    fail_msg("'%s' is not shown", label);
-}
-
-static void keep_spots(app_state *app) {
-    app->ui.spots = calloc(SPOTS_MOST, sizeof *app->ui.spots);
-    assert_non_null(app->ui.spots);
-}
-
-static void drop_spots(app_state *app) {
-    free(app->ui.spots);
-    app->ui.spots = NULL;
+    click_page(app, box_middle(viewer_spot(app, label)));
 }
 
 static size_t marks(const app_state *app) {
@@ -106,7 +90,7 @@ static void roles_show_at_once(void **state) {
     (void)state;
     scene s = open_house();
     app_state *app = s.app;
-    keep_spots(app);
+    viewer_keep_spots(app);
     const uint32_t walls = app->document.baked->space.wall_count;
     press(app, "Ctrl+I");
     assert_true(import_is_beside(&app->desk));
@@ -134,7 +118,7 @@ static void roles_show_at_once(void **state) {
     press(app, "Return");
     assert_int_equal(dialog_open_now(&app->desk.dialog), DIALOG_NONE);
     assert_int_equal(sl_map_partial_walls(&app->document.map), 2);
-    drop_spots(app);
+    viewer_drop_spots(app);
     close_house(&s);
 }
 
@@ -144,7 +128,7 @@ static void leaks_are_closed(void **state) {
     scene s = open_house();
     app_state *app = s.app;
     import_mark mark;
-    keep_spots(app);
+    viewer_keep_spots(app);
     press(app, "Ctrl+I");
     assert_int_equal(marks(app), 0);
     click_button(app, "Here is inside");
@@ -170,7 +154,7 @@ static void leaks_are_closed(void **state) {
     assert_true(fabs(app->document.area - all) < 1e-9);
     press(app, "Escape");
     assert_int_equal(app->document.map.start_count, 0);
-    drop_spots(app);
+    viewer_drop_spots(app);
     close_house(&s);
 }
 
@@ -179,7 +163,7 @@ static void line_is_measured(void **state) {
     (void)state;
     scene s = open_house();
     app_state *app = s.app;
-    keep_spots(app);
+    viewer_keep_spots(app);
     press(app, "Ctrl+I");
     click_button(app, "Here is inside");
     click_map(app, (sl_point){3, 2});
@@ -223,14 +207,8 @@ static void line_is_measured(void **state) {
     press(app, "Return");
     assert_non_null(strstr(app->desk.dialog.problem, "a length is needed"));
     assert_string_equal(app->document.source.options.unit, "10=ft");
-    drop_spots(app);
+    viewer_drop_spots(app);
     close_house(&s);
-}
-
-static bool is_shown(const app_state *app, const char *part) {
-    for (int i = 0; i < app->ui.spot_count; i++)
-        if (strstr(app->ui.spots[i].text, part)) return true;
-    return false;
 }
 
 /// Presses Tab until the widget with this label has the focus, which Return then presses.
@@ -264,7 +242,7 @@ static void keys_click_in_the_plan(void **state) {
     (void)state;
     scene s = open_house();
     app_state *app = s.app;
-    keep_spots(app);
+    viewer_keep_spots(app);
     press(app, "Ctrl+I");
     tab_to(app, "Here is inside");
     press(app, "Return");
@@ -293,11 +271,11 @@ static void keys_click_in_the_plan(void **state) {
     assert_int_equal(app->ui.focus.kind, HIT_PLAN);
     press(app, "Escape");
     assert_int_equal(app->ui.focus.kind, HIT_NONE);
-    assert_true(is_shown(app, "Measure a line"));
+    assert_true(viewer_says(app, "Measure a line"));
     assert_true(import_is_beside(&app->desk));
     press(app, "Escape");
     assert_false(import_is_beside(&app->desk));
-    drop_spots(app);
+    viewer_drop_spots(app);
     close_house(&s);
 }
 
@@ -306,7 +284,7 @@ static void plan_is_looked_at(void **state) {
     (void)state;
     scene s = open_house();
     app_state *app = s.app;
-    keep_spots(app);
+    viewer_keep_spots(app);
     press(app, "Ctrl+I");
     const plan_camera fits = app->view.camera;
     view_pan(&app->view, 200, 100);
@@ -324,7 +302,7 @@ static void plan_is_looked_at(void **state) {
     // Other actions stay shut out.
     press(app, "Ctrl+5");
     assert_int_equal(app->view.tool, TOOL_ISOVIST);
-    drop_spots(app);
+    viewer_drop_spots(app);
     close_house(&s);
 }
 
@@ -344,16 +322,16 @@ static void inside_is_told(void **state) {
     app->ui.width = 1024;
     app->ui.height = 768;
     viewer_open(app, path);
-    keep_spots(app);
+    viewer_keep_spots(app);
     press(app, "9");
     press(app, "Ctrl+I");
     assert_true(import_is_beside(&app->desk));
     const double all = app->document.inside_area;
     assert_true(fabs(all - 81) < 1e-9);
-    assert_true(is_shown(app, "1 closed part, the largest of 9 at 4.5, 4.5"));
+    assert_true(viewer_says(app, "1 closed part, the largest of 9 at 4.5, 4.5"));
     click_button(app, "Here is inside");
     click_map(app, (sl_point){1.5, 1.5});
-    assert_false(is_shown(app, "closed part"));
+    assert_false(viewer_says(app, "closed part"));
     // An eye in what is outside now goes into the inside; another one stays.
     app->view.eye.at = (sl_point){4.5, 4.5};
     click_button(app, "Here is inside");
@@ -372,7 +350,7 @@ static void inside_is_told(void **state) {
     for (int i = 0; i < app->ui.spot_count; i++)
         if (strstr(app->ui.spots[i].text, "a message that is so long"))
             assert_true(app->ui.spots[i].box.max.x <= app_layout(app).side.min.x);
-    assert_true(is_shown(app, "a message that is so long"));
+    assert_true(viewer_says(app, "a message that is so long"));
     click_button(app, "Cancel");
     press(app, "Ctrl+I");
     click_button(app, "Measure a line");
@@ -382,8 +360,8 @@ static void inside_is_told(void **state) {
     press(app, "Return");
     assert_string_equal(app->document.source.options.unit, "10=m");
     assert_true(fabs(app->document.inside_area - 100 * all) > 1);
-    assert_true(is_shown(app, "The scale changes what is inside: "));
-    drop_spots(app);
+    assert_true(viewer_says(app, "The scale changes what is inside: "));
+    viewer_drop_spots(app);
     viewer_end(app);
     assert_int_equal(remove(path), 0);
     assert_int_equal(rmdir(folder), 0);
@@ -402,7 +380,7 @@ static void wrong_choices(void **state) {
     assert_int_equal(dialog_open_now(&app->desk.dialog), DIALOG_IMPORT);
     assert_non_null(strstr(app->desk.dialog.problem, "there is no unit 'ells'"));
     // All of a long one is there, in lines that stand on nothing else.
-    keep_spots(app);
+    viewer_keep_spots(app);
     type(app, " of the old town of Bern");
     frame(app);
     char misfit[160];
@@ -412,7 +390,7 @@ static void wrong_choices(void **state) {
             high = box_height(app->ui.spots[i].box);
     assert_true(high > 2 * app->ui.text);
     assert_null(ui_misfit(&app->ui, misfit));
-    drop_spots(app);
+    viewer_drop_spots(app);
     assert_int_equal(app->document.baked->space.wall_count, walls);
     // It is not left with a choice that was refused, as if the plan had it.
     press(app, "Return");

@@ -14,6 +14,7 @@
 #include "dialogs/opening.h"
 #include "sightline/io.h"
 
+#include <string.h>
 #include <unistd.h>
 
 #ifndef MAPS
@@ -55,6 +56,32 @@ static inline void viewer_press(app_state *app, const char *key) {
 static inline sl_point viewer_on_page(const app_state *app, sl_point at) {
     const sl_frame frame = camera_frame(&app->view.camera, app_layout(app).plan[0], 1);
     return sl_frame_point(&frame, at);
+}
+
+/// Keeps what is written in the frames from now on, and where.
+static inline void viewer_keep_spots(app_state *app) {
+    app->ui.spots = calloc(SPOTS_MOST, sizeof *app->ui.spots);
+    assert_non_null(app->ui.spots);
+}
+
+static inline void viewer_drop_spots(app_state *app) {
+    free(app->ui.spots);
+    app->ui.spots = NULL;
+}
+
+/// Whether a text with this part is in the frame.
+static inline bool viewer_says(const app_state *app, const char *part) {
+    for (int i = 0; i < app->ui.spot_count; i++)
+        if (strstr(app->ui.spots[i].text, part)) return true;
+    return false;
+}
+
+/// The box of the first text that is this one.
+static inline sl_box viewer_spot(const app_state *app, const char *text) {
+    for (int i = 0; i < app->ui.spot_count; i++)
+        if (strcmp(app->ui.spots[i].text, text) == 0) return app->ui.spots[i].box;
+    fail_msg("'%s' is not shown", text);
+    return (sl_box){0};
 }
 
 static inline void viewer_write(const char *path, const char *text) {

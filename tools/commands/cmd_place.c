@@ -11,7 +11,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 typedef struct place_plan {
@@ -74,32 +73,26 @@ static sl_status place(command_console *console, const place_plan *plan, place_w
     return status;
 }
 
+static bool is_taken(const sl_cameras *cameras, const char *name) {
+    for (size_t i = 0; i < cameras->count; i++)
+        if (cameras->items[i].name && strcmp(cameras->items[i].name, name) == 0) return true;
+    return false;
+}
+
 /// Viewpoints without a name get their number, as reports and pictures show it; where one that
 /// stands already has this name, the next number that is free.
 static sl_status name_all(sl_context *context, sl_cameras *cameras) {
-    const size_t most = 2 * cameras->count; // no number needs to be greater
     char name[32];
-    bool *taken = sl_alloc_array(context, most + 1, sizeof *taken);
-    if (!taken) return SL_NO_MEMORY;
-    for (size_t i = 0; i < cameras->count; i++) {
-        const char *const text = cameras->items[i].name;
-        const unsigned long long number = text ? strtoull(text, NULL, 10) : 0;
-        if (!number || number > most) continue;
-        snprintf(name, sizeof name, "%llu", number);
-        taken[number] = taken[number] || strcmp(name, text) == 0; // "02" is another name
-    }
-    sl_status status = SL_OK;
-    for (size_t i = 0, number = 1; i < cameras->count && status == SL_OK; i++) {
+    for (size_t i = 0, last = 0; i < cameras->count; i++) {
         sl_camera *camera = &cameras->items[i];
         if (camera->name) continue;
-        if (number <= i) number = i + 1;
-        while (taken[number]) number++;
-        snprintf(name, sizeof name, "%zu", number++);
+        if (last < i) last = i;
+        do snprintf(name, sizeof name, "%zu", ++last);
+        while (is_taken(cameras, name));
         camera->name = sl_copy_text(context, name, strlen(name));
-        if (!camera->name) status = SL_NO_MEMORY;
+        if (!camera->name) return SL_NO_MEMORY;
     }
-    sl_free(context, taken);
-    return status;
+    return SL_OK;
 }
 
 /// What the viewpoints see, found anew.

@@ -13,7 +13,6 @@
 typedef struct storey_work {
     sl_baked baked;
     sl_query *query;
-    sl_route_finder *finder;
 } storey_work;
 
 typedef struct building_work {
@@ -21,7 +20,7 @@ typedef struct building_work {
     const building_path_plan *plan;
     sl_building building;
     storey_work *storeys;
-    sl_route_finder **finders; ///< of the storeys
+    sl_route_finder **finders; ///< of the storeys; NULL: not yet
     sl_building_place from, to;
     sl_building_route route;
 } building_work;
@@ -43,9 +42,9 @@ static sl_status open_storey(building_work *w, size_t s) {
         sl_query_over(w->context, &storey->baked.space, &storey->baked.map, NULL, &storey->query));
     for (size_t i = 0; i < storey->baked.map.door_count; i++)
         sl_query_set_door_at(w->context, storey->query, i, storey->baked.map.doors[i].open);
-    SL_TRY(sl_route_finder_create(w->context, storey->query, &storey->finder));
+    SL_TRY(sl_route_finder_create(w->context, storey->query, &w->finders[s]));
     if (!(w->plan->radius > 0)) return SL_OK;
-    return sl_route_finder_set_radius(w->context, storey->finder, w->plan->radius);
+    return sl_route_finder_set_radius(w->context, w->finders[s], w->plan->radius);
 }
 
 static sl_status read_places(building_work *w) {
@@ -138,10 +137,7 @@ static sl_status work(command_console *console, building_work *w) {
     w->storeys = sl_alloc_array(w->context, w->building.storey_count, sizeof *w->storeys);
     w->finders = sl_alloc_array(w->context, w->building.storey_count, sizeof *w->finders);
     if (!w->storeys || !w->finders) return SL_NO_MEMORY;
-    for (size_t s = 0; s < w->building.storey_count; s++) {
-        SL_TRY(open_storey(w, s));
-        w->finders[s] = w->storeys[s].finder;
-    }
+    for (size_t s = 0; s < w->building.storey_count; s++) SL_TRY(open_storey(w, s));
     SL_TRY(check_places(w));
     SL_TRY(sl_building_route_find(w->context, &w->building, w->finders, w->from, w->to, &w->route));
     return report(console, w);
@@ -151,8 +147,8 @@ sl_status building_path(command_console *console, const building_path_plan *plan
     sl_context *context = console->context;
     building_work w = {.context = context, .plan = plan};
     const sl_status status = work(console, &w);
-    for (size_t s = 0; w.storeys && s < w.building.storey_count; s++) {
-        sl_route_finder_destroy(context, w.storeys[s].finder);
+    for (size_t s = 0; w.storeys && w.finders && s < w.building.storey_count; s++) {
+        sl_route_finder_destroy(context, w.finders[s]);
         sl_query_destroy(context, w.storeys[s].query);
         sl_baked_destroy(context, &w.storeys[s].baked);
     }

@@ -82,7 +82,7 @@ DO(room_delete, room_map_delete(&app->view, app->view.table.chosen))
 bool plan_field_key(app_state *app, const char *key) {
     const bool done = strcmp(key, "Return") == 0;
     if (app->ui.field != &app->view.name || (!done && strcmp(key, "Escape") != 0)) return false;
-    if (done && app->ui.field == app->ui.number) {
+    if (done && ui_types_value(&app->ui)) {
         if (slider_typed(app)) app->ui.field = NULL;
         return true;
     }

@@ -419,8 +419,7 @@ static void number_text(const app_state *app, int number, char text[SLIDER_TEXT]
 
 void slider_type(app_state *app, int number) {
     ui_state *ui = &app->ui;
-    const bool types = ui->field && ui->field == ui->number;
-    if (number < 0) number = next_typed(app, types ? ui->typed_slider : -1);
+    if (number < 0) number = next_typed(app, ui_types_value(ui) ? ui->typed_slider : -1);
     if (number < 0 || !sliders[number].type || !sliders[number].shown(app)) {
         ui_say(ui, false, "no value can be typed here");
         return;

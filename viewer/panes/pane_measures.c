@@ -224,7 +224,7 @@ static void draw_lines(const view_state *view, column *c) {
 bool column_name(const view_state *view, column *c) {
     ui_state *ui = view->ui;
     const sl_box box = {{c->left, c->y + 0.3 * ui->text}, {c->right, c->y + 2.1 * ui->text}};
-    if (ui->field != &view->name || ui->field == ui->number) return false;
+    if (ui->field != &view->name || ui_types_value(ui)) return false;
     ui_text_field(ui, box, ui->field, "a name", true);
     ui_hit(ui, HIT_FIELD, 1, box);
     c->y = box.max.y + 0.3 * ui->text;

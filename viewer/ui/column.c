@@ -110,7 +110,7 @@ void column_sliders(ui_state *ui, column *c) {
         const bool beside = !column_is_narrow(ui, c);
         const double value =
             fmax(ui_text_width(ui, 1, false, slider->text), beside ? 3.2 * t : 0) + t;
-        const bool typed = ui->field && ui->field == ui->number && ui->typed_slider == i;
+        const bool typed = ui_types_value(ui) && ui->typed_slider == i;
         const sl_box field = {{c->left + (beside ? 6.4 : 0) * t, c->y}, {c->right, c->y + 1.7 * t}};
         if (typed) {
             ui_text_field(ui, field, ui->field, slider->label, true);

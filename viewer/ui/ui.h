@@ -287,6 +287,11 @@ double ui_check(ui_state *ui, sl_box row, const char *label, const char *key, bo
 void ui_slider(ui_state *ui, sl_box track, double value, hit_kind kind, int number);
 /// Its value for a place over its box.
 double ui_slider_at(const ui_state *ui, sl_box box, sl_point at);
+/// Whether what is typed is the value of a slider.
+static inline bool ui_types_value(const ui_state *ui) {
+    return ui->field && ui->field == ui->number;
+}
+
 /// A text field with its cursor, where typing goes to it; `empty` stands there before (NULL:
 /// nothing). A click places the cursor. The caller finds the clicks.
 void ui_text_field(ui_state *ui, sl_box box, text_field *field, const char *empty, bool typed);

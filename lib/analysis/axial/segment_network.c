@@ -164,8 +164,9 @@ static uint8_t late_of(const sli_segment_network *n, uint32_t from, uint32_t to,
     enum { MOST_ARMS = 8 }; // the time is the number of arms, for each pair of them
     const uint32_t corner = end_of(n, from);
     const uint32_t first = n->first_at[corner], stop = n->first_at[corner + 1];
-    int late = stop - first > MOST_ARMS ? SLI_UNITS_OF_HALF_TURN : 0;
-    for (uint32_t i = first; i < stop && stop - first <= MOST_ARMS; i++) {
+    int late = 0;
+    if (stop - first > MOST_ARMS) return SLI_UNITS_OF_HALF_TURN / SLI_LATE;
+    for (uint32_t i = first; i < stop; i++) {
         const uint32_t into = n->at[i];
         if (into / 2 == from / 2 || into / 2 == to / 2) continue;
         const int more = turn_of(n, from, into) - turn_of(n, to ^ 1, into) - turn;

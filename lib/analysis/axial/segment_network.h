@@ -25,6 +25,7 @@ enum { SLI_MOST_OF_CHAIN = SLI_UNITS_OF_HALF_TURN };
 /// No chain takes more steps.
 enum { SLI_MOST_STEPS_OF_CHAIN = UINT16_MAX };
 
+/// `late` of an arc counts in so many units of a turn: it fits a byte.
 enum { SLI_LATE = 4 };
 
 typedef struct sli_segment_arc {

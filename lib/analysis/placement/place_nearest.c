@@ -24,7 +24,7 @@ sl_status sl_place_nearest(sl_context *context, sl_query *query, const sl_viewpo
             const sl_point b = shape.points[i + 1 < shape.ends[l] ? i + 1 : first];
             for (uint32_t k = 0; k < count; k++) {
                 const sl_point at = sli_nearest_on(a, b, places[k].at);
-                const double distance = hypot(at.x - places[k].at.x, at.y - places[k].at.y);
+                const double distance = sli_length(at.x - places[k].at.x, at.y - places[k].at.y);
                 if (!(distance < least)) continue;
                 least = distance;
                 *out = at;

@@ -73,8 +73,9 @@ static void check_set(checker *c, const sli_meet *p) {
 }
 
 static sl_box box_of(const sli_meet *p) {
-    return (sl_box){{p->at.x - p->error, p->at.y - p->error},
-                    {p->at.x + p->error, p->at.y + p->error}};
+    sl_box box = {p->at, p->at};
+    sli_box_widen(&box, p);
+    return box;
 }
 
 /// Fills c->near.

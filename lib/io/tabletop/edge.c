@@ -169,13 +169,18 @@ static sl_status walk_side(edge_search *s, int side, bool gathers) {
 
 // --- which regions are ground
 
+/// The region of a thing that is a start and is believed; SL_NO_CELL: it is none, or in none.
+static uint32_t region_of_start(const edge_search *s, const sli_things *things, size_t i) {
+    const sli_thing *start = &things->items.items[i];
+    if (start->kind != SLI_THING_START || start->doubt) return SL_NO_CELL;
+    return sli_regions_at(&s->regions, sli_thing_place(things, i));
+}
+
 /// Marks regions with starts that are believed; false for none.
 static bool take_starts(edge_search *s, sli_things *things) {
     bool any = false;
     for (size_t i = 0; i < things->items.count; i++) {
-        const sli_thing *start = &things->items.items[i];
-        if (start->kind != SLI_THING_START || start->doubt) continue;
-        const uint32_t region = sli_regions_at(&s->regions, sli_thing_place(things, i));
+        const uint32_t region = region_of_start(s, things, i);
         if (region == SL_NO_CELL) continue;
         s->mark[region] |= GROUND;
         any = true;
@@ -195,9 +200,7 @@ static sl_status doubt_few(const edge_search *s, sli_things *things) {
     sl_bits *has = sl_alloc_array(s->edge->context, sl_bits_words(s->regions.count), sizeof *has);
     if (!has) return SL_NO_MEMORY;
     for (size_t i = 0; i < things->items.count; i++) {
-        const sli_thing *start = &things->items.items[i];
-        if (start->kind != SLI_THING_START || start->doubt) continue;
-        const uint32_t region = sli_regions_at(&s->regions, sli_thing_place(things, i));
+        const uint32_t region = region_of_start(s, things, i);
         if (region != SL_NO_CELL) sl_bits_add(has, region);
     }
     for (size_t i = 0; i < s->regions.count; i++) {
