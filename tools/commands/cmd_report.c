@@ -46,8 +46,8 @@ sl_status cmd_report(command_console *console, int argc, char **argv) {
         .operands = {"MAP|FILE.slv"},
         .what = "Writes a report of a plan: the plan, measures of visible regions and of the "
                 "visibility graph as a table and as heat maps, rooms, cameras, axial lines, and "
-                "how exact all of "
-                "it is. Letters are text, and the same plan gives the same bytes.",
+                "how exact all of it is. Doors that a drawing shows are kept as doors. Letters are "
+                "text, and the same plan gives the same bytes.",
         .tables = print_measures,
         .examples = "  sightline report office.map -o office.pdf\n"
                     "  sightline report office.map --cameras cameras.csv -o office.pdf\n"

@@ -215,10 +215,11 @@ static sl_status add_compare(sheet_work *w) {
 static void say_blind(sheet_work *w, const sl_coverage *c) {
     const sl_map *map = &w->view->document->map;
     char area[MEASURE_TEXT], place[PLACE_TEXT];
+    if (w->view->cameras->table.count > ROWS_MOST && c->blind_count) say(w, "\n");
     for (uint32_t i = 0; i < c->blind_count && i < ROWS_MOST; i++) {
         document_say_measure(w->view->document, c->blind[i].area, "\xc2\xb2", area);
         view_say_place(map, c->blind[i].at, place);
-        say(w, "%s %u: %s at %s", i ? ";" : "\nBlind spots:", (unsigned)i + 1, area, place);
+        say(w, "%s %u: %s at %s", i ? ";" : "Blind spots:", (unsigned)i + 1, area, place);
     }
     if (c->blind_count) say(w, ".");
     if (c->blind_count > ROWS_MOST)
