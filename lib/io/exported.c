@@ -399,9 +399,10 @@ static void note_taken(const export_reader *reader, const char *file, size_t wal
             length += (size_t)snprintf(others + length, sizeof others - length, ", %zu %s",
                                        kinds[i].count,
                                        kinds[i].count == 1 ? kinds[i].one : kinds[i].several);
-    sl_note(reader->context,
-            "%s: an export; taken: %zu walls%s%s; computed again: cells, portals and what they see",
-            file, walls, solid ? ", solid ground" : "", others);
+    sl_note(
+        reader->context,
+        "%s: an export; taken: %zu wall%s%s%s; computed again: cells, portals and what they see",
+        file, walls, walls == 1 ? "" : "s", solid ? ", solid ground" : "", others);
 }
 
 static sl_status read_all(export_reader *reader, const sli_json *root) {
