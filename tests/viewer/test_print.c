@@ -238,13 +238,15 @@ static void letters_are_no_name(void **state) {
     close_plan(&s);
 }
 
+/// Only of a drawing Ctrl+I asks for the unit.
 static void no_unit(void **state) {
     (void)state;
     scene s = open_plan("sightline 1\nwall 0 0 5 0\nwall 5 0 5 5\nwall 5 5 0 5\nwall 0 5 0 0\n");
     press(s.app, "Ctrl+Shift+P");
     assert_int_equal(dialog_open_now(&s.app->desk.dialog), DIALOG_NONE);
     assert_true(s.app->ui.message_is_error);
-    assert_non_null(strstr(s.app->ui.message, "Ctrl+I"));
+    assert_non_null(strstr(s.app->ui.message, "'unit m'"));
+    assert_null(strstr(s.app->ui.message, "Ctrl+I"));
     close_plan(&s);
 }
 

@@ -176,6 +176,7 @@ static void print_manual(const command_usage *usage, const char *summary,
     puts("\n.fi\n.SH EXIT STATUS\n"
          "0: done. 1: the work failed. 2: the arguments or an input file are wrong.");
     if (strcmp(usage->name, "check") == 0) puts("3: \\fB\\-\\-strict\\fR found a fault.");
+    if (strcmp(usage->name, "path") == 0) puts("3: there is no way.");
     puts(".SH SEE ALSO\n.BR sightline (1)");
 }
 

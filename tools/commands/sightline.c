@@ -71,7 +71,7 @@ static void print_help(void) {
          "  sightline bake office.map -o office.slv\n"
          "  sightline draw office.slv -o office.png\n\n"
          "Exit status: 0 done; 1 the work failed; 2 the arguments or an input file are\n"
-         "wrong; 3 'check --strict' found a fault.");
+         "wrong; 3 'check --strict' found a fault, or 'path' no way.");
 }
 
 static void print_manual(void) {

@@ -89,8 +89,7 @@ const char *bake_difference(const sl_baked *a, const sl_baked *b) {
     if (strcmp(a->method, b->method) != 0) return "by another method";
     if (strcmp(a->solver, b->solver) != 0) return "with another solver";
     if (a->visibility.sight != b->visibility.sight) return "with other sight";
-    if (a->partial.inside_only != b->partial.inside_only)
-        return a->partial.inside_only ? "with --inside" : "without --inside";
+    if (a->partial.inside_only != b->partial.inside_only) return "with another choice of --inside";
     if (a->partial.mirror_depth != b->partial.mirror_depth) return "with another --mirror-depth";
     if (a->partial.door_limit != b->partial.door_limit) return "with another --door-limit";
     if (sl_map_channel(&a->map) != sl_map_channel(&b->map)) return "with other --stops";

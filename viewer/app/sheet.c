@@ -7,6 +7,7 @@
 #include "dialogs/browser.h"
 #include "dialogs/map_file.h"
 #include "dialogs/question.h"
+#include "document/drawings.h"
 #include "plan/cameras.h"
 #include "plan/heat.h"
 #include "plan/line_map.h"
@@ -70,7 +71,9 @@ void sheet_ask(app_state *app) {
                      papers, PAPERS + 1, take_paper);
     else
         ui_say(&app->ui, true,
-               "a scale needs the unit of the plan: Ctrl+I tells it, or measures a line");
+               drawing_is(app->document.source.path)
+                   ? "a scale needs the unit of the plan: Ctrl+I tells it, or measures a line"
+                   : "a scale needs the unit of the plan: 'unit m' in map text tells it");
 }
 
 // --- what is drawn

@@ -23,7 +23,7 @@ export interface GraphOptions extends Progress {
   doors?: Record<string, boolean>
   /** Points see no farther than this; 0: no limit; by default the map's own range. */
   range?: number
-  /** The most points, 20000 by default: n points take n * n / 8 bytes. */
+  /** The most points, 20000 by default. Among pillars the graph of so many takes 7 MB. */
   most?: number
   /** How wide openings to the outside are at most; by default, and for 0, as the map says. */
   entrance?: number

@@ -3,7 +3,7 @@
 /// A graph is a query of a map whose doors stand as they were set (sightline/query.h), a grid of
 /// points in it, and which of them see each other (sightline/vga.h). Groups of measures are
 /// computed one at a time, because some cost much and few are looked at. Their results stay until
-/// the next call about the same graph. Cost: n * n bits of memory for n points.
+/// the next call about the same graph.
 #include "bindings/js/src/bindings.h"
 #include "sightline/bake.h"
 #include "sightline/effects.h"
