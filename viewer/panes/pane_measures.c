@@ -33,12 +33,11 @@ static void draw_plan_words(const view_state *view, column *c) {
     char area[MEASURE_TEXT], text[256];
     if (!view->document->baked) return;
     document_say_measure(view->document, view->document->inside_area, "\xc2\xb2", area);
-    const char *hint = drawing_is(view->document->source.path) ? "Ctrl+I" : "'unit m' in map text";
-    snprintf(text, sizeof text, "%s inside.", area);
-    const size_t length = strlen(text);
-    if (!*view->document->map.unit)
-        snprintf(text + length, sizeof text - length,
-                 " The file does not say what lengths are in: %s tells it.", hint);
+    if (*view->document->map.unit)
+        snprintf(text, sizeof text, "%s inside.", area);
+    else
+        snprintf(text, sizeof text, "%s inside. The file does not say what lengths are in: %s tells it.", area,
+                 drawing_is(view->document->source.path) ? "Ctrl+I" : "'unit m' in map text");
     column_words(view->ui, c, 0.95, view->ui->palette.ink, text);
     c->y += 0.4 * view->ui->text;
 }
