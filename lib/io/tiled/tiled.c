@@ -338,6 +338,8 @@ static sl_status draw_object(sli_tiled_reader *reader, const sli_json *layer,
     sl_status status = sli_tiled_draw_shape(&reader->pen, shape);
     if (status == SL_OK && stops)
         status = sl_map_walls_stop(reader->context, reader->pen.map, first, stops);
+    else if (status == SL_OK)
+        status = sli_tiled_add_closed(reader, shape->kind, first);
     reader->pen.affine = outer;
     return status;
 }
@@ -527,6 +529,7 @@ static sl_status read_map(sli_tiled_reader *reader) {
     SL_TRY(sli_tiled_read_again(reader));
     if (!reader->solid_layers && !reader->options->layers) SL_TRY(sli_tiled_find_meaning(reader));
     SL_TRY(sli_tiled_settle_void(reader));
+    SL_TRY(sli_tiled_settle_closed(reader));
     SL_TRY(sli_tiled_add_tile_walls(reader));
     const sl_map *map = reader->pen.map;
     if (!map->wall_count && !sl_map_partial_walls(map)) return sli_tiled_fail_no_walls(reader);
@@ -556,6 +559,7 @@ static void end_reader(sl_context *context, sli_tiled_reader *reader) {
     sli_tiled_destroy_templates(context, &reader->templates);
     sli_things_destroy(&reader->things);
     sl_free(context, reader->seen.items);
+    sl_free(context, reader->closed.items);
 }
 
 /// Reads a tree, and closes its file.

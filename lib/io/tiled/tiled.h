@@ -240,6 +240,13 @@ typedef struct sli_tiled_seen {
     uint64_t count, squares;
 } sli_tiled_seen;
 
+/// A closed object that is solid: a number of walls of the pen's map.
+typedef struct sli_tiled_closed {
+    size_t first, count;
+    sl_box box;
+    sli_tiled_kind kind;
+} sli_tiled_closed;
+
 typedef struct sli_tiled_reader {
     sl_context *context;
     const sl_import_options *options;
@@ -272,6 +279,8 @@ typedef struct sli_tiled_reader {
     size_t lost_shapes;                                ///< of tiles as objects, not orthogonal
     size_t doors_left_out;                             ///< tiles that are doors and hexagons
     size_t beside_tiles; ///< solid ones of layers below and above the player
+    SL_ARRAY(sli_tiled_closed) closed; ///< objects that stop all
+    size_t solid_objects;              ///< of these: whose insides are solid ground
     sli_things things;
     const json_t *start_layer; ///< a layer of chunks that is a start,
     size_t start_tiles;        ///< the tiles of the chunk that it was put into,
@@ -324,6 +333,14 @@ sl_status sli_tiled_settle_void(sli_tiled_reader *reader);
 /// Reads all layers by reader->by, which tells what is solid; what was read before of tiles is
 /// dropped.
 sl_status sli_tiled_read_again(sli_tiled_reader *reader);
+
+// --- closed objects (tiled_closed.c)
+
+/// Remembers an object that is drawn as the map's walls from `first` on, if it is closed.
+sl_status sli_tiled_add_closed(sli_tiled_reader *reader, sli_tiled_kind kind, size_t first);
+/// Makes the insides of closed objects solid ground, but of those that are outlines of rooms. To be
+/// called when all starts are read, and before walls are added that no object draws.
+sl_status sli_tiled_settle_closed(sli_tiled_reader *reader);
 
 // --- doubts (tiled_beside.c)
 

@@ -618,6 +618,7 @@ sl_status sli_tiled_add_tile_walls(sli_tiled_reader *reader) {
     const sli_tiles_options options = {.top = hexagons ? 0 : reader->top,
                                        .solid_between = reader->by == SLI_TILED_BY_GUESS &&
                                                         !reader->guessed && !reader->guessed_all,
+                                       .other_ground = reader->solid_objects > 0,
                                        .things = hexagons ? NULL : &reader->things,
                                        .add_walls = hexagons ? add_hexagons : NULL,
                                        .user = reader};

@@ -1,0 +1,111 @@
+/// The insides of closed objects. A rectangle, an ellipse or a polygon that is solid is a body in
+/// the games that read Tiled's maps: nobody stands in it. So its inside is solid ground.
+///
+/// Some are drawn round a room in place of its walls, and stay outlines:
+///
+/// - one that a start or a door lies in,
+/// - one that covers more than half of the map,
+/// - a polygon or an ellipse that another one lies in, and a rectangle that most others lie in.
+///
+/// A polygon whose sides cross each other has no inside that all agree on: an outline too.
+#include "geometry/orient.h"
+#include "io/tiled/tiled.h"
+
+sl_status sli_tiled_add_closed(sli_tiled_reader *reader, sli_tiled_kind kind, size_t first) {
+    const size_t count = reader->pen.map->wall_count - first;
+    if (kind == SLI_TILED_POLYLINE || kind == SLI_TILED_OTHER || count < 3) return SL_OK;
+    SL_TRY(SL_ARRAY_ROOM(reader->context, &reader->closed, 1));
+    sli_tiled_closed *own = &reader->closed.items[reader->closed.count++];
+    const sl_wall *walls = reader->pen.map->walls + first;
+    *own = (sli_tiled_closed){.first = first, .count = count, .kind = kind};
+    own->box = (sl_box){walls[0].a, walls[0].a};
+    for (size_t i = 1; i < count; i++) {
+        const sl_point at = walls[i].a;
+        if (at.x < own->box.min.x) own->box.min.x = at.x;
+        if (at.y < own->box.min.y) own->box.min.y = at.y;
+        if (at.x > own->box.max.x) own->box.max.x = at.x;
+        if (at.y > own->box.max.y) own->box.max.y = at.y;
+    }
+    return SL_OK;
+}
+
+/// Whether a point lies in a closed object: a ray to the right crosses its sides an odd number of
+/// times.
+static bool is_in(const sli_tiled_reader *reader, const sli_tiled_closed *closed, sl_point at) {
+    const sl_wall *walls = reader->pen.map->walls + closed->first;
+    const sl_box *box = &closed->box;
+    bool in = false;
+    if (at.x < box->min.x || at.x > box->max.x || at.y < box->min.y || at.y > box->max.y)
+        return false;
+    for (size_t i = 0; i < closed->count; i++) {
+        const bool up = walls[i].b.y > at.y;
+        if (up == (walls[i].a.y > at.y)) continue;
+        const int side = sli_orient(walls[i].a, walls[i].b, at);
+        in ^= up ? side > 0 : side < 0;
+    }
+    return in;
+}
+
+/// Whether a start or a door lies in it.
+static bool has_thing(const sli_tiled_reader *reader, const sli_tiled_closed *closed) {
+    for (size_t i = 0; i < reader->things.items.count; i++) {
+        const sl_point middle = reader->things.items.items[i].middle;
+        if (is_in(reader, closed, (sl_point){middle.x, reader->top - middle.y})) return true;
+    }
+    return false;
+}
+
+/// How many others lie in it with all of their boxes and their first corners.
+static size_t count_in(const sli_tiled_reader *reader, const sli_tiled_closed *closed) {
+    const sl_box *all = &closed->box;
+    size_t count = 0;
+    for (size_t i = 0; i < reader->closed.count; i++) {
+        const sl_box *own = &reader->closed.items[i].box;
+        const bool within = own->min.x > all->min.x && own->min.y > all->min.y &&
+                            own->max.x < all->max.x && own->max.y < all->max.y;
+        const sl_point corner = reader->pen.map->walls[reader->closed.items[i].first].a;
+        count += within && is_in(reader, closed, corner);
+    }
+    return count;
+}
+
+static bool is_outline(const sli_tiled_reader *reader, const sli_tiled_closed *closed) {
+    const bool drawn = closed->kind == SLI_TILED_POLYGON || closed->kind == SLI_TILED_ELLIPSE;
+    const sl_box *page = &reader->pen.map->source.page, *own = &closed->box;
+    const double all = (page->max.x - page->min.x) * (page->max.y - page->min.y);
+    if (all > 0 && 2 * (own->max.x - own->min.x) * (own->max.y - own->min.y) > all) return true;
+    if (has_thing(reader, closed)) return true;
+    const size_t count = count_in(reader, closed);
+    return drawn ? count > 0 : 2 * count > reader->closed.count - 1;
+}
+
+/// Marks the ground at the sides of a closed object.
+static sl_status fill(sli_tiled_reader *reader, const sli_tiled_closed *closed) {
+    sl_map polygon = {0};
+    sl_wall *walls = reader->pen.map->walls + closed->first;
+    sl_point *corners = sl_alloc_array(reader->context, closed->count, sizeof *corners);
+    if (!corners) return SL_NO_MEMORY;
+    for (size_t i = 0; i < closed->count; i++) corners[i] = walls[i].a;
+    const sl_status status = sl_map_add_solid(reader->context, &polygon, corners, closed->count, 0);
+    reader->solid_objects += status == SL_OK;
+    for (size_t i = 0; i < polygon.wall_count && status == SL_OK; i++)
+        walls[i].ground = polygon.walls[i].ground;
+    sl_map_destroy(reader->context, &polygon);
+    sl_free(reader->context, corners);
+    return status == SL_BAD_INPUT ? SL_OK : status;
+}
+
+sl_status sli_tiled_settle_closed(sli_tiled_reader *reader) {
+    for (size_t i = 0; i < reader->closed.count; i++) {
+        const sli_tiled_closed *closed = &reader->closed.items[i];
+        if (i % 256 == 0) SL_TRY(sl_check_cancelled(reader->context));
+        if (!is_outline(reader, closed)) SL_TRY(fill(reader, closed));
+    }
+    const size_t outlines = reader->closed.count - reader->solid_objects;
+    if (outlines)
+        sl_note(reader->context,
+                "%s: %zu closed object%s an outline, not solid inside: a start, a door or other "
+                "objects lie in it, or it is larger than half of the map",
+                reader->map->file->name, outlines, outlines == 1 ? " is" : "s are each");
+    return SL_OK;
+}
