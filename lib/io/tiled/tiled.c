@@ -528,8 +528,8 @@ static sl_status read_map(sli_tiled_reader *reader) {
     SL_TRY(sli_tiled_look_beside(reader));
     SL_TRY(sli_tiled_read_again(reader));
     if (!reader->solid_layers && !reader->options->layers) SL_TRY(sli_tiled_find_meaning(reader));
-    SL_TRY(sli_tiled_settle_void(reader));
     SL_TRY(sli_tiled_settle_closed(reader));
+    SL_TRY(sli_tiled_settle_void(reader));
     SL_TRY(sli_tiled_add_tile_walls(reader));
     const sl_map *map = reader->pen.map;
     if (!map->wall_count && !sl_map_partial_walls(map)) return sli_tiled_fail_no_walls(reader);

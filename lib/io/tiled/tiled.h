@@ -245,6 +245,7 @@ typedef struct sli_tiled_closed {
     size_t first, count;
     sl_box box;
     sli_tiled_kind kind;
+    bool solid; ///< its inside is solid ground
 } sli_tiled_closed;
 
 typedef struct sli_tiled_reader {
@@ -338,6 +339,8 @@ sl_status sli_tiled_read_again(sli_tiled_reader *reader);
 
 /// Remembers an object that is drawn as the map's walls from `first` on, if it is closed.
 sl_status sli_tiled_add_closed(sli_tiled_reader *reader, sli_tiled_kind kind, size_t first);
+/// Whether a place of the map lies in a closed object.
+bool sli_tiled_is_in(const sli_tiled_reader *reader, const sli_tiled_closed *closed, sl_point at);
 /// Makes the insides of closed objects solid ground, but of those that are outlines of rooms. To be
 /// called when all starts are read, and before walls are added that no object draws.
 sl_status sli_tiled_settle_closed(sli_tiled_reader *reader);

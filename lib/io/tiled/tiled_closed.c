@@ -3,13 +3,15 @@
 ///
 /// Some are drawn round a room in place of its walls, and stay outlines:
 ///
-/// - one that a start or a door lies in,
+/// - one that a start lies in, or that a door lies over,
 /// - one that covers more than half of the map,
 /// - a polygon or an ellipse that another one lies in, and a rectangle that most others lie in.
 ///
 /// A polygon whose sides cross each other has no inside that all agree on: an outline too.
 #include "geometry/orient.h"
 #include "io/tiled/tiled.h"
+
+#include <math.h>
 
 sl_status sli_tiled_add_closed(sli_tiled_reader *reader, sli_tiled_kind kind, size_t first) {
     const size_t count = reader->pen.map->wall_count - first;
@@ -29,9 +31,8 @@ sl_status sli_tiled_add_closed(sli_tiled_reader *reader, sli_tiled_kind kind, si
     return SL_OK;
 }
 
-/// Whether a point lies in a closed object: a ray to the right crosses its sides an odd number of
-/// times.
-static bool is_in(const sli_tiled_reader *reader, const sli_tiled_closed *closed, sl_point at) {
+/// A ray to the right crosses its sides an odd number of times.
+bool sli_tiled_is_in(const sli_tiled_reader *reader, const sli_tiled_closed *closed, sl_point at) {
     const sl_wall *walls = reader->pen.map->walls + closed->first;
     const sl_box *box = &closed->box;
     bool in = false;
@@ -46,25 +47,35 @@ static bool is_in(const sli_tiled_reader *reader, const sli_tiled_closed *closed
     return in;
 }
 
-/// Whether a start or a door lies in it.
+/// Whether a start lies in it, or a door lies over it.
 static bool has_thing(const sli_tiled_reader *reader, const sli_tiled_closed *closed) {
+    const sl_box *box = &closed->box;
     for (size_t i = 0; i < reader->things.items.count; i++) {
-        const sl_point middle = reader->things.items.items[i].middle;
-        if (is_in(reader, closed, (sl_point){middle.x, reader->top - middle.y})) return true;
+        const sli_thing *thing = &reader->things.items.items[i];
+        const sl_point at = {thing->middle.x, reader->top - thing->middle.y};
+        const double x = fabs(thing->u.x) + fabs(thing->v.x);
+        const double y = fabs(thing->u.y) + fabs(thing->v.y);
+        const bool over = at.x + x > box->min.x && at.x - x < box->max.x &&
+                          at.y + y > box->min.y && at.y - y < box->max.y;
+        if (over && (thing->kind == SLI_THING_DOOR || sli_tiled_is_in(reader, closed, at)))
+            return true;
     }
     return false;
 }
 
-/// How many others lie in it with all of their boxes and their first corners.
+/// How many others lie in it with all of their boxes and their first corners. Of more than so many
+/// it is not asked.
 static size_t count_in(const sli_tiled_reader *reader, const sli_tiled_closed *closed) {
+    enum { MOST = 4096 };
     const sl_box *all = &closed->box;
     size_t count = 0;
+    if (reader->closed.count > MOST) return 0;
     for (size_t i = 0; i < reader->closed.count; i++) {
         const sl_box *own = &reader->closed.items[i].box;
         const bool within = own->min.x > all->min.x && own->min.y > all->min.y &&
                             own->max.x < all->max.x && own->max.y < all->max.y;
         const sl_point corner = reader->pen.map->walls[reader->closed.items[i].first].a;
-        count += within && is_in(reader, closed, corner);
+        count += within && sli_tiled_is_in(reader, closed, corner);
     }
     return count;
 }
@@ -80,15 +91,16 @@ static bool is_outline(const sli_tiled_reader *reader, const sli_tiled_closed *c
 }
 
 /// Marks the ground at the sides of a closed object.
-static sl_status fill(sli_tiled_reader *reader, const sli_tiled_closed *closed) {
+static sl_status fill(sli_tiled_reader *reader, sli_tiled_closed *closed) {
     sl_map polygon = {0};
     sl_wall *walls = reader->pen.map->walls + closed->first;
     sl_point *corners = sl_alloc_array(reader->context, closed->count, sizeof *corners);
     if (!corners) return SL_NO_MEMORY;
     for (size_t i = 0; i < closed->count; i++) corners[i] = walls[i].a;
     const sl_status status = sl_map_add_solid(reader->context, &polygon, corners, closed->count, 0);
-    reader->solid_objects += status == SL_OK;
-    for (size_t i = 0; i < polygon.wall_count && status == SL_OK; i++)
+    closed->solid = status == SL_OK;
+    reader->solid_objects += closed->solid;
+    for (size_t i = 0; i < polygon.wall_count && closed->solid; i++)
         walls[i].ground = polygon.walls[i].ground;
     sl_map_destroy(reader->context, &polygon);
     sl_free(reader->context, corners);
@@ -97,15 +109,15 @@ static sl_status fill(sli_tiled_reader *reader, const sli_tiled_closed *closed) 
 
 sl_status sli_tiled_settle_closed(sli_tiled_reader *reader) {
     for (size_t i = 0; i < reader->closed.count; i++) {
-        const sli_tiled_closed *closed = &reader->closed.items[i];
+        sli_tiled_closed *closed = &reader->closed.items[i];
         if (i % 256 == 0) SL_TRY(sl_check_cancelled(reader->context));
         if (!is_outline(reader, closed)) SL_TRY(fill(reader, closed));
     }
     const size_t outlines = reader->closed.count - reader->solid_objects;
     if (outlines)
         sl_note(reader->context,
-                "%s: %zu closed object%s an outline, not solid inside: a start, a door or other "
-                "objects lie in it, or it is larger than half of the map",
+                "%s: %zu closed object%s an outline, not solid inside: a start or other objects "
+                "lie in it, a door lies over it, or it is larger than half of the map",
                 reader->map->file->name, outlines, outlines == 1 ? " is" : "s are each");
     return SL_OK;
 }

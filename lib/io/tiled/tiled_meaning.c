@@ -214,6 +214,17 @@ static size_t count_plain(const sli_tiled_reader *reader) {
     return count;
 }
 
+/// Whether all that is drawn is one layer that is named for a floor, and has gaps.
+static bool only_floor(const sli_tiled_reader *reader) {
+    bool floor = count_plain(reader) == 1;
+    for (size_t i = 0; i < reader->seen.count; i++) {
+        const sli_tiled_seen *layer = &reader->seen.items[i];
+        if (!layer->objects && layer->count && layer->kind != SLI_GAME_DRAWN)
+            floor &= layer->kind == SLI_GAME_FLOOR && layer->count < layer->squares;
+    }
+    return floor;
+}
+
 sl_status sli_tiled_guess(sli_tiled_reader *reader, const uint32_t *gids, size_t columns,
                           size_t rows) {
     const look at = {gids, columns, rows};
@@ -328,6 +339,7 @@ static sl_status fail_missing(const sli_tiled_reader *reader) {
 }
 
 sl_status sli_tiled_find_meaning(sli_tiled_reader *reader) {
+    if (reader->void_is_solid) return SL_OK;
     if (reader->unknown_tiles) return fail_missing(reader);
     if (sli_tiled_taken(reader)) return SL_OK;
     if (reader->beside_tiles) {
@@ -342,8 +354,8 @@ sl_status sli_tiled_find_meaning(sli_tiled_reader *reader) {
         SL_TRY(sli_tiled_read_again(reader));
         if (sli_tiled_taken(reader)) return SL_OK;
     }
-    // A layer for walls that has none: all is open but what is beyond the map.
-    if (reader->empty_layers) {
+    // A layer for walls that has none: all is open but what is beyond the map, or the floor.
+    if (reader->empty_layers && !only_floor(reader)) {
         reader->by = SLI_TILED_BY_WORD;
         return SL_OK;
     }
@@ -418,7 +430,7 @@ sl_status sli_tiled_tell_meaning(const sli_tiled_reader *reader) {
             reader->context,
             "%s: what a missing tileset says of %zu tiles is not known: solid layers count whole",
             file, reader->lost_tiles);
-    if (reader->options->layers) return SL_OK;
+    if (reader->options->layers || (reader->void_is_solid && !taken.count)) return SL_OK;
     if (reader->believed_not)
         sl_note(reader->context,
                 "%s: nearly all tiles of layer '%s' say that they are solid, and it has no gaps: "

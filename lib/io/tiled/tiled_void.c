@@ -1,6 +1,9 @@
 /// Squares of Tiled's maps that have no tile at all: around rooms that are drawn floor by floor
 /// they are what nobody enters, and in a platformer they are the air. The file does not say which,
 /// so they are open; where floor leads to them it is told, and `--layers void` makes them solid.
+///
+/// In a map without a start, those that lie at its edge are solid where walls part them from all
+/// floor: else they would be taken for a room.
 #include "io/tiled/tiled.h"
 
 #include <math.h>
@@ -126,6 +129,32 @@ static sl_point middle_of(const field *f, size_t i) {
     return sli_affine_apply(f->reader->pen.affine, (sl_point){x * step.x, y * step.y});
 }
 
+/// Puts in the squares whose middles lie in solid objects.
+static sl_status take_closed(field *f) {
+    const sli_tiled_reader *reader = f->reader;
+    for (size_t i = 0; i < reader->closed.count; i++) {
+        const sli_tiled_closed *closed = &reader->closed.items[i];
+        const double left = floor(closed->box.min.x / reader->lattice.step.x);
+        const double right = ceil(closed->box.max.x / reader->lattice.step.x);
+        const double top = floor((reader->top - closed->box.max.y) / reader->lattice.step.y);
+        const double bottom = ceil((reader->top - closed->box.min.y) / reader->lattice.step.y);
+        const double columns = (double)f->columns, rows = (double)f->rows;
+        const double x0 = fmin(fmax(left - (double)f->range.left, 0), columns);
+        const double x1 = fmin(fmax(right - (double)f->range.left, 0), columns);
+        const double y0 = fmin(fmax(top - (double)f->range.top, 0), rows);
+        const double y1 = fmin(fmax(bottom - (double)f->range.top, 0), rows);
+        SL_TRY(sl_check_cancelled(reader->context));
+        if (!closed->solid) continue;
+        for (size_t y = (size_t)y0; y < (size_t)y1; y++)
+            for (size_t x = (size_t)x0; x < (size_t)x1; x++) {
+                const size_t at = y * f->columns + x;
+                if (f->squares[at] != '#' && sli_tiled_is_in(reader, closed, middle_of(f, at)))
+                    f->squares[at] = '#';
+            }
+    }
+    return SL_OK;
+}
+
 static double side(sl_point a, sl_point b, sl_point c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
@@ -141,11 +170,13 @@ static bool is_between(const sl_map *map, sl_point a, sl_point b) {
     return false;
 }
 
+typedef enum lead { APART, UNKNOWN, LEADS } lead;
+
 /// Whether one steps from floor to squares without a tile. So many places are held against the
 /// walls of objects and no more.
-static bool leads_to_void(const field *f) {
+static lead leads_to_void(const field *f) {
     size_t tried = 0;
-    for (size_t i = 0; i < f->columns * f->rows && tried < PAIRS; i++) {
+    for (size_t i = 0; i < f->columns * f->rows; i++) {
         const bool ends = (i + 1) % f->columns == 0;
         const size_t beside[] = {ends ? i : i + 1, i + f->columns};
         for (int k = 0; k < 2; k++) {
@@ -153,36 +184,85 @@ static bool leads_to_void(const field *f) {
             if (j >= f->columns * f->rows || f->squares[i] == '#' || f->squares[j] == '#' ||
                 f->squares[i] == f->squares[j])
                 continue;
-            tried++;
-            if (!is_between(f->reader->pen.map, middle_of(f, i), middle_of(f, j))) return true;
+            if (++tried > PAIRS) return UNKNOWN;
+            if (!is_between(f->reader->pen.map, middle_of(f, i), middle_of(f, j))) return LEADS;
         }
     }
+    return APART;
+}
+
+/// Marks the squares without a tile that are at the edge, and those that join them, by 'v'.
+static sl_status mark_edge(field *f, size_t *marked) {
+    const size_t count = f->columns * f->rows;
+    size_t *stack = sl_alloc_array(f->reader->context, count, sizeof *stack), top = 0;
+    if (!stack) return SL_NO_MEMORY;
+    for (size_t i = 0; i < count; i++) {
+        const size_t x = i % f->columns, y = i / f->columns;
+        const bool edge = !x || !y || x + 1 == f->columns || y + 1 == f->rows;
+        if (!edge || f->squares[i] != ' ') continue;
+        f->squares[i] = 'v';
+        stack[top++] = i;
+    }
+    for (*marked = top; top;) {
+        const size_t i = stack[--top], x = i % f->columns, y = i / f->columns;
+        const size_t beside[] = {x ? i - 1 : i, x + 1 < f->columns ? i + 1 : i,
+                                 y ? i - f->columns : i, y + 1 < f->rows ? i + f->columns : i};
+        for (int k = 0; k < 4; k++) {
+            if (f->squares[beside[k]] != ' ') continue;
+            f->squares[beside[k]] = 'v';
+            stack[top++] = beside[k];
+            ++*marked;
+        }
+    }
+    sl_free(f->reader->context, stack);
+    return SL_OK;
+}
+
+static bool has_start(const sli_tiled_reader *reader) {
+    for (size_t i = 0; i < reader->things.items.count; i++)
+        if (reader->things.items.items[i].kind == SLI_THING_START) return true;
     return false;
 }
 
-static sl_status fill(field *f) {
+/// Makes the squares of one mark solid.
+static sl_status fill(field *f, char mark) {
     const sl_point step = f->reader->lattice.step;
     const sl_point corner = {(double)f->range.left * step.x, (double)f->range.top * step.y};
     char *squares;
     SL_TRY(sli_tiles_add(f->reader->context, &f->reader->tiles, f->reader->map->file->name, corner,
                          step, f->columns, f->rows, &squares));
     for (size_t i = 0; i < f->columns * f->rows; i++)
-        if (f->squares[i] == ' ') squares[i] = '#';
+        if (f->squares[i] == mark) squares[i] = '#';
     return SL_OK;
+}
+
+/// What walls part from all floor, and lies at the edge, is no room.
+static sl_status fill_edge(field *f) {
+    size_t marked;
+    SL_TRY(mark_edge(f, &marked));
+    if (!marked) return SL_OK;
+    sl_note(f->reader->context,
+            "%s: %zu squares at its edge have no tile, and walls part them from all floor: they "
+            "are taken as solid",
+            f->reader->map->file->name, marked);
+    return fill(f, 'v');
 }
 
 static sl_status settle(field *f, const char *layers) {
     size_t empty = 0, floor = 0;
     take_solid(f);
+    SL_TRY(take_closed(f));
     for (size_t i = 0; i < f->columns * f->rows; i++) {
         empty += f->squares[i] == ' ';
         floor += f->squares[i] == '.';
     }
-    if (f->reader->void_is_solid) return fill(f);
+    if (f->reader->void_is_solid) return fill(f, ' ');
     // In a platformer a little is drawn in much air.
-    if (!empty || 10 * floor < empty + floor || f->pictures || f->reader->guessed_all ||
-        !leads_to_void(f))
+    if (!empty || 10 * floor < empty + floor || f->pictures || f->reader->guessed_all)
         return SL_OK;
+    const lead how = leads_to_void(f);
+    if (how == APART && !layers && !f->reader->by && !has_start(f->reader)) return fill_edge(f);
+    if (how != LEADS) return SL_OK;
     sl_note(f->reader->context,
             "%s: %zu squares have no tile and are open, and floor leads to them with no wall "
             "between: --layers '%s%svoid' takes them as solid",
