@@ -279,7 +279,7 @@ typedef struct sli_tiled_reader {
     size_t lost_tiles;                                 ///< the same, in solid layers too
     size_t lost_shapes;                                ///< of tiles as objects, not orthogonal
     size_t doors_left_out;                             ///< tiles that are doors and hexagons
-    size_t beside_tiles; ///< solid ones of layers below and above the player
+    size_t beside_tiles;               ///< solid ones of layers below and above the player
     SL_ARRAY(sli_tiled_closed) closed; ///< objects that stop all
     size_t solid_objects;              ///< of these: whose insides are solid ground
     sli_things things;

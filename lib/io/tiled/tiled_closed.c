@@ -55,8 +55,8 @@ static bool has_thing(const sli_tiled_reader *reader, const sli_tiled_closed *cl
         const sl_point at = {thing->middle.x, reader->top - thing->middle.y};
         const double x = fabs(thing->u.x) + fabs(thing->v.x);
         const double y = fabs(thing->u.y) + fabs(thing->v.y);
-        const bool over = at.x + x > box->min.x && at.x - x < box->max.x &&
-                          at.y + y > box->min.y && at.y - y < box->max.y;
+        const bool over = at.x + x > box->min.x && at.x - x < box->max.x && at.y + y > box->min.y &&
+                          at.y - y < box->max.y;
         if (over && (thing->kind == SLI_THING_DOOR || sli_tiled_is_in(reader, closed, at)))
             return true;
     }

@@ -258,8 +258,7 @@ static sl_status settle(field *f, const char *layers) {
     }
     if (f->reader->void_is_solid) return fill(f, ' ');
     // In a platformer a little is drawn in much air.
-    if (!empty || 10 * floor < empty + floor || f->pictures || f->reader->guessed_all)
-        return SL_OK;
+    if (!empty || 10 * floor < empty + floor || f->pictures || f->reader->guessed_all) return SL_OK;
     const lead how = leads_to_void(f);
     if (how == APART && !layers && !f->reader->by && !has_start(f->reader)) return fill_edge(f);
     if (how != LEADS) return SL_OK;
