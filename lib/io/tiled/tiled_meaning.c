@@ -92,6 +92,36 @@ static sl_status choose_tiles(const sli_tiled_reader *reader, const sli_tiled_se
     return status;
 }
 
+/// Whether the layer with the most tiles covers less than a quarter of each side of the map and up
+/// to half of all: its tiles may be the floor of rooms, and the squares without tiles solid.
+static sl_status looks_like_rooms(const sli_tiled_reader *reader, const sli_tiled_seen *seen,
+                                  bool *rooms) {
+    const sli_json layer = {.file = reader->map->file, .value = seen->layer};
+    const sli_json data = sli_json_member(&layer, "data"), width = sli_json_member(&layer, "width");
+    const size_t count = (size_t)seen->squares, columns = (size_t)sli_json_number_or_0(&width);
+    uint32_t *gids;
+    size_t sides[4] = {0};
+    *rooms = false;
+    for (size_t i = 0; i < reader->seen.count; i++)
+        if (!reader->seen.items[i].objects && reader->seen.items[i].count > seen->count)
+            return SL_OK;
+    if (seen->objects || 2 * seen->count > count || !data.value || !columns || count % columns)
+        return SL_OK;
+    SL_TRY(sli_tiled_read_data(&layer, &data, count, &gids));
+    for (size_t i = 0; i < count; i++) {
+        const size_t x = i % columns, y = i / columns;
+        const bool tile = gids[i] & SLI_TILED_TILE;
+        sides[0] += tile && y == 0;
+        sides[1] += tile && i + columns >= count;
+        sides[2] += tile && x == 0;
+        sides[3] += tile && x + 1 == columns;
+    }
+    sl_free(reader->context, gids);
+    *rooms = 4 * sides[0] < columns && 4 * sides[1] < columns && 4 * sides[2] < count / columns &&
+             4 * sides[3] < count / columns;
+    return SL_OK;
+}
+
 /// ", as in:" and a command that takes the example.
 static sl_status say_example(const sli_tiled_reader *reader, const sli_tiled_seen *example,
                              char *text, size_t size) {
@@ -101,10 +131,17 @@ static sl_status say_example(const sli_tiled_reader *reader, const sli_tiled_see
     const bool same = !example->objects && example->count == example->squares && !*tiles;
     const sli_tiled_seen *objects = same ? find_objects(reader) : NULL;
     if (objects) example = objects;
+    bool rooms;
+    SL_TRY(looks_like_rooms(reader, example, &rooms));
     const sli_shown name = sli_show((sli_word){example->name, strlen(example->name)});
     if (same && !objects)
         snprintf(text, size, " (all tiles of '%s' are the same: draw walls in a layer Collision)",
                  name.text);
+    else if (rooms)
+        snprintf(text, size,
+                 ", void the squares without tiles, as in: sightline check '%.150s' --layers void "
+                 "-o map.png",
+                 file);
     else
         snprintf(text, size, ", as in: sightline check '%.150s' --layers '%s%s' -o map.png", file,
                  name.text, tiles);

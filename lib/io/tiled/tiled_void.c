@@ -260,7 +260,8 @@ static sl_status settle(field *f, const char *layers) {
     // In a platformer a little is drawn in much air.
     if (!empty || 10 * floor < empty + floor || f->pictures || f->reader->guessed_all) return SL_OK;
     const lead how = leads_to_void(f);
-    if (how == APART && !f->reader->shapes && !layers && !f->reader->by && !has_start(f->reader)) return fill_edge(f);
+    if (how == APART && !f->reader->shapes && !layers && !f->reader->by && !has_start(f->reader))
+        return fill_edge(f);
     if (how != LEADS) return SL_OK;
     sl_note(f->reader->context,
             "%s: %zu squares have no tile and are open, and floor leads to them with no wall "
