@@ -339,7 +339,7 @@ static sl_status draw_object(sli_tiled_reader *reader, const sli_json *layer,
     if (status == SL_OK && stops)
         status = sl_map_walls_stop(reader->context, reader->pen.map, first, stops);
     else if (status == SL_OK)
-        status = sli_tiled_add_closed(reader, shape->kind, first);
+        status = sli_tiled_add_closed(reader, shape->kind, first, false);
     reader->pen.affine = outer;
     return status;
 }

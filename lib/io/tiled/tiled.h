@@ -245,7 +245,8 @@ typedef struct sli_tiled_closed {
     size_t first, count;
     sl_box box;
     sli_tiled_kind kind;
-    bool solid; ///< its inside is solid ground
+    bool of_tile; ///< the shape of a tile
+    bool solid;   ///< its inside is solid ground
 } sli_tiled_closed;
 
 typedef struct sli_tiled_reader {
@@ -280,8 +281,9 @@ typedef struct sli_tiled_reader {
     size_t lost_shapes;                                ///< of tiles as objects, not orthogonal
     size_t doors_left_out;                             ///< tiles that are doors and hexagons
     size_t beside_tiles;               ///< solid ones of layers below and above the player
-    SL_ARRAY(sli_tiled_closed) closed; ///< objects that stop all
-    size_t solid_objects;              ///< of these: whose insides are solid ground
+    SL_ARRAY(sli_tiled_closed) closed; ///< objects and shapes of tiles that stop all
+    size_t closed_objects;             ///< of these: objects
+    size_t solid_closed;               ///< of these: whose insides are solid ground
     sli_things things;
     const json_t *start_layer; ///< a layer of chunks that is a start,
     size_t start_tiles;        ///< the tiles of the chunk that it was put into,
@@ -337,8 +339,10 @@ sl_status sli_tiled_read_again(sli_tiled_reader *reader);
 
 // --- closed objects (tiled_closed.c)
 
-/// Remembers an object that is drawn as the map's walls from `first` on, if it is closed.
-sl_status sli_tiled_add_closed(sli_tiled_reader *reader, sli_tiled_kind kind, size_t first);
+/// Remembers an object, or the shape of a tile, that is drawn as the map's walls from `first` on,
+/// if it is closed.
+sl_status sli_tiled_add_closed(sli_tiled_reader *reader, sli_tiled_kind kind, size_t first,
+                               bool of_tile);
 /// Whether a place of the map lies in a closed object.
 bool sli_tiled_is_in(const sli_tiled_reader *reader, const sli_tiled_closed *closed, sl_point at);
 /// Makes the insides of closed objects solid ground, but of those that are outlines of rooms. To be

@@ -7,19 +7,22 @@
 /// - one that covers more than half of the map,
 /// - a polygon or an ellipse that another one lies in, and a rectangle that most others lie in.
 ///
-/// A polygon whose sides cross each other has no inside that all agree on: an outline too.
+/// Shapes of tiles are outlines only where a start or a door lies over them. A polygon whose sides
+/// cross each other has no inside that all agree on: an outline too.
 #include "geometry/orient.h"
 #include "io/tiled/tiled.h"
 
 #include <math.h>
 
-sl_status sli_tiled_add_closed(sli_tiled_reader *reader, sli_tiled_kind kind, size_t first) {
+sl_status sli_tiled_add_closed(sli_tiled_reader *reader, sli_tiled_kind kind, size_t first,
+                               bool of_tile) {
     const size_t count = reader->pen.map->wall_count - first;
     if (kind == SLI_TILED_POLYLINE || kind == SLI_TILED_OTHER || count < 3) return SL_OK;
     SL_TRY(SL_ARRAY_ROOM(reader->context, &reader->closed, 1));
     sli_tiled_closed *own = &reader->closed.items[reader->closed.count++];
     const sl_wall *walls = reader->pen.map->walls + first;
-    *own = (sli_tiled_closed){.first = first, .count = count, .kind = kind};
+    *own = (sli_tiled_closed){.first = first, .count = count, .kind = kind, .of_tile = of_tile};
+    reader->closed_objects += !of_tile;
     own->box = (sl_box){walls[0].a, walls[0].a};
     for (size_t i = 1; i < count; i++) {
         const sl_point at = walls[i].a;
@@ -69,11 +72,12 @@ static size_t count_in(const sli_tiled_reader *reader, const sli_tiled_closed *c
     enum { MOST = 4096 };
     const sl_box *all = &closed->box;
     size_t count = 0;
-    if (reader->closed.count > MOST) return 0;
+    if (reader->closed_objects > MOST) return 0;
     for (size_t i = 0; i < reader->closed.count; i++) {
         const sl_box *own = &reader->closed.items[i].box;
-        const bool within = own->min.x > all->min.x && own->min.y > all->min.y &&
-                            own->max.x < all->max.x && own->max.y < all->max.y;
+        const bool within = !reader->closed.items[i].of_tile && own->min.x > all->min.x &&
+                            own->min.y > all->min.y && own->max.x < all->max.x &&
+                            own->max.y < all->max.y;
         const sl_point corner = reader->pen.map->walls[reader->closed.items[i].first].a;
         count += within && sli_tiled_is_in(reader, closed, corner);
     }
@@ -84,10 +88,11 @@ static bool is_outline(const sli_tiled_reader *reader, const sli_tiled_closed *c
     const bool drawn = closed->kind == SLI_TILED_POLYGON || closed->kind == SLI_TILED_ELLIPSE;
     const sl_box *page = &reader->pen.map->source.page, *own = &closed->box;
     const double all = (page->max.x - page->min.x) * (page->max.y - page->min.y);
+    if (closed->of_tile) return has_thing(reader, closed);
     if (all > 0 && 2 * (own->max.x - own->min.x) * (own->max.y - own->min.y) > all) return true;
     if (has_thing(reader, closed)) return true;
     const size_t count = count_in(reader, closed);
-    return drawn ? count > 0 : 2 * count > reader->closed.count - 1;
+    return drawn ? count > 0 : 2 * count > reader->closed_objects - 1;
 }
 
 /// Marks the ground at the sides of a closed object.
@@ -99,7 +104,7 @@ static sl_status fill(sli_tiled_reader *reader, sli_tiled_closed *closed) {
     for (size_t i = 0; i < closed->count; i++) corners[i] = walls[i].a;
     const sl_status status = sl_map_add_solid(reader->context, &polygon, corners, closed->count, 0);
     closed->solid = status == SL_OK;
-    reader->solid_objects += closed->solid;
+    reader->solid_closed += closed->solid;
     for (size_t i = 0; i < polygon.wall_count && closed->solid; i++)
         walls[i].ground = polygon.walls[i].ground;
     sl_map_destroy(reader->context, &polygon);
@@ -108,12 +113,13 @@ static sl_status fill(sli_tiled_reader *reader, sli_tiled_closed *closed) {
 }
 
 sl_status sli_tiled_settle_closed(sli_tiled_reader *reader) {
+    size_t outlines = 0;
     for (size_t i = 0; i < reader->closed.count; i++) {
         sli_tiled_closed *closed = &reader->closed.items[i];
         if (i % 256 == 0) SL_TRY(sl_check_cancelled(reader->context));
         if (!is_outline(reader, closed)) SL_TRY(fill(reader, closed));
+        outlines += !closed->solid && !closed->of_tile;
     }
-    const size_t outlines = reader->closed.count - reader->solid_objects;
     if (outlines)
         sl_note(reader->context,
                 "%s: %zu closed object%s an outline, not solid inside: a start or other objects "
