@@ -176,7 +176,7 @@ static void test_passing_objects(void **state) {
         "name='Collision'><object name='Goblin' x='8' y='4' width='2' height='2'/>"
         "<object type='trigger' x='8' y='8' width='2' height='2'/>"
         "<object name='chest' x='16' y='8' width='4' height='4'/></objectgroup></map>";
-    assert_walls(box, "wall 16 8 20 8\nwall 20 8 20 4\nwall 20 4 16 4\nwall 16 4 16 8\n");
+    assert_walls(box, "wall 16 8 20 8\nwall 20 8 20 4\nwall 20 4 16 4\nwall 16 4 16 8\n" FRAME);
 }
 
 /// Weaker names count where there are no firm ones, the firmest of them alone.

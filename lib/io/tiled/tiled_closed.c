@@ -112,6 +112,24 @@ static sl_status fill(sli_tiled_reader *reader, sli_tiled_closed *closed) {
     return status == SL_BAD_INPUT ? SL_OK : status;
 }
 
+/// Where a map has no tiles, its squares are open, and what is beyond it is solid: else nothing ends
+/// the ground about its objects.
+static sl_status add_page(sli_tiled_reader *reader) {
+    const sl_box *page = &reader->pen.map->source.page;
+    const sl_point size = {page->max.x - page->min.x, page->max.y - page->min.y};
+    const sli_json infinite = sli_json_member(reader->map, "infinite");
+    const sl_box all = sl_map_bounds(reader->pen.map);
+    const sl_point corner = {page->min.x, reader->top - page->max.y};
+    char *squares;
+    if (!reader->solid_closed || reader->tiles.blocks.count || sli_json_true(&infinite, NULL))
+        return SL_OK;
+    if (!(size.x > 0 && size.y > 0) || all.min.x < page->min.x || all.min.y < page->min.y ||
+        all.max.x > page->max.x || all.max.y > page->max.y)
+        return SL_OK;
+    return sli_tiles_add(reader->context, &reader->tiles, reader->map->file->name, corner, size, 1,
+                         1, &squares);
+}
+
 sl_status sli_tiled_settle_closed(sli_tiled_reader *reader) {
     size_t outlines = 0;
     for (size_t i = 0; i < reader->closed.count; i++) {
@@ -125,5 +143,5 @@ sl_status sli_tiled_settle_closed(sli_tiled_reader *reader) {
                 "%s: %zu closed object%s an outline, not solid inside: a start or other objects "
                 "lie in it, a door lies over it, or it is larger than half of the map",
                 reader->map->file->name, outlines, outlines == 1 ? " is" : "s are each");
-    return SL_OK;
+    return add_page(reader);
 }
