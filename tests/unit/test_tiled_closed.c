@@ -155,11 +155,33 @@ static void test_refused(void **state) {
     assert_true(all.inside == 12 && all.outside == 0);
 }
 
+#define GROUND                                                                                     \
+    NONE ", 0,0,0,1,1,0,0,0,0,0,0,0, " NONE ", 0,0,0,0,0,0,1,1,0,0,0,0, " NONE ", "                \
+         "1,1,1,1,0,0,0,0,0,0,0,0, " NONE ", 1,1,1,0,0,0,0,0,0,0,0,0"
+#define THING(x, y) "<object x='" x "' y='" y "'><point/></object>"
+
+/// Where nothing says what is solid, three objects tell: they stand where one can stand.
+static void test_where_objects_stand(void **state) {
+    (void)state;
+    assert_share(MAP(SET LAYER("a", GROUND) THINGS(THING("4", "4") THING("12", "20") THING(
+                     "60", "36") BOX("0", "0", "90", "60"))),
+                 85, 0, 11);
+    assert_share(
+        MAP(SET LAYER("a", FLOORS) THINGS(THING("20", "20") THING("28", "28") THING("36", "36"))),
+        12, 0, 0);
+    const char *texts[] = {
+        MAP(SET LAYER("a", FLOORS) THINGS(THING("20", "20") THING("28", "28"))),
+        MAP(SET LAYER("a", FLOORS) THINGS(THING("20", "20") THING("28", "28") THING("4", "4")))};
+    for (int i = 0; i < 2; i++)
+        assert_refused_of(sli_map_read_tmx, NULL, texts[i], strlen(texts[i]), SL_BAD_INPUT,
+                          "f:1: nothing in it says what is solid");
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_solid),           cmocka_unit_test(test_outlines),
         cmocka_unit_test(test_shapes_of_tiles), cmocka_unit_test(test_void),
-        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_refused),         cmocka_unit_test(test_where_objects_stand),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

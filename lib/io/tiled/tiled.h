@@ -362,6 +362,18 @@ sl_status sli_tiled_look_beside(sli_tiled_reader *reader);
 /// Whether nearly all squares have tiles, and nearly all of these say that they are solid.
 bool sli_tiled_all_solid(const sli_tiled_sets *sets, const uint32_t *gids, size_t count);
 
+// --- where objects stand (tiled_stands.c)
+
+typedef enum sli_tiled_stand {
+    SLI_TILED_STAND_UNKNOWN,
+    SLI_TILED_STAND_ON_TILES, ///< all small objects, three at least
+    SLI_TILED_STAND_ON_EMPTY, ///< the same, on squares without tiles
+} sli_tiled_stand;
+
+/// Where the map's objects stand on a layer of tiles that covers all of it.
+sli_tiled_stand sli_tiled_where_objects_stand(const sli_tiled_reader *reader, const uint32_t *gids,
+                                              size_t columns, size_t rows);
+
 // --- what is solid where nothing says it (tiled_meaning.c)
 
 /// The number of layers, tiles, shapes and objects that are solid so far.

@@ -112,8 +112,8 @@ static sl_status fill(sli_tiled_reader *reader, sli_tiled_closed *closed) {
     return status == SL_BAD_INPUT ? SL_OK : status;
 }
 
-/// Where a map has no tiles, its squares are open, and what is beyond it is solid: else nothing ends
-/// the ground about its objects.
+/// Where a map has no tiles, its squares are open, and what is beyond it is solid: else nothing
+/// ends the ground about its objects.
 static sl_status add_page(sli_tiled_reader *reader) {
     const sl_box *page = &reader->pen.map->source.page;
     const sl_point size = {page->max.x - page->min.x, page->max.y - page->min.y};

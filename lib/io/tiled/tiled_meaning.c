@@ -8,6 +8,8 @@
 /// - Where the map or a tileset is named for a dungeon or a sewer, and one tile covers at least
 ///   half of the lowest layer and of its edge, that tile is rock, unless the layer is named for
 ///   ground or floor.
+/// - Where three or more objects stand on the only layer, all on squares without tiles or all on
+///   tiles, what they do not stand on is solid.
 /// - Where the only layer has tiles all around its edge, or below and not above, and is empty for
 ///   a good part, the tiles are walls or the ground of a platformer.
 ///
@@ -241,12 +243,13 @@ static bool is_inside(const sli_tiled_reader *reader) {
     return inside;
 }
 
-/// The layers of tiles that are no pictures.
+/// The layers of tiles that are no pictures, and no places that one passes.
 static size_t count_plain(const sli_tiled_reader *reader) {
     size_t count = 0;
     for (size_t i = 0; i < reader->seen.count; i++) {
         const sli_tiled_seen *layer = &reader->seen.items[i];
-        count += !layer->objects && layer->count && layer->kind != SLI_GAME_DRAWN;
+        count += !layer->objects && layer->count && layer->kind != SLI_GAME_DRAWN &&
+                 layer->kind != SLI_GAME_PASS;
     }
     return count;
 }
@@ -256,7 +259,8 @@ static bool only_floor(const sli_tiled_reader *reader) {
     bool floor = count_plain(reader) == 1;
     for (size_t i = 0; i < reader->seen.count; i++) {
         const sli_tiled_seen *layer = &reader->seen.items[i];
-        if (!layer->objects && layer->count && layer->kind != SLI_GAME_DRAWN)
+        if (!layer->objects && layer->count && layer->kind != SLI_GAME_DRAWN &&
+            layer->kind != SLI_GAME_PASS)
             floor &= layer->kind == SLI_GAME_FLOOR && layer->count < layer->squares;
     }
     return floor;
@@ -275,6 +279,7 @@ sl_status sli_tiled_guess(sli_tiled_reader *reader, const uint32_t *gids, size_t
     uint32_t gid = 0;
     if (layer->squares != count) return SL_OK; // one chunk of several
     SL_TRY(find_most(reader->context, &at, &gid, &most));
+    const sli_tiled_stand stand = sli_tiled_where_objects_stand(reader, gids, columns, rows);
     if (only && floor && empty) {
         reader->guess_why = "where the floor has no tile is a wall";
     } else if (is_inside(reader) && !(gid && ground) && 2 * most >= count &&
@@ -289,6 +294,11 @@ sl_status sli_tiled_guess(sli_tiled_reader *reader, const uint32_t *gids, size_t
                2 * tiles_of_row(&at, rows - 1) >= columns && 4 * tiles_of_row(&at, 0) <= columns) {
         reader->guessed_all = true;
         reader->guess_why = "its tiles lie below and not above, as in a platformer";
+    } else if (only && !floor && stand == SLI_TILED_STAND_ON_EMPTY && 10 * layer->count >= count) {
+        reader->guessed_all = true;
+        reader->guess_why = "all objects stand where it has no tiles";
+    } else if (only && stand == SLI_TILED_STAND_ON_TILES && 10 * empty >= count) {
+        reader->guess_why = "all objects stand on its tiles";
     }
     return SL_OK;
 }
@@ -297,7 +307,8 @@ static sl_status guess(sli_tiled_reader *reader) {
     reader->by = SLI_TILED_BY_GUESS;
     for (size_t i = reader->seen.count; i-- > 0;) {
         const sli_tiled_seen *layer = &reader->seen.items[i];
-        if (!layer->objects && layer->count && layer->kind != SLI_GAME_DRAWN)
+        if (!layer->objects && layer->count && layer->kind != SLI_GAME_DRAWN &&
+            layer->kind != SLI_GAME_PASS)
             reader->guess_layer = i;
     }
     SL_TRY(sli_tiled_read_again(reader));
