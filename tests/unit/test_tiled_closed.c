@@ -177,11 +177,40 @@ static void test_where_objects_stand(void **state) {
                           "f:1: nothing in it says what is solid");
 }
 
+#define FULL                                                                                       \
+    "1,1,1,1,1,1,1,1,1,1,1,1, 1,1,1,1,1,1,1,1,1,1,1,1, 1,1,1,1,1,1,1,1,1,1,1,1, "                  \
+    "1,1,1,1,1,1,1,1,1,1,1,1, 1,1,1,1,1,1,1,1,1,1,1,1, 1,1,1,1,1,1,1,1,1,1,1,1, "                  \
+    "1,1,1,1,1,1,1,1,1,1,1,1, 1,1,1,1,1,1,1,1,1,1,1,1"
+#define BOXES BOX("0", "0", "8", "8") BOX("16", "0", "8", "8") BOX("32", "0", "8", "8")
+
+/// Four objects or more of which nothing is said, half of their layer, are solid where nothing else
+/// is.
+static void test_bare_objects(void **state) {
+    (void)state;
+    const char *exit = "<object name='exit' x='80' y='40' width='8' height='8'/>";
+    char text[4000];
+    snprintf(text, sizeof text, "%s%s%s",
+             "<map width='12' height='8' tilewidth='8' tileheight='8'>" SET LAYER(
+                 "a", FULL) "<objectgroup name='Objects'>" BOXES BOX("48", "0", "8", "8"),
+             exit, "</objectgroup></map>");
+    assert_share(text, 92, 0, 4);
+    const char *texts[] = {MAP(SET LAYER("a", FULL) THINGS(BOXES)),
+                           MAP(SET LAYER("a", FULL) "<objectgroup name='zones'>" BOXES BOX(
+                               "48", "0", "8", "8") "</objectgroup>")};
+    for (int i = 0; i < 2; i++)
+        assert_refused_of(sli_map_read_tmx, NULL, texts[i], strlen(texts[i]), SL_BAD_INPUT,
+                          "f:1: nothing in it says what is solid");
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_solid),           cmocka_unit_test(test_outlines),
-        cmocka_unit_test(test_shapes_of_tiles), cmocka_unit_test(test_void),
-        cmocka_unit_test(test_refused),         cmocka_unit_test(test_where_objects_stand),
+        cmocka_unit_test(test_solid),
+        cmocka_unit_test(test_outlines),
+        cmocka_unit_test(test_shapes_of_tiles),
+        cmocka_unit_test(test_void),
+        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_bare_objects),
+        cmocka_unit_test(test_where_objects_stand),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

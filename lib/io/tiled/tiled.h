@@ -226,6 +226,7 @@ typedef enum sli_tiled_by {
     SLI_TILED_BY_NAME,    ///< names of layers let expect it: trees, platforms
     SLI_TILED_BY_TERRAIN, ///< tiles' terrains
     SLI_TILED_BY_SET,     ///< names of tilesets
+    SLI_TILED_BY_BARE,    ///< objects that have a shape and say nothing: what else are they for?
     SLI_TILED_BY_GUESS,   ///< the look of one layer
 } sli_tiled_by;
 
@@ -268,6 +269,7 @@ typedef struct sli_tiled_reader {
     size_t guess_layer;               ///< by a guess: the layer,
     uint32_t guessed;                 ///< the tile that is taken as solid (0: empty squares)
     bool guessed_all;                 ///< or all tiles are
+    bool bare;                        ///< the layer at hand has objects that say nothing
     bool void_is_solid;               ///< as the options ask
     bool walls_are_pictures;          ///< of layers that are named for what stops
     const char *believed_not;         ///< the first layer whose tiles say too much
@@ -370,6 +372,10 @@ typedef enum sli_tiled_stand {
     SLI_TILED_STAND_ON_EMPTY, ///< the same, on squares without tiles
 } sli_tiled_stand;
 
+/// Whether an object is a rectangle, an ellipse or a polygon of which nothing is said.
+bool sli_tiled_is_bare(const sli_json *object, const sli_tiled_shape *shape);
+/// Whether these are at least four in a layer, and half of its objects.
+bool sli_tiled_has_bare(const sli_json *layer);
 /// Where the map's objects stand on a layer of tiles that covers all of it.
 sli_tiled_stand sli_tiled_where_objects_stand(const sli_tiled_reader *reader, const uint32_t *gids,
                                               size_t columns, size_t rows);

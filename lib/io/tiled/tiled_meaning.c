@@ -2,7 +2,8 @@
 ///
 /// After the firm words come weaker ones, and the first that gives anything decides: names of
 /// layers that stand for something solid (platforms, trees), terrains named Wall, tilesets named
-/// walls. At last one layer is looked at, and only rules that hold for few maps count:
+/// walls, objects of which nothing is said. At last one layer is looked at, and only rules that
+/// hold for few maps count:
 ///
 /// - Where the only layer of tiles is named for a floor, there is a wall where it has no tile.
 /// - Where the map or a tileset is named for a dungeon or a sewer, and one tile covers at least
@@ -469,8 +470,12 @@ static sl_status tell_edge_only(const sli_tiled_reader *reader) {
 }
 
 sl_status sli_tiled_tell_meaning(const sli_tiled_reader *reader) {
-    static const char *const by[] = {"", "tiles that say so of layers below and above the player",
-                                     "names of layers", "terrains", "names of tilesets"};
+    static const char *const by[] = {"",
+                                     "tiles that say so of layers below and above the player",
+                                     "names of layers",
+                                     "terrains",
+                                     "names of tilesets",
+                                     "objects of which nothing is said"};
     const layer_text taken = list_layers(reader, true), others = list_layers(reader, false);
     const char *file = reader->map->file->name;
     if (reader->sets.missing && reader->lost_tiles)

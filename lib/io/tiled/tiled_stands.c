@@ -55,3 +55,29 @@ sli_tiled_stand sli_tiled_where_objects_stand(const sli_tiled_reader *reader, co
            : !s.on_empty ? SLI_TILED_STAND_ON_TILES
                          : SLI_TILED_STAND_UNKNOWN;
 }
+
+bool sli_tiled_is_bare(const sli_json *object, const sli_tiled_shape *shape) {
+    static const char *const words[] = {"name", "type", "class", "template"};
+    const sli_json properties = sli_json_member(object, "properties");
+    bool bare = shape->kind < SLI_TILED_POLYLINE && !json_array_size(properties.value) &&
+                !json_object_size(properties.value);
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        bare &= !*sli_json_text_of(object, words[i]);
+    return bare && (shape->kind == SLI_TILED_POLYGON || (shape->width > 0 && shape->height > 0));
+}
+
+bool sli_tiled_has_bare(const sli_json *layer) {
+    enum { LEAST = 4 };
+    const sli_json objects = sli_json_member(layer, "objects");
+    const char *name = sli_json_text_of(layer, "name");
+    const size_t all = json_array_size(objects.value);
+    size_t count = 0;
+    if (sli_game_kind_of(name) != SLI_GAME_UNSAID || sli_game_says_other(name)) return false;
+    for (size_t i = 0; i < all; i++) {
+        const sli_json object = sli_json_item(&objects, i);
+        sli_tiled_shape shape;
+        if (sli_tiled_read_shape(&object, &shape) != SL_OK) return false;
+        count += sli_tiled_is_bare(&object, &shape);
+    }
+    return count >= LEAST && 2 * count >= all;
+}
