@@ -125,6 +125,11 @@ static void test_shapes_of_tiles(void **state) {
     NONE ", 0,1,1,1,1,1,1,0,0,0,0,0, 0,1,0,0,0,0,1,0,0,0,0,0, 0,1,0,0,0,0,1,0,0,0,0,0, "           \
          "0,1,0,0,0,0,1,0,0,0,0,0, 0,1,1,1,1,1,1,0,0,0,0,0, " NONE ", " NONE
 
+#define FULL                                                                                       \
+    "1,1,1,1,1,1,1,1,1,1,1,1, 1,1,1,1,1,1,1,1,1,1,1,1, 1,1,1,1,1,1,1,1,1,1,1,1, "                  \
+    "1,1,1,1,1,1,1,1,1,1,1,1, 1,1,1,1,1,1,1,1,1,1,1,1, 1,1,1,1,1,1,1,1,1,1,1,1, "                  \
+    "1,1,1,1,1,1,1,1,1,1,1,1, 1,1,1,1,1,1,1,1,1,1,1,1"
+
 /// Squares without tiles at the edge are solid where walls part them from all floor, unless a start
 /// says what is inside. One layer of floor is walled by its gaps, though a layer of walls is empty.
 static void test_void(void **state) {
@@ -136,6 +141,11 @@ static void test_void(void **state) {
         MAP(SET LAYER("floor", FLOORS) LAYER("walls", NONE ", " NONE ", " NONE ", " NONE ", " NONE
                                                            ", " NONE ", " NONE ", " NONE)),
         12, 0, 0);
+    // So is the sea about an island; not a meadow.
+    assert_share(MAP(SET LAYER("Ocean", FULL) LAYER("base", FLOORS) LAYER("walls", WALLS)), 12, 0,
+                 0);
+    assert_share(MAP(SET LAYER("Grass", FULL) LAYER("base", FLOORS) LAYER("walls", WALLS)), 78, 0,
+                 18);
     // Tiles under a solid object are no floor: the rest of this platformer is air.
     assert_share(MAP(SET LAYER("terrain", NONE ", " NONE ", " NONE ", " NONE ", " NONE ", " NONE
                                                ", 1,1,1,1,1,1,1,1,0,0,0,0, 1,1,1,1,1,1,1,1,0,0,0,0")
@@ -177,10 +187,6 @@ static void test_where_objects_stand(void **state) {
                           "f:1: nothing in it says what is solid");
 }
 
-#define FULL                                                                                       \
-    "1,1,1,1,1,1,1,1,1,1,1,1, 1,1,1,1,1,1,1,1,1,1,1,1, 1,1,1,1,1,1,1,1,1,1,1,1, "                  \
-    "1,1,1,1,1,1,1,1,1,1,1,1, 1,1,1,1,1,1,1,1,1,1,1,1, 1,1,1,1,1,1,1,1,1,1,1,1, "                  \
-    "1,1,1,1,1,1,1,1,1,1,1,1, 1,1,1,1,1,1,1,1,1,1,1,1"
 #define BOXES BOX("0", "0", "8", "8") BOX("16", "0", "8", "8") BOX("32", "0", "8", "8")
 
 /// Four objects or more of which nothing is said, half of their layer, are solid where nothing else

@@ -325,6 +325,10 @@ static void test_terrains(void **state) {
                                                                           CSV("9,1,2,9,9,9")))
     assert_walls(TWO_SETS("Walls"), TWO_TILES);
     assert_refused(TWO_SETS("overworld"), UNSAID);
+    // A set that all tiles are of says nothing.
+    assert_refused(MAP("<tileset firstgid='1' name='Walls' tilewidth='8' tileheight='8'/>" LAYER(
+                       "a", CSV("1,2,0,1,1,1"))),
+                   UNSAID);
 }
 
 /// Tilesets of JSON files before Tiled 1.2 have their tiles by number, and properties apart.

@@ -387,6 +387,18 @@ static sl_status fail_missing(const sli_tiled_reader *reader) {
     return sli_tiled_fail_unsaid(reader, why);
 }
 
+/// Whether nearly all tiles of the map are taken, as the name of its only tileset says: that one
+/// says nothing. What was taken is forgotten then.
+static bool takes_all(sli_tiled_reader *reader) {
+    size_t all = 0;
+    for (size_t i = 0; i < reader->seen.count; i++)
+        all += reader->seen.items[i].objects ? 0 : (size_t)reader->seen.items[i].count;
+    if (reader->by != SLI_TILED_BY_SET || 10 * reader->solid_tiles < 9 * all) return false;
+    for (size_t i = 0; i < reader->seen.count; i++) reader->seen.items[i].taken = false;
+    reader->solid_tiles = 0;
+    return true;
+}
+
 sl_status sli_tiled_find_meaning(sli_tiled_reader *reader) {
     if (reader->void_is_solid) return SL_OK;
     if (reader->unknown_tiles) return fail_missing(reader);
@@ -401,7 +413,7 @@ sl_status sli_tiled_find_meaning(sli_tiled_reader *reader) {
         if (by == SLI_TILED_BY_NAME && !reader->best) continue;
         reader->by = (sli_tiled_by)by;
         SL_TRY(sli_tiled_read_again(reader));
-        if (sli_tiled_taken(reader)) return SL_OK;
+        if (sli_tiled_taken(reader) && !takes_all(reader)) return SL_OK;
     }
     // A layer for walls that has none: all is open but what is beyond the map, or the floor.
     if (reader->empty_layers && !only_floor(reader)) {

@@ -3,7 +3,9 @@
 /// so they are open; where floor leads to them it is told, and `--layers void` makes them solid.
 ///
 /// In a map without a start, those that lie at its edge are solid where walls part them from floor,
-/// at nine of ten places at least: else they would be taken for a room.
+/// at nine of ten places at least: else they would be taken for a room. The sea about an island is
+/// like them: squares that have nothing but a tile of a layer that is named for water and covers
+/// half of the map.
 #include "io/tiled/tiled.h"
 
 #include <math.h>
@@ -17,8 +19,8 @@ typedef struct field {
     sli_tiled_range range; ///< of all tiles
     bool pictures;         ///< there is a layer that is a picture
     size_t columns, rows;
-    char *squares; ///< ' ' without a tile, '.' with one, '#' solid; NULL while the range is looked
-                   ///< for
+    char *squares; ///< ' ' without a tile, '.' with one, '~' of water alone, '#' solid; NULL while
+                   ///< the range is looked for
 } field;
 
 bool sli_tiled_only_void(const char *layers) {
@@ -28,13 +30,19 @@ bool sli_tiled_only_void(const char *layers) {
     return any && only;
 }
 
-static void take_gids(field *f, const sli_tiled_range *at, const uint32_t *gids) {
+static void take_gids(field *f, const sli_tiled_range *at, const uint32_t *gids, bool water) {
     const size_t width = (size_t)(at->right - at->left);
+    const size_t all = width * (size_t)(at->bottom - at->top);
+    size_t count = 0;
+    for (size_t i = 0; i < all && water; i++) count += (gids[i] & SLI_TILED_TILE) != 0;
+    water &= 2 * count >= all;
     for (int64_t y = at->top; y < at->bottom; y++)
         for (int64_t x = at->left; x < at->right; x++) {
             const size_t i = (size_t)(y - at->top) * width + (size_t)(x - at->left);
             if (!(gids[i] & SLI_TILED_TILE)) continue;
-            f->squares[(size_t)(y - f->range.top) * f->columns + (size_t)(x - f->range.left)] = '.';
+            char *to =
+                &f->squares[(size_t)(y - f->range.top) * f->columns + (size_t)(x - f->range.left)];
+            *to = !water ? '.' : *to == ' ' ? '~' : *to;
         }
 }
 
@@ -68,7 +76,8 @@ static sl_status look_at_block(field *f, const sli_json *layer, const sli_json *
     }
     uint32_t *gids;
     SL_TRY(sli_tiled_read_data(layer, &data, (size_t)(columns * rows), &gids));
-    take_gids(f, &at, gids);
+    const bool water = sli_game_kind_of(sli_json_text_of(layer, "name")) == SLI_GAME_WATER;
+    take_gids(f, &at, gids, water);
     sl_free(f->reader->context, gids);
     return SL_OK;
 }
@@ -129,7 +138,7 @@ static sl_point middle_of(const field *f, size_t i) {
     return sli_affine_apply(f->reader->pen.affine, (sl_point){x * step.x, y * step.y});
 }
 
-/// Puts in the squares whose middles lie in solid objects.
+/// Puts in the squares whose middles lie in solid objects, and those of tiles with solid shapes.
 static sl_status take_closed(field *f) {
     const sli_tiled_reader *reader = f->reader;
     for (size_t i = 0; i < reader->closed.count; i++) {
@@ -148,7 +157,7 @@ static sl_status take_closed(field *f) {
         for (size_t y = (size_t)y0; y < (size_t)y1; y++)
             for (size_t x = (size_t)x0; x < (size_t)x1; x++) {
                 const size_t at = y * f->columns + x;
-                if (f->squares[at] != '#' && sli_tiled_is_in(reader, closed, middle_of(f, at)))
+                if (closed->of_tile || sli_tiled_is_in(reader, closed, middle_of(f, at)))
                     f->squares[at] = '#';
             }
     }
@@ -171,21 +180,23 @@ static bool is_between(const sl_map *map, sl_point a, sl_point b) {
 }
 
 /// The places where floor and squares without a tile lie side by side, and those of them where no
-/// wall of an object lies between. So many places are looked at and no more.
+/// wall of an object lies between; water counts as `water`. So many places are looked at and no
+/// more.
 typedef struct border {
     size_t all, open;
 } border;
 
-static border find_border(const field *f) {
+static border find_border(const field *f, char water) {
     border found = {0};
     for (size_t i = 0; i < f->columns * f->rows && found.all < PAIRS; i++) {
         const bool ends = (i + 1) % f->columns == 0;
         const size_t beside[] = {ends ? i : i + 1, i + f->columns};
         for (int k = 0; k < 2; k++) {
             const size_t j = beside[k];
-            if (j >= f->columns * f->rows || f->squares[i] == '#' || f->squares[j] == '#' ||
-                f->squares[i] == f->squares[j])
-                continue;
+            if (j >= f->columns * f->rows) continue;
+            const char one = f->squares[i] == '~' ? water : f->squares[i];
+            const char other = f->squares[j] == '~' ? water : f->squares[j];
+            if (one == '#' || other == '#' || one == other) continue;
             found.all++;
             found.open += !is_between(f->reader->pen.map, middle_of(f, i), middle_of(f, j));
         }
@@ -193,7 +204,12 @@ static border find_border(const field *f) {
     return found;
 }
 
-/// Marks the squares without a tile that are at the edge, and those that join them, by 'v'.
+static bool is_void(char square) {
+    return square == ' ' || square == '~';
+}
+
+/// Marks the squares without a tile, or of water, that are at the edge, and those that join them,
+/// by 'v'.
 static sl_status mark_edge(field *f, size_t *marked) {
     const size_t count = f->columns * f->rows;
     size_t *stack = sl_alloc_array(f->reader->context, count, sizeof *stack), top = 0;
@@ -201,7 +217,7 @@ static sl_status mark_edge(field *f, size_t *marked) {
     for (size_t i = 0; i < count; i++) {
         const size_t x = i % f->columns, y = i / f->columns;
         const bool edge = !x || !y || x + 1 == f->columns || y + 1 == f->rows;
-        if (!edge || f->squares[i] != ' ') continue;
+        if (!edge || !is_void(f->squares[i])) continue;
         f->squares[i] = 'v';
         stack[top++] = i;
     }
@@ -210,7 +226,7 @@ static sl_status mark_edge(field *f, size_t *marked) {
         const size_t beside[] = {x ? i - 1 : i, x + 1 < f->columns ? i + 1 : i,
                                  y ? i - f->columns : i, y + 1 < f->rows ? i + f->columns : i};
         for (int k = 0; k < 4; k++) {
-            if (f->squares[beside[k]] != ' ') continue;
+            if (!is_void(f->squares[beside[k]])) continue;
             f->squares[beside[k]] = 'v';
             stack[top++] = beside[k];
             ++*marked;
@@ -245,29 +261,38 @@ static sl_status fill_edge(field *f) {
     if (!marked) return SL_OK;
     sl_note(
         f->reader->context,
-        "%s: %zu squares at its edge have no tile, and walls part them from floor: they are taken "
-        "as solid",
+        "%s: %zu squares at its edge have no tile, or nothing but water, and walls part them from "
+        "floor: they are taken as solid",
         f->reader->map->file->name, marked);
     return fill(f, 'v');
 }
 
+/// Whether what is at the edge may be filled, and walls part it from floor but for a place or two:
+/// who draws them means that one does not get there.
+static bool is_apart(const field *f, size_t empty, size_t floor) {
+    const sli_tiled_reader *reader = f->reader;
+    if (!empty || 10 * floor < empty + floor || reader->options->layers || reader->by ||
+        has_start(reader))
+        return false;
+    const border found = find_border(f, ' ');
+    return 10 * found.open <= found.all && found.all < PAIRS;
+}
+
 static sl_status settle(field *f, const char *layers) {
-    size_t empty = 0, floor = 0;
+    size_t empty = 0, floor = 0, water = 0;
     take_solid(f);
     SL_TRY(take_closed(f));
     for (size_t i = 0; i < f->columns * f->rows; i++) {
         empty += f->squares[i] == ' ';
         floor += f->squares[i] == '.';
+        water += f->squares[i] == '~';
     }
     if (f->reader->void_is_solid) return fill(f, ' ');
+    if (f->pictures || f->reader->guessed_all) return SL_OK;
+    if (is_apart(f, empty + water, floor)) return fill_edge(f);
     // In a platformer a little is drawn in much air.
-    if (!empty || 10 * floor < empty + floor || f->pictures || f->reader->guessed_all) return SL_OK;
-    const border found = find_border(f);
-    // Who draws walls there but for a place or two means that one does not get there.
-    const bool apart = 10 * found.open <= found.all && found.all < PAIRS;
-    if (apart && !f->reader->shapes && !layers && !f->reader->by && !has_start(f->reader))
-        return fill_edge(f);
-    if (!found.open) return SL_OK;
+    floor += water;
+    if (!empty || 10 * floor < empty + floor || !find_border(f, '.').open) return SL_OK;
     sl_note(f->reader->context,
             "%s: %zu squares have no tile and are open, and floor leads to them with no wall "
             "between: --layers '%s%svoid' takes them as solid",
