@@ -35,9 +35,13 @@ static sl_status read_level(sli_ldtk *reader, const sli_json *level, sli_ldtk_pl
     const sli_json layers = sli_json_member(level, "layerInstances");
     const sli_json path = sli_json_member(level, "externalRelPath");
     const sli_json height = sli_json_member(level, "pxHei");
+    const sli_json width = sli_json_member(level, "pxWid");
     int64_t pixels;
     SL_TRY(sli_json_whole(&height, 1, SLI_LDTK_MOST_PIXELS, &pixels));
     const double bottom = at.y + (double)pixels;
+    const sl_box own = {{at.x, at.y}, {at.x + sli_json_number_or_0(&width), bottom}};
+    SL_TRY(SL_ARRAY_ROOM(reader->context, &reader->pages, 1));
+    reader->pages.items[reader->pages.count++] = own;
     reader->bottom = reader->levels ? fmax(reader->bottom, bottom) : bottom;
     if (!reader->levels) {
         const char *name = sli_json_text_of(level, "identifier");
@@ -193,13 +197,21 @@ static void give_account(const sli_ldtk *reader, const sl_map *map, const sli_ld
         {reader->other_layers, "other layer", "other layers"},
         {reader->entities, "entity", "entities"}};
     char without[SLI_TALLY_TEXT];
+    const char *world = reader->levels > 1 ? " and all of its world" : "";
     const size_t count = reader->layers ? reader->layers : reader->tile_layers;
+    if (reader->walls.count) {
+        sl_note(reader->context,
+                "%s: level %s%s: %zu entities that are named for walls give %zu walls%s; unit: "
+                "pixels, y = %s - the file's y",
+                reader->name, reader->taken, world, reader->walls.count, map->wall_count,
+                sli_tally_write("; left out: ", left, 4, without), bottom);
+        return;
+    }
     sl_note(reader->context,
             "%s: level %s%s: %zu %s layer%s give%s %zu walls; solid are %s%s; unit: pixels, "
             "y = %s - the file's y",
-            reader->name, reader->taken, reader->levels > 1 ? " and all of its world" : "", count,
-            reader->layers ? "IntGrid" : "tile", count == 1 ? "" : "s", count == 1 ? "s" : "",
-            map->wall_count,
+            reader->name, reader->taken, world, count, reader->layers ? "IntGrid" : "tile",
+            count == 1 ? "" : "s", count == 1 ? "s" : "", map->wall_count,
             !reader->layers      ? "tiles whose layer or enum says so"
             : reader->told.named ? "values by their names"
                                  : "all values but 0",
@@ -218,7 +230,7 @@ static sl_status check_any(const sli_ldtk *reader, bool unsure) {
                  "map.png",
                  reader->tile_names.text, reader->name, reader->taken, reader->tiles_name,
                  reader->tiles_asked);
-    if (!reader->layers && !reader->tile_layers)
+    if (!reader->layers && !reader->tile_layers && !reader->walls.count)
         return sli_json_fail(&reader->root,
                              "level %s has no IntGrid layer%s, and no layer of tiles whose name or "
                              "whose tileset's enums say what is solid (Wall, Solid, Collision)%s",
@@ -295,14 +307,17 @@ static sl_status read_file(sli_ldtk *reader, sl_map *map) {
     sli_ldtk_settled settled;
     SL_TRY(sli_json_object(&reader->root));
     SL_TRY(levels.value || worlds.value ? read_project(reader) : read_alone(reader));
+    SL_TRY(sli_ldtk_settle_walls(reader));
     sli_ldtk_settle_ground(reader, &settled);
     SL_TRY(check_any(reader, settled.unsure));
     reader->things.top = reader->bottom;
     const sli_tiles_options options = {.top = reader->bottom,
                                        .solid_between = true,
                                        .all_closed = true,
+                                       .other_ground = reader->walls.count > 0,
                                        .things = &reader->things};
     SL_TRY(sli_tiles_add_walls(reader->context, &reader->tiles, reader->name, &options, map));
+    SL_TRY(sli_ldtk_add_walls(reader, map));
     strcpy(map->unit, "px");
     map->source.transform = sli_y_down(reader->bottom, 1);
     give_account(reader, map, &settled);
@@ -373,6 +388,8 @@ sl_status sli_map_read_ldtk(sl_context *context, const char *name, const char *t
     sli_tiles_destroy(context, &reader.tiles);
     sli_things_destroy(&reader.things);
     sl_free(context, reader.others.items);
+    sl_free(context, reader.walls.items);
+    sl_free(context, reader.pages.items);
     sli_json_close(&file);
     if (status == SL_OK)
         *map = read;

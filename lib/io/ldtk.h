@@ -53,6 +53,10 @@ typedef struct sli_ldtk {
     sli_tiles tiles;
     sli_things things;
     SL_ARRAY(sl_point) others; ///< middles of entities that are neither starts nor doors
+    SL_ARRAY(sl_box) walls;    ///< of entities that are named for walls
+    bool wall_sized;           ///< one of these is larger than a cell
+    double wall_step;          ///< the size of the cells of their layer
+    SL_ARRAY(sl_box) pages;    ///< of the levels taken, from the world's origin, y down
     double bottom;   ///< the largest y of the levels taken, in pixels from the world's origin
     int64_t depth;   ///< of the levels taken
     char taken[160]; ///< the first level that is taken, as the account shows it
@@ -90,5 +94,15 @@ typedef struct sli_ldtk_place {
 
 /// Reads the layers of a level: those with cells, tiles and entities.
 sl_status sli_ldtk_read_layers(sli_ldtk *reader, const sli_json *layers, sli_ldtk_place at);
+
+/// Reads the entities of a layer: starts, doors, the places of others; with `walls` the boxes of
+/// those that are named for walls.
+sl_status sli_ldtk_read_entities(sli_ldtk *reader, const sli_json *layer, sli_ldtk_place at,
+                                 bool walls);
+/// Drops the boxes of walls where a layer says what is solid, or all of them are marks. To be
+/// called when all levels are read.
+sl_status sli_ldtk_settle_walls(sli_ldtk *reader);
+/// Adds what is left of them to the map as solid ground.
+sl_status sli_ldtk_add_walls(const sli_ldtk *reader, sl_map *map);
 
 #endif

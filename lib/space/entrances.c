@@ -358,6 +358,17 @@ static bool says_ground(const sl_map *map) {
     return any;
 }
 
+/// Whether each wall says what is solid and what is open: then all that is open is inside.
+static bool knows_ground(const sl_map *map) {
+    const uint32_t left = SL_SOLID_LEFT | SL_OPEN_RIGHT, right = SL_SOLID_RIGHT | SL_OPEN_LEFT;
+    bool all = true;
+    for (size_t i = 0; i < map->wall_count; i++) {
+        const uint32_t ground = map->walls[i].ground;
+        all &= (ground & left) == left || (ground & right) == right;
+    }
+    return all;
+}
+
 /// Whether a side of a group is the jamb of an opening: both of its ends are in `ends`.
 static bool has_jamb(const finder *f, const group *g, const sl_bits *ends) {
     for (uint32_t i = 0; i < g->count; i++) {
@@ -835,7 +846,7 @@ static sl_status find(sl_context *context, sl_map *map) {
     if (!(shorter > 0)) return SL_OK;
     if (map->entrance > 0 && !doors)
         return try_by(context, map, SL_ENTRANCE_GIVEN, map->entrance, 0, &found);
-    if (usual < 0.6 * shorter)
+    if (usual < 0.6 * shorter && !knows_ground(map))
         SL_TRY(doors ? find_by_doors(context, map, shorter / 3, &found)
                      : try_by(context, map, SL_ENTRANCE_UNIT, usual, 0, &found));
     if (found || says_ground(map)) return SL_OK;

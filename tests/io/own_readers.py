@@ -225,6 +225,9 @@ def tiled(path):
     if places and data.get("infinite"):
         low, high = ([end(p[i] for p in places) for i in (0, 1)] for end in (min, max))
         drawing.origin, drawing.extent = tuple(low), (high[0] - low[0] + 1, high[1] - low[1] + 1)
+    if not places and not data.get("infinite"):
+        width, height = data["width"] * data["tilewidth"], data["height"] * data["tileheight"]
+        drawing.line("frame, seen through", [(0, 0), (width, 0), (width, height), (0, height)], True)
     yield drawing
 
 

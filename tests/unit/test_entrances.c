@@ -487,6 +487,21 @@ static void test_closed(void **state) {
     close_plan(&p);
 }
 
+/// Where all walls say what is solid and what is open, pockets of rock are no rooms, and their
+/// openings no doubt.
+static void test_known_ground(void **state) {
+    (void)state;
+    plan p;
+    read_plan(
+        "unit m\nopen 0 0 20 0 20 10 16 10 16 16 12 16 12 15.5 15.5 15.5 15.5 10.5 10 10.5 10 "
+        "15.5 10.6 15.5 10.6 16 9.5 16 9.5 10 0 10\n",
+        &p);
+    assert_true(is_inside(&p, (sl_point){1, 1}) && !is_inside(&p, (sl_point){13, 13}));
+    assert_true(p.map.interior.doubtful_width == 0);
+    assert_int_equal(p.map.interior.by, SL_ENTRANCE_NONE);
+    close_plan(&p);
+}
+
 /// Starts go before it, and what was found is found again without doubling seams.
 static void test_again(void **state) {
     (void)state;
@@ -646,6 +661,7 @@ int main(void) {
         cmocka_unit_test(test_by_doors),      cmocka_unit_test(test_corridor),
         cmocka_unit_test(test_thick_walls),   cmocka_unit_test(test_roomiest),
         cmocka_unit_test(test_slits),         cmocka_unit_test(test_window_at_border),
+        cmocka_unit_test(test_known_ground),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

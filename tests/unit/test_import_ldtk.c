@@ -199,6 +199,31 @@ static void test_layers(void **state) {
                  NULL, NULL, "wall 4 19 28 19\nwall 4 3 28 3\nwall 4 3 4 19\nwall 28 3 28 19\n");
 }
 
+#define ENTITY(name, x, y, w, h)                                                                   \
+    "{\"__identifier\": \"" name "\", \"px\": [" x ", " y "], \"__pivot\": [0, 0], \"width\": " w  \
+    ", \"height\": " h "}"
+#define ENTITIES(list)                                                                             \
+    "{\"__identifier\": \"Things\", \"__type\": \"Entities\", \"__gridSize\": 8, "                 \
+    "\"entityInstances\": [" list "]}"
+
+/// Entities that are named for walls and drawn as boxes are walls where no layer is; those that are
+/// all one cell large are marks.
+static void test_walls_as_entities(void **state) {
+    (void)state;
+    const char *box = "wall 0 16 24 16\nwall 0 0 24 0\nwall 0 0 0 16\nwall 24 0 24 16\n"
+                      "wall 4 2 16 2\nwall 16 2 16 8\nwall 16 8 4 8\nwall 4 8 4 2\n";
+    assert_walls(PROJECT("", LEVEL("A", "0", "0",
+                                   ENTITIES(ENTITY("Wall", "4", "8", "12",
+                                                   "6") "," ENTITY("Enemy", "0", "0", "8", "8")))),
+                 NULL, NULL, box);
+    assert_walls(PROJECT("", LEVEL("A", "0", "0",
+                                   GRID("Any", "0,1,2,0,0,0",
+                                        "") "," ENTITIES(ENTITY("Wall", "4", "8", "12", "6")))),
+                 NULL, NULL, TWO_TILES);
+    assert_refused(PROJECT("", LEVEL("A", "0", "0", ENTITIES(ENTITY("Wall", "8", "8", "8", "8")))),
+                   "f: level A has no IntGrid layer, and no layer of tiles");
+}
+
 #define WORLD                                                                                      \
     LEVEL("A", "-8", "100", GRID("Any", "1,0,0,1,0,0", ""))                                        \
     "," LEVEL(                                                                                     \
@@ -398,6 +423,7 @@ static void test_memory(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_values_by_meaning),
+        cmocka_unit_test(test_walls_as_entities),
         cmocka_unit_test(test_memory),
         cmocka_unit_test(test_values_by_what_stands),
         cmocka_unit_test(test_empty_cells),

@@ -481,7 +481,7 @@ static void test_doors_without_passage(void **state) {
            "<object name='door' x='8' y='8' width='8' height='8'/>"
            "<object x='40' y='8' width='8' height='8'/></objectgroup></map>";
     read_things(sli_map_read_tmx, text, &options, things, &walls, NULL);
-    assert_int_equal(walls, 8);
+    assert_int_equal(walls, 12);
     assert_note(sli_map_read_tmx, text, &options,
                 "f:1: door 'door' at 12 12 in the file is taken as a wall: no passage is found "
                 "there\n");

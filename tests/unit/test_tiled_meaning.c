@@ -176,7 +176,7 @@ static void test_passing_objects(void **state) {
         "name='Collision'><object name='Goblin' x='8' y='4' width='2' height='2'/>"
         "<object type='trigger' x='8' y='8' width='2' height='2'/>"
         "<object name='chest' x='16' y='8' width='4' height='4'/></objectgroup></map>";
-    assert_walls(box, "wall 16 8 20 8\nwall 20 8 20 4\nwall 20 4 16 4\nwall 16 4 16 8\n");
+    assert_walls(box, "wall 16 8 20 8\nwall 20 8 20 4\nwall 20 4 16 4\nwall 16 4 16 8\n" FRAME);
 }
 
 /// Weaker names count where there are no firm ones, the firmest of them alone.
@@ -325,6 +325,10 @@ static void test_terrains(void **state) {
                                                                           CSV("9,1,2,9,9,9")))
     assert_walls(TWO_SETS("Walls"), TWO_TILES);
     assert_refused(TWO_SETS("overworld"), UNSAID);
+    // A set that all tiles are of says nothing.
+    assert_refused(MAP("<tileset firstgid='1' name='Walls' tilewidth='8' tileheight='8'/>" LAYER(
+                       "a", CSV("1,2,0,1,1,1"))),
+                   UNSAID);
 }
 
 /// Tilesets of JSON files before Tiled 1.2 have their tiles by number, and properties apart.

@@ -30,10 +30,10 @@ static const char *const ground_words[] = {
     "weg",      "chemin",   "camino", "地面",   "草地",
 };
 static const char *const pass_words[] = {
-    "bridge", "ladder",    "stair",    "step",    "door",  "gate",    "air",     "empty",
-    "open",   "walkable",  "passable", "void",    "none",  "nothing", "rope",    "vine",
-    "climb",  "climbable", "spawn",    "start",   "exit",  "zone",    "trigger", "coin",
-    "item",   "player",    "enemy",    "emitter", "trail",
+    "bridge", "ladder",    "stair",    "step",    "door",  "gate",       "air",     "empty",
+    "open",   "walkable",  "passable", "void",    "none",  "nothing",    "rope",    "vine",
+    "climb",  "climbable", "spawn",    "start",   "exit",  "zone",       "trigger", "coin",
+    "item",   "player",    "enemy",    "emitter", "trail", "checkpoint", "finish",
 };
 static const char *const water_words[] = {
     "water",   "lava",   "pit",   "river", "lake",   "sea",   "ocean", "pond",

@@ -398,7 +398,7 @@ static sl_status add_grid(sl_context *context, sli_tiles *tiles, const char *nam
     grid.origin =
         (sl_point){corner.x + all->left * step.x, options->top - (corner.y + all->bottom * step.y)};
     grid.open_outside = !closed;
-    grid.sure = is_only_grid(tiles, all->first);
+    grid.sure = !options->other_ground && is_only_grid(tiles, all->first);
     sl_status status = SL_OK;
     if (options->things) status = sli_things_place(options->things, &grid);
     if (status == SL_OK)

@@ -110,9 +110,10 @@ sl_status sli_tiles_add(sl_context *context, sli_tiles *tiles, const char *name,
                         sl_point step, size_t columns, size_t rows, char **squares);
 
 typedef struct sli_tiles_options {
-    double top;                ///< the files' y that is 0 in the map
-    bool solid_between;        ///< what no block covers is solid; else it is open
-    bool all_closed;           ///< beyond each grid all is solid; else only beyond the first one
+    double top;         ///< the files' y that is 0 in the map
+    bool solid_between; ///< what no block covers is solid; else it is open
+    bool all_closed;    ///< beyond each grid all is solid; else only beyond the first one
+    bool other_ground;  ///< the map has solid ground that is not of squares: it may lie on them
     struct sli_things *things; ///< starts and doors, to be placed among the squares; NULL: none
     /// Makes the walls of a grid, for tiles that are no boxes; NULL for boxes.
     sl_status (*add_walls)(void *user, const sli_grid *grid, sl_map *map);

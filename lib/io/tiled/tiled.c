@@ -104,6 +104,7 @@ static sli_tiled_word word_of_layer(const sli_tiled_reader *reader, const sli_js
     case SLI_TILED_BY_SET:
         return own->kind == SLI_GAME_DRAWN || own->moves ? SLI_TILED_OPEN : SLI_TILED_UNSAID;
     case SLI_TILED_BY_BESIDE:
+    case SLI_TILED_BY_BARE:
     case SLI_TILED_BY_GUESS:
         break;
     }
@@ -338,6 +339,8 @@ static sl_status draw_object(sli_tiled_reader *reader, const sli_json *layer,
     sl_status status = sli_tiled_draw_shape(&reader->pen, shape);
     if (status == SL_OK && stops)
         status = sl_map_walls_stop(reader->context, reader->pen.map, first, stops);
+    else if (status == SL_OK)
+        status = sli_tiled_add_closed(reader, shape->kind, first, false);
     reader->pen.affine = outer;
     return status;
 }
@@ -350,6 +353,12 @@ static sl_status read_object(sli_tiled_reader *reader, const sli_json *layer,
     SL_TRY(read_shape(reader, object, &shape));
     SL_TRY(take_thing(reader, object, at, &is_thing));
     if (is_thing || at->word == SLI_TILED_OPEN) return SL_OK;
+    if (reader->by == SLI_TILED_BY_BARE) {
+        if (!reader->bare || !sli_tiled_is_bare(object, &shape)) return SL_OK;
+        reader->other_objects--;
+        reader->objects++;
+        return draw_object(reader, layer, object, &shape, at, at->stops);
+    }
     const sli_tiled_word own = word_of_object(reader, object, &shape);
     // An enemy or a trigger among walls is none, unless it says so.
     const bool other = own == SLI_TILED_UNSAID && !at->asked &&
@@ -383,6 +392,7 @@ static sl_status read_objects(sli_tiled_reader *reader, const sli_json *layer,
     if (objects.value) SL_TRY(sli_json_array(&objects, &count));
     if (!reader->by) reader->seen.items[reader->at_layer].count = count;
     if (kind) return reader->by ? SL_OK : read_items(reader, layer, at, kind);
+    reader->bare = reader->by == SLI_TILED_BY_BARE && sli_tiled_has_bare(layer);
     sl_status status = SL_OK;
     for (size_t i = 0; status == SL_OK && i < count; i++) {
         const sli_json object = sli_json_item(&objects, i);
@@ -416,7 +426,8 @@ static sl_status read_layer(sli_tiled_reader *reader, const sli_json *layer,
     const size_t before = sli_tiled_taken(reader);
     if (!reader->by) SL_TRY(see_layer(reader, layer, own, objects));
     // Objects that are named for houses and trees may be places only.
-    const bool places = reader->by && objects && own->kind < SLI_GAME_LIKELY;
+    const bool places =
+        reader->by && reader->by != SLI_TILED_BY_BARE && objects && own->kind < SLI_GAME_LIKELY;
     if (objects)
         SL_TRY(places ? SL_OK : read_objects(reader, layer, own));
     else if (own->word != SLI_TILED_OPEN || (!reader->by && sli_tiled_is_start_layer(layer))) {
@@ -526,6 +537,7 @@ static sl_status read_map(sli_tiled_reader *reader) {
     SL_TRY(sli_tiled_look_beside(reader));
     SL_TRY(sli_tiled_read_again(reader));
     if (!reader->solid_layers && !reader->options->layers) SL_TRY(sli_tiled_find_meaning(reader));
+    SL_TRY(sli_tiled_settle_closed(reader));
     SL_TRY(sli_tiled_settle_void(reader));
     SL_TRY(sli_tiled_add_tile_walls(reader));
     const sl_map *map = reader->pen.map;
@@ -556,6 +568,7 @@ static void end_reader(sl_context *context, sli_tiled_reader *reader) {
     sli_tiled_destroy_templates(context, &reader->templates);
     sli_things_destroy(&reader->things);
     sl_free(context, reader->seen.items);
+    sl_free(context, reader->closed.items);
 }
 
 /// Reads a tree, and closes its file.

@@ -226,6 +226,7 @@ typedef enum sli_tiled_by {
     SLI_TILED_BY_NAME,    ///< names of layers let expect it: trees, platforms
     SLI_TILED_BY_TERRAIN, ///< tiles' terrains
     SLI_TILED_BY_SET,     ///< names of tilesets
+    SLI_TILED_BY_BARE,    ///< objects that have a shape and say nothing: what else are they for?
     SLI_TILED_BY_GUESS,   ///< the look of one layer
 } sli_tiled_by;
 
@@ -239,6 +240,15 @@ typedef struct sli_tiled_seen {
     sli_game_kind kind;  ///< by its name, else by that of its group
     uint64_t count, squares;
 } sli_tiled_seen;
+
+/// A closed object that is solid: a number of walls of the pen's map.
+typedef struct sli_tiled_closed {
+    size_t first, count;
+    sl_box box;
+    sli_tiled_kind kind;
+    bool of_tile; ///< the shape of a tile
+    bool solid;   ///< its inside is solid ground
+} sli_tiled_closed;
 
 typedef struct sli_tiled_reader {
     sl_context *context;
@@ -259,6 +269,7 @@ typedef struct sli_tiled_reader {
     size_t guess_layer;               ///< by a guess: the layer,
     uint32_t guessed;                 ///< the tile that is taken as solid (0: empty squares)
     bool guessed_all;                 ///< or all tiles are
+    bool bare;                        ///< the layer at hand has objects that say nothing
     bool void_is_solid;               ///< as the options ask
     bool walls_are_pictures;          ///< of layers that are named for what stops
     const char *believed_not;         ///< the first layer whose tiles say too much
@@ -271,7 +282,10 @@ typedef struct sli_tiled_reader {
     size_t lost_tiles;                                 ///< the same, in solid layers too
     size_t lost_shapes;                                ///< of tiles as objects, not orthogonal
     size_t doors_left_out;                             ///< tiles that are doors and hexagons
-    size_t beside_tiles; ///< solid ones of layers below and above the player
+    size_t beside_tiles;               ///< solid ones of layers below and above the player
+    SL_ARRAY(sli_tiled_closed) closed; ///< objects and shapes of tiles that stop all
+    size_t closed_objects;             ///< of these: objects
+    size_t solid_closed;               ///< of these: whose insides are solid ground
     sli_things things;
     const json_t *start_layer; ///< a layer of chunks that is a start,
     size_t start_tiles;        ///< the tiles of the chunk that it was put into,
@@ -325,6 +339,18 @@ sl_status sli_tiled_settle_void(sli_tiled_reader *reader);
 /// dropped.
 sl_status sli_tiled_read_again(sli_tiled_reader *reader);
 
+// --- closed objects (tiled_closed.c)
+
+/// Remembers an object, or the shape of a tile, that is drawn as the map's walls from `first` on,
+/// if it is closed.
+sl_status sli_tiled_add_closed(sli_tiled_reader *reader, sli_tiled_kind kind, size_t first,
+                               bool of_tile);
+/// Whether a place of the map lies in a closed object.
+bool sli_tiled_is_in(const sli_tiled_reader *reader, const sli_tiled_closed *closed, sl_point at);
+/// Makes the insides of closed objects solid ground, but of those that are outlines of rooms. To be
+/// called when all starts are read, and before walls are added that no object draws.
+sl_status sli_tiled_settle_closed(sli_tiled_reader *reader);
+
 // --- doubts (tiled_beside.c)
 
 /// Refuses a layer of more squares than the limit, before its tiles are unpacked: they may be
@@ -337,6 +363,22 @@ sl_status sli_tiled_check_squares(const sli_tiled_reader *reader, const sli_json
 sl_status sli_tiled_look_beside(sli_tiled_reader *reader);
 /// Whether nearly all squares have tiles, and nearly all of these say that they are solid.
 bool sli_tiled_all_solid(const sli_tiled_sets *sets, const uint32_t *gids, size_t count);
+
+// --- where objects stand (tiled_stands.c)
+
+typedef enum sli_tiled_stand {
+    SLI_TILED_STAND_UNKNOWN,
+    SLI_TILED_STAND_ON_TILES, ///< all small objects, three at least
+    SLI_TILED_STAND_ON_EMPTY, ///< the same, on squares without tiles
+} sli_tiled_stand;
+
+/// Whether an object is a rectangle, an ellipse or a polygon of which nothing is said.
+bool sli_tiled_is_bare(const sli_json *object, const sli_tiled_shape *shape);
+/// Whether these are at least four in a layer, and half of its objects.
+bool sli_tiled_has_bare(const sli_json *layer);
+/// Where the map's objects stand on a layer of tiles that covers all of it.
+sli_tiled_stand sli_tiled_where_objects_stand(const sli_tiled_reader *reader, const uint32_t *gids,
+                                              size_t columns, size_t rows);
 
 // --- what is solid where nothing says it (tiled_meaning.c)
 

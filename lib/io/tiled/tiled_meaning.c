@@ -2,12 +2,15 @@
 ///
 /// After the firm words come weaker ones, and the first that gives anything decides: names of
 /// layers that stand for something solid (platforms, trees), terrains named Wall, tilesets named
-/// walls. At last one layer is looked at, and only rules that hold for few maps count:
+/// walls, objects of which nothing is said. At last one layer is looked at, and only rules that
+/// hold for few maps count:
 ///
 /// - Where the only layer of tiles is named for a floor, there is a wall where it has no tile.
 /// - Where the map or a tileset is named for a dungeon or a sewer, and one tile covers at least
 ///   half of the lowest layer and of its edge, that tile is rock, unless the layer is named for
 ///   ground or floor.
+/// - Where three or more objects stand on the only layer, all on squares without tiles or all on
+///   tiles, what they do not stand on is solid.
 /// - Where the only layer has tiles all around its edge, or below and not above, and is empty for
 ///   a good part, the tiles are walls or the ground of a platformer.
 ///
@@ -92,6 +95,36 @@ static sl_status choose_tiles(const sli_tiled_reader *reader, const sli_tiled_se
     return status;
 }
 
+/// Whether the layer with the most tiles covers less than a quarter of each side of the map and up
+/// to half of all: its tiles may be the floor of rooms, and the squares without tiles solid.
+static sl_status looks_like_rooms(const sli_tiled_reader *reader, const sli_tiled_seen *seen,
+                                  bool *rooms) {
+    const sli_json layer = {.file = reader->map->file, .value = seen->layer};
+    const sli_json data = sli_json_member(&layer, "data"), width = sli_json_member(&layer, "width");
+    const size_t count = (size_t)seen->squares, columns = (size_t)sli_json_number_or_0(&width);
+    uint32_t *gids;
+    size_t sides[4] = {0};
+    *rooms = false;
+    for (size_t i = 0; i < reader->seen.count; i++)
+        if (!reader->seen.items[i].objects && reader->seen.items[i].count > seen->count)
+            return SL_OK;
+    if (seen->objects || 2 * seen->count > count || !data.value || !columns || count % columns)
+        return SL_OK;
+    SL_TRY(sli_tiled_read_data(&layer, &data, count, &gids));
+    for (size_t i = 0; i < count; i++) {
+        const size_t x = i % columns, y = i / columns;
+        const bool tile = gids[i] & SLI_TILED_TILE;
+        sides[0] += tile && y == 0;
+        sides[1] += tile && i + columns >= count;
+        sides[2] += tile && x == 0;
+        sides[3] += tile && x + 1 == columns;
+    }
+    sl_free(reader->context, gids);
+    *rooms = 4 * sides[0] < columns && 4 * sides[1] < columns && 4 * sides[2] < count / columns &&
+             4 * sides[3] < count / columns;
+    return SL_OK;
+}
+
 /// ", as in:" and a command that takes the example.
 static sl_status say_example(const sli_tiled_reader *reader, const sli_tiled_seen *example,
                              char *text, size_t size) {
@@ -101,10 +134,17 @@ static sl_status say_example(const sli_tiled_reader *reader, const sli_tiled_see
     const bool same = !example->objects && example->count == example->squares && !*tiles;
     const sli_tiled_seen *objects = same ? find_objects(reader) : NULL;
     if (objects) example = objects;
+    bool rooms;
+    SL_TRY(looks_like_rooms(reader, example, &rooms));
     const sli_shown name = sli_show((sli_word){example->name, strlen(example->name)});
     if (same && !objects)
         snprintf(text, size, " (all tiles of '%s' are the same: draw walls in a layer Collision)",
                  name.text);
+    else if (rooms)
+        snprintf(text, size,
+                 ", void the squares without tiles, as in: sightline check '%.150s' --layers void "
+                 "-o map.png",
+                 file);
     else
         snprintf(text, size, ", as in: sightline check '%.150s' --layers '%s%s' -o map.png", file,
                  name.text, tiles);
@@ -204,14 +244,27 @@ static bool is_inside(const sli_tiled_reader *reader) {
     return inside;
 }
 
-/// The layers of tiles that are no pictures.
+/// The layers of tiles that are no pictures, and no places that one passes.
 static size_t count_plain(const sli_tiled_reader *reader) {
     size_t count = 0;
     for (size_t i = 0; i < reader->seen.count; i++) {
         const sli_tiled_seen *layer = &reader->seen.items[i];
-        count += !layer->objects && layer->count && layer->kind != SLI_GAME_DRAWN;
+        count += !layer->objects && layer->count && layer->kind != SLI_GAME_DRAWN &&
+                 layer->kind != SLI_GAME_PASS;
     }
     return count;
+}
+
+/// Whether all that is drawn is one layer that is named for a floor, and has gaps.
+static bool only_floor(const sli_tiled_reader *reader) {
+    bool floor = count_plain(reader) == 1;
+    for (size_t i = 0; i < reader->seen.count; i++) {
+        const sli_tiled_seen *layer = &reader->seen.items[i];
+        if (!layer->objects && layer->count && layer->kind != SLI_GAME_DRAWN &&
+            layer->kind != SLI_GAME_PASS)
+            floor &= layer->kind == SLI_GAME_FLOOR && layer->count < layer->squares;
+    }
+    return floor;
 }
 
 sl_status sli_tiled_guess(sli_tiled_reader *reader, const uint32_t *gids, size_t columns,
@@ -227,6 +280,7 @@ sl_status sli_tiled_guess(sli_tiled_reader *reader, const uint32_t *gids, size_t
     uint32_t gid = 0;
     if (layer->squares != count) return SL_OK; // one chunk of several
     SL_TRY(find_most(reader->context, &at, &gid, &most));
+    const sli_tiled_stand stand = sli_tiled_where_objects_stand(reader, gids, columns, rows);
     if (only && floor && empty) {
         reader->guess_why = "where the floor has no tile is a wall";
     } else if (is_inside(reader) && !(gid && ground) && 2 * most >= count &&
@@ -241,6 +295,11 @@ sl_status sli_tiled_guess(sli_tiled_reader *reader, const uint32_t *gids, size_t
                2 * tiles_of_row(&at, rows - 1) >= columns && 4 * tiles_of_row(&at, 0) <= columns) {
         reader->guessed_all = true;
         reader->guess_why = "its tiles lie below and not above, as in a platformer";
+    } else if (only && !floor && stand == SLI_TILED_STAND_ON_EMPTY && 10 * layer->count >= count) {
+        reader->guessed_all = true;
+        reader->guess_why = "all objects stand where it has no tiles";
+    } else if (only && stand == SLI_TILED_STAND_ON_TILES && 10 * empty >= count) {
+        reader->guess_why = "all objects stand on its tiles";
     }
     return SL_OK;
 }
@@ -249,7 +308,8 @@ static sl_status guess(sli_tiled_reader *reader) {
     reader->by = SLI_TILED_BY_GUESS;
     for (size_t i = reader->seen.count; i-- > 0;) {
         const sli_tiled_seen *layer = &reader->seen.items[i];
-        if (!layer->objects && layer->count && layer->kind != SLI_GAME_DRAWN)
+        if (!layer->objects && layer->count && layer->kind != SLI_GAME_DRAWN &&
+            layer->kind != SLI_GAME_PASS)
             reader->guess_layer = i;
     }
     SL_TRY(sli_tiled_read_again(reader));
@@ -327,7 +387,20 @@ static sl_status fail_missing(const sli_tiled_reader *reader) {
     return sli_tiled_fail_unsaid(reader, why);
 }
 
+/// Whether nearly all tiles of the map are taken, as the name of its only tileset says: that one
+/// says nothing. What was taken is forgotten then.
+static bool takes_all(sli_tiled_reader *reader) {
+    size_t all = 0;
+    for (size_t i = 0; i < reader->seen.count; i++)
+        all += reader->seen.items[i].objects ? 0 : (size_t)reader->seen.items[i].count;
+    if (reader->by != SLI_TILED_BY_SET || 10 * reader->solid_tiles < 9 * all) return false;
+    for (size_t i = 0; i < reader->seen.count; i++) reader->seen.items[i].taken = false;
+    reader->solid_tiles = 0;
+    return true;
+}
+
 sl_status sli_tiled_find_meaning(sli_tiled_reader *reader) {
+    if (reader->void_is_solid) return SL_OK;
     if (reader->unknown_tiles) return fail_missing(reader);
     if (sli_tiled_taken(reader)) return SL_OK;
     if (reader->beside_tiles) {
@@ -340,10 +413,10 @@ sl_status sli_tiled_find_meaning(sli_tiled_reader *reader) {
         if (by == SLI_TILED_BY_NAME && !reader->best) continue;
         reader->by = (sli_tiled_by)by;
         SL_TRY(sli_tiled_read_again(reader));
-        if (sli_tiled_taken(reader)) return SL_OK;
+        if (sli_tiled_taken(reader) && !takes_all(reader)) return SL_OK;
     }
-    // A layer for walls that has none: all is open but what is beyond the map.
-    if (reader->empty_layers) {
+    // A layer for walls that has none: all is open but what is beyond the map, or the floor.
+    if (reader->empty_layers && !only_floor(reader)) {
         reader->by = SLI_TILED_BY_WORD;
         return SL_OK;
     }
@@ -409,8 +482,12 @@ static sl_status tell_edge_only(const sli_tiled_reader *reader) {
 }
 
 sl_status sli_tiled_tell_meaning(const sli_tiled_reader *reader) {
-    static const char *const by[] = {"", "tiles that say so of layers below and above the player",
-                                     "names of layers", "terrains", "names of tilesets"};
+    static const char *const by[] = {"",
+                                     "tiles that say so of layers below and above the player",
+                                     "names of layers",
+                                     "terrains",
+                                     "names of tilesets",
+                                     "objects of which nothing is said"};
     const layer_text taken = list_layers(reader, true), others = list_layers(reader, false);
     const char *file = reader->map->file->name;
     if (reader->sets.missing && reader->lost_tiles)
@@ -418,7 +495,7 @@ sl_status sli_tiled_tell_meaning(const sli_tiled_reader *reader) {
             reader->context,
             "%s: what a missing tileset says of %zu tiles is not known: solid layers count whole",
             file, reader->lost_tiles);
-    if (reader->options->layers) return SL_OK;
+    if (reader->options->layers || (reader->void_is_solid && !taken.count)) return SL_OK;
     if (reader->believed_not)
         sl_note(reader->context,
                 "%s: nearly all tiles of layer '%s' say that they are solid, and it has no gaps: "

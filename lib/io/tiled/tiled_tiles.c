@@ -149,6 +149,12 @@ static sl_status meet_tile(sli_tiled_reader *reader, const sli_tiled_set *set,
     return SL_OK;
 }
 
+static sl_status draw_closed(sli_tiled_reader *reader, const sli_tiled_shape *shape) {
+    const size_t first = reader->pen.map->wall_count;
+    SL_TRY(sli_tiled_draw_shape(&reader->pen, shape));
+    return sli_tiled_add_closed(reader, shape->kind, first, true);
+}
+
 static sl_status draw_tile_shapes(sli_tiled_reader *reader, const block *all, size_t at,
                                   const sli_tiled_set *set, const sli_tiled_tile *tile) {
     const sli_json list = shapes_of(reader, set, tile);
@@ -168,7 +174,7 @@ static sl_status draw_tile_shapes(sli_tiled_reader *reader, const block *all, si
         if (shape.kind >= SLI_TILED_PICTURE) continue;
         reader->pen.item = tile->item + (uint32_t)i;
         reader->pen.affine = affine_of_tile(reader, all, at, set);
-        status = sli_tiled_draw_shape(&reader->pen, &shape);
+        status = draw_closed(reader, &shape);
         reader->pen.affine = outer;
         reader->pen.item = last;
     }
@@ -221,7 +227,7 @@ sl_status sli_tiled_draw_picture(sli_tiled_reader *reader, const sli_json *objec
         if (own.kind >= SLI_TILED_PICTURE) continue;
         reader->pen.item = tile->item + (uint32_t)i;
         reader->pen.affine = sli_affine_after(outer, place);
-        status = sli_tiled_draw_shape(&reader->pen, &own);
+        status = draw_closed(reader, &own);
         reader->pen.affine = outer;
         reader->pen.item = last;
     }
@@ -618,6 +624,7 @@ sl_status sli_tiled_add_tile_walls(sli_tiled_reader *reader) {
     const sli_tiles_options options = {.top = hexagons ? 0 : reader->top,
                                        .solid_between = reader->by == SLI_TILED_BY_GUESS &&
                                                         !reader->guessed && !reader->guessed_all,
+                                       .other_ground = reader->solid_closed > 0,
                                        .things = hexagons ? NULL : &reader->things,
                                        .add_walls = hexagons ? add_hexagons : NULL,
                                        .user = reader};

@@ -1,21 +1,26 @@
 /// Squares of Tiled's maps that have no tile at all: around rooms that are drawn floor by floor
 /// they are what nobody enters, and in a platformer they are the air. The file does not say which,
 /// so they are open; where floor leads to them it is told, and `--layers void` makes them solid.
+///
+/// In a map without a start, those that lie at its edge are solid where walls part them from floor,
+/// at nine of ten places at least: else they would be taken for a room. The sea about an island is
+/// like them: squares that have nothing but a tile of a layer that is named for water and covers
+/// half of the map.
 #include "io/tiled/tiled.h"
 
 #include <math.h>
 #include <string.h>
 
 /// What is looked at: maps of more squares are left alone.
-enum { MOST = 1 << 24, PAIRS = 512 };
+enum { MOST = 1 << 24, PAIRS = 4096 };
 
 typedef struct field {
     sli_tiled_reader *reader;
     sli_tiled_range range; ///< of all tiles
     bool pictures;         ///< there is a layer that is a picture
     size_t columns, rows;
-    char *squares; ///< ' ' without a tile, '.' with one, '#' solid; NULL while the range is looked
-                   ///< for
+    char *squares; ///< ' ' without a tile, '.' with one, '~' of water alone, '#' solid; NULL while
+                   ///< the range is looked for
 } field;
 
 bool sli_tiled_only_void(const char *layers) {
@@ -25,13 +30,19 @@ bool sli_tiled_only_void(const char *layers) {
     return any && only;
 }
 
-static void take_gids(field *f, const sli_tiled_range *at, const uint32_t *gids) {
+static void take_gids(field *f, const sli_tiled_range *at, const uint32_t *gids, bool water) {
     const size_t width = (size_t)(at->right - at->left);
+    const size_t all = width * (size_t)(at->bottom - at->top);
+    size_t count = 0;
+    for (size_t i = 0; i < all && water; i++) count += (gids[i] & SLI_TILED_TILE) != 0;
+    water &= 2 * count >= all;
     for (int64_t y = at->top; y < at->bottom; y++)
         for (int64_t x = at->left; x < at->right; x++) {
             const size_t i = (size_t)(y - at->top) * width + (size_t)(x - at->left);
             if (!(gids[i] & SLI_TILED_TILE)) continue;
-            f->squares[(size_t)(y - f->range.top) * f->columns + (size_t)(x - f->range.left)] = '.';
+            char *to =
+                &f->squares[(size_t)(y - f->range.top) * f->columns + (size_t)(x - f->range.left)];
+            *to = !water ? '.' : *to == ' ' ? '~' : *to;
         }
 }
 
@@ -65,7 +76,8 @@ static sl_status look_at_block(field *f, const sli_json *layer, const sli_json *
     }
     uint32_t *gids;
     SL_TRY(sli_tiled_read_data(layer, &data, (size_t)(columns * rows), &gids));
-    take_gids(f, &at, gids);
+    const bool water = sli_game_kind_of(sli_json_text_of(layer, "name")) == SLI_GAME_WATER;
+    take_gids(f, &at, gids, water);
     sl_free(f->reader->context, gids);
     return SL_OK;
 }
@@ -126,6 +138,32 @@ static sl_point middle_of(const field *f, size_t i) {
     return sli_affine_apply(f->reader->pen.affine, (sl_point){x * step.x, y * step.y});
 }
 
+/// Puts in the squares whose middles lie in solid objects, and those of tiles with solid shapes.
+static sl_status take_closed(field *f) {
+    const sli_tiled_reader *reader = f->reader;
+    for (size_t i = 0; i < reader->closed.count; i++) {
+        const sli_tiled_closed *closed = &reader->closed.items[i];
+        const double left = floor(closed->box.min.x / reader->lattice.step.x);
+        const double right = ceil(closed->box.max.x / reader->lattice.step.x);
+        const double top = floor((reader->top - closed->box.max.y) / reader->lattice.step.y);
+        const double bottom = ceil((reader->top - closed->box.min.y) / reader->lattice.step.y);
+        const double columns = (double)f->columns, rows = (double)f->rows;
+        const double x0 = fmin(fmax(left - (double)f->range.left, 0), columns);
+        const double x1 = fmin(fmax(right - (double)f->range.left, 0), columns);
+        const double y0 = fmin(fmax(top - (double)f->range.top, 0), rows);
+        const double y1 = fmin(fmax(bottom - (double)f->range.top, 0), rows);
+        SL_TRY(sl_check_cancelled(reader->context));
+        if (!closed->solid) continue;
+        for (size_t y = (size_t)y0; y < (size_t)y1; y++)
+            for (size_t x = (size_t)x0; x < (size_t)x1; x++) {
+                const size_t at = y * f->columns + x;
+                if (closed->of_tile || sli_tiled_is_in(reader, closed, middle_of(f, at)))
+                    f->squares[at] = '#';
+            }
+    }
+    return SL_OK;
+}
+
 static double side(sl_point a, sl_point b, sl_point c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
@@ -141,48 +179,120 @@ static bool is_between(const sl_map *map, sl_point a, sl_point b) {
     return false;
 }
 
-/// Whether one steps from floor to squares without a tile. So many places are held against the
-/// walls of objects and no more.
-static bool leads_to_void(const field *f) {
-    size_t tried = 0;
-    for (size_t i = 0; i < f->columns * f->rows && tried < PAIRS; i++) {
+/// The places where floor and squares without a tile lie side by side, and those of them where no
+/// wall of an object lies between; water counts as `water`. So many places are looked at and no
+/// more.
+typedef struct border {
+    size_t all, open;
+} border;
+
+static border find_border(const field *f, char water) {
+    border found = {0};
+    for (size_t i = 0; i < f->columns * f->rows && found.all < PAIRS; i++) {
         const bool ends = (i + 1) % f->columns == 0;
         const size_t beside[] = {ends ? i : i + 1, i + f->columns};
         for (int k = 0; k < 2; k++) {
             const size_t j = beside[k];
-            if (j >= f->columns * f->rows || f->squares[i] == '#' || f->squares[j] == '#' ||
-                f->squares[i] == f->squares[j])
-                continue;
-            tried++;
-            if (!is_between(f->reader->pen.map, middle_of(f, i), middle_of(f, j))) return true;
+            if (j >= f->columns * f->rows) continue;
+            const char one = f->squares[i] == '~' ? water : f->squares[i];
+            const char other = f->squares[j] == '~' ? water : f->squares[j];
+            if (one == '#' || other == '#' || one == other) continue;
+            found.all++;
+            found.open += !is_between(f->reader->pen.map, middle_of(f, i), middle_of(f, j));
         }
     }
+    return found;
+}
+
+static bool is_void(char square) {
+    return square == ' ' || square == '~';
+}
+
+/// Marks the squares without a tile, or of water, that are at the edge, and those that join them,
+/// by 'v'.
+static sl_status mark_edge(field *f, size_t *marked) {
+    const size_t count = f->columns * f->rows;
+    size_t *stack = sl_alloc_array(f->reader->context, count, sizeof *stack), top = 0;
+    if (!stack) return SL_NO_MEMORY;
+    for (size_t i = 0; i < count; i++) {
+        const size_t x = i % f->columns, y = i / f->columns;
+        const bool edge = !x || !y || x + 1 == f->columns || y + 1 == f->rows;
+        if (!edge || !is_void(f->squares[i])) continue;
+        f->squares[i] = 'v';
+        stack[top++] = i;
+    }
+    for (*marked = top; top;) {
+        const size_t i = stack[--top], x = i % f->columns, y = i / f->columns;
+        const size_t beside[] = {x ? i - 1 : i, x + 1 < f->columns ? i + 1 : i,
+                                 y ? i - f->columns : i, y + 1 < f->rows ? i + f->columns : i};
+        for (int k = 0; k < 4; k++) {
+            if (!is_void(f->squares[beside[k]])) continue;
+            f->squares[beside[k]] = 'v';
+            stack[top++] = beside[k];
+            ++*marked;
+        }
+    }
+    sl_free(f->reader->context, stack);
+    return SL_OK;
+}
+
+static bool has_start(const sli_tiled_reader *reader) {
+    for (size_t i = 0; i < reader->things.items.count; i++)
+        if (reader->things.items.items[i].kind == SLI_THING_START) return true;
     return false;
 }
 
-static sl_status fill(field *f) {
+/// Makes the squares of one mark solid.
+static sl_status fill(field *f, char mark) {
     const sl_point step = f->reader->lattice.step;
     const sl_point corner = {(double)f->range.left * step.x, (double)f->range.top * step.y};
     char *squares;
     SL_TRY(sli_tiles_add(f->reader->context, &f->reader->tiles, f->reader->map->file->name, corner,
                          step, f->columns, f->rows, &squares));
     for (size_t i = 0; i < f->columns * f->rows; i++)
-        if (f->squares[i] == ' ') squares[i] = '#';
+        if (f->squares[i] == mark) squares[i] = '#';
     return SL_OK;
 }
 
+/// What walls part from floor, and lies at the edge, is no room.
+static sl_status fill_edge(field *f) {
+    size_t marked;
+    SL_TRY(mark_edge(f, &marked));
+    if (!marked) return SL_OK;
+    sl_note(
+        f->reader->context,
+        "%s: %zu squares at its edge have no tile, or nothing but water, and walls part them from "
+        "floor: they are taken as solid",
+        f->reader->map->file->name, marked);
+    return fill(f, 'v');
+}
+
+/// Whether what is at the edge may be filled, and walls part it from floor but for a place or two:
+/// who draws them means that one does not get there.
+static bool is_apart(const field *f, size_t empty, size_t floor) {
+    const sli_tiled_reader *reader = f->reader;
+    if (!empty || 10 * floor < empty + floor || reader->options->layers || reader->by ||
+        has_start(reader))
+        return false;
+    const border found = find_border(f, ' ');
+    return 10 * found.open <= found.all && found.all < PAIRS;
+}
+
 static sl_status settle(field *f, const char *layers) {
-    size_t empty = 0, floor = 0;
+    size_t empty = 0, floor = 0, water = 0;
     take_solid(f);
+    SL_TRY(take_closed(f));
     for (size_t i = 0; i < f->columns * f->rows; i++) {
         empty += f->squares[i] == ' ';
         floor += f->squares[i] == '.';
+        water += f->squares[i] == '~';
     }
-    if (f->reader->void_is_solid) return fill(f);
+    if (f->reader->void_is_solid) return fill(f, ' ');
+    if (f->pictures || f->reader->guessed_all) return SL_OK;
+    if (is_apart(f, empty + water, floor)) return fill_edge(f);
     // In a platformer a little is drawn in much air.
-    if (!empty || 10 * floor < empty + floor || f->pictures || f->reader->guessed_all ||
-        !leads_to_void(f))
-        return SL_OK;
+    floor += water;
+    if (!empty || 10 * floor < empty + floor || !find_border(f, '.').open) return SL_OK;
     sl_note(f->reader->context,
             "%s: %zu squares have no tile and are open, and floor leads to them with no wall "
             "between: --layers '%s%svoid' takes them as solid",
