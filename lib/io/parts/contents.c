@@ -587,6 +587,7 @@ sl_status sli_contents_choose(sli_contents *contents, double metre, sli_pen *pen
     contents->doors = c.symbols.swings.count;
     contents->door = sli_choice_door(&c);
     sli_plan_unit_entrance(pen->map, contents->door, contents->doors);
+    pen->map->entrance_may_be_wide = true;
     if (status == SL_OK && contents->large) status = keep_large(contents, metre, pen);
     if (status == SL_OK && !contents->options->all_layers)
         status = sli_plan_tell(contents->context, contents->file, contents->options->layers,
