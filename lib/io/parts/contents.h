@@ -52,6 +52,7 @@ typedef struct sli_contents {
     sli_looks looks; ///< how shapes look
     size_t doors;    ///< doors that are drawn open, once the choice is made
     double door;     ///< how wide these are, usually
+    bool walls_named; ///< some layer is named as walls, once the choice is made
     bool has_looks;  ///< the reader tells them: `look` is that of the shape at hand
     uint32_t look;
 } sli_contents;
