@@ -366,7 +366,8 @@ static sl_status find_parts(sli_choice *c) {
     }
     if (status == SL_OK)
         status = sli_plan_parts_find(context, &taken, sli_choice_metre(c), &c->parts);
-    if (c->by_looks && MOST_BESIDE * sli_plan_parts_count(&c->parts) > taken.wall_count)
+    const size_t others = sli_plan_parts_count(&c->parts) - c->parts.loose;
+    if (c->by_looks && MOST_BESIDE * others > taken.wall_count)
         sli_plan_parts_destroy(context, &c->parts);
     for (size_t i = 0; status == SL_OK && c->parts.gone && i < taken.wall_count; i++)
         if (sl_bits_has(c->parts.gone, i)) sl_bits_add(c->symbols.gone, number[i]);
