@@ -831,8 +831,8 @@ static sl_status find_by_doors(sl_context *context, sl_map *map, double most, bo
     return try_by(context, map, SL_ENTRANCE_DOORS, map->entrance, 0, found);
 }
 
-/// Tries the doubtful opening as an entrance: a pair of doors, a garage, a hall. It counts if nothing
-/// else is doubtful then, and a building is inside.
+/// Tries the doubtful opening as an entrance: a pair of doors, a garage, a hall. It counts if
+/// nothing else is doubtful then, and a building is inside.
 static sl_status widen(sl_context *context, sl_map *map, double narrow) {
     const sl_interior before = map->interior;
     const double most = DOUBT_FOUND * before.width;
@@ -844,8 +844,8 @@ static sl_status widen(sl_context *context, sl_map *map, double narrow) {
     }
     if (found && !(map->interior.doubtful_width > 0)) return SL_OK;
     forget(context, map);
-    return try_by(context, map, before.by, before.by == SL_ENTRANCE_FOUND ? 0 : before.width, narrow,
-                  &found);
+    return try_by(context, map, before.by, before.by == SL_ENTRANCE_FOUND ? 0 : before.width,
+                  narrow, &found);
 }
 
 static sl_status find(sl_context *context, sl_map *map) {
@@ -863,7 +863,9 @@ static sl_status find(sl_context *context, sl_map *map) {
                      : try_by(context, map, SL_ENTRANCE_UNIT, usual, 0, &found));
     if (!found && !says_ground(map))
         SL_TRY(try_by(context, map, SL_ENTRANCE_FOUND, 0, shorter / 3, &found));
-    if (!found || !map->entrance_may_be_wide || !(map->interior.doubtful_width > 0)) return SL_OK;
+    const double slit = fmax(b.max.x - b.min.x, b.max.y - b.min.y) / SLIT;
+    if (!found || !map->entrance_may_be_wide || !(map->interior.doubtful_width > slit))
+        return SL_OK;
     return widen(context, map, shorter / 3);
 }
 

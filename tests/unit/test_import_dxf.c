@@ -204,10 +204,10 @@ static void test_units(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_lines),   cmocka_unit_test(test_polylines),
-        cmocka_unit_test(test_curves),  cmocka_unit_test(test_blocks),
-        cmocka_unit_test(test_layers), cmocka_unit_test(test_text_of_lines),  cmocka_unit_test(test_units),
-        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_lines),  cmocka_unit_test(test_polylines),
+        cmocka_unit_test(test_curves), cmocka_unit_test(test_blocks),
+        cmocka_unit_test(test_layers), cmocka_unit_test(test_text_of_lines),
+        cmocka_unit_test(test_units),  cmocka_unit_test(test_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

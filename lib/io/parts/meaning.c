@@ -71,7 +71,8 @@ static const word_list lists[SLI_MEANINGS] = {
          "leinwand* roof* dach* toiture* tetto tetti copertur* cubierta* techo* tejado* telhado* "
          "dak крыш* кровл* strech* cati yttertak *屋顶* *屋根* *지붕* ceiling* clng rcp decke* "
          "plafond* controsoffitt* soffitt* forro* потол* sufit* strop* *天花* *吊顶* *天井* "
-         "*천장* *梁* flor slab* beam* joist* rafter* footing* foundation* fndn fundament* overhead "
+         "*천장* *梁* flor slab* beam* joist* rafter* footing* foundation* fndn fundament* "
+         "overhead "
          "ovhd above hidden hidd unterzug* elevation* sect section* detail* detl ansicht* "
          "schnitt* coupe* sezion* seccion* alzado* corte* doorsnede* разрез* przekr* rez rezy "
          "kesit* gorunus* area"},
@@ -107,7 +108,8 @@ static const word_list lists[SLI_MEANINGS] = {
     [SLI_MEANS_FURNITURE] =
         {"furniture",
          "furnit* furn furnish* casework millwork cabinet* eqpm eqpt equip* appliance* fixture* "
-         "fixt fixd fitting* sanit* plumb* plmb toilet* wc lavator* lav sink basin washbasin* bathtub* tub "
+         "fixt fixd fitting* sanit* plumb* plmb toilet* wc lavator* lav sink basin washbasin* "
+         "bathtub* tub "
          "shower* chair* armchair* seat seating sofa* couch* table desk bed bookcase* bookshel* "
          "shelf shelves shelving rack wardrobe* stove* oven fridge* refrigerator* dishwasher* "
          "washer* dryer* lamp lite lighting luminair* elec electr* powr power switch* outlet* "

@@ -3,9 +3,9 @@
 /// layers are left out; what is faulty is passed over and counted. A use draws another element once
 /// more, so depth and work are bounded. Groups whose names begin with "sightline-" hold doors,
 /// solid ground and so on (layers.h).
-#include "geometry/length.h"
 #include "io/svg/svg.h"
 #include "base/base.h"
+#include "geometry/length.h"
 #include "io/io_formats.h"
 #include "io/parts/contents.h"
 #include "io/parts/document.h"
@@ -329,8 +329,8 @@ static bool is_in(const sl_box *box, sl_point at) {
     return at.x >= box->min.x && at.x <= box->max.x && at.y >= box->min.y && at.y <= box->max.y;
 }
 
-/// Whether a shape is a piece of hatching: an oblique line or bar, half as long as its clip at least,
-/// that goes out of it; a bar at both ends. So programs hatch an area.
+/// Whether a shape is a piece of hatching: an oblique line or bar, half as long as its clip at
+/// least, that goes out of it; a bar at both ends. So programs hatch an area.
 static bool is_hatching(const svg *s, const sl_box *clip, size_t first) {
     const sl_map *map = s->pen.map;
     const double least = sli_length(clip->max.x - clip->min.x, clip->max.y - clip->min.y) / 2;
