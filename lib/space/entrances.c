@@ -54,6 +54,8 @@
 #define DOUBT_FOUND 3.5
 /// Slits are narrower than this share of the map, and no entrances.
 #define SLIT 1000
+/// Entrances of a plan are wider than this share of it.
+#define DOORS_IN_PLAN 100
 /// How much roomier than its opening a part or pocket is.
 #define ROOMIER (4.0 / 3)
 /// How much less roomy than other places cores of walls are.
@@ -851,6 +853,7 @@ static sl_status widen(sl_context *context, sl_map *map, double narrow) {
 static sl_status find(sl_context *context, sl_map *map) {
     const sl_box b = sl_map_bounds(map);
     const double shorter = fmin(b.max.x - b.min.x, b.max.y - b.min.y);
+    const double longer = fmax(b.max.x - b.min.x, b.max.y - b.min.y);
     const double metres = sli_unit_metres(map->unit);
     const bool doors = map->entrance_by_doors;
     const double usual = doors ? map->entrance : metres > 0 ? ENTRANCE / metres : INFINITY;
@@ -863,9 +866,10 @@ static sl_status find(sl_context *context, sl_map *map) {
                      : try_by(context, map, SL_ENTRANCE_UNIT, usual, 0, &found));
     if (!found && !says_ground(map))
         SL_TRY(try_by(context, map, SL_ENTRANCE_FOUND, 0, shorter / 3, &found));
-    const double slit = fmax(b.max.x - b.min.x, b.max.y - b.min.y) / SLIT;
-    if (!found || !map->entrance_may_be_wide || !(map->interior.doubtful_width > slit))
-        return SL_OK;
+    if (!found || !map->entrance_may_be_wide) return SL_OK;
+    // A width that is found among openings that are small against the plan is none of doors.
+    const double least = map->interior.by == SL_ENTRANCE_FOUND ? longer / DOORS_IN_PLAN : 0;
+    if (!(map->interior.doubtful_width > least)) return SL_OK;
     return widen(context, map, shorter / 3);
 }
 
