@@ -358,6 +358,7 @@ sl_status sl_map_copy(sl_context *context, const sl_map *from, sl_map *to) {
                   .entrance = from->entrance,
                   .entrance_line = from->entrance_line,
                   .entrance_by_doors = from->entrance_by_doors,
+                  .entrance_may_be_wide = from->entrance_may_be_wide,
                   .ground_guessed = from->ground_guessed};
     memcpy(map.unit, from->unit, sizeof map.unit);
     sl_status status = sl_map_add_walls(context, &map, from->walls, from->wall_count);

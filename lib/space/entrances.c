@@ -24,7 +24,8 @@
 ///
 /// A pocket with a somewhat wider opening may be a hall whose rooms are inside. So may what all
 /// openings of a part lead to, as a corridor with an open end. This is a doubt: then such rooms do
-/// not count, unless the map says W.
+/// not count, unless the map says W. In plans that are drawn (sl_map.entrance_may_be_wide), such an
+/// opening is tried as W first, and counts if it leaves no doubt.
 ///
 /// Where a part that is inside ends at a channel, the map gets a seam. So no cell lies on both
 /// sides. Time O(n log n), and what channels take.
@@ -53,6 +54,8 @@
 #define DOUBT_FOUND 3.5
 /// Slits are narrower than this share of the map, and no entrances.
 #define SLIT 1000
+/// Entrances of a plan are wider than this share of it.
+#define DOORS_IN_PLAN 100
 /// How much roomier than its opening a part or pocket is.
 #define ROOMIER (4.0 / 3)
 /// How much less roomy than other places cores of walls are.
@@ -85,6 +88,7 @@ typedef struct finder {
     double weld;
     sl_box bounds;
     sl_box border; ///< of the space: farther out where the map ends at a window
+    double doubt;  ///< openings up to this width are doubtful; 0: by the width of entrances
     sli_channels channels;
     sli_clearance clearance;
     uint32_t *triangle; ///< by half-edge; NONE outside of the box
@@ -117,6 +121,7 @@ static double side_length(const finder *f, uint32_t half) {
 
 /// How wide doubtful openings are.
 static double doubtful_up_to(const finder *f, double width) {
+    if (f->found.by == SL_ENTRANCE_WIDE) return fmax(width, f->doubt);
     return (f->found.by == SL_ENTRANCE_FOUND ? DOUBT_FOUND : DOUBT) * width;
 }
 
@@ -739,7 +744,8 @@ static sl_status find_by(finder *f, sl_entrance by, double width, double most, b
     const bool any = f->found.width > 0;
     if (status == SL_OK && any) status = find_parts(f, f->found.width + f->weld);
     *found = false;
-    if (status == SL_OK && any && (by != SL_ENTRANCE_FOUND || is_building(f, true)))
+    const bool guess = by == SL_ENTRANCE_FOUND || by == SL_ENTRANCE_WIDE;
+    if (status == SL_OK && any && (!guess || is_building(f, true)))
         for (size_t i = 0; i < f->groups.count; i++) *found |= f->groups.items[i].inside;
     *found |= status == SL_OK && f->found.doubtful_width > 0;
     return status;
@@ -791,11 +797,13 @@ static sl_status find_roomiest(finder *f, double most) {
     return take_roomier(f, INFINITY, CORE, &clearance);
 }
 
-/// Tries one way to know the width. *found: there is an answer, and the map has it.
+/// Tries one way to know the width, up to `most` (what is doubtful, by SL_ENTRANCE_WIDE). *found:
+/// there is an answer, and the map has it.
 static sl_status try_by(sl_context *context, sl_map *map, sl_entrance by, double width, double most,
                         bool *found) {
     finder f;
     SL_TRY(begin_search_of_entrances(&f, context, map));
+    f.doubt = most;
     const bool axial = sl_map_is_axial(map);
     sl_status status = find_by(&f, by, width, most, found);
     if (status == SL_OK && *found) status = add_seams(&f, axial);
@@ -836,9 +844,27 @@ static sl_status find_by_doors(sl_context *context, sl_map *map, double most, bo
     return try_by(context, map, SL_ENTRANCE_DOORS, map->entrance, 0, found);
 }
 
+/// Tries the doubtful opening as an entrance: a pair of doors, a garage, a hall. It counts if
+/// nothing else is doubtful then, and a building is inside.
+static sl_status widen(sl_context *context, sl_map *map, double narrow) {
+    const sl_interior before = map->interior;
+    const double most = DOUBT_FOUND * before.width;
+    bool found = true;
+    for (double width = 0; found && map->interior.doubtful_width > width;) {
+        width = map->interior.doubtful_width;
+        forget(context, map);
+        SL_TRY(try_by(context, map, SL_ENTRANCE_WIDE, width, most, &found));
+    }
+    if (found && !(map->interior.doubtful_width > 0)) return SL_OK;
+    forget(context, map);
+    return try_by(context, map, before.by, before.by == SL_ENTRANCE_FOUND ? 0 : before.width,
+                  narrow, &found);
+}
+
 static sl_status find(sl_context *context, sl_map *map) {
     const sl_box b = sl_map_bounds(map);
     const double shorter = fmin(b.max.x - b.min.x, b.max.y - b.min.y);
+    const double longer = fmax(b.max.x - b.min.x, b.max.y - b.min.y);
     const double metres = sli_unit_metres(map->unit);
     const bool doors = map->entrance_by_doors;
     const double usual = doors ? map->entrance : metres > 0 ? ENTRANCE / metres : INFINITY;
@@ -849,8 +875,13 @@ static sl_status find(sl_context *context, sl_map *map) {
     if (usual < 0.6 * shorter && !knows_ground(map))
         SL_TRY(doors ? find_by_doors(context, map, shorter / 3, &found)
                      : try_by(context, map, SL_ENTRANCE_UNIT, usual, 0, &found));
-    if (found || says_ground(map)) return SL_OK;
-    return try_by(context, map, SL_ENTRANCE_FOUND, 0, shorter / 3, &found);
+    if (!found && !says_ground(map))
+        SL_TRY(try_by(context, map, SL_ENTRANCE_FOUND, 0, shorter / 3, &found));
+    if (!found || !map->entrance_may_be_wide) return SL_OK;
+    // A width that is found among openings that are small against the plan is none of doors.
+    const double least = map->interior.by == SL_ENTRANCE_FOUND ? longer / DOORS_IN_PLAN : 0;
+    if (!(map->interior.doubtful_width > least)) return SL_OK;
+    return widen(context, map, shorter / 3);
 }
 
 sl_status sl_map_find_inside(sl_context *context, sl_map *map, const sl_clean_options *clean,

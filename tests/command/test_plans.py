@@ -135,6 +135,80 @@ class DoubtfulUnits(Plans):
         self.assertIn("--entrance W says how wide its entrances are", told[0])
 
 
+    def test_a_building_of_kilometres(self):
+        """Towns are as large in metres, layers named as walls are those of a building."""
+        self.assertIn("the drawing says metres, and is 1.2e+04 m long then", self.told(flat(6, 1))[0])
+        self.assertIn("in millimetres it is 12 m long (--unit mm=m)", self.told(flat(6, 1))[0])
+        self.assertEqual(self.told(str(flat(6, 0.5)).replace("A-WALL", "HOUSES")), [])
+
+
+class Entrances(Plans):
+    def inside(self, width, *options):
+        drawing = Drawing()
+        for line in ((0, 0, 2000, 0), (2000 + width, 0, 12000, 0), (12000, 0, 12000, 8000),
+                     (12000, 8000, 0, 8000), (0, 8000, 0, 0)):
+            drawing.line("A-WALL", *line)
+        drawing.line("A-WALL", -3000, 0, -3000, 100)
+        self.write("a.dxf", drawing)
+        result = self.run_well("bake", "a.dxf", "-o", "a.slv", "--json", *options)
+        return result.stderr, json.loads(result.stdout)["inside_share"]
+
+    def test_a_wide_entrance_of_a_drawing_counts(self):
+        """A pair of doors, a garage: without it the street would count as inside, too."""
+        told, share = self.inside(900)
+        self.assertIn("(entrance 1200, as is usual)", told)
+        for width in 2000, 2900:
+            told, wide = self.inside(width)
+            self.assertIn(f"inside ends at 1 opening up to {width} mm wide (entrance {width}, a wide one, "
+                          "without which inside is doubtful); for another width, add --entrance W", told)
+            self.assertAlmostEqual(wide, share, delta=0.001)
+            self.assertNotIn("doubtful: ", told)
+
+    def test_an_open_side_is_none(self):
+        told, _ = self.inside(6000)
+        self.assertNotIn("a wide one", told)
+
+
+class Notes(Plans):
+    def test_lists_end_behind_a_name(self):
+        drawing = flat()
+        for i in range(12):
+            drawing.line(f"storage of things {i:02}", 100, 100 + i, 200, 100 + i)
+        self.write("a.dxf", drawing)
+        told = self.run_well("convert", "a.dxf", "-o", "a.map").stderr
+        self.assertRegex(told, r"passed over: A-GRID \(grid\)(, storage of things \d\d)+, \.\.\. \(--layers A,B")
+
+    def test_info_says_what_layers_are_taken_for(self):
+        layers = json.loads(self.printed("info", "flat.dxf", "--json", "-q"))["layers"]
+        self.assertEqual({layer["name"]: layer["taken"] for layer in layers}, {"A-WALL": "wall", "A-GRID": "ignore"})
+
+
+class Furniture(Plans):
+    @staticmethod
+    def office(desks):
+        """Two rows of three rooms by the faces of their walls, and desks with their chairs in them."""
+        shapes = ["M100 100H720V520H100Z"]
+        for i in range(6):
+            x, y = 110 + 202 * (i % 3), 110 + 202 * (i // 3)
+            shapes.append(f"M{x} {y}H{x + 192}V{y + 192}H{x}Z")
+            for k in range(desks):
+                shapes += [f"M{x + 8 + 46 * k} {y + 30}h36v18h-36z", f"M{x + 20 + 46 * k} {y + 48}l4 8h6l4 -8"]
+        paths = "".join(f"<path d='{shape}'/>\n" for shape in shapes)
+        return ("<svg xmlns='http://www.w3.org/2000/svg' width='820' height='620'>"
+                f"<g fill='none' stroke='black' stroke-width='2'>{paths}</g>"
+                "<path d='M0 20H820M0 40H820M0 600H820' stroke='#ddd'/></svg>")
+
+    def test_much_furniture_is_left_out(self):
+        """However many lines it has, beside walls that are drawn by their faces."""
+        walls = []
+        for desks in 0, 1:
+            self.write("a.svg", self.office(desks))
+            told = self.run_well("convert", "a.svg", "-o", "a.map").stderr
+            self.assertEqual("42 lines that touch no wall" in told, desks > 0, told)
+            walls.append(self.box.path("a.map").read_text(encoding="utf-8").count("\nwall"))
+        self.assertEqual(*walls)
+
+
 class Closed(Plans):
     def test_what_is_closed_by_digits_stays_closed_in_map_text(self):
         def leaks(name, *options):
@@ -204,7 +278,8 @@ class Drawings(Plans):
         report = json.loads(self.printed("info", "a.dxf", "--layers", "A-DIMS", "--json"))
         self.assertEqual(report["unit"], "mm")
         self.assertEqual([tuple(layer.values()) for layer in report["layers"]],
-                         [("A-WALL", 6, True), ("A-DIMS", 1, False), ("A-EMPTY", 0, True), ("A-GRID", 1, True)])
+                         [("A-WALL", 6, True, "wall"), ("A-DIMS", 1, False, "ignore"), ("A-EMPTY", 0, True, "ignore"),
+                          ("A-GRID", 1, True, "ignore")])
 
     def test_a_drawing_without_walls_is_listed(self):
         self.write("empty.svg", "<svg width='9' height='9'><text x='1' y='1'>A</text></svg>")

@@ -255,10 +255,15 @@ def ldtk(path):
 
 def dxf_records(path):
     """Lists of (code, value), each from one code 0 to the next."""
-    lines = path.read_bytes().decode("latin-1").splitlines()
+    # Not splitlines(): bytes of letters are ends of lines there.
+    lines = iter(re.split("\r\n|\n|\r", path.read_bytes().decode("latin-1")))
     record = []
-    for code, text in zip(lines[::2], lines[1::2]):
-        code, text = int(code), text.strip()
+    for code in lines:
+        if record and record[-1][0] in (1, 3) and not re.fullmatch(r" *-?\d+ *", code):
+            continue  # a text that goes on
+        if not code.strip():
+            break
+        code, text = int(code), next(lines).strip()
         if code == 0 and record:
             yield record
             record = []

@@ -509,6 +509,29 @@ static void test_rooms(void **state) {
                "wall 12 9 16 9\nwall 16 9 16 5\nwall 16 5 12 5\nwall 12 5 12 9\n");
 }
 
+/// Beside the nodes of a graph of ways, layers of edges have no walls; else they may have.
+static void test_edges(void **state) {
+    (void)state;
+#define EDGE LINE("edge", 5, 4, 5, 9)
+    assert_dxf(ROOM("room") EDGE, ROOM_WALLS "wall 5 4 5 9\n");
+    assert_dxf(ROOM("room") EDGE LINE("node", 5, 4, 6, 4), ROOM_WALLS);
+}
+
+/// Lines that go out of their clip obliquely are hatching, with names that say walls too.
+static void test_clipped_hatching(void **state) {
+    (void)state;
+#define CLIP       "<clipPath id='c'><path d='M2 2H8V8H2Z'/></clipPath>"
+#define CLIPPED(d) "<g clip-path='url(#c)'><path d='" d "'/></g>"
+#define NAMED(d)   SVG(CLIP "<g id='walls'>" POLYLINE CLIPPED(d) "</g>")
+    assert_map(sli_map_read_svg, NAMED("M0 1L9 10"), NULL, false, SHUT_WALLS);
+    assert_map(sli_map_read_svg, NAMED("M2 2L9 9"), NULL, false, SHUT_WALLS);
+    assert_map(sli_map_read_svg, NAMED("M0 1L9 10"), "*", false, SHUT_WALLS "wall 0 9 9 0\n");
+    // What is level, within its clip, or short
+    assert_map(sli_map_read_svg, NAMED("M0 5H9"), NULL, false, SHUT_WALLS "wall 0 5 9 5\n");
+    assert_map(sli_map_read_svg, NAMED("M3 3L7 7"), NULL, false, SHUT_WALLS "wall 3 7 7 3\n");
+    assert_map(sli_map_read_svg, NAMED("M7 7L9 9"), NULL, false, SHUT_WALLS "wall 7 3 9 1\n");
+}
+
 static void test_memory(void **state) {
     (void)state;
     sl_import_options options = sl_import_options_default();
@@ -539,6 +562,8 @@ int main(void) {
         cmocka_unit_test(test_layers_of_doors),
         cmocka_unit_test(test_looks),
         cmocka_unit_test(test_rooms),
+        cmocka_unit_test(test_edges),
+        cmocka_unit_test(test_clipped_hatching),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

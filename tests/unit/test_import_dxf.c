@@ -137,6 +137,13 @@ static void test_layers(void **state) {
                       "f: there is no layer 'doors' in the drawing; it has walls, off, frozen");
 }
 
+/// A text of several lines, as some programs write it: the lines behind the first are passed over.
+static void test_text_of_lines(void **state) {
+    (void)state;
+    static const char text[] = HEAD "0\nTEXT\n8\n0\n1\nKitchen\nA: 4.57\n\n40\n1\n" ON("0", 1) TAIL;
+    assert_walls_of(sli_map_read_dxf, NULL, text, sizeof text - 1, "wall 1 0 1 1\n");
+}
+
 static void test_refused(void **state) {
     (void)state;
     assert_refused("", "f: the drawing ends without an EOF");
@@ -197,10 +204,10 @@ static void test_units(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_lines),   cmocka_unit_test(test_polylines),
-        cmocka_unit_test(test_curves),  cmocka_unit_test(test_blocks),
-        cmocka_unit_test(test_layers),  cmocka_unit_test(test_units),
-        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_lines),  cmocka_unit_test(test_polylines),
+        cmocka_unit_test(test_curves), cmocka_unit_test(test_blocks),
+        cmocka_unit_test(test_layers), cmocka_unit_test(test_text_of_lines),
+        cmocka_unit_test(test_units),  cmocka_unit_test(test_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

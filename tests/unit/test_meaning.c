@@ -51,7 +51,7 @@ static void test_languages(void **state) {
           "Окна", "okna", "Pencere", "Fönster", "vindue", "窗", "门窗", "建具", "창문",
           "curtain wall", "Window frames");
     MEANS(SLI_MEANS_FURNITURE, "Möbel", "mobilier", "Arredi", "MOBILIARIO", "Мебель", "meble",
-          "Mobilya", "家具", "가구", "Wandschrank", "CHAIR-01", "Toilet");
+          "Mobilya", "家具", "가구", "给排水", "San Fittings", "Wandschrank", "CHAIR-01", "Toilet");
     MEANS(SLI_MEANS_TEXT, "Bemaßung", "cotes", "QUOTE", "Acotado", "Cotas", "Размеры", "wymiary",
           "kóty", "ölçü", "标注", "寸法", "치수", "문자", "drywall notes", "window schedule text");
     MEANS(SLI_MEANS_HATCH, "Schraffur", "hachures", "Retini", "sombreado", "Штриховка",
@@ -69,7 +69,7 @@ static void test_nothing(void **state) {
     MEANS(SLI_MEANS_NOTHING, "", "0", "Layer 1", "layer1", "path1234", "g12", "GROUND FLOOR PLAN",
           "rooms", "kitchen", "cls-1", "st0", "Natur", "Stand", "Wandleuchten", "_x", "\\U+",
           "\xff\xfe", "\xe5", "----------", "A---------");
-    MEANS(SLI_MEANS_OTHER, "wallpaper", "Leinwand");
+    MEANS(SLI_MEANS_OTHER, "wallpaper", "Leinwand", "梁", "BS-梁");
 }
 
 /// Letters as numbers, accents behind their letters, and bytes that are no UTF-8.

@@ -210,7 +210,7 @@ static void print_layers(const sl_drawing_layers *layers) {
     if (empty) printf("    %6zu  empty layer%s (--json lists all)\n", empty, empty == 1 ? "" : "s");
 }
 
-/// "layers": [{"name": "WALLS", "entities": 12, "on": true}, ...]
+/// "layers": [{"name": "WALLS", "entities": 12, "on": true, "taken": "wall"}, ...]
 static void add_layers_json(json_fields *fields, const sl_drawing_layers *layers) {
     json_open_list(fields, "layers");
     for (size_t i = 0; i < layers->count; i++) {
@@ -218,6 +218,7 @@ static void add_layers_json(json_fields *fields, const sl_drawing_layers *layers
         json_add_text(fields, "name", layers->items[i].name);
         json_add_count(fields, "entities", layers->items[i].entities);
         json_add_flag(fields, "on", layers->items[i].on);
+        json_add_text(fields, "taken", layers->items[i].taken_for);
         json_close(fields);
     }
     json_close_list(fields);

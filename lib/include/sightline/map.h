@@ -136,6 +136,7 @@ typedef enum sl_entrance {
     SL_ENTRANCE_UNIT,  ///< usual entrances, in the map's unit
     SL_ENTRANCE_FOUND, ///< by the openings of the map itself
     SL_ENTRANCE_DOORS, ///< by the doors of the map (sl_map.entrance_by_doors)
+    SL_ENTRANCE_WIDE,  ///< an opening somewhat wider than these, without which inside is doubtful
 } sl_entrance;
 
 /// What is inside of a map without starts, as sl_map_find_inside has found it. Zeroed: not found.
@@ -229,6 +230,9 @@ typedef struct sl_map {
     /// Nobody says `entrance`: doors that are drawn open tell it. So it counts where the width that
     /// is found is narrower than doors, and wider openings are doubtful then.
     bool entrance_by_doors;
+    /// A plan drawn for people: an opening somewhat wider than entrances is one, where inside would
+    /// be doubtful without it. Readers of drawings set it; map text and .slv files do not keep it.
+    bool entrance_may_be_wide;
     sl_interior interior; ///< map text and .slv files do not keep it
     /// Which walls a space of the map has: those that stop one of these, as bits of SL_STOPS_SIGHT
     /// ...; 0: those that stop sight. Others are open there. Map text does not keep it.

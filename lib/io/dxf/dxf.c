@@ -171,7 +171,8 @@ static void tell_unit(const sli_dxf *dxf) {
     const sli_plan_size plan = {.unit = named ? dxf->unit : 0,
                                 .scale = dxf->pen.affine.xx,
                                 .door = dxf->contents.door,
-                                .doors = dxf->contents.doors};
+                                .doors = dxf->contents.doors,
+                                .building = dxf->contents.walls_named};
     if (dxf->options->sized || (asked && strchr(asked, '='))) return;
     sli_plan_unit_tell(dxf->context, dxf->name, dxf->pen.map, &plan);
 }

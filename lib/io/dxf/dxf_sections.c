@@ -36,6 +36,16 @@ static sl_status refuse_other_files(sli_dxf *dxf, const char *text, size_t size)
     return sli_refuse_nul(dxf->context, dxf->name, text, size);
 }
 
+/// Whether a line that is no group code goes on with the text before it: some programs write texts
+/// of several lines as they are.
+static bool goes_on(sli_dxf *dxf, uint32_t line) {
+    static const sli_fault broken = {"line behind the end of a text", "lines behind ends of texts"};
+    const int code = dxf->pairs.count ? dxf->pairs.items[dxf->pairs.count - 1].code : 0;
+    if (code != 1 && code != 3) return false;
+    sli_faults_add(&dxf->faults, &broken, line);
+    return true;
+}
+
 /// Reads all pairs up to the one that says EOF.
 static sl_status read_pairs(sli_dxf *dxf, const char *text, size_t size) {
     sli_lines lines = sli_lines_of(text, size);
@@ -43,10 +53,12 @@ static sl_status read_pairs(sli_dxf *dxf, const char *text, size_t size) {
     while (sli_lines_next(&lines, &code)) {
         sli_dxf_pair pair;
         code = sli_trimmed(code);
-        if (!read_code(code, &pair.code))
+        if (!read_code(code, &pair.code)) {
+            if (goes_on(dxf, (uint32_t)lines.line)) continue;
             return sl_fail_at(dxf->context, dxf->name, lines.line,
                               "expected a group code (a whole number), found '%s'",
                               sli_show(code).text);
+        }
         if (!sli_lines_next(&lines, &value))
             return sl_fail_at(dxf->context, dxf->name, lines.line,
                               "the file ends where the value of group %d should be", pair.code);

@@ -214,9 +214,13 @@ static void count_named(sli_choice *c) {
     c->walls_named = named >= LEAST_WALLS;
 }
 
+static sli_word name_of_group(const sli_group *group) {
+    return (sli_word){group->name, group->length};
+}
+
 static bool is_rooms(const sli_group *group) {
     return group->means == SLI_MEANS_NOTHING && !group->said && group->length &&
-           sli_meaning_is_rooms((sli_word){group->name, group->length});
+           sli_meaning_is_rooms(name_of_group(group));
 }
 
 /// How long the lines of each group are, and those of layers of doors that are longer than doors.
@@ -271,6 +275,20 @@ static void take_outlines_of_rooms(sli_choice *c) {
     if (c->outlined) set_means(c);
 }
 
+/// Beside the nodes of a graph of ways, layers of edges are none of walls.
+static void leave_edges(sli_choice *c) {
+    bool nodes = false, changes = false;
+    for (size_t i = 0; i < c->contents->groups.count; i++)
+        nodes |= sli_meaning_is_nodes(name_of_group(&c->contents->groups.items[i]));
+    for (size_t i = 0; nodes && i < c->contents->groups.count; i++) {
+        sli_group *group = &c->contents->groups.items[i];
+        if (group->means || group->said || !sli_meaning_is_edges(name_of_group(group))) continue;
+        group->means = SLI_MEANS_GRID;
+        changes = true;
+    }
+    if (changes) set_means(c);
+}
+
 /// Among shapes that no name tells apart, those that do not look like walls get another meaning.
 static sl_status choose_looks(sli_choice *c) {
     const sli_group_run *runs = c->contents->runs.items;
@@ -301,6 +319,7 @@ static sl_status find_means(sli_choice *c) {
     SL_TRY(find_symbols(c));
     count_named(c);
     if (!sli_contents_said(c->contents)) {
+        leave_edges(c);
         measure_groups(c);
         take_walls_on_doors(c);
         take_outlines_of_rooms(c);
@@ -347,7 +366,8 @@ static sl_status find_parts(sli_choice *c) {
     }
     if (status == SL_OK)
         status = sli_plan_parts_find(context, &taken, sli_choice_metre(c), &c->parts);
-    if (c->by_looks && MOST_BESIDE * sli_plan_parts_count(&c->parts) > taken.wall_count)
+    const size_t others = sli_plan_parts_count(&c->parts) - c->parts.loose;
+    if (c->by_looks && MOST_BESIDE * others > taken.wall_count)
         sli_plan_parts_destroy(context, &c->parts);
     for (size_t i = 0; status == SL_OK && c->parts.gone && i < taken.wall_count; i++)
         if (sl_bits_has(c->parts.gone, i)) sl_bits_add(c->symbols.gone, number[i]);
@@ -586,7 +606,9 @@ sl_status sli_contents_choose(sli_contents *contents, double metre, sli_pen *pen
     sl_status status = contents->runs.count ? choose(&c, pen) : SL_OK;
     contents->doors = c.symbols.swings.count;
     contents->door = sli_choice_door(&c);
+    contents->walls_named = c.walls_named;
     sli_plan_unit_entrance(pen->map, contents->door, contents->doors);
+    pen->map->entrance_may_be_wide = contents->runs.count > 0;
     if (status == SL_OK && contents->large) status = keep_large(contents, metre, pen);
     if (status == SL_OK && !contents->options->all_layers)
         status = sli_plan_tell(contents->context, contents->file, contents->options->layers,

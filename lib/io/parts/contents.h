@@ -45,14 +45,15 @@ typedef struct sli_contents {
     SL_ARRAY(sli_group_run) runs;
     uint32_t *table; ///< groups by their names: numbers, 0 for none
     size_t table_size;
-    uint32_t last;   ///< the group that was asked for before
-    double finest;   ///< the pen's, before a shape
-    size_t first;    ///< wall of a shape
-    size_t left_out; ///< shapes that are passed over
-    sli_looks looks; ///< how shapes look
-    size_t doors;    ///< doors that are drawn open, once the choice is made
-    double door;     ///< how wide these are, usually
-    bool has_looks;  ///< the reader tells them: `look` is that of the shape at hand
+    uint32_t last;    ///< the group that was asked for before
+    double finest;    ///< the pen's, before a shape
+    size_t first;     ///< wall of a shape
+    size_t left_out;  ///< shapes that are passed over
+    sli_looks looks;  ///< how shapes look
+    size_t doors;     ///< doors that are drawn open, once the choice is made
+    double door;      ///< how wide these are, usually
+    bool walls_named; ///< some layer is named as walls, once the choice is made
+    bool has_looks;   ///< the reader tells them: `look` is that of the shape at hand
     uint32_t look;
 } sli_contents;
 

@@ -71,7 +71,8 @@ static const word_list lists[SLI_MEANINGS] = {
          "leinwand* roof* dach* toiture* tetto tetti copertur* cubierta* techo* tejado* telhado* "
          "dak крыш* кровл* strech* cati yttertak *屋顶* *屋根* *지붕* ceiling* clng rcp decke* "
          "plafond* controsoffitt* soffitt* forro* потол* sufit* strop* *天花* *吊顶* *天井* "
-         "*천장* flor slab* beam* joist* rafter* footing* foundation* fndn fundament* overhead "
+         "*천장* *梁* flor slab* beam* joist* rafter* footing* foundation* fndn fundament* "
+         "overhead "
          "ovhd above hidden hidd unterzug* elevation* sect section* detail* detl ansicht* "
          "schnitt* coupe* sezion* seccion* alzado* corte* doorsnede* разрез* przekr* rez rezy "
          "kesit* gorunus* area"},
@@ -107,7 +108,8 @@ static const word_list lists[SLI_MEANINGS] = {
     [SLI_MEANS_FURNITURE] =
         {"furniture",
          "furnit* furn furnish* casework millwork cabinet* eqpm eqpt equip* appliance* fixture* "
-         "fixt fixd sanit* plumb* plmb toilet* wc lavator* lav sink basin washbasin* bathtub* tub "
+         "fixt fixd fitting* sanit* plumb* plmb toilet* wc lavator* lav sink basin washbasin* "
+         "bathtub* tub "
          "shower* chair* armchair* seat seating sofa* couch* table desk bed bookcase* bookshel* "
          "shelf shelves shelving rack wardrobe* stove* oven fridge* refrigerator* dishwasher* "
          "washer* dryer* lamp lite lighting luminair* elec electr* powr power switch* outlet* "
@@ -121,7 +123,7 @@ static const word_list lists[SLI_MEANINGS] = {
          "светильник* отоплен* вентиляц* водоснаб* mebl* wyposaz* nabyt* zarizov* zarizeni "
          "tefris* donati* vitrifiye* inredning* innredning* inventar* kaluste* butor* *家具* "
          "*家俱* *洁具* *潔具* *设备* *設備* *卫浴* *灯具* *什器* *備品* *衛生* *便器* *가구* "
-         "*위생* *설비* *电气* *電気* *电器* أثاث ריהוט"},
+         "*위생* *설비* *电气* *電気* *电器* *给排水* *給排水* أثاث ריהוט"},
     [SLI_MEANS_HATCH] =
         {"hatch",
          "hatch* htch patt pattern* poche fill infill solidfill shading shade tile tiling paving "
@@ -149,6 +151,10 @@ static const word_list lists[SLI_MEANINGS] = {
 /// What makes a room of the furniture that is named before it.
 static const char rooms[] = "room zimmer raum raume chambre salle stanza sala cuarto quarto kamer "
                             "ruimte pokoj комнат* zone hall lobby";
+
+/// What has no walls where there are nodes: a graph of ways, as for finding one's way indoors.
+static const char nodes[] = "node rfid* reader* waypoint* graph* route*";
+static const char edges[] = "edge link";
 
 const char *sli_meaning_text(sli_meaning meaning) {
     return lists[meaning].text;
@@ -361,13 +367,26 @@ sli_meaning sli_meaning_of(sli_word name) {
     return last || !begin ? last : meaning_of_part((sli_word){name.at, begin});
 }
 
-bool sli_meaning_is_rooms(sli_word name) {
+/// Whether all words of a name are in a list.
+static bool is_all(sli_word name, const char *patterns) {
     const char *at = name.at, *const end = name.at + name.length;
     char text[LONGEST];
     bool any = false;
     for (sli_word word = next_word(&at, end, text); word.length; word = next_word(&at, end, text)) {
-        if (!fits_any(word, rooms)) return false;
+        if (!fits_any(word, patterns)) return false;
         any = true;
     }
     return any;
+}
+
+bool sli_meaning_is_rooms(sli_word name) {
+    return is_all(name, rooms);
+}
+
+bool sli_meaning_is_nodes(sli_word name) {
+    return is_all(name, nodes);
+}
+
+bool sli_meaning_is_edges(sli_word name) {
+    return is_all(name, edges);
 }

@@ -77,7 +77,8 @@ void sli_plan_unit_tell(sl_context *context, const char *file, const sl_map *map
         if (fits) return;
     }
     const double least = map->wall_count >= MANY_WALLS ? SHORT_OF_MANY : SHORT;
-    if (metres >= least && metres <= (unit->metres >= 1 ? LONG_TOWN : LONG)) return;
+    const bool town = unit->metres >= 1 && !plan->building;
+    if (metres >= least && metres <= (town ? LONG_TOWN : LONG)) return;
     if (list_units(length, plan->unit, units, sizeof units))
         sl_note(context,
                 "%s: the drawing says %s, and is %.4g m long then: if this is the plan of a "

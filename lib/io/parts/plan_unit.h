@@ -8,10 +8,11 @@
 
 /// What is known of a plan.
 typedef struct sli_plan_size {
-    int unit;     ///< that the drawing names, a number of sli_units
-    double scale; ///< of the map: its numbers are those of the drawing times this
-    double door;  ///< the usual width of doors that are drawn open, in the map; 0 for unknown
-    size_t doors; ///< how many these are
+    int unit;      ///< that the drawing names, a number of sli_units
+    double scale;  ///< of the map: its numbers are those of the drawing times this
+    double door;   ///< the usual width of doors that are drawn open, in the map; 0 for unknown
+    size_t doors;  ///< how many these are
+    bool building; ///< layers are named as walls and doors: it is no town
 } sli_plan_size;
 
 /// Notes a unit in which doors are no doors, or in which the plan is too small or too large for
