@@ -43,8 +43,8 @@ has() {
     source) set -- "$(find "$folder" -maxdepth 1 -name 'sightline-*.tar.gz' ! -name 'sightline-*-*')" ;;
     command) set -- "$folder"/sightline-*-linux-*.tar.gz ;;
     npm) set -- "$folder"/sightline-*.tgz ;;
-    wheel) set -- "$folder"/python/*.whl ;;
-    sdist) set -- "$folder"/python/*.tar.gz ;;
+    wheel) set -- "$folder"/sightline-*.whl ;;
+    sdist) set -- "$folder"/sightline-*-python.tar.gz ;;
     *) set -- "$folder"/sightline-*-"$1"* ;;
     esac
     [ -e "$1" ]

@@ -133,7 +133,7 @@ qgis) # it lists the algorithms
 wheel | sdist)
     python=/usr/bin/python3 # which has the system's numpy
     if [ "$part" = wheel ]; then
-        wheel=$(file 'python/sightline-*.whl')
+        wheel=$(file 'sightline-*.whl')
         $python -m pip install --no-index --no-deps --target installed "$wheel"
         if command -v objdump >/dev/null; then # the name says the newest glibc that a symbol asks for
             newest=$(find installed -name '*.so*' -exec objdump -T {} + | grep -o 'GLIBC_[0-9.]*' | sort -uV | tail -n 1)
@@ -143,13 +143,13 @@ wheel | sdist)
             esac
         fi
     else
-        $python -m pip install --no-index --no-deps --no-build-isolation --target installed "$(file 'python/sightline-*.tar.gz')"
+        $python -m pip install --no-index --no-deps --no-build-isolation --target installed "$(file 'sightline-*-python.tar.gz')"
     fi
     PYTHONPATH=$PWD/installed $python -c "
 import sightline
 room = sightline.Plan.from_segments([[0, 0, 4, 0], [4, 0, 4, 4], [4, 4, 0, 4], [0, 4, 0, 0]])
 assert room.bake().can_see((1, 1), (3, 3)) and room.bake().explorer().page
-assert sightline.__version__ in '''$(ls "$files/python")'''"
+assert sightline.__version__ in '''$(ls "$files")'''"
     ;;
 *)
     echo "use: there is no part '$part'" >&2
