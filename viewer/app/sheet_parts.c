@@ -23,7 +23,7 @@ typedef struct sheet_work {
     sheet_parts *out;
 } sheet_work;
 
-__attribute__((format(printf, 2, 3))) static void say(sheet_work *w, const char *format, ...) {
+SL_PRINTF(2, 3) static void say(sheet_work *w, const char *format, ...) {
     const size_t used = strlen(w->out->words);
     va_list arguments;
     va_start(arguments, format);
