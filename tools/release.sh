@@ -183,21 +183,6 @@ case $parts in *" foundry "*)
     ;;
 esac
 
-# ---- qgis ----
-case $parts in *" qgis "*)
-    cp -R "$sources/lib/bindings/qgis" "$scratch/sightline_qgis"
-    cp "$sources/LICENSE" "$scratch/sightline_qgis/"
-    (cd "$scratch" && zip_folder sightline_qgis "$name-qgis.zip")
-    quietly python3 -m compileall -q "$scratch/sightline_qgis"
-    if command -v qgis_process >/dev/null; then
-        keep qgis "$scratch/$name-qgis.zip"
-    else
-        echo "release: QGIS is not installed: the plugin was not tried in it" >&2
-        offer "$scratch/$name-qgis.zip"
-    fi
-    ;;
-esac
-
 # ---- python: the wheel is built from the file of the sources alone ----
 case $parts in *" python "*)
     python=/usr/bin/python3 # which has what the set-up installs
@@ -213,6 +198,21 @@ case $parts in *" python "*)
     wheel=$($python "$sources/tools/packages/python/standalone.py" "$scratch"/wheel/*.whl "$scratch")
     offer "$scratch/$name-python.tar.gz" # of which the wheel was built
     keep wheel "$wheel"
+    ;;
+esac
+
+# ---- qgis: it is tried with the wheel, where there is one ----
+case $parts in *" qgis "*)
+    cp -R "$sources/lib/bindings/qgis" "$scratch/sightline_qgis"
+    cp "$sources/LICENSE" "$scratch/sightline_qgis/"
+    (cd "$scratch" && zip_folder sightline_qgis "$name-qgis.zip")
+    quietly python3 -m compileall -q "$scratch/sightline_qgis"
+    if command -v qgis_process >/dev/null; then
+        keep qgis "$scratch/$name-qgis.zip"
+    else
+        echo "release: QGIS is not installed: the plugin was not tried in it" >&2
+        offer "$scratch/$name-qgis.zip"
+    fi
     ;;
 esac
 
