@@ -1,7 +1,8 @@
 #!/bin/sh
 # Builds packages: sh tools/package.sh [deb | tarball] [FOLDER]
 #
-# deb      Debian packages (default), by dpkg-buildpackage from a copy of the sources, of a clone or a release archive
+# deb      Debian packages (default), by dpkg-buildpackage from a copy of the sources, of a clone or a release archive.
+#          They need debhelper, dh-python and doxygen. lintian, where it is installed, must have no error and no warning
 # tarball  an archive of what 'cmake --install' puts down; it can be unpacked anywhere
 #
 # Packages are written to FOLDER (default: build/packages). tools/packages/ has the recipes, those for
@@ -20,7 +21,7 @@ case $kind in
 deb)
     for each in dpkg-buildpackage dh dh_python3 doxygen; do
         command -v $each >/dev/null || {
-            echo "package: $each is missing; as root: apt-get install debhelper dh-python doxygen" >&2
+            echo "package: $each is missing; as root: apt-get install debhelper dh-python doxygen lintian" >&2
             exit 1
         }
     done
@@ -35,6 +36,11 @@ deb)
     mv "$copy/tools/packages/debian" "$copy/debian"
     (cd "$copy" && DEB_BUILD_PROFILES=nocheck dpkg-buildpackage -us -uc -b)
     rm -rf "$copy"
+    if command -v lintian >/dev/null; then
+        lintian --fail-on error,warning "$folder/sightline_${version}_"*.changes
+    else
+        echo "package: lintian is missing: the packages were not checked" >&2
+    fi
     ;;
 tarball)
     cmake --preset release -B build/archive -DSIGHTLINE_TESTS=OFF

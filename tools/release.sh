@@ -8,7 +8,8 @@
 # npm      the npm package
 # foundry  the module for Foundry Virtual Tabletop, with the npm package in it
 # qgis     the plugin for QGIS, which needs the Python package
-# python   the Python package: its sources in one file, and a wheel that has the libraries it needs
+# python   the Python package: its sources in one file, and a wheel that has the libraries it needs. An index such as PyPI
+#          asks for the name sightline-VERSION.tar.gz for the first, which here is that of the archive
 #
 # 'sh tools/setup.sh --release' installs what they need. Without a PART, all. Each is tried in an empty folder before it is
 # put into FOLDER; with --clean, also in a Debian of its own that has nothing else (tools/packages/clean.sh), as root. The
@@ -28,7 +29,7 @@ if [ "${1:-}" = --clean ]; then
 fi
 case ${1:-} in
 -h | --help)
-    sed -n '2,17s/^# \{0,1\}//p' "$0"
+    sed -n '2,18s/^# \{0,1\}//p' "$0"
     exit 0
     ;;
 '' | -*) fail "$usage" 2 ;;
@@ -81,24 +82,22 @@ with zipfile.ZipFile(sys.argv[1], 'w') as archive:
         archive.writestr(zipfile.ZipInfo(name), open(name, 'rb').read(), zipfile.ZIP_DEFLATED)" "$2"
 }
 
-# offer FILE [FOLDER/]: it becomes a file of the release.
+# offer FILE: it becomes a file of the release.
 offer() {
-    mkdir -p "$folder/${2:-}"
-    cp "$1" "$folder/${2:-}"
-    made="${made:-} ${2:-}$(basename "$1")"
-    echo "release: $folder/${2:-}$(basename "$1")"
+    cp "$1" "$folder/"
+    made="${made:-} $(basename "$1")"
+    echo "release: $folder/$(basename "$1")"
 }
 
-# keep PART FILE [FOLDER/]: the same, once it works.
+# keep PART FILE: the same, once it works.
 files=$scratch/files
 mkdir "$files"
 keep() {
-    target=${3:-}$(basename "$2")
-    mkdir -p "$files/${3:-}" "$scratch/empty"
-    mv "$2" "$files/$target"
+    mkdir "$scratch/empty"
+    mv "$2" "$files/"
     (cd "$scratch/empty" && quietly sh "$sources/tools/packages/use.sh" "$1" "$files")
     rm -r "$scratch/empty"
-    offer "$files/$target" "${3:-}"
+    offer "$files/$(basename "$2")"
 }
 
 # ---- source ----
@@ -184,7 +183,25 @@ case $parts in *" foundry "*)
     ;;
 esac
 
-# ---- qgis ----
+# ---- python: the wheel is built from the file of the sources alone ----
+case $parts in *" python "*)
+    python=/usr/bin/python3 # which has what the set-up installs
+    command -v patchelf >/dev/null || fail "patchelf is missing" 77
+    mkdir "$sources/lib/bindings/python/sightline/npm" # what Level.explorer() puts into a page
+    (cd "$scratch/web/package" && cp sightline.js arguments.js host.js level.wasm "$sources/lib/bindings/python/sightline/npm/")
+    (cd "$sources/lib/bindings/python" && quietly $python setup.py --quiet sdist --dist-dir "$scratch/sdist")
+    mkdir "$scratch/python" "$scratch/wheel"
+    tar -xzf "$scratch/sdist/$name.tar.gz" -C "$scratch/python"
+    pack "$name-python" "$name" "$scratch/python"
+    (cd "$scratch/python" &&
+        quietly $python -m pip wheel --no-index --no-deps --no-build-isolation -w "$scratch/wheel" "../$name-python.tar.gz")
+    wheel=$($python "$sources/tools/packages/python/standalone.py" "$scratch"/wheel/*.whl "$scratch")
+    offer "$scratch/$name-python.tar.gz" # of which the wheel was built
+    keep wheel "$wheel"
+    ;;
+esac
+
+# ---- qgis: it is tried with the wheel, where there is one ----
 case $parts in *" qgis "*)
     cp -R "$sources/lib/bindings/qgis" "$scratch/sightline_qgis"
     cp "$sources/LICENSE" "$scratch/sightline_qgis/"
@@ -196,25 +213,6 @@ case $parts in *" qgis "*)
         echo "release: QGIS is not installed: the plugin was not tried in it" >&2
         offer "$scratch/$name-qgis.zip"
     fi
-    ;;
-esac
-
-# ---- python: the wheel is built from the file of the sources alone ----
-case $parts in *" python "*)
-    python=/usr/bin/python3 # which has what the set-up installs
-    command -v patchelf >/dev/null || fail "patchelf is missing" 77
-    mkdir "$sources/lib/bindings/python/sightline/npm" # what Level.explorer() puts into a page
-    (cd "$scratch/web/package" && cp sightline.js arguments.js host.js level.wasm "$sources/lib/bindings/python/sightline/npm/")
-    (cd "$sources/lib/bindings/python" && quietly $python setup.py --quiet sdist --dist-dir "$scratch/sdist")
-    mkdir "$scratch/python" "$scratch/wheel"
-    tar -xzf "$scratch/sdist/$name.tar.gz" -C "$scratch/python"
-    pack sdist "$name" "$scratch/python"
-    (cd "$scratch/python" &&
-        quietly $python -m pip wheel --no-index --no-deps --no-build-isolation -w "$scratch/wheel" ../sdist.tar.gz)
-    wheel=$($python "$sources/tools/packages/python/standalone.py" "$scratch"/wheel/*.whl "$scratch")
-    mv "$scratch/sdist.tar.gz" "$scratch/python/$name.tar.gz"
-    offer "$scratch/python/$name.tar.gz" python/ # of which the wheel was built
-    keep wheel "$wheel" python/
     ;;
 esac
 

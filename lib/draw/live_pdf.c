@@ -51,7 +51,7 @@ static sl_status put(pdf *p, const char *bytes, size_t count) {
     return SL_OK;
 }
 
-__attribute__((format(printf, 2, 3))) static sl_status say(pdf *p, const char *format, ...) {
+SL_PRINTF(2, 3) static sl_status say(pdf *p, const char *format, ...) {
     char text[512];
     va_list arguments;
     va_start(arguments, format);

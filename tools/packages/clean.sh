@@ -1,10 +1,10 @@
 #!/bin/sh
 # Uses the files of a release in clean systems: sh tools/packages/clean.sh FOLDER [PART...]
 #
-# FOLDER is one that tools/release.sh has filled. Without a PART, all parts that are in it. Each part has a Debian 12 of its
-# own, with the packages that its documents name and no others, and no network while it is used. The first run makes the
-# system that all begin with (debootstrap, about 2 minutes) in ~/.cache/sightline. It must be root on Linux, with
-# debootstrap: 'sh tools/setup.sh --release' installs that.
+# FOLDER is one that tools/release.sh has filled, or 'tools/package.sh deb' for the part debian. Without a PART, all parts
+# that are in it. Each part has a Debian 12 of its own, with the packages that its documents name and no others, and no
+# network while it is used. The first run makes the system that all begin with (debootstrap, a few minutes) in
+# ~/.cache/sightline. It must be root on Linux, with debootstrap: 'sh tools/setup.sh --release' installs that.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 suite=bookworm
@@ -19,7 +19,7 @@ esac
 [ -d "$1" ] || fail "there is no folder $1" 2
 folder=$(cd "$1" && pwd)
 shift
-all="source command windows amalgamation npm foundry wheel sdist qgis"
+all="source command windows amalgamation npm foundry wheel sdist qgis debian"
 
 # What a user of a part has, beside what each Debian has.
 packages() {
@@ -33,7 +33,11 @@ packages() {
     wheel) echo python3-pip python3-numpy ;;
     sdist) echo python3-pip python3-numpy python3-setuptools python3-wheel gcc libc6-dev cmake make pkg-config zlib1g-dev \
         libjansson-dev libpng-dev libxml2-dev libyaml-dev libzstd-dev ;;
-    qgis) echo qgis python3-qgis qgis-providers python3 ;;
+    qgis) echo qgis python3-qgis qgis-providers python3-pip ;;
+    debian) # the packages themselves, from where the system has them
+        echo gcc libc6-dev pkg-config
+        find "$folder" -maxdepth 1 -name '*.deb' ! -name '*-dbgsym_*' -printf '/files/%f\n'
+        ;;
     *) fail "there is no part '$1': $all" 2 ;;
     esac
 }
@@ -43,8 +47,9 @@ has() {
     source) set -- "$(find "$folder" -maxdepth 1 -name 'sightline-*.tar.gz' ! -name 'sightline-*-*')" ;;
     command) set -- "$folder"/sightline-*-linux-*.tar.gz ;;
     npm) set -- "$folder"/sightline-*.tgz ;;
-    wheel) set -- "$folder"/python/*.whl ;;
-    sdist) set -- "$folder"/python/*.tar.gz ;;
+    wheel) set -- "$folder"/sightline-*.whl ;;
+    sdist) set -- "$folder"/sightline-*-python.tar.gz ;;
+    debian) set -- "$folder"/sightline_*.deb ;;
     *) set -- "$folder"/sightline-*-"$1"* ;;
     esac
     [ -e "$1" ]
@@ -87,6 +92,9 @@ for part in "$@"; do
     mount -t overlay overlay -o "lowerdir=$base,upperdir=$scratch/layer,workdir=$scratch/work" "$system"
     mount -t proc proc "$system/proc"
     cp /etc/resolv.conf "$system/etc/"
+    mkdir "$system/files" "$system/empty"
+    cp -R "$folder/." "$system/files/"
+    cp "$here/use.sh" "$system/"
     look
     before=$at before_worked=$worked
     # shellcheck disable=SC2046
@@ -97,9 +105,6 @@ for part in "$@"; do
     } >"$scratch/log" 2>&1 || { tail -n 20 "$scratch/log" >&2; fail "$part: its packages cannot be installed"; }
     look
     installed=$at installed_worked=$worked
-    mkdir "$system/files" "$system/empty"
-    cp -R "$folder/." "$system/files/"
-    cp "$here/use.sh" "$system/"
     if unshare --net chroot "$system" env -i PATH=/usr/bin:/bin HOME=/root sh -c "cd /empty && sh /use.sh $part /files" \
         >"$scratch/log" 2>&1; then
         look

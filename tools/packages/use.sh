@@ -51,6 +51,16 @@ prints() {
     (cd "$1" && [ "$("$2")" = "$(sed -n '/^```text$/{n;p;q}' README.md)" ])
 }
 
+# python_sees [STATEMENT]: the Python package answers.
+python_sees() {
+    /usr/bin/python3 -c "
+import sightline
+room = sightline.Plan.from_segments([[0, 0, 4, 0], [4, 0, 4, 4], [4, 4, 0, 4], [0, 4, 0, 0]])
+assert room.bake().can_see((1, 1), (3, 3))
+assert sightline.__version__ in '''$(ls "$files")'''
+${1:-}"
+}
+
 case $part in
 command)
     folder=$(unpacked 'sightline-*-linux-*.tar.gz')
@@ -118,22 +128,39 @@ if (watch.sees({ x: 0.5, y: 1 }, { x: 1.5, y: 1 })) process.exit(1)
 END
     node program.mjs
     ;;
-qgis) # it lists the algorithms
+qgis) # it lists the algorithms; with a wheel beside it, one makes a layer
     mkdir plugins home
     chmod 700 home
+    export HOME="$PWD/home" XDG_RUNTIME_DIR="$PWD/home" QT_QPA_PLATFORM=offscreen QGIS_PLUGINPATH="$PWD/plugins"
     python3 -m zipfile -e "$(file 'sightline-*-qgis.zip')" plugins
     process=$(command -v qgis_process.bin || command -v qgis_process)
-    in_qgis() {
-        env HOME="$PWD/home" XDG_RUNTIME_DIR="$PWD/home" QT_QPA_PLATFORM=offscreen \
-            QGIS_PLUGINPATH="$PWD/plugins" "$process" "$@"
-    }
-    in_qgis plugins enable sightline_qgis
-    in_qgis list 2>/dev/null | grep -q 'sightline:isovists'
+    "$process" plugins enable sightline_qgis
+    "$process" list 2>/dev/null | grep -q 'sightline:isovists'
+    wheel=$(find "$files" -maxdepth 1 -name 'sightline-*.whl')
+    if [ "$wheel" ]; then
+        PIP_BREAK_SYSTEM_PACKAGES=1 /usr/bin/python3 -m pip install --user "$wheel"
+        cat >walls.geojson <<'END'
+{"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::32633"}}, "features": [
+{"type": "Feature", "properties": {}, "geometry":
+{"type": "LineString", "coordinates": [[0, 0], [4, 0], [4, 3], [2, 3], [2, 6], [0, 6], [0, 0]]}}]}
+END
+        "$process" run sightline:visibilitygraph --WALLS=walls.geojson --GRID=1 --OUTPUT=graph.geojson
+        [ "$(grep -c '"Polygon"' graph.geojson)" -eq 9 ] # the points of the grid inside, none on a wall
+    fi
+    ;;
+debian) # the packages are installed
+    bakes sightline
+    sightline-view --version
+    readme_program /usr/share/doc/sightline >program.c
+    # shellcheck disable=SC2046
+    cc program.c -o program $(pkg-config --cflags --libs sightline)
+    prints /usr/share/doc/sightline "$PWD/program"
+    python_sees
     ;;
 wheel | sdist)
     python=/usr/bin/python3 # which has the system's numpy
     if [ "$part" = wheel ]; then
-        wheel=$(file 'python/sightline-*.whl')
+        wheel=$(file 'sightline-*.whl')
         $python -m pip install --no-index --no-deps --target installed "$wheel"
         if command -v objdump >/dev/null; then # the name says the newest glibc that a symbol asks for
             newest=$(find installed -name '*.so*' -exec objdump -T {} + | grep -o 'GLIBC_[0-9.]*' | sort -uV | tail -n 1)
@@ -143,13 +170,10 @@ wheel | sdist)
             esac
         fi
     else
-        $python -m pip install --no-index --no-deps --no-build-isolation --target installed "$(file 'python/sightline-*.tar.gz')"
+        $python -m pip install --no-index --no-deps --no-build-isolation --target installed "$(file 'sightline-*-python.tar.gz')"
     fi
-    PYTHONPATH=$PWD/installed $python -c "
-import sightline
-room = sightline.Plan.from_segments([[0, 0, 4, 0], [4, 0, 4, 4], [4, 4, 0, 4], [0, 4, 0, 0]])
-assert room.bake().can_see((1, 1), (3, 3)) and room.bake().explorer().page
-assert sightline.__version__ in '''$(ls "$files/python")'''"
+    export PYTHONPATH="$PWD/installed"
+    python_sees 'assert room.bake().explorer().page'
     ;;
 *)
     echo "use: there is no part '$part'" >&2

@@ -21,8 +21,7 @@ void blocks_keep_status(report_blocks *blocks, sl_status status);
 /// A copy that is kept; "" after a failure.
 const char *blocks_keep(report_blocks *blocks, const char *text);
 /// Likewise, of up to 1023 bytes.
-__attribute__((format(printf, 2, 3))) const char *blocks_say(report_blocks *blocks,
-                                                             const char *format, ...);
+const char *blocks_say(report_blocks *blocks, const char *format, ...) SL_PRINTF(2, 3);
 /// A number with four digits, or all before the point.
 const char *blocks_number(report_blocks *blocks, double value);
 

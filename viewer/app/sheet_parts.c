@@ -24,7 +24,7 @@ typedef struct sheet_work {
     sl_status said; ///< SL_NO_MEMORY: words are missing
 } sheet_work;
 
-__attribute__((format(printf, 2, 3))) static void say(sheet_work *w, const char *format, ...) {
+SL_PRINTF(2, 3) static void say(sheet_work *w, const char *format, ...) {
     va_list arguments, again;
     va_start(arguments, format);
     va_copy(again, arguments);

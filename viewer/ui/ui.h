@@ -188,14 +188,13 @@ int ui_action_find(const ui_state *ui, const char *name);
 void ui_begin(ui_state *ui);
 
 /// Shows a message in the status line.
-void ui_say(ui_state *ui, bool error, const char *format, ...)
-    __attribute__((format(printf, 3, 4)));
+void ui_say(ui_state *ui, bool error, const char *format, ...) SL_PRINTF(3, 4);
 
 /// Shows the message of a failure; nothing for SL_OK, and where one was told to stop.
 void ui_report(ui_state *ui, const sl_context *context, sl_status status);
 
 /// The same for work that goes on: its end is to say something else.
-void ui_say_working(ui_state *ui, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void ui_say_working(ui_state *ui, const char *format, ...) SL_PRINTF(2, 3);
 
 /// A place that a click finds. It is cut to what is shown of the area.
 void ui_hit(ui_state *ui, hit_kind kind, int value, sl_box box);
