@@ -7,10 +7,14 @@
 ///     |    \____/     |        An arc becomes chords. Those of the range lie within the arc, those
 ///     +---------------+        of the dead zone about it: what is doubtful counts as not seen.
 ///
+/// Chords are sides of one regular polygon in the circle. So views from one eye leave the same in
+/// doubt: no view has a sliver there that another one does not have.
+///
 /// Of a sign it is the region all round, and what of it is within a disc.
 #include "analysis/placement/view_shapes.h"
 
 #include "geometry/crossing.h"
+#include "geometry/length.h"
 #include "geometry/orient.h"
 #include "sight/cone.h"
 
@@ -18,8 +22,8 @@
 
 /// How far the chord of an arc may be off it, as a share of the radius.
 #define CHORD 1e-4
-/// The corners of a sign's disc: its chords are not so far off it.
-enum { DISC = 256 };
+/// The corners of the polygon in a circle, and of a sign's disc: chords are not so far off.
+enum { CORNERS = 256 };
 /// A sign counts so far before its place, as a share of the largest coordinate.
 #define BEFORE 0x1p-44
 
@@ -70,6 +74,76 @@ static sl_status end_shape(sl_context *context, sli_view_shapes *s) {
     return SL_OK;
 }
 
+// --- arcs
+
+/// A corner of the polygon in the circle of a region's range, by its number, less the eye.
+static sl_point corner_of(const sl_region *r, double number) {
+    const double angle = number * (8 * atan(1) / CORNERS);
+    return (sl_point){r->range * cos(angle), r->range * sin(angle)};
+}
+
+/// The number of the corner before an end of an arc.
+static double corner_before(sl_point end) {
+    const double number = floor(atan2(end.y, end.x) * (CORNERS / (8 * atan(1))));
+    return number < 0 ? number + CORNERS : number;
+}
+
+/// Where an edge to an end of an arc, from `other`, leaves the polygon. Where it is beyond all
+/// along, what is straight ahead of the end.
+static sl_point leave_at(const sl_region *r, sl_point other, sl_point end) {
+    const double before = corner_before(end);
+    const sl_point a = corner_of(r, before), b = corner_of(r, before + 1);
+    const sl_point along = {b.x - a.x, b.y - a.y};
+    const double inside = along.x * (other.y - a.y) - along.y * (other.x - a.x);
+    const double outside = along.x * (end.y - a.y) - along.y * (end.x - a.x);
+    if (!(outside < 0)) return end;
+    const sl_point from = inside > 0 ? other : (sl_point){0, 0};
+    const double whole = along.x * (from.y - a.y) - along.y * (from.x - a.x);
+    const double share = whole / (whole - outside);
+    return (sl_point){from.x + share * (end.x - from.x), from.y + share * (end.y - from.y)};
+}
+
+static sl_status add_point(sl_context *context, const sl_region *r, sl_point offset,
+                           sli_view_shapes *s) {
+    SL_TRY(SL_ARRAY_ROOM(context, &s->points, 1));
+    s->points.items[s->points.count++] =
+        (sl_point){r->view.eye.x + offset.x, r->view.eye.y + offset.y};
+    return SL_OK;
+}
+
+/// The corners along an arc, of a whole circle where it ends where it starts.
+static sl_status add_arc(sl_context *context, const sl_region *r, sl_point from, sl_point to,
+                         sli_view_shapes *s) {
+    double number = corner_before(from);
+    const double last = corner_before(to);
+    bool around = number == last && sli_cross(from, to) <= 0;
+    while (number != last || around) {
+        around = false;
+        number = number + 1 < CORNERS ? number + 1 : 0;
+        SL_TRY(add_point(context, r, corner_of(r, number), s));
+    }
+    return SL_OK;
+}
+
+/// The corners of a region, with chords in place of arcs.
+static sl_status add_corners(sl_context *context, const sl_region *r, sli_view_shapes *s) {
+    for (size_t i = 0; i < r->count; i++) {
+        const size_t before = i ? i - 1 : r->count - 1, after = i + 1 < r->count ? i + 1 : 0;
+        const bool ends = r->edges[before].kind == SL_EDGE_ARC;
+        const bool starts = r->edges[i].kind == SL_EDGE_ARC;
+        if (!ends && !starts) {
+            SL_TRY(SL_ARRAY_ROOM(context, &s->points, 1));
+            s->points.items[s->points.count++] = r->points[i];
+            continue;
+        }
+        const sl_point eye = {0, 0};
+        const sl_point other = ends && starts ? eye : r->offsets[starts ? before : after];
+        SL_TRY(add_point(context, r, leave_at(r, other, r->offsets[i]), s));
+        if (starts) SL_TRY(add_arc(context, r, r->offsets[i], r->offsets[after], s));
+    }
+    return SL_OK;
+}
+
 /// Adds the region of a viewpoint up to a range as a loop.
 static sl_status add_loop(sl_context *context, sl_query *query, const sl_viewpoint *v, double range,
                           bool clockwise, sl_region *region, sli_view_shapes *s) {
@@ -79,13 +153,11 @@ static sl_status add_loop(sl_context *context, sl_query *query, const sl_viewpoi
     const sl_status status = sl_query_region(context, query, &view, region);
     SL_TRY(sl_query_set_range(context, query, most));
     SL_TRY(status);
-    const double tolerance = CHORD * range;
-    const size_t count = sl_region_flatten(region, tolerance, NULL, 0);
+    const size_t first = s->points.count;
+    SL_TRY(add_corners(context, region, s));
+    const size_t count = s->points.count - first;
     if (!count) return SL_OK;
-    SL_TRY(SL_ARRAY_ROOM(context, &s->points, count));
-    sl_point *const loop = s->points.items + s->points.count;
-    sl_region_flatten(region, tolerance, loop, count);
-    s->points.count += count;
+    sl_point *const loop = s->points.items + first;
     for (size_t i = 0; clockwise && i < count / 2; i++) {
         const sl_point last = loop[count - 1 - i];
         loop[count - 1 - i] = loop[i];
@@ -123,11 +195,11 @@ bool sli_viewpoint_holds(const sl_viewpoint *v, const sl_view *view, sl_point pl
 /// What of the loop behind the last shape is within the disc of a sign takes its place.
 static sl_status keep_disc(sl_context *context, sl_point eye, const sl_viewpoint *v, size_t first,
                            sli_view_shapes *s) {
-    const size_t loop = s->points.count - first, disc = DISC;
+    const size_t loop = s->points.count - first, disc = CORNERS;
     const sl_point middle = sli_sign_middle(eye, v);
-    sl_point corners[DISC];
-    for (int i = 0; i < DISC; i++)
-        corners[i] = ahead(middle, v->heading + 180 + i * 360.0 / DISC, v->range / 2);
+    sl_point corners[CORNERS];
+    for (int i = 0; i < CORNERS; i++)
+        corners[i] = ahead(middle, v->heading + 180 + i * 360.0 / CORNERS, v->range / 2);
     const sl_shape both[2] = {{s->points.items + first, &loop, 1}, {corners, &disc, 1}};
     sl_overlay overlay;
     sl_shape read = {0};
