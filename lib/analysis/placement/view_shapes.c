@@ -76,70 +76,57 @@ static sl_status end_shape(sl_context *context, sli_view_shapes *s) {
 
 // --- arcs
 
-/// A corner of the polygon in the circle of a region's range, by its number, less the eye.
-static sl_point corner_of(const sl_region *r, double number) {
-    const double angle = number * (8 * atan(1) / CORNERS);
+static double out_of(sl_point a, sl_point b, sl_point p) {
+    return sli_cross((sl_point){p.x - a.x, p.y - a.y}, (sl_point){b.x - a.x, b.y - a.y});
+}
+
+/// A corner of the polygon in the circle of a region's range, less the eye; of numbers that are
+/// CORNERS apart the same.
+static sl_point corner_of(const sl_region *r, int number) {
+    const double angle = (number & (CORNERS - 1)) * (8 * atan(1) / CORNERS);
     return (sl_point){r->range * cos(angle), r->range * sin(angle)};
 }
 
-/// The number of the corner before an end of an arc.
-static double corner_before(sl_point end) {
-    const double number = floor(atan2(end.y, end.x) * (CORNERS / (8 * atan(1))));
-    return number < 0 ? number + CORNERS : number;
+/// The corner before an end of an arc; numbers go around from -CORNERS / 2 on.
+static int corner_before(sl_point end) {
+    return (int)floor(atan2(end.y, end.x) * (CORNERS / (8 * atan(1))));
 }
 
-/// Where an edge to an end of an arc, from `other`, leaves the polygon. Where it is beyond all
-/// along, what is straight ahead of the end.
-static sl_point leave_at(const sl_region *r, sl_point other, sl_point end) {
-    const double before = corner_before(end);
+/// Where the edge between an end of an arc and the point `other` leaves the polygon. Where it is
+/// outside all along, the point straight before the end.
+static sl_point leave_at(const sl_region *r, sl_point end, sl_point other) {
+    const int before = corner_before(end);
     const sl_point a = corner_of(r, before), b = corner_of(r, before + 1);
-    const sl_point along = {b.x - a.x, b.y - a.y};
-    const double inside = along.x * (other.y - a.y) - along.y * (other.x - a.x);
-    const double outside = along.x * (end.y - a.y) - along.y * (end.x - a.x);
-    if (!(outside < 0)) return end;
-    const sl_point from = inside > 0 ? other : (sl_point){0, 0};
-    const double whole = along.x * (from.y - a.y) - along.y * (from.x - a.x);
-    const double share = whole / (whole - outside);
-    return (sl_point){from.x + share * (end.x - from.x), from.y + share * (end.y - from.y)};
+    if (out_of(a, b, other) >= 0) other = (sl_point){0, 0};
+    const double from = out_of(a, b, other), to = out_of(a, b, end);
+    const double share = to > 0 ? from / (from - to) : 1;
+    return (sl_point){other.x + share * (end.x - other.x), other.y + share * (end.y - other.y)};
 }
 
-static sl_status add_point(sl_context *context, const sl_region *r, sl_point offset,
-                           sli_view_shapes *s) {
+static sl_status add_point(sl_context *context, sl_point from, sl_point way, sli_view_shapes *s) {
     SL_TRY(SL_ARRAY_ROOM(context, &s->points, 1));
-    s->points.items[s->points.count++] =
-        (sl_point){r->view.eye.x + offset.x, r->view.eye.y + offset.y};
-    return SL_OK;
-}
-
-/// The corners along an arc, of a whole circle where it ends where it starts.
-static sl_status add_arc(sl_context *context, const sl_region *r, sl_point from, sl_point to,
-                         sli_view_shapes *s) {
-    double number = corner_before(from);
-    const double last = corner_before(to);
-    bool around = number == last && sli_cross(from, to) <= 0;
-    while (number != last || around) {
-        around = false;
-        number = number + 1 < CORNERS ? number + 1 : 0;
-        SL_TRY(add_point(context, r, corner_of(r, number), s));
-    }
+    s->points.items[s->points.count++] = (sl_point){from.x + way.x, from.y + way.y};
     return SL_OK;
 }
 
 /// The corners of a region, with chords in place of arcs.
 static sl_status add_corners(sl_context *context, const sl_region *r, sli_view_shapes *s) {
+    const sl_point eye = r->view.eye, none = {0, 0};
     for (size_t i = 0; i < r->count; i++) {
-        const size_t before = i ? i - 1 : r->count - 1, after = i + 1 < r->count ? i + 1 : 0;
+        const size_t before = (i ? i : r->count) - 1, after = i + 1 < r->count ? i + 1 : 0;
         const bool ends = r->edges[before].kind == SL_EDGE_ARC;
         const bool starts = r->edges[i].kind == SL_EDGE_ARC;
-        if (!ends && !starts) {
-            SL_TRY(SL_ARRAY_ROOM(context, &s->points, 1));
-            s->points.items[s->points.count++] = r->points[i];
+        const sl_point from = r->offsets[i], to = r->offsets[after];
+        if (!starts && !ends) {
+            SL_TRY(add_point(context, r->points[i], none, s));
             continue;
         }
-        const sl_point eye = {0, 0};
-        const sl_point other = ends && starts ? eye : r->offsets[starts ? before : after];
-        SL_TRY(add_point(context, r, leave_at(r, other, r->offsets[i]), s));
-        if (starts) SL_TRY(add_arc(context, r, r->offsets[i], r->offsets[after], s));
+        const sl_point other = !starts ? to : ends ? none : r->offsets[before];
+        SL_TRY(add_point(context, eye, leave_at(r, from, other), s));
+        if (!starts) continue;
+        int number = corner_before(from), last = corner_before(to);
+        if (last < number || (last == number && sli_cross(from, to) <= 0)) last += CORNERS;
+        while (number < last) SL_TRY(add_point(context, eye, corner_of(r, ++number), s));
     }
     return SL_OK;
 }
@@ -208,14 +195,10 @@ static sl_status keep_disc(sl_context *context, sl_point eye, const sl_viewpoint
     sl_overlay_destroy(context, &overlay);
     s->points.count = first;
     s->ends.count--;
-    const size_t count = read.count ? read.ends[read.count - 1] : 0;
-    if (status == SL_OK) status = SL_ARRAY_ROOM(context, &s->points, count);
-    for (size_t i = 0; status == SL_OK && i < read.count; i++) {
-        while (s->points.count - first < read.ends[i]) {
-            const size_t next = s->points.count - first;
-            s->points.items[s->points.count++] = read.points[next];
-        }
-        status = end_loop(context, s);
+    for (size_t i = 0, next = 0; status == SL_OK && i < read.count; i++) {
+        for (; status == SL_OK && next < read.ends[i]; next++)
+            status = add_point(context, read.points[next], (sl_point){0, 0}, s);
+        if (status == SL_OK) status = end_loop(context, s);
     }
     sl_shape_destroy(context, &read);
     return status;
@@ -254,9 +237,9 @@ sl_status sli_view_shapes_add(sl_context *context, sl_query *query, const sl_vie
 sl_status sli_view_shapes_add_walls(sl_context *context, const sl_space *space,
                                     sli_view_shapes *s) {
     for (uint32_t w = 0; w < space->wall_count; w++) {
-        SL_TRY(SL_ARRAY_ROOM(context, &s->points, 2));
-        s->points.items[s->points.count++] = space->walls[w].a;
-        s->points.items[s->points.count++] = space->walls[w].b;
+        const sl_point none = {0, 0};
+        SL_TRY(add_point(context, space->walls[w].a, none, s));
+        SL_TRY(add_point(context, space->walls[w].b, none, s));
         SL_TRY(end_loop(context, s));
     }
     return end_shape(context, s);
