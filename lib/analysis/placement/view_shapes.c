@@ -124,9 +124,11 @@ static sl_status add_corners(sl_context *context, const sl_region *r, sli_view_s
         const sl_point other = !starts ? to : ends ? none : r->offsets[before];
         SL_TRY(add_point(context, eye, leave_at(r, from, other), s));
         if (!starts) continue;
-        int number = corner_before(from), last = corner_before(to);
-        if (last < number || (last == number && sli_cross(from, to) <= 0)) last += CORNERS;
-        while (number < last) SL_TRY(add_point(context, eye, corner_of(r, ++number), s));
+        // Up to half a circle; rounded, an end may be a little before its start.
+        const int number = corner_before(from),
+                  passed = (corner_before(to) - number) & (CORNERS - 1);
+        for (int k = 1; k <= passed && passed <= CORNERS / 2 + 1; k++)
+            SL_TRY(add_point(context, eye, corner_of(r, number + k), s));
     }
     return SL_OK;
 }
