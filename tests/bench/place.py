@@ -4,8 +4,7 @@ place.py SIGHTLINE FILE... [--limit SECONDS] [-- OPTION...]
 
 Each FILE is a map, or FILE:LEVEL. OPTION... go to `sightline place` as they are. One process runs at
 a time. After --limit seconds of the processor (default 60) it is interrupted, and gives the best set
-and both bounds. Where all viewpoints may stand anywhere, the
-proof goes through `sightline place --verify`. Prints a table with tabs between:
+and both bounds. Its proof goes through `sightline place --verify`. Prints a table with tabs between:
   name, lower, upper, seconds, memory   of `place`; memory is the peak in MiB
   verify, verify_seconds                "yes" where the proof holds and proves these bounds; else the
                                         message
@@ -74,11 +73,10 @@ def run(command, limit):
 def measure(program, name, limit, options, folder):
     path, colon, level = name.rpartition(":")
     source = [path, "--map", level] if colon and not os.path.exists(name) else [name]
-    anywhere = not options
     proof = pathlib.Path(folder, "proof.json")
     proof.unlink(missing_ok=True)
     command = [program, "place", *source, *options, "--json"]
-    status, out, message, used = run(command + (["--proof", proof] if anywhere else []), limit)
+    status, out, message, used = run([*command, "--proof", proof], limit)
     row = dict.fromkeys(COLUMNS, "")
     row |= {"name": name, "seconds": f"{used.ru_utime + used.ru_stime:.3f}",
             "memory": used.ru_maxrss // 1024}
@@ -87,7 +85,7 @@ def measure(program, name, limit, options, folder):
     found = json.loads(out)
     row |= {"lower": found["lower"], "upper": found["upper"]}
     if proof.exists():
-        status, out, message, used = run([program, "place", "--verify", proof, *source, "--json"], 600)
+        status, out, message, used = run([*command, "--verify", proof], 600)
         proven = json.loads(out) if out else {}
         same = all(proven.get(key) == found[key] for key in ("lower", "upper"))
         row |= {"verify": "yes" if status == 0 and same else message or out or f"exit status {status}",

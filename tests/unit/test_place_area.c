@@ -98,6 +98,29 @@ static void test_off_walls(void **state) {
     }
 }
 
+/// Views from one eye have the same chords up to their range, so those between two that see all
+/// see nothing more. In the second plan a wall cuts the arcs, in the third one it touches them.
+static void test_one_eye(void **state) {
+    (void)state;
+    static const char *const plans[] = {"open 0 0 12 0 12 12 0 12\n", "open 0 0 12 0 12 7 0 7\n",
+                                        "open 0 0 12 0 12 9 0 9\n"};
+    for (int k = 0; k < 6; k++) {
+        scene s;
+        begin(&s, plans[k % 3], 500, (sl_viewpoint){.fov = 90, .range = 4});
+        for (int i = 0; i < PLACES; i++) {
+            s.places[i].at = (sl_point){6.3, 5};
+            s.places[i].heading = 10 * i;
+            s.places[i].nearest = k / 3;
+        }
+        sl_area_placement placed = place(&s);
+        assert_int_equal(placed.lower, 2);
+        assert_int_equal(placed.upper, 2);
+        check_points(&s, &placed);
+        sl_area_placement_destroy(s.context, &placed);
+        end(&s);
+    }
+}
+
 static void test_demands_and_fixed(void **state) {
     (void)state;
     for (unsigned k = 0; k < 6; k++) {
@@ -428,15 +451,11 @@ static void test_refusals(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_fewest),
-        cmocka_unit_test(test_off_walls),
-        cmocka_unit_test(test_demands_and_fixed),
-        cmocka_unit_test(test_zone),
-        cmocka_unit_test(test_most),
-        cmocka_unit_test(test_most_is_all),
-        cmocka_unit_test(test_weights),
-        cmocka_unit_test(test_network),
-        cmocka_unit_test(test_blind),
+        cmocka_unit_test(test_fewest),      cmocka_unit_test(test_off_walls),
+        cmocka_unit_test(test_one_eye),     cmocka_unit_test(test_demands_and_fixed),
+        cmocka_unit_test(test_zone),        cmocka_unit_test(test_most),
+        cmocka_unit_test(test_most_is_all), cmocka_unit_test(test_weights),
+        cmocka_unit_test(test_network),     cmocka_unit_test(test_blind),
         cmocka_unit_test(test_refusals),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

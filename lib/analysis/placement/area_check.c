@@ -15,8 +15,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-/// Witnesses added at once, at most.
-enum { WITNESSES_MOST = 300 };
+/// Witnesses added at once, at most; more where more than FEW_OF times as many pieces are unseen.
+enum { WITNESSES_MOST = 300, FEW_OF = 2 };
 /// How far a witness is from a corner of its piece, as a share of the way to the middle.
 #define CORNER_STEP 0x1p-6
 /// Pieces up to this wide, on average, are rounding: a share of the largest coordinate, some times
@@ -123,6 +123,10 @@ static bool is_witness(const checker *c, bool sure) {
     return sli_area_asks(c->a, c->chosen);
 }
 
+static bool is_enough(const checker *c) {
+    return c->added >= WITNESSES_MOST && c->added >= c->unseen.count / FEW_OF;
+}
+
 static sl_status add_witness(checker *c, sl_point at) {
     c->added++;
     return sli_area_add_row(c->a, at);
@@ -147,7 +151,7 @@ static sl_status try_piece(checker *c, uint32_t piece) {
 }
 
 static sl_status try_pieces(checker *c) {
-    for (size_t i = 0; i < c->unseen.count && c->added < WITNESSES_MOST; i++) {
+    for (size_t i = 0; i < c->unseen.count && !is_enough(c); i++) {
         SL_TRY(sl_check_cancelled(c->a->context));
         SL_TRY(try_piece(c, c->unseen.items[i].piece));
     }
@@ -248,7 +252,7 @@ static sl_status search_piece(checker *c, uint32_t piece) {
 }
 
 static sl_status search_pieces(checker *c) {
-    for (size_t i = 0; i < c->unseen.count && c->added < WITNESSES_MOST; i++) {
+    for (size_t i = 0; i < c->unseen.count && !is_enough(c); i++) {
         SL_TRY(sl_check_cancelled(c->a->context));
         SL_TRY(search_piece(c, c->unseen.items[i].piece));
     }

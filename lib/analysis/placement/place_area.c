@@ -28,6 +28,8 @@
 enum { NETWORK_ROUNDS = 20 };
 /// Longer local searches, at most, while places are completed once.
 enum { SEARCHES = 8 };
+/// One of so many is few.
+enum { FEW_OF = 2 };
 enum {
     ROUNDS = 400,
     COARSE_ITERATIONS = 20000,
@@ -274,24 +276,6 @@ static sl_status keep(finder *f) {
     return SL_OK;
 }
 
-/// Adds witnesses and places until `now` leaves nothing. *clean: it left nothing at first.
-static sl_status fill(finder *f, bool *clean) {
-    uint32_t added;
-    *clean = true;
-    for (int round = 0; round < ROUNDS; round++) {
-        if (f->complete)
-            sl_report(f->a->context, "place", "viewpoints", f->a->out->lower, f->a->out->upper);
-        else
-            sl_report(f->a->context, "place", "witnesses", f->a->witnesses.count, 0);
-        if (f->a->task->network) SL_TRY(sli_network_join(f->a, f->now));
-        SL_TRY(sli_area_check(f->a, f->now, &added));
-        if (!added) return SL_OK;
-        *clean = false;
-        SL_TRY(take_more(f, !f->complete));
-    }
-    return SL_OK;
-}
-
 /// Keeps the proof of a lower bound that is better than those before it. Takes both.
 static sl_status keep_proof(sli_area *a, sl_cover_problem *problem, sl_cover_proof *proof) {
     sl_area_placement *out = a->out;
@@ -352,6 +336,30 @@ static sl_status choose(finder *f, choice what) {
     sl_cover_result_destroy(a->context, &cover);
     sli_area_problem_destroy(a->context, &problem);
     return status;
+}
+
+/// Adds witnesses and places until `now` leaves nothing. *clean: it left nothing at first. Where a
+/// set leaves much, local search is slow to close in, so better sets come from linear programs, and
+/// the last one is completed in haste.
+static sl_status fill(finder *f, bool *clean) {
+    uint32_t added;
+    bool far = false;
+    *clean = true;
+    for (int round = 0; round < ROUNDS; round++) {
+        if (f->complete)
+            sl_report(f->a->context, "place", "viewpoints", f->a->out->lower, f->a->out->upper);
+        else
+            sl_report(f->a->context, "place", "witnesses", f->a->witnesses.count, 0);
+        if (f->a->task->network) SL_TRY(sli_network_join(f->a, f->now));
+        SL_TRY(sli_area_check(f->a, f->now, &added));
+        if (!added) break;
+        *clean = false;
+        const bool many = f->complete && !f->fine && !f->a->task->network &&
+                          added > cost_of(f->a, f->now) / FEW_OF;
+        SL_TRY(many ? choose(f, BOTH) : take_more(f, far || !f->complete));
+        far = far || many;
+    }
+    return far && f->a->wide_count ? choose(f, WIDE) : SL_OK;
 }
 
 /// Fills `now`, keeps it and betters it, as long as what is better sees everything in the end.
@@ -440,6 +448,7 @@ static sl_status find(finder *f) {
     for (a->out->rounds = 1; a->out->rounds < ROUNDS; a->out->rounds++) {
         rows = 0;
         SL_TRY(choose(f, BOTH));
+        if (a->wide_count && !f->fine) SL_TRY(choose(f, WIDE));
         if (a->out->lower == a->out->upper) break;
         if (a->task->network && !is_stalled(f)) SL_TRY(sli_network_cut(a, f->now, &rows));
         SL_TRY(complete(f, &clean));

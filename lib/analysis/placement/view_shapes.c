@@ -7,10 +7,14 @@
 ///     |    \____/     |        An arc becomes chords. Those of the range lie within the arc, those
 ///     +---------------+        of the dead zone about it: what is doubtful counts as not seen.
 ///
+/// Chords are sides of one regular polygon in the circle. So views from one eye leave the same in
+/// doubt: no view has a sliver there that another one does not have.
+///
 /// Of a sign it is the region all round, and what of it is within a disc.
 #include "analysis/placement/view_shapes.h"
 
 #include "geometry/crossing.h"
+#include "geometry/length.h"
 #include "geometry/orient.h"
 #include "sight/cone.h"
 
@@ -18,8 +22,8 @@
 
 /// How far the chord of an arc may be off it, as a share of the radius.
 #define CHORD 1e-4
-/// The corners of a sign's disc: its chords are not so far off it.
-enum { DISC = 256 };
+/// The corners of the polygon in a circle, and of a sign's disc: chords are not so far off.
+enum { CORNERS = 256 };
 /// A sign counts so far before its place, as a share of the largest coordinate.
 #define BEFORE 0x1p-44
 
@@ -70,6 +74,65 @@ static sl_status end_shape(sl_context *context, sli_view_shapes *s) {
     return SL_OK;
 }
 
+// --- arcs
+
+static double out_of(sl_point a, sl_point b, sl_point p) {
+    return sli_cross((sl_point){p.x - a.x, p.y - a.y}, (sl_point){b.x - a.x, b.y - a.y});
+}
+
+/// A corner of the polygon in the circle of a region's range, less the eye; of numbers that are
+/// CORNERS apart the same.
+static sl_point corner_of(const sl_region *r, int number) {
+    const double angle = (number & (CORNERS - 1)) * (8 * atan(1) / CORNERS);
+    return (sl_point){r->range * cos(angle), r->range * sin(angle)};
+}
+
+/// The corner before an end of an arc; numbers go around from -CORNERS / 2 on.
+static int corner_before(sl_point end) {
+    return (int)floor(atan2(end.y, end.x) * (CORNERS / (8 * atan(1))));
+}
+
+/// Where the edge between an end of an arc and the point `other` leaves the polygon. Where it is
+/// outside all along, the point straight before the end.
+static sl_point leave_at(const sl_region *r, sl_point end, sl_point other) {
+    const int before = corner_before(end);
+    const sl_point a = corner_of(r, before), b = corner_of(r, before + 1);
+    if (out_of(a, b, other) >= 0) other = (sl_point){0, 0};
+    const double from = out_of(a, b, other), to = out_of(a, b, end);
+    const double share = to > 0 ? from / (from - to) : 1;
+    return (sl_point){other.x + share * (end.x - other.x), other.y + share * (end.y - other.y)};
+}
+
+static sl_status add_point(sl_context *context, sl_point from, sl_point way, sli_view_shapes *s) {
+    SL_TRY(SL_ARRAY_ROOM(context, &s->points, 1));
+    s->points.items[s->points.count++] = (sl_point){from.x + way.x, from.y + way.y};
+    return SL_OK;
+}
+
+/// The corners of a region, with chords in place of arcs.
+static sl_status add_corners(sl_context *context, const sl_region *r, sli_view_shapes *s) {
+    const sl_point eye = r->view.eye, none = {0, 0};
+    for (size_t i = 0; i < r->count; i++) {
+        const size_t before = (i ? i : r->count) - 1, after = i + 1 < r->count ? i + 1 : 0;
+        const bool ends = r->edges[before].kind == SL_EDGE_ARC;
+        const bool starts = r->edges[i].kind == SL_EDGE_ARC;
+        const sl_point from = r->offsets[i], to = r->offsets[after];
+        if (!starts && !ends) {
+            SL_TRY(add_point(context, r->points[i], none, s));
+            continue;
+        }
+        const sl_point other = !starts ? to : ends ? none : r->offsets[before];
+        SL_TRY(add_point(context, eye, leave_at(r, from, other), s));
+        if (!starts) continue;
+        // Up to half a circle; rounded, an end may be a little before its start.
+        const int number = corner_before(from),
+                  passed = (corner_before(to) - number) & (CORNERS - 1);
+        for (int k = 1; k <= passed && passed <= CORNERS / 2 + 1; k++)
+            SL_TRY(add_point(context, eye, corner_of(r, number + k), s));
+    }
+    return SL_OK;
+}
+
 /// Adds the region of a viewpoint up to a range as a loop.
 static sl_status add_loop(sl_context *context, sl_query *query, const sl_viewpoint *v, double range,
                           bool clockwise, sl_region *region, sli_view_shapes *s) {
@@ -79,13 +142,11 @@ static sl_status add_loop(sl_context *context, sl_query *query, const sl_viewpoi
     const sl_status status = sl_query_region(context, query, &view, region);
     SL_TRY(sl_query_set_range(context, query, most));
     SL_TRY(status);
-    const double tolerance = CHORD * range;
-    const size_t count = sl_region_flatten(region, tolerance, NULL, 0);
+    const size_t first = s->points.count;
+    SL_TRY(add_corners(context, region, s));
+    const size_t count = s->points.count - first;
     if (!count) return SL_OK;
-    SL_TRY(SL_ARRAY_ROOM(context, &s->points, count));
-    sl_point *const loop = s->points.items + s->points.count;
-    sl_region_flatten(region, tolerance, loop, count);
-    s->points.count += count;
+    sl_point *const loop = s->points.items + first;
     for (size_t i = 0; clockwise && i < count / 2; i++) {
         const sl_point last = loop[count - 1 - i];
         loop[count - 1 - i] = loop[i];
@@ -123,11 +184,11 @@ bool sli_viewpoint_holds(const sl_viewpoint *v, const sl_view *view, sl_point pl
 /// What of the loop behind the last shape is within the disc of a sign takes its place.
 static sl_status keep_disc(sl_context *context, sl_point eye, const sl_viewpoint *v, size_t first,
                            sli_view_shapes *s) {
-    const size_t loop = s->points.count - first, disc = DISC;
+    const size_t loop = s->points.count - first, disc = CORNERS;
     const sl_point middle = sli_sign_middle(eye, v);
-    sl_point corners[DISC];
-    for (int i = 0; i < DISC; i++)
-        corners[i] = ahead(middle, v->heading + 180 + i * 360.0 / DISC, v->range / 2);
+    sl_point corners[CORNERS];
+    for (int i = 0; i < CORNERS; i++)
+        corners[i] = ahead(middle, v->heading + 180 + i * 360.0 / CORNERS, v->range / 2);
     const sl_shape both[2] = {{s->points.items + first, &loop, 1}, {corners, &disc, 1}};
     sl_overlay overlay;
     sl_shape read = {0};
@@ -136,14 +197,10 @@ static sl_status keep_disc(sl_context *context, sl_point eye, const sl_viewpoint
     sl_overlay_destroy(context, &overlay);
     s->points.count = first;
     s->ends.count--;
-    const size_t count = read.count ? read.ends[read.count - 1] : 0;
-    if (status == SL_OK) status = SL_ARRAY_ROOM(context, &s->points, count);
-    for (size_t i = 0; status == SL_OK && i < read.count; i++) {
-        while (s->points.count - first < read.ends[i]) {
-            const size_t next = s->points.count - first;
-            s->points.items[s->points.count++] = read.points[next];
-        }
-        status = end_loop(context, s);
+    for (size_t i = 0, next = 0; status == SL_OK && i < read.count; i++) {
+        for (; status == SL_OK && next < read.ends[i]; next++)
+            status = add_point(context, read.points[next], (sl_point){0, 0}, s);
+        if (status == SL_OK) status = end_loop(context, s);
     }
     sl_shape_destroy(context, &read);
     return status;
@@ -182,9 +239,9 @@ sl_status sli_view_shapes_add(sl_context *context, sl_query *query, const sl_vie
 sl_status sli_view_shapes_add_walls(sl_context *context, const sl_space *space,
                                     sli_view_shapes *s) {
     for (uint32_t w = 0; w < space->wall_count; w++) {
-        SL_TRY(SL_ARRAY_ROOM(context, &s->points, 2));
-        s->points.items[s->points.count++] = space->walls[w].a;
-        s->points.items[s->points.count++] = space->walls[w].b;
+        const sl_point none = {0, 0};
+        SL_TRY(add_point(context, space->walls[w].a, none, s));
+        SL_TRY(add_point(context, space->walls[w].b, none, s));
         SL_TRY(end_loop(context, s));
     }
     return end_shape(context, s);
