@@ -103,6 +103,21 @@ static sl_status choose_for(sli_placer *p, size_t first, bool *seen, gain_heap *
     return SL_OK;
 }
 
+/// Chooses the apex of a gap. One that is chosen, or cannot be, stands behind walls that meet there:
+/// then what is beyond the gap, where a double is.
+static sl_status choose_at_gap(sli_placer *p, const sli_window_part *gap) {
+    uint32_t number;
+    bool added;
+    SL_TRY(sli_add_candidate(p, sli_chosen_look(p, gap->look)->windows[gap->window].apex, &number));
+    bool there = number == UINT32_MAX;
+    for (size_t k = 0; k < p->chosen.count; k++) there = there || p->chosen.items[k] == number;
+    if (!there) return sli_choose(p, number);
+    SL_TRY(sli_add_beyond(p, gap, &added));
+    if (!added) return SL_OK;
+    SL_TRY(sli_add_candidate(p, p->witnesses.items[p->witnesses.count - 1].eye, &number));
+    return number == UINT32_MAX ? SL_OK : sli_choose(p, number);
+}
+
 sl_status sli_choose_for_gaps(sli_placer *p, bool *more) {
     const size_t before = p->chosen.count, first = p->germs.count;
     bool one;
@@ -113,16 +128,9 @@ sl_status sli_choose_for_gaps(sli_placer *p, bool *more) {
     sl_status status = choose_for(p, first, seen, &heap);
     sl_free(p->context, heap.items);
     sl_free(p->context, seen);
-    // Gaps that had germs before: their apexes.
-    for (size_t i = 0; status == SL_OK && p->chosen.count == before && i < p->gaps.count; i++) {
-        const sli_window_part *gap = &p->gaps.items[i];
-        const sl_point apex = sli_chosen_look(p, gap->look)->windows[gap->window].apex;
-        uint32_t number;
-        status = sli_add_candidate(p, apex, &number);
-        bool there = number == UINT32_MAX;
-        for (size_t k = 0; k < p->chosen.count; k++) there = there || p->chosen.items[k] == number;
-        if (status == SL_OK && !there) status = sli_choose(p, number);
-    }
+    // Gaps that had germs before.
+    for (size_t i = 0; status == SL_OK && p->chosen.count == before && i < p->gaps.count; i++)
+        status = choose_at_gap(p, &p->gaps.items[i]);
     *more = p->chosen.count > before;
     return status;
 }

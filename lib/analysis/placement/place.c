@@ -71,6 +71,7 @@ void sli_placer_destroy(sli_placer *p) {
     sl_free(p->context, p->unseen.items);
     sli_crossings_destroy(p->context, &p->crossings);
     sl_free(p->context, p->lines.items);
+    sli_nearby_destroy(p->context, &p->line_starts);
     sl_free(p->context, p->gaps.items);
 }
 
@@ -135,8 +136,10 @@ static sl_status find_gaps(sli_placer *p) {
     SL_TRY(SL_ARRAY_ROOM(p->context, &p->looks, p->chosen.count));
     for (size_t i = 0; i < p->chosen.count; i++)
         p->looks.items[p->looks.count++] = sli_chosen_look(p, i);
-    return sli_gaps_find(p->context, &p->ground, p->looks.items, (uint32_t)p->looks.count,
-                         &p->gaps);
+    SL_TRY(sli_gaps_find(p->context, &p->ground, p->looks.items, (uint32_t)p->looks.count,
+                         &p->chosen_bounds, p->gaps_of, &p->gaps));
+    p->gaps_of = (uint32_t)p->chosen.count;
+    return SL_OK;
 }
 
 /// Finds what the chosen candidates leave unseen, and witnesses there, or germs. *none: there is
