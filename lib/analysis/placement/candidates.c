@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-enum { COARSE_ITERATIONS = 4000 };
+enum { COARSE_ITERATIONS = 4000, ROWS_AN_ITERATION = 4 };
 
 sl_status sli_try_seeing(sli_placer *p, size_t number, uint32_t witness) {
     sli_candidate *c = &p->candidates.items[number];
@@ -232,7 +232,8 @@ sl_cover_options sli_cover_options(const sli_placer *p) {
     sl_cover_options options = sl_cover_options_default();
     options.program = p->options->program;
     options.nodes = p->coarse ? 0 : p->options->nodes;
-    if (p->coarse) options.iterations = COARSE_ITERATIONS;
+    // Prices of more rows take longer to settle.
+    if (p->coarse) options.iterations = COARSE_ITERATIONS + p->active.count / ROWS_AN_ITERATION;
     // Rows are only added, so earlier bounds hold.
     options.known_lower = p->out->lower;
     return options;
