@@ -20,8 +20,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// Rows of a part from which this is worth it, of a block, turns without cuts, rounds of cuts.
-enum { MANY_ROWS = 2000, BLOCK_ROWS = 800, TURNS = 4, CUT_ROUNDS = 6 };
+/// Rows of a block, turns without cuts, rounds of cuts.
+enum { BLOCK_ROWS = 800, TURNS = 4, CUT_ROUNDS = 6 };
 /// What a cost of 1 is in the programs of blocks; simplex steps times entries that one may take.
 enum { UNIT = 1 << 20, BLOCK_WORK = 1 << 30 };
 /// Of the duals in the proof.
@@ -63,11 +63,12 @@ static void follow_steps(const sl_cover_problem *p, const sl_cover_proof *proof,
     }
 }
 
-/// Of the parts that are a leaf alone, the one with the most rows, if these are many; else
-/// UINT32_MAX. Numbers its rows, and no others.
+/// Of the parts that are a leaf alone, the one with the most rows, if these are more than `most`;
+/// else UINT32_MAX. Numbers its rows, and no others.
 static sl_status choose_part(sl_context *context, const sl_cover_problem *p,
-                             const sl_cover_proof *proof, uint32_t *row_names, uint32_t *best) {
-    uint32_t *counts = sl_alloc_array(context, proof->part_count, sizeof *counts), most = MANY_ROWS;
+                             const sl_cover_proof *proof, uint32_t most, uint32_t *row_names,
+                             uint32_t *best) {
+    uint32_t *counts = sl_alloc_array(context, proof->part_count, sizeof *counts);
     if (!counts) return SL_NO_MEMORY;
     *best = UINT32_MAX;
     for (uint32_t r = 0; r < p->row_count; r++)
@@ -429,7 +430,8 @@ static sl_status better_part(bounder *b, const sl_cover_problem *problem, uint32
 }
 
 sl_status sli_bound_by_blocks(sl_context *context, const sl_cover_problem *problem,
-                              const sl_cover_program *program, sl_cover_result *result) {
+                              const sl_cover_program *program, uint32_t many,
+                              sl_cover_result *result) {
     if (!program || !program->begin || !program->change) return SL_OK;
     uint32_t *row_names = sl_alloc_array(context, problem->row_count, sizeof *row_names);
     uint32_t *column_names = sl_alloc_array(context, problem->column_count, sizeof *column_names);
@@ -438,7 +440,7 @@ sl_status sli_bound_by_blocks(sl_context *context, const sl_cover_problem *probl
     sl_status status = row_names && column_names ? SL_OK : SL_NO_MEMORY;
     if (status == SL_OK) {
         follow_steps(problem, &result->proof, row_names, column_names);
-        status = choose_part(context, problem, &result->proof, row_names, &part);
+        status = choose_part(context, problem, &result->proof, many, row_names, &part);
     }
     if (status == SL_OK && part != UINT32_MAX)
         status = make_cover(&b, problem, row_names, column_names);

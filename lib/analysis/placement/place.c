@@ -27,8 +27,9 @@
 /// One of FEW_OF is few: what is left of so many is dealt with in the next round.
 enum { USUAL_ROUNDS = 400, UPPER_STEPS = 30, COARSE_STEPS = 8, FEW_OF = 100, SPLITS = 8 };
 
-/// Of a coarse set cover of a large map: enough for cuts, and for trees of small parts.
-enum { CUT_NODES = 300 };
+/// Nodes of a coarse set cover of a large map: enough for cuts, and for trees of small parts. Rows
+/// of a part from which a linear program of all of it takes too long.
+enum { CUT_NODES = 300, MANY_ROWS = 2000 };
 
 sl_place_options sl_place_options_default(void) {
     return (sl_place_options){.nodes = 10000, .many_entries = 1 << 20};
@@ -246,7 +247,7 @@ static sl_status use_columns(sli_placer *p, sli_place_columns *c) {
     sl_cover_result cover = {0};
     sl_status status = sl_cover_solve(p->context, &problem, &options, &cover);
     if (status == SL_OK && (cuts || !p->coarse))
-        status = sli_bound_by_blocks(p->context, &problem, options.program, &cover);
+        status = sli_bound_by_blocks(p->context, &problem, options.program, MANY_ROWS, &cover);
     sli_choose_none(p);
     for (uint32_t i = 0; status == SL_OK && i < cover.count; i++)
         status = sli_choose_column(p, c, cover.columns[i]);
