@@ -92,8 +92,7 @@ static void without_memory(void **state) {
         sl_cover_result r = {0};
         solve_coarsely(context, &r);
         memory.fail_at = memory.calls + n;
-        const sl_status status =
-            sli_bound_by_blocks(context, &p.problem, sl_cover_glpk(), 20, &r);
+        const sl_status status = sli_bound_by_blocks(context, &p.problem, sl_cover_glpk(), 20, &r);
         done = memory.calls < memory.fail_at;
         memory.fail_at = 0;
         assert_true(status == SL_OK || status == SL_NO_MEMORY);

@@ -222,8 +222,7 @@ static sl_status take_cuts(bounder *b, const sli_cover_cuts *cuts, const double 
     }
     for (size_t i = 0; i < cuts->ends.count; i++) {
         b->cuts.ends.items[b->cuts.ends.count++] = first + cuts->ends.items[i];
-        b->cut_duals.items[b->cut_duals.count++] =
-            duals[rows + i] > 0 ? duals[rows + i] / UNIT : 0;
+        b->cut_duals.items[b->cut_duals.count++] = duals[rows + i] > 0 ? duals[rows + i] / UNIT : 0;
     }
     return SL_OK;
 }

@@ -8,6 +8,7 @@
 #include "analysis/placement/placer.h"
 
 #include "base/heap.h"
+#include "geometry/length.h"
 #include "geometry/orient.h"
 
 /// Notes a germ where a candidate sees it. Its middle is rounded, so this is only nearly exact:
@@ -103,19 +104,32 @@ static sl_status choose_for(sli_placer *p, size_t first, bool *seen, gain_heap *
     return SL_OK;
 }
 
-/// Chooses the apex of a gap. One that is chosen, or cannot be, stands behind walls that meet there:
-/// then what is beyond the gap, where a double is.
-static sl_status choose_at_gap(sli_placer *p, const sli_window_part *gap) {
+/// Chooses a candidate, if it is one, and not chosen.
+static sl_status choose_new(sli_placer *p, sl_point at, bool *is_new) {
     uint32_t number;
-    bool added;
-    SL_TRY(sli_add_candidate(p, sli_chosen_look(p, gap->look)->windows[gap->window].apex, &number));
-    bool there = number == UINT32_MAX;
-    for (size_t k = 0; k < p->chosen.count; k++) there = there || p->chosen.items[k] == number;
-    if (!there) return sli_choose(p, number);
-    SL_TRY(sli_add_beyond(p, gap, &added));
-    if (!added) return SL_OK;
-    SL_TRY(sli_add_candidate(p, p->witnesses.items[p->witnesses.count - 1].eye, &number));
-    return number == UINT32_MAX ? SL_OK : sli_choose(p, number);
+    SL_TRY(sli_add_candidate(p, at, &number));
+    *is_new = number != UINT32_MAX;
+    for (size_t k = 0; k < p->chosen.count; k++) *is_new = *is_new && p->chosen.items[k] != number;
+    return *is_new ? sli_choose(p, number) : SL_OK;
+}
+
+/// Chooses the apex of a gap. One that is chosen, or cannot be, stands behind walls that meet
+/// there: then what is beyond the gap. Where no double is there, places before it, ever farther
+/// off.
+static sl_status choose_at_gap(sli_placer *p, const sli_window_part *gap) {
+    static const double depths[] = {0, 1e-9, 1e-6, 1e-3, 0.1};
+    const sli_track track = sli_track_of(sli_chosen_look(p, gap->look), gap->window);
+    const sl_point way = {track.line.b.x - track.line.a.x, track.line.b.y - track.line.a.y};
+    const double length = (gap->to - gap->from) * sli_length(way.x, way.y);
+    bool done;
+    SL_TRY(choose_new(p, track.line.b, &done));
+    if (done) return SL_OK;
+    SL_TRY(sli_add_beyond(p, gap, &done));
+    if (done) return choose_new(p, p->witnesses.items[p->witnesses.count - 1].eye, &done);
+    for (size_t i = 0; i < sizeof depths / sizeof *depths && !done; i++)
+        SL_TRY(choose_new(
+            p, sli_track_beside(&track, (gap->from + gap->to) / 2, 1, depths[i] * length), &done));
+    return SL_OK;
 }
 
 sl_status sli_choose_for_gaps(sli_placer *p, bool *more) {

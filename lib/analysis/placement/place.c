@@ -281,10 +281,9 @@ static sl_status bound_below(sli_placer *p, bool *gaps, bool *added) {
     const size_t active = p->active.count;
     SL_TRY(sli_activate(p, added));
     // On a large map the last few take many steps, and gaps lead to better ones.
-    const bool few =
-        p->out->lower == lower
-            ? lower > FEW_OF
-            : p->active.count - active <= active / FEW_OF && p->out->lower - lower <= lower / FEW_OF;
+    const bool few = p->out->lower == lower ? lower > FEW_OF
+                                            : p->active.count - active <= active / FEW_OF &&
+                                                  p->out->lower - lower <= lower / FEW_OF;
     if (*added && !few) return SL_OK;
     SL_TRY(find_unseen(p, &none, added));
     if (none) return keep_chosen(p);
