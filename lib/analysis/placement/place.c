@@ -246,7 +246,7 @@ static sl_status use_columns(sli_placer *p, sli_place_columns *c) {
     if (cuts) options.nodes = p->options->nodes < CUT_NODES ? p->options->nodes : CUT_NODES;
     sl_cover_result cover = {0};
     sl_status status = sl_cover_solve(p->context, &problem, &options, &cover);
-    if (status == SL_OK && (cuts || !p->coarse))
+    if (SLI_PROGRAMS && status == SL_OK && (cuts || !p->coarse))
         status = sli_bound_by_blocks(p->context, &problem, options.program, MANY_ROWS, &cover);
     sli_choose_none(p);
     for (uint32_t i = 0; status == SL_OK && i < cover.count; i++)
