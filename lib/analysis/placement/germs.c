@@ -113,23 +113,38 @@ static sl_status choose_new(sli_placer *p, sl_point at, bool *is_new) {
     return *is_new ? sli_choose(p, number) : SL_OK;
 }
 
+/// Chooses the middle of a cell at a point, or of one beside it: a gap is beyond a window there.
+static sl_status choose_in_cell(sli_placer *p, sl_point at) {
+    const sl_space *space = p->ground.space;
+    const uint32_t here = sl_space_locate(space, at);
+    if (here == SL_NO_CELL) return SL_OK;
+    const sl_cell *cell = &space->cells[here];
+    bool done = false;
+    if (cell->inside) SL_TRY(choose_new(p, sl_space_middle(space, here), &done));
+    for (uint32_t i = 0; i < cell->directed_count && !done; i++) {
+        const uint32_t next = space->directed[cell->first_directed + i].cell;
+        if (space->cells[next].inside) SL_TRY(choose_new(p, sl_space_middle(space, next), &done));
+    }
+    return SL_OK;
+}
+
 /// Chooses the apex of a gap. One that is chosen, or cannot be, stands behind walls that meet
 /// there: then what is beyond the gap. Where no double is there, places before it, ever farther
-/// off.
+/// off; and at last middles of cells.
 static sl_status choose_at_gap(sli_placer *p, const sli_window_part *gap) {
     static const double depths[] = {0, 1e-9, 1e-6, 1e-3, 0.1};
     const sli_track track = sli_track_of(sli_chosen_look(p, gap->look), gap->window);
-    const sl_point way = {track.line.b.x - track.line.a.x, track.line.b.y - track.line.a.y};
-    const double length = (gap->to - gap->from) * sli_length(way.x, way.y);
+    const sl_point apex = track.line.b;
+    const double length = sli_length(track.far.x - apex.x, track.far.y - apex.y);
+    const double middle = (gap->from + gap->to) / 2;
     bool done;
-    SL_TRY(choose_new(p, track.line.b, &done));
+    SL_TRY(choose_new(p, apex, &done));
     if (done) return SL_OK;
     SL_TRY(sli_add_beyond(p, gap, &done));
-    if (done) return choose_new(p, p->witnesses.items[p->witnesses.count - 1].eye, &done);
+    if (done) SL_TRY(choose_new(p, p->witnesses.items[p->witnesses.count - 1].eye, &done));
     for (size_t i = 0; i < sizeof depths / sizeof *depths && !done; i++)
-        SL_TRY(choose_new(
-            p, sli_track_beside(&track, (gap->from + gap->to) / 2, 1, depths[i] * length), &done));
-    return SL_OK;
+        SL_TRY(choose_new(p, sli_track_beside(&track, middle, 1, depths[i] * length), &done));
+    return done ? SL_OK : choose_in_cell(p, sli_track_at(&track, middle));
 }
 
 sl_status sli_choose_for_gaps(sli_placer *p, bool *more) {
