@@ -121,7 +121,7 @@ static double worth_of(const bounder *b, uint32_t column) {
     return worth;
 }
 
-/// Duals that are feasible, from those of the proof: a row gives way to the column that asks most.
+/// Begins with those of the proof, made feasible: a row gives way to the column that asks most.
 static void begin_duals(bounder *b, const uint64_t *duals, uint64_t unit) {
     const sli_cover *c = &b->cover;
     for (uint32_t r = 0; r < c->rows; r++) b->y[r] = (double)duals[r] / (double)unit;
