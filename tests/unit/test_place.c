@@ -484,6 +484,9 @@ static void cancelled(void **state) {
             check_all_seen(&p, &placed, 500);
             assert_true(placed.lower <= placed.upper);
             kept += status == SL_CANCELLED;
+            sl_place_verdict verdict;
+            assert_ok(p.context, sl_place_proof_check(p.context, p.query, &placed, &verdict));
+            assert_true(verdict.sees_all && verdict.lower == placed.lower);
         }
         sl_placement_destroy(hurried, &placed);
         sl_context_destroy(hurried);

@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-enum { COARSE_ITERATIONS = 4000 };
+enum { COARSE_ITERATIONS = 4000, ROWS_AN_ITERATION = 4 };
 
 sl_status sli_try_seeing(sli_placer *p, size_t number, uint32_t witness) {
     sli_candidate *c = &p->candidates.items[number];
@@ -56,6 +56,7 @@ sl_status sli_is_seen(sli_placer *p, sl_point at, bool *seen) {
 
 void sli_choose_none(sli_placer *p) {
     p->chosen.count = 0;
+    p->gaps_of = 0;
     sli_nearby_clear(p->context, &p->chosen_bounds);
 }
 
@@ -181,13 +182,12 @@ static sl_point foot_on(sl_point at, const sl_segment *line) {
 
 /// Remembers a line.
 static sl_status keep_line(sli_placer *p, sl_segment line) {
-    for (size_t i = 0; i < p->lines.count; i++)
-        if (sli_same_point(p->lines.items[i].a, line.a) &&
-            sli_same_point(p->lines.items[i].b, line.b))
-            return SL_OK;
+    SL_TRY(sli_nearby_find_at(p->context, &p->line_starts, line.a));
+    for (size_t i = 0; i < p->line_starts.found.count; i++)
+        if (sli_same_point(p->lines.items[p->line_starts.found.items[i]].b, line.b)) return SL_OK;
     SL_TRY(SL_ARRAY_ROOM(p->context, &p->lines, 1));
     p->lines.items[p->lines.count++] = line;
-    return SL_OK;
+    return sli_nearby_add(p->context, &p->line_starts, (sl_box){line.a, line.a});
 }
 
 /// Whether a window ends nearly in a corner of its wall: then the viewpoint may have to stand in
@@ -200,12 +200,14 @@ static bool ends_at(const sli_look *look, const sli_window *w, sl_point corner) 
     return along > 0 && fabs(sli_cross(a, b)) < few * along;
 }
 
-static sl_status add_on_line(sli_placer *p, sl_point eye, sl_segment line) {
+/// Of the lines so far, those that matter begin at an apex that a look may see: by its bounds.
+static sl_status add_on_line(sli_placer *p, const sli_look *look, sl_segment line) {
     sl_point meet;
     uint32_t number;
-    SL_TRY(sli_add_candidate(p, foot_on(eye, &line), &number));
-    for (size_t k = 0; k < p->lines.count; k++)
-        if (meet_near(eye, &line, &p->lines.items[k], &meet))
+    SL_TRY(sli_add_candidate(p, foot_on(look->eye, &line), &number));
+    SL_TRY(sli_nearby_find(p->context, &p->line_starts, look->bounds));
+    for (size_t k = 0; k < p->line_starts.found.count; k++)
+        if (meet_near(look->eye, &line, &p->lines.items[p->line_starts.found.items[k]], &meet))
             SL_TRY(sli_add_candidate(p, meet, &number));
     return keep_line(p, line);
 }
@@ -215,11 +217,11 @@ sl_status sli_add_in_line(sli_placer *p) {
         const sli_look look = *sli_chosen_look(p, p->gaps.items[i].look);
         const sli_window w = look.windows[p->gaps.items[i].window];
         sl_segment line;
-        if (find_hidden(p, &p->gaps.items[i], &line)) SL_TRY(add_on_line(p, look.eye, line));
+        if (find_hidden(p, &p->gaps.items[i], &line)) SL_TRY(add_on_line(p, &look, line));
         const sl_point corners[] = {w.wall.a, w.wall.b};
         for (int k = 0; k < 2; k++)
             if (!sli_same_point(corners[k], w.apex) && ends_at(&look, &w, corners[k]))
-                SL_TRY(add_on_line(p, look.eye, (sl_segment){w.apex, corners[k]}));
+                SL_TRY(add_on_line(p, &look, (sl_segment){w.apex, corners[k]}));
     }
     return SL_OK;
 }
@@ -230,7 +232,8 @@ sl_cover_options sli_cover_options(const sli_placer *p) {
     sl_cover_options options = sl_cover_options_default();
     options.program = p->options->program;
     options.nodes = p->coarse ? 0 : p->options->nodes;
-    if (p->coarse) options.iterations = COARSE_ITERATIONS;
+    // Prices of more rows take longer to settle.
+    if (p->coarse) options.iterations = COARSE_ITERATIONS + p->active.count / ROWS_AN_ITERATION;
     // Rows are only added, so earlier bounds hold.
     options.known_lower = p->out->lower;
     return options;

@@ -8,6 +8,8 @@
 ///
 /// Spans that meet in one spot leave nothing out but that. Walls along the window, and what is not
 /// inside, need not be seen.
+///
+/// More looks only see more: of windows that were looked at before, those with gaps are enough.
 #include "analysis/placement/gaps.h"
 
 #include "geometry/orient.h"
@@ -18,7 +20,7 @@ typedef struct gap_finder {
     const sli_look *const *looks;
     uint32_t count;
     sli_spans spans, one;
-    sli_nearby near;    ///< bounds of looks
+    sli_nearby *near;   ///< bounds of looks
     sli_box_list found; ///< walls or cells near a window
     sli_window_parts *out;
 } gap_finder;
@@ -119,9 +121,9 @@ static sl_status check_window(gap_finder *g, uint32_t mine, uint32_t window) {
     const sli_track track = sli_track_of(g->looks[mine], window);
     bool any;
     g->spans.count = 0;
-    SL_TRY(sli_nearby_find(g->context, &g->near, sli_track_box(&track, &g->ground->space->bounds)));
-    for (size_t k = 0; k < g->near.found.count; k++) {
-        const uint32_t j = g->near.found.items[k];
+    SL_TRY(sli_nearby_find(g->context, g->near, sli_track_box(&track, &g->ground->space->bounds)));
+    for (size_t k = 0; k < g->near->found.count; k++) {
+        const uint32_t j = g->near->found.items[k];
         if (j == mine) continue;
         SL_TRY(sli_track_spans(g->context, &track, g->looks[j], true, &g->one));
         SL_TRY(SL_ARRAY_ROOM(g->context, &g->spans, g->one.count));
@@ -135,10 +137,13 @@ static sl_status check_window(gap_finder *g, uint32_t mine, uint32_t window) {
     return list_gaps(g, &track, (sli_window_part){mine, window, 0, 0}, &any);
 }
 
-static sl_status find_gaps(gap_finder *g) {
-    for (uint32_t i = 0; i < g->count; i++)
-        SL_TRY(sli_nearby_add(g->context, &g->near, g->looks[i]->bounds));
-    for (uint32_t i = 0; i < g->count; i++) {
+static sl_status find_gaps(gap_finder *g, uint32_t known, const sli_window_parts *before) {
+    for (size_t i = 0; i < before->count; i++) {
+        const sli_window_part *gap = &before->items[i];
+        if (i && gap->look == gap[-1].look && gap->window == gap[-1].window) continue;
+        SL_TRY(check_window(g, gap->look, gap->window));
+    }
+    for (uint32_t i = known; i < g->count; i++) {
         SL_TRY(sl_check_cancelled(g->context));
         for (uint32_t w = 0; w < g->looks[i]->window_count; w++) SL_TRY(check_window(g, i, w));
     }
@@ -146,14 +151,22 @@ static sl_status find_gaps(gap_finder *g) {
 }
 
 sl_status sli_gaps_find(sl_context *context, const sli_ground *ground, const sli_look *const *looks,
-                        uint32_t count, sli_window_parts *out) {
-    gap_finder g = {
-        .context = context, .ground = ground, .looks = looks, .count = count, .out = out};
-    out->count = 0;
-    const sl_status status = find_gaps(&g);
+                        uint32_t count, sli_nearby *bounds, uint32_t known,
+                        sli_window_parts *gaps) {
+    sli_window_parts before = *gaps;
+    if (known && known == count) return SL_OK;
+    *gaps = (sli_window_parts){0};
+    if (!known) before.count = 0;
+    gap_finder g = {.context = context,
+                    .ground = ground,
+                    .looks = looks,
+                    .count = count,
+                    .near = bounds,
+                    .out = gaps};
+    const sl_status status = find_gaps(&g, known, &before);
+    sl_free(context, before.items);
     sl_free(context, g.spans.items);
     sl_free(context, g.one.items);
     sl_free(context, g.found.items);
-    sli_nearby_destroy(context, &g.near);
     return status;
 }

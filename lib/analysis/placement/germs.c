@@ -8,6 +8,7 @@
 #include "analysis/placement/placer.h"
 
 #include "base/heap.h"
+#include "geometry/length.h"
 #include "geometry/orient.h"
 
 /// Notes a germ where a candidate sees it. Its middle is rounded, so this is only nearly exact:
@@ -103,6 +104,49 @@ static sl_status choose_for(sli_placer *p, size_t first, bool *seen, gain_heap *
     return SL_OK;
 }
 
+/// Chooses a candidate, if it is one, and not chosen.
+static sl_status choose_new(sli_placer *p, sl_point at, bool *is_new) {
+    uint32_t number;
+    SL_TRY(sli_add_candidate(p, at, &number));
+    *is_new = number != UINT32_MAX;
+    for (size_t k = 0; k < p->chosen.count; k++) *is_new = *is_new && p->chosen.items[k] != number;
+    return *is_new ? sli_choose(p, number) : SL_OK;
+}
+
+/// Chooses the middle of a cell at a point, or of one beside it: a gap is beyond a window there.
+static sl_status choose_in_cell(sli_placer *p, sl_point at) {
+    const sl_space *space = p->ground.space;
+    const uint32_t here = sl_space_locate(space, at);
+    if (here == SL_NO_CELL) return SL_OK;
+    const sl_cell *cell = &space->cells[here];
+    bool done = false;
+    if (cell->inside) SL_TRY(choose_new(p, sl_space_middle(space, here), &done));
+    for (uint32_t i = 0; i < cell->directed_count && !done; i++) {
+        const uint32_t next = space->directed[cell->first_directed + i].cell;
+        if (space->cells[next].inside) SL_TRY(choose_new(p, sl_space_middle(space, next), &done));
+    }
+    return SL_OK;
+}
+
+/// Chooses the apex of a gap. One that is chosen, or cannot be, stands behind walls that meet
+/// there: then what is beyond the gap. Where no double is there, places before it, ever farther
+/// off; and at last middles of cells.
+static sl_status choose_at_gap(sli_placer *p, const sli_window_part *gap) {
+    static const double depths[] = {0, 1e-9, 1e-6, 1e-3, 0.1};
+    const sli_track track = sli_track_of(sli_chosen_look(p, gap->look), gap->window);
+    const sl_point apex = track.line.b;
+    const double length = sli_length(track.far.x - apex.x, track.far.y - apex.y);
+    const double middle = (gap->from + gap->to) / 2;
+    bool done;
+    SL_TRY(choose_new(p, apex, &done));
+    if (done) return SL_OK;
+    SL_TRY(sli_add_beyond(p, gap, &done));
+    if (done) SL_TRY(choose_new(p, p->witnesses.items[p->witnesses.count - 1].eye, &done));
+    for (size_t i = 0; i < sizeof depths / sizeof *depths && !done; i++)
+        SL_TRY(choose_new(p, sli_track_beside(&track, middle, 1, depths[i] * length), &done));
+    return done ? SL_OK : choose_in_cell(p, sli_track_at(&track, middle));
+}
+
 sl_status sli_choose_for_gaps(sli_placer *p, bool *more) {
     const size_t before = p->chosen.count, first = p->germs.count;
     bool one;
@@ -113,16 +157,9 @@ sl_status sli_choose_for_gaps(sli_placer *p, bool *more) {
     sl_status status = choose_for(p, first, seen, &heap);
     sl_free(p->context, heap.items);
     sl_free(p->context, seen);
-    // Gaps that had germs before: their apexes.
-    for (size_t i = 0; status == SL_OK && p->chosen.count == before && i < p->gaps.count; i++) {
-        const sli_window_part *gap = &p->gaps.items[i];
-        const sl_point apex = sli_chosen_look(p, gap->look)->windows[gap->window].apex;
-        uint32_t number;
-        status = sli_add_candidate(p, apex, &number);
-        bool there = number == UINT32_MAX;
-        for (size_t k = 0; k < p->chosen.count; k++) there = there || p->chosen.items[k] == number;
-        if (status == SL_OK && !there) status = sli_choose(p, number);
-    }
+    // Gaps that had germs before.
+    for (size_t i = 0; status == SL_OK && p->chosen.count == before && i < p->gaps.count; i++)
+        status = choose_at_gap(p, &p->gaps.items[i]);
     *more = p->chosen.count > before;
     return status;
 }

@@ -15,6 +15,7 @@
 /// active witnesses, are ours.
 #include "sightline/place.h"
 
+#include "analysis/placement/bound_blocks.h"
 #include "analysis/placement/cover.h"
 #include "analysis/placement/placer.h"
 #include "geometry/length.h"
@@ -25,6 +26,10 @@
 
 /// One of FEW_OF is few: what is left of so many is dealt with in the next round.
 enum { USUAL_ROUNDS = 400, UPPER_STEPS = 30, COARSE_STEPS = 8, FEW_OF = 100, SPLITS = 8 };
+
+/// Nodes of a coarse set cover of a large map: enough for cuts, and for trees of small parts. Rows
+/// of a part from which a linear program of all of it takes too long.
+enum { CUT_NODES = 300, MANY_ROWS = 2000 };
 
 sl_place_options sl_place_options_default(void) {
     return (sl_place_options){.nodes = 10000, .many_entries = 1 << 20};
@@ -71,6 +76,7 @@ void sli_placer_destroy(sli_placer *p) {
     sl_free(p->context, p->unseen.items);
     sli_crossings_destroy(p->context, &p->crossings);
     sl_free(p->context, p->lines.items);
+    sli_nearby_destroy(p->context, &p->line_starts);
     sl_free(p->context, p->gaps.items);
 }
 
@@ -135,8 +141,10 @@ static sl_status find_gaps(sli_placer *p) {
     SL_TRY(SL_ARRAY_ROOM(p->context, &p->looks, p->chosen.count));
     for (size_t i = 0; i < p->chosen.count; i++)
         p->looks.items[p->looks.count++] = sli_chosen_look(p, i);
-    return sli_gaps_find(p->context, &p->ground, p->looks.items, (uint32_t)p->looks.count,
-                         &p->gaps);
+    SL_TRY(sli_gaps_find(p->context, &p->ground, p->looks.items, (uint32_t)p->looks.count,
+                         &p->chosen_bounds, p->gaps_of, &p->gaps));
+    p->gaps_of = (uint32_t)p->chosen.count;
+    return SL_OK;
 }
 
 /// Finds what the chosen candidates leave unseen, and witnesses there, or germs. *none: there is
@@ -233,14 +241,21 @@ static sl_status use_columns(sli_placer *p, sli_place_columns *c) {
     sl_cover_options options = sli_cover_options(p);
     // Where the bounds are far apart, a coarse set cover gains by them, too.
     const bool wide = (p->out->upper - p->out->lower) * FEW_OF > p->out->upper;
+    const bool cuts = p->coarse && p->drops && wide && p->out->upper > FEW_OF;
     if (!p->coarse || (p->drops && wide)) options.splits = SPLITS;
+    if (cuts) options.nodes = p->options->nodes < CUT_NODES ? p->options->nodes : CUT_NODES;
     sl_cover_result cover = {0};
     sl_status status = sl_cover_solve(p->context, &problem, &options, &cover);
+    if (SLI_PROGRAMS && status == SL_OK && (cuts || !p->coarse))
+        status = sli_bound_by_blocks(p->context, &problem, options.program, MANY_ROWS, &cover);
     sli_choose_none(p);
     for (uint32_t i = 0; status == SL_OK && i < cover.count; i++)
         status = sli_choose_column(p, c, cover.columns[i]);
     const bool better = cover.lower > p->out->lower;
-    if (status == SL_OK && better) status = keep_lower(p, c, &cover);
+    if ((status == SL_OK || status == SL_CANCELLED) && better) {
+        const sl_status kept = keep_lower(p, c, &cover);
+        if (kept != SL_OK) status = kept;
+    }
     if (status == SL_OK && drops)
         status = sli_drop_implied(p, better ? &p->out->proof : &cover.proof);
     sl_cover_result_destroy(p->context, &cover);
@@ -266,8 +281,9 @@ static sl_status bound_below(sli_placer *p, bool *gaps, bool *added) {
     const size_t active = p->active.count;
     SL_TRY(sli_activate(p, added));
     // On a large map the last few take many steps, and gaps lead to better ones.
-    const bool few =
-        p->active.count - active <= active / FEW_OF && p->out->lower - lower <= lower / FEW_OF;
+    const bool few = p->out->lower == lower ? lower > FEW_OF
+                                            : p->active.count - active <= active / FEW_OF &&
+                                                  p->out->lower - lower <= lower / FEW_OF;
     if (*added && !few) return SL_OK;
     SL_TRY(find_unseen(p, &none, added));
     if (none) return keep_chosen(p);

@@ -53,8 +53,10 @@ typedef struct sli_placer {
     SL_ARRAY(const sli_look *) looks;   ///< scratch
     SL_ARRAY(sli_hard_witness) unseen;  ///< scratch
     SL_ARRAY(sl_segment) lines;         ///< of walls that gaps' apexes hid, and through two corners
-    sli_crossings crossings;            ///< of the active witnesses
-    sli_window_parts gaps;
+    sli_nearby line_starts;
+    sli_crossings crossings; ///< of the active witnesses
+    sli_window_parts gaps;   ///< what the first `gaps_of` of the chosen ones leave unseen
+    uint32_t gaps_of;
     sl_placement *out;
 } sli_placer;
 
