@@ -12,7 +12,8 @@ import { parsePath, parseTransform } from '../formats/svg-path.js';
 import { toHtml } from '../markdown.mjs';
 import { Camera, roundStep } from '../parts/camera.js';
 import { rampColour, rangeOf, valueAt } from '../parts/heat.js';
-import { measureOutline } from '../parts/plan.js';
+import { drawPlan, measureOutline } from '../parts/plan.js';
+import { SvgSurface } from '../parts/svg-surface.js';
 import { makeTones } from '../parts/tones.js';
 import { MapDocument } from '../playground/document.js';
 import { moveEnds, pick, snapTo } from '../playground/pick.js';
@@ -228,6 +229,16 @@ test('a camera goes to the screen and back', () => {
     assert.equal(roundStep(10, 9), 1);
     assert.equal(roundStep(100, 9), 0.1);
     assert.equal(roundStep(1, 30), 50);
+});
+
+test('a grid is drawn where numbers are farther from each other than its lines', () => {
+    const lines = [[0, 0, 9, 9], [1e15, 0, 1e15 + 9, 9], [1e20, 0, 1e20, 9], [-1e20, -1e300, 0, 1e300]].map((bounds) => {
+        const camera = new Camera(300, 300), surface = new SvgSurface(300, 300, 'Plan');
+        camera.fit(bounds);
+        drawPlan(surface, camera, { items: [], show: { grid: roundStep(camera.scale, 40) } }, makeTones(false));
+        return surface.text().match(/M/g)?.length ?? 0;
+    });
+    assert.deepEqual(lines, [10, 10, 6, 10]);
 });
 
 test('colours are those of the pictures of the project', () => {
