@@ -5,7 +5,7 @@
 import { FormatError } from './map-text.js';
 import { ownItems, ownLayer } from './own-layers.js';
 import { apply, ellipse, identity, multiply, numbersOf, parsePath, parseTransform } from './svg-path.js';
-import { plural } from './words.js';
+import { isSolidName, plural } from './words.js';
 
 const number = (node, name, spare = 0) => parseFloat(node.getAttribute(name) ?? '') || spare;
 
@@ -91,8 +91,10 @@ function said(node, styles, property) {
 /** A transform as the attribute has it, of a style too. */
 const withoutUnits = (text) => text?.replace(/(\d)(px|deg)\b/g, '$1').replace(/^none$/, '');
 
+const labelOf = (node) => [...node.attributes].find((a) => a.localName === 'label')?.value ?? '';
+
 const layerName = (node) => {
-    const label = [...node.attributes].find((a) => a.localName === 'label')?.value ?? '';
+    const label = labelOf(node);
     return ownLayer(label) ?? ownLayer(node.id);
 };
 
@@ -108,7 +110,7 @@ export function readSvg(text) {
     const page = new DOMParser().parseFromString(text, 'image/svg+xml');
     if (page.querySelector('parsererror') || page.documentElement.localName !== 'svg')
         throw new FormatError('this is not an SVG file that can be read');
-    const root = page.documentElement, items = [], counts = { elements: 0, percent: 0, doors: 0, left: 0, hidden: 0, rules: 0 };
+    const root = page.documentElement, items = [], counts = { named: false, elements: 0, percent: 0, doors: 0, left: 0, hidden: 0, rules: 0 };
     const rules = readSheets(page, counts);
     const box = numbersOf(root.getAttribute('viewBox'));
     const own = root.getAttribute('data-sightline-y0');
@@ -128,6 +130,7 @@ export function readSvg(text) {
         if (depth > 64) throw new FormatError('groups and uses are nested too deeply');
         const here = multiply(matrix, parseTransform(withoutUnits(said(node, styles, 'transform'))));
         const inLayer = layerName(node) ?? layer;
+        if (inLayer === undefined) counts.named ||= isSolidName(labelOf(node)) || isSolidName(node.id);
         if (lines && isInPercent(node)) counts.percent++;
         else if (lines) {
             for (const line of lines) {
@@ -151,6 +154,7 @@ export function readSvg(text) {
     const notes = [];
     if (counts.left) notes.push(plural(counts.left, 'text or picture', 'texts and pictures'));
     if (counts.percent) notes.push(plural(counts.percent, 'shape with a size in percent', 'shapes with a size in percent'));
+    if (counts.named) notes.push('layers by their names: all shapes are walls here, while the command tells walls, doors and furniture apart');
     if (counts.hidden) notes.push(plural(counts.hidden, 'hidden element'));
     if (counts.rules) notes.push(plural(counts.rules, 'rule of a style sheet', 'rules of style sheets'));
     for (const kind of ['range', 'snap']) {

@@ -409,6 +409,9 @@ for (const name of wanted)
             const cut = await open({}, address.slice(0, 30), null);
             assert.match(await message(cut), /cannot be read/);
             await context.close();
+            const changed = await open({}, `#t=${Buffer.from(room.replace('wall 10', 'wall 1o')).toString('base64url')}`, null);
+            assert.equal(await message(changed), "The address holds a map that cannot be read. Line 3: expected a finite decimal number, found '1o'");
+            await context.close();
         });
 
         test('reads drawings', async () => {
@@ -419,6 +422,8 @@ for (const name of wanted)
             await settled(page);
             const bounds = await page.evaluate(() => window.playground.doc.bounds());
             assert.deepEqual(bounds, [1, 1, 9, 9]);
+            await drop(page, 'layers.svg', '<svg xmlns="http://www.w3.org/2000/svg"><g id="Walls"><path d="M0 0H9V9"/></g><g id="chairs"><path d="M1 1H2"/></g></svg>');
+            await page.waitForFunction(() => /^layers\.svg was read as SVG.*layers by their names: all shapes are walls here/.test(document.getElementById('message').textContent));
             // What was left out is said beside what is doubtful in the map, and goes with the next change.
             await drop(page, 'b.svg', '<svg xmlns="http://www.w3.org/2000/svg"><path d="M0 0H9V9"/><text>hall</text></svg>');
             await page.waitForFunction(() => /^b\.svg was read as SVG.*1 text or picture\.\nThe map has no start/.test(document.getElementById('message').textContent));
