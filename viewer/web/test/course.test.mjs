@@ -67,20 +67,24 @@ const picture = (figure) => figure.evaluate((host) => host.querySelector('.says'
 
 for (const name of wanted)
     describe(`course, ${name}`, () => {
-        let browser;
+        let browser, usual;
         const places = [0, 0, 0];
         before(async () => (browser = await launch(name)));
         after(() => browser.close());
 
+        const newContext = (options) => browser.newContext({ viewport: { width: 1280, height: 800 }, ...options });
+
+        /** Most pages are of one context, which keeps what it has loaded; what a page has stored is gone when it closes. */
         async function open(chapter, options = {}) {
-            const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, ...options });
+            const isUsual = !Object.keys(options).length, context = isUsual ? (usual ??= await newContext()) : await newContext(options);
             const page = await context.newPage(), errors = [];
             page.setDefaultTimeout(20000);
             page.on('pageerror', (error) => (SHOTS && /inline style/.test(error.message)) || errors.push(error.message));
             await page.goto(`${site.address}/course/${chapter}.html`);
             if (chapter !== 'index') await page.waitForSelector('main[data-ready]');
             const close = async () => {
-                await context.close();
+                if (isUsual) await page.evaluate(() => localStorage.clear());
+                await (isUsual ? page : context).close();
                 assert.deepEqual(errors, []);
             };
             return { page, close };
