@@ -31,13 +31,14 @@ const others = [
     [/^(?=[^]*^image:)[^]*^resolution:/m, 'a map of ROS', 'map.yaml'],
 ];
 
+const byCommand = (name) => `. The page does not read it, the command does: sightline convert ${name} -o plan.map`;
+
 /** @param {Uint8Array} bytes */
 function refuseOthers(bytes) {
     const start = String.fromCharCode(...bytes.subarray(0, 2000));
     for (const [known, what, name] of others)
         if (known.test(start))
-            throw new FormatError(`this is ${what}` + (name ? '. The page does not read it, the command does: ' +
-                `sightline convert ${name} -o plan.map` : ''));
+            throw new FormatError(`this is ${what}${name ? byCommand(name) : ''}`);
 }
 
 /** @returns {[string, (file: any) => any]} */
@@ -48,6 +49,7 @@ function jsonReader(file) {
     if (file?.line_of_sight || file?.resolution) return ['Universal VTT', readTabletop];
     if (/^(Feature|FeatureCollection|GeometryCollection|(Multi)?(Point|LineString|Polygon))$/.test(file?.type))
         return ['GeoJSON', readGeoJson];
+    if (Array.isArray(file?.walls)) throw new FormatError(`this is a scene of Foundry${byCommand('scene.json')}`);
     throw new FormatError('this JSON is none of Tiled, LDtk, Universal VTT, GeoJSON or the JSON export');
 }
 

@@ -185,7 +185,7 @@ test('files that are wrong are refused with words', async () => {
     await assert.rejects(readMapFile(Uint8Array.of(255, 254, 0, 7), () => null), FormatError);
     for (const [text, told] of [
         ['  0\r\nSECTION\r\n  2\r\nHEADER\r\n', /DXF drawing\..* sightline convert plan\.dxf -o plan\.map$/],
-        ['999\nmade by hand\n0\nSECTION\n2\nENTITIES\n', /DXF drawing\./], ['AC1027\0\0', /DWG drawing: save it as ASCII DXF/],
+        ['999\nmade by hand\n0\nSECTION\n2\nENTITIES\n', /DXF drawing\./], ['{"walls": [{"c": [0, 0, 1, 1]}]}', /scene of Foundry\..* sightline convert scene\.json -o plan\.map$/], ['AC1027\0\0', /DWG drawing: save it as ASCII DXF/],
         ['AutoCAD Binary DXF\r\n', /binary DXF/], ['IWAD\x01\x02', /WAD/], ['P5 3 1 255 abc', /picture/],
         ['resolution: 0.05\nimage: map.pgm\n', /map of ROS/], ['image: map.pgm\norigin: [0, 0, 0]\nresolution: 1\n', /map of ROS/],
     ])
