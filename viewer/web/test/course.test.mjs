@@ -67,24 +67,20 @@ const picture = (figure) => figure.evaluate((host) => host.querySelector('.says'
 
 for (const name of wanted)
     describe(`course, ${name}`, () => {
-        let browser, usual;
+        let browser;
         const places = [0, 0, 0];
         before(async () => (browser = await launch(name)));
         after(() => browser.close());
 
-        const newContext = (options) => browser.newContext({ viewport: { width: 1280, height: 800 }, ...options });
-
-        /** Most pages are of one context, which keeps what it has loaded; what a page has stored is gone when it closes. */
         async function open(chapter, options = {}) {
-            const isUsual = !Object.keys(options).length, context = isUsual ? (usual ??= await newContext()) : await newContext(options);
+            const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, ...options });
             const page = await context.newPage(), errors = [];
             page.setDefaultTimeout(20000);
             page.on('pageerror', (error) => (SHOTS && /inline style/.test(error.message)) || errors.push(error.message));
             await page.goto(`${site.address}/course/${chapter}.html`);
             if (chapter !== 'index') await page.waitForSelector('main[data-ready]');
             const close = async () => {
-                if (isUsual) await page.evaluate(() => localStorage.clear());
-                await (isUsual ? page : context).close();
+                await context.close();
                 assert.deepEqual(errors, []);
             };
             return { page, close };

@@ -68,4 +68,4 @@ if [ "$what" = quick ] || [ "$what" = course ]; then
 fi
 set --
 for file in $files; do set -- "$@" "$here/$file.test.mjs"; done
-exec node --test "$@"
+exec node --test --test-concurrency=2 "$@"
