@@ -89,7 +89,11 @@ function said(node, styles, property) {
 }
 
 /** A transform as the attribute has it, of a style too. */
-const withoutUnits = (text) => text?.replace(/(\d)(px|deg)\b/g, '$1').replace(/^none$/, '');
+function withoutUnits(text) {
+    const plain = text?.replace(/(\d)(px|deg)\b/g, '$1').replace(/^none$/, '');
+    if (/\d(%|e[a-z]|[a-df-z])/i.test(plain ?? '')) throw new FormatError(`transform: '${plain}' has a unit that is not read here`);
+    return plain;
+}
 
 const labelOf = (node) => [...node.attributes].find((a) => a.localName === 'label')?.value ?? '';
 

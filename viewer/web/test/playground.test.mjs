@@ -507,11 +507,16 @@ for (const name of wanted)
             const svg = (inner) => `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 20 10"><rect width="12" height="8"/>${inner}</svg>`;
             let shown = 0;
             for (const [i, more] of ['display="none"', 'style="fill:red; display : none"', 'style="display:none !important"', 'visibility="hidden"', 'style="visibility:hidden"',
-                'style="-x-display:none"', 'style="display:none-such"', 'style="display:inline"', 'class="no"'].entries()) {
+                'style="opacity:0"', 'opacity="0.0"', 'style="-x-display:none"', 'style="display:none-such"', 'style="display:inline"', 'class="no"'].entries()) {
                 const { cells } = await comparesWithNative(page, `s${i}.svg`, svg(rect(more)));
                 shown += cells.length > 1;
             }
             assert.equal(shown, 4);
+            await comparesWithNative(page, 'moved.svg', svg(rect('style="transform:translate(1px, -1px) rotate(5deg)"')));
+            await comparesWithNative(page, 'percent.svg', svg('<rect width="100%" height="100%"/>'));
+            assert.match(await message(page), /1 shape with a size in percent/);
+            await drop(page, 'em.svg', svg(rect('style="transform:translate(1em, 0)"')));
+            await page.waitForFunction(() => /^em\.svg was not opened: transform: /.test(document.getElementById('message').textContent));
             const sheets = ['.no{display:none}', 'rect.no, .x{visibility:hidden}', '#o .no{display:none}', '.no{display:none} rect{display:inline}',
                 '.no{display:none} #o rect{display:inline}', '#o rect{display:none !important} #o .no{display:inline}', '@import "x.css"; @media print{.no{display:none}}',
                 '.no{fill:none;stroke:none}', 'g > .no{display:none}', '.nob{display:none}'];
