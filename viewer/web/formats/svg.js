@@ -34,8 +34,8 @@ function shape(node) {
     }
 }
 
-/** Elements as often as they are used: a small drawing can hold a huge one. */
-const MOST_ELEMENTS = 2 ** 20;
+/** Elements by uses, as often as they are used: a small drawing can hold a huge one. */
+const MOST_USED = 2 ** 17;
 
 const skipped = new Set(['defs', 'symbol', 'clipPath', 'mask', 'pattern', 'marker', 'metadata', 'title',
     'desc', 'style', 'script', 'linearGradient', 'radialGradient', 'filter']);
@@ -114,14 +114,14 @@ export function readSvg(text) {
     const page = new DOMParser().parseFromString(text, 'image/svg+xml');
     if (page.querySelector('parsererror') || page.documentElement.localName !== 'svg')
         throw new FormatError('this is not an SVG file that can be read');
-    const root = page.documentElement, items = [], counts = { named: false, elements: 0, percent: 0, doors: 0, left: 0, hidden: 0, rules: 0 };
+    const root = page.documentElement, items = [], counts = { named: false, inUse: 0, used: 0, percent: 0, doors: 0, left: 0, hidden: 0, rules: 0 };
     const rules = readSheets(page, counts);
     const box = numbersOf(root.getAttribute('viewBox'));
     const own = root.getAttribute('data-sightline-y0');
     const top = own !== null ? Number(own) : box.length === 4 ? 2 * box[1] + box[3] : number(root, 'height');
     const visit = (node, matrix, layer, above, depth) => {
         if (skipped.has(node.localName)) return;
-        if (++counts.elements > MOST_ELEMENTS) throw new FormatError('the drawing has too many elements for this page, as often as they are used');
+        if (counts.inUse && ++counts.used > MOST_USED) throw new FormatError('the drawing has too many elements for this page, as often as they are used');
         const styles = stylesOf(node, rules);
         const paint = { fill: said(node, styles, 'fill') ?? above.fill, stroke: said(node, styles, 'stroke') ?? above.stroke };
         const lines = shape(node);
@@ -148,9 +148,11 @@ export function readSvg(text) {
             const reference = node.getAttribute('href') ?? node.getAttributeNS('http://www.w3.org/1999/xlink', 'href');
             const target = reference?.startsWith('#') && page.getElementById(reference.slice(1));
             const moved = multiply(here, [1, 0, 0, 1, number(node, 'x'), number(node, 'y')]);
+            counts.inUse++;
             if (target?.localName === 'symbol')
                 for (const child of target.children) visit(child, moved, inLayer, paint, depth + 1);
             else if (target) visit(target, moved, inLayer, paint, depth + 1);
+            counts.inUse--;
         }
         for (const child of node.children) visit(child, here, inLayer, paint, depth + 1);
     };
