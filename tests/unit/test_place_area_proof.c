@@ -225,6 +225,13 @@ static void files_keep_it(void **state) {
     assert_int_equal(again, size);
     assert_memory_equal(copy, text, size);
     free(copy);
+    sl_area_placement_destroy(s.context, &back);
+    copy = malloc(size + 3); // behind a byte order mark
+    memcpy(copy, "\xef\xbb\xbf", 3);
+    memcpy(copy + 3, text, size);
+    assert_ok(s.context, parse(&s, copy, size + 3, &back));
+    assert_int_equal(back.lower, placed.lower);
+    free(copy);
     for (size_t cut = 0; cut < size - 2; cut += 1 + size / 200) {
         sl_area_placement part;
         assert_int_equal(parse(&s, text, cut, &part), SL_BAD_INPUT);

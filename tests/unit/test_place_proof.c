@@ -177,6 +177,27 @@ static void files_keep_it(void **state) {
     end(&p);
 }
 
+/// Editors put a byte order mark before a text.
+static void files_may_begin_with_a_mark(void **state) {
+    (void)state;
+    plan p;
+    sl_placement back;
+    size_t size;
+    char mark[] = "\xef\xbb\xbf";
+    begin_jagged(&p, 3, 0, 0);
+    char *text = print(&p, &p.placed, &size);
+    char *marked = malloc(size + 3);
+    memcpy(marked, mark, 3);
+    memcpy(marked + 3, text, size);
+    assert_ok(p.context, parse(&p, marked, size + 3, &back));
+    assert_int_equal(check(&p, &back).lower, p.placed.lower);
+    sl_placement_destroy(p.context, &back);
+    assert_int_equal(parse(&p, mark, 3, &back), SL_BAD_INPUT);
+    free(marked);
+    free(text);
+    end(&p);
+}
+
 /// So are splits, and a file that ends within one is refused.
 static void files_keep_splits(void **state) {
     (void)state;
@@ -350,6 +371,7 @@ int main(void) {
         cmocka_unit_test(other_code_confirms_polygons),
         cmocka_unit_test(implied_witnesses_may_go),
         cmocka_unit_test(files_keep_it),
+        cmocka_unit_test(files_may_begin_with_a_mark),
         cmocka_unit_test(files_keep_splits),
         cmocka_unit_test(files_keep_cuts),
         cmocka_unit_test(other_maps_are_refused),

@@ -125,7 +125,12 @@ static bool focus_key(app_state *app, const char *key) {
     const hit_area hit = ui_focused(&app->ui);
     if (strcmp(key, "Tab") == 0 || strcmp(key, "Shift+Tab") == 0) {
         ui_focus_move(&app->ui, *key == 'S');
-        if (app->ui.focus.kind == HIT_PLAN) cursor_begin(app, ui_focused(&app->ui).box);
+        if (app->ui.focus.kind == HIT_PLAN) {
+            cursor_begin(app, ui_focused(&app->ui).box);
+            ui_say(&app->ui, false,
+                   "Arrows move the cursor, Return clicks, Space holds the button; Esc leaves the "
+                   "plan");
+        }
         app->ui.hover_is_focus = true;
         return true;
     }

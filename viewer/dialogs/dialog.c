@@ -24,6 +24,7 @@ void dialog_push(dialog_state *d, dialog_kind kind, int focus) {
     if (d->depth == DIALOGS_MOST) d->depth--;
     d->stack[d->depth] = kind;
     d->focus[d->depth++] = focus;
+    d->tab_from = 0;
 }
 
 void dialog_pop(dialog_state *d) {
@@ -264,6 +265,7 @@ static dialog_item *find_list(dialog_state *d) {
 }
 
 static void tell_edited(dialog_state *d, int id) {
+    d->tab_from = 0;
     const dialog_row *row = row_now(d);
     if (row->edited) row->edited(d->desk, id);
 }
@@ -298,10 +300,12 @@ static bool list_key(dialog_state *d, const char *key, bool focused) {
 }
 
 static void move_focus(dialog_state *d, int by) {
+    const int from = find_item(d, d->tab_from) ? d->tab_from : *focus_of(d);
     int at = -1;
     if (!d->item_count) return;
     for (int i = 0; i < d->item_count; i++)
-        if (d->items[i].id == *focus_of(d)) at = i;
+        if (d->items[i].id == from) at = i;
+    d->tab_from = 0;
     at = at < 0 ? (by > 0 ? 0 : d->item_count - 1) : (at + by + d->item_count) % d->item_count;
     *focus_of(d) = d->items[at].id;
 }

@@ -68,6 +68,7 @@ typedef struct dialog_state {
     const dialog_row *rows; ///< DIALOG_KINDS of them
     dialog_kind stack[DIALOGS_MOST];
     int focus[DIALOGS_MOST]; ///< the number of a widget
+    int tab_from; ///< the widget that Tab goes on from, where it is not the one in focus; else 0
     question_state questions[DIALOGS_MOST];
     int depth;
     dialog_item items[ITEMS_MOST]; ///< of the last frame

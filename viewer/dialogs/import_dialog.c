@@ -108,11 +108,12 @@ sl_status import_open(desk_state *desk, const document_source *source, sl_map_ch
                 : import_asks_layers(s) && import_has_filter(s) ? FILTER
                 : import_asks_layers(s)                         ? LAYERS_LIST
                                                                 : DIALOG_MAIN);
-    if (s->beside) import_focus_home(desk, s);
+    if (s->beside) import_focus_home(desk, s, 0);
     return SL_OK;
 }
 
-void import_focus_home(desk_state *desk, import_state *s) {
+void import_focus_home(desk_state *desk, import_state *s, int from) {
+    desk->dialog.tab_from = from;
     desk->dialog.focus[desk->dialog.depth - 1] =
         import_asks_layers(s) && import_has_filter(s) ? FILTER : FIRST_FIELD + FIELD_UNIT;
 }
@@ -330,7 +331,7 @@ void import_act(desk_state *desk, int id) {
     if (id == DOORS || id == CELLS) import_preview(desk, s);
     // Letters that are typed next are meant for the list, and never press a button.
     const bool stays = id == LAYERS_LIST || id == MEASURE || (id == INSIDE && s->pick != PICK_NONE);
-    if (s->beside && !stays) import_focus_home(desk, s);
+    if (s->beside && !stays) import_focus_home(desk, s, id == SET_LENGTH ? MEASURE : id);
 }
 
 void import_edited(desk_state *desk, int id) {

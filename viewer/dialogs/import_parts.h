@@ -104,8 +104,8 @@ bool import_read_place(const char *text, sl_point *at);
 bool import_complain(import_state *s, const char *what, const char *why);
 /// The plan follows what was chosen. Not where the dialog is not beside it.
 void import_preview(desk_state *desk, import_state *s);
-/// Where typing goes by itself.
-void import_focus_home(desk_state *desk, import_state *s);
+/// Where typing goes by itself; Tab goes on from the widget `from`, or from there (0).
+void import_focus_home(desk_state *desk, import_state *s, int from);
 
 // --- import_layers.c: the list of layers
 

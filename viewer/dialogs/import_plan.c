@@ -241,7 +241,7 @@ void import_plan_scale(desk_state *desk, import_state *s) {
     s->scales = desk->document->baked != NULL;
     if (s->scales) s->share_before = inside_share(desk->document);
     import_preview(desk, s);
-    import_focus_home(desk, s);
+    import_focus_home(desk, s, MEASURE);
 }
 
 // --- clicks
@@ -281,7 +281,7 @@ void import_pick_at(desk_state *desk, sl_point at, double reach) {
         import_set_place(&s->fields[FIELD_START], at);
         s->pick = PICK_NONE;
         import_preview(desk, s);
-        import_focus_home(desk, s);
+        import_focus_home(desk, s, INSIDE);
         break;
     case PICK_FIRST:
         s->line = (sl_segment){at, at};

@@ -130,7 +130,7 @@ static sl_status read_all(sli_proof_reader *r, sl_query *query, const sl_place_a
 sl_status sl_place_area_proof_parse(sl_context *context, sl_query *query, const sl_place_area *area,
                                     const char *path, const char *text, size_t size,
                                     sl_area_placement *out) {
-    sli_proof_reader r = {context, path, text, text + size, "", 1};
+    sli_proof_reader r = sli_proof_reader_of(context, path, text, size);
     *out = (sl_area_placement){0};
     SL_TRY(sli_area_proof_refuse(context, query, area));
     const sl_status status = read_all(&r, query, area, out);

@@ -121,7 +121,7 @@ static sl_status read_all(sli_proof_reader *r, const sl_space *space, sl_placeme
 sl_status sl_place_proof_parse(sl_context *context, sl_query *query, const char *path,
                                const char *text, size_t size, sl_placement *out) {
     const sl_space *space;
-    sli_proof_reader r = {context, path, text, text + size, "", 1};
+    sli_proof_reader r = sli_proof_reader_of(context, path, text, size);
     *out = (sl_placement){0};
     SL_TRY(sl_query_space(context, query, &space, NULL));
     const sl_status status = read_all(&r, space, out);

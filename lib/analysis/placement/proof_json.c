@@ -1,6 +1,8 @@
 /// What files of proofs share (proof_json.h).
 #include "analysis/placement/proof_json.h"
 
+#include "map/scan.h"
+
 #include <inttypes.h>
 #include <string.h>
 
@@ -173,6 +175,11 @@ sl_status sli_proof_put_program(sl_context *context, FILE *f, const sl_cover_pro
 }
 
 // --- reading
+
+sli_proof_reader sli_proof_reader_of(sl_context *context, const char *path, const char *text,
+                                     size_t size) {
+    return (sli_proof_reader){context, path, sli_skip_mark(text, size), text + size, "", 1};
+}
 
 sl_status sli_proof_fail(const sli_proof_reader *r, const char *what) {
     return sl_fail_at(r->context, r->path, r->line, "\"%s\" is no part of a proof: %s", r->member,

@@ -39,6 +39,9 @@ typedef struct sli_proof_reader {
     unsigned line;
 } sli_proof_reader;
 
+/// From the start of a text, behind a byte order mark.
+sli_proof_reader sli_proof_reader_of(sl_context *context, const char *path, const char *text,
+                                     size_t size);
 sl_status sli_proof_fail(const sli_proof_reader *r, const char *what);
 /// The key of the next member.
 sl_status sli_proof_key(sli_proof_reader *r, const char *name);

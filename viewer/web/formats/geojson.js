@@ -23,12 +23,17 @@ function linesOf(geometry) {
     }
 }
 
+/** As the command decides: such numbers, with four decimals or more. */
+const looksLikeDegrees = (items) => items.every(({ points }) => points.every((v, i) => Math.abs(v) <= (i % 2 ? 90 : 180))) &&
+    items.some(({ points }) => points.some((v) => /\.\d{4}/.test(String(v))));
+
 /** @param {any} file @returns {{items: import('./map-text.js').Item[], notes: string[]}} */
 export function readGeoJson(file) {
     const features = file.type === 'FeatureCollection' ? file.features : file.type === 'Feature' ? [file]
         : [{ geometry: file, properties: {} }];
     const items = [], left = { cells: 0, points: 0 };
-    for (const { geometry, properties } of features) {
+    for (const feature of features) {
+        const { geometry = feature, properties } = feature; // some programs leave features out
         const kind = properties?.kind, name = oneWord(properties?.name, `door${items.length + 1}`);
         if (kind === 'cell' || kind === 'portal' || kind === 'view_cell' || kind === 'region') left.cells++;
         else if (geometry?.type === 'Point' && kind === 'start')
@@ -46,6 +51,7 @@ export function readGeoJson(file) {
     if (!items.length) throw new FormatError('the file has no lines or outlines');
     const notes = [];
     if (left.cells) notes.push(`${plural(left.cells, 'cell, portal or region', 'cells, portals and regions')}, made anew here`);
+    if (looksLikeDegrees(items)) notes.push('longitudes and latitudes, taken as plain units');
     if (left.points) notes.push(plural(left.points, 'point'));
     return { items, notes };
 }

@@ -3,6 +3,7 @@
  * squares at both sides. The box of an object says roughly where, the squares say the rest. Where a
  * door is drawn on solid squares, they are opened. lib/io/parts/things_place.c does the same.
  */
+import { plural } from './words.js';
 
 /**
  * @typedef {Object} Grid
@@ -68,6 +69,13 @@ export function middleLine([x0, y0, x1, y1]) {
     return x1 - x0 >= y1 - y0 ? [x0, (y0 + y1) / 2, x1, (y0 + y1) / 2] : [(x0 + x1) / 2, y0, (x0 + x1) / 2, y1];
 }
 
+/** Whether a door that no squares place can be kept as it is drawn: it has a length, and stands on open ground. */
+function canStand(grid, box) {
+    const [ax, ay, bx, by] = middleLine(box);
+    const at = (v, from) => Math.floor((v - from) / grid.size);
+    return (ax !== bx || ay !== by) && !(grid && grid.solid[at((ay + by) / 2, grid.y0)]?.[at((ax + bx) / 2, grid.x0)]);
+}
+
 /**
  * Places doors, and makes their names differ.
  * @param {Grid | null} grid @param {{name: string, state: string, box: number[]}[]} doors @param {string[]} notes
@@ -75,14 +83,19 @@ export function middleLine([x0, y0, x1, y1]) {
  */
 export function doorItems(grid, doors, notes) {
     const used = new Map();
-    let loose = 0;
-    const items = doors.map(({ name, state, box }) => {
+    let loose = 0, left = 0;
+    const items = doors.flatMap(({ name, state, box }) => {
+        const placed = grid && placeDoor(grid, box);
+        if (!placed && !canStand(grid, box)) {
+            left++;
+            return [];
+        }
         const count = (used.get(name) ?? 0) + 1;
         used.set(name, count);
-        const placed = grid && placeDoor(grid, box);
         if (!placed) loose++;
         return { kind: 'door', name: count > 1 ? `${name}:${count}` : name, points: placed ?? middleLine(box), state };
     });
+    if (left) notes.push(`${plural(left, 'door')} in solid ground or of no size`);
     if (loose && grid) notes.push(`${loose} ${loose === 1 ? 'door stands' : 'doors stand'} between no solid squares: check where`);
     return items;
 }

@@ -41,6 +41,7 @@ function placedLevels(world) {
 
 /** A start goes to the items, a door to the doors. */
 function takeEntity(entity, grid, left, top, items, doors) {
+    if (!entity.px) return;
     const [px, py] = entity.px, [ax, ay] = entity.__pivot ?? [0, 0];
     const w = entity.width ?? grid, h = entity.height ?? grid;
     const x = left + px + (0.5 - ax) * w, y = top - (py + (0.5 - ay) * h);

@@ -22,6 +22,7 @@ export class FormatError extends Error {
         super(line ? `Line ${line}: ${message}` : message);
         this.name = 'FormatError';
         this.line = line;
+        this.words = message;
     }
 }
 
@@ -64,7 +65,7 @@ function readNumber(word, line) {
 /** @returns {Item} */
 function readStatement(words, line) {
     const [kind, ...rest] = words, form = statements[kind];
-    if (!form) throw new FormatError(`unknown statement '${kind}'`, line);
+    if (!Object.hasOwn(statements, kind)) throw new FormatError(`unknown statement '${kind}'`, line);
     /** @type {Item} */
     const item = { kind, points: [] };
     if (form.name) item.name = rest.shift();
@@ -88,7 +89,7 @@ function readStatement(words, line) {
 export function parseMap(text) {
     const items = [];
     let started = false;
-    text.replace(/^\ufeff/, '').split('\n').forEach((raw, i) => {
+    text.replace(/^\ufeff/, '').split(text.includes('\n') ? '\n' : '\r').forEach((raw, i) => {
         const line = raw.replace(/\r$/, ''), at = line.indexOf('#');
         const words = (at < 0 ? line : line.slice(0, at)).split(/[ \t]+/).filter(Boolean);
         const said = at < 0 ? '' : line.slice(at);

@@ -44,7 +44,7 @@ export function gridWalls(solid, size = 1, x0 = 0, y0 = 0) {
 
 /** @param {string} text @returns {import('./map-text.js').Item[]} */
 export function parsePlan(text) {
-    const lines = text.split('\n').map((line) => line.replace(/\r$/, ''));
+    const lines = text.split(text.includes('\n') ? '\n' : '\r').map((line) => line.replace(/\r$/, ''));
     while (lines.length && lines[lines.length - 1] === '') lines.pop();
     const columns = Math.max(0, ...lines.map((line) => line.length)), rows = lines.length;
     const rowsUp = lines.map((line) => line.padEnd(columns, '#')).reverse();

@@ -4,7 +4,7 @@
 import { readBaked } from './baked.js';
 import { readGeoJson } from './geojson.js';
 import { readLdtk } from './ldtk.js';
-import { FormatError, parseMap } from './map-text.js';
+import { FormatError, parseMap, writeMap } from './map-text.js';
 import { isPlan, parsePlan } from './plan-text.js';
 import { readSvg } from './svg.js';
 import { readTabletop } from './tabletop.js';
@@ -18,7 +18,8 @@ import { tiledFromXml } from './tiled-xml.js';
  * @property {string} format
  */
 
-const isSlv = (bytes) => String.fromCharCode(...bytes.subarray(0, 16)).toLowerCase().includes('slv');
+/** Also a file whose first byte a program has changed. */
+const isSlv = (bytes) => /^[^\0-\x7f]{1,3}SLV/.test(String.fromCharCode(...bytes.subarray(0, 8)));
 
 /** Files that the page does not read, by their first bytes: what they are, and a name for the command if it does. */
 const others = [
@@ -30,13 +31,14 @@ const others = [
     [/^(?=[^]*^image:)[^]*^resolution:/m, 'a map of ROS', 'map.yaml'],
 ];
 
+const byCommand = (name) => `. The page does not read it, the command does: sightline convert ${name} -o plan.map`;
+
 /** @param {Uint8Array} bytes */
 function refuseOthers(bytes) {
     const start = String.fromCharCode(...bytes.subarray(0, 2000));
     for (const [known, what, name] of others)
         if (known.test(start))
-            throw new FormatError(`this is ${what}` + (name ? '. The page does not read it, the command does: ' +
-                `sightline convert ${name} -o plan.map` : ''));
+            throw new FormatError(`this is ${what}${name ? byCommand(name) : ''}`);
 }
 
 /** @returns {[string, (file: any) => any]} */
@@ -47,17 +49,12 @@ function jsonReader(file) {
     if (file?.line_of_sight || file?.resolution) return ['Universal VTT', readTabletop];
     if (/^(Feature|FeatureCollection|GeometryCollection|(Multi)?(Point|LineString|Polygon))$/.test(file?.type))
         return ['GeoJSON', readGeoJson];
+    if (Array.isArray(file?.walls)) throw new FormatError(`this is a scene of Foundry${byCommand('scene.json')}`);
     throw new FormatError('this JSON is none of Tiled, LDtk, Universal VTT, GeoJSON or the JSON export');
 }
 
-/**
- * @param {Uint8Array} bytes
- * @param {(bytes: Uint8Array) => Promise<any>} describe the core's JSON of a .slv file
- * @returns {Promise<Reading>}
- */
-export async function readMapFile(bytes, describe) {
-    if (isSlv(bytes)) return { format: 'a .slv file', ...readBaked(await describe(bytes)) };
-    refuseOthers(bytes);
+/** Reads text of any format but .slv. @param {Uint8Array} bytes @returns {Promise<Reading>} */
+async function readText(bytes) {
     let text;
     try {
         text = new TextDecoder('utf-8', { fatal: true }).decode(bytes);
@@ -74,16 +71,38 @@ export async function readMapFile(bytes, describe) {
             throw new FormatError(`this is not JSON that can be read: ${error.message}`);
         }
         const [format, read] = jsonReader(file);
-        try {
-            return { format, ...(await read(file)) };
-        } catch (error) {
-            if (error instanceof FormatError) throw error;
-            throw new FormatError(`this ${format} file is not as it should be (${error.message})`);
-        }
+        return { format, ...(await read(file)) };
     }
     if (start.startsWith('<') && /<svg[\s>]/i.test(start.slice(0, 4000))) return { format: 'SVG', ...readSvg(text) };
     if (start.startsWith('<') && /<map[\s>]/.test(start.slice(0, 4000))) return { format: 'Tiled', ...(await readTiled(tiledFromXml(text))) };
     if (start.startsWith('<')) throw new FormatError('XML files but SVG and Tiled maps are not read here');
     if (isPlan(text)) return { format: 'an ASCII plan', items: parsePlan(text), notes: [] };
     return { format: 'map text', items: parseMap(text), notes: [] };
+}
+
+/** Items as map text has them: what it cannot hold is refused before it takes the place of the map. @param {Reading} reading */
+function checked(reading) {
+    if (!reading.items.length) throw new FormatError('nothing in this file is a wall');
+    try {
+        return { ...reading, items: parseMap(writeMap(reading.items)) };
+    } catch (error) {
+        throw error instanceof FormatError ? new FormatError(error.words) : error;
+    }
+}
+
+/**
+ * @param {Uint8Array} bytes
+ * @param {(bytes: Uint8Array) => Promise<any>} describe the core's JSON of a .slv file
+ * @returns {Promise<Reading>}
+ */
+export async function readMapFile(bytes, describe) {
+    const baked = isSlv(bytes) ? await describe(bytes) : null;
+    if (!baked) refuseOthers(bytes);
+    try {
+        const reading = baked ? { format: 'a .slv file', ...readBaked(baked) } : await readText(bytes);
+        return reading.format === 'map text' ? reading : checked(reading);
+    } catch (error) {
+        if (error instanceof FormatError || error instanceof RangeError) throw error;
+        throw new FormatError('a part of this file is not as its format wants it. The command says which one: sightline info FILE');
+    }
 }

@@ -4,19 +4,27 @@
  */
 import { doorItems } from './grid-doors.js';
 import { FormatError } from './map-text.js';
+import { ownItems, ownLayer } from './own-layers.js';
 import { gridWalls } from './plan-text.js';
 import { isDoorName, isOpenName, isSolidName, isStartName, oneWord, plural } from './words.js';
 
 const FLAGS = 0x1fffffff;
 
+/** A few chunks far from each other span a huge map. */
+const MOST_SQUARES = 2 ** 26;
+
 /** True and false, also as a number or a word; undefined for all else. */
 const truth = (value) => ({ true: true, 1: true, yes: true, false: false, 0: false, no: false })[String(value).toLowerCase()];
 
-/** What the properties of a layer, a tile or an object say: an array, or an object in old files. */
+/** Properties of anything: an array, or an object in old files. @returns {{name: string, value: any}[]} */
+const listed = (properties) => (Array.isArray(properties) ? properties
+    : Object.entries(properties ?? {}).map(([name, value]) => ({ name, value })));
+
+const propertyOf = (thing, name) => listed(thing.properties).find((p) => p.name === name)?.value;
+
+/** What the properties of a layer, a tile or an object say. */
 const flag = (properties) => {
-    const all = Array.isArray(properties) ? properties
-        : Object.entries(properties ?? {}).map(([name, value]) => ({ name, value }));
-    for (const { name, value } of all) {
+    for (const { name, value } of listed(properties)) {
         const said = truth(value);
         if (said !== undefined && isSolidName(name)) return said;
         if (said !== undefined && isOpenName(name)) return !said;
@@ -76,19 +84,31 @@ function tilesSay(map, notes) {
     return says;
 }
 
+/** The corners of an object; y goes up from `height`. @returns {number[][]} */
+function cornersOf({ x, y, width = 0, height: h = 0, rotation = 0, polygon, polyline }, height) {
+    const turn = (rotation * Math.PI) / 180, c = Math.cos(turn), s = Math.sin(turn), up = (py) => height - py;
+    const place = (px, py) => (turn ? [x + c * px - s * py, up(y + s * px + c * py)] : [x + px, up(y + py)]);
+    return (polygon ?? polyline ?? [[0, 0], [width, 0], [width, h], [0, h]].map(([a, b]) => ({ x: a, y: b }))).map((p) => place(p.x, p.y));
+}
+
+const headingOf = ({ rotation = 0 }) => -rotation || 0;
+
+const isShut = (object) => propertyOf(object, 'open') === false;
+
+/** An object on a layer of our own, as items. */
+function ownObject(layer, object, height, counts) {
+    const corners = cornersOf(object, height), closed = object.polyline ? corners : [...corners, corners[0]];
+    return ownItems(layer, closed, { name: object.name, isShut: isShut(object), heading: headingOf(object) }, counts);
+}
+
 /** One object as items: its outline or a start. A door goes to the doors, but for one that is a line. */
 function objectItems(object, says, height, counts, doors) {
-    const { x, y, width = 0, height: h = 0 } = object, up = (py) => height - py;
-    const kind = object.type || object.class;
+    const { x, y, width = 0, height: h = 0 } = object, kind = object.type || object.class;
     if (isStartName(object.name) || isStartName(kind))
-        return [{ kind: 'start', points: [x + width / 2, up(y + h / 2)], heading: -(object.rotation ?? 0) || 0 }];
-    const turn = ((object.rotation ?? 0) * Math.PI) / 180, c = Math.cos(turn), s = Math.sin(turn);
-    const place = (px, py) => (turn ? [x + c * px - s * py, up(y + s * px + c * py)] : [x + px, up(y + py)]);
-    const line = object.polygon ?? object.polyline ??
-        [[0, 0], [width, 0], [width, h], [0, h]].map(([a, b]) => ({ x: a, y: b }));
-    const points = line.flatMap((p) => place(p.x, p.y));
+        return [{ kind: 'start', points: [x + width / 2, height - (y + h / 2)], heading: headingOf(object) }];
+    const points = cornersOf(object, height).flat();
     if (isDoorName(object.name) || isDoorName(kind)) {
-        const state = (object.properties ?? []).find((p) => p.name === 'open')?.value === false ? 'shut' : 'open';
+        const state = isShut(object) ? 'shut' : 'open';
         const xs = points.filter((_, i) => i % 2 === 0), ys = points.filter((_, i) => i % 2);
         const box = [Math.min(...xs), Math.min(...ys), Math.max(...xs), Math.max(...ys)];
         const name = oneWord(object.name || kind, 'door');
@@ -116,7 +136,7 @@ export async function readTiled(map) {
     const notes = [], says = tilesSay(map, notes), layers = [...flatten(map.layers)];
     const { tilewidth: tw, tileheight: th } = map;
     if (tw !== th) throw new FormatError('tiles that are not square are not read here');
-    const height = map.height * th, counts = { ellipses: 0 }, doors = [];
+    const height = Number(propertyOf(map, 'sightline-y0') ?? map.height * th), counts = { ellipses: 0, doors: 0 }, doors = [];
     const cells = new Map(), items = [];
     // A map without bounds is as large as its chunks.
     const boxes = map.infinite ? [Infinity, Infinity, -Infinity, -Infinity] : [0, 0, map.width, map.height];
@@ -141,14 +161,21 @@ export async function readTiled(map) {
         }
     }
     if (tileLayers.length && cells.size) {
+        if ((boxes[2] - boxes[0]) * (boxes[3] - boxes[1]) > MOST_SQUARES) throw new FormatError('the map is too large for this page');
         const solid = [];
         for (let cy = boxes[3] - 1; cy >= boxes[1]; cy--)
             solid.push(Array.from({ length: boxes[2] - boxes[0] }, (_, i) => cells.has(`${boxes[0] + i},${cy}`)));
         grid = { solid, size: tw, x0: boxes[0] * tw, y0: height - boxes[3] * th };
     }
     for (const { layer, says: whole, x, y } of layers)
-        for (const object of layer.objects ?? [])
-            items.push(...objectItems({ ...object, x: object.x + x, y: object.y + y }, whole, height, counts, doors));
+        for (const object of layer.objects ?? []) {
+            const own = ownLayer(layer.name), here = { ...object, x: object.x + x, y: object.y + y };
+            items.push(...(own ? ownObject(own, here, height, counts) : objectItems(here, whole, height, counts, doors)));
+        }
+    for (const kind of ['range', 'snap']) {
+        const value = Number(propertyOf(map, `sightline-${kind}`));
+        if (value > 0) items.push({ kind, points: [], value });
+    }
     const placed = doorItems(grid, doors, notes);
     if (grid) items.unshift(...gridWalls(grid.solid, grid.size, grid.x0, grid.y0));
     items.push(...placed);

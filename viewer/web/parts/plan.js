@@ -113,11 +113,16 @@ export function drawDot(surface, camera, [x, y], radius, colour, rim) {
     surface.stroke();
 }
 
+/** Multiples of a step. They are counted: far from the origin the next whole number may be the same. */
+function multiples(from, to, step) {
+    const first = Math.ceil(from / step);
+    return Array.from({ length: Math.max(0, Math.floor(to / step) - first + 1) }, (_, i) => (first + i) * step);
+}
+
 function drawGrid(surface, camera, step, colour) {
-    const [x0, y0, x1, y1] = camera.box(), lines = [];
+    const [x0, y0, x1, y1] = camera.box();
     if ((x1 - x0) / step > 400 || (y1 - y0) / step > 400) return;
-    for (let i = Math.ceil(x0 / step); i * step <= x1; i++) lines.push([i * step, y0, i * step, y1]);
-    for (let i = Math.ceil(y0 / step); i * step <= y1; i++) lines.push([x0, i * step, x1, i * step]);
+    const lines = [...multiples(x0, x1, step).map((x) => [x, y0, x, y1]), ...multiples(y0, y1, step).map((y) => [x0, y, x1, y])];
     strokeLines(surface, camera, lines, colour, 0.5);
 }
 

@@ -30,6 +30,15 @@ const MOST_KEPT = 20000;
 /** Where maps to begin with are. */
 const maps = new URL('../maps/', import.meta.url);
 
+/** The items of a shared map; one whose letters were changed on the way may still unpack. */
+function readShared(text) {
+    try {
+        return parseMap(text);
+    } catch (error) {
+        throw new Error(t`The address holds a map that cannot be read. ${error.message}`);
+    }
+}
+
 class Playground extends Sight {
     constructor() {
         // ?memory=MB in the address, for small devices and for tests.
@@ -207,7 +216,7 @@ class Playground extends Sight {
             const text = await unpackMap(location.hash);
             if (text !== null) this.shared = text;
             if (text === null || text === this.doc.text()) return false;
-            const items = parseMap(text), own = this.doc.items.length > 0;
+            const items = readShared(text), own = this.doc.items.length > 0;
             if (own) keepWork(this.doc.text(), 'own');
             this.load(items, t('the shared map'), own ? t('This is a shared map. Undo brings back your own; it is in the list of maps too.') : '');
             this.shared = this.doc.text();

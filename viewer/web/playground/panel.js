@@ -112,6 +112,19 @@ export function showMessage(text, isError = false) {
 export function showNote(text, isError = false) {
     showMessage(text, isError);
     get('message').classList.add('note');
+    get('message').dataset.note = text;
+}
+
+/** Whether what has happened has its place, said or past. */
+export const hasNote = () => get('message').classList.contains('note');
+
+/** Says what is so of the map, below what has happened. @param {string} text */
+export function showState(text) {
+    if (!hasNote()) return showMessage(text);
+    const state = document.createElement('span');
+    state.className = 'state';
+    state.textContent = text && `\n${text}`;
+    get('message').replaceChildren(get('message').dataset.note, state);
 }
 
 /** The map has changed, so what has happened before is of no interest. The place stays, so that the plan does not move. */

@@ -100,7 +100,8 @@ export class Sight {
         this.bakeTime = bakeTime;
         this.shut = new Set(plan.doors.filter((door) => !door.open).map((door) => door.name));
         panel.showDoors([...new Set(plan.doors.map((door) => door.name))], this.shut, (name, open) => this.setDoor(name, open));
-        if (this.hasError || plan.inside !== this.inside) panel.showMessage(plan.inside && `${plan.inside}.`.replace(/^./, (c) => c.toUpperCase()));
+        if (this.hasError || plan.inside !== this.inside || panel.hasNote())
+            panel.showState(plan.inside && `${plan.inside}.`.replace(/^./, (c) => c.toUpperCase()));
         this.inside = plan.inside;
         this.hasError = false;
         this.eye ??= this.startPlace();

@@ -12,7 +12,8 @@ import { parsePath, parseTransform } from '../formats/svg-path.js';
 import { toHtml } from '../markdown.mjs';
 import { Camera, roundStep } from '../parts/camera.js';
 import { rampColour, rangeOf, valueAt } from '../parts/heat.js';
-import { measureOutline } from '../parts/plan.js';
+import { drawPlan, measureOutline } from '../parts/plan.js';
+import { SvgSurface } from '../parts/svg-surface.js';
 import { makeTones } from '../parts/tones.js';
 import { MapDocument } from '../playground/document.js';
 import { moveEnds, pick, snapTo } from '../playground/pick.js';
@@ -110,6 +111,11 @@ test('wrong map text names its line', () => {
     assert.throws(() => parseMap('# nothing'), FormatError);
 });
 
+test('lines may end with CR alone, as for the program', () => {
+    assert.equal(writeMap(parseMap('sightline 1\rwall 0 0 9 0\r')), 'sightline 1\nwall 0 0 9 0\n');
+    assert.deepEqual(parsePlan('###\r#.#\r###\r'), parsePlan('###\n#.#\n###\n'));
+});
+
 test('comments and notes of a map text stay', () => {
     const text = 'sightline 1\n#! By me.\n# outer walls\nwall 0 0 1.5 -2e-7 solid\n';
     assert.equal(writeMap(parseMap(text)), text);
@@ -123,6 +129,15 @@ test('a Tiled map: solid layers, doors, starts', async () => {
     assert.ok(text.includes('door 40,16,40,32'), text.join('; '));
     assert.equal(items.filter((item) => item.kind === 'wall').length, 4, text.join('; '));
     assert.equal(items.find((item) => item.kind === 'door').state, 'shut');
+});
+
+test('a Tiled map: doors that could stand nowhere are left out, and the page says so', async () => {
+    const map = { orientation: 'orthogonal', width: 3, height: 3, tilewidth: 8, tileheight: 8, layers: [
+        { type: 'tilelayer', name: 'walls', width: 3, height: 3, data: [1, 1, 0, 1, 1, 0, 0, 0, 0] },
+        { type: 'objectgroup', name: 'things', objects: [{ name: 'door', x: 0, y: 0, width: 8, height: 8 }, { name: 'door', x: 20, y: 4, width: 0, height: 0 }] }] };
+    const { items, notes } = await read(JSON.stringify(map));
+    assert.equal(items.filter(({ kind }) => kind === 'door').length, 0);
+    assert.match(notes.join(), /^2 doors in solid ground or of no size$/);
 });
 
 test('a Tiled map that says nothing is guessed, and the page says so', async () => {
@@ -150,18 +165,27 @@ test('LDtk, Universal VTT and GeoJSON', async () => {
         { type: 'Feature', properties: { kind: 'cell' }, geometry: { type: 'Polygon', coordinates: [] } }] });
     assert.deepEqual(geo.items.map((item) => item.kind), ['door', 'walls']);
     assert.match(geo.notes.join(), /1 cell, portal or region/);
+    const bare = readGeoJson({ type: 'FeatureCollection', features: [{ type: 'LineString', coordinates: [[8.1234, 50], [8.1235, 50]] }] });
+    assert.deepEqual([bare.items.length, bare.notes], [1, ['longitudes and latitudes, taken as plain units']]);
+    const entity = { ...ldtk, levels: ldtk.levels.map((one) => ({ ...one, layerInstances: [...one.layerInstances, { __type: 'Entities', entityInstances: [{}] }] })) };
+    assert.deepEqual((await read(JSON.stringify(entity))).items, level.items, 'what has no place is passed over');
 });
 
 test('files that are wrong are refused with words', async () => {
     const wrong = ['', 'hello', '{"a": 1}', '{', '<map/>', '#x#', '[]', 'null', '{"type": "Feature"}',
         '{"layers": 5, "tilewidth": 1}', '{"resolution": {}}', '{"jsonVersion": "1", "levels": [{}]}',
-        '{"format": "sightline", "walls": 7}'];
+        '{"format": "sightline", "walls": 7}', '{"format": "sightline", "walls": []}', 'sightline 1\ntoString 1 2\n', 'slv is a format\n', '####\n',
+        '{"type": "LineString", "coordinates": [[1e400, 0], [1, 1]]}', '{"type": "LineString", "coordinates": [[null, 0], [1, 1]]}',
+        '{"format": "sightline", "walls": [[0, 0, 1]]}', '{"format": "sightline", "walls": [[0, 0, 1, 1]], "starts": [{}]}',
+        '{"format": "sightline", "walls": [], "doors": [{"name": "a b", "segments": [[0, 0, 1, 1]]}]}'];
     for (const text of wrong)
-        await assert.rejects(read(text), (error) => error instanceof FormatError && error.message.length > 10, text);
+        await assert.rejects(read(text), (error) => error instanceof FormatError && error.message.length > 10 && !/undefined|iterable|properties of/.test(error.message), text);
+    const chunk = (x) => ({ x, y: 0, width: 1, height: 1, data: [1] });
+    await assert.rejects(read(JSON.stringify({ ...tiled, infinite: true, layers: [{ type: 'tilelayer', name: 'walls', chunks: [chunk(-2e9), chunk(2e9)] }] })), /too large/);
     await assert.rejects(readMapFile(Uint8Array.of(255, 254, 0, 7), () => null), FormatError);
     for (const [text, told] of [
         ['  0\r\nSECTION\r\n  2\r\nHEADER\r\n', /DXF drawing\..* sightline convert plan\.dxf -o plan\.map$/],
-        ['999\nmade by hand\n0\nSECTION\n2\nENTITIES\n', /DXF drawing\./], ['AC1027\0\0', /DWG drawing: save it as ASCII DXF/],
+        ['999\nmade by hand\n0\nSECTION\n2\nENTITIES\n', /DXF drawing\./], ['{"walls": [{"c": [0, 0, 1, 1]}]}', /scene of Foundry\..* sightline convert scene\.json -o plan\.map$/], ['AC1027\0\0', /DWG drawing: save it as ASCII DXF/],
         ['AutoCAD Binary DXF\r\n', /binary DXF/], ['IWAD\x01\x02', /WAD/], ['P5 3 1 255 abc', /picture/],
         ['resolution: 0.05\nimage: map.pgm\n', /map of ROS/], ['image: map.pgm\norigin: [0, 0, 0]\nresolution: 1\n', /map of ROS/],
     ])
@@ -228,6 +252,16 @@ test('a camera goes to the screen and back', () => {
     assert.equal(roundStep(10, 9), 1);
     assert.equal(roundStep(100, 9), 0.1);
     assert.equal(roundStep(1, 30), 50);
+});
+
+test('a grid is drawn where numbers are farther from each other than its lines', () => {
+    const lines = [[0, 0, 9, 9], [1e15, 0, 1e15 + 9, 9], [1e20, 0, 1e20, 9], [-1e20, -1e300, 0, 1e300]].map((bounds) => {
+        const camera = new Camera(300, 300), surface = new SvgSurface(300, 300, 'Plan');
+        camera.fit(bounds);
+        drawPlan(surface, camera, { items: [], show: { grid: roundStep(camera.scale, 40) } }, makeTones(false));
+        return surface.text().match(/M/g)?.length ?? 0;
+    });
+    assert.deepEqual(lines, [10, 10, 6, 10]);
 });
 
 test('colours are those of the pictures of the project', () => {

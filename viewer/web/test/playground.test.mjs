@@ -409,6 +409,9 @@ for (const name of wanted)
             const cut = await open({}, address.slice(0, 30), null);
             assert.match(await message(cut), /cannot be read/);
             await context.close();
+            const changed = await open({}, `#t=${Buffer.from(room.replace('wall 10', 'wall 1o')).toString('base64url')}`, null);
+            assert.equal(await message(changed), "The address holds a map that cannot be read. Line 3: expected a finite decimal number, found '1o'");
+            await context.close();
         });
 
         test('reads drawings', async () => {
@@ -419,6 +422,14 @@ for (const name of wanted)
             await settled(page);
             const bounds = await page.evaluate(() => window.playground.doc.bounds());
             assert.deepEqual(bounds, [1, 1, 9, 9]);
+            await drop(page, 'layers.svg', '<svg xmlns="http://www.w3.org/2000/svg"><g id="Walls"><path d="M0 0H9V9"/></g><g id="chairs"><path d="M1 1H2"/></g></svg>');
+            await page.waitForFunction(() => /^layers\.svg was read as SVG.*layers by their names: all shapes are walls here/.test(document.getElementById('message').textContent));
+            // What was left out is said beside what is doubtful in the map, and goes with the next change.
+            await drop(page, 'b.svg', '<svg xmlns="http://www.w3.org/2000/svg"><path d="M0 0H9V9"/><text>hall</text></svg>');
+            await page.waitForFunction(() => /^b\.svg was read as SVG.*1 text or picture\.\nThe map has no start/.test(document.getElementById('message').textContent));
+            await page.evaluate(() => window.playground.doc.add({ kind: 'wall', points: [1, 1, 2, 1] }));
+            await settled(page);
+            assert.deepEqual(await page.evaluate(() => ['#message', '#message .state'].map((part) => getComputedStyle(document.querySelector(part)).visibility)), ['hidden', 'visible']);
             await context.close();
         });
 
@@ -496,11 +507,16 @@ for (const name of wanted)
             const svg = (inner) => `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 20 10"><rect width="12" height="8"/>${inner}</svg>`;
             let shown = 0;
             for (const [i, more] of ['display="none"', 'style="fill:red; display : none"', 'style="display:none !important"', 'visibility="hidden"', 'style="visibility:hidden"',
-                'style="-x-display:none"', 'style="display:none-such"', 'style="display:inline"', 'class="no"'].entries()) {
+                'style="opacity:0"', 'opacity="0.0"', 'style="-x-display:none"', 'style="display:none-such"', 'style="display:inline"', 'class="no"'].entries()) {
                 const { cells } = await comparesWithNative(page, `s${i}.svg`, svg(rect(more)));
                 shown += cells.length > 1;
             }
             assert.equal(shown, 4);
+            await comparesWithNative(page, 'moved.svg', svg(rect('style="transform:translate(1px, -1px) rotate(5deg)"')));
+            await comparesWithNative(page, 'percent.svg', svg('<rect width="100%" height="100%"/>'));
+            assert.match(await message(page), /1 shape with a size in percent/);
+            await drop(page, 'em.svg', svg(rect('style="transform:translate(1em, 0)"')));
+            await page.waitForFunction(() => /^em\.svg was not opened: transform: /.test(document.getElementById('message').textContent));
             const sheets = ['.no{display:none}', 'rect.no, .x{visibility:hidden}', '#o .no{display:none}', '.no{display:none} rect{display:inline}',
                 '.no{display:none} #o rect{display:inline}', '#o rect{display:none !important} #o .no{display:inline}', '@import "x.css"; @media print{.no{display:none}}',
                 '.no{fill:none;stroke:none}', 'g > .no{display:none}', '.nob{display:none}'];
@@ -514,9 +530,28 @@ for (const name of wanted)
             await context.close();
         });
 
+        test('layers of our own become what the program makes of them', needsNative, async () => {
+            const page = await open(), seeds = new URL('../../../tests/fuzz/seeds/', import.meta.url);
+            for (const file of ['everything.svg', 'everything.tmx', 'everything.dd2vtt']) {
+                const { starts, range } = await comparesWithNative(page, file, readFileSync(new URL(file, seeds), 'utf8'));
+                assert.deepEqual([starts.length, range], [1, 500.25], file);
+            }
+            const part = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 20 10"><g id="sightline-wall"><rect width="20" height="10"/></g>' +
+                '<g id="sightline-wall-stops-sight-sound"><path d="M5 0V10"/></g></svg>';
+            await comparesWithNative(page, 'part.svg', part);
+            assert.match(await page.evaluate(() => window.playground.doc.text()), /^wall.* stops sight,sound$/m);
+            await context.close();
+        });
+
         test('a wrong file leaves the map as it was', async () => {
             const page = await open();
-            for (const [file, content] of [['a.map', 'sightline 1\nwall 0 0 1'], ['b.json', '{"a": 1}'], ['c.png', '\x89PNG\0\xff'], ['d.svg', '<svg'], ['e.tmx', '<map></map>']]) {
+            const svg = (inner) => `<svg xmlns="http://www.w3.org/2000/svg">${inner}</svg>`, often = '<use href="#a"/>'.repeat(10);
+            const uses = Array.from('bcdefgh', (id, i) => `<g id="${id}">${often.replaceAll('#a', `#${'abcdefg'[i]}`)}</g>`).join('');
+            for (const [file, content] of [['a.map', 'sightline 1\nwall 0 0 1'],
+                ['numbers.geojson', '{"type": "LineString", "coordinates": [["a", 0], [1, 1]]}'], ['far.svg', svg('<line x2="1e999"/>')],
+                ['start.json', '{"format": "sightline", "walls": [[0, 0, 1, 1]], "starts": [{}]}'], ['none.json', '{"format": "sightline"}'],
+                ['uses.svg', svg(`<defs><rect id="a" width="1" height="1"/>${uses}</defs><use href="#h"/>`)],
+                ['packed.tmx', '<map tilewidth="8" tileheight="8" width="1" height="1"><layer name="walls"><data encoding="base64">!</data></layer></map>'], ['b.json', '{"a": 1}'], ['c.png', '\x89PNG\0\xff'], ['d.svg', '<svg'], ['e.tmx', '<map></map>']]) {
                 await drop(page, file, content);
                 await page.waitForFunction((f) => document.getElementById('message').textContent.startsWith(`${f} was not opened`), file);
                 assert.equal(await page.evaluate(() => window.playground.doc.text()), room, file);
@@ -528,7 +563,7 @@ for (const name of wanted)
             await page.click('[data-do=undo]');
             await settled(page);
             assert.equal(await fact(page, 'Cells'), '2');
-            assert.equal(await message(page), '');
+            assert.equal(await message(page), 'Undone: room.map is back.');
             await context.close();
         });
 

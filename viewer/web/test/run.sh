@@ -2,7 +2,8 @@
 # Tests of the playground: sh viewer/web/test/run.sh WHAT FOLDER [PROGRAM [PYTHON]]
 #   formats     what needs no browser, in node
 #   playground  the built site, with the course, in Chromium and Firefox, as far as they are installed
-#   quick       the same in one browser, without axe-core
+#   quick       the page alone, in one browser, without axe-core
+#   course      the course, so too
 #   effects     the rows of the playground in tools/EFFECTS.md, by the built site in node
 #   glpk        the page of GLPK's answers, in Chromium
 #   frame       no test: a table of what a step of a drag takes, in Chromium, in node and natively
@@ -55,9 +56,16 @@ if [ "$what" = frame ]; then
     [ -n "${SIGHTLINE:-}" ] || { echo "playground: frame needs the native program" >&2; exit 2; }
     exec node "$here/frame.mjs"
 fi
-if [ "$what" = quick ]; then
+page="playground language publish" course="course labs teaching lecture questions"
+case $what in
+quick) files=$page ;;
+course) files=$course ;;
+*) files="$page $course" ;;
+esac
+if [ "$what" = quick ] || [ "$what" = course ]; then
     if command -v chromium >/dev/null; then BROWSERS=chromium; else BROWSERS=firefox; fi
     export BROWSERS QUICK=1
 fi
-exec node --test "$here/playground.test.mjs" "$here/course.test.mjs" "$here/labs.test.mjs" "$here/teaching.test.mjs" \
-    "$here/lecture.test.mjs" "$here/questions.test.mjs" "$here/language.test.mjs" "$here/publish.test.mjs"
+set --
+for file in $files; do set -- "$@" "$here/$file.test.mjs"; done
+exec node --test --test-concurrency=2 "$@"
