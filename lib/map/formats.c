@@ -35,6 +35,13 @@ static sl_status read_plan(sl_context *context, const char *name, const char *te
 #define WRITER(function) function
 #endif
 
+// So is what reads no drawings without their sheets of several plans.
+#ifdef SLI_WITHOUT_DRAWINGS
+enum { SHEETS = 0 };
+#else
+enum { SHEETS = SL_TAKES_PLANS };
+#endif
+
 static const sl_map_format formats[] = {
     {.name = "text",
      .endings = ".map",
@@ -238,7 +245,7 @@ static sl_status read_format(sl_context *context, const char *path, const sl_map
         if (status == SL_OK && (list.count || !(format->takes & SL_TAKES_PLANS)))
             status = choose_map(context, path, &list, &options);
     }
-    const bool sheets = format->takes & SL_TAKES_PLANS && !list.count;
+    const bool sheets = format->takes & SHEETS && !list.count;
     if (sheets) options.map = NULL;
     if (status == SL_OK) status = format->read(context, path, text, size, &options, map);
     sl_map_list_destroy(context, &list);
