@@ -350,7 +350,7 @@ static bool says_rooms(const sl_map *map) {
 /// rooms are, until a start says where one walks.
 static sl_status note_apart(sl_context *context, const map_pipeline *pipeline, const sl_map *map,
                             const sl_space *space) {
-    char path[SAID], next[80] = "";
+    char path[SAID], next[160] = "";
     map_pipeline any = pipeline_default();
     const option_table reading = pipeline_option_table(&any);
     const int digits = sl_map_digits(map);
@@ -360,7 +360,13 @@ static sl_status note_apart(sl_context *context, const map_pipeline *pipeline, c
     const double inside = sl_space_ground(space).inside * (b.max.x - b.min.x) * (b.max.y - b.min.y);
     const double apart = inside > 0 ? 1 - parts.open.area / inside : 0;
     if (apart < APART) return SL_OK;
-    if (parts.largest.area > 0)
+    const sl_point within = parts.within.at;
+    if (parts.open.at_edge && parts.within.area > 0)
+        snprintf(next, sizeof next,
+                 ", which reaches the map's edge as rock and sea do, or with %.*g,%.*g the largest "
+                 "that does not",
+                 digits, within.x, digits, within.y);
+    else if (parts.largest.area > 0)
         snprintf(next, sizeof next, ", or with %.*g,%.*g the next one", digits, parts.largest.at.x,
                  digits, parts.largest.at.y);
     sl_note(context,
