@@ -167,19 +167,31 @@ static bool has_solid(const sli_ldtk *reader) {
     return false;
 }
 
+enum { EXAMPLE = 140 };
+
+/// The layer to name in an example, with its tiles; LAYER where another may as well be walls, and
+/// TILES where these may be any.
+static const char *show_example(const sli_ldtk *reader, char text[EXAMPLE]) {
+    const bool sure = reader->tiles_stand || (reader->tiles_named == 1 && !reader->tiles_unsure);
+    if (!sure && reader->tiles_named > 1) return "LAYER";
+    snprintf(text, EXAMPLE, "'%.40s%s'", reader->tiles_name, sure ? reader->tiles_asked : ":TILES");
+    return text;
+}
+
 /// What may be walls, and is not: layers of tiles, and cells without a value.
 static void tell_doubts(const sli_ldtk *reader, const sli_ldtk_settled *as) {
+    char example[EXAMPLE];
     if (reader->options->layers) return;
     if (*reader->tiles_name && (!reader->layers || !has_solid(reader)))
         sl_note(reader->context,
                 "%s: %s; layers of tiles: %.150s; if one shows walls, --layers NAME takes all its "
                 "tiles, NAME:1+3-5 tiles of it, as in: sightline check '%.300s' --map '%.40s' "
-                "--layers '%.40s%s' -o map.png",
+                "--layers %s -o map.png",
                 reader->name,
                 reader->layers ? "no cell is solid, so the level's edge is its walls"
                                : "layers are told by their names and enums",
-                reader->tile_names.text, reader->name, reader->taken, reader->tiles_name,
-                reader->tiles_asked);
+                reader->tile_names.text, reader->name, reader->taken,
+                show_example(reader, example));
     if (as->bare > 0.1)
         sl_note(reader->context,
                 "%s: %.0f %% of the cells are empty, and open as the ground is; --layers %s:0+2-3 "
@@ -222,14 +234,14 @@ static void give_account(const sli_ldtk *reader, const sl_map *map, const sli_ld
 
 /// SL_BAD_INPUT where the level has nothing that says what is solid.
 static sl_status check_any(const sli_ldtk *reader, bool unsure) {
-    char next[900] = "; it has no tiles";
+    char next[900] = "; it has no tiles", example[EXAMPLE];
     if (*reader->tiles_name)
         snprintf(next, sizeof next,
                  "; layers of tiles: %.150s; --layers NAME takes all tiles of one, NAME:1+3-5 "
-                 "tiles of it, as in: sightline check '%.300s' --map '%.40s' --layers '%.40s%s' -o "
+                 "tiles of it, as in: sightline check '%.300s' --map '%.40s' --layers %s -o "
                  "map.png",
-                 reader->tile_names.text, reader->name, reader->taken, reader->tiles_name,
-                 reader->tiles_asked);
+                 reader->tile_names.text, reader->name, reader->taken,
+                 show_example(reader, example));
     if (!reader->layers && !reader->tile_layers && !reader->walls.count)
         return sli_json_fail(&reader->root,
                              "level %s has no IntGrid layer%s, and no layer of tiles whose name or "

@@ -117,8 +117,8 @@ static void test_placed(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_counts),
-        cmocka_unit_test(test_edge), cmocka_unit_test(test_window),
-                                       cmocka_unit_test(test_thin), cmocka_unit_test(test_placed)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_counts), cmocka_unit_test(test_edge),
+                                       cmocka_unit_test(test_window), cmocka_unit_test(test_thin),
+                                       cmocka_unit_test(test_placed)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -157,8 +157,8 @@ static void test_void(void **state) {
                  4, 0, 12);
     // A door parts it from what is beyond.
     assert_share(MAP(SET LAYER("map", SMALL_ROOM) SOLID(
-                         BOX("0", "0", "32", "8") BOX("0", "24", "8", "8") BOX("16", "24", "16", "8")
-                             BOX("0", "0", "8", "32") BOX("24", "0", "8", "32"))
+                     BOX("0", "0", "32", "8") BOX("0", "24", "8", "8") BOX("16", "24", "16", "8")
+                         BOX("0", "0", "8", "32") BOX("24", "0", "8", "32"))
                          THINGS("<object type='door' x='8' y='24' width='8' height='8'/>")),
                  5, 0, 11);
     // Tiles under a solid object are no floor: the rest of this platformer is air.

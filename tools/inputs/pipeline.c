@@ -309,9 +309,10 @@ sl_point pipeline_likely_start(const sl_map *map, const sl_space *space) {
     return sl_space_middle(space, largest);
 }
 
-/// What to do next about what is inside.
-static void say_next(sl_inside doubt, const sl_map *map, const sl_space *space, const char *path,
-                     char text[2 * SAID]) {
+/// What to do next about what is inside. In a game walls stand as they like: a wide opening is
+/// seldom an entrance, and a start says more.
+static void say_next(sl_inside doubt, bool game, const sl_map *map, const sl_space *space,
+                     const char *path, char text[2 * SAID]) {
     const size_t size = 2 * SAID;
     const int digits = sl_map_digits(map);
     const sl_point start = pipeline_likely_start(map, space);
@@ -333,8 +334,12 @@ static void say_next(sl_inside doubt, const sl_map *map, const sl_space *space, 
         snprintf(text, size, "; to see it, run: sightline check %s -o check.png", path);
         break;
     case SL_INSIDE_OPENING:
-        snprintf(text, size, ": sightline check %s --entrance %.4g", path,
-                 map->interior.doubtful_width);
+        if (game)
+            snprintf(text, size, "; else add a start: sightline check %s --start %.*g,%.*g", path,
+                     digits, start.x, digits, start.y);
+        else
+            snprintf(text, size, ": sightline check %s --entrance %.4g", path,
+                     map->interior.doubtful_width);
         break;
     }
 }
@@ -430,7 +435,8 @@ static sl_status note_said(sl_context *context, const map_pipeline *pipeline, co
     SL_TRY(sl_say_inside(context, map, space, said));
     if (!said[0]) return SL_OK;
     SL_TRY(sl_doubt_inside(context, map, space, &doubt));
-    say_next(doubt, map, space, say_map(pipeline, &reading, path), then);
+    say_next(doubt, input_is_game(context, pipeline->path), map, space,
+             say_map(pipeline, &reading, path), then);
     sl_note(context, "%s%s", said, then);
     return SL_OK;
 }

@@ -391,16 +391,19 @@ sl_status sli_tiled_check_rules(const sli_tiled_reader *reader);
 /// Where nothing says what is solid: by names, terrains, sets, at last a guess. SL_BAD_INPUT, with
 /// the layers and what to type, where none tells.
 sl_status sli_tiled_find_meaning(sli_tiled_reader *reader);
+/// SL_BAD_INPUT where a start stands on what was guessed to be solid.
+sl_status sli_tiled_check_guess(const sli_tiled_reader *reader);
+/// Looks at the tiles of a block of the layer that is guessed from.
+sl_status sli_tiled_guess(sli_tiled_reader *reader, const uint32_t *gids, size_t columns,
+                          size_t rows);
+
+// --- what is told (tiled_told.c)
+
 /// SL_BAD_INPUT, with the layers and what to type.
 sl_status sli_tiled_fail_unsaid(const sli_tiled_reader *reader, const char *why);
 /// The same where nothing is a wall: a layer that is solid everywhere has no edge.
 sl_status sli_tiled_fail_no_walls(const sli_tiled_reader *reader);
 /// Tells what is solid and by what, and which layers are not.
 sl_status sli_tiled_tell_meaning(const sli_tiled_reader *reader);
-/// SL_BAD_INPUT where a start stands on what was guessed to be solid.
-sl_status sli_tiled_check_guess(const sli_tiled_reader *reader);
-/// Looks at the tiles of a block of the layer that is guessed from.
-sl_status sli_tiled_guess(sli_tiled_reader *reader, const uint32_t *gids, size_t columns,
-                          size_t rows);
 
 #endif

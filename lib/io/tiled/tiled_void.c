@@ -206,8 +206,8 @@ static bool is_between(const sl_map *map, sl_point a, sl_point b) {
 }
 
 /// The places where floor and squares without a tile lie side by side, and those of them where no
-/// wall of an object lies between, and no door on the floor; water counts as `water`. So many places are looked at and no
-/// more.
+/// wall of an object lies between, and no door on the floor; water counts as `water`. So many
+/// places are looked at and no more.
 typedef struct border {
     size_t all, open;
 } border;
@@ -226,7 +226,8 @@ static border find_border(const field *f, char water) {
             const bool door = one == '+' || other == '+';
             if (door && (one == '.' || other == '.')) continue;
             found.all++;
-            found.open += !door && !is_between(f->reader->pen.map, middle_of(f, i), middle_of(f, j));
+            found.open +=
+                !door && !is_between(f->reader->pen.map, middle_of(f, i), middle_of(f, j));
         }
     }
     return found;

@@ -37,8 +37,8 @@ static void measure(const sl_map *map, const sl_space *space, const sl_box *edge
     for (uint32_t i = 0; i < cell->vertex_count; i++) {
         const sl_point a = corners[i], b = corners[(i + 1) % cell->vertex_count];
         room->walls += sli_length(b.x - a.x, b.y - a.y);
-        room->at_edge |= a.x == edge->min.x || a.x == edge->max.x || a.y == edge->min.y ||
-                         a.y == edge->max.y;
+        room->at_edge |=
+            a.x == edge->min.x || a.x == edge->max.x || a.y == edge->min.y || a.y == edge->max.y;
     }
     for (uint32_t i = 0; i < cell->directed_count; i++) {
         const sl_directed_portal *portal = &space->directed[cell->first_directed + i];
