@@ -150,8 +150,9 @@ static void note_drawing(const sli_dxf *dxf) {
     left[count++] = (sli_tally){dxf->pen.points, "line of no length", "lines of no length"};
     const char *asked = dxf->options->unit;
     char without[SLI_TALLY_TEXT];
-    sl_note(dxf->context, "%s: %zu entities give %zu walls%s; unit: %s%s%s", dxf->name, dxf->drawn,
-            dxf->pen.walls, sli_tally_write("; left out: ", left, count, without),
+    sl_note(dxf->context, "%s: %zu entit%s %zu wall%s%s; unit: %s%s%s", dxf->name, dxf->drawn,
+            dxf->drawn == 1 ? "y gives" : "ies give", dxf->pen.walls,
+            dxf->pen.walls == 1 ? "" : "s", sli_tally_write("; left out: ", left, count, without),
             unit_name(dxf->unit),
             asked ? strchr(asked, '=') ? ", read as " : ", converted to " : "", asked ? asked : "");
     if (!dxf->drawn && dxf->options->layers)

@@ -115,10 +115,11 @@ static void note_choice(const sli_choice *c) {
     list_groups(c, false, SLI_MEANS_DOOR, &doors);
     if (c->by_looks) list_looks(c, false, &over);
     list_groups(c, false, SLI_MEANINGS, &over);
-    if (*walls.text) add_part(text, sizeof text, "walls from %.200s", walls.text);
+    if (*walls.text) add_part(text, sizeof text, "walls from %s", sli_name_list_cut(&walls, 200));
     if (*windows.text)
-        add_part(text, sizeof text, "windows, which are seen through, from %.120s", windows.text);
-    if (*doors.text) add_part(text, sizeof text, "doors from %.120s", doors.text);
+        add_part(text, sizeof text, "windows, which are seen through, from %s",
+                 sli_name_list_cut(&windows, 120));
+    if (*doors.text) add_part(text, sizeof text, "doors from %s", sli_name_list_cut(&doors, 120));
     if (c->symbols.doors)
         add_part(text, sizeof text, "%zu door%s drawn open%s", c->symbols.doors,
                  c->symbols.doors == 1 ? " is" : "s are",
@@ -137,7 +138,7 @@ static void note_choice(const sli_choice *c) {
         add_part(text, sizeof text, "%zu shape%s of these, lettering or a page, %s no walls",
                  c->words, c->words == 1 ? "" : "s", c->words == 1 ? "is" : "are");
     note_parts(&c->parts, text, sizeof text);
-    if (*over.text) add_part(text, sizeof text, "passed over: %.250s", over.text);
+    if (*over.text) add_part(text, sizeof text, "passed over: %s", sli_name_list_cut(&over, 250));
     sl_note(c->contents->context, "%s: %s: %s (--layers A,B chooses, --layers '*' takes all)", file,
             c->by_looks ? "layers, and looks where no name says what is a wall" : "layers", text);
     if (c->contents->options->doors && c->doors < c->symbols.doors)

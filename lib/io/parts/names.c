@@ -360,6 +360,15 @@ bool sli_numbers_good(sli_word numbers) {
     return true;
 }
 
+const char *sli_name_list_cut(sli_name_list *list, size_t most) {
+    static const char end[] = ", ...";
+    size_t at = most - strlen(end) + 1;
+    if (strlen(list->text) <= most) return list->text;
+    while (at && strncmp(list->text + at - 1, ", ", 2) != 0) at--;
+    strcpy(list->text + (at ? at - 1 : 0), at ? end : "...");
+    return list->text;
+}
+
 static int compare_numbers(const void *left, const void *right) {
     const uint32_t *a = left, *b = right;
     return (*a > *b) - (*a < *b);

@@ -70,6 +70,9 @@ static inline void sli_name_list_add(sli_name_list *list, sli_word name) {
                  sli_show(name).text);
 }
 
+/// The list with `most` characters at most: what is longer is cut between two names, ", ...".
+const char *sli_name_list_cut(sli_name_list *list, size_t most);
+
 /// SL_BAD_ARGUMENT: a layer that is asked for is not in a file of this name.
 static inline sl_status sli_fail_layer(sl_context *context, const char *file, sli_word name,
                                        const char *where, const sli_name_list *there) {

@@ -537,7 +537,8 @@ static sl_status draw_root(svg *s, xmlNode *root) {
         {s->pen.points, "line of no length", "lines of no length"},
         {s->style.unread, "rule of a style sheet", "rules of style sheets"}};
     char without[SLI_TALLY_TEXT];
-    sl_note(s->context, "%s: %zu shapes give %zu walls%s", s->pen.name, s->shapes, s->pen.walls,
+    sl_note(s->context, "%s: %zu shape%s %zu wall%s%s", s->pen.name, s->shapes,
+            s->shapes == 1 ? " gives" : "s give", s->pen.walls, s->pen.walls == 1 ? "" : "s",
             sli_tally_write("; left out: ", left, 4, without));
     sli_faults_note(s->context, s->pen.name, &s->faults);
     sli_layers_note(s->context, s->pen.name, s->pen.map);

@@ -4,6 +4,7 @@
 
 #include "io/parts/document.h"
 #include "io/parts/game_names.h"
+#include "io/parts/layers.h"
 #include "io/parts/shapes.h"
 #include "io/parts/things.h"
 
@@ -338,6 +339,18 @@ sl_status sli_tiled_settle_void(sli_tiled_reader *reader);
 /// Reads all layers by reader->by, which tells what is solid; what was read before of tiles is
 /// dropped.
 sl_status sli_tiled_read_again(sli_tiled_reader *reader);
+
+// --- objects (tiled_objects.c)
+
+/// What walls of an object, a layer or a group stop, by its property `stops`, a text; else
+/// *stops stays.
+sl_status sli_tiled_read_stops(const sli_json *thing, uint32_t *stops);
+/// What a layer holds by its name. Diamonds and hexagons are moved once all is read, so that such a
+/// layer is one of the map's own. With --start-names the names of objects decide what is a start.
+sli_layer sli_tiled_kind_of_layer(const sli_tiled_reader *reader, const sli_json *layer);
+/// The objects of a layer: starts and doors, and walls where the layer is not said to be open.
+sl_status sli_tiled_read_objects(sli_tiled_reader *reader, const sli_json *layer,
+                                 const sli_tiled_place *at);
 
 // --- closed objects (tiled_closed.c)
 
