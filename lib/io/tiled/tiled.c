@@ -174,7 +174,7 @@ static sl_status see_layer(sli_tiled_reader *reader, const sli_json *layer,
 /// Reads a layer of tiles or objects.
 static sl_status read_layer(sli_tiled_reader *reader, const sli_json *layer,
                             const sli_tiled_place *own, bool objects) {
-    const size_t before = sli_tiled_taken(reader);
+    const size_t before = sli_tiled_taken(reader), tiles = reader->solid_tiles;
     if (!reader->by) SL_TRY(see_layer(reader, layer, own, objects));
     // Objects that are named for houses and trees may be places only.
     const bool places =
@@ -191,6 +191,7 @@ static sl_status read_layer(sli_tiled_reader *reader, const sli_json *layer,
     reader->solid_layers += solid && seen->count;
     reader->empty_layers += solid && !seen->count;
     seen->taken |= sli_tiled_taken(reader) > before;
+    if (!reader->by) seen->solid = reader->solid_tiles - tiles;
     return SL_OK;
 }
 

@@ -240,6 +240,7 @@ typedef struct sli_tiled_seen {
     size_t beside;       ///< solid tiles that are not taken, as the player goes over or under them
     sli_game_kind kind;  ///< by its name, else by that of its group
     uint64_t count, squares;
+    size_t solid; ///< of its tiles: those that say that they are solid
 } sli_tiled_seen;
 
 /// A closed object that is solid: a number of walls of the pen's map.

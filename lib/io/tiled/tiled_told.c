@@ -263,6 +263,23 @@ static void tell_little(const sli_tiled_reader *reader) {
             name.text, (unsigned long long)most->count, reader->map->file->name, name.text);
 }
 
+/// A layer named for ground with much air about it, as in a platformer, of which only a part says
+/// that it is solid: the rest may be platforms that were forgotten, or that one jumps through.
+static void tell_ground(const sli_tiled_reader *reader) {
+    for (size_t i = 0; i < reader->seen.count; i++) {
+        const sli_tiled_seen *layer = &reader->seen.items[i];
+        if (layer->kind != SLI_GAME_GROUND || 4 * layer->count > layer->squares || !layer->solid ||
+            10 * layer->solid > 9 * layer->count)
+            continue;
+        const sli_shown name = sli_show((sli_word){layer->name, strlen(layer->name)});
+        sl_note(reader->context,
+                "%s: only %zu of the %llu tiles of layer '%s' say that they are solid: if all are: "
+                "sightline check '%.300s' --layers '%s' -o map.png",
+                reader->map->file->name, layer->solid, (unsigned long long)layer->count, name.text,
+                reader->map->file->name, name.text);
+    }
+}
+
 /// The next step, where layers are named for what is solid, and are empty.
 static sl_status tell_edge_only(const sli_tiled_reader *reader) {
     const sli_tiled_seen *example = find_example(reader);
@@ -300,6 +317,7 @@ sl_status sli_tiled_tell_meaning(const sli_tiled_reader *reader) {
                 sli_show((sli_word){reader->believed_not, strlen(reader->believed_not)}).text);
     if (!reader->by) tell_beside(reader);
     if (!reader->by) tell_little(reader);
+    if (!reader->by) tell_ground(reader);
     if (reader->by == SLI_TILED_BY_GUESS) {
         const sli_tiled_seen *layer = &reader->seen.items[reader->guess_layer];
         char tile[64] = "its empty squares are";
