@@ -8,6 +8,8 @@
 
 #include "io/io_formats.h"
 
+#include <strings.h>
+
 /// Layers for a message: 'Ground' (2500 tiles), 'Things' (3 objects).
 typedef struct layer_text {
     char text[400];
@@ -82,8 +84,11 @@ static bool is_sure(const sli_tiled_reader *reader, const sli_tiled_seen *exampl
     }
     if (example->objects) return !tiles || (same && things == 1);
     if (example->kind >= SLI_GAME_STANDS || mostly) return true;
+    // Chests and beds that stand in rooms are not the rooms' walls.
+    const bool furniture =
+        strncasecmp(example->name, "object", 6) == 0 || sli_game_says_other(example->name);
     return partial == 1 && may_be_walls(example) && 2 * example->count <= example->squares &&
-           !sli_game_says_other(example->name);
+           !furniture;
 }
 
 static const sli_tiled_seen *find_objects(const sli_tiled_reader *reader) {
@@ -177,7 +182,8 @@ static sl_status say_example(const sli_tiled_reader *reader, const sli_tiled_see
                  ", void the squares without tiles, as in: sightline check '%.150s' --layers void "
                  "-o map.png",
                  file);
-    else if (is_only_layer(reader) && 2 * example->count > example->squares && !mostly)
+    else if (is_only_layer(reader) && !example->objects && 2 * example->count > example->squares &&
+             !mostly)
         snprintf(text, size, ", as in: sightline check '%.150s' --layers '%s:TILES' -o map.png",
                  file, name.text);
     else if (!is_only_layer(reader) && !is_sure(reader, example, mostly, same))
@@ -264,8 +270,10 @@ static void tell_little(const sli_tiled_reader *reader) {
 }
 
 /// A layer named for ground with much air about it, as in a platformer, of which only a part says
-/// that it is solid: the rest may be platforms that were forgotten, or that one jumps through.
+/// that it is solid, and no other layer is: the rest may be platforms that were forgotten, or that
+/// one jumps through.
 static void tell_ground(const sli_tiled_reader *reader) {
+    if (reader->solid_layers) return;
     for (size_t i = 0; i < reader->seen.count; i++) {
         const sli_tiled_seen *layer = &reader->seen.items[i];
         if (layer->kind != SLI_GAME_GROUND || 4 * layer->count > layer->squares || !layer->solid ||
