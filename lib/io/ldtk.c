@@ -167,19 +167,31 @@ static bool has_solid(const sli_ldtk *reader) {
     return false;
 }
 
+enum { EXAMPLE = 140 };
+
+/// The layer to name in an example, with its tiles; LAYER where another may as well be walls, and
+/// TILES where these may be any.
+static const char *show_example(const sli_ldtk *reader, char text[EXAMPLE]) {
+    const bool sure = reader->tiles_stand || (reader->tiles_named == 1 && !reader->tiles_unsure);
+    if (!sure && reader->tiles_named > 1) return "LAYER";
+    snprintf(text, EXAMPLE, "'%.40s%s'", reader->tiles_name, sure ? reader->tiles_asked : ":TILES");
+    return text;
+}
+
 /// What may be walls, and is not: layers of tiles, and cells without a value.
-static void tell_doubts(const sli_ldtk *reader, const sli_ldtk_settled *as) {
+static void tell_doubts(sli_ldtk *reader, const sli_ldtk_settled *as) {
+    char example[EXAMPLE];
     if (reader->options->layers) return;
     if (*reader->tiles_name && (!reader->layers || !has_solid(reader)))
         sl_note(reader->context,
-                "%s: %s; layers of tiles: %.150s; if one shows walls, --layers NAME takes all its "
+                "%s: %s; layers of tiles: %s; if one shows walls, --layers NAME takes all its "
                 "tiles, NAME:1+3-5 tiles of it, as in: sightline check '%.300s' --map '%.40s' "
-                "--layers '%.40s%s' -o map.png",
+                "--layers %s -o map.png",
                 reader->name,
                 reader->layers ? "no cell is solid, so the level's edge is its walls"
                                : "layers are told by their names and enums",
-                reader->tile_names.text, reader->name, reader->taken, reader->tiles_name,
-                reader->tiles_asked);
+                sli_name_list_cut(&reader->tile_names, 150), reader->name, reader->taken,
+                show_example(reader, example));
     if (as->bare > 0.1)
         sl_note(reader->context,
                 "%s: %.0f %% of the cells are empty, and open as the ground is; --layers %s:0+2-3 "
@@ -188,7 +200,7 @@ static void tell_doubts(const sli_ldtk *reader, const sli_ldtk_settled *as) {
 }
 
 /// What was taken, merged and left out.
-static void give_account(const sli_ldtk *reader, const sl_map *map, const sli_ldtk_settled *as) {
+static void give_account(sli_ldtk *reader, const sl_map *map, const sli_ldtk_settled *as) {
     char bottom[SL_NUMBER_TEXT];
     sl_number_write(reader->bottom, bottom);
     const sli_tally left[] = {
@@ -208,10 +220,11 @@ static void give_account(const sli_ldtk *reader, const sl_map *map, const sli_ld
         return;
     }
     sl_note(reader->context,
-            "%s: level %s%s: %zu %s layer%s give%s %zu walls; solid are %s%s; unit: pixels, "
+            "%s: level %s%s: %zu %s layer%s give%s %zu wall%s; solid are %s%s; unit: pixels, "
             "y = %s - the file's y",
             reader->name, reader->taken, world, count, reader->layers ? "IntGrid" : "tile",
             count == 1 ? "" : "s", count == 1 ? "s" : "", map->wall_count,
+            map->wall_count == 1 ? "" : "s",
             !reader->layers      ? "tiles whose layer or enum says so"
             : reader->told.named ? "values by their names"
                                  : "all values but 0",
@@ -221,15 +234,15 @@ static void give_account(const sli_ldtk *reader, const sl_map *map, const sli_ld
 }
 
 /// SL_BAD_INPUT where the level has nothing that says what is solid.
-static sl_status check_any(const sli_ldtk *reader, bool unsure) {
-    char next[900] = "; it has no tiles";
+static sl_status check_any(sli_ldtk *reader, bool unsure) {
+    char next[900] = "; it has no tiles", example[EXAMPLE];
     if (*reader->tiles_name)
         snprintf(next, sizeof next,
-                 "; layers of tiles: %.150s; --layers NAME takes all tiles of one, NAME:1+3-5 "
-                 "tiles of it, as in: sightline check '%.300s' --map '%.40s' --layers '%.40s%s' -o "
+                 "; layers of tiles: %s; --layers NAME takes all tiles of one, NAME:1+3-5 "
+                 "tiles of it, as in: sightline check '%.300s' --map '%.40s' --layers %s -o "
                  "map.png",
-                 reader->tile_names.text, reader->name, reader->taken, reader->tiles_name,
-                 reader->tiles_asked);
+                 sli_name_list_cut(&reader->tile_names, 150), reader->name, reader->taken,
+                 show_example(reader, example));
     if (!reader->layers && !reader->tile_layers && !reader->walls.count)
         return sli_json_fail(&reader->root,
                              "level %s has no IntGrid layer%s, and no layer of tiles whose name or "

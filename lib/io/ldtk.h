@@ -62,8 +62,12 @@ typedef struct sli_ldtk {
     char taken[160]; ///< the first level that is taken, as the account shows it
     sli_ldtk_told told;
     char asked[80];           ///< a layer with values that chooses, for the message
-    char tiles_name[80];      ///< the first layer of tiles; "" for none
+    char tiles_name[80];      ///< the first layer of tiles that is named for what stands in the
+                              ///< way, else the first; "" for none
     char tiles_asked[80];     ///< where it is full: its tiles but the most frequent one, ":1+3-5"
+    bool tiles_stand;         ///< it has such a name
+    bool tiles_unsure;        ///< it is full, and no tile covers three fifths of it
+    size_t tiles_named;       ///< how many there are
     sli_name_list tile_names; ///< all of them
     bool empty_cells;         ///< a level has layers of cells, which are empty: its tiles count
     size_t levels, other_levels, other_depths;

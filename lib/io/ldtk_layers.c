@@ -297,10 +297,10 @@ static sl_status choose_tiles(sli_ldtk *reader, const sli_json *layer, const sli
     const sli_json width = sli_json_member(layer, "__cWid"),
                    height = sli_json_member(layer, "__cHei");
     const double squares = sli_json_number_or_0(&width) * sli_json_number_or_0(&height);
-    const size_t most = json_array_size(lists[0].value) + json_array_size(lists[1].value);
-    size_t count = 0;
-    if ((double)most < squares) return SL_OK;
-    uint32_t *tiles = sl_alloc_array(reader->context, most, sizeof *tiles);
+    const size_t all = json_array_size(lists[0].value) + json_array_size(lists[1].value);
+    size_t count = 0, most;
+    if ((double)all < squares) return SL_OK;
+    uint32_t *tiles = sl_alloc_array(reader->context, all, sizeof *tiles);
     if (!tiles) return SL_NO_MEMORY;
     for (size_t k = 0; k < 2; k++)
         for (size_t i = 0; i < json_array_size(lists[k].value); i++) {
@@ -309,9 +309,10 @@ static sl_status choose_tiles(sli_ldtk *reader, const sli_json *layer, const sli
             if (number >= 0 && number <= UINT32_MAX) tiles[count++] = (uint32_t)number;
         }
     char *text = reader->tiles_asked;
-    const sl_status status = sli_numbers_but_commonest(reader->context, tiles, count, text + 1,
-                                                       sizeof reader->tiles_asked - 1);
+    const sl_status status = sli_numbers_but_commonest(reader->context, tiles, count, &most,
+                                                       text + 1, sizeof reader->tiles_asked - 1);
     if (status == SL_OK && text[1]) *text = ':';
+    reader->tiles_unsure = status == SL_OK && 5 * most < 3 * count;
     sl_free(reader->context, tiles);
     return status;
 }
@@ -322,8 +323,14 @@ static sl_status name_tiles(sli_ldtk *reader, const sli_json *layer) {
     const sli_json lists[2] = {sli_json_member(layer, "gridTiles"),
                                sli_json_member(layer, "autoLayerTiles")};
     if (!json_array_size(lists[0].value) && !json_array_size(lists[1].value)) return SL_OK;
-    if (!*reader->tiles_name) SL_TRY(choose_tiles(reader, layer, lists));
-    keep_name(reader->tiles_name, sizeof reader->tiles_name, name);
+    const bool stands = sli_game_kind_of(name) >= SLI_GAME_STANDS;
+    if (!*reader->tiles_name || (stands && !reader->tiles_stand)) {
+        *reader->tiles_name = *reader->tiles_asked = '\0';
+        reader->tiles_stand = stands;
+        SL_TRY(choose_tiles(reader, layer, lists));
+        keep_name(reader->tiles_name, sizeof reader->tiles_name, name);
+    }
+    reader->tiles_named++;
     sli_name_list_add(&reader->tile_names, (sli_word){name, strlen(name)});
     return SL_OK;
 }

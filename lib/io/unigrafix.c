@@ -379,10 +379,10 @@ static sl_status read_model(ug_model *model, const char *text, size_t size,
     char slice[SL_NUMBER_TEXT];
     sl_number_write(model->slice, slice);
     sl_note(model->context,
-            "%s: cut at z = %s: %zu of %zu faces give %zu walls; %zu faces in the plane left out; "
+            "%s: cut at z = %s: %zu of %zu faces give %zu wall%s; %zu faces in the plane left out; "
             "%zu statements of other kinds passed over",
-            model->name, slice, model->cut, model->faces, model->walls, model->flat,
-            model->skipped);
+            model->name, slice, model->cut, model->faces, model->walls,
+            model->walls == 1 ? "" : "s", model->flat, model->skipped);
     return SL_OK;
 }
 

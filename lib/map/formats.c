@@ -141,8 +141,11 @@ static sl_status fail_choice(sl_context *context, const char *path, const sl_map
 static sl_status choose_map(sl_context *context, const char *path, const sl_map_list *list,
                             sl_import_options *options) {
     if (list->count == 0) return sl_fail_at(context, path, 0, "holds no map");
-    if (!options->map && list->count > 1)
-        return fail_choice(context, path, list, "", ": choose one by --map NAME");
+    char next[480];
+    snprintf(next, sizeof next,
+             ": choose one by --map NAME, as in: sightline check '%.300s' --map '%.80s' -o map.png",
+             path, list->count ? list->names[0] : "");
+    if (!options->map && list->count > 1) return fail_choice(context, path, list, "", next);
     if (!options->map) {
         options->map = list->names[0];
         return SL_OK;

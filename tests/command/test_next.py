@@ -218,6 +218,8 @@ class Next(sandbox.ProgramTest):
             command = re.search(r"the map has no start, so parts .*; 1\.7 % .*: sightline "
                                 r"(check .*) keeps the largest", told)
             self.assertTrue(command, told)
+            self.assertRegex(told, r"keeps the largest, which reaches the map's edge as rock and "
+                                   r"sea do, or with \S+ the largest that does not")
             kept = shlex.split(command[1])
             self.printed("bake", *kept[1:], "-o", "a.slv")
             self.assertIn("1 unreachable room", self.printed(*kept))

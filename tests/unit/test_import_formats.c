@@ -2,6 +2,7 @@
 #include "testing.h"
 
 #include "import_check.h"
+#include "io/parts/names.h"
 #include "map_same.h"
 #include "sightline/io.h"
 
@@ -168,13 +169,24 @@ static void test_formats_missing(void **state) {
     sl_context_destroy(context);
 }
 
+/// A list that is too long for a note ends between two names.
+static void test_list_cut(void **state) {
+    (void)state;
+    sli_name_list list = {.full = false};
+    static const char *const names[] = {"walls", "doors", "windows"};
+    for (size_t i = 0; i < 3; i++) sli_name_list_add(&list, (sli_word){names[i], strlen(names[i])});
+    sli_name_list whole = list, one = list, none = list;
+    assert_string_equal(sli_name_list_cut(&whole, 21), "walls, doors, windows");
+    assert_string_equal(sli_name_list_cut(&list, 20), "walls, doors, ...");
+    assert_string_equal(sli_name_list_cut(&one, 16), "walls, ...");
+    assert_string_equal(sli_name_list_cut(&none, 6), "...");
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_table),
-        cmocka_unit_test(test_endings),
-        cmocka_unit_test(test_formats_missing),
-        cmocka_unit_test(test_options_refused),
-        cmocka_unit_test(test_report_and_failures),
+        cmocka_unit_test(test_table),           cmocka_unit_test(test_endings),
+        cmocka_unit_test(test_formats_missing), cmocka_unit_test(test_options_refused),
+        cmocka_unit_test(test_list_cut),        cmocka_unit_test(test_report_and_failures),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

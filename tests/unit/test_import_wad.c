@@ -159,13 +159,13 @@ static void test_choice(void **state) {
     assert_int_equal(fwrite(wad.bytes, 1, wad.size, file), wad.size);
     assert_int_equal(fclose(file), 0);
     sl_map map = {0};
-    char expected[200];
+    char expected[300];
     // Known by its bytes: the name has no ending.
     assert_int_equal(sl_map_read(context, path, NULL, &map), SL_BAD_ARGUMENT);
     snprintf(expected, sizeof expected,
              "%s: it holds 8 maps, MAP01, MAP02, MAP03, MAP04, MAP05, MAP06 ...: choose one by "
-             "--map NAME",
-             path);
+             "--map NAME, as in: sightline check '%s' --map 'MAP01' -o map.png",
+             path, path);
     assert_string_equal(sl_context_message(context), expected);
     const sl_import_options unknown = {.map = "MAP9"}, known = {.map = "map07"};
     assert_int_equal(sl_map_read(context, path, &unknown, &map), SL_BAD_ARGUMENT);

@@ -61,6 +61,18 @@ static void test_counts(void **state) {
     assert_true(found.share == 0);
 }
 
+/// A room inside of others is not at the edge, and none is where all reach it.
+static void test_edge(void **state) {
+    (void)state;
+    sl_sealed found;
+    find("walls 0 0 9 0 9 9 0 9 0 0\nwalls 1 1 3 1 3 3 1 3 1 1\nwalls 5 5 8 5 8 8 5 8 5 5\n", still,
+         &found);
+    assert_true(found.open.at_edge && !found.within.at_edge && found.within.area == 9);
+    assert_true(found.within.at.x > 5 && found.within.at.x < 8);
+    find(PASSAGE SHUT, still, &found);
+    assert_true(found.open.at_edge);
+}
+
 /// Nobody walks through a window.
 static void test_window(void **state) {
     (void)state;
@@ -105,7 +117,8 @@ static void test_placed(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_counts), cmocka_unit_test(test_window),
-                                       cmocka_unit_test(test_thin), cmocka_unit_test(test_placed)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_counts), cmocka_unit_test(test_edge),
+                                       cmocka_unit_test(test_window), cmocka_unit_test(test_thin),
+                                       cmocka_unit_test(test_placed)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -130,6 +130,11 @@ static void test_shapes_of_tiles(void **state) {
     "1,1,1,1,1,1,1,1,1,1,1,1, 1,1,1,1,1,1,1,1,1,1,1,1, 1,1,1,1,1,1,1,1,1,1,1,1, "                  \
     "1,1,1,1,1,1,1,1,1,1,1,1, 1,1,1,1,1,1,1,1,1,1,1,1"
 
+/// A room of 2 x 2 squares in a map of 96.
+#define SMALL_ROOM                                                                                 \
+    "1,1,1,1,0,0,0,0,0,0,0,0, 1,1,1,1,0,0,0,0,0,0,0,0, 1,1,1,1,0,0,0,0,0,0,0,0, "                  \
+    "1,1,1,1,0,0,0,0,0,0,0,0, " NONE ", " NONE ", " NONE ", " NONE
+
 /// Squares without tiles at the edge are solid where walls part them from all floor, unless a start
 /// says what is inside. One layer of floor is walled by its gaps, though a layer of walls is empty.
 static void test_void(void **state) {
@@ -146,6 +151,16 @@ static void test_void(void **state) {
                  0);
     assert_share(MAP(SET LAYER("Grass", FULL) LAYER("base", FLOORS) LAYER("walls", WALLS)), 78, 0,
                  18);
+    // A room may be small against the map.
+    assert_share(MAP(SET LAYER("map", SMALL_ROOM) SOLID(BOX("0", "0", "32", "8") BOX(
+                     "0", "24", "32", "8") BOX("0", "0", "8", "32") BOX("24", "0", "8", "32"))),
+                 4, 0, 12);
+    // A door parts it from what is beyond.
+    assert_share(MAP(SET LAYER("map", SMALL_ROOM) SOLID(
+                     BOX("0", "0", "32", "8") BOX("0", "24", "8", "8") BOX("16", "24", "16", "8")
+                         BOX("0", "0", "8", "32") BOX("24", "0", "8", "32"))
+                         THINGS("<object type='door' x='8' y='24' width='8' height='8'/>")),
+                 5, 0, 11);
     // Tiles under a solid object are no floor: the rest of this platformer is air.
     assert_share(MAP(SET LAYER("terrain", NONE ", " NONE ", " NONE ", " NONE ", " NONE ", " NONE
                                                ", 1,1,1,1,1,1,1,1,0,0,0,0, 1,1,1,1,1,1,1,1,0,0,0,0")

@@ -80,6 +80,17 @@ static void test_guess(void **state) {
     assert_refused(MAP(SET LAYER("Ground", FULL)),
                    UNSAID ", NAME:28+33-35 tiles of it (all tiles of 'Ground' are the same: draw "
                           "walls in a layer Collision); layers: 'Ground' (6 tiles)");
+    // The command names a layer only where it is likely to be right, and tiles where most of the
+    // layer is one tile.
+    assert_refused(MAP(SET LAYER("a", TILES) LAYER("b", CSV("0,0,0,2,2,0"))), UNSAID
+                   ", NAME:28+33-35 tiles of it, as in: sightline check 'f' --layers LAYER -o "
+                   "map.png; layers: 'a' (2 tiles), 'b' (2 tiles)");
+    assert_refused(MAP(SET LAYER("a", TILES) LAYER("sand", CSV("0,0,0,2,2,0"))),
+                   UNSAID ", NAME:28+33-35 tiles of it, as in: sightline check 'f' --layers 'a' -o "
+                          "map.png; layers: 'a' (2 tiles), 'sand' (2 tiles)");
+    assert_refused(MAP(SET LAYER("Ground", CSV("1,1,2,2,3,3"))),
+                   UNSAID ", NAME:28+33-35 tiles of it, as in: sightline check 'f' --layers "
+                          "'Ground:TILES' -o map.png; layers: 'Ground' (6 tiles)");
     // One that starts inside the wall says that the guess is wrong.
     assert_refused(WIDE(SET WIDE_LAYER("Tile Layer 1", RING) "<objectgroup name='o'><object "
                                                              "name='Player' x='4' y='4'/>"
@@ -255,11 +266,13 @@ static void test_words_of_properties(void **state) {
         TILE_WITH(PROPERTY("type", "wall")),         TILE_WITH(PROPERTY("blocked", "yes")),
         TILE_WITH(PROPERTY("can_walk", "no")),       TILE_WITH(PROPERTY("obstacle", "full")),
         TILE_WITH(PROPERTY("hasCollision", "true")), TILE_WITH(PROPERTY("not walkable", "true")),
+        TILE_WITH(PROPERTY("bodyType", "static")),
     };
     static const char *const open[] = {
         TILE_WITH(PROPERTY("collidable", "false")),  TILE_WITH(PROPERTY("walkable", "true")),
         TILE_WITH(PROPERTY("exitUrl", "wall.json")), TILE_WITH(PROPERTY("type", "wallpaper")),
         TILE_WITH(PROPERTY("solid", "maybe")),       TILE_WITH(PROPERTY("wall_height", "3")),
+        TILE_WITH(PROPERTY("bodyType", "dynamic")),
     };
     for (size_t i = 0; i < sizeof solid / sizeof *solid; i++) assert_walls(solid[i], TWO_TILES);
     for (size_t i = 0; i < sizeof open / sizeof *open; i++) assert_refused(open[i], UNSAID);

@@ -313,9 +313,10 @@ sl_point pipeline_likely_start(const sl_map *map, const sl_space *space) {
     return sl_space_middle(space, largest);
 }
 
-/// What to do next about what is inside.
-static void say_next(sl_inside doubt, const sl_map *map, const sl_space *space, const char *path,
-                     char text[2 * SAID]) {
+/// What to do next about what is inside. In a game walls stand as they like: a wide opening is
+/// seldom an entrance, and a start says more.
+static void say_next(sl_inside doubt, bool game, const sl_map *map, const sl_space *space,
+                     const char *path, char text[2 * SAID]) {
     const size_t size = 2 * SAID;
     const int digits = sl_map_digits(map);
     const sl_point start = pipeline_likely_start(map, space);
@@ -337,8 +338,12 @@ static void say_next(sl_inside doubt, const sl_map *map, const sl_space *space, 
         snprintf(text, size, "; to see it, run: sightline check %s -o check.png", path);
         break;
     case SL_INSIDE_OPENING:
-        snprintf(text, size, ": sightline check %s --entrance %.4g", path,
-                 map->interior.doubtful_width);
+        if (game)
+            snprintf(text, size, "; else add a start: sightline check %s --start %.*g,%.*g", path,
+                     digits, start.x, digits, start.y);
+        else
+            snprintf(text, size, ": sightline check %s --entrance %.4g", path,
+                     map->interior.doubtful_width);
         break;
     }
 }
@@ -354,7 +359,7 @@ static bool says_rooms(const sl_map *map) {
 /// rooms are, until a start says where one walks.
 static sl_status note_apart(sl_context *context, const map_pipeline *pipeline, const sl_map *map,
                             const sl_space *space) {
-    char path[SAID], next[80] = "";
+    char path[SAID], next[160] = "";
     map_pipeline any = pipeline_default();
     const option_table reading = pipeline_option_table(&any);
     const int digits = sl_map_digits(map);
@@ -364,7 +369,13 @@ static sl_status note_apart(sl_context *context, const map_pipeline *pipeline, c
     const double inside = sl_space_ground(space).inside * (b.max.x - b.min.x) * (b.max.y - b.min.y);
     const double apart = inside > 0 ? 1 - parts.open.area / inside : 0;
     if (apart < APART) return SL_OK;
-    if (parts.largest.area > 0)
+    const sl_point within = parts.within.at;
+    if (parts.open.at_edge && parts.within.area > 0)
+        snprintf(next, sizeof next,
+                 ", which reaches the map's edge as rock and sea do, or with %.*g,%.*g the largest "
+                 "that does not",
+                 digits, within.x, digits, within.y);
+    else if (parts.largest.area > 0)
         snprintf(next, sizeof next, ", or with %.*g,%.*g the next one", digits, parts.largest.at.x,
                  digits, parts.largest.at.y);
     sl_note(context,
@@ -428,7 +439,8 @@ static sl_status note_said(sl_context *context, const map_pipeline *pipeline, co
     SL_TRY(sl_say_inside(context, map, space, said));
     if (!said[0]) return SL_OK;
     SL_TRY(sl_doubt_inside(context, map, space, &doubt));
-    say_next(doubt, map, space, say_map(pipeline, &reading, path), then);
+    say_next(doubt, input_is_game(context, pipeline->path), map, space,
+             say_map(pipeline, &reading, path), then);
     sl_note(context, "%s%s", said, then);
     return SL_OK;
 }

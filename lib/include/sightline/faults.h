@@ -159,6 +159,7 @@ typedef struct sl_sealed_room {
     sl_point at; ///< the middle of its largest cell
     double area;
     double walls; ///< the length of its walls
+    bool at_edge; ///< it reaches the bounds of the map, as the rock or the sea around rooms does
 } sl_sealed_room;
 
 /// Rooms that no opening joins with the largest one.
@@ -167,6 +168,7 @@ typedef struct sl_sealed {
     double share;           ///< of the sealed ones in the area inside: 0 to 1
     sl_sealed_room open;    ///< the largest room
     sl_sealed_room largest; ///< the largest of the sealed ones; an area of 0 for none
+    sl_sealed_room within;  ///< the largest of all that are not at the edge; an area of 0 for none
 } sl_sealed;
 
 /// Counts the rooms inside that have no opening to the largest one. Thin ones, as the cores of

@@ -76,6 +76,9 @@ sl_status sli_geo_refuse_points(const sli_geo *geo);
 /// far apart, with the --crop of each. For maps on the earth, once it is known what is taken.
 sl_status sli_geo_doubt(const sli_geo *geo);
 
+/// Keeps the names of rooms, as texts of the map.
+sl_status sli_geo_add_names(sli_geo *geo);
+
 /// Adds the doors that are taken: they are cut out of the map's walls, or stand between them.
 sl_status sli_geo_add_doors(sli_geo *geo);
 

@@ -236,6 +236,7 @@ static sl_status read_all(sli_geo *geo, const char *text, size_t size) {
     if (!lines) SL_TRY(sli_geo_doubt(geo));
     SL_TRY(add_all(geo));
     if (!lines) SL_TRY(sli_geo_add_doors(geo));
+    if (!lines) SL_TRY(sli_geo_add_names(geo));
     drop_points(geo->map);
     if (!lines || geo->map->earth.known)
         geo->map->precision = sli_marked_precision(geo->map, geo->finest, NULL, 0);

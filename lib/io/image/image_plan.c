@@ -118,10 +118,11 @@ static void note_taken(const reader *r, const sli_image_plan *plan, size_t solid
     static const char *const turns[] = {"; --layers light takes the light ones",
                                         "; --layers dark takes the dark ones",
                                         "; --layers dark takes the dark ones"};
-    sl_note(r->context, "%s: %zu of %zu x %zu pixels are solid (%s from %g%s); %zu walls%s",
+    sl_note(r->context, "%s: %zu of %zu x %zu pixels are solid (%s from %g%s); %zu wall%s%s",
             r->name, solid, r->image.width, r->image.height,
             r->said ? asked[r->solid] : kinds[r->solid], plan->threshold,
-            faint ? ", as the lines are faint" : "", walls, r->said ? "" : turns[r->solid]);
+            faint ? ", as the lines are faint" : "", walls, walls == 1 ? "" : "s",
+            r->said ? "" : turns[r->solid]);
 }
 
 static sl_status read_plan(reader *r, const char *text, size_t size, sl_map *map) {

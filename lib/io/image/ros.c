@@ -231,9 +231,9 @@ static void note_taken(const ros_map *m, const sl_image *image, const sli_image_
         snprintf(unknown, sizeof unknown, "; %s ground is solid: --threshold %g takes it as free",
                  m->scale ? "partly occupied" : "unknown", m->occupied);
     sl_note(m->context,
-            "%s: %zu of %zu x %zu pixels of %g m are solid (occupancy from %g); %zu walls%s",
+            "%s: %zu of %zu x %zu pixels of %g m are solid (occupancy from %g); %zu wall%s%s",
             m->name, solid, image->width, image->height, plan->step, plan->threshold, walls,
-            unknown);
+            walls == 1 ? "" : "s", unknown);
 }
 
 static sl_status read_map(ros_map *m, const sl_import_options *options, const char *text,

@@ -50,15 +50,6 @@ static void list_groups(const sli_choice *c, bool taken, sli_meaning means, sli_
     }
 }
 
-/// Cuts a list to `most` bytes, behind a whole name.
-static const char *cut_list(sli_name_list *list, size_t most) {
-    if (strlen(list->text) <= most) return list->text;
-    size_t end = most - 5;
-    while (end && (list->text[end] != ',' || list->text[end + 1] != ' ')) end--;
-    snprintf(list->text + end, sizeof list->text - end, ", ...");
-    return list->text;
-}
-
 static void add_part(char *text, size_t size, const char *format, ...) SL_PRINTF(3, 4);
 static void add_part(char *text, size_t size, const char *format, ...) {
     const size_t used = strlen(text);
@@ -124,11 +115,11 @@ static void note_choice(const sli_choice *c) {
     list_groups(c, false, SLI_MEANS_DOOR, &doors);
     if (c->by_looks) list_looks(c, false, &over);
     list_groups(c, false, SLI_MEANINGS, &over);
-    if (*walls.text) add_part(text, sizeof text, "walls from %s", cut_list(&walls, 200));
+    if (*walls.text) add_part(text, sizeof text, "walls from %s", sli_name_list_cut(&walls, 200));
     if (*windows.text)
         add_part(text, sizeof text, "windows, which are seen through, from %s",
-                 cut_list(&windows, 120));
-    if (*doors.text) add_part(text, sizeof text, "doors from %s", cut_list(&doors, 120));
+                 sli_name_list_cut(&windows, 120));
+    if (*doors.text) add_part(text, sizeof text, "doors from %s", sli_name_list_cut(&doors, 120));
     if (c->symbols.doors)
         add_part(text, sizeof text, "%zu door%s drawn open%s", c->symbols.doors,
                  c->symbols.doors == 1 ? " is" : "s are",
@@ -147,7 +138,7 @@ static void note_choice(const sli_choice *c) {
         add_part(text, sizeof text, "%zu shape%s of these, lettering or a page, %s no walls",
                  c->words, c->words == 1 ? "" : "s", c->words == 1 ? "is" : "are");
     note_parts(&c->parts, text, sizeof text);
-    if (*over.text) add_part(text, sizeof text, "passed over: %s", cut_list(&over, 250));
+    if (*over.text) add_part(text, sizeof text, "passed over: %s", sli_name_list_cut(&over, 250));
     sl_note(c->contents->context, "%s: %s: %s (--layers A,B chooses, --layers '*' takes all)", file,
             c->by_looks ? "layers, and looks where no name says what is a wall" : "layers", text);
     if (c->contents->options->doors && c->doors < c->symbols.doors)
@@ -164,7 +155,7 @@ void sli_choice_note_all(const sli_choice *c) {
     if (count < 2 || c->contents->has_looks || sli_contents_said(c->contents)) return;
     list_groups(c, true, SLI_MEANINGS, &names);
     sl_note(c->contents->context, "%s: layers: all are walls: %s (--layers A,B chooses)",
-            c->contents->file, cut_list(&names, 300));
+            c->contents->file, sli_name_list_cut(&names, 300));
 }
 
 /// Walls by their looks, where others may be walls as well as they.

@@ -23,11 +23,11 @@ static const char *const floor_words[] = {
     "suelo", "piso", "pavimento", "golv",     "podłoga", "пол",      "地板",  "床",
 };
 static const char *const ground_words[] = {
-    "ground",   "grass",    "sand",   "dirt",   "mud",      "snow",   "ice",   "road",
-    "field",    "desert",   "beach",  "meadow", "gravel",   "soil",   "earth", "street",
-    "sidewalk", "pavement", "plank",  "farm",   "farmland", "moss",   "leaf",  "bush",
-    "hay",      "crop",     "wiese",  "gras",   "herbe",    "hierba", "erba",  "straße",
-    "weg",      "chemin",   "camino", "地面",   "草地",
+    "ground",   "grass",    "sand",   "dirt",   "mud",      "snow",   "ice",    "road",
+    "field",    "desert",   "beach",  "meadow", "gravel",   "soil",   "earth",  "street",
+    "sidewalk", "pavement", "plank",  "farm",   "farmland", "moss",   "leaf",   "bush",
+    "hay",      "crop",     "wiese",  "gras",   "herbe",    "herbes", "hierba", "erba",
+    "straße",   "weg",      "chemin", "camino", "地面",     "草地",
 };
 static const char *const pass_words[] = {
     "bridge", "ladder",    "stair",    "step",    "door",  "gate",       "air",     "empty",
@@ -36,9 +36,10 @@ static const char *const pass_words[] = {
     "item",   "player",    "enemy",    "emitter", "trail", "checkpoint", "finish",
 };
 static const char *const water_words[] = {
-    "water",   "lava",   "pit",   "river", "lake",   "sea",   "ocean", "pond",
-    "acid",    "hole",   "chasm", "abyss", "liquid", "swamp", "magma", "fence",
-    "railing", "wasser", "eau",   "agua",  "água",   "acqua", "вода",  "水",
+    "water",  "lava",  "pit",     "river",    "lake",     "sea",     "ocean",
+    "pond",   "acid",  "hole",    "chasm",    "abyss",    "liquid",  "swamp",
+    "magma",  "fence", "railing", "barriere", "barrière", "clôture", "zaun",
+    "wasser", "eau",   "agua",    "água",     "acqua",    "вода",    "水",
 };
 static const char *const stands_words[] = {
     "tree",   "building", "house",  "rock",     "cliff",   "mountain",  "boulder", "hedge",

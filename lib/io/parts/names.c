@@ -360,30 +360,40 @@ bool sli_numbers_good(sli_word numbers) {
     return true;
 }
 
+const char *sli_name_list_cut(sli_name_list *list, size_t most) {
+    static const char end[] = ", ...";
+    size_t at = most - strlen(end) + 1;
+    if (strlen(list->text) <= most) return list->text;
+    while (at && strncmp(list->text + at - 1, ", ", 2) != 0) at--;
+    strcpy(list->text + (at ? at - 1 : 0), at ? end : "...");
+    return list->text;
+}
+
 static int compare_numbers(const void *left, const void *right) {
     const uint32_t *a = left, *b = right;
     return (*a > *b) - (*a < *b);
 }
 
-/// The most frequent of sorted numbers, the lowest of those.
-static uint32_t find_commonest(const uint32_t *sorted, size_t count) {
+/// The most frequent of sorted numbers, the lowest of those, and how often it is there.
+static uint32_t find_commonest(const uint32_t *sorted, size_t count, size_t *most) {
     uint32_t commonest = 0;
-    for (size_t i = 0, next, most = 0; i < count; i = next) {
+    *most = 0;
+    for (size_t i = 0, next; i < count; i = next) {
         for (next = i; next < count && sorted[next] == sorted[i]; next++) continue;
-        if (next - i <= most) continue;
-        most = next - i;
+        if (next - i <= *most) continue;
+        *most = next - i;
         commonest = sorted[i];
     }
     return commonest;
 }
 
 sl_status sli_numbers_but_commonest(sl_context *context, const uint32_t *numbers, size_t count,
-                                    char *text, size_t size) {
+                                    size_t *most, char *text, size_t size) {
     uint32_t *sorted = sl_alloc_array(context, count ? count : 1, sizeof *sorted);
     if (!sorted) return SL_NO_MEMORY;
     if (count) memcpy(sorted, numbers, count * sizeof *sorted);
     qsort(sorted, count, sizeof *sorted, compare_numbers);
-    const uint32_t commonest = find_commonest(sorted, count);
+    const uint32_t commonest = find_commonest(sorted, count, most);
     size_t used = 0;
     *text = '\0';
     for (size_t i = 0, next; i < count; i = next) {

@@ -49,9 +49,9 @@ bool sli_numbers_good(sli_word numbers);
 /// Whether a number is among them; any is among none.
 bool sli_numbers_have(sli_word numbers, uint64_t number);
 /// Writes all of the numbers but the most frequent one, as they are asked for: "1+3-5"; "" where
-/// all are the same. What does not fit is left out.
+/// all are the same. What does not fit is left out. *most: how often that one is there.
 sl_status sli_numbers_but_commonest(sl_context *context, const uint32_t *numbers, size_t count,
-                                    char *text, size_t size);
+                                    size_t *most, char *text, size_t size);
 
 /// Names for a message: "walls, doors, ...". Zeroed, it is empty.
 typedef struct sli_name_list {
@@ -69,6 +69,9 @@ static inline void sli_name_list_add(sli_name_list *list, sli_word name) {
         snprintf(list->text + used, sizeof list->text - used, "%s%.60s", used ? ", " : "",
                  sli_show(name).text);
 }
+
+/// The list with `most` characters at most: what is longer is cut between two names, ", ...".
+const char *sli_name_list_cut(sli_name_list *list, size_t most);
 
 /// SL_BAD_ARGUMENT: a layer that is asked for is not in a file of this name.
 static inline sl_status sli_fail_layer(sl_context *context, const char *file, sli_word name,

@@ -57,21 +57,6 @@ static sl_status tiled_check_choice(const sli_json *map, const char *list) {
 
 // --- reading a map
 
-/// What walls of an object, a layer or a group stop, by its property `stops`, a text; else
-/// *stops stays.
-static sl_status read_stops(const sli_json *thing, uint32_t *stops) {
-    sli_tiled_properties at = sli_tiled_properties_of(thing);
-    const char *name;
-    for (sli_json value; sli_tiled_next_property(&at, &name, &value);) {
-        const char *text = json_string_value(value.value);
-        if (!text || !name || strcmp(name, "stops") != 0) continue;
-        if (!sl_stops_read(text, strlen(text), stops))
-            return sli_json_fail(&value, "stops: expected sight or limited, steps, sound or "
-                                         "several joined by commas");
-    }
-    return SL_OK;
-}
-
 /// Whether a property of the map, such as "collisionLayer", names this layer.
 static bool map_names(const sli_tiled_reader *reader, const char *layer) {
     sli_tiled_properties at = sli_tiled_properties_of(reader->map);
@@ -129,7 +114,7 @@ static sl_status find_place(const sli_tiled_reader *reader, const sli_json *laye
     own->beside |= sli_game_says_beside_player(name);
     const sli_game_kind kind = sli_game_kind_of(name);
     if (kind != SLI_GAME_UNSAID) own->kind = kind;
-    SL_TRY(read_stops(layer, &own->stops));
+    SL_TRY(sli_tiled_read_stops(layer, &own->stops));
     if (reader->options->layers) {
         sli_word gids;
         if (sli_layers_ask(reader->options->layers, name, &gids)) {
@@ -140,162 +125,6 @@ static sl_status find_place(const sli_tiled_reader *reader, const sli_json *laye
         return SL_OK;
     }
     own->word = word_of_layer(reader, layer, own);
-    return SL_OK;
-}
-
-// --- objects
-
-sl_status sli_tiled_name_shape(sli_tiled_reader *reader, const char *label) {
-    reader->pen.map->source.lines_are_items = true;
-    return sli_map_add_label(reader->context, reader->pen.map, ++reader->pen.item, label);
-}
-
-/// "layer Walls, object 12 'crate', line 40"
-static sl_status name_object(sli_tiled_reader *reader, const sli_json *layer,
-                             const sli_json *object, const sli_tiled_shape *shape) {
-    const char *const names[] = {sli_json_text_of(layer, "name"), sli_json_text_of(object, "name")};
-    const sli_json number = sli_json_member(object, "id");
-    int64_t id = 0;
-    char label[SL_LINE_TEXT];
-    SL_TRY(sli_json_whole_if(&number, INT32_MIN, INT32_MAX, &id));
-    int used = snprintf(label, sizeof label, "layer %s, object %d",
-                        sli_show((sli_word){names[0], strlen(names[0])}).text, (int)id);
-    if (*names[1])
-        used += snprintf(label + used, sizeof label - (size_t)used, " '%s'",
-                         sli_show((sli_word){names[1], strlen(names[1])}).text);
-    if (shape->line)
-        snprintf(label + used, sizeof label - (size_t)used, ", line %u", (unsigned)shape->line);
-    return sli_tiled_name_shape(reader, label);
-}
-
-static sli_tiled_word word_of_object(const sli_tiled_reader *reader, const sli_json *object,
-                                     const sli_tiled_shape *shape) {
-    const sli_tiled_word word = sli_tiled_word_of(object, "type");
-    if (word != SLI_TILED_UNSAID) return word;
-    if (sli_says_solid(sli_json_text_of(object, "name"))) return SLI_TILED_SOLID;
-    const uint32_t gid = shape->gid & SLI_TILED_TILE;
-    const sli_tiled_set *set = gid ? sli_tiled_find_set(&reader->sets, gid) : NULL;
-    return set ? sli_tiled_word_of_tile(set, sli_tiled_find_tile(set, gid)) : SLI_TILED_UNSAID;
-}
-
-/// Reads an object. In an isometric map it lies in the plan, but turns on the screen. A tile as an
-/// object stands upright there: on the diamond as wide as itself whose lowest corner is its place.
-static sl_status read_shape(const sli_tiled_reader *reader, const sli_json *object,
-                            sli_tiled_shape *shape) {
-    const sli_tiled_lattice *lattice = &reader->lattice;
-    SL_TRY(sli_tiled_read_shape(object, shape));
-    if (lattice->orientation != SLI_TILED_ISOMETRIC) return SL_OK;
-    if (shape->kind == SLI_TILED_PICTURE) {
-        const uint32_t gid = shape->gid & SLI_TILED_TILE;
-        const sli_tiled_set *set = sli_tiled_find_set(&reader->sets, gid);
-        const double own = shape->width != 0 ? shape->width : set ? set->width : 0;
-        const double width = own * lattice->tile.y / lattice->tile.x;
-        shape->kind = SLI_TILED_RECTANGLE;
-        shape->x -= width;
-        shape->y -= width;
-        shape->width = shape->height = width;
-        return SL_OK;
-    }
-    if (shape->rotation == 0) return SL_OK;
-    sli_affine to_screen = sli_tiled_to_screen(lattice), to_plan = reader->to_plan;
-    to_screen.x0 = to_plan.x0 = to_plan.y0 = 0;
-    shape->turn = sli_affine_after(to_plan, sli_affine_after(shape->turn, to_screen));
-    return SL_OK;
-}
-
-/// From the objects of a layer to the plan.
-static sli_affine affine_of_layer(const sli_tiled_reader *reader, const sli_tiled_place *at) {
-    const sli_affine move = {.xx = 1, .yy = 1, .x0 = at->offset.x, .y0 = at->offset.y};
-    if (reader->lattice.orientation != SLI_TILED_ISOMETRIC)
-        return sli_affine_after(reader->to_plan, move);
-    sli_affine to_plan = reader->to_plan;
-    to_plan.x0 = to_plan.y0 = 0;
-    const sl_point offset = sli_affine_apply(to_plan, at->offset);
-    return (sli_affine){.xx = 1, .yy = 1, .x0 = offset.x, .y0 = offset.y};
-}
-
-/// An object of a start or a door: `*taken` where it is one.
-static sl_status take_thing(sli_tiled_reader *reader, const sli_json *object,
-                            const sli_tiled_place *at, bool *taken) {
-    sli_tiled_shape shape;
-    SL_TRY(read_shape(reader, object, &shape));
-    const char *class = sli_json_text_of(object, "type");
-    const uint32_t gid = shape.gid & SLI_TILED_TILE;
-    const sli_tiled_set *set = gid ? sli_tiled_find_set(&reader->sets, gid) : NULL;
-    const sli_tiled_tile *tile = set ? sli_tiled_find_tile(set, gid) : NULL;
-    sli_says says = sli_tiled_says_of(object, "type");
-    if (!says.kind && tile) says = tile->says;
-    if (says.kind == SLI_THING_START && at->others) says = (sli_says){0};
-    *taken = says.kind != SLI_THING_NONE;
-    if (reader->by) return SL_OK; // the first reading took it
-    SL_TRY(sli_things_ask(&reader->things, sli_json_text_of(object, "name"),
-                          *class ? class : sli_json_text_of(object, "class"), &says));
-    *taken = says.kind != SLI_THING_NONE;
-    if (!*taken) return SL_OK;
-    if (set && shape.width == 0 && shape.height == 0) {
-        shape.width = set->width;
-        shape.height = set->height;
-    }
-    return sli_tiled_take_thing(&reader->things, &says, &shape, affine_of_layer(reader, at),
-                                at->word == SLI_TILED_SOLID && shape.kind != SLI_TILED_OTHER);
-}
-
-// --- layers that say what they hold
-
-/// Reads an object of such a layer.
-static sl_status read_item(sli_tiled_reader *reader, const sli_json *layer, const sli_json *object,
-                           const sli_tiled_place *at, sli_layer_item item) {
-    sl_map drawn = {0}, *map = reader->pen.map;
-    sli_tiled_shape shape;
-    SL_TRY(read_shape(reader, object, &shape));
-    SL_TRY(name_object(reader, layer, object, &shape));
-    const sli_affine outer = reader->pen.affine;
-    const sli_affine place = sli_affine_after(outer, affine_of_layer(reader, at));
-    const sl_point start = sli_affine_apply(place, (sl_point){shape.x, shape.y});
-    const char *name = sli_json_text_of(object, "name");
-    if (item.layer == SLI_LAYER_DOOR)
-        item.open = sli_tiled_says_of(object, "type").state != SLI_DOOR_SHUT;
-    item.name = *name ? name : NULL;
-    item.heading = -shape.rotation + 0.0;
-    item.points = &start;
-    item.count = 1;
-    reader->pen.map = &drawn;
-    reader->pen.affine = place;
-    const sl_status drawing = sli_tiled_draw_shape(&reader->pen, &shape);
-    reader->pen.map = map;
-    reader->pen.affine = outer;
-    const sl_status status = drawing == SL_OK
-                                 ? sli_layer_take(reader->context, reader->map->file->name, map,
-                                                  &item, &drawn, reader->pen.item)
-                                 : drawing;
-    sl_map_destroy(reader->context, &drawn);
-    reader->objects += item.layer >= SLI_LAYER_WALL && item.layer <= SLI_LAYER_WALL_SOLID;
-    return status;
-}
-
-/// What a layer holds by its name. Diamonds and hexagons are moved once all is read, so that such a
-/// layer is one of the map's own. With --start-names the names of objects decide what is a start.
-static sli_layer kind_of_layer(const sli_tiled_reader *reader, const sli_json *layer) {
-    const char *name = sli_json_text_of(layer, "name");
-    const sli_layer kind = reader->lattice.orientation == SLI_TILED_ORTHOGONAL
-                               ? sli_layer_of((sli_word){name, strlen(name)}, NULL)
-                               : SLI_LAYER_NONE;
-    return kind == SLI_LAYER_START && reader->options->start_names ? SLI_LAYER_NONE : kind;
-}
-
-/// Reads the objects of such a layer. Doors and starts are taken whatever --layers says.
-static sl_status read_items(sli_tiled_reader *reader, const sli_json *layer,
-                            const sli_tiled_place *at, sli_layer kind) {
-    const sli_json objects = sli_json_member(layer, "objects");
-    size_t count = 0;
-    if (objects.value) SL_TRY(sli_json_array(&objects, &count));
-    if (reader->options->layers && !at->asked && kind != SLI_LAYER_DOOR && kind != SLI_LAYER_START)
-        return SL_OK;
-    for (size_t i = 0; i < count; i++) {
-        const sli_json object = sli_json_item(&objects, i);
-        if (i % 256 == 0) SL_TRY(sl_check_cancelled(reader->context));
-        SL_TRY(read_item(reader, layer, &object, at, (sli_layer_item){.layer = kind}));
-    }
     return SL_OK;
 }
 
@@ -328,84 +157,6 @@ static void note_stops_of_tiles(const sli_tiled_reader *reader, const sli_json *
                 layer->file->name, sli_show((sli_word){name, strlen(name)}).text);
 }
 
-/// Draws an object that is solid.
-static sl_status draw_object(sli_tiled_reader *reader, const sli_json *layer,
-                             const sli_json *object, const sli_tiled_shape *shape,
-                             const sli_tiled_place *at, uint32_t stops) {
-    const sli_affine outer = reader->pen.affine;
-    SL_TRY(name_object(reader, layer, object, shape));
-    reader->pen.affine = sli_affine_after(outer, affine_of_layer(reader, at));
-    const size_t first = reader->pen.map->wall_count;
-    sl_status status = sli_tiled_draw_shape(&reader->pen, shape);
-    if (status == SL_OK && stops)
-        status = sl_map_walls_stop(reader->context, reader->pen.map, first, stops);
-    else if (status == SL_OK)
-        status = sli_tiled_add_closed(reader, shape->kind, first, false);
-    reader->pen.affine = outer;
-    return status;
-}
-
-/// An object, with all that its template says: a start, a door, or a wall where it is solid.
-static sl_status read_object(sli_tiled_reader *reader, const sli_json *layer,
-                             const sli_json *object, const sli_tiled_place *at) {
-    sli_tiled_shape shape;
-    bool is_thing;
-    SL_TRY(read_shape(reader, object, &shape));
-    SL_TRY(take_thing(reader, object, at, &is_thing));
-    if (is_thing || at->word == SLI_TILED_OPEN) return SL_OK;
-    if (reader->by == SLI_TILED_BY_BARE) {
-        if (!reader->bare || !sli_tiled_is_bare(object, &shape)) return SL_OK;
-        reader->other_objects--;
-        reader->objects++;
-        return draw_object(reader, layer, object, &shape, at, at->stops);
-    }
-    const sli_tiled_word own = word_of_object(reader, object, &shape);
-    // An enemy or a trigger among walls is none, unless it says so.
-    const bool other = own == SLI_TILED_UNSAID && !at->asked &&
-                       (sli_game_says_passing(sli_json_text_of(object, "name")) ||
-                        sli_game_says_passing(sli_json_text_of(object, "type")));
-    const sli_tiled_word word = other ? SLI_TILED_OPEN : own;
-    uint32_t stops = at->stops;
-    SL_TRY(read_stops(object, &stops));
-    const bool taken =
-        at->word == SLI_TILED_SOLID || stops ? word != SLI_TILED_OPEN : word == SLI_TILED_SOLID;
-    size_t *counted = !taken                          ? &reader->other_objects
-                      : shape.kind == SLI_TILED_OTHER ? &reader->other_shapes
-                                                      : &reader->objects;
-    ++*counted;
-    if (counted == &reader->other_objects) {
-        const char *name = sli_json_text_of(object, "name");
-        sli_things_leave(&reader->things, *name ? name : sli_json_text_of(object, "class"));
-    }
-    if (!taken && word == SLI_TILED_UNSAID && !at->others)
-        return sli_tiled_draw_picture(reader, object, &shape, affine_of_layer(reader, at));
-    if (counted != &reader->objects) return SL_OK;
-    return draw_object(reader, layer, object, &shape, at, stops);
-}
-
-/// The objects of a layer: starts and doors, and walls where the layer is not said to be open.
-static sl_status read_objects(sli_tiled_reader *reader, const sli_json *layer,
-                              const sli_tiled_place *at) {
-    const sli_json objects = sli_json_member(layer, "objects");
-    const sli_layer kind = kind_of_layer(reader, layer);
-    size_t count = 0;
-    if (objects.value) SL_TRY(sli_json_array(&objects, &count));
-    if (!reader->by) reader->seen.items[reader->at_layer].count = count;
-    if (kind) return reader->by ? SL_OK : read_items(reader, layer, at, kind);
-    reader->bare = reader->by == SLI_TILED_BY_BARE && sli_tiled_has_bare(layer);
-    sl_status status = SL_OK;
-    for (size_t i = 0; status == SL_OK && i < count; i++) {
-        const sli_json object = sli_json_item(&objects, i);
-        sli_json_file file;
-        if (i % 256 == 0) SL_TRY(sl_check_cancelled(reader->context));
-        status = sli_tiled_instance(&reader->templates, &reader->sets, &object, &file);
-        const sli_json whole = sli_json_root(&file);
-        if (status == SL_OK) status = read_object(reader, layer, file.root ? &whole : &object, at);
-        sli_json_close(&file);
-    }
-    return status;
-}
-
 // --- layers
 
 static sl_status see_layer(sli_tiled_reader *reader, const sli_json *layer,
@@ -423,23 +174,24 @@ static sl_status see_layer(sli_tiled_reader *reader, const sli_json *layer,
 /// Reads a layer of tiles or objects.
 static sl_status read_layer(sli_tiled_reader *reader, const sli_json *layer,
                             const sli_tiled_place *own, bool objects) {
-    const size_t before = sli_tiled_taken(reader);
+    const size_t before = sli_tiled_taken(reader), tiles = reader->solid_tiles;
     if (!reader->by) SL_TRY(see_layer(reader, layer, own, objects));
     // Objects that are named for houses and trees may be places only.
     const bool places =
         reader->by && reader->by != SLI_TILED_BY_BARE && objects && own->kind < SLI_GAME_LIKELY;
     if (objects)
-        SL_TRY(places ? SL_OK : read_objects(reader, layer, own));
+        SL_TRY(places ? SL_OK : sli_tiled_read_objects(reader, layer, own));
     else if (own->word != SLI_TILED_OPEN || (!reader->by && sli_tiled_is_start_layer(layer))) {
         note_stops_of_tiles(reader, layer, own);
         SL_TRY(sli_tiled_read_tile_layer(reader, layer, own));
     }
     sli_tiled_seen *seen = &reader->seen.items[reader->at_layer++];
     const bool solid = own->word == SLI_TILED_SOLID && !places &&
-                       !(objects && kind_of_layer(reader, layer) != SLI_LAYER_NONE);
+                       !(objects && sli_tiled_kind_of_layer(reader, layer) != SLI_LAYER_NONE);
     reader->solid_layers += solid && seen->count;
     reader->empty_layers += solid && !seen->count;
     seen->taken |= sli_tiled_taken(reader) > before;
+    if (!reader->by) seen->solid = reader->solid_tiles - tiles;
     return SL_OK;
 }
 
@@ -514,9 +266,9 @@ static void give_account(const sli_tiled_reader *reader) {
         {reader->pen.points, "line of no length", "lines of no length"},
         {reader->sets.missing, "tileset that is missing", "tilesets that are missing"}};
     char from[SLI_TALLY_TEXT], without[SLI_TALLY_TEXT];
-    sl_note(reader->context, "%s: %zu walls%s%s; unit: pixels, y = %s - the file's y",
+    sl_note(reader->context, "%s: %zu wall%s%s%s; unit: pixels, y = %s - the file's y",
             reader->map->file->name, reader->pen.map->wall_count,
-            sli_tally_write(" from ", taken, 4, from),
+            reader->pen.map->wall_count == 1 ? "" : "s", sli_tally_write(" from ", taken, 4, from),
             sli_tally_write("; left out: ", left, 5, without), top);
     if (reader->lost_shapes)
         sl_note(reader->context,

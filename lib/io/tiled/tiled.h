@@ -4,6 +4,7 @@
 
 #include "io/parts/document.h"
 #include "io/parts/game_names.h"
+#include "io/parts/layers.h"
 #include "io/parts/shapes.h"
 #include "io/parts/things.h"
 
@@ -239,6 +240,7 @@ typedef struct sli_tiled_seen {
     size_t beside;       ///< solid tiles that are not taken, as the player goes over or under them
     sli_game_kind kind;  ///< by its name, else by that of its group
     uint64_t count, squares;
+    size_t solid; ///< of its tiles: those that say that they are solid
 } sli_tiled_seen;
 
 /// A closed object that is solid: a number of walls of the pen's map.
@@ -339,6 +341,18 @@ sl_status sli_tiled_settle_void(sli_tiled_reader *reader);
 /// dropped.
 sl_status sli_tiled_read_again(sli_tiled_reader *reader);
 
+// --- objects (tiled_objects.c)
+
+/// What walls of an object, a layer or a group stop, by its property `stops`, a text; else
+/// *stops stays.
+sl_status sli_tiled_read_stops(const sli_json *thing, uint32_t *stops);
+/// What a layer holds by its name. Diamonds and hexagons are moved once all is read, so that such a
+/// layer is one of the map's own. With --start-names the names of objects decide what is a start.
+sli_layer sli_tiled_kind_of_layer(const sli_tiled_reader *reader, const sli_json *layer);
+/// The objects of a layer: starts and doors, and walls where the layer is not said to be open.
+sl_status sli_tiled_read_objects(sli_tiled_reader *reader, const sli_json *layer,
+                                 const sli_tiled_place *at);
+
 // --- closed objects (tiled_closed.c)
 
 /// Remembers an object, or the shape of a tile, that is drawn as the map's walls from `first` on,
@@ -391,16 +405,19 @@ sl_status sli_tiled_check_rules(const sli_tiled_reader *reader);
 /// Where nothing says what is solid: by names, terrains, sets, at last a guess. SL_BAD_INPUT, with
 /// the layers and what to type, where none tells.
 sl_status sli_tiled_find_meaning(sli_tiled_reader *reader);
+/// SL_BAD_INPUT where a start stands on what was guessed to be solid.
+sl_status sli_tiled_check_guess(const sli_tiled_reader *reader);
+/// Looks at the tiles of a block of the layer that is guessed from.
+sl_status sli_tiled_guess(sli_tiled_reader *reader, const uint32_t *gids, size_t columns,
+                          size_t rows);
+
+// --- what is told (tiled_told.c)
+
 /// SL_BAD_INPUT, with the layers and what to type.
 sl_status sli_tiled_fail_unsaid(const sli_tiled_reader *reader, const char *why);
 /// The same where nothing is a wall: a layer that is solid everywhere has no edge.
 sl_status sli_tiled_fail_no_walls(const sli_tiled_reader *reader);
 /// Tells what is solid and by what, and which layers are not.
 sl_status sli_tiled_tell_meaning(const sli_tiled_reader *reader);
-/// SL_BAD_INPUT where a start stands on what was guessed to be solid.
-sl_status sli_tiled_check_guess(const sli_tiled_reader *reader);
-/// Looks at the tiles of a block of the layer that is guessed from.
-sl_status sli_tiled_guess(sli_tiled_reader *reader, const uint32_t *gids, size_t columns,
-                          size_t rows);
 
 #endif

@@ -1,4 +1,4 @@
-/// What is solid in a map of Tiled where no layer, tile or object says it, and what is told of it.
+/// What is solid in a map of Tiled where no layer, tile or object says it.
 ///
 /// After the firm words come weaker ones, and the first that gives anything decides: names of
 /// layers that stand for something solid (platforms, trees), terrains named Wall, tilesets named
@@ -20,170 +20,6 @@
 #include "io/io_formats.h"
 
 #include <stdlib.h>
-
-/// Layers for a message: 'Ground' (2500 tiles), 'Things' (3 objects).
-typedef struct layer_text {
-    char text[400];
-    size_t count, length;
-} layer_text;
-
-static void add_layer(layer_text *out, const sli_tiled_seen *layer) {
-    char own[96];
-    const char *what = layer->objects ? "object" : "tile";
-    const int length =
-        snprintf(own, sizeof own, "%s'%s' (%llu %s%s)", out->count++ ? ", " : "",
-                 sli_show((sli_word){layer->name, strlen(layer->name)}).text,
-                 (unsigned long long)layer->count, what, layer->count == 1 ? "" : "s");
-    // Once a name does not fit, all later ones are left out too.
-    if (out->length + (size_t)length + sizeof ", ..." > sizeof out->text) {
-        if (out->length < sizeof out->text) strcpy(out->text + out->length, ", ...");
-        out->length = sizeof out->text;
-        return;
-    }
-    memcpy(out->text + out->length, own, (size_t)length + 1);
-    out->length += (size_t)length;
-}
-
-/// The layers from which something is taken, or the others that have anything.
-static layer_text list_layers(const sli_tiled_reader *reader, bool taken) {
-    layer_text out = {.count = 0};
-    for (size_t i = 0; i < reader->seen.count; i++)
-        if (reader->seen.items[i].taken == taken && (taken || reader->seen.items[i].count))
-            add_layer(&out, &reader->seen.items[i]);
-    return out;
-}
-
-/// The layer to name in an example: not a picture or a floor, and not full.
-static const sli_tiled_seen *find_example(const sli_tiled_reader *reader) {
-    const sli_tiled_seen *best = NULL;
-    for (size_t i = 0; i < reader->seen.count; i++) {
-        const sli_tiled_seen *layer = &reader->seen.items[i];
-        const bool open = layer->kind != SLI_GAME_UNSAID && layer->kind < SLI_GAME_WATER;
-        if (!layer->count || !*layer->name || layer->objects || open) continue;
-        if (!best || (best->count == best->squares && layer->count < layer->squares)) best = layer;
-    }
-    for (size_t i = 0; i < reader->seen.count && !best; i++)
-        if (reader->seen.items[i].count && *reader->seen.items[i].name)
-            best = &reader->seen.items[i];
-    return best;
-}
-
-static const sli_tiled_seen *find_objects(const sli_tiled_reader *reader) {
-    for (size_t i = 0; i < reader->seen.count; i++) {
-        const sli_tiled_seen *layer = &reader->seen.items[i];
-        if (layer->objects && layer->count && *layer->name) return layer;
-    }
-    return NULL;
-}
-
-/// Where a layer is full, all of it would be solid: its tiles but the most frequent one, as
-/// ":28+33-35"; "" where there are none, or the layer has squares without tiles.
-static sl_status choose_tiles(const sli_tiled_reader *reader, const sli_tiled_seen *seen,
-                              char *text, size_t size) {
-    const sli_json layer = {.file = reader->map->file, .value = seen->layer};
-    const sli_json data = sli_json_member(&layer, "data");
-    const size_t count = (size_t)seen->squares;
-    uint32_t *gids;
-    *text = '\0';
-    if (seen->objects || seen->count < seen->squares || !data.value) return SL_OK;
-    SL_TRY(sli_tiled_read_data(&layer, &data, count, &gids));
-    for (size_t i = 0; i < count; i++) gids[i] &= SLI_TILED_TILE;
-    const sl_status status =
-        sli_numbers_but_commonest(reader->context, gids, count, text + 1, size - 1);
-    sl_free(reader->context, gids);
-    if (status == SL_OK && text[1]) *text = ':';
-    return status;
-}
-
-/// Whether the layer with the most tiles covers less than a quarter of each side of the map and up
-/// to half of all: its tiles may be the floor of rooms, and the squares without tiles solid.
-static sl_status looks_like_rooms(const sli_tiled_reader *reader, const sli_tiled_seen *seen,
-                                  bool *rooms) {
-    const sli_json layer = {.file = reader->map->file, .value = seen->layer};
-    const sli_json data = sli_json_member(&layer, "data"), width = sli_json_member(&layer, "width");
-    const size_t count = (size_t)seen->squares, columns = (size_t)sli_json_number_or_0(&width);
-    uint32_t *gids;
-    size_t sides[4] = {0};
-    *rooms = false;
-    for (size_t i = 0; i < reader->seen.count; i++)
-        if (!reader->seen.items[i].objects && reader->seen.items[i].count > seen->count)
-            return SL_OK;
-    if (seen->objects || 2 * seen->count > count || !data.value || !columns || count % columns)
-        return SL_OK;
-    SL_TRY(sli_tiled_read_data(&layer, &data, count, &gids));
-    for (size_t i = 0; i < count; i++) {
-        const size_t x = i % columns, y = i / columns;
-        const bool tile = gids[i] & SLI_TILED_TILE;
-        sides[0] += tile && y == 0;
-        sides[1] += tile && i + columns >= count;
-        sides[2] += tile && x == 0;
-        sides[3] += tile && x + 1 == columns;
-    }
-    sl_free(reader->context, gids);
-    *rooms = 4 * sides[0] < columns && 4 * sides[1] < columns && 4 * sides[2] < count / columns &&
-             4 * sides[3] < count / columns;
-    return SL_OK;
-}
-
-/// ", as in:" and a command that takes the example.
-static sl_status say_example(const sli_tiled_reader *reader, const sli_tiled_seen *example,
-                             char *text, size_t size) {
-    const char *file = reader->map->file->name;
-    char tiles[120];
-    SL_TRY(choose_tiles(reader, example, tiles, sizeof tiles));
-    const bool same = !example->objects && example->count == example->squares && !*tiles;
-    const sli_tiled_seen *objects = same ? find_objects(reader) : NULL;
-    if (objects) example = objects;
-    bool rooms;
-    SL_TRY(looks_like_rooms(reader, example, &rooms));
-    const sli_shown name = sli_show((sli_word){example->name, strlen(example->name)});
-    if (same && !objects)
-        snprintf(text, size, " (all tiles of '%s' are the same: draw walls in a layer Collision)",
-                 name.text);
-    else if (rooms)
-        snprintf(text, size,
-                 ", void the squares without tiles, as in: sightline check '%.150s' --layers void "
-                 "-o map.png",
-                 file);
-    else
-        snprintf(text, size, ", as in: sightline check '%.150s' --layers '%s%s' -o map.png", file,
-                 name.text, tiles);
-    return SL_OK;
-}
-
-sl_status sli_tiled_fail_unsaid(const sli_tiled_reader *reader, const char *why) {
-    const char *file = reader->map->file->name;
-    const sli_tiled_seen *example = find_example(reader);
-    const layer_text taken = list_layers(reader, true), others = list_layers(reader, false);
-    const char *between = taken.count && others.count ? ", " : "";
-    char as[400];
-    if (!reader->seen.count) return sli_json_fail(reader->map, "%s; it has no layers", why);
-    if (!example) return sli_json_fail(reader->map, "%s; all its layers are empty", why);
-    SL_TRY(say_example(reader, example, as, sizeof as));
-    return sl_fail_at(reader->context, file, sli_json_line(reader->map),
-                      "%s; --layers NAME takes a layer as solid, NAME:28+33-35 tiles of it%s; "
-                      "layers: %s%s%s",
-                      why, as, taken.text, between, others.text);
-}
-
-sl_status sli_tiled_fail_no_walls(const sli_tiled_reader *reader) {
-    for (size_t i = 0; i < reader->seen.count; i++) {
-        const sli_tiled_seen *layer = &reader->seen.items[i];
-        if (!layer->taken || layer->objects || !layer->count || layer->count < layer->squares)
-            continue;
-        const sli_word name = {layer->name, strlen(layer->name)};
-        char tiles[120];
-        SL_TRY(choose_tiles(reader, layer, tiles, sizeof tiles));
-        return sl_fail_at(reader->context, reader->map->file->name, sli_json_line(reader->map),
-                          "layer '%s' has a tile on every square, so all is solid and there are no "
-                          "walls; name its tiles that are solid, as in --layers '%s%s'%s",
-                          sli_show(name).text, sli_show(name).text, *tiles ? tiles : ":28+33-35",
-                          reader->options->layers
-                              ? ", or leave --layers out: then the tiles that look solid are taken"
-                              : "");
-    }
-    return sli_tiled_fail_unsaid(reader, "what it says is solid gives no walls");
-}
 
 // --- the guess
 
@@ -220,11 +56,11 @@ static int compare_gids(const void *left, const void *right) {
 }
 
 /// The most frequent tile, the lowest of those, and how often it is there; 0 is an empty square.
-static sl_status find_most(sl_context *context, const look *at, uint32_t *gid, size_t *most) {
-    const size_t count = at->columns * at->rows;
+static sl_status find_most(sl_context *context, const uint32_t *gids, size_t count, uint32_t *gid,
+                           size_t *most) {
     uint32_t *sorted = sl_alloc_array(context, count, sizeof *sorted);
     if (!sorted) return SL_NO_MEMORY;
-    for (size_t i = 0; i < count; i++) sorted[i] = at->gids[i] & SLI_TILED_TILE;
+    for (size_t i = 0; i < count; i++) sorted[i] = gids[i] & SLI_TILED_TILE;
     qsort(sorted, count, sizeof *sorted, compare_gids);
     *most = 0;
     for (size_t i = 0, next; i < count; i = next) {
@@ -279,7 +115,7 @@ sl_status sli_tiled_guess(sli_tiled_reader *reader, const uint32_t *gids, size_t
     size_t most;
     uint32_t gid = 0;
     if (layer->squares != count) return SL_OK; // one chunk of several
-    SL_TRY(find_most(reader->context, &at, &gid, &most));
+    SL_TRY(find_most(reader->context, gids, count, &gid, &most));
     const sli_tiled_stand stand = sli_tiled_where_objects_stand(reader, gids, columns, rows);
     if (only && floor && empty) {
         reader->guess_why = "where the floor has no tile is a wall";
@@ -425,106 +261,4 @@ sl_status sli_tiled_find_meaning(sli_tiled_reader *reader) {
     return sli_tiled_fail_unsaid(reader, reader->believed_not
                                              ? "nearly all of its tiles say that they are solid"
                                              : "nothing in it says what is solid");
-}
-
-// --- what is told
-
-/// Layers below and above the player whose tiles say that they are solid, and are not taken.
-static void tell_beside(const sli_tiled_reader *reader) {
-    for (size_t i = 0; i < reader->seen.count; i++) {
-        const sli_tiled_seen *layer = &reader->seen.items[i];
-        if (!layer->beside) continue;
-        const sli_shown name = sli_show((sli_word){layer->name, strlen(layer->name)});
-        sl_note(reader->context,
-                "%s: layer '%s' is below or above the player: %zu of its tiles say that they are "
-                "solid and are not taken, as other layers are solid; if they stop the player, give "
-                "them by number: --layers '...,%s:28+33-35'",
-                reader->map->file->name, name.text, layer->beside, name.text);
-    }
-}
-
-/// Layers that are solid with a few tiles in all, beside one with many more that is not: they may
-/// be marks at which enemies turn.
-static void tell_little(const sli_tiled_reader *reader) {
-    const sli_tiled_seen *most = NULL;
-    uint64_t solid = 0;
-    for (size_t i = 0; i < reader->seen.count; i++) {
-        const sli_tiled_seen *layer = &reader->seen.items[i];
-        const bool plain = layer->kind == SLI_GAME_UNSAID || layer->kind >= SLI_GAME_STANDS;
-        const bool full = 20 * layer->count >= 19 * layer->squares;
-        if (layer->taken && (layer->objects || layer->count > 2)) return;
-        if (layer->taken) solid += layer->count;
-        if (!layer->taken && !layer->objects && plain && !full && !layer->moves && *layer->name &&
-            (!most || layer->count > most->count))
-            most = layer;
-    }
-    if (!solid || !most || most->count < 20 * solid) return;
-    const sli_shown name = sli_show((sli_word){most->name, strlen(most->name)});
-    sl_note(reader->context,
-            "%s: only %llu tile%s in layers named for walls: if layer '%s' (%llu tiles) is solid: "
-            "sightline check '%.300s' --layers '%s' -o map.png",
-            reader->map->file->name, (unsigned long long)solid, solid == 1 ? " is" : "s are",
-            name.text, (unsigned long long)most->count, reader->map->file->name, name.text);
-}
-
-/// The next step, where layers are named for what is solid, and are empty.
-static sl_status tell_edge_only(const sli_tiled_reader *reader) {
-    const sli_tiled_seen *example = find_example(reader);
-    const layer_text others = list_layers(reader, false);
-    char as[400];
-    if (!example) return SL_OK;
-    SL_TRY(say_example(reader, example, as, sizeof as));
-    sl_note(reader->context,
-            "%s: only what is beyond its edge is solid: if more is, --layers NAME takes a layer, "
-            "NAME:28+33-35 tiles of it%s; layers: %s",
-            reader->map->file->name, as, others.text);
-    return SL_OK;
-}
-
-sl_status sli_tiled_tell_meaning(const sli_tiled_reader *reader) {
-    static const char *const by[] = {"",
-                                     "tiles that say so of layers below and above the player",
-                                     "names of layers",
-                                     "terrains",
-                                     "names of tilesets",
-                                     "objects of which nothing is said"};
-    const layer_text taken = list_layers(reader, true), others = list_layers(reader, false);
-    const char *file = reader->map->file->name;
-    if (reader->sets.missing && reader->lost_tiles)
-        sl_note(
-            reader->context,
-            "%s: what a missing tileset says of %zu tiles is not known: solid layers count whole",
-            file, reader->lost_tiles);
-    if (reader->options->layers || (reader->void_is_solid && !taken.count)) return SL_OK;
-    if (reader->believed_not)
-        sl_note(reader->context,
-                "%s: nearly all tiles of layer '%s' say that they are solid, and it has no gaps: "
-                "this is not believed",
-                file,
-                sli_show((sli_word){reader->believed_not, strlen(reader->believed_not)}).text);
-    if (!reader->by) tell_beside(reader);
-    if (!reader->by) tell_little(reader);
-    if (reader->by == SLI_TILED_BY_GUESS) {
-        const sli_tiled_seen *layer = &reader->seen.items[reader->guess_layer];
-        char tile[64] = "its empty squares are";
-        if (reader->guessed)
-            snprintf(tile, sizeof tile, "its tile %u is", (unsigned)reader->guessed);
-        sl_note(
-            reader->context,
-            "%s: nothing in it says what is solid: of layer '%s' %s taken (%s); --layers NAME or "
-            "NAME:TILE+TILE-TILE chooses; layers: %s",
-            file, sli_show((sli_word){layer->name, strlen(layer->name)}).text,
-            reader->guessed_all ? "all tiles are" : tile, reader->guess_why, others.text);
-    } else if (reader->by) {
-        sl_note(
-            reader->context,
-            "%s: nothing in it says what is solid: taken by %s: %s; --layers NAME,NAME chooses%s%s",
-            file, by[reader->by], taken.text, others.count ? "; not taken: " : "", others.text);
-    } else if (taken.count && others.count) {
-        sl_note(reader->context, "%s: solid: %s; --layers NAME,NAME chooses; not solid: %s", file,
-                taken.text, others.text);
-    } else if (others.count) {
-        return tell_edge_only(reader);
-    }
-    return SL_OK;
 }

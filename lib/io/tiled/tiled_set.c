@@ -32,6 +32,9 @@ static sli_tiled_word word_of_property(const char *name, const sli_json *value) 
     bool truth;
     if (!name) return SLI_TILED_UNSAID;
     if (text && is_type(name) && sli_says_solid(text)) return SLI_TILED_SOLID;
+    // The libraries of physics call a body that never moves static.
+    if (text && strcasecmp(name, "bodyType") == 0 && strcasecmp(text, "static") == 0)
+        return SLI_TILED_SOLID;
     const bool contrary = sli_says_walkable(name);
     if (!contrary && !sli_says_solid(name)) return SLI_TILED_UNSAID;
     if (!truth_of(value, &truth)) return SLI_TILED_UNSAID;

@@ -19,8 +19,8 @@ typedef struct field {
     sli_tiled_range range; ///< of all tiles
     bool pictures;         ///< there is a layer that is a picture
     size_t columns, rows;
-    char *squares; ///< ' ' without a tile, '.' with one, '~' of water alone, '#' solid; NULL while
-                   ///< the range is looked for
+    char *squares; ///< ' ' without a tile, '.' with one, '+' of these under a door, '~' of water
+                   ///< alone, '#' solid; NULL while the range is looked for
 } field;
 
 bool sli_tiled_only_void(const char *layers) {
@@ -138,30 +138,56 @@ static sl_point middle_of(const field *f, size_t i) {
     return sli_affine_apply(f->reader->pen.affine, (sl_point){x * step.x, y * step.y});
 }
 
+/// The squares of the field that a box of the map reaches into.
+static sli_tiled_range squares_of(const field *f, const sl_box *box) {
+    const sl_point step = f->reader->lattice.step;
+    const double columns = (double)f->columns, rows = (double)f->rows;
+    const double left = floor(box->min.x / step.x) - (double)f->range.left;
+    const double right = ceil(box->max.x / step.x) - (double)f->range.left;
+    const double top = floor((f->reader->top - box->max.y) / step.y) - (double)f->range.top;
+    const double bottom = ceil((f->reader->top - box->min.y) / step.y) - (double)f->range.top;
+    return (sli_tiled_range){.left = (int64_t)fmin(fmax(left, 0), columns),
+                             .top = (int64_t)fmin(fmax(top, 0), rows),
+                             .right = (int64_t)fmin(fmax(right, 0), columns),
+                             .bottom = (int64_t)fmin(fmax(bottom, 0), rows)};
+}
+
 /// Puts in the squares whose middles lie in solid objects, and those of tiles with solid shapes.
 static sl_status take_closed(field *f) {
     const sli_tiled_reader *reader = f->reader;
     for (size_t i = 0; i < reader->closed.count; i++) {
         const sli_tiled_closed *closed = &reader->closed.items[i];
-        const double left = floor(closed->box.min.x / reader->lattice.step.x);
-        const double right = ceil(closed->box.max.x / reader->lattice.step.x);
-        const double top = floor((reader->top - closed->box.max.y) / reader->lattice.step.y);
-        const double bottom = ceil((reader->top - closed->box.min.y) / reader->lattice.step.y);
-        const double columns = (double)f->columns, rows = (double)f->rows;
-        const double x0 = fmin(fmax(left - (double)f->range.left, 0), columns);
-        const double x1 = fmin(fmax(right - (double)f->range.left, 0), columns);
-        const double y0 = fmin(fmax(top - (double)f->range.top, 0), rows);
-        const double y1 = fmin(fmax(bottom - (double)f->range.top, 0), rows);
+        const sli_tiled_range all = squares_of(f, &closed->box);
         SL_TRY(sl_check_cancelled(reader->context));
         if (!closed->solid) continue;
-        for (size_t y = (size_t)y0; y < (size_t)y1; y++)
-            for (size_t x = (size_t)x0; x < (size_t)x1; x++) {
-                const size_t at = y * f->columns + x;
+        for (int64_t y = all.top; y < all.bottom; y++)
+            for (int64_t x = all.left; x < all.right; x++) {
+                const size_t at = (size_t)y * f->columns + (size_t)x;
                 if (closed->of_tile || sli_tiled_is_in(reader, closed, middle_of(f, at)))
                     f->squares[at] = '#';
             }
     }
     return SL_OK;
+}
+
+/// Marks the floor under doors.
+static void take_doors(field *f) {
+    const sli_tiled_reader *reader = f->reader;
+    for (size_t i = 0; i < reader->things.items.count; i++) {
+        const sli_thing *thing = &reader->things.items.items[i];
+        const sl_point at = {thing->middle.x, reader->top - thing->middle.y};
+        const double x = fabs(thing->u.x) + fabs(thing->v.x);
+        const double y = fabs(thing->u.y) + fabs(thing->v.y);
+        const sl_box box = {{at.x - x, at.y - y}, {at.x + x, at.y + y}};
+        const sli_tiled_range all = squares_of(f, &box);
+        if (thing->kind != SLI_THING_DOOR) continue;
+        for (int64_t row = all.top; row < all.bottom; row++)
+            for (int64_t column = all.left; column < all.right; column++) {
+                const size_t k = (size_t)row * f->columns + (size_t)column;
+                if (f->squares[k] == '.' && sli_box_holds(&box, middle_of(f, k)))
+                    f->squares[k] = '+';
+            }
+    }
 }
 
 static double side(sl_point a, sl_point b, sl_point c) {
@@ -180,8 +206,8 @@ static bool is_between(const sl_map *map, sl_point a, sl_point b) {
 }
 
 /// The places where floor and squares without a tile lie side by side, and those of them where no
-/// wall of an object lies between; water counts as `water`. So many places are looked at and no
-/// more.
+/// wall of an object lies between, and no door on the floor; water counts as `water`. So many
+/// places are looked at and no more.
 typedef struct border {
     size_t all, open;
 } border;
@@ -197,8 +223,11 @@ static border find_border(const field *f, char water) {
             const char one = f->squares[i] == '~' ? water : f->squares[i];
             const char other = f->squares[j] == '~' ? water : f->squares[j];
             if (one == '#' || other == '#' || one == other) continue;
+            const bool door = one == '+' || other == '+';
+            if (door && (one == '.' || other == '.')) continue;
             found.all++;
-            found.open += !is_between(f->reader->pen.map, middle_of(f, i), middle_of(f, j));
+            found.open +=
+                !door && !is_between(f->reader->pen.map, middle_of(f, i), middle_of(f, j));
         }
     }
     return found;
@@ -268,28 +297,31 @@ static sl_status fill_edge(field *f) {
 }
 
 /// Whether what is at the edge may be filled, and walls part it from floor but for a place or two:
-/// who draws them means that one does not get there.
-static bool is_apart(const field *f, size_t empty, size_t floor) {
+/// who draws them means that one does not get there. A room may be small against the map, but not
+/// against its walls: a platformer's tiles that are not solid are few.
+static bool is_apart(const field *f, size_t empty, size_t floor, size_t solid) {
     const sli_tiled_reader *reader = f->reader;
-    if (!empty || 10 * floor < empty + floor || reader->options->layers || reader->by ||
-        has_start(reader))
+    const bool rooms = 10 * floor >= empty + floor || (floor && 4 * floor >= solid);
+    if (!empty || !rooms || reader->options->layers || reader->by || has_start(reader))
         return false;
     const border found = find_border(f, ' ');
     return 10 * found.open <= found.all && found.all < PAIRS;
 }
 
 static sl_status settle(field *f, const char *layers) {
-    size_t empty = 0, floor = 0, water = 0;
+    size_t empty = 0, floor = 0, water = 0, solid = 0;
     take_solid(f);
     SL_TRY(take_closed(f));
+    take_doors(f);
     for (size_t i = 0; i < f->columns * f->rows; i++) {
         empty += f->squares[i] == ' ';
-        floor += f->squares[i] == '.';
+        floor += f->squares[i] == '.' || f->squares[i] == '+';
         water += f->squares[i] == '~';
+        solid += f->squares[i] == '#';
     }
     if (f->reader->void_is_solid) return fill(f, ' ');
     if (f->pictures || f->reader->guessed_all) return SL_OK;
-    if (is_apart(f, empty + water, floor)) return fill_edge(f);
+    if (is_apart(f, empty + water, floor, solid)) return fill_edge(f);
     // In a platformer a little is drawn in much air.
     floor += water;
     if (!empty || 10 * floor < empty + floor || !find_border(f, '.').open) return SL_OK;

@@ -29,7 +29,7 @@ static bool is_passed(const sl_map *map, const sl_space *space, uint32_t portal)
 }
 
 /// Adds up a cell: its area, and the length of its sides that are walls.
-static void measure(const sl_map *map, const sl_space *space, uint32_t number,
+static void measure(const sl_map *map, const sl_space *space, const sl_box *edge, uint32_t number,
                     sl_sealed_room *room) {
     const sl_cell *cell = &space->cells[number];
     const sl_point *corners = space->vertices + cell->first_vertex;
@@ -37,6 +37,8 @@ static void measure(const sl_map *map, const sl_space *space, uint32_t number,
     for (uint32_t i = 0; i < cell->vertex_count; i++) {
         const sl_point a = corners[i], b = corners[(i + 1) % cell->vertex_count];
         room->walls += sli_length(b.x - a.x, b.y - a.y);
+        room->at_edge |=
+            a.x == edge->min.x || a.x == edge->max.x || a.y == edge->min.y || a.y == edge->max.y;
     }
     for (uint32_t i = 0; i < cell->directed_count; i++) {
         const sl_directed_portal *portal = &space->directed[cell->first_directed + i];
@@ -47,8 +49,8 @@ static void measure(const sl_map *map, const sl_space *space, uint32_t number,
 }
 
 /// The room of a cell that was not reached before.
-static sl_sealed_room room_of(const sl_map *map, const sl_space *space, sl_bits *reached,
-                              uint32_t *queue, uint32_t first) {
+static sl_sealed_room room_of(const sl_map *map, const sl_space *space, const sl_box *edge,
+                              sl_bits *reached, uint32_t *queue, uint32_t first) {
     sl_sealed_room room = {0};
     double largest = -1;
     uint32_t end = 0;
@@ -57,7 +59,7 @@ static sl_sealed_room room_of(const sl_map *map, const sl_space *space, sl_bits 
     for (uint32_t at = 0; at < end; at++) {
         const sl_cell *cell = &space->cells[queue[at]];
         const double area = sl_space_area(space, queue[at]);
-        measure(map, space, queue[at], &room);
+        measure(map, space, edge, queue[at], &room);
         if (area > largest) {
             largest = area;
             room.at = sl_space_middle(space, queue[at]);
@@ -85,18 +87,20 @@ sl_status sl_find_sealed(sl_context *context, const sl_map *map, const sl_space 
     sl_status status = reached && queue ? SL_OK : SL_NO_MEMORY;
     double inside = 0, thickest = 0, sealed = 0;
     size_t open = 0;
+    const sl_box edge = sl_map_bounds(map);
     *out = (sl_sealed){0};
     for (uint32_t i = 0; status == SL_OK && i < space->cell_count; i++) {
         if (!space->cells[i].inside || sl_bits_has(reached, i)) continue;
         status = SL_ARRAY_ROOM(context, &rooms, 1);
         if (status != SL_OK) break;
-        const sl_sealed_room room = room_of(map, space, reached, queue, i);
+        const sl_sealed_room room = room_of(map, space, &edge, reached, queue, i);
         inside += room.area;
         thickest = fmax(thickest, thickness(&room));
         if (room.area > out->open.area) {
             open = rooms.count;
             out->open = room;
         }
+        if (!room.at_edge && room.area > out->within.area) out->within = room;
         rooms.items[rooms.count++] = room;
     }
     for (size_t i = 0; i < rooms.count; i++) {

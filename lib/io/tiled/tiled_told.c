@@ -1,0 +1,352 @@
+/// What is told of a map of Tiled: what is solid in it and by what, and where nothing says it, the
+/// layers and a command.
+///
+/// The command names a layer only where that is likely to be right: its name is one for what stands
+/// in the way, or it is the only layer that may be walls, or most of it is one tile and the others
+/// are walls. Else it says LAYER or TILES, and the reader chooses.
+#include "io/tiled/tiled.h"
+
+#include "io/io_formats.h"
+
+#include <strings.h>
+
+/// Layers for a message: 'Ground' (2500 tiles), 'Things' (3 objects).
+typedef struct layer_text {
+    char text[400];
+    size_t count, length;
+} layer_text;
+
+static void add_layer(layer_text *out, const sli_tiled_seen *layer) {
+    char own[96];
+    const char *what = layer->objects ? "object" : "tile";
+    const int length =
+        snprintf(own, sizeof own, "%s'%s' (%llu %s%s)", out->count++ ? ", " : "",
+                 sli_show((sli_word){layer->name, strlen(layer->name)}).text,
+                 (unsigned long long)layer->count, what, layer->count == 1 ? "" : "s");
+    // Once a name does not fit, all later ones are left out too.
+    if (out->length + (size_t)length + sizeof ", ..." > sizeof out->text) {
+        if (out->length < sizeof out->text) strcpy(out->text + out->length, ", ...");
+        out->length = sizeof out->text;
+        return;
+    }
+    memcpy(out->text + out->length, own, (size_t)length + 1);
+    out->length += (size_t)length;
+}
+
+/// The layers from which something is taken, or the others that have anything.
+static layer_text list_layers(const sli_tiled_reader *reader, bool taken) {
+    layer_text out = {.count = 0};
+    for (size_t i = 0; i < reader->seen.count; i++)
+        if (reader->seen.items[i].taken == taken && (taken || reader->seen.items[i].count))
+            add_layer(&out, &reader->seen.items[i]);
+    return out;
+}
+
+/// A layer of tiles that may be walls: not a picture or a floor.
+static bool may_be_walls(const sli_tiled_seen *layer) {
+    const bool open = layer->kind != SLI_GAME_UNSAID && layer->kind < SLI_GAME_WATER;
+    return layer->count && *layer->name && !layer->objects && !open;
+}
+
+static bool is_full(const sli_tiled_seen *layer) {
+    return layer->count == layer->squares;
+}
+
+/// The layer to name in an example: one that is named for what stands in the way, else the first
+/// that may be walls and is not full, else a full one, else any.
+static const sli_tiled_seen *find_example(const sli_tiled_reader *reader) {
+    const sli_tiled_seen *best = NULL;
+    int rank = -1;
+    for (size_t i = 0; i < reader->seen.count; i++) {
+        const sli_tiled_seen *layer = &reader->seen.items[i];
+        if (!layer->count || !*layer->name) continue;
+        const int own = !may_be_walls(layer)            ? 0
+                        : is_full(layer)                ? 1
+                        : layer->kind < SLI_GAME_STANDS ? 2
+                                                        : 3;
+        if (own <= rank) continue;
+        rank = own;
+        best = layer;
+    }
+    return best;
+}
+
+/// Whether the example is likely to be right. `mostly`: it is full, and most of it is one tile;
+/// `same`: what is full is all of one tile.
+static bool is_sure(const sli_tiled_reader *reader, const sli_tiled_seen *example, bool mostly,
+                    bool same) {
+    size_t partial = 0, tiles = 0, things = 0;
+    for (size_t i = 0; i < reader->seen.count; i++) {
+        const sli_tiled_seen *layer = &reader->seen.items[i];
+        tiles += !layer->objects && layer->count;
+        things += layer->objects && layer->count;
+        partial += may_be_walls(layer) && !is_full(layer);
+    }
+    if (example->objects) return !tiles || (same && things == 1);
+    if (example->kind >= SLI_GAME_STANDS || mostly) return true;
+    // Chests and beds that stand in rooms are not the rooms' walls.
+    const bool furniture =
+        strncasecmp(example->name, "object", 6) == 0 || sli_game_says_other(example->name);
+    return partial == 1 && may_be_walls(example) && 2 * example->count <= example->squares &&
+           !furniture;
+}
+
+static const sli_tiled_seen *find_objects(const sli_tiled_reader *reader) {
+    for (size_t i = 0; i < reader->seen.count; i++) {
+        const sli_tiled_seen *layer = &reader->seen.items[i];
+        if (layer->objects && layer->count && *layer->name) return layer;
+    }
+    return NULL;
+}
+
+/// Where a layer is full, all of it would be solid: its tiles but the most frequent one, as
+/// ":28+33-35"; "" where there are none, or the layer has squares without tiles. *mostly: that one
+/// covers three fifths of it.
+static sl_status choose_tiles(const sli_tiled_reader *reader, const sli_tiled_seen *seen,
+                              bool *mostly, char *text, size_t size) {
+    const sli_json layer = {.file = reader->map->file, .value = seen->layer};
+    const sli_json data = sli_json_member(&layer, "data");
+    const size_t count = (size_t)seen->squares;
+    uint32_t *gids;
+    size_t most = 0;
+    *text = '\0';
+    *mostly = false;
+    if (seen->objects || seen->count < seen->squares || !data.value) return SL_OK;
+    SL_TRY(sli_tiled_read_data(&layer, &data, count, &gids));
+    for (size_t i = 0; i < count; i++) gids[i] &= SLI_TILED_TILE;
+    const sl_status status =
+        sli_numbers_but_commonest(reader->context, gids, count, &most, text + 1, size - 1);
+    sl_free(reader->context, gids);
+    *mostly = 5 * most >= 3 * count;
+    if (status == SL_OK && text[1]) *text = ':';
+    return status;
+}
+
+/// Whether the layer with the most tiles covers less than a quarter of each side of the map and
+/// from a twentieth to half of all: its tiles may be the floor of rooms, and the squares without
+/// tiles solid.
+static sl_status looks_like_rooms(const sli_tiled_reader *reader, const sli_tiled_seen *seen,
+                                  bool *rooms) {
+    const sli_json layer = {.file = reader->map->file, .value = seen->layer};
+    const sli_json data = sli_json_member(&layer, "data"), width = sli_json_member(&layer, "width");
+    const size_t count = (size_t)seen->squares, columns = (size_t)sli_json_number_or_0(&width);
+    uint32_t *gids;
+    size_t sides[4] = {0};
+    *rooms = false;
+    for (size_t i = 0; i < reader->seen.count; i++)
+        if (!reader->seen.items[i].objects && reader->seen.items[i].count > seen->count)
+            return SL_OK;
+    if (seen->objects || 2 * seen->count > count || 20 * seen->count < count || !data.value ||
+        !columns || count % columns)
+        return SL_OK;
+    SL_TRY(sli_tiled_read_data(&layer, &data, count, &gids));
+    for (size_t i = 0; i < count; i++) {
+        const size_t x = i % columns, y = i / columns;
+        const bool tile = gids[i] & SLI_TILED_TILE;
+        sides[0] += tile && y == 0;
+        sides[1] += tile && i + columns >= count;
+        sides[2] += tile && x == 0;
+        sides[3] += tile && x + 1 == columns;
+    }
+    sl_free(reader->context, gids);
+    *rooms = 4 * sides[0] < columns && 4 * sides[1] < columns && 4 * sides[2] < count / columns &&
+             4 * sides[3] < count / columns;
+    return SL_OK;
+}
+
+/// Whether only one layer has anything.
+static bool is_only_layer(const sli_tiled_reader *reader) {
+    size_t count = 0;
+    for (size_t i = 0; i < reader->seen.count; i++) count += reader->seen.items[i].count > 0;
+    return count == 1;
+}
+
+/// ", as in:" and a command that takes the example.
+static sl_status say_example(const sli_tiled_reader *reader, const sli_tiled_seen *example,
+                             char *text, size_t size) {
+    const char *file = reader->map->file->name;
+    char tiles[120];
+    bool mostly;
+    SL_TRY(choose_tiles(reader, example, &mostly, tiles, sizeof tiles));
+    const bool same = !example->objects && example->count == example->squares && !*tiles;
+    const sli_tiled_seen *objects = same ? find_objects(reader) : NULL;
+    if (objects) example = objects;
+    bool rooms;
+    SL_TRY(looks_like_rooms(reader, example, &rooms));
+    const sli_shown name = sli_show((sli_word){example->name, strlen(example->name)});
+    if (same && !objects)
+        snprintf(text, size, " (all tiles of '%s' are the same: draw walls in a layer Collision)",
+                 name.text);
+    else if (rooms)
+        snprintf(text, size,
+                 ", void the squares without tiles, as in: sightline check '%.150s' --layers void "
+                 "-o map.png",
+                 file);
+    else if (is_only_layer(reader) && !example->objects && 2 * example->count > example->squares &&
+             !mostly)
+        snprintf(text, size, ", as in: sightline check '%.150s' --layers '%s:TILES' -o map.png",
+                 file, name.text);
+    else if (!is_only_layer(reader) && !is_sure(reader, example, mostly, same))
+        snprintf(text, size, ", as in: sightline check '%.150s' --layers LAYER -o map.png", file);
+    else
+        snprintf(text, size, ", as in: sightline check '%.150s' --layers '%s%s' -o map.png", file,
+                 name.text, tiles);
+    return SL_OK;
+}
+
+sl_status sli_tiled_fail_unsaid(const sli_tiled_reader *reader, const char *why) {
+    const char *file = reader->map->file->name;
+    const sli_tiled_seen *example = find_example(reader);
+    const layer_text taken = list_layers(reader, true), others = list_layers(reader, false);
+    const char *between = taken.count && others.count ? ", " : "";
+    char as[400];
+    if (!reader->seen.count) return sli_json_fail(reader->map, "%s; it has no layers", why);
+    if (!example) return sli_json_fail(reader->map, "%s; all its layers are empty", why);
+    SL_TRY(say_example(reader, example, as, sizeof as));
+    return sl_fail_at(reader->context, file, sli_json_line(reader->map),
+                      "%s; --layers NAME takes a layer as solid, NAME:28+33-35 tiles of it%s; "
+                      "layers: %s%s%s",
+                      why, as, taken.text, between, others.text);
+}
+
+sl_status sli_tiled_fail_no_walls(const sli_tiled_reader *reader) {
+    for (size_t i = 0; i < reader->seen.count; i++) {
+        const sli_tiled_seen *layer = &reader->seen.items[i];
+        if (!layer->taken || layer->objects || !layer->count || layer->count < layer->squares)
+            continue;
+        const sli_word name = {layer->name, strlen(layer->name)};
+        char tiles[120];
+        bool mostly;
+        SL_TRY(choose_tiles(reader, layer, &mostly, tiles, sizeof tiles));
+        return sl_fail_at(reader->context, reader->map->file->name, sli_json_line(reader->map),
+                          "layer '%s' has a tile on every square, so all is solid and there are no "
+                          "walls; name its tiles that are solid, as in --layers '%s%s'%s",
+                          sli_show(name).text, sli_show(name).text, *tiles ? tiles : ":28+33-35",
+                          reader->options->layers
+                              ? ", or leave --layers out: then the tiles that look solid are taken"
+                              : "");
+    }
+    return sli_tiled_fail_unsaid(reader, "what it says is solid gives no walls");
+}
+
+// --- what is told
+
+/// Layers below and above the player whose tiles say that they are solid, and are not taken.
+static void tell_beside(const sli_tiled_reader *reader) {
+    for (size_t i = 0; i < reader->seen.count; i++) {
+        const sli_tiled_seen *layer = &reader->seen.items[i];
+        if (!layer->beside) continue;
+        const sli_shown name = sli_show((sli_word){layer->name, strlen(layer->name)});
+        sl_note(reader->context,
+                "%s: layer '%s' is below or above the player: %zu of its tiles say that they are "
+                "solid and are not taken, as other layers are solid; if they stop the player, give "
+                "them by number: --layers '...,%s:28+33-35'",
+                reader->map->file->name, name.text, layer->beside, name.text);
+    }
+}
+
+/// Layers that are solid with a few tiles in all, beside one with many more that is not: they may
+/// be marks at which enemies turn.
+static void tell_little(const sli_tiled_reader *reader) {
+    const sli_tiled_seen *most = NULL;
+    uint64_t solid = 0;
+    for (size_t i = 0; i < reader->seen.count; i++) {
+        const sli_tiled_seen *layer = &reader->seen.items[i];
+        const bool plain = layer->kind == SLI_GAME_UNSAID || layer->kind >= SLI_GAME_STANDS;
+        const bool full = 20 * layer->count >= 19 * layer->squares;
+        if (layer->taken && (layer->objects || layer->count > 2)) return;
+        if (layer->taken) solid += layer->count;
+        if (!layer->taken && !layer->objects && plain && !full && !layer->moves && *layer->name &&
+            (!most || layer->count > most->count))
+            most = layer;
+    }
+    if (!solid || !most || most->count < 20 * solid) return;
+    const sli_shown name = sli_show((sli_word){most->name, strlen(most->name)});
+    sl_note(reader->context,
+            "%s: only %llu tile%s in layers named for walls: if layer '%s' (%llu tiles) is solid: "
+            "sightline check '%.300s' --layers '%s' -o map.png",
+            reader->map->file->name, (unsigned long long)solid, solid == 1 ? " is" : "s are",
+            name.text, (unsigned long long)most->count, reader->map->file->name, name.text);
+}
+
+/// A layer named for ground with much air about it, as in a platformer, of which only a part says
+/// that it is solid, and no other layer is: the rest may be platforms that were forgotten, or that
+/// one jumps through.
+static void tell_ground(const sli_tiled_reader *reader) {
+    if (reader->solid_layers) return;
+    for (size_t i = 0; i < reader->seen.count; i++) {
+        const sli_tiled_seen *layer = &reader->seen.items[i];
+        if (layer->kind != SLI_GAME_GROUND || 4 * layer->count > layer->squares || !layer->solid ||
+            10 * layer->solid > 9 * layer->count)
+            continue;
+        const sli_shown name = sli_show((sli_word){layer->name, strlen(layer->name)});
+        sl_note(reader->context,
+                "%s: only %zu of the %llu tiles of layer '%s' say that they are solid: if all are: "
+                "sightline check '%.300s' --layers '%s' -o map.png",
+                reader->map->file->name, layer->solid, (unsigned long long)layer->count, name.text,
+                reader->map->file->name, name.text);
+    }
+}
+
+/// The next step, where layers are named for what is solid, and are empty.
+static sl_status tell_edge_only(const sli_tiled_reader *reader) {
+    const sli_tiled_seen *example = find_example(reader);
+    const layer_text others = list_layers(reader, false);
+    char as[400];
+    if (!example) return SL_OK;
+    SL_TRY(say_example(reader, example, as, sizeof as));
+    sl_note(reader->context,
+            "%s: only what is beyond its edge is solid: if more is, --layers NAME takes a layer, "
+            "NAME:28+33-35 tiles of it%s; layers: %s",
+            reader->map->file->name, as, others.text);
+    return SL_OK;
+}
+
+sl_status sli_tiled_tell_meaning(const sli_tiled_reader *reader) {
+    static const char *const by[] = {"",
+                                     "tiles that say so of layers below and above the player",
+                                     "names of layers",
+                                     "terrains",
+                                     "names of tilesets",
+                                     "objects of which nothing is said"};
+    const layer_text taken = list_layers(reader, true), others = list_layers(reader, false);
+    const char *file = reader->map->file->name;
+    if (reader->sets.missing && reader->lost_tiles)
+        sl_note(
+            reader->context,
+            "%s: what a missing tileset says of %zu tiles is not known: solid layers count whole",
+            file, reader->lost_tiles);
+    if (reader->options->layers || (reader->void_is_solid && !taken.count)) return SL_OK;
+    if (reader->believed_not)
+        sl_note(reader->context,
+                "%s: nearly all tiles of layer '%s' say that they are solid, and it has no gaps: "
+                "this is not believed",
+                file,
+                sli_show((sli_word){reader->believed_not, strlen(reader->believed_not)}).text);
+    if (!reader->by) tell_beside(reader);
+    if (!reader->by) tell_little(reader);
+    if (!reader->by) tell_ground(reader);
+    if (reader->by == SLI_TILED_BY_GUESS) {
+        const sli_tiled_seen *layer = &reader->seen.items[reader->guess_layer];
+        char tile[64] = "its empty squares are";
+        if (reader->guessed)
+            snprintf(tile, sizeof tile, "its tile %u is", (unsigned)reader->guessed);
+        sl_note(
+            reader->context,
+            "%s: nothing in it says what is solid: of layer '%s' %s taken (%s); --layers NAME or "
+            "NAME:TILE+TILE-TILE chooses; layers: %s",
+            file, sli_show((sli_word){layer->name, strlen(layer->name)}).text,
+            reader->guessed_all ? "all tiles are" : tile, reader->guess_why, others.text);
+    } else if (reader->by) {
+        sl_note(
+            reader->context,
+            "%s: nothing in it says what is solid: taken by %s: %s; --layers NAME,NAME chooses%s%s",
+            file, by[reader->by], taken.text, others.count ? "; not taken: " : "", others.text);
+    } else if (taken.count && others.count) {
+        sl_note(reader->context, "%s: solid: %s; --layers NAME,NAME chooses; not solid: %s", file,
+                taken.text, others.text);
+    } else if (others.count) {
+        return tell_edge_only(reader);
+    }
+    return SL_OK;
+}
