@@ -134,7 +134,6 @@ class DoubtfulUnits(Plans):
         self.assertIn("is 1.8 m long then", told[0])
         self.assertIn("--entrance W says how wide its entrances are", told[0])
 
-
     def test_a_building_of_kilometres(self):
         """Towns are as large in metres, layers named as walls are those of a building."""
         self.assertIn("the drawing says metres, and is 1.2e+04 m long then", self.told(flat(6, 1))[0])

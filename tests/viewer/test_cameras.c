@@ -3,7 +3,6 @@
 #include "viewer_app.h"
 
 #include "app/sliders.h"
-#include "dialogs/question.h"
 #include "plan/cameras.h"
 #include "plan/heat.h"
 #include "plan/room_map.h"
@@ -219,14 +218,6 @@ static void fewest(void **state) {
     viewer_end(app);
 }
 
-/// To the question whether cameras are to be exported.
-static void answer(app_state *app, const char *key) {
-    assert_int_equal(dialog_open_now(&app->desk.dialog), DIALOG_QUESTION);
-    viewer_press(app, key);
-    app_tick(app, 0);
-    script_frame(app);
-}
-
 /// A door that is shut, and a map that is another one.
 static void map_changes(void **state) {
     (void)state;
@@ -242,7 +233,7 @@ static void map_changes(void **state) {
         assert_surveyed(app);
     }
     viewer_open(app, MAPS "/oblique/comb.map");
-    answer(app, "D");
+    viewer_answer(app, "D");
     app_settle(app);
     assert_true(!app->view.cameras || !app->view.cameras->table.count);
     viewer_end(app);
@@ -504,49 +495,6 @@ static void test_typed(void **state) {
     viewer_end(app);
 }
 
-/// Cameras that no file has are asked about before they are lost; once they are exported, what
-/// waited goes on.
-static void asked_before_lost(void **state) {
-    (void)state;
-    char folder[] = "/tmp/sightline-cameras-XXXXXX", path[64];
-    assert_non_null(mkdtemp(folder));
-    snprintf(path, sizeof path, "%s/cameras.csv", folder);
-    app_state *app = start(MAPS "/office.map", true);
-    click(app, (sl_point){30, 20});
-    viewer_press(app, "Ctrl+Q");
-    assert_non_null(strstr(question_text(&app->desk), "1 camera is in no file"));
-    answer(app, "Escape");
-    assert_false(app->desk.quit);
-    // The browser that is left gives up what has waited.
-    viewer_press(app, "Ctrl+Q");
-    answer(app, "E");
-    assert_int_equal(dialog_open_now(&app->desk.dialog), DIALOG_BROWSER);
-    viewer_press(app, "Escape");
-    app_tick(app, 0);
-    assert_int_equal(app->desk.file.pending, PENDING_NONE);
-    viewer_press(app, "Ctrl+Q");
-    answer(app, "E");
-    viewer_press(app, "Ctrl+U");
-    input_text(app, path);
-    viewer_press(app, "Return");
-    app_tick(app, 0);
-    assert_true(app->desk.quit);
-    app->desk.quit = false;
-    assert_int_equal(remove(path), 0);
-    // They are as the file has them: a new map takes them without a question.
-    viewer_press(app, "Ctrl+N");
-    app_settle(app);
-    assert_int_equal(app->view.cameras->table.count, 0);
-    script_frame(app);
-    click(app, (sl_point){30, 20});
-    assert_int_equal(app->view.cameras->table.count, 1);
-    viewer_press(app, "Ctrl+Q");
-    answer(app, "D");
-    assert_true(app->desk.quit);
-    viewer_end(app);
-    assert_int_equal(rmdir(folder), 0);
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_panel),
                                        cmocka_unit_test(test_no_portals),
@@ -558,7 +506,6 @@ int main(void) {
                                        cmocka_unit_test(tables),
                                        cmocka_unit_test(stopped),
                                        cmocka_unit_test(ground),
-                                       cmocka_unit_test(asked_before_lost),
                                        cmocka_unit_test(like_the_chosen),
                                        cmocka_unit_test(of_no_room)};
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -52,6 +52,14 @@ static inline void viewer_press(app_state *app, const char *key) {
     input_key(app, key, false);
 }
 
+/// Answers the question that is open.
+static inline void viewer_answer(app_state *app, const char *key) {
+    assert_int_equal(dialog_open_now(&app->desk.dialog), DIALOG_QUESTION);
+    viewer_press(app, key);
+    app_tick(app, 0);
+    script_frame(app);
+}
+
 /// Where a place of the map is on the plan's page.
 static inline sl_point viewer_on_page(const app_state *app, sl_point at) {
     const sl_frame frame = camera_frame(&app->view.camera, app_layout(app).plan[0], 1);

@@ -96,7 +96,7 @@ static sl_status work(command_console *console, cover_plan *plan, cover_work *w)
     SL_TRY(sl_query_over(context, &baked->space, &baked->map, NULL, &w->query));
     if (baked->map.mirror_count)
         sl_note(context, "mirrors are walls here: cover counts what is seen directly");
-    cover_note_headings(context, plan->operands[1], &w->cameras);
+    cover_note_headings(context, plan->operands[1], &w->cameras, "--fov or a column fov");
     SL_TRY(cover_viewpoints(context, &w->cameras, &w->viewpoints));
     SL_TRY(sl_coverage_make(context, w->query, w->viewpoints, w->cameras.count, &w->coverage));
     const cover_report report = {

@@ -11,6 +11,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 typedef struct place_plan {
@@ -73,26 +74,38 @@ static sl_status place(command_console *console, const place_plan *plan, place_w
     return status;
 }
 
-static bool is_taken(const sl_cameras *cameras, const char *name) {
-    for (size_t i = 0; i < cameras->count; i++)
-        if (cameras->items[i].name && strcmp(cameras->items[i].name, name) == 0) return true;
-    return false;
+/// Which numbers up to `most` are names already.
+static void find_taken(const sl_cameras *cameras, size_t most, bool *taken) {
+    char text[32];
+    for (size_t i = 0; i < cameras->count; i++) {
+        const char *name = cameras->items[i].name;
+        const unsigned long long number = name ? strtoull(name, NULL, 10) : 0;
+        snprintf(text, sizeof text, "%llu", number);
+        if (name && number <= most && strcmp(name, text) == 0) taken[number] = true;
+    }
 }
 
 /// Viewpoints without a name get their number, as reports and pictures show it; where one that
 /// stands already has this name, the next number that is free.
 static sl_status name_all(sl_context *context, sl_cameras *cameras) {
     char name[32];
-    for (size_t i = 0, last = 0; i < cameras->count; i++) {
+    // Each name that is taken moves the numbers on by one at most.
+    const size_t most = 2 * cameras->count;
+    bool *taken = sl_alloc_array(context, most + 1, sizeof *taken);
+    if (!taken) return SL_NO_MEMORY;
+    find_taken(cameras, most, taken);
+    sl_status status = SL_OK;
+    for (size_t i = 0, last = 0; i < cameras->count && status == SL_OK; i++) {
         sl_camera *camera = &cameras->items[i];
         if (camera->name) continue;
         if (last < i) last = i;
-        do snprintf(name, sizeof name, "%zu", ++last);
-        while (is_taken(cameras, name));
+        while (taken[++last]) continue;
+        snprintf(name, sizeof name, "%zu", last);
         camera->name = sl_copy_text(context, name, strlen(name));
-        if (!camera->name) return SL_NO_MEMORY;
+        if (!camera->name) status = SL_NO_MEMORY;
     }
-    return SL_OK;
+    sl_free(context, taken);
+    return status;
 }
 
 /// What the viewpoints see, found anew.

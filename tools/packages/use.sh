@@ -138,7 +138,7 @@ qgis) # it lists the algorithms; with a wheel beside it, one makes a layer
     "$process" list 2>/dev/null | grep -q 'sightline:isovists'
     wheel=$(find "$files" -maxdepth 1 -name 'sightline-*.whl')
     if [ "$wheel" ]; then
-        PIP_BREAK_SYSTEM_PACKAGES=1 /usr/bin/python3 -m pip install --user "$wheel"
+        PIP_BREAK_SYSTEM_PACKAGES=1 /usr/bin/python3 -m pip install --user --no-index "$wheel"
         cat >walls.geojson <<'END'
 {"type": "FeatureCollection", "crs": {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::32633"}}, "features": [
 {"type": "Feature", "properties": {}, "geometry":

@@ -176,7 +176,8 @@ sl_status cover_check_places(sl_context *context, const char *table, const sl_sp
     return SL_OK;
 }
 
-void cover_note_headings(sl_context *context, const char *table, const sl_cameras *cameras) {
+void cover_note_headings(sl_context *context, const char *table, const sl_cameras *cameras,
+                         const char *remedy) {
     size_t round = 0;
     for (size_t i = 0; i < cameras->count; i++) {
         const sl_viewpoint *view = &cameras->items[i].view;
@@ -184,9 +185,9 @@ void cover_note_headings(sl_context *context, const char *table, const sl_camera
     }
     if (round)
         sl_note(context,
-                "%s: rows that look all round, whatever their heading: %zu of %zu; --fov or a "
-                "column fov gives them a view cone",
-                table, round, cameras->count);
+                "%s: rows that look all round, whatever their heading: %zu of %zu; %s gives them a "
+                "view cone",
+                table, round, cameras->count, remedy);
 }
 
 void cover_note_blind(sl_context *context, const char *table, const cover_report *r) {

@@ -43,8 +43,10 @@ void cover_add_json(json_fields *fields, const cover_report *report);
 sl_status cover_check_places(sl_context *context, const char *table, const sl_space *space,
                              const sl_cameras *cameras);
 
-/// Notes rows with a heading and no field of view: these were to look one way.
-void cover_note_headings(sl_context *context, const char *table, const sl_cameras *cameras);
+/// Notes rows with a heading and no field of view: these were to look one way. `remedy`: what gives
+/// them one, as "a column fov".
+void cover_note_headings(sl_context *context, const char *table, const sl_cameras *cameras,
+                         const char *remedy);
 /// Notes who sees nothing: a sign hangs on what it faces, and a camera on a wall stands at one side
 /// of it.
 void cover_note_blind(sl_context *context, const char *table, const cover_report *report);

@@ -9,7 +9,7 @@ static sl_status survey(sl_context *context, const report_cameras_scene *scene,
     sl_viewpoint *viewpoints;
     SL_TRY(sl_cameras_read(context, scene->table, &like, &out->cameras));
     SL_TRY(cover_check_places(context, scene->table, &scene->baked->space, &out->cameras));
-    cover_note_headings(context, scene->table, &out->cameras);
+    cover_note_headings(context, scene->table, &out->cameras, "a column fov");
     SL_TRY(cover_viewpoints(context, &out->cameras, &viewpoints));
     const sl_status status =
         sl_coverage_make(context, scene->query, viewpoints, out->cameras.count, &out->coverage);

@@ -677,7 +677,10 @@ static void take_wish(app_state *app) {
     const char *path = app->desk.wish_path;
     sl_status status = SL_OK;
     app->desk.wish = WISH_NONE;
-    if (app->desk.file.locked && wish != WISH_READ_TABLE && wish != WISH_COMPARE) return;
+    if (app->desk.file.locked && wish != WISH_READ_TABLE && wish != WISH_COMPARE) {
+        if (wish == WISH_WRITE_TABLE) map_file_exported(&app->desk, false);
+        return;
+    }
     if (wish == WISH_READ_TABLE)
         status = cameras_read(&app->view, path);
     else if (wish == WISH_WRITE_TABLE)
@@ -706,6 +709,7 @@ void actions_answered(app_state *app) {
 void action_run(app_state *app, int action) {
     if (action < 0 || action >= action_count()) return;
     const action_row *a = action_at(action);
+    app->desk.file.cameras = cameras_unsaved(&app->view); // one may have come in this frame
     if (a->run)
         a->run(app);
     else

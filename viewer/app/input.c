@@ -253,7 +253,7 @@ void input_key(app_state *app, const char *key, bool down) {
         if (down) app->recorder.plays = false;
         return;
     }
-    if (down) action->run(app);
+    if (down) action_run(app, number);
     if (down && !before && app->ui.field) app->ui.field_mutes = true;
     if (down) mute_letter(app, key);
 }

@@ -1,6 +1,7 @@
 /// SDL's window, its density of pixels, and the loop of events.
 #include "app/window.h"
 
+#include "app/actions.h"
 #include "app/frame.h"
 #include "app/input.h"
 #include "app/turn.h"
@@ -232,7 +233,7 @@ static void take_event(app_window *w, const SDL_Event *e) {
     char name[48];
     switch (e->type) {
     case SDL_QUIT:
-        map_file_quit(&w->app->desk);
+        action_run(w->app, action_find("quit"));
         break;
     case SDL_KEYDOWN:
     case SDL_KEYUP:

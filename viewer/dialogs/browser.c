@@ -465,6 +465,7 @@ void browser_save(desk_state *desk, browse_kind kind, const char *name, browser_
         set_free_path(b, name);
     else
         set_path(b, b->folder, name);
+    b->path.chosen = true; // what is typed replaces the suggestion
 }
 
 void browser_save_to(desk_state *desk, const char *path, browser_save_file *then) {

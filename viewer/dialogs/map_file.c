@@ -140,8 +140,8 @@ static void go_on(desk_state *desk) {
         do_pending(desk);
         return;
     }
-    snprintf(text, sizeof text, "%zu camera%s in no file as %s now.", count,
-             count == 1 ? " is" : "s are", count == 1 ? "it is" : "they are");
+    snprintf(text, sizeof text, "%zu camera%s not exported.", count,
+             count == 1 ? " is" : "s are");
     question_ask(desk, "Export the cameras?", text, answers, 3, take_export);
 }
 
@@ -200,6 +200,7 @@ void map_file_start(desk_state *desk, const document_source *source) {
 
 void map_file_give_up(desk_state *desk) {
     desk->file.saved = desk->document->history.state;
+    desk->file.cameras = 0;
 }
 
 // --- saving
