@@ -890,7 +890,16 @@ sl_status sl_map_find_inside(sl_context *context, sl_map *map, const sl_clean_op
     forget(context, map);
     if (map->start_count || !map->wall_count) return SL_OK;
     const size_t seams = map->seam_count;
-    SL_TRY(find(context, map));
+    const sl_status status = find(context, map);
+    if (status == SL_UNSUPPORTED) {
+        forget(context, map);
+        sl_note(context,
+                "%s: its walls are too dense to look for rooms among them; name a place in a room "
+                "by --start X,Y",
+                sli_map_name(map));
+        return SL_OK;
+    }
+    SL_TRY(status);
     if (map->seam_count == seams || (sl_map_is_axial(map) && !map->cell_count)) return SL_OK;
     // Walls go through the rounded ends of seams.
     SL_TRY(sl_map_clean(context, map, clean, &again));
