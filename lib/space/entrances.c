@@ -50,8 +50,6 @@
 /// Usual entrances, in metres, and the share of their width that doors have.
 #define ENTRANCE 1.2
 #define DOORS    0.7
-/// How much wider than a width that is found the widest entrance may be.
-#define WIDEST 3.5
 /// Slits are narrower than this share of the map, and no entrances.
 #define SLIT 1000
 /// Entrances of a plan are wider than this share of it.
@@ -377,7 +375,7 @@ static sl_status find_by_doors(sl_context *context, sl_map *map, double most, bo
 /// nothing else is doubtful then, and a building is inside.
 static sl_status widen(sl_context *context, sl_map *map, double narrow) {
     const sl_interior before = map->interior;
-    const double most = WIDEST * before.width;
+    const double most = SLI_DOUBT_FOUND * before.width;
     bool found = true;
     for (double width = 0; found && map->interior.doubtful_width > width;) {
         width = map->interior.doubtful_width;

@@ -12,6 +12,8 @@
 
 #define SLI_NO_TRIANGLE UINT32_MAX
 
+/// Openings up to so many times a width that is found, that of a narrow door, are doubtful.
+#define SLI_DOUBT_FOUND 3.5
 /// How much roomier than its opening a part or pocket is.
 #define SLI_ROOMIER (4.0 / 3)
 

@@ -5,9 +5,8 @@
 
 #include <math.h>
 
-/// Openings up to so many times W are doubtful. A width that is found is that of a narrow door.
-#define DOUBT       2.5
-#define DOUBT_FOUND 3.5
+/// Openings up to so many times W are doubtful, where W was not found.
+#define DOUBT 2.5
 /// How long, by the square root of their area, the walls around a core are: 4 around a square, 4.5
 /// around a rectangle that is 2.6 times as long as wide, 6.4 around one of 8 times.
 #define CORE_AT_JAMB  4.5
@@ -15,7 +14,7 @@
 
 double sli_parts_doubtful_up_to(const sli_entrances *f, double width) {
     if (f->found.by == SL_ENTRANCE_WIDE) return fmax(width, f->doubt);
-    return (f->found.by == SL_ENTRANCE_FOUND ? DOUBT_FOUND : DOUBT) * width;
+    return (f->found.by == SL_ENTRANCE_FOUND ? SLI_DOUBT_FOUND : DOUBT) * width;
 }
 
 // --- parts that are inside
