@@ -215,7 +215,7 @@ static sl_status take_plan(sl_context *context, const char *path, const char *wa
             context, SL_BAD_ARGUMENT,
             "%s: there is no map '%.64s': the file holds one map, so --map is not needed", path,
             wanted);
-    if (!sheet.count || (cropped && !wanted)) return SL_OK;
+    if (!sheet.count || ((cropped || map->source.joined) && !wanted)) return SL_OK;
     if (!wanted) {
         map->source.plans = (uint32_t)sheet.count;
         sl_note(context,

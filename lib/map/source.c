@@ -209,7 +209,8 @@ sl_status sli_source_copy(sl_context *context, const sl_map_source *from, sl_map
                           .page = from->page,
                           .pixels = from->pixels,
                           .drawing_unit = from->drawing_unit,
-                          .plans = from->plans};
+                          .plans = from->plans,
+                          .joined = from->joined};
     SL_TRY(copy_text(context, from->name, &to->name));
     SL_TRY(copy_text(context, from->notes, &to->notes));
     SL_TRY(copy_labels(context, from, to));

@@ -32,6 +32,9 @@
 /// What rounding may add to a length before a bound counts.
 #define SLACK (1 + 0x1p-40)
 
+/// Channels that cross each other so often take minutes: a map of so many lines is none of rooms.
+enum { MOST_CROSSINGS = 1 << 20 };
+
 /// A half-edge by which the search goes on, and the stretch of the wall below it.
 typedef struct step {
     uint32_t half;
@@ -263,8 +266,8 @@ static sl_status triangulate_again(finder *f, const char *source, double weld) {
     sli_planar graph = {0};
     sl_status status = list_parts(f, &lines);
     if (status == SL_OK)
-        status =
-            sli_planar_make(f->context, source, lines.items.items, lines.items.count, weld, &graph);
+        status = sli_planar_make_up_to(f->context, source, lines.items.items, lines.items.count,
+                                       weld, MOST_CROSSINGS, &graph);
     if (status == SL_OK)
         status = sli_triangulate(f->context, &graph, &f->out->box, &f->out->triangles);
     if (status == SL_OK) status = take_labels(f, &graph, lines.wall_count);

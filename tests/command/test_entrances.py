@@ -124,6 +124,21 @@ class Entrances(sandbox.ProgramTest):
             self.assertTrue(typed, refused.stderr)
             self.run_well(command, "a.map", *options, *typed[1].split())
 
+    def test_kept_of_drawings(self):
+        """In a plan that is drawn, a wide entrance is found. Map text keeps it; doors stay narrow."""
+        for entrance, kept in (2, ["entrance 200"]), (1, []):
+            lines = "".join("<polyline points='" + " ".join(f"{100 * x} {100 * y}" for x, y in line) + "'/>"
+                            for line in house(entrance))
+            self.box.path("a.svg").write_text(
+                "<svg xmlns='http://www.w3.org/2000/svg' fill='none' stroke='#000'>"
+                f"<g id='walls'>{lines}</g><g id='table'><circle cx='500' cy='200' r='40'/></g></svg>",
+                encoding="utf-8")
+            self.printed("convert", "a.svg", "-o", "a.map", "-q")
+            self.assertEqual(self.statements("a.map"), kept)
+            wanted = self.inside("a.svg")
+            self.assertAlmostEqual(wanted[1], 1e4 * area_inside(entrance), delta=1e-5)
+            self.same_inside("a.map", wanted)
+
     def test_rooms_end_at_entrances(self):
         """A hall is a room, though its entrance is wider than doors."""
         self.write("a.map", 2, 0, ["unit m"])

@@ -1,6 +1,7 @@
 """A small reader of SVG drawings for own_readers.py: shapes and paths through their transforms.
 
-Curves become chords, style sheets are not read. Layers are the nearest group with a label or an id.
+Curves become chords. Of style sheets, only classes are read that are not displayed or have no ink.
+Layers are the nearest group with a label or an id.
 """
 import math
 import re
@@ -9,6 +10,9 @@ import xml.etree.ElementTree as ET
 from own_readers import CHORDS, Drawing, apply, joined, round_points
 
 NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
+RULE = re.compile(r"\.([\w-]+)\s*\{([^}]*)\}")
+BARE = re.compile(r"fill\s*:\s*none")
+HIDES = re.compile(r"display\s*:\s*none")
 COMMAND = re.compile(r"([MmZzLlHhVvCcSsQqTtAa])([^MmZzLlHhVvCcSsQqTtAa]*)")
 ARC = re.compile(rf"((?:{NUMBER.pattern}[\s,]*){{3}})([01])[\s,]*([01])"  # flags may touch what follows
                  rf"([\s,]*{NUMBER.pattern}[\s,]*{NUMBER.pattern})")
@@ -152,6 +156,9 @@ def walk(drawing, node, m, layer, ids, depth=0):
     kind = node.tag.rsplit("}", 1)[-1] if isinstance(node.tag, str) else ""
     style = (node.get("style") or "") + ";display:" + (node.get("display") or "") + ";visibility:" + (
         node.get("visibility") or "")
+    classes = set((node.get("class") or "").split())
+    if classes & drawing.hidden or kind != "g" and classes & drawing.bare and "stroke" not in style:
+        return
     if re.search(r"display\s*:\s*none|visibility\s*:\s*(hidden|collapse)", style) or kind in (
             "defs", "symbol", "clipPath", "mask", "pattern", "marker", "linearGradient", "filter"):
         if depth == 0 or kind != "symbol":
@@ -166,8 +173,8 @@ def walk(drawing, node, m, layer, ids, depth=0):
         if target is not None and depth < 16:
             x, y = (numbers(node.get(key) or "0")[0] for key in ("x", "y"))
             walk(drawing, target, joined(m, (1, 0, 0, 1, x, y)), layer, ids, depth + 1)
-    if kind == "style" and ("none" in (node.text or "") or "hidden" in (node.text or "")):
-        drawing.unread["style sheets that hide"] += 1
+    if kind == "style":
+        drawing.unread["rules that hide, of no class"] += len(HIDES.findall(RULE.sub("", node.text or "")))
     for line in shapes(node, kind):
         drawing.line(layer, [apply(m, *point) for point in line])
     for child in node:
@@ -177,6 +184,9 @@ def walk(drawing, node, m, layer, ids, depth=0):
 def svg(path):
     root = ET.parse(path).getroot()
     drawing = Drawing()
+    rules = RULE.findall("".join(node.text or "" for node in root.findall(".//{*}style")))
+    drawing.hidden = {name for name, body in rules if HIDES.search(body)}
+    drawing.bare = {name for name, body in rules if BARE.search(body) and "stroke" not in body}
     ids = {node.get("id"): node for node in root.iter() if node.get("id")}
     walk(drawing, root, (1, 0, 0, 1, 0, 0), "", ids)
     drawing.unread["inner pictures"] += len(root.findall(".//{*}svg"))

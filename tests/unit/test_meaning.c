@@ -24,6 +24,8 @@ static void test_standards(void **state) {
     MEANS(SLI_MEANS_DOOR, "A-DOOR", "A-DOOR-FULL", "A-32----E-", "OPENINGS",
           "Wandöffnung öffnungen", "ouvertures", "vanos", "проемы");
     MEANS(SLI_MEANS_GRID, "0-0_グリッド");
+    MEANS(SLI_MEANS_SITE, "outside", "Outdoors");
+    MEANS(SLI_MEANS_WALL, "outside walls");
     MEANS(SLI_MEANS_WINDOW, "A-GLAZ", "A-GLAZ-CURT", "WINDOW", "A-31----E-");
     MEANS(SLI_MEANS_FURNITURE, "I-FURN", "A-EQPM", "P-FIXT", "E-LITE", "furniture|0", "Bed",
           "Room furniture");

@@ -96,6 +96,7 @@ static void assert_found(void (*more)(drawing *d), sli_plan_parts expected) {
         assert_int_equal(found.beside, expected.beside);
         assert_int_equal(found.loose, expected.loose);
         assert_int_equal(found.pieces, expected.pieces);
+        assert_int_equal(found.tiles, expected.tiles);
         sli_plan_parts_destroy(d.context, &found);
         sl_map_destroy(d.context, &d.map);
         sl_context_destroy(d.context);
@@ -142,6 +143,22 @@ static void add_beds(drawing *d) {
     bed(d, 9, 5);
 }
 
+/// Tiles in the second room, the last of each row cut by its wall and open there.
+static void add_tiles(drawing *d) {
+    for (int row = 0; row < 8; row++)
+        for (int column = 0; column < 9; column++) {
+            const double x = 4.22 + 0.4 * column, y = 0.32 + 0.4 * row;
+            if (column < 8) {
+                box(d, x, y, x + 0.395, y + 0.395);
+                continue;
+            }
+            d->item++;
+            add_line(d, x + 0.3, y, x, y);
+            add_line(d, x, y, x, y + 0.395);
+            add_line(d, x, y + 0.395, x + 0.3, y + 0.395);
+        }
+}
+
 static void test_found(void **state) {
     (void)state;
     assert_found(add_nothing, (sli_plan_parts){0});
@@ -151,6 +168,7 @@ static void test_found(void **state) {
     assert_found(add_axis, (sli_plan_parts){.across = 1});
     assert_found(add_legend, (sli_plan_parts){.beside = 6});
     assert_found(add_beds, (sli_plan_parts){.loose = 12, .pieces = 4});
+    assert_found(add_tiles, (sli_plan_parts){.tiles = 8 * (8 * 4 + 3)});
 }
 
 static void add_all(drawing *d) {
@@ -193,6 +211,15 @@ static void test_kept(void **state) {
     bed(&d, 5, 1);
     assert_ok(d.context, sli_plan_parts_find(d.context, &d.map, 1, &found));
     assert_int_equal(sli_plan_parts_count(&found), 0);
+    sli_plan_parts_destroy(d.context, &found);
+    sl_map_destroy(d.context, &d.map);
+    // Rooms in rows and columns, by their inner faces, without doors: their walls are no joints.
+    for (int i = 0; i < 120; i++) {
+        const double x = 4 * (double)(i % 12), y = 4 * (double)(i / 12);
+        box(&d, x, y, x + 3.88, y + 3.88);
+    }
+    assert_ok(d.context, sli_plan_parts_find(d.context, &d.map, 1, &found));
+    assert_int_equal(found.tiles, 0);
     sli_plan_parts_destroy(d.context, &found);
     sl_map_destroy(d.context, &d.map);
     // A hall with boxes in it: the outer face of its wall is no frame.

@@ -9,11 +9,29 @@
 
 #include <stdio.h>
 
+/// In a plan that is drawn, an opening wider than usual may be the entrance. What is written says
+/// so where it can, so that the same is inside.
+static sl_status keep_wide_entrance(sl_context *context, const sl_map_format *format,
+                                    const sl_clean_options *clean, sl_map *map) {
+    sl_map copy = {0};
+    if (!map->entrance_may_be_wide || !(format->keeps & SL_KEEPS_ENTRANCE)) return SL_OK;
+    sl_status status = sl_map_copy(context, map, &copy);
+    if (status == SL_OK) status = sl_map_clean(context, &copy, clean, NULL);
+    if (status == SL_OK) status = sl_map_find_inside(context, &copy, clean, NULL);
+    if (status == SL_OK && copy.interior.by == SL_ENTRANCE_WIDE) {
+        map->entrance = copy.interior.width;
+        map->entrance_by_doors = false;
+    }
+    sl_map_destroy(context, &copy);
+    return status;
+}
+
 static sl_status convert(sl_context *context, const char *input, const input_options *reading,
                          bool clean, const sl_map_format *format, const char *output) {
     sl_map map = {0};
     SL_TRY(input_read_either(context, input, reading, &map));
-    sl_status status = clean ? input_clean(context, reading, &map, NULL) : SL_OK;
+    sl_status status = keep_wide_entrance(context, format, &reading->clean, &map);
+    if (status == SL_OK && clean) status = input_clean(context, reading, &map, NULL);
     if (status == SL_OK) status = sl_map_settle_ground(context, &map);
     if (status == SL_OK) status = sl_map_write(context, &map, format, output);
     sl_map_destroy(context, &map);

@@ -179,6 +179,7 @@ typedef struct sl_map_source {
     double pixels;    ///< of the program that the file is from, in a unit of the map; 0: unknown
     int drawing_unit; ///< of a DXF drawing, by its $INSUNITS; 0 for none. Kept as the page is
     uint32_t plans;   ///< on a sheet that was read whole; 0 for one map. Kept as the page is
+    bool joined; ///< doors of a drawing lead between what would be plans of a sheet: it is one map
     /// What the file calls its lines, by ascending line: layers, handles, ids. Map text and .slv
     /// files do not keep them. Equal texts that follow each other stand in label_text once.
     sl_label *labels;

@@ -51,6 +51,9 @@ double sli_choice_longest_door(const sli_choice *c);
 /// Finds the openings that lie over walls: bars, doors of layers and swings (contents_doors.c).
 /// Bars that cut are no walls themselves. Where doors are drawn as doors, other bars are windows.
 sl_status sli_choice_find_openings(sli_choice *c);
+/// Sets sl_map_source.joined, once the walls are chosen: some door leads from one part of the
+/// drawing to another.
+sl_status sli_choice_join_plans(const sli_choice *c);
 /// Adds the doors to the map, with the option doors.
 sl_status sli_choice_add_doors(sli_choice *c);
 

@@ -604,6 +604,7 @@ static sl_status keep_large(sli_contents *contents, double metre, sli_pen *pen) 
 sl_status sli_contents_choose(sli_contents *contents, double metre, sli_pen *pen) {
     sli_choice c = {.contents = contents, .map = pen->map, .metre = metre};
     sl_status status = contents->runs.count ? choose(&c, pen) : SL_OK;
+    if (status == SL_OK) status = sli_choice_join_plans(&c);
     contents->doors = c.symbols.swings.count;
     contents->door = sli_choice_door(&c);
     contents->walls_named = c.walls_named;

@@ -3,6 +3,7 @@
 #include "io/parts/choice.h"
 
 #include "geometry/length.h"
+#include "map/plans.h"
 
 #include <math.h>
 #include <stdint.h>
@@ -268,6 +269,34 @@ sl_status sli_choice_add_doors(sli_choice *c) {
         const sli_group_run *run = &c->contents->runs.items[i];
         if (c->contents->groups.items[run->group].means == SLI_MEANS_DOOR)
             SL_TRY(add_doors_of_run(c, run));
+    }
+    return SL_OK;
+}
+
+// --- doors between parts of the drawing
+
+/// Which plan of a sheet a place belongs to; their count for none.
+static size_t plan_at(const sli_sheet *sheet, sl_point at, double near) {
+    size_t i = 0;
+    for (; i < sheet->count; i++) {
+        const sl_box b = sheet->plans[i].bounds;
+        if (at.x >= b.min.x - near && at.x <= b.max.x + near && at.y >= b.min.y - near &&
+            at.y <= b.max.y + near)
+            break;
+    }
+    return i;
+}
+
+sl_status sli_choice_join_plans(const sli_choice *c) {
+    sli_sheet sheet;
+    if (!c->openings.items.count) return SL_OK;
+    SL_TRY(sli_sheet_find(c->contents->context, c->map, &sheet));
+    for (size_t i = 0; i < c->openings.items.count && sheet.count; i++) {
+        const sli_opening *door = &c->openings.items.items[i];
+        const double length = sli_length(door->to.x - door->from.x, door->to.y - door->from.y);
+        const size_t from = plan_at(&sheet, door->from, length / 10);
+        const size_t to = plan_at(&sheet, door->to, length / 10);
+        c->map->source.joined |= from != to && from < sheet.count && to < sheet.count;
     }
     return SL_OK;
 }

@@ -97,6 +97,7 @@ static void note_parts(const sli_plan_parts *parts, char *text, size_t size) {
     if (parts->beside) add_kind(shown, sizeof shown, parts->beside, "beside the plan");
     if (parts->loose)
         add_kind(shown, sizeof shown, parts->loose, "that touch no wall (furniture, symbols)");
+    if (parts->tiles) add_kind(shown, sizeof shown, parts->tiles, "of tiles");
     add_part(text, size, "no walls by their shape: %s", shown);
 }
 

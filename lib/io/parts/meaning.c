@@ -156,6 +156,10 @@ static const char rooms[] = "room zimmer raum raume chambre salle stanza sala cu
 static const char nodes[] = "node rfid* reader* waypoint* graph* route*";
 static const char edges[] = "edge link";
 
+/// What is around a building, where rooms are named one by one. With another word it says where
+/// that stands: "outside walls".
+static const char outside[] = "outside outdoor outdoors";
+
 const char *sli_meaning_text(sli_meaning meaning) {
     return lists[meaning].text;
 }
@@ -361,12 +365,6 @@ static size_t last_part(sli_word name) {
     return begin;
 }
 
-sli_meaning sli_meaning_of(sli_word name) {
-    const size_t begin = last_part(name);
-    const sli_meaning last = meaning_of_part((sli_word){name.at + begin, name.length - begin});
-    return last || !begin ? last : meaning_of_part((sli_word){name.at, begin});
-}
-
 /// Whether all words of a name are in a list.
 static bool is_all(sli_word name, const char *patterns) {
     const char *at = name.at, *const end = name.at + name.length;
@@ -377,6 +375,13 @@ static bool is_all(sli_word name, const char *patterns) {
         any = true;
     }
     return any;
+}
+
+sli_meaning sli_meaning_of(sli_word name) {
+    const size_t begin = last_part(name);
+    if (is_all(name, outside)) return SLI_MEANS_SITE;
+    const sli_meaning last = meaning_of_part((sli_word){name.at + begin, name.length - begin});
+    return last || !begin ? last : meaning_of_part((sli_word){name.at, begin});
 }
 
 bool sli_meaning_is_rooms(sli_word name) {

@@ -22,6 +22,7 @@
 
 #include "geometry/length.h"
 #include "io/parts/plan_net.h"
+#include "io/parts/plan_tiles.h"
 
 #include <math.h>
 #include <string.h>
@@ -523,7 +524,20 @@ static sl_status look(finder *f, const sl_map *map, bool first) {
     return SL_OK;
 }
 
+/// Tiles of floors, by a net of all walls.
+static sl_status drop_tiles(finder *f, const sl_map *map) {
+    SL_TRY(make_net(f, map));
+    sl_bits *tiles = sl_alloc_array(f->context, sl_bits_words(map->wall_count), sizeof *tiles);
+    size_t count = 0;
+    const sl_status status = tiles ? sli_plan_tiles_find(&f->net, tiles, &count) : SL_NO_MEMORY;
+    for (uint32_t i = 0; status == SL_OK && count && i < map->wall_count; i++)
+        if (sl_bits_has(tiles, i)) drop(f, i, &f->out->tiles);
+    sl_free(f->context, tiles);
+    return status;
+}
+
 static sl_status find_all(finder *f, const sl_map *map) {
+    SL_TRY(drop_tiles(f, map));
     SL_TRY(look(f, map, true));
     if (!f->net.whole || !(f->net.most > 0)) return SL_OK;
     SL_TRY(drop_dimensions(f));

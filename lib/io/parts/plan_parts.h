@@ -1,6 +1,6 @@
 /// What a plan has beside walls, found by shape alone, in drawings whose layers say nothing: frames
-/// of sheets, axes and dimension lines that run across walls, legends beside the plan, and
-/// furniture that stands loose in rooms.
+/// of sheets, axes and dimension lines that run across walls, legends beside the plan, furniture
+/// that stands loose in rooms, and tiles of floors.
 #ifndef SL_PLAN_PARTS_H
 #define SL_PLAN_PARTS_H
 
@@ -15,6 +15,7 @@ typedef struct sli_plan_parts {
     size_t across;        ///< walls that run across drawn walls
     size_t beside;        ///< walls of what lies beside the plan
     size_t loose, pieces; ///< walls of loose things, and how many these are
+    size_t tiles;         ///< walls of tiles
     double
         rest; ///< the share, by length, of what is left and not drawn as walls are; 0 for unknown
 } sli_plan_parts;
@@ -26,7 +27,8 @@ sl_status sli_plan_parts_find(sl_context *context, const sl_map *map, double met
 void sli_plan_parts_destroy(sl_context *context, sli_plan_parts *parts);
 
 static inline size_t sli_plan_parts_count(const sli_plan_parts *parts) {
-    return parts->frame + parts->dimensions + parts->across + parts->beside + parts->loose;
+    return parts->frame + parts->dimensions + parts->across + parts->beside + parts->loose +
+           parts->tiles;
 }
 
 #endif
