@@ -1,4 +1,5 @@
-// Placement: gaps that chosen places leave are closed, where what sees them is hard to find.
+// Placement: gaps that chosen places leave are closed, where what sees them is hard to find; and
+// what is chosen for them makes others redundant.
 #include "testing.h"
 
 #include "analysis/placement/placer.h"
@@ -10,7 +11,8 @@ typedef struct outline {
 
 /// A plan, and a placer for it.
 typedef struct plan {
-    testing_memory memory;
+    testing_memory memory; ///< first: hooks get this alone
+    bool over;             ///< cancelled
     sl_context *context;
     sl_map map;
     sl_space space;
@@ -26,9 +28,15 @@ static sl_point turned(sl_point p, int quarters) {
     return p;
 }
 
+static bool is_over(void *user) {
+    return ((const plan *)user)->over;
+}
+
 static void begin(plan *p, const outline *outlines, size_t count, int quarters) {
     *p = (plan){.options = sl_place_options_default(), .out.count = UINT32_MAX};
-    p->context = testing_context(&p->memory);
+    const sl_hooks hooks = {.user = &p->memory, .resize = testing_resize, .cancelled = is_over};
+    p->context = sl_context_create(&hooks);
+    assert_non_null(p->context);
     for (size_t i = 0; i < count; i++)
         for (size_t k = 0; k < outlines[i].count; k++)
             assert_ok(p->context,
@@ -96,9 +104,48 @@ static void apex_between_rooms(void **state) {
     }
 }
 
+/// Places that others make redundant are dropped, but not all that see the same.
+static void redundant_places(void **state) {
+    (void)state;
+    static const sl_point hall[] = {{0, 0}, {10, 0}, {10, 4}, {4, 4}, {4, 10}, {0, 10}};
+    static const sl_point eyes[] = {{1, 9}, {9, 1}, {2, 2}, {3, 3}};
+    const outline outlines[] = {{hall, 6}};
+    plan p;
+    bool dropped;
+    begin(&p, outlines, 1, 0);
+    assert_ok(p.context, sli_add_first_witnesses(&p.placer));
+    for (int i = 0; i < 4; i++) choose(&p, eyes[i]);
+    assert_ok(p.context, sli_drop_redundant(&p.placer, &dropped));
+    assert_true(dropped);
+    assert_int_equal(p.placer.chosen.count, 1);
+    assert_int_equal(count_gaps(&p), 0);
+    assert_ok(p.context, sli_drop_redundant(&p.placer, &dropped));
+    assert_false(dropped);
+    assert_int_equal(p.placer.chosen.count, 1);
+    end(&p);
+}
+
+/// A large map has many gaps: what is done for them ends when it is cancelled.
+static void gaps_are_cancelled(void **state) {
+    (void)state;
+    static const sl_point hall[] = {{0, 0}, {10, 0}, {10, 4}, {4, 4}, {4, 10}, {0, 10}};
+    const outline outlines[] = {{hall, 6}};
+    plan p;
+    begin(&p, outlines, 1, 0);
+    choose(&p, (sl_point){1, 9});
+    assert_int_not_equal(count_gaps(&p), 0);
+    p.over = true;
+    assert_int_equal(sli_add_in_line(&p.placer), SL_CANCELLED);
+    p.over = false;
+    assert_ok(p.context, sli_add_in_line(&p.placer));
+    end(&p);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(apex_between_rooms),
+        cmocka_unit_test(redundant_places),
+        cmocka_unit_test(gaps_are_cancelled),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
