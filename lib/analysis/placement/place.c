@@ -182,11 +182,12 @@ static sl_status complete(sli_placer *p) {
     return SL_OK;
 }
 
+/// Fewer steps while coarse. On a large map, where each new gap costs viewpoints, twice as many; a
+/// set that sees everything is made half way, in case the time ends.
 static sl_status bound_above(sli_placer *p, bool *added) {
-    // Steps are cheap beside what a large map's lower bound takes, and gaps cost more viewpoints.
-    const size_t coarse = COARSE_STEPS + p->out->lower / FEW_OF;
-    const size_t most = p->coarse && coarse < UPPER_STEPS ? coarse : UPPER_STEPS;
-    for (size_t i = 0; i < most; i++) {
+    const int coarse = p->out->lower > MANY_ROWS / 2 ? 2 * COARSE_STEPS : COARSE_STEPS;
+    const int most = p->coarse ? coarse : UPPER_STEPS;
+    for (int i = 0; i < most; i++) {
         bool none, one = false;
         sl_cover_problem problem = {0};
         sl_cover_result cover = {0};
@@ -198,6 +199,7 @@ static sl_status bound_above(sli_placer *p, bool *added) {
         *added = *added || one;
         if (none) return keep_chosen(p);
         if (!one || (p->coarse && p->gaps.count <= p->chosen.count / FEW_OF)) break;
+        if (p->coarse && i + 1 == COARSE_STEPS && i + 1 < most) SL_TRY(complete(p));
     }
     return complete(p);
 }
