@@ -115,7 +115,8 @@ sl_status sli_is_seen(sli_placer *placer, sl_point at, bool *seen); ///< by a ch
 void sli_choose_none(sli_placer *placer);
 sl_status sli_choose(sli_placer *placer, uint32_t candidate);
 /// Drops chosen candidates where others see all the witnesses and germs that they do. What only
-/// they saw, gaps tell. *dropped: there were some.
+/// they saw, gaps tell: of each part of the plan that has a witness some is still seen. *dropped:
+/// there were some.
 sl_status sli_drop_redundant(sli_placer *placer, bool *dropped);
 
 #endif
