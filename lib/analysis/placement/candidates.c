@@ -217,6 +217,7 @@ sl_status sli_add_in_line(sli_placer *p) {
         const sli_look look = *sli_chosen_look(p, p->gaps.items[i].look);
         const sli_window w = look.windows[p->gaps.items[i].window];
         sl_segment line;
+        SL_TRY(sl_check_cancelled(p->context));
         if (find_hidden(p, &p->gaps.items[i], &line)) SL_TRY(add_on_line(p, &look, line));
         const sl_point corners[] = {w.wall.a, w.wall.b};
         for (int k = 0; k < 2; k++)
@@ -293,4 +294,45 @@ void sli_choice_destroy(sl_context *context, sl_cover_problem *problem, sl_cover
     sl_free(context, (void *)(uintptr_t)problem->ends);
     sl_free(context, (void *)(uintptr_t)problem->entries);
     sl_cover_result_destroy(context, cover);
+}
+
+/// Adds to counts how many of the chosen ones see a witness, or a germ: by `sign`.
+static void count_seen(const sli_candidate *c, int sign, int *witnesses, int *germs) {
+    for (size_t k = 0; k < c->sees.count; k++) witnesses[c->sees.items[k]] += sign;
+    for (size_t k = 0; k < c->germs.count; k++) germs[c->germs.items[k]] += sign;
+}
+
+/// Whether others see all that a chosen one does.
+static bool is_redundant(const sli_candidate *c, const int *witnesses, const int *germs) {
+    bool redundant = true;
+    for (size_t k = 0; k < c->sees.count && redundant; k++)
+        redundant = witnesses[c->sees.items[k]] > 1;
+    for (size_t k = 0; k < c->germs.count && redundant; k++)
+        redundant = germs[c->germs.items[k]] > 1;
+    return redundant;
+}
+
+sl_status sli_drop_redundant(sli_placer *p, bool *dropped) {
+    const size_t before = p->chosen.count;
+    int *witnesses = sl_alloc_array(p->context, p->witnesses.count, sizeof *witnesses);
+    int *germs = sl_alloc_array(p->context, p->germs.count, sizeof *germs);
+    uint32_t *all = sl_alloc_array(p->context, before, sizeof *all);
+    sl_status status = witnesses && germs && all ? SL_OK : SL_NO_MEMORY;
+    for (size_t i = 0; status == SL_OK && i < before; i++) {
+        all[i] = p->chosen.items[i];
+        count_seen(&p->candidates.items[all[i]], 1, witnesses, germs);
+    }
+    if (status == SL_OK) sli_choose_none(p);
+    for (size_t i = 0; status == SL_OK && i < before; i++) {
+        const sli_candidate *c = &p->candidates.items[all[i]];
+        if (is_redundant(c, witnesses, germs))
+            count_seen(c, -1, witnesses, germs);
+        else
+            status = sli_choose(p, all[i]);
+    }
+    *dropped = p->chosen.count < before;
+    sl_free(p->context, witnesses);
+    sl_free(p->context, germs);
+    sl_free(p->context, all);
+    return status;
 }

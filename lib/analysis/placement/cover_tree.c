@@ -418,12 +418,18 @@ static sl_status grow_trees(sl_context *context, tree *t, double *duals) {
     return SL_OK;
 }
 
+/// Whether the program may come to an end at the root: it takes a step for most rows at least, and
+/// nothing interrupts it.
+static bool suits_program(const sli_cover *cover) {
+    return root_work / (1 + cover->column_first[cover->columns]) >= cover->rows / 2;
+}
+
 sl_status sli_cover_branch(sl_context *context, sli_cover_part *part, double *duals,
                            uint64_t *nodes) {
     const sl_cover_program *program = part->options->program;
     tree t = {.part = part, .problem = sli_cover_problem(part->cover), .nodes_left = nodes};
     sl_status status = tree_make(context, &t, part->cover);
-    if (status == SL_OK && program && program->begin)
+    if (status == SL_OK && program && program->begin && suits_program(part->cover))
         status = program->begin(context, &t.problem, &t.program);
     if (status == SL_OK) status = grow_trees(context, &t, duals);
     if (t.program) program->end(context, t.program);

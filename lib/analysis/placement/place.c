@@ -154,6 +154,7 @@ static sl_status find_unseen(sli_placer *p, bool *none, bool *added) {
     bool missed, one;
     SL_TRY(find_gaps(p));
     for (size_t i = 0; i < p->gaps.count; i++) {
+        SL_TRY(sl_check_cancelled(p->context));
         SL_TRY(sli_add_beyond(p, &p->gaps.items[i], &one));
         if (!one) SL_TRY(sli_add_germ(p, &p->gaps.items[i], &one));
         found += one;
@@ -165,19 +166,27 @@ static sl_status find_unseen(sli_placer *p, bool *none, bool *added) {
     return SL_OK;
 }
 
-/// Chooses more candidates, until everything is seen: a set that may be no best one.
+/// Chooses more candidates, until everything is seen: a set that may be no best one. Then some may
+/// be in vain: it goes on without these, as long as there are fewer in the end.
 static sl_status complete(sli_placer *p) {
     for (bool more = true; more && p->chosen.count < p->out->count;) {
         SL_TRY(sl_check_cancelled(p->context));
         SL_TRY(find_gaps(p));
-        if (!p->gaps.count) return keep_chosen(p);
-        SL_TRY(sli_choose_for_gaps(p, &more));
+        if (p->gaps.count) {
+            SL_TRY(sli_choose_for_gaps(p, &more));
+            continue;
+        }
+        SL_TRY(keep_chosen(p));
+        SL_TRY(sli_drop_redundant(p, &more));
     }
     return SL_OK;
 }
 
+/// Fewer steps while coarse. On a large map, where each new gap costs viewpoints, twice as many; a
+/// set that sees everything is made half way, in case the time ends.
 static sl_status bound_above(sli_placer *p, bool *added) {
-    const int most = p->coarse ? COARSE_STEPS : UPPER_STEPS;
+    const int coarse = p->out->lower > MANY_ROWS / 2 ? 2 * COARSE_STEPS : COARSE_STEPS;
+    const int most = p->coarse ? coarse : UPPER_STEPS;
     for (int i = 0; i < most; i++) {
         bool none, one = false;
         sl_cover_problem problem = {0};
@@ -190,6 +199,7 @@ static sl_status bound_above(sli_placer *p, bool *added) {
         *added = *added || one;
         if (none) return keep_chosen(p);
         if (!one || (p->coarse && p->gaps.count <= p->chosen.count / FEW_OF)) break;
+        if (p->coarse && i + 1 == COARSE_STEPS && i + 1 < most) SL_TRY(complete(p));
     }
     return complete(p);
 }

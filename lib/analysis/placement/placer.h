@@ -114,5 +114,9 @@ sl_status sli_is_seen(sli_placer *placer, sl_point at, bool *seen); ///< by a ch
 /// Chooses no candidate; and one more.
 void sli_choose_none(sli_placer *placer);
 sl_status sli_choose(sli_placer *placer, uint32_t candidate);
+/// Drops chosen candidates where others see all the witnesses and germs that they do. What only
+/// they saw, gaps tell: of each part of the plan that has a witness some is still seen. *dropped:
+/// there were some.
+sl_status sli_drop_redundant(sli_placer *placer, bool *dropped);
 
 #endif
