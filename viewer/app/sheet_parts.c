@@ -219,11 +219,16 @@ static void say_blind(sheet_work *w, const sl_coverage *c) {
     for (uint32_t i = 0; i < c->blind_count && i < ROWS_MOST; i++) {
         document_say_measure(w->view->document, c->blind[i].area, "\xc2\xb2", area);
         view_say_place(map, c->blind[i].at, place);
-        say(w, "%s %u: %s at %s", i ? ";" : "Blind spots:", (unsigned)i + 1, area, place);
+        say(w, "%s %u: %s at %s",
+            i                     ? ";"
+            : c->blind_count == 1 ? "Blind spot"
+                                  : "Blind spots:",
+            (unsigned)i + 1, area, place);
     }
     if (c->blind_count) say(w, ".");
     if (c->blind_count > ROWS_MOST)
-        say(w, " And %u smaller ones.", (unsigned)c->blind_count - ROWS_MOST);
+        say(w, " And %u smaller one%s.", (unsigned)c->blind_count - ROWS_MOST,
+            c->blind_count == ROWS_MOST + 1 ? "" : "s");
 }
 
 /// The table and the classes, in words below the plan.

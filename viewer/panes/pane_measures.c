@@ -36,9 +36,8 @@ static void draw_plan_words(const view_state *view, column *c) {
     if (*view->document->map.unit)
         snprintf(text, sizeof text, "%s inside.", area);
     else
-        snprintf(text, sizeof text,
-                 "%s inside. The file does not say what lengths are in: %s tells it.", area,
-                 drawing_is(view->document->source.path) ? "Ctrl+I" : "'unit m' in map text");
+        snprintf(text, sizeof text, "%s inside. The file does not say what lengths are in: %s.",
+                 area, drawing_unit_hint(view->document->source.path));
     column_words(view->ui, c, 0.95, view->ui->palette.ink, text);
     c->y += 0.4 * view->ui->text;
 }
