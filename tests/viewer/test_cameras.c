@@ -3,6 +3,7 @@
 #include "viewer_app.h"
 
 #include "app/sliders.h"
+#include "document/measure.h"
 #include "plan/cameras.h"
 #include "plan/heat.h"
 #include "plan/room_map.h"
@@ -434,7 +435,7 @@ static void test_typed(void **state) {
     for (int i = 0; i < 3; i++) viewer_press(app, "Ctrl+Shift+K");
     assert_string_equal(app->view.name.text, "12350");
     char said[MEASURE_TEXT];
-    document_say_measure(&app->document, 9999.7, "", said);
+    measure_say(9999.7, app->document.map.unit, "", said);
     assert_memory_equal(said, "10000", 5);
     viewer_press(app, "Return");
     assert_true(camera_chosen(&app->view)->range == 12345.6);
@@ -496,17 +497,12 @@ static void test_typed(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_panel),
-                                       cmocka_unit_test(test_no_portals),
-                                       cmocka_unit_test(test_typed),
-                                       cmocka_unit_test(by_pointer),
-                                       cmocka_unit_test(names),
-                                       cmocka_unit_test(fewest),
-                                       cmocka_unit_test(map_changes),
-                                       cmocka_unit_test(tables),
-                                       cmocka_unit_test(stopped),
-                                       cmocka_unit_test(ground),
-                                       cmocka_unit_test(like_the_chosen),
-                                       cmocka_unit_test(of_no_room)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_panel),      cmocka_unit_test(test_no_portals),
+        cmocka_unit_test(test_typed),      cmocka_unit_test(by_pointer),
+        cmocka_unit_test(names),           cmocka_unit_test(fewest),
+        cmocka_unit_test(map_changes),     cmocka_unit_test(tables),
+        cmocka_unit_test(stopped),         cmocka_unit_test(ground),
+        cmocka_unit_test(like_the_chosen), cmocka_unit_test(of_no_room)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

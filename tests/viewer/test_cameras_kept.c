@@ -143,8 +143,7 @@ static void read_again(void **state) {
     app_state *app = start("house.svg");
     click_at(app, (sl_point){50, 50});
     document_source source = {0};
-    assert_ok(app->context,
-              document_source_copy(app->context, &app->document.source, &source));
+    assert_ok(app->context, document_source_copy(app->context, &app->document.source, &source));
     source.again = true;
     map_file_start(&app->desk, &source);
     app_settle(app);

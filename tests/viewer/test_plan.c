@@ -3,6 +3,7 @@
 #include "hand.h"
 
 #include "app/layout.h"
+#include "document/measure.h"
 #include "plan/building_way.h"
 #include "plan/effects.h"
 #include "plan/from_line.h"
@@ -39,9 +40,9 @@ static void test_opens(void **state) {
     assert_non_null(strstr(app->ui.message, "house.svg: "));
     assert_null(strstr(app->ui.message, "cells"));
     char area[MEASURE_TEXT];
-    document_say_measure(&app->document, 123456, "", area);
+    measure_say(123456, app->document.map.unit, "", area);
     assert_string_equal(area, "123500 px");
-    document_say_measure(&app->document, 12.3456, "", area);
+    measure_say(12.3456, app->document.map.unit, "", area);
     assert_string_equal(area, "12.35 px");
     assert_false(layers_lists(&app->view, LAYER_CULL));
     assert_false(layers_lists(&app->view, LAYER_TREE));

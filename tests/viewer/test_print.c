@@ -5,6 +5,7 @@
 #include "app/sheet.h"
 #include "app/sheet_parts.h"
 #include "dialogs/question.h"
+#include "document/drawings.h"
 #include "plan/cameras.h"
 #include "plan/compare.h"
 #include "plan/from_line.h"
@@ -250,11 +251,71 @@ static void no_unit(void **state) {
     close_plan(&s);
 }
 
+/// A line of map text can only stand in map text.
+static void no_unit_by_kind_of_file(void **state) {
+    (void)state;
+    static const char *const files[][2] = {
+        {"hall.txt", "save it as .map, then write 'unit m' in it"},
+        {"hall.map", "write 'unit m' in the file"},
+    };
+    for (size_t i = 0; i < 2; i++) {
+        char folder[] = "/tmp/sightline-unit-XXXXXX", path[64];
+        assert_non_null(mkdtemp(folder));
+        snprintf(path, sizeof path, "%s/%s", folder, files[i][0]);
+        viewer_write(path,
+                     i ? "sightline 1\nwalls 0 0 5 0 5 5 0 5 0 0\n" : "#####\n#...#\n#####\n");
+        app_state *app = viewer_start(true);
+        viewer_open(app, path);
+        assert_string_equal(app->document.map.unit, "");
+        press(app, "Ctrl+Shift+P");
+        assert_non_null(strstr(app->ui.message, files[i][1]));
+        viewer_end(app);
+        assert_int_equal(remove(path), 0);
+        assert_int_equal(rmdir(folder), 0);
+    }
+    assert_non_null(strstr(drawing_unit_hint("hall.slv"), "bake it"));
+    assert_non_null(strstr(drawing_unit_hint("hall.dxf"), "Ctrl+I"));
+    assert_non_null(strstr(drawing_unit_hint(NULL), "save it as .map"));
+}
+
+/// One blind spot is one, and so is one that the sheet has no room for.
+static void blind_spots_in_words(void **state) {
+    (void)state;
+    static const struct {
+        int teeth;
+        const char *said;
+    } halls[] = {{1, "Blind spot 1: "},
+                 {2, "Blind spots: 1: "},
+                 {41, " And 1 smaller one."},
+                 {42, " And 2 smaller ones."}};
+    for (size_t i = 0; i < sizeof halls / sizeof *halls; i++) {
+        char text[4096] = "sightline 1\nunit m\n";
+        size_t at = strlen(text);
+        const int n = halls[i].teeth;
+        at += (size_t)snprintf(text + at, sizeof text - at, "walls 0 0 %d 0 %d 2", 3 * n, 3 * n);
+        for (int k = n; k-- > 0;) // from the hall one sees a part of each
+            at += (size_t)snprintf(text + at, sizeof text - at, " %d 2 %d 9 %d 9 %d 2", 3 * k + 2,
+                                   3 * k + 2, 3 * k + 1, 3 * k + 1);
+        snprintf(text + at, sizeof text - at, " 0 2 0 0\nstart 0.2 1 0\n");
+        scene s = open_plan(text);
+        press(s.app, "8");
+        click_at(s.app, (sl_point){0.2, 1});
+        app_tick(s.app, 0);
+        assert_int_equal(s.app->view.cameras->coverage.blind_count, n);
+        sheet_parts parts = {0};
+        assert_ok(s.app->context, sheet_parts_fill(&s.app->view, false, &parts));
+        if (!strstr(parts.words.items, halls[i].said)) fail_msg("%s", parts.words.items);
+        sheet_parts_destroy(s.app->context, &parts);
+        close_plan(&s);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_shown),       cmocka_unit_test(all_rows_are_there),
-        cmocka_unit_test(what_tools_show),     cmocka_unit_test(what_does_not_fit),
-        cmocka_unit_test(letters_are_no_name), cmocka_unit_test(no_unit),
+        cmocka_unit_test(what_is_shown),           cmocka_unit_test(all_rows_are_there),
+        cmocka_unit_test(what_tools_show),         cmocka_unit_test(what_does_not_fit),
+        cmocka_unit_test(letters_are_no_name),     cmocka_unit_test(no_unit),
+        cmocka_unit_test(no_unit_by_kind_of_file), cmocka_unit_test(blind_spots_in_words),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -142,6 +142,50 @@ static void seen_and_means(void **state) {
     viewer_end(app);
 }
 
+/// Where no room can be named, Ctrl+K says what to do first.
+static void no_room_to_name(void **state) {
+    (void)state;
+    app_state *app = start();
+    press(app, "9");
+    press(app, "Ctrl+K");
+    assert_string_equal(app->ui.message, "Ctrl+8 shows the rooms first");
+    press(app, "Ctrl+8");
+    app->view.eye.at = (sl_point){-40, 50};
+    press(app, "Ctrl+K");
+    assert_string_equal(app->ui.message, "click a room first");
+    assert_null(app->ui.field);
+    assert_int_equal(app->view.table.chosen, SIZE_MAX);
+    app->view.eye.at = (sl_point){150, 50};
+    press(app, "Ctrl+K");
+    assert_non_null(app->ui.field);
+    viewer_end(app);
+    char folder[] = "/tmp/sightline-rooms-XXXXXX", path[64];
+    assert_non_null(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s/walls.map", folder);
+    viewer_write(path, "sightline 1\nwall 0 0 5 0\nwall 5 0 5 5\n");
+    app = viewer_start(true);
+    viewer_open(app, path);
+    press(app, "9");
+    press(app, "Ctrl+8");
+    press(app, "Ctrl+K");
+    assert_string_equal(app->ui.message, "there is no room in this plan");
+    viewer_end(app);
+    assert_int_equal(remove(path), 0);
+    assert_int_equal(rmdir(folder), 0);
+    // While they are found it says so.
+    app = viewer_start(false);
+    viewer_open(app, MAPS "/office.map");
+    viewer_press(app, "9");
+    viewer_press(app, "Ctrl+8");
+    app_tick(app, 0);
+    for (int i = 0; i < 100 && !room_map_shown(&app->view); i++) {
+        viewer_press(app, "Ctrl+K");
+        assert_string_equal(app->ui.message, "the rooms are still being found");
+        app_tick(app, 0);
+    }
+    viewer_end(app);
+}
+
 static void zones_are_drawn(void **state) {
     (void)state;
     app_state *app = start();
@@ -246,9 +290,8 @@ static void names_are_kept(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rooms_have_names),
-        cmocka_unit_test(seen_and_means),
-        cmocka_unit_test(zones_are_drawn),
+        cmocka_unit_test(rooms_have_names), cmocka_unit_test(seen_and_means),
+        cmocka_unit_test(no_room_to_name),  cmocka_unit_test(zones_are_drawn),
         cmocka_unit_test(names_are_kept),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -20,7 +20,7 @@ sl_status cover_viewpoints(sl_context *context, const sl_cameras *cameras, sl_vi
 const char *cover_area_text(const cover_report *r, double area, char text[AREA_TEXT]) {
     const char *unit = r->baked->map.unit;
     // Four digits, also where %g would write an exponent.
-    const double step = area >= 1e4 && area < 1e15 ? pow(10, floor(log10(area)) - 3) : 0;
+    const double step = area >= 9999.5 && area < 1e15 ? pow(10, floor(log10(area)) - 3) : 0;
     snprintf(text, AREA_TEXT, step > 0 ? "%.0f%s%s%s" : "%.4g%s%s%s",
              step > 0 ? step * round(area / step) : area, *unit ? " " : "", unit,
              *unit ? "\xc2\xb2" : "");

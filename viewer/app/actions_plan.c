@@ -53,18 +53,21 @@ static void type_name(app_state *app, const char *name) {
 
 DO(value_type, slider_type(app, -1))
 
-/// Where none is chosen, it is the room of the viewpoint, else the first.
+/// Where none is chosen, it is the room of the viewpoint.
 static void room_name_typed(app_state *app) {
     const room_map *map = room_map_shown(&app->view);
     const size_t *chosen = &app->view.table.chosen;
-    if (!map || !room_map_rows(map)) {
-        ui_say(&app->ui, false, "there is no room to be named");
-        return;
-    }
-    table_update(&app->view);
-    if (*chosen >= room_map_rows(map)) table_choose(&app->view, room_map_at(map, app->view.eye.at));
-    if (*chosen >= room_map_rows(map)) table_choose(&app->view, 0);
-    if (*chosen < room_map_rows(map)) type_name(app, room_map_name(map, *chosen));
+    if (map) table_update(&app->view);
+    if (map && *chosen >= room_map_rows(map))
+        table_choose(&app->view, room_map_at(map, app->view.eye.at));
+    if (map && *chosen < room_map_rows(map))
+        type_name(app, room_map_name(map, *chosen));
+    else
+        ui_say(&app->ui, false, "%s",
+               map && room_map_rows(map)               ? "click a room first"
+               : map                                   ? "there is no room in this plan"
+               : room_map_progress(&app->view).running ? "the rooms are still being found"
+                                                       : "Ctrl+8 shows the rooms first");
 }
 
 static void camera_name_typed(app_state *app) {

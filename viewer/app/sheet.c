@@ -70,10 +70,8 @@ void sheet_ask(app_state *app) {
                      "A PDF or an SVG of what the plan shows now, with a scale bar. Which paper?",
                      papers, PAPERS + 1, take_paper);
     else
-        ui_say(&app->ui, true,
-               drawing_is(app->document.source.path)
-                   ? "a scale needs the unit of the plan: Ctrl+I tells it, or measures a line"
-                   : "a scale needs the unit of the plan: 'unit m' in map text tells it");
+        ui_say(&app->ui, true, "a scale needs the unit of the plan: %s",
+               drawing_unit_hint(app->document.source.path));
 }
 
 // --- what is drawn

@@ -1,6 +1,7 @@
 /// What each tool adds to a sheet, in the colours of paper.
 #include "app/sheet_parts.h"
 
+#include "document/measure.h"
 #include "plan/building_way.h"
 #include "plan/cameras.h"
 #include "plan/compare.h"
@@ -110,7 +111,7 @@ static sl_status add_from_line(sheet_work *w) {
     if (!layer) return SL_OK;
     for (int i = 0; i < 2; i++) {
         char text[MEASURE_TEXT];
-        document_say_measure(w->view->document, layer->seen[i].area, "\xc2\xb2", text);
+        measure_say(layer->seen[i].area, w->view->document->map.unit, "\xc2\xb2", text);
         snprintf(w->out->names[i], SHEET_NAME, "%s: %s", labels[i], text);
         SL_TRY(add_part(w, (sl_drawn_part){.name = w->out->names[i],
                                            .colour = sl_coverage_colour(&w->palette, i ? 3 : 1),
@@ -128,7 +129,7 @@ static sl_status add_building_way(sheet_work *w) {
     char text[MEASURE_TEXT];
     if (!way || !way->made || !way->route.found) return SL_OK;
     const sl_building_place *p = way->route.points;
-    document_say_measure(w->view->document, way->route.length, "", text);
+    measure_say(way->route.length, w->view->document->map.unit, "", text);
     snprintf(w->out->names[0], SHEET_NAME, "shortest way through the building: %s", text);
     SL_TRY(add_part(w, (sl_drawn_part){.name = w->out->names[0], .colour = w->palette.start}));
     for (size_t i = 1; i < way->route.count; i++)
@@ -142,7 +143,7 @@ static sl_status add_route(sheet_work *w) {
     char text[MEASURE_TEXT];
     if (*w->view->building) return add_building_way(w);
     if (!layer || layer->clicks < 2 || layer->tight || !layer->route.found) return SL_OK;
-    document_say_measure(w->view->document, layer->route.length, "", text);
+    measure_say(layer->route.length, w->view->document->map.unit, "", text);
     snprintf(w->out->names[0], SHEET_NAME, "shortest way: %s", text);
     w->out->places[0] = layer->from;
     w->out->places[1] = layer->to;
@@ -165,7 +166,7 @@ static sl_status add_rooms(sheet_work *w) {
         const sl_box box = room_map_box(map, i);
         w->out->labels.items[w->out->labels.count++] =
             (sl_plan_label){room_map_name(map, i), room_map_place(map, i), 0.9 * box_width(box)};
-        document_say_measure(w->view->document, room_map_area(map, i), "\xc2\xb2", area);
+        measure_say(room_map_area(map, i), w->view->document->map.unit, "\xc2\xb2", area);
         sl_text_percent(room_map_area(map, i) > 0 ? map->seen[i] / room_map_area(map, i) : 0,
                         share);
         if (i < ROWS_MOST)
@@ -202,8 +203,8 @@ static sl_status add_compare(sheet_work *w) {
     if (!c || !c->job.made) return SL_OK;
     SL_TRY(add_walls(w, "walls of this plan alone", &c->removed, false));
     SL_TRY(add_walls(w, "walls of the other plan alone", &c->added, true));
-    document_say_measure(w->view->document, w->view->document->inside_area, "\xc2\xb2", text);
-    document_say_measure(w->view->document, c->area, "\xc2\xb2", other);
+    measure_say(w->view->document->inside_area, w->view->document->map.unit, "\xc2\xb2", text);
+    measure_say(c->area, w->view->document->map.unit, "\xc2\xb2", other);
     say(w, "Inside: %s here, %s in the other plan, %s.", text, other,
         files_base(w->view->compared->source.path));
     return SL_OK;
@@ -217,13 +218,18 @@ static void say_blind(sheet_work *w, const sl_coverage *c) {
     char area[MEASURE_TEXT], place[PLACE_TEXT];
     if (w->view->cameras->table.count > ROWS_MOST && c->blind_count) say(w, "\n");
     for (uint32_t i = 0; i < c->blind_count && i < ROWS_MOST; i++) {
-        document_say_measure(w->view->document, c->blind[i].area, "\xc2\xb2", area);
+        measure_say(c->blind[i].area, w->view->document->map.unit, "\xc2\xb2", area);
         view_say_place(map, c->blind[i].at, place);
-        say(w, "%s %u: %s at %s", i ? ";" : "Blind spots:", (unsigned)i + 1, area, place);
+        say(w, "%s %u: %s at %s",
+            i                     ? ";"
+            : c->blind_count == 1 ? "Blind spot"
+                                  : "Blind spots:",
+            (unsigned)i + 1, area, place);
     }
     if (c->blind_count) say(w, ".");
     if (c->blind_count > ROWS_MOST)
-        say(w, " And %u smaller ones.", (unsigned)c->blind_count - ROWS_MOST);
+        say(w, " And %u smaller one%s.", (unsigned)c->blind_count - ROWS_MOST,
+            c->blind_count == ROWS_MOST + 1 ? "" : "s");
 }
 
 /// The table and the classes, in words below the plan.
@@ -235,8 +241,8 @@ static void say_cameras(sheet_work *w) {
     char text[MEASURE_TEXT], name[CAMERA_NAME];
     if (*layer->proof) say(w, "%s\n", layer->proof);
     for (uint32_t k = 0; k < SL_COVERAGE_CLASSES; k++) {
-        document_say_measure(w->view->document, sl_coverage_class_area(&layer->coverage, k),
-                             "\xc2\xb2", text);
+        measure_say(sl_coverage_class_area(&layer->coverage, k), w->view->document->map.unit,
+                    "\xc2\xb2", text);
         say(w, "%s: %s%s", classes[k], text, k + 1 < SL_COVERAGE_CLASSES ? "; " : ".\n");
     }
     for (size_t i = 0; i < layer->table.count && i < ROWS_MOST; i++) {
@@ -247,11 +253,11 @@ static void say_cameras(sheet_work *w) {
         say(w, "%s: at %s, ", name, place);
         if (v->fov < 360)
             say(w, "heading %.4g\xc2\xb0, field of view %.4g\xc2\xb0, ", v->heading, v->fov);
-        document_say_measure(w->view->document, v->range, "", text);
+        measure_say(v->range, w->view->document->map.unit, "", text);
         if (v->range > 0) say(w, "range %s, ", text);
-        document_say_measure(w->view->document, layer->coverage.seen[i], "\xc2\xb2", text);
+        measure_say(layer->coverage.seen[i], w->view->document->map.unit, "\xc2\xb2", text);
         say(w, "sees %s", text);
-        document_say_measure(w->view->document, layer->coverage.alone[i], "\xc2\xb2", text);
+        measure_say(layer->coverage.alone[i], w->view->document->map.unit, "\xc2\xb2", text);
         if (sl_coverage_is_spare(&layer->coverage, i))
             say(w, " (spare)\n");
         else

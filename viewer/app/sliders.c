@@ -2,6 +2,7 @@
 #include "app/sliders.h"
 
 #include "dialogs/opening.h"
+#include "document/measure.h"
 #include "plan/cameras.h"
 #include "plan/effects.h"
 #include "plan/heat.h"
@@ -141,7 +142,7 @@ static double heat_share(const app_state *app) {
 /// "1.5 m", where the map has a unit.
 static void length_text(const app_state *app, double length, char text[SLIDER_TEXT]) {
     char whole[MEASURE_TEXT];
-    document_say_measure(&app->document, length, "", whole);
+    measure_say(length, app->document.map.unit, "", whole);
     snprintf(text, SLIDER_TEXT, "%.*s", SLIDER_TEXT - 1, whole);
 }
 
@@ -443,11 +444,10 @@ bool slider_typed(app_state *app) {
     if (strcmp(text, app->view.name.text) == 0)
         return true; // as it was, which may have more digits
     snprintf(text, sizeof text, "%.*s", SLIDER_TEXT - 1, app->view.name.text);
-    const size_t digits = strspn(text, "0123456789.,+-eE");
-    const char *rest = text + digits + strspn(text + digits, " ");
+    const char *unit;
     const bool number =
-        (!*rest || strcmp(rest, "\xc2\xb0") == 0 || strcmp(rest, app->document.map.unit) == 0) &&
-        sl_table_number_read(';', text, digits, &value) && isfinite(value);
+        measure_read(text, &value, &unit) &&
+        (!*unit || strcmp(unit, "\xc2\xb0") == 0 || strcmp(unit, app->document.map.unit) == 0);
     if (number && s->begin) s->begin(&app->view);
     const bool done = number && s->type(app, value);
     if (number && s->end) s->end(&app->view);

@@ -5,6 +5,7 @@
 /// a start has none; there the opening counts that may be an entrance (sl_interior.doubtful).
 #include "dialogs/import_parts.h"
 
+#include "document/measure.h"
 #include "sightline/draw.h"
 #include "sightline/support.h"
 
@@ -92,7 +93,7 @@ static sl_status say_sealed(const desk_state *desk, import_state *s) {
     const sl_point at = sealed.largest.at;
     char area[MEASURE_TEXT];
     if (sealed.rooms < 2 || !(sealed.largest.area > 0)) return SL_OK;
-    document_say_measure(desk->document, sealed.largest.area, "\xc2\xb2", area);
+    measure_say(sealed.largest.area, desk->document->map.unit, "\xc2\xb2", area);
     snprintf(s->said_sealed, sizeof s->said_sealed,
              "%u closed part%s, the largest of %s at %.4g, %.4g, count%s as inside, too. "
              "Where these are courts or shafts, 'Here is inside' leaves them out.",
@@ -127,7 +128,7 @@ static void say_scaled(const desk_state *desk, import_state *s) {
     const double now = inside_share(desk->document), before = s->share_before;
     const double width = desk->document->baked->map.interior.width;
     char said[MEASURE_TEXT];
-    document_say_measure(desk->document, width, "", said);
+    measure_say(width, desk->document->map.unit, "", said);
     s->scales = false;
     s->said_scale[0] = '\0';
     if (fabs(now - before) <= 1e-6 || s->has_start) return;
@@ -181,13 +182,12 @@ static void close_leak(desk_state *desk, import_state *s, size_t number) {
 /// The length that was typed, as "4.20 m" or "4,2"; the unit is m where none is said.
 static bool read_length(import_state *s, double *length, const char **sign) {
     static const char *const signs[] = {"mm", "cm", "km", "m", "in", "ft", "yd"};
-    const char *text = s->length.text;
-    const size_t digits = strspn(text, "0123456789.,eE+-");
-    const char *unit = text + digits + strspn(text + digits, " ");
+    const char *unit;
+    if (!measure_read(s->length.text, length, &unit)) return false;
     *sign = *unit ? NULL : "m";
     for (size_t i = 0; i < sizeof signs / sizeof *signs; i++)
         if (strcmp(unit, signs[i]) == 0) *sign = signs[i];
-    return *sign && sl_table_number_read(';', text, digits, length) && *length > 0;
+    return *sign && *length > 0;
 }
 
 /// How long a unit of the file is in the map as it is shown.

@@ -140,8 +140,7 @@ static void go_on(desk_state *desk) {
         do_pending(desk);
         return;
     }
-    snprintf(text, sizeof text, "%zu camera%s not exported.", count,
-             count == 1 ? " is" : "s are");
+    snprintf(text, sizeof text, "%zu camera%s not exported.", count, count == 1 ? " is" : "s are");
     question_ask(desk, "Export the cameras?", text, answers, 3, take_export);
 }
 

@@ -535,16 +535,6 @@ void document_cancel(sl_context *context, document_state *document) {
     free_job(context, job);
 }
 
-void document_say_measure(const document_state *document, double value, const char *power,
-                          char text[MEASURE_TEXT]) {
-    const char *unit = document->map.unit;
-    // Four digits, also where %g would write an exponent.
-    const double step = value >= 9999.5 && value < 1e15 ? pow(10, floor(log10(value)) - 3) : 0;
-    snprintf(text, MEASURE_TEXT, step > 0 ? "%.0f%s%s%s" : "%.4g%s%s%s",
-             step > 0 ? step * round(value / step) : value, *unit ? " " : "", unit,
-             *unit ? power : "");
-}
-
 void document_close(sl_context *context, document_state *document) {
     document_cancel(context, document);
     drop_baked(context, document);

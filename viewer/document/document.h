@@ -132,11 +132,6 @@ void document_stop_soon(document_state *document);
 /// Stops the job, if one runs.
 void document_cancel(sl_context *context, document_state *document);
 
-/// "12.3 m", or with `power`, a raised 2, an area, "12.3 m²".
-enum { MEASURE_TEXT = 96 };
-void document_say_measure(const document_state *document, double value, const char *power,
-                          char text[MEASURE_TEXT]);
-
 /// Closes all but the changes kept for undo: the caller clears those.
 void document_close(sl_context *context, document_state *document);
 

@@ -9,6 +9,9 @@
 /// Whether a file is a floor plan, by its ending: a drawing or a picture.
 bool drawing_is(const char *path);
 
+/// How a plan of this file gets a unit, as a clause; NULL: of no file.
+const char *drawing_unit_hint(const char *path);
+
 /// Takes over what was chosen for the source's file: layers, unit, entrance, weld, start, doors,
 /// error of curves, threshold and closed openings. Its texts are the source's own. False, and
 /// nothing is changed, where nothing was chosen yet. SL_NO_MEMORY in *status leaves the source to

@@ -1,5 +1,6 @@
 /// The panel of the Cameras mode: what the cameras see, the search for the fewest, each camera, and
 /// the blind spots.
+#include "document/measure.h"
 #include "panes/panel.h"
 #include "panes/panes.h"
 #include "plan/cameras.h"
@@ -22,7 +23,7 @@ static void area_text(const view_state *view, double area, char text[AREA_TEXT])
     char share[SL_COUNT_TEXT], measure[MEASURE_TEXT];
     const double all = view->cameras->coverage.overlay.areas[0];
     sl_text_percent(all > 0 ? area / all : 0, share);
-    document_say_measure(view->document, area, "\xc2\xb2", measure);
+    measure_say(area, view->document->map.unit, "\xc2\xb2", measure);
     snprintf(text, AREA_TEXT, "%s   %s", measure, share);
 }
 
@@ -83,8 +84,8 @@ static void draw_list(view_state *view, column *c) {
         if (i >= CAMERAS_LISTED) continue;
         camera_name(layer, i, name);
         if (now) {
-            document_say_measure(view->document, layer->coverage.seen[i], "\xc2\xb2", sees);
-            document_say_measure(view->document, layer->coverage.alone[i], "\xc2\xb2", alone);
+            measure_say(layer->coverage.seen[i], view->document->map.unit, "\xc2\xb2", sees);
+            measure_say(layer->coverage.alone[i], view->document->map.unit, "\xc2\xb2", alone);
             snprintf(text, sizeof text, "sees %s, %s%s", sees, is_spare ? "spare" : "alone ",
                      is_spare ? "" : alone);
         }

@@ -81,7 +81,7 @@ typedef struct help_column {
 /// A row with a key and what it does; `action` is -1 where a click does nothing.
 static void help_row(help_column *c, const char *key, const char *help, int action) {
     ui_state *ui = c->ui;
-    const double t = ui->text, keys = fmin(8.5 * t, 0.4 * (c->right - c->left));
+    const double t = ui->text, keys = fmin(9.5 * t, 0.4 * (c->right - c->left));
     const double words = c->left + keys, room = c->right - words;
     const double high = fmax(ui_lines_height(ui, keys - 0.6 * t, 1, true, key),
                              ui_lines_height(ui, room, 1, false, help)) +

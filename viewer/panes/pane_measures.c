@@ -1,6 +1,7 @@
 /// The panel of the Plan mode: what is measured, in the units of the plan.
 #include "document/drawings.h"
 #include "document/files.h"
+#include "document/measure.h"
 #include "panes/panel.h"
 #include "panes/panes.h"
 #include "plan/building_way.h"
@@ -32,13 +33,12 @@ static void put_row(ui_state *ui, column *c, const char *label, const char *valu
 static void draw_plan_words(const view_state *view, column *c) {
     char area[MEASURE_TEXT], text[256];
     if (!view->document->baked) return;
-    document_say_measure(view->document, view->document->inside_area, "\xc2\xb2", area);
+    measure_say(view->document->inside_area, view->document->map.unit, "\xc2\xb2", area);
     if (*view->document->map.unit)
         snprintf(text, sizeof text, "%s inside.", area);
     else
-        snprintf(text, sizeof text,
-                 "%s inside. The file does not say what lengths are in: %s tells it.", area,
-                 drawing_is(view->document->source.path) ? "Ctrl+I" : "'unit m' in map text");
+        snprintf(text, sizeof text, "%s inside. The file does not say what lengths are in: %s.",
+                 area, drawing_unit_hint(view->document->source.path));
     column_words(view->ui, c, 0.95, view->ui->palette.ink, text);
     c->y += 0.4 * view->ui->text;
 }
@@ -114,11 +114,11 @@ static void draw_building_way(const view_state *view, column *c) {
                      "No way leads there: walls, shut doors or missing links are between.");
         return;
     }
-    document_say_measure(view->document, way->route.length, "", text);
+    measure_say(way->route.length, view->document->map.unit, "", text);
     put_row(view->ui, c, "length", text);
     for (size_t i = 0; i < way->route.link_count; i++) {
         const sl_storey_link *link = &way->building.links[way->route.links[i]];
-        document_say_measure(view->document, link->length, "", text);
+        measure_say(link->length, view->document->map.unit, "", text);
         put_row(view->ui, c, link->name, text);
     }
     column_words(view->ui, c, 0.9, view->ui->palette.faint,
@@ -151,10 +151,10 @@ static void draw_route(const view_state *view, column *c) {
                      "No way leads there. The ring marks the nearest place that can be reached.");
         return;
     }
-    document_say_measure(view->document, layer->route.length, "", text);
+    measure_say(layer->route.length, view->document->map.unit, "", text);
     put_row(view->ui, c, "length", text);
-    document_say_measure(view->document,
-                         hypot(layer->to.x - layer->from.x, layer->to.y - layer->from.y), "", text);
+    measure_say(hypot(layer->to.x - layer->from.x, layer->to.y - layer->from.y),
+                view->document->map.unit, "", text);
     put_row(view->ui, c, "straight line", text);
     snprintf(text, sizeof text, "%zu", layer->route.count - 2);
     put_row(view->ui, c, "turns at corners", text);
@@ -178,11 +178,11 @@ static void draw_from_line(const view_state *view, column *c) {
         return;
     }
     const sl_point *ends = view->from_line->ends;
-    document_say_measure(view->document, hypot(ends[1].x - ends[0].x, ends[1].y - ends[0].y), "",
-                         text);
+    measure_say(hypot(ends[1].x - ends[0].x, ends[1].y - ends[0].y), view->document->map.unit, "",
+                text);
     put_row(view->ui, c, "length of the line", text);
     for (int i = 0; layer && i < 2; i++) {
-        document_say_measure(view->document, layer->seen[i].area, "\xc2\xb2", text);
+        measure_say(layer->seen[i].area, view->document->map.unit, "\xc2\xb2", text);
         put_row(view->ui, c, labels[i], text);
         snprintf(name, sizeof name, "%s, share", i ? "from all" : "from some");
         sl_text_percent(view->document->area > 0 ? layer->seen[i].area / view->document->area : 0,
@@ -258,7 +258,7 @@ static void draw_rooms(const view_state *view, column *c) {
     for (size_t i = 0; i < room_map_rows(map); i++) {
         const double area = room_map_area(map, i);
         char size[MEASURE_TEXT];
-        document_say_measure(view->document, area, "\xc2\xb2", size);
+        measure_say(area, view->document->map.unit, "\xc2\xb2", size);
         sl_text_percent(area > 0 ? map->seen[i] / area : 0, share);
         snprintf(text, sizeof text, "%s, %s", size, share);
         ui_hit_focus(
@@ -267,7 +267,7 @@ static void draw_rooms(const view_state *view, column *c) {
     }
     draw_room_name(view, c);
     if (map->rooms.width > 0) {
-        document_say_measure(view->document, map->rooms.width, "", text);
+        measure_say(map->rooms.width, view->document->map.unit, "", text);
         char words[2 * MEASURE_TEXT + 64];
         snprintf(words, sizeof words, "Openings up to %s count as doors.", text);
         column_words(view->ui, c, 0.9, view->ui->palette.faint, words);
@@ -279,7 +279,7 @@ static void draw_rooms(const view_state *view, column *c) {
 static void put_walls(const view_state *view, column *c, const char *label,
                       const wall_list *walls) {
     char text[MEASURE_TEXT];
-    document_say_measure(view->document, wall_change_length(walls), "", text);
+    measure_say(wall_change_length(walls), view->document->map.unit, "", text);
     put_row(view->ui, c, label, text);
 }
 
@@ -294,9 +294,9 @@ static void draw_compare(const view_state *view, column *c) {
         column_words(view->ui, c, 0.95, view->ui->palette.ink,
                      path ? "Reading the other plan ..." : "Choose the other plan.");
     if (other) {
-        document_say_measure(view->document, view->document->inside_area, "\xc2\xb2", text);
+        measure_say(view->document->inside_area, view->document->map.unit, "\xc2\xb2", text);
         put_row(view->ui, c, "inside this plan", text);
-        document_say_measure(view->document, other->area, "\xc2\xb2", text);
+        measure_say(other->area, view->document->map.unit, "\xc2\xb2", text);
         put_row(view->ui, c, "inside the other plan", text);
         if (other->job.made) {
             put_walls(view, c, "walls of the other alone", &other->added);

@@ -3,6 +3,7 @@
 #include "plan/building_way.h"
 
 #include "document/drawings.h"
+#include "document/measure.h"
 #include "sightline/draw.h"
 #include "ui/tones.h"
 
@@ -155,7 +156,7 @@ void building_way_update(view_state *view, bool wait) {
     way->made = status == SL_OK;
     view_check(view, status);
     char length[MEASURE_TEXT];
-    document_say_measure(view->document, way->route.length, "", length);
+    measure_say(way->route.length, view->document->map.unit, "", length);
     if (way->made)
         ui_say(view->ui, false, way->route.found ? "the way is %s long" : "no way leads there",
                length);

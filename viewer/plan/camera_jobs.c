@@ -8,6 +8,7 @@
 /// at the same time.
 #include "plan/cameras.h"
 
+#include "document/measure.h"
 #include "document/task.h"
 #include "sightline/glpk.h"
 #include "sightline/place_area.h"
@@ -256,7 +257,7 @@ static sl_camera found(const search_job *job, uint32_t number) {
 enum { LIKE_TEXT = MEASURE_TEXT + 48 };
 static void say_like(const view_state *view, const sl_viewpoint *like, char text[LIKE_TEXT]) {
     char range[MEASURE_TEXT];
-    document_say_measure(view->document, like->range, "", range);
+    measure_say(like->range, view->document->map.unit, "", range);
     snprintf(text, LIKE_TEXT, "field of view %.4g\xc2\xb0, %s%s", like->fov,
              like->range > 0 ? "range " : "no limit of range", like->range > 0 ? range : "");
 }

@@ -9,6 +9,7 @@
 /// they change. Where another layer fills the plan, lines between four levels are drawn over it.
 #include "plan/heat.h"
 
+#include "document/measure.h"
 #include "document/task.h"
 #include "plan/compare.h"
 #include "plan/value_scale.h"
@@ -576,7 +577,7 @@ bool heat_layer_key(const view_state *view, legend_key *key) {
     legend_key_add(key, "under the pointer", value);
     sl_text_count(g->grid.count, "point", count);
     legend_key_add(key, "grid", count);
-    document_say_measure(view->document, g->step, "", step);
+    measure_say(g->step, view->document->map.unit, "", step);
     legend_key_add(key, "from point to point", step);
     if (view->heat_choice.held) legend_key_add(key, "colour scale", "kept");
     if (by_rank(view)) value_scale_quarters(&view->heat->scale, "points", key);

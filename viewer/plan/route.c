@@ -4,6 +4,7 @@
 
 #include "plan/building_way.h"
 
+#include "document/measure.h"
 #include "sightline/draw.h"
 #include "ui/tones.h"
 
@@ -63,7 +64,7 @@ void route_click(view_state *view, sl_point at) {
     find_again(view, layer);
     if (layer->clicks < 2 || layer->tight) return;
     char length[MEASURE_TEXT];
-    document_say_measure(view->document, layer->route.length, "", length);
+    measure_say(layer->route.length, view->document->map.unit, "", length);
     ui_say(view->ui, false, layer->route.found ? "the way is %s long" : "no way leads there",
            length);
 }

@@ -1,7 +1,12 @@
 /** The JSON export (and with it a .slv file): the map in it, as EXPORT.md says under "As a map". */
 
+import { FormatError } from './map-text.js';
+
 /** @param {any} file @returns {{items: import('./map-text.js').Item[], notes: string[]}} */
 export function readBaked(file) {
+    const { version = 1 } = file;
+    if (![1, 2].includes(version))
+        throw new FormatError(`the JSON export has the version ${JSON.stringify(version)}; this page reads 1 and 2`);
     const items = [], key = (s) => s.join(' '), special = new Set();
     const oneSided = new Set(file.one_sided_mirrors ?? []);
     (file.mirrors ?? []).forEach((points, i) => {

@@ -118,7 +118,7 @@ export class Sight {
         const item = error.line ? this.doc.items[error.line - 2] : null;
         if (item) this.doc.select(error.line - 2);
         this.hasError = true;
-        panel.showMessage(item ? `${error.message}\n${t`The ${t(item.kind)} that is meant is chosen.`}` : error.message, true);
+        panel.showMessage(item ? `${error.message}\n${t`The error is in this part, which is chosen now: ${t(item.kind)}.`}` : error.message, true);
         this.showFacts();
         this.redraw();
     }

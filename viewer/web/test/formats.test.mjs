@@ -61,6 +61,14 @@ test('the JSON export becomes the map that it was made of', needsNative, async (
     }
 });
 
+test('a version of the JSON export that is not known is refused, as by the command', async () => {
+    const map = { format: 'sightline', walls: [[0, 0, 9, 0]] };
+    for (const version of [1, 2]) assert.equal((await read(JSON.stringify({ ...map, version }))).items.length, 1);
+    assert.equal((await read(JSON.stringify(map))).items.length, 1);
+    for (const version of [99, 0, 1.5, '2'])
+        await assert.rejects(read(JSON.stringify({ ...map, version })), { name: 'FormatError', message: /version/ });
+});
+
 test('an outline has its area and its length', () => {
     assert.deepEqual(measureOutline([0, 0, 3, 0, 3, 4]), { area: 6, perimeter: 12 });
     assert.deepEqual(measureOutline([1e9, 1e9, 1e9, 1e9 + 2, 1e9 + 2, 1e9 + 2, 1e9 + 2, 1e9]), { area: -4, perimeter: 8 });
