@@ -168,6 +168,44 @@ static void test_void(void **state) {
                  80, 0, 16);
 }
 
+#define WIDE               "1,1,1,1,1,1,1,1,1,0,0,0"
+#define HOLED              "1,0,1,0,1,0,1,0,1,0,0,0"
+#define LINE(x, y, points) DRAWN(x, y, "polyline", points)
+#define RAIL(x, y)         LINE(x, y, "0,0 8,0 8,8 0,8 0,0")
+#define RAILS(y)           RAIL("8", y) RAIL("24", y) RAIL("40", y) RAIL("56", y)
+
+/// Squares at the edge are solid where one place in ten is open, and not at more. The border of
+/// holes among rooms does not count, and a wall parts only squares that it lies between.
+static void test_void_with_openings(void **state) {
+    (void)state;
+    // 10 places, of them 1 open, and 2.
+    const char *corner = "1,1,1,1,1,1,0,0,0,0,0,0";
+    char text[2][4000];
+    for (int i = 0; i < 2; i++) {
+        snprintf(text[i], sizeof text[i],
+                 "<map" SIZE "tilewidth='8' tileheight='8'>" SET "<layer name='base'" SIZE
+                 "><data encoding='csv'>%s,%s,%s,%s," NONE "," NONE "," NONE "," NONE
+                 "</data></layer>" SOLID(LINE("48", "0", "0,0 0,32 %s,32")) "</map>",
+                 corner, corner, corner, corner, i ? "-32" : "-40");
+    }
+    assert_true(read_share(text[0], NULL).inside == 24);
+    assert_true(read_share(text[1], NULL).inside != 24);
+    // 4 places of 8 are open; with those of 12 holes it would be 4 of 56.
+    const share holes =
+        read_share(MAP(SET LAYER("base", WIDE ", " HOLED ", " WIDE ", " HOLED ", " WIDE ", " HOLED
+                                              ", " WIDE ", " WIDE)
+                           SOLID(LINE("72", "0", "0,0 0,32") RAILS("8") RAILS("24") RAILS("40"))),
+                   NULL);
+    assert_true(holes.inside == 96);
+    // 1 place of 8 is open. A wall elsewhere lies in line with it.
+    const share line =
+        read_share(MAP(SET LAYER("base", WIDE ", " WIDE ", " WIDE ", " WIDE ", " WIDE ", " WIDE
+                                              ", " WIDE ", " WIDE)
+                           SOLID(LINE("72", "8", "0,0 0,56") LINE("0", "4", "0,0 8,0"))),
+                   NULL);
+    assert_true(line.inside == 96);
+}
+
 /// Where nothing says what is solid, and tiles lie as floors of rooms do, the command names void.
 static void test_refused(void **state) {
     (void)state;
@@ -229,6 +267,7 @@ int main(void) {
         cmocka_unit_test(test_outlines),
         cmocka_unit_test(test_shapes_of_tiles),
         cmocka_unit_test(test_void),
+        cmocka_unit_test(test_void_with_openings),
         cmocka_unit_test(test_refused),
         cmocka_unit_test(test_bare_objects),
         cmocka_unit_test(test_where_objects_stand),
