@@ -105,6 +105,17 @@ static void test_outlines(void **state) {
         95, 0, 1);
 }
 
+/// Nothing is beyond the map where it has an end: without one, or with objects beyond its edge, the
+/// objects alone are the map.
+static void test_page(void **state) {
+    (void)state;
+    const char *infinite = "<map infinite='1'" SIZE "tilewidth='8' tileheight='8'>" SOLID(
+        BOX("16", "16", "8", "8") BOX("40", "16", "8", "8")) "</map>";
+    assert_share(infinite, 2, 0, 2);
+    assert_share(MAP(SOLID(BOX("-8", "16", "16", "8") BOX("16", "16", "8", "8"))), 1, 0, 3);
+    assert_share(MAP(SOLID(BOX("0", "16", "16", "8") BOX("24", "16", "8", "8"))), 93, 0, 3);
+}
+
 #define SHAPED                                                                                     \
     "<tileset firstgid='1' tilewidth='8' tileheight='8'><tile id='0'><objectgroup>" BOX(           \
         "0", "0", "8", "4") "</objectgroup></tile></tileset>"
@@ -116,6 +127,24 @@ static void test_shapes_of_tiles(void **state) {
     assert_share(MAP(SHAPED LAYER("a", "0,0,0,0,0,0,0,0,0,0,0,0, 0,0,1,1,0,0,0,0,0,0,0,0, " NONE
                                        ", " NONE ", " NONE ", " NONE ", " NONE ", " NONE)),
                  95, 0, 1);
+}
+
+#define DIAMONDS(body)                                                                             \
+    "<map orientation='isometric'" SIZE "tilewidth='16' tileheight='8'>\n" SET LAYER(              \
+        "collision", NONE ", " NONE ", " NONE ", " NONE ", " NONE ", " NONE ", " NONE              \
+                          ", 0,0,0,0,0,0,0,0,0,0,0,1") body "</map>"
+#define TWO        SOLID(BOX("16", "16", "32", "32") BOX("64", "8", "8", "8"))
+#define DOOR(x, y) "<object name='door' x='" x "' y='" y "' width='8' height='8'/>"
+
+/// The same where tiles are diamonds, each as large as a square of the plan. One tile is solid.
+static void test_diamonds(void **state) {
+    (void)state;
+    assert_true(read_share(DIAMONDS(TWO), NULL).inside == 78);
+    assert_true(read_share(DIAMONDS(TWO THINGS(START("40", "8"))), NULL).inside == 78);
+    assert_true(read_share(DIAMONDS(TWO THINGS(DOOR("52", "24"))), NULL).inside == 78);
+    // A start in it, or a door over it.
+    assert_true(read_share(DIAMONDS(TWO THINGS(START("20", "40"))), NULL).inside == 16);
+    assert_true(read_share(DIAMONDS(TWO THINGS(DOOR("44", "24"))), NULL).inside == 94);
 }
 
 #define FLOORS                                                                                     \
@@ -265,7 +294,9 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_solid),
         cmocka_unit_test(test_outlines),
+        cmocka_unit_test(test_page),
         cmocka_unit_test(test_shapes_of_tiles),
+        cmocka_unit_test(test_diamonds),
         cmocka_unit_test(test_void),
         cmocka_unit_test(test_void_with_openings),
         cmocka_unit_test(test_refused),

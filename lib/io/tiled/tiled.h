@@ -227,7 +227,7 @@ typedef enum sli_tiled_by {
     SLI_TILED_BY_NAME,    ///< names of layers let expect it: trees, platforms
     SLI_TILED_BY_TERRAIN, ///< tiles' terrains
     SLI_TILED_BY_SET,     ///< names of tilesets
-    SLI_TILED_BY_BARE,    ///< objects that have a shape and say nothing: what else are they for?
+    SLI_TILED_BY_BARE,    ///< objects with a shape, and without a name, type or property
     SLI_TILED_BY_GUESS,   ///< the look of one layer
 } sli_tiled_by;
 
