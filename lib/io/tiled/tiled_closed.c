@@ -34,23 +34,15 @@ sl_status sli_tiled_add_closed(sli_tiled_reader *reader, sli_tiled_kind kind, si
     *own = (sli_tiled_closed){.first = first, .count = count, .kind = kind, .of_tile = of_tile};
     reader->closed_objects += !of_tile;
     own->box = (sl_box){walls[0].a, walls[0].a};
-    for (size_t i = 1; i < count; i++) {
-        const sl_point at = walls[i].a;
-        if (at.x < own->box.min.x) own->box.min.x = at.x;
-        if (at.y < own->box.min.y) own->box.min.y = at.y;
-        if (at.x > own->box.max.x) own->box.max.x = at.x;
-        if (at.y > own->box.max.y) own->box.max.y = at.y;
-    }
+    for (size_t i = 1; i < count; i++) own->box = sli_box_with(own->box, walls[i].a);
     return SL_OK;
 }
 
 /// A ray to the right crosses its sides an odd number of times.
 bool sli_tiled_is_in(const sli_tiled_reader *reader, const sli_tiled_closed *closed, sl_point at) {
     const sl_wall *walls = reader->pen.map->walls + closed->first;
-    const sl_box *box = &closed->box;
     bool in = false;
-    if (at.x < box->min.x || at.x > box->max.x || at.y < box->min.y || at.y > box->max.y)
-        return false;
+    if (!sli_box_holds(&closed->box, at)) return false;
     for (size_t i = 0; i < closed->count; i++) {
         const bool up = walls[i].b.y > at.y;
         if (up == (walls[i].a.y > at.y)) continue;
@@ -60,8 +52,8 @@ bool sli_tiled_is_in(const sli_tiled_reader *reader, const sli_tiled_closed *clo
     return in;
 }
 
-/// The place of a start or a door in the map, and its box.
-static sl_box box_of_thing(const sli_tiled_reader *reader, const sli_thing *thing, sl_point *at) {
+sl_box sli_tiled_box_of_thing(const sli_tiled_reader *reader, const sli_thing *thing,
+                              sl_point *at) {
     const double x = fabs(thing->u.x) + fabs(thing->v.x);
     const double y = fabs(thing->u.y) + fabs(thing->v.y);
     *at = (sl_point){thing->middle.x, reader->top - thing->middle.y};
@@ -77,7 +69,7 @@ static sl_status has_thing(const sli_tiled_reader *reader, about *a, const sli_t
     for (size_t i = 0; i < a->found.count && !*has; i++) {
         const sli_thing *thing = &reader->things.items.items[a->found.items[i]];
         sl_point at;
-        const sl_box own = box_of_thing(reader, thing, &at);
+        const sl_box own = sli_tiled_box_of_thing(reader, thing, &at);
         const bool over = own.max.x > box->min.x && own.min.x < box->max.x &&
                           own.max.y > box->min.y && own.min.y < box->max.y;
         *has = over && (thing->kind == SLI_THING_DOOR || sli_tiled_is_in(reader, closed, at));
@@ -168,7 +160,7 @@ static sl_status look_about(const sli_tiled_reader *reader, about *a) {
         a->boxes[count++] = reader->closed.items[i].box;
     }
     for (size_t i = 0; i < things; i++)
-        a->boxes[count + i] = box_of_thing(reader, &reader->things.items.items[i], &at);
+        a->boxes[count + i] = sli_tiled_box_of_thing(reader, &reader->things.items.items[i], &at);
     SL_TRY(sli_box_tree_create(reader->context, a->boxes, count, &a->objects));
     return sli_box_tree_create(reader->context, a->boxes + count, things, &a->things);
 }

@@ -2,8 +2,8 @@
 ///
 /// After the firm words come weaker ones, and the first that gives anything decides: names of
 /// layers that stand for something solid (platforms, trees), terrains named Wall, tilesets named
-/// walls, objects without a name, type or property. At last one layer is looked at, and only rules that
-/// hold for few maps count:
+/// walls, objects without a name, type or property. At last one layer is looked at, and only rules
+/// that hold for few maps count:
 ///
 /// - Where the only layer of tiles is named for a floor, there is a wall where it has no tile.
 /// - Where the map or a tileset is named for a dungeon or a sewer, and one tile covers at least

@@ -177,10 +177,8 @@ static void take_doors(field *f) {
     const sli_tiled_reader *reader = f->reader;
     for (size_t i = 0; i < reader->things.items.count; i++) {
         const sli_thing *thing = &reader->things.items.items[i];
-        const sl_point at = {thing->middle.x, reader->top - thing->middle.y};
-        const double x = fabs(thing->u.x) + fabs(thing->v.x);
-        const double y = fabs(thing->u.y) + fabs(thing->v.y);
-        const sl_box box = {{at.x - x, at.y - y}, {at.x + x, at.y + y}};
+        sl_point at;
+        const sl_box box = sli_tiled_box_of_thing(reader, thing, &at);
         const sli_tiled_range all = squares_of(f, &box);
         if (thing->kind != SLI_THING_DOOR) continue;
         for (int64_t row = all.top; row < all.bottom; row++)
