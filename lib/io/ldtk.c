@@ -36,10 +36,11 @@ static sl_status read_level(sli_ldtk *reader, const sli_json *level, sli_ldtk_pl
     const sli_json path = sli_json_member(level, "externalRelPath");
     const sli_json height = sli_json_member(level, "pxHei");
     const sli_json width = sli_json_member(level, "pxWid");
-    int64_t pixels;
-    SL_TRY(sli_json_whole(&height, 1, SLI_LDTK_MOST_PIXELS, &pixels));
-    const double bottom = at.y + (double)pixels;
-    const sl_box own = {{at.x, at.y}, {at.x + sli_json_number_or_0(&width), bottom}};
+    int64_t rows, columns;
+    SL_TRY(sli_json_whole(&height, 1, SLI_LDTK_MOST_PIXELS, &rows));
+    SL_TRY(sli_json_whole(&width, 1, SLI_LDTK_MOST_PIXELS, &columns));
+    const double bottom = at.y + (double)rows;
+    const sl_box own = {{at.x, at.y}, {at.x + (double)columns, bottom}};
     SL_TRY(SL_ARRAY_ROOM(reader->context, &reader->pages, 1));
     reader->pages.items[reader->pages.count++] = own;
     reader->bottom = reader->levels ? fmax(reader->bottom, bottom) : bottom;
@@ -213,10 +214,11 @@ static void give_account(sli_ldtk *reader, const sl_map *map, const sli_ldtk_set
     const size_t count = reader->layers ? reader->layers : reader->tile_layers;
     if (reader->walls.count) {
         sl_note(reader->context,
-                "%s: level %s%s: %zu entities that are named for walls give %zu walls%s; unit: "
-                "pixels, y = %s - the file's y",
-                reader->name, reader->taken, world, reader->walls.count, map->wall_count,
-                sli_tally_write("; left out: ", left, 4, without), bottom);
+                "%s: level %s%s: %zu %s %zu walls%s; unit: pixels, y = %s - the file's y",
+                reader->name, reader->taken, world, reader->walls.count,
+                reader->walls.count == 1 ? "entity named as a wall gives"
+                                         : "entities named as walls give",
+                map->wall_count, sli_tally_write("; left out: ", left, 4, without), bottom);
         return;
     }
     sl_note(reader->context,

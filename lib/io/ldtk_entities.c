@@ -59,39 +59,39 @@ static double number_in(const sli_json *entity, const char *key, size_t index) {
     return sli_json_number_or_0(&number);
 }
 
-/// Keeps the middle of an entity that is neither a start nor a door. What is wrong with it loses
-/// nobody's file: it counts as 0.
-static sl_status keep_other(sli_ldtk *reader, const sli_json *entity, sl_point corner) {
-    const sli_json width = sli_json_member(entity, "width");
-    const sli_json height = sli_json_member(entity, "height");
-    SL_TRY(SL_ARRAY_ROOM(reader->context, &reader->others, 1));
-    reader->others.items[reader->others.count++] =
-        (sl_point){corner.x + number_in(entity, "px", 0) +
-                       (0.5 - number_in(entity, "__pivot", 0)) * sli_json_number_or_0(&width),
-                   corner.y + number_in(entity, "px", 1) +
-                       (0.5 - number_in(entity, "__pivot", 1)) * sli_json_number_or_0(&height)};
-    return SL_OK;
-}
-
-/// Keeps the box of an entity that is named for a wall.
-static sl_status keep_wall(sli_ldtk *reader, const sli_json *entity, sl_point corner, double step) {
+/// An entity's box. Its pivot is at its place "px". What is wrong with it loses nobody's file: it
+/// counts as 0.
+static sl_box box_of_entity(const sli_json *entity, sl_point corner) {
     const sli_json width = sli_json_member(entity, "width");
     const sli_json height = sli_json_member(entity, "height");
     const sl_point size = {sli_json_number_or_0(&width), sli_json_number_or_0(&height)};
     const sl_point at = {
         corner.x + number_in(entity, "px", 0) - number_in(entity, "__pivot", 0) * size.x,
         corner.y + number_in(entity, "px", 1) - number_in(entity, "__pivot", 1) * size.y};
+    return (sl_box){at, {at.x + size.x, at.y + size.y}};
+}
+
+/// Keeps the middle of an entity that is neither a start nor a door.
+static sl_status keep_other(sli_ldtk *reader, const sl_box *box) {
+    SL_TRY(SL_ARRAY_ROOM(reader->context, &reader->others, 1));
+    reader->others.items[reader->others.count++] =
+        (sl_point){(box->min.x + box->max.x) / 2, (box->min.y + box->max.y) / 2};
+    return SL_OK;
+}
+
+/// Keeps the box of an entity that is named for a wall.
+static sl_status keep_wall(sli_ldtk *reader, const sl_box *box, double step) {
+    const sl_point size = {box->max.x - box->min.x, box->max.y - box->min.y};
     if (!(size.x > 0 && size.y > 0)) return SL_OK;
     SL_TRY(SL_ARRAY_ROOM(reader->context, &reader->walls, 1));
-    reader->walls.items[reader->walls.count++] = (sl_box){at, {at.x + size.x, at.y + size.y}};
+    reader->walls.items[reader->walls.count++] = *box;
     reader->wall_step = step;
     reader->wall_sized |= size.x > step || size.y > step;
     reader->entities--;
     return SL_OK;
 }
 
-/// Adds an entity that is a start or a door; keeps the place of any other. Its pivot is at its
-/// place "px".
+/// Adds an entity that is a start or a door; keeps the place of any other.
 static sl_status read_entity(sli_ldtk *reader, const sli_json *entity, sl_point corner, double step,
                              bool walls) {
     const char *name = sli_json_text_of(entity, "__identifier");
@@ -101,10 +101,11 @@ static sl_status read_entity(sli_ldtk *reader, const sli_json *entity, sl_point 
     read_fields(entity, &says, &heading, &own);
     if (says.kind == SLI_THING_DOOR && own != name) says.name = own;
     SL_TRY(sli_things_ask(&reader->things, name, NULL, &says));
-    if (!says.kind && walls && sli_says_solid(name)) return keep_wall(reader, entity, corner, step);
+    const sl_box box = box_of_entity(entity, corner);
+    if (!says.kind && walls && sli_says_solid(name)) return keep_wall(reader, &box, step);
     if (!says.kind) {
         sli_things_leave(&reader->things, name);
-        return keep_other(reader, entity, corner);
+        return keep_other(reader, &box);
     }
     const sli_json px = sli_json_member(entity, "px"), pivot = sli_json_member(entity, "__pivot");
     const sli_json width = sli_json_member(entity, "width");
@@ -134,17 +135,17 @@ sl_status sli_ldtk_read_entities(sli_ldtk *reader, const sli_json *layer, sli_ld
     const sli_json size = sli_json_member(layer, "__gridSize");
     const size_t count = json_array_size(entities.value);
     sl_point corner = {0};
-    double step = 0;
+    int64_t step = 0;
     if (!count) return SL_OK;
     SL_TRY(sli_json_number_if(&x, &corner.x));
     SL_TRY(sli_json_number_if(&y, &corner.y));
-    SL_TRY(sli_json_number_if(&size, &step));
+    SL_TRY(sli_json_whole_if(&size, 1, SLI_LDTK_MOST_PIXELS, &step));
     corner = (sl_point){at.x + corner.x, at.y + corner.y};
     reader->entities += count;
     for (size_t i = 0; i < count; i++) {
         const sli_json entity = sli_json_item(&entities, i);
         if (i % 256 == 0) SL_TRY(sl_check_cancelled(reader->context));
-        SL_TRY(read_entity(reader, &entity, corner, step, walls));
+        SL_TRY(read_entity(reader, &entity, corner, (double)step, walls));
     }
     return SL_OK;
 }

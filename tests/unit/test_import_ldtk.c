@@ -224,6 +224,25 @@ static void test_walls_as_entities(void **state) {
                    "f: level A has no IntGrid layer, and no layer of tiles");
 }
 
+#define WALLED(width, step)                                                                        \
+    PROJECT("",                                                                                    \
+            "{\"identifier\": \"A\", \"pxWid\": " width ", \"pxHei\": 16, \"layerInstances\": "    \
+            "[{\"__identifier\": \"Things\", \"__type\": \"Entities\", \"__gridSize\": " step      \
+            ", \"entityInstances\": [" ENTITY("Wall", "4", "8", "12", "6") "]}]}")
+
+/// The squares about such walls are counted from sizes that the file gives.
+static void test_sizes_about_entities(void **state) {
+    (void)state;
+    assert_refused(WALLED("-24", "8"), "f: levels[0].pxWid: -24 is out of range");
+    assert_refused(WALLED("0", "8"), "f: levels[0].pxWid: 0 is out of range");
+    assert_refused(WALLED("24", "8.673617379884035e-19"),
+                   "f: levels[0].layerInstances[0].__gridSize: expected a whole number");
+    assert_refused(WALLED("24", "-8"),
+                   "f: levels[0].layerInstances[0].__gridSize: -8 is out of range");
+    assert_refused(WALLED("1000000000", "1"),
+                   "f: a level, 1000000000 x 16: 16000000000 squares, more than the limit");
+}
+
 #define WORLD                                                                                      \
     LEVEL("A", "-8", "100", GRID("Any", "1,0,0,1,0,0", ""))                                        \
     "," LEVEL(                                                                                     \
@@ -329,7 +348,9 @@ static void test_refused(void **state) {
     assert_refused(PROJECT("", "{\"pxHei\": 1.5}"), "f: levels[0].pxHei: expected a whole number, "
                                                     "found 1.5");
     assert_refused(PROJECT("", "{\"pxHei\": 1e308}"), "f: levels[0].pxHei: 1e+308 is out of range");
-    assert_refused(PROJECT("", "{\"pxHei\": 8}"), "f: levels[0].layerInstances: expected an array");
+    assert_refused(PROJECT("", "{\"pxHei\": 8}"), "f: levels[0].pxWid: expected a whole number");
+    assert_refused(PROJECT("", "{\"pxHei\": 8, \"pxWid\": 8}"),
+                   "f: levels[0].layerInstances: expected an array");
     assert_refused(PROJECT("", LEVEL("A", "0", "0", "")), "f: level A has no IntGrid layer");
     assert_refused(PROJECT("", LEVEL("A", "0", "0", "7")),
                    "f: levels[0].layerInstances[0]: expected");
@@ -349,8 +370,9 @@ static void test_refused(void **state) {
                                      "\"__cHei\": 2147483647, \"__gridSize\": 8, "
                                      "\"intGridCsv\": [1]}")),
                    IN_LAYER ".intGridCsv: 2147483647 x 2147483647 cells are");
-    assert_refused(PROJECT("", "{\"pxHei\": 8, \"externalRelPath\": \"no/such.ldtkl\"}"),
-                   "f: it names the file no/such.ldtkl: ");
+    assert_refused(
+        PROJECT("", "{\"pxHei\": 8, \"pxWid\": 8, \"externalRelPath\": \"no/such.ldtkl\"}"),
+        "f: it names the file no/such.ldtkl: ");
 }
 
 /// A level's file finds its project by the name of its folder.
@@ -424,6 +446,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_values_by_meaning),
         cmocka_unit_test(test_walls_as_entities),
+        cmocka_unit_test(test_sizes_about_entities),
         cmocka_unit_test(test_memory),
         cmocka_unit_test(test_values_by_what_stands),
         cmocka_unit_test(test_empty_cells),

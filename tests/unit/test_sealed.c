@@ -70,7 +70,7 @@ static void test_edge(void **state) {
     assert_true(found.open.at_edge && !found.within.at_edge && found.within.area == 9);
     assert_true(found.within.at.x > 5 && found.within.at.x < 8);
     find(PASSAGE SHUT, still, &found);
-    assert_true(found.open.at_edge);
+    assert_true(found.open.at_edge && found.largest.at_edge && found.within.area == 0);
 }
 
 /// Nobody walks through a window.

@@ -105,6 +105,17 @@ static void test_outlines(void **state) {
         95, 0, 1);
 }
 
+/// Nothing is beyond the map where it has an end: without one, or with objects beyond its edge, the
+/// objects alone are the map.
+static void test_page(void **state) {
+    (void)state;
+    const char *infinite = "<map infinite='1'" SIZE "tilewidth='8' tileheight='8'>" SOLID(
+        BOX("16", "16", "8", "8") BOX("40", "16", "8", "8")) "</map>";
+    assert_share(infinite, 2, 0, 2);
+    assert_share(MAP(SOLID(BOX("-8", "16", "16", "8") BOX("16", "16", "8", "8"))), 1, 0, 3);
+    assert_share(MAP(SOLID(BOX("0", "16", "16", "8") BOX("24", "16", "8", "8"))), 93, 0, 3);
+}
+
 #define SHAPED                                                                                     \
     "<tileset firstgid='1' tilewidth='8' tileheight='8'><tile id='0'><objectgroup>" BOX(           \
         "0", "0", "8", "4") "</objectgroup></tile></tileset>"
@@ -116,6 +127,24 @@ static void test_shapes_of_tiles(void **state) {
     assert_share(MAP(SHAPED LAYER("a", "0,0,0,0,0,0,0,0,0,0,0,0, 0,0,1,1,0,0,0,0,0,0,0,0, " NONE
                                        ", " NONE ", " NONE ", " NONE ", " NONE ", " NONE)),
                  95, 0, 1);
+}
+
+#define DIAMONDS(body)                                                                             \
+    "<map orientation='isometric'" SIZE "tilewidth='16' tileheight='8'>\n" SET LAYER(              \
+        "collision", NONE ", " NONE ", " NONE ", " NONE ", " NONE ", " NONE ", " NONE              \
+                          ", 0,0,0,0,0,0,0,0,0,0,0,1") body "</map>"
+#define TWO        SOLID(BOX("16", "16", "32", "32") BOX("64", "8", "8", "8"))
+#define DOOR(x, y) "<object name='door' x='" x "' y='" y "' width='8' height='8'/>"
+
+/// The same where tiles are diamonds, each as large as a square of the plan. One tile is solid.
+static void test_diamonds(void **state) {
+    (void)state;
+    assert_true(read_share(DIAMONDS(TWO), NULL).inside == 78);
+    assert_true(read_share(DIAMONDS(TWO THINGS(START("40", "8"))), NULL).inside == 78);
+    assert_true(read_share(DIAMONDS(TWO THINGS(DOOR("52", "24"))), NULL).inside == 78);
+    // A start in it, or a door over it.
+    assert_true(read_share(DIAMONDS(TWO THINGS(START("20", "40"))), NULL).inside == 16);
+    assert_true(read_share(DIAMONDS(TWO THINGS(DOOR("44", "24"))), NULL).inside == 94);
 }
 
 #define FLOORS                                                                                     \
@@ -166,6 +195,44 @@ static void test_void(void **state) {
                                                ", 1,1,1,1,1,1,1,1,0,0,0,0, 1,1,1,1,1,1,1,1,0,0,0,0")
                          SOLID(BOX("0", "48", "64", "16"))),
                  80, 0, 16);
+}
+
+#define WIDE               "1,1,1,1,1,1,1,1,1,0,0,0"
+#define HOLED              "1,0,1,0,1,0,1,0,1,0,0,0"
+#define LINE(x, y, points) DRAWN(x, y, "polyline", points)
+#define RAIL(x, y)         LINE(x, y, "0,0 8,0 8,8 0,8 0,0")
+#define RAILS(y)           RAIL("8", y) RAIL("24", y) RAIL("40", y) RAIL("56", y)
+
+/// Squares at the edge are solid where one place in ten is open, and not at more. The border of
+/// holes among rooms does not count, and a wall parts only squares that it lies between.
+static void test_void_with_openings(void **state) {
+    (void)state;
+    // 10 places, of them 1 open, and 2.
+    const char *corner = "1,1,1,1,1,1,0,0,0,0,0,0";
+    char text[2][4000];
+    for (int i = 0; i < 2; i++) {
+        snprintf(text[i], sizeof text[i],
+                 "<map" SIZE "tilewidth='8' tileheight='8'>" SET "<layer name='base'" SIZE
+                 "><data encoding='csv'>%s,%s,%s,%s," NONE "," NONE "," NONE "," NONE
+                 "</data></layer>" SOLID(LINE("48", "0", "0,0 0,32 %s,32")) "</map>",
+                 corner, corner, corner, corner, i ? "-32" : "-40");
+    }
+    assert_true(read_share(text[0], NULL).inside == 24);
+    assert_true(read_share(text[1], NULL).inside != 24);
+    // 4 places of 8 are open; with those of 12 holes it would be 4 of 56.
+    const share holes =
+        read_share(MAP(SET LAYER("base", WIDE ", " HOLED ", " WIDE ", " HOLED ", " WIDE ", " HOLED
+                                              ", " WIDE ", " WIDE)
+                           SOLID(LINE("72", "0", "0,0 0,32") RAILS("8") RAILS("24") RAILS("40"))),
+                   NULL);
+    assert_true(holes.inside == 96);
+    // 1 place of 8 is open. A wall elsewhere lies in line with it.
+    const share line =
+        read_share(MAP(SET LAYER("base", WIDE ", " WIDE ", " WIDE ", " WIDE ", " WIDE ", " WIDE
+                                              ", " WIDE ", " WIDE)
+                           SOLID(LINE("72", "8", "0,0 0,56") LINE("0", "4", "0,0 8,0"))),
+                   NULL);
+    assert_true(line.inside == 96);
 }
 
 /// Where nothing says what is solid, and tiles lie as floors of rooms do, the command names void.
@@ -227,8 +294,11 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_solid),
         cmocka_unit_test(test_outlines),
+        cmocka_unit_test(test_page),
         cmocka_unit_test(test_shapes_of_tiles),
+        cmocka_unit_test(test_diamonds),
         cmocka_unit_test(test_void),
+        cmocka_unit_test(test_void_with_openings),
         cmocka_unit_test(test_refused),
         cmocka_unit_test(test_bare_objects),
         cmocka_unit_test(test_where_objects_stand),

@@ -227,7 +227,7 @@ typedef enum sli_tiled_by {
     SLI_TILED_BY_NAME,    ///< names of layers let expect it: trees, platforms
     SLI_TILED_BY_TERRAIN, ///< tiles' terrains
     SLI_TILED_BY_SET,     ///< names of tilesets
-    SLI_TILED_BY_BARE,    ///< objects that have a shape and say nothing: what else are they for?
+    SLI_TILED_BY_BARE,    ///< objects with a shape, and without a name, type or property
     SLI_TILED_BY_GUESS,   ///< the look of one layer
 } sli_tiled_by;
 
@@ -359,6 +359,8 @@ sl_status sli_tiled_read_objects(sli_tiled_reader *reader, const sli_json *layer
 /// if it is closed.
 sl_status sli_tiled_add_closed(sli_tiled_reader *reader, sli_tiled_kind kind, size_t first,
                                bool of_tile);
+/// The place of a start or a door in the map, and its box.
+sl_box sli_tiled_box_of_thing(const sli_tiled_reader *reader, const sli_thing *thing, sl_point *at);
 /// Whether a place of the map lies in a closed object.
 bool sli_tiled_is_in(const sli_tiled_reader *reader, const sli_tiled_closed *closed, sl_point at);
 /// Makes the insides of closed objects solid ground, but of those that are outlines of rooms. To be

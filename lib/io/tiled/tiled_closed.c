@@ -11,8 +11,18 @@
 /// cross each other has no inside that all agree on: an outline too.
 #include "geometry/orient.h"
 #include "io/tiled/tiled.h"
+#include "space/index.h"
 
 #include <math.h>
+
+/// What may say that an object is an outline: boxes of starts and doors, and of closed objects.
+/// `found` has what lies about the one at hand.
+typedef struct about {
+    sl_box *boxes;
+    size_t *numbers; ///< by box: of the thing, or of the closed object
+    sli_box_tree things, objects;
+    sli_box_list found;
+} about;
 
 sl_status sli_tiled_add_closed(sli_tiled_reader *reader, sli_tiled_kind kind, size_t first,
                                bool of_tile) {
@@ -24,23 +34,15 @@ sl_status sli_tiled_add_closed(sli_tiled_reader *reader, sli_tiled_kind kind, si
     *own = (sli_tiled_closed){.first = first, .count = count, .kind = kind, .of_tile = of_tile};
     reader->closed_objects += !of_tile;
     own->box = (sl_box){walls[0].a, walls[0].a};
-    for (size_t i = 1; i < count; i++) {
-        const sl_point at = walls[i].a;
-        if (at.x < own->box.min.x) own->box.min.x = at.x;
-        if (at.y < own->box.min.y) own->box.min.y = at.y;
-        if (at.x > own->box.max.x) own->box.max.x = at.x;
-        if (at.y > own->box.max.y) own->box.max.y = at.y;
-    }
+    for (size_t i = 1; i < count; i++) own->box = sli_box_with(own->box, walls[i].a);
     return SL_OK;
 }
 
 /// A ray to the right crosses its sides an odd number of times.
 bool sli_tiled_is_in(const sli_tiled_reader *reader, const sli_tiled_closed *closed, sl_point at) {
     const sl_wall *walls = reader->pen.map->walls + closed->first;
-    const sl_box *box = &closed->box;
     bool in = false;
-    if (at.x < box->min.x || at.x > box->max.x || at.y < box->min.y || at.y > box->max.y)
-        return false;
+    if (!sli_box_holds(&closed->box, at)) return false;
     for (size_t i = 0; i < closed->count; i++) {
         const bool up = walls[i].b.y > at.y;
         if (up == (walls[i].a.y > at.y)) continue;
@@ -50,49 +52,63 @@ bool sli_tiled_is_in(const sli_tiled_reader *reader, const sli_tiled_closed *clo
     return in;
 }
 
+sl_box sli_tiled_box_of_thing(const sli_tiled_reader *reader, const sli_thing *thing,
+                              sl_point *at) {
+    const double x = fabs(thing->u.x) + fabs(thing->v.x);
+    const double y = fabs(thing->u.y) + fabs(thing->v.y);
+    *at = (sl_point){thing->middle.x, reader->top - thing->middle.y};
+    return (sl_box){{at->x - x, at->y - y}, {at->x + x, at->y + y}};
+}
+
 /// Whether a start lies in it, or a door lies over it.
-static bool has_thing(const sli_tiled_reader *reader, const sli_tiled_closed *closed) {
+static sl_status has_thing(const sli_tiled_reader *reader, about *a, const sli_tiled_closed *closed,
+                           bool *has) {
     const sl_box *box = &closed->box;
-    for (size_t i = 0; i < reader->things.items.count; i++) {
-        const sli_thing *thing = &reader->things.items.items[i];
-        const sl_point at = {thing->middle.x, reader->top - thing->middle.y};
-        const double x = fabs(thing->u.x) + fabs(thing->v.x);
-        const double y = fabs(thing->u.y) + fabs(thing->v.y);
-        const bool over = at.x + x > box->min.x && at.x - x < box->max.x && at.y + y > box->min.y &&
-                          at.y - y < box->max.y;
-        if (over && (thing->kind == SLI_THING_DOOR || sli_tiled_is_in(reader, closed, at)))
-            return true;
+    SL_TRY(sli_box_tree_find(reader->context, &a->things, box, &a->found));
+    *has = false;
+    for (size_t i = 0; i < a->found.count && !*has; i++) {
+        const sli_thing *thing = &reader->things.items.items[a->found.items[i]];
+        sl_point at;
+        const sl_box own = sli_tiled_box_of_thing(reader, thing, &at);
+        const bool over = own.max.x > box->min.x && own.min.x < box->max.x &&
+                          own.max.y > box->min.y && own.min.y < box->max.y;
+        *has = over && (thing->kind == SLI_THING_DOOR || sli_tiled_is_in(reader, closed, at));
     }
-    return false;
+    return SL_OK;
 }
 
 /// How many others lie in it with all of their boxes and their first corners. Of more than so many
 /// it is not asked.
-static size_t count_in(const sli_tiled_reader *reader, const sli_tiled_closed *closed) {
+static sl_status count_in(const sli_tiled_reader *reader, about *a, const sli_tiled_closed *closed,
+                          size_t *count) {
     enum { MOST = 4096 };
     const sl_box *all = &closed->box;
-    size_t count = 0;
-    if (reader->closed_objects > MOST) return 0;
-    for (size_t i = 0; i < reader->closed.count; i++) {
-        const sl_box *own = &reader->closed.items[i].box;
-        const bool within = !reader->closed.items[i].of_tile && own->min.x > all->min.x &&
-                            own->min.y > all->min.y && own->max.x < all->max.x &&
-                            own->max.y < all->max.y;
-        const sl_point corner = reader->pen.map->walls[reader->closed.items[i].first].a;
-        count += within && sli_tiled_is_in(reader, closed, corner);
+    *count = 0;
+    if (reader->closed_objects > MOST) return SL_OK;
+    SL_TRY(sli_box_tree_find(reader->context, &a->objects, all, &a->found));
+    for (size_t i = 0; i < a->found.count; i++) {
+        const sli_tiled_closed *other = &reader->closed.items[a->numbers[a->found.items[i]]];
+        const sl_box *own = &other->box;
+        const bool within = own->min.x > all->min.x && own->min.y > all->min.y &&
+                            own->max.x < all->max.x && own->max.y < all->max.y;
+        *count += within && sli_tiled_is_in(reader, closed, reader->pen.map->walls[other->first].a);
     }
-    return count;
+    return SL_OK;
 }
 
-static bool is_outline(const sli_tiled_reader *reader, const sli_tiled_closed *closed) {
+static sl_status find_outline(const sli_tiled_reader *reader, about *a,
+                              const sli_tiled_closed *closed, bool *outline) {
     const bool drawn = closed->kind == SLI_TILED_POLYGON || closed->kind == SLI_TILED_ELLIPSE;
     const sl_box *page = &reader->pen.map->source.page, *own = &closed->box;
     const double all = (page->max.x - page->min.x) * (page->max.y - page->min.y);
-    if (closed->of_tile) return has_thing(reader, closed);
-    if (all > 0 && 2 * (own->max.x - own->min.x) * (own->max.y - own->min.y) > all) return true;
-    if (has_thing(reader, closed)) return true;
-    const size_t count = count_in(reader, closed);
-    return drawn ? count > 0 : 2 * count > reader->closed_objects - 1;
+    size_t count;
+    *outline = !closed->of_tile && all > 0 &&
+               2 * (own->max.x - own->min.x) * (own->max.y - own->min.y) > all;
+    if (!*outline) SL_TRY(has_thing(reader, a, closed, outline));
+    if (*outline || closed->of_tile) return SL_OK;
+    SL_TRY(count_in(reader, a, closed, &count));
+    *outline = drawn ? count > 0 : 2 * count > reader->closed_objects - 1;
+    return SL_OK;
 }
 
 /// Marks the ground at the sides of a closed object.
@@ -130,14 +146,49 @@ static sl_status add_page(sli_tiled_reader *reader) {
                          1, &squares);
 }
 
-sl_status sli_tiled_settle_closed(sli_tiled_reader *reader) {
-    size_t outlines = 0;
+/// Puts the boxes into trees: there may be a million shapes of tiles, and thousands of doors.
+static sl_status look_about(const sli_tiled_reader *reader, about *a) {
+    const size_t things = reader->things.items.count, objects = reader->closed_objects;
+    size_t count = 0;
+    sl_point at;
+    a->boxes = sl_alloc_array(reader->context, things + objects, sizeof *a->boxes);
+    a->numbers = sl_alloc_array(reader->context, objects, sizeof *a->numbers);
+    if (!a->boxes || !a->numbers) return SL_NO_MEMORY;
+    for (size_t i = 0; i < reader->closed.count; i++) {
+        if (reader->closed.items[i].of_tile) continue;
+        a->numbers[count] = i;
+        a->boxes[count++] = reader->closed.items[i].box;
+    }
+    for (size_t i = 0; i < things; i++)
+        a->boxes[count + i] = sli_tiled_box_of_thing(reader, &reader->things.items.items[i], &at);
+    SL_TRY(sli_box_tree_create(reader->context, a->boxes, count, &a->objects));
+    return sli_box_tree_create(reader->context, a->boxes + count, things, &a->things);
+}
+
+/// Fills what is no outline. *outlines: the objects that are.
+static sl_status fill_all(sli_tiled_reader *reader, about *a, size_t *outlines) {
+    SL_TRY(look_about(reader, a));
     for (size_t i = 0; i < reader->closed.count; i++) {
         sli_tiled_closed *closed = &reader->closed.items[i];
+        bool outline;
         if (i % 256 == 0) SL_TRY(sl_check_cancelled(reader->context));
-        if (!is_outline(reader, closed)) SL_TRY(fill(reader, closed));
-        outlines += !closed->solid && !closed->of_tile;
+        SL_TRY(find_outline(reader, a, closed, &outline));
+        if (!outline) SL_TRY(fill(reader, closed));
+        *outlines += !closed->solid && !closed->of_tile;
     }
+    return SL_OK;
+}
+
+sl_status sli_tiled_settle_closed(sli_tiled_reader *reader) {
+    size_t outlines = 0;
+    about a = {0};
+    const sl_status status = fill_all(reader, &a, &outlines);
+    sli_box_tree_destroy(reader->context, &a.things);
+    sli_box_tree_destroy(reader->context, &a.objects);
+    sl_free(reader->context, a.found.items);
+    sl_free(reader->context, a.numbers);
+    sl_free(reader->context, a.boxes);
+    SL_TRY(status);
     if (outlines)
         sl_note(reader->context,
                 "%s: %zu closed object%s an outline, not solid inside: a start or other objects "

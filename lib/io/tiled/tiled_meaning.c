@@ -2,8 +2,8 @@
 ///
 /// After the firm words come weaker ones, and the first that gives anything decides: names of
 /// layers that stand for something solid (platforms, trees), terrains named Wall, tilesets named
-/// walls, objects of which nothing is said. At last one layer is looked at, and only rules that
-/// hold for few maps count:
+/// walls, objects without a name, type or property. At last one layer is looked at, and only rules
+/// that hold for few maps count:
 ///
 /// - Where the only layer of tiles is named for a floor, there is a wall where it has no tile.
 /// - Where the map or a tileset is named for a dungeon or a sewer, and one tile covers at least
@@ -80,27 +80,27 @@ static bool is_inside(const sli_tiled_reader *reader) {
     return inside;
 }
 
-/// The layers of tiles that are no pictures, and no places that one passes.
-static size_t count_plain(const sli_tiled_reader *reader) {
+/// The layers of tiles that are no pictures, and no places that one passes. *first: the number of
+/// the first one.
+static size_t count_plain(const sli_tiled_reader *reader, size_t *first) {
     size_t count = 0;
-    for (size_t i = 0; i < reader->seen.count; i++) {
+    for (size_t i = reader->seen.count; i-- > 0;) {
         const sli_tiled_seen *layer = &reader->seen.items[i];
-        count += !layer->objects && layer->count && layer->kind != SLI_GAME_DRAWN &&
-                 layer->kind != SLI_GAME_PASS;
+        if (layer->objects || !layer->count || layer->kind == SLI_GAME_DRAWN ||
+            layer->kind == SLI_GAME_PASS)
+            continue;
+        count++;
+        *first = i;
     }
     return count;
 }
 
 /// Whether all that is drawn is one layer that is named for a floor, and has gaps.
 static bool only_floor(const sli_tiled_reader *reader) {
-    bool floor = count_plain(reader) == 1;
-    for (size_t i = 0; i < reader->seen.count; i++) {
-        const sli_tiled_seen *layer = &reader->seen.items[i];
-        if (!layer->objects && layer->count && layer->kind != SLI_GAME_DRAWN &&
-            layer->kind != SLI_GAME_PASS)
-            floor &= layer->kind == SLI_GAME_FLOOR && layer->count < layer->squares;
-    }
-    return floor;
+    size_t first;
+    if (count_plain(reader, &first) != 1) return false;
+    const sli_tiled_seen *layer = &reader->seen.items[first];
+    return layer->kind == SLI_GAME_FLOOR && layer->count < layer->squares;
 }
 
 sl_status sli_tiled_guess(sli_tiled_reader *reader, const uint32_t *gids, size_t columns,
@@ -109,7 +109,8 @@ sl_status sli_tiled_guess(sli_tiled_reader *reader, const uint32_t *gids, size_t
     const sli_tiled_seen *layer = &reader->seen.items[reader->guess_layer];
     const size_t count = columns * rows, edge = 2 * (columns + rows);
     const size_t empty = count - (size_t)layer->count, bare = on_edge(&at, 0);
-    const bool only = count_plain(reader) == 1, floor = layer->kind == SLI_GAME_FLOOR;
+    size_t first;
+    const bool only = count_plain(reader, &first) == 1, floor = layer->kind == SLI_GAME_FLOOR;
     // The most frequent tile of what is named for ground is no rock.
     const bool ground = floor || layer->kind == SLI_GAME_GROUND;
     size_t most;
@@ -117,7 +118,7 @@ sl_status sli_tiled_guess(sli_tiled_reader *reader, const uint32_t *gids, size_t
     if (layer->squares != count) return SL_OK; // one chunk of several
     SL_TRY(find_most(reader->context, gids, count, &gid, &most));
     const sli_tiled_stand stand = sli_tiled_where_objects_stand(reader, gids, columns, rows);
-    if (only && floor && empty) {
+    if (only_floor(reader)) {
         reader->guess_why = "where the floor has no tile is a wall";
     } else if (is_inside(reader) && !(gid && ground) && 2 * most >= count &&
                2 * on_edge(&at, gid) >= edge) {
@@ -142,14 +143,8 @@ sl_status sli_tiled_guess(sli_tiled_reader *reader, const uint32_t *gids, size_t
 
 static sl_status guess(sli_tiled_reader *reader) {
     reader->by = SLI_TILED_BY_GUESS;
-    for (size_t i = reader->seen.count; i-- > 0;) {
-        const sli_tiled_seen *layer = &reader->seen.items[i];
-        if (!layer->objects && layer->count && layer->kind != SLI_GAME_DRAWN &&
-            layer->kind != SLI_GAME_PASS)
-            reader->guess_layer = i;
-    }
-    SL_TRY(sli_tiled_read_again(reader));
-    return SL_OK;
+    (void)count_plain(reader, &reader->guess_layer);
+    return sli_tiled_read_again(reader);
 }
 
 sl_status sli_tiled_check_guess(const sli_tiled_reader *reader) {
@@ -223,8 +218,8 @@ static sl_status fail_missing(const sli_tiled_reader *reader) {
     return sli_tiled_fail_unsaid(reader, why);
 }
 
-/// Whether nearly all tiles of the map are taken, as the name of its only tileset says: that one
-/// says nothing. What was taken is forgotten then.
+/// Whether nearly all tiles of the map are taken by names of tilesets: these say nothing then. The
+/// layers and tiles that were taken no longer count; shapes and objects stay.
 static bool takes_all(sli_tiled_reader *reader) {
     size_t all = 0;
     for (size_t i = 0; i < reader->seen.count; i++)

@@ -308,7 +308,7 @@ sl_status sli_tiled_tell_meaning(const sli_tiled_reader *reader) {
                                      "names of layers",
                                      "terrains",
                                      "names of tilesets",
-                                     "objects of which nothing is said"};
+                                     "objects without a name, type or property"};
     const layer_text taken = list_layers(reader, true), others = list_layers(reader, false);
     const char *file = reader->map->file->name;
     if (reader->sets.missing && reader->lost_tiles)

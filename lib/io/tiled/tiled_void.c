@@ -3,9 +3,10 @@
 /// so they are open; where floor leads to them it is told, and `--layers void` makes them solid.
 ///
 /// In a map without a start, those that lie at its edge are solid where walls part them from floor,
-/// at nine of ten places at least: else they would be taken for a room. The sea about an island is
-/// like them: squares that have nothing but a tile of a layer that is named for water and covers
-/// half of the map.
+/// at nine of ten places at least: else they would be taken for a room. Squares without a tile
+/// among rooms have no say in this. The sea about an island is like them: squares that have nothing
+/// but a tile of a layer that is named for water and covers half of the map.
+#include "geometry/orient.h"
 #include "io/tiled/tiled.h"
 
 #include <math.h>
@@ -20,7 +21,8 @@ typedef struct field {
     bool pictures;         ///< there is a layer that is a picture
     size_t columns, rows;
     char *squares; ///< ' ' without a tile, '.' with one, '+' of these under a door, '~' of water
-                   ///< alone, '#' solid; NULL while the range is looked for
+                   ///< alone, '#' solid; of those at the edge 'v' without a tile, 'w' of
+                   ///< water; NULL while the range is looked for
 } field;
 
 bool sli_tiled_only_void(const char *layers) {
@@ -175,10 +177,8 @@ static void take_doors(field *f) {
     const sli_tiled_reader *reader = f->reader;
     for (size_t i = 0; i < reader->things.items.count; i++) {
         const sli_thing *thing = &reader->things.items.items[i];
-        const sl_point at = {thing->middle.x, reader->top - thing->middle.y};
-        const double x = fabs(thing->u.x) + fabs(thing->v.x);
-        const double y = fabs(thing->u.y) + fabs(thing->v.y);
-        const sl_box box = {{at.x - x, at.y - y}, {at.x + x, at.y + y}};
+        sl_point at;
+        const sl_box box = sli_tiled_box_of_thing(reader, thing, &at);
         const sli_tiled_range all = squares_of(f, &box);
         if (thing->kind != SLI_THING_DOOR) continue;
         for (int64_t row = all.top; row < all.bottom; row++)
@@ -190,29 +190,30 @@ static void take_doors(field *f) {
     }
 }
 
-static double side(sl_point a, sl_point b, sl_point c) {
-    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+static bool overlaps(double a, double b, double c, double d) {
+    return fmax(a, b) >= fmin(c, d) && fmax(c, d) >= fmin(a, b);
 }
 
-/// Whether a wall of an object lies between two squares.
+/// Whether a wall of an object lies between the middles of two squares, or on one of them.
 static bool is_between(const sl_map *map, sl_point a, sl_point b) {
     for (size_t i = 0; i < map->wall_count; i++) {
         const sl_wall *wall = &map->walls[i];
-        if (side(a, b, wall->a) * side(a, b, wall->b) <= 0 &&
-            side(wall->a, wall->b, a) * side(wall->a, wall->b, b) <= 0)
+        const sl_point c = wall->a, d = wall->b;
+        if (overlaps(a.x, b.x, c.x, d.x) && overlaps(a.y, b.y, c.y, d.y) &&
+            sli_orient(a, b, c) * sli_orient(a, b, d) <= 0 &&
+            sli_orient(c, d, a) * sli_orient(c, d, b) <= 0)
             return true;
     }
     return false;
 }
 
-/// The places where floor and squares without a tile lie side by side, and those of them where no
-/// wall of an object lies between, and no door on the floor; water counts as `water`. So many
-/// places are looked at and no more.
+/// The places where squares of two sets lie side by side, and those of them where no wall of an
+/// object lies between, and no door on the floor. So many places are looked at and no more.
 typedef struct border {
     size_t all, open;
 } border;
 
-static border find_border(const field *f, char water) {
+static border find_border(const field *f, const char *floor, const char *empty) {
     border found = {0};
     for (size_t i = 0; i < f->columns * f->rows && found.all < PAIRS; i++) {
         const bool ends = (i + 1) % f->columns == 0;
@@ -220,11 +221,11 @@ static border find_border(const field *f, char water) {
         for (int k = 0; k < 2; k++) {
             const size_t j = beside[k];
             if (j >= f->columns * f->rows) continue;
-            const char one = f->squares[i] == '~' ? water : f->squares[i];
-            const char other = f->squares[j] == '~' ? water : f->squares[j];
-            if (one == '#' || other == '#' || one == other) continue;
+            const char one = f->squares[i], other = f->squares[j];
+            const bool meets = (strchr(floor, one) && strchr(empty, other)) ||
+                               (strchr(floor, other) && strchr(empty, one));
             const bool door = one == '+' || other == '+';
-            if (door && (one == '.' || other == '.')) continue;
+            if (!meets) continue;
             found.all++;
             found.open +=
                 !door && !is_between(f->reader->pen.map, middle_of(f, i), middle_of(f, j));
@@ -237,8 +238,11 @@ static bool is_void(char square) {
     return square == ' ' || square == '~';
 }
 
-/// Marks the squares without a tile, or of water, that are at the edge, and those that join them,
-/// by 'v'.
+static void mark(char *square) {
+    *square = *square == ' ' ? 'v' : 'w';
+}
+
+/// Marks the squares without a tile, or of water, that are at the edge, and those that join them.
 static sl_status mark_edge(field *f, size_t *marked) {
     const size_t count = f->columns * f->rows;
     size_t *stack = sl_alloc_array(f->reader->context, count, sizeof *stack), top = 0;
@@ -247,7 +251,7 @@ static sl_status mark_edge(field *f, size_t *marked) {
         const size_t x = i % f->columns, y = i / f->columns;
         const bool edge = !x || !y || x + 1 == f->columns || y + 1 == f->rows;
         if (!edge || !is_void(f->squares[i])) continue;
-        f->squares[i] = 'v';
+        mark(&f->squares[i]);
         stack[top++] = i;
     }
     for (*marked = top; top;) {
@@ -256,7 +260,7 @@ static sl_status mark_edge(field *f, size_t *marked) {
                                  y ? i - f->columns : i, y + 1 < f->rows ? i + f->columns : i};
         for (int k = 0; k < 4; k++) {
             if (!is_void(f->squares[beside[k]])) continue;
-            f->squares[beside[k]] = 'v';
+            mark(&f->squares[beside[k]]);
             stack[top++] = beside[k];
             ++*marked;
         }
@@ -271,45 +275,51 @@ static bool has_start(const sli_tiled_reader *reader) {
     return false;
 }
 
-/// Makes the squares of one mark solid.
-static sl_status fill(field *f, char mark) {
+/// Makes the squares of these marks solid.
+static sl_status fill(field *f, const char *marks) {
     const sl_point step = f->reader->lattice.step;
     const sl_point corner = {(double)f->range.left * step.x, (double)f->range.top * step.y};
     char *squares;
     SL_TRY(sli_tiles_add(f->reader->context, &f->reader->tiles, f->reader->map->file->name, corner,
                          step, f->columns, f->rows, &squares));
     for (size_t i = 0; i < f->columns * f->rows; i++)
-        if (f->squares[i] == mark) squares[i] = '#';
+        if (strchr(marks, f->squares[i])) squares[i] = '#';
     return SL_OK;
 }
 
-/// What walls part from floor, and lies at the edge, is no room.
-static sl_status fill_edge(field *f) {
+/// What walls part from floor, but for a place or two, and lies at the edge is no room: who draws
+/// them means that one does not get there.
+static sl_status fill_edge(field *f, bool *filled) {
     size_t marked;
+    char open[64] = "";
     SL_TRY(mark_edge(f, &marked));
-    if (!marked) return SL_OK;
+    const border found = find_border(f, ".+", "vw");
+    *filled = marked && 10 * found.open <= found.all && found.all < PAIRS;
+    for (size_t i = 0; i < f->columns * f->rows && !*filled; i++)
+        f->squares[i] = f->squares[i] == 'v' ? ' ' : f->squares[i] == 'w' ? '~' : f->squares[i];
+    if (!*filled) return SL_OK;
+    if (found.open)
+        snprintf(open, sizeof open, " at all but %zu of %zu places", found.open, found.all);
     sl_note(
         f->reader->context,
-        "%s: %zu squares at its edge have no tile, or nothing but water, and walls part them from "
-        "floor: they are taken as solid",
-        f->reader->map->file->name, marked);
-    return fill(f, 'v');
+        "%s: %zu squares at its edge have no tile, or nothing but water, and walls part them "
+        "from floor%s: they are taken as solid; if one walks there, --layers NAME,NAME with the "
+        "layers that are solid keeps them open",
+        f->reader->map->file->name, marked, open);
+    return fill(f, "vw");
 }
 
-/// Whether what is at the edge may be filled, and walls part it from floor but for a place or two:
-/// who draws them means that one does not get there. A room may be small against the map, but not
-/// against its walls: a platformer's tiles that are not solid are few.
-static bool is_apart(const field *f, size_t empty, size_t floor, size_t solid) {
+/// Whether what is at the edge may be filled. A room may be small against the map, but not against
+/// its walls: a platformer's tiles that are not solid are few.
+static bool may_fill(const field *f, size_t empty, size_t floor, size_t solid) {
     const sli_tiled_reader *reader = f->reader;
     const bool rooms = 10 * floor >= empty + floor || (floor && 4 * floor >= solid);
-    if (!empty || !rooms || reader->options->layers || reader->by || has_start(reader))
-        return false;
-    const border found = find_border(f, ' ');
-    return 10 * found.open <= found.all && found.all < PAIRS;
+    return empty && rooms && !reader->options->layers && !reader->by && !has_start(reader);
 }
 
 static sl_status settle(field *f, const char *layers) {
     size_t empty = 0, floor = 0, water = 0, solid = 0;
+    bool filled = false;
     take_solid(f);
     SL_TRY(take_closed(f));
     take_doors(f);
@@ -319,12 +329,13 @@ static sl_status settle(field *f, const char *layers) {
         water += f->squares[i] == '~';
         solid += f->squares[i] == '#';
     }
-    if (f->reader->void_is_solid) return fill(f, ' ');
+    if (f->reader->void_is_solid) return fill(f, " ");
     if (f->pictures || f->reader->guessed_all) return SL_OK;
-    if (is_apart(f, empty + water, floor, solid)) return fill_edge(f);
+    if (may_fill(f, empty + water, floor, solid)) SL_TRY(fill_edge(f, &filled));
+    if (filled) return SL_OK;
     // In a platformer a little is drawn in much air.
     floor += water;
-    if (!empty || 10 * floor < empty + floor || !find_border(f, '.').open) return SL_OK;
+    if (!empty || 10 * floor < empty + floor || !find_border(f, ".+~", " ").open) return SL_OK;
     sl_note(f->reader->context,
             "%s: %zu squares have no tile and are open, and floor leads to them with no wall "
             "between: --layers '%s%svoid' takes them as solid",

@@ -79,6 +79,14 @@ static double thickness(const sl_sealed_room *room) {
     return room->walls > 0 ? 2 * room->area / room->walls : 0;
 }
 
+/// The map of a baked file has its doors and seams, and no walls: the space has these.
+static sl_box bounds_of(const sl_map *map, const sl_space *space) {
+    sl_map whole = *map;
+    whole.walls = space->walls;
+    whole.wall_count = space->wall_count;
+    return sl_map_bounds(&whole);
+}
+
 sl_status sl_find_sealed(sl_context *context, const sl_map *map, const sl_space *space,
                          sl_sealed *out) {
     SL_ARRAY(sl_sealed_room) rooms = {0};
@@ -87,7 +95,7 @@ sl_status sl_find_sealed(sl_context *context, const sl_map *map, const sl_space 
     sl_status status = reached && queue ? SL_OK : SL_NO_MEMORY;
     double inside = 0, thickest = 0, sealed = 0;
     size_t open = 0;
-    const sl_box edge = sl_map_bounds(map);
+    const sl_box edge = bounds_of(map, space);
     *out = (sl_sealed){0};
     for (uint32_t i = 0; status == SL_OK && i < space->cell_count; i++) {
         if (!space->cells[i].inside || sl_bits_has(reached, i)) continue;
