@@ -157,7 +157,7 @@ static void test_text_of_lines(void **state) {
     assert_refused(HEAD "0\nCIRCLE\n8\n0\n1\nKitchen\nA: 4.57\n40\n1\n" ON("0", 1) TAIL,
                    "f:11: expected a group code (a whole number), found 'A: 4.57'");
     char text[600] = HEAD "0\nTEXT\n1\nKitchen\n";
-    for (int i = 0; i < 64; i++) strcat(text, "a\n");
+    for (int i = 0; i < 65; i++) strcat(text, "a\n");
     strcat(text, ON("0", 1) TAIL);
     assert_refused(text, "f:8: the text has more lines");
 }
