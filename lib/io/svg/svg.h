@@ -87,7 +87,7 @@ sl_box sli_svg_no_clip(void);
 /// Ends a shape of the contents, whose walls are those from `first` on: of its group, or of hatching
 /// if it may be a piece of that. sli_svg_settle_hatching() decides, once all shapes are drawn.
 sl_status sli_svg_end_shape(sli_svg *s, const sl_box *clip, size_t first, uint32_t group);
-sl_status sli_svg_settle_hatching(sli_svg *s);
+void sli_svg_settle_hatching(sli_svg *s);
 
 // --- svg_looks.c
 

@@ -1,15 +1,14 @@
 /// Hatching by clips: programs hatch an area with long oblique lines, and a clip shows them within
 /// the area alone. One line that leaves its clip may be a wall at the edge of a page. So hatching is
-/// a set of lines side by side in one clip, and the clip is smaller than the page or the plan.
+/// a set of lines side by side, one after the other in the file. They share a clip, or each has its
+/// own, smaller than the page and the plan.
 ///
 /// Each line that may belong to such a set gets the group of hatching as it is drawn, in a run of
 /// its own. Once all is drawn, lines of no set go back to their own groups.
 #include "geometry/length.h"
-#include "geometry/orient.h"
 #include "io/svg/svg.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 /// So many lines side by side are hatching, and so far their directions may differ, as a sine.
 enum { FEWEST = 3 };
@@ -56,48 +55,31 @@ sl_status sli_svg_end_shape(sli_svg *s, const sl_box *clip, size_t first, uint32
     return SL_OK;
 }
 
-static int compare_pieces(const void *left, const void *right) {
-    const sli_svg_hatch *a = left, *b = right;
-    const double own[] = {a->clip.min.x, a->clip.min.y, a->clip.max.x, a->clip.max.y, a->along.y};
-    const double other[] = {b->clip.min.x, b->clip.min.y, b->clip.max.x, b->clip.max.y, b->along.y};
-    for (int i = 0; i < 5; i++)
-        if (own[i] != other[i]) return own[i] < other[i] ? -1 : 1;
-    return (a->run > b->run) - (a->run < b->run);
-}
-
 static double area_of(const sl_box *box) {
     return fmax(box->max.x - box->min.x, 0) * fmax(box->max.y - box->min.y, 0);
 }
 
 /// Whether a clip is no smaller than half of the page, or of all that is drawn.
-static bool is_page(const sl_map *map, const sl_box *clip) {
-    const sl_box drawn = sl_map_bounds(map);
-    const double page = area_of(&map->source.page), plan = area_of(&drawn);
+static bool is_page(const sl_map *map, double plan, const sl_box *clip) {
+    const double page = area_of(&map->source.page);
     return 2 * area_of(clip) >= (page > 0 ? fmin(page, plan) : plan);
 }
 
-/// Whether a piece is one of enough side by side, among those of its clip by their directions.
-static bool has_others(const sli_svg_hatch *pieces, size_t count, size_t own) {
-    for (size_t i = own < FEWEST ? 0 : own - FEWEST + 1; i <= own && i + FEWEST <= count; i++) {
-        const sl_point a = pieces[i].along, b = pieces[i + FEWEST - 1].along;
-        if (fabs(a.x * b.y - a.y * b.x) <= PARALLEL) return true;
-    }
-    return false;
+/// Whether two pieces are side by side: parallel, in one clip or in clips that meet.
+static bool are_beside(const sli_svg_hatch *a, const sli_svg_hatch *b) {
+    return fabs(a->along.x * b->along.y - a->along.y * b->along.x) <= PARALLEL &&
+           a->clip.min.x <= b->clip.max.x && b->clip.min.x <= a->clip.max.x &&
+           a->clip.min.y <= b->clip.max.y && b->clip.min.y <= a->clip.max.y;
 }
 
-sl_status sli_svg_settle_hatching(sli_svg *s) {
-    sli_svg_hatch *all = s->hatches.items;
-    if (s->hatches.count) qsort(all, s->hatches.count, sizeof *all, compare_pieces);
+void sli_svg_settle_hatching(sli_svg *s) {
+    const sli_svg_hatch *all = s->hatches.items;
+    const sl_box drawn = sl_map_bounds(s->pen.map);
+    const double plan = area_of(&drawn);
     for (size_t first = 0, end; first < s->hatches.count; first = end) {
-        const sl_box *clip = &all[first].clip;
-        for (end = first + 1; end < s->hatches.count; end++)
-            if (!sli_same_point(clip->min, all[end].clip.min) ||
-                !sli_same_point(clip->max, all[end].clip.max))
-                break;
-        const bool page = is_page(s->pen.map, clip);
+        for (end = first + 1; end < s->hatches.count && are_beside(&all[end - 1], &all[end]);) end++;
         for (size_t i = first; i < end; i++)
-            if (page || !has_others(all + first, end - first, i - first))
+            if (end - first < FEWEST || is_page(s->pen.map, plan, &all[i].clip))
                 sli_contents_move(&s->contents, all[i].run, all[i].group);
     }
-    return SL_OK;
 }
