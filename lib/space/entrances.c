@@ -126,7 +126,26 @@ static sl_status find_width(sli_entrances *f, double most, double *out) {
     return status;
 }
 
-/// Whether each wall says what is solid and what is open: then all that is open is inside.
+/// Whether the ground beyond all walls is solid: so is that beside the wall that bounds the map at
+/// its leftmost point. Of the walls there, this is the one with no other at its left.
+static bool is_solid_around(const sl_map *map) {
+    sl_point first = {INFINITY, INFINITY}, end = first;
+    uint32_t beyond = 0;
+    for (size_t i = 0; i < map->wall_count; i++) {
+        const sl_wall *w = &map->walls[i];
+        const bool forth = sli_compare_points(w->a, w->b) < 0;
+        const sl_point from = forth ? w->a : w->b, to = forth ? w->b : w->a;
+        const int order = sli_compare_points(from, first);
+        if (order > 0 || (order == 0 && sli_orient(first, end, to) < 0)) continue;
+        first = from;
+        end = to;
+        beyond = w->ground & (forth ? SL_SOLID_LEFT : SL_SOLID_RIGHT);
+    }
+    return beyond != 0;
+}
+
+/// Whether each wall says what is solid and what is open, and solid ground is around all of them:
+/// then all that is open is inside.
 static bool knows_ground(const sl_map *map) {
     const uint32_t left = SL_SOLID_LEFT | SL_OPEN_RIGHT, right = SL_SOLID_RIGHT | SL_OPEN_LEFT;
     bool all = true;
@@ -134,7 +153,7 @@ static bool knows_ground(const sl_map *map) {
         const uint32_t ground = map->walls[i].ground;
         all &= (ground & left) == left || (ground & right) == right;
     }
-    return all;
+    return all && is_solid_around(map);
 }
 
 // --- what the map gets
@@ -371,13 +390,23 @@ static sl_status find_by_doors(sl_context *context, sl_map *map, double most, bo
     return try_by(context, map, SL_ENTRANCE_DOORS, map->entrance, 0, found);
 }
 
+#ifndef SLI_WITHOUT_DRAWINGS
+/// So many openings are tried, each wider than the one before: each takes a search of its own.
+enum { MOST_WIDE = 8 };
+
 /// Tries the doubtful opening as an entrance: a pair of doors, a garage, a hall. It counts if
-/// nothing else is doubtful then, and a building is inside.
-static sl_status widen(sl_context *context, sl_map *map, double narrow) {
+/// nothing else is doubtful then, and a building is inside. Else the narrow answer stays. In plans
+/// that are drawn alone.
+static sl_status widen(sl_context *context, sl_map *map, const sl_box *b) {
+    const double across = b->max.x - b->min.x, up = b->max.y - b->min.y;
     const sl_interior before = map->interior;
     const double most = SLI_DOUBT_FOUND * before.width;
+    // A width that is found among openings that are small against the plan is not that of doors.
+    const double least = before.by == SL_ENTRANCE_FOUND ? fmax(across, up) / DOORS_IN_PLAN : 0;
+    if (!map->entrance_may_be_wide || !(before.doubtful_width > least)) return SL_OK;
     bool found = true;
-    for (double width = 0; found && map->interior.doubtful_width > width;) {
+    double width = 0;
+    for (int i = 0; i < MOST_WIDE && found && map->interior.doubtful_width > width; i++) {
         width = map->interior.doubtful_width;
         forget(context, map);
         SL_TRY(try_by(context, map, SL_ENTRANCE_WIDE, width, most, &found));
@@ -385,13 +414,13 @@ static sl_status widen(sl_context *context, sl_map *map, double narrow) {
     if (found && !(map->interior.doubtful_width > 0)) return SL_OK;
     forget(context, map);
     return try_by(context, map, before.by, before.by == SL_ENTRANCE_FOUND ? 0 : before.width,
-                  narrow, &found);
+                  fmin(across, up) / 3, &found);
 }
+#endif
 
 static sl_status find(sl_context *context, sl_map *map) {
     const sl_box b = sl_map_bounds(map);
     const double shorter = fmin(b.max.x - b.min.x, b.max.y - b.min.y);
-    const double longer = fmax(b.max.x - b.min.x, b.max.y - b.min.y);
     const double metres = sli_unit_metres(map->unit);
     const bool doors = map->entrance_by_doors;
     const double usual = doors ? map->entrance : metres > 0 ? ENTRANCE / metres : INFINITY;
@@ -404,11 +433,10 @@ static sl_status find(sl_context *context, sl_map *map) {
                      : try_by(context, map, SL_ENTRANCE_UNIT, usual, 0, &found));
     if (!found && !sli_entrances_say_ground(map))
         SL_TRY(try_by(context, map, SL_ENTRANCE_FOUND, 0, shorter / 3, &found));
-    if (!found || !map->entrance_may_be_wide) return SL_OK;
-    // A width that is found among openings that are small against the plan is none of doors.
-    const double least = map->interior.by == SL_ENTRANCE_FOUND ? longer / DOORS_IN_PLAN : 0;
-    if (!(map->interior.doubtful_width > least)) return SL_OK;
-    return widen(context, map, shorter / 3);
+#ifndef SLI_WITHOUT_DRAWINGS
+    if (found) SL_TRY(widen(context, map, &b));
+#endif
+    return SL_OK;
 }
 
 sl_status sl_map_find_inside(sl_context *context, sl_map *map, const sl_clean_options *clean,

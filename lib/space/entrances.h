@@ -38,7 +38,7 @@ typedef struct sli_entrances {
     double weld;
     sl_box bounds;
     sl_box border; ///< of the space: farther out where the map ends at a window
-    double doubt;  ///< openings up to this width are doubtful; 0: by the width of entrances
+    double doubt;  ///< for SL_ENTRANCE_WIDE: openings up to this width are doubtful
     sli_channels channels;
     sli_clearance clearance;
     uint32_t *triangle; ///< by half-edge; SLI_NO_TRIANGLE outside of the box

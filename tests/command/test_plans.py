@@ -158,14 +158,14 @@ class Entrances(Plans):
         self.assertIn("(entrance 1200, as is usual)", told)
         for width in 2000, 2900:
             told, wide = self.inside(width)
-            self.assertIn(f"inside ends at 1 opening up to {width} mm wide (entrance {width}, a wide one, "
-                          "without which inside is doubtful); for another width, add --entrance W", told)
+            self.assertIn(f"inside ends at 1 opening up to {width} mm wide (entrance {width}, wider than "
+                          "usual: without it, some rooms would be doubtful); for another width, add --entrance W", told)
             self.assertAlmostEqual(wide, share, delta=0.001)
             self.assertNotIn("doubtful: ", told)
 
     def test_an_open_side_is_none(self):
         told, _ = self.inside(6000)
-        self.assertNotIn("a wide one", told)
+        self.assertNotIn("wider than usual", told)
 
 
 class Notes(Plans):

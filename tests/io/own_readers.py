@@ -253,21 +253,34 @@ def ldtk(path):
 # DXF
 
 
+def dxf_pairs_begin(lines, at):
+    """Whether pairs of a code and a value begin at a line, up to a code 0 with a name."""
+    for i in range(at, len(lines) - 1, 2):
+        if not re.fullmatch(r" *-?\d+ *", lines[i]):
+            return False
+        if int(lines[i]) == 0:
+            return not re.fullmatch(r"[-+.\d]*", lines[i + 1].strip())
+    return True
+
+
 def dxf_records(path):
     """Lists of (code, value), each from one code 0 to the next."""
     # Not splitlines(): bytes of letters are ends of lines there.
-    lines = iter(re.split("\r\n|\n|\r", path.read_bytes().decode("latin-1")))
-    record = []
-    for code in lines:
-        if record and record[-1][0] in (1, 3) and not re.fullmatch(r" *-?\d+ *", code):
-            continue  # a text that goes on
-        if not code.strip():
-            break
-        code, text = int(code), next(lines).strip()
+    lines = re.split("\r\n|\n|\r", path.read_bytes().decode("latin-1"))
+    record, at, text = [], 0, False
+    while at + 1 < len(lines) and lines[at].strip():
+        code, value = int(lines[at]), lines[at + 1].strip()
+        at += 2
         if code == 0 and record:
             yield record
             record = []
-        record.append((code, text))
+        record.append((code, value))
+        if code == 0:
+            text = value in ("TEXT", "MTEXT", "ATTRIB")
+        if text and code in (1, 3):
+            text = False
+            while at < len(lines) and not dxf_pairs_begin(lines, at):
+                at += 1  # a text that goes on
     yield record
 
 

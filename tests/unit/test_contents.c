@@ -509,7 +509,7 @@ static void test_rooms(void **state) {
                "wall 12 9 16 9\nwall 16 9 16 5\nwall 16 5 12 5\nwall 12 5 12 9\n");
 }
 
-/// Beside the nodes of a graph of ways, layers of edges have no walls; else they may have.
+/// Beside the nodes of a route graph, layers of edges have no walls; else they may have.
 static void test_edges(void **state) {
     (void)state;
 #define EDGE LINE("edge", 5, 4, 5, 9)
@@ -517,19 +517,33 @@ static void test_edges(void **state) {
     assert_dxf(ROOM("room") EDGE LINE("node", 5, 4, 6, 4), ROOM_WALLS);
 }
 
-/// Lines that go out of their clip obliquely are hatching, with names that say walls too.
+/// Three lines side by side that go out of their clip obliquely are hatching, with names that say
+/// walls too.
 static void test_clipped_hatching(void **state) {
     (void)state;
-#define CLIP       "<clipPath id='c'><path d='M2 2H8V8H2Z'/></clipPath>"
-#define CLIPPED(d) "<g clip-path='url(#c)'><path d='" d "'/></g>"
-#define NAMED(d)   SVG(CLIP "<g id='walls'>" POLYLINE CLIPPED(d) "</g>")
-    assert_map(sli_map_read_svg, NAMED("M0 1L9 10"), NULL, false, SHUT_WALLS);
-    assert_map(sli_map_read_svg, NAMED("M2 2L9 9"), NULL, false, SHUT_WALLS);
-    assert_map(sli_map_read_svg, NAMED("M0 1L9 10"), "*", false, SHUT_WALLS "wall 0 9 9 0\n");
+#define CLIP(d)    "<clipPath id='c'><path d='" d "'/></clipPath>"
+#define CLIPPED(d) "<g clip-path='url(#c)'>" d "</g>"
+#define IN(box, d) SVG(CLIP(box) "<g id='walls'>" POLYLINE CLIPPED(d) "</g>")
+#define SMALL      "M2 2H8V8H2Z"
+#define THREE      "<path d='M0 1L9 10'/><path d='M1 1L9 9'/><path d='M1 0L10 9'/>"
+#define THREE_WALLS "wall 0 9 9 0\nwall 1 9 9 1\nwall 1 10 10 1\n"
+    assert_map(sli_map_read_svg, IN(SMALL, THREE), NULL, false, SHUT_WALLS);
+    assert_map(sli_map_read_svg, IN(SMALL, THREE), "*", false, SHUT_WALLS THREE_WALLS);
+    // One line may be a wall, and so may lines that are not side by side
+    assert_map(sli_map_read_svg, IN(SMALL, "<path d='M0 1L9 10'/>"), NULL, false,
+               SHUT_WALLS "wall 0 9 9 0\n");
+    assert_map(sli_map_read_svg,
+               IN(SMALL, "<path d='M0 1L9 10'/><path d='M1 1L9 8'/><path d='M1 9L9 0'/>"), NULL,
+               false, SHUT_WALLS "wall 0 9 9 0\nwall 1 9 9 2\nwall 1 1 9 10\n");
+    // A clip as large as the plan is that of a page: it cuts walls at its edge
+    assert_map(sli_map_read_svg, IN("M1 1H9V9H1Z", THREE), NULL, false, SHUT_WALLS THREE_WALLS);
     // What is level, within its clip, or short
-    assert_map(sli_map_read_svg, NAMED("M0 5H9"), NULL, false, SHUT_WALLS "wall 0 5 9 5\n");
-    assert_map(sli_map_read_svg, NAMED("M3 3L7 7"), NULL, false, SHUT_WALLS "wall 3 7 7 3\n");
-    assert_map(sli_map_read_svg, NAMED("M7 7L9 9"), NULL, false, SHUT_WALLS "wall 7 3 9 1\n");
+    assert_map(sli_map_read_svg, IN(SMALL, "<path d='M0 5H9'/>"), NULL, false,
+               SHUT_WALLS "wall 0 5 9 5\n");
+    assert_map(sli_map_read_svg, IN(SMALL, "<path d='M3 3L7 7'/>"), NULL, false,
+               SHUT_WALLS "wall 3 7 7 3\n");
+    assert_map(sli_map_read_svg, IN(SMALL, "<path d='M7 7L9 9'/>"), NULL, false,
+               SHUT_WALLS "wall 7 3 9 1\n");
 }
 
 static void test_memory(void **state) {

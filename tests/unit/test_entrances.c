@@ -26,14 +26,29 @@ static void open_plan(sl_map *map, plan *p) {
     assert_ok(p->context, sl_space_check(p->context, &p->space));
 }
 
-static void read_plan(const char *text, plan *p) {
+/// What a map is that a format other than map text makes.
+typedef enum kind {
+    TEXT,
+    DRAWING, ///< a wide opening may be an entrance
+    PICTURE  ///< what is not solid is open
+} kind;
+
+static void read_as(kind as, const char *text, plan *p) {
     sl_map map = {0};
     char all[8000];
     snprintf(all, sizeof all, "sightline 1\n%s", text);
     *p = (plan){0};
     p->context = testing_context(&p->memory);
     assert_ok(p->context, sli_map_read_text(p->context, "plan", all, strlen(all), &map));
+    map.entrance_may_be_wide = as == DRAWING;
+    for (size_t i = 0; i < map.wall_count && as == PICTURE; i++)
+        map.walls[i].ground |=
+            map.walls[i].ground & SL_SOLID_LEFT ? SL_OPEN_RIGHT : SL_OPEN_LEFT;
     open_plan(&map, p);
+}
+
+static void read_plan(const char *text, plan *p) {
+    read_as(TEXT, text, p);
 }
 
 static void close_plan(plan *p) {
@@ -502,6 +517,97 @@ static void test_known_ground(void **state) {
     close_plan(&p);
 }
 
+/// A picture says for each wall what is solid and what is open. Where the ground around is open,
+/// entrances part it from rooms; solid ground does so by itself.
+static void test_open_around(void **state) {
+    (void)state;
+    static const char house[] = "solid 4 0 10 0 10 8 0 8 0 0 3 0 3 0.3 0.3 0.3 0.3 7.7 9.7 7.7 9.7 "
+                                "0.3 4 0.3\nsolid 14 -5 15 -5 15 -4 14 -4\n";
+    static const char *const around[] = {"", "solid -9 -9 -8 -9 -8 -8 -9 -8\n",
+                                         "open -20 -20 30 -20 30 30 -20 30\n"};
+    for (int i = 0; i < 3; i++) {
+        char text[600];
+        plan p;
+        snprintf(text, sizeof text, "unit m\n%s%s", house, around[i]);
+        read_as(PICTURE, text, &p);
+        assert_true(is_inside(&p, (sl_point){5, 4}));
+        assert_int_equal(is_inside(&p, (sl_point){13, 4}), i == 2);
+        assert_int_equal(p.map.interior.by, i == 2 ? SL_ENTRANCE_NONE : SL_ENTRANCE_UNIT);
+        close_plan(&p);
+    }
+}
+
+/// Nearly nothing is inside, whatever is said of how it was found: this is a doubt.
+static void test_nearly_nothing(void **state) {
+    (void)state;
+#define FAR "wall 999 999 1000 1000\n"
+    static const char *const plans[] = {"entrance 1.2\nwalls 1 0 2 0 2 2 0 2 0 0\n" FAR,
+                                        "unit m\nwalls 1 0 2 0 2 2 0 2 0 0\n" FAR,
+                                        "walls 0 0 2 0 2 2 0 2 0 0\nstart 1 1 0\n" FAR};
+    for (int i = 0; i < 3; i++) {
+        char said[SL_INSIDE_TEXT];
+        plan p;
+        read_plan(plans[i], &p);
+        assert_int_equal(doubt_of(&p), i < 2 ? SL_INSIDE_SMALL : SL_INSIDE_FEW);
+        assert_true(p.space.inside_count > 0);
+        assert_ok(p.context, sl_say_inside(p.context, &p.map, &p.space, said));
+        assert_true(*said);
+        close_plan(&p);
+    }
+}
+
+static void assert_same_inside(const plan *a, const plan *b) {
+    const sl_interior *found = &a->map.interior, *other = &b->map.interior;
+    assert_int_equal(found->by, other->by);
+    assert_true(found->width == other->width);
+    assert_true(found->doubtful_width == other->doubtful_width);
+    assert_int_equal(found->entrances, other->entrances);
+    assert_int_equal(found->place_count, other->place_count);
+    assert_int_equal(a->map.seam_count, b->map.seam_count);
+    for (size_t i = 0; i < a->map.seam_count; i++)
+        assert_memory_equal(&a->map.seams[i].segment, &b->map.seams[i].segment, sizeof(sl_segment));
+    assert_int_equal(a->space.inside_count, b->space.inside_count);
+}
+
+/// A drawing with a garage, or with one in another house that is wider: these are entrances.
+static void test_wide_of_drawing(void **state) {
+    (void)state;
+    static const char other[] = "walls 33.5 0 36 0 36 6 30 6 30 0\n";
+    for (int i = 0; i < 2; i++) {
+        char text[4100];
+        plan p;
+        say_house("unit m\n", 2, 2, text);
+        if (i) strcat(text, other);
+        read_as(DRAWING, text, &p);
+        assert_int_equal(p.map.interior.by, SL_ENTRANCE_WIDE);
+        assert_float_equal(p.map.interior.width, i ? 3.5 : 2, 1e-9);
+        assert_int_equal(doubt_of(&p), SL_INSIDE_SURE);
+        assert_true(is_inside(&p, hall) && is_inside(&p, rooms[0]) && !is_inside(&p, cores[0]));
+        assert_int_equal(is_inside(&p, (sl_point){33, 3}), i);
+        close_plan(&p);
+    }
+}
+
+/// Where no building is inside by the wide opening, or the width is that of small openings, the
+/// answer is that of other maps, seams included.
+static void test_narrow_of_drawing(void **state) {
+    (void)state;
+    static const char fences[] = "wall -50 -20 90 -20\nwall -50 -40 90 -40\nwall -50 -60 90 -60\n"
+                                 "walls 40 0 48 0 48 8 40 8 40 1\n";
+    for (int i = 0; i < 2; i++) {
+        char text[4200];
+        plan of_text, of_drawing;
+        say_house(i ? "" : "unit m\n", i ? 2.4 : 2, 2, text);
+        strcat(text, i ? "wall 300 0 301 0\n" : fences);
+        read_as(TEXT, text, &of_text);
+        read_as(DRAWING, text, &of_drawing);
+        assert_true(of_text.map.interior.doubtful_width > 0);
+        assert_same_inside(&of_text, &of_drawing);
+        close_plan(&of_text);
+        close_plan(&of_drawing);
+    }
+}
+
 /// Starts go before it, and what was found is found again without doubling seams.
 static void test_again(void **state) {
     (void)state;
@@ -661,7 +767,9 @@ int main(void) {
         cmocka_unit_test(test_by_doors),      cmocka_unit_test(test_corridor),
         cmocka_unit_test(test_thick_walls),   cmocka_unit_test(test_roomiest),
         cmocka_unit_test(test_slits),         cmocka_unit_test(test_window_at_border),
-        cmocka_unit_test(test_known_ground),
+        cmocka_unit_test(test_known_ground),  cmocka_unit_test(test_open_around),
+        cmocka_unit_test(test_nearly_nothing), cmocka_unit_test(test_wide_of_drawing),
+        cmocka_unit_test(test_narrow_of_drawing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -137,11 +137,29 @@ static void test_layers(void **state) {
                       "f: there is no layer 'doors' in the drawing; it has walls, off, frozen");
 }
 
-/// A text of several lines, as some programs write it: the lines behind the first are passed over.
+/// A text of several lines, as some programs write it: the lines behind the first are passed over,
+/// numbers too. None of them may shift what is a group code, and what its value: a wall would be
+/// gone.
 static void test_text_of_lines(void **state) {
     (void)state;
-    static const char text[] = HEAD "0\nTEXT\n8\n0\n1\nKitchen\nA: 4.57\n\n40\n1\n" ON("0", 1) TAIL;
-    assert_walls_of(sli_map_read_dxf, NULL, text, sizeof text - 1, "wall 1 0 1 1\n");
+    static const char *const lines[] = {
+        "Kitchen",          "Kitchen\nA: 4.57\n",   "Office\n101",   "Office\n101\n102",
+        "Office\n1",        "Office\n3\n1\n0",      "Office\n0",     "Office\n1\n\n4.5\nm\n",
+        "Office\n-3\n8\nA", "Office\n1\n\n\n\n\n2"};
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        char text[600];
+        snprintf(text, sizeof text, HEAD "0\nTEXT\n8\n0\n1\n%s\n40\n1\n" ON("0", 1) ON("0", 2) TAIL,
+                 lines[i]);
+        assert_walls_of(sli_map_read_dxf, NULL, text, strlen(text),
+                        "wall 1 0 1 1\nwall 2 0 2 1\n");
+    }
+    // What is no text has one line, and a text ends somewhere
+    assert_refused(HEAD "0\nCIRCLE\n8\n0\n1\nKitchen\nA: 4.57\n40\n1\n" ON("0", 1) TAIL,
+                   "f:11: expected a group code (a whole number), found 'A: 4.57'");
+    char text[600] = HEAD "0\nTEXT\n1\nKitchen\n";
+    for (int i = 0; i < 65; i++) strcat(text, "a\n");
+    strcat(text, ON("0", 1) TAIL);
+    assert_refused(text, "f:8: the text has more lines");
 }
 
 static void test_refused(void **state) {

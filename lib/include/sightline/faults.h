@@ -132,8 +132,11 @@ SL_API sl_status sl_space_enclosed(sl_context *context, const sl_space *space, d
 typedef enum sl_inside {
     SL_INSIDE_SURE,
     SL_INSIDE_LEAKS, ///< a start leads to the border, where no wall is
-    SL_INSIDE_SMALL, ///< there is no start, and sl_space_enclosed is under a half
-    SL_INSIDE_FEW,   ///< rooms that no start reaches have more area than those that one reaches
+    /// There is no start, and sl_space_enclosed is under a half, or nearly nothing is inside.
+    SL_INSIDE_SMALL,
+    /// Rooms that no start reaches have more area than those that one reaches, or starts reach
+    /// nearly nothing.
+    SL_INSIDE_FEW,
     SL_INSIDE_NONE,  ///< all is solid ground
     /// There is no start, and an opening is a little wider than entrances (sl_interior.doubtful):
     /// what is behind it is not inside.

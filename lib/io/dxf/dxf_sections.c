@@ -36,29 +36,51 @@ static sl_status refuse_other_files(sli_dxf *dxf, const char *text, size_t size)
     return sli_refuse_nul(dxf->context, dxf->name, text, size);
 }
 
-/// Whether a line that is no group code goes on with the text before it: some programs write texts
-/// of several lines as they are.
-static bool goes_on(sli_dxf *dxf, uint32_t line) {
-    static const sli_fault broken = {"line behind the end of a text", "lines behind ends of texts"};
-    const int code = dxf->pairs.count ? dxf->pairs.items[dxf->pairs.count - 1].code : 0;
-    if (code != 1 && code != 3) return false;
-    sli_faults_add(&dxf->faults, &broken, line);
-    return true;
+/// Whether pairs begin here: group codes with values, up to a 0 with the name of what is next. A
+/// line too many turns values into codes, so that a name stands where a code should be. Also true
+/// where the file ends before that.
+static bool are_pairs(sli_lines lines) {
+    sli_word code, value;
+    int number;
+    while (sli_lines_next(&lines, &code) && read_code(sli_trimmed(code), &number)) {
+        double read;
+        if (!sli_lines_next(&lines, &value)) return true;
+        value = sli_trimmed(value);
+        if (number == 0) return value.length && !sl_number_read(value.at, value.length, &read);
+    }
+    return lines.at == lines.end;
+}
+
+/// Some programs write texts of several lines as they are. Passes over lines behind the text that
+/// was read, up to where pairs begin again.
+static sl_status pass_continued(sli_dxf *dxf, sli_lines *lines) {
+    enum { MOST = 64 };
+    static const sli_fault continued = {"continued line of a text (skipped)",
+                                        "continued lines of texts (skipped)"};
+    sli_lines from = *lines;
+    sli_word line;
+    for (size_t count = 0; count <= MOST && !are_pairs(from); count++)
+        if (count == MOST || !sli_lines_next(&from, &line))
+            return sl_fail_at(dxf->context, dxf->name, lines->line,
+                              "the text has more lines, and what follows are no pairs of a group "
+                              "code and a value");
+    while (lines->line < from.line && sli_lines_next(lines, &line))
+        sli_faults_add(&dxf->faults, &continued, (uint32_t)lines->line);
+    return SL_OK;
 }
 
 /// Reads all pairs up to the one that says EOF.
 static sl_status read_pairs(sli_dxf *dxf, const char *text, size_t size) {
     sli_lines lines = sli_lines_of(text, size);
     sli_word code, value;
+    bool may_go_on = false;
     while (sli_lines_next(&lines, &code)) {
         sli_dxf_pair pair;
         code = sli_trimmed(code);
-        if (!read_code(code, &pair.code)) {
-            if (goes_on(dxf, (uint32_t)lines.line)) continue;
+        if (!read_code(code, &pair.code))
             return sl_fail_at(dxf->context, dxf->name, lines.line,
                               "expected a group code (a whole number), found '%s'",
                               sli_show(code).text);
-        }
         if (!sli_lines_next(&lines, &value))
             return sl_fail_at(dxf->context, dxf->name, lines.line,
                               "the file ends where the value of group %d should be", pair.code);
@@ -67,6 +89,11 @@ static sl_status read_pairs(sli_dxf *dxf, const char *text, size_t size) {
         SL_TRY(SL_ARRAY_ROOM(dxf->context, &dxf->pairs, 1));
         dxf->pairs.items[dxf->pairs.count++] = pair;
         if (pair.code == 0 && sli_word_is(pair.value, "EOF")) return SL_OK;
+        if (pair.code == 0) may_go_on = sli_dxf_is_text(pair.value);
+        if (may_go_on && (pair.code == 1 || pair.code == 3)) {
+            SL_TRY(pass_continued(dxf, &lines));
+            may_go_on = false; // pairs are there up to the next name
+        }
         if (dxf->pairs.count % 4096 == 0) SL_TRY(sl_check_cancelled(dxf->context));
     }
     return sl_fail_at(dxf->context, dxf->name, lines.line,

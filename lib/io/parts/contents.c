@@ -104,7 +104,7 @@ sl_status sli_contents_end(sli_contents *contents, sli_pen *pen, uint32_t group)
     of->shapes++;
     of->walls += end - contents->first;
     sli_group_run *last = count ? &contents->runs.items[count - 1] : NULL;
-    if (!contents->has_looks && last && last->group == group && last->end == contents->first) {
+    if (!contents->has_looks && !contents->apart && last && last->group == group && last->end == contents->first) {
         last->end = end;
         return SL_OK;
     }
@@ -112,6 +112,18 @@ sl_status sli_contents_end(sli_contents *contents, sli_pen *pen, uint32_t group)
     contents->runs.items[contents->runs.count++] =
         (sli_group_run){contents->first, end, group, contents->look};
     return SL_OK;
+}
+
+void sli_contents_move(sli_contents *contents, size_t run, uint32_t group) {
+    sli_group_run *moved = &contents->runs.items[run];
+    sli_group *from = &contents->groups.items[moved->group], *to = &contents->groups.items[group];
+    const size_t walls = moved->end - moved->first;
+    sli_keep_finest(&to->finest, from->finest);
+    from->shapes--;
+    from->walls -= walls;
+    to->shapes++;
+    to->walls += walls;
+    moved->group = group;
 }
 
 void sli_contents_cut(sli_contents *contents, size_t first, const size_t *ends) {
@@ -275,7 +287,7 @@ static void take_outlines_of_rooms(sli_choice *c) {
     if (c->outlined) set_means(c);
 }
 
-/// Beside the nodes of a graph of ways, layers of edges are none of walls.
+/// Beside the nodes of a route graph, layers of edges have no walls.
 static void leave_edges(sli_choice *c) {
     bool nodes = false, changes = false;
     for (size_t i = 0; i < c->contents->groups.count; i++)

@@ -55,6 +55,7 @@ typedef struct sli_contents {
     bool walls_named; ///< some layer is named as walls, once the choice is made
     bool has_looks;   ///< the reader tells them: `look` is that of the shape at hand
     uint32_t look;
+    bool apart; ///< the shape at hand gets a run of its own
 } sli_contents;
 
 /// The options with layers "*" as all_layers, and without a "large" before the layers: `*large` is
@@ -100,6 +101,8 @@ bool sli_contents_asks(const sli_contents *contents);
 /// To be called before and behind a shape that the pen draws.
 void sli_contents_begin(sli_contents *contents, sli_pen *pen);
 sl_status sli_contents_end(sli_contents *contents, sli_pen *pen, uint32_t group);
+/// Moves the one shape of a run to another group.
+void sli_contents_move(sli_contents *contents, size_t run, uint32_t group);
 
 /// The walls from `first` on are cut to pieces: those of wall `first` + i end at wall ends[i] now,
 /// those of wall `first` start at `first`.

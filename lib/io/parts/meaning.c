@@ -20,6 +20,9 @@ typedef struct word_list {
     const char *patterns; ///< with blanks between
 } word_list;
 
+/// Nodes of a route graph, as for finding one's way indoors.
+#define ROUTE_NODES "node rfid* reader* waypoint* graph* route*"
+
 static const word_list lists[SLI_MEANINGS] = {
     [SLI_MEANS_NOTHING] = {"", ""},
     [SLI_MEANS_WALL] =
@@ -90,8 +93,8 @@ static const word_list lists[SLI_MEANINGS] = {
          "*도로*"},
     [SLI_MEANS_GRID] =
         {"grid",
-         "grid* axis axes axe paths route* waypoint* wayfinding graph* node rfid* reader* "
-         "coordinate* centerline* centreline* center centre cntr guide* datum dote achse* "
+         ROUTE_NODES
+         " grid* axis axes axe paths wayfinding coordinate* centerline* centreline* center centre cntr guide* datum dote achse* "
          "raster* hilfslinie* mittellinie* trame asse assi interass* eje eixo stramien* assen ось "
          "оси осеи осей осев* os osi osie osy aks akslar axel stomlinj* modullinj* akse akser "
          "*轴* *軸* *グリッド* *通り芯* *通芯* *基準線* *축* *중심선*"},
@@ -152,8 +155,7 @@ static const word_list lists[SLI_MEANINGS] = {
 static const char rooms[] = "room zimmer raum raume chambre salle stanza sala cuarto quarto kamer "
                             "ruimte pokoj комнат* zone hall lobby";
 
-/// What has no walls where there are nodes: a graph of ways, as for finding one's way indoors.
-static const char nodes[] = "node rfid* reader* waypoint* graph* route*";
+/// What has no walls where there are nodes of a route graph.
 static const char edges[] = "edge link";
 
 /// What is around a building, where rooms are named one by one. With another word it says where
@@ -389,7 +391,7 @@ bool sli_meaning_is_rooms(sli_word name) {
 }
 
 bool sli_meaning_is_nodes(sli_word name) {
-    return is_all(name, nodes);
+    return is_all(name, ROUTE_NODES);
 }
 
 bool sli_meaning_is_edges(sli_word name) {

@@ -36,7 +36,7 @@ sli_meaning sli_meaning_of(sli_word name);
 
 /// Whether all words of a name are words for rooms: a layer of their outlines, or one room.
 bool sli_meaning_is_rooms(sli_word name);
-/// Whether a name is that of the nodes of a graph of ways, or of what may be its edges.
+/// Whether a name is that of the nodes of a route graph, or of what may be its edges.
 bool sli_meaning_is_nodes(sli_word name);
 bool sli_meaning_is_edges(sli_word name);
 

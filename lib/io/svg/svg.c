@@ -325,40 +325,15 @@ static void hide_outside(svg *s, const sl_box *clip, size_t first) {
     s->hidden++;
 }
 
-static bool is_in(const sl_box *box, sl_point at) {
-    return at.x >= box->min.x && at.x <= box->max.x && at.y >= box->min.y && at.y <= box->max.y;
-}
-
-/// Whether a shape is a piece of hatching: an oblique line or bar, half as long as its clip at
-/// least, that goes out of it; a bar at both ends. So programs hatch an area.
-static bool is_hatching(const svg *s, const sl_box *clip, size_t first) {
-    const sl_map *map = s->pen.map;
-    const double least = sli_length(clip->max.x - clip->min.x, clip->max.y - clip->min.y) / 2;
-    double longest = 0;
-    size_t within = 0;
-    for (size_t i = first; i < map->wall_count; i++) {
-        const sl_point a = map->walls[i].a, b = map->walls[i].b;
-        if (a.x == b.x || a.y == b.y) return false;
-        longest = fmax(longest, sli_length(b.x - a.x, b.y - a.y));
-        within += is_in(clip, a) + is_in(clip, b);
-    }
-    const bool line = map->wall_count == first + 1;
-    return longest > 0 && longest >= least && within <= (line ? 1 : 0);
-}
-
 /// Draws a shape, as far as it is seen, and tells whose it is.
 static sl_status draw_in_group(svg *s, xmlNode *node, sli_svg_shape kind, const place *at) {
-    static const char hatching[] = "hatching in clips";
     const size_t first = s->pen.map->wall_count;
-    uint32_t group = at->group;
     const bool asks = sli_contents_asks(&s->contents);
     if (asks) sli_contents_begin(&s->contents, &s->pen);
     const sl_status status = sli_svg_draw(s, node, kind);
     hide_outside(s, &at->clip, first);
-    if (asks && is_hatching(s, &at->clip, first))
-        SL_TRY(sli_contents_group(&s->contents, (sli_word){hatching, strlen(hatching)}, &group));
     // The bad tail of a path is passed over; what is drawn belongs to the group.
-    if (asks) SL_TRY(sli_contents_end(&s->contents, &s->pen, group));
+    if (asks) SL_TRY(sli_svg_end_shape(s, &at->clip, first, at->group));
     return status;
 }
 
@@ -552,6 +527,7 @@ static sl_status draw_root(svg *s, xmlNode *root) {
     sli_svg_look_free(&look);
     s->contents.has_looks = !s->style.paint_unread;
     SL_TRY(draw_children(s, root, at));
+    sli_svg_settle_hatching(s);
     if (s->list) return sli_contents_list(&s->contents, s->pen.map, 0, s->list);
     SL_TRY(check_looks(s, root));
     SL_TRY(sli_contents_choose(&s->contents, 0, &s->pen));
@@ -602,6 +578,7 @@ static sl_status read_drawing(sl_context *context, const char *name, const char 
     sli_svg_ids_destroy(context, &s.ids);
     sl_free(context, s.clips.items);
     sl_free(context, s.strokes.items);
+    sl_free(context, s.hatches.items);
     sli_contents_destroy(&s.contents);
     sli_xml_free(s.mark);
     xmlFreeDoc(s.document);

@@ -395,6 +395,12 @@ static sl_inside doubt_without_start(const sl_map *map, double enclosed, bool op
     return open || enclosed < 0.5 ? SL_INSIDE_SMALL : SL_INSIDE_SURE;
 }
 
+/// Whether reports print 0.0 % for what is inside, while there is more outside: niches, or cores of
+/// walls.
+static bool is_nearly_nothing(const sl_ground_shares *shares, double enclosed) {
+    return shares->inside < 0.0005 && shares->outside > shares->inside && enclosed < 0.5;
+}
+
 sl_status sl_doubt_inside(sl_context *context, const sl_map *map, const sl_space *space,
                           sl_inside *out) {
     border edge;
@@ -405,12 +411,14 @@ sl_status sl_doubt_inside(sl_context *context, const sl_map *map, const sl_space
     const sl_ground_shares shares = sl_space_ground(space);
     sl_status status = SL_OK;
     if (map->start_count) status = find_shut_in(context, space, &edge, &shut_in);
+    const bool few = is_nearly_nothing(&shares, enclosed);
     destroy_border(context, &edge);
     SL_TRY(status);
     *out = SL_INSIDE_SURE;
-    if (shut_in > shares.inside) *out = SL_INSIDE_FEW;
+    if (shut_in > shares.inside || (map->start_count && few)) *out = SL_INSIDE_FEW;
     if (map->start_count && open) *out = SL_INSIDE_LEAKS;
     if (!map->start_count) *out = doubt_without_start(map, enclosed, open);
+    if (!map->start_count && few && *out == SL_INSIDE_SURE) *out = SL_INSIDE_SMALL;
     if (!space->inside_count) *out = SL_INSIDE_NONE;
     return SL_OK;
 }
@@ -447,7 +455,7 @@ static void say_entrances(const sl_map *map, char text[SL_INSIDE_TEXT]) {
              found->entrances == 1 ? "" : "s", say_width(map, found->width, width), found->width,
              found->by == SL_ENTRANCE_UNIT    ? "as is usual"
              : found->by == SL_ENTRANCE_DOORS ? "by the doors that are drawn open"
-             : found->by == SL_ENTRANCE_WIDE  ? "a wide one, without which inside is doubtful"
+             : found->by == SL_ENTRANCE_WIDE  ? "wider than usual: without it, some rooms would be doubtful"
                                               : "found from the plan",
              doors);
 }
@@ -476,10 +484,11 @@ sl_status sl_say_inside(sl_context *context, const sl_map *map, const sl_space *
         snprintf(text, SL_INSIDE_TEXT,
                  "the map has no start, and walls enclose nothing, so all of it counts as inside");
     if (doubt == SL_INSIDE_FEW)
-        snprintf(text, SL_INSIDE_TEXT,
-                 "a start reaches %.2g %% of the area, and rooms that no start reaches have more; "
-                 "they count as outside",
-                 100 * shares.inside);
+        snprintf(text, SL_INSIDE_TEXT, "a start reaches %.2g %% of the area, and %s",
+                 100 * shares.inside,
+                 is_nearly_nothing(&shares, enclosed)
+                     ? "nearly all of the map counts as outside"
+                     : "rooms that no start reaches have more; they count as outside");
     if (doubt == SL_INSIDE_NONE)
         snprintf(text, SL_INSIDE_TEXT, "all of the map is solid ground, so nothing is inside");
     return SL_OK;
