@@ -148,6 +148,7 @@ class Clips(Plans):
         cos, sin = math.cos(math.radians(17.3)), math.sin(math.radians(17.3))
         ends = [((-700, y), (700, y)) for y in (-300, -290, 0, 300, 310)]
         ends += [((x, -500), (x, 500)) for x in (-400, -390, 0, 390, 400)]
+        ends += [((x, -290), (x, -100)) for x in range(-300, 400, 100)]
         paths = "".join("<path d='M{} {}L{} {}'/>".format(
             *(round(v, 3) for x, y in pair for v in (500 + cos * x - sin * y, 400 + sin * x + cos * y)))
             for pair in ends)
