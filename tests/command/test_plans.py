@@ -4,6 +4,7 @@ test_plans.py PROGRAM
 """
 import csv
 import json
+import math
 import re
 
 import sandbox
@@ -139,6 +140,24 @@ class DoubtfulUnits(Plans):
         self.assertIn("the drawing says metres, and is 1.2e+04 m long then", self.told(flat(6, 1))[0])
         self.assertIn("in millimetres it is 12 m long (--unit mm=m)", self.told(flat(6, 1))[0])
         self.assertEqual(self.told(str(flat(6, 0.5)).replace("A-WALL", "HOUSES")), [])
+
+
+class Clips(Plans):
+    def test_a_turned_plan_that_the_page_cuts(self):
+        """Its walls leave the clip of the page side by side, as hatching leaves that of an area."""
+        cos, sin = math.cos(math.radians(17.3)), math.sin(math.radians(17.3))
+        ends = [((-700, y), (700, y)) for y in (-300, -290, 0, 300, 310)]
+        ends += [((x, -500), (x, 500)) for x in (-400, -390, 0, 390, 400)]
+        ends += [((x, -290), (x, -100)) for x in range(-300, 400, 100)]
+        paths = "".join("<path d='M{} {}L{} {}'/>".format(
+            *(round(v, 3) for x, y in pair for v in (500 + cos * x - sin * y, 400 + sin * x + cos * y)))
+            for pair in ends)
+        self.write("a.svg", "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 1000 800'>"
+                   "<clipPath id='c'><path d='M0 0H1000V800H0Z'/></clipPath>"
+                   f"<g clip-path='url(#c)' fill='none' stroke='black'>{paths}</g></svg>")
+        result = self.run_well("convert", "a.svg", "-o", "a.map")
+        self.assertIn(f"{len(ends)} shapes give {len(ends)} walls", result.stderr)
+        self.assertNotIn("hatching", result.stderr)
 
 
 class Entrances(Plans):

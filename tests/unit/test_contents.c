@@ -521,11 +521,11 @@ static void test_edges(void **state) {
 /// walls too.
 static void test_clipped_hatching(void **state) {
     (void)state;
-#define CLIP(d)    "<clipPath id='c'><path d='" d "'/></clipPath>"
-#define CLIPPED(d) "<g clip-path='url(#c)'>" d "</g>"
-#define IN(box, d) SVG(CLIP(box) "<g id='walls'>" POLYLINE CLIPPED(d) "</g>")
-#define SMALL      "M2 2H8V8H2Z"
-#define THREE      "<path d='M0 1L9 10'/><path d='M1 1L9 9'/><path d='M1 0L10 9'/>"
+#define CLIP(d)     "<clipPath id='c'><path d='" d "'/></clipPath>"
+#define CLIPPED(d)  "<g clip-path='url(#c)'>" d "</g>"
+#define IN(box, d)  SVG(CLIP(box) "<g id='walls'>" POLYLINE CLIPPED(d) "</g>")
+#define SMALL       "M2 2H8V8H2Z"
+#define THREE       "<path d='M0 1L9 10'/><path d='M1 1L9 9'/><path d='M1 0L10 9'/>"
 #define THREE_WALLS "wall 0 9 9 0\nwall 1 9 9 1\nwall 1 10 10 1\n"
     assert_map(sli_map_read_svg, IN(SMALL, THREE), NULL, false, SHUT_WALLS);
     assert_map(sli_map_read_svg, IN(SMALL, THREE), "*", false, SHUT_WALLS THREE_WALLS);

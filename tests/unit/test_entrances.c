@@ -42,8 +42,7 @@ static void read_as(kind as, const char *text, plan *p) {
     assert_ok(p->context, sli_map_read_text(p->context, "plan", all, strlen(all), &map));
     map.entrance_may_be_wide = as == DRAWING;
     for (size_t i = 0; i < map.wall_count && as == PICTURE; i++)
-        map.walls[i].ground |=
-            map.walls[i].ground & SL_SOLID_LEFT ? SL_OPEN_RIGHT : SL_OPEN_LEFT;
+        map.walls[i].ground |= map.walls[i].ground & SL_SOLID_LEFT ? SL_OPEN_RIGHT : SL_OPEN_LEFT;
     open_plan(&map, p);
 }
 
@@ -759,16 +758,26 @@ static void test_units(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_house),         cmocka_unit_test(test_enclosed),
-        cmocka_unit_test(test_wide_entrance), cmocka_unit_test(test_exact),
-        cmocka_unit_test(test_disc),          cmocka_unit_test(test_outdoors),
-        cmocka_unit_test(test_closed),        cmocka_unit_test(test_again),
-        cmocka_unit_test(test_memory),        cmocka_unit_test(test_units),
-        cmocka_unit_test(test_by_doors),      cmocka_unit_test(test_corridor),
-        cmocka_unit_test(test_thick_walls),   cmocka_unit_test(test_roomiest),
-        cmocka_unit_test(test_slits),         cmocka_unit_test(test_window_at_border),
-        cmocka_unit_test(test_known_ground),  cmocka_unit_test(test_open_around),
-        cmocka_unit_test(test_nearly_nothing), cmocka_unit_test(test_wide_of_drawing),
+        cmocka_unit_test(test_house),
+        cmocka_unit_test(test_enclosed),
+        cmocka_unit_test(test_wide_entrance),
+        cmocka_unit_test(test_exact),
+        cmocka_unit_test(test_disc),
+        cmocka_unit_test(test_outdoors),
+        cmocka_unit_test(test_closed),
+        cmocka_unit_test(test_again),
+        cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_units),
+        cmocka_unit_test(test_by_doors),
+        cmocka_unit_test(test_corridor),
+        cmocka_unit_test(test_thick_walls),
+        cmocka_unit_test(test_roomiest),
+        cmocka_unit_test(test_slits),
+        cmocka_unit_test(test_window_at_border),
+        cmocka_unit_test(test_known_ground),
+        cmocka_unit_test(test_open_around),
+        cmocka_unit_test(test_nearly_nothing),
+        cmocka_unit_test(test_wide_of_drawing),
         cmocka_unit_test(test_narrow_of_drawing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -143,15 +143,14 @@ static void test_layers(void **state) {
 static void test_text_of_lines(void **state) {
     (void)state;
     static const char *const lines[] = {
-        "Kitchen",          "Kitchen\nA: 4.57\n",   "Office\n101",   "Office\n101\n102",
-        "Office\n1",        "Office\n3\n1\n0",      "Office\n0",     "Office\n1\n\n4.5\nm\n",
+        "Kitchen",          "Kitchen\nA: 4.57\n",  "Office\n101", "Office\n101\n102",
+        "Office\n1",        "Office\n3\n1\n0",     "Office\n0",   "Office\n1\n\n4.5\nm\n",
         "Office\n-3\n8\nA", "Office\n1\n\n\n\n\n2"};
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
         char text[600];
         snprintf(text, sizeof text, HEAD "0\nTEXT\n8\n0\n1\n%s\n40\n1\n" ON("0", 1) ON("0", 2) TAIL,
                  lines[i]);
-        assert_walls_of(sli_map_read_dxf, NULL, text, strlen(text),
-                        "wall 1 0 1 1\nwall 2 0 2 1\n");
+        assert_walls_of(sli_map_read_dxf, NULL, text, strlen(text), "wall 1 0 1 1\nwall 2 0 2 1\n");
     }
     // What is no text has one line, and a text ends somewhere
     assert_refused(HEAD "0\nCIRCLE\n8\n0\n1\nKitchen\nA: 4.57\n40\n1\n" ON("0", 1) TAIL,

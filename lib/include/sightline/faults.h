@@ -137,7 +137,7 @@ typedef enum sl_inside {
     /// Rooms that no start reaches have more area than those that one reaches, or starts reach
     /// nearly nothing.
     SL_INSIDE_FEW,
-    SL_INSIDE_NONE,  ///< all is solid ground
+    SL_INSIDE_NONE, ///< all is solid ground
     /// There is no start, and an opening is a little wider than entrances (sl_interior.doubtful):
     /// what is behind it is not inside.
     SL_INSIDE_OPENING,

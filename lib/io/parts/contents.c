@@ -104,7 +104,8 @@ sl_status sli_contents_end(sli_contents *contents, sli_pen *pen, uint32_t group)
     of->shapes++;
     of->walls += end - contents->first;
     sli_group_run *last = count ? &contents->runs.items[count - 1] : NULL;
-    if (!contents->has_looks && !contents->apart && last && last->group == group && last->end == contents->first) {
+    if (!contents->has_looks && !contents->apart && last && last->group == group &&
+        last->end == contents->first) {
         last->end = end;
         return SL_OK;
     }

@@ -92,10 +92,10 @@ static const word_list lists[SLI_MEANINGS] = {
          "tomt* trad *绿化* *植物* *树* *景观* *地形* *道路* *植栽* *外構* *敷地* *조경* *대지* "
          "*도로*"},
     [SLI_MEANS_GRID] =
-        {"grid",
-         ROUTE_NODES
-         " grid* axis axes axe paths wayfinding coordinate* centerline* centreline* center centre cntr guide* datum dote achse* "
-         "raster* hilfslinie* mittellinie* trame asse assi interass* eje eixo stramien* assen ось "
+        {"grid", ROUTE_NODES
+         " grid* axis axes axe paths wayfinding coordinate* centerline* centreline* center centre "
+         "cntr guide* datum dote achse* raster* hilfslinie* mittellinie* trame asse assi interass* "
+         "eje eixo stramien* assen ось "
          "оси осеи осей осев* os osi osie osy aks akslar axel stomlinj* modullinj* akse akser "
          "*轴* *軸* *グリッド* *通り芯* *通芯* *基準線* *축* *중심선*"},
     [SLI_MEANS_STAIRS] =

@@ -1,6 +1,7 @@
 /// An SVG drawing while it is read: its shapes (svg_shapes.c) with their numbers and paths
 /// (svg_path.c), through transforms (svg_transform.c), as far as they are seen (svg_style.c,
-/// svg_place.c), but for hatching (svg_hatching.c). svg.c goes through the elements and makes a map of them.
+/// svg_place.c), but for hatching (svg_hatching.c). svg.c goes through the elements and makes a map
+/// of them.
 #ifndef SL_SVG_H
 #define SL_SVG_H
 
@@ -34,8 +35,8 @@ typedef struct sli_svg {
     SL_ARRAY(sl_box) clips;   ///< boxes of clips that were used, in their own places
     SL_ARRAY(double) strokes; ///< widths of lines that are not filled, in the map
     SL_ARRAY(sli_svg_hatch) hatches;
-    size_t all_shapes;        ///< of the file, seen or not
-    double picture;           ///< the area of the largest picture, in the map
+    size_t all_shapes; ///< of the file, seen or not
+    double picture;    ///< the area of the largest picture, in the map
     uint32_t picture_line;
     char *mark;     ///< the sum of the digits that the file's writer knew
     bool by_number; ///< walls have the number of their shape in place of its line
@@ -84,8 +85,9 @@ sl_status sli_svg_clip(sli_svg *s, const sli_svg_look *look, sli_svg_place *at);
 /// All of the plane.
 sl_box sli_svg_no_clip(void);
 
-/// Ends a shape of the contents, whose walls are those from `first` on: of its group, or of hatching
-/// if it may be a piece of that. sli_svg_settle_hatching() decides, once all shapes are drawn.
+/// Ends a shape of the contents, whose walls are those from `first` on: of its group, or of
+/// hatching if it may be a piece of that. sli_svg_settle_hatching() decides, once all shapes are
+/// drawn.
 sl_status sli_svg_end_shape(sli_svg *s, const sl_box *clip, size_t first, uint32_t group);
 void sli_svg_settle_hatching(sli_svg *s);
 

@@ -1,7 +1,7 @@
 /// Hatching by clips: programs hatch an area with long oblique lines, and a clip shows them within
-/// the area alone. One line that leaves its clip may be a wall at the edge of a page. So hatching is
-/// a set of lines side by side, one after the other in the file. They share a clip, or each has its
-/// own, smaller than the page and the plan.
+/// the area alone. One line that leaves its clip may be a wall at the edge of a page. So hatching
+/// is a set of lines side by side, one after the other in the file. They share a clip, or each has
+/// its own, smaller than the page and the plan.
 ///
 /// Each line that may belong to such a set gets the group of hatching as it is drawn, in a run of
 /// its own. Once all is drawn, lines of no set go back to their own groups.
@@ -77,7 +77,8 @@ void sli_svg_settle_hatching(sli_svg *s) {
     const sl_box drawn = sl_map_bounds(s->pen.map);
     const double plan = area_of(&drawn);
     for (size_t first = 0, end; first < s->hatches.count; first = end) {
-        for (end = first + 1; end < s->hatches.count && are_beside(&all[end - 1], &all[end]);) end++;
+        for (end = first + 1; end < s->hatches.count && are_beside(&all[end - 1], &all[end]);)
+            end++;
         for (size_t i = first; i < end; i++)
             if (end - first < FEWEST || is_page(s->pen.map, plan, &all[i].clip))
                 sli_contents_move(&s->contents, all[i].run, all[i].group);

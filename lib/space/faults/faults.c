@@ -455,8 +455,9 @@ static void say_entrances(const sl_map *map, char text[SL_INSIDE_TEXT]) {
              found->entrances == 1 ? "" : "s", say_width(map, found->width, width), found->width,
              found->by == SL_ENTRANCE_UNIT    ? "as is usual"
              : found->by == SL_ENTRANCE_DOORS ? "by the doors that are drawn open"
-             : found->by == SL_ENTRANCE_WIDE  ? "wider than usual: without it, some rooms would be doubtful"
-                                              : "found from the plan",
+             : found->by == SL_ENTRANCE_WIDE
+                 ? "wider than usual: without it, some rooms would be doubtful"
+                 : "found from the plan",
              doors);
 }
 
