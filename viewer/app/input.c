@@ -140,7 +140,7 @@ static bool focus_key(app_state *app, const char *key) {
         return true;
     }
     if (strcmp(key, "Escape") == 0 && !app->ui.help) {
-        if (hit.kind == HIT_PLAN && !app->ui.message_is_error) ui_say(&app->ui, false, "%s", "");
+        if (hit.kind == HIT_PLAN && !app->ui.message_is_error) app_say_document(app);
         app->ui.focus = (ui_focus){0};
         return true;
     }

@@ -44,8 +44,8 @@ static void drop_made(app_state *app) {
     app->view.seen.valid = false;
 }
 
-/// Says what was read.
-static void say_document(app_state *app) {
+void app_say_document(app_state *app) {
+    if (!app->document.baked) return;
     const sl_space *space = &app->document.baked->space;
     char name[TITLE_TEXT], calls[CALLS_TEXT], partial[SL_PARTIAL_TEXT];
     map_file_name(&app->desk, name);
@@ -126,7 +126,7 @@ static void take_document(app_state *app, bool opened) {
         view_set_mode(&app->view, MODE_PLAN);
     walk_home(&app->view);
     map_file_taken(&app->desk);
-    say_document(app);
+    app_say_document(app);
     files_ask_once(&app->desk);
 }
 
@@ -166,7 +166,7 @@ static void take_results(app_state *app, bool wait) {
         take_document(app, before != app->document.opened);
         // What was said before was of the map before.
         const bool again = before == app->document.opened && *opening;
-        if (status == SL_OK && again && app->document.baked) say_document(app);
+        if (status == SL_OK && again) app_say_document(app);
     }
     follow_document(app);
     if (*opening)
@@ -252,7 +252,7 @@ static void tidy_message(app_state *app) {
     const ui_state *ui = &app->ui;
     if (app->ui.steady || ui->message_is_error || !*ui->message) return;
     if (ui->message_seconds < STALE_SECONDS || app_progress(app).running) return;
-    if (app->document.baked) say_document(app);
+    app_say_document(app);
 }
 
 static void put_eye(app_state *app, const record_frame *frame) {

@@ -10,6 +10,9 @@ void app_take_opened(app_state *app);
 /// Lets time pass: walks, plays, takes over results of the background.
 void app_tick(app_state *app, double seconds);
 
+/// Says in the status line what is open.
+void app_say_document(app_state *app);
+
 /// Waits for the background. Scripts need this to be the same on every machine.
 void app_settle(app_state *app);
 
