@@ -120,17 +120,23 @@ static bool edge_key(app_state *app, const hit_area *hit, const char *key) {
     return by != 0;
 }
 
+/// What the keys of the plan do is said while they do it.
+static void say_focus(app_state *app, bool was_plan) {
+    if (app->ui.focus.kind == HIT_PLAN)
+        ui_say(
+            &app->ui, false,
+            "Arrows move the cursor, Return clicks, Space holds the button; Esc leaves the plan");
+    else if (was_plan && !app->ui.message_is_error)
+        app_say_document(app);
+}
+
 /// Keys for the focused widget; false: the key is not for it.
 static bool focus_key(app_state *app, const char *key) {
     const hit_area hit = ui_focused(&app->ui);
     if (strcmp(key, "Tab") == 0 || strcmp(key, "Shift+Tab") == 0) {
         ui_focus_move(&app->ui, *key == 'S');
-        if (app->ui.focus.kind == HIT_PLAN) {
-            cursor_begin(app, ui_focused(&app->ui).box);
-            ui_say(&app->ui, false,
-                   "Arrows move the cursor, Return clicks, Space holds the button; Esc leaves the "
-                   "plan");
-        }
+        if (app->ui.focus.kind == HIT_PLAN) cursor_begin(app, ui_focused(&app->ui).box);
+        say_focus(app, hit.kind == HIT_PLAN);
         app->ui.hover_is_focus = true;
         return true;
     }
@@ -140,8 +146,8 @@ static bool focus_key(app_state *app, const char *key) {
         return true;
     }
     if (strcmp(key, "Escape") == 0 && !app->ui.help) {
-        if (hit.kind == HIT_PLAN && !app->ui.message_is_error) app_say_document(app);
         app->ui.focus = (ui_focus){0};
+        say_focus(app, hit.kind == HIT_PLAN);
         return true;
     }
     if (hit.kind == HIT_PLAN) return cursor_key(app, key, hit.box);
