@@ -369,11 +369,14 @@ static sl_status keep_if_better(bounder *b, const sl_cover_problem *problem, uin
     sl_cover_cuts raised = {0};
     sl_cover_proof proof = {0};
     uint64_t lower = 0;
-    sl_context *calm = sl_context_create(NULL);
+    sl_hooks hooks = *sl_context_hooks(b->context);
+    hooks.cancelled = NULL;
+    sl_context *calm = sl_context_create(&hooks);
     sl_status status = calm ? make_raised(b, &raised) : SL_NO_MEMORY;
     if (status == SL_OK) status = replace(b->context, &result->proof, part, &raised, &proof);
     if (status == SL_OK) status = sl_cover_check(calm, problem, &proof, &lower);
     sl_context_destroy(calm);
+    if (status == SL_NO_MEMORY) sl_fail_memory(b->context);
     const bool better = status == SL_OK && lower > result->lower;
     sl_cover_proof *old = better ? &result->proof : &proof;
     sl_free(b->context, old->nodes);
