@@ -251,7 +251,7 @@ static sl_status raise_block(bounder *b, void *state, sl_cover_problem *problem,
     const sl_cover_options options = {.program = b->program, .cuts = CUT_ROUNDS};
     sli_cover_cuts cuts = {0};
     sl_status status = sli_cover_cut(b->context, &b->block, &options, state, problem, a->fixed,
-                                     UINT32_MAX, a->duals, a->values, &cuts);
+                                     UINT32_MAX, UNIT, a->duals, a->values, &cuts);
     const bool cancelled = status == SL_CANCELLED;
     if ((status == SL_OK || cancelled) && cuts.ends.count)
         status = run_program(b, state, &cuts.cover, a);
