@@ -6,6 +6,13 @@
 #include "sightline/set_cover.h"
 #include "sightline/support.h"
 
+/// Modules for JavaScript have no linear program: nothing leads to what asks one.
+#ifdef SLI_WITHOUT_PROGRAMS
+enum { SLI_PROGRAMS = 0 };
+#else
+enum { SLI_PROGRAMS = 1 };
+#endif
+
 /// A problem by columns and by rows, lists ascending.
 typedef struct sli_cover {
     uint32_t rows, columns;

@@ -24,7 +24,7 @@
 
 #include <stdio.h>
 
-/// One of FEW_OF is few: what is left of so many is dealt with in the next round.
+/// What is left of a whole is little where it is below one part of SMALL_PARTS: it is dealt with in the next round.
 enum { USUAL_ROUNDS = 400, UPPER_STEPS = 30, COARSE_STEPS = 8, FEW_OF = 100, SPLITS = 8 };
 
 /// Nodes of a coarse set cover of a large map: enough for cuts, and for trees of small parts. Rows
