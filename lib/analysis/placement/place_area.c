@@ -28,8 +28,8 @@
 enum { NETWORK_ROUNDS = 20 };
 /// Longer local searches, at most, while places are completed once.
 enum { SEARCHES = 8 };
-/// One of so many is few.
-enum { FEW_OF = 2 };
+/// With more than one new witness for so much cost, a set leaves much.
+enum { COST_PER_WITNESS = 2 };
 enum {
     ROUNDS = 400,
     COARSE_ITERATIONS = 20000,
@@ -358,7 +358,7 @@ static sl_status fill(finder *f, bool *clean) {
         if (!added) break;
         *clean = false;
         const bool many = f->complete && !f->fine && !f->a->task->network &&
-                          added > cost_of(f->a, f->now) / FEW_OF;
+                          added > cost_of(f->a, f->now) / COST_PER_WITNESS;
         SL_TRY(many ? choose(f, BOTH) : take_more(f, far || !f->complete));
         far = far || many;
     }
