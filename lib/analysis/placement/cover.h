@@ -132,9 +132,10 @@ sl_status sli_cover_branch(sl_context *context, sli_cover_part *part, double *du
 // --- cuts
 
 /// Makes cuts from what a program takes in part, as long as its bound rises by them and proves no
-/// `enough`. `unit`: what a cost of 1 is in `plain`; rises are measured by it. `state` and `problem` are the program's, for `plain`; they become those of out->cover,
-/// unless `out` is empty. `duals` and `values`: of `plain`; values of the last run come
-/// back. Cancelled, it gives the cuts so far.
+/// `enough`. `unit`: what a cost of 1 is in `plain`; rises are measured by it. `state` and
+/// `problem` are the program's, for `plain`; they become those of out->cover, unless `out` is
+/// empty. `duals` and `values`: of `plain`; values of the last run come back. Cancelled, it gives
+/// the cuts so far.
 sl_status sli_cover_cut(sl_context *context, const sli_cover *plain,
                         const sl_cover_options *options, void *state, sl_cover_problem *problem,
                         const uint8_t *fixed, uint64_t enough, double unit, const double *duals,

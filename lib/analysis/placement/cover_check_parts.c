@@ -1,7 +1,7 @@
 /// Problems that stand for a part in its proof (cover_check.h): copies of columns, and cuts.
 ///
-/// Cost: of copies, the entries of a column for each of its blocks; of cuts, their coefficients, and
-/// by column a look at each cut between the first and the last one that it is in.
+/// Cost: of copies, the entries of a column for each of its blocks; of cuts, their coefficients,
+/// and by column a look at each cut between the first and the last one that it is in.
 #include "analysis/placement/cover_check.h"
 
 /// No honest proof has larger demands of cuts, or more entries.
@@ -95,9 +95,9 @@ sl_status sli_make_copies(sl_context *context, const sl_cover_problem *part,
 
 /// By row, and cut as a row: the cuts that are made of it. And the sums of a column.
 typedef struct users {
-    size_t *first;     ///< one more than there are
-    uint32_t *cuts;    ///< ascending for each
-    uint64_t *sums;    ///< by row: 1 where the column has it; by cut as a row: of what it is made of
+    size_t *first;  ///< one more than there are
+    uint32_t *cuts; ///< ascending for each
+    uint64_t *sums; ///< by row: 1 where the column has it; by cut as a row: of what it is made of
     size_t begin, end; ///< among cuts as rows: only these have sums
 } users;
 
@@ -147,8 +147,7 @@ static sl_status raise_column(sl_context *context, const sl_cover_problem *part,
         if (coefficient) add_up(u, rows, (uint32_t)cut, coefficient);
         *sense = out->entries.count + coefficient <= ENTRIES_MOST;
         if (!*sense) return SL_OK;
-        for (uint64_t n = 0; n < coefficient; n++)
-            SL_TRY(add_entry(context, out, (uint32_t)cut));
+        for (uint64_t n = 0; n < coefficient; n++) SL_TRY(add_entry(context, out, (uint32_t)cut));
     }
     *sense = out->entries.count <= ENTRIES_MOST;
     return end_column(context, out, part->costs[column]);
