@@ -105,12 +105,42 @@ static void without_memory(void **state) {
     assert_int_equal(memory.live, 0);
 }
 
+static bool is_cancelled(void *user) {
+    (void)user;
+    return true;
+}
+
+/// The check of the proof, which is not cancelled, takes its memory from the caller's hook.
+static void check_takes_our_memory(void **state) {
+    (void)state;
+    testing_memory memory = {0};
+    const sl_hooks hooks = {.user = &memory, .resize = testing_resize, .cancelled = is_cancelled};
+    sl_context *calm = testing_context(&memory), *context = sl_context_create(&hooks);
+    sl_cover_result r = {0};
+    uint64_t lower;
+    make_problem(1);
+    solve_coarsely(calm, &r);
+    long before = memory.calls;
+    assert_ok(calm, sl_cover_check(calm, &p.problem, &r.proof, &lower));
+    const long of_check = memory.calls - before;
+    before = memory.calls;
+    const sl_status status = sli_bound_by_blocks(context, &p.problem, sl_cover_glpk(), MANY, &r);
+    assert_int_equal(status, SL_CANCELLED);
+    const long own = 20; // about what the blocks allocate before they are cancelled
+    assert_true(memory.calls - before > of_check + own);
+    sl_cover_result_destroy(calm, &r);
+    sl_context_destroy(context);
+    sl_context_destroy(calm);
+    assert_int_equal(memory.live, 0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(blocks_raise_bounds),
         cmocka_unit_test(nothing_to_better),
         cmocka_unit_test(cancelled),
         cmocka_unit_test(without_memory),
+        cmocka_unit_test(check_takes_our_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -15,8 +15,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-/// Witnesses added at once, at most; more where more than FEW_OF times as many pieces are unseen.
-enum { WITNESSES_MOST = 300, FEW_OF = 2 };
+/// Witnesses added at once, at most; more where more than UNSEEN_PER_WITNESS times as many pieces
+/// are unseen.
+enum { WITNESSES_MOST = 300, UNSEEN_PER_WITNESS = 2 };
 /// How far a witness is from a corner of its piece, as a share of the way to the middle.
 #define CORNER_STEP 0x1p-6
 /// Pieces up to this wide, on average, are rounding: a share of the largest coordinate, some times
@@ -124,7 +125,7 @@ static bool is_witness(const checker *c, bool sure) {
 }
 
 static bool is_enough(const checker *c) {
-    return c->added >= WITNESSES_MOST && c->added >= c->unseen.count / FEW_OF;
+    return c->added >= WITNESSES_MOST && c->added >= c->unseen.count / UNSEEN_PER_WITNESS;
 }
 
 static sl_status add_witness(checker *c, sl_point at) {

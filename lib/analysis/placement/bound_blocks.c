@@ -1,17 +1,18 @@
 /// Bounds of large parts of a set cover, block by block.
 ///
 /// The linear program of a part with many rows takes too long. So the rows are put into blocks. A
-/// turn betters the duals of one block after the other, while all others stay: a block may use what
-/// columns cost less the duals of their other rows. So duals stay feasible, and no turn lowers the
-/// bound. Blocks of the next turn are others, which mends what was lost at borders.
+/// pass betters the duals of one block after the other, while all others stay: a block may use what
+/// columns cost less the duals of their other rows. So duals stay feasible and no pass lowers the
+/// bound, both up to rounding. The check of the proof decides what is kept. Blocks of the next pass
+/// are others, which mends what was lost at borders.
 ///
 ///     duals:  [ block 1 ][ block 2 ][ block 3 ]     one after the other
 ///             [ 1' ][  block 2'  ][  block 3' ]     then others
 ///
-/// In the last turn each block gets cuts as well (cover_cuts.c). A cut of some rows of a block is
+/// In the last pass each block gets cuts as well (cover_cuts.c). A cut of some rows of a block is
 /// one of the part, so all of them together are the proof: a leaf with duals for rows and cuts.
 ///
-/// Cost: a turn takes the simplex steps of all blocks, so it grows as the part does.
+/// Cost: a pass takes the simplex steps of all blocks, so it grows as the part does.
 #include "analysis/placement/bound_blocks.h"
 
 #include "analysis/placement/cover.h"
@@ -20,8 +21,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// Rows of a block, turns without cuts, rounds of cuts.
-enum { BLOCK_ROWS = 800, TURNS = 4, CUT_ROUNDS = 6 };
+/// Rows of a block, passes without cuts, rounds of cuts.
+enum { BLOCK_ROWS = 800, PASSES = 4, CUT_ROUNDS = 6 };
 /// What a cost of 1 is in the programs of blocks; simplex steps times entries that one may take.
 enum { UNIT = 1 << 20, BLOCK_WORK = 1 << 30 };
 /// Of the duals in the proof.
@@ -33,7 +34,7 @@ typedef struct bounder {
     sli_cover cover; ///< the part: its rows and columns by their places
     double *y;       ///< by row
     double *rest;    ///< by column: its cost, less the duals of its rows and cuts
-    bool *done;      ///< by row: it is in a block of this turn
+    bool *done;      ///< by row: it is in a block of this pass
     uint32_t *names; ///< by row, and by column: its number in the block, or UINT32_MAX
     uint32_t *column_names;
     SL_ARRAY(uint32_t) rows; ///< of the block
@@ -247,11 +248,11 @@ static sl_status run_program(bounder *b, void *state, const sli_cover *cover, an
     return b->program->again(b->context, state, a->fixed, work, 0, a->duals, a->values);
 }
 
-static sl_status raise_block(bounder *b, void *state, sl_cover_problem *problem, answer *a) {
+static sl_status add_cuts(bounder *b, void *state, sl_cover_problem *problem, answer *a) {
     const sl_cover_options options = {.program = b->program, .cuts = CUT_ROUNDS};
     sli_cover_cuts cuts = {0};
     sl_status status = sli_cover_cut(b->context, &b->block, &options, state, problem, a->fixed,
-                                     UINT32_MAX, a->duals, a->values, &cuts);
+                                     UINT32_MAX, UNIT, a->duals, a->values, &cuts);
     const bool cancelled = status == SL_CANCELLED;
     if ((status == SL_OK || cancelled) && cuts.ends.count)
         status = run_program(b, state, &cuts.cover, a);
@@ -264,7 +265,7 @@ static sl_status raise_block(bounder *b, void *state, sl_cover_problem *problem,
 }
 
 /// Betters the duals of a block. Where the program finds none, they stay.
-static sl_status better_block(bounder *b, bool cuts) {
+static sl_status improve_block(bounder *b, bool cuts) {
     SL_TRY(make_block(b));
     sl_cover_problem problem = sli_cover_problem(&b->block);
     answer a = {0};
@@ -272,7 +273,7 @@ static sl_status better_block(bounder *b, bool cuts) {
     sl_status status = b->program->begin(b->context, &problem, &state);
     if (status == SL_OK) status = run_program(b, state, &b->block, &a);
     if (status == SL_OK) take_duals(b, &b->block, a.duals);
-    if (status == SL_OK && cuts) status = raise_block(b, state, &problem, &a);
+    if (status == SL_OK && cuts) status = add_cuts(b, state, &problem, &a);
     b->program->end(b->context, state);
     sl_free(b->context, a.duals);
     sl_free(b->context, a.values);
@@ -280,7 +281,7 @@ static sl_status better_block(bounder *b, bool cuts) {
     return status == SL_UNSUPPORTED ? SL_OK : status;
 }
 
-static sl_status turn(bounder *b, uint32_t number) {
+static sl_status pass(bounder *b, uint32_t number) {
     const uint32_t rows = b->cover.rows;
     size_t most = number % 2 ? BLOCK_ROWS / 2 : BLOCK_ROWS; // of the first one
     memset(b->done, 0, rows * sizeof *b->done);
@@ -289,7 +290,7 @@ static sl_status turn(bounder *b, uint32_t number) {
         if (b->done[seed]) continue;
         SL_TRY(sl_check_cancelled(b->context));
         SL_TRY(grow(b, seed, most));
-        SL_TRY(better_block(b, number == TURNS));
+        SL_TRY(improve_block(b, number == PASSES));
         for (size_t k = 0; k < b->rows.count; k++) b->names[b->rows.items[k]] = UINT32_MAX;
         for (size_t k = 0; k < b->columns.count; k++)
             b->column_names[b->columns.items[k]] = UINT32_MAX;
@@ -369,11 +370,14 @@ static sl_status keep_if_better(bounder *b, const sl_cover_problem *problem, uin
     sl_cover_cuts raised = {0};
     sl_cover_proof proof = {0};
     uint64_t lower = 0;
-    sl_context *calm = sl_context_create(NULL);
+    sl_hooks hooks = *sl_context_hooks(b->context);
+    hooks.cancelled = NULL;
+    sl_context *calm = sl_context_create(&hooks);
     sl_status status = calm ? make_raised(b, &raised) : SL_NO_MEMORY;
     if (status == SL_OK) status = replace(b->context, &result->proof, part, &raised, &proof);
     if (status == SL_OK) status = sl_cover_check(calm, problem, &proof, &lower);
     sl_context_destroy(calm);
+    if (status == SL_NO_MEMORY) sl_fail_memory(b->context);
     const bool better = status == SL_OK && lower > result->lower;
     sl_cover_proof *old = better ? &result->proof : &proof;
     sl_free(b->context, old->nodes);
@@ -422,7 +426,7 @@ static sl_status better_part(bounder *b, const sl_cover_problem *problem, uint32
                              sl_cover_result *result) {
     SL_TRY(make(b, &result->proof, part));
     sl_status status = SL_OK;
-    for (uint32_t i = 0; i <= TURNS && status == SL_OK; i++) status = turn(b, i);
+    for (uint32_t i = 0; i <= PASSES && status == SL_OK; i++) status = pass(b, i);
     if (status != SL_OK && status != SL_CANCELLED) return status;
     const sl_status kept = keep_if_better(b, problem, part, result);
     return kept == SL_OK ? status : kept;

@@ -4,13 +4,6 @@
 
 #include "sightline/set_cover.h"
 
-/// Modules for JavaScript have no linear program: nothing leads to what asks one.
-#ifdef SLI_WITHOUT_PROGRAMS
-enum { SLI_PROGRAMS = 0 };
-#else
-enum { SLI_PROGRAMS = 1 };
-#endif
-
 /// Betters the bound of `result`, and its proof, where a part that is a leaf alone has more than
 /// `many` rows. For problems of costs and demands of 1. Cancelled, it keeps what it has proven so
 /// far.

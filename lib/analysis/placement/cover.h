@@ -6,6 +6,13 @@
 #include "sightline/set_cover.h"
 #include "sightline/support.h"
 
+/// Modules for JavaScript have no linear program: nothing leads to what asks one.
+#ifdef SLI_WITHOUT_PROGRAMS
+enum { SLI_PROGRAMS = 0 };
+#else
+enum { SLI_PROGRAMS = 1 };
+#endif
+
 /// A problem by columns and by rows, lists ascending.
 typedef struct sli_cover {
     uint32_t rows, columns;
@@ -125,13 +132,14 @@ sl_status sli_cover_branch(sl_context *context, sli_cover_part *part, double *du
 // --- cuts
 
 /// Makes cuts from what a program takes in part, as long as its bound rises by them and proves no
-/// `enough`. `state` and `problem` are the program's, for `plain`; they become those of out->cover,
-/// unless `out` is empty. `duals` and `values`: of `plain`; values of the last run come
-/// back. Cancelled, it gives the cuts so far.
+/// `enough`. `unit`: what a cost of 1 is in `plain`; rises are measured by it. `state` and
+/// `problem` are the program's, for `plain`; they become those of out->cover, unless `out` is
+/// empty. `duals` and `values`: of `plain`; values of the last run come back. Cancelled, it gives
+/// the cuts so far.
 sl_status sli_cover_cut(sl_context *context, const sli_cover *plain,
                         const sl_cover_options *options, void *state, sl_cover_problem *problem,
-                        const uint8_t *fixed, uint64_t enough, const double *duals, double *values,
-                        sli_cover_cuts *out);
+                        const uint8_t *fixed, uint64_t enough, double unit, const double *duals,
+                        double *values, sli_cover_cuts *out);
 void sli_cover_cuts_destroy(sl_context *context, sli_cover_cuts *cuts); ///< and zeroes it
 
 // --- splits

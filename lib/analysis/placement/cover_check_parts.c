@@ -1,6 +1,7 @@
 /// Problems that stand for a part in its proof (cover_check.h): copies of columns, and cuts.
 ///
-/// Cost: of copies, the entries of a column for each of its blocks; of cuts, their coefficients.
+/// Cost: of copies, the entries of a column for each of its blocks; of cuts, their coefficients,
+/// and by column a look at each cut between the first and the last one that it is in.
 #include "analysis/placement/cover_check.h"
 
 /// No honest proof has larger demands of cuts, or more entries.
@@ -92,26 +93,61 @@ sl_status sli_make_copies(sl_context *context, const sl_cover_problem *part,
 
 // --- cuts
 
-/// A column's coefficients in the cuts come after those of the rows: a cut has only earlier ones.
-static sl_status raise_column(sl_context *context, const sl_cover_problem *part,
-                              const sl_cover_cuts *cuts, uint32_t column, uint64_t *coefficients,
-                              sli_made_problem *out, bool *sense) {
-    const uint32_t rows = part->row_count;
-    for (uint32_t r = 0; r < rows; r++) coefficients[r] = 0;
-    for (size_t i = sli_checked_begin(part, column); i < part->ends[column]; i++) {
-        coefficients[part->entries[i]] = 1;
-        SL_TRY(add_entry(context, out, part->entries[i]));
-    }
-    for (uint32_t cut = 0; cut < cuts->cut_count; cut++) {
-        uint64_t sum = 0;
+/// By row, and cut as a row: the cuts that are made of it. And the sums of a column.
+typedef struct users {
+    size_t *first;  ///< one more than there are
+    uint32_t *cuts; ///< ascending for each
+    uint64_t *sums; ///< by row: 1 where the column has it; by cut as a row: of what it is made of
+    size_t begin, end; ///< among cuts as rows: only these have sums
+} users;
+
+static sl_status list_users(sl_context *context, const sl_cover_cuts *cuts, users *out) {
+    const size_t rows = (size_t)cuts->row_count + cuts->cut_count;
+    const size_t count = cuts->cut_count ? cuts->ends[cuts->cut_count - 1] : 0;
+    out->first = sl_alloc_array(context, rows + 2, sizeof *out->first);
+    out->cuts = sl_alloc_array(context, count, sizeof *out->cuts);
+    out->sums = sl_alloc_array(context, rows, sizeof *out->sums);
+    if (!out->first || !out->cuts || !out->sums) return SL_NO_MEMORY;
+    for (size_t k = 0; k < count; k++) out->first[cuts->rows[k] + 2]++;
+    for (size_t r = 0; r < rows; r++) out->first[r + 2] += out->first[r + 1];
+    for (uint32_t cut = 0; cut < cuts->cut_count; cut++)
         for (size_t k = cut ? cuts->ends[cut - 1] : 0; k < cuts->ends[cut]; k++)
-            sum += coefficients[cuts->rows[k]];
-        const uint64_t half = (sum + 1) / 2, demand = out->demands.items[rows + cut];
-        coefficients[rows + cut] = half < demand ? half : demand;
-        *sense = out->entries.count + coefficients[rows + cut] <= ENTRIES_MOST;
+            out->cuts[out->first[cuts->rows[k] + 1]++] = cut;
+    return SL_OK;
+}
+
+/// Adds a row's coefficient to the sums of the cuts that are made of it.
+static void add_up(users *u, uint32_t rows, uint32_t row, uint64_t coefficient) {
+    for (size_t k = u->first[row]; k < u->first[row + 1]; k++) {
+        const size_t cut = rows + (size_t)u->cuts[k];
+        u->sums[cut] += coefficient;
+        if (cut < u->begin) u->begin = cut;
+        if (cut >= u->end) u->end = cut + 1;
+    }
+}
+
+/// A column's coefficients in the cuts come after those of the rows: a cut has only earlier ones.
+static sl_status raise_column(sl_context *context, const sl_cover_problem *part, uint32_t column,
+                              users *u, sli_made_problem *out, bool *sense) {
+    const uint32_t rows = part->row_count;
+    u->begin = SIZE_MAX;
+    u->end = 0;
+    for (size_t i = sli_checked_begin(part, column); i < part->ends[column]; i++) {
+        const uint32_t row = part->entries[i];
+        if (!u->sums[row]) add_up(u, rows, row, 1);
+        u->sums[row] = 1;
+        SL_TRY(add_entry(context, out, row));
+    }
+    for (size_t i = sli_checked_begin(part, column); i < part->ends[column]; i++)
+        u->sums[part->entries[i]] = 0;
+    for (size_t cut = u->begin; cut < u->end; cut++) {
+        const uint64_t half = (u->sums[cut] + 1) / 2, demand = out->demands.items[cut];
+        const uint64_t coefficient = half < demand ? half : demand;
+        u->sums[cut] = 0;
+        if (coefficient) add_up(u, rows, (uint32_t)cut, coefficient);
+        *sense = out->entries.count + coefficient <= ENTRIES_MOST;
         if (!*sense) return SL_OK;
-        for (uint64_t n = 0; n < coefficients[rows + cut]; n++)
-            SL_TRY(add_entry(context, out, rows + cut));
+        for (uint64_t n = 0; n < coefficient; n++) SL_TRY(add_entry(context, out, (uint32_t)cut));
     }
     *sense = out->entries.count <= ENTRIES_MOST;
     return end_column(context, out, part->costs[column]);
@@ -143,11 +179,12 @@ sl_status sli_make_raised(sl_context *context, const sl_cover_problem *part,
     SL_TRY(copy_demands(context, part, out));
     SL_TRY(raise_demands(context, cuts, out, sense));
     if (!*sense) return SL_OK;
-    uint64_t *coefficients = sl_alloc_array(context, out->demands.count, sizeof *coefficients);
-    if (!coefficients) return SL_NO_MEMORY;
-    sl_status status = SL_OK;
+    users u = {0};
+    sl_status status = list_users(context, cuts, &u);
     for (uint32_t j = 0; j < part->column_count && *sense && status == SL_OK; j++)
-        status = raise_column(context, part, cuts, j, coefficients, out, sense);
-    sl_free(context, coefficients);
+        status = raise_column(context, part, j, &u, out, sense);
+    sl_free(context, u.first);
+    sl_free(context, u.cuts);
+    sl_free(context, u.sums);
     return status;
 }

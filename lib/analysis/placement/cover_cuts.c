@@ -33,8 +33,8 @@ enum { MOST_DEMAND = 64, MOST_ENTRIES = 1 << 23 };
 /// Simplex steps times entries that the program may take for a round.
 enum { PROGRAM_WORK = 1 << 30 };
 /// What rows may have over and coefficients lose together; what a cut must gain; and what a bound
-/// must, in PATIENCE rounds.
-static const double most_lost = 0.95, least_broken = 0.02, least_gain = 0.05;
+/// must, in PATIENCE rounds, of a cost of 1.
+static const double most_lost = 0.95, least_broken = 0.02, gain_share = 0.05;
 static const double rounding = 1e-7, loose = 1e-4;
 
 /// Rows added up, modulo 2.
@@ -62,6 +62,7 @@ typedef struct cutter {
     void *state;               ///< of the program
     sl_cover_problem *problem; ///< that it has
     const uint8_t *fixed;      ///< by column
+    double least_gain;         ///< in costs of the program
     double *duals, *values;    ///< by row of the program, by column
     uint32_t *sums;            ///< by column, 0 each
     uint32_t *live;            ///< columns of values over 0, the largest first
@@ -433,7 +434,7 @@ static sl_status run(cutter *c, uint32_t rounds, double enough) {
         SL_TRY(change_cuts(c, first, &solved));
         if (size_of(&c->out->cover) > MOST_ENTRIES) break;
         if (i % PATIENCE != PATIENCE - 1) continue;
-        if (cost_of(c) < before + least_gain) break;
+        if (cost_of(c) < before + c->least_gain) break;
         before = cost_of(c);
     }
     SL_TRY(change_cuts(c, (uint32_t)c->out->ends.count, &solved));
@@ -443,14 +444,15 @@ static sl_status run(cutter *c, uint32_t rounds, double enough) {
 
 sl_status sli_cover_cut(sl_context *context, const sli_cover *plain,
                         const sl_cover_options *options, void *state, sl_cover_problem *problem,
-                        const uint8_t *fixed, uint64_t enough, const double *duals, double *values,
-                        sli_cover_cuts *out) {
+                        const uint8_t *fixed, uint64_t enough, double unit, const double *duals,
+                        double *values, sli_cover_cuts *out) {
     cutter c = {.context = context,
                 .plain = plain,
                 .program = options->program,
                 .state = state,
                 .problem = problem,
                 .fixed = fixed,
+                .least_gain = gain_share * unit,
                 .values = values,
                 .out = out};
     c.duals = sl_alloc_array(context, plain->rows, sizeof *c.duals);

@@ -400,7 +400,7 @@ static sl_status raise_root(sl_context *context, tree *t, bool *stands) {
     if (!t->program || !o->program->change || !o->cuts || !o->nodes) return SL_OK;
     sli_cover_cuts cuts = {0};
     sl_status status = sli_cover_cut(context, t->part->cover, o, t->program, &t->problem,
-                                     t->state.fixed, t->part->cost, t->y, t->values, &cuts);
+                                     t->state.fixed, t->part->cost, 1, t->y, t->values, &cuts);
     const bool made = status == SL_OK || status == SL_CANCELLED;
     const sl_status stood = made ? stand_on(context, t, &cuts, stands) : status;
     sli_cover_cuts_destroy(context, &cuts);

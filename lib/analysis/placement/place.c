@@ -24,8 +24,13 @@
 
 #include <stdio.h>
 
-/// One of FEW_OF is few: what is left of so many is dealt with in the next round.
-enum { USUAL_ROUNDS = 400, UPPER_STEPS = 30, COARSE_STEPS = 8, FEW_OF = 100, SPLITS = 8 };
+enum { USUAL_ROUNDS = 400, UPPER_STEPS = 30, COARSE_STEPS = 8, SPLITS = 8 };
+/// With so many chosen viewpoints for each gap, gaps wait for the next round.
+enum { CHOSEN_PER_GAP = 100 };
+/// Bounds above LARGE are of large maps. Bounds are far apart from one part of UPPER_PER_WIDE on.
+enum { LARGE = 100, UPPER_PER_WIDE = 100 };
+/// A round does little if it adds up to one part of so many of witnesses and of the lower bound.
+enum { WHOLE_PER_LITTLE = 100 };
 
 /// Nodes of a coarse set cover of a large map: enough for cuts, and for trees of small parts. Rows
 /// of a part from which a linear program of all of it takes too long.
@@ -198,7 +203,7 @@ static sl_status bound_above(sli_placer *p, bool *added) {
         SL_TRY(find_unseen(p, &none, &one));
         *added = *added || one;
         if (none) return keep_chosen(p);
-        if (!one || (p->coarse && p->gaps.count <= p->chosen.count / FEW_OF)) break;
+        if (!one || (p->coarse && p->gaps.count <= p->chosen.count / CHOSEN_PER_GAP)) break;
         if (p->coarse && i + 1 == COARSE_STEPS && i + 1 < most) SL_TRY(complete(p));
     }
     return complete(p);
@@ -250,8 +255,8 @@ static sl_status use_columns(sli_placer *p, sli_place_columns *c) {
     const bool drops = p->drops && c->entries.count >= p->options->many_entries;
     sl_cover_options options = sli_cover_options(p);
     // Where the bounds are far apart, a coarse set cover gains by them, too.
-    const bool wide = (p->out->upper - p->out->lower) * FEW_OF > p->out->upper;
-    const bool cuts = p->coarse && p->drops && wide && p->out->upper > FEW_OF;
+    const bool wide = (p->out->upper - p->out->lower) * UPPER_PER_WIDE > p->out->upper;
+    const bool cuts = p->coarse && p->drops && wide && p->out->upper > LARGE;
     if (!p->coarse || (p->drops && wide)) options.splits = SPLITS;
     if (cuts) options.nodes = p->options->nodes < CUT_NODES ? p->options->nodes : CUT_NODES;
     sl_cover_result cover = {0};
@@ -291,9 +296,10 @@ static sl_status bound_below(sli_placer *p, bool *gaps, bool *added) {
     const size_t active = p->active.count;
     SL_TRY(sli_activate(p, added));
     // On a large map the last few take many steps, and gaps lead to better ones.
-    const bool few = p->out->lower == lower ? lower > FEW_OF
-                                            : p->active.count - active <= active / FEW_OF &&
-                                                  p->out->lower - lower <= lower / FEW_OF;
+    const bool few = p->out->lower == lower
+                         ? lower > LARGE
+                         : p->active.count - active <= active / WHOLE_PER_LITTLE &&
+                               p->out->lower - lower <= lower / WHOLE_PER_LITTLE;
     if (*added && !few) return SL_OK;
     SL_TRY(find_unseen(p, &none, added));
     if (none) return keep_chosen(p);

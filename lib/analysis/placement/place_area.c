@@ -28,8 +28,8 @@
 enum { NETWORK_ROUNDS = 20 };
 /// Longer local searches, at most, while places are completed once.
 enum { SEARCHES = 8 };
-/// One of so many is few.
-enum { FEW_OF = 2 };
+/// With more than one new witness for so much cost, a set leaves much.
+enum { COST_PER_WITNESS = 2 };
 enum {
     ROUNDS = 400,
     COARSE_ITERATIONS = 20000,
@@ -210,6 +210,7 @@ typedef struct finder {
     sli_area *a;
     uint8_t *now, *best; ///< by place
     bool complete;       ///< `best` sees all that can be seen
+    bool filled;         ///< so does `now`, by the last check of it
     bool fine;           ///< set covers with trees
     uint64_t gap;        ///< between the bounds, when it last closed
     uint32_t since;      ///< rounds since then
@@ -257,12 +258,12 @@ static sl_status take_more(finder *f, bool at_first) {
     return status;
 }
 
-/// Keeps `now` if it is the best so far.
+/// Keeps `now` if it sees all, and is the best so far.
 static sl_status keep(finder *f) {
     sli_area *a = f->a;
     sl_area_placement *out = a->out;
     const uint64_t cost = cost_of(a, f->now);
-    if (f->complete && cost >= out->upper) return SL_OK;
+    if (!f->filled || (f->complete && cost >= out->upper)) return SL_OK;
     uint32_t *chosen = sl_alloc_array(a->context, a->task->place_count, sizeof *chosen);
     if (!chosen) return SL_NO_MEMORY;
     sl_free(a->context, out->chosen);
@@ -345,6 +346,7 @@ static sl_status fill(finder *f, bool *clean) {
     uint32_t added;
     bool far = false;
     *clean = true;
+    f->filled = false;
     for (int round = 0; round < ROUNDS; round++) {
         if (f->complete)
             sl_report(f->a->context, "place", "viewpoints", f->a->out->lower, f->a->out->upper);
@@ -352,10 +354,11 @@ static sl_status fill(finder *f, bool *clean) {
             sl_report(f->a->context, "place", "witnesses", f->a->witnesses.count, 0);
         if (f->a->task->network) SL_TRY(sli_network_join(f->a, f->now));
         SL_TRY(sli_area_check(f->a, f->now, &added));
+        f->filled = !added;
         if (!added) break;
         *clean = false;
         const bool many = f->complete && !f->fine && !f->a->task->network &&
-                          added > cost_of(f->a, f->now) / FEW_OF;
+                          added > cost_of(f->a, f->now) / COST_PER_WITNESS;
         SL_TRY(many ? choose(f, BOTH) : take_more(f, far || !f->complete));
         far = far || many;
     }
@@ -443,6 +446,9 @@ static sl_status find(finder *f) {
     SL_TRY(take_more(f, true));
     SL_TRY(fill(f, &clean));
     SL_TRY(keep(f));
+    if (!f->complete)
+        return sl_fail(a->context, SL_UNSUPPORTED,
+                       "no choice of the places was complete after %d rounds", ROUNDS);
     if (!(a->out->seen > a->negligible)) return refuse_blind(a);
     if (a->task->network) SL_TRY(bound_without_network(f));
     for (a->out->rounds = 1; a->out->rounds < ROUNDS; a->out->rounds++) {

@@ -7,8 +7,10 @@
 ///     |    \____/     |        An arc becomes chords. Those of the range lie within the arc, those
 ///     +---------------+        of the dead zone about it: what is doubtful counts as not seen.
 ///
-/// Chords are sides of one regular polygon in the circle. So views from one eye leave the same in
-/// doubt: no view has a sliver there that another one does not have.
+/// Chords are sides of one regular polygon in the circle. So where the edges at both ends of an arc
+/// point to the eye, as windows and the sides of a field of view do, views from one eye leave the
+/// same in doubt: none has a sliver that another one does not have. At other edges, as walls, they
+/// may differ.
 ///
 /// Of a sign it is the region all round, and what of it is within a disc.
 #include "analysis/placement/view_shapes.h"
