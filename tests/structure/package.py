@@ -33,7 +33,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         programs, archive = pathlib.Path(folder, "programs"), pathlib.Path(folder, "archive")
         programs.mkdir()
-        for name in ("dpkg-buildpackage", "dh", "dh_python3", "doxygen"):
+        for name in ("dpkg-buildpackage", "dh", "dh_python3", "doxygen", "lintian"):
             (programs / name).write_text("#!/bin/sh\nfind . -type f\n")
             (programs / name).chmod(0o755)
         for name in ("cmake", "cpack"):
