@@ -32,7 +32,7 @@
 /// What rounding may add to a length before a bound counts.
 #define SLACK (1 + 0x1p-40)
 
-/// Channels that cross each other so often take minutes: a map of so many lines is none of rooms.
+/// Beyond this, triangulating takes minutes, and lines that dense are no walls of rooms.
 enum { MOST_CROSSINGS = 1 << 20 };
 
 /// A half-edge by which the search goes on, and the stretch of the wall below it.
