@@ -1,10 +1,10 @@
 /// Bounds of large parts of a set cover, block by block.
 ///
 /// The linear program of a part with many rows takes too long. So the rows are put into blocks. A
-/// pass improves the duals of one block after the other, while all others stay: a block may use what
-/// columns cost less the duals of their other rows. So duals stay feasible and no pass lowers the
-/// bound, both up to rounding. The check of the proof decides what is kept. Blocks of the next pass
-/// are others, which mends what was lost at borders.
+/// pass improves the duals of one block after the other, while all others stay: a block may use
+/// what columns cost less the duals of their other rows. So duals stay feasible and no pass lowers
+/// the bound, both up to rounding. The check of the proof decides what is kept. Blocks of the next
+/// pass are others, which mends what was lost at borders.
 ///
 ///     duals:  [ block 1 ][ block 2 ][ block 3 ]     one after the other
 ///             [ 1' ][  block 2'  ][  block 3' ]     then others

@@ -6,6 +6,7 @@
 /// Each line that may belong to such a set gets the group of hatching as it is drawn, in a run of
 /// its own. Once all is drawn, lines of no set go back to their own groups.
 #include "geometry/length.h"
+#include "geometry/orient.h"
 #include "io/svg/svg.h"
 
 #include <math.h>
@@ -13,10 +14,6 @@
 /// So many lines side by side are hatching, and so far their directions may differ, as a sine.
 enum { FEWEST = 3 };
 #define PARALLEL 0x1p-8
-
-static bool is_in(const sl_box *box, sl_point at) {
-    return at.x >= box->min.x && at.x <= box->max.x && at.y >= box->min.y && at.y <= box->max.y;
-}
 
 /// Whether a shape may be a piece of hatching: an oblique line or bar, half as long as its clip at
 /// least, that goes out of it; a bar at both ends. `along`: the longest side.
@@ -28,7 +25,7 @@ static bool may_be_hatching(const sl_map *map, const sl_box *clip, size_t first,
         const sl_point a = map->walls[i].a, b = map->walls[i].b;
         const double length = sli_length(b.x - a.x, b.y - a.y);
         if (a.x == b.x || a.y == b.y) return false;
-        within += is_in(clip, a) + is_in(clip, b);
+        within += sli_box_holds(clip, a) + sli_box_holds(clip, b);
         if (length <= longest) continue;
         longest = length;
         const double right = b.x > a.x ? length : -length;
