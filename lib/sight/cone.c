@@ -263,15 +263,3 @@ bool sli_view_holds(const sl_view *view, sl_point point) {
     const sli_cone cone = sli_cone_of(&pivot, view);
     return sli_same_point(point, view->eye) || holds_ray(&pivot, &cone, sli_ray_to(point));
 }
-
-bool sli_view_meets_segment(const sl_view *view, sl_segment segment) {
-    sli_pivot pivot = {.eye = view->eye};
-    const sli_cone cone = sli_cone_of(&pivot, view);
-    return sli_cone_meets_segment(&pivot, &cone, segment.a, segment.b);
-}
-
-bool sli_view_meets_polygon(const sl_view *view, const sl_point *corners, size_t count) {
-    sli_pivot pivot = {.eye = view->eye};
-    const sli_cone cone = sli_cone_of(&pivot, view);
-    return sli_cone_meets_polygon(&pivot, &cone, corners, count);
-}

@@ -113,11 +113,4 @@ bool sli_view_usable(const sl_view *view);
 /// Whether a point is within the cone, its border included. The eye itself always is. Exact.
 bool sli_view_holds(const sl_view *view, sl_point point);
 
-/// Whether any point of a closed segment is within the cone, its border included. Exact.
-bool sli_view_meets_segment(const sl_view *view, sl_segment segment);
-
-/// Whether any point of a polygon of three corners or more is within the cone. Its border decides:
-/// a cone has no end. Exact.
-bool sli_view_meets_polygon(const sl_view *view, const sl_point *corners, size_t count);
-
 #endif

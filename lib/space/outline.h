@@ -11,5 +11,7 @@
 /// n walls and sides, if few walls are near to one line.
 sl_status sli_outline_make(sl_context *context, const sl_space *space, sl_outline *out);
 void sli_outline_destroy(sl_context *context, sl_outline *outline); ///< and zeroes it
+/// Whether a point is in a room or on its border.
+bool sli_outline_room_holds(const sl_outline *outline, uint32_t room, sl_point point);
 
 #endif

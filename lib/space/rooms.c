@@ -22,6 +22,7 @@
 #include "sightline/space.h"
 #include "sightline/support.h"
 #include "space/kd_tree.h"
+#include "space/outline.h"
 
 #include <stdlib.h>
 
@@ -593,7 +594,7 @@ sl_status sli_rooms_make(sl_context *context, sl_outline *o) {
     return status;
 }
 
-static bool holds(const sl_outline *o, uint32_t room, sl_point point) {
+bool sli_outline_room_holds(const sl_outline *o, uint32_t room, sl_point point) {
     for (uint32_t i = o->first[room]; i < sl_outline_stop(o, room); i++)
         if (sli_orient(o->sides[i].start, o->sides[o->sides[i].next].start, point) < 0)
             return false;
@@ -604,6 +605,6 @@ uint32_t sl_outline_room(const sl_outline *o, uint32_t cell, sl_point point) {
     const uint32_t *parts = o->parts + o->first_part[cell];
     const uint32_t count = o->first_part[cell + 1] - o->first_part[cell];
     uint32_t i = 0;
-    while (i + 1 < count && !holds(o, parts[i], point)) i++;
+    while (i + 1 < count && !sli_outline_room_holds(o, parts[i], point)) i++;
     return parts[i];
 }

@@ -7,12 +7,6 @@
 
 #include <string.h>
 
-static sl_status push(sl_context *context, sli_numbers *list, uint32_t number) {
-    SL_TRY(SL_ARRAY_ROOM(context, list, 1));
-    list->items[list->count++] = number;
-    return SL_OK;
-}
-
 // --- labels
 
 static sl_status new_use(sl_world *s, sli_world_use use, uint32_t *out) {
@@ -40,7 +34,7 @@ static sl_status label_without(sl_world *s, uint32_t label, uint32_t line, uint3
     *out = 0;
     for (uint32_t at = label; at; at = s->uses.items[at - 1].next) {
         sli_world_use use = s->uses.items[at - 1];
-        SL_TRY(push(s->context, &s->stale, at));
+        SL_TRY(sli_numbers_push(s->context, &s->stale, at));
         if (use.line == line) continue;
         use.next = *out;
         SL_TRY(new_use(s, use, out));
@@ -160,7 +154,7 @@ static sl_status lift(sl_world *s, uint32_t number) {
     for (uint32_t i = 0; i < line.count; i++) {
         const uint32_t *at = s->points + line.first + i;
         uint32_t label;
-        SL_TRY(push(s->context, &s->doubtful, *at));
+        SL_TRY(sli_numbers_push(s->context, &s->doubtful, *at));
         if (i + 1 == line.count) break;
         const uint32_t edge = sli_triangulator_half(t, at[0], at[1]) / 2;
         SL_TRY(label_without(s, t->labels[edge], number, &label));
@@ -245,7 +239,7 @@ sl_status sli_world_edit(sl_world *s) {
     for (size_t i = 0; i < s->corners.count; i++) {
         uint32_t point;
         SL_TRY(point_at(s, s->corners.items[i], &point));
-        SL_TRY(push(s->context, &s->chain, point));
+        SL_TRY(sli_numbers_push(s->context, &s->chain, point));
         SL_TRY(want(s, point));
     }
     SL_TRY(drop_points(s));

@@ -21,15 +21,9 @@
 #include "geometry/length.h"
 #include "geometry/orient.h"
 
-static sl_status push(sl_context *context, sli_numbers *list, uint32_t number) {
-    SL_TRY(SL_ARRAY_ROOM(context, list, 1));
-    list->items[list->count++] = number;
-    return SL_OK;
-}
-
 static sl_status involve(sl_world *s, uint32_t line) {
     if (s->lines.items[line].mark == s->now) return SL_OK;
-    SL_TRY(push(s->context, &s->involved, line));
+    SL_TRY(sli_numbers_push(s->context, &s->involved, line));
     s->lines.items[line].mark = s->now;
     return SL_OK;
 }
@@ -69,7 +63,7 @@ static sl_status reach(sl_world *s, uint32_t half) {
     sli_live *l = &s->live;
     const uint32_t triangle = sli_live_triangle(l, half);
     if (l->mark[triangle] == l->now) return SL_OK;
-    SL_TRY(push(s->context, &s->flood, triangle));
+    SL_TRY(sli_numbers_push(s->context, &s->flood, triangle));
     l->mark[triangle] = l->now;
     return SL_OK;
 }
@@ -211,7 +205,7 @@ static sl_status make_chains(sl_world *s) {
     sl_status status = SL_OK;
     for (size_t i = 0; i < s->involved.count && status == SL_OK; i++) {
         const sli_world_line *line = &s->lines.items[s->involved.items[i]];
-        status = push(s->context, &s->first_corner, (uint32_t)s->corners.count);
+        status = sli_numbers_push(s->context, &s->first_corner, (uint32_t)s->corners.count);
         if (status != SL_OK || !line->next_stands) continue;
         if (s->segments.count > 1) {
             status = take_chain(s, &graph, segment++);
@@ -220,7 +214,8 @@ static sl_status make_chains(sl_world *s) {
         status = add_corner(s, line->next_at.a);
         if (status == SL_OK) status = add_corner(s, line->next_at.b);
     }
-    if (status == SL_OK) status = push(s->context, &s->first_corner, (uint32_t)s->corners.count);
+    if (status == SL_OK)
+        status = sli_numbers_push(s->context, &s->first_corner, (uint32_t)s->corners.count);
     sli_planar_destroy(s->context, &graph);
     return status;
 }

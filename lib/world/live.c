@@ -14,26 +14,20 @@
 #include <stdlib.h>
 #include <string.h>
 
-static sl_status push(sl_context *context, sli_numbers *list, uint32_t number) {
-    SL_TRY(SL_ARRAY_ROOM(context, list, 1));
-    list->items[list->count++] = number;
-    return SL_OK;
-}
-
 static bool is_in_region(const sli_live *l, uint32_t half) {
     return l->mark[sli_live_triangle(l, half)] == l->now;
 }
 
 static sl_status dissolve(sli_live *l, uint32_t cell) {
     if (cell == SL_NO_CELL || l->dissolved[cell] == l->now) return SL_OK;
-    SL_TRY(push(l->context, &l->old, cell));
+    SL_TRY(sli_numbers_push(l->context, &l->old, cell));
     l->dissolved[cell] = l->now;
     return SL_OK;
 }
 
 static sl_status unmerge(sli_live *l, uint32_t edge) {
     if (!l->inner[edge]) return SL_OK;
-    SL_TRY(push(l->context, &l->unmerged, edge));
+    SL_TRY(sli_numbers_push(l->context, &l->unmerged, edge));
     l->inner[edge] = 0;
     return SL_OK;
 }
@@ -41,7 +35,7 @@ static sl_status unmerge(sli_live *l, uint32_t edge) {
 static sl_status add_triangle(sli_live *l, uint32_t half) {
     const uint32_t triangle = sli_live_triangle(l, half);
     if (l->mark[triangle] == l->now) return SL_OK;
-    SL_TRY(push(l->context, &l->region, triangle));
+    SL_TRY(sli_numbers_push(l->context, &l->region, triangle));
     l->mark[triangle] = l->now;
     return SL_OK;
 }
@@ -179,7 +173,7 @@ static sl_status merge(sli_live *l) {
         if (!leaves_convex(l, half) || !leaves_convex(l, half ^ 1)) continue;
         SL_TRY(absorb(l, half));
         SL_TRY(absorb(l, half ^ 1));
-        SL_TRY(push(l->context, &l->merged, half / 2));
+        SL_TRY(sli_numbers_push(l->context, &l->merged, half / 2));
         l->inner[half / 2] = 1;
     }
     return SL_OK;
@@ -205,7 +199,7 @@ static uint32_t kept_number(const sli_live *l, const sli_live_cell *c) {
 static sl_status collect_cell(sli_live *l, uint32_t triangle) {
     const uint32_t first = (uint32_t)l->triangles_of.count;
     sli_live_cell cell = {.first_triangle = first, .half = SL_NO_CELL};
-    SL_TRY(push(l->context, &l->triangles_of, triangle));
+    SL_TRY(sli_numbers_push(l->context, &l->triangles_of, triangle));
     l->mark[triangle] = l->now + 1;
     for (size_t at = first; at < l->triangles_of.count; at++) {
         uint32_t half = l->triangles_of.items[at];
@@ -216,7 +210,7 @@ static sl_status collect_cell(sli_live *l, uint32_t triangle) {
             }
             const uint32_t other = sli_live_triangle(l, half ^ 1);
             if (l->mark[other] == l->now + 1) continue;
-            SL_TRY(push(l->context, &l->triangles_of, other));
+            SL_TRY(sli_numbers_push(l->context, &l->triangles_of, other));
             l->mark[other] = l->now + 1;
         }
     }

@@ -54,6 +54,12 @@ typedef struct sli_live_side {
 
 typedef SL_ARRAY(uint32_t) sli_numbers;
 
+static inline sl_status sli_numbers_push(sl_context *context, sli_numbers *list, uint32_t number) {
+    SL_TRY(SL_ARRAY_ROOM(context, list, 1));
+    list->items[list->count++] = number;
+    return SL_OK;
+}
+
 typedef struct sli_live {
     sl_context *context; ///< of the call under way
     sli_triangulation triangles;

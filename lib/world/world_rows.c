@@ -15,12 +15,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static sl_status push(sl_context *context, sli_numbers *list, uint32_t number) {
-    SL_TRY(SL_ARRAY_ROOM(context, list, 1));
-    list->items[list->count++] = number;
-    return SL_OK;
-}
-
 // --- rows in blocks
 
 static void drop_row(sli_world_rows *r, uint32_t cell) {
@@ -85,7 +79,7 @@ typedef struct step {
 
 static sl_status see(sl_context *context, sli_world_rows *r, uint32_t cell) {
     if (r->marks[cell] == r->now) return SL_OK;
-    SL_TRY(push(context, &r->seen, cell));
+    SL_TRY(sli_numbers_push(context, &r->seen, cell));
     r->marks[cell] = r->now;
     if (r->wanted_count && r->places[cell] && r->wanted.items[r->places[cell] - 1])
         r->search.stop = !--r->wanted_count;
@@ -238,7 +232,7 @@ static sl_status find_seers(sl_context *context, const sli_live *live, sli_world
         status = sli_world_rows_search(context, live, r, live->old.items[i], NULL);
         for (size_t k = 0; k < r->seen.count && status == SL_OK; k++)
             if (!goes(live, r->seen.items[k]))
-                status = push(context, &r->changed, r->seen.items[k]);
+                status = sli_numbers_push(context, &r->changed, r->seen.items[k]);
     }
     r->backwards = false;
     return status;
@@ -267,7 +261,7 @@ sl_status sli_world_rows_plan(sl_context *context, const sli_live *live, sli_wor
                     !live->space.cells[cell].vertex_count)
                     continue;
                 r->marks[cell] = r->now;
-                SL_TRY(push(context, &r->changed, cell));
+                SL_TRY(sli_numbers_push(context, &r->changed, cell));
             }
     }
     if (live->space.seam_portal_count) {
@@ -307,9 +301,10 @@ sl_status sli_world_rows_loosen(sl_context *context, const sli_live *live, sli_w
         r->seen.count = 0;
         for (sl_pvs_run run = sl_pvs_begin(&r->visibility.pvs, cell); sl_pvs_next(&run);)
             for (uint32_t c = run.first; c < run.end; c++)
-                if (live->space.cells[c].vertex_count) SL_TRY(push(context, &r->seen, c));
+                if (live->space.cells[c].vertex_count)
+                    SL_TRY(sli_numbers_push(context, &r->seen, c));
         for (size_t k = opened || i >= stayed ? 0 : stayed; k < r->changed.count; k++)
-            SL_TRY(push(context, &r->seen, r->changed.items[k]));
+            SL_TRY(sli_numbers_push(context, &r->seen, r->changed.items[k]));
         SL_TRY(sli_world_rows_write(context, r, cell));
     }
     return SL_OK;
@@ -324,7 +319,7 @@ static sl_status take_rows(sl_context *context, sli_world_rows *r, const uint32_
             r->seen.count = 0;
             for (sl_pvs_run run = sl_pvs_begin(from, numbers[cell]); sl_pvs_next(&run);)
                 for (uint32_t c = run.first; c < run.end; c++)
-                    SL_TRY(push(context, &r->seen, cells[c]));
+                    SL_TRY(sli_numbers_push(context, &r->seen, cells[c]));
             SL_TRY(sli_world_rows_write(context, r, cell));
         }
         r->loose[cell] = 0;

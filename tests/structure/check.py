@@ -209,6 +209,8 @@ def check_viewer_layers(root):
 def check_names(root):
     """What a private header declares begins with sli_, so that a reader sees what is public."""
     for path in sorted((root / "lib").rglob("*.h")):
+        if {"include", "bindings"} & set(path.parts):  # for others
+            continue
         if folder_of(path.relative_to(root / "lib").as_posix()) not in set(FOLDERS) - ALONE:
             continue
         text = path.read_text(encoding="utf-8")
@@ -259,7 +261,9 @@ def check_used(root):
     for path, text in texts.items():
         for name in re.findall(r"\bsli?_\w+", text):
             users.setdefault(name, []).append(path)
-    for path in sorted((root / "lib").glob("*/*.h")):
+    for path in sorted((root / "lib").rglob("*.h")):
+        if {"include", "bindings"} & set(path.parts):  # for others
+            continue
         for declared in DECLARATION.finditer(texts[path]):
             where = users[declared[1]]
             if where.count(path) == 1 and len(set(where)) <= 2:

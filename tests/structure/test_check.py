@@ -111,6 +111,8 @@ class CheckTest(unittest.TestCase):
         self.assertEqual(self.faults(check.check_used, used), [])
         self.assert_one(self.faults(check.check_used, {**used, "lib/map/n.c": "// sl_one\nsl_two();"}),
                         "lib/map/m.h", "sl_one")
+        deeper = {"lib/map/in/i.h": "int sli_in(void);", "lib/map/in/i.c": "int sli_in(void) {}"}
+        self.assert_one(self.faults(check.check_used, deeper), "lib/map/in/i.h", "sli_in")
 
     def test_runtime_stands_alone(self):
         readme = {"lib/README.md": GOOD["lib/README.md"] + "| `runtime/` | four |\n"}

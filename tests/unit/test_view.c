@@ -130,11 +130,13 @@ static void segments_on_a_grid(void **state) {
             if (r == 12 || l == 12) continue; // the eye
             const sl_view view = {
                 .eye = on_grid(nth(12)), .right = on_grid(nth(r)), .left = on_grid(nth(l))};
+            sli_pivot pivot = {.eye = view.eye};
+            const sli_cone cone = sli_cone_of(&pivot, &view);
             for (int a = 0; a < 25; a++)
                 for (int b = 0; b < 25; b++) {
                     const bool expected = meets_by_integers(nth(r), nth(l), nth(a), nth(b));
-                    const sl_segment segment = {on_grid(nth(a)), on_grid(nth(b))};
-                    if (sli_view_meets_segment(&view, segment) != expected)
+                    if (sli_cone_meets_segment(&pivot, &cone, on_grid(nth(a)), on_grid(nth(b))) !=
+                        expected)
                         fail_msg("right %d left %d segment %d %d", r, l, a, b);
                     met += expected;
                     all++;
@@ -150,6 +152,8 @@ static void polygons_on_a_grid(void **state) {
             if (r == 12 || l == 12) continue;
             const sl_view view = {
                 .eye = on_grid(nth(12)), .right = on_grid(nth(r)), .left = on_grid(nth(l))};
+            sli_pivot pivot = {.eye = view.eye};
+            const sli_cone cone = sli_cone_of(&pivot, &view);
             for (int a = 0; a < 25; a++)
                 for (int b = 0; b < 25; b += 2)
                     for (int c = 0; c < 25; c += 3) {
@@ -158,7 +162,7 @@ static void polygons_on_a_grid(void **state) {
                         for (int i = 0; i < 3; i++)
                             expected |= meets_by_integers(nth(r), nth(l), v[i], v[(i + 1) % 3]);
                         const sl_point corners[3] = {on_grid(v[0]), on_grid(v[1]), on_grid(v[2])};
-                        if (sli_view_meets_polygon(&view, corners, 3) != expected)
+                        if (sli_cone_meets_polygon(&pivot, &cone, corners, 3) != expected)
                             fail_msg("right %d left %d corners %d %d %d", r, l, a, b, c);
                     }
         }

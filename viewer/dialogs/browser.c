@@ -121,11 +121,6 @@ void browser_destroy(desk_state *desk) {
 
 // --- the list
 
-static bool is_folder(const char *path) {
-    struct stat info;
-    return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
-}
-
 static bool is_there(const char *path) {
     struct stat info;
     return stat(path, &info) == 0;

@@ -197,7 +197,7 @@ void folder_list_sort(folder_list *list, folder_sort by, bool down) {
 
 // --- samples
 
-static bool is_folder(const char *path) {
+bool is_folder(const char *path) {
     struct stat info;
     return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
 }

@@ -34,6 +34,8 @@ void folder_list_clear(sl_context *context, folder_list *list);
 sl_status folder_list_read(sl_context *context, folder_list *list, const char *folder,
                            folder_filter filter);
 
+bool is_folder(const char *path);
+
 /// Adds one file, under a name; nothing where it is not there.
 sl_status folder_list_add(sl_context *context, folder_list *list, const char *path,
                           const char *name);

@@ -128,13 +128,6 @@ static sl_status add_line(liner *l) {
     return status;
 }
 
-static int compare_blind(const void *left, const void *right) {
-    const sl_blind_spot *a = left, *b = right;
-    if (a->area != b->area) return a->area > b->area ? -1 : 1;
-    if (a->at.x != b->at.x) return a->at.x < b->at.x ? -1 : 1;
-    return (a->at.y > b->at.y) - (a->at.y < b->at.y);
-}
-
 static sl_status add_lines(liner *l) {
     sli_area *a = l->a;
     sl_area_placement *out = a->out;
@@ -151,7 +144,7 @@ static sl_status add_lines(liner *l) {
         return sl_fail(a->context, SL_BAD_ARGUMENT, "nothing of the lines to be seen is inside");
     if (!sli_area_has_only_lines(a)) return SL_OK;
     if (l->blind.count)
-        qsort(l->blind.items, l->blind.count, sizeof *l->blind.items, compare_blind);
+        qsort(l->blind.items, l->blind.count, sizeof *l->blind.items, sli_blind_spots_compare);
     for (size_t i = 0; i < l->blind.count; i++) out->blind_area += l->blind.items[i].area;
     out->blind = l->blind.items;
     out->blind_count = (uint32_t)l->blind.count;

@@ -12,10 +12,10 @@
 /// then the lowest point of this part is a corner: of that arrangement, or with lines of the place.
 /// So these are looked at for each place, within the boxes.
 #include "analysis/placement/area_proof.h"
+#include "analysis/placement/nearby.h"
 #include "analysis/placement/proof_outline.h"
 #include "analysis/placement/proof_view.h"
 #include "geometry/orient.h"
-#include "space/index.h"
 
 /// What is left in a cell beside a corner.
 typedef struct left_over {
@@ -182,15 +182,10 @@ static sl_status check_chosen(checker *c) {
 
 // --- what the other places see of the rest
 
-static bool boxes_meet(const sl_box *a, const sl_box *b) {
-    return a->min.x <= b->max.x && b->min.x <= a->max.x && a->min.y <= b->max.y &&
-           b->min.y <= a->max.y;
-}
-
 /// Whether something is left in a box.
 static bool is_near(const checker *c, const sl_box *box) {
     for (uint32_t k = 0; k < c->space->cell_count; k++)
-        if (c->has_left[k] && boxes_meet(box, &c->left_boxes[k])) return true;
+        if (c->has_left[k] && sli_boxes_meet(box, &c->left_boxes[k])) return true;
     return false;
 }
 

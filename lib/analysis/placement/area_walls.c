@@ -425,13 +425,6 @@ static sl_status add_rows(scanner *s) {
     return SL_OK;
 }
 
-static int compare_blind(const void *left, const void *right) {
-    const sl_blind_spot *a = left, *b = right;
-    if (a->area != b->area) return a->area > b->area ? -1 : 1;
-    if (a->at.x != b->at.x) return a->at.x < b->at.x ? -1 : 1;
-    return (a->at.y > b->at.y) - (a->at.y < b->at.y);
-}
-
 static sl_status scan(scanner *s) {
     sli_area *a = s->a;
     const sl_box *b = &a->space->bounds;
@@ -449,7 +442,7 @@ static sl_status scan(scanner *s) {
     a->out->area = a->out->rounding = 0;
     SL_TRY(add_rows(s));
     if (s->blind.count)
-        qsort(s->blind.items, s->blind.count, sizeof *s->blind.items, compare_blind);
+        qsort(s->blind.items, s->blind.count, sizeof *s->blind.items, sli_blind_spots_compare);
     a->out->blind = s->blind.items;
     a->out->blind_count = (uint32_t)s->blind.count;
     s->blind.items = NULL;

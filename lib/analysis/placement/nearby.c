@@ -12,11 +12,6 @@ sl_status sli_nearby_add(sl_context *context, sli_nearby *near, sl_box box) {
     return SL_OK;
 }
 
-static bool boxes_meet(const sl_box *a, const sl_box *b) {
-    return a->min.x <= b->max.x && b->min.x <= a->max.x && a->min.y <= b->max.y &&
-           b->min.y <= a->max.y;
-}
-
 static sl_status pack(sl_context *context, sli_nearby *near) {
     sli_box_tree_destroy(context, &near->tree);
     near->in_tree = 0;
@@ -33,7 +28,7 @@ sl_status sli_nearby_find(sl_context *context, sli_nearby *near, sl_box box) {
     found->count = 0;
     if (near->in_tree) SL_TRY(sli_box_tree_find(context, &near->tree, &box, found));
     for (size_t i = near->in_tree; i < near->boxes.count; i++) {
-        if (!boxes_meet(&near->boxes.items[i], &box)) continue;
+        if (!sli_boxes_meet(&near->boxes.items[i], &box)) continue;
         SL_TRY(SL_ARRAY_ROOM(context, found, 1));
         found->items[found->count++] = (uint32_t)i;
     }

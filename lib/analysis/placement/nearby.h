@@ -13,6 +13,11 @@ typedef struct sli_nearby {
     sli_box_list found; ///< by the last search, ascending
 } sli_nearby;
 
+static inline bool sli_boxes_meet(const sl_box *a, const sl_box *b) {
+    return a->min.x <= b->max.x && b->min.x <= a->max.x && a->min.y <= b->max.y &&
+           b->min.y <= a->max.y;
+}
+
 /// Adds a box, which gets the next number.
 sl_status sli_nearby_add(sl_context *context, sli_nearby *near, sl_box box);
 /// Finds all boxes that meet one; a common border is enough.

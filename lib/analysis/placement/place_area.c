@@ -159,7 +159,14 @@ static sl_status add_place(sli_area *a, uint32_t i) {
     return SL_OK;
 }
 
-sl_status sli_area_begin(sli_area *a) {
+int sli_blind_spots_compare(const void *left, const void *right) {
+    const sl_blind_spot *a = left, *b = right;
+    if (a->area != b->area) return a->area > b->area ? -1 : 1;
+    return sli_compare_points(a->at, b->at);
+}
+
+/// The places to choose from as shapes and views, and the area.
+static sl_status begin(sli_area *a) {
     const uint32_t count = a->task->place_count;
     SL_TRY(sl_query_space(a->context, a->query, &a->space, NULL));
     a->directed = sl_query_map(a->query) && sl_query_map(a->query)->oneway_count;
@@ -185,7 +192,7 @@ sl_status sli_area_begin(sli_area *a) {
     return a->task->network ? sli_network_begin(a) : SL_OK;
 }
 
-void sli_area_end(sli_area *a) {
+static void end(sli_area *a) {
     sl_shape_destroy(a->context, &a->target);
     sl_region_destroy(a->context, &a->region);
     sli_view_shapes_destroy(a->context, &a->shapes);
@@ -487,10 +494,10 @@ sl_status sl_place_area_cover(sl_context *context, sl_query *query, const sl_pla
                   .task = area,
                   .options = options ? options : &usual,
                   .out = &made};
-    sl_status status = sli_area_begin(&a);
+    sl_status status = begin(&a);
     if (status == SL_OK) status = area->count ? sli_area_most(&a) : find_fewest(&a);
     made.witness_count = (uint32_t)a.witnesses.count;
-    sli_area_end(&a);
+    end(&a);
     if (status == SL_OK || (status == SL_CANCELLED && made.chosen))
         *out = made;
     else

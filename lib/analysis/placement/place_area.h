@@ -67,12 +67,11 @@ typedef struct sli_area {
     sl_area_placement *out;
 } sli_area;
 
+/// The order of blind spots: the largest first, then by their places.
+int sli_blind_spots_compare(const void *left, const void *right);
 /// What two shapes have in common. The caller destroys it.
 sl_status sli_shape_common(sl_context *context, const sl_shape *one, const sl_shape *other,
                            sl_shape *out);
-/// The places to choose from as shapes and views, and the area.
-sl_status sli_area_begin(sli_area *a);
-void sli_area_end(sli_area *a);
 
 // --- who sees what (area_rows.c)
 

@@ -66,8 +66,6 @@ void sli_placer_destroy(sli_placer *placer); ///< but for `out`
 
 /// Witnesses in convex corners, and before walls between two corners that are not.
 sl_status sli_add_first_witnesses(sli_placer *placer);
-/// Adds a witness, unless it is not inside or not general.
-sl_status sli_add_witness(sli_placer *placer, sl_point at, bool *added);
 /// Adds one in each part of what is inside in which no chosen candidate stands.
 sl_status sli_add_unseen_parts(sli_placer *placer, bool *added);
 /// Adds one beyond a gap of the chosen candidates that none of them sees.

@@ -59,11 +59,13 @@ static int compare_rays(const void *left, const void *right) {
     return (a->group > b->group) - (a->group < b->group);
 }
 
-void sli_rays_sort(sli_ray_parts *parts) {
+/// By the left border of their boxes.
+static void sort_rays(sli_ray_parts *parts) {
     if (parts->count) qsort(parts->items, parts->count, sizeof *parts->items, compare_rays);
 }
 
-bool sli_is_wall_corner(const sli_proof_scene *scene, const sli_meet *p) {
+/// Whether the lines of a place meet in a corner of walls.
+static bool is_wall_corner(const sli_proof_scene *scene, const sli_meet *p) {
     uint32_t low = 0, high = scene->corner_count;
     while (low < high) {
         const uint32_t middle = low + (high - low) / 2;
@@ -100,17 +102,17 @@ bool sli_rays_cross(const sli_proof_scene *scene, const sli_ray_part *r, const s
         return false;
     *p = sli_meet_lines(r->line, s->line);
     return sli_box_may_hold(&r->box, p) && sli_box_may_hold(&s->box, p) &&
-           !is_beside(r, &s->line) && !is_beside(s, &r->line) && !sli_is_wall_corner(scene, p);
+           !is_beside(r, &s->line) && !is_beside(s, &r->line) && !is_wall_corner(scene, p);
 }
 
 sl_status sli_rays_visit(sl_context *context, const sli_proof_scene *scene, sli_ray_parts *parts,
                          sli_corner_visit visit, void *data) {
     sli_meet p;
-    sli_rays_sort(parts);
+    sort_rays(parts);
     for (size_t i = 0; i < parts->count; i++) {
         const sli_ray_part *r = &parts->items[i];
         SL_TRY(sl_check_cancelled(context));
-        if (r->wall != SLI_NO_WALL && !sli_is_wall_corner(scene, &r->to))
+        if (r->wall != SLI_NO_WALL && !is_wall_corner(scene, &r->to))
             SL_TRY(visit(data, &r->to, r->wall, r->group));
         for (size_t k = i + 1; k < parts->count; k++) {
             const sli_ray_part *s = &parts->items[k];
@@ -188,7 +190,9 @@ void sli_directions_sort(sli_directions *d) {
 
 /// The sign of b's turn from a, where b is within half a turn and not in line with it: for a
 /// sector, of its first direction, or of its last where the first one is in line.
-int sli_sector_side(sli_direction line, const sli_direction *sector) {
+/// On which side of a line through its corner a sector is: 1 left, -1 right. No line of the corner
+/// is within the sector.
+static int sector_side(sli_direction line, const sli_direction *sector) {
     const int first = sli_turn(line.a, line.b, sector[0].a, sector[0].b);
     if (first) return first;
     const int last = sli_turn(line.a, line.b, sector[1].a, sector[1].b);
@@ -199,7 +203,7 @@ int sli_sector_side(sli_direction line, const sli_direction *sector) {
 
 bool sli_sector_is_left(sl_point a, sl_point b, const sli_meet *p, const sli_direction *sector) {
     const int side = sli_meet_side(p, a, b);
-    return side ? side > 0 : sli_sector_side((sli_direction){a, b}, sector) > 0;
+    return side ? side > 0 : sector_side((sli_direction){a, b}, sector) > 0;
 }
 
 bool sli_polygon_has_sector(const sl_point *corners, size_t count, const sli_meet *p,
@@ -219,18 +223,18 @@ bool sli_eye_sees_sector(const sli_proof_scene *scene, const sli_eye *e, const s
         for (ray = 0; ray < e->ray_count; ray++) {
             const sli_direction from = {e->at, e->rays[ray].to},
                                 to = {e->at, e->rays[ray == last ? 0 : ray + 1].to};
-            if (sli_sector_side(from, sector) > 0 && sli_sector_side(to, sector) < 0) break;
+            if (sector_side(from, sector) > 0 && sector_side(to, sector) < 0) break;
         }
         return ray < e->ray_count && e->rays[ray].cone != SLI_SHUT;
     }
-    if (b.on && sli_sector_side((sli_direction){e->at, e->rays[ray].to}, sector) < 0)
+    if (b.on && sector_side((sli_direction){e->at, e->rays[ray].to}, sector) < 0)
         ray = ray ? ray - 1 : last;
     const int32_t wall = e->rays[ray].cone;
     if (wall < 0) return false;
     const int side = sli_eye_side(scene, e, wall, p);
     if (side) return side > 0;
     const sl_segment *w = &scene->walls[wall];
-    return sli_sector_side(*w, sector) * sli_orient(w->a, w->b, e->at) > 0;
+    return sector_side(*w, sector) * sli_orient(w->a, w->b, e->at) > 0;
 }
 
 bool sli_eye_sees_around(const sli_proof_scene *scene, const sli_eye *e, const sli_meet *p) {

@@ -46,14 +46,10 @@ bool sli_ray_of_eye(const sli_proof_scene *scene, const sli_eye *eye, uint32_t r
 /// The rays on which the region of an eye ends; its number is their group.
 sl_status sli_ray_add_eye(sl_context *context, const sli_proof_scene *scene, const sli_eye *eye,
                           uint32_t group, sli_ray_parts *parts);
-/// By the left border of their boxes.
-void sli_rays_sort(sli_ray_parts *parts);
 /// Whether two parts may cross; *p is where. Corners of walls are left out: they are tried for
 /// themselves, as a place there stands between two walls, which rays do not know.
 bool sli_rays_cross(const sli_proof_scene *scene, const sli_ray_part *r, const sli_ray_part *s,
                     sli_meet *p);
-/// Whether the lines of a place meet in a corner of walls.
-bool sli_is_wall_corner(const sli_proof_scene *scene, const sli_meet *p);
 /// Sorts parts, and visits the ends of rays and all crossings of two.
 sl_status sli_rays_visit(sl_context *context, const sli_proof_scene *scene, sli_ray_parts *parts,
                          sli_corner_visit visit, void *data);
@@ -76,9 +72,6 @@ void sli_directions_sort(sli_directions *directions);
 
 // A sector is what follows its first direction, counter-clockwise, up to its second one.
 
-/// On which side of a line through its corner a sector is: 1 left, -1 right. No line of the corner
-/// is within the sector.
-int sli_sector_side(sli_direction line, const sli_direction *sector);
 /// Whether the beginning of a sector at a place is left of a line.
 bool sli_sector_is_left(sl_point a, sl_point b, const sli_meet *p, const sli_direction *sector);
 /// Whether a convex polygon, counter-clockwise, has the beginning of a sector at a place.

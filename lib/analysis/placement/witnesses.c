@@ -37,7 +37,8 @@ static sl_status is_on_wall(sli_placer *p, sl_point at, bool *on_wall) {
 }
 
 /// Adds a witness. False where it is not inside, on a wall, or not general.
-sl_status sli_add_witness(sli_placer *p, sl_point at, bool *added) {
+/// Adds a witness, unless it is not inside or not general.
+static sl_status add_witness(sli_placer *p, sl_point at, bool *added) {
     sli_look look;
     bool on_wall;
     bool clean = false;
@@ -69,7 +70,7 @@ static sl_status add_near(sli_placer *p, sl_point corner, sl_point before, sl_po
     bool added = false;
     for (int i = 0; i < 6 && !added; i++) {
         const sl_point to = from_to(before, after, some(p) / 1.5);
-        SL_TRY(sli_add_witness(p, from_to(corner, to, share * some(p)), &added));
+        SL_TRY(add_witness(p, from_to(corner, to, share * some(p)), &added));
     }
     return SL_OK;
 }
@@ -91,8 +92,7 @@ static sl_status add_at_side(sli_placer *p, const sl_outline *o, uint32_t i, uin
     if (is_convex(o, before)) return SL_OK;
     const sl_point m = from_to(a, b, 0.25 + 0.5 * some(p) / 1.5);
     for (double h = 1e-3; !added && h > 1e-8; h /= 8)
-        SL_TRY(
-            sli_add_witness(p, (sl_point){m.x - h * (b.y - a.y), m.y + h * (b.x - a.x)}, &added));
+        SL_TRY(add_witness(p, (sl_point){m.x - h * (b.y - a.y), m.y + h * (b.x - a.x)}, &added));
     return SL_OK;
 }
 
@@ -125,7 +125,7 @@ sl_status sli_add_beyond(sli_placer *p, const sli_window_part *gap, bool *added)
             bool seen = true;
             if (sl_space_is_inside(p->ground.space, at)) SL_TRY(sli_is_seen(p, at, &seen));
             if (seen) continue;
-            SL_TRY(sli_add_witness(p, at, added));
+            SL_TRY(add_witness(p, at, added));
             if (*added) return SL_OK;
         }
     return SL_OK;
@@ -234,7 +234,7 @@ sl_status sli_add_unseen_parts(sli_placer *p, bool *added) {
         const sl_point m = sl_space_middle(space, c);
         const sl_point corner = space->vertices[space->cells[c].first_vertex];
         for (int i = 0; i < 4 && status == SL_OK && !seen[sl_root_of(parent, c)]; i++) {
-            status = sli_add_witness(p, from_to(m, corner, 0.1 * some(p)), &one);
+            status = add_witness(p, from_to(m, corner, 0.1 * some(p)), &one);
             if (status == SL_OK && one) *added = seen[sl_root_of(parent, c)] = true;
         }
     }

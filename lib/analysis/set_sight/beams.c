@@ -72,22 +72,6 @@ void sli_beam_rooms_destroy(sl_context *context, sli_beam_rooms *rooms) {
     *rooms = (sli_beam_rooms){0};
 }
 
-uint32_t sli_beam_rooms_at(const sli_beam_rooms *rooms, sl_point at, uint32_t *first) {
-    const uint32_t sides = rooms->outline->side_count;
-    uint32_t low = 0, high = sides;
-    while (low < high) {
-        const uint32_t middle = low + (high - low) / 2;
-        if (sli_compare_points(sli_side(rooms, rooms->by_start[middle])->start, at) < 0)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    *first = low;
-    while (high < sides && sli_same_point(sli_side(rooms, rooms->by_start[high])->start, at))
-        high++;
-    return high - low;
-}
-
 uint32_t sli_side_across(const sli_beam_rooms *rooms, uint32_t side) {
     const sl_outline *o = rooms->outline;
     const sl_side *s = &o->sides[side];
@@ -113,7 +97,8 @@ static bool starts_in(sl_point eye, const sli_beam *beam, const sli_ray *ray) {
     return sli_ray_turn(eye, &beam->right, ray) >= 0 && sli_ray_turn(eye, ray, &beam->left) > 0;
 }
 
-bool sli_beam_clip(sl_point eye, const sli_beam *a, const sli_beam *b, sli_beam *out) {
+/// What two beams share, if that is more than a ray.
+static bool clip_beam(sl_point eye, const sli_beam *a, const sli_beam *b, sli_beam *out) {
     sli_ray right;
     if (starts_in(eye, a, &b->right))
         right = b->right;
@@ -135,7 +120,7 @@ static sl_status look(sli_walk *w, uint32_t side, const sli_beam *within) {
     if (sli_orient(a, b, w->eye) <= 0) return SL_OK;
     sli_beam beam = {{a, false}, {b, false}};
     const sli_beam whole = beam;
-    if (within && !sli_beam_clip(w->eye, within, &whole, &beam)) return SL_OK;
+    if (within && !clip_beam(w->eye, within, &whole, &beam)) return SL_OK;
     const bool passes = sli_side_passes(w->rooms, side, w->backwards);
     bool enter = passes;
     SL_TRY(w->at_side(w, side, &beam, &enter));

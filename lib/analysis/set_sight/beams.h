@@ -29,9 +29,6 @@ typedef struct sli_beam_rooms {
 sl_status sli_beam_rooms_make(sl_context *context, const sl_outline *outline, sli_beam_rooms *out);
 void sli_beam_rooms_destroy(sl_context *context, sli_beam_rooms *rooms);
 
-/// The sides that start at a point: by_start[*first ...], so many.
-uint32_t sli_beam_rooms_at(const sli_beam_rooms *rooms, sl_point at, uint32_t *first);
-
 static inline const sl_side *sli_side(const sli_beam_rooms *rooms, uint32_t i) {
     return &rooms->outline->sides[i];
 }
@@ -72,9 +69,6 @@ typedef struct sli_walk {
 
 /// The sign of the turn from one ray to another, less than half a turn; 0 in one line. Exact.
 int sli_ray_turn(sl_point eye, const sli_ray *from, const sli_ray *to);
-
-/// What two beams share, if that is more than a ray.
-bool sli_beam_clip(sl_point eye, const sli_beam *a, const sli_beam *b, sli_beam *out);
 
 /// Walks from the eye in the room of side `first`, around it from there; the eye is in the room or
 /// on its border. `within`: the beam that is walked; NULL for all that the room sees. Sides are met

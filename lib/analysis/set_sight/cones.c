@@ -47,8 +47,9 @@ static sl_status add_corner(sl_context *context, const sli_beam_rooms *rooms, ui
     return rooms->solid[rooms->room_of[side]] ? SL_OK : add_room(context, spot, side);
 }
 
-sl_status sli_spot_of_corner(sl_context *context, struct sl_set_sight *s, uint32_t first,
-                             uint32_t count, sli_spot *out) {
+/// Finds what is around a corner of rooms, by_start[first ...], `count` of them.
+static sl_status spot_of_corner(sl_context *context, struct sl_set_sight *s, uint32_t first,
+                                uint32_t count, sli_spot *out) {
     clear_spot(out, sli_side(&s->rooms, s->rooms.by_start[first])->start);
     for (uint32_t i = 0; i < count; i++)
         SL_TRY(add_corner(context, &s->rooms, s->rooms.by_start[first + i], out));
@@ -418,7 +419,7 @@ sl_status sli_add_cones(sl_context *context, struct sl_set_sight *s, sl_segment 
                sli_same_point(sli_side(&s->rooms, s->rooms.by_start[first + count])->start, at))
             count++;
         if (first % 64 < count) SL_TRY(sl_check_cancelled(context));
-        SL_TRY(sli_spot_of_corner(context, s, first, count, &s->corner));
+        SL_TRY(spot_of_corner(context, s, first, count, &s->corner));
         first += count;
         if (!s->corner.blocks.count || sli_orient(segment.a, segment.b, at) == 0) continue;
         bool some, whole;

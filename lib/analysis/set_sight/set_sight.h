@@ -64,10 +64,6 @@ static inline sl_segment sli_segment(const struct sl_set_sight *s, size_t i) {
 /// Finds what is around a place, on both sides of walls, but in no solid ground.
 sl_status sli_spot_find(sl_context *context, struct sl_set_sight *s, sl_point at, sli_spot *out);
 
-/// The same for a corner of rooms: by_start[first ...], `count` of them. Faster.
-sl_status sli_spot_of_corner(sl_context *context, struct sl_set_sight *s, uint32_t first,
-                             uint32_t count, sli_spot *out);
-
 /// From where on a segment a spot is seen that is not in line with it, as beams from the spot
 /// (s->seen); those that are thinner than rounding are left out. Exact: from some piece that is in
 /// range, and from the whole segment, of which some is in range.

@@ -66,12 +66,6 @@ typedef struct searcher {
     tally *tallies;  ///< by slot
 } searcher;
 
-static void swap_sets(sl_bits **a, sl_bits **b) {
-    sl_bits *swap = *a;
-    *a = *b;
-    *b = swap;
-}
-
 /// Takes the points of the next level. Returns how many there are, and empties the level before.
 static uint32_t take_level(const sli_vga_tiles *t, searcher *s, uint32_t depth) {
     uint32_t found = 0;
@@ -85,8 +79,8 @@ static uint32_t take_level(const sli_vga_tiles *t, searcher *s, uint32_t depth) 
             s->depth[b * 64 + (size_t)__builtin_ctzll(rest)] = depth;
     }
     memset(s->bundles, 0, sl_bits_words(t->bundles) * sizeof *s->bundles);
-    swap_sets(&s->level, &s->next);
-    swap_sets(&s->bundles, &s->next_bundles);
+    sli_swap_sets(&s->level, &s->next);
+    sli_swap_sets(&s->bundles, &s->next_bundles);
     return found;
 }
 

@@ -269,12 +269,6 @@ static bool is_pulled(const sli_vga_tiles *t, const searcher *s) {
     return pulled < pushed;
 }
 
-static void swap_sets(sl_bits **a, sl_bits **b) {
-    sl_bits *swap = *a;
-    *a = *b;
-    *b = swap;
-}
-
 /// `reaches`: s->reach is known.
 static void next_level(const sli_vga_tiles *t, searcher *s, uint64_t group, bool reaches) {
     if (reaches && is_pulled(t, s))
@@ -289,9 +283,9 @@ static void next_level(const sli_vga_tiles *t, searcher *s, uint64_t group, bool
     const size_t words = sl_bits_words(t->bundles);
     for (size_t w = 0; w < words; w++) s->touched[w] |= s->next_level[w];
     memset(s->level, 0, words * sizeof *s->level);
-    swap_sets(&s->full, &s->next_full);
-    swap_sets(&s->partial, &s->next);
-    swap_sets(&s->level, &s->next_level);
+    sli_swap_sets(&s->full, &s->next_full);
+    sli_swap_sets(&s->partial, &s->next);
+    sli_swap_sets(&s->level, &s->next_level);
 }
 
 /// Counts points by depth for a group. Entries are valid up to `deepest`.

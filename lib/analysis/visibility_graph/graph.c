@@ -29,6 +29,7 @@
 
 #include "geometry/orient.h"
 #include "sightline/support.h"
+#include "space/outline.h"
 
 #include <math.h>
 
@@ -45,13 +46,6 @@ typedef struct room_points {
     SL_ARRAY(strip) strips;
     uint32_t *home; ///< by point: a room that holds it
 } room_points;
-
-static bool room_holds(const sl_outline *o, uint32_t room, sl_point point) {
-    for (uint32_t i = o->first[room]; i < sl_outline_stop(o, room); i++)
-        if (sli_orient(o->sides[i].start, o->sides[o->sides[i].next].start, point) < 0)
-            return false;
-    return true;
-}
 
 /// The rooms that touch a point, joined to its own room by portals there.
 typedef struct touching {
@@ -78,7 +72,7 @@ static sl_status find_touching(sl_context *context, const sl_outline *o, const u
                 sli_orient(side->start, o->sides[side->next].start, point) != 0)
                 continue;
             const uint32_t other = room_of[side->neighbour];
-            if (is_listed(t, other) || !room_holds(o, other, point)) continue;
+            if (is_listed(t, other) || !sli_outline_room_holds(o, other, point)) continue;
             SL_TRY(SL_ARRAY_ROOM(context, &t->rooms, 1));
             t->rooms.items[t->rooms.count++] = other;
         }

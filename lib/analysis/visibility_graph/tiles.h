@@ -88,4 +88,10 @@ void sli_vga_tiles_destroy(sl_context *context, sli_vga_tiles *tiles);
 void sli_vga_tiles_step(const sli_vga_tiles *tiles, const sl_bits *bundles, const sl_bits *level,
                         const sl_bits *seen, sl_bits *next, sl_bits *next_bundles);
 
+static inline void sli_swap_sets(sl_bits **a, sl_bits **b) {
+    sl_bits *swap = *a;
+    *a = *b;
+    *b = swap;
+}
+
 #endif
