@@ -29,4 +29,9 @@ static inline void end_room(room *r) {
     sl_context_destroy(r->context);
 }
 
+static inline sl_point random_point(const sl_box *b, sl_random *random) {
+    return (sl_point){b->min.x + sl_random_unit(random) * (b->max.x - b->min.x),
+                      b->min.y + sl_random_unit(random) * (b->max.y - b->min.y)};
+}
+
 #endif

@@ -202,11 +202,6 @@ static inline bool make_random(sl_context *context, uint64_t seed, room *r) {
     return r->space.wall_count <= ENDS;
 }
 
-static inline sl_point random_point(const sl_box *b, sl_random *random) {
-    return (sl_point){b->min.x + sl_random_unit(random) * (b->max.x - b->min.x),
-                      b->min.y + sl_random_unit(random) * (b->max.y - b->min.y)};
-}
-
 /// A point anywhere, at the end of a wall, or on a wall between its ends if that is a double.
 static inline sl_point odd_point(const room *r, sl_random *random) {
     const sl_wall *wall = &r->space.walls[sl_random_next(random) % r->space.wall_count];

@@ -7,6 +7,7 @@
 
 #include "sightline/effects.h"
 #include "sightline/support.h"
+#include "sightline/view.h"
 
 enum { RANDOM_EFFECTS_SIZE = 7 };
 
@@ -19,6 +20,25 @@ static inline sl_segment random_effects_segment(sl_random *random, double scale)
     do to = scale * (double)sl_random_below(random, points);
     while (to == from);
     return upright ? (sl_segment){{at, from}, {at, to}} : (sl_segment){{from, at}, {to, at}};
+}
+
+/// Anywhere on an eighth of the grid: within cells, on walls, mirrors, portals and corners.
+static inline sl_point random_effects_point(sl_random *random, double scale) {
+    const uint64_t steps = sl_random_below(random, 2) ? 8 : 1;
+    const double step = scale / (double)steps;
+    return (sl_point){(double)sl_random_below(random, RANDOM_EFFECTS_SIZE * steps + 1) * step,
+                      (double)sl_random_below(random, RANDOM_EFFECTS_SIZE * steps + 1) * step};
+}
+
+/// A cone from an eye, with its sides through anywhere.
+static inline sl_view random_effects_view(sl_random *random, sl_point eye, bool full,
+                                          double scale) {
+    sl_view view = {.eye = eye, .full = full};
+    do view.right = random_effects_point(random, scale);
+    while (testing_same_point(view.right, eye));
+    do view.left = random_effects_point(random, scale);
+    while (testing_same_point(view.left, eye));
+    return view;
 }
 
 /// `effects`: bits of those that the map has; three doors, two of the others. `scale`: the grid's

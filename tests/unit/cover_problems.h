@@ -165,6 +165,13 @@ static inline uint64_t cover_brute(const cover_problem *p) {
     return least;
 }
 
+static inline uint64_t cover_proves(sl_context *context, const cover_problem *p,
+                                    const sl_cover_proof *proof) {
+    uint64_t lower;
+    assert_ok(context, sl_cover_check(context, &p->problem, proof, &lower));
+    return lower;
+}
+
 /// What every result must keep: it covers, costs what it says, and its proof proves its bound.
 static inline void cover_check_result(sl_context *context, const cover_problem *p,
                                       const sl_cover_result *r) {
@@ -178,11 +185,41 @@ static inline void cover_check_result(sl_context *context, const cover_problem *
     assert_true(cover_holds(p, taken));
     assert_true(cover_cost_of(p, taken) == r->cost);
     assert_true(r->lower <= r->cost);
-    uint64_t proven;
-    assert_ok(context, sl_cover_check(context, &p->problem, &r->proof, &proven));
+    const uint64_t proven = cover_proves(context, p, &r->proof);
     if (proven != r->lower)
         fail_msg("claims %llu, proves %llu", (unsigned long long)r->lower,
                  (unsigned long long)proven);
+}
+
+/// Changes a number of a proof, and puts it back. No change may prove more than `least`.
+static inline void cover_change(sl_context *context, const cover_problem *p,
+                                const sl_cover_proof *proof, uint32_t *number, uint32_t to,
+                                uint64_t least) {
+    const uint32_t was = *number;
+    *number = to;
+    assert_true(cover_proves(context, p, proof) <= least);
+    *number = was;
+}
+
+/// Memory fails once, at each of many allocations.
+static inline void cover_without_memory(const cover_problem *p, const sl_cover_options *options) {
+    testing_memory memory = {0};
+    sl_context *context = testing_context(&memory);
+    long failed = 0;
+    memory.once = true;
+    for (long n = 1, done = 0; !done; n += 1 + n / 16) {
+        sl_cover_result result = {0};
+        memory.fail_at = memory.calls + n;
+        const sl_status status = sl_cover_solve(context, &p->problem, options, &result);
+        done = memory.calls < memory.fail_at;
+        memory.fail_at = 0;
+        assert_true(status == SL_OK || status == SL_NO_MEMORY);
+        failed += status == SL_NO_MEMORY;
+        sl_cover_result_destroy(context, &result);
+    }
+    assert_true(failed > 20);
+    sl_context_destroy(context);
+    assert_int_equal(memory.live, 0);
 }
 
 #endif

@@ -90,16 +90,35 @@ static inline uint64_t cost_of(const scene *s, uint32_t set) {
     return cost;
 }
 
+static inline uint32_t set_of(const sl_area_placement *placed) {
+    uint32_t set = 0;
+    for (uint32_t i = 0; i < placed->count; i++) set |= 1u << placed->chosen[i];
+    return set;
+}
+
+static inline uint32_t bits_in(uint32_t set) {
+    uint32_t bits = 0;
+    for (; set; set &= set - 1) bits++;
+    return bits;
+}
+
 static inline sl_area_placement place(scene *s) {
     sl_area_placement placed = {0};
     assert_ok(s->context, sl_place_area_cover(s->context, s->query, &s->area, NULL, &placed));
     assert_true(placed.lower <= placed.upper);
     assert_true(placed.count > 0 && placed.count <= PLACES);
-    uint32_t set = 0;
-    for (uint32_t i = 0; i < placed.count; i++) set |= 1u << placed.chosen[i];
-    assert_int_equal(cost_of(s, set), placed.upper);
+    assert_int_equal(cost_of(s, set_of(&placed)), placed.upper);
     assert_true(placed.rounding <= 1e-9 * placed.area);
     return placed;
+}
+
+static inline void assert_refused(scene *s, const char *part) {
+    sl_area_placement placed = {0};
+    assert_int_equal(sl_place_area_cover(s->context, s->query, &s->area, NULL, &placed),
+                     SL_BAD_ARGUMENT);
+    assert_non_null(strstr(sl_context_message(s->context), part));
+    assert_null(placed.chosen);
+    assert_null(placed.line_lengths);
 }
 
 #endif

@@ -149,11 +149,6 @@ static bool make_random(sl_context *context, uint64_t seed, room *r) {
     return true;
 }
 
-static sl_point random_point(const sl_box *b, sl_random *random) {
-    return (sl_point){b->min.x + sl_random_unit(random) * (b->max.x - b->min.x),
-                      b->min.y + sl_random_unit(random) * (b->max.y - b->min.y)};
-}
-
 /// Points of pieces are seen by as many eyes as the piece says; sums are sums of pieces.
 static void check_points(const room *r, const sl_coverage *c, const sl_viewpoint *eyes,
                          sl_random *random, uint64_t seed) {

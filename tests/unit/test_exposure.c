@@ -113,11 +113,6 @@ static bool make_random(sl_context *context, uint64_t seed, room *r) {
     return true;
 }
 
-static sl_point random_point(const sl_box *b, sl_random *random) {
-    return (sl_point){b->min.x + sl_random_unit(random) * (b->max.x - b->min.x),
-                      b->min.y + sl_random_unit(random) * (b->max.y - b->min.y)};
-}
-
 static sl_point along(const sl_point s[2], double t) {
     return (sl_point){s[0].x + t * (s[1].x - s[0].x), s[0].y + t * (s[1].y - s[0].y)};
 }

@@ -202,24 +202,12 @@ static void ask_region(const trial *t, const sl_space *space, const sl_view *vie
     free(areas);
 }
 
-/// Anywhere on an eighth of the grid: within cells, on walls, mirrors, portals and corners.
-static sl_point random_point(trial *t) {
-    const uint64_t steps = sl_random_below(&t->random, 2) ? 8 : 1;
-    const double step = t->scale / (double)steps;
-    return (sl_point){(double)sl_random_below(&t->random, RANDOM_EFFECTS_SIZE * steps + 1) * step,
-                      (double)sl_random_below(&t->random, RANDOM_EFFECTS_SIZE * steps + 1) * step};
-}
-
 static sl_view random_view(trial *t) {
-    sl_view view;
-    do view = sl_view_all_round(random_point(t));
-    while (sl_space_locate(&t->space, view.eye) == SL_NO_CELL);
-    view.full = sl_random_below(&t->random, 2);
-    do view.right = random_point(t);
-    while (view.right.x == view.eye.x && view.right.y == view.eye.y);
-    do view.left = random_point(t);
-    while (view.left.x == view.eye.x && view.left.y == view.eye.y);
-    return view;
+    sl_point eye;
+    do eye = random_effects_point(&t->random, t->scale);
+    while (sl_space_locate(&t->space, eye) == SL_NO_CELL);
+    const bool full = sl_random_below(&t->random, 2);
+    return random_effects_view(&t->random, eye, full, t->scale);
 }
 
 static void random_maps(void **state) {

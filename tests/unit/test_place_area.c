@@ -321,15 +321,20 @@ static void areas_of(scene *s, uint32_t set, double areas[2]) {
     sl_coverage_destroy(s->context, &coverage);
 }
 
-/// No network of less than a cost, with the fixed places, sees all that all places see.
+/// No network of less than a cost, with the fixed places, sees all that all places see. What is
+/// part of a network that does not sees no more.
 static void check_networks(scene *s, uint64_t cost) {
     const uint32_t cover = s->area.cover ? s->area.cover : 1, every = (1u << PLACES) - 1;
     double all[2], areas[2];
-    uint32_t fixed = 0;
+    uint32_t fixed = 0, tried[1u << PLACES], count = 0;
     for (uint32_t i = 0; i < s->area.fixed_count; i++) fixed |= 1u << s->area.fixed[i];
     areas_of(s, every, all);
-    for (uint32_t set = 1; set <= every; set++) {
-        if ((set & fixed) != fixed || cost_of(s, set) >= cost || !is_network(s, set)) continue;
+    for (uint32_t set = every; set > 0; set--) {
+        if ((set & fixed) != fixed || cost_of(s, set) >= cost) continue;
+        uint32_t i = 0;
+        while (i < count && (set & tried[i]) != set) i++;
+        if (i < count || !is_network(s, set)) continue;
+        tried[count++] = set;
         areas_of(s, set, areas);
         assert_true(areas[0] < all[0] * (1 - 1e-9) ||
                     (cover > 1 && areas[1] < all[1] - 1e-9 * all[0]));
@@ -407,14 +412,6 @@ static void test_blind(void **state) {
     assert_true(hypot(at.x - placed.blind[0].at.x, at.y - placed.blind[0].at.y) <= 2);
     sl_area_placement_destroy(s.context, &placed);
     end(&s);
-}
-
-static void assert_refused(scene *s, const char *part) {
-    sl_area_placement placed = {0};
-    assert_int_equal(sl_place_area_cover(s->context, s->query, &s->area, NULL, &placed),
-                     SL_BAD_ARGUMENT);
-    assert_non_null(strstr(sl_context_message(s->context), part));
-    assert_null(placed.chosen);
 }
 
 static void test_refusals(void **state) {

@@ -57,12 +57,6 @@ static void samples_destroy(scene *s, samples *all) {
     sl_free(s->context, all->weights.items);
 }
 
-static uint32_t bits_in(uint32_t set) {
-    uint32_t count = 0;
-    for (; set; set &= set - 1) count++;
-    return count;
-}
-
 /// Whether a set sees points as often as asked, or as all places do.
 static bool does(const scene *s, const uint32_t *seers, size_t count, uint32_t set) {
     const uint32_t cover = s->area.cover ? s->area.cover : 1;
@@ -78,12 +72,6 @@ static double seen_by(const samples *all, uint32_t set) {
     for (size_t i = 0; i < all->seers.count; i++)
         sum += all->seers.items[i] & set ? all->weights.items[i] : 0;
     return sum;
-}
-
-static uint32_t set_of(const sl_area_placement *placed) {
-    uint32_t set = 0;
-    for (uint32_t i = 0; i < placed->count; i++) set |= 1u << placed->chosen[i];
-    return set;
 }
 
 /// No cheaper set of places sees all witnesses, which are asked anew.
@@ -193,15 +181,6 @@ static void test_with_area(void **state) {
     sl_area_placement_destroy(s.context, &alone);
     sl_area_placement_destroy(s.context, &both);
     end(&s);
-}
-
-static void assert_refused(scene *s, const char *part) {
-    sl_area_placement placed = {0};
-    assert_int_equal(sl_place_area_cover(s->context, s->query, &s->area, NULL, &placed),
-                     SL_BAD_ARGUMENT);
-    assert_non_null(strstr(sl_context_message(s->context), part));
-    assert_null(placed.chosen);
-    assert_null(placed.line_lengths);
 }
 
 static void test_refusals(void **state) {

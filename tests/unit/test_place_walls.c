@@ -101,12 +101,6 @@ static void samples_destroy(scene *s, samples *all) {
     sl_free(s->context, all->more.items);
 }
 
-static uint32_t bits_in(uint32_t set) {
-    uint32_t count = 0;
-    for (; set; set &= set - 1) count++;
-    return count;
-}
-
 /// Whether a set scans each point as often as asked, or as all places do.
 static bool does(const scene *s, const samples *all, uint32_t set) {
     const uint32_t cover = s->area.cover ? s->area.cover : 1;
@@ -123,12 +117,6 @@ static double seen_by(const samples *all, uint32_t set) {
     size_t count = 0;
     for (size_t i = 0; i < all->seers.count; i++) count += (all->seers.items[i] & set) != 0;
     return (double)count * STEP;
-}
-
-static uint32_t set_of(const sl_area_placement *placed) {
-    uint32_t set = 0;
-    for (uint32_t i = 0; i < placed->count; i++) set |= 1u << placed->chosen[i];
-    return set;
 }
 
 static const sl_viewpoint kinds[] = {{.fov = 360},
@@ -233,14 +221,6 @@ static void test_touching(void **state) {
         sl_area_placement_destroy(s.context, &placed);
         end(&s);
     }
-}
-
-static void assert_refused(scene *s, const char *part) {
-    sl_area_placement placed = {0};
-    assert_int_equal(sl_place_area_cover(s->context, s->query, &s->area, NULL, &placed),
-                     SL_BAD_ARGUMENT);
-    assert_non_null(strstr(sl_context_message(s->context), part));
-    assert_null(placed.chosen);
 }
 
 static void test_refusals(void **state) {

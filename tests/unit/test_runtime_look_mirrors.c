@@ -89,22 +89,10 @@ static void look(trial *t, const sl_view *view) {
     t->roundings += t->rounded;
 }
 
-/// Anywhere on an eighth of the grid: within cells, on walls, mirrors, portals and corners.
-static sl_point random_point(trial *t) {
-    const uint64_t steps = sl_random_below(&t->random, 2) ? 8 : 1;
-    const double step = t->scale / (double)steps;
-    return (sl_point){(double)sl_random_below(&t->random, RANDOM_EFFECTS_SIZE * steps + 1) * step,
-                      (double)sl_random_below(&t->random, RANDOM_EFFECTS_SIZE * steps + 1) * step};
-}
-
 static sl_view random_view(trial *t) {
-    sl_view view = sl_view_all_round(random_point(t));
-    view.full = t->scale != 1 || sl_random_below(&t->random, 2); // differences must be exact
-    do view.right = random_point(t);
-    while (testing_same_point(view.right, view.eye));
-    do view.left = random_point(t);
-    while (testing_same_point(view.left, view.eye));
-    return view;
+    const sl_point eye = random_effects_point(&t->random, t->scale);
+    const bool full = t->scale != 1 || sl_random_below(&t->random, 2); // differences must be exact
+    return random_effects_view(&t->random, eye, full, t->scale);
 }
 
 /// Then the side of the eye's cell counts for what is seen directly (sl_runtime_look), and the

@@ -8,12 +8,6 @@
 
 static cover_problem p;
 
-static uint64_t prove(sl_context *context, const sl_cover_proof *proof) {
-    uint64_t lower;
-    assert_ok(context, sl_cover_check(context, &p.problem, proof, &lower));
-    return lower;
-}
-
 /// One node: the bound is that of the root.
 static void solve(sl_context *context, uint64_t nodes, uint32_t cuts, sl_cover_result *out) {
     sl_cover_options options = sl_cover_options_default();
@@ -31,14 +25,6 @@ static void make_problem(sl_random *random, uint64_t seed) {
     if (seed % 2) cover_cost(&p, random, 4, 6);
 }
 
-static void change(sl_context *context, const sl_cover_proof *proof, uint32_t *number, uint32_t to,
-                   uint64_t least) {
-    const uint32_t was = *number;
-    *number = to;
-    assert_true(prove(context, proof) <= least);
-    *number = was;
-}
-
 static void change_all(sl_context *context, sl_random *random, const sl_cover_proof *proof,
                        uint64_t least) {
     for (uint32_t i = 0; i < proof->raised_count; i++) {
@@ -46,30 +32,31 @@ static void change_all(sl_context *context, sl_random *random, const sl_cover_pr
         const size_t count = c->ends[c->cut_count - 1];
         for (size_t k = 0; k < count; k++) {
             const uint32_t names = c->row_count + c->cut_count + 2;
-            change(context, proof, &c->rows[k], (uint32_t)sl_random_below(random, names), least);
-            change(context, proof, &c->rows[k], UINT32_MAX, least);
+            cover_change(context, &p, proof, &c->rows[k], (uint32_t)sl_random_below(random, names),
+                         least);
+            cover_change(context, &p, proof, &c->rows[k], UINT32_MAX, least);
         }
         for (uint32_t k = 0; k < c->cut_count; k++) {
             const size_t was = c->ends[k];
             c->ends[k] = sl_random_below(random, count + 1);
-            assert_true(prove(context, proof) <= least);
+            assert_true(cover_proves(context, &p, proof) <= least);
             c->ends[k] = was;
         }
-        change(context, proof, &c->row_count, c->row_count - 1, least);
-        change(context, proof, &c->cut_count, c->cut_count - 1, least);
-        change(context, proof, &c->rest->row_count, c->row_count, least);
+        cover_change(context, &p, proof, &c->row_count, c->row_count - 1, least);
+        cover_change(context, &p, proof, &c->cut_count, c->cut_count - 1, least);
+        cover_change(context, &p, proof, &c->rest->row_count, c->row_count, least);
         for (size_t k = 0; k < c->rest->dual_count; k++) {
             const uint64_t was = c->rest->duals[k];
             c->rest->duals[k] = was + c->rest->denominator / 2;
-            assert_true(prove(context, proof) <= least);
+            assert_true(cover_proves(context, &p, proof) <= least);
             c->rest->duals[k] = was;
         }
         sl_cover_proof *rest = c->rest;
         c->rest = NULL;
-        assert_true(prove(context, proof) <= least);
+        assert_true(cover_proves(context, &p, proof) <= least);
         c->rest = rest;
         rest->raised_count = 1; // cuts within cuts: nothing is read there
-        assert_true(prove(context, proof) <= least);
+        assert_true(cover_proves(context, &p, proof) <= least);
         rest->raised_count = 0;
     }
 }
@@ -159,28 +146,12 @@ static void cancelled_between_cuts(void **state) {
 /// Our own memory fails; GLPK's is not ours.
 static void without_memory(void **state) {
     (void)state;
-    testing_memory memory = {0};
-    sl_context *context = testing_context(&memory);
     sl_random random = {3};
     make_problem(&random, 0);
     sl_cover_options options = sl_cover_options_default();
     options.program = sl_cover_glpk();
     options.nodes = 1;
-    long failed = 0;
-    memory.once = true;
-    for (long n = 1, done = 0; !done; n += 1 + n / 16) {
-        sl_cover_result result = {0};
-        memory.fail_at = memory.calls + n;
-        const sl_status status = sl_cover_solve(context, &p.problem, &options, &result);
-        done = memory.calls < memory.fail_at;
-        memory.fail_at = 0;
-        assert_true(status == SL_OK || status == SL_NO_MEMORY);
-        failed += status == SL_NO_MEMORY;
-        sl_cover_result_destroy(context, &result);
-    }
-    assert_true(failed > 20);
-    sl_context_destroy(context);
-    assert_int_equal(memory.live, 0);
+    cover_without_memory(&p, &options);
 }
 
 int main(void) {

@@ -29,27 +29,12 @@ static void make_cycles(sl_random *random, bool various) {
     }
 }
 
-static uint64_t prove(sl_context *context, const sl_cover_proof *proof) {
-    uint64_t lower;
-    assert_ok(context, sl_cover_check(context, &p.problem, proof, &lower));
-    return lower;
-}
-
 static void solve(sl_context *context, uint64_t nodes, uint32_t splits, sl_cover_result *out) {
     sl_cover_options options = sl_cover_options_default();
     options.nodes = nodes;
     options.splits = splits;
     assert_ok(context, sl_cover_solve(context, &p.problem, &options, out));
-    assert_int_equal(prove(context, &out->proof), out->lower);
-}
-
-/// Changes a number of a split, and puts it back. No change may prove more than `least`.
-static void change(sl_context *context, const sl_cover_proof *proof, uint32_t *number, uint32_t to,
-                   uint64_t least) {
-    const uint32_t was = *number;
-    *number = to;
-    assert_true(prove(context, proof) <= least);
-    *number = was;
+    assert_int_equal(cover_proves(context, &p, &out->proof), out->lower);
 }
 
 static void change_all(sl_context *context, sl_random *random, const sl_cover_proof *proof,
@@ -57,24 +42,25 @@ static void change_all(sl_context *context, sl_random *random, const sl_cover_pr
     for (uint32_t i = 0; i < proof->split_count; i++) {
         sl_cover_split *s = &proof->splits[i];
         for (uint32_t k = 0; k < s->cost_count; k++) {
-            change(context, proof, &s->costs[k], s->costs[k] + 1, least);
-            change(context, proof, &s->costs[k], 0, least);
-            change(context, proof, &s->costs[k], UINT32_MAX, least);
+            cover_change(context, &p, proof, &s->costs[k], s->costs[k] + 1, least);
+            cover_change(context, &p, proof, &s->costs[k], 0, least);
+            cover_change(context, &p, proof, &s->costs[k], UINT32_MAX, least);
         }
         for (uint32_t k = 0; k < s->row_count; k++)
-            change(context, proof, &s->blocks[k], (uint32_t)sl_random_below(random, 6), least);
-        change(context, proof, &s->unit, s->unit - 1, least);
-        change(context, proof, &s->unit, 1, least);
-        change(context, proof, &s->unit, 0, least);
-        change(context, proof, &s->row_count, s->row_count - 1, least);
-        change(context, proof, &s->cost_count, s->cost_count - 1, least);
-        change(context, proof, &s->rest->row_count, s->row_count - 1, least);
+            cover_change(context, &p, proof, &s->blocks[k], (uint32_t)sl_random_below(random, 6),
+                         least);
+        cover_change(context, &p, proof, &s->unit, s->unit - 1, least);
+        cover_change(context, &p, proof, &s->unit, 1, least);
+        cover_change(context, &p, proof, &s->unit, 0, least);
+        cover_change(context, &p, proof, &s->row_count, s->row_count - 1, least);
+        cover_change(context, &p, proof, &s->cost_count, s->cost_count - 1, least);
+        cover_change(context, &p, proof, &s->rest->row_count, s->row_count - 1, least);
         sl_cover_proof *rest = s->rest;
         s->rest = NULL;
-        assert_true(prove(context, proof) <= least);
+        assert_true(cover_proves(context, &p, proof) <= least);
         s->rest = rest;
         rest->split_count = 1; // a split within a split: nothing is read there
-        assert_true(prove(context, proof) <= least);
+        assert_true(cover_proves(context, &p, proof) <= least);
         rest->split_count = 0;
     }
 }
@@ -110,28 +96,12 @@ static void splits_close_gaps(void **state) {
 
 static void without_memory(void **state) {
     (void)state;
-    testing_memory memory = {0};
-    sl_context *context = testing_context(&memory);
     sl_random random = {1};
     make_cycles(&random, false);
     sl_cover_options options = sl_cover_options_default();
     options.nodes = 0;
     options.splits = 2;
-    long failed = 0;
-    memory.once = true;
-    for (long n = 1, done = 0; !done; n += 1 + n / 16) {
-        sl_cover_result result = {0};
-        memory.fail_at = memory.calls + n;
-        const sl_status status = sl_cover_solve(context, &p.problem, &options, &result);
-        done = memory.calls < memory.fail_at;
-        memory.fail_at = 0;
-        assert_true(status == SL_OK || status == SL_NO_MEMORY);
-        failed += status == SL_NO_MEMORY;
-        sl_cover_result_destroy(context, &result);
-    }
-    assert_true(failed > 20);
-    sl_context_destroy(context);
-    assert_int_equal(memory.live, 0);
+    cover_without_memory(&p, &options);
 }
 
 int main(void) {

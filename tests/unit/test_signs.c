@@ -178,11 +178,6 @@ static bool make_random(sl_context *context, uint64_t seed, room *r) {
     return true;
 }
 
-static sl_point random_point(const sl_box *b, sl_random *random) {
-    return (sl_point){b->min.x + sl_random_unit(random) * (b->max.x - b->min.x),
-                      b->min.y + sl_random_unit(random) * (b->max.y - b->min.y)};
-}
-
 /// Whether a sign is read from a place, by the law itself: 1, 0, or -1 where rounding tells.
 static int is_read(room *r, const sl_viewpoint *sign, sl_point at) {
     const double x = at.x - sign->at.x, y = at.y - sign->at.y, away = hypot(x, y);
