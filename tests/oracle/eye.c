@@ -80,6 +80,13 @@ static void subtract(vector *out, const vector *a, const vector *b) {
     mpz_sub(out->y, a->y, b->y);
 }
 
+/// The direction from a to b, neither of them moved: without the places that only moving needs.
+static void direction(vector *out, const vector *a, const vector *b) {
+    subtract(out, b, a);
+    mpz_tdiv_q_2exp(out->x, out->x, PLACES);
+    mpz_tdiv_q_2exp(out->y, out->y, PLACES);
+}
+
 /// out = u x v
 static void cross(mpz_t out, const vector *u, const vector *v) {
     mpz_mul(out, u->x, v->y);
@@ -123,7 +130,7 @@ static void add_direction(oracle_eye *o, const vector *point) {
     for (int opposite = 0; opposite < 2; opposite++) {
         vector *to = &o->touching[o->ray_count].to;
         init(to);
-        subtract(to, point, &o->eye);
+        direction(to, &o->eye, point);
         if (opposite) {
             mpz_neg(to->x, to->x);
             mpz_neg(to->y, to->y);
@@ -180,8 +187,8 @@ static bool meets(const oracle_eye *o, const vector *to, const struct oracle_end
     init(&left);
     init(&right);
     init(&portal);
-    subtract(&left, &directed->a, &o->eye);
-    subtract(&right, &directed->b, &o->eye);
+    direction(&left, &o->eye, &directed->a);
+    direction(&right, &o->eye, &directed->b);
     subtract(&portal, &left, &right);
     bool met = turn(to, &left) >= 0 && turn(to, &right) <= 0;
     *side = 0;
@@ -206,8 +213,8 @@ static bool leads_into(const oracle_eye *o, uint32_t number, const vector *to) {
     init(&side);
     init(&eye);
     for (uint32_t i = 0; i < cell->vertex_count; i++) {
-        subtract(&side, &corners[(i + 1) % cell->vertex_count], &corners[i]);
-        subtract(&eye, &o->eye, &corners[i]);
+        direction(&side, &corners[i], &corners[(i + 1) % cell->vertex_count]);
+        direction(&eye, &corners[i], &o->eye);
         into = into && (turn(&side, &eye) != 0 || turn(&side, to) >= 0);
     }
     clear(&side);
@@ -266,7 +273,7 @@ static void meet(place *out, int *into, const vector *from, const vector *to, co
     vector line, reach;
     init(&line);
     init(&reach);
-    subtract(&line, b, a);
+    direction(&line, a, b);
     subtract(&reach, a, from);
     cross(out->num, &reach, &line);
     cross(out->den, to, &line);
