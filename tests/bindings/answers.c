@@ -22,7 +22,6 @@
 #include "sightline/bake.h"
 #include "sightline/support.h"
 
-#define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "runtime/sightline_runtime.h"
 
 #include <math.h>

@@ -7,7 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SIGHTLINE_RUNTIME_IMPLEMENTATION
 #include "sightline_runtime.h"
 
 #include "sightline/bake.h"

@@ -196,7 +196,7 @@ class Files(sandbox.ProgramTest):
     # --- signals, and a reader that goes away
 
     def test_reader_goes_away(self):
-        self.run_well("generate", "office", "--walls", "20000", "-o", "big.map", "-q")
+        self.run_well("generate", "office", "--walls", "5000", "-o", "big.map", "-q")
         for words in (["convert", "big.map"], ["convert", "big.map", "-o", "/dev/stdout"]):
             process = subprocess.Popen([self.program, *words], cwd=self.box.folder,
                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE)

@@ -40,7 +40,7 @@ static inline void baked_file_make(sl_context *context, baked_file *f, bool insi
 
 static inline baked_file baked_file_of_text(sl_context *context, const char *statements) {
     baked_file f = {.name = "text", .baked = {.method = "dfs", .solver = "funnel"}};
-    char text[1024];
+    char text[1100];
     snprintf(text, sizeof text, "sightline 1\n%s", statements);
     assert_ok(context, sli_map_read_text(context, "text", text, strlen(text), &f.baked.map));
     baked_file_make(context, &f, false);

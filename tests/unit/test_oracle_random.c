@@ -11,7 +11,7 @@
 enum { PUSH_LIMIT = 20000 };
 
 /// The solvers behind the first two are tried on one map in so many.
-enum { SLOW_SOLVERS_SKIP = 10 };
+enum { SLOW_SOLVERS_SKIP = 25 };
 
 typedef struct tally {
     size_t maps, skipped, by_lines;
