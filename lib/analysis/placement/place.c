@@ -295,11 +295,10 @@ static sl_status bound_below(sli_placer *p, bool *gaps, bool *added) {
     *gaps = p->drops = false;
     const size_t active = p->active.count;
     SL_TRY(sli_activate(p, added));
-    // On a large map the last few take many steps, and gaps lead to better ones.
-    const bool few = p->out->lower == lower
-                         ? lower > LARGE
-                         : p->active.count - active <= active / WHOLE_PER_LITTLE &&
-                               p->out->lower - lower <= lower / WHOLE_PER_LITTLE;
+    // The last few take many steps, and gaps lead to better ones.
+    const bool few = p->out->lower == lower ||
+                     (p->active.count - active <= active / WHOLE_PER_LITTLE &&
+                      p->out->lower - lower <= lower / WHOLE_PER_LITTLE);
     if (*added && !few) return SL_OK;
     SL_TRY(find_unseen(p, &none, added));
     if (none) return keep_chosen(p);
