@@ -283,7 +283,8 @@ sl_status sli_choose_fewest(sli_placer *p, sl_cover_problem *problem, sl_cover_r
             all[entries++] = witnesses + p->candidates.items[i].germs.items[k];
         ends[i] = entries;
     }
-    const sl_cover_options options = sli_cover_options(p);
+    sl_cover_options options = sli_cover_options(p);
+    if (p->coarse) options.program = NULL; // a bound of these candidates bounds nothing
     SL_TRY(sl_cover_solve(p->context, problem, &options, cover));
     sli_choose_none(p);
     for (uint32_t i = 0; i < cover->count; i++) SL_TRY(sli_choose(p, cover->columns[i]));
