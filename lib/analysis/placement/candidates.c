@@ -110,10 +110,9 @@ static sl_point place_of(const sli_placer *p, const sli_place_columns *c, uint32
     return best;
 }
 
-sl_status sli_choose_column(sli_placer *p, const sli_place_columns *c, uint32_t column) {
-    uint32_t number;
-    SL_TRY(sli_add_candidate(p, place_of(p, c, column), &number));
-    return number == UINT32_MAX ? SL_OK : sli_choose(p, number);
+sl_status sli_add_column(sli_placer *p, const sli_place_columns *c, uint32_t column,
+                         uint32_t *number) {
+    return sli_add_candidate(p, place_of(p, c, column), number);
 }
 
 // --- places on the lines of walls
