@@ -77,6 +77,35 @@ static void test_fewest(void **state) {
     }
 }
 
+/// A limit in rounds ends the work early, with a set that sees all and a bound that holds.
+static void test_rounds(void **state) {
+    (void)state;
+    scene s;
+    sl_point *points;
+    uint32_t count;
+    sl_place_options one = sl_place_options_default();
+    one.rounds = 1;
+    begin(&s, PLAN, 1, (sl_viewpoint){.fov = 360});
+    assert_ok(s.context, sl_place_points(s.context, s.query, SL_PLACE_WALLS, 0.5, &points, &count));
+    sl_viewpoint *places = calloc(count, sizeof *places);
+    assert_non_null(places);
+    for (uint32_t i = 0; i < count; i++)
+        places[i] = (sl_viewpoint){.at = points[i], .heading = 75.0 * i, .fov = 90};
+    s.area = (sl_place_area){.places = places, .place_count = count};
+    sl_area_placement whole = {0}, placed = {0};
+    assert_ok(s.context, sl_place_area_cover(s.context, s.query, &s.area, NULL, &whole));
+    assert_true(whole.rounds > 1);
+    assert_ok(s.context, sl_place_area_cover(s.context, s.query, &s.area, &one, &placed));
+    assert_int_equal(placed.rounds, 1);
+    assert_true(placed.lower <= whole.upper && placed.upper >= whole.lower);
+    assert_true(fabs(placed.seen - whole.seen) <= 1e-9 * whole.area);
+    sl_area_placement_destroy(s.context, &placed);
+    sl_area_placement_destroy(s.context, &whole);
+    sl_free(s.context, points);
+    free(places);
+    end(&s);
+}
+
 /// Places just off walls leave strips beside them that are thinner than a millionth of the plan.
 static void test_off_walls(void **state) {
     (void)state;
@@ -448,11 +477,17 @@ static void test_refusals(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_fewest),      cmocka_unit_test(test_off_walls),
-        cmocka_unit_test(test_one_eye),     cmocka_unit_test(test_demands_and_fixed),
-        cmocka_unit_test(test_zone),        cmocka_unit_test(test_most),
-        cmocka_unit_test(test_most_is_all), cmocka_unit_test(test_weights),
-        cmocka_unit_test(test_network),     cmocka_unit_test(test_blind),
+        cmocka_unit_test(test_fewest),
+        cmocka_unit_test(test_off_walls),
+        cmocka_unit_test(test_rounds),
+        cmocka_unit_test(test_one_eye),
+        cmocka_unit_test(test_demands_and_fixed),
+        cmocka_unit_test(test_zone),
+        cmocka_unit_test(test_most),
+        cmocka_unit_test(test_most_is_all),
+        cmocka_unit_test(test_weights),
+        cmocka_unit_test(test_network),
+        cmocka_unit_test(test_blind),
         cmocka_unit_test(test_refusals),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

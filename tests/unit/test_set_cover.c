@@ -2,6 +2,8 @@
 /// of known optimum; larger ones, whose proofs are checked; and what is refused.
 #include "cover_problems.h"
 
+#include "analysis/placement/cover.h"
+
 #include <limits.h>
 
 static cover_problem p;
@@ -179,6 +181,24 @@ static void refused(sl_context *context, const char *message) {
     assert_int_equal(r.cost, 77);
 }
 
+/// Where the bound stays below the least cost, the relaxation takes columns in part: all of them,
+/// in a problem in which each is like any other.
+static void values_are_shares(void **state) {
+    (void)state;
+    sl_context *context = testing_context(NULL);
+    sl_cover_options options = sl_cover_options_default();
+    sl_cover_result r = {0};
+    double values[9] = {0};
+    options.nodes = 0;
+    cover_steiner(&p, 2);
+    assert_int_equal(p.problem.column_count, 9);
+    assert_ok(context, sli_cover_solve(context, &p.problem, &options, values, &r));
+    assert_true(r.lower < r.cost);
+    for (int j = 0; j < 9; j++) assert_true(values[j] > 0.02 && values[j] < 1);
+    sl_cover_result_destroy(context, &r);
+    sl_context_destroy(context);
+}
+
 static void refuses_what_makes_no_sense(void **state) {
     (void)state;
     sl_context *context = testing_context(NULL);
@@ -269,6 +289,7 @@ int main(void) {
         cmocka_unit_test(parts_are_solved_apart),
         cmocka_unit_test(discs_are_bounded_and_repeat),
         cmocka_unit_test(starts_from_a_set),
+        cmocka_unit_test(values_are_shares),
         cmocka_unit_test(refuses_what_makes_no_sense),
         cmocka_unit_test(keeps_the_best_when_cancelled),
         cmocka_unit_test(survives_lack_of_memory),

@@ -110,10 +110,9 @@ static sl_point place_of(const sli_placer *p, const sli_place_columns *c, uint32
     return best;
 }
 
-sl_status sli_choose_column(sli_placer *p, const sli_place_columns *c, uint32_t column) {
-    uint32_t number;
-    SL_TRY(sli_add_candidate(p, place_of(p, c, column), &number));
-    return number == UINT32_MAX ? SL_OK : sli_choose(p, number);
+sl_status sli_add_column(sli_placer *p, const sli_place_columns *c, uint32_t column,
+                         uint32_t *number) {
+    return sli_add_candidate(p, place_of(p, c, column), number);
 }
 
 // --- places on the lines of walls
@@ -283,7 +282,8 @@ sl_status sli_choose_fewest(sli_placer *p, sl_cover_problem *problem, sl_cover_r
             all[entries++] = witnesses + p->candidates.items[i].germs.items[k];
         ends[i] = entries;
     }
-    const sl_cover_options options = sli_cover_options(p);
+    sl_cover_options options = sli_cover_options(p);
+    if (p->coarse) options.program = NULL; // a bound of these candidates bounds nothing
     SL_TRY(sl_cover_solve(p->context, problem, &options, cover));
     sli_choose_none(p);
     for (uint32_t i = 0; i < cover->count; i++) SL_TRY(sli_choose(p, cover->columns[i]));

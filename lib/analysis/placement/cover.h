@@ -49,6 +49,11 @@ void sli_cover_state_destroy(sl_context *context, sli_cover_state *state);
 void sli_cover_fix(const sli_cover *cover, sli_cover_state *state, uint32_t column, uint8_t how);
 void sli_cover_unfix(const sli_cover *cover, sli_cover_state *state, uint32_t column);
 
+/// As sl_cover_solve(). `values`: NULL, or by column about what share of it the Lagrangian search
+/// takes; 0 for columns that steps take or leave.
+sl_status sli_cover_solve(sl_context *context, const sl_cover_problem *problem,
+                          const sl_cover_options *options, double *values, sl_cover_result *out);
+
 // --- reductions
 
 /// What steps leave.

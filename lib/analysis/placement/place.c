@@ -36,6 +36,9 @@ enum { WHOLE_PER_LITTLE = 100 };
 /// of a part from which a linear program of all of it takes too long.
 enum { CUT_NODES = 300, MANY_ROWS = 2000 };
 
+/// What the relaxation takes of a column that becomes a candidate.
+static const double LEAST_SHARE = 0.02;
+
 sl_place_options sl_place_options_default(void) {
     return (sl_place_options){.nodes = 10000, .many_entries = 1 << 20};
 }
@@ -187,11 +190,11 @@ static sl_status complete(sli_placer *p) {
     return SL_OK;
 }
 
-/// Fewer steps while coarse. On a large map, where each new gap costs viewpoints, twice as many; a
-/// set that sees everything is made half way, in case the time ends.
+/// Fewer steps while coarse, where one takes long. On a very large map, where each new gap costs
+/// viewpoints, twice as many; a set that sees everything is made half way, in case the time ends.
 static sl_status bound_above(sli_placer *p, bool *added) {
     const int coarse = p->out->lower > MANY_ROWS / 2 ? 2 * COARSE_STEPS : COARSE_STEPS;
-    const int most = p->coarse ? coarse : UPPER_STEPS;
+    const int most = p->coarse && p->out->lower > LARGE ? coarse : UPPER_STEPS;
     for (int i = 0; i < most; i++) {
         bool none, one = false;
         sl_cover_problem problem = {0};
@@ -245,6 +248,27 @@ static sl_status keep_lower(sli_placer *p, sli_place_columns *c, sl_cover_result
     return SL_OK;
 }
 
+/// Chooses the places of a cover of the lower bound.
+static sl_status choose_columns(sli_placer *p, const sli_place_columns *c,
+                                const sl_cover_result *cover) {
+    uint32_t number;
+    sli_choose_none(p);
+    for (uint32_t i = 0; i < cover->count; i++) {
+        SL_TRY(sli_add_column(p, c, cover->columns[i], &number));
+        if (number != UINT32_MAX) SL_TRY(sli_choose(p, number));
+    }
+    return SL_OK;
+}
+
+/// Columns that the relaxation takes in part become candidates, too: a set that sees everything is
+/// made of other columns than one that sees the witnesses of today.
+static sl_status add_shared(sli_placer *p, const sli_place_columns *c, const double *values) {
+    uint32_t number;
+    for (uint32_t i = 0; i < c->ends.count; i++)
+        if (values[i] > LEAST_SHARE) SL_TRY(sli_add_column(p, c, i, &number));
+    return SL_OK;
+}
+
 static sl_status use_columns(sli_placer *p, sli_place_columns *c) {
     const sl_cover_problem problem = {(uint32_t)p->active.count,
                                       (uint32_t)c->ends.count,
@@ -260,12 +284,15 @@ static sl_status use_columns(sli_placer *p, sli_place_columns *c) {
     if (!p->coarse || (p->drops && wide)) options.splits = SPLITS;
     if (cuts) options.nodes = p->options->nodes < CUT_NODES ? p->options->nodes : CUT_NODES;
     sl_cover_result cover = {0};
-    sl_status status = sl_cover_solve(p->context, &problem, &options, &cover);
+    double *values = sl_alloc_array(p->context, problem.column_count, sizeof *values);
+    if (!values) return SL_NO_MEMORY;
+    sl_status status = sli_cover_solve(p->context, &problem, &options, values, &cover);
     if (SLI_PROGRAMS && status == SL_OK && (cuts || !p->coarse))
         status = sli_bound_by_blocks(p->context, &problem, options.program, MANY_ROWS, &cover);
-    sli_choose_none(p);
-    for (uint32_t i = 0; status == SL_OK && i < cover.count; i++)
-        status = sli_choose_column(p, c, cover.columns[i]);
+    if (status == SL_OK && wide && cover.lower < cover.cost && cover.lower <= LARGE)
+        status = add_shared(p, c, values);
+    sl_free(p->context, values);
+    if (status == SL_OK) status = choose_columns(p, c, &cover);
     const bool better = cover.lower > p->out->lower;
     if ((status == SL_OK || status == SL_CANCELLED) && better) {
         const sl_status kept = keep_lower(p, c, &cover);
@@ -295,11 +322,10 @@ static sl_status bound_below(sli_placer *p, bool *gaps, bool *added) {
     *gaps = p->drops = false;
     const size_t active = p->active.count;
     SL_TRY(sli_activate(p, added));
-    // On a large map the last few take many steps, and gaps lead to better ones.
-    const bool few = p->out->lower == lower
-                         ? lower > LARGE
-                         : p->active.count - active <= active / WHOLE_PER_LITTLE &&
-                               p->out->lower - lower <= lower / WHOLE_PER_LITTLE;
+    // The last few take many steps, and gaps lead to better ones.
+    const bool few =
+        p->out->lower == lower || (p->active.count - active <= active / WHOLE_PER_LITTLE &&
+                                   p->out->lower - lower <= lower / WHOLE_PER_LITTLE);
     if (*added && !few) return SL_OK;
     SL_TRY(find_unseen(p, &none, added));
     if (none) return keep_chosen(p);

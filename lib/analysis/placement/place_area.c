@@ -458,7 +458,8 @@ static sl_status find(finder *f) {
                        "no choice of the places was complete after %d rounds", ROUNDS);
     if (!(a->out->seen > a->negligible)) return refuse_blind(a);
     if (a->task->network) SL_TRY(bound_without_network(f));
-    for (a->out->rounds = 1; a->out->rounds < ROUNDS; a->out->rounds++) {
+    const uint64_t most = a->options->rounds ? a->options->rounds : ROUNDS;
+    for (a->out->rounds = 1;; a->out->rounds++) {
         rows = 0;
         SL_TRY(choose(f, BOTH));
         if (a->wide_count && !f->fine) SL_TRY(choose(f, WIDE));
@@ -468,7 +469,7 @@ static sl_status find(finder *f) {
         if (a->out->lower == a->out->upper || (clean && !rows && f->fine)) break;
         f->fine = true;
         if (a->wide_count) SL_TRY(choose(f, WIDE));
-        if (a->out->lower == a->out->upper) break;
+        if (a->out->lower == a->out->upper || a->out->rounds == most) break;
     }
     return SL_OK;
 }

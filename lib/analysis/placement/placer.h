@@ -96,9 +96,10 @@ sl_status sli_fail_unseen(const sli_placer *placer, sl_point at);
 sl_status sli_add_corners(sli_placer *placer);
 /// Adds places in line with walls, or with two corners, that the chosen ones have gaps at.
 sl_status sli_add_in_line(sli_placer *placer);
-/// Adds a candidate for a column of the lower bound and chooses it. It sees the column's witnesses,
-/// or as many as can be found.
-sl_status sli_choose_column(sli_placer *placer, const sli_place_columns *columns, uint32_t column);
+/// Adds a candidate for a column of the lower bound. It sees the column's witnesses, or as many as
+/// can be found. *number as in sli_add_candidate().
+sl_status sli_add_column(sli_placer *placer, const sli_place_columns *columns, uint32_t column,
+                         uint32_t *number);
 sl_cover_options sli_cover_options(const sli_placer *placer);
 /// Chooses the fewest candidates that see all witnesses and germs. `problem` and `cover` are the
 /// caller's, on failure too: sli_choice_destroy(). SL_BAD_ARGUMENT, with the witness, where

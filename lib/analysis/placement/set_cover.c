@@ -115,6 +115,7 @@ typedef struct solver {
     uint32_t *column_names;
     piece *pieces;
     uint32_t piece_count;
+    double *values; ///< the caller's; NULL: none
 } solver;
 
 /// Numbers parts by their first rows.
@@ -319,6 +320,8 @@ static sl_status solve_piece(sl_context *context, solver *s, piece *p, uint64_t 
     if (status == SL_OK && part->cost > enough_of(s, p, known))
         status = sli_cover_branch(context, part, duals, &left);
     s->nodes -= nodes - left;
+    for (uint32_t j = 0; s->values && status == SL_OK && j < p->cover.columns; j++)
+        s->values[p->columns[j]] = values[j];
     if (status == SL_OK && part->cost > enough_of(s, p, known))
         status = sli_cover_split(context, part, duals, &p->split);
     sli_cover_state_destroy(context, &state);
@@ -512,10 +515,10 @@ static sl_status prepare(sl_context *context, const sl_cover_problem *problem, u
     return begin_sets(context, s);
 }
 
-sl_status sl_cover_solve(sl_context *context, const sl_cover_problem *problem,
-                         const sl_cover_options *options, sl_cover_result *out) {
+sl_status sli_cover_solve(sl_context *context, const sl_cover_problem *problem,
+                          const sl_cover_options *options, double *values, sl_cover_result *out) {
     const sl_cover_options usual = sl_cover_options_default();
-    solver s = {.options = options ? options : &usual};
+    solver s = {.options = options ? options : &usual, .values = values};
     const uint32_t divisor = common_divisor(problem);
     s.nodes = s.options->nodes;
     sl_cover_result result = {0};
@@ -534,4 +537,9 @@ sl_status sl_cover_solve(sl_context *context, const sl_cover_problem *problem,
     else
         sl_cover_result_destroy(context, &result);
     return filled == SL_OK ? status : filled;
+}
+
+sl_status sl_cover_solve(sl_context *context, const sl_cover_problem *problem,
+                         const sl_cover_options *options, sl_cover_result *out) {
+    return sli_cover_solve(context, problem, options, NULL, out);
 }
