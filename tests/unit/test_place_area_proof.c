@@ -308,6 +308,40 @@ static void no_number_proves_more(void **state) {
     end(&s);
 }
 
+/// Without one of its places a choice is completed again, in order and with the costs, and all of
+/// the places see no more.
+static void what_is_missing_is_added(void **state) {
+    (void)state;
+    for (unsigned k = 0; k < 10; k++) {
+        scene s;
+        sl_place_area_verdict v;
+        uint32_t added;
+        begin(&s, k % 2 ? FLAT : PLAN, 700 + k, kinds[k / 2]);
+        if (k % 3 == 0) s.area.costs = s.costs;
+        sl_area_placement placed = place(&s);
+        const uint64_t least = placed.lower;
+        assert_ok(s.context,
+                  sl_place_area_proof_complete(s.context, s.query, &s.area, &placed, &added, &v));
+        assert_int_equal(added, 0);
+        const uint32_t count = placed.count, out = k % count, gone = placed.chosen[out];
+        placed.upper -= s.area.costs ? s.costs[gone] : 1;
+        for (uint32_t i = out; i + 1 < count; i++) placed.chosen[i] = placed.chosen[i + 1];
+        placed.count--;
+        assert_false(check(&s, &placed).sees_as_all);
+        assert_ok(s.context,
+                  sl_place_area_proof_complete(s.context, s.query, &s.area, &placed, &added, &v));
+        assert_true(added > 0);
+        assert_true(v.sees_as_all);
+        assert_int_equal(placed.count, count - 1 + added);
+        assert_int_equal(v.upper, placed.upper);
+        assert_true(v.upper >= least);
+        for (uint32_t i = 1; i < placed.count; i++)
+            assert_true(placed.chosen[i - 1] < placed.chosen[i]);
+        sl_area_placement_destroy(s.context, &placed);
+        end(&s);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(other_code_confirms),
@@ -319,6 +353,7 @@ int main(void) {
         cmocka_unit_test(files_keep_it),
         cmocka_unit_test(other_questions_are_refused),
         cmocka_unit_test(no_number_proves_more),
+        cmocka_unit_test(what_is_missing_is_added),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

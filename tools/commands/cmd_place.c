@@ -144,17 +144,23 @@ static bool is_refuted(const sl_area_placement *placed, const sl_place_area_verd
     return v->lower < placed->lower || v->upper > placed->upper || !v->sees_as_all;
 }
 
-/// Writes the proof of a choice, if --verify is going to confirm it.
+/// Writes the proof of a choice, if --verify is going to confirm it. Adds places for that.
 static sl_status write_chosen_proof(sl_context *context, const place_plan *plan, place_work *w) {
-    const sl_area_placement *placed = &w->chosen.placed;
+    sl_area_placement *placed = &w->chosen.placed;
     sl_place_area_verdict v;
-    SL_TRY(sl_place_area_proof_check(context, w->query, &w->chosen.task, placed, &v));
+    uint32_t added;
+    SL_TRY(sl_place_area_proof_complete(context, w->query, &w->chosen.task, placed, &added, &v));
     if (is_refuted(placed, &v))
         return sl_fail(context, SL_UNSUPPORTED,
                        "the check of the proof does not confirm it, as where borders of several "
                        "views lie on one line but for rounding: %s is not written. Turn or move "
                        "such places a little, or leave --proof out",
                        plan->proof);
+    if (added)
+        sl_note(context,
+                "%u %s added for slivers that the search took for none, so that the proof holds "
+                "exactly",
+                (unsigned)added, added == 1 ? "viewpoint was" : "viewpoints were");
     return sl_place_area_proof_write(context, w->query, &w->chosen.task, placed, plan->proof);
 }
 

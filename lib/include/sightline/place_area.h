@@ -18,6 +18,7 @@
 /// - `upper`: the chosen places see all of the area but `blind`. Their regions are laid over it
 ///   (overlay.h), and chords stand for arcs so that nothing counts that is not seen (coverage.h).
 ///   Up to rounding: `rounding` is the area of pieces thinner than 2^-44 of the largest coordinate.
+///   sl_place_area_proof_complete() adds what sees such pieces, exactly.
 /// - `blind`: parts that fewer than `cover` of the places see, so no choice of them helps. There,
 ///   the chosen ones are as many as can be.
 #ifndef SIGHTLINE_PLACE_AREA_H

@@ -133,6 +133,13 @@ SL_API sl_status sl_place_area_proof_check(sl_context *context, sl_query *query,
                                            const sl_place_area *area,
                                            const sl_area_placement *claim,
                                            sl_place_area_verdict *out);
+/// Checks a placement, and adds places that see what the chosen ones leave, *added of them, as
+/// slivers between borders that lie on one line but for rounding. At most 16; `out` is what holds
+/// in the end. Errors as sl_place_area_proof_check; then `placement` keeps what was added.
+SL_API sl_status sl_place_area_proof_complete(sl_context *context, sl_query *query,
+                                              const sl_place_area *area,
+                                              sl_area_placement *placement, uint32_t *added,
+                                              sl_place_area_verdict *out);
 
 #ifdef __cplusplus
 }
