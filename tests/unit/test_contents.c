@@ -101,9 +101,9 @@ static void test_blocks(void **state) {
 static void test_tags(void **state) {
     (void)state;
 #define FIELD "0\nATTDEF\n8\n0\n10\n0\n20\n0\n40\n1\n1\nx\n2\nx\n"
-#define TAG_BLOCKS                                                                              \
-    "0\nSECTION\n2\nBLOCKS\n" BLOCK("b7", FIELD FIELD FIELD LINE("0", 0, 0, 1, 0)              \
-                                            LINE("0", 0, 0, 0, 1))                              \
+#define TAG_BLOCKS                                                                                 \
+    "0\nSECTION\n2\nBLOCKS\n" BLOCK("b7",                                                          \
+                                    FIELD FIELD FIELD LINE("0", 0, 0, 1, 0) LINE("0", 0, 0, 0, 1)) \
         BLOCK("c7", FIELD LINE("0", 0, 0, 1, 1) LINE("0", 0, 1, 1, 0)) "0\nENDSEC\n"
     static const char tag[] = TAG_BLOCKS HEAD ROOM("0") INSERT("1", "b7", 4, 4) TAIL;
     static const char few[] = TAG_BLOCKS HEAD ROOM("0") INSERT("1", "c7", 4, 4) TAIL;
@@ -517,8 +517,9 @@ static void test_ring(void **state) {
     (void)state;
 #define LINES(width, d) "<path fill='none' stroke='black' stroke-width='" width "' d='" d "'/>"
 #define RING                                                                                       \
-    LINES(".6", "M2 0H0V8H10") LINES(".6", "M3 0H18V3") LINES(".6", "M18 4V8H11")                  \
-    LIGHT LINES(".15", "M2 5h3v2h-3z") LINES(".15", "M12 5h3v2h-3z")
+    LINES(".6", "M2 0H0V8H10")                                                                     \
+    LINES(".6", "M3 0H18V3") LINES(".6", "M18 4V8H11") LIGHT LINES(".15", "M2 5h3v2h-3z")          \
+        LINES(".15", "M12 5h3v2h-3z")
 #define RING_WALLS                                                                                 \
     "wall 2 10 0 10\nwall 0 10 0 2\nwall 0 2 10 2\nwall 3 10 18 10\nwall 18 10 18 7\n"             \
     "wall 18 6 18 2\nwall 18 2 11 2\n"
@@ -528,8 +529,7 @@ static void test_ring(void **state) {
     assert_map(sli_map_read_svg, SVG(RING), NULL, false, RING_WALLS);
     assert_map(sli_map_read_svg,
                SVG(RING LINES(".15", "M0 4H7") LINES(".15", "M8 4H18") LINES(".15", "M9 0V4")),
-               NULL, false,
-               RING_WALLS TABLES "wall 0 6 7 6\nwall 8 6 18 6\nwall 9 10 9 6\n");
+               NULL, false, RING_WALLS TABLES "wall 0 6 7 6\nwall 8 6 18 6\nwall 9 10 9 6\n");
 }
 
 /// Coloured rooms without lines: their outlines are walls, and lettering is none.
