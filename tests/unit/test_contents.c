@@ -518,8 +518,8 @@ static void test_ring(void **state) {
 #define LINES(width, d) "<path fill='none' stroke='black' stroke-width='" width "' d='" d "'/>"
 #define RING                                                                                       \
     LINES(".6", "M2 0H0V8H10")                                                                     \
-    LINES(".6", "M3 0H18V3") LINES(".6", "M18 4V8H11") LIGHT LINES(".15", "M2 5h3v2h-3z")          \
-        LINES(".15", "M12 5h3v2h-3z")
+    LINES(".6", "M3 0H18V3")                                                                       \
+    LINES(".6", "M18 4V8H11") LIGHT LINES(".15", "M2 5h3v2h-3z") LINES(".15", "M12 5h3v2h-3z")
 #define RING_WALLS                                                                                 \
     "wall 2 10 0 10\nwall 0 10 0 2\nwall 0 2 10 2\nwall 3 10 18 10\nwall 18 10 18 7\n"             \
     "wall 18 6 18 2\nwall 18 2 11 2\n"

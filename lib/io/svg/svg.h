@@ -1,7 +1,7 @@
 /// An SVG drawing while it is read: its shapes (svg_shapes.c) with their numbers and paths
 /// (svg_path.c), through transforms (svg_transform.c), as far as they are seen (svg_style.c,
-/// svg_place.c), but for hatching (svg_hatching.c) and what lies beside the page (svg_page.c). svg.c
-/// goes through the elements and makes a map of them.
+/// svg_place.c), but for hatching (svg_hatching.c) and what lies beside the page (svg_page.c).
+/// svg.c goes through the elements and makes a map of them.
 #ifndef SL_SVG_H
 #define SL_SVG_H
 
