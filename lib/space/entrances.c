@@ -52,7 +52,7 @@
 #define DOORS    0.7
 /// Slits are narrower than this share of the map, and no entrances.
 #define SLIT 1000
-/// Entrances of a plan are wider than this share of it.
+/// Doors of a plan are usually wider than this share of it.
 #define DOORS_IN_PLAN 100
 /// How much less roomy than other places cores of walls are.
 #define CORE 16
@@ -291,7 +291,9 @@ static sl_status find_by(sli_entrances *f, sl_entrance by, double width, double 
     if (status == SL_OK && any) status = find_parts(f, f->found.width + f->weld);
     *found = false;
     const bool guess = by == SL_ENTRANCE_FOUND || by == SL_ENTRANCE_WIDE;
-    if (status == SL_OK && any && (!guess || is_building(f, true)))
+    // Rooms behind doors that are shut are as closed as the core of a wall.
+    const bool opened = by != SL_ENTRANCE_WIDE || !f->map->door_count;
+    if (status == SL_OK && any && (!guess || is_building(f, opened)))
         for (size_t i = 0; i < f->groups.count; i++) *found |= f->groups.items[i].inside;
     *found |= status == SL_OK && f->found.doubtful_width > 0;
     return status;
@@ -397,16 +399,21 @@ enum { MOST_WIDE = 8 };
 /// Tries the doubtful opening as an entrance: a pair of doors, a garage, a hall. It counts if
 /// nothing else is doubtful then, and a building is inside. Else the narrow answer stays. In plans
 /// that are drawn alone.
+///
+/// A width that is found among openings that are small against the plan is not that of doors, but
+/// of walls that nearly meet. Then none but such an opening is tried, and all that are wider are
+/// doubtful.
 static sl_status widen(sl_context *context, sl_map *map, const sl_box *b) {
     const double across = b->max.x - b->min.x, up = b->max.y - b->min.y;
     const sl_interior before = map->interior;
-    const double most = SLI_DOUBT_FOUND * before.width;
-    // A width that is found among openings that are small against the plan is not that of doors.
-    const double least = before.by == SL_ENTRANCE_FOUND ? fmax(across, up) / DOORS_IN_PLAN : 0;
-    if (!map->entrance_may_be_wide || !(before.doubtful_width > least)) return SL_OK;
+    const double widest = fmin(across, up) / 3, least = fmax(across, up) / DOORS_IN_PLAN;
+    const bool small = before.by == SL_ENTRANCE_FOUND && before.doubtful_width <= least;
+    const double most = small ? widest : SLI_DOUBT_FOUND * before.width;
+    if (!map->entrance_may_be_wide || !(before.doubtful_width > 0)) return SL_OK;
     bool found = true;
     double width = 0;
     for (int i = 0; i < MOST_WIDE && found && map->interior.doubtful_width > width; i++) {
+        if (small && map->interior.doubtful_width > least) break;
         width = map->interior.doubtful_width;
         forget(context, map);
         SL_TRY(try_by(context, map, SL_ENTRANCE_WIDE, width, most, &found));
@@ -414,7 +421,7 @@ static sl_status widen(sl_context *context, sl_map *map, const sl_box *b) {
     if (found && !(map->interior.doubtful_width > 0)) return SL_OK;
     forget(context, map);
     return try_by(context, map, before.by, before.by == SL_ENTRANCE_FOUND ? 0 : before.width,
-                  fmin(across, up) / 3, &found);
+                  widest, &found);
 }
 #endif
 

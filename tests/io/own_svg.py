@@ -13,6 +13,8 @@ NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 RULE = re.compile(r"\.([\w-]+)\s*\{([^}]*)\}")
 BARE = re.compile(r"fill\s*:\s*none")
 HIDES = re.compile(r"display\s*:\s*none")
+UNSEEN = re.compile(r"display\s*:\s*none|visibility\s*:\s*(hidden|collapse)|"
+                    r"(^|;)\s*opacity\s*:\s*(0+(\.0*)?|\.0+)\s*(;|$)")
 COMMAND = re.compile(r"([MmZzLlHhVvCcSsQqTtAa])([^MmZzLlHhVvCcSsQqTtAa]*)")
 ARC = re.compile(rf"((?:{NUMBER.pattern}[\s,]*){{3}})([01])[\s,]*([01])"  # flags may touch what follows
                  rf"([\s,]*{NUMBER.pattern}[\s,]*{NUMBER.pattern})")
@@ -154,12 +156,12 @@ def shapes(node, kind):
 
 def walk(drawing, node, m, layer, ids, depth=0):
     kind = node.tag.rsplit("}", 1)[-1] if isinstance(node.tag, str) else ""
-    style = (node.get("style") or "") + ";display:" + (node.get("display") or "") + ";visibility:" + (
-        node.get("visibility") or "")
+    style = (node.get("style") or "") + "".join(
+        f";{key}:{node.get(key) or ''}" for key in ("display", "visibility", "opacity"))
     classes = set((node.get("class") or "").split())
     if classes & drawing.hidden or kind != "g" and classes & drawing.bare and "stroke" not in style:
         return
-    if re.search(r"display\s*:\s*none|visibility\s*:\s*(hidden|collapse)", style) or kind in (
+    if re.search(UNSEEN, style) or kind in (
             "defs", "symbol", "clipPath", "mask", "pattern", "marker", "linearGradient", "filter"):
         if depth == 0 or kind != "symbol":
             return

@@ -97,6 +97,22 @@ static void test_blocks(void **state) {
     assert_map(sli_map_read_dxf, text, NULL, false, ROOM_WALLS "wall 6 1 6 2\n");
 }
 
+/// A block with more fields for texts than lines is a tag, unless its layer says otherwise.
+static void test_tags(void **state) {
+    (void)state;
+#define FIELD "0\nATTDEF\n8\n0\n10\n0\n20\n0\n40\n1\n1\nx\n2\nx\n"
+#define TAG_BLOCKS                                                                                 \
+    "0\nSECTION\n2\nBLOCKS\n" BLOCK("b7",                                                          \
+                                    FIELD FIELD FIELD LINE("0", 0, 0, 1, 0) LINE("0", 0, 0, 0, 1)) \
+        BLOCK("c7", FIELD LINE("0", 0, 0, 1, 1) LINE("0", 0, 1, 1, 0)) "0\nENDSEC\n"
+    static const char tag[] = TAG_BLOCKS HEAD ROOM("0") INSERT("1", "b7", 4, 4) TAIL;
+    static const char few[] = TAG_BLOCKS HEAD ROOM("0") INSERT("1", "c7", 4, 4) TAIL;
+    static const char wall[] = TAG_BLOCKS HEAD ROOM("wall") INSERT("wall", "b7", 4, 4) TAIL;
+    assert_map(sli_map_read_dxf, tag, NULL, false, ROOM_WALLS);
+    assert_map(sli_map_read_dxf, few, NULL, false, ROOM_WALLS "wall 4 4 5 5\nwall 4 5 5 4\n");
+    assert_map(sli_map_read_dxf, wall, NULL, false, ROOM_WALLS "wall 4 4 5 4\nwall 4 4 4 5\n");
+}
+
 static void test_swings(void **state) {
     (void)state;
     // On one layer with the walls; the other way round; half open.
@@ -496,6 +512,26 @@ static void test_looks(void **state) {
                HEAVY_WALLS);
 }
 
+/// Thick outer walls with gaps for doors, thinner inner walls; tables, that are closed, are none.
+static void test_ring(void **state) {
+    (void)state;
+#define LINES(width, d) "<path fill='none' stroke='black' stroke-width='" width "' d='" d "'/>"
+#define RING                                                                                       \
+    LINES(".6", "M2 0H0V8H10")                                                                     \
+    LINES(".6", "M3 0H18V3")                                                                       \
+    LINES(".6", "M18 4V8H11") LIGHT LINES(".15", "M2 5h3v2h-3z") LINES(".15", "M12 5h3v2h-3z")
+#define RING_WALLS                                                                                 \
+    "wall 2 10 0 10\nwall 0 10 0 2\nwall 0 2 10 2\nwall 3 10 18 10\nwall 18 10 18 7\n"             \
+    "wall 18 6 18 2\nwall 18 2 11 2\n"
+#define TABLES                                                                                     \
+    "wall 2 5 5 5\nwall 5 5 5 3\nwall 5 3 2 3\nwall 2 3 2 5\n"                                     \
+    "wall 12 5 15 5\nwall 15 5 15 3\nwall 15 3 12 3\nwall 12 3 12 5\n"
+    assert_map(sli_map_read_svg, SVG(RING), NULL, false, RING_WALLS);
+    assert_map(sli_map_read_svg,
+               SVG(RING LINES(".15", "M0 4H7") LINES(".15", "M8 4H18") LINES(".15", "M9 0V4")),
+               NULL, false, RING_WALLS TABLES "wall 0 6 7 6\nwall 8 6 18 6\nwall 9 10 9 6\n");
+}
+
 /// Coloured rooms without lines: their outlines are walls, and lettering is none.
 static void test_rooms(void **state) {
     (void)state;
@@ -561,6 +597,7 @@ int main(void) {
         cmocka_unit_test(test_languages),
         cmocka_unit_test(test_no_choice),
         cmocka_unit_test(test_blocks),
+        cmocka_unit_test(test_tags),
         cmocka_unit_test(test_swings),
         cmocka_unit_test(test_width_of_doors),
         cmocka_unit_test(test_shut_doors),
@@ -575,6 +612,7 @@ int main(void) {
         cmocka_unit_test(test_outlines_of_rooms),
         cmocka_unit_test(test_layers_of_doors),
         cmocka_unit_test(test_looks),
+        cmocka_unit_test(test_ring),
         cmocka_unit_test(test_rooms),
         cmocka_unit_test(test_edges),
         cmocka_unit_test(test_clipped_hatching),

@@ -587,23 +587,63 @@ static void test_wide_of_drawing(void **state) {
     }
 }
 
-/// Where no building is inside by the wide opening, or the width is that of small openings, the
-/// answer is that of other maps, seams included.
+/// Where no building is inside by the wide opening, or the width is that of openings that are small
+/// against the plan and a wider one is doubtful, too, the answer is that of other maps, seams
+/// included.
 static void test_narrow_of_drawing(void **state) {
     (void)state;
     static const char fences[] = "wall -50 -20 90 -20\nwall -50 -40 90 -40\nwall -50 -60 90 -60\n"
                                  "walls 40 0 48 0 48 8 40 8 40 1\n";
+    static const char yard[] = "walls 62.8 0 65 0 65 5 60 5 60 0\nwalls 249 0 250 0 250 9\n";
     for (int i = 0; i < 2; i++) {
         char text[4200];
         plan of_text, of_drawing;
         say_house(i ? "" : "unit m\n", i ? 2.4 : 2, 2, text);
-        strcat(text, i ? "wall 300 0 301 0\n" : fences);
+        strcat(text, i ? yard : fences);
         read_as(TEXT, text, &of_text);
         read_as(DRAWING, text, &of_drawing);
         assert_true(of_text.map.interior.doubtful_width > 0);
         assert_same_inside(&of_text, &of_drawing);
         close_plan(&of_text);
         close_plan(&of_drawing);
+    }
+}
+
+/// A drawing whose walls nearly meet: the gap that is somewhat wider than the others is none to the
+/// outside either, if no opening at all is doubtful then.
+static void test_small_of_drawing(void **state) {
+    (void)state;
+    char text[4200];
+    plan p;
+    say_house("", 2.4, 2, text);
+    strcat(text, "wall 300 0 301 0\n");
+    read_plan(text, &p);
+    assert_true(p.map.interior.doubtful_width > 0);
+    close_plan(&p);
+    read_as(DRAWING, text, &p);
+    assert_int_equal(p.map.interior.by, SL_ENTRANCE_WIDE);
+    assert_float_equal(p.map.interior.width, 2.4, 1e-9);
+    assert_int_equal(doubt_of(&p), SL_INSIDE_SURE);
+    assert_true(is_inside(&p, hall) && is_inside(&p, rooms[0]) && !is_inside(&p, cores[0]));
+    close_plan(&p);
+}
+
+/// A drawing with a pair of doors as its entrance, and doors to its rooms that are drawn: whether
+/// these are kept as doors or are gaps, the same is inside.
+static void test_doors_of_drawing(void **state) {
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        char text[4200];
+        plan p;
+        say_house("unit m\n", 2, 2, text);
+        if (i)
+            strcat(text, "door a 2 4 2.9 4\ndoor b 2 4.3 2.9 4.3\ndoor c 7 4 7.9 4\n"
+                         "door d 7 4.3 7.9 4.3\ndoor e 3.4 0.3 3.4 4\ndoor f 5.6 0.3 5.6 4\n");
+        read_as(DRAWING, text, &p);
+        assert_int_equal(p.map.interior.by, SL_ENTRANCE_WIDE);
+        assert_int_equal(doubt_of(&p), SL_INSIDE_SURE);
+        assert_true(is_inside(&p, hall) && is_inside(&p, rooms[0]) && is_inside(&p, rooms[1]));
+        close_plan(&p);
     }
 }
 
@@ -779,6 +819,8 @@ int main(void) {
         cmocka_unit_test(test_nearly_nothing),
         cmocka_unit_test(test_wide_of_drawing),
         cmocka_unit_test(test_narrow_of_drawing),
+        cmocka_unit_test(test_small_of_drawing),
+        cmocka_unit_test(test_doors_of_drawing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

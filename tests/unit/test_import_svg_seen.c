@@ -285,21 +285,40 @@ static void test_oblique_transforms(void **state) {
     }
 }
 
+/// What lies beside the page is cut where the drawing is shown; but not where the plan goes on
+/// there.
+static void test_beside_the_page(void **state) {
+    (void)state;
+#define ROOM       "<path d='M1 1H9V9H1z' fill='none' stroke='black'/>\n"
+#define ROOM_WALLS "wall 1 9 9 9\nwall 9 9 9 1\nwall 9 1 1 1\nwall 1 1 1 9\n"
+#define SYMBOL     "<path d='M30 1h4v4h-4z' fill='none' stroke='black'/>\n"
+#define BESIDE     "wall 30 9 34 9\nwall 34 9 34 5\nwall 34 5 30 5\nwall 30 5 30 9\n"
+    assert_noted(SVG(ROOM ROOM SYMBOL), ROOM_WALLS ROOM_WALLS,
+                 "passed over: hidden beside the page (other)");
+    assert_walls(SVG(ROOM SYMBOL SYMBOL), ROOM_WALLS BESIDE BESIDE);
+    assert_walls(SVG(ROOM ROOM SYMBOL "<path d='M9 5H30' stroke='black'/>"),
+                 ROOM_WALLS ROOM_WALLS BESIDE "wall 9 5 30 5\n");
+    sl_import_options all = sl_import_options_default();
+    all.all_layers = true;
+    static const char text[] = SVG(ROOM ROOM SYMBOL);
+    assert_walls_of(sli_map_read_svg, &all, text, strlen(text), ROOM_WALLS ROOM_WALLS BESIDE);
+}
+
 static void test_memory(void **state) {
     (void)state;
     assert_memory_of(sli_map_read_svg, NULL,
                      SVG("<style>.a{fill:none}</style>" CLIP("<rect width='2' height='2'/>")
-                             SHAPE("clip-path='url(#c)'")
-                                 SHAPE("style='transform:scale(2);transform-box:fill-box'")));
+                             SHAPE("clip-path='url(#c)'") SHAPE(
+                                 "style='transform:scale(2);transform-box:fill-box'") ROOM SYMBOL));
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_faults),         cmocka_unit_test(test_tails),
-        cmocka_unit_test(test_bad_transforms), cmocka_unit_test(test_paint),
-        cmocka_unit_test(test_visibility),     cmocka_unit_test(test_clips),
-        cmocka_unit_test(test_css_transforms), cmocka_unit_test(test_oblique_transforms),
-        cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_faults),          cmocka_unit_test(test_tails),
+        cmocka_unit_test(test_bad_transforms),  cmocka_unit_test(test_paint),
+        cmocka_unit_test(test_visibility),      cmocka_unit_test(test_clips),
+        cmocka_unit_test(test_css_transforms),  cmocka_unit_test(test_oblique_transforms),
+        cmocka_unit_test(test_beside_the_page), cmocka_unit_test(test_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

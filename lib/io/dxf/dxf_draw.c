@@ -295,6 +295,40 @@ static sl_status count_work(sli_dxf *dxf) {
     return ++dxf->work % 4096 == 0 ? sl_check_cancelled(dxf->context) : SL_OK;
 }
 
+/// Whether a block is a tag, as of a room: fields for texts, and fewer lines between or under them.
+static bool is_tag(const sli_dxf *dxf, const sli_dxf_block *block) {
+    size_t fields = 0, lines = 0;
+    for (size_t i = block->entities.begin; i < block->entities.end; i++) {
+        const sli_dxf_pair *pair = sli_dxf_at(dxf, i);
+        if (pair->code != 0) continue;
+        if (sli_word_is(pair->value, "ATTDEF"))
+            fields++;
+        else if (sli_word_is(pair->value, "LINE"))
+            lines++;
+        else if (!sli_dxf_is_text(pair->value))
+            return false;
+    }
+    return fields > lines;
+}
+
+/// The group of a block: by its name, or of tags where neither this nor its layer says anything; 0
+/// for none.
+static sl_status group_of_block(sli_dxf *dxf, const sli_dxf_block *block, sli_word layer,
+                                uint32_t *out) {
+    static const char tags[] = "tag blocks";
+    uint32_t named, on;
+    *out = 0;
+    SL_TRY(sli_contents_group(&dxf->contents, block->name, &named));
+    if (sli_contents_means(&dxf->contents, named)) {
+        *out = named;
+        return SL_OK;
+    }
+    if (!is_tag(dxf, block)) return SL_OK;
+    SL_TRY(sli_contents_group(&dxf->contents, layer, &on));
+    if (sli_contents_means(&dxf->contents, on)) return SL_OK;
+    return sli_contents_group(&dxf->contents, (sli_word){tags, sizeof tags - 1}, out);
+}
+
 static sl_status draw_insert(sli_dxf *dxf, sli_dxf_range entity, sli_word layer, unsigned depth) {
     const sli_word name = sli_dxf_text(dxf, entity, 2);
     const sli_dxf_block *block = sli_dxf_find_block(dxf, name);
@@ -314,9 +348,9 @@ static sl_status draw_insert(sli_dxf *dxf, sli_dxf_range entity, sli_word layer,
     sli_dxf_clip clip;
     const uint32_t block_before = dxf->block;
     uint32_t named;
-    SL_TRY(sli_contents_group(&dxf->contents, name, &named));
+    SL_TRY(group_of_block(dxf, block, layer, &named));
     sl_status status = sli_dxf_read_clip(dxf, entity, &clip);
-    if (sli_contents_means(&dxf->contents, named)) dxf->block = named;
+    if (named) dxf->block = named;
     for (int row = 0; row < rows && status == SL_OK; row++) {
         for (int column = 0; column < columns && status == SL_OK; column++) {
             const size_t first = dxf->pen.map->wall_count;

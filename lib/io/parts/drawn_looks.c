@@ -27,6 +27,8 @@ enum { MOST_LOOKS = 512, LEAST_WALLS = 3, LEAST_SHAPES = 8 };
 #define FLOOR 25
 #define WORD  4
 #define ROOM  15
+/// A line of inner walls is longer than this share of the drawing.
+#define CROSSING 5
 /// Shares of the long lines: of the heaviest look, and of those beside it.
 #define FAIR   0.15
 #define BESIDE 0.02
@@ -323,6 +325,46 @@ static bool is_outline(const chooser *c, const sli_look_shape *shape) {
     return twice * FLOOR > c->size * around;
 }
 
+/// Whether each wall of a shape runs along a side of a box.
+static bool is_on_ring(const chooser *c, const sli_look_shape *shape, sl_box ring) {
+    const double off = c->size / LARGE;
+    for (size_t i = shape->first; i < shape->end; i++) {
+        const sl_point a = c->map->walls[i].a, b = c->map->walls[i].b;
+        if (fmax(fabs(a.x - ring.min.x), fabs(b.x - ring.min.x)) > off &&
+            fmax(fabs(a.x - ring.max.x), fabs(b.x - ring.max.x)) > off &&
+            fmax(fabs(a.y - ring.min.y), fabs(b.y - ring.min.y)) > off &&
+            fmax(fabs(a.y - ring.max.y), fabs(b.y - ring.max.y)) > off)
+            return false;
+    }
+    return true;
+}
+
+/// Whether the looks that are taken are a ring with gaps, as of windows and doors, and a look draws
+/// lines across what is in it: inner walls. Furniture is smaller, or closed.
+static bool is_ring_alone(const chooser *c, const sli_look *next) {
+    double outer = 0, across = 0;
+    sl_box ring = c->bounds;
+    bool any = false;
+    for (size_t i = c->backdrops; i < c->count; i++) {
+        const sl_box box = box_of(c->map, &c->shapes[i]);
+        if (!c->looks->items.items[c->shapes[i].look].taken) continue;
+        ring = any ? sli_box_with(sli_box_with(ring, box.min), box.max) : box;
+        any = true;
+    }
+    for (size_t i = c->backdrops; next && i < c->count; i++) {
+        const sli_look_shape *shape = &c->shapes[i];
+        const sl_point from = c->map->walls[shape->first].a, to = c->map->walls[shape->end - 1].b;
+        const double straight = sli_length(to.x - from.x, to.y - from.y);
+        double twice;
+        if (&c->looks->items.items[shape->look] == next && straight * CROSSING >= c->size)
+            across += straight;
+        if (!c->looks->items.items[shape->look].taken) continue;
+        if (!is_on_ring(c, shape, ring)) return false;
+        outer += measure_around(c, shape, &twice);
+    }
+    return outer >= width_of(ring) + height_of(ring) && 2 * across >= c->size;
+}
+
 /// Whether the looks that are taken have outlines of most of the drawing, and little in them.
 static bool is_outline_alone(const chooser *c) {
     double outlines = 0, inner = 0;
@@ -427,7 +469,8 @@ double sli_looks_choose(const sl_map *map, const sli_look_shape *shapes, size_t 
     if (count >= LEAST_SHAPES && !best) best = heaviest(&c, true);
     const bool rooms = count >= LEAST_SHAPES && !best && c.floors > c.lines;
     take_alike(&c, best);
-    if (best && is_outline_alone(&c)) take_alike(&c, next_like_walls(&c));
+    const sli_look *next = best ? next_like_walls(&c) : NULL;
+    if (best && (is_outline_alone(&c) || is_ring_alone(&c, next))) take_alike(&c, next);
     for (size_t i = 0; rooms && i < looks->items.count; i++)
         looks->items.items[i].taken = is_floor(&c, &looks->items.items[i]);
     const size_t walls = take_shapes(&c, taken);

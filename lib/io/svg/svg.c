@@ -528,6 +528,7 @@ static sl_status draw_root(svg *s, xmlNode *root) {
     s->contents.has_looks = !s->style.paint_unread;
     SL_TRY(draw_children(s, root, at));
     sli_svg_settle_hatching(s);
+    SL_TRY(sli_svg_settle_page(s));
     if (s->list) return sli_contents_list(&s->contents, s->pen.map, 0, s->list);
     SL_TRY(check_looks(s, root));
     SL_TRY(sli_contents_choose(&s->contents, 0, &s->pen));

@@ -1,7 +1,7 @@
 /// An SVG drawing while it is read: its shapes (svg_shapes.c) with their numbers and paths
 /// (svg_path.c), through transforms (svg_transform.c), as far as they are seen (svg_style.c,
-/// svg_place.c), but for hatching (svg_hatching.c). svg.c goes through the elements and makes a map
-/// of them.
+/// svg_place.c), but for hatching (svg_hatching.c) and what lies beside the page (svg_page.c).
+/// svg.c goes through the elements and makes a map of them.
 #ifndef SL_SVG_H
 #define SL_SVG_H
 
@@ -90,6 +90,8 @@ sl_box sli_svg_no_clip(void);
 /// drawn.
 sl_status sli_svg_end_shape(sli_svg *s, const sl_box *clip, size_t first, uint32_t group);
 void sli_svg_settle_hatching(sli_svg *s);
+/// Passes over what lies beside the page, once all shapes are drawn.
+sl_status sli_svg_settle_page(sli_svg *s);
 
 // --- svg_looks.c
 
