@@ -329,14 +329,17 @@ sl_status sli_tiled_tell_meaning(const sli_tiled_reader *reader) {
     if (reader->by == SLI_TILED_BY_GUESS) {
         const sli_tiled_seen *layer = &reader->seen.items[reader->guess_layer];
         char tile[64] = "its empty squares are";
+        if (reader->guessed_all) strcpy(tile, "all tiles are");
         if (reader->guessed)
-            snprintf(tile, sizeof tile, "its tile %u is", (unsigned)reader->guessed);
+            snprintf(tile, sizeof tile,
+                     reader->guessed_all ? "all tiles but %u are" : "its tile %u is",
+                     (unsigned)reader->guessed);
         sl_note(
             reader->context,
             "%s: nothing in it says what is solid: of layer '%s' %s taken (%s); --layers NAME or "
             "NAME:TILE+TILE-TILE chooses; layers: %s",
             file, sli_show((sli_word){layer->name, strlen(layer->name)}).text,
-            reader->guessed_all ? "all tiles are" : tile, reader->guess_why, others.text);
+            tile, reader->guess_why, others.text);
     } else if (reader->by) {
         sl_note(
             reader->context,
