@@ -146,8 +146,8 @@ static void tell_values(const sli_ldtk *reader, const sli_ldtk_settled *as) {
     const sli_ldtk_told *told = &reader->told;
     const bool several = strchr(told->solid.text, ',') != NULL;
     if (reader->options->layers || !(told->named || several)) return;
-    add_list(text, sizeof text, told->named ? "solid: " : "solid, as none has a name: ",
-             &told->solid);
+    add_list(text, sizeof text,
+             told->named ? "solid: " : "solid, as none has a name: ", &told->solid);
     add_list(text, sizeof text,
              as->stands_open     ? "; floor, as entities stand on it: "
              : *told->solid.text ? ", "

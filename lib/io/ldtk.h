@@ -16,7 +16,7 @@ enum { SLI_LDTK_GROUND = 'g', SLI_LDTK_STANDS = 's' };
 typedef struct sli_ldtk_layer {
     sli_game_kind kind; ///< by its name; SOLID where it is asked for
     bool by_name;       ///< some value is named for what is solid: the others are not, but for rock
-    bool ceiling;       ///< some value is named for a ceiling: what is named for ground may be solid
+    bool ceiling; ///< some value is named for a ceiling: what is named for ground may be solid
     bool only_walkable; ///< all values are named for where one walks: empty cells are solid
     sli_word numbers;   ///< of the values that are asked for; of no length for all
 } sli_ldtk_layer;

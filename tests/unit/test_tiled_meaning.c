@@ -16,9 +16,9 @@
 #define TRUE(name)        "<properties><property name='" name "' type='bool' value='true'/></properties>"
 #define PROPERTY(name, value)                                                                      \
     "<properties><property name='" name "' value='" value "'/></properties>"
-#define BOX(x, y, w, h)   "<object x='" x "' y='" y "' width='" w "' height='" h "'/>"
-#define TILES             CSV("0,1,1,0,0,0")
-#define FULL              CSV("1,1,1,1,1,1")
+#define BOX(x, y, w, h) "<object x='" x "' y='" y "' width='" w "' height='" h "'/>"
+#define TILES           CSV("0,1,1,0,0,0")
+#define FULL            CSV("1,1,1,1,1,1")
 
 #define TWO_TILES                                                                                  \
     "wall 0 16 8 16\nwall 8 8 24 8\nwall 8 8 8 16\nwall 0 0 24 0\nwall 0 0 0 16\nwall 24 0 24 8\n"
@@ -40,7 +40,7 @@ static void assert_refused_json(const char *text, const char *message) {
     assert_refused_of(sli_map_read_tmj, NULL, text, strlen(text), SL_BAD_INPUT, message);
 }
 
-#define UNSAID "f:1: nothing in it says what is solid; --layers NAME takes a layer as solid"
+#define UNSAID                 "f:1: nothing in it says what is solid; --layers NAME takes a layer as solid"
 #define WIDE(body)             "<map width='6' height='4' tilewidth='8' tileheight='8'>\n" body "</map>"
 #define WIDE_LAYER(name, data) "<layer name='" name "' width='6' height='4'>\n" CSV(data) "</layer>"
 #define RING                   "1,1,1,1,1,1, 1,0,0,0,0,1, 1,0,0,0,0,1, 1,1,1,1,1,1"
@@ -118,9 +118,9 @@ static void test_ground_below_air(void **state) {
                  "wall 0 32 48 32\nwall 0 8 32 8\nwall 40 8 48 8\nwall 0 8 0 32\n"
                  "wall 48 8 48 32\nwall 32 0 40 0\nwall 32 0 32 8\nwall 40 0 40 8\n");
     assert_refused(WIDE(FRONT WIDE_LAYER("base", GRASS)), UNSAID);
-    assert_refused(WIDE(FRONT WIDE_LAYER("a", AIR "0,0,0,0,4,0")
-                            WIDE_LAYER("more ground", AIR "0,0,0,0,4,0")),
-                   UNSAID);
+    assert_refused(
+        WIDE(FRONT WIDE_LAYER("a", AIR "0,0,0,0,4,0") WIDE_LAYER("more ground", AIR "0,0,0,0,4,0")),
+        UNSAID);
 }
 
 #define HALL(name, inner)                                                                          \
@@ -231,13 +231,14 @@ static void test_passing_objects(void **state) {
 /// Objects without a name have it as a property: walls and starts.
 static void test_names_as_properties(void **state) {
     (void)state;
-    assert_walls(MAP(SET LAYER("a", FULL) "<objectgroup name='b'>"
-                                          "<object x='8' y='0' width='8' height='8'>" PROPERTY(
-                                              "name", "Solid") "</object>"
-                                                               "<object x='4' y='12'>" PROPERTY(
-                                                                   "Name", "start") "</object></objectgroup>"),
-                 "wall 8 16 16 16\nwall 16 16 16 8\nwall 16 8 8 8\nwall 8 8 8 16\n" FRAME
-                 "start 4 4 0\n");
+    assert_walls(
+        MAP(SET LAYER("a", FULL) "<objectgroup name='b'>"
+                                 "<object x='8' y='0' width='8' height='8'>" PROPERTY(
+                                     "name", "Solid") "</object>"
+                                                      "<object x='4' y='12'>" PROPERTY(
+                                                          "Name",
+                                                          "start") "</object></objectgroup>"),
+        "wall 8 16 16 16\nwall 16 16 16 8\nwall 16 8 8 8\nwall 8 8 8 16\n" FRAME "start 4 4 0\n");
 }
 
 /// Weaker names count where there are no firm ones, the firmest of them alone.

@@ -189,7 +189,8 @@ static sl_status read_layer(sli_tiled_reader *reader, const sli_json *layer,
     const bool solid = own->word == SLI_TILED_SOLID && !places &&
                        !(objects && sli_tiled_kind_of_layer(reader, layer) != SLI_LAYER_NONE);
     // Objects that are no walls, in a layer whose name says little, do not decide.
-    const bool none = objects && reader->by == SLI_TILED_BY_NAME && sli_tiled_taken(reader) == before;
+    const bool none =
+        objects && reader->by == SLI_TILED_BY_NAME && sli_tiled_taken(reader) == before;
     reader->solid_layers += solid && seen->count && !none;
     reader->empty_layers += solid && !seen->count;
     seen->taken |= sli_tiled_taken(reader) > before;

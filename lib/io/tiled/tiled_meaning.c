@@ -177,7 +177,8 @@ sl_status sli_tiled_guess(sli_tiled_reader *reader, const uint32_t *gids, size_t
         reader->guessed_all = true;
         reader->guess_why = "its tiles lie below and not above, as in a platformer";
     } else if (reader->guess_layer == find_ground(reader) && 5 * empty >= 2 * count &&
-               5 * tiles_of_row(&at, rows - 1) >= 2 * columns && 4 * tiles_of_row(&at, 0) <= columns) {
+               5 * tiles_of_row(&at, rows - 1) >= 2 * columns &&
+               4 * tiles_of_row(&at, 0) <= columns) {
         reader->guessed_all = true;
         reader->guess_why = "it is named for ground, with air above it";
     } else if (only && !ground && gid && !empty && 2 * most >= count && !on_edge(&at, gid) &&

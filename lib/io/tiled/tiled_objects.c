@@ -104,8 +104,8 @@ static sl_status take_thing(sli_tiled_reader *reader, const sli_json *object,
     if (says.kind == SLI_THING_START && at->others) says = (sli_says){0};
     *taken = says.kind != SLI_THING_NONE;
     if (reader->by) return SL_OK; // the first reading took it
-    SL_TRY(sli_things_ask(&reader->things, name,
-                          *class ? class : sli_json_text_of(object, "class"), &says));
+    SL_TRY(sli_things_ask(&reader->things, name, *class ? class : sli_json_text_of(object, "class"),
+                          &says));
     *taken = says.kind != SLI_THING_NONE;
     if (!*taken) return SL_OK;
     if (set && shape.width == 0 && shape.height == 0) {

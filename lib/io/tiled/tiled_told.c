@@ -269,6 +269,24 @@ static void tell_little(const sli_tiled_reader *reader) {
             name.text, (unsigned long long)most->count, reader->map->file->name, name.text);
 }
 
+/// One or two objects that say that they are solid, such as a block that a switch moves: what the
+/// tiles are is for the game to say.
+static void tell_objects(const sli_tiled_reader *reader) {
+    layer_text tiles = {.count = 0};
+    if (!reader->objects || reader->objects > 2 || reader->solid_tiles || reader->solid_layers)
+        return;
+    for (size_t i = 0; i < reader->seen.count; i++) {
+        const sli_tiled_seen *layer = &reader->seen.items[i];
+        if (!layer->objects && layer->count) add_layer(&tiles, layer);
+    }
+    if (!tiles.count) return;
+    sl_note(reader->context,
+            "%s: only %zu object%s solid, and no tile does: if a layer of tiles is solid, --layers "
+            "NAME takes it: %s",
+            reader->map->file->name, reader->objects,
+            reader->objects == 1 ? " says that it is" : "s say that they are", tiles.text);
+}
+
 /// A layer named for ground with much air about it, as in a platformer, of which only a part says
 /// that it is solid, and no other layer is: the rest may be platforms that were forgotten, or that
 /// one jumps through.
@@ -325,6 +343,7 @@ sl_status sli_tiled_tell_meaning(const sli_tiled_reader *reader) {
                 sli_show((sli_word){reader->believed_not, strlen(reader->believed_not)}).text);
     if (!reader->by) tell_beside(reader);
     if (!reader->by) tell_little(reader);
+    if (!reader->by) tell_objects(reader);
     if (!reader->by) tell_ground(reader);
     if (reader->by == SLI_TILED_BY_GUESS) {
         const sli_tiled_seen *layer = &reader->seen.items[reader->guess_layer];
@@ -338,8 +357,8 @@ sl_status sli_tiled_tell_meaning(const sli_tiled_reader *reader) {
             reader->context,
             "%s: nothing in it says what is solid: of layer '%s' %s taken (%s); --layers NAME or "
             "NAME:TILE+TILE-TILE chooses; layers: %s",
-            file, sli_show((sli_word){layer->name, strlen(layer->name)}).text,
-            tile, reader->guess_why, others.text);
+            file, sli_show((sli_word){layer->name, strlen(layer->name)}).text, tile,
+            reader->guess_why, others.text);
     } else if (reader->by) {
         sl_note(
             reader->context,
