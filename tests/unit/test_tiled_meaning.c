@@ -87,6 +87,10 @@ static void test_guess(void **state) {
     assert_refused(MAP(SET LAYER("a", TILES) LAYER("b", CSV("0,0,0,2,2,0"))), UNSAID
                    ", NAME:28+33-35 tiles of it, as in: sightline check 'f' --layers LAYER -o "
                    "map.png; layers: 'a' (2 tiles), 'b' (2 tiles)");
+    assert_refused(MAP(SET LAYER("Tile Layer in the north of the town, with its harbour", TILES)
+                           LAYER("sand", CSV("0,0,0,2,2,0"))),
+                   UNSAID ", NAME:28+33-35 tiles of it, as in: sightline check 'f' --layers "
+                          "'Tile Layer in the north of the town, with its harbour' -o map.png");
     assert_refused(MAP(SET LAYER("a", TILES) LAYER("sand", CSV("0,0,0,2,2,0"))),
                    UNSAID ", NAME:28+33-35 tiles of it, as in: sightline check 'f' --layers 'a' -o "
                           "map.png; layers: 'a' (2 tiles), 'sand' (2 tiles)");

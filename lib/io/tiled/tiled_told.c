@@ -161,6 +161,16 @@ static bool is_only_layer(const sli_tiled_reader *reader) {
     return count == 1;
 }
 
+/// A layer's name in a command: whole, where it can be typed so.
+static const char *name_to_type(const sli_tiled_seen *layer, sli_shown *shown) {
+    const size_t length = strlen(layer->name);
+    *shown = sli_show((sli_word){layer->name, length});
+    for (size_t i = 0; i < length; i++)
+        if ((unsigned char)layer->name[i] < ' ' || strchr("'\x7f", layer->name[i]))
+            return shown->text;
+    return length < 160 ? layer->name : shown->text;
+}
+
 /// ", as in:" and a command that takes the example.
 static sl_status say_example(const sli_tiled_reader *reader, const sli_tiled_seen *example,
                              char *text, size_t size) {
@@ -173,10 +183,11 @@ static sl_status say_example(const sli_tiled_reader *reader, const sli_tiled_see
     if (objects) example = objects;
     bool rooms;
     SL_TRY(looks_like_rooms(reader, example, &rooms));
-    const sli_shown name = sli_show((sli_word){example->name, strlen(example->name)});
+    sli_shown shown;
+    const char *name = name_to_type(example, &shown);
     if (same && !objects)
         snprintf(text, size, " (all tiles of '%s' are the same: draw walls in a layer Collision)",
-                 name.text);
+                 name);
     else if (rooms)
         snprintf(text, size,
                  ", void the squares without tiles, as in: sightline check '%.150s' --layers void "
@@ -185,12 +196,12 @@ static sl_status say_example(const sli_tiled_reader *reader, const sli_tiled_see
     else if (is_only_layer(reader) && !example->objects && 2 * example->count > example->squares &&
              !mostly)
         snprintf(text, size, ", as in: sightline check '%.150s' --layers '%s:TILES' -o map.png",
-                 file, name.text);
+                 file, name);
     else if (!is_only_layer(reader) && !is_sure(reader, example, mostly, same))
         snprintf(text, size, ", as in: sightline check '%.150s' --layers LAYER -o map.png", file);
     else
         snprintf(text, size, ", as in: sightline check '%.150s' --layers '%s%s' -o map.png", file,
-                 name.text, tiles);
+                 name, tiles);
     return SL_OK;
 }
 
@@ -199,7 +210,7 @@ sl_status sli_tiled_fail_unsaid(const sli_tiled_reader *reader, const char *why)
     const sli_tiled_seen *example = find_example(reader);
     const layer_text taken = list_layers(reader, true), others = list_layers(reader, false);
     const char *between = taken.count && others.count ? ", " : "";
-    char as[400];
+    char as[560];
     if (!reader->seen.count) return sli_json_fail(reader->map, "%s; it has no layers", why);
     if (!example) return sli_json_fail(reader->map, "%s; all its layers are empty", why);
     SL_TRY(say_example(reader, example, as, sizeof as));
@@ -310,7 +321,7 @@ static void tell_ground(const sli_tiled_reader *reader) {
 static sl_status tell_edge_only(const sli_tiled_reader *reader) {
     const sli_tiled_seen *example = find_example(reader);
     const layer_text others = list_layers(reader, false);
-    char as[400];
+    char as[560];
     if (!example) return SL_OK;
     SL_TRY(say_example(reader, example, as, sizeof as));
     sl_note(reader->context,
