@@ -144,8 +144,10 @@ static void add_list(char *text, size_t size, const char *lead, const sli_name_l
 static void tell_values(const sli_ldtk *reader, const sli_ldtk_settled *as) {
     char text[900] = "";
     const sli_ldtk_told *told = &reader->told;
-    if (!told->named || reader->options->layers) return;
-    add_list(text, sizeof text, "solid: ", &told->solid);
+    const bool several = strchr(told->solid.text, ',') != NULL;
+    if (reader->options->layers || !(told->named || several)) return;
+    add_list(text, sizeof text,
+             told->named ? "solid: " : "solid, as none has a name: ", &told->solid);
     add_list(text, sizeof text,
              as->stands_open     ? "; floor, as entities stand on it: "
              : *told->solid.text ? ", "

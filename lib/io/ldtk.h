@@ -16,6 +16,7 @@ enum { SLI_LDTK_GROUND = 'g', SLI_LDTK_STANDS = 's' };
 typedef struct sli_ldtk_layer {
     sli_game_kind kind; ///< by its name; SOLID where it is asked for
     bool by_name;       ///< some value is named for what is solid: the others are not, but for rock
+    bool ceiling; ///< some value is named for a ceiling: what is named for ground may be solid
     bool only_walkable; ///< all values are named for where one walks: empty cells are solid
     sli_word numbers;   ///< of the values that are asked for; of no length for all
 } sli_ldtk_layer;
@@ -33,6 +34,8 @@ typedef struct sli_ldtk_told {
 } sli_ldtk_told;
 
 bool sli_ldtk_any_solid(const sli_json *values);
+/// Whether some value is named for a ceiling, as in a map that is seen from the side.
+bool sli_ldtk_any_ceiling(const sli_json *values);
 /// Whether all values of a layer are named for where one walks, so that one does not elsewhere.
 bool sli_ldtk_only_walkable(const sli_json *values);
 /// What a value other than 0 means; `values` are its layer's definitions.

@@ -27,6 +27,20 @@ static bool says_through(const char *name) {
     return false;
 }
 
+static bool says_ceiling(const char *name) {
+    for (sli_name_word word; sli_word_next(&name, &word);)
+        if (strcmp(word.text, "ceiling") == 0) return true;
+    return false;
+}
+
+bool sli_ldtk_any_ceiling(const sli_json *values) {
+    for (size_t i = 0; i < json_array_size(values->value); i++) {
+        const sli_json value = sli_json_item(values, i);
+        if (says_ceiling(sli_json_text_of(&value, "identifier"))) return true;
+    }
+    return false;
+}
+
 bool sli_ldtk_only_walkable(const sli_json *values) {
     bool any = false;
     for (size_t i = 0; i < json_array_size(values->value); i++) {
@@ -42,6 +56,8 @@ bool sli_ldtk_only_walkable(const sli_json *values) {
 static char square_of(const sli_ldtk_layer *layer, const char *name) {
     const sli_game_kind kind = sli_game_kind_of(name);
     if (kind == SLI_GAME_WATER) return '~';
+    if (says_ceiling(name)) return '#';
+    if (layer->ceiling && kind == SLI_GAME_GROUND) return SLI_LDTK_GROUND;
     if (kind >= SLI_GAME_STANDS &&
         !(layer->by_name && kind == SLI_GAME_LIKELY && !is_firm(kind, name)))
         return layer->by_name && kind == SLI_GAME_STANDS ? SLI_LDTK_STANDS : '#';

@@ -53,6 +53,7 @@ static sl_status read_cells(sli_ldtk *reader, const sli_json *layer, const sli_j
     sli_ldtk_layer of = layer_of(reader, layer);
     of.by_name = sli_ldtk_any_solid(&values);
     of.only_walkable = sli_ldtk_only_walkable(&values);
+    of.ceiling = sli_ldtk_any_ceiling(&values);
     const bool takes_empty = of.numbers.length ? sli_numbers_have(of.numbers, 0) : of.only_walkable;
     known_cells *known = sl_alloc(reader->context, sizeof *known);
     if (!known) return SL_NO_MEMORY;

@@ -135,7 +135,16 @@ def tmx_object(node):
             shape[kind] = [{"x": float(x), "y": float(y)} for x, y in pairs]
     for kind in ("ellipse", "point"):
         shape[kind] = node.find(kind) is not None
+    shape["properties"] = [{"name": own.get("name"), "value": own.get("value")}
+                           for own in node.iterfind("properties/property")]
     return shape
+
+
+def name_of(shape):
+    """The name of an object, else its class, else the text of a property of this name."""
+    named = [own["value"] for own in shape.get("properties") or []
+             if isinstance(own, dict) and own["name"].lower() == "name"]
+    return shape.get("name") or shape.get("type") or (named[0] if named else "")
 
 
 def tmx_layers(root):
@@ -202,7 +211,7 @@ def tiled_layers(drawing, layers, at=(0, 0)):
             for shape in layer["objects"]:
                 points, closed = object_points(shape)
                 if points:
-                    drawing.line(f"{layer['name']} ({shape.get('name') or shape.get('type') or ''})",
+                    drawing.line(f"{layer['name']} ({name_of(shape)})",
                                  [(x + here[0], y + here[1]) for x, y in points], closed)
 
 

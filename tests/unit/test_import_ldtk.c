@@ -42,6 +42,9 @@ static void assert_no_such(const char *text, const char *name, const char *layer
 
 static void test_values(void **state) {
     (void)state;
+    const char *nameless = PROJECT("", LEVEL("A", "0", "0", GRID("Any", "0,1,2,0,0,0", "")));
+    assert_noted_of(sli_map_read_ldtk, NULL, nameless, strlen(nameless), TWO_TILES,
+                    "f: values: solid, as none has a name: 1, 2; --layers Any:1+3-5 takes");
     // Without names all values but 0 are solid; with names those that say so.
     assert_walls(PROJECT("", LEVEL("A", "0", "0", GRID("Any", "0,1,2,0,0,0", ""))), NULL, NULL,
                  TWO_TILES);
@@ -81,6 +84,15 @@ static void test_values_by_meaning(void **state) {
     assert_walls(NAMED("Any", "2,1,3,2,2,2",
                        VALUE("1", "Wall") "," VALUE("2", "dirt") "," VALUE("3", "water")),
                  NULL, "Any:1+3", TWO_TILES);
+    // Plants, chains and spikes are no walls, nor are they ground.
+    assert_walls(NAMED("Any", "0,1,1,2,3,4",
+                       VALUE("1", "Terrain") "," VALUE("2", "Flora") "," VALUE(
+                           "3", "Chain") "," VALUE("4", "Spikes")),
+                 NULL, NULL, TWO_TILES);
+    // A map seen from the side has ceilings, and its ground is solid.
+    assert_walls(NAMED("Any", "0,1,2,0,0,0",
+                       VALUE("1", "Ceiling") "," VALUE("2", "Ground") "," VALUE("3", "Wall")),
+                 NULL, NULL, TWO_TILES);
     assert_refused(NAMED("Any", "0,1,1,1,1,1", VALUE("1", "grass")),
                    "f: the values grass (1) may be walls or open ground; --layers Any:1+3-5 takes");
     assert_no_such(NAMED("Any", "0,1,1,1,1,1", ""), NULL, "Any:x",

@@ -14,9 +14,11 @@
 #define LAYER(name, data) "<layer name='" name "'" SIZE ">\n" data "</layer>"
 #define CSV(text)         "<data encoding='csv'>" text "</data>"
 #define TRUE(name)        "<properties><property name='" name "' type='bool' value='true'/></properties>"
-#define BOX(x, y, w, h)   "<object x='" x "' y='" y "' width='" w "' height='" h "'/>"
-#define TILES             CSV("0,1,1,0,0,0")
-#define FULL              CSV("1,1,1,1,1,1")
+#define PROPERTY(name, value)                                                                      \
+    "<properties><property name='" name "' value='" value "'/></properties>"
+#define BOX(x, y, w, h) "<object x='" x "' y='" y "' width='" w "' height='" h "'/>"
+#define TILES           CSV("0,1,1,0,0,0")
+#define FULL            CSV("1,1,1,1,1,1")
 
 #define TWO_TILES                                                                                  \
     "wall 0 16 8 16\nwall 8 8 24 8\nwall 8 8 8 16\nwall 0 0 24 0\nwall 0 0 0 16\nwall 24 0 24 8\n"
@@ -38,6 +40,7 @@ static void assert_refused_json(const char *text, const char *message) {
     assert_refused_of(sli_map_read_tmj, NULL, text, strlen(text), SL_BAD_INPUT, message);
 }
 
+#define UNSAID                 "f:1: nothing in it says what is solid; --layers NAME takes a layer as solid"
 #define WIDE(body)             "<map width='6' height='4' tilewidth='8' tileheight='8'>\n" body "</map>"
 #define WIDE_LAYER(name, data) "<layer name='" name "' width='6' height='4'>\n" CSV(data) "</layer>"
 #define RING                   "1,1,1,1,1,1, 1,0,0,0,0,1, 1,0,0,0,0,1, 1,1,1,1,1,1"
@@ -64,7 +67,6 @@ static void test_guess(void **state) {
                         "tileheight='8'/>" WIDE_LAYER("Ground/terrain", GRASS)),
                    "f:1: nothing in it says what is solid; --layers NAME takes a layer as solid");
     // The same tiles as a meadow; a layer beside the floor; a layer that is full.
-#define UNSAID "f:1: nothing in it says what is solid; --layers NAME takes a layer as solid"
     assert_refused(WIDE(SET WIDE_LAYER("Ground", GRASS)), UNSAID);
     assert_refused(WIDE(SET WIDE_LAYER("Tile Layer 1", GRASS)), UNSAID);
     assert_refused(MAP(SET LAYER("floor", CSV("3,0,0,4,4,5")) LAYER("b", CSV("3,9,0,4,0,0"))),
@@ -85,6 +87,10 @@ static void test_guess(void **state) {
     assert_refused(MAP(SET LAYER("a", TILES) LAYER("b", CSV("0,0,0,2,2,0"))), UNSAID
                    ", NAME:28+33-35 tiles of it, as in: sightline check 'f' --layers LAYER -o "
                    "map.png; layers: 'a' (2 tiles), 'b' (2 tiles)");
+    assert_refused(MAP(SET LAYER("Tile Layer in the north of the town, with its harbour", TILES)
+                           LAYER("sand", CSV("0,0,0,2,2,0"))),
+                   UNSAID ", NAME:28+33-35 tiles of it, as in: sightline check 'f' --layers "
+                          "'Tile Layer in the north of the town, with its harbour' -o map.png");
     assert_refused(MAP(SET LAYER("a", TILES) LAYER("sand", CSV("0,0,0,2,2,0"))),
                    UNSAID ", NAME:28+33-35 tiles of it, as in: sightline check 'f' --layers 'a' -o "
                           "map.png; layers: 'a' (2 tiles), 'sand' (2 tiles)");
@@ -103,6 +109,42 @@ static void test_guess(void **state) {
     assert_refused(MAP(SET LAYER("a", CSV("0,0,0,0,0,0"))),
                    "f:1: nothing in it says what is solid; all its layers are empty");
     assert_refused(MAP(""), "f:1: nothing in it says what is solid; it has no layers");
+}
+
+/// Ground below the air is solid, beside what lies on it; not where other layers fill the air.
+static void test_ground_below_air(void **state) {
+    (void)state;
+#define AIR   "0,0,0,0,0,0, 0,0,0,0,0,0, 0,0,0,0,0,0, "
+#define FRONT SET WIDE_LAYER("groundLayer", AIR "3,3,3,3,0,3")
+    assert_walls(WIDE(FRONT WIDE_LAYER("acid", AIR "0,0,0,0,4,0")
+                          WIDE_LAYER("flag", "0,0,0,0,0,0, 0,0,0,0,0,0, 0,0,0,0,0,5, 0,0,0,0,0,0")
+                              WIDE_LAYER("backGround", GRASS)),
+                 "wall 0 32 48 32\nwall 0 8 32 8\nwall 40 8 48 8\nwall 0 8 0 32\n"
+                 "wall 48 8 48 32\nwall 32 0 40 0\nwall 32 0 32 8\nwall 40 0 40 8\n");
+    assert_refused(WIDE(FRONT WIDE_LAYER("base", GRASS)), UNSAID);
+    assert_refused(
+        WIDE(FRONT WIDE_LAYER("a", AIR "0,0,0,0,4,0") WIDE_LAYER("more ground", AIR "0,0,0,0,4,0")),
+        UNSAID);
+}
+
+#define HALL(name, inner)                                                                          \
+    "<map width='10' height='6' tilewidth='8' tileheight='8'>" SET "<layer name='" name            \
+    "' width='10' height='6'>" CSV("2,2,3,3,2,2,2,2,2,2, 2,1,1,1,1,1,1,1,1,2, "                    \
+                                   "2,1,1," inner ",1,1,1,1,2, 3,1,1,1,1,1,1,1,1,2, "              \
+                                   "3,1,1,1,1,1,1,1,1,2, 2,2,2,2,2,2,2,2,2,2") "</layer>"
+
+/// A floor that does not come to the edge, with walls of the edge's tiles.
+static void test_floor_within_walls(void **state) {
+    (void)state;
+    assert_walls(HALL("Tile Layer 1", "2,3") "</map>",
+                 "wall 8 40 72 40\nwall 24 32 40 32\nwall 24 24 40 24\nwall 24 24 24 32\n"
+                 "wall 40 24 40 32\nwall 8 8 72 8\nwall 8 8 8 40\nwall 72 8 72 40\n");
+    // A meadow with flowers; a layer that is named for ground; a start in the trees.
+    assert_refused(HALL("Tile Layer 1", "8,9") "</map>", UNSAID);
+    assert_refused(HALL("Grass", "2,3") "</map>", UNSAID);
+    assert_refused(HALL("Tile Layer 1", "2,3") "<objectgroup><object name='start' x='4' "
+                                               "y='4'/></objectgroup></map>",
+                   "f:1: nothing in it says what is solid, and a start stands on what looks so");
 }
 
 /// Walls are a picture where a layer that stops lies on them: it leaves the doorway open.
@@ -190,6 +232,19 @@ static void test_passing_objects(void **state) {
     assert_walls(box, "wall 16 8 20 8\nwall 20 8 20 4\nwall 20 4 16 4\nwall 16 4 16 8\n" FRAME);
 }
 
+/// Objects without a name have it as a property: walls and starts.
+static void test_names_as_properties(void **state) {
+    (void)state;
+    assert_walls(
+        MAP(SET LAYER("a", FULL) "<objectgroup name='b'>"
+                                 "<object x='8' y='0' width='8' height='8'>" PROPERTY(
+                                     "name", "Solid") "</object>"
+                                                      "<object x='4' y='12'>" PROPERTY(
+                                                          "Name",
+                                                          "start") "</object></objectgroup>"),
+        "wall 8 16 16 16\nwall 16 16 16 8\nwall 16 8 8 8\nwall 8 8 8 16\n" FRAME "start 4 4 0\n");
+}
+
 /// Weaker names count where there are no firm ones, the firmest of them alone.
 static void test_weaker_names(void **state) {
     (void)state;
@@ -219,6 +274,11 @@ static void test_weaker_names(void **state) {
     assert_walls(MAP(SET LAYER("Ground", FULL) BOX_IN("Platforms")),
                  "wall 8 16 16 16\nwall 16 16 16 8\nwall 16 8 8 8\nwall 8 8 8 16\n" FRAME);
     assert_refused(MAP(SET LAYER("Ground", FULL) BOX_IN("Houses")), UNSAID);
+    // A race's finish and the bots' way are no walls.
+#define NAMED(name) "<object name='" name "' x='8' y='0' width='8' height='8'/>"
+    assert_refused(MAP(SET LAYER("Ground", FULL) "<objectgroup name='meta'>" NAMED("finish")
+                           NAMED("route 1") "</objectgroup>"),
+                   UNSAID);
 }
 
 /// An object that shows a tile has the tile's collision shapes, stretched and mirrored as it is.
@@ -252,8 +312,6 @@ static void test_empty_layers(void **state) {
     assert_refused(MAP(SET LAYER("no collision", TILES) LAYER("ground", FULL)), UNSAID);
 }
 
-#define PROPERTY(name, value)                                                                      \
-    "<properties><property name='" name "' value='" value "'/></properties>"
 #define TILE_WITH(property)                                                                        \
     MAP(SET_OF("<tile id='4'>" property "</tile>") LAYER("a", CSV("2,5,5,2,0,0")))
 
@@ -266,13 +324,13 @@ static void test_words_of_properties(void **state) {
         TILE_WITH(PROPERTY("type", "wall")),         TILE_WITH(PROPERTY("blocked", "yes")),
         TILE_WITH(PROPERTY("can_walk", "no")),       TILE_WITH(PROPERTY("obstacle", "full")),
         TILE_WITH(PROPERTY("hasCollision", "true")), TILE_WITH(PROPERTY("not walkable", "true")),
-        TILE_WITH(PROPERTY("bodyType", "static")),
+        TILE_WITH(PROPERTY("bodyType", "static")),   TILE_WITH(PROPERTY("Name", "Solid")),
     };
     static const char *const open[] = {
         TILE_WITH(PROPERTY("collidable", "false")),  TILE_WITH(PROPERTY("walkable", "true")),
         TILE_WITH(PROPERTY("exitUrl", "wall.json")), TILE_WITH(PROPERTY("type", "wallpaper")),
         TILE_WITH(PROPERTY("solid", "maybe")),       TILE_WITH(PROPERTY("wall_height", "3")),
-        TILE_WITH(PROPERTY("bodyType", "dynamic")),
+        TILE_WITH(PROPERTY("bodyType", "dynamic")),  TILE_WITH(PROPERTY("name", "wall lamp")),
     };
     for (size_t i = 0; i < sizeof solid / sizeof *solid; i++) assert_walls(solid[i], TWO_TILES);
     for (size_t i = 0; i < sizeof open / sizeof *open; i++) assert_refused(open[i], UNSAID);
@@ -451,12 +509,15 @@ static void test_memory(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_guess),
+        cmocka_unit_test(test_ground_below_air),
+        cmocka_unit_test(test_floor_within_walls),
         cmocka_unit_test(test_pictures_of_walls),
         cmocka_unit_test(test_world),
         cmocka_unit_test(test_beside_player),
         cmocka_unit_test(test_all_solid),
         cmocka_unit_test(test_tile_size),
         cmocka_unit_test(test_passing_objects),
+        cmocka_unit_test(test_names_as_properties),
         cmocka_unit_test(test_weaker_names),
         cmocka_unit_test(test_shapes_of_tile_objects),
         cmocka_unit_test(test_empty_layers),

@@ -339,8 +339,8 @@ static void say_next(sl_inside doubt, bool game, const sl_map *map, const sl_spa
         break;
     case SL_INSIDE_OPENING:
         if (game)
-            snprintf(text, size, "; else add a start: sightline check %s --start %.*g,%.*g", path,
-                     digits, start.x, digits, start.y);
+            snprintf(text, size, ": sightline check %s --start %.*g,%.*g", path, digits, start.x,
+                     digits, start.y);
         else
             snprintf(text, size, ": sightline check %s --entrance %.4g", path,
                      map->interior.doubtful_width);

@@ -176,7 +176,7 @@ const char *slp_level_inside(slp_level *level) {
         [SL_INSIDE_SMALL] = ": add a start with plan.add_start((x, y))",
         [SL_INSIDE_FEW] = ": add a start with plan.add_start((x, y))",
         [SL_INSIDE_NONE] = "",
-        [SL_INSIDE_OPENING] = " (plan.entrance), else add a start with plan.add_start((x, y))",
+        [SL_INSIDE_OPENING] = ": plan.add_start((x, y)), or plan.entrance",
     };
     const sl_baked *baked = &level->baked;
     sl_context *context = level->base.context;

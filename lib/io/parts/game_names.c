@@ -35,6 +35,11 @@ static const char *const pass_words[] = {
     "climb",  "climbable", "spawn",    "start",   "exit",  "zone",       "trigger", "coin",
     "item",   "player",    "enemy",    "emitter", "trail", "checkpoint", "finish",
 };
+/// What stands about and is no wall, unless a word for solid is beside it.
+static const char *const open_words[] = {
+    "flora", "foliage", "plant",  "vegetation", "chain",
+    "spike", "thorn",   "hazard", "route",      "waypoint",
+};
 static const char *const water_words[] = {
     "water",  "lava",  "pit",     "river",    "lake",     "sea",     "ocean",
     "pond",   "acid",  "hole",    "chasm",    "abyss",    "liquid",  "swamp",
@@ -87,26 +92,32 @@ static const char *const other_words[] = {
     "powerup",  "collectible", "collectable", "gem",        "creature", "critter",  "ghost",
     "warp",     "teleport",    "teleporter",  "transition", "dialog",   "dialogue", "sound",
     "music",    "foe",         "hostile",     "minion",     "weapon",   "ammo",     "health",
-    "bandit",   "wolf",        "dragon",      "troll",      "soldier",  "dialogo",  "diálogo"};
+    "bandit",   "wolf",        "dragon",      "troll",      "soldier",  "dialogo",  "diálogo",
+    "finish",   "checkpoint",  "waypoint",    "route"};
 /// Others that may well stand in the way.
 static const char *const placed_words[] = {"chest",  "key",   "crate",  "shop",   "sign",
                                            "camera", "light", "turret", "switch", "button"};
 
 /// Which kinds the words of a name are of.
 typedef struct kinds {
-    bool without, solid, drawn, floor, ground, pass, water, stands, likely, unknown;
+    bool without, solid, drawn, floor, ground, pass, open, water, stands, likely, unknown;
 } kinds;
 
 static kinds kinds_of(const char *name) {
     kinds all = {.solid = false};
+    bool back = false;
     for (sli_name_word word; sli_word_next(&name, &word);) {
         const bool solid = sli_says_solid(word.text), which = IS_ONE_OF(&word, which_words);
         all.solid |= solid;
         all.without |= IS_ONE_OF(&word, without_words);
-        all.drawn |= IS_ONE_OF(&word, drawn_words);
+        // backGround is two words.
+        const bool picture = back && strcmp(word.text, "ground") == 0;
+        back = strcmp(word.text, "back") == 0 || strcmp(word.text, "fore") == 0;
+        all.drawn |= picture || IS_ONE_OF(&word, drawn_words);
         all.floor |= IS_ONE_OF(&word, floor_words);
         all.ground |= IS_ONE_OF(&word, ground_words);
         all.pass |= IS_ONE_OF(&word, pass_words);
+        all.open |= IS_ONE_OF(&word, open_words);
         all.water |= IS_ONE_OF(&word, water_words);
         all.stands |= IS_ONE_OF(&word, stands_words);
         all.likely |= IS_ONE_OF(&word, likely_words);
@@ -126,6 +137,7 @@ sli_game_kind sli_game_kind_of(const char *name) {
     if (all.pass) return SLI_GAME_PASS;
     if (all.water) return SLI_GAME_WATER;
     if (all.likely) return SLI_GAME_LIKELY;
+    if (all.open) return SLI_GAME_PASS;
     if (all.floor) return SLI_GAME_FLOOR;
     if (all.ground) return SLI_GAME_GROUND;
     return all.stands ? SLI_GAME_STANDS : SLI_GAME_UNSAID;

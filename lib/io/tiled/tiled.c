@@ -188,7 +188,10 @@ static sl_status read_layer(sli_tiled_reader *reader, const sli_json *layer,
     sli_tiled_seen *seen = &reader->seen.items[reader->at_layer++];
     const bool solid = own->word == SLI_TILED_SOLID && !places &&
                        !(objects && sli_tiled_kind_of_layer(reader, layer) != SLI_LAYER_NONE);
-    reader->solid_layers += solid && seen->count;
+    // Objects that are no walls, in a layer whose name says little, do not decide.
+    const bool none =
+        objects && reader->by == SLI_TILED_BY_NAME && sli_tiled_taken(reader) == before;
+    reader->solid_layers += solid && seen->count && !none;
     reader->empty_layers += solid && !seen->count;
     seen->taken |= sli_tiled_taken(reader) > before;
     if (!reader->by) seen->solid = reader->solid_tiles - tiles;

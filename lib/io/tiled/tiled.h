@@ -95,6 +95,8 @@ typedef enum sli_tiled_word { SLI_TILED_UNSAID, SLI_TILED_OPEN, SLI_TILED_SOLID 
 /// false; or that is a type, with a word for solid as its value; else by the class (member
 /// `class_key`, or "class"), where that is such a word.
 sli_tiled_word sli_tiled_word_of(const sli_json *thing, const char *class_key);
+/// The name of an object; where it has none, the text of its property "name", or "".
+const char *sli_tiled_name_of(const sli_json *object);
 
 /// A walk over the properties of a layer, a tile or an object: newer files have a list, the older
 /// ones an object of names and values.
@@ -270,7 +272,7 @@ typedef struct sli_tiled_reader {
     sli_game_kind best;               ///< by name: of the layers taken
     size_t guess_layer;               ///< by a guess: the layer,
     uint32_t guessed;                 ///< the tile that is taken as solid (0: empty squares)
-    bool guessed_all;                 ///< or all tiles are
+    bool guessed_all;                 ///< or all tiles are but that one
     bool bare;                        ///< the layer at hand has objects that say nothing
     bool void_is_solid;               ///< as the options ask
     bool walls_are_pictures;          ///< of layers that are named for what stops

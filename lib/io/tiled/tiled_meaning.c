@@ -12,7 +12,10 @@
 /// - Where three or more objects stand on the only layer, all on squares without tiles or all on
 ///   tiles, what they do not stand on is solid.
 /// - Where the only layer has tiles all around its edge, or below and not above, and is empty for
-///   a good part, the tiles are walls or the ground of a platformer.
+///   a good part, the tiles are walls or the ground of a platformer. So is the only layer named for
+///   ground, if all layers together leave air above it.
+/// - Where the only layer is full, and its most frequent tile covers half of it but not the edge,
+///   that tile is a floor, and the others are walls, if 19 of 20 of them are as those on the edge.
 ///
 /// All others are refused, with the layers and what to type: a meadow's grass is no wall.
 #include "io/tiled/tiled.h"
@@ -95,6 +98,46 @@ static size_t count_plain(const sli_tiled_reader *reader, size_t *first) {
     return count;
 }
 
+/// How many squares have tiles of which some lie on the edge.
+static sl_status count_as_edge(sl_context *context, const look *at, size_t *count) {
+    const size_t edge = 2 * (at->columns + at->rows);
+    uint32_t *gids = sl_alloc_array(context, edge, sizeof *gids), *end = gids;
+    if (!gids) return SL_NO_MEMORY;
+    for (size_t i = 0; i < at->columns; i++) {
+        *end++ = tile_at(at, i, 0);
+        *end++ = tile_at(at, i, at->rows - 1);
+    }
+    for (size_t i = 0; i < at->rows; i++) {
+        *end++ = tile_at(at, 0, i);
+        *end++ = tile_at(at, at->columns - 1, i);
+    }
+    qsort(gids, edge, sizeof *gids, compare_gids);
+    *count = 0;
+    for (size_t i = 0; i < at->columns * at->rows; i++) {
+        const uint32_t own = at->gids[i] & SLI_TILED_TILE;
+        *count += bsearch(&own, gids, edge, sizeof *gids, compare_gids) != NULL;
+    }
+    sl_free(context, gids);
+    return SL_OK;
+}
+
+/// The number of the only layer that is named for ground, where the layers of tiles that are no
+/// pictures leave two fifths of the squares empty; that of no layer else.
+static size_t find_ground(const sli_tiled_reader *reader) {
+    size_t found = reader->seen.count, grounds = 0;
+    uint64_t tiles = 0, squares = 0;
+    for (size_t i = 0; i < reader->seen.count; i++) {
+        const sli_tiled_seen *layer = &reader->seen.items[i];
+        if (layer->objects || layer->kind == SLI_GAME_DRAWN) continue;
+        tiles += layer->count;
+        if (layer->kind != SLI_GAME_GROUND || !layer->count) continue;
+        found = i;
+        squares = layer->squares;
+        grounds++;
+    }
+    return grounds == 1 && 5 * tiles <= 3 * squares ? found : reader->seen.count;
+}
+
 /// Whether all that is drawn is one layer that is named for a floor, and has gaps.
 static bool only_floor(const sli_tiled_reader *reader) {
     size_t first;
@@ -113,10 +156,11 @@ sl_status sli_tiled_guess(sli_tiled_reader *reader, const uint32_t *gids, size_t
     const bool only = count_plain(reader, &first) == 1, floor = layer->kind == SLI_GAME_FLOOR;
     // The most frequent tile of what is named for ground is no rock.
     const bool ground = floor || layer->kind == SLI_GAME_GROUND;
-    size_t most;
+    size_t most, as_edge;
     uint32_t gid = 0;
     if (layer->squares != count) return SL_OK; // one chunk of several
     SL_TRY(find_most(reader->context, gids, count, &gid, &most));
+    SL_TRY(count_as_edge(reader->context, &at, &as_edge));
     const sli_tiled_stand stand = sli_tiled_where_objects_stand(reader, gids, columns, rows);
     if (only_floor(reader)) {
         reader->guess_why = "where the floor has no tile is a wall";
@@ -132,6 +176,16 @@ sl_status sli_tiled_guess(sli_tiled_reader *reader, const uint32_t *gids, size_t
                2 * tiles_of_row(&at, rows - 1) >= columns && 4 * tiles_of_row(&at, 0) <= columns) {
         reader->guessed_all = true;
         reader->guess_why = "its tiles lie below and not above, as in a platformer";
+    } else if (reader->guess_layer == find_ground(reader) && 5 * empty >= 2 * count &&
+               5 * tiles_of_row(&at, rows - 1) >= 2 * columns &&
+               4 * tiles_of_row(&at, 0) <= columns) {
+        reader->guessed_all = true;
+        reader->guess_why = "it is named for ground, with air above it";
+    } else if (only && !ground && gid && !empty && 2 * most >= count && !on_edge(&at, gid) &&
+               20 * as_edge >= 19 * (count - most)) {
+        reader->guessed_all = true;
+        reader->guessed = gid;
+        reader->guess_why = "the most frequent tile does not come to its edge";
     } else if (only && !floor && stand == SLI_TILED_STAND_ON_EMPTY && 10 * layer->count >= count) {
         reader->guessed_all = true;
         reader->guess_why = "all objects stand where it has no tiles";
@@ -143,7 +197,10 @@ sl_status sli_tiled_guess(sli_tiled_reader *reader, const uint32_t *gids, size_t
 
 static sl_status guess(sli_tiled_reader *reader) {
     reader->by = SLI_TILED_BY_GUESS;
-    (void)count_plain(reader, &reader->guess_layer);
+    const size_t ground = find_ground(reader);
+    if (count_plain(reader, &reader->guess_layer) > 1 && ground < reader->seen.count &&
+        !is_inside(reader))
+        reader->guess_layer = ground;
     return sli_tiled_read_again(reader);
 }
 

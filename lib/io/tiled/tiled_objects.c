@@ -97,13 +97,15 @@ static sl_status take_thing(sli_tiled_reader *reader, const sli_json *object,
     const uint32_t gid = shape.gid & SLI_TILED_TILE;
     const sli_tiled_set *set = gid ? sli_tiled_find_set(&reader->sets, gid) : NULL;
     const sli_tiled_tile *tile = set ? sli_tiled_find_tile(set, gid) : NULL;
+    const char *name = sli_tiled_name_of(object);
     sli_says says = sli_tiled_says_of(object, "type");
+    if (!says.kind && !*sli_json_text_of(object, "name")) says = sli_says_of(name, NULL);
     if (!says.kind && tile) says = tile->says;
     if (says.kind == SLI_THING_START && at->others) says = (sli_says){0};
     *taken = says.kind != SLI_THING_NONE;
     if (reader->by) return SL_OK; // the first reading took it
-    SL_TRY(sli_things_ask(&reader->things, sli_json_text_of(object, "name"),
-                          *class ? class : sli_json_text_of(object, "class"), &says));
+    SL_TRY(sli_things_ask(&reader->things, name, *class ? class : sli_json_text_of(object, "class"),
+                          &says));
     *taken = says.kind != SLI_THING_NONE;
     if (!*taken) return SL_OK;
     if (set && shape.width == 0 && shape.height == 0) {
@@ -205,7 +207,7 @@ static sl_status read_object(sli_tiled_reader *reader, const sli_json *layer,
     const sli_tiled_word own = word_of_object(reader, object, &shape);
     // An enemy or a trigger among walls is none, unless it says so.
     const bool other = own == SLI_TILED_UNSAID && !at->asked &&
-                       (sli_game_says_passing(sli_json_text_of(object, "name")) ||
+                       (sli_game_says_passing(sli_tiled_name_of(object)) ||
                         sli_game_says_passing(sli_json_text_of(object, "type")));
     const sli_tiled_word word = other ? SLI_TILED_OPEN : own;
     uint32_t stops = at->stops;
@@ -217,7 +219,7 @@ static sl_status read_object(sli_tiled_reader *reader, const sli_json *layer,
                                                       : &reader->objects;
     ++*counted;
     if (counted == &reader->other_objects) {
-        const char *name = sli_json_text_of(object, "name");
+        const char *name = sli_tiled_name_of(object);
         sli_things_leave(&reader->things, *name ? name : sli_json_text_of(object, "class"));
     }
     if (!taken && word == SLI_TILED_UNSAID && !at->others)

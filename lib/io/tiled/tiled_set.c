@@ -11,7 +11,7 @@
 
 /// The names of properties whose text is a type.
 static bool is_type(const char *name) {
-    static const char *const names[] = {"type", "kind", "class", "category", "tag"};
+    static const char *const names[] = {"type", "kind", "class", "category", "tag", "name"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (strcasecmp(name, names[i]) == 0) return true;
     return false;
@@ -60,6 +60,15 @@ bool sli_tiled_next_property(sli_tiled_properties *walk, const char **name, sli_
     value->value = json_object_iter_value(walk->at);
     walk->at = json_object_iter_next(all->value, walk->at);
     return true;
+}
+
+const char *sli_tiled_name_of(const sli_json *object) {
+    const char *own = sli_json_text_of(object, "name"), *name;
+    sli_tiled_properties at = sli_tiled_properties_of(object);
+    for (sli_json value; !*own && sli_tiled_next_property(&at, &name, &value);)
+        if (name && strcasecmp(name, "name") == 0 && json_is_string(value.value))
+            own = json_string_value(value.value);
+    return own;
 }
 
 sli_tiled_word sli_tiled_word_of(const sli_json *thing, const char *class_key) {

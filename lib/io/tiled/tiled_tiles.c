@@ -410,7 +410,7 @@ static sl_status guess_tiles(sli_tiled_reader *reader, const block *all) {
     SL_TRY(sli_tiled_guess(reader, all->gids, all->columns, all->rows));
     for (size_t i = 0; reader->guess_why && i < all->columns * all->rows; i++) {
         const uint32_t gid = all->gids[i] & SLI_TILED_TILE;
-        if (reader->guessed_all ? gid != 0 : gid == reader->guessed)
+        if (reader->guessed_all ? gid && gid != reader->guessed : gid == reader->guessed)
             *square_of(reader, all, i) = '#';
     }
     return SL_OK;

@@ -161,6 +161,16 @@ static bool is_only_layer(const sli_tiled_reader *reader) {
     return count == 1;
 }
 
+/// A layer's name in a command: whole, where it can be typed so.
+static const char *name_to_type(const sli_tiled_seen *layer, sli_shown *shown) {
+    const size_t length = strlen(layer->name);
+    *shown = sli_show((sli_word){layer->name, length});
+    for (size_t i = 0; i < length; i++)
+        if ((unsigned char)layer->name[i] < ' ' || strchr("'\x7f", layer->name[i]))
+            return shown->text;
+    return length < 160 ? layer->name : shown->text;
+}
+
 /// ", as in:" and a command that takes the example.
 static sl_status say_example(const sli_tiled_reader *reader, const sli_tiled_seen *example,
                              char *text, size_t size) {
@@ -173,10 +183,11 @@ static sl_status say_example(const sli_tiled_reader *reader, const sli_tiled_see
     if (objects) example = objects;
     bool rooms;
     SL_TRY(looks_like_rooms(reader, example, &rooms));
-    const sli_shown name = sli_show((sli_word){example->name, strlen(example->name)});
+    sli_shown shown;
+    const char *name = name_to_type(example, &shown);
     if (same && !objects)
         snprintf(text, size, " (all tiles of '%s' are the same: draw walls in a layer Collision)",
-                 name.text);
+                 name);
     else if (rooms)
         snprintf(text, size,
                  ", void the squares without tiles, as in: sightline check '%.150s' --layers void "
@@ -185,12 +196,12 @@ static sl_status say_example(const sli_tiled_reader *reader, const sli_tiled_see
     else if (is_only_layer(reader) && !example->objects && 2 * example->count > example->squares &&
              !mostly)
         snprintf(text, size, ", as in: sightline check '%.150s' --layers '%s:TILES' -o map.png",
-                 file, name.text);
+                 file, name);
     else if (!is_only_layer(reader) && !is_sure(reader, example, mostly, same))
         snprintf(text, size, ", as in: sightline check '%.150s' --layers LAYER -o map.png", file);
     else
         snprintf(text, size, ", as in: sightline check '%.150s' --layers '%s%s' -o map.png", file,
-                 name.text, tiles);
+                 name, tiles);
     return SL_OK;
 }
 
@@ -199,7 +210,7 @@ sl_status sli_tiled_fail_unsaid(const sli_tiled_reader *reader, const char *why)
     const sli_tiled_seen *example = find_example(reader);
     const layer_text taken = list_layers(reader, true), others = list_layers(reader, false);
     const char *between = taken.count && others.count ? ", " : "";
-    char as[400];
+    char as[560];
     if (!reader->seen.count) return sli_json_fail(reader->map, "%s; it has no layers", why);
     if (!example) return sli_json_fail(reader->map, "%s; all its layers are empty", why);
     SL_TRY(say_example(reader, example, as, sizeof as));
@@ -269,6 +280,24 @@ static void tell_little(const sli_tiled_reader *reader) {
             name.text, (unsigned long long)most->count, reader->map->file->name, name.text);
 }
 
+/// One or two objects that say that they are solid, such as a block that a switch moves: what the
+/// tiles are is for the game to say.
+static void tell_objects(const sli_tiled_reader *reader) {
+    layer_text tiles = {.count = 0};
+    if (!reader->objects || reader->objects > 2 || reader->solid_tiles || reader->solid_layers)
+        return;
+    for (size_t i = 0; i < reader->seen.count; i++) {
+        const sli_tiled_seen *layer = &reader->seen.items[i];
+        if (!layer->objects && layer->count) add_layer(&tiles, layer);
+    }
+    if (!tiles.count) return;
+    sl_note(reader->context,
+            "%s: only %zu object%s solid, and no tile does: if a layer of tiles is solid, --layers "
+            "NAME takes it: %s",
+            reader->map->file->name, reader->objects,
+            reader->objects == 1 ? " says that it is" : "s say that they are", tiles.text);
+}
+
 /// A layer named for ground with much air about it, as in a platformer, of which only a part says
 /// that it is solid, and no other layer is: the rest may be platforms that were forgotten, or that
 /// one jumps through.
@@ -292,7 +321,7 @@ static void tell_ground(const sli_tiled_reader *reader) {
 static sl_status tell_edge_only(const sli_tiled_reader *reader) {
     const sli_tiled_seen *example = find_example(reader);
     const layer_text others = list_layers(reader, false);
-    char as[400];
+    char as[560];
     if (!example) return SL_OK;
     SL_TRY(say_example(reader, example, as, sizeof as));
     sl_note(reader->context,
@@ -325,18 +354,22 @@ sl_status sli_tiled_tell_meaning(const sli_tiled_reader *reader) {
                 sli_show((sli_word){reader->believed_not, strlen(reader->believed_not)}).text);
     if (!reader->by) tell_beside(reader);
     if (!reader->by) tell_little(reader);
+    if (!reader->by) tell_objects(reader);
     if (!reader->by) tell_ground(reader);
     if (reader->by == SLI_TILED_BY_GUESS) {
         const sli_tiled_seen *layer = &reader->seen.items[reader->guess_layer];
         char tile[64] = "its empty squares are";
+        if (reader->guessed_all) strcpy(tile, "all tiles are");
         if (reader->guessed)
-            snprintf(tile, sizeof tile, "its tile %u is", (unsigned)reader->guessed);
+            snprintf(tile, sizeof tile,
+                     reader->guessed_all ? "all tiles but %u are" : "its tile %u is",
+                     (unsigned)reader->guessed);
         sl_note(
             reader->context,
             "%s: nothing in it says what is solid: of layer '%s' %s taken (%s); --layers NAME or "
             "NAME:TILE+TILE-TILE chooses; layers: %s",
-            file, sli_show((sli_word){layer->name, strlen(layer->name)}).text,
-            reader->guessed_all ? "all tiles are" : tile, reader->guess_why, others.text);
+            file, sli_show((sli_word){layer->name, strlen(layer->name)}).text, tile,
+            reader->guess_why, others.text);
     } else if (reader->by) {
         sl_note(
             reader->context,
