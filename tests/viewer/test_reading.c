@@ -211,6 +211,26 @@ static void line_is_measured(void **state) {
     close_house(&s);
 }
 
+/// A drawing without a unit: the one that is typed is that of the drawing, also once it is changed.
+static void unit_is_typed(void **state) {
+    (void)state;
+    static const char *const units[] = {"m", "ft"};
+    scene s = open_house();
+    app_state *app = s.app;
+    const sl_box b = sl_map_bounds(&app->document.map);
+    for (int i = 0; i < 2; i++) {
+        press(app, "Ctrl+I");
+        for (int k = 0; k < 8; k++) press(app, "Tab");
+        press(app, "Ctrl+A");
+        type(app, units[i]);
+        press(app, "Return");
+        assert_int_equal(dialog_open_now(&app->desk.dialog), DIALOG_NONE);
+        assert_string_equal(app->document.map.unit, units[i]);
+        assert_true(box_width(sl_map_bounds(&app->document.map)) == box_width(b));
+    }
+    close_house(&s);
+}
+
 static bool has_focus(const app_state *app, const char *label) {
     const dialog_state *d = &app->desk.dialog;
     for (int i = 0; i < d->item_count; i++) {
@@ -547,6 +567,7 @@ int main(void) {
         cmocka_unit_test(line_is_measured),   cmocka_unit_test(keys_click_in_the_plan),
         cmocka_unit_test(wrong_choices),      cmocka_unit_test(choices_are_kept),
         cmocka_unit_test(storeys_are_chosen), cmocka_unit_test(refused_is_not_kept),
+        cmocka_unit_test(unit_is_typed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -77,10 +77,10 @@ static bool cursor_key(app_state *app, const char *key, sl_box plan) {
     } arrows[] = {{"Left", -1, 0}, {"Right", 1, 0}, {"Up", 0, -1}, {"Down", 0, 1}};
     const bool fine = strncmp(key, "Shift+", 6) == 0;
     cursor_begin(app, plan);
+    app->ui.hover_seconds = -1e9; // the tooltip would cover the place
     for (size_t i = 0; i < sizeof arrows / sizeof *arrows; i++) {
         if (strcmp(key + (fine ? 6 : 0), arrows[i].key) != 0) continue;
         cursor_move(app, plan, cursor_step(app, plan, arrows[i].x, arrows[i].y, fine));
-        app->ui.hover_seconds = -1e9; // the tooltip would cover the place
         return true;
     }
     if (strcmp(key, "Return") == 0)

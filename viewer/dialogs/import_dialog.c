@@ -25,6 +25,9 @@ static const struct {
     [FIELD_ENTRANCE] = {"Widest entrance", "the map's own, or found from the plan", 0},
 };
 
+/// Before the unit of a file that does not say its own.
+#define ONE "1="
+
 void import_destroy(desk_state *desk) {
     import_state *s = desk->dialog.import;
     if (!s) return;
@@ -71,7 +74,8 @@ static void fill_fields(import_state *s) {
     field_set(&s->fields[FIELD_LAYERS], o->layers && !listed ? o->layers : "");
     field_set(&s->fields[FIELD_STARTS], o->start_names ? o->start_names : "");
     import_set_number(&s->fields[FIELD_TOLERANCE], o->tolerance > 0, o->tolerance);
-    field_set(&s->fields[FIELD_UNIT], o->unit ? o->unit : "");
+    s->unitless = o->unit && strncmp(o->unit, ONE, strlen(ONE)) == 0;
+    field_set(&s->fields[FIELD_UNIT], o->unit ? o->unit + (s->unitless ? strlen(ONE) : 0) : "");
     import_set_number(&s->fields[FIELD_THRESHOLD], o->threshold > 0, o->threshold);
     import_set_number(&s->fields[FIELD_WELD], s->source.has_weld, s->source.weld);
     field_set(&s->fields[FIELD_START], "");
@@ -169,6 +173,10 @@ static bool read_source(sl_context *context, import_state *s, document_source *o
     }
     o->start_names = given_text(s, FIELD_STARTS);
     o->unit = given_text(s, FIELD_UNIT);
+    if (s->unitless && o->unit && import_sign(o->unit)) {
+        snprintf(s->unit, sizeof s->unit, ONE "%s", o->unit);
+        o->unit = s->unit;
+    }
     o->doors = s->doors;
     o->cells = s->cells;
     if (asks_map(s) && s->maps.at < s->maps.count) o->map = s->choice.maps.names[s->maps.at];

@@ -46,6 +46,8 @@ typedef struct import_state {
     text_field filter;
     bool more, doors, cells;
     bool all_listed; ///< a role is that of all layers that the filter leaves
+    bool unitless;   ///< the file does not say its unit: a unit that is typed is that of the file
+    char unit[16];   ///< such a unit, as the option has it
     text_field fields[FIELDS];
     char *list;        ///< of layers, as the option has it; NULL: none
     char problem[512]; ///< "" for none
@@ -100,6 +102,8 @@ void import_set_number(text_field *field, bool given, double value);
 /// Writes a place into a field, and reads one, as "3,4.5"; false where the text is none.
 void import_set_place(text_field *field, sl_point at);
 bool import_read_place(const char *text, sl_point *at);
+/// The sign of a unit that was typed; NULL where there is no such unit.
+const char *import_sign(const char *text);
 /// Says what is wrong with a choice; returns false.
 bool import_complain(import_state *s, const char *what, const char *why);
 /// The plan follows what was chosen. Not where the dialog is not beside it.

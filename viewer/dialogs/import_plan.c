@@ -144,6 +144,7 @@ void import_plan_follow(desk_state *desk, import_state *s) {
     if (!document->baked) return;
     if (s->leaks_of != document->read) {
         s->leaks_of = document->read;
+        s->unitless |= !*document->map.unit;
         s->line_ends = 0;
         s->said_sealed[0] = '\0';
         if (s->scales)
@@ -179,14 +180,18 @@ static void close_leak(desk_state *desk, import_state *s, size_t number) {
 
 // --- the scale
 
+const char *import_sign(const char *text) {
+    static const char *const signs[] = {"mm", "cm", "km", "m", "in", "ft", "yd"};
+    for (size_t i = 0; i < sizeof signs / sizeof *signs; i++)
+        if (strcmp(text, signs[i]) == 0) return signs[i];
+    return NULL;
+}
+
 /// The length that was typed, as "4.20 m" or "4,2"; the unit is m where none is said.
 static bool read_length(import_state *s, double *length, const char **sign) {
-    static const char *const signs[] = {"mm", "cm", "km", "m", "in", "ft", "yd"};
     const char *unit;
     if (!measure_read(s->length.text, length, &unit)) return false;
-    *sign = *unit ? NULL : "m";
-    for (size_t i = 0; i < sizeof signs / sizeof *signs; i++)
-        if (strcmp(unit, signs[i]) == 0) *sign = signs[i];
+    *sign = *unit ? import_sign(unit) : "m";
     return *sign && *length > 0;
 }
 

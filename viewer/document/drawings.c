@@ -21,7 +21,7 @@ bool drawing_is(const char *path) {
 }
 
 const char *drawing_unit_hint(const char *path) {
-    if (drawing_is(path)) return "Ctrl+I tells it, or measures a line";
+    if (drawing_is(path)) return "Ctrl+I sets it, or measures a line";
     if (path && files_end_in(path, ".map")) return "write 'unit m' in the file";
     if (path && document_is_baked(path)) return "bake it from a map with a unit";
     return "save it as .map, then write 'unit m' in it";

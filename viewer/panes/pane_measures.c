@@ -254,7 +254,7 @@ static void draw_rooms(const view_state *view, column *c) {
     }
     if (!room_map_rows(map))
         column_words(view->ui, c, 0.95, view->ui->palette.ink,
-                     "No room is found: Ctrl+I tells what is inside.");
+                     "No room is found: Ctrl+I sets what is inside.");
     for (size_t i = 0; i < room_map_rows(map); i++) {
         const double area = room_map_area(map, i);
         char size[MEASURE_TEXT];

@@ -78,15 +78,21 @@ function thinOut(camera, lines) {
     });
 }
 
-/** Strokes polylines of one kind in one go. @param {ArrayLike<number>[]} lines */
+/** Lines in one path: browsers take more than twice as long for twice as many that cross or lie on one another. */
+const IN_A_PATH = 1000;
+
+/** Strokes polylines of one kind. @param {ArrayLike<number>[]} lines */
 export function strokeLines(surface, camera, lines, colour, width, dash = [], closed = false) {
     if (!lines.length) return;
-    surface.beginPath();
-    for (const line of thinOut(camera, lines)) trace(surface, camera, line, closed);
     surface.strokeStyle = colour;
     surface.lineWidth = width;
     surface.setLineDash(dash);
-    surface.stroke();
+    const shown = thinOut(camera, lines);
+    for (let i = 0; i < shown.length; i += IN_A_PATH) {
+        surface.beginPath();
+        for (const line of shown.slice(i, i + IN_A_PATH)) trace(surface, camera, line, closed);
+        surface.stroke();
+    }
     surface.setLineDash([]);
 }
 
