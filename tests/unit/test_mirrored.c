@@ -13,8 +13,6 @@
 #include "oracle/mirrored.h"
 #include "oracle/random_effects.h"
 
-#include "sight/region.h"
-
 #include <math.h>
 
 enum { MAPS = 96, EYES = 4, CELLS_MOST = 128 };
