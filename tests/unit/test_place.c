@@ -8,6 +8,7 @@
 #include "sightline/support.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 /// A plan, and how to ask about it.
 typedef struct plan {
