@@ -37,6 +37,17 @@ static bool has_edge(const sl_vga_graph *graph, uint32_t a, uint32_t b) {
     return sl_vga_sees(graph, a, b);
 }
 
+/// A row of `count` for each point: what it sees. For loops over all pairs.
+static bool *all_edges(const sl_vga_graph *graph) {
+    bool *edges = test_calloc((size_t)graph->count * graph->count + 1, sizeof *edges);
+    for (uint32_t p = 0; p < graph->count; p++) {
+        sl_vga_run run = sl_vga_row(graph, p);
+        while (sl_vga_next(&run))
+            memset(edges + (size_t)p * graph->count + run.first, true, run.stop - run.first);
+    }
+    return edges;
+}
+
 /// Half of a unit puts points on walls' lines, at ends and on portals.
 static void fill_and_connect(sl_context *context, double step, fixture *f) {
     assert_ok(context, sli_outline_make(context, &f->space, &f->outline));
@@ -302,22 +313,25 @@ static void make_plan(sl_context *context, fixture *f) {
 
 static void local_measures(const fixture *f, uint32_t p, const sl_vga_measures *m) {
     double degree = 0, pairs = 0, both = 0, control = 0, first = 0;
-    for (uint32_t q = 0; q < f->grid.count; q++) {
+    const size_t n = f->grid.count;
+    bool *edges = all_edges(&f->graph);
+    const bool *of_p = edges + p * n;
+    for (uint32_t q = 0; q < n; q++) {
         bool near = false;
         double of_q = 0;
-        for (uint32_t r = 0; r < f->grid.count; r++) {
-            near |= has_edge(&f->graph, p, r) && has_edge(&f->graph, r, q);
-            of_q += has_edge(&f->graph, q, r);
-            pairs +=
-                has_edge(&f->graph, p, q) && has_edge(&f->graph, p, r) && has_edge(&f->graph, q, r);
+        for (uint32_t r = 0; r < n; r++) {
+            near |= of_p[r] && edges[r * n + q];
+            of_q += edges[q * n + r];
+            pairs += of_p[q] && of_p[r] && edges[q * n + r];
         }
         both += near;
-        if (!has_edge(&f->graph, p, q)) continue;
+        if (!of_p[q]) continue;
         degree++;
         control += 1 / of_q;
         first += hypot(f->grid.points[q].x - f->grid.points[p].x,
                        f->grid.points[q].y - f->grid.points[p].y);
     }
+    test_free(edges);
     assert_true(m->connectivity == degree);
     assert_true(fabs(m->point_first_moment - first) < 1e-9 * first);
     assert_true(fabs(m->visual_clustering_coefficient - pairs / (degree * (degree - 1))) < 1e-12);
@@ -506,19 +520,20 @@ typedef struct plain_path {
 
 /// Dijkstra's algorithm by its definition, without a heap. Single precision and ties as depthmapX.
 static void find_plain_paths(const fixture *f, uint32_t from, bool angular, plain_path *paths) {
-    const uint32_t n = f->grid.count;
+    const size_t n = f->grid.count;
+    bool *edges = all_edges(&f->graph);
     for (uint32_t q = 0; q < n; q++) {
         paths[q] = (plain_path){INFINITY, INFINITY, from, from, false, is_beside_wall(f, q)};
         if (q == from) paths[q].length = paths[q].turn = 0;
     }
     for (;;) {
-        uint32_t u = n;
+        uint32_t u = (uint32_t)n;
         for (uint32_t q = 0; q < n; q++) {
             const float key = angular ? paths[q].turn : paths[q].length;
             if (paths[q].done || key == INFINITY) continue;
             if (u == n || key < (angular ? paths[u].turn : paths[u].length)) u = q;
         }
-        if (u == n) return;
+        if (u == n) break;
         plain_path *at = &paths[u];
         at->done = true;
         if (!angular && u != from && at->last != from)
@@ -528,12 +543,12 @@ static void find_plain_paths(const fixture *f, uint32_t from, bool angular, plai
         if (u != from && !at->turns && !(angular && at->turn == 0)) continue;
         for (uint32_t q = 0; q < n; q++) {
             plain_path *to = &paths[q];
-            if (to->done || !has_edge(&f->graph, u, q)) continue;
+            if (to->done || !edges[u * n + q]) continue;
             const sl_point step = step_of(f, u, q);
             const double way = sqrt(step.x * step.x + step.y * step.y);
             if (angular) {
                 // Where the point before sees it, it has tried.
-                if (u != from && has_edge(&f->graph, at->before, q)) continue;
+                if (u != from && edges[at->before * n + q]) continue;
                 const float turn = at->turn + (u == from ? 0 : turn_at(f, at->before, u, q));
                 if (turn >= to->turn) continue;
                 to->turn = turn;
@@ -546,6 +561,7 @@ static void find_plain_paths(const fixture *f, uint32_t from, bool angular, plai
             }
         }
     }
+    test_free(edges);
 }
 
 static void check_plain_paths(const fixture *f, uint32_t from, const sl_vga_measures *m) {
