@@ -308,22 +308,11 @@ static void test_glass(void **state) {
     assert_fresh(app);
     shown(app, &graph);
     const uint32_t count = graph->grid.count;
-    uint32_t *there = calloc(count, sizeof *there), *back = calloc(count, sizeof *back);
     size_t one_way = 0;
-    sl_context *context = sl_context_create(NULL);
-    assert_true(there && back);
-    for (uint32_t p = 0; p < count; p += 7) {
-        assert_int_equal(sl_vga_step_depth(context, &graph->graph, &p, 1, there), SL_OK);
-        for (uint32_t q = 0; q < count; q += 11) {
-            if (there[q] != 1) continue;
-            assert_int_equal(sl_vga_step_depth(context, &graph->graph, &q, 1, back), SL_OK);
-            one_way += back[p] != 1;
-        }
-    }
+    for (uint32_t p = 0; p < count; p += 7)
+        for (uint32_t q = 0; q < count; q += 11)
+            one_way += sl_vga_sees(&graph->graph, p, q) && !sl_vga_sees(&graph->graph, q, p);
     assert_true(one_way > 0);
-    free(there);
-    free(back);
-    sl_context_destroy(context);
     viewer_end(app);
 }
 
