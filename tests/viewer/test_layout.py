@@ -1,7 +1,8 @@
 """Every text in its panel, and on no other one, at each size: VIEW SAME ROOT [--pictures FOLDER] [--brief].
 
---pictures also saves a picture of each window, to be looked at. --brief: of sizes the smallest and the
-largest alone. Then keys alone: what a pointer does, the focus, the cursor and the fields do too.
+--pictures also saves a picture of each window, to be looked at. --brief: of sizes and of texts the
+smallest and the largest alone. Then keys alone: what a pointer does, the focus, the cursor and the
+fields do too.
 """
 import itertools
 import pathlib
