@@ -274,12 +274,23 @@ sl_status pipeline_read_space(sl_context *context, const map_pipeline *pipeline,
     return status;
 }
 
+/// The digits of places in the map. Baking moves its walls to the space.
+static int digits_of(const sl_map *map, const sl_space *space) {
+    sl_map whole = *map;
+    if (!whole.wall_count) {
+        whole.walls = space->walls;
+        whole.wall_count = space->wall_count;
+    }
+    return sl_map_digits(&whole);
+}
+
 /// Refuses a map as pipeline_need_inside() says.
 static sl_status refuse_inside(sl_context *context, const sl_map *map, const sl_space *space,
                                const char *or_else) {
     const sl_ground_shares shares = sl_space_ground(space);
     const sl_interior *found = &map->interior;
-    const int digits = sl_map_digits(map);
+    const int digits = digits_of(map, space);
+    const sl_point start = pipeline_likely_start(map, space);
     sl_inside doubt;
     double enclosed;
     SL_TRY(sl_doubt_inside(context, map, space, &doubt));
@@ -287,11 +298,11 @@ static sl_status refuse_inside(sl_context *context, const sl_map *map, const sl_
     if (doubt == SL_INSIDE_OPENING)
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "the map has no start, and an opening %.4g%s%s wide, at %.*g,%.*g, is wider "
-                       "than entrances are (%.4g); if it is an entrance, add --entrance %.4g; else "
-                       "say where a room is with --start X,Y%s",
+                       "than entrances are (%.4g); say where a room is, as with --start %.*g,%.*g; "
+                       "or if the opening is an entrance, add --entrance %.4g%s",
                        found->doubtful_width, *map->unit ? " " : "", map->unit, digits,
-                       found->doubtful.a.x, digits, found->doubtful.a.y, found->width,
-                       found->doubtful_width, or_else);
+                       found->doubtful.a.x, digits, found->doubtful.a.y, found->width, digits,
+                       start.x, digits, start.y, found->doubtful_width, or_else);
     if (doubt != SL_INSIDE_SMALL || !(shares.outside > 0) || enclosed > FEW_INSIDE) return SL_OK;
     return sl_fail(
         context, SL_BAD_ARGUMENT,
@@ -318,7 +329,7 @@ sl_point pipeline_likely_start(const sl_map *map, const sl_space *space) {
 static void say_next(sl_inside doubt, bool game, const sl_map *map, const sl_space *space,
                      const char *path, char text[2 * SAID]) {
     const size_t size = 2 * SAID;
-    const int digits = sl_map_digits(map);
+    const int digits = digits_of(map, space);
     const sl_point start = pipeline_likely_start(map, space);
     switch (doubt) {
     case SL_INSIDE_SURE:
@@ -362,7 +373,7 @@ static sl_status note_apart(sl_context *context, const map_pipeline *pipeline, c
     char path[SAID], next[160] = "";
     map_pipeline any = pipeline_default();
     const option_table reading = pipeline_option_table(&any);
-    const int digits = sl_map_digits(map);
+    const int digits = digits_of(map, space);
     const sl_box b = space->bounds;
     sl_sealed parts;
     SL_TRY(sl_find_sealed(context, map, space, &parts));
@@ -396,7 +407,7 @@ static sl_status note_sealed(sl_context *context, const map_pipeline *pipeline, 
     char path[SAID], file[SAID] = "";
     map_pipeline any = pipeline_default();
     const option_table reading = pipeline_option_table(&any);
-    const int digits = sl_map_digits(map);
+    const int digits = digits_of(map, space);
     sl_sealed sealed;
     *told = false;
     if (!map->start_count && input_is_game(context, pipeline->path))
