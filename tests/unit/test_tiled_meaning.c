@@ -235,6 +235,22 @@ static void test_tiles_over_names(void **state) {
                     "2:28+33-35'\n");
 }
 
+/// One solid tile of a hundred is a doubt.
+static void test_few_solid_tiles(void **state) {
+    (void)state;
+#define HUNDRED(first)                                                                             \
+    "<map width='10' height='10' tilewidth='8' tileheight='8'>" TILE_1_COLLIDES                    \
+    "<layer name='ground' width='10' height='10'>" CSV(first ROW ROW ROW ROW ROW ROW ROW ROW ROW   \
+                                                       "3,3,3,3,3,3,3,3") "</layer></map>"
+#define ROW "3,3,3,3,3,3,3,3,3,3,"
+    assert_noted_of(sli_map_read_tmx, NULL, HUNDRED("1,3,"), strlen(HUNDRED("1,3,")),
+                    "wall 8 80 80 80\nwall 0 72 8 72\nwall 8 72 8 80\nwall 0 0 80 0\n"
+                    "wall 0 0 0 72\nwall 80 0 80 80\n",
+                    "f: only 1 of 100 tiles says that it is solid, and nothing else does: if a "
+                    "layer is solid, --layers NAME takes it, NAME:28+33-35 tiles of it: 'ground' "
+                    "(100 tiles)\n");
+}
+
 /// A property on nearly all tiles, the floor's too, says nothing.
 static void test_all_solid(void **state) {
     (void)state;
@@ -548,6 +564,7 @@ int main(void) {
         cmocka_unit_test(test_world),
         cmocka_unit_test(test_beside_player),
         cmocka_unit_test(test_tiles_over_names),
+        cmocka_unit_test(test_few_solid_tiles),
         cmocka_unit_test(test_all_solid),
         cmocka_unit_test(test_tile_size),
         cmocka_unit_test(test_passing_objects),
