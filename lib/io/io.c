@@ -18,7 +18,7 @@ static bool is_one_of(const char *characters, char c) {
 
 static bool knows_image(const char *text, size_t size) {
     return (size > 4 && memcmp(text, "\x89PNG", 4) == 0) ||
-           (size > 3 && text[0] == 'P' && is_one_of("1245", text[1]) &&
+           (size > 3 && text[0] == 'P' && is_one_of("123456", text[1]) &&
             is_one_of(" \t\r\n#", text[2]));
 }
 
@@ -149,7 +149,7 @@ static const sl_map_format map_formats[] = {
      .write = sli_map_print_svg,
      .keeps = KEEPS_LAYERS},
     {.name = "image",
-     .endings = ".png .pgm .pbm",
+     .endings = ".png .pgm .pbm .ppm",
      .what = "a picture: its dark pixels are solid",
      .read = sli_map_read_image,
      .takes = SL_TAKES_THRESHOLD | SL_TAKES_LAYERS,
