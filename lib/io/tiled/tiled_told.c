@@ -115,7 +115,7 @@ static sl_status choose_tiles(const sli_tiled_reader *reader, const sli_tiled_se
     SL_TRY(sli_tiled_read_data(&layer, &data, count, &gids));
     for (size_t i = 0; i < count; i++) gids[i] &= SLI_TILED_TILE;
     const sl_status status =
-        sli_numbers_but_commonest(reader->context, gids, count, &most, text + 1, size - 1);
+        sli_numbers_write(reader->context, gids, count, true, &most, text + 1, size - 1);
     sl_free(reader->context, gids);
     *mostly = 5 * most >= 3 * count;
     if (status == SL_OK && text[1]) *text = ':';
