@@ -256,6 +256,23 @@ bool sli_says_start(const char *name) {
     return says(name, start_words, COUNT(start_words), start_neutral, COUNT(start_neutral));
 }
 
+static bool has_word(const char *text, const sli_name_word *word) {
+    for (sli_name_word own; sli_word_next(&text, &own);)
+        if (strcmp(own.text, word->text) == 0) return true;
+    return false;
+}
+
+bool sli_says_start_at(const char *name, const char *place) {
+    bool said = false;
+    for (sli_name_word word; sli_word_next(&name, &word);) {
+        if (IS_ONE_OF(&word, start_words))
+            said = true;
+        else if (!IS_ONE_OF(&word, start_neutral) && !has_word(place, &word))
+            return false;
+    }
+    return said;
+}
+
 bool sli_says_door(const char *name) {
     bool first = true, leads = false, said = false;
     for (sli_name_word word; sli_word_next(&name, &word); first = false) {

@@ -120,6 +120,8 @@ bool sli_mentions_solid(const char *name);
 /// for nothing in particular (point, position, marker ...), one of the first at least:
 /// "Player_Spawn 2", but not "starting_room" or "enemy_spawn".
 bool sli_says_start(const char *name);
+/// The same where words of the place may stand beside them: "spawn_cellar" in cellar.tmx.
+bool sli_says_start_at(const char *name, const char *place);
 
 /// Whether the name is that of a door or gate: its last word says so ("KitchenDoor"), or its first
 /// one and all others say what door ("door_left"), but not "door_key" or "trap door".
