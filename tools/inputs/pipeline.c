@@ -29,6 +29,8 @@ static const double SEALED_BY_WIDTH = 0.1;
 
 /// The least share of a game's map inside, not joined to the largest part, that gets a note.
 static const double APART = 0.01;
+/// From such a share on, these are rooms with rock around them.
+static const double ROOMS = 0.25;
 
 // --- options
 
@@ -380,8 +382,14 @@ static sl_status note_apart(sl_context *context, const map_pipeline *pipeline, c
     const double inside = sl_space_ground(space).inside * (b.max.x - b.min.x) * (b.max.y - b.min.y);
     const double apart = inside > 0 ? 1 - parts.open.area / inside : 0;
     if (apart < APART) return SL_OK;
-    const sl_point within = parts.within.at;
-    if (parts.open.at_edge && parts.within.area > 0)
+    const sl_point open = parts.open.at, within = parts.within.at;
+    const bool around = parts.open.at_edge && parts.within.area > 0;
+    // Fields about a few houses reach the edge, too.
+    const bool rooms = around && apart >= ROOMS;
+    if (rooms)
+        snprintf(next, sizeof next, "that does not, or with %.*g,%.*g the other one", digits, open.x,
+                 digits, open.y);
+    else if (around)
         snprintf(next, sizeof next,
                  ", which reaches the map's edge as rock and sea do, or with %.*g,%.*g the largest "
                  "that does not",
@@ -392,9 +400,10 @@ static sl_status note_apart(sl_context *context, const map_pipeline *pipeline, c
     sl_note(context,
             "the map has no start, so parts that nothing joins all count as inside, as rock, sea "
             "and the insides of obstacles may be; %.2g %% of the area inside is not joined to the "
-            "largest part: sightline check %s --start %.*g,%.*g keeps the largest%s",
-            100 * apart, say_map(pipeline, &reading, path), digits, parts.open.at.x, digits,
-            parts.open.at.y, next);
+            "largest part%s: sightline check %s --start %.*g,%.*g keeps the largest%s%s",
+            100 * apart, rooms ? ", which reaches the map's edge as rock and sea do" : "",
+            say_map(pipeline, &reading, path), digits, rooms ? within.x : open.x, digits,
+            rooms ? within.y : open.y, rooms ? " " : "", next);
     return SL_OK;
 }
 
