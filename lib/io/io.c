@@ -78,6 +78,7 @@ static bool knows_foundry(const char *text, size_t size) {
     (void)size;
     return is_json_with(text, "\"c\"", "\"move\"") ||
            is_json_with(text, "\"walls\"", "\"padding\"") ||
+           is_json_with(text, "\"walls\"", "\"c\"") ||
            is_json_with(text, "\"_stats\"", "\"coreVersion\"") || // documents of other kinds:
            is_json_with(text, "\"prototypeToken\"", "\"items\"") ||
            is_json_with(text, "\"packs\"", "\"compatibility\"");

@@ -326,6 +326,12 @@ sl_point pipeline_likely_start(const sl_map *map, const sl_space *space) {
     return sl_space_middle(space, largest);
 }
 
+/// Whether a game's map was read, by its file's name. What lies on the earth is none: files of
+/// several kinds are called .json.
+static bool is_game(const sl_context *context, const map_pipeline *pipeline, const sl_map *map) {
+    return input_is_game(context, pipeline->path) && !map->earth.known;
+}
+
 /// What to do next about what is inside. In a game walls stand as they like: a wide opening is
 /// seldom an entrance, and a start says more.
 static void say_next(sl_inside doubt, bool game, const sl_map *map, const sl_space *space,
@@ -419,11 +425,11 @@ static sl_status note_sealed(sl_context *context, const map_pipeline *pipeline, 
     const int digits = digits_of(map, space);
     sl_sealed sealed;
     *told = false;
-    if (!map->start_count && input_is_game(context, pipeline->path))
+    if (!map->start_count && is_game(context, pipeline, map))
         return note_apart(context, pipeline, map, space);
     // Behind a doubtful opening, other rooms may be those that count.
     if (says_rooms(map) || map->interior.doubtful_width > 0 ||
-        !input_is_drawing(context, pipeline->path))
+        !(input_is_drawing(context, pipeline->path) || map->earth.known))
         return SL_OK;
     SL_TRY(sl_find_sealed(context, map, space, &sealed));
     if (sealed.rooms < 2 || sealed.share < share) return SL_OK;
@@ -459,7 +465,7 @@ static sl_status note_said(sl_context *context, const map_pipeline *pipeline, co
     SL_TRY(sl_say_inside(context, map, space, said));
     if (!said[0]) return SL_OK;
     SL_TRY(sl_doubt_inside(context, map, space, &doubt));
-    say_next(doubt, input_is_game(context, pipeline->path), map, space,
+    say_next(doubt, is_game(context, pipeline, map), map, space,
              say_map(pipeline, &reading, path), then);
     sl_note(context, "%s%s", said, then);
     return SL_OK;
