@@ -232,10 +232,10 @@ static void test_starts_and_walls(void **state) {
                 "f:3: start 'start' at -20 9 in the file is left out: it is outside the map\n");
     assert_note(sli_map_read_tmx, input, &options, "f: taken: 1 start, from 'spawn'\n");
     // The file's own name may stand in that of a start, and no other place.
-    assert_things(sli_map_read_tmx,
-                  tmx_of(ROOM, OBJECTS(POINT("spawn_f", AT("12", "12"))
-                                           POINT("spawn_g", AT("20", "20")))),
-                  NULL, "start 12 28 0\n");
+    assert_things(
+        sli_map_read_tmx,
+        tmx_of(ROOM, OBJECTS(POINT("spawn_f", AT("12", "12")) POINT("spawn_g", AT("20", "20")))),
+        NULL, "start 12 28 0\n");
     // Starts of a solid layer are no walls.
     size_t walls;
     char things[MOST_TEXT];

@@ -212,19 +212,20 @@ static void test_tiles_over_names(void **state) {
         "<layer name='walls'" SIZE "><data encoding='csv'>"
         "<chunk x='0' y='0' width='2' height='2'>2,1,0,0</chunk>"
         "<chunk x='2' y='0' width='2' height='2'>1,0,0,0</chunk></data></layer></map>";
-    assert_noted_of(sli_map_read_tmx, NULL, door, strlen(door), TWO_TILES,
-                    "f: layer 'walls': 2 of its 3 tiles say that they are solid, and the others are "
-                    "taken as open; if these are walls, give all layers that are solid: --layers "
-                    "'...,walls'\n");
+    assert_noted_of(
+        sli_map_read_tmx, NULL, door, strlen(door), TWO_TILES,
+        "f: layer 'walls': 2 of its 3 tiles say that they are solid, and the others are "
+        "taken as open; if these are walls, give all layers that are solid: --layers "
+        "'...,walls'\n");
     assert_noted_of(sli_map_read_tmx, NULL, chunks, strlen(chunks),
                     "wall 0 16 8 16\nwall 24 16 32 16\nwall 8 8 24 8\nwall 8 8 8 16\n"
                     "wall 24 8 24 16\nwall 0 0 32 0\nwall 0 0 0 16\nwall 32 0 32 16\n",
                     "2 of its 3 tiles say that they are solid");
     // What a shape of a tile draws, is drawn; a layer that stops by its name is whole.
-    assert_walls(MAP(SET_OF("<tile id='0'>" TRUE("collides") "</tile><tile id='1'><objectgroup>" BOX(
-                     "2", "2", "4", "4") "</objectgroup></tile>")
-                         LAYER("walls", CSV("2,1,1,0,0,0"))),
-                 "wall 2 14 6 14\nwall 6 14 6 10\nwall 6 10 2 10\nwall 2 10 2 14\n" TWO_TILES);
+    assert_walls(
+        MAP(SET_OF("<tile id='0'>" TRUE("collides") "</tile><tile id='1'><objectgroup>" BOX(
+            "2", "2", "4", "4") "</objectgroup></tile>") LAYER("walls", CSV("2,1,1,0,0,0"))),
+        "wall 2 14 6 14\nwall 6 14 6 10\nwall 6 10 2 10\nwall 2 10 2 14\n" TWO_TILES);
     assert_walls(MAP(TILE_1_COLLIDES LAYER("collision", CSV("0,1,2,0,0,0"))), TWO_TILES);
     const char *few = MAP(TILE_1_COLLIDES LAYER("walls", CSV("0,2,2,0,0,0"))
                               LAYER("Walls 2", CSV("1,2,2,0,0,0")));

@@ -393,8 +393,8 @@ static sl_status note_apart(sl_context *context, const map_pipeline *pipeline, c
     // Fields about a few houses reach the edge, too.
     const bool rooms = around && apart >= ROOMS;
     if (rooms)
-        snprintf(next, sizeof next, "that does not, or with %.*g,%.*g the other one", digits, open.x,
-                 digits, open.y);
+        snprintf(next, sizeof next, "that does not, or with %.*g,%.*g the other one", digits,
+                 open.x, digits, open.y);
     else if (around)
         snprintf(next, sizeof next,
                  ", which reaches the map's edge as rock and sea do, or with %.*g,%.*g the largest "
@@ -465,8 +465,8 @@ static sl_status note_said(sl_context *context, const map_pipeline *pipeline, co
     SL_TRY(sl_say_inside(context, map, space, said));
     if (!said[0]) return SL_OK;
     SL_TRY(sl_doubt_inside(context, map, space, &doubt));
-    say_next(doubt, is_game(context, pipeline, map), map, space,
-             say_map(pipeline, &reading, path), then);
+    say_next(doubt, is_game(context, pipeline, map), map, space, say_map(pipeline, &reading, path),
+             then);
     sl_note(context, "%s%s", said, then);
     return SL_OK;
 }

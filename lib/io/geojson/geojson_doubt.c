@@ -164,7 +164,8 @@ static double area_of(const sli_geo *geo, const sli_geo_line *line) {
     const sl_point *p = geo->points.items + line->first;
     double twice = 0;
     for (size_t i = 2; i < line->count; i++)
-        twice += (p[i - 1].x - p[0].x) * (p[i].y - p[0].y) - (p[i].x - p[0].x) * (p[i - 1].y - p[0].y);
+        twice +=
+            (p[i - 1].x - p[0].x) * (p[i].y - p[0].y) - (p[i].x - p[0].x) * (p[i - 1].y - p[0].y);
     return fabs(twice) / 2;
 }
 
@@ -185,8 +186,8 @@ void sli_geo_look_for_footprints(const sli_geo *geo) {
         count++;
     }
     const double width = all.max.x - all.min.x, height = all.max.y - all.min.y;
-    const double far = fmax(fmax(fabs(all.min.x), fabs(all.max.x)),
-                            fmax(fabs(all.min.y), fabs(all.max.y)));
+    const double far =
+        fmax(fmax(fabs(all.min.x), fabs(all.max.x)), fmax(fabs(all.min.y), fabs(all.max.y)));
     if (geo->map->earth.known || count < FOOTPRINTS || far < PROJECTED ||
         fmax(width, height) < TOWN || area > BUILT * width * height)
         return;

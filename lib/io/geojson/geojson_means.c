@@ -130,17 +130,17 @@ static void find_meaning(const sli_geo *geo, sli_geo_feature *feature) {
 
 /// Rooms of other kinds than "room": "men_toilet", "stairs".
 static bool is_other_room(const char *name) {
-    static const char *const rooms[] = {
-        "toilet", "toilets", "restroom",  "washroom",  "bathroom", "elevator",
-        "lift",   "stair",   "stairs",    "staircase", "stairwell", "hall",
-        "lobby",  "hallway", "classroom", "kitchen",   "office",   "shaft"};
+    static const char *const rooms[] = {"toilet",    "toilets", "restroom", "washroom", "bathroom",
+                                        "elevator",  "lift",    "stair",    "stairs",   "staircase",
+                                        "stairwell", "hall",    "lobby",    "hallway",  "classroom",
+                                        "kitchen",   "office",  "shaft"};
     for (sli_name_word word; sli_word_next(&name, &word);)
         if (sli_word_in(&word, rooms, sizeof rooms / sizeof *rooms)) return true;
     return false;
 }
 
-/// Where outlines of rooms are the walls, and none are drawn by themselves, those of other rooms are
-/// walls, too.
+/// Where outlines of rooms are the walls, and none are drawn by themselves, those of other rooms
+/// are walls, too.
 static void take_other_rooms(const sli_geo *geo) {
     bool rooms = false;
     for (size_t i = 0; i < geo->features.count; i++) {

@@ -1,5 +1,6 @@
 /// Files of pictures: PNG by libpng, and portable bit, grey and colour maps (Netpbm), which are a
-/// header and numbers. A colour counts as the mean of its three channels, as ROS' map_server has it.
+/// header and numbers. A colour counts as the mean of its three channels, as ROS' map_server has
+/// it.
 #include "io/image/image.h"
 
 #include "io/parts/limits.h"

@@ -152,7 +152,8 @@ static sl_status read_yaml(ros_map *m, const char *text, size_t size) {
     return SL_OK;
 }
 
-/// A free_thresh of 0 takes no pixel as free: some tools write it for a value that they do not know.
+/// A free_thresh of 0 takes no pixel as free: some tools write it for a value that they do not
+/// know.
 static void settle_thresholds(ros_map *m) {
     if (m->free > 0) return;
     m->free = FREE;
