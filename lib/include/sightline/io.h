@@ -20,7 +20,8 @@ SL_API sl_status sl_io_use(sl_context *context);
 
 /// The endings of all their files, with spaces between.
 #define SL_IO_ENDINGS                                                                              \
-    ".ug .dxf .svg .png .pgm .pbm .ppm .yaml .yml .tmx .json .tmj .world .ldtk .ldtkl .dd2vtt .uvtt "   \
+    ".ug .dxf .svg .png .pgm .pbm .ppm .yaml .yml .tmx .json .tmj .world .ldtk .ldtkl .dd2vtt "    \
+    ".uvtt "                                                                                       \
     ".df2vtt .db .ldb .geojson .pol .wad"
 
 // --- what there is in a drawing
