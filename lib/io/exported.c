@@ -371,7 +371,8 @@ static sl_status check_version(const sli_json *root) {
     if (!format.value)
         return sli_json_fail(root,
                              "no map of a kind that is known: JSON is of Tiled, LDtk, Universal "
-                             "VTT, Foundry, GeoJSON or an export of Sightline");
+                             "VTT, Foundry, GeoJSON or an export of Sightline; export the map as "
+                             "one of these, or as DXF or SVG, from the program that made it");
     SL_TRY(sli_json_text(&format, &name));
     if (strcmp(name, "sightline") != 0) return sli_json_fail(&format, "expected \"sightline\"");
     return sli_json_whole_if(&version, 1, SL_JSON_VERSION, &number);

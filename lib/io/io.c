@@ -18,7 +18,7 @@ static bool is_one_of(const char *characters, char c) {
 
 static bool knows_image(const char *text, size_t size) {
     return (size > 4 && memcmp(text, "\x89PNG", 4) == 0) ||
-           (size > 3 && text[0] == 'P' && is_one_of("1245", text[1]) &&
+           (size > 3 && text[0] == 'P' && is_one_of("123456", text[1]) &&
             is_one_of(" \t\r\n#", text[2]));
 }
 
@@ -78,6 +78,7 @@ static bool knows_foundry(const char *text, size_t size) {
     (void)size;
     return is_json_with(text, "\"c\"", "\"move\"") ||
            is_json_with(text, "\"walls\"", "\"padding\"") ||
+           is_json_with(text, "\"walls\"", "\"c\"") ||
            is_json_with(text, "\"_stats\"", "\"coreVersion\"") || // documents of other kinds:
            is_json_with(text, "\"prototypeToken\"", "\"items\"") ||
            is_json_with(text, "\"packs\"", "\"compatibility\"");
@@ -149,7 +150,7 @@ static const sl_map_format map_formats[] = {
      .write = sli_map_print_svg,
      .keeps = KEEPS_LAYERS},
     {.name = "image",
-     .endings = ".png .pgm .pbm",
+     .endings = ".png .pgm .pbm .ppm",
      .what = "a picture: its dark pixels are solid",
      .read = sli_map_read_image,
      .takes = SL_TAKES_THRESHOLD | SL_TAKES_LAYERS,

@@ -172,11 +172,9 @@ static bool has_solid(const sli_ldtk *reader) {
 
 enum { EXAMPLE = 140 };
 
-/// The layer to name in an example, with its tiles; LAYER where another may as well be walls, and
-/// TILES where these may be any.
+/// The layer to name in an example, with its tiles; TILES where these may be any.
 static const char *show_example(const sli_ldtk *reader, char text[EXAMPLE]) {
-    const bool sure = reader->tiles_stand || (reader->tiles_named == 1 && !reader->tiles_unsure);
-    if (!sure && reader->tiles_named > 1) return "LAYER";
+    const bool sure = reader->tiles_stand || !reader->tiles_unsure;
     snprintf(text, EXAMPLE, "'%.40s%s'", reader->tiles_name, sure ? reader->tiles_asked : ":TILES");
     return text;
 }
@@ -211,10 +209,12 @@ static void give_account(sli_ldtk *reader, const sl_map *map, const sli_ldtk_set
         {reader->other_depths, "level at another depth", "levels at other depths"},
         {reader->other_layers, "other layer", "other layers"},
         {reader->entities, "entity", "entities"}};
-    char without[SLI_TALLY_TEXT];
+    const sli_tally beside[] = {
+        {reader->walls.count, "entity named as solid", "entities named as solid"}};
+    char without[SLI_TALLY_TEXT], entities[SLI_TALLY_TEXT];
     const char *world = reader->levels > 1 ? " and all of its world" : "";
     const size_t count = reader->layers ? reader->layers : reader->tile_layers;
-    if (reader->walls.count) {
+    if (reader->walls.count && !count) {
         sl_note(reader->context,
                 "%s: level %s%s: %zu %s %zu walls%s; unit: pixels, y = %s - the file's y",
                 reader->name, reader->taken, world, reader->walls.count,
@@ -224,10 +224,11 @@ static void give_account(sli_ldtk *reader, const sl_map *map, const sli_ldtk_set
         return;
     }
     sl_note(reader->context,
-            "%s: level %s%s: %zu %s layer%s give%s %zu wall%s; solid are %s%s; unit: pixels, "
+            "%s: level %s%s: %zu %s layer%s%s give%s %zu wall%s; solid are %s%s; unit: pixels, "
             "y = %s - the file's y",
             reader->name, reader->taken, world, count, reader->layers ? "IntGrid" : "tile",
-            count == 1 ? "" : "s", count == 1 ? "s" : "", map->wall_count,
+            count == 1 ? "" : "s", sli_tally_write(" and ", beside, 1, entities),
+            count == 1 && !reader->walls.count ? "s" : "", map->wall_count,
             map->wall_count == 1 ? "" : "s",
             !reader->layers      ? "tiles whose layer or enum says so"
             : reader->told.named ? "values by their names"
@@ -262,7 +263,7 @@ static sl_status check_any(sli_ldtk *reader, bool unsure) {
 }
 
 /// SL_BAD_INPUT where all is solid: nothing is left to see.
-static sl_status check_walls(const sli_ldtk *reader, const sl_map *map) {
+static sl_status check_walls(sli_ldtk *reader, const sl_map *map) {
     char next[600] = "";
     if (map->wall_count || sl_map_partial_walls(map)) return SL_OK;
     const bool several = strchr(reader->told.solid.text, ',') || *reader->told.stands.text;
@@ -271,6 +272,10 @@ static sl_status check_walls(const sli_ldtk *reader, const sl_map *map) {
                  "; --layers %.40s:1+3-5 takes the values of these numbers alone, as in: sightline "
                  "check '%.300s' --map '%.40s' --layers '%.40s:1' -o map.png",
                  reader->asked, reader->name, reader->taken, reader->asked);
+    else if (!reader->layers)
+        snprintf(next, sizeof next,
+                 "; --layers NAME:1+3-5 takes tiles of these numbers alone; layers of tiles: %s",
+                 sli_name_list_cut(&reader->tile_names, 150));
     return sl_fail_at(reader->context, reader->name, 0,
                       "level %s: every cell is solid, so there are no walls%s", reader->taken,
                       next);

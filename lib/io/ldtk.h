@@ -58,6 +58,7 @@ typedef struct sli_ldtk {
     SL_ARRAY(sl_point) others; ///< middles of entities that are neither starts nor doors
     SL_ARRAY(sl_box) walls;    ///< of entities that are named for walls
     bool wall_sized;           ///< one of these is larger than a cell
+    bool walls_named;          ///< one has a name that only lets expect that it stops
     double wall_step;          ///< the size of the cells of their layer
     SL_ARRAY(sl_box) pages;    ///< of the levels taken, from the world's origin, y down
     double bottom;   ///< the largest y of the levels taken, in pixels from the world's origin
@@ -102,12 +103,18 @@ typedef struct sli_ldtk_place {
 /// Reads the layers of a level: those with cells, tiles and entities.
 sl_status sli_ldtk_read_layers(sli_ldtk *reader, const sli_json *layers, sli_ldtk_place at);
 
-/// Reads the entities of a layer: starts, doors, the places of others; with `walls` the boxes of
-/// those that are named for walls.
+/// Which entities are walls.
+typedef enum sli_ldtk_walls {
+    SLI_LDTK_NO_WALLS,
+    SLI_LDTK_STOPPING, ///< beside cells: those whose names say that they stop a player
+    SLI_LDTK_NAMED,    ///< without cells: those that are named for walls, too
+} sli_ldtk_walls;
+
+/// Reads the entities of a layer: starts, doors, the places of others, the boxes of walls.
 sl_status sli_ldtk_read_entities(sli_ldtk *reader, const sli_json *layer, sli_ldtk_place at,
-                                 bool walls);
-/// Drops the boxes of walls where a layer says what is solid, or all of them are marks. To be
-/// called when all levels are read.
+                                 sli_ldtk_walls walls);
+/// Drops the boxes of walls where all of them are marks, or a layer says what is solid and not all
+/// of them do. To be called when all levels are read.
 sl_status sli_ldtk_settle_walls(sli_ldtk *reader);
 /// Adds what is left of them to the map as solid ground.
 sl_status sli_ldtk_add_walls(const sli_ldtk *reader, sl_map *map);

@@ -93,7 +93,7 @@ static sl_status keep_wall(sli_ldtk *reader, const sl_box *box, double step) {
 
 /// Adds an entity that is a start or a door; keeps the place of any other.
 static sl_status read_entity(sli_ldtk *reader, const sli_json *entity, sl_point corner, double step,
-                             bool walls) {
+                             sli_ldtk_walls walls) {
     const char *name = sli_json_text_of(entity, "__identifier");
     sli_says says = sli_says_of(name, NULL);
     const char *own = name;
@@ -102,7 +102,10 @@ static sl_status read_entity(sli_ldtk *reader, const sli_json *entity, sl_point 
     if (says.kind == SLI_THING_DOOR && own != name) says.name = own;
     SL_TRY(sli_things_ask(&reader->things, name, NULL, &says));
     const sl_box box = box_of_entity(entity, corner);
-    if (!says.kind && walls && sli_says_solid(name)) return keep_wall(reader, &box, step);
+    const bool stops = walls && sli_game_says_stops(name);
+    const bool named = walls == SLI_LDTK_NAMED && sli_says_solid(name);
+    reader->walls_named |= !says.kind && named && !stops;
+    if (!says.kind && (named || stops)) return keep_wall(reader, &box, step);
     if (!says.kind) {
         sli_things_leave(&reader->things, name);
         return keep_other(reader, &box);
@@ -128,7 +131,7 @@ static sl_status read_entity(sli_ldtk *reader, const sli_json *entity, sl_point 
 }
 
 sl_status sli_ldtk_read_entities(sli_ldtk *reader, const sli_json *layer, sli_ldtk_place at,
-                                 bool walls) {
+                                 sli_ldtk_walls walls) {
     const sli_json entities = sli_json_member(layer, "entityInstances");
     const sli_json x = sli_json_member(layer, "__pxTotalOffsetX");
     const sli_json y = sli_json_member(layer, "__pxTotalOffsetY");
@@ -167,11 +170,11 @@ static sl_status add_open(sli_ldtk *reader, const sl_box *page) {
 sl_status sli_ldtk_settle_walls(sli_ldtk *reader) {
     const bool others = reader->layers || reader->tile_layers;
     // Walls that are all one cell large are marks, of which a field may say more.
-    if (!reader->wall_sized || others) {
+    if (!reader->wall_sized || (others && reader->walls_named)) {
         reader->entities += reader->walls.count;
         reader->walls.count = 0;
     }
-    for (size_t i = 0; reader->walls.count && i < reader->pages.count; i++)
+    for (size_t i = 0; !others && reader->walls.count && i < reader->pages.count; i++)
         SL_TRY(add_open(reader, &reader->pages.items[i]));
     return SL_OK;
 }

@@ -292,30 +292,53 @@ static sl_status check_layers(const sli_ldtk *reader, const sli_json *layers) {
     return SL_OK;
 }
 
-/// Where lists of tiles cover the first layer: its tiles but the most frequent one, for the
-/// message.
-static sl_status choose_tiles(sli_ldtk *reader, const sli_json *layer, const sli_json lists[2]) {
-    const sli_json width = sli_json_member(layer, "__cWid"),
-                   height = sli_json_member(layer, "__cHei");
-    const double squares = sli_json_number_or_0(&width) * sli_json_number_or_0(&height);
+/// The numbers of a layer's tiles, for the message; sl_free(*out) is the caller's.
+static sl_status list_tiles(const sli_ldtk *reader, const sli_json lists[2], uint32_t **out,
+                            size_t *count) {
     const size_t all = json_array_size(lists[0].value) + json_array_size(lists[1].value);
-    size_t count = 0, most;
-    if ((double)all < squares) return SL_OK;
     uint32_t *tiles = sl_alloc_array(reader->context, all, sizeof *tiles);
+    *out = tiles;
+    *count = 0;
     if (!tiles) return SL_NO_MEMORY;
     for (size_t k = 0; k < 2; k++)
         for (size_t i = 0; i < json_array_size(lists[k].value); i++) {
             const sli_json tile = sli_json_item(&lists[k], i), id = sli_json_member(&tile, "t");
             const json_int_t number = json_integer_value(id.value);
-            if (number >= 0 && number <= UINT32_MAX) tiles[count++] = (uint32_t)number;
+            if (number >= 0 && number <= UINT32_MAX) tiles[(*count)++] = (uint32_t)number;
         }
+    return SL_OK;
+}
+
+/// Keeps the layer that the example names. Where tiles cover it, it has its tiles but the most
+/// frequent one.
+static sl_status keep_example(sli_ldtk *reader, const sli_json *layer, const uint32_t *tiles,
+                              size_t count) {
+    const sli_json width = sli_json_member(layer, "__cWid"),
+                   height = sli_json_member(layer, "__cHei");
+    const double squares = sli_json_number_or_0(&width) * sli_json_number_or_0(&height);
     char *text = reader->tiles_asked;
-    const sl_status status = sli_numbers_but_commonest(reader->context, tiles, count, &most,
-                                                       text + 1, sizeof reader->tiles_asked - 1);
-    if (status == SL_OK && text[1]) *text = ':';
-    reader->tiles_unsure = status == SL_OK && 5 * most < 3 * count;
-    sl_free(reader->context, tiles);
-    return status;
+    size_t most;
+    *reader->tiles_name = *text = '\0';
+    keep_name(reader->tiles_name, sizeof reader->tiles_name,
+              sli_json_text_of(layer, "__identifier"));
+    if ((double)count < squares) return SL_OK;
+    SL_TRY(sli_numbers_write(reader->context, tiles, count, true, &most, text + 1,
+                             sizeof reader->tiles_asked - 1));
+    if (text[1]) *text = ':';
+    reader->tiles_unsure = 5 * most < 3 * count;
+    return SL_OK;
+}
+
+/// Adds a layer of tiles, with their numbers where these are few: "Tiles:0-5".
+static sl_status add_tile_name(sli_ldtk *reader, const char *name, const uint32_t *tiles,
+                               size_t count) {
+    char text[160], numbers[48];
+    size_t most;
+    SL_TRY(sli_numbers_write(reader->context, tiles, count, false, &most, numbers, sizeof numbers));
+    const bool few = strlen(numbers) < 24;
+    snprintf(text, sizeof text, few ? "%.80s:%s" : "%.80s", name, numbers);
+    sli_name_list_add(&reader->tile_names, (sli_word){text, strlen(text)});
+    return SL_OK;
 }
 
 /// Remembers a layer of tiles, for the message that nothing says what is solid.
@@ -323,17 +346,19 @@ static sl_status name_tiles(sli_ldtk *reader, const sli_json *layer) {
     const char *name = sli_json_text_of(layer, "__identifier");
     const sli_json lists[2] = {sli_json_member(layer, "gridTiles"),
                                sli_json_member(layer, "autoLayerTiles")};
-    if (!json_array_size(lists[0].value) && !json_array_size(lists[1].value)) return SL_OK;
     const bool stands = sli_game_kind_of(name) >= SLI_GAME_STANDS;
-    if (!*reader->tiles_name || (stands && !reader->tiles_stand)) {
-        *reader->tiles_name = *reader->tiles_asked = '\0';
+    uint32_t *tiles;
+    size_t count;
+    if (!has_tiles(layer)) return SL_OK;
+    sl_status status = list_tiles(reader, lists, &tiles, &count);
+    if (status == SL_OK && (!*reader->tiles_name || (stands && !reader->tiles_stand))) {
         reader->tiles_stand = stands;
-        SL_TRY(choose_tiles(reader, layer, lists));
-        keep_name(reader->tiles_name, sizeof reader->tiles_name, name);
+        status = keep_example(reader, layer, tiles, count);
     }
+    if (status == SL_OK) status = add_tile_name(reader, name, tiles, count);
     reader->tiles_named++;
-    sli_name_list_add(&reader->tile_names, (sli_word){name, strlen(name)});
-    return SL_OK;
+    sl_free(reader->context, tiles);
+    return status;
 }
 
 sl_status sli_ldtk_read_layers(sli_ldtk *reader, const sli_json *layers, sli_ldtk_place at) {
@@ -348,6 +373,9 @@ sl_status sli_ldtk_read_layers(sli_ldtk *reader, const sli_json *layers, sli_ldt
         all.plain |= is_int_grid(&layer) && is_plain(&layer);
     }
     const bool cells = has_cells(layers);
+    const sli_ldtk_walls walls = reader->options->layers ? SLI_LDTK_NO_WALLS
+                                 : cells                 ? SLI_LDTK_STOPPING
+                                                         : SLI_LDTK_NAMED;
     for (size_t i = 0; i < count; i++) {
         const sli_json layer = sli_json_item(layers, i);
         const size_t before = reader->layers + reader->tile_layers;
@@ -357,7 +385,7 @@ sl_status sli_ldtk_read_layers(sli_ldtk *reader, const sli_json *layers, sli_ldt
                                                 sli_json_text_of(&layer, "__identifier"), &numbers)
                                : !cells;
         if (is_tiles(&layer)) SL_TRY(name_tiles(reader, &layer));
-        SL_TRY(sli_ldtk_read_entities(reader, &layer, at, !cells && !reader->options->layers));
+        SL_TRY(sli_ldtk_read_entities(reader, &layer, at, walls));
         if (is_taken(reader, &layer, all) && (cells || reader->options->layers))
             SL_TRY(read_layer(reader, &layer, at));
         if (asked && is_tiles(&layer)) SL_TRY(read_tiles(reader, &layer, at));

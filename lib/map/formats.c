@@ -236,6 +236,19 @@ static sl_status take_plan(sl_context *context, const char *path, const char *wa
                    path, wanted, sheet.count, list);
 }
 
+/// A file of another program that shows nothing to hide behind. Pictures say it themselves.
+static void note_no_walls(sl_context *context, const char *path, const sl_map_format *format,
+                          const sl_map *map) {
+    if (map->wall_count || map->door_count || map->mirror_count || map->oneway_count ||
+        sl_map_partial_walls(map) || (format->takes & SL_TAKES_THRESHOLD) ||
+        strcmp(format->name, "text") == 0)
+        return;
+    sl_note(context,
+            "%s: it has no walls, so nothing is hidden in it: %sdraw them in the program "
+            "that wrote it, and export it again",
+            path, format->takes & SL_TAKES_LAYERS ? "take other layers with --layers, or " : "");
+}
+
 static sl_status read_format(sl_context *context, const char *path, const sl_map_format *format,
                              const char *text, size_t size, const sl_import_options *given,
                              sl_map *map) {
@@ -258,6 +271,7 @@ static sl_status read_format(sl_context *context, const char *path, const sl_map
     }
     sl_transform *transform = &map->source.transform;
     if (status == SL_OK && transform->scale == 0) transform->scale = 1; // the file's y is up
+    if (status == SL_OK && !given->lines) note_no_walls(context, path, format, map);
     return status;
 }
 

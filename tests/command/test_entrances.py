@@ -120,9 +120,11 @@ class Entrances(sandbox.ProgramTest):
         for command, *options in *WIDE, ["rooms"], ["report", "-o", "a.pdf"]:
             refused = self.box.run([command, "a.map", *options])
             self.assertEqual(refused.status, 2, refused.text())
-            typed = re.search(r"if it is an entrance, add (--entrance 2); else", refused.stderr)
+            typed = re.search(r"say where a room is, as with (--start \S+); or if the opening is an "
+                              r"entrance, add (--entrance 2)", refused.stderr)
             self.assertTrue(typed, refused.stderr)
-            self.run_well(command, "a.map", *options, *typed[1].split())
+            for chosen in typed.groups():
+                self.run_well(command, "a.map", *options, *chosen.split())
 
     def test_kept_of_drawings(self):
         """In a plan that is drawn, a wide entrance is found. Map text keeps it; doors stay narrow."""
@@ -150,7 +152,7 @@ class Entrances(sandbox.ProgramTest):
     def refused_and_typed(self, command, name, options, degrees):
         refused = self.box.run([command, name, *options])
         self.assertEqual(refused.status, 2, refused.text())
-        typed = re.search("if it is an entrance, add (--entrance 2);", refused.stderr)
+        typed = re.search("if the opening is an entrance, add (--entrance 2)", refused.stderr)
         self.assertTrue(typed, refused.stderr)
         table = self.printed(command, name, *options, *typed[1].split(), "-o", "-", "-q")
         rows = list(csv.DictReader(io.StringIO(table)))

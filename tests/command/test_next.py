@@ -224,6 +224,16 @@ class Next(sandbox.ProgramTest):
             self.printed("bake", *kept[1:], "-o", "a.slv")
             self.assertIn("1 unreachable room", self.printed(*kept))
             self.assertNotIn("no start", self.run_well(*kept).stderr)
+        # Rock around a hall: the hall comes first.
+        hall = [(1, 1, 9, 1), (9, 1, 9, 4), (9, 4, 1, 4), (1, 4, 1, 1)]
+        self.write("a.uvtt", uvtt(PLAN[:4] + hall))
+        told = self.run_well("bake", "a.uvtt", "-o", "a.slv").stderr
+        command = re.search(r"not joined to the largest part, which reaches the map's edge as rock "
+                            r"and sea do: sightline (check a.uvtt --start (\S+)) keeps the largest "
+                            r"that does not, or with \S+ the other one\n", told)
+        self.assertTrue(command, told)
+        x, y = map(float, command[2].split(","))
+        self.assertTrue(1 < x < 9 and 2 < y < 5, command[2])
         self.write("a.uvtt", uvtt(PLAN[:4]))
         self.assertNotIn("no start", self.run_well("bake", "a.uvtt", "-o", "a.slv").stderr)
 

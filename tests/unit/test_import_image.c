@@ -69,6 +69,15 @@ static void test_portable(void **state) {
     assert_shape(bytes, sizeof bytes - 1, 0, true);
     static const char wide[] = "P5 3 3 65535\n\xff.\xff.\x10.\x10.\xff.\xff.\x10.\xff.\xff.";
     assert_shape(wide, sizeof wide - 1, 0, true);
+    // A colour is as dark as the mean of its channels: 127 is dark, 128 is not.
+    static const char plain_colours[] = "P3 3 3 255 128 1 255  255 255 255  0 255 126\n"
+                                        "0 127 254  9 255 255  255 128 2\n"
+                                        "0 0 0  255 255 1  255 0 255\n";
+    assert_shape(plain_colours, sizeof plain_colours - 1, 0, true);
+    static const char colours[] = "P6 3 3 9\n\x9\x9\1\x9\x9\x9\1\x9\1"
+                                  "\1\x9\1\x9\x9\x9\x9\1\x9"
+                                  "\1\1\1\x9\x9\x9\x9\x9\1";
+    assert_shape(colours, sizeof colours - 1, 0, true);
     assert_walls("P1 2 2 00 00", 12, 0, "");
 }
 
@@ -96,7 +105,8 @@ static void test_refused(void **state) {
     REFUSED("RIFF\1\1\1\1WEBPVP8 ", "f: a WebP picture, whatever its name says: save it as PNG");
     REFUSED("\xFF\xD8\xFF\xE0", "f: a JPEG picture");
     REFUSED("BM\1", "f: a BMP picture");
-    REFUSED("P3 1 1 1 0 0 0", "f: neither PNG nor");
+    REFUSED("P7 1 1 1 0 0 0", "f: neither PNG nor");
+    REFUSED("P6\n3 3 255\n\1\2", "f: 3 x 3 pixels need 27 bytes; the file has 2");
     REFUSED("P5 3", "f:1: expected a number, found the end");
     REFUSED("P5 3 x", "f:1: expected a number, found something else");
     REFUSED("P5\n3 3 255\n\1\2", "f: 3 x 3 pixels need 9 bytes; the file has 2");
@@ -177,6 +187,13 @@ static void test_ros(void **state) {
     read_ros("image: m.pgm\nresolution: 0.5\norigin: [-1, 2, 0]\noccupied_thresh: 0.5\n"
              "free_thresh: 1\n",
              0, both, NULL);
+    // Thresholds of 0 cannot be meant, but an occupied_thresh of 0 takes what is white as free.
+    read_ros("image: m.pgm\nresolution: 0.5\norigin: [-1, 2, 0]\noccupied_thresh: 0\n"
+             "free_thresh: 0\n",
+             0, free_ground, NULL);
+    read_ros("image: m.pgm\nresolution: 0.5\norigin: [-1, 2, 0]\noccupied_thresh: 0\n"
+             "negate: 1\n",
+             0, obstacle, NULL);
     read_ros("image: m.pgm\nresolution: 1\noccupied_thresh: 65\n", 0, NULL,
              "m.yaml:3: occupied_thresh: expected a number from 0 to 1, found '65'");
     read_ros("image: m.pgm\nresolution: 1\nfree_thresh: -0.1\n", 0, NULL,

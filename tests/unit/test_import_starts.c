@@ -231,6 +231,11 @@ static void test_starts_and_walls(void **state) {
     assert_note(sli_map_read_tmx, input, &options,
                 "f:3: start 'start' at -20 9 in the file is left out: it is outside the map\n");
     assert_note(sli_map_read_tmx, input, &options, "f: taken: 1 start, from 'spawn'\n");
+    // The file's own name may stand in that of a start, and no other place.
+    assert_things(
+        sli_map_read_tmx,
+        tmx_of(ROOM, OBJECTS(POINT("spawn_f", AT("12", "12")) POINT("spawn_g", AT("20", "20")))),
+        NULL, "start 12 28 0\n");
     // Starts of a solid layer are no walls.
     size_t walls;
     char things[MOST_TEXT];
@@ -444,6 +449,14 @@ static void test_notes_about_doors(void **state) {
                 "f: property 'state' of door 'Big Door' is not understood\n");
     assert_note(sli_map_read_tmx, tmx_of(gap, OBJECTS(STATE("locked", "by a key"))), &options,
                 "f: property 'locked' of door 'Big Door' is not understood\n");
+    // Texts that are true or false; what is not understood is told once for all doors of a name.
+    assert_things(sli_map_read_tmx, tmx_of(gap, OBJECTS(STATE("Open", "0"))), NULL,
+                  "door Big_Door 20 16 20 24 shut\n");
+    assert_things(sli_map_read_tmx, tmx_of(gap, OBJECTS(STATE("locked", "0"))), NULL,
+                  "door Big_Door 20 16 20 24 open\n");
+    text = tmx_of(gap, OBJECTS(STATE("locked", "by a key") STATE("locked", "by a key")));
+    assert_note(sli_map_read_tmx, text, &options,
+                "f: property 'locked' of door 'Big Door' is not understood\nf: 12 walls");
     text = tmx_of(gap, OBJECTS(NAMED("crate", SIZED("8", "8", "8", "8"))
                                    NAMED("door of the hall", SIZED("16", "16", "8", "8"))));
     assert_note(sli_map_read_tmx, text, &options,

@@ -202,6 +202,56 @@ static void test_beside_player(void **state) {
         TWO_TILES);
 }
 
+/// In a layer named for walls, tiles that say that they are solid go over the name: a door's tile
+/// without the property stands open. Few such tiles leave the layer whole, and this is said.
+static void test_tiles_over_names(void **state) {
+    (void)state;
+    const char *door = MAP(TILE_1_COLLIDES LAYER("walls", CSV("2,1,1,0,0,0")));
+    const char *chunks =
+        "<map infinite='1'" SIZE "tilewidth='8' tileheight='8'>" TILE_1_COLLIDES
+        "<layer name='walls'" SIZE "><data encoding='csv'>"
+        "<chunk x='0' y='0' width='2' height='2'>2,1,0,0</chunk>"
+        "<chunk x='2' y='0' width='2' height='2'>1,0,0,0</chunk></data></layer></map>";
+    assert_noted_of(
+        sli_map_read_tmx, NULL, door, strlen(door), TWO_TILES,
+        "f: layer 'walls': 2 of its 3 tiles say that they are solid, and the others are "
+        "taken as open; if these are walls, give all layers that are solid: --layers "
+        "'...,walls'\n");
+    assert_noted_of(sli_map_read_tmx, NULL, chunks, strlen(chunks),
+                    "wall 0 16 8 16\nwall 24 16 32 16\nwall 8 8 24 8\nwall 8 8 8 16\n"
+                    "wall 24 8 24 16\nwall 0 0 32 0\nwall 0 0 0 16\nwall 32 0 32 16\n",
+                    "2 of its 3 tiles say that they are solid");
+    // What a shape of a tile draws, is drawn; a layer that stops by its name is whole.
+    assert_walls(
+        MAP(SET_OF("<tile id='0'>" TRUE("collides") "</tile><tile id='1'><objectgroup>" BOX(
+            "2", "2", "4", "4") "</objectgroup></tile>") LAYER("walls", CSV("2,1,1,0,0,0"))),
+        "wall 2 14 6 14\nwall 6 14 6 10\nwall 6 10 2 10\nwall 2 10 2 14\n" TWO_TILES);
+    assert_walls(MAP(TILE_1_COLLIDES LAYER("collision", CSV("0,1,2,0,0,0"))), TWO_TILES);
+    const char *few = MAP(TILE_1_COLLIDES LAYER("walls", CSV("0,2,2,0,0,0"))
+                              LAYER("Walls 2", CSV("1,2,2,0,0,0")));
+    assert_noted_of(sli_map_read_tmx, NULL, few, strlen(few),
+                    "wall 0 8 24 8\nwall 0 0 24 0\nwall 0 0 0 8\nwall 24 0 24 8\n",
+                    "f: layer 'Walls 2' is taken whole by its name, and only 1 of its 3 tiles say "
+                    "that they are solid; if only some are, give them by number: --layers 'Walls "
+                    "2:28+33-35'\n");
+}
+
+/// One solid tile of a hundred is a doubt.
+static void test_few_solid_tiles(void **state) {
+    (void)state;
+#define HUNDRED(first)                                                                             \
+    "<map width='10' height='10' tilewidth='8' tileheight='8'>" TILE_1_COLLIDES                    \
+    "<layer name='ground' width='10' height='10'>" CSV(first ROW ROW ROW ROW ROW ROW ROW ROW ROW   \
+                                                       "3,3,3,3,3,3,3,3") "</layer></map>"
+#define ROW "3,3,3,3,3,3,3,3,3,3,"
+    assert_noted_of(sli_map_read_tmx, NULL, HUNDRED("1,3,"), strlen(HUNDRED("1,3,")),
+                    "wall 8 80 80 80\nwall 0 72 8 72\nwall 8 72 8 80\nwall 0 0 80 0\n"
+                    "wall 0 0 0 72\nwall 80 0 80 80\n",
+                    "f: only 1 of 100 tiles says that it is solid, and nothing else does: if a "
+                    "layer is solid, --layers NAME takes it, NAME:28+33-35 tiles of it: 'ground' "
+                    "(100 tiles)\n");
+}
+
 /// A property on nearly all tiles, the floor's too, says nothing.
 static void test_all_solid(void **state) {
     (void)state;
@@ -514,6 +564,8 @@ int main(void) {
         cmocka_unit_test(test_pictures_of_walls),
         cmocka_unit_test(test_world),
         cmocka_unit_test(test_beside_player),
+        cmocka_unit_test(test_tiles_over_names),
+        cmocka_unit_test(test_few_solid_tiles),
         cmocka_unit_test(test_all_solid),
         cmocka_unit_test(test_tile_size),
         cmocka_unit_test(test_passing_objects),

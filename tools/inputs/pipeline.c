@@ -29,6 +29,8 @@ static const double SEALED_BY_WIDTH = 0.1;
 
 /// The least share of a game's map inside, not joined to the largest part, that gets a note.
 static const double APART = 0.01;
+/// From such a share on, these are rooms with rock around them.
+static const double ROOMS = 0.25;
 
 // --- options
 
@@ -274,12 +276,23 @@ sl_status pipeline_read_space(sl_context *context, const map_pipeline *pipeline,
     return status;
 }
 
+/// The digits of places in the map. Baking moves its walls to the space.
+static int digits_of(const sl_map *map, const sl_space *space) {
+    sl_map whole = *map;
+    if (!whole.wall_count) {
+        whole.walls = space->walls;
+        whole.wall_count = space->wall_count;
+    }
+    return sl_map_digits(&whole);
+}
+
 /// Refuses a map as pipeline_need_inside() says.
 static sl_status refuse_inside(sl_context *context, const sl_map *map, const sl_space *space,
                                const char *or_else) {
     const sl_ground_shares shares = sl_space_ground(space);
     const sl_interior *found = &map->interior;
-    const int digits = sl_map_digits(map);
+    const int digits = digits_of(map, space);
+    const sl_point start = pipeline_likely_start(map, space);
     sl_inside doubt;
     double enclosed;
     SL_TRY(sl_doubt_inside(context, map, space, &doubt));
@@ -287,11 +300,11 @@ static sl_status refuse_inside(sl_context *context, const sl_map *map, const sl_
     if (doubt == SL_INSIDE_OPENING)
         return sl_fail(context, SL_BAD_ARGUMENT,
                        "the map has no start, and an opening %.4g%s%s wide, at %.*g,%.*g, is wider "
-                       "than entrances are (%.4g); if it is an entrance, add --entrance %.4g; else "
-                       "say where a room is with --start X,Y%s",
+                       "than entrances are (%.4g); say where a room is, as with --start %.*g,%.*g; "
+                       "or if the opening is an entrance, add --entrance %.4g%s",
                        found->doubtful_width, *map->unit ? " " : "", map->unit, digits,
-                       found->doubtful.a.x, digits, found->doubtful.a.y, found->width,
-                       found->doubtful_width, or_else);
+                       found->doubtful.a.x, digits, found->doubtful.a.y, found->width, digits,
+                       start.x, digits, start.y, found->doubtful_width, or_else);
     if (doubt != SL_INSIDE_SMALL || !(shares.outside > 0) || enclosed > FEW_INSIDE) return SL_OK;
     return sl_fail(
         context, SL_BAD_ARGUMENT,
@@ -313,12 +326,18 @@ sl_point pipeline_likely_start(const sl_map *map, const sl_space *space) {
     return sl_space_middle(space, largest);
 }
 
+/// Whether a game's map was read, by its file's name. What lies on the earth is none: files of
+/// several kinds are called .json.
+static bool is_game(const sl_context *context, const map_pipeline *pipeline, const sl_map *map) {
+    return input_is_game(context, pipeline->path) && !map->earth.known;
+}
+
 /// What to do next about what is inside. In a game walls stand as they like: a wide opening is
 /// seldom an entrance, and a start says more.
 static void say_next(sl_inside doubt, bool game, const sl_map *map, const sl_space *space,
                      const char *path, char text[2 * SAID]) {
     const size_t size = 2 * SAID;
-    const int digits = sl_map_digits(map);
+    const int digits = digits_of(map, space);
     const sl_point start = pipeline_likely_start(map, space);
     switch (doubt) {
     case SL_INSIDE_SURE:
@@ -362,15 +381,21 @@ static sl_status note_apart(sl_context *context, const map_pipeline *pipeline, c
     char path[SAID], next[160] = "";
     map_pipeline any = pipeline_default();
     const option_table reading = pipeline_option_table(&any);
-    const int digits = sl_map_digits(map);
+    const int digits = digits_of(map, space);
     const sl_box b = space->bounds;
     sl_sealed parts;
     SL_TRY(sl_find_sealed(context, map, space, &parts));
     const double inside = sl_space_ground(space).inside * (b.max.x - b.min.x) * (b.max.y - b.min.y);
     const double apart = inside > 0 ? 1 - parts.open.area / inside : 0;
     if (apart < APART) return SL_OK;
-    const sl_point within = parts.within.at;
-    if (parts.open.at_edge && parts.within.area > 0)
+    const sl_point open = parts.open.at, within = parts.within.at;
+    const bool around = parts.open.at_edge && parts.within.area > 0;
+    // Fields about a few houses reach the edge, too.
+    const bool rooms = around && apart >= ROOMS;
+    if (rooms)
+        snprintf(next, sizeof next, "that does not, or with %.*g,%.*g the other one", digits,
+                 open.x, digits, open.y);
+    else if (around)
         snprintf(next, sizeof next,
                  ", which reaches the map's edge as rock and sea do, or with %.*g,%.*g the largest "
                  "that does not",
@@ -381,9 +406,10 @@ static sl_status note_apart(sl_context *context, const map_pipeline *pipeline, c
     sl_note(context,
             "the map has no start, so parts that nothing joins all count as inside, as rock, sea "
             "and the insides of obstacles may be; %.2g %% of the area inside is not joined to the "
-            "largest part: sightline check %s --start %.*g,%.*g keeps the largest%s",
-            100 * apart, say_map(pipeline, &reading, path), digits, parts.open.at.x, digits,
-            parts.open.at.y, next);
+            "largest part%s: sightline check %s --start %.*g,%.*g keeps the largest%s%s",
+            100 * apart, rooms ? ", which reaches the map's edge as rock and sea do" : "",
+            say_map(pipeline, &reading, path), digits, rooms ? within.x : open.x, digits,
+            rooms ? within.y : open.y, rooms ? " " : "", next);
     return SL_OK;
 }
 
@@ -396,14 +422,14 @@ static sl_status note_sealed(sl_context *context, const map_pipeline *pipeline, 
     char path[SAID], file[SAID] = "";
     map_pipeline any = pipeline_default();
     const option_table reading = pipeline_option_table(&any);
-    const int digits = sl_map_digits(map);
+    const int digits = digits_of(map, space);
     sl_sealed sealed;
     *told = false;
-    if (!map->start_count && input_is_game(context, pipeline->path))
+    if (!map->start_count && is_game(context, pipeline, map))
         return note_apart(context, pipeline, map, space);
     // Behind a doubtful opening, other rooms may be those that count.
     if (says_rooms(map) || map->interior.doubtful_width > 0 ||
-        !input_is_drawing(context, pipeline->path))
+        !(input_is_drawing(context, pipeline->path) || map->earth.known))
         return SL_OK;
     SL_TRY(sl_find_sealed(context, map, space, &sealed));
     if (sealed.rooms < 2 || sealed.share < share) return SL_OK;
@@ -439,8 +465,8 @@ static sl_status note_said(sl_context *context, const map_pipeline *pipeline, co
     SL_TRY(sl_say_inside(context, map, space, said));
     if (!said[0]) return SL_OK;
     SL_TRY(sl_doubt_inside(context, map, space, &doubt));
-    say_next(doubt, input_is_game(context, pipeline->path), map, space,
-             say_map(pipeline, &reading, path), then);
+    say_next(doubt, is_game(context, pipeline, map), map, space, say_map(pipeline, &reading, path),
+             then);
     sl_note(context, "%s%s", said, then);
     return SL_OK;
 }

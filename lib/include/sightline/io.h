@@ -20,7 +20,8 @@ SL_API sl_status sl_io_use(sl_context *context);
 
 /// The endings of all their files, with spaces between.
 #define SL_IO_ENDINGS                                                                              \
-    ".ug .dxf .svg .png .pgm .pbm .yaml .yml .tmx .json .tmj .world .ldtk .ldtkl .dd2vtt .uvtt "   \
+    ".ug .dxf .svg .png .pgm .pbm .ppm .yaml .yml .tmx .json .tmj .world .ldtk .ldtkl .dd2vtt "    \
+    ".uvtt "                                                                                       \
     ".df2vtt .db .ldb .geojson .pol .wad"
 
 // --- what there is in a drawing
@@ -79,7 +80,7 @@ typedef struct sl_image {
     unsigned char *pixels;
 } sl_image;
 
-/// PNG, or portable grey map or bit map (P1, P2, P4, P5); the first bytes say which. What is
+/// PNG, or portable bit, grey or colour map (P1 to P6); the first bytes say which. What is
 /// transparent is white. SL_BAD_INPUT, naming the file, for all else.
 SL_API sl_status sl_image_read(sl_context *context, const char *name, const char *bytes,
                                size_t size, sl_image *out);

@@ -75,6 +75,9 @@ sl_status sli_geo_refuse_points(const sli_geo *geo);
 /// SL_BAD_INPUT where open lines that nothing names reach too far for walls. Notes sites that lie
 /// far apart, with the --crop of each. For maps on the earth, once it is known what is taken.
 sl_status sli_geo_doubt(const sli_geo *geo);
+/// Footprints of buildings in a map projection whose unit nothing says: what they enclose is
+/// inside, not the streets among them. Sets the width of the map's entrances, and says so.
+void sli_geo_look_for_footprints(const sli_geo *geo);
 
 /// Keeps the names of rooms, as texts of the map.
 sl_status sli_geo_add_names(sli_geo *geo);

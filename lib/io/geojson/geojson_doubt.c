@@ -1,5 +1,5 @@
-/// What GeoJSON holds that is no plan: points alone, open lines of streets that nothing names, and
-/// several sites far apart.
+/// What GeoJSON holds that is no plan: points alone, open lines of streets that nothing names,
+/// several sites far apart, and footprints of a town.
 #include "io/geojson/geojson.h"
 
 #include <math.h>
@@ -151,4 +151,50 @@ sl_status sli_geo_doubt(const sli_geo *geo) {
             size / 1000);
     if (list.count > 1) note_sites(geo, &list);
     return SL_OK;
+}
+
+// --- footprints
+
+/// Map projections count metres or feet from far away. Towns have many outlines, are larger than a
+/// house in either unit, and their buildings leave ground between them.
+enum { FOOTPRINTS = 8 };
+static const double PROJECTED = 100000, TOWN = 1000, BUILT = 0.5, ENTRANCE = 1.2;
+
+static double area_of(const sli_geo *geo, const sli_geo_line *line) {
+    const sl_point *p = geo->points.items + line->first;
+    double twice = 0;
+    for (size_t i = 2; i < line->count; i++)
+        twice +=
+            (p[i - 1].x - p[0].x) * (p[i].y - p[0].y) - (p[i].x - p[0].x) * (p[i - 1].y - p[0].y);
+    return fabs(twice) / 2;
+}
+
+void sli_geo_look_for_footprints(const sli_geo *geo) {
+    sl_box all = nothing;
+    size_t count = 0;
+    double area = 0;
+    for (size_t i = 0; i < geo->features.count; i++) {
+        const sli_geo_feature *f = &geo->features.items[i];
+        if (!f->taken || !f->count) continue;
+        if (f->means != SLI_GEO_WALL) return;
+        for (size_t k = 0; k < f->count; k++) {
+            const sli_geo_line *line = &geo->lines.items[f->first + k];
+            if (!line->ring) return;
+            area += area_of(geo, line);
+        }
+        join(&all, box_of(geo, f));
+        count++;
+    }
+    const double width = all.max.x - all.min.x, height = all.max.y - all.min.y;
+    const double far =
+        fmax(fmax(fabs(all.min.x), fabs(all.max.x)), fmax(fabs(all.min.y), fabs(all.max.y)));
+    if (geo->map->earth.known || count < FOOTPRINTS || far < PROJECTED ||
+        fmax(width, height) < TOWN || area > BUILT * width * height)
+        return;
+    geo->map->entrance = ENTRANCE;
+    sl_note(geo->context,
+            "%s: its outlines look like buildings of a town, in metres or feet, which nothing "
+            "says: inside is what they enclose, as openings wider than %g do not count; if there "
+            "are entrances: --entrance W",
+            geo->name, ENTRANCE);
 }

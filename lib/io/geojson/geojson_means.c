@@ -128,6 +128,32 @@ static void find_meaning(const sli_geo *geo, sli_geo_feature *feature) {
     }
 }
 
+/// Rooms of other kinds than "room": "men_toilet", "stairs".
+static bool is_other_room(const char *name) {
+    static const char *const rooms[] = {"toilet",    "toilets", "restroom", "washroom", "bathroom",
+                                        "elevator",  "lift",    "stair",    "stairs",   "staircase",
+                                        "stairwell", "hall",    "lobby",    "hallway",  "classroom",
+                                        "kitchen",   "office",  "shaft"};
+    for (sli_name_word word; sli_word_next(&name, &word);)
+        if (sli_word_in(&word, rooms, sizeof rooms / sizeof *rooms)) return true;
+    return false;
+}
+
+/// Where outlines of rooms are the walls, and none are drawn by themselves, those of other rooms
+/// are walls, too.
+static void take_other_rooms(const sli_geo *geo) {
+    bool rooms = false;
+    for (size_t i = 0; i < geo->features.count; i++) {
+        const sli_geo_feature *feature = &geo->features.items[i];
+        if (sli_says_solid(feature->layer)) return;
+        rooms |= strcasecmp(feature->layer, "room") == 0;
+    }
+    for (size_t i = 0; rooms && i < geo->features.count; i++) {
+        sli_geo_feature *feature = &geo->features.items[i];
+        if (!feature->means && is_other_room(feature->layer)) feature->means = SLI_GEO_WALL;
+    }
+}
+
 sl_status sli_geo_find_meanings(sli_geo *geo) {
     for (size_t i = 0; i < geo->features.count; i++) {
         sli_geo_feature *feature = &geo->features.items[i];
@@ -136,6 +162,7 @@ sl_status sli_geo_find_meanings(sli_geo *geo) {
         SL_TRY(SL_ARRAY_ROOM(geo->context, &geo->levels, 1));
         geo->levels.items[geo->levels.count++] = i;
     }
+    take_other_rooms(geo);
     return SL_OK;
 }
 

@@ -117,13 +117,33 @@ static sl_status read_object(sli_geo *geo, const sli_json *object, int level) {
     return geometry.value ? read_object(geo, &geometry, level + 1) : SL_OK;
 }
 
+/// A file without a type may hold collections under names, as layers: all are read. Else it is no
+/// GeoJSON.
+static sl_status read_named(sli_geo *geo, const sli_json *root) {
+    const char *key;
+    json_t *member;
+    bool any = false;
+    json_object_foreach(root->value, key, member) {
+        const sli_json part = sli_json_member(root, key);
+        if (strcmp(sli_json_text_of(&part, "type"), "FeatureCollection") != 0) continue;
+        any = true;
+        SL_TRY(read_object(geo, &part, 1));
+    }
+    return any ? SL_OK
+               : sl_fail_at(geo->context, root->file->name, 1,
+                            "no member 'type', as GeoJSON has it: \"FeatureCollection\", "
+                            "\"Feature\" or a geometry; save the map as GeoJSON from the program "
+                            "that made it");
+}
+
 /// Opens a file and walks it.
 static sl_status walk(sli_geo *geo, const char *name, const char *text, size_t size) {
     sli_json_file *file = &geo->files[geo->file_count];
     SL_TRY(sli_json_open(geo->context, name, text, size, file));
     geo->file_count++;
     const sli_json root = sli_json_root(file);
-    return read_object(geo, &root, 0);
+    const bool typed = !json_is_object(root.value) || sli_json_member(&root, "type").value;
+    return typed ? read_object(geo, &root, 0) : read_named(geo, &root);
 }
 
 /// The files of a set of IMDF (Apple's Indoor Mapping Data Format) that belong to its units.

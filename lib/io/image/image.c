@@ -1,5 +1,6 @@
-/// Files of pictures: PNG by libpng, and portable grey and bit maps (Netpbm), which are a header
-/// and numbers.
+/// Files of pictures: PNG by libpng, and portable bit, grey and colour maps (Netpbm), which are a
+/// header and numbers. A colour counts as the mean of its three channels, as ROS' map_server has
+/// it.
 #include "io/image/image.h"
 
 #include "io/parts/limits.h"
@@ -103,10 +104,16 @@ static sl_status next_number(portable *file, bool digit, unsigned *value) {
     return SL_OK;
 }
 
-/// Pixels in binary: a bit, a byte or two bytes each, rows of bits padded to bytes.
-static sl_status read_binary(portable *file, bool bits, unsigned most, sl_image *image) {
+/// A channel of a pixel, from 0 to 255.
+static unsigned to_byte(unsigned value, unsigned most) {
+    return (value * 255u + most / 2) / most;
+}
+
+/// Channels in binary: a bit, a byte or two bytes each, rows of bits padded to bytes.
+static sl_status read_binary(portable *file, bool bits, unsigned channels, unsigned most,
+                             sl_image *image) {
     const size_t depth = most > 255 ? 2 : 1;
-    const size_t row_bytes = bits ? (image->width + 7) / 8 : image->width * depth;
+    const size_t row_bytes = bits ? (image->width + 7) / 8 : image->width * depth * channels;
     if (file->at < file->end) file->at++;
     if ((size_t)(file->end - file->at) / row_bytes < image->height)
         return sl_fail_at(file->context, file->name, 0,
@@ -115,27 +122,34 @@ static sl_status read_binary(portable *file, bool bits, unsigned most, sl_image 
     for (size_t y = 0; y < image->height; y++) {
         const unsigned char *row = (const unsigned char *)file->at + y * row_bytes;
         for (size_t x = 0; x < image->width; x++) {
-            unsigned value;
-            if (bits)
-                value = row[x / 8] >> (7 - x % 8) & 1 ? 0 : most;
-            else
-                value = depth == 1 ? row[x] : 256u * row[2 * x] + row[2 * x + 1];
-            if (value > most) value = most;
-            image->pixels[y * image->width + x] = (unsigned char)((value * 255u + most / 2) / most);
+            unsigned sum = 0;
+            for (size_t i = channels * x; i < channels * (x + 1); i++) {
+                unsigned value;
+                if (bits)
+                    value = row[i / 8] >> (7 - i % 8) & 1 ? 0 : most;
+                else
+                    value = depth == 1 ? row[i] : 256u * row[2 * i] + row[2 * i + 1];
+                sum += to_byte(value > most ? most : value, most);
+            }
+            image->pixels[y * image->width + x] = (unsigned char)(sum / channels);
         }
     }
     return SL_OK;
 }
 
-static sl_status read_plain(portable *file, bool bits, unsigned most, sl_image *image) {
+static sl_status read_plain(portable *file, bool bits, unsigned channels, unsigned most,
+                            sl_image *image) {
     for (size_t i = 0; i < image->width * image->height; i++) {
-        unsigned value;
-        SL_TRY(next_number(file, bits, &value));
-        if (value > most)
-            return sl_fail_at(file->context, file->name, file->line,
-                              "a pixel of %u: at most %u was announced", value, most);
-        if (bits) value = 1 - value;
-        image->pixels[i] = (unsigned char)((value * 255u + most / 2) / most);
+        unsigned sum = 0;
+        for (unsigned k = 0; k < channels; k++) {
+            unsigned value;
+            SL_TRY(next_number(file, bits, &value));
+            if (value > most)
+                return sl_fail_at(file->context, file->name, file->line,
+                                  "a pixel of %u: at most %u was announced", value, most);
+            sum += to_byte(bits ? 1 - value : value, most);
+        }
+        image->pixels[i] = (unsigned char)(sum / channels);
         if (i % 65536 == 0) SL_TRY(sl_check_cancelled(file->context));
     }
     return SL_OK;
@@ -144,6 +158,7 @@ static sl_status read_plain(portable *file, bool bits, unsigned most, sl_image *
 static sl_status read_portable(portable *file, sl_image *image) {
     const char kind = file->at[1];
     const bool bits = kind == '1' || kind == '4';
+    const unsigned channels = kind == '3' || kind == '6' ? 3 : 1;
     unsigned width, height, most = 1;
     file->at += 2;
     SL_TRY(next_number(file, false, &width));
@@ -159,7 +174,8 @@ static sl_status read_portable(portable *file, sl_image *image) {
                           "%u x %u pixels need at least %" PRIu64 " bytes; the file has %" PRIu64,
                           width, height, least, left);
     SL_TRY(make_room(file->context, file->name, width, height, image));
-    return kind >= '4' ? read_binary(file, bits, most, image) : read_plain(file, bits, most, image);
+    return kind >= '4' ? read_binary(file, bits, channels, most, image)
+                       : read_plain(file, bits, channels, most, image);
 }
 
 /// What a picture is that is not read; NULL for what is not known.
@@ -176,7 +192,7 @@ static sl_status fail_kind(sl_context *context, const char *name, const char *by
         return sl_fail_at(context, name, 0, "a %s picture, whatever its name says: save it as PNG",
                           kind);
     return sl_fail_at(context, name, 0,
-                      "neither PNG nor a portable grey or bit map (P1, P2, P4, P5)");
+                      "neither PNG nor a portable bit, grey or colour map (P1 to P6)");
 }
 
 sl_status sl_image_read(sl_context *context, const char *name, const char *bytes, size_t size,
@@ -185,7 +201,7 @@ sl_status sl_image_read(sl_context *context, const char *name, const char *bytes
     sl_status status;
     if (size >= 8 && memcmp(bytes, signature, 8) == 0) {
         status = read_png(context, name, bytes, size, &image);
-    } else if (size >= 3 && bytes[0] == 'P' && bytes[1] && strchr("1245", bytes[1])) {
+    } else if (size >= 3 && bytes[0] == 'P' && bytes[1] >= '1' && bytes[1] <= '6') {
         portable file = {context, name, bytes, bytes + size, 1};
         status = read_portable(&file, &image);
     } else {

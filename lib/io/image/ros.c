@@ -11,6 +11,12 @@
 #include <string.h>
 #include <yaml.h>
 
+/// The usual thresholds, which older loaders had where a file has none.
+#define FREE     0.196
+#define OCCUPIED 0.65
+/// Less than any darkness but none.
+#define LEAST (0.5 / 255)
+
 typedef struct ros_map {
     sl_context *context;
     const char *name;
@@ -146,6 +152,18 @@ static sl_status read_yaml(ros_map *m, const char *text, size_t size) {
     return SL_OK;
 }
 
+/// A free_thresh of 0 takes no pixel as free: some tools write it for a value that they do not
+/// know.
+static void settle_thresholds(ros_map *m) {
+    if (m->free > 0) return;
+    m->free = FREE;
+    if (m->occupied <= 0) m->occupied = OCCUPIED;
+    sl_note(m->context,
+            "%s: free_thresh 0 leaves no free ground, so it cannot be meant: free_thresh %g and "
+            "occupied_thresh %g are taken, as is usual; --threshold T takes others",
+            m->name, m->free, m->occupied);
+}
+
 /// The picture as named or, since maps are often renamed, one that has the map's own name.
 static sl_status find_image(const ros_map *m, char **path) {
     *path = sli_beside_path(m->context, m->name, (sli_word){m->image, strlen(m->image)});
@@ -236,6 +254,14 @@ static void note_taken(const ros_map *m, const sl_image *image, const sli_image_
             walls == 1 ? "" : "s", unknown);
 }
 
+static void note_no_walls(const ros_map *m, const sl_image *image, size_t solid) {
+    sl_note(m->context,
+            "%s: it has no walls, as %s: --threshold T, from 0 to 1, takes what is darker than T "
+            "as solid",
+            m->name,
+            solid == image->width * image->height ? "all pixels are solid" : "no pixel is solid");
+}
+
 static sl_status read_map(ros_map *m, const sl_import_options *options, const char *text,
                           size_t size, sl_map *map) {
     sl_image image = {0};
@@ -244,9 +270,10 @@ static sl_status read_map(ros_map *m, const sl_import_options *options, const ch
     SL_TRY(read_yaml(m, text, size));
     SL_TRY(read_image(m, &image));
     const bool given = options->threshold > 0;
+    if (!given) settle_thresholds(m);
     // What is occupied is no free ground, whatever free_thresh says: as map_server reads it.
-    const sli_image_plan plan = {.threshold =
-                                     given ? options->threshold : fmin(m->free, m->occupied),
+    const double least = fmax(fmin(m->free, m->occupied), LEAST);
+    const sli_image_plan plan = {.threshold = given ? options->threshold : least,
                                  .light = m->negate != 0,
                                  .solid_outside = !given,
                                  .step = m->resolution,
@@ -256,6 +283,7 @@ static sl_status read_map(ros_map *m, const sl_import_options *options, const ch
     if (status == SL_OK) turn(m, map);
     if (status == SL_OK) note_taken(m, &image, &plan, solid, map->wall_count, given);
     if (status == SL_OK && !given) note_grey(m, &image);
+    if (status == SL_OK && !map->wall_count) note_no_walls(m, &image, solid);
     sl_image_destroy(m->context, &image);
     return status;
 }
@@ -263,7 +291,7 @@ static sl_status read_map(ros_map *m, const sl_import_options *options, const ch
 sl_status sli_map_read_ros(sl_context *context, const char *name, const char *text, size_t size,
                            const sl_import_options *options, sl_map *map) {
     sl_map read = {0};
-    ros_map m = {.context = context, .name = name, .free = 0.196, .occupied = 0.65};
+    ros_map m = {.context = context, .name = name, .free = FREE, .occupied = OCCUPIED};
     const sl_status status = read_map(&m, options, text, size, &read);
     sl_free(context, m.image);
     if (status == SL_OK)

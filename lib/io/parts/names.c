@@ -256,6 +256,23 @@ bool sli_says_start(const char *name) {
     return says(name, start_words, COUNT(start_words), start_neutral, COUNT(start_neutral));
 }
 
+static bool has_word(const char *text, const sli_name_word *word) {
+    for (sli_name_word own; sli_word_next(&text, &own);)
+        if (strcmp(own.text, word->text) == 0) return true;
+    return false;
+}
+
+bool sli_says_start_at(const char *name, const char *place) {
+    bool said = false;
+    for (sli_name_word word; sli_word_next(&name, &word);) {
+        if (IS_ONE_OF(&word, start_words))
+            said = true;
+        else if (!IS_ONE_OF(&word, start_neutral) && !has_word(place, &word))
+            return false;
+    }
+    return said;
+}
+
 bool sli_says_door(const char *name) {
     bool first = true, leads = false, said = false;
     for (sli_name_word word; sli_word_next(&name, &word); first = false) {
@@ -387,21 +404,22 @@ static uint32_t find_commonest(const uint32_t *sorted, size_t count, size_t *mos
     return commonest;
 }
 
-sl_status sli_numbers_but_commonest(sl_context *context, const uint32_t *numbers, size_t count,
-                                    size_t *most, char *text, size_t size) {
+sl_status sli_numbers_write(sl_context *context, const uint32_t *numbers, size_t count,
+                            bool but_commonest, size_t *most, char *text, size_t size) {
     uint32_t *sorted = sl_alloc_array(context, count ? count : 1, sizeof *sorted);
     if (!sorted) return SL_NO_MEMORY;
     if (count) memcpy(sorted, numbers, count * sizeof *sorted);
     qsort(sorted, count, sizeof *sorted, compare_numbers);
     const uint32_t commonest = find_commonest(sorted, count, most);
+    const uint64_t but = but_commonest ? commonest : UINT64_MAX;
     size_t used = 0;
     *text = '\0';
     for (size_t i = 0, next; i < count; i = next) {
         for (next = i + 1;
-             next < count && sorted[next] <= sorted[next - 1] + 1 && sorted[next] != commonest;)
+             next < count && sorted[next] <= sorted[next - 1] + 1 && sorted[next] != but;)
             next++;
-        if (sorted[i] == commonest) {
-            for (next = i; next < count && sorted[next] == commonest;) next++;
+        if (sorted[i] == but) {
+            for (next = i; next < count && sorted[next] == but;) next++;
             continue;
         }
         char own[40];

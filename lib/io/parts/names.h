@@ -48,10 +48,10 @@ bool sli_layers_ask(const char *list, const char *layer, sli_word *numbers);
 bool sli_numbers_good(sli_word numbers);
 /// Whether a number is among them; any is among none.
 bool sli_numbers_have(sli_word numbers, uint64_t number);
-/// Writes all of the numbers but the most frequent one, as they are asked for: "1+3-5"; "" where
-/// all are the same. What does not fit is left out. *most: how often that one is there.
-sl_status sli_numbers_but_commonest(sl_context *context, const uint32_t *numbers, size_t count,
-                                    size_t *most, char *text, size_t size);
+/// Writes the numbers, or all but the most frequent one, as they are asked for: "1+3-5"; "" for
+/// none. What does not fit is left out. *most: how often the most frequent one is there.
+sl_status sli_numbers_write(sl_context *context, const uint32_t *numbers, size_t count,
+                            bool but_commonest, size_t *most, char *text, size_t size);
 
 /// Names for a message: "walls, doors, ...". Zeroed, it is empty.
 typedef struct sli_name_list {
@@ -120,6 +120,8 @@ bool sli_mentions_solid(const char *name);
 /// for nothing in particular (point, position, marker ...), one of the first at least:
 /// "Player_Spawn 2", but not "starting_room" or "enemy_spawn".
 bool sli_says_start(const char *name);
+/// The same where words of the place may stand beside them: "spawn_cellar" in cellar.tmx.
+bool sli_says_start_at(const char *name, const char *place);
 
 /// Whether the name is that of a door or gate: its last word says so ("KitchenDoor"), or its first
 /// one and all others say what door ("door_left"), but not "door_key" or "trap door".

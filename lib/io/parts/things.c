@@ -58,6 +58,12 @@ void sli_says_add(sli_says *says, const char *property, bool value) {
 
 void sli_says_add_text(sli_says *says, const char *property, const char *value) {
     const bool by_word = sli_says_state_by_word(property);
+    const bool yes = strcasecmp(value, "true") == 0 || strcmp(value, "1") == 0;
+    const bool no = strcasecmp(value, "false") == 0 || strcmp(value, "0") == 0;
+    if (sli_says_state_alone(property) != SLI_DOOR_UNSAID && (yes || no)) {
+        sli_says_add(says, property, yes);
+        return;
+    }
     const sli_door_state state = by_word ? sli_says_state(value) : SLI_DOOR_UNSAID;
     if (state != SLI_DOOR_UNSAID)
         sli_says_add(says, state == SLI_DOOR_OPEN ? "open" : "shut", true);
@@ -107,13 +113,25 @@ static sl_status remember(sli_things *things, const char *name) {
     return SL_OK;
 }
 
+/// Tells of a property of a door that is not understood, once for all doors of one name.
+static void tell_unclear(sli_things *things, const sli_says *says) {
+    char both[128];
+    const size_t before = things->unclear.count;
+    snprintf(both, sizeof both, "%s' of door '%s",
+             sli_show((sli_word){says->unclear, strlen(says->unclear)}).text,
+             sli_show((sli_word){says->name, strlen(says->name)}).text);
+    add_name(&things->unclear, both);
+    if (things->unclear.count == before || before >= SLI_NAMES_SHOWN) return;
+    sl_note(things->context, "%s: property '%s' is not understood", things->file, both);
+}
+
 sl_status sli_things_ask(sli_things *things, const char *name, const char *class_name,
                          sli_says *says) {
     const char *names = things->options->start_names;
-    if (says->kind == SLI_THING_DOOR && says->unclear && things->unclear++ < SLI_NAMES_SHOWN)
-        sl_note(things->context, "%s: property '%s' of door '%s' is not understood", things->file,
-                sli_show((sli_word){says->unclear, strlen(says->unclear)}).text,
-                sli_show((sli_word){says->name, strlen(says->name)}).text);
+    if (says->kind == SLI_THING_DOOR && says->unclear) tell_unclear(things, says);
+    if (!says->kind && name && !(class_name && sli_game_says_other(class_name)) &&
+        sli_says_start_at(name, sl_path_name(things->file)))
+        *says = (sli_says){.kind = SLI_THING_START, .name = name};
     if (!names) return SL_OK;
     if (says->kind == SLI_THING_START) *says = (sli_says){0};
     if (takes_none(things)) return SL_OK;

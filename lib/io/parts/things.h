@@ -79,9 +79,9 @@ typedef struct sli_things {
     SL_ARRAY(sli_door_run) runs; ///< of the block at hand
     char *seen[SLI_NAMES_SHOWN]; ///< names of objects, each once, for the message
     size_t seen_count;
-    sli_name_text left;  ///< objects that are neither starts nor doors nor walls
-    sli_name_text doubt; ///< those of them whose names have the word "door"
-    size_t unclear;      ///< doors whose state is not understood
+    sli_name_text left;    ///< objects that are neither starts nor doors nor walls
+    sli_name_text doubt;   ///< those of them whose names have the word "door"
+    sli_name_text unclear; ///< properties of doors that are not understood
     size_t grids;
     size_t shapes; ///< the map's first walls, which are not of squares
     size_t casts;  ///< walls that rays from doors were held against

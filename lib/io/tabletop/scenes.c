@@ -3,7 +3,7 @@
 /// A scene is a document with a list of walls. An adventure has a list of scenes. Up to version 10,
 /// worlds and compendium packs were databases of NeDB (.db): a document a line; a later line with
 /// the same _id replaces an earlier one, and a line with "$$deleted" removes it. Later versions
-/// have folders of LevelDB, which are no text.
+/// have folders of LevelDB, which are no text. Modules keep lists of scenes under a key of theirs.
 #include "io/tabletop/scenes.h"
 
 #include "map/scan.h"
@@ -161,8 +161,22 @@ static bool is_bare(const json_t *scene) {
            !json_object_get(flags, "sightline");
 }
 
+/// The list of scenes under a key of a module's, which begins with one that has walls; NULL for
+/// none.
+static json_t *list_of_module(json_t *root) {
+    const char *key;
+    json_t *list;
+    json_object_foreach(root, key, list) {
+        const json_t *walls = json_object_get(json_array_get(list, 0), "walls");
+        if (json_object_get(json_array_get(walls, 0), "c")) return list;
+    }
+    return NULL;
+}
+
 static sl_status take_root(sli_scenes *scenes, bool of_lines) {
     json_t *root = scenes->file.root, *document;
+    json_t *list = list_of_module(root);
+    if (list && !json_object_get(root, "walls") && !json_object_get(root, "scenes")) root = list;
     const json_t *first = json_array_get(root, 0);
     const char *key;
     size_t i;

@@ -125,7 +125,12 @@ static sl_status find_place(const sli_tiled_reader *reader, const sli_json *laye
         return SL_OK;
     }
     own->word = word_of_layer(reader, layer, own);
-    return SL_OK;
+    own->tiles_decide = false;
+    const bool tiles = strcmp(sli_json_text_of(layer, "type"), "tilelayer") == 0;
+    if (!tiles || own->word != SLI_TILED_SOLID || reader->by || map_names(reader, name) ||
+        sli_game_says_stops(name) || sli_tiled_word_of(layer, "class") != SLI_TILED_UNSAID)
+        return SL_OK;
+    return sli_tiled_ask_tiles(reader, layer, own);
 }
 
 /// What a file of our own says of the whole map.

@@ -303,6 +303,7 @@ typedef struct sli_tiled_place {
     sli_tiled_word word;
     sli_game_kind kind; ///< by its name
     bool moves;         ///< against what is behind it: by a parallax
+    bool tiles_decide;  ///< what its tiles say goes over its name
     bool others;        ///< its objects are enemies, items, triggers
     bool beside;        ///< it is drawn below or above the player
     sli_word gids;      ///< the tiles that are asked for; of no length for all
@@ -379,6 +380,10 @@ sl_status sli_tiled_check_squares(const sli_tiled_reader *reader, const sli_json
 /// Whether layers of tiles named for walls are a picture beside layers that stop:
 /// reader->walls_are_pictures.
 sl_status sli_tiled_look_beside(sli_tiled_reader *reader);
+/// Whether the tiles of a layer that is named for walls decide which of them are solid:
+/// own->tiles_decide. To be asked where the name is all that says so.
+sl_status sli_tiled_ask_tiles(const sli_tiled_reader *reader, const sli_json *layer,
+                              sli_tiled_place *own);
 /// Whether nearly all squares have tiles, and nearly all of these say that they are solid.
 bool sli_tiled_all_solid(const sli_tiled_sets *sets, const uint32_t *gids, size_t count);
 

@@ -1,4 +1,4 @@
-/// Two doubts about what a map of Tiled says, which only a look at all of its tiles settles.
+/// Three doubts about what a map of Tiled says, which only a look at all of its tiles settles.
 ///
 /// - Layers of tiles named for walls may be their picture only. Where others say what stops a
 ///   player (a layer "collisions", objects), and these lie on at least a third of the pictured
@@ -7,6 +7,8 @@
 ///   objects by their boxes.
 /// - A layer without gaps, nearly all of whose tiles say that they are solid, is a floor with a
 ///   property that was set on all tiles. It would leave no room to stand in.
+/// - A layer named for walls has tiles that say that they are solid, and others that do not. If the
+///   first are at least half, a game asks the tiles: the others are doors that stand open.
 ///
 /// Time O(tiles + objects).
 #include "io/tiled/tiled.h"
@@ -25,6 +27,63 @@ bool sli_tiled_all_solid(const sli_tiled_sets *sets, const uint32_t *gids, size_
             set && sli_tiled_word_of_tile(set, sli_tiled_find_tile(set, gid)) == SLI_TILED_SOLID;
     }
     return solid && 20 * any >= 19 * count && 20 * solid >= 19 * any;
+}
+
+/// Adds the tiles of a layer or a chunk, and those that say that they are solid. *known: no tileset
+/// of these is missing.
+static sl_status count_said(const sli_tiled_reader *reader, const sli_json *layer,
+                            const sli_json *holder, size_t *all, size_t *solid, bool *known) {
+    const sli_json width = sli_json_member(holder, "width");
+    const sli_json height = sli_json_member(holder, "height");
+    const sli_json data = sli_json_member(holder, "data");
+    int64_t columns, rows;
+    uint32_t *gids;
+    SL_TRY(sli_json_whole(&width, 1, INT32_MAX, &columns));
+    SL_TRY(sli_json_whole(&height, 1, INT32_MAX, &rows));
+    SL_TRY(sli_tiled_check_squares(reader, layer, columns, rows));
+    const size_t count = (size_t)(columns * rows);
+    SL_TRY(sli_tiled_read_data(layer, &data, count, &gids));
+    for (size_t i = 0; i < count; i++) {
+        const uint32_t gid = gids[i] & SLI_TILED_TILE;
+        const sli_tiled_set *set = gid ? sli_tiled_find_set(&reader->sets, gid) : NULL;
+        const sli_tiled_tile *tile = set ? sli_tiled_find_tile(set, gid) : NULL;
+        *all += gid != 0;
+        *known &= !set || !set->missing;
+        *solid += sli_tiled_word_of_tile(set, tile) == SLI_TILED_SOLID;
+    }
+    sl_free(reader->context, gids);
+    return SL_OK;
+}
+
+sl_status sli_tiled_ask_tiles(const sli_tiled_reader *reader, const sli_json *layer,
+                              sli_tiled_place *own) {
+    const sli_json infinite = sli_json_member(reader->map, "infinite");
+    const sli_json chunks = sli_json_member(layer, "chunks");
+    const char *name = sli_json_text_of(layer, "name");
+    size_t all = 0, solid = 0;
+    bool known = true;
+    if (!chunks.value && !sli_json_true(&infinite, NULL))
+        SL_TRY(count_said(reader, layer, layer, &all, &solid, &known));
+    for (size_t i = 0; i < json_array_size(chunks.value); i++) {
+        const sli_json chunk = sli_json_item(&chunks, i);
+        SL_TRY(sli_json_object(&chunk));
+        SL_TRY(count_said(reader, layer, &chunk, &all, &solid, &known));
+    }
+    if (!solid || solid == all || !known) return SL_OK;
+    const sli_shown shown = sli_show((sli_word){name, strlen(name)});
+    own->tiles_decide = 2 * solid >= all;
+    if (own->tiles_decide)
+        sl_note(reader->context,
+                "%s: layer '%s': %zu of its %zu tiles say that they are solid, and the others are "
+                "taken as open; if these are walls, give all layers that are solid: --layers "
+                "'...,%s'",
+                reader->map->file->name, shown.text, solid, all, shown.text);
+    else
+        sl_note(reader->context,
+                "%s: layer '%s' is taken whole by its name, and only %zu of its %zu tiles say that "
+                "they are solid; if only some are, give them by number: --layers '%s:28+33-35'",
+                reader->map->file->name, shown.text, solid, all, shown.text);
+    return SL_OK;
 }
 
 // --- pictures of walls

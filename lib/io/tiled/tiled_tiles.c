@@ -297,7 +297,7 @@ static sl_status take_tile(sli_tiled_reader *reader, const sli_tiled_place *at, 
     if (set && set->missing) reader->lost_tiles++;
     if (tile && tile->says.kind == SLI_THING_DOOR && !at->gids.length)
         return take_door(reader, at, all, i, tile);
-    if (at->word == SLI_TILED_SOLID) {
+    if (at->word == SLI_TILED_SOLID && !at->tiles_decide) {
         const bool solid =
             at->gids.length ? sli_numbers_have(at->gids, gid) : word != SLI_TILED_OPEN;
         if (solid) *square_of(reader, all, i) = '#';
@@ -320,7 +320,7 @@ static sl_status check_shapes(sli_tiled_reader *reader, const sli_tiled_place *a
         const uint32_t gid = all->gids[i] & SLI_TILED_TILE;
         const sli_tiled_set *set = gid ? sli_tiled_find_set(&reader->sets, gid) : NULL;
         sli_tiled_tile *tile = set ? sli_tiled_find_tile(set, gid) : NULL;
-        if (!tile || !tile->shapes || at->word == SLI_TILED_SOLID ||
+        if (!tile || !tile->shapes || (at->word == SLI_TILED_SOLID && !at->tiles_decide) ||
             sli_tiled_word_of_tile(set, tile) != SLI_TILED_UNSAID)
             continue;
         if (tile->says.kind == SLI_THING_DOOR && !at->gids.length) continue;

@@ -115,7 +115,7 @@ static sl_status choose_tiles(const sli_tiled_reader *reader, const sli_tiled_se
     SL_TRY(sli_tiled_read_data(&layer, &data, count, &gids));
     for (size_t i = 0; i < count; i++) gids[i] &= SLI_TILED_TILE;
     const sl_status status =
-        sli_numbers_but_commonest(reader->context, gids, count, &most, text + 1, size - 1);
+        sli_numbers_write(reader->context, gids, count, true, &most, text + 1, size - 1);
     sl_free(reader->context, gids);
     *mostly = 5 * most >= 3 * count;
     if (status == SL_OK && text[1]) *text = ':';
@@ -298,6 +298,27 @@ static void tell_objects(const sli_tiled_reader *reader) {
             reader->objects == 1 ? " says that it is" : "s say that they are", tiles.text);
 }
 
+/// Few tiles that say that they are solid, and nothing else does: they may be tries, such as the
+/// first rocks of a map that is not done.
+static void tell_tiles(const sli_tiled_reader *reader) {
+    layer_text tiles = {.count = 0};
+    uint64_t count = 0;
+    for (size_t i = 0; i < reader->seen.count; i++) {
+        const sli_tiled_seen *layer = &reader->seen.items[i];
+        if (layer->objects || !layer->count) continue;
+        count += layer->count;
+        add_layer(&tiles, layer);
+    }
+    if (!reader->solid_tiles || 100 * (uint64_t)reader->solid_tiles > count ||
+        reader->solid_layers || reader->objects || reader->shapes)
+        return;
+    sl_note(reader->context,
+            "%s: only %zu of %llu tiles say%s solid, and nothing else does: if a layer is solid, "
+            "--layers NAME takes it, NAME:28+33-35 tiles of it: %s",
+            reader->map->file->name, reader->solid_tiles, (unsigned long long)count,
+            reader->solid_tiles == 1 ? "s that it is" : " that they are", tiles.text);
+}
+
 /// A layer named for ground with much air about it, as in a platformer, of which only a part says
 /// that it is solid, and no other layer is: the rest may be platforms that were forgotten, or that
 /// one jumps through.
@@ -355,6 +376,7 @@ sl_status sli_tiled_tell_meaning(const sli_tiled_reader *reader) {
     if (!reader->by) tell_beside(reader);
     if (!reader->by) tell_little(reader);
     if (!reader->by) tell_objects(reader);
+    if (!reader->by) tell_tiles(reader);
     if (!reader->by) tell_ground(reader);
     if (reader->by == SLI_TILED_BY_GUESS) {
         const sli_tiled_seen *layer = &reader->seen.items[reader->guess_layer];
