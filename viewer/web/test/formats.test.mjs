@@ -12,7 +12,7 @@ import { parsePath, parseTransform } from '../formats/svg-path.js';
 import { toHtml } from '../markdown.mjs';
 import { Camera, roundStep } from '../parts/camera.js';
 import { rampColour, rangeOf, valueAt } from '../parts/heat.js';
-import { drawPlan, measureOutline } from '../parts/plan.js';
+import { drawPlan, measureOutline, strokeLines } from '../parts/plan.js';
 import { SvgSurface } from '../parts/svg-surface.js';
 import { makeTones } from '../parts/tones.js';
 import { MapDocument } from '../playground/document.js';
@@ -317,4 +317,19 @@ test('what a step has done is told by kind, name and place', () => {
     const items = (statement) => parseMap(`sightline 1\n${statement}\n`);
     assert.equal(tellChange([], items('wall 0 0 3 4')), 'Added: wall from 0, 0 to 3, 4, length 5');
     assert.equal(tellChange([], items('object crate 4 4 5 5')), 'Added: object crate from 4, 4 to 5, 5');
+});
+
+test('very many lines: equal ones are drawn once, others all, in several paths', () => {
+    const camera = new Camera(800, 600);
+    camera.fit([0, 0, 100, 75]);
+    const drawn = (lines) => {
+        const count = { lines: 0, paths: 0 };
+        const surface = { beginPath() {}, setLineDash() {}, moveTo() { count.lines++; }, lineTo() {}, stroke() { count.paths++; } };
+        strokeLines(surface, camera, lines, 'black', 1);
+        return count;
+    };
+    const many = (n, line) => Array.from({ length: n }, (_, i) => line(i));
+    assert.deepEqual(drawn(many(30000, () => [10, 10, 60, 40])), { lines: 1, paths: 1 });
+    assert.deepEqual(drawn(many(30000, (i) => [10, 10, 60, 40 + i / 1000])), { lines: 30000, paths: 30 });
+    assert.deepEqual(drawn(many(2000, () => [10, 10, 60, 40])), { lines: 2000, paths: 1 });
 });
