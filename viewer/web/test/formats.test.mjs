@@ -18,6 +18,7 @@ import { makeTones } from '../parts/tones.js';
 import { MapDocument } from '../playground/document.js';
 import { moveEnds, pick, snapTo } from '../playground/pick.js';
 import { packMap, unpackMap } from '../playground/share.js';
+import { isDoorName, isSolidName, isStartName, lists } from '../formats/words.js';
 import { tellChange } from '../playground/told.js';
 import { bakeNative, needsNative, shapes } from './native.mjs';
 
@@ -332,4 +333,17 @@ test('very many lines: equal ones are drawn once, others all, in several paths',
     assert.deepEqual(drawn(many(30000, () => [10, 10, 60, 40])), { lines: 1, paths: 1 });
     assert.deepEqual(drawn(many(30000, (i) => [10, 10, 60, 40 + i / 1000])), { lines: 30000, paths: 30 });
     assert.deepEqual(drawn(many(2000, () => [10, 10, 60, 40])), { lines: 2000, paths: 1 });
+});
+
+test('words that name things are those of the command', () => {
+    const source = readFileSync(join(root, 'lib/io/parts/names.c'), 'utf8').replace(/\/\/.*/g, '');
+    for (const [name, words] of Object.entries(lists)) {
+        const body = source.split(`static const char *const ${name}[] = {`)[1].split('};')[0];
+        assert.deepEqual([...words], [...body.matchAll(/"([^"]+)"/g)].map(([, word]) => word), name);
+    }
+    const which = (is, names) => names.filter(is);
+    assert.deepEqual(which(isSolidName, ['WallTops', 'Collisions', 'Kollision', 'not walkable', 'walkable', 'no wall', '当たり判定']),
+        ['Collisions', 'Kollision', 'not walkable', '当たり判定']);
+    assert.deepEqual(which(isStartName, ['Entrance', 'Player_1', 'PlayerHouse', 'start point']), ['Entrance', 'Player_1', 'start point']);
+    assert.deepEqual(which(isDoorName, ['door_left', 'FrontDoor', 'trap door', 'doorbell', 'Gate']), ['door_left', 'FrontDoor', 'Gate']);
 });
