@@ -335,6 +335,24 @@ test('very many lines: equal ones are drawn once, others all, in several paths',
     assert.deepEqual(drawn(many(2000, () => [10, 10, 60, 40])), { lines: 2000, paths: 1 });
 });
 
+test('objects of Tiled that are pictures stand on their place, and what a tile or value is taken for is said', async () => {
+    const thing = { x: 8, y: 16, width: 8, height: 8 };
+    const map = { tilewidth: 8, tileheight: 8, width: 2, height: 2, layers: [
+        { type: 'tilelayer', name: 'floor', width: 2, height: 2, data: [1, 1, 1, 1] },
+        { type: 'objectgroup', name: 'walls', objects: [{ ...thing, gid: 1 }, { ...thing, y: 8 }, { ...thing, name: 'Player', gid: 1 }] }],
+    tilesets: [{ firstgid: 2, tiles: [{ id: 0, objectgroup: { objects: [thing] } }] }] };
+    const { items, notes } = await read(JSON.stringify(map));
+    assert.deepEqual(items.map(({ kind, points }) => [kind, ...points]),
+        [['solid', 8, 8, 16, 8, 16, 0, 8, 0], ['solid', 8, 8, 16, 8, 16, 0, 8, 0], ['start', 12, 4]]);
+    assert.deepEqual(notes, ['1 tile with shapes of collision: each is solid as a whole', 'layers of tiles without a solid one: floor']);
+    const values = [{ value: 1, identifier: 'wall' }, { value: 2, identifier: 'water' }];
+    const layer = { __type: 'IntGrid', __identifier: 'grid', __gridSize: 8, __cWid: 2, __cHei: 1, layerDefUid: 1, intGridCsv: [1, 0] };
+    const project = (intGridValues) => JSON.stringify({ jsonVersion: '1', defs: { layers: [{ uid: 1, intGridValues }] },
+        levels: [{ pxWid: 16, pxHei: 8, layerInstances: [layer] }] });
+    assert.deepEqual((await read(project(values))).notes, ['solid are the values wall, and open water']);
+    assert.deepEqual((await read(project(values.slice(1)))).notes, ['all values are solid: water']);
+});
+
 test('words that name things are those of the command', () => {
     const source = readFileSync(join(root, 'lib/io/parts/names.c'), 'utf8').replace(/\/\/.*/g, '');
     for (const [name, words] of Object.entries(lists)) {
