@@ -117,7 +117,10 @@ static void what_is_shown(void **state) {
     char blind[64];
     assert_true(seen->blind_count > 0);
     snprintf(blind, sizeof blind, ">Blind spots: 1: %.4g m\xc2\xb2 at ", seen->blind[0].area);
-    assert_prints(&s, (const char *const[]){">Gate &amp; lift<", sees, "Not seen: ", blind, NULL});
+    char classes[96];
+    snprintf(classes, sizeof classes, ">Not seen: %.4g m\xc2\xb2; seen by 1: %.4g m\xc2\xb2.<",
+             sl_coverage_class_area(seen, 0), sl_coverage_class_area(seen, 1));
+    assert_prints(&s, (const char *const[]){">Gate &amp; lift<", sees, classes, blind, NULL});
     assert_non_null(strstr(app->ui.message, "printed at 1:100 on A3 to "));
     close_plan(&s);
 }

@@ -524,7 +524,7 @@ for (const name of wanted)
             for (const [i, sheet] of sheets.entries()) {
                 const { cells } = await comparesWithNative(page, `sheet${i}.svg`, svg(`<style>${sheet.replace('>', '&gt;')}</style><g id="o">${rect('class="no"')}</g>`));
                 shown += cells.length > 1;
-                assert.equal(/Left out.*rule/.test(await message(page)), i === 6 || i === 8, sheet);
+                assert.equal(/Left out[^.]*rule/.test(await message(page)), i === 6 || i === 8, sheet);
             }
             assert.equal(shown, 4);
             await context.close();
