@@ -67,13 +67,20 @@ static char *print(const scene *s, const char *paper, const char *scale) {
     return bytes.data;
 }
 
+/// A length of the sheet, as its first element has it.
+static double points_of(const char *sheet, const char *name) {
+    const char *at = strstr(sheet, name);
+    char *end;
+    assert_non_null(at);
+    const double points = strtod(at + strlen(name), &end);
+    assert_memory_equal(end, "pt\"", 3);
+    return points;
+}
+
 static void assert_prints(const scene *s, const char *const *texts) {
     char *sheet = print(s, "3", "1");
     assert_non_null(sheet);
-    double wide, high; // points
-    const char *size = strstr(sheet, " width=\"");
-    assert_non_null(size);
-    assert_int_equal(sscanf(size, " width=\"%lfpt\" height=\"%lfpt\"", &wide, &high), 2);
+    const double wide = points_of(sheet, " width=\""), high = points_of(sheet, " height=\"");
     assert_true(fabs(wide - 420 * 72 / 25.4) < 0.1 && fabs(high - 297 * 72 / 25.4) < 0.1);
     assert_non_null(strstr(sheet, "1:100"));
     for (; *texts; texts++)
