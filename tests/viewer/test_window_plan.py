@@ -58,6 +58,15 @@ def steps(width, height, other):
     ]
 
 
+def settings(folder, display, size, density):
+    """The environment of a viewer that begins with a window of this size."""
+    conf = folder / "config/sightline/view.conf"
+    conf.parent.mkdir(parents=True)
+    conf.write_text(f"width {size[0] / density:g}\nheight {size[1] / density:g}\n")
+    return environment(DISPLAY=display, XDG_CONFIG_HOME=str(folder / "config"),
+                       XDG_STATE_HOME=str(folder / "state"))
+
+
 def export(window, folder):
     """The table of the tool at hand, by keys alone."""
     path = folder / "exported.csv"
@@ -73,11 +82,7 @@ def in_window(viewer, display, size, density):
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         width, height = size
-        shown = environment(DISPLAY=display, XDG_CONFIG_HOME=str(folder / "config"),
-                            XDG_STATE_HOME=str(folder / "state"))
-        conf = folder / "config/sightline/view.conf"
-        conf.parent.mkdir(parents=True)
-        conf.write_text(f"width {width / density:g}\nheight {height / density:g}\n")
+        shown = settings(folder, display, size, density)
         all_steps = steps(width, height, viewer.root / "maps/courtyard.map")
         script = f"size {width} {height}\ndensity {density}\n"
         for step, _, commands in all_steps:
@@ -112,11 +117,7 @@ def kept(viewer, display, size, density):
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         width, height = size
-        shown = environment(DISPLAY=display, XDG_CONFIG_HOME=str(folder / "config"),
-                            XDG_STATE_HOME=str(folder / "state"))
-        conf = folder / "config/sightline/view.conf"
-        conf.parent.mkdir(parents=True)
-        conf.write_text(f"width {width / density:g}\nheight {height / density:g}\n")
+        shown = settings(folder, display, size, density)
         x, y = round(0.12 * width), round(0.3 * height)
         x0, y0, x1, y1 = (round(0.08 * width), round(0.2 * height), round(0.2 * width),
                           round(0.22 * height))
@@ -158,11 +159,7 @@ def reading(viewer, display, size, density):
         path = folder / "house.dxf"
         path.write_text(house())
         width, height = size
-        shown = environment(DISPLAY=display, XDG_CONFIG_HOME=str(folder / "config"),
-                            XDG_STATE_HOME=str(folder / "state"))
-        conf = folder / "config/sightline/view.conf"
-        conf.parent.mkdir(parents=True)
-        conf.write_text(f"width {width / density:g}\nheight {height / density:g}\n")
+        shown = settings(folder, display, size, density)
         inside = round(0.12 * width), round(0.45 * height)
         # Eleven widgets on from the filter is "Here is inside", and two from there "Close it".
         to_inside, to_close = ["Tab"] * 11, ["Tab"] * 2
@@ -202,8 +199,8 @@ def reading(viewer, display, size, density):
 
 
 def by_keys(viewer, display, size, density):
-    """A building, with the keyboard alone: a way from one storey to the other, cameras from a table and one
-    more, named, their table and a sheet of paper."""
+    """With the keyboard alone: an opening of a drawing is closed. In a building, a way from one storey to the
+    other on paper, cameras from a table and one more, named, and their table."""
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         for storey, source in (("ground", "office"), ("upper", "courtyard")):
@@ -213,11 +210,16 @@ def by_keys(viewer, display, size, density):
         building.write_text("storeys 1\nstorey ground ground.map\nstorey upper upper.map\n"
                             "link stair ground 3,3 upper 3,3 4\n")
         (folder / "given.csv").write_text("name,x,y,heading,fov,range\nHall,3,3,45,90,10\n")
-        shown = environment(DISPLAY=display, XDG_CONFIG_HOME=str(folder / "config"),
-                            XDG_STATE_HOME=str(folder / "state"))
-        conf = folder / "config/sightline/view.conf"
-        conf.parent.mkdir(parents=True)
-        conf.write_text(f"width {size[0] / density:g}\nheight {size[1] / density:g}\n")
+        shown = settings(folder, display, size, density)
+        (folder / "house.dxf").write_text(house())
+        session = Session(viewer, folder, shown, folder / "house.dxf")
+        session.shows("house.dxf")
+        session.keys(*["Tab"] * 11, "Return", "Return")
+        time.sleep(1)
+        session.keys("Tab", "Tab", "Return", "Return", "ctrl+q")
+        session.ends("an opening by keys")
+        drawings = (folder / "config/sightline/drawings").read_text()
+        viewer.check("start " in drawings and "closed " in drawings, f"not closed by keys: {drawings}")
         session = Session(viewer, folder, shown, building)
         session.keys("Return")
         session.shows("ground.map")
