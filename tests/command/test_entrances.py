@@ -108,7 +108,7 @@ class Entrances(sandbox.ProgramTest):
                     told = self.run_well("bake", name, "-o", "b.slv").stderr
                     self.assertRegex(told, r"an opening 2( m)? wide, at .* so inside is doubtful: all "
                                      r"of the map counts as inside; a start in a room decides it, "
-                                     rf"or an entrance of 2 if it is one: sightline check {name} --entrance 2\n")
+                                     rf"or an entrance of 2 if the opening is one: sightline check {name} --entrance 2\n")
                     for command, *options in WIDE:
                         self.refused_and_typed(command, name, options, degrees)
                     cells, area = self.inside(name, "--entrance", "2")

@@ -66,6 +66,7 @@ class Paper(sandbox.ProgramTest):
         self.assertEqual(self.row(text, "area inside")[0][:14], "240 square m, ")
         self.assertEqual(self.row(text, "doors")[0], "1, 1 of them open")
         self.assertIn("Method and exactness", text)
+        self.assertRegex(text, "area, m²  .*mean of isovist area, m²")
         self.run_well("rooms", "rooms.map", "--grid", "0.5", "-o", "rooms.csv", "--quiet")
         with open(self.box.path("rooms.csv")) as file:
             for row in csv.DictReader(file):

@@ -67,13 +67,20 @@ static char *print(const scene *s, const char *paper, const char *scale) {
     return bytes.data;
 }
 
+/// A length of the sheet, as its first element has it.
+static double points_of(const char *sheet, const char *name) {
+    const char *at = strstr(sheet, name);
+    char *end;
+    assert_non_null(at);
+    const double points = strtod(at + strlen(name), &end);
+    assert_memory_equal(end, "pt\"", 3);
+    return points;
+}
+
 static void assert_prints(const scene *s, const char *const *texts) {
     char *sheet = print(s, "3", "1");
     assert_non_null(sheet);
-    double wide, high; // points
-    const char *size = strstr(sheet, " width=\"");
-    assert_non_null(size);
-    assert_int_equal(sscanf(size, " width=\"%lfpt\" height=\"%lfpt\"", &wide, &high), 2);
+    const double wide = points_of(sheet, " width=\""), high = points_of(sheet, " height=\"");
     assert_true(fabs(wide - 420 * 72 / 25.4) < 0.1 && fabs(high - 297 * 72 / 25.4) < 0.1);
     assert_non_null(strstr(sheet, "1:100"));
     for (; *texts; texts++)
@@ -117,7 +124,10 @@ static void what_is_shown(void **state) {
     char blind[64];
     assert_true(seen->blind_count > 0);
     snprintf(blind, sizeof blind, ">Blind spots: 1: %.4g m\xc2\xb2 at ", seen->blind[0].area);
-    assert_prints(&s, (const char *const[]){">Gate &amp; lift<", sees, "Not seen: ", blind, NULL});
+    char classes[96];
+    snprintf(classes, sizeof classes, ">Not seen: %.4g m\xc2\xb2; seen by 1: %.4g m\xc2\xb2.<",
+             sl_coverage_class_area(seen, 0), sl_coverage_class_area(seen, 1));
+    assert_prints(&s, (const char *const[]){">Gate &amp; lift<", sees, classes, blind, NULL});
     assert_non_null(strstr(app->ui.message, "printed at 1:100 on A3 to "));
     close_plan(&s);
 }

@@ -5,6 +5,7 @@ what the same script shows without a window, and tables that are exported hold t
 where Xvfb or xdotool is not there.
 """
 import pathlib
+import re
 import shutil
 import sys
 import tempfile
@@ -57,6 +58,15 @@ def steps(width, height, other):
     ]
 
 
+def settings(folder, display, size, density):
+    """The environment of a viewer that begins with a window of this size."""
+    conf = folder / "config/sightline/view.conf"
+    conf.parent.mkdir(parents=True)
+    conf.write_text(f"width {size[0] / density:g}\nheight {size[1] / density:g}\n")
+    return environment(DISPLAY=display, XDG_CONFIG_HOME=str(folder / "config"),
+                       XDG_STATE_HOME=str(folder / "state"))
+
+
 def export(window, folder):
     """The table of the tool at hand, by keys alone."""
     path = folder / "exported.csv"
@@ -72,11 +82,7 @@ def in_window(viewer, display, size, density):
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         width, height = size
-        shown = environment(DISPLAY=display, XDG_CONFIG_HOME=str(folder / "config"),
-                            XDG_STATE_HOME=str(folder / "state"))
-        conf = folder / "config/sightline/view.conf"
-        conf.parent.mkdir(parents=True)
-        conf.write_text(f"width {width / density:g}\nheight {height / density:g}\n")
+        shown = settings(folder, display, size, density)
         all_steps = steps(width, height, viewer.root / "maps/courtyard.map")
         script = f"size {width} {height}\ndensity {density}\n"
         for step, _, commands in all_steps:
@@ -111,11 +117,7 @@ def kept(viewer, display, size, density):
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         width, height = size
-        shown = environment(DISPLAY=display, XDG_CONFIG_HOME=str(folder / "config"),
-                            XDG_STATE_HOME=str(folder / "state"))
-        conf = folder / "config/sightline/view.conf"
-        conf.parent.mkdir(parents=True)
-        conf.write_text(f"width {width / density:g}\nheight {height / density:g}\n")
+        shown = settings(folder, display, size, density)
         x, y = round(0.12 * width), round(0.3 * height)
         x0, y0, x1, y1 = (round(0.08 * width), round(0.2 * height), round(0.2 * width),
                           round(0.22 * height))
@@ -157,11 +159,7 @@ def reading(viewer, display, size, density):
         path = folder / "house.dxf"
         path.write_text(house())
         width, height = size
-        shown = environment(DISPLAY=display, XDG_CONFIG_HOME=str(folder / "config"),
-                            XDG_STATE_HOME=str(folder / "state"))
-        conf = folder / "config/sightline/view.conf"
-        conf.parent.mkdir(parents=True)
-        conf.write_text(f"width {width / density:g}\nheight {height / density:g}\n")
+        shown = settings(folder, display, size, density)
         inside = round(0.12 * width), round(0.45 * height)
         # Eleven widgets on from the filter is "Here is inside", and two from there "Close it".
         to_inside, to_close = ["Tab"] * 11, ["Tab"] * 2
@@ -200,6 +198,52 @@ def reading(viewer, display, size, density):
             viewer.check(line in text, f"'{line.strip()}' is not kept: {text}")
 
 
+def by_keys(viewer, display, size, density):
+    """With the keyboard alone: an opening of a drawing is closed. In a building, a way from one storey to the
+    other on paper, cameras from a table and one more, named, and their table."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        for storey, source in (("ground", "office"), ("upper", "courtyard")):
+            text = (viewer.root / f"maps/{source}.map").read_text()
+            (folder / f"{storey}.map").write_text(text + "unit m\n")
+        building = folder / "house.storeys"
+        building.write_text("storeys 1\nstorey ground ground.map\nstorey upper upper.map\n"
+                            "link stair ground 3,3 upper 3,3 4\n")
+        (folder / "given.csv").write_text("name,x,y,heading,fov,range\nHall,3,3,45,90,10\n")
+        shown = settings(folder, display, size, density)
+        (folder / "house.dxf").write_text(house())
+        session = Session(viewer, folder, shown, folder / "house.dxf")
+        session.shows("house.dxf")
+        session.keys(*["Tab"] * 11, "Return", "Return")
+        time.sleep(1)
+        session.keys("Tab", "Tab", "Return", "Return", "ctrl+q")
+        session.ends("an opening by keys")
+        drawings = (folder / "config/sightline/drawings").read_text()
+        viewer.check("start " in drawings and "closed " in drawings, f"not closed by keys: {drawings}")
+        session = Session(viewer, folder, shown, building)
+        session.keys("Return")
+        session.shows("ground.map")
+        session.keys("9", "ctrl+3", "Tab", "Up", "Return", "ctrl+shift+b", "Down", "Return")
+        session.shows("upper.map")
+        session.keys("Left", "Left", "Left", "Return", "ctrl+shift+p", "Return", "Return")
+        session.window.choose(folder / "way.svg")
+        viewer.check(wait_for_file(folder / "way.svg"), "the way is on no paper")
+        session.keys("8", "ctrl+shift+o")
+        session.window.choose(folder / "given.csv")
+        time.sleep(1)  # a camera that stands before the table is read would be asked about
+        session.keys("Return", "ctrl+k")
+        session.type("Desk 3")
+        session.keys("Return", "Escape", "comma", "ctrl+shift+e")
+        session.window.choose(folder / "cameras.csv")
+        viewer.check(wait_for_file(folder / "cameras.csv"), "no table was written")
+        session.keys("ctrl+q")
+        session.ends("by keys")
+        table, way = (folder / "cameras.csv").read_text(), (folder / "way.svg").read_text()
+        viewer.check(re.fullmatch(r'name,x,y,heading,fov,range\n"Hall",3,3,45,90,10\n"Desk 3",[-0-9.,]+,355,0\n',
+                                  table), f"cameras by keys: {table}")
+        viewer.check(re.search(r"shortest way through the building: [0-9.]+ m<", way) is not None, "the way has no length")
+
+
 def main():
     if not shutil.which("Xvfb") or not shutil.which("xdotool"):
         print("Xvfb or xdotool is not here")
@@ -212,6 +256,8 @@ def main():
             tables.append(in_window(viewer, display, size, density))
             kept(viewer, display, size, density)
             reading(viewer, display, size, density)
+            if density == 1:
+                by_keys(viewer, display, size, density)
         finally:
             server.terminate()
             server.wait()

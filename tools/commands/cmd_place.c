@@ -157,10 +157,11 @@ static sl_status write_chosen_proof(sl_context *context, const place_plan *plan,
                        "such places a little, or leave --proof out",
                        plan->proof);
     if (added)
-        sl_note(context,
-                "%u %s added for slivers that the search took for none, so that the proof holds "
-                "exactly",
-                (unsigned)added, added == 1 ? "viewpoint was" : "viewpoints were");
+        sl_note(
+            context,
+            "%u %s added for slivers that the search overlooked: with %s the proof holds exactly",
+            (unsigned)added, added == 1 ? "viewpoint was" : "viewpoints were",
+            added == 1 ? "it" : "them");
     return sl_place_area_proof_write(context, w->query, &w->chosen.task, placed, plan->proof);
 }
 

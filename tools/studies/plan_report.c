@@ -256,8 +256,6 @@ static void add_names(report *r) {
 }
 
 static void add_rooms(report *r) {
-    static const char *const head[] = {"room", "area", "share", "mean of integration",
-                                       "mean of isovist area"};
     const room_table *rooms = &r->rooms;
     text_list t = {0};
     if (r->blocks.status == SL_OK) blocks_keep_status(&r->blocks, find_rooms(r));
@@ -278,6 +276,11 @@ static void add_rooms(report *r) {
                    seen ? " The last column is what of the room is seen from the first start."
                         : ""));
     add_names(r);
+    const char *unit =
+        *length_unit(r) ? blocks_say(&r->blocks, ", %s\xc2\xb2", length_unit(r)) : "";
+    const char *const head[] = {"room", blocks_say(&r->blocks, "area%s", unit), "share",
+                                "mean of integration",
+                                blocks_say(&r->blocks, "mean of isovist area%s", unit)};
     blocks_add_head(&r->blocks, &t, head, 5);
     if (seen) blocks_add_cell(&r->blocks, &t, "seen");
     for (uint32_t i = 0; i < rooms->rooms.count; i++) {

@@ -240,11 +240,15 @@ static void say_cameras(sheet_work *w) {
     const sl_map *map = &w->view->document->map;
     char text[MEASURE_TEXT], name[CAMERA_NAME];
     if (*layer->proof) say(w, "%s\n", layer->proof);
+    const char *before = "";
     for (uint32_t k = 0; k < SL_COVERAGE_CLASSES; k++) {
-        measure_say(sl_coverage_class_area(&layer->coverage, k), w->view->document->map.unit,
-                    "\xc2\xb2", text);
-        say(w, "%s: %s%s", classes[k], text, k + 1 < SL_COVERAGE_CLASSES ? "; " : ".\n");
+        const double area = sl_coverage_class_area(&layer->coverage, k);
+        if (k && !(area > 0)) continue;
+        measure_say(area, map->unit, "\xc2\xb2", text);
+        say(w, "%s%s: %s", before, classes[k], text);
+        before = "; ";
     }
+    say(w, ".\n");
     for (size_t i = 0; i < layer->table.count && i < ROWS_MOST; i++) {
         const sl_viewpoint *v = &layer->table.items[i].view;
         char place[PLACE_TEXT];

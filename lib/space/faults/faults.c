@@ -368,7 +368,8 @@ static void say_opening(const sl_map *map, char text[SL_INSIDE_TEXT]) {
     char opening[40], usual[40];
     snprintf(text, SL_INSIDE_TEXT,
              "an opening %s wide, at %.*g,%.*g, is wider than entrances are (%s), so inside is "
-             "doubtful: %s; a start in a room decides it, or an entrance of %.4g if it is one",
+             "doubtful: %s; a start in a room decides it, or an entrance of %.4g if the "
+             "opening is one",
              say_width(map, found->doubtful_width, opening), digits, found->doubtful.a.x, digits,
              found->doubtful.a.y, say_width(map, found->width, usual),
              found->place_count ? "what is behind it counts as outside"

@@ -11,7 +11,11 @@ function solidValues(project, notes) {
         const values = layer.intGridValues ?? [], named = values.filter((v) => isSolidName(v.identifier));
         found.set(layer.uid, named.length ? new Set(named.map((v) => v.value)) : null);
         const doors = values.filter((v) => isDoorName(v.identifier)).length;
-        if (doors) notes.push(`${plural(doors, 'value')} of ${layer.identifier} named as a door: taken as ground`);
+        const open = named.length ? values.filter((v) => !named.includes(v)) : [];
+        const names = (some) => some.map((v) => v.identifier ?? v.value).join(', ');
+        if (open.length) notes.push(`solid are the values ${names(named)}, and open ${names(open)}`);
+        else if (!named.length && values.length) notes.push(`all values are solid: ${names(values)}`);
+        if (doors) notes.push(`${plural(doors, 'value')} of ${layer.identifier ?? 'a layer'} named as a door: taken as ground`);
     }
     return found;
 }

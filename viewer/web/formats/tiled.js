@@ -69,6 +69,7 @@ function* flatten(layers, says, dx = 0, dy = 0) {
 /** What the tilesets say of each tile: a map from number to true or false. */
 function tilesSay(map, notes) {
     const says = new Map();
+    let shaped = 0;
     for (const set of map.tilesets ?? []) {
         if (set.source) notes.push(`the tileset ${set.source} in a file of its own`);
         const whole = flag(set.properties) ?? (isSolidName(set.name) ? true : undefined);
@@ -79,16 +80,18 @@ function tilesSay(map, notes) {
                 (isSolidName(tile.type ?? tile.class) ? true : undefined) ??
                 (tile.objectgroup?.objects?.length ? true : undefined);
             if (said !== undefined) says.set(set.firstgid + tile.id, said);
+            if (tile.objectgroup?.objects?.length) shaped++;
         }
     }
+    if (shaped) notes.push(`${plural(shaped, 'tile')} with shapes of collision: each is solid as a whole`);
     return says;
 }
 
-/** The corners of an object; y goes up from `height`. @returns {number[][]} */
-function cornersOf({ x, y, width = 0, height: h = 0, rotation = 0, polygon, polyline }, height) {
+/** The corners of an object; y goes up from `height`. A picture stands on its place. @returns {number[][]} */
+function cornersOf({ gid, x, y, width = 0, height: h = 0, rotation = 0, polygon, polyline }, height) {
     const turn = (rotation * Math.PI) / 180, c = Math.cos(turn), s = Math.sin(turn), up = (py) => height - py;
     const place = (px, py) => (turn ? [x + c * px - s * py, up(y + s * px + c * py)] : [x + px, up(y + py)]);
-    return (polygon ?? polyline ?? [[0, 0], [width, 0], [width, h], [0, h]].map(([a, b]) => ({ x: a, y: b }))).map((p) => place(p.x, p.y));
+    return (polygon ?? polyline ?? [[0, 0], [width, 0], [width, h], [0, h]].map(([a, b]) => ({ x: a, y: gid ? b - h : b }))).map((p) => place(p.x, p.y));
 }
 
 const headingOf = ({ rotation = 0 }) => -rotation || 0;
@@ -101,18 +104,21 @@ function ownObject(layer, object, height, counts) {
     return ownItems(layer, closed, { name: object.name, isShut: isShut(object), heading: headingOf(object) }, counts);
 }
 
-/** One object as items: its outline or a start. A door goes to the doors, but for one that is a line. */
+/** One object as items: its outline or a start. A door goes to the doors, but for one that is a slanted line. */
 function objectItems(object, says, height, counts, doors) {
-    const { x, y, width = 0, height: h = 0 } = object, kind = object.type || object.class;
-    if (isStartName(object.name) || isStartName(kind))
-        return [{ kind: 'start', points: [x + width / 2, height - (y + h / 2)], heading: headingOf(object) }];
-    const points = cornersOf(object, height).flat();
+    const { width = 0, height: h = 0 } = object, kind = object.type || object.class;
+    const corners = cornersOf(object, height), points = corners.flat();
+    if (isStartName(object.name) || isStartName(kind)) {
+        const [a, , b = a] = corners;
+        return [{ kind: 'start', points: [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2], heading: headingOf(object) }];
+    }
+    const isSlanted = object.polyline && points.length === 4 && points[0] !== points[2] && points[1] !== points[3];
     if (isDoorName(object.name) || isDoorName(kind)) {
         const state = isShut(object) ? 'shut' : 'open';
         const xs = points.filter((_, i) => i % 2 === 0), ys = points.filter((_, i) => i % 2);
         const box = [Math.min(...xs), Math.min(...ys), Math.max(...xs), Math.max(...ys)];
         const name = oneWord(object.name || kind, 'door');
-        if (object.polyline && points.length === 4) return [{ kind: 'door', name, points, state }];
+        if (isSlanted) return [{ kind: 'door', name, points, state }];
         doors.push({ name, box, state });
         return [];
     }
@@ -143,7 +149,9 @@ export async function readTiled(map) {
     const tileLayers = layers.filter(({ layer }) => layer.type === 'tilelayer');
     const spoken = says.size || layers.some((l) => l.says);
     let guessed = false, grid = null;
+    const open = new Set();
     for (const { layer, says: whole, x, y } of tileLayers) {
+        let taken = 0;
         if (x || y) notes.push(`the offset of the layer ${layer.name}`);
         for (const chunk of await chunksOf(layer)) {
             const lowest = !spoken && layer === tileLayers[0].layer;
@@ -157,8 +165,10 @@ export async function readTiled(map) {
                 boxes[3] = Math.max(boxes[3], cy + 1);
                 const isSolid = lowest ? tile === solidTile : tile && (says.get(tile) ?? whole);
                 if (isSolid) cells.set(`${cx},${cy}`, true);
+                if (isSolid) taken++;
             });
         }
+        if (!taken) open.add(layer.name);
     }
     if (tileLayers.length && cells.size) {
         if ((boxes[2] - boxes[0]) * (boxes[3] - boxes[1]) > MOST_SQUARES) throw new FormatError('the map is too large for this page');
@@ -180,6 +190,7 @@ export async function readTiled(map) {
     if (grid) items.unshift(...gridWalls(grid.solid, grid.size, grid.x0, grid.y0));
     items.push(...placed);
     if (counts.ellipses) notes.push(`${plural(counts.ellipses, 'ellipse')}, taken as boxes`);
+    if (open.size) notes.push(`layers of tiles without a solid one: ${[...open].join(', ')}`);
     if (guessed) notes.push('Nothing says what is solid: this is a guess from the lowest layer');
     if (!items.length) throw new FormatError('nothing in this Tiled map is solid');
     return { items, notes };

@@ -1,33 +1,71 @@
 import { t } from '../language/language.js';
 
-/** Words by which editors name things: solid layers, doors, starts. lib/io/FORMATS.md lists them. */
-const solid = new Set(('wall walls solid solids collision collisions collide collides collider ' +
-    'colliders obstacle obstacles block blocks blocked blocking blocker blockers occluder occluders ' +
-    'occlusion opaque impassable impassible unpassable unwalkable collidable barrier barriers boundary bounds ' +
-    'mauer mauern wände kollision hindernis hindernisse mur murs muro muros muri pared paredes parede colisión ' +
-    'colisiones colisão obstáculo obstáculos collisioni vägg väggar ściana ściany стена стены 墙 墙壁 碰撞 碰撞层 障碍 ' +
-    '壁 벽').split(' '));
-const beside = new Set('layer layers tile tiles object objects group groups map area areas shape shapes box boxes is has'.split(' '));
+/** Words by which editors name things. Those of the `sightline` command (lib/io/parts/names.c), by the names of their lists. */
+export const lists = Object.fromEntries(Object.entries({
+    solid_words: 'wall solid collide collider collidable collideable obstacle block blocked blocking blocker occluder ' +
+        'occlusion opaque impassable collides coll impassible unpassable unwalkable nonwalkable nowalk nopass ' +
+        'barrier boundary boundaries boundry boundries bounds mauer mauern wände waende hindernis hindernisse mur ' +
+        'obstaculo obstáculo muro pared paredes colisión parede colisao colisão colisoes colisões bloqueo muri ' +
+        'muratura parete pareti ostacolo ostacoli vägg väggar ściana ściany sciana sciany kolizja kolizje стена ' +
+        'стены коллизия коллизии препятствие препятствия 墙 墙壁 墙体 牆 牆壁 碰撞 碰撞层 障碍 障碍物 障碍层 阻挡 阻挡层 壁 障害物 当たり判定 벽 충돌 ' +
+        '장애물',
+    solid_neutral: 'layer tile object group map area shape box is ge has ebene calque capa camada mask rect polygon geometry',
+    not_words: 'no non not un cannot cant',
+    walk_words: 'walk walkable walking pass passable passing passage passthrough traversable walkthrough accessible',
+    walk_neutral: 'is can tile be on through ge',
+    start_words: 'player spawn start starting entrance hero playerstart playerspawn playerpos spawnpoint startpoint ' +
+        'startpos spawnpos startposition playerposition playerspawnpoint spawnposition playercharacter entry ' +
+        'entrypoint playerentry startlayer protagonist',
+    start_neutral: 'point position pos location loc place marker object entity tile area zone main here character default',
+    door_words: 'door gate doorway gateway',
+    door_neutral: 'object tile entity wood wooden iron metal steel stone left right top bottom up down north south east west ' +
+        'front back main open opened closed shut locked secret small big large double single side horizontal ' +
+        'vertical exit inner outer red green blue yellow h v hidden a b c entrance',
+    door_others: 'trap no not fake to behind at near',
+}).map(([name, words]) => [name, new Set(words.split(' '))]));
 
 /** @param {string} name @returns {string[]} its words, in small letters: WallTops is wall, tops */
 export const wordsOf = (name) => String(name ?? '').replace(/([a-z])([A-Z])/g, '$1 $2').toLowerCase()
-    .split(/[^\p{L}]+/u).filter(Boolean);
+    .split(/[^a-z\u0080-\uffff]+/).filter(Boolean);
 
-/** Whether a name is made of words for solid alone. */
-export function isSolidName(name) {
+/** Whether a list has the word, or the word without "s" or "es" at its end. */
+const isIn = (word, list) => [word, word.replace(/s$/, ''), word.replace(/es$/, '')].some((w) => lists[list].has(w));
+
+/** Whether all words are in one of two lists, one in the first at least. */
+const says = (name, first, neutral) => {
     const words = wordsOf(name);
-    return words.some((w) => solid.has(w)) && words.every((w) => solid.has(w) || beside.has(w));
+    return words.some((w) => isIn(w, first)) && words.every((w) => isIn(w, first) || isIn(w, neutral));
+};
+
+const isSolid = (word) => isIn(word, 'solid_words') || /^[ck]ol+is+i?on/.test(word);
+
+/** Whether a name is made of words for solid alone, or of "not" and a word for walking. */
+export function isSolidName(name) {
+    let said = false, negated = false;
+    for (const word of wordsOf(name)) {
+        if (!negated && isIn(word, 'not_words')) {
+            negated = true;
+            continue;
+        }
+        if (negated !== isIn(word, 'walk_words')) return false;
+        if (!negated && !isSolid(word) && !isIn(word, 'solid_neutral')) return false;
+        said ||= negated || isSolid(word);
+        negated = false;
+    }
+    return said && !negated;
 }
 
 /** Whether a name says the contrary: walkable, isPassable. */
-export const isOpenName = (name) => {
-    const words = wordsOf(name).filter((w) => w !== 'is');
-    return words.length === 1 && ['walkable', 'passable', 'traversable'].includes(words[0]);
-};
+export const isOpenName = (name) => says(name, 'walk_words', 'walk_neutral');
 
-export const isDoorName = (name) => wordsOf(name).some((w) => w === 'door' || w === 'doors');
+export const isStartName = (name) => says(name, 'start_words', 'start_neutral');
 
-export const isStartName = (name) => wordsOf(name).some((w) => /^(player|spawn|start|playerstart|spawnpoint)s?$/.test(w));
+/** Whether a name ends in "door", or begins with it and says no more than which one. */
+export function isDoorName(name) {
+    const words = wordsOf(name), leads = words.length > 0 && isIn(words[0], 'door_words');
+    if (words.some((w) => isIn(w, 'door_others'))) return false;
+    return words.reduce((said, w) => isIn(w, 'door_words') || (leads && said && isIn(w, 'door_neutral')), false);
+}
 
 /** A number with its noun, in the language of the page: 1 light, 2 lights. */
 export const plural = (n, one, many = `${one}s`) => `${n} ${t(n === 1 ? one : many)}`;

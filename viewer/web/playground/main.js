@@ -193,7 +193,8 @@ class Playground extends Sight {
         try {
             const { items, notes, format } = await readFile(file, (slv) => this.client.call('describe', { slv }));
             const left = notes.length ? t` Left out or guessed: ${notes.join('; ')}.` : '';
-            this.load(items, file.name, quiet ? '' : t`${file.name} was read as ${format}.${left}`, listed);
+            const more = /^(SVG|Tiled|LDtk)$/.test(format) ? t(' The command has more rules for such files: sightline convert FILE -o FILE.map.') : '';
+            this.load(items, file.name, quiet ? '' : t`${file.name} was read as ${format}.${left}${more}`, listed);
         } catch (error) {
             panel.showNote(error.message, true);
         }

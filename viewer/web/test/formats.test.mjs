@@ -12,12 +12,13 @@ import { parsePath, parseTransform } from '../formats/svg-path.js';
 import { toHtml } from '../markdown.mjs';
 import { Camera, roundStep } from '../parts/camera.js';
 import { rampColour, rangeOf, valueAt } from '../parts/heat.js';
-import { drawPlan, measureOutline } from '../parts/plan.js';
+import { drawPlan, measureOutline, strokeLines } from '../parts/plan.js';
 import { SvgSurface } from '../parts/svg-surface.js';
 import { makeTones } from '../parts/tones.js';
 import { MapDocument } from '../playground/document.js';
 import { moveEnds, pick, snapTo } from '../playground/pick.js';
 import { packMap, unpackMap } from '../playground/share.js';
+import { isDoorName, isSolidName, isStartName, lists } from '../formats/words.js';
 import { tellChange } from '../playground/told.js';
 import { bakeNative, needsNative, shapes } from './native.mjs';
 
@@ -317,4 +318,50 @@ test('what a step has done is told by kind, name and place', () => {
     const items = (statement) => parseMap(`sightline 1\n${statement}\n`);
     assert.equal(tellChange([], items('wall 0 0 3 4')), 'Added: wall from 0, 0 to 3, 4, length 5');
     assert.equal(tellChange([], items('object crate 4 4 5 5')), 'Added: object crate from 4, 4 to 5, 5');
+});
+
+test('very many lines: equal ones are drawn once, others all, in several paths', () => {
+    const camera = new Camera(800, 600);
+    camera.fit([0, 0, 100, 75]);
+    const drawn = (lines) => {
+        const count = { lines: 0, paths: 0 };
+        const surface = { beginPath() {}, setLineDash() {}, moveTo() { count.lines++; }, lineTo() {}, stroke() { count.paths++; } };
+        strokeLines(surface, camera, lines, 'black', 1);
+        return count;
+    };
+    const many = (n, line) => Array.from({ length: n }, (_, i) => line(i));
+    assert.deepEqual(drawn(many(30000, () => [10, 10, 60, 40])), { lines: 1, paths: 1 });
+    assert.deepEqual(drawn(many(30000, (i) => [10, 10, 60, 40 + i / 1000])), { lines: 30000, paths: 30 });
+    assert.deepEqual(drawn(many(2000, () => [10, 10, 60, 40])), { lines: 2000, paths: 1 });
+});
+
+test('objects of Tiled that are pictures stand on their place, and what a tile or value is taken for is said', async () => {
+    const thing = { x: 8, y: 16, width: 8, height: 8 };
+    const map = { tilewidth: 8, tileheight: 8, width: 2, height: 2, layers: [
+        { type: 'tilelayer', name: 'floor', width: 2, height: 2, data: [1, 1, 1, 1] },
+        { type: 'objectgroup', name: 'walls', objects: [{ ...thing, gid: 1 }, { ...thing, y: 8 }, { ...thing, name: 'Player', gid: 1 }] }],
+    tilesets: [{ firstgid: 2, tiles: [{ id: 0, objectgroup: { objects: [thing] } }] }] };
+    const { items, notes } = await read(JSON.stringify(map));
+    assert.deepEqual(items.map(({ kind, points }) => [kind, ...points]),
+        [['solid', 8, 8, 16, 8, 16, 0, 8, 0], ['solid', 8, 8, 16, 8, 16, 0, 8, 0], ['start', 12, 4]]);
+    assert.deepEqual(notes, ['1 tile with shapes of collision: each is solid as a whole', 'layers of tiles without a solid one: floor']);
+    const values = [{ value: 1, identifier: 'wall' }, { value: 2, identifier: 'water' }];
+    const layer = { __type: 'IntGrid', __identifier: 'grid', __gridSize: 8, __cWid: 2, __cHei: 1, layerDefUid: 1, intGridCsv: [1, 0] };
+    const project = (intGridValues) => JSON.stringify({ jsonVersion: '1', defs: { layers: [{ uid: 1, intGridValues }] },
+        levels: [{ pxWid: 16, pxHei: 8, layerInstances: [layer] }] });
+    assert.deepEqual((await read(project(values))).notes, ['solid are the values wall, and open water']);
+    assert.deepEqual((await read(project(values.slice(1)))).notes, ['all values are solid: water']);
+});
+
+test('words that name things are those of the command', () => {
+    const source = readFileSync(join(root, 'lib/io/parts/names.c'), 'utf8').replace(/\/\/.*/g, '');
+    for (const [name, words] of Object.entries(lists)) {
+        const body = source.split(`static const char *const ${name}[] = {`)[1].split('};')[0];
+        assert.deepEqual([...words], [...body.matchAll(/"([^"]+)"/g)].map(([, word]) => word), name);
+    }
+    const which = (is, names) => names.filter(is);
+    assert.deepEqual(which(isSolidName, ['WallTops', 'Collisions', 'Kollision', 'not walkable', 'walkable', 'no wall', '当たり判定']),
+        ['Collisions', 'Kollision', 'not walkable', '当たり判定']);
+    assert.deepEqual(which(isStartName, ['Entrance', 'Player_1', 'PlayerHouse', 'start point']), ['Entrance', 'Player_1', 'start point']);
+    assert.deepEqual(which(isDoorName, ['door_left', 'FrontDoor', 'trap door', 'doorbell', 'Gate']), ['door_left', 'FrontDoor', 'Gate']);
 });
