@@ -261,8 +261,9 @@ static sl_status make_channels(sli_entrances *f, double most) {
 static void destroy(sli_entrances *f) {
     sli_clearance_destroy(&f->clearance);
     sli_channels_destroy(f->context, &f->channels);
-    void *const arrays[] = {f->triangle, f->half,  f->access,       f->parent,        f->following,
-                            f->group_of, f->order, f->groups.items, f->openings.items};
+    void *const arrays[] = {f->triangle,     f->half,          f->access,   f->closed,
+                            f->parent,       f->following,     f->group_of, f->order,
+                            f->groups.items, f->openings.items};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) sl_free(f->context, arrays[i]);
 }
 
