@@ -94,6 +94,18 @@ static void walls_and_windows(void **state) {
                ROOM_WALLS "wall 0 -5 99 -5" GLAZED);
 }
 
+/// Too many layers that may be walls: the command has those with the longest lines.
+static void many_layers(void **state) {
+    (void)state;
+#define LONG_NAME(n)   n "_of_the_first_floor_of_the_northern_house"
+#define SHORT_LINES(n) LINE(LONG_NAME(n), 2, 2, 2, 2.5)
+    static const char text[] =
+        HEAD ROOM("A-WALL") LINE("Rooms_1", -9, 0, -9, 90) LINE("Outline 2", -9, 0, 90, 0)
+            SHORT_LINES("a") SHORT_LINES("b") SHORT_LINES("c") SHORT_LINES("d") SHORT_LINES("e")
+                SHORT_LINES("f") SHORT_LINES("g") SHORT_LINES("h") TAIL;
+    assert_noted(text, NULL, "as in: --layers 'A-WALL,Outline 2,Rooms_1'", true);
+}
+
 static void unknown_layer(void **state) {
     (void)state;
     testing_memory memory = {0};
@@ -219,7 +231,7 @@ int main(void) {
         cmocka_unit_test(roles_of_named_layers), cmocka_unit_test(roles_of_unnamed_layers),
         cmocka_unit_test(unknown_layer),         cmocka_unit_test(guesses),
         cmocka_unit_test(roles_of_looks),        cmocka_unit_test(texts),
-        cmocka_unit_test(walls_and_windows),
+        cmocka_unit_test(walls_and_windows),     cmocka_unit_test(many_layers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
