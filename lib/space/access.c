@@ -27,11 +27,14 @@ sl_status sli_access_number(sli_entrances *f) {
     }
     const size_t all = (size_t)f->count + 1;
     f->access = sl_alloc_array(f->context, all, sizeof *f->access);
+    f->closed = sl_alloc_array(f->context, all, sizeof *f->closed);
     f->parent = sl_alloc_array(f->context, all, sizeof *f->parent);
     f->following = sl_alloc_array(f->context, all, sizeof *f->following);
     f->group_of = sl_alloc_array(f->context, all, sizeof *f->group_of);
     f->order = sl_alloc_array(f->context, all, sizeof *f->order);
-    return f->access && f->parent && f->following && f->group_of && f->order ? SL_OK : SL_NO_MEMORY;
+    const bool room =
+        f->access && f->closed && f->parent && f->following && f->group_of && f->order;
+    return room ? SL_OK : SL_NO_MEMORY;
 }
 
 /// Joins the sets of two triangles. The outside, which has the last number, stays a root. Sets are
@@ -155,11 +158,23 @@ sl_status sli_access_gather(sli_entrances *f, sli_access_choice c) {
     return SL_OK;
 }
 
+/// Whether a triangle has a place of some clearance. What was looked for in vain is not looked for
+/// again; but for searches that were cut short.
+static sl_status reaches(sli_entrances *f, uint32_t triangle, double wanted, sl_point *place,
+                         bool *out) {
+    double *closed = &f->closed[triangle];
+    const size_t cut_short = f->clearance.cut_short;
+    *out = false;
+    if (*closed > 0 && wanted >= *closed) return SL_OK;
+    SL_TRY(sli_clearance_reaches(&f->clearance, f->half[triangle], wanted, place, out));
+    if (!*out && f->clearance.cut_short == cut_short) *closed = wanted;
+    return SL_OK;
+}
+
 sl_status sli_access_fits(sli_entrances *f, sli_access_group *g, double width, bool *out) {
     *out = 2 * g->clearance >= width;
     for (uint32_t i = 0; i < g->count && !*out; i++) {
-        const uint32_t half = f->half[f->order[g->first + i]];
-        SL_TRY(sli_clearance_reaches(&f->clearance, half, width / 2, &g->place, out));
+        SL_TRY(reaches(f, f->order[g->first + i], width / 2, &g->place, out));
         if (*out) g->clearance = width / 2;
     }
     return SL_OK;

@@ -261,8 +261,9 @@ static sl_status make_channels(sli_entrances *f, double most) {
 static void destroy(sli_entrances *f) {
     sli_clearance_destroy(&f->clearance);
     sli_channels_destroy(f->context, &f->channels);
-    void *const arrays[] = {f->triangle, f->half,  f->access,       f->parent,        f->following,
-                            f->group_of, f->order, f->groups.items, f->openings.items};
+    void *const arrays[] = {f->triangle,     f->half,          f->access,   f->closed,
+                            f->parent,       f->following,     f->group_of, f->order,
+                            f->groups.items, f->openings.items};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) sl_free(f->context, arrays[i]);
 }
 
@@ -308,15 +309,35 @@ static sl_status begin_search_of_entrances(sli_entrances *f, sl_context *context
     return SL_OK;
 }
 
+/// Whether a place is in solid ground: the next wall to its right says so.
+static bool is_solid(const sl_map *map, sl_point at) {
+    double nearest = INFINITY;
+    uint32_t facing = 0;
+    for (size_t i = 0; i < map->wall_count; i++) {
+        const sl_wall *w = &map->walls[i];
+        const bool up = w->a.y <= at.y && at.y < w->b.y, down = w->b.y <= at.y && at.y < w->a.y;
+        if (!up && !down) continue;
+        const double x = w->a.x + (at.y - w->a.y) / (w->b.y - w->a.y) * (w->b.x - w->a.x);
+        if (x < at.x || x >= nearest) continue;
+        nearest = x;
+        facing = w->ground & (up ? SL_SOLID_LEFT : SL_SOLID_RIGHT);
+    }
+    return facing != 0;
+}
+
 /// Takes the place that is farthest from walls, of those with an access up to a width, if it is so
-/// many times as far as the one so far.
-static sl_status take_roomier(sli_entrances *f, double most, double times, double *clearance) {
+/// many times as far as the one so far. `roomier`: behind openings that it is roomier than.
+static sl_status take_roomier(sli_entrances *f, double most, double times, bool roomier,
+                              double *clearance) {
     double least = times * *clearance;
-    SL_TRY(sli_access_gather(f, (sli_access_choice){.least = 0, .most = most}));
+    SL_TRY(sli_access_gather(f, (sli_access_choice){.least = 0, .most = most, .same = roomier}));
     for (size_t i = 0; i < f->groups.count; i++) {
-        if (f->groups.items[i].clearance <= least) continue;
-        least = *clearance = f->groups.items[i].clearance;
-        f->found.roomiest = f->groups.items[i].place;
+        const sli_access_group *g = &f->groups.items[i];
+        if (g->clearance <= least || (roomier && 2 * g->clearance < SLI_ROOMIER * g->access) ||
+            is_solid(f->map, g->place))
+            continue;
+        least = *clearance = g->clearance;
+        f->found.roomiest = g->place;
     }
     return SL_OK;
 }
@@ -328,7 +349,7 @@ static sl_status take_closed(sli_entrances *f, double *clearance) {
     SL_TRY(sli_access_gather(f, (sli_access_choice){.least = 0, .most = 0}));
     for (size_t i = 0; i < f->groups.count; i++) {
         const sli_access_group *g = &f->groups.items[i];
-        if (g->clearance < least || g->area <= area) continue;
+        if (g->clearance < least || g->area <= area || is_solid(f->map, g->place)) continue;
         area = g->area;
         *clearance = g->clearance;
         f->found.roomiest = g->place;
@@ -336,13 +357,15 @@ static sl_status take_closed(sli_entrances *f, double *clearance) {
     return SL_OK;
 }
 
-/// Finds a roomy place: in a closed part, else behind openings up to a width, as niches outdoors
-/// are, too; anywhere, if only cores of walls have such.
+/// Finds a roomy place: in a closed part, else behind openings up to a width. Niches outdoors are
+/// behind such, too: they count where nothing is roomier than its opening. Anywhere, if only cores
+/// of walls have such.
 static sl_status find_roomiest(sli_entrances *f, double most) {
     double clearance = 0;
-    SL_TRY(take_roomier(f, most, 1, &clearance));
+    SL_TRY(take_roomier(f, most, 1, true, &clearance));
+    if (!(clearance > 0)) SL_TRY(take_roomier(f, most, 1, false, &clearance));
     SL_TRY(take_closed(f, &clearance));
-    return take_roomier(f, INFINITY, CORE, &clearance);
+    return take_roomier(f, INFINITY, CORE, false, &clearance);
 }
 
 /// Tries one way to know the width, up to `most` (what is doubtful, by SL_ENTRANCE_WIDE). *found:
@@ -425,6 +448,24 @@ static sl_status widen(sl_context *context, sl_map *map, const sl_box *b) {
 }
 #endif
 
+#ifndef SLI_WITHOUT_DRAWINGS
+/// With more walls the search for a likely start takes seconds, and lettering is among them.
+enum { MOST_FOR_PLACE = 1 << 17 };
+
+/// Finds a roomy place alone, behind openings up to a width: where a start is likely to be right in
+/// a picture, all of which is inside that is not solid.
+static sl_status find_place(sl_context *context, sl_map *map, double most) {
+    sli_entrances f;
+    SL_TRY(begin_search_of_entrances(&f, context, map));
+    sl_status status = make_channels(&f, most);
+    f.found.roomiest = NOWHERE;
+    if (status == SL_OK) status = find_roomiest(&f, most);
+    map->interior.roomiest = f.found.roomiest;
+    destroy(&f);
+    return status == SL_UNSUPPORTED ? SL_OK : status; // too dense
+}
+#endif
+
 static sl_status find(sl_context *context, sl_map *map) {
     const sl_box b = sl_map_bounds(map);
     const double shorter = fmin(b.max.x - b.min.x, b.max.y - b.min.y);
@@ -442,6 +483,9 @@ static sl_status find(sl_context *context, sl_map *map) {
         SL_TRY(try_by(context, map, SL_ENTRANCE_FOUND, 0, shorter / 3, &found));
 #ifndef SLI_WITHOUT_DRAWINGS
     if (found) SL_TRY(widen(context, map, &b));
+    if (!found && map->entrance_may_be_wide && sli_entrances_say_ground(map) &&
+        map->wall_count <= MOST_FOR_PLACE)
+        return find_place(context, map, shorter / 3);
 #endif
     return SL_OK;
 }

@@ -45,6 +45,8 @@ typedef struct sli_entrances {
     uint32_t *half;     ///< by triangle: one of its half-edges
     uint32_t count;
     double *access; ///< by triangle
+    double *closed; ///< by triangle: the least clearance that no place in it has, of those that
+                    ///< were looked for; 0 for none
     uint32_t *parent, *following;
     uint32_t *group_of, *order;
     SL_ARRAY(sli_access_group) groups;

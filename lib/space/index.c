@@ -223,7 +223,7 @@ static double least_distance(const sl_box *box, sl_point p) {
     const double below = box->min.y - p.y, above = p.y - box->max.y;
     const double x = left > 0 ? left : right > 0 ? right : 0;
     const double y = below > 0 ? below : above > 0 ? above : 0;
-    return sli_length(x, y) * (1 - 0x1p-40);
+    return x > 0 || y > 0 ? sli_length(x, y) * (1 - 0x1p-40) : 0;
 }
 
 static void near_below(near_search *s, uint32_t level, size_t begin) {

@@ -177,6 +177,22 @@ class Entrances(sandbox.ProgramTest):
                 self.assertNotIn(word, told)
             self.assertRegex(told, rf"next: sightline bake {name} --entrance 2\n\Z")
 
+    def test_next_keeps_rooms(self):
+        """An open corridor is as wide as its opening: as an entrance, it would open its rooms."""
+        walls = ["unit m", "walls 0 0 -2.4 0 -2.4 10 4.4 10 4.4 0 2 0"]
+        for x, wall in ((0, -2.4), (2, 4.4)):
+            for y in (0, 2.5, 5, 7.5):
+                walls += [f"walls {x} {y} {x} {y + 0.5}", f"walls {x} {y + 1.5} {x} {y + 2.5}"]
+                walls += [f"walls {x} {y} {wall} {y}"] if y else []
+        text = "\n".join(["sightline 1", *walls, ""])
+        self.box.path("rooms.map").write_text(text, encoding="utf-8")
+        told = self.printed("check", "rooms.map")
+        self.assertIn("an opening 2 m wide", told)
+        self.assertIn("  with the entrance of the next command, 70.6 % of the area is inside\n", told)
+        self.assertTrue(told.endswith("next: sightline check rooms.map --entrance 1.2\n"), told)
+        told = self.printed("check", "rooms.map", "--entrance", "1.2", "--strict")
+        self.assertNotIn("doubtful", told)
+
     def test_next_of_usual(self):
         """No start is proposed that would leak through an entrance of the usual width."""
         self.write("a.map", 1, 17.3, ["unit m"])

@@ -465,7 +465,9 @@ static void test_corridor(void **state) {
     close_plan(&p);
     // The room at the lower left also has a window to the street.
     snprintf(text, sizeof text, "unit m\n%swall -1 -3 13 -3\n", walls);
-    memcpy(strstr(text, "0 0 12 0"), "2 0 12 0", 8);
+    char *below = strstr(text, "0 0 12 0");
+    assert_non_null(below);
+    *below = '2';
     strcat(text, "wall 0 0 1.1 0\n");
     read_plan(text, &p);
     assert_int_equal(doubt_of(&p), SL_INSIDE_OPENING);

@@ -219,12 +219,24 @@ static void test_units(void **state) {
                       "f: the drawing's own unit is unusual, so it cannot be turned into metres");
 }
 
+/// A drawing that is a picture has no walls to read.
+static void test_picture_alone(void **state) {
+    (void)state;
+#define PICTURE "0\nIMAGE\n8\nw\n10\n0\n20\n0\n"
+    assert_refused(HEAD "0\nTEXT\n10\n1\n20\n1\n1\nx\n" PICTURE TAIL,
+                   "f:14: the drawing has a picture (IMAGE) and no walls: if the plan is in it, "
+                   "save it as a PNG file, and read that");
+    assert_walls(PICTURE LINE(0, 0, 4, 3), "wall 0 0 4 3\n");
+    assert_walls("", "");
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_lines),  cmocka_unit_test(test_polylines),
-        cmocka_unit_test(test_curves), cmocka_unit_test(test_blocks),
-        cmocka_unit_test(test_layers), cmocka_unit_test(test_text_of_lines),
-        cmocka_unit_test(test_units),  cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_lines),         cmocka_unit_test(test_polylines),
+        cmocka_unit_test(test_curves),        cmocka_unit_test(test_blocks),
+        cmocka_unit_test(test_layers),        cmocka_unit_test(test_text_of_lines),
+        cmocka_unit_test(test_units),         cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_picture_alone),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -312,13 +312,31 @@ static void test_memory(void **state) {
                                  "style='transform:scale(2);transform-box:fill-box'") ROOM SYMBOL));
 }
 
+/// A drawing that is a picture has no walls to read; one that nobody sees is none.
+static void test_picture_alone(void **state) {
+    (void)state;
+    static const char seen[] = SVG("<text>x</text><image width='20' height='10' href='p.png'/>");
+    static const char hidden[] = SVG("<image display='none' width='20' height='10' href='p.png'/>");
+    assert_refused_of(sli_map_read_svg, NULL, seen, strlen(seen), SL_BAD_INPUT,
+                      "f:2: the drawing has a picture and no walls: if the plan is in it, save it "
+                      "as a PNG file, and read that");
+    assert_walls(hidden, "");
+    assert_walls(SVG(GOOD "<image width='20' height='10' href='p.png'/>"), WALL);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_faults),          cmocka_unit_test(test_tails),
-        cmocka_unit_test(test_bad_transforms),  cmocka_unit_test(test_paint),
-        cmocka_unit_test(test_visibility),      cmocka_unit_test(test_clips),
-        cmocka_unit_test(test_css_transforms),  cmocka_unit_test(test_oblique_transforms),
-        cmocka_unit_test(test_beside_the_page), cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_picture_alone),
+        cmocka_unit_test(test_faults),
+        cmocka_unit_test(test_tails),
+        cmocka_unit_test(test_bad_transforms),
+        cmocka_unit_test(test_paint),
+        cmocka_unit_test(test_visibility),
+        cmocka_unit_test(test_clips),
+        cmocka_unit_test(test_css_transforms),
+        cmocka_unit_test(test_oblique_transforms),
+        cmocka_unit_test(test_beside_the_page),
+        cmocka_unit_test(test_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

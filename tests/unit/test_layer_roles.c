@@ -47,6 +47,65 @@ static void roles_of_unnamed_layers(void **state) {
     assert_dxf(unnamed, "b=window", ROOM_WALLS "wall 2 2 3 2\nwall 4 0 4 8 stops steps,sound\n");
 }
 
+/// What is said of a drawing.
+static void assert_noted(const char *text, const char *layers, const char *expected, bool said) {
+    char notes[4096] = "";
+    const sl_hooks hooks = {.user = notes, .note = import_keep_notes};
+    sl_context *context = sl_context_create(&hooks);
+    sl_import_options options = sl_import_options_default();
+    sl_map map = {0};
+    options.layers = layers;
+    assert_non_null(context);
+    assert_ok(context, sli_map_read_dxf(context, "f", text, strlen(text), &options, &map));
+    sl_map_destroy(context, &map);
+    sl_context_destroy(context);
+    if (said != (strstr(notes, expected) != NULL)) fail_msg("noted: %s", notes);
+}
+
+/// A layer of walls and windows has the walls where its lines are longer than what is named for
+/// walls alone; else the windows.
+static void walls_and_windows(void **state) {
+    (void)state;
+#define POST       LINE("柱", 0, 0, 0, .1) LINE("柱", 0, .1, .1, .1) LINE("柱", .1, .1, .1, 0)
+#define POST_WALLS "wall 0 0 0 0.1\nwall 0 0.1 0.1 0.1\nwall 0.1 0.1 0.1 0\n"
+#define GLAZED     " stops steps,sound\n"
+    static const char plan[] = HEAD POST ROOM("9_壁__窓") LINE("x", 4, 4, 5, 4) TAIL;
+    assert_dxf(plan, NULL, POST_WALLS ROOM_WALLS);
+    assert_noted(plan, NULL,
+                 "f: 9_壁__窓: named for walls and for windows: taken for walls, as its lines are "
+                 "longer than those of layers named for walls alone; --layers '9_壁__窓=window' "
+                 "takes it for windows",
+                 true);
+    assert_dxf(plan, "9_壁__窓=window",
+               POST_WALLS "wall 0 0 0 8" GLAZED "wall 0 8 10 8" GLAZED "wall 10 8 10 0" GLAZED
+                          "wall 10 0 0 0" GLAZED);
+    assert_noted(plan, "9_壁__窓=window", "named for walls and", false);
+    // With walls beside it, it has the windows, or the doors.
+    static const char few[] = HEAD ROOM("WALL") LINE("Wall Windows", 4, 0, 4, 8) TAIL;
+    assert_dxf(few, NULL, ROOM_WALLS "wall 4 0 4 8" GLAZED);
+    assert_noted(few, NULL,
+                 "taken for windows, as its lines are shorter than those of layers named for walls "
+                 "alone; --layers 'Wall Windows=wall' takes it for walls",
+                 true);
+    assert_dxf(few, "Wall Windows=wall", ROOM_WALLS "wall 4 0 4 8\n");
+    assert_dxf(HEAD ROOM("WALL") LINE("wall door", 4, 0, 4, 1) TAIL, NULL, ROOM_WALLS);
+    // A wall of glass is one thing.
+    assert_dxf(HEAD ROOM("COLUMN") LINE("Curtain wall", 0, -5, 99, -5) TAIL, NULL,
+               ROOM_WALLS "wall 0 -5 99 -5" GLAZED);
+}
+
+/// Too many layers that may be walls: the command has those with the longest lines.
+static void many_layers(void **state) {
+    (void)state;
+#define LONG_NAME(n)   n "_of_the_first_floor_of_the_northern_house"
+#define SHORT_LINES(n) LINE(LONG_NAME(n), 2, 2, 2, 2.5)
+    static const char text[] =
+        HEAD ROOM("A-WALL") LINE("Rooms_1", -9, 0, -9, 90) LINE("Outline 2", -9, 0, 90, 0)
+            SHORT_LINES("a") SHORT_LINES("b") SHORT_LINES("c") SHORT_LINES("d") SHORT_LINES("e")
+                SHORT_LINES("f") SHORT_LINES("g") SHORT_LINES("h") TAIL;
+    assert_noted(text, NULL, "as in: --layers 'A-WALL,Outline 2,Rooms_1'", true);
+}
+
 static void unknown_layer(void **state) {
     (void)state;
     testing_memory memory = {0};
@@ -172,6 +231,7 @@ int main(void) {
         cmocka_unit_test(roles_of_named_layers), cmocka_unit_test(roles_of_unnamed_layers),
         cmocka_unit_test(unknown_layer),         cmocka_unit_test(guesses),
         cmocka_unit_test(roles_of_looks),        cmocka_unit_test(texts),
+        cmocka_unit_test(walls_and_windows),     cmocka_unit_test(many_layers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

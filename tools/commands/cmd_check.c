@@ -115,6 +115,41 @@ static sl_status suggest_gap(sl_context *context, const check_plan *plan, const 
     return status == SL_NO_MEMORY || status == SL_CANCELLED ? status : SL_OK;
 }
 
+/// The share of the area that is inside with a width of entrances; 0 where no part is inside by it.
+static sl_status try_entrance(sl_context *context, const check_plan *plan, const sl_map *map,
+                              double width, double *inside) {
+    sl_baked baked = {0};
+    sl_status status = sl_map_copy(context, map, &baked.map);
+    baked.map.entrance = width;
+    baked.map.entrance_by_doors = false;
+    if (status == SL_OK) status = pipeline_clean(context, &plan->pipeline, &baked.map, NULL);
+    if (status == SL_OK)
+        status = pipeline_subdivide(context, &plan->pipeline, &baked.map, &baked.space);
+    const bool any = status == SL_OK && baked.map.interior.place_count;
+    *inside = any ? sl_space_ground(&baked.space).inside : 0;
+    sl_baked_destroy(context, &baked);
+    return status;
+}
+
+/// Where an opening is in doubt: the wider of both widths, unless less is inside with it. A wide
+/// entrance opens rooms beside it, whose openings are as wide.
+static sl_status suggest_entrance(sl_context *context, const check_plan *plan, const checked *c,
+                                  faults_report *report) {
+    const sl_interior *found = &c->baked.map.interior;
+    const double widths[2] = {found->doubtful_width, found->width};
+    if (c->inside != SL_INSIDE_OPENING) return SL_OK;
+    for (int i = 0; i < 2; i++) {
+        char text[SL_NUMBER_TEXT];
+        double inside;
+        snprintf(text, sizeof text, "%.4g", widths[i]); // as it is printed
+        SL_TRY(try_entrance(context, plan, &c->map, strtod(text, NULL), &inside));
+        if (inside <= report->inside) continue;
+        report->entrance = widths[i];
+        report->inside = inside;
+    }
+    return SL_OK;
+}
+
 /// Reads the map; of a baked file, the map that it was made from.
 static sl_status read_map(sl_context *context, const map_pipeline *pipeline, sl_map *map) {
     SL_TRY(input_read_either(context, pipeline->path, &pipeline->input, map));
@@ -138,6 +173,7 @@ static sl_status check(command_console *console, const check_plan *plan, checked
         SL_TRY(mend(context, plan, &report, after));
     else
         SL_TRY(suggest_gap(context, plan, c, &report));
+    SL_TRY(suggest_entrance(context, plan, c, &report));
     const uint32_t *counts = c->faults.counts;
     if (!plan->snap && (counts[SL_FAULT_GAP] || counts[SL_FAULT_LEAK]))
         SL_TRY(sl_suggest_weld(context, &c->map, &report.weld));

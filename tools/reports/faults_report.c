@@ -366,10 +366,14 @@ static void print_next_start(const faults_report *report, next_use use, const ch
     printf(" --start %.*g,%.*g", digits, start.x, digits, start.y);
 }
 
-/// Checks again, with the doubtful opening as an entrance.
+/// Checks again, with a width of entrances that was tried, or the doubtful opening as one.
 static void print_next_entrance(const faults_report *report, next_use use, const checked *found) {
+    const bool tried = report->entrance > 0 && found == report->found;
+    if (tried)
+        printf("  with the entrance of the next command, %.3g %% of the area is inside\n",
+               100 * report->inside);
     print_command(report, use, 0);
-    printf(" --entrance %.4g", found->baked.map.interior.doubtful_width);
+    printf(" --entrance %.4g", tried ? report->entrance : found->baked.map.interior.doubtful_width);
 }
 
 /// Whether inside ends at entrances, beyond doubt. No start is needed then: it would go before the

@@ -26,6 +26,8 @@ typedef struct faults_report {
     sl_mend_account snap;
     const checked *left; ///< the mended map
     double helps;        ///< a larger gap that closes a leak; 0 for none
+    double entrance;     ///< the width to try where an opening is in doubt; 0 for none
+    double inside;       ///< the share of the area that is inside with it
     double weld;         ///< a tolerance that closes gaps of rounding; 0 for none
     uint64_t most;       ///< of a kind, in the text
     const char *picture; ///< NULL for none

@@ -183,8 +183,22 @@ static double metre_of(const sl_map *map) {
     return metres > 0 ? 1 / metres : 0;
 }
 
+/// SL_BAD_INPUT for a drawing with a picture, and nothing that is drawn.
+static sl_status refuse_picture(const sli_dxf *dxf) {
+    static const char *const kinds[] = {"IMAGE", "OLE2FRAME", "PDFUNDERLAY"};
+    for (size_t i = dxf->entities.begin; !dxf->drawn && i < dxf->entities.end; i++)
+        for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++)
+            if (sli_dxf_at(dxf, i)->code == 0 && sli_word_is(sli_dxf_at(dxf, i)->value, kinds[k]))
+                return sl_fail_at(dxf->context, dxf->name, sli_dxf_at(dxf, i)->line,
+                                  "the drawing has a picture (%s) and no walls: if the plan is in "
+                                  "it, save it as a PNG file, and read that",
+                                  kinds[k]);
+    return SL_OK;
+}
+
 static sl_status read_drawing(sli_dxf *dxf, const char *text, size_t size) {
     SL_TRY(draw_drawing(dxf, text, size));
+    SL_TRY(refuse_picture(dxf));
     SL_TRY(name_walls(dxf));
     SL_TRY(sli_contents_choose(&dxf->contents, metre_of(dxf->pen.map), &dxf->pen));
     dxf->drawn -= dxf->contents.left_out;

@@ -143,6 +143,7 @@ static sl_status read_plan(reader *r, const char *text, size_t size, sl_map *map
     note_taken(r, &plan, solid, map->wall_count, levels.faint && !given);
     note_doubts(r, &levels, solid, &small, plan.large);
     strcpy(map->unit, "px");
+    map->entrance_may_be_wide = true;
     map->source.transform = sli_y_down((double)r->image.height, 1);
     return SL_OK;
 }

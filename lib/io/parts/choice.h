@@ -48,6 +48,11 @@ double sli_choice_metre(const sli_choice *c);
 /// The longest that a door may be.
 double sli_choice_longest_door(const sli_choice *c);
 
+/// Says which layers are walls whose names say windows or doors as well (contents_both.c).
+void sli_choice_take_both(const sli_choice *c);
+/// Notes these layers, and what they are taken for.
+void sli_choice_note_both(const sli_choice *c);
+
 /// Finds the openings that lie over walls: bars, doors of layers and swings (contents_doors.c).
 /// Bars that cut are no walls themselves. Where doors are drawn as doors, other bars are windows.
 sl_status sli_choice_find_openings(sli_choice *c);

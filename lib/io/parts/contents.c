@@ -50,8 +50,15 @@ static sl_status add_group(sli_contents *contents, sli_word name) {
     const sli_meaning guess = sli_meaning_of(name);
     sli_meaning means = guess;
     const bool said = sli_roles_find(contents->roles, name, &means);
-    contents->groups.items[contents->groups.count++] = (sli_group){
-        .name = copy, .length = name.length, .means = means, .guess = guess, .said = said};
+    const bool both =
+        (guess == SLI_MEANS_WINDOW || guess == SLI_MEANS_DOOR) && sli_meaning_is_wall_too(name);
+    contents->groups.items[contents->groups.count++] =
+        (sli_group){.name = copy,
+                    .length = name.length,
+                    .means = means,
+                    .guess = guess,
+                    .said = said,
+                    .beside = both ? guess : SLI_MEANS_NOTHING};
     return SL_OK;
 }
 
@@ -329,6 +336,7 @@ static sl_status choose_looks(sli_choice *c) {
 
 /// What each wall means.
 static sl_status find_means(sli_choice *c) {
+    if (!sli_contents_said(c->contents)) sli_choice_take_both(c);
     SL_TRY(find_symbols(c));
     count_named(c);
     if (!sli_contents_said(c->contents)) {

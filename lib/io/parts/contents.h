@@ -20,6 +20,7 @@ typedef struct sli_group {
     size_t length;
     sli_meaning means, guess; ///< the guess is by the name alone, without what the user says
     bool said;                ///< the user says what it means
+    sli_meaning beside;       ///< windows or doors, where the name says walls as well
     size_t shapes, walls;
     size_t long_ones;                ///< of a layer of doors: walls that are longer than doors
     double long_length, length_left; ///< of these; of all of its walls that no symbol has

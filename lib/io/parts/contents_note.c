@@ -193,23 +193,47 @@ static bool has_walls(const sli_group *group, bool doors) {
     return doors ? group->long_ones > 0 : group->means == SLI_MEANS_NOTHING;
 }
 
-/// The layers of walls and those that may have some, as --layers takes them; "A,B" where looks say
-/// what is a wall, where they are too many, or a name is not to be typed.
-static void say_layers(const sli_choice *c, bool doors, char *text, size_t size) {
-    bool plain = !c->by_looks;
-    text[0] = '\0';
-    for (size_t i = 0; plain && i < c->contents->groups.count; i++) {
-        const sli_group *group = &c->contents->groups.items[i];
-        const size_t used = strlen(text);
-        if (!has_walls(group, doors)) continue;
-        plain = group->length > 0 && used + group->length + 2 < size;
-        for (size_t k = 0; plain && k < group->length; k++)
-            plain = (unsigned char)group->name[k] >= ' ' && !strchr("',\x7f", group->name[k]);
-        if (plain)
-            snprintf(text + used, size - used, "%s%.*s", used ? "," : "", (int)group->length,
-                     group->name);
+/// Adds a name to a list as --layers takes it. False where it does not fit, or is not to be typed.
+static bool add_layer(const sli_group *group, char *text, size_t size) {
+    const size_t used = strlen(text);
+    if (!group->length || used + group->length + 2 >= size) return false;
+    for (size_t k = 0; k < group->length; k++)
+        if ((unsigned char)group->name[k] < ' ' || strchr("',\x7f", group->name[k])) return false;
+    snprintf(text + used, size - used, "%s%.*s", used ? "," : "", (int)group->length, group->name);
+    return true;
+}
+
+/// Adds layers, those with the longest lines first, down to a tenth of the longest.
+static void add_longest(const sli_choice *c, bool taken, bool doors, char *text, size_t size) {
+    double below = INFINITY, longest = 0;
+    for (;;) {
+        const sli_group *next = NULL;
+        for (size_t i = 0; i < c->contents->groups.count; i++) {
+            const sli_group *group = &c->contents->groups.items[i];
+            if (group->taken != taken || !has_walls(group, doors) || group->length_left >= below)
+                continue;
+            if (!next || group->length_left > next->length_left) next = group;
+        }
+        if (!next || next->length_left < longest / 10 || !add_layer(next, text, size)) return;
+        below = next->length_left;
+        longest = fmax(longest, below);
     }
-    if (!plain) snprintf(text, size, "A,B");
+}
+
+/// The layers of walls and those that may have some, as --layers takes them; those with the longest
+/// lines where they are too many; "A,B" where looks say what is a wall, or no name is to be typed.
+static void say_layers(const sli_choice *c, bool doors, char *text, size_t size) {
+    bool all = !c->by_looks;
+    text[0] = '\0';
+    for (size_t i = 0; all && i < c->contents->groups.count; i++) {
+        const sli_group *group = &c->contents->groups.items[i];
+        all = !has_walls(group, doors) || add_layer(group, text, size);
+    }
+    if (all) return;
+    text[0] = '\0';
+    if (!c->by_looks) add_longest(c, true, doors, text, size);
+    if (!c->by_looks) add_longest(c, false, doors, text, size);
+    if (!*text) snprintf(text, size, "A,B");
 }
 
 /// Layers that are passed over though their names say nothing, and that hold more than the walls.
@@ -271,6 +295,7 @@ void sli_choice_note_long_doors(const sli_choice *c) {
 
 void sli_choice_note(const sli_choice *c) {
     note_choice(c);
+    if (!sli_contents_said(c->contents)) sli_choice_note_both(c);
     if (c->outlined)
         sl_note(c->contents->context,
                 "%s: layers named for walls have few lines, so layers of rooms give walls, too: "

@@ -20,6 +20,12 @@ typedef struct word_list {
     const char *patterns; ///< with blanks between
 } word_list;
 
+/// Glass, of which a whole wall may be: "curtain wall".
+#define GLASS                                                                                                  \
+    "glaz* glass curtain* storefront verglasung* glas vitrage* vitre* vetrat* vetro vetri "                    \
+    "vidrio* cristal* vidro* beglazing витраж* остеклен* стекл* szyb* zaskleni cam camlar " \
+    "*幕墙* *玻璃* *ガラス* *유리*"
+
 /// Nodes of a route graph, as for finding one's way indoors.
 #define ROUTE_NODES "node rfid* reader* waypoint* graph* route*"
 
@@ -60,14 +66,12 @@ static const word_list lists[SLI_MEANINGS] = {
          "dver* vrata kapi kapilar* dorr dorrar dor dorer dore ovi ovet ajto* usa usi *门* *門* "
          "*ドア* *扉* *문* باب أبواب דלת דלתות"},
     [SLI_MEANS_WINDOW] =
-        {"window",
-         "window* *window *windows win wndw wdw glaz* glass curtain* storefront skylight* "
-         "fenster* *fenster verglasung* glas fenetre* vitrage* vitre* baie chassis menuiserie* "
-         "finestr* infiss* serrament* vetrat* vetro vetri ventana* vidrio* cristal* carpinteria* "
-         "janela* vidro* esquadria* caixilh* raam ramen kozijn* beglazing venster* окн* окон* "
-         "витраж* остеклен* стекл* okno okna okien* okienn* szyb* zaskleni pencere* cam camlar "
-         "fonster* vindu* ikkuna* ablak* fereastr* ferestre *窗* *幕墙* *玻璃* *窓* *サッシ* "
-         "*ガラス* *建具* *창* *유리* نافذة نوافذ חלון חלונות"},
+        {"window", GLASS
+         " window* *window *windows win wndw wdw skylight* fenster* *fenster fenetre* baie "
+         "chassis menuiserie* finestr* infiss* serrament* ventana* carpinteria* janela* "
+         "esquadria* caixilh* raam ramen kozijn* venster* окн* окон* okno okna okien* okienn* "
+         "pencere* fonster* vindu* ikkuna* ablak* fereastr* ferestre *窗* *窓* *サッシ* *建具* "
+         "*창* نافذة نوافذ חלון חלונות"},
     [SLI_MEANS_OTHER] =
         {"other",
          "demo demol* abbruch* abriss* derrib* демонт* *拆除* wallpaper* wallcovering* tapete* "
@@ -384,6 +388,17 @@ sli_meaning sli_meaning_of(sli_word name) {
     if (is_all(name, outside)) return SLI_MEANS_SITE;
     const sli_meaning last = meaning_of_part((sli_word){name.at + begin, name.length - begin});
     return last || !begin ? last : meaning_of_part((sli_word){name.at, begin});
+}
+
+bool sli_meaning_is_wall_too(sli_word name) {
+    const char *at = name.at, *const end = name.at + name.length;
+    char text[LONGEST];
+    bool wall = false;
+    for (sli_word word = next_word(&at, end, text); word.length; word = next_word(&at, end, text)) {
+        if (fits_any(word, GLASS)) return false;
+        wall |= fits_any(word, lists[SLI_MEANS_WALL].patterns);
+    }
+    return wall;
 }
 
 bool sli_meaning_is_rooms(sli_word name) {

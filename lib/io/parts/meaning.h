@@ -34,6 +34,9 @@ const char *sli_meaning_text(sli_meaning meaning);
 /// by the element that they name (CI/SfB table 1).
 sli_meaning sli_meaning_of(sli_word name);
 
+/// Whether a name of windows or doors says walls too, and not what walls of glass are called:
+/// "walls, windows".
+bool sli_meaning_is_wall_too(sli_word name);
 /// Whether all words of a name are words for rooms: a layer of their outlines, or one room.
 bool sli_meaning_is_rooms(sli_word name);
 /// Whether a name is that of the nodes of a route graph, or of what may be its edges.

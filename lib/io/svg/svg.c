@@ -530,6 +530,7 @@ static sl_status draw_root(svg *s, xmlNode *root) {
     sli_svg_settle_hatching(s);
     SL_TRY(sli_svg_settle_page(s));
     if (s->list) return sli_contents_list(&s->contents, s->pen.map, 0, s->list);
+    SL_TRY(sli_svg_check_picture(s));
     SL_TRY(check_looks(s, root));
     SL_TRY(sli_contents_choose(&s->contents, 0, &s->pen));
     s->shapes -= s->contents.left_out;

@@ -109,6 +109,8 @@ sl_status sli_svg_keep_stroke(sli_svg *s, const sli_svg_place *at);
 void sli_svg_note_strokes(const sli_svg *s);
 /// Keeps the largest picture: a plan may be in it.
 void sli_svg_keep_picture(sli_svg *s, xmlNode *node, const sli_svg_place *at);
+/// SL_BAD_INPUT for a drawing with a picture, and nothing that is drawn.
+sl_status sli_svg_check_picture(const sli_svg *s);
 /// Notes a picture as large as a quarter of the drawing: what it shows is not read.
 void sli_svg_note_picture(const sli_svg *s);
 

@@ -110,6 +110,13 @@ void sli_svg_keep_picture(svg *s, xmlNode *node, const place *at) {
     s->picture_line = sli_xml_line(node);
 }
 
+sl_status sli_svg_check_picture(const svg *s) {
+    if (s->shapes || !s->picture_line) return SL_OK;
+    return sl_fail_at(s->context, s->pen.name, s->picture_line,
+                      "the drawing has a picture and no walls: if the plan is in it, save it as a "
+                      "PNG file, and read that");
+}
+
 /// The first picture that a pattern holds or uses; NULL for none.
 static const xmlNode *pattern_picture(const svg *s, const xmlNode *node, bool within) {
     for (; node; node = node->next) {
