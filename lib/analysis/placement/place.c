@@ -29,7 +29,7 @@ enum { USUAL_ROUNDS = 400, UPPER_STEPS = 30, COARSE_STEPS = 8, SPLITS = 8 };
 enum { CHOSEN_PER_GAP = 100 };
 /// Bounds above LARGE are of large maps. Bounds are apart from one part of UPPER_PER_WIDE on, and
 /// far apart from one of UPPER_PER_FAR.
-enum { LARGE = 100, UPPER_PER_WIDE = 100, UPPER_PER_FAR = 10 };
+enum { LARGE = 100, UPPER_PER_WIDE = 100, UPPER_PER_FAR = 5 };
 /// A round does little if it adds up to one part of so many of witnesses and of the lower bound.
 enum { WHOLE_PER_LITTLE = 100 };
 
@@ -276,8 +276,7 @@ static sl_status choose_columns(sli_placer *p, const sli_place_columns *c,
 }
 
 /// Columns that the relaxation takes in part become candidates, too: a set that sees everything is
-/// made of other columns than one that sees the witnesses of today. Where the bounds are far apart,
-/// there are too many.
+/// made of other columns than one that sees the witnesses of today.
 static sl_status add_shared(sli_placer *p, const sli_place_columns *c, const double *values) {
     uint32_t number;
     for (uint32_t i = 0; i < c->ends.count; i++)
@@ -305,8 +304,7 @@ static sl_status use_columns(sli_placer *p, sli_place_columns *c) {
     sl_status status = sli_cover_solve(p->context, &problem, &options, values, &cover);
     if (SLI_PROGRAMS && status == SL_OK && (cuts || !p->coarse))
         status = sli_bound_by_blocks(p->context, &problem, options.program, MANY_ROWS, &cover);
-    const bool near = wide && !is_apart(p, UPPER_PER_FAR);
-    if (status == SL_OK && near && cover.lower < cover.cost && cover.lower <= LARGE)
+    if (status == SL_OK && wide && cover.lower < cover.cost && cover.lower <= LARGE)
         status = add_shared(p, c, values);
     sl_free(p->context, values);
     if (status == SL_OK) status = choose_columns(p, c, &cover);
