@@ -27,8 +27,9 @@
 enum { USUAL_ROUNDS = 400, UPPER_STEPS = 30, COARSE_STEPS = 8, SPLITS = 8 };
 /// With so many chosen viewpoints for each gap, gaps wait for the next round.
 enum { CHOSEN_PER_GAP = 100 };
-/// Bounds above LARGE are of large maps. Bounds are far apart from one part of UPPER_PER_WIDE on.
-enum { LARGE = 100, UPPER_PER_WIDE = 100 };
+/// Bounds above LARGE are of large maps. Bounds are apart from one part of UPPER_PER_WIDE on, and
+/// far apart from one of UPPER_PER_FAR.
+enum { LARGE = 100, UPPER_PER_WIDE = 100, UPPER_PER_FAR = 5 };
 /// A round does little if it adds up to one part of so many of witnesses and of the lower bound.
 enum { WHOLE_PER_LITTLE = 100 };
 
@@ -127,7 +128,9 @@ static sl_status keep_chosen(sli_placer *p) {
     for (size_t i = 0; i < p->chosen.count; i++)
         all[i] = (sl_viewpoint){.at = sli_chosen_look(p, i)->eye, .fov = 360};
     out->slivers = p->gaps.count;
-    return keep_viewpoints(p, all, p->chosen.count);
+    SL_TRY(keep_viewpoints(p, all, p->chosen.count));
+    sl_report(p->context, "place", "viewpoints", out->lower, out->upper);
+    return SL_OK;
 }
 
 /// A set that surely sees everything: one viewpoint in each cell. SL_UNSUPPORTED where a cell is
@@ -142,6 +145,11 @@ static sl_status start_with_cells(sli_placer *p) {
         if (space->cells[c].inside)
             all[count++] = (sl_viewpoint){.at = sl_space_middle(space, c), .fov = 360};
     return keep_viewpoints(p, all, count);
+}
+
+/// Whether the bounds are apart by more than one part of so many.
+static bool is_apart(const sli_placer *p, uint64_t parts) {
+    return (p->out->upper - p->out->lower) * parts > p->out->upper;
 }
 
 static sl_status find_gaps(sli_placer *p) {
@@ -192,9 +200,13 @@ static sl_status complete(sli_placer *p) {
 
 /// Fewer steps while coarse, where one takes long. On a very large map, where each new gap costs
 /// viewpoints, twice as many; a set that sees everything is made half way, in case the time ends.
+/// On a small one with bounds far apart, so is one after each step with fewer gaps than before: the
+/// last step's is rarely the best.
 static sl_status bound_above(sli_placer *p, bool *added) {
     const int coarse = p->out->lower > MANY_ROWS / 2 ? 2 * COARSE_STEPS : COARSE_STEPS;
-    const int most = p->coarse && p->out->lower > LARGE ? coarse : UPPER_STEPS;
+    const bool large = p->out->lower > LARGE;
+    const int most = p->coarse && large ? coarse : UPPER_STEPS;
+    size_t fewest = SIZE_MAX;
     for (int i = 0; i < most; i++) {
         bool none, one = false;
         sl_cover_problem problem = {0};
@@ -207,7 +219,10 @@ static sl_status bound_above(sli_placer *p, bool *added) {
         *added = *added || one;
         if (none) return keep_chosen(p);
         if (!one || (p->coarse && p->gaps.count <= p->chosen.count / CHOSEN_PER_GAP)) break;
-        if (p->coarse && i + 1 == COARSE_STEPS && i + 1 < most) SL_TRY(complete(p));
+        const bool fewer = p->gaps.count < fewest;
+        if (fewer) fewest = p->gaps.count;
+        const bool half = p->coarse && i + 1 == COARSE_STEPS && i + 1 < most;
+        if (half || (fewer && !large && is_apart(p, UPPER_PER_FAR))) SL_TRY(complete(p));
     }
     return complete(p);
 }
@@ -279,7 +294,7 @@ static sl_status use_columns(sli_placer *p, sli_place_columns *c) {
     const bool drops = p->drops && c->entries.count >= p->options->many_entries;
     sl_cover_options options = sli_cover_options(p);
     // Where the bounds are far apart, a coarse set cover gains by them, too.
-    const bool wide = (p->out->upper - p->out->lower) * UPPER_PER_WIDE > p->out->upper;
+    const bool wide = is_apart(p, UPPER_PER_WIDE);
     const bool cuts = p->coarse && p->drops && wide && p->out->upper > LARGE;
     if (!p->coarse || (p->drops && wide)) options.splits = SPLITS;
     if (cuts) options.nodes = p->options->nodes < CUT_NODES ? p->options->nodes : CUT_NODES;
