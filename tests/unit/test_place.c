@@ -309,6 +309,32 @@ static void generated_maps(void **state) {
         }
 }
 
+/// On this turned map, gaps remain beside corners that only rounding makes: the round has a set all
+/// the same, of fewer viewpoints than one in each cell.
+static void gaps_by_rounding(void **state) {
+    (void)state;
+    plan p = {0};
+    sl_placement placed = {0};
+    sl_place_options one = sl_place_options_default();
+    sl_generate_options options = sl_generate_options_default();
+    options.seed = 6;
+    options.walls = SL_GENERATE_WALLS_LEAST;
+    options.turned = 17.3;
+    one.rounds = 1;
+    size_t kinds, city = 0;
+    const sl_map_kind *all = sl_map_kinds(&kinds);
+    while (strcmp(all[city].name, "city") != 0) city++;
+    begin(&p);
+    assert_ok(p.context, sl_generate(p.context, &all[city], &options, &p.map));
+    ready(&p);
+    assert_ok(p.context, sl_place(p.context, p.query, &one, &placed));
+    check(&p, &placed, 2000);
+    assert_int_equal(placed.slivers, 0);
+    assert_true(placed.upper < p.space.inside_count / 2);
+    sl_placement_destroy(p.context, &placed);
+    end(&p);
+}
+
 /// Bounds as they are reported.
 typedef struct reports {
     uint64_t lower[200], upper[200];
@@ -579,6 +605,7 @@ int main(void) {
         cmocka_unit_test(door_in_thin_wall),
         cmocka_unit_test(in_line_with_two_corners),
         cmocka_unit_test(generated_maps),
+        cmocka_unit_test(gaps_by_rounding),
         cmocka_unit_test(rounds_do_not_wait),
         cmocka_unit_test(changes_keep_the_optimum),
         cmocka_unit_test(same_input_same_result),

@@ -10,6 +10,9 @@
 #include "base/heap.h"
 #include "geometry/length.h"
 #include "geometry/orient.h"
+#include "space/index.h"
+
+#include <math.h>
 
 /// Notes a germ where a candidate sees it. Its middle is rounded, so this is only nearly exact:
 /// what is unseen in the end, gaps tell.
@@ -113,24 +116,31 @@ static sl_status choose_new(sli_placer *p, sl_point at, bool *is_new) {
     return *is_new ? sli_choose(p, number) : SL_OK;
 }
 
-/// Chooses the middle of a cell at a point, or of one beside it: a gap is beyond a window there.
-static sl_status choose_in_cell(sli_placer *p, sl_point at) {
+/// Chooses the middle of a cell at a gap, if one is not chosen. Else none of what is beyond the gap
+/// is unseen: a cell is seen from its middle. SLACK, of the map's size, is far more than what
+/// rounding moves a spot by; cells beside those at the gap cost viewpoints at most.
+static sl_status choose_near_cell(sli_placer *p, const sli_track *track,
+                                  const sli_window_part *gap) {
+    static const double SLACK = 1e-6;
     const sl_space *space = p->ground.space;
-    const uint32_t here = sl_space_locate(space, at);
-    if (here == SL_NO_CELL) return SL_OK;
-    const sl_cell *cell = &space->cells[here];
+    const sl_box *all = &space->bounds;
+    const double slack = SLACK * fmax(all->max.x - all->min.x, all->max.y - all->min.y);
+    sl_box box = sli_box_around(sli_track_at(track, gap->from), sli_track_at(track, gap->to));
+    box = sli_box_with(box, (sl_point){box.min.x - slack, box.min.y - slack});
+    box = sli_box_with(box, (sl_point){box.max.x + slack, box.max.y + slack});
     bool done = false;
-    if (cell->inside) SL_TRY(choose_new(p, sl_space_middle(space, here), &done));
-    for (uint32_t i = 0; i < cell->directed_count && !done; i++) {
-        const uint32_t next = space->directed[cell->first_directed + i].cell;
-        if (space->cells[next].inside) SL_TRY(choose_new(p, sl_space_middle(space, next), &done));
+    for (uint32_t c = 0; c < space->cell_count && !done; c++) {
+        const sl_box cell = sli_box_of_cell(space, c);
+        if (!space->cells[c].inside || !sli_boxes_meet(&box, &cell)) continue;
+        SL_TRY(choose_new(p, sl_space_middle(space, c), &done));
     }
     return SL_OK;
 }
 
 /// Chooses the apex of a gap. One that is chosen, or cannot be, stands behind walls that meet
 /// there: then what is beyond the gap. Where no double is there, places before it, ever farther
-/// off; and at last middles of cells.
+/// off; and at last, or at once where the gap ends where it begins but for rounding, the middle of
+/// a cell.
 static sl_status choose_at_gap(sli_placer *p, const sli_window_part *gap) {
     static const double depths[] = {0, 1e-9, 1e-6, 1e-3, 0.1};
     const sli_track track = sli_track_of(sli_chosen_look(p, gap->look), gap->window);
@@ -140,11 +150,12 @@ static sl_status choose_at_gap(sli_placer *p, const sli_window_part *gap) {
     bool done;
     SL_TRY(choose_new(p, apex, &done));
     if (done) return SL_OK;
-    SL_TRY(sli_add_beyond(p, gap, &done));
+    const bool thin = nextafter(gap->from, gap->to) >= gap->to;
+    if (!thin) SL_TRY(sli_add_beyond(p, gap, &done));
     if (done) SL_TRY(choose_new(p, p->witnesses.items[p->witnesses.count - 1].eye, &done));
-    for (size_t i = 0; i < sizeof depths / sizeof *depths && !done; i++)
+    for (size_t i = 0; i < sizeof depths / sizeof *depths && !thin && !done; i++)
         SL_TRY(choose_new(p, sli_track_beside(&track, middle, 1, depths[i] * length), &done));
-    return done ? SL_OK : choose_in_cell(p, sli_track_at(&track, middle));
+    return done ? SL_OK : choose_near_cell(p, &track, gap);
 }
 
 sl_status sli_choose_for_gaps(sli_placer *p, bool *more) {

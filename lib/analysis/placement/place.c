@@ -116,18 +116,18 @@ static sl_status keep_viewpoints(sli_placer *p, sl_viewpoint *all, size_t count)
     return SL_OK;
 }
 
-/// The chosen candidates see everything, but for slivers at gaps that are there: they are the upper
-/// bound if they are fewer.
-static sl_status keep_chosen(sli_placer *p) {
+/// The chosen candidates see everything, but for slivers: they are the upper bound if they are
+/// fewer.
+static sl_status keep_chosen(sli_placer *p, size_t slivers) {
     sl_placement *out = p->out;
     if (!p->chosen.count) return SL_OK; // no viewpoint has no gap, and sees nothing
     if (out->count < p->chosen.count) return SL_OK;
-    if (out->count == p->chosen.count && out->slivers <= p->gaps.count) return SL_OK;
+    if (out->count == p->chosen.count && out->slivers <= slivers) return SL_OK;
     sl_viewpoint *all = sl_alloc_array(p->context, p->chosen.count, sizeof *all);
     if (!all) return SL_NO_MEMORY;
     for (size_t i = 0; i < p->chosen.count; i++)
         all[i] = (sl_viewpoint){.at = sli_chosen_look(p, i)->eye, .fov = 360};
-    out->slivers = p->gaps.count;
+    out->slivers = slivers;
     SL_TRY(keep_viewpoints(p, all, p->chosen.count));
     sl_report(p->context, "place", "viewpoints", out->lower, out->upper);
     return SL_OK;
@@ -190,9 +190,10 @@ static sl_status complete(sli_placer *p) {
         SL_TRY(find_gaps(p));
         if (p->gaps.count) {
             SL_TRY(sli_choose_for_gaps(p, &more));
-            continue;
+            if (more) continue;
+            // All gaps lie in cells with a viewpoint in the middle: they are none but by rounding.
         }
-        SL_TRY(keep_chosen(p));
+        SL_TRY(keep_chosen(p, 0));
         SL_TRY(sli_drop_redundant(p, &more));
     }
     return SL_OK;
@@ -217,7 +218,7 @@ static sl_status bound_above(sli_placer *p, bool *added) {
         if (p->chosen.count >= p->out->count) return SL_OK;
         SL_TRY(find_unseen(p, &none, &one));
         *added = *added || one;
-        if (none) return keep_chosen(p);
+        if (none) return keep_chosen(p, p->gaps.count);
         if (!one || (p->coarse && p->gaps.count <= p->chosen.count / CHOSEN_PER_GAP)) break;
         const bool fewer = p->gaps.count < fewest;
         if (fewer) fewest = p->gaps.count;
@@ -343,7 +344,7 @@ static sl_status bound_below(sli_placer *p, bool *gaps, bool *added) {
                                    p->out->lower - lower <= lower / WHOLE_PER_LITTLE);
     if (*added && !few) return SL_OK;
     SL_TRY(find_unseen(p, &none, added));
-    if (none) return keep_chosen(p);
+    if (none) return keep_chosen(p, p->gaps.count);
     *gaps = p->drops = true;
     return sli_activate(p, added);
 }
@@ -393,7 +394,7 @@ static sl_status take_listed(sli_placer *p) {
     for (uint32_t i = 0; i < p->candidates.count; i++) SL_TRY(sli_choose(p, i));
     SL_TRY(find_unseen(p, &none, &added));
     p->out->count = UINT32_MAX;
-    if (!p->witnesses.count) return keep_chosen(p);
+    if (!p->witnesses.count) return keep_chosen(p, p->gaps.count);
     return sli_fail_unseen(p, p->witnesses.items[p->witnesses.count - 1].eye);
 }
 
@@ -407,7 +408,7 @@ static sl_status step_listed(sli_placer *p, bool *added) {
     sli_choice_destroy(p->context, &problem, &cover);
     SL_TRY(status);
     SL_TRY(find_unseen(p, &none, added));
-    return none ? keep_chosen(p) : SL_OK;
+    return none ? keep_chosen(p, p->gaps.count) : SL_OK;
 }
 
 static sl_status run_listed(sli_placer *p) {
