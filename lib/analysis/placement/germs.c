@@ -117,10 +117,11 @@ static sl_status choose_new(sli_placer *p, sl_point at, bool *is_new) {
 }
 
 /// Chooses the middle of a cell at a gap, if one is not chosen. Else none of what is beyond the gap
-/// is unseen: a cell is seen from its middle. SLACK, of the map's size, is far more than what
-/// rounding moves a spot by; cells beside those at the gap cost viewpoints at most.
-static sl_status choose_near_cell(sli_placer *p, const sli_track *track,
-                                  const sli_window_part *gap) {
+/// is unseen: a cell is seen from its middle. *closed: each cell there has one. SLACK, of the map's
+/// size, is far more than what rounding moves a spot by; cells beside those at the gap cost
+/// viewpoints at most.
+static sl_status choose_near_cell(sli_placer *p, const sli_track *track, const sli_window_part *gap,
+                                  bool *closed) {
     static const double SLACK = 1e-6;
     const sl_space *space = p->ground.space;
     const sl_box *all = &space->bounds;
@@ -132,6 +133,9 @@ static sl_status choose_near_cell(sli_placer *p, const sli_track *track,
     for (uint32_t c = 0; c < space->cell_count && !done; c++) {
         const sl_box cell = sli_box_of_cell(space, c);
         if (!space->cells[c].inside || !sli_boxes_meet(&box, &cell)) continue;
+        uint32_t number;
+        SL_TRY(sli_add_candidate(p, sl_space_middle(space, c), &number));
+        if (number == UINT32_MAX) *closed = false;
         SL_TRY(choose_new(p, sl_space_middle(space, c), &done));
     }
     return SL_OK;
@@ -141,7 +145,7 @@ static sl_status choose_near_cell(sli_placer *p, const sli_track *track,
 /// there: then what is beyond the gap. Where no double is there, places before it, ever farther
 /// off; and at last, or at once where the gap ends where it begins but for rounding, the middle of
 /// a cell.
-static sl_status choose_at_gap(sli_placer *p, const sli_window_part *gap) {
+static sl_status choose_at_gap(sli_placer *p, const sli_window_part *gap, bool *closed) {
     static const double depths[] = {0, 1e-9, 1e-6, 1e-3, 0.1};
     const sli_track track = sli_track_of(sli_chosen_look(p, gap->look), gap->window);
     const sl_point apex = track.line.b;
@@ -155,12 +159,13 @@ static sl_status choose_at_gap(sli_placer *p, const sli_window_part *gap) {
     if (done) SL_TRY(choose_new(p, p->witnesses.items[p->witnesses.count - 1].eye, &done));
     for (size_t i = 0; i < sizeof depths / sizeof *depths && !thin && !done; i++)
         SL_TRY(choose_new(p, sli_track_beside(&track, middle, 1, depths[i] * length), &done));
-    return done ? SL_OK : choose_near_cell(p, &track, gap);
+    return done ? SL_OK : choose_near_cell(p, &track, gap, closed);
 }
 
-sl_status sli_choose_for_gaps(sli_placer *p, bool *more) {
+sl_status sli_choose_for_gaps(sli_placer *p, bool *more, bool *closed) {
     const size_t before = p->chosen.count, first = p->germs.count;
     bool one;
+    *closed = true;
     for (size_t i = 0; i < p->gaps.count; i++) SL_TRY(sli_add_germ(p, &p->gaps.items[i], &one));
     bool *seen = sl_alloc_array(p->context, p->germs.count, sizeof *seen);
     if (!seen) return SL_NO_MEMORY;
@@ -170,7 +175,7 @@ sl_status sli_choose_for_gaps(sli_placer *p, bool *more) {
     sl_free(p->context, seen);
     // Gaps that had germs before.
     for (size_t i = 0; status == SL_OK && p->chosen.count == before && i < p->gaps.count; i++)
-        status = choose_at_gap(p, &p->gaps.items[i]);
+        status = choose_at_gap(p, &p->gaps.items[i], closed);
     *more = p->chosen.count > before;
     return status;
 }

@@ -189,8 +189,10 @@ static sl_status complete(sli_placer *p) {
         SL_TRY(sl_check_cancelled(p->context));
         SL_TRY(find_gaps(p));
         if (p->gaps.count) {
-            SL_TRY(sli_choose_for_gaps(p, &more));
+            bool closed;
+            SL_TRY(sli_choose_for_gaps(p, &more, &closed));
             if (more) continue;
+            if (!closed) return SL_OK;
             // All gaps lie in cells with a viewpoint in the middle: they are none but by rounding.
         }
         SL_TRY(keep_chosen(p, 0));

@@ -83,8 +83,9 @@ sl_status sli_drop_implied(sli_placer *placer, const sl_cover_proof *proof);
 sl_status sli_add_germ(sli_placer *placer, const sli_window_part *gap, bool *added);
 /// Notes the germs that a candidate sees.
 sl_status sli_try_germs(sli_placer *placer, size_t candidate);
-/// Chooses more candidates, for what the gaps leave unseen. *more: there are some.
-sl_status sli_choose_for_gaps(sli_placer *placer, bool *more);
+/// Chooses more candidates, for what the gaps leave unseen. *more: there are some. Else *closed:
+/// all gaps lie in cells that are seen from their middles, so that nothing is unseen.
+sl_status sli_choose_for_gaps(sli_placer *placer, bool *more, bool *closed);
 
 // --- candidates (candidates.c)
 
