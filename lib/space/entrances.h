@@ -41,6 +41,7 @@ typedef struct sli_entrances {
     double doubt;  ///< for SL_ENTRANCE_WIDE: openings up to this width are doubtful
     sli_channels channels;
     sli_clearance clearance;
+    sli_wall_index walls; ///< of maps that say what is solid
     uint32_t *triangle; ///< by half-edge; SLI_NO_TRIANGLE outside of the box
     uint32_t *half;     ///< by triangle: one of its half-edges
     uint32_t count;
