@@ -36,7 +36,7 @@ void sli_choice_note_both(const sli_choice *c) {
         const bool walls = group->means == SLI_MEANS_WALL;
         if (!group->beside || group->said || !group->walls) continue;
         const char *beside = sli_meaning_text(group->beside), *name = group->name;
-        const bool plain = !strpbrk(name, "',");
+        const bool plain = group->length <= 80 && !strpbrk(name, "',");
         sl_note(c->contents->context,
                 "%s: %.80s: named for walls and for %ss: taken for %ss, as its lines are %s than "
                 "those of layers named for walls alone; --layers '%.80s=%s' takes it for %ss",
