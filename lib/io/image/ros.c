@@ -156,12 +156,13 @@ static sl_status read_yaml(ros_map *m, const char *text, size_t size) {
 /// know.
 static void settle_thresholds(ros_map *m) {
     if (m->free > 0) return;
+    const bool both = m->occupied <= 0;
     m->free = FREE;
-    if (m->occupied <= 0) m->occupied = OCCUPIED;
+    if (both) m->occupied = OCCUPIED;
     sl_note(m->context,
-            "%s: free_thresh 0 leaves no free ground, so it cannot be meant: free_thresh %g and "
-            "occupied_thresh %g are taken, as is usual; --threshold T takes others",
-            m->name, m->free, m->occupied);
+            "%s: free_thresh 0 leaves no free ground, so it cannot be meant: free_thresh %g%s, as "
+            "is usual; --threshold T takes others",
+            m->name, m->free, both ? " and occupied_thresh 0.65 are taken" : " is taken");
 }
 
 /// The picture as named or, since maps are often renamed, one that has the map's own name.
