@@ -31,7 +31,8 @@ void sli_choice_take_both(const sli_choice *c) {
 }
 
 void sli_choice_note_both(const sli_choice *c) {
-    for (size_t i = 0; i < c->contents->groups.count; i++) {
+    const bool said = sli_contents_said(c->contents);
+    for (size_t i = 0; !said && i < c->contents->groups.count; i++) {
         const sli_group *group = &c->contents->groups.items[i];
         const bool walls = group->means == SLI_MEANS_WALL;
         if (!group->beside || group->said || !group->walls) continue;
