@@ -87,8 +87,7 @@ static bool knows_geojson(const char *text, size_t size) {
 static bool knows_foundry(const char *text, size_t size) {
     (void)size;
     return is_json_with(text, "\"c\"", "\"move\"") ||
-           is_json_with(text, "\"walls\"", "\"padding\"") ||
-           has_foundry_walls(text) ||
+           is_json_with(text, "\"walls\"", "\"padding\"") || has_foundry_walls(text) ||
            is_json_with(text, "\"_stats\"", "\"coreVersion\"") || // documents of other kinds:
            is_json_with(text, "\"prototypeToken\"", "\"items\"") ||
            is_json_with(text, "\"packs\"", "\"compatibility\"");

@@ -42,8 +42,8 @@ typedef struct sli_entrances {
     sli_channels channels;
     sli_clearance clearance;
     sli_wall_index walls; ///< of maps that say what is solid
-    uint32_t *triangle; ///< by half-edge; SLI_NO_TRIANGLE outside of the box
-    uint32_t *half;     ///< by triangle: one of its half-edges
+    uint32_t *triangle;   ///< by half-edge; SLI_NO_TRIANGLE outside of the box
+    uint32_t *half;       ///< by triangle: one of its half-edges
     uint32_t count;
     double *access; ///< by triangle
     double *closed; ///< by triangle: the least clearance that no place in it has, of those that

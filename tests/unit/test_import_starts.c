@@ -238,8 +238,8 @@ static void test_starts_and_walls(void **state) {
         NULL, "start 12 28 0\n");
     // But not in a layer of enemies.
     assert_things(sli_map_read_tmx,
-                  tmx_of(ROOM, "<objectgroup name='Enemies'>" POINT("spawn_f", AT("12", "12"))
-                                   "</objectgroup>"),
+                  tmx_of(ROOM, "<objectgroup name='Enemies'>" POINT(
+                                   "spawn_f", AT("12", "12")) "</objectgroup>"),
                   NULL, "");
     // Starts of a solid layer are no walls.
     size_t walls;

@@ -130,8 +130,8 @@ sl_status sli_things_ask(sli_things *things, const char *name, const char *class
     const char *names = things->options->start_names;
     if (says->kind == SLI_THING_DOOR && says->unclear) tell_unclear(things, says);
     // In goblin.tmx, "spawn_goblin" is where one starts that is met there.
-    const bool other = (name && sli_game_says_passing(name)) ||
-                       (class_name && sli_game_says_other(class_name));
+    const bool other =
+        (name && sli_game_says_passing(name)) || (class_name && sli_game_says_other(class_name));
     if (!says->kind && name && !other && sli_says_start_at(name, sl_path_name(things->file)))
         *says = (sli_says){.kind = SLI_THING_START, .name = name};
     if (!names) return SL_OK;
