@@ -166,6 +166,11 @@ static void test_ros(void **state) {
                        "occupied_thresh: 0.65\nfree_thresh: 0.196\n";
     read_ros(yaml, 0, free_ground, NULL);
     read_ros(yaml, 0.65, obstacle, NULL);
+    // Grey 205 is unknown to those who write such pictures, also beside a threshold over it.
+    const char *newer = "image: m.pgm\nresolution: 0.5\norigin: [-1, 2, 0.0]\nnegate: 0\n"
+                        "mode: trinary\noccupied_thresh: 0.65\nfree_thresh: 0.25\n";
+    read_ros(newer, 0, free_ground, NULL);
+    read_ros(newer, 0.25, obstacle, NULL);
     // Renamed, and in another style.
     read_ros("{image: other.pgm, resolution: 0.5, origin: [-1, 2, 0], mode: trinary}", 0,
              free_ground, NULL);

@@ -227,20 +227,34 @@ static bool has_unknown(const ros_map *m, const sl_image *image) {
     return false;
 }
 
-/// Map savers write grey 205 for unknown ground, and older loaders knew it by a free_thresh of
-/// 0.196. Newer savers write 0.25 beside it, by which that grey is free.
-static void note_grey(const ros_map *m, const sl_image *image) {
-    enum { UNKNOWN = 50 }; // of 255, as occupancy
-    size_t grey = 0;
+/// Map savers write lightness 254 for free and 205 for unknown ground, and older loaders knew the
+/// latter by a free_thresh of 0.196. Newer savers write 0.25 beside it, by which it is free. Where
+/// no other lightness is free, a saver wrote the picture, and unknown ground is solid.
+static void settle_grey(ros_map *m, const sl_image *image) {
+    enum { FREE_GROUND = 1, UNKNOWN = 50 }; // of 255, as occupancy
+    size_t grey = 0, others = 0;
     const size_t all = image->width * image->height;
-    if (m->free * 255 <= UNKNOWN) return;
-    for (size_t i = 0; i < all; i++)
-        grey += (m->negate != 0 ? image->pixels[i] : 255 - image->pixels[i]) == UNKNOWN;
-    if (grey < all / 50 + 1) return;
+    if (m->free * 255 <= UNKNOWN || m->free > m->occupied || m->scale || m->negate != 0) return;
+    for (size_t i = 0; i < all; i++) {
+        const int value = 255 - image->pixels[i];
+        grey += value == UNKNOWN;
+        others += value > FREE_GROUND && value != UNKNOWN && value < m->free * 255;
+    }
+    if (!grey || (others && grey < all / 50 + 1)) return;
+    const double percent = 100.0 * (double)grey / (double)all;
+    if (others) {
+        sl_note(m->context,
+                "%s: %.0f %% of the picture has the grey that map savers write for unknown ground; "
+                "free_thresh %g takes it as free; if it is unknown, --threshold 0.19 makes it "
+                "solid",
+                m->name, percent, m->free);
+        return;
+    }
     sl_note(m->context,
-            "%s: %.0f %% of the picture has the grey that map savers write for unknown ground; "
-            "free_thresh %g takes it as free; if it is unknown, --threshold 0.19 makes it solid",
-            m->name, 100.0 * (double)grey / (double)all, m->free);
+            "%s: %.2g %% of the picture has the grey that map savers write for unknown ground: it "
+            "is solid, though free_thresh %g takes it as free; --threshold %g does so here",
+            m->name, percent, m->free, m->free);
+    m->free = FREE;
 }
 
 static void note_taken(const ros_map *m, const sl_image *image, const sli_image_plan *plan,
@@ -271,7 +285,10 @@ static sl_status read_map(ros_map *m, const sl_import_options *options, const ch
     SL_TRY(read_yaml(m, text, size));
     SL_TRY(read_image(m, &image));
     const bool given = options->threshold > 0;
-    if (!given) settle_thresholds(m);
+    if (!given) {
+        settle_thresholds(m);
+        settle_grey(m, &image);
+    }
     // What is occupied is no free ground, whatever free_thresh says: as map_server reads it.
     const double least = fmax(fmin(m->free, m->occupied), LEAST);
     const sli_image_plan plan = {.threshold = given ? options->threshold : least,
@@ -283,7 +300,6 @@ static sl_status read_map(ros_map *m, const sl_import_options *options, const ch
     strcpy(map->unit, "m");
     if (status == SL_OK) turn(m, map);
     if (status == SL_OK) note_taken(m, &image, &plan, solid, map->wall_count, given);
-    if (status == SL_OK && !given) note_grey(m, &image);
     if (status == SL_OK && !map->wall_count) note_no_walls(m, &image, solid);
     sl_image_destroy(m->context, &image);
     return status;

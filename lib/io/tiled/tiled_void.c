@@ -15,6 +15,10 @@
 /// What is looked at: maps of more squares are left alone.
 enum { MOST = 1 << 24, PAIRS = 4096 };
 
+/// Where floor is drawn as areas, few of its squares end at squares without a tile: in a platformer
+/// most do.
+enum { FLOOR_PER_END = 4 };
+
 typedef struct field {
     sli_tiled_reader *reader;
     sli_tiled_range range; ///< of all tiles
@@ -335,7 +339,18 @@ static sl_status settle(field *f, const char *layers) {
     if (filled) return SL_OK;
     // In a platformer a little is drawn in much air.
     floor += water;
-    if (!empty || 10 * floor < empty + floor || !find_border(f, ".+~", " ").open) return SL_OK;
+    const border ends = find_border(f, ".+~", " ");
+    if (!empty || 10 * floor < empty + floor || !ends.open) return SL_OK;
+    if (solid && !layers && !f->reader->by && ends.all < PAIRS &&
+        FLOOR_PER_END * ends.open <= floor) {
+        sl_note(
+            f->reader->context,
+            "%s: %zu squares have no tile, and are taken as solid, as floor is drawn elsewhere; "
+            "if one walks there, --layers NAME,NAME with the layers that are solid keeps them "
+            "open",
+            f->reader->map->file->name, empty);
+        return fill(f, " ");
+    }
     sl_note(f->reader->context,
             "%s: %zu squares have no tile and are open, and floor leads to them with no wall "
             "between: --layers '%s%svoid' takes them as solid",
