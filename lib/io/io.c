@@ -55,17 +55,27 @@ static bool knows_uvtt(const char *text, size_t size) {
     return is_json_with(text, "\"line_of_sight\"", "\"resolution\"");
 }
 
+/// Whether a word is a key somewhere, and its value begins so.
+static bool has_member(const char *text, const char *key, const char *value) {
+    for (const char *at = strstr(text, key); at; at = strstr(at + 1, key)) {
+        const char *behind = at + strlen(key);
+        behind += strspn(behind, " \t\r\n:");
+        if (strncmp(behind, value, strlen(value)) == 0) return true;
+    }
+    return false;
+}
+
 /// An export names its format: "format": "sightline". Other files of ours have both words apart.
 static bool knows_export(const char *text, size_t size) {
     static const char key[] = "\"format\"", value[] = "\"sightline\"";
     (void)size;
-    if (!is_json_with(text, key, value)) return false;
-    for (const char *at = strstr(text, key); at; at = strstr(at + 1, key)) {
-        const char *behind = at + sizeof key - 1;
-        behind += strspn(behind, " \t\r\n:");
-        if (strncmp(behind, value, sizeof value - 1) == 0) return true;
-    }
-    return false;
+    return is_json_with(text, key, value) && has_member(text, key, value);
+}
+
+/// Lists of walls with their corners. Other files have such words as texts.
+static bool has_foundry_walls(const char *text) {
+    return is_json_with(text, "\"walls\"", "\"c\"") && has_member(text, "\"walls\"", "[") &&
+           has_member(text, "\"c\"", "[");
 }
 
 static bool knows_geojson(const char *text, size_t size) {
@@ -77,8 +87,7 @@ static bool knows_geojson(const char *text, size_t size) {
 static bool knows_foundry(const char *text, size_t size) {
     (void)size;
     return is_json_with(text, "\"c\"", "\"move\"") ||
-           is_json_with(text, "\"walls\"", "\"padding\"") ||
-           is_json_with(text, "\"walls\"", "\"c\"") ||
+           is_json_with(text, "\"walls\"", "\"padding\"") || has_foundry_walls(text) ||
            is_json_with(text, "\"_stats\"", "\"coreVersion\"") || // documents of other kinds:
            is_json_with(text, "\"prototypeToken\"", "\"items\"") ||
            is_json_with(text, "\"packs\"", "\"compatibility\"");

@@ -113,8 +113,8 @@ typedef enum sli_ldtk_walls {
 /// Reads the entities of a layer: starts, doors, the places of others, the boxes of walls.
 sl_status sli_ldtk_read_entities(sli_ldtk *reader, const sli_json *layer, sli_ldtk_place at,
                                  sli_ldtk_walls walls);
-/// Drops the boxes of walls where all of them are marks, or a layer says what is solid and not all
-/// of them do. To be called when all levels are read.
+/// Drops boxes of walls beside all levels, and all boxes where all of them are marks, or a layer
+/// says what is solid and not all of them do. To be called when all levels are read.
 sl_status sli_ldtk_settle_walls(sli_ldtk *reader);
 /// Adds what is left of them to the map as solid ground.
 sl_status sli_ldtk_add_walls(const sli_ldtk *reader, sl_map *map);

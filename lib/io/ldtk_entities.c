@@ -167,8 +167,25 @@ static sl_status add_open(sli_ldtk *reader, const sl_box *page) {
                          &squares);
 }
 
+/// Whether a box is in a level, or partly so.
+static bool is_in_level(const sli_ldtk *reader, const sl_box *box) {
+    for (size_t i = 0; i < reader->pages.count; i++) {
+        const sl_box *page = &reader->pages.items[i];
+        if (box->min.x < page->max.x && box->max.x > page->min.x && box->min.y < page->max.y &&
+            box->max.y > page->min.y)
+            return true;
+    }
+    return false;
+}
+
 sl_status sli_ldtk_settle_walls(sli_ldtk *reader) {
     const bool others = reader->layers || reader->tile_layers;
+    size_t kept = 0;
+    for (size_t i = 0; i < reader->walls.count; i++)
+        if (is_in_level(reader, &reader->walls.items[i]))
+            reader->walls.items[kept++] = reader->walls.items[i];
+    reader->entities += reader->walls.count - kept;
+    reader->walls.count = kept;
     // Walls that are all one cell large are marks, of which a field may say more.
     if (!reader->wall_sized || (others && reader->walls_named)) {
         reader->entities += reader->walls.count;

@@ -335,7 +335,7 @@ static sl_status add_tile_name(sli_ldtk *reader, const char *name, const uint32_
     char text[160], numbers[48];
     size_t most;
     SL_TRY(sli_numbers_write(reader->context, tiles, count, false, &most, numbers, sizeof numbers));
-    const bool few = strlen(numbers) < 24;
+    const bool few = *numbers && strlen(numbers) < 24;
     snprintf(text, sizeof text, few ? "%.80s:%s" : "%.80s", name, numbers);
     sli_name_list_add(&reader->tile_names, (sli_word){text, strlen(text)});
     return SL_OK;

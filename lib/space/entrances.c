@@ -260,6 +260,7 @@ static sl_status make_channels(sli_entrances *f, double most) {
 
 static void destroy(sli_entrances *f) {
     sli_clearance_destroy(&f->clearance);
+    sli_wall_index_destroy(f->context, &f->walls);
     sli_channels_destroy(f->context, &f->channels);
     void *const arrays[] = {f->triangle,     f->half,          f->access,   f->closed,
                             f->parent,       f->following,     f->group_of, f->order,
@@ -310,19 +311,23 @@ static sl_status begin_search_of_entrances(sli_entrances *f, sl_context *context
 }
 
 /// Whether a place is in solid ground: the next wall to its right says so.
-static bool is_solid(const sl_map *map, sl_point at) {
+static sl_status is_solid(sli_entrances *f, sl_point at, bool *out) {
+    sli_wall_index *walls = &f->walls;
+    const sl_box along = {at, {f->border.max.x, at.y}};
     double nearest = INFINITY;
-    uint32_t facing = 0;
-    for (size_t i = 0; i < map->wall_count; i++) {
-        const sl_wall *w = &map->walls[i];
+    *out = false;
+    if (!walls->walls) return SL_OK;
+    SL_TRY(sli_box_tree_find(f->context, &walls->tree, &along, &walls->near));
+    for (size_t i = 0; i < walls->near.count; i++) {
+        const sl_wall *w = &walls->walls[walls->near.items[i]];
         const bool up = w->a.y <= at.y && at.y < w->b.y, down = w->b.y <= at.y && at.y < w->a.y;
         if (!up && !down) continue;
         const double x = w->a.x + (at.y - w->a.y) / (w->b.y - w->a.y) * (w->b.x - w->a.x);
         if (x < at.x || x >= nearest) continue;
         nearest = x;
-        facing = w->ground & (up ? SL_SOLID_LEFT : SL_SOLID_RIGHT);
+        *out = w->ground & (up ? SL_SOLID_LEFT : SL_SOLID_RIGHT);
     }
-    return facing != 0;
+    return SL_OK;
 }
 
 /// Takes the place that is farthest from walls, of those with an access up to a width, if it is so
@@ -333,9 +338,11 @@ static sl_status take_roomier(sli_entrances *f, double most, double times, bool 
     SL_TRY(sli_access_gather(f, (sli_access_choice){.least = 0, .most = most, .same = roomier}));
     for (size_t i = 0; i < f->groups.count; i++) {
         const sli_access_group *g = &f->groups.items[i];
-        if (g->clearance <= least || (roomier && 2 * g->clearance < SLI_ROOMIER * g->access) ||
-            is_solid(f->map, g->place))
+        bool solid;
+        if (g->clearance <= least || (roomier && 2 * g->clearance < SLI_ROOMIER * g->access))
             continue;
+        SL_TRY(is_solid(f, g->place, &solid));
+        if (solid) continue;
         least = *clearance = g->clearance;
         f->found.roomiest = g->place;
     }
@@ -349,7 +356,10 @@ static sl_status take_closed(sli_entrances *f, double *clearance) {
     SL_TRY(sli_access_gather(f, (sli_access_choice){.least = 0, .most = 0}));
     for (size_t i = 0; i < f->groups.count; i++) {
         const sli_access_group *g = &f->groups.items[i];
-        if (g->clearance < least || g->area <= area || is_solid(f->map, g->place)) continue;
+        bool solid;
+        if (g->clearance < least || g->area <= area) continue;
+        SL_TRY(is_solid(f, g->place, &solid));
+        if (solid) continue;
         area = g->area;
         *clearance = g->clearance;
         f->found.roomiest = g->place;
@@ -362,6 +372,8 @@ static sl_status take_closed(sli_entrances *f, double *clearance) {
 /// of walls have such.
 static sl_status find_roomiest(sli_entrances *f, double most) {
     double clearance = 0;
+    if (sli_entrances_say_ground(f->map))
+        SL_TRY(sli_wall_index_create(f->context, f->map, &f->walls));
     SL_TRY(take_roomier(f, most, 1, true, &clearance));
     if (!(clearance > 0)) SL_TRY(take_roomier(f, most, 1, false, &clearance));
     SL_TRY(take_closed(f, &clearance));

@@ -41,8 +41,9 @@ typedef struct sli_entrances {
     double doubt;  ///< for SL_ENTRANCE_WIDE: openings up to this width are doubtful
     sli_channels channels;
     sli_clearance clearance;
-    uint32_t *triangle; ///< by half-edge; SLI_NO_TRIANGLE outside of the box
-    uint32_t *half;     ///< by triangle: one of its half-edges
+    sli_wall_index walls; ///< of maps that say what is solid
+    uint32_t *triangle;   ///< by half-edge; SLI_NO_TRIANGLE outside of the box
+    uint32_t *half;       ///< by triangle: one of its half-edges
     uint32_t count;
     double *access; ///< by triangle
     double *closed; ///< by triangle: the least clearance that no place in it has, of those that

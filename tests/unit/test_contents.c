@@ -527,9 +527,18 @@ static void test_ring(void **state) {
     "wall 2 5 5 5\nwall 5 5 5 3\nwall 5 3 2 3\nwall 2 3 2 5\n"                                     \
     "wall 12 5 15 5\nwall 15 5 15 3\nwall 15 3 12 3\nwall 12 3 12 5\n"
     assert_map(sli_map_read_svg, SVG(RING), NULL, false, RING_WALLS);
-    assert_map(sli_map_read_svg,
-               SVG(RING LINES(".15", "M0 4H7") LINES(".15", "M8 4H18") LINES(".15", "M9 0V4")),
-               NULL, false, RING_WALLS TABLES "wall 0 6 7 6\nwall 8 6 18 6\nwall 9 10 9 6\n");
+#define ROOMS LINES(".15", "M0 4H7") LINES(".15", "M8 4H18") LINES(".15", "M9 0V4")
+    assert_map(sli_map_read_svg, SVG(RING ROOMS), NULL, false,
+               RING_WALLS TABLES "wall 0 6 7 6\nwall 8 6 18 6\nwall 9 10 9 6\n");
+    // Turned, as many are walls.
+    static const char turned[] = SVG("<g transform='rotate(17.3)'>" RING ROOMS "</g>");
+    sl_context *context = sl_context_create(NULL);
+    const sl_import_options usual = sl_import_options_default();
+    sl_map map = {0};
+    assert_ok(context, sli_map_read_svg(context, "f", turned, strlen(turned), &usual, &map));
+    assert_int_equal(map.wall_count, 18);
+    sl_map_destroy(context, &map);
+    sl_context_destroy(context);
 }
 
 /// Coloured rooms without lines: their outlines are walls, and lettering is none.

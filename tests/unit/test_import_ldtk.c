@@ -241,6 +241,11 @@ static void test_walls_as_entities(void **state) {
                                    GRID("Any", "0,1,2,0,0,0", "") "," ENTITIES(
                                        ENTITY("SolidBlock", "4", "8", "12", "6")))),
                  NULL, "Any", TWO_TILES);
+    // Not beside all levels: they would make the map as large as their way.
+    assert_walls(PROJECT("", LEVEL("A", "0", "0",
+                                   GRID("Any", "0,1,2,0,0,0", "") "," ENTITIES(
+                                       ENTITY("SolidBlock", "900", "8", "12", "6")))),
+                 NULL, NULL, TWO_TILES);
     assert_refused(PROJECT("", LEVEL("A", "0", "0", ENTITIES(ENTITY("Wall", "8", "8", "8", "8")))),
                    "f: level A has no IntGrid layer, and no layer of tiles");
 }

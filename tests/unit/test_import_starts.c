@@ -236,6 +236,11 @@ static void test_starts_and_walls(void **state) {
         sli_map_read_tmx,
         tmx_of(ROOM, OBJECTS(POINT("spawn_f", AT("12", "12")) POINT("spawn_g", AT("20", "20")))),
         NULL, "start 12 28 0\n");
+    // But not in a layer of enemies.
+    assert_things(sli_map_read_tmx,
+                  tmx_of(ROOM, "<objectgroup name='Enemies'>" POINT(
+                                   "spawn_f", AT("12", "12")) "</objectgroup>"),
+                  NULL, "");
     // Starts of a solid layer are no walls.
     size_t walls;
     char things[MOST_TEXT];

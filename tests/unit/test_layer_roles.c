@@ -80,6 +80,8 @@ static void walls_and_windows(void **state) {
                POST_WALLS "wall 0 0 0 8" GLAZED "wall 0 8 10 8" GLAZED "wall 10 8 10 0" GLAZED
                           "wall 10 0 0 0" GLAZED);
     assert_noted(plan, "9_壁__窓=window", "named for walls and", false);
+    // Also where nothing is left out.
+    assert_noted(HEAD POST ROOM("9_壁__窓") TAIL, NULL, "named for walls and for windows", true);
     // With walls beside it, it has the windows, or the doors.
     static const char few[] = HEAD ROOM("WALL") LINE("Wall Windows", 4, 0, 4, 8) TAIL;
     assert_dxf(few, NULL, ROOM_WALLS "wall 4 0 4 8" GLAZED);

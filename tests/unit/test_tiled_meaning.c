@@ -231,9 +231,22 @@ static void test_tiles_over_names(void **state) {
                               LAYER("Walls 2", CSV("1,2,2,0,0,0")));
     assert_noted_of(sli_map_read_tmx, NULL, few, strlen(few),
                     "wall 0 8 24 8\nwall 0 0 24 0\nwall 0 0 0 8\nwall 24 0 24 8\n",
-                    "f: layer 'Walls 2' is taken whole by its name, and only 1 of its 3 tiles say "
-                    "that they are solid; if only some are, give them by number: --layers 'Walls "
+                    "f: layer 'Walls 2' is taken whole by its name, and only 1 of its 3 tiles "
+                    "says that it is solid; if only some are, give them by number: --layers 'Walls "
                     "2:28+33-35'\n");
+}
+
+/// A property that says it outright goes before what a property "name" calls the tile.
+static void test_outright_before_name(void **state) {
+    (void)state;
+#define CALLED(more)                                                                               \
+    SET_OF("<tile id='0'><properties><property name='name' value='wall'/>" more                    \
+           "</properties></tile>")
+    assert_walls(MAP(CALLED("") LAYER("World", CSV("0,1,1,0,0,0"))), TWO_TILES);
+    static const char open[] =
+        MAP(CALLED("<property name='solid' type='bool' value='false'/>")
+                LAYER("World", CSV("1,1,1,0,0,0")) LAYER("collision", CSV("0,2,2,0,0,0")));
+    assert_walls(open, TWO_TILES);
 }
 
 /// One solid tile of a hundred is a doubt.
@@ -565,6 +578,7 @@ int main(void) {
         cmocka_unit_test(test_world),
         cmocka_unit_test(test_beside_player),
         cmocka_unit_test(test_tiles_over_names),
+        cmocka_unit_test(test_outright_before_name),
         cmocka_unit_test(test_few_solid_tiles),
         cmocka_unit_test(test_all_solid),
         cmocka_unit_test(test_tile_size),

@@ -39,6 +39,8 @@ typedef struct place_work {
     bool doubtful; ///< what is inside
 } place_work;
 
+enum { MANY_CELLS = 100 };
+
 /// Keeps what there is when the time is over.
 static sl_status place(command_console *console, const place_plan *plan, place_work *w) {
     const double start = sl_seconds();
@@ -52,8 +54,9 @@ static sl_status place(command_console *console, const place_plan *plan, place_w
     sl_status status = w->chooses ? sl_place_area_cover(context, w->query, &w->chosen.task,
                                                         &options, &w->chosen.placed)
                                   : sl_place(context, w->query, &options, &w->placement);
-    // One in each cell is what the search begins with. To survey so many takes long.
-    const bool found = w->placement.count && w->placement.count != w->baked.space.inside_count;
+    // One in each cell is what the search begins with. To survey many takes long.
+    const uint32_t count = w->placement.count;
+    const bool found = count && (count < MANY_CELLS || count != w->baked.space.inside_count);
     if (status == SL_CANCELLED && limit.late && (found || w->chosen.placed.count)) {
         status = SL_OK;
         w->late = true;

@@ -188,10 +188,8 @@ void sli_directions_sort(sli_directions *d) {
 
 // --- sectors
 
-/// The sign of b's turn from a, where b is within half a turn and not in line with it: for a
-/// sector, of its first direction, or of its last where the first one is in line.
 /// On which side of a line through its corner a sector is: 1 left, -1 right. No line of the corner
-/// is within the sector.
+/// is within the sector. So its first direction says it, or its last where the first is in line.
 static int sector_side(sli_direction line, const sli_direction *sector) {
     const int first = sli_turn(line.a, line.b, sector[0].a, sector[0].b);
     if (first) return first;

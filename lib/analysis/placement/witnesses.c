@@ -37,7 +37,6 @@ static sl_status is_on_wall(sli_placer *p, sl_point at, bool *on_wall) {
 }
 
 /// Adds a witness. False where it is not inside, on a wall, or not general.
-/// Adds a witness, unless it is not inside or not general.
 static sl_status add_witness(sli_placer *p, sl_point at, bool *added) {
     sli_look look;
     bool on_wall;

@@ -156,12 +156,13 @@ static sl_status read_yaml(ros_map *m, const char *text, size_t size) {
 /// know.
 static void settle_thresholds(ros_map *m) {
     if (m->free > 0) return;
+    const bool both = m->occupied <= 0;
     m->free = FREE;
-    if (m->occupied <= 0) m->occupied = OCCUPIED;
+    if (both) m->occupied = OCCUPIED;
     sl_note(m->context,
-            "%s: free_thresh 0 leaves no free ground, so it cannot be meant: free_thresh %g and "
-            "occupied_thresh %g are taken, as is usual; --threshold T takes others",
-            m->name, m->free, m->occupied);
+            "%s: free_thresh 0 leaves no free ground, so it cannot be meant: free_thresh %g%s, as "
+            "is usual; --threshold T takes others",
+            m->name, m->free, both ? " and occupied_thresh 0.65 are taken" : " is taken");
 }
 
 /// The picture as named or, since maps are often renamed, one that has the map's own name.
@@ -231,15 +232,16 @@ static bool has_unknown(const ros_map *m, const sl_image *image) {
 /// no other lightness is free, a saver wrote the picture, and unknown ground is solid.
 static void settle_grey(ros_map *m, const sl_image *image) {
     enum { FREE_GROUND = 1, UNKNOWN = 50 }; // of 255, as occupancy
-    size_t grey = 0, others = 0;
+    size_t grey = 0, others = 0, open = 0;
     const size_t all = image->width * image->height;
     if (m->free * 255 <= UNKNOWN || m->free > m->occupied || m->scale || m->negate != 0) return;
     for (size_t i = 0; i < all; i++) {
         const int value = 255 - image->pixels[i];
         grey += value == UNKNOWN;
+        open += value <= FREE_GROUND;
         others += value > FREE_GROUND && value != UNKNOWN && value < m->free * 255;
     }
-    if (!grey || (others && grey < all / 50 + 1)) return;
+    if (!grey || open + others == 0 || (others && grey < all / 50 + 1)) return;
     const double percent = 100.0 * (double)grey / (double)all;
     if (others) {
         sl_note(m->context,
@@ -250,7 +252,7 @@ static void settle_grey(ros_map *m, const sl_image *image) {
         return;
     }
     sl_note(m->context,
-            "%s: %.2g %% of the picture has the grey that map savers write for unknown ground: it "
+            "%s: %.3g %% of the picture has the grey that map savers write for unknown ground: it "
             "is solid, though free_thresh %g takes it as free; --threshold %g does so here",
             m->name, percent, m->free, m->free);
     m->free = FREE;

@@ -594,6 +594,7 @@ static sl_status choose(sli_choice *c, sli_pen *pen) {
     if (!sli_contents_said(c->contents)) sli_choice_note_long_doors(c);
     if (!chosen) {
         sli_choice_note_all(c);
+        sli_choice_note_both(c);
         return SL_OK;
     }
     SL_TRY(sli_choice_add_doors(c));

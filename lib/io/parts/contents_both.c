@@ -31,12 +31,13 @@ void sli_choice_take_both(const sli_choice *c) {
 }
 
 void sli_choice_note_both(const sli_choice *c) {
-    for (size_t i = 0; i < c->contents->groups.count; i++) {
+    const bool said = sli_contents_said(c->contents);
+    for (size_t i = 0; !said && i < c->contents->groups.count; i++) {
         const sli_group *group = &c->contents->groups.items[i];
         const bool walls = group->means == SLI_MEANS_WALL;
         if (!group->beside || group->said || !group->walls) continue;
         const char *beside = sli_meaning_text(group->beside), *name = group->name;
-        const bool plain = !strpbrk(name, "',");
+        const bool plain = group->length <= 80 && !strpbrk(name, "',");
         sl_note(c->contents->context,
                 "%s: %.80s: named for walls and for %ss: taken for %ss, as its lines are %s than "
                 "those of layers named for walls alone; --layers '%.80s=%s' takes it for %ss",

@@ -325,11 +325,37 @@ static bool is_outline(const chooser *c, const sli_look_shape *shape) {
     return twice * FLOOR > c->size * around;
 }
 
-/// Whether each wall of a shape runs along a side of a box.
-static bool is_on_ring(const chooser *c, const sli_look_shape *shape, sl_box ring) {
+static bool is_taken(const chooser *c, size_t shape) {
+    return c->looks->items.items[c->shapes[shape].look].taken;
+}
+
+/// The direction of the longest wall of the looks that are taken: plans may be drawn turned.
+static sl_point direction_of_taken(const chooser *c) {
+    sl_point along = {1, 0};
+    double longest = 0;
+    for (size_t i = c->backdrops; i < c->count; i++)
+        for (size_t k = c->shapes[i].first; is_taken(c, i) && k < c->shapes[i].end; k++) {
+            const sl_wall *wall = &c->map->walls[k];
+            const sl_point by = {wall->b.x - wall->a.x, wall->b.y - wall->a.y};
+            const double length = sli_length(by.x, by.y);
+            if (!(length > longest)) continue;
+            longest = length;
+            along = (sl_point){by.x / length, by.y / length};
+        }
+    return along;
+}
+
+/// Along a direction, and to its left.
+static sl_point in_line(sl_point p, sl_point along) {
+    return (sl_point){p.x * along.x + p.y * along.y, p.y * along.x - p.x * along.y};
+}
+
+/// Whether each wall of a shape runs along a side of a box in line with a direction.
+static bool is_on_ring(const chooser *c, const sli_look_shape *shape, sl_point along, sl_box ring) {
     const double off = c->size / LARGE;
     for (size_t i = shape->first; i < shape->end; i++) {
-        const sl_point a = c->map->walls[i].a, b = c->map->walls[i].b;
+        const sl_point a = in_line(c->map->walls[i].a, along);
+        const sl_point b = in_line(c->map->walls[i].b, along);
         if (fmax(fabs(a.x - ring.min.x), fabs(b.x - ring.min.x)) > off &&
             fmax(fabs(a.x - ring.max.x), fabs(b.x - ring.max.x)) > off &&
             fmax(fabs(a.y - ring.min.y), fabs(b.y - ring.min.y)) > off &&
@@ -342,15 +368,14 @@ static bool is_on_ring(const chooser *c, const sli_look_shape *shape, sl_box rin
 /// Whether the looks that are taken are a ring with gaps, as of windows and doors, and a look draws
 /// lines across what is in it: inner walls. Furniture is smaller, or closed.
 static bool is_ring_alone(const chooser *c, const sli_look *next) {
+    const sl_point along = direction_of_taken(c);
     double outer = 0, across = 0;
-    sl_box ring = c->bounds;
-    bool any = false;
-    for (size_t i = c->backdrops; i < c->count; i++) {
-        const sl_box box = box_of(c->map, &c->shapes[i]);
-        if (!c->looks->items.items[c->shapes[i].look].taken) continue;
-        ring = any ? sli_box_with(sli_box_with(ring, box.min), box.max) : box;
-        any = true;
-    }
+    sl_box ring = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+    for (size_t i = c->backdrops; i < c->count; i++)
+        for (size_t k = c->shapes[i].first; is_taken(c, i) && k < c->shapes[i].end; k++) {
+            ring = sli_box_with(ring, in_line(c->map->walls[k].a, along));
+            ring = sli_box_with(ring, in_line(c->map->walls[k].b, along));
+        }
     for (size_t i = c->backdrops; next && i < c->count; i++) {
         const sli_look_shape *shape = &c->shapes[i];
         const sl_point from = c->map->walls[shape->first].a, to = c->map->walls[shape->end - 1].b;
@@ -358,8 +383,8 @@ static bool is_ring_alone(const chooser *c, const sli_look *next) {
         double twice;
         if (&c->looks->items.items[shape->look] == next && straight * CROSSING >= c->size)
             across += straight;
-        if (!c->looks->items.items[shape->look].taken) continue;
-        if (!is_on_ring(c, shape, ring)) return false;
+        if (!is_taken(c, i)) continue;
+        if (!is_on_ring(c, shape, along, ring)) return false;
         outer += measure_around(c, shape, &twice);
     }
     return outer >= width_of(ring) + height_of(ring) && 2 * across >= c->size;

@@ -129,8 +129,10 @@ sl_status sli_things_ask(sli_things *things, const char *name, const char *class
                          sli_says *says) {
     const char *names = things->options->start_names;
     if (says->kind == SLI_THING_DOOR && says->unclear) tell_unclear(things, says);
-    if (!says->kind && name && !(class_name && sli_game_says_other(class_name)) &&
-        sli_says_start_at(name, sl_path_name(things->file)))
+    // In goblin.tmx, "spawn_goblin" is where one starts that is met there.
+    const bool other =
+        (name && sli_game_says_passing(name)) || (class_name && sli_game_says_other(class_name));
+    if (!says->kind && name && !other && sli_says_start_at(name, sl_path_name(things->file)))
         *says = (sli_says){.kind = SLI_THING_START, .name = name};
     if (!names) return SL_OK;
     if (says->kind == SLI_THING_START) *says = (sli_says){0};

@@ -161,14 +161,15 @@ static bool is_bare(const json_t *scene) {
            !json_object_get(flags, "sightline");
 }
 
-/// The list of scenes under a key of a module's, which begins with one that has walls; NULL for
-/// none.
+/// The list of scenes under a key of a module's, of which one at least has walls; NULL for none.
 static json_t *list_of_module(json_t *root) {
     const char *key;
     json_t *list;
     json_object_foreach(root, key, list) {
-        const json_t *walls = json_object_get(json_array_get(list, 0), "walls");
-        if (json_object_get(json_array_get(walls, 0), "c")) return list;
+        for (size_t i = 0; i < json_array_size(list); i++) {
+            const json_t *walls = json_object_get(json_array_get(list, i), "walls");
+            if (json_object_get(json_array_get(walls, 0), "c")) return list;
+        }
     }
     return NULL;
 }
@@ -176,13 +177,14 @@ static json_t *list_of_module(json_t *root) {
 static sl_status take_root(sli_scenes *scenes, bool of_lines) {
     json_t *root = scenes->file.root, *document;
     json_t *list = list_of_module(root);
-    if (list && !json_object_get(root, "walls") && !json_object_get(root, "scenes")) root = list;
+    if (json_object_get(root, "walls") || json_object_get(root, "scenes")) list = NULL;
+    if (list) root = list;
     const json_t *first = json_array_get(root, 0);
     const char *key;
     size_t i;
     if (of_lines) {
         json_object_foreach(root, key, document) SL_TRY(take_document(scenes, document));
-    } else if (json_object_get(first, "walls") || json_object_get(first, "scenes")) {
+    } else if (list || json_object_get(first, "walls") || json_object_get(first, "scenes")) {
         json_array_foreach(root, i, document) SL_TRY(take_document(scenes, document));
     } else if (!json_is_array(json_object_get(root, "scenes")) || json_object_get(root, "walls")) {
         if (json_is_object(root) && !json_object_get(root, "walls") &&

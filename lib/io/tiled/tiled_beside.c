@@ -70,19 +70,21 @@ sl_status sli_tiled_ask_tiles(const sli_tiled_reader *reader, const sli_json *la
         SL_TRY(count_said(reader, layer, &chunk, &all, &solid, &known));
     }
     if (!solid || solid == all || !known) return SL_OK;
+    sli_shown to_type;
     const sli_shown shown = sli_show((sli_word){name, strlen(name)});
+    const char *typed = sli_tiled_name_to_type(name, &to_type);
+    const char *say = solid == 1 ? "says that it is" : "say that they are";
     own->tiles_decide = 2 * solid >= all;
     if (own->tiles_decide)
         sl_note(reader->context,
-                "%s: layer '%s': %zu of its %zu tiles say that they are solid, and the others are "
-                "taken as open; if these are walls, give all layers that are solid: --layers "
-                "'...,%s'",
-                reader->map->file->name, shown.text, solid, all, shown.text);
+                "%s: layer '%s': %zu of its %zu tiles %s solid, and the others are taken as open; "
+                "if these are walls, give all layers that are solid: --layers '...,%s'",
+                reader->map->file->name, shown.text, solid, all, say, typed);
     else
         sl_note(reader->context,
-                "%s: layer '%s' is taken whole by its name, and only %zu of its %zu tiles say that "
-                "they are solid; if only some are, give them by number: --layers '%s:28+33-35'",
-                reader->map->file->name, shown.text, solid, all, shown.text);
+                "%s: layer '%s' is taken whole by its name, and only %zu of its %zu tiles %s "
+                "solid; if only some are, give them by number: --layers '%s:28+33-35'",
+                reader->map->file->name, shown.text, solid, all, say, typed);
     return SL_OK;
 }
 

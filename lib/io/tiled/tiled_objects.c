@@ -101,13 +101,12 @@ static sl_status take_thing(sli_tiled_reader *reader, const sli_json *object,
     sli_says says = sli_tiled_says_of(object, "type");
     if (!says.kind && !*sli_json_text_of(object, "name")) says = sli_says_of(name, NULL);
     if (!says.kind && tile) says = tile->says;
-    if (says.kind == SLI_THING_START && at->others) says = (sli_says){0};
-    *taken = says.kind != SLI_THING_NONE;
-    if (reader->by) return SL_OK; // the first reading took it
     SL_TRY(sli_things_ask(&reader->things, name, *class ? class : sli_json_text_of(object, "class"),
                           &says));
+    const bool asked = reader->options->start_names != NULL;
+    if (says.kind == SLI_THING_START && at->others && !asked) says = (sli_says){0};
     *taken = says.kind != SLI_THING_NONE;
-    if (!*taken) return SL_OK;
+    if (!*taken || reader->by) return SL_OK; // the first reading took it
     if (set && shape.width == 0 && shape.height == 0) {
         shape.width = set->width;
         shape.height = set->height;

@@ -73,10 +73,13 @@ const char *sli_tiled_name_of(const sli_json *object) {
 
 sli_tiled_word sli_tiled_word_of(const sli_json *thing, const char *class_key) {
     sli_tiled_properties at = sli_tiled_properties_of(thing);
-    sli_tiled_word word = SLI_TILED_UNSAID;
+    sli_tiled_word word = SLI_TILED_UNSAID, by_name = SLI_TILED_UNSAID;
     const char *name;
-    for (sli_json value; word == SLI_TILED_UNSAID && sli_tiled_next_property(&at, &name, &value);)
-        word = word_of_property(name, &value);
+    for (sli_json value; word == SLI_TILED_UNSAID && sli_tiled_next_property(&at, &name, &value);) {
+        const bool names = name && strcasecmp(name, "name") == 0;
+        *(names ? &by_name : &word) = word_of_property(name, &value);
+    }
+    if (word == SLI_TILED_UNSAID) word = by_name; // what says it outright goes before a name
     if (word != SLI_TILED_UNSAID) return word;
     return sli_says_solid(sli_json_text_of(thing, class_key)) ||
                    sli_says_solid(sli_json_text_of(thing, "class"))

@@ -161,14 +161,12 @@ static bool is_only_layer(const sli_tiled_reader *reader) {
     return count == 1;
 }
 
-/// A layer's name in a command: whole, where it can be typed so.
-static const char *name_to_type(const sli_tiled_seen *layer, sli_shown *shown) {
-    const size_t length = strlen(layer->name);
-    *shown = sli_show((sli_word){layer->name, length});
+const char *sli_tiled_name_to_type(const char *name, sli_shown *shown) {
+    const size_t length = strlen(name);
+    *shown = sli_show((sli_word){name, length});
     for (size_t i = 0; i < length; i++)
-        if ((unsigned char)layer->name[i] < ' ' || strchr("'\x7f", layer->name[i]))
-            return shown->text;
-    return length < 160 ? layer->name : shown->text;
+        if ((unsigned char)name[i] < ' ' || strchr("'\x7f", name[i])) return shown->text;
+    return length < 160 ? name : shown->text;
 }
 
 /// ", as in:" and a command that takes the example.
@@ -184,7 +182,7 @@ static sl_status say_example(const sli_tiled_reader *reader, const sli_tiled_see
     bool rooms;
     SL_TRY(looks_like_rooms(reader, example, &rooms));
     sli_shown shown;
-    const char *name = name_to_type(example, &shown);
+    const char *name = sli_tiled_name_to_type(example->name, &shown);
     if (same && !objects)
         snprintf(text, size, " (all tiles of '%s' are the same: draw walls in a layer Collision)",
                  name);
