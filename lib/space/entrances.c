@@ -326,26 +326,28 @@ static bool is_solid(const sl_map *map, sl_point at) {
 }
 
 /// Takes the place that is farthest from walls, of those with an access up to a width, if it is so
-/// many times as far as the one so far. `roomier`: behind openings that it is roomier than.
+/// many times as far as the one so far. `roomier`: behind openings that it is roomier than;
+/// *behind: the area of all such.
 static sl_status take_roomier(sli_entrances *f, double most, double times, bool roomier,
-                              double *clearance) {
+                              double *clearance, double *behind) {
     double least = times * *clearance;
+    *behind = 0;
     SL_TRY(sli_access_gather(f, (sli_access_choice){.least = 0, .most = most, .same = roomier}));
     for (size_t i = 0; i < f->groups.count; i++) {
         const sli_access_group *g = &f->groups.items[i];
-        if (g->clearance <= least || (roomier && 2 * g->clearance < SLI_ROOMIER * g->access) ||
-            is_solid(f->map, g->place))
-            continue;
+        if (roomier && 2 * g->clearance < SLI_ROOMIER * g->access) continue;
+        if (g->access > 0) *behind += g->area;
+        if (g->clearance <= least || is_solid(f->map, g->place)) continue;
         least = *clearance = g->clearance;
         f->found.roomiest = g->place;
     }
     return SL_OK;
 }
 
-/// Takes the largest part that is closed, of those that are roomy against a clearance.
-static sl_status take_closed(sli_entrances *f, double *clearance) {
+/// Takes the largest part that is closed, of those that are larger than an area and roomy against a
+/// clearance.
+static sl_status take_closed(sli_entrances *f, double area, double *clearance) {
     const double least = *clearance / ROOMY;
-    double area = 0;
     SL_TRY(sli_access_gather(f, (sli_access_choice){.least = 0, .most = 0}));
     for (size_t i = 0; i < f->groups.count; i++) {
         const sli_access_group *g = &f->groups.items[i];
@@ -357,15 +359,15 @@ static sl_status take_closed(sli_entrances *f, double *clearance) {
     return SL_OK;
 }
 
-/// Finds a roomy place: in a closed part, else behind openings up to a width. Niches outdoors are
-/// behind such, too: they count where nothing is roomier than its opening. Anywhere, if only cores
-/// of walls have such.
+/// Finds a roomy place: in a closed part, or behind openings up to a width where these have more
+/// area together, as openings join them. Niches outdoors are behind such, too: they count where
+/// nothing is roomier than its opening. Anywhere, if only cores of walls have such.
 static sl_status find_roomiest(sli_entrances *f, double most) {
-    double clearance = 0;
-    SL_TRY(take_roomier(f, most, 1, true, &clearance));
-    if (!(clearance > 0)) SL_TRY(take_roomier(f, most, 1, false, &clearance));
-    SL_TRY(take_closed(f, &clearance));
-    return take_roomier(f, INFINITY, CORE, false, &clearance);
+    double clearance = 0, behind, any;
+    SL_TRY(take_roomier(f, most, 1, true, &clearance, &behind));
+    if (!(clearance > 0)) SL_TRY(take_roomier(f, most, 1, false, &clearance, &any));
+    SL_TRY(take_closed(f, behind, &clearance));
+    return take_roomier(f, INFINITY, CORE, false, &clearance, &any);
 }
 
 /// Tries one way to know the width, up to `most` (what is doubtful, by SL_ENTRANCE_WIDE). *found:
@@ -452,17 +454,27 @@ static sl_status widen(sl_context *context, sl_map *map, const sl_box *b) {
 /// With more walls the search for a likely start takes seconds, and lettering is among them.
 enum { MOST_FOR_PLACE = 1 << 17 };
 
-/// Finds a roomy place alone, behind openings up to a width: where a start is likely to be right in
-/// a picture, all of which is inside that is not solid.
-static sl_status find_place(sl_context *context, sl_map *map, double most) {
+/// Finds a roomy place alone, behind openings up to a width.
+static sl_status find_place(sl_context *context, const sl_map *map, double most, sl_point *place) {
     sli_entrances f;
-    SL_TRY(begin_search_of_entrances(&f, context, map));
+    sl_map own = *map; // it is not changed
+    SL_TRY(begin_search_of_entrances(&f, context, &own));
     sl_status status = make_channels(&f, most);
     f.found.roomiest = NOWHERE;
     if (status == SL_OK) status = find_roomiest(&f, most);
-    map->interior.roomiest = f.found.roomiest;
+    *place = f.found.roomiest;
     destroy(&f);
     return status == SL_UNSUPPORTED ? SL_OK : status; // too dense
+}
+
+sl_status sl_map_find_roomiest(sl_context *context, const sl_map *map, sl_point *place) {
+    const sl_box b = sl_map_bounds(map);
+    const double shorter = fmin(b.max.x - b.min.x, b.max.y - b.min.y);
+    *place = map->interior.roomiest;
+    if (!isnan(place->x) || map->start_count || !map->entrance_may_be_wide || !(shorter > 0) ||
+        map->wall_count > MOST_FOR_PLACE || !sli_entrances_say_ground(map))
+        return SL_OK;
+    return find_place(context, map, shorter / 3, place);
 }
 #endif
 
@@ -483,9 +495,6 @@ static sl_status find(sl_context *context, sl_map *map) {
         SL_TRY(try_by(context, map, SL_ENTRANCE_FOUND, 0, shorter / 3, &found));
 #ifndef SLI_WITHOUT_DRAWINGS
     if (found) SL_TRY(widen(context, map, &b));
-    if (!found && map->entrance_may_be_wide && sli_entrances_say_ground(map) &&
-        map->wall_count <= MOST_FOR_PLACE)
-        return find_place(context, map, shorter / 3);
 #endif
     return SL_OK;
 }

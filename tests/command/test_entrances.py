@@ -108,7 +108,8 @@ class Entrances(sandbox.ProgramTest):
                     told = self.run_well("bake", name, "-o", "b.slv").stderr
                     self.assertRegex(told, r"an opening 2( m)? wide, at .* so inside is doubtful: all "
                                      r"of the map counts as inside; a start in a room decides it, "
-                                     rf"or an entrance of 2 if the opening is one: sightline check {name} --entrance 2\n")
+                                     r"or an entrance of 2 if the opening is one; if it is one, run: "
+                                     rf"sightline check {name} --entrance 2\n")
                     for command, *options in WIDE:
                         self.refused_and_typed(command, name, options, degrees)
                     cells, area = self.inside(name, "--entrance", "2")
@@ -120,11 +121,11 @@ class Entrances(sandbox.ProgramTest):
         for command, *options in *WIDE, ["rooms"], ["report", "-o", "a.pdf"]:
             refused = self.box.run([command, "a.map", *options])
             self.assertEqual(refused.status, 2, refused.text())
-            typed = re.search(r"say where a room is, as with (--start \S+); or if the opening is an "
-                              r"entrance, add (--entrance 2)", refused.stderr)
+            typed = re.search(r"; if the opening is an entrance, add (--entrance 2); else add a start",
+                              refused.stderr)
             self.assertTrue(typed, refused.stderr)
-            for chosen in typed.groups():
-                self.run_well(command, "a.map", *options, *chosen.split())
+            self.assertNotIn("--start", refused.stderr)  # it would keep the closed room alone
+            self.run_well(command, "a.map", *options, *typed[1].split())
 
     def test_kept_of_drawings(self):
         """In a plan that is drawn, a wide entrance is found. Map text keeps it; doors stay narrow."""
@@ -192,6 +193,20 @@ class Entrances(sandbox.ProgramTest):
         self.assertTrue(told.endswith("next: sightline check rooms.map --entrance 1.2\n"), told)
         told = self.printed("check", "rooms.map", "--entrance", "1.2", "--strict")
         self.assertNotIn("doubtful", told)
+        told = self.run_well("bake", "rooms.map", "-o", "rooms.slv").stderr
+        self.assertTrue(told.endswith("; if rooms behind narrower openings are what is inside, run: "
+                                      "sightline check rooms.map --entrance 1.2\n"), told)
+
+    def test_next_of_a_slit(self):
+        """Where little is inside with the usual width, the doubtful opening is what all commands name."""
+        walls = ["unit m", "walls 0 0 -20 0 -20 12 20 12 20 0 3 0", "walls 6 4 8 4 8 5 6 5 6 4.6"]
+        self.box.path("slit.map").write_text("\n".join(["sightline 1", *walls, ""]), encoding="utf-8")
+        told = self.printed("check", "slit.map")
+        self.assertTrue(told.endswith("next: sightline check slit.map --entrance 3\n"), told)
+        told = self.run_well("bake", "slit.map", "-o", "slit.slv").stderr
+        self.assertTrue(told.endswith("; if it is one, run: sightline check slit.map --entrance 3\n"), told)
+        told = self.box.run(["place", "slit.map"]).stderr
+        self.assertIn("; if the opening is an entrance, add --entrance 3; else", told)
 
     def test_next_of_usual(self):
         """No start is proposed that would leak through an entrance of the usual width."""
