@@ -326,17 +326,12 @@ static bool is_solid(const sl_map *map, sl_point at) {
 }
 
 /// Takes the place that is farthest from walls, of those with an access up to a width, if it is so
-/// many times as far as the one so far. `roomier`: behind openings that it is roomier than;
-/// *behind: the area of all such.
-static sl_status take_roomier(sli_entrances *f, double most, double times, bool roomier,
-                              double *clearance, double *behind) {
+/// many times as far as the one so far.
+static sl_status take_roomier(sli_entrances *f, double most, double times, double *clearance) {
     double least = times * *clearance;
-    *behind = 0;
-    SL_TRY(sli_access_gather(f, (sli_access_choice){.least = 0, .most = most, .same = roomier}));
+    SL_TRY(sli_access_gather(f, (sli_access_choice){.least = 0, .most = most}));
     for (size_t i = 0; i < f->groups.count; i++) {
         const sli_access_group *g = &f->groups.items[i];
-        if (roomier && 2 * g->clearance < SLI_ROOMIER * g->access) continue;
-        if (g->access > 0) *behind += g->area;
         if (g->clearance <= least || is_solid(f->map, g->place)) continue;
         least = *clearance = g->clearance;
         f->found.roomiest = g->place;
@@ -344,14 +339,31 @@ static sl_status take_roomier(sli_entrances *f, double most, double times, bool 
     return SL_OK;
 }
 
-/// Takes the largest part that is closed, of those that are larger than an area and roomy against a
-/// clearance.
-static sl_status take_closed(sli_entrances *f, double area, double *clearance) {
-    const double least = *clearance / ROOMY;
+/// Takes the roomiest place behind openings up to a width that it is roomier than. *behind: the
+/// area of all such. *roomy: the clearance of the roomiest place, be it closed or not.
+static sl_status take_behind(sli_entrances *f, double most, double *clearance, double *behind,
+                             double *roomy) {
+    SL_TRY(sli_access_gather(f, (sli_access_choice){.least = 0, .most = most, .same = true}));
+    for (size_t i = 0; i < f->groups.count; i++) {
+        const sli_access_group *g = &f->groups.items[i];
+        const bool opened = g->access > 0;
+        if (2 * g->clearance < SLI_ROOMIER * g->access) continue;
+        if (opened) *behind += g->area;
+        if (g->clearance <= (opened ? *clearance : *roomy) || is_solid(f->map, g->place)) continue;
+        *roomy = fmax(*roomy, g->clearance);
+        if (!opened) continue;
+        *clearance = g->clearance;
+        f->found.roomiest = g->place;
+    }
+    return SL_OK;
+}
+
+/// Takes the largest part that is closed, of those that are larger than an area and roomy.
+static sl_status take_closed(sli_entrances *f, double area, double roomy, double *clearance) {
     SL_TRY(sli_access_gather(f, (sli_access_choice){.least = 0, .most = 0}));
     for (size_t i = 0; i < f->groups.count; i++) {
         const sli_access_group *g = &f->groups.items[i];
-        if (g->clearance < least || g->area <= area || is_solid(f->map, g->place)) continue;
+        if (g->clearance < roomy / ROOMY || g->area <= area || is_solid(f->map, g->place)) continue;
         area = g->area;
         *clearance = g->clearance;
         f->found.roomiest = g->place;
@@ -363,11 +375,14 @@ static sl_status take_closed(sli_entrances *f, double area, double *clearance) {
 /// area together, as openings join them. Niches outdoors are behind such, too: they count where
 /// nothing is roomier than its opening. Anywhere, if only cores of walls have such.
 static sl_status find_roomiest(sli_entrances *f, double most) {
-    double clearance = 0, behind, any;
-    SL_TRY(take_roomier(f, most, 1, true, &clearance, &behind));
-    if (!(clearance > 0)) SL_TRY(take_roomier(f, most, 1, false, &clearance, &any));
-    SL_TRY(take_closed(f, behind, &clearance));
-    return take_roomier(f, INFINITY, CORE, false, &clearance, &any);
+    double clearance = 0, behind = 0, roomy = 0;
+    SL_TRY(take_behind(f, most, &clearance, &behind, &roomy));
+    if (!(roomy > 0)) {
+        SL_TRY(take_roomier(f, most, 1, &clearance));
+        roomy = clearance;
+    }
+    SL_TRY(take_closed(f, behind, roomy, &clearance));
+    return take_roomier(f, INFINITY, CORE, &clearance);
 }
 
 /// Tries one way to know the width, up to `most` (what is doubtful, by SL_ENTRANCE_WIDE). *found:

@@ -178,15 +178,19 @@ class Entrances(sandbox.ProgramTest):
                 self.assertNotIn(word, told)
             self.assertRegex(told, rf"next: sightline bake {name} --entrance 2\n\Z")
 
-    def test_next_keeps_rooms(self):
-        """An open corridor is as wide as its opening: as an entrance, it would open its rooms."""
+    def open_corridor(self, name, far=()):
+        """Writes a map of rooms along a corridor that is open at one end, and lines far from it."""
         walls = ["unit m", "walls 0 0 -2.4 0 -2.4 10 4.4 10 4.4 0 2 0"]
         for x, wall in ((0, -2.4), (2, 4.4)):
             for y in (0, 2.5, 5, 7.5):
                 walls += [f"walls {x} {y} {x} {y + 0.5}", f"walls {x} {y + 1.5} {x} {y + 2.5}"]
                 walls += [f"walls {x} {y} {wall} {y}"] if y else []
-        text = "\n".join(["sightline 1", *walls, ""])
-        self.box.path("rooms.map").write_text(text, encoding="utf-8")
+        walls += [f"wall {x} -40 {x} 60" for x in far]
+        self.box.path(name).write_text("\n".join(["sightline 1", *walls, ""]), encoding="utf-8")
+
+    def test_next_keeps_rooms(self):
+        """An open corridor is as wide as its opening: as an entrance, it would open its rooms."""
+        self.open_corridor("rooms.map")
         told = self.printed("check", "rooms.map")
         self.assertIn("an opening 2 m wide", told)
         self.assertIn("  with the entrance of the next command, 70.6 % of the area is inside\n", told)
@@ -197,16 +201,15 @@ class Entrances(sandbox.ProgramTest):
         self.assertTrue(told.endswith("; if rooms behind narrower openings are what is inside, run: "
                                       "sightline check rooms.map --entrance 1.2\n"), told)
 
-    def test_next_of_a_slit(self):
-        """Where little is inside with the usual width, the doubtful opening is what all commands name."""
-        walls = ["unit m", "walls 0 0 -20 0 -20 12 20 12 20 0 3 0", "walls 6 4 8 4 8 5 6 5 6 4.6"]
-        self.box.path("slit.map").write_text("\n".join(["sightline 1", *walls, ""]), encoding="utf-8")
-        told = self.printed("check", "slit.map")
-        self.assertTrue(told.endswith("next: sightline check slit.map --entrance 3\n"), told)
-        told = self.run_well("bake", "slit.map", "-o", "slit.slv").stderr
-        self.assertTrue(told.endswith("; if it is one, run: sightline check slit.map --entrance 3\n"), told)
-        told = self.box.run(["place", "slit.map"]).stderr
-        self.assertIn("; if the opening is an entrance, add --entrance 3; else", told)
+    def test_next_beside_walls(self):
+        """Rooms that few of the walls belong to are no building: all commands name the opening."""
+        self.open_corridor("far.map", (-30, -20, 20, 30))
+        told = self.printed("check", "far.map")
+        self.assertTrue(told.endswith("next: sightline check far.map --entrance 2\n"), told)
+        told = self.run_well("bake", "far.map", "-o", "far.slv").stderr
+        self.assertTrue(told.endswith("; if it is one, run: sightline check far.map --entrance 2\n"), told)
+        told = self.box.run(["rooms", "far.map"]).stderr
+        self.assertIn("; if the opening is an entrance, add --entrance 2; else", told)
 
     def test_next_of_usual(self):
         """No start is proposed that would leak through an entrance of the usual width."""
