@@ -232,6 +232,12 @@ static int compare_groups(const void *left, const void *right) {
     return sli_compare_points(a->place, b->place);
 }
 
+/// The roomiest groups first.
+static void sort_groups(sli_entrances *f) {
+    if (f->groups.count)
+        qsort(f->groups.items, f->groups.count, sizeof *f->groups.items, compare_groups);
+}
+
 /// Gives the map a place in each part, the roomiest first.
 static sl_status add_places(sli_entrances *f) {
     sl_interior *found = &f->found;
@@ -328,13 +334,15 @@ static bool is_solid(const sl_map *map, sl_point at) {
 /// Takes the place that is farthest from walls, of those with an access up to a width, if it is so
 /// many times as far as the one so far.
 static sl_status take_roomier(sli_entrances *f, double most, double times, double *clearance) {
-    double least = times * *clearance;
+    const double least = times * *clearance;
     SL_TRY(sli_access_gather(f, (sli_access_choice){.least = 0, .most = most}));
-    for (size_t i = 0; i < f->groups.count; i++) {
+    sort_groups(f);
+    for (size_t i = 0; i < f->groups.count && f->groups.items[i].clearance > least; i++) {
         const sli_access_group *g = &f->groups.items[i];
-        if (g->clearance <= least || is_solid(f->map, g->place)) continue;
-        least = *clearance = g->clearance;
+        if (is_solid(f->map, g->place)) continue;
+        *clearance = g->clearance;
         f->found.roomiest = g->place;
+        break;
     }
     return SL_OK;
 }
@@ -344,12 +352,13 @@ static sl_status take_roomier(sli_entrances *f, double most, double times, doubl
 static sl_status take_behind(sli_entrances *f, double most, double *clearance, double *behind,
                              double *roomy) {
     SL_TRY(sli_access_gather(f, (sli_access_choice){.least = 0, .most = most, .same = true}));
+    sort_groups(f);
     for (size_t i = 0; i < f->groups.count; i++) {
         const sli_access_group *g = &f->groups.items[i];
         const bool opened = g->access > 0;
         if (2 * g->clearance < SLI_ROOMIER * g->access) continue;
         if (opened) *behind += g->area;
-        if (g->clearance <= (opened ? *clearance : *roomy) || is_solid(f->map, g->place)) continue;
+        if ((opened ? *clearance : *roomy) > 0 || is_solid(f->map, g->place)) continue;
         *roomy = fmax(*roomy, g->clearance);
         if (!opened) continue;
         *clearance = g->clearance;
@@ -358,17 +367,18 @@ static sl_status take_behind(sli_entrances *f, double most, double *clearance, d
     return SL_OK;
 }
 
-/// Takes the largest part that is closed, of those that are larger than an area and roomy.
-static sl_status take_closed(sli_entrances *f, double area, double roomy, double *clearance) {
-    SL_TRY(sli_access_gather(f, (sli_access_choice){.least = 0, .most = 0}));
+/// Takes the largest part that is closed, of those that are larger than an area and roomy. They are
+/// groups of their own, whatever else was gathered.
+static void take_closed(sli_entrances *f, double area, double roomy, double *clearance) {
     for (size_t i = 0; i < f->groups.count; i++) {
         const sli_access_group *g = &f->groups.items[i];
-        if (g->clearance < roomy / ROOMY || g->area <= area || is_solid(f->map, g->place)) continue;
+        if (g->access > 0 || g->clearance < roomy / ROOMY || g->area <= area ||
+            is_solid(f->map, g->place))
+            continue;
         area = g->area;
         *clearance = g->clearance;
         f->found.roomiest = g->place;
     }
-    return SL_OK;
 }
 
 /// Finds a roomy place: in a closed part, or behind openings up to a width where these have more
@@ -381,7 +391,7 @@ static sl_status find_roomiest(sli_entrances *f, double most) {
         SL_TRY(take_roomier(f, most, 1, &clearance));
         roomy = clearance;
     }
-    SL_TRY(take_closed(f, behind, roomy, &clearance));
+    take_closed(f, behind, roomy, &clearance);
     return take_roomier(f, INFINITY, CORE, &clearance);
 }
 
