@@ -232,6 +232,12 @@ static int compare_groups(const void *left, const void *right) {
     return sli_compare_points(a->place, b->place);
 }
 
+/// The roomiest groups first.
+static void sort_groups(sli_entrances *f) {
+    if (f->groups.count)
+        qsort(f->groups.items, f->groups.count, sizeof *f->groups.items, compare_groups);
+}
+
 /// Gives the map a place in each part, the roomiest first.
 static sl_status add_places(sli_entrances *f) {
     sl_interior *found = &f->found;
@@ -331,33 +337,53 @@ static sl_status is_solid(sli_entrances *f, sl_point at, bool *out) {
 }
 
 /// Takes the place that is farthest from walls, of those with an access up to a width, if it is so
-/// many times as far as the one so far. `roomier`: behind openings that it is roomier than.
-static sl_status take_roomier(sli_entrances *f, double most, double times, bool roomier,
-                              double *clearance) {
-    double least = times * *clearance;
-    SL_TRY(sli_access_gather(f, (sli_access_choice){.least = 0, .most = most, .same = roomier}));
-    for (size_t i = 0; i < f->groups.count; i++) {
+/// many times as far as the one so far.
+static sl_status take_roomier(sli_entrances *f, double most, double times, double *clearance) {
+    const double least = times * *clearance;
+    SL_TRY(sli_access_gather(f, (sli_access_choice){.least = 0, .most = most}));
+    sort_groups(f);
+    for (size_t i = 0; i < f->groups.count && f->groups.items[i].clearance > least; i++) {
         const sli_access_group *g = &f->groups.items[i];
         bool solid;
-        if (g->clearance <= least || (roomier && 2 * g->clearance < SLI_ROOMIER * g->access))
-            continue;
         SL_TRY(is_solid(f, g->place, &solid));
         if (solid) continue;
-        least = *clearance = g->clearance;
+        *clearance = g->clearance;
+        f->found.roomiest = g->place;
+        break;
+    }
+    return SL_OK;
+}
+
+/// Takes the roomiest place behind openings up to a width that it is roomier than. *behind: the
+/// area of all such. *roomy: the clearance of the roomiest place, be it closed or not.
+static sl_status take_behind(sli_entrances *f, double most, double *clearance, double *behind,
+                             double *roomy) {
+    SL_TRY(sli_access_gather(f, (sli_access_choice){.least = 0, .most = most, .same = true}));
+    sort_groups(f);
+    for (size_t i = 0; i < f->groups.count; i++) {
+        const sli_access_group *g = &f->groups.items[i];
+        const bool opened = g->access > 0;
+        bool solid;
+        if (2 * g->clearance < SLI_ROOMIER * g->access) continue;
+        if (opened) *behind += g->area;
+        if ((opened ? *clearance : *roomy) > 0) continue;
+        SL_TRY(is_solid(f, g->place, &solid));
+        if (solid) continue;
+        *roomy = fmax(*roomy, g->clearance);
+        if (!opened) continue;
+        *clearance = g->clearance;
         f->found.roomiest = g->place;
     }
     return SL_OK;
 }
 
-/// Takes the largest part that is closed, of those that are roomy against a clearance.
-static sl_status take_closed(sli_entrances *f, double *clearance) {
-    const double least = *clearance / ROOMY;
-    double area = 0;
-    SL_TRY(sli_access_gather(f, (sli_access_choice){.least = 0, .most = 0}));
+/// Takes the largest part that is closed, of those that are larger than an area and roomy. They are
+/// groups of their own, whatever else was gathered.
+static sl_status take_closed(sli_entrances *f, double area, double roomy, double *clearance) {
     for (size_t i = 0; i < f->groups.count; i++) {
         const sli_access_group *g = &f->groups.items[i];
         bool solid;
-        if (g->clearance < least || g->area <= area) continue;
+        if (g->access > 0 || g->clearance < roomy / ROOMY || g->area <= area) continue;
         SL_TRY(is_solid(f, g->place, &solid));
         if (solid) continue;
         area = g->area;
@@ -367,17 +393,18 @@ static sl_status take_closed(sli_entrances *f, double *clearance) {
     return SL_OK;
 }
 
-/// Finds a roomy place: in a closed part, else behind openings up to a width. Niches outdoors are
-/// behind such, too: they count where nothing is roomier than its opening. Anywhere, if only cores
-/// of walls have such.
+/// Finds a roomy place: in a closed part, or behind openings up to a width where these have more
+/// area together, as openings join them. Niches outdoors are behind such, too: they count where
+/// nothing is roomier than its opening. Anywhere, if only cores of walls have such.
 static sl_status find_roomiest(sli_entrances *f, double most) {
-    double clearance = 0;
-    if (sli_entrances_say_ground(f->map))
-        SL_TRY(sli_wall_index_create(f->context, f->map, &f->walls));
-    SL_TRY(take_roomier(f, most, 1, true, &clearance));
-    if (!(clearance > 0)) SL_TRY(take_roomier(f, most, 1, false, &clearance));
-    SL_TRY(take_closed(f, &clearance));
-    return take_roomier(f, INFINITY, CORE, false, &clearance);
+    double clearance = 0, behind = 0, roomy = 0;
+    SL_TRY(take_behind(f, most, &clearance, &behind, &roomy));
+    if (!(roomy > 0)) {
+        SL_TRY(take_roomier(f, most, 1, &clearance));
+        roomy = clearance;
+    }
+    SL_TRY(take_closed(f, behind, roomy, &clearance));
+    return take_roomier(f, INFINITY, CORE, &clearance);
 }
 
 /// Tries one way to know the width, up to `most` (what is doubtful, by SL_ENTRANCE_WIDE). *found:
@@ -464,17 +491,27 @@ static sl_status widen(sl_context *context, sl_map *map, const sl_box *b) {
 /// With more walls the search for a likely start takes seconds, and lettering is among them.
 enum { MOST_FOR_PLACE = 1 << 17 };
 
-/// Finds a roomy place alone, behind openings up to a width: where a start is likely to be right in
-/// a picture, all of which is inside that is not solid.
-static sl_status find_place(sl_context *context, sl_map *map, double most) {
+/// Finds a roomy place alone, behind openings up to a width.
+static sl_status find_place(sl_context *context, const sl_map *map, double most, sl_point *place) {
     sli_entrances f;
-    SL_TRY(begin_search_of_entrances(&f, context, map));
+    sl_map own = *map; // it is not changed
+    SL_TRY(begin_search_of_entrances(&f, context, &own));
     sl_status status = make_channels(&f, most);
     f.found.roomiest = NOWHERE;
     if (status == SL_OK) status = find_roomiest(&f, most);
-    map->interior.roomiest = f.found.roomiest;
+    *place = f.found.roomiest;
     destroy(&f);
     return status == SL_UNSUPPORTED ? SL_OK : status; // too dense
+}
+
+sl_status sl_map_find_roomiest(sl_context *context, const sl_map *map, sl_point *place) {
+    const sl_box b = sl_map_bounds(map);
+    const double shorter = fmin(b.max.x - b.min.x, b.max.y - b.min.y);
+    *place = map->interior.roomiest;
+    if (!isnan(place->x) || map->start_count || !map->entrance_may_be_wide || !(shorter > 0) ||
+        map->wall_count > MOST_FOR_PLACE || !sli_entrances_say_ground(map))
+        return SL_OK;
+    return find_place(context, map, shorter / 3, place);
 }
 #endif
 
@@ -495,9 +532,6 @@ static sl_status find(sl_context *context, sl_map *map) {
         SL_TRY(try_by(context, map, SL_ENTRANCE_FOUND, 0, shorter / 3, &found));
 #ifndef SLI_WITHOUT_DRAWINGS
     if (found) SL_TRY(widen(context, map, &b));
-    if (!found && map->entrance_may_be_wide && sli_entrances_say_ground(map) &&
-        map->wall_count <= MOST_FOR_PLACE)
-        return find_place(context, map, shorter / 3);
 #endif
     return SL_OK;
 }

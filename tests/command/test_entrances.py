@@ -108,7 +108,8 @@ class Entrances(sandbox.ProgramTest):
                     told = self.run_well("bake", name, "-o", "b.slv").stderr
                     self.assertRegex(told, r"an opening 2( m)? wide, at .* so inside is doubtful: all "
                                      r"of the map counts as inside; a start in a room decides it, "
-                                     rf"or an entrance of 2 if the opening is one: sightline check {name} --entrance 2\n")
+                                     r"or an entrance of 2 if the opening is one; if it is one, run: "
+                                     rf"sightline check {name} --entrance 2\n")
                     for command, *options in WIDE:
                         self.refused_and_typed(command, name, options, degrees)
                     cells, area = self.inside(name, "--entrance", "2")
@@ -120,11 +121,11 @@ class Entrances(sandbox.ProgramTest):
         for command, *options in *WIDE, ["rooms"], ["report", "-o", "a.pdf"]:
             refused = self.box.run([command, "a.map", *options])
             self.assertEqual(refused.status, 2, refused.text())
-            typed = re.search(r"say where a room is, as with (--start \S+); or if the opening is an "
-                              r"entrance, add (--entrance 2)", refused.stderr)
+            typed = re.search(r"; if the opening is an entrance, add (--entrance 2); else add a start",
+                              refused.stderr)
             self.assertTrue(typed, refused.stderr)
-            for chosen in typed.groups():
-                self.run_well(command, "a.map", *options, *chosen.split())
+            self.assertNotIn("--start", refused.stderr)  # it would keep the closed room alone
+            self.run_well(command, "a.map", *options, *typed[1].split())
 
     def test_kept_of_drawings(self):
         """In a plan that is drawn, a wide entrance is found. Map text keeps it; doors stay narrow."""
@@ -177,21 +178,38 @@ class Entrances(sandbox.ProgramTest):
                 self.assertNotIn(word, told)
             self.assertRegex(told, rf"next: sightline bake {name} --entrance 2\n\Z")
 
-    def test_next_keeps_rooms(self):
-        """An open corridor is as wide as its opening: as an entrance, it would open its rooms."""
+    def open_corridor(self, name, far=()):
+        """Writes a map of rooms along a corridor that is open at one end, and lines far from it."""
         walls = ["unit m", "walls 0 0 -2.4 0 -2.4 10 4.4 10 4.4 0 2 0"]
         for x, wall in ((0, -2.4), (2, 4.4)):
             for y in (0, 2.5, 5, 7.5):
                 walls += [f"walls {x} {y} {x} {y + 0.5}", f"walls {x} {y + 1.5} {x} {y + 2.5}"]
                 walls += [f"walls {x} {y} {wall} {y}"] if y else []
-        text = "\n".join(["sightline 1", *walls, ""])
-        self.box.path("rooms.map").write_text(text, encoding="utf-8")
+        walls += [f"wall {x} -40 {x} 60" for x in far]
+        self.box.path(name).write_text("\n".join(["sightline 1", *walls, ""]), encoding="utf-8")
+
+    def test_next_keeps_rooms(self):
+        """An open corridor is as wide as its opening: as an entrance, it would open its rooms."""
+        self.open_corridor("rooms.map")
         told = self.printed("check", "rooms.map")
         self.assertIn("an opening 2 m wide", told)
         self.assertIn("  with the entrance of the next command, 70.6 % of the area is inside\n", told)
         self.assertTrue(told.endswith("next: sightline check rooms.map --entrance 1.2\n"), told)
         told = self.printed("check", "rooms.map", "--entrance", "1.2", "--strict")
         self.assertNotIn("doubtful", told)
+        told = self.run_well("bake", "rooms.map", "-o", "rooms.slv").stderr
+        self.assertTrue(told.endswith("; if rooms behind narrower openings are what is inside, run: "
+                                      "sightline check rooms.map --entrance 1.2\n"), told)
+
+    def test_next_beside_walls(self):
+        """Rooms that few of the walls belong to are no building: all commands name the opening."""
+        self.open_corridor("far.map", (-30, -20, 20, 30))
+        told = self.printed("check", "far.map")
+        self.assertTrue(told.endswith("next: sightline check far.map --entrance 2\n"), told)
+        told = self.run_well("bake", "far.map", "-o", "far.slv").stderr
+        self.assertTrue(told.endswith("; if it is one, run: sightline check far.map --entrance 2\n"), told)
+        told = self.box.run(["rooms", "far.map"]).stderr
+        self.assertIn("; if the opening is an entrance, add --entrance 2; else", told)
 
     def test_next_of_usual(self):
         """No start is proposed that would leak through an entrance of the usual width."""

@@ -119,8 +119,10 @@ static sl_status suggest_gap(sl_context *context, const check_plan *plan, const 
 static sl_status try_entrance(sl_context *context, const check_plan *plan, const sl_map *map,
                               double width, double *inside) {
     sl_baked baked = {0};
+    char text[SL_NUMBER_TEXT];
+    snprintf(text, sizeof text, "%.4g", width); // as it is printed
     sl_status status = sl_map_copy(context, map, &baked.map);
-    baked.map.entrance = width;
+    baked.map.entrance = strtod(text, NULL);
     baked.map.entrance_by_doors = false;
     if (status == SL_OK) status = pipeline_clean(context, &plan->pipeline, &baked.map, NULL);
     if (status == SL_OK)
@@ -131,23 +133,14 @@ static sl_status try_entrance(sl_context *context, const check_plan *plan, const
     return status;
 }
 
-/// Where an opening is in doubt: the wider of both widths, unless less is inside with it. A wide
-/// entrance opens rooms beside it, whose openings are as wide.
-static sl_status suggest_entrance(sl_context *context, const check_plan *plan, const checked *c,
-                                  faults_report *report) {
-    const sl_interior *found = &c->baked.map.interior;
-    const double widths[2] = {found->doubtful_width, found->width};
+/// What to type where an opening is in doubt, and how much is inside then.
+static sl_status decide_opening(sl_context *context, const check_plan *plan, const checked *c,
+                                faults_report *report) {
     if (c->inside != SL_INSIDE_OPENING) return SL_OK;
-    for (int i = 0; i < 2; i++) {
-        char text[SL_NUMBER_TEXT];
-        double inside;
-        snprintf(text, sizeof text, "%.4g", widths[i]); // as it is printed
-        SL_TRY(try_entrance(context, plan, &c->map, strtod(text, NULL), &inside));
-        if (inside <= report->inside) continue;
-        report->entrance = widths[i];
-        report->inside = inside;
-    }
-    return SL_OK;
+    SL_TRY(pipeline_decide_opening(context, &plan->pipeline, &c->baked.map, &c->baked.space,
+                                   &report->opening));
+    if (report->opening.start) return SL_OK;
+    return try_entrance(context, plan, &c->map, report->opening.entrance, &report->inside);
 }
 
 /// Reads the map; of a baked file, the map that it was made from.
@@ -173,7 +166,7 @@ static sl_status check(command_console *console, const check_plan *plan, checked
         SL_TRY(mend(context, plan, &report, after));
     else
         SL_TRY(suggest_gap(context, plan, c, &report));
-    SL_TRY(suggest_entrance(context, plan, c, &report));
+    SL_TRY(decide_opening(context, plan, plan->snap ? after : c, &report));
     const uint32_t *counts = c->faults.counts;
     if (!plan->snap && (counts[SL_FAULT_GAP] || counts[SL_FAULT_LEAK]))
         SL_TRY(sl_suggest_weld(context, &c->map, &report.weld));
@@ -185,8 +178,7 @@ static sl_status check(command_console *console, const check_plan *plan, checked
     console->fault = plan->strict && checked_has_fault(c);
     progress_line_clear(&console->line);
     if (plan->json) return faults_print_json(context, &report);
-    faults_print(&report);
-    return SL_OK;
+    return faults_print(context, &report);
 }
 
 // --- every map of a file

@@ -9,6 +9,7 @@
 #include "system/built.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const char *const kd_rules[] = {"spanning", "obscured", "cleaving", "median"};
@@ -276,54 +277,20 @@ sl_status pipeline_read_space(sl_context *context, const map_pipeline *pipeline,
     return status;
 }
 
-/// The digits of places in the map. Baking moves its walls to the space.
-static int digits_of(const sl_map *map, const sl_space *space) {
+/// The map with its walls, which baking moves to the space. Nothing of it is its own.
+static sl_map with_walls(const sl_map *map, const sl_space *space) {
     sl_map whole = *map;
     if (!whole.wall_count) {
         whole.walls = space->walls;
         whole.wall_count = space->wall_count;
     }
+    return whole;
+}
+
+/// The digits of places in the map.
+static int digits_of(const sl_map *map, const sl_space *space) {
+    const sl_map whole = with_walls(map, space);
     return sl_map_digits(&whole);
-}
-
-/// Refuses a map as pipeline_need_inside() says.
-static sl_status refuse_inside(sl_context *context, const sl_map *map, const sl_space *space,
-                               const char *or_else) {
-    const sl_ground_shares shares = sl_space_ground(space);
-    const sl_interior *found = &map->interior;
-    const int digits = digits_of(map, space);
-    const sl_point start = pipeline_likely_start(map, space);
-    sl_inside doubt;
-    double enclosed;
-    SL_TRY(sl_doubt_inside(context, map, space, &doubt));
-    SL_TRY(sl_space_enclosed(context, space, &enclosed));
-    if (doubt == SL_INSIDE_OPENING)
-        return sl_fail(context, SL_BAD_ARGUMENT,
-                       "the map has no start, and an opening %.4g%s%s wide, at %.*g,%.*g, is wider "
-                       "than entrances are (%.4g); say where a room is, as with --start %.*g,%.*g; "
-                       "or if the opening is an entrance, add --entrance %.4g%s",
-                       found->doubtful_width, *map->unit ? " " : "", map->unit, digits,
-                       found->doubtful.a.x, digits, found->doubtful.a.y, found->width, digits,
-                       start.x, digits, start.y, found->doubtful_width, or_else);
-    if (doubt != SL_INSIDE_SMALL || !(shares.outside > 0) || enclosed > FEW_INSIDE) return SL_OK;
-    return sl_fail(
-        context, SL_BAD_ARGUMENT,
-        "the map has no start, and walls enclose only %.2g %% of the area among them; say "
-        "where a room is with --start X,Y%s",
-        100 * enclosed, or_else);
-}
-
-sl_point pipeline_likely_start(const sl_map *map, const sl_space *space) {
-    const uint32_t roomiest = sl_space_locate(space, map->interior.roomiest);
-    if (roomiest != SL_NO_CELL) return sl_space_middle(space, roomiest);
-    uint32_t largest = 0;
-    double area = -1;
-    for (uint32_t i = 0; i < space->cell_count; i++) {
-        if (space->cells[i].solid || sl_space_area(space, i) <= area) continue;
-        largest = i;
-        area = sl_space_area(space, i);
-    }
-    return sl_space_middle(space, largest);
 }
 
 /// Whether a game's map was read, by its file's name. What lies on the earth is none: files of
@@ -332,13 +299,129 @@ static bool is_game(const sl_context *context, const map_pipeline *pipeline, con
     return input_is_game(context, pipeline->path) && !map->earth.known;
 }
 
-/// What to do next about what is inside. In a game walls stand as they like: a wide opening is
-/// seldom an entrance, and a start says more.
-static void say_next(sl_inside doubt, bool game, const sl_map *map, const sl_space *space,
-                     const char *path, char text[2 * SAID]) {
-    const size_t size = 2 * SAID;
+/// Whether a building is inside with a width of entrances.
+static sl_status try_entrance(sl_context *context, const map_pipeline *pipeline,
+                              const sl_map *whole, double width, bool *building) {
+    sl_map map = {0};
+    sl_status status = sl_map_copy(context, whole, &map);
+    map.entrance = width;
+    map.entrance_by_doors = false;
+    if (status == SL_OK) status = sl_map_find_inside(context, &map, &pipeline->input.clean, NULL);
+    *building = map.interior.place_count && map.interior.building;
+    sl_map_destroy(context, &map);
+    return status;
+}
+
+sl_status pipeline_decide_opening(sl_context *context, const map_pipeline *pipeline,
+                                  const sl_map *map, const sl_space *space, doubtful_opening *out) {
+    const double widths[2] = {map->interior.doubtful_width, map->interior.width};
+    const sl_map whole = with_walls(map, space);
+    bool building = is_game(context, pipeline, map);
+    *out = (doubtful_opening){.start = building, .wide = true, .entrance = widths[0]};
+    for (int i = 0; i < 2 && !building; i++) {
+        char text[SL_NUMBER_TEXT];
+        snprintf(text, sizeof text, "%.4g", widths[i]); // as it is printed
+        SL_TRY(try_entrance(context, pipeline, &whole, strtod(text, NULL), &building));
+        if (building) *out = (doubtful_opening){.wide = i == 0, .entrance = widths[i]};
+    }
+    return SL_OK;
+}
+
+/// Refuses a map with an opening in doubt. A start behind it would lead out of a house, and a start
+/// in a closed part keeps no other.
+static sl_status refuse_opening(sl_context *context, const map_pipeline *pipeline,
+                                const sl_map *map, const sl_space *space, const char *or_else) {
+    const sl_interior *found = &map->interior;
     const int digits = digits_of(map, space);
-    const sl_point start = pipeline_likely_start(map, space);
+    doubtful_opening next;
+    sl_point start;
+    char advice[160];
+    SL_TRY(pipeline_decide_opening(context, pipeline, map, space, &next));
+    if (next.start) {
+        SL_TRY(pipeline_likely_start(context, map, space, &start));
+        snprintf(advice, sizeof advice,
+                 "say where a room is, as with --start %.*g,%.*g; or if the opening is an "
+                 "entrance, add --entrance %.4g",
+                 digits, start.x, digits, start.y, next.entrance);
+    } else {
+        snprintf(advice, sizeof advice, "%s, add --entrance %.4g; else add a start in a room",
+                 next.wide ? "if the opening is an entrance"
+                           : "if rooms behind narrower openings are what is inside",
+                 next.entrance);
+    }
+    return sl_fail(context, SL_BAD_ARGUMENT,
+                   "the map has no start, and an opening %.4g%s%s wide, at %.*g,%.*g, is wider "
+                   "than entrances are (%.4g); %s%s",
+                   found->doubtful_width, *map->unit ? " " : "", map->unit, digits,
+                   found->doubtful.a.x, digits, found->doubtful.a.y, found->width, advice, or_else);
+}
+
+/// Refuses a map as pipeline_need_inside() says.
+static sl_status refuse_inside(sl_context *context, const map_pipeline *pipeline, const sl_map *map,
+                               const sl_space *space, const char *or_else) {
+    const sl_ground_shares shares = sl_space_ground(space);
+    sl_inside doubt;
+    double enclosed;
+    SL_TRY(sl_doubt_inside(context, map, space, &doubt));
+    SL_TRY(sl_space_enclosed(context, space, &enclosed));
+    if (doubt == SL_INSIDE_OPENING) return refuse_opening(context, pipeline, map, space, or_else);
+    if (doubt != SL_INSIDE_SMALL || !(shares.outside > 0) || enclosed > FEW_INSIDE) return SL_OK;
+    return sl_fail(
+        context, SL_BAD_ARGUMENT,
+        "the map has no start, and walls enclose only %.2g %% of the area among them; say "
+        "where a room is with --start X,Y%s",
+        100 * enclosed, or_else);
+}
+
+sl_status pipeline_likely_start(sl_context *context, const sl_map *map, const sl_space *space,
+                                sl_point *start) {
+    const sl_map whole = with_walls(map, space);
+    sl_point roomiest;
+    SL_TRY(sl_map_find_roomiest(context, &whole, &roomiest));
+    const uint32_t known = sl_space_locate(space, roomiest);
+    uint32_t largest = 0;
+    double area = -1;
+    for (uint32_t i = 0; known == SL_NO_CELL && i < space->cell_count; i++) {
+        if (space->cells[i].solid || sl_space_area(space, i) <= area) continue;
+        largest = i;
+        area = sl_space_area(space, i);
+    }
+    *start = sl_space_middle(space, known == SL_NO_CELL ? largest : known);
+    return SL_OK;
+}
+
+/// " --start 1,2", in a place that is likely to be right.
+static sl_status say_start(sl_context *context, const sl_map *map, const sl_space *space,
+                           const char *before, char text[2 * SAID]) {
+    const int digits = digits_of(map, space);
+    sl_point start;
+    SL_TRY(pipeline_likely_start(context, map, space, &start));
+    snprintf(text, 2 * SAID, "%s --start %.*g,%.*g", before, digits, start.x, digits, start.y);
+    return SL_OK;
+}
+
+/// What to do next about an opening in doubt.
+static sl_status say_opening(sl_context *context, const map_pipeline *pipeline, const sl_map *map,
+                             const sl_space *space, const char *path, char text[2 * SAID]) {
+    char command[SAID + 64];
+    doubtful_opening next;
+    SL_TRY(pipeline_decide_opening(context, pipeline, map, space, &next));
+    snprintf(command, sizeof command, "; with a start, run: sightline check %s", path);
+    if (next.start) return say_start(context, map, space, command, text);
+    snprintf(text, 2 * SAID, "; %s, run: sightline check %s --entrance %.4g",
+             next.wide ? "if it is one" : "if rooms behind narrower openings are what is inside",
+             path, next.entrance);
+    return SL_OK;
+}
+
+/// What to do next about what is inside.
+static sl_status say_next(sl_context *context, const map_pipeline *pipeline, sl_inside doubt,
+                          const sl_map *map, const sl_space *space, char text[2 * SAID]) {
+    char path[SAID], command[SAID + 64];
+    map_pipeline any = pipeline_default();
+    const option_table reading = pipeline_option_table(&any);
+    const size_t size = 2 * SAID;
+    say_map(pipeline, &reading, path);
     switch (doubt) {
     case SL_INSIDE_SURE:
         snprintf(text, size, "; for another width, add --entrance W");
@@ -347,9 +430,8 @@ static void say_next(sl_inside doubt, bool game, const sl_map *map, const sl_spa
         snprintf(text, size, "; to see where, run: sightline check %s", path);
         break;
     case SL_INSIDE_SMALL:
-        snprintf(text, size, "; add a start: sightline check %s --start %.*g,%.*g", path, digits,
-                 start.x, digits, start.y);
-        break;
+        snprintf(command, sizeof command, "; add a start: sightline check %s", path);
+        return say_start(context, map, space, command, text);
     case SL_INSIDE_FEW:
         snprintf(text, size, "; sightline check %s lists them, --start X,Y adds a start", path);
         break;
@@ -357,14 +439,9 @@ static void say_next(sl_inside doubt, bool game, const sl_map *map, const sl_spa
         snprintf(text, size, "; to see it, run: sightline check %s -o check.png", path);
         break;
     case SL_INSIDE_OPENING:
-        if (game)
-            snprintf(text, size, ": sightline check %s --start %.*g,%.*g", path, digits, start.x,
-                     digits, start.y);
-        else
-            snprintf(text, size, ": sightline check %s --entrance %.4g", path,
-                     map->interior.doubtful_width);
-        break;
+        return say_opening(context, pipeline, map, space, path, text);
     }
+    return SL_OK;
 }
 
 /// Whether solid ground or starts say where rooms are.
@@ -458,15 +535,12 @@ sl_status pipeline_note_sealed(sl_context *context, const map_pipeline *pipeline
 /// Notes what say_inside() says, and what to run next.
 static sl_status note_said(sl_context *context, const map_pipeline *pipeline, const sl_map *map,
                            const sl_space *space) {
-    char said[SL_INSIDE_TEXT], path[SAID], then[2 * SAID];
-    map_pipeline any = pipeline_default();
-    const option_table reading = pipeline_option_table(&any);
+    char said[SL_INSIDE_TEXT], then[2 * SAID];
     sl_inside doubt;
     SL_TRY(sl_say_inside(context, map, space, said));
     if (!said[0]) return SL_OK;
     SL_TRY(sl_doubt_inside(context, map, space, &doubt));
-    say_next(doubt, is_game(context, pipeline, map), map, space, say_map(pipeline, &reading, path),
-             then);
+    SL_TRY(say_next(context, pipeline, doubt, map, space, then));
     sl_note(context, "%s%s", said, then);
     return SL_OK;
 }
@@ -481,7 +555,7 @@ sl_status pipeline_note_inside(sl_context *context, const map_pipeline *pipeline
 
 sl_status pipeline_need_inside(sl_context *context, const map_pipeline *pipeline, const sl_map *map,
                                const sl_space *space, const char *or_else) {
-    SL_TRY(refuse_inside(context, map, space, or_else));
+    SL_TRY(refuse_inside(context, pipeline, map, space, or_else));
     return pipeline_note_inside(context, pipeline, map, space);
 }
 
@@ -489,7 +563,7 @@ sl_status pipeline_prove_inside(sl_context *context, const map_pipeline *pipelin
                                 const sl_map *map, const sl_space *space, bool *doubtful) {
     sl_inside doubt;
     sl_point open;
-    SL_TRY(refuse_inside(context, map, space, ""));
+    SL_TRY(refuse_inside(context, pipeline, map, space, ""));
     SL_TRY(sl_doubt_inside(context, map, space, &doubt));
     SL_TRY(note_sealed(context, pipeline, map, space, true, doubtful, &open));
     SL_TRY(note_said(context, pipeline, map, space));

@@ -69,8 +69,20 @@ sl_status pipeline_read_space(sl_context *context, const map_pipeline *pipeline,
 size_t pipeline_shell_word(const char *word, char *text, size_t size);
 
 /// A place for a start: the middle of the cell that has the roomiest place. Where that is not
-/// known: of the largest cell that is not solid.
-sl_point pipeline_likely_start(const sl_map *map, const sl_space *space);
+/// known: of the largest cell that is not solid. In a picture the search may take seconds.
+sl_status pipeline_likely_start(sl_context *context, const sl_map *map, const sl_space *space,
+                                sl_point *start);
+
+/// What to type next where an opening is in doubt (SL_INSIDE_OPENING).
+typedef struct doubtful_opening {
+    bool start; ///< a start: in a game a wide opening is seldom an entrance
+    bool wide;  ///< the opening as an entrance. Else the width of the others: with that, a building
+                ///< is inside, and none with the wide one
+    double entrance;
+} doubtful_opening;
+
+sl_status pipeline_decide_opening(sl_context *context, const map_pipeline *pipeline,
+                                  const sl_map *map, const sl_space *space, doubtful_opening *out);
 
 /// Refuses a map where no start says what is inside, and an opening is in doubt or walls enclose
 /// next to nothing: most of a grid may be missing. `or_else`: what else than a start helps; "" for

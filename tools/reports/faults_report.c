@@ -357,23 +357,28 @@ static void print_name(const faults_report *report, const char *option, const ch
 }
 
 /// Checks again, with a start.
-static void print_next_start(const faults_report *report, next_use use, const checked *found) {
-    const sl_point start = pipeline_likely_start(&found->baked.map, &found->baked.space);
+static sl_status print_next_start(sl_context *context, const faults_report *report, next_use use,
+                                  const checked *found) {
+    sl_point start;
+    SL_TRY(pipeline_likely_start(context, &found->baked.map, &found->baked.space, &start));
     const int digits = sl_map_digits(&found->map);
     puts("  the next command has a start in the roomiest place: put another place there if that is "
          "outside");
     print_command(report, use, 0);
     printf(" --start %.*g,%.*g", digits, start.x, digits, start.y);
+    return SL_OK;
 }
 
-/// Checks again, with a width of entrances that was tried, or the doubtful opening as one.
-static void print_next_entrance(const faults_report *report, next_use use, const checked *found) {
-    const bool tried = report->entrance > 0 && found == report->found;
-    if (tried)
+/// Checks again, with what decides the opening in doubt.
+static sl_status print_next_opening(sl_context *context, const faults_report *report, next_use use,
+                                    const checked *found) {
+    if (report->opening.start) return print_next_start(context, report, use, found);
+    if (report->inside > 0)
         printf("  with the entrance of the next command, %.3g %% of the area is inside\n",
                100 * report->inside);
     print_command(report, use, 0);
-    printf(" --entrance %.4g", tried ? report->entrance : found->baked.map.interior.doubtful_width);
+    printf(" --entrance %.4g", report->opening.entrance);
+    return SL_OK;
 }
 
 /// Whether inside ends at entrances, beyond doubt. No start is needed then: it would go before the
@@ -392,24 +397,22 @@ static bool needs_entrance(const faults_report *report, const checked *found) {
            found->baked.map.interior.doubtful_width > report->found->gap;
 }
 
-static void print_next_of_mended(const faults_report *report) {
+static sl_status print_next_of_mended(sl_context *context, const faults_report *report) {
     const uint32_t *counts = report->left->faults.counts;
     const bool left = counts[SL_FAULT_LEAK] || counts[SL_FAULT_GAP];
     bool gap_given = false;
     if (needs_entrance(report, report->left) ||
         (!left && report->left->inside == SL_INSIDE_OPENING)) {
-        print_next_entrance(report, NEXT_CHECK_MENDED, report->left);
-        return;
+        return print_next_opening(context, report, NEXT_CHECK_MENDED, report->left);
     }
-    if (!left && needs_start(report->left)) {
-        print_next_start(report, NEXT_CHECK_MENDED, report->left);
-        return;
-    }
+    if (!left && needs_start(report->left))
+        return print_next_start(context, report, NEXT_CHECK_MENDED, report->left);
     for (size_t i = 0; i < report->given->count; i++)
         gap_given |= strcmp(report->given->items[i].name, "gap") == 0;
     print_command(report, left ? NEXT_CHECK_MENDED : NEXT_BAKE_MENDED, 0);
     if (left && !gap_given) printf(" --gap %.6g", report->found->gap);
     if (left) print_name(report, " -o ", "-fixed.png");
+    return SL_OK;
 }
 
 /// Whether all leaks are entrances, and only options say where starts are.
@@ -422,24 +425,24 @@ static bool has_startless(const faults_report *report) {
            given == report->found->map.start_count;
 }
 
-static void print_next(const faults_report *report) {
+static sl_status print_next(sl_context *context, const faults_report *report) {
     const sl_faults *faults = &report->found->faults;
     const bool grave = faults->counts[SL_FAULT_LEAK] || faults->counts[SL_FAULT_GAP];
     const bool helps = report->helps > 0 && !is_as_door(report);
     const bool closes = helps || closable(faults, SL_FAULT_GAP) || closable(faults, SL_FAULT_LEAK);
     if (report->mended) {
-        print_next_of_mended(report);
+        SL_TRY(print_next_of_mended(context, report));
     } else if (report->found->map.source.plans) {
         print_command(report, NEXT_CHECK, 0);
         printf(" --map 'plan 1'");
     } else if (needs_entrance(report, report->found) ||
                (!closes && report->found->inside == SL_INSIDE_OPENING)) {
-        print_next_entrance(report, NEXT_CHECK, report->found);
+        SL_TRY(print_next_opening(context, report, NEXT_CHECK, report->found));
     } else if (closes) {
         print_command(report, NEXT_CHECK, helps ? report->helps : 0);
         print_name(report, " --snap ", "-fixed.map");
     } else if (needs_start(report->found)) {
-        print_next_start(report, NEXT_CHECK, report->found);
+        SL_TRY(print_next_start(context, report, NEXT_CHECK, report->found));
     } else if (has_startless(report)) {
         print_command(report, NEXT_BAKE_STARTLESS, 0);
     } else if (report->found->strays.count) {
@@ -454,6 +457,7 @@ static void print_next(const faults_report *report) {
         print_command(report, NEXT_BAKE, 0);
     }
     putchar('\n');
+    return SL_OK;
 }
 
 /// What sets the tolerance.
@@ -490,7 +494,7 @@ static void print_inside(const checked *found) {
         puts("  nothing found");
 }
 
-void faults_print(const faults_report *report) {
+sl_status faults_print(sl_context *context, const faults_report *report) {
     const checked *found = report->found;
     const sl_faults *faults = &found->faults;
     print_size(report->input, found);
@@ -510,7 +514,7 @@ void faults_print(const faults_report *report) {
         print_mended(report);
     else
         print_snap_advice(report);
-    print_next(report);
+    return print_next(context, report);
 }
 
 // --- JSON

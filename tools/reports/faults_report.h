@@ -24,20 +24,20 @@ typedef struct faults_report {
     double thin;
     const char *mended; ///< the file written; NULL for none
     sl_mend_account snap;
-    const checked *left; ///< the mended map
-    double helps;        ///< a larger gap that closes a leak; 0 for none
-    double entrance;     ///< the width to try where an opening is in doubt; 0 for none
-    double inside;       ///< the share of the area that is inside with it
-    double weld;         ///< a tolerance that closes gaps of rounding; 0 for none
-    uint64_t most;       ///< of a kind, in the text
-    const char *picture; ///< NULL for none
+    const checked *left;      ///< the mended map
+    double helps;             ///< a larger gap that closes a leak; 0 for none
+    doubtful_opening opening; ///< what to type where an opening is in doubt
+    double inside;            ///< the share of the area that is inside with its entrance
+    double weld;              ///< a tolerance that closes gaps of rounding; 0 for none
+    uint64_t most;            ///< of a kind, in the text
+    const char *picture;      ///< NULL for none
     const options_given *given;
 } faults_report;
 
 /// Whether --strict fails.
 bool checked_has_fault(const checked *c);
 
-void faults_print(const faults_report *report);
+sl_status faults_print(sl_context *context, const faults_report *report);
 sl_status faults_print_json(sl_context *context, const faults_report *report);
 
 /// One line: "E1M1: 475 walls, 250 cells; 2 leaks, 1 gap".

@@ -168,6 +168,12 @@ typedef struct sl_space {
 SL_API sl_status sl_map_find_inside(sl_context *context, sl_map *map, const sl_clean_options *clean,
                                     sl_clean_account *account);
 
+/// Finds a place that is likely to be in a room, after sl_map_find_inside: `interior.roomiest`. In
+/// a drawing with solid ground, as a picture is, it is looked for only here: far from walls in the
+/// largest closed part, or behind openings where more ground is. NAN where none is known. Time as
+/// sl_map_find_inside.
+SL_API sl_status sl_map_find_roomiest(sl_context *context, const sl_map *map, sl_point *place);
+
 /// The rules of the kd-tree (Teller & Séquin 1991, Spatial Subdivision). They choose a split among
 /// the lines with a wall inside the region, one after the other. Start from
 /// sl_subdivide_options_default().

@@ -10,6 +10,9 @@
 #include <math.h>
 #include <string.h>
 
+/// Furniture and symbols are up to such a part of a drawing.
+enum { SMALL = 12 };
+
 // --- what is told
 
 /// Counts the corners of each piece.
@@ -34,7 +37,7 @@ static sl_status find_small(sli_plan_net *n, sl_bits *closed, sli_plan_look *out
         const uint32_t first = sl_root_of(n->piece, i);
         const double w = sli_box_width(n->boxes[first]), h = sli_box_height(n->boxes[first]);
         if (sl_bits_has(walls, first)) continue;
-        if (fmax(w, h) > n->size / 12 || fmax(w, h) > 3 * fmin(w, h)) continue;
+        if (fmax(w, h) > n->size / SMALL || fmax(w, h) > 3 * fmin(w, h)) continue;
         out->pieces += first == i;
         out->small++;
         if (n->counts[first] < corners[first]) continue;
@@ -58,7 +61,7 @@ static sl_status count_across(sli_plan_net *n, sli_plan_look *out) {
             length[k] = sli_length(wall->b.x - wall->a.x, wall->b.y - wall->a.y);
         }
         const uint32_t shorter = both[length[0] > length[1]];
-        if (fmin(length[0], length[1]) > n->size / 12 || sl_bits_has(across, shorter)) continue;
+        if (fmin(length[0], length[1]) > n->size / SMALL || sl_bits_has(across, shorter)) continue;
         sl_bits_add(across, shorter);
         out->across++;
     }
@@ -106,7 +109,9 @@ static bool is_site(sli_plan_net *n, uint32_t piece) {
         const uint32_t first = sl_root_of(n->piece, end / 2);
         corners += first == piece && sl_root_of(n->corner, end) == end;
         if (first == piece) continue;
-        if (n->counts[first] > most) most = n->counts[first];
+        const bool small = fmax(sli_box_width(n->boxes[first]), sli_box_height(n->boxes[first])) <=
+                           n->size / SMALL;
+        if (n->counts[first] > most && !small) most = n->counts[first];
         house.min.x = fmin(house.min.x, n->boxes[first].min.x);
         house.min.y = fmin(house.min.y, n->boxes[first].min.y);
         house.max.x = fmax(house.max.x, n->boxes[first].max.x);

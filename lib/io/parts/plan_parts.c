@@ -438,6 +438,16 @@ static bool is_rectangle(const finder *f, uint32_t piece) {
            look->sides[2] >= 0.95 * w && look->sides[3] >= 0.95 * w;
 }
 
+/// Whether what a rectangle has beside its sides, if anything, lies in a corner of it: titles do,
+/// and few of the rooms in a house.
+static bool may_be_titled(const finder *f, uint32_t piece) {
+    const sl_box box = f->net.boxes[piece], rest = f->looks[piece].rest;
+    const double off = f->net.tolerance;
+    if (rest.min.x > rest.max.x) return true;
+    return (rest.min.x <= box.min.x + off || rest.max.x >= box.max.x - off) &&
+           (rest.min.y <= box.min.y + off || rest.max.y >= box.max.y - off);
+}
+
 static bool is_within(sl_box inner, sl_box outer, double room) {
     return inner.min.x >= outer.min.x + room && inner.max.x <= outer.max.x - room &&
            inner.min.y >= outer.min.y + room && inner.max.y <= outer.max.y - room;
@@ -451,9 +461,10 @@ static bool is_frame(const finder *f, uint32_t piece, const sl_bits *rectangles)
     sl_box plan = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
     bool large = false;
     for (uint32_t i = 0; i < f->turned.wall_count; i++) {
-        if (sl_root_of(f->net.piece, i) != i || sl_bits_has(rectangles, i)) continue;
+        if (sl_root_of(f->net.piece, i) != i) continue;
         const sl_box own = f->net.boxes[i];
         const bool near = !is_within(own, box, room);
+        if (sl_bits_has(rectangles, i) && (near || may_be_titled(f, i))) continue;
         if (f->paired ? near && is_within(own, box, 0) && has_walls(f, i) : near) return false;
         if (near || f->net.counts[i] < 8) continue;
         large |= sli_box_width(own) >= 0.4 * sli_box_width(box) &&
