@@ -162,7 +162,8 @@ typedef struct sl_sealed_room {
     sl_point at; ///< the middle of its largest cell
     double area;
     double walls; ///< the length of its walls
-    bool at_edge; ///< it reaches the bounds of the map, as the rock or the sea around rooms does
+    bool at_edge; ///< it lies along a twentieth of the map's bounds or touches three sides of them,
+                  ///< as the rock or the sea around rooms does; a way out does not
 } sl_sealed_room;
 
 /// Rooms that no opening joins with the largest one.
