@@ -215,8 +215,13 @@ static void test_tiles_over_names(void **state) {
     assert_noted_of(
         sli_map_read_tmx, NULL, door, strlen(door), TWO_TILES,
         "f: layer 'walls': 2 of its 3 tiles say that they are solid, and the others are "
-        "taken as open; if these are walls, give all layers that are solid: --layers "
-        "'...,walls'\n");
+        "taken as open; if these are walls: sightline check 'f' --layers 'walls' -o map.png\n");
+    // The others are taken no more.
+    const char *two = MAP(TILE_1_COLLIDES LAYER("walls", CSV("2,1,1,0,0,0"))
+                              LAYER("things", CSV("0,0,0,1,0,0")));
+    assert_noted_of(sli_map_read_tmx, NULL, two, strlen(two),
+                    "wall 0 16 8 16\nwall 0 8 8 8\nwall 0 8 0 16\nwall 8 8 8 16\n",
+                    "--layers 'walls' -o map.png, which takes no other layer\n");
     assert_noted_of(sli_map_read_tmx, NULL, chunks, strlen(chunks),
                     "wall 0 16 8 16\nwall 24 16 32 16\nwall 8 8 24 8\nwall 8 8 8 16\n"
                     "wall 24 8 24 16\nwall 0 0 32 0\nwall 0 0 0 16\nwall 32 0 32 16\n",
@@ -231,9 +236,9 @@ static void test_tiles_over_names(void **state) {
                               LAYER("Walls 2", CSV("1,2,2,0,0,0")));
     assert_noted_of(sli_map_read_tmx, NULL, few, strlen(few),
                     "wall 0 8 24 8\nwall 0 0 24 0\nwall 0 0 0 8\nwall 24 0 24 8\n",
-                    "f: layer 'Walls 2' is taken whole by its name, and only 1 of its 3 tiles say "
-                    "that they are solid; if only some are, give them by number: --layers 'Walls "
-                    "2:28+33-35'\n");
+                    "f: layer 'Walls 2' is taken whole by its name, and only 1 of its 3 tiles says "
+                    "that it is solid; if no others are: sightline check 'f' --layers 'Walls 2:1' "
+                    "-o map.png, which takes no other layer\n");
 }
 
 /// One solid tile of a hundred is a doubt.

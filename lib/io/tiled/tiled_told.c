@@ -242,18 +242,82 @@ sl_status sli_tiled_fail_no_walls(const sli_tiled_reader *reader) {
 
 // --- what is told
 
-/// Layers below and above the player whose tiles say that they are solid, and are not taken.
-static void tell_beside(const sli_tiled_reader *reader) {
+/// Room for "+4294967295-4294967295".
+enum { NUMBER_ROOM = 24 };
+
+/// The tiles of a layer that say that they are solid, as ":28+33-35"; "" where they are too many,
+/// or the layer lies in chunks.
+static sl_status list_said(const sli_tiled_reader *reader, const sli_tiled_seen *seen, char *text,
+                           size_t size) {
+    const sli_json layer = {.file = reader->map->file, .value = seen->layer};
+    const sli_json data = sli_json_member(&layer, "data");
+    uint32_t *gids;
+    size_t said = 0, most;
+    memset(text, 0, size);
+    if (!data.value) return SL_OK;
+    SL_TRY(sli_tiled_read_data(&layer, &data, (size_t)seen->squares, &gids));
+    for (size_t i = 0; i < seen->squares; i++) {
+        const uint32_t gid = gids[i] & SLI_TILED_TILE;
+        const sli_tiled_set *set = gid ? sli_tiled_find_set(&reader->sets, gid) : NULL;
+        const sli_tiled_tile *tile = set ? sli_tiled_find_tile(set, gid) : NULL;
+        if (sli_tiled_word_of_tile(set, tile) == SLI_TILED_SOLID) gids[said++] = gid;
+    }
+    const sl_status status =
+        sli_numbers_write(reader->context, gids, said, false, &most, text + 1, size - 1);
+    sl_free(reader->context, gids);
+    // What does not fit is left out.
+    if (status == SL_OK && text[1] && strlen(text) + NUMBER_ROOM < size) *text = ':';
+    return status;
+}
+
+/// A command that takes these tiles of a layer, or all of it. It says so where more is taken without
+/// it.
+static void write_command(const sli_tiled_reader *reader, const sli_tiled_seen *layer, bool whole,
+                          const char *tiles, char *text, size_t size) {
+    size_t taken = 0;
+    sli_shown shown;
+    if (!whole && !*tiles) {
+        snprintf(text, size, "give them by number, as in --layers '%s:28+33-35'",
+                 name_to_type(layer, &shown));
+        return;
+    }
+    for (size_t i = 0; i < reader->seen.count; i++) taken += reader->seen.items[i].taken;
+    snprintf(text, size, "sightline check '%.300s' --layers '%s%s' -o map.png%s",
+             reader->map->file->name, name_to_type(layer, &shown), whole ? "" : tiles,
+             taken > layer->taken ? ", which takes no other layer" : "");
+}
+
+/// Layers below and above the player whose tiles say that they are solid, and are not taken; and
+/// layers named for walls of whose tiles only some say so.
+static sl_status tell_said(const sli_tiled_reader *reader) {
+    const char *file = reader->map->file->name;
+    char tiles[240], next[900];
     for (size_t i = 0; i < reader->seen.count; i++) {
         const sli_tiled_seen *layer = &reader->seen.items[i];
-        if (!layer->beside) continue;
         const sli_shown name = sli_show((sli_word){layer->name, strlen(layer->name)});
-        sl_note(reader->context,
-                "%s: layer '%s' is below or above the player: %zu of its tiles say that they are "
-                "solid and are not taken, as other layers are solid; if they stop the player, give "
-                "them by number: --layers '...,%s:28+33-35'",
-                reader->map->file->name, name.text, layer->beside, name.text);
+        const bool decide = 2 * layer->said >= layer->count;
+        if (!layer->beside && !layer->said) continue;
+        SL_TRY(list_said(reader, layer, tiles, sizeof tiles));
+        write_command(reader, layer, layer->said && decide, tiles, next, sizeof next);
+        if (layer->beside)
+            sl_note(reader->context,
+                    "%s: layer '%s' is below or above the player: %zu of its tiles say that they "
+                    "are solid and are not taken, as other layers are solid; if they stop the "
+                    "player: %s",
+                    file, name.text, layer->beside, next);
+        else if (decide)
+            sl_note(reader->context,
+                    "%s: layer '%s': %zu of its %llu tiles say that they are solid, and the others "
+                    "are taken as open; if these are walls: %s",
+                    file, name.text, layer->said, (unsigned long long)layer->count, next);
+        else
+            sl_note(reader->context,
+                    "%s: layer '%s' is taken whole by its name, and only %zu of its %llu tiles "
+                    "say%s solid; if no others are: %s",
+                    file, name.text, layer->said, (unsigned long long)layer->count,
+                    layer->said == 1 ? "s that it is" : " that they are", next);
     }
+    return SL_OK;
 }
 
 /// Layers that are solid with a few tiles in all, beside one with many more that is not: they may
@@ -373,7 +437,7 @@ sl_status sli_tiled_tell_meaning(const sli_tiled_reader *reader) {
                 "this is not believed",
                 file,
                 sli_show((sli_word){reader->believed_not, strlen(reader->believed_not)}).text);
-    if (!reader->by) tell_beside(reader);
+    if (!reader->by) SL_TRY(tell_said(reader));
     if (!reader->by) tell_little(reader);
     if (!reader->by) tell_objects(reader);
     if (!reader->by) tell_tiles(reader);
