@@ -85,8 +85,8 @@ static void test_guess(void **state) {
     // The command names a layer only where it is likely to be right, and tiles where most of the
     // layer is one tile.
     assert_refused(MAP(SET LAYER("a", TILES) LAYER("b", CSV("0,0,0,2,2,0"))), UNSAID
-                   ", NAME:28+33-35 tiles of it, as in: sightline check 'f' --layers LAYER -o "
-                   "map.png; layers: 'a' (2 tiles), 'b' (2 tiles)");
+                   ", NAME:28+33-35 tiles of it; no name says which one: look at them in Tiled; "
+                   "layers: 'a' (2 tiles), 'b' (2 tiles)");
     assert_refused(MAP(SET LAYER("Tile Layer in the north of the town, with its harbour", TILES)
                            LAYER("sand", CSV("0,0,0,2,2,0"))),
                    UNSAID ", NAME:28+33-35 tiles of it, as in: sightline check 'f' --layers "
@@ -95,8 +95,9 @@ static void test_guess(void **state) {
                    UNSAID ", NAME:28+33-35 tiles of it, as in: sightline check 'f' --layers 'a' -o "
                           "map.png; layers: 'a' (2 tiles), 'sand' (2 tiles)");
     assert_refused(MAP(SET LAYER("Ground", CSV("1,1,2,2,3,3"))),
-                   UNSAID ", NAME:28+33-35 tiles of it, as in: sightline check 'f' --layers "
-                          "'Ground:TILES' -o map.png; layers: 'Ground' (6 tiles)");
+                   UNSAID ", NAME:28+33-35 tiles of it; which of the tiles 1-3 of 'Ground' are "
+                          "solid, only its picture shows: a tile's number is its ID in Tiled + the "
+                          "tileset's firstgid; layers: 'Ground' (6 tiles)");
     // One that starts inside the wall says that the guess is wrong.
     assert_refused(WIDE(SET WIDE_LAYER("Tile Layer 1", RING) "<objectgroup name='o'><object "
                                                              "name='Player' x='4' y='4'/>"
@@ -380,6 +381,7 @@ static void test_words_of_properties(void **state) {
         TILE_WITH(PROPERTY("can_walk", "no")),       TILE_WITH(PROPERTY("obstacle", "full")),
         TILE_WITH(PROPERTY("hasCollision", "true")), TILE_WITH(PROPERTY("not walkable", "true")),
         TILE_WITH(PROPERTY("bodyType", "static")),   TILE_WITH(PROPERTY("Name", "Solid")),
+        TILE_WITH(PROPERTY("area_type", "wall")),
     };
     static const char *const open[] = {
         TILE_WITH(PROPERTY("collidable", "false")),  TILE_WITH(PROPERTY("walkable", "true")),

@@ -3,12 +3,15 @@
 ///
 /// The command names a layer only where that is likely to be right: its name is one for what stands
 /// in the way, or it is the only layer that may be walls, or most of it is one tile and the others
-/// are walls. Else it says LAYER or TILES, and the reader chooses.
+/// are walls. Else there is no command: a wrong one would be typed.
 #include "io/tiled/tiled.h"
 
 #include "io/io_formats.h"
 
 #include <strings.h>
+
+/// Room for "+4294967295-4294967295": what does not fit is left out of a text of numbers.
+enum { NUMBER_ROOM = 24 };
 
 /// Layers for a message: 'Ground' (2500 tiles), 'Things' (3 objects).
 typedef struct layer_text {
@@ -171,7 +174,31 @@ static const char *name_to_type(const sli_tiled_seen *layer, sli_shown *shown) {
     return length < 160 ? layer->name : shown->text;
 }
 
-/// ", as in:" and a command that takes the example.
+/// That only the picture shows which tiles of a layer are solid, and their numbers.
+static sl_status say_tiles(const sli_tiled_reader *reader, const sli_tiled_seen *seen, char *text,
+                           size_t size) {
+    const sli_json layer = {.file = reader->map->file, .value = seen->layer};
+    const sli_json data = sli_json_member(&layer, "data");
+    const size_t count = data.value ? (size_t)seen->squares : 0;
+    uint32_t *gids = NULL;
+    char numbers[120] = "";
+    size_t most, used = 0;
+    if (count) SL_TRY(sli_tiled_read_data(&layer, &data, count, &gids));
+    for (size_t i = 0; i < count; i++)
+        if (gids[i] & SLI_TILED_TILE) gids[used++] = gids[i] & SLI_TILED_TILE;
+    const sl_status status = sli_numbers_write(reader->context, gids, used, false, &most, numbers,
+                                               sizeof numbers);
+    const bool all = strlen(numbers) + NUMBER_ROOM < sizeof numbers;
+    sl_free(reader->context, gids);
+    snprintf(text, size,
+             "; which of the tiles %s%sof '%s' are solid, only its picture shows: a tile's number "
+             "is its ID in Tiled + the tileset's firstgid",
+             all ? numbers : "", all && *numbers ? " " : "",
+             sli_show((sli_word){seen->name, strlen(seen->name)}).text);
+    return status;
+}
+
+/// ", as in:" and a command that takes the example; or why there is none.
 static sl_status say_example(const sli_tiled_reader *reader, const sli_tiled_seen *example,
                              char *text, size_t size) {
     const char *file = reader->map->file->name;
@@ -195,10 +222,9 @@ static sl_status say_example(const sli_tiled_reader *reader, const sli_tiled_see
                  file);
     else if (is_only_layer(reader) && !example->objects && 2 * example->count > example->squares &&
              !mostly)
-        snprintf(text, size, ", as in: sightline check '%.150s' --layers '%s:TILES' -o map.png",
-                 file, name);
+        return say_tiles(reader, example, text, size);
     else if (!is_only_layer(reader) && !is_sure(reader, example, mostly, same))
-        snprintf(text, size, ", as in: sightline check '%.150s' --layers LAYER -o map.png", file);
+        snprintf(text, size, "; no name says which one: look at them in Tiled");
     else
         snprintf(text, size, ", as in: sightline check '%.150s' --layers '%s%s' -o map.png", file,
                  name, tiles);
@@ -242,9 +268,6 @@ sl_status sli_tiled_fail_no_walls(const sli_tiled_reader *reader) {
 
 // --- what is told
 
-/// Room for "+4294967295-4294967295".
-enum { NUMBER_ROOM = 24 };
-
 /// The tiles of a layer that say that they are solid, as ":28+33-35"; "" where they are too many,
 /// or the layer lies in chunks.
 static sl_status list_said(const sli_tiled_reader *reader, const sli_tiled_seen *seen, char *text,
@@ -265,7 +288,6 @@ static sl_status list_said(const sli_tiled_reader *reader, const sli_tiled_seen 
     const sl_status status =
         sli_numbers_write(reader->context, gids, said, false, &most, text + 1, size - 1);
     sl_free(reader->context, gids);
-    // What does not fit is left out.
     if (status == SL_OK && text[1] && strlen(text) + NUMBER_ROOM < size) *text = ':';
     return status;
 }
