@@ -70,7 +70,8 @@ typedef struct sli_ldtk {
                               ///< way, else the first; "" for none
     char tiles_asked[80];     ///< where it is full: its tiles but the most frequent one, ":1+3-5"
     bool tiles_stand;         ///< it has such a name
-    bool tiles_unsure;        ///< it is full, and no tile covers three fifths of it
+    bool tiles_unsure;        ///< it is full, and no tile covers three fifths of it, or the others
+                              ///< are not at its edge
     size_t tiles_named;       ///< how many there are
     sli_name_list tile_names; ///< all of them
     bool empty_cells;         ///< a level has layers of cells, which are empty: its tiles count
