@@ -145,6 +145,12 @@ static void tell_values(const sli_ldtk *reader, const sli_ldtk_settled *as) {
     char text[900] = "";
     const sli_ldtk_told *told = &reader->told;
     const bool several = strchr(told->solid.text, ',') != NULL;
+    if (as->bare_open)
+        sl_note(reader->context,
+                "%s: a start stands on the only value, which has no name: it is taken as floor, and "
+                "empty cells as solid; if it is what is solid: sightline check '%.300s' --map "
+                "'%.40s' --layers '%.40s' -o map.png",
+                reader->name, reader->name, reader->taken, reader->asked);
     if (reader->options->layers || !(told->named || several)) return;
     add_list(text, sizeof text,
              told->named ? "solid: " : "solid, as none has a name: ", &told->solid);
@@ -237,6 +243,7 @@ static void give_account(sli_ldtk *reader, const sl_map *map, const sli_ldtk_set
             count == 1 && !reader->walls.count ? "s" : "", map->wall_count,
             map->wall_count == 1 ? "" : "s",
             !reader->layers      ? "tiles whose layer or enum says so"
+            : as->bare_open      ? "the empty cells"
             : reader->told.named ? "values by their names"
                                  : "all values but 0",
             sli_tally_write("; left out: ", left, 4, without), bottom);

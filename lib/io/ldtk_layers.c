@@ -59,6 +59,8 @@ static sl_status read_cells(sli_ldtk *reader, const sli_json *layer, const sli_j
     if (!known) return SL_NO_MEMORY;
     *known = (known_cells){0};
     sl_status status = SL_OK;
+    int64_t only = 0;
+    bool bare = true;
     for (size_t i = 0; i < count && status == SL_OK; i++) {
         if (i % 4096 == 0) status = sl_check_cancelled(reader->context);
         const sli_json item = sli_json_item(cells, i);
@@ -73,10 +75,14 @@ static sl_status read_cells(sli_ldtk *reader, const sli_json *layer, const sli_j
         }
         const sli_ldtk_cell *cell = &known->items[at].cell;
         squares[i] = cell->square;
+        bare &= cell->bare && (!only || only == value);
+        only = value;
         reader->tiles.water |= cell->square == '~';
         if (cell->says.kind == SLI_THING_DOOR)
             status = sli_things_add_square(&reader->things, &cell->says, i % columns, i / columns);
     }
+    for (size_t i = 0; i < count && bare; i++)
+        if (squares[i] == '#') squares[i] = SLI_LDTK_BARE;
     sl_free(reader->context, known);
     return status;
 }
