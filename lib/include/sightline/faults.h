@@ -135,7 +135,7 @@ typedef enum sl_inside {
     /// There is no start, and sl_space_enclosed is under a half, or nearly nothing is inside.
     SL_INSIDE_SMALL,
     /// Rooms that no start reaches have more area than those that one reaches, or starts reach
-    /// nearly nothing.
+    /// nearly nothing. What lies around all rooms of a map with solid ground is none of them.
     SL_INSIDE_FEW,
     SL_INSIDE_NONE, ///< all is solid ground
     /// There is no start, and an opening is a little wider than entrances (sl_interior.doubtful):
