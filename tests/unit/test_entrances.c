@@ -538,8 +538,8 @@ static void test_open_around(void **state) {
     }
 }
 
-/// What lies around the rooms that a start reaches is no room, if there is solid ground: the void of
-/// a game. What lies beside them is, and so is all in a map of lines.
+/// What lies around the rooms that a start reaches is no room, if there is solid ground: the void
+/// of a game. What lies beside them is, and so is all in a map of lines.
 static void test_void_around(void **state) {
     (void)state;
 #define HALL "walls 6 6 14 6 14 14 6 14 6 6\nstart 10 10 0\n"

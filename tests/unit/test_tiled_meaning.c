@@ -218,8 +218,8 @@ static void test_tiles_over_names(void **state) {
         "f: layer 'walls': 2 of its 3 tiles say that they are solid, and the others are "
         "taken as open; if these are walls: sightline check 'f' --layers 'walls' -o map.png\n");
     // The others are taken no more.
-    const char *two = MAP(TILE_1_COLLIDES LAYER("walls", CSV("2,1,1,0,0,0"))
-                              LAYER("things", CSV("0,0,0,1,0,0")));
+    const char *two =
+        MAP(TILE_1_COLLIDES LAYER("walls", CSV("2,1,1,0,0,0")) LAYER("things", CSV("0,0,0,1,0,0")));
     assert_noted_of(sli_map_read_tmx, NULL, two, strlen(two),
                     "wall 0 16 8 16\nwall 0 8 8 8\nwall 0 8 0 16\nwall 8 8 8 16\n",
                     "--layers 'walls' -o map.png, which takes no other layer\n");

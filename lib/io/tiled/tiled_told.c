@@ -136,8 +136,8 @@ static bool is_thin(const uint32_t *gids, size_t count, size_t columns, size_t i
 }
 
 /// Whether the layer with the most tiles covers less than a quarter of each side of the map and
-/// from a twentieth to half of all, and is no thin lines, as walls are: its tiles may be the floor of
-/// rooms, and the squares without tiles solid.
+/// from a twentieth to half of all, and is no thin lines, as walls are: its tiles may be the floor
+/// of rooms, and the squares without tiles solid.
 static sl_status looks_like_rooms(const sli_tiled_reader *reader, const sli_tiled_seen *seen,
                                   bool *rooms) {
     const sli_json layer = {.file = reader->map->file, .value = seen->layer};
@@ -197,8 +197,8 @@ static sl_status say_tiles(const sli_tiled_reader *reader, const sli_tiled_seen 
     if (count) SL_TRY(sli_tiled_read_data(&layer, &data, count, &gids));
     for (size_t i = 0; i < count; i++)
         if (gids[i] & SLI_TILED_TILE) gids[used++] = gids[i] & SLI_TILED_TILE;
-    const sl_status status = sli_numbers_write(reader->context, gids, used, false, &most, numbers,
-                                               sizeof numbers);
+    const sl_status status =
+        sli_numbers_write(reader->context, gids, used, false, &most, numbers, sizeof numbers);
     const bool all = strlen(numbers) + NUMBER_ROOM < sizeof numbers;
     sl_free(reader->context, gids);
     snprintf(text, size,
@@ -303,8 +303,8 @@ static sl_status list_said(const sli_tiled_reader *reader, const sli_tiled_seen 
     return status;
 }
 
-/// A command that takes these tiles of a layer, or all of it. It says so where more is taken without
-/// it.
+/// A command that takes these tiles of a layer, or all of it. It says so where more is taken
+/// without it.
 static void write_command(const sli_tiled_reader *reader, const sli_tiled_seen *layer, bool whole,
                           const char *tiles, char *text, size_t size) {
     size_t taken = 0;

@@ -302,8 +302,8 @@ static sl_box join_boxes(sl_box a, sl_box b) {
     return sli_box_with(sli_box_with(a, b.min), b.max);
 }
 
-/// Walks on to all cells that portals lead to. Adds to *area what of them is not inside, and to *box
-/// all of them.
+/// Walks on to all cells that portals lead to. Adds to *area what of them is not inside, and to
+/// *box all of them.
 static void walk_on(walk *w, double *area, sl_box *box) {
     while (w->count) {
         const uint32_t at = w->stack[--w->count];
