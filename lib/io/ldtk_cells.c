@@ -95,8 +95,8 @@ sli_ldtk_cell sli_ldtk_meaning(const sli_json *values, const sli_ldtk_layer *lay
         break;
     }
     sli_ldtk_cell cell = {.square = square_of(layer, name), .says = sli_says_of(name, NULL)};
-    cell.bare = cell.square == '#' && !*name && !layer->numbers.length &&
-                layer->kind != SLI_GAME_SOLID;
+    cell.bare =
+        cell.square == '#' && !*name && !layer->numbers.length && layer->kind != SLI_GAME_SOLID;
     if (!value) name = "empty";
     if (!value) cell.square = layer->only_walkable ? '#' : '.';
     if (layer->numbers.length)

@@ -315,8 +315,8 @@ static sl_status list_tiles(const sli_ldtk *reader, const sli_json lists[2], uin
     return SL_OK;
 }
 
-/// Whether tiles of these numbers lie at a sixteenth of the squares along the layer's edge at least.
-/// Walls do, and ground; the floor of rooms in rock does not.
+/// Whether tiles of these numbers lie at a sixteenth of the squares along the layer's edge at
+/// least. Walls do, and ground; the floor of rooms in rock does not.
 static sl_status lie_at_edge(const sli_json *layer, const sli_json lists[2], const char *numbers,
                              bool *edge) {
     const sli_word asked = {numbers, strlen(numbers)};
