@@ -146,11 +146,12 @@ static void tell_values(const sli_ldtk *reader, const sli_ldtk_settled *as) {
     const sli_ldtk_told *told = &reader->told;
     const bool several = strchr(told->solid.text, ',') != NULL;
     if (as->bare_open)
-        sl_note(reader->context,
-                "%s: a start stands on the only value, which has no name: it is taken as floor, and "
-                "empty cells as solid; if it is what is solid: sightline check '%.300s' --map "
-                "'%.40s' --layers '%.40s' -o map.png",
-                reader->name, reader->name, reader->taken, reader->asked);
+        sl_note(
+            reader->context,
+            "%s: a start stands on the only value, which has no name: it is taken as floor, and "
+            "empty cells as solid; if it is what is solid: sightline check '%.300s' --map "
+            "'%.40s' --layers '%.40s' -o map.png",
+            reader->name, reader->name, reader->taken, reader->asked);
     if (reader->options->layers || !(told->named || several)) return;
     add_list(text, sizeof text,
              told->named ? "solid: " : "solid, as none has a name: ", &told->solid);

@@ -93,8 +93,8 @@ typedef struct sli_ldtk_settled {
 /// empty; else it is the solid ground of a platformer if most squares around it are empty, and open
 /// if hardly any are. Rock and the like beside walls is a floor where starts stand on it and not on
 /// open cells; else where three or more other entities do, twice as many as on open cells. The only
-/// value of a layer, if it has no name, is a floor where all starts stand on it, and not at its end:
-/// empty cells are solid then.
+/// value of a layer, if it has no name, is a floor where all starts stand on it, and not at its
+/// end: empty cells are solid then.
 void sli_ldtk_settle_ground(sli_ldtk *reader, sli_ldtk_settled *out);
 
 /// A level's place in its world, in pixels, y down.
