@@ -145,6 +145,13 @@ static void tell_values(const sli_ldtk *reader, const sli_ldtk_settled *as) {
     char text[900] = "";
     const sli_ldtk_told *told = &reader->told;
     const bool several = strchr(told->solid.text, ',') != NULL;
+    if (as->bare_open)
+        sl_note(
+            reader->context,
+            "%s: a start stands on the only value, which has no name: it is taken as floor, and "
+            "empty cells as solid; if it is what is solid: sightline check '%.300s' --map "
+            "'%.40s' --layers '%.40s' -o map.png",
+            reader->name, reader->name, reader->taken, reader->asked);
     if (reader->options->layers || !(told->named || several)) return;
     add_list(text, sizeof text,
              told->named ? "solid: " : "solid, as none has a name: ", &told->solid);
@@ -170,12 +177,20 @@ static bool has_solid(const sli_ldtk *reader) {
     return false;
 }
 
-enum { EXAMPLE = 140 };
+enum { EXAMPLE = 600 };
 
-/// The layer to name in an example, with its tiles; TILES where these may be any.
+/// ", as in:" and a command that takes the layer, with its tiles; where these may be any, that only
+/// the picture shows them.
 static const char *show_example(const sli_ldtk *reader, char text[EXAMPLE]) {
-    const bool sure = reader->tiles_stand || !reader->tiles_unsure;
-    snprintf(text, EXAMPLE, "'%.40s%s'", reader->tiles_name, sure ? reader->tiles_asked : ":TILES");
+    if (reader->tiles_stand || !reader->tiles_unsure)
+        snprintf(text, EXAMPLE,
+                 ", as in: sightline check '%.300s' --map '%.40s' --layers '%.40s%s' -o map.png",
+                 reader->name, reader->taken, reader->tiles_name, reader->tiles_asked);
+    else
+        snprintf(text, EXAMPLE,
+                 "; which tiles of '%.40s' are solid, only its picture shows: tiles of a tileset "
+                 "are counted from 0, row by row",
+                 reader->tiles_name);
     return text;
 }
 
@@ -186,13 +201,11 @@ static void tell_doubts(sli_ldtk *reader, const sli_ldtk_settled *as) {
     if (*reader->tiles_name && (!reader->layers || !has_solid(reader)))
         sl_note(reader->context,
                 "%s: %s; layers of tiles: %s; if one shows walls, --layers NAME takes all its "
-                "tiles, NAME:1+3-5 tiles of it, as in: sightline check '%.300s' --map '%.40s' "
-                "--layers %s -o map.png",
+                "tiles, NAME:1+3-5 tiles of it%s",
                 reader->name,
                 reader->layers ? "no cell is solid, so the level's edge is its walls"
                                : "layers are told by their names and enums",
-                sli_name_list_cut(&reader->tile_names, 150), reader->name, reader->taken,
-                show_example(reader, example));
+                sli_name_list_cut(&reader->tile_names, 150), show_example(reader, example));
     if (as->bare > 0.1)
         sl_note(reader->context,
                 "%s: %.0f %% of the cells are empty, and open as the ground is; --layers %s:0+2-3 "
@@ -231,6 +244,7 @@ static void give_account(sli_ldtk *reader, const sl_map *map, const sli_ldtk_set
             count == 1 && !reader->walls.count ? "s" : "", map->wall_count,
             map->wall_count == 1 ? "" : "s",
             !reader->layers      ? "tiles whose layer or enum says so"
+            : as->bare_open      ? "the empty cells"
             : reader->told.named ? "values by their names"
                                  : "all values but 0",
             sli_tally_write("; left out: ", left, 4, without), bottom);
@@ -244,10 +258,8 @@ static sl_status check_any(sli_ldtk *reader, bool unsure) {
     if (*reader->tiles_name)
         snprintf(next, sizeof next,
                  "; layers of tiles: %s; --layers NAME takes all tiles of one, NAME:1+3-5 "
-                 "tiles of it, as in: sightline check '%.300s' --map '%.40s' --layers %s -o "
-                 "map.png",
-                 sli_name_list_cut(&reader->tile_names, 150), reader->name, reader->taken,
-                 show_example(reader, example));
+                 "tiles of it%s",
+                 sli_name_list_cut(&reader->tile_names, 150), show_example(reader, example));
     if (!reader->layers && !reader->tile_layers && !reader->walls.count)
         return sli_json_fail(&reader->root,
                              "level %s has no IntGrid layer%s, and no layer of tiles whose name or "

@@ -9,8 +9,8 @@
 #include "sightline/import.h"
 
 /// What a cell is, as the characters of sli_tile_block; ground, and rock and the like beside walls,
-/// are decided once all is read.
-enum { SLI_LDTK_GROUND = 'g', SLI_LDTK_STANDS = 's' };
+/// are decided once all is read; so are the cells of a layer that has one value, without a name.
+enum { SLI_LDTK_GROUND = 'g', SLI_LDTK_STANDS = 's', SLI_LDTK_BARE = 'b' };
 
 /// What the values of a layer mean, or the tiles of its tileset.
 typedef struct sli_ldtk_layer {
@@ -25,6 +25,7 @@ typedef struct sli_ldtk_layer {
 typedef struct sli_ldtk_cell {
     char square;
     sli_says says; ///< whether it is a door
+    bool bare;     ///< it is solid for want of a name
 } sli_ldtk_cell;
 
 /// What is told: the values by what became of them.
@@ -70,7 +71,8 @@ typedef struct sli_ldtk {
                               ///< way, else the first; "" for none
     char tiles_asked[80];     ///< where it is full: its tiles but the most frequent one, ":1+3-5"
     bool tiles_stand;         ///< it has such a name
-    bool tiles_unsure;        ///< it is full, and no tile covers three fifths of it
+    bool tiles_unsure;        ///< it is full, and no tile covers three fifths of it, or the others
+                              ///< are not at its edge
     size_t tiles_named;       ///< how many there are
     sli_name_list tile_names; ///< all of them
     bool empty_cells;         ///< a level has layers of cells, which are empty: its tiles count
@@ -83,13 +85,16 @@ typedef struct sli_ldtk_settled {
     bool ground_solid, unsure; ///< unsure: nothing tells what ground is
     double bare;               ///< the share of empty cells, where ground is open
     bool stands_open;          ///< what is named for stone and the like is a floor
+    bool bare_open;            ///< so is a value without a name, in some layer
 } sli_ldtk_settled;
 
 /// Decides what ground is, and puts '#' or '.' in its place: where starts stand on it or on what is
 /// empty; else it is open where two or more other entities stand on it, twice as many as on what is
 /// empty; else it is the solid ground of a platformer if most squares around it are empty, and open
 /// if hardly any are. Rock and the like beside walls is a floor where starts stand on it and not on
-/// open cells; else where three or more other entities do, twice as many as on open cells.
+/// open cells; else where three or more other entities do, twice as many as on open cells. The only
+/// value of a layer, if it has no name, is a floor where all starts stand on it, and not at its
+/// end: empty cells are solid then.
 void sli_ldtk_settle_ground(sli_ldtk *reader, sli_ldtk_settled *out);
 
 /// A level's place in its world, in pixels, y down.

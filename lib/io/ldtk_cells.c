@@ -95,6 +95,8 @@ sli_ldtk_cell sli_ldtk_meaning(const sli_json *values, const sli_ldtk_layer *lay
         break;
     }
     sli_ldtk_cell cell = {.square = square_of(layer, name), .says = sli_says_of(name, NULL)};
+    cell.bare =
+        cell.square == '#' && !*name && !layer->numbers.length && layer->kind != SLI_GAME_SOLID;
     if (!value) name = "empty";
     if (!value) cell.square = layer->only_walkable ? '#' : '.';
     if (layer->numbers.length)
@@ -176,6 +178,36 @@ static void settle(const sli_ldtk *reader, const sli_ldtk_settled *as) {
     }
 }
 
+/// Whether one stands on a value without a name, with all cells around of the same value: in a
+/// platformer a start may have sunk into the ground.
+static bool is_on_bare(const sli_tile_block *block, sl_point at) {
+    for (int y = -1; y <= 1; y++)
+        for (int x = -1; x <= 1; x++)
+            if (square_at(block, (sl_point){at.x + x * block->step.x, at.y + y * block->step.y}) !=
+                SLI_LDTK_BARE)
+                return false;
+    return true;
+}
+
+/// Decides whether the value without a name that a block has is floor: empty cells are solid then.
+static bool settle_bare(const sli_ldtk *reader, const sli_tile_block *block) {
+    const size_t count = block->columns * block->rows;
+    size_t on = 0, off = 0;
+    if (!memchr(block->squares, SLI_LDTK_BARE, count)) return false;
+    for (size_t i = 0; i < reader->things.items.count; i++) {
+        const sli_thing *thing = &reader->things.items.items[i];
+        if (thing->kind != SLI_THING_START || !square_at(block, thing->middle)) continue;
+        if (is_on_bare(block, thing->middle))
+            on++;
+        else
+            off++;
+    }
+    const bool open = on && !off;
+    for (size_t i = 0; i < count; i++)
+        block->squares[i] = (block->squares[i] == SLI_LDTK_BARE) != open ? '#' : '.';
+    return open;
+}
+
 void sli_ldtk_settle_ground(sli_ldtk *reader, sli_ldtk_settled *out) {
     size_t ground = 0, stands = 0, empty = 0, all = 0;
     votes starts = {0}, others = {0};
@@ -210,4 +242,6 @@ void sli_ldtk_settle_ground(sli_ldtk *reader, sli_ldtk_settled *out) {
                                ? starts.stands > starts.empty
                                : others.stands >= 3 && others.stands >= 2 * others.empty;
     settle(reader, out);
+    for (size_t i = 0; i < reader->tiles.blocks.count; i++)
+        out->bare_open |= settle_bare(reader, &reader->tiles.blocks.items[i]);
 }

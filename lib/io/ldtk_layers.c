@@ -59,6 +59,8 @@ static sl_status read_cells(sli_ldtk *reader, const sli_json *layer, const sli_j
     if (!known) return SL_NO_MEMORY;
     *known = (known_cells){0};
     sl_status status = SL_OK;
+    int64_t only = 0;
+    bool bare = true;
     for (size_t i = 0; i < count && status == SL_OK; i++) {
         if (i % 4096 == 0) status = sl_check_cancelled(reader->context);
         const sli_json item = sli_json_item(cells, i);
@@ -73,10 +75,14 @@ static sl_status read_cells(sli_ldtk *reader, const sli_json *layer, const sli_j
         }
         const sli_ldtk_cell *cell = &known->items[at].cell;
         squares[i] = cell->square;
+        bare &= cell->bare && (!only || only == value);
+        only = value;
         reader->tiles.water |= cell->square == '~';
         if (cell->says.kind == SLI_THING_DOOR)
             status = sli_things_add_square(&reader->things, &cell->says, i % columns, i / columns);
     }
+    for (size_t i = 0; i < count && bare; i++)
+        if (squares[i] == '#') squares[i] = SLI_LDTK_BARE;
     sl_free(reader->context, known);
     return status;
 }
@@ -309,10 +315,30 @@ static sl_status list_tiles(const sli_ldtk *reader, const sli_json lists[2], uin
     return SL_OK;
 }
 
+/// Whether tiles of these numbers lie at a sixteenth of the squares along the layer's edge at
+/// least. Walls do, and ground; the floor of rooms in rock does not.
+static sl_status lie_at_edge(const sli_json *layer, const sli_json lists[2], const char *numbers,
+                             bool *edge) {
+    const sli_word asked = {numbers, strlen(numbers)};
+    frame of;
+    size_t there = 0, at;
+    SL_TRY(read_frame(layer, (sli_ldtk_place){0}, &of));
+    for (size_t k = 0; k < 2; k++)
+        for (size_t i = 0; i < json_array_size(lists[k].value); i++) {
+            const sli_json tile = sli_json_item(&lists[k], i), id = sli_json_member(&tile, "t");
+            if (!find_square(&tile, &of, &at)) continue;
+            const size_t x = at % (size_t)of.columns, y = at / (size_t)of.columns;
+            there += (!x || !y || x + 1 == (size_t)of.columns || y + 1 == (size_t)of.rows) &&
+                     sli_numbers_have(asked, (uint64_t)json_integer_value(id.value));
+        }
+    *edge = 16 * there >= (size_t)(2 * (of.columns + of.rows));
+    return SL_OK;
+}
+
 /// Keeps the layer that the example names. Where tiles cover it, it has its tiles but the most
 /// frequent one.
-static sl_status keep_example(sli_ldtk *reader, const sli_json *layer, const uint32_t *tiles,
-                              size_t count) {
+static sl_status keep_example(sli_ldtk *reader, const sli_json *layer, const sli_json lists[2],
+                              const uint32_t *tiles, size_t count) {
     const sli_json width = sli_json_member(layer, "__cWid"),
                    height = sli_json_member(layer, "__cHei");
     const double squares = sli_json_number_or_0(&width) * sli_json_number_or_0(&height);
@@ -324,8 +350,10 @@ static sl_status keep_example(sli_ldtk *reader, const sli_json *layer, const uin
     if ((double)count < squares) return SL_OK;
     SL_TRY(sli_numbers_write(reader->context, tiles, count, true, &most, text + 1,
                              sizeof reader->tiles_asked - 1));
+    bool edge = false;
+    if (text[1]) SL_TRY(lie_at_edge(layer, lists, text + 1, &edge));
     if (text[1]) *text = ':';
-    reader->tiles_unsure = 5 * most < 3 * count;
+    reader->tiles_unsure = 5 * most < 3 * count || !edge;
     return SL_OK;
 }
 
@@ -353,7 +381,7 @@ static sl_status name_tiles(sli_ldtk *reader, const sli_json *layer) {
     sl_status status = list_tiles(reader, lists, &tiles, &count);
     if (status == SL_OK && (!*reader->tiles_name || (stands && !reader->tiles_stand))) {
         reader->tiles_stand = stands;
-        status = keep_example(reader, layer, tiles, count);
+        status = keep_example(reader, layer, lists, tiles, count);
     }
     if (status == SL_OK) status = add_tile_name(reader, name, tiles, count);
     reader->tiles_named++;

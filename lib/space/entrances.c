@@ -398,6 +398,8 @@ static sl_status take_closed(sli_entrances *f, double area, double roomy, double
 /// nothing is roomier than its opening. Anywhere, if only cores of walls have such.
 static sl_status find_roomiest(sli_entrances *f, double most) {
     double clearance = 0, behind = 0, roomy = 0;
+    if (sli_entrances_say_ground(f->map))
+        SL_TRY(sli_wall_index_create(f->context, f->map, &f->walls));
     SL_TRY(take_behind(f, most, &clearance, &behind, &roomy));
     if (!(roomy > 0)) {
         SL_TRY(take_roomier(f, most, 1, &clearance));

@@ -234,6 +234,20 @@ class Next(sandbox.ProgramTest):
         self.assertTrue(command, told)
         x, y = map(float, command[2].split(","))
         self.assertTrue(1 < x < 9 and 2 < y < 5, command[2])
+        # A room of a sixth of the map is still rooms in rock.
+        hall = [(1, 1, 3, 1), (3, 1, 3, 4), (3, 4, 1, 4), (1, 4, 1, 1)]
+        self.write("a.uvtt", uvtt(PLAN[:4] + hall))
+        told = self.run_well("bake", "a.uvtt", "-o", "a.slv").stderr
+        self.assertIn(" keeps the largest that does not, ", told)
+        # A pocket is no rooms: the parts that count both reach the edge.
+        pocket = [(7, 2, 7.4, 2), (7.4, 2, 7.4, 2.4), (7.4, 2.4, 7, 2.4), (7, 2.4, 7, 2)]
+        self.write("a.uvtt", uvtt(PLAN[:4] + [(6, 0, 6, 6)] + pocket))
+        told = self.run_well("bake", "a.uvtt", "-o", "a.slv").stderr
+        command = re.search(r"not joined to the largest part: sightline (check \S+ --start (\S+)) "
+                            r"keeps the largest, or with (\S+) the next one\n", told)
+        self.assertTrue(command, told)
+        self.assertLess(float(command[2].split(",")[0]), 6)
+        self.assertGreater(float(command[3].split(",")[0]), 6)
         self.write("a.uvtt", uvtt(PLAN[:4]))
         self.assertNotIn("no start", self.run_well("bake", "a.uvtt", "-o", "a.slv").stderr)
 

@@ -538,6 +538,25 @@ static void test_open_around(void **state) {
     }
 }
 
+/// What lies around the rooms that a start reaches is no room, if there is solid ground: the void
+/// of a game. What lies beside them is, and so is all in a map of lines.
+static void test_void_around(void **state) {
+    (void)state;
+#define HALL "walls 6 6 14 6 14 14 6 14 6 6\nstart 10 10 0\n"
+    static const char *const plans[] = {
+        "open 0 0 20 0 20 20 0 20\nsolid 5 5 15 5 15 15 5 15\nopen 6 6 14 6 14 14 6 14\n"
+        "start 10 10 0\n",
+        "walls 0 0 20 0 20 20 0 20 0 0\n" HALL,
+        "open 0 0 20 0 20 20 0 20\nsolid 0 5 20 5 20 15 0 15\nopen 6 6 14 6 14 14 6 14\n"
+        "start 10 10 0\n"};
+    for (int i = 0; i < 3; i++) {
+        plan p;
+        read_plan(plans[i], &p);
+        assert_int_equal(doubt_of(&p), i ? SL_INSIDE_FEW : SL_INSIDE_SURE);
+        close_plan(&p);
+    }
+}
+
 /// Nearly nothing is inside, whatever is said of how it was found: this is a doubt.
 static void test_nearly_nothing(void **state) {
     (void)state;
@@ -818,6 +837,7 @@ int main(void) {
         cmocka_unit_test(test_window_at_border),
         cmocka_unit_test(test_known_ground),
         cmocka_unit_test(test_open_around),
+        cmocka_unit_test(test_void_around),
         cmocka_unit_test(test_nearly_nothing),
         cmocka_unit_test(test_wide_of_drawing),
         cmocka_unit_test(test_narrow_of_drawing),

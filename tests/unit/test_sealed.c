@@ -71,6 +71,13 @@ static void test_edge(void **state) {
     assert_true(found.within.at.x > 5 && found.within.at.x < 8);
     find(PASSAGE SHUT, still, &found);
     assert_true(found.open.at_edge && found.largest.at_edge && found.within.area == 0);
+    // A way out is no edge: the rock about it is at the edge, the hall that it leads to is not.
+    find("walls 0 0 20 0 20 20 0 20 0 0\nwalls 9 20 9 12 4 12 4 4 14 4 14 12 10 12 10 20\n", still,
+         &found);
+    assert_true(found.open.at_edge && !found.largest.at_edge && found.within.area == 88);
+    // What touches three sides is around the rest, if at corners only.
+    find("walls 0 10 10 0 20 10 10 20 0 10\nwalls 8 8 12 8 12 12 8 12 8 8\n", still, &found);
+    assert_true(found.open.at_edge && found.within.area == 16);
 }
 
 /// Nobody walks through a window.

@@ -153,6 +153,10 @@ static void test_diamonds(void **state) {
 #define WALLS                                                                                      \
     NONE ", 0,1,1,1,1,1,1,0,0,0,0,0, 0,1,0,0,0,0,1,0,0,0,0,0, 0,1,0,0,0,0,1,0,0,0,0,0, "           \
          "0,1,0,0,0,0,1,0,0,0,0,0, 0,1,1,1,1,1,1,0,0,0,0,0, " NONE ", " NONE
+/// The same, open at its top.
+#define LINES                                                                                      \
+    NONE ", 0,1,0,0,0,0,1,0,0,0,0,0, 0,1,0,0,0,0,1,0,0,0,0,0, 0,1,0,0,0,0,1,0,0,0,0,0, "           \
+         "0,1,0,0,0,0,1,0,0,0,0,0, 0,1,1,1,1,1,1,0,0,0,0,0, " NONE ", " NONE
 
 #define FULL                                                                                       \
     "1,1,1,1,1,1,1,1,1,1,1,1, 1,1,1,1,1,1,1,1,1,1,1,1, 1,1,1,1,1,1,1,1,1,1,1,1, "                  \
@@ -245,6 +249,12 @@ static void test_refused(void **state) {
                       "sightline check 'f' --layers void -o map.png; layers: 'a' (12 tiles)");
     const share all = read_share(text, "void");
     assert_true(all.inside == 12 && all.outside == 0);
+    // Thin lines of tiles are walls, and no floor.
+    const char *lines = MAP(SET LAYER("a", LINES));
+    assert_refused_of(sli_map_read_tmx, NULL, lines, strlen(lines), SL_BAD_INPUT,
+                      "f:1: nothing in it says what is solid; --layers NAME takes a layer as "
+                      "solid, NAME:28+33-35 tiles of it, as in: sightline check 'f' --layers 'a' "
+                      "-o map.png; layers: 'a' (14 tiles)");
 }
 
 #define GROUND                                                                                     \

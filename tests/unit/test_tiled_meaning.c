@@ -85,8 +85,8 @@ static void test_guess(void **state) {
     // The command names a layer only where it is likely to be right, and tiles where most of the
     // layer is one tile.
     assert_refused(MAP(SET LAYER("a", TILES) LAYER("b", CSV("0,0,0,2,2,0"))), UNSAID
-                   ", NAME:28+33-35 tiles of it, as in: sightline check 'f' --layers LAYER -o "
-                   "map.png; layers: 'a' (2 tiles), 'b' (2 tiles)");
+                   ", NAME:28+33-35 tiles of it; no name says which one: look at them in Tiled; "
+                   "layers: 'a' (2 tiles), 'b' (2 tiles)");
     assert_refused(MAP(SET LAYER("Tile Layer in the north of the town, with its harbour", TILES)
                            LAYER("sand", CSV("0,0,0,2,2,0"))),
                    UNSAID ", NAME:28+33-35 tiles of it, as in: sightline check 'f' --layers "
@@ -95,8 +95,9 @@ static void test_guess(void **state) {
                    UNSAID ", NAME:28+33-35 tiles of it, as in: sightline check 'f' --layers 'a' -o "
                           "map.png; layers: 'a' (2 tiles), 'sand' (2 tiles)");
     assert_refused(MAP(SET LAYER("Ground", CSV("1,1,2,2,3,3"))),
-                   UNSAID ", NAME:28+33-35 tiles of it, as in: sightline check 'f' --layers "
-                          "'Ground:TILES' -o map.png; layers: 'Ground' (6 tiles)");
+                   UNSAID ", NAME:28+33-35 tiles of it; which of the tiles 1-3 of 'Ground' are "
+                          "solid, only its picture shows: a tile's number is its ID in Tiled + the "
+                          "tileset's firstgid; layers: 'Ground' (6 tiles)");
     // One that starts inside the wall says that the guess is wrong.
     assert_refused(WIDE(SET WIDE_LAYER("Tile Layer 1", RING) "<objectgroup name='o'><object "
                                                              "name='Player' x='4' y='4'/>"
@@ -215,8 +216,13 @@ static void test_tiles_over_names(void **state) {
     assert_noted_of(
         sli_map_read_tmx, NULL, door, strlen(door), TWO_TILES,
         "f: layer 'walls': 2 of its 3 tiles say that they are solid, and the others are "
-        "taken as open; if these are walls, give all layers that are solid: --layers "
-        "'...,walls'\n");
+        "taken as open; if these are walls: sightline check 'f' --layers 'walls' -o map.png\n");
+    // The others are taken no more.
+    const char *two =
+        MAP(TILE_1_COLLIDES LAYER("walls", CSV("2,1,1,0,0,0")) LAYER("things", CSV("0,0,0,1,0,0")));
+    assert_noted_of(sli_map_read_tmx, NULL, two, strlen(two),
+                    "wall 0 16 8 16\nwall 0 8 8 8\nwall 0 8 0 16\nwall 8 8 8 16\n",
+                    "--layers 'walls' -o map.png, which takes no other layer\n");
     assert_noted_of(sli_map_read_tmx, NULL, chunks, strlen(chunks),
                     "wall 0 16 8 16\nwall 24 16 32 16\nwall 8 8 24 8\nwall 8 8 8 16\n"
                     "wall 24 8 24 16\nwall 0 0 32 0\nwall 0 0 0 16\nwall 32 0 32 16\n",
@@ -231,9 +237,9 @@ static void test_tiles_over_names(void **state) {
                               LAYER("Walls 2", CSV("1,2,2,0,0,0")));
     assert_noted_of(sli_map_read_tmx, NULL, few, strlen(few),
                     "wall 0 8 24 8\nwall 0 0 24 0\nwall 0 0 0 8\nwall 24 0 24 8\n",
-                    "f: layer 'Walls 2' is taken whole by its name, and only 1 of its 3 tiles "
-                    "says that it is solid; if only some are, give them by number: --layers 'Walls "
-                    "2:28+33-35'\n");
+                    "f: layer 'Walls 2' is taken whole by its name, and only 1 of its 3 tiles says "
+                    "that it is solid; if no others are: sightline check 'f' --layers 'Walls 2:1' "
+                    "-o map.png, which takes no other layer\n");
 }
 
 /// A property that says it outright goes before what a property "name" calls the tile.
@@ -388,6 +394,7 @@ static void test_words_of_properties(void **state) {
         TILE_WITH(PROPERTY("can_walk", "no")),       TILE_WITH(PROPERTY("obstacle", "full")),
         TILE_WITH(PROPERTY("hasCollision", "true")), TILE_WITH(PROPERTY("not walkable", "true")),
         TILE_WITH(PROPERTY("bodyType", "static")),   TILE_WITH(PROPERTY("Name", "Solid")),
+        TILE_WITH(PROPERTY("area_type", "wall")),
     };
     static const char *const open[] = {
         TILE_WITH(PROPERTY("collidable", "false")),  TILE_WITH(PROPERTY("walkable", "true")),

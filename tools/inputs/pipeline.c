@@ -30,8 +30,9 @@ static const double SEALED_BY_WIDTH = 0.1;
 
 /// The least share of a game's map inside, not joined to the largest part, that gets a note.
 static const double APART = 0.01;
-/// From such a share on, these are rooms with rock around them.
-static const double ROOMS = 0.25;
+/// From such a share on, a part that does not reach the edge is rooms with rock around them. Less
+/// may be a house in a field, or a pocket.
+static const double ROOMS = 0.1;
 
 // --- options
 
@@ -466,9 +467,8 @@ static sl_status note_apart(sl_context *context, const map_pipeline *pipeline, c
     const double apart = inside > 0 ? 1 - parts.open.area / inside : 0;
     if (apart < APART) return SL_OK;
     const sl_point open = parts.open.at, within = parts.within.at;
-    const bool around = parts.open.at_edge && parts.within.area > 0;
-    // Fields about a few houses reach the edge, too.
-    const bool rooms = around && apart >= ROOMS;
+    const bool around = parts.open.at_edge && parts.within.area >= APART * inside;
+    const bool rooms = around && parts.within.area >= ROOMS * inside;
     if (rooms)
         snprintf(next, sizeof next, "that does not, or with %.*g,%.*g the other one", digits,
                  open.x, digits, open.y);

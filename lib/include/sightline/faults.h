@@ -135,7 +135,7 @@ typedef enum sl_inside {
     /// There is no start, and sl_space_enclosed is under a half, or nearly nothing is inside.
     SL_INSIDE_SMALL,
     /// Rooms that no start reaches have more area than those that one reaches, or starts reach
-    /// nearly nothing.
+    /// nearly nothing. What lies around all rooms of a map with solid ground is none of them.
     SL_INSIDE_FEW,
     SL_INSIDE_NONE, ///< all is solid ground
     /// There is no start, and an opening is a little wider than entrances (sl_interior.doubtful):
@@ -162,7 +162,8 @@ typedef struct sl_sealed_room {
     sl_point at; ///< the middle of its largest cell
     double area;
     double walls; ///< the length of its walls
-    bool at_edge; ///< it reaches the bounds of the map, as the rock or the sea around rooms does
+    bool at_edge; ///< it lies along a twentieth of the map's bounds or touches three sides of them,
+                  ///< as the rock or the sea around rooms does; a way out does not
 } sl_sealed_room;
 
 /// Rooms that no opening joins with the largest one.

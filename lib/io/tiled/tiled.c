@@ -126,6 +126,7 @@ static sl_status find_place(const sli_tiled_reader *reader, const sli_json *laye
     }
     own->word = word_of_layer(reader, layer, own);
     own->tiles_decide = false;
+    own->said = 0;
     const bool tiles = strcmp(sli_json_text_of(layer, "type"), "tilelayer") == 0;
     if (!tiles || own->word != SLI_TILED_SOLID || reader->by || map_names(reader, name) ||
         sli_game_says_stops(name) || sli_tiled_word_of(layer, "class") != SLI_TILED_UNSAID)
@@ -172,7 +173,8 @@ static sl_status see_layer(sli_tiled_reader *reader, const sli_json *layer,
                          .layer = layer->value,
                          .objects = objects,
                          .moves = own->moves,
-                         .kind = own->kind};
+                         .kind = own->kind,
+                         .said = own->said};
     return SL_OK;
 }
 

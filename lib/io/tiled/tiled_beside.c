@@ -59,7 +59,6 @@ sl_status sli_tiled_ask_tiles(const sli_tiled_reader *reader, const sli_json *la
                               sli_tiled_place *own) {
     const sli_json infinite = sli_json_member(reader->map, "infinite");
     const sli_json chunks = sli_json_member(layer, "chunks");
-    const char *name = sli_json_text_of(layer, "name");
     size_t all = 0, solid = 0;
     bool known = true;
     if (!chunks.value && !sli_json_true(&infinite, NULL))
@@ -70,21 +69,8 @@ sl_status sli_tiled_ask_tiles(const sli_tiled_reader *reader, const sli_json *la
         SL_TRY(count_said(reader, layer, &chunk, &all, &solid, &known));
     }
     if (!solid || solid == all || !known) return SL_OK;
-    sli_shown to_type;
-    const sli_shown shown = sli_show((sli_word){name, strlen(name)});
-    const char *typed = sli_tiled_name_to_type(name, &to_type);
-    const char *say = solid == 1 ? "says that it is" : "say that they are";
     own->tiles_decide = 2 * solid >= all;
-    if (own->tiles_decide)
-        sl_note(reader->context,
-                "%s: layer '%s': %zu of its %zu tiles %s solid, and the others are taken as open; "
-                "if these are walls, give all layers that are solid: --layers '...,%s'",
-                reader->map->file->name, shown.text, solid, all, say, typed);
-    else
-        sl_note(reader->context,
-                "%s: layer '%s' is taken whole by its name, and only %zu of its %zu tiles %s "
-                "solid; if only some are, give them by number: --layers '%s:28+33-35'",
-                reader->map->file->name, shown.text, solid, all, say, typed);
+    own->said = solid;
     return SL_OK;
 }
 

@@ -9,12 +9,14 @@
 
 // --- tilesets
 
-/// The names of properties whose text is a type.
+/// The names of properties whose text is a type: `type`, and `area_type`.
 static bool is_type(const char *name) {
     static const char *const names[] = {"type", "kind", "class", "category", "tag", "name"};
+    sli_name_word last = {.length = 0};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (strcasecmp(name, names[i]) == 0) return true;
-    return false;
+    for (sli_name_word word; sli_word_next(&name, &word);) last = word;
+    return strcmp(last.text, "type") == 0;
 }
 
 /// Whether the value is true or false, written as such, as a number or as a word.

@@ -3,12 +3,15 @@
 ///
 /// The command names a layer only where that is likely to be right: its name is one for what stands
 /// in the way, or it is the only layer that may be walls, or most of it is one tile and the others
-/// are walls. Else it says LAYER or TILES, and the reader chooses.
+/// are walls. Else there is no command: a wrong one would be typed.
 #include "io/tiled/tiled.h"
 
 #include "io/io_formats.h"
 
 #include <strings.h>
+
+/// Room for "+4294967295-4294967295": what does not fit is left out of a text of numbers.
+enum { NUMBER_ROOM = 24 };
 
 /// Layers for a message: 'Ground' (2500 tiles), 'Things' (3 objects).
 typedef struct layer_text {
@@ -122,16 +125,26 @@ static sl_status choose_tiles(const sli_tiled_reader *reader, const sli_tiled_se
     return status;
 }
 
+/// Whether a square without a tile lies on both sides of a tile, or above and below it.
+static bool is_thin(const uint32_t *gids, size_t count, size_t columns, size_t i) {
+    const size_t x = i % columns;
+    const bool left = x && (gids[i - 1] & SLI_TILED_TILE);
+    const bool right = x + 1 < columns && (gids[i + 1] & SLI_TILED_TILE);
+    const bool above = i >= columns && (gids[i - columns] & SLI_TILED_TILE);
+    const bool below = i + columns < count && (gids[i + columns] & SLI_TILED_TILE);
+    return (!left && !right) || (!above && !below);
+}
+
 /// Whether the layer with the most tiles covers less than a quarter of each side of the map and
-/// from a twentieth to half of all: its tiles may be the floor of rooms, and the squares without
-/// tiles solid.
+/// from a twentieth to half of all, and is no thin lines, as walls are: its tiles may be the floor
+/// of rooms, and the squares without tiles solid.
 static sl_status looks_like_rooms(const sli_tiled_reader *reader, const sli_tiled_seen *seen,
                                   bool *rooms) {
     const sli_json layer = {.file = reader->map->file, .value = seen->layer};
     const sli_json data = sli_json_member(&layer, "data"), width = sli_json_member(&layer, "width");
     const size_t count = (size_t)seen->squares, columns = (size_t)sli_json_number_or_0(&width);
     uint32_t *gids;
-    size_t sides[4] = {0};
+    size_t sides[4] = {0}, thin = 0;
     *rooms = false;
     for (size_t i = 0; i < reader->seen.count; i++)
         if (!reader->seen.items[i].objects && reader->seen.items[i].count > seen->count)
@@ -147,10 +160,11 @@ static sl_status looks_like_rooms(const sli_tiled_reader *reader, const sli_tile
         sides[1] += tile && i + columns >= count;
         sides[2] += tile && x == 0;
         sides[3] += tile && x + 1 == columns;
+        thin += tile && is_thin(gids, count, columns, i);
     }
     sl_free(reader->context, gids);
     *rooms = 4 * sides[0] < columns && 4 * sides[1] < columns && 4 * sides[2] < count / columns &&
-             4 * sides[3] < count / columns;
+             4 * sides[3] < count / columns && 2 * thin < seen->count;
     return SL_OK;
 }
 
@@ -169,7 +183,31 @@ const char *sli_tiled_name_to_type(const char *name, sli_shown *shown) {
     return length < 160 ? name : shown->text;
 }
 
-/// ", as in:" and a command that takes the example.
+/// That only the picture shows which tiles of a layer are solid, and their numbers.
+static sl_status say_tiles(const sli_tiled_reader *reader, const sli_tiled_seen *seen, char *text,
+                           size_t size) {
+    const sli_json layer = {.file = reader->map->file, .value = seen->layer};
+    const sli_json data = sli_json_member(&layer, "data");
+    const size_t count = data.value ? (size_t)seen->squares : 0;
+    uint32_t *gids = NULL;
+    char numbers[120] = "";
+    size_t most, used = 0;
+    if (count) SL_TRY(sli_tiled_read_data(&layer, &data, count, &gids));
+    for (size_t i = 0; i < count; i++)
+        if (gids[i] & SLI_TILED_TILE) gids[used++] = gids[i] & SLI_TILED_TILE;
+    const sl_status status =
+        sli_numbers_write(reader->context, gids, used, false, &most, numbers, sizeof numbers);
+    const bool all = strlen(numbers) + NUMBER_ROOM < sizeof numbers;
+    sl_free(reader->context, gids);
+    snprintf(text, size,
+             "; which of the tiles %s%sof '%s' are solid, only its picture shows: a tile's number "
+             "is its ID in Tiled + the tileset's firstgid",
+             all ? numbers : "", all && *numbers ? " " : "",
+             sli_show((sli_word){seen->name, strlen(seen->name)}).text);
+    return status;
+}
+
+/// ", as in:" and a command that takes the example; or why there is none.
 static sl_status say_example(const sli_tiled_reader *reader, const sli_tiled_seen *example,
                              char *text, size_t size) {
     const char *file = reader->map->file->name;
@@ -193,10 +231,9 @@ static sl_status say_example(const sli_tiled_reader *reader, const sli_tiled_see
                  file);
     else if (is_only_layer(reader) && !example->objects && 2 * example->count > example->squares &&
              !mostly)
-        snprintf(text, size, ", as in: sightline check '%.150s' --layers '%s:TILES' -o map.png",
-                 file, name);
+        return say_tiles(reader, example, text, size);
     else if (!is_only_layer(reader) && !is_sure(reader, example, mostly, same))
-        snprintf(text, size, ", as in: sightline check '%.150s' --layers LAYER -o map.png", file);
+        snprintf(text, size, "; no name says which one: look at them in Tiled");
     else
         snprintf(text, size, ", as in: sightline check '%.150s' --layers '%s%s' -o map.png", file,
                  name, tiles);
@@ -240,18 +277,78 @@ sl_status sli_tiled_fail_no_walls(const sli_tiled_reader *reader) {
 
 // --- what is told
 
-/// Layers below and above the player whose tiles say that they are solid, and are not taken.
-static void tell_beside(const sli_tiled_reader *reader) {
+/// The tiles of a layer that say that they are solid, as ":28+33-35"; "" where they are too many,
+/// or the layer lies in chunks.
+static sl_status list_said(const sli_tiled_reader *reader, const sli_tiled_seen *seen, char *text,
+                           size_t size) {
+    const sli_json layer = {.file = reader->map->file, .value = seen->layer};
+    const sli_json data = sli_json_member(&layer, "data");
+    uint32_t *gids;
+    size_t said = 0, most;
+    memset(text, 0, size);
+    if (!data.value) return SL_OK;
+    SL_TRY(sli_tiled_read_data(&layer, &data, (size_t)seen->squares, &gids));
+    for (size_t i = 0; i < seen->squares; i++) {
+        const uint32_t gid = gids[i] & SLI_TILED_TILE;
+        const sli_tiled_set *set = gid ? sli_tiled_find_set(&reader->sets, gid) : NULL;
+        const sli_tiled_tile *tile = set ? sli_tiled_find_tile(set, gid) : NULL;
+        if (sli_tiled_word_of_tile(set, tile) == SLI_TILED_SOLID) gids[said++] = gid;
+    }
+    const sl_status status =
+        sli_numbers_write(reader->context, gids, said, false, &most, text + 1, size - 1);
+    sl_free(reader->context, gids);
+    if (status == SL_OK && text[1] && strlen(text) + NUMBER_ROOM < size) *text = ':';
+    return status;
+}
+
+/// A command that takes these tiles of a layer, or all of it. It says so where more is taken
+/// without it.
+static void write_command(const sli_tiled_reader *reader, const sli_tiled_seen *layer, bool whole,
+                          const char *tiles, char *text, size_t size) {
+    size_t taken = 0;
+    sli_shown shown;
+    if (!whole && !*tiles) {
+        snprintf(text, size, "give them by number, as in --layers '%s:28+33-35'",
+                 sli_tiled_name_to_type(layer->name, &shown));
+        return;
+    }
+    for (size_t i = 0; i < reader->seen.count; i++) taken += reader->seen.items[i].taken;
+    snprintf(text, size, "sightline check '%.300s' --layers '%s%s' -o map.png%s",
+             reader->map->file->name, sli_tiled_name_to_type(layer->name, &shown),
+             whole ? "" : tiles, taken > layer->taken ? ", which takes no other layer" : "");
+}
+
+/// Layers below and above the player whose tiles say that they are solid, and are not taken; and
+/// layers named for walls of whose tiles only some say so.
+static sl_status tell_said(const sli_tiled_reader *reader) {
+    const char *file = reader->map->file->name;
+    char tiles[240], next[900];
     for (size_t i = 0; i < reader->seen.count; i++) {
         const sli_tiled_seen *layer = &reader->seen.items[i];
-        if (!layer->beside) continue;
         const sli_shown name = sli_show((sli_word){layer->name, strlen(layer->name)});
-        sl_note(reader->context,
-                "%s: layer '%s' is below or above the player: %zu of its tiles say that they are "
-                "solid and are not taken, as other layers are solid; if they stop the player, give "
-                "them by number: --layers '...,%s:28+33-35'",
-                reader->map->file->name, name.text, layer->beside, name.text);
+        const bool decide = 2 * layer->said >= layer->count;
+        if (!layer->beside && !layer->said) continue;
+        SL_TRY(list_said(reader, layer, tiles, sizeof tiles));
+        write_command(reader, layer, layer->said && decide, tiles, next, sizeof next);
+        if (layer->beside)
+            sl_note(reader->context,
+                    "%s: layer '%s' is below or above the player: %zu of its tiles say that they "
+                    "are solid and are not taken, as other layers are solid; if they stop the "
+                    "player: %s",
+                    file, name.text, layer->beside, next);
+        else if (decide)
+            sl_note(reader->context,
+                    "%s: layer '%s': %zu of its %llu tiles say that they are solid, and the others "
+                    "are taken as open; if these are walls: %s",
+                    file, name.text, layer->said, (unsigned long long)layer->count, next);
+        else
+            sl_note(reader->context,
+                    "%s: layer '%s' is taken whole by its name, and only %zu of its %llu tiles "
+                    "say%s solid; if no others are: %s",
+                    file, name.text, layer->said, (unsigned long long)layer->count,
+                    layer->said == 1 ? "s that it is" : " that they are", next);
     }
+    return SL_OK;
 }
 
 /// Layers that are solid with a few tiles in all, beside one with many more that is not: they may
@@ -371,7 +468,7 @@ sl_status sli_tiled_tell_meaning(const sli_tiled_reader *reader) {
                 "this is not believed",
                 file,
                 sli_show((sli_word){reader->believed_not, strlen(reader->believed_not)}).text);
-    if (!reader->by) tell_beside(reader);
+    if (!reader->by) SL_TRY(tell_said(reader));
     if (!reader->by) tell_little(reader);
     if (!reader->by) tell_objects(reader);
     if (!reader->by) tell_tiles(reader);

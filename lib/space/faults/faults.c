@@ -285,36 +285,76 @@ static bool inside_is_open(const sl_space *space, const border *edge) {
     return false;
 }
 
-/// The area of the rooms that neither a start nor the border leads to, as a share of all.
+/// What a walk over cells needs.
+typedef struct walk {
+    const sl_space *space;
+    sl_bits *reached;
+    uint32_t *stack, count;
+} walk;
+
+static void go_to(walk *w, uint32_t cell) {
+    if (sl_bits_has(w->reached, cell)) return;
+    sl_bits_add(w->reached, cell);
+    w->stack[w->count++] = cell;
+}
+
+static sl_box join_boxes(sl_box a, sl_box b) {
+    return sli_box_with(sli_box_with(a, b.min), b.max);
+}
+
+/// Walks on to all cells that portals lead to. Adds to *area what of them is not inside, and to
+/// *box all of them.
+static void walk_on(walk *w, double *area, sl_box *box) {
+    while (w->count) {
+        const uint32_t at = w->stack[--w->count];
+        const sl_cell *cell = &w->space->cells[at];
+        if (!cell->inside) *area += sl_space_area(w->space, at);
+        *box = join_boxes(*box, sli_box_of_cell(w->space, at));
+        for (uint32_t i = 0; i < cell->directed_count; i++)
+            go_to(w, w->space->directed[cell->first_directed + i].cell);
+    }
+}
+
+static bool is_same_box(const sl_box *a, const sl_box *b) {
+    return a->min.x == b->min.x && a->min.y == b->min.y && a->max.x == b->max.x &&
+           a->max.y == b->max.y;
+}
+
+/// The area of the rooms that neither a start nor the border leads to, as a share of all. Beside
+/// solid ground, one as wide and as high as all that the border does not lead to lies around the
+/// others, as the void around the rooms of a game does: it is no room.
 static sl_status find_shut_in(sl_context *context, const sl_space *space, const border *edge,
                               double *share) {
-    sl_bits *reached = sl_alloc_array(context, sl_bits_words(space->cell_count), sizeof *reached);
-    uint32_t *stack = sl_alloc_array(context, space->cell_count, sizeof *stack), count = 0;
-    for (uint32_t i = 0; reached && stack && i < space->cell_count; i++) {
-        if (!is_open(space, edge, i)) continue;
-        sl_bits_add(reached, i);
-        stack[count++] = i;
+    const bool solid = sl_space_ground(space).solid > 0;
+    walk w = {.space = space,
+              .reached = sl_alloc_array(context, sl_bits_words(space->cell_count), sizeof(sl_bits)),
+              .stack = sl_alloc_array(context, space->cell_count, sizeof *w.stack)};
+    const bool done = w.reached && w.stack;
+    double area = 0, all = 0, open = 0;
+    sl_box around = {0}, bounds = {0};
+    bool any = false;
+    for (uint32_t i = 0; done && i < space->cell_count; i++)
+        if (is_open(space, edge, i)) go_to(&w, i);
+    if (done) walk_on(&w, &open, &around);
+    for (uint32_t i = 0; done && i < space->cell_count; i++) {
+        all += sl_space_area(space, i);
+        if (space->cells[i].solid || sl_bits_has(w.reached, i)) continue;
+        const sl_box own = sli_box_of_cell(space, i);
+        bounds = any ? join_boxes(bounds, own) : own;
+        any = true;
     }
-    while (count) {
-        const sl_cell *cell = &space->cells[stack[--count]];
-        for (uint32_t i = 0; i < cell->directed_count; i++) {
-            const uint32_t next = space->directed[cell->first_directed + i].cell;
-            if (sl_bits_has(reached, next)) continue;
-            sl_bits_add(reached, next);
-            stack[count++] = next;
-        }
-    }
-    double area = 0, all = 0;
-    for (uint32_t i = 0; reached && stack && i < space->cell_count; i++) {
+    for (uint32_t i = 0; done && i < space->cell_count; i++) {
         const sl_cell *cell = &space->cells[i];
-        const double own = sl_space_area(space, i);
-        all += own;
-        if (!cell->solid && !cell->inside && !sl_bits_has(reached, i)) area += own;
+        if (cell->solid || cell->inside || sl_bits_has(w.reached, i)) continue;
+        double own = 0;
+        sl_box box = sli_box_of_cell(space, i);
+        go_to(&w, i);
+        walk_on(&w, &own, &box);
+        if (!solid || !is_same_box(&box, &bounds)) area += own;
     }
-    const bool done = reached && stack;
     *share = all > 0 ? area / all : 0;
-    sl_free(context, reached);
-    sl_free(context, stack);
+    sl_free(context, w.reached);
+    sl_free(context, w.stack);
     return done ? SL_OK : SL_NO_MEMORY;
 }
 

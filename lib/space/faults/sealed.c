@@ -17,6 +17,11 @@
 #define THICK 0.25
 #define LARGE 0.004
 
+/// A room is at the edge that lies along this share of the map's bounds, or touches so many of
+/// their sides.
+#define ALONG 0.05
+enum { AROUND = 3 };
+
 /// Whether steps pass a portal: a window lets sight through alone.
 static bool is_passed(const sl_map *map, const sl_space *space, uint32_t portal) {
     size_t count;
@@ -28,17 +33,40 @@ static bool is_passed(const sl_map *map, const sl_space *space, uint32_t portal)
     return true;
 }
 
+/// The sides of the map's bounds that a room touches, and how far it lies along them.
+typedef struct border {
+    bool touched[4];
+    double along;
+} border;
+
+/// Adds the side from a to b of a cell.
+static void touch(const sl_box *edge, sl_point a, sl_point b, border *out) {
+    const bool from[] = {a.x == edge->min.x, a.x == edge->max.x, a.y == edge->min.y,
+                         a.y == edge->max.y};
+    const bool to[] = {b.x == edge->min.x, b.x == edge->max.x, b.y == edge->min.y,
+                       b.y == edge->max.y};
+    for (int i = 0; i < 4; i++) {
+        out->touched[i] |= from[i];
+        if (from[i] && to[i]) out->along += sli_length(b.x - a.x, b.y - a.y);
+    }
+}
+
+static bool is_at_edge(const sl_box *edge, const border *of) {
+    const double all = 2 * (edge->max.x - edge->min.x + edge->max.y - edge->min.y);
+    const int sides = of->touched[0] + of->touched[1] + of->touched[2] + of->touched[3];
+    return sides >= AROUND || of->along >= ALONG * all;
+}
+
 /// Adds up a cell: its area, and the length of its sides that are walls.
 static void measure(const sl_map *map, const sl_space *space, const sl_box *edge, uint32_t number,
-                    sl_sealed_room *room) {
+                    sl_sealed_room *room, border *bounds) {
     const sl_cell *cell = &space->cells[number];
     const sl_point *corners = space->vertices + cell->first_vertex;
     room->area += sl_space_area(space, number);
     for (uint32_t i = 0; i < cell->vertex_count; i++) {
         const sl_point a = corners[i], b = corners[(i + 1) % cell->vertex_count];
         room->walls += sli_length(b.x - a.x, b.y - a.y);
-        room->at_edge |=
-            a.x == edge->min.x || a.x == edge->max.x || a.y == edge->min.y || a.y == edge->max.y;
+        touch(edge, a, b, bounds);
     }
     for (uint32_t i = 0; i < cell->directed_count; i++) {
         const sl_directed_portal *portal = &space->directed[cell->first_directed + i];
@@ -52,6 +80,7 @@ static void measure(const sl_map *map, const sl_space *space, const sl_box *edge
 static sl_sealed_room room_of(const sl_map *map, const sl_space *space, const sl_box *edge,
                               sl_bits *reached, uint32_t *queue, uint32_t first) {
     sl_sealed_room room = {0};
+    border bounds = {0};
     double largest = -1;
     uint32_t end = 0;
     sl_bits_add(reached, first);
@@ -59,7 +88,7 @@ static sl_sealed_room room_of(const sl_map *map, const sl_space *space, const sl
     for (uint32_t at = 0; at < end; at++) {
         const sl_cell *cell = &space->cells[queue[at]];
         const double area = sl_space_area(space, queue[at]);
-        measure(map, space, edge, queue[at], &room);
+        measure(map, space, edge, queue[at], &room, &bounds);
         if (area > largest) {
             largest = area;
             room.at = sl_space_middle(space, queue[at]);
@@ -72,6 +101,7 @@ static sl_sealed_room room_of(const sl_map *map, const sl_space *space, const sl
             queue[end++] = next;
         }
     }
+    room.at_edge = is_at_edge(edge, &bounds);
     return room;
 }
 
