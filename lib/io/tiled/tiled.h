@@ -427,8 +427,6 @@ sl_status sli_tiled_guess(sli_tiled_reader *reader, const uint32_t *gids, size_t
 
 /// SL_BAD_INPUT, with the layers and what to type.
 sl_status sli_tiled_fail_unsaid(const sli_tiled_reader *reader, const char *why);
-/// A layer's name for a command: whole, where it can be typed so. `shown` is room for it.
-const char *sli_tiled_name_to_type(const char *name, sli_shown *shown);
 /// The same where nothing is a wall: a layer that is solid everywhere has no edge.
 sl_status sli_tiled_fail_no_walls(const sli_tiled_reader *reader);
 /// Tells what is solid and by what, and which layers are not.

@@ -175,7 +175,8 @@ static bool is_only_layer(const sli_tiled_reader *reader) {
     return count == 1;
 }
 
-const char *sli_tiled_name_to_type(const char *name, sli_shown *shown) {
+/// A layer's name for a command: whole, where it can be typed so. `shown` is room for it.
+static const char *name_to_type(const char *name, sli_shown *shown) {
     const size_t length = strlen(name);
     *shown = sli_show((sli_word){name, length});
     for (size_t i = 0; i < length; i++)
@@ -220,7 +221,7 @@ static sl_status say_example(const sli_tiled_reader *reader, const sli_tiled_see
     bool rooms;
     SL_TRY(looks_like_rooms(reader, example, &rooms));
     sli_shown shown;
-    const char *name = sli_tiled_name_to_type(example->name, &shown);
+    const char *name = name_to_type(example->name, &shown);
     if (same && !objects)
         snprintf(text, size, " (all tiles of '%s' are the same: draw walls in a layer Collision)",
                  name);
@@ -309,13 +310,13 @@ static void write_command(const sli_tiled_reader *reader, const sli_tiled_seen *
     sli_shown shown;
     if (!whole && !*tiles) {
         snprintf(text, size, "give them by number, as in --layers '%s:28+33-35'",
-                 sli_tiled_name_to_type(layer->name, &shown));
+                 name_to_type(layer->name, &shown));
         return;
     }
     for (size_t i = 0; i < reader->seen.count; i++) taken += reader->seen.items[i].taken;
     snprintf(text, size, "sightline check '%.300s' --layers '%s%s' -o map.png%s",
-             reader->map->file->name, sli_tiled_name_to_type(layer->name, &shown),
-             whole ? "" : tiles, taken > layer->taken ? ", which takes no other layer" : "");
+             reader->map->file->name, name_to_type(layer->name, &shown), whole ? "" : tiles,
+             taken > layer->taken ? ", which takes no other layer" : "");
 }
 
 /// Layers below and above the player whose tiles say that they are solid, and are not taken; and
