@@ -145,7 +145,7 @@ class Pictures(sandbox.ProgramTest):
         for keys, said in (("", "; unknown ground is solid: --threshold 0.65 takes it as free"),
                            ("occupied_thresh: 0.7\n", "; unknown ground is solid: --threshold 0.7 takes"),
                            ("mode: scale\n", "; partly occupied ground is solid: --threshold 0.65 takes"),
-                           ("free_thresh: 0.25\n", "m.yaml: 33 % of the picture has the grey that map savers write for"),
+                           ("free_thresh: 0.25\n", "m.yaml: 33.3 % of the picture has the grey that map savers write for"),
                            ("occupied_thresh: 0.19\n", None)):
             self.box.path("m.yaml").write_text("image: m.pgm\nresolution: 0.5\n" + keys)
             text = self.box.run(["convert", "m.yaml"]).stderr
