@@ -100,7 +100,7 @@ static void test_png(void **state) {
 
 static void test_refused(void **state) {
     (void)state;
-#define REFUSED(text, message) assert_refused(text, sizeof text - 1, message)
+#define REFUSED(text, message) assert_refused(text, sizeof(text) - 1, message)
     REFUSED("", "f: neither PNG nor");
     REFUSED("RIFF\1\1\1\1WEBPVP8 ", "f: a WebP picture, whatever its name says: save it as PNG");
     REFUSED("\xFF\xD8\xFF\xE0", "f: a JPEG picture");
