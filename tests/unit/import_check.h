@@ -2,6 +2,7 @@
 #ifndef SL_TEST_IMPORT_CHECK_H
 #define SL_TEST_IMPORT_CHECK_H
 
+#include "io/io_formats.h"
 #include "map_same.h"
 
 typedef sl_status import_reader(sl_context *context, const char *name, const char *text,
@@ -107,6 +108,22 @@ static inline void import_write_file(const char *path, const char *text) {
     assert_non_null(stream);
     fputs(text, stream);
     assert_int_equal(fclose(stream), 0);
+}
+
+/// What is said of a DXF drawing, and how many walls it has.
+static inline size_t import_noted_dxf(const char *text, const char *layers, char notes[4096]) {
+    const sl_hooks hooks = {.user = notes, .note = import_keep_notes};
+    sl_context *context = sl_context_create(&hooks);
+    sl_import_options options = sl_import_options_default();
+    sl_map map = {0};
+    options.layers = layers;
+    *notes = 0;
+    assert_non_null(context);
+    assert_ok(context, sli_map_read_dxf(context, "f", text, strlen(text), &options, &map));
+    const size_t walls = map.wall_count;
+    sl_map_destroy(context, &map);
+    sl_context_destroy(context);
+    return walls;
 }
 
 #endif

@@ -308,22 +308,6 @@ static void test_svg_asked_for(void **state) {
     assert_map(sli_map_read_svg, text, "sofa", false, "wall 0 10 1 10\n");
 }
 
-/// What is said of a drawing, and how many walls it has.
-static size_t read_noted(const char *text, const char *layers, char notes[4096]) {
-    const sl_hooks hooks = {.user = notes, .note = import_keep_notes};
-    sl_context *context = sl_context_create(&hooks);
-    sl_import_options options = sl_import_options_default();
-    sl_map map = {0};
-    options.layers = layers;
-    *notes = 0;
-    assert_non_null(context);
-    assert_ok(context, sli_map_read_dxf(context, "f", text, strlen(text), &options, &map));
-    const size_t walls = map.wall_count;
-    sl_map_destroy(context, &map);
-    sl_context_destroy(context);
-    return walls;
-}
-
 /// Nine rooms in one layer, side by side in walls of two faces, with a bed in one.
 static void test_one_layer(void **state) {
     (void)state;
@@ -346,12 +330,12 @@ static void test_one_layer(void **state) {
     char metres[16600];
     snprintf(metres, sizeof metres, "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n6\n0\nENDSEC\n%s",
              text);
-    assert_int_equal(read_noted(metres, NULL, notes), 36);
+    assert_int_equal(import_noted_dxf(metres, NULL, notes), 36);
     assert_non_null(strstr(notes, "no walls by their shape: 6 lines that touch no wall (furniture, "
                                   "symbols) (--layers A,B chooses, --layers '*' takes all)"));
-    assert_int_equal(read_noted(metres, "0", notes), 36);
+    assert_int_equal(import_noted_dxf(metres, "0", notes), 36);
     assert_non_null(strstr(notes, "no walls by their shape: 6 lines that touch no wall"));
-    assert_int_equal(read_noted(metres, "*", notes), 36 + BED);
+    assert_int_equal(import_noted_dxf(metres, "*", notes), 36 + BED);
     assert_null(strstr(notes, "shape"));
 }
 
@@ -365,21 +349,21 @@ static void test_walls_on_doors(void **state) {
     LINE("A-DOOR", 9, y0, 9, y1) LINE("A-DOOR", 9, y1, 7, y1) LINE("A-DOOR", 7, y1, 7, y0)
     static const char text[] =
         UNIT("6") HEAD ROOM("A-WALL") SWING("A-DOOR") BESIDE_DOORS SHORT(2, 2.5) SHORT(5, 5.5) TAIL;
-    assert_int_equal(read_noted(text, NULL, notes), 5);
+    assert_int_equal(import_noted_dxf(text, NULL, notes), 5);
     assert_non_null(strstr(notes, "A-DOOR: 2 lines on layers of doors are longer than doors"));
     assert_non_null(strstr(notes, "name all layers of walls: --layers 'A-WALL,A-DOOR'"));
     // The layers that are named lead to these walls, without the swing; all layers have it.
-    assert_int_equal(read_noted(text, "A-WALL,A-DOOR", notes), 15);
+    assert_int_equal(import_noted_dxf(text, "A-WALL,A-DOOR", notes), 15);
     assert_non_null(strstr(notes, "walls from A-WALL, A-DOOR; 1 door is drawn open: gaps"));
-    assert_true(read_noted(text, "*", notes) > 16);
+    assert_true(import_noted_dxf(text, "*", notes) > 16);
     // A layer that has more long lines than others is one of walls.
     static const char most[] =
         UNIT("6") HEAD ROOM("A-WALL") SWING("A-DOOR") BESIDE_DOORS SHORT(2, 2.5) TAIL;
-    assert_int_equal(read_noted(most, NULL, notes), 11);
+    assert_int_equal(import_noted_dxf(most, NULL, notes), 11);
     assert_non_null(strstr(notes, "A-DOOR: named as doors, but most of its lines are longer than "
                                   "doors (2): they are walls"));
     assert_non_null(strstr(notes, "1 door is drawn open: gaps"));
-    assert_int_equal(read_noted(most, "A-DOOR=door", notes), 5);
+    assert_int_equal(import_noted_dxf(most, "A-DOOR=door", notes), 5);
     assert_null(strstr(notes, "named as doors"));
     // One long line is a gate, and no unit says how long doors are.
     static const char *const gates[] = {UNIT("6") HEAD ROOM("A-WALL") LINE("A-DOOR", 0, 4, 4, 4),
@@ -388,7 +372,7 @@ static void test_walls_on_doors(void **state) {
         snprintf(notes, sizeof notes, "%s" TAIL, gates[i]);
         char gate[sizeof notes];
         strcpy(gate, notes);
-        assert_int_equal(read_noted(gate, NULL, notes), 5);
+        assert_int_equal(import_noted_dxf(gate, NULL, notes), 5);
         assert_null(strstr(notes, "named as doors"));
     }
     // The arc may be drawn as lines one by one; lines that turn back are none.
@@ -396,10 +380,10 @@ static void test_walls_on_doors(void **state) {
     LINE("A-DOOR", 3, 0, 2.86603, 0.5)                                                             \
     LINE("A-DOOR", 2.86603, 0.5, 2.5, 0.86603) LINE("A-DOOR", 2.5, 0.86603, 2, y)
     const char *const drawn = HEAD ROOM("A-WALL") LINE("A-DOOR", 2, 0, 2, 1) CHORDS(1) TAIL;
-    assert_int_equal(read_noted(drawn, "A-WALL,A-DOOR", notes), 5);
+    assert_int_equal(import_noted_dxf(drawn, "A-WALL,A-DOOR", notes), 5);
     const char *const bent = HEAD ROOM("A-WALL") LINE("A-DOOR", 2, 0, 2, 1) CHORDS(3) TAIL;
-    assert_int_equal(read_noted(bent, "A-WALL,A-DOOR", notes), 9);
-    assert_int_equal(read_noted(HEAD ROOM("A-WALL") SWING("A-DOOR") TAIL, NULL, notes), 5);
+    assert_int_equal(import_noted_dxf(bent, "A-WALL,A-DOOR", notes), 9);
+    assert_int_equal(import_noted_dxf(HEAD ROOM("A-WALL") SWING("A-DOOR") TAIL, NULL, notes), 5);
     assert_null(strstr(notes, "longer"));
 }
 
@@ -409,11 +393,11 @@ static void test_outlines_of_rooms(void **state) {
     char notes[4096];
     static const char text[] = HEAD ROOM("Rooms") LINE("WALLS", 2, 0, 2, 1)
         LINE("WALLS", 3, 0, 3, 1) LINE("WALLS", 5, 8, 5, 7) LINE("zone plan", 0, 1, 10, 1) TAIL;
-    assert_int_equal(read_noted(text, NULL, notes), 8);
+    assert_int_equal(import_noted_dxf(text, NULL, notes), 8);
     assert_non_null(strstr(notes, "layers of rooms give walls, too"));
-    assert_int_equal(read_noted(text, "Rooms=ignore", notes), 3);
+    assert_int_equal(import_noted_dxf(text, "Rooms=ignore", notes), 3);
     static const char whole[] = HEAD ROOM("WALLS") ROOM("Rooms") TAIL;
-    assert_int_equal(read_noted(whole, NULL, notes), 5);
+    assert_int_equal(import_noted_dxf(whole, NULL, notes), 5);
     assert_null(strstr(notes, "layers of rooms"));
 }
 
@@ -437,7 +421,7 @@ static void test_shut_doors(void **state) {
                     c * p[2] - n * p[3], n * p[2] + c * p[3]);
         }
         strcat(text, TAIL);
-        assert_int_equal(read_noted(text, NULL, notes), 4);
+        assert_int_equal(import_noted_dxf(text, NULL, notes), 4);
         assert_int_equal(strstr(notes, "2 lines on layers of doors stand at walls without a gap") !=
                              NULL,
                          i < 2);

@@ -49,16 +49,8 @@ static void roles_of_unnamed_layers(void **state) {
 
 /// What is said of a drawing.
 static void assert_noted(const char *text, const char *layers, const char *expected, bool said) {
-    char notes[4096] = "";
-    const sl_hooks hooks = {.user = notes, .note = import_keep_notes};
-    sl_context *context = sl_context_create(&hooks);
-    sl_import_options options = sl_import_options_default();
-    sl_map map = {0};
-    options.layers = layers;
-    assert_non_null(context);
-    assert_ok(context, sli_map_read_dxf(context, "f", text, strlen(text), &options, &map));
-    sl_map_destroy(context, &map);
-    sl_context_destroy(context);
+    char notes[4096];
+    import_noted_dxf(text, layers, notes);
     if (said != (strstr(notes, expected) != NULL)) fail_msg("noted: %s", notes);
 }
 
