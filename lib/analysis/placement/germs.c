@@ -107,13 +107,17 @@ static sl_status choose_for(sli_placer *p, size_t first, bool *seen, gain_heap *
     return SL_OK;
 }
 
-/// Chooses a candidate, if it is one, and not chosen.
+/// Chooses a candidate, if it is one, and not chosen. *number as in sli_add_candidate().
+static sl_status choose_place(sli_placer *p, sl_point at, bool *is_new, uint32_t *number) {
+    SL_TRY(sli_add_candidate(p, at, number));
+    *is_new = *number != UINT32_MAX;
+    for (size_t k = 0; k < p->chosen.count; k++) *is_new = *is_new && p->chosen.items[k] != *number;
+    return *is_new ? sli_choose(p, *number) : SL_OK;
+}
+
 static sl_status choose_new(sli_placer *p, sl_point at, bool *is_new) {
     uint32_t number;
-    SL_TRY(sli_add_candidate(p, at, &number));
-    *is_new = number != UINT32_MAX;
-    for (size_t k = 0; k < p->chosen.count; k++) *is_new = *is_new && p->chosen.items[k] != number;
-    return *is_new ? sli_choose(p, number) : SL_OK;
+    return choose_place(p, at, is_new, &number);
 }
 
 /// Chooses the middle of a cell at a gap, if one is not chosen. Else none of what is beyond the gap
@@ -134,9 +138,8 @@ static sl_status choose_near_cell(sli_placer *p, const sli_track *track, const s
         const sl_box cell = sli_box_of_cell(space, c);
         if (!space->cells[c].inside || !sli_boxes_meet(&box, &cell)) continue;
         uint32_t number;
-        SL_TRY(sli_add_candidate(p, sl_space_middle(space, c), &number));
+        SL_TRY(choose_place(p, sl_space_middle(space, c), &done, &number));
         if (number == UINT32_MAX) *closed = false;
-        SL_TRY(choose_new(p, sl_space_middle(space, c), &done));
     }
     return SL_OK;
 }
