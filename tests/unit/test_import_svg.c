@@ -211,6 +211,10 @@ static void test_units(void **state) {
     assert_unit_of(sli_map_read_svg, NULL, SIZED("width='20%' viewBox='0 0 20 10'"), "");
     assert_unit_of(sli_map_read_svg, NULL, SIZED("width='20ell' viewBox='0 0 20 10'"), "");
     assert_unit_of(sli_map_read_svg, NULL, SIZED("viewBox='0 0 20 10'"), "");
+    // A plan on a sheet of paper is no building of that size.
+#define A4(path) "<svg width='297mm' viewBox='0 0 297 210'><path d='" path "'/></svg>"
+    assert_unit_of(sli_map_read_svg, NULL, A4("M0 0h200v150h-100v9h-100z"), "");
+    assert_unit_of(sli_map_read_svg, NULL, A4("M0 0h9000v7000h-4000v9h-5000z"), "mm");
 }
 
 int main(void) {

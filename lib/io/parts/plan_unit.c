@@ -93,6 +93,19 @@ void sli_plan_unit_tell(sl_context *context, const char *file, const sl_map *map
                 file, unit->name, metres);
 }
 
+void sli_plan_unit_of_page(sl_context *context, const char *file, sl_map *map, bool said) {
+    const sl_box bounds = sl_map_bounds(map);
+    const double length = fmax(bounds.max.x - bounds.min.x, bounds.max.y - bounds.min.y);
+    const double metres = length * sli_unit_metres(map->unit);
+    if (!(metres > 0 && metres < SHORT) || map->wall_count < FEW_WALLS) return;
+    if (!said)
+        sl_note(context,
+                "%s: the page is in %s, and the plan on it is %.3g m long: lengths are those on the "
+                "page, without a unit; --unit N=m, for N metres to each, gives the true size",
+                file, map->unit, metres);
+    map->unit[0] = '\0';
+}
+
 void sli_plan_unit_entrance(sl_map *map, double door, size_t doors) {
     const double metres = sli_unit_metres(map->unit);
     if (doors < SURE_DOORS || map->entrance > 0 || is_door(door * metres)) return;

@@ -21,6 +21,10 @@ typedef struct sli_plan_size {
 void sli_plan_unit_tell(sl_context *context, const char *file, const sl_map *map,
                         const sli_plan_size *plan);
 
+/// Forgets the map's unit where it is that of a page and no building's: a plan of five walls or
+/// more would be too short for one. A note says so, unless `said`: the options give the true size.
+void sli_plan_unit_of_page(sl_context *context, const char *file, sl_map *map, bool said);
+
 /// Takes the width of entrances from doors that are drawn open, where the map's unit makes no doors
 /// of them; `door` is their usual width.
 void sli_plan_unit_entrance(sl_map *map, double door, size_t doors);

@@ -10,6 +10,7 @@
 #include "io/parts/contents.h"
 #include "io/parts/document.h"
 #include "io/parts/names.h"
+#include "io/parts/plan_unit.h"
 #include "io/svg/svg_group.h"
 #include "io/svg/svg_path.h"
 #include "map/scan.h"
@@ -546,6 +547,7 @@ static sl_status draw_root(svg *s, xmlNode *root) {
             sli_tally_write("; left out: ", left, 4, without));
     sli_faults_note(s->context, s->pen.name, &s->faults);
     sli_layers_note(s->context, s->pen.name, s->pen.map);
+    sli_plan_unit_of_page(s->context, s->pen.name, s->pen.map, s->options->sized);
     sli_svg_note_strokes(s);
     sli_svg_note_picture(s);
     return SL_OK;
