@@ -333,6 +333,10 @@ static double longer_side(sl_box box) {
     return fmax(sli_box_width(box), sli_box_height(box));
 }
 
+static double area_of(sl_box box) {
+    return sli_box_width(box) * sli_box_height(box);
+}
+
 /// Whether a piece is drawn as walls: a third of it is faces.
 static bool has_walls(const finder *f, uint32_t piece) {
     return f->looks[piece].faces >= 0.3 * f->looks[piece].all;
@@ -416,7 +420,8 @@ static void drop_pieces(finder *f) {
         if (sl_root_of(f->net.piece, i) != i || has_walls(f, i)) continue;
         const sl_box box = f->net.boxes[i];
         if (is_beside(box, f->plan)) {
-            if (longer_side(box) < longer_side(f->plan)) f->looks[i].into = &f->out->beside;
+            if (longer_side(box) < longer_side(f->plan) && area_of(box) <= area_of(f->plan))
+                f->looks[i].into = &f->out->beside;
         } else if (is_loose(f, i) && !may_stand(f, i, obstacles)) {
             f->looks[i].into = &f->out->loose;
             f->out->pieces++;
@@ -432,8 +437,7 @@ static void drop_pieces(finder *f) {
 static bool is_rectangle(const finder *f, uint32_t piece) {
     const piece_look *look = &f->looks[piece];
     const double w = sli_box_width(f->net.boxes[piece]), h = sli_box_height(f->net.boxes[piece]);
-    const bool small = look->rest.min.x > look->rest.max.x ||
-                       sli_box_width(look->rest) * sli_box_height(look->rest) <= w * h / 3;
+    const bool small = look->rest.min.x > look->rest.max.x || area_of(look->rest) <= w * h / 3;
     return w > 0 && h > 0 && small && look->sides[0] >= 0.95 * h && look->sides[1] >= 0.95 * h &&
            look->sides[2] >= 0.95 * w && look->sides[3] >= 0.95 * w;
 }

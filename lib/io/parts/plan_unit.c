@@ -99,10 +99,11 @@ void sli_plan_unit_of_page(sl_context *context, const char *file, sl_map *map, b
     const double metres = length * sli_unit_metres(map->unit);
     if (!(metres > 0 && metres < SHORT) || map->wall_count < FEW_WALLS) return;
     if (!said)
-        sl_note(context,
-                "%s: the page is in %s, and the plan on it is %.3g m long: lengths are those on the "
-                "page, without a unit; --unit N=m, for N metres to each, gives the true size",
-                file, map->unit, metres);
+        sl_note(
+            context,
+            "%s: the page is in %s, and the plan on it is %.3g m long: lengths are those on the "
+            "page, without a unit; --unit N=m, for N metres to each, gives the true size",
+            file, map->unit, metres);
     map->unit[0] = '\0';
 }
 
