@@ -126,6 +126,13 @@ static void test_paint(void **state) {
     assert_seen(true, "<style>g > line{stroke:red}</style>" SHAPE("fill='none'"));
     assert_seen(true, "<style>@media screen{line{stroke:red}}</style>" SHAPE("fill='none'"));
     assert_seen(false, "<style>line:hover{stroke:red}</style>" SHAPE("fill='none'"));
+    // Sheets of fonts and colours for dark screens say nothing of it.
+    assert_seen(true, "<style>@import url(more.css);</style>" SHAPE("fill='none'"));
+    assert_seen(false, "<style>@import url(https://fonts.example.org/css2?family=A:wght@400;700);"
+                       ".a{fill:none}</style>" SHAPE("class='a'"));
+    assert_seen(false, "<style>@import 'font;.css';</style>" SHAPE("fill='none'"));
+    assert_seen(false, "<style>@media (prefers-color-scheme: dark){line{stroke:red}}</style>" SHAPE(
+                           "fill='none'"));
     const char *const sheet =
         "<?xml-stylesheet href='a.css'?>\n<svg viewBox='0 0 20 10'>" SHAPE("fill='none'") "</svg>";
     assert_walls(sheet, WALL);

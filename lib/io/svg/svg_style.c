@@ -205,15 +205,45 @@ static sl_status add_rules(sl_context *context, sli_svg_style *style, sli_word s
     return SL_OK;
 }
 
+/// The first semicolon or bracket, but for what stands in quotes or in the address of a url().
+static const char *find_end(const char *at, const char *end) {
+    char within = '\0';
+    for (; at < end; at++) {
+        if (within)
+            within = *at == within ? '\0' : within;
+        else if (*at == '"' || *at == '\'')
+            within = *at;
+        else if (*at == '(')
+            within = ')';
+        else if (*at == ';' || *at == '{')
+            break;
+    }
+    return at;
+}
+
 /// The end of an at-rule: a semicolon, or the end of its block.
 static const char *pass_at_rule(const char *at, const char *end) {
-    at = find(at, end, ";{");
+    at = find_end(at, end);
     if (at == end || *at == ';') return at;
     for (size_t depth = 0; at < end; at++) {
         depth += *at == '{';
         if (*at == '}' && --depth == 0) return at;
     }
     return end;
+}
+
+static bool says(const char *at, const char *end, const char *word) {
+    for (const size_t length = strlen(word); at + length <= end; at++)
+        if (memcmp(at, word, length) == 0) return true;
+    return false;
+}
+
+/// Whether an at-rule may say how shapes look: not a sheet of fonts, nor rules for dark screens.
+static bool may_paint(const char *at, const char *end) {
+    const char *stop = find_end(at, end);
+    if (strncmp(at, "@import", 7) == 0) return !says(at, stop, "font");
+    return strncmp(at, "@media", 6) == 0 && !says(at, stop, "prefers-color-scheme: dark") &&
+           !says(at, stop, "prefers-color-scheme:dark");
 }
 
 static void blank_comments(char *text) {
@@ -231,7 +261,7 @@ static sl_status read_sheet(sl_context *context, sli_svg_style *style, char *tex
     for (const char *at = text; at < end; at++) {
         at = trimmed(at, end).at;
         if (at < end && *at == '@') {
-            const bool rules = strncmp(at, "@media", 6) == 0 || strncmp(at, "@import", 7) == 0;
+            const bool rules = may_paint(at, end);
             style->unread += rules;
             style->paint_unread |= rules;
             at = pass_at_rule(at, end);
