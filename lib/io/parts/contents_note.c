@@ -7,6 +7,9 @@
 
 #include <math.h>
 
+/// How many times lighter a look may be than walls, and be doubted.
+enum { LIGHT = 10 };
+
 // --- measures
 
 double sli_choice_door(const sli_choice *c) {
@@ -159,10 +162,23 @@ void sli_choice_note_all(const sli_choice *c) {
             c->contents->file, sli_name_list_cut(&names, 300));
 }
 
-/// Walls by their looks, where others may be walls as well as they.
+/// Adds the names of the looks that are taken, as --layers takes them, and of one more.
+static void say_looks(const sli_choice *c, const sli_look *other, char *text, size_t size) {
+    size_t used = 0;
+    for (size_t i = 0; i < c->contents->looks.items.count; i++) {
+        const sli_look *look = &c->contents->looks.items.items[i];
+        if (!look->taken || !look->shapes || used + 2 * SLI_LOOK_NAME >= size) continue;
+        used += (size_t)snprintf(text + used, size - used, "%s,", look->name);
+    }
+    snprintf(text + used, size - used, "%s", other->name);
+}
+
+/// Walls by their looks, where others may be walls as well as they: no look of a tenth of the
+/// weight is.
 static void note_share(const sli_choice *c) {
     const sli_look *taken = NULL, *other = NULL, *rooms = NULL;
     const char *file = c->contents->file;
+    char looks[400];
     for (size_t i = 0; i < c->contents->looks.items.count; i++) {
         const sli_look *look = &c->contents->looks.items.items[i];
         if (look->taken && (!taken || look->length > taken->length)) taken = look;
@@ -173,16 +189,19 @@ static void note_share(const sli_choice *c) {
             rooms = look;
     }
     if (!taken || !other) return;
-    if (c->share < 0.4)
+    const bool doubtful = c->share < 0.4 && LIGHT * other->weight >= taken->weight;
+    if (!doubtful && !rooms) return;
+    say_looks(c, doubtful ? other : rooms, looks, sizeof looks);
+    if (doubtful)
         sl_note(c->contents->context,
                 "%s: what looks like walls has only %.0f %% of the long lines: if other looks are "
-                "walls, name all that are: --layers '%s,%s'",
-                file, 100 * c->share, taken->name, other->name);
-    else if (rooms)
+                "walls, name all that are: --layers '%s'",
+                file, 100 * c->share, looks);
+    else
         sl_note(c->contents->context,
                 "%s: %s: %zu shapes as large as rooms are passed over: if these are walls: "
-                "--layers '%s,%s'",
-                file, rooms->name, rooms->rooms, taken->name, rooms->name);
+                "--layers '%s'",
+                file, rooms->name, rooms->rooms, looks);
 }
 
 /// Whether a group is to be named for its walls: one of those that are taken, of doors with lines
