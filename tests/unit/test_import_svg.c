@@ -131,6 +131,14 @@ static void test_layers(void **state) {
     options.layers = "walls,x";
     assert_refused_of(sli_map_read_svg, &options, text, sizeof text - 1, SL_BAD_ARGUMENT,
                       "f: there is no layer 'x' in the drawing; it has walls, Furniture");
+    // Shapes that say their layer themselves.
+    static const char layers[] = SVG(
+        "<g xmlns:q='urn:q'><line x2='1' q:layer='A-WALL'/><path d='M0 0h3v3' q:layer='A-WALL'/>"
+        "<line x2='4' q:layer='A-FURN'/><line x2='5' data-layer='0'/></g>");
+    assert_walls(layers, "wall 0 10 1 10\nwall 0 10 3 10\nwall 3 10 3 7\n");
+    options.layers = "A-FURN,0";
+    assert_walls_of(sli_map_read_svg, &options, layers, sizeof layers - 1,
+                    "wall 0 10 4 10\nwall 0 10 5 10\n");
 }
 
 /// Whether a line within g.outer#o > g.inner is hidden by a sheet, and by what it says itself.

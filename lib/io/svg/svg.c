@@ -38,29 +38,35 @@ static bool names_layer(const char *list, const char *name) {
     return name && sli_layers_have(list, name);
 }
 
-/// Whether the group's id or label is among the layers asked for.
+/// Whether the element's layer, label or id is among the layers asked for.
 static bool is_layer(const svg *s, xmlNode *node) {
-    char *id = sli_xml_attribute(node, "id"), *label = sli_xml_attribute(node, "label");
-    const bool is = names_layer(s->options->layers, id) || names_layer(s->options->layers, label);
-    sli_xml_free(id);
-    sli_xml_free(label);
+    bool is = false;
+    for (size_t i = 0; i < 4 && !is; i++) {
+        char *name = sli_xml_attribute(node, sli_svg_layer_names[i]);
+        is = names_layer(s->options->layers, name);
+        sli_xml_free(name);
+    }
     return is;
 }
 
 // --- layers that are asked for and not there
 
-/// Looks for an element of a name, and lists the names of all groups, the label before the id.
+/// Looks for an element of a name, and lists the names of all groups, the label before the id, and
+/// the layers of shapes.
 static bool has_layer(xmlNode *parent, sli_word wanted, sli_name_list *there) {
     bool found = false;
     for (xmlNode *node = parent->children; node; node = node->next) {
         if (node->type != XML_ELEMENT_NODE) continue;
-        char *id = sli_xml_attribute(node, "id"), *label = sli_xml_attribute(node, "label");
-        const char *shown = label ? label : id;
-        found |= (id && sli_word_is(wanted, id)) || (label && sli_word_is(wanted, label));
-        if (shown && strcmp((const char *)node->name, "g") == 0)
-            sli_name_list_add(there, (sli_word){shown, strlen(shown)});
-        sli_xml_free(id);
-        sli_xml_free(label);
+        bool shown = false;
+        for (size_t i = 0; i < 4; i++) {
+            char *name = sli_xml_attribute(node, sli_svg_layer_names[i]);
+            found |= name && sli_word_is(wanted, name);
+            if (name && !shown && (i < 2 || sli_xml_is(node, "g"))) {
+                sli_name_list_add(there, (sli_word){name, strlen(name)});
+                shown = true;
+            }
+            sli_xml_free(name);
+        }
         found |= has_layer(node, wanted, there);
     }
     return found;
