@@ -623,6 +623,22 @@ static sl_status keep_large(sli_contents *contents, double metre, sli_pen *pen) 
     return SL_OK;
 }
 
+/// Whether all walls that are kept are of one layer and one look.
+static bool are_alike(const sli_choice *c) {
+    const sli_group_run *first = NULL;
+    if (c->kept < LEAST_WALLS) return false;
+    for (size_t i = 0; i < c->contents->runs.count; i++) {
+        const sli_group_run *run = &c->contents->runs.items[i];
+        bool kept = false;
+        for (size_t k = run->first; k < run->end; k++)
+            kept |= !sli_choice_gone(c, k) && sli_choice_takes(c, c->means[k]);
+        if (!kept) continue;
+        if (!first) first = run;
+        if (run->group != first->group || run->look != first->look) return false;
+    }
+    return true;
+}
+
 sl_status sli_contents_choose(sli_contents *contents, double metre, sli_pen *pen) {
     sli_choice c = {.contents = contents, .map = pen->map, .metre = metre};
     sl_status status = contents->runs.count ? choose(&c, pen) : SL_OK;
@@ -635,7 +651,7 @@ sl_status sli_contents_choose(sli_contents *contents, double metre, sli_pen *pen
     if (status == SL_OK && contents->large) status = keep_large(contents, metre, pen);
     if (status == SL_OK && !contents->options->all_layers)
         status = sli_plan_tell(contents->context, contents->file, contents->options->layers,
-                               pen->map, metre, 0);
+                               are_alike(&c), pen->map, metre, 0);
     sl_free(contents->context, c.means);
     sli_symbols_destroy(contents->context, &c.symbols);
     sli_openings_destroy(contents->context, &c.openings);

@@ -193,8 +193,9 @@ sl_status sli_plan_keep_large(sl_context *context, sl_map *map, double metre, sl
     return status;
 }
 
-/// Small pieces, with the option that leaves them out, where most of them are closed.
-static void note_small(sl_context *context, const char *file, const char *layers,
+/// Small pieces, with the option that leaves them out, where most of them are closed; else with
+/// the next step.
+static void note_small(sl_context *context, const char *file, const char *layers, const char *next,
                        const sli_plan_look *look) {
     const double share = 100 * (double)look->small / (double)look->walls;
     if (2 * look->small_closed >= look->small)
@@ -206,14 +207,23 @@ static void note_small(sl_context *context, const char *file, const char *layers
     else
         sl_note(context,
                 "%s: %.0f %% of the lines are small pieces that touch nothing: furniture or "
-                "symbols? sightline info %s lists the layers, --layers A,B takes those of walls",
-                file, share, file);
+                "symbols? %s",
+                file, share, next);
 }
 
-sl_status sli_plan_tell(sl_context *context, const char *file, const char *layers,
+sl_status sli_plan_tell(sl_context *context, const char *file, const char *layers, bool alike,
                         const sl_map *map, double metre, double tolerance) {
     sli_plan_look look;
+    char next[SL_LINE_TEXT];
     SL_TRY(sli_plan_look_at(context, map, metre, tolerance, &look));
+    if (alike)
+        snprintf(next, sizeof next,
+                 "All lines are alike: sightline convert %s -o map.map writes a map from which "
+                 "lines can be deleted",
+                 file);
+    else
+        snprintf(next, sizeof next,
+                 "sightline info %s lists the layers, --layers A,B takes those of walls", file);
     if (look.crowded)
         sl_note(context,
                 "%s: %zu lines are too many, or too dense, to look for furniture, lettering and "
@@ -222,12 +232,10 @@ sl_status sli_plan_tell(sl_context *context, const char *file, const char *layer
                 file, map->wall_count, file);
     const size_t share = look.pieces >= 10 ? 7 : 4;
     if (look.walls >= 20 && look.pieces >= 3 && share * look.small >= look.walls)
-        note_small(context, file, layers, &look);
+        note_small(context, file, layers, next, &look);
     if (look.across >= 8 && 12 * look.across >= look.walls)
-        sl_note(context,
-                "%s: %zu short lines cross walls: doors or symbols drawn over them? sightline info "
-                "%s lists the layers, --layers A,B takes those of walls",
-                file, look.across, file);
+        sl_note(context, "%s: %zu short lines cross walls: doors or symbols drawn over them? %s",
+                file, look.across, next);
     if (look.frame)
         sl_note(context,
                 "%s: a rectangle about all else touches nothing: if it is the frame of a sheet, "

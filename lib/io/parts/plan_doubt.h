@@ -30,8 +30,8 @@ sl_status sli_plan_look_at(sl_context *context, const sl_map *map, double metre,
 sl_status sli_plan_keep_large(sl_context *context, sl_map *map, double metre, sli_plan_look *out);
 
 /// Notes what is doubtful, with what to do. `layers` are those that the user asks for, NULL for
-/// none.
-sl_status sli_plan_tell(sl_context *context, const char *file, const char *layers,
+/// none. `alike`: all walls are of one layer and look, so that none can be chosen.
+sl_status sli_plan_tell(sl_context *context, const char *file, const char *layers, bool alike,
                         const sl_map *map, double metre, double tolerance);
 
 #endif

@@ -205,7 +205,7 @@ static sl_status add_rules(sl_context *context, sli_svg_style *style, sli_word s
     return SL_OK;
 }
 
-/// The first semicolon or bracket, but for what stands in quotes or in the address of a url().
+/// The first semicolon or bracket, but for what stands in quotes or in round brackets.
 static const char *find_end(const char *at, const char *end) {
     char within = '\0';
     for (; at < end; at++) {
