@@ -24,6 +24,8 @@
 #define REACH  0.02
 #define BESIDE 0.02
 #define WITHIN 0.9
+/// As a share of an opening's length: how much nearer one end of a face may be than the other.
+#define LEVEL 0.05
 
 void sli_openings_destroy(sl_context *context, sli_openings *openings) {
     sl_free(context, openings->items.items);
@@ -75,6 +77,7 @@ sl_status sli_openings_add(sl_context *context, const sl_wall *walls, size_t cou
         const sli_opening box = {.from = ends[i][0],
                                  .to = ends[i][1],
                                  .half = WITHIN * sides[1 - i] / 2,
+                                 .box = true,
                                  .below = below,
                                  .shape = shape};
         SL_TRY(add(context, box, least, most, out));
@@ -84,8 +87,10 @@ sl_status sli_openings_add(sl_context *context, const sl_wall *walls, size_t cou
 
 // --- what they cut
 
-/// Whether a wall goes through an opening, and where.
-static bool goes_through(const sli_opening *o, const sl_wall *wall, sli_opening_cut *cut) {
+/// Whether a wall runs along an opening from end to end, and where. `left`: how far at the left of
+/// the opening it is there, at its own first end and at its second.
+static bool runs_along(const sli_opening *o, const sl_wall *wall, sli_opening_cut *cut,
+                       double left[2]) {
     const double length = apart(o->from, o->to);
     const sl_point along = {(o->to.x - o->from.x) / length, (o->to.y - o->from.y) / length};
     const sl_point a = {wall->a.x - o->from.x, wall->a.y - o->from.y};
@@ -96,9 +101,9 @@ static bool goes_through(const sli_opening *o, const sl_wall *wall, sli_opening_
     if (fmin(from, to) > REACH * length || fmax(from, to) < (1 - REACH) * length) return false;
     const double begin = fmax(((back ? length : 0) - from) / (to - from), 0);
     const double end = fmin(((back ? 0 : length) - from) / (to - from), 1);
-    if (!(begin < end) || fabs(beside + begin * turn) > o->half ||
-        fabs(beside + end * turn) > o->half)
-        return false;
+    if (!(begin < end)) return false;
+    left[0] = beside + begin * turn;
+    left[1] = beside + end * turn;
     cut->begin = begin;
     cut->end = end;
     cut->at.a = wall->a;
@@ -141,25 +146,81 @@ static int compare_cuts(const void *left, const void *right) {
     return (a->opening > b->opening) - (a->opening < b->opening);
 }
 
+static sl_status take_cut(sl_context *context, sli_openings *openings, const sli_opening_cut *cut) {
+    sli_opening *o = &openings->items.items[cut->opening];
+    SL_TRY(SL_ARRAY_ROOM(context, &openings->cuts, 1));
+    openings->cuts.items[openings->cuts.count++] = *cut;
+    if (!o->cuts) o->at = cut->at;
+    o->cuts = true;
+    return SL_OK;
+}
+
+/// The nearest walls that run along an opening, at its right and at its left.
+typedef struct beside {
+    sli_opening_cut cuts[2];
+    double away[2]; ///< INFINITY for none
+} beside;
+
+/// Looks beside `middle`, which is so far at the left of the opening.
+static beside find_beside(const sl_map *map, const sl_bits *kept, const sli_box_list *near,
+                          const sli_opening *o, size_t number, double middle) {
+    beside found = {.away = {INFINITY, INFINITY}};
+    for (size_t i = 0; i < near->count; i++) {
+        sli_opening_cut cut = {.wall = near->items[i], .opening = number};
+        double left[2];
+        if (cut.wall >= o->below || !sl_bits_has(kept, cut.wall) ||
+            !runs_along(o, &map->walls[cut.wall], &cut, left))
+            continue;
+        const double at = left[0] / 2 + left[1] / 2;
+        const int side = at > middle;
+        const bool level = fabs(left[0] - left[1]) <= LEVEL * apart(o->from, o->to);
+        if (!level || fabs(at) <= o->half || !(fabs(at - middle) < found.away[side])) continue;
+        found.away[side] = fabs(at - middle);
+        found.cuts[side] = cut;
+    }
+    return found;
+}
+
+/// Cuts both faces of a wall that a door lies between, or the other face of one whose first face a
+/// line cuts: the only cut from `first` on, so far at the left of the line.
+static sl_status cut_faces(sl_context *context, const sl_map *map, const sl_bits *kept,
+                           const sli_box_list *near, sli_openings *openings, size_t number,
+                           size_t first, double left) {
+    const sli_opening *o = &openings->items.items[number];
+    const size_t count = openings->cuts.count - first;
+    if (!(o->core > 0) || count > 1) return SL_OK;
+    const beside found = find_beside(map, kept, near, o, number, count ? left : 0);
+    const int nearer = found.away[1] < found.away[0];
+    if (count == 0 && found.away[0] + found.away[1] <= o->core) {
+        SL_TRY(take_cut(context, openings, &found.cuts[0]));
+        return take_cut(context, openings, &found.cuts[1]);
+    }
+    if (count == 0 || o->box || found.away[nearer] > o->core) return SL_OK;
+    return take_cut(context, openings, &found.cuts[nearer]);
+}
+
 /// Finds the walls that one opening cuts.
 static sl_status cut_one(sl_context *context, const sl_map *map, const sl_bits *kept,
                          const sli_box_tree *tree, sli_box_list *near, sli_openings *openings,
                          size_t number) {
-    sli_opening *o = &openings->items.items[number];
-    const sl_box box = {{fmin(o->from.x, o->to.x) - o->half, fmin(o->from.y, o->to.y) - o->half},
-                        {fmax(o->from.x, o->to.x) + o->half, fmax(o->from.y, o->to.y) + o->half}};
+    const sli_opening *o = &openings->items.items[number];
+    const double wide = o->half + o->core;
+    const sl_box box = {{fmin(o->from.x, o->to.x) - wide, fmin(o->from.y, o->to.y) - wide},
+                        {fmax(o->from.x, o->to.x) + wide, fmax(o->from.y, o->to.y) + wide}};
     const size_t first = openings->cuts.count;
+    double at = 0;
     SL_TRY(sli_box_tree_find(context, tree, &box, near));
     for (size_t i = 0; i < near->count; i++) {
         sli_opening_cut cut = {.wall = near->items[i], .opening = number};
+        double left[2];
         if (cut.wall >= o->below || !sl_bits_has(kept, cut.wall) ||
-            !goes_through(o, &map->walls[cut.wall], &cut))
+            !runs_along(o, &map->walls[cut.wall], &cut, left) || fabs(left[0]) > o->half ||
+            fabs(left[1]) > o->half)
             continue;
-        SL_TRY(SL_ARRAY_ROOM(context, &openings->cuts, 1));
-        openings->cuts.items[openings->cuts.count++] = cut;
-        if (!o->cuts) o->at = cut.at;
-        o->cuts = true;
+        SL_TRY(take_cut(context, openings, &cut));
+        at = left[0] / 2 + left[1] / 2;
     }
+    SL_TRY(cut_faces(context, map, kept, near, openings, number, first, at));
     return close_core(context, map, openings, first);
 }
 

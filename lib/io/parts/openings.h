@@ -10,6 +10,8 @@
 typedef struct sli_opening {
     sl_point from, to; ///< the middles of its ends
     double half;       ///< of its width
+    bool box;          ///< it is drawn as wide as it is; else as a line
+    double core;       ///< a door: how thick the wall may be whose faces it lies between; else 0
     size_t below;      ///< only walls before this one are beneath it
     size_t shape;      ///< for who asks: which shape it is; SIZE_MAX for none
     bool window;       ///< for who asks: it is glazed
