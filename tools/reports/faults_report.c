@@ -406,9 +406,10 @@ static sl_status find_start_helps(sl_context *context, const faults_report *repo
     SL_TRY(sl_find_sealed(context, &found->baked.map, &found->baked.space, &rooms));
     if (rooms.share <= MOST_SEALED) return SL_OK;
     *helps = false;
-    printf("  a start would reach a part of the %u rooms, as no opening joins them: the next command "
-           "has none\n",
-           (unsigned)rooms.rooms);
+    printf(
+        "  a start would reach a part of the %u rooms, as no opening joins them: the next command "
+        "has none\n",
+        (unsigned)rooms.rooms);
     return SL_OK;
 }
 
@@ -427,8 +428,7 @@ static sl_status print_next_of_mended(sl_context *context, const faults_report *
         return print_next_opening(context, report, NEXT_CHECK_MENDED, report->left);
     }
     if (!left) SL_TRY(find_start_helps(context, report, report->left, &start));
-    if (start)
-        return print_next_start(context, report, NEXT_CHECK_MENDED, report->left);
+    if (start) return print_next_start(context, report, NEXT_CHECK_MENDED, report->left);
     for (size_t i = 0; i < report->given->count; i++)
         gap_given |= strcmp(report->given->items[i].name, "gap") == 0;
     print_command(report, left ? NEXT_CHECK_MENDED : NEXT_BAKE_MENDED, 0);

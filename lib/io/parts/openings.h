@@ -44,8 +44,8 @@ sl_status sli_openings_add(sl_context *context, const sl_wall *walls, size_t cou
                            sli_openings *out);
 
 /// Finds the pieces of walls that the openings cut out, among the walls that are in `kept`. Two
-/// walls that one opening cuts are the faces of one wall: jambs close it. A door between the faces of
-/// a wall, or a line along one, cuts both.
+/// walls that one opening cuts are the faces of one wall: jambs close it. A door between the faces
+/// of a wall, or a line along one, cuts both.
 sl_status sli_openings_cut(sl_context *context, const sl_map *map, const sl_bits *kept,
                            sli_openings *openings);
 
