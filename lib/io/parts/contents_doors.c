@@ -26,12 +26,12 @@ static sl_status add_openings_of_run(sli_choice *c, const sli_group_run *run, do
                                      bool bar) {
     const sl_box bounds = sl_map_bounds(c->map);
     const double size = fmax(bounds.max.x - bounds.min.x, bounds.max.y - bounds.min.y);
+    const double longest = sli_choice_longest_door(c);
     for (size_t i = run->first, end; i < run->end; i = end) {
         end = end_of_shape(c, run, i);
         if (sli_choice_gone(c, i)) continue;
         SL_TRY(sli_openings_add(c->contents->context, c->map->walls + i, end - i, wide, size / 400,
-                                sli_choice_longest_door(c), bar ? i : c->map->wall_count, i,
-                                &c->openings));
+                                longest, bar ? i : c->map->wall_count, i, &c->openings));
     }
     return SL_OK;
 }
@@ -67,24 +67,30 @@ static sl_status add_swing_opening(sli_choice *c, sl_point hinge, sl_point latch
                             c->map->wall_count, SIZE_MAX, &c->openings);
 }
 
+/// The openings from `first` on are doors, beyond doubt: says how thick the wall may be whose faces
+/// each lies between.
+static void mark_doors(sli_choice *c, size_t first) {
+    const double metre = sli_choice_sure_metre(c), most = metre > 0 ? 0.6 * metre : INFINITY;
+    for (size_t i = first; i < c->openings.items.count; i++) {
+        sli_opening *door = &c->openings.items.items[i];
+        const double length = sli_length(door->to.x - door->from.x, door->to.y - door->from.y);
+        door->core = fmin(length / 2, most);
+    }
+}
+
 static sl_status add_swing_openings(sli_choice *c) {
+    const size_t first = c->openings.items.count;
     for (size_t i = 0; i < c->symbols.swings.count; i++) {
         const sli_swing *swing = &c->symbols.swings.items[i];
         SL_TRY(add_swing_opening(c, swing->hinge, swing->latch, swing->radius));
     }
+    mark_doors(c, first);
     for (size_t i = 0; i < c->symbols.unsure.count; i++) {
         const sli_swing *swing = &c->symbols.unsure.items[i];
         SL_TRY(add_swing_opening(c, swing->hinge, swing->latch, swing->radius));
         SL_TRY(add_swing_opening(c, swing->hinge, swing->tip, swing->radius));
     }
     return SL_OK;
-}
-
-/// How thick the wall may be whose faces a door lies between.
-static double thickest_wall(const sli_choice *c, const sli_opening *door) {
-    const double length = sli_length(door->to.x - door->from.x, door->to.y - door->from.y);
-    const double metre = sli_choice_sure_metre(c);
-    return fmin(length / 2, metre > 0 ? 0.6 * metre : INFINITY);
 }
 
 // --- doors that open nothing
@@ -144,11 +150,11 @@ sl_status sli_choice_find_openings(sli_choice *c) {
     for (size_t i = 0; i < first_door; i++)
         c->openings.items.items[i].window = c->symbols.doors > 0;
     if (status == SL_OK) status = add_swing_openings(c);
+    const size_t first_of_layer = c->openings.items.count;
     for (size_t i = 0; status == SL_OK && i < count; i++)
         if (c->contents->groups.items[runs[i].group].means == SLI_MEANS_DOOR)
             status = add_openings_of_run(c, &runs[i], 0, false);
-    for (size_t i = first_door; i < c->openings.items.count; i++)
-        c->openings.items.items[i].core = thickest_wall(c, &c->openings.items.items[i]);
+    mark_doors(c, first_of_layer);
     for (size_t i = 0; status == SL_OK && i < count; i++)
         for (size_t k = runs[i].first; k < runs[i].end && !sl_bits_has(bars, i); k++)
             if (!sli_choice_gone(c, k) && sli_choice_takes(c, c->means[k]) &&
