@@ -457,6 +457,33 @@ static sl_status find_by_doors(sl_context *context, sl_map *map, double most, bo
 }
 
 #ifndef SLI_WITHOUT_DRAWINGS
+/// What a search found, kept while others are tried.
+typedef struct answer {
+    sl_interior interior; ///< with places of its own
+    sl_glass *seams;
+    size_t seam_count;
+} answer;
+
+static sl_status keep_answer(sl_context *context, const sl_map *map, answer *out) {
+    const size_t places = map->interior.place_count;
+    *out = (answer){.interior = map->interior, .seam_count = map->seam_count};
+    out->interior.places = sl_alloc_array(context, places, sizeof *out->interior.places);
+    out->seams = sl_alloc_array(context, map->seam_count, sizeof *out->seams);
+    if (!out->interior.places || !out->seams) return SL_NO_MEMORY;
+    for (size_t i = 0; i < places; i++) out->interior.places[i] = map->interior.places[i];
+    for (size_t i = 0; i < map->seam_count; i++) out->seams[i] = map->seams[i];
+    return SL_OK;
+}
+
+/// Gives the map an answer that it had before: it has room for the seams.
+static void take_answer(sl_context *context, sl_map *map, answer *kept) {
+    sl_free(context, map->interior.places);
+    map->interior = kept->interior;
+    kept->interior.places = NULL;
+    for (size_t i = 0; i < kept->seam_count; i++) map->seams[i] = kept->seams[i];
+    map->seam_count = kept->seam_count;
+}
+
 /// So many openings are tried, each wider than the one before: each takes a search of its own.
 enum { MOST_WIDE = 8 };
 
@@ -474,18 +501,22 @@ static sl_status widen(sl_context *context, sl_map *map, const sl_box *b) {
     const bool small = before.by == SL_ENTRANCE_FOUND && before.doubtful_width <= least;
     const double most = small ? widest : SLI_DOUBT_FOUND * before.width;
     if (!map->entrance_may_be_wide || !(before.doubtful_width > 0)) return SL_OK;
+    answer kept;
+    sl_status status = keep_answer(context, map, &kept);
     bool found = true;
     double width = 0;
-    for (int i = 0; i < MOST_WIDE && found && map->interior.doubtful_width > width; i++) {
-        if (small && map->interior.doubtful_width > least) break;
-        width = map->interior.doubtful_width;
+    for (int i = 0; i < MOST_WIDE && status == SL_OK && found; i++) {
+        const double next = map->interior.doubtful_width;
+        if (!(next > width) || (small && next > least)) break;
+        width = next;
         forget(context, map);
-        SL_TRY(try_by(context, map, SL_ENTRANCE_WIDE, width, most, &found));
+        status = try_by(context, map, SL_ENTRANCE_WIDE, width, most, &found);
     }
-    if (found && !(map->interior.doubtful_width > 0)) return SL_OK;
-    forget(context, map);
-    return try_by(context, map, before.by, before.by == SL_ENTRANCE_FOUND ? 0 : before.width,
-                  widest, &found);
+    if (status == SL_OK && (!found || map->interior.doubtful_width > 0))
+        take_answer(context, map, &kept);
+    sl_free(context, kept.interior.places);
+    sl_free(context, kept.seams);
+    return status;
 }
 #endif
 

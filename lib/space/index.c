@@ -217,28 +217,33 @@ typedef struct near_search {
     size_t looked;
 } near_search;
 
-/// Less a rounding, so that no box is passed over that is as near as *most.
-static double least_distance(const sl_box *box, sl_point p) {
-    const double left = box->min.x - p.x, right = p.x - box->max.x;
-    const double below = box->min.y - p.y, above = p.y - box->max.y;
-    const double x = left > 0 ? left : right > 0 ? right : 0;
-    const double y = below > 0 ? below : above > 0 ? above : 0;
+/// Less a rounding, so that no box is passed over that is as near as `most`. INFINITY for boxes
+/// that are farther along an axis.
+static double least_distance(const sl_box *box, sl_point p, double most) {
+    const double x = sli_greater(sli_greater(box->min.x - p.x, p.x - box->max.x), 0);
+    const double y = sli_greater(sli_greater(box->min.y - p.y, p.y - box->max.y), 0);
+    if (sli_greater(x, y) * (1 - 0x1p-39) > most) return INFINITY;
     return x > 0 || y > 0 ? sli_length(x, y) * (1 - 0x1p-40) : 0;
 }
 
 static void near_below(near_search *s, uint32_t level, size_t begin) {
     const size_t first = s->tree->first[level], count = s->tree->first[level + 1] - first;
     const size_t here = count - begin < FAN ? count - begin : FAN;
+    const double most = *s->most;
     double distance[FAN];
-    for (size_t i = 0; i < here; i++)
-        distance[i] = least_distance(&s->tree->boxes[first + begin + i], s->point);
+    size_t near[FAN], left = 0;
+    for (size_t i = 0; i < here; i++) {
+        distance[i] = least_distance(&s->tree->boxes[first + begin + i], s->point, most);
+        if (distance[i] <= most) near[left++] = i;
+    }
     s->looked += here;
-    for (uint32_t left = (1u << here) - 1; left;) {
-        size_t nearest = here;
-        for (size_t i = 0; i < here; i++)
-            if (left >> i & 1 && (nearest == here || distance[i] < distance[nearest])) nearest = i;
+    while (left) {
+        size_t at = 0;
+        for (size_t i = 1; i < left; i++)
+            if (distance[near[i]] < distance[near[at]]) at = i;
+        const size_t nearest = near[at];
         if (!(distance[nearest] <= *s->most)) return;
-        left &= ~(1u << nearest);
+        for (left--; at < left; at++) near[at] = near[at + 1];
         if (level)
             near_below(s, level - 1, (begin + nearest) * FAN);
         else

@@ -7,6 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+/// From such a share of the area inside on, in rooms that no opening joins to the largest one, a
+/// start would leave too much out.
+static const double MOST_SEALED = 0.25;
+
 /// The digits that tell two points of a map apart, to about a hundredth of their distance.
 static int digits_for(const sl_map *map, sl_segment at) {
     const double most = fmax(fmax(fabs(at.a.x), fabs(at.a.y)), fmax(fabs(at.b.x), fabs(at.b.y)));
@@ -391,6 +395,24 @@ static bool needs_start(const checked *found) {
     return !found->faults.has_starts && found->inside != SL_INSIDE_NONE && !has_entrances(found);
 }
 
+/// Whether a start is the next step. In a drawing whose rooms have no openings, one would lead to a
+/// part of them alone, and all of them are inside without it.
+static sl_status find_start_helps(sl_context *context, const faults_report *report,
+                                  const checked *found, bool *helps) {
+    sl_sealed rooms;
+    *helps = needs_start(found);
+    if (!*helps || found->inside != SL_INSIDE_SURE || !input_is_drawing(context, report->input))
+        return SL_OK;
+    SL_TRY(sl_find_sealed(context, &found->baked.map, &found->baked.space, &rooms));
+    if (rooms.share <= MOST_SEALED) return SL_OK;
+    *helps = false;
+    printf(
+        "  a start would reach a part of the %u rooms, as no opening joins them: the next command "
+        "has none\n",
+        (unsigned)rooms.rooms);
+    return SL_OK;
+}
+
 /// Whether inside hangs on an opening that is too wide for snapping.
 static bool needs_entrance(const faults_report *report, const checked *found) {
     return found->inside == SL_INSIDE_OPENING &&
@@ -400,13 +422,13 @@ static bool needs_entrance(const faults_report *report, const checked *found) {
 static sl_status print_next_of_mended(sl_context *context, const faults_report *report) {
     const uint32_t *counts = report->left->faults.counts;
     const bool left = counts[SL_FAULT_LEAK] || counts[SL_FAULT_GAP];
-    bool gap_given = false;
+    bool gap_given = false, start = false;
     if (needs_entrance(report, report->left) ||
         (!left && report->left->inside == SL_INSIDE_OPENING)) {
         return print_next_opening(context, report, NEXT_CHECK_MENDED, report->left);
     }
-    if (!left && needs_start(report->left))
-        return print_next_start(context, report, NEXT_CHECK_MENDED, report->left);
+    if (!left) SL_TRY(find_start_helps(context, report, report->left, &start));
+    if (start) return print_next_start(context, report, NEXT_CHECK_MENDED, report->left);
     for (size_t i = 0; i < report->given->count; i++)
         gap_given |= strcmp(report->given->items[i].name, "gap") == 0;
     print_command(report, left ? NEXT_CHECK_MENDED : NEXT_BAKE_MENDED, 0);
@@ -425,25 +447,9 @@ static bool has_startless(const faults_report *report) {
            given == report->found->map.start_count;
 }
 
-static sl_status print_next(sl_context *context, const faults_report *report) {
-    const sl_faults *faults = &report->found->faults;
-    const bool grave = faults->counts[SL_FAULT_LEAK] || faults->counts[SL_FAULT_GAP];
-    const bool helps = report->helps > 0 && !is_as_door(report);
-    const bool closes = helps || closable(faults, SL_FAULT_GAP) || closable(faults, SL_FAULT_LEAK);
-    if (report->mended) {
-        SL_TRY(print_next_of_mended(context, report));
-    } else if (report->found->map.source.plans) {
-        print_command(report, NEXT_CHECK, 0);
-        printf(" --map 'plan 1'");
-    } else if (needs_entrance(report, report->found) ||
-               (!closes && report->found->inside == SL_INSIDE_OPENING)) {
-        SL_TRY(print_next_opening(context, report, NEXT_CHECK, report->found));
-    } else if (closes) {
-        print_command(report, NEXT_CHECK, helps ? report->helps : 0);
-        print_name(report, " --snap ", "-fixed.map");
-    } else if (needs_start(report->found)) {
-        SL_TRY(print_next_start(context, report, NEXT_CHECK, report->found));
-    } else if (has_startless(report)) {
+/// The next command of a map that needs no other decision.
+static void print_next_plain(const faults_report *report, bool grave) {
+    if (has_startless(report)) {
         print_command(report, NEXT_BAKE_STARTLESS, 0);
     } else if (report->found->strays.count) {
         print_command(report, NEXT_CHECK, 0);
@@ -455,6 +461,32 @@ static sl_status print_next(sl_context *context, const faults_report *report) {
     } else {
         if (grave) puts("  the next command takes these walls as they are: mend them before it");
         print_command(report, NEXT_BAKE, 0);
+    }
+}
+
+static sl_status print_next(sl_context *context, const faults_report *report) {
+    const sl_faults *faults = &report->found->faults;
+    const bool grave = faults->counts[SL_FAULT_LEAK] || faults->counts[SL_FAULT_GAP];
+    const bool helps = report->helps > 0 && !is_as_door(report);
+    const bool closes = helps || closable(faults, SL_FAULT_GAP) || closable(faults, SL_FAULT_LEAK);
+    bool start;
+    if (report->mended) {
+        SL_TRY(print_next_of_mended(context, report));
+    } else if (report->found->map.source.plans) {
+        print_command(report, NEXT_CHECK, 0);
+        printf(" --map 'plan 1'");
+    } else if (needs_entrance(report, report->found) ||
+               (!closes && report->found->inside == SL_INSIDE_OPENING)) {
+        SL_TRY(print_next_opening(context, report, NEXT_CHECK, report->found));
+    } else if (closes) {
+        print_command(report, NEXT_CHECK, helps ? report->helps : 0);
+        print_name(report, " --snap ", "-fixed.map");
+    } else {
+        SL_TRY(find_start_helps(context, report, report->found, &start));
+        if (start)
+            SL_TRY(print_next_start(context, report, NEXT_CHECK, report->found));
+        else
+            print_next_plain(report, grave);
     }
     putchar('\n');
     return SL_OK;

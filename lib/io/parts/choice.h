@@ -25,6 +25,7 @@ typedef struct sli_choice {
     size_t words;     ///< shapes that look like walls, but are lettering or the page
     size_t doors;     ///< made
     sli_openings openings;
+    size_t first_door;   ///< of the openings: those before it are bars
     size_t cuts, glazed; ///< openings that cut walls: doors, and windows
     size_t
         shut; ///< lines on layers of doors that stand at walls without a gap, where no door opens
@@ -45,6 +46,8 @@ static inline bool sli_choice_takes(const sli_choice *c, sli_meaning means) {
 double sli_choice_door(const sli_choice *c);
 /// A metre by the doors, which are 0.6 to 1.2 m wide, where the unit does not fit them.
 double sli_choice_metre(const sli_choice *c);
+/// The same where the plan is as large as a building by it; else 0.
+double sli_choice_sure_metre(const sli_choice *c);
 /// The longest that a door may be.
 double sli_choice_longest_door(const sli_choice *c);
 

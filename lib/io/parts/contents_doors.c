@@ -10,21 +10,28 @@
 
 // --- openings over walls
 
-/// A shape that may be an opening: one line or four, that the file has one behind another.
+/// Where the lines of a shape end that begins with a wall: those that the file has one behind
+/// another, from end to end.
+static size_t end_of_shape(const sli_choice *c, const sli_group_run *run, size_t first) {
+    const sl_wall *walls = c->map->walls;
+    size_t end = first + 1;
+    while (end < run->end && walls[end].line == walls[first].line &&
+           walls[end].a.x == walls[end - 1].b.x && walls[end].a.y == walls[end - 1].b.y)
+        end++;
+    return end;
+}
+
+/// A shape that may be an opening: one line or four.
 static sl_status add_openings_of_run(sli_choice *c, const sli_group_run *run, double wide,
                                      bool bar) {
     const sl_box bounds = sl_map_bounds(c->map);
     const double size = fmax(bounds.max.x - bounds.min.x, bounds.max.y - bounds.min.y);
+    const double longest = sli_choice_longest_door(c);
     for (size_t i = run->first, end; i < run->end; i = end) {
-        const sl_wall *walls = c->map->walls;
-        for (end = i + 1; end < run->end; end++)
-            if (walls[end].line != walls[i].line || walls[end].a.x != walls[end - 1].b.x ||
-                walls[end].a.y != walls[end - 1].b.y)
-                break;
+        end = end_of_shape(c, run, i);
         if (sli_choice_gone(c, i)) continue;
-        SL_TRY(sli_openings_add(c->contents->context, walls + i, end - i, wide, size / 400,
-                                sli_choice_longest_door(c), bar ? i : c->map->wall_count, i,
-                                &c->openings));
+        SL_TRY(sli_openings_add(c->contents->context, c->map->walls + i, end - i, wide, size / 400,
+                                longest, bar ? i : c->map->wall_count, i, &c->openings));
     }
     return SL_OK;
 }
@@ -60,11 +67,24 @@ static sl_status add_swing_opening(sli_choice *c, sl_point hinge, sl_point latch
                             c->map->wall_count, SIZE_MAX, &c->openings);
 }
 
+/// The openings from `first` on are doors, beyond doubt: says how thick the wall may be whose faces
+/// each lies between.
+static void mark_doors(sli_choice *c, size_t first) {
+    const double metre = sli_choice_sure_metre(c), most = metre > 0 ? 0.6 * metre : INFINITY;
+    for (size_t i = first; i < c->openings.items.count; i++) {
+        sli_opening *door = &c->openings.items.items[i];
+        const double length = sli_length(door->to.x - door->from.x, door->to.y - door->from.y);
+        door->core = fmin(length / 2, most);
+    }
+}
+
 static sl_status add_swing_openings(sli_choice *c) {
+    const size_t first = c->openings.items.count;
     for (size_t i = 0; i < c->symbols.swings.count; i++) {
         const sli_swing *swing = &c->symbols.swings.items[i];
         SL_TRY(add_swing_opening(c, swing->hinge, swing->latch, swing->radius));
     }
+    mark_doors(c, first);
     for (size_t i = 0; i < c->symbols.unsure.count; i++) {
         const sli_swing *swing = &c->symbols.unsure.items[i];
         SL_TRY(add_swing_opening(c, swing->hinge, swing->latch, swing->radius));
@@ -126,13 +146,15 @@ sl_status sli_choice_find_openings(sli_choice *c) {
     sl_bits *bars = sl_alloc_array(context, sl_bits_words(count), sizeof *bars);
     sl_bits *kept = sl_alloc_array(context, sl_bits_words(c->map->wall_count), sizeof *kept);
     sl_status status = bars && kept ? find_bars(c, bars) : SL_NO_MEMORY;
-    const size_t first_door = c->openings.items.count;
+    const size_t first_door = c->first_door = c->openings.items.count;
     for (size_t i = 0; i < first_door; i++)
         c->openings.items.items[i].window = c->symbols.doors > 0;
     if (status == SL_OK) status = add_swing_openings(c);
+    const size_t first_of_layer = c->openings.items.count;
     for (size_t i = 0; status == SL_OK && i < count; i++)
         if (c->contents->groups.items[runs[i].group].means == SLI_MEANS_DOOR)
             status = add_openings_of_run(c, &runs[i], 0, false);
+    mark_doors(c, first_of_layer);
     for (size_t i = 0; status == SL_OK && i < count; i++)
         for (size_t k = runs[i].first; k < runs[i].end && !sl_bits_has(bars, i); k++)
             if (!sli_choice_gone(c, k) && sli_choice_takes(c, c->means[k]) &&
@@ -243,21 +265,35 @@ static sl_status add_drawn(sli_choice *c, const sl_wall *walls, size_t count) {
                     between(corners[at + 2], corners[(at + 3) % 4]), true);
 }
 
-static sl_status add_doors_of_run(sli_choice *c, const sli_group_run *run) {
+/// Adds doors where the shapes of one entity cut walls, a door a shape. *next: the opening to look
+/// at first, as both come in the order of the file.
+static sl_status add_cutting(sli_choice *c, size_t first, size_t end, size_t *next, bool *any) {
+    size_t last = SIZE_MAX;
+    for (; *next < c->openings.items.count; ++*next) {
+        const sli_opening *o = &c->openings.items.items[*next];
+        if (o->shape == SIZE_MAX) continue;
+        if (o->shape >= end) break;
+        if (!o->cuts || o->shape < first || o->shape == last) continue;
+        last = o->shape;
+        *any = true;
+        SL_TRY(add_door(c, o->at.a, o->at.b, true));
+    }
+    return SL_OK;
+}
+
+static sl_status add_doors_of_run(sli_choice *c, const sli_group_run *run, size_t *next) {
+    const sl_wall *walls = c->map->walls;
     for (size_t i = run->first; i < run->end; i++)
         if (sli_choice_gone(c, i)) return SL_OK;
-    for (size_t i = 0; i < c->openings.items.count; i++) {
-        const sli_opening *o = &c->openings.items.items[i];
-        if (o->cuts && o->shape >= run->first && o->shape < run->end)
-            return add_door(c, o->at.a, o->at.b, true);
-    }
-    for (size_t i = run->first, end; i < run->end; i = end) {
-        const sl_wall *walls = c->map->walls;
-        for (end = i + 1; end < run->end; end++)
-            if (walls[end].line != walls[i].line || walls[end].a.x != walls[end - 1].b.x ||
-                walls[end].a.y != walls[end - 1].b.y)
-                break;
-        SL_TRY(add_drawn(c, walls + i, end - i));
+    for (size_t i = run->first, entity, end; i < run->end; i = entity) {
+        bool cuts = false;
+        entity = i + 1;
+        while (entity < run->end && walls[entity].line == walls[i].line) entity++;
+        SL_TRY(add_cutting(c, i, entity, next, &cuts));
+        for (; i < entity && !cuts; i = end) {
+            end = end_of_shape(c, run, i);
+            SL_TRY(add_drawn(c, walls + i, end - i));
+        }
     }
     return SL_OK;
 }
@@ -265,10 +301,11 @@ static sl_status add_doors_of_run(sli_choice *c, const sli_group_run *run) {
 sl_status sli_choice_add_doors(sli_choice *c) {
     if (!c->contents->options->doors) return SL_OK;
     SL_TRY(add_swings(c));
+    size_t next = c->first_door;
     for (size_t i = 0; !c->symbols.doors && i < c->contents->runs.count; i++) {
         const sli_group_run *run = &c->contents->runs.items[i];
         if (c->contents->groups.items[run->group].means == SLI_MEANS_DOOR)
-            SL_TRY(add_doors_of_run(c, run));
+            SL_TRY(add_doors_of_run(c, run, &next));
     }
     return SL_OK;
 }

@@ -25,11 +25,20 @@ double sli_choice_metre(const sli_choice *c) {
     return radius / 0.85;
 }
 
-double sli_choice_longest_door(const sli_choice *c) {
+/// The longer side of all that is drawn.
+static double size_of(const sli_choice *c) {
     const sl_box bounds = sl_map_bounds(c->map);
-    const double size = fmax(bounds.max.x - bounds.min.x, bounds.max.y - bounds.min.y);
-    const double metre = sli_choice_metre(c);
-    return metre > 0 && size > 4 * metre && size < 400 * metre ? 3 * metre : size / 8;
+    return fmax(bounds.max.x - bounds.min.x, bounds.max.y - bounds.min.y);
+}
+
+double sli_choice_sure_metre(const sli_choice *c) {
+    const double size = size_of(c), metre = sli_choice_metre(c);
+    return size > 4 * metre && size < 400 * metre ? metre : 0;
+}
+
+double sli_choice_longest_door(const sli_choice *c) {
+    const double metre = sli_choice_sure_metre(c);
+    return metre > 0 ? 3 * metre : size_of(c) / 8;
 }
 
 // --- the note

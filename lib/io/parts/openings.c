@@ -24,6 +24,8 @@
 #define REACH  0.02
 #define BESIDE 0.02
 #define WITHIN 0.9
+/// As a share of an opening's length: how much nearer one end of a face may be than the other.
+#define LEVEL 0.03
 
 void sli_openings_destroy(sl_context *context, sli_openings *openings) {
     sl_free(context, openings->items.items);
@@ -75,6 +77,7 @@ sl_status sli_openings_add(sl_context *context, const sl_wall *walls, size_t cou
         const sli_opening box = {.from = ends[i][0],
                                  .to = ends[i][1],
                                  .half = WITHIN * sides[1 - i] / 2,
+                                 .box = true,
                                  .below = below,
                                  .shape = shape};
         SL_TRY(add(context, box, least, most, out));
@@ -84,8 +87,10 @@ sl_status sli_openings_add(sl_context *context, const sl_wall *walls, size_t cou
 
 // --- what they cut
 
-/// Whether a wall goes through an opening, and where.
-static bool goes_through(const sli_opening *o, const sl_wall *wall, sli_opening_cut *cut) {
+/// Whether a wall runs along an opening from end to end, and where. `left`: how far at the left of
+/// the opening it is there, at its own first end and at its second.
+static bool runs_along(const sli_opening *o, const sl_wall *wall, sli_opening_cut *cut,
+                       double left[2]) {
     const double length = apart(o->from, o->to);
     const sl_point along = {(o->to.x - o->from.x) / length, (o->to.y - o->from.y) / length};
     const sl_point a = {wall->a.x - o->from.x, wall->a.y - o->from.y};
@@ -96,9 +101,9 @@ static bool goes_through(const sli_opening *o, const sl_wall *wall, sli_opening_
     if (fmin(from, to) > REACH * length || fmax(from, to) < (1 - REACH) * length) return false;
     const double begin = fmax(((back ? length : 0) - from) / (to - from), 0);
     const double end = fmin(((back ? 0 : length) - from) / (to - from), 1);
-    if (!(begin < end) || fabs(beside + begin * turn) > o->half ||
-        fabs(beside + end * turn) > o->half)
-        return false;
+    if (!(begin < end)) return false;
+    left[0] = beside + begin * turn;
+    left[1] = beside + end * turn;
     cut->begin = begin;
     cut->end = end;
     cut->at.a = wall->a;
@@ -120,16 +125,22 @@ static sl_status add_jamb(sl_context *context, sl_point a, sl_point b, uint32_t 
     return SL_OK;
 }
 
-/// Jambs between the two walls that an opening cuts.
+/// Jambs between the outermost walls that an opening cuts, from its cut `first` on.
 static sl_status close_core(sl_context *context, const sl_map *map, sli_openings *openings,
                             size_t first) {
-    if (openings->cuts.count - first != 2) return SL_OK;
-    const sli_opening_cut *cuts = openings->cuts.items + first;
-    const sl_segment one = cuts[0].at, other = cuts[1].at;
+    const sli_opening_cut *cuts = openings->cuts.items;
+    size_t right = first, left = first;
+    for (size_t i = first + 1; i < openings->cuts.count; i++) {
+        if (cuts[i].left < cuts[right].left) right = i;
+        if (cuts[i].left > cuts[left].left) left = i;
+    }
+    if (left == right) return SL_OK;
+    const size_t begin = left < right ? left : right, end = left < right ? right : left;
+    const sl_segment one = cuts[begin].at, other = cuts[end].at;
     const sl_point u = {one.b.x - one.a.x, one.b.y - one.a.y};
     const sl_point v = {other.b.x - other.a.x, other.b.y - other.a.y};
     const bool same = sli_dot(u, v) > 0;
-    const uint32_t line = map->walls[cuts[0].wall].line;
+    const uint32_t line = map->walls[cuts[begin].wall].line;
     SL_TRY(add_jamb(context, one.a, same ? other.a : other.b, line, openings));
     return add_jamb(context, one.b, same ? other.b : other.a, line, openings);
 }
@@ -141,25 +152,87 @@ static int compare_cuts(const void *left, const void *right) {
     return (a->opening > b->opening) - (a->opening < b->opening);
 }
 
+static sl_status take_cut(sl_context *context, sli_openings *openings, const sli_opening_cut *cut) {
+    sli_opening *o = &openings->items.items[cut->opening];
+    SL_TRY(SL_ARRAY_ROOM(context, &openings->cuts, 1));
+    openings->cuts.items[openings->cuts.count++] = *cut;
+    if (!o->cuts) o->at = cut->at;
+    o->cuts = true;
+    return SL_OK;
+}
+
+/// Cuts the walls that run along an opening, and lie from `least` to `most` at its left.
+static sl_status cut_within(sl_context *context, const sl_map *map, const sl_bits *kept,
+                            const sli_box_list *near, sli_openings *openings, size_t number,
+                            double least, double most) {
+    for (size_t i = 0; i < near->count; i++) {
+        const sli_opening *o = &openings->items.items[number];
+        sli_opening_cut cut = {.wall = near->items[i], .opening = number};
+        double left[2];
+        if (cut.wall >= o->below || !sl_bits_has(kept, cut.wall) ||
+            !runs_along(o, &map->walls[cut.wall], &cut, left) || fmin(left[0], left[1]) < least ||
+            fmax(left[0], left[1]) > most)
+            continue;
+        cut.left = left[0] / 2 + left[1] / 2;
+        SL_TRY(take_cut(context, openings, &cut));
+    }
+    return SL_OK;
+}
+
+/// How far from `middle`, which is so far at the left of an opening, the nearest walls are that run
+/// along it beyond its width: at its right, and at its left. INFINITY for none.
+static void find_beside(const sl_map *map, const sl_bits *kept, const sli_box_list *near,
+                        const sli_opening *o, double middle, double away[2]) {
+    away[0] = away[1] = INFINITY;
+    for (size_t i = 0; i < near->count; i++) {
+        const size_t wall = near->items[i];
+        sli_opening_cut cut;
+        double left[2];
+        if (wall >= o->below || !sl_bits_has(kept, wall) ||
+            !runs_along(o, &map->walls[wall], &cut, left))
+            continue;
+        const double at = left[0] / 2 + left[1] / 2;
+        const bool level = fabs(left[0] - left[1]) <= LEVEL * apart(o->from, o->to);
+        if (level && fabs(at) > o->half)
+            away[at > middle] = fmin(away[at > middle], fabs(at - middle));
+    }
+}
+
+/// Cuts both faces of a wall that a door lies between, or the other face of one whose first face a
+/// line cuts: all cuts from `first` on lie in one line. Several walls may lie in it.
+static sl_status cut_faces(sl_context *context, const sl_map *map, const sl_bits *kept,
+                           const sli_box_list *near, sli_openings *openings, size_t number,
+                           size_t first) {
+    const sli_opening o = openings->items.items[number];
+    const double slack = BESIDE * apart(o.from, o.to);
+    const bool none = openings->cuts.count == first;
+    const double middle = none ? 0 : openings->cuts.items[first].left;
+    double away[2];
+    if (!(o.core > 0) || (!none && o.box)) return SL_OK;
+    for (size_t i = first; i < openings->cuts.count; i++)
+        if (fabs(openings->cuts.items[i].left - middle) > slack) return SL_OK;
+    find_beside(map, kept, near, &o, middle, away);
+    if (none && !(away[0] + away[1] <= o.core)) return SL_OK;
+    for (int side = 0; side < 2; side++) {
+        const double at = side ? middle + away[1] : middle - away[0];
+        if (!none && (away[side] > o.core || away[side] > away[1 - side])) continue;
+        SL_TRY(cut_within(context, map, kept, near, openings, number, at - slack, at + slack));
+    }
+    return SL_OK;
+}
+
 /// Finds the walls that one opening cuts.
 static sl_status cut_one(sl_context *context, const sl_map *map, const sl_bits *kept,
                          const sli_box_tree *tree, sli_box_list *near, sli_openings *openings,
                          size_t number) {
-    sli_opening *o = &openings->items.items[number];
-    const sl_box box = {{fmin(o->from.x, o->to.x) - o->half, fmin(o->from.y, o->to.y) - o->half},
-                        {fmax(o->from.x, o->to.x) + o->half, fmax(o->from.y, o->to.y) + o->half}};
+    const sli_opening *o = &openings->items.items[number];
+    const double wide = o->half + o->core;
+    const sl_box box = {{fmin(o->from.x, o->to.x) - wide, fmin(o->from.y, o->to.y) - wide},
+                        {fmax(o->from.x, o->to.x) + wide, fmax(o->from.y, o->to.y) + wide}};
     const size_t first = openings->cuts.count;
     SL_TRY(sli_box_tree_find(context, tree, &box, near));
-    for (size_t i = 0; i < near->count; i++) {
-        sli_opening_cut cut = {.wall = near->items[i], .opening = number};
-        if (cut.wall >= o->below || !sl_bits_has(kept, cut.wall) ||
-            !goes_through(o, &map->walls[cut.wall], &cut))
-            continue;
-        SL_TRY(SL_ARRAY_ROOM(context, &openings->cuts, 1));
-        openings->cuts.items[openings->cuts.count++] = cut;
-        if (!o->cuts) o->at = cut.at;
-        o->cuts = true;
-    }
+    SL_TRY(cut_within(context, map, kept, near, openings, number, -o->half, o->half));
+    SL_TRY(cut_faces(context, map, kept, near, openings, number, first));
     return close_core(context, map, openings, first);
 }
 

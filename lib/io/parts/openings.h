@@ -10,6 +10,8 @@
 typedef struct sli_opening {
     sl_point from, to; ///< the middles of its ends
     double half;       ///< of its width
+    bool box;          ///< it is drawn as wide as it is; else as a line
+    double core;       ///< a door: how thick the wall may be whose faces it lies between; else 0
     size_t below;      ///< only walls before this one are beneath it
     size_t shape;      ///< for who asks: which shape it is; SIZE_MAX for none
     bool window;       ///< for who asks: it is glazed
@@ -21,6 +23,7 @@ typedef struct sli_opening {
 typedef struct sli_opening_cut {
     size_t wall, opening;
     double begin, end; ///< as shares of the wall
+    double left;       ///< how far at the left of the opening it is
     sl_segment at;     ///< from the end that is nearer to the wall's first one
 } sli_opening_cut;
 
@@ -41,7 +44,8 @@ sl_status sli_openings_add(sl_context *context, const sl_wall *walls, size_t cou
                            sli_openings *out);
 
 /// Finds the pieces of walls that the openings cut out, among the walls that are in `kept`. Two
-/// walls that one opening cuts are the faces of one wall: jambs close it.
+/// walls that one opening cuts are the faces of one wall: jambs close it. A door between the faces
+/// of a wall, or a line along one, cuts both.
 sl_status sli_openings_cut(sl_context *context, const sl_map *map, const sl_bits *kept,
                            sli_openings *openings);
 
