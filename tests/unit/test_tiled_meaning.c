@@ -327,6 +327,13 @@ static void test_weaker_names(void **state) {
     assert_walls(MAP(SET "<group name='Houses'>" LAYER("a", TILES)
                          LAYER("roofs", CSV("0,0,0,1,0,0")) "</group>"),
                  TWO_TILES);
+    // What one stands on in a platformer is often called so; not a storey, nor what holds all.
+    assert_walls(MAP(SET LAYER("BG", FULL) LAYER("BG Detail", TILES) LAYER("Level", TILES)),
+                 TWO_TILES);
+    assert_refused(MAP(SET LAYER("Ground", FULL) LAYER("Level 2", TILES)), UNSAID);
+    assert_refused(MAP(SET "<group name='Level'>" LAYER("Ground", FULL)
+                           LAYER("a", TILES) "</group>"),
+                   UNSAID);
     // Firm words are before them; tiles that say so too.
     assert_walls(MAP(SET LAYER("Trees", CSV("0,0,0,1,0,0")) LAYER("collision", TILES)), TWO_TILES);
     assert_walls(
@@ -419,7 +426,8 @@ static void test_names_in_languages(void **state) {
                                         "\xe5\xa2\x99", "\xe7\xa2\xb0\xe6\x92\x9e\xe5\xb1\x82",
                                         "no walk",      "not passable",
                                         "unwalkable",   "inner walls",
-                                        "Castle_Walls", "bounds"};
+                                        "Castle_Walls", "bounds",
+                                        "estSolide",    "es_s\xc3\xb3lido"};
     static const char *const others[] = {"wall_tops", "Walls behind", "wall deco", "no walls",
                                          "walk",      "Grass",        "Overhead",  "M\xc3\xa4user",
                                          "wallpaper", "camera bounds"};

@@ -4,7 +4,7 @@
 ///
 /// In a map without a start, those that lie at its edge are solid where walls part them from floor,
 /// at nine of ten places at least: else they would be taken for a room. Squares without a tile
-/// among rooms have no say in this. The sea about an island is like them: squares that have nothing
+/// among rooms have no say in this. Where all starts stand on such squares they are open. The sea about an island is like them: squares that have nothing
 /// but a tile of a layer that is named for water and covers half of the map.
 #include "geometry/orient.h"
 #include "io/tiled/tiled.h"
@@ -279,6 +279,26 @@ static bool has_start(const sli_tiled_reader *reader) {
     return false;
 }
 
+/// Whether starts stand on squares without a tile, and none on a floor.
+static bool start_on_void(const field *f) {
+    const sli_tiled_reader *reader = f->reader;
+    const sl_point step = reader->lattice.step;
+    size_t on_void = 0, on_floor = 0;
+    for (size_t i = 0; i < reader->things.items.count; i++) {
+        const sli_thing *thing = &reader->things.items.items[i];
+        sl_point at;
+        (void)sli_tiled_box_of_thing(reader, thing, &at);
+        const double x = floor(at.x / step.x) - (double)f->range.left;
+        const double y = floor((reader->top - at.y) / step.y) - (double)f->range.top;
+        if (thing->kind != SLI_THING_START) continue;
+        if (!(x >= 0 && y >= 0 && x < (double)f->columns && y < (double)f->rows)) continue;
+        const char square = f->squares[(size_t)y * f->columns + (size_t)x];
+        on_void += square == ' ';
+        on_floor += square == '.' || square == '+';
+    }
+    return on_void && !on_floor;
+}
+
 /// Makes the squares of these marks solid.
 static sl_status fill(field *f, const char *marks) {
     const sl_point step = f->reader->lattice.step;
@@ -340,7 +360,7 @@ static sl_status settle(field *f, const char *layers) {
     // In a platformer a little is drawn in much air.
     floor += water;
     const border ends = find_border(f, ".+~", " ");
-    if (!empty || 10 * floor < empty + floor || !ends.open) return SL_OK;
+    if (!empty || 10 * floor < empty + floor || !ends.open || start_on_void(f)) return SL_OK;
     if (solid && !layers && !f->reader->by && ends.all < PAIRS &&
         FLOOR_PER_END * ends.open <= floor) {
         sl_note(
