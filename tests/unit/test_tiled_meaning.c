@@ -53,6 +53,11 @@ static void test_guess(void **state) {
     // A floor without tiles is a wall.
     assert_walls(MAP(SET LAYER("Floor", CSV("3,0,0,4,4,5")) LAYER("roof", CSV("3,9,0,4,0,0"))),
                  TWO_TILES);
+    // So it is where a layer says where one walks.
+    assert_walls(
+        MAP(SET LAYER("map", FULL) LAYER("walkable", CSV("3,0,0,3,3,3")) LAYER("props", TILES)),
+        TWO_TILES);
+    assert_refused(MAP(SET LAYER("map", FULL) LAYER("walkable", FULL)), UNSAID);
     // A layer with tiles about it, and one with a ground below.
     assert_walls(WIDE(SET WIDE_LAYER("Tile Layer 1", RING)), RING_WALLS);
     assert_walls(WIDE(SET WIDE_LAYER("Tile Layer 1", "0,0,0,0,0,0, 0,0,0,0,0,0, 0,0,0,0,0,0, "
@@ -350,6 +355,15 @@ static void test_weaker_names(void **state) {
     assert_walls(MAP(SET LAYER("Ground", FULL) BOX_IN("Platforms")),
                  "wall 8 16 16 16\nwall 16 16 16 8\nwall 16 8 8 8\nwall 8 8 8 16\n" FRAME);
     assert_refused(MAP(SET LAYER("Ground", FULL) BOX_IN("Houses")), UNSAID);
+    // Bodies of a platformer beside its enemies: four boxes at least, of which nothing is said.
+#define FOUR_IN(name, y)                                                                           \
+    "<objectgroup name='" name "'>" BOX("8", y, "8", "8") BOX("8", y, "8", "8")                    \
+        BOX("8", y, "8", "8") BOX("8", y, "8", "8") "</objectgroup>"
+#define FOUR_BOXES                                                                                 \
+    "wall 8 16 16 16\nwall 16 16 16 8\nwall 16 8 8 8\nwall 8 8 8 16\n"
+    assert_walls(MAP(SET LAYER("Graphics", FULL) FOUR_IN("Ground Layer", "0")
+                         FOUR_IN("Goombas", "8") FOUR_IN("grass", "8")),
+                 FOUR_BOXES FOUR_BOXES FOUR_BOXES FOUR_BOXES FRAME);
     // A race's finish and the bots' way are no walls.
 #define NAMED(name) "<object name='" name "' x='8' y='0' width='8' height='8'/>"
     assert_refused(MAP(SET LAYER("Ground", FULL) "<objectgroup name='meta'>" NAMED("finish")

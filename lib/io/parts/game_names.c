@@ -93,7 +93,7 @@ static const char *const other_words[] = {
     "warp",     "teleport",    "teleporter",  "transition", "dialog",   "dialogue", "sound",
     "music",    "foe",         "hostile",     "minion",     "weapon",   "ammo",     "health",
     "bandit",   "wolf",        "dragon",      "troll",      "soldier",  "dialogo",  "diálogo",
-    "finish",   "checkpoint",  "waypoint",    "route"};
+    "finish",   "checkpoint",  "waypoint",    "route",      "goomba",   "koopa",    "turtle"};
 /// Others that may well stand in the way.
 static const char *const placed_words[] = {"chest",  "key",   "crate",  "shop",   "sign",
                                            "camera", "light", "turret", "switch", "button"};

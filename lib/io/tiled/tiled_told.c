@@ -87,9 +87,11 @@ static bool is_sure(const sli_tiled_reader *reader, const sli_tiled_seen *exampl
     }
     if (example->objects) return !tiles || (same && things == 1);
     if (example->kind >= SLI_GAME_STANDS || mostly) return true;
-    // Chests and beds that stand in rooms are not the rooms' walls.
-    const bool furniture =
-        strncasecmp(example->name, "object", 6) == 0 || sli_game_says_other(example->name);
+    // Chests and beds that stand in rooms are not the rooms' walls, nor are those who walk there.
+    const bool furniture = strncasecmp(example->name, "object", 6) == 0 ||
+                           strncasecmp(example->name, "sprite", 6) == 0 ||
+                           strncasecmp(example->name, "entit", 5) == 0 ||
+                           sli_game_says_other(example->name);
     return partial == 1 && may_be_walls(example) && 2 * example->count <= example->squares &&
            !furniture;
 }

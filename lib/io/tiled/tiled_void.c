@@ -24,9 +24,11 @@ typedef struct field {
     sli_tiled_range range; ///< of all tiles
     bool pictures;         ///< there is a layer that is a picture
     size_t columns, rows;
+    size_t drawn;  ///< squares of floor that have nothing but tiles of pictures
     char *squares; ///< ' ' without a tile, '.' with one, '+' of these under a door, '~' of water
-                   ///< alone, '#' solid; of those at the edge 'v' without a tile, 'w' of
-                   ///< water; NULL while the range is looked for
+                   ///< alone, ',' of pictures alone while layers are read, '#' solid; of those at
+                   ///< the edge 'v' without a tile, 'w' of water; NULL while the range is looked
+                   ///< for
 } field;
 
 bool sli_tiled_only_void(const char *layers) {
@@ -36,7 +38,9 @@ bool sli_tiled_only_void(const char *layers) {
     return any && only;
 }
 
-static void take_gids(field *f, const sli_tiled_range *at, const uint32_t *gids, bool water) {
+static void take_gids(field *f, const sli_tiled_range *at, const uint32_t *gids,
+                      sli_game_kind kind) {
+    bool water = kind == SLI_GAME_WATER;
     const size_t width = (size_t)(at->right - at->left);
     const size_t all = width * (size_t)(at->bottom - at->top);
     size_t count = 0;
@@ -48,7 +52,10 @@ static void take_gids(field *f, const sli_tiled_range *at, const uint32_t *gids,
             if (!(gids[i] & SLI_TILED_TILE)) continue;
             char *to =
                 &f->squares[(size_t)(y - f->range.top) * f->columns + (size_t)(x - f->range.left)];
-            *to = !water ? '.' : *to == ' ' ? '~' : *to;
+            if (kind == SLI_GAME_DRAWN)
+                *to = *to == ' ' || *to == ',' ? ',' : '.';
+            else
+                *to = !water ? '.' : *to == ' ' ? '~' : *to;
         }
 }
 
@@ -82,8 +89,7 @@ static sl_status look_at_block(field *f, const sli_json *layer, const sli_json *
     }
     uint32_t *gids;
     SL_TRY(sli_tiled_read_data(layer, &data, (size_t)(columns * rows), &gids));
-    const bool water = sli_game_kind_of(sli_json_text_of(layer, "name")) == SLI_GAME_WATER;
-    take_gids(f, &at, gids, water);
+    take_gids(f, &at, gids, sli_game_kind_of(sli_json_text_of(layer, "name")));
     sl_free(f->reader->context, gids);
     return SL_OK;
 }
@@ -341,9 +347,28 @@ static bool may_fill(const field *f, size_t empty, size_t floor, size_t solid) {
     return empty && rooms && !reader->options->layers && !reader->by && !has_start(reader);
 }
 
+/// What is drawn is floor, too, as in maps whose floor is called background.
+static void take_pictures(field *f) {
+    for (size_t i = 0; i < f->columns * f->rows; i++) {
+        if (f->squares[i] != ',') continue;
+        f->squares[i] = '.';
+        f->drawn++;
+    }
+}
+
+/// Whether no floor is told of: objects or platforms are all that is solid, seen from the side, and
+/// what lies behind them is a picture.
+static bool is_side_view(const field *f, size_t empty, size_t floor) {
+    const sli_tiled_by by = f->reader->by;
+    const size_t drawn = f->drawn < floor ? f->drawn : floor;
+    return by == SLI_TILED_BY_BARE ||
+           (by == SLI_TILED_BY_NAME && 10 * (floor - drawn) < empty + floor);
+}
+
 static sl_status settle(field *f, const char *layers) {
     size_t empty = 0, floor = 0, water = 0, solid = 0;
     bool filled = false;
+    take_pictures(f);
     take_solid(f);
     SL_TRY(take_closed(f));
     take_doors(f);
@@ -371,6 +396,7 @@ static sl_status settle(field *f, const char *layers) {
             f->reader->map->file->name, empty);
         return fill(f, " ");
     }
+    if (is_side_view(f, empty, floor)) return SL_OK;
     sl_note(f->reader->context,
             "%s: %zu squares have no tile and are open, and floor leads to them with no wall "
             "between: --layers '%s%svoid' takes them as solid",
