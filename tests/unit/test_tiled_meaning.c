@@ -336,9 +336,8 @@ static void test_weaker_names(void **state) {
     assert_walls(MAP(SET LAYER("BG", FULL) LAYER("BG Detail", TILES) LAYER("Level", TILES)),
                  TWO_TILES);
     assert_refused(MAP(SET LAYER("Ground", FULL) LAYER("Level 2", TILES)), UNSAID);
-    assert_refused(MAP(SET "<group name='Level'>" LAYER("Ground", FULL)
-                           LAYER("a", TILES) "</group>"),
-                   UNSAID);
+    assert_refused(
+        MAP(SET "<group name='Level'>" LAYER("Ground", FULL) LAYER("a", TILES) "</group>"), UNSAID);
     // Firm words are before them; tiles that say so too.
     assert_walls(MAP(SET LAYER("Trees", CSV("0,0,0,1,0,0")) LAYER("collision", TILES)), TWO_TILES);
     assert_walls(
@@ -359,8 +358,7 @@ static void test_weaker_names(void **state) {
 #define FOUR_IN(name, y)                                                                           \
     "<objectgroup name='" name "'>" BOX("8", y, "8", "8") BOX("8", y, "8", "8")                    \
         BOX("8", y, "8", "8") BOX("8", y, "8", "8") "</objectgroup>"
-#define FOUR_BOXES                                                                                 \
-    "wall 8 16 16 16\nwall 16 16 16 8\nwall 16 8 8 8\nwall 8 8 8 16\n"
+#define FOUR_BOXES "wall 8 16 16 16\nwall 16 16 16 8\nwall 16 8 8 8\nwall 8 8 8 16\n"
     assert_walls(MAP(SET LAYER("Graphics", FULL) FOUR_IN("Ground Layer", "0")
                          FOUR_IN("Goombas", "8") FOUR_IN("grass", "8")),
                  FOUR_BOXES FOUR_BOXES FOUR_BOXES FOUR_BOXES FRAME);

@@ -54,8 +54,8 @@ static const char *const stands_words[] = {
     "建筑",   "wood",     "metal",  "concrete", "granite", "bedrock",
 };
 static const char *const likely_words[] = {
-    "meta",       "platform",    "plattform", "plateforme", "plateform", "plataforma",
-    "world",      "piattaforma", "physics",   "hitbox",     "wand",      "border",
+    "meta",  "platform",    "plattform", "plateforme", "plateform", "plataforma",
+    "world", "piattaforma", "physics",   "hitbox",     "wand",      "border",
 };
 /// Beside words for solid: which walls they are.
 static const char *const which_words[] = {

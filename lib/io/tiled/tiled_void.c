@@ -4,8 +4,10 @@
 ///
 /// In a map without a start, those that lie at its edge are solid where walls part them from floor,
 /// at nine of ten places at least: else they would be taken for a room. Squares without a tile
-/// among rooms have no say in this. Where all starts stand on such squares they are open. The sea about an island is like them: squares that have nothing
+/// among rooms have no say in this. The sea about an island is like them: squares that have nothing
 /// but a tile of a layer that is named for water and covers half of the map.
+///
+/// Where starts stand on squares without a tile, and none on floor, they are open.
 #include "geometry/orient.h"
 #include "io/tiled/tiled.h"
 
@@ -386,21 +388,23 @@ static sl_status settle(field *f, const char *layers) {
     floor += water;
     const border ends = find_border(f, ".+~", " ");
     if (!empty || 10 * floor < empty + floor || !ends.open || start_on_void(f)) return SL_OK;
+    const bool one = empty == 1;
     if (solid && !layers && !f->reader->by && ends.all < PAIRS &&
         FLOOR_PER_END * ends.open <= floor) {
-        sl_note(
-            f->reader->context,
-            "%s: %zu squares have no tile, and are taken as solid, as floor is drawn elsewhere; "
-            "if one walks there, --layers NAME,NAME with the layers that are solid keeps them "
-            "open",
-            f->reader->map->file->name, empty);
+        sl_note(f->reader->context,
+                "%s: %zu square%s no tile, and %s taken as solid, as floor is drawn elsewhere; "
+                "if one walks there, --layers NAME,NAME with the layers that are solid keeps %s "
+                "open",
+                f->reader->map->file->name, empty, one ? " has" : "s have", one ? "is" : "are",
+                one ? "it" : "them");
         return fill(f, " ");
     }
     if (is_side_view(f, empty, floor)) return SL_OK;
     sl_note(f->reader->context,
-            "%s: %zu squares have no tile and are open, and floor leads to them with no wall "
-            "between: --layers '%s%svoid' takes them as solid",
-            f->reader->map->file->name, empty, layers ? layers : "", layers ? "," : "");
+            "%s: %zu square%s no tile and %s open, and floor leads to %s with no wall "
+            "between: --layers '%s%svoid' takes %s as solid",
+            f->reader->map->file->name, empty, one ? " has" : "s have", one ? "is" : "are",
+            one ? "it" : "them", layers ? layers : "", layers ? "," : "", one ? "it" : "them");
     return SL_OK;
 }
 
