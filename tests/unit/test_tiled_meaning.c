@@ -486,6 +486,19 @@ static void test_terrains(void **state) {
                                                                           CSV("9,1,2,9,9,9")))
     assert_walls(TWO_SETS("Walls"), TWO_TILES);
     assert_refused(TWO_SETS("overworld"), UNSAID);
+    // So may pictures be: that of a set, and those that single tiles have.
+#define PICTURES(of_set, of_tile)                                                                  \
+    MAP("<tileset firstgid='1' name='a' tilewidth='8' tileheight='8'>" of_set                      \
+        "<tile id='0'><image source='" of_tile "'/></tile><tile id='1'><image "                    \
+        "source='floor.png'/></tile></tileset><tileset firstgid='9' tilewidth='8' "                \
+        "tileheight='8'/>" LAYER("a", CSV("9,1,1,2,9,9")))
+    assert_walls(PICTURES("", "img/Brick_Wall-2.png"), TWO_TILES);
+    assert_refused(PICTURES("", "img/walls/tile.png"), UNSAID);
+    assert_refused(PICTURES("", "wall_top.png"), UNSAID);
+    assert_walls(MAP("<tileset firstgid='1' tilewidth='8' tileheight='8'><image "
+                     "source='../walls.png'/></tileset><tileset firstgid='9' tilewidth='8' "
+                     "tileheight='8'/>" LAYER("a", CSV("9,1,2,9,9,9"))),
+                 TWO_TILES);
     // A set that all tiles are of says nothing.
     assert_refused(MAP("<tileset firstgid='1' name='Walls' tilewidth='8' tileheight='8'/>" LAYER(
                        "a", CSV("1,2,0,1,1,1"))),

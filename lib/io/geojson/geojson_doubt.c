@@ -1,10 +1,11 @@
 /// What GeoJSON holds that is no plan: points alone, open lines of streets that nothing names,
-/// several sites far apart, and footprints of a town.
+/// several sites far apart, footprints of a town, and levels that their rooms do not fill.
 #include "io/geojson/geojson.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 sl_status sli_geo_refuse_points(const sli_geo *geo) {
     size_t points = 0;
@@ -238,4 +239,35 @@ sl_status sli_geo_look_for_footprints(const sli_geo *geo) {
             "are entrances: --entrance W",
             geo->name, ENTRANCE);
     return SL_OK;
+}
+
+// --- levels
+
+/// Rooms that fill less of their level's outline may leave corridors open.
+#define FILLED 0.9
+
+static bool is_layer(const sli_geo_feature *feature, const char *name) {
+    return strcasecmp(feature->layer, name) == 0;
+}
+
+void sli_geo_note_levels(const sli_geo *geo) {
+    const char *map = geo->options->map;
+    double rooms = 0, levels = 0;
+    if (geo->options->layers) return;
+    for (size_t i = 0; i < geo->features.count; i++) {
+        const sli_geo_feature *f = &geo->features.items[i];
+        const sli_geo_line *lines = geo->lines.items + f->first;
+        const bool wall = f->taken && f->means == SLI_GEO_WALL;
+        if (wall && !is_layer(f, "unit")) return; // other walls may stand about corridors
+        if (!f->count || !lines->ring) continue;
+        for (size_t k = 0; wall && k < f->count; k++) rooms += area_of(geo, &lines[k]);
+        if (is_layer(f, "level") && (!map || sli_geo_on_level(geo, f, map)))
+            levels += area_of(geo, lines);
+    }
+    if (!(rooms > 0) || !(rooms < FILLED * levels)) return;
+    sl_note(geo->context,
+            "%s: rooms fill %.0f %% of their level: if corridors between them are inside: "
+            "sightline check '%.300s'%s%.64s%s --layers unit,level -o map.png",
+            geo->name, 100 * rooms / levels, geo->name, map ? " --map '" : "", map ? map : "",
+            map ? "'" : "");
 }

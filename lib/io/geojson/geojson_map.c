@@ -244,6 +244,7 @@ static sl_status read_all(sli_geo *geo, const char *text, size_t size) {
     if (geo->map->earth.known && geo->map->wall_count)
         geo->map->precision = fmax(geo->map->precision, BENT);
     if (!lines) report(geo);
+    if (!lines) sli_geo_note_levels(geo);
     return SL_OK;
 }
 

@@ -455,7 +455,7 @@ sl_status sli_tiled_tell_meaning(const sli_tiled_reader *reader) {
                                      "tiles that say so of layers below and above the player",
                                      "names of layers",
                                      "terrains",
-                                     "names of tilesets",
+                                     "names of tilesets and pictures",
                                      "objects without a name, type or property"};
     const layer_text taken = list_layers(reader, true), others = list_layers(reader, false);
     const char *file = reader->map->file->name;
