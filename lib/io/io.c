@@ -27,10 +27,13 @@ static bool knows_tmx(const char *text, size_t size) {
     return *text == '<' && strstr(text, "<map") && strstr(text, "tilewidth");
 }
 
+static bool begins_as_json(const char *text) {
+    return is_one_of("{[", text[strspn(text, "\xef\xbb\xbf \t\r\n")]);
+}
+
 /// Whether the text begins as JSON does and has both words in quotation marks somewhere.
 static bool is_json_with(const char *text, const char *word, const char *other) {
-    const char *at = text + strspn(text, "\xef\xbb\xbf \t\r\n");
-    return (*at == '{' || *at == '[') && strstr(at, word) && strstr(at, other);
+    return begins_as_json(text) && strstr(text, word) && strstr(text, other);
 }
 
 static bool knows_tmj(const char *text, size_t size) {
@@ -69,12 +72,12 @@ static bool has_member(const char *text, const char *key, const char *value) {
 static bool knows_export(const char *text, size_t size) {
     static const char key[] = "\"format\"", value[] = "\"sightline\"";
     (void)size;
-    return is_json_with(text, key, value) && has_member(text, key, value);
+    return begins_as_json(text) && has_member(text, key, value);
 }
 
 /// Lists of walls with their corners. Other files have such words as texts.
 static bool has_foundry_walls(const char *text) {
-    return is_json_with(text, "\"walls\"", "\"c\"") && has_member(text, "\"walls\"", "[") &&
+    return begins_as_json(text) && has_member(text, "\"walls\"", "[") &&
            has_member(text, "\"c\"", "[");
 }
 

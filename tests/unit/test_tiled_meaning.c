@@ -53,6 +53,11 @@ static void test_guess(void **state) {
     // A floor without tiles is a wall.
     assert_walls(MAP(SET LAYER("Floor", CSV("3,0,0,4,4,5")) LAYER("roof", CSV("3,9,0,4,0,0"))),
                  TWO_TILES);
+    // So it is where a layer says where one walks.
+    assert_walls(
+        MAP(SET LAYER("map", FULL) LAYER("walkable", CSV("3,0,0,3,3,3")) LAYER("props", TILES)),
+        TWO_TILES);
+    assert_refused(MAP(SET LAYER("map", FULL) LAYER("walkable", FULL)), UNSAID);
     // A layer with tiles about it, and one with a ground below.
     assert_walls(WIDE(SET WIDE_LAYER("Tile Layer 1", RING)), RING_WALLS);
     assert_walls(WIDE(SET WIDE_LAYER("Tile Layer 1", "0,0,0,0,0,0, 0,0,0,0,0,0, 0,0,0,0,0,0, "
@@ -327,6 +332,12 @@ static void test_weaker_names(void **state) {
     assert_walls(MAP(SET "<group name='Houses'>" LAYER("a", TILES)
                          LAYER("roofs", CSV("0,0,0,1,0,0")) "</group>"),
                  TWO_TILES);
+    // What one stands on in a platformer is often called so; not a storey, nor what holds all.
+    assert_walls(MAP(SET LAYER("BG", FULL) LAYER("BG Detail", TILES) LAYER("Level", TILES)),
+                 TWO_TILES);
+    assert_refused(MAP(SET LAYER("Ground", FULL) LAYER("Level 2", TILES)), UNSAID);
+    assert_refused(
+        MAP(SET "<group name='Level'>" LAYER("Ground", FULL) LAYER("a", TILES) "</group>"), UNSAID);
     // Firm words are before them; tiles that say so too.
     assert_walls(MAP(SET LAYER("Trees", CSV("0,0,0,1,0,0")) LAYER("collision", TILES)), TWO_TILES);
     assert_walls(
@@ -343,6 +354,14 @@ static void test_weaker_names(void **state) {
     assert_walls(MAP(SET LAYER("Ground", FULL) BOX_IN("Platforms")),
                  "wall 8 16 16 16\nwall 16 16 16 8\nwall 16 8 8 8\nwall 8 8 8 16\n" FRAME);
     assert_refused(MAP(SET LAYER("Ground", FULL) BOX_IN("Houses")), UNSAID);
+    // Bodies of a platformer beside its enemies: four boxes at least, of which nothing is said.
+#define FOUR_IN(name, y)                                                                           \
+    "<objectgroup name='" name "'>" BOX("8", y, "8", "8") BOX("8", y, "8", "8")                    \
+        BOX("8", y, "8", "8") BOX("8", y, "8", "8") "</objectgroup>"
+#define FOUR_BOXES "wall 8 16 16 16\nwall 16 16 16 8\nwall 16 8 8 8\nwall 8 8 8 16\n"
+    assert_walls(MAP(SET LAYER("Graphics", FULL) FOUR_IN("Ground Layer", "0")
+                         FOUR_IN("Goombas", "8") FOUR_IN("grass", "8")),
+                 FOUR_BOXES FOUR_BOXES FOUR_BOXES FOUR_BOXES FRAME);
     // A race's finish and the bots' way are no walls.
 #define NAMED(name) "<object name='" name "' x='8' y='0' width='8' height='8'/>"
     assert_refused(MAP(SET LAYER("Ground", FULL) "<objectgroup name='meta'>" NAMED("finish")
@@ -419,7 +438,8 @@ static void test_names_in_languages(void **state) {
                                         "\xe5\xa2\x99", "\xe7\xa2\xb0\xe6\x92\x9e\xe5\xb1\x82",
                                         "no walk",      "not passable",
                                         "unwalkable",   "inner walls",
-                                        "Castle_Walls", "bounds"};
+                                        "Castle_Walls", "bounds",
+                                        "estSolide",    "es_s\xc3\xb3lido"};
     static const char *const others[] = {"wall_tops", "Walls behind", "wall deco", "no walls",
                                          "walk",      "Grass",        "Overhead",  "M\xc3\xa4user",
                                          "wallpaper", "camera bounds"};
@@ -466,6 +486,19 @@ static void test_terrains(void **state) {
                                                                           CSV("9,1,2,9,9,9")))
     assert_walls(TWO_SETS("Walls"), TWO_TILES);
     assert_refused(TWO_SETS("overworld"), UNSAID);
+    // So may pictures be: that of a set, and those that single tiles have.
+#define PICTURES(of_set, of_tile)                                                                  \
+    MAP("<tileset firstgid='1' name='a' tilewidth='8' tileheight='8'>" of_set                      \
+        "<tile id='0'><image source='" of_tile "'/></tile><tile id='1'><image "                    \
+        "source='floor.png'/></tile></tileset><tileset firstgid='9' tilewidth='8' "                \
+        "tileheight='8'/>" LAYER("a", CSV("9,1,1,2,9,9")))
+    assert_walls(PICTURES("", "img/Brick_Wall-2.png"), TWO_TILES);
+    assert_refused(PICTURES("", "img/walls/tile.png"), UNSAID);
+    assert_refused(PICTURES("", "wall_top.png"), UNSAID);
+    assert_walls(MAP("<tileset firstgid='1' tilewidth='8' tileheight='8'><image "
+                     "source='../walls.png'/></tileset><tileset firstgid='9' tilewidth='8' "
+                     "tileheight='8'/>" LAYER("a", CSV("9,1,2,9,9,9"))),
+                 TWO_TILES);
     // A set that all tiles are of says nothing.
     assert_refused(MAP("<tileset firstgid='1' name='Walls' tilewidth='8' tileheight='8'/>" LAYER(
                        "a", CSV("1,2,0,1,1,1"))),

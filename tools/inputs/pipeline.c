@@ -294,10 +294,10 @@ static int digits_of(const sl_map *map, const sl_space *space) {
     return sl_map_digits(&whole);
 }
 
-/// Whether a game's map was read, by its file's name. What lies on the earth is none: files of
-/// several kinds are called .json.
+/// Whether a game's map was read, by its file's name. Files of several kinds are called .json:
+/// those of games count y down.
 static bool is_game(const sl_context *context, const map_pipeline *pipeline, const sl_map *map) {
-    return input_is_game(context, pipeline->path) && !map->earth.known;
+    return input_is_game(context, pipeline->path) && map->source.transform.y_down;
 }
 
 /// Whether a building is inside with a width of entrances.

@@ -77,7 +77,10 @@ sl_status sli_geo_refuse_points(const sli_geo *geo);
 sl_status sli_geo_doubt(const sli_geo *geo);
 /// Footprints of buildings in a map projection whose unit nothing says: what they enclose is
 /// inside, not the streets among them. Sets the width of the map's entrances, and says so.
-void sli_geo_look_for_footprints(const sli_geo *geo);
+sl_status sli_geo_look_for_footprints(const sli_geo *geo);
+
+/// Tells where units of IMDF leave much of their level open, and how its outline is taken.
+void sli_geo_note_levels(const sli_geo *geo);
 
 /// Keeps the names of rooms, as texts of the map.
 sl_status sli_geo_add_names(sli_geo *geo);

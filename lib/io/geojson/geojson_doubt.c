@@ -1,10 +1,11 @@
 /// What GeoJSON holds that is no plan: points alone, open lines of streets that nothing names,
-/// several sites far apart, and footprints of a town.
+/// several sites far apart, footprints of a town, and levels that their rooms do not fill.
 #include "io/geojson/geojson.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 sl_status sli_geo_refuse_points(const sli_geo *geo) {
     size_t points = 0;
@@ -35,15 +36,19 @@ static void join(sl_box *box, sl_box other) {
 
 static const sl_box nothing = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
 
+static sl_box box_of_line(const sli_geo *geo, const sli_geo_line *line) {
+    sl_box box = nothing;
+    for (size_t i = 0; i < line->count; i++) {
+        const sl_point p = geo->points.items[line->first + i];
+        join(&box, (sl_box){p, p});
+    }
+    return box;
+}
+
 static sl_box box_of(const sli_geo *geo, const sli_geo_feature *feature) {
     sl_box box = nothing;
-    for (size_t k = 0; k < feature->count; k++) {
-        const sli_geo_line line = geo->lines.items[feature->first + k];
-        for (size_t i = 0; i < line.count; i++) {
-            const sl_point p = geo->points.items[line.first + i];
-            join(&box, (sl_box){p, p});
-        }
-    }
+    for (size_t k = 0; k < feature->count; k++)
+        join(&box, box_of_line(geo, &geo->lines.items[feature->first + k]));
     return box;
 }
 
@@ -169,32 +174,100 @@ static double area_of(const sli_geo *geo, const sli_geo_line *line) {
     return fabs(twice) / 2;
 }
 
-void sli_geo_look_for_footprints(const sli_geo *geo) {
-    sl_box all = nothing;
-    size_t count = 0;
+typedef struct outline {
+    sl_box box;
+    double area;
+} outline;
+
+static int compare_outlines(const void *left, const void *right) {
+    const outline *a = left, *b = right;
+    const double of_a[] = {a->box.min.x, a->box.min.y, a->box.max.x, a->box.max.y, a->area};
+    const double of_b[] = {b->box.min.x, b->box.min.y, b->box.max.x, b->box.max.y, b->area};
+    for (size_t i = 0; i < sizeof of_a / sizeof *of_a; i++)
+        if (of_a[i] != of_b[i]) return of_a[i] < of_b[i] ? -1 : 1;
+    return 0;
+}
+
+/// The area of outlines, each counted once: some files have every building twice. Sorts.
+static double area_of_all(outline *outlines, size_t count) {
     double area = 0;
+    if (count) qsort(outlines, count, sizeof *outlines, compare_outlines);
+    for (size_t i = 0; i < count; i++)
+        if (!i || compare_outlines(&outlines[i - 1], &outlines[i]) != 0) area += outlines[i].area;
+    return area;
+}
+
+/// Fills in the outlines of all features that are taken. 0 where something else is taken, too.
+static size_t list_outlines(const sli_geo *geo, outline *outlines, sl_box *all, size_t *features) {
+    size_t count = 0;
+    *features = 0;
+    *all = nothing;
     for (size_t i = 0; i < geo->features.count; i++) {
         const sli_geo_feature *f = &geo->features.items[i];
         if (!f->taken || !f->count) continue;
-        if (f->means != SLI_GEO_WALL) return;
+        if (f->means != SLI_GEO_WALL) return 0;
         for (size_t k = 0; k < f->count; k++) {
             const sli_geo_line *line = &geo->lines.items[f->first + k];
-            if (!line->ring) return;
-            area += area_of(geo, line);
+            if (!line->ring) return 0;
+            outlines[count++] = (outline){box_of_line(geo, line), area_of(geo, line)};
+            join(all, outlines[count - 1].box);
         }
-        join(&all, box_of(geo, f));
-        count++;
+        ++*features;
     }
+    return count;
+}
+
+sl_status sli_geo_look_for_footprints(const sli_geo *geo) {
+    sl_box all;
+    size_t features;
+    if (geo->map->earth.known || !geo->lines.count) return SL_OK;
+    outline *outlines = sl_alloc_array(geo->context, geo->lines.count, sizeof *outlines);
+    if (!outlines) return SL_NO_MEMORY;
+    const size_t count = list_outlines(geo, outlines, &all, &features);
+    const double area = area_of_all(outlines, count);
+    sl_free(geo->context, outlines);
+    if (!count || features < FOOTPRINTS) return SL_OK;
     const double width = all.max.x - all.min.x, height = all.max.y - all.min.y;
     const double far =
         fmax(fmax(fabs(all.min.x), fabs(all.max.x)), fmax(fabs(all.min.y), fabs(all.max.y)));
-    if (geo->map->earth.known || count < FOOTPRINTS || far < PROJECTED ||
-        fmax(width, height) < TOWN || area > BUILT * width * height)
-        return;
+    if (far < PROJECTED || fmax(width, height) < TOWN || area > BUILT * width * height)
+        return SL_OK;
     geo->map->entrance = ENTRANCE;
     sl_note(geo->context,
             "%s: its outlines look like buildings of a town, in metres or feet, which nothing "
             "says: inside is what they enclose, as openings wider than %g do not count; if there "
             "are entrances: --entrance W",
             geo->name, ENTRANCE);
+    return SL_OK;
+}
+
+// --- levels
+
+/// Rooms that fill less of their level's outline may leave corridors open.
+#define FILLED 0.9
+
+static bool is_layer(const sli_geo_feature *feature, const char *name) {
+    return strcasecmp(feature->layer, name) == 0;
+}
+
+void sli_geo_note_levels(const sli_geo *geo) {
+    const char *map = geo->options->map;
+    double rooms = 0, levels = 0;
+    if (geo->options->layers) return;
+    for (size_t i = 0; i < geo->features.count; i++) {
+        const sli_geo_feature *f = &geo->features.items[i];
+        const sli_geo_line *lines = geo->lines.items + f->first;
+        const bool wall = f->taken && f->means == SLI_GEO_WALL;
+        if (wall && !is_layer(f, "unit")) return; // other walls may stand about corridors
+        if (!f->count || !lines->ring) continue;
+        for (size_t k = 0; wall && k < f->count; k++) rooms += area_of(geo, &lines[k]);
+        if (is_layer(f, "level") && (!map || sli_geo_on_level(geo, f, map)))
+            levels += area_of(geo, lines);
+    }
+    if (!(rooms > 0) || !(rooms < FILLED * levels)) return;
+    sl_note(geo->context,
+            "%s: rooms fill %.0f %% of their level: if corridors between them are inside: "
+            "sightline check '%.300s'%s%.64s%s --layers unit,level -o map.png",
+            geo->name, 100 * rooms / levels, geo->name, map ? " --map '" : "", map ? map : "",
+            map ? "'" : "");
 }

@@ -234,7 +234,7 @@ static sl_status read_all(sli_geo *geo, const char *text, size_t size) {
     SL_TRY(choose(geo));
     if (lines) choose_rings(geo);
     if (!lines) SL_TRY(sli_geo_doubt(geo));
-    if (!lines) sli_geo_look_for_footprints(geo);
+    if (!lines) SL_TRY(sli_geo_look_for_footprints(geo));
     SL_TRY(add_all(geo));
     if (!lines) SL_TRY(sli_geo_add_doors(geo));
     if (!lines) SL_TRY(sli_geo_add_names(geo));
@@ -244,6 +244,7 @@ static sl_status read_all(sli_geo *geo, const char *text, size_t size) {
     if (geo->map->earth.known && geo->map->wall_count)
         geo->map->precision = fmax(geo->map->precision, BENT);
     if (!lines) report(geo);
+    if (!lines) sli_geo_note_levels(geo);
     return SL_OK;
 }
 

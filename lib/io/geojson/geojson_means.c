@@ -185,8 +185,12 @@ enum { LEVEL_TEXT = 64 };
 static void level_text(const sli_geo *geo, const sli_geo_feature *feature, char text[LEVEL_TEXT]) {
     const char *id = sli_geo_text(feature, "level_id"), *said = sli_geo_text(feature, "level");
     const json_t *level = sli_geo_property(feature, "level");
+    const json_t *own = strcasecmp(feature->layer, "level") == 0
+                            ? sli_geo_property(feature, "ordinal") // of a level itself
+                            : NULL;
     const double ordinal = *id                     ? ordinal_of(geo, id)
                            : json_is_number(level) ? json_number_value(level)
+                           : json_is_number(own)   ? json_number_value(own)
                                                    : NAN;
     char number[SL_NUMBER_TEXT];
     if (isfinite(ordinal)) {

@@ -42,6 +42,19 @@ static sl_status begin_line(sli_geo *geo, bool ring) {
     return SL_OK;
 }
 
+/// Some files leave the last point of a polygon out, which is the first one again.
+static sl_status close_ring(sli_geo *geo) {
+    sli_geo_line *line = &geo->lines.items[geo->lines.count - 1];
+    if (line->count < 3) return SL_OK;
+    const sl_point first = geo->points.items[line->first];
+    const sl_point last = geo->points.items[line->first + line->count - 1];
+    if (first.x == last.x && first.y == last.y) return SL_OK;
+    SL_TRY(SL_ARRAY_ROOM(geo->context, &geo->points, 1));
+    geo->points.items[geo->points.count++] = first;
+    line->count++;
+    return SL_OK;
+}
+
 /// `depth`: how many arrays the points are in.
 static sl_status read_points(sli_geo *geo, const sli_json *at, int depth, bool ring) {
     size_t count;
@@ -57,7 +70,7 @@ static sl_status read_points(sli_geo *geo, const sli_json *at, int depth, bool r
         const sli_json item = sli_json_item(at, i);
         SL_TRY(depth == 1 ? read_point(geo, &item) : read_points(geo, &item, depth - 1, ring));
     }
-    return SL_OK;
+    return depth == 1 && ring ? close_ring(geo) : SL_OK;
 }
 
 static sl_status read_object(sli_geo *geo, const sli_json *object, int level);

@@ -54,8 +54,8 @@ static const char *const stands_words[] = {
     "建筑",   "wood",     "metal",  "concrete", "granite", "bedrock",
 };
 static const char *const likely_words[] = {
-    "meta",        "platform", "plattform", "plateforme", "plataforma", "world",
-    "piattaforma", "physics",  "hitbox",    "wand",       "border",
+    "meta",  "platform",    "plattform", "plateforme", "plateform", "plataforma",
+    "world", "piattaforma", "physics",   "hitbox",     "wand",      "border",
 };
 /// Beside words for solid: which walls they are.
 static const char *const which_words[] = {
@@ -93,7 +93,7 @@ static const char *const other_words[] = {
     "warp",     "teleport",    "teleporter",  "transition", "dialog",   "dialogue", "sound",
     "music",    "foe",         "hostile",     "minion",     "weapon",   "ammo",     "health",
     "bandit",   "wolf",        "dragon",      "troll",      "soldier",  "dialogo",  "diálogo",
-    "finish",   "checkpoint",  "waypoint",    "route"};
+    "finish",   "checkpoint",  "waypoint",    "route",      "goomba",   "koopa",    "turtle"};
 /// Others that may well stand in the way.
 static const char *const placed_words[] = {"chest",  "key",   "crate",  "shop",   "sign",
                                            "camera", "light", "turret", "switch", "button"};

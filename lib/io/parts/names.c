@@ -51,6 +51,11 @@ static const char *const solid_words[] = {
     "hindernis",
     "hindernisse",
     "mur",
+    "solide",
+    "solido",
+    "sólido",
+    "solida",
+    "sólida",
     "obstaculo",
     "obstáculo",
     "muro",
@@ -104,8 +109,9 @@ static const char *const solid_words[] = {
     "장애물",
 };
 static const char *const solid_neutral[] = {
-    "layer", "tile",  "object", "group", "map",    "area", "shape", "box",     "is",       "ge",
-    "has",   "ebene", "calque", "capa",  "camada", "mask", "rect",  "polygon", "geometry",
+    "layer", "tile",    "object",   "group", "map",    "area", "shape",  "box",
+    "is",    "ge",      "has",      "ebene", "calque", "capa", "camada", "mask",
+    "rect",  "polygon", "geometry", "est",   "ist",    "es",
 };
 /// "no walk", "not passable": the second word of what is solid.
 static const char *const not_words[] = {"no", "non", "not", "un", "cannot", "cant"};

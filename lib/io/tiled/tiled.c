@@ -13,6 +13,8 @@
 #include "map/source.h"
 #include "sightline/io.h"
 
+#include <strings.h>
+
 // --- the layers asked for
 
 /// Looks for a layer in a list of layers and in its groups.
@@ -96,6 +98,14 @@ static sli_tiled_word word_of_layer(const sli_tiled_reader *reader, const sli_js
     return SLI_TILED_UNSAID;
 }
 
+/// What a layer is by its name. In a platformer, the layer of tiles that one stands on is often
+/// called "Level". With a number that is a storey; a group of this name holds all.
+static sli_game_kind kind_of_layer(const sli_json *layer) {
+    const char *name = sli_json_text_of(layer, "name");
+    const bool tiles = strcmp(sli_json_text_of(layer, "type"), "tilelayer") == 0;
+    return tiles && strcasecmp(name, "level") == 0 ? SLI_GAME_LIKELY : sli_game_kind_of(name);
+}
+
 /// Where a layer lies in its group's place, and whether it is solid.
 static sl_status find_place(const sli_tiled_reader *reader, const sli_json *layer,
                             const sli_tiled_place *outer, sli_tiled_place *own) {
@@ -112,7 +122,7 @@ static sl_status find_place(const sli_tiled_reader *reader, const sli_json *laye
     own->offset = (sl_point){outer->offset.x + offset.x, outer->offset.y + offset.y};
     own->moves |= moves.x != 1 || moves.y != 1;
     own->beside |= sli_game_says_beside_player(name);
-    const sli_game_kind kind = sli_game_kind_of(name);
+    const sli_game_kind kind = kind_of_layer(layer);
     if (kind != SLI_GAME_UNSAID) own->kind = kind;
     SL_TRY(sli_tiled_read_stops(layer, &own->stops));
     if (reader->options->layers) {

@@ -119,6 +119,7 @@ typedef struct sli_tiled_tile {
     uint32_t order; ///< among those of the file
     sli_tiled_word word;
     bool terrain;   ///< it is drawn by a terrain that is solid by its name
+    bool named;     ///< so is the picture that it has of its own
     sli_says says;  ///< by its class and its properties
     json_t *shapes; ///< an array of objects; NULL for none
     uint32_t item;  ///< of the first shape's name in the map; 0 before the tile is drawn
@@ -132,7 +133,7 @@ typedef struct sli_tiled_set {
     double x, y;                    ///< how far its tiles are drawn from their place
     sl_point diamond;               ///< the tiles' shapes are drawn in this one; 0 for in pixels
     sli_tiled_word word;            ///< of all tiles that say nothing
-    bool named;                     ///< its name is one for what is solid
+    bool named;                     ///< its name, or its picture's, is one for what is solid
     bool inside;                    ///< its name is that of a dungeon
     const char *source;             ///< that file as the map calls it; NULL for none
     SL_ARRAY(sli_tiled_tile) tiles; ///< by id, ascending
@@ -228,7 +229,7 @@ typedef enum sli_tiled_by {
     SLI_TILED_BY_BESIDE,  ///< tiles of layers below and above the player, where nothing else does
     SLI_TILED_BY_NAME,    ///< names of layers let expect it: trees, platforms
     SLI_TILED_BY_TERRAIN, ///< tiles' terrains
-    SLI_TILED_BY_SET,     ///< names of tilesets
+    SLI_TILED_BY_SET,     ///< names of tilesets and pictures
     SLI_TILED_BY_BARE,    ///< objects with a shape, and without a name, type or property
     SLI_TILED_BY_GUESS,   ///< the look of one layer
 } sli_tiled_by;

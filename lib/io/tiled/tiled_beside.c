@@ -55,12 +55,24 @@ static sl_status count_said(const sli_tiled_reader *reader, const sli_json *laye
     return SL_OK;
 }
 
+/// Whether some tile of some set says that it is solid: else a layer need not be looked through.
+static bool any_says(const sli_tiled_sets *sets) {
+    for (size_t i = 0; i < sets->sets.count; i++) {
+        const sli_tiled_set *set = &sets->sets.items[i];
+        if (set->word == SLI_TILED_SOLID) return true;
+        for (size_t k = 0; k < set->tiles.count; k++)
+            if (set->tiles.items[k].word == SLI_TILED_SOLID) return true;
+    }
+    return false;
+}
+
 sl_status sli_tiled_ask_tiles(const sli_tiled_reader *reader, const sli_json *layer,
                               sli_tiled_place *own) {
     const sli_json infinite = sli_json_member(reader->map, "infinite");
     const sli_json chunks = sli_json_member(layer, "chunks");
     size_t all = 0, solid = 0;
     bool known = true;
+    if (!any_says(&reader->sets)) return SL_OK;
     if (!chunks.value && !sli_json_true(&infinite, NULL))
         SL_TRY(count_said(reader, layer, layer, &all, &solid, &known));
     for (size_t i = 0; i < json_array_size(chunks.value); i++) {

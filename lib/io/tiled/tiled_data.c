@@ -153,6 +153,10 @@ static bool add_child(json_t *parent, const xmlNode *node) {
     if (in_tile && sli_xml_is(node, "objectgroup"))
         return set(parent, "objectgroup", convert(node));
     if (sli_xml_is(node, "data")) return add_data(parent, node);
+    if (sli_xml_is(node, "image")) {
+        char *source = sli_xml_attribute(node, "source");
+        return !source || set(parent, "image", take_text(source));
+    }
     if (sli_xml_is(node, "tileoffset") || sli_xml_is(node, "grid"))
         return set(parent, (const char *)node->name, convert(node));
     if (sli_xml_is(node, "polygon") || sli_xml_is(node, "polyline")) {

@@ -5,7 +5,8 @@
 /// walls, objects without a name, type or property. At last one layer is looked at, and only rules
 /// that hold for few maps count:
 ///
-/// - Where the only layer of tiles is named for a floor, there is a wall where it has no tile.
+/// - Where the only layer of tiles is named for a floor, there is a wall where it has no tile. So
+///   it is where one layer is named for where one walks ("walkable").
 /// - Where the map or a tileset is named for a dungeon or a sewer, and one tile covers at least
 ///   half of the lowest layer and of its edge, that tile is rock, unless the layer is named for
 ///   ground or floor.
@@ -146,6 +147,23 @@ static bool only_floor(const sli_tiled_reader *reader) {
     return layer->kind == SLI_GAME_FLOOR && layer->count < layer->squares;
 }
 
+/// Whether a layer of tiles says where one walks, and not everywhere.
+static bool says_walkable(const sli_tiled_seen *layer) {
+    return !layer->objects && layer->count && layer->count < layer->squares &&
+           sli_says_walkable(layer->name);
+}
+
+/// The number of the only layer that says where one walks; that of no layer else.
+static size_t find_walkable(const sli_tiled_reader *reader) {
+    size_t found = reader->seen.count, count = 0;
+    for (size_t i = 0; i < reader->seen.count; i++) {
+        if (!says_walkable(&reader->seen.items[i])) continue;
+        found = i;
+        count++;
+    }
+    return count == 1 ? found : reader->seen.count;
+}
+
 sl_status sli_tiled_guess(sli_tiled_reader *reader, const uint32_t *gids, size_t columns,
                           size_t rows) {
     const look at = {gids, columns, rows};
@@ -164,6 +182,8 @@ sl_status sli_tiled_guess(sli_tiled_reader *reader, const uint32_t *gids, size_t
     const sli_tiled_stand stand = sli_tiled_where_objects_stand(reader, gids, columns, rows);
     if (only_floor(reader)) {
         reader->guess_why = "where the floor has no tile is a wall";
+    } else if (says_walkable(layer)) {
+        reader->guess_why = "one does not walk where it has no tile";
     } else if (is_inside(reader) && !(gid && ground) && 2 * most >= count &&
                2 * on_edge(&at, gid) >= edge) {
         reader->guessed = gid;
@@ -197,7 +217,11 @@ sl_status sli_tiled_guess(sli_tiled_reader *reader, const uint32_t *gids, size_t
 
 static sl_status guess(sli_tiled_reader *reader) {
     reader->by = SLI_TILED_BY_GUESS;
-    const size_t ground = find_ground(reader);
+    const size_t ground = find_ground(reader), walkable = find_walkable(reader);
+    if (walkable < reader->seen.count) {
+        reader->guess_layer = walkable;
+        return sli_tiled_read_again(reader);
+    }
     if (count_plain(reader, &reader->guess_layer) > 1 && ground < reader->seen.count &&
         !is_inside(reader))
         reader->guess_layer = ground;

@@ -90,7 +90,8 @@ sli_tiled_word sli_tiled_word_of(const sli_json *thing, const char *class_key) {
 }
 
 sl_status sli_tiled_add_tile(sl_context *context, sli_tiled_set *set, sli_tiled_tile tile) {
-    if (tile.word == SLI_TILED_UNSAID && !tile.says.kind && !tile.shapes && !tile.terrain)
+    if (tile.word == SLI_TILED_UNSAID && !tile.says.kind && !tile.shapes && !tile.terrain &&
+        !tile.named)
         return SL_OK;
     SL_TRY(SL_ARRAY_ROOM(context, &set->tiles, 1));
     tile.order = (uint32_t)set->tiles.count;
@@ -115,6 +116,14 @@ static int compare_order(const void *left, const void *right) {
     return order ? order : (a->order > b->order) - (a->order < b->order);
 }
 
+/// Whether the picture of a tile or a tileset is named for what is solid: "wall_2.png".
+static bool shows_walls(const sli_json *thing) {
+    const char *file = sl_path_name(sli_json_text_of(thing, "image"));
+    char name[80];
+    snprintf(name, sizeof name, "%.*s", (int)strcspn(file, "."), file);
+    return sli_game_kind_of(name) == SLI_GAME_SOLID;
+}
+
 static sl_status read_tile(const sli_json *set_json, const sli_json *tile, int64_t id,
                            sli_tiled_set *set) {
     return sli_tiled_add_tile(set_json->file->context, set,
@@ -122,6 +131,7 @@ static sl_status read_tile(const sli_json *set_json, const sli_json *tile, int64
                                                .word = sli_tiled_word_of(tile, "type"),
                                                .says = sli_tiled_says_of(tile, "type"),
                                                .terrain = sli_tiled_has_terrain(set_json, tile),
+                                               .named = shows_walls(tile),
                                                .shapes = shapes_of(tile)});
 }
 
@@ -171,6 +181,7 @@ static void merge_tiles(sli_tiled_set *set) {
         if (!last->says.kind) last->says = next.says;
         if (!last->shapes) last->shapes = next.shapes;
         last->terrain |= next.terrain;
+        last->named |= next.named;
     }
     set->tiles.count = kept;
 }
@@ -220,7 +231,7 @@ static sl_status read_set(const sli_json *json, sli_tiled_set *set) {
     SL_TRY(read_grid(json, set));
     const char *name = sli_json_text_of(json, "name");
     set->word = sli_tiled_word_of(json, "class");
-    set->named = sli_game_kind_of(name) == SLI_GAME_SOLID;
+    set->named = sli_game_kind_of(name) == SLI_GAME_SOLID || shows_walls(json);
     set->inside = sli_game_says_inside(name);
     return read_tiles(json, set);
 }

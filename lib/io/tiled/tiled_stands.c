@@ -66,13 +66,24 @@ bool sli_tiled_is_bare(const sli_json *object, const sli_tiled_shape *shape) {
     return bare && (shape->kind == SLI_TILED_POLYGON || (shape->width > 0 && shape->height > 0));
 }
 
+/// Whether a layer of objects may be bodies: its name says nothing, or that of what one stands on
+/// in a platformer.
+static bool may_be_bodies(const char *name) {
+    static const char *const words[] = {"ground", "brick", "pipe"};
+    if (sli_game_says_other(name)) return false;
+    const char *at = name;
+    for (sli_name_word word; sli_word_next(&at, &word);)
+        if (sli_word_in(&word, words, sizeof words / sizeof *words)) return true;
+    return sli_game_kind_of(name) == SLI_GAME_UNSAID;
+}
+
 bool sli_tiled_has_bare(const sli_json *layer) {
     enum { LEAST = 4 };
     const sli_json objects = sli_json_member(layer, "objects");
     const char *name = sli_json_text_of(layer, "name");
     const size_t all = json_array_size(objects.value);
     size_t count = 0;
-    if (sli_game_kind_of(name) != SLI_GAME_UNSAID || sli_game_says_other(name)) return false;
+    if (!may_be_bodies(name)) return false;
     for (size_t i = 0; i < all; i++) {
         const sli_json object = sli_json_item(&objects, i);
         sli_tiled_shape shape;

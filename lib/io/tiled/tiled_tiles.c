@@ -276,8 +276,9 @@ static sli_tiled_word word_by(const sli_tiled_reader *reader, const sli_tiled_se
                               const sli_tiled_tile *tile) {
     const sli_tiled_word word = sli_tiled_word_of_tile(set, tile);
     if (word != SLI_TILED_UNSAID) return word;
-    const bool solid = (reader->by == SLI_TILED_BY_TERRAIN && tile && tile->terrain) ||
-                       (reader->by == SLI_TILED_BY_SET && set && set->named);
+    const bool solid =
+        (reader->by == SLI_TILED_BY_TERRAIN && tile && tile->terrain) ||
+        (reader->by == SLI_TILED_BY_SET && ((set && set->named) || (tile && tile->named)));
     return solid ? SLI_TILED_SOLID : SLI_TILED_UNSAID;
 }
 

@@ -87,9 +87,11 @@ static bool is_sure(const sli_tiled_reader *reader, const sli_tiled_seen *exampl
     }
     if (example->objects) return !tiles || (same && things == 1);
     if (example->kind >= SLI_GAME_STANDS || mostly) return true;
-    // Chests and beds that stand in rooms are not the rooms' walls.
-    const bool furniture =
-        strncasecmp(example->name, "object", 6) == 0 || sli_game_says_other(example->name);
+    // Chests and beds that stand in rooms are not the rooms' walls, nor are those who walk there.
+    const bool furniture = strncasecmp(example->name, "object", 6) == 0 ||
+                           strncasecmp(example->name, "sprite", 6) == 0 ||
+                           strncasecmp(example->name, "entit", 5) == 0 ||
+                           sli_game_says_other(example->name);
     return partial == 1 && may_be_walls(example) && 2 * example->count <= example->squares &&
            !furniture;
 }
@@ -453,7 +455,7 @@ sl_status sli_tiled_tell_meaning(const sli_tiled_reader *reader) {
                                      "tiles that say so of layers below and above the player",
                                      "names of layers",
                                      "terrains",
-                                     "names of tilesets",
+                                     "names of tilesets and pictures",
                                      "objects without a name, type or property"};
     const layer_text taken = list_layers(reader, true), others = list_layers(reader, false);
     const char *file = reader->map->file->name;

@@ -6,6 +6,8 @@
 /// at nine of ten places at least: else they would be taken for a room. Squares without a tile
 /// among rooms have no say in this. The sea about an island is like them: squares that have nothing
 /// but a tile of a layer that is named for water and covers half of the map.
+///
+/// Where starts stand on squares without a tile, and none on floor, they are open.
 #include "geometry/orient.h"
 #include "io/tiled/tiled.h"
 
@@ -24,9 +26,11 @@ typedef struct field {
     sli_tiled_range range; ///< of all tiles
     bool pictures;         ///< there is a layer that is a picture
     size_t columns, rows;
+    size_t drawn;  ///< squares of floor that have nothing but tiles of pictures
     char *squares; ///< ' ' without a tile, '.' with one, '+' of these under a door, '~' of water
-                   ///< alone, '#' solid; of those at the edge 'v' without a tile, 'w' of
-                   ///< water; NULL while the range is looked for
+                   ///< alone, ',' of pictures alone while layers are read, '#' solid; of those at
+                   ///< the edge 'v' without a tile, 'w' of water; NULL while the range is looked
+                   ///< for
 } field;
 
 bool sli_tiled_only_void(const char *layers) {
@@ -36,7 +40,9 @@ bool sli_tiled_only_void(const char *layers) {
     return any && only;
 }
 
-static void take_gids(field *f, const sli_tiled_range *at, const uint32_t *gids, bool water) {
+static void take_gids(field *f, const sli_tiled_range *at, const uint32_t *gids,
+                      sli_game_kind kind) {
+    bool water = kind == SLI_GAME_WATER;
     const size_t width = (size_t)(at->right - at->left);
     const size_t all = width * (size_t)(at->bottom - at->top);
     size_t count = 0;
@@ -48,7 +54,10 @@ static void take_gids(field *f, const sli_tiled_range *at, const uint32_t *gids,
             if (!(gids[i] & SLI_TILED_TILE)) continue;
             char *to =
                 &f->squares[(size_t)(y - f->range.top) * f->columns + (size_t)(x - f->range.left)];
-            *to = !water ? '.' : *to == ' ' ? '~' : *to;
+            if (kind == SLI_GAME_DRAWN)
+                *to = *to == ' ' || *to == ',' ? ',' : '.';
+            else
+                *to = !water ? '.' : *to == ' ' ? '~' : *to;
         }
 }
 
@@ -82,8 +91,7 @@ static sl_status look_at_block(field *f, const sli_json *layer, const sli_json *
     }
     uint32_t *gids;
     SL_TRY(sli_tiled_read_data(layer, &data, (size_t)(columns * rows), &gids));
-    const bool water = sli_game_kind_of(sli_json_text_of(layer, "name")) == SLI_GAME_WATER;
-    take_gids(f, &at, gids, water);
+    take_gids(f, &at, gids, sli_game_kind_of(sli_json_text_of(layer, "name")));
     sl_free(f->reader->context, gids);
     return SL_OK;
 }
@@ -279,6 +287,26 @@ static bool has_start(const sli_tiled_reader *reader) {
     return false;
 }
 
+/// Whether starts stand on squares without a tile, and none on a floor.
+static bool start_on_void(const field *f) {
+    const sli_tiled_reader *reader = f->reader;
+    const sl_point step = reader->lattice.step;
+    size_t on_void = 0, on_floor = 0;
+    for (size_t i = 0; i < reader->things.items.count; i++) {
+        const sli_thing *thing = &reader->things.items.items[i];
+        sl_point at;
+        (void)sli_tiled_box_of_thing(reader, thing, &at);
+        const double x = floor(at.x / step.x) - (double)f->range.left;
+        const double y = floor((reader->top - at.y) / step.y) - (double)f->range.top;
+        if (thing->kind != SLI_THING_START) continue;
+        if (!(x >= 0 && y >= 0 && x < (double)f->columns && y < (double)f->rows)) continue;
+        const char square = f->squares[(size_t)y * f->columns + (size_t)x];
+        on_void += square == ' ';
+        on_floor += square == '.' || square == '+';
+    }
+    return on_void && !on_floor;
+}
+
 /// Makes the squares of these marks solid.
 static sl_status fill(field *f, const char *marks) {
     const sl_point step = f->reader->lattice.step;
@@ -321,9 +349,28 @@ static bool may_fill(const field *f, size_t empty, size_t floor, size_t solid) {
     return empty && rooms && !reader->options->layers && !reader->by && !has_start(reader);
 }
 
+/// What is drawn is floor, too, as in maps whose floor is called background.
+static void take_pictures(field *f) {
+    for (size_t i = 0; i < f->columns * f->rows; i++) {
+        if (f->squares[i] != ',') continue;
+        f->squares[i] = '.';
+        f->drawn++;
+    }
+}
+
+/// Whether no floor is told of: objects or platforms are all that is solid, seen from the side, and
+/// what lies behind them is a picture.
+static bool is_side_view(const field *f, size_t empty, size_t floor) {
+    const sli_tiled_by by = f->reader->by;
+    const size_t drawn = f->drawn < floor ? f->drawn : floor;
+    return by == SLI_TILED_BY_BARE ||
+           (by == SLI_TILED_BY_NAME && 10 * (floor - drawn) < empty + floor);
+}
+
 static sl_status settle(field *f, const char *layers) {
     size_t empty = 0, floor = 0, water = 0, solid = 0;
     bool filled = false;
+    take_pictures(f);
     take_solid(f);
     SL_TRY(take_closed(f));
     take_doors(f);
@@ -340,21 +387,24 @@ static sl_status settle(field *f, const char *layers) {
     // In a platformer a little is drawn in much air.
     floor += water;
     const border ends = find_border(f, ".+~", " ");
-    if (!empty || 10 * floor < empty + floor || !ends.open) return SL_OK;
+    if (!empty || 10 * floor < empty + floor || !ends.open || start_on_void(f)) return SL_OK;
+    const bool one = empty == 1;
     if (solid && !layers && !f->reader->by && ends.all < PAIRS &&
         FLOOR_PER_END * ends.open <= floor) {
-        sl_note(
-            f->reader->context,
-            "%s: %zu squares have no tile, and are taken as solid, as floor is drawn elsewhere; "
-            "if one walks there, --layers NAME,NAME with the layers that are solid keeps them "
-            "open",
-            f->reader->map->file->name, empty);
+        sl_note(f->reader->context,
+                "%s: %zu square%s no tile, and %s taken as solid, as floor is drawn elsewhere; "
+                "if one walks there, --layers NAME,NAME with the layers that are solid keeps %s "
+                "open",
+                f->reader->map->file->name, empty, one ? " has" : "s have", one ? "is" : "are",
+                one ? "it" : "them");
         return fill(f, " ");
     }
+    if (is_side_view(f, empty, floor)) return SL_OK;
     sl_note(f->reader->context,
-            "%s: %zu squares have no tile and are open, and floor leads to them with no wall "
-            "between: --layers '%s%svoid' takes them as solid",
-            f->reader->map->file->name, empty, layers ? layers : "", layers ? "," : "");
+            "%s: %zu square%s no tile and %s open, and floor leads to %s with no wall "
+            "between: --layers '%s%svoid' takes %s as solid",
+            f->reader->map->file->name, empty, one ? " has" : "s have", one ? "is" : "are",
+            one ? "it" : "them", layers ? layers : "", layers ? "," : "", one ? "it" : "them");
     return SL_OK;
 }
 

@@ -5,11 +5,12 @@ export const lists = Object.fromEntries(Object.entries({
     solid_words: 'wall solid collide collider collidable collideable obstacle block blocked blocking blocker occluder ' +
         'occlusion opaque impassable collides coll impassible unpassable unwalkable nonwalkable nowalk nopass ' +
         'barrier boundary boundaries boundry boundries bounds mauer mauern wände waende hindernis hindernisse mur ' +
-        'obstaculo obstáculo muro pared paredes colisión parede colisao colisão colisoes colisões bloqueo muri ' +
+        'solide solido sólido solida sólida obstaculo obstáculo muro pared paredes colisión parede colisao colisão colisoes colisões bloqueo muri ' +
         'muratura parete pareti ostacolo ostacoli vägg väggar ściana ściany sciana sciany kolizja kolizje стена ' +
         'стены коллизия коллизии препятствие препятствия 墙 墙壁 墙体 牆 牆壁 碰撞 碰撞层 障碍 障碍物 障碍层 阻挡 阻挡层 壁 障害物 当たり判定 벽 충돌 ' +
         '장애물',
-    solid_neutral: 'layer tile object group map area shape box is ge has ebene calque capa camada mask rect polygon geometry',
+    solid_neutral: 'layer tile object group map area shape box is ge has ebene calque capa camada mask rect polygon geometry ' +
+        'est ist es',
     not_words: 'no non not un cannot cant',
     walk_words: 'walk walkable walking pass passable passing passage passthrough traversable walkthrough accessible',
     walk_neutral: 'is can tile be on through ge',
