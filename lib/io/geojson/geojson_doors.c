@@ -24,6 +24,7 @@
 /// A piece that an opening takes out of a wall: s along the opening, t to its left, in the map's
 /// unit.
 typedef struct cut {
+    size_t wall;
     double s0, s1, t;
     sl_point p, q; ///< where s is s0 and s1
 } cut;
@@ -33,9 +34,14 @@ typedef struct opening {
     double length;
     const char *name;
     bool open;
+    bool in_gap; ///< walls end a little within it
     uint32_t item;
     SL_ARRAY(cut) cuts;
 } opening;
+
+static bool same(sl_point a, sl_point b) {
+    return a.x == b.x && a.y == b.y;
+}
 
 static sl_point between(sl_point a, sl_point b, double part) {
     return (sl_point){a.x + (b.x - a.x) * part, a.y + (b.y - a.y) * part};
@@ -49,29 +55,35 @@ static double beside(const opening *o, sl_point at) {
     return ((o->q.x - o->p.x) * (at.y - o->p.y) - (o->q.y - o->p.y) * (at.x - o->p.x)) / o->length;
 }
 
-/// Cuts a wall, which may leave two pieces: `*wall` and one that is added. Without a piece it has
-/// no length. Ends that are nearly met are met.
-static sl_status cut_wall(sli_geo *geo, opening *o, size_t number) {
-    sl_map *map = geo->map;
-    const sl_wall wall = map->walls[number];
+/// What an opening takes out of a wall, if it runs along it.
+static bool find_cut(const opening *o, const sl_wall *wall, cut *found) {
     const double reach = o->length / 3, near = o->length * 1e-3;
-    sl_point a = wall.a, b = wall.b;
-    if (along(o, a) > along(o, b)) a = wall.b, b = wall.a;
+    sl_point a = wall->a, b = wall->b;
+    if (along(o, a) > along(o, b)) a = wall->b, b = wall->a;
     const double sa = along(o, a), sb = along(o, b), ta = beside(o, a), tb = beside(o, b);
-    if (!(sb - sa > near) || fabs(tb - ta) > (sb - sa) / 5) return SL_OK;
+    if (!(sb - sa > near) || fabs(tb - ta) > (sb - sa) / 5) return false;
     const double s0 = fmax(sa, 0), s1 = fmin(sb, o->length);
-    if (!(s1 - s0 > near)) return SL_OK;
     const double first = (s0 - sa) / (sb - sa), last = (s1 - sa) / (sb - sa);
-    const double t = ta + (tb - ta) * (first + last) / 2;
-    if (fabs(t) > reach) return SL_OK;
     const bool before = s0 - sa > near, behind = sb - s1 > near;
-    const cut made = {s0, s1, t, before ? between(a, b, first) : a,
-                      behind ? between(a, b, last) : b};
-    SL_TRY(SL_ARRAY_ROOM(geo->context, &o->cuts, 1));
-    o->cuts.items[o->cuts.count++] = made;
-    map->walls[number].a = before ? a : made.q;
-    map->walls[number].b = before ? made.p : behind ? b : made.q;
-    if (before && behind) return sl_map_add_wall(geo->context, map, made.q, b, wall.line);
+    found->s0 = s0;
+    found->s1 = s1;
+    found->t = ta + (tb - ta) * (first + last) / 2;
+    found->p = before ? between(a, b, first) : a;
+    found->q = behind ? between(a, b, last) : b;
+    return s1 - s0 > near && fabs(found->t) <= reach;
+}
+
+/// Takes a piece out of its wall, which may leave two: the wall and one that is added. Without a
+/// piece it has no length. Ends that are nearly met are met.
+static sl_status cut_wall(sli_geo *geo, const opening *o, const cut *c) {
+    sl_map *map = geo->map;
+    const sl_wall wall = map->walls[c->wall];
+    const bool back = along(o, wall.a) > along(o, wall.b);
+    const sl_point a = back ? wall.b : wall.a, b = back ? wall.a : wall.b;
+    const bool before = !same(a, c->p), behind = !same(b, c->q);
+    map->walls[c->wall].a = before ? a : c->q;
+    map->walls[c->wall].b = before ? c->p : behind ? b : c->q;
+    if (before && behind) return sl_map_add_wall(geo->context, map, c->q, b, wall.line);
     return SL_OK;
 }
 
@@ -81,14 +93,44 @@ static int compare_cuts(const void *left, const void *right) {
     return (a->s0 > b->s0) - (a->s0 < b->s0);
 }
 
-/// Cuts that lie in one line become one: as far apart sideways as 1/50 of the opening.
+static int compare_walls(const void *left, const void *right) {
+    const cut *a = left, *b = right;
+    return (a->wall > b->wall) - (a->wall < b->wall);
+}
+
+static void sort(opening *o, int (*compare)(const void *, const void *)) {
+    if (o->cuts.count) qsort(o->cuts.items, o->cuts.count, sizeof *o->cuts.items, compare);
+}
+
+/// Whether two cuts lie in one line: as far apart sideways as 1/50 of the opening.
+static bool in_line(const opening *o, const cut *a, const cut *b) {
+    return b->t - a->t <= o->length / 50;
+}
+
+/// Drops cuts that take less than a quarter of the opening out of the walls in one line. These only
+/// end a little within it, where a door that is drawn as an area fills the gap between them.
+static void drop_short(opening *o) {
+    size_t kept = 0;
+    sort(o, compare_cuts);
+    for (size_t i = 0, end; i < o->cuts.count; i = end) {
+        const cut first = o->cuts.items[i];
+        double length = 0;
+        for (end = i; end < o->cuts.count && in_line(o, &first, &o->cuts.items[end]); end++)
+            length += o->cuts.items[end].s1 - o->cuts.items[end].s0;
+        for (size_t k = i; k < end && length >= o->length / 4; k++)
+            o->cuts.items[kept++] = o->cuts.items[k];
+    }
+    o->cuts.count = kept;
+}
+
+/// Cuts that lie in one line become one.
 static void join_cuts(opening *o) {
     size_t kept = 0;
-    if (o->cuts.count) qsort(o->cuts.items, o->cuts.count, sizeof *o->cuts.items, compare_cuts);
+    sort(o, compare_cuts);
     for (size_t i = 0; i < o->cuts.count; i++) {
         const cut next = o->cuts.items[i];
         cut *last = kept ? &o->cuts.items[kept - 1] : NULL;
-        if (!last || next.t - last->t > o->length / 50) {
+        if (!last || !in_line(o, last, &next)) {
             o->cuts.items[kept++] = next;
             continue;
         }
@@ -98,8 +140,21 @@ static void join_cuts(opening *o) {
     o->cuts.count = kept;
 }
 
-static bool same(sl_point a, sl_point b) {
-    return a.x == b.x && a.y == b.y;
+/// Cuts the walls along an opening. `cuts` are then the lines that it goes through.
+static sl_status make_cuts(sli_geo *geo, opening *o) {
+    for (size_t i = 0; i < geo->map->wall_count; i++) {
+        cut found = {.wall = i};
+        if (i % 65536 == 0) SL_TRY(sl_check_cancelled(geo->context));
+        if (!find_cut(o, &geo->map->walls[i], &found)) continue;
+        SL_TRY(SL_ARRAY_ROOM(geo->context, &o->cuts, 1));
+        o->cuts.items[o->cuts.count++] = found;
+    }
+    o->in_gap = o->cuts.count > 0;
+    drop_short(o);
+    sort(o, compare_walls);
+    for (size_t i = 0; i < o->cuts.count; i++) SL_TRY(cut_wall(geo, o, &o->cuts.items[i]));
+    join_cuts(o);
+    return SL_OK;
 }
 
 /// What fills the opening: a door, or a wall where it is shut and doors are not asked for.
@@ -113,14 +168,9 @@ static sl_status fill(sli_geo *geo, const opening *o, sl_point p, sl_point q) {
 
 static sl_status add_opening(sli_geo *geo, opening *o) {
     o->length = hypot(o->q.x - o->p.x, o->q.y - o->p.y);
-    const size_t walls = geo->map->wall_count;
-    for (size_t i = 0; i < walls; i++) {
-        if (i % 65536 == 0) SL_TRY(sl_check_cancelled(geo->context));
-        SL_TRY(cut_wall(geo, o, i));
-    }
-    join_cuts(o);
+    SL_TRY(make_cuts(geo, o));
     if (!o->cuts.count) {
-        geo->no_walls++;
+        geo->no_walls += !o->in_gap;
         return fill(geo, o, o->p, o->q);
     }
     geo->cuts++;
