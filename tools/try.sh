@@ -18,7 +18,7 @@ quietly() {
 
 sh tools/setup.sh
 mkdir -p build out
-echo "building the release in build/release ..."
+echo "building the release in build/release: this takes some minutes ..."
 quietly cmake --preset release
 quietly cmake --build --preset release --target sightline_command
 
@@ -30,7 +30,7 @@ import json, sys
 bake = json.load(open(sys.argv[1]))
 print(f"""
 {bake["map"]}: {bake["cells"]} cells joined by {bake["portals"]} portals.
-In the mean a cell sees {bake["mean_pvs_share_of_cells"]:.1%} of {bake["mean_pvs_over"]}.
+On average a cell sees {bake["mean_pvs_share_of_cells"]:.1%} of {bake["mean_pvs_over"]}.
 Worked out in {sum(bake["seconds"].values()):.2f} seconds.
 """)
 END

@@ -225,6 +225,14 @@ class Level(unittest.TestCase):
         self.assertNotEqual(done.returncode, 0)
         self.assertIn("can_see takes two cells; sees takes two points", done.stderr)
 
+    def test_lua_says_which_file(self):
+        if "Lua" not in self.programs:
+            self.skipTest("no LuaJIT")
+        missing = self.at / "missing.slv"
+        done = self.run_one([*self.programs["Lua"][:-1], "-e", f"assert(require('sightline').open('{missing}'))"])
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn(f"{missing}: cannot be opened", done.stderr)
+
 
 if __name__ == "__main__":
     LIBRARY, PROGRAM, SOURCE = map(pathlib.Path, sys.argv[1:4])

@@ -9,7 +9,7 @@ import { SightlineError } from './host.js'
 export function need(right, name, what, value) {
   if (right) return value
   const shown = value && typeof value === 'object' ? 'an object' : String(value).slice(0, 40)
-  throw new SightlineError(`${name}: ${what} is needed, not ${shown}`)
+  throw new SightlineError(`${name}: ${what} is needed, not ${typeof value === 'string' ? `'${shown}'` : shown}`)
 }
 
 const isList = (value) => Array.isArray(value) || (ArrayBuffer.isView(value) && !(value instanceof DataView))

@@ -40,8 +40,11 @@ local function wrap(handle)
 end
 
 local sightline = {}
--- A level from a file; nil and why if it is none.
-function sightline.open(name) return wrap(c.sl_level_open_file(name)) end
+-- A level from a file; nil and why, with the file's name, if it is none.
+function sightline.open(name)
+    local opened, why = wrap(c.sl_level_open_file(name))
+    return opened, why and name .. ": " .. why
+end
 -- The same from a string of bytes, such as love.filesystem.read gives.
 function sightline.open_bytes(bytes) return wrap(c.sl_level_open(bytes, #bytes)) end
 

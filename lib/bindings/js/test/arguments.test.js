@@ -95,6 +95,8 @@ test('of a level', async () => {
     'canSee mirrors': (v) => level.canSee(0, 0, { mirrors: v }),
   })
   assert.throws(() => level.boxCells(5, 1, 4, 9), /maxX: a number, 5 or more, is needed, not 4/)
+  assert.throws(() => level.look('3', 4), /^SightlineError: x: a number is needed, not '3'$/)
+  assert.throws(() => level.look('', 4), /not ''$/)
   assert.equal(level.doors[0].open, true)
 })
 

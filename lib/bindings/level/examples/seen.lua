@@ -5,10 +5,10 @@
 -- SIGHTLINE_LEVEL names the shared library, if it is not where the system looks for libraries.
 local sightline = require("sightline")
 
-local name, x, y = arg[1], tonumber(arg[2]), tonumber(arg[3])
-local level, why = sightline.open(name)
+local x, y = tonumber(arg[2]), tonumber(arg[3])
+local level, why = sightline.open(arg[1])
 if not level then
-    io.stderr:write("seen: " .. name .. ": " .. why .. "\n")
+    io.stderr:write("seen: " .. why .. "\n")
     os.exit(2)
 end
 for i = 4, #arg, 2 do

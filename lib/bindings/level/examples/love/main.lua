@@ -12,9 +12,7 @@ local eye = {}
 local place = {} -- of the map in the window: its 0, 0, and pixels a unit of x and of y
 
 function love.load(arguments)
-    local name, why = assert(arguments[1], "LEVEL.slv is missing")
-    level, why = sightline.open(name)
-    if not level then error(name .. ": " .. why) end
+    level = assert(sightline.open(assert(arguments[1], "LEVEL.slv is missing")))
     level:use_file_coordinates() -- a file before 2.0 does not have them: it keeps those of the map
     eye.x, eye.y, picture = tonumber(arguments[2]), tonumber(arguments[3]), arguments[4]
     doors = level:doors()
