@@ -184,11 +184,16 @@ static sl_status check_options(sl_context *context, const char *path, const sl_m
     };
     if (options->planar && options->degrees)
         return sl_fail(context, SL_BAD_ARGUMENT, "--planar and --degrees: give one of them");
-    for (size_t i = 0; i < sizeof all / sizeof *all; i++)
-        if (all[i].given && !all[i].taken)
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
+        if (!all[i].given || all[i].taken) continue;
+        if (strcmp(all[i].name, "unit") == 0)
             return sl_fail(context, SL_BAD_ARGUMENT,
-                           "--%s: %s is read as %s, which has no use for it", all[i].name, path,
-                           format->what);
+                           "--unit: %s is read as %s, which takes only the length of its units, "
+                           "as --unit 0.0254=m for inches",
+                           path, format->what);
+        return sl_fail(context, SL_BAD_ARGUMENT, "--%s: %s is read as %s, which has no use for it",
+                       all[i].name, path, format->what);
+    }
     return SL_OK;
 }
 

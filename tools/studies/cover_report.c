@@ -99,7 +99,8 @@ static void print_blind(const cover_report *r) {
     const int digits = sl_map_digits(&r->baked->map);
     if (!c->blind_count) return;
     printf("\n  %u blind spot%s", (unsigned)c->blind_count, c->blind_count == 1 ? "" : "s");
-    printf(c->blind_count > COVER_BLIND_MOST ? ", the largest %d:\n" : ":\n", COVER_BLIND_MOST);
+    printf(c->blind_count > COVER_BLIND_MOST ? ", the largest %d (--json lists all):\n" : ":\n",
+           COVER_BLIND_MOST);
     for (uint32_t i = 0; i < c->blind_count && i < COVER_BLIND_MOST; i++)
         printf("  %4u %12s  at %.*g,%.*g\n", (unsigned)i + 1,
                cover_area_text(r, c->blind[i].area, text), digits, c->blind[i].at.x, digits,
