@@ -203,7 +203,7 @@ class Compare(sandbox.ProgramTest):
             os.umask(mask)
 
     def test_progress_names_the_run(self):
-        self.box.path("hall.map").write_text(pillars(24))
+        self.box.path("hall.map").write_text(pillars(14))
         master, slave = os.openpty()
         process = self.box.start(["compare", "hall.map", "--time-limit", "1", "--methods", "dfs",
                                   "--solvers", "funnel,glpk"], stderr=slave)

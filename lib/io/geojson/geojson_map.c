@@ -152,7 +152,8 @@ static void choose_rings(sli_geo *geo) {
     geo->without_rings = open > 0;
     if (rings && open)
         sl_note(geo->context,
-                "%s: left out: %zu outline%s of polygons; to measure them, make them line strings",
+                "%s: left out: %zu outline%s of polygons; to measure them, make them line strings; "
+                "if this is a plan, sightline axial --lines fewest finds its axial lines",
                 geo->name, rings, rings == 1 ? "" : "s");
     else if (rings)
         sl_note(geo->context,
