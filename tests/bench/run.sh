@@ -134,7 +134,7 @@ vga() {
     sightline generate pillars --size 20 -o "$out/p20.map"
     for step in 3.6 1.2 0.6 0.36; do bench_vga "$out/p8.map" $step 0 depths; done
     bench_vga "$out/p9.map" 0.2646 0 depths
-    bench_vga "$out/p20.map" 0.286 0 depths 8
+    bench_vga "$out/p20.map" 0.286 0 graph 8
     for part in visual metric angular; do
         time sightline vga "$gallery" --grid 0.04 --at 3,6 --measures $part --threads 1 -o "$out/vga.csv"
     done
