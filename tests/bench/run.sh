@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The benchmarks whose figures the documents show, one after the other: tests/bench/run.sh FOLDER [PART...]
 # Each part writes FOLDER/PART.txt, the commands with what they print, and its charts beside it. A part whose files or
-# programs are not there is skipped, and says so. All parts take about 20 minutes on two cores without other work. The
+# programs are not there is skipped, and says so. All parts take about 40 minutes on two cores without other work. The
 # parts `counts` and `long` run only if they are named. From the environment:
 #   BUILD   a build, with its target `benchmarks` (default: build/release)
 #   DATA    the folder of soda-hall-floor5.ug and gallery.dxf (default: ../shared/data)
