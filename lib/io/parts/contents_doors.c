@@ -90,8 +90,9 @@ static double pen_of_walls(const sli_choice *c, const sl_bits *kept) {
     return width < INFINITY ? width / 2 : 0;
 }
 
-/// The openings from `first` on may lie at the edge of a wall's line, as wide as it is drawn. Of a
-/// shape of several boxes the longest is the door, and the others are its jambs.
+/// The openings from `first` on may lie at the edge of a wall's line, as wide as it is drawn, if
+/// they are no wider: a leaf beside the wall is. Of a shape of several boxes the longest is the
+/// door, and the others are its jambs.
 static void mark_pen(sli_choice *c, size_t first, double pen) {
     sli_opening *items = c->openings.items.items;
     for (size_t i = first, end; i < c->openings.items.count; i = end) {
@@ -105,7 +106,7 @@ static void mark_pen(sli_choice *c, size_t first, double pen) {
         for (size_t k = i; k < end; k++) {
             const sli_opening *o = &items[k];
             const double length = sli_length(o->to.x - o->from.x, o->to.y - o->from.y);
-            if (o->box && length >= 0.9 * longest) items[k].pen = pen;
+            if (o->box && o->half <= pen && length >= 0.9 * longest) items[k].pen = pen;
         }
     }
 }
