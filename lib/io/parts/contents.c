@@ -570,6 +570,8 @@ static void measure(sli_choice *c) {
             const double length = sli_length(wall->b.x - wall->a.x, wall->b.y - wall->a.y);
             if (sli_choice_gone(c, k)) continue;
             if (sli_choice_takes(c, c->means[k])) c->kept_length += length;
+            if (c->by_looks && sli_choice_takes(c, c->means[k]))
+                c->contents->looks.items.items[run->look].kept = true;
             if (group->taken || group->means != SLI_MEANS_NOTHING) continue;
             c->unknown++;
             c->unknown_length += length;

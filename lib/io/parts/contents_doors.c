@@ -11,12 +11,13 @@
 // --- openings over walls
 
 /// Where the lines of a shape end that begins with a wall: those that the file has one behind
-/// another, from end to end.
+/// another, from end to end, till they are back at the first.
 static size_t end_of_shape(const sli_choice *c, const sli_group_run *run, size_t first) {
     const sl_wall *walls = c->map->walls;
     size_t end = first + 1;
     while (end < run->end && walls[end].line == walls[first].line &&
-           walls[end].a.x == walls[end - 1].b.x && walls[end].a.y == walls[end - 1].b.y)
+           walls[end].a.x == walls[end - 1].b.x && walls[end].a.y == walls[end - 1].b.y &&
+           (walls[end].a.x != walls[first].a.x || walls[end].a.y != walls[first].a.y))
         end++;
     return end;
 }
@@ -75,6 +76,38 @@ static void mark_doors(sli_choice *c, size_t first) {
         sli_opening *door = &c->openings.items.items[i];
         const double length = sli_length(door->to.x - door->from.x, door->to.y - door->from.y);
         door->core = fmin(length / 2, most);
+    }
+}
+
+/// Half the width of the thinnest line that draws a wall; 0 where none is known.
+static double pen_of_walls(const sli_choice *c, const sl_bits *kept) {
+    double width = INFINITY;
+    for (size_t i = 0; c->contents->has_looks && i < c->contents->runs.count; i++) {
+        const sli_group_run *run = &c->contents->runs.items[i];
+        const sli_ink *ink = &c->contents->looks.items.items[run->look].ink;
+        if (ink->line && sl_bits_has(kept, run->first)) width = fmin(width, ink->width);
+    }
+    return width < INFINITY ? width / 2 : 0;
+}
+
+/// The openings from `first` on may lie at the edge of a wall's line, as wide as it is drawn, if
+/// they are no wider: a leaf beside the wall is. Of a shape of several boxes the longest is the
+/// door, and the others are its jambs.
+static void mark_pen(sli_choice *c, size_t first, double pen) {
+    sli_opening *items = c->openings.items.items;
+    for (size_t i = first, end; i < c->openings.items.count; i = end) {
+        const uint32_t line = c->map->walls[items[i].shape].line;
+        double longest = 0;
+        for (end = i; end < c->openings.items.count; end++) {
+            const sli_opening *o = &items[end];
+            if (c->map->walls[o->shape].line != line) break;
+            longest = fmax(longest, sli_length(o->to.x - o->from.x, o->to.y - o->from.y));
+        }
+        for (size_t k = i; k < end; k++) {
+            const sli_opening *o = &items[k];
+            const double length = sli_length(o->to.x - o->from.x, o->to.y - o->from.y);
+            if (o->box && o->half <= pen && length >= 0.9 * longest) items[k].pen = pen;
+        }
     }
 }
 
@@ -160,6 +193,7 @@ sl_status sli_choice_find_openings(sli_choice *c) {
             if (!sli_choice_gone(c, k) && sli_choice_takes(c, c->means[k]) &&
                 c->means[k] != SLI_MEANS_WINDOW)
                 sl_bits_add(kept, k);
+    if (status == SL_OK) mark_pen(c, first_of_layer, pen_of_walls(c, kept));
     if (status == SL_OK) status = sli_openings_cut(context, c->map, kept, &c->openings);
     for (size_t i = 0; status == SL_OK && i < c->openings.items.count; i++) {
         const sli_opening *o = &c->openings.items.items[i];

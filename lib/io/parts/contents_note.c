@@ -7,8 +7,10 @@
 
 #include <math.h>
 
-/// How many times lighter a look may be than walls, and be doubted.
-enum { LIGHT = 10 };
+/// How many times lighter a look may be than walls, and be doubted. How many walls thick lines
+/// have, how many shapes the thin ones beside them, and how many times as wide the thick ones are.
+enum { LIGHT = 10, LEAST_THICK = 8, LEAST_THIN = 24 };
+#define THICK 2.5
 
 // --- measures
 
@@ -171,15 +173,48 @@ void sli_choice_note_all(const sli_choice *c) {
             c->contents->file, sli_name_list_cut(&names, 300));
 }
 
-/// Adds the names of the looks that are taken, as --layers takes them, and of one more.
-static void say_looks(const sli_choice *c, const sli_look *other, char *text, size_t size) {
+/// How large an area the shapes of a look enclose, one with another.
+static double area_of_each(const sli_look *look) {
+    return look->shapes ? look->area / (double)look->shapes : 0;
+}
+
+/// Adds the names of the looks that are taken, as --layers takes them, but for lettering and lines
+/// up to so wide; and of one more, NULL for none. With `rooms`, that one has them, and so have
+/// those of thicker lines that enclose areas of a fifth of its at least.
+static void say_looks(const sli_choice *c, double width, const sli_look *other, bool rooms,
+                      char *text, size_t size) {
+    const char *comma = "";
     size_t used = 0;
+    for (int more = 0; more < 2; more++)
+        for (size_t i = 0; i < c->contents->looks.items.count; i++) {
+            const sli_look *look = &c->contents->looks.items.items[i];
+            const bool room = rooms && look->ink.line && look->ink.width > other->ink.width &&
+                              5 * area_of_each(look) >= area_of_each(other);
+            const bool named = more ? !look->taken && (look == other || room)
+                                    : look->kept && !(look->ink.line && look->ink.width <= width);
+            if (!named || !look->shapes || used + 2 * SLI_LOOK_NAME >= size) continue;
+            used += (size_t)snprintf(text + used, size - used, "%s%s", comma, look->name);
+            comma = ",";
+        }
+}
+
+/// Walls by lines of two widths, of which the thin ones have most: tiles of floors are drawn so.
+static void note_thin(const sli_choice *c) {
+    const sli_look *items = c->contents->looks.items.items, *most = NULL, *thick = NULL;
+    char looks[400] = "";
     for (size_t i = 0; i < c->contents->looks.items.count; i++) {
-        const sli_look *look = &c->contents->looks.items.items[i];
-        if (!look->taken || !look->shapes || used + 2 * SLI_LOOK_NAME >= size) continue;
-        used += (size_t)snprintf(text + used, size - used, "%s,", look->name);
+        if (!items[i].taken || !items[i].ink.line) continue;
+        if (!most || items[i].length > most->length) most = &items[i];
+        if (!thick || items[i].ink.width > thick->ink.width) thick = &items[i];
     }
-    snprintf(text + used, size - used, "%s", other->name);
+    if (!thick || thick->ink.width < THICK * most->ink.width || thick->walls < LEAST_THICK ||
+        most->shapes < LEAST_THIN)
+        return;
+    say_looks(c, thick->ink.width / THICK, NULL, false, looks, sizeof looks);
+    sl_note(c->contents->context,
+            "%s: walls are drawn by thin lines (%s), and by thick ones: if the thin ones are tiles "
+            "of a floor: --layers '%s'",
+            c->contents->file, most->name, looks);
 }
 
 /// Walls by their looks, where others may be walls as well as they: no look of a tenth of the
@@ -187,7 +222,7 @@ static void say_looks(const sli_choice *c, const sli_look *other, char *text, si
 static void note_share(const sli_choice *c) {
     const sli_look *taken = NULL, *other = NULL, *rooms = NULL;
     const char *file = c->contents->file;
-    char looks[400];
+    char looks[400] = "";
     for (size_t i = 0; i < c->contents->looks.items.count; i++) {
         const sli_look *look = &c->contents->looks.items.items[i];
         if (look->taken && (!taken || look->length > taken->length)) taken = look;
@@ -200,7 +235,7 @@ static void note_share(const sli_choice *c) {
     if (!taken || !other) return;
     const bool doubtful = c->share < 0.4 && LIGHT * other->weight >= taken->weight;
     if (!doubtful && !rooms) return;
-    say_looks(c, doubtful ? other : rooms, looks, sizeof looks);
+    say_looks(c, 0, doubtful ? other : rooms, !doubtful, looks, sizeof looks);
     if (doubtful)
         sl_note(c->contents->context,
                 "%s: what looks like walls has only %.0f %% of the long lines: if other looks are "
@@ -332,5 +367,6 @@ void sli_choice_note(const sli_choice *c) {
     note_shut_doors(c);
     note_rest(c);
     if (c->walls_named && !sli_contents_said(c->contents)) note_doubt(c);
+    if (c->by_looks) note_thin(c);
     if (c->by_looks) note_share(c);
 }

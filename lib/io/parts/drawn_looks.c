@@ -213,13 +213,17 @@ static bool is_floor(const chooser *c, const sli_look *look) {
     return !look->ink.line && thickness(look) * FLOOR > c->size;
 }
 
-/// Whether a look has a colour that is far from grey.
-static bool is_coloured(const sli_look *look) {
+/// How far a look's colour is from grey.
+static int chroma(const sli_look *look) {
     const int red = look->ink.colour >> 16 & 0xFF, green = look->ink.colour >> 8 & 0xFF;
     const int blue = look->ink.colour & 0xFF;
     const int most = red > green ? red : green, least = red < green ? red : green;
-    return look->ink.known &&
-           (most > blue ? most : blue) - (least < blue ? least : blue) > COLOURED;
+    return (most > blue ? most : blue) - (least < blue ? least : blue);
+}
+
+/// Whether a look has a colour that is far from grey.
+static bool is_coloured(const sli_look *look) {
+    return look->ink.known && chroma(look) > COLOURED;
 }
 
 static double contrast(const chooser *c, const sli_look *look) {
@@ -282,9 +286,11 @@ static const sli_look *heaviest(const chooser *c, bool tints) {
     return best;
 }
 
-/// Whether a look is of coloured lines, and the heaviest is grey.
+/// Whether a look is of coloured lines, and the heaviest is grey. Two tones of a faint colour are
+/// alike: pale blue walls, and steel blue ones.
 static bool is_beside_grey(const sli_look *look, const sli_look *best) {
-    return look->ink.line && is_coloured(look) && !is_coloured(best);
+    return look->ink.line && is_coloured(look) && !is_coloured(best) &&
+           2 * chroma(look) > 3 * chroma(best);
 }
 
 /// Whether a look is one of walls beside the heaviest. What is filled as darkly may be columns,
@@ -466,7 +472,7 @@ static double share_of(const chooser *c, const sli_look *best) {
     double taken = 0, rest = 0;
     for (size_t i = 0; i < c->looks->items.count; i++) {
         sli_look *look = &c->looks->items.items[i];
-        if (best && !look->taken && is_beside_grey(look, best)) look->length = look->weight = 0;
+        if (best && !look->taken && is_beside_grey(look, best)) look->length = 0;
         if (look->taken)
             taken += look->length;
         else

@@ -28,6 +28,7 @@ typedef struct sli_look {
     double room_area;            ///< of their boxes, as a share of the drawing's
     double weight;               ///< how much like a wall it looks; 0: not at all
     bool taken;
+    bool kept; ///< some of its shapes are walls in the end: not all are lettering
 } sli_look;
 
 /// How much like walls a look is among those that are not the heaviest: its long lines count by

@@ -226,13 +226,15 @@ static sl_status cut_one(sl_context *context, const sl_map *map, const sl_bits *
                          const sli_box_tree *tree, sli_box_list *near, sli_openings *openings,
                          size_t number) {
     const sli_opening *o = &openings->items.items[number];
-    const double wide = o->half + o->core;
+    const double wide = o->half + fmax(o->core, o->pen), pen = o->pen, drawn = o->half + pen;
     const sl_box box = {{fmin(o->from.x, o->to.x) - wide, fmin(o->from.y, o->to.y) - wide},
                         {fmax(o->from.x, o->to.x) + wide, fmax(o->from.y, o->to.y) + wide}};
     const size_t first = openings->cuts.count;
     SL_TRY(sli_box_tree_find(context, tree, &box, near));
     SL_TRY(cut_within(context, map, kept, near, openings, number, -o->half, o->half));
     SL_TRY(cut_faces(context, map, kept, near, openings, number, first));
+    if (openings->cuts.count == first && pen > 0)
+        SL_TRY(cut_within(context, map, kept, near, openings, number, -drawn, drawn));
     return close_core(context, map, openings, first);
 }
 

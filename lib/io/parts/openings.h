@@ -12,11 +12,12 @@ typedef struct sli_opening {
     double half;       ///< of its width
     bool box;          ///< it is drawn as wide as it is; else as a line
     double core;       ///< a door: how thick the wall may be whose faces it lies between; else 0
-    size_t below;      ///< only walls before this one are beneath it
-    size_t shape;      ///< for who asks: which shape it is; SIZE_MAX for none
-    bool window;       ///< for who asks: it is glazed
-    bool cuts;         ///< it cuts a wall; set by sli_openings_cut()
-    sl_segment at;     ///< what it cuts out of the first such wall
+    double pen;    ///< half the width of lines that walls are drawn by, if it lies on them; else 0
+    size_t below;  ///< only walls before this one are beneath it
+    size_t shape;  ///< for who asks: which shape it is; SIZE_MAX for none
+    bool window;   ///< for who asks: it is glazed
+    bool cuts;     ///< it cuts a wall; set by sli_openings_cut()
+    sl_segment at; ///< what it cuts out of the first such wall
 } sli_opening;
 
 /// A piece that is taken out of a wall.
@@ -45,7 +46,8 @@ sl_status sli_openings_add(sl_context *context, const sl_wall *walls, size_t cou
 
 /// Finds the pieces of walls that the openings cut out, among the walls that are in `kept`. Two
 /// walls that one opening cuts are the faces of one wall: jambs close it. A door between the faces
-/// of a wall, or a line along one, cuts both.
+/// of a wall, or a line along one, cuts both. An opening that cuts nothing so cuts the walls whose
+/// lines, as wide as they are drawn, it lies on.
 sl_status sli_openings_cut(sl_context *context, const sl_map *map, const sl_bits *kept,
                            sli_openings *openings);
 

@@ -10,8 +10,9 @@
 #include <math.h>
 #include <string.h>
 
-/// Furniture and symbols are up to such a part of a drawing.
-enum { SMALL = 12 };
+/// Furniture and symbols are up to such a part of a drawing, round ones may be larger. A round
+/// piece has so many walls.
+enum { SMALL = 12, ROUND = 5, LEAST_ROUND = 8 };
 
 // --- what is told
 
@@ -21,23 +22,47 @@ static void count_corners(sli_plan_net *n, uint32_t *corners) {
         if (sl_root_of(n->corner, end) == end) corners[sl_root_of(n->piece, end / 2)]++;
 }
 
+/// Adds the pieces that are no circles or ellipses: not one ring, or with a corner that is not as
+/// far from the middle of the box.
+static void find_angular(const sli_plan_net *n, const uint32_t *corners, sl_bits *angular) {
+    for (uint32_t i = 0; i < (uint32_t)n->map->wall_count; i++) {
+        const uint32_t first = sl_root_of(n->piece, i);
+        const sl_box box = n->boxes[first];
+        const sl_point at = n->map->walls[i].a;
+        const double x = (2 * at.x - box.min.x - box.max.x) / sli_box_width(box);
+        const double y = (2 * at.y - box.min.y - box.max.y) / sli_box_height(box);
+        if (n->counts[first] < LEAST_ROUND || n->counts[first] != corners[first] ||
+            !(fabs(x * x + y * y - 1) < 0.1))
+            sl_bits_add(angular, first);
+    }
+}
+
 /// Small pieces, but for those that are long or have the sides of walls. `closed`, where not NULL,
 /// gets the walls of those that enclose something: furniture does, and the end of a wall does not.
 static sl_status find_small(sli_plan_net *n, sl_bits *closed, sli_plan_look *out) {
     const uint32_t count = (uint32_t)n->map->wall_count;
     sl_bits *walls = sl_alloc_array(n->context, sl_bits_words(count), sizeof *walls);
+    sl_bits *angular = sl_alloc_array(n->context, sl_bits_words(count), sizeof *angular);
     uint32_t *corners = sl_alloc_array(n->context, count, sizeof *corners);
-    const bool room = walls && corners;
+    const bool room = walls && angular && corners;
     for (size_t i = 0; room && i < n->pairs.count; i++) {
         sl_bits_add(walls, sl_root_of(n->piece, n->pairs.items[i].wall));
         sl_bits_add(walls, sl_root_of(n->piece, n->pairs.items[i].other));
     }
     if (room) count_corners(n, corners);
+    if (room) find_angular(n, corners, angular);
     for (uint32_t i = 0; room && i < count; i++) {
         const uint32_t first = sl_root_of(n->piece, i);
         const double w = sli_box_width(n->boxes[first]), h = sli_box_height(n->boxes[first]);
+        const bool large = fmax(w, h) > n->size / SMALL;
+        const bool round = large && !sl_bits_has(angular, first) && fmax(w, h) <= n->size / ROUND;
         if (sl_bits_has(walls, first)) continue;
-        if (fmax(w, h) > n->size / SMALL || fmax(w, h) > 3 * fmin(w, h)) continue;
+        if ((large && !round) || fmax(w, h) > 3 * fmin(w, h)) continue;
+        if (round && closed) sl_bits_add(closed, i);
+        if (round) {
+            out->round += first == i;
+            continue;
+        }
         out->pieces += first == i;
         out->small++;
         if (n->counts[first] < corners[first]) continue;
@@ -45,6 +70,7 @@ static sl_status find_small(sli_plan_net *n, sl_bits *closed, sli_plan_look *out
         if (closed) sl_bits_add(closed, i);
     }
     sl_free(n->context, walls);
+    sl_free(n->context, angular);
     sl_free(n->context, corners);
     return room ? SL_OK : SL_NO_MEMORY;
 }
@@ -193,6 +219,16 @@ sl_status sli_plan_keep_large(sl_context *context, sl_map *map, double metre, sl
     return status;
 }
 
+/// Round pieces that are too large for columns, with the option that leaves them out.
+static void note_round(sl_context *context, const char *file, const char *layers, size_t count) {
+    sl_note(context,
+            "%s: %zu round piece%s touch%s nothing: %s? --layers %s" SLI_LAYERS_LARGE
+            "%s%s%s leaves %s out",
+            file, count, count == 1 ? "" : "s", count == 1 ? "es" : "",
+            count == 1 ? "a table or a symbol" : "tables or symbols", layers ? "'" : "",
+            layers ? "," : "", layers ? layers : "", layers ? "'" : "", count == 1 ? "it" : "them");
+}
+
 /// Small pieces, with the option that leaves them out, where most of them are closed; else with
 /// the next step.
 static void note_small(sl_context *context, const char *file, const char *layers, const char *next,
@@ -233,6 +269,8 @@ sl_status sli_plan_tell(sl_context *context, const char *file, const char *layer
     const size_t share = look.pieces >= 10 ? 7 : 4;
     if (look.walls >= 20 && look.pieces >= 3 && share * look.small >= look.walls)
         note_small(context, file, layers, next, &look);
+    else if (look.round)
+        note_round(context, file, layers, look.round);
     if (look.across >= 8 && 12 * look.across >= look.walls)
         sl_note(context, "%s: %zu short lines cross walls: doors or symbols drawn over them? %s",
                 file, look.across, next);

@@ -12,6 +12,7 @@ typedef struct sli_plan_look {
     size_t small; ///< walls in small pieces that touch nothing else and are no pieces of walls
     size_t small_closed; ///< walls of those of them that enclose something
     size_t pieces;       ///< small pieces
+    size_t round;        ///< round pieces that touch nothing, and are larger than those
     size_t across;       ///< short walls that cross others
     size_t closed;       ///< how many ways round there are: 0 where nothing is enclosed
     bool crowded;        ///< too many walls, or crowds of them, to look at: all else is 0
@@ -24,9 +25,9 @@ typedef struct sli_plan_look {
 sl_status sli_plan_look_at(sl_context *context, const sl_map *map, double metre, double tolerance,
                            sli_plan_look *out);
 
-/// Takes the small pieces that enclose something out of the map's walls; windows and doors that
-/// touch a piece belong to it, and stay. What was found is as in sli_plan_look_at(); where the map
-/// is crowded, nothing is taken out.
+/// Takes the small pieces that enclose something, and the round ones, out of the map's walls;
+/// windows and doors that touch a piece belong to it, and stay. What was found is as in
+/// sli_plan_look_at(); where the map is crowded, nothing is taken out.
 sl_status sli_plan_keep_large(sl_context *context, sl_map *map, double metre, sli_plan_look *out);
 
 /// Notes what is doubtful, with what to do. `layers` are those that the user asks for, NULL for
