@@ -128,7 +128,8 @@ static void find_meaning(const sli_geo *geo, sli_geo_feature *feature) {
     }
 }
 
-/// Rooms of other kinds than "room", by the last word: "men_toilet", "stairs", but no "office_desk".
+/// Rooms of other kinds than "room", by the last word: "men_toilet", "stairs", but no
+/// "office_desk".
 static bool is_other_room(const char *name) {
     static const char *const rooms[] = {"toilet",    "toilets", "restroom", "washroom", "bathroom",
                                         "elevator",  "lift",    "stair",    "stairs",   "staircase",

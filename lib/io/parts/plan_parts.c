@@ -459,8 +459,8 @@ static bool is_within(sl_box inner, sl_box outer, double room) {
 }
 
 /// Whether a rectangle is the frame of a sheet: it holds a plan, with room about it. Where walls
-/// are not drawn by their faces, it must hold all else, and a plan is a large piece. Only in a frame
-/// with a title may the plan be a rectangle: else it may be the core of a hall.
+/// are not drawn by their faces, it must hold all else, and a plan is a large piece. Only in a
+/// frame with a title may the plan be a rectangle: else it may be the core of a hall.
 static bool is_frame(const finder *f, uint32_t piece, const sl_bits *rectangles) {
     const sl_box box = f->net.boxes[piece];
     const double room = longer_side(box) / 50;
