@@ -97,17 +97,22 @@ static void test_blocks(void **state) {
     assert_map(sli_map_read_dxf, text, NULL, false, ROOM_WALLS "wall 6 1 6 2\n");
 }
 
-/// A block with more fields for texts than lines is a tag, unless its layer says otherwise.
+/// A block with more fields for texts that are shown than lines is a tag, unless its layer says
+/// otherwise.
 static void test_tags(void **state) {
     (void)state;
-#define FIELD "0\nATTDEF\n8\n0\n10\n0\n20\n0\n40\n1\n1\nx\n2\nx\n"
+#define FIELD  "0\nATTDEF\n8\n0\n10\n0\n20\n0\n40\n1\n1\nx\n2\nx\n"
+#define HIDDEN "0\nATTDEF\n8\n0\n10\n0\n20\n0\n40\n1\n1\nx\n2\nx\n70\n1\n"
 #define TAG_BLOCKS                                                                                 \
     "0\nSECTION\n2\nBLOCKS\n" BLOCK("b7",                                                          \
                                     FIELD FIELD FIELD LINE("0", 0, 0, 1, 0) LINE("0", 0, 0, 0, 1)) \
-        BLOCK("c7", FIELD LINE("0", 0, 0, 1, 1) LINE("0", 0, 1, 1, 0)) "0\nENDSEC\n"
+        BLOCK("c7", FIELD LINE("0", 0, 0, 1, 1) LINE("0", 0, 1, 1, 0)) BLOCK(                      \
+            "d7", FIELD HIDDEN HIDDEN LINE("0", 0, 0, 1, 0) LINE("0", 0, 0, 0, 1)) "0\nENDSEC\n"
     static const char tag[] = TAG_BLOCKS HEAD ROOM("0") INSERT("1", "b7", 4, 4) TAIL;
     static const char few[] = TAG_BLOCKS HEAD ROOM("0") INSERT("1", "c7", 4, 4) TAIL;
     static const char wall[] = TAG_BLOCKS HEAD ROOM("wall") INSERT("wall", "b7", 4, 4) TAIL;
+    static const char part[] = TAG_BLOCKS HEAD ROOM("0") INSERT("1", "d7", 4, 4) TAIL;
+    assert_map(sli_map_read_dxf, part, NULL, false, ROOM_WALLS "wall 4 4 5 4\nwall 4 4 4 5\n");
     assert_map(sli_map_read_dxf, tag, NULL, false, ROOM_WALLS);
     assert_map(sli_map_read_dxf, few, NULL, false, ROOM_WALLS "wall 4 4 5 5\nwall 4 5 5 4\n");
     assert_map(sli_map_read_dxf, wall, NULL, false, ROOM_WALLS "wall 4 4 5 4\nwall 4 4 4 5\n");

@@ -92,13 +92,19 @@ static void test_guess(void **state) {
     assert_refused(MAP(SET LAYER("a", TILES) LAYER("b", CSV("0,0,0,2,2,0"))), UNSAID
                    ", NAME:28+33-35 tiles of it; no name says which one: look at them in Tiled; "
                    "layers: 'a' (2 tiles), 'b' (2 tiles)");
-    assert_refused(MAP(SET LAYER("Tile Layer in the north of the town, with its harbour", TILES)
+    assert_refused(MAP(SET LAYER("Tile Layer in the north of the town with all its harbour", TILES)
                            LAYER("sand", CSV("0,0,0,2,2,0"))),
                    UNSAID ", NAME:28+33-35 tiles of it, as in: sightline check 'f' --layers "
-                          "'Tile Layer in the north of the town, with its harbour' -o map.png");
+                          "'Tile Layer in the north of the town with all its harbour' -o map.png");
     assert_refused(MAP(SET LAYER("a", TILES) LAYER("sand", CSV("0,0,0,2,2,0"))),
                    UNSAID ", NAME:28+33-35 tiles of it, as in: sightline check 'f' --layers 'a' -o "
                           "map.png; layers: 'a' (2 tiles), 'sand' (2 tiles)");
+    // No command can name a layer whose name has a comma, a quote or a blank at its end.
+    assert_refused(MAP(SET LAYER("a, b", TILES)), UNSAID
+                   ", NAME:28+33-35 tiles of it; to take 'a, b', give it a name in Tiled "
+                   "without commas, quotes and blanks at its ends; layers: 'a, b' (2 tiles)");
+    assert_refused(MAP(SET LAYER("b ", TILES)),
+                   UNSAID ", NAME:28+33-35 tiles of it; to take 'b ',");
     assert_refused(MAP(SET LAYER("Ground", CSV("1,1,2,2,3,3"))),
                    UNSAID ", NAME:28+33-35 tiles of it; which of the tiles 1-3 of 'Ground' are "
                           "solid, only its picture shows: a tile's number is its ID in Tiled + the "

@@ -295,6 +295,13 @@ static sl_status count_work(sli_dxf *dxf) {
     return ++dxf->work % 4096 == 0 ? sl_check_cancelled(dxf->context) : SL_OK;
 }
 
+/// Whether a field for a text is shown, as its flags say: those of a part's price and the like are
+/// hidden.
+static bool is_shown(const sli_dxf *dxf, sli_dxf_range field) {
+    const sli_word flags = sli_dxf_text(dxf, field, 70);
+    return !flags.length || !((flags.at[flags.length - 1] - '0') & 1);
+}
+
 /// Whether a block is a tag, as of a room: fields for texts, and fewer lines between or under them.
 static bool is_tag(const sli_dxf *dxf, const sli_dxf_block *block) {
     size_t fields = 0, lines = 0;
@@ -302,7 +309,7 @@ static bool is_tag(const sli_dxf *dxf, const sli_dxf_block *block) {
         const sli_dxf_pair *pair = sli_dxf_at(dxf, i);
         if (pair->code != 0) continue;
         if (sli_word_is(pair->value, "ATTDEF"))
-            fields++;
+            fields += is_shown(dxf, sli_dxf_entity(dxf, i, block->entities.end));
         else if (sli_word_is(pair->value, "LINE"))
             lines++;
         else if (!sli_dxf_is_text(pair->value))

@@ -128,15 +128,17 @@ static void find_meaning(const sli_geo *geo, sli_geo_feature *feature) {
     }
 }
 
-/// Rooms of other kinds than "room": "men_toilet", "stairs".
+/// Rooms of other kinds than "room", by the last word: "men_toilet", "stairs", but no
+/// "office_desk".
 static bool is_other_room(const char *name) {
     static const char *const rooms[] = {"toilet",    "toilets", "restroom", "washroom", "bathroom",
                                         "elevator",  "lift",    "stair",    "stairs",   "staircase",
                                         "stairwell", "hall",    "lobby",    "hallway",  "classroom",
                                         "kitchen",   "office",  "shaft"};
+    bool last = false;
     for (sli_name_word word; sli_word_next(&name, &word);)
-        if (sli_word_in(&word, rooms, sizeof rooms / sizeof *rooms)) return true;
-    return false;
+        last = sli_word_in(&word, rooms, sizeof rooms / sizeof *rooms);
+    return last;
 }
 
 /// Where outlines of rooms are the walls, and none are drawn by themselves, those of other rooms

@@ -442,13 +442,18 @@ static bool is_rectangle(const finder *f, uint32_t piece) {
            look->sides[2] >= 0.95 * w && look->sides[3] >= 0.95 * w;
 }
 
-/// Whether what a rectangle has beside its sides, if anything, lies in a corner of it: titles do,
-/// and few of the rooms in a house.
-static bool may_be_titled(const finder *f, uint32_t piece) {
+/// Whether a rectangle has nothing beside its sides.
+static bool is_plain(const finder *f, uint32_t piece) {
+    return f->looks[piece].rest.min.x > f->looks[piece].rest.max.x;
+}
+
+/// Whether what a rectangle has beside its sides lies in a corner of it: titles do, and few of the
+/// rooms in a house.
+static bool has_title(const finder *f, uint32_t piece) {
     const sl_box box = f->net.boxes[piece], rest = f->looks[piece].rest;
     const double off = f->net.tolerance;
-    if (rest.min.x > rest.max.x) return true;
-    return (rest.min.x <= box.min.x + off || rest.max.x >= box.max.x - off) &&
+    return !is_plain(f, piece) &&
+           (rest.min.x <= box.min.x + off || rest.max.x >= box.max.x - off) &&
            (rest.min.y <= box.min.y + off || rest.max.y >= box.max.y - off);
 }
 
@@ -458,17 +463,20 @@ static bool is_within(sl_box inner, sl_box outer, double room) {
 }
 
 /// Whether a rectangle is the frame of a sheet: it holds a plan, with room about it. Where walls
-/// are not drawn by their faces, it must hold all else, and a plan is a large piece.
+/// are not drawn by their faces, it must hold all else, and a plan is a large piece. Only in a
+/// frame with a title may the plan be a rectangle: else it may be the core of a hall.
 static bool is_frame(const finder *f, uint32_t piece, const sl_bits *rectangles) {
     const sl_box box = f->net.boxes[piece];
     const double room = longer_side(box) / 50;
     sl_box plan = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+    const bool titled = has_title(f, piece);
     bool large = false;
     for (uint32_t i = 0; i < f->turned.wall_count; i++) {
         if (sl_root_of(f->net.piece, i) != i) continue;
         const sl_box own = f->net.boxes[i];
         const bool near = !is_within(own, box, room);
-        if (sl_bits_has(rectangles, i) && (near || may_be_titled(f, i))) continue;
+        if (sl_bits_has(rectangles, i) && (near || !titled || is_plain(f, i) || has_title(f, i)))
+            continue;
         if (f->paired ? near && is_within(own, box, 0) && has_walls(f, i) : near) return false;
         if (near || f->net.counts[i] < 8) continue;
         large |= sli_box_width(own) >= 0.4 * sli_box_width(box) &&

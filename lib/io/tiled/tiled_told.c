@@ -13,6 +13,9 @@
 /// Room for "+4294967295-4294967295": what does not fit is left out of a text of numbers.
 enum { NUMBER_ROOM = 24 };
 
+/// What to do about a layer whose name no command can have.
+#define RENAME "give it a name in Tiled without commas, quotes and blanks at its ends"
+
 /// Layers for a message: 'Ground' (2500 tiles), 'Things' (3 objects).
 typedef struct layer_text {
     char text[400];
@@ -177,13 +180,13 @@ static bool is_only_layer(const sli_tiled_reader *reader) {
     return count == 1;
 }
 
-/// A layer's name for a command: whole, where it can be typed so. `shown` is room for it.
-static const char *name_to_type(const char *name, sli_shown *shown) {
+/// Whether a layer's name can stand in a command: --layers has commas between names, and no blanks
+/// at their ends.
+static bool can_be_typed(const char *name) {
     const size_t length = strlen(name);
-    *shown = sli_show((sli_word){name, length});
     for (size_t i = 0; i < length; i++)
-        if ((unsigned char)name[i] < ' ' || strchr("'\x7f", name[i])) return shown->text;
-    return length < 160 ? name : shown->text;
+        if ((unsigned char)name[i] < ' ' || strchr("',\x7f", name[i])) return false;
+    return length && length < 160 && name[0] != ' ' && name[length - 1] != ' ';
 }
 
 /// That only the picture shows which tiles of a layer are solid, and their numbers.
@@ -222,11 +225,11 @@ static sl_status say_example(const sli_tiled_reader *reader, const sli_tiled_see
     if (objects) example = objects;
     bool rooms;
     SL_TRY(looks_like_rooms(reader, example, &rooms));
-    sli_shown shown;
-    const char *name = name_to_type(example->name, &shown);
+    const char *name = example->name;
+    const sli_shown shown = sli_show((sli_word){name, strlen(name)});
     if (same && !objects)
         snprintf(text, size, " (all tiles of '%s' are the same: draw walls in a layer Collision)",
-                 name);
+                 shown.text);
     else if (rooms)
         snprintf(text, size,
                  ", void the squares without tiles, as in: sightline check '%.150s' --layers void "
@@ -237,6 +240,8 @@ static sl_status say_example(const sli_tiled_reader *reader, const sli_tiled_see
         return say_tiles(reader, example, text, size);
     else if (!is_only_layer(reader) && !is_sure(reader, example, mostly, same))
         snprintf(text, size, "; no name says which one: look at them in Tiled");
+    else if (!can_be_typed(name))
+        snprintf(text, size, "; to take '%s', " RENAME, shown.text);
     else
         snprintf(text, size, ", as in: sightline check '%.150s' --layers '%s%s' -o map.png", file,
                  name, tiles);
@@ -309,15 +314,17 @@ static sl_status list_said(const sli_tiled_reader *reader, const sli_tiled_seen 
 static void write_command(const sli_tiled_reader *reader, const sli_tiled_seen *layer, bool whole,
                           const char *tiles, char *text, size_t size) {
     size_t taken = 0;
-    sli_shown shown;
+    if (!can_be_typed(layer->name)) {
+        snprintf(text, size, RENAME);
+        return;
+    }
     if (!whole && !*tiles) {
-        snprintf(text, size, "give them by number, as in --layers '%s:28+33-35'",
-                 name_to_type(layer->name, &shown));
+        snprintf(text, size, "give them by number, as in --layers '%s:28+33-35'", layer->name);
         return;
     }
     for (size_t i = 0; i < reader->seen.count; i++) taken += reader->seen.items[i].taken;
     snprintf(text, size, "sightline check '%.300s' --layers '%s%s' -o map.png%s",
-             reader->map->file->name, name_to_type(layer->name, &shown), whole ? "" : tiles,
+             reader->map->file->name, layer->name, whole ? "" : tiles,
              taken > layer->taken ? ", which takes no other layer" : "");
 }
 
