@@ -232,12 +232,17 @@ sl_status sli_geo_look_for_footprints(const sli_geo *geo) {
         fmax(fmax(fabs(all.min.x), fabs(all.max.x)), fmax(fabs(all.min.y), fabs(all.max.y)));
     if (far < PROJECTED || fmax(width, height) < TOWN || area > BUILT * width * height)
         return SL_OK;
-    geo->map->entrance = ENTRANCE;
+    char wider[128] = "";
+    if (!(geo->options->entrance > 0)) {
+        geo->map->entrance = ENTRANCE;
+        snprintf(wider, sizeof wider,
+                 ", as openings wider than %g do not count; if there are entrances: --entrance W",
+                 ENTRANCE);
+    }
     sl_note(geo->context,
             "%s: its outlines look like buildings of a town, in metres or feet, which nothing "
-            "says: inside is what they enclose, as openings wider than %g do not count; if there "
-            "are entrances: --entrance W",
-            geo->name, ENTRANCE);
+            "says: inside is what they enclose%s",
+            geo->name, wider);
     return SL_OK;
 }
 
