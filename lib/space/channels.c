@@ -25,12 +25,15 @@
 #include "geometry/crossing.h"
 #include "geometry/length.h"
 #include "map/source.h"
+#include "space/index.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 /// What rounding may add to a length before a bound counts.
 #define SLACK (1 + 0x1p-40)
+/// How much smaller a circle is that a wall clearly goes into.
+#define CLEARLY (1 + 0x1p-20)
 
 /// Beyond this, triangulating takes minutes, and lines that dense are no walls of rooms.
 enum { MOST_CROSSINGS = 1 << 20 };
@@ -53,6 +56,7 @@ typedef struct finder {
     double most;
     sli_planar walls;
     sli_triangulation t; ///< of the walls
+    sli_box_tree boxes;  ///< of the edges of `walls`
     SL_ARRAY(step) steps;
     SL_ARRAY(foot) feet;
     sli_channels *out;
@@ -91,6 +95,28 @@ static sl_status add_channel(finder *f, sl_segment at, sl_segment wall) {
     return SL_OK;
 }
 
+/// A search for a wall in a circle.
+typedef struct circle {
+    const finder *f;
+    sl_point middle;
+    double radius; ///< 0 as soon as a wall is in it
+} circle;
+
+static void look_at_wall(void *user, uint32_t edge) {
+    circle *c = user;
+    const sl_segment wall = sli_planar_at(&c->f->walls, 2 * edge);
+    if (sli_away_from(wall.a, wall.b, c->middle) < c->radius) c->radius = 0;
+}
+
+/// Whether a wall goes through the circle over a pair of places. Where it merely touches it, but
+/// for a rounding, it does not.
+static bool is_barred(const finder *f, sl_segment at) {
+    circle c = {
+        f, {at.a.x / 2 + at.b.x / 2, at.a.y / 2 + at.b.y / 2}, apart(at.a, at.b) / 2 / CLEARLY};
+    sli_box_tree_near(&f->boxes, c.middle, &c.radius, look_at_wall, &c);
+    return c.radius == 0;
+}
+
 /// Whether the point opposite a half-edge lies in the circle over it.
 static bool circle_holds(const finder *f, uint32_t half) {
     if (sli_half_is_outside(&f->t, half)) return false;
@@ -105,8 +131,9 @@ static sl_status find_between_ends(finder *f) {
         const uint32_t a = from(f, half), b = to(f, half);
         if (f->t.labels[half / 2] || !is_end(f, a) || !is_end(f, b)) continue;
         if (apart(at(f, a), at(f, b)) > f->most * SLACK) continue;
-        if (circle_holds(f, half) || circle_holds(f, half ^ 1)) continue;
-        SL_TRY(add_channel(f, (sl_segment){at(f, a), at(f, b)}, (sl_segment){at(f, b), at(f, b)}));
+        const sl_segment pair = {at(f, a), at(f, b)};
+        if (circle_holds(f, half) || circle_holds(f, half ^ 1) || is_barred(f, pair)) continue;
+        SL_TRY(add_channel(f, pair, (sl_segment){pair.b, pair.b}));
     }
     return SL_OK;
 }
@@ -132,6 +159,7 @@ static sl_status add_foot(finder *f, const frame *w, sl_point p, double place) {
     sl_point end = {w->a.x + place * w->along.x, w->a.y + place * w->along.y};
     if (w->a.x == w->b.x) end = (sl_point){w->a.x, p.y};
     if (w->a.y == w->b.y) end = (sl_point){p.x, w->a.y};
+    if (is_barred(f, (sl_segment){p, end})) return SL_OK;
     SL_TRY(SL_ARRAY_ROOM(f->context, &f->feet, 1));
     const bool turned = sli_compare_points(w->a, w->b) > 0;
     f->feet.items[f->feet.count++] = (foot){w->edge, turned ? w->length - place : place, end};
@@ -294,6 +322,19 @@ static sl_status list_walls(sl_context *context, const sl_map *map, sli_mesh_lin
     return SL_OK;
 }
 
+static sl_status make_boxes(finder *f) {
+    const size_t count = f->walls.edge_count;
+    sl_box *boxes = sl_alloc_array(f->context, count, sizeof *boxes);
+    if (!boxes) return SL_NO_MEMORY;
+    for (uint32_t i = 0; i < count; i++) {
+        const sl_segment wall = sli_planar_at(&f->walls, 2 * i);
+        boxes[i] = sli_box_around(wall.a, wall.b);
+    }
+    const sl_status status = sli_box_tree_create(f->context, boxes, count, &f->boxes);
+    sl_free(f->context, boxes);
+    return status;
+}
+
 static sl_status find(finder *f, const sl_map *map, sli_mesh_lines *lines) {
     const char *source = sli_map_name(map);
     const sl_box bounds = sl_map_bounds(map);
@@ -305,6 +346,7 @@ static sl_status find(finder *f, const sl_map *map, sli_mesh_lines *lines) {
     SL_TRY(sli_planar_make(f->context, source, lines->items.items, lines->items.count, weld,
                            &f->walls));
     SL_TRY(sli_triangulate(f->context, &f->walls, &f->out->box, &f->t));
+    SL_TRY(make_boxes(f));
     SL_TRY(find_between_ends(f));
     SL_TRY(find_feet(f));
     return triangulate_again(f, source, weld);
@@ -318,6 +360,7 @@ sl_status sli_channels_make(sl_context *context, const sl_map *map, double most,
     const sl_status status = find(&f, map, &lines);
     sli_planar_destroy(context, &f.walls);
     sli_triangulation_destroy(context, &f.t);
+    sli_box_tree_destroy(context, &f.boxes);
     sl_free(context, f.steps.items);
     sl_free(context, f.feet.items);
     sl_free(context, lines.items.items);
