@@ -184,6 +184,7 @@ elseif(WAY STREQUAL "game")
   separate_arguments(flags UNIX_COMMAND "${said}")
   run("${CC}" -std=c99 -c "${here}/game/game_runtime.c" -o "${SCRATCH}/game_runtime.o" ${flags})
 elseif(WAY STREQUAL "game_copied")
+  set(CONFIG Debug) # the installed header is built as this build is
   file(COPY "${SOURCE}/lib/runtime/sightline_runtime.h" DESTINATION "${SCRATCH}/copied")
   game("-DHEADER_DIR=${SCRATCH}/copied")
 else()

@@ -1,5 +1,5 @@
 // Every method, with every solver, against the oracles on random maps, pair by pair.
-// SIGHTLINE_SEEDS in the environment: how many maps (1000 by default).
+// SIGHTLINE_SEEDS in the environment: how many maps (400 by default).
 #include "testing.h"
 
 #include "oracle/oracle.h"
@@ -149,7 +149,7 @@ static void test_methods_on_random_maps(void **state) {
     size_t method_count;
     const sl_see_method *methods = sl_see_methods(&method_count);
     assert_true(method_count > 0);
-    const uint64_t seeds = testing_seeds(1000);
+    const uint64_t seeds = testing_seeds(400);
     for (uint64_t seed = 1; seed <= seeds; seed++) {
         trial t;
         begin_trial(context, seed, &t);

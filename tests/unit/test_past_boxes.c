@@ -86,24 +86,24 @@ static void check_scenes(uint64_t count, double move, bool turned, double accura
 
 static void as_the_sweep_says(void **state) {
     (void)state;
-    check_scenes(100, 0, false, 1e-12);
+    check_scenes(40, 0, false, 1e-12);
 }
 
 static void among_turned_walls(void **state) {
     (void)state;
-    check_scenes(30, 0, true, 1e-10);
+    check_scenes(16, 0, true, 1e-10);
 }
 
 static void far_from_the_origin(void **state) {
     (void)state;
-    check_scenes(20, 1e6, true, 1e-6);
+    check_scenes(12, 1e6, true, 1e-6);
 }
 
 /// The line between two points, as in the space that the boxes are cut into.
 static void points_see_as_past_walls(void **state) {
     (void)state;
     scene s = {.context = testing_context(NULL)};
-    const uint64_t seeds = testing_seeds(150);
+    const uint64_t seeds = testing_seeds(60);
     size_t seen_count = 0, all = 0;
     for (uint64_t seed = 1; seed <= seeds; seed++) {
         if (make_scene(&s, seed, 0, 0)) {

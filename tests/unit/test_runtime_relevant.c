@@ -7,7 +7,7 @@
 
 enum { SIZE = 12, WALLS = 14, DOORS = 3, PLAYERS = 6, THINGS = 10, MOST = 128 };
 
-static uint64_t maps = 100, seed = 5;
+static uint64_t maps = 40, seed = 5;
 
 typedef struct trial {
     sl_context *context;
