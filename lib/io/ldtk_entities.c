@@ -235,7 +235,7 @@ static bool lie_in_rows(sli_ldtk *reader) {
 }
 
 /// Fewer walls that are one cell large are blocks to be pushed, or the like.
-enum { LEAST_MARKS = 4 };
+enum { LEAST_MARKS = 8 };
 
 sl_status sli_ldtk_settle_walls(sli_ldtk *reader) {
     const bool asked = reader->options->layers != NULL;

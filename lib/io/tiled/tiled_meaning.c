@@ -9,14 +9,17 @@
 ///   it is where one layer is named for where one walks ("walkable").
 /// - Where the map or a tileset is named for a dungeon or a sewer, and one tile covers at least
 ///   half of the lowest layer and of its edge, that tile is rock, unless the layer is named for
-///   ground or floor.
-/// - Where three or more objects stand on the only layer, all on squares without tiles or all on
-///   tiles, what they do not stand on is solid.
+///   ground or floor, or most objects stand on it.
+/// - Where three or more objects stand on the only layer, four of five on squares without tiles or
+///   on tiles, what they do not stand on is solid.
 /// - Where the only layer has tiles all around its edge, or below and not above, and is empty for
 ///   a good part, the tiles are walls or the ground of a platformer. So is the only layer named for
 ///   ground, if all layers together leave air above it.
 /// - Where the only layer is full, and its most frequent tile covers half of it but not the edge,
 ///   that tile is a floor, and the others are walls, if 19 of 20 of them are as those on the edge.
+///
+/// The only layer is also the only one with gaps, on floors that cover all. Pictures, coins and
+/// layers with a fiftieth of the tiles of another one do not count.
 ///
 /// All others are refused, with the layers and what to type: a meadow's grass is no wall.
 #include "io/tiled/tiled.h"
@@ -37,6 +40,25 @@ static uint32_t tile_at(const look *at, size_t column, size_t row) {
     return at->gids[row * at->columns + column] & SLI_TILED_TILE;
 }
 
+bool sli_tiled_is_thin(const uint32_t *gids, size_t count, size_t columns, size_t i) {
+    const size_t x = i % columns;
+    const bool left = x && (gids[i - 1] & SLI_TILED_TILE);
+    const bool right = x + 1 < columns && (gids[i + 1] & SLI_TILED_TILE);
+    const bool above = i >= columns && (gids[i - columns] & SLI_TILED_TILE);
+    const bool below = i + columns < count && (gids[i + columns] & SLI_TILED_TILE);
+    return (!left && !right) || (!above && !below);
+}
+
+/// Whether most tiles have none on both sides, or above and below: they may be walls about rooms as
+/// well as ways through rock.
+static bool are_thin(const look *at, size_t tiles) {
+    size_t thin = 0;
+    for (size_t i = 0; i < at->columns * at->rows; i++)
+        thin += tile_at(at, i % at->columns, i / at->columns) &&
+                sli_tiled_is_thin(at->gids, at->columns * at->rows, at->columns, i);
+    return 2 * thin >= tiles;
+}
+
 /// How many squares of a row have a tile.
 static size_t tiles_of_row(const look *at, size_t row) {
     size_t count = 0;
@@ -52,6 +74,20 @@ static size_t on_edge(const look *at, uint32_t gid) {
     for (size_t i = 0; i < at->rows; i++)
         count += (size_t)(tile_at(at, 0, i) == gid) + (tile_at(at, at->columns - 1, i) == gid);
     return count;
+}
+
+/// The squares of the box about all tiles.
+static size_t count_about(const look *at) {
+    size_t left = at->columns, right = 0, top = at->rows, bottom = 0;
+    for (size_t row = 0; row < at->rows; row++)
+        for (size_t i = 0; i < at->columns; i++) {
+            if (!tile_at(at, i, row)) continue;
+            if (i < left) left = i;
+            if (i >= right) right = i + 1;
+            if (row < top) top = row;
+            bottom = row + 1;
+        }
+    return right > left ? (right - left) * (bottom - top) : 0;
 }
 
 static int compare_gids(const void *left, const void *right) {
@@ -84,17 +120,35 @@ static bool is_inside(const sli_tiled_reader *reader) {
     return inside;
 }
 
-/// The layers of tiles that are no pictures, and no places that one passes. *first: the number of
-/// the first one.
-static size_t count_plain(const sli_tiled_reader *reader, size_t *first) {
+/// The tiles of the layer of tiles with the most of them that has gaps.
+static uint64_t find_largest(const sli_tiled_reader *reader) {
+    uint64_t most = 0;
+    for (size_t i = 0; i < reader->seen.count; i++) {
+        const sli_tiled_seen *layer = &reader->seen.items[i];
+        if (!layer->objects && layer->count < layer->squares && layer->count > most)
+            most = layer->count;
+    }
+    return most;
+}
+
+/// The layers of tiles that are no pictures, no places that one passes, no coins and no scraps.
+/// *first: the number of the first one; *partial: of those with gaps the number of the first, and
+/// how many there are.
+static size_t count_plain(const sli_tiled_reader *reader, size_t *first, size_t partial[2]) {
+    const uint64_t largest = find_largest(reader);
     size_t count = 0;
+    partial[1] = 0;
     for (size_t i = reader->seen.count; i-- > 0;) {
         const sli_tiled_seen *layer = &reader->seen.items[i];
         if (layer->objects || !layer->count || layer->kind == SLI_GAME_DRAWN ||
-            layer->kind == SLI_GAME_PASS)
+            layer->kind == SLI_GAME_PASS || sli_game_says_other(layer->name) ||
+            50 * layer->count < largest)
             continue;
         count++;
         *first = i;
+        if (layer->count == layer->squares) continue;
+        partial[0] = i;
+        partial[1]++;
     }
     return count;
 }
@@ -141,8 +195,8 @@ static size_t find_ground(const sli_tiled_reader *reader) {
 
 /// Whether all that is drawn is one layer that is named for a floor, and has gaps.
 static bool only_floor(const sli_tiled_reader *reader) {
-    size_t first;
-    if (count_plain(reader, &first) != 1) return false;
+    size_t first, partial[2];
+    if (count_plain(reader, &first, partial) != 1) return false;
     const sli_tiled_seen *layer = &reader->seen.items[first];
     return layer->kind == SLI_GAME_FLOOR && layer->count < layer->squares;
 }
@@ -170,8 +224,7 @@ sl_status sli_tiled_guess(sli_tiled_reader *reader, const uint32_t *gids, size_t
     const sli_tiled_seen *layer = &reader->seen.items[reader->guess_layer];
     const size_t count = columns * rows, edge = 2 * (columns + rows);
     const size_t empty = count - (size_t)layer->count, bare = on_edge(&at, 0);
-    size_t first;
-    const bool only = count_plain(reader, &first) == 1, floor = layer->kind == SLI_GAME_FLOOR;
+    const bool only = reader->guess_only, floor = layer->kind == SLI_GAME_FLOOR;
     // The most frequent tile of what is named for ground is no rock.
     const bool ground = floor || layer->kind == SLI_GAME_GROUND;
     size_t most, as_edge;
@@ -179,12 +232,15 @@ sl_status sli_tiled_guess(sli_tiled_reader *reader, const uint32_t *gids, size_t
     if (layer->squares != count) return SL_OK; // one chunk of several
     SL_TRY(find_most(reader->context, gids, count, &gid, &most));
     SL_TRY(count_as_edge(reader->context, &at, &as_edge));
-    const sli_tiled_stand stand = sli_tiled_where_objects_stand(reader, gids, columns, rows);
+    bool on_most;
+    const sli_tiled_stand stand =
+        sli_tiled_where_objects_stand(reader, gids, columns, rows, gid, &on_most);
     if (only_floor(reader)) {
         reader->guess_why = "where the floor has no tile is a wall";
     } else if (says_walkable(layer)) {
         reader->guess_why = "one does not walk where it has no tile";
-    } else if (is_inside(reader) && !(gid && ground) && 2 * most >= count &&
+    } else if (is_inside(reader) && !(gid && ground) && !on_most && !reader->unknown_tiles &&
+               !(!gid && are_thin(&at, (size_t)layer->count)) && 2 * most >= count &&
                2 * on_edge(&at, gid) >= edge) {
         reader->guessed = gid;
         reader->guess_why = gid ? "the most frequent tile of a dungeon, which is on its edge too"
@@ -206,11 +262,12 @@ sl_status sli_tiled_guess(sli_tiled_reader *reader, const uint32_t *gids, size_t
         reader->guessed_all = true;
         reader->guessed = gid;
         reader->guess_why = "the most frequent tile does not come to its edge";
-    } else if (only && !floor && stand == SLI_TILED_STAND_ON_EMPTY && 10 * layer->count >= count) {
+    } else if (only && !floor && stand == SLI_TILED_STAND_ON_EMPTY &&
+               10 * layer->count >= count_about(&at)) {
         reader->guessed_all = true;
-        reader->guess_why = "all objects stand where it has no tiles";
+        reader->guess_why = "objects stand where it has no tiles";
     } else if (only && stand == SLI_TILED_STAND_ON_TILES && 10 * empty >= count) {
-        reader->guess_why = "all objects stand on its tiles";
+        reader->guess_why = "objects stand on its tiles";
     }
     return SL_OK;
 }
@@ -218,13 +275,21 @@ sl_status sli_tiled_guess(sli_tiled_reader *reader, const uint32_t *gids, size_t
 static sl_status guess(sli_tiled_reader *reader) {
     reader->by = SLI_TILED_BY_GUESS;
     const size_t ground = find_ground(reader), walkable = find_walkable(reader);
+    size_t partial[2] = {0};
+    const size_t plain = count_plain(reader, &reader->guess_layer, partial);
+    reader->guess_only = plain == 1;
     if (walkable < reader->seen.count) {
         reader->guess_layer = walkable;
         return sli_tiled_read_again(reader);
     }
-    if (count_plain(reader, &reader->guess_layer) > 1 && ground < reader->seen.count &&
-        !is_inside(reader))
-        reader->guess_layer = ground;
+    if (plain > 1 && !is_inside(reader)) {
+        // On a floor that is drawn everywhere lies one layer more, which is no path.
+        const sli_tiled_seen *more = &reader->seen.items[partial[0]];
+        reader->guess_only = partial[1] == 1 && !sli_game_says_furniture(more->name) &&
+                             more->kind != SLI_GAME_GROUND && more->kind != SLI_GAME_FLOOR;
+        if (reader->guess_only) reader->guess_layer = partial[0];
+        if (ground < reader->seen.count) reader->guess_layer = ground;
+    }
     return sli_tiled_read_again(reader);
 }
 
@@ -266,8 +331,7 @@ sl_status sli_tiled_check_rules(const sli_tiled_reader *reader) {
     if (!input || !output || reader->options->layers) return SL_OK;
     return sli_json_fail(reader->map,
                          "its layers input_... and output_... are rules by which Tiled "
-                         "draws other maps: read a map that they have drawn; --layers "
-                         "NAME takes a layer of this one as solid");
+                         "draws other maps: read a map that they have drawn");
 }
 
 // --- the order of the readings
@@ -311,9 +375,25 @@ static bool takes_all(sli_tiled_reader *reader) {
     return true;
 }
 
+/// Where a tileset cannot be read, names of layers may tell, or the look of one.
+static sl_status find_without_set(sli_tiled_reader *reader) {
+    const size_t unknown = reader->unknown_tiles, lost = reader->lost_tiles;
+    reader->best = find_best(reader);
+    if (!sli_tiled_taken(reader) && reader->best) {
+        reader->by = SLI_TILED_BY_NAME;
+        SL_TRY(sli_tiled_read_again(reader));
+    } else if (!sli_tiled_taken(reader)) {
+        SL_TRY(guess(reader));
+    }
+    reader->unknown_tiles = unknown;
+    reader->lost_tiles = lost;
+    return reader->by && (sli_tiled_taken(reader) || reader->guess_why) ? SL_OK
+                                                                        : fail_missing(reader);
+}
+
 sl_status sli_tiled_find_meaning(sli_tiled_reader *reader) {
     if (reader->void_is_solid) return SL_OK;
-    if (reader->unknown_tiles) return fail_missing(reader);
+    if (reader->unknown_tiles) return find_without_set(reader);
     if (sli_tiled_taken(reader)) return SL_OK;
     if (reader->beside_tiles) {
         reader->by = SLI_TILED_BY_BESIDE;
