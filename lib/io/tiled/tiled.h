@@ -426,8 +426,12 @@ sl_status sli_tiled_check_rules(const sli_tiled_reader *reader);
 sl_status sli_tiled_find_meaning(sli_tiled_reader *reader);
 /// SL_BAD_INPUT where a start stands on what was guessed to be solid.
 sl_status sli_tiled_check_guess(const sli_tiled_reader *reader);
-/// Whether a square without a tile lies on both sides of a tile, or above and below it.
-bool sli_tiled_is_thin(const uint32_t *gids, size_t count, size_t columns, size_t i);
+// --- the guess (tiled_guess.c)
+
+/// Whether all that is drawn is one layer that is named for a floor, and has gaps.
+bool sli_tiled_only_floor(const sli_tiled_reader *reader);
+/// Chooses a layer and reads it: reader->guess_why is not NULL where it tells.
+sl_status sli_tiled_begin_guess(sli_tiled_reader *reader);
 /// Looks at the tiles of a block of the layer that is guessed from.
 sl_status sli_tiled_guess(sli_tiled_reader *reader, const uint32_t *gids, size_t columns,
                           size_t rows);

@@ -172,6 +172,16 @@ sl_status sli_tiled_choose_tiles(const sli_tiled_reader *reader, const sli_tiled
     return status;
 }
 
+/// Whether a square without a tile lies on both sides of a tile, or above and below it.
+static bool is_thin(const uint32_t *gids, size_t count, size_t columns, size_t i) {
+    const size_t x = i % columns;
+    const bool left = x && (gids[i - 1] & SLI_TILED_TILE);
+    const bool right = x + 1 < columns && (gids[i + 1] & SLI_TILED_TILE);
+    const bool above = i >= columns && (gids[i - columns] & SLI_TILED_TILE);
+    const bool below = i + columns < count && (gids[i + columns] & SLI_TILED_TILE);
+    return (!left && !right) || (!above && !below);
+}
+
 /// Whether the layer with the most tiles covers less than a quarter of each side of the map and
 /// from a twentieth to half of all, and is no thin lines, as walls are: its tiles may be the floor
 /// of rooms, and the squares without tiles solid.
@@ -197,7 +207,7 @@ static sl_status looks_like_rooms(const sli_tiled_reader *reader, const sli_tile
         sides[1] += tile && i + columns >= count;
         sides[2] += tile && x == 0;
         sides[3] += tile && x + 1 == columns;
-        thin += tile && sli_tiled_is_thin(gids, count, columns, i);
+        thin += tile && is_thin(gids, count, columns, i);
     }
     sl_free(reader->context, gids);
     *rooms = 4 * sides[0] < columns && 4 * sides[1] < columns && 4 * sides[2] < count / columns &&
