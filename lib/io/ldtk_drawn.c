@@ -351,17 +351,20 @@ static int rank_of(const sli_ldtk *reader, size_t number) {
     const size_t on = all.starts[ON_EXAMPLE] + (full ? 0 : all.starts[ON_TILE] + all.starts[SUNK]);
     if (on || drawn->unsure) return 0;
     if (drawn->kind >= SLI_GAME_STANDS) return 4;
-    // Scraps are no rooms.
-    if (!is_plain(drawn) || 10 * all.tiles < all.squares) return 1;
+    // Scraps are no rooms; what is named for a floor or the sea lies under them.
+    const bool under = drawn->kind == SLI_GAME_FLOOR || drawn->kind == SLI_GAME_GROUND ||
+                       drawn->kind == SLI_GAME_WATER;
+    if (under || !is_plain(drawn) || 10 * all.tiles < all.squares) return 1;
     return full || !stand_beside(&all) ? 2 : 3;
 }
 
-/// Whether starts and entities stand on tiles of some layer, and not where all have none.
+/// Whether starts and entities stand on tiles of some layer, and each has squares without tiles.
 static bool stand_in_void(const sli_ldtk *reader) {
     bool any = false;
     for (size_t i = 0; i < reader->drawn.count; i++) {
         const stands all = look_at(reader, i);
-        any |= stand_on_tiles(&all) && 10 * (all.squares - all.tiles) >= all.squares;
+        if (10 * (all.squares - all.tiles) < all.squares) return false;
+        any |= stand_on_tiles(&all);
     }
     return any;
 }
@@ -375,7 +378,7 @@ const char *sli_ldtk_show_example(const sli_ldtk *reader, char text[SLI_LDTK_EXA
         most = rank;
         best = &reader->drawn.items[i];
     }
-    const bool empty = most < 3 && stand_in_void(reader);
+    const bool empty = most < 3 && !reader->tile_layers && stand_in_void(reader);
     if (reader->marks)
         snprintf(text, SLI_LDTK_EXAMPLE,
                  "; to take the %zu entities '%.40s' as solid: sightline check '%.300s' --map "
@@ -383,11 +386,11 @@ const char *sli_ldtk_show_example(const sli_ldtk *reader, char text[SLI_LDTK_EXA
                  reader->marks, reader->mark, reader->name, reader->taken, reader->mark);
     else if (empty || best)
         snprintf(text, SLI_LDTK_EXAMPLE,
-                 "; to take %s as solid: sightline check '%.300s' --map '%.40s' --layers "
-                 "'%.40s%s' -o map.png",
-                 empty          ? "squares without tiles"
-                 : *best->asked ? "these tiles of one"
-                                : "the tiles of one",
+                 "; %s: sightline check '%.300s' --map '%.40s' --layers '%.40s%s' -o map.png",
+                 empty          ? "to take squares without tiles as solid"
+                 : most < 2     ? "perhaps, if a look shows so"
+                 : *best->asked ? "to take these tiles of one as solid"
+                                : "to take the tiles of one as solid",
                  reader->name, reader->taken, empty ? "void" : best->name,
                  empty ? "" : best->asked);
     else

@@ -467,6 +467,11 @@ enum {
     SLI_TILED_NAMED,
 };
 
+/// How many starts stand on tiles of a layer, of these numbers if any are asked for, and how many
+/// do not. In orthogonal maps with bounds.
+sl_status sli_tiled_count_starts(const sli_tiled_reader *reader, const sli_tiled_seen *seen,
+                                 sli_word numbers, size_t counts[2]);
+
 typedef struct sli_tiled_example {
     const sli_tiled_seen *layer; ///< the first of those that are most likely solid
     int rank;

@@ -45,7 +45,6 @@ static bool is_full(const sli_tiled_seen *layer) {
     return layer->count == layer->squares;
 }
 
-/// Whether a layer is hidden in Tiled: without a name for what stops, it is a try or a scrap.
 static bool is_hidden(const sli_tiled_reader *reader, const sli_tiled_seen *layer) {
     const sli_json json = {.file = reader->map->file, .value = layer->layer};
     const sli_json visible = sli_json_member(&json, "visible");
@@ -54,15 +53,25 @@ static bool is_hidden(const sli_tiled_reader *reader, const sli_tiled_seen *laye
     return said && !shown;
 }
 
+/// Whether a layer is hidden in Tiled beside one that is shown and has more tiles: without a name
+/// for what stops, it is a try or a scrap.
+static bool is_try(const sli_tiled_reader *reader, const sli_tiled_seen *layer) {
+    if (!is_hidden(reader, layer)) return false;
+    for (size_t i = 0; i < reader->seen.count; i++) {
+        const sli_tiled_seen *other = &reader->seen.items[i];
+        if (!other->objects && other->count > layer->count && !is_hidden(reader, other))
+            return true;
+    }
+    return false;
+}
+
 /// Chests and beds that stand in rooms are not the rooms' walls, nor are those who walk there.
 static bool is_furniture(const sli_tiled_seen *layer) {
     return sli_game_says_furniture(layer->name) || sli_game_says_other(layer->name);
 }
 
-/// How many starts stand on tiles of a layer, of these numbers if any are asked for, and how many
-/// do not.
-static sl_status count_starts(const sli_tiled_reader *reader, const sli_tiled_seen *seen,
-                              sli_word numbers, size_t counts[2]) {
+sl_status sli_tiled_count_starts(const sli_tiled_reader *reader, const sli_tiled_seen *seen,
+                                 sli_word numbers, size_t counts[2]) {
     const sli_json layer = {.file = reader->map->file, .value = seen->layer};
     const sli_json data = sli_json_member(&layer, "data"), width = sli_json_member(&layer, "width");
     const double columns = sli_json_number_or_0(&width);
@@ -93,10 +102,9 @@ static sl_status rank_layer(const sli_tiled_reader *reader, const sli_tiled_seen
     const bool ground = layer->kind == SLI_GAME_GROUND && is_hidden(reader, layer);
     *rank = SLI_TILED_NOT_SOLID;
     if (!may_be_walls(layer) && !ground) return SL_OK;
-    SL_TRY(count_starts(reader, layer, (sli_word){0}, starts));
+    SL_TRY(sli_tiled_count_starts(reader, layer, (sli_word){0}, starts));
     const bool full = is_full(layer);
-    const bool scraps =
-        is_hidden(reader, layer) || is_furniture(layer) || 50 * layer->count < largest;
+    const bool scraps = is_try(reader, layer) || is_furniture(layer) || 50 * layer->count < largest;
     *rank = layer->kind >= SLI_GAME_STANDS && (full || !starts[0]) ? SLI_TILED_NAMED
             : ground                                               ? SLI_TILED_BESIDE_STARTS
             : scraps                                               ? SLI_TILED_SCRAPS
@@ -242,13 +250,10 @@ static sl_status find_edge(const sli_tiled_reader *reader, const sli_tiled_seen 
     if (rows < 3 || columns < 3) return SL_OK;
     uint32_t *edge = sl_alloc_array(reader->context, 2 * (columns + rows), sizeof *edge);
     if (!edge) return SL_NO_MEMORY;
-    for (size_t i = 0; i < columns; i++) {
-        edge[used++] = gids[i] & SLI_TILED_TILE;
-        edge[used++] = gids[(rows - 1) * columns + i] & SLI_TILED_TILE;
-    }
-    for (size_t i = 0; i < rows; i++) {
-        edge[used++] = gids[i * columns] & SLI_TILED_TILE;
-        edge[used++] = gids[i * columns + columns - 1] & SLI_TILED_TILE;
+    for (size_t i = 0; i < count; i++) {
+        const size_t x = i % columns, y = i / columns;
+        const bool inner = x && y && x + 1 < columns && y + 1 < rows;
+        if (!inner && (gids[i] & SLI_TILED_TILE)) edge[used++] = gids[i] & SLI_TILED_TILE;
     }
     const sl_status status =
         sli_numbers_write(reader->context, edge, used, false, &most, text + 1, size - 1);
@@ -257,10 +262,58 @@ static sl_status find_edge(const sli_tiled_reader *reader, const sli_tiled_seen 
     const sli_word numbers = {text + 1, strlen(text + 1)};
     for (size_t i = 0; i < count; i++)
         on_edge += sli_numbers_have(numbers, gids[i] & SLI_TILED_TILE);
-    SL_TRY(count_starts(reader, seen, numbers, starts));
+    SL_TRY(sli_tiled_count_starts(reader, seen, numbers, starts));
     const bool all = numbers.length && numbers.length + SLI_TILED_NUMBER_ROOM < size;
     *text = all && 5 * on_edge <= 3 * count && !starts[0] ? ':' : '\0';
     return SL_OK;
+}
+
+/// The tile of three fourths of the upper row that is a fifth of all and not in the lowest row: the
+/// air of a platformer; 0 for none.
+static uint32_t find_air(const uint32_t *gids, size_t columns, size_t rows) {
+    uint32_t air = 0;
+    size_t votes = 0, above = 0, all = 0;
+    for (size_t i = 0; i < columns; i++) {
+        const uint32_t gid = gids[i] & SLI_TILED_TILE;
+        if (!votes) air = gid;
+        votes += gid == air ? 1 : -(size_t)1;
+    }
+    for (size_t i = 0; i < columns * rows; i++) {
+        const bool own = (gids[i] & SLI_TILED_TILE) == air;
+        if (own && i / columns + 1 == rows) return 0;
+        above += own && i < columns;
+        all += own;
+    }
+    return 4 * above >= 3 * columns && 5 * all >= columns * rows ? air : 0;
+}
+
+/// All tiles of a full layer but that of the air, as ":28+33-35", if no start stands on them; ""
+/// where there is no such tile, or they are too many.
+static sl_status find_others(const sli_tiled_reader *reader, const sli_tiled_seen *seen, char *text,
+                             size_t size) {
+    const sli_json layer = {.file = reader->map->file, .value = seen->layer};
+    const sli_json data = sli_json_member(&layer, "data"), width = sli_json_member(&layer, "width");
+    const size_t count = (size_t)seen->squares, columns = (size_t)sli_json_number_or_0(&width);
+    uint32_t *gids;
+    size_t used = 0, most, starts[2] = {0};
+    memset(text, 0, size);
+    if (!is_full(seen) || !data.value || columns < 3 || count % columns || count / columns < 3)
+        return SL_OK;
+    SL_TRY(sli_tiled_read_data(&layer, &data, count, &gids));
+    const uint32_t open = find_air(gids, columns, count / columns);
+    for (size_t i = 0; open && i < count; i++) {
+        const uint32_t gid = gids[i] & SLI_TILED_TILE;
+        if (gid && gid != open) gids[used++] = gid;
+    }
+    sl_status status =
+        sli_numbers_write(reader->context, gids, used, false, &most, text + 1, size - 1);
+    sl_free(reader->context, gids);
+    const sli_word numbers = {text + 1, strlen(text + 1)};
+    if (status == SL_OK && numbers.length)
+        status = sli_tiled_count_starts(reader, seen, numbers, starts);
+    const bool all = numbers.length && numbers.length + SLI_TILED_NUMBER_ROOM < size;
+    *text = all && !starts[0] ? ':' : '\0';
+    return status;
 }
 
 /// That only the picture shows which tiles of a layer are solid, and their numbers.
@@ -282,12 +335,15 @@ static sl_status say_tiles(const sli_tiled_reader *reader, const sli_tiled_seen 
             sli_numbers_write(reader->context, gids, used, false, &most, numbers, sizeof numbers);
     const bool all = strlen(numbers) + SLI_TILED_NUMBER_ROOM < sizeof numbers;
     sl_free(reader->context, gids);
+    const char *what = "those that lie along its edge";
+    if (status == SL_OK && !*edge) {
+        what = "all but the tile of its upper row";
+        status = find_others(reader, seen, edge, sizeof edge);
+    }
     if (*edge && sli_tiled_can_be_typed(seen->name))
-        snprintf(
-            next, sizeof next,
-            "; to take those that lie along its edge: sightline check '%.150s' --layers '%s%s' "
-            "-o map.png",
-            reader->map->file->name, seen->name, edge);
+        snprintf(next, sizeof next,
+                 "; to take %s: sightline check '%.150s' --layers '%s%s' -o map.png", what,
+                 reader->map->file->name, seen->name, edge);
     snprintf(text, size,
              "; which of the tiles %s%sof '%s' are solid, only its picture shows: a tile's number "
              "is its ID in Tiled + the tileset's firstgid%s",
@@ -304,7 +360,8 @@ sl_status sli_tiled_say_example(const sli_tiled_reader *reader, sli_tiled_exampl
     size_t starts[2] = {0};
     SL_TRY(sli_tiled_choose_tiles(reader, example, &mostly, tiles, sizeof tiles));
     if (*tiles)
-        SL_TRY(count_starts(reader, example, (sli_word){tiles + 1, strlen(tiles + 1)}, starts));
+        SL_TRY(sli_tiled_count_starts(reader, example, (sli_word){tiles + 1, strlen(tiles + 1)},
+                                      starts));
     mostly &= !starts[0];
     const bool full = !example->objects && is_full(example), same = full && !*tiles;
     const sli_tiled_seen *objects = same ? find_objects(reader) : NULL;
@@ -313,7 +370,10 @@ sl_status sli_tiled_say_example(const sli_tiled_reader *reader, sli_tiled_exampl
     const char *name = example->name;
     const sli_shown shown = sli_show((sli_word){name, strlen(name)});
     const bool half = is_only_layer(reader) && 2 * example->count > example->squares;
-    if (same && !objects)
+    if (best.rank == SLI_TILED_NOT_SOLID && example->kind == SLI_GAME_DRAWN)
+        snprintf(text, size,
+                 "; its layers are named for pictures: draw walls in a layer Collision");
+    else if (same && !objects)
         snprintf(text, size, "; all tiles of '%s' are the same: draw walls in a layer Collision",
                  shown.text);
     else if (rooms)

@@ -80,6 +80,38 @@ static sl_status tell_said(const sli_tiled_reader *reader) {
     return SL_OK;
 }
 
+/// The tiles of the layers that are taken.
+static uint64_t count_taken(const sli_tiled_reader *reader) {
+    uint64_t count = 0;
+    for (size_t i = 0; i < reader->seen.count; i++)
+        if (reader->seen.items[i].taken && !reader->seen.items[i].objects)
+            count += reader->seen.items[i].count;
+    return count;
+}
+
+/// A layer named for ground, much larger than what is solid, with starts in the air about it and
+/// none on its tiles: in a platformer it is solid, too.
+static sl_status tell_air(const sli_tiled_reader *reader) {
+    const uint64_t taken = count_taken(reader);
+    for (size_t i = 0; i < reader->seen.count && !reader->objects; i++) {
+        const sli_tiled_seen *layer = &reader->seen.items[i];
+        size_t starts[2];
+        char names[400];
+        if (layer->kind != SLI_GAME_GROUND || layer->taken || layer->objects || layer->moves ||
+            5 * layer->count > 3 * layer->squares || layer->count < 5 * taken)
+            continue;
+        SL_TRY(sli_tiled_count_starts(reader, layer, (sli_word){0}, starts));
+        sli_tiled_list_taken(reader, names, sizeof names);
+        if (!starts[1] || starts[0] || !*names || !sli_tiled_can_be_typed(layer->name)) continue;
+        sl_note(reader->context,
+                "%s: starts stand in the air about layer '%s' (%llu tiles): if it is solid, too: "
+                "sightline check '%.300s' --layers '%s,%s' -o map.png",
+                reader->map->file->name, layer->name, (unsigned long long)layer->count,
+                reader->map->file->name, names, layer->name);
+    }
+    return SL_OK;
+}
+
 /// Layers that are solid with a few tiles in all, beside one with many more that is not: they may
 /// be marks at which enemies turn.
 static void tell_little(const sli_tiled_reader *reader) {
@@ -236,9 +268,9 @@ static sl_status tell_weaker(const sli_tiled_reader *reader, const sli_tiled_lay
     char next[700] = "";
     SL_TRY(sli_tiled_find_example(reader, false, &example));
     if (example.layer && example.rank >= SLI_TILED_PARTIAL &&
-        sli_tiled_can_be_typed(example.layer->name))
+        example.layer->count > count_taken(reader) && sli_tiled_can_be_typed(example.layer->name))
         snprintf(next, sizeof next,
-                 "; if '%s' is solid: sightline check '%.300s' --layers '%s' -o map.png",
+                 "; if '%s' is solid instead: sightline check '%.300s' --layers '%s' -o map.png",
                  example.layer->name, reader->map->file->name, example.layer->name);
     sl_note(reader->context, "%s: nothing in it says what is solid: taken by %s: %s%s%s%s",
             reader->map->file->name, by[reader->by], taken->text,
@@ -281,6 +313,7 @@ sl_status sli_tiled_tell_meaning(const sli_tiled_reader *reader) {
     if (!reader->by) SL_TRY(tell_objects(reader));
     if (!reader->by) SL_TRY(tell_tiles(reader));
     if (!reader->by) tell_ground(reader);
+    if (!reader->by) SL_TRY(tell_air(reader));
     if (reader->by == SLI_TILED_BY_GUESS) return tell_guess(reader, &others);
     if (reader->by) return tell_weaker(reader, &taken, &others);
     if (!taken.count) return others.count ? tell_edge_only(reader) : SL_OK;
