@@ -219,22 +219,24 @@ static void tell_guess(const sli_ldtk *reader) {
 }
 
 /// What may be walls, and is not: layers of tiles, and cells without a value.
-static void tell_doubts(sli_ldtk *reader, const sli_ldtk_settled *as) {
+static sl_status tell_doubts(sli_ldtk *reader, const sli_ldtk_settled *as) {
     char example[SLI_LDTK_EXAMPLE];
-    if (reader->options->layers) return;
-    if (reader->guess)
+    if (reader->options->layers) return SL_OK;
+    if (reader->guess) {
         tell_guess(reader);
-    else if (reader->drawn.count && (!reader->layers || !has_solid(reader)))
+    } else if (reader->drawn.count && (!reader->layers || !has_solid(reader))) {
+        SL_TRY(sli_ldtk_show_example(reader, example));
         sl_note(reader->context, "%s: %s; layers of tiles: %s%s", reader->name,
                 reader->layers ? "no cell is solid, so the level's edge is its walls"
                                : "layers are told by their names and enums",
-                sli_name_list_cut(&reader->tile_names, 150),
-                sli_ldtk_show_example(reader, example));
+                sli_name_list_cut(&reader->tile_names, 150), example);
+    }
     if (as->bare > 0.1) tell_bare(reader, as);
+    return SL_OK;
 }
 
 /// What was taken, merged and left out.
-static void give_account(sli_ldtk *reader, const sl_map *map, const sli_ldtk_settled *as) {
+static sl_status give_account(sli_ldtk *reader, const sl_map *map, const sli_ldtk_settled *as) {
     char bottom[SL_NUMBER_TEXT];
     sl_number_write(reader->bottom, bottom);
     const sli_tally left[] = {
@@ -254,7 +256,7 @@ static void give_account(sli_ldtk *reader, const sl_map *map, const sli_ldtk_set
                 reader->walls.count == 1 ? "entity named as a wall gives"
                                          : "entities named as walls give",
                 map->wall_count, sli_tally_write("; left out: ", left, 4, without), bottom);
-        return;
+        return SL_OK;
     }
     sl_note(reader->context,
             "%s: level %s%s: %zu %s layer%s%s give%s %zu wall%s; solid are %s%s; unit: pixels, "
@@ -270,17 +272,20 @@ static void give_account(sli_ldtk *reader, const sl_map *map, const sli_ldtk_set
                                   : "all values but 0",
             sli_tally_write("; left out: ", left, 4, without), bottom);
     tell_values(reader, as);
-    tell_doubts(reader, as);
+    return tell_doubts(reader, as);
 }
 
 /// SL_BAD_INPUT where the level has nothing that says what is solid.
 static sl_status check_any(sli_ldtk *reader, bool unsure) {
     char next[900] = "; it has no tiles", example[SLI_LDTK_EXAMPLE];
-    if (reader->drawn.count || reader->marks)
+    const bool none = !reader->layers && !reader->tile_layers && !reader->walls.count;
+    if (none && (reader->drawn.count || reader->marks)) {
+        SL_TRY(sli_ldtk_show_example(reader, example));
         snprintf(next, sizeof next, "; layers of tiles: %s%s",
                  reader->drawn.count ? sli_name_list_cut(&reader->tile_names, 150) : "none",
-                 sli_ldtk_show_example(reader, example));
-    if (!reader->layers && !reader->tile_layers && !reader->walls.count)
+                 example);
+    }
+    if (none)
         return sli_json_fail(&reader->root,
                              "level %s has no IntGrid layer%s, and no layer of tiles whose name or "
                              "whose tileset's enums say what is solid (Wall, Solid, Collision)%s",
@@ -379,7 +384,7 @@ static sl_status read_file(sli_ldtk *reader, sl_map *map) {
     SL_TRY(sli_ldtk_add_walls(reader, map));
     strcpy(map->unit, "px");
     map->source.transform = sli_y_down(reader->bottom, 1);
-    give_account(reader, map, &settled);
+    SL_TRY(give_account(reader, map, &settled));
     SL_TRY(check_walls(reader, map));
     return sli_things_finish(&reader->things, map);
 }
@@ -445,9 +450,7 @@ sl_status sli_map_read_ldtk(sl_context *context, const char *name, const char *t
                        .things = {.context = context, .file = name, .options = options}};
     const sl_status status = read_file(&reader, &read);
     sli_tiles_destroy(context, &reader.tiles);
-    sli_tiles_destroy(context, &reader.shown);
-    sl_free(context, reader.shown_layer.items);
-    sl_free(context, reader.drawn.items);
+    sli_ldtk_destroy_drawn(&reader);
     sli_things_destroy(&reader.things);
     sl_free(context, reader.others.items);
     sl_free(context, reader.walls.items);

@@ -61,9 +61,16 @@ sli_ldtk_cell sli_ldtk_meaning(const sli_json *values, const sli_ldtk_layer *lay
 /// has for single tiles; 0 for a tile that says nothing. `tiles` has the definition of the tileset.
 char sli_ldtk_tile(const sli_json *tileset, int64_t tile);
 
+/// A level's place in its world, in pixels, y down.
+typedef struct sli_ldtk_place {
+    double x, y;
+} sli_ldtk_place;
+
 /// A layer of tiles in levels that have no cells, by its name.
 typedef struct sli_ldtk_drawn {
     char name[80];
+    json_t *layer;      ///< of the first level that has it, kept
+    sli_ldtk_place at;  ///< that level's
     char asked[80];     ///< where it is full: its tiles but the most frequent one, ":1+3-5"
     sli_game_kind kind; ///< by its name
     bool unsure;        ///< it is full, and no tile covers three fifths of it, or the others are
@@ -140,11 +147,6 @@ typedef struct sli_ldtk_settled {
 /// all starts stand on it, and not at its end: empty cells are solid then.
 void sli_ldtk_settle_ground(sli_ldtk *reader, sli_ldtk_settled *out);
 
-/// A level's place in its world, in pixels, y down.
-typedef struct sli_ldtk_place {
-    double x, y;
-} sli_ldtk_place;
-
 /// Coordinates of levels and sizes of cells are up to this many pixels.
 #define SLI_LDTK_MOST_PIXELS 1000000000
 
@@ -170,10 +172,11 @@ sl_status sli_ldtk_keep_drawn(sli_ldtk *reader, const sli_json *layer, sli_ldtk_
 /// Where nothing says what is solid: takes the tiles of the only layer, or the squares without a
 /// tile, if starts and entities tell. Takes these squares where they are asked for.
 sl_status sli_ldtk_settle_drawn(sli_ldtk *reader);
+void sli_ldtk_destroy_drawn(sli_ldtk *reader);
 enum { SLI_LDTK_EXAMPLE = 700 };
 /// "; to take ...: sightline check ...": a command that takes what is likely to be solid; or why
 /// there is none.
-const char *sli_ldtk_show_example(const sli_ldtk *reader, char text[SLI_LDTK_EXAMPLE]);
+sl_status sli_ldtk_show_example(const sli_ldtk *reader, char text[SLI_LDTK_EXAMPLE]);
 
 /// Which entities are walls.
 typedef enum sli_ldtk_walls {

@@ -134,7 +134,8 @@ sl_status sli_ldtk_keep_drawn(sli_ldtk *reader, const sli_json *layer, sli_ldtk_
     if (number == reader->drawn.count) {
         SL_TRY(SL_ARRAY_ROOM(reader->context, &reader->drawn, 1));
         sli_ldtk_drawn *drawn = &reader->drawn.items[reader->drawn.count++];
-        *drawn = (sli_ldtk_drawn){.kind = sli_game_kind_of(name)};
+        *drawn = (sli_ldtk_drawn){
+            .kind = sli_game_kind_of(name), .layer = json_incref(layer->value), .at = at};
         snprintf(drawn->name, sizeof drawn->name, "%s", name);
         sl_status status = list_tiles(reader, lists, &tiles, &count);
         if (status == SL_OK) status = find_asked(reader, layer, lists, tiles, count, drawn);
@@ -369,8 +370,66 @@ static bool stand_in_void(const sli_ldtk *reader) {
     return any;
 }
 
-const char *sli_ldtk_show_example(const sli_ldtk *reader, char text[SLI_LDTK_EXAMPLE]) {
+/// Whether a start or a small entity stands on the square of a tile.
+static bool is_stood_on(const sli_ldtk *reader, const sli_ldtk_frame *of, size_t square) {
+    const double step = (double)of->step;
+    const sl_point low = {of->corner.x + (double)(square % (size_t)of->columns) * step,
+                          of->corner.y + (double)(square / (size_t)of->columns) * step};
+    const sl_box box = {low, {low.x + step, low.y + step}};
+    for (size_t i = 0; i < reader->things.items.count; i++)
+        if (reader->things.items.items[i].kind == SLI_THING_START &&
+            sli_box_holds(&box, reader->things.items.items[i].middle))
+            return true;
+    for (size_t i = 0; i < reader->others.count; i++)
+        if (reader->others.items[i].small && sli_box_holds(&box, reader->others.items[i].middle))
+            return true;
+    return false;
+}
+
+/// The tiles of a layer but those in which somebody has sunk, as ":17+33"; "" where there are none.
+/// Such tiles are tufts of grass on the ground.
+static sl_status find_beneath(const sli_ldtk *reader, const sli_ldtk_drawn *drawn, char *text,
+                              size_t size) {
+    const sli_json layer = {.file = reader->root.file, .value = drawn->layer};
+    const sli_json lists[2] = {sli_json_member(&layer, "gridTiles"),
+                               sli_json_member(&layer, "autoLayerTiles")};
+    sli_ldtk_frame of;
+    uint32_t *tiles, sunk[8];
+    size_t count, used = 0, square, most, at = 0;
+    *text = '\0';
+    SL_TRY(sli_ldtk_read_frame(&layer, drawn->at, &of));
+    SL_TRY(list_tiles(reader, lists, &tiles, &count));
+    for (size_t k = 0; k < 2; k++)
+        for (size_t i = 0; i < json_array_size(lists[k].value); i++) {
+            const sli_json tile = sli_json_item(&lists[k], i), id = sli_json_member(&tile, "t");
+            const uint32_t number = (uint32_t)json_integer_value(id.value);
+            if (used == sizeof sunk / sizeof *sunk || !sli_ldtk_find_square(&tile, &of, &square) ||
+                !is_stood_on(reader, &of, square))
+                continue;
+            sunk[used++] = number;
+        }
+    for (size_t i = 0; i < count; i++) {
+        bool own = false;
+        for (size_t k = 0; k < used; k++) own |= tiles[i] == sunk[k];
+        if (!own) tiles[at++] = tiles[i];
+    }
+    const sl_status status =
+        sli_numbers_write(reader->context, tiles, at, false, &most, text + 1, size - 1);
+    sl_free(reader->context, tiles);
+    *text = used && text[1] ? ':' : '\0';
+    return status;
+}
+
+void sli_ldtk_destroy_drawn(sli_ldtk *reader) {
+    for (size_t i = 0; i < reader->drawn.count; i++) json_decref(reader->drawn.items[i].layer);
+    sl_free(reader->context, reader->drawn.items);
+    sl_free(reader->context, reader->shown_layer.items);
+    sli_tiles_destroy(reader->context, &reader->shown);
+}
+
+sl_status sli_ldtk_show_example(const sli_ldtk *reader, char text[SLI_LDTK_EXAMPLE]) {
     const sli_ldtk_drawn *best = NULL;
+    char beneath[80] = "";
     int most = 0;
     for (size_t i = 0; i < reader->drawn.count; i++) {
         const int rank = rank_of(reader, i);
@@ -379,24 +438,33 @@ const char *sli_ldtk_show_example(const sli_ldtk *reader, char text[SLI_LDTK_EXA
         best = &reader->drawn.items[i];
     }
     const bool empty = most < 3 && !reader->tile_layers && stand_in_void(reader);
+    const size_t only = find_only(reader);
+    if (!best && only < reader->drawn.count && !*reader->drawn.items[only].asked &&
+        look_at(reader, only).starts[SUNK]) {
+        best = &reader->drawn.items[only];
+        SL_TRY(find_beneath(reader, best, beneath, sizeof beneath));
+        if (!*beneath) best = NULL;
+    }
     if (reader->marks)
         snprintf(text, SLI_LDTK_EXAMPLE,
                  "; to take the %zu entities '%.40s' as solid: sightline check '%.300s' --map "
-                 "'%.40s' --layers '%.40s' -o map.png",
+                 "'%.40s' --layers '%.80s' -o map.png",
                  reader->marks, reader->mark, reader->name, reader->taken, reader->mark);
     else if (empty || best)
         snprintf(text, SLI_LDTK_EXAMPLE,
-                 "; %s: sightline check '%.300s' --map '%.40s' --layers '%.40s%s' -o map.png",
+                 "; %s: sightline check '%.300s' --map '%.40s' --layers '%.80s%s' -o map.png",
                  empty          ? "to take squares without tiles as solid"
                  : most < 2     ? "perhaps, if a look shows so"
                  : *best->asked ? "to take these tiles of one as solid"
                                 : "to take the tiles of one as solid",
                  reader->name, reader->taken, empty ? "void" : best->name,
-                 empty ? "" : best->asked);
+                 empty      ? ""
+                 : *beneath ? beneath
+                            : best->asked);
     else
         snprintf(text, SLI_LDTK_EXAMPLE,
                  "; which tiles of '%.40s' are solid, only its picture shows: tiles of a tileset "
                  "are counted from 0, row by row",
                  reader->drawn.count ? reader->drawn.items[0].name : "");
-    return text;
+    return SL_OK;
 }
