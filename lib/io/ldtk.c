@@ -294,7 +294,7 @@ static sl_status check_any(sli_ldtk *reader, bool unsure) {
     if (unsure)
         return sl_fail_at(reader->context, reader->name, 0,
                           "the values %s may be walls or open ground; if they are walls: sightline "
-                          "check '%.150s' --map '%.40s' --layers '%.40s' -o map.png%s%s%s%s%s",
+                          "check '%.300s' --map '%.40s' --layers '%.40s' -o map.png%s%s%s%s%s",
                           reader->told.ground.text, reader->name, reader->taken, reader->asked,
                           *numbers ? "; if they are open, with --layers '" : "",
                           *numbers ? reader->asked : "", *numbers ? ":" : "", numbers,

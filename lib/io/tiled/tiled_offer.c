@@ -70,28 +70,55 @@ static bool is_furniture(const sli_tiled_seen *layer) {
     return sli_game_says_furniture(layer->name) || sli_game_says_other(layer->name);
 }
 
+/// The square of a start; false for what is none.
+static bool find_square(const sli_tiled_reader *reader, const sli_thing *thing, double at[2]) {
+    at[0] = floor(thing->middle.x / reader->lattice.step.x);
+    at[1] = floor(thing->middle.y / reader->lattice.step.y);
+    return thing->kind == SLI_THING_START;
+}
+
+/// Adds the starts on tiles of a layer or a chunk. It is not unpacked where none stands in it.
+static sl_status add_starts(const sli_tiled_reader *reader, const sli_json *layer,
+                            const sli_json *holder, sli_word numbers, size_t *on) {
+    static const char *const keys[] = {"x", "y", "width", "height"};
+    const sli_json data = sli_json_member(holder, "data");
+    double box[4];
+    uint32_t *gids = NULL;
+    for (size_t i = 0; i < 4; i++) {
+        const sli_json number = sli_json_member(holder, keys[i]);
+        box[i] = i < 2 && holder == layer ? 0 : sli_json_number_or_0(&number);
+    }
+    for (size_t i = 0; i < reader->things.items.count; i++) {
+        double at[2];
+        if (!find_square(reader, &reader->things.items.items[i], at)) continue;
+        const double x = at[0] - box[0], y = at[1] - box[1];
+        if (!(x >= 0 && y >= 0 && x < box[2] && y < box[3])) continue;
+        if (!gids) SL_TRY(sli_tiled_read_data(layer, &data, (size_t)(box[2] * box[3]), &gids));
+        const uint32_t gid = gids[(size_t)(y * box[2] + x)] & SLI_TILED_TILE;
+        *on += gid && sli_numbers_have(numbers, gid);
+    }
+    sl_free(reader->context, gids);
+    return SL_OK;
+}
+
 sl_status sli_tiled_count_starts(const sli_tiled_reader *reader, const sli_tiled_seen *seen,
                                  sli_word numbers, size_t counts[2]) {
     const sli_json layer = {.file = reader->map->file, .value = seen->layer};
-    const sli_json data = sli_json_member(&layer, "data"), width = sli_json_member(&layer, "width");
-    const double columns = sli_json_number_or_0(&width);
-    const size_t count = (size_t)seen->squares;
-    const sl_point step = reader->lattice.step;
-    uint32_t *gids;
+    const sli_json data = sli_json_member(&layer, "data");
+    const sli_json chunks = sli_json_member(&layer, "chunks");
+    size_t all = 0;
+    double at[2];
     counts[0] = counts[1] = 0;
-    if (seen->objects || !data.value || !(columns >= 1) || !count ||
-        reader->lattice.orientation != SLI_TILED_ORTHOGONAL)
-        return SL_OK;
-    SL_TRY(sli_tiled_read_data(&layer, &data, count, &gids));
-    for (size_t i = 0; i < reader->things.items.count; i++) {
-        const sli_thing *thing = &reader->things.items.items[i];
-        const double x = floor(thing->middle.x / step.x), y = floor(thing->middle.y / step.y);
-        if (thing->kind != SLI_THING_START || !(x >= 0 && y >= 0 && x < columns)) continue;
-        if (y * columns + x >= (double)count) continue;
-        const uint32_t gid = gids[(size_t)(y * columns + x)] & SLI_TILED_TILE;
-        counts[gid && sli_numbers_have(numbers, gid) ? 0 : 1]++;
+    if (seen->objects || reader->lattice.orientation != SLI_TILED_ORTHOGONAL) return SL_OK;
+    for (size_t i = 0; i < reader->things.items.count; i++)
+        all += find_square(reader, &reader->things.items.items[i], at);
+    for (size_t i = 0; i < json_array_size(chunks.value); i++) {
+        const sli_json chunk = sli_json_item(&chunks, i);
+        SL_TRY(add_starts(reader, &layer, &chunk, numbers, &counts[0]));
     }
-    sl_free(reader->context, gids);
+    if (!chunks.value && data.value)
+        SL_TRY(add_starts(reader, &layer, &layer, numbers, &counts[0]));
+    counts[1] = all > counts[0] ? all - counts[0] : 0;
     return SL_OK;
 }
 
@@ -152,10 +179,25 @@ static bool is_sure(const sli_tiled_reader *reader, const sli_tiled_example *exa
            2 * layer->count <= layer->squares;
 }
 
+/// Whether some object of a layer has a shape, and is no point.
+static bool has_shapes(const sli_tiled_reader *reader, const sli_tiled_seen *seen) {
+    const sli_json layer = {.file = reader->map->file, .value = seen->layer};
+    const sli_json objects = sli_json_member(&layer, "objects");
+    for (size_t i = 0; i < json_array_size(objects.value); i++) {
+        const sli_json object = sli_json_item(&objects, i);
+        const sli_json width = sli_json_member(&object, "width");
+        if (sli_json_number_or_0(&width) > 0 || sli_json_member(&object, "polygon").value ||
+            sli_json_member(&object, "polyline").value)
+            return true;
+    }
+    return false;
+}
+
 static const sli_tiled_seen *find_objects(const sli_tiled_reader *reader) {
     for (size_t i = 0; i < reader->seen.count; i++) {
         const sli_tiled_seen *layer = &reader->seen.items[i];
-        if (layer->objects && layer->count && *layer->name) return layer;
+        if (layer->objects && layer->count && *layer->name && has_shapes(reader, layer))
+            return layer;
     }
     return NULL;
 }
@@ -342,7 +384,7 @@ static sl_status say_tiles(const sli_tiled_reader *reader, const sli_tiled_seen 
     }
     if (*edge && sli_tiled_can_be_typed(seen->name))
         snprintf(next, sizeof next,
-                 "; to take %s: sightline check '%.150s' --layers '%s%s' -o map.png", what,
+                 "; to take %s: sightline check '%.300s' --layers '%s%s' -o map.png", what,
                  reader->map->file->name, seen->name, edge);
     snprintf(text, size,
              "; which of the tiles %s%sof '%s' are solid, only its picture shows: a tile's number "
@@ -373,12 +415,14 @@ sl_status sli_tiled_say_example(const sli_tiled_reader *reader, sli_tiled_exampl
     if (best.rank == SLI_TILED_NOT_SOLID && example->kind == SLI_GAME_DRAWN)
         snprintf(text, size,
                  "; its layers are named for pictures: draw walls in a layer Collision");
+    else if (example->objects && !has_shapes(reader, example))
+        snprintf(text, size, "; its objects have no shapes: draw walls in a layer Collision");
     else if (same && !objects)
         snprintf(text, size, "; all tiles of '%s' are the same: draw walls in a layer Collision",
                  shown.text);
     else if (rooms)
         snprintf(text, size,
-                 "; to take the squares without tiles as solid: sightline check '%.150s' --layers "
+                 "; to take the squares without tiles as solid: sightline check '%.300s' --layers "
                  "void -o map.png",
                  file);
     else if (!example->objects && !mostly && best.rank != SLI_TILED_NAMED && (full || half))
@@ -386,7 +430,7 @@ sl_status sli_tiled_say_example(const sli_tiled_reader *reader, sli_tiled_exampl
     else if (!sli_tiled_can_be_typed(name))
         snprintf(text, size, "; to take '%s', " SLI_TILED_RENAME, shown.text);
     else
-        snprintf(text, size, "; %s: sightline check '%.150s' --layers '%s%s' -o map.png",
+        snprintf(text, size, "; %s: sightline check '%.300s' --layers '%s%s' -o map.png",
                  is_sure(reader, &best, mostly, same) ? "to take a layer as solid"
                                                       : "perhaps, if a look shows so",
                  file, name, tiles);
