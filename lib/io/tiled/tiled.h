@@ -468,7 +468,7 @@ enum {
 };
 
 /// How many starts stand on tiles of a layer, of these numbers if any are asked for, and how many
-/// do not. In orthogonal maps.
+/// do not. In orthogonal and isometric maps.
 sl_status sli_tiled_count_starts(const sli_tiled_reader *reader, const sli_tiled_seen *seen,
                                  sli_word numbers, size_t counts[2]);
 

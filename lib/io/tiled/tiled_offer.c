@@ -109,7 +109,9 @@ sl_status sli_tiled_count_starts(const sli_tiled_reader *reader, const sli_tiled
     size_t all = 0;
     double at[2];
     counts[0] = counts[1] = 0;
-    if (seen->objects || reader->lattice.orientation != SLI_TILED_ORTHOGONAL) return SL_OK;
+    const sli_tiled_orientation kind = reader->lattice.orientation;
+    if (seen->objects || (kind != SLI_TILED_ORTHOGONAL && kind != SLI_TILED_ISOMETRIC))
+        return SL_OK;
     for (size_t i = 0; i < reader->things.items.count; i++)
         all += find_square(reader, &reader->things.items.items[i], at);
     for (size_t i = 0; i < json_array_size(chunks.value); i++) {
@@ -179,13 +181,14 @@ static bool is_sure(const sli_tiled_reader *reader, const sli_tiled_example *exa
            2 * layer->count <= layer->squares;
 }
 
-/// Whether some object of a layer has a shape, and is no point.
+/// Whether some object of a layer has a shape, is no point, and no start or door.
 static bool has_shapes(const sli_tiled_reader *reader, const sli_tiled_seen *seen) {
     const sli_json layer = {.file = reader->map->file, .value = seen->layer};
     const sli_json objects = sli_json_member(&layer, "objects");
     for (size_t i = 0; i < json_array_size(objects.value); i++) {
         const sli_json object = sli_json_item(&objects, i);
         const sli_json width = sli_json_member(&object, "width");
+        if (sli_tiled_says_of(&object, "type").kind != SLI_THING_NONE) continue;
         if (sli_json_number_or_0(&width) > 0 || sli_json_member(&object, "polygon").value ||
             sli_json_member(&object, "polyline").value)
             return true;
