@@ -415,9 +415,9 @@ sl_status sli_tiled_say_example(const sli_tiled_reader *reader, sli_tiled_exampl
     const char *name = example->name;
     const sli_shown shown = sli_show((sli_word){name, strlen(name)});
     const bool half = is_only_layer(reader) && 2 * example->count > example->squares;
-    if (best.rank == SLI_TILED_NOT_SOLID && example->kind == SLI_GAME_DRAWN)
-        snprintf(text, size,
-                 "; its layers are named for pictures: draw walls in a layer Collision");
+    const bool open = example->kind == SLI_GAME_DRAWN || example->kind == SLI_GAME_PASS;
+    if (best.rank == SLI_TILED_NOT_SOLID && open)
+        snprintf(text, size, "; no layer is likely solid: draw walls in a layer Collision");
     else if (example->objects && !has_shapes(reader, example))
         snprintf(text, size, "; its objects have no shapes: draw walls in a layer Collision");
     else if (same && !objects)
